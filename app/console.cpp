@@ -1,0 +1,41 @@
+#include "app/console.h"
+
+#include <unistd.h>
+
+#include <cstdio>
+
+namespace app {
+
+Progress::Progress(std::string label, int total, bool quiet)
+    : label_(std::move(label)),
+      total_(total > 0 ? total : 1),
+      quiet_(quiet),
+      terminal_(isatty(STDERR_FILENO) != 0),
+      start_(std::chrono::steady_clock::now()) {}
+
+Progress::~Progress() {
+  if (!quiet_ && terminal_ && last_shown_ >= 0) std::fputc('\n', stderr);
+}
+
+void Progress::Update(int done) {
+  if (quiet_) return;
+  const int steps = terminal_ ? 100 : 10;
+  const int step = static_cast<int>(static_cast<long>(done) * steps / total_);
+  if (step == last_shown_ || (!terminal_ && step == 0)) return;
+  last_shown_ = step;
+
+  const double seconds =
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+  const double rate = seconds > 0 ? done / seconds : 0.0;
+  if (terminal_) {
+    std::string bar(static_cast<std::size_t>(step * 30 / steps), '#');
+    bar.resize(30, '.');
+    std::fprintf(stderr, "\r%s [%s] %d/%d, %.1f/s ", label_.c_str(), bar.c_str(), done, total_,
+                 rate);
+  } else {
+    std::fprintf(stderr, "%s %d/%d, %.1f/s\n", label_.c_str(), done, total_, rate);
+  }
+  std::fflush(stderr);
+}
+
+}  // namespace app

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <chrono>
+#include <string>
+
+namespace app {
+
+/// Progress of a long job on stderr: a bar when stderr is a terminal, else a plain line about
+/// every ten per cent; silent when quiet. Never part of a result.
+class Progress {
+ public:
+  Progress(std::string label, int total, bool quiet);
+  ~Progress();
+  /// Reports that `done` of the total steps are finished.
+  void Update(int done);
+
+ private:
+  std::string label_;
+  int total_;
+  bool quiet_;
+  bool terminal_;
+  int last_shown_ = -1;
+  std::chrono::steady_clock::time_point start_;
+};
+
+}  // namespace app

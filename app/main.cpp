@@ -1,0 +1,51 @@
+#include <cstdio>
+#include <exception>
+#include <opencv2/core/utility.hpp>
+
+#include "app/app.h"
+#include "version.h"
+
+namespace {
+
+constexpr const char* kFlow =
+    "PAS-SLAM: planar SLAM for ambiguous tabletop scenes, and the scenes to measure it on.\n"
+    "\n"
+    "  scene.yaml --pas sim--> SEQ --pas slam--> RUN --pas eval--> metrics.json\n"
+    "\n"
+    "  pas scene  make, list or show a tabletop scene with known planes\n"
+    "  pas sim    render it: RGB-D frames, detections, exact truth        -> SEQ\n"
+    "  pas slam   track the camera and map the planes; never reads truth  -> RUN\n"
+    "  pas eval   score a run against the truth                           -> metrics.json\n"
+    "  pas draw   contact sheet and top view of a run                     -> pictures\n"
+    "  pas check  validate a SEQ or RUN folder, fault by fault\n"
+    "\n"
+    "Exit codes: 0 done, 1 the result is a failure, 2 bad input or usage.";
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App pas(kFlow, "pas");
+  pas.set_version_flag("--version", "pas " PAS_VERSION);
+  pas.require_subcommand(1);
+  pas.fallthrough();
+
+  app::Globals globals;
+  int exit_code = app::kDone;
+  pas.add_flag("-q,--quiet", globals.quiet, "No progress, no summary; errors still show");
+  for (const app::AddCommand add :
+       {app::AddSceneCommand, app::AddSimCommand, app::AddSlamCommand, app::AddEvalCommand,
+        app::AddDrawCommand, app::AddCheckCommand}) {
+    add(pas, globals, exit_code);
+  }
+
+  try {
+    pas.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    const int code = pas.exit(error);
+    return code == 0 ? app::kDone : app::kBadInput;
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "pas: %s\n", error.what());
+    return app::kBadInput;
+  }
+  return exit_code;
+}

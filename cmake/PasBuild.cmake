@@ -1,0 +1,56 @@
+# Settings that every target shares, and the two ways a target is declared.
+set(CMAKE_CXX_STANDARD 20)
+set(CMAKE_CXX_STANDARD_REQUIRED ON)
+set(CMAKE_CXX_EXTENSIONS OFF)
+set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
+
+find_program(PAS_CCACHE ccache)
+if(PAS_CCACHE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
+  set(CMAKE_CXX_COMPILER_LAUNCHER ${PAS_CCACHE})
+endif()
+
+add_library(pas_settings INTERFACE)
+# No contraction: the same source gives the same bits whatever the compiler may fuse.
+target_compile_options(pas_settings INTERFACE
+  -Wall -Wextra -Wconversion -Wshadow -ffp-contract=off
+  $<$<BOOL:${PAS_WARNINGS_AS_ERRORS}>:-Werror>)
+target_include_directories(pas_settings INTERFACE ${PROJECT_SOURCE_DIR})
+if(PAS_SANITIZE)
+  target_compile_options(pas_settings INTERFACE -fsanitize=${PAS_SANITIZE} -fno-omit-frame-pointer)
+  target_link_options(pas_settings INTERFACE -fsanitize=${PAS_SANITIZE})
+endif()
+
+# pas_library(slam_base SOURCES a.cpp b.h LINK Eigen3::Eigen): one library a folder.
+# Headers are included from the top of the tree: "slam/base/pose.h".
+function(pas_library name)
+  cmake_parse_arguments(ARG "" "" "SOURCES;LINK" ${ARGN})
+  set(has_code ${ARG_SOURCES})
+  list(FILTER has_code INCLUDE REGEX "\\.cpp$")
+  if(has_code)
+    add_library(${name} STATIC ${ARG_SOURCES})
+    target_link_libraries(${name} PUBLIC pas_settings ${ARG_LINK})
+  else()
+    add_library(${name} INTERFACE)
+    target_sources(${name} PRIVATE ${ARG_SOURCES})
+    target_link_libraries(${name} INTERFACE pas_settings ${ARG_LINK})
+  endif()
+endfunction()
+
+# pas_test(slam/planes SOURCES a_test.cpp LINK slam_planes [TIMEOUT s]): one executable a folder;
+# every case is a CTest test of its own, "slam/planes/Suite.Case". PAS_SHARED_DIR (environment) may
+# name the folder with the reference figures and recordings; tests that need it skip without it.
+function(pas_test name)
+  cmake_parse_arguments(ARG "" "TIMEOUT" "SOURCES;LINK" ${ARGN})
+  string(REPLACE "/" "_" target ${name}_test)
+  add_executable(${target} ${ARG_SOURCES})
+  target_link_libraries(${target} PRIVATE pas_settings ${ARG_LINK} GTest::gmock GTest::gtest_main)
+  target_compile_definitions(${target} PRIVATE
+    PAS_SOURCE_DIR="${PROJECT_SOURCE_DIR}" PAS_BINARY_DIR="${PROJECT_BINARY_DIR}")
+  if(NOT ARG_TIMEOUT)
+    set(ARG_TIMEOUT 120)
+  endif()
+  gtest_discover_tests(${target} TEST_PREFIX ${name}/ DISCOVERY_TIMEOUT 60
+    PROPERTIES TIMEOUT ${ARG_TIMEOUT}
+    ENVIRONMENT "RC_PARAMS=seed=20240207 max_size=100")
+endfunction()
+include(GoogleTest)

@@ -1,0 +1,20 @@
+# System packages only (installed by ci/setup); each is used where it is linked, nowhere else.
+find_package(PkgConfig REQUIRED)
+find_package(Threads REQUIRED)
+find_package(Eigen3 3.4 REQUIRED NO_MODULE)
+find_package(OpenCV 4.5 REQUIRED COMPONENTS core imgproc imgcodecs features2d calib3d)
+find_package(Ceres 2.1 REQUIRED)
+find_package(embree 3.13 REQUIRED)
+find_package(yaml-cpp REQUIRED)
+find_package(nlohmann_json REQUIRED)
+find_package(CLI11 REQUIRED)
+find_package(fmt REQUIRED)
+find_package(GTest REQUIRED)
+find_package(rapidcheck QUIET)
+pkg_check_modules(PCL REQUIRED IMPORTED_TARGET pcl_common pcl_sample_consensus)
+
+# OpenCV's and yaml-cpp's configs export plain names; give them the form of the others.
+add_library(pas_opencv INTERFACE)
+target_include_directories(pas_opencv SYSTEM INTERFACE ${OpenCV_INCLUDE_DIRS})
+target_link_libraries(pas_opencv INTERFACE ${OpenCV_LIBS})
+add_library(pas::opencv ALIAS pas_opencv)

@@ -1,0 +1,88 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace sim {
+
+/// What an object is to the evaluation (formats.md, gt/scene.json).
+enum class Role { kStructure, kRegular, kUnstructured, kOther };
+
+/// How a face looks. Procedural, evaluated in metres on the face; the pattern depends on `seed`.
+enum class Print { kPlain, kWood, kCloth, kText, kCover, kKeys, kScreen, kSpeckle };
+
+struct Material {
+  Print print = Print::kPlain;
+  std::array<double, 3> colour{0.7, 0.7, 0.7};  ///< linear RGB, base
+  std::array<double, 3> ink{0.1, 0.1, 0.1};     ///< linear RGB, of what is printed
+  double richness = 1.0;                        ///< 0 no print .. 1 rich
+  std::uint64_t seed = 0;
+};
+
+/// Six faces of a box; the truth planes. -x, +x, -y, +y, -z, +z of the object's own frame.
+enum class Face { kMinusX, kPlusX, kMinusY, kPlusY, kMinusZ, kPlusZ };
+
+enum class ShapeKind {
+  kBox,  ///< `size` along the object's axes; six planes
+  kToy   ///< unstructured: a closed smooth body of bumps inside `size`, no planes; shape from `seed`
+};
+
+/// One solid object. World frame w: metres, z up. T_wo takes object to world; the object's origin
+/// is the centre of its box.
+struct Object {
+  int id = 0;               ///< from 1, unique
+  std::string name;         ///< unique, "book_3"
+  std::string class_name;   ///< COCO name where there is one: book, keyboard, tv, laptop ...
+  Role role = Role::kOther;
+  ShapeKind shape = ShapeKind::kBox;
+  Eigen::Vector3d center_w = Eigen::Vector3d::Zero();
+  Eigen::Quaterniond q_wo = Eigen::Quaterniond::Identity();
+  Eigen::Vector3d size = Eigen::Vector3d::Ones();  ///< full lengths, metres
+  std::array<Material, 6> faces;                   ///< by Face; a toy uses the first
+  std::uint64_t seed = 0;
+  int detection_group = 0;  ///< objects of one group are detected as one (laptop base and lid); 0 = alone
+};
+
+struct Sun {
+  Eigen::Vector3d direction_w{-0.3, 0.2, -1.0};  ///< the way light travels, need not be unit
+  double intensity = 0.8;
+  double ambient = 0.45;
+};
+
+/// Where the camera looks and how it moves; see motion/.
+struct Motion {
+  std::string preset = "office";   ///< slow | office | fast
+  Eigen::Vector3d target_w{0, 0, 0.75};  ///< what the camera looks at
+  double target_spread_m = 0.25;         ///< the gaze drifts this far
+  double distance_min_m = 0.7, distance_max_m = 1.3;
+  double azimuth_min_rad = -0.9, azimuth_max_rad = 0.9;  ///< round z, 0 looks from -y
+};
+
+struct Scene {
+  std::string name;
+  std::string family;       ///< who made it; empty when written by hand
+  std::uint64_t seed = 0;
+  std::vector<Object> objects;
+  Sun sun;
+  Motion motion;
+};
+
+/// A truth plane: one face of a box object. n . x + d = 0, n out of the object, world frame.
+struct ScenePlane {
+  int id = 0;         ///< from 1, in the order of objects and faces
+  int object = 0;     ///< Object::id
+  Face face = Face::kPlusZ;
+  Eigen::Vector3d n_w = Eigen::Vector3d::UnitZ();
+  double d = 0;
+  double area_m2 = 0;
+  std::array<Eigen::Vector3d, 4> vertices_w;  ///< counter-clockwise seen from the front
+};
+
+/// All truth planes of the boxes, in a fixed order.
+std::vector<ScenePlane> ScenePlanes(const Scene& scene);
+
+}  // namespace sim

@@ -1,0 +1,69 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "slam/base/box.h"
+#include "slam/base/line.h"
+#include "slam/base/plane.h"
+
+namespace slam {
+
+/// Why a plane is not to be trusted (PAS-SLAM, Plane Selection). Written as in formats.md.
+enum class BadReason {
+  kFar,          ///< "far": too far from the camera
+  kInliers,      ///< "inliers": small inlier ratio after the re-fit
+  kBorder,       ///< "border": tied to a regular object's box, but at the image border
+  kStructure,    ///< "structure": same, but without two pairs of parallel lines or four vertices
+  kUnstructured  ///< "unstructured": most edge points in an unstructured object's box
+};
+
+/// What lies beyond a boundary point of a segment.
+enum class EdgeKind {
+  kSurface,   ///< the surface itself ends here: a step down to something farther, or a crease
+  kOccluded,  ///< something nearer hides the rest
+  kBorder,    ///< the image ends here
+  kMissing    ///< no depth there
+};
+
+/// A boundary point of a plane's segment.
+struct EdgePoint {
+  Eigen::Vector3d p_c;    ///< on the plane's own pixels, metres, camera frame
+  Eigen::Vector2d u_px;   ///< pixel, recorded image
+  EdgeKind kind = EdgeKind::kSurface;
+};
+
+/// A corner of a rectangular face.
+struct Vertex {
+  Eigen::Vector3d p_c;        ///< metres, camera frame
+  bool extrapolated = false;  ///< no edge points near it: it follows from the two lines alone
+};
+
+/// A plane seen in one frame: a segment of the depth image and all that is known of it.
+/// Everything is in the camera frame, metres.
+struct FramePlane {
+  int index = 0;  ///< position in Frame::planes; its label image value is index + 1
+  Plane pi_c;     ///< facing the camera, d > 0
+  Eigen::Vector3d centroid_c = Eigen::Vector3d::Zero();
+  int pixel_count = 0;
+  double area_m2 = 0.0;        ///< of the visible patch
+  double inlier_ratio = 0.0;   ///< after the re-fit, [0, 1]
+  double offset_sigma_m = 0.0; ///< standard deviation of the offset at the centroid
+  double angle_sigma_rad = 0.0;  ///< standard deviation of the normal, worse of two directions
+
+  std::vector<Eigen::Vector3d> points_c;  ///< inliers, thinned to a regular pixel grid
+  std::vector<EdgePoint> edge_points;     ///< B_c, ordered along the contour
+  Box box_px;                             ///< bounds the edge points, recorded image
+
+  std::optional<int> detection;  ///< index into Frame::detections
+  std::string class_name;        ///< of that detection; empty is the paper's class -1
+
+  std::vector<Line> lines_c;      ///< edge lines L = (P, V)
+  std::vector<Vertex> vertices_c; ///< in order around the face; 4 when complete
+
+  std::optional<BadReason> bad;
+};
+
+}  // namespace slam

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <map>
+#include <vector>
+
+#include "slam/model/frame.h"
+
+namespace slam {
+
+/// A frame kept in the map. `id` is its index in Map::keyframes and is never reused.
+struct Keyframe {
+  int id = 0;
+  int frame_index = 0;
+  double timestamp_s = 0.0;
+  Pose T_cw;
+  std::vector<PointFeature> features;
+  std::vector<int> map_points;  ///< parallel to features: map point id or kNone
+  std::map<int, int> covisible;  ///< keyframe id -> shared map points
+  bool culled = false;
+};
+
+}  // namespace slam
