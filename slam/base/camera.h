@@ -10,14 +10,14 @@
 namespace slam {
 
 /// Pinhole camera with Brown's distortion. x right, y down, z forward; pixel centres at integer
-/// coordinates: u = fx x/z + cx before distortion. Depth images hold planar z, registered to the
-/// (distorted) colour image.
+/// coordinates: u = fx x/z + cx before distortion. Depth images hold planar z, registered to
+/// the (distorted) colour image.
 struct Camera {
-  int width = 640;   ///< pixels
-  int height = 480;  ///< pixels
+  int width = 640;                                        ///< pixels
+  int height = 480;                                       ///< pixels
   double fx = 525.0, fy = 525.0, cx = 319.5, cy = 239.5;  ///< pixels
   double k1 = 0, k2 = 0, p1 = 0, p2 = 0, k3 = 0;          ///< Brown, OpenCV's order
-  double depth_factor = 5000.0;  ///< 16-bit units a metre
+  double depth_factor = 5000.0;                           ///< 16-bit units a metre
   double fps = 30.0;
 
   bool distorted() const { return k1 != 0 || k2 != 0 || p1 != 0 || p2 != 0 || k3 != 0; }
@@ -44,8 +44,8 @@ struct Camera {
 /// @throws InputError for another name.
 Camera TumCamera(const char* name);
 
-/// Rays (x/z, y/z) of every recorded pixel, distortion removed: CV_64FC2, height x width. A pixel
-/// of depth z is the point (ray.x z, ray.y z, z). Build once a camera.
+/// Rays (x/z, y/z) of every recorded pixel, distortion removed: CV_64FC2, height x width. A
+/// pixel of depth z is the point (ray.x z, ray.y z, z). Build once a camera.
 cv::Mat2d PixelRays(const Camera& camera);
 
 }  // namespace slam

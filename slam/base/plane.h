@@ -39,8 +39,8 @@ Plane FacingOrigin(const Plane& pi);
 /// and pi (atan2 of cross and dot).
 double Angle(const Eigen::Vector3d& n_1, const Eigen::Vector3d& n_2);
 
-/// Two unit vectors that make (e_1, e_2, n) right-handed and orthonormal; continuous in n except
-/// where n.z() changes sign.
+/// Two unit vectors that make (e_1, e_2, n) right-handed and orthonormal; continuous in n
+/// except where n.z() changes sign.
 /// @throws std::invalid_argument if n is not unit.
 Eigen::Matrix<double, 3, 2> TangentBasis(const Eigen::Vector3d& n);
 

@@ -28,7 +28,8 @@ Eigen::Matrix3d LeftJacobian(const Eigen::Vector3d& omega_rad) {
 Pose Inverse(const Pose& T_ab) { return {T_ab.R.transpose(), -(T_ab.R.transpose() * T_ab.t)}; }
 
 Pose Normalised(const Pose& T_ab) {
-  const Eigen::JacobiSVD<Eigen::Matrix3d> svd(T_ab.R, Eigen::ComputeFullU | Eigen::ComputeFullV);
+  const Eigen::JacobiSVD<Eigen::Matrix3d> svd(T_ab.R,
+                                              Eigen::ComputeFullU | Eigen::ComputeFullV);
   return {svd.matrixU() * svd.matrixV().transpose(), T_ab.t};
 }
 
@@ -51,8 +52,8 @@ Eigen::Vector3d LogSo3(const Eigen::Matrix3d& R) {
   Eigen::Quaterniond q(R);
   if (q.w() < 0) q.coeffs() = -q.coeffs();
   const double s = q.vec().norm();  // sin(a/2), exact also near pi
-  const double scale = s > kSmallAngle_rad ? 2.0 * std::atan2(s, q.w()) / s
-                                           : 2.0 * (1.0 + s * s / 6.0);
+  const double scale =
+      s > kSmallAngle_rad ? 2.0 * std::atan2(s, q.w()) / s : 2.0 * (1.0 + s * s / 6.0);
   return scale * q.vec();
 }
 

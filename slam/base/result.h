@@ -12,7 +12,7 @@ namespace slam {
 template <typename T, typename Reason>
 class [[nodiscard]] Result {
  public:
-  Result(T value) : outcome_(std::in_place_index<0>, std::move(value)) {}      // NOLINT
+  Result(T value) : outcome_(std::in_place_index<0>, std::move(value)) {}         // NOLINT
   Result(Reason reason) : outcome_(std::in_place_index<1>, std::move(reason)) {}  // NOLINT
 
   bool has_value() const { return outcome_.index() == 0; }

@@ -13,15 +13,15 @@ enum class ClassKind {
   kOther          ///< neither is known
 };
 
-/// One detected object in one frame. The box bounds the *visible part of the object*, in pixels of
-/// the recorded (distorted) image.
+/// One detected object in one frame. The box bounds the *visible part of the object*, in pixels
+/// of the recorded (distorted) image.
 struct Detection {
   std::string class_name;
   ClassKind kind = ClassKind::kOther;
   double score = 0.0;  ///< [0, 1]
   Box box_px;
-  int track = -1;             ///< id of its box track over frames, -1 before tracking
-  bool compensated = false;   ///< not detected in this frame: predicted from its track
+  int track = -1;            ///< id of its box track over frames, -1 before tracking
+  bool compensated = false;  ///< not detected in this frame: predicted from its track
 };
 
 }  // namespace slam

@@ -40,21 +40,21 @@ struct PlaneMatch {
 
 /// One RGB-D frame on its way through the stages (A) to (F).
 struct Frame {
-  int index = 0;            ///< count of frames, from 0
+  int index = 0;  ///< count of frames, from 0
   double timestamp_s = 0.0;
 
   // (A) input
-  cv::Mat1b gray;           ///< 8-bit, as recorded (distorted)
-  cv::Mat1f depth_m;        ///< planar z, metres; 0 = no measurement, never NaN
+  cv::Mat1b gray;     ///< 8-bit, as recorded (distorted)
+  cv::Mat1f depth_m;  ///< planar z, metres; 0 = no measurement, never NaN
 
   // (B) extraction, (C) plane processing
   std::vector<PointFeature> features;
   std::vector<Detection> detections;
   std::vector<FramePlane> planes;
-  cv::Mat1b plane_labels;   ///< index + 1 of the frame plane at each pixel; 0 = none
+  cv::Mat1b plane_labels;  ///< index + 1 of the frame plane at each pixel; 0 = none
 
   // (D) association; parallel to `features` and `planes`
-  std::vector<int> map_points;          ///< id of the matched map point, or kNone
+  std::vector<int> map_points;  ///< id of the matched map point, or kNone
   std::vector<PlaneMatch> plane_matches;
 
   // (E) optimisation

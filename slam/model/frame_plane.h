@@ -13,10 +13,10 @@ namespace slam {
 
 /// Why a plane is not to be trusted (PAS-SLAM, Plane Selection). Written as in formats.md.
 enum class BadReason {
-  kFar,          ///< "far": too far from the camera
-  kInliers,      ///< "inliers": small inlier ratio after the re-fit
-  kBorder,       ///< "border": tied to a regular object's box, but at the image border
-  kStructure,    ///< "structure": same, but without two pairs of parallel lines or four vertices
+  kFar,        ///< "far": too far from the camera
+  kInliers,    ///< "inliers": small inlier ratio after the re-fit
+  kBorder,     ///< "border": tied to a regular object's box, but at the image border
+  kStructure,  ///< "structure": same, but without two pairs of parallel lines or four vertices
   kUnstructured  ///< "unstructured": most edge points in an unstructured object's box
 };
 
@@ -30,8 +30,8 @@ enum class EdgeKind {
 
 /// A boundary point of a plane's segment.
 struct EdgePoint {
-  Eigen::Vector3d p_c;    ///< on the plane's own pixels, metres, camera frame
-  Eigen::Vector2d u_px;   ///< pixel, recorded image
+  Eigen::Vector3d p_c;   ///< on the plane's own pixels, metres, camera frame
+  Eigen::Vector2d u_px;  ///< pixel, recorded image
   EdgeKind kind = EdgeKind::kSurface;
 };
 
@@ -48,9 +48,9 @@ struct FramePlane {
   Plane pi_c;     ///< facing the camera, d > 0
   Eigen::Vector3d centroid_c = Eigen::Vector3d::Zero();
   int pixel_count = 0;
-  double area_m2 = 0.0;        ///< of the visible patch
-  double inlier_ratio = 0.0;   ///< after the re-fit, [0, 1]
-  double offset_sigma_m = 0.0; ///< standard deviation of the offset at the centroid
+  double area_m2 = 0.0;          ///< of the visible patch
+  double inlier_ratio = 0.0;     ///< after the re-fit, [0, 1]
+  double offset_sigma_m = 0.0;   ///< standard deviation of the offset at the centroid
   double angle_sigma_rad = 0.0;  ///< standard deviation of the normal, worse of two directions
 
   std::vector<Eigen::Vector3d> points_c;  ///< inliers, thinned to a regular pixel grid
@@ -60,8 +60,8 @@ struct FramePlane {
   std::optional<int> detection;  ///< index into Frame::detections
   std::string class_name;        ///< of that detection; empty is the paper's class -1
 
-  std::vector<Line> lines_c;      ///< edge lines L = (P, V)
-  std::vector<Vertex> vertices_c; ///< in order around the face; 4 when complete
+  std::vector<Line> lines_c;       ///< edge lines L = (P, V)
+  std::vector<Vertex> vertices_c;  ///< in order around the face; 4 when complete
 
   std::optional<BadReason> bad;
 };

@@ -14,7 +14,7 @@ struct Keyframe {
   double timestamp_s = 0.0;
   Pose T_cw;
   std::vector<PointFeature> features;
-  std::vector<int> map_points;  ///< parallel to features: map point id or kNone
+  std::vector<int> map_points;   ///< parallel to features: map point id or kNone
   std::map<int, int> covisible;  ///< keyframe id -> shared map points
   bool culled = false;
 };

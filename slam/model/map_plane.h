@@ -11,8 +11,8 @@
 
 namespace slam {
 
-/// A landmark plane: a patch with a front, in the world frame. `id` is its index in Map::planes and
-/// is never reused.
+/// A landmark plane: a patch with a front, in the world frame. `id` is its index in Map::planes
+/// and is never reused.
 struct MapPlane {
   int id = 0;
   Plane pi_w;  ///< keeps the orientation of its first observation
@@ -26,12 +26,12 @@ struct MapPlane {
   std::vector<Eigen::Vector3d> hull_w;         ///< convex outline of the cloud, in order
   double area_m2 = 0.0;                        ///< of the hull
 
-  std::set<int> map_points;         ///< ids of the map points that lie on it
-  std::map<int, int> covisible;     ///< map plane id -> frames in which both were seen
+  std::set<int> map_points;      ///< ids of the map points that lie on it
+  std::map<int, int> covisible;  ///< map plane id -> frames in which both were seen
   int observations = 0;
   int first_frame = 0, last_frame = 0;
   double first_seen_s = 0.0, last_seen_s = 0.0;
-  std::optional<int> merged_into;   ///< fused into this one: use that one instead
+  std::optional<int> merged_into;  ///< fused into this one: use that one instead
 };
 
 }  // namespace slam

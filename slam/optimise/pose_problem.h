@@ -32,7 +32,7 @@ struct PlaneConstraint {
 /// carries no information (image border, hidden) has its flag off. Source: PAS-SLAM eq17.
 struct BoxConstraint {
   std::vector<Eigen::Vector3d> corners_w;
-  Box box_obs_px;                     ///< recorded image
+  Box box_obs_px;                                   ///< recorded image
   std::array<bool, 4> use{true, true, true, true};  ///< min u, min v, max u, max v
   double sigma_px = 8.0;
 };
@@ -52,11 +52,11 @@ struct DirectionConstraint {
 };
 
 struct PoseProblemConfig {
-  int rounds = 4;               ///< optimise, then reclassify outliers; domain [1, 10]
-  int iterations = 10;          ///< Levenberg-Marquardt steps a round; domain [1, 100]
-  double stereo_chi2 = 7.815;   ///< 95 % of chi-square, 3 degrees of freedom
-  double mono_chi2 = 5.991;     ///< 95 %, 2 degrees of freedom
-  double huber_planes = 2.0;    ///< Huber threshold of the plane factors, in sigmas
+  int rounds = 4;              ///< optimise, then reclassify outliers; domain [1, 10]
+  int iterations = 10;         ///< Levenberg-Marquardt steps a round; domain [1, 100]
+  double stereo_chi2 = 7.815;  ///< 95 % of chi-square, 3 degrees of freedom
+  double mono_chi2 = 5.991;    ///< 95 %, 2 degrees of freedom
+  double huber_planes = 2.0;   ///< Huber threshold of the plane factors, in sigmas
   bool use_planes = true, use_boxes = true, use_point_planes = true;
   bool use_parallel = true, use_perpendicular = true;
 };
@@ -73,12 +73,13 @@ struct PoseProblem {
 
 struct PoseSummary {
   Pose T_cw;
-  bool usable = false;               ///< enough constraints, converged, finite
-  std::vector<bool> point_inliers;   ///< parallel to PoseProblem::points
+  bool usable = false;              ///< enough constraints, converged, finite
+  std::vector<bool> point_inliers;  ///< parallel to PoseProblem::points
   int inlier_count = 0;
   double initial_cost = 0.0, final_cost = 0.0;
   int iterations = 0;
-  Matrix6d information = Matrix6d::Zero();  ///< J^T W J at the solution; perturbation: T <- Exp(xi) T
+  Matrix6d information =
+      Matrix6d::Zero();  ///< J^T W J at the solution; perturbation: T <- Exp(xi) T
 };
 
 /// Minimises eq13 over the camera pose by Levenberg-Marquardt with Huber weights, in rounds:
