@@ -60,6 +60,8 @@ struct Motion {
   double target_spread_m = 0.25;         ///< the gaze drifts this far
   double distance_min_m = 0.7, distance_max_m = 1.3;
   double azimuth_min_rad = -0.9, azimuth_max_rad = 0.9;  ///< round z, 0 looks from -y
+  /// The optical axis this far below the horizon: 25 to 45 degrees.
+  double pitch_min_rad = 0.4363323129985824, pitch_max_rad = 0.7853981633974483;
 };
 
 struct Scene {
