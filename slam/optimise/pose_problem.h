@@ -52,11 +52,12 @@ struct DirectionConstraint {
 };
 
 struct PoseProblemConfig {
-  int rounds = 4;              ///< optimise, then reclassify outliers; domain [1, 10]
-  int iterations = 10;         ///< Levenberg-Marquardt steps a round; domain [1, 100]
-  double stereo_chi2 = 7.815;  ///< 95 % of chi-square, 3 degrees of freedom
-  double mono_chi2 = 5.991;    ///< 95 %, 2 degrees of freedom
-  double huber_planes = 2.0;   ///< Huber threshold of the plane factors, in sigmas
+  int rounds = 4;                 ///< optimise, then reclassify outliers; domain [1, 10]
+  int iterations = 10;            ///< Levenberg-Marquardt steps a round; domain [1, 100]
+  double stereo_chi2 = 7.815;     ///< 95 % of chi-square, 3 degrees of freedom
+  double mono_chi2 = 5.991;       ///< 95 %, 2 degrees of freedom
+  double huber_planes = 2.0;      ///< Huber threshold of the plane factors, in sigmas
+  double virtual_bf_px_m = 40.0;  ///< focal length times virtual baseline: right_u = u - bf / z
   bool use_planes = true, use_boxes = true, use_point_planes = true;
   bool use_parallel = true, use_perpendicular = true;
 };
@@ -73,7 +74,8 @@ struct PoseProblem {
 
 struct PoseSummary {
   Pose T_cw;
-  bool usable = false;              ///< enough constraints, converged, finite
+  bool usable = false;              ///< all six directions constrained and everything finite
+  int nullity = 6;                  ///< directions of the pose that nothing constrains, 0 to 6
   std::vector<bool> point_inliers;  ///< parallel to PoseProblem::points
   int inlier_count = 0;
   double initial_cost = 0.0, final_cost = 0.0;
@@ -83,8 +85,10 @@ struct PoseSummary {
 };
 
 /// Minimises eq13 over the camera pose by Levenberg-Marquardt with Huber weights, in rounds:
-/// after each, points are classified by chi-square and outliers left out of the next.
-/// Deterministic: sums run in the order of the vectors.
+/// after each, points are classified by chi-square and outliers left out of the next; the last
+/// round is plain least squares over the inlying points. A constraint that is not finite is
+/// left out. When `usable` is false, T_cw is the best pose found, finite if the first guess
+/// was. Deterministic: sums run in the order of the vectors. Cost: about 1 ms for 500 points.
 PoseSummary OptimisePose(const PoseProblem& problem, const Camera& camera,
                          const PoseProblemConfig& config);
 
