@@ -1,0 +1,170 @@
+#include "eval/read/sequence.h"
+
+#include <yaml-cpp/yaml.h>
+
+#include <algorithm>
+#include <cmath>
+#include <opencv2/imgcodecs.hpp>
+
+#include "eval/read/input_error.h"
+#include "eval/read/json_fields.h"
+#include "eval/read/text_table.h"
+#include "eval/read/trajectory_file.h"
+
+namespace eval {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr double kMaxAssociation_s = 0.02;
+
+struct ListedFile {
+  double stamp_s = 0.0;
+  std::string file;
+};
+
+std::vector<ListedFile> ReadFileList(const fs::path& list) {
+  std::vector<ListedFile> files;
+  for (const TextLine& line : ReadTextTable(list)) {
+    if (line.fields.size() != 2) {
+      throw InputError(Where(list, line.number), "expected \"timestamp file\"");
+    }
+    files.push_back(
+        {ParseNumber(line.fields[0], "timestamp", list, line.number), line.fields[1]});
+  }
+  std::stable_sort(files.begin(), files.end(), [](const ListedFile& a, const ListedFile& b) {
+    return a.stamp_s < b.stamp_s;
+  });
+  return files;
+}
+
+std::vector<SequenceFrame> ReadAssociations(const fs::path& file) {
+  std::vector<SequenceFrame> frames;
+  for (const TextLine& line : ReadTextTable(file)) {
+    if (line.fields.size() != 4) {
+      throw InputError(Where(file, line.number),
+                       "expected \"t_rgb rgb t_depth depth\", found " +
+                           std::to_string(line.fields.size()) + " fields");
+    }
+    frames.push_back({ParseNumber(line.fields[0], "t_rgb", file, line.number), line.fields[1],
+                      ParseNumber(line.fields[2], "t_depth", file, line.number),
+                      line.fields[3]});
+  }
+  return frames;
+}
+
+bool IsSynthetic(const fs::path& manifest) {
+  if (!fs::exists(manifest)) return false;
+  const nlohmann::json json = ParseJson(ReadWholeFile(manifest), manifest);
+  return JsonField(json, manifest.string())["format"].Text() == "pas-sequence/1";
+}
+
+double ReadYamlNumber(const YAML::Node& root, const char* key, const fs::path& file) {
+  const YAML::Node node = root[key];
+  if (!node) throw InputError(file.string(), "the key \"" + std::string(key) + "\" is missing");
+  const int line = node.Mark().line + 1;
+  if (!node.IsScalar()) {
+    throw InputError(Where(file, line), std::string(key) + ": expected a number");
+  }
+  return ParseNumber(node.Scalar(), key, file, line);
+}
+
+std::optional<cv::Mat1w> ReadFrameLabels(const StampedFiles& files, double stamp_s) {
+  const auto file = files.Find(stamp_s);
+  if (!file) return std::nullopt;
+  return ReadLabels(*file);
+}
+
+}  // namespace
+
+Camera ReadCamera(const fs::path& file) {
+  YAML::Node root;
+  try {
+    root = YAML::Load(ReadWholeFile(file));
+  } catch (const YAML::Exception& error) {
+    throw InputError(Where(file, error.mark.line + 1), "not valid YAML: " + error.msg);
+  }
+  if (!root.IsMap()) throw InputError(Where(file, 1), "expected \"key: value\" lines");
+  const auto number = [&](const char* key) { return ReadYamlNumber(root, key, file); };
+  const auto positive = [&](const char* key) {
+    const double value = number(key);
+    if (!(value > 0.0)) {
+      throw InputError(Where(file, root[key].Mark().line + 1),
+                       std::string(key) + ": expected a number above 0");
+    }
+    return value;
+  };
+  Camera camera;
+  camera.width = static_cast<int>(std::lround(std::min(positive("width"), 1e6)));
+  camera.height = static_cast<int>(std::lround(std::min(positive("height"), 1e6)));
+  camera.fx = positive("fx");
+  camera.fy = positive("fy");
+  camera.cx = number("cx");
+  camera.cy = number("cy");
+  camera.fps = positive("fps");
+  camera.depth_factor = positive("depth_factor");
+  return camera;
+}
+
+std::vector<SequenceFrame> AssociateByTime(const fs::path& rgb_list,
+                                           const fs::path& depth_list) {
+  const std::vector<ListedFile> depth = ReadFileList(depth_list);
+  std::vector<SequenceFrame> frames;
+  for (const ListedFile& rgb : ReadFileList(rgb_list)) {
+    const auto nearest = std::min_element(
+        depth.begin(), depth.end(), [&](const ListedFile& a, const ListedFile& b) {
+          return std::abs(a.stamp_s - rgb.stamp_s) < std::abs(b.stamp_s - rgb.stamp_s);
+        });
+    if (nearest == depth.end()) break;
+    if (std::abs(nearest->stamp_s - rgb.stamp_s) > kMaxAssociation_s) continue;
+    frames.push_back({rgb.stamp_s, rgb.file, nearest->stamp_s, nearest->file});
+  }
+  return frames;
+}
+
+Sequence ReadSequence(const fs::path& folder) {
+  if (!fs::is_directory(folder)) throw InputError(folder.string(), "there is no such folder");
+  Sequence sequence;
+  sequence.folder = folder;
+  sequence.synthetic = IsSynthetic(folder / "manifest.json");
+  sequence.frames = fs::exists(folder / "associations.txt")
+                        ? ReadAssociations(folder / "associations.txt")
+                        : AssociateByTime(folder / "rgb.txt", folder / "depth.txt");
+  std::stable_sort(
+      sequence.frames.begin(), sequence.frames.end(),
+      [](const SequenceFrame& a, const SequenceFrame& b) { return a.stamp_s < b.stamp_s; });
+  if (fs::exists(folder / "camera.yaml")) sequence.camera = ReadCamera(folder / "camera.yaml");
+  if (fs::exists(folder / "groundtruth.txt")) {
+    sequence.groundtruth = ReadTrajectory(folder / "groundtruth.txt");
+  }
+  if (fs::exists(folder / "gt/scene.json")) {
+    sequence.scene = ReadSceneTruth(folder / "gt/scene.json");
+  }
+  if (fs::exists(folder / "gt/frames.jsonl")) {
+    sequence.frame_truth = ReadFrameTruth(folder / "gt/frames.jsonl");
+  }
+  sequence.plane_id_files = StampedFiles(folder / "gt/plane_id");
+  sequence.object_id_files = StampedFiles(folder / "gt/object_id");
+  return sequence;
+}
+
+cv::Mat1w ReadLabels(const fs::path& file) {
+  const cv::Mat image = cv::imread(file.string(), cv::IMREAD_UNCHANGED);
+  if (image.empty()) throw InputError(file.string(), "cannot be read as an image");
+  if (image.channels() != 1 || (image.depth() != CV_8U && image.depth() != CV_16U)) {
+    throw InputError(file.string(), "expected one channel of 8 or 16 bits");
+  }
+  cv::Mat1w labels;
+  image.convertTo(labels, CV_16U);
+  return labels;
+}
+
+std::optional<cv::Mat1w> ReadPlaneIds(const Sequence& sequence, double stamp_s) {
+  return ReadFrameLabels(sequence.plane_id_files, stamp_s);
+}
+
+std::optional<cv::Mat1w> ReadObjectIds(const Sequence& sequence, double stamp_s) {
+  return ReadFrameLabels(sequence.object_id_files, stamp_s);
+}
+
+}  // namespace eval

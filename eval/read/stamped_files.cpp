@@ -1,0 +1,36 @@
+#include "eval/read/stamped_files.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "eval/read/text_table.h"
+
+namespace eval {
+
+StampedFiles::StampedFiles(const std::filesystem::path& folder, const char* extension) {
+  std::error_code ignored;
+  if (!std::filesystem::is_directory(folder, ignored)) return;
+  for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+    double stamp_s = 0.0;
+    if (entry.path().extension() != extension) continue;
+    if (ParseNumber(entry.path().stem().string(), stamp_s)) {
+      files_.emplace_back(stamp_s, entry.path());
+    }
+  }
+  std::sort(files_.begin(), files_.end());
+}
+
+std::optional<std::filesystem::path> StampedFiles::Find(double stamp_s) const {
+  const auto from = std::lower_bound(files_.begin(), files_.end(), stamp_s - kSameStamp_s,
+                                     [](const auto& f, double s) { return f.first < s; });
+  if (from == files_.end() || !(from->first <= stamp_s + kSameStamp_s)) return std::nullopt;
+  return from->second;
+}
+
+std::optional<std::size_t> FindStamp(const std::vector<double>& stamps_s, double stamp_s) {
+  const auto from = std::lower_bound(stamps_s.begin(), stamps_s.end(), stamp_s - kSameStamp_s);
+  if (from == stamps_s.end() || !(*from <= stamp_s + kSameStamp_s)) return std::nullopt;
+  return static_cast<std::size_t>(from - stamps_s.begin());
+}
+
+}  // namespace eval
