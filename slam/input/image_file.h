@@ -1,0 +1,28 @@
+#pragma once
+
+#include <filesystem>
+#include <opencv2/core/mat.hpp>
+#include <string>
+
+#include "slam/base/camera.h"
+
+namespace slam {
+
+/// What a recorded image must be. It is checked in the file's header, before any decoding.
+enum class ImageType {
+  kColour,  ///< PNG, 8-bit, three channels
+  kDepth    ///< PNG, 16-bit, one channel
+};
+
+/// Reads a PNG of the camera's size: CV_8UC3 in BGR order, or CV_16UC1.
+/// @param context  what the file is, for messages: "frame 12"
+/// @throws InputError naming file and context when the file is missing, empty, truncated,
+/// damaged,
+///         or of another type or size.
+cv::Mat ReadImage(const std::filesystem::path& file, ImageType type, const Camera& camera,
+                  const std::string& context);
+
+/// Planar z in metres; 0 = no measurement: the reserved value 0 and the saturated 65535 both.
+cv::Mat1f DepthInMetres(const cv::Mat& raw, double depth_factor);
+
+}  // namespace slam

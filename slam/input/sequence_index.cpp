@@ -1,0 +1,220 @@
+#include "slam/input/sequence_index.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <fstream>
+#include <sstream>
+#include <tuple>
+
+#include "slam/base/require.h"
+
+namespace slam {
+namespace {
+
+constexpr double kMaxPairing_s = 0.02;
+constexpr double kMaxStamp_s = 1e11;  // the year 5138; milliseconds since 1970 are above it
+constexpr std::size_t kMaxLine = 4096;
+constexpr std::size_t kMaxLines = 10'000'000;
+
+/// One line of a list: its words and where it stands.
+struct Line {
+  std::vector<std::string> words;
+  std::string where;   ///< full path:line
+  std::string source;  ///< file name:line
+};
+
+/// One image of rgb.txt or depth.txt.
+struct Stamped {
+  double t = 0;
+  std::string file, source;
+};
+
+std::vector<Line> ReadLines(const std::filesystem::path& file, std::size_t words,
+                            const std::string& form) {
+  std::error_code ignored;
+  if (!std::filesystem::is_regular_file(file, ignored))
+    throw InputError(file.string(),
+                     "no such file; a sequence has associations.txt, or rgb.txt "
+                     "and depth.txt");
+  std::ifstream stream(file);
+  if (!stream) throw InputError(file.string(), "cannot be read; check its permissions");
+  std::vector<Line> lines;
+  std::string text;
+  for (std::size_t number = 1; std::getline(stream, text); ++number) {
+    const std::string at = std::string(":").append(std::to_string(number));
+    const std::string where = file.string() + at;
+    if (text.size() > kMaxLine || number > kMaxLines)
+      throw InputError(where, "too long for a list of images; expected `" + form + "`");
+    if (!text.empty() && text.back() == '\r') text.pop_back();
+    std::istringstream stream_of_words(text);
+    Line line{{}, where, file.filename().string() + at};
+    for (std::string word; stream_of_words >> word;) line.words.push_back(word);
+    if (line.words.empty() || line.words[0][0] == '#') continue;
+    if (line.words.size() != words)
+      throw InputError(where, "expected `" + form + "`, found " +
+                                  std::to_string(line.words.size()) + " words");
+    lines.push_back(std::move(line));
+  }
+  if (lines.empty())
+    throw InputError(file.string(), "names no image; expected lines `" + form + "`");
+  return lines;
+}
+
+double ParseStamp(const std::string& text, const std::string& where) {
+  double t = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), t);
+  if (error != std::errc() || end != text.data() + text.size() || !std::isfinite(t) || t < 0)
+    throw InputError(where, "timestamp `" + text + "` is not a number of seconds >= 0");
+  if (t < kMaxStamp_s) return t;
+  const char* unit = t < 1e14   ? "milliseconds: divide by 1e3"
+                     : t < 1e17 ? "microseconds: divide by 1e6"
+                                : "nanoseconds: divide by 1e9";
+  throw InputError(where, "timestamp `" + text + "` is not in seconds; it looks like " + unit);
+}
+
+std::string ParseFile(const std::string& text, const std::string& where) {
+  const std::filesystem::path path = std::filesystem::path(text).lexically_normal();
+  if (path.is_absolute() || path.empty() || *path.begin() == "..")
+    throw InputError(where, "file `" + text + "` must lie inside the sequence folder");
+  return path.generic_string();
+}
+
+std::vector<SequenceEntry> ReadAssociations(const std::filesystem::path& file) {
+  std::vector<SequenceEntry> entries;
+  for (const Line& line : ReadLines(file, 4, "t_rgb rgb_file t_depth depth_file")) {
+    entries.push_back({ParseStamp(line.words[0], line.where),
+                       ParseStamp(line.words[2], line.where),
+                       ParseFile(line.words[1], line.where),
+                       ParseFile(line.words[3], line.where), line.source});
+  }
+  return entries;
+}
+
+std::vector<Stamped> ReadList(const std::filesystem::path& file) {
+  std::vector<Stamped> images;
+  for (const Line& line : ReadLines(file, 2, "timestamp file"))
+    images.push_back({ParseStamp(line.words[0], line.where),
+                      ParseFile(line.words[1], line.where), line.source});
+  return images;
+}
+
+void Count(int& count, const std::string& what, const std::string& source,
+           SequenceWarnings& warnings) {
+  if (count++ == 0) warnings.text.push_back(what + ", first at " + source);
+}
+
+/// Positions of a longest strictly increasing subsequence of `t`; of several the one that is
+/// first in dictionary order of positions. O(n log n).
+std::vector<std::size_t> LongestIncreasing(const std::vector<double>& t) {
+  const std::size_t n = t.size();
+  std::vector<std::size_t> length(n);  // of the longest that starts at i
+  std::vector<double> best;            // best[k]: largest start of one of length k + 1
+  for (std::size_t i = n; i-- > 0;) {
+    const auto it = std::lower_bound(best.begin(), best.end(), t[i],
+                                     [](double start, double x) { return start > x; });
+    length[i] = static_cast<std::size_t>(it - best.begin()) + 1;
+    if (it == best.end())
+      best.push_back(t[i]);
+    else
+      *it = std::max(*it, t[i]);
+  }
+  std::vector<std::size_t> chosen;
+  std::size_t wanted = best.size();
+  for (std::size_t i = 0; i < n && wanted > 0; ++i) {
+    if (length[i] != wanted || (!chosen.empty() && !(t[i] > t[chosen.back()]))) continue;
+    chosen.push_back(i);
+    --wanted;
+  }
+  return chosen;
+}
+
+/// Leaves out what repeats or goes back. `Item` has the stamp `stamp(item)` and a source.
+template <typename Item, typename Stamp>
+std::vector<Item> InOrder(const std::vector<Item>& items, Stamp stamp, SequenceWarnings& w) {
+  std::vector<double> t;
+  for (const Item& item : items) t.push_back(stamp(item));
+  std::vector<Item> kept;
+  std::size_t next = 0;
+  const std::vector<std::size_t> chosen = LongestIncreasing(t);
+  for (std::size_t i = 0; i < items.size(); ++i) {
+    if (next < chosen.size() && chosen[next] == i) {
+      kept.push_back(items[i]);
+      ++next;
+    } else if (!kept.empty() && t[i] == stamp(kept.back())) {
+      Count(w.repeated, "frames left out: timestamp repeated", items[i].source, w);
+    } else {
+      Count(w.out_of_order, "frames left out: timestamp out of order", items[i].source, w);
+    }
+  }
+  return kept;
+}
+
+std::vector<SequenceEntry> Pair(const std::vector<Stamped>& rgb, std::vector<Stamped> depth,
+                                SequenceWarnings& w) {
+  std::stable_sort(depth.begin(), depth.end(),
+                   [](const Stamped& a, const Stamped& b) { return a.t < b.t; });
+  std::vector<std::tuple<double, std::size_t, std::size_t>> candidates;
+  for (std::size_t i = 0; i < rgb.size(); ++i) {
+    auto it = std::lower_bound(depth.begin(), depth.end(), rgb[i].t - kMaxPairing_s,
+                               [](const Stamped& d, double t) { return d.t < t; });
+    double last = -1;
+    for (; it != depth.end() && it->t < rgb[i].t + kMaxPairing_s; ++it) {
+      const double dt = std::abs(it->t - rgb[i].t);
+      if (it->t == last || !(dt < kMaxPairing_s))
+        continue;  // a repeated depth stamp: the first
+      candidates.emplace_back(dt, i, static_cast<std::size_t>(it - depth.begin()));
+      last = it->t;
+    }
+  }
+  std::sort(candidates.begin(), candidates.end());
+  constexpr std::size_t kFree = static_cast<std::size_t>(-1);
+  std::vector<std::size_t> depth_of(rgb.size(), kFree);
+  std::vector<bool> taken(depth.size(), false);
+  for (const auto& [dt, i, j] : candidates) {
+    if (depth_of[i] != kFree || taken[j]) continue;
+    depth_of[i] = j;
+    taken[j] = true;
+  }
+  std::vector<SequenceEntry> entries;
+  for (std::size_t i = 0; i < rgb.size(); ++i) {
+    if (depth_of[i] == kFree) {
+      Count(w.unpaired_rgb, "colour images without depth within 20 ms", rgb[i].source, w);
+      continue;
+    }
+    const Stamped& d = depth[depth_of[i]];
+    entries.push_back({rgb[i].t, d.t, rgb[i].file, d.file, rgb[i].source});
+  }
+  for (std::size_t j = 0; j < depth.size(); ++j)
+    if (!taken[j])
+      Count(w.unpaired_depth, "depth images without colour within 20 ms", depth[j].source, w);
+  return entries;
+}
+
+}  // namespace
+
+SequenceIndex IndexSequence(const std::filesystem::path& sequence) {
+  std::error_code ignored;
+  if (!std::filesystem::is_directory(sequence, ignored))
+    throw InputError(sequence.string(),
+                     "no such folder; expected a sequence (a TUM RGB-D folder)");
+  SequenceIndex index;
+  SequenceWarnings& w = index.warnings;
+  if (std::filesystem::exists(sequence / "associations.txt", ignored)) {
+    index.entries = InOrder(
+        ReadAssociations(sequence / "associations.txt"),
+        [](const SequenceEntry& e) { return e.timestamp_s; }, w);
+  } else {
+    const auto rgb = InOrder(
+        ReadList(sequence / "rgb.txt"), [](const Stamped& s) { return s.t; }, w);
+    index.entries = Pair(rgb, ReadList(sequence / "depth.txt"), w);
+    if (index.entries.empty())
+      throw InputError(
+          sequence.string(),
+          "no colour image of rgb.txt has a depth image of depth.txt within 20 ms; "
+          "check that both lists use one clock");
+  }
+  return index;
+}
+
+}  // namespace slam
