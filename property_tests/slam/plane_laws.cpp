@@ -1,0 +1,68 @@
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+#include "property_tests/generators/planes.h"
+#include "slam/optimise/factors/plane.h"
+
+namespace slam {
+namespace {
+
+// Worst value of straightforward code: 2.7e-14.
+RC_GTEST_PROP(PlaneTransformEq15, TransformKeepsTheDistanceOfEveryPoint, ()) {
+  const Pose T_cw = AnyPose(10);
+  const Plane pi_w = AnyPlane(10);
+  const Eigen::Vector3d x_w = AnyPoint(20);
+  const double before = SignedDistance(pi_w, x_w);
+  const double after = SignedDistance(Transform(T_cw, pi_w), T_cw * x_w);
+  RC_ASSERT(std::abs(before - after) < 1e-12 * (1 + x_w.norm() + T_cw.t.norm()));
+}
+
+RC_GTEST_PROP(PlaneTransformEq15, TransformFollowsTheProductOfPoses, ()) {
+  const Pose A = AnyPose(10), B = AnyPose(10);
+  const Plane pi = AnyPlane(10);
+  const Plane once = Transform(A * B, pi), twice = Transform(A, Transform(B, pi));
+  const double bound = 1e-12 * (1 + A.t.norm() + B.t.norm());
+  RC_ASSERT((once.n - twice.n).norm() < bound);
+  RC_ASSERT(std::abs(once.d - twice.d) < bound);
+}
+
+RC_GTEST_PROP(PlaneOrientation, FacingTheOriginIsIdempotentAndForgetsTheSign, ()) {
+  const Plane pi = AnyPlane(10);
+  const Plane once = FacingOrigin(pi), twice = FacingOrigin(once);
+  RC_ASSERT(once.d >= 0);
+  RC_ASSERT(once.n == twice.n && once.d == twice.d);
+  if (pi.d != 0) {
+    const Plane other = FacingOrigin({-pi.n, -pi.d});
+    RC_ASSERT(other.n == once.n && other.d == once.d);
+  }
+}
+
+RC_GTEST_PROP(PlaneTangent, BasisIsOrthonormalAndRightHanded, ()) {
+  const Eigen::Vector3d n = AnyUnit();
+  const Eigen::Matrix<double, 3, 2> E = TangentBasis(n);
+  Eigen::Matrix3d M;
+  M << E, n;
+  RC_ASSERT((M.transpose() * M - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff() < 1e-14);
+  RC_ASSERT(std::abs(M.determinant() - 1) < 1e-14);
+}
+
+RC_GTEST_PROP(PlaneResidualEq16, TurnIsAsLongAsTheAngleBetweenTheNormalsEverywhere, ()) {
+  const Eigen::Vector3d n_1 = AnyUnit();
+  const Eigen::Vector3d axis = (TangentBasis(n_1) * Eigen::Vector2d(1, AnyReal(-1, 1))).normalized();
+  const double angle = AnyInt(0, 1) ? std::pow(10.0, AnyReal(-9, 0)) : AnyReal(0, 3.1);
+  const Eigen::Vector3d n_2 = (ExpSo3(angle * axis) * n_1).normalized();
+  const NormalDifference turn = TurnBetween(n_1, n_2);
+  RC_ASSERT(turn.valid);
+  RC_ASSERT(std::abs(turn.r.norm() - angle) < 1e-9 * angle + 1e-15);
+  // The turn takes the one to the other: retract and local are inverse.
+  RC_ASSERT((ExpSo3(turn.r) * n_1 - n_2).norm() < 1e-13);
+}
+
+RC_GTEST_PROP(PlaneResidualEq16, OppositeNormalsAreRefusedNotWrong, ()) {
+  const Eigen::Vector3d n = AnyUnit();
+  RC_ASSERT(!TurnBetween(n, -n).valid);
+  RC_ASSERT(TurnBetween(n, -n).r.allFinite());
+}
+
+}  // namespace
+}  // namespace slam

@@ -1,0 +1,73 @@
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+#include "property_tests/generators/poses.h"
+#include "tests/support/numeric_jacobian.h"
+
+namespace slam {
+namespace {
+
+double Difference(const Pose& a, const Pose& b) {
+  return (a.R - b.R).cwiseAbs().maxCoeff() + (a.t - b.t).norm();
+}
+
+// Worst values of straightforward code: 3e-15 (inverse), 2.5e-14 m (products of poses of 15 m).
+RC_GTEST_PROP(PoseGroup, ComposesWithItsInverseToTheIdentity, ()) {
+  const Pose T = AnyPose(10);
+  RC_ASSERT(Difference(T * Inverse(T), Pose{}) < 1e-13 * (1 + T.t.norm()));
+  RC_ASSERT(Difference(T * Pose{}, T) == 0.0);
+}
+
+RC_GTEST_PROP(PoseGroup, IsAssociative, ()) {
+  const Pose A = AnyPose(5), B = AnyPose(5), C = AnyPose(5);
+  RC_ASSERT(Difference((A * B) * C, A * (B * C)) < 1e-13 * (1 + A.t.norm() + B.t.norm() + C.t.norm()));
+}
+
+RC_GTEST_PROP(PoseGroup, StaysARotationOverAThousandProductsWhenNormalised, ()) {
+  const Pose step = AnyMotion(0.5, 0.1);
+  Pose T;
+  for (int i = 0; i < 1000; ++i) T = step * T;
+  T = Normalised(T);
+  RC_ASSERT((T.R * T.R.transpose() - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff() < 1e-13);
+  RC_ASSERT(std::abs(T.R.determinant() - 1) < 1e-13);
+}
+
+RC_GTEST_PROP(PoseExponential, LogUndoesExp, ()) {
+  Vector6d xi;
+  const Eigen::Vector3d axis = AnyUnit();
+  xi << AnyPoint(3), std::min(AnyAngle(), M_PI - 1e-6) * axis;
+  RC_ASSERT((Log(Exp(xi)) - xi).norm() < 1e-12 * std::max(1.0, xi.norm()));
+}
+
+RC_GTEST_PROP(PoseExponential, ExpUndoesLog, ()) {
+  const Pose T = AnyPose(10);
+  RC_ASSERT(Difference(Exp(Log(T)), T) < 1e-12 * (1 + T.t.norm()));
+}
+
+RC_GTEST_PROP(PoseExponential, AdjointCarriesAPerturbationAcross, ()) {
+  const Pose T = AnyPose(10);
+  Vector6d xi;
+  const Eigen::Vector3d axis = AnyUnit();
+  xi << AnyPoint(1), AnyReal(0, 2.5) * axis;
+  const double scale = 1 + T.t.norm();
+  RC_ASSERT(Difference(T * Exp(xi) * Inverse(T), Exp(Adjoint(T) * xi)) < 1e-12 * scale * scale);
+}
+
+RC_GTEST_PROP(PoseExponential, PointJacobianAgreesWithDifferences, ()) {
+  const Pose T = AnyPose(5);
+  const Eigen::Vector3d x = AnyPoint(5);
+  Eigen::Matrix<double, 3, 6> J;
+  J << Eigen::Matrix3d::Identity(), -Hat(T * x);
+  const auto numeric = NumericJacobian<3>(T, [&](const Pose& M) { return Eigen::Vector3d(M * x); });
+  RC_ASSERT(JacobianError(J, numeric) < 1e-8);
+  RC_ASSERT(JacobianError(-J, numeric) > 1e-3);
+}
+
+RC_GTEST_PROP(PoseGroup, RotationAngleIsSymmetricAndUnmovedByAThirdPose, ()) {
+  const Pose A = AnyPose(5), B = AnyPose(5), T = AnyPose(5);
+  RC_ASSERT(std::abs(RotationAngle(A, B) - RotationAngle(B, A)) < 1e-12);
+  RC_ASSERT(std::abs(RotationAngle(T * A, T * B) - RotationAngle(A, B)) < 1e-7);
+}
+
+}  // namespace
+}  // namespace slam

@@ -1,0 +1,51 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <span>
+
+#include "slam/base/plane.h"
+#include "slam/base/pose.h"
+#include "slam/base/result.h"
+
+namespace slam {
+
+/// Gates of the parameter test. A pair passes a `max_` gate strictly below it and a `min_` gate
+/// strictly above it, as the paper prints.
+struct PlaneGateConfig {
+  double max_normal_angle_rad = 0.1745;     ///< beta_T, eq6; domain (0, pi)
+  double max_patch_offset_m = 0.05;         ///< d_T,    eq7; domain (0, inf)
+  double max_edge_point_distance_m = 0.05;  ///< d_T',   eq8; domain (0, inf)
+  double min_edge_point_ratio = 0.5;        ///< R_T,    eq8; domain [0, 1)
+};
+
+/// Why a pair was refused. Each is counted in the report, none is logged and lost.
+enum class GateRefusal { kNormalAngle, kNoEdgePoints, kOffsetAndEdgePoints };
+
+/// Numbers behind an accepted pair, for the report.
+struct GateEvidence {
+  double normal_angle_rad;
+  double patch_offset_m;    ///< absolute
+  double edge_point_ratio;  ///< in [0, 1]
+};
+
+/// Tests whether a plane seen now and a plane of the map can be one surface.
+///
+///   accepted  <=>  eq6 and (eq7 or eq8)
+///
+/// @param pi_c           measured plane, camera frame, facing the camera
+/// @param centroid_c     centroid of the measured patch, camera frame, metres
+/// @param edge_points_c  boundary points B_c of the patch, camera frame, metres
+/// @param pi_w           map plane, world frame
+/// @param T_cw           world to camera
+/// @returns the evidence, or the first gate that refused the pair
+///
+/// Source: PAS-SLAM eq6 (corrected: signed cosine, so that the back of a board is not its front),
+/// eq7 (corrected: measured at the patch, so that the result does not depend on the world origin),
+/// eq8 (corrected: absolute distance). Cost: O(edge_points_c.size()).
+Result<GateEvidence, GateRefusal> TestPlaneGates(const Plane& pi_c,
+                                                 const Eigen::Vector3d& centroid_c,
+                                                 std::span<const Eigen::Vector3d> edge_points_c,
+                                                 const Plane& pi_w, const Pose& T_cw,
+                                                 const PlaneGateConfig& config);
+
+}  // namespace slam
