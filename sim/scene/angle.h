@@ -9,8 +9,8 @@ struct SinCos {
   double cos = 1;
 };
 
-/// Sine and cosine from exact reduction and a Taylor polynomial: no libm, whose last bit depends
-/// on the processor. Error below 4e-16; exact at multiples of 90 degrees.
+/// Sine and cosine from exact reduction and a Taylor polynomial: no libm, whose last bit
+/// depends on the processor. Error below 4e-16; exact at multiples of 90 degrees.
 SinCos SinCosDeg(double angle_deg);
 
 inline constexpr double kPi = 3.14159265358979323846;

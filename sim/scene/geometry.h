@@ -17,9 +17,9 @@ Pose ObjectPose(const Object& object);
 /// The eight corners of its box in the world, bit 0 of the index +x, bit 1 +y, bit 2 +z.
 std::array<Eigen::Vector3d, 8> Corners(const Object& object);
 
-/// How deep two oriented boxes overlap, metres: the least shift that separates them; negative or
-/// zero when apart (then a lower bound of the gap). Toys count as their boxes.
-/// Separating axes: 3 + 3 face normals and 9 edge products.
+/// How deep two oriented boxes overlap, metres: the least shift that separates them; negative
+/// or zero when apart (then a lower bound of the gap). Toys count as their boxes. Separating
+/// axes: 3 + 3 face normals and 9 edge products.
 double OverlapDepth(const Object& a, const Object& b);
 
 /// Distance from a point to the solid box, metres; negative inside.

@@ -12,7 +12,8 @@ namespace sim {
 /// What an object is to the evaluation (formats.md, gt/scene.json).
 enum class Role { kStructure, kRegular, kUnstructured, kOther };
 
-/// How a face looks. Procedural, evaluated in metres on the face; the pattern depends on `seed`.
+/// How a face looks. Procedural, evaluated in metres on the face; the pattern depends on
+/// `seed`.
 enum class Print { kPlain, kWood, kCloth, kText, kCover, kKeys, kScreen, kSpeckle };
 
 struct Material {
@@ -28,15 +29,16 @@ enum class Face { kMinusX, kPlusX, kMinusY, kPlusY, kMinusZ, kPlusZ };
 
 enum class ShapeKind {
   kBox,  ///< `size` along the object's axes; six planes
-  kToy   ///< unstructured: a closed smooth body of bumps inside `size`, no planes; shape from `seed`
+  kToy   ///< unstructured: a closed smooth body of bumps inside `size`, no planes; shape from
+         ///< `seed`
 };
 
-/// One solid object. World frame w: metres, z up. T_wo takes object to world; the object's origin
-/// is the centre of its box.
+/// One solid object. World frame w: metres, z up. T_wo takes object to world; the object's
+/// origin is the centre of its box.
 struct Object {
-  int id = 0;               ///< from 1, unique
-  std::string name;         ///< unique, "book_3"
-  std::string class_name;   ///< COCO name where there is one: book, keyboard, tv, laptop ...
+  int id = 0;              ///< from 1, unique
+  std::string name;        ///< unique, "book_3"
+  std::string class_name;  ///< COCO name where there is one: book, keyboard, tv, laptop ...
   Role role = Role::kOther;
   ShapeKind shape = ShapeKind::kBox;
   Eigen::Vector3d center_w = Eigen::Vector3d::Zero();
@@ -44,7 +46,8 @@ struct Object {
   Eigen::Vector3d size = Eigen::Vector3d::Ones();  ///< full lengths, metres
   std::array<Material, 6> faces;                   ///< by Face; a toy uses the first
   std::uint64_t seed = 0;
-  int detection_group = 0;  ///< objects of one group are detected as one (laptop base and lid); 0 = alone
+  int detection_group =
+      0;  ///< objects of one group are detected as one (laptop base and lid); 0 = alone
 };
 
 struct Sun {
@@ -55,7 +58,7 @@ struct Sun {
 
 /// Where the camera looks and how it moves; see motion/.
 struct Motion {
-  std::string preset = "office";   ///< slow | office | fast
+  std::string preset = "office";         ///< slow | office | fast
   Eigen::Vector3d target_w{0, 0, 0.75};  ///< what the camera looks at
   double target_spread_m = 0.25;         ///< the gaze drifts this far
   double distance_min_m = 0.7, distance_max_m = 1.3;
@@ -66,7 +69,7 @@ struct Motion {
 
 struct Scene {
   std::string name;
-  std::string family;       ///< who made it; empty when written by hand
+  std::string family;  ///< who made it; empty when written by hand
   std::uint64_t seed = 0;
   std::vector<Object> objects;
   Sun sun;
@@ -75,8 +78,8 @@ struct Scene {
 
 /// A truth plane: one face of a box object. n . x + d = 0, n out of the object, world frame.
 struct ScenePlane {
-  int id = 0;         ///< from 1, in the order of objects and faces
-  int object = 0;     ///< Object::id
+  int id = 0;      ///< from 1, in the order of objects and faces
+  int object = 0;  ///< Object::id
   Face face = Face::kPlusZ;
   Eigen::Vector3d n_w = Eigen::Vector3d::UnitZ();
   double d = 0;

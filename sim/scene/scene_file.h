@@ -9,9 +9,9 @@ namespace sim {
 
 inline constexpr const char* kSceneFormat = "pas-scene/1";
 
-/// Reads a scene file (scenes/README.md describes it): lengths in metres, angles in degrees, the
-/// unit in the key's name. Strict: an unknown or repeated key, a wrong type, a size that is not
-/// positive and finite, or geometry that cannot be (CheckScene) is an error.
+/// Reads a scene file (scenes/README.md describes it): lengths in metres, angles in degrees,
+/// the unit in the key's name. Strict: an unknown or repeated key, a wrong type, a size that is
+/// not positive and finite, or geometry that cannot be (CheckScene) is an error.
 /// @throws InputError with file:line, what was expected and how to mend it.
 Scene ReadScene(const std::filesystem::path& path);
 

@@ -12,11 +12,11 @@ struct TopStep {
   int object = 0;        ///< its owner
   int below_object = 0;  ///< owner of the highest surface under it
   int below_plane = 0;
-  double step_mm = 0;    ///< along the top's normal to the nearest point of that surface; >= 0
+  double step_mm = 0;  ///< along the top's normal to the nearest point of that surface; >= 0
 };
 
-/// One entry for each upward face (within 10 degrees) of a regular box that has an upward face of
-/// another box under any part of it. In the order of the planes.
+/// One entry for each upward face (within 10 degrees) of a regular box that has an upward face
+/// of another box under any part of it. In the order of the planes.
 std::vector<TopStep> TopSteps(const Scene& scene);
 
 }  // namespace sim

@@ -1,0 +1,78 @@
+#include "sim/scene/mesh.h"
+
+#include "sim/scene/faces.h"
+#include "sim/scene/geometry.h"
+#include "sim/scene/toy.h"
+
+namespace sim {
+namespace {
+
+void AddBox(const Object& object, int& plane_id, SceneMesh& mesh) {
+  for (const Face face : kFaces) {
+    const FaceRectangle rectangle = RectangleOf(object, face);
+    const double U = rectangle.size_m.x(), V = rectangle.size_m.y();
+    const std::array<Eigen::Vector2d, 4> uv{{{0.0, 0.0}, {U, 0.0}, {U, V}, {0.0, V}}};
+    Triangle triangle;
+    triangle.normals_w.fill(rectangle.n_w);
+    triangle.object = object.id;
+    triangle.plane = ++plane_id;
+    triangle.material = static_cast<int>(mesh.materials.size());
+    mesh.materials.push_back(object.faces[static_cast<std::size_t>(face)]);
+    for (const auto& [i, j, k] : {std::array{0u, 1u, 2u}, std::array{0u, 2u, 3u}}) {
+      const auto& corners = rectangle.corners_w;
+      triangle.corners_w = {corners[i], corners[j], corners[k]};
+      triangle.uv_m = {uv[i], uv[j], uv[k]};
+      mesh.triangles.push_back(triangle);
+    }
+  }
+}
+
+/// Position on the side of the bounding cube that the triangle faces most.
+Eigen::Vector2d CubeMap(const Eigen::Vector3d& n_o, const Eigen::Vector3d& x_o) {
+  Eigen::Index axis = 0;
+  n_o.cwiseAbs().maxCoeff(&axis);
+  return {x_o[(axis + 1) % 3], x_o[(axis + 2) % 3]};
+}
+
+void AddToy(const Object& object, SceneMesh& mesh) {
+  const ClosedSurface body = ToySurface(object.size, object.seed);
+  const Pose T_wo = ObjectPose(object);
+  const auto corner = [&](int i) { return body.vertices_o[static_cast<std::size_t>(i)]; };
+  const auto face_normal = [&](const std::array<int, 3>& t) -> Eigen::Vector3d {
+    return (corner(t[1]) - corner(t[0])).cross(corner(t[2]) - corner(t[0]));
+  };
+  std::vector<Eigen::Vector3d> normals_o(body.vertices_o.size(), Eigen::Vector3d::Zero());
+  for (const auto& t : body.triangles) {
+    for (const int i : t) normals_o[static_cast<std::size_t>(i)] += face_normal(t);
+  }
+  const int material = static_cast<int>(mesh.materials.size());
+  mesh.materials.push_back(object.faces[0]);
+  for (const auto& t : body.triangles) {
+    Triangle triangle;
+    triangle.object = object.id;
+    triangle.material = material;
+    for (std::size_t i = 0; i < 3; ++i) {
+      triangle.corners_w[i] = T_wo * corner(t[i]);
+      triangle.uv_m[i] = CubeMap(face_normal(t), corner(t[i]));
+      triangle.normals_w[i] = T_wo.R * normals_o[static_cast<std::size_t>(t[i])].normalized();
+    }
+    mesh.triangles.push_back(triangle);
+  }
+}
+
+}  // namespace
+
+SceneMesh BuildMesh(const Scene& scene) {
+  SceneMesh mesh;
+  int plane_id = 0;  // counts as ScenePlanes does
+  for (const Object& object : scene.objects) {
+    if (object.shape == ShapeKind::kBox) {
+      AddBox(object, plane_id, mesh);
+    } else {
+      AddToy(object, mesh);
+    }
+  }
+  return mesh;
+}
+
+}  // namespace sim

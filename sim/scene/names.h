@@ -1,0 +1,17 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace sim {
+
+/// Names of the enumerations in files, in the order of the enumerators.
+inline const std::vector<std::string> kRoleNames{"structure", "regular", "unstructured",
+                                                 "other"};
+inline const std::vector<std::string> kPrintNames{"plain", "wood", "cloth",  "text",
+                                                  "cover", "keys", "screen", "speckle"};
+inline const std::vector<std::string> kShapeNames{"box", "toy"};
+inline const std::vector<std::string> kFaceNames{"-x", "+x", "-y", "+y", "-z", "+z"};
+inline const std::vector<std::string> kPresetNames{"slow", "office", "fast"};
+
+}  // namespace sim

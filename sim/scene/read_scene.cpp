@@ -1,0 +1,173 @@
+#include <cmath>
+#include <fstream>
+#include <iterator>
+
+#include "sim/scene/angle.h"
+#include "sim/scene/check.h"
+#include "sim/scene/input_error.h"
+#include "sim/scene/names.h"
+#include "sim/scene/scene_file.h"
+#include "sim/scene/yaml_value.h"
+
+namespace sim {
+namespace {
+
+constexpr std::size_t kMaxFileBytes = 1 << 20;
+constexpr int kMaxDepth = 8;
+constexpr std::size_t kMaxObjects = 1000;
+constexpr std::uint64_t kMaxId = 65535;  // object and plane ids fit 16-bit images
+constexpr double kMaxCoordinate_m = 100;
+constexpr double kMinSize_m = 1e-5, kMaxSize_m = 50;
+constexpr std::uint64_t kAnySeed = ~std::uint64_t{0};
+
+Material ReadMaterial(const YamlValue& value) {
+  const YamlMap map(value, {"print", "colour", "ink", "richness", "seed"});
+  const auto colour = [&](const char* key, std::array<double, 3> otherwise) {
+    if (!map.Has(key)) return otherwise;
+    const Eigen::VectorXd rgb = map.At(key).Numbers(3, 0, 1, "linear RGB");
+    return std::array{rgb[0], rgb[1], rgb[2]};
+  };
+  Material material;
+  material.print = static_cast<Print>(map.At("print").OneOf(kPrintNames));
+  material.colour = colour("colour", material.colour);
+  material.ink = colour("ink", material.ink);
+  if (map.Has("richness")) material.richness = map.At("richness").Number(0, 1, "");
+  if (map.Has("seed")) material.seed = map.At("seed").Whole(0, kAnySeed);
+  return material;
+}
+
+std::array<Material, 6> ReadFaces(const YamlValue& value) {
+  std::vector<std::string> keys{"all"};
+  keys.insert(keys.end(), kFaceNames.begin(), kFaceNames.end());
+  const YamlMap map(value, keys);
+  std::array<Material, 6> faces;
+  if (map.Has("all")) faces.fill(ReadMaterial(map.At("all")));
+  for (std::size_t i = 0; i < faces.size(); ++i) {
+    if (map.Has(kFaceNames[i])) faces[i] = ReadMaterial(map.At(kFaceNames[i]));
+  }
+  return faces;
+}
+
+Eigen::Quaterniond ReadRotation(const YamlMap& map) {
+  if (map.Has("rpy_deg") && map.Has("q_xyzw")) {
+    map.At("q_xyzw").Fail("stands beside rpy_deg; keep one of the two");
+  }
+  if (map.Has("rpy_deg")) {
+    return QuaternionFromRpyDeg(map.At("rpy_deg").Numbers(3, -360, 360, "degrees"));
+  }
+  if (!map.Has("q_xyzw")) return Eigen::Quaterniond::Identity();
+  const Eigen::VectorXd q = map.At("q_xyzw").Numbers(4, -1.001, 1.001, "");
+  Eigen::Quaterniond rotation(q[3], q[0], q[1], q[2]);
+  const double excess = std::abs(rotation.squaredNorm() - 1);
+  if (!(excess < 1e-5)) map.At("q_xyzw").Fail("expected a unit quaternion x, y, z, w");
+  // What was written here is a unit up to rounding and stays as it is, bit for bit.
+  if (excess > 1e-12) rotation.normalize();
+  return rotation;
+}
+
+Object ReadObject(const YamlValue& value) {
+  const YamlMap map(value, {"id", "name", "class", "role", "shape", "center_m", "rpy_deg",
+                            "q_xyzw", "size_m", "detection_group", "seed", "faces"});
+  Object object;
+  object.id = static_cast<int>(map.At("id").Whole(1, kMaxId));
+  object.name = map.At("name").Word();
+  object.class_name = map.At("class").Word();
+  object.role = static_cast<Role>(map.At("role").OneOf(kRoleNames));
+  if (map.Has("shape")) {
+    object.shape = static_cast<ShapeKind>(map.At("shape").OneOf(kShapeNames));
+  }
+  object.center_w =
+      map.At("center_m").Numbers(3, -kMaxCoordinate_m, kMaxCoordinate_m, "metres");
+  object.q_wo = ReadRotation(map);
+  object.size = map.At("size_m").Numbers(3, kMinSize_m, kMaxSize_m, "metres");
+  if (map.Has("detection_group")) {
+    object.detection_group = static_cast<int>(map.At("detection_group").Whole(0, kMaxId));
+  }
+  if (map.Has("seed")) object.seed = map.At("seed").Whole(0, kAnySeed);
+  if (map.Has("faces")) object.faces = ReadFaces(map.At("faces"));
+  return object;
+}
+
+Sun ReadSun(const YamlValue& value) {
+  const YamlMap map(value, {"direction", "intensity", "ambient"});
+  Sun sun;
+  if (map.Has("direction")) {
+    sun.direction_w = map.At("direction").Numbers(3, -100, 100, "");
+    if (!(sun.direction_w.norm() > 1e-6))
+      map.At("direction").Fail("expected a direction, not 0");
+  }
+  if (map.Has("intensity")) sun.intensity = map.At("intensity").Number(0, 10, "");
+  if (map.Has("ambient")) sun.ambient = map.At("ambient").Number(0, 10, "");
+  return sun;
+}
+
+/// Reads `low_key` and `high_key` over the defaults; low may not exceed high.
+void ReadRange(const YamlMap& map, const std::string& low_key, const std::string& high_key,
+               double least, double most, const std::string& unit, double& low, double& high) {
+  const auto read = [&](const std::string& key, double& into) {
+    if (!map.Has(key)) return;
+    const double number = map.At(key).Number(least, most, unit);
+    into = unit == "degrees" ? DegToRad(number) : number;
+  };
+  read(low_key, low);
+  read(high_key, high);
+  if (low <= high) return;
+  map.At(map.Has(low_key) ? low_key : high_key).Fail("exceeds its maximum; swap the two");
+}
+
+Motion ReadMotion(const YamlValue& value) {
+  const YamlMap map(
+      value, {"preset", "target_m", "target_spread_m", "distance_min_m", "distance_max_m",
+              "azimuth_min_deg", "azimuth_max_deg", "pitch_min_deg", "pitch_max_deg"});
+  Motion motion;
+  if (map.Has("preset")) motion.preset = kPresetNames[map.At("preset").OneOf(kPresetNames)];
+  if (map.Has("target_m")) {
+    motion.target_w =
+        map.At("target_m").Numbers(3, -kMaxCoordinate_m, kMaxCoordinate_m, "metres");
+  }
+  if (map.Has("target_spread_m")) {
+    motion.target_spread_m = map.At("target_spread_m").Number(0, 10, "metres");
+  }
+  ReadRange(map, "distance_min_m", "distance_max_m", 0.2, 20, "metres", motion.distance_min_m,
+            motion.distance_max_m);
+  ReadRange(map, "azimuth_min_deg", "azimuth_max_deg", -180, 180, "degrees",
+            motion.azimuth_min_rad, motion.azimuth_max_rad);
+  ReadRange(map, "pitch_min_deg", "pitch_max_deg", -80, 80, "degrees", motion.pitch_min_rad,
+            motion.pitch_max_rad);
+  return motion;
+}
+
+}  // namespace
+
+Scene ParseScene(const std::string& text, const std::string& name) {
+  const YamlMap map(ParseYaml(text, name, kMaxDepth),
+                    {"format", "name", "family", "seed", "sun", "motion", "objects"});
+  map.At("format").OneOf({kSceneFormat});
+  Scene scene;
+  scene.name = map.At("name").Word();
+  if (map.Has("family")) scene.family = map.At("family").Word();
+  if (map.Has("seed")) scene.seed = map.At("seed").Whole(0, kAnySeed);
+  if (map.Has("sun")) scene.sun = ReadSun(map.At("sun"));
+  if (map.Has("motion")) scene.motion = ReadMotion(map.At("motion"));
+  const std::vector<YamlValue> objects = map.At("objects").List(kMaxObjects);
+  if (objects.empty()) map.At("objects").Fail("expected at least one object");
+  for (const YamlValue& object : objects) scene.objects.push_back(ReadObject(object));
+  if (const auto fault = FindFault(scene)) objects[fault->object].Fail(fault->what);
+  return scene;
+}
+
+Scene ReadScene(const std::filesystem::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  if (!file || !std::filesystem::is_regular_file(path)) {
+    throw InputError(path.string(), "cannot be read; expected a scene file (pas scene make)");
+  }
+  std::string text(kMaxFileBytes + 1, '\0');
+  file.read(text.data(), static_cast<std::streamsize>(text.size()));
+  text.resize(static_cast<std::size_t>(file.gcount()));
+  if (text.size() > kMaxFileBytes) {
+    throw InputError(path.string(), "is larger than 1 MiB; a scene file is not");
+  }
+  return ParseScene(text, path.string());
+}
+
+}  // namespace sim

@@ -1,0 +1,123 @@
+#include <cmath>
+#include <fstream>
+#include <system_error>
+
+#include "sim/scene/angle.h"
+#include "sim/scene/input_error.h"
+#include "sim/scene/names.h"
+#include "sim/scene/number_text.h"
+#include "sim/scene/scene_file.h"
+#include "sim/scene/sha256.h"
+
+namespace sim {
+namespace {
+
+template <typename Numbers>
+std::string ListText(const Numbers& numbers) {
+  std::string text;
+  for (const double number : numbers) text += (text.empty() ? "[" : ", ") + NumberText(number);
+  return text + "]";
+}
+
+/// Degrees that read back to exactly `angle_rad` where there are such, short ones first.
+std::string DegreesText(double angle_rad) {
+  const double angle_deg = RadToDeg(angle_rad);
+  const double rounded_deg = std::round(angle_deg * 1e6) / 1e6;
+  if (DegToRad(rounded_deg) == angle_rad) return NumberText(rounded_deg);
+  for (const double towards : {-1e9, 1e9}) {
+    double near_deg = angle_deg;
+    for (int i = 0; i < 4; ++i) {
+      if (DegToRad(near_deg) == angle_rad) return NumberText(near_deg);
+      near_deg = std::nextafter(near_deg, towards);
+    }
+  }
+  return NumberText(angle_deg);
+}
+
+std::string RotationText(const Eigen::Quaterniond& q) {
+  const Eigen::Vector3d rpy_deg = RpyDegFromQuaternion(q).unaryExpr(
+      [](double a) { return std::round(a * 1e6) / 1e6 + 0.0; });
+  if (QuaternionFromRpyDeg(rpy_deg).coeffs() == q.coeffs()) {
+    return "rpy_deg: " + ListText(rpy_deg);
+  }
+  return "q_xyzw: " + ListText(q.coeffs());
+}
+
+std::string MaterialText(const Material& material) {
+  return "{print: " + kPrintNames[static_cast<std::size_t>(material.print)] +
+         ", colour: " + ListText(material.colour) + ", ink: " + ListText(material.ink) +
+         ", richness: " + NumberText(material.richness) +
+         ", seed: " + std::to_string(material.seed) + "}";
+}
+
+std::string ObjectText(const Object& object) {
+  std::string text = "  - id: " + std::to_string(object.id) + "\n";
+  const auto line = [&](const std::string& entry) { text += "    " + entry + "\n"; };
+  line("name: " + object.name);
+  line("class: " + object.class_name);
+  line("role: " + kRoleNames[static_cast<std::size_t>(object.role)]);
+  line("shape: " + kShapeNames[static_cast<std::size_t>(object.shape)]);
+  line("center_m: " + ListText(object.center_w));
+  line(RotationText(object.q_wo));
+  line("size_m: " + ListText(object.size));
+  if (object.detection_group != 0) {
+    line("detection_group: " + std::to_string(object.detection_group));
+  }
+  if (object.seed != 0) line("seed: " + std::to_string(object.seed));
+  line("faces:");
+  const std::string all = MaterialText(object.faces[0]);
+  line("  all: " + all);
+  for (std::size_t i = 1; i < object.faces.size(); ++i) {
+    const std::string material = MaterialText(object.faces[i]);
+    if (material != all) line("  " + kFaceNames[i] + ": " + material);
+  }
+  return text;
+}
+
+std::string MotionText(const Motion& motion) {
+  return "motion:\n  preset: " + motion.preset + "\n  target_m: " + ListText(motion.target_w) +
+         "\n  target_spread_m: " + NumberText(motion.target_spread_m) +
+         "\n  distance_min_m: " + NumberText(motion.distance_min_m) +
+         "\n  distance_max_m: " + NumberText(motion.distance_max_m) +
+         "\n  azimuth_min_deg: " + DegreesText(motion.azimuth_min_rad) +
+         "\n  azimuth_max_deg: " + DegreesText(motion.azimuth_max_rad) +
+         "\n  pitch_min_deg: " + DegreesText(motion.pitch_min_rad) +
+         "\n  pitch_max_deg: " + DegreesText(motion.pitch_max_rad) + "\n";
+}
+
+}  // namespace
+
+std::string SceneText(const Scene& scene) {
+  std::string text = std::string("format: ") + kSceneFormat + "\nname: " + scene.name + "\n";
+  if (!scene.family.empty()) text += "family: " + scene.family + "\n";
+  text += "seed: " + std::to_string(scene.seed) + "\n";
+  text += "sun:\n  direction: " + ListText(scene.sun.direction_w) +
+          "\n  intensity: " + NumberText(scene.sun.intensity) +
+          "\n  ambient: " + NumberText(scene.sun.ambient) + "\n";
+  text += MotionText(scene.motion) + "objects:\n";
+  for (const Object& object : scene.objects) text += ObjectText(object);
+  return text;
+}
+
+void WriteScene(const Scene& scene, const std::filesystem::path& path) {
+  const std::filesystem::path part = path.string() + ".part";
+  {
+    std::ofstream file(part, std::ios::binary);
+    file << SceneText(scene);
+    file.close();
+    if (!file) {
+      std::error_code ignored;
+      std::filesystem::remove(part, ignored);
+      throw InputError(path.string(),
+                       "cannot be written; check that the folder exists and has "
+                       "room");
+    }
+  }
+  std::error_code error;
+  std::filesystem::rename(part, path, error);
+  if (error) throw InputError(path.string(), "cannot be written: " + error.message());
+}
+
+std::string SceneHash(const Scene& scene) { return Sha256Hex(SceneText(scene)); }
+
+}  // namespace sim
