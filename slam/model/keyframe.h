@@ -17,6 +17,8 @@ struct Keyframe {
   std::vector<int> map_points;   ///< parallel to features: map point id or kNone
   std::map<int, int> covisible;  ///< keyframe id -> shared map points
   bool culled = false;
+  int parent = kNone;  ///< when culled: the keyframe that its pose now follows ...
+  Pose T_cp;           ///< ... and where it stands as seen from that one
 };
 
 }  // namespace slam

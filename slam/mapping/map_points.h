@@ -1,0 +1,47 @@
+#pragma once
+
+#include "slam/model/map.h"
+#include "slam/model/scale_pyramid.h"
+
+namespace slam {
+
+/// The point that `point` has become by fusion, or kNone when it was culled (or is kNone).
+int CurrentPoint(const Map& map, int point);
+
+/// A new point seen by one keyframe's feature, which must have none yet. @returns its id.
+int AddPoint(Map& map, const Eigen::Vector3d& p_w, int keyframe, int feature,
+             const ScalePyramid& scales);
+
+/// Notes that `keyframe` sees `point` at `feature`, in both of them. Does nothing when the
+/// keyframe sees it already or the feature has another point.
+void AddObservation(Map& map, int point, int keyframe, int feature);
+
+/// Takes the observation back, from both; a point with too little left is culled: one
+/// keyframe's view is not enough.
+void RemoveObservation(Map& map, int point, int keyframe);
+
+/// Takes the point out of the map; its id stays.
+void CullPoint(Map& map, int point);
+
+/// Fuses `point` into `into`, which takes its observations over.
+void ReplacePoint(Map& map, int point, int into);
+
+/// Evidence in a point's observations: 2 for each with depth, 1 for each without.
+int ObservationWeight(const Map& map, int point);
+
+/// Sets descriptor (the one with the least median distance to the others), mean viewing
+/// direction and range of distances from the observations.
+void UpdatePoint(Map& map, int point, const ScalePyramid& scales);
+
+/// Rules by which young points prove themselves.
+struct PointCullingConfig {
+  double min_found_ratio = 0.25;  ///< found over expected; domain [0, 1]
+  int trial_keyframes = 3;        ///< keyframes during which a point is young; domain [1, 100]
+  int min_weight = 4;             ///< ObservationWeight wanted after two keyframes
+};
+
+/// Culls young points that are seldom found where they should be, or that no second keyframe
+/// sees. @returns how many.
+int CullYoungPoints(Map& map, int keyframe, const PointCullingConfig& config);
+
+}  // namespace slam
