@@ -1,0 +1,52 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "slam/extract/depth_grid.h"
+#include "slam/extract/plane_sums.h"
+
+namespace slam {
+
+/// When neighbouring blocks and regions are one plane. Everything is in units of the noise.
+struct ClusterConfig {
+  /// Part of a block that must be measured; domain (0, 1].
+  double min_measured = 0.6;
+  /// Mean squared error of a block about its own plane, in sigma^2: a block across a depth step
+  /// or a crease exceeds it. Domain (0, inf).
+  double max_block_error = 3.0;
+  /// Chi-square bound (3 degrees of freedom) on the error that a merge adds; 16.3 is 0.1 %.
+  double max_merge_chi2 = 16.3;
+  /// Distance, in sigmas, that two parts of one real surface may differ by for reasons other
+  /// than noise (calibration, warp of the sensor); domain [0, inf).
+  double model_error_sigmas = 0.5;
+  /// Blocks below which a region is dropped; domain [1, inf).
+  int min_blocks = 4;
+};
+
+/// The blocks of an image grouped into planes.
+struct BlockClusters {
+  int block_px = 0, cols = 0, rows = 0;
+  std::vector<int> region;      ///< of each block, row-major; -1 = none
+  std::vector<PlaneSums> sums;  ///< of each region
+  std::vector<InverseDepthPlane> planes;
+};
+
+/// Agglomerative clustering of blocks into planes (PEAC's method: Feng, Taguchi, Kamat, ICRA
+/// 2014), on the graph of 4-neighbours.
+///
+/// Two changes keep thin steps apart. The pair merged next is the one whose merge adds least
+/// error, and it merges only when that addition is what noise explains:
+///
+///   E(A u B) - E(A) - E(B)  <  s^2 (max_merge_chi2 correlated_px + k^2 n_A n_B / (n_A + n_B))
+///
+/// with E the error sum in sigmas, k = model_error_sigmas and s the grazing factor. (PEAC
+/// bounds the mean error of the union, in which a block of a book vanishes among those of a
+/// desk.) Ties are broken by block number.
+///
+/// @param taken   one entry a pixel; pixels with a non-zero entry are left out. May be empty.
+/// @param block_px  side of a block, pixels, > 1; the last row and column may be cut
+BlockClusters ClusterBlocks(const DepthGrid& grid, const std::vector<std::uint8_t>& taken,
+                            int block_px, const DepthNoise& noise, const ClusterConfig& config);
+
+}  // namespace slam

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <cstdint>
+#include <opencv2/core/mat.hpp>
+#include <vector>
+
+#include "slam/extract/depth_noise.h"
+
+namespace slam {
+
+/// A depth image in the form that planes are fitted in; row-major, one entry a pixel.
+struct DepthGrid {
+  int width = 0, height = 0;
+  std::vector<float> x, y;  ///< ray (x, y, 1)
+  std::vector<float> q;     ///< inverse depth, 1/metres; 0 = no measurement
+  std::vector<float> g;     ///< 1 / sigma_q = z^2 / sigma(z); 0 = no measurement
+
+  int Index(int u, int v) const { return v * width + u; }
+};
+
+/// @param depth_m  planar z, metres; anything not finite, not positive or not below max_depth_m
+/// is
+///                 no measurement
+/// @param rays     PixelRays of the camera; same size
+/// @throws std::invalid_argument if the sizes differ.
+DepthGrid MakeDepthGrid(const cv::Mat1f& depth_m, const cv::Mat2d& rays,
+                        const DepthNoise& noise, double max_depth_m);
+
+}  // namespace slam

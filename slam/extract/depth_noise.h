@@ -1,0 +1,40 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace slam {
+
+/// Standard deviation of one depth measurement, metres, as a function of depth and incidence:
+///
+///   sigma(z)        = floor_m + quadratic_per_m (z - nearest_m)^2        for z > nearest_m
+///   sigma(z, theta) = sigma(z) + grazing_m / sqrt(z) theta^2 / (pi/2 - theta)^2
+///
+/// The defaults are those of the first Kinect. Source: Nguyen, Izadi, Lovell, 3DIMPVT 2012.
+struct DepthNoise {
+  double floor_m = 0.0012;          ///< at and below `nearest_m`; domain (0, inf)
+  double quadratic_per_m = 0.0019;  ///< growth with depth; domain [0, inf)
+  double nearest_m = 0.4;           ///< where growth begins; domain [0, inf)
+  double grazing_m = 0.0001;        ///< growth with incidence; domain [0, inf)
+  /// Pixels that share one independent error: the matcher of a structured-light sensor smooths
+  /// over a window, so n pixels average only like n / correlated_px. Domain [1, inf).
+  double correlated_px = 9.0;
+
+  double Sigma(double z_m) const {
+    const double beyond = std::max(z_m - nearest_m, 0.0);
+    return floor_m + quadratic_per_m * beyond * beyond;
+  }
+
+  /// sigma(z, theta) / sigma(z) for a surface whose normal makes `cosine` with the ray; >= 1.
+  double GrazingFactor(double z_m, double cosine) const {
+    const double theta = std::acos(std::clamp(cosine, kLeastCosine, 1.0));
+    const double ratio = theta / (0.5 * std::numbers::pi - theta);
+    return 1.0 + grazing_m / std::sqrt(z_m) * ratio * ratio / Sigma(z_m);
+  }
+
+ private:
+  static constexpr double kLeastCosine = 0.05;  // 87 deg: nothing is measured beyond
+};
+
+}  // namespace slam

@@ -1,0 +1,80 @@
+#pragma once
+
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+#include "slam/extract/depth_grid.h"
+#include "slam/extract/plane_sums.h"
+
+namespace slam {
+
+/// A plane that pixels may belong to.
+struct LabelPlane {
+  InverseDepthPlane plane;
+  double grazing = 1.0;  ///< GrazingFactor of its pixels
+};
+
+/// Which planes may claim pixels of which block of the image: the regions grow from here.
+class LabelSeeds {
+ public:
+  LabelSeeds(int width, int height, int block_px)
+      : block_px_(block_px),
+        cols_((width + block_px - 1) / block_px),
+        rows_((height + block_px - 1) / block_px),
+        labels_(static_cast<std::size_t>(cols_ * rows_)) {}
+
+  /// @returns whether it is new there.
+  bool Add(int block, int label);
+  int BlockAt(int u, int v) const { return (v / block_px_) * cols_ + u / block_px_; }
+  int block_px() const { return block_px_; }
+  int cols() const { return cols_; }
+  int rows() const { return rows_; }
+  const std::vector<int>& At(int block) const {
+    return labels_[static_cast<std::size_t>(block)];
+  }
+
+ private:
+  int block_px_, cols_, rows_;
+  std::vector<std::vector<int>> labels_;  ///< sorted
+};
+
+inline constexpr std::int16_t kNoLabel = -1;
+using LabelImage = std::vector<std::int16_t>;  ///< one entry a pixel, kNoLabel or an index
+
+/// Grows every plane from its seeds over the pixels that lie on it: a pixel goes to the nearest
+/// plane, in sigmas, among those that have reached its block, if it is nearer than max_sigmas.
+/// A plane that owns pixels in a block reaches the block's 8 neighbours. The outcome does not
+/// depend on the order of work.
+LabelImage AssignPixels(const DepthGrid& grid, const std::vector<LabelPlane>& planes,
+                        LabelSeeds seeds, double max_sigmas);
+
+/// Sums of the pixels of each label.
+std::vector<PlaneSums> SumLabels(const DepthGrid& grid, const LabelImage& labels, int count);
+
+/// Residual of a pixel from a plane in sigmas; positive: the pixel is nearer than the plane.
+inline float ResidualSigmas(const DepthGrid& grid, std::size_t i, const LabelPlane& p) {
+  const float predicted = static_cast<float>(p.plane.a) * grid.x[i] +
+                          static_cast<float>(p.plane.b) * grid.y[i] +
+                          static_cast<float>(p.plane.c);
+  return (grid.q[i] - predicted) * grid.g[i] / static_cast<float>(p.grazing);
+}
+
+/// A 4-connected set of pixels with one label.
+struct LabelComponent {
+  int label = 0;
+  int pixels = 0;
+  int first_pixel = 0;  ///< in row-major order
+  /// Measured neighbours across its boundary that lie behind or in front of the label's plane.
+  int behind = 0, in_front = 0;
+};
+
+/// Connected components of a label image, in order of their first pixel.
+struct LabelComponents {
+  std::vector<int> component;  ///< of each pixel; -1 where there is no label
+  std::vector<LabelComponent> list;
+};
+LabelComponents ConnectedComponents(const DepthGrid& grid, const LabelImage& labels,
+                                    const std::vector<LabelPlane>& planes);
+
+}  // namespace slam

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <opencv2/core/mat.hpp>
+#include <vector>
+
+#include "slam/extract/pixel_labels.h"
+#include "slam/model/frame_plane.h"
+
+namespace slam {
+
+struct EdgeConfig {
+  int step_px = 2;             ///< spacing along the contour; domain [1, 64]
+  int reach_px = 4;            ///< how far beyond the boundary is looked; domain [2, 16]
+  double min_step_sigmas = 3;  ///< a depth step is at least this; domain (0, inf)
+  /// Beyond a crease the residual grows with the distance from it; beyond an occluder's edge it
+  /// is all there at once. A crease's first residual is below this part of the last. Domain (0,
+  /// 1).
+  double max_crease_start = 0.6;
+};
+
+/// The outer boundary of a segment, ordered along each of its contours (clockwise in the image,
+/// the longest contour first), with what lies beyond each point (EdgeKind):
+///   nothing measured within reach           kMissing
+///   the image's border                      kBorder
+///   farther than the plane                  kSurface (a step down, or a convex crease)
+///   nearer, and suddenly                    kOccluded
+///   nearer, but growing from the boundary   kSurface (a concave crease)
+/// p_c is the measured point of the boundary pixel.
+///
+/// @param labels  index + 1 of the segment at each pixel
+/// @param value   the segment's value in it
+/// @param plane   its plane
+std::vector<EdgePoint> TraceEdges(const DepthGrid& grid, const cv::Mat1b& labels, int value,
+                                  const cv::Rect& bounds, const LabelPlane& plane,
+                                  const EdgeConfig& config);
+
+}  // namespace slam

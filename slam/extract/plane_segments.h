@@ -1,0 +1,63 @@
+#pragma once
+
+#include <vector>
+
+#include "slam/base/camera.h"
+#include "slam/extract/block_clusters.h"
+#include "slam/extract/depth_noise.h"
+#include "slam/extract/pixel_labels.h"
+#include "slam/model/frame.h"
+
+namespace slam {
+
+/// Settings of plane extraction. A length here is of the sensor or of the image, and every
+/// threshold on a surface is in units of the noise.
+struct PlaneExtractionConfig {
+  DepthNoise noise;
+  double max_depth_m = 10.0;  ///< beyond it a pixel is not measured; domain (0, inf)
+
+  int block_px = 8;       ///< first clustering; domain [4, 64]
+  int fine_block_px = 4;  ///< second clustering, of what the first left; domain [2, block_px]
+  ClusterConfig coarse;
+  ClusterConfig fine{.min_measured = 0.75, .max_block_error = 3.0, .min_blocks = 10};
+
+  double max_pixel_sigmas = 3.0;  ///< distance of a plane's pixel from it; domain (0, inf)
+  /// A block whose mean residual exceeds this many standard errors, over the model error, does
+  /// not lie on its plane and is offered to the second clustering; domain (0, inf).
+  double max_block_bias_sigmas = 3.0;
+  /// Two touching segments are one plane if, over the pixels of the smaller, the planes are
+  /// closer than this (root mean square, after its own uncertainty); domain (0, inf).
+  double max_merge_gap_sigmas = 1.0;
+  /// A part cut off from a segment stays with it if fewer than this part of the pixels around
+  /// it lie behind the plane: what cuts it is in front. Domain [0, 1].
+  double max_island_behind = 0.35;
+
+  /// A segment needs this many pixels and this precision: fewer or worse is noise. At 1 m, 300
+  /// pixels are 33 x 33 mm seen frontally.
+  int min_pixels = 300;              ///< domain [3, inf)
+  double max_angle_sigma_rad = 0.1;  ///< domain (0, inf)
+  int min_island_pixels = 40;        ///< a smaller cut-off part is dropped; domain [1, inf)
+
+  int point_grid_px = 6;  ///< spacing of FramePlane::points_c; domain [1, 64]
+  int edge_step_px = 2;   ///< spacing of edge points along the contour; domain [1, 64]
+};
+
+/// (B) of the paper for planes: segments the depth image of a frame into planes.
+///
+/// Blocks are clustered (ClusterBlocks), planes grow over pixels (AssignPixels), what is left
+/// or does not fit is clustered again with finer blocks, touching parts of one plane are
+/// merged, cut-off parts are reunited or separated, and each segment is fitted to all its
+/// pixels. Where all that stands: docs of each function.
+///
+/// Reads frame.depth_m; fills frame.planes (largest first, at most 254, without what planes/
+/// adds) and frame.plane_labels (index + 1, 0 = none). Never labels an unmeasured pixel.
+///
+/// @param rays  PixelRays(camera), computed once a camera
+/// @throws std::invalid_argument if depth and rays differ in size.
+///
+/// Source: PEAC (Feng, Taguchi, Kamat, ICRA 2014), with changes for thin steps
+/// (block_clusters.h).
+void ExtractPlanes(Frame& frame, const Camera& camera, const cv::Mat2d& rays,
+                   const PlaneExtractionConfig& config);
+
+}  // namespace slam
