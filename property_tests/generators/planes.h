@@ -11,8 +11,8 @@ inline Plane AnyPlane(double half_m) {
   return {n, AnyInt(0, 9) == 0 ? AnyReal(-1e-9, 1e-9) : AnyReal(-half_m, half_m)};
 }
 
-/// A plane as a camera measures it: facing the camera, in front of it, and a point of it that the
-/// camera sees.
+/// A plane as a camera measures it: facing the camera, in front of it, and a point of it that
+/// the camera sees.
 struct SeenPlane {
   Plane pi_c;
   Eigen::Vector3d point_c;

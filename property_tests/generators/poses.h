@@ -10,8 +10,8 @@
 
 namespace slam {
 
-/// Draws inside a property. Reals are built from integers at full size, because rapidcheck's own
-/// doubles are useless for geometry and its ranges shrink with the size parameter.
+/// Draws inside a property. Reals are built from integers at full size, because rapidcheck's
+/// own doubles are useless for geometry and its ranges shrink with the size parameter.
 inline double AnyReal(double low, double high) {
   constexpr std::int64_t kSteps = std::int64_t{1} << 52;
   const std::int64_t k = *rc::gen::resize(100, rc::gen::inRange<std::int64_t>(0, kSteps + 1));

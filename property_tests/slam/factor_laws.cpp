@@ -47,8 +47,7 @@ RC_GTEST_PROP(PointFactorEq14, VanishesAtTruthAndHasItsJacobian, ()) {
   c.right_u_px = AnyInt(0, 1) ? std::max(0.0, u.x() - kBf / z) : -1.0;
   const Linearised<3> truth = PointFactor(c, T_cw, camera, kBf);
   if (c.right_u_px != 0.0) RC_ASSERT(truth.r.norm() < 1e-9);
-  CheckJacobian<3>(Nearby(T_cw),
-                   [&](const Pose& T) { return PointFactor(c, T, camera, kBf); });
+  CheckJacobian<3>(Nearby(T_cw), [&](const Pose& T) { return PointFactor(c, T, camera, kBf); });
 }
 
 RC_GTEST_PROP(PlaneFactorEq16, VanishesAtTruthAndHasItsJacobianAtEveryOrientation, ()) {
@@ -116,7 +115,8 @@ RC_GTEST_PROP(PointPlaneFactorEq18, VanishesAtTruthAndHasItsJacobian, ()) {
   const SeenPlane seen = AnySeenPlane();
   const PointPlaneConstraint c{Inverse(T_cw) * seen.point_c, seen.pi_c, 0.01};
   RC_ASSERT(std::abs(PointPlaneFactor(c, T_cw).r[0]) < 1e-12 * (1 + T_cw.t.norm() * 10));
-  CheckJacobian<1>(AnyMotion(1, 1) * T_cw, [&](const Pose& T) { return PointPlaneFactor(c, T); });
+  CheckJacobian<1>(AnyMotion(1, 1) * T_cw,
+                   [&](const Pose& T) { return PointPlaneFactor(c, T); });
 }
 
 RC_GTEST_PROP(ParallelFactorEq19, VanishesAtTruthAndHasItsJacobian, ()) {

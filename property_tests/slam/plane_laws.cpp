@@ -48,7 +48,8 @@ RC_GTEST_PROP(PlaneTangent, BasisIsOrthonormalAndRightHanded, ()) {
 
 RC_GTEST_PROP(PlaneResidualEq16, TurnIsAsLongAsTheAngleBetweenTheNormalsEverywhere, ()) {
   const Eigen::Vector3d n_1 = AnyUnit();
-  const Eigen::Vector3d axis = (TangentBasis(n_1) * Eigen::Vector2d(1, AnyReal(-1, 1))).normalized();
+  const Eigen::Vector3d axis =
+      (TangentBasis(n_1) * Eigen::Vector2d(1, AnyReal(-1, 1))).normalized();
   const double angle = AnyInt(0, 1) ? std::pow(10.0, AnyReal(-9, 0)) : AnyReal(0, 3.1);
   const Eigen::Vector3d n_2 = (ExpSo3(angle * axis) * n_1).normalized();
   const NormalDifference turn = TurnBetween(n_1, n_2);

@@ -20,7 +20,8 @@ RC_GTEST_PROP(PoseGroup, ComposesWithItsInverseToTheIdentity, ()) {
 
 RC_GTEST_PROP(PoseGroup, IsAssociative, ()) {
   const Pose A = AnyPose(5), B = AnyPose(5), C = AnyPose(5);
-  RC_ASSERT(Difference((A * B) * C, A * (B * C)) < 1e-13 * (1 + A.t.norm() + B.t.norm() + C.t.norm()));
+  RC_ASSERT(Difference((A * B) * C, A * (B * C)) <
+            1e-13 * (1 + A.t.norm() + B.t.norm() + C.t.norm()));
 }
 
 RC_GTEST_PROP(PoseGroup, StaysARotationOverAThousandProductsWhenNormalised, ()) {
@@ -28,7 +29,8 @@ RC_GTEST_PROP(PoseGroup, StaysARotationOverAThousandProductsWhenNormalised, ()) 
   Pose T;
   for (int i = 0; i < 1000; ++i) T = step * T;
   T = Normalised(T);
-  RC_ASSERT((T.R * T.R.transpose() - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff() < 1e-13);
+  RC_ASSERT((T.R * T.R.transpose() - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff() <
+            1e-13);
   RC_ASSERT(std::abs(T.R.determinant() - 1) < 1e-13);
 }
 
@@ -58,7 +60,8 @@ RC_GTEST_PROP(PoseExponential, PointJacobianAgreesWithDifferences, ()) {
   const Eigen::Vector3d x = AnyPoint(5);
   Eigen::Matrix<double, 3, 6> J;
   J << Eigen::Matrix3d::Identity(), -Hat(T * x);
-  const auto numeric = NumericJacobian<3>(T, [&](const Pose& M) { return Eigen::Vector3d(M * x); });
+  const auto numeric =
+      NumericJacobian<3>(T, [&](const Pose& M) { return Eigen::Vector3d(M * x); });
   RC_ASSERT(JacobianError(J, numeric) < 1e-8);
   RC_ASSERT(JacobianError(-J, numeric) > 1e-3);
 }

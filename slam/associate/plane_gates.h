@@ -39,9 +39,9 @@ struct GateEvidence {
 /// @param T_cw           world to camera
 /// @returns the evidence, or the first gate that refused the pair
 ///
-/// Source: PAS-SLAM eq6 (corrected: signed cosine, so that the back of a board is not its front),
-/// eq7 (corrected: measured at the patch, so that the result does not depend on the world origin),
-/// eq8 (corrected: absolute distance). Cost: O(edge_points_c.size()).
+/// Source: PAS-SLAM eq6 (corrected: signed cosine, so that the back of a board is not its
+/// front), eq7 (corrected: measured at the patch, so that the result does not depend on the
+/// world origin), eq8 (corrected: absolute distance). Cost: O(edge_points_c.size()).
 Result<GateEvidence, GateRefusal> TestPlaneGates(const Plane& pi_c,
                                                  const Eigen::Vector3d& centroid_c,
                                                  std::span<const Eigen::Vector3d> edge_points_c,

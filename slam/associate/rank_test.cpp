@@ -8,13 +8,13 @@
 namespace slam {
 namespace {
 
-constexpr std::size_t kNormalFrom = 8;    // both samples at least: the normal form holds
-constexpr std::size_t kExactLargest = 60; // larger partners of a small sample are thinned
+constexpr std::size_t kNormalFrom = 8;     // both samples at least: the normal form holds
+constexpr std::size_t kExactLargest = 60;  // larger partners of a small sample are thinned
 
 struct Pooled {
   std::vector<std::int64_t> twice_ranks;  ///< 2 x mean rank of each value, ascending values
   std::vector<bool> from_c;
-  double tie_sum = 0.0;                   ///< sum of tau^3 - tau
+  double tie_sum = 0.0;  ///< sum of tau^3 - tau
 };
 
 Pooled Pool(std::span<const double> sample_c, std::span<const double> sample_w) {
@@ -38,9 +38,10 @@ Pooled Pool(std::span<const double> sample_c, std::span<const double> sample_w) 
   return pooled;
 }
 
-/// Share of the ways to choose `size` of the ranks whose sum is at least `far` from the mean, all
-/// counted in half ranks. Dynamic programme over (chosen, sum).
-double ExactP(const std::vector<std::int64_t>& twice_ranks, std::size_t size, std::int64_t sum) {
+/// Share of the ways to choose `size` of the ranks whose sum is at least `far` from the mean,
+/// all counted in half ranks. Dynamic programme over (chosen, sum).
+double ExactP(const std::vector<std::int64_t>& twice_ranks, std::size_t size,
+              std::int64_t sum) {
   const std::int64_t n = static_cast<std::int64_t>(twice_ranks.size());
   const std::int64_t mean = static_cast<std::int64_t>(size) * (n + 1);
   const std::int64_t far = std::abs(sum - mean);
@@ -52,7 +53,8 @@ double ExactP(const std::vector<std::int64_t>& twice_ranks, std::size_t size, st
   for (const std::int64_t rank : twice_ranks) {
     const auto r = static_cast<std::size_t>(rank);
     for (std::size_t k = size; k-- > 0;) {
-      for (std::size_t s = width; s-- > r;) ways[(k + 1) * width + s] += ways[k * width + s - r];
+      for (std::size_t s = width; s-- > r;)
+        ways[(k + 1) * width + s] += ways[k * width + s - r];
     }
   }
   double all = 0.0, extreme = 0.0;
@@ -65,11 +67,11 @@ double ExactP(const std::vector<std::int64_t>& twice_ranks, std::size_t size, st
 }
 
 double NormalP(double W, double I, double J, double tie_sum) {
-  const double mean = I * J / 2;                                                        // eq10
+  const double mean = I * J / 2;  // eq10
   const double N = I + J;
-  const double variance = I * J / 12 * (N + 1 - tie_sum / (N * (N - 1)));               // eq11
+  const double variance = I * J / 12 * (N + 1 - tie_sum / (N * (N - 1)));  // eq11
   if (!(variance > 0)) return 1.0;
-  const double z = (W - mean + 0.5) / std::sqrt(variance);                              // eq12
+  const double z = (W - mean + 0.5) / std::sqrt(variance);  // eq12
   return std::min(1.0, std::erfc(-z / std::sqrt(2.0)));
 }
 
@@ -80,7 +82,8 @@ std::vector<double> Thinned(std::span<const double> sample, std::size_t size) {
   std::sort(sorted.begin(), sorted.end());
   std::vector<double> out;
   out.reserve(size);
-  for (std::size_t i = 0; i < size; ++i) out.push_back(sorted[(2 * i + 1) * sorted.size() / (2 * size)]);
+  for (std::size_t i = 0; i < size; ++i)
+    out.push_back(sorted[(2 * i + 1) * sorted.size() / (2 * size)]);
   return out;
 }
 
@@ -105,7 +108,8 @@ RankTest TestRanks(std::span<const double> sample_c, std::span<const double> sam
   for (std::size_t i = 0; i < pooled.twice_ranks.size(); ++i) {
     (pooled.from_c[i] ? twice_sum_c : twice_sum_w) += pooled.twice_ranks[i];
   }
-  const double I = static_cast<double>(sample_c.size()), J = static_cast<double>(sample_w.size());
+  const double I = static_cast<double>(sample_c.size()),
+               J = static_cast<double>(sample_w.size());
   out.U_c = 0.5 * static_cast<double>(twice_sum_c) - I * (I + 1) / 2;  // eq9
   out.U_w = I * J - out.U_c;
   if (out.exact) {
@@ -126,8 +130,10 @@ Result<PlaneRankTest, RankRefusal> TestPlaneRanks(std::span<const Eigen::Vector3
   PlaneRankTest out;
   std::vector<double> along_c(points_c.size()), along_w(points_w.size());
   for (int axis = 0; axis < 3; ++axis) {
-    for (std::size_t i = 0; i < points_c.size(); ++i) along_c[i] = axes.col(axis).dot(points_c[i]);
-    for (std::size_t i = 0; i < points_w.size(); ++i) along_w[i] = axes.col(axis).dot(points_w[i]);
+    for (std::size_t i = 0; i < points_c.size(); ++i)
+      along_c[i] = axes.col(axis).dot(points_c[i]);
+    for (std::size_t i = 0; i < points_w.size(); ++i)
+      along_w[i] = axes.col(axis).dot(points_w[i]);
     const RankTest test = TestRanks(along_c, along_w);
     out.p = std::min(out.p, 3 * test.p);
     out.exact = test.exact;

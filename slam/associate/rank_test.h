@@ -23,25 +23,25 @@ struct RankTest {
 ///   D(W) = I J / 12 * ( I + J + 1 - sum (tau_k^3 - tau_k) / ((I + J)(I + J - 1)) )  eq11
 ///   z = ( W - E(W) + 1/2 ) / sqrt(D(W)),  p = 2 Phi(z), at most 1                 eq12
 ///
-/// Ties share their mean rank. When either sample has fewer than 8 values the p-value is exact: the
-/// share of all divisions of the pooled values that are at least as far from E(W); ties included.
-/// Larger samples use the normal form with continuity correction.
+/// Ties share their mean rank. When either sample has fewer than 8 values the p-value is exact:
+/// the share of all divisions of the pooled values that are at least as far from E(W); ties
+/// included. Larger samples use the normal form with continuity correction.
 /// @returns p = 1 when a sample is empty or all values are equal.
 /// @throws std::invalid_argument if a value is NaN.
-/// Source: PAS-SLAM eq9, eq10 (corrected: printed I(I + J + 1)/2 is the mean of the rank sum, not
-/// of U), eq11, eq12 (corrected: continuity and exact small samples).
-/// Cost: O(n log n); exact: O(I J (I + J) min(I, J)), with the larger sample thinned to 60.
+/// Source: PAS-SLAM eq9, eq10 (corrected: printed I(I + J + 1)/2 is the mean of the rank sum,
+/// not of U), eq11, eq12 (corrected: continuity and exact small samples). Cost: O(n log n);
+/// exact: O(I J (I + J) min(I, J)), with the larger sample thinned to 60.
 RankTest TestRanks(std::span<const double> sample_c, std::span<const double> sample_w);
 
 /// What three tests along a plane's own axes say together.
 struct PlaneRankTest {
-  double p = 1.0;    ///< smallest of the three, Bonferroni-corrected: min(1, 3 p_min)
+  double p = 1.0;  ///< smallest of the three, Bonferroni-corrected: min(1, 3 p_min)
   bool exact = false;
 };
 enum class RankRefusal { kTooFewPoints };
 
-/// Tests two clouds along the two in-plane principal axes and the normal of a plane: not along the
-/// world's axes, so that the outcome does not depend on how the world is turned.
+/// Tests two clouds along the two in-plane principal axes and the normal of a plane: not along
+/// the world's axes, so that the outcome does not depend on how the world is turned.
 /// @param axes  unit columns: two in the plane, then the normal
 /// @param min_points  refuses below: with three each no p-value can be under 0.1
 Result<PlaneRankTest, RankRefusal> TestPlaneRanks(std::span<const Eigen::Vector3d> points_c,

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "slam/base/plane.h"
+#include "slam/model/plane_estimate.h"
 
 namespace slam {
 
@@ -17,12 +18,14 @@ struct MapPlane {
   int id = 0;
   Plane pi_w;  ///< keeps the orientation of its first observation
   Eigen::Vector3d centroid_w = Eigen::Vector3d::Zero();
+  PlaneEstimate estimate;  ///< where pi_w comes from, and how well it is known; may be empty
   std::map<std::string, double> class_belief;  ///< summed evidence; "" stands for class -1
   std::string class_name;                      ///< the class believed in; empty is class -1
 
   std::vector<Eigen::Vector3d> points_w;       ///< thinned cloud of all observations
   std::vector<Eigen::Vector3d> edge_points_w;  ///< thinned true boundary
   std::vector<Eigen::Vector3d> vertices_w;     ///< corners in order; 4 when known, else fewer
+  std::vector<double> vertex_weights;          ///< parallel to vertices_w: evidence for each
   std::vector<Eigen::Vector3d> hull_w;         ///< convex outline of the cloud, in order
   double area_m2 = 0.0;                        ///< of the hull
 

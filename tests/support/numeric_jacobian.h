@@ -6,8 +6,8 @@
 
 namespace slam {
 
-/// Five-point central difference of r(Exp(xi) T) at xi = 0: error O(h^4) + eps / h, which is about
-/// 1e-11 relative for smooth residuals of unit size at this step.
+/// Five-point central difference of r(Exp(xi) T) at xi = 0: error O(h^4) + eps / h, which is
+/// about 1e-11 relative for smooth residuals of unit size at this step.
 template <int kRows, typename Residual>
 Eigen::Matrix<double, kRows, 6> NumericJacobian(const Pose& T_cw, const Residual& residual) {
   constexpr double h = 1e-3;

@@ -14,8 +14,9 @@ MATCHER_P3(PoseNear, expected, tolerance_rad, tolerance_m, "") {
   const double distance_m = (expected.t - actual.t).norm();
   *result_listener << "rotated by " << angle_rad << " rad (at most " << tolerance_rad
                    << "), moved by " << distance_m << " m (at most " << tolerance_m
-                   << ")\nactual R\n" << actual.R << "\nt " << actual.t.transpose()
-                   << "\nexpected R\n" << expected.R << "\nt " << expected.t.transpose();
+                   << ")\nactual R\n"
+                   << actual.R << "\nt " << actual.t.transpose() << "\nexpected R\n"
+                   << expected.R << "\nt " << expected.t.transpose();
   return angle_rad <= tolerance_rad && distance_m <= tolerance_m;
 }
 
@@ -25,9 +26,9 @@ MATCHER_P3(PlaneNear, expected, tolerance_rad, tolerance_m, "") {
   const double angle_rad = Angle(expected.n, actual.n);
   const double offset_m = std::abs(expected.d - actual.d);
   *result_listener << "turned by " << angle_rad << " rad (at most " << tolerance_rad
-                   << "), offset by " << offset_m << " m (at most " << tolerance_m << ")\nactual n "
-                   << actual.n.transpose() << " d " << actual.d << "\nexpected n "
-                   << expected.n.transpose() << " d " << expected.d;
+                   << "), offset by " << offset_m << " m (at most " << tolerance_m
+                   << ")\nactual n " << actual.n.transpose() << " d " << actual.d
+                   << "\nexpected n " << expected.n.transpose() << " d " << expected.d;
   return angle_rad <= tolerance_rad && offset_m <= tolerance_m;
 }
 
