@@ -1,0 +1,56 @@
+#pragma once
+
+#include <memory>
+#include <opencv2/core/mat.hpp>
+
+#include "sim/camera/camera.h"
+#include "sim/scene/pose.h"
+#include "sim/scene/scene.h"
+
+namespace sim {
+
+/// One view of the scene, all height x width, before any sensor.
+struct Rendering {
+  cv::Mat3f radiance;   ///< linear RGB, about [0, 1]; edges averaged over four rays
+  cv::Mat1d depth_m;    ///< exact planar z of the pixel centre's ray; 0 where nothing is hit
+  cv::Mat1w plane_id;   ///< ScenePlane::id at the pixel centre; 0 = none
+  cv::Mat1w object_id;  ///< Object::id at the pixel centre; 0 = none
+  cv::Mat1f incidence_cos;  ///< |cos| between the ray and the surface normal; 0 where no hit
+  cv::Mat1b
+      projector_lit;  ///< 255 where the depth sensor's projector reaches; empty unless asked
+};
+
+struct RenderOptions {
+  bool colour = true;               ///< fill radiance
+  double projector_offset_m = 0.0;  ///< along camera +x; 0 leaves projector_lit empty
+};
+
+/// Renders views of one scene. Const and thread-safe; a view depends on its pose alone.
+class FrameRenderer {
+ public:
+  /// @throws std::invalid_argument when ids do not fit in 16 bits.
+  FrameRenderer(const Scene& scene, const Camera& camera);
+  ~FrameRenderer();
+  FrameRenderer(FrameRenderer&&) noexcept;
+
+  /// One primary ray through each pixel centre (integer coordinates). Its depth is recomputed
+  /// in double from the plane it hits, so within a plane 1/z is affine in the pixel.
+  Rendering Render(const Pose& T_wc, const RenderOptions& options = {}) const;
+
+  /// Pixels whose centre ray meets the object when nothing else is there, inside the image:
+  /// what the object would show unoccluded. Its visible pixels count without a ray.
+  /// @param object_index  index into scene.objects
+  /// @param where         pixels to look at; must hold the whole silhouette in the image
+  /// @param object_id     of the same view
+  int UnoccludedPixels(std::size_t object_index, const Pose& T_wc, const cv::Rect& where,
+                       const cv::Mat1w& object_id) const;
+
+  const Camera& camera() const;
+  const Scene& scene() const;
+
+ private:
+  struct World;
+  std::unique_ptr<const World> world_;
+};
+
+}  // namespace sim

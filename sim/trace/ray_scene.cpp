@@ -1,0 +1,139 @@
+#include "sim/trace/ray_scene.h"
+
+#include <embree3/rtcore.h>
+
+#include <stdexcept>
+
+namespace sim {
+namespace {
+
+/// One device a process: it holds no state that a query could change.
+RTCDevice SharedDevice() {
+  struct Device {
+    RTCDevice handle;
+    Device() {
+      __builtin_cpu_init();
+      const char* isa = __builtin_cpu_supports("avx2") ? "isa=avx2" : "isa=sse4.2";
+      handle = rtcNewDevice((std::string(isa) + ",threads=1,set_affinity=0").c_str());
+    }
+    ~Device() {
+      if (handle != nullptr) rtcReleaseDevice(handle);
+    }
+  };
+  static const Device device;
+  if (device.handle == nullptr) {
+    throw std::runtime_error("the ray tracer (Embree) does not start; it needs SSE4.2 or AVX2");
+  }
+  return device.handle;
+}
+
+void CopyRays(const RayPacket& rays, RTCRay8& out, std::array<int, 8>& valid) {
+  for (std::size_t i = 0; i < RayPacket::kLanes; ++i) {
+    out.org_x[i] = rays.x[i];
+    out.org_y[i] = rays.y[i];
+    out.org_z[i] = rays.z[i];
+    out.dir_x[i] = rays.dx[i];
+    out.dir_y[i] = rays.dy[i];
+    out.dir_z[i] = rays.dz[i];
+    out.tnear[i] = rays.near[i];
+    out.tfar[i] = rays.far[i];
+    out.time[i] = 0.0F;
+    out.mask[i] = ~0U;
+    out.id[i] = static_cast<unsigned>(i);
+    out.flags[i] = 0;
+    valid[i] = rays.far[i] > rays.near[i] ? -1 : 0;
+  }
+}
+
+}  // namespace
+
+struct RayScene::Embree {
+  RTCScene scene = nullptr;
+  ~Embree() {
+    if (scene != nullptr) rtcReleaseScene(scene);
+  }
+};
+
+void RayPacket::Set(int lane, const Eigen::Vector3d& origin, const Eigen::Vector3d& direction,
+                    float from, float to) {
+  const auto i = static_cast<std::size_t>(lane);
+  x[i] = static_cast<float>(origin.x());
+  y[i] = static_cast<float>(origin.y());
+  z[i] = static_cast<float>(origin.z());
+  dx[i] = static_cast<float>(direction.x());
+  dy[i] = static_cast<float>(direction.y());
+  dz[i] = static_cast<float>(direction.z());
+  near[i] = from;
+  far[i] = to;
+}
+
+RayScene::RayScene(std::span<const Triangle> triangles) : embree_(std::make_unique<Embree>()) {
+  const RTCDevice device = SharedDevice();
+  embree_->scene = rtcNewScene(device);
+  rtcSetSceneFlags(embree_->scene, RTC_SCENE_FLAG_ROBUST);
+  rtcSetSceneBuildQuality(embree_->scene, RTC_BUILD_QUALITY_HIGH);
+  if (!triangles.empty()) {
+    const RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
+    auto* corners = static_cast<float*>(
+        rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
+                                3 * sizeof(float), 3 * triangles.size()));
+    auto* indices = static_cast<unsigned*>(
+        rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
+                                3 * sizeof(unsigned), triangles.size()));
+    if (corners == nullptr || indices == nullptr) throw std::bad_alloc();
+    unsigned next = 0;
+    for (const Triangle& triangle : triangles) {
+      for (const Eigen::Vector3d& corner : triangle.corners_w) {
+        for (int axis = 0; axis < 3; ++axis) *corners++ = static_cast<float>(corner[axis]);
+        *indices++ = next++;
+      }
+    }
+    rtcCommitGeometry(geometry);
+    rtcAttachGeometry(embree_->scene, geometry);
+    rtcReleaseGeometry(geometry);
+  }
+  rtcCommitScene(embree_->scene);
+  if (rtcGetDeviceError(device) != RTC_ERROR_NONE) {
+    throw std::runtime_error("the ray tracer (Embree) cannot build the scene");
+  }
+}
+
+RayScene::~RayScene() = default;
+RayScene::RayScene(RayScene&&) noexcept = default;
+RayScene& RayScene::operator=(RayScene&&) noexcept = default;
+
+PacketHits RayScene::Nearest(const RayPacket& rays) const {
+  RTCRayHit8 query;
+  alignas(32) std::array<int, 8> valid;
+  CopyRays(rays, query.ray, valid);
+  for (auto& id : query.hit.geomID) id = RTC_INVALID_GEOMETRY_ID;
+  RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+  rtcIntersect8(valid.data(), embree_->scene, &context, &query);
+  PacketHits hits;
+  for (std::size_t i = 0; i < RayPacket::kLanes; ++i) {
+    const bool hit = valid[i] != 0 && query.hit.geomID[i] != RTC_INVALID_GEOMETRY_ID;
+    hits.triangle[i] = hit ? static_cast<int>(query.hit.primID[i]) : PacketHits::kNothing;
+    hits.b1[i] = query.hit.u[i];
+    hits.b2[i] = query.hit.v[i];
+  }
+  return hits;
+}
+
+std::array<bool, RayPacket::kLanes> RayScene::Blocked(const RayPacket& rays) const {
+  RTCRay8 query;
+  alignas(32) std::array<int, 8> valid;
+  CopyRays(rays, query, valid);
+  RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+  rtcOccluded8(valid.data(), embree_->scene, &context, &query);
+  std::array<bool, RayPacket::kLanes> blocked{};
+  for (std::size_t i = 0; i < RayPacket::kLanes; ++i) {
+    blocked[i] = valid[i] != 0 && query.tfar[i] < 0.0F;  // Embree writes -inf
+  }
+  return blocked;
+}
+
+}  // namespace sim

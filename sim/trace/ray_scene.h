@@ -1,0 +1,56 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <limits>
+#include <memory>
+#include <span>
+
+#include "sim/scene/mesh.h"
+
+namespace sim {
+
+/// Eight rays from points to directions, world frame. Lane i is cast when far[i] > near[i].
+struct RayPacket {
+  static constexpr int kLanes = 8;
+  alignas(32) std::array<float, kLanes> x{}, y{}, z{};     ///< origins, metres
+  alignas(32) std::array<float, kLanes> dx{}, dy{}, dz{};  ///< directions, any length
+  alignas(32) std::array<float, kLanes> near{};            ///< in units of the direction
+  alignas(32) std::array<float, kLanes> far{};
+
+  void Set(int lane, const Eigen::Vector3d& origin, const Eigen::Vector3d& direction,
+           float from, float to = std::numeric_limits<float>::infinity());
+  void Disable(int lane) { far[static_cast<std::size_t>(lane)] = -1.0F; }
+};
+
+/// What the lanes hit: triangle index, or kNothing; (b1, b2) barycentric weights of corners
+/// 1, 2.
+struct PacketHits {
+  static constexpr int kNothing = -1;
+  alignas(32) std::array<int, RayPacket::kLanes> triangle{};
+  alignas(32) std::array<float, RayPacket::kLanes> b1{}, b2{};
+};
+
+/// Triangles to cast rays at (Embree, behind a wall). Queries are const and safe to call from
+/// many threads; answers do not depend on threads. The instruction set is pinned to AVX2
+/// (SSE4.2 where there is none) and the traversal is the robust one, so ids agree between
+/// machines.
+class RayScene {
+ public:
+  /// @throws std::runtime_error when the ray tracer cannot start.
+  explicit RayScene(std::span<const Triangle> triangles);
+  ~RayScene();
+  RayScene(RayScene&&) noexcept;
+  RayScene& operator=(RayScene&&) noexcept;
+
+  /// Nearest hit of each lane.
+  PacketHits Nearest(const RayPacket& rays) const;
+  /// True where anything lies between near and far.
+  std::array<bool, RayPacket::kLanes> Blocked(const RayPacket& rays) const;
+
+ private:
+  struct Embree;
+  std::unique_ptr<Embree> embree_;
+};
+
+}  // namespace sim

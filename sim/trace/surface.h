@@ -1,0 +1,56 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <memory>
+#include <vector>
+
+#include "sim/camera/camera.h"
+#include "sim/scene/mesh.h"
+#include "sim/scene/pose.h"
+#include "sim/trace/texture.h"
+
+namespace sim {
+
+/// A triangle as one view needs it: everything about it that is affine in the ray (x, y, 1).
+struct FacetInView {
+  Eigen::Vector3d inverse_depth;             ///< 1/z = inverse_depth . ray
+  Eigen::Matrix<float, 2, 3> uv_over_depth;  ///< uv = z * (uv_over_depth ray), metres
+  Eigen::Vector3d n_c;                       ///< unit normal, camera frame
+};
+
+/// The triangles of a scene with the exact planes they lie in and the prints they carry.
+class SurfaceTable {
+ public:
+  /// `texel_m`: finest detail to bake, metres; scene and mesh must belong together.
+  SurfaceTable(const Scene& scene, const SceneMesh& mesh, double texel_m);
+  ~SurfaceTable();
+
+  /// All triangles, in the mesh's order, seen from T_wc.
+  std::vector<FacetInView> InView(const Pose& T_wc) const;
+
+  /// Unit normal of the triangle's plane, world frame.
+  const Eigen::Vector3d& Normal(int triangle) const { return At(triangle).n_w; }
+  /// Shading normal at barycentric (b1, b2); the plane's own where the triangle is flat.
+  Eigen::Vector3d ShadingNormal(int triangle, float b1, float b2) const;
+  /// The print of the triangle, baked when it is first seen. Safe to call from many threads.
+  const Texture& Print(int triangle) const;
+
+ private:
+  struct Facet {
+    Eigen::Vector3d n_w;
+    double d = 0;                       ///< n_w . x + d = 0
+    Eigen::Matrix<double, 2, 3> uv_of;  ///< uv = uv_of x_w + uv_at
+    Eigen::Vector2d uv_at;
+    std::array<Eigen::Vector3d, 3> normals_w;
+    bool flat = true;
+    int material = 0;
+  };
+  struct Baked;
+  const Facet& At(int triangle) const { return facets_[static_cast<std::size_t>(triangle)]; }
+
+  std::vector<Facet> facets_;
+  std::vector<std::unique_ptr<Baked>> baked_;
+  double texel_m_;
+};
+
+}  // namespace sim

@@ -1,0 +1,92 @@
+#include "sim/truth/frame_truth.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+namespace sim {
+namespace {
+
+struct Extent {
+  int pixels = 0;
+  int u0 = 1 << 30, v0 = 1 << 30, u1 = -1, v1 = -1;
+  void Include(int u, int v) {
+    ++pixels;
+    u0 = std::min(u0, u);
+    v0 = std::min(v0, v);
+    u1 = std::max(u1, u);
+    v1 = std::max(v1, v);
+  }
+};
+
+std::map<int, Extent> Extents(const cv::Mat1w& ids) {
+  std::vector<Extent> by_id;
+  for (int v = 0; v < ids.rows; ++v) {
+    for (int u = 0; u < ids.cols; ++u) {
+      const std::size_t id = ids(v, u);
+      if (id >= by_id.size()) by_id.resize(id + 1);
+      by_id[id].Include(u, v);
+    }
+  }
+  std::map<int, Extent> seen;
+  for (std::size_t id = 1; id < by_id.size(); ++id) {
+    if (by_id[id].pixels > 0) seen.emplace(static_cast<int>(id), by_id[id]);
+  }
+  return seen;
+}
+
+/// Pixels whose centre may lie in the box, cut at the image.
+cv::Rect PixelsOf(const PixelBox& box, const Camera& camera) {
+  const auto inside = [](double x, int size) {
+    return static_cast<int>(std::clamp(x, -1.0, static_cast<double>(size)));
+  };
+  const int u0 = inside(std::floor(box.x0), camera.width);
+  const int v0 = inside(std::floor(box.y0), camera.height);
+  const int u1 = inside(std::ceil(box.x1), camera.width);
+  const int v1 = inside(std::ceil(box.y1), camera.height);
+  return cv::Rect(u0, v0, u1 - u0 + 1, v1 - v0 + 1) &
+         cv::Rect(0, 0, camera.width, camera.height);
+}
+
+}  // namespace
+
+TruthMaker::TruthMaker(const FrameRenderer& renderer) : renderer_(renderer) {
+  const SceneMesh mesh = BuildMesh(renderer.scene());
+  for (const Object& object : renderer.scene().objects) {
+    triangles_.emplace_back();
+    std::copy_if(mesh.triangles.begin(), mesh.triangles.end(),
+                 std::back_inserter(triangles_.back()),
+                 [&](const Triangle& triangle) { return triangle.object == object.id; });
+  }
+}
+
+FrameTruth TruthMaker::Describe(const Rendering& rendering, const Pose& T_wc) const {
+  FrameTruth truth;
+  const std::map<int, Extent> seen = Extents(rendering.object_id);
+  const std::vector<Object>& objects = renderer_.scene().objects;
+  for (std::size_t i = 0; i < objects.size(); ++i) {
+    const auto found = seen.find(objects[i].id);
+    if (found == seen.end()) continue;
+    const Extent& extent = found->second;
+    ObjectInFrame object;
+    object.id = objects[i].id;
+    object.pixels = extent.pixels;
+    object.visible_box = {static_cast<double>(extent.u0), static_cast<double>(extent.v0),
+                          static_cast<double>(extent.u1), static_cast<double>(extent.v1)};
+    object.amodal_box =
+        ProjectedBox(triangles_[i], T_wc, renderer_.camera()).value_or(object.visible_box);
+    object.unoccluded_pixels = renderer_.UnoccludedPixels(
+        i, T_wc, PixelsOf(object.amodal_box, renderer_.camera()), rendering.object_id);
+    object.visible_fraction =
+        static_cast<double>(object.pixels) / std::max(object.unoccluded_pixels, object.pixels);
+    truth.objects.push_back(object);
+  }
+  std::sort(truth.objects.begin(), truth.objects.end(),
+            [](const auto& a, const auto& b) { return a.id < b.id; });
+  for (const auto& [id, extent] : Extents(rendering.plane_id)) {
+    truth.planes.push_back({id, extent.pixels});
+  }
+  return truth;
+}
+
+}  // namespace sim

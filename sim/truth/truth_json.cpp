@@ -1,0 +1,86 @@
+#include "sim/truth/truth_json.h"
+
+#include <nlohmann/json.hpp>
+
+namespace sim {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json Vector(const Eigen::Vector3d& x) { return {x.x(), x.y(), x.z()}; }
+Json Box(const PixelBox& box) { return {box.x0, box.y0, box.x1, box.y1}; }
+
+const char* RoleName(Role role) {
+  switch (role) {
+    case Role::kStructure:
+      return "structure";
+    case Role::kRegular:
+      return "regular";
+    case Role::kUnstructured:
+      return "unstructured";
+    case Role::kOther:
+      break;
+  }
+  return "other";
+}
+
+Json ObjectJson(const Object& object) {
+  const Eigen::Quaterniond& q = object.q_wo;
+  Json json;
+  json["id"] = object.id;
+  json["name"] = object.name;
+  json["class"] = object.class_name;
+  json["role"] = RoleName(object.role);
+  json["regular"] = object.role == Role::kRegular;
+  json["center"] = Vector(object.center_w);
+  json["size"] = Vector(object.size);
+  json["q_xyzw"] = {q.x(), q.y(), q.z(), q.w()};
+  if (object.detection_group > 0) json["detection_group"] = object.detection_group;
+  return json;
+}
+
+Json PlaneJson(const ScenePlane& plane) {
+  Json json;
+  json["id"] = plane.id;
+  json["object"] = plane.object;
+  json["normal"] = Vector(plane.n_w);
+  json["d"] = plane.d;
+  json["area"] = plane.area_m2;
+  json["vertices"] = Json::array();
+  for (const Eigen::Vector3d& vertex : plane.vertices_w)
+    json["vertices"].push_back(Vector(vertex));
+  return json;
+}
+
+}  // namespace
+
+std::string SceneTruthJson(const Scene& scene) {
+  Json json;
+  json["format"] = "pas-scene-gt/1";
+  json["name"] = scene.name;
+  json["objects"] = Json::array();
+  for (const Object& object : scene.objects) json["objects"].push_back(ObjectJson(object));
+  json["planes"] = Json::array();
+  for (const ScenePlane& plane : ScenePlanes(scene)) json["planes"].push_back(PlaneJson(plane));
+  return json.dump(1) + "\n";
+}
+
+std::string FrameTruthJson(double timestamp_s, const FrameTruth& truth) {
+  Json json;
+  json["timestamp"] = timestamp_s;
+  json["objects"] = Json::array();
+  for (const ObjectInFrame& object : truth.objects) {
+    json["objects"].push_back({{"id", object.id},
+                               {"pixels", object.pixels},
+                               {"visible_box", Box(object.visible_box)},
+                               {"amodal_box", Box(object.amodal_box)},
+                               {"visible_fraction", object.visible_fraction}});
+  }
+  json["planes"] = Json::array();
+  for (const PlaneInFrame& plane : truth.planes) {
+    json["planes"].push_back({{"id", plane.id}, {"pixels", plane.pixels}});
+  }
+  return json.dump();
+}
+
+}  // namespace sim

@@ -1,0 +1,104 @@
+#include "sim/write/output_folder.h"
+
+#include <system_error>
+
+#include "sim/scene/input_error.h"
+#include "sim/write/atomic_file.h"
+
+namespace sim {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+void MakeFolders(const fs::path& folder) {
+  for (const char* name : {"rgb", "depth", "gt/plane_id", "gt/object_id"}) {
+    std::error_code error;
+    fs::create_directories(folder / name, error);
+    if (error) {
+      throw InputError(
+          (folder / name).string(),
+          "this folder cannot be made: " + error.message() + "; choose another output folder");
+    }
+  }
+}
+
+void RemoveUnfinished(const fs::path& folder) {
+  for (const auto& entry : fs::recursive_directory_iterator(folder)) {
+    if (entry.path().extension() == kUnfinishedSuffix) fs::remove(entry.path());
+  }
+}
+
+/// Makes the old sequence incomplete first, so that a kill half way leaves nothing whole.
+void RemoveOld(const fs::path& folder) {
+  fs::remove(folder / "manifest.json");
+  fs::remove_all(folder);
+}
+
+/// @throws InputError unless `old`, begun or finished, was made with the plan's options.
+void RequireSamePlan(const fs::path& folder, const Json& old, const Json& plan) {
+  const auto refuse = [&](const std::string& key, const Json& was, const Json& is) {
+    throw InputError((folder / "manifest.json").string(),
+                     "cannot resume: " + key + " was " + was.dump() + ", now it is " +
+                         is.dump() +
+                         "; repeat the first command's options, or use --force to start again");
+  };
+  const auto value = [](const Json& json, const std::string& key) {
+    return json.contains(key) ? json.at(key) : Json();
+  };
+  for (const auto& [key, wanted] : plan.items()) {
+    if (key == "complete" || key == "sha256") continue;
+    if (value(old, key) != wanted) refuse(key, value(old, key), wanted);
+  }
+  for (const auto& [file, sum] : plan.at("sha256").items()) {
+    const Json was = value(value(old, "sha256"), file);
+    if (was != sum) refuse("the content of " + file, was, sum);
+  }
+}
+
+}  // namespace
+
+std::optional<Json> ReadManifest(const fs::path& folder) {
+  if (!fs::exists(folder / "manifest.json")) return std::nullopt;
+  Json manifest = Json::parse(ReadWholeFile(folder / "manifest.json"), nullptr, false);
+  if (!manifest.is_object() || !manifest.contains("format") ||
+      manifest["format"] != "pas-sequence/1") {
+    return std::nullopt;
+  }
+  return manifest;
+}
+
+void WriteManifest(const fs::path& folder, const Json& manifest) {
+  WriteFileAtomically(folder / "manifest.json", manifest.dump(1) + "\n");
+}
+
+bool PrepareFolder(const fs::path& folder, const Json& plan, Existing existing) {
+  const bool there = fs::exists(folder);
+  if (there && !fs::is_directory(folder)) {
+    throw InputError(folder.string(), "is a file; name a folder for the sequence");
+  }
+  const bool empty = !there || fs::is_empty(folder);
+  const std::optional<Json> old = empty ? std::nullopt : ReadManifest(folder);
+  if (!empty && existing == Existing::kRefuse) {
+    throw InputError(folder.string(),
+                     "exists already; use --force to replace it, --resume to finish an "
+                     "interrupted run, or name another folder");
+  }
+  if (!empty && !old) {
+    throw InputError(folder.string(),
+                     "exists and has no manifest.json of a simulated sequence, so it is left "
+                     "alone; remove it yourself or name another folder");
+  }
+  if (!empty && existing == Existing::kReplace) RemoveOld(folder);
+  const bool resumed = !empty && existing == Existing::kResume;
+  if (resumed) {
+    RequireSamePlan(folder, *old, plan);
+    if (old->value("complete", false)) return true;
+    RemoveUnfinished(folder);
+  }
+  MakeFolders(folder);
+  if (!resumed) WriteManifest(folder, plan);
+  return false;
+}
+
+}  // namespace sim

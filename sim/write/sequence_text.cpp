@@ -1,0 +1,48 @@
+#include "sim/write/sequence_text.h"
+
+#include <fmt/format.h>
+
+#include <Eigen/Geometry>
+
+#include "sim/truth/truth_json.h"
+
+namespace sim {
+namespace {
+
+std::string PoseLine(const TimedPose& pose) {
+  Eigen::Quaterniond q(pose.T_wc.R);
+  q.normalize();
+  if (q.w() < 0) q.coeffs() = -q.coeffs();
+  const Eigen::Vector3d& t = pose.T_wc.t;
+  return fmt::format("{} {} {} {} {} {} {} {}\n", TimeText(pose.timestamp_s), t.x(), t.y(),
+                     t.z(), q.x(), q.y(), q.z(), q.w());
+}
+
+}  // namespace
+
+std::string TimeText(double timestamp_s) { return fmt::format("{:.6f}", timestamp_s); }
+
+double PrintedTime(double timestamp_s) { return std::stod(TimeText(timestamp_s)); }
+
+std::map<std::string, std::string> FixedFiles(const Scene& scene, const Camera& camera,
+                                              const std::vector<TimedPose>& trajectory) {
+  std::string rgb = "# colour images\n# timestamp filename\n";
+  std::string depth = "# depth images\n# timestamp filename\n";
+  std::string truth = "# camera to world\n# timestamp tx ty tz qx qy qz qw\n";
+  std::string pairs;
+  for (const TimedPose& pose : trajectory) {
+    const std::string t = TimeText(pose.timestamp_s);
+    rgb += fmt::format("{0} rgb/{0}.png\n", t);
+    depth += fmt::format("{0} depth/{0}.png\n", t);
+    pairs += fmt::format("{0} rgb/{0}.png {0} depth/{0}.png\n", t);
+    truth += PoseLine(pose);
+  }
+  return {{"associations.txt", pairs},
+          {"camera.yaml", CameraYaml(camera)},
+          {"depth.txt", depth},
+          {"groundtruth.txt", truth},
+          {"gt/scene.json", SceneTruthJson(scene)},
+          {"rgb.txt", rgb}};
+}
+
+}  // namespace sim

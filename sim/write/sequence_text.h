@@ -1,0 +1,23 @@
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "sim/camera/camera.h"
+#include "sim/motion/trajectory.h"
+#include "sim/scene/scene.h"
+
+namespace sim {
+
+/// A time as file names and lists print it: seconds, six decimals.
+std::string TimeText(double timestamp_s);
+/// The number that TimeText shows.
+double PrintedTime(double timestamp_s);
+
+/// Texts of a sequence that are known before the first frame, by path inside the folder:
+/// camera.yaml, rgb.txt, depth.txt, associations.txt, groundtruth.txt, gt/scene.json.
+std::map<std::string, std::string> FixedFiles(const Scene& scene, const Camera& camera,
+                                              const std::vector<TimedPose>& trajectory);
+
+}  // namespace sim

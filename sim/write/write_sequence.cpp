@@ -1,0 +1,176 @@
+#include "sim/write/write_sequence.h"
+
+#include <fmt/format.h>
+
+#include <stdexcept>
+
+#include "sim/scene/scene_file.h"
+#include "sim/scene/sha256.h"
+#include "sim/truth/truth_json.h"
+#include "sim/write/atomic_file.h"
+#include "sim/write/parallel_frames.h"
+#include "sim/write/sequence_text.h"
+
+namespace sim {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+/// Holds one record a finished frame until the sequence is complete.
+constexpr const char* kRecordFolder = ".frames";
+
+const char* Name(SensorKind sensor) {
+  return sensor == SensorKind::kIdeal ? "ideal" : "kinect1";
+}
+
+const char* Name(DetectorKind detector) {
+  switch (detector) {
+    case DetectorKind::kPerfect:
+      return "perfect";
+    case DetectorKind::kNoisy:
+      return "noisy";
+    case DetectorKind::kNone:
+      break;
+  }
+  return "none";
+}
+
+/// The manifest as it is before the first frame.
+Json Plan(const Scene& scene, const SequenceOptions& options, std::size_t frames,
+          const std::map<std::string, std::string>& fixed) {
+  Json plan;
+  plan["format"] = "pas-sequence/1";
+  plan["generator"] = "pas sim";
+  plan["version"] = options.version;
+  plan["scene"] = scene.name;
+  plan["scene_hash"] = SceneHash(scene);
+  plan["seed"] = options.rig.seed;
+  plan["sensor"] = Name(options.rig.sensor);
+  plan["detector"] = Name(options.rig.detector);
+  plan["frame_count"] = frames;
+  plan["complete"] = false;
+  plan["sha256"] = Json::object();
+  for (const auto& [path, text] : fixed) plan["sha256"][path] = Sha256Hex(text);
+  return plan;
+}
+
+/// Writes frames one by one; a frame counts once its record is written, after its images.
+class FrameStore {
+ public:
+  FrameStore(fs::path folder, const Simulator& simulator,
+             const std::vector<TimedPose>& trajectory)
+      : folder_(std::move(folder)), simulator_(simulator), trajectory_(trajectory) {
+    fs::create_directories(folder_ / kRecordFolder);
+  }
+
+  void Make(int frame) const {
+    const TimedPose& pose = trajectory_[static_cast<std::size_t>(frame)];
+    const SimulatedFrame made = simulator_.Simulate(frame, pose.T_wc);
+    const double t = PrintedTime(pose.timestamp_s);
+    Json record;
+    record["truth"] = FrameTruthJson(t, made.truth);
+    record["detections"] = DetectionsJson(t, made.detections);
+    const std::string name = TimeText(pose.timestamp_s) + ".png";
+    const std::initializer_list<std::pair<const char*, const cv::Mat*>> images{
+        {"rgb/", &made.colour},
+        {"depth/", &made.depth},
+        {"gt/plane_id/", &made.plane_id},
+        {"gt/object_id/", &made.object_id}};
+    for (const auto& [where, image] : images) {
+      const std::string bytes = EncodePng(*image);
+      WriteFileAtomically(folder_ / (where + name), bytes);
+      record["sha256"][where + name] = Sha256Hex(bytes);
+    }
+    WriteFileAtomically(RecordPath(frame), record.dump());
+  }
+
+  /// True when the frame's record and the images it names are there, bit for bit.
+  bool Made(int frame) const {
+    if (!fs::exists(RecordPath(frame))) return false;
+    const Json record = Json::parse(ReadWholeFile(RecordPath(frame)), nullptr, false);
+    if (!record.is_object()) return false;
+    for (const auto& [file, sum] : record.at("sha256").items()) {
+      if (!fs::exists(folder_ / file) || Sha256OfFile(folder_ / file) != sum) return false;
+    }
+    return true;
+  }
+
+  std::vector<int> Missing() const {
+    std::vector<int> missing;
+    for (int frame = 0; frame < static_cast<int>(trajectory_.size()); ++frame) {
+      if (!Made(frame)) missing.push_back(frame);
+    }
+    return missing;
+  }
+
+  /// Gathers the records into the two line files and the manifest, which says complete.
+  void Finish(Json manifest) const {
+    std::map<std::string, std::string> sums;
+    for (const auto& [file, sum] : manifest["sha256"].items()) sums[file] = sum;
+    std::string truth, detections;
+    for (int frame = 0; frame < static_cast<int>(trajectory_.size()); ++frame) {
+      const Json record = Json::parse(ReadWholeFile(RecordPath(frame)));
+      truth += record.at("truth").get<std::string>() + "\n";
+      detections += record.at("detections").get<std::string>() + "\n";
+      for (const auto& [file, sum] : record.at("sha256").items()) sums[file] = sum;
+    }
+    sums["gt/frames.jsonl"] = Sha256Hex(truth);
+    WriteFileAtomically(folder_ / "gt/frames.jsonl", truth);
+    if (simulator_.options().detector != DetectorKind::kNone) {
+      sums["detections.jsonl"] = Sha256Hex(detections);
+      WriteFileAtomically(folder_ / "detections.jsonl", detections);
+    }
+    manifest["sha256"] = Json::object();
+    for (const auto& [file, sum] : sums) manifest["sha256"][file] = sum;
+    manifest["complete"] = true;
+    fs::remove_all(folder_ / kRecordFolder);
+    WriteManifest(folder_, manifest);
+  }
+
+ private:
+  fs::path RecordPath(int frame) const {
+    return folder_ / kRecordFolder / fmt::format("{:06}.json", frame);
+  }
+
+  fs::path folder_;
+  const Simulator& simulator_;
+  const std::vector<TimedPose>& trajectory_;
+};
+
+void CheckTimes(const std::vector<TimedPose>& trajectory) {
+  if (trajectory.empty()) throw std::invalid_argument("a sequence needs at least one frame");
+  for (std::size_t i = 1; i < trajectory.size(); ++i) {
+    if (!(PrintedTime(trajectory[i].timestamp_s) >
+          PrintedTime(trajectory[i - 1].timestamp_s))) {
+      throw std::invalid_argument("timestamps must grow by a microsecond or more a frame");
+    }
+  }
+}
+
+}  // namespace
+
+int WriteSequence(const Scene& scene, const std::vector<TimedPose>& trajectory,
+                  const SequenceOptions& options, const fs::path& folder) {
+  CheckTimes(trajectory);
+  const auto fixed = FixedFiles(scene, options.rig.camera, trajectory);
+  const Json plan = Plan(scene, options, trajectory.size(), fixed);
+  const Simulator simulator(scene, options.rig);
+  if (PrepareFolder(folder, plan, options.existing)) return 0;
+
+  for (const auto& [path, text] : fixed) WriteFileAtomically(folder / path, text);
+  const FrameStore store(folder, simulator, trajectory);
+  const std::vector<int> missing = store.Missing();
+  ForEachFrame(
+      missing, options.threads, [&](int frame) { store.Make(frame); }, options.progress);
+  store.Finish(plan);
+  return static_cast<int>(missing.size());
+}
+
+int WriteSequence(const Scene& scene, const SequenceOptions& options, const fs::path& folder) {
+  const auto trajectory =
+      MakeTrajectory(scene, options.frames, options.rig.camera.fps, options.rig.seed);
+  return WriteSequence(scene, trajectory, options, folder);
+}
+
+}  // namespace sim

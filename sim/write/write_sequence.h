@@ -1,0 +1,35 @@
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <string>
+
+#include "sim/motion/trajectory.h"
+#include "sim/write/output_folder.h"
+#include "sim/write/simulator.h"
+
+namespace sim {
+
+struct SequenceOptions {
+  RigOptions rig;
+  int frames = 300;  ///< at least 1
+  int threads = 0;   ///< 0: one a core; never changes a byte
+  Existing existing = Existing::kRefuse;
+  std::string version;                ///< of the program, for the manifest
+  std::function<void(int)> progress;  ///< frames done of this call; may be empty
+};
+
+/// Renders the scene along the scene's own motion and writes a sequence folder (formats.md)
+/// with all truth. manifest.json says complete: false until the last file is there. The same
+/// scene and options give the same bytes, with any number of threads, in one go or resumed.
+/// @returns frames rendered now (fewer than options.frames when resumed)
+/// @throws InputError for a folder that is in the way or cannot be written, a scene without
+///   room for the camera; std::invalid_argument for options out of range
+int WriteSequence(const Scene& scene, const SequenceOptions& options,
+                  const std::filesystem::path& folder);
+
+/// The same along a given trajectory; options.frames is not used.
+int WriteSequence(const Scene& scene, const std::vector<TimedPose>& trajectory,
+                  const SequenceOptions& options, const std::filesystem::path& folder);
+
+}  // namespace sim
