@@ -1,0 +1,49 @@
+#include "eval/trajectory/alignment.h"
+
+#include <Eigen/LU>
+#include <Eigen/SVD>
+#include <stdexcept>
+
+namespace eval {
+namespace {
+
+Eigen::Vector3d MeanOf(const std::vector<Eigen::Vector3d>& points) {
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  for (const Eigen::Vector3d& p : points) sum += p;
+  return sum / static_cast<double>(points.size());
+}
+
+}  // namespace
+
+std::optional<Alignment> AlignUmeyama(const std::vector<Eigen::Vector3d>& x_w,
+                                      const std::vector<Eigen::Vector3d>& y_g,
+                                      bool with_scale) {
+  if (x_w.size() != y_g.size()) {
+    throw std::invalid_argument("AlignUmeyama: the lists differ in length");
+  }
+  if (x_w.size() < 3) return std::nullopt;
+  const double n = static_cast<double>(x_w.size());
+  const Eigen::Vector3d mean_x = MeanOf(x_w), mean_y = MeanOf(y_g);
+  Eigen::Matrix3d sigma = Eigen::Matrix3d::Zero();
+  double variance_x = 0.0;
+  for (std::size_t i = 0; i < x_w.size(); ++i) {
+    sigma += (y_g[i] - mean_y) * (x_w[i] - mean_x).transpose() / n;
+    variance_x += (x_w[i] - mean_x).squaredNorm() / n;
+  }
+  const Eigen::JacobiSVD<Eigen::Matrix3d> svd(sigma, Eigen::ComputeFullU | Eigen::ComputeFullV);
+  const Eigen::Vector3d d = svd.singularValues();
+  if (!(d[0] > 0.0) || !(d[1] >= kMinSingularRatio * d[0])) return std::nullopt;
+  Eigen::Vector3d s = Eigen::Vector3d::Ones();
+  if (svd.matrixU().determinant() * svd.matrixV().determinant() < 0.0) s[2] = -1.0;
+  Alignment alignment;
+  alignment.T_gw.R = svd.matrixU() * s.asDiagonal() * svd.matrixV().transpose();
+  if (with_scale) alignment.scale = d.dot(s) / variance_x;
+  alignment.T_gw.t = mean_y - alignment.scale * (alignment.T_gw.R * mean_x);
+  return alignment;
+}
+
+Alignment AlignOrigin(const Pose& first_T_wc, const Pose& first_T_gc) {
+  return {1.0, first_T_gc * Inverse(first_T_wc)};
+}
+
+}  // namespace eval

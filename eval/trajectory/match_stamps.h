@@ -1,0 +1,28 @@
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "eval/read/pose.h"
+
+namespace eval {
+
+/// Indices into the truth and the estimate that belong to one moment.
+struct StampMatch {
+  std::size_t truth = 0;
+  std::size_t estimate = 0;
+};
+
+inline constexpr double kMaxStampDifference_s = 0.01;
+
+/// evo's rule, for recordings whose truth has its own clock: for each stamp of the shorter list
+/// (the estimate, on equal lengths) the nearest of the longer one, the first on ties, kept if
+/// |dt| <= max_difference_s. Not one-to-one.
+std::vector<StampMatch> MatchNearest(const Trajectory& truth, const Trajectory& estimate,
+                                     double max_difference_s = kMaxStampDifference_s);
+
+/// The rule for synthetic data: stamps are frame ids and must be equal (to kSameStamp_s).
+/// Both by rising stamp; estimates without a truth are left out.
+std::vector<StampMatch> MatchEqual(const Trajectory& truth, const Trajectory& estimate);
+
+}  // namespace eval

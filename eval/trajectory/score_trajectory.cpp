@@ -1,0 +1,178 @@
+#include "eval/trajectory/score_trajectory.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "eval/read/input_error.h"
+#include "eval/trajectory/pose_errors.h"
+
+namespace eval {
+namespace {
+
+constexpr double kRpeTime_s = 1.0;
+constexpr double kRpePath_m = 1.0;
+constexpr double kRpePathTolerance_m = 0.1 * kRpePath_m;
+
+struct MatchedPoses {
+  std::vector<double> stamps_s;
+  std::vector<Pose> estimate, truth;
+};
+
+std::vector<StampMatch> Match(const Trajectory& truth, const Trajectory& estimate, bool equal) {
+  return equal ? MatchEqual(truth, estimate) : MatchNearest(truth, estimate);
+}
+
+Trajectory ByRisingStamp(Trajectory trajectory) {
+  std::stable_sort(
+      trajectory.begin(), trajectory.end(),
+      [](const StampedPose& a, const StampedPose& b) { return a.stamp_s < b.stamp_s; });
+  return trajectory;
+}
+
+std::vector<Eigen::Vector3d> Positions(const std::vector<Pose>& poses) {
+  std::vector<Eigen::Vector3d> positions;
+  positions.reserve(poses.size());
+  for (const Pose& pose : poses) positions.push_back(pose.t);
+  return positions;
+}
+
+std::vector<Pose> Apply(const Alignment& alignment, const std::vector<Pose>& poses) {
+  std::vector<Pose> aligned;
+  aligned.reserve(poses.size());
+  for (const Pose& pose : poses) aligned.push_back(alignment * pose);
+  return aligned;
+}
+
+double MedianInterval(const std::vector<double>& stamps_s) {
+  std::vector<double> intervals_s;
+  for (std::size_t i = 1; i < stamps_s.size(); ++i) {
+    intervals_s.push_back(stamps_s[i] - stamps_s[i - 1]);
+  }
+  return intervals_s.empty() ? 0.0 : Quantile(intervals_s, 0.5);
+}
+
+double Diameter(const std::vector<Eigen::Vector3d>& points) {
+  double largest = 0.0;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    for (std::size_t j = i + 1; j < points.size(); ++j) {
+      largest = std::max(largest, (points[i] - points[j]).squaredNorm());
+    }
+  }
+  return std::sqrt(largest);
+}
+
+void CountFrames(const Trajectory& estimate, const std::vector<double>& frame_stamps_s,
+                 bool equal, TrajectoryScore& score) {
+  const double tolerance_s = equal ? kSameStamp_s : kMaxStampDifference_s;
+  score.frames = frame_stamps_s.size();
+  bool was_tracked = false;
+  for (const double stamp_s : frame_stamps_s) {
+    const auto next =
+        std::lower_bound(estimate.begin(), estimate.end(), stamp_s - tolerance_s,
+                         [](const StampedPose& pose, double s) { return pose.stamp_s < s; });
+    const bool tracked = next != estimate.end() && next->stamp_s <= stamp_s + tolerance_s;
+    if (tracked) ++score.tracked;
+    if (was_tracked && !tracked) ++score.lost_events;
+    was_tracked = tracked;
+  }
+}
+
+std::optional<RelativeScore> ScorePairs(const MatchedPoses& poses,
+                                        const std::vector<PosePair>& pairs) {
+  const auto translation =
+      Describe(RelativeErrors(poses.estimate, poses.truth, pairs, Relation::kTranslation));
+  const auto angle =
+      Describe(RelativeErrors(poses.estimate, poses.truth, pairs, Relation::kAngleDeg));
+  if (!translation) return std::nullopt;
+  return RelativeScore{translation->rmse, angle->rmse, pairs.size()};
+}
+
+/// Charges the frames that the run does not answer for; nothing where the truth itself has no
+/// alignment (a camera on a tripod or on a rail).
+std::optional<double> CompleteRmse(const std::vector<Eigen::Vector3d>& true_positions,
+                                   std::size_t matched, const std::optional<Statistics>& ate) {
+  if (!AlignUmeyama(true_positions, true_positions)) return std::nullopt;
+  const double charge_m = Diameter(true_positions);
+  const double n = static_cast<double>(true_positions.size());
+  if (!ate) return charge_m;
+  const double missing = n - static_cast<double>(std::min(matched, true_positions.size()));
+  return std::sqrt((ate->sse + missing * charge_m * charge_m) /
+                   (static_cast<double>(matched) + missing));
+}
+
+MatchedPoses Collect(const Trajectory& estimate, const Trajectory& truth, bool equal) {
+  MatchedPoses poses;
+  for (const StampMatch& match : Match(truth, estimate, equal)) {
+    poses.stamps_s.push_back(estimate[match.estimate].stamp_s);
+    poses.estimate.push_back(estimate[match.estimate].T_wc);
+    poses.truth.push_back(truth[match.truth].T_wc);
+  }
+  return poses;
+}
+
+}  // namespace
+
+std::vector<std::optional<Pose>> TruePosesOfFrames(const Trajectory& truth,
+                                                   const std::vector<double>& frame_stamps_s,
+                                                   bool equal_stamps) {
+  Trajectory frames;
+  for (const double stamp_s : frame_stamps_s) frames.push_back({stamp_s, {}});
+  std::vector<std::optional<Pose>> poses(frames.size());
+  const Trajectory sorted = ByRisingStamp(truth);
+  for (const StampMatch& match : Match(sorted, frames, equal_stamps)) {
+    poses[match.estimate] = sorted[match.truth].T_wc;
+  }
+  return poses;
+}
+
+TrajectoryScore ScoreTrajectory(const Trajectory& estimate, const Trajectory& unsorted_truth,
+                                const std::vector<double>& frame_stamps_s, bool equal_stamps) {
+  TrajectoryScore score;
+  CountFrames(estimate, frame_stamps_s, equal_stamps, score);
+  const Trajectory truth = ByRisingStamp(unsorted_truth);
+  const MatchedPoses poses = Collect(estimate, truth, equal_stamps);
+
+  if (!poses.truth.empty()) {
+    const Alignment origin = AlignOrigin(poses.estimate.front(), poses.truth.front());
+    score.ate_origin = Describe(
+        AbsoluteErrors(Apply(origin, poses.estimate), poses.truth, Relation::kTranslation));
+    score.gauge = origin;
+    score.gauge_by_origin = true;
+  }
+  if (const auto se3 = AlignUmeyama(Positions(poses.estimate), Positions(poses.truth))) {
+    score.ate_se3 = Describe(
+        AbsoluteErrors(Apply(*se3, poses.estimate), poses.truth, Relation::kTranslation));
+    score.gauge = se3;
+    score.gauge_by_origin = false;
+  }
+
+  std::vector<Eigen::Vector3d> true_positions;
+  for (const auto& pose : TruePosesOfFrames(truth, frame_stamps_s, equal_stamps)) {
+    if (pose) true_positions.push_back(pose->t);
+  }
+  score.ate_complete_rmse_m = CompleteRmse(true_positions, poses.truth.size(), score.ate_se3);
+  const double half_frame_s = 0.5 * MedianInterval(frame_stamps_s);
+  score.rpe_1s = ScorePairs(poses, PairsByTime(poses.stamps_s, kRpeTime_s, half_frame_s));
+  score.rpe_1m = ScorePairs(
+      poses, PairsByPath(poses.truth, kRpePath_m, kRpePathTolerance_m, PairMode::kAll));
+  return score;
+}
+
+TrajectoryScore ScoreTrajectory(const Run& run, const Sequence& sequence) {
+  std::vector<double> frame_stamps_s;
+  for (const SequenceFrame& frame : sequence.frames) frame_stamps_s.push_back(frame.stamp_s);
+  const bool equal = sequence.synthetic || sequence.scene.has_value();
+  if (equal) {
+    for (const StampedPose& pose : run.trajectory) {
+      if (FindStamp(frame_stamps_s, pose.stamp_s)) continue;
+      throw InputError((run.folder / "trajectory.txt").string(),
+                       "the pose at " + std::to_string(pose.stamp_s) +
+                           " s belongs to no frame of " + sequence.folder.string() +
+                           "; score a run against the sequence it was made from");
+    }
+  }
+  return ScoreTrajectory(run.trajectory, sequence.groundtruth.value_or(Trajectory{}),
+                         frame_stamps_s, equal);
+}
+
+}  // namespace eval

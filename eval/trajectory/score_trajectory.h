@@ -1,0 +1,50 @@
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "eval/read/run.h"
+#include "eval/read/sequence.h"
+#include "eval/trajectory/alignment.h"
+#include "eval/trajectory/match_stamps.h"
+#include "eval/trajectory/statistics.h"
+
+namespace eval {
+
+/// Relative errors over pairs a given time or path apart.
+struct RelativeScore {
+  double trans_rmse_m = 0.0;
+  double rot_rmse_deg = 0.0;
+  std::size_t pairs = 0;
+};
+
+/// The group `trajectory` of metrics.json; what is not defined is empty.
+struct TrajectoryScore {
+  std::size_t frames = 0;             ///< of the sequence
+  std::size_t tracked = 0;            ///< of these, with a pose in the run
+  std::size_t lost_events = 0;        ///< times a tracked frame is followed by one that is not
+  std::optional<Statistics> ate_se3;  ///< metres
+  std::optional<Statistics> ate_origin;  ///< metres, first matched pose laid on the truth
+  /// Metres. Every frame with truth counts: a missing one is charged the diameter of the true
+  /// path, so that giving up frames cannot improve a run whose errors stay below that.
+  std::optional<double> ate_complete_rmse_m;
+  std::optional<RelativeScore> rpe_1s, rpe_1m;
+  /// World of the run to world of the truth: SE(3), or by the origin where that is not defined.
+  std::optional<Alignment> gauge;
+  bool gauge_by_origin = false;
+};
+
+/// @throws InputError if the sequence is synthetic and the run has a pose for no frame of it.
+TrajectoryScore ScoreTrajectory(const Run& run, const Sequence& sequence);
+
+/// The same from bare lists. `frame_stamps_s` rise.
+/// @param equal_stamps  frame ids are stamps (synthetic data); else the nearest-time rule
+TrajectoryScore ScoreTrajectory(const Trajectory& estimate, const Trajectory& truth,
+                                const std::vector<double>& frame_stamps_s, bool equal_stamps);
+
+/// True poses T_gc of the frames, by frame; empty where the truth has none.
+std::vector<std::optional<Pose>> TruePosesOfFrames(const Trajectory& truth,
+                                                   const std::vector<double>& frame_stamps_s,
+                                                   bool equal_stamps);
+
+}  // namespace eval
