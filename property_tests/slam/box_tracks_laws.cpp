@@ -1,0 +1,143 @@
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include "slam/extract/box_tracks.h"
+
+namespace slam {
+namespace {
+
+const Box kImage{{0, 0}, {639, 479}};
+constexpr double kFrame_s = 1.0 / 30;
+
+/// Whole pixels, the whole range at every size (rapidcheck shrinks ranges with the size).
+int Whole(int low, int high) { return *rc::gen::resize(100, rc::gen::inRange(low, high + 1)); }
+
+/// Any box inside the image with a class out of three.
+Detection AnyDetection() {
+  const int u = Whole(0, 560), v = Whole(0, 400);
+  Detection d;
+  d.class_name = *rc::gen::element<std::string>("book", "laptop", "person");
+  d.kind = d.class_name == "person" ? ClassKind::kUnstructured : ClassKind::kRegular;
+  d.score = Whole(1, 100) / 100.0;
+  d.box_px = {Eigen::Vector2d(u, v), Eigen::Vector2d(u + Whole(4, 79), v + Whole(4, 79))};
+  return d;
+}
+
+std::vector<std::vector<Detection>> AnyFrames() {
+  std::vector<std::vector<Detection>> frames(static_cast<std::size_t>(Whole(1, 12)));
+  for (auto& frame : frames) {
+    // Half the boxes stay near those of a fixed desk, so that tracks form and are lost.
+    for (int i = 0; i < 4; ++i) {
+      if (Whole(0, 3) == 0) continue;
+      Detection d;
+      d.class_name = i % 2 ? "book" : "laptop";
+      d.kind = ClassKind::kRegular;
+      d.score = 0.8;
+      d.box_px.min = Eigen::Vector2d(20 + 150 * i + Whole(-3, 3), 100 + Whole(-3, 3));
+      d.box_px.max = d.box_px.min + Eigen::Vector2d(90, 70);
+      frame.push_back(d);
+    }
+    for (int i = Whole(0, 3); i > 0; --i) frame.push_back(AnyDetection());
+  }
+  return frames;
+}
+
+bool Same(const Detection& a, const Detection& b) {
+  return a.class_name == b.class_name && a.kind == b.kind && a.score == b.score &&
+         a.box_px.min == b.box_px.min && a.box_px.max == b.box_px.max && a.track == b.track &&
+         a.compensated == b.compensated;
+}
+
+std::vector<Detection> Sorted(std::vector<Detection> list) {
+  std::sort(list.begin(), list.end(), [](const Detection& a, const Detection& b) {
+    const auto key = [](const Detection& d) {
+      return std::make_tuple(d.box_px.min.x(), d.box_px.min.y(), d.box_px.max.x(),
+                             d.box_px.max.y(), d.class_name, d.score, d.track);
+    };
+    return key(a) < key(b);
+  });
+  return list;
+}
+
+RC_GTEST_PROP(BoxTracks, DoNotDependOnTheOrderOfTheDetections, ()) {
+  BoxTracks one({}, kImage), other({}, kImage);
+  double t = 0;
+  for (const auto& frame : AnyFrames()) {
+    auto shuffled = frame;
+    for (std::size_t i = shuffled.size(); i > 1; --i)
+      std::swap(shuffled[i - 1],
+                shuffled[static_cast<std::size_t>(Whole(0, static_cast<int>(i) - 1))]);
+    t += kFrame_s;
+    const auto a = Sorted(one.Update(t, frame)), b = Sorted(other.Update(t, shuffled));
+    RC_ASSERT(a.size() == b.size());
+    for (std::size_t i = 0; i < a.size(); ++i) RC_ASSERT(Same(a[i], b[i]));
+  }
+}
+
+RC_GTEST_PROP(BoxTracks, MakeNothingFromNothing, ()) {
+  BoxTracks tracks({}, kImage);
+  for (int i = Whole(1, 30); i > 0; --i)
+    RC_ASSERT(tracks.Update(1.0 - i * kFrame_s, {}).empty());
+  RC_ASSERT(tracks.tracks() == 0);
+}
+
+RC_GTEST_PROP(BoxTracks, LeavePerfectDetectionsAsTheyAre, ()) {
+  // A desk of separate boxes that sways as one; every box is seen in every frame.
+  BoxTracks tracks({}, kImage);
+  const int speed_u = Whole(-8, 8), speed_v = Whole(-8, 8), count = Whole(1, 4);
+  for (int frame = 0; frame < 10; ++frame) {
+    std::vector<Detection> seen;
+    for (int i = 0; i < count; ++i) {
+      Detection d;
+      d.class_name = i % 2 ? "book" : "laptop";
+      d.kind = ClassKind::kRegular;
+      d.score = 0.9;
+      d.box_px.min = Eigen::Vector2d(100 + 110 * i + speed_u * frame, 200 + speed_v * frame);
+      d.box_px.max = d.box_px.min + Eigen::Vector2d(90, 70);
+      seen.push_back(d);
+    }
+    const auto answer = tracks.Update(frame * kFrame_s, seen);
+    RC_ASSERT(answer.size() == seen.size());
+    for (std::size_t i = 0; i < seen.size(); ++i) {
+      RC_ASSERT(answer[i].class_name == seen[i].class_name);
+      RC_ASSERT(answer[i].score == seen[i].score);
+      RC_ASSERT(answer[i].box_px.min == seen[i].box_px.min);
+      RC_ASSERT(answer[i].box_px.max == seen[i].box_px.max);
+      RC_ASSERT(!answer[i].compensated);
+    }
+  }
+}
+
+RC_GTEST_PROP(BoxTracks, GiveBoxesInsideTheImageWithScoresBetweenZeroAndOne, ()) {
+  BoxTracks tracks({}, kImage);
+  double t = 0;
+  for (const auto& frame : AnyFrames()) {
+    t += kFrame_s;
+    for (const Detection& d : tracks.Update(t, frame)) {
+      RC_ASSERT(kImage.Contains(d.box_px.min) && kImage.Contains(d.box_px.max));
+      RC_ASSERT(!d.box_px.empty());
+      RC_ASSERT(d.score >= 0 && d.score <= 1);
+      RC_ASSERT(!d.compensated || d.track >= 0);
+    }
+  }
+}
+
+RC_GTEST_PROP(BoxTracks, OfOneFrameHaveDifferentIds, ()) {
+  BoxTracks tracks({}, kImage);
+  double t = 0;
+  for (const auto& frame : AnyFrames()) {
+    t += kFrame_s;
+    std::vector<int> ids;
+    for (const Detection& d : tracks.Update(t, frame))
+      if (d.track >= 0) ids.push_back(d.track);
+    std::sort(ids.begin(), ids.end());
+    RC_ASSERT(std::adjacent_find(ids.begin(), ids.end()) == ids.end());
+  }
+}
+
+}  // namespace
+}  // namespace slam

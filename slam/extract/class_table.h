@@ -1,0 +1,24 @@
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "slam/model/detection.h"
+
+namespace slam {
+
+/// Which detector classes are box-shaped and which are not. Names as the detector writes them
+/// (COCO's, lower case).
+struct ClassTable {
+  std::vector<std::string> regular;
+  std::vector<std::string> unstructured;
+  std::vector<std::string> other;  ///< known, and neither; a class in no list is kOther as well
+
+  ClassKind KindOf(const std::string& class_name) const;
+};
+
+/// COCO's 80 classes, with its older spellings, and "box".
+ClassTable CocoClassTable();
+
+}  // namespace slam
