@@ -1,7 +1,164 @@
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <map>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
 #include "app/app.h"
+#include "sim/scene/families.h"
+#include "sim/scene/input_error.h"
+#include "sim/scene/names.h"
+#include "sim/scene/scene_file.h"
+#include "sim/scene/steps.h"
 
 namespace app {
+namespace {
 
-void AddSceneCommand(CLI::App& pas, const Globals&, int&) { pas.add_subcommand("scene", ""); }
+struct MakeOptions {
+  std::string family = "desk";
+  std::uint64_t seed = 1;
+  std::string out;
+  std::vector<std::string> settings;
+  bool force = false;
+};
+
+std::map<std::string, double> ParseSettings(const std::vector<std::string>& settings) {
+  std::map<std::string, double> values;
+  for (const std::string& setting : settings) {
+    const std::size_t equals = setting.find('=');
+    std::size_t used = 0;
+    double value = 0;
+    try {
+      value = std::stod(setting.substr(equals == std::string::npos ? 0 : equals + 1), &used);
+    } catch (const std::logic_error&) {
+      used = 0;
+    }
+    if (equals == std::string::npos || used == 0 || used != setting.size() - equals - 1) {
+      throw sim::InputError("--set " + setting, "expected NAME=NUMBER, such as step_mm=20");
+    }
+    if (!values.emplace(setting.substr(0, equals), value).second) {
+      throw sim::InputError("--set " + setting, "was given twice; keep one");
+    }
+  }
+  return values;
+}
+
+void Make(const MakeOptions& options, const Globals& globals) {
+  if (std::filesystem::exists(options.out) && !options.force) {
+    throw sim::InputError(options.out, "exists already; choose another name or add --force");
+  }
+  const sim::Scene scene =
+      sim::MakeScene(options.family, options.seed, ParseSettings(options.settings));
+  sim::WriteScene(scene, options.out);
+  if (!globals.quiet) {
+    fmt::print("{}: {} objects, {} planes, sha256 {}\n", options.out, scene.objects.size(),
+               sim::ScenePlanes(scene).size(), sim::SceneHash(scene).substr(0, 16));
+  }
+}
+
+void List() {
+  fmt::print("Families (pas scene make --family NAME --seed N -o scene.yaml):\n");
+  for (const sim::Family& family : sim::Families()) {
+    fmt::print("  {:<8} {}\n", family.name, family.provokes);
+    for (const sim::FamilyParameter& parameter : family.parameters) {
+      fmt::print("           --set {}={}  [{}, {}]  {}\n", parameter.name, parameter.value,
+                 parameter.low, parameter.high, parameter.meaning);
+    }
+  }
+  fmt::print(
+      "\nCatalogue (in the source tree; scenes/README.md has the answers):\n"
+      "  scenes/ambiguous/desk.yaml                the desk family, seed 1\n"
+      "  scenes/closed_form/wall.yaml              one wall: a plane and nothing else\n"
+      "  scenes/closed_form/corner.yaml            three planes that meet in one point\n"
+      "  scenes/closed_form/parallel_boards.yaml   two tops, 20 mm apart in height\n"
+      "  scenes/closed_form/fronto_parallel.yaml   a board square to the camera\n");
+}
+
+const sim::Object& Owner(const sim::Scene& scene, int id) {
+  for (const sim::Object& object : scene.objects) {
+    if (object.id == id) return object;
+  }
+  throw std::logic_error("a plane without an owner");
+}
+
+/// A face by its name in files, "+z".
+const std::string& NameOf(sim::Face face) {
+  return sim::kFaceNames[static_cast<std::size_t>(face)];
+}
+
+void Show(const std::string& path) {
+  const sim::Scene scene = sim::ReadScene(path);
+  fmt::print("{}: {} objects, sha256 {}\n", scene.name, scene.objects.size(),
+             sim::SceneHash(scene));
+  fmt::print("\nPlanes, n . x + d = 0 in the world (metres, z up), n out of the object:\n");
+  fmt::print("{:>5}  {:<18} {:<14} {:<12} {:>4} {:>8} {:>8} {:>8} {:>9} {:>9}\n", "plane",
+             "object", "class", "role", "face", "n_x", "n_y", "n_z", "d_m", "area_m2");
+  for (const sim::ScenePlane& plane : sim::ScenePlanes(scene)) {
+    const sim::Object& owner = Owner(scene, plane.object);
+    // Adding zero turns -0 into 0.
+    fmt::print(
+        "{:>5}  {:<18} {:<14} {:<12} {:>4} {:>8.4f} {:>8.4f} {:>8.4f} {:>9.4f} {:>9.4f}\n",
+        plane.id, owner.name, owner.class_name,
+        sim::kRoleNames[static_cast<std::size_t>(owner.role)], NameOf(plane.face),
+        plane.n_w.x() + 0.0, plane.n_w.y() + 0.0, plane.n_w.z() + 0.0, plane.d + 0.0,
+        plane.area_m2);
+  }
+  for (const sim::Object& object : scene.objects) {
+    if (object.shape != sim::ShapeKind::kToy) continue;
+    fmt::print("       {:<18} {:<14} {:<12} no planes\n", object.name, object.class_name,
+               sim::kRoleNames[static_cast<std::size_t>(object.role)]);
+  }
+  fmt::print("\nSteps of regular tops, to the highest surface under each:\n");
+  fmt::print("{:>5}  {:<18} {:>9}  {}\n", "plane", "top of", "step_mm", "over");
+  for (const sim::TopStep& step : sim::TopSteps(scene)) {
+    fmt::print("{:>5}  {:<18} {:>9.3f}  {}\n", step.plane, Owner(scene, step.object).name,
+               step.step_mm, Owner(scene, step.below_object).name);
+  }
+}
+
+void AddMake(CLI::App& scene, const Globals& globals, int& exit_code) {
+  auto* make =
+      scene.add_subcommand("make", "Make a scene of a family, reproducible by its seed");
+  auto options = std::make_shared<MakeOptions>();
+  make->add_option("--family", options->family, "Family, see `pas scene list`")
+      ->capture_default_str();
+  make->add_option("--seed", options->seed, "Any whole number from 0; the same gives the same")
+      ->capture_default_str();
+  make->add_option("-o,--output", options->out, "Scene file to write (YAML)")->required();
+  make->add_option("--set", options->settings,
+                   "Parameter of the family as NAME=NUMBER; may be repeated");
+  make->add_flag("--force", options->force, "Overwrite the output when it exists");
+  make->callback([options, &globals, &exit_code] {
+    Make(*options, globals);
+    exit_code = kDone;
+  });
+}
+
+}  // namespace
+
+void AddSceneCommand(CLI::App& pas, const Globals& globals, int& exit_code) {
+  auto* scene = pas.add_subcommand("scene", "Make, list or show a tabletop scene");
+  scene->require_subcommand(1);
+  AddMake(*scene, globals, exit_code);
+
+  auto* list =
+      scene->add_subcommand("list", "The families with their parameters, and the catalogue");
+  list->callback([&exit_code] {
+    List();
+    exit_code = kDone;
+  });
+
+  auto* show = scene->add_subcommand(
+      "show",
+      "The planes of a scene, and for each regular top the step to what is under it (mm)");
+  auto path = std::make_shared<std::string>();
+  show->add_option("scene", *path, "Scene file (YAML)")->required();
+  show->callback([path, &exit_code] {
+    Show(*path);
+    exit_code = kDone;
+  });
+}
 
 }  // namespace app

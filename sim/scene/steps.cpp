@@ -8,7 +8,6 @@ namespace sim {
 namespace {
 
 constexpr double kMinUpward = 0.984807753012208;  // cos 10 degrees
-constexpr double kMinSharedArea_m2 = 1e-8;        // less is touching along an edge
 
 using Polygon = std::vector<Eigen::Vector2d>;
 
@@ -22,6 +21,15 @@ double Area(const Polygon& polygon) {
     twice += Cross(polygon[i], polygon[(i + 1) % polygon.size()]);
   }
   return twice / 2;
+}
+
+/// Whether a part is more than objects that touch along an edge.
+bool IsSurface(const Polygon& polygon) {
+  double perimeter = 0;
+  for (std::size_t i = 0; i < polygon.size(); ++i) {
+    perimeter += (polygon[(i + 1) % polygon.size()] - polygon[i]).norm();
+  }
+  return polygon.size() >= 3 && Area(polygon) > kTouch_m * perimeter / 2;
 }
 
 Polygon SeenFromAbove(const ScenePlane& plane) {
@@ -52,7 +60,7 @@ Polygon Clip(Polygon subject, const Polygon& window) {
 /// Least distance along the top's normal down to `below` over the part that lies under it.
 std::optional<double> StepOver(const ScenePlane& top, const ScenePlane& below) {
   const Polygon shared = Clip(SeenFromAbove(below), SeenFromAbove(top));
-  if (!(shared.size() >= 3 && Area(shared) > kMinSharedArea_m2)) return std::nullopt;
+  if (!IsSurface(shared)) return std::nullopt;
   std::optional<double> least;
   for (const Eigen::Vector2d& at : shared) {
     const double z = -(below.d + below.n_w.head<2>().dot(at)) / below.n_w.z();
