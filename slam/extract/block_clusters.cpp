@@ -1,6 +1,7 @@
 #include "slam/extract/block_clusters.h"
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 #include <optional>
 #include <queue>
@@ -105,9 +106,25 @@ class Clustering {
     if (!(sums.n >= config_.min_measured * block_px * block_px)) return;
     const std::optional<PlaneFit> fit = Fit(sums);
     if (!fit) return;
+    if (HasJump(grid, c * block_px, r * block_px, u1, v1)) return;
     const double grazing = GrazingFactor(sums, fit->plane, noise_);
     if (!(fit->error < config_.max_block_error * grazing * grazing * sums.n)) return;
     At(r * cols_ + c) = {sums, *fit, grazing, 0, 1};
+  }
+
+  bool HasJump(const DepthGrid& grid, int u0, int v0, int u1, int v1) const {
+    const float most = static_cast<float>(config_.max_jump_sigmas);
+    const auto jump = [&](std::size_t i, std::size_t j) {
+      return grid.g[i] > 0 && grid.g[j] > 0 && std::abs(grid.q[i] - grid.q[j]) * grid.g[i] > most;
+    };
+    for (int v = v0; v < v1; ++v) {
+      for (int u = u0; u < u1; ++u) {
+        const auto i = static_cast<std::size_t>(grid.Index(u, v));
+        if (u + 1 < u1 && jump(i, i + 1)) return true;
+        if (v + 1 < v1 && jump(i, i + static_cast<std::size_t>(grid.width))) return true;
+      }
+    }
+    return false;
   }
 
   int Root(int i) {

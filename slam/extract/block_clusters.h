@@ -15,6 +15,9 @@ struct ClusterConfig {
   /// Mean squared error of a block about its own plane, in sigma^2: a block across a depth step
   /// or a crease exceeds it. Domain (0, inf).
   double max_block_error = 3.0;
+  /// A block with a larger jump between neighbouring pixels, in sigmas, lies across a depth step:
+  /// a step can look like a slanted surface, whose larger noise would excuse it. Domain (0, inf).
+  double max_jump_sigmas = 12.0;
   /// Chi-square bound (3 degrees of freedom) on the error that a merge adds; 16.3 is 0.1 %.
   double max_merge_chi2 = 16.3;
   /// Distance, in sigmas, that two parts of one real surface may differ by for reasons other

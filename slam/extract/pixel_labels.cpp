@@ -1,8 +1,9 @@
 #include "slam/extract/pixel_labels.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
+#include <map>
+#include <numeric>
 
 namespace slam {
 namespace {
@@ -11,78 +12,172 @@ namespace {
 // another surface with the plane's extension are thinner.
 constexpr int kLeastPixelsToSpread = 4;
 
-/// Gives the pixels of one block to the nearest of its planes.
-/// @returns how many pixels each plane of the block owns, in the order of seeds.At(block).
-std::vector<int> LabelBlock(const DepthGrid& grid, const std::vector<LabelPlane>& planes,
-                            const LabelSeeds& seeds, int block, double max_sigmas,
-                            LabelImage& labels) {
-  const std::vector<int>& candidates = seeds.At(block);
-  const int size = seeds.block_px();
-  const int u0 = block % seeds.cols() * size, v0 = block / seeds.cols() * size;
-  const int u1 = std::min(u0 + size, grid.width), v1 = std::min(v0 + size, grid.height);
-  std::vector<int> owned(candidates.size(), 0);
-  for (int v = v0; v < v1; ++v) {
-    for (int u = u0; u < u1; ++u) {
-      const auto i = static_cast<std::size_t>(grid.Index(u, v));
-      labels[i] = kNoLabel;
-      if (!(grid.g[i] > 0)) continue;
-      float best = static_cast<float>(max_sigmas);
-      int chosen = -1;
-      for (std::size_t k = 0; k < candidates.size(); ++k) {
-        const auto label = static_cast<std::size_t>(candidates[k]);
-        const float distance = std::abs(ResidualSigmas(grid, i, planes[label]));
-        if (distance < best) best = distance, chosen = static_cast<int>(k);
-      }
-      if (chosen < 0) continue;
-      const auto k = static_cast<std::size_t>(chosen);
-      labels[i] = static_cast<std::int16_t>(candidates[k]);
-      ++owned[k];
-    }
-  }
-  return owned;
-}
+/// What each label gains over the next best plane at its pixels, and how that would change if
+/// that plane were not there.
+struct Gains {
+  std::vector<double> gain;  ///< sum over the label's pixels
+  std::vector<int> pixels;
+  std::map<std::pair<int, int>, double> without;  ///< (label, next best) -> increase
+};
 
 }  // namespace
 
-bool LabelSeeds::Add(int block, int label) {
-  std::vector<int>& at = labels_[static_cast<std::size_t>(block)];
+PixelGrowth::PixelGrowth(const DepthGrid& grid, const GrowthConfig& config)
+    : grid_(grid),
+      config_(config),
+      cols_((grid.width + config.block_px - 1) / config.block_px),
+      rows_((grid.height + config.block_px - 1) / config.block_px),
+      reached_(static_cast<std::size_t>(cols_ * rows_)),
+      labels_(grid.q.size(), kNoLabel) {}
+
+bool PixelGrowth::Reach(int block, int label) {
+  std::vector<int>& at = reached_[static_cast<std::size_t>(block)];
   const auto place = std::lower_bound(at.begin(), at.end(), label);
   if (place != at.end() && *place == label) return false;
   at.insert(place, label);
   return true;
 }
 
-LabelImage AssignPixels(const DepthGrid& grid, const std::vector<LabelPlane>& planes,
-                        LabelSeeds seeds, double max_sigmas) {
-  LabelImage labels(grid.q.size(), kNoLabel);
-  const int cols = seeds.cols(), rows = seeds.rows();
-  std::vector<int> active;
-  for (int block = 0; block < cols * rows; ++block) {
-    if (!seeds.At(block).empty()) active.push_back(block);
+int PixelGrowth::AddPlane(const LabelPlane& plane, const std::vector<int>& blocks) {
+  const int label = static_cast<int>(planes_.size());
+  planes_.push_back(plane);
+  for (const int block : blocks) {
+    if (Reach(block, label)) active_.push_back(block);
   }
+  return label;
+}
+
+/// Gives the pixels of a block to the nearest of its planes and counts what each owns, in the
+/// order of reached_[block].
+void PixelGrowth::LabelBlock(int block, std::vector<int>& owned) {
+  const std::vector<int>& candidates = reached_[static_cast<std::size_t>(block)];
+  const int size = config_.block_px;
+  const int u0 = block % cols_ * size, v0 = block / cols_ * size;
+  const int u1 = std::min(u0 + size, grid_.width), v1 = std::min(v0 + size, grid_.height);
+  owned.assign(candidates.size(), 0);
+  for (int v = v0; v < v1; ++v) {
+    for (int u = u0; u < u1; ++u) {
+      const auto i = static_cast<std::size_t>(grid_.Index(u, v));
+      labels_[i] = kNoLabel;
+      if (!(grid_.g[i] > 0)) continue;
+      float best = static_cast<float>(config_.max_pixel_sigmas);
+      int chosen = -1;
+      for (std::size_t k = 0; k < candidates.size(); ++k) {
+        const auto label = static_cast<std::size_t>(candidates[k]);
+        const float distance = std::abs(ResidualSigmas(grid_, i, planes_[label]));
+        if (distance < best) best = distance, chosen = static_cast<int>(k);
+      }
+      if (chosen < 0) continue;
+      const auto k = static_cast<std::size_t>(chosen);
+      labels_[i] = static_cast<std::int16_t>(candidates[k]);
+      ++owned[k];
+    }
+  }
+}
+
+void PixelGrowth::Grow() {
+  std::vector<int> owned;
+  std::vector<std::pair<int, int>> spread;  // (block, label)
   // Each round adds at least one label to a block, so there are finitely many.
-  while (!active.empty()) {
-    std::vector<std::pair<int, int>> reached;  // (block, label)
-    for (const int block : active) {
-      const std::vector<int> owned = LabelBlock(grid, planes, seeds, block, max_sigmas, labels);
-      const int c = block % cols, r = block / cols;
+  while (!active_.empty()) {
+    std::sort(active_.begin(), active_.end());
+    active_.erase(std::unique(active_.begin(), active_.end()), active_.end());
+    spread.clear();
+    for (const int block : active_) {
+      LabelBlock(block, owned);
+      const int c = block % cols_, r = block / cols_;
       for (std::size_t k = 0; k < owned.size(); ++k) {
         if (owned[k] < kLeastPixelsToSpread) continue;
-        for (int y = std::max(r - 1, 0); y <= std::min(r + 1, rows - 1); ++y) {
-          for (int x = std::max(c - 1, 0); x <= std::min(c + 1, cols - 1); ++x) {
-            reached.emplace_back(y * cols + x, seeds.At(block)[k]);
+        const int label = reached_[static_cast<std::size_t>(block)][k];
+        for (int y = std::max(r - 1, 0); y <= std::min(r + 1, rows_ - 1); ++y) {
+          for (int x = std::max(c - 1, 0); x <= std::min(c + 1, cols_ - 1); ++x) {
+            spread.emplace_back(y * cols_ + x, label);
           }
         }
       }
     }
-    active.clear();
-    for (const auto& [block, label] : reached) {
-      if (seeds.Add(block, label)) active.push_back(block);
+    active_.clear();
+    for (const auto& [block, label] : spread) {
+      if (Reach(block, label)) active_.push_back(block);
     }
-    std::sort(active.begin(), active.end());
-    active.erase(std::unique(active.begin(), active.end()), active.end());
   }
-  return labels;
+}
+
+void PixelGrowth::DropUseless() {
+  Gains gains{
+      std::vector<double>(planes_.size(), 0.0), std::vector<int>(planes_.size(), 0), {}};
+  const float unexplained = static_cast<float>(config_.max_pixel_sigmas + 1.0);
+  for (int v = 0; v < grid_.height; ++v) {
+    for (int u = 0; u < grid_.width; ++u) {
+      const auto i = static_cast<std::size_t>(grid_.Index(u, v));
+      if (labels_[i] == kNoLabel) continue;
+      const auto label = static_cast<std::size_t>(labels_[i]);
+      ++gains.pixels[label];
+      const std::vector<int>& candidates = reached_[static_cast<std::size_t>(BlockAt(u, v))];
+      if (candidates.size() == 1) {
+        gains.gain[label] += static_cast<double>(unexplained * unexplained) - 1.0;
+        continue;
+      }
+      float next = unexplained;
+      int next_label = -1;
+      for (const int other : candidates) {
+        if (other == labels_[i]) continue;
+        const float distance =
+            std::abs(ResidualSigmas(grid_, i, planes_[static_cast<std::size_t>(other)]));
+        if (distance < next) next = distance, next_label = other;
+      }
+      const float own = ResidualSigmas(grid_, i, planes_[label]);
+      gains.gain[label] += static_cast<double>(next * next - own * own);
+      if (next_label >= 0) {
+        gains.without[{labels_[i], next_label}] +=
+            static_cast<double>(unexplained * unexplained - next * next);
+      }
+    }
+  }
+  std::vector<std::size_t> order(planes_.size());
+  std::iota(order.begin(), order.end(), 0u);
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    return gains.pixels[a] < gains.pixels[b];
+  });
+  std::vector<bool> dropped(planes_.size(), false);
+  bool any = false;
+  for (const std::size_t label : order) {
+    if (gains.gain[label] >= config_.min_gain * std::max(gains.pixels[label], 1)) continue;
+    dropped[label] = any = true;
+    for (const auto& [pair, increase] : gains.without) {
+      if (pair.second == static_cast<int>(label)) {
+        gains.gain[static_cast<std::size_t>(pair.first)] += increase;
+      }
+    }
+  }
+  if (!any) return;
+  for (std::size_t block = 0; block < reached_.size(); ++block) {
+    const auto gone =
+        std::remove_if(reached_[block].begin(), reached_[block].end(),
+                       [&](int label) { return dropped[static_cast<std::size_t>(label)]; });
+    if (gone == reached_[block].end()) continue;
+    reached_[block].erase(gone, reached_[block].end());
+    active_.push_back(static_cast<int>(block));
+  }
+  Grow();
+}
+
+void PixelGrowth::Replace(std::vector<LabelPlane> planes, const std::vector<int>& into) {
+  planes_ = std::move(planes);
+  for (std::vector<int>& at : reached_) at.clear();
+  for (int v = 0; v < grid_.height; ++v) {
+    std::int16_t last = kNoLabel;
+    int last_block = -1;
+    for (int u = 0; u < grid_.width; ++u) {
+      const std::int16_t label = labels_[static_cast<std::size_t>(grid_.Index(u, v))];
+      const int block = BlockAt(u, v);
+      if (label == kNoLabel || (label == last && block == last_block)) continue;
+      if (Reach(block, into[static_cast<std::size_t>(label)])) active_.push_back(block);
+      last = label, last_block = block;
+    }
+  }
+  std::fill(labels_.begin(), labels_.end(), kNoLabel);
+  Grow();
 }
 
 std::vector<PlaneSums> SumLabels(const DepthGrid& grid, const LabelImage& labels, int count) {

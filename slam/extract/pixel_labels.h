@@ -15,39 +15,56 @@ struct LabelPlane {
   double grazing = 1.0;  ///< GrazingFactor of its pixels
 };
 
-/// Which planes may claim pixels of which block of the image: the regions grow from here.
-class LabelSeeds {
- public:
-  LabelSeeds(int width, int height, int block_px)
-      : block_px_(block_px),
-        cols_((width + block_px - 1) / block_px),
-        rows_((height + block_px - 1) / block_px),
-        labels_(static_cast<std::size_t>(cols_ * rows_)) {}
-
-  /// @returns whether it is new there.
-  bool Add(int block, int label);
-  int BlockAt(int u, int v) const { return (v / block_px_) * cols_ + u / block_px_; }
-  int block_px() const { return block_px_; }
-  int cols() const { return cols_; }
-  int rows() const { return rows_; }
-  const std::vector<int>& At(int block) const {
-    return labels_[static_cast<std::size_t>(block)];
-  }
-
- private:
-  int block_px_, cols_, rows_;
-  std::vector<std::vector<int>> labels_;  ///< sorted
-};
-
 inline constexpr std::int16_t kNoLabel = -1;
 using LabelImage = std::vector<std::int16_t>;  ///< one entry a pixel, kNoLabel or an index
 
-/// Grows every plane from its seeds over the pixels that lie on it: a pixel goes to the nearest
-/// plane, in sigmas, among those that have reached its block, if it is nearer than max_sigmas.
-/// A plane that owns pixels in a block reaches the block's 8 neighbours. The outcome does not
-/// depend on the order of work.
-LabelImage AssignPixels(const DepthGrid& grid, const std::vector<LabelPlane>& planes,
-                        LabelSeeds seeds, double max_sigmas);
+struct GrowthConfig {
+  int block_px = 8;               ///< regions spread from block to block; domain [2, 64]
+  double max_pixel_sigmas = 3.0;  ///< distance of a plane's pixel from it; domain (0, inf)
+  /// A plane must explain its pixels better than the next best plane there does, by this much
+  /// on average (difference of squared sigmas); otherwise it only steals from its neighbours,
+  /// as the plane of a block across a step does. Domain [0, inf).
+  double min_gain = 3.0;
+};
+
+/// Planes growing over the pixels of an image, from block to block.
+///
+/// A pixel goes to the nearest plane, in sigmas, among those that have reached its block, if it
+/// is nearer than max_pixel_sigmas. A plane that owns pixels of a block reaches the block's 8
+/// neighbours. The outcome does not depend on the order of work.
+class PixelGrowth {
+ public:
+  PixelGrowth(const DepthGrid& grid, const GrowthConfig& config);
+
+  /// Adds a plane that may claim pixels at once in `blocks`. @returns its label.
+  int AddPlane(const LabelPlane& plane, const std::vector<int>& blocks);
+  int BlockAt(int u, int v) const {
+    return v / config_.block_px * cols_ + u / config_.block_px;
+  }
+  /// Spreads the planes added or changed since the last call.
+  void Grow();
+  /// Takes out the planes that gain less than min_gain, smallest first, and gives their pixels
+  /// to the others.
+  void DropUseless();
+  /// Goes on with other planes for the labels: `planes` in place of the old ones and the pixels
+  /// of label k counted as those of into[k]; everything is grown anew from there.
+  void Replace(std::vector<LabelPlane> planes, const std::vector<int>& into);
+
+  const LabelImage& labels() const { return labels_; }
+  const std::vector<LabelPlane>& planes() const { return planes_; }
+
+ private:
+  bool Reach(int block, int label);
+  void LabelBlock(int block, std::vector<int>& owned);
+
+  const DepthGrid& grid_;
+  GrowthConfig config_;
+  int cols_, rows_;
+  std::vector<LabelPlane> planes_;
+  std::vector<std::vector<int>> reached_;  ///< labels of each block, sorted
+  std::vector<int> active_;                ///< blocks whose labels changed
+  LabelImage labels_;
+};
 
 /// Sums of the pixels of each label.
 std::vector<PlaneSums> SumLabels(const DepthGrid& grid, const LabelImage& labels, int count);

@@ -16,38 +16,34 @@ namespace {
 constexpr int kMostSegments = 254;  // 8-bit label image, 0 = none
 constexpr int kLeastContacts = 4;   // pixel sides that two segments must share to touch
 
-/// The planes found so far and where they may grow from.
-struct Hypotheses {
-  std::vector<LabelPlane> planes;
-  LabelSeeds seeds;
-};
-
 void AddClusters(const DepthGrid& grid, const BlockClusters& clusters, const DepthNoise& noise,
-                 Hypotheses& out) {
-  const int first = static_cast<int>(out.planes.size());
-  for (std::size_t r = 0; r < clusters.planes.size(); ++r) {
-    const InverseDepthPlane& plane = clusters.planes[r];
-    out.planes.push_back({plane, GrazingFactor(clusters.sums[r], plane, noise)});
-  }
+                 PixelGrowth& growth) {
+  std::vector<std::vector<int>> blocks(clusters.planes.size());
+  const int half = clusters.block_px / 2;
   for (int block = 0; block < clusters.cols * clusters.rows; ++block) {
     const int region = clusters.region[static_cast<std::size_t>(block)];
     if (region < 0) continue;
-    const int half = clusters.block_px / 2;
     const int u = std::min(block % clusters.cols * clusters.block_px + half, grid.width - 1);
     const int v = std::min(block / clusters.cols * clusters.block_px + half, grid.height - 1);
-    out.seeds.Add(out.seeds.BlockAt(u, v), first + region);
+    blocks[static_cast<std::size_t>(region)].push_back(growth.BlockAt(u, v));
   }
+  for (std::size_t r = 0; r < blocks.size(); ++r) {
+    const InverseDepthPlane& plane = clusters.planes[r];
+    growth.AddPlane({plane, GrazingFactor(clusters.sums[r], plane, noise)}, blocks[r]);
+  }
+  growth.Grow();
+  growth.DropUseless();
 }
 
 /// Marks the pixels that need no second look: labelled, in a block whose mean residual from the
 /// label's plane is what noise and model error explain.
-std::vector<std::uint8_t> SettledPixels(const DepthGrid& grid, const LabelImage& labels,
-                                        const Hypotheses& found,
+std::vector<std::uint8_t> SettledPixels(const DepthGrid& grid, const PixelGrowth& found,
                                         const PlaneExtractionConfig& config) {
+  const LabelImage& labels = found.labels();
   std::vector<std::uint8_t> settled(labels.size(), 0);
   const int size = config.block_px;
-  std::vector<double> sum(found.planes.size(), 0.0);
-  std::vector<int> count(found.planes.size(), 0);
+  std::vector<double> sum(found.planes().size(), 0.0);
+  std::vector<int> count(found.planes().size(), 0);
   std::vector<int> present;
   for (int v0 = 0; v0 < grid.height; v0 += size) {
     for (int u0 = 0; u0 < grid.width; u0 += size) {
@@ -63,7 +59,7 @@ std::vector<std::uint8_t> SettledPixels(const DepthGrid& grid, const LabelImage&
       };
       each([&](std::size_t i, std::size_t label) {
         if (count[label]++ == 0) present.push_back(labels[i]);
-        sum[label] += static_cast<double>(ResidualSigmas(grid, i, found.planes[label]));
+        sum[label] += static_cast<double>(ResidualSigmas(grid, i, found.planes()[label]));
       });
       each([&](std::size_t i, std::size_t label) {
         const double n = count[label];
@@ -111,10 +107,12 @@ double RelativeGap(const PlaneSums& a, const PlaneSums& b, const LabelPlane& pla
   return gap2 / allowed;
 }
 
-/// Merges touching labels that are one plane, closest pair first, and refits every plane to its
-/// pixels. Labels without pixels keep their plane but lose their seeds in the next growth.
-void MergeNeighbours(const DepthGrid& grid, LabelImage& labels, std::vector<LabelPlane>& planes,
-                     const PlaneExtractionConfig& config) {
+/// Merges touching labels that are one plane, closest pair first, refits every plane to its
+/// pixels and grows them anew.
+void MergeNeighbours(const DepthGrid& grid, const PlaneExtractionConfig& config,
+                     PixelGrowth& growth) {
+  const LabelImage& labels = growth.labels();
+  std::vector<LabelPlane> planes = growth.planes();
   std::vector<PlaneSums> sums = SumLabels(grid, labels, static_cast<int>(planes.size()));
   const auto refit = [&](std::size_t k) {
     const std::optional<PlaneFit> fit = Fit(sums[k]);
@@ -153,29 +151,41 @@ void MergeNeighbours(const DepthGrid& grid, LabelImage& labels, std::vector<Labe
   for (std::size_t k = 0; k < into.size(); ++k) {
     into[k] = into[static_cast<std::size_t>(into[k])];  // chains end: a target is lower
   }
-  for (std::int16_t& label : labels) {
-    if (label != kNoLabel) {
-      label = static_cast<std::int16_t>(into[static_cast<std::size_t>(label)]);
-    }
-  }
+  growth.Replace(std::move(planes), into);
 }
 
-/// Seeds for another growth: every block in which a label owns pixels.
-LabelSeeds SeedsOf(const DepthGrid& grid, const LabelImage& labels, int block_px) {
-  LabelSeeds seeds(grid.width, grid.height, block_px);
-  for (int v = 0; v < grid.height; ++v) {
-    std::int16_t last = kNoLabel;
-    int last_block = -1;
-    for (int u = 0; u < grid.width; ++u) {
-      const std::int16_t label = labels[static_cast<std::size_t>(grid.Index(u, v))];
-      if (label == kNoLabel) continue;
-      const int block = seeds.BlockAt(u, v);
-      if (label == last && block == last_block) continue;
-      seeds.Add(block, label);
-      last = label, last_block = block;
+/// Labels that are one plane though nothing joins them in the image: the smaller lies on the
+/// larger's extension, and what surrounds the smaller is in front of it, so that it can pass
+/// behind. Two book tops of one height are surrounded by the desk behind them and stay apart.
+void JoinAcrossOccluders(const LabelImage& labels, const DepthGrid& grid,
+                         const std::vector<LabelPlane>& planes,
+                         const PlaneExtractionConfig& config, LabelComponents& components) {
+  std::vector<int> behind(planes.size(), 0), in_front(planes.size(), 0);
+  for (const LabelComponent& c : components.list) {
+    behind[static_cast<std::size_t>(c.label)] += c.behind;
+    in_front[static_cast<std::size_t>(c.label)] += c.in_front;
+  }
+  const std::vector<PlaneSums> sums = SumLabels(grid, labels, static_cast<int>(planes.size()));
+  std::vector<std::size_t> order(planes.size());
+  std::iota(order.begin(), order.end(), 0u);
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b) { return sums[a].n > sums[b].n; });
+  std::vector<int> into(planes.size());
+  std::iota(into.begin(), into.end(), 0);
+  for (std::size_t k = 1; k < order.size(); ++k) {
+    const std::size_t small = order[k];
+    if (!(sums[small].n >= 3)) break;
+    if (behind[small] > config.max_island_behind * (behind[small] + in_front[small])) continue;
+    double least = 1.0;
+    for (std::size_t j = 0; j < k; ++j) {
+      const std::size_t large = order[j];
+      if (into[large] != static_cast<int>(large)) continue;
+      const double gap =
+          RelativeGap(sums[small], sums[large], planes[small], planes[large], config);
+      if (gap < least) least = gap, into[small] = static_cast<int>(large);
     }
   }
-  return seeds;
+  for (LabelComponent& c : components.list) c.label = into[static_cast<std::size_t>(c.label)];
 }
 
 /// Which segment each connected component belongs to; -1 = none. A label's largest component
@@ -307,26 +317,21 @@ FramePlane MakeFramePlane(const Segment& segment, int index) {
 void ExtractPlanes(Frame& frame, const Camera& camera, const cv::Mat2d& rays,
                    const PlaneExtractionConfig& config) {
   const DepthGrid grid = MakeDepthGrid(frame.depth_m, rays, config.noise, config.max_depth_m);
-  Hypotheses found{{}, LabelSeeds(grid.width, grid.height, config.block_px)};
-
+  PixelGrowth growth(grid, config.growth);
   AddClusters(grid, ClusterBlocks(grid, {}, config.block_px, config.noise, config.coarse),
-              config.noise, found);
-  LabelImage labels = AssignPixels(grid, found.planes, found.seeds, config.max_pixel_sigmas);
-
-  const auto settled = SettledPixels(grid, labels, found, config);
+              config.noise, growth);
+  const std::vector<std::uint8_t> settled = SettledPixels(grid, growth, config);
   AddClusters(grid,
               ClusterBlocks(grid, settled, config.fine_block_px, config.noise, config.fine),
-              config.noise, found);
-  labels = AssignPixels(grid, found.planes, found.seeds, config.max_pixel_sigmas);
+              config.noise, growth);
+  MergeNeighbours(grid, config, growth);
 
-  MergeNeighbours(grid, labels, found.planes, config);
-  labels = AssignPixels(grid, found.planes, SeedsOf(grid, labels, config.block_px),
-                        config.max_pixel_sigmas);
-
-  const LabelComponents components = ConnectedComponents(grid, labels, found.planes);
+  LabelImage labels = growth.labels();
+  LabelComponents components = ConnectedComponents(grid, labels, growth.planes());
+  JoinAcrossOccluders(labels, grid, growth.planes(), config, components);
   int count = 0;
   const std::vector<int> segment_of =
-      SegmentsOfComponents(components, found.planes.size(), config, count);
+      SegmentsOfComponents(components, growth.planes().size(), config, count);
   for (std::size_t i = 0; i < labels.size(); ++i) {
     if (labels[i] == kNoLabel) continue;
     labels[i] = static_cast<std::int16_t>(

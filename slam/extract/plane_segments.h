@@ -21,7 +21,7 @@ struct PlaneExtractionConfig {
   ClusterConfig coarse;
   ClusterConfig fine{.min_measured = 0.75, .max_block_error = 3.0, .min_blocks = 10};
 
-  double max_pixel_sigmas = 3.0;  ///< distance of a plane's pixel from it; domain (0, inf)
+  GrowthConfig growth;
   /// A block whose mean residual exceeds this many standard errors, over the model error, does
   /// not lie on its plane and is offered to the second clustering; domain (0, inf).
   double max_block_bias_sigmas = 3.0;
