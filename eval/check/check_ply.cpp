@@ -1,0 +1,195 @@
+#include "eval/check/check_ply.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <cstring>
+#include <fstream>
+#include <iterator>
+#include <sstream>
+
+#include "eval/check/checked_text.h"
+
+namespace eval {
+namespace {
+
+const std::string kFile = "map.ply";
+constexpr const char* kRunAgain = "write the file again";
+
+struct Property {
+  std::string type, name;
+};
+
+struct Header {
+  bool ascii = true;
+  long vertices = -1;
+  std::vector<Property> properties;  ///< of element vertex
+  std::size_t body = 0;              ///< byte at which it starts
+  int lines = 0;
+};
+
+std::size_t SizeOf(const std::string& type) {
+  if (type == "char" || type == "uchar" || type == "int8" || type == "uint8") return 1;
+  if (type == "short" || type == "ushort" || type == "int16" || type == "uint16") return 2;
+  if (type == "double" || type == "float64") return 8;
+  return type == "int" || type == "uint" || type == "int32" || type == "uint32" ||
+                 type == "float" || type == "float32"
+             ? 4
+             : 0;
+}
+
+std::optional<Header> ReadHeader(FolderCheck& check, const std::string& bytes) {
+  Header header;
+  std::istringstream in(bytes);
+  std::string text, element;
+  bool ended = false;
+  for (; !ended && std::getline(in, text); ++header.lines) {
+    std::istringstream words(text);
+    std::string first, second, third;
+    words >> first >> second >> third;
+    if (header.lines == 0 && first != "ply") break;
+    if (first == "format") {
+      header.ascii = second == "ascii";
+      if (header.ascii || second == "binary_little_endian") continue;
+      check.Add(kFile, header.lines + 1, "has the format " + second,
+                "use ascii or binary_little_endian");
+      return std::nullopt;
+    }
+    if (first == "element") {
+      element = second;
+      if (second == "vertex") header.vertices = std::atol(third.c_str());
+    } else if (first == "property" && element == "vertex") {
+      header.properties.push_back({second, third});
+    }
+    ended = first == "end_header";
+  }
+  if (!ended || header.vertices < 0) {
+    check.Add(kFile, 0, "has no complete PLY header (ply, format, element vertex, end_header)",
+              kRunAgain);
+    return std::nullopt;
+  }
+  header.body = static_cast<std::size_t>(in.tellg());
+  return header;
+}
+
+bool CheckProperties(FolderCheck& check, const Header& header) {
+  bool good = true;
+  for (const char* name : {"x", "y", "z", "red", "green", "blue", "plane_id"}) {
+    bool found = false;
+    for (const Property& property : header.properties) {
+      if (property.name != name) continue;
+      found = SizeOf(property.type) > 0;
+      if (std::strcmp(name, "plane_id") == 0) found = SizeOf(property.type) == 4;
+    }
+    if (found) continue;
+    check.Add(kFile, 0, fmt::format("has no property `{}` of a known type", name),
+              "write x y z red green blue and `property int plane_id`");
+    good = false;
+  }
+  return good;
+}
+
+/// Values of a point, in the order of the properties; nothing at the end of the file.
+class Points {
+ public:
+  Points(const std::string& bytes, const Header& header)
+      : bytes_(bytes), header_(header), at_(header.body) {}
+
+  std::optional<std::vector<double>> Next() {
+    return header_.ascii ? NextLine() : NextRecord();
+  }
+  bool AtEnd() const {
+    return bytes_.find_first_not_of(header_.ascii ? " \r\n\t" : "", at_) == std::string::npos;
+  }
+
+ private:
+  std::optional<std::vector<double>> NextLine() {
+    if (at_ >= bytes_.size()) return std::nullopt;
+    const std::size_t end = std::min(bytes_.find('\n', at_), bytes_.size());
+    std::istringstream words(bytes_.substr(at_, end - at_));
+    at_ = std::min(end + 1, bytes_.size());
+    std::vector<double> values;
+    for (std::string word; words >> word;) {
+      values.push_back(FiniteNumberIn(word).value_or(std::nan("")));
+    }
+    if (values.size() != header_.properties.size()) return std::nullopt;
+    return values;
+  }
+
+  template <typename T>
+  double Take() {
+    T value;
+    std::memcpy(&value, bytes_.data() + at_, sizeof(T));
+    at_ += sizeof(T);
+    return static_cast<double>(value);
+  }
+
+  std::optional<std::vector<double>> NextRecord() {
+    std::vector<double> values;
+    for (const Property& property : header_.properties) {
+      const std::size_t size = SizeOf(property.type);
+      if (size == 0 || at_ + size > bytes_.size()) return std::nullopt;
+      const bool real = property.type[0] == 'f' || property.type[0] == 'd';
+      if (size == 8) values.push_back(Take<double>());
+      if (size == 4) values.push_back(real ? Take<float>() : Take<std::int32_t>());
+      if (size == 2) values.push_back(Take<std::int16_t>());
+      if (size == 1) values.push_back(Take<std::uint8_t>());
+    }
+    return values;
+  }
+
+  const std::string& bytes_;
+  const Header& header_;
+  std::size_t at_;
+};
+
+void CheckPoints(FolderCheck& check, const Header& header, const std::string& bytes,
+                 const CheckedMap& map) {
+  Points points(bytes, header);
+  std::set<long> unknown;
+  long not_finite = 0;
+  for (long i = 0; i < header.vertices; ++i) {
+    const auto point = points.Next();
+    if (!point) {
+      check.Add(kFile, header.ascii ? header.lines + static_cast<int>(i) + 1 : 0,
+                fmt::format("ends or breaks at point {} of {}", i, header.vertices), kRunAgain);
+      return;
+    }
+    for (std::size_t k = 0; k < point->size(); ++k) {
+      const double value = (*point)[k];
+      if (!std::isfinite(value)) {
+        ++not_finite;
+      } else if (header.properties[k].name == "plane_id" && map.read &&
+                 map.ids.count(std::lround(value)) == 0) {
+        unknown.insert(std::lround(value));
+      }
+    }
+  }
+  if (!points.AtEnd()) {
+    check.Add(kFile, 0,
+              fmt::format("goes on after the {} points of its header", header.vertices),
+              kRunAgain);
+  }
+  if (not_finite > 0) {
+    check.Add(kFile, 0, fmt::format("has {} values that are no finite numbers", not_finite),
+              kRunAgain);
+  }
+  for (const long id : unknown) {
+    check.Add(kFile, 0, fmt::format("has points of plane {}, which is not in map.json", id),
+              "write the id that map.json gives the plane");
+  }
+}
+
+}  // namespace
+
+void CheckPly(FolderCheck& check, const CheckedMap& map) {
+  if (!check.Require(kFile, "run the SLAM system again")) return;
+  std::ifstream in(check.root / kFile, std::ios::binary);
+  check.files.insert(kFile);
+  const std::string bytes((std::istreambuf_iterator<char>(in)),
+                          std::istreambuf_iterator<char>());
+  const auto header = ReadHeader(check, bytes);
+  if (header && CheckProperties(check, *header)) CheckPoints(check, *header, bytes, map);
+}
+
+}  // namespace eval

@@ -1,0 +1,72 @@
+#include "eval/check/check_segmentation.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+
+#include "eval/check/check_images.h"
+#include "eval/check/checked_text.h"
+
+namespace eval {
+namespace {
+
+const std::string kFolder = "segmentation";
+
+void CheckLabels(FolderCheck& check, const std::string& file, const cv::Mat& labels,
+                 const std::set<long>& indices) {
+  std::array<long, 256> pixels{};
+  for (int y = 0; y < labels.rows; ++y) {
+    const unsigned char* row = labels.ptr<unsigned char>(y);
+    for (int x = 0; x < labels.cols; ++x) ++pixels[row[x]];
+  }
+  for (int value = 1; value < 256; ++value) {
+    const long count = pixels[static_cast<std::size_t>(value)];
+    if (count == 0 || indices.count(value - 1) != 0) continue;
+    check.Add(
+        file, 0,
+        fmt::format("shows the value {} in {} pixels, but the frame has no plane of index {}",
+                    value, count, value - 1),
+        "write index + 1 of the plane, 0 for none");
+  }
+}
+
+std::vector<std::string> Names(const FolderCheck& check) {
+  std::vector<std::string> names;
+  for (const auto& entry : std::filesystem::directory_iterator(check.root / kFolder)) {
+    if (entry.path().extension() == ".png") names.push_back(entry.path().filename().string());
+  }
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+}  // namespace
+
+void CheckSegmentation(FolderCheck& check, const FramePlaneCounts& planes) {
+  if (!std::filesystem::is_directory(check.root / kFolder)) return;
+  cv::Size size;
+  std::set<std::size_t> seen;
+  for (const std::string& name : Names(check)) {
+    const std::string file = kFolder + "/" + name;
+    const auto stamp = FiniteNumberIn(std::filesystem::path(name).stem().string());
+    const auto frame = stamp ? NearestStamp(planes.stamps_s, *stamp, kSameInstant_s)
+                             : std::optional<std::size_t>();
+    if (!frame) {
+      check.Add(file, 0, "is named by no time of frame_planes.jsonl",
+                "name the image by the time of its frame");
+      continue;
+    }
+    seen.insert(*frame);
+    const cv::Mat labels = CheckImage(check, file, {CV_8U, 1, size});
+    if (labels.empty()) continue;
+    if (size.empty()) size = labels.size();
+    CheckLabels(check, file, labels, planes.indices[*frame]);
+  }
+  for (std::size_t i = 0; i < planes.stamps_s.size(); ++i) {
+    if (seen.count(i) != 0) continue;
+    check.Add(kFolder, 0, fmt::format("lacks the image of frame {:.6f}", planes.stamps_s[i]),
+              "write all frames or none");
+  }
+}
+
+}  // namespace eval

@@ -1,0 +1,214 @@
+#include "eval/check/check_truth_depth.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <map>
+#include <opencv2/calib3d.hpp>
+#include <opencv2/imgcodecs.hpp>
+
+#include "eval/check/checked_text.h"
+
+namespace eval {
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr int kStride_px = 4;             // every sixteenth pixel: 19,200 of a VGA image
+constexpr std::size_t kMinPixels = 100;   // fewer say nothing about a median
+constexpr double kLargestTilt_rad = 1.4;  // beyond, sensors measure nothing to rely on
+
+/// A measured depth with the plane and the ray it belongs to.
+struct Sample {
+  double depth_m;
+  Vector3d ray_c;  ///< z = 1
+  const CheckedScene::Plane* plane;
+};
+
+double Median(std::vector<double> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+std::vector<Vector3d> Rays(const CheckedCamera& camera,
+                           const std::vector<cv::Point2d>& pixels) {
+  const cv::Matx33d K(camera.fx, 0, camera.cx, 0, camera.fy, camera.cy, 0, 0, 1);
+  const auto& k = camera.distortion;
+  std::vector<cv::Point2d> points;
+  if (!pixels.empty()) {
+    cv::undistortPoints(pixels, points, K, cv::Vec<double, 5>(k[0], k[1], k[2], k[3], k[4]));
+  }
+  std::vector<Vector3d> rays;
+  for (const cv::Point2d& p : points) rays.emplace_back(p.x, p.y, 1);
+  return rays;
+}
+
+std::vector<Sample> Samples(const cv::Mat& depth, const cv::Mat& ids, const CheckedScene& scene,
+                            const CheckedCamera& camera) {
+  std::vector<Sample> samples;
+  std::vector<cv::Point2d> pixels;
+  for (int y = kStride_px / 2; y < ids.rows; y += kStride_px) {
+    for (int x = kStride_px / 2; x < ids.cols; x += kStride_px) {
+      const auto plane = scene.planes.find(ids.at<unsigned short>(y, x));
+      const int units = depth.at<unsigned short>(y, x);
+      if (units == 0 || plane == scene.planes.end()) continue;
+      samples.push_back({units / camera.depth_factor, Vector3d::UnitZ(), &plane->second});
+      pixels.emplace_back(x, y);
+    }
+  }
+  const std::vector<Vector3d> rays = Rays(camera, pixels);
+  for (std::size_t i = 0; i < samples.size(); ++i) samples[i].ray_c = rays[i];
+  return samples;
+}
+
+/// Standard deviation that a depth may have. `ideal` is exact up to the rounding of the file;
+/// `kinect1` is Nguyen, Izadi and Lovell (3DIMPVT 2012), sigma = 1.2 mm + 1.9 mm (z - 0.4)^2
+/// plus its tilt term; an unknown sensor may have 2 mm + 1 % of z.
+double Sigma(const std::string& sensor, double z, double tilt_rad, double unit_m) {
+  if (sensor == "ideal") return unit_m;
+  if (sensor != "kinect1") return 0.002 + 0.01 * z + unit_m;
+  const double axial = 0.0012 + 0.0019 * (z - 0.4) * (z - 0.4);
+  const double tilted = tilt_rad > M_PI / 3 ? 0.0001 / std::sqrt(z) *
+                                                  std::pow(tilt_rad / (M_PI / 2 - tilt_rad), 2)
+                                            : 0.0;
+  return axial + tilted + unit_m;
+}
+
+/// How well a set of samples agrees with a pose; `measured` turns a sample into planar depth.
+struct Agreement {
+  double ratio = 0;    ///< median |error| / sigma
+  double error_m = 0;  ///< median |error|
+  double scale = 1;    ///< median measured / predicted
+  std::size_t pixels = 0;
+};
+
+Agreement Compare(const std::vector<Sample>& samples, const Eigen::Isometry3d& T_wc,
+                  const std::function<double(const Sample&)>& measured,
+                  const std::string& sensor, double unit_m) {
+  std::vector<double> ratios, errors, scales;
+  for (const Sample& sample : samples) {
+    const Vector3d ray_w = T_wc.linear() * sample.ray_c;
+    const double towards = sample.plane->normal.dot(ray_w);
+    const double z =
+        -(sample.plane->normal.dot(T_wc.translation()) + sample.plane->d) / towards;
+    const double tilt =
+        std::acos(std::clamp(std::abs(towards) / sample.ray_c.norm(), 0.0, 1.0));
+    if (tilt > kLargestTilt_rad) continue;
+    const double z_measured = measured(sample);
+    // A plane behind the camera is predicted nowhere: as wrong as can be.
+    const bool ahead = std::isfinite(z) && z > 0;
+    const double error = ahead ? std::abs(z_measured - z) : z_measured;
+    errors.push_back(error);
+    ratios.push_back(ahead ? error / Sigma(sensor, z, tilt, unit_m) : 1e6);
+    scales.push_back(ahead ? z_measured / z : 0);
+  }
+  if (errors.size() < kMinPixels) return {};
+  return {Median(ratios), Median(errors), Median(scales), errors.size()};
+}
+
+// Tries the usual mistakes on a bad frame; the first that makes it good is named.
+std::string Explain(const std::vector<Sample>& samples, const Eigen::Isometry3d& T_wc,
+                    const Agreement& found, const std::string& sensor, double unit_m) {
+  const auto as_told = [](const Sample& s) { return s.depth_m; };
+  const auto agrees = [&](const Eigen::Isometry3d& pose,
+                          const std::function<double(const Sample&)>& measured) {
+    const Agreement tried = Compare(samples, pose, measured, sensor, unit_m);
+    return tried.pixels > 0 && tried.ratio <= 1;
+  };
+  if (agrees(T_wc, [](const Sample& s) { return s.depth_m / s.ray_c.norm(); })) {
+    return "the depth is the length of the ray; write the coordinate along the optical axis";
+  }
+  if (agrees(T_wc.inverse(), as_told)) {
+    return "groundtruth.txt holds world to camera; write camera to world";
+  }
+  const double scale = found.scale;
+  if (scale > 0 && agrees(T_wc, [&](const Sample& s) { return s.depth_m / scale; })) {
+    return fmt::format(
+        "all depths are {:.4g} times too large; mend depth_factor in camera.yaml", scale);
+  }
+  return "";
+}
+
+}  // namespace
+
+TruthDepthCheck::TruthDepthCheck(FolderCheck& check, const SequenceTruth& truth)
+    : check_(check), truth_(truth) {
+  for (const CheckedPose& pose : truth.poses) pose_stamps_.push_back(pose.stamp_s);
+}
+
+bool TruthDepthCheck::IsFaulty(const std::string& file) const {
+  return std::any_of(check_.faults.begin(), check_.faults.end(),
+                     [&](const Fault& fault) { return fault.file == file; });
+}
+
+void TruthDepthCheck::Frame(double stamp_s, const cv::Mat& plane_ids) {
+  if (!truth_.camera || !truth_.scene || plane_ids.empty()) return;
+  const auto pair = std::find_if(
+      truth_.pairs.begin(), truth_.pairs.end(),
+      [&](const ListedPair& p) { return std::abs(p.rgb.stamp_s - stamp_s) <= kSameInstant_s; });
+  // A depth image of another instant shows another picture than the id image.
+  if (pair == truth_.pairs.end() || std::abs(pair->depth.stamp_s - stamp_s) > kSameInstant_s) {
+    return;
+  }
+  const auto pose = NearestStamp(pose_stamps_, stamp_s, kSameInstant_s);
+  const cv::Mat depth =
+      cv::imread((check_.root / pair->depth.file).string(), cv::IMREAD_UNCHANGED);
+  if (!pose || depth.type() != CV_16UC1 || depth.size() != plane_ids.size()) return;
+
+  const std::vector<Sample> samples = Samples(depth, plane_ids, *truth_.scene, *truth_.camera);
+  const Eigen::Isometry3d& T_wc = truth_.poses[*pose].T_wc;
+  const double unit_m = 1 / truth_.camera->depth_factor;
+  const auto as_told = [](const Sample& s) { return s.depth_m; };
+  const Agreement found = Compare(samples, T_wc, as_told, truth_.sensor, unit_m);
+  if (found.pixels == 0) return;
+  Verdict verdict{pair->depth.file, found.error_m, !(found.ratio <= 1), ""};
+  if (verdict.bad) {
+    verdict.explanation = Explain(samples, T_wc, found, truth_.sensor, unit_m);
+  }
+  verdicts_.push_back(verdict);
+}
+
+void TruthDepthCheck::Finish() {
+  std::vector<Verdict> bad;
+  for (const Verdict& verdict : verdicts_) {
+    if (verdict.bad) bad.push_back(verdict);
+  }
+  const std::string unexplained =
+      "check the poses, camera.yaml, the planes of gt/scene.json and the order of the images";
+  if (bad.size() <= verdicts_.size() / 2) {
+    for (const Verdict& verdict : bad) {
+      check_.Add(verdict.file, 0,
+                 fmt::format("is {:.1f} mm (median) off the depth that the truth predicts",
+                             verdict.error_m * 1e3),
+                 verdict.explanation.empty() ? unexplained : verdict.explanation);
+    }
+    return;
+  }
+  std::map<std::string, int> votes;
+  std::vector<double> errors;
+  for (const Verdict& verdict : bad) {
+    ++votes[verdict.explanation.substr(0, 20)];
+    errors.push_back(verdict.error_m);
+  }
+  const auto most =
+      std::max_element(votes.begin(), votes.end(),
+                       [](const auto& a, const auto& b) { return a.second < b.second; });
+  std::string mend = unexplained;
+  for (const Verdict& verdict : bad) {
+    if (!verdict.explanation.empty() && verdict.explanation.substr(0, 20) == most->first) {
+      mend = verdict.explanation;
+      break;
+    }
+  }
+  check_.Add(
+      "depth.txt", 0,
+      fmt::format("in {} of {} frames the depth is off what the truth predicts, by {:.1f} mm "
+                  "(median)",
+                  bad.size(), verdicts_.size(), Median(errors) * 1e3),
+      mend);
+}
+
+}  // namespace eval

@@ -1,0 +1,41 @@
+#pragma once
+
+#include <opencv2/core.hpp>
+#include <string>
+#include <vector>
+
+#include "eval/check/check_truth_frames.h"
+
+namespace eval {
+
+/// Compares depth images with the depth that the truth predicts: the plane seen through the
+/// centre of a pixel, met by its ray from the true pose,
+///   z = -(n . o + d) / (n . R_wc r),   r = ((u - cx) / fx, (v - cy) / fy, 1).
+/// In every frame the median of |depth - z| / sigma(z) must be at most 1, where sigma is the
+/// sensor's own noise. This finds depth along the ray instead of along the axis, inverted
+/// poses, a wrong depth factor, swapped images, and planes of the wrong sign; and it says which
+/// fits.
+class TruthDepthCheck {
+ public:
+  TruthDepthCheck(FolderCheck& check, const SequenceTruth& truth);
+  /// @param plane_ids  CV_16U, as gt/plane_id; frames that lack anything are left out
+  void Frame(double stamp_s, const cv::Mat& plane_ids);
+  /// Reports: one fault for each bad frame, or a single one when more than half are bad.
+  void Finish();
+
+ private:
+  bool IsFaulty(const std::string& file) const;  ///< reported before, so not worth decoding
+  struct Verdict {
+    std::string file;
+    double error_m = 0;  ///< median |depth - z|
+    bool bad = false;
+    std::string explanation;  ///< the mistake that would explain it; may be empty
+  };
+
+  FolderCheck& check_;
+  const SequenceTruth& truth_;
+  std::vector<double> pose_stamps_;
+  std::vector<Verdict> verdicts_;
+};
+
+}  // namespace eval

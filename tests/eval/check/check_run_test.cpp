@@ -1,0 +1,216 @@
+#include "eval/check/check_run.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <functional>
+
+#include "eval/check/check_folder.h"
+#include "tests/eval/check/small_run.h"
+
+namespace eval {
+namespace {
+
+using namespace small_world;
+using ::testing::HasSubstr;
+
+std::string All(const CheckReport& report) {
+  std::string text;
+  for (const Fault& fault : report.faults) text += Describe(fault) + "\n";
+  return text;
+}
+
+class CheckRunFolder : public ::testing::Test {
+ protected:
+  CheckRunFolder()
+      : folder_("check_run_" +
+                std::string(::testing::UnitTest::GetInstance()->current_test_info()->name())) {
+    WriteRun(run(), MakeWorld());
+  }
+  fs::path run() const { return folder_.path() / "run"; }
+  void EditJson(const std::string& file, const std::function<void(json&)>& edit) {
+    json document = json::parse(ReadText(run() / file));
+    edit(document);
+    WriteText(run() / file, document.dump(1));
+  }
+  void EditLine(int line, const std::function<void(json&)>& edit) {
+    std::istringstream in(ReadText(run() / "frame_planes.jsonl"));
+    std::string out, text;
+    for (int i = 1; std::getline(in, text); ++i) {
+      json record = json::parse(text);
+      if (i == line) edit(record);
+      out += record.dump() + "\n";
+    }
+    WriteText(run() / "frame_planes.jsonl", out);
+  }
+  void ExpectOnly(const std::string& file, int line, const std::string& pointer,
+                  const std::string& what) {
+    const CheckReport report = CheckFolder(run());
+    ASSERT_EQ(report.faults.size(), 1u) << All(report);
+    const Fault& fault = report.faults[0];
+    EXPECT_EQ(fault.file, file) << All(report);
+    EXPECT_EQ(fault.line, line) << All(report);
+    EXPECT_EQ(fault.pointer, pointer) << All(report);
+    EXPECT_THAT(fault.what, HasSubstr(what));
+    EXPECT_FALSE(fault.mend.empty());
+  }
+  TemporaryFolder folder_;
+};
+
+TEST_F(CheckRunFolder, FindsNoFaultInAFaultlessOne) {
+  const CheckReport report = CheckFolder(run());
+  EXPECT_EQ(report.faults.size(), 0u) << All(report);
+  EXPECT_EQ(report.kind, "run");
+  EXPECT_EQ(report.frames, 4);
+  EXPECT_EQ(report.files, 7 + 4);
+}
+
+TEST_F(CheckRunFolder, NamesEveryFileThatIsMissing) {
+  for (const char* file : {"trajectory.txt", "keyframes.txt", "frame_planes.jsonl", "map.json",
+                           "map.ply", "timing.csv"}) {
+    fs::remove(run() / file);
+  }
+  fs::remove_all(run() / "segmentation");
+  EXPECT_EQ(CheckFolder(run()).faults.size(), 6u) << All(CheckFolder(run()));
+}
+
+TEST_F(CheckRunFolder, NamesAKeyThatRunJsonLacks) {
+  EditJson("run.json", [](json& document) { document.erase("variant"); });
+  ExpectOnly("run.json", 0, "/variant", "missing");
+}
+
+TEST_F(CheckRunFolder, NamesAMissingMemoryFigure) {
+  EditJson("run.json", [](json& document) { document.erase("peak_memory_mb"); });
+  ExpectOnly("run.json", 0, "/peak", "peak memory");
+}
+
+TEST_F(CheckRunFolder, NamesATrajectoryThatLacksATrackedFrame) {
+  const std::string text = ReadText(run() / "trajectory.txt");
+  WriteText(run() / "trajectory.txt", text.substr(0, text.rfind('\n', text.size() - 2) + 1));
+  ExpectOnly("trajectory.txt", 0, "", "has 3 poses");
+}
+
+TEST_F(CheckRunFolder, NamesAKeyframeThatWasNeverTracked) {
+  WriteText(run() / "keyframes.txt", "1.0 0 0 0 0 0 0 1\n1.5 0 0 0 0 0 0 1\n");
+  ExpectOnly("keyframes.txt", 2, "", "no time of trajectory.txt");
+}
+
+TEST_F(CheckRunFolder, NamesAFrameWithoutALineOfPlanes) {
+  const std::string text = ReadText(run() / "frame_planes.jsonl");
+  const auto cut = text.rfind('\n', text.size() - 2);
+  WriteText(run() / "frame_planes.jsonl", text.substr(0, cut + 1));
+  fs::remove_all(run() / "segmentation");
+  const CheckReport report = CheckFolder(run());
+  ASSERT_EQ(report.faults.size(), 2u) << All(report);
+  EXPECT_THAT(report.faults[0].what, HasSubstr("no time of frame_planes.jsonl"));
+  EXPECT_THAT(report.faults[1].what, HasSubstr("has 3 frames"));
+}
+
+TEST_F(CheckRunFolder, NamesAPlaneThatTurnsItsBackToTheCamera) {
+  EditLine(2, [](json& frame) {
+    json& plane = frame["planes"][0];
+    for (json& v : plane["normal"]) v = -v.get<double>();
+    plane["d"] = -plane["d"].get<double>();
+  });
+  ExpectOnly("frame_planes.jsonl", 2, "/planes/0/d", "d > 0");
+}
+
+TEST_F(CheckRunFolder, NamesANormalThatIsNotUnit) {
+  EditLine(2, [](json& frame) { frame["planes"][0]["normal"] = {0.0, 0.0, -0.9}; });
+  ExpectOnly("frame_planes.jsonl", 2, "/planes/0/normal", "length 0.9");
+}
+
+TEST_F(CheckRunFolder, NamesAMapPlaneThatTheMapDoesNotHave) {
+  EditLine(3, [](json& frame) { frame["planes"][0]["map_plane"] = 99; });
+  ExpectOnly("frame_planes.jsonl", 3, "/planes/0/map_plane", "no plane of map.json");
+}
+
+TEST_F(CheckRunFolder, NamesADecisionThatIsNone) {
+  EditLine(3, [](json& frame) { frame["planes"][0]["decision"] = "maybe"; });
+  ExpectOnly("frame_planes.jsonl", 3, "/planes/0/decision", "maybe");
+}
+
+TEST_F(CheckRunFolder, NamesAReasonThatTheFormatDoesNotKnow) {
+  EditLine(1, [](json& frame) { frame["planes"][0]["bad"] = "small"; });
+  ExpectOnly("frame_planes.jsonl", 1, "/planes/0/bad", "small");
+}
+
+TEST_F(CheckRunFolder, NamesAMatchWithAPlaneThatNobodyMade) {
+  EditLine(1, [](json& frame) { frame["planes"][0]["decision"] = "matched"; });
+  ExpectOnly("frame_planes.jsonl", 1, "/planes/0/decision", "no earlier frame made");
+}
+
+TEST_F(CheckRunFolder, NamesAPlaneThatIsMadeTwice) {
+  EditLine(3, [](json& frame) { frame["planes"][0]["decision"] = "new"; });
+  ExpectOnly("frame_planes.jsonl", 3, "/planes/0/decision", "made before");
+}
+
+TEST_F(CheckRunFolder, NamesVerticesInTheWorldFrame) {
+  EditLine(2, [](json& frame) { frame["planes"][0]["vertices"] = {{0.1, 0.2, 5.0}}; });
+  ExpectOnly("frame_planes.jsonl", 2, "/planes/0/vertices/0", "off its plane");
+}
+
+TEST_F(CheckRunFolder, NamesANumberThatIsNull) {
+  EditLine(2, [](json& frame) { frame["planes"][0]["centroid"][1] = nullptr; });
+  ExpectOnly("frame_planes.jsonl", 2, "/planes/0/centroid", "3 finite numbers");
+}
+
+TEST_F(CheckRunFolder, NamesASegmentationValueWithoutAPlane) {
+  const std::string name = "segmentation/" + StampText(1.0) + ".png";
+  cv::Mat labels = cv::imread((run() / name).string(), cv::IMREAD_UNCHANGED);
+  labels.at<uchar>(3, 4) = 200;
+  WriteImage(run() / name, labels);
+  ExpectOnly(name, 0, "", "the value 200 in 1 pixels");
+}
+
+TEST_F(CheckRunFolder, NamesAMergeIntoAPlaneThatIsNotThere) {
+  EditJson("map.json", [](json& map) { map["planes"][0]["merged_into"] = 77; });
+  ExpectOnly("map.json", 0, "/planes/0/merged_into", "no plane of the map");
+}
+
+TEST_F(CheckRunFolder, NamesAMergeThatLeadsBackToItself) {
+  EditJson("map.json",
+           [](json& map) { map["planes"][0]["merged_into"] = map["planes"][0]["id"]; });
+  ExpectOnly("map.json", 0, "/planes/0/merged_into", "back to the plane itself");
+}
+
+TEST_F(CheckRunFolder, NamesAHullThatIsOffItsPlane) {
+  EditJson("map.json", [](json& map) {
+    map["planes"][1]["hull"][2][2] = map["planes"][1]["hull"][2][2].get<double>() + 0.5;
+    map["planes"][1]["hull"][2][1] = map["planes"][1]["hull"][2][1].get<double>() + 0.5;
+  });
+  ExpectOnly("map.json", 0, "/planes/1/hull/2", "off its plane");
+}
+
+TEST_F(CheckRunFolder, NamesATimingColumnThatIsMissing) {
+  Edit(run() / "timing.csv", "epi", "plane");
+  ExpectOnly("timing.csv", 1, "", "`epi`");
+}
+
+TEST_F(CheckRunFolder, NamesATimeThatIsNotFinite) {
+  Edit(run() / "timing.csv", ",9,0,", ",inf,0,");
+  ExpectOnly("timing.csv", 2, "", "orb is `inf`");
+}
+
+TEST_F(CheckRunFolder, NamesAPlyWithoutPlaneIds) {
+  Edit(run() / "map.ply", "property int plane_id", "property int label");
+  ExpectOnly("map.ply", 0, "", "`plane_id`");
+}
+
+TEST_F(CheckRunFolder, NamesAPlyThatIsCutOff) {
+  const std::string text = ReadText(run() / "map.ply");
+  WriteText(run() / "map.ply", text.substr(0, text.rfind('\n', text.size() - 2) + 1));
+  const CheckReport report = CheckFolder(run());
+  ASSERT_EQ(report.faults.size(), 1u) << All(report);
+  EXPECT_THAT(report.faults[0].what, HasSubstr("ends or breaks at point"));
+}
+
+TEST_F(CheckRunFolder, NamesPointsOfAPlaneThatTheMapDoesNotHave) {
+  std::string text = ReadText(run() / "map.ply");
+  const auto last = text.rfind(' ');
+  WriteText(run() / "map.ply", text.substr(0, last) + " 123\n");
+  ExpectOnly("map.ply", 0, "", "plane 123");
+}
+
+}  // namespace
+}  // namespace eval
