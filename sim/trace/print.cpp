@@ -20,9 +20,10 @@ std::uint64_t Mix(std::uint64_t z) {
 /// Four uniform numbers in [0, 1) of a grid cell.
 struct CellDraw {
   explicit CellDraw(int x, int y, std::uint64_t seed)
-      : bits(Mix(Mix(seed ^ (static_cast<std::uint64_t>(static_cast<std::uint32_t>(x)) << 32 |
-                             static_cast<std::uint32_t>(y))) +
-                 0x9E3779B97F4A7C15ull)) {}
+      : bits(Mix(Mix(seed + 1) ^
+                 ((static_cast<std::uint64_t>(static_cast<std::uint32_t>(x)) << 32) |
+                  static_cast<std::uint32_t>(y)) *
+                     0x9E3779B97F4A7C15ull)) {}
   float operator[](int i) const {
     return static_cast<float>(bits >> (16 * i) & 0xFFFF) * (1.0F / 65536.0F);
   }
@@ -49,16 +50,18 @@ float Flecks(const Vector2f& p_m, float pitch_m, float density, float stretch,
              std::uint64_t seed) {
   const Vector2f q(p_m.x() / (pitch_m * stretch), p_m.y() / pitch_m);
   const int x = Floor(q.x()), y = Floor(q.y());
+  const float fx = q.x() - static_cast<float>(x), fy = q.y() - static_cast<float>(y);
   float cover = 0;
-  for (int j = -1; j <= 1; ++j) {
-    for (int i = -1; i <= 1; ++i) {
+  // No ellipse reaches further than kReach, so two cells a direction are enough.
+  constexpr float kReach = 0.53F;
+  for (int j = fy < kReach ? -1 : 0; j <= (fy > 1 - kReach ? 1 : 0); ++j) {
+    for (int i = fx < kReach ? -1 : 0; i <= (fx > 1 - kReach ? 1 : 0); ++i) {
       const CellDraw draw(x + i, y + j, seed);
       if (draw[0] >= density) continue;
-      const Vector2f centre(static_cast<float>(x + i) + draw[1],
-                            static_cast<float>(y + j) + draw[2]);
+      const float dx = fx - static_cast<float>(i) - draw[1];
+      const float dy = fy - static_cast<float>(j) - draw[2];
       const float radius = 0.16F + 0.3F * draw[3];
-      const float inside = radius - (q - centre).norm();
-      cover = std::max(cover, Smooth(0.12F, inside));
+      cover = std::max(cover, Smooth(0.12F, radius - std::sqrt(dx * dx + dy * dy)));
     }
   }
   return cover;
