@@ -1,0 +1,36 @@
+#pragma once
+
+#include "slam/associate/plane_gates.h"
+#include "slam/extract/box_tracks.h"
+#include "slam/extract/class_table.h"
+#include "slam/extract/plane_edges.h"
+#include "slam/extract/plane_segments.h"
+#include "slam/extract/point_features.h"
+#include "slam/mapping/map_points.h"
+#include "slam/track/point_tracking.h"
+
+namespace slam {
+
+/// Every stage's settings in one. Defaults stand in the stages' own headers and nowhere else.
+/// As text: config_file.h.
+struct Config {
+  // (B) extraction
+  PointFeatureConfig point_features;
+  ClassTable classes = CocoClassTable();
+  BoxTracksConfig box_tracks;
+  PlaneExtractionConfig plane_extraction;
+  EdgeConfig plane_edges;
+
+  // (D) association
+  PlaneGateConfig plane_gates;
+
+  // (E) optimisation and tracking by points; (F) map points
+  PointTrackingConfig tracking;
+  PointCullingConfig point_culling;
+};
+
+/// The pyramid and the virtual baseline are facts of the point features that later stages keep
+/// a copy of; makes all copies those of `point_features`.
+void ShareFacts(Config& config);
+
+}  // namespace slam
