@@ -15,7 +15,28 @@ SinCos SinCosSmall(double x) {
   return {x * (1 + sine), 1 + cosine};
 }
 
+/// atan of t in [0, 1]: halved twice, then its series; |t| < 0.2 there.
+double AtanUnit(double t) {
+  for (int i = 0; i < 2; ++i) t = t / (1 + std::sqrt(1 + t * t));
+  double series = 0;
+  for (int k = 21; k >= 1; k -= 2) series = 1.0 / k - t * t * series;
+  return 4 * t * series;
+}
+
 }  // namespace
+
+double Atan2Rad(double y, double x) {
+  const double ax = std::abs(x), ay = std::abs(y);
+  if (!(ax + ay > 0)) return 0;
+  double angle = ay <= ax ? AtanUnit(ay / ax) : kPi / 2 - AtanUnit(ax / ay);
+  if (x < 0) angle = kPi - angle;
+  return y < 0 ? -angle : angle;
+}
+
+double AsinRad(double sine) {
+  const double s = std::clamp(sine, -1.0, 1.0);
+  return Atan2Rad(s, std::sqrt((1 - s) * (1 + s)));
+}
 
 SinCos SinCosDeg(double angle_deg) {
   const double rest_deg = std::remainder(angle_deg, 90.0);  // exact, in [-45, 45]
@@ -45,9 +66,9 @@ Eigen::Quaterniond QuaternionFromRpyDeg(const Eigen::Vector3d& rpy_deg) {
 
 Eigen::Vector3d RpyDegFromQuaternion(const Eigen::Quaterniond& q) {
   const Eigen::Matrix3d R = q.toRotationMatrix();
-  const double pitch = std::asin(std::clamp(-R(2, 0), -1.0, 1.0));
-  return {RadToDeg(std::atan2(R(2, 1), R(2, 2))), RadToDeg(pitch),
-          RadToDeg(std::atan2(R(1, 0), R(0, 0)))};
+  const double pitch = AsinRad(-R(2, 0));
+  return {RadToDeg(Atan2Rad(R(2, 1), R(2, 2))), RadToDeg(pitch),
+          RadToDeg(Atan2Rad(R(1, 0), R(0, 0)))};
 }
 
 }  // namespace sim

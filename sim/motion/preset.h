@@ -1,0 +1,20 @@
+#pragma once
+
+#include <string>
+
+namespace sim {
+
+/// How a hand moves a camera: means at 30 Hz of recorded sequences (TUM RGB-D: fr2/desk,
+/// fr3/long_office_household, fr1/desk), and the tremor on top of the intended motion.
+struct MotionPreset {
+  double speed_m_s;
+  double turn_deg_s;
+  double max_roll_deg;                      ///< about the optical axis, either way
+  double slow_tremor_mm, fast_tremor_mm;    ///< standard deviation in space, 1-4 Hz and 4-12 Hz
+  double slow_tremor_deg, fast_tremor_deg;  ///< the same of the rotation vector
+};
+
+/// @throws InputError when there is no such preset.
+MotionPreset PresetOf(const std::string& name);
+
+}  // namespace sim

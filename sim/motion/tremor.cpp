@@ -1,0 +1,60 @@
+#include "sim/motion/tremor.h"
+
+#include <cmath>
+
+#include "sim/scene/angle.h"
+#include "sim/scene/random.h"
+
+namespace sim {
+namespace {
+
+constexpr int kWavesPerBand = 6;
+constexpr double kBandEdges_hz[3] = {1, 4, 12};
+
+Eigen::Vector3d UnitVector(Random& random) {
+  while (true) {
+    const double x = random.Between(-1, 1), y = random.Between(-1, 1);
+    const Eigen::Vector3d v(x, y, random.Between(-1, 1));
+    const double norm = v.norm();
+    if (norm > 0.1 && norm <= 1) return v / norm;
+  }
+}
+
+}  // namespace
+
+Tremor::Tremor(const MotionPreset& preset, std::uint64_t seed) {
+  Random random({0x7472656d, seed});
+  const auto add_band = [&](int band, double sd, std::vector<Wave>& waves, double& bound) {
+    std::vector<Wave> added;
+    double variance = 0;
+    for (int i = 0; i < kWavesPerBand; ++i) {
+      const double low = kBandEdges_hz[band], high = kBandEdges_hz[band + 1];
+      const double frequency = low + (high - low) * (i + random.Uniform()) / kWavesPerBand;
+      added.push_back({frequency, random.Uniform(), UnitVector(random) / frequency});
+      variance += added.back().amplitude.squaredNorm() / 2;
+    }
+    for (Wave& wave : added) {
+      wave.amplitude *= sd / std::sqrt(variance);
+      bound += wave.amplitude.norm();
+      waves.push_back(wave);
+    }
+  };
+  add_band(0, preset.slow_tremor_mm / 1000, offset_m_, max_offset_m_);
+  add_band(1, preset.fast_tremor_mm / 1000, offset_m_, max_offset_m_);
+  add_band(0, DegToRad(preset.slow_tremor_deg), turn_rad_, max_turn_rad_);
+  add_band(1, DegToRad(preset.fast_tremor_deg), turn_rad_, max_turn_rad_);
+}
+
+Eigen::Vector3d Tremor::Sum(const std::vector<Wave>& waves, double time_s) {
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  for (const Wave& wave : waves) {
+    const double turns = wave.frequency_hz * time_s + wave.phase_turns;
+    sum += wave.amplitude * SinCosDeg(360 * (turns - std::floor(turns))).sin;
+  }
+  return sum;
+}
+
+Eigen::Vector3d Tremor::Offset_m(double time_s) const { return Sum(offset_m_, time_s); }
+Eigen::Vector3d Tremor::Turn_rad(double time_s) const { return Sum(turn_rad_, time_s); }
+
+}  // namespace sim
