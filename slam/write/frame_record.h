@@ -1,0 +1,25 @@
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "slam/model/frame.h"
+
+namespace slam {
+
+/// "far", "inliers", ... as in formats.md.
+const char* BadReasonText(BadReason reason);
+/// "matched", "new", "none".
+const char* DecisionText(PlaneDecision decision);
+
+/// One line of frame_planes.jsonl: what was seen in a frame, and what was decided in it. `by`
+/// is null where nothing decided.
+/// @throws std::invalid_argument if the matches are not parallel to the planes, or a number is
+/// not
+///         finite.
+nlohmann::ordered_json FramePlanesRecord(const Frame& frame, bool tracked);
+
+/// [x, y, z].
+nlohmann::ordered_json VectorJson(const Eigen::Vector3d& x);
+
+}  // namespace slam
