@@ -11,6 +11,7 @@ namespace eval {
 namespace {
 
 constexpr double kUnitTolerance = 1e-6;
+constexpr int kMaxPlanes = 255;  // of a frame: a segmentation has 8 bits and 0 means none
 
 Plane ReadPlane(const JsonField& field) {
   Plane pi{field["normal"].Vector3(), field["d"].Number()};
@@ -39,6 +40,8 @@ std::vector<Eigen::Vector3d> OptionalPoints(const JsonField& field, const char* 
 RunFramePlane ReadFramePlane(const JsonField& field) {
   RunFramePlane plane;
   plane.index = field["index"].Integer();
+  if (plane.index < 0 || plane.index >= kMaxPlanes)
+    field["index"].Fail("an index from 0 to 254");
   plane.pi_c = ReadPlane(field);
   plane.centroid_c = field["centroid"].Vector3();
   plane.pixels = field["pixels"].Integer();

@@ -42,7 +42,9 @@ TruthObject ReadObject(const JsonField& field) {
 TruthPlane ReadPlane(const JsonField& field) {
   TruthPlane plane;
   plane.id = field["id"].Integer();
-  if (plane.id <= 0) field["id"].Fail("a plane id above 0 (0 means none)");
+  if (plane.id <= 0 || plane.id > 65535) {
+    field["id"].Fail("a plane id from 1 to 65535 (16-bit images, 0 means none)");
+  }
   plane.object = field["object"].Integer();
   plane.pi_g.n = field["normal"].Vector3();
   if (!(std::abs(plane.pi_g.n.norm() - 1.0) <= kUnitTolerance)) {

@@ -1,0 +1,129 @@
+#include "eval/planes/association.h"
+
+#include <algorithm>
+#include <map>
+#include <set>
+
+namespace eval {
+namespace {
+
+constexpr double kMinShare = 0.05;
+constexpr double kMinRecords = 3.0;
+
+using Table = std::map<int, std::map<int, int>>;
+
+long long PairsOf(long long n) { return n * (n - 1) / 2; }
+
+int Sum(const std::map<int, int>& row) {
+  int sum = 0;
+  for (const auto& [id, n] : row) sum += n;
+  return sum;
+}
+
+/// Rows with at least two entries that carry weight.
+int CountMixed(const Table& rows) {
+  int mixed = 0;
+  for (const auto& [id, row] : rows) {
+    const double least = std::max(kMinRecords, kMinShare * Sum(row));
+    const auto strong = std::count_if(row.begin(), row.end(),
+                                      [&](const auto& entry) { return entry.second >= least; });
+    if (strong >= 2) ++mixed;
+  }
+  return mixed;
+}
+
+double HarmonicMean(double a, double b) { return a + b > 0.0 ? 2.0 * a * b / (a + b) : 0.0; }
+
+void ScorePairs(const Table& by_truth, const Table& by_map, AssociationScore& score) {
+  double b_cubed_precision = 0.0, b_cubed_recall = 0.0;
+  for (const auto& [truth, row] : by_truth) {
+    const double n_truth = Sum(row);
+    score.pair_truth += PairsOf(Sum(row));
+    for (const auto& [map_plane, n] : row) {
+      score.pair_tp += PairsOf(n);
+      b_cubed_precision += double(n) * n / Sum(by_map.at(map_plane));
+      b_cubed_recall += double(n) * n / n_truth;
+    }
+  }
+  for (const auto& [map_plane, row] : by_map) score.pair_predicted += PairsOf(Sum(row));
+  score.pair =
+      MakeScores(double(score.pair_tp), double(score.pair_predicted), double(score.pair_truth));
+  const double n = double(score.records_with_truth);
+  if (n > 0.0) {
+    score.b_cubed.precision = b_cubed_precision / n;
+    score.b_cubed.recall = b_cubed_recall / n;
+    score.b_cubed.f1 = HarmonicMean(score.b_cubed.precision, score.b_cubed.recall);
+  }
+}
+
+void Decide(const AssociationRecord& record, const std::map<int, int>& owner,
+            const std::set<int>& owned, DecisionCounts& counts) {
+  const auto known = owner.find(record.map_plane);
+  const bool has_owner = owned.count(record.truth) > 0;
+  if (known == owner.end()) {
+    if (record.truth == 0) {
+      ++counts.spurious;
+    } else {
+      ++(has_owner ? counts.fn : counts.tn);
+    }
+    return;
+  }
+  if (known->second == record.truth) {
+    ++(record.truth == 0 ? counts.spurious : counts.tp);
+    return;
+  }
+  ++counts.fp;
+  if (has_owner) ++counts.fn;
+}
+
+DecisionCounts CountDecisions(const std::vector<AssociationRecord>& records) {
+  DecisionCounts counts;
+  std::map<int, int> owner;  // of each map plane, as of the frame before
+  std::set<int> owned;       // truth planes that own a map plane
+  for (auto first = records.begin(); first != records.end();) {
+    const auto last = std::find_if(first, records.end(), [&](const AssociationRecord& r) {
+      return r.frame != first->frame;
+    });
+    for (auto r = first; r != last; ++r) Decide(*r, owner, owned, counts);
+    for (auto r = first; r != last; ++r) {
+      if (owner.emplace(r->map_plane, r->truth).second && r->truth != 0) owned.insert(r->truth);
+    }
+    first = last;
+  }
+  counts.scores = MakeScores(counts.tp, counts.tp + counts.fp, counts.tp + counts.fn);
+  return counts;
+}
+
+}  // namespace
+
+PrecisionRecall MakeScores(double tp, double predicted, double truth) {
+  PrecisionRecall scores;
+  if (predicted > 0.0) scores.precision = tp / predicted;
+  if (truth > 0.0) scores.recall = tp / truth;
+  scores.f1 = HarmonicMean(scores.precision, scores.recall);
+  return scores;
+}
+
+AssociationScore ScoreAssociation(const std::vector<AssociationRecord>& records) {
+  AssociationScore score;
+  Table by_truth, by_map;
+  std::set<int> map_planes;
+  for (const AssociationRecord& record : records) {
+    ++score.records;
+    map_planes.insert(record.map_plane);
+    if (record.truth == 0) continue;
+    ++score.records_with_truth;
+    ++by_truth[record.truth][record.map_plane];
+    ++by_map[record.map_plane][record.truth];
+  }
+  score.truth_planes = static_cast<int>(by_truth.size());
+  score.map_planes = static_cast<int>(map_planes.size());
+  score.spurious_map_planes = static_cast<int>(map_planes.size() - by_map.size());
+  score.merged_map_planes = CountMixed(by_map);
+  score.split_truth_planes = CountMixed(by_truth);
+  ScorePairs(by_truth, by_map, score);
+  score.decision = CountDecisions(records);
+  return score;
+}
+
+}  // namespace eval

@@ -1,0 +1,50 @@
+#pragma once
+
+#include <vector>
+
+namespace eval {
+
+/// One decision: in this frame a frame plane that shows truth plane `truth` (0 = none of the
+/// scored ones) was put on map plane `map_plane`.
+struct AssociationRecord {
+  int frame = 0;
+  int truth = 0;
+  int map_plane = 0;
+};
+
+/// A share with its parts; nothing to share is 0, so that it never looks like success.
+struct PrecisionRecall {
+  double precision = 0.0, recall = 0.0, f1 = 0.0;
+};
+
+/// What a gate decided. owner(m) is the truth of the record that created map plane m.
+///   known plane: TP if owner = truth, else FP, and FN as well if that truth has an owner;
+///   new plane:   TN if its truth had none, FN if it had (a duplicate landmark),
+///                spurious if there is no truth.
+/// Decisions of a frame are simultaneous. Noise put again on the plane that noise created is
+/// neither right nor wrong and counts as `spurious`.
+struct DecisionCounts {
+  int tp = 0, fp = 0, fn = 0, tn = 0, spurious = 0;
+  PrecisionRecall scores;  ///< tp / (tp + fp), tp / (tp + fn)
+};
+
+/// Source: design of the metrics, section 3.4.
+struct AssociationScore {
+  std::size_t records = 0, records_with_truth = 0;
+  long long pair_tp = 0, pair_predicted = 0, pair_truth = 0;
+  PrecisionRecall pair;  ///< over pairs of records with truth on one map plane / of one truth
+  PrecisionRecall b_cubed;  ///< the same per record
+  DecisionCounts decision;
+  int truth_planes = 0, map_planes = 0;
+  int merged_map_planes = 0;    ///< with >= 2 truths that have n_ij >= max(3, 5 % of n_.j)
+  int split_truth_planes = 0;   ///< likewise by truth
+  int spurious_map_planes = 0;  ///< that never show a truth plane
+};
+
+/// @param records  by rising frame; of one frame in any order
+AssociationScore ScoreAssociation(const std::vector<AssociationRecord>& records);
+
+/// Harmonic mean of both, 0 if both are 0.
+PrecisionRecall MakeScores(double tp, double predicted, double truth);
+
+}  // namespace eval

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <optional>
+#include <set>
+#include <vector>
+
+#include "eval/planes/association.h"
+#include "eval/read/run_planes.h"
+#include "eval/read/scene_truth.h"
+#include "eval/trajectory/alignment.h"
+#include "eval/trajectory/statistics.h"
+
+namespace eval {
+
+inline constexpr double kMaxMapCornerError_m = 0.10;
+
+/// The final map against the truth. Planes that were merged into others stand for these.
+struct MapScore {
+  int planes = 0;            ///< of the final map
+  int true_planes_seen = 0;  ///< that counted in at least one frame
+  int matched = 0;           ///< true planes that are the majority of at least one map plane
+  int duplicates = 0;        ///< map planes beyond the first with the same majority
+  int merged = 0;            ///< with >= 2 truths that have n_ij >= max(3, 5 % of n_.j)
+  int spurious = 0;  ///< whose observations show mostly no scored plane, or that have none
+  std::optional<Spread> normal_deg;  ///< oriented angle; of matched pairs, as all below
+  std::optional<Spread> offset_mm;   ///< rms distance of the true vertices to the map plane
+  std::optional<Spread> vertex_mm;   ///< corners matched one-to-one within kMaxMapCornerError_m
+  std::optional<double> polygon_iou_median;  ///< in the true plane, of the map plane's hull
+  std::optional<double> area_explained;  ///< share of the area of the true planes seen that the
+                                         ///< hulls of their map planes cover
+};
+
+/// @param gauge    world of the run to world of the truth, the trajectory's
+/// @param records  decisions, with the map ids of their time
+/// @param seen     ids of true planes that counted in a frame
+MapScore ScoreMap(const std::vector<RunMapPlane>& map, const SceneTruth& scene,
+                  const Alignment& gauge, const std::vector<AssociationRecord>& records,
+                  const std::set<int>& seen);
+
+}  // namespace eval

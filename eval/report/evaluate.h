@@ -1,0 +1,37 @@
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "eval/planes/score_planes.h"
+#include "eval/trajectory/score_trajectory.h"
+
+namespace eval {
+
+/// Time of one module, milliseconds per frame in which it ran.
+struct ModuleTime {
+  std::string module;
+  double mean = 0.0, median = 0.0, p95 = 0.0;
+};
+
+/// The group `timing_ms` of metrics.json.
+struct TimingScore {
+  std::vector<ModuleTime> modules;  ///< in the order of timing.csv
+  std::optional<double> fps;        ///< 1000 / mean of `mt`, the whole tracking
+  std::optional<double> peak_rss_mb;
+};
+
+/// All that can be said about a run; a group that cannot be computed is empty.
+struct Evaluation {
+  std::optional<TrajectoryScore> trajectory;  ///< empty without groundtruth.txt
+  std::size_t frames = 0, tracked = 0;
+  std::optional<PlaneScore> planes;
+  std::optional<TimingScore> timing;
+};
+
+/// Scores a run against a sequence. @throws InputError as the readers and scorers do.
+Evaluation Evaluate(const Run& run, const Sequence& sequence);
+
+}  // namespace eval

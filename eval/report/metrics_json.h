@@ -1,0 +1,17 @@
+#pragma once
+
+#include <nlohmann/json.hpp>
+
+#include "eval/report/evaluate.h"
+
+namespace eval {
+
+/// The document metrics.json, format "pas-metrics/1". Keys are a contract and stand in a fixed
+/// order; what is not defined is absent, never invented. `rules` says in words how each group
+/// was counted.
+nlohmann::ordered_json MetricsJson(const Evaluation& evaluation);
+
+/// Its bytes: indented, numbers with the digits that give them back, a newline at the end.
+std::string MetricsText(const Evaluation& evaluation);
+
+}  // namespace eval
