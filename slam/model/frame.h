@@ -25,11 +25,11 @@ struct PointFeature {
   Descriptor descriptor{};
 };
 
-/// No map point, no map plane.
-inline constexpr int kNone = -1;
-
 /// What was decided for a frame plane (formats.md, frame_planes.jsonl).
 enum class PlaneDecision { kNone, kMatched, kNew };
+
+/// No map point, no map plane.
+inline constexpr int kNone = -1;
 
 /// The decision on one frame plane, as it was made in its frame.
 struct PlaneMatch {
