@@ -8,9 +8,9 @@
 
 namespace slam {
 
-/// map.json (formats.md): every plane ever made, those merged into others included. World
-/// frame.
-nlohmann::ordered_json MapAsJson(const Map& map);
+/// map.json (formats.md), a plane a line: every plane ever made, those merged into others included.
+/// World frame.
+std::string MapAsJson(const Map& map);
 
 /// map.ply: the points of the planes that stand for themselves (not merged), ASCII PLY with
 /// x y z (metres, world), red green blue, and int plane_id.
