@@ -19,7 +19,7 @@ struct ScalePyramid {
   /// `max_distance_m`; clamped to the pyramid.
   int PredictOctave(double distance_m, double max_distance_m) const {
     if (!(distance_m > 0) || !(max_distance_m > distance_m)) return 0;
-    const double octave = std::ceil(std::log(max_distance_m / distance_m) / std::log(factor));
+    const double octave = std::round(std::log(max_distance_m / distance_m) / std::log(factor));
     return static_cast<int>(std::clamp(octave, 0.0, octaves - 1.0));
   }
 };

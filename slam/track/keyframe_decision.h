@@ -1,0 +1,33 @@
+#pragma once
+
+#include "slam/mapping/keyframes.h"
+#include "slam/model/map.h"
+
+namespace slam {
+
+/// When a frame becomes a keyframe.
+struct KeyframeDecisionConfig {
+  double min_reference_ratio =
+      0.75;  ///< tracked over the reference's good points: below, insert
+  double first_reference_ratio = 0.4;  ///< the same while the map has one keyframe
+  int min_frames_between = 1;          ///< domain [1, inf)
+  int min_close_tracked = 100;         ///< fewer tracked close points ...
+  int min_close_untracked = 70;  ///< ... and more untracked ones: insert; of 1000 features
+};
+
+/// Numbers behind the decision.
+struct KeyframeEvidence {
+  int tracked = 0;           ///< matched points of the frame
+  int reference_points = 0;  ///< points of the reference that are seen by enough keyframes
+  int close_tracked = 0, close_untracked = 0;
+  bool wanted = false;
+};
+
+/// Whether the frame should be kept: it sees clearly less of the map than its reference
+/// keyframe did, or it tracks few close points where there are many to be had.
+KeyframeEvidence DecideKeyframe(const Frame& frame, const Map& map, int reference,
+                                int frames_since_last, const Camera& camera,
+                                const KeyframeConfig& keyframes,
+                                const KeyframeDecisionConfig& config);
+
+}  // namespace slam

@@ -1,0 +1,153 @@
+#include "slam/track/point_relocalise.h"
+
+#include <algorithm>
+#include <array>
+#include <opencv2/calib3d.hpp>
+
+#include "slam/base/random.h"
+#include "slam/track/point_constraints.h"
+
+namespace slam {
+namespace {
+
+std::size_t Index(int i) { return static_cast<std::size_t>(i); }
+
+/// The newest half, then others, a different part in every frame.
+std::vector<int> Candidates(const Map& map, int frame_index, int max_keyframes) {
+  std::vector<int> newest_first;
+  for (auto k = map.keyframes.rbegin(); k != map.keyframes.rend(); ++k) {
+    if (!k->culled) newest_first.push_back(k->id);
+  }
+  if (newest_first.size() <= Index(max_keyframes)) return newest_first;
+  const std::size_t recent = Index((max_keyframes + 1) / 2);
+  std::vector<int> candidates(newest_first.begin(),
+                              newest_first.begin() + static_cast<long>(recent));
+  const std::size_t others = newest_first.size() - recent;
+  const std::size_t turns = Index(max_keyframes) - recent;
+  for (std::size_t i = 0; i < turns; ++i) {
+    const std::size_t at = (Index(frame_index) * turns + i) % others;
+    candidates.push_back(newest_first[recent + at]);
+  }
+  return candidates;
+}
+
+/// Correspondences of the frame with one keyframe's points.
+struct Correspondences {
+  std::vector<int> features, points;
+  std::vector<PointConstraint> constraints;
+};
+
+Correspondences Correspond(const Frame& frame, const Keyframe& keyframe, const Map& map,
+                           const ScalePyramid& scales, const PointMatchConfig& match) {
+  std::vector<bool> has_point(keyframe.features.size());
+  for (std::size_t f = 0; f < has_point.size(); ++f) {
+    has_point[f] = keyframe.map_points[f] != kNone;
+  }
+  Correspondences found;
+  for (const FeaturePair& pair :
+       MatchDescriptors(frame.features, {}, keyframe.features, has_point, match)) {
+    const int point = keyframe.map_points[Index(pair.second)];
+    found.features.push_back(pair.first);
+    found.points.push_back(point);
+    found.constraints.push_back(
+        ConstraintOf(frame.features[Index(pair.first)], map.points[Index(point)].p_w, scales));
+  }
+  return found;
+}
+
+/// Poses from three points and a fourth that chooses among the solutions.
+std::optional<Pose> SolveP3p(const std::vector<PointConstraint>& constraints,
+                             const std::array<int, 4>& sample, const Camera& camera) {
+  std::vector<cv::Point3d> world;
+  std::vector<cv::Point2d> rays;  // on the normalised plane: the camera is the identity
+  for (const int i : sample) {
+    const PointConstraint& c = constraints[Index(i)];
+    world.emplace_back(c.p_w.x(), c.p_w.y(), c.p_w.z());
+    rays.emplace_back((c.u_px.x() - camera.cx) / camera.fx,
+                      (c.u_px.y() - camera.cy) / camera.fy);
+  }
+  cv::Vec3d rotation, t;
+  if (!cv::solvePnP(world, rays, cv::Matx33d::eye(), cv::noArray(), rotation, t, false,
+                    cv::SOLVEPNP_AP3P)) {
+    return std::nullopt;
+  }
+  const Pose T_cw{ExpSo3({rotation[0], rotation[1], rotation[2]}), {t[0], t[1], t[2]}};
+  if (!T_cw.R.allFinite() || !T_cw.t.allFinite()) return std::nullopt;
+  return T_cw;
+}
+
+int CountInliers(const std::vector<PointConstraint>& constraints, const Pose& T_cw,
+                 const Camera& camera, double error_px) {
+  int inliers = 0;
+  for (const PointConstraint& c : constraints) {
+    const Eigen::Vector3d p_c = T_cw * c.p_w;
+    if (!(p_c.z() > 0)) continue;
+    const double error2 = (camera.Project(p_c) - c.u_px).squaredNorm() * c.inv_sigma2_px;
+    if (error2 <= error_px * error_px) ++inliers;
+  }
+  return inliers;
+}
+
+std::array<int, 4> Sample(int count, Random& random) {
+  std::array<int, 4> sample{};
+  for (std::size_t i = 0; i < sample.size(); ++i) {
+    do {
+      sample[i] = random.Below(count);
+    } while (std::find(sample.begin(), sample.begin() + static_cast<long>(i), sample[i]) !=
+             sample.begin() + static_cast<long>(i));
+  }
+  return sample;
+}
+
+std::optional<Pose> Ransac(const std::vector<PointConstraint>& constraints,
+                           const Camera& camera, Random random,
+                           const RelocaliseConfig& config) {
+  std::optional<Pose> best;
+  int best_inliers = config.min_ransac_inliers - 1;
+  const int count = static_cast<int>(constraints.size());
+  for (int i = 0; i < config.ransac_iterations; ++i) {
+    const auto T_cw = SolveP3p(constraints, Sample(count, random), camera);
+    if (!T_cw) continue;
+    const int inliers = CountInliers(constraints, *T_cw, camera, config.ransac_error_px);
+    if (inliers <= best_inliers) continue;
+    best = T_cw;
+    best_inliers = inliers;
+    if (2 * inliers > count && i >= 50) break;
+  }
+  return best;
+}
+
+}  // namespace
+
+std::optional<Relocalisation> Relocalise(const Frame& frame, const Map& map,
+                                         const Camera& camera, const ScalePyramid& scales,
+                                         const PoseProblemConfig& pose,
+                                         const RelocaliseConfig& config) {
+  std::optional<Relocalisation> best;
+  for (const int id : Candidates(map, frame.index, config.max_keyframes)) {
+    const Correspondences found =
+        Correspond(frame, map.keyframes[Index(id)], map, scales, config.match);
+    if (found.features.size() < Index(std::max(config.min_matches, 4))) continue;
+    const Random random{static_cast<std::uint64_t>(frame.index),
+                        static_cast<std::uint64_t>(id)};
+    const auto T_cw = Ransac(found.constraints, camera, random, config);
+    if (!T_cw) continue;
+
+    PoseProblem problem;
+    problem.T_cw = *T_cw;
+    problem.points = found.constraints;
+    const PoseSummary summary = OptimisePose(problem, camera, pose);
+    if (!summary.usable || summary.inlier_count < config.min_ransac_inliers) continue;
+    if (best && summary.inlier_count <= best->inliers) continue;
+    best = Relocalisation{id, summary.T_cw, std::vector<int>(frame.features.size(), kNone),
+                          summary.inlier_count};
+    for (std::size_t i = 0; i < found.features.size(); ++i) {
+      if (summary.point_inliers[i]) {
+        best->map_points[Index(found.features[i])] = found.points[i];
+      }
+    }
+  }
+  return best;
+}
+
+}  // namespace slam
