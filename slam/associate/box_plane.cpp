@@ -1,0 +1,65 @@
+#include "slam/associate/box_plane.h"
+
+#include "slam/associate/pixel_projection.h"
+
+namespace slam {
+namespace {
+
+/// Corners outside the picture count, as far as the lens model can be trusted.
+bool IncludeCorners(const std::vector<Eigen::Vector3d>& corners_w, const Pose& T_cw,
+                    const Camera& camera, Box& box) {
+  constexpr double kMinDepth_m = 0.05, kMaxOutside = 0.5;
+  const Eigen::Vector2d size(camera.width, camera.height);
+  for (const Eigen::Vector3d& p_w : corners_w) {
+    const Eigen::Vector3d x_c = T_cw * p_w;
+    if (!(x_c.z() > kMinDepth_m)) return false;
+    const Eigen::Vector2d ideal = camera.Project(x_c);
+    if (!((ideal.array() > -kMaxOutside * size.array()).all() &&
+          (ideal.array() < (1 + kMaxOutside) * size.array()).all())) {
+      return false;
+    }
+    box.Include(camera.ProjectDistorted(x_c));
+  }
+  return !corners_w.empty();
+}
+
+}  // namespace
+
+Box ProjectedBox(const MapPlane& map_plane, const Pose& T_cw, const Camera& camera) {
+  constexpr std::size_t kCorners = 4;
+  const bool has_corners = map_plane.vertices_w.size() == kCorners;
+  Box box;
+  if (!IncludeCorners(has_corners ? map_plane.vertices_w : map_plane.hull_w, T_cw, camera,
+                      box)) {
+    box = {};
+    for (const Eigen::Vector3d& p_w : map_plane.points_w) {
+      const Eigen::Vector2i u = RecordedPixel(camera, T_cw * p_w);
+      if (u.x() >= 0) box.Include(u.cast<double>());
+    }
+  }
+  return Intersection(box, camera.ImageBox());
+}
+
+std::vector<BoxPlaneMatch> AssociateBoxes(const Frame& frame, const Map& map,
+                                          const Camera& camera, double min_iou) {
+  std::vector<BoxPlaneMatch> matches;
+  for (const MapPlane& plane : map.planes) {
+    if (plane.merged_into || plane.class_name.empty()) continue;
+    BoxPlaneMatch best{plane.id, 0, min_iou};
+    bool found = false;
+    Box box_px;
+    for (std::size_t d = 0; d < frame.detections.size(); ++d) {
+      if (frame.detections[d].class_name != plane.class_name) continue;
+      if (box_px.empty()) box_px = ProjectedBox(plane, frame.T_cw, camera);
+      const double iou = Iou(box_px, frame.detections[d].box_px);
+      if (!(iou > best.iou)) continue;
+      best.detection = static_cast<int>(d);
+      best.iou = iou;
+      found = true;
+    }
+    if (found) matches.push_back(best);
+  }
+  return matches;
+}
+
+}  // namespace slam

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <map>
+#include <string>
+
+namespace slam {
+
+/// How often a plane is labelled with one class, given the evidence of a map plane.
+///   P(observed | belief) = sum over true classes c of P(observed | c) P(c | belief)
+/// A class is missed in `kMiss` of its frames, and a false class is linked in `kFalse` of them,
+/// so a missed detection (observed "") is weak evidence, and another object's class is strong
+/// evidence. Source: PAS-SLAM's class rule (completed: the case of one class missing is a
+/// belief, not a veto).
+/// @param belief    summed evidence by class; "" is class -1; may be empty
+/// @param observed  class of the frame plane, "" for -1
+/// @returns likelihood in (0, 1]
+double ClassLikelihood(const std::map<std::string, double>& belief,
+                       const std::string& observed);
+
+/// The class with the highest posterior; "" while nothing is known.
+std::string BelievedClass(const std::map<std::string, double>& belief);
+
+}  // namespace slam

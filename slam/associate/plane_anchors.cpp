@@ -1,0 +1,50 @@
+#include "slam/associate/plane_anchors.h"
+
+#include <Eigen/Cholesky>
+
+#include "slam/associate/plane_constraints.h"
+#include "slam/optimise/factors/plane.h"
+#include "slam/optimise/robust.h"
+#include "slam/optimise/solve.h"
+
+namespace slam {
+
+UncertainPose CorrectByAnchors(const UncertainPose& predicted, const Frame& frame,
+                               const Map& map, const std::vector<std::pair<int, int>>& anchors,
+                               const AssociationConfig& config) {
+  constexpr double kHuberSigmas = 2.0;
+  constexpr int kIterations = 10;
+  if (anchors.empty()) return predicted;
+  std::vector<PlaneConstraint> constraints;
+  for (const auto& [f, m] : anchors) {
+    constraints.push_back(MakePlaneConstraint(
+        frame.planes[static_cast<std::size_t>(f)], map.planes[static_cast<std::size_t>(m)],
+        predicted.T_cw, config.offset_floor_m, config.angle_floor_rad));
+  }
+  const Matrix6d prior = predicted.covariance.ldlt().solve(Matrix6d::Identity());
+  const Pose T_wc = Inverse(predicted.T_cw);
+  const auto evaluate = [&](const Pose& T_cw) {
+    NormalEquations sum;
+    const Vector6d moved = Log(T_cw * T_wc);
+    sum.H = prior;
+    sum.g = prior * moved;
+    sum.cost = 0.5 * moved.dot(sum.g);
+    for (const PlaneConstraint& c : constraints) {
+      Linearised<4> f = PlaneFactor(c, T_cw);
+      if (!f.valid) continue;
+      const Eigen::Vector4d inverse(1 / c.angle_sigma_rad, 1 / c.angle_sigma_rad,
+                                    1 / c.angle_sigma_rad, 1 / c.offset_sigma_m);
+      f.r = inverse.asDiagonal() * f.r;
+      f.J = inverse.asDiagonal() * f.J;
+      const HuberLoss loss = Huber(f.r.squaredNorm(), kHuberSigmas);
+      sum.H += loss.weight * f.J.transpose() * f.J;
+      sum.g += loss.weight * f.J.transpose() * f.r;
+      sum.cost += loss.cost;
+    }
+    return sum;
+  };
+  const SolveSummary solved = SolvePose(predicted.T_cw, kIterations, evaluate);
+  return {solved.T_cw, solved.at.H.ldlt().solve(Matrix6d::Identity())};
+}
+
+}  // namespace slam

@@ -1,0 +1,154 @@
+#include "slam/associate/plane_constraints.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "slam/associate/plane_evidence.h"
+#include "slam/associate/point_plane.h"
+
+namespace slam {
+namespace {
+
+const MapPlane* MatchedPlane(const Frame& frame, const Map& map, std::size_t i) {
+  if (i >= frame.plane_matches.size()) return nullptr;
+  const PlaneMatch& match = frame.plane_matches[i];
+  if (match.decision != PlaneDecision::kMatched || match.map_plane < 0) return nullptr;
+  return &map.planes[static_cast<std::size_t>(match.map_plane)];
+}
+
+/// A side tells where the top face ends only if the face's own pixels reach it, the image goes
+/// on behind it, and no other detected object meets it there.
+std::array<bool, 4> InformativeSides(const Frame& frame, const FramePlane& plane,
+                                     std::size_t detection, const Camera& camera,
+                                     double max_gap_px) {
+  constexpr double kImageMargin_px = 4.0;
+  const Box& box = frame.detections[detection].box_px;
+  const Box& own = plane.box_px;
+  const Box image = camera.ImageBox();
+  std::array<bool, 4> use{std::abs(box.min.x() - own.min.x()) < max_gap_px &&
+                              box.min.x() > image.min.x() + kImageMargin_px,
+                          std::abs(box.min.y() - own.min.y()) < max_gap_px &&
+                              box.min.y() > image.min.y() + kImageMargin_px,
+                          std::abs(box.max.x() - own.max.x()) < max_gap_px &&
+                              box.max.x() < image.max.x() - kImageMargin_px,
+                          std::abs(box.max.y() - own.max.y()) < max_gap_px &&
+                              box.max.y() < image.max.y() - kImageMargin_px};
+  // Boundary points at a side that lie behind something nearer: the object goes on beneath it.
+  std::array<int, 4> at_side{}, hidden{};
+  for (const EdgePoint& edge : plane.edge_points) {
+    const std::array<double, 4> gap{edge.u_px.x() - own.min.x(), edge.u_px.y() - own.min.y(),
+                                    own.max.x() - edge.u_px.x(), own.max.y() - edge.u_px.y()};
+    for (std::size_t side = 0; side < 4; ++side) {
+      if (!(gap[side] < kImageMargin_px)) continue;
+      ++at_side[side];
+      hidden[side] += edge.kind == EdgeKind::kSurface ? 0 : 1;
+    }
+  }
+  for (std::size_t side = 0; side < 4; ++side) {
+    use[side] = use[side] && at_side[side] > 0 && 2 * hidden[side] < at_side[side];
+  }
+  return use;
+}
+
+void AddBox(const Frame& frame, const FramePlane& plane, const MapPlane& map_plane,
+            const Camera& camera, const PlaneConstraintConfig& config, PoseProblem& problem) {
+  if (!plane.detection || map_plane.vertices_w.size() != 4) return;
+  const auto d = static_cast<std::size_t>(*plane.detection);
+  if (d >= frame.detections.size() || frame.detections[d].compensated) return;
+  BoxConstraint c;
+  c.use = InformativeSides(frame, plane, d, camera, config.max_box_gap_px);
+  if (std::none_of(c.use.begin(), c.use.end(), [](bool side) { return side; })) return;
+  // A thick object's box shows its sides too: the less the face explains, the less it says.
+  const double explained = Iou(plane.box_px, frame.detections[d].box_px);
+  constexpr double kMinExplained = 0.25;
+  if (!(explained > kMinExplained)) return;
+  c.corners_w = map_plane.vertices_w;
+  c.box_obs_px = frame.detections[d].box_px;
+  c.sigma_px = config.box_sigma_px / explained;
+  problem.boxes.push_back(std::move(c));
+}
+
+void AddPointPlanes(const Frame& frame, const Map& map, const Camera& camera,
+                    const PlaneConstraintConfig& config, PoseProblem& problem) {
+  const auto matches = AssociatePointsToPlanes(frame, map, camera, config.association);
+  std::vector<double> count(frame.planes.size(), 0.0);
+  for (const PointPlaneMatch& m : matches) count[static_cast<std::size_t>(m.frame_plane)] += 1;
+  for (const PointPlaneMatch& m : matches) {
+    const auto f = static_cast<std::size_t>(m.frame_plane);
+    // All points of a plane share its error: together they weigh no more than a few.
+    const double share = std::max(1.0, count[f] / config.points_per_plane);
+    problem.point_planes.push_back({map.points[static_cast<std::size_t>(m.map_point)].p_w,
+                                    frame.planes[f].pi_c,
+                                    config.point_plane_sigma_m * std::sqrt(share)});
+  }
+}
+
+/// Adds f against every big map plane but the one it was matched with.
+void AddDirections(const FramePlane& plane, const MapPlane& matched, const Map& map,
+                   const Pose& T_cw, const PlaneConstraintConfig& config,
+                   PoseProblem& problem) {
+  const double floor = config.plane_angle_floor_rad;
+  for (const MapPlane& other : map.planes) {
+    if (other.merged_into || other.id == matched.id) continue;
+    if (other.observations < config.min_direction_observations) continue;
+    if (!(other.area_m2 > config.min_direction_area_m2)) continue;
+    double map_variance = floor * floor;
+    if (!other.estimate.empty()) {
+      map_variance +=
+          other.estimate.Covariance().bottomRightCorner<2, 2>().diagonal().maxCoeff();
+    }
+    const double sigma =
+        std::sqrt(plane.angle_sigma_rad * plane.angle_sigma_rad + map_variance +
+                  config.association.pose_sigma_rad * config.association.pose_sigma_rad);
+    const double angle = Angle(plane.pi_c.n, T_cw.R * other.pi_w.n);
+    const double from_parallel = std::min(angle, M_PI - angle);
+    const double from_right = std::abs(angle - 0.5 * M_PI);
+    const double most =
+        std::min(config.max_direction_angle_rad, config.max_direction_sigmas * sigma);
+    const double weight = std::hypot(config.direction_sigma_rad, sigma);
+    if (from_parallel < most) problem.parallels.push_back({other.pi_w.n, plane.pi_c.n, weight});
+    if (from_right < most)
+      problem.perpendiculars.push_back({other.pi_w.n, plane.pi_c.n, weight});
+  }
+}
+
+}  // namespace
+
+PlaneConstraint MakePlaneConstraint(const FramePlane& f, const MapPlane& m, const Pose& T_cw,
+                                    double offset_floor_m, double angle_floor_rad) {
+  PlaneConstraint c;
+  c.pi_w = m.pi_w;
+  c.pi_c = f.pi_c;
+  c.centroid_c = f.centroid_c;
+  double offset2 = f.offset_sigma_m * f.offset_sigma_m + offset_floor_m * offset_floor_m;
+  double angle2 = f.angle_sigma_rad * f.angle_sigma_rad + angle_floor_rad * angle_floor_rad;
+  if (!m.estimate.empty()) {
+    const Eigen::Matrix3d covariance = m.estimate.Covariance();
+    const Eigen::Vector3d x_w = T_cw.R.transpose() * (f.centroid_c - T_cw.t);
+    const Eigen::Vector3d lever = m.estimate.Lever(x_w);
+    offset2 += lever.dot(covariance * lever);
+    angle2 += covariance.bottomRightCorner<2, 2>().diagonal().maxCoeff();
+  }
+  c.offset_sigma_m = std::sqrt(offset2);
+  c.angle_sigma_rad = std::sqrt(angle2);
+  return c;
+}
+
+void AddPlaneConstraints(const Frame& frame, const Map& map, const Camera& camera,
+                         PoseProblem& problem, const PlaneConstraintConfig& config) {
+  for (std::size_t i = 0; i < frame.planes.size(); ++i) {
+    const FramePlane& plane = frame.planes[i];
+    const MapPlane* matched = MatchedPlane(frame, map, i);
+    if (matched == nullptr || plane.bad) continue;
+    problem.planes.push_back(MakePlaneConstraint(plane, *matched, frame.T_cw,
+                                                 config.plane_offset_floor_m,
+                                                 config.plane_angle_floor_rad));
+    AddBox(frame, plane, *matched, camera, config, problem);
+    if (plane.area_m2 > config.min_direction_area_m2) {
+      AddDirections(plane, *matched, map, frame.T_cw, config, problem);
+    }
+  }
+  AddPointPlanes(frame, map, camera, config, problem);
+}
+
+}  // namespace slam

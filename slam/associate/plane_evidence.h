@@ -1,0 +1,40 @@
+#pragma once
+
+#include "slam/associate/association_config.h"
+#include "slam/base/pose.h"
+#include "slam/model/frame_plane.h"
+#include "slam/model/map_plane.h"
+
+namespace slam {
+
+/// A pose and what is known of it: covariance of xi in T_cw <- Exp(xi) T_cw.
+struct UncertainPose {
+  Pose T_cw;
+  Matrix6d covariance = Matrix6d::Zero();
+};
+
+/// Parameters of a frame plane against those of a map plane, with everybody's uncertainty.
+struct PlaneComparison {
+  double angle_rad = 0.0;  ///< between the oriented normals
+  double offset_m = 0.0;   ///< signed: the patch in front of the map plane, at the patch
+  double offset_sigma_m = 0.0;
+  double chi2 = 0.0;  ///< of offset and two slopes: 3 degrees of freedom
+};
+
+/// Compares where the patch is: height and slopes of the measured plane over the map plane at
+/// the patch's centroid, weighted by the full covariance: sensor, fit, map plane *there*, and
+/// pose. Extrapolating either plane to the other's centroid widens its uncertainty by the lever
+/// arm, so measuring in both directions adds nothing that the slopes do not already say.
+/// Source: PAS-SLAM eq6, eq7 (corrected as in plane_gates.h; weighted by uncertainty).
+PlaneComparison ComparePlanes(const FramePlane& frame_plane, const MapPlane& map_plane,
+                              const UncertainPose& pose, const AssociationConfig& config);
+
+/// Two planes of one frame: no pose comes between, so millimetres count.
+PlaneComparison ComparePlanes(const FramePlane& one, const FramePlane& other,
+                              const AssociationConfig& config);
+
+/// Two planes of the map, compared where `one` lies.
+PlaneComparison ComparePlanes(const MapPlane& one, const MapPlane& other,
+                              const AssociationConfig& config);
+
+}  // namespace slam

@@ -1,0 +1,78 @@
+#include "slam/associate/plane_overlap.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "slam/associate/pixel_projection.h"
+
+namespace slam {
+namespace {
+
+// A cloud point farther behind the measured depth than this is hidden. It must exceed what
+// sensor and pose get wrong, and stay below the height of things that hide; planes that lie
+// closer are told apart by their labels, not here.
+constexpr double kHidden_m = 0.02;
+constexpr double kHiddenShare = 0.02;  // of the distance
+constexpr std::size_t kGapPatchPoints = 60, kGapCloudPoints = 400;
+
+std::size_t Stride(std::size_t count, std::size_t wanted) {
+  return std::max<std::size_t>(1, (count + wanted - 1) / wanted);
+}
+
+}  // namespace
+
+PlaneView ViewMapPlane(const MapPlane& map_plane, const Frame& frame, const Pose& T_cw,
+                       const Camera& camera) {
+  PlaneView view;
+  view.landed.assign(frame.planes.size(), 0);
+  if (map_plane.points_w.empty()) return view;
+  view.cell_m2 = map_plane.area_m2 / static_cast<double>(map_plane.points_w.size());
+  const bool has_depth =
+      frame.depth_m.rows == camera.height && frame.depth_m.cols == camera.width;
+  const bool has_labels =
+      frame.plane_labels.rows == camera.height && frame.plane_labels.cols == camera.width;
+  for (const Eigen::Vector3d& p_w : map_plane.points_w) {
+    const Eigen::Vector3d x_c = T_cw * p_w;
+    const Eigen::Vector2i u = RecordedPixel(camera, x_c);
+    if (u.x() < 0) continue;
+    const double depth = has_depth ? static_cast<double>(frame.depth_m(u.y(), u.x())) : x_c.z();
+    if (!(depth > 0) || depth < x_c.z() - kHidden_m - kHiddenShare * x_c.z()) continue;
+    ++view.expected;
+    const int label = has_labels ? frame.plane_labels(u.y(), u.x()) : 0;
+    if (label > 0 && label <= static_cast<int>(frame.planes.size())) {
+      ++view.landed[static_cast<std::size_t>(label - 1)];
+    }
+  }
+  view.in_view = view.expected > 0;
+  return view;
+}
+
+double Overlap(const PlaneView& view, const FramePlane& frame_plane) {
+  const auto index = static_cast<std::size_t>(frame_plane.index);
+  if (index >= view.landed.size() || view.landed[index] == 0) return 0.0;
+  const double cells = view.cell_m2 > 0 ? frame_plane.area_m2 / view.cell_m2
+                                        : std::numeric_limits<double>::max();
+  const double smaller = std::min(static_cast<double>(view.expected), cells);
+  // A single point of a coarse cloud is no overlap: at least three must be possible.
+  constexpr double kLeast = 3.0;
+  return std::min(1.0, view.landed[index] / std::max(smaller, kLeast));
+}
+
+double InPlaneGap(const FramePlane& frame_plane, const MapPlane& map_plane, const Pose& T_wc) {
+  double nearest2 = std::numeric_limits<double>::infinity();
+  const std::size_t step_c = Stride(frame_plane.points_c.size(), kGapPatchPoints);
+  const std::size_t step_w = Stride(map_plane.points_w.size(), kGapCloudPoints);
+  const Eigen::Vector3d& n = map_plane.pi_w.n;
+  for (std::size_t i = 0; i < frame_plane.points_c.size(); i += step_c) {
+    const Eigen::Vector3d p_w = T_wc * frame_plane.points_c[i];
+    for (std::size_t k = 0; k < map_plane.points_w.size(); k += step_w) {
+      const Eigen::Vector3d delta = map_plane.points_w[k] - p_w;
+      const double along = n.dot(delta);
+      nearest2 = std::min(nearest2, delta.squaredNorm() - along * along);
+    }
+  }
+  return std::sqrt(std::max(0.0, nearest2));
+}
+
+}  // namespace slam

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <vector>
+
+#include "slam/base/camera.h"
+#include "slam/model/frame.h"
+#include "slam/model/map.h"
+
+namespace slam {
+
+/// How a map plane's cloud falls on the frame's plane segments.
+struct PlaneView {
+  bool in_view = false;
+  int expected = 0;         ///< cloud points in the picture that nothing nearer hides
+  std::vector<int> landed;  ///< of these, how many on each frame plane's pixels
+  double cell_m2 = 0.0;     ///< area of the map plane that one cloud point stands for
+};
+
+/// Counts where the cloud of one map plane is seen from T_cw. Desk and book have disjoint
+/// clouds however close they lie: what is under the book has never been seen. Cost:
+/// O(points_w).
+PlaneView ViewMapPlane(const MapPlane& map_plane, const Frame& frame, const Pose& T_cw,
+                       const Camera& camera);
+
+/// Share of the smaller of the two footprints that the other covers, both as seen now, in [0,
+/// 1].
+double Overlap(const PlaneView& view, const FramePlane& frame_plane);
+
+/// Distance from a frame plane's patch to a map plane's cloud within the plane, metres;
+/// infinite without points. Cost: O(points_c x points_w) on thinned samples of at most 60 x
+/// 400.
+double InPlaneGap(const FramePlane& frame_plane, const MapPlane& map_plane, const Pose& T_wc);
+
+}  // namespace slam

@@ -1,0 +1,60 @@
+#include "slam/associate/point_plane.h"
+
+#include <cmath>
+
+#include "slam/associate/pixel_projection.h"
+
+namespace slam {
+namespace {
+
+bool NearPlane(const FramePlane& plane, const Eigen::Vector3d& x_c, double max_m) {
+  return !plane.bad && std::abs(SignedDistance(plane.pi_c, x_c)) < max_m;
+}
+
+/// The plane on whose pixels, or in whose boxes, the pixel lies; -1 for none.
+int PlaneAt(const Frame& frame, const Eigen::Vector2i& pixel, const Eigen::Vector3d& x_c,
+            double max_m) {
+  const int label = frame.plane_labels.empty() ? 0 : frame.plane_labels(pixel.y(), pixel.x());
+  if (label > 0 && label <= static_cast<int>(frame.planes.size())) {
+    return NearPlane(frame.planes[static_cast<std::size_t>(label - 1)], x_c, max_m) ? label - 1
+                                                                                    : -1;
+  }
+  const Eigen::Vector2d u = pixel.cast<double>();
+  int best = -1;
+  double best_distance = max_m;
+  for (const FramePlane& plane : frame.planes) {
+    if (!plane.detection || plane.bad || !plane.box_px.Contains(u)) continue;
+    const auto d = static_cast<std::size_t>(*plane.detection);
+    if (d >= frame.detections.size() || !frame.detections[d].box_px.Contains(u)) continue;
+    const double distance = std::abs(SignedDistance(plane.pi_c, x_c));
+    if (distance < best_distance) {
+      best_distance = distance;
+      best = plane.index;
+    }
+  }
+  return best;
+}
+
+}  // namespace
+
+std::vector<PointPlaneMatch> AssociatePointsToPlanes(const Frame& frame, const Map& map,
+                                                     const Camera& camera,
+                                                     const AssociationConfig& config) {
+  std::vector<PointPlaneMatch> matches;
+  const std::size_t count = std::min(frame.features.size(), frame.map_points.size());
+  for (std::size_t i = 0; i < count; ++i) {
+    const int id = frame.map_points[i];
+    if (id == kNone || id >= static_cast<int>(map.points.size())) continue;
+    const MapPoint& point = map.points[static_cast<std::size_t>(id)];
+    if (point.culled) continue;
+    const Eigen::Vector3d x_c = frame.T_cw * point.p_w;
+    const Eigen::Vector2i pixel =
+        RecordedPixel(camera, camera.Backproject(frame.features[i].u_px, 1.0));
+    if (pixel.x() < 0) continue;
+    const int plane = PlaneAt(frame, pixel, x_c, config.max_point_plane_m);
+    if (plane >= 0) matches.push_back({id, plane});
+  }
+  return matches;
+}
+
+}  // namespace slam
