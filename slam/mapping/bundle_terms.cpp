@@ -1,0 +1,85 @@
+#include "slam/mapping/bundle_terms.h"
+
+#include <Eigen/Geometry>
+
+namespace slam {
+namespace {
+
+constexpr double kMinDepth_m = 0.01;
+
+}  // namespace
+
+PoseBlock BlockOf(const Pose& T_cw) {
+  const Eigen::Quaterniond q(T_cw.R);
+  return {T_cw.t.x(), T_cw.t.y(), T_cw.t.z(), q.x(), q.y(), q.z(), q.w()};
+}
+
+Pose PoseOf(const double* block) {
+  const Eigen::Quaterniond q(block[6], block[3], block[4], block[5]);
+  return {q.normalized().toRotationMatrix(), {block[0], block[1], block[2]}};
+}
+
+bool PoseManifold::Plus(const double* x, const double* delta, double* x_plus_delta) const {
+  const Vector6d xi = Eigen::Map<const Vector6d>(delta);
+  const PoseBlock moved = BlockOf(Exp(xi) * PoseOf(x));
+  std::copy(moved.begin(), moved.end(), x_plus_delta);
+  return true;
+}
+
+bool PoseManifold::PlusJacobian(const double* /*x*/, double* jacobian) const {
+  Eigen::Map<Eigen::Matrix<double, 7, 6, Eigen::RowMajor>>(jacobian).setIdentity();
+  return true;
+}
+
+bool PoseManifold::Minus(const double* y, const double* x, double* y_minus_x) const {
+  Eigen::Map<Vector6d>{y_minus_x} = Log(PoseOf(y) * Inverse(PoseOf(x)));
+  return true;
+}
+
+bool PoseManifold::MinusJacobian(const double* /*x*/, double* jacobian) const {
+  Eigen::Map<Eigen::Matrix<double, 6, 7, Eigen::RowMajor>>(jacobian).setIdentity();
+  return true;
+}
+
+BundleTerm::BundleTerm(const PointFeature& feature, const Camera& camera, double bf_px_m,
+                       double sigma_px, double depth_sigma)
+    : u_px_(feature.u_px),
+      disparity_px_(feature.depth_m > 0 ? bf_px_m / feature.depth_m : -1.0),
+      fx_(camera.fx),
+      fy_(camera.fy),
+      cx_(camera.cx),
+      cy_(camera.cy),
+      bf_px_m_(bf_px_m),
+      weight_(1.0 / sigma_px),
+      depth_weight_(1.0 / (sigma_px * depth_sigma)) {}
+
+bool BundleTerm::Evaluate(double const* const* parameters, double* residuals,
+                          double** jacobians) const {
+  const Pose T_cw = PoseOf(parameters[0]);
+  const Eigen::Vector3d p_c = T_cw * Eigen::Map<const Eigen::Vector3d>(parameters[1]);
+  if (!(p_c.z() > kMinDepth_m)) return false;
+  const double inv_z = 1.0 / p_c.z();
+  const double x = p_c.x() * inv_z, y = p_c.y() * inv_z;
+  const bool depth = disparity_px_ >= 0;
+  residuals[0] = weight_ * (fx_ * x + cx_ - u_px_.x());
+  residuals[1] = weight_ * (fy_ * y + cy_ - u_px_.y());
+  residuals[2] = depth ? depth_weight_ * (bf_px_m_ * inv_z - disparity_px_) : 0.0;
+  if (jacobians == nullptr) return true;
+
+  Eigen::Matrix3d by_p_c;
+  by_p_c << weight_ * fx_ * inv_z, 0, -weight_ * fx_ * x * inv_z,  //
+      0, weight_ * fy_ * inv_z, -weight_ * fy_ * y * inv_z,        //
+      0, 0, depth ? -depth_weight_ * bf_px_m_ * inv_z * inv_z : 0.0;
+  if (jacobians[0] != nullptr) {
+    Eigen::Map<Eigen::Matrix<double, 3, 7, Eigen::RowMajor>> by_pose(jacobians[0]);
+    by_pose.leftCols<3>() = by_p_c;
+    by_pose.middleCols<3>(3) = -by_p_c * Hat(p_c);
+    by_pose.col(6).setZero();
+  }
+  if (jacobians[1] != nullptr) {
+    Eigen::Map<Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>{jacobians[1]} = by_p_c * T_cw.R;
+  }
+  return true;
+}
+
+}  // namespace slam

@@ -1,0 +1,53 @@
+#pragma once
+
+#include <ceres/manifold.h>
+#include <ceres/sized_cost_function.h>
+
+#include <array>
+
+#include "slam/base/camera.h"
+#include "slam/model/frame.h"
+
+namespace slam {
+
+/// A pose as the solver holds it: (t, q) of T_cw, q as (x, y, z, w).
+using PoseBlock = std::array<double, 7>;
+
+PoseBlock BlockOf(const Pose& T_cw);
+Pose PoseOf(const double* block);
+
+/// Steps T <- Exp(xi) T, xi = (rho, omega). Its Jacobian is declared as the first six of the
+/// seven coordinates: terms deliver derivatives by xi there and zero in the seventh, so that no
+/// product with the quaternion's derivative is ever formed.
+class PoseManifold : public ceres::Manifold {
+ public:
+  int AmbientSize() const override { return 7; }
+  int TangentSize() const override { return 6; }
+  bool Plus(const double* x, const double* delta, double* x_plus_delta) const override;
+  bool PlusJacobian(const double* x, double* jacobian) const override;
+  bool Minus(const double* y, const double* x, double* y_minus_x) const override;
+  bool MinusJacobian(const double* x, double* jacobian) const override;
+};
+
+/// Residual of one observation, in sigmas:
+///   ( fx x/z + cx - u,  fy y/z + cy - v,  (b f / z - b f / z_measured) / depth_sigma ) / sigma
+/// with (x, y, z) = T_cw p_w; the third is 0 for a feature without depth. Not defined for a
+/// point nearer than a centimetre to the image plane or behind it: Evaluate answers false
+/// there.
+class BundleTerm : public ceres::SizedCostFunction<3, 7, 3> {
+ public:
+  /// @param sigma_px of the feature's octave; @param depth_sigma relative to it
+  BundleTerm(const PointFeature& feature, const Camera& camera, double bf_px_m, double sigma_px,
+             double depth_sigma);
+  /// parameters: PoseBlock, p_w. Jacobians: by xi (see PoseManifold) and by p_w.
+  bool Evaluate(double const* const* parameters, double* residuals,
+                double** jacobians) const override;
+
+ private:
+  Eigen::Vector2d u_px_;
+  double disparity_px_;  ///< b f / z as measured; < 0 without depth
+  double fx_, fy_, cx_, cy_, bf_px_m_;
+  double weight_, depth_weight_;  ///< 1 / sigma
+};
+
+}  // namespace slam

@@ -1,0 +1,41 @@
+#pragma once
+
+#include "slam/base/camera.h"
+#include "slam/model/map.h"
+#include "slam/model/scale_pyramid.h"
+
+namespace slam {
+
+/// Bounds and weights of the local bundle adjustment.
+struct LocalBundleConfig {
+  ScalePyramid scales;
+  double bf_px_m = 40.0;  ///< b f of the virtual right camera
+  double depth_sigma_px =
+      1.0;                 ///< of the virtual disparity b f / z at octave 0; domain (0, inf)
+  int max_keyframes = 10;  ///< poses that move; domain [1, inf)
+  int max_fixed_keyframes = 20;  ///< poses that hold the window in place; domain [1, inf)
+  int first_iterations = 5;      ///< with Huber's weights, before outliers are left out
+  int last_iterations = 5;       ///< plain, after it
+  double stereo_chi2 = 7.815;    ///< 95 % of chi-square, 3 degrees of freedom
+  double mono_chi2 = 5.991;      ///< 95 %, 2 degrees of freedom
+};
+
+/// Size and outcome of one adjustment.
+struct LocalBundleReport {
+  int keyframes = 0, fixed_keyframes = 0, points = 0, observations = 0;
+  int outliers = 0;  ///< observations taken back
+  double initial_cost = 0.0, final_cost = 0.0;
+  bool usable = false;  ///< solved and finite; otherwise the map is as before
+};
+
+/// Adjusts the poses of `keyframe` and of those that share the most points with it, and all
+/// points that they see; other keyframes that see these points stay fixed. The residual of an
+/// observation is, in sigmas of its octave,
+///   ( fx x/z + cx - u,  fy y/z + cy - v,  (b f / z - b f / z_measured) / depth_sigma_px ),
+/// (x, y, z) = T_cw p_w; the third with depth alone. Ceres, Schur complement, one thread,
+/// bounded iterations: same map, same bytes. The gauge is held by the fixed keyframes; when
+/// there are none, by the oldest of the window.
+LocalBundleReport AdjustLocalBundle(Map& map, int keyframe, const Camera& camera,
+                                    const LocalBundleConfig& config);
+
+}  // namespace slam

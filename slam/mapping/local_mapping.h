@@ -1,0 +1,32 @@
+#pragma once
+
+#include "slam/mapping/keyframes.h"
+#include "slam/mapping/local_bundle.h"
+#include "slam/mapping/map_points.h"
+#include "slam/mapping/point_fusion.h"
+#include "slam/mapping/point_triangulation.h"
+
+namespace slam {
+
+/// Settings of local mapping by points.
+struct LocalMappingConfig {
+  KeyframeConfig keyframes;
+  PointCullingConfig culling;
+  TriangulationConfig triangulation;
+  PointFusionConfig fusion;
+  LocalBundleConfig bundle;
+};
+
+/// What local mapping did with a keyframe.
+struct LocalMappingReport {
+  int culled_points = 0, triangulated = 0, fused = 0, culled_keyframes = 0;
+  LocalBundleReport bundle;
+};
+
+/// Brings the map around a new keyframe in order: young points are culled, points triangulated
+/// and fused, poses and points adjusted, keyframes that add nothing culled. Synchronous.
+/// Source: Mur-Artal and Tardos 2017, local mapping.
+LocalMappingReport MapLocally(Map& map, int keyframe, const Camera& camera,
+                              const LocalMappingConfig& config);
+
+}  // namespace slam
