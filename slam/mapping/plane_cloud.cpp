@@ -1,0 +1,123 @@
+#include "slam/mapping/plane_cloud.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <tuple>
+#include <utility>
+
+namespace slam {
+namespace {
+
+using Cell = std::pair<std::int64_t, std::int64_t>;
+
+Cell CellOf(const Eigen::Vector2d& q, double voxel_m) {
+  return {static_cast<std::int64_t>(std::floor(q.x() / voxel_m)),
+          static_cast<std::int64_t>(std::floor(q.y() / voxel_m))};
+}
+
+/// Keeps the first point of each voxel, in the order of arrival.
+void Thin(std::vector<Eigen::Vector3d>& cloud_w, const Eigen::Matrix<double, 3, 2>& axes,
+          const Eigen::Vector3d& anchor_w, double voxel_m) {
+  std::vector<std::pair<Cell, std::size_t>> cells;
+  cells.reserve(cloud_w.size());
+  for (std::size_t i = 0; i < cloud_w.size(); ++i) {
+    cells.emplace_back(CellOf(axes.transpose() * (cloud_w[i] - anchor_w), voxel_m), i);
+  }
+  std::sort(cells.begin(), cells.end());
+  std::vector<std::size_t> kept;
+  for (std::size_t i = 0; i < cells.size(); ++i) {
+    if (i == 0 || cells[i].first != cells[i - 1].first) kept.push_back(cells[i].second);
+  }
+  std::sort(kept.begin(), kept.end());
+  std::vector<Eigen::Vector3d> out;
+  out.reserve(kept.size());
+  for (const std::size_t i : kept) out.push_back(cloud_w[i]);
+  cloud_w = std::move(out);
+}
+
+std::vector<Cell> Cells(const std::vector<Eigen::Vector3d>& cloud_w,
+                        const Eigen::Matrix<double, 3, 2>& axes,
+                        const Eigen::Vector3d& anchor_w, double voxel_m) {
+  std::vector<Cell> cells;
+  for (const Eigen::Vector3d& p_w : cloud_w) {
+    cells.push_back(CellOf(axes.transpose() * (p_w - anchor_w), voxel_m));
+  }
+  std::sort(cells.begin(), cells.end());
+  cells.erase(std::unique(cells.begin(), cells.end()), cells.end());
+  return cells;
+}
+
+double Cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
+  return a.x() * b.y() - a.y() * b.x();
+}
+
+}  // namespace
+
+void MergeIntoCloud(std::vector<Eigen::Vector3d>& cloud_w,
+                    const std::vector<Eigen::Vector3d>& points_w, const Plane& pi_w,
+                    const Eigen::Vector3d& anchor_w, double voxel_m, int max_points) {
+  const Eigen::Matrix<double, 3, 2> axes = TangentBasis(pi_w.n);
+  cloud_w.insert(cloud_w.end(), points_w.begin(), points_w.end());
+  Thin(cloud_w, axes, anchor_w, voxel_m);
+  while (cloud_w.size() > static_cast<std::size_t>(std::max(1, max_points))) {
+    voxel_m *= 2;
+    Thin(cloud_w, axes, anchor_w, voxel_m);
+  }
+}
+
+double CloudOverlap(const std::vector<Eigen::Vector3d>& one_w,
+                    const std::vector<Eigen::Vector3d>& other_w, const Plane& pi_w,
+                    double voxel_m) {
+  if (one_w.empty() || other_w.empty()) return 0.0;
+  const Eigen::Matrix<double, 3, 2> axes = TangentBasis(pi_w.n);
+  std::vector<Cell> few = Cells(one_w, axes, one_w.front(), voxel_m);
+  std::vector<Cell> many = Cells(other_w, axes, one_w.front(), voxel_m);
+  if (few.size() > many.size()) std::swap(few, many);
+  int shared = 0;
+  for (const auto& [x, y] : few) {
+    bool found = false;
+    for (std::int64_t dx = -1; dx <= 1 && !found; ++dx) {
+      for (std::int64_t dy = -1; dy <= 1 && !found; ++dy) {
+        found = std::binary_search(many.begin(), many.end(), Cell(x + dx, y + dy));
+      }
+    }
+    shared += found ? 1 : 0;
+  }
+  return static_cast<double>(shared) / static_cast<double>(few.size());
+}
+
+Outline ConvexOutline(const std::vector<Eigen::Vector3d>& points_w, const Plane& pi_w) {
+  Outline out;
+  if (points_w.size() < 3) return out;
+  const Eigen::Matrix<double, 3, 2> axes = TangentBasis(pi_w.n);
+  const Eigen::Vector3d anchor_w = points_w.front();
+  std::vector<Eigen::Vector2d> q;
+  q.reserve(points_w.size());
+  for (const Eigen::Vector3d& p_w : points_w) q.push_back(axes.transpose() * (p_w - anchor_w));
+  std::sort(q.begin(), q.end(), [](const auto& a, const auto& b) {
+    return std::make_pair(a.x(), a.y()) < std::make_pair(b.x(), b.y());
+  });
+  // Andrew's monotone chain: lower hull, then upper hull.
+  std::vector<Eigen::Vector2d> hull(2 * q.size());
+  std::size_t k = 0;
+  const auto add = [&](const Eigen::Vector2d& p, std::size_t least) {
+    while (k >= least && Cross(hull[k - 1] - hull[k - 2], p - hull[k - 1]) <= 0) --k;
+    hull[k++] = p;
+  };
+  for (const Eigen::Vector2d& p : q) add(p, 2);
+  const std::size_t upper = k + 1;
+  for (std::size_t i = q.size() - 1; i-- > 0;) add(q[i], upper);
+  hull.resize(k - 1);
+  if (hull.size() < 3) return out;
+  double twice = 0.0;
+  for (std::size_t i = 0; i < hull.size(); ++i)
+    twice += Cross(hull[i], hull[(i + 1) % hull.size()]);
+  out.area_m2 = 0.5 * twice;
+  for (const Eigen::Vector2d& p : hull) {
+    out.hull_w.push_back(ProjectOnto(pi_w, anchor_w + axes * p));
+  }
+  return out;
+}
+
+}  // namespace slam

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "slam/base/plane.h"
+
+namespace slam {
+
+/// Adds points to a cloud thinned to one point a voxel: the first that came stays. The voxels
+/// are squares on the plane, so noise along the normal makes no second layer. When the cloud
+/// exceeds `max_points` the voxel doubles until it fits: memory is bounded however large the
+/// plane.
+/// @param pi_w     the plane, for the directions of the grid; the grid is anchored at
+/// `anchor_w` Cost: O(n log n) of both clouds.
+void MergeIntoCloud(std::vector<Eigen::Vector3d>& cloud_w,
+                    const std::vector<Eigen::Vector3d>& points_w, const Plane& pi_w,
+                    const Eigen::Vector3d& anchor_w, double voxel_m, int max_points);
+
+/// Share of the smaller cloud's voxels that the other cloud has a point in or beside, [0, 1].
+double CloudOverlap(const std::vector<Eigen::Vector3d>& one_w,
+                    const std::vector<Eigen::Vector3d>& other_w, const Plane& pi_w,
+                    double voxel_m);
+
+/// Convex outline of points projected onto a plane, counter-clockwise seen from its front, and
+/// its area. Fewer than three points that span an area: empty and 0.
+struct Outline {
+  std::vector<Eigen::Vector3d> hull_w;
+  double area_m2 = 0.0;
+};
+Outline ConvexOutline(const std::vector<Eigen::Vector3d>& points_w, const Plane& pi_w);
+
+}  // namespace slam

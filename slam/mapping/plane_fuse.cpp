@@ -1,0 +1,146 @@
+#include "slam/mapping/plane_fuse.h"
+
+#include <algorithm>
+
+#include "slam/associate/class_likelihood.h"
+#include "slam/associate/plane_evidence.h"
+#include "slam/mapping/plane_cloud.h"
+
+namespace slam {
+namespace {
+
+bool ClassesAgree(const MapPlane& one, const MapPlane& other) {
+  return one.class_name == other.class_name || one.class_name.empty() ||
+         other.class_name.empty();
+}
+
+int CovisibleFrames(const MapPlane& one, const MapPlane& other) {
+  const auto found = one.covisible.find(other.id);
+  return found == one.covisible.end() ? 0 : found->second;
+}
+
+bool OneSurface(const MapPlane& one, const MapPlane& other, const PlaneMapConfig& config) {
+  const AssociationConfig& a = config.association;
+  const PlaneComparison forth = ComparePlanes(one, other, a);
+  if (!(forth.angle_rad < a.gates.max_normal_angle_rad) || !(forth.chi2 < a.max_chi2))
+    return false;
+  if (!(ComparePlanes(other, one, a).chi2 < a.max_chi2) || !ClassesAgree(one, other))
+    return false;
+  // Seen side by side again and again: two segments of one surface, or two surfaces. Only a
+  // closer fit than chance explains speaks for one.
+  const bool apart = CovisibleFrames(one, other) >= config.min_apart_frames;
+  if (apart && !(forth.chi2 < 0.5 * a.max_chi2)) return false;
+  // A large plane's cloud is coarse: look in voxels that its points surely fill.
+  double cell = config.voxel_m;
+  for (const MapPlane* m : {&one, &other}) {
+    if (!m->points_w.empty()) {
+      cell = std::max(cell, std::sqrt(m->area_m2 / static_cast<double>(m->points_w.size())));
+    }
+  }
+  return CloudOverlap(one.points_w, other.points_w, one.pi_w, cell) > config.min_fused_overlap;
+}
+
+void FuseEstimate(MapPlane& into, const MapPlane& from) {
+  if (from.estimate.empty()) return;
+  // Express the other's knowledge as one observation at its own best-known place.
+  const Eigen::Matrix3d covariance = from.estimate.Covariance();
+  const Eigen::Vector2d best =
+      -covariance.bottomRightCorner<2, 2>().ldlt().solve(covariance.block<2, 1>(1, 0));
+  const Eigen::Vector3d x_w = from.estimate.origin_w + from.estimate.axes * best;
+  const Eigen::Vector3d lever = from.estimate.Lever(x_w);
+  AddObservation(into.estimate, from.pi_w, ProjectOnto(from.pi_w, x_w),
+                 std::sqrt(covariance.bottomRightCorner<2, 2>().diagonal().maxCoeff()),
+                 std::sqrt(lever.dot(covariance * lever)), 1.0);
+  into.pi_w = into.estimate.Mean();
+}
+
+double Evidence(const MapPlane& m) {
+  double sum = 0.0;
+  for (const double w : m.vertex_weights) sum += w;
+  return sum;
+}
+
+void Fuse(MapPlane& into, MapPlane& from, const PlaneMapConfig& config) {
+  FuseEstimate(into, from);
+  for (const auto& [name, evidence] : from.class_belief) into.class_belief[name] += evidence;
+  into.class_name = BelievedClass(into.class_belief);
+  MergeIntoCloud(into.points_w, from.points_w, {into.estimate.normal_w, 0.0},
+                 into.estimate.origin_w, config.voxel_m, config.max_cloud_points);
+  MergeIntoCloud(into.edge_points_w, from.edge_points_w, {into.estimate.normal_w, 0.0},
+                 into.estimate.origin_w, config.voxel_m, config.max_edge_points);
+  std::vector<Eigen::Vector3d> extent_w = into.hull_w;
+  extent_w.insert(extent_w.end(), from.hull_w.begin(), from.hull_w.end());
+  Outline outline = ConvexOutline(extent_w, into.pi_w);
+  into.hull_w = std::move(outline.hull_w);
+  into.area_m2 = outline.area_m2;
+  if (Evidence(from) > Evidence(into)) {
+    into.vertices_w = from.vertices_w;
+    into.vertex_weights = from.vertex_weights;
+  }
+  into.map_points.insert(from.map_points.begin(), from.map_points.end());
+  into.observations += from.observations;
+  into.first_frame = std::min(into.first_frame, from.first_frame);
+  into.first_seen_s = std::min(into.first_seen_s, from.first_seen_s);
+  into.last_frame = std::max(into.last_frame, from.last_frame);
+  into.last_seen_s = std::max(into.last_seen_s, from.last_seen_s);
+  from.merged_into = into.id;
+  // What a fused plane held is held by the other now.
+  from.points_w.clear();
+  from.edge_points_w.clear();
+  from.map_points.clear();
+}
+
+void MoveCovisibility(Map& map, int from, int into) {
+  for (MapPlane& m : map.planes) {
+    const auto found = m.covisible.find(from);
+    if (found == m.covisible.end()) continue;
+    if (m.id != into) m.covisible[into] += found->second;
+    m.covisible.erase(from);
+  }
+  MapPlane& gone = map.planes[static_cast<std::size_t>(from)];
+  for (const auto& [other, frames] : gone.covisible) {
+    if (other != into) map.planes[static_cast<std::size_t>(into)].covisible[other] += frames;
+  }
+  gone.covisible.clear();
+}
+
+void DropCulledPoints(Map& map) {
+  for (MapPlane& m : map.planes) {
+    std::erase_if(m.map_points, [&](int id) {
+      return id < 0 || id >= static_cast<int>(map.points.size()) ||
+             map.points[static_cast<std::size_t>(id)].culled;
+    });
+  }
+}
+
+}  // namespace
+
+int ResolvePlane(const Map& map, int id) {
+  while (map.planes[static_cast<std::size_t>(id)].merged_into) {
+    id = *map.planes[static_cast<std::size_t>(id)].merged_into;
+  }
+  return id;
+}
+
+int FusePlanes(Map& map, const PlaneMapConfig& config) {
+  DropCulledPoints(map);
+  if (config.association.rule == AssociationRule::kParameters) return 0;
+  int fused = 0;
+  for (std::size_t i = 0; i < map.planes.size(); ++i) {
+    if (map.planes[i].merged_into) continue;
+    for (std::size_t k = i + 1; k < map.planes.size(); ++k) {
+      if (map.planes[k].merged_into) continue;
+      if (!OneSurface(map.planes[i], map.planes[k], config)) continue;
+      Fuse(map.planes[i], map.planes[k], config);
+      MoveCovisibility(map, static_cast<int>(k), static_cast<int>(i));
+      ++fused;
+      k = i;  // it has grown: look at the others again
+    }
+  }
+  for (MapPlane& m : map.planes) {
+    if (m.merged_into) m.merged_into = ResolvePlane(map, *m.merged_into);
+  }
+  return fused;
+}
+
+}  // namespace slam

@@ -1,0 +1,22 @@
+#pragma once
+
+#include "slam/mapping/plane_map_config.h"
+#include "slam/model/map.h"
+
+namespace slam {
+
+/// The landmark that `id` became: follows merged_into to its end.
+int ResolvePlane(const Map& map, int id);
+
+/// Fuses landmarks that are one surface: parameters agree within their uncertainty from both
+/// sides, their clouds share voxels, their classes do not contradict. Two planes often seen
+/// side by side with an offset between them that is beyond their uncertainty are two; so are
+/// planes that are merely in line (tops of equal boxes), because their clouds do not meet. The
+/// older landmark stays, the younger gets `merged_into`; chains are resolved to their end, and
+/// covisibility and points follow. References to culled map points are dropped.
+/// Under the parameter rule nothing is fused. Run at keyframes.
+/// @returns the number of landmarks fused into others.
+/// Source: PAS-SLAM, Local Mapping (fusion by association and covisibility).
+int FusePlanes(Map& map, const PlaneMapConfig& config);
+
+}  // namespace slam

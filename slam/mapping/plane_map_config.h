@@ -1,0 +1,29 @@
+#pragma once
+
+#include "slam/associate/association_config.h"
+
+namespace slam {
+
+/// How map planes are made, updated, kept small and fused.
+struct PlaneMapConfig {
+  AssociationConfig association;  ///< fusion asks the same questions as association
+
+  // A frame plane starts a landmark only if it is trusted this far.
+  int min_pixels = 400;           ///< of the segment
+  double min_inlier_ratio = 0.5;  ///< after the re-fit
+  double max_distance_m = 4.0;    ///< of its centroid
+  double max_offset_sigma_m = 0.02;
+  double max_angle_sigma_rad = 0.09;
+
+  double keep_information = 0.97;      ///< of old observations when one is added; (0, 1]
+  double voxel_m = 0.02;               ///< of clouds; grows when a plane is large
+  int max_cloud_points = 2000;         ///< of one plane; its voxel doubles when reached
+  int max_edge_points = 1000;          ///< of one plane
+  double max_vertex_jump_m = 0.05;     ///< a corner observed farther off is another one
+  double max_point_distance_m = 0.01;  ///< a map point nearer to the plane lies on it
+
+  double min_fused_overlap = 0.2;  ///< share of the smaller cloud that two duplicates share
+  int min_apart_frames = 3;        ///< seen side by side so often at a distance: never fused
+};
+
+}  // namespace slam

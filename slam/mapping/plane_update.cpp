@@ -1,0 +1,176 @@
+#include "slam/mapping/plane_update.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+#include "slam/associate/pixel_projection.h"
+#include "slam/associate/plane_plane.h"
+#include "slam/mapping/class_belief.h"
+#include "slam/mapping/plane_cloud.h"
+#include "slam/mapping/plane_vertices.h"
+
+namespace slam {
+namespace {
+
+/// Written at creation: the rule that found nothing.
+constexpr const char* kByNothing = "unmatched";
+
+bool CanStartALandmark(const FramePlane& plane, const PlaneMatch& match,
+                       const PlaneMapConfig& config) {
+  if (match.decision != PlaneDecision::kNone || std::strcmp(match.by, kByAmbiguous) == 0) {
+    return false;
+  }
+  return !plane.bad && plane.pixel_count >= config.min_pixels &&
+         plane.inlier_ratio >= config.min_inlier_ratio &&
+         plane.centroid_c.norm() < config.max_distance_m &&
+         plane.offset_sigma_m < config.max_offset_sigma_m &&
+         plane.angle_sigma_rad < config.max_angle_sigma_rad && !plane.points_c.empty();
+}
+
+MapPlane& StartLandmark(const FramePlane& plane, const Frame& frame, const Pose& T_wc,
+                        Map& map) {
+  MapPlane m;
+  m.id = static_cast<int>(map.planes.size());
+  m.pi_w = Transform(T_wc, plane.pi_c);
+  m.centroid_w = T_wc * plane.centroid_c;
+  m.first_frame = frame.index;
+  m.first_seen_s = frame.timestamp_s;
+  map.planes.push_back(std::move(m));
+  return map.planes.back();
+}
+
+std::vector<Eigen::Vector3d> InWorld(const std::vector<Eigen::Vector3d>& points_c,
+                                     const Pose& T_wc) {
+  std::vector<Eigen::Vector3d> points_w;
+  points_w.reserve(points_c.size());
+  for (const Eigen::Vector3d& p_c : points_c) points_w.push_back(T_wc * p_c);
+  return points_w;
+}
+
+/// Boundary points where the surface itself ends.
+std::vector<Eigen::Vector3d> TrueEdges(const FramePlane& plane, const Pose& T_wc) {
+  std::vector<Eigen::Vector3d> points_w;
+  for (const EdgePoint& edge : plane.edge_points) {
+    if (edge.kind == EdgeKind::kSurface) points_w.push_back(T_wc * edge.p_c);
+  }
+  return points_w;
+}
+
+void UpdateParameters(MapPlane& m, const FramePlane& plane, const Pose& T_wc,
+                      const PlaneMapConfig& config) {
+  const AssociationConfig& a = config.association;
+  AddObservation(m.estimate, Transform(T_wc, plane.pi_c), T_wc * plane.centroid_c,
+                 std::hypot(plane.angle_sigma_rad, a.angle_floor_rad),
+                 std::hypot(plane.offset_sigma_m, a.offset_floor_m), config.keep_information);
+  if (!m.estimate.empty()) m.pi_w = m.estimate.Mean();
+}
+
+void UpdateShape(MapPlane& m, const FramePlane& plane, const Pose& T_wc,
+                 const PlaneMapConfig& config) {
+  // The grid hangs on the first observation, so that voxels do not move with the estimate.
+  const Plane grid{m.estimate.normal_w, 0.0};
+  const Eigen::Vector3d& anchor_w = m.estimate.origin_w;
+  MergeIntoCloud(m.points_w, InWorld(plane.points_c, T_wc), grid, anchor_w, config.voxel_m,
+                 config.max_cloud_points);
+  MergeIntoCloud(m.edge_points_w, TrueEdges(plane, T_wc), grid, anchor_w, config.voxel_m,
+                 config.max_edge_points);
+  std::vector<Eigen::Vector3d> extent_w = m.hull_w;
+  extent_w.insert(extent_w.end(), m.points_w.begin(), m.points_w.end());
+  Outline outline = ConvexOutline(extent_w, m.pi_w);
+  m.hull_w = std::move(outline.hull_w);
+  m.area_m2 = outline.area_m2;
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  for (const Eigen::Vector3d& p_w : m.points_w) sum += p_w;
+  if (!m.points_w.empty()) m.centroid_w = sum / static_cast<double>(m.points_w.size());
+  m.centroid_w = ProjectOnto(m.pi_w, m.centroid_w);
+}
+
+void UpdateClass(MapPlane& m, const FramePlane& plane, const Frame& frame) {
+  double score = 1.0;
+  if (plane.detection && *plane.detection < static_cast<int>(frame.detections.size())) {
+    const Detection& detection = frame.detections[static_cast<std::size_t>(*plane.detection)];
+    if (detection.score > 0) score = detection.score;
+    // A box that was only predicted from its track is half an observation.
+    if (detection.compensated) score *= 0.5;
+  }
+  UpdateClassBelief(m, plane.class_name, score);
+}
+
+/// The map plane each label of the frame stands for, or kNone.
+std::vector<int> LandmarkOfPlane(const Frame& frame) {
+  std::vector<int> landmark(frame.planes.size(), kNone);
+  for (std::size_t f = 0; f < landmark.size(); ++f) {
+    if (frame.plane_matches[f].decision != PlaneDecision::kNone) {
+      landmark[f] = frame.plane_matches[f].map_plane;
+    }
+  }
+  return landmark;
+}
+
+void UpdateCovisibility(const std::vector<int>& landmark, Map& map) {
+  std::set<int> seen;
+  for (const int id : landmark) {
+    if (id != kNone) seen.insert(id);
+  }
+  for (const int id : seen) {
+    for (const int other : seen) {
+      if (other != id) ++map.planes[static_cast<std::size_t>(id)].covisible[other];
+    }
+  }
+}
+
+/// Notes the frame's matched map points that lie on its planes.
+void UpdateMapPoints(const Frame& frame, const std::vector<int>& landmark, const Camera& camera,
+                     double max_distance_m, Map& map) {
+  if (frame.plane_labels.empty()) return;
+  const std::size_t count = std::min(frame.features.size(), frame.map_points.size());
+  for (std::size_t i = 0; i < count; ++i) {
+    const int id = frame.map_points[i];
+    if (id == kNone || id >= static_cast<int>(map.points.size())) continue;
+    const Eigen::Vector2i u =
+        RecordedPixel(camera, camera.Backproject(frame.features[i].u_px, 1.0));
+    if (u.x() < 0) continue;
+    const auto label = static_cast<std::size_t>(frame.plane_labels(u.y(), u.x()));
+    if (label == 0 || label > landmark.size() || landmark[label - 1] == kNone) continue;
+    MapPlane& m = map.planes[static_cast<std::size_t>(landmark[label - 1])];
+    const MapPoint& point = map.points[static_cast<std::size_t>(id)];
+    if (!point.culled && std::abs(SignedDistance(m.pi_w, point.p_w)) < max_distance_m) {
+      m.map_points.insert(id);
+    }
+  }
+}
+
+/// Corners are those of an object's face, and only of a face that was seen whole.
+bool HasCorners(const FramePlane& plane, const MapPlane& m) {
+  return !plane.bad && !m.class_name.empty();
+}
+
+}  // namespace
+
+void UpdatePlanes(Frame& frame, Map& map, const Camera& camera, const PlaneMapConfig& config) {
+  frame.plane_matches.resize(frame.planes.size());
+  const Pose T_wc = Inverse(frame.T_cw);
+  std::set<int> seen;
+  for (std::size_t f = 0; f < frame.planes.size(); ++f) {
+    const FramePlane& plane = frame.planes[f];
+    PlaneMatch& match = frame.plane_matches[f];
+    if (CanStartALandmark(plane, match, config)) {
+      match = {PlaneDecision::kNew, StartLandmark(plane, frame, T_wc, map).id, kByNothing};
+    }
+    if (match.decision == PlaneDecision::kNone) continue;
+    MapPlane& m = map.planes[static_cast<std::size_t>(match.map_plane)];
+    UpdateParameters(m, plane, T_wc, config);
+    UpdateShape(m, plane, T_wc, config);
+    UpdateClass(m, plane, frame);
+    if (HasCorners(plane, m)) FuseVertices(m, plane.vertices_c, T_wc, config);
+    if (seen.insert(m.id).second) ++m.observations;
+    m.last_frame = frame.index;
+    m.last_seen_s = frame.timestamp_s;
+  }
+  const std::vector<int> landmark = LandmarkOfPlane(frame);
+  UpdateCovisibility(landmark, map);
+  UpdateMapPoints(frame, landmark, camera, config.max_point_distance_m, map);
+}
+
+}  // namespace slam

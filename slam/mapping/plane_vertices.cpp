@@ -1,0 +1,73 @@
+#include "slam/mapping/plane_vertices.h"
+
+#include <algorithm>
+#include <array>
+#include <limits>
+
+namespace slam {
+namespace {
+
+constexpr std::size_t kCorners = 4;
+constexpr double kSeenWeight = 1.0, kExtrapolatedWeight = 0.25;
+constexpr double kMaxWeight = 40.0;  // so that a wrong start can still be left
+
+/// observed[order[i]] belongs to known[i].
+std::array<std::size_t, kCorners> Order(const std::vector<Eigen::Vector3d>& known_w,
+                                        const std::vector<Eigen::Vector3d>& observed_w) {
+  std::array<std::size_t, kCorners> best{0, 1, 2, 3};
+  double least = std::numeric_limits<double>::infinity();
+  for (const bool reversed : {false, true}) {
+    for (std::size_t shift = 0; shift < kCorners; ++shift) {
+      std::array<std::size_t, kCorners> order{};
+      double sum = 0.0;
+      for (std::size_t i = 0; i < kCorners; ++i) {
+        order[i] = (reversed ? shift + kCorners - i : shift + i) % kCorners;
+        sum += (known_w[i] - observed_w[order[i]]).squaredNorm();
+      }
+      if (sum < least) {
+        least = sum;
+        best = order;
+      }
+    }
+  }
+  return best;
+}
+
+}  // namespace
+
+void FuseVertices(MapPlane& m, const std::vector<Vertex>& vertices_c, const Pose& T_wc,
+                  const PlaneMapConfig& config) {
+  if (vertices_c.size() != kCorners) return;
+  std::vector<Eigen::Vector3d> observed_w;
+  for (const Vertex& vertex : vertices_c) {
+    if (!vertex.p_c.allFinite()) return;
+    observed_w.push_back(ProjectOnto(m.pi_w, T_wc * vertex.p_c));
+  }
+  const auto weight = [&](std::size_t i) {
+    return vertices_c[i].extrapolated ? kExtrapolatedWeight : kSeenWeight;
+  };
+  if (m.vertices_w.size() != kCorners || m.vertex_weights.size() != kCorners) {
+    m.vertices_w = observed_w;
+    m.vertex_weights.clear();
+    for (std::size_t i = 0; i < kCorners; ++i) m.vertex_weights.push_back(weight(i));
+    return;
+  }
+  const auto order = Order(m.vertices_w, observed_w);
+  for (std::size_t i = 0; i < kCorners; ++i) {
+    const std::size_t k = order[i];
+    double& known = m.vertex_weights[i];
+    if ((m.vertices_w[i] - observed_w[k]).norm() < config.max_vertex_jump_m) {
+      const double sum = known + weight(k);
+      m.vertices_w[i] = (known * m.vertices_w[i] + weight(k) * observed_w[k]) / sum;
+      known = std::min(sum, kMaxWeight);
+    } else if (known > weight(k)) {
+      known -= weight(k);
+    } else {
+      m.vertices_w[i] = observed_w[k];
+      known = weight(k);
+    }
+    m.vertices_w[i] = ProjectOnto(m.pi_w, m.vertices_w[i]);
+  }
+}
+
+}  // namespace slam

@@ -1,0 +1,21 @@
+#pragma once
+
+#include <vector>
+
+#include "slam/mapping/plane_map_config.h"
+#include "slam/model/frame_plane.h"
+#include "slam/model/map_plane.h"
+
+namespace slam {
+
+/// Fuses the four corners of one observation into those of a map plane.
+///
+/// The corners are laid onto the known ones by the turn (and sense) around the face that moves
+/// them least. A corner within `max_vertex_jump_m` is averaged by weight; one farther off
+/// counts against the known corner, and takes its place when the evidence is used up. A corner
+/// that follows from its lines alone weighs a quarter. Corners end on the map plane.
+/// Observations without four corners change nothing.
+void FuseVertices(MapPlane& map_plane, const std::vector<Vertex>& vertices_c, const Pose& T_wc,
+                  const PlaneMapConfig& config);
+
+}  // namespace slam
