@@ -1,0 +1,196 @@
+#include "sim/detect/detector.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "sim/detect/confusions.h"
+#include "sim/detect/slow_noise.h"
+#include "tests/sim/support/sim_worlds.h"
+
+namespace sim {
+namespace {
+
+ObjectInFrame Seen(int id, int pixels, int unoccluded, const PixelBox& box) {
+  ObjectInFrame object;
+  object.id = id;
+  object.pixels = pixels;
+  object.unoccluded_pixels = unoccluded;
+  object.visible_box = object.amodal_box = box;
+  object.visible_fraction = static_cast<double>(pixels) / unoccluded;
+  return object;
+}
+
+Scene LaptopOnDesk() {
+  Scene scene;
+  scene.objects = {BoxObject(1, "desk", Role::kStructure, {0, 0, 0}, {1, 1, 1}),
+                   BoxObject(2, "laptop", Role::kRegular, {0, 0, 0}, {1, 1, 1}),
+                   BoxObject(3, "laptop", Role::kRegular, {0, 0, 0}, {1, 1, 1}),
+                   BoxObject(4, "teddy bear", Role::kUnstructured, {0, 0, 0}, {1, 1, 1}),
+                   BoxObject(5, "cup", Role::kOther, {0, 0, 0}, {1, 1, 1})};
+  scene.objects[1].detection_group = scene.objects[2].detection_group = 1;
+  return scene;
+}
+
+FrameTruth AllSeen() {
+  return {{Seen(1, 90000, 90000, {0, 0, 639, 479}), Seen(2, 9000, 9000, {100, 100, 200, 190}),
+           Seen(3, 9000, 9000, {90, 40, 210, 100}), Seen(4, 2500, 2500, {400, 100, 450, 150}),
+           Seen(5, 2500, 2500, {500, 100, 550, 150})},
+          {}};
+}
+
+TEST(PerfectDetector, BoxesWhatIsVisibleOfGroupsAndToysAlone) {
+  const Detector detector(LaptopOnDesk(), Camera{}, DetectorKind::kPerfect, 1);
+  const auto detections = detector.Detect(0, AllSeen());
+  ASSERT_EQ(detections.size(), 2u);
+  EXPECT_EQ(detections[0].class_name, "laptop");
+  EXPECT_EQ(detections[0].box, (PixelBox{90, 40, 210, 190}));
+  EXPECT_EQ(detections[0].score, 1.0);
+  EXPECT_EQ(detections[1].class_name, "teddy bear");
+  EXPECT_EQ(detections[1].box, (PixelBox{400, 100, 450, 150}));
+}
+
+TEST(PerfectDetector, BoxesTheLidAloneWhenTheBaseIsHidden) {
+  FrameTruth truth = AllSeen();
+  truth.objects.erase(truth.objects.begin() + 1);
+  const Detector detector(LaptopOnDesk(), Camera{}, DetectorKind::kPerfect, 1);
+  EXPECT_EQ(detector.Detect(0, truth)[0].box, (PixelBox{90, 40, 210, 100}));
+}
+
+TEST(PerfectDetector, LeavesOutWhatIsTooSmallToSee) {
+  FrameTruth truth;
+  truth.objects = {Seen(4, 59, 900, {400, 100, 410, 106})};
+  const Detector detector(LaptopOnDesk(), Camera{}, DetectorKind::kPerfect, 1);
+  EXPECT_TRUE(detector.Detect(0, truth).empty());
+}
+
+TEST(NoDetector, ReportsNothing) {
+  const Detector detector(LaptopOnDesk(), Camera{}, DetectorKind::kNone, 1);
+  EXPECT_TRUE(detector.Detect(0, AllSeen()).empty());
+}
+
+constexpr int kFrames = 6000;
+
+/// Share of frames without the teddy when it shows `pixels` of `unoccluded`.
+std::vector<bool> Misses(int pixels, int unoccluded) {
+  DetectorModel model;
+  model.phantom = model.duplicate = model.confused = 0;
+  const Detector detector(LaptopOnDesk(), Camera{}, DetectorKind::kNoisy, 3, model);
+  FrameTruth truth;
+  truth.objects = {Seen(4, pixels, unoccluded, {300, 200, 360, 260})};
+  std::vector<bool> missed;
+  for (int frame = 0; frame < kFrames; ++frame) {
+    missed.push_back(detector.Detect(frame, truth).empty());
+  }
+  return missed;
+}
+double Share(const std::vector<bool>& missed) {
+  return static_cast<double>(std::count(missed.begin(), missed.end(), true)) / kFrames;
+}
+
+// Runs of 8 frames: about 750 independent ones, so a share p has a standard error of about
+// sqrt(p / 750); five of them.
+TEST(NoisyDetector, MissesAsItsModelSays) {
+  const DetectorModel model;
+  for (const auto& [pixels, whole] : {std::pair{400, 400}, {3600, 3600}, {3600, 14400}}) {
+    const double hidden = 1 - static_cast<double>(pixels) / whole;
+    const double expected =
+        1 - (1 - model.base_miss) *
+                (1 - model.small_miss * std::exp(-std::sqrt(pixels) / model.small_size_px)) *
+                (1 - model.hidden_miss * hidden * hidden);
+    EXPECT_NEAR(Share(Misses(pixels, whole)), expected, 5 * std::sqrt(expected / 750));
+  }
+}
+
+TEST(NoisyDetector, MissesInRuns) {
+  const std::vector<bool> missed = Misses(900, 900);
+  int both = 0;
+  for (std::size_t i = 1; i < missed.size(); ++i) both += missed[i] && missed[i - 1] ? 1 : 0;
+  const double again = both / (Share(missed) * kFrames);
+  EXPECT_GT(again, 2 * Share(missed));
+  EXPECT_GT(again, 0.6);
+}
+
+TEST(NoisyDetector, JittersInProportionToTheBox) {
+  DetectorModel model;
+  model.phantom = model.duplicate = model.confused = model.base_miss = model.small_miss = 0;
+  const Detector detector(LaptopOnDesk(), Camera{}, DetectorKind::kNoisy, 3, model);
+  FrameTruth truth;
+  truth.objects = {Seen(4, 20000, 20000, {200, 100, 400, 200})};
+  double sum_x = 0, sum_y = 0;
+  for (int frame = 0; frame < kFrames; ++frame) {
+    const PixelBox box = detector.Detect(frame, truth).at(0).box;
+    sum_x += (box.x0 - 200) * (box.x0 - 200);
+    sum_y += (box.y1 - 200) * (box.y1 - 200);
+  }
+  // sd 0.02 * 200 + 0.5 and 0.02 * 100 + 0.5; half the variance has 750 independent draws.
+  EXPECT_NEAR(std::sqrt(sum_x / kFrames), 4.5, 0.4);
+  EXPECT_NEAR(std::sqrt(sum_y / kFrames), 2.5, 0.25);
+}
+
+TEST(NoisyDetector, DoublesConfusesAndInventsAtTheStatedRates) {
+  const Detector detector(LaptopOnDesk(), Camera{}, DetectorKind::kNoisy, 4);
+  FrameTruth truth;
+  truth.objects = {Seen(4, 20000, 20000, {200, 100, 400, 200})};
+  int confused = 0, extra = 0;
+  for (int frame = 0; frame < kFrames; ++frame) {
+    const auto detections = detector.Detect(frame, truth);
+    for (const Detection& d : detections) {
+      confused += d.class_name == "dog" || d.class_name == "person" ? 1 : 0;
+      EXPECT_TRUE(d.box.x0 >= 0 && d.box.y0 >= 0 && d.box.x1 <= 639 && d.box.y1 <= 479);
+      EXPECT_TRUE(d.score > 0.1 && d.score < 1);
+    }
+    extra += detections.size() > 1 ? 1 : 0;
+  }
+  EXPECT_GT(confused, kFrames / 200);
+  EXPECT_LT(confused, kFrames / 20);
+  EXPECT_GT(extra, kFrames / 100);
+  EXPECT_LT(extra, kFrames / 12);
+}
+
+TEST(NoisyDetector, GivesAFrameTheSameAnswerInAnyOrder) {
+  const Detector a(LaptopOnDesk(), Camera{}, DetectorKind::kNoisy, 4);
+  const Detector b(LaptopOnDesk(), Camera{}, DetectorKind::kNoisy, 4);
+  std::vector<std::string> forward;
+  for (int frame = 0; frame < 40; ++frame)
+    forward.push_back(DetectionsJson(0, a.Detect(frame, AllSeen())));
+  for (int frame = 39; frame >= 0; --frame) {
+    EXPECT_EQ(DetectionsJson(0, b.Detect(frame, AllSeen())),
+              forward[static_cast<std::size_t>(frame)]);
+  }
+}
+
+TEST(Confusions, NeverNameTheClassItself) {
+  for (const char* name : {"book", "keyboard", "tv", "laptop", "cell phone", "remote", "mouse",
+                           "teddy bear", "potted plant", "box"}) {
+    for (const char* other : ConfusedWith(name)) EXPECT_STRNE(other, name);
+  }
+}
+
+TEST(SlowNoise, IsStandardNormalAndRemembersItsRun) {
+  double sum = 0, squares = 0, next = 0;
+  constexpr int kCount = 40000;
+  const SlowNoise noise(5, 8);
+  for (int frame = 0; frame < kCount; ++frame) {
+    const double x = noise.Normal(frame);
+    sum += x;
+    squares += x * x;
+    next += x * noise.Normal(frame + 1);
+  }
+  EXPECT_NEAR(sum / kCount, 0, 5 / std::sqrt(kCount / 8.0));
+  EXPECT_NEAR(squares / kCount, 1, 5 * std::sqrt(2 / (kCount / 8.0)));
+  EXPECT_GT(next / kCount, 0.8);
+}
+
+TEST(DetectionsJson, HoldsTheFormatsKeys) {
+  const auto json =
+      nlohmann::json::parse(DetectionsJson(0.033333, {{"book", 0.91, {1, 2, 3, 4.5}}}));
+  EXPECT_EQ(json["timestamp"], 0.033333);
+  EXPECT_EQ(json["detections"][0]["class"], "book");
+  EXPECT_EQ(json["detections"][0]["score"], 0.91);
+  EXPECT_EQ(json["detections"][0]["box"], (std::vector<double>{1, 2, 3, 4.5}));
+}
+
+}  // namespace
+}  // namespace sim

@@ -1,0 +1,191 @@
+#include "sim/sensor/depth_sensor.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "tests/sim/support/sim_worlds.h"
+
+namespace sim {
+namespace {
+
+Rendering View(const Scene& scene, const Camera& camera, const Pose& T_wc = LookAlongY()) {
+  RenderOptions options;
+  options.colour = false;
+  options.projector_offset_m = KinectModel{}.projector_offset_m;
+  return FrameRenderer(scene, camera).Render(T_wc, options);
+}
+
+/// The curve again, from the paper's printed constants.
+double PublishedSigma(double z) { return 0.0012 + 0.0019 * std::pow(z - 0.4, 2); }
+
+struct Moments {
+  double mean = 0, sd = 0, lag1 = 0, share = 0;
+};
+
+/// Of z - truth over the image and five frames: 96 000 pixels, about 96 000 / 9 independent.
+Moments ErrorMoments(double z_m, const KinectModel& model) {
+  const Rendering rendering = View(OneBoard(z_m), SmallCamera());
+  double count = 0, sum = 0, squares = 0, product = 0;
+  for (std::uint64_t frame = 0; frame < 5; ++frame) {
+    const cv::Mat1d z = MeasureDepth(rendering, model, PixelNoise(11, frame));
+    for (int v = 0; v < z.rows; ++v) {
+      for (int u = 0; u + 1 < z.cols; ++u) {
+        if (!(z(v, u) > 0) || !(z(v, u + 1) > 0)) continue;
+        const double e = z(v, u) - z_m;
+        ++count;
+        sum += e;
+        squares += e * e;
+        product += e * (z(v, u + 1) - z_m);
+      }
+    }
+  }
+  Moments m;
+  m.share = count / (5.0 * 120 * 159);
+  m.mean = sum / count;
+  const double variance = squares / count - m.mean * m.mean;
+  m.sd = std::sqrt(variance);
+  m.lag1 = (product / count - m.mean * m.mean) / variance;
+  return m;
+}
+
+class KinectNoiseAt : public testing::TestWithParam<double> {};
+
+TEST_P(KinectNoiseAt, HasTheStandardDeviationOfThePublishedCurve) {
+  const Moments m = ErrorMoments(GetParam(), {});
+  EXPECT_NEAR(m.sd, PublishedSigma(GetParam()), 0.05 * PublishedSigma(GetParam()));
+}
+
+TEST_P(KinectNoiseAt, IsUnbiasedToATenthOfAStep) {
+  const double step_m = GetParam() * GetParam() / 351.3;
+  EXPECT_LT(std::abs(ErrorMoments(GetParam(), {}).mean), 0.1 * step_m);
+}
+
+TEST_P(KinectNoiseAt, LeavesOnlyWholeDisparitySteps) {
+  const Rendering rendering = View(OneBoard(GetParam()), SmallCamera());
+  const cv::Mat1d z = MeasureDepth(rendering, {}, PixelNoise(1, 0));
+  for (int u = 0; u < z.cols; ++u) {
+    const double steps = 351.3 / z(60, u);
+    EXPECT_NEAR(steps, std::round(steps), 1e-9);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Depths, KinectNoiseAt, testing::Values(0.6, 1.0, 1.5, 2.0));
+
+// A 3x3 mean shares six of nine numbers with its neighbour: correlation 2/3; rounding dilutes
+// it.
+TEST(KinectNoise, IsCorrelatedOverNeighbouringPixels) {
+  const Moments m = ErrorMoments(0.6, {.quantise = false});
+  EXPECT_NEAR(m.lag1, 2.0 / 3.0, 0.03);
+}
+
+TEST(KinectNoise, GrowsOnSurfacesSeenAtAGrazingAngle) {
+  EXPECT_DOUBLE_EQ(AxialSigma(1.0, 0.5), PublishedSigma(1.0));
+  const double theta = 1.3, ratio = theta / (M_PI / 2 - theta);
+  EXPECT_DOUBLE_EQ(AxialSigma(1.0, theta), PublishedSigma(1.0) + 0.0001 * ratio * ratio);
+}
+
+TEST(KinectSwitchedOff, GivesTheExactDepthBack) {
+  Rendering rendering = View(SmallDesk(), SmallCamera(), SmallArc(1)[0].T_wc);
+  rendering.projector_lit = cv::Mat1b();
+  const KinectModel off{.min_depth_m = 0,
+                        .max_depth_m = 1e9,
+                        .max_incidence_rad = 4,
+                        .noise_scale = 0,
+                        .lateral_scale = 0,
+                        .quantise = false};
+  const cv::Mat1d z = MeasureDepth(rendering, off, PixelNoise(1, 0));
+  EXPECT_EQ(cv::countNonZero(z != rendering.depth_m), 0);
+}
+
+TEST(KinectDepth, StaysInvalidWhereNothingIsHit) {
+  const Rendering rendering = View(OneBoard(1.0, 0.4), SmallCamera());
+  const cv::Mat1d z = MeasureDepth(rendering, {}, PixelNoise(1, 0));
+  EXPECT_EQ(cv::countNonZero((rendering.depth_m == 0) & (z != 0)), 0);
+}
+
+TEST(KinectDepth, EndsAtTheRangeLimits) {
+  for (const double z_m : {0.45, 4.6}) {
+    EXPECT_EQ(cv::countNonZero(
+                  MeasureDepth(View(OneBoard(z_m), SmallCamera()), {}, PixelNoise(1, 0)) != 0),
+              0);
+  }
+  const cv::Mat1d near =
+      MeasureDepth(View(OneBoard(0.45), SmallCamera()), {.min_depth_m = 0.4}, PixelNoise(1, 0));
+  EXPECT_EQ(cv::countNonZero(near), 160 * 120);
+}
+
+TEST(KinectDepth, IsMissingOnAFloorSeenFlatterThanEightyDegrees) {
+  Scene scene;
+  scene.objects = {BoxObject(1, "floor", Role::kStructure, {0, 0, -0.05}, {20, 20, 0.1})};
+  const Camera camera = SmallCamera();
+  const Rendering rendering = View(scene, camera, LookAt({0, 0, 0.3}, {0, 1, 0.2}));
+  const cv::Mat1d z = MeasureDepth(rendering, {.lateral_scale = 0}, PixelNoise(1, 0));
+  int flat = 0;
+  for (int v = 0; v < z.rows; ++v) {
+    const float c = rendering.incidence_cos(v, 80);
+    if (c > 0 && c < std::cos(80.0 * M_PI / 180)) {
+      ++flat;
+      EXPECT_EQ(z(v, 80), 0.0);
+    }
+  }
+  EXPECT_GT(flat, 0);
+}
+
+// Projector 75 mm to the right: a board's left edge at z_near hides f b (1/z_near - 1/z_far)
+// pixels of the wall behind it, on its left.
+TEST(ProjectorShadow, HasTheWidthThatTheBaselineGives) {
+  const double z_near = 0.8, z_far = 1.6;
+  Scene scene = OneBoard(z_far);
+  scene.objects.push_back(
+      BoxObject(2, "box", Role::kRegular, {0, z_near + 0.0005, 0}, {0.2, 0.001, 0.2}));
+  const Camera camera;
+  const Rendering rendering = View(scene, camera);
+  const cv::Mat1d z =
+      MeasureDepth(rendering, {.noise_scale = 0, .lateral_scale = 0}, PixelNoise(1, 0));
+  const double expected = camera.fx * 0.075 * (1 / z_near - 1 / z_far);
+  int width = 0;
+  for (int u = 0; u < camera.width; ++u) {
+    if (z(240, u) > 0) continue;
+    ++width;
+    EXPECT_LT(u, camera.cx);
+  }
+  EXPECT_NEAR(width, expected, 1.01);  // one pixel at either end
+}
+
+TEST(LateralNoise, MovesEdgesButNeverTheDepthInsideASurface) {
+  const double z_near = 0.8, z_far = 1.6;
+  Scene scene = OneBoard(z_far);
+  scene.objects.push_back(
+      BoxObject(2, "box", Role::kRegular, {0, z_near + 0.0005, 0}, {0.2, 0.001, 0.2}));
+  Rendering rendering = View(scene, Camera{});
+  rendering.projector_lit = cv::Mat1b();
+  const cv::Mat1d z =
+      MeasureDepth(rendering, {.noise_scale = 0, .quantise = false}, PixelNoise(1, 0));
+  const double edge = 319.5 - 525 * 0.1 / z_near;
+  int moved = 0;
+  for (int v = 200; v < 280; ++v) {
+    for (int u = 200; u < 320; ++u) {
+      if (z(v, u) == rendering.depth_m(v, u)) continue;
+      ++moved;
+      EXPECT_LT(std::abs(u - edge), 6.0);  // sigma_L is 0.8 px: beyond 6 px 1e-13
+      EXPECT_TRUE(z(v, u) == z_near || std::abs(z(v, u) - z_far) < 1e-9 ||
+                  std::abs(z(v, u) - z_near) < 1e-9);
+    }
+  }
+  EXPECT_GT(moved, 20);
+}
+
+TEST(EncodedDepth, RoundsToNearestAndDropsWhatDoesNotFit) {
+  const cv::Mat1d z = (cv::Mat1d(1, 5) << 0.0, 1.00009, 1.00011, 13.107, 13.2);
+  const cv::Mat1w units = EncodeDepth(z, 5000);
+  EXPECT_EQ(units(0, 0), 0);
+  EXPECT_EQ(units(0, 1), 5000);
+  EXPECT_EQ(units(0, 2), 5001);
+  EXPECT_EQ(units(0, 3), 65535);
+  EXPECT_EQ(units(0, 4), 0);
+}
+
+}  // namespace
+}  // namespace sim

@@ -1,0 +1,47 @@
+#include "sim/sensor/noise.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace sim {
+namespace {
+
+TEST(NormalQuantile, InvertsTheErrorFunctionOfTheLibrary) {
+  constexpr double kStatedRelativeError = 2e-9;
+  for (double x = -6.0; x <= 6.0; x += 0.037) {
+    const double p = 0.5 * std::erfc(-x / std::sqrt(2.0));
+    // Above one half p keeps few digits of its distance to 1: compare by the smaller tail.
+    if (x < 3.0) {
+      EXPECT_NEAR(NormalQuantile(p), x, kStatedRelativeError * std::max(1.0, std::abs(x)));
+    }
+  }
+}
+
+TEST(NormalProbability, StaysWithinItsStatedError) {
+  for (double x = -8.0; x <= 8.0; x += 0.05) {
+    EXPECT_NEAR(NormalProbability(x), 0.5 * std::erfc(-x / std::sqrt(2.0)), 1e-7);
+  }
+}
+
+TEST(PixelNoise, HasUnitVarianceAndNoMean) {
+  const PixelNoise noise(7, 3);
+  constexpr int kSide = 400;
+  constexpr double kCount = kSide * kSide;
+  double sum = 0, squares = 0, across = 0;
+  for (int v = 0; v < kSide; ++v) {
+    for (int u = 0; u < kSide; ++u) {
+      const double x = noise.Normal(u, v, 0);
+      sum += x;
+      squares += x * x;
+      across += x * noise.Normal(u + 1, v, 0);
+    }
+  }
+  // Five standard errors: false alarm 6e-7 each, and the seed is fixed.
+  EXPECT_NEAR(sum / kCount, 0, 5 / std::sqrt(kCount));
+  EXPECT_NEAR(squares / kCount, 1, 5 * std::sqrt(2 / kCount));
+  EXPECT_NEAR(across / kCount, 0, 5 / std::sqrt(kCount));
+}
+
+}  // namespace
+}  // namespace sim

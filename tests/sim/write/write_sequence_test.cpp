@@ -1,0 +1,260 @@
+#include "sim/write/write_sequence.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <signal.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <fstream>
+#include <opencv2/imgcodecs.hpp>
+#include <set>
+
+#include "sim/scene/input_error.h"
+#include "sim/scene/sha256.h"
+#include "sim/write/atomic_file.h"
+#include "sim/write/sequence_text.h"
+#include "tests/sim/support/sim_worlds.h"
+
+namespace sim {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::HasSubstr;
+
+/// A folder of its own for each test, gone afterwards.
+class WrittenSequence : public testing::Test {
+ protected:
+  void SetUp() override {
+    std::string name = (fs::temp_directory_path() / "pas_sim_XXXXXX").string();
+    ASSERT_NE(mkdtemp(name.data()), nullptr);
+    root_ = name;
+  }
+  void TearDown() override { fs::remove_all(root_); }
+
+  static SequenceOptions Options(int threads = 1) {
+    SequenceOptions options;
+    options.rig.camera = SmallCamera();
+    options.threads = threads;
+    options.version = "test";
+    return options;
+  }
+  static int Write(const fs::path& folder, const SequenceOptions& options, int frames = 6) {
+    return WriteSequence(SmallDesk(), SmallArc(frames), options, folder);
+  }
+  /// Path -> content of every file.
+  static std::map<std::string, std::string> Content(const fs::path& folder) {
+    std::map<std::string, std::string> content;
+    for (const auto& entry : fs::recursive_directory_iterator(folder)) {
+      if (entry.is_regular_file()) {
+        content[fs::relative(entry.path(), folder).string()] = ReadWholeFile(entry.path());
+      }
+    }
+    return content;
+  }
+  static std::string ErrorOf(const std::function<void()>& call) {
+    try {
+      call();
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "no error";
+  }
+  fs::path root_;
+};
+
+TEST_F(WrittenSequence, HoldsEveryFileOfTheFormatAndNothingElse) {
+  Write(root_ / "seq", Options(), 3);
+  std::set<std::string> expected{"associations.txt", "camera.yaml",     "depth.txt",
+                                 "detections.jsonl", "groundtruth.txt", "gt/frames.jsonl",
+                                 "gt/scene.json",    "manifest.json",   "rgb.txt"};
+  for (const std::string t : {"0.000000", "0.033333", "0.066667"}) {
+    for (const std::string where : {"rgb/", "depth/", "gt/plane_id/", "gt/object_id/"}) {
+      expected.insert(where + t + ".png");
+    }
+  }
+  std::set<std::string> found;
+  for (const auto& [path, bytes] : Content(root_ / "seq")) found.insert(path);
+  EXPECT_EQ(found, expected);
+}
+
+TEST_F(WrittenSequence, ListsTheHashOfEveryOtherFileInItsManifest) {
+  Write(root_ / "seq", Options(), 3);
+  const auto manifest = nlohmann::json::parse(ReadWholeFile(root_ / "seq/manifest.json"));
+  EXPECT_EQ(manifest["format"], "pas-sequence/1");
+  EXPECT_EQ(manifest["complete"], true);
+  EXPECT_EQ(manifest["frame_count"], 3);
+  auto content = Content(root_ / "seq");
+  content.erase("manifest.json");
+  EXPECT_EQ(manifest["sha256"].size(), content.size());
+  for (const auto& [path, bytes] : content) {
+    EXPECT_EQ(manifest["sha256"][path], Sha256Hex(bytes)) << path;
+  }
+}
+
+TEST_F(WrittenSequence, StoresImagesInTheFormatsDepthAndSize) {
+  SequenceOptions options = Options();
+  options.rig.sensor = SensorKind::kIdeal;
+  WriteSequence(OneBoard(1.2), {{0.0, LookAlongY()}}, options, root_ / "seq");
+  const auto read = [&](const std::string& where) {
+    return cv::imread((root_ / "seq" / where / "0.000000.png").string(), cv::IMREAD_UNCHANGED);
+  };
+  EXPECT_EQ(read("rgb").type(), CV_8UC3);
+  EXPECT_EQ(read("gt/plane_id").type(), CV_16UC1);
+  EXPECT_EQ(read("gt/object_id").type(), CV_16UC1);
+  const cv::Mat depth = read("depth");
+  ASSERT_EQ(depth.type(), CV_16UC1);
+  EXPECT_EQ(depth.size(), cv::Size(160, 120));
+  EXPECT_EQ(cv::countNonZero(depth != 6000), 0);
+}
+
+TEST_F(WrittenSequence, HasTheSameBytesWithOneThreadAndTwo) {
+  Write(root_ / "one", Options(1));
+  Write(root_ / "two", Options(2));
+  EXPECT_EQ(Content(root_ / "one"), Content(root_ / "two"));
+}
+
+TEST_F(WrittenSequence, ChangesWithTheSeed) {
+  SequenceOptions other = Options();
+  other.rig.seed = 2;
+  Write(root_ / "one", Options(), 1);
+  Write(root_ / "two", other, 1);
+  EXPECT_NE(ReadWholeFile(root_ / "one/depth/0.000000.png"),
+            ReadWholeFile(root_ / "two/depth/0.000000.png"));
+}
+
+TEST_F(WrittenSequence, LeavesNoDetectionsFileWithoutADetector) {
+  SequenceOptions options = Options();
+  options.rig.detector = DetectorKind::kNone;
+  Write(root_ / "seq", options, 1);
+  EXPECT_FALSE(fs::exists(root_ / "seq/detections.jsonl"));
+}
+
+TEST_F(WrittenSequence, IsRefusedWhereAFolderExists) {
+  Write(root_ / "seq", Options(), 1);
+  const auto before = Content(root_ / "seq");
+  EXPECT_THAT(ErrorOf([&] { Write(root_ / "seq", Options(), 2); }), HasSubstr("--force"));
+  EXPECT_EQ(Content(root_ / "seq"), before);
+}
+
+TEST_F(WrittenSequence, ReplacesAnOldSequenceWhenForced) {
+  Write(root_ / "seq", Options(), 3);
+  SequenceOptions options = Options();
+  options.existing = Existing::kReplace;
+  Write(root_ / "seq", options, 2);
+  Write(root_ / "fresh", Options(), 2);
+  EXPECT_EQ(Content(root_ / "seq"), Content(root_ / "fresh"));
+}
+
+TEST_F(WrittenSequence, NeverReplacesAFolderThatIsNotASequence) {
+  fs::create_directories(root_ / "mine");
+  WriteFileAtomically(root_ / "mine/thesis.tex", "years of work");
+  SequenceOptions options = Options();
+  options.existing = Existing::kReplace;
+  EXPECT_THAT(ErrorOf([&] { Write(root_ / "mine", options, 1); }), HasSubstr("left alone"));
+  EXPECT_EQ(ReadWholeFile(root_ / "mine/thesis.tex"), "years of work");
+}
+
+/// Runs a write in a child process and kills it after `frames` frames. The process must have no
+/// other threads when it forks, which holds as every write joins its own.
+void WriteAndDieAfter(int frames, const std::function<void(SequenceOptions&)>& write,
+                      SequenceOptions options) {
+  const pid_t child = fork();
+  ASSERT_GE(child, 0);
+  if (child == 0) {
+    options.progress = [frames](int done) {
+      if (done == frames) kill(getpid(), SIGKILL);
+    };
+    write(options);
+    _exit(0);
+  }
+  int status = 0;
+  waitpid(child, &status, 0);
+  ASSERT_TRUE(WIFSIGNALED(status));
+}
+
+TEST_F(WrittenSequence, KilledHalfWayNeverLooksCompleteAndResumesToTheSameBytes) {
+  Write(root_ / "whole", Options());
+  for (const int frames : {1, 3, 5}) {
+    const fs::path folder = root_ / ("killed" + std::to_string(frames));
+    WriteAndDieAfter(
+        frames, [&](SequenceOptions& o) { Write(folder, o); }, Options());
+    const auto manifest = ReadManifest(folder);
+    ASSERT_TRUE(manifest.has_value());
+    EXPECT_EQ((*manifest)["complete"], false);
+    // A frame that was being written, and one whose image the disk lost.
+    std::ofstream(folder / "rgb/0.166667.png.part") << "half a picture";
+    std::ofstream(folder / "rgb/0.000000.png") << "torn";
+
+    SequenceOptions resume = Options();
+    resume.existing = Existing::kResume;
+    EXPECT_EQ(Write(folder, resume), 6 - frames + 1);
+    EXPECT_EQ(Content(folder), Content(root_ / "whole"));
+  }
+}
+
+TEST_F(WrittenSequence, ResumesACompleteOneByDoingNothing) {
+  Write(root_ / "seq", Options());
+  const auto before = Content(root_ / "seq");
+  SequenceOptions resume = Options();
+  resume.existing = Existing::kResume;
+  EXPECT_EQ(Write(root_ / "seq", resume), 0);
+  EXPECT_EQ(Content(root_ / "seq"), before);
+}
+
+TEST_F(WrittenSequence, IsNotResumedWithOtherOptions) {
+  Write(root_ / "seq", Options());
+  SequenceOptions resume = Options();
+  resume.existing = Existing::kResume;
+  resume.rig.seed = 9;
+  EXPECT_THAT(ErrorOf([&] { Write(root_ / "seq", resume); }),
+              HasSubstr("seed was 1, now it is 9"));
+  resume = Options();
+  resume.existing = Existing::kResume;
+  resume.rig.camera = Resize(Camera{}, 320, 240);
+  EXPECT_THAT(ErrorOf([&] { Write(root_ / "seq", resume); }), HasSubstr("camera.yaml"));
+}
+
+// A limit on the size of a file stands for a full disk: both make write() fail half way.
+TEST_F(WrittenSequence, SaysWhichFileDoesNotFitOnTheDisk) {
+  const fs::path folder = root_ / "seq";
+  const pid_t child = fork();
+  ASSERT_GE(child, 0);
+  if (child == 0) {
+    signal(SIGXFSZ, SIG_IGN);
+    const rlimit limit{4000, 4000};
+    setrlimit(RLIMIT_FSIZE, &limit);
+    const std::string error = ErrorOf([&] { Write(folder, Options(2)); });
+    const bool clear =
+        error.find(".png: cannot be written: File too large") != std::string::npos;
+    _exit(clear ? 0 : 1);
+  }
+  int status = 0;
+  waitpid(child, &status, 0);
+  EXPECT_EQ(status, 0);
+  EXPECT_EQ((*ReadManifest(folder))["complete"], false);
+  EXPECT_FALSE(fs::exists(folder / "rgb/0.000000.png"));
+}
+
+TEST_F(WrittenSequence, SaysWhichFolderCannotBeMade) {
+  WriteFileAtomically(root_ / "file", "");
+  EXPECT_THAT(ErrorOf([&] { Write(root_ / "file/seq", Options()); }),
+              HasSubstr("cannot be made"));
+  EXPECT_THAT(ErrorOf([&] { Write(root_ / "file", Options()); }), HasSubstr("is a file"));
+}
+
+TEST(GroundTruthText, ReadsBackAsTheVeryPose) {
+  const auto trajectory = SmallArc(1);
+  const std::string text = FixedFiles(SmallDesk(), Camera{}, trajectory).at("groundtruth.txt");
+  std::istringstream line(text.substr(text.rfind("0.000000")));
+  double t, x, y, z, qx, qy, qz, qw;
+  line >> t >> x >> y >> z >> qx >> qy >> qz >> qw;
+  const Pose& T_wc = trajectory[0].T_wc;
+  EXPECT_EQ(Eigen::Vector3d(x, y, z), T_wc.t);
+  const Eigen::Matrix3d R = Eigen::Quaterniond(qw, qx, qy, qz).toRotationMatrix();
+  EXPECT_LT((R - T_wc.R).cwiseAbs().maxCoeff(), 1e-14);
+}
+
+}  // namespace
+}  // namespace sim
