@@ -1,0 +1,80 @@
+#pragma once
+
+#include <rapidcheck.h>
+
+#include <cstdint>
+#include <map>
+#include <string>
+
+#include "sim/scene/angle.h"
+#include "sim/scene/families.h"
+#include "sim/scene/scene.h"
+
+namespace sim {
+
+/// Draws inside a property; ranges at full size, because rapidcheck's shrink with the size
+/// parameter. Each shrinks towards its first value.
+inline int DrawInt(int low, int high) {  ///< inclusive
+  return *rc::gen::resize(100, rc::gen::inRange(low, high + 1));
+}
+
+inline double DrawReal(double low, double high, int steps = 1000) {
+  return low + (high - low) * DrawInt(0, steps) / steps;
+}
+
+/// What a scene was made from, for a message that `pas scene make` can replay.
+struct SceneRecipe {
+  std::string family;
+  std::uint64_t seed = 0;
+  std::map<std::string, double> parameters;
+
+  Scene Make() const { return MakeScene(family, seed, parameters); }
+  std::string Command() const {
+    std::string command =
+        "pas scene make --family " + family + " --seed " + std::to_string(seed);
+    for (const auto& [name, value] : parameters) {
+      command += " --set " + name + "=" + std::to_string(value);
+    }
+    return command + " -o scene.yaml";
+  }
+};
+
+/// Any family, any of its parameters in their ranges (whole numbers where they are).
+inline SceneRecipe DrawSceneRecipe() {
+  const auto& families = Families();
+  const Family& family =
+      families[static_cast<std::size_t>(DrawInt(0, static_cast<int>(families.size()) - 1))];
+  SceneRecipe recipe{family.name, static_cast<std::uint64_t>(DrawInt(0, 100000)), {}};
+  if (family.name == "desk") return recipe;  // how many things fit depends on the desk
+  for (const FamilyParameter& parameter : family.parameters) {
+    const int low =
+        static_cast<int>(parameter.low) + (parameter.low > static_cast<int>(parameter.low));
+    recipe.parameters[parameter.name] = DrawInt(low, static_cast<int>(parameter.high));
+  }
+  return recipe;
+}
+
+/// A desk whose motion has any of the presets.
+inline Scene DrawDesk() {
+  Scene scene = MakeScene("desk", static_cast<std::uint64_t>(DrawInt(0, 100000)));
+  scene.motion.preset = *rc::gen::element<std::string>("slow", "office", "fast");
+  return scene;
+}
+
+/// A solid box anywhere within two metres, sides 0.05 to 1 m, turned in any way.
+inline Object DrawBox(int id) {
+  Object box;
+  box.id = id;
+  box.name = "box_" + std::to_string(id);
+  box.class_name = "box";
+  box.role = Role::kRegular;
+  for (int i = 0; i < 3; ++i) {
+    box.center_w[i] = DrawReal(-1, 1);
+    box.size[i] = DrawReal(0.05, 1);
+  }
+  const double roll = DrawReal(0, 180), pitch = DrawReal(-90, 90);
+  box.q_wo = QuaternionFromRpyDeg({roll, pitch, DrawReal(0, 360)});
+  return box;
+}
+
+}  // namespace sim

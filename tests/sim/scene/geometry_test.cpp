@@ -1,0 +1,55 @@
+#include "sim/scene/geometry.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "sim/scene/angle.h"
+
+namespace sim {
+namespace {
+
+constexpr double kRoundOff_m = 1e-12;
+
+Object UnitBox(const Eigen::Vector3d& center_w, const Eigen::Vector3d& rpy_deg = {0, 0, 0}) {
+  Object box;
+  box.center_w = center_w;
+  box.q_wo = QuaternionFromRpyDeg(rpy_deg);
+  return box;
+}
+
+TEST(OverlapDepth, IsTheShiftThatSeparatesTwoUprightBoxes) {
+  EXPECT_NEAR(OverlapDepth(UnitBox({0, 0, 0}), UnitBox({0.9, 0.2, 0})), 0.1, kRoundOff_m);
+  EXPECT_NEAR(OverlapDepth(UnitBox({0, 0, 0}), UnitBox({1, 0, 0})), 0, kRoundOff_m);
+  EXPECT_NEAR(OverlapDepth(UnitBox({0, 0, 0}), UnitBox({1.3, 0, 0})), -0.3, kRoundOff_m);
+}
+
+TEST(OverlapDepth, SeesTheCornerOfATurnedBox) {
+  const double half_diagonal = std::sqrt(0.5);
+  const Object turned = UnitBox({0.5 + half_diagonal - 0.05, 0, 0}, {0, 0, 45});
+  EXPECT_NEAR(OverlapDepth(UnitBox({0, 0, 0}), turned), 0.05, kRoundOff_m);
+}
+
+// Edge against edge: no face normal of either box separates these two.
+TEST(OverlapDepth, SeparatesCrossedEdgesByTheProductOfTheEdges) {
+  const Object below = UnitBox({0, 0, 0}, {45, 0, 0});
+  const Object above = UnitBox({0, 0, 2 * std::sqrt(0.5) + 0.01}, {0, 45, 0});
+  EXPECT_NEAR(OverlapDepth(below, above), -0.01, kRoundOff_m);
+}
+
+TEST(DistanceToBox, IsNegativeInsideAndEuclideanOutside) {
+  const Object box = UnitBox({1, 2, 3}, {0, 0, 90});
+  EXPECT_NEAR(DistanceToBox(box, {1, 2, 3}), -0.5, kRoundOff_m);
+  EXPECT_NEAR(DistanceToBox(box, {1, 2, 4}), 0.5, kRoundOff_m);
+  EXPECT_NEAR(DistanceToBox(box, {1.5 + 3, 2.5 + 4, 3}), 5, kRoundOff_m);
+}
+
+TEST(Corners, AreTheEightOfTheTurnedBox) {
+  Object box = UnitBox({0, 0, 0}, {0, 0, 90});
+  box.size = {2, 4, 6};
+  EXPECT_LT((Corners(box)[7] - Eigen::Vector3d(-2, 1, 3)).norm(), kRoundOff_m);
+  EXPECT_LT((Corners(box)[0] - Eigen::Vector3d(2, -1, -3)).norm(), kRoundOff_m);
+}
+
+}  // namespace
+}  // namespace sim
