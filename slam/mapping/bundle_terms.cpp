@@ -1,6 +1,7 @@
 #include "slam/mapping/bundle_terms.h"
 
 #include <Eigen/Geometry>
+#include <algorithm>
 
 namespace slam {
 namespace {
@@ -53,11 +54,19 @@ BundleTerm::BundleTerm(const PointFeature& feature, const Camera& camera, double
       weight_(1.0 / sigma_px),
       depth_weight_(1.0 / (sigma_px * depth_sigma)) {}
 
+bool BundleTerm::EvaluateBehind(double* residuals, double** jacobians) const {
+  residuals[0] = residuals[1] = kBehind;
+  residuals[2] = 0.0;
+  if (jacobians != nullptr && jacobians[0] != nullptr) std::fill_n(jacobians[0], 3 * 7, 0.0);
+  if (jacobians != nullptr && jacobians[1] != nullptr) std::fill_n(jacobians[1], 3 * 3, 0.0);
+  return true;
+}
+
 bool BundleTerm::Evaluate(double const* const* parameters, double* residuals,
                           double** jacobians) const {
   const Pose T_cw = PoseOf(parameters[0]);
   const Eigen::Vector3d p_c = T_cw * Eigen::Map<const Eigen::Vector3d>(parameters[1]);
-  if (!(p_c.z() > kMinDepth_m)) return false;
+  if (!(p_c.z() > kMinDepth_m)) return EvaluateBehind(residuals, jacobians);
   const double inv_z = 1.0 / p_c.z();
   const double x = p_c.x() * inv_z, y = p_c.y() * inv_z;
   const bool depth = disparity_px_ >= 0;

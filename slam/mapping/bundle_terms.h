@@ -36,6 +36,8 @@ class PoseManifold : public ceres::Manifold {
 /// there.
 class BundleTerm : public ceres::SizedCostFunction<3, 7, 3> {
  public:
+  static constexpr double kBehind = 1e3;  ///< sigmas; far beyond any gate
+
   /// @param sigma_px of the feature's octave; @param depth_sigma relative to it
   BundleTerm(const PointFeature& feature, const Camera& camera, double bf_px_m, double sigma_px,
              double depth_sigma);
@@ -44,6 +46,8 @@ class BundleTerm : public ceres::SizedCostFunction<3, 7, 3> {
                 double** jacobians) const override;
 
  private:
+  bool EvaluateBehind(double* residuals, double** jacobians) const;
+
   Eigen::Vector2d u_px_;
   double disparity_px_;  ///< b f / z as measured; < 0 without depth
   double fx_, fy_, cx_, cy_, bf_px_m_;

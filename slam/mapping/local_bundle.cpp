@@ -3,6 +3,7 @@
 #include <ceres/ceres.h>
 
 #include <algorithm>
+#include <cmath>
 #include <memory>
 #include <set>
 #include <vector>
@@ -148,21 +149,34 @@ class Solver {
     return summary;
   }
 
+  /// Observations of points behind their camera have no derivative to follow.
+  void LeaveOutThoseBehind() {
+    for (std::size_t i = 0; i < terms_.size(); ++i) {
+      window_.observations[i].inlier = Residual(i).x() < BundleTerm::kBehind;
+    }
+  }
+
   /// Observations beyond the chi-square of their kind are no inliers any more.
   void Classify() {
     for (std::size_t i = 0; i < terms_.size(); ++i) {
       Window::Observation& o = window_.observations[i];
-      const double* blocks[] = {window_.poses[o.pose_at].data(),
-                                window_.positions[o.position_at].data()};
-      Eigen::Vector3d r;
       const double gate = FeatureOf(o).depth_m > 0 ? config_.stereo_chi2 : config_.mono_chi2;
-      o.inlier = terms_[i]->Evaluate(blocks, r.data(), nullptr) && r.squaredNorm() <= gate;
+      o.inlier = Residual(i).squaredNorm() <= gate;
     }
   }
 
  private:
   const PointFeature& FeatureOf(const Window::Observation& o) const {
     return map_.keyframes[Index(o.keyframe)].features[Index(o.feature)];
+  }
+
+  Eigen::Vector3d Residual(std::size_t i) const {
+    const Window::Observation& o = window_.observations[i];
+    const double* blocks[] = {window_.poses[o.pose_at].data(),
+                              window_.positions[o.position_at].data()};
+    Eigen::Vector3d residual;
+    terms_[i]->Evaluate(blocks, residual.data(), nullptr);
+    return residual;
   }
 
   const Map& map_;
@@ -206,6 +220,7 @@ LocalBundleReport AdjustLocalBundle(Map& map, int keyframe, const Camera& camera
   if (window.free_count == 0 || window.observations.empty()) return report;
 
   Solver solver(map, window, camera, config);
+  solver.LeaveOutThoseBehind();
   const ceres::Solver::Summary first = solver.Solve(true, config.first_iterations);
   solver.Classify();
   const ceres::Solver::Summary last = solver.Solve(false, config.last_iterations);
