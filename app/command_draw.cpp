@@ -1,7 +1,67 @@
+#include <cstdio>
+
 #include "app/app.h"
+#include "eval/draw/draw_run.h"
 
 namespace app {
+namespace {
 
-void AddDrawCommand(CLI::App& pas, const Globals&, int&) { pas.add_subcommand("draw", ""); }
+struct DrawArguments {
+  std::string run, output, truth, camera;
+  int frames = 12;
+  bool force = false;
+};
+
+int RunDraw(const DrawArguments& arguments, bool quiet) {
+  eval::DrawOptions options;
+  options.frames = arguments.frames;
+  options.camera = arguments.camera;
+  if (!arguments.truth.empty()) options.truth = arguments.truth;
+  if (!arguments.force && std::filesystem::exists(arguments.output)) {
+    eval::WritePictures({}, arguments.output, false);  // refuses before the work is done
+  }
+  const std::vector<eval::Picture> pictures = eval::DrawRun(arguments.run, options);
+  eval::WritePictures(pictures, arguments.output, arguments.force);
+  for (const eval::Picture& picture : pictures) {
+    if (quiet) break;
+    std::printf("%s\n", (std::filesystem::path(arguments.output) / picture.name).c_str());
+  }
+  return kDone;
+}
+
+}  // namespace
+
+void AddDrawCommand(CLI::App& pas, const Globals& globals, int& exit_code) {
+  CLI::App* draw = pas.add_subcommand(
+      "draw",
+      "Draws a run into pictures: contact_sheet.png (frames with segmented planes, edge "
+      "lines,\n"
+      "vertices, map ids and decisions), top_view.png (estimated over true map, both camera "
+      "paths,\n"
+      "heights of level planes in mm) and, with a true trajectory, error_over_time.png.\n"
+      "Run `pas slam --save-segmentation` for tinted segments; without it planes are "
+      "outlined.");
+  auto arguments = std::make_shared<DrawArguments>();
+  draw->add_option("RUN", arguments->run, "Folder written by `pas slam`")
+      ->required()
+      ->type_name("DIR");
+  draw->add_option("-o,--output", arguments->output, "Folder for the pictures")
+      ->required()
+      ->type_name("DIR");
+  draw->add_option("--frames", arguments->frames, "Frames on the contact sheet")
+      ->capture_default_str()
+      ->check(CLI::Range(1, 120));
+  draw->add_option("--truth", arguments->truth,
+                   "Sequence with the images and the truth; default: the one named in run.json")
+      ->type_name("SEQ");
+  draw->add_option(
+          "--camera", arguments->camera,
+          "tum1, tum2, tum3 or a camera.yaml; default: SEQ/camera.yaml, else the camera of "
+          "the run")
+      ->type_name("CAMERA");
+  draw->add_flag("--force", arguments->force, "Replace pictures in a folder that exists");
+  draw->callback(
+      [arguments, &globals, &exit_code] { exit_code = RunDraw(*arguments, globals.quiet); });
+}
 
 }  // namespace app
