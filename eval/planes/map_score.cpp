@@ -146,8 +146,9 @@ MapScore ScoreMap(const std::vector<RunMapPlane>& map, const SceneTruth& scene,
                      [&, id = truth](const auto* a, const auto* b) {
                        return counts.at(a->id).at(id) > counts.at(b->id).at(id);
                      });
-    ++score.matched;
     score.duplicates += static_cast<int>(planes.size()) - 1;
+    if (seen.count(truth) == 0) continue;
+    ++score.matched;
     errors.Add(*planes.front(), *scene.FindPlane(truth), gauge);
   }
   score.normal_deg = SpreadOf(errors.normal_deg);

@@ -18,7 +18,7 @@ inline constexpr double kMaxMapCornerError_m = 0.10;
 struct MapScore {
   int planes = 0;            ///< of the final map
   int true_planes_seen = 0;  ///< that counted in at least one frame
-  int matched = 0;           ///< true planes that are the majority of at least one map plane
+  int matched = 0;           ///< of these, the majority of at least one map plane
   int duplicates = 0;        ///< map planes beyond the first with the same majority
   int merged = 0;            ///< with >= 2 truths that have n_ij >= max(3, 5 % of n_.j)
   int spurious = 0;  ///< whose observations show mostly no scored plane, or that have none

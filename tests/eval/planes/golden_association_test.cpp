@@ -1,0 +1,169 @@
+// Reference figures for decisions, tracking scores and segmentation scores.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <map>
+#include <set>
+
+#include "eval/planes/association.h"
+#include "eval/planes/segmentation_score.h"
+#include "eval/planes/tracking.h"
+#include "tests/eval/shared_data.h"
+
+namespace eval {
+namespace {
+
+// Sums of a few hundred terms near 1: 1e3 * 2^-53.
+constexpr double kRoundOff = 1e-12;
+
+double Cell(const TextLine& line, std::size_t column, const std::filesystem::path& file) {
+  return ParseNumber(line.fields[column], "cell", file, line.number);
+}
+
+std::vector<TextLine> ReadCells(const std::filesystem::path& file, bool header) {
+  std::vector<TextLine> lines = ReadTextTable(file, ',');
+  if (header) lines.erase(lines.begin());
+  return lines;
+}
+
+TEST(GoldenAssociation, AgreesOnPairsBCubedDecisionsAndMapPlanes) {
+  const std::filesystem::path folder = testing::SharedFolder() / "golden/association";
+  SKIP_WITHOUT(folder);
+  const nlohmann::json golden = testing::ReadJson(folder / "association_golden.json");
+  for (const auto& [name, expected] : golden["cases"].items()) {
+    SCOPED_TRACE(name);
+    const std::filesystem::path file = folder / (name + ".csv");
+    std::vector<AssociationRecord> records;
+    for (const TextLine& line : ReadCells(file, true)) {
+      records.push_back(
+          {int(Cell(line, 0, file)), int(Cell(line, 1, file)), int(Cell(line, 2, file))});
+    }
+    const AssociationScore s = ScoreAssociation(records);
+    EXPECT_EQ(s.records, expected["n_det"].get<std::size_t>());
+    EXPECT_EQ(s.records_with_truth, expected["n_det_with_gt"].get<std::size_t>());
+    EXPECT_EQ(s.truth_planes, expected["n_gt"].get<int>());
+    EXPECT_EQ(s.map_planes, expected["n_map"].get<int>());
+    EXPECT_EQ(s.spurious_map_planes, expected["spurious_map_planes"].get<int>());
+    EXPECT_EQ(s.pair_tp, expected["pair_tp"].get<long long>());
+    EXPECT_EQ(s.pair_predicted, expected["pair_pred"].get<long long>());
+    EXPECT_EQ(s.pair_truth, expected["pair_gt"].get<long long>());
+    EXPECT_NEAR(s.pair.precision, expected["pair_precision"].get<double>(), kRoundOff);
+    EXPECT_NEAR(s.pair.recall, expected["pair_recall"].get<double>(), kRoundOff);
+    EXPECT_NEAR(s.pair.f1, expected["pair_f1"].get<double>(), kRoundOff);
+    EXPECT_NEAR(s.b_cubed.precision, expected["b3_precision"].get<double>(), kRoundOff);
+    EXPECT_NEAR(s.b_cubed.recall, expected["b3_recall"].get<double>(), kRoundOff);
+    EXPECT_NEAR(s.b_cubed.f1, expected["b3_f1"].get<double>(), kRoundOff);
+    const auto& decision = expected["decision"];
+    EXPECT_EQ(s.decision.tp, decision["TP"].get<int>());
+    EXPECT_EQ(s.decision.fp, decision["FP"].get<int>());
+    EXPECT_EQ(s.decision.fn, decision["FN"].get<int>());
+    EXPECT_EQ(s.decision.tn, decision["TN"].get<int>());
+    EXPECT_EQ(s.decision.spurious, decision["spurious_new"].get<int>());
+    EXPECT_NEAR(s.decision.scores.precision, decision["precision"].get<double>(), kRoundOff);
+    EXPECT_NEAR(s.decision.scores.recall, decision["recall"].get<double>(), kRoundOff);
+    const auto& mixed = expected["map_level_min3_5pct"];
+    EXPECT_EQ(s.merged_map_planes, mixed["merged_map_planes"].get<int>());
+    EXPECT_EQ(s.split_truth_planes, mixed["split_gt_planes"].get<int>());
+  }
+}
+
+std::vector<TrackingFrame> ReadTracking(const std::filesystem::path& file, std::size_t count) {
+  struct Rows {
+    std::set<int> truths, predictions;
+    std::map<std::pair<int, int>, double> similarity;
+  };
+  std::vector<Rows> rows(count);
+  for (const TextLine& line : ReadCells(file, true)) {
+    Rows& row = rows[std::size_t(Cell(line, 0, file))];
+    const int truth = int(Cell(line, 1, file)), predicted = int(Cell(line, 2, file));
+    if (truth >= 0) row.truths.insert(truth);
+    if (predicted >= 0) row.predictions.insert(predicted);
+    if (truth >= 0 && predicted >= 0) row.similarity[{truth, predicted}] = Cell(line, 3, file);
+  }
+  std::vector<TrackingFrame> frames;
+  for (const Rows& row : rows) {
+    TrackingFrame frame;
+    frame.truth_ids.assign(row.truths.begin(), row.truths.end());
+    frame.predicted_ids.assign(row.predictions.begin(), row.predictions.end());
+    frame.similarity = Eigen::MatrixXd::Zero(Eigen::Index(frame.truth_ids.size()),
+                                             Eigen::Index(frame.predicted_ids.size()));
+    for (std::size_t i = 0; i < frame.truth_ids.size(); ++i) {
+      for (std::size_t j = 0; j < frame.predicted_ids.size(); ++j) {
+        const auto found = row.similarity.find({frame.truth_ids[i], frame.predicted_ids[j]});
+        if (found == row.similarity.end()) continue;
+        frame.similarity(Eigen::Index(i), Eigen::Index(j)) = found->second;
+      }
+    }
+    frames.push_back(frame);
+  }
+  return frames;
+}
+
+TEST(GoldenTrackEval, AgreesOnClearIdentityAndHota) {
+  const std::filesystem::path folder = testing::SharedFolder() / "golden/trackeval";
+  SKIP_WITHOUT(folder);
+  const nlohmann::json golden = testing::ReadJson(folder / "trackeval_golden.json");
+  for (const auto& [name, expected] : golden["cases"].items()) {
+    SCOPED_TRACE(name);
+    const std::vector<TrackingFrame> frames =
+        ReadTracking(folder / (name + ".csv"), expected["n_frames"].get<std::size_t>());
+    const ClearScore clear = ScoreClear(frames);
+    EXPECT_EQ(clear.tp, expected["CLEAR"]["CLR_TP"].get<int>());
+    EXPECT_EQ(clear.fp, expected["CLEAR"]["CLR_FP"].get<int>());
+    EXPECT_EQ(clear.fn, expected["CLEAR"]["CLR_FN"].get<int>());
+    EXPECT_EQ(clear.id_switches, expected["CLEAR"]["IDSW"].get<int>());
+    EXPECT_NEAR(clear.mota, expected["CLEAR"]["MOTA"].get<double>(), kRoundOff);
+    EXPECT_NEAR(clear.motp, expected["CLEAR"]["MOTP"].get<double>(), kRoundOff);
+    const IdentityScore identity = ScoreIdentity(frames);
+    EXPECT_EQ(identity.idtp, expected["Identity"]["IDTP"].get<int>());
+    EXPECT_EQ(identity.idfp, expected["Identity"]["IDFP"].get<int>());
+    EXPECT_EQ(identity.idfn, expected["Identity"]["IDFN"].get<int>());
+    EXPECT_NEAR(identity.idf1, expected["Identity"]["IDF1"].get<double>(), kRoundOff);
+    const HotaScore hota = ScoreHota(frames);
+    EXPECT_NEAR(hota.hota, expected["HOTA_mean_over_alpha"]["HOTA"].get<double>(), kRoundOff);
+    EXPECT_NEAR(hota.det_a, expected["HOTA_mean_over_alpha"]["DetA"].get<double>(), kRoundOff);
+    EXPECT_NEAR(hota.ass_a, expected["HOTA_mean_over_alpha"]["AssA"].get<double>(), kRoundOff);
+  }
+}
+
+cv::Mat1w ReadLabelTable(const std::filesystem::path& file) {
+  const std::vector<TextLine> lines = ReadCells(file, false);
+  cv::Mat1w labels(int(lines.size()), int(lines.front().fields.size()));
+  for (int y = 0; y < labels.rows; ++y) {
+    for (int x = 0; x < labels.cols; ++x) {
+      labels(y, x) =
+          static_cast<std::uint16_t>(Cell(lines[std::size_t(y)], std::size_t(x), file));
+    }
+  }
+  return labels;
+}
+
+TEST(GoldenSegmentation, AgreesOnHooverAndPanopticQuality) {
+  const std::filesystem::path folder = testing::SharedFolder() / "golden/segmentation";
+  SKIP_WITHOUT(folder);
+  const nlohmann::json golden = testing::ReadJson(folder / "segmentation_golden.json");
+  for (const auto& [name, expected] : golden["cases"].items()) {
+    SCOPED_TRACE(name);
+    const Overlap overlap = CountOverlap(ReadLabelTable(folder / (name + "_gt.csv")),
+                                         ReadLabelTable(folder / (name + "_pred.csv")));
+    const HooverScore hoover = ScoreHoover(overlap);
+    const auto& counts = expected["hoover_T80_ge"];
+    EXPECT_EQ(hoover.truth, counts["n_gt"].get<int>());
+    EXPECT_EQ(hoover.machine, counts["n_ms"].get<int>());
+    EXPECT_EQ(hoover.correct, counts["n_correct"].get<int>());
+    EXPECT_EQ(hoover.over, counts["n_over"].get<int>());
+    EXPECT_EQ(hoover.under, counts["n_under"].get<int>());
+    EXPECT_EQ(hoover.missed, counts["n_missed"].get<int>());
+    EXPECT_EQ(hoover.noise, counts["n_noise"].get<int>());
+    const PanopticCounts panoptic = CountPanoptic(overlap);
+    EXPECT_EQ(panoptic.tp, expected["PQ"]["TP"].get<int>());
+    EXPECT_EQ(panoptic.fp, expected["PQ"]["FP"].get<int>());
+    EXPECT_EQ(panoptic.fn, expected["PQ"]["FN"].get<int>());
+    EXPECT_NEAR(panoptic.Pq(), expected["PQ"]["PQ"].get<double>(), kRoundOff);
+    EXPECT_NEAR(panoptic.Sq(), expected["PQ"]["SQ"].get<double>(), kRoundOff);
+    EXPECT_NEAR(panoptic.Rq(), expected["PQ"]["RQ"].get<double>(), kRoundOff);
+  }
+}
+
+}  // namespace
+}  // namespace eval
