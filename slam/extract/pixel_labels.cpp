@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <numeric>
 
@@ -55,22 +56,66 @@ void PixelGrowth::LabelBlock(int block, std::vector<int>& owned) {
   const int u0 = block % cols_ * size, v0 = block / cols_ * size;
   const int u1 = std::min(u0 + size, grid_.width), v1 = std::min(v0 + size, grid_.height);
   owned.assign(candidates.size(), 0);
+  if (candidates.size() > 1) SumNeighbourCosts(u0, v0, u1, v1, candidates);
+  const float farthest = static_cast<float>(config_.max_pixel_sigmas);
+  const auto area = static_cast<std::size_t>(size * size);
   for (int v = v0; v < v1; ++v) {
     for (int u = u0; u < u1; ++u) {
       const auto i = static_cast<std::size_t>(grid_.Index(u, v));
       labels_[i] = kNoLabel;
       if (!(grid_.g[i] > 0)) continue;
-      float best = static_cast<float>(config_.max_pixel_sigmas);
+      const auto at = static_cast<std::size_t>((v - v0) * size + u - u0);
+      float least = std::numeric_limits<float>::infinity();
       int chosen = -1;
       for (std::size_t k = 0; k < candidates.size(); ++k) {
         const auto label = static_cast<std::size_t>(candidates[k]);
-        const float distance = std::abs(ResidualSigmas(grid_, i, planes_[label]));
-        if (distance < best) best = distance, chosen = static_cast<int>(k);
+        if (!(std::abs(ResidualSigmas(grid_, i, planes_[label])) < farthest)) continue;
+        const float cost = candidates.size() > 1 ? costs_[k * area + at] : 0.0f;
+        if (cost < least) least = cost, chosen = static_cast<int>(k);
       }
       if (chosen < 0) continue;
       const auto k = static_cast<std::size_t>(chosen);
       labels_[i] = static_cast<std::int16_t>(candidates[k]);
       ++owned[k];
+    }
+  }
+}
+
+/// costs_[candidate][pixel of the block]: squared distances of the pixels around it from the
+/// candidate's plane, each cut off where a pixel no longer belongs.
+void PixelGrowth::SumNeighbourCosts(int u0, int v0, int u1, int v1,
+                                    const std::vector<int>& candidates) {
+  const int size = config_.block_px, reach = config_.vote_reach_px;
+  const int left = std::max(u0 - reach, 0), right = std::min(u1 + reach, grid_.width);
+  const int top = std::max(v0 - reach, 0), bottom = std::min(v1 + reach, grid_.height);
+  const int width = right - left;
+  const float most = static_cast<float>(config_.max_pixel_sigmas * config_.max_pixel_sigmas);
+  costs_.assign(candidates.size() * static_cast<std::size_t>(size * size), 0.0f);
+  row_sums_.resize(static_cast<std::size_t>(size * (bottom - top)));
+  cost_row_.resize(static_cast<std::size_t>(width));
+  for (std::size_t k = 0; k < candidates.size(); ++k) {
+    const LabelPlane& plane = planes_[static_cast<std::size_t>(candidates[k])];
+    for (int v = top; v < bottom; ++v) {
+      const auto start = static_cast<std::size_t>(grid_.Index(left, v));
+      for (int x = 0; x < width; ++x) {
+        const float r = ResidualSigmas(grid_, start + static_cast<std::size_t>(x), plane);
+        cost_row_[static_cast<std::size_t>(x)] = std::min(r * r, most);
+      }
+      for (int u = u0; u < u1; ++u) {
+        const int from = std::max(u - reach, left), to = std::min(u + reach + 1, right);
+        float sum = 0.0f;
+        for (int x = from; x < to; ++x) sum += cost_row_[static_cast<std::size_t>(x - left)];
+        row_sums_[static_cast<std::size_t>((v - top) * size + u - u0)] = sum;
+      }
+    }
+    float* cost = costs_.data() + k * static_cast<std::size_t>(size * size);
+    for (int v = v0; v < v1; ++v) {
+      for (int y = std::max(v - reach, top); y < std::min(v + reach + 1, bottom); ++y) {
+        for (int x = 0; x < u1 - u0; ++x) {
+          cost[(v - v0) * size + x] +=
+              row_sums_[static_cast<std::size_t>((y - top) * size + x)];
+        }
+      }
     }
   }
 }

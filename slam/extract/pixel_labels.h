@@ -21,6 +21,9 @@ using LabelImage = std::vector<std::int16_t>;  ///< one entry a pixel, kNoLabel 
 struct GrowthConfig {
   int block_px = 8;               ///< regions spread from block to block; domain [2, 64]
   double max_pixel_sigmas = 3.0;  ///< distance of a plane's pixel from it; domain (0, inf)
+  /// A pixel between two planes goes to the one that fits the pixels within this many rows and
+  /// columns best: the noise of single pixels must not decide. Domain [0, 16].
+  int vote_reach_px = 2;
   /// A plane must explain its pixels better than the next best plane there does, by this much
   /// on average (difference of squared sigmas); otherwise it only steals from its neighbours,
   /// as the plane of a block across a step does. Domain [0, inf).
@@ -56,6 +59,7 @@ class PixelGrowth {
  private:
   bool Reach(int block, int label);
   void LabelBlock(int block, std::vector<int>& owned);
+  void SumNeighbourCosts(int u0, int v0, int u1, int v1, const std::vector<int>& candidates);
 
   const DepthGrid& grid_;
   GrowthConfig config_;
@@ -64,6 +68,7 @@ class PixelGrowth {
   std::vector<std::vector<int>> reached_;  ///< labels of each block, sorted
   std::vector<int> active_;                ///< blocks whose labels changed
   LabelImage labels_;
+  std::vector<float> costs_, row_sums_, cost_row_;  ///< scratch of SumNeighbourCosts
 };
 
 /// Sums of the pixels of each label.

@@ -13,8 +13,8 @@
 namespace slam {
 namespace {
 
-constexpr int kMostSegments = 254;  // 8-bit label image, 0 = none
-constexpr int kLeastContacts = 4;   // pixel sides that two segments must share to touch
+constexpr int kMostSegments = 254;    // 8-bit label image, 0 = none
+constexpr double kLeastContacts = 8;  // pixels along the common boundary of what touches
 
 void AddClusters(const DepthGrid& grid, const BlockClusters& clusters, const DepthNoise& noise,
                  PixelGrowth& growth) {
@@ -76,16 +76,25 @@ std::vector<std::uint8_t> SettledPixels(const DepthGrid& grid, const PixelGrowth
   return settled;
 }
 
-/// How many pixel sides each pair of labels (lower, higher) shares.
-std::map<std::pair<int, int>, int> Contacts(const DepthGrid& grid, const LabelImage& labels) {
-  std::map<std::pair<int, int>, int> contacts;
+/// The pixels on either side of the common boundary of each pair of labels (lower, higher).
+using Contacts = std::map<std::pair<int, int>, PlaneSums>;
+
+Contacts FindContacts(const DepthGrid& grid, const LabelImage& labels) {
+  Contacts contacts;
   const auto touch = [&](std::size_t i, std::size_t j) {
     const int a = labels[i], b = labels[j];
-    if (a != b && a != kNoLabel && b != kNoLabel) ++contacts[std::minmax(a, b)];
+    if (a == b || a == kNoLabel || b == kNoLabel) return;
+    PlaneSums& sums = contacts[std::minmax(a, b)];
+    for (const std::size_t k : {i, j}) {
+      const double g = static_cast<double>(grid.g[k]);
+      sums.Add(static_cast<double>(grid.x[k]), static_cast<double>(grid.y[k]),
+               static_cast<double>(grid.q[k]), g * g);
+    }
   };
   for (int v = 0; v < grid.height; ++v) {
     for (int u = 0; u < grid.width; ++u) {
       const auto i = static_cast<std::size_t>(grid.Index(u, v));
+      if (labels[i] == kNoLabel) continue;
       if (u + 1 < grid.width) touch(i, i + 1);
       if (v + 1 < grid.height) touch(i, i + static_cast<std::size_t>(grid.width));
     }
@@ -93,65 +102,145 @@ std::map<std::pair<int, int>, int> Contacts(const DepthGrid& grid, const LabelIm
   return contacts;
 }
 
-/// Squared distance of two planes over the pixels of the smaller, divided by what is allowed;
-/// below 1 they are one plane.
-double RelativeGap(const PlaneSums& a, const PlaneSums& b, const LabelPlane& plane_a,
-                   const LabelPlane& plane_b, const PlaneExtractionConfig& config) {
-  const bool a_smaller = a.n < b.n;
-  const PlaneSums& smaller = a_smaller ? a : b;
-  const double grazing = (a_smaller ? plane_a : plane_b).grazing;
-  const double gap2 =
-      MeanSquaredGap(smaller, plane_a.plane, plane_b.plane) / (grazing * grazing);
-  const double allowed = config.max_merge_gap_sigmas * config.max_merge_gap_sigmas +
-                         config.coarse.max_merge_chi2 * config.noise.correlated_px / smaller.n;
-  return gap2 / allowed;
+/// A label's plane and the pixels that it was fitted to.
+struct Patch {
+  PlaneSums sums;
+  LabelPlane plane;
+};
+
+/// Squared distance of two planes over the pixels of the smaller, in sigmas of those.
+double PatchGap2(const Patch& a, const Patch& b) {
+  const Patch& smaller = a.sums.n < b.sums.n ? a : b;
+  return MeanSquaredGap(smaller.sums, a.plane.plane, b.plane.plane) /
+         (smaller.plane.grazing * smaller.plane.grazing);
 }
 
-/// Merges touching labels that are one plane, closest pair first, refits every plane to its
-/// pixels and grows them anew.
-void MergeNeighbours(const DepthGrid& grid, const PlaneExtractionConfig& config,
-                     PixelGrowth& growth) {
-  const LabelImage& labels = growth.labels();
-  std::vector<LabelPlane> planes = growth.planes();
-  std::vector<PlaneSums> sums = SumLabels(grid, labels, static_cast<int>(planes.size()));
-  const auto refit = [&](std::size_t k) {
-    const std::optional<PlaneFit> fit = Fit(sums[k]);
-    if (!fit) return;
-    planes[k] = {fit->plane, GrazingFactor(sums[k], fit->plane, config.noise)};
-  };
-  for (std::size_t k = 0; k < planes.size(); ++k) refit(k);
+/// What noise adds to a squared gap, with what else is allowed.
+double AllowedGap2(const Patch& a, const Patch& b, double max_gap_sigmas,
+                   const PlaneExtractionConfig& config) {
+  return max_gap_sigmas * max_gap_sigmas + config.coarse.max_merge_chi2 *
+                                               config.noise.correlated_px /
+                                               std::min(a.sums.n, b.sums.n);
+}
 
-  std::vector<int> into(planes.size());
-  std::iota(into.begin(), into.end(), 0);
-  std::map<std::pair<int, int>, int> contacts = Contacts(grid, labels);
+/// Squared distance of two planes along their common boundary over what is allowed there.
+double ContactGap(const Patch& a, const Patch& b, const PlaneSums& contact,
+                  const PlaneExtractionConfig& config) {
+  const double grazing = std::max(a.plane.grazing, b.plane.grazing);
+  const double gap2 =
+      MeanSquaredGap(contact, a.plane.plane, b.plane.plane) / (grazing * grazing);
+  return gap2 / AllowedGap2(a, b, config.max_merge_gap_sigmas, config);
+}
+
+double PatchGap(const Patch& a, const Patch& b, double max_gap_sigmas,
+                const PlaneExtractionConfig& config) {
+  return PatchGap2(a, b) / AllowedGap2(a, b, max_gap_sigmas, config);
+}
+
+void Refit(Patch& patch, const DepthNoise& noise) {
+  const std::optional<PlaneFit> fit = Fit(patch.sums);
+  if (!fit) return;
+  patch.plane = {fit->plane, GrazingFactor(patch.sums, fit->plane, noise)};
+}
+
+std::vector<Patch> FittedPatches(const DepthGrid& grid, const PixelGrowth& growth,
+                                 const DepthNoise& noise) {
+  const std::vector<PlaneSums> sums =
+      SumLabels(grid, growth.labels(), static_cast<int>(growth.planes().size()));
+  std::vector<Patch> patches;
+  for (std::size_t k = 0; k < sums.size(); ++k) {
+    patches.push_back({sums[k], growth.planes()[k]});
+    Refit(patches.back(), noise);
+  }
+  return patches;
+}
+
+/// Which patch each patch has become part of.
+class PatchUnion {
+ public:
+  explicit PatchUnion(std::vector<Patch> patches)
+      : patches_(std::move(patches)), into_(patches_.size()) {
+    std::iota(into_.begin(), into_.end(), 0);
+  }
+  /// The lower number stays.
+  void Join(int a, int b, const DepthNoise& noise) {
+    if (b < a) std::swap(a, b);
+    patches_[Index(a)].sums += patches_[Index(b)].sums;
+    patches_[Index(b)].sums = {};
+    Refit(patches_[Index(a)], noise);
+    for (int& target : into_) target = target == b ? a : target;
+  }
+  int Root(int k) const { return into_[Index(k)]; }
+  const Patch& At(int k) const { return patches_[Index(Root(k))]; }
+  const std::vector<int>& into() const { return into_; }
+  std::vector<LabelPlane> Planes() const {
+    std::vector<LabelPlane> planes;
+    for (const Patch& patch : patches_) planes.push_back(patch.plane);
+    return planes;
+  }
+
+ private:
+  static std::size_t Index(int k) { return static_cast<std::size_t>(k); }
+  std::vector<Patch> patches_;
+  std::vector<int> into_;
+};
+
+/// Merges touching labels that are one plane within the noise, closest pair first, refits every
+/// plane to its pixels and grows them anew.
+void MergeEqualNeighbours(const DepthGrid& grid, const PlaneExtractionConfig& config,
+                          PixelGrowth& growth) {
+  PatchUnion merged(FittedPatches(grid, growth, config.noise));
+  const Contacts contacts = FindContacts(grid, growth.labels());
   while (true) {
     double least = 1.0;
     std::pair<int, int> best{-1, -1};
-    for (const auto& [pair, count] : contacts) {
-      if (count < kLeastContacts) continue;
-      const auto a = static_cast<std::size_t>(pair.first),
-                 b = static_cast<std::size_t>(pair.second);
-      const double gap = RelativeGap(sums[a], sums[b], planes[a], planes[b], config);
-      if (gap < least) least = gap, best = pair;
+    for (const auto& [pair, contact] : contacts) {
+      const int a = merged.Root(pair.first), b = merged.Root(pair.second);
+      if (a == b || contact.n < kLeastContacts) continue;
+      const double gap =
+          std::max(PatchGap(merged.At(a), merged.At(b), config.max_merge_gap_sigmas, config),
+                   ContactGap(merged.At(a), merged.At(b), contact, config));
+      if (gap < least) least = gap, best = {a, b};
     }
     if (best.first < 0) break;
-    const auto a = static_cast<std::size_t>(best.first),
-               b = static_cast<std::size_t>(best.second);
-    sums[a] += sums[b], sums[b] = {};
-    into[b] = best.first;
-    refit(a);
-    std::map<std::pair<int, int>, int> renamed;
-    for (const auto& [pair, count] : contacts) {
-      const int x = pair.first == best.second ? best.first : pair.first;
-      const int y = pair.second == best.second ? best.first : pair.second;
-      if (x != y) renamed[std::minmax(x, y)] += count;
+    merged.Join(best.first, best.second, config.noise);
+  }
+  growth.Replace(merged.Planes(), merged.into());
+}
+
+/// Joins touching labels that are parts of one surface which the sensor has bent: a real step
+/// stands all along the boundary, while the parts of a bent surface meet there. So the planes
+/// of the two labels must agree along the boundary, and those of the segments that they belong
+/// to must agree within the wider bounds on bending. The labels keep their own planes, and with
+/// them their pixels.
+PatchUnion JoinBentParts(const DepthGrid& grid, const PlaneExtractionConfig& config,
+                         const PixelGrowth& growth) {
+  const std::vector<Patch> parts = FittedPatches(grid, growth, config.noise);
+  PatchUnion joined(parts);
+  std::vector<std::pair<double, std::pair<int, int>>> meeting;
+  for (const auto& [pair, contact] : FindContacts(grid, growth.labels())) {
+    if (contact.n < kLeastContacts) continue;
+    const double gap =
+        ContactGap(parts[static_cast<std::size_t>(pair.first)],
+                   parts[static_cast<std::size_t>(pair.second)], contact, config);
+    if (gap < 1.0) meeting.emplace_back(gap, pair);
+  }
+  std::sort(meeting.begin(), meeting.end());
+  bool changed = true;
+  while (changed) {
+    changed = false;
+    for (const auto& [gap, pair] : meeting) {
+      const int a = joined.Root(pair.first), b = joined.Root(pair.second);
+      if (a == b) continue;
+      const Patch &A = joined.At(a), &B = joined.At(b);
+      const double angle = Angle(A.plane.plane.Hessian().n, B.plane.plane.Hessian().n);
+      if (!(angle < config.max_bend_rad)) continue;
+      if (!(PatchGap(A, B, config.max_bend_sigmas, config) < 1.0)) continue;
+      joined.Join(a, b, config.noise);
+      changed = true;
     }
-    contacts = std::move(renamed);
   }
-  for (std::size_t k = 0; k < into.size(); ++k) {
-    into[k] = into[static_cast<std::size_t>(into[k])];  // chains end: a target is lower
-  }
-  growth.Replace(std::move(planes), into);
+  return joined;
 }
 
 /// Labels that are one plane though nothing joins them in the image: the smaller lies on the
@@ -180,8 +269,8 @@ void JoinAcrossOccluders(const LabelImage& labels, const DepthGrid& grid,
     for (std::size_t j = 0; j < k; ++j) {
       const std::size_t large = order[j];
       if (into[large] != static_cast<int>(large)) continue;
-      const double gap =
-          RelativeGap(sums[small], sums[large], planes[small], planes[large], config);
+      const Patch a{sums[small], planes[small]}, b{sums[large], planes[large]};
+      const double gap = PatchGap(a, b, config.max_merge_gap_sigmas, config);
       if (gap < least) least = gap, into[small] = static_cast<int>(large);
     }
   }
@@ -324,14 +413,19 @@ void ExtractPlanes(Frame& frame, const Camera& camera, const cv::Mat2d& rays,
   AddClusters(grid,
               ClusterBlocks(grid, settled, config.fine_block_px, config.noise, config.fine),
               config.noise, growth);
-  MergeNeighbours(grid, config, growth);
+  MergeEqualNeighbours(grid, config, growth);
 
+  const PatchUnion joined = JoinBentParts(grid, config, growth);
+  const std::vector<LabelPlane> planes = joined.Planes();
   LabelImage labels = growth.labels();
-  LabelComponents components = ConnectedComponents(grid, labels, growth.planes());
-  JoinAcrossOccluders(labels, grid, growth.planes(), config, components);
+  for (std::int16_t& label : labels) {
+    if (label != kNoLabel) label = static_cast<std::int16_t>(joined.Root(label));
+  }
+  LabelComponents components = ConnectedComponents(grid, labels, planes);
+  JoinAcrossOccluders(labels, grid, planes, config, components);
   int count = 0;
   const std::vector<int> segment_of =
-      SegmentsOfComponents(components, growth.planes().size(), config, count);
+      SegmentsOfComponents(components, planes.size(), config, count);
   for (std::size_t i = 0; i < labels.size(); ++i) {
     if (labels[i] == kNoLabel) continue;
     labels[i] = static_cast<std::int16_t>(

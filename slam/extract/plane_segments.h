@@ -25,9 +25,14 @@ struct PlaneExtractionConfig {
   /// A block whose mean residual exceeds this many standard errors, over the model error, does
   /// not lie on its plane and is offered to the second clustering; domain (0, inf).
   double max_block_bias_sigmas = 3.0;
-  /// Two touching segments are one plane if, over the pixels of the smaller, the planes are
-  /// closer than this (root mean square, after its own uncertainty); domain (0, inf).
+  /// Two touching segments are one plane if along their common boundary the planes are closer
+  /// than this (root mean square, in sigmas, after their uncertainty); and what does not touch,
+  /// over the pixels of the smaller. Domain (0, inf).
   double max_merge_gap_sigmas = 1.0;
+  /// How far a real sensor may bend a flat surface: gap over the smaller patch, and angle
+  /// between two touching parts. Domain (0, inf).
+  double max_bend_sigmas = 3.0;
+  double max_bend_rad = 0.12;
   /// A part cut off from a segment stays with it if fewer than this part of the pixels around
   /// it lie behind the plane: what cuts it is in front. Domain [0, 1].
   double max_island_behind = 0.35;

@@ -1,5 +1,6 @@
 #include "slam/planes/refit.h"
 
+#include <pcl/console/print.h>
 #include <pcl/point_cloud.h>
 #include <pcl/point_types.h>
 #include <pcl/sample_consensus/msac.h>
@@ -46,6 +47,15 @@ double TruncatedError(const std::vector<Eigen::Vector3d>& points_c, const Candid
   return sum;
 }
 
+/// PCL reports failed samples on stderr; a library does not print.
+void SilencePcl() {
+  static const bool done = [] {
+    pcl::console::setVerbosityLevel(pcl::console::L_ALWAYS);
+    return true;
+  }();
+  static_cast<void>(done);
+}
+
 /// PCL's robust plane, refined on its inliers; nothing when it finds none.
 std::optional<Plane> RobustPlane(const FramePlane& plane, const DepthNoise& noise,
                                  const RefitConfig& config) {
@@ -57,6 +67,7 @@ std::optional<Plane> RobustPlane(const FramePlane& plane, const DepthNoise& nois
     cloud->push_back({p.x(), p.y(), p.z()});
   }
   if (cloud->size() < 3) return std::nullopt;
+  SilencePcl();
   const bool random_seed = false;
   const auto model =
       pcl::make_shared<pcl::SampleConsensusModelPlane<pcl::PointXYZ>>(cloud, random_seed);
