@@ -1,0 +1,209 @@
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <random>
+#include <set>
+
+#include "eval/planes/association.h"
+#include "eval/planes/corners.h"
+#include "eval/planes/hungarian.h"
+#include "eval/planes/polygon.h"
+#include "eval/planes/segmentation_score.h"
+#include "eval/planes/tracking.h"
+
+namespace eval {
+namespace {
+
+using Random = std::mt19937_64;
+
+Random AnyRandom() { return Random(*rc::gen::noShrink(rc::gen::arbitrary<std::uint64_t>())); }
+int Below(Random& random, int count) { return static_cast<int>(random() % unsigned(count)); }
+double Uniform(Random& random) { return std::uniform_real_distribution<double>()(random); }
+
+std::vector<AssociationRecord> AnyRecords() {
+  Random random = AnyRandom();
+  const int frames = *rc::gen::resize(100, rc::gen::inRange(1, 40));
+  const int truths = 1 + Below(random, 6), maps = 1 + Below(random, 8);
+  std::vector<AssociationRecord> records;
+  for (int frame = 0; frame < frames; ++frame) {
+    for (int i = Below(random, 6); i > 0; --i) {
+      records.push_back({frame, Below(random, truths + 1), 100 + Below(random, maps)});
+    }
+  }
+  return records;
+}
+
+void AssertBounded(const PrecisionRecall& s) {
+  RC_ASSERT(s.precision >= 0.0 && s.precision <= 1.0 + 1e-12);
+  RC_ASSERT(s.recall >= 0.0 && s.recall <= 1.0 + 1e-12);
+  RC_ASSERT(s.f1 <= std::max(s.precision, s.recall) + 1e-12);
+  RC_ASSERT(s.f1 >= std::min(s.precision, s.recall) - 1e-12);
+}
+
+RC_GTEST_PROP(AssociationP39, StaysWithinItsBounds, ()) {
+  const AssociationScore score = ScoreAssociation(AnyRecords());
+  AssertBounded(score.pair);
+  AssertBounded(score.b_cubed);
+  AssertBounded(score.decision.scores);
+}
+
+RC_GTEST_PROP(AssociationP39, IsPerfectWhenEveryTruthHasItsOwnMapPlane, ()) {
+  std::vector<AssociationRecord> records = AnyRecords();
+  for (AssociationRecord& r : records) {
+    r.truth += 1;
+    r.map_plane = 1000 + r.truth;
+  }
+  const AssociationScore score = ScoreAssociation(records);
+  RC_ASSERT(score.decision.fp == 0 && score.decision.fn == 0 && score.decision.spurious == 0);
+  RC_ASSERT(score.merged_map_planes == 0 && score.split_truth_planes == 0);
+  if (score.pair_truth > 0) RC_ASSERT(score.pair.precision == 1.0 && score.pair.recall == 1.0);
+}
+
+RC_GTEST_PROP(AssociationP39, DoesNotDependOnNamesOrOnTheOrderWithinAFrame, ()) {
+  const std::vector<AssociationRecord> records = AnyRecords();
+  // Two first sightings of one map plane in one frame make its owner a matter of order: keep
+  // one.
+  std::set<std::pair<int, int>> once;
+  std::vector<AssociationRecord> plain, renamed;
+  for (const AssociationRecord& r : records) {
+    if (once.insert({r.frame, r.map_plane}).second) plain.push_back(r);
+  }
+  renamed = plain;
+  for (AssociationRecord& r : renamed) r.map_plane = 5000 - 7 * r.map_plane;
+  std::stable_sort(renamed.begin(), renamed.end(), [](const auto& a, const auto& b) {
+    return a.frame != b.frame ? a.frame < b.frame : a.map_plane < b.map_plane;
+  });
+  const AssociationScore a = ScoreAssociation(plain), b = ScoreAssociation(renamed);
+  RC_ASSERT(a.decision.tp == b.decision.tp && a.decision.fp == b.decision.fp);
+  RC_ASSERT(a.decision.fn == b.decision.fn && a.decision.tn == b.decision.tn);
+  RC_ASSERT(a.pair_tp == b.pair_tp && a.pair_predicted == b.pair_predicted);
+  RC_ASSERT(a.merged_map_planes == b.merged_map_planes);
+}
+
+RC_GTEST_PROP(CornersP39, ClaimingACornerTwiceNeverRaisesThePrecision, ()) {
+  Random random = AnyRandom();
+  std::vector<Eigen::Vector3d> truth, claimed;
+  for (int i = 0; i < 4; ++i) truth.push_back(0.1 * Eigen::Vector3d(i % 2, i / 2, 0));
+  for (int i = 1 + Below(random, 6); i > 0; --i) {
+    const double x = Uniform(random), y = Uniform(random), z = Uniform(random);
+    claimed.push_back(0.2 * Eigen::Vector3d(x, y, 0.2 * z));
+  }
+  const auto precision = [&] {
+    const std::vector<int> match = MatchCorners(claimed, truth, kMaxCornerError_m);
+    const auto matched =
+        std::count_if(match.begin(), match.end(), [](int m) { return m >= 0; });
+    return static_cast<double>(matched) / static_cast<double>(claimed.size());
+  };
+  // Only a twin can be called a duplicate: give each claim at most one true corner to reach.
+  for (std::size_t i = 1; i < truth.size(); ++i) truth[i] *= 10.0;
+  const double before = precision();
+  claimed.push_back(claimed[random() % claimed.size()]);
+  RC_ASSERT(precision() <= before);
+}
+
+RC_GTEST_PROP(HungarianAssignment, IsNeverBeatenByAnotherPermutation, ()) {
+  Random random = AnyRandom();
+  const int rows = 1 + Below(random, 5), cols = 1 + Below(random, 5);
+  Eigen::MatrixXd weight(rows, cols);
+  for (int i = 0; i < rows; ++i) {
+    for (int j = 0; j < cols; ++j) weight(i, j) = Below(random, 4) * 0.25;
+  }
+  const std::vector<int> ours = AssignMaxWeight(weight);
+  double total = 0.0;
+  for (int i = 0; i < rows; ++i) {
+    if (ours[std::size_t(i)] >= 0) total += weight(i, ours[std::size_t(i)]);
+  }
+  std::vector<int> order(std::size_t(std::max(rows, cols)));
+  for (std::size_t i = 0; i < order.size(); ++i) order[i] = int(i);
+  do {
+    double other = 0.0;
+    for (int i = 0; i < rows; ++i) {
+      if (order[std::size_t(i)] < cols) other += weight(i, order[std::size_t(i)]);
+    }
+    RC_ASSERT(other <= total + 1e-12);
+  } while (std::next_permutation(order.begin(), order.end()));
+}
+
+cv::Mat1w AnyLabels(Random& random, int regions) {
+  cv::Mat1w labels(24, 32, std::uint16_t(0));
+  for (int i = 1; i <= regions; ++i) {
+    const int x = Below(random, 24), y = Below(random, 18);
+    labels(cv::Rect(x, y, 2 + Below(random, 32 - x - 1), 2 + Below(random, 24 - y - 1)))
+        .setTo(i);
+  }
+  return labels;
+}
+
+RC_GTEST_PROP(SegmentationP39, BooksEveryRegionOnceAndStaysWithinItsBounds, ()) {
+  Random random = AnyRandom();
+  const cv::Mat1w truth = AnyLabels(random, 1 + Below(random, 6));
+  const cv::Mat1w machine = AnyLabels(random, 1 + Below(random, 6));
+  const Overlap overlap = CountOverlap(truth, machine);
+  const HooverScore hoover = ScoreHoover(overlap);
+  RC_ASSERT(hoover.correct + hoover.over + hoover.missed <= hoover.truth);
+  RC_ASSERT(hoover.correct + hoover.under + hoover.noise <= hoover.machine);
+  const PanopticCounts panoptic = CountPanoptic(overlap);
+  RC_ASSERT(panoptic.fp >= 0 && panoptic.fn >= 0);
+  RC_ASSERT(panoptic.Pq() >= 0.0 && panoptic.Pq() <= 1.0);
+  const Overlap itself = CountOverlap(truth, truth);
+  RC_ASSERT(CountPanoptic(itself).Pq() == 1.0);
+  RC_ASSERT(ScoreHoover(itself).correct == hoover.truth);
+}
+
+RC_GTEST_PROP(PolygonOverlap, IsSymmetricAndBoundedByEitherArea, ()) {
+  Random random = AnyRandom();
+  const auto any_hull = [&] {
+    Polygon2 points;
+    for (int i = 0; i < 8; ++i) {
+      const double x = Uniform(random), y = Uniform(random);
+      points.emplace_back(x, y);
+    }
+    return ConvexHull(points);
+  };
+  const Polygon2 a = any_hull(), b = any_hull();
+  const double both = IntersectionArea(a, b);
+  RC_ASSERT(std::abs(both - IntersectionArea(b, a)) < 1e-12);
+  RC_ASSERT(both <= std::min(Area(a), Area(b)) + 1e-12);
+  RC_ASSERT(std::abs(IntersectionArea(a, a) - Area(a)) < 1e-12);
+}
+
+RC_GTEST_PROP(TrackingP39, StaysWithinItsBoundsAndIsPerfectForTheTruth, ()) {
+  Random random = AnyRandom();
+  std::vector<TrackingFrame> frames, perfect;
+  for (int f = 1 + Below(random, 12); f > 0; --f) {
+    TrackingFrame frame;
+    for (int id = 1; id <= 4; ++id) {
+      if (Below(random, 3) > 0) frame.truth_ids.push_back(id);
+      if (Below(random, 3) > 0) frame.predicted_ids.push_back(10 * id);
+    }
+    TrackingFrame same{frame.truth_ids, frame.truth_ids, {}};
+    const auto n = Eigen::Index(frame.truth_ids.size());
+    same.similarity = Eigen::MatrixXd::Identity(n, n);
+    perfect.push_back(same);
+    frame.similarity.resize(n, Eigen::Index(frame.predicted_ids.size()));
+    for (Eigen::Index i = 0; i < n; ++i) {
+      // Shares of one mask: a row sums to one at most, as IoUs of disjoint masks do.
+      for (Eigen::Index j = 0; j < frame.similarity.cols(); ++j) {
+        frame.similarity(i, j) = Uniform(random) / static_cast<double>(frame.similarity.cols());
+      }
+    }
+    frames.push_back(frame);
+  }
+  const HotaScore hota = ScoreHota(frames);
+  const IdentityScore identity = ScoreIdentity(frames);
+  for (const double value : {hota.hota, hota.det_a, hota.ass_a, identity.idf1}) {
+    RC_ASSERT(value >= 0.0 && value <= 1.0 + 1e-12);
+  }
+  RC_ASSERT(ScoreClear(frames).mota <= 1.0);
+  const bool any = std::any_of(perfect.begin(), perfect.end(),
+                               [](const TrackingFrame& f) { return !f.truth_ids.empty(); });
+  if (!any) return;
+  RC_ASSERT(std::abs(ScoreHota(perfect).hota - 1.0) < 1e-12);
+  RC_ASSERT(ScoreIdentity(perfect).idf1 == 1.0);
+  RC_ASSERT(ScoreClear(perfect).mota == 1.0);
+}
+
+}  // namespace
+}  // namespace eval
