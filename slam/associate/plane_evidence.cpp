@@ -67,7 +67,8 @@ PlaneComparison ComparePlanes(const FramePlane& f, const MapPlane& m, const Unce
   const Eigen::Matrix<double, 3, 2> axes_c = TangentBasis(map_pi_c.n);
   const Eigen::Vector3d x_c = ProjectOnto(f.pi_c, f.centroid_c);
   const Eigen::Vector3d x_w = pose.T_cw.R.transpose() * (x_c - pose.T_cw.t);
-  Covariance3 covariance = 2 * FloorOf(config);
+  Covariance3 covariance = FloorOf(config);
+  if (m.estimate.empty()) covariance += FloorOf(config);  // else its observations hold it
   covariance += PatchCovariance(f.offset_sigma_m, f.angle_sigma_rad, Eigen::Vector2d::Zero());
   covariance += MapCovariance(m, x_w, pose.T_cw.R.transpose() * axes_c);
   // d (height, slopes) / d xi: the map plane moves in the camera frame by -n.rho and turns.
@@ -94,7 +95,10 @@ PlaneComparison ComparePlanes(const FramePlane& one, const FramePlane& other,
 PlaneComparison ComparePlanes(const MapPlane& one, const MapPlane& other,
                               const AssociationConfig& config) {
   const Eigen::Matrix<double, 3, 2> axes = TangentBasis(other.pi_w.n);
-  Covariance3 covariance = 2 * FloorOf(config);
+  // An estimate holds its observations' floors already.
+  Covariance3 covariance = Covariance3::Zero();
+  if (one.estimate.empty()) covariance += FloorOf(config);
+  if (other.estimate.empty()) covariance += FloorOf(config);
   covariance += MapCovariance(one, one.centroid_w, axes);
   covariance += MapCovariance(other, one.centroid_w, axes);
   return Compare(one.pi_w, one.centroid_w, other.pi_w, axes, covariance);

@@ -9,6 +9,8 @@
 namespace slam {
 namespace {
 
+constexpr std::int64_t kMaxCells = 1 << 20;  // of the grid: memory is bounded
+
 using Cell = std::pair<std::int64_t, std::int64_t>;
 
 Cell CellOf(const Eigen::Vector2d& q, double voxel_m) {
@@ -19,21 +21,30 @@ Cell CellOf(const Eigen::Vector2d& q, double voxel_m) {
 /// Keeps the first point of each voxel, in the order of arrival.
 void Thin(std::vector<Eigen::Vector3d>& cloud_w, const Eigen::Matrix<double, 3, 2>& axes,
           const Eigen::Vector3d& anchor_w, double voxel_m) {
-  std::vector<std::pair<Cell, std::size_t>> cells;
+  if (cloud_w.empty()) return;
+  std::vector<Cell> cells;
   cells.reserve(cloud_w.size());
+  for (const Eigen::Vector3d& p_w : cloud_w) {
+    cells.push_back(CellOf(axes.transpose() * (p_w - anchor_w), voxel_m));
+  }
+  Cell low = cells.front(), high = cells.front();
+  for (const auto& [x, y] : cells) {
+    low = {std::min(low.first, x), std::min(low.second, y)};
+    high = {std::max(high.first, x), std::max(high.second, y)};
+  }
+  const std::int64_t width = high.first - low.first + 1, height = high.second - low.second + 1;
+  if (width > kMaxCells / height) return Thin(cloud_w, axes, anchor_w, 2 * voxel_m);
+  std::vector<char> taken(static_cast<std::size_t>(width * height), 0);
+  std::size_t kept = 0;
   for (std::size_t i = 0; i < cloud_w.size(); ++i) {
-    cells.emplace_back(CellOf(axes.transpose() * (cloud_w[i] - anchor_w), voxel_m), i);
+    const std::int64_t at =
+        (cells[i].second - low.second) * width + (cells[i].first - low.first);
+    char& cell = taken[static_cast<std::size_t>(at)];
+    if (cell) continue;
+    cell = 1;
+    cloud_w[kept++] = cloud_w[i];
   }
-  std::sort(cells.begin(), cells.end());
-  std::vector<std::size_t> kept;
-  for (std::size_t i = 0; i < cells.size(); ++i) {
-    if (i == 0 || cells[i].first != cells[i - 1].first) kept.push_back(cells[i].second);
-  }
-  std::sort(kept.begin(), kept.end());
-  std::vector<Eigen::Vector3d> out;
-  out.reserve(kept.size());
-  for (const std::size_t i : kept) out.push_back(cloud_w[i]);
-  cloud_w = std::move(out);
+  cloud_w.resize(kept);
 }
 
 std::vector<Cell> Cells(const std::vector<Eigen::Vector3d>& cloud_w,

@@ -14,22 +14,17 @@ bool ClassesAgree(const MapPlane& one, const MapPlane& other) {
          other.class_name.empty();
 }
 
-int CovisibleFrames(const MapPlane& one, const MapPlane& other) {
-  const auto found = one.covisible.find(other.id);
-  return found == one.covisible.end() ? 0 : found->second;
-}
-
 bool OneSurface(const MapPlane& one, const MapPlane& other, const PlaneMapConfig& config) {
   const AssociationConfig& a = config.association;
+  if (one.observations < config.min_fused_observations ||
+      other.observations < config.min_fused_observations) {
+    return false;
+  }
   const PlaneComparison forth = ComparePlanes(one, other, a);
   if (!(forth.angle_rad < a.gates.max_normal_angle_rad) || !(forth.chi2 < a.max_chi2))
     return false;
   if (!(ComparePlanes(other, one, a).chi2 < a.max_chi2) || !ClassesAgree(one, other))
     return false;
-  // Seen side by side again and again: two segments of one surface, or two surfaces. Only a
-  // closer fit than chance explains speaks for one.
-  const bool apart = CovisibleFrames(one, other) >= config.min_apart_frames;
-  if (apart && !(forth.chi2 < 0.5 * a.max_chi2)) return false;
   // A large plane's cloud is coarse: look in voxels that its points surely fill.
   double cell = config.voxel_m;
   for (const MapPlane* m : {&one, &other}) {

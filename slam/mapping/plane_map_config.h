@@ -23,7 +23,8 @@ struct PlaneMapConfig {
   double max_point_distance_m = 0.01;  ///< a map point nearer to the plane lies on it
 
   double min_fused_overlap = 0.2;  ///< share of the smaller cloud that two duplicates share
-  int min_apart_frames = 3;        ///< seen side by side so often at a distance: never fused
+  int min_fused_observations =
+      5;  ///< of both: before that, a step of millimetres is not settled
 };
 
 }  // namespace slam
