@@ -27,7 +27,9 @@ ParameterValues Complete(const Family& family, const std::map<std::string, doubl
     values[parameter.name] = parameter.value;
     known += (known.empty() ? "" : ", ") + parameter.name;
   }
-  for (const auto& [name, value] : given) {
+  for (const auto& entry : given) {
+    const std::string& name = entry.first;
+    const double value = entry.second;
     const auto at = std::find_if(family.parameters.begin(), family.parameters.end(),
                                  [&](const FamilyParameter& p) { return p.name == name; });
     if (at == family.parameters.end()) {
