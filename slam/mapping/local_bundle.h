@@ -9,10 +9,9 @@ namespace slam {
 /// Bounds and weights of the local bundle adjustment.
 struct LocalBundleConfig {
   ScalePyramid scales;
-  double bf_px_m = 40.0;  ///< b f of the virtual right camera
-  double depth_sigma_px =
-      1.0;                 ///< of the virtual disparity b f / z at octave 0; domain (0, inf)
-  int max_keyframes = 10;  ///< poses that move; domain [1, inf)
+  double bf_px_m = 40.0;         ///< b f of the virtual right camera
+  double depth_sigma_px = 0.3;   ///< of the virtual disparity, octave 0; domain (0, inf)
+  int max_keyframes = 10;        ///< poses that move; domain [1, inf)
   int max_fixed_keyframes = 20;  ///< poses that hold the window in place; domain [1, inf)
   int first_iterations = 5;      ///< with Huber's weights, before outliers are left out
   int last_iterations = 5;       ///< plain, after it
