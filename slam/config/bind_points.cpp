@@ -10,6 +10,8 @@ void VisitFeatures(PointFeatureConfig& c, FieldVisitor& v) {
             "where a cell has no corner");
   v.Integer("cell_px", c.cell_px, "[8, 1000]", "side of a cell");
   v.Number("bf_px_m", c.bf_px_m, "(0, inf)", "b f of the virtual right camera");
+  v.Integer("octaves", c.scales.octaves, "[1, 16]", "of the image pyramid");
+  v.Number("octave_factor", c.scales.factor, "(1, 2]", "between neighbouring octaves");
 }
 
 void VisitDepth(PointDepthConfig& c, FieldVisitor& v) {
@@ -41,18 +43,6 @@ void VisitPose(PoseProblemConfig& c, FieldVisitor& v) {
   v.Flag("use_point_planes", c.use_point_planes, "f_p_pi: map points on planes");
   v.Flag("use_parallel", c.use_parallel, "f_pi_p: parallel planes");
   v.Flag("use_perpendicular", c.use_perpendicular, "f_pi_v: perpendicular planes");
-}
-
-void VisitKeyframes(KeyframeConfig& c, FieldVisitor& v) {
-  v.Number("close_baselines", c.close_baselines, "(0, inf)",
-           "depth trusted up to so many virtual baselines");
-  v.Integer("min_new_points", c.min_new_points, "[0, 100000]", "made even from farther depths");
-  v.Integer("min_shared_points", c.min_shared_points, "[1, 100000]",
-            "make two keyframes covisible");
-  v.Number("max_redundancy", c.max_redundancy, "(0, 1]",
-           "share of points that others see as well");
-  v.Integer("redundant_views", c.redundant_views, "[1, 1000]",
-            "other keyframes that must see a point");
 }
 
 void VisitDecision(KeyframeDecisionConfig& c, FieldVisitor& v) {
@@ -118,8 +108,6 @@ void VisitPoints(Config& c, FieldVisitor& v) {
   v.Section("point_depth", "depth of a feature",
             [&] { VisitDepth(c.point_features.depth, v); });
   v.Section("pose", "pose optimisation, eq13", [&] { VisitPose(c.tracking.pose, v); });
-  v.Section("keyframes", "keyframes of the map",
-            [&] { VisitKeyframes(c.tracking.keyframes, v); });
   v.Section("keyframe_decision", "when a frame becomes one",
             [&] { VisitDecision(c.tracking.decision, v); });
   v.Section("point_projection", "search of map points",
@@ -127,15 +115,6 @@ void VisitPoints(Config& c, FieldVisitor& v) {
   v.Section("relocalise", "finding a lost camera",
             [&] { VisitRelocalise(c.tracking.relocalise, v); });
   v.Section("point_tracking", "tracking by points", [&] { VisitTracking(c.tracking, v); });
-  v.Section("point_culling", "removal of map points", [&] {
-    v.Number("min_found_ratio", c.point_culling.min_found_ratio, "[0, 1]",
-             "found over expected");
-    v.Integer("trial_keyframes", c.point_culling.trial_keyframes, "[1, 100]",
-              "during which a point is young");
-    v.Integer("min_weight", c.point_culling.min_weight, "[1, 1000]",
-              "wanted after two keyframes");
-  });
-  ShareFacts(c);
 }
 
 }  // namespace slam

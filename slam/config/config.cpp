@@ -7,15 +7,30 @@ namespace slam {
 void ShareFacts(Config& config) {
   const PointFeatureConfig& facts = config.point_features;
   config.tracking.pose.virtual_bf_px_m = facts.bf_px_m;
-  config.tracking.keyframes.bf_px_m = facts.bf_px_m;
-  config.tracking.keyframes.scales = facts.scales;
   config.tracking.projection.bf_px_m = facts.bf_px_m;
   config.tracking.projection.scales = facts.scales;
+  config.mapping.keyframes.bf_px_m = facts.bf_px_m;
+  config.mapping.keyframes.scales = facts.scales;
+  config.tracking.keyframes = config.mapping.keyframes;
+  config.mapping.triangulation.bf_px_m = facts.bf_px_m;
+  config.mapping.triangulation.scales = facts.scales;
+  config.mapping.fusion.bf_px_m = facts.bf_px_m;
+  config.mapping.fusion.scales = facts.scales;
+  config.mapping.bundle.bf_px_m = facts.bf_px_m;
+  config.mapping.bundle.scales = facts.scales;
+  config.plane_processing.noise = config.plane_extraction.noise;
+  config.plane_constraints.association = config.association;
+  config.plane_map.association = config.association;
 }
 
 void VisitConfig(Config& config, FieldVisitor& visitor) {
   VisitPoints(config, visitor);
-  VisitPlanes(config, visitor);
+  VisitDetections(config, visitor);
+  VisitExtraction(config, visitor);
+  VisitProcessing(config, visitor);
+  VisitAssociation(config, visitor);
+  VisitMapping(config, visitor);
+  ShareFacts(config);
 }
 
 }  // namespace slam

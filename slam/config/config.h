@@ -1,12 +1,15 @@
 #pragma once
 
-#include "slam/associate/plane_gates.h"
+#include "slam/associate/association_config.h"
+#include "slam/associate/plane_constraints.h"
 #include "slam/extract/box_tracks.h"
 #include "slam/extract/class_table.h"
 #include "slam/extract/plane_edges.h"
 #include "slam/extract/plane_segments.h"
 #include "slam/extract/point_features.h"
-#include "slam/mapping/map_points.h"
+#include "slam/mapping/local_mapping.h"
+#include "slam/mapping/plane_map_config.h"
+#include "slam/planes/process_planes.h"
 #include "slam/track/point_tracking.h"
 
 namespace slam {
@@ -21,12 +24,19 @@ struct Config {
   PlaneExtractionConfig plane_extraction;
   EdgeConfig plane_edges;
 
-  // (D) association
-  PlaneGateConfig plane_gates;
+  // (C) plane processing
+  PlaneProcessingConfig plane_processing;
 
-  // (E) optimisation and tracking by points; (F) map points
+  // (D) association
+  AssociationConfig association;
+
+  // (E) optimisation and tracking by points
   PointTrackingConfig tracking;
-  PointCullingConfig point_culling;
+  PlaneConstraintConfig plane_constraints;
+
+  // (F) the map
+  LocalMappingConfig mapping;
+  PlaneMapConfig plane_map;
 };
 
 /// The pyramid and the virtual baseline are facts of the point features that later stages keep

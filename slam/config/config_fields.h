@@ -23,14 +23,11 @@ class FieldVisitor {
   virtual void Number(const char* key, double& value, const char* domain, const char* help) = 0;
   virtual void Integer(const char* key, int& value, const char* domain, const char* help) = 0;
   virtual void Flag(const char* key, bool& value, const char* help) = 0;
+  /// One of `names`; the value is its position.
+  virtual void Choice(const char* key, int& value, const std::vector<std::string>& names,
+                      const char* help) = 0;
   virtual void Texts(const char* key, std::vector<std::string>& value, const char* help) = 0;
 
-  /// A single-precision field.
-  void Number(const char* key, float& value, const char* domain, const char* help) {
-    double x = static_cast<double>(value);
-    Number(key, x, domain, help);
-    value = static_cast<float>(x);
-  }
   /// An angle: radians in the struct, degrees in the file; `key` ends in _deg.
   void Degrees(const char* key, double& value_rad, const char* domain, const char* help) {
     constexpr double kDegree = std::numbers::pi / 180.0;
@@ -42,11 +39,24 @@ class FieldVisitor {
   }
 };
 
+/// An enumeration whose values count from 0 in the order of `names`.
+template <typename Enum>
+void VisitEnum(FieldVisitor& visitor, const char* key, Enum& value,
+               const std::vector<std::string>& names, const char* help) {
+  int position = static_cast<int>(value);
+  visitor.Choice(key, position, names, help);
+  value = static_cast<Enum>(position);
+}
+
 /// All fields, in the order of the data flow.
 void VisitConfig(Config& config, FieldVisitor& visitor);
 
 // The parts, by file.
-void VisitPlanes(Config& config, FieldVisitor& visitor);
-void VisitPoints(Config& config, FieldVisitor& visitor);
+void VisitPoints(Config& config, FieldVisitor& visitor);       ///< features and tracking
+void VisitDetections(Config& config, FieldVisitor& visitor);   ///< classes and box tracks
+void VisitExtraction(Config& config, FieldVisitor& visitor);   ///< planes of a frame
+void VisitProcessing(Config& config, FieldVisitor& visitor);   ///< (C)
+void VisitAssociation(Config& config, FieldVisitor& visitor);  ///< (D) and the plane factors
+void VisitMapping(Config& config, FieldVisitor& visitor);      ///< (F), (G)
 
 }  // namespace slam

@@ -1,5 +1,6 @@
 #include "slam/config/config_file.h"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <vector>
@@ -48,6 +49,12 @@ class Reader : public FieldVisitor {
   void Flag(const char* key, bool& value, const char*) override {
     value = maps_.back()->Flag(key, value);
   }
+  void Choice(const char* key, int& value, const std::vector<std::string>& names,
+              const char*) override {
+    const std::string name =
+        maps_.back()->Choice(key, names, names.at(static_cast<std::size_t>(value)));
+    value = static_cast<int>(std::find(names.begin(), names.end(), name) - names.begin());
+  }
   void Texts(const char* key, std::vector<std::string>& value, const char*) override {
     if (maps_.back()->Has(key)) value = maps_.back()->Texts(key);
   }
@@ -76,6 +83,10 @@ class JsonWriter : public FieldVisitor {
   void Flag(const char* key, bool& value, const char*) override {
     (*objects_.back())[key] = value;
   }
+  void Choice(const char* key, int& value, const std::vector<std::string>& names,
+              const char*) override {
+    (*objects_.back())[key] = names.at(static_cast<std::size_t>(value));
+  }
   void Texts(const char* key, std::vector<std::string>& value, const char*) override {
     (*objects_.back())[key] = value;
   }
@@ -102,6 +113,12 @@ class YamlWriter : public FieldVisitor {
   }
   void Flag(const char* key, bool& value, const char* help) override {
     Line(key, value ? "true" : "false", help, "true or false");
+  }
+  void Choice(const char* key, int& value, const std::vector<std::string>& names,
+              const char* help) override {
+    std::string domain;
+    for (const std::string& name : names) domain += (domain.empty() ? "" : " | ") + name;
+    Line(key, names.at(static_cast<std::size_t>(value)), help, domain);
   }
   void Texts(const char* key, std::vector<std::string>& value, const char* help) override {
     std::string list;
@@ -132,6 +149,10 @@ void CheckTogether(const Config& c, const std::string& file) {
           "point_depth: min_depth_m must be below max_depth_m");
   require(c.plane_extraction.fine_block_px <= c.plane_extraction.block_px,
           "plane_extraction: fine_block_px must not be above block_px");
+  require(c.plane_processing.vertices.min_fill <= c.plane_processing.vertices.max_fill,
+          "plane_processing: vertices: min_fill must not be above max_fill");
+  require(c.association.max_chi2 <= c.association.new_chi2,
+          "association: max_chi2 must not be above new_chi2");
   for (const std::string& name : c.classes.regular)
     require(c.classes.KindOf(name) == ClassKind::kRegular &&
                 ClassTable{{}, c.classes.unstructured, {}}.KindOf(name) == ClassKind::kOther,

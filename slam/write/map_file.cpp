@@ -72,10 +72,11 @@ std::string MapAsPly(const Map& map) {
     if (plane.merged_into) continue;
     const auto colour = PlaneColour(plane.id);
     std::string tail;
-    for (const std::uint8_t c : colour) tail += ' ' + std::to_string(static_cast<int>(c));
-    tail += ' ' + std::to_string(plane.id) + '\n';
+    for (const int number : {int{colour[0]}, int{colour[1]}, int{colour[2]}, plane.id})
+      tail.append(" ").append(std::to_string(number));
     for (const Eigen::Vector3d& p : plane.points_w) {
-      body += NumberText(p.x()) + ' ' + NumberText(p.y()) + ' ' + NumberText(p.z()) + tail;
+      body +=
+          NumberText(p.x()) + ' ' + NumberText(p.y()) + ' ' + NumberText(p.z()) + tail + '\n';
       ++count;
     }
   }

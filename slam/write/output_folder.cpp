@@ -43,9 +43,10 @@ void RemoveLeftovers(const fs::path& folder) {
 
 OutputFolder::OutputFolder(const fs::path& folder, std::string marker, bool force)
     : marker_(std::move(marker)), force_(force) {
+  if (folder.empty()) throw InputError("output folder", "expected the name of a new folder");
   fs::path name = fs::absolute(folder).lexically_normal();
   if (name.filename().empty()) name = name.parent_path();  // "run/" is "run"
-  if (name.filename().empty() || folder.empty())
+  if (name.filename().empty())
     throw InputError("output folder `" + folder.string() + "`",
                      "expected the name of a new folder");
   final_ = name;

@@ -35,7 +35,7 @@ std::string TrajectoryLine(double timestamp_s, const Pose& T_cw) {
   if (q.w() < 0) q.coeffs() *= -1;
   std::string line = StampText(timestamp_s);
   for (const double x : {T_wc.t.x(), T_wc.t.y(), T_wc.t.z(), q.x(), q.y(), q.z(), q.w()})
-    line += ' ' + NumberText(x);
+    line.append(" ").append(NumberText(x));
   return line + '\n';
 }
 

@@ -1,0 +1,134 @@
+#include "slam/input/camera_reader.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <fstream>
+
+#include "slam/base/require.h"
+#include "slam/input/yaml_map.h"
+
+namespace slam {
+namespace {
+
+using ::testing::ContainsRegex;
+using ::testing::ThrowsMessage;
+
+const std::string kGood =
+    "model: pinhole\nwidth: 320\nheight: 240\nfx: 260.5\nfy: 261\ncx: 159.5\ncy: 119.5\n";
+
+class CameraReader : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    const auto* info = ::testing::UnitTest::GetInstance()->current_test_info();
+    folder_ = std::filesystem::temp_directory_path() /
+              (std::string("pas_camera_") + info->name() + std::to_string(::getpid()));
+    std::filesystem::create_directories(folder_);
+  }
+  void TearDown() override { std::filesystem::remove_all(folder_); }
+
+  Camera Read(const std::string& text) {
+    std::ofstream(folder_ / "camera.yaml") << text;
+    return ReadCamera(folder_ / "camera.yaml");
+  }
+  void ExpectError(const std::string& text, const std::string& regex) {
+    EXPECT_THAT([&] { Read(text); }, ThrowsMessage<InputError>(ContainsRegex(regex))) << text;
+  }
+  std::filesystem::path folder_;
+};
+
+TEST_F(CameraReader, ReadsEveryKey) {
+  const Camera c = Read(kGood +
+                        "fps: 15\ndepth_factor: 1000\nk1: 0.1\nk2: -0.2\np1: 0.001\np2: 0.002\n"
+                        "k3: 0.03\n");
+  EXPECT_EQ(c.width, 320);
+  EXPECT_EQ(c.height, 240);
+  EXPECT_EQ(c.fx, 260.5);
+  EXPECT_EQ(c.fy, 261.0);
+  EXPECT_EQ(c.cx, 159.5);
+  EXPECT_EQ(c.cy, 119.5);
+  EXPECT_EQ(c.fps, 15.0);
+  EXPECT_EQ(c.depth_factor, 1000.0);
+  EXPECT_EQ(c.k1, 0.1);
+  EXPECT_EQ(c.k2, -0.2);
+  EXPECT_EQ(c.p1, 0.001);
+  EXPECT_EQ(c.p2, 0.002);
+  EXPECT_EQ(c.k3, 0.03);
+}
+
+TEST_F(CameraReader, RefusesAnUnknownKeyAndListsTheLegalOnes) {
+  ExpectError(kGood + "focal: 3\n",
+              "camera.yaml:8: unknown key `focal`; legal keys: model, width, height, fx");
+}
+
+TEST_F(CameraReader, RefusesAMissingKey) {
+  ExpectError("width: 320\nheight: 240\nfx: 260\n", "camera.yaml:1: key `fy` is missing");
+  ExpectError("", "camera.yaml.*key `width` is missing");
+}
+
+TEST_F(CameraReader, RefusesValuesOutsideTheirDomain) {
+  const auto with = [](const std::string& key, const std::string& value) {
+    std::string text = kGood;
+    const std::size_t at = text.find(key + ":");
+    return text.replace(at, text.find('\n', at) - at, key + ": " + value);
+  };
+  ExpectError(with("fx", "0"), "camera.yaml:4: `fx: 0` must be a number in .1, 100000.");
+  ExpectError(with("fx", "-525"), "camera.yaml:4: `fx: -525`");
+  ExpectError(with("fx", "nan"), "`fx: nan` must be a number");
+  ExpectError(with("fx", ".inf"), "`fx: .inf` must be a number");
+  ExpectError(with("fx", "525px"), "`fx: 525px` must be a number");
+  ExpectError(with("fx", "[1, 2]"), "`fx` must be a number");
+  ExpectError(with("width", "0"), "camera.yaml:2: `width: 0` must be a whole number");
+  ExpectError(with("width", "1000000"),
+              "`width: 1000000` must be a whole number in .16, 8192.");
+  ExpectError(with("width", "320.5"), "`width: 320.5` must be a whole number");
+  ExpectError(with("cx", "400"), "camera.yaml:6: the principal point");
+  ExpectError(with("model", "fisheye"),
+              "camera.yaml:1: `model: fisheye` must be one of pinhole");
+  ExpectError(kGood + "depth_factor: 0\n", "camera.yaml:8: `depth_factor: 0`");
+  ExpectError(kGood + "fx: 3\n", "camera.yaml:8: key `fx` is given twice");
+}
+
+TEST_F(CameraReader, RefusesADistortionThatCannotBeInverted) {
+  ExpectError(kGood + "k1: -5\n", "camera.yaml:8: the distortion .* cannot be inverted");
+}
+
+TEST_F(CameraReader, RefusesTextThatIsNotYaml) {
+  ExpectError("width: [320\n", "camera.yaml:[0-9]+: not YAML");
+  ExpectError("- 1\n- 2\n", "the file must be `key: value` lines");
+  ExpectError(std::string(5000, '['), "nested too deeply");
+  ExpectError(std::string(2 << 20, ' '), "larger than 1 MiB");
+  EXPECT_THAT([&] { ReadCamera(folder_ / "none.yaml"); },
+              ThrowsMessage<InputError>(ContainsRegex("none.yaml: no such file")));
+}
+
+TEST_F(CameraReader, TakesTheCameraOfTheSequenceUnlessToldOtherwise) {
+  EXPECT_THAT([&] { ChooseCamera("", folder_); },
+              ThrowsMessage<InputError>(ContainsRegex("camera.yaml: .*pass --camera tum1")));
+  Read(kGood);
+  EXPECT_EQ(ChooseCamera("", folder_).width, 320);
+  EXPECT_EQ(ChooseCamera("tum3", folder_).fx, TumCamera("tum3").fx);
+  EXPECT_EQ(ChooseCamera((folder_ / "camera.yaml").string(), "elsewhere").width, 320);
+  EXPECT_THAT([&] { ChooseCamera("tum9", folder_); },
+              ThrowsMessage<InputError>(ContainsRegex("--camera tum9: .*expected tum1, tum2")));
+}
+
+TEST_F(CameraReader, ReadsTheCalibrationsOfTum) {
+  for (const char* name : {"tum1", "tum2", "tum3"}) EXPECT_EQ(TumCamera(name).width, 640);
+}
+
+TEST(Interval, KnowsItsEndsAndRefusesNotANumber) {
+  const Interval half = ParseInterval("(0, 1]");
+  EXPECT_FALSE(half.Contains(0));
+  EXPECT_TRUE(half.Contains(1e-300));
+  EXPECT_TRUE(half.Contains(1));
+  EXPECT_FALSE(half.Contains(std::nan("")));
+  const Interval open = ParseInterval("[0, inf)");
+  EXPECT_TRUE(open.Contains(0));
+  EXPECT_FALSE(open.Contains(std::numeric_limits<double>::infinity()));
+  EXPECT_THROW(ParseInterval("0..1"), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace slam

@@ -1,0 +1,252 @@
+#include "slam/input/sequence_reader.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cstdlib>
+#include <fstream>
+#include <opencv2/imgcodecs.hpp>
+#include <sstream>
+
+#include "slam/base/require.h"
+
+namespace slam {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::ContainsRegex;
+using ::testing::ElementsAre;
+using ::testing::ThrowsMessage;
+
+/// A folder of this test alone, into which small sequences are written.
+class Sequences : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    const auto* info = ::testing::UnitTest::GetInstance()->current_test_info();
+    folder_ = fs::temp_directory_path() /
+              (std::string("pas_sequence_") + info->name() + std::to_string(::getpid()));
+    fs::create_directories(folder_ / "rgb");
+    fs::create_directories(folder_ / "depth");
+    camera_.width = 32, camera_.height = 24, camera_.cx = 15.5, camera_.cy = 11.5;
+  }
+  void TearDown() override { fs::remove_all(folder_); }
+
+  void WriteText(const std::string& name, const std::string& text) {
+    std::ofstream(folder_ / name) << text;
+  }
+  /// Frame i: colour (i, 2i, 3i), depth raw 1000 + i.
+  void WriteImages(int i) {
+    cv::imwrite((folder_ / ("rgb/" + std::to_string(i) + ".png")).string(),
+                cv::Mat(24, 32, CV_8UC3, cv::Scalar(3 * i, 2 * i, i)));
+    cv::imwrite((folder_ / ("depth/" + std::to_string(i) + ".png")).string(),
+                cv::Mat(24, 32, CV_16UC1, cv::Scalar(1000 + i)));
+  }
+  /// Frames with these stamps, in this order.
+  void WriteFrames(const std::vector<std::string>& stamps) {
+    std::ostringstream text;
+    for (std::size_t i = 0; i < stamps.size(); ++i) {
+      WriteImages(static_cast<int>(i));
+      text << stamps[i] << " rgb/" << i << ".png " << stamps[i] << " depth/" << i << ".png\n";
+    }
+    WriteText("associations.txt", text.str());
+  }
+  std::vector<std::string> Kept() {
+    std::vector<std::string> names;
+    for (const SequenceEntry& e : IndexSequence(folder_).entries) names.push_back(e.rgb);
+    return names;
+  }
+  void ExpectIndexError(const std::string& regex) {
+    EXPECT_THAT([&] { IndexSequence(folder_); },
+                ThrowsMessage<InputError>(ContainsRegex(regex)));
+  }
+  void ExpectReadError(const std::string& regex) {
+    EXPECT_THAT(
+        [&] {
+          SequenceReader reader(folder_, camera_);
+          for (int i = 0; i < reader.size(); ++i) reader.Read(i);
+        },
+        ThrowsMessage<InputError>(ContainsRegex(regex)));
+  }
+
+  fs::path folder_;
+  Camera camera_;
+};
+
+TEST_F(Sequences, GiveColourGrayAndDepthInMetresOfEachFrame) {
+  WriteFrames({"1.0", "1.1", "1.2"});
+  cv::Mat depth(24, 32, CV_16UC1, cv::Scalar(5000));
+  depth.at<std::uint16_t>(3, 4) = 0;
+  depth.at<std::uint16_t>(5, 6) = 65535;
+  cv::imwrite((folder_ / "depth/1.png").string(), depth);
+  SequenceReader reader(folder_, camera_);
+  ASSERT_EQ(reader.size(), 3);
+  const RecordedFrame frame = reader.Read(1);
+  EXPECT_EQ(frame.index, 1);
+  EXPECT_EQ(frame.timestamp_s, 1.1);
+  EXPECT_EQ(frame.bgr(0, 0), cv::Vec3b(3, 2, 1));
+  EXPECT_EQ(frame.gray(0, 0), cvRound(0.299 * 1 + 0.587 * 2 + 0.114 * 3));
+  EXPECT_EQ(frame.depth_m(0, 0), 1.0f);
+  EXPECT_EQ(frame.depth_m(3, 4), 0.0f);
+  EXPECT_EQ(frame.depth_m(5, 6), 0.0f);
+  EXPECT_THROW(reader.Read(3), std::invalid_argument);
+}
+
+TEST_F(Sequences, ReadTheSameWithAndWithoutPrefetchAndInAnyOrder) {
+  WriteFrames({"1", "2", "3", "4"});
+  SequenceReader ahead(folder_, camera_), plain(folder_, camera_, {.prefetch = false});
+  for (const int i : {0, 1, 2, 0, 3, 2, 2, 1}) {
+    const RecordedFrame a = ahead.Read(i), b = plain.Read(i);
+    EXPECT_EQ(a.index, b.index);
+    EXPECT_EQ(cv::norm(a.bgr, b.bgr, cv::NORM_INF), 0);
+    EXPECT_EQ(cv::norm(a.depth_m, b.depth_m, cv::NORM_INF), 0);
+  }
+}
+
+TEST_F(Sequences, PairTheListsByNearestTimeOneToOneWithinTwentyMilliseconds) {
+  for (int i = 0; i < 4; ++i) WriteImages(i);
+  WriteText("rgb.txt",
+            "# colour\n1.000 rgb/0.png\n1.012 rgb/1.png\n\n2.0 rgb/2.png\n3.0 rgb/3.png\n");
+  // 1.010 is nearest to 1.012, so that 1.000 is left with 0.985; 2.02 is exactly too far.
+  WriteText("depth.txt",
+            "1.010 depth/0.png\n0.985 depth/1.png\n2.0201 depth/2.png\n3.0 depth/3.png\n");
+  const SequenceIndex index = IndexSequence(folder_);
+  ASSERT_EQ(index.entries.size(), 3u);
+  EXPECT_EQ(index.entries[0].depth, "depth/1.png");
+  EXPECT_EQ(index.entries[1].depth, "depth/0.png");
+  EXPECT_EQ(index.entries[2].depth, "depth/3.png");
+  EXPECT_EQ(index.entries[0].timestamp_s, 1.0);
+  EXPECT_EQ(index.warnings.unpaired_rgb, 1);
+  EXPECT_EQ(index.warnings.unpaired_depth, 1);
+  EXPECT_THAT(index.warnings.text, ElementsAre(ContainsRegex("without depth.*rgb.txt:5"),
+                                               ContainsRegex("without colour.*depth.txt:3")));
+}
+
+TEST_F(Sequences, LeaveOutFramesWhoseStampRepeats) {
+  WriteFrames({"1.0", "1.1", "1.1", "1.2"});
+  EXPECT_THAT(Kept(), ElementsAre("rgb/0.png", "rgb/1.png", "rgb/3.png"));
+  const auto warnings = IndexSequence(folder_).warnings;
+  EXPECT_EQ(warnings.repeated, 1);
+  EXPECT_EQ(warnings.out_of_order, 0);
+  EXPECT_THAT(warnings.text, ElementsAre(ContainsRegex("repeated.*associations.txt:3")));
+}
+
+TEST_F(Sequences, LeaveOutFramesWhoseStampGoesBack) {
+  WriteFrames({"1.0", "1.2", "1.1", "1.3"});
+  EXPECT_THAT(Kept(), ElementsAre("rgb/0.png", "rgb/1.png", "rgb/3.png"));
+  EXPECT_EQ(IndexSequence(folder_).warnings.out_of_order, 1);
+}
+
+TEST_F(Sequences, LoseOneFrameAloneToAStampThatLeapsAheadByAnHour) {
+  WriteFrames({"1.0", "3601.1", "1.2", "1.3", "1.4"});
+  EXPECT_THAT(Kept(), ElementsAre("rgb/0.png", "rgb/2.png", "rgb/3.png", "rgb/4.png"));
+}
+
+TEST_F(Sequences, RefuseStampsThatAreNotSeconds) {
+  WriteFrames({"1305031102175304000"});
+  ExpectIndexError(
+      "associations.txt:1: timestamp `1305031102175304000` .*nanoseconds: divide by 1e9");
+  WriteFrames({"1305031102175304"});
+  ExpectIndexError("microseconds");
+  WriteFrames({"1305031102175"});
+  ExpectIndexError("milliseconds");
+  WriteFrames({"-1"});
+  ExpectIndexError("not a number of seconds");
+  WriteFrames({"nan"});
+  ExpectIndexError("not a number of seconds");
+}
+
+TEST_F(Sequences, NameFileAndLineOfAListThatCannotBeUnderstood) {
+  ExpectIndexError("rgb.txt: no such file");
+  WriteText("associations.txt", "# nothing\n");
+  ExpectIndexError("associations.txt: names no image");
+  WriteText("associations.txt", "\n1.0 rgb/0.png 1.0\n");
+  ExpectIndexError(
+      "associations.txt:2: expected `t_rgb rgb_file t_depth depth_file`, found 3 words");
+  WriteText("associations.txt", "1.0 ../secret.png 1.0 depth/0.png\n");
+  ExpectIndexError("associations.txt:1: file `../secret.png` must lie inside");
+  WriteText("associations.txt", "1.0 /etc/passwd 1.0 depth/0.png\n");
+  ExpectIndexError("must lie inside");
+  WriteText("associations.txt", std::string(10000, 'x'));
+  ExpectIndexError("associations.txt:1: too long");
+  EXPECT_THAT([] { IndexSequence("/nowhere/at/all"); },
+              ThrowsMessage<InputError>(ContainsRegex("/nowhere/at/all: no such folder")));
+}
+
+TEST_F(Sequences, SayWhenTheTwoListsHaveNothingInCommon) {
+  WriteText("rgb.txt", "1.0 rgb/0.png\n");
+  WriteText("depth.txt", "1.5 depth/0.png\n");
+  ExpectIndexError("no colour image of rgb.txt has a depth image .* within 20 ms");
+}
+
+TEST_F(Sequences, NameFileAndFrameOfAnImageThatCannotBeUsed) {
+  WriteFrames({"1.0", "1.1"});
+  const fs::path rgb = folder_ / "rgb/1.png", depth = folder_ / "depth/1.png";
+  const std::uintmax_t size = fs::file_size(rgb);
+
+  fs::resize_file(rgb, size - 20);
+  ExpectReadError("rgb/1.png \\(frame 1, associations.txt:2\\): the image is truncated");
+  fs::resize_file(rgb, 10);
+  ExpectReadError("rgb/1.png .*not a PNG image");
+  fs::resize_file(rgb, 0);
+  ExpectReadError("rgb/1.png .*frame 1.*is empty");
+  fs::remove(rgb);
+  ExpectReadError("rgb/1.png .*frame 1.*no such file");
+  fs::create_directory(rgb);
+  ExpectReadError("rgb/1.png .*frame 1.*not a file");
+  fs::remove(rgb);
+
+  cv::imwrite(rgb.string(), cv::Mat(24, 32, CV_8UC1, cv::Scalar(0)));
+  ExpectReadError("rgb/1.png .*the image is 8-bit gray, expected 8-bit RGB");
+  cv::imwrite(rgb.string(), cv::Mat(24, 30, CV_8UC3, cv::Scalar(0)));
+  ExpectReadError("rgb/1.png .*the image is 30 x 24, the camera says 32 x 24");
+  WriteImages(1);
+  cv::imwrite(depth.string(), cv::Mat(24, 32, CV_8UC1, cv::Scalar(0)));
+  ExpectReadError("depth/1.png .*frame 1.*8-bit gray, expected 16-bit gray");
+}
+
+TEST_F(Sequences, RefuseAnImageWhoseBytesAreDamaged) {
+  WriteFrames({"1.0"});
+  const fs::path file = folder_ / "rgb/0.png";
+  cv::Mat noise(24, 32, CV_8UC3);
+  cv::randu(noise, 0, 256);
+  cv::imwrite(file.string(), noise);
+  std::fstream stream(file, std::ios::in | std::ios::out | std::ios::binary);
+  stream.seekp(static_cast<std::streamoff>(fs::file_size(file) / 2));
+  stream.write("\xFF\x00\xFF\x00\xFF\x00", 6);
+  stream.close();
+  ExpectReadError("rgb/0.png .*damaged");
+}
+
+TEST_F(Sequences, NeverOpenTheTruth) {
+  WriteFrames({"1.0", "1.1"});
+  // Were they opened, these would fail: folders in the place of files, and a loop.
+  fs::create_directory(folder_ / "groundtruth.txt");
+  fs::create_symlink("gt", folder_ / "gt");
+  SequenceReader reader(folder_, camera_);
+  EXPECT_EQ(reader.Read(1).timestamp_s, 1.1);
+}
+
+/// The recording that comes with the project's reference data.
+fs::path Recording() {
+  const char* shared = std::getenv("PAS_SHARED_DIR");
+  const fs::path base = shared ? fs::path(shared) : fs::path(PAS_SOURCE_DIR) / "../shared";
+  return base / "data/tum_fr1_xyz_first37";
+}
+
+TEST(RealRecording, IsReadWholeThroughItsAssociations) {
+  if (!fs::exists(Recording())) GTEST_SKIP() << "no reference data; set PAS_SHARED_DIR";
+  SequenceReader reader(Recording(), TumCamera("tum1"));
+  EXPECT_EQ(reader.size(), 37);
+  EXPECT_TRUE(reader.warnings().text.empty());
+  const RecordedFrame frame = reader.Read(36);
+  EXPECT_EQ(frame.bgr.size(), cv::Size(640, 480));
+  double nearest = 0, farthest = 0;
+  cv::minMaxLoc(frame.depth_m, &nearest, &farthest, nullptr, nullptr, frame.depth_m > 0);
+  EXPECT_GT(nearest, 0.4);  // what a Kinect can measure
+  EXPECT_LT(farthest, 11.0);
+}
+
+}  // namespace
+}  // namespace slam
