@@ -55,8 +55,10 @@ Item MakeBookStack(int count, Random& random) {
     const Eigen::Vector2d room = below.size.head<2>() / 2 -
                                  TurnedHalf(size.head<2>(), turn_deg) -
                                  Eigen::Vector2d::Constant(1e-4);
-    const Eigen::Vector2d shift(random.Between(-1, 1) * std::max(room.x(), 0.0),
-                                random.Between(-1, 1) * std::max(room.y(), 0.0));
+    // Drawn in statements of their own: compilers differ in the order of arguments.
+    const double shift_y = random.Between(-1, 1) * std::max(room.y(), 0.0);
+    const double shift_x = random.Between(-1, 1) * std::max(room.x(), 0.0);
+    const Eigen::Vector2d shift(shift_x, shift_y);
     const SinCos below_yaw = SinCosDeg(stack.parts.back().rpy_deg.z());
     Part book =
         BoxPart("book", size,

@@ -7,6 +7,7 @@ namespace sim {
 
 /// Counter-based random numbers: draw i of a key depends on (key, i) alone, so results depend
 /// neither on the order of work nor on the number of threads. No libm, no std:: distribution.
+/// Draw at most once among the arguments of a call: their order is the compiler's choice.
 class Random {
  public:
   /// The key names the stream: seed, family, object ...

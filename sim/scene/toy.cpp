@@ -72,12 +72,18 @@ struct Bump {
   double reach;  ///< 1 - cosine of its radius
 };
 
+/// Drawn one by one: compilers differ in the order in which arguments are evaluated.
+Eigen::Vector3d InCube(double half, Random& random) {
+  Eigen::Vector3d point;
+  for (int i = 0; i < 3; ++i) point[i] = random.Between(-half, half);
+  return point;
+}
+
 /// Body, head, two ears, limbs: enough lumps that no large patch is flat.
 std::vector<Bump> Bumps(Random& random) {
   std::vector<Bump> bumps;
   const auto add = [&](double x, double y, double z, double height, double reach) {
-    const Eigen::Vector3d shake(random.Between(-.2, .2), random.Between(-.2, .2),
-                                random.Between(-.2, .2));
+    const Eigen::Vector3d shake = InCube(0.2, random);
     bumps.push_back({(Eigen::Vector3d(x, y, z) + shake).normalized(),
                      height * random.Between(0.8, 1.2), reach * random.Between(0.8, 1.2)});
   };
@@ -88,7 +94,8 @@ std::vector<Bump> Bumps(Random& random) {
     add(0.6 * side, -0.8, -0.5, 0.45, 0.18);
   }
   for (int i = 0; i < 8; ++i) {
-    add(random.Between(-1, 1), random.Between(-1, 1), random.Between(-.5, 1), 0.12, 0.12);
+    const Eigen::Vector3d at = InCube(1, random);
+    add(at.x(), at.y(), std::max(at.z(), -0.5), 0.12, 0.12);
   }
   return bumps;
 }
