@@ -2,10 +2,15 @@
 
 #include <Eigen/LU>
 #include <Eigen/SVD>
+#include <cmath>
 #include <stdexcept>
 
 namespace eval {
 namespace {
+
+/// Positions closer together than this share of their distance from the origin are one position
+/// and its round-off.
+constexpr double kMinSpreadRatio = 1e-13;
 
 Eigen::Vector3d MeanOf(const std::vector<Eigen::Vector3d>& points) {
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
@@ -25,11 +30,16 @@ std::optional<Alignment> AlignUmeyama(const std::vector<Eigen::Vector3d>& x_w,
   const double n = static_cast<double>(x_w.size());
   const Eigen::Vector3d mean_x = MeanOf(x_w), mean_y = MeanOf(y_g);
   Eigen::Matrix3d sigma = Eigen::Matrix3d::Zero();
-  double variance_x = 0.0;
+  double variance_x = 0.0, variance_y = 0.0;
   for (std::size_t i = 0; i < x_w.size(); ++i) {
     sigma += (y_g[i] - mean_y) * (x_w[i] - mean_x).transpose() / n;
     variance_x += (x_w[i] - mean_x).squaredNorm() / n;
+    variance_y += (y_g[i] - mean_y).squaredNorm() / n;
   }
+  const auto stands_still = [](double variance, const Eigen::Vector3d& mean) {
+    return !(std::sqrt(variance) > kMinSpreadRatio * mean.norm());
+  };
+  if (stands_still(variance_x, mean_x) || stands_still(variance_y, mean_y)) return std::nullopt;
   const Eigen::JacobiSVD<Eigen::Matrix3d> svd(sigma, Eigen::ComputeFullU | Eigen::ComputeFullV);
   const Eigen::Vector3d d = svd.singularValues();
   if (!(d[0] > 0.0) || !(d[1] >= kMinSingularRatio * d[0])) return std::nullopt;

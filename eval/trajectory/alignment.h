@@ -25,7 +25,8 @@ inline constexpr double kMinSingularRatio = 1e-10;
 ///   c = tr(D S) / var(x) with scale, else 1,  t = my - c R mx.
 /// Mirrored data give a proper rotation and a large residual.
 /// @param x_w, y_g  positions of equal count, metres
-/// @returns nothing ("not defined") for fewer than 3 points or collinear ones
+/// @returns nothing ("not defined") for fewer than 3 points, and where either list lies on a
+///          line or stands still to working precision
 std::optional<Alignment> AlignUmeyama(const std::vector<Eigen::Vector3d>& x_w,
                                       const std::vector<Eigen::Vector3d>& y_g,
                                       bool with_scale = false);

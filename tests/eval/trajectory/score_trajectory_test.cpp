@@ -1,0 +1,136 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "eval/read/sequence.h"
+#include "eval/trajectory/pairs.h"
+#include "eval/trajectory/score_trajectory.h"
+#include "tests/eval/shared_data.h"
+
+namespace eval {
+namespace {
+
+constexpr double kExact_m = 1e-12;  // a few metres, a few operations
+
+Trajectory Helix(int count, double fps) {
+  Trajectory poses;
+  for (int i = 0; i < count; ++i) {
+    const double a = 0.1 * i;
+    poses.push_back(
+        {i / fps, {Eigen::Matrix3d::Identity(), {std::cos(a), std::sin(a), 0.01 * i}}});
+  }
+  return poses;
+}
+
+std::vector<double> Stamps(const Trajectory& poses) {
+  std::vector<double> stamps_s;
+  for (const StampedPose& pose : poses) stamps_s.push_back(pose.stamp_s);
+  return stamps_s;
+}
+
+TEST(PairsByTime, PairsFramesOneSecondApartWhateverTheRate) {
+  for (const double fps : {10.0, 25.0, 30.0}) {
+    const std::vector<double> stamps_s = Stamps(Helix(100, fps));
+    const auto pairs = PairsByTime(stamps_s, 1.0, 0.5 / fps);
+    ASSERT_EQ(pairs.size(), std::size_t(100 - fps)) << fps;
+    for (const auto& [i, j] : pairs) EXPECT_EQ(j - i, std::size_t(fps));
+  }
+}
+
+TEST(PairsByTime, DoesNotBridgeAGapOfTheRun) {
+  std::vector<double> stamps_s = {0.0, 0.1, 0.2, 5.0, 5.1, 6.0};
+  const auto pairs = PairsByTime(stamps_s, 1.0, 0.05);
+  ASSERT_EQ(pairs.size(), 1u);
+  EXPECT_EQ(pairs[0], PosePair(3, 5));
+}
+
+TEST(MatchNearest, ReusesATruthAndTakesTheFirstOfEquallyNearOnes) {
+  const Trajectory truth = {{0.0, {}}, {0.01, {}}, {0.02, {}}, {0.03, {}}, {0.04, {}}};
+  const Trajectory burst = {{0.0101, {}}, {0.0102, {}}, {0.5, {}}};
+  const auto matches = MatchNearest(truth, burst);
+  ASSERT_EQ(matches.size(), 2u);
+  EXPECT_EQ(matches[0].truth, 1u);
+  EXPECT_EQ(matches[1].truth, 1u);
+  const auto tie = MatchNearest({{0.0, {}}, {0.25, {}}}, {{0.125, {}}}, 0.125);
+  ASSERT_EQ(tie.size(), 1u);
+  EXPECT_EQ(tie[0].truth, 0u);  // and the limit itself is kept
+}
+
+TEST(ScoreTrajectory, CountsEachLossButNotTheStartBeforeTheFirstPose) {
+  const Trajectory truth = Helix(20, 30.0);
+  Trajectory estimate(truth.begin() + 3, truth.end());
+  estimate.erase(estimate.begin() + 10, estimate.begin() + 12);
+  estimate.pop_back();
+  const TrajectoryScore score = ScoreTrajectory(estimate, truth, Stamps(truth), true);
+  EXPECT_EQ(score.frames, 20u);
+  EXPECT_EQ(score.tracked, 14u);
+  EXPECT_EQ(score.lost_events, 2u);
+}
+
+TEST(ScoreTrajectory, ChargesAMissingFrameTheDiameterOfTheTruePath) {
+  const Trajectory truth = Helix(64, 30.0);
+  Trajectory estimate = truth;
+  estimate.erase(estimate.begin() + 10);
+  const TrajectoryScore score = ScoreTrajectory(estimate, truth, Stamps(truth), true);
+  double diameter_m = 0.0;
+  for (const auto& a : truth) {
+    for (const auto& b : truth) {
+      diameter_m = std::max(diameter_m, (a.T_wc.t - b.T_wc.t).norm());
+    }
+  }
+  EXPECT_NEAR(score.ate_se3->rmse, 0.0, kExact_m);
+  EXPECT_NEAR(*score.ate_complete_rmse_m, diameter_m / std::sqrt(64.0), kExact_m);
+}
+
+TEST(ScoreTrajectory, SaysNotDefinedForACameraOnARail) {
+  Trajectory rail;
+  for (int i = 0; i < 40; ++i)
+    rail.push_back(
+        {i / 30.0, {Eigen::Matrix3d::Identity(), Eigen::Vector3d(0.1 * i, 0.2 * i, 0)}});
+  const TrajectoryScore score = ScoreTrajectory(rail, rail, Stamps(rail), true);
+  EXPECT_FALSE(score.ate_se3.has_value());
+  EXPECT_FALSE(score.ate_complete_rmse_m.has_value());
+  EXPECT_TRUE(score.ate_origin.has_value());
+  EXPECT_TRUE(score.gauge_by_origin);
+  EXPECT_TRUE(score.rpe_1s.has_value());
+}
+
+TEST(ScoreTrajectory, SaysNotDefinedForACameraOnATripod) {
+  const Trajectory moving = Helix(40, 30.0);
+  Trajectory tripod = moving;
+  for (StampedPose& pose : tripod) pose.T_wc.t = Eigen::Vector3d(0.1, 123.7, 0.3);
+  EXPECT_FALSE(ScoreTrajectory(moving, tripod, Stamps(tripod), true).ate_se3.has_value());
+  EXPECT_FALSE(ScoreTrajectory(tripod, tripod, Stamps(tripod), true).ate_se3.has_value());
+  EXPECT_FALSE(ScoreTrajectory(tripod, moving, Stamps(tripod), true).ate_se3.has_value());
+}
+
+TEST(ScoreTrajectory, ChargesEveryFrameOfARunThatNeverStarted) {
+  const Trajectory truth = Helix(64, 30.0);
+  const TrajectoryScore score = ScoreTrajectory({}, truth, Stamps(truth), true);
+  EXPECT_EQ(score.tracked, 0u);
+  EXPECT_FALSE(score.ate_se3 || score.ate_origin || score.gauge);
+  EXPECT_GT(*score.ate_complete_rmse_m, 2.0);
+}
+
+TEST(ScoreTrajectory, ScoresARecordingWhoseTruthHasItsOwnClock) {
+  const std::filesystem::path folder = testing::SharedFolder() / "data/tum_fr1_xyz_first37";
+  SKIP_WITHOUT(folder);
+  const Sequence sequence = ReadSequence(folder);
+  std::vector<double> stamps_s;
+  Trajectory estimate;
+  for (const SequenceFrame& frame : sequence.frames) stamps_s.push_back(frame.stamp_s);
+  const auto poses = TruePosesOfFrames(*sequence.groundtruth, stamps_s, false);
+  for (std::size_t i = 0; i < poses.size(); ++i) {
+    ASSERT_TRUE(poses[i].has_value());
+    estimate.push_back({stamps_s[i], *poses[i]});
+  }
+  const TrajectoryScore score =
+      ScoreTrajectory(estimate, *sequence.groundtruth, stamps_s, false);
+  EXPECT_EQ(score.tracked, 37u);
+  EXPECT_EQ(score.ate_se3->count, 37u);
+  EXPECT_NEAR(score.ate_se3->rmse, 0.0, kExact_m);
+  EXPECT_TRUE(score.rpe_1s.has_value());
+}
+
+}  // namespace
+}  // namespace eval
