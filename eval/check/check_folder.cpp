@@ -9,7 +9,7 @@
 namespace eval {
 
 CheckReport CheckFolder(const std::filesystem::path& folder) {
-  const FolderCheck check{folder, {}, {}};
+  const FolderCheck check{folder, {}, {}, {}};
   const auto has_any = [&](const std::vector<std::string>& files) {
     return std::any_of(files.begin(), files.end(),
                        [&](const std::string& file) { return check.Has(file); });

@@ -39,6 +39,7 @@ cv::Mat CheckImage(FolderCheck& check, const std::string& file, const ImageKind&
                                          std::istreambuf_iterator<char>());
   check.files.insert(file);
   if (!IsWholePng(bytes)) {
+    check.broken.insert(file);
     check.Add(file, 0, "is not a whole PNG file", "write the image again");
     return {};
   }
@@ -49,10 +50,12 @@ cv::Mat CheckImage(FolderCheck& check, const std::string& file, const ImageKind&
     image.release();
   }
   if (image.empty()) {
+    check.broken.insert(file);
     check.Add(file, 0, "cannot be decoded", "write the image again");
     return {};
   }
   if (image.depth() != kind.depth || image.channels() != kind.channels) {
+    check.broken.insert(file);
     check.Add(file, 0,
               fmt::format("is {}; expected {}", TypeName(image.depth(), image.channels()),
                           TypeName(kind.depth, kind.channels)),
@@ -60,6 +63,7 @@ cv::Mat CheckImage(FolderCheck& check, const std::string& file, const ImageKind&
     return {};
   }
   if (!kind.size.empty() && image.size() != kind.size) {
+    check.broken.insert(file);
     check.Add(file, 0,
               fmt::format("is {} x {}; expected {} x {}", image.cols, image.rows,
                           kind.size.width, kind.size.height),

@@ -100,7 +100,7 @@ std::vector<double> Stamps(const std::vector<CheckedPose>& poses) {
 }  // namespace
 
 CheckReport CheckRun(const std::filesystem::path& folder) {
-  FolderCheck check{folder, {}, {}};
+  FolderCheck check{folder, {}, {}, {}};
   const RunCounts counts = CheckRunJson(check);
 
   std::vector<CheckedPose> poses, keyframes;

@@ -28,7 +28,7 @@ void CheckPosesCoverFrames(FolderCheck& check, const SequenceTruth& truth) {
 }  // namespace
 
 CheckReport CheckSequence(const std::filesystem::path& folder) {
-  FolderCheck check{folder, {}, {}};
+  FolderCheck check{folder, {}, {}, {}};
   SequenceTruth truth;
   truth.rgb = CheckImageList(check, "rgb.txt");
   const std::vector<ListedImage> depth = CheckImageList(check, "depth.txt");

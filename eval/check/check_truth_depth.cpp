@@ -139,18 +139,14 @@ TruthDepthCheck::TruthDepthCheck(FolderCheck& check, const SequenceTruth& truth)
   for (const CheckedPose& pose : truth.poses) pose_stamps_.push_back(pose.stamp_s);
 }
 
-bool TruthDepthCheck::IsFaulty(const std::string& file) const {
-  return std::any_of(check_.faults.begin(), check_.faults.end(),
-                     [&](const Fault& fault) { return fault.file == file; });
-}
-
 void TruthDepthCheck::Frame(double stamp_s, const cv::Mat& plane_ids) {
   if (!truth_.camera || !truth_.scene || plane_ids.empty()) return;
   const auto pair = std::find_if(
       truth_.pairs.begin(), truth_.pairs.end(),
       [&](const ListedPair& p) { return std::abs(p.rgb.stamp_s - stamp_s) <= kSameInstant_s; });
   // A depth image of another instant shows another picture than the id image.
-  if (pair == truth_.pairs.end() || std::abs(pair->depth.stamp_s - stamp_s) > kSameInstant_s) {
+  if (pair == truth_.pairs.end() || check_.broken.count(pair->depth.file) != 0 ||
+      std::abs(pair->depth.stamp_s - stamp_s) > kSameInstant_s) {
     return;
   }
   const auto pose = NearestStamp(pose_stamps_, stamp_s, kSameInstant_s);

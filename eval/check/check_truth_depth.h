@@ -24,7 +24,6 @@ class TruthDepthCheck {
   void Finish();
 
  private:
-  bool IsFaulty(const std::string& file) const;  ///< reported before, so not worth decoding
   struct Verdict {
     std::string file;
     double error_m = 0;  ///< median |depth - z|

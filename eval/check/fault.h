@@ -27,6 +27,8 @@ struct FolderCheck {
   std::vector<Fault> faults;
   std::set<std::string> files;  ///< every file that was opened, relative to root
 
+  std::set<std::string> broken;  ///< images of them that are no use to later checks
+
   void Add(std::string file, int line, std::string what, std::string mend);
   /// True when the file exists; else a fault says that it is missing.
   bool Require(const std::string& file, const std::string& mend);

@@ -132,7 +132,7 @@ std::optional<cv::Mat> ErrorOverTime(const Run& run, const Sequence& sequence) {
   if (!sequence.groundtruth) return std::nullopt;
   const std::vector<Sample> samples = Errors(run, sequence);
   if (samples.size() < 2 || sequence.frames.size() < 2) return std::nullopt;
-  double largest = 1e-3;
+  double largest = 0.1;  // below, the curve would show round-off
   for (const Sample& sample : samples) largest = std::max(largest, sample.error_mm);
   const double step = RoundStep(largest, 6);
   const Axes axes{sequence.frames.front().stamp_s, sequence.frames.back().stamp_s,

@@ -146,7 +146,8 @@ class FramePainter {
     }
   }
 
-  // Where a label belongs: the pixel farthest from the boundary of the segment.
+  // Where a label belongs: the middle of the segment, or, when that is outside or close to the
+  // boundary, the pixel farthest from it.
   std::optional<cv::Point2d> Anchor(const RunFramePlane& plane) const {
     const cv::Mat mask = MaskOf(plane);
     if (!mask.empty()) {
@@ -156,6 +157,11 @@ class FramePainter {
       double furthest = 0;
       cv::Point at;
       cv::minMaxLoc(distance, nullptr, &furthest, nullptr, &at);
+      const cv::Moments sums = cv::moments(padded, true);
+      if (sums.m00 > 0) {
+        const cv::Point middle(cvRound(sums.m10 / sums.m00), cvRound(sums.m01 / sums.m00));
+        if (distance.at<float>(middle) > 0.6 * furthest) at = middle;
+      }
       if (furthest > 0) return cv::Point2d(at.x - 1, at.y - 1);
     }
     if (!scene_.camera) return std::nullopt;
@@ -175,7 +181,7 @@ class FramePainter {
   std::string ChipText(const RunFramePlane& plane) const {
     std::string text = IdentityOf(plane).text;
     if (plane.plane_class) text += (text.empty() ? "" : " ") + *plane.plane_class;
-    if (plane.bad) text += (text.empty() ? "" : " ") + std::string("bad: ") + *plane.bad;
+    if (plane.bad) text += (text.empty() ? "" : ": ") + *plane.bad;
     if (text.empty()) text = "no decision";
     return text;
   }

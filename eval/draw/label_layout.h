@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <opencv2/core/types.hpp>
 #include <optional>
 #include <vector>
@@ -17,6 +18,8 @@ class LabelLayout {
 
   /// A free place for a label centred near `at`, at most `reach` label heights away.
   std::optional<cv::Rect2d> Place(cv::Point2d at, cv::Size2d size, int reach = 4) {
+    // To eighths of a pixel, so that round-off does not tip a label over to the next pixel.
+    at = {std::round(at.x * 8) / 8, std::round(at.y * 8) / 8};
     for (int ring = 0; ring <= reach; ++ring) {
       for (int k = 0; k < (ring == 0 ? 1 : 8); ++k) {
         constexpr double kDirections[8][2] = {{0, 1}, {0, -1}, {1, 0},  {-1, 0},

@@ -96,9 +96,12 @@ MapScene CollectMap(const Run& run, const Sequence& sequence) {
     drawn.centre_v = Mean(drawn.vertices_v.size() >= 4 ? drawn.vertices_v : drawn.hull_v);
     scene.planes.push_back(std::move(drawn));
   }
-  std::stable_sort(scene.planes.begin(), scene.planes.end(), [](const auto& a, const auto& b) {
-    return a.centre_v.z() < b.centre_v.z();
-  });
+  // Planes of one height, up to round-off, keep the order of their ids in any world frame.
+  const auto height = [](const MapScene::Estimate& plane) {
+    return std::lround(plane.centre_v.z() * 1e4);
+  };
+  std::stable_sort(scene.planes.begin(), scene.planes.end(),
+                   [&](const auto& a, const auto& b) { return height(a) < height(b); });
   for (const StampedPose& pose : run.trajectory) {
     scene.run_path_v.push_back((gauge.T_vw * pose.T_wc).t);
   }

@@ -43,12 +43,19 @@ void PutTruth(cv::Mat& view, const MapScene& scene, const MapScale& scale) {
   }
 }
 
+void PutFaces(cv::Mat& view, const MapScene& scene, const MapScale& scale) {
+  for (const MapScene::Estimate& plane : scene.planes) {
+    if (plane.vertices_v.size() != 4) continue;
+    PutPath(view, scale.At(plane.vertices_v), true, Darker(ColourOfPlane(plane.id), 0.75), 3);
+  }
+}
+
 void PutVertices(cv::Mat& view, const MapScene& scene, const MapScale& scale) {
   for (const MapScene::Estimate& plane : scene.planes) {
     const Colour dark = Darker(ColourOfPlane(plane.id), 0.55);
-    const std::vector<cv::Point2d> corners = scale.At(plane.vertices_v);
-    if (corners.size() == 4) PutPath(view, corners, true, dark, 2);
-    for (const cv::Point2d& corner : corners) PutRingedDot(view, corner, 4.4, kWhite, dark);
+    for (const cv::Point2d& corner : scale.At(plane.vertices_v)) {
+      PutRingedDot(view, corner, 4.4, kWhite, dark);
+    }
   }
 }
 
@@ -105,7 +112,8 @@ void PutEntry(cv::Mat& page, cv::Point2d& at, const std::string& text, Draw draw
 }
 
 void PutLegend(cv::Mat& page, const MapScene& scene, cv::Point2d at) {
-  const Colour sample = ColourOfPlane(3), dark = Darker(sample, 0.55);
+  const Colour sample = ColourOfPlane(3), dark = Darker(sample, 0.55),
+               face = Darker(sample, 0.75);
   const cv::Point2d right(36, 0);
   PutEntry(page, at, "estimated plane, colour by id", [&](cv::Point2d p) {
     const std::vector<cv::Point2d> box{p + cv::Point2d(0, -7), p + cv::Point2d(36, -7),
@@ -114,7 +122,7 @@ void PutLegend(cv::Mat& page, const MapScene& scene, cv::Point2d at) {
     PutPath(page, box, true, Darker(sample, 0.8));
   });
   PutEntry(page, at, "its face from four vertices", [&](cv::Point2d p) {
-    PutLine(page, p, p + right, dark, 2);
+    PutLine(page, p, p + right, face, 3);
     PutRingedDot(page, p, 4.4, kWhite, dark);
     PutRingedDot(page, p + right, 4.4, kWhite, dark);
   });
@@ -160,6 +168,7 @@ cv::Mat DrawMap(const MapScene& scene, const std::string& title) {
   MapScale inner = scale;
   inner.page.x = inner.page.y = 0;
   PutPlanes(view, scene, inner);
+  PutFaces(view, scene, inner);
   PutTruth(view, scene, inner);
   PutVertices(view, scene, inner);
   PutPaths(view, scene, inner);
