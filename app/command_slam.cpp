@@ -1,7 +1,87 @@
+#include <fmt/core.h>
+
 #include "app/app.h"
+#include "app/console.h"
+#include "slam/config/config_file.h"
+#include "slam/track/run_sequence.h"
+#include "version.h"
 
 namespace app {
+namespace {
 
-void AddSlamCommand(CLI::App& pas, const Globals&, int&) { pas.add_subcommand("slam", ""); }
+struct SlamArguments {
+  slam::RunOptions options;
+  std::string variant = "full";
+  std::string config_file;
+  bool print_config = false;
+};
+
+int RunSlam(SlamArguments& arguments, bool quiet) {
+  slam::RunOptions& options = arguments.options;
+  options.variant = slam::VariantOf(arguments.variant);
+  if (!arguments.config_file.empty()) options.config = slam::ReadConfig(arguments.config_file);
+  options.version = PAS_VERSION;
+  std::unique_ptr<Progress> progress;
+  options.progress = [&](int done, int total) {
+    if (!progress) progress = std::make_unique<Progress>("slam", total, quiet);
+    progress->Update(done);
+  };
+
+  const slam::RunOutcome outcome = slam::RunSequence(options);
+  progress.reset();
+  for (const std::string& warning : outcome.warnings) {
+    fmt::print(stderr, "pas: warning: {}\n", warning);
+  }
+  if (!quiet) {
+    fmt::print("{}: {} of {} frames tracked, {} keyframes, {} map planes, {:.1f} frames/s\n",
+               options.run.string(), outcome.tracked, outcome.frames, outcome.keyframes,
+               outcome.map_planes, outcome.frames / outcome.wall_time_s);
+  }
+  if (outcome.tracked == 0) {
+    fmt::print(stderr,
+               "pas: tracking never started: no frame of {} has enough features with depth\n",
+               options.sequence.string());
+    return kFailure;
+  }
+  return kDone;
+}
+
+}  // namespace
+
+void AddSlamCommand(CLI::App& pas, const Globals& globals, int& exit_code) {
+  CLI::App* command =
+      pas.add_subcommand("slam", "Track the camera and map the planes of a sequence");
+  auto arguments = std::make_shared<SlamArguments>();
+  slam::RunOptions& options = arguments->options;
+  command
+      ->add_option("sequence", options.sequence, "Sequence folder (SEQ, or a TUM RGB-D folder)")
+      ->required();
+  command->add_option("-o,--output", options.run, "Run folder to write")->required();
+  command
+      ->add_option("--variant", arguments->variant,
+                   "full | no-association (planes by parameters alone) | "
+                   "no-processing-no-association | points (no planes)")
+      ->capture_default_str();
+  command->add_option(
+      "--detector", options.detector,
+      "replay (SEQ/detections.jsonl) | none; default: replay if the file is there");
+  command->add_option("--camera", options.camera,
+                      "tum1 | tum2 | tum3 | a camera.yaml; default: SEQ/camera.yaml");
+  command->add_option(
+      "--config", arguments->config_file,
+      "Settings over the defaults, YAML; see --print-config of pas slam-config");
+  command->add_option("--seed", options.seed, "Seed of every random choice of the estimator")
+      ->capture_default_str();
+  command
+      ->add_option("--threads", options.threads,
+                   "Threads; 0 = one a core. Changes the speed, never a result")
+      ->check(CLI::Range(0, 256))
+      ->capture_default_str();
+  command->add_flag("--save-segmentation", options.save_segmentation,
+                    "Also write the label image of every frame");
+  command->add_flag("--force", options.force, "Replace an existing run folder");
+  command->callback(
+      [arguments, &globals, &exit_code] { exit_code = RunSlam(*arguments, globals.quiet); });
+}
 
 }  // namespace app

@@ -49,7 +49,7 @@ struct FramePlane {
   Eigen::Vector3d centroid_c = Eigen::Vector3d::Zero();
   int pixel_count = 0;
   double area_m2 = 0.0;          ///< of the visible patch
-  double inlier_ratio = 0.0;     ///< after the re-fit, [0, 1]
+  double inlier_ratio = 1.0;      ///< after the re-fit, [0, 1]; 1 before
   double offset_sigma_m = 0.0;   ///< standard deviation of the offset at the centroid
   double angle_sigma_rad = 0.0;  ///< standard deviation of the normal, worse of two directions
 

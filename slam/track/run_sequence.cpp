@@ -1,0 +1,108 @@
+#include "slam/track/run_sequence.h"
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <opencv2/core/utility.hpp>
+#include <thread>
+#include <utility>
+
+#include "slam/base/require.h"
+#include "slam/config/config_file.h"
+#include "slam/input/camera_reader.h"
+#include "slam/input/sequence_reader.h"
+#include "slam/write/run_writer.h"
+
+namespace slam {
+namespace {
+
+constexpr std::array<std::pair<Variant, const char*>, 4> kVariants = {
+    {{Variant::kFull, "full"},
+     {Variant::kNoAssociation, "no-association"},
+     {Variant::kNoProcessingNoAssociation, "no-processing-no-association"},
+     {Variant::kPoints, "points"}}};
+
+std::string DetectorChoice(const RunOptions& options) {
+  if (options.variant == Variant::kPoints) return "none";  // boxes serve planes alone
+  if (!options.detector.empty()) return options.detector;
+  return std::filesystem::exists(options.sequence / "detections.jsonl") ? "replay" : "none";
+}
+
+RunInfo Describe(const RunOptions& options, const std::string& detector) {
+  RunInfo info;
+  info.sequence = options.sequence;
+  info.variant = VariantName(options.variant);
+  info.association = options.variant == Variant::kPoints ? "none"
+                     : options.variant == Variant::kFull ? "integrated"
+                                                         : "parameters";
+  info.detector = detector;
+  info.seed = options.seed;
+  info.version = options.version;
+  info.options = ConfigAsJson(options.config);
+  return info;
+}
+
+Frame FrameOf(const RecordedFrame& recorded) {
+  Frame frame;
+  frame.index = recorded.index;
+  frame.timestamp_s = recorded.timestamp_s;
+  frame.gray = recorded.gray;
+  frame.depth_m = recorded.depth_m;
+  return frame;
+}
+
+}  // namespace
+
+const char* VariantName(Variant variant) {
+  return std::find_if(kVariants.begin(), kVariants.end(),
+                      [&](const auto& entry) { return entry.first == variant; })
+      ->second;
+}
+
+Variant VariantOf(const std::string& name) {
+  std::string known;
+  for (const auto& [variant, text] : kVariants) {
+    if (name == text) return variant;
+    known += (known.empty() ? "" : ", ") + std::string(text);
+  }
+  throw InputError("--variant " + name, "unknown variant; expected one of " + known);
+}
+
+RunOutcome RunSequence(const RunOptions& options) {
+  const auto start = std::chrono::steady_clock::now();
+  // Its own threads would only compete with ours.
+  cv::setNumThreads(1);
+  const int cores = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+  const int threads = options.threads > 0 ? options.threads : cores;
+
+  const Camera camera = ChooseCamera(options.camera, options.sequence);
+  SequenceReader reader(options.sequence, camera, {.prefetch = threads > 1});
+  const std::string detector = DetectorChoice(options);
+  Tracker tracker(camera, options.config, options.variant,
+                  MakeDetector(detector, options.sequence, camera, options.config.classes),
+                  options.seed, threads);
+  RunWriter writer(options.run, Describe(options, detector),
+                   {.force = options.force, .save_segmentation = options.save_segmentation});
+
+  RunOutcome outcome;
+  for (int i = 0; i < reader.size(); ++i) {
+    const RecordedFrame recorded = reader.Read(i);
+    Frame frame = FrameOf(recorded);
+    const TrackReport report = tracker.TrackFrame(frame, recorded.bgr);
+    writer.WriteFrame({frame, report.tracked, report.times});
+    outcome.tracked += report.tracked ? 1 : 0;
+    if (options.progress) options.progress(i + 1, reader.size());
+  }
+  writer.Finish(tracker.map());
+
+  outcome.frames = reader.size();
+  for (const Keyframe& keyframe : tracker.map().keyframes)
+    outcome.keyframes += !keyframe.culled;
+  for (const MapPlane& plane : tracker.map().planes) outcome.map_planes += !plane.merged_into;
+  outcome.warnings = reader.warnings().text;
+  outcome.wall_time_s =
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  return outcome;
+}
+
+}  // namespace slam

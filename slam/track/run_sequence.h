@@ -1,0 +1,47 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "slam/config/config.h"
+#include "slam/track/tracker.h"
+
+namespace slam {
+
+/// One run of the system over a recorded sequence.
+struct RunOptions {
+  std::filesystem::path sequence;
+  std::filesystem::path run;  ///< folder to write
+  Variant variant = Variant::kFull;
+  std::string detector;  ///< "replay", "none"; empty: replay when the sequence has boxes
+  std::string camera;    ///< tum1, tum2, tum3, a file; empty: the sequence's camera.yaml
+  Config config;
+  std::uint64_t seed = 0;  ///< of every random choice of the estimator
+  int threads = 0;         ///< 0: one a core; never changes a byte of the result
+  bool save_segmentation = false;
+  bool force = false;                                 ///< replace an older run
+  std::string version;                                ///< of the program, for run.json
+  std::function<void(int done, int total)> progress;  ///< may be empty
+};
+
+struct RunOutcome {
+  int frames = 0, tracked = 0;
+  int keyframes = 0, map_planes = 0;
+  double wall_time_s = 0.0;
+  std::vector<std::string> warnings;  ///< what the sequence gave that was not used
+};
+
+/// "full", "no-association", ...
+const char* VariantName(Variant variant);
+/// @throws InputError listing the variants.
+Variant VariantOf(const std::string& name);
+
+/// Runs PAS-SLAM over the sequence and writes the run folder (formats.md), whole or not at all.
+/// Truth is never read. The same options give the same bytes, apart from the times.
+/// @throws InputError for bad input.
+RunOutcome RunSequence(const RunOptions& options);
+
+}  // namespace slam

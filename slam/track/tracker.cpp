@@ -1,0 +1,121 @@
+#include "slam/track/tracker.h"
+
+#include <algorithm>
+#include <future>
+#include <utility>
+
+#include "slam/associate/plane_constraints.h"
+#include "slam/associate/plane_plane.h"
+#include "slam/extract/plane_segments.h"
+#include "slam/extract/point_features.h"
+#include "slam/mapping/local_mapping.h"
+#include "slam/mapping/plane_fuse.h"
+#include "slam/mapping/plane_update.h"
+#include "slam/planes/process_planes.h"
+#include "slam/track/stopwatch.h"
+
+namespace slam {
+namespace {
+
+Config ForVariant(Config config, Variant variant, std::uint64_t seed) {
+  ShareFacts(config);
+  config.plane_processing.seed += seed;
+  config.association.rule =
+      variant == Variant::kFull ? AssociationRule::kIntegrated : AssociationRule::kParameters;
+  return config;
+}
+
+}  // namespace
+
+Tracker::Tracker(const Camera& camera, const Config& config, Variant variant,
+                 std::unique_ptr<Detector> detector, std::uint64_t seed, int threads)
+    : camera_(camera),
+      config_(ForVariant(config, variant, seed)),
+      variant_(variant),
+      detector_(detector ? std::move(detector) : std::make_unique<NoDetector>()),
+      threads_(threads),
+      rays_(uses_planes() ? PixelRays(camera) : cv::Mat2d()),
+      box_tracks_(config.box_tracks, camera.ImageBox()),
+      points_(camera, config_.tracking) {}
+
+void Tracker::ExtractInformation(Frame& frame, const cv::Mat3b& bgr, ModuleTimes& times) {
+  // Planes and boxes on one side, points on the other: neither writes what the other reads.
+  const auto extract_planes_and_boxes = [&] {
+    if (!uses_planes()) return;
+    {
+      const Stopwatch watch(times[Module::kOd]);
+      frame.detections = detector_->Detect(frame.timestamp_s, bgr);
+    }
+    {
+      const Stopwatch watch(times[Module::kMdc]);
+      frame.detections = box_tracks_.Update(frame.timestamp_s, frame.detections);
+    }
+    const Stopwatch watch(times[Module::kEpi]);
+    ExtractPlanes(frame, camera_, rays_, config_.plane_extraction);
+  };
+  std::future<void> beside;
+  if (threads_ > 1) {
+    beside = std::async(std::launch::async, extract_planes_and_boxes);
+  } else {
+    extract_planes_and_boxes();
+  }
+  {
+    const Stopwatch watch(times[Module::kOrb]);
+    frame.features =
+        ExtractPointFeatures(frame.gray, frame.depth_m, camera_, config_.point_features);
+  }
+  if (beside.valid()) beside.get();
+  frame.map_points.assign(frame.features.size(), kNone);
+}
+
+void Tracker::ProcessFramePlanes(Frame& frame) {
+  if (variant_ != Variant::kNoProcessingNoAssociation) {
+    ProcessPlanes(frame, camera_, config_.plane_processing);
+  }
+  frame.plane_matches.assign(frame.planes.size(), {});
+}
+
+bool Tracker::TrackByPoints(Frame& frame, TrackReport& report) {
+  const Stopwatch watch(report.times[Module::kDa]);
+  report.points = points_.TrackPoints(frame, map_);
+  return report.points.state == TrackState::kTracking;
+}
+
+void Tracker::AssociateFramePlanes(Frame& frame) {
+  AssociatePlanes(frame, map_, camera_, config_.association);
+}
+
+void Tracker::OptimiseWithPlanes(Frame& frame, TrackReport& report) {
+  const FramePoints points = PointConstraints(frame, map_, config_.tracking.projection.scales);
+  PoseProblem problem;
+  problem.T_cw = frame.T_cw;
+  problem.points = points.constraints;
+  AddPlaneConstraints(frame, map_, camera_, problem, config_.plane_constraints);
+  report.plane_constraints = static_cast<int>(problem.planes.size());
+  if (problem.planes.empty()) return;  // the points alone were optimised before
+
+  const PoseSummary summary = OptimisePose(problem, camera_, config_.tracking.pose);
+  if (!summary.usable) return;
+  frame.T_cw = summary.T_cw;
+  DropOutliers(frame, points, summary.point_inliers);
+}
+
+void Tracker::UpdateMap(Frame& frame, TrackReport& report) {
+  if (uses_planes()) {
+    const Stopwatch watch(report.times[Module::kUpm]);
+    UpdatePlanes(frame, map_, camera_, config_.plane_map);
+  }
+  report.keyframe = points_.NeedKeyframe(frame, map_);
+  if (report.keyframe) {
+    const int keyframe = InsertKeyframe(frame, map_, camera_, config_.mapping.keyframes);
+    MapLocally(map_, keyframe, camera_, config_.mapping);
+    frame.T_cw = KeyframePose(map_, keyframe);
+    if (uses_planes()) {
+      const Stopwatch watch(report.times[Module::kUpm]);
+      FusePlanes(map_, config_.plane_map);
+    }
+  }
+  points_.Accept(frame, map_);
+}
+
+}  // namespace slam

@@ -1,0 +1,90 @@
+#include "tests/support/pipeline.h"
+
+#include <unistd.h>
+
+#include <atomic>
+#include <fstream>
+#include <sstream>
+
+#include "eval/read/run.h"
+#include "eval/read/sequence.h"
+#include "eval/report/evaluate.h"
+#include "eval/report/metrics_json.h"
+#include "sim/scene/scene_file.h"
+
+namespace pipeline {
+namespace fs = std::filesystem;
+
+TemporaryFolder::TemporaryFolder(const std::string& name) {
+  static std::atomic<int> count{0};
+  path_ = fs::temp_directory_path() /
+          ("pas-" + name + "-" + std::to_string(getpid()) + "-" + std::to_string(++count));
+  fs::remove_all(path_);
+  fs::create_directories(path_);
+}
+
+TemporaryFolder::~TemporaryFolder() {
+  std::error_code ignored;
+  fs::remove_all(path_, ignored);
+}
+
+void Record(const sim::Scene& scene, const Recording& recording, const fs::path& folder) {
+  sim::SequenceOptions options;
+  options.rig.camera = sim::Resize(sim::Camera{}, recording.width, recording.height);
+  options.rig.sensor = recording.sensor;
+  options.rig.detector = recording.detector;
+  options.rig.seed = recording.seed;
+  options.frames = recording.frames;
+  options.threads = recording.threads;
+  options.version = "test";
+  sim::WriteSequence(scene, options, folder);
+}
+
+slam::RunOutcome Run(const fs::path& sequence, const fs::path& run, slam::Variant variant,
+                     int threads) {
+  slam::RunOptions options;
+  options.sequence = sequence;
+  options.run = run;
+  options.variant = variant;
+  options.threads = threads;
+  options.save_segmentation = true;
+  options.version = "test";
+  return slam::RunSequence(options);
+}
+
+nlohmann::json Score(const fs::path& run, const fs::path& sequence) {
+  const eval::Evaluation evaluation =
+      eval::Evaluate(eval::ReadRun(run), eval::ReadSequence(sequence));
+  return nlohmann::json::parse(eval::MetricsText(evaluation));
+}
+
+std::string Replay(const sim::Scene& scene, const Recording& recording,
+                   const fs::path& scene_file) {
+  fs::create_directories(scene_file.parent_path());
+  sim::WriteScene(scene, scene_file);
+  const bool ideal = recording.sensor == sim::SensorKind::kIdeal;
+  const char* detector = recording.detector == sim::DetectorKind::kPerfect ? "perfect"
+                         : recording.detector == sim::DetectorKind::kNoisy ? "noisy"
+                                                                           : "none";
+  std::ostringstream text;
+  text << "repeat with: pas sim " << scene_file.string() << " -o seq --frames "
+       << recording.frames << " --width " << recording.width << " --height " << recording.height
+       << " --sensor " << (ideal ? "ideal" : "kinect1") << " --detector " << detector
+       << " --seed " << recording.seed
+       << " && pas slam seq -o run --save-segmentation && pas eval run";
+  return text.str();
+}
+
+std::map<std::string, std::string> Contents(const fs::path& folder) {
+  std::map<std::string, std::string> contents;
+  for (const fs::directory_entry& entry : fs::recursive_directory_iterator(folder)) {
+    if (!entry.is_regular_file()) continue;
+    std::ifstream in(entry.path(), std::ios::binary);
+    std::ostringstream bytes;
+    bytes << in.rdbuf();
+    contents[fs::relative(entry.path(), folder).string()] = bytes.str();
+  }
+  return contents;
+}
+
+}  // namespace pipeline

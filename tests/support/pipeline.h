@@ -1,0 +1,55 @@
+#pragma once
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "sim/write/write_sequence.h"
+#include "slam/track/run_sequence.h"
+
+/// The whole way in one process: scene -> sequence -> run -> metrics.
+namespace pipeline {
+
+/// A folder of its own below the system's temporary folder, gone with the object.
+class TemporaryFolder {
+ public:
+  explicit TemporaryFolder(const std::string& name);
+  ~TemporaryFolder();
+  TemporaryFolder(const TemporaryFolder&) = delete;
+  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+  std::filesystem::path operator/(const std::string& name) const { return path_ / name; }
+  const std::filesystem::path& path() const { return path_; }
+
+ private:
+  std::filesystem::path path_;
+};
+
+/// What is simulated.
+struct Recording {
+  int frames = 60;
+  int width = 320, height = 240;
+  sim::SensorKind sensor = sim::SensorKind::kKinect1;
+  sim::DetectorKind detector = sim::DetectorKind::kNoisy;
+  std::uint64_t seed = 1;
+  int threads = 2;
+};
+
+/// Writes the sequence of a scene to `folder`.
+void Record(const sim::Scene& scene, const Recording& recording,
+            const std::filesystem::path& folder);
+
+/// Runs the system on a sequence; the segmentation is saved.
+slam::RunOutcome Run(const std::filesystem::path& sequence, const std::filesystem::path& run,
+                     slam::Variant variant = slam::Variant::kFull, int threads = 2);
+
+/// metrics.json of a run against its sequence.
+nlohmann::json Score(const std::filesystem::path& run, const std::filesystem::path& sequence);
+
+/// The commands by which a person repeats a case: the scene is written to `scene_file`.
+std::string Replay(const sim::Scene& scene, const Recording& recording,
+                   const std::filesystem::path& scene_file);
+
+/// Every file below `folder`, by relative path, with its bytes.
+std::map<std::string, std::string> Contents(const std::filesystem::path& folder);
+
+}  // namespace pipeline
