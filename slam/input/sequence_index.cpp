@@ -99,9 +99,18 @@ std::vector<Stamped> ReadList(const std::filesystem::path& file) {
   return images;
 }
 
+/// One more of a kind: "3 frames left out: timestamp repeated, first at rgb.txt:12".
 void Count(int& count, const std::string& what, const std::string& source,
            SequenceWarnings& warnings) {
-  if (count++ == 0) warnings.text.push_back(what + ", first at " + source);
+  const std::string rest = what + ", first at ";
+  ++count;
+  for (std::string& line : warnings.text) {
+    const std::size_t at = line.find(rest);
+    if (at == std::string::npos) continue;
+    line = std::to_string(count).append(" ").append(line.substr(at));
+    return;
+  }
+  warnings.text.push_back("1 " + rest + source);
 }
 
 /// Positions of a longest strictly increasing subsequence of `t`; of several the one that is

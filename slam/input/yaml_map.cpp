@@ -10,7 +10,6 @@ namespace slam {
 namespace {
 
 constexpr std::uintmax_t kMaxFileBytes = 1 << 20;
-constexpr int kMaxDepth = 16;  // yaml-cpp recurses; a file of brackets must not end the program
 
 /// The whole of `text` as a finite number.
 bool ParseNumber(std::string_view text, double& value) {
@@ -33,31 +32,6 @@ std::string Joined(const std::vector<std::string>& words) {
   std::string text;
   for (const std::string& word : words) text += (text.empty() ? "" : ", ") + word;
   return text;
-}
-
-/// Deepest nesting of brackets or indentation that the text can have; an upper bound is enough.
-int NestingBound(const std::string& text) {
-  int depth = 0, deepest = 0, levels = 0;
-  std::vector<std::size_t> indents;
-  std::size_t column = 0;
-  bool at_start = true;
-  for (const char c : text) {
-    if (c == '\n') {
-      column = 0, at_start = true;
-      continue;
-    }
-    if (at_start && c != ' ' && c != '-' && c != '?') {
-      while (!indents.empty() && indents.back() >= column) indents.pop_back();
-      indents.push_back(column);
-      levels = std::max(levels, static_cast<int>(indents.size()));
-      at_start = false;
-    }
-    if (at_start && c != ' ') levels = std::max(levels, static_cast<int>(column) / 2 + 1);
-    if (c == '[' || c == '{') deepest = std::max(deepest, ++depth);
-    if (c == ']' || c == '}') --depth;
-    ++column;
-  }
-  return deepest + levels;
 }
 
 }  // namespace
@@ -88,8 +62,6 @@ YamlMap YamlMap::Load(const std::filesystem::path& file) {
   std::stringstream text;
   text << stream.rdbuf();
   if (!stream) throw InputError(file.string(), "cannot be read; check its permissions");
-  if (NestingBound(text.str()) > kMaxDepth)
-    throw InputError(file.string(), "nested too deeply: expected `key: value` lines");
   try {
     return {YAML::Load(text.str()), file.string(), ""};
   } catch (const YAML::Exception& e) {

@@ -97,7 +97,10 @@ TEST_F(CameraReader, RefusesADistortionThatCannotBeInverted) {
 TEST_F(CameraReader, RefusesTextThatIsNotYaml) {
   ExpectError("width: [320\n", "camera.yaml:[0-9]+: not YAML");
   ExpectError("- 1\n- 2\n", "the file must be `key: value` lines");
-  ExpectError(std::string(5000, '['), "nested too deeply");
+  ExpectError(std::string(1000000, '['), "not YAML");  // yaml-cpp bounds its own recursion
+  std::string stairs;
+  for (std::size_t depth = 0; depth < 1000; ++depth) stairs += std::string(depth, ' ') + "a:\n";
+  ExpectError(stairs, "not YAML");
   ExpectError(std::string(2 << 20, ' '), "larger than 1 MiB");
   EXPECT_THAT([&] { ReadCamera(folder_ / "none.yaml"); },
               ThrowsMessage<InputError>(ContainsRegex("none.yaml: no such file")));
