@@ -15,6 +15,7 @@ namespace {
 const Colour kBadTint{150, 150, 150};
 const Colour kChip{28, 24, 22};
 constexpr double kChipText_px = 9;
+constexpr double kSmallShare = 0.006;  // of the image: a bad plane below it gets a dot alone
 
 std::vector<cv::Point2d> Scaled(std::vector<cv::Point2d> points, double zoom) {
   // Pixel centres are whole in both images, so the corner at -0.5 stays where it is.
@@ -180,6 +181,9 @@ class FramePainter {
 
   std::string ChipText(const RunFramePlane& plane) const {
     std::string text = IdentityOf(plane).text;
+    // What a bad plane was linked to tells less than why it is bad, and the chips of a toy are
+    // many.
+    if (plane.bad && !plane.map_plane) return *plane.bad;
     if (plane.plane_class) text += (text.empty() ? "" : " ") + *plane.plane_class;
     if (plane.bad) text += (text.empty() ? "" : ": ") + *plane.bad;
     if (text.empty()) text = "no decision";
@@ -189,6 +193,10 @@ class FramePainter {
   void PaintChip(const RunFramePlane& plane, LabelLayout& layout) {
     const auto anchor = Anchor(plane);
     if (!anchor) return;
+    if (plane.bad && plane.pixels < kSmallShare * scene_.rgb.cols * scene_.rgb.rows) {
+      PutRingedDot(image_, *anchor, 5.5, MarkOf(plane), kChip);
+      return;
+    }
     const TextStyle style{kChipText_px, kWhite, false, Align::kLeft};
     const std::string text = ChipText(plane);
     const double height = kChipText_px + 9;

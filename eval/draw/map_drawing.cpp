@@ -11,6 +11,7 @@ namespace {
 
 constexpr double kStandsOn_m = 0.4;
 constexpr double kSameHeight_m = 0.05;
+constexpr double kAround_m = 0.1;
 constexpr double kRarelySeen = 0.03;  // of the most seen plane's observations
 
 std::vector<Eigen::Vector3d> Moved(const Pose& T_vw,
@@ -52,7 +53,24 @@ struct Bounds {
   }
 };
 
+// The base plane and what stands on and around it: floor and walls go on beyond the page.
+Bounds BoundsRoundBase(const MapScene& scene, const MapScene::Estimate& base) {
+  Bounds bounds;
+  bounds.Add(base.hull_v);
+  bounds.Add(base.vertices_v);
+  const double x0 = bounds.x0 - kAround_m, x1 = bounds.x1 + kAround_m;
+  const double y0 = bounds.y0 - kAround_m, y1 = bounds.y1 + kAround_m;
+  bounds = {x0, y0, x1, y1};
+  bounds.Add(scene.run_path_v);
+  bounds.Add(scene.truth_path_v);
+  return bounds;
+}
+
 Bounds BoundsOf(const MapScene& scene) {
+  const auto base = BasePlane(scene);
+  if (base && !scene.planes[*base].hull_v.empty()) {
+    return BoundsRoundBase(scene, scene.planes[*base]);
+  }
   Bounds bounds;
   int most = 0;
   for (const auto& plane : scene.planes) most = std::max(most, plane.observations);

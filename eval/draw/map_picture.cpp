@@ -69,6 +69,18 @@ void PutPaths(cv::Mat& view, const MapScene& scene, const MapScale& scale) {
   PutDot(view, run.back(), 4, kRunPath);
 }
 
+// Of the upright box around an outline, pixels.
+double LongestSide(const std::vector<cv::Point2d>& outline) {
+  double low_x = 1e9, low_y = 1e9, high_x = -1e9, high_y = -1e9;
+  for (const cv::Point2d& p : outline) {
+    low_x = std::min(low_x, p.x), high_x = std::max(high_x, p.x);
+    low_y = std::min(low_y, p.y), high_y = std::max(high_y, p.y);
+  }
+  return std::max(high_x - low_x, high_y - low_y);
+}
+
+// Small planes and steep ones that are mere lines stay without a label where they would hide
+// others.
 void PutLabels(cv::Mat& view, const MapScene& scene, const MapScale& scale) {
   LabelLayout layout(cv::Rect2d(4, 4, view.cols - 8.0, view.rows - 8.0));
   for (auto plane = scene.planes.rbegin(); plane != scene.planes.rend(); ++plane) {
@@ -76,6 +88,7 @@ void PutLabels(cv::Mat& view, const MapScene& scene, const MapScale& scale) {
     const cv::Point2d at = scale.At(plane->centre_v);
     if (at.x < 0 || at.y < 0 || at.x > view.cols || at.y > view.rows) continue;
     const bool level = std::abs(plane->pi_v.n.z()) > 0.5;
+    if (LongestSide(scale.At(plane->hull_v)) < (level ? 14 : 60)) continue;
     const TextStyle style{level ? 9.5 : 8.0, kInkColour, level, Align::kCentre};
     const std::string text = level && !plane->class_name.empty()
                                  ? fmt::format("{} {}", plane->id, plane->class_name)
