@@ -5,57 +5,80 @@
 namespace eval {
 namespace {
 
-/// Shortest augmenting paths with potentials; rows <= columns, least cost.
-std::vector<int> AssignMinCost(const Eigen::MatrixXd& cost) {
-  const int rows = static_cast<int>(cost.rows()), cols = static_cast<int>(cost.cols());
-  constexpr double kInfinity = std::numeric_limits<double>::infinity();
-  using Index = std::size_t;
-  std::vector<double> u(Index(rows) + 1, 0.0), v(Index(cols) + 1, 0.0);
-  std::vector<int> row_of(cols + 1, 0), way(cols + 1, 0);  // 1-based; 0 means free
-  for (int row = 1; row <= rows; ++row) {
-    row_of[0] = row;
-    int col = 0;
-    std::vector<double> least(cols + 1, kInfinity);
-    std::vector<bool> used(cols + 1, false);
+/// Shortest augmenting paths with potentials; rows <= columns, least cost. Rows and columns
+/// count from 1, so that 0 can mean "free".
+class LeastCost {
+ public:
+  explicit LeastCost(const Eigen::MatrixXd& cost)
+      : cost_(cost),
+        rows_(static_cast<std::size_t>(cost.rows())),
+        cols_(static_cast<std::size_t>(cost.cols())),
+        u_(rows_ + 1, 0.0),
+        v_(cols_ + 1, 0.0),
+        row_of_(cols_ + 1, 0),
+        way_(cols_ + 1, 0) {}
+
+  std::vector<int> Solve() {
+    for (std::size_t row = 1; row <= rows_; ++row) Augment(row);
+    std::vector<int> col_of(rows_, -1);
+    for (std::size_t j = 1; j <= cols_; ++j) {
+      if (row_of_[j] > 0) col_of[row_of_[j] - 1] = static_cast<int>(j) - 1;
+    }
+    return col_of;
+  }
+
+ private:
+  double Reduced(std::size_t row, std::size_t col) const {
+    return cost_(static_cast<Eigen::Index>(row) - 1, static_cast<Eigen::Index>(col) - 1) -
+           u_[row] - v_[col];
+  }
+
+  /// Finds a column for `row`, moving earlier rows along the cheapest path.
+  void Augment(std::size_t row) {
+    constexpr double kInfinity = std::numeric_limits<double>::infinity();
+    std::vector<double> least(cols_ + 1, kInfinity);
+    std::vector<bool> used(cols_ + 1, false);
+    row_of_[0] = row;
+    std::size_t col = 0;
     do {
       used[col] = true;
-      const int from = row_of[col];
       double delta = kInfinity;
-      int next = 0;
-      for (int j = 1; j <= cols; ++j) {
+      std::size_t next = 0;
+      for (std::size_t j = 1; j <= cols_; ++j) {
         if (used[j]) continue;
-        const double reduced = cost(from - 1, j - 1) - u[from] - v[j];
+        const double reduced = Reduced(row_of_[col], j);
         if (reduced < least[j]) {
           least[j] = reduced;
-          way[j] = col;
+          way_[j] = col;
         }
         if (least[j] < delta) {
           delta = least[j];
           next = j;
         }
       }
-      for (int j = 0; j <= cols; ++j) {
+      for (std::size_t j = 0; j <= cols_; ++j) {
         if (used[j]) {
-          u[row_of[j]] += delta;
-          v[j] -= delta;
+          u_[row_of_[j]] += delta;
+          v_[j] -= delta;
         } else {
           least[j] -= delta;
         }
       }
       col = next;
-    } while (row_of[col] != 0);
-    do {
-      const int previous = way[col];
-      row_of[col] = row_of[previous];
-      col = previous;
-    } while (col != 0);
+    } while (row_of_[col] != 0);
+    while (col != 0) {
+      row_of_[col] = row_of_[way_[col]];
+      col = way_[col];
+    }
   }
-  std::vector<int> col_of(rows, -1);
-  for (int j = 1; j <= cols; ++j) {
-    if (row_of[j] > 0) col_of[row_of[j] - 1] = j - 1;
-  }
-  return col_of;
-}
+
+  const Eigen::MatrixXd& cost_;
+  std::size_t rows_, cols_;
+  std::vector<double> u_, v_;
+  std::vector<std::size_t> row_of_, way_;
+};
+
+std::vector<int> AssignMinCost(const Eigen::MatrixXd& cost) { return LeastCost(cost).Solve(); }
 
 }  // namespace
 

@@ -132,10 +132,11 @@ TEST(GoldenUmeyama, AgreesWhereTheRotationIsDefinedAndRefusesWhereItIsNot) {
       const auto& expected = example[with_scale ? "sim3" : "se3"];
       EXPECT_NEAR(ours->scale, expected["c"].get<double>(), 1e-12);
       EXPECT_NEAR(ours->T_gw.R.determinant(), 1.0, 1e-12);
-      for (int row = 0; row < 3; ++row) {
-        EXPECT_NEAR(ours->T_gw.t[row], expected["t"][row].get<double>(), 1e-11);
-        for (int col = 0; col < 3; ++col) {
-          EXPECT_NEAR(ours->T_gw.R(row, col), expected["R"][row][col].get<double>(), 1e-11);
+      for (std::size_t row = 0; row < 3; ++row) {
+        EXPECT_NEAR(ours->T_gw.t[Eigen::Index(row)], expected["t"][row].get<double>(), 1e-11);
+        for (std::size_t col = 0; col < 3; ++col) {
+          EXPECT_NEAR(ours->T_gw.R(Eigen::Index(row), Eigen::Index(col)),
+                      expected["R"][row][col].get<double>(), 1e-11);
         }
       }
     }
