@@ -28,6 +28,7 @@ struct AssociationConfig {
   double min_margin = 4.0;    ///< in -2 log likelihood: nearer candidates are ambiguous
   double overlap_weight = 8.0;  ///< -2 log likelihood of no overlap at all between equal planes
   double iou_weight = 4.0;      ///< -2 log likelihood of boxes that do not meet
+  double min_class_odds = 0.1;  ///< that two landmarks share a class; below: they are two
   double max_extension_gap_m = 0.15;  ///< an open surface may go on this far from what was seen
   double min_open_area_m2 = 0.05;     ///< of a map plane that may be seen to extend
 

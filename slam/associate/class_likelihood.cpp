@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 #include <vector>
 
 namespace slam {
@@ -26,13 +27,17 @@ struct Posterior {
   std::vector<double> probabilities;
 };
 
-Posterior PosteriorOf(const std::map<std::string, double>& belief) {
+/// Over no class, the classes of the evidence, and those of `also`.
+Posterior PosteriorOf(const std::map<std::string, double>& belief,
+                      const std::set<std::string>& also) {
   Posterior out;
   double total = 0.0;
   for (const auto& [name, evidence] : belief) total += evidence;
   const double scale = total > kMaxEvidence ? kMaxEvidence / total : 1.0;
   out.names.emplace_back();
-  for (const auto& [name, evidence] : belief) {
+  std::set<std::string> classes = also;
+  for (const auto& [name, evidence] : belief) classes.insert(name);
+  for (const std::string& name : classes) {
     if (!name.empty()) out.names.push_back(name);
   }
   const double other =
@@ -57,7 +62,7 @@ Posterior PosteriorOf(const std::map<std::string, double>& belief) {
 
 double ClassLikelihood(const std::map<std::string, double>& belief,
                        const std::string& observed) {
-  const Posterior posterior = PosteriorOf(belief);
+  const Posterior posterior = PosteriorOf(belief, {observed});
   double likelihood = 0.0;
   for (std::size_t i = 0; i < posterior.names.size(); ++i) {
     likelihood += posterior.probabilities[i] * Emission(posterior.names[i], observed);
@@ -66,10 +71,24 @@ double ClassLikelihood(const std::map<std::string, double>& belief,
 }
 
 std::string BelievedClass(const std::map<std::string, double>& belief) {
-  const Posterior posterior = PosteriorOf(belief);
+  const Posterior posterior = PosteriorOf(belief, {});
   const auto best =
       std::max_element(posterior.probabilities.begin(), posterior.probabilities.end());
   return posterior.names[static_cast<std::size_t>(best - posterior.probabilities.begin())];
+}
+
+double SameClassOdds(const std::map<std::string, double>& one,
+                     const std::map<std::string, double>& other) {
+  std::set<std::string> classes;
+  for (const auto& [name, evidence] : one) classes.insert(name);
+  for (const auto& [name, evidence] : other) classes.insert(name);
+  const Posterior p = PosteriorOf(one, classes), q = PosteriorOf(other, classes);
+  const Posterior prior = PosteriorOf({}, classes);
+  double odds = 0.0;
+  for (std::size_t i = 0; i < p.names.size(); ++i) {
+    odds += p.probabilities[i] * q.probabilities[i] / prior.probabilities[i];
+  }
+  return odds;
 }
 
 }  // namespace slam

@@ -17,6 +17,11 @@ namespace slam {
 double ClassLikelihood(const std::map<std::string, double>& belief,
                        const std::string& observed);
 
+/// Bayes factor of "both have one class" against "each has its own": sum of P P' / prior over
+/// the classes. Symmetric; far below 1 when they contradict, above 1 when they agree.
+double SameClassOdds(const std::map<std::string, double>& one,
+                     const std::map<std::string, double>& other);
+
 /// The class with the highest posterior; "" while nothing is known.
 std::string BelievedClass(const std::map<std::string, double>& belief);
 

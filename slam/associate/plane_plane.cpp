@@ -204,9 +204,8 @@ class IntegratedRule {
   }
 
   bool Duplicates(const MapPlane& one, const MapPlane& other) const {
-    const bool classes_agree = one.class_name == other.class_name || one.class_name.empty() ||
-                               other.class_name.empty();
-    return classes_agree && ComparePlanes(one, other, config_).chi2 < config_.max_chi2 &&
+    return SameClassOdds(one.class_belief, other.class_belief) > config_.min_class_odds &&
+           ComparePlanes(one, other, config_).chi2 < config_.max_chi2 &&
            ComparePlanes(other, one, config_).chi2 < config_.max_chi2;
   }
 

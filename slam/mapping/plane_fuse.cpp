@@ -9,9 +9,9 @@
 namespace slam {
 namespace {
 
-bool ClassesAgree(const MapPlane& one, const MapPlane& other) {
-  return one.class_name == other.class_name || one.class_name.empty() ||
-         other.class_name.empty();
+int CovisibleFrames(const MapPlane& one, const MapPlane& other) {
+  const auto found = one.covisible.find(other.id);
+  return found == one.covisible.end() ? 0 : found->second;
 }
 
 bool OneSurface(const MapPlane& one, const MapPlane& other, const PlaneMapConfig& config) {
@@ -21,10 +21,12 @@ bool OneSurface(const MapPlane& one, const MapPlane& other, const PlaneMapConfig
     return false;
   }
   const PlaneComparison forth = ComparePlanes(one, other, a);
-  if (!(forth.angle_rad < a.gates.max_normal_angle_rad) || !(forth.chi2 < a.max_chi2))
-    return false;
-  if (!(ComparePlanes(other, one, a).chi2 < a.max_chi2) || !ClassesAgree(one, other))
-    return false;
+  if (!(forth.angle_rad < a.gates.max_normal_angle_rad)) return false;
+  // Two segments seen side by side again and again have shown any step there is.
+  const bool side_by_side = CovisibleFrames(one, other) >= config.min_fused_observations;
+  const double max_chi2 = side_by_side ? 0.5 * a.max_chi2 : a.max_chi2;
+  if (!(forth.chi2 < max_chi2) || !(ComparePlanes(other, one, a).chi2 < max_chi2)) return false;
+  if (!(SameClassOdds(one.class_belief, other.class_belief) > a.min_class_odds)) return false;
   // A large plane's cloud is coarse: look in voxels that its points surely fill.
   double cell = config.voxel_m;
   for (const MapPlane* m : {&one, &other}) {
