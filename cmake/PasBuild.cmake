@@ -36,11 +36,12 @@ function(pas_library name)
   endif()
 endfunction()
 
-# pas_test(slam/planes SOURCES a_test.cpp LINK slam_planes [TIMEOUT s]): one executable a folder;
-# every case is a CTest test of its own, "slam/planes/Suite.Case". PAS_SHARED_DIR (environment) may
+# pas_test(slam/planes SOURCES a_test.cpp LINK slam_planes [TIMEOUT s] [CASES n]): one executable a folder;
+# every case is a CTest test of its own, "slam/planes/Suite.Case". CASES is how many inputs a
+# rapidcheck property draws (100). PAS_SHARED_DIR (environment) may
 # name the folder with the reference figures and recordings; tests that need it skip without it.
 function(pas_test name)
-  cmake_parse_arguments(ARG "" "TIMEOUT" "SOURCES;LINK" ${ARGN})
+  cmake_parse_arguments(ARG "" "TIMEOUT;CASES" "SOURCES;LINK" ${ARGN})
   string(REPLACE "/" "_" target ${name}_test)
   add_executable(${target} ${ARG_SOURCES})
   target_link_libraries(${target} PRIVATE pas_settings ${ARG_LINK} GTest::gmock GTest::gtest_main)
@@ -49,8 +50,11 @@ function(pas_test name)
   if(NOT ARG_TIMEOUT)
     set(ARG_TIMEOUT 120)
   endif()
+  if(NOT ARG_CASES)
+    set(ARG_CASES 100)
+  endif()
   gtest_discover_tests(${target} TEST_PREFIX ${name}/ DISCOVERY_TIMEOUT 60
     PROPERTIES TIMEOUT ${ARG_TIMEOUT}
-    ENVIRONMENT "RC_PARAMS=seed=20240207 max_size=100")
+    ENVIRONMENT "RC_PARAMS=seed=20240207 max_size=100 max_success=${ARG_CASES}")
 endfunction()
 include(GoogleTest)
