@@ -1,6 +1,8 @@
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
+#include <opencv2/core.hpp>
+
 #include "property_tests/sim/render_worlds.h"
 #include "sim/sensor/depth_sensor.h"
 

@@ -12,7 +12,6 @@ namespace {
 
 constexpr float kNear_m = 1e-3F;          ///< nothing is seen closer than this
 constexpr double kLeaveSurface_m = 1e-4;  ///< second rays start this far off the surface
-constexpr double kClosestLook_m = 0.4;    ///< prints are baked for this viewing distance
 const Eigen::Array3f kSky(0.55F, 0.6F, 0.66F);
 /// Four rays an edge pixel: a rotated grid, the same in each pixel.
 constexpr std::array<std::array<double, 2>, 4> kSubPixels{
@@ -53,7 +52,7 @@ struct FrameRenderer::World {
         camera(camera_in),
         mesh(BuildMesh(scene)),
         rays(mesh.triangles),
-        surfaces(scene, mesh, kClosestLook_m / std::max(camera.fx, camera.fy)),
+        surfaces(scene, mesh, camera),
         to_sun_w(-scene.sun.direction_w.normalized()) {
     CheckIds(scene, mesh);
     for (const Object& object : scene.objects) {

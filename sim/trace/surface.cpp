@@ -5,6 +5,12 @@
 #include <optional>
 
 namespace sim {
+namespace {
+
+constexpr double kClosestLook_m = 0.4;  ///< prints are baked for this viewing distance
+constexpr double kTexelsAPixel = 3.2;  ///< of the longer image side, along the longer face side
+
+}  // namespace
 
 /// The print of one material and the part of its uv plane that triangles use.
 struct SurfaceTable::Baked {
@@ -15,8 +21,9 @@ struct SurfaceTable::Baked {
   std::optional<Texture> texture;
 };
 
-SurfaceTable::SurfaceTable(const Scene& scene, const SceneMesh& mesh, double texel_m)
-    : texel_m_(texel_m) {
+SurfaceTable::SurfaceTable(const Scene& scene, const SceneMesh& mesh, const Camera& camera)
+    : texel_m_(kClosestLook_m / std::max(camera.fx, camera.fy)),
+      max_texels_(static_cast<int>(kTexelsAPixel * std::max(camera.width, camera.height))) {
   const std::vector<ScenePlane> planes = ScenePlanes(scene);
   for (const Material& material : mesh.materials) {
     baked_.push_back(std::make_unique<Baked>());
@@ -83,7 +90,8 @@ Eigen::Vector3d SurfaceTable::ShadingNormal(int triangle, float b1, float b2) co
 const Texture& SurfaceTable::Print(int triangle) const {
   Baked& baked = *baked_[static_cast<std::size_t>(At(triangle).material)];
   std::call_once(baked.once, [&] {
-    baked.texture.emplace(baked.material, baked.low, baked.high - baked.low, texel_m_);
+    baked.texture.emplace(baked.material, baked.low, baked.high - baked.low, texel_m_,
+                          max_texels_);
   });
   return *baked.texture;
 }

@@ -21,8 +21,9 @@ struct FacetInView {
 /// The triangles of a scene with the exact planes they lie in and the prints they carry.
 class SurfaceTable {
  public:
-  /// `texel_m`: finest detail to bake, metres; scene and mesh must belong together.
-  SurfaceTable(const Scene& scene, const SceneMesh& mesh, double texel_m);
+  /// Scene and mesh must belong together. Prints are baked as finely as an image of `camera`
+  /// can show them from 0.4 m, large faces as finely as it can show them whole.
+  SurfaceTable(const Scene& scene, const SceneMesh& mesh, const Camera& camera);
   ~SurfaceTable();
 
   /// All triangles, in the mesh's order, seen from T_wc.
@@ -51,6 +52,7 @@ class SurfaceTable {
   std::vector<Facet> facets_;
   std::vector<std::unique_ptr<Baked>> baked_;
   double texel_m_;
+  int max_texels_;
 };
 
 }  // namespace sim

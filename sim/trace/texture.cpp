@@ -9,8 +9,7 @@
 namespace sim {
 namespace {
 
-constexpr double kMaxTexels = 2048;  ///< a side
-constexpr int kMaxTaps = 4;          ///< along the longer side of a slanted footprint
+constexpr int kMaxTaps = 4;  ///< along the longer side of a slanted footprint
 
 /// log2 to 0.09, from the bits alone: exactly the same everywhere.
 float RoughLog2(float x) {
@@ -22,9 +21,9 @@ float RoughLog2(float x) {
 }  // namespace
 
 Texture::Texture(const Material& material, const Eigen::Vector2d& low_m,
-                 const Eigen::Vector2d& extent_m, double texel_m)
+                 const Eigen::Vector2d& extent_m, double texel_m, int max_texels)
     : low_m_(low_m.cast<float>()),
-      texel_m_(static_cast<float>(std::max(texel_m, extent_m.maxCoeff() / kMaxTexels))) {
+      texel_m_(static_cast<float>(std::max(texel_m, extent_m.maxCoeff() / max_texels))) {
   Level finest;
   finest.width = std::max(1, static_cast<int>(std::ceil(extent_m.x() / texel_m_)));
   finest.height = std::max(1, static_cast<int>(std::ceil(extent_m.y() / texel_m_)));

@@ -13,9 +13,10 @@ namespace sim {
 class Texture {
  public:
   /// @param low_m, extent_m  the part of the face's uv plane to bake, metres
-  /// @param texel_m          finest texel; larger where the face would need over 2048 of them
+  /// @param texel_m          finest texel, metres
+  /// @param max_texels       a side; a larger face gets coarser texels
   Texture(const Material& material, const Eigen::Vector2d& low_m,
-          const Eigen::Vector2d& extent_m, double texel_m);
+          const Eigen::Vector2d& extent_m, double texel_m, int max_texels = 2048);
 
   /// Linear reflectance at uv_m, averaged over about the parallelogram spanned by the steps to
   /// the next pixel right and down, both metres on the face. Clamps at the border.

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <opencv2/core.hpp>
+
 #include "tests/sim/support/sim_worlds.h"
 
 namespace sim {

@@ -4,9 +4,9 @@
 #include <gtest/gtest.h>
 #include <signal.h>
 #include <sys/resource.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
+#include <cstdlib>
 #include <fstream>
 #include <opencv2/imgcodecs.hpp>
 #include <set>
@@ -156,42 +156,59 @@ TEST_F(WrittenSequence, NeverReplacesAFolderThatIsNotASequence) {
   EXPECT_EQ(ReadWholeFile(root_ / "mine/thesis.tex"), "years of work");
 }
 
-/// Runs a write in a child process and kills it after `frames` frames. The process must have no
-/// other threads when it forks, which holds as every write joins its own.
-void WriteAndDieAfter(int frames, const std::function<void(SequenceOptions&)>& write,
-                      SequenceOptions options) {
-  const pid_t child = fork();
-  ASSERT_GE(child, 0);
-  if (child == 0) {
+/// Death tests run in a process of their own, started anew: a fork alone would lack the ray
+/// tracer's threads. The child repeats SetUp, so it is told the folder of its parent.
+class InterruptedSequence : public WrittenSequence {
+ protected:
+  void SetUp() override {
+    testing::FLAGS_gtest_death_test_style = "threadsafe";
+    if (const char* given = std::getenv(kFolderVariable)) {
+      root_ = given;
+      return;
+    }
+    WrittenSequence::SetUp();
+    setenv(kFolderVariable, root_.c_str(), 1);
+  }
+  void TearDown() override {
+    unsetenv(kFolderVariable);
+    WrittenSequence::TearDown();
+  }
+  /// Dies in the middle of a write, after `frames` frames.
+  static void WriteAndDie(const fs::path& folder, int frames) {
+    SequenceOptions options = Options();
     options.progress = [frames](int done) {
       if (done == frames) kill(getpid(), SIGKILL);
     };
-    write(options);
-    _exit(0);
+    Write(folder, options);
   }
-  int status = 0;
-  waitpid(child, &status, 0);
-  ASSERT_TRUE(WIFSIGNALED(status));
-}
+  /// A limit on the size of a file stands for a full disk: both make write() fail half way.
+  /// Exits with 0 when the error says which file and why.
+  static void WriteToAFullDisk(const fs::path& folder) {
+    signal(SIGXFSZ, SIG_IGN);
+    const rlimit limit{4000, 4000};
+    setrlimit(RLIMIT_FSIZE, &limit);
+    const std::string error = ErrorOf([&] { Write(folder, Options(2)); });
+    _exit(error.find(": cannot be written: File too large") != std::string::npos ? 0 : 1);
+  }
+  static constexpr const char* kFolderVariable = "PAS_TEST_INTERRUPTED_FOLDER";
+};
 
-TEST_F(WrittenSequence, KilledHalfWayNeverLooksCompleteAndResumesToTheSameBytes) {
+TEST_F(InterruptedSequence, NeverLooksCompleteAndResumesToTheSameBytes) {
+  constexpr int kDone = 3;
+  const fs::path folder = root_ / "killed";
+  EXPECT_EXIT(WriteAndDie(folder, kDone), testing::KilledBySignal(SIGKILL), "");
+  const auto manifest = ReadManifest(folder);
+  ASSERT_TRUE(manifest.has_value());
+  EXPECT_EQ((*manifest)["complete"], false);
+  // A frame that was being written, and one whose image the disk lost.
+  std::ofstream(folder / "rgb/0.166667.png.part") << "half a picture";
+  std::ofstream(folder / "rgb/0.000000.png") << "torn";
+
+  SequenceOptions resume = Options();
+  resume.existing = Existing::kResume;
+  EXPECT_EQ(Write(folder, resume), 6 - kDone + 1);
   Write(root_ / "whole", Options());
-  for (const int frames : {1, 3, 5}) {
-    const fs::path folder = root_ / ("killed" + std::to_string(frames));
-    WriteAndDieAfter(
-        frames, [&](SequenceOptions& o) { Write(folder, o); }, Options());
-    const auto manifest = ReadManifest(folder);
-    ASSERT_TRUE(manifest.has_value());
-    EXPECT_EQ((*manifest)["complete"], false);
-    // A frame that was being written, and one whose image the disk lost.
-    std::ofstream(folder / "rgb/0.166667.png.part") << "half a picture";
-    std::ofstream(folder / "rgb/0.000000.png") << "torn";
-
-    SequenceOptions resume = Options();
-    resume.existing = Existing::kResume;
-    EXPECT_EQ(Write(folder, resume), 6 - frames + 1);
-    EXPECT_EQ(Content(folder), Content(root_ / "whole"));
-  }
+  EXPECT_EQ(Content(folder), Content(root_ / "whole"));
 }
 
 TEST_F(WrittenSequence, ResumesACompleteOneByDoingNothing) {
@@ -216,23 +233,9 @@ TEST_F(WrittenSequence, IsNotResumedWithOtherOptions) {
   EXPECT_THAT(ErrorOf([&] { Write(root_ / "seq", resume); }), HasSubstr("camera.yaml"));
 }
 
-// A limit on the size of a file stands for a full disk: both make write() fail half way.
-TEST_F(WrittenSequence, SaysWhichFileDoesNotFitOnTheDisk) {
+TEST_F(InterruptedSequence, SaysWhichFileDoesNotFitOnTheDisk) {
   const fs::path folder = root_ / "seq";
-  const pid_t child = fork();
-  ASSERT_GE(child, 0);
-  if (child == 0) {
-    signal(SIGXFSZ, SIG_IGN);
-    const rlimit limit{4000, 4000};
-    setrlimit(RLIMIT_FSIZE, &limit);
-    const std::string error = ErrorOf([&] { Write(folder, Options(2)); });
-    const bool clear =
-        error.find(".png: cannot be written: File too large") != std::string::npos;
-    _exit(clear ? 0 : 1);
-  }
-  int status = 0;
-  waitpid(child, &status, 0);
-  EXPECT_EQ(status, 0);
+  EXPECT_EXIT(WriteToAFullDisk(folder), testing::ExitedWithCode(0), "");
   EXPECT_EQ((*ReadManifest(folder))["complete"], false);
   EXPECT_FALSE(fs::exists(folder / "rgb/0.000000.png"));
 }
