@@ -22,7 +22,7 @@ struct ClusterConfig {
   double max_merge_chi2 = 16.3;
   /// Distance, in sigmas, that two parts of one real surface may differ by for reasons other
   /// than noise (calibration, warp of the sensor); domain [0, inf).
-  double model_error_sigmas = 0.5;
+  double model_error_sigmas = 1.0;
   /// Blocks below which a region is dropped; domain [1, inf).
   int min_blocks = 4;
 };

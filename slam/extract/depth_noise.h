@@ -19,7 +19,7 @@ struct DepthNoise {
   double grazing_m = 0.0001;        ///< growth with incidence; domain [0, inf)
   /// Pixels that share one independent error: the matcher of a structured-light sensor smooths
   /// over a window, so n pixels average only like n / correlated_px. Domain [1, inf).
-  double correlated_px = 9.0;
+  double correlated_px = 16.0;
 
   double Sigma(double z_m) const {
     const double beyond = std::max(z_m - nearest_m, 0.0);

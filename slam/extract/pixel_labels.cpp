@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <map>
 #include <numeric>
 
 namespace slam {
@@ -18,7 +17,7 @@ constexpr int kLeastPixelsToSpread = 4;
 struct Gains {
   std::vector<double> gain;  ///< sum over the label's pixels
   std::vector<int> pixels;
-  std::map<std::pair<int, int>, double> without;  ///< (label, next best) -> increase
+  std::vector<double> without;  ///< [label][next best], increase
 };
 
 }  // namespace
@@ -48,6 +47,26 @@ int PixelGrowth::AddPlane(const LabelPlane& plane, const std::vector<int>& block
   return label;
 }
 
+/// Distances of the pixels of a block from one plane, and how many of them may belong to it.
+int PixelGrowth::MeasureBlock(int u0, int v0, int u1, int v1, int label,
+                              float* distance) const {
+  const LabelPlane& plane = planes_[static_cast<std::size_t>(label)];
+  const float farthest = static_cast<float>(config_.max_pixel_sigmas);
+  int near = 0;
+  for (int v = v0; v < v1; ++v) {
+    const auto start = static_cast<std::size_t>(grid_.Index(u0, v));
+    float* row = distance + (v - v0) * config_.block_px;
+    for (int x = 0; x < u1 - u0; ++x) {
+      const std::size_t i = start + static_cast<std::size_t>(x);
+      // An unmeasured pixel has g = 0 and would seem to lie on every plane.
+      const float r = std::abs(ResidualSigmas(grid_, i, plane));
+      row[x] = grid_.g[i] > 0.0f ? r : std::numeric_limits<float>::infinity();
+    }
+    for (int x = 0; x < u1 - u0; ++x) near += row[x] < farthest ? 1 : 0;
+  }
+  return near;
+}
+
 /// Gives the pixels of a block to the nearest of its planes and counts what each owns, in the
 /// order of reached_[block].
 void PixelGrowth::LabelBlock(int block, std::vector<int>& owned) {
@@ -55,28 +74,35 @@ void PixelGrowth::LabelBlock(int block, std::vector<int>& owned) {
   const int size = config_.block_px;
   const int u0 = block % cols_ * size, v0 = block / cols_ * size;
   const int u1 = std::min(u0 + size, grid_.width), v1 = std::min(v0 + size, grid_.height);
-  owned.assign(candidates.size(), 0);
-  if (candidates.size() > 1) SumNeighbourCosts(u0, v0, u1, v1, candidates);
-  const float farthest = static_cast<float>(config_.max_pixel_sigmas);
   const auto area = static_cast<std::size_t>(size * size);
+  owned.assign(candidates.size(), 0);
+  distances_.resize(candidates.size() * area);
+  rivals_.clear();
+  rival_labels_.clear();
+  for (std::size_t k = 0; k < candidates.size(); ++k) {
+    if (MeasureBlock(u0, v0, u1, v1, candidates[k], distances_.data() + k * area) == 0)
+      continue;
+    rivals_.push_back(k);
+    rival_labels_.push_back(candidates[k]);
+  }
+  const bool contested = rivals_.size() > 1;
+  if (contested) SumNeighbourCosts(u0, v0, u1, v1, rival_labels_);
+  const float farthest = static_cast<float>(config_.max_pixel_sigmas);
   for (int v = v0; v < v1; ++v) {
     for (int u = u0; u < u1; ++u) {
-      const auto i = static_cast<std::size_t>(grid_.Index(u, v));
-      labels_[i] = kNoLabel;
-      if (!(grid_.g[i] > 0)) continue;
       const auto at = static_cast<std::size_t>((v - v0) * size + u - u0);
       float least = std::numeric_limits<float>::infinity();
       int chosen = -1;
-      for (std::size_t k = 0; k < candidates.size(); ++k) {
-        const auto label = static_cast<std::size_t>(candidates[k]);
-        if (!(std::abs(ResidualSigmas(grid_, i, planes_[label])) < farthest)) continue;
-        const float cost = candidates.size() > 1 ? costs_[k * area + at] : 0.0f;
+      for (std::size_t k = 0; k < rivals_.size(); ++k) {
+        if (!(distances_[rivals_[k] * area + at] < farthest)) continue;
+        const float cost = contested ? costs_[k * area + at] : 0.0f;
         if (cost < least) least = cost, chosen = static_cast<int>(k);
       }
+      std::int16_t& label = labels_[static_cast<std::size_t>(grid_.Index(u, v))];
+      label = kNoLabel;
       if (chosen < 0) continue;
-      const auto k = static_cast<std::size_t>(chosen);
-      labels_[i] = static_cast<std::int16_t>(candidates[k]);
-      ++owned[k];
+      label = static_cast<std::int16_t>(rival_labels_[static_cast<std::size_t>(chosen)]);
+      ++owned[rivals_[static_cast<std::size_t>(chosen)]];
     }
   }
 }
@@ -149,8 +175,8 @@ void PixelGrowth::Grow() {
 }
 
 void PixelGrowth::DropUseless() {
-  Gains gains{
-      std::vector<double>(planes_.size(), 0.0), std::vector<int>(planes_.size(), 0), {}};
+  Gains gains{std::vector<double>(planes_.size(), 0.0), std::vector<int>(planes_.size(), 0),
+              std::vector<double>(planes_.size() * planes_.size(), 0.0)};
   const float unexplained = static_cast<float>(config_.max_pixel_sigmas + 1.0);
   for (int v = 0; v < grid_.height; ++v) {
     for (int u = 0; u < grid_.width; ++u) {
@@ -174,7 +200,7 @@ void PixelGrowth::DropUseless() {
       const float own = ResidualSigmas(grid_, i, planes_[label]);
       gains.gain[label] += static_cast<double>(next * next - own * own);
       if (next_label >= 0) {
-        gains.without[{labels_[i], next_label}] +=
+        gains.without[label * planes_.size() + static_cast<std::size_t>(next_label)] +=
             static_cast<double>(unexplained * unexplained - next * next);
       }
     }
@@ -189,10 +215,8 @@ void PixelGrowth::DropUseless() {
   for (const std::size_t label : order) {
     if (gains.gain[label] >= config_.min_gain * std::max(gains.pixels[label], 1)) continue;
     dropped[label] = any = true;
-    for (const auto& [pair, increase] : gains.without) {
-      if (pair.second == static_cast<int>(label)) {
-        gains.gain[static_cast<std::size_t>(pair.first)] += increase;
-      }
+    for (std::size_t other = 0; other < planes_.size(); ++other) {
+      gains.gain[other] += gains.without[other * planes_.size() + label];
     }
   }
   if (!any) return;
@@ -227,12 +251,20 @@ void PixelGrowth::Replace(std::vector<LabelPlane> planes, const std::vector<int>
 
 std::vector<PlaneSums> SumLabels(const DepthGrid& grid, const LabelImage& labels, int count) {
   std::vector<PlaneSums> sums(static_cast<std::size_t>(count));
-  for (std::size_t i = 0; i < labels.size(); ++i) {
-    if (labels[i] == kNoLabel) continue;
-    const double g = static_cast<double>(grid.g[i]);
-    sums[static_cast<std::size_t>(labels[i])].Add(static_cast<double>(grid.x[i]),
-                                                  static_cast<double>(grid.y[i]),
-                                                  static_cast<double>(grid.q[i]), g * g);
+  std::size_t i = 0;
+  while (i < labels.size()) {
+    const std::int16_t label = labels[i];
+    if (label == kNoLabel) {
+      ++i;
+      continue;
+    }
+    PlaneSums run;  // sums of a run stay in registers
+    for (; i < labels.size() && labels[i] == label; ++i) {
+      const double g = static_cast<double>(grid.g[i]);
+      run.Add(static_cast<double>(grid.x[i]), static_cast<double>(grid.y[i]),
+              static_cast<double>(grid.q[i]), g * g);
+    }
+    sums[static_cast<std::size_t>(label)] += run;
   }
   return sums;
 }

@@ -58,6 +58,7 @@ class PixelGrowth {
 
  private:
   bool Reach(int block, int label);
+  int MeasureBlock(int u0, int v0, int u1, int v1, int label, float* distance) const;
   void LabelBlock(int block, std::vector<int>& owned);
   void SumNeighbourCosts(int u0, int v0, int u1, int v1, const std::vector<int>& candidates);
 
@@ -68,7 +69,10 @@ class PixelGrowth {
   std::vector<std::vector<int>> reached_;  ///< labels of each block, sorted
   std::vector<int> active_;                ///< blocks whose labels changed
   LabelImage labels_;
-  std::vector<float> costs_, row_sums_, cost_row_;  ///< scratch of SumNeighbourCosts
+  // Scratch of LabelBlock.
+  std::vector<float> distances_, costs_, row_sums_, cost_row_;
+  std::vector<std::size_t> rivals_;
+  std::vector<int> rival_labels_;
 };
 
 /// Sums of the pixels of each label.

@@ -28,7 +28,7 @@ struct PlaneExtractionConfig {
   /// Two touching segments are one plane if along their common boundary the planes are closer
   /// than this (root mean square, in sigmas, after their uncertainty); and what does not touch,
   /// over the pixels of the smaller. Domain (0, inf).
-  double max_merge_gap_sigmas = 1.0;
+  double max_merge_gap_sigmas = 1.5;
   /// How far a real sensor may bend a flat surface: gap over the smaller patch, and angle
   /// between two touching parts. Domain (0, inf).
   double max_bend_sigmas = 3.0;

@@ -1,0 +1,184 @@
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+#include <map>
+#include <opencv2/core.hpp>
+
+#include "property_tests/generators/poses.h"
+#include "slam/base/random.h"
+#include "slam/extract/plane_segments.h"
+#include "tests/support/closed_form_depth.h"
+
+namespace slam {
+namespace {
+
+Camera AnyCamera() {
+  const int size = AnyInt(1, 2);
+  Camera camera;
+  camera.width = 160 * size * 2, camera.height = 120 * size * 2;
+  camera.fx = camera.fy = AnyReal(0.7, 1.3) * camera.width;
+  camera.cx = 0.5 * camera.width + AnyReal(-0.05, 0.05) * camera.width;
+  camera.cy = 0.5 * camera.height + AnyReal(-0.05, 0.05) * camera.height;
+  return camera;
+}
+
+Frame Extract(const cv::Mat1f& depth_m, const Camera& camera,
+              const PlaneExtractionConfig& config = {}) {
+  Frame frame = closed_form::MakeFrame(depth_m);
+  ExtractPlanes(frame, camera, PixelRays(camera), config);
+  return frame;
+}
+
+/// A plane that fills the view, at 0.5 to 2.5 m, incidence up to 60 degrees on the axis.
+cv::Mat1f OnePlane(const Camera& camera, Plane& pi_c) {
+  const double tilt = AnyReal(0.0, 1.0), turn = AnyReal(0.0, 6.28);
+  const Eigen::Vector3d n(std::sin(tilt) * std::cos(turn), std::sin(tilt) * std::sin(turn),
+                          -std::cos(tilt));
+  pi_c = {n, std::cos(tilt) * AnyReal(0.5, 2.5)};
+  const cv::Mat2d rays = PixelRays(camera);
+  cv::Mat1f depth_m(rays.size(), 0.0f);
+  for (int v = 0; v < rays.rows; ++v) {
+    for (int u = 0; u < rays.cols; ++u) {
+      const Eigen::Vector3d ray(rays(v, u)[0], rays(v, u)[1], 1.0);
+      const double z = -pi_c.d / n.dot(ray);
+      // Up to 75 degrees; what is steeper or behind the camera is not measured.
+      const bool seen = z > 0 && -n.dot(ray) / ray.norm() > 0.2588 && z < 8.0;
+      depth_m(v, u) = seen ? static_cast<float>(z) : 0.0f;
+    }
+  }
+  return depth_m;
+}
+
+RC_GTEST_PROP(PlaneExtraction, OnePlaneInViewIsOneSegment, ()) {
+  const Camera camera = AnyCamera();
+  Plane truth;
+  const cv::Mat1f depth_m = OnePlane(camera, truth);
+  const int measured = cv::countNonZero(depth_m);
+  const Frame frame = Extract(depth_m, camera);
+  RC_ASSERT(measured > 2000);
+  RC_ASSERT(frame.planes.size() == 1u);
+  RC_ASSERT(frame.planes[0].pixel_count >= 0.99 * measured);
+  RC_ASSERT(Angle(frame.planes[0].pi_c.n, truth.n) < 1.75e-5);  // 1e-3 deg
+  RC_ASSERT(std::abs(frame.planes[0].pi_c.d - truth.d) < 2e-5);
+}
+
+/// Half the usual size: the laws hold at any, and a hundred draws are many.
+Camera SmallCamera() {
+  Camera camera;
+  camera.width = 320, camera.height = 240;
+  camera.fx = camera.fy = 262.5, camera.cx = 159.5, camera.cy = 119.5;
+  return camera;
+}
+
+closed_form::World AnyBoxes() {
+  closed_form::World world = closed_form::Desk();
+  for (int k = AnyInt(1, 2); k > 0; --k) {
+    closed_form::PutOnDesk(world, 0.22 * k - 0.33, AnyReal(-0.05, 0.05),
+                           {AnyReal(0.1, 0.16), AnyReal(0.1, 0.2), AnyReal(0.06, 0.15)},
+                           AnyReal(0.0, 1.0), "box");
+  }
+  return world;
+}
+
+closed_form::View ViewOf(const closed_form::World& world, const Camera& camera) {
+  const double height = AnyReal(0.6, 0.9), x = AnyReal(-0.15, 0.15);
+  return closed_form::Render(world, camera, closed_form::LookAt({x, -0.4, height}, {0, 0, 0}));
+}
+
+RC_GTEST_PROP(PlaneExtraction, EveryFaceOfABoxIsItsOwnSegment, ()) {
+  const Camera camera = SmallCamera();
+  const closed_form::View view = ViewOf(AnyBoxes(), camera);
+  const Frame frame = Extract(view.depth_m, camera);
+  std::map<int, int> truth, segments;
+  std::map<std::pair<int, int>, int> both;
+  for (int v = 0; v < camera.height; ++v) {
+    for (int u = 0; u < camera.width; ++u) {
+      const int face = view.face(v, u), label = frame.plane_labels(v, u);
+      ++truth[face], ++segments[label], ++both[{face, label}];
+    }
+  }
+  for (const auto& [face, pixels] : truth) {
+    if (face == 0 || pixels < 1600) continue;
+    int best = 0;
+    for (const auto& [label, n] : segments) {
+      if (label > 0) best = std::max(best, both[{face, label}]);
+    }
+    RC_ASSERT(best >= 0.9 * pixels);  // completeness: borders cost the rest
+  }
+  for (const auto& [label, pixels] : segments) {
+    if (label == 0 || pixels < 1600) continue;
+    int best = 0;
+    for (const auto& [face, n] : truth) best = std::max(best, both[{face, label}]);
+    RC_ASSERT(best >= 0.97 * pixels);  // purity
+  }
+}
+
+RC_GTEST_PROP(PlaneExtraction, HolesAddNoPlaneAndNanIsZero, ()) {
+  const Camera camera = AnyCamera();
+  Plane truth;
+  const cv::Mat1f whole = OnePlane(camera, truth);
+  cv::Mat1f zeros = whole.clone();
+  Random random{static_cast<std::uint64_t>(AnyInt(0, 1000000))};
+  const double ratio = AnyInt(0, 10) == 0 ? 1.0 : AnyReal(0.0, 0.5);
+  for (float& z : zeros) z = random.Uniform() < ratio ? 0.0f : z;
+  const cv::Rect blob(random.Below(camera.width / 2), random.Below(camera.height / 2),
+                      camera.width / 3, camera.height / 3);
+  zeros(blob).setTo(0.0f);
+  cv::Mat1f nans = zeros.clone();
+  nans.setTo(std::nanf(""), zeros == 0.0f);
+  const Frame a = Extract(zeros, camera), b = Extract(nans, camera);
+  RC_ASSERT(a.planes.size() <= 1u);
+  RC_ASSERT(cv::countNonZero(a.plane_labels != b.plane_labels) == 0);
+  RC_ASSERT(cv::countNonZero((a.plane_labels > 0) & (zeros == 0.0f)) == 0);
+  if (!a.planes.empty()) {
+    RC_ASSERT(a.planes[0].pi_c.n == b.planes[0].pi_c.n);
+    RC_ASSERT(Angle(a.planes[0].pi_c.n, truth.n) < 5 * 1.75e-5);
+  }
+}
+
+RC_GTEST_PROP(PlaneExtraction, AMirroredImageHasMirroredPlanes, ()) {
+  const Camera camera = SmallCamera();
+  const closed_form::View view = ViewOf(AnyBoxes(), camera);
+  Camera mirrored = camera;
+  mirrored.cx = camera.width - 1 - camera.cx;
+  cv::Mat1f flipped;
+  cv::flip(view.depth_m, flipped, 1);
+  const Frame a = Extract(view.depth_m, camera), b = Extract(flipped, mirrored);
+  RC_ASSERT(a.planes.size() == b.planes.size());
+  int same = 0, any = 0;
+  cv::Mat1b back;
+  cv::flip(b.plane_labels, back, 1);
+  for (int v = 0; v < camera.height; ++v) {
+    for (int u = 0; u < camera.width; ++u) {
+      any += a.plane_labels(v, u) > 0 || back(v, u) > 0 ? 1 : 0;
+      same += a.plane_labels(v, u) > 0 && back(v, u) > 0 ? 1 : 0;
+    }
+  }
+  RC_ASSERT(same >= 0.99 * any);
+  const Eigen::Vector3d n = b.planes[0].pi_c.n;
+  RC_ASSERT(Angle(a.planes[0].pi_c.n, {-n.x(), n.y(), n.z()}) < 1.75e-5);
+}
+
+RC_GTEST_PROP(PlaneExtraction, ScalingDepthAndNoiseByAPowerOfTwoChangesNoLabel, ()) {
+  const Camera camera = SmallCamera();
+  const closed_form::View view = ViewOf(AnyBoxes(), camera);
+  const float s = AnyInt(0, 1) == 0 ? 0.5f : 2.0f;
+  PlaneExtractionConfig scaled;
+  // sigma'(s z) = s sigma(z), with the length that the incidence term holds to the 3/2.
+  scaled.noise.floor_m *= static_cast<double>(s);
+  scaled.noise.quadratic_per_m /= static_cast<double>(s);
+  scaled.noise.nearest_m *= static_cast<double>(s);
+  scaled.noise.grazing_m = 0.0;
+  PlaneExtractionConfig plain;
+  plain.noise.grazing_m = 0.0;
+  const Frame a = Extract(view.depth_m, camera, plain);
+  const Frame b = Extract(view.depth_m * s, camera, scaled);
+  RC_ASSERT(cv::countNonZero(a.plane_labels != b.plane_labels) == 0);
+  for (std::size_t k = 0; k < a.planes.size(); ++k) {
+    RC_ASSERT(a.planes[k].pi_c.n == b.planes[k].pi_c.n);
+    RC_ASSERT(a.planes[k].pi_c.d * static_cast<double>(s) == b.planes[k].pi_c.d);
+  }
+}
+
+}  // namespace
+}  // namespace slam
