@@ -1,0 +1,210 @@
+#include "slam/mapping/local_bundle.h"
+
+#include <gmock/gmock.h>
+
+#include "slam/mapping/bundle_terms.h"
+#include "tests/support/point_world.h"
+#include "tests/support/slam_matchers.h"
+
+namespace slam {
+namespace {
+
+Vector6d AnyStep(Random& random, double half_m, double half_rad) {
+  Vector6d xi;
+  for (int i = 0; i < 6; ++i) xi[i] = (2 * random.Uniform() - 1) * (i < 3 ? half_m : half_rad);
+  return xi;
+}
+
+/// Moves all points, and all keyframes but the first, by a little.
+void Disturb(Map& map, double half_m, double half_rad) {
+  Random random{11};
+  for (Keyframe& keyframe : map.keyframes) {
+    if (keyframe.id > 0) {
+      keyframe.T_cw = Exp(AnyStep(random, half_m, half_rad)) * keyframe.T_cw;
+    }
+  }
+  for (MapPoint& point : map.points) {
+    point.p_w += AnyStep(random, half_m, 0).head<3>();
+  }
+}
+
+void ExpectPosesNear(const Map& map, const Map& truth, double rad, double m) {
+  for (const Keyframe& keyframe : map.keyframes) {
+    EXPECT_THAT(keyframe.T_cw,
+                PoseNear(truth.keyframes[static_cast<std::size_t>(keyframe.id)].T_cw, rad, m));
+  }
+}
+
+TEST(LocalBundle, FindsTheTrueMapAgainFromADisturbedOne) {
+  const PointWorld truth = MakePointWorld(5, 200, 1);
+  Map map = truth.map;
+  Disturb(map, 0.005, 0.003);
+  LocalBundleConfig config;
+  config.last_iterations = 20;
+  const LocalBundleReport report = AdjustLocalBundle(map, 4, truth.camera, config);
+  EXPECT_TRUE(report.usable);
+  EXPECT_EQ(report.outliers, 0);
+  EXPECT_EQ(report.keyframes, 4);
+  EXPECT_EQ(report.fixed_keyframes, 1);
+  // Exact observations: what remains is the solver's tolerance.
+  ExpectPosesNear(map, truth.map, 1e-5, 1e-5);
+  for (const MapPoint& point : map.points) {
+    EXPECT_THAT(point.p_w,
+                VectorNear(truth.map.points[static_cast<std::size_t>(point.id)].p_w, 1e-4));
+  }
+}
+
+TEST(LocalBundle, FindsItWithoutDepthWhenTwoFixedKeyframesGiveTheScale) {
+  const PointWorld truth = MakePointWorld(5, 200, 2, 1000);
+  Map map = truth.map;
+  Disturb(map, 0.002, 0.001);
+  for (std::size_t k = 0; k < 4; ++k) map.keyframes[k].T_cw = truth.map.keyframes[k].T_cw;
+  LocalBundleConfig config;
+  config.max_keyframes = 3;  // two keyframes are left to hold position and scale
+  config.last_iterations = 30;
+  const LocalBundleReport report = AdjustLocalBundle(map, 4, truth.camera, config);
+  EXPECT_TRUE(report.usable);
+  EXPECT_EQ(report.keyframes, 3);
+  EXPECT_EQ(report.fixed_keyframes, 2);
+}
+
+TEST(LocalBundle, TakesFalseObservationsBackAndIsNotBentByThem) {
+  const PointWorld truth = MakePointWorld(5, 200, 3);
+  Map map = truth.map;
+  for (int k = 1; k < 5; ++k) {
+    for (const int f : {3, 20, 31}) {
+      map.keyframes[static_cast<std::size_t>(k)].features[static_cast<std::size_t>(f)].u_px +=
+          Eigen::Vector2d(25, -18);
+    }
+  }
+  Disturb(map, 0.003, 0.002);
+  LocalBundleConfig config;
+  config.last_iterations = 20;
+  const LocalBundleReport report = AdjustLocalBundle(map, 4, truth.camera, config);
+  EXPECT_TRUE(report.usable);
+  EXPECT_GE(report.outliers, 12);
+  EXPECT_LE(report.outliers, 16);
+  ExpectPosesNear(map, truth.map, 1e-4, 1e-4);
+}
+
+TEST(LocalBundle, LeavesFixedKeyframesWhereTheyAre) {
+  const PointWorld truth = MakePointWorld(6, 200, 4);
+  Map map = truth.map;
+  Disturb(map, 0.003, 0.002);
+  const Map before = map;
+  LocalBundleConfig config;
+  config.max_keyframes = 2;
+  AdjustLocalBundle(map, 5, truth.camera, config);
+  int moved = 0;
+  for (std::size_t k = 0; k < map.keyframes.size(); ++k) {
+    moved += map.keyframes[k].T_cw.t != before.keyframes[k].T_cw.t;
+  }
+  EXPECT_EQ(moved, 2);
+  EXPECT_EQ(map.keyframes[0].T_cw.t, before.keyframes[0].T_cw.t);
+}
+
+TEST(LocalBundle, GivesTheSameBytesTwice) {
+  const PointWorld truth = MakePointWorld(5, 150, 5);
+  Map first = truth.map;
+  Disturb(first, 0.005, 0.003);
+  Map second = first;
+  AdjustLocalBundle(first, 4, truth.camera, {});
+  AdjustLocalBundle(second, 4, truth.camera, {});
+  for (std::size_t k = 0; k < first.keyframes.size(); ++k) {
+    EXPECT_EQ(first.keyframes[k].T_cw.R, second.keyframes[k].T_cw.R);
+    EXPECT_EQ(first.keyframes[k].T_cw.t, second.keyframes[k].T_cw.t);
+  }
+  for (std::size_t i = 0; i < first.points.size(); ++i) {
+    EXPECT_EQ(first.points[i].p_w, second.points[i].p_w);
+  }
+}
+
+TEST(LocalBundle, DropsAPointBehindItsCamera) {
+  PointWorld world = MakePointWorld(4, 150, 6);
+  const int behind = PointAt(world.map, 3, 0);
+  world.map.points[static_cast<std::size_t>(behind)].p_w = {0, 0, -3};
+  const LocalBundleReport report = AdjustLocalBundle(world.map, 3, world.camera, {});
+  EXPECT_TRUE(report.usable);
+  EXPECT_TRUE(world.map.points[static_cast<std::size_t>(behind)].culled);
+}
+
+TEST(LocalBundle, DoesNothingForTheFirstKeyframeAlone) {
+  PointWorld world = MakePointWorld(1, 50, 7);
+  EXPECT_FALSE(AdjustLocalBundle(world.map, 0, world.camera, {}).usable);
+}
+
+TEST(BundleTerm, IsZeroAtTheTruthAndCountsSigmas) {
+  const Camera camera;
+  const Eigen::Vector3d p_w(0.2, -0.1, 1.6);
+  const Pose T_cw{ExpSo3({0.1, 0.2, -0.1}), {0.1, 0, 0.2}};
+  PointFeature feature = FeatureOfPoint(p_w, T_cw, camera, {}, true);
+  const PoseBlock block = BlockOf(T_cw);
+  const double* parameters[] = {block.data(), p_w.data()};
+  Eigen::Vector3d r;
+  BundleTerm(feature, camera, 40, 1.0, 0.3).Evaluate(parameters, r.data(), nullptr);
+  EXPECT_LT(r.norm(), 1e-9);
+  feature.u_px.x() -= 2.4;
+  BundleTerm(feature, camera, 40, 1.2, 0.3).Evaluate(parameters, r.data(), nullptr);
+  EXPECT_NEAR(r.x(), 2.0, 1e-9);
+  EXPECT_NEAR(r.z(), 0.0, 1e-9);
+  feature.depth_m = 40.0 / (40.0 / feature.depth_m - 0.36);  // disparity off by 0.36 px
+  BundleTerm(feature, camera, 40, 1.2, 0.3).Evaluate(parameters, r.data(), nullptr);
+  EXPECT_NEAR(r.z(), 1.0, 1e-9);
+}
+
+TEST(BundleTerm, HasTheDerivativesOfItsDifferenceQuotients) {
+  const Camera camera;
+  const Eigen::Vector3d p_w(0.2, -0.1, 1.6);
+  const Pose T_cw{ExpSo3({0.1, 0.2, -0.1}), {0.1, 0, 0.2}};
+  PointFeature feature = FeatureOfPoint(p_w, T_cw, camera, {}, true);
+  feature.u_px += Eigen::Vector2d(3, -5);
+  const BundleTerm term(feature, camera, 40, 1.44, 0.3);
+  const PoseManifold manifold;
+  const PoseBlock block = BlockOf(T_cw);
+  const auto residual = [&](const Vector6d& xi, const Eigen::Vector3d& dp) {
+    PoseBlock moved;
+    manifold.Plus(block.data(), xi.data(), moved.data());
+    const Eigen::Vector3d p = p_w + dp;
+    const double* parameters[] = {moved.data(), p.data()};
+    Eigen::Vector3d r;
+    term.Evaluate(parameters, r.data(), nullptr);
+    return r;
+  };
+  Eigen::Matrix<double, 3, 7, Eigen::RowMajor> by_pose;
+  Eigen::Matrix<double, 3, 3, Eigen::RowMajor> by_point;
+  double* jacobians[] = {by_pose.data(), by_point.data()};
+  const double* parameters[] = {block.data(), p_w.data()};
+  Eigen::Vector3d r;
+  term.Evaluate(parameters, r.data(), jacobians);
+  constexpr double kStep = 1e-6;
+  constexpr double kTolerance = 1e-4;  // derivatives up to 1e3, second ones times the step
+  for (int i = 0; i < 6; ++i) {
+    const Vector6d xi = kStep * Vector6d::Unit(i);
+    const Eigen::Vector3d slope =
+        (residual(xi, Eigen::Vector3d::Zero()) - residual(-xi, Eigen::Vector3d::Zero())) /
+        (2 * kStep);
+    EXPECT_LT((by_pose.col(i) - slope).norm(), kTolerance) << "coordinate " << i;
+  }
+  EXPECT_EQ(by_pose.col(6).norm(), 0.0);
+  for (int i = 0; i < 3; ++i) {
+    const Eigen::Vector3d dp = kStep * Eigen::Vector3d::Unit(i);
+    const Eigen::Vector3d slope =
+        (residual(Vector6d::Zero(), dp) - residual(Vector6d::Zero(), -dp)) / (2 * kStep);
+    EXPECT_LT((by_point.col(i) - slope).norm(), kTolerance) << "coordinate " << i;
+  }
+}
+
+TEST(PoseManifold, StepsForthAndBack) {
+  const PoseManifold manifold;
+  const PoseBlock x = BlockOf({ExpSo3({0.4, -0.7, 1.1}), {1, -2, 3}});
+  Vector6d xi;
+  xi << 0.1, -0.2, 0.3, 0.4, -0.1, 0.2;
+  PoseBlock y;
+  Vector6d back;
+  manifold.Plus(x.data(), xi.data(), y.data());
+  manifold.Minus(y.data(), x.data(), back.data());
+  EXPECT_LT((back - xi).norm(), 1e-12);
+}
+
+}  // namespace
+}  // namespace slam

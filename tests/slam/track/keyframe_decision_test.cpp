@@ -1,0 +1,63 @@
+#include "slam/track/keyframe_decision.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/support/point_world.h"
+
+namespace slam {
+namespace {
+
+/// The first keyframe seen again, with only `kept` of its matches.
+Frame Again(const PointWorld& world, int kept) {
+  const Keyframe& keyframe = world.map.keyframes[0];
+  Frame frame;
+  frame.index = 10;
+  frame.features = keyframe.features;
+  for (PointFeature& feature : frame.features) feature.depth_m = 0;
+  frame.map_points = keyframe.map_points;
+  for (std::size_t f = static_cast<std::size_t>(kept); f < frame.map_points.size(); ++f) {
+    frame.map_points[f] = kNone;
+  }
+  return frame;
+}
+
+bool Wanted(const PointWorld& world, const Frame& frame, int since = 10) {
+  return DecideKeyframe(frame, world.map, 0, since, world.camera, {}, {}).wanted;
+}
+
+TEST(KeyframeDecision, WantsAFrameThatHasLostSightOfAQuarterOfTheReference) {
+  const PointWorld world = MakePointWorld(2, 200, 1);
+  const int all = static_cast<int>(world.map.keyframes[0].features.size());
+  EXPECT_FALSE(Wanted(world, Again(world, all)));
+  EXPECT_FALSE(Wanted(world, Again(world, static_cast<int>(0.8 * all))));
+  EXPECT_TRUE(Wanted(world, Again(world, static_cast<int>(0.7 * all))));
+}
+
+TEST(KeyframeDecision, WantsAFrameWithManyNewClosePointsAndFewTrackedOnes) {
+  const PointWorld world = MakePointWorld(2, 200, 1);
+  const int all = static_cast<int>(world.map.keyframes[0].features.size());
+  Frame frame = Again(world, all);
+  EXPECT_FALSE(Wanted(world, frame));
+  for (int i = 0; i < 100; ++i) {
+    PointFeature feature;
+    feature.u_px = {10.0 + i, 20.0};
+    feature.depth_m = 1.0;
+    frame.features.push_back(feature);
+    frame.map_points.push_back(kNone);
+  }
+  EXPECT_TRUE(Wanted(world, frame));
+}
+
+TEST(KeyframeDecision, WantsNoFrameThatHardlyHoldsOn) {
+  const PointWorld world = MakePointWorld(2, 200, 1);
+  EXPECT_FALSE(Wanted(world, Again(world, 15)));
+  EXPECT_TRUE(Wanted(world, Again(world, 16)));
+}
+
+TEST(KeyframeDecision, WantsNoneAtOnceAfterAnother) {
+  const PointWorld world = MakePointWorld(2, 200, 1);
+  EXPECT_FALSE(Wanted(world, Again(world, 20), 0));
+}
+
+}  // namespace
+}  // namespace slam
