@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
+#include <set>
+
 #include "eval/trajectory/alignment.h"
 #include "property_tests/generators/scenes.h"
 #include "sim/scene/check.h"
@@ -161,9 +163,48 @@ RC_GTEST_PROP(WholeScene, CornersOfUnoccludedRegularTopsAreWhereTheyAre, ()) {
 
 // ---------------------------------------------------------------------------------------------
 
+/// Points along the outline of a face, 20 a side.
+std::vector<Eigen::Vector3d> Outline(const sim::ScenePlane& face) {
+  std::vector<Eigen::Vector3d> points;
+  for (std::size_t i = 0; i < 4; ++i) {
+    for (int s = 0; s < 20; ++s) {
+      points.push_back(face.vertices_w[i] +
+                       s / 20.0 * (face.vertices_w[(i + 1) % 4] - face.vertices_w[i]));
+    }
+  }
+  return points;
+}
+
+/// Truth planes that another one continues within `step_m`: nearly parallel, touching, and with
+/// a smaller offset (the sides of stacked books). Which of the two a segment shows is a matter
+/// of a few pixels, so the laws about steps do not speak of them. Equal heights apart from each
+/// other, the trap of coplanar tops, stay in.
+std::set<int> ContinuedPlanes(const sim::Scene& scene, double step_m) {
+  constexpr double kParallel_cos = 0.94;  // 20 degrees
+  const std::vector<sim::ScenePlane> planes = sim::ScenePlanes(scene);
+  std::set<int> continued;
+  for (const sim::ScenePlane& one : planes) {
+    const std::vector<Eigen::Vector3d> outline = Outline(one);
+    for (const sim::ScenePlane& other : planes) {
+      if (other.id == one.id || one.n_w.dot(other.n_w) < kParallel_cos) continue;
+      for (const Eigen::Vector3d& p : Outline(other)) {
+        const bool near = std::any_of(outline.begin(), outline.end(),
+                                      [&](const auto& q) { return (p - q).norm() < step_m; });
+        if (near && std::abs(one.n_w.dot(p) + one.d) < step_m) {
+          continued.insert({one.id, other.id});
+          break;
+        }
+      }
+    }
+  }
+  return continued;
+}
+
 /// Decisions of the association alone: true poses, planes as the system extracts them.
+/// @param left_out  frame planes that show one of these are not counted
 eval::DecisionCounts AssociateAtTruePoses(const sim::Scene& scene,
-                                          const pipeline::Recording& recording) {
+                                          const pipeline::Recording& recording,
+                                          const std::set<int>& left_out = {}) {
   const sim::Simulator simulator = SimulatorOf(scene, recording);
   const slam::Camera camera = live::CameraOf(simulator.options().camera);
   const cv::Mat2d rays = slam::PixelRays(camera);
@@ -184,13 +225,17 @@ eval::DecisionCounts AssociateAtTruePoses(const sim::Scene& scene,
     slam::UpdatePlanes(frame, map, camera, {});
     live::AppendRecords(frame, live::TruthOf(frame, simulated, scene), records);
   }
+  std::erase_if(records, [&](const eval::AssociationRecord& record) {
+    return left_out.contains(record.truth);
+  });
   return eval::ScoreAssociation(records).decision;
 }
 
 RC_GTEST_PROP(WholeScene, ExactDepthIsNeverAssociatedWronglyWhenStepsAreTwentyMillimetres, ()) {
   const sim::Scene scene = WithStepsOfAtLeast(DrawScene(), 20.0);
   const pipeline::Recording recording = Exact(30);
-  const eval::DecisionCounts decisions = AssociateAtTruePoses(scene, recording);
+  const eval::DecisionCounts decisions =
+      AssociateAtTruePoses(scene, recording, ContinuedPlanes(scene, 0.020));
   RC_ASSERT(decisions.tp > 0);
   if (decisions.fp > 0) {
     RC_FAIL(std::to_string(decisions.fp) + " wrong, " + std::to_string(decisions.tp) +
