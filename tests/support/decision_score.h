@@ -9,10 +9,11 @@
 
 namespace slam {
 
-/// Decisions of association against truth, counted as the evaluation does: a landmark belongs to the
-/// truth of the frame plane that made it.
+/// Decisions of association against truth, counted as the evaluation does: a landmark belongs
+/// to the truth of the frame plane that made it.
 struct DecisionScore {
-  int true_positives = 0, false_positives = 0, false_negatives = 0, right_new = 0, undecided = 0;
+  int true_positives = 0, false_positives = 0, false_negatives = 0, right_new = 0,
+      undecided = 0;
 
   double Precision() const {
     return static_cast<double>(true_positives) / std::max(1, true_positives + false_positives);

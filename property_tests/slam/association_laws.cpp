@@ -1,0 +1,215 @@
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+#include <algorithm>
+#include <numeric>
+
+#include "property_tests/generators/planes.h"
+#include "slam/associate/plane_assignment.h"
+#include "slam/associate/plane_plane.h"
+#include "slam/mapping/plane_update.h"
+#include "tests/support/plane_world.h"
+
+namespace slam {
+namespace {
+
+constexpr double kMargin = 1.0;
+
+struct Problem {
+  int frames = 0, maps = 0;
+  std::vector<PlaneCandidate> candidates;
+  PlaneRelations relations;
+};
+
+Problem AnyProblem() {
+  Problem p;
+  p.frames = AnyInt(1, 7);
+  p.maps = AnyInt(1, 7);
+  for (int f = 0; f < p.frames; ++f) {
+    for (int m = 0; m < p.maps; ++m) {
+      if (AnyInt(0, 2) > 0) p.candidates.push_back({f, m, AnyReal(0, 12)});
+    }
+  }
+  const auto n = static_cast<std::size_t>(p.frames);
+  p.relations.one_surface.assign(n, std::vector<bool>(n, false));
+  for (std::size_t f = 0; f < n; ++f) {
+    for (std::size_t g = f + 1; g < n; ++g) {
+      p.relations.one_surface[f][g] = p.relations.one_surface[g][f] = AnyInt(0, 5) == 0;
+    }
+  }
+  return p;
+}
+
+std::vector<int> AnyPermutation(int n) {
+  std::vector<int> order(static_cast<std::size_t>(n));
+  std::iota(order.begin(), order.end(), 0);
+  for (int i = n - 1; i > 0; --i) {
+    std::swap(order[static_cast<std::size_t>(i)],
+              order[static_cast<std::size_t>(AnyInt(0, i))]);
+  }
+  return order;
+}
+
+RC_GTEST_PROP(PlaneAssignment, PermutingPlanesPermutesTheAnswer, ()) {
+  const Problem p = AnyProblem();
+  const auto to = AnyPermutation(p.frames), map_to = AnyPermutation(p.maps);
+  Problem q = p;
+  for (PlaneCandidate& c : q.candidates) {
+    c.frame_plane = to[static_cast<std::size_t>(c.frame_plane)];
+    c.map_plane = map_to[static_cast<std::size_t>(c.map_plane)];
+  }
+  std::reverse(q.candidates.begin(), q.candidates.end());
+  for (std::size_t f = 0; f < to.size(); ++f) {
+    for (std::size_t g = 0; g < to.size(); ++g) {
+      q.relations
+          .one_surface[static_cast<std::size_t>(to[f])][static_cast<std::size_t>(to[g])] =
+          p.relations.one_surface[f][g];
+    }
+  }
+  const auto a = AssignPlanes(p.frames, p.candidates, p.relations, kMargin);
+  const auto b = AssignPlanes(q.frames, q.candidates, q.relations, kMargin);
+  for (std::size_t f = 0; f < to.size(); ++f) {
+    const int m = a.map_plane[f];
+    RC_ASSERT(b.map_plane[static_cast<std::size_t>(to[f])] ==
+              (m < 0 ? m : map_to[static_cast<std::size_t>(m)]));
+  }
+}
+
+RC_GTEST_PROP(PlaneAssignment, OnlyPiecesOfOneSurfaceShareALandmark, ()) {
+  const Problem p = AnyProblem();
+  const auto a = AssignPlanes(p.frames, p.candidates, p.relations, kMargin);
+  for (std::size_t f = 0; f < a.map_plane.size(); ++f) {
+    for (std::size_t g = f + 1; g < a.map_plane.size(); ++g) {
+      if (a.map_plane[f] >= 0 && a.map_plane[f] == a.map_plane[g]) {
+        RC_ASSERT(p.relations.one_surface[f][g]);
+      }
+    }
+  }
+}
+
+RC_GTEST_PROP(PlaneAssignment, TwoLandmarksThatFitAlikeGiveNoDecision, ()) {
+  Problem p;
+  p.frames = 1;
+  const double cost = AnyReal(0, 10);
+  p.candidates = {{0, 0, cost}, {0, 1, cost + AnyReal(0, 0.99) * kMargin}};
+  p.relations.one_surface = {{false}};
+  if (AnyInt(0, 1)) std::swap(p.candidates[0], p.candidates[1]);
+  const auto a = AssignPlanes(1, p.candidates, p.relations, kMargin);
+  RC_ASSERT(a.map_plane[0] == PlaneAssignment::kAmbiguous);
+  p.relations.duplicates = {{0, 1}};
+  RC_ASSERT(AssignPlanes(1, p.candidates, p.relations, kMargin).map_plane[0] >= 0);
+}
+
+RC_GTEST_PROP(PlaneAssignment, WhereNothingCompetesEveryPlaneGetsItsBest, ()) {
+  Problem p;
+  p.frames = AnyInt(1, 7);
+  const auto n = static_cast<std::size_t>(p.frames);
+  p.relations.one_surface.assign(n, std::vector<bool>(n, false));
+  const auto order = AnyPermutation(p.frames);
+  for (int f = 0; f < p.frames; ++f) {
+    p.candidates.push_back({f, order[static_cast<std::size_t>(f)], AnyReal(0, 5)});
+    p.candidates.push_back({f, 50 + f, AnyReal(5 + kMargin, 12)});
+  }
+  const auto a = AssignPlanes(p.frames, p.candidates, p.relations, kMargin);
+  RC_ASSERT(a.map_plane == order);
+}
+
+/// A desk with a few boxes, and two views of it.
+struct Views {
+  Map map;
+  Frame second;
+  Camera camera = SmallCamera();
+};
+
+Views AnyViews() {
+  PlaneWorld world;
+  world.Add({0, 0, 0}, {0.7, 0, 0}, {0, 0.45, 0}, "");
+  for (int i = 0; i < 3; ++i) {
+    world.AddBox({-0.4 + 0.4 * i, AnyReal(-0.1, 0.15), 0},
+                 {AnyReal(0.12, 0.3), AnyReal(0.12, 0.25), AnyReal(0.008, 0.05)},
+                 AnyReal(-0.5, 0.5), AnyInt(0, 1) ? "book" : "");
+  }
+  PlaneMapConfig config;
+  config.min_pixels = 40;
+  Views v;
+  const auto seed = static_cast<std::uint64_t>(AnyInt(0, 1 << 30));
+  const ViewFaults faults{1.0, 0.3, 1.0, 0.003, 0.002};
+  const Pose one = LookAt({AnyReal(-.2, .2), -0.8, AnyReal(.5, .8)}, {0, 0, 0});
+  SeenWorld first = See(world, one, v.camera, faults, Random{seed});
+  UpdatePlanes(first.frame, v.map, v.camera, config);
+  const Pose two = LookAt({AnyReal(-.2, .2), -0.8, AnyReal(.5, .8)}, {0, 0, 0});
+  v.second = See(world, two, v.camera, faults, Random{seed, 1}).frame;
+  return v;
+}
+
+bool SameDecision(const PlaneMatch& a, const PlaneMatch& b) {
+  return a.decision == b.decision && a.map_plane == b.map_plane;
+}
+
+RC_GTEST_PROP(PlaneAssociation, DoesNotDependOnWhereTheWorldLies, ()) {
+  Views v = AnyViews();
+  Frame moved = v.second;
+  AssociatePlanes(v.second, v.map, v.camera, {});
+  const Pose T_vw = AnyPose(5);
+  const Pose T_wv = Inverse(T_vw);
+  moved.T_cw = moved.T_cw * T_wv;
+  for (MapPlane& m : v.map.planes) {
+    m.pi_w = Transform(T_vw, m.pi_w);
+    m.pi_w.n.normalize();
+    m.centroid_w = T_vw * m.centroid_w;
+    m.estimate.origin_w = T_vw * m.estimate.origin_w;
+    m.estimate.normal_w = T_vw.R * m.estimate.normal_w;
+    m.estimate.axes = (T_vw.R * m.estimate.axes).eval();
+    for (auto* cloud : {&m.points_w, &m.edge_points_w, &m.vertices_w, &m.hull_w}) {
+      for (Eigen::Vector3d& p_w : *cloud) p_w = T_vw * p_w;
+    }
+  }
+  AssociatePlanes(moved, v.map, v.camera, {});
+  for (std::size_t f = 0; f < moved.planes.size(); ++f) {
+    RC_ASSERT(SameDecision(v.second.plane_matches[f], moved.plane_matches[f]));
+  }
+}
+
+RC_GTEST_PROP(PlaneAssociation, DoesNotDependOnTheOrderOfTheFramesPlanes, ()) {
+  Views v = AnyViews();
+  Frame other = v.second;
+  const auto to = AnyPermutation(static_cast<int>(other.planes.size()));
+  for (std::size_t f = 0; f < to.size(); ++f) {
+    const auto k = static_cast<std::size_t>(to[f]);
+    other.planes[k] = v.second.planes[f];
+    other.planes[k].index = to[f];
+  }
+  for (auto& label : other.plane_labels) {
+    if (label > 0)
+      label = static_cast<unsigned char>(to[static_cast<std::size_t>(label - 1)] + 1);
+  }
+  AssociatePlanes(v.second, v.map, v.camera, {});
+  AssociatePlanes(other, v.map, v.camera, {});
+  for (std::size_t f = 0; f < to.size(); ++f) {
+    RC_ASSERT(SameDecision(v.second.plane_matches[f],
+                           other.plane_matches[static_cast<std::size_t>(to[f])]));
+  }
+}
+
+RC_GTEST_PROP(PlaneAssociation, ALandmarkFarAwayChangesNothing, ()) {
+  Views v = AnyViews();
+  Frame again = v.second;
+  AssociatePlanes(v.second, v.map, v.camera, {});
+  MapPlane far = v.map.planes.front();
+  const Pose away{Eigen::Matrix3d::Identity(), {50, AnyReal(-5, 5), AnyReal(5, 9)}};
+  far.id = static_cast<int>(v.map.planes.size());
+  far.pi_w = Transform(away, far.pi_w);
+  far.centroid_w = away * far.centroid_w;
+  far.estimate.origin_w = away * far.estimate.origin_w;
+  for (auto* cloud : {&far.points_w, &far.hull_w}) {
+    for (Eigen::Vector3d& p_w : *cloud) p_w = away * p_w;
+  }
+  v.map.planes.push_back(far);
+  AssociatePlanes(again, v.map, v.camera, {});
+  for (std::size_t f = 0; f < again.planes.size(); ++f) {
+    RC_ASSERT(SameDecision(v.second.plane_matches[f], again.plane_matches[f]));
+  }
+}
+
+}  // namespace
+}  // namespace slam

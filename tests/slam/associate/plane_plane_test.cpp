@@ -1,0 +1,201 @@
+#include "slam/associate/plane_plane.h"
+
+#include <gtest/gtest.h>
+
+#include <cstring>
+
+#include "slam/mapping/plane_update.h"
+#include "tests/support/plane_world.h"
+
+namespace slam {
+namespace {
+
+constexpr double kDesk = 0.8;
+
+PlaneMapConfig SmallImages() {
+  PlaneMapConfig config;
+  config.min_pixels = 40;
+  return config;
+}
+
+/// A desk with a book of this thickness in its middle, class or none.
+PlaneWorld DeskWithBook(double step_m, const char* class_name) {
+  PlaneWorld world;
+  world.Add({0, 0, 0}, {kDesk, 0, 0}, {0, 0.5, 0}, "");
+  world.AddBox({0, 0, 0}, {0.2, 0.25, step_m}, 0.2, class_name);
+  return world;
+}
+
+const Pose kFirst = LookAt({0, -0.8, 0.7}, {0, 0, 0});
+const Pose kSecond = LookAt({0.15, -0.75, 0.65}, {0.02, 0, 0});
+
+struct Association {
+  Map map;
+  SeenWorld first, second;
+};
+
+/// Maps one view and associates another.
+Association TwoViews(const PlaneWorld& world, const ViewFaults& faults,
+                     AssociationConfig config) {
+  Association out;
+  const Camera camera = SmallCamera();
+  out.first = See(world, kFirst, camera, {.depth_noise = faults.depth_noise}, Random{1});
+  UpdatePlanes(out.first.frame, out.map, camera, SmallImages());
+  out.second = See(world, kSecond, camera, faults, Random{2});
+  AssociatePlanes(out.second.frame, out.map, camera, config);
+  return out;
+}
+
+/// Truth of the landmark that a frame plane of the second view was matched with; -1 for none.
+int Landmark(const Association& a, std::size_t f) {
+  const PlaneMatch& match = a.second.frame.plane_matches[f];
+  if (match.decision != PlaneDecision::kMatched) return -1;
+  for (std::size_t g = 0; g < a.first.truth.size(); ++g) {
+    if (a.first.frame.plane_matches[g].map_plane == match.map_plane) return a.first.truth[g];
+  }
+  return -2;
+}
+
+void ExpectAllRight(const Association& a) {
+  for (std::size_t f = 0; f < a.second.truth.size(); ++f) {
+    EXPECT_EQ(Landmark(a, f), a.second.truth[f]) << "frame plane " << f;
+  }
+}
+
+TEST(PlaneAssociation, TellsABookFromTheDeskItLiesOn) {
+  for (const double step : {0.005, 0.01, 0.02, 0.05}) {
+    SCOPED_TRACE(step);
+    ExpectAllRight(TwoViews(DeskWithBook(step, "book"), {}, {}));
+  }
+}
+
+TEST(PlaneAssociation, NeedsNoDetectionToTellThemApart) {
+  ExpectAllRight(TwoViews(DeskWithBook(0.01, "book"), {.miss_rate = 1.0}, {}));
+  ExpectAllRight(TwoViews(DeskWithBook(0.01, ""), {.depth_noise = 1.0}, {}));
+}
+
+TEST(PlaneAssociation, CorrectsAPoseThatIsOffByTheStepItself) {
+  // Eight millimetres of error along the normal would turn the desk into the book's top.
+  ExpectAllRight(TwoViews(DeskWithBook(0.008, "book"),
+                          {.pose_sigma_m = 0.004, .pose_sigma_rad = 0.002}, {}));
+}
+
+TEST(PlaneAssociation, ByParametersAloneTakesTheBookForTheDeskOrTheDeskForTheBook) {
+  const ViewFaults faults{.depth_noise = 1.0, .pose_sigma_m = 0.006, .pose_sigma_rad = 0.004};
+  AssociationConfig parameters;
+  parameters.rule = AssociationRule::kParameters;
+  int wrong = 0, wrong_integrated = 0;
+  for (std::uint64_t seed = 0; seed < 10; ++seed) {
+    const Camera camera = SmallCamera();
+    Association a;
+    const PlaneWorld world = DeskWithBook(0.008, "book");
+    a.first = See(world, kFirst, camera, {}, Random{1});
+    UpdatePlanes(a.first.frame, a.map, camera, SmallImages());
+    a.second = See(world, kSecond, camera, faults, Random{2, seed});
+    for (const bool integrated : {false, true}) {
+      AssociatePlanes(a.second.frame, a.map, camera,
+                      integrated ? AssociationConfig{} : parameters);
+      for (std::size_t f = 0; f < a.second.truth.size(); ++f) {
+        const int landmark = Landmark(a, f);
+        if (landmark < 0 || landmark == a.second.truth[f]) continue;
+        ++(integrated ? wrong_integrated : wrong);
+      }
+    }
+  }
+  EXPECT_GT(wrong, 0);
+  EXPECT_EQ(wrong_integrated, 0);
+}
+
+TEST(PlaneAssociation, DoesNotTakeOneTopForAnotherOfTheSameHeight) {
+  PlaneWorld world;
+  world.AddBox({-0.25, 0, 0}, {0.2, 0.25, 0.03}, 0, "book");
+  PlaneWorld both = world;
+  both.AddBox({0.25, 0, 0}, {0.2, 0.25, 0.03}, 0, "book");
+  const Camera camera = SmallCamera();
+  Map map;
+  SeenWorld first = See(world, kFirst, camera, {}, Random{1});
+  UpdatePlanes(first.frame, map, camera, SmallImages());
+  SeenWorld second = See(both, kSecond, camera, {}, Random{2});
+  AssociatePlanes(second.frame, map, camera, {});
+  for (std::size_t f = 0; f < second.truth.size(); ++f) {
+    if (second.truth[f] < 5) continue;  // of the first book
+    EXPECT_NE(second.frame.plane_matches[f].decision, PlaneDecision::kMatched)
+        << second.truth[f];
+  }
+}
+
+TEST(PlaneAssociation, RecognisesADeskThatGoesOnWhereItWasNotSeen) {
+  PlaneWorld world;
+  world.Add({0, 0, 0}, {kDesk, 0, 0}, {0, 0.5, 0}, "");
+  const Camera camera = SmallCamera();
+  Map map;
+  SeenWorld first = See(world, LookAt({-0.3, -0.6, 0.4}, {-0.35, 0, 0}), camera, {}, Random{1});
+  UpdatePlanes(first.frame, map, camera, SmallImages());
+  SeenWorld second = See(world, LookAt({0.1, -0.6, 0.4}, {0.15, 0, 0}), camera, {}, Random{2});
+  AssociatePlanes(second.frame, map, camera, {});
+  ASSERT_EQ(second.truth.size(), 1u);
+  EXPECT_EQ(second.frame.plane_matches[0].decision, PlaneDecision::kMatched);
+}
+
+TEST(PlaneAssociation, MatchesBothPiecesOfASurfaceThatIsCutInTwo) {
+  PlaneWorld whole = DeskWithBook(0.02, "book"), cut = whole;
+  cut.AddBox({0, 0.05, 0}, {0.06, 1.2, 0.1}, 0, "box");
+  const Camera camera = SmallCamera();
+  Map map;
+  SeenWorld first = See(whole, kFirst, camera, {}, Random{1});
+  UpdatePlanes(first.frame, map, camera, SmallImages());
+  SeenWorld second = See(cut, kFirst, camera, {}, Random{2});
+  AssociatePlanes(second.frame, map, camera, {});
+  int desk_pieces = 0, matched = 0;
+  for (std::size_t f = 0; f < second.truth.size(); ++f) {
+    if (second.truth[f] != 0) continue;
+    ++desk_pieces;
+    matched += second.frame.plane_matches[f].decision == PlaneDecision::kMatched ? 1 : 0;
+  }
+  EXPECT_GE(desk_pieces, 2);
+  EXPECT_EQ(matched, desk_pieces);
+}
+
+TEST(PlaneAssociation, LeavesATieUndecided) {
+  // Two landmarks six millimetres apart, the measured plane half way, nothing else to tell.
+  PlaneWorld world;
+  world.Add({0, 0, 0.003}, {0.2, 0, 0}, {0, 0.2, 0}, "");
+  const Camera camera = SmallCamera();
+  Map map;
+  for (const double height : {0.0, 0.006}) {
+    PlaneWorld one;
+    one.Add({0, 0, height}, {0.2, 0, 0}, {0, 0.2, 0}, "");
+    SeenWorld seen = See(one, kFirst, camera, {}, Random{1});
+    Map single;
+    UpdatePlanes(seen.frame, single, camera, SmallImages());
+    ASSERT_EQ(single.planes.size(), 1u);
+    MapPlane m = single.planes[0];
+    m.id = static_cast<int>(map.planes.size());
+    // Known to a fraction of a millimetre: they are two.
+    m.estimate.information *= 100;
+    m.estimate.weighted *= 100;
+    map.planes.push_back(m);
+  }
+  SeenWorld between = See(world, kFirst, camera, {}, Random{2});
+  AssociatePlanes(between.frame, map, camera, {});
+  ASSERT_EQ(between.frame.plane_matches.size(), 1u);
+  EXPECT_EQ(between.frame.plane_matches[0].decision, PlaneDecision::kNone);
+  EXPECT_STREQ(between.frame.plane_matches[0].by, kByAmbiguous);
+}
+
+TEST(PlaneAssociation, NeverMatchesAPlaneOnAnUnstructuredObject) {
+  const Camera camera = SmallCamera();
+  const PlaneWorld world = DeskWithBook(0.02, "book");
+  Map map;
+  SeenWorld first = See(world, kFirst, camera, {}, Random{1});
+  UpdatePlanes(first.frame, map, camera, SmallImages());
+  SeenWorld second = See(world, kFirst, camera, {}, Random{2});
+  for (FramePlane& plane : second.frame.planes) plane.bad = BadReason::kUnstructured;
+  AssociatePlanes(second.frame, map, camera, {});
+  for (const PlaneMatch& match : second.frame.plane_matches) {
+    EXPECT_EQ(match.decision, PlaneDecision::kNone);
+  }
+}
+
+}  // namespace
+}  // namespace slam

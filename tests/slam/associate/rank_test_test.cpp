@@ -1,0 +1,125 @@
+#include "slam/associate/rank_test.h"
+
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "slam/base/random.h"
+
+namespace slam {
+namespace {
+
+std::filesystem::path SharedDir() {
+  const char* given = std::getenv("PAS_SHARED_DIR");
+  return given != nullptr ? std::filesystem::path(given)
+                          : std::filesystem::path(PAS_SOURCE_DIR) / ".." / "shared";
+}
+
+// The reference prints 15 digits; erfc and the survival function agree to a few ulp.
+constexpr double kReferenceTolerance = 1e-12;
+
+TEST(RankTestEq9, AgreesWithTheReferenceFigures) {
+  const auto path = SharedDir() / "golden" / "mannwhitney.json";
+  if (!std::filesystem::exists(path)) GTEST_SKIP() << "no reference figures at " << path;
+  const auto cases = nlohmann::json::parse(std::ifstream(path)).at("cases");
+  int checked = 0;
+  for (const auto& entry : cases) {
+    SCOPED_TRACE(entry.at("name").get<std::string>());
+    const auto x = entry.at("x").get<std::vector<double>>();
+    const auto y = entry.at("y").get<std::vector<double>>();
+    if (x.size() > 60 && y.size() < 8) continue;  // thinned by contract
+    if (y.size() > 60 && x.size() < 8) continue;
+    const RankTest test = TestRanks(x, y);
+    EXPECT_DOUBLE_EQ(test.U_c, entry.at("U1").get<double>());
+    EXPECT_DOUBLE_EQ(test.U_w, entry.at("U2").get<double>());
+    const auto& expected = test.exact ? entry.value("exact_two_sided", nlohmann::json())
+                                      : entry.at("p").at("two-sided|cc");
+    // The reference's exact p-value knows no ties.
+    if (!expected.is_number() || (test.exact && entry.at("has_ties").get<bool>())) continue;
+    EXPECT_NEAR(test.p, expected.get<double>(), kReferenceTolerance);
+    ++checked;
+  }
+  EXPECT_GT(checked, 3);
+}
+
+TEST(RankTestEq10, DoesNotRejectSamplesOfOneDistributionAsThePrintedMeanDoes) {
+  constexpr int kTrials = 2000, kSize = 50;
+  constexpr double kAlpha = 0.05;
+  int rejected = 0, printed_rejects = 0;
+  for (std::uint64_t trial = 0; trial < kTrials; ++trial) {
+    Random random{10, trial};
+    std::vector<double> x(kSize), y(kSize);
+    for (double& v : x) v = random.Uniform();
+    for (double& v : y) v = random.Uniform();
+    const RankTest test = TestRanks(x, y);
+    rejected += test.p < kAlpha ? 1 : 0;
+    const double I = kSize, J = kSize, W = std::min(test.U_c, test.U_w);
+    const double printed_z = (W - I * (I + J + 1) / 2) / std::sqrt(I * J * (I + J + 1) / 12);
+    printed_rejects += std::abs(printed_z) > 1.96 ? 1 : 0;
+  }
+  // Five standard deviations of a binomial: false alarm 6e-7.
+  const double band = 5 * std::sqrt(kAlpha * (1 - kAlpha) / kTrials);
+  EXPECT_NEAR(static_cast<double>(rejected) / kTrials, kAlpha, band);
+  EXPECT_EQ(printed_rejects, kTrials);
+}
+
+TEST(RankTestEq11, CountsTiesInTheVariance) {
+  // Two values only: by the formula D = I J / 12 (N + 1 - sum (tau^3 - tau) / (N (N - 1))).
+  const std::vector<double> x{0, 0, 0, 0, 0, 0, 1, 1, 1, 1}, y{0, 0, 1, 1, 1, 1, 1, 1, 1, 1};
+  const double I = 10, J = 10, N = 20, tie = (8 * 8 * 8 - 8) + (12 * 12 * 12 - 12);
+  const double D = I * J / 12 * (N + 1 - tie / (N * (N - 1)));
+  const RankTest test = TestRanks(x, y);
+  const double z = (std::min(test.U_c, test.U_w) - I * J / 2 + 0.5) / std::sqrt(D);
+  EXPECT_DOUBLE_EQ(test.p, std::erfc(-z / std::sqrt(2.0)));
+}
+
+TEST(RankTestEq12, CannotRejectWithThreeValuesEach) {
+  const std::vector<double> low{1, 2, 3}, high{10, 11, 12};
+  const RankTest test = TestRanks(low, high);
+  EXPECT_TRUE(test.exact);
+  EXPECT_DOUBLE_EQ(test.p, 0.1);  // 2 of 20 divisions
+}
+
+TEST(RankTestEq12, SaysNothingAboutEqualOrMissingValues) {
+  const std::vector<double> same(20, 4.0), none;
+  EXPECT_EQ(TestRanks(same, same).p, 1.0);
+  EXPECT_EQ(TestRanks(same, none).p, 1.0);
+}
+
+TEST(RankTestEq12, ThrowsOnAValueThatIsNotANumber) {
+  const std::vector<double> nan{1.0, std::nan("")}, fine{1.0, 2.0};
+  EXPECT_THROW(static_cast<void>(TestRanks(nan, fine)), std::invalid_argument);
+}
+
+/// Points spread over a rectangle on z = `height`, centred at x.
+std::vector<Eigen::Vector3d> Cloud(double x, double height, std::uint64_t key) {
+  Random random{key};
+  std::vector<Eigen::Vector3d> cloud;
+  for (int i = 0; i < 40; ++i) {
+    cloud.emplace_back(x + 0.3 * (random.Uniform() - 0.5), 0.2 * (random.Uniform() - 0.5),
+                       height + 0.001 * (random.Uniform() - 0.5));
+  }
+  return cloud;
+}
+
+TEST(PlaneRankTest, PassesOneSurfaceAndRefusesOneBesideOrAbove) {
+  const auto here = Cloud(0, 0, 1), again = Cloud(0, 0, 2);
+  const Eigen::Matrix3d axes = PlaneAxes({Eigen::Vector3d::UnitZ(), 0}, here);
+  EXPECT_GT(TestPlaneRanks(again, here, axes, 6).value().p, 0.01);
+  EXPECT_LT(TestPlaneRanks(Cloud(0.3, 0, 3), here, axes, 6).value().p, 1e-6);
+  EXPECT_LT(TestPlaneRanks(Cloud(0, 0.01, 4), here, axes, 6).value().p, 1e-6);
+}
+
+TEST(PlaneRankTest, RefusesSamplesThatAreTooSmall) {
+  const auto cloud = Cloud(0, 0, 1);
+  const std::vector<Eigen::Vector3d> three(cloud.begin(), cloud.begin() + 3);
+  const auto test = TestPlaneRanks(three, cloud, Eigen::Matrix3d::Identity(), 6);
+  ASSERT_FALSE(test.has_value());
+  EXPECT_EQ(test.error(), RankRefusal::kTooFewPoints);
+}
+
+}  // namespace
+}  // namespace slam
