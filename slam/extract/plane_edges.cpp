@@ -26,22 +26,28 @@ Eigen::Vector2d Outward(const cv::Mat1b& labels, int value, const cv::Point& at)
 EdgeKind KindBeyond(const DepthGrid& grid, const cv::Point& at, const Eigen::Vector2d& outward,
                     const LabelPlane& plane, const EdgeConfig& config) {
   const Eigen::Vector2d step = outward / outward.cwiseAbs().maxCoeff();
+  const float least_step = static_cast<float>(config.min_step_sigmas);
   float first = 0, last = 0;
   int measured = 0;
-  for (int k = 1; k <= config.reach_px; ++k) {
+  for (int k = 1; k <= std::max(config.reach_px, config.shadow_px); ++k) {
+    if (k > config.reach_px && measured > 0) break;
     const int u = at.x + static_cast<int>(std::lround(k * step.x()));
     const int v = at.y + static_cast<int>(std::lround(k * step.y()));
     if (u < 0 || v < 0 || u >= grid.width || v >= grid.height) {
-      if (measured == 0) return EdgeKind::kBorder;
+      if (measured == 0) return k <= config.reach_px ? EdgeKind::kBorder : EdgeKind::kMissing;
       break;
     }
     const auto i = static_cast<std::size_t>(grid.Index(u, v));
     if (!(grid.g[i] > 0)) continue;
     last = ResidualSigmas(grid, i, plane);
+    if (k > config.reach_px) {  // beyond a gap
+      if (last < -least_step) return EdgeKind::kSurface;
+      return last > least_step ? EdgeKind::kOccluded : EdgeKind::kMissing;
+    }
     if (measured++ == 0) first = last;
   }
   if (measured == 0) return EdgeKind::kMissing;
-  if (!(last > static_cast<float>(config.min_step_sigmas))) return EdgeKind::kSurface;
+  if (!(last > least_step)) return EdgeKind::kSurface;
   return first < static_cast<float>(config.max_crease_start) * last ? EdgeKind::kSurface
                                                                     : EdgeKind::kOccluded;
 }

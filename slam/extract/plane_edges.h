@@ -9,8 +9,12 @@
 namespace slam {
 
 struct EdgeConfig {
-  int step_px = 2;             ///< spacing along the contour; domain [1, 64]
-  int reach_px = 4;            ///< how far beyond the boundary is looked; domain [2, 16]
+  int step_px = 2;   ///< spacing along the contour; domain [1, 64]
+  int reach_px = 4;  ///< how far beyond the boundary is looked; domain [2, 16]
+  /// The projector of a structured-light sensor casts a shadow without depth beside a near
+  /// edge, on what lies behind. Beyond a gap up to this wide the depth decides; domain [0,
+  /// 128].
+  int shadow_px = 32;
   double min_step_sigmas = 3;  ///< a depth step is at least this; domain (0, inf)
   /// Beyond a crease the residual grows with the distance from it; beyond an occluder's edge it
   /// is all there at once. A crease's first residual is below this part of the last. Domain (0,
@@ -20,7 +24,7 @@ struct EdgeConfig {
 
 /// The outer boundary of a segment, ordered along each of its contours (clockwise in the image,
 /// the longest contour first), with what lies beyond each point (EdgeKind):
-///   nothing measured within reach           kMissing
+///   nothing measured, nor a step beyond it   kMissing
 ///   the image's border                      kBorder
 ///   farther than the plane                  kSurface (a step down, or a convex crease)
 ///   nearer, and suddenly                    kOccluded
