@@ -8,10 +8,11 @@ namespace {
 // Below this there is no room for a descriptor's patch.
 constexpr int kMinSide_px = 24;
 
-PyramidImage Pad(const cv::Mat1b& image, double scale) {
+PyramidImage Pad(const cv::Mat1b& image, const cv::Size& full) {
   constexpr int kPad = kPyramidPadding_px;
   PyramidImage octave;
-  octave.scale = scale;
+  octave.scale_u = static_cast<double>(full.width) / image.cols;
+  octave.scale_v = static_cast<double>(full.height) / image.rows;
   cv::copyMakeBorder(image, octave.padded, kPad, kPad, kPad, kPad, cv::BORDER_REFLECT_101);
   octave.image = octave.padded(cv::Rect(kPad, kPad, image.cols, image.rows));
   return octave;
@@ -32,7 +33,7 @@ std::vector<PyramidImage> BuildImagePyramid(const cv::Mat1b& image,
       cv::resize(current, smaller, size, 0, 0, cv::INTER_LINEAR);
       current = smaller;
     }
-    octaves.push_back(Pad(current, scale));
+    octaves.push_back(Pad(current, image.size()));
   }
   return octaves;
 }

@@ -75,11 +75,11 @@ std::vector<int> Shares(const ScalePyramid& scales, std::size_t octaves, int cou
 }
 
 PointFeature MakeFeature(const cv::KeyPoint& corner, const Descriptor& descriptor, int octave,
-                         double scale, const cv::Mat1f& depth_m, const Camera& camera,
-                         const PointFeatureConfig& config) {
+                         const PyramidImage& image, const cv::Mat1f& depth_m,
+                         const Camera& camera, const PointFeatureConfig& config) {
   // Pixel centres are integers in every octave; the half pixel keeps them aligned.
-  const Eigen::Vector2d recorded_px((corner.pt.x + 0.5) * scale - 0.5,
-                                    (corner.pt.y + 0.5) * scale - 0.5);
+  const Eigen::Vector2d recorded_px((corner.pt.x + 0.5) * image.scale_u - 0.5,
+                                    (corner.pt.y + 0.5) * image.scale_v - 0.5);
   PointFeature feature;
   feature.u_px = camera.Undistort(recorded_px);
   feature.octave = octave;
@@ -117,7 +117,7 @@ std::vector<PointFeature> ExtractPointFeatures(const cv::Mat1b& gray, const cv::
     const auto descriptors = DescribePoints(octaves[o], corners);
     for (std::size_t i = 0; i < corners.size(); ++i) {
       features.push_back(MakeFeature(corners[i], descriptors[i], static_cast<int>(o),
-                                     octaves[o].scale, depth_m, camera, config));
+                                     octaves[o], depth_m, camera, config));
     }
   }
   return features;

@@ -77,7 +77,7 @@ class TexturedCorner {
     return nearest;
   }
   std::uint8_t Print(int wall, const Eigen::Vector3d& p_w) const {
-    constexpr double kTexelsAMetre = 150.0;
+    constexpr double kTexelsAMetre = 70.0;  // coarser than any pixel: no aliasing
     const cv::Mat1b& pattern = patterns_[static_cast<std::size_t>(wall)];
     const double s = (wall == 2 ? p_w.z() : p_w.x()) * kTexelsAMetre + 512.0;
     const double t = (wall == 1 ? p_w.z() : p_w.y()) * kTexelsAMetre + 512.0;
