@@ -173,6 +173,7 @@ RC_GTEST_PROP(PlaneAssociation, DoesNotDependOnWhereTheWorldLies, ()) {
 RC_GTEST_PROP(PlaneAssociation, DoesNotDependOnTheOrderOfTheFramesPlanes, ()) {
   Views v = AnyViews();
   Frame other = v.second;
+  other.plane_labels = v.second.plane_labels.clone();  // a copied image shares its pixels
   const auto to = AnyPermutation(static_cast<int>(other.planes.size()));
   for (std::size_t f = 0; f < to.size(); ++f) {
     const auto k = static_cast<std::size_t>(to[f]);
