@@ -3,8 +3,6 @@
 
 #include <opencv2/core.hpp>
 
-#include <numeric>
-
 #include "property_tests/sim/render_worlds.h"
 #include "sim/trace/frame_renderer.h"
 
@@ -178,8 +176,8 @@ RC_GTEST_PROP(RenderedFrame, OfAShiftedPrincipalPointIsTheSameFrameCropped, ()) 
   crop.cx -= du;
   crop.cy -= dv;
   const cv::Rect window(du, dv, crop.width, crop.height);
-  const Rendering whole = FrameRenderer(scene, camera).Render(T_wc);
-  const Rendering part = FrameRenderer(scene, crop).Render(T_wc);
+  const Rendering whole = FrameRenderer(scene, camera).Render(T_wc, {.colour = false});
+  const Rendering part = FrameRenderer(scene, crop).Render(T_wc, {.colour = false});
   RC_ASSERT(Same(part.depth_m, whole.depth_m(window)));
   RC_ASSERT(Same(part.plane_id, whole.plane_id(window)));
   RC_ASSERT(Same(part.object_id, whole.object_id(window)));
@@ -189,10 +187,10 @@ RC_GTEST_PROP(RenderedFrame, IgnoresAnObjectThatIsWhollyHidden, ()) {
   Scene scene = AnyScene();
   const Pose T_wc = AnyView();
   scene.objects.push_back(BoxObject(40, "wall", Role::kStructure, {0, 9, 0}, {60, 0.5, 60}));
-  const Rendering before = FrameRenderer(scene, SmallCamera()).Render(T_wc);
+  const Rendering before = FrameRenderer(scene, SmallCamera()).Render(T_wc, {.colour = false});
   scene.objects.push_back(BoxObject(41, "box", Role::kRegular,
                                     {Real(-3, 3), Real(11, 12), Real(-3, 3)}, {0.5, 0.5, 0.5}));
-  const Rendering after = FrameRenderer(scene, SmallCamera()).Render(T_wc);
+  const Rendering after = FrameRenderer(scene, SmallCamera()).Render(T_wc, {.colour = false});
   RC_ASSERT(Same(before.depth_m, after.depth_m));
   RC_ASSERT(Same(before.plane_id, after.plane_id));
 }
