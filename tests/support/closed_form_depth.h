@@ -170,7 +170,7 @@ inline slam::Frame MakeFrame(const cv::Mat1f& depth_m) {
 
 /// A desk top 1.4 x 0.8 m at height 0 with nothing on it.
 inline World Desk() {
-  return {{{Eigen::Vector3d(0, 0, -0.015), Eigen::Vector3d(1.4, 0.8, 0.03)}}};
+  return {{{Eigen::Vector3d(0, 0, -0.015), Eigen::Vector3d(1.4, 0.8, 0.03), 0.0, ""}}};
 }
 
 /// Puts a box on the desk at (x, y).
