@@ -81,14 +81,17 @@ using Contacts = std::map<std::pair<int, int>, PlaneSums>;
 
 Contacts FindContacts(const DepthGrid& grid, const LabelImage& labels) {
   Contacts contacts;
+  std::pair<int, int> last{-1, -1};  // neighbouring pixels touch the same pair: look it up once
+  PlaneSums* sums = nullptr;
   const auto touch = [&](std::size_t i, std::size_t j) {
     const int a = labels[i], b = labels[j];
     if (a == b || a == kNoLabel || b == kNoLabel) return;
-    PlaneSums& sums = contacts[std::minmax(a, b)];
+    const std::pair<int, int> pair = std::minmax(a, b);
+    if (pair != last) sums = &contacts[pair], last = pair;
     for (const std::size_t k : {i, j}) {
       const double g = static_cast<double>(grid.g[k]);
-      sums.Add(static_cast<double>(grid.x[k]), static_cast<double>(grid.y[k]),
-               static_cast<double>(grid.q[k]), g * g);
+      sums->Add(static_cast<double>(grid.x[k]), static_cast<double>(grid.y[k]),
+                static_cast<double>(grid.q[k]), g * g);
     }
   };
   for (int v = 0; v < grid.height; ++v) {
@@ -246,32 +249,33 @@ PatchUnion JoinBentParts(const DepthGrid& grid, const PlaneExtractionConfig& con
 /// Labels that are one plane though nothing joins them in the image: the smaller lies on the
 /// larger's extension, and what surrounds the smaller is in front of it, so that it can pass
 /// behind. Two book tops of one height are surrounded by the desk behind them and stay apart.
-void JoinAcrossOccluders(const LabelImage& labels, const DepthGrid& grid,
-                         const std::vector<LabelPlane>& planes,
+void JoinAcrossOccluders(const PatchUnion& patches, std::size_t count,
                          const PlaneExtractionConfig& config, LabelComponents& components) {
-  std::vector<int> behind(planes.size(), 0), in_front(planes.size(), 0);
+  std::vector<int> behind(count, 0), in_front(count, 0);
+  std::vector<int> order;
+  for (std::size_t k = 0; k < count; ++k) {
+    const bool own = patches.Root(static_cast<int>(k)) == static_cast<int>(k);
+    if (own && patches.At(static_cast<int>(k)).sums.n >= 3)
+      order.push_back(static_cast<int>(k));
+  }
   for (const LabelComponent& c : components.list) {
     behind[static_cast<std::size_t>(c.label)] += c.behind;
     in_front[static_cast<std::size_t>(c.label)] += c.in_front;
   }
-  const std::vector<PlaneSums> sums = SumLabels(grid, labels, static_cast<int>(planes.size()));
-  std::vector<std::size_t> order(planes.size());
-  std::iota(order.begin(), order.end(), 0u);
   std::stable_sort(order.begin(), order.end(),
-                   [&](std::size_t a, std::size_t b) { return sums[a].n > sums[b].n; });
-  std::vector<int> into(planes.size());
+                   [&](int a, int b) { return patches.At(a).sums.n > patches.At(b).sums.n; });
+  std::vector<int> into(count);
   std::iota(into.begin(), into.end(), 0);
   for (std::size_t k = 1; k < order.size(); ++k) {
-    const std::size_t small = order[k];
-    if (!(sums[small].n >= 3)) break;
+    const auto small = static_cast<std::size_t>(order[k]);
     if (behind[small] > config.max_island_behind * (behind[small] + in_front[small])) continue;
     double least = 1.0;
     for (std::size_t j = 0; j < k; ++j) {
-      const std::size_t large = order[j];
-      if (into[large] != static_cast<int>(large)) continue;
-      const Patch a{sums[small], planes[small]}, b{sums[large], planes[large]};
-      const double gap = PatchGap(a, b, config.max_merge_gap_sigmas, config);
-      if (gap < least) least = gap, into[small] = static_cast<int>(large);
+      const int large = order[j];
+      if (into[static_cast<std::size_t>(large)] != large) continue;
+      const double gap = PatchGap(patches.At(order[k]), patches.At(large),
+                                  config.max_merge_gap_sigmas, config);
+      if (gap < least) least = gap, into[small] = large;
     }
   }
   for (LabelComponent& c : components.list) c.label = into[static_cast<std::size_t>(c.label)];
@@ -422,7 +426,7 @@ void ExtractPlanes(Frame& frame, const Camera& camera, const cv::Mat2d& rays,
     if (label != kNoLabel) label = static_cast<std::int16_t>(joined.Root(label));
   }
   LabelComponents components = ConnectedComponents(grid, labels, planes);
-  JoinAcrossOccluders(labels, grid, planes, config, components);
+  JoinAcrossOccluders(joined, planes.size(), config, components);
   int count = 0;
   const std::vector<int> segment_of =
       SegmentsOfComponents(components, planes.size(), config, count);

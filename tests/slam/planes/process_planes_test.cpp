@@ -65,7 +65,9 @@ TEST(ProcessPlanes, TieTheBookAndNotTheDesk) {
   int books = 0;
   for (const FramePlane& plane : scene.frame.planes) {
     books += plane.class_name == "book" ? 1 : 0;
-    if (plane.pixel_count > 60000) EXPECT_EQ(plane.class_name, "") << "the desk";
+    if (plane.pixel_count > 60000) {
+      EXPECT_EQ(plane.class_name, "") << "the desk";
+    }
     EXPECT_EQ(plane.bad, std::nullopt);
     EXPECT_GT(plane.inlier_ratio, 0.9);
   }
