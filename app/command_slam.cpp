@@ -2,6 +2,7 @@
 
 #include "app/app.h"
 #include "app/console.h"
+#include "slam/base/require.h"
 #include "slam/config/config_file.h"
 #include "slam/track/run_sequence.h"
 #include "version.h"
@@ -17,7 +18,15 @@ struct SlamArguments {
 };
 
 int RunSlam(SlamArguments& arguments, bool quiet) {
+  if (arguments.print_config) {
+    fmt::print("{}", slam::ConfigAsYaml(slam::Config{}));
+    return kDone;
+  }
   slam::RunOptions& options = arguments.options;
+  if (options.sequence.empty() || options.run.empty()) {
+    throw slam::InputError("pas slam",
+                           "needs a sequence folder and -o RUN; see pas slam --help");
+  }
   options.variant = slam::VariantOf(arguments.variant);
   if (!arguments.config_file.empty()) options.config = slam::ReadConfig(arguments.config_file);
   options.version = PAS_VERSION;
@@ -53,10 +62,8 @@ void AddSlamCommand(CLI::App& pas, const Globals& globals, int& exit_code) {
       pas.add_subcommand("slam", "Track the camera and map the planes of a sequence");
   auto arguments = std::make_shared<SlamArguments>();
   slam::RunOptions& options = arguments->options;
-  command
-      ->add_option("sequence", options.sequence, "Sequence folder (SEQ, or a TUM RGB-D folder)")
-      ->required();
-  command->add_option("-o,--output", options.run, "Run folder to write")->required();
+  command->add_option("SEQ", options.sequence, "Sequence folder, or a TUM RGB-D folder");
+  command->add_option("-o,--output", options.run, "Run folder to write");
   command
       ->add_option("--variant", arguments->variant,
                    "full | no-association (planes by parameters alone) | "
@@ -67,9 +74,10 @@ void AddSlamCommand(CLI::App& pas, const Globals& globals, int& exit_code) {
       "replay (SEQ/detections.jsonl) | none; default: replay if the file is there");
   command->add_option("--camera", options.camera,
                       "tum1 | tum2 | tum3 | a camera.yaml; default: SEQ/camera.yaml");
-  command->add_option(
-      "--config", arguments->config_file,
-      "Settings over the defaults, YAML; see --print-config of pas slam-config");
+  command->add_option("--config", arguments->config_file,
+                      "Settings over the defaults, YAML; --print-config shows them all");
+  command->add_flag("--print-config", arguments->print_config,
+                    "Print every setting with its default, meaning and domain, and stop");
   command->add_option("--seed", options.seed, "Seed of every random choice of the estimator")
       ->capture_default_str();
   command

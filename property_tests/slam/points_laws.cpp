@@ -8,7 +8,7 @@
 #include "slam/associate/point_point.h"
 #include "slam/extract/point_spread.h"
 #include "slam/mapping/point_triangulation.h"
-#include "slam/track/motion_model.h"
+#include "slam/localise/motion_model.h"
 
 namespace slam {
 namespace {

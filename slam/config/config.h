@@ -10,7 +10,7 @@
 #include "slam/mapping/local_mapping.h"
 #include "slam/mapping/plane_map_config.h"
 #include "slam/planes/process_planes.h"
-#include "slam/track/point_tracking.h"
+#include "slam/localise/point_tracking.h"
 
 namespace slam {
 

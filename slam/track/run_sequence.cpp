@@ -39,6 +39,7 @@ RunInfo Describe(const RunOptions& options, const std::string& detector) {
   info.seed = options.seed;
   info.version = options.version;
   info.options = ConfigAsJson(options.config);
+  if (!options.camera.empty()) info.options["camera"] = options.camera;
   return info;
 }
 

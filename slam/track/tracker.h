@@ -8,10 +8,10 @@
 #include "slam/config/config.h"
 #include "slam/extract/box_tracks.h"
 #include "slam/extract/detections.h"
+#include "slam/localise/point_tracking.h"
 #include "slam/model/frame.h"
 #include "slam/model/map.h"
 #include "slam/model/module_times.h"
-#include "slam/track/point_tracking.h"
 
 namespace slam {
 

@@ -1,4 +1,4 @@
-#include "slam/track/keyframe_decision.h"
+#include "slam/localise/keyframe_decision.h"
 
 #include <gtest/gtest.h>
 

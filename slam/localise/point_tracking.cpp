@@ -1,4 +1,4 @@
-#include "slam/track/point_tracking.h"
+#include "slam/localise/point_tracking.h"
 
 #include <algorithm>
 

@@ -1,4 +1,4 @@
-#include "slam/track/point_constraints.h"
+#include "slam/localise/point_constraints.h"
 
 #include "slam/base/require.h"
 #include "slam/mapping/map_points.h"

@@ -1,4 +1,4 @@
-#include "slam/track/local_map.h"
+#include "slam/localise/local_map.h"
 
 #include <algorithm>
 #include <map>

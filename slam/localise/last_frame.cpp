@@ -1,4 +1,4 @@
-#include "slam/track/last_frame.h"
+#include "slam/localise/last_frame.h"
 
 #include <algorithm>
 

@@ -12,7 +12,7 @@
 #include <sstream>
 #include <string>
 
-#include "tests/slam/track/point_odometer.h"
+#include "tests/slam/localise/point_odometer.h"
 
 namespace slam {
 namespace {

@@ -1,4 +1,4 @@
-#include "slam/track/motion_model.h"
+#include "slam/localise/motion_model.h"
 
 #include "slam/base/require.h"
 

@@ -1,8 +1,8 @@
-#include "slam/track/point_tracking.h"
+#include "slam/localise/point_tracking.h"
 
 #include <gmock/gmock.h>
 
-#include "tests/slam/track/point_odometer.h"
+#include "tests/slam/localise/point_odometer.h"
 #include "tests/support/slam_matchers.h"
 #include "tests/support/textured_world.h"
 

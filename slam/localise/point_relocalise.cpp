@@ -1,11 +1,11 @@
-#include "slam/track/point_relocalise.h"
+#include "slam/localise/point_relocalise.h"
 
 #include <algorithm>
 #include <array>
 #include <opencv2/calib3d.hpp>
 
 #include "slam/base/random.h"
-#include "slam/track/point_constraints.h"
+#include "slam/localise/point_constraints.h"
 
 namespace slam {
 namespace {

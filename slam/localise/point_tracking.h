@@ -5,12 +5,12 @@
 #include "slam/mapping/keyframes.h"
 #include "slam/model/map.h"
 #include "slam/optimise/pose_problem.h"
-#include "slam/track/keyframe_decision.h"
-#include "slam/track/last_frame.h"
-#include "slam/track/local_map.h"
-#include "slam/track/motion_model.h"
-#include "slam/track/point_constraints.h"
-#include "slam/track/point_relocalise.h"
+#include "slam/localise/keyframe_decision.h"
+#include "slam/localise/last_frame.h"
+#include "slam/localise/local_map.h"
+#include "slam/localise/motion_model.h"
+#include "slam/localise/point_constraints.h"
+#include "slam/localise/point_relocalise.h"
 
 namespace slam {
 

@@ -4,7 +4,7 @@
 
 #include "slam/extract/point_features.h"
 #include "slam/mapping/local_mapping.h"
-#include "slam/track/point_tracking.h"
+#include "slam/localise/point_tracking.h"
 
 namespace slam {
 
