@@ -10,7 +10,8 @@
 namespace slam {
 
 UncertainPose CorrectByAnchors(const UncertainPose& predicted, const Frame& frame,
-                               const Map& map, const std::vector<std::pair<int, int>>& anchors,
+                               const std::vector<MapPlane>& planes,
+                               const std::vector<std::pair<int, int>>& anchors,
                                const AssociationConfig& config) {
   constexpr double kHuberSigmas = 2.0;
   constexpr int kIterations = 10;
@@ -18,7 +19,7 @@ UncertainPose CorrectByAnchors(const UncertainPose& predicted, const Frame& fram
   std::vector<PlaneConstraint> constraints;
   for (const auto& [f, m] : anchors) {
     constraints.push_back(MakePlaneConstraint(
-        frame.planes[static_cast<std::size_t>(f)], map.planes[static_cast<std::size_t>(m)],
+        frame.planes[static_cast<std::size_t>(f)], planes[static_cast<std::size_t>(m)],
         predicted.T_cw, config.offset_floor_m, config.angle_floor_rad));
   }
   const Matrix6d prior = predicted.covariance.ldlt().solve(Matrix6d::Identity());

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <optional>
 
 #include "slam/associate/box_plane.h"
@@ -49,12 +50,23 @@ bool CanBeMatched(const FramePlane& plane) {
   return !plane.bad || *plane.bad == BadReason::kBorder || *plane.bad == BadReason::kStructure;
 }
 
+/// What a frame is compared with, and which of its planes take part.
+struct Question {
+  const std::vector<MapPlane>& planes;
+  std::vector<bool> asked;  ///< by frame plane
+};
+
 /// The integrated rule over one frame.
 class IntegratedRule {
  public:
-  IntegratedRule(const Frame& frame, const Map& map, const Camera& camera,
-                 const AssociationConfig& config)
-      : frame_(frame), map_(map), camera_(camera), config_(config) {
+  IntegratedRule(const Frame& frame, const Map& map, const Question& question,
+                 const Camera& camera, const AssociationConfig& config)
+      : frame_(frame),
+        map_(map),
+        planes_(question.planes),
+        asked_(question.asked),
+        camera_(camera),
+        config_(config) {
     const double t = config.pose_sigma_m, r = config.pose_sigma_rad;
     Vector6d variances;
     variances << t * t, t * t, t * t, r * r, r * r, r * r;
@@ -63,9 +75,16 @@ class IntegratedRule {
 
   std::vector<PlaneMatch> Run() {
     LookAtPairs();
-    pose_ = CorrectByAnchors(pose_, frame_, map_, Anchors(), config_);
+    pose_ = CorrectByAnchors(pose_, frame_, planes_, Anchors(), config_);
     LookAtPairs();
     CheckRanks();
+    return Decide();
+  }
+
+  /// Where the pose is known from landmarks already: `matched` are (frame plane, landmark).
+  std::vector<PlaneMatch> RunAfter(const std::vector<std::pair<int, int>>& matched) {
+    pose_ = CorrectByAnchors(pose_, frame_, map_.planes, matched, config_);
+    LookAtPairs();
     return Decide();
   }
 
@@ -73,14 +92,14 @@ class IntegratedRule {
   using Row = std::vector<PairEvidence>;
 
   void LookAtPairs() {
-    pairs_.assign(frame_.planes.size(), Row(map_.planes.size()));
-    for (const MapPlane& m : map_.planes) {
+    pairs_.assign(frame_.planes.size(), Row(planes_.size()));
+    for (const MapPlane& m : planes_) {
       if (m.merged_into) continue;
       std::optional<PlaneView> view;
       Box box_px;
       for (std::size_t f = 0; f < frame_.planes.size(); ++f) {
         const FramePlane& plane = frame_.planes[f];
-        if (!CanBeMatched(plane)) continue;
+        if (!asked_[f] || !CanBeMatched(plane)) continue;
         const PlaneComparison comparison = ComparePlanes(plane, m, pose_, config_);
         if (!(comparison.angle_rad < config_.gates.max_normal_angle_rad)) continue;
         if (!(comparison.chi2 < config_.new_chi2)) continue;
@@ -154,7 +173,7 @@ class IntegratedRule {
   void CheckRanks() {
     constexpr double kAmpleOverlap = 0.6;
     const auto on_plane = FeaturesOnPlanes(frame_, pose_.T_cw, camera_);
-    for (const MapPlane& m : map_.planes) {
+    for (const MapPlane& m : planes_) {
       const auto id = static_cast<std::size_t>(m.id);
       std::optional<std::vector<Eigen::Vector3d>> visible;
       for (std::size_t f = 0; f < pairs_.size(); ++f) {
@@ -186,9 +205,9 @@ class IntegratedRule {
         relations.one_surface[f][g] = relations.one_surface[g][f] = same;
       }
     }
-    for (std::size_t m = 0; m < map_.planes.size(); ++m) {
-      for (std::size_t n = m + 1; n < map_.planes.size(); ++n) {
-        if (SharesFramePlane(m, n) && Duplicates(map_.planes[m], map_.planes[n])) {
+    for (std::size_t m = 0; m < planes_.size(); ++m) {
+      for (std::size_t n = m + 1; n < planes_.size(); ++n) {
+        if (SharesFramePlane(m, n) && Duplicates(planes_[m], planes_[n])) {
           relations.duplicates.emplace_back(static_cast<int>(m), static_cast<int>(n));
         }
       }
@@ -224,9 +243,8 @@ class IntegratedRule {
       const int m = assignment.map_plane[f];
       if (m >= 0) {
         const PairEvidence& pair = pairs_[f][static_cast<std::size_t>(m)];
-        matches[f] = {
-            PlaneDecision::kMatched, m,
-            RuleName(frame_.planes[f], map_.planes[static_cast<std::size_t>(m)], pair)};
+        matches[f] = {PlaneDecision::kMatched, m,
+                      RuleName(frame_.planes[f], planes_[static_cast<std::size_t>(m)], pair)};
       } else if (m == PlaneAssignment::kAmbiguous || Doubtful(pairs_[f])) {
         matches[f].by = kByAmbiguous;
       }
@@ -241,7 +259,9 @@ class IntegratedRule {
   }
 
   const Frame& frame_;
-  const Map& map_;
+  const Map& map_;  ///< for its points
+  const std::vector<MapPlane>& planes_;
+  const std::vector<bool>& asked_;
   const Camera& camera_;
   const AssociationConfig& config_;
   UncertainPose pose_;
@@ -249,16 +269,16 @@ class IntegratedRule {
 };
 
 /// What common systems do: the gates, and of those that pass the nearest.
-std::vector<PlaneMatch> ParameterRule(const Frame& frame, const Map& map,
+std::vector<PlaneMatch> ParameterRule(const Frame& frame, const Question& question,
                                       const PlaneGateConfig& gates) {
   std::vector<PlaneMatch> matches(frame.planes.size());
   for (std::size_t f = 0; f < frame.planes.size(); ++f) {
     const FramePlane& plane = frame.planes[f];
-    if (plane.bad) continue;
+    if (!question.asked[f] || plane.bad) continue;
     std::vector<Eigen::Vector3d> edge_points_c;
     for (const EdgePoint& edge : plane.edge_points) edge_points_c.push_back(edge.p_c);
     double nearest = std::numeric_limits<double>::infinity();
-    for (const MapPlane& m : map.planes) {
+    for (const MapPlane& m : question.planes) {
       if (m.merged_into) continue;
       const auto gate = TestPlaneGates(plane.pi_c, plane.centroid_c, edge_points_c, m.pi_w,
                                        frame.T_cw, gates);
@@ -274,9 +294,28 @@ std::vector<PlaneMatch> ParameterRule(const Frame& frame, const Map& map,
 
 void AssociatePlanes(Frame& frame, const Map& map, const Camera& camera,
                      const AssociationConfig& config) {
+  const Question question{map.planes, std::vector<bool>(frame.planes.size(), true)};
   frame.plane_matches = config.rule == AssociationRule::kParameters
-                            ? ParameterRule(frame, map, config.gates)
-                            : IntegratedRule(frame, map, camera, config).Run();
+                            ? ParameterRule(frame, question, config.gates)
+                            : IntegratedRule(frame, map, question, camera, config).Run();
+}
+
+std::vector<PlaneMatch> AssociateCandidates(const Frame& frame, const Map& map,
+                                            const Camera& camera,
+                                            const AssociationConfig& config) {
+  Question question{map.plane_candidates, std::vector<bool>(frame.planes.size(), false)};
+  std::vector<std::pair<int, int>> matched;
+  for (std::size_t f = 0; f < frame.planes.size(); ++f) {
+    const PlaneMatch& match = frame.plane_matches[f];
+    question.asked[f] =
+        match.decision == PlaneDecision::kNone && std::strcmp(match.by, kByAmbiguous) != 0;
+    if (match.decision == PlaneDecision::kMatched && !frame.planes[f].bad) {
+      matched.emplace_back(static_cast<int>(f), match.map_plane);
+    }
+  }
+  return config.rule == AssociationRule::kParameters
+             ? ParameterRule(frame, question, config.gates)
+             : IntegratedRule(frame, map, question, camera, config).RunAfter(matched);
 }
 
 }  // namespace slam

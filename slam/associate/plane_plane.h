@@ -1,5 +1,7 @@
 #pragma once
 
+#include <vector>
+
 #include "slam/associate/association_config.h"
 #include "slam/model/frame.h"
 #include "slam/model/map.h"
@@ -30,5 +32,13 @@ inline constexpr const char* kByAmbiguous = "ambiguous";
 /// map planes of 1,000 cloud points.
 void AssociatePlanes(Frame& frame, const Map& map, const Camera& camera,
                      const AssociationConfig& config);
+
+/// The same question about map.plane_candidates, for the frame planes that frame.plane_matches
+/// leaves without landmark and without doubt. The pose follows from the landmarks that were
+/// matched, not from candidates.
+/// @returns parallel to frame.planes; `map_plane` of a match is an index into the candidates.
+std::vector<PlaneMatch> AssociateCandidates(const Frame& frame, const Map& map,
+                                            const Camera& camera,
+                                            const AssociationConfig& config);
 
 }  // namespace slam

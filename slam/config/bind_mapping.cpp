@@ -54,11 +54,18 @@ void VisitBundle(LocalBundleConfig& c, FieldVisitor& v) {
 }
 
 void VisitPlaneMap(PlaneMapConfig& c, FieldVisitor& v) {
-  v.Integer("min_pixels", c.min_pixels, "[1, 10000000]", "of a segment that starts a landmark");
+  v.Integer("min_pixels", c.min_pixels, "[1, 10000000]",
+            "of a segment that starts a candidate");
   v.Number("min_inlier_ratio", c.min_inlier_ratio, "[0, 1]", "of the same, after the re-fit");
   v.Number("max_distance_m", c.max_distance_m, "(0, inf)", "of the same");
   v.Number("max_offset_sigma_m", c.max_offset_sigma_m, "(0, inf)", "of the same");
   v.Degrees("max_angle_sigma_deg", c.max_angle_sigma_rad, "(0, 90)", "of the same");
+  v.Integer("trial_frames", c.trial_frames, "[1, 1000]",
+            "that show a candidate before it is a landmark");
+  v.Number("trial_size", c.trial_size, "[0, inf)",
+           "of a candidate in all these together, times min_pixels");
+  v.Integer("max_trial_misses", c.max_trial_misses, "[0, 1000]",
+            "a candidate is dropped beyond, and beyond half of its observations");
   v.Number("keep_information", c.keep_information, "(0, 1]",
            "of old observations when one is added");
   v.Number("voxel_m", c.voxel_m, "(0, inf)", "of clouds");

@@ -8,12 +8,17 @@ namespace slam {
 struct PlaneMapConfig {
   AssociationConfig association;  ///< fusion asks the same questions as association
 
-  // A frame plane starts a landmark only if it is trusted this far.
+  // A frame plane starts a candidate only if it is trusted this far.
   int min_pixels = 400;           ///< of the segment
   double min_inlier_ratio = 0.5;  ///< after the re-fit
   double max_distance_m = 4.0;    ///< of its centroid
   double max_offset_sigma_m = 0.02;
   double max_angle_sigma_rad = 0.09;
+
+  // A candidate becomes a landmark once it has been seen ...
+  int trial_frames = 3;      ///< in so many frames; 1: at once
+  double trial_size = 12.0;  ///< and this large in all of them together, times min_pixels
+  int max_trial_misses = 2;  ///< more, and more than half of its observations: it is dropped
 
   double keep_information = 0.97;      ///< of old observations when one is added; (0, 1]
   double voxel_m = 0.02;               ///< of clouds; grows when a plane is large

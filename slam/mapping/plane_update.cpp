@@ -2,12 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
+#include <map>
+#include <set>
+#include <utility>
 
 #include "slam/associate/pixel_projection.h"
-#include "slam/associate/plane_plane.h"
 #include "slam/mapping/class_belief.h"
 #include "slam/mapping/plane_cloud.h"
+#include "slam/mapping/plane_trial.h"
 #include "slam/mapping/plane_vertices.h"
 
 namespace slam {
@@ -16,28 +18,16 @@ namespace {
 /// Written at creation: the rule that found nothing.
 constexpr const char* kByNothing = "unmatched";
 
-bool CanStartALandmark(const FramePlane& plane, const PlaneMatch& match,
-                       const PlaneMapConfig& config) {
-  if (match.decision != PlaneDecision::kNone || std::strcmp(match.by, kByAmbiguous) == 0) {
-    return false;
-  }
-  return !plane.bad && plane.pixel_count >= config.min_pixels &&
-         plane.inlier_ratio >= config.min_inlier_ratio &&
-         plane.centroid_c.norm() < config.max_distance_m &&
-         plane.offset_sigma_m < config.max_offset_sigma_m &&
-         plane.angle_sigma_rad < config.max_angle_sigma_rad && !plane.points_c.empty();
-}
-
-MapPlane& StartLandmark(const FramePlane& plane, const Frame& frame, const Pose& T_wc,
-                        Map& map) {
+MapPlane StartPlane(const FramePlane& plane, const Frame& frame, const Pose& T_wc,
+                    std::size_t id) {
   MapPlane m;
-  m.id = static_cast<int>(map.planes.size());
+  m.id = static_cast<int>(id);
   m.pi_w = Transform(T_wc, plane.pi_c);
   m.centroid_w = T_wc * plane.centroid_c;
   m.first_frame = frame.index;
   m.first_seen_s = frame.timestamp_s;
-  map.planes.push_back(std::move(m));
-  return map.planes.back();
+  m.last_frame = kNone;
+  return m;
 }
 
 std::vector<Eigen::Vector3d> InWorld(const std::vector<Eigen::Vector3d>& points_c,
@@ -146,28 +136,86 @@ bool HasCorners(const FramePlane& plane, const MapPlane& m) {
   return !plane.bad && !m.class_name.empty();
 }
 
+void Observe(MapPlane& m, const FramePlane& plane, const Frame& frame, const Pose& T_wc,
+             const PlaneMapConfig& config) {
+  UpdateParameters(m, plane, T_wc, config);
+  UpdateShape(m, plane, T_wc, config);
+  UpdateClass(m, plane, frame);
+  if (HasCorners(plane, m)) FuseVertices(m, plane.vertices_c, T_wc, config);
+  // Several segments of one surface in a frame are one observation.
+  if (m.last_frame != frame.index || m.observations == 0) ++m.observations;
+  m.seen_px += plane.pixel_count;
+  m.last_frame = frame.index;
+  m.last_seen_s = frame.timestamp_s;
+}
+
+/// Makes the candidate a landmark. @returns its id
+int Promote(const MapPlane& candidate, Map& map) {
+  map.planes.push_back(candidate);
+  map.planes.back().id = static_cast<int>(map.planes.size()) - 1;
+  return map.planes.back().id;
+}
+
+/// Makes landmarks of the candidates of this frame that have proven themselves. The largest
+/// segment is the one that made it: a frame decides all at once, so one can be new.
+void PromoteProven(Frame& frame, const TrialOutcome& trial, const PlaneMapConfig& config,
+                   Map& map) {
+  std::map<int, std::size_t> largest;  // by candidate
+  for (std::size_t f = 0; f < frame.planes.size(); ++f) {
+    if (trial.candidate[f] < 0) continue;
+    const auto [found, first] = largest.emplace(trial.candidate[f], f);
+    if (!first && frame.planes[f].pixel_count > frame.planes[found->second].pixel_count) {
+      found->second = f;
+    }
+  }
+  std::set<int> promoted;
+  for (const auto& [candidate, f] : largest) {
+    const MapPlane& m = map.plane_candidates[static_cast<std::size_t>(candidate)];
+    if (!HasProvenItself(m, config)) continue;
+    frame.plane_matches[f] = {PlaneDecision::kNew, Promote(m, map), kByNothing};
+    promoted.insert(candidate);
+  }
+  std::erase_if(map.plane_candidates,
+                [&](const MapPlane& m) { return promoted.contains(m.id); });
+}
+
+/// Takes the frame's planes without landmark through their trial.
+void TryCandidates(Frame& frame, const Pose& T_wc, const Camera& camera,
+                   const PlaneMapConfig& config, Map& map) {
+  const TrialOutcome trial = AskCandidates(frame, map, camera, config);
+  for (std::size_t f = 0; f < frame.planes.size(); ++f) {
+    const FramePlane& plane = frame.planes[f];
+    if (trial.candidate[f] == kNone) continue;
+    frame.plane_matches[f].by = kByCandidate;
+    if (trial.candidate[f] == TrialOutcome::kStartsAtOnce) {
+      map.planes.push_back(StartPlane(plane, frame, T_wc, map.planes.size()));
+      Observe(map.planes.back(), plane, frame, T_wc, config);
+      frame.plane_matches[f] = {PlaneDecision::kNew, map.planes.back().id, kByNothing};
+    } else if (trial.candidate[f] == TrialOutcome::kStartsTrial) {
+      auto& all = map.plane_candidates;
+      all.push_back(StartPlane(plane, frame, T_wc, all.size()));
+      Observe(all.back(), plane, frame, T_wc, config);
+    } else {
+      MapPlane& m = map.plane_candidates[static_cast<std::size_t>(trial.candidate[f])];
+      Observe(m, plane, frame, T_wc, config);
+    }
+  }
+  PromoteProven(frame, trial, config, map);
+  DropFailedCandidates(frame, camera, config, map);
+}
+
 }  // namespace
 
 void UpdatePlanes(Frame& frame, Map& map, const Camera& camera, const PlaneMapConfig& config) {
   frame.plane_matches.resize(frame.planes.size());
   const Pose T_wc = Inverse(frame.T_cw);
-  std::set<int> seen;
   for (std::size_t f = 0; f < frame.planes.size(); ++f) {
-    const FramePlane& plane = frame.planes[f];
-    PlaneMatch& match = frame.plane_matches[f];
-    if (CanStartALandmark(plane, match, config)) {
-      match = {PlaneDecision::kNew, StartLandmark(plane, frame, T_wc, map).id, kByNothing};
-    }
+    const PlaneMatch& match = frame.plane_matches[f];
     if (match.decision == PlaneDecision::kNone) continue;
-    MapPlane& m = map.planes[static_cast<std::size_t>(match.map_plane)];
-    UpdateParameters(m, plane, T_wc, config);
-    UpdateShape(m, plane, T_wc, config);
-    UpdateClass(m, plane, frame);
-    if (HasCorners(plane, m)) FuseVertices(m, plane.vertices_c, T_wc, config);
-    if (seen.insert(m.id).second) ++m.observations;
-    m.last_frame = frame.index;
-    m.last_seen_s = frame.timestamp_s;
+    Observe(map.planes[static_cast<std::size_t>(match.map_plane)], frame.planes[f], frame, T_wc,
+            config);
   }
+  TryCandidates(frame, T_wc, camera, config, map);
   const std::vector<int> landmark = LandmarkOfPlane(frame);
   UpdateCovisibility(landmark, map);
   UpdateMapPoints(frame, landmark, camera, config.max_point_distance_m, map);

@@ -13,6 +13,9 @@ struct Map {
   std::vector<Keyframe> keyframes;
   std::vector<MapPoint> points;
   std::vector<MapPlane> planes;
+  /// Surfaces on trial: seen, but not often enough to be landmarks. `id` is the index here and
+  /// changes when others leave.
+  std::vector<MapPlane> plane_candidates;
 };
 
 }  // namespace slam

@@ -32,6 +32,7 @@ struct MapPlane {
   std::set<int> map_points;      ///< ids of the map points that lie on it
   std::map<int, int> covisible;  ///< map plane id -> frames in which both were seen
   int observations = 0;
+  double seen_px = 0.0;  ///< summed size of the segments that showed it, pixels
   int first_frame = 0, last_frame = 0;
   double first_seen_s = 0.0, last_seen_s = 0.0;
   std::optional<int> merged_into;  ///< fused into this one: use that one instead

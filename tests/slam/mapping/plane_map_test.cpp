@@ -147,6 +147,7 @@ TEST(PlaneMap, FusesASurfaceThatWasFoundTwiceAndKeepsStepsApart) {
     Map single;
     for (int k = 0; k < 8; ++k) {
       SeenWorld seen = See(world, Walk(k), camera, {}, Random{1});
+      seen.frame.index = k;
       AssociatePlanes(seen.frame, single, camera, config.association);
       UpdatePlanes(seen.frame, single, camera, config);
     }

@@ -1,0 +1,82 @@
+#include "slam/mapping/plane_trial.h"
+
+#include <algorithm>
+#include <cstring>
+
+#include "slam/associate/plane_overlap.h"
+#include "slam/associate/plane_plane.h"
+
+namespace slam {
+namespace {
+
+bool IsGood(const FramePlane& plane, const PlaneMapConfig& config) {
+  return !plane.bad && plane.pixel_count >= config.min_pixels &&
+         plane.inlier_ratio >= config.min_inlier_ratio &&
+         plane.centroid_c.norm() < config.max_distance_m &&
+         plane.offset_sigma_m < config.max_offset_sigma_m &&
+         plane.angle_sigma_rad < config.max_angle_sigma_rad && !plane.points_c.empty();
+}
+
+bool IsUndecided(const PlaneMatch& match) {
+  return match.decision == PlaneDecision::kNone && std::strcmp(match.by, kByAmbiguous) == 0;
+}
+
+double TrialPixels(const PlaneMapConfig& config) {
+  return config.trial_size * config.min_pixels;
+}
+
+bool MissedTooOften(const MapPlane& candidate, int frame_index, const PlaneMapConfig& config) {
+  const int missed = frame_index - candidate.first_frame + 1 - candidate.observations;
+  return missed > std::max(config.max_trial_misses, candidate.observations / 2);
+}
+
+/// Most of what the frame sees of the candidate are segments in an unstructured object's box.
+bool LiesOnUnstructured(const MapPlane& candidate, const Frame& frame, const Camera& camera) {
+  const PlaneView view = ViewMapPlane(candidate, frame, frame.T_cw, camera);
+  int unstructured = 0;
+  for (std::size_t f = 0; f < frame.planes.size(); ++f) {
+    if (frame.planes[f].bad == BadReason::kUnstructured) unstructured += view.landed[f];
+  }
+  return 2 * unstructured > view.expected;
+}
+
+}  // namespace
+
+TrialOutcome AskCandidates(const Frame& frame, const Map& map, const Camera& camera,
+                           const PlaneMapConfig& config) {
+  TrialOutcome out;
+  out.candidate.assign(frame.planes.size(), kNone);
+  const std::vector<PlaneMatch> shown =
+      AssociateCandidates(frame, map, camera, config.association);
+  for (std::size_t f = 0; f < frame.planes.size(); ++f) {
+    const PlaneMatch& match = frame.plane_matches[f];
+    const FramePlane& plane = frame.planes[f];
+    if (match.decision != PlaneDecision::kNone || IsUndecided(match)) continue;
+    if (!IsGood(plane, config) || IsUndecided(shown[f])) continue;
+    if (shown[f].decision == PlaneDecision::kMatched) {
+      out.candidate[f] = shown[f].map_plane;
+    } else {
+      const bool at_once = config.trial_frames <= 1 ||
+                           (map.planes.empty() && plane.pixel_count >= TrialPixels(config));
+      out.candidate[f] = at_once ? TrialOutcome::kStartsAtOnce : TrialOutcome::kStartsTrial;
+    }
+  }
+  return out;
+}
+
+bool HasProvenItself(const MapPlane& candidate, const PlaneMapConfig& config) {
+  return candidate.observations >= config.trial_frames &&
+         candidate.seen_px >= TrialPixels(config);
+}
+
+void DropFailedCandidates(const Frame& frame, const Camera& camera,
+                          const PlaneMapConfig& config, Map& map) {
+  std::erase_if(map.plane_candidates, [&](const MapPlane& candidate) {
+    return MissedTooOften(candidate, frame.index, config) ||
+           LiesOnUnstructured(candidate, frame, camera);
+  });
+  int id = 0;
+  for (MapPlane& candidate : map.plane_candidates) candidate.id = id++;
+}
+
+}  // namespace slam

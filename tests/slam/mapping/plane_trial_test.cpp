@@ -1,0 +1,170 @@
+#include "slam/mapping/plane_trial.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <optional>
+
+#include "slam/associate/plane_plane.h"
+#include "slam/mapping/plane_update.h"
+#include "tests/support/plane_world.h"
+
+namespace slam {
+namespace {
+
+PlaneMapConfig SmallImages() {
+  PlaneMapConfig config;
+  config.min_pixels = 40;
+  return config;
+}
+
+const Pose kView = LookAt({0, -0.8, 0.7}, {0, 0, 0});
+
+/// A desk, and above it a square sheet of this size; 0 for none. The sheet is world plane 1.
+PlaneWorld DeskWithSheet(double size_m, double x_m = 0.0) {
+  PlaneWorld world;
+  world.Add({0, 0, 0}, {0.8, 0, 0}, {0, 0.5, 0}, "");
+  if (size_m > 0) world.Add({x_m, 0, 0.05}, {size_m / 2, 0, 0}, {0, size_m / 2, 0}, "");
+  return world;
+}
+
+constexpr double kLarge_m = 0.25, kSmall_m = 0.09;
+
+/// Shows worlds to one map, a frame each.
+struct Show {
+  Map map;
+  PlaneMapConfig config = SmallImages();
+  int frames = 0;
+
+  /// @param bad  of the segments of the sheet
+  /// @returns the decision on the sheet; an empty one when it was not shown
+  PlaneMatch Next(const PlaneWorld& world, std::optional<BadReason> bad = {}) {
+    const Camera camera = SmallCamera();
+    SeenWorld seen =
+        See(world, kView, camera, {}, Random{1, static_cast<std::uint64_t>(frames)});
+    seen.frame.index = frames++;
+    for (std::size_t f = 0; f < seen.truth.size(); ++f) {
+      if (seen.truth[f] == 1) seen.frame.planes[f].bad = bad;
+    }
+    AssociatePlanes(seen.frame, map, camera, config.association);
+    UpdatePlanes(seen.frame, map, camera, config);
+    for (std::size_t f = 0; f < seen.truth.size(); ++f) {
+      if (seen.truth[f] == 1) return seen.frame.plane_matches[f];
+    }
+    return {};
+  }
+};
+
+// Fails when whatever is seen first becomes a landmark.
+TEST(PlaneTrial, WhatIsSeenForTwoFramesLeavesNothingBehind) {
+  Show show;
+  show.Next(DeskWithSheet(0));
+  ASSERT_EQ(show.map.planes.size(), 1u);
+  for (int k = 0; k < 2; ++k) show.Next(DeskWithSheet(kLarge_m));
+  EXPECT_EQ(show.map.plane_candidates.size(), 1u);
+  for (int k = 0; k < 3; ++k) show.Next(DeskWithSheet(0));
+  EXPECT_EQ(show.map.planes.size(), 1u);
+  EXPECT_TRUE(show.map.plane_candidates.empty());
+}
+
+// Fails when a candidate is never promoted, is told as a landmark before, or keeps its own id.
+TEST(PlaneTrial, WhatStaysIsNewOnceAndMatchedFromThenOn) {
+  Show show;
+  show.Next(DeskWithSheet(0));
+  for (int k = 0; k < 2; ++k) {
+    const PlaneMatch match = show.Next(DeskWithSheet(kLarge_m));
+    EXPECT_EQ(match.decision, PlaneDecision::kNone);
+    EXPECT_EQ(match.map_plane, kNone);
+    EXPECT_STREQ(match.by, kByCandidate);
+  }
+  const PlaneMatch made = show.Next(DeskWithSheet(kLarge_m));
+  EXPECT_EQ(made.decision, PlaneDecision::kNew);
+  EXPECT_EQ(made.map_plane, 1);
+  ASSERT_EQ(show.map.planes.size(), 2u);
+  EXPECT_EQ(show.map.planes[1].id, 1);
+  EXPECT_EQ(show.map.planes[1].observations, 3);
+  EXPECT_EQ(show.map.planes[1].first_frame, 1);
+  EXPECT_TRUE(show.map.plane_candidates.empty());
+  const PlaneMatch next = show.Next(DeskWithSheet(kLarge_m));
+  EXPECT_EQ(next.decision, PlaneDecision::kMatched);
+  EXPECT_EQ(next.map_plane, 1);
+}
+
+// Fails when a candidate must be seen without a gap.
+TEST(PlaneTrial, TwoMissesAreForgiven) {
+  Show show;
+  show.Next(DeskWithSheet(0));
+  show.Next(DeskWithSheet(kLarge_m));
+  for (int k = 0; k < 2; ++k) show.Next(DeskWithSheet(0));
+  show.Next(DeskWithSheet(kLarge_m));
+  EXPECT_EQ(show.Next(DeskWithSheet(kLarge_m)).decision, PlaneDecision::kNew);
+}
+
+// Fails when frames alone count: slivers that noise makes live as long as that.
+TEST(PlaneTrial, ASmallSurfaceMustBeSeenMoreOften) {
+  Show show;
+  show.Next(DeskWithSheet(0));
+  int frames = 0;
+  while (show.map.planes.size() < 2 && frames < 30) {
+    show.Next(DeskWithSheet(kSmall_m));
+    ++frames;
+  }
+  ASSERT_EQ(show.map.planes.size(), 2u);
+  EXPECT_GT(frames, show.config.trial_frames);
+  EXPECT_GE(show.map.planes[1].seen_px, show.config.trial_size * show.config.min_pixels);
+}
+
+// Fails when a toy whose box was missed for a frame keeps its trial.
+TEST(PlaneTrial, EndsWhereTheSurfaceTurnsOutToBeUnstructured) {
+  Show show;
+  show.Next(DeskWithSheet(0));
+  for (int k = 0; k < 2; ++k) show.Next(DeskWithSheet(kLarge_m));
+  ASSERT_EQ(show.map.plane_candidates.size(), 1u);
+  show.Next(DeskWithSheet(kLarge_m), BadReason::kUnstructured);
+  EXPECT_TRUE(show.map.plane_candidates.empty());
+  show.Next(DeskWithSheet(kLarge_m));
+  EXPECT_EQ(show.map.planes.size(), 1u);
+}
+
+// Fails when the first frame starts nothing, or everything.
+TEST(PlaneTrial, AnEmptyMapTakesLargeSurfacesAtOnceAndOthersOnTrial) {
+  Show large, small;
+  EXPECT_EQ(large.Next(DeskWithSheet(kLarge_m)).decision, PlaneDecision::kNew);
+  EXPECT_EQ(small.Next(DeskWithSheet(kSmall_m)).decision, PlaneDecision::kNone);
+  EXPECT_EQ(small.map.planes.size(), 1u);
+  EXPECT_EQ(small.map.plane_candidates.size(), 1u);
+}
+
+// Fails when candidates that are never seen again pile up.
+TEST(PlaneTrial, FlickeringSurfacesDoNotPileUp) {
+  Show show;
+  show.Next(DeskWithSheet(0));
+  std::size_t most = 0;
+  for (int k = 0; k < 30; ++k) {
+    show.Next(DeskWithSheet(kSmall_m, -0.4 + 0.2 * (k % 5)));
+    most = std::max(most, show.map.plane_candidates.size());
+  }
+  EXPECT_LE(most, static_cast<std::size_t>(show.config.max_trial_misses) + 1);
+  EXPECT_EQ(show.map.planes.size(), 1u);
+}
+
+// Fails when candidates constrain or explain what landmarks should.
+TEST(PlaneTrial, CandidatesAreNoLandmarksToTheAssociation) {
+  Show show;
+  show.Next(DeskWithSheet(0));
+  show.Next(DeskWithSheet(kLarge_m));
+  const Camera camera = SmallCamera();
+  SeenWorld seen = See(DeskWithSheet(kLarge_m), kView, camera, {}, Random{9});
+  Map without = show.map;
+  without.plane_candidates.clear();
+  Frame other = seen.frame;
+  AssociatePlanes(seen.frame, show.map, camera, show.config.association);
+  AssociatePlanes(other, without, camera, show.config.association);
+  for (std::size_t f = 0; f < seen.truth.size(); ++f) {
+    EXPECT_EQ(seen.frame.plane_matches[f].decision, other.plane_matches[f].decision);
+    EXPECT_EQ(seen.frame.plane_matches[f].map_plane, other.plane_matches[f].map_plane);
+  }
+}
+
+}  // namespace
+}  // namespace slam
