@@ -35,6 +35,7 @@ struct Show {
   Map map;
   PlaneMapConfig config = SmallImages();
   int frames = 0;
+  Pose T_old_new;  ///< of the world that the map lives in
 
   /// @param bad  of the segments of the sheet
   /// @returns the decision on the sheet; an empty one when it was not shown
@@ -43,6 +44,7 @@ struct Show {
     SeenWorld seen =
         See(world, kView, camera, {}, Random{1, static_cast<std::uint64_t>(frames)});
     seen.frame.index = frames++;
+    seen.frame.T_cw = seen.frame.T_cw * T_old_new;
     for (std::size_t f = 0; f < seen.truth.size(); ++f) {
       if (seen.truth[f] == 1) seen.frame.planes[f].bad = bad;
     }
@@ -146,6 +148,24 @@ TEST(PlaneTrial, FlickeringSurfacesDoNotPileUp) {
   }
   EXPECT_LE(most, static_cast<std::size_t>(show.config.max_trial_misses) + 1);
   EXPECT_EQ(show.map.planes.size(), 1u);
+}
+
+// Fails when a trial asks where in the world something is.
+TEST(PlaneTrial, DoesNotDependOnWhereTheWorldLies) {
+  Show here, there;
+  there.T_old_new.R = ExpSo3({0.9, -1.7, 0.4});
+  there.T_old_new.t = {3.0, -20.0, 7.0};
+  const double sizes_m[] = {kSmall_m, kSmall_m, kLarge_m, 0, kLarge_m, kLarge_m, kLarge_m};
+  int landmarks = 0;
+  for (const double size_m : sizes_m) {
+    const PlaneMatch one = here.Next(DeskWithSheet(size_m));
+    const PlaneMatch other = there.Next(DeskWithSheet(size_m));
+    EXPECT_EQ(one.decision, other.decision);
+    EXPECT_EQ(one.map_plane, other.map_plane);
+    EXPECT_EQ(here.map.plane_candidates.size(), there.map.plane_candidates.size());
+    landmarks = static_cast<int>(here.map.planes.size());
+  }
+  EXPECT_EQ(landmarks, 2);
 }
 
 // Fails when candidates constrain or explain what landmarks should.
