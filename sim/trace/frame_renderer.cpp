@@ -1,16 +1,24 @@
 #include "sim/trace/frame_renderer.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
+#include "sim/trace/edge_pixels.h"
+#include "sim/trace/exact_cast.h"
 #include "sim/trace/ray_scene.h"
 #include "sim/trace/surface.h"
 
 namespace sim {
 namespace {
 
-constexpr float kNear_m = 1e-3F;          ///< nothing is seen closer than this
+constexpr float kNear_m = 1e-3F;  ///< nothing is seen closer than this
+/// The ray tracer takes origins, directions and corners in single precision: 1e-3 px at most
+/// for things metres away.
+constexpr double kEdgeMargin_px = 0.03;
+/// An edge this much behind what a pixel shows cannot be what it shows.
+constexpr double kEdgeDepthShare = 0.98;
 constexpr double kLeaveSurface_m = 1e-4;  ///< second rays start this far off the surface
 const Eigen::Array3f kSky(0.55F, 0.6F, 0.66F);
 /// Four rays an edge pixel: a rotated grid, the same in each pixel.
@@ -47,22 +55,26 @@ void CheckIds(const Scene& scene, const SceneMesh& mesh) {
 }  // namespace
 
 struct FrameRenderer::World {
-  World(const Scene& scene_in, const Camera& camera_in)
+  World(const Scene& scene_in, const Camera& camera_in, InstructionSet set)
       : scene(scene_in),
         camera(camera_in),
         mesh(BuildMesh(scene)),
-        rays(mesh.triangles),
+        rays(mesh.triangles, set),
+        edges(mesh.triangles),
+        caster(mesh.triangles),
         surfaces(scene, mesh, camera),
         to_sun_w(-scene.sun.direction_w.normalized()) {
     CheckIds(scene, mesh);
     for (const Object& object : scene.objects) {
-      alone.emplace_back(TrianglesOf(mesh, object.id));
+      alone.emplace_back(TrianglesOf(mesh, object.id), set);
     }
   }
   Scene scene;
   Camera camera;
   SceneMesh mesh;
   RayScene rays;
+  SceneEdges edges;
+  ExactCaster caster;
   SurfaceTable surfaces;
   Eigen::Vector3d to_sun_w;
   std::vector<RayScene> alone;  ///< by object
@@ -79,6 +91,7 @@ class View {
         camera_(world.camera),
         T_wc_(T_wc),
         options_(options),
+        rows_(options.rows == cv::Range::all() ? cv::Range(0, camera_.height) : options.rows),
         facets_(world.surfaces.InView(T_wc)),
         hits_(static_cast<std::size_t>(camera_.width) *
               static_cast<std::size_t>(camera_.height)) {}
@@ -91,9 +104,10 @@ class View {
     out_.incidence_cos = cv::Mat1f(size, 0.0F);
     if (options_.projector_offset_m != 0) out_.projector_lit = cv::Mat1b(size, uchar{0});
     if (options_.colour) out_.radiance = cv::Mat3f(size);
-    for (int v = 0; v < camera_.height; ++v) TraceRow(v);
+    if (options_.exact_edges) edges_ = world_.edges.Near(T_wc_, camera_, kEdgeMargin_px);
+    for (int v = rows_.start; v < rows_.end; ++v) TraceRow(v);
     if (options_.colour) {
-      for (int v = 0; v < camera_.height; ++v) ShadeRow(v);
+      for (int v = rows_.start; v < rows_.end; ++v) ShadeRow(v);
       SmoothEdges();
     }
     return std::move(out_);
@@ -117,6 +131,7 @@ class View {
       std::array<Eigen::Vector3d, kLanes> points_w;
       for (int i = 0; i < kLanes && u0 + i < camera_.width; ++i) {
         hits[Index(i)] = Take(found, i);
+        if (options_.exact_edges) Decide(u0 + i, v, hits[Index(i)]);
         points_w[Index(i)] = Record(u0 + i, v, hits[Index(i)]);
       }
       if (options_.colour) CastToSun(points_w, hits);
@@ -125,6 +140,44 @@ class View {
         At(u0 + i, v) = hits[Index(i)];
       }
     }
+  }
+
+  /// Casts again in double where an edge is near that may be seen. Pixels come in order.
+  void Decide(int u, int v, Hit& hit) {
+    const auto pixel = static_cast<std::uint32_t>(v * camera_.width + u);
+    double nearest_edge = 0;
+    for (; next_edge_ < edges_.size() && edges_[next_edge_].pixel == pixel; ++next_edge_) {
+      nearest_edge = edges_[next_edge_].inverse_depth;  // the nearest comes last
+    }
+    const Eigen::Vector3d ray = camera_.Ray(u, v);
+    const bool nothing = hit.triangle == PacketHits::kNothing;
+    const bool near_edge =
+        nearest_edge > 0 &&
+        (nothing ||
+         nearest_edge >= kEdgeDepthShare * facets_[Index(hit.triangle)].inverse_depth.dot(ray));
+    const bool flat = nothing || world_.mesh.triangles[Index(hit.triangle)].plane > 0;
+    if (near_edge) {
+      const ExactHit exact =
+          world_.caster.Nearest(T_wc_.t, T_wc_.R * ray, static_cast<double>(kNear_m));
+      hit.triangle = exact.triangle;
+      hit.b1 = static_cast<float>(exact.b1);
+      hit.b2 = static_cast<float>(exact.b2);
+    } else if (!flat) {
+      SetWeights(ray, hit);
+    }
+  }
+
+  /// Barycentric weights in double, which the ray tracer's are not the same on every processor.
+  void SetWeights(const Eigen::Vector3d& ray, Hit& hit) const {
+    const Eigen::Vector3d d = T_wc_.R * ray;
+    const auto& corners = world_.mesh.triangles[Index(hit.triangle)].corners_w;
+    const Eigen::Vector3d a = corners[0] - T_wc_.t, b = corners[1] - T_wc_.t,
+                          c = corners[2] - T_wc_.t;
+    const double ab = d.dot(a.cross(b)), bc = d.dot(b.cross(c)), ca = d.dot(c.cross(a));
+    const double sum = ab + bc + ca;
+    if (!(sum != 0)) return;
+    hit.b1 = static_cast<float>(ca / sum);
+    hit.b2 = static_cast<float>(ab / sum);
   }
 
   /// Writes depth, ids and incidence of a pixel; returns where it lies.
@@ -211,7 +264,7 @@ class View {
     const Hit& here = At(u, v);
     const auto differs = [&](int du, int dv) {
       const int x = u + du, y = v + dv;
-      if (x < 0 || y < 0 || x >= camera_.width || y >= camera_.height) return false;
+      if (x < 0 || y < rows_.start || x >= camera_.width || y >= rows_.end) return false;
       return out_.plane_id(y, x) != out_.plane_id(v, u) ||
              out_.object_id(y, x) != out_.object_id(v, u) || At(x, y).sunlit != here.sunlit;
     };
@@ -220,7 +273,7 @@ class View {
 
   void SmoothEdges() {
     std::vector<cv::Point> edge;
-    for (int v = 0; v < camera_.height; ++v) {
+    for (int v = rows_.start; v < rows_.end; ++v) {
       for (int u = 0; u < camera_.width; ++u) {
         if (OnEdge(u, v)) edge.emplace_back(u, v);
       }
@@ -248,6 +301,7 @@ class View {
       hits[Index(i)] = Take(found, i);
       if (hits[Index(i)].triangle == PacketHits::kNothing) continue;
       const Eigen::Vector3d ray = camera_.Ray(where[Index(i)].x(), where[Index(i)].y());
+      if (options_.exact_edges) SetWeights(ray, hits[Index(i)]);
       const FacetInView& facet = facets_[Index(hits[Index(i)].triangle)];
       points_w[Index(i)] = T_wc_ * (ray / facet.inverse_depth.dot(ray));
     }
@@ -277,15 +331,18 @@ class View {
   const Camera& camera_;
   const Pose& T_wc_;
   const RenderOptions& options_;
+  cv::Range rows_;  ///< to render
   std::vector<FacetInView> facets_;
   std::vector<Hit> hits_;
+  std::vector<EdgePixel> edges_;  ///< in the order of pixels
+  std::size_t next_edge_ = 0;
   Rendering out_;
 };
 
 }  // namespace
 
-FrameRenderer::FrameRenderer(const Scene& scene, const Camera& camera)
-    : world_(std::make_unique<const World>(scene, camera)) {}
+FrameRenderer::FrameRenderer(const Scene& scene, const Camera& camera, InstructionSet set)
+    : world_(std::make_unique<const World>(scene, camera, set)) {}
 FrameRenderer::~FrameRenderer() = default;
 FrameRenderer::FrameRenderer(FrameRenderer&&) noexcept = default;
 
@@ -319,6 +376,12 @@ int FrameRenderer::UnoccludedPixels(std::size_t object_index, const Pose& T_wc,
     if (lane > 0) cast();
   }
   return count;
+}
+
+bool FrameRenderer::Sees(const Pose& T_wc, const Eigen::Vector3d& x_w) const {
+  const Eigen::Vector3d ray_w = x_w - T_wc.t;
+  const ExactHit hit = world_->caster.Nearest(T_wc.t, ray_w, 0.0);
+  return hit.triangle < 0 || (1 - hit.distance) * ray_w.norm() <= kLeaveSurface_m;
 }
 
 const Camera& FrameRenderer::camera() const { return world_->camera; }

@@ -6,6 +6,7 @@
 #include "sim/camera/camera.h"
 #include "sim/scene/pose.h"
 #include "sim/scene/scene.h"
+#include "sim/trace/ray_scene.h"
 
 namespace sim {
 
@@ -23,13 +24,18 @@ struct Rendering {
 struct RenderOptions {
   bool colour = true;               ///< fill radiance
   double projector_offset_m = 0.0;  ///< along camera +x; 0 leaves projector_lit empty
+  cv::Range rows = cv::Range::all();  ///< only these are rendered; the rest stays empty
+  /// Decide what a pixel beside an edge shows in double instead of by the ray tracer, whose
+  /// single precision takes the other side within about 1e-4 px.
+  bool exact_edges = false;
 };
 
 /// Renders views of one scene. Const and thread-safe; a view depends on its pose alone.
 class FrameRenderer {
  public:
   /// @throws std::invalid_argument when ids do not fit in 16 bits.
-  FrameRenderer(const Scene& scene, const Camera& camera);
+  FrameRenderer(const Scene& scene, const Camera& camera,
+                InstructionSet set = InstructionSet::kPinned);
   ~FrameRenderer();
   FrameRenderer(FrameRenderer&&) noexcept;
 
@@ -44,6 +50,10 @@ class FrameRenderer {
   /// @param object_id     of the same view
   int UnoccludedPixels(std::size_t object_index, const Pose& T_wc, const cv::Rect& where,
                        const cv::Mat1w& object_id) const;
+
+  /// Whether nothing lies between the camera's centre and the point, up to 0.1 mm before it.
+  /// Decided in double.
+  bool Sees(const Pose& T_wc, const Eigen::Vector3d& x_w) const;
 
   const Camera& camera() const;
   const Scene& scene() const;

@@ -2,25 +2,46 @@
 
 #include <embree3/rtcore.h>
 
+#include <map>
+#include <mutex>
 #include <stdexcept>
+#include <string>
 
 namespace sim {
 namespace {
 
-/// One device a process: it holds no state that a query could change.
-RTCDevice SharedDevice() {
+const char* NameOf(InstructionSet set) {
+  switch (set) {
+    case InstructionSet::kSse42:
+      return "sse4.2";
+    case InstructionSet::kAvx2:
+      return "avx2";
+    case InstructionSet::kAvx512:
+      return "avx512";
+    case InstructionSet::kPinned:
+      break;
+  }
+  __builtin_cpu_init();
+  return __builtin_cpu_supports("avx2") ? "avx2" : "sse4.2";
+}
+
+/// One device a process and instruction set: it holds no state that a query could change.
+RTCDevice SharedDevice(InstructionSet set) {
   struct Device {
     RTCDevice handle;
-    Device() {
-      __builtin_cpu_init();
-      const char* isa = __builtin_cpu_supports("avx2") ? "isa=avx2" : "isa=sse4.2";
-      handle = rtcNewDevice((std::string(isa) + ",threads=1,set_affinity=0").c_str());
-    }
+    explicit Device(InstructionSet wanted)
+        : handle(rtcNewDevice(
+              (std::string("isa=") + NameOf(wanted) + ",threads=1,set_affinity=0").c_str())) {}
     ~Device() {
       if (handle != nullptr) rtcReleaseDevice(handle);
     }
+    Device(const Device&) = delete;
+    Device& operator=(const Device&) = delete;
   };
-  static const Device device;
+  static std::mutex mutex;
+  static std::map<std::string, Device> devices;
+  const std::lock_guard lock(mutex);
+  const Device& device = devices.try_emplace(NameOf(set), set).first->second;
   if (device.handle == nullptr) {
     throw std::runtime_error("the ray tracer (Embree) does not start; it needs SSE4.2 or AVX2");
   }
@@ -67,8 +88,25 @@ void RayPacket::Set(int lane, const Eigen::Vector3d& origin, const Eigen::Vector
   far[i] = to;
 }
 
-RayScene::RayScene(std::span<const Triangle> triangles) : embree_(std::make_unique<Embree>()) {
-  const RTCDevice device = SharedDevice();
+bool HasInstructionSet(InstructionSet set) {
+  __builtin_cpu_init();
+  switch (set) {
+    case InstructionSet::kAvx2:
+      return __builtin_cpu_supports("avx2");
+    case InstructionSet::kAvx512:
+      return __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&
+             __builtin_cpu_supports("avx512bw") && __builtin_cpu_supports("avx512vl") &&
+             __builtin_cpu_supports("avx512cd");
+    case InstructionSet::kSse42:
+    case InstructionSet::kPinned:
+      break;
+  }
+  return __builtin_cpu_supports("sse4.2");
+}
+
+RayScene::RayScene(std::span<const Triangle> triangles, InstructionSet set)
+    : embree_(std::make_unique<Embree>()) {
+  const RTCDevice device = SharedDevice(set);
   embree_->scene = rtcNewScene(device);
   rtcSetSceneFlags(embree_->scene, RTC_SCENE_FLAG_ROBUST);
   rtcSetSceneBuildQuality(embree_->scene, RTC_BUILD_QUALITY_HIGH);

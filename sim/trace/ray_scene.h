@@ -31,14 +31,24 @@ struct PacketHits {
   alignas(32) std::array<float, RayPacket::kLanes> b1{}, b2{};
 };
 
+/// Which instructions the ray tracer may use. Its answers at edges differ with them.
+enum class InstructionSet {
+  kPinned,  ///< AVX2, SSE4.2 where there is none: these two agree
+  kSse42,
+  kAvx2,
+  kAvx512
+};
+
+/// Whether this processor has it (and the ray tracer was built for it).
+bool HasInstructionSet(InstructionSet set);
+
 /// Triangles to cast rays at (Embree, behind a wall). Queries are const and safe to call from
-/// many threads; answers do not depend on threads. The instruction set is pinned to AVX2
-/// (SSE4.2 where there is none) and the traversal is the robust one, so ids agree between
-/// machines.
+/// many threads; answers do not depend on threads. The traversal is the robust one.
 class RayScene {
  public:
   /// @throws std::runtime_error when the ray tracer cannot start.
-  explicit RayScene(std::span<const Triangle> triangles);
+  explicit RayScene(std::span<const Triangle> triangles,
+                    InstructionSet set = InstructionSet::kPinned);
   ~RayScene();
   RayScene(RayScene&&) noexcept;
   RayScene& operator=(RayScene&&) noexcept;
