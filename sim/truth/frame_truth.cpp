@@ -50,7 +50,8 @@ cv::Rect PixelsOf(const PixelBox& box, const Camera& camera) {
 
 }  // namespace
 
-TruthMaker::TruthMaker(const FrameRenderer& renderer) : renderer_(renderer) {
+TruthMaker::TruthMaker(const FrameRenderer& renderer)
+    : renderer_(renderer), planes_(ScenePlanes(renderer.scene())) {
   const SceneMesh mesh = BuildMesh(renderer.scene());
   for (const Object& object : renderer.scene().objects) {
     triangles_.emplace_back();
@@ -58,6 +59,27 @@ TruthMaker::TruthMaker(const FrameRenderer& renderer) : renderer_(renderer) {
                  std::back_inserter(triangles_.back()),
                  [&](const Triangle& triangle) { return triangle.object == object.id; });
   }
+}
+
+PlaneInFrame TruthMaker::DescribePlane(int id, int pixels, const Pose& T_wc) const {
+  const ScenePlane& plane = planes_.at(static_cast<std::size_t>(id) - 1);
+  const Camera& camera = renderer_.camera();
+  PlaneInFrame seen{id, pixels, ProjectedFace(plane, T_wc, camera), {}};
+  for (std::size_t i = 0; i < seen.vertices.size(); ++i) {
+    VertexInFrame& vertex = seen.vertices[i];
+    vertex.x_w = plane.vertices_w[i];
+    const Eigen::Vector3d x_c = Inverse(T_wc) * vertex.x_w;
+    vertex.projects = x_c.z() > kSilhouetteNear_m;
+    vertex.pixel = vertex.projects ? camera.Project(x_c) : Eigen::Vector2d::Zero();
+    const auto within = [](double x, int size) { return x >= -0.5 && x <= size - 0.5; };
+    if (!vertex.projects || !within(vertex.pixel.x(), camera.width) ||
+        !within(vertex.pixel.y(), camera.height)) {
+      continue;
+    }
+    vertex.state =
+        renderer_.Sees(T_wc, vertex.x_w) ? VertexState::kVisible : VertexState::kOccluded;
+  }
+  return seen;
 }
 
 FrameTruth TruthMaker::Describe(const Rendering& rendering, const Pose& T_wc) const {
@@ -84,7 +106,7 @@ FrameTruth TruthMaker::Describe(const Rendering& rendering, const Pose& T_wc) co
   std::sort(truth.objects.begin(), truth.objects.end(),
             [](const auto& a, const auto& b) { return a.id < b.id; });
   for (const auto& [id, extent] : Extents(rendering.plane_id)) {
-    truth.planes.push_back({id, extent.pixels});
+    truth.planes.push_back(DescribePlane(id, extent.pixels, T_wc));
   }
   return truth;
 }

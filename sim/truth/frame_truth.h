@@ -1,8 +1,10 @@
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "sim/trace/frame_renderer.h"
+#include "sim/truth/polygon.h"
 #include "sim/truth/silhouette.h"
 
 namespace sim {
@@ -17,9 +19,25 @@ struct ObjectInFrame {
   double visible_fraction = 0;  ///< pixels / unoccluded_pixels, in (0, 1]
 };
 
+/// Where a corner of a face is.
+enum class VertexState {
+  kVisible,
+  kOccluded,  ///< inside the image, but something is 0.1 mm or more before it
+  kOutside    ///< of the image, or nearer than kSilhouetteNear_m
+};
+
+struct VertexInFrame {
+  Eigen::Vector3d x_w;
+  Eigen::Vector2d pixel;  ///< its projection; only when z > kSilhouetteNear_m
+  bool projects = false;
+  VertexState state = VertexState::kOutside;
+};
+
 struct PlaneInFrame {
   int id = 0;
   int pixels = 0;
+  Polygon outline;                        ///< ProjectedFace: what hides it does not change it
+  std::array<VertexInFrame, 4> vertices;  ///< in the order of ScenePlane::vertices_w
 };
 
 /// Both lists in the order of ids.
@@ -37,7 +55,10 @@ class TruthMaker {
 
  private:
   const FrameRenderer& renderer_;
+  PlaneInFrame DescribePlane(int id, int pixels, const Pose& T_wc) const;
+
   std::vector<std::vector<Triangle>> triangles_;  ///< by object
+  std::vector<ScenePlane> planes_;                ///< by id - 1
 };
 
 }  // namespace sim

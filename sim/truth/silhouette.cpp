@@ -13,6 +13,9 @@ void Include(const Eigen::Vector2d& p, std::optional<PixelBox>& box) {
   box->y1 = std::max(box->y1, p.y());
 }
 
+/// A lens bends edges outwards: look at points between the corners too.
+constexpr int kPointsOnBentEdge = 32;
+
 }  // namespace
 
 std::optional<PixelBox> ProjectedBox(std::span<const Triangle> triangles, const Pose& T_wc,
@@ -27,6 +30,10 @@ std::optional<PixelBox> ProjectedBox(std::span<const Triangle> triangles, const 
       if ((a.z() > kSilhouetteNear_m) != (b.z() > kSilhouetteNear_m)) {
         const double t = (kSilhouetteNear_m - a.z()) / (b.z() - a.z());
         Include(camera.Project(a + t * (b - a)), box);
+      }
+      for (int k = 1; !camera.lens.IsNone() && k < kPointsOnBentEdge; ++k) {
+        const Eigen::Vector3d p = a + static_cast<double>(k) / kPointsOnBentEdge * (b - a);
+        if (p.z() > kSilhouetteNear_m) Include(camera.Project(p), box);
       }
     }
   }

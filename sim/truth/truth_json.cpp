@@ -2,6 +2,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "sim/truth/plane_pairs.h"
+
 namespace sim {
 namespace {
 
@@ -52,6 +54,36 @@ Json PlaneJson(const ScenePlane& plane) {
   return json;
 }
 
+const char* StateName(VertexState state) {
+  switch (state) {
+    case VertexState::kVisible:
+      return "visible";
+    case VertexState::kOccluded:
+      return "occluded";
+    case VertexState::kOutside:
+      break;
+  }
+  return "outside";
+}
+
+Json PlaneInFrameJson(const PlaneInFrame& plane) {
+  Json json{{"id", plane.id}, {"pixels", plane.pixels}};
+  json["outline"] = Json::array();
+  for (const Eigen::Vector2d& p : plane.outline) json["outline"].push_back({p.x(), p.y()});
+  json["vertices"] = Json::array();
+  for (const VertexInFrame& vertex : plane.vertices) {
+    Json entry{{"world", Vector(vertex.x_w)}};
+    if (vertex.projects) {
+      entry["pixel"] = {vertex.pixel.x(), vertex.pixel.y()};
+    } else {
+      entry["pixel"] = nullptr;
+    }
+    entry["state"] = StateName(vertex.state);
+    json["vertices"].push_back(std::move(entry));
+  }
+  return json;
+}
+
 }  // namespace
 
 std::string SceneTruthJson(const Scene& scene) {
@@ -62,6 +94,15 @@ std::string SceneTruthJson(const Scene& scene) {
   for (const Object& object : scene.objects) json["objects"].push_back(ObjectJson(object));
   json["planes"] = Json::array();
   for (const ScenePlane& plane : ScenePlanes(scene)) json["planes"].push_back(PlaneJson(plane));
+  json["pairs"] = Json::array();
+  for (const PlanePair& pair : PlanePairs(scene)) {
+    json["pairs"].push_back({{"a", pair.a},
+                             {"b", pair.b},
+                             {"angle_deg", pair.angle_deg},
+                             {"lateral_gap_mm", pair.lateral_gap_mm},
+                             {"step_mm", pair.step_mm},
+                             {"step_sigmas", pair.step_sigmas}});
+  }
   return json.dump(1) + "\n";
 }
 
@@ -78,7 +119,7 @@ std::string FrameTruthJson(double timestamp_s, const FrameTruth& truth) {
   }
   json["planes"] = Json::array();
   for (const PlaneInFrame& plane : truth.planes) {
-    json["planes"].push_back({{"id", plane.id}, {"pixels", plane.pixels}});
+    json["planes"].push_back(PlaneInFrameJson(plane));
   }
   return json.dump();
 }

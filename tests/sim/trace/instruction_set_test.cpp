@@ -101,17 +101,17 @@ TEST(DepthAndIds, AreTheSameBitsWhereEdgesPassThroughPixelCentres) {
 }
 
 TEST(DepthAndIds, DifferFromTheRayTracersOwnOnlyAtEdges) {
-  const FrameRenderer renderer(MakeScene("desk", 5), Camera{});
+  const FrameRenderer renderer(SmallDesk(), Camera{});
   int differ = 0;
   for (const Pose& T_wc : Views(3)) {
     const Rendering exact = renderer.Render(T_wc, {.colour = false, .exact_edges = true});
     const Rendering traced = renderer.Render(T_wc, {.colour = false});
     for (int v = 0; v < exact.plane_id.rows; ++v) {
       for (int u = 0; u < exact.plane_id.cols; ++u) {
-        if (exact.plane_id(v, u) == traced.plane_id(v, u)) {
-          EXPECT_EQ(exact.depth_m(v, u), traced.depth_m(v, u)) << u << ", " << v;
-        } else {
+        if (exact.plane_id(v, u) != traced.plane_id(v, u)) {
           ++differ;
+        } else if (exact.plane_id(v, u) > 0 && exact.depth_m(v, u) != traced.depth_m(v, u)) {
+          FAIL() << "one plane, two depths at " << u << ", " << v;
         }
       }
     }

@@ -73,6 +73,74 @@ TEST(FrameTruth, SumsPixelsOfPlanesToThoseOfTheirObject) {
   }
 }
 
+/// The front (-y) face of an object among the planes of a frame.
+const PlaneInFrame* FrontOf(const FrameTruth& truth, const Scene& scene, int object) {
+  for (const PlaneInFrame& plane : truth.planes) {
+    const ScenePlane& of = ScenePlanes(scene).at(static_cast<std::size_t>(plane.id) - 1);
+    if (of.object == object && of.face == Face::kMinusY) return &plane;
+  }
+  return nullptr;
+}
+
+TEST(FrameTruth, OutlinesAFaceAsIfNothingHidIt) {
+  const Camera camera;
+  const Scene scene = HalfHidden();
+  const FrameTruth truth = TruthOf(scene, camera, LookAlongY());
+  const PlaneInFrame* far = FrontOf(truth, scene, 1);
+  ASSERT_NE(far, nullptr);
+  EXPECT_NEAR(std::abs(SignedArea(far->outline)), 525.0 / 2 * 525.0 * 0.6 / 2, 1e-6);
+  const PlaneInFrame* near = FrontOf(truth, scene, 2);  // from u = -205.5, cut at -0.5
+  ASSERT_NE(near, nullptr);
+  EXPECT_NEAR(std::abs(SignedArea(near->outline)), 320.0 * 525.0 * 0.6, 1e-6);
+}
+
+TEST(FrameTruth, TellsVisibleHiddenAndOutsideCorners) {
+  const Scene scene = HalfHidden();
+  const FrameTruth truth = TruthOf(scene, Camera{}, LookAlongY());
+  for (const VertexInFrame& vertex : FrontOf(truth, scene, 1)->vertices) {
+    EXPECT_EQ(vertex.state,
+              vertex.x_w.x() > 0 ? VertexState::kVisible : VertexState::kOccluded);
+    EXPECT_NEAR(vertex.pixel.x(), 319.5 + 525 * vertex.x_w.x() / 2, 1e-9);
+  }
+  for (const VertexInFrame& vertex : FrontOf(truth, scene, 2)->vertices) {
+    EXPECT_EQ(vertex.state,
+              vertex.x_w.x() > -0.5 ? VertexState::kVisible : VertexState::kOutside);
+  }
+}
+
+TEST(FrameTruth, PutsEveryPixelOfAPlaneInsideItsOutline) {
+  const Scene scene = SmallDesk();
+  const Pose T_wc = SmallArc(1)[0].T_wc;
+  const FrameRenderer renderer(scene, SmallCamera());
+  const Rendering rendering = renderer.Render(T_wc, {.colour = false});
+  for (const PlaneInFrame& plane : TruthMaker(renderer).Describe(rendering, T_wc).planes) {
+    const double turn = SignedArea(plane.outline) < 0 ? -1 : 1;
+    for (int v = 0; v < 120; ++v) {
+      for (int u = 0; u < 160; ++u) {
+        if (rendering.plane_id(v, u) != plane.id) continue;
+        for (std::size_t i = 0; i < plane.outline.size(); ++i) {
+          const Eigen::Vector2d a = plane.outline[i];
+          const Eigen::Vector2d ab = plane.outline[(i + 1) % plane.outline.size()] - a;
+          const Eigen::Vector2d ap = Eigen::Vector2d(u, v) - a;
+          const double inside = turn * (ab.x() * ap.y() - ab.y() * ap.x());
+          ASSERT_GE(inside, -1e-3 * ab.norm()) << plane.id << " at " << u << ", " << v;
+        }
+      }
+    }
+  }
+}
+
+TEST(FrameTruth, WritesOutlineAndCornersOfEachPlane) {
+  const Scene scene = HalfHidden();
+  const auto json =
+      nlohmann::json::parse(FrameTruthJson(0.0, TruthOf(scene, SmallCamera(), LookAlongY())));
+  ASSERT_EQ(json["planes"].size(), 2u);
+  EXPECT_EQ(json["planes"][0]["outline"].size(), 4u);
+  ASSERT_EQ(json["planes"][0]["vertices"].size(), 4u);
+  EXPECT_EQ(json["planes"][0]["vertices"][0]["world"].size(), 3u);
+  EXPECT_EQ(json["planes"][0]["vertices"][0]["pixel"].size(), 2u);
+}
+
 TEST(ProjectedBox, IsEmptyForWhatLiesBehind) {
   const SceneMesh mesh = BuildMesh(HalfHidden());
   EXPECT_FALSE(

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <vector>
+
+#include "sim/scene/scene.h"
+
+namespace sim {
+
+/// Two scored planes that face nearly the same way and lie over or beside each other: what an
+/// association could take for one.
+struct PlanePair {
+  int a = 0, b = 0;           ///< ScenePlane::id, a < b
+  double angle_deg = 0;       ///< between the normals
+  double lateral_gap_mm = 0;  ///< between the faces seen along a's normal; 0 = they overlap
+  double step_mm = 0;  ///< from a to b along a's normal, at the middle of what they share, else
+                       ///< where they are closest
+  double step_sigmas = 0;  ///< |step| / kPairSigma_m: the smaller, the more ambiguous
+};
+
+inline constexpr double kPairMaxAngle_deg = 15.0;
+inline constexpr double kPairMaxGap_m = 0.1;
+/// Axial noise of the first Kinect at 1 m, 1.2 mm + 1.9 mm (z - 0.4)^2 (Nguyen, Izadi and
+/// Lovell, 3DIMPVT 2012), in metres: a desk's objects are seen from about there.
+inline constexpr double kPairSigma_m = 0.0012 + 0.0019 * 0.6 * 0.6;
+
+/// All such pairs of planes of structure and regular objects, in the order of (a, b).
+std::vector<PlanePair> PlanePairs(const Scene& scene);
+
+}  // namespace sim

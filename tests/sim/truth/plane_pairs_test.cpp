@@ -1,0 +1,85 @@
+#include "sim/truth/plane_pairs.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "sim/truth/truth_json.h"
+#include "tests/sim/support/sim_worlds.h"
+
+namespace sim {
+namespace {
+
+constexpr double kRoundOff = 1e-9;
+
+/// The pair of the upper faces of two objects.
+std::optional<PlanePair> Tops(const Scene& scene, int object_a, int object_b) {
+  const auto planes = ScenePlanes(scene);
+  const auto top = [&](int object) {
+    return std::find_if(planes.begin(), planes.end(),
+                        [&](const auto& plane) {
+                          return plane.object == object && plane.face == Face::kPlusZ;
+                        })
+        ->id;
+  };
+  for (const PlanePair& pair : PlanePairs(scene)) {
+    if (pair.a == top(object_a) && pair.b == top(object_b)) return pair;
+  }
+  return std::nullopt;
+}
+
+Scene TwoBoards(double gap_m, double step_m, double tilt_rad) {
+  Scene scene;
+  scene.objects = {
+      BoxObject(1, "box", Role::kRegular, {0, 0, 0}, {0.2, 0.2, 0.02}),
+      BoxObject(2, "box", Role::kRegular, {0.2 + gap_m, 0, step_m}, {0.2, 0.2, 0.02})};
+  scene.objects[1].q_wo = Eigen::AngleAxisd(tilt_rad, Eigen::Vector3d::UnitY());
+  return scene;
+}
+
+TEST(PlanePairs, MeasureStepAndGapOfTwoBoardsSideBySide) {
+  const auto pair = Tops(TwoBoards(0.03, 0.005, 0), 1, 2);
+  ASSERT_TRUE(pair.has_value());
+  EXPECT_NEAR(pair->step_mm, 5, kRoundOff);
+  EXPECT_NEAR(pair->lateral_gap_mm, 30, kRoundOff);
+  EXPECT_NEAR(pair->angle_deg, 0, kRoundOff);
+  EXPECT_NEAR(pair->step_sigmas, 5 / 1.884, kRoundOff);  // 1.2 + 1.9 x 0.36 mm
+}
+
+TEST(PlanePairs, SignTheStepFromTheFirstToTheSecond) {
+  EXPECT_NEAR(Tops(TwoBoards(0.03, -0.005, 0), 1, 2)->step_mm, -5, kRoundOff);
+}
+
+TEST(PlanePairs, SayThatABookOnADeskOverlapsIt) {
+  const auto pair = Tops(SmallDesk(), 3, 4);
+  ASSERT_TRUE(pair.has_value());
+  EXPECT_EQ(pair->lateral_gap_mm, 0);
+  EXPECT_NEAR(pair->step_mm, 30, kRoundOff);
+}
+
+TEST(PlanePairs, MeasureTheAngle) {
+  const auto pair = Tops(TwoBoards(0.03, 0.0, 10 * M_PI / 180), 1, 2);
+  ASSERT_TRUE(pair.has_value());
+  EXPECT_NEAR(pair->angle_deg, 10, kRoundOff);
+}
+
+TEST(PlanePairs, LeaveOutWhatIsFarSteepOrNotScored) {
+  EXPECT_FALSE(Tops(TwoBoards(0.11, 0, 0), 1, 2).has_value());
+  EXPECT_TRUE(Tops(TwoBoards(0.09, 0, 0), 1, 2).has_value());
+  EXPECT_FALSE(Tops(TwoBoards(0.03, 0, 16 * M_PI / 180), 1, 2).has_value());
+  Scene unscored = TwoBoards(0.03, 0, 0);
+  unscored.objects[1].role = Role::kOther;
+  EXPECT_FALSE(Tops(unscored, 1, 2).has_value());
+}
+
+TEST(PlanePairs, AreListedInTheSceneTruth) {
+  const Scene scene = TwoBoards(0.03, 0.005, 0);
+  const auto json = nlohmann::json::parse(SceneTruthJson(scene));
+  ASSERT_EQ(json["pairs"].size(), PlanePairs(scene).size());
+  EXPECT_EQ(json["pairs"][0]["a"], PlanePairs(scene)[0].a);
+}
+
+}  // namespace
+}  // namespace sim
