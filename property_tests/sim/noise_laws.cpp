@@ -4,7 +4,7 @@
 #include <opencv2/core.hpp>
 
 #include "property_tests/sim/render_worlds.h"
-#include "sim/sensor/depth_sensor.h"
+#include "sim/sensor/sensor.h"
 
 namespace sim {
 namespace {
@@ -63,6 +63,30 @@ RC_GTEST_PROP(MeasuredDepth, IsNeverInventedWhereNothingIsSeen, ()) {
     for (int u = 0; u < z.cols; ++u) {
       if (rendering.depth_m(v, u) == 0) RC_ASSERT(z(v, u) == 0);
       RC_ASSERT(std::isfinite(z(v, u)) && z(v, u) >= 0);
+    }
+  }
+}
+
+DepthModel AnySensor() {
+  return Sensor(*rc::gen::element(SensorKind::kIdeal, SensorKind::kKinect1, SensorKind::kAzure,
+                                  SensorKind::kD435))
+      .depth;
+}
+
+RC_GTEST_PROP(EverySensor, IsDecidedBySeedAndFrameAndInventsNothing, ()) {
+  const DepthModel model = AnySensor();
+  const Camera camera = SmallCamera();
+  const Rendering rendering =
+      FrameRenderer(AnyScene(), camera)
+          .Render(AnyView(), {.colour = false, .projector_offset_m = SecondEyeOffset(model)});
+  const std::uint64_t seed = AnySeed();
+  const cv::Mat1d z = MeasureDepth(rendering, model, camera, seed, 3);
+  MeasureDepth(rendering, model, camera, seed, 2);
+  RC_ASSERT(Equal(MeasureDepth(rendering, model, camera, seed, 3), z));
+  for (int v = 0; v < z.rows; ++v) {
+    for (int u = 0; u < z.cols; ++u) {
+      RC_ASSERT(std::isfinite(z(v, u)) && z(v, u) >= 0);
+      if (rendering.depth_m(v, u) == 0) RC_ASSERT(z(v, u) == 0);
     }
   }
 }

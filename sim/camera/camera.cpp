@@ -1,6 +1,8 @@
 #include "sim/camera/camera.h"
 
+#include <algorithm>
 #include <charconv>
+#include <limits>
 #include <stdexcept>
 
 namespace sim {
@@ -11,6 +13,13 @@ std::string Number(double value) {
   char text[32];
   const auto end = std::to_chars(text, text + sizeof text, value).ptr;
   return std::string(text, end);
+}
+
+/// Nothing when there is no distortion.
+std::string LensYaml(const Lens& lens) {
+  if (lens.IsNone()) return "";
+  return "k1: " + Number(lens.k1) + "\nk2: " + Number(lens.k2) + "\np1: " + Number(lens.p1) +
+         "\np2: " + Number(lens.p2) + "\nk3: " + Number(lens.k3) + "\n";
 }
 
 }  // namespace
@@ -32,12 +41,44 @@ Camera Resize(const Camera& camera, int width, int height) {
   return resized;
 }
 
+Camera WithLens(const Camera& camera, const Lens& lens) {
+  constexpr double kStep = 1e-3, kFarthest = 10.0, kMargin = 1.1, kRim_px = 2.0;
+  Camera bent = camera;
+  bent.lens = lens;
+  bent.lens.reach = std::numeric_limits<double>::infinity();
+  if (lens.IsNone()) return bent;
+
+  // The radius up to which the radial part grows.
+  double growing = 0;
+  for (double r = 0; r < kFarthest; r += kStep) {
+    const double r2 = r * r;
+    if (!(1 + r2 * (3 * lens.k1 + r2 * (5 * lens.k2 + r2 * 7 * lens.k3)) > 0.02)) break;
+    growing = r;
+  }
+  bent.lens.reach = growing;
+  double corner = 0;
+  const auto look = [&](double u, double v) {
+    const double r = bent.Ray(u, v).head<2>().norm();
+    if (!(r <= growing)) {
+      throw std::invalid_argument(
+          "lens distortion: no single ray belongs to pixel (" + Number(u) + ", " + Number(v) +
+          "); the coefficients k1 k2 p1 p2 k3 are too strong for this field of view");
+    }
+    corner = std::max(corner, r);
+  };
+  const double right = camera.width - 1 + kRim_px, low = camera.height - 1 + kRim_px;
+  for (double u = -kRim_px; u <= right; u += 1) look(u, -kRim_px), look(u, low);
+  for (double v = -kRim_px; v <= low; v += 1) look(-kRim_px, v), look(right, v);
+  bent.lens.reach = std::min(growing, kMargin * corner);
+  return bent;
+}
+
 std::string CameraYaml(const Camera& camera) {
   return "model: pinhole\nwidth: " + std::to_string(camera.width) +
          "\nheight: " + std::to_string(camera.height) + "\nfx: " + Number(camera.fx) +
          "\nfy: " + Number(camera.fy) + "\ncx: " + Number(camera.cx) +
          "\ncy: " + Number(camera.cy) + "\nfps: " + Number(camera.fps) +
-         "\ndepth_factor: " + Number(camera.depth_factor) + "\n";
+         "\ndepth_factor: " + Number(camera.depth_factor) + "\n" + LensYaml(camera.lens);
 }
 
 }  // namespace sim

@@ -3,39 +3,13 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <vector>
+
+#include "sim/sensor/depth_effects.h"
 
 namespace sim {
 namespace {
 
 constexpr double kHalfPi = std::numbers::pi / 2;
-enum Draw : std::uint32_t { kDisparity = 0, kJitterU = 1, kJitterV = 2 };
-
-/// White noise averaged over 3x3 pixels, sd restored to 1. Defined beyond the border too.
-cv::Mat1f SmoothNoise(const cv::Size& size, const PixelNoise& noise, Draw draw) {
-  cv::Mat1f white(size.height + 2, size.width + 2);
-  for (int v = 0; v < white.rows; ++v) {
-    for (int u = 0; u < white.cols; ++u) {
-      white(v, u) = static_cast<float>(noise.Normal(u - 1, v - 1, draw));
-    }
-  }
-  cv::Mat1f across(white.rows, size.width), smooth(size);
-  for (int v = 0; v < white.rows; ++v) {
-    for (int u = 0; u < size.width; ++u) {
-      across(v, u) = white(v, u) + white(v, u + 1) + white(v, u + 2);
-    }
-  }
-  for (int v = 0; v < size.height; ++v) {
-    for (int u = 0; u < size.width; ++u) {
-      smooth(v, u) = (across(v, u) + across(v + 1, u) + across(v + 2, u)) / 3.0F;
-    }
-  }
-  return smooth;
-}
-
-double Incidence(float cosine) {
-  return std::acos(std::clamp(static_cast<double>(cosine), 0.0, 1.0));
-}
 
 /// Which pixel's surface each pixel sees: itself, but near an edge perhaps a neighbour's.
 class LateralJitter {
@@ -43,8 +17,8 @@ class LateralJitter {
   LateralJitter(const Rendering& rendering, double scale, const PixelNoise& noise)
       : rendering_(rendering), scale_(scale) {
     if (scale_ <= 0) return;
-    jitter_u_ = SmoothNoise(rendering.depth_m.size(), noise, kJitterU);
-    jitter_v_ = SmoothNoise(rendering.depth_m.size(), noise, kJitterV);
+    jitter_u_ = SmoothNoise(rendering.depth_m.size(), 1, noise, kJitterUDraw);
+    jitter_v_ = SmoothNoise(rendering.depth_m.size(), 1, noise, kJitterVDraw);
   }
   cv::Point Source(int u, int v) const {
     if (scale_ <= 0) return {u, v};
@@ -57,9 +31,7 @@ class LateralJitter {
     };
     const int x = moved(jitter_u_(v, u), u, rendering_.depth_m.cols);
     const int y = moved(jitter_v_(v, u), v, rendering_.depth_m.rows);
-    const bool same_surface = rendering_.plane_id(y, x) == rendering_.plane_id(v, u) &&
-                              rendering_.object_id(y, x) == rendering_.object_id(v, u);
-    return same_surface ? cv::Point(u, v) : cv::Point(x, y);
+    return SameSurface(rendering_, {u, v}, {x, y}) ? cv::Point(u, v) : cv::Point(x, y);
   }
 
  private:
@@ -95,7 +67,7 @@ cv::Mat1d MeasureDepth(const Rendering& rendering, const KinectModel& model,
   const cv::Size size = rendering.depth_m.size();
   const LateralJitter jitter(rendering, model.lateral_scale, noise);
   cv::Mat1f draw;
-  if (model.noise_scale > 0) draw = SmoothNoise(size, noise, kDisparity);
+  if (model.noise_scale > 0) draw = SmoothNoise(size, 1, noise, kAxialDraw);
   cv::Mat1d measured(size, 0.0);
   for (int v = 0; v < size.height; ++v) {
     for (int u = 0; u < size.width; ++u) {

@@ -9,13 +9,13 @@
 namespace sim {
 namespace {
 
-std::string PoseLine(const TimedPose& pose) {
-  Eigen::Quaterniond q(pose.T_wc.R);
+std::string PoseLine(const Shot& shot) {
+  Eigen::Quaterniond q(shot.T_wc.R);
   q.normalize();
   if (q.w() < 0) q.coeffs() = -q.coeffs();
-  const Eigen::Vector3d& t = pose.T_wc.t;
-  return fmt::format("{} {} {} {} {} {} {} {}\n", TimeText(pose.timestamp_s), t.x(), t.y(),
-                     t.z(), q.x(), q.y(), q.z(), q.w());
+  const Eigen::Vector3d& t = shot.T_wc.t;
+  return fmt::format("{} {} {} {} {} {} {} {}\n", TimeText(shot.time_s), t.x(), t.y(), t.z(),
+                     q.x(), q.y(), q.z(), q.w());
 }
 
 }  // namespace
@@ -25,17 +25,17 @@ std::string TimeText(double timestamp_s) { return fmt::format("{:.6f}", timestam
 double PrintedTime(double timestamp_s) { return std::stod(TimeText(timestamp_s)); }
 
 std::map<std::string, std::string> FixedFiles(const Scene& scene, const Camera& camera,
-                                              const std::vector<TimedPose>& trajectory) {
+                                              const std::vector<Shot>& shots) {
   std::string rgb = "# colour images\n# timestamp filename\n";
   std::string depth = "# depth images\n# timestamp filename\n";
   std::string truth = "# camera to world\n# timestamp tx ty tz qx qy qz qw\n";
   std::string pairs;
-  for (const TimedPose& pose : trajectory) {
-    const std::string t = TimeText(pose.timestamp_s);
+  for (const Shot& shot : shots) {
+    const std::string t = TimeText(shot.colour_stamp_s), d = TimeText(shot.depth_stamp_s);
     rgb += fmt::format("{0} rgb/{0}.png\n", t);
-    depth += fmt::format("{0} depth/{0}.png\n", t);
-    pairs += fmt::format("{0} rgb/{0}.png {0} depth/{0}.png\n", t);
-    truth += PoseLine(pose);
+    depth += fmt::format("{0} depth/{0}.png\n", d);
+    pairs += fmt::format("{0} rgb/{0}.png {1} depth/{1}.png\n", t, d);
+    truth += PoseLine(shot);
   }
   return {{"associations.txt", pairs},
           {"camera.yaml", CameraYaml(camera)},

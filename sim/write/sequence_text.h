@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "sim/camera/camera.h"
-#include "sim/motion/trajectory.h"
 #include "sim/scene/scene.h"
+#include "sim/write/timing.h"
 
 namespace sim {
 
@@ -18,6 +18,6 @@ double PrintedTime(double timestamp_s);
 /// Texts of a sequence that are known before the first frame, by path inside the folder:
 /// camera.yaml, rgb.txt, depth.txt, associations.txt, groundtruth.txt, gt/scene.json.
 std::map<std::string, std::string> FixedFiles(const Scene& scene, const Camera& camera,
-                                              const std::vector<TimedPose>& trajectory);
+                                              const std::vector<Shot>& shots);
 
 }  // namespace sim

@@ -9,23 +9,47 @@ Simulator::Simulator(const Scene& scene, const RigOptions& options)
       detector_(scene, options.camera, options.detector, options.seed) {}
 
 SimulatedFrame Simulator::Simulate(int frame, const Pose& T_wc) const {
-  const bool noisy = options_.sensor == SensorKind::kKinect1;
-  const KinectModel kinect;
-  RenderOptions view;
-  if (noisy) view.projector_offset_m = kinect.projector_offset_m;
-  const Rendering rendering = renderer_.Render(T_wc, view);
+  Shot shot;
+  shot.T_wc = T_wc;
+  return Simulate(frame, shot, [&](double) { return T_wc; });
+}
 
-  const PixelNoise noise(options_.seed, static_cast<std::uint64_t>(frame));
+SimulatedFrame Simulator::Simulate(int frame, const Shot& shot,
+                                   const PoseAround& around) const {
+  const Sensor& sensor = options_.sensor;
+  const double delay_s = shot.DepthDelay_s();
+  const bool moves = options_.exposure.Moves();
+  RenderOptions view;
+  view.colour = !moves;
+  if (delay_s == 0) view.projector_offset_m = SecondEyeOffset(sensor.depth);
+  Rendering rendering = renderer_.Render(shot.T_wc, view);
+  if (moves) rendering.radiance = ExposeMoving(renderer_, options_.exposure, around);
+  const double gain = ExposureGain(options_.exposure, options_.seed, shot.time_s);
+  if (gain != 1.0) rendering.radiance = rendering.radiance * gain;
+
   SimulatedFrame result;
-  result.colour =
-      MeasureColour(rendering.radiance, noisy ? ColourModel{} : CleanColour(), noise);
-  result.depth = EncodeDepth(noisy ? MeasureDepth(rendering, kinect, noise) : rendering.depth_m,
-                             options_.camera.depth_factor);
+  result.colour = MeasureColour(rendering.radiance, sensor.colour,
+                                PixelNoise(options_.seed, static_cast<std::uint64_t>(frame)));
+  result.depth =
+      delay_s == 0 ? Depth(frame, rendering) : Depth(frame, RenderForDepth(around(delay_s)));
   result.plane_id = rendering.plane_id;
   result.object_id = rendering.object_id;
-  result.truth = truth_.Describe(rendering, T_wc);
+  result.truth = truth_.Describe(rendering, shot.T_wc);
   result.detections = detector_.Detect(frame, result.truth);
   return result;
+}
+
+Rendering Simulator::RenderForDepth(const Pose& T_wc) const {
+  RenderOptions view;
+  view.colour = false;
+  view.projector_offset_m = SecondEyeOffset(options_.sensor.depth);
+  return renderer_.Render(T_wc, view);
+}
+
+cv::Mat1w Simulator::Depth(int frame, const Rendering& rendering) const {
+  return EncodeDepth(MeasureDepth(rendering, options_.sensor.depth, options_.camera,
+                                  options_.seed, static_cast<std::uint64_t>(frame)),
+                     options_.camera.depth_factor);
 }
 
 }  // namespace sim

@@ -1,18 +1,20 @@
 #pragma once
 
 #include "sim/detect/detector.h"
-#include "sim/sensor/colour_sensor.h"
-#include "sim/sensor/depth_sensor.h"
+#include "sim/sensor/sensor.h"
 #include "sim/trace/frame_renderer.h"
 #include "sim/truth/frame_truth.h"
+#include "sim/write/exposure.h"
+#include "sim/write/timing.h"
 
 namespace sim {
 
 /// What is in front of the scene.
 struct RigOptions {
   Camera camera;
-  SensorKind sensor = SensorKind::kKinect1;
+  Sensor sensor = SensorKind::kKinect1;
   DetectorKind detector = DetectorKind::kNoisy;
+  Exposure exposure;       ///< of the colour camera
   std::uint64_t seed = 1;  ///< of all noise
 };
 
@@ -31,10 +33,18 @@ struct SimulatedFrame {
 class Simulator {
  public:
   Simulator(const Scene& scene, const RigOptions& options);
+  /// A frame of a camera that stands still meanwhile, at time 0.
   SimulatedFrame Simulate(int frame, const Pose& T_wc) const;
+  /// A frame of a moving camera: colour is exposed about shot.time_s, depth at one moment
+  /// shot.DepthDelay_s() later. Truth is of shot.T_wc, the middle of the colour exposure.
+  SimulatedFrame Simulate(int frame, const Shot& shot, const PoseAround& around) const;
   const RigOptions& options() const { return options_; }
 
  private:
+  Rendering RenderForDepth(const Pose& T_wc) const;
+  /// In file units.
+  cv::Mat1w Depth(int frame, const Rendering& rendering) const;
+
   RigOptions options_;
   FrameRenderer renderer_;
   TruthMaker truth_;

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
 #include <stdexcept>
 
 #include "sim/scene/scene_file.h"
@@ -19,10 +21,8 @@ using Json = nlohmann::ordered_json;
 
 /// Holds one record a finished frame until the sequence is complete.
 constexpr const char* kRecordFolder = ".frames";
-
-const char* Name(SensorKind sensor) {
-  return sensor == SensorKind::kIdeal ? "ideal" : "kinect1";
-}
+/// Of the poses between frames: twenty a period of the fastest tremor (12 Hz).
+constexpr double kPathRate_Hz = 240.0;
 
 const char* Name(DetectorKind detector) {
   switch (detector) {
@@ -46,7 +46,22 @@ Json Plan(const Scene& scene, const SequenceOptions& options, std::size_t frames
   plan["scene"] = scene.name;
   plan["scene_hash"] = SceneHash(scene);
   plan["seed"] = options.rig.seed;
-  plan["sensor"] = Name(options.rig.sensor);
+  plan["sensor"] = options.rig.sensor.name;
+  if (!options.rig.sensor.changed.empty()) {
+    plan["sensor_parameters"] = options.rig.sensor.changed;
+  }
+  const Exposure& exposure = options.rig.exposure;
+  if (!exposure.IsPlain()) {
+    plan["exposure"] = {{"shutter_s", exposure.shutter_s},
+                        {"shutter_samples", exposure.shutter_samples},
+                        {"rolling_s", exposure.rolling_s},
+                        {"drift_stops", exposure.drift_stops}};
+  }
+  if (!options.timing.IsNone()) {
+    plan["timing"] = {{"drop_ratio", options.timing.drop_ratio},
+                      {"depth_offset_s", options.timing.depth_offset_s},
+                      {"stamp_jitter_s", options.timing.stamp_jitter_s}};
+  }
   plan["detector"] = Name(options.rig.detector);
   plan["frame_count"] = frames;
   plan["complete"] = false;
@@ -58,29 +73,31 @@ Json Plan(const Scene& scene, const SequenceOptions& options, std::size_t frames
 /// Writes frames one by one; a frame counts once its record is written, after its images.
 class FrameStore {
  public:
-  FrameStore(fs::path folder, const Simulator& simulator,
-             const std::vector<TimedPose>& trajectory)
-      : folder_(std::move(folder)), simulator_(simulator), trajectory_(trajectory) {
+  FrameStore(fs::path folder, const Simulator& simulator, const std::vector<Shot>& shots,
+             const std::vector<TimedPose>& path)
+      : folder_(std::move(folder)), simulator_(simulator), shots_(shots), path_(path) {
     fs::create_directories(folder_ / kRecordFolder);
   }
 
   void Make(int frame) const {
-    const TimedPose& pose = trajectory_[static_cast<std::size_t>(frame)];
-    const SimulatedFrame made = simulator_.Simulate(frame, pose.T_wc);
-    const double t = PrintedTime(pose.timestamp_s);
+    const Shot& shot = shots_[static_cast<std::size_t>(frame)];
+    const SimulatedFrame made = simulator_.Simulate(
+        frame, shot, [&](double later_s) { return PoseAt(path_, shot.time_s + later_s); });
+    const double t = PrintedTime(shot.colour_stamp_s);
     Json record;
     record["truth"] = FrameTruthJson(t, made.truth);
     record["detections"] = DetectionsJson(t, made.detections);
-    const std::string name = TimeText(pose.timestamp_s) + ".png";
-    const std::initializer_list<std::pair<const char*, const cv::Mat*>> images{
-        {"rgb/", &made.colour},
-        {"depth/", &made.depth},
-        {"gt/plane_id/", &made.plane_id},
-        {"gt/object_id/", &made.object_id}};
-    for (const auto& [where, image] : images) {
+    const std::string name = TimeText(shot.colour_stamp_s) + ".png";
+    const std::string depth_name = TimeText(shot.depth_stamp_s) + ".png";
+    const std::initializer_list<std::pair<std::string, const cv::Mat*>> images{
+        {"rgb/" + name, &made.colour},
+        {"depth/" + depth_name, &made.depth},
+        {"gt/plane_id/" + name, &made.plane_id},
+        {"gt/object_id/" + name, &made.object_id}};
+    for (const auto& [file, image] : images) {
       const std::string bytes = EncodePng(*image);
-      WriteFileAtomically(folder_ / (where + name), bytes);
-      record["sha256"][where + name] = Sha256Hex(bytes);
+      WriteFileAtomically(folder_ / file, bytes);
+      record["sha256"][file] = Sha256Hex(bytes);
     }
     WriteFileAtomically(RecordPath(frame), record.dump());
   }
@@ -98,7 +115,7 @@ class FrameStore {
 
   std::vector<int> Missing() const {
     std::vector<int> missing;
-    for (int frame = 0; frame < static_cast<int>(trajectory_.size()); ++frame) {
+    for (int frame = 0; frame < static_cast<int>(shots_.size()); ++frame) {
       if (!Made(frame)) missing.push_back(frame);
     }
     return missing;
@@ -109,7 +126,7 @@ class FrameStore {
     std::map<std::string, std::string> sums;
     for (const auto& [file, sum] : manifest["sha256"].items()) sums[file] = sum;
     std::string truth, detections;
-    for (int frame = 0; frame < static_cast<int>(trajectory_.size()); ++frame) {
+    for (int frame = 0; frame < static_cast<int>(shots_.size()); ++frame) {
       const Json record = Json::parse(ReadWholeFile(RecordPath(frame)));
       truth += record.at("truth").get<std::string>() + "\n";
       detections += record.at("detections").get<std::string>() + "\n";
@@ -135,7 +152,8 @@ class FrameStore {
 
   fs::path folder_;
   const Simulator& simulator_;
-  const std::vector<TimedPose>& trajectory_;
+  const std::vector<Shot>& shots_;
+  const std::vector<TimedPose>& path_;
 };
 
 void CheckTimes(const std::vector<TimedPose>& trajectory) {
@@ -153,13 +171,15 @@ void CheckTimes(const std::vector<TimedPose>& trajectory) {
 int WriteSequence(const Scene& scene, const std::vector<TimedPose>& trajectory,
                   const SequenceOptions& options, const fs::path& folder) {
   CheckTimes(trajectory);
-  const auto fixed = FixedFiles(scene, options.rig.camera, trajectory);
-  const Json plan = Plan(scene, options, trajectory.size(), fixed);
+  const std::vector<Shot> shots = MakeShots(trajectory, options.timing, options.rig.seed);
+  const auto fixed = FixedFiles(scene, options.rig.camera, shots);
+  const Json plan = Plan(scene, options, shots.size(), fixed);
   const Simulator simulator(scene, options.rig);
   if (PrepareFolder(folder, plan, options.existing)) return 0;
 
   for (const auto& [path, text] : fixed) WriteFileAtomically(folder / path, text);
-  const FrameStore store(folder, simulator, trajectory);
+  const FrameStore store(folder, simulator, shots,
+                         options.path.empty() ? trajectory : options.path);
   const std::vector<int> missing = store.Missing();
   ForEachFrame(
       missing, options.threads, [&](int frame) { store.Make(frame); }, options.progress);
@@ -170,6 +190,14 @@ int WriteSequence(const Scene& scene, const std::vector<TimedPose>& trajectory,
 int WriteSequence(const Scene& scene, const SequenceOptions& options, const fs::path& folder) {
   const auto trajectory =
       MakeTrajectory(scene, options.frames, options.rig.camera.fps, options.rig.seed);
+  if (options.rig.exposure.Moves() || options.timing.depth_offset_s != 0) {
+    SequenceOptions finer = options;
+    const double fps = options.rig.camera.fps;
+    const int times = std::max(1, static_cast<int>(std::ceil(kPathRate_Hz / fps)));
+    finer.path =
+        MakeTrajectory(scene, options.frames * times + 1, fps * times, options.rig.seed);
+    return WriteSequence(scene, trajectory, finer, folder);
+  }
   return WriteSequence(scene, trajectory, options, folder);
 }
 

@@ -12,6 +12,10 @@ namespace sim {
 
 struct SequenceOptions {
   RigOptions rig;
+  TimingDefects timing;  ///< dropped frames and wrong stamps
+  /// Poses closer in time than frames, for what moves within a frame (exposure, depth offset);
+  /// empty: the trajectory itself, which is then joined by straight ways and steady turns.
+  std::vector<TimedPose> path;
   int frames = 300;  ///< at least 1
   int threads = 0;   ///< 0: one a core; never changes a byte
   Existing existing = Existing::kRefuse;

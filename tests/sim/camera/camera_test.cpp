@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <opencv2/calib3d.hpp>
+
 namespace sim {
 namespace {
 
@@ -32,6 +35,54 @@ TEST(CameraYaml, PrintsEveryDigit) {
   const std::size_t at = text.find("fx: ") + 4;
   EXPECT_EQ(std::stod(text.substr(at)), 1.0 / 3.0);
   EXPECT_NE(text.find("model: pinhole\nwidth: 640\nheight: 480\n"), std::string::npos);
+}
+
+/// The first Kinect of the TUM benchmark, as calibrated there.
+constexpr Lens kTum1{.k1 = 0.2624, .k2 = -0.9531, .p1 = -0.0054, .p2 = 0.0026, .k3 = 1.1633};
+
+/// What OpenCV makes of a point.
+cv::Point2d ProjectedByOpenCv(const Camera& camera, const Eigen::Vector3d& x_c) {
+  const cv::Matx33d K(camera.fx, 0, camera.cx, 0, camera.fy, camera.cy, 0, 0, 1);
+  const Lens& lens = camera.lens;
+  std::vector<cv::Point2d> pixels;
+  cv::projectPoints(std::vector<cv::Point3d>{{x_c.x(), x_c.y(), x_c.z()}}, cv::Vec3d(),
+                    cv::Vec3d(), K,
+                    cv::Vec<double, 5>(lens.k1, lens.k2, lens.p1, lens.p2, lens.k3), pixels);
+  return pixels[0];
+}
+
+TEST(LensDistortion, AgreesWithOpenCvAllOverTheImage) {
+  const Camera camera = WithLens(Camera{}, kTum1);
+  for (int v = 0; v < camera.height; v += 13) {
+    for (int u = 0; u < camera.width; u += 17) {
+      const Eigen::Vector3d x_c = 1.7 * camera.Ray(u, v);
+      const cv::Point2d pixel = ProjectedByOpenCv(camera, x_c);
+      EXPECT_NEAR(pixel.x, u, kRoundOff_px);
+      EXPECT_NEAR(pixel.y, v, kRoundOff_px);
+      EXPECT_NEAR((camera.Project(x_c) - Eigen::Vector2d(u, v)).norm(), 0, kRoundOff_px);
+    }
+  }
+}
+
+TEST(LensDistortion, DoesNotFoldWhatLiesFarOutsideIntoTheImage) {
+  const Camera camera = WithLens(Camera{}, {.k1 = -0.3, .k2 = 0.05});
+  double last = 0;
+  for (double x = 0.1; x < 20; x *= 1.1) {
+    const double u = camera.Project({x, 0, 1}).x();
+    EXPECT_GT(u, last);
+    last = u;
+  }
+}
+
+TEST(LensDistortion, IsRefusedWhereItFoldsTheImage) {
+  EXPECT_THROW(WithLens(Camera{}, {.k1 = -2.0}), std::invalid_argument);
+  EXPECT_THROW(WithLens(Camera{}, {.k1 = std::nan("")}), std::invalid_argument);
+}
+
+TEST(LensDistortion, StandsInCameraYamlOnlyWhenThereIsOne) {
+  EXPECT_EQ(CameraYaml(Camera{}).find("k1"), std::string::npos);
+  EXPECT_NE(CameraYaml(WithLens(Camera{}, kTum1)).find("k2: -0.9531\np1: -0.0054\n"),
+            std::string::npos);
 }
 
 }  // namespace

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <opencv2/core.hpp>
 
-#include "tests/sim/support/sim_worlds.h"
+#include "tests/sim/sensor/sensor_measurements.h"
 
 namespace sim {
 namespace {
@@ -86,6 +86,24 @@ TEST(KinectNoise, GrowsOnSurfacesSeenAtAGrazingAngle) {
   const double theta = 1.3, ratio = theta / (M_PI / 2 - theta);
   EXPECT_DOUBLE_EQ(AxialSigma(1.0, theta), PublishedSigma(1.0) + 0.0001 * ratio * ratio);
 }
+
+class KinectNoiseOnTilted : public testing::TestWithParam<double> {};
+
+// From the paper's printed constants, as PublishedSigma; the term in theta begins at 60 deg.
+TEST_P(KinectNoiseOnTilted, HasTheStandardDeviationOfThePublishedCurve) {
+  const DepthModel model = KinectModel{.projector_offset_m = 0};
+  const Scene board = TiltedBoard(1.0, GetParam() * M_PI / 180);
+  const Rendering rendering = SensorView(board, NarrowCamera(), model);
+  const auto m = MeasureErrors(rendering, NarrowCamera(), model, 5, [](double z, double theta) {
+    const double ratio = theta / (M_PI / 2 - theta);
+    const bool grazing = theta > M_PI / 3;
+    return PublishedSigma(z) + (grazing ? 0.0001 / std::sqrt(z) * ratio * ratio : 0.0);
+  });
+  EXPECT_NEAR(m.sd, 1.0, 0.05);
+}
+
+INSTANTIATE_TEST_SUITE_P(Degrees, KinectNoiseOnTilted,
+                         testing::Values(0.0, 20.0, 40.0, 57.0, 65.0, 70.0, 75.0));
 
 TEST(KinectSwitchedOff, GivesTheExactDepthBack) {
   Rendering rendering = View(SmallDesk(), SmallCamera(), SmallArc(1)[0].T_wc);

@@ -1,0 +1,163 @@
+#include "sim/sensor/read_sensor.h"
+
+#include <cmath>
+#include <fstream>
+#include <iterator>
+#include <numbers>
+
+#include "sim/scene/input_error.h"
+#include "sim/scene/yaml_value.h"
+
+namespace sim {
+namespace {
+
+constexpr double kDegree = std::numbers::pi / 180.0;
+constexpr int kMaxDepth = 4;
+const std::vector<std::string> kNames{"ideal", "kinect1", "azure", "d435"};
+constexpr SensorKind kKinds[] = {SensorKind::kIdeal, SensorKind::kKinect1, SensorKind::kAzure,
+                                 SensorKind::kD435};
+
+/// Calls visit(key, low, high, unit, get, set) for each parameter; get and set use file units.
+template <typename Visit>
+class Lister {
+ public:
+  explicit Lister(Visit visit) : visit_(std::move(visit)) {}
+
+  void Number(const char* key, double& field, double low, double high, const char* unit,
+              double scale = 1.0) {
+    visit_(key, low, high, unit, field / scale,
+           [&field, scale](double x) { field = x * scale; });
+  }
+  void Switch(const char* key, bool& field) {
+    visit_(key, 0.0, 1.0, "0 or 1", field ? 1.0 : 0.0, [&field](double x) { field = x != 0; });
+  }
+  void Whole(const char* key, int& field, int low, int high, const char* unit) {
+    visit_(key, low, high, unit, field,
+           [&field](double x) { field = static_cast<int>(std::lround(x)); });
+  }
+
+  void List(IdealModel&) {}
+  void List(KinectModel& m) {
+    Number("disparity_m_steps", m.disparity_m_steps, 1, 1e6, "m");
+    Number("projector_offset_m", m.projector_offset_m, -1, 1, "m");
+    Number("min_depth_m", m.min_depth_m, 0, 100, "m");
+    Number("max_depth_m", m.max_depth_m, 0, 100, "m");
+    Number("max_incidence_deg", m.max_incidence_rad, 0, 90, "degrees", kDegree);
+    Number("noise_scale", m.noise_scale, 0, 100, "");
+    Number("lateral_scale", m.lateral_scale, 0, 20, "");
+    Switch("quantise", m.quantise);
+  }
+  void List(AzureModel& m) {
+    Number("min_depth_m", m.min_depth_m, 0, 100, "m");
+    Number("max_depth_m", m.max_depth_m, 0, 100, "m");
+    Number("noise_scale", m.noise_scale, 0, 100, "");
+    Number("reflectivity", m.reflectivity, 0.01, 1, "");
+    Number("lateral_px", m.lateral_px, 0, 20, "pixels");
+    Switch("flying_pixels", m.flying_pixels);
+    Number("max_mixed_m", m.max_mixed_m, 0, 100, "m");
+    Number("min_mixed_share", m.min_mixed_share, 0, 0.5, "");
+    Number("multipath_m", m.multipath_m, 0, 1, "m");
+    Number("multipath_reach_m", m.multipath_reach_m, 0.001, 1, "m");
+    Number("multipath_loss", m.multipath_loss, 0, 1, "");
+    Number("wiggle_m", m.wiggle_m, 0, 1, "m");
+    Number("wiggle_period_m", m.wiggle_period_m, 0.01, 100, "m");
+    Number("session_offset_m", m.session_offset_m, 0, 0.2, "m");
+    Switch("hexagon", m.hexagon);
+    Number("rounding_m", m.rounding_m, 0, 0.1, "m");
+  }
+  void List(D435Model& m) {
+    Number("focal_baseline_px_m", m.focal_baseline_px_m, 0.1, 1e4, "px m");
+    Number("baseline_m", m.baseline_m, -1, 1, "m");
+    Number("subpixel_px", m.subpixel_px, 0, 5, "pixels");
+    Number("correlated_share", m.correlated_share, 0, 1, "");
+    Whole("window_px", m.window_px, 1, 31, "pixels");
+    Number("grid_px", m.grid_px, 0, 1, "pixels");
+    Number("ripple_px", m.ripple_px, 0, 0.15, "pixels");
+    Whole("fattening_px", m.fattening_px, 0, 15, "pixels");
+    Number("max_mixed_px", m.max_mixed_px, 0, 100, "pixels");
+    Number("min_share", m.min_share, 0, 1, "");
+    Number("min_depth_m", m.min_depth_m, 0, 100, "m");
+    Number("max_depth_m", m.max_depth_m, 0, 100, "m");
+    Number("rounding_m", m.rounding_m, 0, 0.1, "m");
+  }
+  void All(Sensor& sensor) {
+    std::visit([this](auto& model) { List(model); }, sensor.depth);
+    Number("colour_shot_variance", sensor.colour.shot_variance, 0, 1, "");
+    Number("colour_read_sigma", sensor.colour.read_sigma, 0, 1, "");
+    Number("colour_corner_loss", sensor.colour.corner_loss, 0, 1, "");
+    Number("colour_gamma", sensor.colour.gamma, 0.1, 10, "");
+  }
+
+ private:
+  Visit visit_;
+};
+
+std::vector<std::string> Keys(const Sensor& sensor) {
+  std::vector<std::string> keys{"base", "name"};
+  for (const SensorParameter& parameter : Parameters(sensor)) keys.push_back(parameter.key);
+  return keys;
+}
+
+/// `base` alone, before it is known which other keys there may be.
+SensorKind BaseOf(const YAML::Node& root, const std::string& file) {
+  const YAML::Node base = root.IsMap() ? root["base"] : YAML::Node();
+  if (!root.IsMap() || !base) {
+    throw InputError(file + ":1",
+                     "expected a mapping with the key base: one of kinect1, azure, d435, "
+                     "ideal; the other keys change its parameters");
+  }
+  return kKinds[YamlValue(base, file, "base", base.Mark().line + 1).OneOf(kNames)];
+}
+
+}  // namespace
+
+std::vector<SensorParameter> Parameters(const Sensor& sensor) {
+  std::vector<SensorParameter> list;
+  Sensor copy = sensor;
+  Lister([&](const char* key, double low, double high, const char* unit, double value,
+             const auto&) {
+    list.push_back({key, value, low, high, unit});
+  }).All(copy);
+  return list;
+}
+
+Sensor ParseSensor(const std::string& text, const std::string& file) {
+  ParseYaml(text, file, kMaxDepth);  // refuses what is not one plain, shallow document
+  const YAML::Node root = YAML::Load(text);
+  Sensor sensor(BaseOf(root, file));
+  const YamlMap map(YamlValue(root, file, "", root.Mark().line + 1), Keys(sensor));
+  if (map.Has("name")) sensor.name = map.At("name").Word();
+  Lister([&](const char* key, double low, double high, const char* unit, double,
+             const auto& set) {
+    if (!map.Has(key)) return;
+    const double value = map.At(key).Number(low, high, unit);
+    set(value);
+    sensor.changed[key] = value;
+  }).All(sensor);
+  const auto* d435 = std::get_if<D435Model>(&sensor.depth);
+  if (d435 != nullptr && d435->window_px % 2 == 0) {
+    map.At("window_px").Fail("expected an odd number of pixels, so that a window has a centre");
+  }
+  return sensor;
+}
+
+Sensor ReadSensor(const std::filesystem::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  if (!stream) {
+    throw InputError(file.string(), "this sensor file cannot be opened; check the path");
+  }
+  const std::string text{std::istreambuf_iterator<char>(stream), {}};
+  return ParseSensor(text, file.string());
+}
+
+Sensor SensorByName(const std::string& text) {
+  for (std::size_t i = 0; i < kNames.size(); ++i) {
+    if (text == kNames[i]) return kKinds[i];
+  }
+  const std::string suffix = std::filesystem::path(text).extension().string();
+  if (suffix == ".yaml" || suffix == ".yml") return ReadSensor(text);
+  throw InputError("--sensor " + text,
+                   "expected ideal, kinect1, azure, d435, or a file that ends in .yaml");
+}
+
+}  // namespace sim

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <opencv2/core/mat.hpp>
+
+#include "sim/trace/frame_renderer.h"
+
+namespace sim {
+
+/// How the colour camera exposes a frame. Nothing by default: an instant, all rows at once.
+struct Exposure {
+  double shutter_s = 0;     ///< open this long about the frame's time: motion blur
+  int shutter_samples = 8;  ///< poses that a blurred frame averages, evenly over the shutter
+  double rolling_s = 0;     ///< the last row is exposed this much after the first
+  double drift_stops = 0;   ///< auto-exposure: gain wanders within +- this, by powers of two
+
+  bool Moves() const { return shutter_s > 0 || rolling_s != 0; }
+  bool IsPlain() const { return !Moves() && drift_stops == 0; }
+};
+
+/// T_wc at a time relative to the frame's own, seconds.
+using PoseAround = std::function<Pose(double)>;
+
+/// Linear radiance of a frame that is exposed while the camera moves: row v is centred on
+/// rolling_s (v / (height - 1) - 1/2), by bands of 8 rows; the shutter's samples lie evenly
+/// about that. So the pose of the frame's time is that of the middle of its exposure.
+cv::Mat3f ExposeMoving(const FrameRenderer& renderer, const Exposure& exposure,
+                       const PoseAround& around);
+
+/// Factor of the light at a time: 2^(drift_stops s(t)), s smooth in [-1, 1], a new value drawn
+/// every 1.5 s. 1 when there is no drift.
+double ExposureGain(const Exposure& exposure, std::uint64_t seed, double time_s);
+
+}  // namespace sim

@@ -1,0 +1,87 @@
+#include "sim/sensor/read_sensor.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "sim/scene/input_error.h"
+
+namespace sim {
+namespace {
+
+using testing::HasSubstr;
+
+std::string ErrorOf(const std::string& text) {
+  try {
+    ParseSensor(text, "mine.yaml");
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "no error";
+}
+
+TEST(SensorFile, ChangesWhatItNamesAndKeepsTheRest) {
+  const Sensor sensor = ParseSensor(
+      "base: azure\nname: my tof\nwiggle_m: 0\nhexagon: 0\ncolour_gamma: 1.8\n", "mine.yaml");
+  const auto& azure = std::get<AzureModel>(sensor.depth);
+  EXPECT_EQ(sensor.name, "my tof");
+  EXPECT_EQ(azure.wiggle_m, 0.0);
+  EXPECT_FALSE(azure.hexagon);
+  EXPECT_EQ(azure.multipath_m, AzureModel{}.multipath_m);
+  EXPECT_EQ(sensor.colour.gamma, 1.8);
+  EXPECT_EQ(sensor.changed.size(), 3U);
+}
+
+TEST(SensorFile, TakesAnglesInDegrees) {
+  const Sensor sensor = ParseSensor("base: kinect1\nmax_incidence_deg: 70\n", "mine.yaml");
+  EXPECT_NEAR(std::get<KinectModel>(sensor.depth).max_incidence_rad, 70 * M_PI / 180, 1e-15);
+}
+
+TEST(SensorFile, RefusesAnUnknownKeyAndSaysWhere) {
+  const std::string error = ErrorOf("base: d435\nsubpixel_px: 0.1\nbaselin_m: 0.1\n");
+  EXPECT_THAT(error, HasSubstr("mine.yaml:3"));
+  EXPECT_THAT(error, HasSubstr("baselin_m"));
+  EXPECT_THAT(error, HasSubstr("baseline_m"));
+}
+
+TEST(SensorFile, RefusesAParameterOfAnotherBase) {
+  EXPECT_THAT(ErrorOf("base: kinect1\nwiggle_m: 0\n"), HasSubstr("mine.yaml:2"));
+  EXPECT_THAT(ErrorOf("base: ideal\nnoise_scale: 2\n"), HasSubstr("mine.yaml:2"));
+}
+
+TEST(SensorFile, RefusesValuesOutOfRange) {
+  EXPECT_THAT(ErrorOf("base: azure\nreflectivity: 1.5\n"), HasSubstr("mine.yaml:2"));
+  EXPECT_THAT(ErrorOf("base: azure\nreflectivity: .nan\n"), HasSubstr("mine.yaml:2"));
+  EXPECT_THAT(ErrorOf("base: d435\nwindow_px: 6\n"), HasSubstr("odd"));
+}
+
+TEST(SensorFile, RefusesAMissingOrUnknownBase) {
+  EXPECT_THAT(ErrorOf("noise_scale: 1\n"), HasSubstr("base"));
+  EXPECT_THAT(ErrorOf("base: kinect3\n"), HasSubstr("mine.yaml:1"));
+  EXPECT_THAT(ErrorOf("- 1\n"), HasSubstr("base"));
+  EXPECT_THAT(ErrorOf(""), HasSubstr("mine.yaml:1"));
+}
+
+TEST(SensorFile, CanSetEveryParameterThatIsListed) {
+  for (const char* base : {"kinect1", "azure", "d435"}) {
+    for (const SensorParameter& parameter : Parameters(SensorByName(base))) {
+      const std::string value =
+          parameter.key == "window_px" ? "5" : std::to_string(parameter.high);
+      const Sensor sensor =
+          ParseSensor(std::string("base: ") + base + "\n" + parameter.key + ": " + value + "\n",
+                      "mine.yaml");
+      for (const SensorParameter& now : Parameters(sensor)) {
+        if (now.key != parameter.key) continue;
+        EXPECT_NEAR(now.value, std::stod(value), 1e-9) << now.key;
+      }
+    }
+  }
+}
+
+TEST(SensorName, MayBeAFileThatMustExist) {
+  EXPECT_EQ(SensorByName("azure").name, "azure");
+  EXPECT_THROW(SensorByName("no/such/file.yaml"), InputError);
+  EXPECT_THROW(SensorByName("kinect"), InputError);
+}
+
+}  // namespace
+}  // namespace sim

@@ -1,0 +1,111 @@
+#include "sim/write/exposure.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <opencv2/core.hpp>
+
+#include "tests/sim/support/sim_worlds.h"
+
+namespace sim {
+namespace {
+
+constexpr double kBoard_m = 1.0;    ///< distance of the board
+constexpr double kSpeed_mps = 0.8;  ///< of the camera, along its x
+
+/// A dark board on the left half before a light wall, without shadows: one vertical edge.
+Scene OneEdge() {
+  Scene scene = OneBoard(3.0, 20.0, Print::kPlain);
+  scene.objects.push_back(BoxObject(2, "box", Role::kRegular, {-1.0, kBoard_m + 0.0005, 0},
+                                    {2.0, 0.001, 4.0}, Print::kPlain));
+  for (Material& face : scene.objects[1].faces) face.colour = {0.1, 0.1, 0.1};
+  scene.sun.intensity = 0;
+  return scene;
+}
+
+Pose MovingAlongX(double t) {
+  Pose T_wc = LookAlongY();
+  T_wc.t.x() = kSpeed_mps * t;
+  return T_wc;
+}
+
+/// Light of a row scaled to 0 on the board, 1 on the wall.
+std::vector<double> Profile(const cv::Mat3f& radiance, int v) {
+  std::vector<double> profile;
+  const double dark = static_cast<double>(radiance(v, 2)[1]);
+  const double light = static_cast<double>(radiance(v, radiance.cols - 3)[1]);
+  for (int u = 0; u < radiance.cols; ++u) {
+    profile.push_back((static_cast<double>(radiance(v, u)[1]) - dark) / (light - dark));
+  }
+  return profile;
+}
+
+/// Where the edge is, in pixels: as many pixels are dark as lie left of it.
+double EdgeAt(const std::vector<double>& profile) {
+  double dark = 0;
+  for (const double value : profile) dark += 1.0 - value;
+  return dark - 0.5;
+}
+
+TEST(StillCamera, SeesTheSameHoweverItExposes) {
+  const FrameRenderer renderer(SmallDesk(), SmallCamera());
+  const Pose T_wc = SmallArc(1)[0].T_wc;
+  const cv::Mat3f still = renderer.Render(T_wc).radiance;
+  const cv::Mat3f exposed = ExposeMoving(renderer, {.shutter_s = 0.02, .rolling_s = 0.02},
+                                         [&](double) { return T_wc; });
+  EXPECT_LT(cv::norm(still, exposed, cv::NORM_INF), 1e-6);
+  const cv::Mat3f rolled =
+      ExposeMoving(renderer, {.rolling_s = 0.02}, [&](double) { return T_wc; });
+  EXPECT_EQ(cv::norm(still, rolled, cv::NORM_INF), 0.0);
+}
+
+// An edge at z moves f v T / z pixels while the shutter is open: a ramp of that width about
+// where it is at the middle.
+TEST(MotionBlur, SmearsAnEdgeOverTheWayItMoves) {
+  const Camera camera;
+  const FrameRenderer renderer(OneEdge(), camera);
+  const double shutter_s = 0.04, way_px = camera.fx * kSpeed_mps * shutter_s / kBoard_m;
+  const cv::Mat3f blurred =
+      ExposeMoving(renderer, {.shutter_s = shutter_s, .shutter_samples = 16}, MovingAlongX);
+  const std::vector<double> profile = Profile(blurred, 240);
+  EXPECT_NEAR(EdgeAt(profile), camera.cx, 0.15);
+  for (int u = 0; u < camera.width; ++u) {
+    const double ramp = std::clamp((u - camera.cx) / way_px + 0.5, 0.0, 1.0);
+    EXPECT_NEAR(profile[static_cast<std::size_t>(u)], ramp, 1.5 / 16) << u;
+  }
+}
+
+// Row v is seen rolling (v / 479 - 1/2) later: its edge lies f V t / z further left.
+TEST(RollingShutter, SlantsAnEdgeAsTheRowsTimesSay) {
+  const Camera camera;
+  const FrameRenderer renderer(OneEdge(), camera);
+  const double rolling_s = 0.03;
+  const cv::Mat3f slanted = ExposeMoving(renderer, {.rolling_s = rolling_s}, MovingAlongX);
+  const double px_per_s = camera.fx * kSpeed_mps / kBoard_m;
+  // Half a band of eight rows, and a quarter of a pixel from four rays a pixel.
+  const double tolerance = px_per_s * rolling_s * 4 / 479 + 0.26;
+  for (int v = 0; v < camera.height; v += 7) {
+    const double expected = camera.cx - px_per_s * rolling_s * (v / 479.0 - 0.5);
+    EXPECT_NEAR(EdgeAt(Profile(slanted, v)), expected, tolerance) << v;
+  }
+}
+
+TEST(ExposureDrift, StaysWithinItsStopsAndMovesSmoothly) {
+  const Exposure drift{.drift_stops = 0.5};
+  double lowest = 9, highest = 0, last = ExposureGain(drift, 3, 0);
+  for (double t = 0; t < 200; t += 1 / 30.0) {
+    const double gain = ExposureGain(drift, 3, t);
+    EXPECT_LE(std::abs(std::log2(gain)), 0.5 + 1e-12);
+    // At most 1.5 (smoothstep's steepest) x 2 x 0.5 stops a knot of 1.5 s.
+    EXPECT_LE(std::abs(std::log2(gain / last)), 1.5 * 2 * 0.5 / 1.5 / 30.0 + 1e-9);
+    lowest = std::min(lowest, gain);
+    highest = std::max(highest, gain);
+    last = gain;
+  }
+  EXPECT_GT(highest / lowest, 1.5);
+  EXPECT_EQ(ExposureGain({}, 3, 1.0), 1.0);
+  EXPECT_NE(ExposureGain(drift, 4, 1.0), ExposureGain(drift, 3, 1.0));
+}
+
+}  // namespace
+}  // namespace sim
