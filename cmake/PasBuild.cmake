@@ -6,8 +6,11 @@ set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
 
 find_program(PAS_CCACHE ccache)
 if(PAS_CCACHE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
-  set(CMAKE_CXX_COMPILER_LAUNCHER ${PAS_CCACHE})
+  # Without this leave, ccache passes every use of a precompiled header by.
+  set(CMAKE_CXX_COMPILER_LAUNCHER ${CMAKE_COMMAND} -E env
+      CCACHE_SLOPPINESS=pch_defines,time_macros ${PAS_CCACHE})
 endif()
+set(CMAKE_PCH_WARN_INVALID OFF)
 
 add_library(pas_settings INTERFACE)
 # No contraction: the same source gives the same bits whatever the compiler may fuse.
@@ -20,6 +23,22 @@ if(PAS_SANITIZE)
   target_link_options(pas_settings INTERFACE -fsanitize=${PAS_SANITIZE})
 endif()
 
+# Headers that nearly every file reads, parsed once: one set for the program, one for the tests.
+function(pas_precompiled target)
+  add_library(${target} STATIC ${PROJECT_SOURCE_DIR}/cmake/precompiled.cpp)
+  target_link_libraries(${target} PRIVATE pas_settings Eigen3::Eigen pas::opencv
+                        nlohmann_json::nlohmann_json)
+  target_precompile_headers(${target} PRIVATE <algorithm> <cmath> <filesystem> <functional> <map>
+    <memory> <optional> <set> <sstream> <string> <vector> <Eigen/Core> <Eigen/Geometry>
+    <opencv2/core.hpp> <nlohmann/json.hpp> ${ARGN})
+  target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-fpch-preprocess>)
+endfunction()
+function(pas_reuse_precompiled target from)
+  target_precompile_headers(${target} REUSE_FROM ${from})
+  target_link_libraries(${target} PRIVATE Eigen3::Eigen pas::opencv nlohmann_json::nlohmann_json)
+  target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-fpch-preprocess>)
+endfunction()
+
 # pas_library(slam_base SOURCES a.cpp b.h LINK Eigen3::Eigen): one library a folder.
 # Headers are included from the top of the tree: "slam/base/pose.h".
 function(pas_library name)
@@ -29,6 +48,7 @@ function(pas_library name)
   if(has_code)
     add_library(${name} STATIC ${ARG_SOURCES})
     target_link_libraries(${name} PUBLIC pas_settings ${ARG_LINK})
+    pas_reuse_precompiled(${name} pas_precompiled)
   else()
     add_library(${name} INTERFACE)
     target_sources(${name} PRIVATE ${ARG_SOURCES})
@@ -47,6 +67,9 @@ function(pas_test name)
   target_link_libraries(${target} PRIVATE pas_settings ${ARG_LINK} GTest::gmock GTest::gtest_main)
   target_compile_definitions(${target} PRIVATE
     PAS_SOURCE_DIR="${PROJECT_SOURCE_DIR}" PAS_BINARY_DIR="${PROJECT_BINARY_DIR}")
+  pas_reuse_precompiled(${target} pas_precompiled_tests)
+  # What is tested is built as released; the tests themselves need not be.
+  target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>)
   if(NOT ARG_TIMEOUT)
     set(ARG_TIMEOUT 120)
   endif()

@@ -3,19 +3,19 @@
 #include <vector>
 
 #include "slam/extract/point_features.h"
-#include "slam/mapping/local_mapping.h"
 #include "slam/localise/point_tracking.h"
+#include "slam/mapping/local_mapping.h"
 
 namespace slam {
 
 /// Tracking and mapping by points alone, frame after frame: what a run does without planes.
 struct PointOdometer {
   Camera camera;
-  PointTracking tracking{camera, {}};
+  PointTracking tracking;
   Map map{};
   LocalMappingConfig mapping{};
 
-  explicit PointOdometer(const Camera& c) : camera(c) {}
+  explicit PointOdometer(const Camera& c) : camera(c), tracking(c, PointTrackingConfig{}) {}
 
   /// @param frame with gray and depth_m; gets features, matches and pose
   PointTrackReport Step(Frame& frame) {

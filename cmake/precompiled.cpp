@@ -1,0 +1,1 @@
+// The headers that cmake/PasBuild.cmake lists are compiled once, with this file.
