@@ -6,8 +6,8 @@
 namespace app {
 namespace {
 
-int RunCheck(const std::string& folder, bool quiet) {
-  const eval::CheckReport report = eval::CheckFolder(folder);
+int RunCheck(const std::string& folder, bool deep, bool quiet) {
+  const eval::CheckReport report = eval::CheckFolder(folder, deep);
   for (const eval::Fault& fault : report.faults) {
     std::fprintf(stderr, "%s\n", eval::Describe(fault).c_str());
   }
@@ -40,8 +40,15 @@ void AddCheckCommand(CLI::App& pas, const Globals& globals, int& exit_code) {
   check->add_option("FOLDER", *folder, "SEQ or RUN; which of the two is seen from its files")
       ->required()
       ->type_name("DIR");
-  check->callback(
-      [folder, &globals, &exit_code] { exit_code = RunCheck(*folder, globals.quiet); });
+  auto deep = std::make_shared<bool>(false);
+  check->add_flag(
+      "--deep", *deep,
+      "Also, on up to 24 frames with truth: ids against the outlines of the faces,\n"
+      "depth against the poses of the frames before and after, and two views warped\n"
+      "into each other by the written poses");
+  check->callback([folder, deep, &globals, &exit_code] {
+    exit_code = RunCheck(*folder, *deep, globals.quiet);
+  });
 }
 
 }  // namespace app

@@ -1,17 +1,21 @@
 #include <fmt/format.h>
 
 #include <filesystem>
+#include <fstream>
 #include <map>
 #include <stdexcept>
 #include <string>
+#include <system_error>
 #include <vector>
 
 #include "app/app.h"
+#include "sim/scene/drawing.h"
 #include "sim/scene/families.h"
 #include "sim/scene/input_error.h"
 #include "sim/scene/names.h"
 #include "sim/scene/scene_file.h"
 #include "sim/scene/steps.h"
+#include "sim/scene/twin.h"
 
 namespace app {
 namespace {
@@ -20,6 +24,7 @@ struct MakeOptions {
   std::string family = "desk";
   std::uint64_t seed = 1;
   std::string out;
+  std::string twin;
   std::vector<std::string> settings;
   bool force = false;
 };
@@ -50,7 +55,9 @@ void Make(const MakeOptions& options, const Globals& globals) {
     throw sim::InputError(options.out, "exists already; choose another name or add --force");
   }
   const sim::Scene scene =
-      sim::MakeScene(options.family, options.seed, ParseSettings(options.settings));
+      options.twin.empty()
+          ? sim::MakeScene(options.family, options.seed, ParseSettings(options.settings))
+          : sim::MakeTwin(options.twin, options.seed);
   sim::WriteScene(scene, options.out);
   if (!globals.quiet) {
     fmt::print("{}: {} objects, {} planes, sha256 {}\n", options.out, scene.objects.size(),
@@ -66,6 +73,12 @@ void List() {
       fmt::print("           --set {}={}  [{}, {}]  {}\n", parameter.name, parameter.value,
                  parameter.low, parameter.high, parameter.meaning);
     }
+  }
+  fmt::print(
+      "\nTwins of recorded sequences (pas scene make --twin NAME --seed N -o scene.yaml):\n");
+  for (const sim::Twin& twin : sim::Twins()) {
+    fmt::print("  {:<14} {:<8} {:<7} {:.3f} m/s, {:.1f} deg/s, {:.1f} s\n", twin.name,
+               twin.family, twin.preset, twin.speed_m_s, twin.turn_deg_s, twin.duration_s);
   }
   fmt::print(
       "\nCatalogue (in the source tree; scenes/README.md has the answers):\n"
@@ -88,6 +101,22 @@ const std::string& NameOf(sim::Face face) {
   return sim::kFaceNames[static_cast<std::size_t>(face)];
 }
 
+/// Writes the whole text or nothing.
+void WriteText(const std::string& text, const std::string& path) {
+  const std::string part = path + ".part";
+  {
+    std::ofstream file(part, std::ios::binary);
+    file << text;
+    file.close();
+    if (!file) {
+      std::error_code ignored;
+      std::filesystem::remove(part, ignored);
+      throw sim::InputError(path, "cannot be written; check that the folder exists");
+    }
+  }
+  std::filesystem::rename(part, path);
+}
+
 void Show(const std::string& path) {
   const sim::Scene scene = sim::ReadScene(path);
   fmt::print("{}: {} objects, sha256 {}\n", scene.name, scene.objects.size(),
@@ -106,7 +135,7 @@ void Show(const std::string& path) {
         plane.area_m2);
   }
   for (const sim::Object& object : scene.objects) {
-    if (object.shape != sim::ShapeKind::kToy) continue;
+    if (object.shape == sim::ShapeKind::kBox) continue;
     fmt::print("       {:<18} {:<14} {:<12} no planes\n", object.name, object.class_name,
                sim::kRoleNames[static_cast<std::size_t>(object.role)]);
   }
@@ -124,6 +153,10 @@ void AddMake(CLI::App& scene, const Globals& globals, int& exit_code) {
   auto options = std::make_shared<MakeOptions>();
   make->add_option("--family", options->family, "Family, see `pas scene list`")
       ->capture_default_str();
+  make->add_option("--twin", options->twin,
+                   "Instead of a family: counterpart of a recorded sequence, with its motion, "
+                   "camera and length; see `pas scene list`")
+      ->excludes("--family");
   make->add_option("--seed", options->seed, "Any whole number from 0; the same gives the same")
       ->capture_default_str();
   make->add_option("-o,--output", options->out, "Scene file to write (YAML)")->required();
@@ -154,9 +187,16 @@ void AddSceneCommand(CLI::App& pas, const Globals& globals, int& exit_code) {
       "show",
       "The planes of a scene, and for each regular top the step to what is under it (mm)");
   auto path = std::make_shared<std::string>();
+  auto svg = std::make_shared<std::string>();
   show->add_option("scene", *path, "Scene file (YAML)")->required();
-  show->callback([path, &exit_code] {
-    Show(*path);
+  show->add_option("--svg", *svg,
+                   "Draw plan and elevation with the steps in mm into this file instead");
+  show->callback([path, svg, &exit_code] {
+    if (svg->empty()) {
+      Show(*path);
+    } else {
+      WriteText(sim::SceneSvg(sim::ReadScene(*path)), *svg);
+    }
     exit_code = kDone;
   });
 }

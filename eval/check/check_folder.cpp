@@ -8,7 +8,7 @@
 
 namespace eval {
 
-CheckReport CheckFolder(const std::filesystem::path& folder) {
+CheckReport CheckFolder(const std::filesystem::path& folder, bool deep) {
   const FolderCheck check{folder, {}, {}, {}};
   const auto has_any = [&](const std::vector<std::string>& files) {
     return std::any_of(files.begin(), files.end(),
@@ -19,7 +19,7 @@ CheckReport CheckFolder(const std::filesystem::path& folder) {
   }
   if (check.Has("run.json")) return CheckRun(folder);
   if (has_any({"manifest.json", "rgb.txt", "depth.txt", "rgb", "depth"})) {
-    return CheckSequence(folder);
+    return CheckSequence(folder, deep);
   }
   if (has_any({"trajectory.txt", "frame_planes.jsonl", "map.json"})) return CheckRun(folder);
   return {"folder",

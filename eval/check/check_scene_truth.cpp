@@ -129,7 +129,8 @@ void CheckPlane(const CheckedJson& plane, int id, const std::map<int, Box>& boxe
   const auto object = plane.Integer("object");
   const auto corners = Corners(plane);
   if (!normal || !d) return;
-  CheckedScene::Plane pi{AsVector(*normal), *d, object ? static_cast<int>(*object) : 0};
+  CheckedScene::Plane pi{AsVector(*normal), *d, object ? static_cast<int>(*object) : 0, {}};
+  if (corners) pi.corners.assign(corners->begin(), corners->end());
   if (!(std::abs(pi.normal.norm() - 1) <= kUnit)) {
     plane.ReportAt("normal", fmt::format("has length {:.8f}; expected 1", pi.normal.norm()),
                    "normalise the normal and divide d by the same length");

@@ -15,6 +15,7 @@ struct CheckedScene {
     Eigen::Vector3d normal = Eigen::Vector3d::UnitZ();
     double d = 0;  ///< n . x + d = 0
     int object = 0;
+    std::vector<Eigen::Vector3d> corners;  ///< in order; empty when they are at fault
   };
   std::map<int, Plane> planes;
   std::map<int, Eigen::Vector3d> objects;  ///< id -> centre

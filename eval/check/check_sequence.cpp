@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "eval/check/check_deep.h"
 #include "eval/check/check_detections.h"
 #include "eval/check/check_images.h"
 #include "eval/check/check_manifest.h"
@@ -27,7 +28,7 @@ void CheckPosesCoverFrames(FolderCheck& check, const SequenceTruth& truth) {
 
 }  // namespace
 
-CheckReport CheckSequence(const std::filesystem::path& folder) {
+CheckReport CheckSequence(const std::filesystem::path& folder, bool deep) {
   FolderCheck check{folder, {}, {}, {}};
   SequenceTruth truth;
   truth.rgb = CheckImageList(check, "rgb.txt");
@@ -43,6 +44,7 @@ CheckReport CheckSequence(const std::filesystem::path& folder) {
   truth.scene = CheckSceneTruth(check);
   truth.sensor = CheckManifest(check, static_cast<int>(truth.rgb.size()));
   CheckTruthFrames(check, truth);
+  if (deep) CheckDeep(check, truth);
   return {"sequence", std::move(check.faults), static_cast<int>(check.files.size()),
           static_cast<int>(truth.rgb.size())};
 }

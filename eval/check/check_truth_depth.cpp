@@ -12,9 +12,33 @@
 #include "eval/check/checked_text.h"
 
 namespace eval {
-namespace {
 
 using Eigen::Vector3d;
+
+std::vector<Vector3d> RaysOf(const CheckedCamera& camera,
+                             const std::vector<cv::Point2d>& pixels) {
+  const cv::Matx33d K(camera.fx, 0, camera.cx, 0, camera.fy, camera.cy, 0, 0, 1);
+  const auto& k = camera.distortion;
+  std::vector<cv::Point2d> points;
+  if (!pixels.empty()) {
+    cv::undistortPoints(pixels, points, K, cv::Vec<double, 5>(k[0], k[1], k[2], k[3], k[4]));
+  }
+  std::vector<Vector3d> rays;
+  for (const cv::Point2d& p : points) rays.emplace_back(p.x, p.y, 1);
+  return rays;
+}
+
+double DepthSigma(const std::string& sensor, double z, double tilt_rad, double unit_m) {
+  if (sensor == "ideal") return unit_m;
+  if (sensor != "kinect1") return 0.002 + 0.01 * z + unit_m;
+  const double axial = 0.0012 + 0.0019 * (z - 0.4) * (z - 0.4);
+  const double tilted = tilt_rad > M_PI / 3 ? 0.0001 / std::sqrt(z) *
+                                                  std::pow(tilt_rad / (M_PI / 2 - tilt_rad), 2)
+                                            : 0.0;
+  return axial + tilted + unit_m;
+}
+
+namespace {
 
 constexpr int kStride_px = 4;             // every sixteenth pixel: 19,200 of a VGA image
 constexpr std::size_t kMinPixels = 100;   // fewer say nothing about a median
@@ -33,19 +57,6 @@ double Median(std::vector<double> values) {
   return *middle;
 }
 
-std::vector<Vector3d> Rays(const CheckedCamera& camera,
-                           const std::vector<cv::Point2d>& pixels) {
-  const cv::Matx33d K(camera.fx, 0, camera.cx, 0, camera.fy, camera.cy, 0, 0, 1);
-  const auto& k = camera.distortion;
-  std::vector<cv::Point2d> points;
-  if (!pixels.empty()) {
-    cv::undistortPoints(pixels, points, K, cv::Vec<double, 5>(k[0], k[1], k[2], k[3], k[4]));
-  }
-  std::vector<Vector3d> rays;
-  for (const cv::Point2d& p : points) rays.emplace_back(p.x, p.y, 1);
-  return rays;
-}
-
 std::vector<Sample> Samples(const cv::Mat& depth, const cv::Mat& ids, const CheckedScene& scene,
                             const CheckedCamera& camera) {
   std::vector<Sample> samples;
@@ -59,22 +70,9 @@ std::vector<Sample> Samples(const cv::Mat& depth, const cv::Mat& ids, const Chec
       pixels.emplace_back(x, y);
     }
   }
-  const std::vector<Vector3d> rays = Rays(camera, pixels);
+  const std::vector<Vector3d> rays = RaysOf(camera, pixels);
   for (std::size_t i = 0; i < samples.size(); ++i) samples[i].ray_c = rays[i];
   return samples;
-}
-
-/// Standard deviation that a depth may have. `ideal` is exact up to the rounding of the file;
-/// `kinect1` is Nguyen, Izadi and Lovell (3DIMPVT 2012), sigma = 1.2 mm + 1.9 mm (z - 0.4)^2
-/// plus its tilt term; an unknown sensor may have 2 mm + 1 % of z.
-double Sigma(const std::string& sensor, double z, double tilt_rad, double unit_m) {
-  if (sensor == "ideal") return unit_m;
-  if (sensor != "kinect1") return 0.002 + 0.01 * z + unit_m;
-  const double axial = 0.0012 + 0.0019 * (z - 0.4) * (z - 0.4);
-  const double tilted = tilt_rad > M_PI / 3 ? 0.0001 / std::sqrt(z) *
-                                                  std::pow(tilt_rad / (M_PI / 2 - tilt_rad), 2)
-                                            : 0.0;
-  return axial + tilted + unit_m;
 }
 
 /// How well a set of samples agrees with a pose; `measured` turns a sample into planar depth.
@@ -102,7 +100,7 @@ Agreement Compare(const std::vector<Sample>& samples, const Eigen::Isometry3d& T
     const bool ahead = std::isfinite(z) && z > 0;
     const double error = ahead ? std::abs(z_measured - z) : z_measured;
     errors.push_back(error);
-    ratios.push_back(ahead ? error / Sigma(sensor, z, tilt, unit_m) : 1e6);
+    ratios.push_back(ahead ? error / DepthSigma(sensor, z, tilt, unit_m) : 1e6);
     scales.push_back(ahead ? z_measured / z : 0);
   }
   if (errors.size() < kMinPixels) return {};

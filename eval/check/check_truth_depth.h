@@ -8,6 +8,15 @@
 
 namespace eval {
 
+/// Standard deviation that a depth may have. `ideal` is exact up to the rounding of the file;
+/// `kinect1` is Nguyen, Izadi and Lovell (3DIMPVT 2012), sigma = 1.2 mm + 1.9 mm (z - 0.4)^2
+/// plus its tilt term; an unknown sensor may have 2 mm + 1 % of z.
+double DepthSigma(const std::string& sensor, double z, double tilt_rad, double unit_m);
+
+/// Rays (x/z, y/z, 1) of pixels, without the lens's distortion.
+std::vector<Eigen::Vector3d> RaysOf(const CheckedCamera& camera,
+                                    const std::vector<cv::Point2d>& pixels);
+
 /// Compares depth images with the depth that the truth predicts: the plane seen through the
 /// centre of a pixel, met by its ray from the true pose,
 ///   z = -(n . o + d) / (n . R_wc r),   r = ((u - cx) / fx, (v - cy) / fy, 1).

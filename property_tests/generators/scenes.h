@@ -39,18 +39,30 @@ struct SceneRecipe {
   }
 };
 
-/// Any family, any of its parameters in their ranges (whole numbers where they are).
-inline SceneRecipe DrawSceneRecipe() {
-  const auto& families = Families();
-  const Family& family =
-      families[static_cast<std::size_t>(DrawInt(0, static_cast<int>(families.size()) - 1))];
+/// The recipe of a family, any of its parameters in their ranges (whole numbers where they are)
+/// but for the texture, which is full.
+inline SceneRecipe DrawRecipeOf(const Family& family) {
   SceneRecipe recipe{family.name, static_cast<std::uint64_t>(DrawInt(0, 100000)), {}};
-  if (family.name == "desk") return recipe;  // how many things fit depends on the desk
   for (const FamilyParameter& parameter : family.parameters) {
+    // How many things fit depends on the desk.
+    if (parameter.name == "objects" || parameter.name == "texture") continue;
     const int low =
         static_cast<int>(parameter.low) + (parameter.low > static_cast<int>(parameter.low));
     recipe.parameters[parameter.name] = DrawInt(low, static_cast<int>(parameter.high));
   }
+  return recipe;
+}
+
+/// One of the first three families: desk, plates, stack.
+inline SceneRecipe DrawSceneRecipe() {
+  return DrawRecipeOf(Families()[static_cast<std::size_t>(DrawInt(0, 2))]);
+}
+
+/// Any family, any texture.
+inline SceneRecipe DrawAnyRecipe() {
+  const auto last = static_cast<int>(Families().size()) - 1;
+  SceneRecipe recipe = DrawRecipeOf(Families()[static_cast<std::size_t>(DrawInt(0, last))]);
+  recipe.parameters["texture"] = DrawReal(0, 1, 10);
   return recipe;
 }
 

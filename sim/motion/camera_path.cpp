@@ -26,25 +26,6 @@ double PitchBelowHorizon_rad(const Eigen::Vector3d& forward_w) {
   return AsinRad(-forward_w.z() / forward_w.norm());
 }
 
-double TurnBetween_deg(const Pose& a, const Pose& b) {
-  // |log(Ra^T Rb)| from the chord: exact for every angle and steady near zero.
-  const double chord = (a.R - b.R).norm() / std::sqrt(8.0);
-  return RadToDeg(2 * AsinRad(chord));
-}
-
-View Blend(const std::array<View, 4>& knots, double u) {
-  const double v = 1 - u;
-  const std::array<double, 4> weight{v * v * v / 6, (3 * u * u * u - 6 * u * u + 4) / 6,
-                                     (3 * v * v * v - 6 * v * v + 4) / 6, u * u * u / 6};
-  View view;
-  for (std::size_t i = 0; i < 4; ++i) {
-    view.camera_w += weight[i] * knots[i].camera_w;
-    view.gaze_w += weight[i] * knots[i].gaze_w;
-    view.roll_deg += weight[i] * knots[i].roll_deg;
-  }
-  return view;
-}
-
 Eigen::Vector3d InUnitBall(Random& random) {
   while (true) {
     const double x = random.Between(-1, 1), y = random.Between(-1, 1);
@@ -55,22 +36,9 @@ Eigen::Vector3d InUnitBall(Random& random) {
 
 }  // namespace
 
-Pose PoseOf(const View& view) {
-  const Eigen::Vector3d forward = (view.gaze_w - view.camera_w).normalized();
-  const Eigen::Vector3d right = forward.cross(Eigen::Vector3d::UnitZ()).normalized();
-  const Eigen::Vector3d down = forward.cross(right);
-  const SinCos roll = SinCosDeg(view.roll_deg);
-  Pose T_wc;
-  T_wc.R.col(0) = roll.cos * right + roll.sin * down;
-  T_wc.R.col(1) = roll.cos * down - roll.sin * right;
-  T_wc.R.col(2) = forward;
-  T_wc.t = view.camera_w;
-  return T_wc;
-}
-
 CameraPath::CameraPath(const Scene& scene, std::uint64_t seed)
     : motion_(scene.motion),
-      preset_(PresetOf(scene.motion.preset)),
+      preset_(PresetOf(scene.motion)),
       space_(scene),
       tremor_(preset_, seed),
       seed_(seed) {

@@ -8,23 +8,12 @@
 #include "sim/motion/free_space.h"
 #include "sim/motion/preset.h"
 #include "sim/motion/tremor.h"
+#include "sim/motion/view.h"
 #include "sim/scene/pose.h"
 #include "sim/scene/random.h"
 #include "sim/scene/scene.h"
 
 namespace sim {
-
-/// Where the camera is, what it looks at, and how it is rolled about its axis: a knot of the
-/// path, or a point of it.
-struct View {
-  Eigen::Vector3d camera_w = Eigen::Vector3d::Zero();
-  Eigen::Vector3d gaze_w = Eigen::Vector3d::Zero();
-  double roll_deg = 0;
-};
-
-/// T_wc of a view: z to the gaze, x level but for the roll. The gaze may not be straight above
-/// or below the camera.
-Pose PoseOf(const View& view);
 
 /// An endless handheld path made knot by knot: uniform cubic B-splines of camera, gaze and roll
 /// (C2), tremor on top. A knot depends on the earlier ones only.

@@ -1,6 +1,9 @@
 #include "sim/motion/preset.h"
 
+#include <algorithm>
+
 #include "sim/scene/input_error.h"
+#include "sim/scene/names.h"
 
 namespace sim {
 
@@ -8,7 +11,33 @@ MotionPreset PresetOf(const std::string& name) {
   if (name == "slow") return {0.20, 12, 5, 4.0, 0.6, 0.20, 0.02};
   if (name == "office") return {0.25, 13, 5, 4.0, 0.6, 0.20, 0.02};
   if (name == "fast") return {0.45, 34, 12, 9.0, 1.0, 0.50, 0.05};
-  throw InputError("motion.preset '" + name + "'", "expected one of: slow, office, fast");
+  // Hardly any turning; hardly any way; both; and what follows a path (pattern_path.h).
+  if (name == "xyz") return {0.30, 17, 10, 4.0, 0.5, 0.25, 0.03};
+  if (name == "rpy") return {0.06, 50, 30, 1.5, 0.2, 0.30, 0.03};
+  if (name == "360") return {0.21, 42, 10, 4.0, 0.6, 0.25, 0.03};
+  if (name == "orbit") return {0.25, 16, 8, 4.0, 0.6, 0.20, 0.02};
+  if (name == "loop") return {0.25, 14, 8, 4.0, 0.6, 0.20, 0.02};
+  if (name == "lookaway") return {0.20, 25, 8, 4.0, 0.6, 0.20, 0.02};
+  std::string known;
+  for (const std::string& one : kPresetNames) known += (known.empty() ? "" : ", ") + one;
+  throw InputError("motion.preset '" + name + "'", "expected one of: " + known);
+}
+
+MotionPreset PresetOf(const Motion& motion) {
+  MotionPreset preset = PresetOf(motion.preset);
+  if (motion.speed_m_s > 0) {
+    const double part = std::min(1.0, motion.speed_m_s / preset.speed_m_s);
+    preset.slow_tremor_mm *= part;
+    preset.fast_tremor_mm *= part;
+    preset.speed_m_s = motion.speed_m_s;
+  }
+  if (motion.turn_deg_s > 0) {
+    const double part = std::min(1.0, motion.turn_deg_s / preset.turn_deg_s);
+    preset.slow_tremor_deg *= part;
+    preset.fast_tremor_deg *= part;
+    preset.turn_deg_s = motion.turn_deg_s;
+  }
+  return preset;
 }
 
 }  // namespace sim

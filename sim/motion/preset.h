@@ -2,6 +2,8 @@
 
 #include <string>
 
+#include "sim/scene/scene.h"
+
 namespace sim {
 
 /// How a hand moves a camera: means at 30 Hz of recorded sequences (TUM RGB-D: fr2/desk,
@@ -16,5 +18,8 @@ struct MotionPreset {
 
 /// @throws InputError when there is no such preset.
 MotionPreset PresetOf(const std::string& name);
+
+/// The same with the scene's own speeds, where it has them; a slower hand trembles less.
+MotionPreset PresetOf(const Motion& motion);
 
 }  // namespace sim

@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "sim/scene/check.h"
+#include "sim/scene/filling.h"
 #include "sim/scene/input_error.h"
 #include "sim/scene/number_text.h"
 #include "sim/scene/recipe.h"
@@ -14,10 +15,101 @@ namespace {
 
 using Maker = Scene (*)(std::uint64_t, const ParameterValues&);
 
-Maker MakerOf(const std::string& family) {
-  if (family == "desk") return &MakeDesk;
-  if (family == "plates") return &MakePlates;
-  return &MakeStack;
+struct Recipe {
+  Family family;
+  Maker make;
+};
+
+const FamilyParameter kTexture{"texture", 1, 0, 1, "richness of every print, 0 none"};
+
+std::vector<Recipe> DeskRecipes() {
+  return {
+      {{"desk",
+        "an office desk: many small near-parallel tops 6 to 50 mm over the desk and each other",
+        {{"objects", 0, 0, 40, "things on the desk, 8 to 40; 0 draws 8 to 14", true},
+         kTexture}},
+       &MakeDesk},
+      {{"plates",
+        "two boards side by side: one plane or two? Step, gap and tilt are exact",
+        {{"step_mm", 20, 0, 200, "height of the second top over the first, at the gap"},
+         {"gap_mm", 20, 0.1, 500, "between the boards"},
+         {"tilt_deg", 0, 0, 30, "of the second top; its far edge rises"},
+         {"thickness_mm", 20, 1, 200, "of the first board"},
+         {"side_mm", 300, 50, 600, "of both boards"},
+         kTexture}},
+       &MakePlates},
+      {{"stack",
+        "a stack of boards of nearly one size: equal steps, turned to and fro",
+        {{"count", 4, 1, 10, "boards, a whole number", true},
+         {"step_mm", 20, 1, 100, "thickness of each"},
+         {"turn_deg", 3, 0, 10, "of every second board"},
+         kTexture}},
+       &MakeStack},
+      {{"coplanar",
+        "pairs of different things whose tops are one plane, or nearly: two landmarks or one?",
+        {{"count", 2, 1, 3, "pairs", true},
+         {"step_mm", 0, 0, 2, "of the right top over the left one"},
+         {"gap_mm", 40, 5, 300, "between the two of a pair"},
+         kTexture}},
+       &MakeCoplanar},
+      {{"tilted",
+        "books that lean on what lies under them: tops that are nearly level",
+        {{"count", 3, 1, 4, "leaning books", true},
+         {"lift_mm", 0, 0, 50, "height of what lies under them; 0 draws 7 to 45"},
+         kTexture}},
+       &MakeTilted},
+      {{"board",
+        "thin upright boards seen from both sides: front and back are not one plane",
+        {{"count", 3, 1, 4, "a screen, a tablet, then boards", true},
+         {"thickness_mm", 8, 2, 50, "of the boards"},
+         kTexture}},
+       &MakeBoards},
+      {{"twins",
+        "two desks that look alike: which of the two is it?",
+        {{"apart_m", 2.4, 1.6, 5, "from desk to desk"},
+         {"missing", 1, 0, 5, "things that the second desk lacks", true},
+         kTexture}},
+       &MakeTwins},
+      {{"revisit",
+        "the camera leaves the desk, looks at a shelf, and comes back",
+        {{"objects", 0, 0, 14, "things on the desk, 8 to 14; 0 draws the number", true},
+         kTexture}},
+       &MakeRevisit}};
+}
+
+std::vector<Recipe> RoomRecipes() {
+  return {{{"office",
+            "two desks back to back, a cabinet and a shelf; a long loop round the desks",
+            {{"objects", 20, 2, 40, "things on both desks, fewer when they do not fit", true},
+             kTexture}},
+           &MakeOffice},
+          {{"room",
+            "a small room seen all round from its middle",
+            {{"objects", 10, 1, 20, "things on the desk, fewer when they do not fit", true},
+             kTexture}},
+           &MakeRoomFamily},
+          {{"cabinet",
+            "one cabinet with doors 18 mm thick, and little else to see",
+            {{"width_m", 0.9, 0.4, 2, ""},
+             {"depth_m", 0.45, 0.3, 0.8, ""},
+             {"height_m", 1.0, 0.5, 1.9, ""},
+             kTexture}},
+           &MakeCabinetFamily},
+          {{"wall",
+            "panels that fill the view, in zigzag or flat, printed or plain, near or far",
+            {{"structure", 1, 0, 1, "1 zigzag, 0 flat", true},
+             {"distance_m", 1.2, 0.7, 2.6, "of the camera"},
+             kTexture}},
+           &MakeWall}};
+}
+
+const std::vector<Recipe>& Recipes() {
+  static const std::vector<Recipe> recipes = [] {
+    std::vector<Recipe> all = DeskRecipes();
+    for (const Recipe& recipe : RoomRecipes()) all.push_back(recipe);
+    return all;
+  }();
+  return recipes;
 }
 
 ParameterValues Complete(const Family& family, const std::map<std::string, double>& given) {
@@ -49,39 +141,29 @@ ParameterValues Complete(const Family& family, const std::map<std::string, doubl
 }  // namespace
 
 const std::vector<Family>& Families() {
-  static const std::vector<Family> families{
-      {"desk",
-       "an office desk: many small near-parallel tops 6 to 50 mm over the desk and each other",
-       {{"objects", 0, 0, 14, "things on the desk, 8 to 14; 0 draws the number"}}},
-      {"plates",
-       "two boards side by side: one plane or two? Step, gap and tilt are exact",
-       {{"step_mm", 20, 0, 200, "height of the second top over the first, at the gap"},
-        {"gap_mm", 20, 0.1, 500, "between the boards"},
-        {"tilt_deg", 0, 0, 30, "of the second top; its far edge rises"},
-        {"thickness_mm", 20, 1, 200, "of the first board"},
-        {"side_mm", 300, 50, 600, "of both boards"}}},
-      {"stack",
-       "a stack of boards of nearly one size: equal steps, turned to and fro",
-       {{"count", 4, 1, 10, "boards, a whole number"},
-        {"step_mm", 20, 1, 100, "thickness of each"},
-        {"turn_deg", 3, 0, 10, "of every second board"}}}};
+  static const std::vector<Family> families = [] {
+    std::vector<Family> all;
+    for (const Recipe& recipe : Recipes()) all.push_back(recipe.family);
+    return all;
+  }();
   return families;
 }
 
 Scene MakeScene(const std::string& family, std::uint64_t seed,
                 const std::map<std::string, double>& parameters) {
   std::string known;
-  for (const Family& one : Families()) {
+  for (const auto& [one, make] : Recipes()) {
     known += (known.empty() ? "" : ", ") + one.name;
     if (one.name != family) continue;
     const ParameterValues values = Complete(one, parameters);
-    for (const char* whole : {"objects", "count"}) {
-      const auto at = values.find(whole);
-      if (at != values.end() && at->second != std::floor(at->second)) {
-        throw InputError("family " + family, std::string(whole) + " is a whole number");
+    for (const FamilyParameter& parameter : one.parameters) {
+      const double value = values.at(parameter.name);
+      if (parameter.whole && value != std::floor(value)) {
+        throw InputError("family " + family, parameter.name + " is a whole number");
       }
     }
-    Scene scene = MakerOf(family)(seed, values);
+    Scene scene = make(seed, values);
+    if (values.at("texture") < 1) DialTexture(values.at("texture"), scene);
     scene.name = family + "-" + std::to_string(seed);
     scene.family = family;
     scene.seed = seed;

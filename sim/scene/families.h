@@ -15,6 +15,7 @@ struct FamilyParameter {
   double value = 0;  ///< when it is not given
   double low = 0, high = 0;
   std::string meaning;
+  bool whole = false;  ///< a whole number
 };
 
 /// A recipe for scenes.

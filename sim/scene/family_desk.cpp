@@ -13,7 +13,7 @@ constexpr std::uint64_t kFamilyKey = 0x6465736b;
 constexpr double kMargin_m = 0.012;    // between things, and to the edge of the desk
 constexpr double kHalfView_m = 0.66;   // things stay where the camera looks
 constexpr double kClearSide_m = 1.40;  // the side wall leaves the camera its room
-constexpr int kMinObjects = 8;
+constexpr int kMinObjects = 8, kMaxObjects = 14;
 constexpr int kTriesEach = 300, kLayouts = 400;
 
 struct Desk {
@@ -116,13 +116,15 @@ bool PutWishes(const std::vector<Wish>& wishes, const Desk& desk, Random& random
 }  // namespace
 
 Scene MakeDesk(std::uint64_t seed, const ParameterValues& values) {
+  const int asked = static_cast<int>(values.at("objects"));
+  if (asked > kMaxObjects) return MakeCrowdedDesk(seed, asked);
   Scene scene;
   Random room({kFamilyKey, seed, 0});
   const Desk desk = PutRoom(room, scene);
   scene.motion.target_w = {0, Rounded(-0.05 * desk.depth), desk.top_z};
-  const int wanted = static_cast<int>(values.at("objects"));
+  const int wanted = asked;
   if (wanted != 0 && wanted < kMinObjects) {
-    throw InputError("family desk", "expected objects from 8 to 14, or 0 to draw the number");
+    throw InputError("family desk", "expected objects from 8 to 40, or 0 to draw the number");
   }
   const int count = wanted > 0 ? wanted : 8 + room.Below(7);
   for (std::uint64_t attempt = 0; attempt < kLayouts; ++attempt) {

@@ -23,4 +23,26 @@ Item MakeRemote(Random& random);
 /// The unstructured one: class "teddy bear", no planes.
 Item MakeToy(Random& random);
 
+// items_more.cpp; the round ones have no planes and are neither regular nor unstructured.
+Item MakeMug(Random& random);
+Item MakeBottle(Random& random);
+Item MakeBowl(Random& random);
+/// Pot and foliage, "potted plant", unstructured.
+Item MakePlant(Random& random);
+/// Foot, post and shade.
+Item MakeLamp(Random& random);
+/// A5 or A4, 3 to 20 mm; class "book".
+Item MakeNotebook(Random& random);
+/// A4 sheets, 0.5 to 10 mm in all; class "paper".
+Item MakePaper(Random& random);
+Item MakeMousePad(Random& random);
+/// Class "box".
+Item MakeTissueBox(Random& random);
+/// Base and three blocks of keys that stand out by 2 to 10 mm.
+Item MakeKeycapKeyboard(Random& random);
+/// An upright board of the thickness, two blocks keep it; class "book".
+Item MakeUprightBoard(double thickness_m, Random& random);
+/// A tablet upright on a foot.
+Item MakeUprightTablet(Random& random);
+
 }  // namespace sim

@@ -2,6 +2,7 @@
 
 #include "sim/scene/faces.h"
 #include "sim/scene/geometry.h"
+#include "sim/scene/round.h"
 #include "sim/scene/toy.h"
 
 namespace sim {
@@ -34,16 +35,39 @@ Eigen::Vector2d CubeMap(const Eigen::Vector3d& n_o, const Eigen::Vector3d& x_o) 
   return {x_o[(axis + 1) % 3], x_o[(axis + 2) % 3]};
 }
 
-void AddToy(const Object& object, SceneMesh& mesh) {
-  const ClosedSurface body = ToySurface(object.size, object.seed);
+ClosedSurface BodyOf(const Object& object) {
+  if (object.shape == ShapeKind::kToy) return ToySurface(object.size, object.seed);
+  if (object.shape == ShapeKind::kBush) return BushSurface(object.size, object.seed);
+  return RoundSurface(object.shape, object.size);
+}
+
+/// Sums of the faces round each vertex, but for those that stand off by more than the crease:
+/// a rim stays sharp.
+Eigen::Vector3d Smoothed(const std::vector<Eigen::Vector3d>& round_vertex,
+                         const Eigen::Vector3d& own) {
+  constexpr double kCrease = 0.7;  // cosine
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  for (const Eigen::Vector3d& n : round_vertex) {
+    if (n.dot(own) > kCrease * n.norm() * own.norm()) sum += n;
+  }
+  return sum.normalized();
+}
+
+void AddBody(const Object& object, SceneMesh& mesh) {
+  const ClosedSurface body = BodyOf(object);
   const Pose T_wo = ObjectPose(object);
   const auto corner = [&](int i) { return body.vertices_o[static_cast<std::size_t>(i)]; };
   const auto face_normal = [&](const std::array<int, 3>& t) -> Eigen::Vector3d {
     return (corner(t[1]) - corner(t[0])).cross(corner(t[2]) - corner(t[0]));
   };
+  const bool creased = object.shape != ShapeKind::kToy;
   std::vector<Eigen::Vector3d> normals_o(body.vertices_o.size(), Eigen::Vector3d::Zero());
+  std::vector<std::vector<Eigen::Vector3d>> faces_o(body.vertices_o.size());
   for (const auto& t : body.triangles) {
-    for (const int i : t) normals_o[static_cast<std::size_t>(i)] += face_normal(t);
+    for (const int i : t) {
+      normals_o[static_cast<std::size_t>(i)] += face_normal(t);
+      if (creased) faces_o[static_cast<std::size_t>(i)].push_back(face_normal(t));
+    }
   }
   const int material = static_cast<int>(mesh.materials.size());
   mesh.materials.push_back(object.faces[0]);
@@ -52,9 +76,11 @@ void AddToy(const Object& object, SceneMesh& mesh) {
     triangle.object = object.id;
     triangle.material = material;
     for (std::size_t i = 0; i < 3; ++i) {
+      const auto at = static_cast<std::size_t>(t[i]);
       triangle.corners_w[i] = T_wo * corner(t[i]);
       triangle.uv_m[i] = CubeMap(face_normal(t), corner(t[i]));
-      triangle.normals_w[i] = T_wo.R * normals_o[static_cast<std::size_t>(t[i])].normalized();
+      triangle.normals_w[i] = T_wo.R * (creased ? Smoothed(faces_o[at], face_normal(t))
+                                                : normals_o[at].normalized());
     }
     mesh.triangles.push_back(triangle);
   }
@@ -69,7 +95,7 @@ SceneMesh BuildMesh(const Scene& scene) {
     if (object.shape == ShapeKind::kBox) {
       AddBox(object, plane_id, mesh);
     } else {
-      AddToy(object, mesh);
+      AddBody(object, mesh);
     }
   }
   return mesh;

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <fstream>
 #include <iterator>
@@ -115,10 +116,56 @@ void ReadRange(const YamlMap& map, const std::string& low_key, const std::string
   map.At(map.Has(low_key) ? low_key : high_key).Fail("exceeds its maximum; swap the two");
 }
 
+std::vector<Station> ReadStations(const YamlValue& value) {
+  constexpr std::size_t kMost = 64;
+  std::vector<Station> stations;
+  for (const YamlValue& entry : value.List(kMost)) {
+    const YamlMap map(entry, {"camera_m", "gaze_m"});
+    const auto point = [&](const char* key) -> Eigen::Vector3d {
+      return map.At(key).Numbers(3, -kMaxCoordinate_m, kMaxCoordinate_m, "metres");
+    };
+    stations.push_back({point("camera_m"), point("gaze_m")});
+    const Eigen::Vector3d way = stations.back().gaze_w - stations.back().camera_w;
+    if (!(way.head<2>().norm() > 0.05)) {
+      map.At("gaze_m").Fail("is straight above or below the camera; move it 5 cm aside");
+    }
+  }
+  if (stations.size() < 4) value.Fail("expected 4 stations or more");
+  return stations;
+}
+
+Capture ReadCapture(const YamlValue& value) {
+  const YamlMap map(value, {"width_px", "height_px", "focal_px", "centre_px", "distortion",
+                            "sensor", "fps", "frames"});
+  Capture capture;
+  const auto whole = [&](const char* key, std::uint64_t low, std::uint64_t high, int& into) {
+    if (map.Has(key)) into = static_cast<int>(map.At(key).Whole(low, high));
+  };
+  whole("width_px", 16, 8192, capture.width);
+  whole("height_px", 16, 8192, capture.height);
+  whole("frames", 1, 1000000, capture.frames);
+  const auto pair = [&](const char* key, double low, double& x, double& y) {
+    if (!map.Has(key)) return;
+    const Eigen::VectorXd two = map.At(key).Numbers(2, low, 20000, "pixels");
+    x = two[0];
+    y = two[1];
+  };
+  pair("focal_px", 1, capture.fx, capture.fy);
+  pair("centre_px", 0, capture.cx, capture.cy);
+  if (map.Has("distortion")) {
+    const Eigen::VectorXd k = map.At("distortion").Numbers(5, -10, 10, "");
+    std::copy(k.begin(), k.end(), capture.distortion.begin());
+  }
+  if (map.Has("sensor")) capture.sensor = kSensorNames[map.At("sensor").OneOf(kSensorNames)];
+  if (map.Has("fps")) capture.fps = map.At("fps").Number(0.1, 1000, "frames a second");
+  return capture;
+}
+
 Motion ReadMotion(const YamlValue& value) {
   const YamlMap map(
       value, {"preset", "target_m", "target_spread_m", "distance_min_m", "distance_max_m",
-              "azimuth_min_deg", "azimuth_max_deg", "pitch_min_deg", "pitch_max_deg"});
+              "azimuth_min_deg", "azimuth_max_deg", "pitch_min_deg", "pitch_max_deg",
+              "speed_m_s", "turn_deg_s", "stations"});
   Motion motion;
   if (map.Has("preset")) motion.preset = kPresetNames[map.At("preset").OneOf(kPresetNames)];
   if (map.Has("target_m")) {
@@ -134,14 +181,17 @@ Motion ReadMotion(const YamlValue& value) {
             motion.azimuth_min_rad, motion.azimuth_max_rad);
   ReadRange(map, "pitch_min_deg", "pitch_max_deg", -80, 80, "degrees", motion.pitch_min_rad,
             motion.pitch_max_rad);
+  if (map.Has("speed_m_s")) motion.speed_m_s = map.At("speed_m_s").Number(0.005, 3, "m/s");
+  if (map.Has("turn_deg_s")) motion.turn_deg_s = map.At("turn_deg_s").Number(0.5, 180, "deg/s");
+  if (map.Has("stations")) motion.stations = ReadStations(map.At("stations"));
   return motion;
 }
 
 }  // namespace
 
 Scene ParseScene(const std::string& text, const std::string& name) {
-  const YamlMap map(ParseYaml(text, name, kMaxDepth),
-                    {"format", "name", "family", "seed", "sun", "motion", "objects"});
+  const YamlMap map(ParseYaml(text, name, kMaxDepth), {"format", "name", "family", "seed",
+                                                       "sun", "motion", "capture", "objects"});
   map.At("format").OneOf({kSceneFormat});
   Scene scene;
   scene.name = map.At("name").Word();
@@ -149,6 +199,7 @@ Scene ParseScene(const std::string& text, const std::string& name) {
   if (map.Has("seed")) scene.seed = map.At("seed").Whole(0, kAnySeed);
   if (map.Has("sun")) scene.sun = ReadSun(map.At("sun"));
   if (map.Has("motion")) scene.motion = ReadMotion(map.At("motion"));
+  if (map.Has("capture")) scene.capture = ReadCapture(map.At("capture"));
   const std::vector<YamlValue> objects = map.At("objects").List(kMaxObjects);
   if (objects.empty()) map.At("objects").Fail("expected at least one object");
   for (const YamlValue& object : objects) scene.objects.push_back(ReadObject(object));

@@ -17,6 +17,17 @@ using ParameterValues = std::map<std::string, double>;
 Scene MakeDesk(std::uint64_t seed, const ParameterValues& values);
 Scene MakePlates(std::uint64_t seed, const ParameterValues& values);
 Scene MakeStack(std::uint64_t seed, const ParameterValues& values);
+Scene MakeCoplanar(std::uint64_t seed, const ParameterValues& values);
+Scene MakeTilted(std::uint64_t seed, const ParameterValues& values);
+Scene MakeBoards(std::uint64_t seed, const ParameterValues& values);
+Scene MakeTwins(std::uint64_t seed, const ParameterValues& values);
+Scene MakeRevisit(std::uint64_t seed, const ParameterValues& values);
+Scene MakeOffice(std::uint64_t seed, const ParameterValues& values);
+Scene MakeRoomFamily(std::uint64_t seed, const ParameterValues& values);
+Scene MakeCabinetFamily(std::uint64_t seed, const ParameterValues& values);
+Scene MakeWall(std::uint64_t seed, const ParameterValues& values);
+/// A larger desk with 15 to 40 things of the whole catalogue.
+Scene MakeCrowdedDesk(std::uint64_t seed, int count);
 
 /// To the micrometre (or 1e-6 of any unit), so that scene files stay legible.
 double Rounded(double number);

@@ -4,6 +4,7 @@
 #include <Eigen/Geometry>
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -29,8 +30,14 @@ enum class Face { kMinusX, kPlusX, kMinusY, kPlusY, kMinusZ, kPlusZ };
 
 enum class ShapeKind {
   kBox,  ///< `size` along the object's axes; six planes
-  kToy   ///< unstructured: a closed smooth body of bumps inside `size`, no planes; shape from
+  kToy,  ///< unstructured: a closed smooth body of bumps inside `size`, no planes; shape from
          ///< `seed`
+  // Round about the object's z, inside `size`, no planes (round.h):
+  kCylinder,
+  kMug,     ///< hollow, open above
+  kBottle,  ///< body, shoulder, neck
+  kBowl,
+  kBush  ///< unstructured foliage; shape from `seed`
 };
 
 /// One solid object. World frame w: metres, z up. T_wo takes object to world; the object's
@@ -56,15 +63,35 @@ struct Sun {
   double ambient = 0.45;
 };
 
+/// A place on the way of the camera, and what it looks at there.
+struct Station {
+  Eigen::Vector3d camera_w = Eigen::Vector3d::Zero();
+  Eigen::Vector3d gaze_w = Eigen::Vector3d::Zero();
+};
+
 /// Where the camera looks and how it moves; see motion/.
 struct Motion {
-  std::string preset = "office";         ///< slow | office | fast
+  /// slow | office | fast | xyz | rpy | 360 | orbit | loop | lookaway
+  std::string preset = "office";
+  double speed_m_s = 0, turn_deg_s = 0;  ///< means at 30 Hz; 0 = the preset's own
+  /// What `loop` goes round, smoothly and without end; empty: as `orbit`.
+  std::vector<Station> stations;
   Eigen::Vector3d target_w{0, 0, 0.75};  ///< what the camera looks at
   double target_spread_m = 0.25;         ///< the gaze drifts this far
   double distance_min_m = 0.7, distance_max_m = 1.3;
   double azimuth_min_rad = -0.9, azimuth_max_rad = 0.9;  ///< round z, 0 looks from -y
   /// The optical axis this far below the horizon: 25 to 45 degrees.
   double pitch_min_rad = 0.4363323129985824, pitch_max_rad = 0.7853981633974483;
+};
+
+/// How a scene wants to be recorded; a simulator may do otherwise.
+struct Capture {
+  int width = 640, height = 480;
+  double fx = 525, fy = 525, cx = 319.5, cy = 239.5;  ///< pixels
+  std::array<double, 5> distortion{};                 ///< k1 k2 p1 p2 k3
+  std::string sensor = "kinect1";
+  double fps = 30;
+  int frames = 300;
 };
 
 struct Scene {
@@ -74,6 +101,7 @@ struct Scene {
   std::vector<Object> objects;
   Sun sun;
   Motion motion;
+  std::optional<Capture> capture;
 };
 
 /// A truth plane: one face of a box object. n . x + d = 0, n out of the object, world frame.

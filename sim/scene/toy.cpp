@@ -109,13 +109,20 @@ double Radius(const std::vector<Bump>& bumps, const Eigen::Vector3d& direction) 
   return radius;
 }
 
-}  // namespace
+std::vector<Bump> Leaves(Random& random) {
+  std::vector<Bump> bumps;
+  for (int i = 0; i < 48; ++i) {
+    const Eigen::Vector3d at = InCube(1, random);
+    const double height = random.Between(0.15, 0.5);
+    bumps.push_back({at.normalized(), height, random.Between(0.02, 0.08)});
+  }
+  return bumps;
+}
 
-ClosedSurface ToySurface(const Eigen::Vector3d& size, std::uint64_t seed) {
+ClosedSurface Lump(const std::vector<Bump>& bumps, int subdivisions,
+                   const Eigen::Vector3d& size) {
   ClosedSurface body = Icosahedron();
-  for (int i = 0; i < kSubdivisions; ++i) body = Subdivided(body);
-  Random random({0x746f79, seed});
-  const std::vector<Bump> bumps = Bumps(random);
+  for (int i = 0; i < subdivisions; ++i) body = Subdivided(body);
   Eigen::AlignedBox3d extent;
   for (Eigen::Vector3d& vertex : body.vertices_o) {
     vertex *= Radius(bumps, vertex);
@@ -127,6 +134,18 @@ ClosedSurface ToySurface(const Eigen::Vector3d& size, std::uint64_t seed) {
     vertex = (part - Eigen::Vector3d::Constant(0.5)).cwiseProduct(size);
   }
   return body;
+}
+
+}  // namespace
+
+ClosedSurface ToySurface(const Eigen::Vector3d& size, std::uint64_t seed) {
+  Random random({0x746f79, seed});
+  return Lump(Bumps(random), kSubdivisions, size);
+}
+
+ClosedSurface BushSurface(const Eigen::Vector3d& size, std::uint64_t seed) {
+  Random random({0x62757368, seed});
+  return Lump(Leaves(random), kSubdivisions + 1, size);
 }
 
 }  // namespace sim

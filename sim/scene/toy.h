@@ -17,4 +17,7 @@ struct ClosedSurface {
 /// `size` (metres, centred at the origin) exactly. 320 triangles; the shape depends on `seed`.
 ClosedSurface ToySurface(const Eigen::Vector3d& size, std::uint64_t seed);
 
+/// Foliage: the same with many small bumps on every side. 1280 triangles.
+ClosedSurface BushSurface(const Eigen::Vector3d& size, std::uint64_t seed);
+
 }  // namespace sim

@@ -74,6 +74,29 @@ std::string ObjectText(const Object& object) {
   return text;
 }
 
+/// What only some scenes have; nothing at all for the others.
+std::string PaceText(const Motion& motion) {
+  std::string text;
+  if (motion.speed_m_s > 0) text += "  speed_m_s: " + NumberText(motion.speed_m_s) + "\n";
+  if (motion.turn_deg_s > 0) text += "  turn_deg_s: " + NumberText(motion.turn_deg_s) + "\n";
+  if (!motion.stations.empty()) text += "  stations:\n";
+  for (const Station& station : motion.stations) {
+    text += "    - {camera_m: " + ListText(station.camera_w) +
+            ", gaze_m: " + ListText(station.gaze_w) + "}\n";
+  }
+  return text;
+}
+
+std::string CaptureText(const Capture& capture) {
+  return "capture:\n  width_px: " + std::to_string(capture.width) +
+         "\n  height_px: " + std::to_string(capture.height) +
+         "\n  focal_px: " + ListText(std::array{capture.fx, capture.fy}) +
+         "\n  centre_px: " + ListText(std::array{capture.cx, capture.cy}) +
+         "\n  distortion: " + ListText(capture.distortion) + "\n  sensor: " + capture.sensor +
+         "\n  fps: " + NumberText(capture.fps) +
+         "\n  frames: " + std::to_string(capture.frames) + "\n";
+}
+
 std::string MotionText(const Motion& motion) {
   return "motion:\n  preset: " + motion.preset + "\n  target_m: " + ListText(motion.target_w) +
          "\n  target_spread_m: " + NumberText(motion.target_spread_m) +
@@ -82,7 +105,7 @@ std::string MotionText(const Motion& motion) {
          "\n  azimuth_min_deg: " + DegreesText(motion.azimuth_min_rad) +
          "\n  azimuth_max_deg: " + DegreesText(motion.azimuth_max_rad) +
          "\n  pitch_min_deg: " + DegreesText(motion.pitch_min_rad) +
-         "\n  pitch_max_deg: " + DegreesText(motion.pitch_max_rad) + "\n";
+         "\n  pitch_max_deg: " + DegreesText(motion.pitch_max_rad) + "\n" + PaceText(motion);
 }
 
 }  // namespace
@@ -94,7 +117,9 @@ std::string SceneText(const Scene& scene) {
   text += "sun:\n  direction: " + ListText(scene.sun.direction_w) +
           "\n  intensity: " + NumberText(scene.sun.intensity) +
           "\n  ambient: " + NumberText(scene.sun.ambient) + "\n";
-  text += MotionText(scene.motion) + "objects:\n";
+  text += MotionText(scene.motion);
+  if (scene.capture) text += CaptureText(*scene.capture);
+  text += "objects:\n";
   for (const Object& object : scene.objects) text += ObjectText(object);
   return text;
 }

@@ -41,8 +41,9 @@ class AzureSensor {
     if (!(z >= model_.min_depth_m && z <= model_.max_depth_m)) return 0;
     const double true_z = z;
     if (!glow_.empty() && glow_(seen) > 0) {
-      if (noise_.Uniform(u, v, kLossDraw) < model_.multipath_loss) return 0;
-      z += model_.multipath_m * static_cast<double>(glow_(seen));
+      const double glow = static_cast<double>(glow_(seen));
+      if (noise_.Uniform(u, v, kLossDraw) < model_.multipath_loss * glow) return 0;
+      z += model_.multipath_m * glow;
     }
     z += offset_m_ +
          model_.wiggle_m * std::sin(2.0 * std::numbers::pi * true_z / model_.wiggle_period_m);

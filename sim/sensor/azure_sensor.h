@@ -23,7 +23,7 @@ struct AzureModel {
   double min_mixed_share = 0.2;     ///< ... when each gives more than this share of light [C]
   double multipath_m = 0.0075;      ///< added in the very corner of two surfaces at 90 deg [C]
   double multipath_reach_m = 0.05;  ///< falls to 0 this far from the corner [C]
-  double multipath_loss = 0.2;      ///< share of pixels lost within that reach [C]
+  double multipath_loss = 0.2;      ///< share of pixels lost in the very corner [C]
   double wiggle_m = 0.002;          ///< amplitude of the cyclic error [C]
   double wiggle_period_m = 0.75;    ///< [C]
   double session_offset_m = 0.005;  ///< of a recording: uniform in +- this [C]

@@ -70,7 +70,7 @@ WallMeasurement Measure(const DepthModel& model, double z_m, double tilt_rad) {
                        .stated_sd_m = DepthSigma(model, z_m, tilt_rad),
                        .stated_bias_m = DepthBias(model, z_m),
                        .stated_step_m = DepthStep(model, z_m)};
-  double count = 0, sum = 0, squares = 0;
+  double count = 0, sum = 0, random_sum = 0, squares = 0;
   std::set<double> depths;
   for (std::uint64_t frame = 0; frame < kFrames; ++frame) {
     const cv::Mat1d z = MeasureDepth(rendering, model, camera, kSeed, frame);
@@ -83,16 +83,19 @@ WallMeasurement Measure(const DepthModel& model, double z_m, double tilt_rad) {
             std::acos(std::min(1.0, static_cast<double>(rendering.incidence_cos(v, u)))));
         const double scale = here > 0 ? wall.stated_sd_m / here : 1.0;
         const double error = (z(v, u) - rendering.depth_m(v, u)) * scale;
+        const double random = error - scale * DepthBias(model, rendering.depth_m(v, u));
         count += 1;
         sum += error;
-        squares += error * error;
+        random_sum += random;
+        squares += random * random;
         depths.insert(z(v, u));
       }
     }
   }
   if (count == 0) return wall;
   wall.bias_m = sum / count;
-  wall.sd_m = std::sqrt(std::max(0.0, squares / count - wall.bias_m * wall.bias_m));
+  const double mean = random_sum / count;
+  wall.sd_m = std::sqrt(std::max(0.0, squares / count - mean * mean));
   wall.step_m = MedianGap(depths);
   return wall;
 }

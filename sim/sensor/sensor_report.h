@@ -11,7 +11,7 @@ namespace sim {
 /// A wall as a sensor measures it, against what its model states. Metres.
 struct WallMeasurement {
   double z_m = 0, tilt_rad = 0;
-  double stated_sd_m = 0, sd_m = 0;      ///< about the mean error
+  double stated_sd_m = 0, sd_m = 0;      ///< of what is not the stated bias
   double stated_bias_m = 0, bias_m = 0;  ///< mean error; stated for walls without tilt
   double stated_step_m = 0, step_m = 0;  ///< median gap between the depths that occur
 };

@@ -1,0 +1,14 @@
+#pragma once
+
+#include <string>
+
+#include "sim/scene/scene.h"
+
+namespace sim {
+
+/// Plan (from above, y up the page) and elevation (from -y) of what is not floor or wall, as
+/// one SVG with a scale bar; each regular top carries its name and its step to what is under it
+/// in mm. The same scene gives the same bytes.
+std::string SceneSvg(const Scene& scene);
+
+}  // namespace sim

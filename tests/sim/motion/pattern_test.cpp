@@ -1,0 +1,217 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+#include "sim/motion/trajectory.h"
+#include "sim/scene/angle.h"
+#include "sim/scene/families.h"
+#include "sim/scene/geometry.h"
+#include "sim/scene/input_error.h"
+#include "sim/scene/sha256.h"
+#include "sim/scene/twin.h"
+
+namespace sim {
+namespace {
+
+constexpr int kFrames = 600;
+constexpr double kFps = 30;
+
+struct Means {
+  double speed_m_s = 0, turn_deg_s = 0;
+};
+
+Means MeansOf(const std::vector<TimedPose>& trajectory) {
+  Means means;
+  for (std::size_t i = 1; i < trajectory.size(); ++i) {
+    const Pose &a = trajectory[i - 1].T_wc, &b = trajectory[i].T_wc;
+    means.speed_m_s += (b.t - a.t).norm();
+    means.turn_deg_s += RadToDeg(Eigen::AngleAxisd(a.R.transpose() * b.R).angle());
+  }
+  const double time_s = trajectory.back().timestamp_s;
+  return {means.speed_m_s / time_s, means.turn_deg_s / time_s};
+}
+
+Scene DeskWith(const std::string& preset, std::uint64_t seed) {
+  Scene scene = MakeScene("desk", seed);
+  scene.motion.preset = preset;
+  return scene;
+}
+
+struct Wanted {
+  const char* preset;
+  double speed_m_s, turn_deg_s;
+};
+
+class PatternMotion : public testing::TestWithParam<Wanted> {};
+
+TEST_P(PatternMotion, HasTheSpeedsOfItsPresetWithinFifteenPerCent) {
+  for (std::uint64_t seed = 1; seed <= 4; ++seed) {
+    const auto trajectory =
+        MakeTrajectory(DeskWith(GetParam().preset, seed), kFrames, kFps, seed);
+    const Means means = MeansOf(trajectory);
+    EXPECT_NEAR(means.speed_m_s, GetParam().speed_m_s, 0.15 * GetParam().speed_m_s) << seed;
+    EXPECT_NEAR(means.turn_deg_s, GetParam().turn_deg_s, 0.15 * GetParam().turn_deg_s) << seed;
+  }
+}
+
+TEST_P(PatternMotion, KeepsFifteenCentimetresFromEverySurface) {
+  for (std::uint64_t seed = 1; seed <= 4; ++seed) {
+    const Scene scene = DeskWith(GetParam().preset, seed);
+    for (const TimedPose& pose : MakeTrajectory(scene, kFrames, kFps, seed)) {
+      for (const Object& object : scene.objects) {
+        ASSERT_GE(DistanceToBox(object, pose.T_wc.t), 0.15) << seed << " " << object.name;
+      }
+    }
+  }
+}
+
+TEST_P(PatternMotion, ChangesItsVelocityContinuously) {
+  const Scene scene = DeskWith(GetParam().preset, 1);
+  const auto largest_change = [&](double fps) {
+    const auto trajectory = MakeTrajectory(scene, static_cast<int>(4 * fps), fps, 1);
+    double largest = 0;
+    for (std::size_t i = 2; i < trajectory.size(); ++i) {
+      const Eigen::Vector3d change =
+          trajectory[i].T_wc.t - 2 * trajectory[i - 1].T_wc.t + trajectory[i - 2].T_wc.t;
+      const Eigen::Matrix3d turn =
+          trajectory[i].T_wc.R - 2 * trajectory[i - 1].T_wc.R + trajectory[i - 2].T_wc.R;
+      largest = std::max({largest, change.norm() * fps, turn.norm() * fps});
+    }
+    return largest;
+  };
+  EXPECT_LT(largest_change(4000), 0.15 * largest_change(400));
+}
+
+TEST_P(PatternMotion, BeginsALongerOneWithTheFramesOfAShorterOne) {
+  const Scene scene = DeskWith(GetParam().preset, 2);
+  const auto short_one = MakeTrajectory(scene, 60, kFps, 7);
+  const auto long_one = MakeTrajectory(scene, 300, kFps, 7);
+  for (std::size_t i = 0; i < short_one.size(); ++i) {
+    EXPECT_EQ(short_one[i].T_wc.R, long_one[i].T_wc.R);
+    EXPECT_EQ(short_one[i].T_wc.t, long_one[i].T_wc.t);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Presets, PatternMotion,
+                         testing::Values(Wanted{"xyz", 0.30, 17}, Wanted{"rpy", 0.06, 50},
+                                         Wanted{"360", 0.21, 42}, Wanted{"orbit", 0.25, 16},
+                                         Wanted{"loop", 0.25, 14},
+                                         Wanted{"lookaway", 0.20, 25}),
+                         [](const auto& one) { return std::string(one.param.preset); });
+
+struct Reach {
+  Eigen::Vector3d size;
+  double least_facing = 1;  ///< cosine to the direction of the target
+  double all_round = 0;     ///< degrees of azimuth that were looked at
+};
+
+Reach ReachOf(const std::string& preset) {
+  const Scene scene = DeskWith(preset, 3);
+  Eigen::AlignedBox3d box;
+  Reach reach;
+  std::vector<bool> seen(36);
+  for (const TimedPose& pose : MakeTrajectory(scene, 900, kFps, 3)) {
+    box.extend(pose.T_wc.t);
+    const Eigen::Vector3d forward = pose.T_wc.R.col(2);
+    reach.least_facing = std::min(
+        reach.least_facing, forward.dot((scene.motion.target_w - pose.T_wc.t).normalized()));
+    const double azimuth = RadToDeg(std::atan2(forward.y(), forward.x())) + 180;
+    seen[static_cast<std::size_t>(azimuth / 10) % 36] = true;
+  }
+  reach.size = box.sizes();
+  reach.all_round = 10 * static_cast<double>(std::count(seen.begin(), seen.end(), true));
+  return reach;
+}
+
+TEST(PatternMotion, MovesAsItsNameSays) {
+  const Reach xyz = ReachOf("xyz"), rpy = ReachOf("rpy"), round = ReachOf("360");
+  const Reach away = ReachOf("lookaway"), orbit = ReachOf("orbit");
+  for (int axis = 0; axis < 3; ++axis) EXPECT_GT(xyz.size[axis], 0.12) << axis;
+  EXPECT_GT(xyz.least_facing, std::cos(DegToRad(40)));
+  EXPECT_LT(rpy.size.maxCoeff(), 0.15);
+  EXPECT_EQ(round.all_round, 360);
+  EXPECT_LT(away.least_facing, std::cos(DegToRad(80)));
+  EXPECT_GT(orbit.least_facing, std::cos(DegToRad(30)));
+}
+
+TEST(MakeTrajectory, FollowsTheSpeedsThatASceneAsksFor) {
+  for (const char* preset : {"office", "xyz", "orbit"}) {
+    Scene scene = DeskWith(preset, 2);
+    scene.motion.speed_m_s = 0.15;
+    scene.motion.turn_deg_s = 10;
+    const Means means = MeansOf(MakeTrajectory(scene, kFrames, kFps, 1));
+    EXPECT_NEAR(means.speed_m_s, 0.15, 0.15 * 0.15) << preset;
+    EXPECT_NEAR(means.turn_deg_s, 10, 0.15 * 10) << preset;
+  }
+}
+
+TEST(MakeTrajectory, MovesClearOfEveryFamily) {
+  for (const Family& family : Families()) {
+    for (std::uint64_t seed = 1; seed <= 2; ++seed) {
+      const Scene scene = MakeScene(family.name, seed);
+      const auto trajectory = MakeTrajectory(scene, 300, 10, seed);
+      EXPECT_GT((trajectory.back().T_wc.t - trajectory.front().T_wc.t).norm(), 0) << seed;
+      for (const TimedPose& pose : trajectory) {
+        for (const Object& object : scene.objects) {
+          ASSERT_GE(DistanceToBox(object, pose.T_wc.t), 0.15)
+              << family.name << " " << seed << " " << object.name;
+        }
+      }
+    }
+  }
+}
+
+TEST(MakeTrajectory, HasTheSpeedsOfEveryTwin) {
+  for (const Twin& twin : Twins()) {
+    const Scene scene = MakeTwin(twin.name, 1);
+    const auto trajectory = MakeTrajectory(scene, scene.capture->frames, scene.capture->fps, 1);
+    const Means means = MeansOf(trajectory);
+    EXPECT_NEAR(means.speed_m_s, twin.speed_m_s, 0.15 * twin.speed_m_s) << twin.name;
+    EXPECT_NEAR(means.turn_deg_s, twin.turn_deg_s, 0.15 * twin.turn_deg_s) << twin.name;
+    for (const TimedPose& pose : trajectory) {
+      for (const Object& object : scene.objects) {
+        ASSERT_GE(DistanceToBox(object, pose.T_wc.t), 0.15) << twin.name << object.name;
+      }
+    }
+  }
+}
+
+TEST(MakeTrajectory, NamesTheWayThatIsNotFree) {
+  Scene scene = DeskWith("loop", 1);
+  for (int i = 0; i < 4; ++i) {
+    scene.motion.stations.push_back({{0.1 * i, 0, 0.1}, {0.1 * i, 1, 0.1}});  // under the desk
+  }
+  EXPECT_THROW(MakeTrajectory(scene, 10, kFps, 1), InputError);
+}
+
+// Recorded baselines stand on these very bits.
+TEST(MakeTrajectory, StillGivesTheFirstPresetsBitForBit) {
+  struct Golden {
+    const char *family, *preset, *hash;
+  };
+  for (const Golden& golden : {Golden{"desk", "slow", "6598836365242714"},
+                               {"desk", "office", "21bf9ab676fba6ef"},
+                               {"desk", "fast", "b19733332586226d"},
+                               {"plates", "slow", "e16396b6dc2c1e3c"},
+                               {"plates", "office", "8a16603682490aa8"},
+                               {"stack", "fast", "944c9d8f1bcec720"}}) {
+    Scene scene = MakeScene(golden.family, 2);
+    scene.motion.preset = golden.preset;
+    std::string bytes;
+    for (const TimedPose& pose : MakeTrajectory(scene, 90, 30, 5)) {
+      for (const double number : pose.T_wc.R.reshaped()) {
+        bytes.append(reinterpret_cast<const char*>(&number), sizeof(number));
+      }
+      for (const double number : pose.T_wc.t) {
+        bytes.append(reinterpret_cast<const char*>(&number), sizeof(number));
+      }
+    }
+    EXPECT_EQ(Sha256Hex(bytes).substr(0, 16), golden.hash)
+        << golden.family << " " << golden.preset;
+  }
+}
+
+}  // namespace
+}  // namespace sim

@@ -1,0 +1,102 @@
+#include "sim/motion/recorded.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <string>
+
+#include "sim/motion/trajectory.h"
+#include "sim/scene/angle.h"
+#include "sim/scene/families.h"
+#include "sim/scene/input_error.h"
+
+namespace sim {
+namespace {
+
+class ReadTrajectoryTest : public testing::Test {
+ protected:
+  std::vector<TimedPose> Read(const std::string& text) {
+    std::ofstream(path_) << text;
+    return ReadTrajectory(path_);
+  }
+  std::string ErrorOf(const std::string& text) {
+    try {
+      Read(text);
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "";
+  }
+  void TearDown() override { std::filesystem::remove(path_); }
+  std::filesystem::path path_ =
+      std::filesystem::temp_directory_path() /
+      ("pas_recorded_" +
+       std::string(testing::UnitTest::GetInstance()->current_test_info()->name()) + ".txt");
+};
+
+TEST_F(ReadTrajectoryTest, StartsTheClockAtTheFirstPose) {
+  const auto poses = Read(
+      "# a comment\n\n1305031102.5 1 2 3 0 0 0 1\n"
+      "1305031103.0\t4 5 6 0 0 0.6 0.8\r\n");
+  ASSERT_EQ(poses.size(), 2u);
+  EXPECT_EQ(poses[0].timestamp_s, 0);
+  EXPECT_EQ(poses[1].timestamp_s, 0.5);
+  EXPECT_EQ(poses[1].T_wc.t, Eigen::Vector3d(4, 5, 6));
+  EXPECT_NEAR(poses[1].T_wc.R(1, 0), 2 * 0.6 * 0.8, 1e-12);  // z turn: 2 qz qw
+}
+
+TEST_F(ReadTrajectoryTest, NamesTheLineThatIsWrong) {
+  const std::string good = "0 0 0 0 0 0 0 1\n";
+  for (const char* bad :
+       {"1 0 0 0 0 0 0", "1 0 0 0 0 0 0 1 7", "1 0 0 0 0 0 x 1", "1 0 0 0 0 0 0 0.5",
+        "1 0 nan 0 0 0 0 1", "0 0 0 0 0 0 0 1", "1 0 0 1e9 0 0 0 1", "1,0,0,0,0,0,0,1"}) {
+    EXPECT_NE(ErrorOf(good + bad + "\n").find(".txt:2: "), std::string::npos) << bad;
+  }
+  EXPECT_NE(ErrorOf(good).find("two poses"), std::string::npos);
+  EXPECT_THROW(ReadTrajectory("no/such/file.txt"), InputError);
+}
+
+TEST_F(ReadTrajectoryTest, GivesBackAWrittenTrajectory) {
+  const auto made = MakeTrajectory(MakeScene("desk", 1), 90, 30, 1);
+  std::string text;
+  for (const TimedPose& pose : made) {
+    const Eigen::Quaterniond q(pose.T_wc.R);
+    const Eigen::Vector3d& t = pose.T_wc.t;
+    for (const double number :
+         {pose.timestamp_s, t.x(), t.y(), t.z(), q.x(), q.y(), q.z(), q.w()}) {
+      std::array<char, 40> digits{};
+      std::snprintf(digits.data(), digits.size(), "%.9f ", number);
+      text += digits.data();
+    }
+    text += "\n";
+  }
+  const auto replayed = Replay(Read(text), 90, 30);
+  for (std::size_t i = 0; i < made.size(); ++i) {
+    EXPECT_LT((replayed[i].T_wc.t - made[i].T_wc.t).norm(), 1e-6);
+    EXPECT_LT((replayed[i].T_wc.R - made[i].T_wc.R).norm(), 1e-6);
+  }
+}
+
+TEST(Replay, GoesHalfWayBetweenTwoPoses) {
+  std::vector<TimedPose> poses(2);
+  poses[1].timestamp_s = 0.1;
+  poses[1].T_wc = {QuaternionFromRpyDeg({0, 0, 10}).toRotationMatrix(), {0.2, 0, 0}};
+  const auto at_20 = Replay(poses, 3, 20);
+  EXPECT_NEAR(at_20[1].T_wc.t.x(), 0.1, 1e-12);
+  EXPECT_NEAR(at_20[1].T_wc.R(1, 0), std::sin(DegToRad(5)), 1e-12);
+  EXPECT_NEAR(at_20[2].T_wc.t.x(), 0.2, 1e-12);
+}
+
+TEST(Replay, RefusesMoreThanWasRecorded) {
+  std::vector<TimedPose> poses(3);
+  poses[1].timestamp_s = 0.1;
+  poses[2].timestamp_s = 0.9;
+  EXPECT_THROW(Replay(poses, 31, 30), InputError);
+  EXPECT_THROW(Replay(poses, 20, 30), InputError) << "a hole of 0.8 s";
+  EXPECT_EQ(Replay(poses, 4, 30).size(), 4u);
+}
+
+}  // namespace
+}  // namespace sim
