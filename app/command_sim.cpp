@@ -166,7 +166,7 @@ void AddSimCommand(CLI::App& pas, const Globals& globals, int& exit_code) {
       ->add_option("--detector", a.detector,
                    "perfect: the visible box of every object; noisy: misses, jitter, wrong "
                    "classes, doubles; none: no detections.jsonl")
-      ->transform(CLI::CheckedTransformer(detectors))
+      ->transform(CLI::CheckedTransformer(detectors).description("perfect, noisy or none"))
       ->default_str("noisy");
   command->add_option("--seed", a.seed, "Of the trajectory and all noise")
       ->capture_default_str();

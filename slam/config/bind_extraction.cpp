@@ -52,7 +52,6 @@ void VisitPlaneExtraction(PlaneExtractionConfig& c, FieldVisitor& v) {
   v.Degrees("max_angle_sigma_deg", c.max_angle_sigma_rad, "(0, 90)", "of a segment's normal");
   v.Integer("min_island_pixels", c.min_island_pixels, "[1, 1000000]", "of a cut-off part");
   v.Integer("point_grid_px", c.point_grid_px, "[1, 64]", "spacing of a plane's points");
-  v.Integer("edge_step_px", c.edge_step_px, "[1, 64]", "spacing of edge points");
 }
 
 void VisitEdges(EdgeConfig& c, FieldVisitor& v) {
@@ -68,7 +67,8 @@ void VisitEdges(EdgeConfig& c, FieldVisitor& v) {
 void VisitExtraction(Config& c, FieldVisitor& v) {
   v.Section("plane_extraction", "planes of a depth image",
             [&] { VisitPlaneExtraction(c.plane_extraction, v); });
-  v.Section("plane_edges", "boundary points of planes", [&] { VisitEdges(c.plane_edges, v); });
+  v.Section("plane_edges", "boundary points of planes",
+            [&] { VisitEdges(c.plane_extraction.edges, v); });
 }
 
 }  // namespace slam

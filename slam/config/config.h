@@ -4,13 +4,12 @@
 #include "slam/associate/plane_constraints.h"
 #include "slam/extract/box_tracks.h"
 #include "slam/extract/class_table.h"
-#include "slam/extract/plane_edges.h"
 #include "slam/extract/plane_segments.h"
 #include "slam/extract/point_features.h"
+#include "slam/localise/point_tracking.h"
 #include "slam/mapping/local_mapping.h"
 #include "slam/mapping/plane_map_config.h"
 #include "slam/planes/process_planes.h"
-#include "slam/localise/point_tracking.h"
 
 namespace slam {
 
@@ -22,7 +21,6 @@ struct Config {
   ClassTable classes = CocoClassTable();
   BoxTracksConfig box_tracks;
   PlaneExtractionConfig plane_extraction;
-  EdgeConfig plane_edges;
 
   // (C) plane processing
   PlaneProcessingConfig plane_processing;

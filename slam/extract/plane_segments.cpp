@@ -439,14 +439,13 @@ void ExtractPlanes(Frame& frame, const Camera& camera, const cv::Mat2d& rays,
   const std::vector<Segment> kept = KeepMeasured(grid, labels, count, config);
   const std::vector<cv::Rect> bounds =
       DrawLabels(grid, labels, count, kept, frame.plane_labels);
-  const EdgeConfig edge_config{.step_px = config.edge_step_px};
   frame.planes.clear();
   for (std::size_t k = 0; k < kept.size(); ++k) {
     FramePlane plane = MakeFramePlane(kept[k], static_cast<int>(k));
     SamplePoints(grid, frame.plane_labels, bounds[k], kept[k], camera, config.point_grid_px,
                  plane);
     plane.edge_points = TraceEdges(grid, frame.plane_labels, plane.index + 1, bounds[k],
-                                   kept[k].plane, edge_config);
+                                   kept[k].plane, config.edges);
     for (const EdgePoint& point : plane.edge_points) plane.box_px.Include(point.u_px);
     frame.planes.push_back(std::move(plane));
   }

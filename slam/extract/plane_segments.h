@@ -6,6 +6,7 @@
 #include "slam/extract/block_clusters.h"
 #include "slam/extract/depth_noise.h"
 #include "slam/extract/pixel_labels.h"
+#include "slam/extract/plane_edges.h"
 #include "slam/model/frame.h"
 
 namespace slam {
@@ -44,7 +45,7 @@ struct PlaneExtractionConfig {
   int min_island_pixels = 40;        ///< a smaller cut-off part is dropped; domain [1, inf)
 
   int point_grid_px = 6;  ///< spacing of FramePlane::points_c; domain [1, 64]
-  int edge_step_px = 2;   ///< spacing of edge points along the contour; domain [1, 64]
+  EdgeConfig edges;       ///< of FramePlane::edge_points
 };
 
 /// (B) of the paper for planes: segments the depth image of a frame into planes.

@@ -76,6 +76,11 @@ RunOutcome RunSequence(const RunOptions& options) {
   const int cores = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
   const int threads = options.threads > 0 ? options.threads : cores;
 
+  if (!std::filesystem::is_directory(options.sequence)) {
+    throw InputError(
+        options.sequence.string(),
+        "no such folder; expected a sequence made by pas sim, or a TUM RGB-D folder");
+  }
   const Camera camera = ChooseCamera(options.camera, options.sequence);
   SequenceReader reader(options.sequence, camera, {.prefetch = threads > 1});
   const std::string detector = DetectorChoice(options);
