@@ -52,8 +52,8 @@ void Aim(const Twin& twin, Scene& scene) {
 }  // namespace
 
 const std::vector<Twin>& Twins() {
-  // Speeds: measured at 30 Hz for fr1-desk, fr1-xyz, fr2-desk and fr3-loh; the published
-  // averages for the others.
+  // Speeds: measured at 30 Hz for fr1-desk, fr1-xyz, fr2-desk and fr3-loh; recalled averages, not
+  // yet checked against the benchmark's pages, for the others.
   static const std::vector<Twin> twins{
       {"fr1-360", "room", "360", {}, .21, 41.6, 28.7},
       {"fr1-desk", "desk", "fast", {{"objects", 14}}, .453, 35.0, 23.4},
