@@ -2,6 +2,7 @@
 
 #include <unistd.h>
 
+#include <cmath>
 #include <cstdio>
 
 namespace app {
@@ -26,14 +27,16 @@ void Progress::Update(int done) {
 
   const double seconds =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
-  const double rate = seconds > 0 ? done / seconds : 0.0;
+  // The first steps say nothing of the rate yet.
+  const std::string rate =
+      seconds > 0.2 ? ", " + std::to_string(std::lround(done / seconds)) + "/s" : "";
   if (terminal_) {
     std::string bar(static_cast<std::size_t>(step * 30 / steps), '#');
     bar.resize(30, '.');
-    std::fprintf(stderr, "\r%s [%s] %d/%d, %.1f/s ", label_.c_str(), bar.c_str(), done, total_,
-                 rate);
+    std::fprintf(stderr, "\r%s [%s] %d/%d%s ", label_.c_str(), bar.c_str(), done, total_,
+                 rate.c_str());
   } else {
-    std::fprintf(stderr, "%s %d/%d, %.1f/s\n", label_.c_str(), done, total_, rate);
+    std::fprintf(stderr, "%s %d/%d%s\n", label_.c_str(), done, total_, rate.c_str());
   }
   std::fflush(stderr);
 }
