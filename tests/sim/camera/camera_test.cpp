@@ -38,7 +38,8 @@ TEST(CameraYaml, PrintsEveryDigit) {
 }
 
 /// The first Kinect of the TUM benchmark, as calibrated there.
-constexpr Lens kTum1{.k1 = 0.2624, .k2 = -0.9531, .p1 = -0.0054, .p2 = 0.0026, .k3 = 1.1633};
+constexpr Lens kRecordedLens{
+    .k1 = 0.2624, .k2 = -0.9531, .p1 = -0.0054, .p2 = 0.0026, .k3 = 1.1633};
 
 /// What OpenCV makes of a point.
 cv::Point2d ProjectedByOpenCv(const Camera& camera, const Eigen::Vector3d& x_c) {
@@ -52,7 +53,7 @@ cv::Point2d ProjectedByOpenCv(const Camera& camera, const Eigen::Vector3d& x_c) 
 }
 
 TEST(LensDistortion, AgreesWithOpenCvAllOverTheImage) {
-  const Camera camera = WithLens(Camera{}, kTum1);
+  const Camera camera = WithLens(Camera{}, kRecordedLens);
   for (int v = 0; v < camera.height; v += 13) {
     for (int u = 0; u < camera.width; u += 17) {
       const Eigen::Vector3d x_c = 1.7 * camera.Ray(u, v);
@@ -81,8 +82,35 @@ TEST(LensDistortion, IsRefusedWhereItFoldsTheImage) {
 
 TEST(LensDistortion, StandsInCameraYamlOnlyWhenThereIsOne) {
   EXPECT_EQ(CameraYaml(Camera{}).find("k1"), std::string::npos);
-  EXPECT_NE(CameraYaml(WithLens(Camera{}, kTum1)).find("k2: -0.9531\np1: -0.0054\n"),
+  EXPECT_NE(CameraYaml(WithLens(Camera{}, kRecordedLens)).find("k2: -0.9531\np1: -0.0054\n"),
             std::string::npos);
+}
+
+TEST(CameraOf, IsTheCameraThatTheSceneNames) {
+  Capture capture;
+  capture.width = 320;
+  capture.height = 200;
+  capture.fx = 260;
+  capture.fy = 261;
+  capture.cx = 150;
+  capture.cy = 99;
+  capture.fps = 15;
+  capture.distortion = {0.05, -0.02, 0.001, 0.002, 0.003};
+  const Camera camera = CameraOf(capture);
+  EXPECT_EQ(camera.width, 320);
+  EXPECT_EQ(camera.height, 200);
+  EXPECT_EQ(camera.fx, 260);
+  EXPECT_EQ(camera.fy, 261);
+  EXPECT_EQ(camera.cx, 150);
+  EXPECT_EQ(camera.cy, 99);
+  EXPECT_EQ(camera.fps, 15);
+  EXPECT_EQ(camera.lens.k1, 0.05);
+  EXPECT_EQ(camera.lens.k2, -0.02);
+  EXPECT_EQ(camera.lens.p1, 0.001);
+  EXPECT_EQ(camera.lens.p2, 0.002);
+  EXPECT_EQ(camera.lens.k3, 0.003);
+  // A scene that names none is recorded as one without the block always was.
+  EXPECT_EQ(CameraYaml(CameraOf(Capture{})), CameraYaml(Camera{}));
 }
 
 }  // namespace

@@ -16,6 +16,7 @@
 #include "sim/scene/mesh.h"
 #include "sim/scene/scene_file.h"
 #include "sim/scene/twin.h"
+#include "tests/support/place.h"
 
 namespace sim {
 namespace {
@@ -117,6 +118,7 @@ TEST_P(EveryFamily, RestsEveryThingUnderItsCentreOfMass) {
     std::map<std::string, std::vector<const Object*>> things;
     for (const Object& object : scene.objects) {
       if (object.class_name == "floor" || object.class_name == "wall") continue;
+      if (!object.way.empty()) continue;  // it hangs or walks
       const int group = object.detection_group;
       things[group != 0 ? "group " + std::to_string(group) : object.name].push_back(&object);
     }
@@ -131,6 +133,25 @@ TEST_P(EveryFamily, RestsEveryThingUnderItsCentreOfMass) {
       if (thing[0]->class_name == "laptop") middle = thing[0]->center_w.head<2>() * volume;
       EXPECT_TRUE(InHull(middle / volume, Contacts(scene, thing)))
           << "seed " << seed << ": " << name << " " << thing[0]->name << " would fall";
+    }
+  }
+}
+
+// At moments between the points of the way too, which the check of scenes does not look at.
+TEST_P(EveryFamily, MovesNothingThroughWhatStands) {
+  for (std::uint64_t seed = 1; seed <= kSeeds; ++seed) {
+    const Scene scene = MakeScene(GetParam(), seed);
+    for (const Object& moving : scene.objects) {
+      if (moving.way.empty()) continue;
+      EXPECT_EQ(moving.role, Role::kUnstructured);
+      for (double time_s = 0; time_s < moving.way.back().time_s + 1; time_s += 0.037) {
+        const Object there = ObjectAt(moving, time_s);
+        for (const Object& other : scene.objects) {
+          if (!other.way.empty()) continue;
+          ASSERT_LE(OverlapDepth(there, other), 0.005)
+              << seed << " " << other.name << " at " << time_s << " s";
+        }
+      }
     }
   }
 }
@@ -183,12 +204,6 @@ TEST(MakeScene, StillGivesTheFirstFamiliesByteForByte) {
   }
 }
 
-using Place = std::array<std::int64_t, 3>;
-
-Place Nanometres(const Eigen::Vector3d& x) {
-  return {std::llround(x.x() * 1e9), std::llround(x.y() * 1e9), std::llround(x.z() * 1e9)};
-}
-
 class EveryShape : public testing::TestWithParam<ShapeKind> {
  protected:
   static Scene One() {
@@ -237,7 +252,8 @@ TEST_P(EveryShape, TurnsItsShadingNormalsOutwards) {
 INSTANTIATE_TEST_SUITE_P(Shapes, EveryShape,
                          testing::Values(ShapeKind::kBox, ShapeKind::kToy, ShapeKind::kCylinder,
                                          ShapeKind::kMug, ShapeKind::kBottle, ShapeKind::kBowl,
-                                         ShapeKind::kBush));
+                                         ShapeKind::kBush, ShapeKind::kPerson,
+                                         ShapeKind::kHand));
 
 TEST(Cylinder, HasTheVolumeOfItsPrism) {
   Scene scene;
