@@ -120,7 +120,7 @@ void PlaneBench::Add(const PlaneBench& o) {
 }
 
 PlaneBench BenchPlanes(const std::filesystem::path& sequence, const std::string& camera_choice,
-                       const slam::Config& config, const FrameChoice& choice) {
+                       const slam::Config& config, const BenchChoice& choice) {
   const slam::Camera camera = slam::ChooseCamera(camera_choice, sequence);
   const eval::Sequence truth = eval::ReadSequence(sequence);
   slam::SequenceReader reader(sequence, camera);
@@ -141,8 +141,9 @@ PlaneBench BenchPlanes(const std::filesystem::path& sequence, const std::string&
     const std::optional<eval::Pose>& pose = poses[static_cast<std::size_t>(i)];
     if (!pose) continue;
     if (truth.scene && !truth.plane_id_files.empty()) {
-      ScoreFrame(frame, eval::ReadTrueFrame(truth, frame.timestamp_s, *pose), *truth.scene,
-                 bench);
+      eval::TrueFrame seen = eval::ReadTrueFrame(truth, frame.timestamp_s, *pose);
+      if (!choice.unmeasured) LeaveOutUnmeasured(frame.depth_m, camera, seen);
+      ScoreFrame(frame, seen, *truth.scene, bench);
     } else {
       ScoreLevelPlane(frame, *pose, bench);
     }

@@ -49,10 +49,11 @@ struct PlaneBench {
   void Add(const PlaneBench& o);
 };
 
-/// Which frames of a sequence are looked at.
-struct FrameChoice {
+/// What of a sequence is looked at.
+struct BenchChoice {
   int at_most = 0;  ///< 0 = all
   int every = 1;
+  bool unmeasured = false;  ///< count true pixels that have no depth as well
 };
 
 /// Runs (B) and (C) on every frame of a sequence, on this thread, and scores them when the
@@ -61,6 +62,6 @@ struct FrameChoice {
 /// @param camera  see slam::ChooseCamera
 /// @throws InputError of slam or eval.
 PlaneBench BenchPlanes(const std::filesystem::path& sequence, const std::string& camera,
-                       const slam::Config& config, const FrameChoice& choice);
+                       const slam::Config& config, const BenchChoice& choice);
 
 }  // namespace app

@@ -178,7 +178,34 @@ void AddLevelPlane(const slam::Frame& frame, const eval::Pose& T_gc, PlaneBench&
                                std::max(1, cv::countNonZero(frame.depth_m)));
 }
 
+bool SeesNear(const cv::Mat1b& mask, const slam::Camera& camera, const Eigen::Vector3d& x_c) {
+  const Eigen::Vector2d u = camera.Project(x_c);
+  const int reach = std::max(1, static_cast<int>(std::lround(3.0 * mask.cols / 640.0)));
+  const cv::Rect around(static_cast<int>(std::lround(u.x())) - reach,
+                        static_cast<int>(std::lround(u.y())) - reach, 2 * reach + 1,
+                        2 * reach + 1);
+  const cv::Rect inside = around & cv::Rect(0, 0, mask.cols, mask.rows);
+  return inside.area() > 0 && cv::countNonZero(mask(inside)) > 0;
+}
+
 }  // namespace
+
+void LeaveOutUnmeasured(const cv::Mat1f& depth_m, const slam::Camera& camera,
+                        eval::TrueFrame& truth) {
+  const cv::Mat1b measured = depth_m > 0.0f;
+  const double least =
+      eval::kMinPixels * static_cast<double>(measured.total()) / (640.0 * 480.0);
+  truth.plane_ids->setTo(0, measured == 0);
+  for (eval::SeenPlane& seen : truth.planes) {
+    const cv::Mat1b mask = *truth.plane_ids == seen.plane->id;
+    seen.pixels = cv::countNonZero(mask);
+    seen.counted = seen.counted && seen.pixels >= least;
+    for (std::size_t k = 0; k < seen.corners_c.size(); ++k) {
+      if (!seen.corner_in_view[k]) continue;
+      seen.corner_in_view[k] = SeesNear(mask, camera, seen.corners_c[k]);
+    }
+  }
+}
 
 void ScoreFrame(const slam::Frame& found, const eval::TrueFrame& truth,
                 const eval::SceneTruth& scene, PlaneBench& bench) {

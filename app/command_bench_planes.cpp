@@ -15,7 +15,7 @@ struct Arguments {
   std::vector<std::string> sequences;
   std::string camera, config_file;
   int frames = 0, every = 1;
-  bool steps = false;
+  bool steps = false, unmeasured = false;
 };
 
 double Quantile(std::vector<double> values, double q) {
@@ -96,7 +96,8 @@ PlaneBench BenchAll(const Arguments& arguments, const slam::Config& config, bool
   int done = 0;
   for (const std::string& sequence : arguments.sequences) {
     const PlaneBench bench =
-        BenchPlanes(sequence, arguments.camera, config, {arguments.frames, arguments.every});
+        BenchPlanes(sequence, arguments.camera, config,
+                    {arguments.frames, arguments.every, arguments.unmeasured});
     const std::string name = std::filesystem::path(sequence).lexically_normal().filename();
     if (each && bench.scored_frames > 0) PrintScores(name, bench);
     if (each && !bench.level_normals_w.empty()) PrintLevelPlane(name, bench);
@@ -134,6 +135,8 @@ void AddBenchPlanes(CLI::App& bench, const Globals& globals, int& exit_code) {
       ->check(CLI::Range(1, 1000000));
   command->add_flag("--steps", arguments->steps,
                     "Also: which steps are separated, by height and distance");
+  command->add_flag("--unmeasured", arguments->unmeasured,
+                    "Score against true pixels without depth too, as pas eval does");
   command->callback(
       [arguments, &globals, &exit_code] { exit_code = RunBench(*arguments, globals.quiet); });
 }
