@@ -192,12 +192,12 @@ bool SeesNear(const cv::Mat1b& mask, const slam::Camera& camera, const Eigen::Ve
 
 void LeaveOutUnmeasured(const cv::Mat1f& depth_m, const slam::Camera& camera,
                         eval::TrueFrame& truth) {
-  const cv::Mat1b measured = depth_m > 0.0f;
+  const cv::Mat1b measured = cv::Mat(depth_m > 0.0f);
   const double least =
       eval::kMinPixels * static_cast<double>(measured.total()) / (640.0 * 480.0);
   truth.plane_ids->setTo(0, measured == 0);
   for (eval::SeenPlane& seen : truth.planes) {
-    const cv::Mat1b mask = *truth.plane_ids == seen.plane->id;
+    const cv::Mat1b mask = cv::Mat(*truth.plane_ids == seen.plane->id);
     seen.pixels = cv::countNonZero(mask);
     seen.counted = seen.counted && seen.pixels >= least;
     for (std::size_t k = 0; k < seen.corners_c.size(); ++k) {

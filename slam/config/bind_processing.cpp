@@ -75,6 +75,15 @@ void VisitProcessing(Config& config, FieldVisitor& v) {
     v.Section("box_link", "plane and detection", [&] { VisitBoxLink(c.box_link, v); });
     v.Section("edge_lines", "straight edges", [&] { VisitEdgeLines(c.edge_lines, v); });
     v.Section("vertices", "corners", [&] { VisitVertices(c.vertices, v); });
+    v.Section("unlinked", "corners without a detection", [&] {
+      v.Number("min_contour_share", c.unlinked.min_contour_share, "[0, 1)",
+               "of the edge points that a line holds");
+      v.Number("min_length_px", c.unlinked.min_length_px, "(0, inf)", "of a line");
+      v.Degrees("max_parallel_angle_deg", c.unlinked.max_parallel_angle_rad, "(0, 90)",
+                "of opposite sides");
+      v.Degrees("max_square_error_deg", c.unlinked.max_square_error_rad, "(0, 90)",
+                "of a corner from a right angle");
+    });
     v.Section("select", "good planes and bad", [&] { VisitSelect(c.select, v); });
   });
 }

@@ -14,10 +14,10 @@ namespace slam {
 struct EdgeLineConfig {
   int max_lines = 6;             ///< domain [1, 16]
   int iterations = 120;          ///< of RANSAC, per line; domain [1, inf)
-  double max_distance_px = 1.5;  ///< of an inlier from its line; domain (0, inf)
+  double max_distance_px = 2.0;  ///< of an inlier from its line; domain (0, inf)
   double max_gap_px = 16.0;      ///< between neighbouring inliers of one line; domain (0, inf)
-  double min_length_px = 14.0;   ///< domain (0, inf)
-  double min_contour_share = 0.06;  ///< of the edge points that a line must hold; domain [0, 1)
+  double min_length_px = 10.0;   ///< domain (0, inf)
+  double min_contour_share = 0.03;  ///< of the edge points that a line must hold; domain [0, 1)
   /// Boundary pixels are the last inside the surface: their centres lie this far inside the
   /// edge itself. Domain [0, 1].
   double inset_px = 0.5;

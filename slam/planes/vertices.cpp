@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 namespace slam {
@@ -138,6 +139,16 @@ bool InBox(const Eigen::Vector3d& x_c, const Camera& camera, const Box& box_px,
   return x_c.z() > 0 && box_px.Contains(camera.ProjectDistorted(x_c), margin_px);
 }
 
+/// A box that the image's border cuts off says nothing of what lies beyond.
+Box OpenAtBorder(Box box_px, const Box& image, double margin_px) {
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  for (int k = 0; k < 2; ++k) {
+    if (box_px.min[k] <= image.min[k] + margin_px) box_px.min[k] = -kInfinity;
+    if (box_px.max[k] >= image.max[k] - margin_px) box_px.max[k] = kInfinity;
+  }
+  return box_px;
+}
+
 /// Counter-clockwise seen from the front, beginning with the corner first in reading order.
 void PutInOrder(const Plane& pi_c, const Camera& camera,
                 std::vector<Eigen::Vector3d>& corners) {
@@ -185,7 +196,10 @@ Result<Eigen::Vector3d, NoVertex> MeetingPoint(const Line& L_i, const Line& L_j,
 std::vector<Vertex> FindVertices(const FramePlane& plane, const std::vector<EdgeLine>& lines,
                                  const Camera& camera, const std::optional<Box>& box_px,
                                  const VertexConfig& config) {
-  const FaceOutline outline(plane, lines, camera, box_px, config);
+  const std::optional<Box> open_px =
+      box_px ? std::optional<Box>(OpenAtBorder(*box_px, camera.ImageBox(), config.box_margin_px))
+             : std::nullopt;
+  const FaceOutline outline(plane, lines, camera, open_px, config);
   std::vector<Eigen::Vector3d> corners = outline.Rectangle();
   if (corners.empty()) corners = outline.Partial();
   if (corners.empty()) return {};
