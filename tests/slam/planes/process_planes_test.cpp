@@ -81,11 +81,30 @@ TEST(ProcessPlanes, DrawNoLinesOnAnUnstructuredObject) {
   ProcessPlanes(scene.frame, scene.camera, {});
   int bad = 0;
   for (const FramePlane& plane : scene.frame.planes) {
+    if (plane.class_name != "teddy bear") continue;
     EXPECT_TRUE(plane.lines_c.empty());
     EXPECT_TRUE(plane.vertices_c.empty());
     bad += plane.bad == BadReason::kUnstructured ? 1 : 0;
   }
   EXPECT_GE(bad, 1);
+}
+
+TEST(ProcessPlanes, FindTheFourCornersOfABookThatNoDetectionSpeaksFor) {
+  BookOnDesk scene(true);
+  scene.frame.detections.clear();
+  ProcessPlanes(scene.frame, scene.camera, {});
+  double worst = 1.0;
+  for (const FramePlane& plane : scene.frame.planes) {
+    if (plane.vertices_c.size() != 4 || plane.area_m2 > 0.1) continue;  // the desk is larger
+    for (const Eigen::Vector3d& corner_w : closed_form::TopCorners(scene.world.boxes[1])) {
+      double nearest = 1e9;
+      for (const Vertex& v : plane.vertices_c) {
+        nearest = std::min(nearest, (v.p_c - scene.T_cw * corner_w).norm());
+      }
+      worst = worst == 1.0 ? nearest : std::max(worst, nearest);
+    }
+  }
+  EXPECT_LT(worst, 0.012);
 }
 
 TEST(ProcessPlanes, AcceptAFrameWithoutPlanes) {

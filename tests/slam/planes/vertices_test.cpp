@@ -78,6 +78,29 @@ TEST(Vertices, AreOneWhereTwoSidesAreSeen) {
   EXPECT_NEAR((vertices[0].p_c - face.corner[1]).norm(), 0.0, 1e-12);
 }
 
+TEST(Vertices, LieBeyondABoxOnlyWhereTheImageCutsIt) {
+  // The face is moved so that its right corners lie outside the image, and the box ends there.
+  Face face;
+  const double shift = 0.59;
+  for (EdgeLine& line : face.lines) {
+    line.line_c.P.x() += shift;
+    line.from_px.x() += kCamera.fx * shift, line.to_px.x() += kCamera.fx * shift;
+  }
+  face.plane.centroid_c.x() += shift;
+  for (EdgePoint& e : face.plane.edge_points) e.u_px.x() += kCamera.fx * shift;
+  std::erase_if(face.plane.edge_points, [](const EdgePoint& e) { return e.u_px.x() > 639; });
+  Box box;
+  for (const EdgePoint& e : face.plane.edge_points) box.Include(e.u_px);
+  box.max.x() = kCamera.width - 1;
+  const auto vertices = face.Find(box);
+  ASSERT_EQ(vertices.size(), 4u);
+  for (const Vertex& v : vertices) {
+    EXPECT_EQ(v.extrapolated, kCamera.Project(v.p_c).x() > kCamera.width - 1) << v.p_c.x();
+  }
+  box.max.x() = kCamera.width - 40;  // a box that ends inside the image is believed
+  EXPECT_LT(face.Find(box).size(), 4u);
+}
+
 TEST(Vertices, AreNoneOfParallelLinesAlone) {
   Face face;
   face.lines = {face.lines[0], face.lines[2]};
