@@ -16,8 +16,8 @@ struct MergeConfig {
   double max_gap_sigmas = 1.5;
   /// How far a real sensor may bend a flat surface: gap over the smaller patch, and angle
   /// between two touching parts. Domain (0, inf).
-  double max_bend_sigmas = 8.0;
-  double max_bend_rad = 0.17;
+  double max_bend_sigmas = 3.0;
+  double max_bend_rad = 0.12;
 };
 
 /// A label's plane and the pixels that it was fitted to.
