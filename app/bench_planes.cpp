@@ -69,9 +69,8 @@ class PlaneFrontEnd {
         boxes_.Update(frame.timestamp_s, detector_->Detect(frame.timestamp_s, recorded.bgr));
     times.plain_pass_ms.push_back(
         TimeOf([&] { BackProject(frame.depth_m, camera_, points_c_); }));
-    times.extraction_ms.push_back(TimeOf([&] {
-      slam::ExtractPlanes(frame, camera_, rays_, config_.plane_extraction, workspace_);
-    }));
+    times.extraction_ms.push_back(
+        TimeOf([&] { slam::ExtractPlanes(frame, camera_, rays_, config_.plane_extraction); }));
     times.processing_ms.push_back(
         TimeOf([&] { slam::ProcessPlanes(frame, camera_, config_.plane_processing); }));
     return frame;
@@ -84,7 +83,6 @@ class PlaneFrontEnd {
   slam::BoxTracks boxes_;
   std::unique_ptr<slam::Detector> detector_;
   cv::Mat3f points_c_;
-  slam::PlaneWorkspace workspace_;
 };
 
 template <typename T>

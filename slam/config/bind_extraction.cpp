@@ -12,6 +12,7 @@ void VisitNoise(DepthNoise& c, FieldVisitor& v) {
 }
 
 void VisitGrowth(GrowthConfig& c, FieldVisitor& v) {
+  v.Integer("block_px", c.block_px, "[2, 64]", "regions spread from block to block");
   v.Number("max_pixel_sigmas", c.max_pixel_sigmas, "(0, inf)",
            "distance of a plane's pixel from it");
   v.Integer("vote_reach_px", c.vote_reach_px, "[0, 16]",
@@ -40,14 +41,11 @@ void VisitPlaneExtraction(PlaneExtractionConfig& c, FieldVisitor& v) {
   v.Section("growth", "from blocks to pixels", [&] { VisitGrowth(c.growth, v); });
   v.Number("max_block_bias_sigmas", c.max_block_bias_sigmas, "(0, inf)",
            "mean residual of a block");
-  v.Section("merge", "parts of one plane", [&] {
-    v.Number("max_gap_sigmas", c.merge.max_gap_sigmas, "(0, inf)",
-             "between touching segments of one plane");
-    v.Number("max_bend_sigmas", c.merge.max_bend_sigmas, "(0, inf)",
-             "gap that a sensor's bend may make");
-    v.Degrees("max_bend_deg", c.merge.max_bend_rad, "(0, 90)",
-              "angle that a sensor's bend may make");
-  });
+  v.Number("max_merge_gap_sigmas", c.max_merge_gap_sigmas, "(0, inf)",
+           "between touching segments of one plane");
+  v.Number("max_bend_sigmas", c.max_bend_sigmas, "(0, inf)",
+           "gap that a sensor's bend may make");
+  v.Degrees("max_bend_deg", c.max_bend_rad, "(0, 90)", "angle that a sensor's bend may make");
   v.Number("max_island_behind", c.max_island_behind, "[0, 1]",
            "pixels behind, round a cut-off part");
   v.Integer("min_pixels", c.min_pixels, "[3, 1000000]", "of a segment");

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numeric>
 #include <optional>
+#include <queue>
 
 #include "slam/base/require.h"
 
@@ -30,52 +31,20 @@ struct Candidate {
   }
 };
 
-}  // namespace
-
-struct ClusterScratch::Memory {
-  std::vector<Region> regions;
-  std::vector<int> parent, number;
-  std::vector<Candidate> queue;
-};
-
-ClusterScratch::ClusterScratch() : memory(std::make_unique<Memory>()) {}
-ClusterScratch::~ClusterScratch() = default;
-ClusterScratch::ClusterScratch(ClusterScratch&&) noexcept = default;
-ClusterScratch& ClusterScratch::operator=(ClusterScratch&&) noexcept = default;
-
-namespace {
-
 class Clustering {
  public:
-  Clustering(const DepthNoise& noise, const ClusterConfig& config,
-             ClusterScratch::Memory& memory)
-      : noise_(noise),
-        config_(config),
-        regions_(memory.regions),
-        parent_(memory.parent),
-        number_(memory.number),
-        queue_(memory.queue) {}
+  Clustering(const DepthNoise& noise, const ClusterConfig& config)
+      : noise_(noise), config_(config) {}
 
-  /// Takes the blocks that are planar by themselves.
-  void Start(const DepthGrid& grid, const BlockLayout& layout,
-             const std::vector<PlaneSums>& sums) {
-    cols_ = layout.cols, rows_ = layout.rows;
-    regions_.assign(sums.size(), Region{});
-    parent_.resize(sums.size());
-    std::iota(parent_.begin(), parent_.end(), 0);
-    queue_.clear();
-    const double least = config_.min_measured * layout.block_px * layout.block_px;
-    for (int block = 0; block < layout.Count(); ++block) {
-      const PlaneSums& of_block = sums[static_cast<std::size_t>(block)];
-      if (!(of_block.n >= least)) continue;
-      const std::optional<PlaneFit> fit = Fit(of_block);
-      if (!fit) continue;
-      const double grazing = GrazingFactor(of_block, fit->plane, noise_);
-      if (!(fit->error < config_.max_block_error * grazing * grazing * of_block.n)) continue;
-      if (LargestJump(grid, layout, block) > static_cast<float>(config_.max_jump_sigmas))
-        continue;
-      At(block) = {of_block, *fit, grazing, 0, 1};
+  void SumBlocks(const DepthGrid& grid, const std::vector<std::uint8_t>& taken, int block_px) {
+    cols_ = (grid.width + block_px - 1) / block_px,
+    rows_ = (grid.height + block_px - 1) / block_px;
+    regions_.resize(static_cast<std::size_t>(cols_ * rows_));
+    for (int r = 0; r < rows_; ++r) {
+      for (int c = 0; c < cols_; ++c) SumBlock(grid, taken, block_px, r, c);
     }
+    parent_.resize(regions_.size());
+    std::iota(parent_.begin(), parent_.end(), 0);
   }
 
   void Merge() {
@@ -87,9 +56,8 @@ class Clustering {
       }
     }
     while (!queue_.empty()) {
-      std::pop_heap(queue_.begin(), queue_.end());
-      const Candidate top = queue_.back();
-      queue_.pop_back();
+      const Candidate top = queue_.top();
+      queue_.pop();
       const int a = Root(top.i), b = Root(top.j);
       if (a == b) continue;
       if (At(a).version != top.version_i || At(b).version != top.version_j) {
@@ -100,14 +68,13 @@ class Clustering {
     }
   }
 
-  void Result(BlockClusters& out) {
-    out.region.assign(regions_.size(), -1);
-    out.sums.clear(), out.planes.clear();
-    number_.assign(regions_.size(), -1);
+  BlockClusters Result(int block_px) {
+    BlockClusters out{block_px, cols_, rows_, std::vector<int>(regions_.size(), -1), {}, {}};
+    std::vector<int> number(regions_.size(), -1);
     for (int i = 0; i < cols_ * rows_; ++i) {
       const int root = Root(i);
       if (At(root).blocks < std::max(config_.min_blocks, 1)) continue;
-      int& id = number_[static_cast<std::size_t>(root)];
+      int& id = number[static_cast<std::size_t>(root)];
       if (id < 0) {
         id = static_cast<int>(out.sums.size());
         out.sums.push_back(At(root).sums);
@@ -115,10 +82,50 @@ class Clustering {
       }
       out.region[static_cast<std::size_t>(i)] = id;
     }
+    return out;
   }
 
  private:
   Region& At(int i) { return regions_[static_cast<std::size_t>(i)]; }
+
+  void SumBlock(const DepthGrid& grid, const std::vector<std::uint8_t>& taken, int block_px,
+                int r, int c) {
+    const int v1 = std::min((r + 1) * block_px, grid.height);
+    const int u1 = std::min((c + 1) * block_px, grid.width);
+    PlaneSums sums;
+    for (int v = r * block_px; v < v1; ++v) {
+      for (int u = c * block_px; u < u1; ++u) {
+        const auto i = static_cast<std::size_t>(grid.Index(u, v));
+        const double g = static_cast<double>(grid.g[i]);
+        if (g > 0 && (taken.empty() || taken[i] == 0)) {
+          sums.Add(static_cast<double>(grid.x[i]), static_cast<double>(grid.y[i]),
+                   static_cast<double>(grid.q[i]), g * g);
+        }
+      }
+    }
+    if (!(sums.n >= config_.min_measured * block_px * block_px)) return;
+    const std::optional<PlaneFit> fit = Fit(sums);
+    if (!fit) return;
+    if (HasJump(grid, c * block_px, r * block_px, u1, v1)) return;
+    const double grazing = GrazingFactor(sums, fit->plane, noise_);
+    if (!(fit->error < config_.max_block_error * grazing * grazing * sums.n)) return;
+    At(r * cols_ + c) = {sums, *fit, grazing, 0, 1};
+  }
+
+  bool HasJump(const DepthGrid& grid, int u0, int v0, int u1, int v1) const {
+    const float most = static_cast<float>(config_.max_jump_sigmas);
+    const auto jump = [&](std::size_t i, std::size_t j) {
+      return grid.g[i] > 0 && grid.g[j] > 0 && std::abs(grid.q[i] - grid.q[j]) * grid.g[i] > most;
+    };
+    for (int v = v0; v < v1; ++v) {
+      for (int u = u0; u < u1; ++u) {
+        const auto i = static_cast<std::size_t>(grid.Index(u, v));
+        if (u + 1 < u1 && jump(i, i + 1)) return true;
+        if (v + 1 < v1 && jump(i, i + static_cast<std::size_t>(grid.width))) return true;
+      }
+    }
+    return false;
+  }
 
   int Root(int i) {
     int root = i;
@@ -149,8 +156,7 @@ class Clustering {
         grazing * grazing *
         (config_.max_merge_chi2 * noise_.correlated_px + k * k * a.sums.n * b.sums.n / both.n);
     if (!(added < bound)) return;
-    queue_.push_back({added, i, j, a.version, b.version});
-    std::push_heap(queue_.begin(), queue_.end());
+    queue_.push({added, i, j, a.version, b.version});
   }
 
   void Join(int a, int b) {
@@ -167,23 +173,23 @@ class Clustering {
   const DepthNoise& noise_;
   const ClusterConfig& config_;
   int cols_ = 0, rows_ = 0;
-  std::vector<Region>& regions_;
-  std::vector<int>& parent_;
-  std::vector<int>& number_;
-  std::vector<Candidate>& queue_;  ///< a heap
+  std::vector<Region> regions_;
+  std::vector<int> parent_;
+  std::priority_queue<Candidate> queue_;
 };
 
 }  // namespace
 
-void ClusterBlocks(const DepthGrid& grid, const BlockLayout& layout,
-                   const std::vector<PlaneSums>& sums, const DepthNoise& noise,
-                   const ClusterConfig& config, ClusterScratch& scratch, BlockClusters& out) {
-  Require(static_cast<int>(sums.size()) == layout.Count(),
-          "ClusterBlocks: sums differ in number from the blocks");
-  Clustering clustering(noise, config, *scratch.memory);
-  clustering.Start(grid, layout, sums);
+BlockClusters ClusterBlocks(const DepthGrid& grid, const std::vector<std::uint8_t>& taken,
+                            int block_px, const DepthNoise& noise,
+                            const ClusterConfig& config) {
+  Require(block_px > 1, "ClusterBlocks: a block has at least 2 x 2 pixels");
+  Require(taken.empty() || taken.size() == grid.q.size(),
+          "ClusterBlocks: mask differs in size");
+  Clustering clustering(noise, config);
+  clustering.SumBlocks(grid, taken, block_px);
   clustering.Merge();
-  clustering.Result(out);
+  return clustering.Result(block_px);
 }
 
 }  // namespace slam

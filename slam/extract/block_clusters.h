@@ -1,9 +1,9 @@
 #pragma once
 
-#include <memory>
+#include <cstdint>
 #include <vector>
 
-#include "slam/extract/block_sums.h"
+#include "slam/extract/depth_grid.h"
 #include "slam/extract/plane_sums.h"
 
 namespace slam {
@@ -15,9 +15,8 @@ struct ClusterConfig {
   /// Mean squared error of a block about its own plane, in sigma^2: a block across a depth step
   /// or a crease exceeds it. Domain (0, inf).
   double max_block_error = 3.0;
-  /// A block with a larger jump between neighbouring pixels, in sigmas, lies across a depth
-  /// step: a step can look like a slanted surface, whose larger noise would excuse it. Domain
-  /// (0, inf).
+  /// A block with a larger jump between neighbouring pixels, in sigmas, lies across a depth step:
+  /// a step can look like a slanted surface, whose larger noise would excuse it. Domain (0, inf).
   double max_jump_sigmas = 12.0;
   /// Chi-square bound (3 degrees of freedom) on the error that a merge adds; 16.3 is 0.1 %.
   double max_merge_chi2 = 16.3;
@@ -30,19 +29,10 @@ struct ClusterConfig {
 
 /// The blocks of an image grouped into planes.
 struct BlockClusters {
+  int block_px = 0, cols = 0, rows = 0;
   std::vector<int> region;      ///< of each block, row-major; -1 = none
   std::vector<PlaneSums> sums;  ///< of each region
   std::vector<InverseDepthPlane> planes;
-};
-
-/// Memory that ClusterBlocks uses again from call to call.
-struct ClusterScratch {
-  struct Memory;
-  ClusterScratch();
-  ~ClusterScratch();
-  ClusterScratch(ClusterScratch&&) noexcept;
-  ClusterScratch& operator=(ClusterScratch&&) noexcept;
-  std::unique_ptr<Memory> memory;
 };
 
 /// Agglomerative clustering of blocks into planes (PEAC's method: Feng, Taguchi, Kamat, ICRA
@@ -57,9 +47,9 @@ struct ClusterScratch {
 /// bounds the mean error of the union, in which a block of a book vanishes among those of a
 /// desk.) Ties are broken by block number.
 ///
-/// @param sums  of each block of the layout; a block without sums takes no part
-void ClusterBlocks(const DepthGrid& grid, const BlockLayout& layout,
-                   const std::vector<PlaneSums>& sums, const DepthNoise& noise,
-                   const ClusterConfig& config, ClusterScratch& scratch, BlockClusters& out);
+/// @param taken   one entry a pixel; pixels with a non-zero entry are left out. May be empty.
+/// @param block_px  side of a block, pixels, > 1; the last row and column may be cut
+BlockClusters ClusterBlocks(const DepthGrid& grid, const std::vector<std::uint8_t>& taken,
+                            int block_px, const DepthNoise& noise, const ClusterConfig& config);
 
 }  // namespace slam

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <opencv2/core/mat.hpp>
 #include <vector>
 
@@ -10,20 +11,19 @@ namespace slam {
 /// A depth image in the form that planes are fitted in; row-major, one entry a pixel.
 struct DepthGrid {
   int width = 0, height = 0;
-  std::vector<float> x, y;     ///< ray (x, y, 1)
-  std::vector<float> q;        ///< inverse depth, 1/metres; 0 = no measurement
-  std::vector<float> g;        ///< 1 / sigma_q = z^2 / sigma(z); 0 = no measurement
-  const void* rays = nullptr;  ///< whose x and y these are: data of PixelRays' image
+  std::vector<float> x, y;  ///< ray (x, y, 1)
+  std::vector<float> q;     ///< inverse depth, 1/metres; 0 = no measurement
+  std::vector<float> g;     ///< 1 / sigma_q = z^2 / sigma(z); 0 = no measurement
 
   int Index(int u, int v) const { return v * width + u; }
 };
 
-/// Fills a grid, whose memory is used again; x and y are kept while `rays` is the same image.
-/// @param depth_m  planar z, metres; anything not finite, not positive or not below
-///                 max_depth_m is no measurement
+/// @param depth_m  planar z, metres; anything not finite, not positive or not below max_depth_m
+/// is
+///                 no measurement
 /// @param rays     PixelRays of the camera; same size
 /// @throws std::invalid_argument if the sizes differ.
-void FillDepthGrid(const cv::Mat1f& depth_m, const cv::Mat2d& rays, const DepthNoise& noise,
-                   double max_depth_m, DepthGrid& grid);
+DepthGrid MakeDepthGrid(const cv::Mat1f& depth_m, const cv::Mat2d& rays,
+                        const DepthNoise& noise, double max_depth_m);
 
 }  // namespace slam

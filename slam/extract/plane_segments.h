@@ -5,9 +5,8 @@
 #include "slam/base/camera.h"
 #include "slam/extract/block_clusters.h"
 #include "slam/extract/depth_noise.h"
+#include "slam/extract/pixel_labels.h"
 #include "slam/extract/plane_edges.h"
-#include "slam/extract/plane_merge.h"
-#include "slam/extract/plane_workspace.h"
 #include "slam/model/frame.h"
 
 namespace slam {
@@ -27,7 +26,14 @@ struct PlaneExtractionConfig {
   /// A block whose mean residual exceeds this many standard errors, over the model error, does
   /// not lie on its plane and is offered to the second clustering; domain (0, inf).
   double max_block_bias_sigmas = 3.0;
-  MergeConfig merge;
+  /// Two touching segments are one plane if along their common boundary the planes are closer
+  /// than this (root mean square, in sigmas, after their uncertainty); and what does not touch,
+  /// over the pixels of the smaller. Domain (0, inf).
+  double max_merge_gap_sigmas = 1.5;
+  /// How far a real sensor may bend a flat surface: gap over the smaller patch, and angle
+  /// between two touching parts. Domain (0, inf).
+  double max_bend_sigmas = 3.0;
+  double max_bend_rad = 0.12;
   /// A part cut off from a segment stays with it if fewer than this part of the pixels around
   /// it lie behind the plane: what cuts it is in front. Domain [0, 1].
   double max_island_behind = 0.35;
@@ -44,7 +50,7 @@ struct PlaneExtractionConfig {
 
 /// (B) of the paper for planes: segments the depth image of a frame into planes.
 ///
-/// Blocks are clustered (ClusterBlocks), planes grow over pixels (PixelGrowth), what is left
+/// Blocks are clustered (ClusterBlocks), planes grow over pixels (AssignPixels), what is left
 /// or does not fit is clustered again with finer blocks, touching parts of one plane are
 /// merged, cut-off parts are reunited or separated, and each segment is fitted to all its
 /// pixels. Where all that stands: docs of each function.
@@ -57,9 +63,6 @@ struct PlaneExtractionConfig {
 ///
 /// Source: PEAC (Feng, Taguchi, Kamat, ICRA 2014), with changes for thin steps
 /// (block_clusters.h).
-void ExtractPlanes(Frame& frame, const Camera& camera, const cv::Mat2d& rays,
-                   const PlaneExtractionConfig& config, PlaneWorkspace& workspace);
-/// The same with memory of its own.
 void ExtractPlanes(Frame& frame, const Camera& camera, const cv::Mat2d& rays,
                    const PlaneExtractionConfig& config);
 

@@ -51,7 +51,7 @@ void Tracker::ExtractInformation(Frame& frame, const cv::Mat3b& bgr, ModuleTimes
       frame.detections = box_tracks_.Update(frame.timestamp_s, frame.detections);
     }
     const Stopwatch watch(times[Module::kEpi]);
-    ExtractPlanes(frame, camera_, rays_, config_.plane_extraction, plane_workspace_);
+    ExtractPlanes(frame, camera_, rays_, config_.plane_extraction);
   };
   std::future<void> beside;
   if (threads_ > 1) {

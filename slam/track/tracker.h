@@ -66,7 +66,6 @@ class Tracker {
   int threads_;
 
   cv::Mat2d rays_;  ///< of every pixel, planes only
-  PlaneWorkspace plane_workspace_;
   BoxTracks box_tracks_;
   PointTracking points_;
   Map map_;

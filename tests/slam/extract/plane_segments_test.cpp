@@ -203,27 +203,6 @@ TEST(PlaneSegments, GiveTheSameBytesTwice) {
   }
 }
 
-TEST(PlaneSegments, DoNotDependOnWhatTheWorkspaceHeldBefore) {
-  const StepView step(0.02, 0.8);
-  const cv::Mat1f depth_m = closed_form::AddKinectNoise(step.view.depth_m, 9);
-  const Frame fresh = Extract(depth_m, step.camera);
-  PlaneWorkspace workspace;
-  Camera other;
-  other.width = 131, other.height = 97, other.cx = 65.0, other.cy = 48.0;
-  Frame before = closed_form::MakeFrame(cv::Mat1f(97, 131, 1.0f));
-  const cv::Mat2d other_rays = PixelRays(other), rays = PixelRays(step.camera);
-  ExtractPlanes(before, other, other_rays, {}, workspace);
-  Frame after = closed_form::MakeFrame(step.view.depth_m);
-  ExtractPlanes(after, step.camera, rays, {}, workspace);
-  after = closed_form::MakeFrame(depth_m);
-  ExtractPlanes(after, step.camera, rays, {}, workspace);
-  ASSERT_EQ(after.planes.size(), fresh.planes.size());
-  EXPECT_EQ(cv::countNonZero(after.plane_labels != fresh.plane_labels), 0);
-  for (std::size_t k = 0; k < fresh.planes.size(); ++k) {
-    EXPECT_EQ(after.planes[k].pi_c.n, fresh.planes[k].pi_c.n);
-  }
-}
-
 /// The recording's folder; empty when it is not there.
 std::string Recording() {
   const char* shared = std::getenv("PAS_SHARED_DIR");
