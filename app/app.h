@@ -31,5 +31,6 @@ void AddSlamCommand(CLI::App& pas, const Globals& globals, int& exit_code);
 void AddEvalCommand(CLI::App& pas, const Globals& globals, int& exit_code);
 void AddDrawCommand(CLI::App& pas, const Globals& globals, int& exit_code);
 void AddCheckCommand(CLI::App& pas, const Globals& globals, int& exit_code);
+void AddVocabularyCommand(CLI::App& pas, const Globals& globals, int& exit_code);
 
 }  // namespace app
