@@ -6,6 +6,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "sim/motion/preset.h"
 #include "sim/scene/scene_file.h"
 #include "sim/scene/sha256.h"
 #include "sim/truth/truth_json.h"
@@ -36,6 +37,15 @@ const char* Name(DetectorKind detector) {
   return "none";
 }
 
+Json CameraJson(const Camera& camera) {
+  Json json{{"width", camera.width}, {"height", camera.height}, {"fx", camera.fx},
+            {"fy", camera.fy},       {"cx", camera.cx},         {"cy", camera.cy}};
+  const Lens& lens = camera.lens;
+  if (!lens.IsNone()) json["distortion"] = {lens.k1, lens.k2, lens.p1, lens.p2, lens.k3};
+  json["fps"] = camera.fps;
+  return json;
+}
+
 /// The manifest as it is before the first frame.
 Json Plan(const Scene& scene, const SequenceOptions& options, std::size_t frames,
           const std::map<std::string, std::string>& fixed) {
@@ -46,6 +56,8 @@ Json Plan(const Scene& scene, const SequenceOptions& options, std::size_t frames
   plan["scene"] = scene.name;
   plan["scene_hash"] = SceneHash(scene);
   plan["seed"] = options.rig.seed;
+  plan["camera"] = CameraJson(options.rig.camera);
+  if (!options.motion.empty()) plan["motion"] = options.motion;
   plan["sensor"] = options.rig.sensor.name;
   if (!options.rig.sensor.changed.empty()) {
     plan["sensor_parameters"] = options.rig.sensor.changed;
@@ -190,15 +202,18 @@ int WriteSequence(const Scene& scene, const std::vector<TimedPose>& trajectory,
 int WriteSequence(const Scene& scene, const SequenceOptions& options, const fs::path& folder) {
   const auto trajectory =
       MakeTrajectory(scene, options.frames, options.rig.camera.fps, options.rig.seed);
+  SequenceOptions finer = options;
+  const MotionPreset preset = PresetOf(scene.motion);
+  finer.motion = {{"preset", scene.motion.preset},
+                  {"speed_m_s", fmt::format("{}", preset.speed_m_s)},
+                  {"turn_deg_s", fmt::format("{}", preset.turn_deg_s)}};
   if (options.rig.exposure.Moves() || options.timing.depth_offset_s != 0) {
-    SequenceOptions finer = options;
     const double fps = options.rig.camera.fps;
     const int times = std::max(1, static_cast<int>(std::ceil(kPathRate_Hz / fps)));
     finer.path =
         MakeTrajectory(scene, options.frames * times + 1, fps * times, options.rig.seed);
-    return WriteSequence(scene, trajectory, finer, folder);
   }
-  return WriteSequence(scene, trajectory, options, folder);
+  return WriteSequence(scene, trajectory, finer, folder);
 }
 
 }  // namespace sim
