@@ -115,7 +115,13 @@ std::optional<Pose> Ransac(const std::vector<PointConstraint>& constraints,
   return best;
 }
 
-/// A pose from one keyframe's points.
+bool SamePose(const Pose& a_cw, const Pose& b_cw, const RelocaliseConfig& config) {
+  const Pose T_ab = a_cw * Inverse(b_cw);
+  return T_ab.t.norm() < config.same_pose_m && LogSo3(T_ab.R).norm() < config.same_pose_rad;
+}
+
+}  // namespace
+
 std::optional<Relocalisation> RelocaliseBy(const Keyframe& keyframe, const Frame& frame,
                                            const Map& map, const Camera& camera,
                                            const ScalePyramid& scales,
@@ -140,13 +146,6 @@ std::optional<Relocalisation> RelocaliseBy(const Keyframe& keyframe, const Frame
   }
   return out;
 }
-
-bool SamePose(const Pose& a_cw, const Pose& b_cw, const RelocaliseConfig& config) {
-  const Pose T_ab = a_cw * Inverse(b_cw);
-  return T_ab.t.norm() < config.same_pose_m && LogSo3(T_ab.R).norm() < config.same_pose_rad;
-}
-
-}  // namespace
 
 std::optional<Relocalisation> Relocalise(const Frame& frame, const Map& map,
                                          const KeyframeIndex& index, const Camera& camera,

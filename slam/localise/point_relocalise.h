@@ -35,6 +35,13 @@ struct Relocalisation {
   int inliers = 0;
 };
 
+/// A pose from one keyframe's points alone, by descriptors, RANSAC and pose optimisation.
+std::optional<Relocalisation> RelocaliseBy(const Keyframe& keyframe, const Frame& frame,
+                                           const Map& map, const Camera& camera,
+                                           const ScalePyramid& scales,
+                                           const PoseProblemConfig& pose,
+                                           const RelocaliseConfig& config);
+
 /// Asks the index which keyframes look like the frame, and the newest one besides; matches the
 /// frame's descriptors with theirs, and asks RANSAC over P3P and the pose optimisation for a
 /// pose; the keyframe with the most inliers wins. Nothing is found rather than a pose with

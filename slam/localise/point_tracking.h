@@ -79,6 +79,12 @@ class PointTracking {
   /// Frames without a pose must not be given.
   void Accept(const Frame& frame, const Map& map);
 
+  /// The map's keyframes by their words.
+  const KeyframeIndex& Places(const Map& map) {
+    places_.Update(map);
+    return places_;
+  }
+
   TrackState state() const { return state_; }
   /// Keyframe that sees the most of the last frame's points; kNone before the first.
   int reference_keyframe() const { return reference_; }
@@ -100,7 +106,7 @@ class PointTracking {
   MotionModel motion_;
   LastFrame last_;
   int reference_ = kNone;
-  KeyframeIndex places_;  ///< brought up to date when the camera is lost
+  KeyframeIndex places_;  ///< brought up to date when it is asked
 };
 
 }  // namespace slam
