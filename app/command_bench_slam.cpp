@@ -7,7 +7,7 @@
 #include <numeric>
 #include <opencv2/core/utility.hpp>
 
-#include "app/bench.h"
+#include "app/app.h"
 #include "eval/read/run.h"
 #include "eval/trajectory/score_trajectory.h"
 #include "slam/config/config_file.h"
@@ -80,8 +80,7 @@ std::vector<Comeback> Comebacks(const std::vector<std::optional<eval::Pose>>& es
     }
     if (lost) {
       const int waited = lost_since ? static_cast<int>(i) - *lost_since : 0;
-      const double error_m =
-          gauge ? (gauge->R * estimate[i]->t + gauge->t - truth[i]->t).norm() : 0.0;
+      const double error_m = gauge ? ((*gauge * *estimate[i]).t - truth[i]->t).norm() : 0.0;
       out.push_back({waited, error_m});
       lost = false;
       lost_since.reset();
@@ -108,10 +107,9 @@ std::vector<std::optional<eval::Pose>> ByFrame(const eval::Trajectory& trajector
   return eval::TruePosesOfFrames(trajectory, stamps_s, true);
 }
 
-Row Measure(const std::string& folder, const Arguments& arguments,
-            const slam::Config& config) {
-  const auto run = std::filesystem::temp_directory_path() /
-                   ("pas_bench_slam_" + std::to_string(::getpid()));
+Row Measure(const std::string& folder, const Arguments& arguments, const slam::Config& config) {
+  const auto run =
+      std::filesystem::temp_directory_path() / ("pas_bench_slam_" + std::to_string(::getpid()));
   slam::RunOptions options;
   options.sequence = folder;
   options.run = run;
@@ -205,9 +203,10 @@ void PrintComebacks(const std::vector<Row>& rows) {
       wrong += comeback.error_m > kWrong_m;
     }
   }
-  fmt::print("\nlost {} times; found within 10 frames of seeing the map again: {}; "
-             "wrong by more than {:.0f} cm: {}\n",
-             all, soon, 100 * kWrong_m, wrong);
+  fmt::print(
+      "\nlost {} times; found within 10 frames of seeing the map again: {}; "
+      "wrong by more than {:.0f} cm: {}\n",
+      all, soon, 100 * kWrong_m, wrong);
 }
 
 int Run(const Arguments& arguments) {
@@ -233,9 +232,10 @@ int Run(const Arguments& arguments) {
   }
   PrintModules(rows);
   PrintComebacks(rows);
-  fmt::print("late: mean time of the last third over that of the middle third; end: error of "
-             "the last pose\nwhen the first is laid on the truth; KiB/fr: growth of memory over "
-             "the second half\n");
+  fmt::print(
+      "late: mean time of the last third over that of the middle third; end: error of "
+      "the last pose\nwhen the first is laid on the truth; KiB/fr: growth of memory over "
+      "the second half\n");
   return kDone;
 }
 
