@@ -6,6 +6,8 @@
 
 #include "app/app.h"
 #include "app/console.h"
+#include "app/detector_figures.h"
+#include "app/recording_options.h"
 #include "sim/scene/scene_file.h"
 #include "sim/sensor/read_sensor.h"
 #include "sim/sensor/sensor_report.h"
@@ -34,7 +36,7 @@ struct Arguments {
   std::vector<double> lens;
   double shutter_ms = 0, rolling_ms = 0, exposure_drift_stops = 0;
   double drop_ratio = 0, depth_offset_ms = 0, stamp_jitter_ms = 0;
-  bool resume = false, force = false;
+  bool resume = false, force = false, detector_report = false;
 };
 
 sim::SequenceOptions OptionsOf(const Arguments& arguments) {
@@ -81,21 +83,27 @@ int Report(const Arguments& arguments, bool quiet) {
 
 int Run(const Arguments& arguments, bool quiet) {
   if (!arguments.sensor_report.empty()) return Report(arguments, quiet);
+  if (arguments.detector_report) return ReportDetectors(arguments.output, quiet);
   if (arguments.scene.empty()) {
     throw std::invalid_argument(
-        "sim: name a scene file (SCENE), or use --sensor-report SENSOR");
+        "sim: name a scene file (SCENE), or use --sensor-report SENSOR or --detector-report");
   }
   const sim::Scene scene = sim::ReadScene(arguments.scene);
   sim::SequenceOptions options = OptionsOf(arguments);
+  const sim::Recording recording =
+      sim::PlanRecording(scene, options.rig, options.timing, options.frames);
   int made = 0;
   {
-    Progress progress("frames", arguments.frames, quiet);
+    Progress progress("frames", recording.frames(), quiet);
     options.progress = [&](int done) { progress.Update(done); };
-    made = sim::WriteSequence(scene, options, arguments.output);
+    made = sim::WriteSequence(scene, recording, options, arguments.output);
   }
   if (!quiet) {
-    std::printf("%s: %d frames, %d rendered now\n", arguments.output.c_str(), arguments.frames,
-                made);
+    std::printf("%s: %d frames, %d rendered now%s\n", arguments.output.c_str(),
+                recording.frames(), made,
+                recording.lost > 0
+                    ? (", " + std::to_string(recording.lost) + " lost as asked").c_str()
+                    : "");
   }
   return kDone;
 }
@@ -132,7 +140,52 @@ void AddCameraOptions(CLI::App& command, Arguments& a) {
       ->group(time);
 }
 
+/// How a scene is recorded. `prefix` goes before the names that a command may have taken.
+void AddCaptureOptions(CLI::App& command, Arguments& a, const std::string& prefix) {
+  command.add_option("--frames", a.frames, "Frames")
+      ->check(CLI::Range(1, 1000000))
+      ->capture_default_str();
+  command.add_option("--fps", a.fps, "Frames a second; the motion stays the same")
+      ->check(CLI::Range(0.1, 1000.0))
+      ->capture_default_str();
+  command
+      .add_option("--sensor", a.sensor,
+                  "ideal: exact depth, clean colour; kinect1: structured light; azure: time of "
+                  "flight; d435: active stereo; FILE.yaml: one of these as `base:`, with "
+                  "parameters of your own (docs/sensors.md)")
+      ->capture_default_str();
+  const std::map<std::string, sim::DetectorKind> detectors{
+      {"perfect", sim::DetectorKind::kPerfect},
+      {"noisy", sim::DetectorKind::kNoisy},
+      {"poor", sim::DetectorKind::kPoor},
+      {"none", sim::DetectorKind::kNone}};
+  command
+      .add_option("--" + prefix + "detector", a.detector,
+                  "perfect: the visible box of every object; noisy: misses, jitter, wrong "
+                  "classes, doubles, in runs of frames; poor: several times as many "
+                  "(docs/detector.md); none: no detections.jsonl")
+      ->transform(
+          CLI::CheckedTransformer(detectors).description("perfect, noisy, poor or none"))
+      ->default_str("noisy");
+  command.add_option("--" + prefix + "seed", a.seed, "Of the trajectory and all noise")
+      ->capture_default_str();
+  command.add_option("--width", a.width, "Pixels; the field of view stays the same")
+      ->check(CLI::Range(16, 8192))
+      ->capture_default_str();
+  command.add_option("--height", a.height, "Pixels; the field of view stays the same")
+      ->check(CLI::Range(16, 8192))
+      ->capture_default_str();
+  AddCameraOptions(command, a);
+}
+
 }  // namespace
+
+std::function<sim::SequenceOptions(const sim::Scene&)> AddRecordingOptions(
+    CLI::App& command, const std::string& prefix) {
+  const auto arguments = std::make_shared<Arguments>();
+  AddCaptureOptions(command, *arguments, prefix);
+  return [arguments](const sim::Scene&) { return OptionsOf(*arguments); };
+}
 
 void AddSimCommand(CLI::App& pas, const Globals& globals, int& exit_code) {
   CLI::App* command = pas.add_subcommand("sim", kAbout);
@@ -142,47 +195,19 @@ void AddSimCommand(CLI::App& pas, const Globals& globals, int& exit_code) {
   command->add_option("--sensor-report", a.sensor_report,
                       "Instead of rendering a scene: measure this sensor on walls against its "
                       "published curve; writes a table and a figure to the output folder");
+  command->add_flag("--detector-report", a.detector_report,
+                    "Instead of rendering a scene: score the presets of --detector on desks of "
+                    "known truth; writes detectors.txt to the output folder");
   command
       ->add_option("-o,--output", a.output, "Folder to write the sequence to; must not exist")
       ->required();
-  command->add_option("--frames", a.frames, "Frames")
-      ->check(CLI::Range(1, 1000000))
-      ->capture_default_str();
-  command->add_option("--fps", a.fps, "Frames a second; the motion stays the same")
-      ->check(CLI::Range(0.1, 1000.0))
-      ->capture_default_str();
-  command
-      ->add_option(
-          "--sensor", a.sensor,
-          "ideal: exact depth, clean colour; kinect1: structured light; azure: time of "
-          "flight; d435: active stereo; FILE.yaml: one of these as `base:`, with "
-          "parameters of your own (docs/sensors.md)")
-      ->capture_default_str();
-  const std::map<std::string, sim::DetectorKind> detectors{
-      {"perfect", sim::DetectorKind::kPerfect},
-      {"noisy", sim::DetectorKind::kNoisy},
-      {"none", sim::DetectorKind::kNone}};
-  command
-      ->add_option("--detector", a.detector,
-                   "perfect: the visible box of every object; noisy: misses, jitter, wrong "
-                   "classes, doubles; none: no detections.jsonl")
-      ->transform(CLI::CheckedTransformer(detectors).description("perfect, noisy or none"))
-      ->default_str("noisy");
-  command->add_option("--seed", a.seed, "Of the trajectory and all noise")
-      ->capture_default_str();
+  AddCaptureOptions(*command, a, "");
   command->add_option("--threads", a.threads, "0: one a core; never changes a byte")
       ->check(CLI::Range(0, 1024))
-      ->capture_default_str();
-  command->add_option("--width", a.width, "Pixels; the field of view stays the same")
-      ->check(CLI::Range(16, 8192))
-      ->capture_default_str();
-  command->add_option("--height", a.height, "Pixels; the field of view stays the same")
-      ->check(CLI::Range(16, 8192))
       ->capture_default_str();
   CLI::Option* resume = command->add_flag(
       "--resume", a.resume, "Finish an interrupted run; same bytes as one that was not");
   command->add_flag("--force", a.force, "Replace an existing sequence")->excludes(resume);
-  AddCameraOptions(*command, a);
   command->callback(
       [arguments, &globals, &exit_code] { exit_code = Run(*arguments, globals.quiet); });
 }
