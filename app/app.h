@@ -30,6 +30,7 @@ void AddSimCommand(CLI::App& pas, const Globals& globals, int& exit_code);
 void AddSlamCommand(CLI::App& pas, const Globals& globals, int& exit_code);
 void AddEvalCommand(CLI::App& pas, const Globals& globals, int& exit_code);
 void AddDrawCommand(CLI::App& pas, const Globals& globals, int& exit_code);
+void AddExportCommand(CLI::App& pas, const Globals& globals, int& exit_code);
 void AddCheckCommand(CLI::App& pas, const Globals& globals, int& exit_code);
 
 }  // namespace app

@@ -17,6 +17,7 @@ constexpr const char* kFlow =
     "  pas slam   track the camera and map the planes; never reads truth  -> RUN\n"
     "  pas eval   score a run against the truth                           -> metrics.json\n"
     "  pas draw   contact sheet and top view of a run                     -> pictures\n"
+    "  pas export a SEQ with truth as COCO or BOP, to train detectors     -> data set\n"
     "  pas check  validate a SEQ or RUN folder, fault by fault\n"
     "\n"
     "Exit codes: 0 done, 1 the result is a failure, 2 bad input or usage.";
@@ -34,7 +35,7 @@ int main(int argc, char** argv) {
   pas.add_flag("-q,--quiet", globals.quiet, "No progress, no summary; errors still show");
   for (const app::AddCommand add :
        {app::AddSceneCommand, app::AddSimCommand, app::AddSlamCommand, app::AddEvalCommand,
-        app::AddDrawCommand, app::AddCheckCommand}) {
+        app::AddDrawCommand, app::AddExportCommand, app::AddCheckCommand}) {
     add(pas, globals, exit_code);
   }
 
