@@ -39,6 +39,15 @@ function(pas_reuse_precompiled target from)
   target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-fpch-preprocess>)
 endfunction()
 
+# Files of one target compiled a few at a time, so that their headers are parsed once. OFF compiles
+# each by itself, which is quicker while one file is edited and finds a missing #include.
+option(PAS_UNITY "Compile several files of a target at once" ON)
+function(pas_unity target batch)
+  if(PAS_UNITY)
+    set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE ${batch})
+  endif()
+endfunction()
+
 # pas_library(slam_base SOURCES a.cpp b.h LINK Eigen3::Eigen): one library a folder.
 # Headers are included from the top of the tree: "slam/base/pose.h".
 function(pas_library name)
@@ -68,6 +77,7 @@ function(pas_test name)
   target_compile_definitions(${target} PRIVATE
     PAS_SOURCE_DIR="${PROJECT_SOURCE_DIR}" PAS_BINARY_DIR="${PROJECT_BINARY_DIR}")
   pas_reuse_precompiled(${target} pas_precompiled_tests)
+  pas_unity(${target} 6)
   # What is tested is built as released; the tests themselves need not be.
   target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>)
   if(NOT ARG_TIMEOUT)

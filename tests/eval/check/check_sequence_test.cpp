@@ -8,18 +8,13 @@
 
 #include "eval/check/check_folder.h"
 #include "tests/eval/check/small_world.h"
+#include "tests/support/fault_text.h"
 
 namespace eval {
 namespace {
 
 using namespace small_world;
 using ::testing::HasSubstr;
-
-std::string All(const CheckReport& report) {
-  std::string text;
-  for (const Fault& fault : report.faults) text += Describe(fault) + "\n";
-  return text;
-}
 
 class CheckSequenceFolder : public ::testing::Test {
  protected:

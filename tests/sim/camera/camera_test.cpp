@@ -38,7 +38,8 @@ TEST(CameraYaml, PrintsEveryDigit) {
 }
 
 /// The first Kinect of the TUM benchmark, as calibrated there.
-constexpr Lens kTum1{.k1 = 0.2624, .k2 = -0.9531, .p1 = -0.0054, .p2 = 0.0026, .k3 = 1.1633};
+constexpr Lens kRecordedLens{
+    .k1 = 0.2624, .k2 = -0.9531, .p1 = -0.0054, .p2 = 0.0026, .k3 = 1.1633};
 
 /// What OpenCV makes of a point.
 cv::Point2d ProjectedByOpenCv(const Camera& camera, const Eigen::Vector3d& x_c) {
@@ -52,7 +53,7 @@ cv::Point2d ProjectedByOpenCv(const Camera& camera, const Eigen::Vector3d& x_c) 
 }
 
 TEST(LensDistortion, AgreesWithOpenCvAllOverTheImage) {
-  const Camera camera = WithLens(Camera{}, kTum1);
+  const Camera camera = WithLens(Camera{}, kRecordedLens);
   for (int v = 0; v < camera.height; v += 13) {
     for (int u = 0; u < camera.width; u += 17) {
       const Eigen::Vector3d x_c = 1.7 * camera.Ray(u, v);
@@ -81,7 +82,7 @@ TEST(LensDistortion, IsRefusedWhereItFoldsTheImage) {
 
 TEST(LensDistortion, StandsInCameraYamlOnlyWhenThereIsOne) {
   EXPECT_EQ(CameraYaml(Camera{}).find("k1"), std::string::npos);
-  EXPECT_NE(CameraYaml(WithLens(Camera{}, kTum1)).find("k2: -0.9531\np1: -0.0054\n"),
+  EXPECT_NE(CameraYaml(WithLens(Camera{}, kRecordedLens)).find("k2: -0.9531\np1: -0.0054\n"),
             std::string::npos);
 }
 

@@ -11,27 +11,13 @@
 #include "sim/scene/input_error.h"
 #include "sim/scene/sha256.h"
 #include "sim/scene/twin.h"
+#include "tests/support/trajectory_means.h"
 
 namespace sim {
 namespace {
 
-constexpr int kFrames = 600;
-constexpr double kFps = 30;
-
-struct Means {
-  double speed_m_s = 0, turn_deg_s = 0;
-};
-
-Means MeansOf(const std::vector<TimedPose>& trajectory) {
-  Means means;
-  for (std::size_t i = 1; i < trajectory.size(); ++i) {
-    const Pose &a = trajectory[i - 1].T_wc, &b = trajectory[i].T_wc;
-    means.speed_m_s += (b.t - a.t).norm();
-    means.turn_deg_s += RadToDeg(Eigen::AngleAxisd(a.R.transpose() * b.R).angle());
-  }
-  const double time_s = trajectory.back().timestamp_s;
-  return {means.speed_m_s / time_s, means.turn_deg_s / time_s};
-}
+constexpr int kPatternFrames = 600;
+constexpr double kPatternFps = 30;
 
 Scene DeskWith(const std::string& preset, std::uint64_t seed) {
   Scene scene = MakeScene("desk", seed);
@@ -49,7 +35,7 @@ class PatternMotion : public testing::TestWithParam<Wanted> {};
 TEST_P(PatternMotion, HasTheSpeedsOfItsPresetWithinFifteenPerCent) {
   for (std::uint64_t seed = 1; seed <= 4; ++seed) {
     const auto trajectory =
-        MakeTrajectory(DeskWith(GetParam().preset, seed), kFrames, kFps, seed);
+        MakeTrajectory(DeskWith(GetParam().preset, seed), kPatternFrames, kPatternFps, seed);
     const Means means = MeansOf(trajectory);
     EXPECT_NEAR(means.speed_m_s, GetParam().speed_m_s, 0.15 * GetParam().speed_m_s) << seed;
     EXPECT_NEAR(means.turn_deg_s, GetParam().turn_deg_s, 0.15 * GetParam().turn_deg_s) << seed;
@@ -59,7 +45,7 @@ TEST_P(PatternMotion, HasTheSpeedsOfItsPresetWithinFifteenPerCent) {
 TEST_P(PatternMotion, KeepsFifteenCentimetresFromEverySurface) {
   for (std::uint64_t seed = 1; seed <= 4; ++seed) {
     const Scene scene = DeskWith(GetParam().preset, seed);
-    for (const TimedPose& pose : MakeTrajectory(scene, kFrames, kFps, seed)) {
+    for (const TimedPose& pose : MakeTrajectory(scene, kPatternFrames, kPatternFps, seed)) {
       for (const Object& object : scene.objects) {
         ASSERT_GE(DistanceToBox(object, pose.T_wc.t), 0.15) << seed << " " << object.name;
       }
@@ -86,8 +72,8 @@ TEST_P(PatternMotion, ChangesItsVelocityContinuously) {
 
 TEST_P(PatternMotion, BeginsALongerOneWithTheFramesOfAShorterOne) {
   const Scene scene = DeskWith(GetParam().preset, 2);
-  const auto short_one = MakeTrajectory(scene, 60, kFps, 7);
-  const auto long_one = MakeTrajectory(scene, 300, kFps, 7);
+  const auto short_one = MakeTrajectory(scene, 60, kPatternFps, 7);
+  const auto long_one = MakeTrajectory(scene, 300, kPatternFps, 7);
   for (std::size_t i = 0; i < short_one.size(); ++i) {
     EXPECT_EQ(short_one[i].T_wc.R, long_one[i].T_wc.R);
     EXPECT_EQ(short_one[i].T_wc.t, long_one[i].T_wc.t);
@@ -112,7 +98,7 @@ Reach ReachOf(const std::string& preset) {
   Eigen::AlignedBox3d box;
   Reach reach;
   std::vector<bool> seen(36);
-  for (const TimedPose& pose : MakeTrajectory(scene, 900, kFps, 3)) {
+  for (const TimedPose& pose : MakeTrajectory(scene, 900, kPatternFps, 3)) {
     box.extend(pose.T_wc.t);
     const Eigen::Vector3d forward = pose.T_wc.R.col(2);
     reach.least_facing = std::min(
@@ -141,7 +127,7 @@ TEST(MakeTrajectory, FollowsTheSpeedsThatASceneAsksFor) {
     Scene scene = DeskWith(preset, 2);
     scene.motion.speed_m_s = 0.15;
     scene.motion.turn_deg_s = 10;
-    const Means means = MeansOf(MakeTrajectory(scene, kFrames, kFps, 1));
+    const Means means = MeansOf(MakeTrajectory(scene, kPatternFrames, kPatternFps, 1));
     EXPECT_NEAR(means.speed_m_s, 0.15, 0.15 * 0.15) << preset;
     EXPECT_NEAR(means.turn_deg_s, 10, 0.15 * 10) << preset;
   }
@@ -183,7 +169,7 @@ TEST(MakeTrajectory, NamesTheWayThatIsNotFree) {
   for (int i = 0; i < 4; ++i) {
     scene.motion.stations.push_back({{0.1 * i, 0, 0.1}, {0.1 * i, 1, 0.1}});  // under the desk
   }
-  EXPECT_THROW(MakeTrajectory(scene, 10, kFps, 1), InputError);
+  EXPECT_THROW(MakeTrajectory(scene, 10, kPatternFps, 1), InputError);
 }
 
 // Recorded baselines stand on these very bits.

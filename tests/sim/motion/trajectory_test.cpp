@@ -10,6 +10,7 @@
 #include "sim/scene/geometry.h"
 #include "sim/scene/input_error.h"
 #include "sim/scene/scene_file.h"
+#include "tests/support/trajectory_means.h"
 
 namespace sim {
 namespace {
@@ -22,21 +23,6 @@ std::vector<TimedPose> DeskTrajectory(const std::string& preset, std::uint64_t s
   Scene scene = MakeScene("desk", seed);
   scene.motion.preset = preset;
   return MakeTrajectory(scene, kFrames, kFps, seed);
-}
-
-struct Means {
-  double speed_m_s = 0, turn_deg_s = 0;
-};
-
-Means MeansOf(const std::vector<TimedPose>& trajectory) {
-  Means means;
-  for (std::size_t i = 1; i < trajectory.size(); ++i) {
-    const Pose &a = trajectory[i - 1].T_wc, &b = trajectory[i].T_wc;
-    means.speed_m_s += (b.t - a.t).norm();
-    means.turn_deg_s += RadToDeg(Eigen::AngleAxisd(a.R.transpose() * b.R).angle());
-  }
-  const double time_s = trajectory.back().timestamp_s;
-  return {means.speed_m_s / time_s, means.turn_deg_s / time_s};
 }
 
 struct Recorded {

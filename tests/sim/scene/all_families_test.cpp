@@ -16,6 +16,7 @@
 #include "sim/scene/mesh.h"
 #include "sim/scene/scene_file.h"
 #include "sim/scene/twin.h"
+#include "tests/support/place.h"
 
 namespace sim {
 namespace {
@@ -181,12 +182,6 @@ TEST(MakeScene, StillGivesTheFirstFamiliesByteForByte) {
           << family << " " << seed;
     }
   }
-}
-
-using Place = std::array<std::int64_t, 3>;
-
-Place Nanometres(const Eigen::Vector3d& x) {
-  return {std::llround(x.x() * 1e9), std::llround(x.y() * 1e9), std::llround(x.z() * 1e9)};
 }
 
 class EveryShape : public testing::TestWithParam<ShapeKind> {

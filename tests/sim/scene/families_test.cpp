@@ -15,7 +15,7 @@
 namespace sim {
 namespace {
 
-constexpr std::uint64_t kSeeds = 100;
+constexpr std::uint64_t kDeskSeeds = 100;
 
 bool Inside(const Object& box, const Eigen::Vector3d& x_w, double margin_m) {
   const Eigen::Vector3d x_o = box.q_wo.inverse() * (x_w - box.center_w);
@@ -23,7 +23,7 @@ bool Inside(const Object& box, const Eigen::Vector3d& x_w, double margin_m) {
 }
 
 /// Points of a box: a grid all through it, dense along the edges.
-std::vector<Eigen::Vector3d> PointsOf(const Object& box) {
+std::vector<Eigen::Vector3d> DensePointsOf(const Object& box) {
   std::vector<Eigen::Vector3d> points;
   constexpr int kGrid = 7, kAlong = 41;
   const auto add = [&](double a, double b, double c) {
@@ -49,10 +49,10 @@ std::vector<Eigen::Vector3d> PointsOf(const Object& box) {
 
 // Sampled points know nothing of separating axes.
 TEST(DeskFamily, PutsNoPointOfAnObjectInsideAnother) {
-  for (std::uint64_t seed = 1; seed <= kSeeds; ++seed) {
+  for (std::uint64_t seed = 1; seed <= kDeskSeeds; ++seed) {
     const Scene scene = MakeScene("desk", seed);
     for (const Object& a : scene.objects) {
-      const auto points = PointsOf(a);
+      const auto points = DensePointsOf(a);
       for (const Object& b : scene.objects) {
         if (a.id == b.id) continue;
         const double reach = (a.size.norm() + b.size.norm()) / 2;
@@ -71,7 +71,7 @@ TEST(DeskFamily, SampledPointsSeeAPlantedOverlap) {
   Object moved = scene.objects.back();
   moved.center_w += Eigen::Vector3d(0.005, 0, 0);
   bool seen = false;
-  for (const Eigen::Vector3d& x_w : PointsOf(moved)) {
+  for (const Eigen::Vector3d& x_w : DensePointsOf(moved)) {
     seen = seen || Inside(scene.objects.back(), x_w, kTouch_m);
   }
   EXPECT_TRUE(seen);
@@ -93,7 +93,7 @@ bool Stands(const Scene& scene, const Object& object) {
 }
 
 TEST(DeskFamily, StandsEveryThingWhollyOnWhatIsBelowIt) {
-  for (std::uint64_t seed = 1; seed <= kSeeds; ++seed) {
+  for (std::uint64_t seed = 1; seed <= kDeskSeeds; ++seed) {
     const Scene scene = MakeScene("desk", seed);
     std::map<int, int> standing;  // of each thing that is detected as one
     for (const Object& object : scene.objects) {
@@ -110,7 +110,7 @@ TEST(DeskFamily, StandsEveryThingWhollyOnWhatIsBelowIt) {
 
 TEST(DeskFamily, HoldsEightToFourteenThingsOfTheKindsADeskHas) {
   std::set<std::size_t> counts;
-  for (std::uint64_t seed = 1; seed <= kSeeds; ++seed) {
+  for (std::uint64_t seed = 1; seed <= kDeskSeeds; ++seed) {
     const Scene scene = MakeScene("desk", seed);
     std::set<std::string> things, classes;
     for (const Object& object : scene.objects) {
@@ -131,7 +131,7 @@ TEST(DeskFamily, HoldsEightToFourteenThingsOfTheKindsADeskHas) {
 }
 
 TEST(DeskFamily, KeepsTheMeasuresOfRealDesks) {
-  for (std::uint64_t seed = 1; seed <= kSeeds; ++seed) {
+  for (std::uint64_t seed = 1; seed <= kDeskSeeds; ++seed) {
     for (const Object& object : MakeScene("desk", seed).objects) {
       if (object.name != "desk") continue;
       EXPECT_GE(object.size.x(), 1.2 - 1e-9);

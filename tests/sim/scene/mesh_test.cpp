@@ -11,18 +11,13 @@
 
 #include "sim/scene/faces.h"
 #include "sim/scene/families.h"
+#include "tests/support/place.h"
 
 namespace sim {
 namespace {
 
 // Coordinates stay below 6 m and each check is under 50 flops: 50 * 6 * 2^-53 < 4e-14.
-constexpr double kRoundOff_m = 1e-12;
-
-using Place = std::array<std::int64_t, 3>;
-
-Place Nanometres(const Eigen::Vector3d& x) {
-  return {std::llround(x.x() * 1e9), std::llround(x.y() * 1e9), std::llround(x.z() * 1e9)};
-}
+constexpr double kVolumeRoundOff_m = 1e-12;
 
 double SignedVolume(const Triangle& t) {
   return t.corners_w[0].dot(t.corners_w[1].cross(t.corners_w[2])) / 6;
@@ -73,7 +68,7 @@ TEST(BuildMesh, PutsEveryCornerOnThePlaneOfItsId) {
       ASSERT_EQ(plane.id, t.plane);
       EXPECT_EQ(plane.object, t.object);
       for (const Eigen::Vector3d& x_w : t.corners_w) {
-        EXPECT_NEAR(plane.n_w.dot(x_w) + plane.d, 0, kRoundOff_m);
+        EXPECT_NEAR(plane.n_w.dot(x_w) + plane.d, 0, kVolumeRoundOff_m);
       }
       EXPECT_EQ(t.normals_w[0], plane.n_w);
     }
@@ -84,8 +79,8 @@ TEST(BuildMesh, MeasuresPrintInMetresAndNeverMirrorsIt) {
   for (const Triangle& t : BuildMesh(MakeScene("desk", 1)).triangles) {
     if (t.plane == 0) continue;
     const Eigen::Vector2d du = t.uv_m[1] - t.uv_m[0], dv = t.uv_m[2] - t.uv_m[0];
-    EXPECT_NEAR(du.norm(), (t.corners_w[1] - t.corners_w[0]).norm(), kRoundOff_m);
-    EXPECT_NEAR(dv.norm(), (t.corners_w[2] - t.corners_w[0]).norm(), kRoundOff_m);
+    EXPECT_NEAR(du.norm(), (t.corners_w[1] - t.corners_w[0]).norm(), kVolumeRoundOff_m);
+    EXPECT_NEAR(dv.norm(), (t.corners_w[2] - t.corners_w[0]).norm(), kVolumeRoundOff_m);
     EXPECT_GT(du.x() * dv.y() - du.y() * dv.x(), 0);
   }
 }
@@ -116,10 +111,10 @@ TEST(ScenePlanes, LieOutsideTheirOwnerAndTurnTheirVerticesLeft) {
   for (const ScenePlane& plane : ScenePlanes(scene)) {
     const Object& owner = scene.objects.at(static_cast<std::size_t>(plane.object - 1));
     EXPECT_LT(plane.n_w.dot(owner.center_w) + plane.d, 0);
-    EXPECT_NEAR(plane.n_w.norm(), 1, kRoundOff_m);
+    EXPECT_NEAR(plane.n_w.norm(), 1, kVolumeRoundOff_m);
     const auto& v = plane.vertices_w;
     const Eigen::Vector3d twice = (v[1] - v[0]).cross(v[2] - v[0]);
-    EXPECT_NEAR(twice.dot(plane.n_w), plane.area_m2, kRoundOff_m);
+    EXPECT_NEAR(twice.dot(plane.n_w), plane.area_m2, kVolumeRoundOff_m);
   }
 }
 

@@ -11,13 +11,13 @@ namespace sim {
 namespace {
 
 /// The curve again, from its printed constants.
-double PublishedSigma(double z) { return z < 0.5 ? 0.0005 : 0.0005 + 0.001 * (z - 0.5); }
+double PublishedAzureSigma(double z) { return z < 0.5 ? 0.0005 : 0.0005 + 0.001 * (z - 0.5); }
 
 AzureModel WithoutSystematicErrors() {
   return {.multipath_m = 0, .multipath_loss = 0, .wiggle_m = 0, .session_offset_m = 0};
 }
 
-AzureModel AllOff() {
+AzureModel AzureAllOff() {
   return {.min_depth_m = 0,
           .max_depth_m = 1e9,
           .noise_scale = 0,
@@ -37,7 +37,7 @@ TEST_P(AzureNoiseAt, HasTheStandardDeviationOfThePublishedCurve) {
   const DepthModel model = WithoutSystematicErrors();
   const Rendering rendering = SensorView(OneBoard(GetParam()), NarrowCamera(), model);
   const ErrorMoments m = MeasureErrors(rendering, NarrowCamera(), model, 3,
-                                       [](double z, double) { return PublishedSigma(z); });
+                                       [](double z, double) { return PublishedAzureSigma(z); });
   EXPECT_NEAR(m.sd, 1.0, 0.05);
   EXPECT_EQ(m.share, 1.0);
 }
@@ -78,7 +78,7 @@ TEST_P(AzureNoiseOnTilted, GrowsAsLightFails) {
   const Rendering rendering = SensorView(board, NarrowCamera(), model);
   const ErrorMoments m =
       MeasureErrors(rendering, NarrowCamera(), model, 3, [](double z, double theta) {
-        return std::min(0.017, PublishedSigma(z) / std::sqrt(std::cos(theta)));
+        return std::min(0.017, PublishedAzureSigma(z) / std::sqrt(std::cos(theta)));
       });
   EXPECT_NEAR(m.sd, 1.0, 0.05);
 }
@@ -93,8 +93,8 @@ TEST(AzureNoise, IsNeverWorseThanTheMakerStates) {
 
 TEST(AzureSwitchedOff, GivesTheExactDepthBack) {
   const Rendering rendering =
-      SensorView(SmallDesk(), SmallCamera(), AllOff(), SmallArc(1)[0].T_wc);
-  const cv::Mat1d z = MeasureDepth(rendering, AllOff(), SmallCamera(), 1, 0);
+      SensorView(SmallDesk(), SmallCamera(), AzureAllOff(), SmallArc(1)[0].T_wc);
+  const cv::Mat1d z = MeasureDepth(rendering, AzureAllOff(), SmallCamera(), 1, 0);
   EXPECT_EQ(cv::countNonZero(z != rendering.depth_m), 0);
 }
 
@@ -107,7 +107,7 @@ TEST(AzureDepth, EndsAtTheRangeLimits) {
 
 // Of a 640 x 480 view 62.7 x 49.1 deg the hexagon of 75 x 65 deg leaves the four corners out.
 TEST(AzureField, IsAHexagon) {
-  AzureModel azure = AllOff();
+  AzureModel azure = AzureAllOff();
   azure.hexagon = true;
   const Camera camera = SmallCamera();
   const cv::Mat1d z =
@@ -126,7 +126,7 @@ TEST(AzureField, IsAHexagon) {
 // 1/z^2 (cos is the same within 1 %).
 TEST(FlyingPixels, LieWhereTheLightOfTheFootprintPutsThem) {
   const double z_near = 1.0, z_far = 1.06;  // nearer than 10 cm: never refused
-  AzureModel azure = AllOff();
+  AzureModel azure = AzureAllOff();
   azure.flying_pixels = true;
   const Camera camera;
   const Rendering rendering = SensorView(BoardBeforeWall(z_near, z_far), camera, azure);
@@ -145,7 +145,7 @@ TEST(FlyingPixels, LieWhereTheLightOfTheFootprintPutsThem) {
 }
 
 TEST(FlyingPixels, AreRefusedWhereFarSurfacesMixEvenly) {
-  AzureModel azure = AllOff();
+  AzureModel azure = AzureAllOff();
   azure.flying_pixels = true;
   const Camera camera;
   const Rendering rendering = SensorView(BoardBeforeWall(0.8, 1.2), camera, azure);
@@ -168,7 +168,7 @@ Scene FloorAndWall() {
 }
 
 TEST(CornerOfTwoWalls, LooksFartherByTheMultipathOfItsDistance) {
-  AzureModel azure = AllOff();
+  AzureModel azure = AzureAllOff();
   azure.multipath_m = 0.0075;
   const Camera camera;
   const Pose T_wc = LookAt({0, 0.2, 0.6}, {0, 1, 0});
@@ -187,7 +187,7 @@ TEST(CornerOfTwoWalls, LooksFartherByTheMultipathOfItsDistance) {
 }
 
 TEST(CornerOfTwoWalls, LosesTheStatedShareOfItsPixels) {
-  AzureModel azure = AllOff();
+  AzureModel azure = AzureAllOff();
   azure.multipath_loss = 0.2;
   const Camera camera;
   const Rendering rendering =
@@ -211,12 +211,12 @@ TEST(ConvexEdge, DoesNotGlow) {
   scene.objects = {BoxObject(1, "box", Role::kRegular, {0, 1, 0}, {0.3, 0.3, 0.3})};
   const Camera camera;
   const Rendering rendering =
-      SensorView(scene, camera, AllOff(), LookAt({0.5, 0.3, 0.5}, {0, 1, 0}));
+      SensorView(scene, camera, AzureAllOff(), LookAt({0.5, 0.3, 0.5}, {0, 1, 0}));
   EXPECT_EQ(cv::countNonZero(CornerGlow(rendering, camera, 0.05)), 0);
 }
 
 TEST(SessionOffset, IsOneNumberForAllFramesOfASeed) {
-  AzureModel azure = AllOff();
+  AzureModel azure = AzureAllOff();
   azure.session_offset_m = 0.005;
   const Rendering rendering = SensorView(OneBoard(1.0), NarrowCamera(), azure);
   const auto offset = [&](std::uint64_t seed, std::uint64_t frame) {

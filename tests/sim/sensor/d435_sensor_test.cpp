@@ -11,9 +11,9 @@ namespace sim {
 namespace {
 
 /// The law again, from its printed constants.
-double PublishedSigma(double z) { return z * z * 0.08 / 21.57; }
+double PublishedD435Sigma(double z) { return z * z * 0.08 / 21.57; }
 
-D435Model AllOff() {
+D435Model D435AllOff() {
   return {.baseline_m = 0,
           .subpixel_px = 0,
           .grid_px = 0,
@@ -32,7 +32,7 @@ class D435NoiseAt : public testing::TestWithParam<double> {
     const DepthModel model = D435Model{.baseline_m = 0, .ripple_px = ripple_px};
     const Rendering rendering = SensorView(OneBoard(GetParam()), NarrowCamera(), model);
     return MeasureErrors(rendering, NarrowCamera(), model, frames,
-                         [](double z, double) { return PublishedSigma(z); });
+                         [](double z, double) { return PublishedD435Sigma(z); });
   }
 };
 
@@ -46,13 +46,14 @@ TEST_P(D435NoiseAt, HasTheStandardDeviationOfThePublishedLaw) {
 
 TEST_P(D435NoiseAt, IsUnbiasedToATenthOfAStepWithoutRipple) {
   const double z = GetParam(), step_m = std::max(0.001, z * z / 32 / 21.57);
-  EXPECT_LT(std::abs(Errors(0, 40).mean * PublishedSigma(z)), 0.1 * step_m);
+  EXPECT_LT(std::abs(Errors(0, 40).mean * PublishedD435Sigma(z)), 0.1 * step_m);
 }
 
 TEST_P(D435NoiseAt, IsOffByTheSubpixelRipple) {
   const double z = GetParam(), d = 21.57 / z;
   const double expected = -z * z / 21.57 * 0.03 * std::sin(2 * M_PI * d);
-  EXPECT_NEAR(Errors(0.03, 40).mean * PublishedSigma(z), expected, 0.05 * PublishedSigma(z));
+  EXPECT_NEAR(Errors(0.03, 40).mean * PublishedD435Sigma(z), expected,
+              0.05 * PublishedD435Sigma(z));
 }
 
 TEST_P(D435NoiseAt, LeavesOnlyWholeStepsOfDisparity) {
@@ -94,7 +95,7 @@ TEST(D435Noise, KeepsItsSdWhereTheTwoRoundingsBeat) {
 
 // A 7 x 7 mean shares 42 of 49 numbers with its neighbour: correlation 0.7 * 6/7.
 TEST(D435Noise, IsCorrelatedOverTheMatchingWindow) {
-  D435Model model = AllOff();
+  D435Model model = D435AllOff();
   model.subpixel_px = 0.08;
   const Rendering rendering = SensorView(OneBoard(1.0), NarrowCamera(), model);
   double square = 0, product = 0;
@@ -112,8 +113,8 @@ TEST(D435Noise, IsCorrelatedOverTheMatchingWindow) {
 
 TEST(D435SwitchedOff, GivesTheExactDepthBack) {
   const Rendering rendering =
-      SensorView(SmallDesk(), SmallCamera(), AllOff(), SmallArc(1)[0].T_wc);
-  const cv::Mat1d z = MeasureDepth(rendering, AllOff(), SmallCamera(), 1, 0);
+      SensorView(SmallDesk(), SmallCamera(), D435AllOff(), SmallArc(1)[0].T_wc);
+  const cv::Mat1d z = MeasureDepth(rendering, D435AllOff(), SmallCamera(), 1, 0);
   EXPECT_EQ(cv::countNonZero(z != rendering.depth_m), 0);
 }
 
@@ -126,7 +127,7 @@ TEST(D435Depth, EndsAtTheRangeLimits) {
 }
 
 TEST(LeftBand, IsBlindAsFarAsTheRightImagerDoesNotReach) {
-  D435Model model = AllOff();
+  D435Model model = D435AllOff();
   model.baseline_m = 0.05015;
   const Camera camera;
   const cv::Mat1d z =
@@ -137,7 +138,7 @@ TEST(LeftBand, IsBlindAsFarAsTheRightImagerDoesNotReach) {
 
 // As with a projector: f B (1/z_near - 1/z_far) pixels left of the near thing.
 TEST(RightImagersShadow, HasTheWidthThatTheBaselineGives) {
-  D435Model model = AllOff();
+  D435Model model = D435AllOff();
   model.baseline_m = 0.05015;
   const double z_near = 0.8, z_far = 1.6;
   const Camera camera;
@@ -153,7 +154,7 @@ TEST(RightImagersShadow, HasTheWidthThatTheBaselineGives) {
 }
 
 TEST(NearThings, GrowByThreePixelsOnEverySide) {
-  D435Model model = AllOff();
+  D435Model model = D435AllOff();
   model.fattening_px = 3;
   const Camera camera;
   const Rendering rendering = SensorView(BoardBeforeWall(0.8, 1.6), camera, model);
@@ -170,7 +171,7 @@ TEST(NearThings, GrowByThreePixelsOnEverySide) {
 }
 
 TEST(NearThings, DoNotGrowOverWhatIsAlmostAsNear) {
-  D435Model model = AllOff();
+  D435Model model = D435AllOff();
   model.fattening_px = 3;
   const Camera camera;  // 2 cm at 1 m: 0.42 px of disparity
   const Rendering rendering = SensorView(BoardBeforeWall(1.0, 1.02), camera, model);
@@ -181,7 +182,7 @@ TEST(NearThings, DoNotGrowOverWhatIsAlmostAsNear) {
 // In a 7 x 7 window whose middle column borders on the edge the surfaces have 4 and 3 columns:
 // 57 %, refused. One column further it is 5 to 2: 71 %, kept.
 TEST(WindowsOnAnEdge, AreRefusedOnePixelEitherSide) {
-  D435Model model = AllOff();
+  D435Model model = D435AllOff();
   model.min_share = 0.6;
   const Camera camera;
   const Rendering rendering = SensorView(BoardBeforeWall(0.8, 1.6), camera, model);

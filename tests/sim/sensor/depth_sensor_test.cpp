@@ -19,7 +19,7 @@ Rendering View(const Scene& scene, const Camera& camera, const Pose& T_wc = Look
 }
 
 /// The curve again, from the paper's printed constants.
-double PublishedSigma(double z) { return 0.0012 + 0.0019 * std::pow(z - 0.4, 2); }
+double Kinect1Sigma(double z) { return 0.0012 + 0.0019 * std::pow(z - 0.4, 2); }
 
 struct Moments {
   double mean = 0, sd = 0, lag1 = 0, share = 0;
@@ -55,7 +55,7 @@ class KinectNoiseAt : public testing::TestWithParam<double> {};
 
 TEST_P(KinectNoiseAt, HasTheStandardDeviationOfThePublishedCurve) {
   const Moments m = ErrorMoments(GetParam(), {});
-  EXPECT_NEAR(m.sd, PublishedSigma(GetParam()), 0.05 * PublishedSigma(GetParam()));
+  EXPECT_NEAR(m.sd, Kinect1Sigma(GetParam()), 0.05 * Kinect1Sigma(GetParam()));
 }
 
 TEST_P(KinectNoiseAt, IsUnbiasedToATenthOfAStep) {
@@ -82,14 +82,14 @@ TEST(KinectNoise, IsCorrelatedOverNeighbouringPixels) {
 }
 
 TEST(KinectNoise, GrowsOnSurfacesSeenAtAGrazingAngle) {
-  EXPECT_DOUBLE_EQ(AxialSigma(1.0, 0.5), PublishedSigma(1.0));
+  EXPECT_DOUBLE_EQ(AxialSigma(1.0, 0.5), Kinect1Sigma(1.0));
   const double theta = 1.3, ratio = theta / (M_PI / 2 - theta);
-  EXPECT_DOUBLE_EQ(AxialSigma(1.0, theta), PublishedSigma(1.0) + 0.0001 * ratio * ratio);
+  EXPECT_DOUBLE_EQ(AxialSigma(1.0, theta), Kinect1Sigma(1.0) + 0.0001 * ratio * ratio);
 }
 
 class KinectNoiseOnTilted : public testing::TestWithParam<double> {};
 
-// From the paper's printed constants, as PublishedSigma; the term in theta begins at 60 deg.
+// From the paper's printed constants, as Kinect1Sigma; the term in theta begins at 60 deg.
 TEST_P(KinectNoiseOnTilted, HasTheStandardDeviationOfThePublishedCurve) {
   const DepthModel model = KinectModel{.projector_offset_m = 0};
   const Scene board = TiltedBoard(1.0, GetParam() * M_PI / 180);
@@ -97,7 +97,7 @@ TEST_P(KinectNoiseOnTilted, HasTheStandardDeviationOfThePublishedCurve) {
   const auto m = MeasureErrors(rendering, NarrowCamera(), model, 5, [](double z, double theta) {
     const double ratio = theta / (M_PI / 2 - theta);
     const bool grazing = theta > M_PI / 3;
-    return PublishedSigma(z) + (grazing ? 0.0001 / std::sqrt(z) * ratio * ratio : 0.0);
+    return Kinect1Sigma(z) + (grazing ? 0.0001 / std::sqrt(z) * ratio * ratio : 0.0);
   });
   EXPECT_NEAR(m.sd, 1.0, 0.05);
 }

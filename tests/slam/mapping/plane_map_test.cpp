@@ -9,15 +9,10 @@
 #include "tests/support/decision_score.h"
 #include "tests/support/plane_world.h"
 #include "tests/support/slam_matchers.h"
+#include "tests/support/small_images.h"
 
 namespace slam {
 namespace {
-
-PlaneMapConfig SmallImages() {
-  PlaneMapConfig config;
-  config.min_pixels = 40;
-  return config;
-}
 
 /// A desk with books of 9 to 35 mm, one on another, and a phone.
 PlaneWorld CrowdedDesk() {

@@ -1,0 +1,16 @@
+#pragma once
+
+#include <string>
+
+#include "eval/check/fault.h"
+
+namespace eval {
+
+/// Every fault, one a line.
+inline std::string All(const CheckReport& report) {
+  std::string text;
+  for (const Fault& fault : report.faults) text += Describe(fault) + "\n";
+  return text;
+}
+
+}  // namespace eval
