@@ -11,6 +11,7 @@
 #include "sim/scene/families.h"
 #include "tests/support/pipeline.h"
 
+namespace export_bop {
 namespace {
 
 namespace fs = std::filesystem;
@@ -291,3 +292,4 @@ TEST_F(BopExport, RefusesALens) {
 }
 
 }  // namespace
+}  // namespace export_bop

@@ -11,6 +11,7 @@
 #include "sim/scene/families.h"
 #include "tests/support/pipeline.h"
 
+namespace export_coco {
 namespace {
 
 namespace fs = std::filesystem;
@@ -234,3 +235,4 @@ TEST_F(CocoExport, NamesTheTruthThatIsMissing) {
 }
 
 }  // namespace
+}  // namespace export_coco

@@ -58,7 +58,7 @@ TEST(DetectorScore, CountsARunOfMissesOnceAndNotAcrossRecordings) {
 }
 
 /// A scene of many equal toys, so that few frames give many draws.
-constexpr int kThings = 60, kFrames = 800;
+constexpr int kThings = 60, kPresetFrames = 800;
 
 DetectorScore ScoreOf(DetectorKind kind, const DetectorModel& model, int pixels, int whole) {
   Scene scene;
@@ -75,14 +75,14 @@ DetectorScore ScoreOf(DetectorKind kind, const DetectorModel& model, int pixels,
   }
   const Detector detector(scene, Camera{}, kind, 11, model);
   DetectorScore score;
-  for (int frame = 0; frame < kFrames; ++frame) {
+  for (int frame = 0; frame < kPresetFrames; ++frame) {
     score.Add(detector.VisibleTargets(truth), detector.Detect(frame, truth));
   }
   return score;
 }
 
 /// Draws that are worth one: runs of `run` frames, knots at most that far apart.
-double Draws(int run) { return static_cast<double>(kThings) * kFrames / (2.0 * run); }
+double Draws(int run) { return static_cast<double>(kThings) * kPresetFrames / (2.0 * run); }
 double Band(double p, int run) { return 5 * std::sqrt(p * (1 - p) / Draws(run)); }
 
 TEST(DetectorPresets, MissMisnameAndDoubleAtTheirStatedRates) {
@@ -98,9 +98,9 @@ TEST(DetectorPresets, MissMisnameAndDoubleAtTheirStatedRates) {
                 Band(model.confused, 2 * model.miss_run_frames));
     // A double may be so loose that it counts as a phantom: both kinds of extra boxes at once.
     const double found = static_cast<double>(score.all().found);
-    const double expected = model.duplicate * found + model.phantom * kFrames;
+    const double expected = model.duplicate * found + model.phantom * kPresetFrames;
     const double band = Band(model.duplicate, model.duplicate_run_frames) * found +
-                        5 * 4 * std::sqrt(model.phantom * kFrames / 4.0);
+                        5 * 4 * std::sqrt(model.phantom * kPresetFrames / 4.0);
     EXPECT_NEAR(static_cast<double>(score.doubles() + score.phantoms()), expected, band);
     EXPECT_GT(expected, band);
   }

@@ -15,7 +15,7 @@ DepthModel Bare(SensorKind kind) {
   return model;
 }
 
-ErrorMoments WallAt(const DepthModel& model, double z) {
+auto WallAt(const DepthModel& model, double z) {
   const Camera camera = NarrowCamera();
   const Rendering rendering = SensorView(OneBoard(z), camera, model);
   return MeasureErrors(rendering, camera, model, 12, [](double, double) { return 1.0; });
@@ -26,9 +26,9 @@ class TwoPlanes : public testing::TestWithParam<SensorKind> {};
 TEST_P(TwoPlanes, AreToldApartAsTheirGapAndThePublishedSdSay) {
   const DepthModel model = Bare(GetParam());
   constexpr double kZ = 1.0;
-  const ErrorMoments far = WallAt(model, kZ);
+  const auto far = WallAt(model, kZ);
   for (const double gap : {0.002, 0.005, 0.01, 0.02}) {
-    const ErrorMoments near = WallAt(model, kZ - gap);
+    const auto near = WallAt(model, kZ - gap);
     const double measured_gap = (kZ + far.mean) - (kZ - gap + near.mean);
     const double measured = measured_gap / std::sqrt(near.sd * near.sd + far.sd * far.sd);
     const double stated_gap = gap + DepthBias(model, kZ) - DepthBias(model, kZ - gap);
