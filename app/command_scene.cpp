@@ -1,8 +1,10 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <map>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <system_error>
@@ -26,6 +28,7 @@ struct MakeOptions {
   std::string out;
   std::string twin;
   std::vector<std::string> settings;
+  std::map<std::string, std::optional<double>> parameters;  ///< by name, of any family
   bool force = false;
 };
 
@@ -50,14 +53,24 @@ std::map<std::string, double> ParseSettings(const std::vector<std::string>& sett
   return values;
 }
 
+/// Those of --set and those with an option of their own.
+std::map<std::string, double> Parameters(const MakeOptions& options) {
+  std::map<std::string, double> values = ParseSettings(options.settings);
+  for (const auto& [name, value] : options.parameters) {
+    if (value && !values.emplace(name, *value).second) {
+      throw sim::InputError("--set " + name, "and its own option give it twice; keep one");
+    }
+  }
+  return values;
+}
+
 void Make(const MakeOptions& options, const Globals& globals) {
   if (std::filesystem::exists(options.out) && !options.force) {
     throw sim::InputError(options.out, "exists already; choose another name or add --force");
   }
   const sim::Scene scene =
-      options.twin.empty()
-          ? sim::MakeScene(options.family, options.seed, ParseSettings(options.settings))
-          : sim::MakeTwin(options.twin, options.seed);
+      options.twin.empty() ? sim::MakeScene(options.family, options.seed, Parameters(options))
+                           : sim::MakeTwin(options.twin, options.seed);
   sim::WriteScene(scene, options.out);
   if (!globals.quiet) {
     fmt::print("{}: {} objects, {} planes, sha256 {}\n", options.out, scene.objects.size(),
@@ -96,9 +109,12 @@ const sim::Object& Owner(const sim::Scene& scene, int id) {
   throw std::logic_error("a plane without an owner");
 }
 
-/// A face by its name in files, "+z".
-const std::string& NameOf(sim::Face face) {
-  return sim::kFaceNames[static_cast<std::size_t>(face)];
+/// A face by its name in files, "+z"; of a mesh, how many corners its outline has.
+std::string NameOf(const sim::ScenePlane& plane, const sim::Object& owner) {
+  if (owner.shape == sim::ShapeKind::kBox) {
+    return sim::kFaceNames[static_cast<std::size_t>(plane.face)];
+  }
+  return std::to_string(plane.vertices_w.size()) + "-gon";
 }
 
 /// Writes the whole text or nothing.
@@ -122,20 +138,22 @@ void Show(const std::string& path) {
   fmt::print("{}: {} objects, sha256 {}\n", scene.name, scene.objects.size(),
              sim::SceneHash(scene));
   fmt::print("\nPlanes, n . x + d = 0 in the world (metres, z up), n out of the object:\n");
-  fmt::print("{:>5}  {:<18} {:<14} {:<12} {:>4} {:>8} {:>8} {:>8} {:>9} {:>9}\n", "plane",
+  fmt::print("{:>5}  {:<18} {:<14} {:<12} {:>6} {:>8} {:>8} {:>8} {:>9} {:>9}\n", "plane",
              "object", "class", "role", "face", "n_x", "n_y", "n_z", "d_m", "area_m2");
   for (const sim::ScenePlane& plane : sim::ScenePlanes(scene)) {
     const sim::Object& owner = Owner(scene, plane.object);
     // Adding zero turns -0 into 0.
     fmt::print(
-        "{:>5}  {:<18} {:<14} {:<12} {:>4} {:>8.4f} {:>8.4f} {:>8.4f} {:>9.4f} {:>9.4f}\n",
+        "{:>5}  {:<18} {:<14} {:<12} {:>6} {:>8.4f} {:>8.4f} {:>8.4f} {:>9.4f} {:>9.4f}\n",
         plane.id, owner.name, owner.class_name,
-        sim::kRoleNames[static_cast<std::size_t>(owner.role)], NameOf(plane.face),
+        sim::kRoleNames[static_cast<std::size_t>(owner.role)], NameOf(plane, owner),
         plane.n_w.x() + 0.0, plane.n_w.y() + 0.0, plane.n_w.z() + 0.0, plane.d + 0.0,
         plane.area_m2);
   }
   for (const sim::Object& object : scene.objects) {
-    if (object.shape == sim::ShapeKind::kBox) continue;
+    const bool has_planes = object.shape == sim::ShapeKind::kBox ||
+                            (object.model != nullptr && !object.model->planes.empty());
+    if (has_planes && object.way.empty()) continue;
     fmt::print("       {:<18} {:<14} {:<12} no planes\n", object.name, object.class_name,
                sim::kRoleNames[static_cast<std::size_t>(object.role)]);
   }
@@ -162,6 +180,16 @@ void AddMake(CLI::App& scene, const Globals& globals, int& exit_code) {
   make->add_option("-o,--output", options->out, "Scene file to write (YAML)")->required();
   make->add_option("--set", options->settings,
                    "Parameter of the family as NAME=NUMBER; may be repeated");
+  for (const sim::Family& family : sim::Families()) {
+    for (const sim::FamilyParameter& parameter : family.parameters) {
+      const auto [at, fresh] = options->parameters.try_emplace(parameter.name);
+      if (!fresh) continue;
+      std::string name = "--" + parameter.name;
+      std::replace(name.begin(), name.end(), '_', '-');
+      make->add_option(name, at->second, "The same for this parameter; see `pas scene list`")
+          ->group("Parameters of families");
+    }
+  }
   make->add_flag("--force", options->force, "Overwrite the output when it exists");
   make->callback([options, &globals, &exit_code] {
     Make(*options, globals);

@@ -8,12 +8,14 @@
 #include "app/console.h"
 #include "app/detector_figures.h"
 #include "app/recording_options.h"
-#include "sim/scene/scene_file.h"
+#include "app/sim_arguments.h"
+#include "sim/motion/clearance.h"
+#include "sim/scene/names.h"
 #include "sim/sensor/read_sensor.h"
 #include "sim/sensor/sensor_report.h"
 #include "sim/write/atomic_file.h"
+#include "sim/write/preview.h"
 #include "sim/write/write_sequence.h"
-#include "version.h"
 
 namespace app {
 namespace {
@@ -24,48 +26,8 @@ constexpr const char* kAbout =
     "number of threads. A killed run says complete: false in manifest.json; --resume finishes "
     "it.";
 
-struct Arguments {
-  std::string scene, output, sensor_report;
-  int frames = 300;
-  double fps = 30.0;
-  std::string sensor = "kinect1";
-  sim::DetectorKind detector = sim::DetectorKind::kNoisy;
-  std::uint64_t seed = 1;
-  int threads = 0;
-  int width = 640, height = 480;
-  std::vector<double> lens;
-  double shutter_ms = 0, rolling_ms = 0, exposure_drift_stops = 0;
-  double drop_ratio = 0, depth_offset_ms = 0, stamp_jitter_ms = 0;
-  bool resume = false, force = false, detector_report = false;
-};
-
-sim::SequenceOptions OptionsOf(const Arguments& arguments) {
-  sim::SequenceOptions options;
-  sim::RigOptions& rig = options.rig;
-  rig.camera = sim::Resize(sim::Camera{}, arguments.width, arguments.height);
-  rig.camera.fps = arguments.fps;
-  if (const std::vector<double>& k = arguments.lens; !k.empty()) {
-    rig.camera = sim::WithLens(rig.camera, {k[0], k[1], k[2], k[3], k[4]});
-  }
-  rig.sensor = sim::SensorByName(arguments.sensor);
-  rig.exposure.shutter_s = 1e-3 * arguments.shutter_ms;
-  rig.exposure.rolling_s = 1e-3 * arguments.rolling_ms;
-  rig.exposure.drift_stops = arguments.exposure_drift_stops;
-  rig.detector = arguments.detector;
-  rig.seed = arguments.seed;
-  options.timing.drop_ratio = arguments.drop_ratio;
-  options.timing.depth_offset_s = 1e-3 * arguments.depth_offset_ms;
-  options.timing.stamp_jitter_s = 1e-3 * arguments.stamp_jitter_ms;
-  options.frames = arguments.frames;
-  options.threads = arguments.threads;
-  options.version = PAS_VERSION;
-  if (arguments.resume) options.existing = sim::Existing::kResume;
-  if (arguments.force) options.existing = sim::Existing::kReplace;
-  return options;
-}
-
 /// Measures a sensor's model on walls: a table, and a figure of it.
-int Report(const Arguments& arguments, bool quiet) {
+int Report(const SimArguments& arguments, bool quiet) {
   const sim::Sensor sensor = sim::SensorByName(arguments.sensor_report);
   const sim::SensorReport report = sim::MeasureWalls(sensor);
   const std::string table = sim::ReportTable(report);
@@ -81,17 +43,52 @@ int Report(const Arguments& arguments, bool quiet) {
   return kDone;
 }
 
-int Run(const Arguments& arguments, bool quiet) {
-  if (!arguments.sensor_report.empty()) return Report(arguments, quiet);
-  if (arguments.detector_report) return ReportDetectors(arguments.output, quiet);
-  if (arguments.scene.empty()) {
-    throw std::invalid_argument(
-        "sim: name a scene file (SCENE), or use --sensor-report SENSOR or --detector-report");
+void Warn(const std::string& warning) {
+  if (!warning.empty()) std::fprintf(stderr, "pas sim: warning: %s\n", warning.c_str());
+}
+
+void WarnOfContact(const sim::Scene& scene, const sim::Recording& recording) {
+  std::vector<sim::TimedPose> poses;
+  for (const sim::Shot& shot : recording.shots) poses.push_back({shot.time_s, shot.T_wc});
+  Warn(sim::ClearanceWarning(scene, poses));
+}
+
+int Preview(const SimArguments& arguments, bool quiet) {
+  const sim::Scene scene = SceneOf(arguments);
+  sim::SequenceOptions options = OptionsOf(arguments, scene);
+  const int frame = arguments.preview_frame;
+  std::vector<sim::TimedPose> trajectory;
+  if (arguments.trajectory.empty()) {
+    trajectory =
+        sim::MakeTrajectory(scene, frame + 1, options.rig.camera.fps, options.rig.seed);
+  } else {
+    trajectory = ReplayOf(arguments, options);
+    Warn(sim::ClearanceWarning(scene, trajectory));
   }
-  const sim::Scene scene = sim::ReadScene(arguments.scene);
-  sim::SequenceOptions options = OptionsOf(arguments);
-  const sim::Recording recording =
-      sim::PlanRecording(scene, options.rig, options.timing, options.frames);
+  if (frame >= static_cast<int>(trajectory.size())) {
+    throw std::invalid_argument("sim: --frame " + std::to_string(frame) +
+                                ": the trajectory has frames 0 to " +
+                                std::to_string(trajectory.size() - 1));
+  }
+  const sim::Simulator simulator(scene, options.rig);
+  sim::Shot shot;
+  shot.time_s = trajectory[static_cast<std::size_t>(frame)].timestamp_s;
+  shot.T_wc = trajectory[static_cast<std::size_t>(frame)].T_wc;
+  const sim::SimulatedFrame made =
+      simulator.Simulate(frame, shot, [&](double) { return shot.T_wc; });
+  sim::WriteFileAtomically(arguments.preview, sim::EncodePng(sim::PreviewPicture(made)));
+  if (!quiet) {
+    std::printf("%s: frame %d, %.3f s: colour, depth; planes, objects\n",
+                arguments.preview.c_str(), frame, shot.time_s);
+  }
+  return kDone;
+}
+
+int Write(const SimArguments& arguments, bool quiet) {
+  const sim::Scene scene = SceneOf(arguments);
+  sim::SequenceOptions options = OptionsOf(arguments, scene);
+  const sim::Recording recording = RecordingOf(arguments, scene, options);
+  if (!recording.scenes_own) WarnOfContact(scene, recording);
   int made = 0;
   {
     Progress progress("frames", recording.frames(), quiet);
@@ -99,20 +96,54 @@ int Run(const Arguments& arguments, bool quiet) {
     made = sim::WriteSequence(scene, recording, options, arguments.output);
   }
   if (!quiet) {
+    const std::string lost =
+        recording.lost > 0 ? ", " + std::to_string(recording.lost) + " lost as asked" : "";
     std::printf("%s: %d frames, %d rendered now%s\n", arguments.output.c_str(),
-                recording.frames(), made,
-                recording.lost > 0
-                    ? (", " + std::to_string(recording.lost) + " lost as asked").c_str()
-                    : "");
+                recording.frames(), made, lost.c_str());
   }
   return kDone;
 }
 
-void AddCameraOptions(CLI::App& command, Arguments& a) {
+int Run(const SimArguments& arguments, bool quiet) {
+  if (arguments.preview.empty() && arguments.output.empty()) {
+    throw std::invalid_argument("sim: name a folder to write to (-o FOLDER), or --preview PNG");
+  }
+  if (!arguments.sensor_report.empty()) return Report(arguments, quiet);
+  if (arguments.detector_report) return ReportDetectors(arguments.output, quiet);
+  if (arguments.scene.empty()) {
+    throw std::invalid_argument(
+        "sim: name a scene file (SCENE), or use --sensor-report SENSOR or --detector-report");
+  }
+  return arguments.preview.empty() ? Write(arguments, quiet) : Preview(arguments, quiet);
+}
+
+void AddMotionOptions(CLI::App& command, SimArguments& a) {
+  const std::string motion = "How the camera moves (default: as the scene says)";
+  command.add_option("--motion", a.motion, "Preset, instead of the scene's; docs/scenes.md")
+      ->check(CLI::IsMember(sim::kPresetNames))
+      ->group(motion);
+  command.add_option("--speed", a.speed_m_s, "Mean, m/s at 30 Hz")
+      ->check(CLI::Range(0.005, 3.0))
+      ->group(motion);
+  command.add_option("--turn", a.turn_deg_s, "Mean, deg/s at 30 Hz")
+      ->check(CLI::Range(0.5, 180.0))
+      ->group(motion);
+  command
+      .add_option("--trajectory", a.trajectory,
+                  "Replay this file, lines of 'timestamp tx ty tz qx qy qz qw' (TUM; camera to "
+                  "world); all of it unless --frames says less")
+      ->excludes("--motion")
+      ->excludes("--speed")
+      ->excludes("--turn")
+      ->group(motion);
+}
+
+void AddCameraOptions(CLI::App& command, SimArguments& a) {
   const std::string colour = "What the colour camera does", time = "Timing defects";
   command
       .add_option("--lens", a.lens,
-                  "K1 K2 P1 P2 K3: distortion of the image; depth and truth follow it")
+                  "K1 K2 P1 P2 K3: distortion of the image, depth and truth follow it; left "
+                  "out: as the scene says, else none")
       ->expected(5)
       ->group(colour);
   command.add_option("--shutter-ms", a.shutter_ms, "Exposure time: motion blur")
@@ -141,19 +172,19 @@ void AddCameraOptions(CLI::App& command, Arguments& a) {
 }
 
 /// How a scene is recorded. `prefix` goes before the names that a command may have taken.
-void AddCaptureOptions(CLI::App& command, Arguments& a, const std::string& prefix) {
-  command.add_option("--frames", a.frames, "Frames")
-      ->check(CLI::Range(1, 1000000))
-      ->capture_default_str();
-  command.add_option("--fps", a.fps, "Frames a second; the motion stays the same")
-      ->check(CLI::Range(0.1, 1000.0))
-      ->capture_default_str();
+void AddCaptureOptions(CLI::App& command, SimArguments& a, const std::string& prefix) {
+  command.add_option("--frames", a.frames, "Frames; left out: as the scene says, else 300")
+      ->check(CLI::Range(1, 1000000));
   command
-      .add_option("--sensor", a.sensor,
-                  "ideal: exact depth, clean colour; kinect1: structured light; azure: time of "
-                  "flight; d435: active stereo; FILE.yaml: one of these as `base:`, with "
-                  "parameters of your own (docs/sensors.md)")
-      ->capture_default_str();
+      .add_option("--fps", a.fps,
+                  "Frames a second, the motion stays the same; left out: as the scene says, "
+                  "else 30")
+      ->check(CLI::Range(0.1, 1000.0));
+  command.add_option(
+      "--sensor", a.sensor,
+      "ideal: exact depth, clean colour; kinect1: structured light; azure: time of "
+      "flight; d435: active stereo; FILE.yaml: one of these as `base:`, with "
+      "parameters of your own (docs/sensors.md); left out: as the scene says, else kinect1");
   const std::map<std::string, sim::DetectorKind> detectors{
       {"perfect", sim::DetectorKind::kPerfect},
       {"noisy", sim::DetectorKind::kNoisy},
@@ -169,28 +200,38 @@ void AddCaptureOptions(CLI::App& command, Arguments& a, const std::string& prefi
       ->default_str("noisy");
   command.add_option("--" + prefix + "seed", a.seed, "Of the trajectory and all noise")
       ->capture_default_str();
-  command.add_option("--width", a.width, "Pixels; the field of view stays the same")
-      ->check(CLI::Range(16, 8192))
-      ->capture_default_str();
-  command.add_option("--height", a.height, "Pixels; the field of view stays the same")
-      ->check(CLI::Range(16, 8192))
-      ->capture_default_str();
+  for (const auto& [name, into] : {std::pair("--width", &a.width), {"--height", &a.height}}) {
+    command
+        .add_option(name, *into,
+                    "Pixels, the field of view stays the same; left out: as the scene says, "
+                    "else 640 x 480")
+        ->check(CLI::Range(16, 8192));
+  }
+  AddMotionOptions(command, a);
   AddCameraOptions(command, a);
 }
 
 }  // namespace
 
-std::function<sim::SequenceOptions(const sim::Scene&)> AddRecordingOptions(
+std::function<SceneRecording(const std::string&)> AddRecordingOptions(
     CLI::App& command, const std::string& prefix) {
-  const auto arguments = std::make_shared<Arguments>();
+  const auto arguments = std::make_shared<SimArguments>();
   AddCaptureOptions(command, *arguments, prefix);
-  return [arguments](const sim::Scene&) { return OptionsOf(*arguments); };
+  return [arguments](const std::string& scene_file) {
+    arguments->scene = scene_file;
+    SceneRecording result;
+    result.scene = SceneOf(*arguments);
+    sim::SequenceOptions options = OptionsOf(*arguments, result.scene);
+    result.recording = RecordingOf(*arguments, result.scene, options);
+    result.rig = options.rig;
+    return result;
+  };
 }
 
 void AddSimCommand(CLI::App& pas, const Globals& globals, int& exit_code) {
   CLI::App* command = pas.add_subcommand("sim", kAbout);
-  const auto arguments = std::make_shared<Arguments>();
-  Arguments& a = *arguments;
+  const auto arguments = std::make_shared<SimArguments>();
+  SimArguments& a = *arguments;
   command->add_option("SCENE", a.scene, "Scene file (YAML); see `pas scene`");
   command->add_option("--sensor-report", a.sensor_report,
                       "Instead of rendering a scene: measure this sensor on walls against its "
@@ -198,16 +239,23 @@ void AddSimCommand(CLI::App& pas, const Globals& globals, int& exit_code) {
   command->add_flag("--detector-report", a.detector_report,
                     "Instead of rendering a scene: score the presets of --detector on desks of "
                     "known truth; writes detectors.txt to the output folder");
-  command
-      ->add_option("-o,--output", a.output, "Folder to write the sequence to; must not exist")
-      ->required();
-  AddCaptureOptions(*command, a, "");
+  command->add_option("-o,--output", a.output,
+                      "Folder to write the sequence to; must not exist");
+  CLI::Option* preview = command->add_option(
+      "--preview", a.preview,
+      "Instead of a sequence: one picture (PNG) of one frame: colour, depth, plane ids, "
+      "object ids");
+  command->add_option("--frame", a.preview_frame, "Which frame --preview shows")
+      ->check(CLI::Range(0, 999999))
+      ->needs(preview)
+      ->capture_default_str();
   command->add_option("--threads", a.threads, "0: one a core; never changes a byte")
       ->check(CLI::Range(0, 1024))
       ->capture_default_str();
   CLI::Option* resume = command->add_flag(
       "--resume", a.resume, "Finish an interrupted run; same bytes as one that was not");
   command->add_flag("--force", a.force, "Replace an existing sequence")->excludes(resume);
+  AddCaptureOptions(*command, a, "");
   command->callback(
       [arguments, &globals, &exit_code] { exit_code = Run(*arguments, globals.quiet); });
 }

@@ -6,7 +6,6 @@
 #include "app/console.h"
 #include "app/live_scene.h"
 #include "app/recording_options.h"
-#include "sim/scene/scene_file.h"
 #include "slam/base/require.h"
 #include "slam/config/config_file.h"
 #include "slam/track/run_sequence.h"
@@ -21,7 +20,7 @@ struct SlamArguments {
   std::string config_file;
   bool print_config = false;
   std::string live_scene;
-  std::function<sim::SequenceOptions(const sim::Scene&)> recording;  ///< with live_scene
+  std::function<SceneRecording(const std::string&)> recording;  ///< with live_scene
 };
 
 /// Frames ahead of the estimator: enough to keep a second core busy, few enough for memory.
@@ -29,10 +28,8 @@ constexpr int kFramesAhead = 2;
 
 slam::RunOutcome RunOnScene(const SlamArguments& arguments, slam::RunOptions options) {
   options.sequence = arguments.live_scene;
-  const sim::Scene scene = sim::ReadScene(arguments.live_scene);
-  const sim::SequenceOptions recording = arguments.recording(scene);
-  LiveScene live(scene, recording.rig,
-                 sim::PlanRecording(scene, recording.rig, recording.timing, recording.frames),
+  SceneRecording recorded = arguments.recording(arguments.live_scene);
+  LiveScene live(recorded.scene, recorded.rig, std::move(recorded.recording),
                  options.threads == 1 ? 0 : kFramesAhead);
   return slam::RunLive({live, live.camera(), live.MakeDetector(options.config.classes)},
                        options);

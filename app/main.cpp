@@ -19,6 +19,7 @@ constexpr const char* kFlow =
     "  pas draw   contact sheet and top view of a run                     -> pictures\n"
     "  pas export a SEQ with truth as COCO or BOP, to train detectors     -> data set\n"
     "  pas check  validate a SEQ or RUN folder, fault by fault\n"
+    "  pas bench  measure one part by itself\n"
     "\n"
     "Exit codes: 0 done, 1 the result is a failure, 2 bad input or usage.";
 
@@ -35,7 +36,8 @@ int main(int argc, char** argv) {
   pas.add_flag("-q,--quiet", globals.quiet, "No progress, no summary; errors still show");
   for (const app::AddCommand add :
        {app::AddSceneCommand, app::AddSimCommand, app::AddSlamCommand, app::AddEvalCommand,
-        app::AddDrawCommand, app::AddExportCommand, app::AddCheckCommand}) {
+        app::AddDrawCommand, app::AddExportCommand, app::AddCheckCommand,
+        app::AddBenchCommand}) {
     add(pas, globals, exit_code);
   }
 

@@ -6,6 +6,7 @@ find_package(OpenCV 4.5 REQUIRED COMPONENTS core imgproc imgcodecs features2d ca
 find_package(Ceres 2.1 REQUIRED)
 find_package(embree 3.13 REQUIRED)
 find_package(yaml-cpp REQUIRED)
+find_package(assimp REQUIRED)
 find_package(nlohmann_json REQUIRED)
 find_package(CLI11 REQUIRED)
 find_package(fmt REQUIRED)

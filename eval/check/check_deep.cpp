@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <opencv2/imgcodecs.hpp>
 
 #include "eval/check/check_truth_depth.h"
@@ -33,6 +34,30 @@ double Median(std::vector<double> values) {
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
   std::nth_element(values.begin(), middle, values.end());
   return *middle;
+}
+
+/// Whether the loop goes round x, seen along right and up.
+bool Encloses(const std::vector<Vector3d>& loop, const Vector3d& x, const Vector3d& right,
+              const Vector3d& up) {
+  bool inside = false;
+  for (std::size_t i = 0; i < loop.size(); ++i) {
+    const Vector3d a = loop[i] - x, b = loop[(i + 1) % loop.size()] - x;
+    const double ya = up.dot(a), yb = up.dot(b);
+    if ((ya > 0) == (yb > 0)) continue;
+    if (right.dot(a) + ya / (ya - yb) * right.dot(b - a) > 0) inside = !inside;
+  }
+  return inside;
+}
+
+double DistanceToLoop(const std::vector<Vector3d>& loop, const Vector3d& x) {
+  double nearest = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < loop.size(); ++i) {
+    const Vector3d& a = loop[i];
+    const Vector3d along = loop[(i + 1) % loop.size()] - a;
+    const double part = std::clamp(along.dot(x - a) / along.squaredNorm(), 0.0, 1.0);
+    nearest = std::min(nearest, (x - a - part * along).norm());
+  }
+  return nearest;
 }
 
 class DeepCheck {
@@ -103,19 +128,16 @@ class DeepCheck {
     // The longest a pixel gets on the plane.
     const double pixel_m = z * ray_w.norm() / std::min(truth_.camera->fx, truth_.camera->fy) /
                            std::max(cosine, 1e-3);
-    double outside = 0;
-    const std::size_t n = plane.corners.size();
-    Vector3d turn = Vector3d::Zero();
-    for (std::size_t i = 0; i < n; ++i) {
-      turn += (plane.corners[i] - plane.corners[0])
-                  .cross(plane.corners[(i + 1) % n] - plane.corners[0]);
+    // Inside the outline and outside the holes: an odd number of loops goes round the point.
+    const Vector3d right = plane.normal.unitOrthogonal(), up = plane.normal.cross(right);
+    bool inside = Encloses(plane.corners, x_w, right, up);
+    for (const auto& hole : plane.holes) inside ^= Encloses(hole, x_w, right, up);
+    if (inside) return 0;
+    double nearest_m = DistanceToLoop(plane.corners, x_w);
+    for (const auto& hole : plane.holes) {
+      nearest_m = std::min(nearest_m, DistanceToLoop(hole, x_w));
     }
-    for (std::size_t i = 0; i < n; ++i) {
-      const Vector3d edge = plane.corners[(i + 1) % n] - plane.corners[i];
-      const Vector3d outward = edge.cross(turn).normalized();
-      outside = std::max(outside, outward.dot(x_w - plane.corners[i]) / pixel_m);
-    }
-    return outside;
+    return nearest_m / pixel_m;
   }
 
   /// Share of pixels with a plane that lie outside its face when ids are read `shift` away.

@@ -23,6 +23,8 @@ constexpr double kRelativeArea = 1e-3;
 struct Box {
   Vector3d center, size;
   Eigen::Quaterniond q_wo;
+  bool of_mesh =
+      false;  ///< its planes are any polygons, and need not face away from its middle
 };
 
 Vector3d AsVector(const std::vector<double>& v) { return {v[0], v[1], v[2]}; }
@@ -52,39 +54,57 @@ std::optional<Box> CheckObject(const CheckedJson& object) {
                     "normalise the quaternion (x y z w)");
     return std::nullopt;
   }
-  return Box{AsVector(*center), AsVector(*size), q_wo.normalized()};
+  const bool of_mesh = object.Has("shape") && object.Text("shape") == "mesh";
+  return Box{AsVector(*center), AsVector(*size), q_wo.normalized(), of_mesh};
 }
 
 // Corners one after the other: sides square to each other, opposite sides equal.
-bool IsRectangle(const std::array<Vector3d, 4>& v) {
+bool IsRectangle(const std::vector<Vector3d>& v) {
+  if (v.size() != 4) return false;
   const Vector3d a = v[1] - v[0], b = v[2] - v[1];
   const double square = std::abs(a.dot(b)) / (a.norm() * b.norm());
   return square <= kSquare_cos && (v[3] - v[2] + a).norm() <= kOnPlane_m * 10;
 }
 
-std::optional<std::array<Vector3d, 4>> Corners(const CheckedJson& plane) {
-  const std::vector<CheckedJson> items = plane.Items("vertices");
-  std::array<Vector3d, 4> corners;
-  if (items.size() != 4) {
-    if (plane.Has("vertices")) {
-      plane.ReportAt("vertices", fmt::format("has {} corners; expected 4", items.size()),
-                     "give the four corners in order");
-    }
-    return std::nullopt;
+/// Of one loop; nothing when it is at fault.
+std::vector<Vector3d> Points(const std::vector<CheckedJson>& items) {
+  std::vector<Vector3d> points;
+  for (const CheckedJson& item : items) {
+    const auto numbers = item.AsNumbers(3);
+    if (!numbers) return {};
+    points.push_back(AsVector(*numbers));
   }
-  bool good = true;
-  for (std::size_t i = 0; i < 4; ++i) {
-    const auto numbers = items[i].AsNumbers(3);
-    good = good && numbers.has_value();
-    if (numbers) corners[i] = AsVector(*numbers);
-  }
-  if (!good) return std::nullopt;
-  return corners;
+  return points;
 }
 
-void CheckCornersOnPlane(const CheckedJson& plane, const std::array<Vector3d, 4>& corners,
+/// Four of a box; three or more of a mesh.
+std::vector<Vector3d> Corners(const CheckedJson& plane, bool of_mesh) {
+  const std::vector<CheckedJson> items = plane.Items("vertices");
+  if (of_mesh ? items.size() >= 3 : items.size() == 4) return Points(items);
+  if (plane.Has("vertices")) {
+    plane.ReportAt(
+        "vertices",
+        fmt::format("has {} corners; expected {}", items.size(), of_mesh ? "3 or more" : "4"),
+        of_mesh ? "give the outline in order" : "give the four corners in order");
+  }
+  return {};
+}
+
+std::vector<std::vector<Vector3d>> Holes(const CheckedJson& plane) {
+  std::vector<std::vector<Vector3d>> holes;
+  if (!plane.Has("holes")) return holes;
+  for (const CheckedJson& hole : plane.Items("holes")) {
+    holes.push_back(Points(hole.AsItems()));
+    if (holes.back().size() >= 3) continue;
+    plane.ReportAt("holes", "has one without 3 corners", "give the outline of each hole");
+    return {};
+  }
+  return holes;
+}
+
+void CheckCornersOnPlane(const CheckedJson& plane, const std::vector<Vector3d>& corners,
                          const CheckedScene::Plane& pi) {
-  for (std::size_t i = 0; i < 4; ++i) {
+  for (std::size_t i = 0; i < corners.size(); ++i) {
     const double off = pi.normal.dot(corners[i]) + pi.d;
     if (std::abs(off) <= kOnPlane_m) continue;
     plane.ReportAt(fmt::format("vertices/{}", i),
@@ -93,12 +113,28 @@ void CheckCornersOnPlane(const CheckedJson& plane, const std::array<Vector3d, 4>
   }
 }
 
-void CheckShape(const CheckedJson& plane, const std::array<Vector3d, 4>& corners) {
-  if (!IsRectangle(corners)) {
+/// Of a polygon, seen from the front; negative when it turns right.
+double SignedArea(const std::vector<Vector3d>& corners, const Vector3d& normal) {
+  Vector3d twice = Vector3d::Zero();
+  for (std::size_t i = 1; i + 1 < corners.size(); ++i) {
+    twice += (corners[i] - corners[0]).cross(corners[i + 1] - corners[0]);
+  }
+  return normal.dot(twice) / 2;
+}
+
+void CheckShape(const CheckedJson& plane, const CheckedScene::Plane& pi, bool of_mesh) {
+  if (!of_mesh && !IsRectangle(pi.corners)) {
     plane.ReportAt("vertices", "is no rectangle", "give the corners in order around the face");
     return;
   }
-  const double area = (corners[1] - corners[0]).cross(corners[2] - corners[1]).norm();
+  double area = SignedArea(pi.corners, pi.normal);
+  if (of_mesh && !(area > 0)) {
+    plane.ReportAt("vertices", "turns right as seen from the front",
+                   "give the outline counter-clockwise about the normal");
+    return;
+  }
+  area = std::abs(area);
+  for (const auto& hole : pi.holes) area -= std::abs(SignedArea(hole, pi.normal));
   const auto told = plane.Number("area");
   if (told && !(std::abs(*told - area) <= kRelativeArea * area)) {
     plane.ReportAt("area",
@@ -107,13 +143,13 @@ void CheckShape(const CheckedJson& plane, const std::array<Vector3d, 4>& corners
   }
 }
 
-void CheckAgainstObject(const CheckedJson& plane, const std::array<Vector3d, 4>& corners,
+void CheckAgainstObject(const CheckedJson& plane, const std::vector<Vector3d>& corners,
                         const Vector3d& normal, const Box& box) {
   const Vector3d middle = (corners[0] + corners[2]) / 2;
-  if (!(normal.dot(middle - box.center) > 0)) {
+  if (!box.of_mesh && !(normal.dot(middle - box.center) > 0)) {
     plane.ReportAt("normal", "points into the object", "turn the normal and d around");
   }
-  for (std::size_t i = 0; i < 4; ++i) {
+  for (std::size_t i = 0; i < corners.size(); ++i) {
     const Vector3d x_o = box.q_wo.conjugate() * (corners[i] - box.center);
     if (((x_o.cwiseAbs() - box.size / 2).array() <= kOnPlane_m * 10).all()) continue;
     plane.ReportAt(fmt::format("vertices/{}", i), "is outside the box of the object",
@@ -127,24 +163,26 @@ void CheckPlane(const CheckedJson& plane, int id, const std::map<int, Box>& boxe
   const auto normal = plane.Numbers("normal", 3);
   const auto d = plane.Number("d");
   const auto object = plane.Integer("object");
-  const auto corners = Corners(plane);
+  const auto box = boxes.find(object ? static_cast<int>(*object) : 0);
+  const bool of_mesh = box != boxes.end() && box->second.of_mesh;
+  const std::vector<Vector3d> corners = Corners(plane, of_mesh);
   if (!normal || !d) return;
-  CheckedScene::Plane pi{AsVector(*normal), *d, object ? static_cast<int>(*object) : 0, {}};
-  if (corners) pi.corners.assign(corners->begin(), corners->end());
+  CheckedScene::Plane pi{AsVector(*normal), *d, object ? static_cast<int>(*object) : 0, corners,
+                         Holes(plane)};
   if (!(std::abs(pi.normal.norm() - 1) <= kUnit)) {
     plane.ReportAt("normal", fmt::format("has length {:.8f}; expected 1", pi.normal.norm()),
                    "normalise the normal and divide d by the same length");
     return;
   }
-  if (corners) {
-    CheckCornersOnPlane(plane, *corners, pi);
-    CheckShape(plane, *corners);
+  if (!corners.empty()) {
+    CheckCornersOnPlane(plane, corners, pi);
+    CheckShape(plane, pi, of_mesh);
   }
   if (object && scene.objects.count(pi.object) == 0) {
     plane.ReportAt("object", fmt::format("is {}, which is no id of an object", *object),
                    "name the object that owns the plane");
-  } else if (corners && boxes.count(pi.object) != 0) {
-    CheckAgainstObject(plane, *corners, pi.normal, boxes.at(pi.object));
+  } else if (!corners.empty() && box != boxes.end()) {
+    CheckAgainstObject(plane, corners, pi.normal, box->second);
   }
   scene.planes[id] = pi;
 }

@@ -41,6 +41,19 @@ Camera Resize(const Camera& camera, int width, int height) {
   return resized;
 }
 
+Camera CameraOf(const Capture& capture) {
+  Camera camera;
+  camera.width = capture.width;
+  camera.height = capture.height;
+  camera.fx = capture.fx;
+  camera.fy = capture.fy;
+  camera.cx = capture.cx;
+  camera.cy = capture.cy;
+  camera.fps = capture.fps;
+  const auto& [k1, k2, p1, p2, k3] = capture.distortion;
+  return WithLens(Resize(camera, capture.width, capture.height), {k1, k2, p1, p2, k3});
+}
+
 Camera WithLens(const Camera& camera, const Lens& lens) {
   constexpr double kStep = 1e-3, kFarthest = 10.0, kMargin = 1.1, kRim_px = 2.0;
   Camera bent = camera;

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "sim/camera/lens.h"
+#include "sim/scene/scene.h"
 
 namespace sim {
 
@@ -41,6 +42,10 @@ Camera Resize(const Camera& camera, int width, int height);
 /// @throws std::invalid_argument when the distortion folds the image, so that not every pixel,
 ///   and a rim of two pixels, has one ray.
 Camera WithLens(const Camera& camera, const Lens& lens);
+
+/// The camera that a scene asks for, with its lens.
+/// @throws std::invalid_argument as Resize and WithLens do
+Camera CameraOf(const Capture& capture);
 
 /// Text of camera.yaml (formats.md).
 std::string CameraYaml(const Camera& camera);

@@ -2,12 +2,18 @@
 
 #include <algorithm>
 
+#include "sim/scene/geometry.h"
+
 namespace sim {
 
 FreeSpace::FreeSpace(const Scene& scene) {
-  for (const Object& object : scene.objects) {
-    solids_.push_back({object.q_wo.toRotationMatrix().transpose(), object.center_w,
-                       object.size / 2, object.role == Role::kStructure});
+  constexpr double kStep_m = 0.1;
+  for (const Object& given : scene.objects) {
+    for (const double time_s : MomentsOf(given, kStep_m)) {
+      const Object object = ObjectAt(given, time_s);
+      solids_.push_back({object.q_wo.toRotationMatrix().transpose(), object.center_w,
+                         object.size / 2, object.role == Role::kStructure});
+    }
   }
 }
 

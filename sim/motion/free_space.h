@@ -7,7 +7,8 @@
 
 namespace sim {
 
-/// Where the camera can be: outside every object, toys by their boxes.
+/// Where the camera can be: outside every object, toys by their boxes, and of the whole way of
+/// what moves.
 class FreeSpace {
  public:
   explicit FreeSpace(const Scene& scene);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <set>
 
@@ -17,6 +18,12 @@ std::string Millimetres(double length_m) {
 
 double Lowest(const Object& object) {
   double z = object.center_w.z();
+  if (object.shape == ShapeKind::kMesh) {
+    for (const Eigen::Vector3d& x_o : object.model->vertices_o) {
+      z = std::min(z, (ObjectPose(object) * x_o).z());
+    }
+    return z;
+  }
   for (const Eigen::Vector3d& corner : Corners(object)) z = std::min(z, corner.z());
   return z;
 }
@@ -25,6 +32,24 @@ double Highest(const Object& object) {
   double z = object.center_w.z();
   for (const Eigen::Vector3d& corner : Corners(object)) z = std::max(z, corner.z());
   return z;
+}
+
+/// How deep the corners of a mesh are in the other's box. Its own box says little: a mesh may
+/// be hollow, or stand round the other.
+double DepthOfCorners(const Object& mesh, const Object& other) {
+  double depth = -std::numeric_limits<double>::infinity();
+  for (const Eigen::Vector3d& x_o : mesh.model->vertices_o) {
+    depth = std::max(depth, -DistanceToBox(other, ObjectPose(mesh) * x_o));
+  }
+  return depth;
+}
+
+double DepthInside(const Object& a, const Object& b) {
+  double depth = OverlapDepth(a, b);
+  if (depth <= kTouch_m) return depth;
+  if (a.shape == ShapeKind::kMesh) depth = std::min(depth, DepthOfCorners(a, b));
+  if (b.shape == ShapeKind::kMesh) depth = std::min(depth, DepthOfCorners(b, a));
+  return depth;
 }
 
 std::optional<std::string> RepeatedName(const Scene& scene, std::size_t i) {
@@ -42,6 +67,31 @@ std::optional<std::string> RepeatedName(const Scene& scene, std::size_t i) {
   return std::nullopt;
 }
 
+/// What moves must stay clear of what stands, and over the floor, all along its way. Two that
+/// move may meet.
+std::optional<std::string> FaultOfWay(const Scene& scene, std::size_t i, double floor_z) {
+  constexpr double kStep_m = 0.02;
+  const Object& moving = scene.objects[i];
+  if (moving.way.empty()) return std::nullopt;
+  for (const double time_s : MomentsOf(moving, kStep_m)) {
+    const Object there = ObjectAt(moving, time_s);
+    const std::string when = " at " + NumberText(std::round(time_s * 100) / 100) + " s";
+    if (!(floor_z - Lowest(there) <= kTouch_m)) {
+      return "'" + moving.name + "' is below the floor" + when + "; raise its way";
+    }
+    for (const Object& other : scene.objects) {
+      if (!other.way.empty() || &other == &moving) continue;
+      const double reach = (there.size.norm() + other.size.norm()) / 2;
+      if ((there.center_w - other.center_w).squaredNorm() > reach * reach) continue;
+      const double depth = DepthInside(there, other);
+      if (depth <= kTouch_m) continue;
+      return "'" + moving.name + "' is " + Millimetres(depth) + " inside '" + other.name + "'" +
+             when + "; move its way";
+    }
+  }
+  return std::nullopt;
+}
+
 }  // namespace
 
 std::optional<SceneFault> FindFault(const Scene& scene) {
@@ -52,6 +102,8 @@ std::optional<SceneFault> FindFault(const Scene& scene) {
   for (std::size_t i = 0; i < scene.objects.size(); ++i) {
     const Object& object = scene.objects[i];
     if (const auto repeated = RepeatedName(scene, i)) return SceneFault{i, *repeated};
+    if (const auto fault = FaultOfWay(scene, i, floor_z)) return SceneFault{i, *fault};
+    if (!object.way.empty()) continue;
     const double below = floor_z - Lowest(object);
     if (object.class_name != "floor" && !(below <= kTouch_m)) {
       return SceneFault{i, "'" + object.name + "' reaches " + Millimetres(below) +
@@ -59,9 +111,10 @@ std::optional<SceneFault> FindFault(const Scene& scene) {
     }
     for (std::size_t j = 0; j < i; ++j) {
       const Object& other = scene.objects[j];
+      if (!other.way.empty()) continue;  // it looks at the others itself
       const double reach = (object.size.norm() + other.size.norm()) / 2;
       if ((object.center_w - other.center_w).squaredNorm() > reach * reach) continue;
-      const double depth = OverlapDepth(object, other);
+      const double depth = DepthInside(object, other);
       if (depth <= kTouch_m) continue;
       return SceneFault{i, "'" + object.name + "' and '" + other.name + "' are " +
                                Millimetres(depth) + " inside each other; move one apart"};

@@ -26,7 +26,7 @@ std::vector<Recipe> DeskRecipes() {
   return {
       {{"desk",
         "an office desk: many small near-parallel tops 6 to 50 mm over the desk and each other",
-        {{"objects", 0, 0, 40, "things on the desk, 8 to 40; 0 draws 8 to 14", true},
+        {{"objects", 0, 0, 40, "things on the desk, 5 to 40; 0 draws 8 to 14", true},
          kTexture}},
        &MakeDesk},
       {{"plates",

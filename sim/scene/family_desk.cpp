@@ -13,6 +13,7 @@ constexpr std::uint64_t kFamilyKey = 0x6465736b;
 constexpr double kMargin_m = 0.012;    // between things, and to the edge of the desk
 constexpr double kHalfView_m = 0.66;   // things stay where the camera looks
 constexpr double kClearSide_m = 1.40;  // the side wall leaves the camera its room
+constexpr int kFewestObjects = 5;      // when asked for
 constexpr int kMinObjects = 8, kMaxObjects = 14;
 constexpr int kTriesEach = 300, kLayouts = 400;
 
@@ -95,6 +96,17 @@ std::vector<Wish> DrawWishes(int count, Random& random) {
   return wishes;
 }
 
+/// A tidy desk: 5 to 7 things.
+std::vector<Wish> DrawFewWishes(int count, Random& random) {
+  std::vector<Wish> wishes{{MakeOpenLaptop(random), -0.5, 0.5, 25},
+                           {MakeKeyboard(random), -0.5, 0.2, 12},
+                           {MakeBookStack(2, random)},
+                           {MakePhone(random)}};
+  if (count > 5) wishes.push_back({MakeCarton(random), -0.2, 0.5, 180});
+  if (count > 6) wishes.push_back({MakeToy(random), -0.2, 0.5, 180});
+  return wishes;
+}
+
 bool PutWishes(const std::vector<Wish>& wishes, const Desk& desk, Random& random,
                Scene& scene) {
   const double half_x = std::min(desk.width / 2, kHalfView_m);
@@ -123,15 +135,17 @@ Scene MakeDesk(std::uint64_t seed, const ParameterValues& values) {
   const Desk desk = PutRoom(room, scene);
   scene.motion.target_w = {0, Rounded(-0.05 * desk.depth), desk.top_z};
   const int wanted = asked;
-  if (wanted != 0 && wanted < kMinObjects) {
-    throw InputError("family desk", "expected objects from 8 to 40, or 0 to draw the number");
+  if (wanted != 0 && wanted < kFewestObjects) {
+    throw InputError("family desk", "expected objects from 5 to 40, or 0 to draw the number");
   }
   const int count = wanted > 0 ? wanted : 8 + room.Below(7);
   for (std::uint64_t attempt = 0; attempt < kLayouts; ++attempt) {
     // Where a full desk has no room at all, the things are drawn anew, then fewer of them.
     const int fewer = wanted > 0 ? 0 : static_cast<int>(attempt / 50);
     Random random({kFamilyKey, seed, 1, attempt});
-    const std::vector<Wish> wishes = DrawWishes(std::max(kMinObjects, count - fewer), random);
+    const std::vector<Wish> wishes =
+        count < kMinObjects ? DrawFewWishes(count, random)
+                            : DrawWishes(std::max(kMinObjects, count - fewer), random);
     if (PutWishes(wishes, desk, random, scene)) return scene;
   }
   throw InputError("family desk", "no room for " + std::to_string(count) +

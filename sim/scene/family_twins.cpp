@@ -84,6 +84,16 @@ Scene MakeRevisit(std::uint64_t seed, const ParameterValues& values) {
   Put(MakeShelf(shelf, 4, random), away, scene);
   Put(MakeShelfBooks(shelf, 4, random), away, scene);
 
+  // The floor and the wall behind reach past the shelf, where the camera looks.
+  for (Object& object : scene.objects) {
+    if (object.name != "floor" && object.name != "wall_back") continue;
+    object.size.x() = 10;
+    object.center_w.x() = Rounded(open * 2);
+  }
+  PutStructure("wall_far", "wall", {0.1, 6, 2.5},
+               {open * (2.6 + 0.5), named("floor").center_w.y(), 1.25},
+               DrawMaterial(Print::kSpeckle, random), scene);
+
   Motion& motion = scene.motion;
   motion.preset = "loop";
   motion.turn_deg_s = 18;

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "sim/scene/angle.h"
+
 namespace sim {
 namespace {
 
@@ -19,6 +21,41 @@ double HalfExtent(const Pose& T_wo, const Eigen::Vector3d& half,
 
 Pose ObjectPose(const Object& object) {
   return {object.q_wo.toRotationMatrix(), object.center_w};
+}
+
+Object ObjectAt(const Object& object, double time_s) {
+  if (object.way.empty()) return object;
+  const auto after = std::find_if(object.way.begin(), object.way.end(),
+                                  [&](const Waypoint& p) { return p.time_s > time_s; });
+  const Waypoint& b = after == object.way.end() ? object.way.back() : *after;
+  const Waypoint& a = after == object.way.begin() ? b : *(after - 1);
+  const double gap_s = b.time_s - a.time_s;
+  const double part = gap_s > 0 ? (time_s - a.time_s) / gap_s : 0;
+  Object there = object;
+  there.center_w = a.center_w + part * (b.center_w - a.center_w);
+  const double yaw_deg = a.yaw_deg + part * (b.yaw_deg - a.yaw_deg);
+  there.q_wo = QuaternionFromRpyDeg({0, 0, yaw_deg}) * object.q_wo;
+  there.way.clear();
+  return there;
+}
+
+Pose ObjectPoseAt(const Object& object, double time_s) {
+  return ObjectPose(ObjectAt(object, time_s));
+}
+
+std::vector<double> MomentsOf(const Object& object, double step_m) {
+  if (object.way.empty()) return {0};
+  std::vector<double> moments{object.way.front().time_s};
+  for (std::size_t i = 1; i < object.way.size(); ++i) {
+    const Waypoint &a = object.way[i - 1], &b = object.way[i];
+    const double turn_m = DegToRad(std::abs(b.yaw_deg - a.yaw_deg)) * object.size.norm() / 2;
+    const double length = (b.center_w - a.center_w).norm() + turn_m;
+    const int steps = std::max(1, static_cast<int>(std::ceil(length / step_m)));
+    for (int k = 1; k <= steps; ++k) {
+      moments.push_back(a.time_s + (b.time_s - a.time_s) * k / steps);
+    }
+  }
+  return moments;
 }
 
 std::array<Eigen::Vector3d, 8> Corners(const Object& object) {

@@ -1,5 +1,9 @@
 #include "sim/scene/mesh.h"
 
+#include <Eigen/Geometry>
+#include <map>
+
+#include "sim/scene/body.h"
 #include "sim/scene/faces.h"
 #include "sim/scene/geometry.h"
 #include "sim/scene/round.h"
@@ -37,6 +41,8 @@ Eigen::Vector2d CubeMap(const Eigen::Vector3d& n_o, const Eigen::Vector3d& x_o) 
 
 ClosedSurface BodyOf(const Object& object) {
   if (object.shape == ShapeKind::kToy) return ToySurface(object.size, object.seed);
+  if (object.shape == ShapeKind::kPerson) return PersonSurface(object.size);
+  if (object.shape == ShapeKind::kHand) return HandSurface(object.size);
   if (object.shape == ShapeKind::kBush) return BushSurface(object.size, object.seed);
   return RoundSurface(object.shape, object.size);
 }
@@ -86,17 +92,98 @@ void AddBody(const Object& object, SceneMesh& mesh) {
   }
 }
 
+/// Two axes that make with the normal a right-handed frame, level where the plane allows.
+std::pair<Eigen::Vector3d, Eigen::Vector3d> AxesIn(const Eigen::Vector3d& n) {
+  const Eigen::Vector3d level = Eigen::Vector3d::UnitZ().cross(n);
+  const Eigen::Vector3d u =
+      level.norm() > 0.1 ? level.normalized() : Eigen::Vector3d::UnitY().cross(n).normalized();
+  return {u, n.cross(u)};
+}
+
+/// Materials of a mesh: one a plane and colour, so that a print fits the plane it is on.
+class ModelMaterials {
+ public:
+  ModelMaterials(const Object& object, SceneMesh& mesh) : object_(object), mesh_(mesh) {}
+  int Of(int plane, int colour) {
+    const int own = object_.model_colours ? colour : 0;
+    const auto [at, fresh] =
+        known_.try_emplace({plane, own}, static_cast<int>(mesh_.materials.size()));
+    if (fresh) {
+      Material material = object_.faces[0];
+      if (object_.model_colours) {
+        material = {};
+        material.richness = 0;
+        material.colour = object_.model->colours.at(static_cast<std::size_t>(colour));
+      }
+      mesh_.materials.push_back(material);
+    }
+    return at->second;
+  }
+
+ private:
+  const Object& object_;
+  SceneMesh& mesh_;
+  std::map<std::pair<int, int>, int> known_;
+};
+
+void AddModel(const Object& object, int& plane_id, SceneMesh& mesh) {
+  const Model& model = *object.model;
+  const Pose T_wo = ObjectPose(object);
+  const auto corner = [&](int i) { return model.vertices_o[static_cast<std::size_t>(i)]; };
+  const auto face_normal = [&](const std::array<int, 3>& t) -> Eigen::Vector3d {
+    return (corner(t[1]) - corner(t[0])).cross(corner(t[2]) - corner(t[0]));
+  };
+  std::vector<std::vector<Eigen::Vector3d>> faces_o(model.vertices_o.size());
+  for (const auto& t : model.triangles) {
+    for (const int i : t) faces_o[static_cast<std::size_t>(i)].push_back(face_normal(t));
+  }
+  ModelMaterials materials(object, mesh);
+  for (std::size_t k = 0; k < model.triangles.size(); ++k) {
+    const auto& t = model.triangles[k];
+    const int plane = model.plane_of[k];
+    const Eigen::Vector3d n_o =
+        plane < 0 ? face_normal(t) : model.planes[static_cast<std::size_t>(plane)].n_o;
+    Triangle triangle;
+    triangle.object = object.id;
+    triangle.plane = plane < 0 ? 0 : plane_id + plane + 1;
+    triangle.material = materials.Of(plane, model.colour_of[k]);
+    for (std::size_t i = 0; i < 3; ++i) {
+      const Eigen::Vector3d x_o = corner(t[i]);
+      triangle.corners_w[i] = T_wo * x_o;
+      if (plane < 0) {
+        triangle.uv_m[i] = CubeMap(n_o, x_o);
+        triangle.normals_w[i] = T_wo.R * Smoothed(faces_o[static_cast<std::size_t>(t[i])], n_o);
+      } else {
+        const auto [u, v] = AxesIn(n_o);
+        triangle.uv_m[i] = {u.dot(x_o), v.dot(x_o)};
+        triangle.normals_w[i] = T_wo.R * n_o;
+      }
+    }
+    mesh.triangles.push_back(triangle);
+  }
+  plane_id += static_cast<int>(model.planes.size());
+}
+
 }  // namespace
 
 SceneMesh BuildMesh(const Scene& scene) {
   SceneMesh mesh;
   int plane_id = 0;  // counts as ScenePlanes does
-  for (const Object& object : scene.objects) {
+  for (const Object& given : scene.objects) {
+    const bool moves = !given.way.empty();
+    const Object object = moves ? ObjectAt(given, given.way.front().time_s) : given;
+    const int planes_before = plane_id;
+    const std::size_t first = mesh.triangles.size();
     if (object.shape == ShapeKind::kBox) {
       AddBox(object, plane_id, mesh);
+    } else if (object.shape == ShapeKind::kMesh) {
+      AddModel(object, plane_id, mesh);
     } else {
       AddBody(object, mesh);
     }
+    if (!moves) continue;
+    plane_id = planes_before;
+    for (std::size_t i = first; i < mesh.triangles.size(); ++i) mesh.triangles[i].plane = 0;
   }
   return mesh;
 }

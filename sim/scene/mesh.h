@@ -23,7 +23,8 @@ struct SceneMesh {
   std::vector<Material> materials;
 };
 
-/// Triangles of every object: two a box face, a few hundred a toy.
+/// Triangles of every object: two a box face, a few hundred a toy. What moves stands at the
+/// first point of its way, and has no planes.
 SceneMesh BuildMesh(const Scene& scene);
 
 }  // namespace sim

@@ -10,8 +10,8 @@ inline const std::vector<std::string> kRoleNames{"structure", "regular", "unstru
                                                  "other"};
 inline const std::vector<std::string> kPrintNames{"plain", "wood", "cloth",  "text",
                                                   "cover", "keys", "screen", "speckle"};
-inline const std::vector<std::string> kShapeNames{"box",    "toy",  "cylinder", "mug",
-                                                  "bottle", "bowl", "bush"};
+inline const std::vector<std::string> kShapeNames{
+    "box", "toy", "cylinder", "mug", "bottle", "bowl", "bush", "mesh", "person", "hand"};
 inline const std::vector<std::string> kFaceNames{"-x", "+x", "-y", "+y", "-z", "+z"};
 inline const std::vector<std::string> kPresetNames{"slow", "office", "fast", "xyz",     "rpy",
                                                    "360",  "orbit",  "loop", "lookaway"};

@@ -7,6 +7,7 @@
 #include "sim/scene/check.h"
 #include "sim/scene/input_error.h"
 #include "sim/scene/names.h"
+#include "sim/scene/read_model.h"
 #include "sim/scene/scene_file.h"
 #include "sim/scene/yaml_value.h"
 
@@ -66,9 +67,65 @@ Eigen::Quaterniond ReadRotation(const YamlMap& map) {
   return rotation;
 }
 
-Object ReadObject(const YamlValue& value) {
-  const YamlMap map(value, {"id", "name", "class", "role", "shape", "center_m", "rpy_deg",
-                            "q_xyzw", "size_m", "detection_group", "seed", "faces"});
+std::vector<Waypoint> ReadWay(const YamlValue& value) {
+  constexpr std::size_t kMost = 10000;
+  std::vector<Waypoint> way;
+  for (const YamlValue& entry : value.List(kMost)) {
+    const YamlMap map(entry, {"time_s", "center_m", "yaw_deg"});
+    Waypoint point;
+    point.time_s = map.At("time_s").Number(0, 1e5, "seconds");
+    point.center_w =
+        map.At("center_m").Numbers(3, -kMaxCoordinate_m, kMaxCoordinate_m, "metres");
+    if (map.Has("yaw_deg")) point.yaw_deg = map.At("yaw_deg").Number(-36000, 36000, "degrees");
+    if (!way.empty() && !(point.time_s > way.back().time_s)) {
+      map.At("time_s").Fail("is not after the one before; sort the way by time");
+    }
+    way.push_back(point);
+  }
+  if (way.size() < 2) value.Fail("expected two points or more; what stands has no `way`");
+  return way;
+}
+
+std::vector<Lamp> ReadLamps(const YamlValue& value) {
+  constexpr std::size_t kMost = 8;
+  std::vector<Lamp> lamps;
+  for (const YamlValue& entry : value.List(kMost)) {
+    const YamlMap map(entry, {"position_m", "intensity", "side_m", "direction"});
+    Lamp lamp;
+    lamp.position_w =
+        map.At("position_m").Numbers(3, -kMaxCoordinate_m, kMaxCoordinate_m, "metres");
+    if (map.Has("intensity")) lamp.intensity = map.At("intensity").Number(0, 100, "");
+    if (map.Has("side_m")) lamp.side_m = map.At("side_m").Number(0, 10, "metres");
+    if (map.Has("direction")) {
+      lamp.direction_w = map.At("direction").Numbers(3, -100, 100, "");
+      if (!(lamp.direction_w.norm() > 1e-6)) {
+        map.At("direction").Fail("expected a direction, not 0");
+      }
+    }
+    lamps.push_back(lamp);
+  }
+  return lamps;
+}
+
+/// What only a mesh has cannot stand without one, nor a mesh be another shape.
+void CheckShape(const YamlMap& map) {
+  const bool mesh = map.Has("mesh");
+  if (map.Has("shape") && (kShapeNames[map.At("shape").OneOf(kShapeNames)] == "mesh") != mesh) {
+    map.At("shape").Fail(mesh ? "is another one than `mesh`; leave it out"
+                              : "is mesh: name its file with `mesh`");
+  }
+  for (const std::string& key : kModelKeys) {
+    if (!mesh && map.Has(key)) map.At(key).Fail("is for a mesh; name its file with `mesh`");
+  }
+}
+
+Object ReadObject(const YamlValue& value, const std::filesystem::path& folder) {
+  std::vector<std::string> keys{"id",       "name",    "class",  "role",   "shape",
+                                "center_m", "rpy_deg", "q_xyzw", "size_m", "detection_group",
+                                "seed",     "faces"};
+  keys.insert(keys.end(), kModelKeys.begin(), kModelKeys.end());
+  const YamlMap map(value, keys);
+  CheckShape(map);
   Object object;
   object.id = static_cast<int>(map.At("id").Whole(1, kMaxId));
   object.name = map.At("name").Word();
@@ -77,10 +134,21 @@ Object ReadObject(const YamlValue& value) {
   if (map.Has("shape")) {
     object.shape = static_cast<ShapeKind>(map.At("shape").OneOf(kShapeNames));
   }
-  object.center_w =
-      map.At("center_m").Numbers(3, -kMaxCoordinate_m, kMaxCoordinate_m, "metres");
   object.q_wo = ReadRotation(map);
-  object.size = map.At("size_m").Numbers(3, kMinSize_m, kMaxSize_m, "metres");
+  if (map.Has("way")) object.way = ReadWay(map.At("way"));
+  if (!object.way.empty()) {
+    if (map.Has("center_m"))
+      map.At("center_m").Fail("stands beside `way`, which has it; leave it out");
+    object.center_w = object.way.front().center_w;
+  } else if (map.Has("center_m") || !map.Has("mesh")) {
+    object.center_w =
+        map.At("center_m").Numbers(3, -kMaxCoordinate_m, kMaxCoordinate_m, "metres");
+  }
+  if (map.Has("mesh")) {
+    ReadObjectModel(map, folder, object);
+  } else {
+    object.size = map.At("size_m").Numbers(3, kMinSize_m, kMaxSize_m, "metres");
+  }
   if (map.Has("detection_group")) {
     object.detection_group = static_cast<int>(map.At("detection_group").Whole(0, kMaxId));
   }
@@ -198,11 +266,13 @@ Scene ParseScene(const std::string& text, const std::string& name) {
   if (map.Has("family")) scene.family = map.At("family").Word();
   if (map.Has("seed")) scene.seed = map.At("seed").Whole(0, kAnySeed);
   if (map.Has("sun")) scene.sun = ReadSun(map.At("sun"));
+  if (map.Has("lamps")) scene.lamps = ReadLamps(map.At("lamps"));
   if (map.Has("motion")) scene.motion = ReadMotion(map.At("motion"));
   if (map.Has("capture")) scene.capture = ReadCapture(map.At("capture"));
+  const std::filesystem::path folder = std::filesystem::path(name).parent_path();
   const std::vector<YamlValue> objects = map.At("objects").List(kMaxObjects);
   if (objects.empty()) map.At("objects").Fail("expected at least one object");
-  for (const YamlValue& object : objects) scene.objects.push_back(ReadObject(object));
+  for (const YamlValue& object : objects) scene.objects.push_back(ReadObject(object, folder));
   if (const auto fault = FindFault(scene)) objects[fault->object].Fail(fault->what);
   return scene;
 }

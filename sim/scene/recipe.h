@@ -25,6 +25,7 @@ Scene MakeRevisit(std::uint64_t seed, const ParameterValues& values);
 Scene MakeOffice(std::uint64_t seed, const ParameterValues& values);
 Scene MakeRoomFamily(std::uint64_t seed, const ParameterValues& values);
 Scene MakeCabinetFamily(std::uint64_t seed, const ParameterValues& values);
+Scene MakePasser(std::uint64_t seed, const ParameterValues& values);
 Scene MakeWall(std::uint64_t seed, const ParameterValues& values);
 /// A larger desk with 15 to 40 things of the whole catalogue.
 Scene MakeCrowdedDesk(std::uint64_t seed, int count);

@@ -32,6 +32,9 @@ const Profile& ProfileOf(ShapeKind kind) {
     case ShapeKind::kBox:
     case ShapeKind::kToy:
     case ShapeKind::kBush:
+    case ShapeKind::kMesh:
+    case ShapeKind::kPerson:
+    case ShapeKind::kHand:
       break;
   }
   throw std::invalid_argument("not a body of revolution");

@@ -4,9 +4,12 @@
 #include <Eigen/Geometry>
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
+
+#include "sim/scene/model.h"
 
 namespace sim {
 
@@ -37,7 +40,18 @@ enum class ShapeKind {
   kMug,     ///< hollow, open above
   kBottle,  ///< body, shoulder, neck
   kBowl,
-  kBush  ///< unstructured foliage; shape from `seed`
+  kBush,  ///< unstructured foliage; shape from `seed`
+  kMesh,  ///< `model`; `size` is that of its box
+  // Unstructured, z up, no planes (body.h):
+  kPerson,
+  kHand  ///< a forearm with its hand, fingers towards +y
+};
+
+/// Where something that moves is at a moment: straight ways and steady turns between.
+struct Waypoint {
+  double time_s = 0;
+  Eigen::Vector3d center_w = Eigen::Vector3d::Zero();
+  double yaw_deg = 0;  ///< about z, on top of the object's own rotation
 };
 
 /// One solid object. World frame w: metres, z up. T_wo takes object to world; the object's
@@ -53,6 +67,11 @@ struct Object {
   Eigen::Vector3d size = Eigen::Vector3d::Ones();  ///< full lengths, metres
   std::array<Material, 6> faces;                   ///< by Face; a toy uses the first
   std::uint64_t seed = 0;
+  std::shared_ptr<const Model> model;  ///< of a kMesh
+  bool model_colours = true;           ///< a kMesh looks as its file says; else as `faces[0]`
+  /// Of what moves, times grow; it stands at its ends before and after. Then `center_w` is the
+  /// first of them.
+  std::vector<Waypoint> way;
   int detection_group =
       0;  ///< objects of one group are detected as one (laptop base and lid); 0 = alone
 };
@@ -61,6 +80,14 @@ struct Sun {
   Eigen::Vector3d direction_w{-0.3, 0.2, -1.0};  ///< the way light travels, need not be unit
   double intensity = 0.8;
   double ambient = 0.45;
+};
+
+/// A lamp: a point, or a square that shines to one side; light falls with the distance squared.
+struct Lamp {
+  Eigen::Vector3d position_w = Eigen::Vector3d::Zero();
+  double intensity = 0.5;  ///< on a surface 1 m away that faces it, as Sun::intensity
+  double side_m = 0;       ///< of the square; 0 = a point, which shines to all sides
+  Eigen::Vector3d direction_w{0, 0, -1};  ///< the way a square faces, need not be unit
 };
 
 /// A place on the way of the camera, and what it looks at there.
@@ -100,22 +127,31 @@ struct Scene {
   std::uint64_t seed = 0;
   std::vector<Object> objects;
   Sun sun;
+  std::vector<Lamp> lamps;
   Motion motion;
   std::optional<Capture> capture;
 };
 
-/// A truth plane: one face of a box object. n . x + d = 0, n out of the object, world frame.
+/// A truth plane: one face of a box, or a flat part of a mesh. n . x + d = 0, n out of the
+/// object, world frame.
 struct ScenePlane {
-  int id = 0;      ///< from 1, in the order of objects and faces
-  int object = 0;  ///< Object::id
-  Face face = Face::kPlusZ;
+  int id = 0;                ///< from 1, in the order of objects and faces
+  int object = 0;            ///< Object::id
+  Face face = Face::kPlusZ;  ///< of a box
   Eigen::Vector3d n_w = Eigen::Vector3d::UnitZ();
   double d = 0;
   double area_m2 = 0;
-  std::array<Eigen::Vector3d, 4> vertices_w;  ///< counter-clockwise seen from the front
+  /// Counter-clockwise seen from the front. Four of a box; those of a mesh may turn either way.
+  std::vector<Eigen::Vector3d> vertices_w;
+  std::vector<std::vector<Eigen::Vector3d>> holes_w;  ///< of a mesh; clockwise
+  std::vector<std::vector<Eigen::Vector3d>>
+      pieces_w;  ///< of a mesh: triangles that it consists of
 };
 
-/// All truth planes of the boxes, in a fixed order.
+/// All truth planes, by object; those of a box in the order of its faces.
 std::vector<ScenePlane> ScenePlanes(const Scene& scene);
+
+/// Convex polygons that make up a plane: itself, or the triangles of a mesh.
+std::vector<std::vector<Eigen::Vector3d>> ConvexPieces(const ScenePlane& plane);
 
 }  // namespace sim

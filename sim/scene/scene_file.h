@@ -15,7 +15,8 @@ inline constexpr const char* kSceneFormat = "pas-scene/1";
 /// @throws InputError with file:line, what was expected and how to mend it.
 Scene ReadScene(const std::filesystem::path& path);
 
-/// The same from text already in memory; `name` stands for the file in messages.
+/// The same from text already in memory; `name` stands for the file in messages, and its folder
+/// is where meshes are looked for.
 Scene ParseScene(const std::string& text, const std::string& name);
 
 /// The canonical text of a scene; ParseScene gives the same scene back, bit for bit.

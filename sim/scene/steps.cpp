@@ -32,10 +32,13 @@ bool IsSurface(const Polygon& polygon) {
   return polygon.size() >= 3 && Area(polygon) > kTouch_m * perimeter / 2;
 }
 
-Polygon SeenFromAbove(const ScenePlane& plane) {
-  Polygon polygon;
-  for (const Eigen::Vector3d& vertex : plane.vertices_w) polygon.push_back(vertex.head<2>());
-  return polygon;
+std::vector<Polygon> SeenFromAbove(const ScenePlane& plane) {
+  std::vector<Polygon> pieces;
+  for (const auto& piece : ConvexPieces(plane)) {
+    pieces.emplace_back();
+    for (const Eigen::Vector3d& vertex : piece) pieces.back().push_back(vertex.head<2>());
+  }
+  return pieces;
 }
 
 /// Sutherland and Hodgman: what both convex counter-clockwise polygons cover.
@@ -59,10 +62,15 @@ Polygon Clip(Polygon subject, const Polygon& window) {
 
 /// Least distance along the top's normal down to `below` over the part that lies under it.
 std::optional<double> StepOver(const ScenePlane& top, const ScenePlane& below) {
-  const Polygon shared = Clip(SeenFromAbove(below), SeenFromAbove(top));
-  if (!IsSurface(shared)) return std::nullopt;
+  std::vector<Eigen::Vector2d> corners;
+  for (const Polygon& under : SeenFromAbove(below)) {
+    for (const Polygon& window : SeenFromAbove(top)) {
+      const Polygon shared = Clip(under, window);
+      if (IsSurface(shared)) corners.insert(corners.end(), shared.begin(), shared.end());
+    }
+  }
   std::optional<double> least;
-  for (const Eigen::Vector2d& at : shared) {
+  for (const Eigen::Vector2d& at : corners) {
     const double z = -(below.d + below.n_w.head<2>().dot(at)) / below.n_w.z();
     const double step = top.n_w.dot(Eigen::Vector3d(at.x(), at.y(), z)) + top.d;
     if (step > kTouch_m) return std::nullopt;  // it stands over the top, not under it

@@ -6,6 +6,7 @@
 #include "sim/scene/input_error.h"
 #include "sim/scene/names.h"
 #include "sim/scene/number_text.h"
+#include "sim/scene/read_model.h"
 #include "sim/scene/scene_file.h"
 #include "sim/scene/sha256.h"
 
@@ -57,13 +58,23 @@ std::string ObjectText(const Object& object) {
   line("class: " + object.class_name);
   line("role: " + kRoleNames[static_cast<std::size_t>(object.role)]);
   line("shape: " + kShapeNames[static_cast<std::size_t>(object.shape)]);
-  line("center_m: " + ListText(object.center_w));
+  if (object.way.empty()) line("center_m: " + ListText(object.center_w));
   line(RotationText(object.q_wo));
-  line("size_m: " + ListText(object.size));
+  if (object.shape == ShapeKind::kMesh) {
+    text += ModelText(object);
+  } else {
+    line("size_m: " + ListText(object.size));
+  }
+  if (!object.way.empty()) line("way:");
+  for (const Waypoint& point : object.way) {
+    line("  - {time_s: " + NumberText(point.time_s) + ", center_m: " +
+         ListText(point.center_w) + ", yaw_deg: " + NumberText(point.yaw_deg) + "}");
+  }
   if (object.detection_group != 0) {
     line("detection_group: " + std::to_string(object.detection_group));
   }
   if (object.seed != 0) line("seed: " + std::to_string(object.seed));
+  if (object.shape == ShapeKind::kMesh && object.model_colours) return text;
   line("faces:");
   const std::string all = MaterialText(object.faces[0]);
   line("  all: " + all);
@@ -117,6 +128,13 @@ std::string SceneText(const Scene& scene) {
   text += "sun:\n  direction: " + ListText(scene.sun.direction_w) +
           "\n  intensity: " + NumberText(scene.sun.intensity) +
           "\n  ambient: " + NumberText(scene.sun.ambient) + "\n";
+  if (!scene.lamps.empty()) text += "lamps:\n";
+  for (const Lamp& lamp : scene.lamps) {
+    text += "  - {position_m: " + ListText(lamp.position_w) +
+            ", intensity: " + NumberText(lamp.intensity) +
+            ", side_m: " + NumberText(lamp.side_m) +
+            ", direction: " + ListText(lamp.direction_w) + "}\n";
+  }
   text += MotionText(scene.motion);
   if (scene.capture) text += CaptureText(*scene.capture);
   text += "objects:\n";

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <set>
 #include <sstream>
+#include <string_view>
 
 #include "sim/scene/input_error.h"
 #include "sim/scene/number_text.h"
@@ -140,6 +141,23 @@ std::string YamlValue::Word() const {
   if (!fits) Fail("expected " + expected + ", found " + Shown(text));
   return text;
 }
+
+std::string YamlValue::Path() const {
+  constexpr std::size_t kMaxPath = 256;
+  const std::string expected =
+      "a path of letters, digits, spaces and _-./, at most 256 characters";
+  const std::string text = Scalar(expected);
+  const bool good = std::all_of(text.begin(), text.end(), [](char c) {
+    return IsLetterOrDigit(c) || std::string_view(" _-./").find(c) != std::string_view::npos;
+  });
+  if (text.empty() || text.size() > kMaxPath || !good || text.front() == ' ' ||
+      text.back() == ' ') {
+    Fail("expected " + expected + ", found " + Shown(text));
+  }
+  return text;
+}
+
+bool YamlValue::Flag() const { return OneOf({"false", "true"}) == 1; }
 
 std::size_t YamlValue::OneOf(const std::vector<std::string>& choices) const {
   const std::string text = Scalar("one of: " + Joined(choices));

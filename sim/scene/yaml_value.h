@@ -28,6 +28,9 @@ class YamlValue {
   /// Letters, digits, space, '_', '-', '.', '/'; 1 to 64 of them, a letter or digit at both
   /// ends.
   std::string Word() const;
+  /// The path of a file: letters, digits, space, '_', '-', '.', '/'; 1 to 256 of them.
+  std::string Path() const;
+  bool Flag() const;
   /// The place of the text among `choices`.
   std::size_t OneOf(const std::vector<std::string>& choices) const;
   /// A list of exactly `count` numbers.

@@ -16,12 +16,42 @@ struct ImageEdge {
   double along[2], across[2], inverse_depth[2];
 };
 
-bool Project(Eigen::Vector3d a, Eigen::Vector3d b, const Camera& camera, ImageEdge& edge) {
+/// A straight piece of an edge: its ends' rays (x, y, 1) and inverse depths, which are affine
+/// along it.
+struct Piece {
+  Eigen::Vector2d p, q;
+  double wp = 0, wq = 0;
+};
+
+/// The part of the edge before the camera and in the window, if there is one.
+bool Clip(Eigen::Vector3d a, Eigen::Vector3d b, const RayWindow& window, Piece& piece) {
   if (!(a.z() > kNear_m) && !(b.z() > kNear_m)) return false;
   if (a.z() < kNear_m) a += (kNear_m - a.z()) / (b.z() - a.z()) * (b - a);
   if (b.z() < kNear_m) b += (kNear_m - b.z()) / (a.z() - b.z()) * (a - b);
-  Eigen::Vector2d p = camera.Project(a), q = camera.Project(b);
-  double zp = 1 / a.z(), zq = 1 / b.z();
+  const Eigen::Vector2d p = a.head<2>() / a.z(), q = b.head<2>() / b.z();
+  double from = 0, to = 1;
+  // Keeps the shares s of the way where at + s slope <= 0.
+  const auto keep = [&](double at, double slope) {
+    if (slope < 0) from = std::max(from, at / -slope);
+    if (slope > 0) to = std::min(to, -at / slope);
+    if (slope == 0 && at > 0) to = -1;
+  };
+  for (int axis = 0; axis < 2; ++axis) {
+    const double way = q[axis] - p[axis];
+    keep(window.low[axis] - p[axis], -way);
+    keep(p[axis] - window.high[axis], way);
+  }
+  if (!(from <= to)) return false;
+  const double wa = 1 / a.z(), wb = 1 / b.z();
+  piece = {p + from * (q - p), p + to * (q - p), wa + from * (wb - wa), wa + to * (wb - wa)};
+  return true;
+}
+
+ImageEdge InImage(const Piece& piece, const Camera& camera) {
+  ImageEdge edge;
+  Eigen::Vector2d p = camera.Project({piece.p.x(), piece.p.y(), 1.0});
+  Eigen::Vector2d q = camera.Project({piece.q.x(), piece.q.y(), 1.0});
+  double zp = piece.wp, zq = piece.wq;
   edge.steep = std::abs(q.y() - p.y()) > std::abs(q.x() - p.x());
   const int axis = edge.steep ? 1 : 0;
   if (p[axis] > q[axis]) {
@@ -31,7 +61,7 @@ bool Project(Eigen::Vector3d a, Eigen::Vector3d b, const Camera& camera, ImageEd
   edge.along[0] = p[axis], edge.along[1] = q[axis];
   edge.across[0] = p[1 - axis], edge.across[1] = q[1 - axis];
   edge.inverse_depth[0] = zp, edge.inverse_depth[1] = zq;
-  return true;
+  return edge;
 }
 
 void Walk(const ImageEdge& edge, const Camera& camera, double margin_px,
@@ -62,6 +92,41 @@ void Walk(const ImageEdge& edge, const Camera& camera, double margin_px,
   }
 }
 
+/// A lens bends edges: so short that what is between two points of one may be joined straight.
+constexpr double kStraight_px = 4.0;
+
+void WalkPieces(const Piece& whole, const Camera& camera, double margin_px,
+                std::vector<EdgePixel>& pixels) {
+  if (camera.lens.IsNone()) return Walk(InImage(whole, camera), camera, margin_px, pixels);
+  const double focal = std::max(camera.fx, camera.fy);
+  const double count = std::ceil((whole.q - whole.p).norm() * focal / kStraight_px) + 1;
+  const auto at = [&](double i) -> Eigen::Vector2d {
+    return whole.p + i / count * (whole.q - whole.p);
+  };
+  const auto inverse_depth = [&](double i) {
+    return whole.wp + i / count * (whole.wq - whole.wp);
+  };
+  for (double i = 0; i < count; ++i) {
+    const Piece piece{at(i), at(i + 1), inverse_depth(i), inverse_depth(i + 1)};
+    Walk(InImage(piece, camera), camera, margin_px, pixels);
+  }
+}
+
+/// Whether a ball may be seen at all.
+bool MayBeSeen(const Eigen::Vector3d& center_c, double radius, const RayWindow& window) {
+  if (center_c.z() + radius < kNear_m) return false;
+  for (int axis = 0; axis < 2; ++axis) {
+    const double low = window.low[axis], high = window.high[axis];
+    if (low * center_c.z() - center_c[axis] > radius * std::sqrt(1 + low * low)) return false;
+    if (center_c[axis] - high * center_c.z() > radius * std::sqrt(1 + high * high))
+      return false;
+  }
+  return true;
+}
+
+constexpr std::size_t kBundle = 36;        ///< the lines of a few boxes
+constexpr double kInsideAFaceShare = 0.2;  ///< of the margin
+
 }  // namespace
 
 SceneEdges::SceneEdges(std::span<const Triangle> triangles) {
@@ -79,28 +144,46 @@ SceneEdges::SceneEdges(std::span<const Triangle> triangles) {
       if (is_new) continue;
       const Triangle& twin = *at->second;
       open.erase(at);
-      const bool inside_a_face = twin.plane > 0 && twin.plane == triangle.plane;
-      if (!inside_a_face) edges_w_.push_back({low, high});
+      edges_.push_back({{low, high}, twin.plane > 0 && twin.plane == triangle.plane});
     }
   }
   for (const auto& [key, triangle] : open) {
-    edges_w_.push_back(
-        {Eigen::Vector3d(key[0], key[1], key[2]), Eigen::Vector3d(key[3], key[4], key[5])});
+    edges_.push_back(
+        {{Eigen::Vector3d(key[0], key[1], key[2]), Eigen::Vector3d(key[3], key[4], key[5])},
+         false});
+  }
+  MakeBundles();
+}
+
+void SceneEdges::MakeBundles() {
+  for (std::size_t first = 0; first < edges_.size(); first += kBundle) {
+    Bundle bundle{first, std::min(first + kBundle, edges_.size()), {}, 0};
+    Eigen::Vector3d low = edges_[first].ends_w[0], high = low;
+    for (std::size_t i = bundle.first; i < bundle.last; ++i) {
+      for (const Eigen::Vector3d& end : edges_[i].ends_w) {
+        low = low.cwiseMin(end);
+        high = high.cwiseMax(end);
+      }
+    }
+    bundle.center_w = 0.5 * (low + high);
+    bundle.radius_m = 0.5 * (high - low).norm() * (1 + 1e-9) + 1e-9;
+    bundles_.push_back(bundle);
   }
 }
 
-std::vector<EdgePixel> SceneEdges::Near(const Pose& T_wc, const Camera& camera,
-                                        double margin_px) const {
+void SceneEdges::Near(const Pose& T_wc, const Camera& camera, const RayWindow& window,
+                      double margin_px, std::vector<EdgePixel>& pixels) const {
   const Pose T_cw = Inverse(T_wc);
-  std::vector<EdgePixel> pixels;
-  for (const auto& [a_w, b_w] : edges_w_) {
-    ImageEdge edge;
-    if (Project(T_cw * a_w, T_cw * b_w, camera, edge)) Walk(edge, camera, margin_px, pixels);
+  for (const Bundle& bundle : bundles_) {
+    if (!MayBeSeen(T_cw * bundle.center_w, bundle.radius_m, window)) continue;
+    for (std::size_t i = bundle.first; i < bundle.last; ++i) {
+      const Edge& edge = edges_[i];
+      Piece piece;
+      if (!Clip(T_cw * edge.ends_w[0], T_cw * edge.ends_w[1], window, piece)) continue;
+      const double margin = edge.inside_a_face ? kInsideAFaceShare * margin_px : margin_px;
+      WalkPieces(piece, camera, margin, pixels);
+    }
   }
-  std::sort(pixels.begin(), pixels.end(), [](const EdgePixel& a, const EdgePixel& b) {
-    return a.pixel != b.pixel ? a.pixel < b.pixel : a.inverse_depth < b.inverse_depth;
-  });
-  return pixels;
 }
 
 }  // namespace sim

@@ -22,13 +22,16 @@ struct Rendering {
 };
 
 struct RenderOptions {
-  bool colour = true;               ///< fill radiance
-  double projector_offset_m = 0.0;  ///< along camera +x; 0 leaves projector_lit empty
-  cv::Range rows = cv::Range::all();  ///< only these are rendered; the rest stays empty
+  bool colour = true;                 ///< fill radiance
+  double projector_offset_m = 0.0;    ///< along camera +x; 0 leaves projector_lit empty
+  cv::Range rows = cv::Range::all();  ///< only these are rendered; the rest is left alone
   /// Decide what a pixel beside an edge shows in double instead of by the ray tracer, whose
-  /// single precision takes the other side within about 1e-4 px.
-  bool exact_edges = false;
+  /// single precision takes the other side within about 1e-4 px. Then depth and ids are the
+  /// same bits on every processor.
+  bool exact_edges = true;
 };
+
+struct RenderWorld;
 
 /// Renders views of one scene. Const and thread-safe; a view depends on its pose alone.
 class FrameRenderer {
@@ -42,9 +45,12 @@ class FrameRenderer {
   /// One primary ray through each pixel centre (integer coordinates). Its depth is recomputed
   /// in double from the plane it hits, so within a plane 1/z is affine in the pixel.
   Rendering Render(const Pose& T_wc, const RenderOptions& options = {}) const;
+  /// The same into the images of an earlier view, whose memory is used again.
+  void Render(const Pose& T_wc, const RenderOptions& options, Rendering& out) const;
 
   /// Pixels whose centre ray meets the object when nothing else is there, inside the image:
-  /// what the object would show unoccluded. Its visible pixels count without a ray.
+  /// what the object would show unoccluded. A box is looked at in double, by its outline; of
+  /// other shapes visible pixels count without a ray.
   /// @param object_index  index into scene.objects
   /// @param where         pixels to look at; must hold the whole silhouette in the image
   /// @param object_id     of the same view
@@ -59,8 +65,7 @@ class FrameRenderer {
   const Scene& scene() const;
 
  private:
-  struct World;
-  std::unique_ptr<const World> world_;
+  std::unique_ptr<const RenderWorld> world_;
 };
 
 }  // namespace sim

@@ -2,6 +2,7 @@
 
 #include <embree3/rtcore.h>
 
+#include <cstring>
 #include <map>
 #include <mutex>
 #include <stdexcept>
@@ -48,19 +49,21 @@ RTCDevice SharedDevice(InstructionSet set) {
   return device.handle;
 }
 
-void CopyRays(const RayPacket& rays, RTCRay8& out, std::array<int, 8>& valid) {
-  for (std::size_t i = 0; i < RayPacket::kLanes; ++i) {
-    out.org_x[i] = rays.x[i];
-    out.org_y[i] = rays.y[i];
-    out.org_z[i] = rays.z[i];
-    out.dir_x[i] = rays.dx[i];
-    out.dir_y[i] = rays.dy[i];
-    out.dir_z[i] = rays.dz[i];
-    out.tnear[i] = rays.near[i];
-    out.tfar[i] = rays.far[i];
+/// Fills `out` and says which lanes are cast.
+void CopyRays(const RayPacket& rays, RTCRay8& out, int* valid) {
+  constexpr std::size_t kBytes = sizeof rays.x;
+  std::memcpy(out.org_x, rays.x.data(), kBytes);
+  std::memcpy(out.org_y, rays.y.data(), kBytes);
+  std::memcpy(out.org_z, rays.z.data(), kBytes);
+  std::memcpy(out.dir_x, rays.dx.data(), kBytes);
+  std::memcpy(out.dir_y, rays.dy.data(), kBytes);
+  std::memcpy(out.dir_z, rays.dz.data(), kBytes);
+  std::memcpy(out.tnear, rays.near.data(), kBytes);
+  std::memcpy(out.tfar, rays.far.data(), kBytes);
+  for (unsigned i = 0; i < RayPacket::kLanes; ++i) {
     out.time[i] = 0.0F;
     out.mask[i] = ~0U;
-    out.id[i] = static_cast<unsigned>(i);
+    out.id[i] = i;
     out.flags[i] = 0;
     valid[i] = rays.far[i] > rays.near[i] ? -1 : 0;
   }
@@ -108,7 +111,7 @@ RayScene::RayScene(std::span<const Triangle> triangles, InstructionSet set)
     : embree_(std::make_unique<Embree>()) {
   const RTCDevice device = SharedDevice(set);
   embree_->scene = rtcNewScene(device);
-  rtcSetSceneFlags(embree_->scene, RTC_SCENE_FLAG_ROBUST);
+  rtcSetSceneFlags(embree_->scene, RTC_SCENE_FLAG_NONE);
   rtcSetSceneBuildQuality(embree_->scene, RTC_BUILD_QUALITY_HIGH);
   if (!triangles.empty()) {
     const RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
@@ -142,31 +145,29 @@ RayScene& RayScene::operator=(RayScene&&) noexcept = default;
 
 PacketHits RayScene::Nearest(const RayPacket& rays) const {
   RTCRayHit8 query;
-  alignas(32) std::array<int, 8> valid;
+  alignas(32) int valid[RayPacket::kLanes];
   CopyRays(rays, query.ray, valid);
   for (auto& id : query.hit.geomID) id = RTC_INVALID_GEOMETRY_ID;
   RTCIntersectContext context;
   rtcInitIntersectContext(&context);
   context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
-  rtcIntersect8(valid.data(), embree_->scene, &context, &query);
+  rtcIntersect8(valid, embree_->scene, &context, &query);
   PacketHits hits;
   for (std::size_t i = 0; i < RayPacket::kLanes; ++i) {
     const bool hit = valid[i] != 0 && query.hit.geomID[i] != RTC_INVALID_GEOMETRY_ID;
     hits.triangle[i] = hit ? static_cast<int>(query.hit.primID[i]) : PacketHits::kNothing;
-    hits.b1[i] = query.hit.u[i];
-    hits.b2[i] = query.hit.v[i];
   }
   return hits;
 }
 
 std::array<bool, RayPacket::kLanes> RayScene::Blocked(const RayPacket& rays) const {
   RTCRay8 query;
-  alignas(32) std::array<int, 8> valid;
+  alignas(32) int valid[RayPacket::kLanes];
   CopyRays(rays, query, valid);
   RTCIntersectContext context;
   rtcInitIntersectContext(&context);
   context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
-  rtcOccluded8(valid.data(), embree_->scene, &context, &query);
+  rtcOccluded8(valid, embree_->scene, &context, &query);
   std::array<bool, RayPacket::kLanes> blocked{};
   for (std::size_t i = 0; i < RayPacket::kLanes; ++i) {
     blocked[i] = valid[i] != 0 && query.tfar[i] < 0.0F;  // Embree writes -inf

@@ -23,12 +23,10 @@ struct RayPacket {
   void Disable(int lane) { far[static_cast<std::size_t>(lane)] = -1.0F; }
 };
 
-/// What the lanes hit: triangle index, or kNothing; (b1, b2) barycentric weights of corners
-/// 1, 2.
+/// What the lanes hit: triangle index, or kNothing.
 struct PacketHits {
   static constexpr int kNothing = -1;
   alignas(32) std::array<int, RayPacket::kLanes> triangle{};
-  alignas(32) std::array<float, RayPacket::kLanes> b1{}, b2{};
 };
 
 /// Which instructions the ray tracer may use. Its answers at edges differ with them.
@@ -43,7 +41,9 @@ enum class InstructionSet {
 bool HasInstructionSet(InstructionSet set);
 
 /// Triangles to cast rays at (Embree, behind a wall). Queries are const and safe to call from
-/// many threads; answers do not depend on threads. The traversal is the robust one.
+/// many threads; answers do not depend on threads. The traversal is the fast one: about once in
+/// a million rays it slips through the line between two triangles, so whoever needs that line
+/// right looks again (SceneEdges). A closed body it cannot pass: there are two sides of it.
 class RayScene {
  public:
   /// @throws std::runtime_error when the ray tracer cannot start.

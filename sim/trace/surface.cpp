@@ -34,8 +34,7 @@ SurfaceTable::SurfaceTable(const Scene& scene, const SceneMesh& mesh, const Came
     Facet facet;
     facet.material = triangle.material;
     facet.normals_w = triangle.normals_w;
-    facet.flat = triangle.plane > 0;
-    if (facet.flat) {
+    if (triangle.plane > 0) {
       const ScenePlane& plane = planes.at(static_cast<std::size_t>(triangle.plane) - 1);
       facet.n_w = plane.n_w;
       facet.d = plane.d;
@@ -62,29 +61,21 @@ SurfaceTable::SurfaceTable(const Scene& scene, const SceneMesh& mesh, const Came
 
 SurfaceTable::~SurfaceTable() = default;
 
-std::vector<FacetInView> SurfaceTable::InView(const Pose& T_wc) const {
-  std::vector<FacetInView> view;
-  view.reserve(facets_.size());
-  for (const Facet& facet : facets_) {
-    FacetInView seen;
-    seen.n_c = T_wc.R.transpose() * facet.n_w;
-    const double d_c = facet.n_w.dot(T_wc.t) + facet.d;
-    seen.inverse_depth = -seen.n_c / d_c;  // n_c . (z ray) + d_c = 0
-    seen.uv_over_depth =
-        ((facet.uv_of * T_wc.t + facet.uv_at) * seen.inverse_depth.transpose() +
-         facet.uv_of * T_wc.R)
-            .cast<float>();
-    view.push_back(seen);
-  }
-  return view;
+FacetInView SurfaceTable::InView(int triangle, const Pose& T_wc) const {
+  const Facet& facet = At(triangle);
+  FacetInView seen;
+  seen.n_c = T_wc.R.transpose() * facet.n_w;
+  const double d_c = facet.n_w.dot(T_wc.t) + facet.d;
+  seen.inverse_depth = -seen.n_c / d_c;  // n_c . (z ray) + d_c = 0
+  seen.uv_over_depth = ((facet.uv_of * T_wc.t + facet.uv_at) * seen.inverse_depth.transpose() +
+                        facet.uv_of * T_wc.R)
+                           .cast<float>();
+  return seen;
 }
 
-Eigen::Vector3d SurfaceTable::ShadingNormal(int triangle, float b1, float b2) const {
-  const Facet& facet = At(triangle);
-  if (facet.flat) return facet.n_w;
-  const auto& [n0, n1, n2] = facet.normals_w;
-  const double w1 = static_cast<double>(b1), w2 = static_cast<double>(b2);
-  return ((1.0 - w1 - w2) * n0 + w1 * n1 + w2 * n2).normalized();
+Eigen::Vector3d SurfaceTable::ShadingNormal(int triangle, double b1, double b2) const {
+  const auto& [n0, n1, n2] = At(triangle).normals_w;
+  return ((1.0 - b1 - b2) * n0 + b1 * n1 + b2 * n2).normalized();
 }
 
 const Texture& SurfaceTable::Print(int triangle) const {

@@ -26,13 +26,15 @@ class SurfaceTable {
   SurfaceTable(const Scene& scene, const SceneMesh& mesh, const Camera& camera);
   ~SurfaceTable();
 
-  /// All triangles, in the mesh's order, seen from T_wc.
-  std::vector<FacetInView> InView(const Pose& T_wc) const;
+  /// The triangle seen from T_wc.
+  FacetInView InView(int triangle, const Pose& T_wc) const;
 
   /// Unit normal of the triangle's plane, world frame.
   const Eigen::Vector3d& Normal(int triangle) const { return At(triangle).n_w; }
-  /// Shading normal at barycentric (b1, b2); the plane's own where the triangle is flat.
-  Eigen::Vector3d ShadingNormal(int triangle, float b1, float b2) const;
+  /// Offset of the triangle's plane, metres: Normal . x + Offset = 0.
+  double Offset(int triangle) const { return At(triangle).d; }
+  /// Shading normal at barycentric weights b1, b2 of corners 1 and 2.
+  Eigen::Vector3d ShadingNormal(int triangle, double b1, double b2) const;
   /// The print of the triangle, baked when it is first seen. Safe to call from many threads.
   const Texture& Print(int triangle) const;
 
@@ -43,7 +45,6 @@ class SurfaceTable {
     Eigen::Matrix<double, 2, 3> uv_of;  ///< uv = uv_of x_w + uv_at
     Eigen::Vector2d uv_at;
     std::array<Eigen::Vector3d, 3> normals_w;
-    bool flat = true;
     int material = 0;
   };
   struct Baked;

@@ -1,5 +1,7 @@
 #include "sim/trace/texture.h"
 
+#include <emmintrin.h>
+
 #include <algorithm>
 #include <bit>
 #include <cmath>
@@ -9,7 +11,9 @@
 namespace sim {
 namespace {
 
-constexpr int kMaxTaps = 4;  ///< along the longer side of a slanted footprint
+constexpr int kMaxTaps = 4;           ///< along the longer side of a slanted footprint
+constexpr float kLeastBlend = 1e-3F;  ///< less of the coarser level is none
+constexpr int kOne = 1 << 14;         ///< weight 1 in whole numbers
 
 /// log2 to 0.09, from the bits alone: exactly the same everywhere.
 float RoughLog2(float x) {
@@ -18,7 +22,31 @@ float RoughLog2(float x) {
   return static_cast<float>(static_cast<int>(bits >> 23) - 127) + mantissa - 1.0F;
 }
 
+/// Four neighbouring texels mixed, times kOne. Pairs of texels lie side by side in memory.
+inline __m128 Between(const std::uint8_t* upper, const std::uint8_t* lower, float tx,
+                      float ty) {
+  const int right = static_cast<int>(tx * kOne + 0.5F);
+  const __m128i weights = _mm_set1_epi32((right << 16) | (kOne - right));
+  const auto mixed = [&](const std::uint8_t* pair) {
+    const __m128i bytes = _mm_loadl_epi64(reinterpret_cast<const __m128i*>(pair));
+    const __m128i words = _mm_unpacklo_epi8(bytes, _mm_setzero_si128());
+    const __m128i pairs = _mm_unpacklo_epi16(words, _mm_srli_si128(words, 8));
+    return _mm_cvtepi32_ps(_mm_madd_epi16(pairs, weights));
+  };
+  const __m128 high = mixed(upper), low = mixed(lower);
+  return _mm_add_ps(high, _mm_mul_ps(_mm_sub_ps(low, high), _mm_set1_ps(ty)));
+}
+
 }  // namespace
+
+void Texture::Level::Allocate() {
+  texels.resize(static_cast<std::size_t>(width + 1) * static_cast<std::size_t>(height + 1));
+}
+
+void Texture::Level::CopyBorder() {
+  for (int y = 0; y < height; ++y) At(width, y) = At(width - 1, y);
+  for (int x = 0; x <= width; ++x) At(x, height) = At(x, height - 1);
+}
 
 Texture::Texture(const Material& material, const Eigen::Vector2d& low_m,
                  const Eigen::Vector2d& extent_m, double texel_m, int max_texels)
@@ -34,21 +62,20 @@ Texture::Texture(const Material& material, const Eigen::Vector2d& low_m,
 
 void Texture::Bake(const Material& material, const Eigen::Vector2d& extent_m) {
   Level& level = levels_.front();
-  level.texels.resize(static_cast<std::size_t>(level.width) *
-                      static_cast<std::size_t>(level.height));
+  level.Allocate();
   const Eigen::Vector2f extent = extent_m.cast<float>();
-  auto texel = level.texels.begin();
   for (int y = 0; y < level.height; ++y) {
-    for (int x = 0; x < level.width; ++x, ++texel) {
+    for (int x = 0; x < level.width; ++x) {
       const Eigen::Vector2f p((static_cast<float>(x) + 0.5F) * texel_m_,
                               (static_cast<float>(y) + 0.5F) * texel_m_);
       const Eigen::Array3f colour = Reflectance(material, {p, extent});
       for (int channel = 0; channel < 3; ++channel) {
-        (*texel)[static_cast<std::size_t>(channel)] =
+        level.At(x, y)[static_cast<std::size_t>(channel)] =
             static_cast<std::uint8_t>(std::sqrt(colour[channel]) * 255.0F + 0.5F);
       }
     }
   }
+  level.CopyBorder();
 }
 
 void Texture::Halve() {
@@ -56,76 +83,70 @@ void Texture::Halve() {
   Level coarse;
   coarse.width = (fine.width + 1) / 2;
   coarse.height = (fine.height + 1) / 2;
-  coarse.texels.resize(static_cast<std::size_t>(coarse.width) *
-                       static_cast<std::size_t>(coarse.height));
+  coarse.Allocate();
   const auto fine_at = [&](int x, int y) -> const Texel& {
-    return fine.texels[static_cast<std::size_t>(std::min(y, fine.height - 1)) *
-                           static_cast<std::size_t>(fine.width) +
-                       static_cast<std::size_t>(std::min(x, fine.width - 1))];
+    return fine.At(std::min(x, fine.width - 1), std::min(y, fine.height - 1));
   };
-  auto texel = coarse.texels.begin();
   for (int y = 0; y < coarse.height; ++y) {
-    for (int x = 0; x < coarse.width; ++x, ++texel) {
+    for (int x = 0; x < coarse.width; ++x) {
       for (std::size_t channel = 0; channel < 3; ++channel) {
         float sum = 0;
         for (int k = 0; k < 4; ++k) {
           const float root = fine_at(2 * x + (k & 1), 2 * y + (k >> 1))[channel];
           sum += root * root;
         }
-        (*texel)[channel] = static_cast<std::uint8_t>(std::sqrt(0.25F * sum) + 0.5F);
+        coarse.At(x, y)[channel] = static_cast<std::uint8_t>(std::sqrt(0.25F * sum) + 0.5F);
       }
     }
   }
+  coarse.CopyBorder();
   levels_.push_back(std::move(coarse));
 }
 
-Eigen::Array4f Texture::Bilinear(std::size_t index, const Eigen::Vector2f& texel) const {
-  const Level& level = levels_[index];
-  const float scale = 1.0F / static_cast<float>(1 << index);
-  const float x =
-      std::clamp(texel.x() * scale - 0.5F, 0.0F, static_cast<float>(level.width - 1));
-  const float y =
-      std::clamp(texel.y() * scale - 0.5F, 0.0F, static_cast<float>(level.height - 1));
-  const int x0 = static_cast<int>(x), y0 = static_cast<int>(y);
-  const int x1 = std::min(x0 + 1, level.width - 1), y1 = std::min(y0 + 1, level.height - 1);
-  const float tx = x - static_cast<float>(x0), ty = y - static_cast<float>(y0);
-  const auto at = [&](int i, int j) {
-    const Texel& t =
-        level.texels[static_cast<std::size_t>(j) * static_cast<std::size_t>(level.width) +
-                     static_cast<std::size_t>(i)];
-    return Eigen::Array4f(t[0], t[1], t[2], t[3]);
-  };
-  const Eigen::Array4f low = at(x0, y0) * (1 - tx) + at(x1, y0) * tx;
-  const Eigen::Array4f high = at(x0, y1) * (1 - tx) + at(x1, y1) * tx;
-  return low * (1 - ty) + high * ty;
-}
-
-Eigen::Array4f Texture::Trilinear(const Eigen::Vector2f& texel, float log2_footprint) const {
-  const auto last = static_cast<float>(levels_.size() - 1);
-  const float lod = std::clamp(log2_footprint, 0.0F, last);
+std::array<float, 4> Texture::Sample(const TextureLook& look) const {
+  const float scale = 1.0F / texel_m_;
+  const float u = (look.u - low_m_.x()) * scale, v = (look.v - low_m_.y()) * scale;
+  const float right = look.right_u * look.right_u + look.right_v * look.right_v;
+  const float down = look.down_u * look.down_u + look.down_v * look.down_v;
+  const bool wide = right > down;
+  const float major = std::sqrt(wide ? right : down);
+  const float area = std::abs(look.right_u * look.down_v - look.right_v * look.down_u);
+  const float minor = std::max(area / std::max(major, 1e-12F), major / kMaxTaps);
+  const float last = static_cast<float>(levels_.size() - 1);
+  const float lod = std::clamp(RoughLog2(std::max(minor * scale, 1e-6F)), 0.0F, last);
+  const int taps = std::clamp(static_cast<int>(major / minor + 0.5F), 1, kMaxTaps);
   const auto fine = static_cast<std::size_t>(lod);
   const float blend = lod - static_cast<float>(fine);
-  if (blend < 1e-3F || fine + 1 >= levels_.size()) return Bilinear(fine, texel);
-  return Bilinear(fine, texel) * (1 - blend) + Bilinear(fine + 1, texel) * blend;
-}
-
-Eigen::Array3f Texture::Sample(const Eigen::Vector2f& uv_m, const Eigen::Vector2f& right_m,
-                               const Eigen::Vector2f& down_m) const {
-  const Eigen::Vector2f texel = (uv_m - low_m_) / texel_m_;
-  const float right = right_m.squaredNorm(), down = down_m.squaredNorm();
-  const Eigen::Vector2f& longer = right > down ? right_m : down_m;
-  const float major = std::sqrt(std::max(right, down));
-  const float area = std::abs(right_m.x() * down_m.y() - right_m.y() * down_m.x());
-  const float minor = std::max(area / std::max(major, 1e-12F), major / kMaxTaps);
-  const float lod = RoughLog2(std::max(minor / texel_m_, 1e-6F));
-  const int taps = std::clamp(static_cast<int>(major / minor + 0.5F), 1, kMaxTaps);
-  Eigen::Array4f root = Eigen::Array4f::Zero();
-  for (int k = 0; k < taps; ++k) {
-    const float offset = (static_cast<float>(k) + 0.5F) / static_cast<float>(taps) - 0.5F;
-    root += Trilinear(texel + longer * (offset / texel_m_), lod);
+  const bool two = blend >= kLeastBlend && fine + 1 < levels_.size();
+  const float share = 1.0F / static_cast<float>(taps);
+  const float step_u = (wide ? look.right_u : look.down_u) * scale * share;
+  const float step_v = (wide ? look.right_v : look.down_v) * scale * share;
+  const auto sum_of = [&](std::size_t index) {
+    const Level& level = levels_[index];
+    const float size = 1.0F / static_cast<float>(1u << index);
+    __m128 sum = _mm_setzero_ps();
+    for (int k = 0; k < taps; ++k) {
+      const float along = static_cast<float>(k) - 0.5F * static_cast<float>(taps - 1);
+      const float x = (u + along * step_u) * size - 0.5F,
+                  y = (v + along * step_v) * size - 0.5F;
+      const float x_in = std::clamp(x, 0.0F, static_cast<float>(level.width - 1));
+      const float y_in = std::clamp(y, 0.0F, static_cast<float>(level.height - 1));
+      const int x0 = static_cast<int>(x_in), y0 = static_cast<int>(y_in);
+      sum = _mm_add_ps(sum,
+                       Between(level.At(x0, y0).data(), level.At(x0, y0 + 1).data(),
+                               x_in - static_cast<float>(x0), y_in - static_cast<float>(y0)));
+    }
+    return sum;
+  };
+  __m128 root = sum_of(fine);
+  if (two) {
+    const __m128 coarse = sum_of(fine + 1);
+    root = _mm_add_ps(root, _mm_mul_ps(_mm_sub_ps(coarse, root), _mm_set1_ps(blend)));
   }
-  root /= 255.0F * static_cast<float>(taps);
-  return (root * root).head<3>();
+  root = _mm_mul_ps(root, _mm_set1_ps(share / (255.0F * kOne)));
+  std::array<float, 4> colour;
+  _mm_storeu_ps(colour.data(), _mm_mul_ps(root, root));
+  return colour;
 }
 
 }  // namespace sim

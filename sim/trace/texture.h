@@ -1,12 +1,18 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <cstdint>
 #include <vector>
 
 #include "sim/scene/scene.h"
 
 namespace sim {
+
+/// Where to look at a print: uv and the steps to the next pixel right and down, metres.
+struct TextureLook {
+  float u, v, right_u, right_v, down_u, down_v;
+};
 
 /// A face's print, baked once into an image with its half-sized copies, so that every later
 /// look is band-limited to the pixel's footprint: no flicker when the view moves.
@@ -18,21 +24,27 @@ class Texture {
   Texture(const Material& material, const Eigen::Vector2d& low_m,
           const Eigen::Vector2d& extent_m, double texel_m, int max_texels = 2048);
 
-  /// Linear reflectance at uv_m, averaged over about the parallelogram spanned by the steps to
-  /// the next pixel right and down, both metres on the face. Clamps at the border.
-  Eigen::Array3f Sample(const Eigen::Vector2f& uv_m, const Eigen::Vector2f& right_m,
-                        const Eigen::Vector2f& down_m) const;
+  /// Linear reflectance at a look, averaged over about the parallelogram spanned by its steps.
+  /// Clamps at the border. Channels r, g, b and one without meaning.
+  std::array<float, 4> Sample(const TextureLook& look) const;
 
  private:
   using Texel = std::array<std::uint8_t, 4>;  ///< square root of the reflectance
+  /// One column and one row more than the face has, copies of the last: what is right of and
+  /// below a texel is always there.
   struct Level {
     int width = 1, height = 1;
     std::vector<Texel> texels;
+    Texel& At(int x, int y) {
+      return texels[static_cast<std::size_t>(y) * static_cast<std::size_t>(width + 1) +
+                    static_cast<std::size_t>(x)];
+    }
+    const Texel& At(int x, int y) const { return const_cast<Level*>(this)->At(x, y); }
+    void Allocate();
+    void CopyBorder();
   };
   void Bake(const Material& material, const Eigen::Vector2d& extent_m);
   void Halve();
-  Eigen::Array4f Bilinear(std::size_t level, const Eigen::Vector2f& texel) const;
-  Eigen::Array4f Trilinear(const Eigen::Vector2f& texel, float log2_footprint) const;
 
   std::vector<Level> levels_;
   Eigen::Vector2f low_m_;

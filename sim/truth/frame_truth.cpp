@@ -65,6 +65,7 @@ PlaneInFrame TruthMaker::DescribePlane(int id, int pixels, const Pose& T_wc) con
   const ScenePlane& plane = planes_.at(static_cast<std::size_t>(id) - 1);
   const Camera& camera = renderer_.camera();
   PlaneInFrame seen{id, pixels, ProjectedFace(plane, T_wc, camera), {}};
+  seen.vertices.resize(plane.vertices_w.size());
   for (std::size_t i = 0; i < seen.vertices.size(); ++i) {
     VertexInFrame& vertex = seen.vertices[i];
     vertex.x_w = plane.vertices_w[i];

@@ -36,8 +36,8 @@ struct VertexInFrame {
 struct PlaneInFrame {
   int id = 0;
   int pixels = 0;
-  Polygon outline;                        ///< ProjectedFace: what hides it does not change it
-  std::array<VertexInFrame, 4> vertices;  ///< in the order of ScenePlane::vertices_w
+  Polygon outline;                      ///< ProjectedFace: what hides it does not change it
+  std::vector<VertexInFrame> vertices;  ///< in the order of ScenePlane::vertices_w
 };
 
 /// Both lists in the order of ids.

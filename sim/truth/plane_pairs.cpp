@@ -2,6 +2,7 @@
 
 #include <Eigen/Geometry>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <optional>
 #include <set>
@@ -25,10 +26,26 @@ struct PlaneFrame {
   Vector3d origin_w, u_w, v_w;
 };
 
-Polygon FlatFace(const PlaneFrame& frame, const ScenePlane& plane) {
-  Polygon polygon;
-  for (const Vector3d& x_w : plane.vertices_w) polygon.push_back(frame.Flat(x_w));
-  return polygon;
+std::vector<Polygon> FlatFace(const PlaneFrame& frame, const ScenePlane& plane) {
+  std::vector<Polygon> pieces;
+  for (const auto& piece : ConvexPieces(plane)) {
+    pieces.emplace_back();
+    for (const Vector3d& x_w : piece) pieces.back().push_back(frame.Flat(x_w));
+  }
+  return pieces;
+}
+
+/// Of all pieces; where several overlap, the first that do.
+ClosestPoints ClosestOf(const std::vector<Polygon>& a, const std::vector<Polygon>& b) {
+  ClosestPoints best{{}, {}, std::numeric_limits<double>::infinity()};
+  for (const Polygon& one : a) {
+    for (const Polygon& other : b) {
+      const ClosestPoints closest = Closest(one, other);
+      if (closest.distance < best.distance) best = closest;
+      if (best.distance == 0) return best;
+    }
+  }
+  return best;
 }
 
 std::optional<PlanePair> Compare(const ScenePlane& a, const ScenePlane& b) {
@@ -36,7 +53,7 @@ std::optional<PlanePair> Compare(const ScenePlane& a, const ScenePlane& b) {
   const double angle_deg = std::atan2(sine, cosine) * 180 / std::numbers::pi;
   if (!(angle_deg <= kPairMaxAngle_deg)) return std::nullopt;
   const PlaneFrame frame(a);
-  const ClosestPoints closest = Closest(FlatFace(frame, a), FlatFace(frame, b));
+  const ClosestPoints closest = ClosestOf(FlatFace(frame, a), FlatFace(frame, b));
   if (!(closest.distance <= kPairMaxGap_m)) return std::nullopt;
   // b's height over a, above the point of b that was found.
   const Vector3d foot_w =

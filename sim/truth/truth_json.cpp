@@ -37,6 +37,7 @@ Json ObjectJson(const Object& object) {
   json["center"] = Vector(object.center_w);
   json["size"] = Vector(object.size);
   json["q_xyzw"] = {q.x(), q.y(), q.z(), q.w()};
+  if (object.shape == ShapeKind::kMesh) json["shape"] = "mesh";
   if (object.detection_group > 0) json["detection_group"] = object.detection_group;
   return json;
 }
@@ -51,6 +52,11 @@ Json PlaneJson(const ScenePlane& plane) {
   json["vertices"] = Json::array();
   for (const Eigen::Vector3d& vertex : plane.vertices_w)
     json["vertices"].push_back(Vector(vertex));
+  for (const auto& hole : plane.holes_w) {
+    Json points = Json::array();
+    for (const Eigen::Vector3d& x_w : hole) points.push_back(Vector(x_w));
+    json["holes"].push_back(std::move(points));
+  }
   return json;
 }
 

@@ -43,8 +43,10 @@ Recording PlanRecording(const Scene& scene, const RigOptions& rig, const TimingD
     const int times = std::max(1, static_cast<int>(std::ceil(kPathRate_Hz / fps)));
     path = MakeTrajectory(scene, frames * times + 1, fps * times, rig.seed);
   }
-  return PlanRecording(MakeTrajectory(scene, frames, fps, rig.seed), std::move(path), timing,
-                       rig.seed);
+  Recording recording = PlanRecording(MakeTrajectory(scene, frames, fps, rig.seed),
+                                      std::move(path), timing, rig.seed);
+  recording.scenes_own = true;
+  return recording;
 }
 
 SimulatedFrame Record(const Simulator& simulator, const Recording& recording, int i) {

@@ -12,6 +12,7 @@ struct Recording {
   std::vector<Shot> shots;      ///< frames that are not lost, by rising time
   std::vector<TimedPose> path;  ///< the camera between frames too; see PoseAt
   int lost = 0;                 ///< frames that TimingDefects::drop_ratio took
+  bool scenes_own = false;      ///< the motion is the scene's, not one that was given
 
   int frames() const { return static_cast<int>(shots.size()); }
 };

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "sim/motion/preset.h"
 #include "sim/scene/scene_file.h"
 #include "sim/scene/sha256.h"
 #include "sim/truth/truth_json.h"
@@ -32,6 +33,15 @@ const char* Name(DetectorKind detector) {
   return "none";
 }
 
+Json CameraJson(const Camera& camera) {
+  Json json{{"width", camera.width}, {"height", camera.height}, {"fx", camera.fx},
+            {"fy", camera.fy},       {"cx", camera.cx},         {"cy", camera.cy}};
+  const Lens& lens = camera.lens;
+  if (!lens.IsNone()) json["distortion"] = {lens.k1, lens.k2, lens.p1, lens.p2, lens.k3};
+  json["fps"] = camera.fps;
+  return json;
+}
+
 /// The manifest as it is before the first frame.
 Json Plan(const Scene& scene, const SequenceOptions& options, std::size_t frames,
           const std::map<std::string, std::string>& fixed) {
@@ -42,6 +52,8 @@ Json Plan(const Scene& scene, const SequenceOptions& options, std::size_t frames
   plan["scene"] = scene.name;
   plan["scene_hash"] = SceneHash(scene);
   plan["seed"] = options.rig.seed;
+  plan["camera"] = CameraJson(options.rig.camera);
+  if (!options.motion.empty()) plan["motion"] = options.motion;
   plan["sensor"] = options.rig.sensor.name;
   if (!options.rig.sensor.changed.empty()) {
     plan["sensor_parameters"] = options.rig.sensor.changed;
@@ -154,7 +166,14 @@ class FrameStore {
 int WriteSequence(const Scene& scene, const Recording& recording,
                   const SequenceOptions& options, const fs::path& folder) {
   const auto fixed = FixedFiles(scene, options.rig.camera, recording.shots);
-  const Json plan = Plan(scene, options, recording.shots.size(), fixed);
+  SequenceOptions told = options;
+  if (recording.scenes_own) {
+    const MotionPreset preset = PresetOf(scene.motion);
+    told.motion = {{"preset", scene.motion.preset},
+                   {"speed_m_s", fmt::format("{}", preset.speed_m_s)},
+                   {"turn_deg_s", fmt::format("{}", preset.turn_deg_s)}};
+  }
+  const Json plan = Plan(scene, told, recording.shots.size(), fixed);
   const Simulator simulator(scene, options.rig);
   if (PrepareFolder(folder, plan, options.existing)) return 0;
 

@@ -86,5 +86,32 @@ TEST(LensDistortion, StandsInCameraYamlOnlyWhenThereIsOne) {
             std::string::npos);
 }
 
+TEST(CameraOf, IsTheCameraThatTheSceneNames) {
+  Capture capture;
+  capture.width = 320;
+  capture.height = 200;
+  capture.fx = 260;
+  capture.fy = 261;
+  capture.cx = 150;
+  capture.cy = 99;
+  capture.fps = 15;
+  capture.distortion = {0.05, -0.02, 0.001, 0.002, 0.003};
+  const Camera camera = CameraOf(capture);
+  EXPECT_EQ(camera.width, 320);
+  EXPECT_EQ(camera.height, 200);
+  EXPECT_EQ(camera.fx, 260);
+  EXPECT_EQ(camera.fy, 261);
+  EXPECT_EQ(camera.cx, 150);
+  EXPECT_EQ(camera.cy, 99);
+  EXPECT_EQ(camera.fps, 15);
+  EXPECT_EQ(camera.lens.k1, 0.05);
+  EXPECT_EQ(camera.lens.k2, -0.02);
+  EXPECT_EQ(camera.lens.p1, 0.001);
+  EXPECT_EQ(camera.lens.p2, 0.002);
+  EXPECT_EQ(camera.lens.k3, 0.003);
+  // A scene that names none is recorded as one without the block always was.
+  EXPECT_EQ(CameraYaml(CameraOf(Capture{})), CameraYaml(Camera{}));
+}
+
 }  // namespace
 }  // namespace sim

@@ -7,6 +7,7 @@
 #include <fstream>
 #include <string>
 
+#include "sim/motion/clearance.h"
 #include "sim/motion/trajectory.h"
 #include "sim/scene/angle.h"
 #include "sim/scene/families.h"
@@ -96,6 +97,43 @@ TEST(Replay, RefusesMoreThanWasRecorded) {
   EXPECT_THROW(Replay(poses, 31, 30), InputError);
   EXPECT_THROW(Replay(poses, 20, 30), InputError) << "a hole of 0.8 s";
   EXPECT_EQ(Replay(poses, 4, 30).size(), 4u);
+}
+
+std::vector<TimedPose> Through(const Eigen::Vector3d& from_w, const Eigen::Vector3d& to_w) {
+  std::vector<TimedPose> trajectory(11);
+  for (std::size_t i = 0; i < trajectory.size(); ++i) {
+    const double part = static_cast<double>(i) / 10;
+    trajectory[i].timestamp_s = part;
+    trajectory[i].T_wc.t = from_w + part * (to_w - from_w);
+  }
+  return trajectory;
+}
+
+Scene OneCarton() {
+  Scene scene;
+  scene.objects.emplace_back();
+  scene.objects[0].name = "carton";
+  scene.objects[0].size = {0.4, 0.4, 0.4};
+  return scene;
+}
+
+TEST(ClearanceWarning, TellsHowNearTheCameraComesAndWhen) {
+  const Scene scene = OneCarton();
+  EXPECT_EQ(ClearanceWarning(scene, Through({-1, 0.36, 0}, {1, 0.36, 0})), "");
+  const auto near = Through({-1, 0.24, 0}, {1, 0.24, 0});
+  const NearestPass pass = NearestPassOf(scene, near);
+  EXPECT_NEAR(pass.distance_m, 0.04, 1e-12);
+  EXPECT_NEAR(pass.timestamp_s, 0.4, 1e-12) << "first of those as near";
+  EXPECT_NE(ClearanceWarning(scene, near).find("40 mm from 'carton'"), std::string::npos);
+  EXPECT_THROW(ClearanceWarning(scene, Through({-1, 0, 0}, {1, 0, 0})), InputError);
+}
+
+TEST(ClearanceWarning, FollowsWhatMoves) {
+  Scene scene = OneCarton();
+  scene.objects[0].way = {{0, {0, 0, 0}, 0}, {1, {0, 2, 0}, 0}};
+  // At 1 s the carton has gone, at 0 s the camera is far.
+  EXPECT_EQ(ClearanceWarning(scene, Through({0, -3, 0}, {0, 0, 0})), "");
+  EXPECT_THROW(ClearanceWarning(scene, Through({0, 2, 0}, {0, 2, 0})), InputError);
 }
 
 }  // namespace

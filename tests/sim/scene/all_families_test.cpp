@@ -118,6 +118,7 @@ TEST_P(EveryFamily, RestsEveryThingUnderItsCentreOfMass) {
     std::map<std::string, std::vector<const Object*>> things;
     for (const Object& object : scene.objects) {
       if (object.class_name == "floor" || object.class_name == "wall") continue;
+      if (!object.way.empty()) continue;  // it hangs or walks
       const int group = object.detection_group;
       things[group != 0 ? "group " + std::to_string(group) : object.name].push_back(&object);
     }
@@ -132,6 +133,25 @@ TEST_P(EveryFamily, RestsEveryThingUnderItsCentreOfMass) {
       if (thing[0]->class_name == "laptop") middle = thing[0]->center_w.head<2>() * volume;
       EXPECT_TRUE(InHull(middle / volume, Contacts(scene, thing)))
           << "seed " << seed << ": " << name << " " << thing[0]->name << " would fall";
+    }
+  }
+}
+
+// At moments between the points of the way too, which the check of scenes does not look at.
+TEST_P(EveryFamily, MovesNothingThroughWhatStands) {
+  for (std::uint64_t seed = 1; seed <= kSeeds; ++seed) {
+    const Scene scene = MakeScene(GetParam(), seed);
+    for (const Object& moving : scene.objects) {
+      if (moving.way.empty()) continue;
+      EXPECT_EQ(moving.role, Role::kUnstructured);
+      for (double time_s = 0; time_s < moving.way.back().time_s + 1; time_s += 0.037) {
+        const Object there = ObjectAt(moving, time_s);
+        for (const Object& other : scene.objects) {
+          if (!other.way.empty()) continue;
+          ASSERT_LE(OverlapDepth(there, other), 0.005)
+              << seed << " " << other.name << " at " << time_s << " s";
+        }
+      }
     }
   }
 }
@@ -232,7 +252,8 @@ TEST_P(EveryShape, TurnsItsShadingNormalsOutwards) {
 INSTANTIATE_TEST_SUITE_P(Shapes, EveryShape,
                          testing::Values(ShapeKind::kBox, ShapeKind::kToy, ShapeKind::kCylinder,
                                          ShapeKind::kMug, ShapeKind::kBottle, ShapeKind::kBowl,
-                                         ShapeKind::kBush));
+                                         ShapeKind::kBush, ShapeKind::kPerson,
+                                         ShapeKind::kHand));
 
 TEST(Cylinder, HasTheVolumeOfItsPrism) {
   Scene scene;

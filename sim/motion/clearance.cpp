@@ -1,0 +1,43 @@
+#include "sim/motion/clearance.h"
+
+#include <cmath>
+#include <limits>
+
+#include "sim/scene/geometry.h"
+#include "sim/scene/input_error.h"
+#include "sim/scene/number_text.h"
+
+namespace sim {
+
+NearestPass NearestPassOf(const Scene& scene, const std::vector<TimedPose>& trajectory) {
+  NearestPass nearest;
+  nearest.distance_m = std::numeric_limits<double>::infinity();
+  for (const TimedPose& pose : trajectory) {
+    for (const Object& object : scene.objects) {
+      const double distance_m = DistanceToBox(ObjectAt(object, pose.timestamp_s), pose.T_wc.t);
+      if (!(distance_m < nearest.distance_m)) continue;
+      nearest = {pose.timestamp_s, object.name, distance_m, object.shape == ShapeKind::kBox};
+    }
+  }
+  return nearest;
+}
+
+std::string ClearanceWarning(const Scene& scene, const std::vector<TimedPose>& trajectory) {
+  const NearestPass pass = NearestPassOf(scene, trajectory);
+  if (pass.distance_m >= kCameraClearance_m) return "";
+  const auto millimetres = [](double length_m) {
+    return NumberText(std::round(std::abs(length_m) * 1e3)) + " mm";
+  };
+  const std::string when = "at " + NumberText(std::round(pass.timestamp_s * 1e3) / 1e3) + " s";
+  if (pass.distance_m < 0 && pass.box) {
+    throw InputError("trajectory", when + " the camera is " + millimetres(pass.distance_m) +
+                                       " inside '" + pass.object +
+                                       "'; move the object or the trajectory");
+  }
+  return "trajectory: " + when + " the camera is " +
+         (pass.distance_m < 0 ? "inside the box of '" + pass.object + "'"
+                              : millimetres(pass.distance_m) + " from '" + pass.object + "'") +
+         "; depth sensors see nothing that near (15 cm are kept by the presets)";
+}
+
+}  // namespace sim

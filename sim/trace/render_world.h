@@ -1,0 +1,43 @@
+#pragma once
+
+#include <memory>
+#include <mutex>
+#include <vector>
+
+#include "sim/trace/edge_pixels.h"
+#include "sim/trace/exact_cast.h"
+#include "sim/trace/image_rays.h"
+#include "sim/trace/ray_scene.h"
+#include "sim/trace/surface.h"
+
+namespace sim {
+
+inline constexpr float kNear_m = 1e-3F;          ///< nothing is seen closer than this
+inline constexpr double kLeaveSurface_m = 1e-4;  ///< second rays start this far off the surface
+
+/// Everything about a scene that its views share. Const and thread-safe.
+struct RenderWorld {
+  RenderWorld(const Scene& scene_in, const Camera& camera_in, InstructionSet set_in);
+  /// The object with nothing else there, built when it is first asked for.
+  const RayScene& Alone(std::size_t object_index) const;
+
+  Scene scene;
+  Camera camera;
+  InstructionSet set;
+  ImageRays image_rays;
+  SceneMesh mesh;
+  RayScene rays;
+  SceneEdges edges;
+  ExactCaster caster;
+  SurfaceTable surfaces;
+  Eigen::Vector3d to_sun_w;
+
+ private:
+  struct LoneObject {
+    std::once_flag once;
+    std::unique_ptr<const RayScene> rays;
+  };
+  std::vector<std::unique_ptr<LoneObject>> alone_;  ///< by object
+};
+
+}  // namespace sim

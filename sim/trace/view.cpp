@@ -1,0 +1,228 @@
+#include "sim/trace/view.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <limits>
+
+namespace sim {
+namespace {
+
+constexpr int kLanes = RayPacket::kLanes;
+/// The ray tracer takes origins, directions and corners in single precision: 1e-3 px at most
+/// for things metres away.
+constexpr double kEdgeMargin_px = 0.03;
+/// An edge this much behind what a pixel shows cannot be what it shows.
+constexpr double kEdgeDepthShare = 0.98;
+
+void Load(std::array<float, kLanes>& lanes, const std::vector<float>& row, int first) {
+  std::memcpy(lanes.data(), row.data() + first, sizeof lanes);
+}
+
+}  // namespace
+
+void View::RowArrays::Resize(std::size_t size) {
+  for (auto* row : {&x, &y, &dx, &dy, &dz}) row->resize(size);
+  for (auto* row : {&start_x, &start_y, &start_z, &to_eye_x, &to_eye_y, &to_eye_z}) {
+    row->resize(size);
+  }
+  sun_far.assign(size, -1.0F);
+  eye_far.assign(size, -1.0F);
+}
+
+void View::Render(const RenderWorld& world, const Pose& T_wc, const RenderOptions& options,
+                  Rendering& out) {
+  world_ = &world;
+  T_wc_ = T_wc;
+  options_ = options;
+  out_ = &out;
+  Prepare();
+  for (int v = rows_.start; v < rows_.end; ++v) TraceRow(v);
+  if (options_.exact_edges) DecideEdges();
+  for (int v = rows_.start; v < rows_.end; ++v) {
+    RecordRow(v);
+    if (options_.colour) {
+      CastToSun(v);
+      ShadeRow(v);
+    }
+    if (options_.projector_offset_m != 0) CastToEye(v);
+  }
+  if (options_.colour) SmoothEdges();
+}
+
+void View::Prepare() {
+  const Camera& camera = world_->camera;
+  rows_ = options_.rows == cv::Range::all() ? cv::Range(0, camera.height) : options_.rows;
+  const cv::Size size(camera.width, camera.height);
+  out_->depth_m.create(size);
+  out_->plane_id.create(size);
+  out_->object_id.create(size);
+  out_->incidence_cos.create(size);
+  if (options_.projector_offset_m != 0) {
+    out_->projector_lit.create(size);
+  } else {
+    out_->projector_lit.release();
+  }
+  if (options_.colour) {
+    out_->radiance.create(size);
+  } else {
+    out_->radiance.release();
+  }
+  eye_w_ = T_wc_ * Eigen::Vector3d(options_.projector_offset_m, 0, 0);
+  facets_.Start(*world_, T_wc_, eye_w_);
+  stride_ = Index((camera.width + kLanes - 1) / kLanes * kLanes);
+  row_.Resize(stride_);
+  triangles_.resize(stride_ * Index(camera.height));
+  surfaces_.resize(stride_ * Index(camera.height));
+}
+
+void View::LoadRow(int v) {
+  world_->image_rays.Row(v, row_.x.data(), row_.y.data());
+  const Eigen::Matrix3d R = T_wc_.R;
+  for (std::size_t u = 0; u < stride_; ++u) {
+    const double x = row_.x[u], y = row_.y[u];
+    row_.dx[u] = R(0, 0) * x + R(0, 1) * y + R(0, 2);
+    row_.dy[u] = R(1, 0) * x + R(1, 1) * y + R(1, 2);
+    row_.dz[u] = R(2, 0) * x + R(2, 1) * y + R(2, 2);
+  }
+}
+
+void View::TraceRow(int v) {
+  LoadRow(v);
+  const int width = world_->camera.width;
+  RayPacket packet;
+  for (int i = 0; i < kLanes; ++i) packet.Set(i, T_wc_.t, Eigen::Vector3d::UnitZ(), kNear_m);
+  for (int u0 = 0; u0 < width; u0 += kLanes) {
+    for (int i = 0; i < kLanes; ++i) {
+      packet.dx[Index(i)] = static_cast<float>(row_.dx[Index(u0 + i)]);
+      packet.dy[Index(i)] = static_cast<float>(row_.dy[Index(u0 + i)]);
+      packet.dz[Index(i)] = static_cast<float>(row_.dz[Index(u0 + i)]);
+      if (u0 + i >= width) packet.Disable(i);
+    }
+    const PacketHits found = world_->rays.Nearest(packet);
+    std::memcpy(Triangles(v) + u0, found.triangle.data(), sizeof found.triangle);
+  }
+}
+
+/// Casts again in double where an edge is near that may be seen.
+void View::DecideEdges() {
+  edges_.clear();
+  world_->edges.Near(T_wc_, world_->camera, world_->image_rays.Window(), kEdgeMargin_px,
+                     edges_);
+  decided_.resize(Index(world_->camera.width) * Index(world_->camera.height), 0);
+  for (const EdgePixel& edge : edges_) DecidePixel(edge);
+  for (const EdgePixel& edge : edges_) decided_[edge.pixel] = 0;
+}
+
+void View::DecidePixel(const EdgePixel& edge) {
+  const int u = static_cast<int>(edge.pixel) % world_->camera.width;
+  const int v = static_cast<int>(edge.pixel) / world_->camera.width;
+  if (decided_[edge.pixel] != 0 || v < rows_.start || v >= rows_.end) return;
+  int& triangle = Triangles(v)[u];
+  const Eigen::Vector3d ray = world_->image_rays.At(u, v);
+  if (triangle != PacketHits::kNothing) {
+    const double shown = facets_.At(triangle).inverse_depth.dot(ray);
+    if (!(edge.inverse_depth >= kEdgeDepthShare * shown)) return;
+  }
+  triangle =
+      world_->caster.Nearest(T_wc_.t, T_wc_.R * ray, static_cast<double>(kNear_m)).triangle;
+  decided_[edge.pixel] = 1;
+}
+
+void View::RecordRow(int v) {
+  LoadRow(v);
+  const int* triangles = Triangles(v);
+  const int width = world_->camera.width;
+  for (int first = 0, last = 0; first < width; first = last) {
+    while (last < width && triangles[last] == triangles[first]) ++last;
+    if (triangles[first] == PacketHits::kNothing) {
+      RecordSky(v, first, last);
+    } else {
+      RecordRun(v, first, last, facets_.At(triangles[first]));
+    }
+  }
+}
+
+void View::RecordSky(int v, int first, int last) {
+  const auto fill = [&](auto* row, auto value) { std::fill(row + first, row + last, value); };
+  fill(out_->depth_m[v], 0.0);
+  fill(out_->incidence_cos[v], 0.0F);
+  fill(out_->plane_id[v], ushort{0});
+  fill(out_->object_id[v], ushort{0});
+  fill(Surfaces(v), std::uint32_t{0});
+  fill(row_.sun_far.data(), -1.0F);
+  fill(row_.eye_far.data(), -1.0F);
+}
+
+void View::RecordRun(int v, int first, int last, const SeenFacet& facet) {
+  double* depth = out_->depth_m[v];
+  float* cosine = out_->incidence_cos[v];
+  const Eigen::Vector3d a = facet.inverse_depth, n = facet.n_c;
+  const Eigen::Vector3d start = T_wc_.t + kLeaveSurface_m * facet.n_w;
+  const Eigen::Vector3d eye = eye_w_;
+  for (int i = first; i < last; ++i) {
+    const std::size_t u = Index(i);
+    const double x = row_.x[u], y = row_.y[u];
+    const double z = 1.0 / (a.x() * x + a.y() * y + a.z());
+    depth[i] = z;
+    cosine[i] = static_cast<float>(std::abs(n.x() * x + n.y() * y + n.z()) /
+                                   std::sqrt(x * x + y * y + 1.0));
+    const double px = start.x() + z * row_.dx[u], py = start.y() + z * row_.dy[u],
+                 pz = start.z() + z * row_.dz[u];
+    row_.start_x[u] = static_cast<float>(px);
+    row_.start_y[u] = static_cast<float>(py);
+    row_.start_z[u] = static_cast<float>(pz);
+    row_.to_eye_x[u] = static_cast<float>(eye.x() - px);
+    row_.to_eye_y[u] = static_cast<float>(eye.y() - py);
+    row_.to_eye_z[u] = static_cast<float>(eye.z() - pz);
+  }
+  const auto fill = [&](auto* row, auto value) { std::fill(row + first, row + last, value); };
+  fill(out_->plane_id[v], ushort{facet.plane});
+  fill(out_->object_id[v], ushort{facet.object});
+  fill(Surfaces(v), facet.surface);
+  fill(row_.sun_far.data(), facet.faces_sun ? std::numeric_limits<float>::infinity() : -1.0F);
+  fill(row_.eye_far.data(), facet.faces_eye ? 1.0F : -1.0F);
+}
+
+void View::CastToSun(int v) {
+  RayPacket packet;
+  for (int i = 0; i < kLanes; ++i) {
+    packet.Set(i, Eigen::Vector3d::Zero(), world_->to_sun_w, 0.0F);
+  }
+  std::uint32_t* surfaces = Surfaces(v);
+  for (int u0 = 0; u0 < world_->camera.width; u0 += kLanes) {
+    Load(packet.far, row_.sun_far, u0);
+    if (*std::max_element(packet.far.begin(), packet.far.end()) < 0) continue;
+    Load(packet.x, row_.start_x, u0);
+    Load(packet.y, row_.start_y, u0);
+    Load(packet.z, row_.start_z, u0);
+    const auto blocked = world_->rays.Blocked(packet);
+    for (int i = 0; i < kLanes; ++i) {
+      if (packet.far[Index(i)] > 0 && !blocked[Index(i)]) surfaces[u0 + i] |= 1u;
+    }
+  }
+}
+
+void View::CastToEye(int v) {
+  RayPacket packet;
+  uchar* lit = out_->projector_lit[v];
+  const int width = world_->camera.width;
+  for (int u0 = 0; u0 < width; u0 += kLanes) {
+    const int lanes = std::min(kLanes, width - u0);
+    std::fill_n(lit + u0, lanes, uchar{0});
+    Load(packet.far, row_.eye_far, u0);
+    if (*std::max_element(packet.far.begin(), packet.far.end()) < 0) continue;
+    Load(packet.x, row_.start_x, u0);
+    Load(packet.y, row_.start_y, u0);
+    Load(packet.z, row_.start_z, u0);
+    Load(packet.dx, row_.to_eye_x, u0);
+    Load(packet.dy, row_.to_eye_y, u0);
+    Load(packet.dz, row_.to_eye_z, u0);
+    const auto blocked = world_->rays.Blocked(packet);
+    for (int i = 0; i < lanes; ++i) {
+      if (packet.far[Index(i)] > 0 && !blocked[Index(i)]) lit[u0 + i] = 255;
+    }
+  }
+}
+
+}  // namespace sim

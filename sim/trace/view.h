@@ -1,0 +1,72 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "sim/trace/frame_renderer.h"
+#include "sim/trace/render_world.h"
+#include "sim/trace/view_facets.h"
+
+namespace sim {
+
+/// The work of one Render call. Its memory is kept from one view to the next.
+class View {
+ public:
+  void Render(const RenderWorld& world, const Pose& T_wc, const RenderOptions& options,
+              Rendering& out);
+
+ private:
+  /// Of one row of pixels, as long as whole packets.
+  struct RowArrays {
+    std::vector<double> x, y;                      ///< ray (x, y, 1), camera frame
+    std::vector<double> dx, dy, dz;                ///< the same, world frame
+    std::vector<float> start_x, start_y, start_z;  ///< of second rays, world frame
+    std::vector<float> to_eye_x, to_eye_y, to_eye_z;
+    std::vector<float> sun_far, eye_far;  ///< of second rays; negative: none
+    void Resize(std::size_t size);
+  };
+  /// One of the four looks at a pixel on an edge.
+  struct SubPixel {
+    int pixel = -1;
+    Eigen::Vector3d ray;
+  };
+
+  void Prepare();
+  void LoadRow(int v);
+  void TraceRow(int v);
+  void DecideEdges();
+  void DecidePixel(const EdgePixel& edge);
+  void RecordRow(int v);
+  void RecordSky(int v, int first, int last);
+  void RecordRun(int v, int first, int last, const SeenFacet& facet);
+  void CastToSun(int v);
+  void CastToEye(int v);
+  void ShadeRow(int v);
+  cv::Vec3f Shade(const SeenFacet& facet, double x, double y, float z, bool sunlit);
+  float LightOn(const SeenFacet& facet, double x, double y, bool sunlit) const;
+  void SmoothEdges();
+  void MarkEdges(int v, std::vector<int>& pixels) const;
+  void SmoothPair(int a, int b);
+
+  int* Triangles(int v) { return triangles_.data() + Index(v) * stride_; }
+  std::uint32_t* Surfaces(int v) { return surfaces_.data() + Index(v) * stride_; }
+  const std::uint32_t* Surfaces(int v) const { return surfaces_.data() + Index(v) * stride_; }
+  static std::size_t Index(int i) { return static_cast<std::size_t>(i); }
+
+  const RenderWorld* world_ = nullptr;
+  Pose T_wc_;
+  RenderOptions options_;
+  cv::Range rows_;  ///< to render
+  Rendering* out_ = nullptr;
+  Eigen::Vector3d eye_w_;
+  std::size_t stride_ = 0;
+  RowArrays row_;
+  ViewFacets facets_;
+  std::vector<int> triangles_;           ///< what each pixel shows
+  std::vector<std::uint32_t> surfaces_;  ///< SeenFacet::surface, + 1 in the sun
+  std::vector<EdgePixel> edges_;
+  std::vector<std::uint8_t> decided_;  ///< by pixel, while edges are decided
+  std::vector<int> on_edge_;
+};
+
+}  // namespace sim

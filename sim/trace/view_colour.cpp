@@ -1,0 +1,130 @@
+// The colour of a view's pixels.
+#include <algorithm>
+#include <cmath>
+
+#include "sim/trace/view.h"
+
+namespace sim {
+namespace {
+
+constexpr int kLanes = RayPacket::kLanes;
+const cv::Vec3f kSky(0.55F, 0.6F, 0.66F);
+/// Four rays an edge pixel: a rotated grid, the same in each pixel.
+constexpr std::array<std::array<double, 2>, 4> kSubPixels{
+    {{-0.125, -0.375}, {0.375, -0.125}, {0.125, 0.375}, {-0.375, 0.125}}};
+
+}  // namespace
+
+/// Light on the spot that the ray (x, y, 1) meets.
+float View::LightOn(const SeenFacet& facet, double x, double y, bool sunlit) const {
+  if (facet.flat) return sunlit ? facet.lit : facet.unlit;
+  // Barycentric weights in double, which the ray tracer's are not the same on every processor.
+  const Eigen::Vector3d d = T_wc_.R * Eigen::Vector3d(x, y, 1.0);
+  const auto& corners = world_->mesh.triangles[Index(facet.triangle)].corners_w;
+  const Eigen::Vector3d a = corners[0] - T_wc_.t, b = corners[1] - T_wc_.t,
+                        c = corners[2] - T_wc_.t;
+  const double ab = d.dot(a.cross(b)), bc = d.dot(b.cross(c)), ca = d.dot(c.cross(a));
+  const double sum = ab + bc + ca;
+  const Eigen::Vector3d n_w =
+      sum != 0 ? world_->surfaces.ShadingNormal(facet.triangle, ca / sum, ab / sum) : facet.n_w;
+  return LightOnNormal(world_->scene.sun, world_->to_sun_w, n_w, sunlit);
+}
+
+cv::Vec3f View::Shade(const SeenFacet& facet, double x, double y, float z, bool sunlit) {
+  const auto& uv = facet.uv_over_depth;
+  const float fx = static_cast<float>(x), fy = static_cast<float>(y);
+  TextureLook look;
+  look.u = z * (uv(0, 0) * fx + uv(0, 1) * fy + uv(0, 2));
+  look.v = z * (uv(1, 0) * fx + uv(1, 1) * fy + uv(1, 2));
+  const float right = z / static_cast<float>(world_->camera.fx);
+  const float down = z / static_cast<float>(world_->camera.fy);
+  const auto along_x = static_cast<float>(facet.inverse_depth.x());
+  const auto along_y = static_cast<float>(facet.inverse_depth.y());
+  look.right_u = (uv(0, 0) - look.u * along_x) * right;
+  look.right_v = (uv(1, 0) - look.v * along_x) * right;
+  look.down_u = (uv(0, 1) - look.u * along_y) * down;
+  look.down_v = (uv(1, 1) - look.v * along_y) * down;
+  const std::array<float, 4> albedo = facets_.Print(facet).Sample(look);
+  const float light = LightOn(facet, x, y, sunlit);
+  return {albedo[0] * light, albedo[1] * light, albedo[2] * light};
+}
+
+void View::ShadeRow(int v) {
+  const int* triangles = Triangles(v);
+  const std::uint32_t* surfaces = Surfaces(v);
+  const double* depth = out_->depth_m[v];
+  cv::Vec3f* colour = out_->radiance[v];
+  for (int u = 0; u < world_->camera.width; ++u) {
+    if (triangles[u] == PacketHits::kNothing) {
+      colour[u] = kSky;
+      continue;
+    }
+    colour[u] = Shade(facets_.At(triangles[u]), row_.x[Index(u)], row_.y[Index(u)],
+                      static_cast<float>(depth[u]), (surfaces[u] & 1u) != 0);
+  }
+}
+
+/// Pixels of a row where a neighbour shows another surface or another side of a shadow's edge.
+void View::MarkEdges(int v, std::vector<int>& pixels) const {
+  const int width = world_->camera.width;
+  const std::uint32_t* here = Surfaces(v);
+  const std::uint32_t* above = Surfaces(std::max(v - 1, rows_.start));
+  const std::uint32_t* below = Surfaces(std::min(v + 1, rows_.end - 1));
+  for (int u = 0; u < width; ++u) {
+    const int left = std::max(u - 1, 0), right = std::min(u + 1, width - 1);
+    const std::uint32_t differs = (here[u] ^ here[left]) | (here[u] ^ here[right]) |
+                                  (here[u] ^ above[u]) | (here[u] ^ below[u]);
+    if (differs != 0) pixels.push_back(v * width + u);
+  }
+}
+
+void View::SmoothEdges() {
+  on_edge_.clear();
+  for (int v = rows_.start; v < rows_.end; ++v) MarkEdges(v, on_edge_);
+  for (std::size_t i = 0; i < on_edge_.size(); i += 2) {
+    SmoothPair(on_edge_[i], on_edge_[std::min(i + 1, on_edge_.size() - 1)]);
+  }
+}
+
+/// Two pixels, four rays each: one packet.
+void View::SmoothPair(int a, int b) {
+  const int width = world_->camera.width;
+  std::array<Eigen::Vector3d, kLanes> rays;
+  RayPacket packet, to_sun;
+  for (int i = 0; i < kLanes; ++i) {
+    const int pixel = i < 4 ? a : b;
+    const auto& [du, dv] = kSubPixels[Index(i % 4)];
+    rays[Index(i)] = world_->image_rays.Beside(pixel % width, pixel / width, du, dv);
+    packet.Set(i, T_wc_.t, T_wc_.R * rays[Index(i)], kNear_m);
+  }
+  const PacketHits found = world_->rays.Nearest(packet);
+  std::array<double, kLanes> z{};
+  bool any = false;
+  for (int i = 0; i < kLanes; ++i) {
+    to_sun.Disable(i);
+    if (found.triangle[Index(i)] == PacketHits::kNothing) continue;
+    const SeenFacet& facet = facets_.At(found.triangle[Index(i)]);
+    z[Index(i)] = 1.0 / facet.inverse_depth.dot(rays[Index(i)]);
+    if (!facet.faces_sun) continue;
+    any = true;
+    to_sun.Set(i, T_wc_ * (z[Index(i)] * rays[Index(i)]) + kLeaveSurface_m * facet.n_w,
+               world_->to_sun_w, 0.0F);
+  }
+  std::array<bool, kLanes> blocked{};
+  if (any) blocked = world_->rays.Blocked(to_sun);
+  std::array<cv::Vec3f, 2> sum{cv::Vec3f(0, 0, 0), cv::Vec3f(0, 0, 0)};
+  for (int i = 0; i < kLanes; ++i) {
+    const std::size_t k = Index(i);
+    if (found.triangle[k] == PacketHits::kNothing) {
+      sum[k / 4] += kSky;
+      continue;
+    }
+    const SeenFacet& facet = facets_.At(found.triangle[k]);
+    sum[k / 4] += Shade(facet, rays[k].x(), rays[k].y(), static_cast<float>(z[k]),
+                        facet.faces_sun && !blocked[k]);
+  }
+  out_->radiance(a / width, a % width) = 0.25F * sum[0];
+  out_->radiance(b / width, b % width) = 0.25F * sum[1];
+}
+
+}  // namespace sim
