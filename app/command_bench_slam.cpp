@@ -30,6 +30,10 @@ struct Arguments {
   int black_every = 0, black_frames = 12;
 };
 
+bool Covered(int frame, int every, int count) {
+  return every > 0 && frame >= every && frame % every < count;
+}
+
 /// A sequence whose lens is covered again and again, to see how the camera is found.
 class CoveredCamera : public slam::FrameSource {
  public:
@@ -38,7 +42,7 @@ class CoveredCamera : public slam::FrameSource {
   int size() const override { return frames_.size(); }
   slam::RecordedFrame Read(int i) override {
     slam::RecordedFrame frame = frames_.Read(i);
-    if (i >= every_ && i % every_ < count_) {
+    if (Covered(i, every_, count_)) {
       frame.bgr = cv::Mat3b(frame.bgr.size(), cv::Vec3b(0, 0, 0));
       frame.gray = cv::Mat1b(frame.gray.size(), 0);
     }
@@ -92,9 +96,11 @@ bool Near(const eval::Pose& a, const eval::Pose& b) {
 }
 
 /// @param estimate, truth  by frame
+/// @param covered  whether the lens is covered in a frame: it sees nothing then
 std::vector<Comeback> Comebacks(const std::vector<std::optional<eval::Pose>>& estimate,
                                 const std::vector<std::optional<eval::Pose>>& truth,
-                                const std::optional<eval::Alignment>& gauge) {
+                                const std::optional<eval::Alignment>& gauge,
+                                const std::function<bool(int)>& covered) {
   std::vector<Comeback> out;
   std::vector<eval::Pose> seen;
   std::optional<int> lost_since;  // ... seeing the map
@@ -103,9 +109,10 @@ std::vector<Comeback> Comebacks(const std::vector<std::optional<eval::Pose>>& es
     if (!truth[i]) continue;
     if (!estimate[i]) {
       lost = !seen.empty();
-      const bool again = std::any_of(seen.begin(), seen.end(), [&](const eval::Pose& pose) {
-        return Near(pose, *truth[i]);
-      });
+      const bool again = !covered(static_cast<int>(i)) &&
+                         std::any_of(seen.begin(), seen.end(), [&](const eval::Pose& pose) {
+                           return Near(pose, *truth[i]);
+                         });
       if (lost && again && !lost_since) lost_since = static_cast<int>(i);
       continue;
     }
@@ -171,7 +178,9 @@ Row Measure(const std::string& folder, const Arguments& arguments, const slam::C
     const auto truth =
         eval::TruePosesOfFrames(*sequence.groundtruth, stamps_s, sequence.synthetic);
     const auto estimate = ByFrame(result.trajectory, stamps_s);
-    row.comebacks = Comebacks(estimate, truth, row.score.gauge);
+    row.comebacks = Comebacks(estimate, truth, row.score.gauge, [&](int i) {
+      return Covered(i, arguments.black_every, arguments.black_frames);
+    });
     std::optional<std::size_t> first, last;
     for (std::size_t i = 0; i < truth.size(); ++i) {
       if (!truth[i] || !estimate[i]) continue;
