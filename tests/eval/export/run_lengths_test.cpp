@@ -16,8 +16,8 @@ TEST(RunLengths, GoDownTheColumnsAndBeginWithPixelsThatAreOff) {
 }
 
 TEST(RunLengths, OfAnEmptyAndOfAFullMaskAreOneRun) {
-  EXPECT_EQ(RunLengths(cv::Mat1b::zeros(3, 4)), (Runs{12}));
-  EXPECT_EQ(RunLengths(cv::Mat1b::ones(3, 4)), (Runs{0, 12}));
+  EXPECT_EQ(RunLengths(cv::Mat1b(3, 4, uchar{0})), (Runs{12}));
+  EXPECT_EQ(RunLengths(cv::Mat1b(3, 4, uchar{1})), (Runs{0, 12}));
 }
 
 // By hand from the format's rule: 5 bits a character, from 48 on, +32 when more follow.
