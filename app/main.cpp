@@ -17,6 +17,7 @@ constexpr const char* kFlow =
     "  pas slam   track the camera and map the planes; never reads truth  -> RUN\n"
     "  pas eval   score a run against the truth                           -> metrics.json\n"
     "  pas draw   contact sheet and top view of a run                     -> pictures\n"
+    "  pas export a SEQ with truth as COCO or BOP, to train detectors     -> data set\n"
     "  pas check  validate a SEQ or RUN folder, fault by fault\n"
     "  pas vocabulary  train the words by which a lost camera finds its place\n"
     "  pas bench  measure one part by itself\n"
@@ -31,6 +32,7 @@ constexpr app::AddCommand kCommands[] = {
     app::AddVocabularyCommand,  //
     app::AddEvalCommand,        //
     app::AddDrawCommand,        //
+    app::AddExportCommand,      //
     app::AddCheckCommand,       //
     app::AddBenchCommand,       //
 };
