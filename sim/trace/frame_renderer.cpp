@@ -56,6 +56,13 @@ void FrameRenderer::Render(const Pose& T_wc, const RenderOptions& options,
   view.Render(*world_, T_wc, options, out);
 }
 
+double FrameRenderer::BareTraversal_s(const Pose& T_wc, const RenderOptions& options) const {
+  Rendering out;
+  RayLog log;
+  View().Render(*world_, T_wc, options, out, &log);
+  return world_->rays.TimeToCast(log);
+}
+
 int FrameRenderer::UnoccludedPixels(std::size_t object_index, const Pose& T_wc,
                                     const cv::Rect& where, const cv::Mat1w& object_id) const {
   const Camera& camera = world_->camera;

@@ -12,8 +12,9 @@ namespace sim {
 /// The work of one Render call. Its memory is kept from one view to the next.
 class View {
  public:
+  /// @param log  takes down the rays through pixel centres and those from what they hit
   void Render(const RenderWorld& world, const Pose& T_wc, const RenderOptions& options,
-              Rendering& out);
+              Rendering& out, RayLog* log = nullptr);
 
  private:
   /// Of one row of pixels, as long as whole packets.
@@ -58,6 +59,7 @@ class View {
   RenderOptions options_;
   cv::Range rows_;  ///< to render
   Rendering* out_ = nullptr;
+  RayLog* log_ = nullptr;
   Eigen::Vector3d eye_w_;
   std::size_t stride_ = 0;
   RowArrays row_;

@@ -22,7 +22,8 @@ SimulatedFrame Simulator::Simulate(int frame, const Shot& shot,
   RenderOptions view;
   view.colour = !moves;
   if (delay_s == 0) view.projector_offset_m = SecondEyeOffset(sensor.depth);
-  Rendering rendering = renderer_.Render(shot.T_wc, view);
+  thread_local Rendering rendering;  // memory only
+  renderer_.Render(shot.T_wc, view, rendering);
   if (moves) rendering.radiance = ExposeMoving(renderer_, options_.exposure, around);
   const double gain = ExposureGain(options_.exposure, options_.seed, shot.time_s);
   if (gain != 1.0) rendering.radiance = rendering.radiance * gain;
@@ -32,8 +33,8 @@ SimulatedFrame Simulator::Simulate(int frame, const Shot& shot,
                                 PixelNoise(options_.seed, static_cast<std::uint64_t>(frame)));
   result.depth =
       delay_s == 0 ? Depth(frame, rendering) : Depth(frame, RenderForDepth(around(delay_s)));
-  result.plane_id = rendering.plane_id;
-  result.object_id = rendering.object_id;
+  result.plane_id = rendering.plane_id.clone();
+  result.object_id = rendering.object_id.clone();
   result.truth = truth_.Describe(rendering, shot.T_wc);
   result.detections = detector_.Detect(frame, result.truth);
   return result;
