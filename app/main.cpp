@@ -18,6 +18,7 @@ constexpr const char* kFlow =
     "  pas eval   score a run against the truth                           -> metrics.json\n"
     "  pas draw   contact sheet and top view of a run                     -> pictures\n"
     "  pas check  validate a SEQ or RUN folder, fault by fault\n"
+    "  pas bench  measure one part by itself\n"
     "\n"
     "Exit codes: 0 done, 1 the result is a failure, 2 bad input or usage.";
 
@@ -34,7 +35,7 @@ int main(int argc, char** argv) {
   pas.add_flag("-q,--quiet", globals.quiet, "No progress, no summary; errors still show");
   for (const app::AddCommand add :
        {app::AddSceneCommand, app::AddSimCommand, app::AddSlamCommand, app::AddEvalCommand,
-        app::AddDrawCommand, app::AddCheckCommand}) {
+        app::AddDrawCommand, app::AddCheckCommand, app::AddBenchCommand}) {
     add(pas, globals, exit_code);
   }
 

@@ -100,7 +100,15 @@ std::vector<Recipe> RoomRecipes() {
             {{"structure", 1, 0, 1, "1 zigzag, 0 flat", true},
              {"distance_m", 1.2, 0.7, 2.6, "of the camera"},
              kTexture}},
-           &MakeWall}};
+           &MakeWall},
+          {{"passer",
+            "someone walks past, or a hand or a carried toy moves through the view",
+            {{"kind", 0, 0, 3, "1 a walker, 2 a hand, 3 a hand with a toy; 0 draws", true},
+             {"objects", 10, 2, 14, "things on the desk, fewer when they do not fit", true},
+             {"times", 4, 1, 20, "how often it comes", true},
+             {"speed_m_s", 0, 0, 2, "of its way; 0 is 0.9 for a walker, 0.5 for a hand"},
+             kTexture}},
+           &MakePasser}};
 }
 
 const std::vector<Recipe>& Recipes() {

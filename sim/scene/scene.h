@@ -82,14 +82,6 @@ struct Sun {
   double ambient = 0.45;
 };
 
-/// A lamp: a point, or a square that shines to one side; light falls with the distance squared.
-struct Lamp {
-  Eigen::Vector3d position_w = Eigen::Vector3d::Zero();
-  double intensity = 0.5;  ///< on a surface 1 m away that faces it, as Sun::intensity
-  double side_m = 0;       ///< of the square; 0 = a point, which shines to all sides
-  Eigen::Vector3d direction_w{0, 0, -1};  ///< the way a square faces, need not be unit
-};
-
 /// A place on the way of the camera, and what it looks at there.
 struct Station {
   Eigen::Vector3d camera_w = Eigen::Vector3d::Zero();
@@ -127,7 +119,6 @@ struct Scene {
   std::uint64_t seed = 0;
   std::vector<Object> objects;
   Sun sun;
-  std::vector<Lamp> lamps;
   Motion motion;
   std::optional<Capture> capture;
 };

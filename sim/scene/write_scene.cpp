@@ -128,13 +128,6 @@ std::string SceneText(const Scene& scene) {
   text += "sun:\n  direction: " + ListText(scene.sun.direction_w) +
           "\n  intensity: " + NumberText(scene.sun.intensity) +
           "\n  ambient: " + NumberText(scene.sun.ambient) + "\n";
-  if (!scene.lamps.empty()) text += "lamps:\n";
-  for (const Lamp& lamp : scene.lamps) {
-    text += "  - {position_m: " + ListText(lamp.position_w) +
-            ", intensity: " + NumberText(lamp.intensity) +
-            ", side_m: " + NumberText(lamp.side_m) +
-            ", direction: " + ListText(lamp.direction_w) + "}\n";
-  }
   text += MotionText(scene.motion);
   if (scene.capture) text += CaptureText(*scene.capture);
   text += "objects:\n";

@@ -9,12 +9,30 @@
 
 namespace sim {
 
+/// What is seen where nothing is.
+inline const cv::Vec3f kSky(0.55F, 0.6F, 0.66F);
+
+/// Something else that throws shadows on what a view shows.
+struct Blocker {
+  const RayScene* rays = nullptr;
+  Pose T_bw;  ///< from the frame of the view's world to its own
+};
+
+/// Where a world stands among others that move past it.
+struct Surroundings {
+  Eigen::Matrix3d R_sw = Eigen::Matrix3d::Identity();  ///< from its frame to that of the sun
+  std::vector<Blocker> others;
+  /// How many of four rays a pixel hit; 0 or 4 off the edges. Left alone when null, or without
+  /// colour.
+  cv::Mat1b* coverage = nullptr;
+};
+
 /// The work of one Render call. Its memory is kept from one view to the next.
 class View {
  public:
   /// @param log  takes down the rays through pixel centres and those from what they hit
   void Render(const RenderWorld& world, const Pose& T_wc, const RenderOptions& options,
-              Rendering& out, RayLog* log = nullptr);
+              const Surroundings& around, Rendering& out, RayLog* log = nullptr);
 
  private:
   /// Of one row of pixels, as long as whole packets.
@@ -33,6 +51,8 @@ class View {
   };
 
   void Prepare();
+  /// Whether anything, of this world or another, is between near and far.
+  std::array<bool, RayPacket::kLanes> Blocked(const RayPacket& packet) const;
   void LoadRow(int v);
   void TraceRow(int v);
   void DecideEdges();
@@ -56,6 +76,8 @@ class View {
 
   const RenderWorld* world_ = nullptr;
   Pose T_wc_;
+  const Surroundings* around_ = nullptr;
+  Eigen::Vector3d to_sun_w_;
   RenderOptions options_;
   cv::Range rows_;  ///< to render
   Rendering* out_ = nullptr;

@@ -8,7 +8,6 @@ namespace sim {
 namespace {
 
 constexpr int kLanes = RayPacket::kLanes;
-const cv::Vec3f kSky(0.55F, 0.6F, 0.66F);
 /// Four rays an edge pixel: a rotated grid, the same in each pixel.
 constexpr std::array<std::array<double, 2>, 4> kSubPixels{
     {{-0.125, -0.375}, {0.375, -0.125}, {0.125, 0.375}, {-0.375, 0.125}}};
@@ -27,7 +26,7 @@ float View::LightOn(const SeenFacet& facet, double x, double y, bool sunlit) con
   const double sum = ab + bc + ca;
   const Eigen::Vector3d n_w =
       sum != 0 ? world_->surfaces.ShadingNormal(facet.triangle, ca / sum, ab / sum) : facet.n_w;
-  return LightOnNormal(world_->scene.sun, world_->to_sun_w, n_w, sunlit);
+  return LightOnNormal(world_->scene.sun, world_->to_sun_w, around_->R_sw * n_w, sunlit);
 }
 
 cv::Vec3f View::Shade(const SeenFacet& facet, double x, double y, float z, bool sunlit) {
@@ -55,6 +54,9 @@ void View::ShadeRow(int v) {
   const double* depth = out_->depth_m[v];
   cv::Vec3f* colour = out_->radiance[v];
   for (int u = 0; u < world_->camera.width; ++u) {
+    if (around_->coverage != nullptr) {
+      (*around_->coverage)(v, u) = triangles[u] == PacketHits::kNothing ? 0 : 4;
+    }
     if (triangles[u] == PacketHits::kNothing) {
       colour[u] = kSky;
       continue;
@@ -108,10 +110,10 @@ void View::SmoothPair(int a, int b) {
     if (!facet.faces_sun) continue;
     any = true;
     to_sun.Set(i, T_wc_ * (z[Index(i)] * rays[Index(i)]) + kLeaveSurface_m * facet.n_w,
-               world_->to_sun_w, 0.0F);
+               to_sun_w_, 0.0F);
   }
   std::array<bool, kLanes> blocked{};
-  if (any) blocked = world_->rays.Blocked(to_sun);
+  if (any) blocked = Blocked(to_sun);
   std::array<cv::Vec3f, 2> sum{cv::Vec3f(0, 0, 0), cv::Vec3f(0, 0, 0)};
   for (int i = 0; i < kLanes; ++i) {
     const std::size_t k = Index(i);
@@ -123,8 +125,13 @@ void View::SmoothPair(int a, int b) {
     sum[k / 4] += Shade(facet, rays[k].x(), rays[k].y(), static_cast<float>(z[k]),
                         facet.faces_sun && !blocked[k]);
   }
-  out_->radiance(a / width, a % width) = 0.25F * sum[0];
-  out_->radiance(b / width, b % width) = 0.25F * sum[1];
+  for (const auto& [pixel, k] : {std::pair(a, 0), std::pair(b, 1)}) {
+    out_->radiance(pixel / width, pixel % width) = 0.25F * sum[Index(k)];
+    if (around_->coverage == nullptr) continue;
+    const auto first = found.triangle.begin() + 4 * k;
+    (*around_->coverage)(pixel / width, pixel % width) =
+        static_cast<uchar>(4 - std::count(first, first + 4, PacketHits::kNothing));
+  }
 }
 
 }  // namespace sim

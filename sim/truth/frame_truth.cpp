@@ -4,6 +4,8 @@
 #include <cmath>
 #include <map>
 
+#include "sim/scene/geometry.h"
+
 namespace sim {
 namespace {
 
@@ -61,7 +63,8 @@ TruthMaker::TruthMaker(const FrameRenderer& renderer)
   }
 }
 
-PlaneInFrame TruthMaker::DescribePlane(int id, int pixels, const Pose& T_wc) const {
+PlaneInFrame TruthMaker::DescribePlane(int id, int pixels, const Pose& T_wc,
+                                       double time_s) const {
   const ScenePlane& plane = planes_.at(static_cast<std::size_t>(id) - 1);
   const Camera& camera = renderer_.camera();
   PlaneInFrame seen{id, pixels, ProjectedFace(plane, T_wc, camera), {}};
@@ -77,13 +80,14 @@ PlaneInFrame TruthMaker::DescribePlane(int id, int pixels, const Pose& T_wc) con
         !within(vertex.pixel.y(), camera.height)) {
       continue;
     }
-    vertex.state =
-        renderer_.Sees(T_wc, vertex.x_w) ? VertexState::kVisible : VertexState::kOccluded;
+    vertex.state = renderer_.Sees(T_wc, vertex.x_w, time_s) ? VertexState::kVisible
+                                                            : VertexState::kOccluded;
   }
   return seen;
 }
 
-FrameTruth TruthMaker::Describe(const Rendering& rendering, const Pose& T_wc) const {
+FrameTruth TruthMaker::Describe(const Rendering& rendering, const Pose& T_wc,
+                                double time_s) const {
   FrameTruth truth;
   const std::map<int, Extent> seen = Extents(rendering.object_id);
   const std::vector<Object>& objects = renderer_.scene().objects;
@@ -96,10 +100,12 @@ FrameTruth TruthMaker::Describe(const Rendering& rendering, const Pose& T_wc) co
     object.pixels = extent.pixels;
     object.visible_box = {static_cast<double>(extent.u0), static_cast<double>(extent.v0),
                           static_cast<double>(extent.u1), static_cast<double>(extent.v1)};
-    object.amodal_box =
-        ProjectedBox(triangles_[i], T_wc, renderer_.camera()).value_or(object.visible_box);
+    object.amodal_box = ProjectedBox(triangles_[i], Inverse(renderer_.Moved(i, time_s)) * T_wc,
+                                     renderer_.camera())
+                            .value_or(object.visible_box);
     object.unoccluded_pixels = renderer_.UnoccludedPixels(
-        i, T_wc, PixelsOf(object.amodal_box, renderer_.camera()), rendering.object_id);
+        i, T_wc, PixelsOf(object.amodal_box, renderer_.camera()), rendering.object_id, time_s);
+    if (!objects[i].way.empty()) object.T_wo = ObjectPoseAt(objects[i], time_s);
     object.visible_fraction =
         static_cast<double>(object.pixels) / std::max(object.unoccluded_pixels, object.pixels);
     truth.objects.push_back(object);
@@ -107,7 +113,7 @@ FrameTruth TruthMaker::Describe(const Rendering& rendering, const Pose& T_wc) co
   std::sort(truth.objects.begin(), truth.objects.end(),
             [](const auto& a, const auto& b) { return a.id < b.id; });
   for (const auto& [id, extent] : Extents(rendering.plane_id)) {
-    truth.planes.push_back(DescribePlane(id, extent.pixels, T_wc));
+    truth.planes.push_back(DescribePlane(id, extent.pixels, T_wc, time_s));
   }
   return truth;
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <vector>
 
 #include "sim/trace/frame_renderer.h"
@@ -15,7 +16,8 @@ struct ObjectInFrame {
   int pixels = 0;             ///< visible, of the object_id image
   int unoccluded_pixels = 0;  ///< inside the image, were nothing else there
   PixelBox visible_box;       ///< first to last visible pixel centre, inclusive
-  PixelBox amodal_box;  ///< of the whole object with z > 1 cm, not cut at the image border
+  PixelBox amodal_box;       ///< of the whole object with z > 1 cm, not cut at the image border
+  std::optional<Pose> T_wo;  ///< of what moves, at the moment of the frame
   double visible_fraction = 0;  ///< pixels / unoccluded_pixels, in (0, 1]
 };
 
@@ -51,11 +53,12 @@ struct FrameTruth {
 class TruthMaker {
  public:
   explicit TruthMaker(const FrameRenderer& renderer);  ///< kept by reference
-  FrameTruth Describe(const Rendering& rendering, const Pose& T_wc) const;
+  /// @param time_s  where what moves is; as the rendering's
+  FrameTruth Describe(const Rendering& rendering, const Pose& T_wc, double time_s = 0) const;
 
  private:
   const FrameRenderer& renderer_;
-  PlaneInFrame DescribePlane(int id, int pixels, const Pose& T_wc) const;
+  PlaneInFrame DescribePlane(int id, int pixels, const Pose& T_wc, double time_s) const;
 
   std::vector<std::vector<Triangle>> triangles_;  ///< by object
   std::vector<ScenePlane> planes_;                ///< by id - 1

@@ -1,0 +1,153 @@
+#include "app/bench_planes.h"
+
+#include <algorithm>
+#include <ctime>
+
+#include "app/bench_planes_score.h"
+#include "eval/read/sequence.h"
+#include "eval/trajectory/score_trajectory.h"
+#include "slam/extract/box_tracks.h"
+#include "slam/extract/detections.h"
+#include "slam/extract/plane_segments.h"
+#include "slam/input/camera_reader.h"
+#include "slam/input/sequence_reader.h"
+#include "slam/planes/process_planes.h"
+
+namespace app {
+namespace {
+
+/// Processor time of this thread: other programs on the machine do not count.
+double ThreadTime_ms() {
+  timespec now{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+  return 1e3 * static_cast<double>(now.tv_sec) + 1e-6 * static_cast<double>(now.tv_nsec);
+}
+
+template <typename Work>
+double TimeOf(const Work& work) {
+  const double start = ThreadTime_ms();
+  work();
+  return ThreadTime_ms() - start;
+}
+
+/// The yardstick: reads the depth image once and writes the points.
+void BackProject(const cv::Mat1f& depth_m, const slam::Camera& camera, cv::Mat3f& points_c) {
+  points_c.create(depth_m.size());
+  const auto fx = static_cast<float>(1.0 / camera.fx), fy = static_cast<float>(1.0 / camera.fy);
+  const auto cx = static_cast<float>(camera.cx), cy = static_cast<float>(camera.cy);
+  for (int v = 0; v < depth_m.rows; ++v) {
+    const float* z = depth_m[v];
+    cv::Vec3f* point = points_c[v];
+    const float y = (static_cast<float>(v) - cy) * fy;
+    for (int u = 0; u < depth_m.cols; ++u) {
+      const float x = (static_cast<float>(u) - cx) * fx;
+      point[u] = {x * z[u], y * z[u], z[u]};
+    }
+  }
+}
+
+/// Runs (B) for planes and (C) as the tracker does.
+class PlaneFrontEnd {
+ public:
+  PlaneFrontEnd(const std::filesystem::path& sequence, const slam::Camera& camera,
+                const slam::Config& config)
+      : camera_(camera),
+        config_(config),
+        rays_(slam::PixelRays(camera)),
+        boxes_(config.box_tracks, camera.ImageBox()) {
+    const bool replay = std::filesystem::exists(sequence / "detections.jsonl");
+    detector_ =
+        slam::MakeDetector(replay ? "replay" : "none", sequence, camera, config.classes);
+  }
+
+  slam::Frame Run(const slam::RecordedFrame& recorded, PlaneTimes& times) {
+    slam::Frame frame;
+    frame.index = recorded.index;
+    frame.timestamp_s = recorded.timestamp_s;
+    frame.depth_m = recorded.depth_m;
+    frame.detections =
+        boxes_.Update(frame.timestamp_s, detector_->Detect(frame.timestamp_s, recorded.bgr));
+    times.plain_pass_ms.push_back(
+        TimeOf([&] { BackProject(frame.depth_m, camera_, points_c_); }));
+    times.extraction_ms.push_back(
+        TimeOf([&] { slam::ExtractPlanes(frame, camera_, rays_, config_.plane_extraction); }));
+    times.processing_ms.push_back(
+        TimeOf([&] { slam::ProcessPlanes(frame, camera_, config_.plane_processing); }));
+    return frame;
+  }
+
+ private:
+  slam::Camera camera_;
+  slam::Config config_;
+  cv::Mat2d rays_;
+  slam::BoxTracks boxes_;
+  std::unique_ptr<slam::Detector> detector_;
+  cv::Mat3f points_c_;
+};
+
+template <typename T>
+void Append(const std::vector<T>& from, std::vector<T>& to) {
+  to.insert(to.end(), from.begin(), from.end());
+}
+
+}  // namespace
+
+void PlaneBench::Add(const PlaneBench& o) {
+  frames += o.frames, scored_frames += o.scored_frames, segments += o.segments;
+  Append(o.times.extraction_ms, times.extraction_ms);
+  Append(o.times.processing_ms, times.processing_ms);
+  Append(o.times.plain_pass_ms, times.plain_pass_ms);
+  hoover.truth += o.hoover.truth, hoover.machine += o.hoover.machine;
+  hoover.correct += o.hoover.correct, hoover.over += o.hoover.over;
+  hoover.under += o.hoover.under, hoover.missed += o.hoover.missed;
+  hoover.noise += o.hoover.noise;
+  panoptic.tp += o.panoptic.tp, panoptic.fp += o.panoptic.fp, panoptic.fn += o.panoptic.fn;
+  panoptic.iou_sum += o.panoptic.iou_sum;
+  Append(o.normal_deg, normal_deg);
+  Append(o.offset_mm, offset_mm);
+  corners.claimed += o.corners.claimed, corners.matched += o.corners.matched;
+  corners.true_in_view += o.corners.true_in_view;
+  corners.found_in_view += o.corners.found_in_view;
+  corners.faces_in_view += o.corners.faces_in_view;
+  corners.faces_with_4 += o.corners.faces_with_4;
+  Append(o.corners.errors_mm, corners.errors_mm);
+  thin_tops.found += o.thin_tops.found, thin_tops.all += o.thin_tops.all;
+  for (const auto& [bin, share] : o.steps) {
+    steps[bin].found += share.found, steps[bin].all += share.all;
+  }
+  Append(o.level_normals_w, level_normals_w);
+  Append(o.level_shares, level_shares);
+}
+
+PlaneBench BenchPlanes(const std::filesystem::path& sequence, const std::string& camera_choice,
+                       const slam::Config& config, const FrameChoice& choice) {
+  const slam::Camera camera = slam::ChooseCamera(camera_choice, sequence);
+  const eval::Sequence truth = eval::ReadSequence(sequence);
+  slam::SequenceReader reader(sequence, camera);
+  PlaneFrontEnd front_end(sequence, camera, config);
+  const int count =
+      choice.at_most > 0 ? std::min(choice.at_most, reader.size()) : reader.size();
+  std::vector<double> stamps_s;
+  for (int i = 0; i < count; ++i) stamps_s.push_back(reader.entry(i).timestamp_s);
+  std::vector<std::optional<eval::Pose>> poses(stamps_s.size());
+  if (truth.groundtruth) {
+    poses = eval::TruePosesOfFrames(*truth.groundtruth, stamps_s, truth.synthetic);
+  }
+  PlaneBench bench;
+  for (int i = 0; i < count; i += choice.every) {
+    const slam::Frame frame = front_end.Run(reader.Read(i), bench.times);
+    ++bench.frames;
+    bench.segments += static_cast<int>(frame.planes.size());
+    const std::optional<eval::Pose>& pose = poses[static_cast<std::size_t>(i)];
+    if (!pose) continue;
+    if (truth.scene && !truth.plane_id_files.empty()) {
+      ScoreFrame(frame, eval::ReadTrueFrame(truth, frame.timestamp_s, *pose), *truth.scene,
+                 bench);
+    } else {
+      ScoreLevelPlane(frame, *pose, bench);
+    }
+  }
+  return bench;
+}
+
+}  // namespace app

@@ -1,0 +1,141 @@
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <filesystem>
+
+#include "app/app.h"
+#include "app/bench_planes.h"
+#include "app/console.h"
+#include "slam/config/config_file.h"
+
+namespace app {
+namespace {
+
+struct Arguments {
+  std::vector<std::string> sequences;
+  std::string camera, config_file;
+  int frames = 0, every = 1;
+  bool steps = false;
+};
+
+double Quantile(std::vector<double> values, double q) {
+  if (values.empty()) return 0.0;
+  std::sort(values.begin(), values.end());
+  const double at = q * static_cast<double>(values.size() - 1);
+  const auto low = static_cast<std::size_t>(at);
+  const std::size_t high = std::min(low + 1, values.size() - 1);
+  return values[low] + (at - static_cast<double>(low)) * (values[high] - values[low]);
+}
+
+double Ratio(int part, int whole) {
+  return whole > 0 ? static_cast<double>(part) / whole : 0.0;
+}
+
+void PrintHeader() {
+  fmt::print(
+      "{:14} {:>6} {:>7} {:>6} {:>6} {:>6} {:>6} {:>6} {:>5} {:>5} {:>6} {:>6} {:>6} "
+      "{:>6} {:>5} {:>5} {:>6}\n",
+      "", "truth", "correct", "over", "merged", "missed", "noise", "PQ", "thin", "n deg",
+      "d mm", "v rec", "v prec", "v mm", "p95", "four", "segs");
+}
+
+void PrintScores(const std::string& name, const PlaneBench& b) {
+  const eval::HooverScore& h = b.hoover;
+  const eval::CornerCounts& c = b.corners;
+  fmt::print(
+      "{:14} {:6.2f} {:7.3f} {:6.3f} {:6.3f} {:6.3f} {:6.3f} {:6.3f} {:5.3f} {:5.2f} "
+      "{:6.2f} {:6.3f} {:6.3f} {:6.2f} {:5.1f} {:5.2f} {:6.1f}\n",
+      name, Ratio(h.truth, b.scored_frames), Ratio(h.correct, h.truth), Ratio(h.over, h.truth),
+      Ratio(b.Merged(), h.truth), Ratio(h.missed, h.truth), Ratio(h.noise, h.truth),
+      b.panoptic.Pq(), b.thin_tops.Ratio(), Quantile(b.normal_deg, 0.5),
+      Quantile(b.offset_mm, 0.5), Ratio(c.found_in_view, c.true_in_view),
+      Ratio(c.matched, c.claimed), Quantile(c.errors_mm, 0.5), Quantile(c.errors_mm, 0.95),
+      Ratio(c.faces_with_4, c.faces_in_view), Ratio(b.segments, b.frames));
+}
+
+void PrintLevelPlane(const std::string& name, const PlaneBench& b) {
+  Eigen::Vector3d mean = Eigen::Vector3d::Zero();
+  for (const Eigen::Vector3d& n : b.level_normals_w) mean += n;
+  double most_deg = 0.0;
+  for (const Eigen::Vector3d& n : b.level_normals_w) {
+    most_deg = std::max(most_deg, slam::Angle(n, mean) * 180.0 / std::numbers::pi);
+  }
+  fmt::print(
+      "{}: largest level plane in {} of {} frames, {:.0f} to {:.0f} % of the measured "
+      "pixels, normal within {:.2f} deg of its mean; {:.1f} segments a frame\n",
+      name, b.level_normals_w.size(), b.frames, 100.0 * Quantile(b.level_shares, 0.0),
+      100.0 * Quantile(b.level_shares, 1.0), most_deg, Ratio(b.segments, b.frames));
+}
+
+void PrintTimes(const PlaneTimes& t) {
+  const double plain = Quantile(t.plain_pass_ms, 0.5);
+  fmt::print(
+      "\nProcessor time a frame, one thread, ms      median    p95   ratio to a plain pass\n");
+  const auto line = [&](const char* name, const std::vector<double>& ms) {
+    fmt::print("  {:40}{:7.2f}{:7.2f}{:9.1f}\n", name, Quantile(ms, 0.5), Quantile(ms, 0.95),
+               Quantile(ms, 0.5) / std::max(plain, 1e-9));
+  };
+  line("plain pass: depth read, points written", t.plain_pass_ms);
+  line("extraction with edges", t.extraction_ms);
+  line("processing", t.processing_ms);
+}
+
+void PrintSteps(const StepTable& steps) {
+  fmt::print("\nTop faces separated from what they lie on, by step and distance\n");
+  fmt::print("  step from mm  distance from m  separated     of\n");
+  for (const auto& [bin, share] : steps) {
+    fmt::print("  {:12} {:16.1f} {:10.3f} {:6}\n", bin.first, 0.1 * bin.second, share.Ratio(),
+               share.all);
+  }
+}
+
+PlaneBench BenchAll(const Arguments& arguments, const slam::Config& config, bool each,
+                    bool quiet) {
+  PlaneBench sum;
+  Progress progress("bench planes", static_cast<int>(arguments.sequences.size()), quiet);
+  int done = 0;
+  for (const std::string& sequence : arguments.sequences) {
+    const PlaneBench bench =
+        BenchPlanes(sequence, arguments.camera, config, {arguments.frames, arguments.every});
+    const std::string name = std::filesystem::path(sequence).lexically_normal().filename();
+    if (each && bench.scored_frames > 0) PrintScores(name, bench);
+    if (each && !bench.level_normals_w.empty()) PrintLevelPlane(name, bench);
+    sum.Add(bench);
+    progress.Update(++done);
+  }
+  return sum;
+}
+
+int RunBench(const Arguments& arguments, bool quiet) {
+  slam::Config config =
+      arguments.config_file.empty() ? slam::Config{} : slam::ReadConfig(arguments.config_file);
+  slam::ShareFacts(config);
+  PrintHeader();
+  const PlaneBench sum = BenchAll(arguments, config, true, quiet);
+  if (sum.scored_frames > 0) PrintScores("all", sum);
+  PrintTimes(sum.times);
+  if (arguments.steps) PrintSteps(sum.steps);
+  return kDone;
+}
+
+}  // namespace
+
+void AddBenchPlanes(CLI::App& bench, const Globals& globals, int& exit_code) {
+  CLI::App* command = bench.add_subcommand(
+      "planes", "Time extraction and processing of planes, and score them against the truth");
+  auto arguments = std::make_shared<Arguments>();
+  command->add_option("SEQ", arguments->sequences, "Sequence folders")->required();
+  command->add_option("--camera", arguments->camera,
+                      "tum1 | tum2 | tum3 | a camera.yaml; default: SEQ/camera.yaml");
+  command->add_option("--config", arguments->config_file, "Settings over the defaults, YAML");
+  command->add_option("--frames", arguments->frames, "At most so many of each; 0 = all")
+      ->check(CLI::Range(0, 1000000));
+  command->add_option("--every", arguments->every, "Only every so-manieth frame")
+      ->check(CLI::Range(1, 1000000));
+  command->add_flag("--steps", arguments->steps,
+                    "Also: which steps are separated, by height and distance");
+  command->callback(
+      [arguments, &globals, &exit_code] { exit_code = RunBench(*arguments, globals.quiet); });
+}
+
+}  // namespace app
