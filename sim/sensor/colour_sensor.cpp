@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 
+#include "sim/sensor/recycled.h"
+
 namespace sim {
 namespace {
 
@@ -46,17 +48,18 @@ cv::Mat3b MeasureColour(const cv::Mat3f& radiance, const ColourModel& model,
   const auto shot_variance = static_cast<float>(model.shot_variance);
   const auto read_variance = static_cast<float>(model.read_sigma * model.read_sigma);
   const double mid_u = 0.5 * (radiance.cols - 1), mid_v = 0.5 * (radiance.rows - 1);
-  const double corner2 = std::max(1e-9, mid_u * mid_u + mid_v * mid_v);
-  cv::Mat3b image(radiance.size());
+  const double loss = model.corner_loss / std::max(1e-9, mid_u * mid_u + mid_v * mid_v);
+  thread_local cv::Mat3b kept;
+  cv::Mat3b image = Recycled(kept, radiance.size());
   for (int v = 0; v < radiance.rows; ++v) {
     const cv::Vec3f* in = radiance[v];
     cv::Vec3b* out = image[v];
     for (int u = 0; u < radiance.cols; ++u) {
-      const double r2 = ((u - mid_u) * (u - mid_u) + (v - mid_v) * (v - mid_v)) / corner2;
-      const auto kept = static_cast<float>(1.0 - model.corner_loss * r2);
+      const double r2 = (u - mid_u) * (u - mid_u) + (v - mid_v) * (v - mid_v);
+      const auto kept_light = static_cast<float>(1.0 - loss * r2);
       const std::uint64_t bits = noisy ? noise.NormalBits(u, v, kFirstDraw) : 0;
       for (std::uint32_t channel = 0; channel < 3; ++channel) {
-        float light = kept * in[u][static_cast<int>(channel)];
+        float light = kept_light * in[u][static_cast<int>(channel)];
         if (noisy) {
           const float sigma = std::sqrt(shot_variance * std::max(light, 0.0F) + read_variance);
           light += sigma * PixelNoise::NormalOf(bits, kFirstDraw + channel);

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "sim/sensor/depth_effects.h"
+#include "sim/sensor/recycled.h"
 
 namespace sim {
 namespace {
@@ -24,15 +25,14 @@ struct Noises {
 };
 
 /// Which pixel's surface a pixel sees: itself, but near an edge perhaps a neighbour's.
-cv::Point Source(const Rendering& rendering, const Noises& noises, double scale, int u, int v,
-                 double theta) {
-  const double sigma = scale * LateralSigma(std::min(theta, 0.95 * kHalfPi));
-  const auto moved = [&](float draw, int from, int size) {
-    return std::clamp(from + Nearest(sigma * static_cast<double>(draw)), 0, size - 1);
-  };
-  const int x = moved(noises.jitter_u()(v, u), u, rendering.depth_m.cols);
-  const int y = moved(noises.jitter_v()(v, u), v, rendering.depth_m.rows);
-  return SameSurface(rendering, {u, v}, {x, y}) ? cv::Point(u, v) : cv::Point(x, y);
+cv::Point Source(const Rendering& rendering, cv::Point at, double sigma, float jitter_u,
+                 float jitter_v) {
+  const int du = Nearest(sigma * static_cast<double>(jitter_u));
+  const int dv = Nearest(sigma * static_cast<double>(jitter_v));
+  if (du == 0 && dv == 0) return at;
+  const cv::Point to(std::clamp(at.x + du, 0, rendering.depth_m.cols - 1),
+                     std::clamp(at.y + dv, 0, rendering.depth_m.rows - 1));
+  return SameSurface(rendering, at, to) ? at : to;
 }
 
 /// Disparity noise in steps so that, with rounding (variance 1/12), the sd in metres is sigma.
@@ -78,34 +78,46 @@ cv::Mat1d MeasureDepth(const Rendering& rendering, const KinectModel& model,
   const cv::Size size = rendering.depth_m.size();
   thread_local Noises noises;  // memory only
   SmoothNoise(size, 1, noise, kAxialDraw, noises.fields);
-  cv::Mat1d measured(size);
+  thread_local cv::Mat1d kept;
+  cv::Mat1d measured = Recycled(kept, size);
   for (int v = 0; v < size.height; ++v) {
     const double* depth = rendering.depth_m[v];
+    const float* cosine = rendering.incidence_cos[v];
+    const float *axial = noises.axial()[v], *jitter_u = noises.jitter_u()[v],
+                *jitter_v = noises.jitter_v()[v];
+    double* out = measured[v];
     for (int u = 0; u < size.width; ++u) {
-      measured(v, u) = 0.0;
+      out[u] = 0.0;
       if (!(depth[u] > 0)) continue;
-      double theta = Incidence(rendering.incidence_cos(v, u));
+      double z = depth[u], theta = Incidence(cosine[u]);
       cv::Point seen(u, v);
       if (model.lateral_scale > 0) {
-        seen = Source(rendering, noises, model.lateral_scale, u, v, theta);
-        if (seen != cv::Point(u, v)) theta = Incidence(rendering.incidence_cos(seen));
+        const double sigma =
+            model.lateral_scale * LateralSigma(std::min(theta, 0.95 * kHalfPi));
+        seen = Source(rendering, seen, sigma, jitter_u[u], jitter_v[u]);
+        if (seen != cv::Point(u, v)) {
+          z = rendering.depth_m(seen);
+          theta = Incidence(rendering.incidence_cos(seen));
+        }
       }
-      const double z = rendering.depth_m(seen);
       if (!(z >= model.min_depth_m && z <= model.max_depth_m)) continue;
       if (!(theta <= model.max_incidence_rad)) continue;
       if (!rendering.projector_lit.empty() && rendering.projector_lit(seen) == 0) continue;
-      measured(v, u) = Measured(z, theta, noises.axial()(v, u), model);
+      out[u] = Measured(z, theta, axial[u], model);
     }
   }
   return measured;
 }
 
 cv::Mat1w EncodeDepth(const cv::Mat1d& depth_m, double depth_factor) {
-  cv::Mat1w units(depth_m.size(), ushort{0});
+  thread_local cv::Mat1w kept;
+  cv::Mat1w units = Recycled(kept, depth_m.size());
   for (int v = 0; v < depth_m.rows; ++v) {
+    const double* in = depth_m[v];
+    ushort* out = units[v];
     for (int u = 0; u < depth_m.cols; ++u) {
-      const double value = depth_m(v, u) * depth_factor + 0.5;
-      if (value >= 1.0 && value < 65536.0) units(v, u) = static_cast<ushort>(value);
+      const double value = in[u] * depth_factor + 0.5;
+      out[u] = value >= 1.0 && value < 65536.0 ? static_cast<ushort>(value) : ushort{0};
     }
   }
   return units;

@@ -63,6 +63,10 @@ class View {
   void CastToSun(int v);
   void CastToEye(int v);
   void ShadeRow(int v);
+  void ShadeRun(int v, int first, int last);
+  /// Place on the print of what the ray (x, y, 1) meets at depth z, metres.
+  static std::array<float, 2> PrintAt(const SeenFacet& facet, double x, double y, float z);
+  TextureFootprint Footprint(const SeenFacet& facet, const std::array<float, 2>& at, float z);
   cv::Vec3f Shade(const SeenFacet& facet, double x, double y, float z, bool sunlit);
   float LightOn(const SeenFacet& facet, double x, double y, bool sunlit) const;
   void SmoothEdges();
