@@ -52,6 +52,40 @@ Frame FrameOf(const RecordedFrame& recorded) {
   return frame;
 }
 
+int ThreadsOf(const RunOptions& options) {
+  const int cores = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+  return options.threads > 0 ? options.threads : cores;
+}
+
+RunOutcome Run(LiveCamera input, const RunOptions& options, const std::string& detector) {
+  const auto start = std::chrono::steady_clock::now();
+  // Its own threads would only compete with ours.
+  cv::setNumThreads(1);
+  Tracker tracker(input.camera, options.config, options.variant, std::move(input.detector),
+                  options.seed, ThreadsOf(options));
+  RunWriter writer(options.run, Describe(options, detector),
+                   {.force = options.force, .save_segmentation = options.save_segmentation});
+
+  RunOutcome outcome;
+  outcome.frames = input.frames.size();
+  for (int i = 0; i < outcome.frames; ++i) {
+    const RecordedFrame recorded = input.frames.Read(i);
+    Frame frame = FrameOf(recorded);
+    const TrackReport report = tracker.TrackFrame(frame, recorded.bgr);
+    writer.WriteFrame({frame, report.tracked, report.times});
+    outcome.tracked += report.tracked ? 1 : 0;
+    if (options.progress) options.progress(i + 1, outcome.frames);
+  }
+  writer.Finish(tracker.map());
+
+  for (const Keyframe& keyframe : tracker.map().keyframes)
+    outcome.keyframes += !keyframe.culled;
+  for (const MapPlane& plane : tracker.map().planes) outcome.map_planes += !plane.merged_into;
+  outcome.wall_time_s =
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  return outcome;
+}
+
 }  // namespace
 
 const char* VariantName(Variant variant) {
@@ -70,45 +104,27 @@ Variant VariantOf(const std::string& name) {
 }
 
 RunOutcome RunSequence(const RunOptions& options) {
-  const auto start = std::chrono::steady_clock::now();
-  // Its own threads would only compete with ours.
-  cv::setNumThreads(1);
-  const int cores = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
-  const int threads = options.threads > 0 ? options.threads : cores;
-
   if (!std::filesystem::is_directory(options.sequence)) {
     throw InputError(
         options.sequence.string(),
         "no such folder; expected a sequence made by pas sim, or a TUM RGB-D folder");
   }
   const Camera camera = ChooseCamera(options.camera, options.sequence);
-  SequenceReader reader(options.sequence, camera, {.prefetch = threads > 1});
+  SequenceReader reader(options.sequence, camera, {.prefetch = ThreadsOf(options) > 1});
   const std::string detector = DetectorChoice(options);
-  Tracker tracker(camera, options.config, options.variant,
-                  MakeDetector(detector, options.sequence, camera, options.config.classes),
-                  options.seed, threads);
-  RunWriter writer(options.run, Describe(options, detector),
-                   {.force = options.force, .save_segmentation = options.save_segmentation});
-
-  RunOutcome outcome;
-  for (int i = 0; i < reader.size(); ++i) {
-    const RecordedFrame recorded = reader.Read(i);
-    Frame frame = FrameOf(recorded);
-    const TrackReport report = tracker.TrackFrame(frame, recorded.bgr);
-    writer.WriteFrame({frame, report.tracked, report.times});
-    outcome.tracked += report.tracked ? 1 : 0;
-    if (options.progress) options.progress(i + 1, reader.size());
-  }
-  writer.Finish(tracker.map());
-
-  outcome.frames = reader.size();
-  for (const Keyframe& keyframe : tracker.map().keyframes)
-    outcome.keyframes += !keyframe.culled;
-  for (const MapPlane& plane : tracker.map().planes) outcome.map_planes += !plane.merged_into;
+  RunOutcome outcome =
+      Run({reader, camera,
+           MakeDetector(detector, options.sequence, camera, options.config.classes)},
+          options, detector);
   outcome.warnings = reader.warnings().text;
-  outcome.wall_time_s =
-      std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return outcome;
+}
+
+RunOutcome RunLive(LiveCamera live, const RunOptions& options) {
+  // Boxes serve planes alone.
+  if (options.variant == Variant::kPoints) live.detector = nullptr;
+  const std::string detector = live.detector ? "live" : "none";
+  return Run(std::move(live), options, detector);
 }
 
 }  // namespace slam

@@ -3,10 +3,12 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "slam/config/config.h"
+#include "slam/input/frame_source.h"
 #include "slam/track/tracker.h"
 
 namespace slam {
@@ -39,9 +41,21 @@ const char* VariantName(Variant variant);
 /// @throws InputError listing the variants.
 Variant VariantOf(const std::string& name);
 
+/// Where a run gets its frames, when that is no folder.
+struct LiveCamera {
+  FrameSource& frames;
+  Camera camera;
+  std::unique_ptr<Detector> detector;  ///< null: no detections
+};
+
 /// Runs PAS-SLAM over the sequence and writes the run folder (formats.md), whole or not at all.
 /// Truth is never read. The same options give the same bytes, apart from the times.
 /// @throws InputError for bad input.
 RunOutcome RunSequence(const RunOptions& options);
+
+/// The same on frames that never were files. options.sequence is only written into run.json,
+/// options.camera and .detector are not used. Equal frames and detections give the bytes that
+/// RunSequence gives, run.json's paths apart.
+RunOutcome RunLive(LiveCamera live, const RunOptions& options);
 
 }  // namespace slam
