@@ -11,6 +11,8 @@
 #include "eval/read/run.h"
 #include "eval/trajectory/score_trajectory.h"
 #include "slam/config/config_file.h"
+#include "slam/input/camera_reader.h"
+#include "slam/input/sequence_reader.h"
 #include "slam/track/run_sequence.h"
 
 namespace app {
@@ -25,7 +27,40 @@ struct Arguments {
   std::string variant = "points", config_file;
   int threads = 1;
   bool loop_closing = false;
+  int black_every = 0, black_frames = 12;
 };
+
+bool Covered(int frame, int every, int count) {
+  return every > 0 && frame >= every && frame % every < count;
+}
+
+/// A sequence whose lens is covered again and again, to see how the camera is found.
+class CoveredCamera : public slam::FrameSource {
+ public:
+  CoveredCamera(slam::FrameSource& frames, int every, int count)
+      : frames_(frames), every_(every), count_(count) {}
+  int size() const override { return frames_.size(); }
+  slam::RecordedFrame Read(int i) override {
+    slam::RecordedFrame frame = frames_.Read(i);
+    if (Covered(i, every_, count_)) {
+      frame.bgr = cv::Mat3b(frame.bgr.size(), cv::Vec3b(0, 0, 0));
+      frame.gray = cv::Mat1b(frame.gray.size(), 0);
+    }
+    return frame;
+  }
+
+ private:
+  slam::FrameSource& frames_;
+  int every_, count_;
+};
+
+slam::RunOutcome RunOn(const slam::RunOptions& options, const Arguments& arguments) {
+  if (arguments.black_every == 0) return slam::RunSequence(options);
+  const slam::Camera camera = slam::ChooseCamera("", options.sequence);
+  slam::SequenceReader reader(options.sequence, camera);
+  CoveredCamera covered(reader, arguments.black_every, arguments.black_frames);
+  return slam::RunLive({covered, camera, nullptr}, options);
+}
 
 double ResidentKib() {
   std::ifstream statm("/proc/self/statm");
@@ -61,9 +96,11 @@ bool Near(const eval::Pose& a, const eval::Pose& b) {
 }
 
 /// @param estimate, truth  by frame
+/// @param covered  whether the lens is covered in a frame: it sees nothing then
 std::vector<Comeback> Comebacks(const std::vector<std::optional<eval::Pose>>& estimate,
                                 const std::vector<std::optional<eval::Pose>>& truth,
-                                const std::optional<eval::Alignment>& gauge) {
+                                const std::optional<eval::Alignment>& gauge,
+                                const std::function<bool(int)>& covered) {
   std::vector<Comeback> out;
   std::vector<eval::Pose> seen;
   std::optional<int> lost_since;  // ... seeing the map
@@ -72,9 +109,10 @@ std::vector<Comeback> Comebacks(const std::vector<std::optional<eval::Pose>>& es
     if (!truth[i]) continue;
     if (!estimate[i]) {
       lost = !seen.empty();
-      const bool again = std::any_of(seen.begin(), seen.end(), [&](const eval::Pose& pose) {
-        return Near(pose, *truth[i]);
-      });
+      const bool again = !covered(static_cast<int>(i)) &&
+                         std::any_of(seen.begin(), seen.end(), [&](const eval::Pose& pose) {
+                           return Near(pose, *truth[i]);
+                         });
       if (lost && again && !lost_since) lost_since = static_cast<int>(i);
       continue;
     }
@@ -87,7 +125,7 @@ std::vector<Comeback> Comebacks(const std::vector<std::optional<eval::Pose>>& es
     }
     seen.push_back(*truth[i]);
   }
-  if (lost_since) out.push_back({-1, 0});
+  if (lost_since) out.push_back({-1, 0.0});
   return out;
 }
 
@@ -123,7 +161,7 @@ Row Measure(const std::string& folder, const Arguments& arguments, const slam::C
     if (done == (total + 1) / 2) half_kib = ResidentKib(), half = done;
     if (done == total) end_kib = ResidentKib(), frames = total;
   };
-  const slam::RunOutcome outcome = slam::RunSequence(options);
+  const slam::RunOutcome outcome = RunOn(options, arguments);
 
   Row row;
   row.name = std::filesystem::path(folder).filename().string();
@@ -140,7 +178,9 @@ Row Measure(const std::string& folder, const Arguments& arguments, const slam::C
     const auto truth =
         eval::TruePosesOfFrames(*sequence.groundtruth, stamps_s, sequence.synthetic);
     const auto estimate = ByFrame(result.trajectory, stamps_s);
-    row.comebacks = Comebacks(estimate, truth, row.score.gauge);
+    row.comebacks = Comebacks(estimate, truth, row.score.gauge, [&](int i) {
+      return Covered(i, arguments.black_every, arguments.black_frames);
+    });
     std::optional<std::size_t> first, last;
     for (std::size_t i = 0; i < truth.size(); ++i) {
       if (!truth[i] || !estimate[i]) continue;
@@ -249,6 +289,14 @@ void AddBenchSlam(CLI::App& bench, const Globals& /*globals*/, int& exit_code) {
   command->add_option("--config", arguments->config_file, "As of pas slam");
   command->add_option("--threads", arguments->threads, "Of tracking; 0: one a core")
       ->check(CLI::Range(0, 1024))
+      ->capture_default_str();
+  command
+      ->add_option("--black-every", arguments->black_every,
+                   "Cover the lens every so many frames, to see how the camera is found again; "
+                   "detections are not replayed then")
+      ->check(CLI::Range(2, 1000000));
+  command->add_option("--black-frames", arguments->black_frames, "For so many frames")
+      ->check(CLI::Range(1, 1000000))
       ->capture_default_str();
   command->add_flag("--loop-closing", arguments->loop_closing, "As of pas slam");
   command->callback([arguments, &exit_code] { exit_code = Run(*arguments); });

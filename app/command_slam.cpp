@@ -1,6 +1,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <csignal>
 
 #include "app/app.h"
 #include "app/console.h"
@@ -14,11 +15,34 @@
 namespace app {
 namespace {
 
+constexpr int kInterrupted = 130;  ///< as shells say of Ctrl-C
+
+volatile std::sig_atomic_t interrupted = 0;
+
+/// While it lives, Ctrl-C asks for an end after the frame in hand; a second one ends at once.
+class InterruptWatch {
+ public:
+  InterruptWatch() {
+    interrupted = 0;
+    struct sigaction action {};
+    action.sa_handler = [](int) { interrupted = 1; };
+    action.sa_flags = static_cast<int>(SA_RESETHAND);
+    ::sigaction(SIGINT, &action, &before_);
+  }
+  ~InterruptWatch() { ::sigaction(SIGINT, &before_, nullptr); }
+  InterruptWatch(const InterruptWatch&) = delete;
+  InterruptWatch& operator=(const InterruptWatch&) = delete;
+
+ private:
+  struct sigaction before_ {};
+};
+
 struct SlamArguments {
   slam::RunOptions options;
   std::string variant = "full";
   std::string config_file;
   bool print_config = false;
+  bool loop_closing = false;
   std::string live_scene;
   std::function<SceneRecording(const std::string&)> recording;  ///< with live_scene
 };
@@ -66,7 +90,10 @@ int RunSlam(SlamArguments& arguments, bool quiet) {
   }
   options.variant = slam::VariantOf(arguments.variant);
   if (!arguments.config_file.empty()) options.config = slam::ReadConfig(arguments.config_file);
+  if (arguments.loop_closing) options.config.loop_closing.enabled = true;
   options.version = PAS_VERSION;
+  const InterruptWatch watch;
+  options.stop = [] { return interrupted != 0; };
   std::unique_ptr<Progress> progress;
   options.progress = [&](int done, int total) {
     if (!progress) progress = std::make_unique<Progress>("slam", total, quiet);
@@ -80,9 +107,16 @@ int RunSlam(SlamArguments& arguments, bool quiet) {
     fmt::print(stderr, "pas: warning: {}\n", warning);
   }
   if (!quiet) {
-    fmt::print("{}: {} of {} frames tracked, {} keyframes, {} map planes, {:.1f} frames/s\n",
+    fmt::print("{}: {} of {} frames tracked, {} keyframes, {} map planes{}, {:.1f} frames/s\n",
                options.run.string(), outcome.tracked, outcome.frames, outcome.keyframes,
-               outcome.map_planes, outcome.frames / outcome.wall_time_s);
+               outcome.map_planes,
+               outcome.loops > 0 ? fmt::format(", {} loops closed", outcome.loops) : "",
+               outcome.frames / outcome.wall_time_s);
+  }
+  if (outcome.stopped) {
+    fmt::print(stderr, "pas: interrupted after frame {}; the run up to there is written\n",
+               outcome.frames);
+    return kInterrupted;
   }
   if (outcome.tracked == 0) {
     fmt::print(stderr,
@@ -125,6 +159,8 @@ void AddSlamCommand(CLI::App& pas, const Globals& globals, int& exit_code) {
                    "Threads; 0 = one a core. Changes the speed, never a result")
       ->check(CLI::Range(0, 256))
       ->capture_default_str();
+  command->add_flag("--loop-closing", arguments->loop_closing,
+                    "Recognise known places and draw the map together there");
   command->add_flag("--save-segmentation", options.save_segmentation,
                     "Also write the label image of every frame");
   command->add_flag("--force", options.force, "Replace an existing run folder");

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <set>
 
 #include "sim/scene/geometry.h"
 
@@ -50,11 +51,27 @@ cv::Rect PixelsOf(const PixelBox& box, const Camera& camera) {
          cv::Rect(0, 0, camera.width, camera.height);
 }
 
+/// What moves has no corners, and never bears one.
+std::vector<Triangle> OfWhatStands(const Scene& scene, const SceneMesh& mesh) {
+  std::set<int> moving;
+  for (const Object& object : scene.objects) {
+    if (!object.way.empty()) moving.insert(object.id);
+  }
+  std::vector<Triangle> standing;
+  std::copy_if(mesh.triangles.begin(), mesh.triangles.end(), std::back_inserter(standing),
+               [&](const Triangle& triangle) { return moving.count(triangle.object) == 0; });
+  return standing;
+}
+
 }  // namespace
 
 TruthMaker::TruthMaker(const FrameRenderer& renderer)
-    : renderer_(renderer), planes_(ScenePlanes(renderer.scene())) {
-  const SceneMesh mesh = BuildMesh(renderer.scene());
+    : TruthMaker(renderer, BuildMesh(renderer.scene())) {}
+
+TruthMaker::TruthMaker(const FrameRenderer& renderer, const SceneMesh& mesh)
+    : renderer_(renderer),
+      planes_(ScenePlanes(renderer.scene())),
+      ends_(OfWhatStands(renderer.scene(), mesh)) {
   for (const Object& object : renderer.scene().objects) {
     triangles_.emplace_back();
     std::copy_if(mesh.triangles.begin(), mesh.triangles.end(),
@@ -82,6 +99,7 @@ PlaneInFrame TruthMaker::DescribePlane(int id, int pixels, const Pose& T_wc,
     }
     vertex.state = renderer_.Sees(T_wc, vertex.x_w, time_s) ? VertexState::kVisible
                                                             : VertexState::kOccluded;
+    vertex.surface_ends = vertex.state == VertexState::kVisible && ends_.At(T_wc, vertex.x_w);
   }
   return seen;
 }

@@ -7,6 +7,7 @@
 #include "sim/trace/frame_renderer.h"
 #include "sim/truth/polygon.h"
 #include "sim/truth/silhouette.h"
+#include "sim/truth/surface_end.h"
 
 namespace sim {
 
@@ -33,6 +34,8 @@ struct VertexInFrame {
   Eigen::Vector2d pixel;  ///< its projection; only when z > kSilhouetteNear_m
   bool projects = false;
   VertexState state = VertexState::kOutside;
+  bool surface_ends = false;  ///< of a visible one: whether it lies at the surface's edge,
+                              ///< where depth breaks off (SurfaceEnds)
 };
 
 struct PlaneInFrame {
@@ -59,9 +62,11 @@ class TruthMaker {
  private:
   const FrameRenderer& renderer_;
   PlaneInFrame DescribePlane(int id, int pixels, const Pose& T_wc, double time_s) const;
+  TruthMaker(const FrameRenderer& renderer, const SceneMesh& mesh);
 
   std::vector<std::vector<Triangle>> triangles_;  ///< by object
   std::vector<ScenePlane> planes_;                ///< by id - 1
+  SurfaceEnds ends_;
 };
 
 }  // namespace sim

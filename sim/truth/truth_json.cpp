@@ -85,6 +85,7 @@ Json PlaneInFrameJson(const PlaneInFrame& plane) {
       entry["pixel"] = nullptr;
     }
     entry["state"] = StateName(vertex.state);
+    if (vertex.state == VertexState::kVisible) entry["at_edge"] = vertex.surface_ends;
     json["vertices"].push_back(std::move(entry));
   }
   return json;

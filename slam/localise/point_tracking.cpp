@@ -32,6 +32,18 @@ constexpr int kLeastStartPoints = 40;
 
 }  // namespace
 
+const char* StateName(const PointTrackReport& report) {
+  switch (report.state) {
+    case TrackState::kInitialising:
+      return "initialising";
+    case TrackState::kLost:
+      return "lost";
+    case TrackState::kTracking:
+      break;
+  }
+  return report.by_relocalising ? "relocalised" : "tracking";
+}
+
 PointTracking::PointTracking(const Camera& camera, const PointTrackingConfig& config,
                              const Vocabulary& vocabulary)
     : camera_(camera), config_(config), places_(vocabulary) {}

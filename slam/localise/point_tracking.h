@@ -21,6 +21,11 @@ enum class TrackState {
   kLost  ///< the frame has no pose; relocalisation is tried with every frame
 };
 
+struct PointTrackReport;
+
+/// "initialising", "tracking", "lost", or "relocalised" for the frame that was found again.
+const char* StateName(const PointTrackReport& report);
+
 /// Settings of tracking by points.
 struct PointTrackingConfig {
   PoseProblemConfig pose;

@@ -11,6 +11,7 @@
 #include "slam/config/config_file.h"
 #include "slam/input/camera_reader.h"
 #include "slam/input/sequence_reader.h"
+#include "slam/track/frame_gate.h"
 #include "slam/write/run_writer.h"
 
 namespace slam {
@@ -43,6 +44,22 @@ RunInfo Describe(const RunOptions& options, const std::string& detector) {
   return info;
 }
 
+/// A pose tied to a keyframe, which moves on when the map is adjusted.
+struct TiedPose {
+  double timestamp_s = 0.0;
+  int reference = kNone;
+  Pose T_cr;
+};
+
+std::vector<TimedPose> FollowKeyframes(const std::vector<TiedPose>& tied, const Map& map) {
+  std::vector<TimedPose> trajectory;
+  for (const TiedPose& pose : tied) {
+    trajectory.push_back(
+        {pose.timestamp_s, Normalised(pose.T_cr * KeyframePose(map, pose.reference))});
+  }
+  return trajectory;
+}
+
 Frame FrameOf(const RecordedFrame& recorded) {
   Frame frame;
   frame.index = recorded.index;
@@ -67,16 +84,27 @@ RunOutcome Run(LiveCamera input, const RunOptions& options, const std::string& d
                    {.force = options.force, .save_segmentation = options.save_segmentation});
 
   RunOutcome outcome;
-  outcome.frames = input.frames.size();
-  for (int i = 0; i < outcome.frames; ++i) {
-    const RecordedFrame recorded = input.frames.Read(i);
-    Frame frame = FrameOf(recorded);
-    const TrackReport report = tracker.TrackFrame(frame, recorded.bgr);
-    writer.WriteFrame({frame, report.tracked, report.times});
-    outcome.tracked += report.tracked ? 1 : 0;
-    if (options.progress) options.progress(i + 1, outcome.frames);
+  FrameGate gate(input.camera);
+  std::vector<TiedPose> tied;
+  const int total = input.frames.size();
+  for (int i = 0; i < total && !outcome.stopped; ++i) {
+    RecordedFrame recorded = input.frames.Read(i);
+    if (gate.Takes(recorded)) {
+      recorded.index = outcome.frames++;
+      Frame frame = FrameOf(recorded);
+      const TrackReport report = tracker.TrackFrame(frame, recorded.bgr);
+      writer.WriteFrame({frame, report.tracked, report.times, StateName(report.points)});
+      outcome.tracked += report.tracked ? 1 : 0;
+      outcome.loops += report.loop ? 1 : 0;
+      if (report.tracked) tied.push_back({frame.timestamp_s, report.reference, report.T_cr});
+    }
+    if (options.progress) options.progress(i + 1, total);
+    outcome.stopped = i + 1 < total && options.stop && options.stop();
   }
-  writer.Finish(tracker.map());
+  // A closed loop moves the past; without one the poses stay as they were found.
+  writer.Finish(tracker.map(), outcome.loops > 0 ? FollowKeyframes(tied, tracker.map())
+                                                 : std::vector<TimedPose>{});
+  outcome.warnings = gate.Warnings();
 
   for (const Keyframe& keyframe : tracker.map().keyframes)
     outcome.keyframes += !keyframe.culled;
@@ -116,7 +144,8 @@ RunOutcome RunSequence(const RunOptions& options) {
       Run({reader, camera,
            MakeDetector(detector, options.sequence, camera, options.config.classes)},
           options, detector);
-  outcome.warnings = reader.warnings().text;
+  const auto& warnings = reader.warnings().text;
+  outcome.warnings.insert(outcome.warnings.begin(), warnings.begin(), warnings.end());
   return outcome;
 }
 

@@ -27,11 +27,14 @@ struct RunOptions {
   bool force = false;                                 ///< replace an older run
   std::string version;                                ///< of the program, for run.json
   std::function<void(int done, int total)> progress;  ///< may be empty
+  /// Asked after each frame; when true the run ends there and is written. May be empty.
+  std::function<bool()> stop;
 };
 
 struct RunOutcome {
   int frames = 0, tracked = 0;
-  int keyframes = 0, map_planes = 0;
+  int keyframes = 0, map_planes = 0, loops = 0;
+  bool stopped = false;  ///< before the last frame
   double wall_time_s = 0.0;
   std::vector<std::string> warnings;  ///< what the sequence gave that was not used
 };
@@ -53,7 +56,9 @@ struct LiveCamera {
 /// @throws InputError for bad input.
 RunOutcome RunSequence(const RunOptions& options);
 
-/// The same on frames that never were files. options.sequence is only written into run.json,
+/// The same on frames that never were files. A frame that is not later than the one before is
+/// left out and counted in a warning, numbers in depth that cannot be are no measurement, and
+/// an image of another size is refused. options.sequence is only written into run.json,
 /// options.camera and .detector are not used. Equal frames and detections give the bytes that
 /// RunSequence gives, run.json's paths apart.
 RunOutcome RunLive(LiveCamera live, const RunOptions& options);
