@@ -30,8 +30,9 @@ struct Surroundings {
 /// The work of one Render call. Its memory is kept from one view to the next.
 class View {
  public:
+  /// @param log  takes down the rays through pixel centres and those from what they hit
   void Render(const RenderWorld& world, const Pose& T_wc, const RenderOptions& options,
-              const Surroundings& around, Rendering& out);
+              const Surroundings& around, Rendering& out, RayLog* log = nullptr);
 
  private:
   /// Of one row of pixels, as long as whole packets.
@@ -62,6 +63,10 @@ class View {
   void CastToSun(int v);
   void CastToEye(int v);
   void ShadeRow(int v);
+  void ShadeRun(int v, int first, int last);
+  /// Place on the print of what the ray (x, y, 1) meets at depth z, metres.
+  static std::array<float, 2> PrintAt(const SeenFacet& facet, double x, double y, float z);
+  TextureFootprint Footprint(const SeenFacet& facet, const std::array<float, 2>& at, float z);
   cv::Vec3f Shade(const SeenFacet& facet, double x, double y, float z, bool sunlit);
   float LightOn(const SeenFacet& facet, double x, double y, bool sunlit) const;
   void SmoothEdges();
@@ -80,6 +85,7 @@ class View {
   RenderOptions options_;
   cv::Range rows_;  ///< to render
   Rendering* out_ = nullptr;
+  RayLog* log_ = nullptr;
   Eigen::Vector3d eye_w_;
   std::size_t stride_ = 0;
   RowArrays row_;
