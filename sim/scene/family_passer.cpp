@@ -32,7 +32,7 @@ void PutMoving(const std::string& name, const std::string& class_name, ShapeKind
   object.shape = shape;
   object.size = size.unaryExpr(&Rounded);
   object.faces.fill(material);
-  object.seed = object.id;
+  object.seed = static_cast<std::uint64_t>(object.id);
   object.way = way;
   object.center_w = way.front().center_w;
   scene.objects.push_back(object);
