@@ -14,6 +14,7 @@
 #include "sim/sensor/read_sensor.h"
 #include "sim/sensor/sensor_report.h"
 #include "sim/write/atomic_file.h"
+#include "sim/write/png.h"
 #include "sim/write/preview.h"
 #include "sim/write/write_sequence.h"
 

@@ -12,6 +12,7 @@ find_package(CLI11 REQUIRED)
 find_package(fmt REQUIRED)
 find_package(GTest REQUIRED)
 find_package(rapidcheck QUIET)
+pkg_check_modules(DEFLATE REQUIRED IMPORTED_TARGET libdeflate)
 pkg_check_modules(PCL REQUIRED IMPORTED_TARGET pcl_common pcl_sample_consensus)
 pkg_check_modules(OSMesa REQUIRED IMPORTED_TARGET osmesa)
 

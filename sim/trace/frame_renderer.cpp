@@ -62,6 +62,13 @@ void FrameRenderer::Render(const Pose& T_wc, const RenderOptions& options,
   }
 }
 
+double FrameRenderer::BareTraversal_s(const Pose& T_wc, const RenderOptions& options) const {
+  Rendering out;
+  RayLog log;
+  View().Render(world_->standing, T_wc, options, {}, out, &log);
+  return world_->standing.rays.TimeToCast(log);
+}
+
 int FrameRenderer::UnoccludedPixels(std::size_t object_index, const Pose& T_wc,
                                     const cv::Rect& where, const cv::Mat1w& object_id,
                                     double time_s) const {

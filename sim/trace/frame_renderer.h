@@ -54,6 +54,11 @@ class FrameRenderer {
   /// The same into the images of an earlier view, whose memory is used again.
   void Render(const Pose& T_wc, const RenderOptions& options, Rendering& out) const;
 
+  /// Seconds of processor time that the ray tracer alone takes for the rays of this view: one
+  /// through each pixel, those to the sun and to the projector. Of what stands; what moves is
+  /// left out.
+  double BareTraversal_s(const Pose& T_wc, const RenderOptions& options) const;
+
   /// Pixels whose centre ray meets the object when nothing else is there, inside the image:
   /// what the object would show unoccluded. A box is looked at in double, by its outline; of
   /// other shapes visible pixels count without a ray.

@@ -31,13 +31,14 @@ void View::RowArrays::Resize(std::size_t size) {
 }
 
 void View::Render(const RenderWorld& world, const Pose& T_wc, const RenderOptions& options,
-                  const Surroundings& around, Rendering& out) {
+                  const Surroundings& around, Rendering& out, RayLog* log) {
   world_ = &world;
   around_ = &around;
   to_sun_w_ = around.T_sw.R.transpose() * world.to_sun_w;
   T_wc_ = T_wc;
   options_ = options;
   out_ = &out;
+  log_ = log;
   Prepare();
   for (int v = rows_.start; v < rows_.end; ++v) TraceRow(v);
   if (options_.exact_edges) DecideEdges();
@@ -105,6 +106,7 @@ void View::TraceRow(int v) {
       packet.dz[Index(i)] = static_cast<float>(row_.dz[Index(u0 + i)]);
       if (u0 + i >= width) packet.Disable(i);
     }
+    if (log_ != nullptr) log_->nearest.push_back(packet);
     const PacketHits found = world_->rays.Nearest(packet);
     std::memcpy(Triangles(v) + u0, found.triangle.data(), sizeof found.triangle);
   }
@@ -219,6 +221,7 @@ void View::CastToSun(int v) {
     Load(packet.x, row_.start_x, u0);
     Load(packet.y, row_.start_y, u0);
     Load(packet.z, row_.start_z, u0);
+    if (log_ != nullptr) log_->blocked.push_back(packet);
     const auto blocked = Blocked(packet);
     for (int i = 0; i < kLanes; ++i) {
       if (packet.far[Index(i)] > 0 && !blocked[Index(i)]) surfaces[u0 + i] |= 1u;
@@ -241,6 +244,7 @@ void View::CastToEye(int v) {
     Load(packet.dx, row_.to_eye_x, u0);
     Load(packet.dy, row_.to_eye_y, u0);
     Load(packet.dz, row_.to_eye_z, u0);
+    if (log_ != nullptr) log_->blocked.push_back(packet);
     const auto blocked = Blocked(packet);
     for (int i = 0; i < lanes; ++i) {
       if (packet.far[Index(i)] > 0 && !blocked[Index(i)]) lit[u0 + i] = 255;

@@ -31,8 +31,9 @@ struct Surroundings {
 /// The work of one Render call. Its memory is kept from one view to the next.
 class View {
  public:
+  /// @param log  takes down the rays through pixel centres and those from what they hit
   void Render(const RenderWorld& world, const Pose& T_wc, const RenderOptions& options,
-              const Surroundings& around, Rendering& out);
+              const Surroundings& around, Rendering& out, RayLog* log = nullptr);
 
  private:
   /// Of one row of pixels, as long as whole packets.
@@ -65,6 +66,10 @@ class View {
   void CastToLights(int v);
   LightAtSpots LightsAt(const Spots& spots) const;
   void ShadeRow(int v);
+  void ShadeRun(int v, int first, int last);
+  /// Place on the print of what the ray (x, y, 1) meets at depth z, metres.
+  static std::array<float, 2> PrintAt(const SeenFacet& facet, double x, double y, float z);
+  TextureFootprint Footprint(const SeenFacet& facet, const std::array<float, 2>& at, float z);
   /// @param lights  on it, beside the sun's
   cv::Vec3f Shade(const SeenFacet& facet, double x, double y, float z, bool sunlit,
                   const cv::Vec3f& lights);
@@ -89,6 +94,7 @@ class View {
   RenderOptions options_;
   cv::Range rows_;  ///< to render
   Rendering* out_ = nullptr;
+  RayLog* log_ = nullptr;
   Eigen::Vector3d eye_w_;
   std::size_t stride_ = 0;
   RowArrays row_;

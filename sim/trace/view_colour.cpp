@@ -35,43 +35,77 @@ float View::LightOn(const SeenFacet& facet, double x, double y, bool sunlit) con
                        around_->T_sw.R * NormalAt(facet, x, y), sunlit);
 }
 
-cv::Vec3f View::Shade(const SeenFacet& facet, double x, double y, float z, bool sunlit,
-                      const cv::Vec3f& lights) {
+std::array<float, 2> View::PrintAt(const SeenFacet& facet, double x, double y, float z) {
   const auto& uv = facet.uv_over_depth;
   const float fx = static_cast<float>(x), fy = static_cast<float>(y);
-  TextureLook look;
-  look.u = z * (uv(0, 0) * fx + uv(0, 1) * fy + uv(0, 2));
-  look.v = z * (uv(1, 0) * fx + uv(1, 1) * fy + uv(1, 2));
+  return {z * (uv(0, 0) * fx + uv(0, 1) * fy + uv(0, 2)),
+          z * (uv(1, 0) * fx + uv(1, 1) * fy + uv(1, 2))};
+}
+
+TextureFootprint View::Footprint(const SeenFacet& facet, const std::array<float, 2>& at,
+                                 float z) {
+  const auto& uv = facet.uv_over_depth;
   const float right = z / static_cast<float>(world_->camera.fx);
   const float down = z / static_cast<float>(world_->camera.fy);
   const auto along_x = static_cast<float>(facet.inverse_depth.x());
   const auto along_y = static_cast<float>(facet.inverse_depth.y());
-  look.right_u = (uv(0, 0) - look.u * along_x) * right;
-  look.right_v = (uv(1, 0) - look.v * along_x) * right;
-  look.down_u = (uv(0, 1) - look.u * along_y) * down;
-  look.down_v = (uv(1, 1) - look.v * along_y) * down;
-  const std::array<float, 4> albedo = facets_.Print(facet).Sample(look);
+  return facets_.Print(facet).Footprint(
+      {(uv(0, 0) - at[0] * along_x) * right, (uv(1, 0) - at[1] * along_x) * right,
+       (uv(0, 1) - at[0] * along_y) * down, (uv(1, 1) - at[1] * along_y) * down});
+}
+
+cv::Vec3f View::Shade(const SeenFacet& facet, double x, double y, float z, bool sunlit,
+                      const cv::Vec3f& lights) {
+  const std::array<float, 2> at = PrintAt(facet, x, y, z);
+  const std::array<float, 4> albedo =
+      facets_.Print(facet).Sample(at[0], at[1], Footprint(facet, at, z));
   const float light = LightOn(facet, x, y, sunlit);
   return {albedo[0] * (light + lights[0]), albedo[1] * (light + lights[1]),
           albedo[2] * (light + lights[2])};
 }
 
-void View::ShadeRow(int v) {
-  const int* triangles = Triangles(v);
+/// A stretch of pixels of one triangle. Their footprints hardly differ over eight pixels: that
+/// of the middle one serves all.
+void View::ShadeRun(int v, int first, int last) {
+  const SeenFacet& facet = facets_.At(Triangles(v)[first]);
+  const Texture& print = facets_.Print(facet);
   const std::uint32_t* surfaces = Surfaces(v);
   const double* depth = out_->depth_m[v];
   cv::Vec3f* colour = out_->radiance[v];
-  for (int u = 0; u < world_->camera.width; ++u) {
+  const auto at = [&](int u) {
+    return PrintAt(facet, row_.x[Index(u)], row_.y[Index(u)], static_cast<float>(depth[u]));
+  };
+  for (int from = first; from < last; from += kLanes) {
+    const int to = std::min(from + kLanes, last), middle = (from + to) / 2;
+    const TextureFootprint footprint =
+        Footprint(facet, at(middle), static_cast<float>(depth[middle]));
+    for (int u = from; u < to; ++u) {
+      const std::array<float, 2> uv = at(u);
+      const std::array<float, 4> albedo = print.Sample(uv[0], uv[1], footprint);
+      const float light =
+          LightOn(facet, row_.x[Index(u)], row_.y[Index(u)], (surfaces[u] & 1u) != 0);
+      const cv::Vec3f lights = lights_.Empty() ? cv::Vec3f(0, 0, 0) : lights_row_[Index(u)];
+      colour[u] = cv::Vec3f(albedo[0] * (light + lights[0]), albedo[1] * (light + lights[1]),
+                            albedo[2] * (light + lights[2]));
+    }
+  }
+}
+
+void View::ShadeRow(int v) {
+  const int* triangles = Triangles(v);
+  const int width = world_->camera.width;
+  for (int first = 0, last = 0; first < width; first = last) {
+    while (last < width && triangles[last] == triangles[first]) ++last;
+    const bool sky = triangles[first] == PacketHits::kNothing;
     if (around_->coverage != nullptr) {
-      (*around_->coverage)(v, u) = triangles[u] == PacketHits::kNothing ? 0 : 4;
+      std::fill((*around_->coverage)[v] + first, (*around_->coverage)[v] + last,
+                static_cast<uchar>(sky ? 0 : 4));
     }
-    if (triangles[u] == PacketHits::kNothing) {
-      colour[u] = kSky;
-      continue;
+    if (sky) {
+      std::fill(out_->radiance[v] + first, out_->radiance[v] + last, kSky);
+    } else {
+      ShadeRun(v, first, last);
     }
-    colour[u] = Shade(facets_.At(triangles[u]), row_.x[Index(u)], row_.y[Index(u)],
-                      static_cast<float>(depth[u]), (surfaces[u] & 1u) != 0,
-                      lights_.Empty() ? cv::Vec3f(0, 0, 0) : lights_row_[Index(u)]);
   }
 }
 

@@ -17,10 +17,12 @@ constexpr std::uint64_t kExposureFrame = 0xFFFFFFFFFFFFFFFDull;
 /// smoothed as in a whole image.
 void AddBand(const FrameRenderer& renderer, const Pose& T_wc, double time_s,
              const cv::Range& band, cv::Mat3f& sum) {
+  thread_local Rendering part;  // memory only
   RenderOptions options;
+  options.exact_edges = false;  // edges are averaged over four rays
   options.time_s = time_s;
   options.rows = cv::Range(std::max(0, band.start - 1), std::min(sum.rows, band.end + 1));
-  const Rendering part = renderer.Render(T_wc, options);
+  renderer.Render(T_wc, options, part);
   for (int v = band.start; v < band.end; ++v) {
     for (int u = 0; u < sum.cols; ++u) sum(v, u) += part.radiance(v, u);
   }

@@ -23,7 +23,8 @@ SimulatedFrame Simulator::Simulate(int frame, const Shot& shot,
   view.colour = !moves;
   view.time_s = shot.time_s;
   if (delay_s == 0) view.projector_offset_m = SecondEyeOffset(sensor.depth);
-  Rendering rendering = renderer_.Render(shot.T_wc, view);
+  thread_local Rendering rendering;  // memory only
+  renderer_.Render(shot.T_wc, view, rendering);
   if (moves)
     rendering.radiance = ExposeMoving(renderer_, options_.exposure, around, shot.time_s);
   const double gain = ExposureGain(options_.exposure, options_.seed, shot.time_s);
@@ -35,8 +36,8 @@ SimulatedFrame Simulator::Simulate(int frame, const Shot& shot,
   result.depth = delay_s == 0
                      ? Depth(frame, rendering)
                      : Depth(frame, RenderForDepth(around(delay_s), shot.time_s + delay_s));
-  result.plane_id = rendering.plane_id;
-  result.object_id = rendering.object_id;
+  result.plane_id = rendering.plane_id.clone();
+  result.object_id = rendering.object_id.clone();
   result.truth = truth_.Describe(rendering, shot.T_wc, shot.time_s);
   result.detections = detector_.Detect(frame, result.truth);
   return result;

@@ -8,6 +8,7 @@
 #include "sim/truth/truth_json.h"
 #include "sim/write/atomic_file.h"
 #include "sim/write/parallel_frames.h"
+#include "sim/write/png.h"
 #include "sim/write/sequence_text.h"
 
 namespace sim {
