@@ -34,9 +34,9 @@ void LightPoints::Start(const std::vector<Light>& lights, const Pose& T_sw) {
 }
 
 /// A rectangle of n x n cells with a point in each, no two at the same place along either side:
-/// an edge that runs along a side hides them one by one. (i, j) -> (i + (j + 1/2) / n,
-/// j + (i + 1/2) / n) / n, which is symmetric about the middle. (Chiu, Shirley, Wang:
-/// Multi-jittered sampling, Graphics Gems IV, its canonical arrangement.)
+/// an edge that runs along a side hides them one by one. A turned grid, (i, j) ->
+/// (i + (j + 1/2) / n, j + (n - i - 1/2) / n) / n: symmetric about the middle, and a and b are
+/// not correlated.
 void LightPoints::AddPoints(const Light& light, const Pose& T_ws) {
   if (light.kind == LightKind::kLamp) {
     points_w_.push_back(T_ws * light.center_w);
@@ -45,7 +45,7 @@ void LightPoints::AddPoints(const Light& light, const Pose& T_ws) {
   const int n = light.samples_per_side;
   for (int i = 0; i < n; ++i) {
     for (int j = 0; j < n; ++j) {
-      const double a = 2 * (i + (j + 0.5) / n) / n - 1, b = 2 * (j + (i + 0.5) / n) / n - 1;
+      const double a = 2 * (i + (j + 0.5) / n) / n - 1, b = 2 * (j + (n - i - 0.5) / n) / n - 1;
       points_w_.push_back(
           T_ws * Eigen::Vector3d(light.center_w + a * light.half_a_w + b * light.half_b_w));
     }

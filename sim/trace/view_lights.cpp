@@ -40,7 +40,10 @@ void View::CastToLights(int v) {
       if (triangles[u] == PacketHits::kNothing) continue;
       SetSpot(i, facets_.At(triangles[u]), row_.x[Index(u)], row_.y[Index(u)], depth[u], spots);
     }
-    const LightAtSpots found = LightsAt(spots);
+    const LightAtSpots found = lights_.At(spots, [this](const RayPacket& packet) {
+      if (log_ != nullptr) log_->blocked.push_back(packet);
+      return Blocked(packet);
+    });
     for (int i = 0; i < lanes; ++i) {
       lights_row_[Index(u0 + i)] = found.light[Index(i)];
       surfaces[u0 + i] |= found.seen[Index(i)] << kLightBit;

@@ -1,6 +1,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "sim/scene/families.h"
+#include "sim/scene/geometry.h"
 #include "sim/scene/input_error.h"
 #include "sim/scene/scene_file.h"
 
@@ -107,6 +109,33 @@ TEST(LightsInAFile, AreRectangles) {
 TEST(LightsInAFile, AreEightAtMost) {
   EXPECT_EQ(ErrorOf(std::vector<std::string>(8, kLamp)), "no error");
   EXPECT_THAT(ErrorOf(std::vector<std::string>(9, kLamp)), HasSubstr("at most 8"));
+}
+
+TEST(LampsOfAFamily, AddLightsAndChangeNothingElse) {
+  for (const std::string family : {"desk", "office"}) {
+    const Scene dark = MakeScene(family, 3, {{"objects", 20}});
+    Scene lit = MakeScene(family, 3, {{"objects", 20}, {"lamps", 3}});
+    ASSERT_EQ(lit.lights.size(), 3u);
+    EXPECT_TRUE(dark.lights.empty());
+    EXPECT_EQ(SceneText(ParseScene(SceneText(lit), "text")), SceneText(lit));
+    lit.lights.clear();
+    EXPECT_EQ(SceneText(lit), SceneText(dark));
+  }
+}
+
+TEST(LampsOfAFamily, ShineInTheShadesOfDeskLampsFirst) {
+  const Scene scene = MakeScene("desk", 1, {{"objects", 25}, {"lamps", 2}});
+  const auto shade =
+      std::find_if(scene.objects.begin(), scene.objects.end(), [](const Object& object) {
+        return object.class_name == "lamp" && object.shape == ShapeKind::kBowl;
+      });
+  ASSERT_NE(shade, scene.objects.end());
+  EXPECT_EQ(scene.lights[0].kind, LightKind::kLamp);
+  EXPECT_LT(DistanceToBox(*shade, scene.lights[0].center_w), -0.03);
+  EXPECT_EQ(scene.lights[1].kind, LightKind::kArea);
+  EXPECT_GT(scene.lights[1].center_w.z(), scene.motion.target_w.z() + 1);
+  const Light& panel = scene.lights[1];
+  EXPECT_LT(panel.half_a_w.cross(panel.half_b_w).z(), 0) << "it shines down";
 }
 
 }  // namespace

@@ -19,6 +19,7 @@ constexpr double kFloatRoundOff = 2e-6;  ///< of light about 1 that is a ratio o
 Scene Floor() {
   Scene scene;
   scene.sun.intensity = 0;
+  scene.sun.direction_w = {0, 0, 1};  // behind the floor: it draws no shadow's edge
   scene.sun.ambient = 1;
   scene.objects = {
       BoxObject(1, "floor", Role::kStructure, {0, 0, -0.05}, {8, 8, 0.1}, Print::kPlain)};
@@ -247,7 +248,8 @@ TEST(LightPoints, NeverShineBrighterThanFromACentimetre) {
 
 TEST(WhatMoves, ThrowsAndTakesTheShadowsOfLamps) {
   Scene moving = Floor();
-  Object cube = BoxObject(2, "box", Role::kUnstructured, {}, {0.2, 0.2, 0.2}, Print::kPlain);
+  Object cube =
+      BoxObject(2, "box", Role::kUnstructured, {-0.5, 0, 0.4}, {0.2, 0.2, 0.2}, Print::kPlain);
   cube.way = {{0, {-0.5, 0, 0.4}, 0}, {1, {0.5, 0.1, 0.5}, 90}};
   cube.center_w = cube.way[0].center_w;
   moving.objects.push_back(cube);
