@@ -7,6 +7,7 @@
 #include "sim/scene/check.h"
 #include "sim/scene/input_error.h"
 #include "sim/scene/names.h"
+#include "sim/scene/read_lights.h"
 #include "sim/scene/read_model.h"
 #include "sim/scene/scene_file.h"
 #include "sim/scene/yaml_value.h"
@@ -237,14 +238,16 @@ Motion ReadMotion(const YamlValue& value) {
 }  // namespace
 
 Scene ParseScene(const std::string& text, const std::string& name) {
-  const YamlMap map(ParseYaml(text, name, kMaxDepth), {"format", "name", "family", "seed",
-                                                       "sun", "motion", "capture", "objects"});
+  const YamlMap map(
+      ParseYaml(text, name, kMaxDepth),
+      {"format", "name", "family", "seed", "sun", "lights", "motion", "capture", "objects"});
   map.At("format").OneOf({kSceneFormat});
   Scene scene;
   scene.name = map.At("name").Word();
   if (map.Has("family")) scene.family = map.At("family").Word();
   if (map.Has("seed")) scene.seed = map.At("seed").Whole(0, kAnySeed);
   if (map.Has("sun")) scene.sun = ReadSun(map.At("sun"));
+  if (map.Has("lights")) scene.lights = ReadLights(map.At("lights"));
   if (map.Has("motion")) scene.motion = ReadMotion(map.At("motion"));
   if (map.Has("capture")) scene.capture = ReadCapture(map.At("capture"));
   const std::filesystem::path folder = std::filesystem::path(name).parent_path();

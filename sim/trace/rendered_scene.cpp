@@ -109,7 +109,7 @@ void RenderMoving(const RenderedScene& scene, const Pose& T_wc, const RenderOpti
     worlds.push_back(&mover->world);
   }
   const auto around = [&](std::size_t k, cv::Mat1b* coverage) {
-    Surroundings surroundings{T_wk[k].R, {}, coverage};
+    Surroundings surroundings{T_wk[k], {}, coverage};
     for (std::size_t j = 0; j < worlds.size(); ++j) {
       if (j != k) surroundings.others.push_back({&worlds[j]->rays, Inverse(T_wk[j]) * T_wk[k]});
     }

@@ -34,7 +34,7 @@ void View::Render(const RenderWorld& world, const Pose& T_wc, const RenderOption
                   const Surroundings& around, Rendering& out, RayLog* log) {
   world_ = &world;
   around_ = &around;
-  to_sun_w_ = around.R_sw.transpose() * world.to_sun_w;
+  to_sun_w_ = around.T_sw.R.transpose() * world.to_sun_w;
   T_wc_ = T_wc;
   options_ = options;
   out_ = &out;
@@ -46,6 +46,7 @@ void View::Render(const RenderWorld& world, const Pose& T_wc, const RenderOption
     RecordRow(v);
     if (options_.colour) {
       CastToSun(v);
+      if (!lights_.Empty()) CastToLights(v);
       ShadeRow(v);
     }
     if (options_.projector_offset_m != 0) CastToEye(v);
@@ -72,8 +73,10 @@ void View::Prepare() {
     out_->radiance.release();
   }
   eye_w_ = T_wc_ * Eigen::Vector3d(options_.projector_offset_m, 0, 0);
-  facets_.Start(*world_, T_wc_, eye_w_, around_->R_sw);
+  facets_.Start(*world_, T_wc_, eye_w_, around_->T_sw.R);
   if (around_->coverage != nullptr && options_.colour) around_->coverage->create(size);
+  lights_.Start(world_->scene.lights, around_->T_sw);
+  lights_row_.resize(lights_.Empty() ? 0 : Index(camera.width));
   stride_ = Index((camera.width + kLanes - 1) / kLanes * kLanes);
   row_.Resize(stride_);
   triangles_.resize(stride_ * Index(camera.height));

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "sim/trace/frame_renderer.h"
+#include "sim/trace/lights.h"
 #include "sim/trace/render_world.h"
 #include "sim/trace/view_facets.h"
 
@@ -20,7 +21,7 @@ struct Blocker {
 
 /// Where a world stands among others that move past it.
 struct Surroundings {
-  Eigen::Matrix3d R_sw = Eigen::Matrix3d::Identity();  ///< from its frame to that of the sun
+  Pose T_sw;  ///< from its frame to that of the sun and the lights
   std::vector<Blocker> others;
   /// How many of four rays a pixel hit; 0 or 4 off the edges. Left alone when null, or without
   /// colour.
@@ -62,13 +63,21 @@ class View {
   void RecordRun(int v, int first, int last, const SeenFacet& facet);
   void CastToSun(int v);
   void CastToEye(int v);
+  void CastToLights(int v);
+  LightAtSpots LightsAt(const Spots& spots) const;
   void ShadeRow(int v);
   void ShadeRun(int v, int first, int last);
   /// Place on the print of what the ray (x, y, 1) meets at depth z, metres.
   static std::array<float, 2> PrintAt(const SeenFacet& facet, double x, double y, float z);
   TextureFootprint Footprint(const SeenFacet& facet, const std::array<float, 2>& at, float z);
-  cv::Vec3f Shade(const SeenFacet& facet, double x, double y, float z, bool sunlit);
+  /// @param lights  on it, beside the sun's
+  cv::Vec3f Shade(const SeenFacet& facet, double x, double y, float z, bool sunlit,
+                  const cv::Vec3f& lights);
   float LightOn(const SeenFacet& facet, double x, double y, bool sunlit) const;
+  Eigen::Vector3d NormalAt(const SeenFacet& facet, double x, double y) const;
+  /// Makes what the ray (x, y, 1) meets at depth z one of the places.
+  void SetSpot(int lane, const SeenFacet& facet, double x, double y, double z,
+               Spots& spots) const;
   void SmoothEdges();
   void MarkEdges(int v, std::vector<int>& pixels) const;
   void SmoothPair(int a, int b);
@@ -90,8 +99,11 @@ class View {
   std::size_t stride_ = 0;
   RowArrays row_;
   ViewFacets facets_;
-  std::vector<int> triangles_;           ///< what each pixel shows
-  std::vector<std::uint32_t> surfaces_;  ///< SeenFacet::surface, + 1 in the sun
+  std::vector<int> triangles_;  ///< what each pixel shows
+  /// SeenFacet::surface, + 1 in the sun; then a bit for each light.
+  std::vector<std::uint32_t> surfaces_;
+  LightPoints lights_;
+  std::vector<cv::Vec3f> lights_row_;  ///< light of the lights on a row; empty without lights
   std::vector<EdgePixel> edges_;
   std::vector<std::uint8_t> decided_;  ///< by pixel, while edges are decided
   std::vector<int> on_edge_;

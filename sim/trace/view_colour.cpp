@@ -14,9 +14,9 @@ constexpr std::array<std::array<double, 2>, 4> kSubPixels{
 
 }  // namespace
 
-/// Light on the spot that the ray (x, y, 1) meets.
-float View::LightOn(const SeenFacet& facet, double x, double y, bool sunlit) const {
-  if (facet.flat) return sunlit ? facet.lit : facet.unlit;
+/// Unit normal to shade by at the spot that the ray (x, y, 1) meets.
+Eigen::Vector3d View::NormalAt(const SeenFacet& facet, double x, double y) const {
+  if (facet.flat) return facet.n_w;
   // Barycentric weights in double, which the ray tracer's are not the same on every processor.
   const Eigen::Vector3d d = T_wc_.R * Eigen::Vector3d(x, y, 1.0);
   const auto& corners = world_->mesh.triangles[Index(facet.triangle)].corners_w;
@@ -24,9 +24,15 @@ float View::LightOn(const SeenFacet& facet, double x, double y, bool sunlit) con
                         c = corners[2] - T_wc_.t;
   const double ab = d.dot(a.cross(b)), bc = d.dot(b.cross(c)), ca = d.dot(c.cross(a));
   const double sum = ab + bc + ca;
-  const Eigen::Vector3d n_w =
-      sum != 0 ? world_->surfaces.ShadingNormal(facet.triangle, ca / sum, ab / sum) : facet.n_w;
-  return LightOnNormal(world_->scene.sun, world_->to_sun_w, around_->R_sw * n_w, sunlit);
+  return sum != 0 ? world_->surfaces.ShadingNormal(facet.triangle, ca / sum, ab / sum)
+                  : facet.n_w;
+}
+
+/// Light of the sun, and from all round, on the spot that the ray (x, y, 1) meets.
+float View::LightOn(const SeenFacet& facet, double x, double y, bool sunlit) const {
+  if (facet.flat) return sunlit ? facet.lit : facet.unlit;
+  return LightOnNormal(world_->scene.sun, world_->to_sun_w,
+                       around_->T_sw.R * NormalAt(facet, x, y), sunlit);
 }
 
 std::array<float, 2> View::PrintAt(const SeenFacet& facet, double x, double y, float z) {
@@ -48,12 +54,14 @@ TextureFootprint View::Footprint(const SeenFacet& facet, const std::array<float,
        (uv(0, 1) - at[0] * along_y) * down, (uv(1, 1) - at[1] * along_y) * down});
 }
 
-cv::Vec3f View::Shade(const SeenFacet& facet, double x, double y, float z, bool sunlit) {
+cv::Vec3f View::Shade(const SeenFacet& facet, double x, double y, float z, bool sunlit,
+                      const cv::Vec3f& lights) {
   const std::array<float, 2> at = PrintAt(facet, x, y, z);
   const std::array<float, 4> albedo =
       facets_.Print(facet).Sample(at[0], at[1], Footprint(facet, at, z));
   const float light = LightOn(facet, x, y, sunlit);
-  return {albedo[0] * light, albedo[1] * light, albedo[2] * light};
+  return {albedo[0] * (light + lights[0]), albedo[1] * (light + lights[1]),
+          albedo[2] * (light + lights[2])};
 }
 
 /// A stretch of pixels of one triangle. Their footprints hardly differ over eight pixels: that
@@ -76,7 +84,9 @@ void View::ShadeRun(int v, int first, int last) {
       const std::array<float, 4> albedo = print.Sample(uv[0], uv[1], footprint);
       const float light =
           LightOn(facet, row_.x[Index(u)], row_.y[Index(u)], (surfaces[u] & 1u) != 0);
-      colour[u] = cv::Vec3f(albedo[0] * light, albedo[1] * light, albedo[2] * light);
+      const cv::Vec3f lights = lights_.Empty() ? cv::Vec3f(0, 0, 0) : lights_row_[Index(u)];
+      colour[u] = cv::Vec3f(albedo[0] * (light + lights[0]), albedo[1] * (light + lights[1]),
+                            albedo[2] * (light + lights[2]));
     }
   }
 }
@@ -126,6 +136,7 @@ void View::SmoothPair(int a, int b) {
   const int width = world_->camera.width;
   std::array<Eigen::Vector3d, kLanes> rays;
   RayPacket packet, to_sun;
+  Spots spots;
   for (int i = 0; i < kLanes; ++i) {
     const int pixel = i < 4 ? a : b;
     const auto& [du, dv] = kSubPixels[Index(i % 4)];
@@ -140,6 +151,9 @@ void View::SmoothPair(int a, int b) {
     if (found.triangle[Index(i)] == PacketHits::kNothing) continue;
     const SeenFacet& facet = facets_.At(found.triangle[Index(i)]);
     z[Index(i)] = 1.0 / facet.inverse_depth.dot(rays[Index(i)]);
+    if (!lights_.Empty()) {
+      SetSpot(i, facet, rays[Index(i)].x(), rays[Index(i)].y(), z[Index(i)], spots);
+    }
     if (!facet.faces_sun) continue;
     any = true;
     to_sun.Set(i, T_wc_ * (z[Index(i)] * rays[Index(i)]) + kLeaveSurface_m * facet.n_w,
@@ -147,6 +161,8 @@ void View::SmoothPair(int a, int b) {
   }
   std::array<bool, kLanes> blocked{};
   if (any) blocked = Blocked(to_sun);
+  LightAtSpots lights;
+  if (!lights_.Empty()) lights = LightsAt(spots);
   std::array<cv::Vec3f, 2> sum{cv::Vec3f(0, 0, 0), cv::Vec3f(0, 0, 0)};
   for (int i = 0; i < kLanes; ++i) {
     const std::size_t k = Index(i);
@@ -156,7 +172,7 @@ void View::SmoothPair(int a, int b) {
     }
     const SeenFacet& facet = facets_.At(found.triangle[k]);
     sum[k / 4] += Shade(facet, rays[k].x(), rays[k].y(), static_cast<float>(z[k]),
-                        facet.faces_sun && !blocked[k]);
+                        facet.faces_sun && !blocked[k], lights.light[k]);
   }
   for (const auto& [pixel, k] : {std::pair(a, 0), std::pair(b, 1)}) {
     out_->radiance(pixel / width, pixel % width) = 0.25F * sum[Index(k)];

@@ -123,5 +123,39 @@ TEST(DepthAndIds, DifferFromTheRayTracersOwnOnlyAtEdges) {
   EXPECT_LE(differ, 30);  // 10 a frame of about 10,000 edge pixels
 }
 
+// Shadows' edges are the ray tracer's; it is pinned to what is the same with and without AVX2.
+TEST(Colour, UnderLampsAndAreaLightsIsTheSameBitsWherePinnedAndOnAnyNumberOfThreads) {
+  Scene scene = SmallDesk();
+  Light lamp, panel;
+  lamp.center_w = {0.2, -0.3, 1.3};
+  panel.kind = LightKind::kArea;
+  panel.center_w = {-0.4, 0.1, 2};
+  scene.lights = {lamp, panel};
+  const Camera camera = SmallCamera();
+  const std::vector<Pose> poses = Views(4);
+  const auto hashes = [&](InstructionSet set, std::size_t threads) {
+    const FrameRenderer renderer(scene, camera, set);
+    std::vector<std::uint64_t> found(poses.size());
+    std::vector<std::thread> workers;
+    for (std::size_t first = 0; first < threads; ++first) {
+      workers.emplace_back([&, first] {
+        for (std::size_t i = first; i < poses.size(); i += threads) {
+          found[i] = Hash(renderer.Render(poses[i]).radiance);
+        }
+      });
+    }
+    for (std::thread& worker : workers) worker.join();
+    return found;
+  };
+  const auto expected = hashes(InstructionSet::kPinned, 1);
+  for (const InstructionSet set : {InstructionSet::kSse42, InstructionSet::kAvx2}) {
+    if (!HasInstructionSet(set)) continue;
+    for (const std::size_t threads : {1u, 2u, 4u}) {
+      EXPECT_EQ(hashes(set, threads), expected)
+          << "set " << static_cast<int>(set) << ", " << threads << " threads";
+    }
+  }
+}
+
 }  // namespace
 }  // namespace sim
