@@ -30,9 +30,13 @@ void AddSimCommand(CLI::App& pas, const Globals& globals, int& exit_code);
 void AddSlamCommand(CLI::App& pas, const Globals& globals, int& exit_code);
 void AddEvalCommand(CLI::App& pas, const Globals& globals, int& exit_code);
 void AddDrawCommand(CLI::App& pas, const Globals& globals, int& exit_code);
+void AddExportCommand(CLI::App& pas, const Globals& globals, int& exit_code);
 /// Its children are one per file command_bench_<part>.cpp.
 void AddBenchCommand(CLI::App& pas, const Globals& globals, int& exit_code);
 void AddBenchPlanes(CLI::App& bench, const Globals& globals, int& exit_code);
+void AddBenchSim(CLI::App& bench, const Globals& globals, int& exit_code);
+void AddBenchSlam(CLI::App& bench, const Globals& globals, int& exit_code);
 void AddCheckCommand(CLI::App& pas, const Globals& globals, int& exit_code);
+void AddVocabularyCommand(CLI::App& pas, const Globals& globals, int& exit_code);
 
 }  // namespace app

@@ -99,7 +99,9 @@ void List() {
       "  scenes/closed_form/wall.yaml              one wall: a plane and nothing else\n"
       "  scenes/closed_form/corner.yaml            three planes that meet in one point\n"
       "  scenes/closed_form/parallel_boards.yaml   two tops, 20 mm apart in height\n"
-      "  scenes/closed_form/fronto_parallel.yaml   a board square to the camera\n");
+      "  scenes/closed_form/fronto_parallel.yaml   a board square to the camera\n"
+      "  scenes/closed_form/staircase.yaml         four tops, 5 to 40 mm over a floor\n"
+      "  scenes/closed_form/half_hidden.yaml       one board before half of another\n");
 }
 
 const sim::Object& Owner(const sim::Scene& scene, int id) {

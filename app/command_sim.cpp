@@ -6,12 +6,15 @@
 
 #include "app/app.h"
 #include "app/console.h"
+#include "app/detector_figures.h"
+#include "app/recording_options.h"
 #include "app/sim_arguments.h"
 #include "sim/motion/clearance.h"
 #include "sim/scene/names.h"
 #include "sim/sensor/read_sensor.h"
 #include "sim/sensor/sensor_report.h"
 #include "sim/write/atomic_file.h"
+#include "sim/write/png.h"
 #include "sim/write/preview.h"
 #include "sim/write/write_sequence.h"
 
@@ -43,6 +46,12 @@ int Report(const SimArguments& arguments, bool quiet) {
 
 void Warn(const std::string& warning) {
   if (!warning.empty()) std::fprintf(stderr, "pas sim: warning: %s\n", warning.c_str());
+}
+
+void WarnOfContact(const sim::Scene& scene, const sim::Recording& recording) {
+  std::vector<sim::TimedPose> poses;
+  for (const sim::Shot& shot : recording.shots) poses.push_back({shot.time_s, shot.T_wc});
+  Warn(sim::ClearanceWarning(scene, poses));
 }
 
 int Preview(const SimArguments& arguments, bool quiet) {
@@ -79,22 +88,19 @@ int Preview(const SimArguments& arguments, bool quiet) {
 int Write(const SimArguments& arguments, bool quiet) {
   const sim::Scene scene = SceneOf(arguments);
   sim::SequenceOptions options = OptionsOf(arguments, scene);
-  std::vector<sim::TimedPose> trajectory;
-  if (!arguments.trajectory.empty()) {
-    trajectory = ReplayOf(arguments, options);
-    Warn(sim::ClearanceWarning(scene, trajectory));
-  }
+  const sim::Recording recording = RecordingOf(arguments, scene, options);
+  if (!recording.scenes_own) WarnOfContact(scene, recording);
   int made = 0;
   {
-    Progress progress("frames", options.frames, quiet);
+    Progress progress("frames", recording.frames(), quiet);
     options.progress = [&](int done) { progress.Update(done); };
-    made = trajectory.empty()
-               ? sim::WriteSequence(scene, options, arguments.output)
-               : sim::WriteSequence(scene, trajectory, options, arguments.output);
+    made = sim::WriteSequence(scene, recording, options, arguments.output);
   }
   if (!quiet) {
-    std::printf("%s: %d frames, %d rendered now\n", arguments.output.c_str(), options.frames,
-                made);
+    const std::string lost =
+        recording.lost > 0 ? ", " + std::to_string(recording.lost) + " lost as asked" : "";
+    std::printf("%s: %d frames, %d rendered now%s\n", arguments.output.c_str(),
+                recording.frames(), made, lost.c_str());
   }
   return kDone;
 }
@@ -104,9 +110,10 @@ int Run(const SimArguments& arguments, bool quiet) {
     throw std::invalid_argument("sim: name a folder to write to (-o FOLDER), or --preview PNG");
   }
   if (!arguments.sensor_report.empty()) return Report(arguments, quiet);
+  if (arguments.detector_report) return ReportDetectors(arguments.output, quiet);
   if (arguments.scene.empty()) {
     throw std::invalid_argument(
-        "sim: name a scene file (SCENE), or use --sensor-report SENSOR");
+        "sim: name a scene file (SCENE), or use --sensor-report SENSOR or --detector-report");
   }
   return arguments.preview.empty() ? Write(arguments, quiet) : Preview(arguments, quiet);
 }
@@ -165,7 +172,62 @@ void AddCameraOptions(CLI::App& command, SimArguments& a) {
       ->group(time);
 }
 
+/// How a scene is recorded. `prefix` goes before the names that a command may have taken.
+void AddCaptureOptions(CLI::App& command, SimArguments& a, const std::string& prefix) {
+  command.add_option("--frames", a.frames, "Frames; left out: as the scene says, else 300")
+      ->check(CLI::Range(1, 1000000));
+  command
+      .add_option("--fps", a.fps,
+                  "Frames a second, the motion stays the same; left out: as the scene says, "
+                  "else 30")
+      ->check(CLI::Range(0.1, 1000.0));
+  command.add_option(
+      "--sensor", a.sensor,
+      "ideal: exact depth, clean colour; kinect1: structured light; azure: time of "
+      "flight; d435: active stereo; FILE.yaml: one of these as `base:`, with "
+      "parameters of your own (docs/sensors.md); left out: as the scene says, else kinect1");
+  const std::map<std::string, sim::DetectorKind> detectors{
+      {"perfect", sim::DetectorKind::kPerfect},
+      {"noisy", sim::DetectorKind::kNoisy},
+      {"poor", sim::DetectorKind::kPoor},
+      {"none", sim::DetectorKind::kNone}};
+  command
+      .add_option("--" + prefix + "detector", a.detector,
+                  "perfect: the visible box of every object; noisy: misses, jitter, wrong "
+                  "classes, doubles, in runs of frames; poor: several times as many "
+                  "(docs/detector.md); none: no detections.jsonl")
+      ->transform(
+          CLI::CheckedTransformer(detectors).description("perfect, noisy, poor or none"))
+      ->default_str("noisy");
+  command.add_option("--" + prefix + "seed", a.seed, "Of the trajectory and all noise")
+      ->capture_default_str();
+  for (const auto& [name, into] : {std::pair("--width", &a.width), {"--height", &a.height}}) {
+    command
+        .add_option(name, *into,
+                    "Pixels, the field of view stays the same; left out: as the scene says, "
+                    "else 640 x 480")
+        ->check(CLI::Range(16, 8192));
+  }
+  AddMotionOptions(command, a);
+  AddCameraOptions(command, a);
+}
+
 }  // namespace
+
+std::function<SceneRecording(const std::string&)> AddRecordingOptions(
+    CLI::App& command, const std::string& prefix) {
+  const auto arguments = std::make_shared<SimArguments>();
+  AddCaptureOptions(command, *arguments, prefix);
+  return [arguments](const std::string& scene_file) {
+    arguments->scene = scene_file;
+    SceneRecording result;
+    result.scene = SceneOf(*arguments);
+    sim::SequenceOptions options = OptionsOf(*arguments, result.scene);
+    result.recording = RecordingOf(*arguments, result.scene, options);
+    result.rig = options.rig;
+    return result;
+  };
+}
 
 void AddSimCommand(CLI::App& pas, const Globals& globals, int& exit_code) {
   CLI::App* command = pas.add_subcommand("sim", kAbout);
@@ -175,6 +237,9 @@ void AddSimCommand(CLI::App& pas, const Globals& globals, int& exit_code) {
   command->add_option("--sensor-report", a.sensor_report,
                       "Instead of rendering a scene: measure this sensor on walls against its "
                       "published curve; writes a table and a figure to the output folder");
+  command->add_flag("--detector-report", a.detector_report,
+                    "Instead of rendering a scene: score the presets of --detector on desks of "
+                    "known truth; writes detectors.txt to the output folder");
   command->add_option("-o,--output", a.output,
                       "Folder to write the sequence to; must not exist");
   CLI::Option* preview = command->add_option(
@@ -185,45 +250,13 @@ void AddSimCommand(CLI::App& pas, const Globals& globals, int& exit_code) {
       ->check(CLI::Range(0, 999999))
       ->needs(preview)
       ->capture_default_str();
-  command->add_option("--frames", a.frames, "Frames; left out: as the scene says, else 300")
-      ->check(CLI::Range(1, 1000000));
-  command
-      ->add_option("--fps", a.fps,
-                   "Frames a second, the motion stays the same; left out: as the scene says, "
-                   "else 30")
-      ->check(CLI::Range(0.1, 1000.0));
-  command->add_option(
-      "--sensor", a.sensor,
-      "ideal: exact depth, clean colour; kinect1: structured light; azure: time of "
-      "flight; d435: active stereo; FILE.yaml: one of these as `base:`, with "
-      "parameters of your own (docs/sensors.md); left out: as the scene says, else kinect1");
-  const std::map<std::string, sim::DetectorKind> detectors{
-      {"perfect", sim::DetectorKind::kPerfect},
-      {"noisy", sim::DetectorKind::kNoisy},
-      {"none", sim::DetectorKind::kNone}};
-  command
-      ->add_option("--detector", a.detector,
-                   "perfect: the visible box of every object; noisy: misses, jitter, wrong "
-                   "classes, doubles; none: no detections.jsonl")
-      ->transform(CLI::CheckedTransformer(detectors).description("perfect, noisy or none"))
-      ->default_str("noisy");
-  command->add_option("--seed", a.seed, "Of the trajectory and all noise")
-      ->capture_default_str();
   command->add_option("--threads", a.threads, "0: one a core; never changes a byte")
       ->check(CLI::Range(0, 1024))
       ->capture_default_str();
-  for (const auto& [name, into] : {std::pair("--width", &a.width), {"--height", &a.height}}) {
-    command
-        ->add_option(name, *into,
-                     "Pixels, the field of view stays the same; left out: as the scene says, "
-                     "else 640 x 480")
-        ->check(CLI::Range(16, 8192));
-  }
   CLI::Option* resume = command->add_flag(
       "--resume", a.resume, "Finish an interrupted run; same bytes as one that was not");
   command->add_flag("--force", a.force, "Replace an existing sequence")->excludes(resume);
-  AddMotionOptions(*command, a);
-  AddCameraOptions(*command, a);
+  AddCaptureOptions(*command, a, "");
   command->callback(
       [arguments, &globals, &exit_code] { exit_code = Run(*arguments, globals.quiet); });
 }

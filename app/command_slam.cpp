@@ -1,7 +1,12 @@
 #include <fmt/core.h>
 
+#include <algorithm>
+#include <csignal>
+
 #include "app/app.h"
 #include "app/console.h"
+#include "app/live_scene.h"
+#include "app/recording_options.h"
 #include "slam/base/require.h"
 #include "slam/config/config_file.h"
 #include "slam/track/run_sequence.h"
@@ -10,12 +15,66 @@
 namespace app {
 namespace {
 
+constexpr int kInterrupted = 130;  ///< as shells say of Ctrl-C
+
+volatile std::sig_atomic_t interrupted = 0;
+
+/// While it lives, Ctrl-C asks for an end after the frame in hand; a second one ends at once.
+class InterruptWatch {
+ public:
+  InterruptWatch() {
+    interrupted = 0;
+    struct sigaction action {};
+    action.sa_handler = [](int) { interrupted = 1; };
+    action.sa_flags = static_cast<int>(SA_RESETHAND);
+    ::sigaction(SIGINT, &action, &before_);
+  }
+  ~InterruptWatch() { ::sigaction(SIGINT, &before_, nullptr); }
+  InterruptWatch(const InterruptWatch&) = delete;
+  InterruptWatch& operator=(const InterruptWatch&) = delete;
+
+ private:
+  struct sigaction before_ {};
+};
+
 struct SlamArguments {
   slam::RunOptions options;
   std::string variant = "full";
   std::string config_file;
   bool print_config = false;
+  bool loop_closing = false;
+  std::string live_scene;
+  std::function<SceneRecording(const std::string&)> recording;  ///< with live_scene
 };
+
+/// Frames ahead of the estimator: enough to keep a second core busy, few enough for memory.
+constexpr int kFramesAhead = 2;
+
+slam::RunOutcome RunOnScene(const SlamArguments& arguments, slam::RunOptions options) {
+  options.sequence = arguments.live_scene;
+  SceneRecording recorded = arguments.recording(arguments.live_scene);
+  LiveScene live(recorded.scene, recorded.rig, std::move(recorded.recording),
+                 options.threads == 1 ? 0 : kFramesAhead);
+  return slam::RunLive({live, live.camera(), live.MakeDetector(options.config.classes)},
+                       options);
+}
+
+/// Options that render a scene instead of reading a folder.
+void AddLiveOptions(CLI::App& command, SlamArguments& arguments,
+                    const std::vector<CLI::Option*>& of_folders) {
+  CLI::Option* live = command.add_option(
+      "--live", arguments.live_scene,
+      "SCENE.yaml: render its frames in memory instead of reading SEQ; the estimator gets "
+      "what `pas sim` would write and the run is the same, but there is no truth on disk to "
+      "score it with");
+  for (CLI::Option* option : of_folders) live->excludes(option);
+  const std::vector<CLI::Option*> before = command.get_options();
+  arguments.recording = AddRecordingOptions(command, "sim-");
+  for (CLI::Option* option : command.get_options()) {
+    if (std::find(before.begin(), before.end(), option) != before.end()) continue;
+    option->needs(live)->group("With --live, as in `pas sim`");
+  }
+}
 
 int RunSlam(SlamArguments& arguments, bool quiet) {
   if (arguments.print_config) {
@@ -23,33 +82,46 @@ int RunSlam(SlamArguments& arguments, bool quiet) {
     return kDone;
   }
   slam::RunOptions& options = arguments.options;
-  if (options.sequence.empty() || options.run.empty()) {
-    throw slam::InputError("pas slam",
-                           "needs a sequence folder and -o RUN; see pas slam --help");
+  const bool live = !arguments.live_scene.empty();
+  if ((options.sequence.empty() && !live) || options.run.empty()) {
+    throw slam::InputError(
+        "pas slam",
+        "needs a sequence folder, or --live SCENE.yaml, and -o RUN; see pas slam --help");
   }
   options.variant = slam::VariantOf(arguments.variant);
   if (!arguments.config_file.empty()) options.config = slam::ReadConfig(arguments.config_file);
+  if (arguments.loop_closing) options.config.loop_closing.enabled = true;
   options.version = PAS_VERSION;
+  const InterruptWatch watch;
+  options.stop = [] { return interrupted != 0; };
   std::unique_ptr<Progress> progress;
   options.progress = [&](int done, int total) {
     if (!progress) progress = std::make_unique<Progress>("slam", total, quiet);
     progress->Update(done);
   };
 
-  const slam::RunOutcome outcome = slam::RunSequence(options);
+  const slam::RunOutcome outcome =
+      live ? RunOnScene(arguments, options) : slam::RunSequence(options);
   progress.reset();
   for (const std::string& warning : outcome.warnings) {
     fmt::print(stderr, "pas: warning: {}\n", warning);
   }
   if (!quiet) {
-    fmt::print("{}: {} of {} frames tracked, {} keyframes, {} map planes, {:.1f} frames/s\n",
+    fmt::print("{}: {} of {} frames tracked, {} keyframes, {} map planes{}, {:.1f} frames/s\n",
                options.run.string(), outcome.tracked, outcome.frames, outcome.keyframes,
-               outcome.map_planes, outcome.frames / outcome.wall_time_s);
+               outcome.map_planes,
+               outcome.loops > 0 ? fmt::format(", {} loops closed", outcome.loops) : "",
+               outcome.frames / outcome.wall_time_s);
+  }
+  if (outcome.stopped) {
+    fmt::print(stderr, "pas: interrupted after frame {}; the run up to there is written\n",
+               outcome.frames);
+    return kInterrupted;
   }
   if (outcome.tracked == 0) {
     fmt::print(stderr,
                "pas: tracking never started: no frame of {} has enough features with depth\n",
-               options.sequence.string());
+               live ? arguments.live_scene : options.sequence.string());
     return kFailure;
   }
   return kDone;
@@ -62,18 +134,20 @@ void AddSlamCommand(CLI::App& pas, const Globals& globals, int& exit_code) {
       pas.add_subcommand("slam", "Track the camera and map the planes of a sequence");
   auto arguments = std::make_shared<SlamArguments>();
   slam::RunOptions& options = arguments->options;
-  command->add_option("SEQ", options.sequence, "Sequence folder, or a TUM RGB-D folder");
+  CLI::Option* sequence =
+      command->add_option("SEQ", options.sequence, "Sequence folder, or a TUM RGB-D folder");
   command->add_option("-o,--output", options.run, "Run folder to write");
   command
       ->add_option("--variant", arguments->variant,
                    "full | no-association (planes by parameters alone) | "
                    "no-processing-no-association | points (no planes)")
       ->capture_default_str();
-  command->add_option(
+  CLI::Option* detector = command->add_option(
       "--detector", options.detector,
       "replay (SEQ/detections.jsonl) | none; default: replay if the file is there");
-  command->add_option("--camera", options.camera,
-                      "tum1 | tum2 | tum3 | a camera.yaml; default: SEQ/camera.yaml");
+  CLI::Option* camera =
+      command->add_option("--camera", options.camera,
+                          "tum1 | tum2 | tum3 | a camera.yaml; default: SEQ/camera.yaml");
   command->add_option("--config", arguments->config_file,
                       "Settings over the defaults, YAML; --print-config shows them all");
   command->add_flag("--print-config", arguments->print_config,
@@ -85,9 +159,12 @@ void AddSlamCommand(CLI::App& pas, const Globals& globals, int& exit_code) {
                    "Threads; 0 = one a core. Changes the speed, never a result")
       ->check(CLI::Range(0, 256))
       ->capture_default_str();
+  command->add_flag("--loop-closing", arguments->loop_closing,
+                    "Recognise known places and draw the map together there");
   command->add_flag("--save-segmentation", options.save_segmentation,
                     "Also write the label image of every frame");
   command->add_flag("--force", options.force, "Replace an existing run folder");
+  AddLiveOptions(*command, *arguments, {sequence, detector, camera});
   command->callback(
       [arguments, &globals, &exit_code] { exit_code = RunSlam(*arguments, globals.quiet); });
 }

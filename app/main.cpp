@@ -17,10 +17,25 @@ constexpr const char* kFlow =
     "  pas slam   track the camera and map the planes; never reads truth  -> RUN\n"
     "  pas eval   score a run against the truth                           -> metrics.json\n"
     "  pas draw   contact sheet and top view of a run                     -> pictures\n"
+    "  pas export a SEQ with truth as COCO or BOP, to train detectors     -> data set\n"
     "  pas check  validate a SEQ or RUN folder, fault by fault\n"
+    "  pas vocabulary  train the words by which a lost camera finds its place\n"
     "  pas bench  measure one part by itself\n"
     "\n"
     "Exit codes: 0 done, 1 the result is a failure, 2 bad input or usage.";
+
+// A line a command, in the order of the data flow.
+constexpr app::AddCommand kCommands[] = {
+    app::AddSceneCommand,       //
+    app::AddSimCommand,         //
+    app::AddSlamCommand,        //
+    app::AddVocabularyCommand,  //
+    app::AddEvalCommand,        //
+    app::AddDrawCommand,        //
+    app::AddExportCommand,      //
+    app::AddCheckCommand,       //
+    app::AddBenchCommand,       //
+};
 
 }  // namespace
 
@@ -33,9 +48,7 @@ int main(int argc, char** argv) {
   app::Globals globals;
   int exit_code = app::kDone;
   pas.add_flag("-q,--quiet", globals.quiet, "No progress, no summary; errors still show");
-  for (const app::AddCommand add :
-       {app::AddSceneCommand, app::AddSimCommand, app::AddSlamCommand, app::AddEvalCommand,
-        app::AddDrawCommand, app::AddCheckCommand, app::AddBenchCommand}) {
+  for (const app::AddCommand add : kCommands) {
     add(pas, globals, exit_code);
   }
 

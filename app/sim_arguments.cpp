@@ -63,4 +63,13 @@ std::vector<sim::TimedPose> ReplayOf(const SimArguments& arguments,
   return sim::Replay(options.path, options.frames, fps);
 }
 
+sim::Recording RecordingOf(const SimArguments& arguments, const sim::Scene& scene,
+                           sim::SequenceOptions& options) {
+  if (arguments.trajectory.empty()) {
+    return sim::PlanRecording(scene, options.rig, options.timing, options.frames);
+  }
+  const std::vector<sim::TimedPose> trajectory = ReplayOf(arguments, options);
+  return sim::PlanRecording(trajectory, options.path, options.timing, options.rig.seed);
+}
+
 }  // namespace app

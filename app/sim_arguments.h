@@ -25,7 +25,7 @@ struct SimArguments {
   std::vector<double> lens;
   double shutter_ms = 0, rolling_ms = 0, exposure_drift_stops = 0;
   double drop_ratio = 0, depth_offset_ms = 0, stamp_jitter_ms = 0;
-  bool resume = false, force = false;
+  bool resume = false, force = false, detector_report = false;
 };
 
 /// The scene that is named, moved as the command line says.
@@ -38,5 +38,10 @@ sim::SequenceOptions OptionsOf(const SimArguments& arguments, const sim::Scene& 
 /// when the command line does not say how many frames.
 std::vector<sim::TimedPose> ReplayOf(const SimArguments& arguments,
                                      sim::SequenceOptions& options);
+
+/// When and from where the frames are taken: along ReplayOf, or as the scene moves.
+/// @param options  OptionsOf(arguments, scene); a replayed trajectory is noted in them
+sim::Recording RecordingOf(const SimArguments& arguments, const sim::Scene& scene,
+                           sim::SequenceOptions& options);
 
 }  // namespace app

@@ -23,6 +23,15 @@ if(PAS_SANITIZE)
   target_link_options(pas_settings INTERFACE -fsanitize=${PAS_SANITIZE})
 endif()
 
+if(PAS_FUZZ)
+  if(NOT CMAKE_CXX_COMPILER_ID STREQUAL "Clang")
+    message(FATAL_ERROR "PAS_FUZZ needs clang: -DCMAKE_CXX_COMPILER=clang++ (ci/fuzz does all of it)")
+  endif()
+  target_compile_options(pas_settings INTERFACE
+    -fsanitize=fuzzer-no-link,address,undefined -fno-sanitize-recover=undefined -fno-omit-frame-pointer)
+  target_link_options(pas_settings INTERFACE -fsanitize=address,undefined)
+endif()
+
 # Headers that nearly every file reads, parsed once: one set for the program, one for the tests.
 function(pas_precompiled target)
   add_library(${target} STATIC ${PROJECT_SOURCE_DIR}/cmake/precompiled.cpp)

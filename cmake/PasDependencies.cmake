@@ -12,7 +12,9 @@ find_package(CLI11 REQUIRED)
 find_package(fmt REQUIRED)
 find_package(GTest REQUIRED)
 find_package(rapidcheck QUIET)
+pkg_check_modules(DEFLATE REQUIRED IMPORTED_TARGET libdeflate)
 pkg_check_modules(PCL REQUIRED IMPORTED_TARGET pcl_common pcl_sample_consensus)
+pkg_check_modules(OSMesa REQUIRED IMPORTED_TARGET osmesa)
 
 # OpenCV's and yaml-cpp's configs export plain names; give them the form of the others.
 add_library(pas_opencv INTERFACE)

@@ -24,6 +24,10 @@ Role ReadRole(const JsonField& field) {
 TruthObject ReadObject(const JsonField& field) {
   TruthObject object;
   object.id = field["id"].Integer();
+  if (const auto name = field.Find("name")) object.name = name->Text();
+  if (const auto group = field.Find("detection_group")) {
+    object.detection_group = group->Integer();
+  }
   object.object_class = field["class"].Text();
   object.role = ReadRole(field["role"]);
   object.regular = field["regular"].Boolean();

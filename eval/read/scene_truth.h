@@ -17,12 +17,14 @@ enum class Role { kStructure, kRegular, kUnstructured, kOther };
 /// An object of gt/scene.json; world frame g, metres.
 struct TruthObject {
   int id = 0;
+  std::string name;  ///< may be empty
   std::string object_class;
   Role role = Role::kOther;
   bool regular = false;
   Eigen::Vector3d center_g = Eigen::Vector3d::Zero();
   Eigen::Vector3d size_m = Eigen::Vector3d::Zero();
   Eigen::Matrix3d R_go = Eigen::Matrix3d::Identity();
+  int detection_group = 0;  ///< objects of one group are detected as one; 0 = alone
 };
 
 /// A true plane: normal out of its object, polygon in order; world frame g, metres.

@@ -103,6 +103,10 @@ Camera ReadCamera(const fs::path& file) {
   camera.cy = number("cy");
   camera.fps = positive("fps");
   camera.depth_factor = positive("depth_factor");
+  constexpr std::array<const char*, 5> kDistortion{"k1", "k2", "p1", "p2", "k3"};
+  for (std::size_t i = 0; i < kDistortion.size(); ++i) {
+    if (root[kDistortion[i]]) camera.distortion[i] = number(kDistortion[i]);
+  }
   return camera;
 }
 

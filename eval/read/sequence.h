@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <filesystem>
 #include <opencv2/core.hpp>
 #include <optional>
@@ -11,12 +12,16 @@
 
 namespace eval {
 
-/// Pinhole camera of camera.yaml; pixel centres are whole numbers, the first at (0, 0).
+/// Pinhole camera of camera.yaml, with its distortion; pixel centres are whole numbers, the
+/// first at (0, 0).
 struct Camera {
   int width = 0, height = 0;
   double fx = 0.0, fy = 0.0, cx = 0.0, cy = 0.0;  ///< pixels
   double fps = 0.0;
-  double depth_factor = 0.0;  ///< depth image units per metre
+  double depth_factor = 0.0;           ///< depth image units per metre
+  std::array<double, 5> distortion{};  ///< k1 k2 p1 p2 k3, OpenCV's order
+
+  bool distorted() const { return distortion != std::array<double, 5>{}; }
 };
 
 /// One frame: a colour image with its depth image, files relative to the sequence.

@@ -9,7 +9,7 @@
 namespace sim {
 namespace {
 
-bool Equal(const cv::Mat1d& a, const cv::Mat1d& b) { return cv::countNonZero(a != b) == 0; }
+bool Equal(const cv::Mat1d& a, const cv::Mat1d& b) { return Same(a, b); }
 
 std::uint64_t AnySeed() { return *rc::gen::arbitrary<std::uint64_t>(); }
 
@@ -83,12 +83,51 @@ RC_GTEST_PROP(EverySensor, IsDecidedBySeedAndFrameAndInventsNothing, ()) {
   const cv::Mat1d z = MeasureDepth(rendering, model, camera, seed, 3);
   MeasureDepth(rendering, model, camera, seed, 2);
   RC_ASSERT(Equal(MeasureDepth(rendering, model, camera, seed, 3), z));
+  bool any = false;
   for (int v = 0; v < z.rows; ++v) {
     for (int u = 0; u < z.cols; ++u) {
       RC_ASSERT(std::isfinite(z(v, u)) && z(v, u) >= 0);
       if (rendering.depth_m(v, u) == 0) RC_ASSERT(z(v, u) == 0);
+      any = any || z(v, u) > 0;
     }
   }
+  const bool ideal = std::holds_alternative<IdealModel>(model);
+  const bool differs = !Equal(MeasureDepth(rendering, model, camera, seed + 1, 3), z);
+  RC_ASSERT(differs == (any && !ideal));
+}
+
+/// A model with everything switched off that its header says can be.
+DepthModel AnySwitchedOff() {
+  const KinectModel kinect{.min_depth_m = 0,
+                           .max_depth_m = 1e9,
+                           .max_incidence_rad = 4,
+                           .noise_scale = 0,
+                           .lateral_scale = 0,
+                           .quantise = false};
+  AzureModel azure{.min_depth_m = 0, .max_depth_m = 1e9, .noise_scale = 0, .lateral_px = 0};
+  azure.flying_pixels = azure.hexagon = false;
+  azure.multipath_m = azure.multipath_loss = azure.wiggle_m = azure.session_offset_m = 0;
+  azure.rounding_m = 0;
+  D435Model d435{.baseline_m = 0, .subpixel_px = 0, .grid_px = 0, .ripple_px = 0};
+  d435.fattening_px = 0;
+  d435.min_share = d435.min_depth_m = d435.rounding_m = 0;
+  d435.max_depth_m = 1e9;
+  switch (Whole(0, 2)) {
+    case 0:
+      return kinect;
+    case 1:
+      return azure;
+    default:
+      return d435;
+  }
+}
+
+RC_GTEST_PROP(EverySensor, SwitchedOffGivesTheExactDepthBack, ()) {
+  const Rendering rendering =
+      FrameRenderer(AnyScene(), SmallCamera()).Render(AnyView(), {.colour = false});
+  const DepthModel off = AnySwitchedOff();
+  RC_ASSERT(
+      Equal(MeasureDepth(rendering, off, SmallCamera(), AnySeed(), 0), rendering.depth_m));
 }
 
 }  // namespace

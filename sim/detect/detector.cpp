@@ -39,15 +39,27 @@ bool LargeEnough(const PixelBox& box) { return box.x1 - box.x0 >= 2 && box.y1 - 
 
 }  // namespace
 
-struct Detector::Target {
-  std::uint64_t key = 0;  ///< id of the first object
-  std::string class_name;
-  int pixels = 0, unoccluded = 0;
-  PixelBox box;
-  double VisibleFraction() const {
-    return static_cast<double>(pixels) / std::max(unoccluded, 1);
-  }
-};
+double DetectionTarget::VisibleFraction() const {
+  return static_cast<double>(pixels) / std::max(unoccluded, 1);
+}
+
+DetectorModel PoorDetector() {
+  DetectorModel model;
+  model.min_pixels = 150;
+  model.base_miss = 0.10;
+  model.small_miss = 0.9, model.small_size_px = 45;
+  model.hidden_miss = 0.9;
+  model.miss_run_frames = 12;
+  model.jitter_ratio = 0.05, model.jitter_px = 1.5;
+  model.confused = 0.10;
+  model.duplicate = 0.06, model.duplicate_run_frames = 6;
+  model.phantom = 0.12;
+  return model;
+}
+
+DetectorModel ModelOf(DetectorKind kind) {
+  return kind == DetectorKind::kPoor ? PoorDetector() : DetectorModel{};
+}
 
 Detector::Detector(const Scene& scene, const Camera& camera, DetectorKind kind,
                    std::uint64_t seed, const DetectorModel& model)
@@ -58,7 +70,7 @@ Detector::Detector(const Scene& scene, const Camera& camera, DetectorKind kind,
       model_(model),
       scale_(std::sqrt(static_cast<double>(camera.width) * camera.height / (640.0 * 480.0))) {}
 
-std::vector<Detector::Target> Detector::VisibleTargets(const FrameTruth& truth) const {
+std::vector<DetectionTarget> Detector::VisibleTargets(const FrameTruth& truth) const {
   std::map<int, const ObjectInFrame*> seen;
   for (const ObjectInFrame& object : truth.objects) seen[object.id] = &object;
   std::vector<Target> targets;
@@ -165,8 +177,8 @@ std::vector<Detection> Detector::Detect(int frame, const FrameTruth& truth) cons
     if (Missed(target, frame)) continue;
     const Detection first = Report(target, frame);
     detections.push_back(first);
-    Random twice{seed_, kTwice, target.key, static_cast<std::uint64_t>(frame)};
-    if (twice.Chance(model_.duplicate)) {
+    const SlowNoise twice(Key(seed_, kTwice, target.key), model_.duplicate_run_frames);
+    if (twice.Uniform(frame) < model_.duplicate) {
       detections.push_back(
           {first.class_name, 0.6 * first.score,
            Jittered(target.box, Key(seed_, kSecondBox, target.key), frame, 3.0)});

@@ -10,7 +10,7 @@
 
 namespace sim {
 
-enum class DetectorKind { kNone, kPerfect, kNoisy };
+enum class DetectorKind { kNone, kPerfect, kNoisy, kPoor };
 
 /// One reported box: pixel centres at integers, inside the image.
 struct Detection {
@@ -19,8 +19,20 @@ struct Detection {
   PixelBox box;
 };
 
+/// What there is to detect in a frame: an object, or objects that are detected as one.
+struct DetectionTarget {
+  std::uint64_t key = 0;  ///< id of the first object
+  std::string class_name;
+  int pixels = 0, unoccluded = 0;
+  PixelBox box;  ///< round the visible part
+  double VisibleFraction() const;
+};
+
 /// How a real detector departs from the truth. Sizes are pixels at 640 x 480 (scaled with the
 /// image); the constants imitate a small one-stage network on a desk. [choice]
+/// Whatever happens lasts for runs of frames: misses, wrong classes and doubles while a slow
+/// standard normal of their own (slow_noise.h) is beyond a threshold, so that the share of
+/// frames is exactly the one stated; a phantom stays for a window.
 struct DetectorModel {
   double min_pixels = 60;   ///< visible area below which nothing is reported
   double base_miss = 0.02;  ///< missed whatever its size
@@ -29,25 +41,37 @@ struct DetectorModel {
   int miss_run_frames = 8;                      ///< misses come in runs of about this length
   double jitter_ratio = 0.02, jitter_px = 0.5;  ///< sd of each side: ratio x box side + px
   double slow_jitter_share = 0.5;               ///< of the jitter's variance, drifts over runs
-  double confused = 0.02;    ///< share of detections with a wrong class, in runs
-  double duplicate = 0.015;  ///< share of detections reported twice
-  double phantom = 0.02;     ///< chance a window of 4 frames holds a box where nothing is
+  double confused = 0.02;        ///< share of detections with a wrong class, in runs
+  double duplicate = 0.015;      ///< share of detections reported twice, in runs ...
+  int duplicate_run_frames = 4;  ///< ... of about this length
+  double phantom = 0.02;         ///< chance a window of 4 frames holds a box where nothing is
 };
+
+/// A detector on its limits: half-hidden and small things are mostly missed, boxes are loose.
+/// Twice to six times the errors of the default. [choice]
+DetectorModel PoorDetector();
+
+/// The model of a preset; the default's for `none` and `perfect`, which do not use it.
+DetectorModel ModelOf(DetectorKind kind);
 
 /// Replays a detector from truth: one box per regular or unstructured object (objects of one
 /// detection_group are one) round its visible part. Structure and `other` are never reported.
-/// `perfect` gives exactly those boxes, score 1; `noisy` follows the model. Frame f depends on
-/// (seed, f, truth of f) alone.
+/// `perfect` gives exactly those boxes, score 1; `noisy` and `poor` follow the model. Frame f
+/// depends on (seed, f, truth of f) alone.
 class Detector {
  public:
+  Detector(const Scene& scene, const Camera& camera, DetectorKind kind, std::uint64_t seed)
+      : Detector(scene, camera, kind, seed, ModelOf(kind)) {}
   Detector(const Scene& scene, const Camera& camera, DetectorKind kind, std::uint64_t seed,
-           const DetectorModel& model = {});
+           const DetectorModel& model);
   /// Highest score first, then the order of objects.
   std::vector<Detection> Detect(int frame, const FrameTruth& truth) const;
 
+  /// What `perfect` would box, in the order of objects.
+  std::vector<DetectionTarget> VisibleTargets(const FrameTruth& truth) const;
+
  private:
-  struct Target;  ///< an object, or objects detected as one
-  std::vector<Target> VisibleTargets(const FrameTruth& truth) const;
+  using Target = DetectionTarget;
   bool Missed(const Target& target, int frame) const;
   Detection Report(const Target& target, int frame) const;
   PixelBox Jittered(const PixelBox& box, std::uint64_t key, int frame, double gain) const;

@@ -7,6 +7,7 @@
 #include "sim/scene/check.h"
 #include "sim/scene/filling.h"
 #include "sim/scene/input_error.h"
+#include "sim/scene/keycaps.h"
 #include "sim/scene/number_text.h"
 #include "sim/scene/recipe.h"
 
@@ -21,12 +22,18 @@ struct Recipe {
 };
 
 const FamilyParameter kTexture{"texture", 1, 0, 1, "richness of every print, 0 none"};
+const FamilyParameter kLamps{
+    "lamps", 0, 0, 4, "lights on beside the sun: in desk lamps, then panels overhead", true};
+const FamilyParameter kKeycaps{
+    "keycaps", 0, 0, 1, "1: every key of the keyboards with blocks of keys is a box", true};
 
 std::vector<Recipe> DeskRecipes() {
   return {
       {{"desk",
         "an office desk: many small near-parallel tops 6 to 50 mm over the desk and each other",
         {{"objects", 0, 0, 40, "things on the desk, 5 to 40; 0 draws 8 to 14", true},
+         kLamps,
+         kKeycaps,
          kTexture}},
        &MakeDesk},
       {{"plates",
@@ -81,6 +88,8 @@ std::vector<Recipe> RoomRecipes() {
   return {{{"office",
             "two desks back to back, a cabinet and a shelf; a long loop round the desks",
             {{"objects", 20, 2, 40, "things on both desks, fewer when they do not fit", true},
+             kLamps,
+             kKeycaps,
              kTexture}},
            &MakeOffice},
           {{"room",
@@ -100,7 +109,15 @@ std::vector<Recipe> RoomRecipes() {
             {{"structure", 1, 0, 1, "1 zigzag, 0 flat", true},
              {"distance_m", 1.2, 0.7, 2.6, "of the camera"},
              kTexture}},
-           &MakeWall}};
+           &MakeWall},
+          {{"passer",
+            "someone walks past, or a hand or a carried toy moves through the view",
+            {{"kind", 0, 0, 3, "1 a walker, 2 a hand, 3 a hand with a toy; 0 draws", true},
+             {"objects", 10, 2, 14, "things on the desk, fewer when they do not fit", true},
+             {"times", 4, 1, 20, "how often it comes", true},
+             {"speed_m_s", 0, 0, 2, "of its way; 0 is 0.9 for a walker, 0.5 for a hand"},
+             kTexture}},
+           &MakePasser}};
 }
 
 const std::vector<Recipe>& Recipes() {
@@ -164,6 +181,10 @@ Scene MakeScene(const std::string& family, std::uint64_t seed,
     }
     Scene scene = make(seed, values);
     if (values.at("texture") < 1) DialTexture(values.at("texture"), scene);
+    if (values.count("keycaps") != 0 && values.at("keycaps") > 0) PutKeycaps(scene);
+    if (const auto lamps = values.find("lamps"); lamps != values.end()) {
+      PutLights(static_cast<int>(lamps->second), seed, scene);
+    }
     scene.name = family + "-" + std::to_string(seed);
     scene.family = family;
     scene.seed = seed;

@@ -12,6 +12,7 @@ inline const std::vector<std::string> kPrintNames{"plain", "wood", "cloth",  "te
                                                   "cover", "keys", "screen", "speckle"};
 inline const std::vector<std::string> kShapeNames{
     "box", "toy", "cylinder", "mug", "bottle", "bowl", "bush", "mesh", "person", "hand"};
+inline const std::vector<std::string> kLightNames{"lamp", "area"};
 inline const std::vector<std::string> kFaceNames{"-x", "+x", "-y", "+y", "-z", "+z"};
 inline const std::vector<std::string> kPresetNames{"slow", "office", "fast", "xyz",     "rpy",
                                                    "360",  "orbit",  "loop", "lookaway"};

@@ -7,6 +7,7 @@
 #include "sim/scene/check.h"
 #include "sim/scene/input_error.h"
 #include "sim/scene/names.h"
+#include "sim/scene/read_lights.h"
 #include "sim/scene/read_model.h"
 #include "sim/scene/scene_file.h"
 #include "sim/scene/yaml_value.h"
@@ -86,27 +87,6 @@ std::vector<Waypoint> ReadWay(const YamlValue& value) {
   return way;
 }
 
-std::vector<Lamp> ReadLamps(const YamlValue& value) {
-  constexpr std::size_t kMost = 8;
-  std::vector<Lamp> lamps;
-  for (const YamlValue& entry : value.List(kMost)) {
-    const YamlMap map(entry, {"position_m", "intensity", "side_m", "direction"});
-    Lamp lamp;
-    lamp.position_w =
-        map.At("position_m").Numbers(3, -kMaxCoordinate_m, kMaxCoordinate_m, "metres");
-    if (map.Has("intensity")) lamp.intensity = map.At("intensity").Number(0, 100, "");
-    if (map.Has("side_m")) lamp.side_m = map.At("side_m").Number(0, 10, "metres");
-    if (map.Has("direction")) {
-      lamp.direction_w = map.At("direction").Numbers(3, -100, 100, "");
-      if (!(lamp.direction_w.norm() > 1e-6)) {
-        map.At("direction").Fail("expected a direction, not 0");
-      }
-    }
-    lamps.push_back(lamp);
-  }
-  return lamps;
-}
-
 /// What only a mesh has cannot stand without one, nor a mesh be another shape.
 void CheckShape(const YamlMap& map) {
   const bool mesh = map.Has("mesh");
@@ -122,7 +102,7 @@ void CheckShape(const YamlMap& map) {
 Object ReadObject(const YamlValue& value, const std::filesystem::path& folder) {
   std::vector<std::string> keys{"id",       "name",    "class",  "role",   "shape",
                                 "center_m", "rpy_deg", "q_xyzw", "size_m", "detection_group",
-                                "seed",     "faces"};
+                                "way",      "seed",    "faces"};
   keys.insert(keys.end(), kModelKeys.begin(), kModelKeys.end());
   const YamlMap map(value, keys);
   CheckShape(map);
@@ -258,15 +238,16 @@ Motion ReadMotion(const YamlValue& value) {
 }  // namespace
 
 Scene ParseScene(const std::string& text, const std::string& name) {
-  const YamlMap map(ParseYaml(text, name, kMaxDepth), {"format", "name", "family", "seed",
-                                                       "sun", "motion", "capture", "objects"});
+  const YamlMap map(
+      ParseYaml(text, name, kMaxDepth),
+      {"format", "name", "family", "seed", "sun", "lights", "motion", "capture", "objects"});
   map.At("format").OneOf({kSceneFormat});
   Scene scene;
   scene.name = map.At("name").Word();
   if (map.Has("family")) scene.family = map.At("family").Word();
   if (map.Has("seed")) scene.seed = map.At("seed").Whole(0, kAnySeed);
   if (map.Has("sun")) scene.sun = ReadSun(map.At("sun"));
-  if (map.Has("lamps")) scene.lamps = ReadLamps(map.At("lamps"));
+  if (map.Has("lights")) scene.lights = ReadLights(map.At("lights"));
   if (map.Has("motion")) scene.motion = ReadMotion(map.At("motion"));
   if (map.Has("capture")) scene.capture = ReadCapture(map.At("capture"));
   const std::filesystem::path folder = std::filesystem::path(name).parent_path();

@@ -30,6 +30,10 @@ Scene MakeWall(std::uint64_t seed, const ParameterValues& values);
 /// A larger desk with 15 to 40 things of the whole catalogue.
 Scene MakeCrowdedDesk(std::uint64_t seed, int count);
 
+/// Turns on `count` lights: bulbs in the shades of desk lamps, as far as there are such, then
+/// panels that hang over the target.
+void PutLights(int count, std::uint64_t seed, Scene& scene);
+
 /// To the micrometre (or 1e-6 of any unit), so that scene files stay legible.
 double Rounded(double number);
 

@@ -82,12 +82,24 @@ struct Sun {
   double ambient = 0.45;
 };
 
-/// A lamp: a point, or a square that shines to one side; light falls with the distance squared.
-struct Lamp {
-  Eigen::Vector3d position_w = Eigen::Vector3d::Zero();
-  double intensity = 0.5;  ///< on a surface 1 m away that faces it, as Sun::intensity
-  double side_m = 0;       ///< of the square; 0 = a point, which shines to all sides
-  Eigen::Vector3d direction_w{0, 0, -1};  ///< the way a square faces, need not be unit
+enum class LightKind {
+  kLamp,  ///< a point
+  kArea   ///< a rectangle that shines evenly to its front
+};
+
+/// A light beside the sun. Light that falls on a surface square to it, at distance r:
+/// intensity / r^2, in units of the sun's; on others the cosine of that. A rectangle gives as
+/// much as a lamp in its middle does to what is far off before it; elsewhere, the cosine at the
+/// rectangle too.
+struct Light {
+  LightKind kind = LightKind::kLamp;
+  Eigen::Vector3d center_w = Eigen::Vector3d::Zero();
+  /// Of a rectangle: from its centre to the middles of two sides, square to each other. Its
+  /// front is where half_a x half_b points.
+  Eigen::Vector3d half_a_w{0.3, 0, 0}, half_b_w{0, -0.3, 0};
+  double intensity = 1;
+  std::array<double, 3> colour{1, 1, 1};  ///< linear RGB
+  int samples_per_side = 4;  ///< of a rectangle, whose square is the rays to it from each place
 };
 
 /// A place on the way of the camera, and what it looks at there.
@@ -121,13 +133,15 @@ struct Capture {
   int frames = 300;
 };
 
+inline constexpr std::size_t kMaxLights = 8;
+
 struct Scene {
   std::string name;
   std::string family;  ///< who made it; empty when written by hand
   std::uint64_t seed = 0;
   std::vector<Object> objects;
   Sun sun;
-  std::vector<Lamp> lamps;
+  std::vector<Light> lights;  ///< kMaxLights at most
   Motion motion;
   std::optional<Capture> capture;
 };

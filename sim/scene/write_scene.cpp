@@ -108,6 +108,22 @@ std::string CaptureText(const Capture& capture) {
          "\n  frames: " + std::to_string(capture.frames) + "\n";
 }
 
+std::string LightText(const Light& light) {
+  const auto points = [](const std::string& key, const Eigen::Vector3d& x_w) {
+    return ", " + key + ": " + ListText(x_w);
+  };
+  std::string text = "  - {kind: " + kLightNames[static_cast<std::size_t>(light.kind)];
+  if (light.kind == LightKind::kLamp) {
+    text += points("position_m", light.center_w);
+  } else {
+    text += points("center_m", light.center_w) + points("half_a_m", light.half_a_w) +
+            points("half_b_m", light.half_b_w) +
+            ", samples_per_side: " + std::to_string(light.samples_per_side);
+  }
+  return text + ", intensity: " + NumberText(light.intensity) +
+         ", colour: " + ListText(light.colour) + "}\n";
+}
+
 std::string MotionText(const Motion& motion) {
   return "motion:\n  preset: " + motion.preset + "\n  target_m: " + ListText(motion.target_w) +
          "\n  target_spread_m: " + NumberText(motion.target_spread_m) +
@@ -128,13 +144,8 @@ std::string SceneText(const Scene& scene) {
   text += "sun:\n  direction: " + ListText(scene.sun.direction_w) +
           "\n  intensity: " + NumberText(scene.sun.intensity) +
           "\n  ambient: " + NumberText(scene.sun.ambient) + "\n";
-  if (!scene.lamps.empty()) text += "lamps:\n";
-  for (const Lamp& lamp : scene.lamps) {
-    text += "  - {position_m: " + ListText(lamp.position_w) +
-            ", intensity: " + NumberText(lamp.intensity) +
-            ", side_m: " + NumberText(lamp.side_m) +
-            ", direction: " + ListText(lamp.direction_w) + "}\n";
-  }
+  if (!scene.lights.empty()) text += "lights:\n";
+  for (const Light& light : scene.lights) text += LightText(light);
   text += MotionText(scene.motion);
   if (scene.capture) text += CaptureText(*scene.capture);
   text += "objects:\n";

@@ -6,6 +6,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "sim/sensor/depth_effects.h"
+#include "sim/sensor/rounded_sigma.h"
 
 namespace sim {
 namespace {
@@ -33,6 +34,7 @@ class D435Sensor {
         model_(model),
         camera_(camera),
         noise_(noise),
+        sigma_(RoundedSigma::Of(model)),
         size_(rendering.depth_m.size()) {
     if (model.subpixel_px > 0 && model.correlated_share > 0) {
       smooth_ = SmoothNoise(size_, model.window_px / 2, noise, kAxialDraw);
@@ -117,14 +119,12 @@ class D435Sensor {
   }
 
   double Triangulate(int u, int v, double z) const {
-    const double scale = model_.focal_baseline_px_m / (z * z);  // pixels a metre, at z
     double disparity = Disparity(z);
     if (model_.ripple_px > 0) {
       disparity += model_.ripple_px * std::sin(2.0 * std::numbers::pi * disparity);
     }
     if (model_.subpixel_px > 0) {
-      const double sigma =
-          SigmaBeforeRounding(model_.subpixel_px, model_.grid_px, model_.rounding_m * scale);
+      const double sigma = sigma_->At(z);
       const double smooth = smooth_.empty() ? 0.0 : static_cast<double>(smooth_(v, u));
       disparity +=
           sigma * (std::sqrt(model_.correlated_share) * smooth +
@@ -142,6 +142,7 @@ class D435Sensor {
   const D435Model& model_;
   const Camera& camera_;
   const PixelNoise& noise_;
+  std::shared_ptr<const RoundedSigma> sigma_;
   cv::Size size_;
   cv::Mat1f smooth_;
   cv::Mat_<cv::Point> seen_;

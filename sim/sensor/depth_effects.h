@@ -1,6 +1,7 @@
 #pragma once
 
 #include <opencv2/core/mat.hpp>
+#include <span>
 
 #include "sim/sensor/noise.h"
 #include "sim/trace/frame_renderer.h"
@@ -22,7 +23,12 @@ enum DepthDraw : std::uint32_t {
 cv::Mat1f SmoothNoise(const cv::Size& size, int radius, const PixelNoise& noise,
                       std::uint32_t draw);
 
-/// Angle between ray and normal, radians, from its cosine.
+/// The same of `images.size()` draws from `first` on, into images that are used again.
+void SmoothNoise(const cv::Size& size, int radius, const PixelNoise& noise, std::uint32_t first,
+                 std::span<cv::Mat1f> images);
+
+/// Angle between ray and normal, radians, from its cosine, to 3e-8 (Abramowitz and Stegun
+/// 4.4.46; no libm, so the same bits with every C library).
 double Incidence(float cosine);
 
 /// Both pixels show the same plane of the same object.

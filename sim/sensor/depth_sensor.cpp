@@ -1,44 +1,39 @@
 #include "sim/sensor/depth_sensor.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
 #include "sim/sensor/depth_effects.h"
+#include "sim/sensor/recycled.h"
 
 namespace sim {
 namespace {
 
 constexpr double kHalfPi = std::numbers::pi / 2;
 
-/// Which pixel's surface each pixel sees: itself, but near an edge perhaps a neighbour's.
-class LateralJitter {
- public:
-  LateralJitter(const Rendering& rendering, double scale, const PixelNoise& noise)
-      : rendering_(rendering), scale_(scale) {
-    if (scale_ <= 0) return;
-    jitter_u_ = SmoothNoise(rendering.depth_m.size(), 1, noise, kJitterUDraw);
-    jitter_v_ = SmoothNoise(rendering.depth_m.size(), 1, noise, kJitterVDraw);
-  }
-  cv::Point Source(int u, int v) const {
-    if (scale_ <= 0) return {u, v};
-    const double sigma =
-        scale_ *
-        LateralSigma(std::min(Incidence(rendering_.incidence_cos(v, u)), 0.95 * kHalfPi));
-    const auto moved = [&](float draw, int from, int size) {
-      const int to = from + static_cast<int>(std::lround(sigma * static_cast<double>(draw)));
-      return std::clamp(to, 0, size - 1);
-    };
-    const int x = moved(jitter_u_(v, u), u, rendering_.depth_m.cols);
-    const int y = moved(jitter_v_(v, u), v, rendering_.depth_m.rows);
-    return SameSurface(rendering_, {u, v}, {x, y}) ? cv::Point(u, v) : cv::Point(x, y);
-  }
+/// To nearest, halves away from zero.
+int Nearest(double x) { return static_cast<int>(x < 0 ? x - 0.5 : x + 0.5); }
 
- private:
-  const Rendering& rendering_;
-  double scale_;
-  cv::Mat1f jitter_u_, jitter_v_;
+/// The three fields of noise of a frame.
+struct Noises {
+  std::array<cv::Mat1f, 3> fields;  ///< in the order of DepthDraw
+  const cv::Mat1f& axial() const { return fields[kAxialDraw]; }
+  const cv::Mat1f& jitter_u() const { return fields[kJitterUDraw]; }
+  const cv::Mat1f& jitter_v() const { return fields[kJitterVDraw]; }
 };
+
+/// Which pixel's surface a pixel sees: itself, but near an edge perhaps a neighbour's.
+cv::Point Source(const Rendering& rendering, cv::Point at, double sigma, float jitter_u,
+                 float jitter_v) {
+  const int du = Nearest(sigma * static_cast<double>(jitter_u));
+  const int dv = Nearest(sigma * static_cast<double>(jitter_v));
+  if (du == 0 && dv == 0) return at;
+  const cv::Point to(std::clamp(at.x + du, 0, rendering.depth_m.cols - 1),
+                     std::clamp(at.y + dv, 0, rendering.depth_m.rows - 1));
+  return SameSurface(rendering, at, to) ? at : to;
+}
 
 /// Disparity noise in steps so that, with rounding (variance 1/12), the sd in metres is sigma.
 double DisparitySigma(double sigma_m, double z, const KinectModel& model) {
@@ -62,45 +57,67 @@ double LateralSigma(double theta_rad) {
   return 0.8 + 0.035 * theta_rad / (kHalfPi - theta_rad);
 }
 
+namespace {
+
+/// z as it comes out with noise and rounding; `draw` is standard normal. 0 = no measurement.
+double Measured(double z, double theta, float draw, const KinectModel& model) {
+  if (!(model.noise_scale > 0) && !model.quantise) return z;
+  double disparity = model.disparity_m_steps / z;
+  if (model.noise_scale > 0) {
+    const double sigma_m = model.noise_scale * AxialSigma(z, theta);
+    disparity += DisparitySigma(sigma_m, z, model) * static_cast<double>(draw);
+  }
+  if (model.quantise) disparity = static_cast<double>(static_cast<long>(disparity + 0.5));
+  return disparity >= 1.0 ? model.disparity_m_steps / disparity : 0.0;
+}
+
+}  // namespace
+
 cv::Mat1d MeasureDepth(const Rendering& rendering, const KinectModel& model,
                        const PixelNoise& noise) {
   const cv::Size size = rendering.depth_m.size();
-  const LateralJitter jitter(rendering, model.lateral_scale, noise);
-  cv::Mat1f draw;
-  if (model.noise_scale > 0) draw = SmoothNoise(size, 1, noise, kAxialDraw);
-  cv::Mat1d measured(size, 0.0);
+  thread_local Noises noises;  // memory only
+  SmoothNoise(size, 1, noise, kAxialDraw, noises.fields);
+  thread_local cv::Mat1d kept;
+  cv::Mat1d measured = Recycled(kept, size);
   for (int v = 0; v < size.height; ++v) {
+    const double* depth = rendering.depth_m[v];
+    const float* cosine = rendering.incidence_cos[v];
+    const float *axial = noises.axial()[v], *jitter_u = noises.jitter_u()[v],
+                *jitter_v = noises.jitter_v()[v];
+    double* out = measured[v];
     for (int u = 0; u < size.width; ++u) {
-      if (!(rendering.depth_m(v, u) > 0)) continue;
-      const cv::Point seen = jitter.Source(u, v);
-      const double z = rendering.depth_m(seen);
-      const double theta = Incidence(rendering.incidence_cos(seen));
+      out[u] = 0.0;
+      if (!(depth[u] > 0)) continue;
+      double z = depth[u], theta = Incidence(cosine[u]);
+      cv::Point seen(u, v);
+      if (model.lateral_scale > 0) {
+        const double sigma =
+            model.lateral_scale * LateralSigma(std::min(theta, 0.95 * kHalfPi));
+        seen = Source(rendering, seen, sigma, jitter_u[u], jitter_v[u]);
+        if (seen != cv::Point(u, v)) {
+          z = rendering.depth_m(seen);
+          theta = Incidence(rendering.incidence_cos(seen));
+        }
+      }
       if (!(z >= model.min_depth_m && z <= model.max_depth_m)) continue;
       if (!(theta <= model.max_incidence_rad)) continue;
       if (!rendering.projector_lit.empty() && rendering.projector_lit(seen) == 0) continue;
-      double result = z;
-      if (model.noise_scale > 0 || model.quantise) {
-        double disparity = model.disparity_m_steps / z;
-        if (model.noise_scale > 0) {
-          const double sigma_m = model.noise_scale * AxialSigma(z, theta);
-          disparity += DisparitySigma(sigma_m, z, model) * static_cast<double>(draw(v, u));
-        }
-        if (model.quantise) disparity = std::round(disparity);
-        if (!(disparity >= 1.0)) continue;
-        result = model.disparity_m_steps / disparity;
-      }
-      measured(v, u) = result;
+      out[u] = Measured(z, theta, axial[u], model);
     }
   }
   return measured;
 }
 
 cv::Mat1w EncodeDepth(const cv::Mat1d& depth_m, double depth_factor) {
-  cv::Mat1w units(depth_m.size(), ushort{0});
+  thread_local cv::Mat1w kept;
+  cv::Mat1w units = Recycled(kept, depth_m.size());
   for (int v = 0; v < depth_m.rows; ++v) {
+    const double* in = depth_m[v];
+    ushort* out = units[v];
     for (int u = 0; u < depth_m.cols; ++u) {
-      const double value = std::floor(depth_m(v, u) * depth_factor + 0.5);
-      if (value >= 1.0 && value <= 65535.0) units(v, u) = static_cast<ushort>(value);
+      const double value = in[u] * depth_factor + 0.5;
+      out[u] = value >= 1.0 && value < 65536.0 ? static_cast<ushort>(value) : ushort{0};
     }
   }
   return units;

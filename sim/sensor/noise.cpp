@@ -2,15 +2,11 @@
 
 #include <bit>
 #include <cmath>
+#include <vector>
 
 namespace sim {
 namespace {
 
-std::uint64_t Mix(std::uint64_t z) {
-  z = (z ^ (z >> 30)) * 0xBF58476D1CE4E5B9ull;
-  z = (z ^ (z >> 27)) * 0x94D049BB133111EBull;
-  return z ^ (z >> 31);
-}
 constexpr std::uint64_t kGolden = 0x9E3779B97F4A7C15ull;
 constexpr double kLn2 = 0.693147180559945309417;
 
@@ -91,15 +87,19 @@ PixelNoise::PixelNoise(std::uint64_t seed, std::uint64_t frame)
     : key_(Mix(Mix(seed + kGolden) ^ Mix(frame + 0x51ED270B1A2F39C5ull))) {}
 
 double PixelNoise::Uniform(int u, int v, std::uint32_t draw) const {
-  const std::uint64_t place =
-      (static_cast<std::uint64_t>(static_cast<std::uint32_t>(v)) << 32) |
-      static_cast<std::uint32_t>(u);
-  const std::uint64_t bits = Mix(Mix(key_ + place * kGolden) + draw * 0xD1B54A32D192ED03ull);
-  return (static_cast<double>(bits >> 11) + 0.5) * 0x1.0p-53;
+  return (static_cast<double>(Bits(u, v, draw) >> 11) + 0.5) * 0x1.0p-53;
 }
 
-double PixelNoise::Normal(int u, int v, std::uint32_t draw) const {
-  return NormalQuantile(Uniform(u, v, draw));
+const float* PixelNoise::NormalTable() {
+  static const std::vector<float> table = [] {
+    constexpr std::size_t kSize = 65536;
+    std::vector<float> quantiles(kSize);
+    for (std::size_t i = 0; i < kSize; ++i) {
+      quantiles[i] = static_cast<float>(NormalQuantile((static_cast<double>(i) + 0.5) / kSize));
+    }
+    return quantiles;
+  }();
+  return table.data();
 }
 
 }  // namespace sim

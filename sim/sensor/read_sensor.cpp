@@ -81,7 +81,7 @@ class Lister {
     Number("rounding_m", m.rounding_m, 0, 0.1, "m");
   }
   void All(Sensor& sensor) {
-    std::visit([this](auto& model) { List(model); }, sensor.depth);
+    std::visit([this](auto& model) { this->List(model); }, sensor.depth);
     Number("colour_shot_variance", sensor.colour.shot_variance, 0, 1, "");
     Number("colour_read_sigma", sensor.colour.read_sigma, 0, 1, "");
     Number("colour_corner_loss", sensor.colour.corner_loss, 0, 1, "");

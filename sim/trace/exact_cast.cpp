@@ -5,12 +5,14 @@
 #include <array>
 #include <limits>
 #include <numeric>
+#include <utility>
 
 namespace sim {
 namespace {
 
 constexpr int kLeaf = 4;             ///< triangles
 constexpr double kPadding_m = 1e-9;  ///< so that rounding never loses a flat box
+constexpr double kSame = 1e-12;      ///< share of the distance
 constexpr std::size_t kDeepest = 64;
 
 /// Where the ray enters the box, or infinity.
@@ -89,11 +91,16 @@ void ExactCaster::Try(int triangle, const Eigen::Vector3d& origin_w,
   const double sum = ab + bc + ca;
   if (!inside || !(sum != 0)) return;
   const Eigen::Vector3d n = (t.b - t.a).cross(t.c - t.a);
-  const double distance = n.dot(a) / n.dot(direction_w);
+  const double slope = n.dot(direction_w), distance = n.dot(a) / slope;
   if (!(distance > near)) return;
-  const bool nearer = best.triangle < 0 || distance < best.distance ||
-                      (distance == best.distance && triangle < best.triangle);
-  if (nearer) best = {triangle, distance, ca / sum, ab / sum};
+  const ExactHit hit{triangle, distance, ca / sum, ab / sum, slope < 0};
+  if (best.triangle < 0 || distance < best.distance * (1 - kSame)) {
+    best = hit;
+  } else if (distance <= best.distance * (1 + kSame)) {
+    const bool better =
+        hit.from_front != best.from_front ? hit.from_front : triangle < best.triangle;
+    if (better) best = hit;
+  }
 }
 
 ExactHit ExactCaster::Nearest(const Eigen::Vector3d& origin_w,
@@ -101,22 +108,33 @@ ExactHit ExactCaster::Nearest(const Eigen::Vector3d& origin_w,
   ExactHit best;
   if (nodes_.empty()) return best;
   const Eigen::Array3d origin = origin_w.array(), inverse = direction_w.array().inverse();
-  std::array<int, kDeepest> stack;
+  struct Visit {
+    int node;
+    double enter;
+  };
+  std::array<Visit, kDeepest> stack;
   std::size_t size = 0;
-  stack[size++] = 0;
+  const auto far = [&] {  // beyond the best: what is as near must be seen too
+    return best.triangle < 0 ? std::numeric_limits<double>::infinity()
+                             : best.distance * (1 + 2 * kSame);
+  };
+  const auto visit = [&](int index) -> Visit {
+    const Node& node = nodes_[static_cast<std::size_t>(index)];
+    return {index, Enter(node.low, node.high, origin, inverse, far())};
+  };
+  stack[size++] = visit(0);
   while (size > 0) {
-    const Node& node = nodes_[static_cast<std::size_t>(stack[--size])];
-    // A little beyond the best: the box and the triangle round differently.
-    const double far = best.triangle < 0 ? std::numeric_limits<double>::infinity()
-                                         : best.distance * (1 + 1e-12);
-    if (!(Enter(node.low, node.high, origin, inverse, far) <= far)) continue;
+    const Visit at = stack[--size];
+    if (!(at.enter <= far()) || at.enter == std::numeric_limits<double>::infinity()) continue;
+    const Node& node = nodes_[static_cast<std::size_t>(at.node)];
     for (int i = node.first; i < node.first + node.count; ++i) {
       Try(order_[static_cast<std::size_t>(i)], origin_w, direction_w, near, best);
     }
-    if (node.count == 0) {
-      stack[size++] = node.right;
-      stack[size++] = node.left;
-    }
+    if (node.count > 0) continue;
+    Visit first = visit(node.left), second = visit(node.right);
+    if (second.enter < first.enter) std::swap(first, second);
+    if (second.enter <= far()) stack[size++] = second;
+    if (first.enter <= far()) stack[size++] = first;
   }
   return best;
 }

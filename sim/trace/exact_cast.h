@@ -13,6 +13,7 @@ struct ExactHit {
   int triangle = -1;
   double distance = 0;    ///< in units of the direction
   double b1 = 0, b2 = 0;  ///< barycentric weights of corners 1 and 2
+  bool from_front = false;
 };
 
 /// Casts rays at triangles in double, without the ray tracer: slow, but the same bits on every
@@ -22,7 +23,8 @@ class ExactCaster {
   explicit ExactCaster(std::span<const Triangle> triangles);
 
   /// Nearest triangle, either side of it, further than `near` times the direction. Of two at
-  /// the same distance the first in the list.
+  /// the same distance, to 1e-12, the one seen from the front (a ray along the edge of a body
+  /// shows the side that faces the camera), then the first in the list.
   ExactHit Nearest(const Eigen::Vector3d& origin_w, const Eigen::Vector3d& direction_w,
                    double near) const;
 

@@ -2,8 +2,10 @@
 
 #include <algorithm>
 
+#include "sim/scene/geometry.h"
 #include "sim/trace/box_outline.h"
 #include "sim/trace/render_world.h"
+#include "sim/trace/rendered_scene.h"
 #include "sim/trace/view.h"
 
 namespace sim {
@@ -40,7 +42,7 @@ int CastAlone(const RenderWorld& world, std::size_t object_index, const Pose& T_
 }  // namespace
 
 FrameRenderer::FrameRenderer(const Scene& scene, const Camera& camera, InstructionSet set)
-    : world_(std::make_unique<const RenderWorld>(scene, camera, set)) {}
+    : world_(std::make_unique<const RenderedScene>(scene, camera, set)) {}
 FrameRenderer::~FrameRenderer() = default;
 FrameRenderer::FrameRenderer(FrameRenderer&&) noexcept = default;
 
@@ -53,27 +55,55 @@ Rendering FrameRenderer::Render(const Pose& T_wc, const RenderOptions& options) 
 void FrameRenderer::Render(const Pose& T_wc, const RenderOptions& options,
                            Rendering& out) const {
   thread_local View view;  // memory only; nothing of one view tells on the next
-  view.Render(*world_, T_wc, options, out);
+  if (world_->movers.empty()) {
+    view.Render(world_->standing, T_wc, options, {}, out);
+  } else {
+    RenderMoving(*world_, T_wc, options, view, out);
+  }
+}
+
+double FrameRenderer::BareTraversal_s(const Pose& T_wc, const RenderOptions& options) const {
+  Rendering out;
+  RayLog log;
+  View().Render(world_->standing, T_wc, options, {}, out, &log);
+  return world_->standing.rays.TimeToCast(log);
 }
 
 int FrameRenderer::UnoccludedPixels(std::size_t object_index, const Pose& T_wc,
-                                    const cv::Rect& where, const cv::Mat1w& object_id) const {
-  const Camera& camera = world_->camera;
+                                    const cv::Rect& where, const cv::Mat1w& object_id,
+                                    double time_s) const {
+  const Camera& camera = world_->standing.camera;
   const cv::Rect area = where & cv::Rect(0, 0, camera.width, camera.height);
-  const Object& object = world_->scene.objects.at(object_index);
+  const auto [world, place] = world_->Find(object_index);
+  const Pose T_mc = Inverse(Moved(object_index, time_s)) * T_wc;
+  const Object& object = world->scene.objects.at(place);
   if (object.shape != ShapeKind::kBox) {
-    return CastAlone(*world_, object_index, T_wc, area, object_id);
+    return CastAlone(*world, place, T_mc, area, object_id);
   }
-  return BoxOutline(object, T_wc).PixelsInside(camera, world_->image_rays, area);
+  return BoxOutline(object, T_mc).PixelsInside(camera, world->image_rays, area);
 }
 
-bool FrameRenderer::Sees(const Pose& T_wc, const Eigen::Vector3d& x_w) const {
+Pose FrameRenderer::Moved(std::size_t object_index, double time_s) const {
+  const Object& object = world_->scene.objects.at(object_index);
+  if (object.way.empty()) return {};
+  return MotionOf(object, time_s);
+}
+
+bool FrameRenderer::Sees(const Pose& T_wc, const Eigen::Vector3d& x_w, double time_s) const {
   const Eigen::Vector3d ray_w = x_w - T_wc.t;
-  const ExactHit hit = world_->caster.Nearest(T_wc.t, ray_w, 0.0);
-  return hit.triangle < 0 || (1 - hit.distance) * ray_w.norm() <= kLeaveSurface_m;
+  const auto sees_past = [&](const ExactCaster& caster, const Eigen::Vector3d& from,
+                             const Eigen::Vector3d& ray) {
+    const ExactHit hit = caster.Nearest(from, ray, 0.0);
+    return hit.triangle < 0 || (1 - hit.distance) * ray_w.norm() <= kLeaveSurface_m;
+  };
+  if (!sees_past(world_->standing.caster, T_wc.t, ray_w)) return false;
+  return std::all_of(world_->movers.begin(), world_->movers.end(), [&](const auto& mover) {
+    const Pose T_mw = Inverse(MotionOf(mover->given, time_s));
+    return sees_past(mover->world.caster, T_mw * T_wc.t, T_mw.R * ray_w);
+  });
 }
 
-const Camera& FrameRenderer::camera() const { return world_->camera; }
+const Camera& FrameRenderer::camera() const { return world_->standing.camera; }
 const Scene& FrameRenderer::scene() const { return world_->scene; }
 
 }  // namespace sim

@@ -22,6 +22,7 @@ struct Rendering {
 };
 
 struct RenderOptions {
+  double time_s = 0;                  ///< where what moves is
   bool colour = true;                 ///< fill radiance
   double projector_offset_m = 0.0;    ///< along camera +x; 0 leaves projector_lit empty
   cv::Range rows = cv::Range::all();  ///< only these are rendered; the rest is left alone
@@ -31,9 +32,14 @@ struct RenderOptions {
   bool exact_edges = true;
 };
 
-struct RenderWorld;
+struct RenderedScene;
 
-/// Renders views of one scene. Const and thread-safe; a view depends on its pose alone.
+/// Renders views of one scene. Const and thread-safe; a view depends on its pose and time
+/// alone.
+///
+/// What moves is rendered as if it stood and the camera moved round it, so that its depth is as
+/// exact as that of what stands, and put together by depth. Shadows fall from each on the
+/// others.
 class FrameRenderer {
  public:
   /// @throws std::invalid_argument when ids do not fit in 16 bits.
@@ -48,6 +54,11 @@ class FrameRenderer {
   /// The same into the images of an earlier view, whose memory is used again.
   void Render(const Pose& T_wc, const RenderOptions& options, Rendering& out) const;
 
+  /// Seconds of processor time that the ray tracer alone takes for the rays of this view: one
+  /// through each pixel, those to the sun and to the projector. Of what stands; what moves is
+  /// left out.
+  double BareTraversal_s(const Pose& T_wc, const RenderOptions& options) const;
+
   /// Pixels whose centre ray meets the object when nothing else is there, inside the image:
   /// what the object would show unoccluded. A box is looked at in double, by its outline; of
   /// other shapes visible pixels count without a ray.
@@ -55,17 +66,20 @@ class FrameRenderer {
   /// @param where         pixels to look at; must hold the whole silhouette in the image
   /// @param object_id     of the same view
   int UnoccludedPixels(std::size_t object_index, const Pose& T_wc, const cv::Rect& where,
-                       const cv::Mat1w& object_id) const;
+                       const cv::Mat1w& object_id, double time_s = 0) const;
+
+  /// From the place where an object stands in the mesh of the scene to where it is at a moment.
+  Pose Moved(std::size_t object_index, double time_s) const;
 
   /// Whether nothing lies between the camera's centre and the point, up to 0.1 mm before it.
   /// Decided in double.
-  bool Sees(const Pose& T_wc, const Eigen::Vector3d& x_w) const;
+  bool Sees(const Pose& T_wc, const Eigen::Vector3d& x_w, double time_s = 0) const;
 
   const Camera& camera() const;
   const Scene& scene() const;
 
  private:
-  std::unique_ptr<const RenderWorld> world_;
+  std::unique_ptr<const RenderedScene> world_;
 };
 
 }  // namespace sim

@@ -81,8 +81,9 @@ Eigen::Vector3d SurfaceTable::ShadingNormal(int triangle, double b1, double b2) 
 const Texture& SurfaceTable::Print(int triangle) const {
   Baked& baked = *baked_[static_cast<std::size_t>(At(triangle).material)];
   std::call_once(baked.once, [&] {
+    const bool plain = baked.material.print == Print::kPlain;
     baked.texture.emplace(baked.material, baked.low, baked.high - baked.low, texel_m_,
-                          max_texels_);
+                          plain ? 1 : max_texels_);
   });
   return *baked.texture;
 }

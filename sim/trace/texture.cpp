@@ -103,46 +103,60 @@ void Texture::Halve() {
   levels_.push_back(std::move(coarse));
 }
 
-std::array<float, 4> Texture::Sample(const TextureLook& look) const {
+TextureFootprint Texture::Footprint(const TextureSteps& steps) const {
   const float scale = 1.0F / texel_m_;
-  const float u = (look.u - low_m_.x()) * scale, v = (look.v - low_m_.y()) * scale;
-  const float right = look.right_u * look.right_u + look.right_v * look.right_v;
-  const float down = look.down_u * look.down_u + look.down_v * look.down_v;
+  const float right = steps.right_u * steps.right_u + steps.right_v * steps.right_v;
+  const float down = steps.down_u * steps.down_u + steps.down_v * steps.down_v;
   const bool wide = right > down;
   const float major = std::sqrt(wide ? right : down);
-  const float area = std::abs(look.right_u * look.down_v - look.right_v * look.down_u);
+  const float area = std::abs(steps.right_u * steps.down_v - steps.right_v * steps.down_u);
   const float minor = std::max(area / std::max(major, 1e-12F), major / kMaxTaps);
   const float last = static_cast<float>(levels_.size() - 1);
   const float lod = std::clamp(RoughLog2(std::max(minor * scale, 1e-6F)), 0.0F, last);
-  const int taps = std::clamp(static_cast<int>(major / minor + 0.5F), 1, kMaxTaps);
-  const auto fine = static_cast<std::size_t>(lod);
-  const float blend = lod - static_cast<float>(fine);
-  const bool two = blend >= kLeastBlend && fine + 1 < levels_.size();
-  const float share = 1.0F / static_cast<float>(taps);
-  const float step_u = (wide ? look.right_u : look.down_u) * scale * share;
-  const float step_v = (wide ? look.right_v : look.down_v) * scale * share;
+  TextureFootprint footprint;
+  footprint.taps = std::clamp(static_cast<int>(major / minor + 0.5F), 1, kMaxTaps);
+  footprint.level = static_cast<std::size_t>(lod);
+  const float blend = lod - static_cast<float>(footprint.level);
+  if (blend >= kLeastBlend && footprint.level + 1 < levels_.size()) footprint.blend = blend;
+  const float share = scale / static_cast<float>(footprint.taps);
+  footprint.step_u = (wide ? steps.right_u : steps.down_u) * share;
+  footprint.step_v = (wide ? steps.right_v : steps.down_v) * share;
+  return footprint;
+}
+
+std::array<float, 4> Texture::Sample(float u_m, float v_m,
+                                     const TextureFootprint& footprint) const {
+  const float scale = 1.0F / texel_m_;
+  const float middle = 0.5F * static_cast<float>(footprint.taps - 1);
+  const float first_u = (u_m - low_m_.x()) * scale - middle * footprint.step_u;
+  const float first_v = (v_m - low_m_.y()) * scale - middle * footprint.step_v;
   const auto sum_of = [&](std::size_t index) {
     const Level& level = levels_[index];
     const float size = 1.0F / static_cast<float>(1u << index);
+    const float last_x = static_cast<float>(level.width - 1);
+    const float last_y = static_cast<float>(level.height - 1);
+    const std::size_t row = static_cast<std::size_t>(level.width + 1);
     __m128 sum = _mm_setzero_ps();
-    for (int k = 0; k < taps; ++k) {
-      const float along = static_cast<float>(k) - 0.5F * static_cast<float>(taps - 1);
-      const float x = (u + along * step_u) * size - 0.5F,
-                  y = (v + along * step_v) * size - 0.5F;
-      const float x_in = std::clamp(x, 0.0F, static_cast<float>(level.width - 1));
-      const float y_in = std::clamp(y, 0.0F, static_cast<float>(level.height - 1));
-      const int x0 = static_cast<int>(x_in), y0 = static_cast<int>(y_in);
-      sum = _mm_add_ps(sum,
-                       Between(level.At(x0, y0).data(), level.At(x0, y0 + 1).data(),
-                               x_in - static_cast<float>(x0), y_in - static_cast<float>(y0)));
+    for (int k = 0; k < footprint.taps; ++k) {
+      const auto along = static_cast<float>(k);
+      const float x =
+          std::min(std::max((first_u + along * footprint.step_u) * size - 0.5F, 0.0F), last_x);
+      const float y =
+          std::min(std::max((first_v + along * footprint.step_v) * size - 0.5F, 0.0F), last_y);
+      const int x0 = static_cast<int>(x), y0 = static_cast<int>(y);
+      const Texel* texel = level.texels.data() + static_cast<std::size_t>(y0) * row +
+                           static_cast<std::size_t>(x0);
+      sum = _mm_add_ps(sum, Between(texel->data(), texel[row].data(),
+                                    x - static_cast<float>(x0), y - static_cast<float>(y0)));
     }
     return sum;
   };
-  __m128 root = sum_of(fine);
-  if (two) {
-    const __m128 coarse = sum_of(fine + 1);
-    root = _mm_add_ps(root, _mm_mul_ps(_mm_sub_ps(coarse, root), _mm_set1_ps(blend)));
+  __m128 root = sum_of(footprint.level);
+  if (footprint.blend > 0) {
+    const __m128 coarse = sum_of(footprint.level + 1);
+    root = _mm_add_ps(root, _mm_mul_ps(_mm_sub_ps(coarse, root), _mm_set1_ps(footprint.blend)));
   }
+  const float share = 1.0F / static_cast<float>(footprint.taps);
   root = _mm_mul_ps(root, _mm_set1_ps(share / (255.0F * kOne)));
   std::array<float, 4> colour;
   _mm_storeu_ps(colour.data(), _mm_mul_ps(root, root));

@@ -9,9 +9,17 @@
 
 namespace sim {
 
-/// Where to look at a print: uv and the steps to the next pixel right and down, metres.
-struct TextureLook {
-  float u, v, right_u, right_v, down_u, down_v;
+/// The steps to the next pixel right and down, metres on the face.
+struct TextureSteps {
+  float right_u, right_v, down_u, down_v;
+};
+
+/// What of a print a pixel covers: which copies of the image to look at, and where round uv.
+struct TextureFootprint {
+  std::size_t level = 0;
+  float blend = 0;  ///< share of the next coarser level
+  int taps = 1;
+  float step_u = 0, step_v = 0;  ///< from tap to tap, finest texels
 };
 
 /// A face's print, baked once into an image with its half-sized copies, so that every later
@@ -24,9 +32,11 @@ class Texture {
   Texture(const Material& material, const Eigen::Vector2d& low_m,
           const Eigen::Vector2d& extent_m, double texel_m, int max_texels = 2048);
 
-  /// Linear reflectance at a look, averaged over about the parallelogram spanned by its steps.
-  /// Clamps at the border. Channels r, g, b and one without meaning.
-  std::array<float, 4> Sample(const TextureLook& look) const;
+  /// About the parallelogram spanned by the steps.
+  TextureFootprint Footprint(const TextureSteps& steps) const;
+  /// Linear reflectance at uv, metres, averaged over a footprint. Clamps at the border.
+  /// Channels r, g, b and one without meaning.
+  std::array<float, 4> Sample(float u, float v, const TextureFootprint& footprint) const;
 
  private:
   using Texel = std::array<std::uint8_t, 4>;  ///< square root of the reflectance

@@ -31,11 +31,14 @@ void View::RowArrays::Resize(std::size_t size) {
 }
 
 void View::Render(const RenderWorld& world, const Pose& T_wc, const RenderOptions& options,
-                  Rendering& out) {
+                  const Surroundings& around, Rendering& out, RayLog* log) {
   world_ = &world;
+  around_ = &around;
+  to_sun_w_ = around.T_sw.R.transpose() * world.to_sun_w;
   T_wc_ = T_wc;
   options_ = options;
   out_ = &out;
+  log_ = log;
   Prepare();
   for (int v = rows_.start; v < rows_.end; ++v) TraceRow(v);
   if (options_.exact_edges) DecideEdges();
@@ -43,6 +46,7 @@ void View::Render(const RenderWorld& world, const Pose& T_wc, const RenderOption
     RecordRow(v);
     if (options_.colour) {
       CastToSun(v);
+      if (!lights_.Empty()) CastToLights(v);
       ShadeRow(v);
     }
     if (options_.projector_offset_m != 0) CastToEye(v);
@@ -69,7 +73,10 @@ void View::Prepare() {
     out_->radiance.release();
   }
   eye_w_ = T_wc_ * Eigen::Vector3d(options_.projector_offset_m, 0, 0);
-  facets_.Start(*world_, T_wc_, eye_w_);
+  facets_.Start(*world_, T_wc_, eye_w_, around_->T_sw.R);
+  if (around_->coverage != nullptr && options_.colour) around_->coverage->create(size);
+  lights_.Start(world_->scene.lights, around_->T_sw);
+  lights_row_.resize(lights_.Empty() ? 0 : Index(camera.width));
   stride_ = Index((camera.width + kLanes - 1) / kLanes * kLanes);
   row_.Resize(stride_);
   triangles_.resize(stride_ * Index(camera.height));
@@ -99,6 +106,7 @@ void View::TraceRow(int v) {
       packet.dz[Index(i)] = static_cast<float>(row_.dz[Index(u0 + i)]);
       if (u0 + i >= width) packet.Disable(i);
     }
+    if (log_ != nullptr) log_->nearest.push_back(packet);
     const PacketHits found = world_->rays.Nearest(packet);
     std::memcpy(Triangles(v) + u0, found.triangle.data(), sizeof found.triangle);
   }
@@ -184,10 +192,27 @@ void View::RecordRun(int v, int first, int last, const SeenFacet& facet) {
   fill(row_.eye_far.data(), facet.faces_eye ? 1.0F : -1.0F);
 }
 
+std::array<bool, kLanes> View::Blocked(const RayPacket& packet) const {
+  auto blocked = world_->rays.Blocked(packet);
+  for (const Blocker& other : around_->others) {
+    RayPacket moved;
+    for (int i = 0; i < kLanes; ++i) {
+      const std::size_t k = Index(i);
+      const Eigen::Vector3f start(packet.x[k], packet.y[k], packet.z[k]);
+      const Eigen::Vector3f way(packet.dx[k], packet.dy[k], packet.dz[k]);
+      moved.Set(i, other.T_bw * start.cast<double>(), other.T_bw.R * way.cast<double>(),
+                packet.near[k], blocked[k] ? -1.0F : packet.far[k]);
+    }
+    const auto by_it = other.rays->Blocked(moved);
+    for (std::size_t k = 0; k < by_it.size(); ++k) blocked[k] = blocked[k] || by_it[k];
+  }
+  return blocked;
+}
+
 void View::CastToSun(int v) {
   RayPacket packet;
   for (int i = 0; i < kLanes; ++i) {
-    packet.Set(i, Eigen::Vector3d::Zero(), world_->to_sun_w, 0.0F);
+    packet.Set(i, Eigen::Vector3d::Zero(), to_sun_w_, 0.0F);
   }
   std::uint32_t* surfaces = Surfaces(v);
   for (int u0 = 0; u0 < world_->camera.width; u0 += kLanes) {
@@ -196,7 +221,8 @@ void View::CastToSun(int v) {
     Load(packet.x, row_.start_x, u0);
     Load(packet.y, row_.start_y, u0);
     Load(packet.z, row_.start_z, u0);
-    const auto blocked = world_->rays.Blocked(packet);
+    if (log_ != nullptr) log_->blocked.push_back(packet);
+    const auto blocked = Blocked(packet);
     for (int i = 0; i < kLanes; ++i) {
       if (packet.far[Index(i)] > 0 && !blocked[Index(i)]) surfaces[u0 + i] |= 1u;
     }
@@ -218,7 +244,8 @@ void View::CastToEye(int v) {
     Load(packet.dx, row_.to_eye_x, u0);
     Load(packet.dy, row_.to_eye_y, u0);
     Load(packet.dz, row_.to_eye_z, u0);
-    const auto blocked = world_->rays.Blocked(packet);
+    if (log_ != nullptr) log_->blocked.push_back(packet);
+    const auto blocked = Blocked(packet);
     for (int i = 0; i < lanes; ++i) {
       if (packet.far[Index(i)] > 0 && !blocked[Index(i)]) lit[u0 + i] = 255;
     }

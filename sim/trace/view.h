@@ -4,16 +4,36 @@
 #include <vector>
 
 #include "sim/trace/frame_renderer.h"
+#include "sim/trace/lights.h"
 #include "sim/trace/render_world.h"
 #include "sim/trace/view_facets.h"
 
 namespace sim {
 
+/// What is seen where nothing is.
+inline const cv::Vec3f kSky(0.55F, 0.6F, 0.66F);
+
+/// Something else that throws shadows on what a view shows.
+struct Blocker {
+  const RayScene* rays = nullptr;
+  Pose T_bw;  ///< from the frame of the view's world to its own
+};
+
+/// Where a world stands among others that move past it.
+struct Surroundings {
+  Pose T_sw;  ///< from its frame to that of the sun and the lights
+  std::vector<Blocker> others;
+  /// How many of four rays a pixel hit; 0 or 4 off the edges. Left alone when null, or without
+  /// colour.
+  cv::Mat1b* coverage = nullptr;
+};
+
 /// The work of one Render call. Its memory is kept from one view to the next.
 class View {
  public:
+  /// @param log  takes down the rays through pixel centres and those from what they hit
   void Render(const RenderWorld& world, const Pose& T_wc, const RenderOptions& options,
-              Rendering& out);
+              const Surroundings& around, Rendering& out, RayLog* log = nullptr);
 
  private:
   /// Of one row of pixels, as long as whole packets.
@@ -32,6 +52,8 @@ class View {
   };
 
   void Prepare();
+  /// Whether anything, of this world or another, is between near and far.
+  std::array<bool, RayPacket::kLanes> Blocked(const RayPacket& packet) const;
   void LoadRow(int v);
   void TraceRow(int v);
   void DecideEdges();
@@ -41,9 +63,21 @@ class View {
   void RecordRun(int v, int first, int last, const SeenFacet& facet);
   void CastToSun(int v);
   void CastToEye(int v);
+  void CastToLights(int v);
+  LightAtSpots LightsAt(const Spots& spots) const;
   void ShadeRow(int v);
-  cv::Vec3f Shade(const SeenFacet& facet, double x, double y, float z, bool sunlit);
+  void ShadeRun(int v, int first, int last);
+  /// Place on the print of what the ray (x, y, 1) meets at depth z, metres.
+  static std::array<float, 2> PrintAt(const SeenFacet& facet, double x, double y, float z);
+  TextureFootprint Footprint(const SeenFacet& facet, const std::array<float, 2>& at, float z);
+  /// @param lights  on it, beside the sun's
+  cv::Vec3f Shade(const SeenFacet& facet, double x, double y, float z, bool sunlit,
+                  const cv::Vec3f& lights);
   float LightOn(const SeenFacet& facet, double x, double y, bool sunlit) const;
+  Eigen::Vector3d NormalAt(const SeenFacet& facet, double x, double y) const;
+  /// Makes what the ray (x, y, 1) meets at depth z one of the places.
+  void SetSpot(int lane, const SeenFacet& facet, double x, double y, double z,
+               Spots& spots) const;
   void SmoothEdges();
   void MarkEdges(int v, std::vector<int>& pixels) const;
   void SmoothPair(int a, int b);
@@ -55,15 +89,21 @@ class View {
 
   const RenderWorld* world_ = nullptr;
   Pose T_wc_;
+  const Surroundings* around_ = nullptr;
+  Eigen::Vector3d to_sun_w_;
   RenderOptions options_;
   cv::Range rows_;  ///< to render
   Rendering* out_ = nullptr;
+  RayLog* log_ = nullptr;
   Eigen::Vector3d eye_w_;
   std::size_t stride_ = 0;
   RowArrays row_;
   ViewFacets facets_;
-  std::vector<int> triangles_;           ///< what each pixel shows
-  std::vector<std::uint32_t> surfaces_;  ///< SeenFacet::surface, + 1 in the sun
+  std::vector<int> triangles_;  ///< what each pixel shows
+  /// SeenFacet::surface, + 1 in the sun; then a bit for each light.
+  std::vector<std::uint32_t> surfaces_;
+  LightPoints lights_;
+  std::vector<cv::Vec3f> lights_row_;  ///< light of the lights on a row; empty without lights
   std::vector<EdgePixel> edges_;
   std::vector<std::uint8_t> decided_;  ///< by pixel, while edges are decided
   std::vector<int> on_edge_;

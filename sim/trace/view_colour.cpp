@@ -8,16 +8,15 @@ namespace sim {
 namespace {
 
 constexpr int kLanes = RayPacket::kLanes;
-const cv::Vec3f kSky(0.55F, 0.6F, 0.66F);
 /// Four rays an edge pixel: a rotated grid, the same in each pixel.
 constexpr std::array<std::array<double, 2>, 4> kSubPixels{
     {{-0.125, -0.375}, {0.375, -0.125}, {0.125, 0.375}, {-0.375, 0.125}}};
 
 }  // namespace
 
-/// Light on the spot that the ray (x, y, 1) meets.
-float View::LightOn(const SeenFacet& facet, double x, double y, bool sunlit) const {
-  if (facet.flat) return sunlit ? facet.lit : facet.unlit;
+/// Unit normal to shade by at the spot that the ray (x, y, 1) meets.
+Eigen::Vector3d View::NormalAt(const SeenFacet& facet, double x, double y) const {
+  if (facet.flat) return facet.n_w;
   // Barycentric weights in double, which the ray tracer's are not the same on every processor.
   const Eigen::Vector3d d = T_wc_.R * Eigen::Vector3d(x, y, 1.0);
   const auto& corners = world_->mesh.triangles[Index(facet.triangle)].corners_w;
@@ -25,42 +24,88 @@ float View::LightOn(const SeenFacet& facet, double x, double y, bool sunlit) con
                         c = corners[2] - T_wc_.t;
   const double ab = d.dot(a.cross(b)), bc = d.dot(b.cross(c)), ca = d.dot(c.cross(a));
   const double sum = ab + bc + ca;
-  const Eigen::Vector3d n_w =
-      sum != 0 ? world_->surfaces.ShadingNormal(facet.triangle, ca / sum, ab / sum) : facet.n_w;
-  return LightOnNormal(world_->scene.sun, world_->to_sun_w, n_w, sunlit);
+  return sum != 0 ? world_->surfaces.ShadingNormal(facet.triangle, ca / sum, ab / sum)
+                  : facet.n_w;
 }
 
-cv::Vec3f View::Shade(const SeenFacet& facet, double x, double y, float z, bool sunlit) {
+/// Light of the sun, and from all round, on the spot that the ray (x, y, 1) meets.
+float View::LightOn(const SeenFacet& facet, double x, double y, bool sunlit) const {
+  if (facet.flat) return sunlit ? facet.lit : facet.unlit;
+  return LightOnNormal(world_->scene.sun, world_->to_sun_w,
+                       around_->T_sw.R * NormalAt(facet, x, y), sunlit);
+}
+
+std::array<float, 2> View::PrintAt(const SeenFacet& facet, double x, double y, float z) {
   const auto& uv = facet.uv_over_depth;
   const float fx = static_cast<float>(x), fy = static_cast<float>(y);
-  TextureLook look;
-  look.u = z * (uv(0, 0) * fx + uv(0, 1) * fy + uv(0, 2));
-  look.v = z * (uv(1, 0) * fx + uv(1, 1) * fy + uv(1, 2));
+  return {z * (uv(0, 0) * fx + uv(0, 1) * fy + uv(0, 2)),
+          z * (uv(1, 0) * fx + uv(1, 1) * fy + uv(1, 2))};
+}
+
+TextureFootprint View::Footprint(const SeenFacet& facet, const std::array<float, 2>& at,
+                                 float z) {
+  const auto& uv = facet.uv_over_depth;
   const float right = z / static_cast<float>(world_->camera.fx);
   const float down = z / static_cast<float>(world_->camera.fy);
   const auto along_x = static_cast<float>(facet.inverse_depth.x());
   const auto along_y = static_cast<float>(facet.inverse_depth.y());
-  look.right_u = (uv(0, 0) - look.u * along_x) * right;
-  look.right_v = (uv(1, 0) - look.v * along_x) * right;
-  look.down_u = (uv(0, 1) - look.u * along_y) * down;
-  look.down_v = (uv(1, 1) - look.v * along_y) * down;
-  const std::array<float, 4> albedo = facets_.Print(facet).Sample(look);
+  return facets_.Print(facet).Footprint(
+      {(uv(0, 0) - at[0] * along_x) * right, (uv(1, 0) - at[1] * along_x) * right,
+       (uv(0, 1) - at[0] * along_y) * down, (uv(1, 1) - at[1] * along_y) * down});
+}
+
+cv::Vec3f View::Shade(const SeenFacet& facet, double x, double y, float z, bool sunlit,
+                      const cv::Vec3f& lights) {
+  const std::array<float, 2> at = PrintAt(facet, x, y, z);
+  const std::array<float, 4> albedo =
+      facets_.Print(facet).Sample(at[0], at[1], Footprint(facet, at, z));
   const float light = LightOn(facet, x, y, sunlit);
-  return {albedo[0] * light, albedo[1] * light, albedo[2] * light};
+  return {albedo[0] * (light + lights[0]), albedo[1] * (light + lights[1]),
+          albedo[2] * (light + lights[2])};
+}
+
+/// A stretch of pixels of one triangle. Their footprints hardly differ over eight pixels: that
+/// of the middle one serves all.
+void View::ShadeRun(int v, int first, int last) {
+  const SeenFacet& facet = facets_.At(Triangles(v)[first]);
+  const Texture& print = facets_.Print(facet);
+  const std::uint32_t* surfaces = Surfaces(v);
+  const double* depth = out_->depth_m[v];
+  cv::Vec3f* colour = out_->radiance[v];
+  const auto at = [&](int u) {
+    return PrintAt(facet, row_.x[Index(u)], row_.y[Index(u)], static_cast<float>(depth[u]));
+  };
+  for (int from = first; from < last; from += kLanes) {
+    const int to = std::min(from + kLanes, last), middle = (from + to) / 2;
+    const TextureFootprint footprint =
+        Footprint(facet, at(middle), static_cast<float>(depth[middle]));
+    for (int u = from; u < to; ++u) {
+      const std::array<float, 2> uv = at(u);
+      const std::array<float, 4> albedo = print.Sample(uv[0], uv[1], footprint);
+      const float light =
+          LightOn(facet, row_.x[Index(u)], row_.y[Index(u)], (surfaces[u] & 1u) != 0);
+      const cv::Vec3f lights = lights_.Empty() ? cv::Vec3f(0, 0, 0) : lights_row_[Index(u)];
+      colour[u] = cv::Vec3f(albedo[0] * (light + lights[0]), albedo[1] * (light + lights[1]),
+                            albedo[2] * (light + lights[2]));
+    }
+  }
 }
 
 void View::ShadeRow(int v) {
   const int* triangles = Triangles(v);
-  const std::uint32_t* surfaces = Surfaces(v);
-  const double* depth = out_->depth_m[v];
-  cv::Vec3f* colour = out_->radiance[v];
-  for (int u = 0; u < world_->camera.width; ++u) {
-    if (triangles[u] == PacketHits::kNothing) {
-      colour[u] = kSky;
-      continue;
+  const int width = world_->camera.width;
+  for (int first = 0, last = 0; first < width; first = last) {
+    while (last < width && triangles[last] == triangles[first]) ++last;
+    const bool sky = triangles[first] == PacketHits::kNothing;
+    if (around_->coverage != nullptr) {
+      std::fill((*around_->coverage)[v] + first, (*around_->coverage)[v] + last,
+                static_cast<uchar>(sky ? 0 : 4));
     }
-    colour[u] = Shade(facets_.At(triangles[u]), row_.x[Index(u)], row_.y[Index(u)],
-                      static_cast<float>(depth[u]), (surfaces[u] & 1u) != 0);
+    if (sky) {
+      std::fill(out_->radiance[v] + first, out_->radiance[v] + last, kSky);
+    } else {
+      ShadeRun(v, first, last);
+    }
   }
 }
 
@@ -91,6 +136,7 @@ void View::SmoothPair(int a, int b) {
   const int width = world_->camera.width;
   std::array<Eigen::Vector3d, kLanes> rays;
   RayPacket packet, to_sun;
+  Spots spots;
   for (int i = 0; i < kLanes; ++i) {
     const int pixel = i < 4 ? a : b;
     const auto& [du, dv] = kSubPixels[Index(i % 4)];
@@ -105,13 +151,18 @@ void View::SmoothPair(int a, int b) {
     if (found.triangle[Index(i)] == PacketHits::kNothing) continue;
     const SeenFacet& facet = facets_.At(found.triangle[Index(i)]);
     z[Index(i)] = 1.0 / facet.inverse_depth.dot(rays[Index(i)]);
+    if (!lights_.Empty()) {
+      SetSpot(i, facet, rays[Index(i)].x(), rays[Index(i)].y(), z[Index(i)], spots);
+    }
     if (!facet.faces_sun) continue;
     any = true;
     to_sun.Set(i, T_wc_ * (z[Index(i)] * rays[Index(i)]) + kLeaveSurface_m * facet.n_w,
-               world_->to_sun_w, 0.0F);
+               to_sun_w_, 0.0F);
   }
   std::array<bool, kLanes> blocked{};
-  if (any) blocked = world_->rays.Blocked(to_sun);
+  if (any) blocked = Blocked(to_sun);
+  LightAtSpots lights;
+  if (!lights_.Empty()) lights = LightsAt(spots);
   std::array<cv::Vec3f, 2> sum{cv::Vec3f(0, 0, 0), cv::Vec3f(0, 0, 0)};
   for (int i = 0; i < kLanes; ++i) {
     const std::size_t k = Index(i);
@@ -121,10 +172,15 @@ void View::SmoothPair(int a, int b) {
     }
     const SeenFacet& facet = facets_.At(found.triangle[k]);
     sum[k / 4] += Shade(facet, rays[k].x(), rays[k].y(), static_cast<float>(z[k]),
-                        facet.faces_sun && !blocked[k]);
+                        facet.faces_sun && !blocked[k], lights.light[k]);
   }
-  out_->radiance(a / width, a % width) = 0.25F * sum[0];
-  out_->radiance(b / width, b % width) = 0.25F * sum[1];
+  for (const auto& [pixel, k] : {std::pair(a, 0), std::pair(b, 1)}) {
+    out_->radiance(pixel / width, pixel % width) = 0.25F * sum[Index(k)];
+    if (around_->coverage == nullptr) continue;
+    const auto first = found.triangle.begin() + 4 * k;
+    (*around_->coverage)(pixel / width, pixel % width) =
+        static_cast<uchar>(4 - std::count(first, first + 4, PacketHits::kNothing));
+  }
 }
 
 }  // namespace sim

@@ -11,11 +11,12 @@ float LightOnNormal(const Sun& sun, const Eigen::Vector3d& to_sun_w, const Eigen
   return static_cast<float>(light);
 }
 
-void ViewFacets::Start(const RenderWorld& world, const Pose& T_wc,
-                       const Eigen::Vector3d& eye_w) {
+void ViewFacets::Start(const RenderWorld& world, const Pose& T_wc, const Eigen::Vector3d& eye_w,
+                       const Eigen::Matrix3d& R_sw) {
   world_ = &world;
   T_wc_ = T_wc;
   eye_w_ = eye_w;
+  R_sw_ = R_sw;
   ++view_;
   const std::size_t count = world.mesh.triangles.size();
   if (stamps_.size() < count) {
@@ -35,11 +36,12 @@ const SeenFacet& ViewFacets::Meet(int index) {
   facet.object = static_cast<std::uint16_t>(triangle.object);
   facet.flat = triangle.plane > 0;
   facet.surface = 2 * (facet.flat ? facet.plane : 65536u + facet.object);
-  facet.faces_sun = facet.n_w.dot(world_->to_sun_w) > 0;
+  const Eigen::Vector3d n_s = R_sw_ * facet.n_w;
+  facet.faces_sun = n_s.dot(world_->to_sun_w) > 0;
   facet.faces_eye =
       facet.n_w.dot(eye_w_) + world_->surfaces.Offset(index) - kLeaveSurface_m > 0;
-  facet.unlit = LightOnNormal(world_->scene.sun, world_->to_sun_w, facet.n_w, false);
-  facet.lit = LightOnNormal(world_->scene.sun, world_->to_sun_w, facet.n_w, true);
+  facet.unlit = LightOnNormal(world_->scene.sun, world_->to_sun_w, n_s, false);
+  facet.lit = LightOnNormal(world_->scene.sun, world_->to_sun_w, n_s, true);
   facet.print = nullptr;
   stamps_[i] = view_;
   return facet;

@@ -29,7 +29,9 @@ struct SeenFacet : FacetInView {
 class ViewFacets {
  public:
   /// Forgets the view before. `eye_w` is the second eye, where there is one.
-  void Start(const RenderWorld& world, const Pose& T_wc, const Eigen::Vector3d& eye_w);
+  /// @param R_sw  from the world's frame to that of the sun
+  void Start(const RenderWorld& world, const Pose& T_wc, const Eigen::Vector3d& eye_w,
+             const Eigen::Matrix3d& R_sw);
   const SeenFacet& At(int triangle) {
     const auto i = static_cast<std::size_t>(triangle);
     return stamps_[i] == view_ ? facets_[i] : Meet(triangle);
@@ -42,6 +44,7 @@ class ViewFacets {
   const RenderWorld* world_ = nullptr;
   Pose T_wc_;
   Eigen::Vector3d eye_w_;
+  Eigen::Matrix3d R_sw_;
   std::uint64_t view_ = 0;
   std::vector<std::uint64_t> stamps_;
   std::vector<SeenFacet> facets_;

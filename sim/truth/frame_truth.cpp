@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <set>
+
+#include "sim/scene/geometry.h"
 
 namespace sim {
 namespace {
@@ -48,11 +51,27 @@ cv::Rect PixelsOf(const PixelBox& box, const Camera& camera) {
          cv::Rect(0, 0, camera.width, camera.height);
 }
 
+/// What moves has no corners, and never bears one.
+std::vector<Triangle> OfWhatStands(const Scene& scene, const SceneMesh& mesh) {
+  std::set<int> moving;
+  for (const Object& object : scene.objects) {
+    if (!object.way.empty()) moving.insert(object.id);
+  }
+  std::vector<Triangle> standing;
+  std::copy_if(mesh.triangles.begin(), mesh.triangles.end(), std::back_inserter(standing),
+               [&](const Triangle& triangle) { return moving.count(triangle.object) == 0; });
+  return standing;
+}
+
 }  // namespace
 
 TruthMaker::TruthMaker(const FrameRenderer& renderer)
-    : renderer_(renderer), planes_(ScenePlanes(renderer.scene())) {
-  const SceneMesh mesh = BuildMesh(renderer.scene());
+    : TruthMaker(renderer, BuildMesh(renderer.scene())) {}
+
+TruthMaker::TruthMaker(const FrameRenderer& renderer, const SceneMesh& mesh)
+    : renderer_(renderer),
+      planes_(ScenePlanes(renderer.scene())),
+      ends_(OfWhatStands(renderer.scene(), mesh)) {
   for (const Object& object : renderer.scene().objects) {
     triangles_.emplace_back();
     std::copy_if(mesh.triangles.begin(), mesh.triangles.end(),
@@ -61,7 +80,8 @@ TruthMaker::TruthMaker(const FrameRenderer& renderer)
   }
 }
 
-PlaneInFrame TruthMaker::DescribePlane(int id, int pixels, const Pose& T_wc) const {
+PlaneInFrame TruthMaker::DescribePlane(int id, int pixels, const Pose& T_wc,
+                                       double time_s) const {
   const ScenePlane& plane = planes_.at(static_cast<std::size_t>(id) - 1);
   const Camera& camera = renderer_.camera();
   PlaneInFrame seen{id, pixels, ProjectedFace(plane, T_wc, camera), {}};
@@ -77,13 +97,15 @@ PlaneInFrame TruthMaker::DescribePlane(int id, int pixels, const Pose& T_wc) con
         !within(vertex.pixel.y(), camera.height)) {
       continue;
     }
-    vertex.state =
-        renderer_.Sees(T_wc, vertex.x_w) ? VertexState::kVisible : VertexState::kOccluded;
+    vertex.state = renderer_.Sees(T_wc, vertex.x_w, time_s) ? VertexState::kVisible
+                                                            : VertexState::kOccluded;
+    vertex.surface_ends = vertex.state == VertexState::kVisible && ends_.At(T_wc, vertex.x_w);
   }
   return seen;
 }
 
-FrameTruth TruthMaker::Describe(const Rendering& rendering, const Pose& T_wc) const {
+FrameTruth TruthMaker::Describe(const Rendering& rendering, const Pose& T_wc,
+                                double time_s) const {
   FrameTruth truth;
   const std::map<int, Extent> seen = Extents(rendering.object_id);
   const std::vector<Object>& objects = renderer_.scene().objects;
@@ -96,10 +118,12 @@ FrameTruth TruthMaker::Describe(const Rendering& rendering, const Pose& T_wc) co
     object.pixels = extent.pixels;
     object.visible_box = {static_cast<double>(extent.u0), static_cast<double>(extent.v0),
                           static_cast<double>(extent.u1), static_cast<double>(extent.v1)};
-    object.amodal_box =
-        ProjectedBox(triangles_[i], T_wc, renderer_.camera()).value_or(object.visible_box);
+    object.amodal_box = ProjectedBox(triangles_[i], Inverse(renderer_.Moved(i, time_s)) * T_wc,
+                                     renderer_.camera())
+                            .value_or(object.visible_box);
     object.unoccluded_pixels = renderer_.UnoccludedPixels(
-        i, T_wc, PixelsOf(object.amodal_box, renderer_.camera()), rendering.object_id);
+        i, T_wc, PixelsOf(object.amodal_box, renderer_.camera()), rendering.object_id, time_s);
+    if (!objects[i].way.empty()) object.T_wo = ObjectPoseAt(objects[i], time_s);
     object.visible_fraction =
         static_cast<double>(object.pixels) / std::max(object.unoccluded_pixels, object.pixels);
     truth.objects.push_back(object);
@@ -107,7 +131,7 @@ FrameTruth TruthMaker::Describe(const Rendering& rendering, const Pose& T_wc) co
   std::sort(truth.objects.begin(), truth.objects.end(),
             [](const auto& a, const auto& b) { return a.id < b.id; });
   for (const auto& [id, extent] : Extents(rendering.plane_id)) {
-    truth.planes.push_back(DescribePlane(id, extent.pixels, T_wc));
+    truth.planes.push_back(DescribePlane(id, extent.pixels, T_wc, time_s));
   }
   return truth;
 }

@@ -1,11 +1,13 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <vector>
 
 #include "sim/trace/frame_renderer.h"
 #include "sim/truth/polygon.h"
 #include "sim/truth/silhouette.h"
+#include "sim/truth/surface_end.h"
 
 namespace sim {
 
@@ -15,7 +17,8 @@ struct ObjectInFrame {
   int pixels = 0;             ///< visible, of the object_id image
   int unoccluded_pixels = 0;  ///< inside the image, were nothing else there
   PixelBox visible_box;       ///< first to last visible pixel centre, inclusive
-  PixelBox amodal_box;  ///< of the whole object with z > 1 cm, not cut at the image border
+  PixelBox amodal_box;       ///< of the whole object with z > 1 cm, not cut at the image border
+  std::optional<Pose> T_wo;  ///< of what moves, at the moment of the frame
   double visible_fraction = 0;  ///< pixels / unoccluded_pixels, in (0, 1]
 };
 
@@ -31,6 +34,8 @@ struct VertexInFrame {
   Eigen::Vector2d pixel;  ///< its projection; only when z > kSilhouetteNear_m
   bool projects = false;
   VertexState state = VertexState::kOutside;
+  bool surface_ends = false;  ///< of a visible one: whether it lies at the surface's edge,
+                              ///< where depth breaks off (SurfaceEnds)
 };
 
 struct PlaneInFrame {
@@ -51,14 +56,17 @@ struct FrameTruth {
 class TruthMaker {
  public:
   explicit TruthMaker(const FrameRenderer& renderer);  ///< kept by reference
-  FrameTruth Describe(const Rendering& rendering, const Pose& T_wc) const;
+  /// @param time_s  where what moves is; as the rendering's
+  FrameTruth Describe(const Rendering& rendering, const Pose& T_wc, double time_s = 0) const;
 
  private:
   const FrameRenderer& renderer_;
-  PlaneInFrame DescribePlane(int id, int pixels, const Pose& T_wc) const;
+  PlaneInFrame DescribePlane(int id, int pixels, const Pose& T_wc, double time_s) const;
+  TruthMaker(const FrameRenderer& renderer, const SceneMesh& mesh);
 
   std::vector<std::vector<Triangle>> triangles_;  ///< by object
   std::vector<ScenePlane> planes_;                ///< by id - 1
+  SurfaceEnds ends_;
 };
 
 }  // namespace sim

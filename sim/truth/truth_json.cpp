@@ -85,6 +85,7 @@ Json PlaneInFrameJson(const PlaneInFrame& plane) {
       entry["pixel"] = nullptr;
     }
     entry["state"] = StateName(vertex.state);
+    if (vertex.state == VertexState::kVisible) entry["at_edge"] = vertex.surface_ends;
     json["vertices"].push_back(std::move(entry));
   }
   return json;
@@ -122,6 +123,10 @@ std::string FrameTruthJson(double timestamp_s, const FrameTruth& truth) {
                                {"visible_box", Box(object.visible_box)},
                                {"amodal_box", Box(object.amodal_box)},
                                {"visible_fraction", object.visible_fraction}});
+    if (!object.T_wo) continue;
+    const Eigen::Quaterniond q(object.T_wo->R);
+    json["objects"].back()["center"] = Vector(object.T_wo->t);
+    json["objects"].back()["q_xyzw"] = {q.x(), q.y(), q.z(), q.w()};
   }
   json["planes"] = Json::array();
   for (const PlaneInFrame& plane : truth.planes) {

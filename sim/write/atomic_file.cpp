@@ -7,7 +7,6 @@
 #include <cstring>
 #include <fstream>
 #include <iterator>
-#include <opencv2/imgcodecs.hpp>
 #include <stdexcept>
 #include <system_error>
 
@@ -53,14 +52,6 @@ std::string ReadWholeFile(const std::filesystem::path& path) {
   std::ifstream file(path, std::ios::binary);
   if (!file) throw InputError(path.string(), "cannot be read; check the path and permissions");
   return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
-}
-
-std::string EncodePng(const cv::Mat& image) {
-  std::vector<uchar> bytes;
-  if (!cv::imencode(".png", image, bytes, {cv::IMWRITE_PNG_COMPRESSION, 1})) {
-    throw std::runtime_error("an image cannot be encoded as PNG");
-  }
-  return {bytes.begin(), bytes.end()};
 }
 
 }  // namespace sim

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <filesystem>
-#include <opencv2/core/mat.hpp>
 #include <string>
 #include <string_view>
 
@@ -16,8 +15,5 @@ void WriteFileAtomically(const std::filesystem::path& path, std::string_view byt
 
 /// The whole content of a file. @throws InputError when it cannot be read.
 std::string ReadWholeFile(const std::filesystem::path& path);
-
-/// PNG bytes of an 8- or 16-bit image, fastest compression; the same image, the same bytes.
-std::string EncodePng(const cv::Mat& image);
 
 }  // namespace sim

@@ -15,11 +15,14 @@ constexpr std::uint64_t kExposureFrame = 0xFFFFFFFFFFFFFFFDull;
 
 /// Adds the band's rows as they are at one moment. A row more on either side lets edges be
 /// smoothed as in a whole image.
-void AddBand(const FrameRenderer& renderer, const Pose& T_wc, const cv::Range& band,
-             cv::Mat3f& sum) {
+void AddBand(const FrameRenderer& renderer, const Pose& T_wc, double time_s,
+             const cv::Range& band, cv::Mat3f& sum) {
+  thread_local Rendering part;  // memory only
   RenderOptions options;
+  options.exact_edges = false;  // edges are averaged over four rays
+  options.time_s = time_s;
   options.rows = cv::Range(std::max(0, band.start - 1), std::min(sum.rows, band.end + 1));
-  const Rendering part = renderer.Render(T_wc, options);
+  renderer.Render(T_wc, options, part);
   for (int v = band.start; v < band.end; ++v) {
     for (int u = 0; u < sum.cols; ++u) sum(v, u) += part.radiance(v, u);
   }
@@ -28,7 +31,7 @@ void AddBand(const FrameRenderer& renderer, const Pose& T_wc, const cv::Range& b
 }  // namespace
 
 cv::Mat3f ExposeMoving(const FrameRenderer& renderer, const Exposure& exposure,
-                       const PoseAround& around) {
+                       const PoseAround& around, double time_s) {
   const cv::Size size(renderer.camera().width, renderer.camera().height);
   cv::Mat3f sum(size, cv::Vec3f(0, 0, 0));
   const int samples = exposure.shutter_s > 0 ? std::max(1, exposure.shutter_samples) : 1;
@@ -39,7 +42,7 @@ cv::Mat3f ExposeMoving(const FrameRenderer& renderer, const Exposure& exposure,
     const double row_s = exposure.rolling_s * (middle - 0.5);
     for (int i = 0; i < samples; ++i) {
       const double shutter_s = exposure.shutter_s * ((i + 0.5) / samples - 0.5);
-      AddBand(renderer, around(row_s + shutter_s), band, sum);
+      AddBand(renderer, around(row_s + shutter_s), time_s + row_s + shutter_s, band, sum);
     }
   }
   if (samples > 1) sum = sum * (1.0 / samples);

@@ -26,7 +26,7 @@ using PoseAround = std::function<Pose(double)>;
 /// rolling_s (v / (height - 1) - 1/2), by bands of 8 rows; the shutter's samples lie evenly
 /// about that. So the pose of the frame's time is that of the middle of its exposure.
 cv::Mat3f ExposeMoving(const FrameRenderer& renderer, const Exposure& exposure,
-                       const PoseAround& around);
+                       const PoseAround& around, double time_s = 0);
 
 /// Factor of the light at a time: 2^(drift_stops s(t)), s smooth in [-1, 1], a new value drawn
 /// every 1.5 s. 1 when there is no drift.

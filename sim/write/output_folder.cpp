@@ -29,10 +29,24 @@ void RemoveUnfinished(const fs::path& folder) {
   }
 }
 
-/// Makes the old sequence incomplete first, so that a kill half way leaves nothing whole.
-void RemoveOld(const fs::path& folder) {
-  fs::remove(folder / "manifest.json");
-  fs::remove_all(folder);
+/// True when there are only folders and perhaps an unfinished manifest: what a run leaves that
+/// was killed before the manifest was there.
+bool HoldsNothing(const fs::path& folder) {
+  const fs::path unfinished = std::string("manifest.json") + kUnfinishedSuffix;
+  for (const auto& entry : fs::recursive_directory_iterator(folder)) {
+    if (!entry.is_directory() && entry.path() != folder / unfinished) return false;
+  }
+  return true;
+}
+
+/// Removes a sequence but for its manifest, which says incomplete first: after a kill half way
+/// nothing looks whole, and the folder is still known for a sequence's.
+void RemoveOld(const fs::path& folder, Json manifest) {
+  manifest["complete"] = false;
+  WriteManifest(folder, manifest);
+  for (const auto& entry : fs::directory_iterator(folder)) {
+    if (entry.path().filename() != "manifest.json") fs::remove_all(entry.path());
+  }
 }
 
 /// @throws InputError unless `old`, begun or finished, was made with the plan's options.
@@ -77,7 +91,8 @@ bool PrepareFolder(const fs::path& folder, const Json& plan, Existing existing) 
   if (there && !fs::is_directory(folder)) {
     throw InputError(folder.string(), "is a file; name a folder for the sequence");
   }
-  const bool empty = !there || fs::is_empty(folder);
+  const bool empty =
+      !there || (existing == Existing::kRefuse ? fs::is_empty(folder) : HoldsNothing(folder));
   const std::optional<Json> old = empty ? std::nullopt : ReadManifest(folder);
   if (!empty && existing == Existing::kRefuse) {
     throw InputError(folder.string(),
@@ -89,7 +104,7 @@ bool PrepareFolder(const fs::path& folder, const Json& plan, Existing existing) 
                      "exists and has no manifest.json of a simulated sequence, so it is left "
                      "alone; remove it yourself or name another folder");
   }
-  if (!empty && existing == Existing::kReplace) RemoveOld(folder);
+  if (!empty && existing == Existing::kReplace) RemoveOld(folder, *old);
   const bool resumed = !empty && existing == Existing::kResume;
   if (resumed) {
     RequireSamePlan(folder, *old, plan);

@@ -21,26 +21,31 @@ SimulatedFrame Simulator::Simulate(int frame, const Shot& shot,
   const bool moves = options_.exposure.Moves();
   RenderOptions view;
   view.colour = !moves;
+  view.time_s = shot.time_s;
   if (delay_s == 0) view.projector_offset_m = SecondEyeOffset(sensor.depth);
-  Rendering rendering = renderer_.Render(shot.T_wc, view);
-  if (moves) rendering.radiance = ExposeMoving(renderer_, options_.exposure, around);
+  thread_local Rendering rendering;  // memory only
+  renderer_.Render(shot.T_wc, view, rendering);
+  if (moves)
+    rendering.radiance = ExposeMoving(renderer_, options_.exposure, around, shot.time_s);
   const double gain = ExposureGain(options_.exposure, options_.seed, shot.time_s);
   if (gain != 1.0) rendering.radiance = rendering.radiance * gain;
 
   SimulatedFrame result;
   result.colour = MeasureColour(rendering.radiance, sensor.colour,
                                 PixelNoise(options_.seed, static_cast<std::uint64_t>(frame)));
-  result.depth =
-      delay_s == 0 ? Depth(frame, rendering) : Depth(frame, RenderForDepth(around(delay_s)));
-  result.plane_id = rendering.plane_id;
-  result.object_id = rendering.object_id;
-  result.truth = truth_.Describe(rendering, shot.T_wc);
+  result.depth = delay_s == 0
+                     ? Depth(frame, rendering)
+                     : Depth(frame, RenderForDepth(around(delay_s), shot.time_s + delay_s));
+  result.plane_id = rendering.plane_id.clone();
+  result.object_id = rendering.object_id.clone();
+  result.truth = truth_.Describe(rendering, shot.T_wc, shot.time_s);
   result.detections = detector_.Detect(frame, result.truth);
   return result;
 }
 
-Rendering Simulator::RenderForDepth(const Pose& T_wc) const {
+Rendering Simulator::RenderForDepth(const Pose& T_wc, double time_s) const {
   RenderOptions view;
+  view.time_s = time_s;
   view.colour = false;
   view.projector_offset_m = SecondEyeOffset(options_.sensor.depth);
   return renderer_.Render(T_wc, view);

@@ -41,7 +41,7 @@ class Simulator {
   const RigOptions& options() const { return options_; }
 
  private:
-  Rendering RenderForDepth(const Pose& T_wc) const;
+  Rendering RenderForDepth(const Pose& T_wc, double time_s) const;
   /// In file units.
   cv::Mat1w Depth(int frame, const Rendering& rendering) const;
 

@@ -2,16 +2,13 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cmath>
-#include <stdexcept>
-
 #include "sim/motion/preset.h"
 #include "sim/scene/scene_file.h"
 #include "sim/scene/sha256.h"
 #include "sim/truth/truth_json.h"
 #include "sim/write/atomic_file.h"
 #include "sim/write/parallel_frames.h"
+#include "sim/write/png.h"
 #include "sim/write/sequence_text.h"
 
 namespace sim {
@@ -22,8 +19,6 @@ using Json = nlohmann::ordered_json;
 
 /// Holds one record a finished frame until the sequence is complete.
 constexpr const char* kRecordFolder = ".frames";
-/// Of the poses between frames: twenty a period of the fastest tremor (12 Hz).
-constexpr double kPathRate_Hz = 240.0;
 
 const char* Name(DetectorKind detector) {
   switch (detector) {
@@ -31,6 +26,8 @@ const char* Name(DetectorKind detector) {
       return "perfect";
     case DetectorKind::kNoisy:
       return "noisy";
+    case DetectorKind::kPoor:
+      return "poor";
     case DetectorKind::kNone:
       break;
   }
@@ -85,16 +82,14 @@ Json Plan(const Scene& scene, const SequenceOptions& options, std::size_t frames
 /// Writes frames one by one; a frame counts once its record is written, after its images.
 class FrameStore {
  public:
-  FrameStore(fs::path folder, const Simulator& simulator, const std::vector<Shot>& shots,
-             const std::vector<TimedPose>& path)
-      : folder_(std::move(folder)), simulator_(simulator), shots_(shots), path_(path) {
+  FrameStore(fs::path folder, const Simulator& simulator, const Recording& recording)
+      : folder_(std::move(folder)), simulator_(simulator), recording_(recording) {
     fs::create_directories(folder_ / kRecordFolder);
   }
 
   void Make(int frame) const {
-    const Shot& shot = shots_[static_cast<std::size_t>(frame)];
-    const SimulatedFrame made = simulator_.Simulate(
-        frame, shot, [&](double later_s) { return PoseAt(path_, shot.time_s + later_s); });
+    const Shot& shot = recording_.shots[static_cast<std::size_t>(frame)];
+    const SimulatedFrame made = Record(simulator_, recording_, frame);
     const double t = PrintedTime(shot.colour_stamp_s);
     Json record;
     record["truth"] = FrameTruthJson(t, made.truth);
@@ -127,7 +122,7 @@ class FrameStore {
 
   std::vector<int> Missing() const {
     std::vector<int> missing;
-    for (int frame = 0; frame < static_cast<int>(shots_.size()); ++frame) {
+    for (int frame = 0; frame < recording_.frames(); ++frame) {
       if (!Made(frame)) missing.push_back(frame);
     }
     return missing;
@@ -138,7 +133,7 @@ class FrameStore {
     std::map<std::string, std::string> sums;
     for (const auto& [file, sum] : manifest["sha256"].items()) sums[file] = sum;
     std::string truth, detections;
-    for (int frame = 0; frame < static_cast<int>(shots_.size()); ++frame) {
+    for (int frame = 0; frame < recording_.frames(); ++frame) {
       const Json record = Json::parse(ReadWholeFile(RecordPath(frame)));
       truth += record.at("truth").get<std::string>() + "\n";
       detections += record.at("detections").get<std::string>() + "\n";
@@ -164,34 +159,27 @@ class FrameStore {
 
   fs::path folder_;
   const Simulator& simulator_;
-  const std::vector<Shot>& shots_;
-  const std::vector<TimedPose>& path_;
+  const Recording& recording_;
 };
-
-void CheckTimes(const std::vector<TimedPose>& trajectory) {
-  if (trajectory.empty()) throw std::invalid_argument("a sequence needs at least one frame");
-  for (std::size_t i = 1; i < trajectory.size(); ++i) {
-    if (!(PrintedTime(trajectory[i].timestamp_s) >
-          PrintedTime(trajectory[i - 1].timestamp_s))) {
-      throw std::invalid_argument("timestamps must grow by a microsecond or more a frame");
-    }
-  }
-}
 
 }  // namespace
 
-int WriteSequence(const Scene& scene, const std::vector<TimedPose>& trajectory,
+int WriteSequence(const Scene& scene, const Recording& recording,
                   const SequenceOptions& options, const fs::path& folder) {
-  CheckTimes(trajectory);
-  const std::vector<Shot> shots = MakeShots(trajectory, options.timing, options.rig.seed);
-  const auto fixed = FixedFiles(scene, options.rig.camera, shots);
-  const Json plan = Plan(scene, options, shots.size(), fixed);
+  const auto fixed = FixedFiles(scene, options.rig.camera, recording.shots);
+  SequenceOptions told = options;
+  if (recording.scenes_own) {
+    const MotionPreset preset = PresetOf(scene.motion);
+    told.motion = {{"preset", scene.motion.preset},
+                   {"speed_m_s", fmt::format("{}", preset.speed_m_s)},
+                   {"turn_deg_s", fmt::format("{}", preset.turn_deg_s)}};
+  }
+  const Json plan = Plan(scene, told, recording.shots.size(), fixed);
   const Simulator simulator(scene, options.rig);
   if (PrepareFolder(folder, plan, options.existing)) return 0;
 
   for (const auto& [path, text] : fixed) WriteFileAtomically(folder / path, text);
-  const FrameStore store(folder, simulator, shots,
-                         options.path.empty() ? trajectory : options.path);
+  const FrameStore store(folder, simulator, recording);
   const std::vector<int> missing = store.Missing();
   ForEachFrame(
       missing, options.threads, [&](int frame) { store.Make(frame); }, options.progress);
@@ -199,21 +187,16 @@ int WriteSequence(const Scene& scene, const std::vector<TimedPose>& trajectory,
   return static_cast<int>(missing.size());
 }
 
+int WriteSequence(const Scene& scene, const std::vector<TimedPose>& trajectory,
+                  const SequenceOptions& options, const fs::path& folder) {
+  return WriteSequence(
+      scene, PlanRecording(trajectory, options.path, options.timing, options.rig.seed), options,
+      folder);
+}
+
 int WriteSequence(const Scene& scene, const SequenceOptions& options, const fs::path& folder) {
-  const auto trajectory =
-      MakeTrajectory(scene, options.frames, options.rig.camera.fps, options.rig.seed);
-  SequenceOptions finer = options;
-  const MotionPreset preset = PresetOf(scene.motion);
-  finer.motion = {{"preset", scene.motion.preset},
-                  {"speed_m_s", fmt::format("{}", preset.speed_m_s)},
-                  {"turn_deg_s", fmt::format("{}", preset.turn_deg_s)}};
-  if (options.rig.exposure.Moves() || options.timing.depth_offset_s != 0) {
-    const double fps = options.rig.camera.fps;
-    const int times = std::max(1, static_cast<int>(std::ceil(kPathRate_Hz / fps)));
-    finer.path =
-        MakeTrajectory(scene, options.frames * times + 1, fps * times, options.rig.seed);
-  }
-  return WriteSequence(scene, trajectory, finer, folder);
+  return WriteSequence(scene, PlanRecording(scene, options.rig, options.timing, options.frames),
+                       options, folder);
 }
 
 }  // namespace sim

@@ -7,6 +7,7 @@
 
 #include "sim/motion/trajectory.h"
 #include "sim/write/output_folder.h"
+#include "sim/write/recording.h"
 #include "sim/write/simulator.h"
 
 namespace sim {
@@ -34,6 +35,11 @@ struct SequenceOptions {
 ///   room for the camera; std::invalid_argument for options out of range
 int WriteSequence(const Scene& scene, const SequenceOptions& options,
                   const std::filesystem::path& folder);
+
+/// The same for a recording that is planned already; options.frames, .timing and .path are
+/// then only told to the manifest.
+int WriteSequence(const Scene& scene, const Recording& recording,
+                  const SequenceOptions& options, const std::filesystem::path& folder);
 
 /// The same along a given trajectory; options.frames is not used.
 int WriteSequence(const Scene& scene, const std::vector<TimedPose>& trajectory,

@@ -75,6 +75,16 @@ void VisitRelocalise(RelocaliseConfig& c, FieldVisitor& v) {
   v.Number("ransac_error_px", c.ransac_error_px, "(0, inf)", "of an inlier");
   v.Integer("min_ransac_inliers", c.min_ransac_inliers, "[4, 100000]", "of a pose");
   VisitMatch("match", c.match, v, "with a keyframe, by descriptors");
+  v.Number("max_rival_ratio", c.max_rival_ratio, "(0, 1]",
+           "of the best place's inliers; another place with more makes both doubtful");
+  v.Number("same_pose_m", c.same_pose_m, "(0, inf)", "nearer poses are one place");
+  v.Number("same_pose_rad", c.same_pose_rad, "(0, 3.15)", "nearer poses are one place");
+  v.Number("min_common_words", c.likeness.min_common_words, "(0, 1]",
+           "share of the most words that any keyframe has in common with the image");
+  v.Number("min_support", c.likeness.min_support, "(0, 1]",
+           "share of the best supported keyframe's likeness");
+  v.Integer("neighbours", c.likeness.neighbours, "[0, 100000]",
+            "covisible keyframes whose likeness supports one");
 }
 
 void VisitTracking(PointTrackingConfig& c, FieldVisitor& v) {

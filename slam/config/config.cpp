@@ -18,6 +18,10 @@ void ShareFacts(Config& config) {
   config.mapping.fusion.scales = facts.scales;
   config.mapping.bundle.bf_px_m = facts.bf_px_m;
   config.mapping.bundle.scales = facts.scales;
+  LoopDetectionConfig& loop = config.loop_closing.detection;
+  loop.relocalise = config.tracking.relocalise;
+  loop.pose = config.tracking.pose;
+  loop.projection = config.tracking.projection;
   config.plane_processing.noise = config.plane_extraction.noise;
   config.plane_constraints.association = config.association;
   config.plane_map.association = config.association;
@@ -30,6 +34,7 @@ void VisitConfig(Config& config, FieldVisitor& visitor) {
   VisitProcessing(config, visitor);
   VisitAssociation(config, visitor);
   VisitMapping(config, visitor);
+  VisitLoop(config, visitor);
   ShareFacts(config);
 }
 

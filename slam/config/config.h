@@ -7,6 +7,7 @@
 #include "slam/extract/plane_segments.h"
 #include "slam/extract/point_features.h"
 #include "slam/localise/point_tracking.h"
+#include "slam/loop/close_loop.h"
 #include "slam/mapping/local_mapping.h"
 #include "slam/mapping/plane_map_config.h"
 #include "slam/planes/process_planes.h"
@@ -35,6 +36,7 @@ struct Config {
   // (F) the map
   LocalMappingConfig mapping;
   PlaneMapConfig plane_map;
+  LoopClosingConfig loop_closing;
 };
 
 /// The pyramid and the virtual baseline are facts of the point features that later stages keep

@@ -57,6 +57,7 @@ void VisitDetections(Config& config, FieldVisitor& visitor);   ///< classes and 
 void VisitExtraction(Config& config, FieldVisitor& visitor);   ///< planes of a frame
 void VisitProcessing(Config& config, FieldVisitor& visitor);   ///< (C)
 void VisitAssociation(Config& config, FieldVisitor& visitor);  ///< (D) and the plane factors
-void VisitMapping(Config& config, FieldVisitor& visitor);      ///< (F), (G)
+void VisitMapping(Config& config, FieldVisitor& visitor);
+void VisitLoop(Config& config, FieldVisitor& visitor);      ///< (F), (G)
 
 }  // namespace slam

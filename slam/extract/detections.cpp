@@ -78,6 +78,27 @@ Json ParseLine(const std::string& text, const std::string& where) {
 
 }  // namespace
 
+DetectionRecord ParseDetections(const std::string& text, const Camera& camera,
+                                const ClassTable& classes, const std::string& where) {
+  const Json line = ParseLine(text, where);
+  DetectionRecord record;
+  record.timestamp_s = GetNumber(Get(line, "timestamp", where, "the record"), 0, kMaxStamp_s,
+                                 where, "\"timestamp\"", "seconds >= 0");
+  const Json& list = Get(line, "detections", where, "the record");
+  if (!list.is_array() || list.size() > kMaxDetections)
+    throw InputError(where, "\"detections\" is not a list of at most 10000 objects");
+  for (std::size_t i = 0; i < list.size(); ++i) {
+    const std::string owner = std::string("detection ").append(std::to_string(i));
+    Detection d = GetDetection(list[i], classes, where, owner);
+    d.box_px = Intersection(d.box_px, camera.ImageBox());
+    if (d.box_px.area() > 0)
+      record.detections.push_back(std::move(d));
+    else
+      ++record.outside;
+  }
+  return record;
+}
+
 ReplayDetector::ReplayDetector(const std::filesystem::path& file, const Camera& camera,
                                const ClassTable& classes) {
   std::error_code ignored;
@@ -90,24 +111,11 @@ ReplayDetector::ReplayDetector(const std::filesystem::path& file, const Camera& 
     const std::string where = file.string() + std::string(":").append(std::to_string(number));
     if (text.size() > kMaxLine) throw InputError(where, "the line is longer than 4 MiB");
     if (text.find_first_not_of(" \t\r") == std::string::npos) continue;
-    const Json line = ParseLine(text, where);
-    const double t = GetNumber(Get(line, "timestamp", where, "the record"), 0, kMaxStamp_s,
-                               where, "\"timestamp\"", "seconds >= 0");
-    if (!records_.empty() && !(t > records_.rbegin()->first))
+    DetectionRecord record = ParseDetections(text, camera, classes, where);
+    if (!records_.empty() && !(record.timestamp_s > records_.rbegin()->first))
       throw InputError(where, "\"timestamp\" does not increase; expected one record a frame");
-    const Json& list = Get(line, "detections", where, "the record");
-    if (!list.is_array() || list.size() > kMaxDetections)
-      throw InputError(where, "\"detections\" is not a list of at most 10000 objects");
-    std::vector<Detection>& record = records_[t];
-    for (std::size_t i = 0; i < list.size(); ++i) {
-      const std::string owner = std::string("detection ").append(std::to_string(i));
-      Detection d = GetDetection(list[i], classes, where, owner);
-      d.box_px = Intersection(d.box_px, camera.ImageBox());
-      if (d.box_px.area() > 0)
-        record.push_back(std::move(d));
-      else
-        ++outside_;
-    }
+    records_[record.timestamp_s] = std::move(record.detections);
+    outside_ += record.outside;
   }
 }
 

@@ -27,15 +27,27 @@ class NoDetector : public Detector {
   std::vector<Detection> Detect(double, const cv::Mat3b&) override { return {}; }
 };
 
+/// One line of a detections.jsonl (formats.md).
+struct DetectionRecord {
+  double timestamp_s = 0.0;
+  std::vector<Detection> detections;  ///< clipped to the image
+  int outside = 0;                    ///< boxes that lie outside the image, left out
+};
+
+/// @param where  "file:line", for messages
+/// @throws InputError for text that is not JSON, a missing key, a score outside [0, 1], a box
+///   whose max is below its min
+DetectionRecord ParseDetections(const std::string& line, const Camera& camera,
+                                const ClassTable& classes, const std::string& where);
+
 /// Replays a detections.jsonl (formats.md). A frame without a record has no detections.
 class ReplayDetector : public Detector {
  public:
   /// Records are found by timestamp within this time, so that a file may print fewer digits.
   static constexpr double kMaxTimeDifference_s = 5e-4;
 
-  /// @throws InputError with file:line for a line that is not JSON, a missing key, a score
-  /// outside
-  ///         [0, 1], a box whose max is below its min, a timestamp that does not increase.
+  /// @throws InputError with file:line, see ParseDetections; for a timestamp that does not
+  ///   increase.
   ReplayDetector(const std::filesystem::path& file, const Camera& camera,
                  const ClassTable& classes);
   std::vector<Detection> Detect(double timestamp_s, const cv::Mat3b&) override;

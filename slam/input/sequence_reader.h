@@ -2,28 +2,19 @@
 
 #include <filesystem>
 #include <future>
-#include <opencv2/core/mat.hpp>
 #include <string>
 
 #include "slam/base/camera.h"
+#include "slam/input/frame_source.h"
 #include "slam/input/sequence_index.h"
 
 namespace slam {
-
-/// One frame as recorded.
-struct RecordedFrame {
-  int index = 0;
-  double timestamp_s = 0.0;  ///< of the colour image
-  cv::Mat3b bgr;             ///< 8-bit, OpenCV's order of channels
-  cv::Mat1b gray;            ///< 8-bit, Rec. 601 luma of bgr
-  cv::Mat1f depth_m;         ///< planar z, metres; 0 = no measurement
-};
 
 /// Reads a sequence folder frame by frame. Truth (groundtruth.txt, gt/) is never opened.
 ///
 /// The next frame is decoded on one background thread while the caller works; what is returned
 /// does not depend on it. One caller at a time.
-class SequenceReader {
+class SequenceReader : public FrameSource {
  public:
   struct Options {
     bool prefetch = true;
@@ -35,7 +26,7 @@ class SequenceReader {
   SequenceReader(std::filesystem::path sequence, const Camera& camera)
       : SequenceReader(std::move(sequence), camera, Options{}) {}
 
-  int size() const { return static_cast<int>(index_.entries.size()); }
+  int size() const override { return static_cast<int>(index_.entries.size()); }
   const SequenceEntry& entry(int i) const;
   const SequenceWarnings& warnings() const { return index_.warnings; }
 
@@ -43,7 +34,7 @@ class SequenceReader {
   /// @throws InputError naming file and frame for an image that is missing, damaged, or of
   /// another
   ///         size or type.
-  RecordedFrame Read(int i);
+  RecordedFrame Read(int i) override;
 
  private:
   RecordedFrame Decode(int i) const;

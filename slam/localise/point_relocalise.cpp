@@ -12,21 +12,19 @@ namespace {
 
 std::size_t Index(int i) { return static_cast<std::size_t>(i); }
 
-/// The newest half, then others, a different part in every frame.
-std::vector<int> Candidates(const Map& map, int frame_index, int max_keyframes) {
-  std::vector<int> newest_first;
+/// The newest, because a camera that is lost for a moment is near it, and those alike.
+std::vector<int> Candidates(const Frame& frame, const Map& map, const KeyframeIndex& index,
+                            const RelocaliseConfig& config) {
+  std::vector<int> candidates;
   for (auto k = map.keyframes.rbegin(); k != map.keyframes.rend(); ++k) {
-    if (!k->culled) newest_first.push_back(k->id);
+    if (k->culled) continue;
+    candidates.push_back(k->id);
+    break;
   }
-  if (newest_first.size() <= Index(max_keyframes)) return newest_first;
-  const std::size_t recent = Index((max_keyframes + 1) / 2);
-  std::vector<int> candidates(newest_first.begin(),
-                              newest_first.begin() + static_cast<long>(recent));
-  const std::size_t others = newest_first.size() - recent;
-  const std::size_t turns = Index(max_keyframes) - recent;
-  for (std::size_t i = 0; i < turns; ++i) {
-    const std::size_t at = (Index(frame_index) * turns + i) % others;
-    candidates.push_back(newest_first[recent + at]);
+  const WordBag bag = index.vocabulary().Bag(frame.features);
+  for (const LikeKeyframe& like : index.Like(bag, map, {}, config.likeness)) {
+    if (candidates.size() >= Index(config.max_keyframes)) break;
+    if (like.keyframe != candidates.front()) candidates.push_back(like.keyframe);
   }
   return candidates;
 }
@@ -117,37 +115,59 @@ std::optional<Pose> Ransac(const std::vector<PointConstraint>& constraints,
   return best;
 }
 
+bool SamePose(const Pose& a_cw, const Pose& b_cw, const RelocaliseConfig& config) {
+  const Pose T_ab = a_cw * Inverse(b_cw);
+  return T_ab.t.norm() < config.same_pose_m && LogSo3(T_ab.R).norm() < config.same_pose_rad;
+}
+
 }  // namespace
 
+std::optional<Relocalisation> RelocaliseBy(const Keyframe& keyframe, const Frame& frame,
+                                           const Map& map, const Camera& camera,
+                                           const ScalePyramid& scales,
+                                           const PoseProblemConfig& pose,
+                                           const RelocaliseConfig& config) {
+  const Correspondences found = Correspond(frame, keyframe, map, scales, config.match);
+  if (found.features.size() < Index(std::max(config.min_matches, 4))) return std::nullopt;
+  const Random random{static_cast<std::uint64_t>(frame.index),
+                      static_cast<std::uint64_t>(keyframe.id)};
+  const auto T_cw = Ransac(found.constraints, camera, random, config);
+  if (!T_cw) return std::nullopt;
+
+  PoseProblem problem;
+  problem.T_cw = *T_cw;
+  problem.points = found.constraints;
+  const PoseSummary summary = OptimisePose(problem, camera, pose);
+  if (!summary.usable || summary.inlier_count < config.min_ransac_inliers) return std::nullopt;
+  Relocalisation out{keyframe.id, summary.T_cw, std::vector<int>(frame.features.size(), kNone),
+                     summary.inlier_count};
+  for (std::size_t i = 0; i < found.features.size(); ++i) {
+    if (summary.point_inliers[i]) out.map_points[Index(found.features[i])] = found.points[i];
+  }
+  return out;
+}
+
 std::optional<Relocalisation> Relocalise(const Frame& frame, const Map& map,
-                                         const Camera& camera, const ScalePyramid& scales,
+                                         const KeyframeIndex& index, const Camera& camera,
+                                         const ScalePyramid& scales,
                                          const PoseProblemConfig& pose,
                                          const RelocaliseConfig& config) {
-  std::optional<Relocalisation> best;
-  for (const int id : Candidates(map, frame.index, config.max_keyframes)) {
-    const Correspondences found =
-        Correspond(frame, map.keyframes[Index(id)], map, scales, config.match);
-    if (found.features.size() < Index(std::max(config.min_matches, 4))) continue;
-    const Random random{static_cast<std::uint64_t>(frame.index),
-                        static_cast<std::uint64_t>(id)};
-    const auto T_cw = Ransac(found.constraints, camera, random, config);
-    if (!T_cw) continue;
-
-    PoseProblem problem;
-    problem.T_cw = *T_cw;
-    problem.points = found.constraints;
-    const PoseSummary summary = OptimisePose(problem, camera, pose);
-    if (!summary.usable || summary.inlier_count < config.min_ransac_inliers) continue;
-    if (best && summary.inlier_count <= best->inliers) continue;
-    best = Relocalisation{id, summary.T_cw, std::vector<int>(frame.features.size(), kNone),
-                          summary.inlier_count};
-    for (std::size_t i = 0; i < found.features.size(); ++i) {
-      if (summary.point_inliers[i]) {
-        best->map_points[Index(found.features[i])] = found.points[i];
-      }
+  std::vector<Relocalisation> found;
+  for (const int id : Candidates(frame, map, index, config)) {
+    auto one = RelocaliseBy(map.keyframes[Index(id)], frame, map, camera, scales, pose, config);
+    if (one) found.push_back(std::move(*one));
+  }
+  if (found.empty()) return std::nullopt;
+  const auto best =
+      std::max_element(found.begin(), found.end(),
+                       [](const auto& a, const auto& b) { return a.inliers < b.inliers; });
+  for (const Relocalisation& rival : found) {
+    if (rival.inliers >= config.max_rival_ratio * best->inliers &&
+        !SamePose(rival.T_cw, best->T_cw, config)) {
+      return std::nullopt;
     }
   }
-  return best;
+  return *best;
 }
 
 }  // namespace slam

@@ -7,17 +7,24 @@
 #include "slam/model/map.h"
 #include "slam/model/scale_pyramid.h"
 #include "slam/optimise/pose_problem.h"
+#include "slam/place/keyframe_index.h"
 
 namespace slam {
 
 /// How a frame finds itself again in the map.
 struct RelocaliseConfig {
-  int max_keyframes = 12;  ///< tried a frame: the newest half, others in turn; domain [1, inf)
-  int min_matches = 15;    ///< descriptor matches with a keyframe; domain [4, inf)
+  LikenessConfig likeness;
+  int max_keyframes = 6;  ///< tried a frame, those that look most alike first; domain [1, inf)
+  int min_matches = 15;   ///< descriptor matches with a keyframe; domain [4, inf)
   int ransac_iterations = 300;  ///< domain [1, inf)
   double ransac_error_px = 4.0;
   int min_ransac_inliers = 10;
   PointMatchConfig match{50, 0.75, true};
+  // Two places that both fit are none: the second best must have fewer inliers than this share
+  // of the best one's, unless it says the same pose.
+  double max_rival_ratio = 0.7;  ///< domain (0, 1]
+  double same_pose_m = 0.1;      ///< domain (0, inf)
+  double same_pose_rad = 0.1;    ///< domain (0, pi)
 };
 
 /// A pose found without any prediction, and the matches that it rests on.
@@ -28,12 +35,22 @@ struct Relocalisation {
   int inliers = 0;
 };
 
-/// Matches the frame's descriptors with those of keyframes, and asks RANSAC over P3P and the
-/// pose optimisation for a pose; the keyframe with the most inliers wins. Nothing is found
-/// rather than a pose with fewer than `min_ransac_inliers`; the caller confirms it with the
-/// local map. Deterministic: samples are keyed by frame and keyframe.
+/// A pose from one keyframe's points alone, by descriptors, RANSAC and pose optimisation.
+std::optional<Relocalisation> RelocaliseBy(const Keyframe& keyframe, const Frame& frame,
+                                           const Map& map, const Camera& camera,
+                                           const ScalePyramid& scales,
+                                           const PoseProblemConfig& pose,
+                                           const RelocaliseConfig& config);
+
+/// Asks the index which keyframes look like the frame, and the newest one besides; matches the
+/// frame's descriptors with theirs, and asks RANSAC over P3P and the pose optimisation for a
+/// pose; the keyframe with the most inliers wins. Nothing is found rather than a pose with
+/// fewer than `min_ransac_inliers`, or one of two that are nearly as good; the caller confirms
+/// it with the local map. Deterministic: samples are keyed by frame and keyframe.
+/// @param index  up to date with the map
 std::optional<Relocalisation> Relocalise(const Frame& frame, const Map& map,
-                                         const Camera& camera, const ScalePyramid& scales,
+                                         const KeyframeIndex& index, const Camera& camera,
+                                         const ScalePyramid& scales,
                                          const PoseProblemConfig& pose,
                                          const RelocaliseConfig& config);
 

@@ -32,8 +32,21 @@ constexpr int kLeastStartPoints = 40;
 
 }  // namespace
 
-PointTracking::PointTracking(const Camera& camera, const PointTrackingConfig& config)
-    : camera_(camera), config_(config) {}
+const char* StateName(const PointTrackReport& report) {
+  switch (report.state) {
+    case TrackState::kInitialising:
+      return "initialising";
+    case TrackState::kLost:
+      return "lost";
+    case TrackState::kTracking:
+      break;
+  }
+  return report.by_relocalising ? "relocalised" : "tracking";
+}
+
+PointTracking::PointTracking(const Camera& camera, const PointTrackingConfig& config,
+                             const Vocabulary& vocabulary)
+    : camera_(camera), config_(config), places_(vocabulary) {}
 
 PointTrackReport PointTracking::TrackPoints(Frame& frame, Map& map) {
   PointTrackReport report;
@@ -137,10 +150,11 @@ bool PointTracking::TrackByReference(Frame& frame, const Map& map,
 }
 
 bool PointTracking::TrackByRelocalising(Frame& frame, const Map& map,
-                                        PointTrackReport& report) const {
+                                        PointTrackReport& report) {
   report.by_motion = report.by_reference = false;
-  const auto found = Relocalise(frame, map, camera_, config_.keyframes.scales, config_.pose,
-                                config_.relocalise);
+  places_.Update(map);
+  const auto found = Relocalise(frame, map, places_, camera_, config_.keyframes.scales,
+                                config_.pose, config_.relocalise);
   if (!found) return false;
   frame.T_cw = found->T_cw;
   frame.map_points = found->map_points;

@@ -2,15 +2,15 @@
 
 #include <vector>
 
-#include "slam/mapping/keyframes.h"
-#include "slam/model/map.h"
-#include "slam/optimise/pose_problem.h"
 #include "slam/localise/keyframe_decision.h"
 #include "slam/localise/last_frame.h"
 #include "slam/localise/local_map.h"
 #include "slam/localise/motion_model.h"
 #include "slam/localise/point_constraints.h"
 #include "slam/localise/point_relocalise.h"
+#include "slam/mapping/keyframes.h"
+#include "slam/model/map.h"
+#include "slam/optimise/pose_problem.h"
 
 namespace slam {
 
@@ -20,6 +20,11 @@ enum class TrackState {
   kTracking,
   kLost  ///< the frame has no pose; relocalisation is tried with every frame
 };
+
+struct PointTrackReport;
+
+/// "initialising", "tracking", "lost", or "relocalised" for the frame that was found again.
+const char* StateName(const PointTrackReport& report);
 
 /// Settings of tracking by points.
 struct PointTrackingConfig {
@@ -63,7 +68,9 @@ struct PointTrackReport {
 /// InsertKeyframe and mapping; Accept.
 class PointTracking {
  public:
-  PointTracking(const Camera& camera, const PointTrackingConfig& config);
+  /// @param vocabulary  must outlive the tracking
+  PointTracking(const Camera& camera, const PointTrackingConfig& config,
+                const Vocabulary& vocabulary = Vocabulary::Shipped());
 
   /// Sets frame.T_cw and frame.map_points (inliers alone). When the state is not kTracking
   /// afterwards, the frame has no pose: T_cw is the identity and nothing is matched.
@@ -77,6 +84,12 @@ class PointTracking {
   /// Frames without a pose must not be given.
   void Accept(const Frame& frame, const Map& map);
 
+  /// The map's keyframes by their words.
+  const KeyframeIndex& Places(const Map& map) {
+    places_.Update(map);
+    return places_;
+  }
+
   TrackState state() const { return state_; }
   /// Keyframe that sees the most of the last frame's points; kNone before the first.
   int reference_keyframe() const { return reference_; }
@@ -87,7 +100,7 @@ class PointTracking {
   bool TrackByMotion(Frame& frame, const FeatureGrid& grid, const Map& map,
                      PointTrackReport& report) const;
   bool TrackByReference(Frame& frame, const Map& map, PointTrackReport& report) const;
-  bool TrackByRelocalising(Frame& frame, const Map& map, PointTrackReport& report) const;
+  bool TrackByRelocalising(Frame& frame, const Map& map, PointTrackReport& report);
   bool TrackLocalMap(Frame& frame, const FeatureGrid& grid, Map& map, int min_inliers,
                      double radius_factor, PointTrackReport& report);
   int Optimise(Frame& frame, const Map& map) const;
@@ -98,6 +111,7 @@ class PointTracking {
   MotionModel motion_;
   LastFrame last_;
   int reference_ = kNone;
+  KeyframeIndex places_;  ///< brought up to date when it is asked
 };
 
 }  // namespace slam

@@ -64,6 +64,38 @@ std::vector<int> Witnesses(const Map& map, const std::vector<int>& points,
   return witnesses;
 }
 
+/// Blocks and observations of the window's keyframes and points.
+void FillWindow(const Map& map, Window& window) {
+  std::map<int, std::size_t> pose_at;
+  for (const int id : window.keyframes) {
+    pose_at[id] = window.poses.size();
+    window.poses.push_back(BlockOf(map.keyframes[Index(id)].T_cw));
+  }
+  for (const int id : window.points) {
+    const MapPoint& point = map.points[Index(id)];
+    for (const auto& [seen_by, feature] : point.observations) {
+      const auto at = pose_at.find(seen_by);
+      if (at == pose_at.end()) continue;
+      window.observations.push_back(
+          {seen_by, id, feature, at->second, window.positions.size()});
+    }
+    window.positions.push_back({point.p_w.x(), point.p_w.y(), point.p_w.z()});
+  }
+}
+
+/// Everything: all keyframes but the first are free.
+Window MakeFullWindow(const Map& map) {
+  Window window;
+  for (const Keyframe& keyframe : map.keyframes) {
+    if (!keyframe.culled && keyframe.id != 0) window.keyframes.push_back(keyframe.id);
+  }
+  window.free_count = window.keyframes.size();
+  window.keyframes.push_back(0);
+  window.points = PointsOf(map, window.keyframes);
+  FillWindow(map, window);
+  return window;
+}
+
 Window MakeWindow(const Map& map, int keyframe, const LocalBundleConfig& config) {
   std::vector<int> inside = BestCovisible(map, keyframe, config.max_keyframes - 1);
   inside.push_back(keyframe);
@@ -81,22 +113,7 @@ Window MakeWindow(const Map& map, int keyframe, const LocalBundleConfig& config)
   window.free_count = inside.size();
   window.keyframes = inside;
   window.keyframes.insert(window.keyframes.end(), fixed.begin(), fixed.end());
-
-  std::map<int, std::size_t> pose_at;
-  for (const int id : window.keyframes) {
-    pose_at[id] = window.poses.size();
-    window.poses.push_back(BlockOf(map.keyframes[Index(id)].T_cw));
-  }
-  for (const int id : window.points) {
-    const MapPoint& point = map.points[Index(id)];
-    for (const auto& [seen_by, feature] : point.observations) {
-      const auto at = pose_at.find(seen_by);
-      if (at == pose_at.end()) continue;
-      window.observations.push_back(
-          {seen_by, id, feature, at->second, window.positions.size()});
-    }
-    window.positions.push_back({point.p_w.x(), point.p_w.y(), point.p_w.z()});
-  }
+  FillWindow(map, window);
   return window;
 }
 
@@ -139,7 +156,9 @@ class Solver {
                                window_.positions[o.position_at].data());
     }
     ceres::Solver::Options options;
-    options.linear_solver_type = ceres::DENSE_SCHUR;
+    constexpr std::size_t kDense = 50;  // poses; beyond, most pairs share no point
+    options.linear_solver_type =
+        window_.free_count > kDense ? ceres::SPARSE_SCHUR : ceres::DENSE_SCHUR;
     options.linear_solver_ordering.reset(order);
     options.num_threads = 1;
     options.max_num_iterations = iterations;
@@ -207,11 +226,9 @@ void WriteBack(const Window& window, const ScalePyramid& scales, Map& map) {
   for (const int id : window.points) UpdatePoint(map, id, scales);
 }
 
-}  // namespace
-
-LocalBundleReport AdjustLocalBundle(Map& map, int keyframe, const Camera& camera,
-                                    const LocalBundleConfig& config) {
-  Window window = MakeWindow(map, keyframe, config);
+/// Two rounds: robust, then plain without the outliers.
+LocalBundleReport Adjust(Map& map, Window& window, const Camera& camera,
+                         const LocalBundleConfig& config) {
   LocalBundleReport report;
   report.keyframes = static_cast<int>(window.free_count);
   report.fixed_keyframes = static_cast<int>(window.keyframes.size() - window.free_count);
@@ -234,6 +251,23 @@ LocalBundleReport AdjustLocalBundle(Map& map, int keyframe, const Camera& camera
                                      [](const Window::Observation& o) { return !o.inlier; }));
   WriteBack(window, config.scales, map);
   return report;
+}
+
+}  // namespace
+
+LocalBundleReport AdjustLocalBundle(Map& map, int keyframe, const Camera& camera,
+                                    const LocalBundleConfig& config) {
+  Window window = MakeWindow(map, keyframe, config);
+  return Adjust(map, window, camera, config);
+}
+
+LocalBundleReport AdjustFullBundle(Map& map, const Camera& camera,
+                                   const LocalBundleConfig& config, int iterations) {
+  if (map.keyframes.empty()) return {};
+  Window window = MakeFullWindow(map);
+  LocalBundleConfig rounds = config;
+  rounds.first_iterations = rounds.last_iterations = iterations;
+  return Adjust(map, window, camera, rounds);
 }
 
 }  // namespace slam

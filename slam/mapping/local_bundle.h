@@ -37,4 +37,9 @@ struct LocalBundleReport {
 LocalBundleReport AdjustLocalBundle(Map& map, int keyframe, const Camera& camera,
                                     const LocalBundleConfig& config);
 
+/// The same for all keyframes and points; the first keyframe stays.
+/// @param iterations  of each of the two rounds
+LocalBundleReport AdjustFullBundle(Map& map, const Camera& camera,
+                                   const LocalBundleConfig& config, int iterations);
+
 }  // namespace slam

@@ -11,6 +11,7 @@
 #include "slam/config/config_file.h"
 #include "slam/input/camera_reader.h"
 #include "slam/input/sequence_reader.h"
+#include "slam/track/frame_gate.h"
 #include "slam/write/run_writer.h"
 
 namespace slam {
@@ -43,6 +44,22 @@ RunInfo Describe(const RunOptions& options, const std::string& detector) {
   return info;
 }
 
+/// A pose tied to a keyframe, which moves on when the map is adjusted.
+struct TiedPose {
+  double timestamp_s = 0.0;
+  int reference = kNone;
+  Pose T_cr;
+};
+
+std::vector<TimedPose> FollowKeyframes(const std::vector<TiedPose>& tied, const Map& map) {
+  std::vector<TimedPose> trajectory;
+  for (const TiedPose& pose : tied) {
+    trajectory.push_back(
+        {pose.timestamp_s, Normalised(pose.T_cr * KeyframePose(map, pose.reference))});
+  }
+  return trajectory;
+}
+
 Frame FrameOf(const RecordedFrame& recorded) {
   Frame frame;
   frame.index = recorded.index;
@@ -50,6 +67,51 @@ Frame FrameOf(const RecordedFrame& recorded) {
   frame.gray = recorded.gray;
   frame.depth_m = recorded.depth_m;
   return frame;
+}
+
+int ThreadsOf(const RunOptions& options) {
+  const int cores = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+  return options.threads > 0 ? options.threads : cores;
+}
+
+RunOutcome Run(LiveCamera input, const RunOptions& options, const std::string& detector) {
+  const auto start = std::chrono::steady_clock::now();
+  // Its own threads would only compete with ours.
+  cv::setNumThreads(1);
+  Tracker tracker(input.camera, options.config, options.variant, std::move(input.detector),
+                  options.seed, ThreadsOf(options));
+  RunWriter writer(options.run, Describe(options, detector),
+                   {.force = options.force, .save_segmentation = options.save_segmentation});
+
+  RunOutcome outcome;
+  FrameGate gate(input.camera);
+  std::vector<TiedPose> tied;
+  const int total = input.frames.size();
+  for (int i = 0; i < total && !outcome.stopped; ++i) {
+    RecordedFrame recorded = input.frames.Read(i);
+    if (gate.Takes(recorded)) {
+      recorded.index = outcome.frames++;
+      Frame frame = FrameOf(recorded);
+      const TrackReport report = tracker.TrackFrame(frame, recorded.bgr);
+      writer.WriteFrame({frame, report.tracked, report.times, StateName(report.points)});
+      outcome.tracked += report.tracked ? 1 : 0;
+      outcome.loops += report.loop ? 1 : 0;
+      if (report.tracked) tied.push_back({frame.timestamp_s, report.reference, report.T_cr});
+    }
+    if (options.progress) options.progress(i + 1, total);
+    outcome.stopped = i + 1 < total && options.stop && options.stop();
+  }
+  // A closed loop moves the past; without one the poses stay as they were found.
+  writer.Finish(tracker.map(), outcome.loops > 0 ? FollowKeyframes(tied, tracker.map())
+                                                 : std::vector<TimedPose>{});
+  outcome.warnings = gate.Warnings();
+
+  for (const Keyframe& keyframe : tracker.map().keyframes)
+    outcome.keyframes += !keyframe.culled;
+  for (const MapPlane& plane : tracker.map().planes) outcome.map_planes += !plane.merged_into;
+  outcome.wall_time_s =
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  return outcome;
 }
 
 }  // namespace
@@ -70,45 +132,28 @@ Variant VariantOf(const std::string& name) {
 }
 
 RunOutcome RunSequence(const RunOptions& options) {
-  const auto start = std::chrono::steady_clock::now();
-  // Its own threads would only compete with ours.
-  cv::setNumThreads(1);
-  const int cores = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
-  const int threads = options.threads > 0 ? options.threads : cores;
-
   if (!std::filesystem::is_directory(options.sequence)) {
     throw InputError(
         options.sequence.string(),
         "no such folder; expected a sequence made by pas sim, or a TUM RGB-D folder");
   }
   const Camera camera = ChooseCamera(options.camera, options.sequence);
-  SequenceReader reader(options.sequence, camera, {.prefetch = threads > 1});
+  SequenceReader reader(options.sequence, camera, {.prefetch = ThreadsOf(options) > 1});
   const std::string detector = DetectorChoice(options);
-  Tracker tracker(camera, options.config, options.variant,
-                  MakeDetector(detector, options.sequence, camera, options.config.classes),
-                  options.seed, threads);
-  RunWriter writer(options.run, Describe(options, detector),
-                   {.force = options.force, .save_segmentation = options.save_segmentation});
-
-  RunOutcome outcome;
-  for (int i = 0; i < reader.size(); ++i) {
-    const RecordedFrame recorded = reader.Read(i);
-    Frame frame = FrameOf(recorded);
-    const TrackReport report = tracker.TrackFrame(frame, recorded.bgr);
-    writer.WriteFrame({frame, report.tracked, report.times});
-    outcome.tracked += report.tracked ? 1 : 0;
-    if (options.progress) options.progress(i + 1, reader.size());
-  }
-  writer.Finish(tracker.map());
-
-  outcome.frames = reader.size();
-  for (const Keyframe& keyframe : tracker.map().keyframes)
-    outcome.keyframes += !keyframe.culled;
-  for (const MapPlane& plane : tracker.map().planes) outcome.map_planes += !plane.merged_into;
-  outcome.warnings = reader.warnings().text;
-  outcome.wall_time_s =
-      std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  RunOutcome outcome =
+      Run({reader, camera,
+           MakeDetector(detector, options.sequence, camera, options.config.classes)},
+          options, detector);
+  const auto& warnings = reader.warnings().text;
+  outcome.warnings.insert(outcome.warnings.begin(), warnings.begin(), warnings.end());
   return outcome;
+}
+
+RunOutcome RunLive(LiveCamera live, const RunOptions& options) {
+  // Boxes serve planes alone.
+  if (options.variant == Variant::kPoints) live.detector = nullptr;
+  const std::string detector = live.detector ? "live" : "none";
+  return Run(std::move(live), options, detector);
 }
 
 }  // namespace slam

@@ -3,10 +3,12 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "slam/config/config.h"
+#include "slam/input/frame_source.h"
 #include "slam/track/tracker.h"
 
 namespace slam {
@@ -25,11 +27,14 @@ struct RunOptions {
   bool force = false;                                 ///< replace an older run
   std::string version;                                ///< of the program, for run.json
   std::function<void(int done, int total)> progress;  ///< may be empty
+  /// Asked after each frame; when true the run ends there and is written. May be empty.
+  std::function<bool()> stop;
 };
 
 struct RunOutcome {
   int frames = 0, tracked = 0;
-  int keyframes = 0, map_planes = 0;
+  int keyframes = 0, map_planes = 0, loops = 0;
+  bool stopped = false;  ///< before the last frame
   double wall_time_s = 0.0;
   std::vector<std::string> warnings;  ///< what the sequence gave that was not used
 };
@@ -39,9 +44,23 @@ const char* VariantName(Variant variant);
 /// @throws InputError listing the variants.
 Variant VariantOf(const std::string& name);
 
+/// Where a run gets its frames, when that is no folder.
+struct LiveCamera {
+  FrameSource& frames;
+  Camera camera;
+  std::unique_ptr<Detector> detector;  ///< null: no detections
+};
+
 /// Runs PAS-SLAM over the sequence and writes the run folder (formats.md), whole or not at all.
 /// Truth is never read. The same options give the same bytes, apart from the times.
 /// @throws InputError for bad input.
 RunOutcome RunSequence(const RunOptions& options);
+
+/// The same on frames that never were files. A frame that is not later than the one before is
+/// left out and counted in a warning, numbers in depth that cannot be are no measurement, and
+/// an image of another size is refused. options.sequence is only written into run.json,
+/// options.camera and .detector are not used. Equal frames and detections give the bytes that
+/// RunSequence gives, run.json's paths apart.
+RunOutcome RunLive(LiveCamera live, const RunOptions& options);
 
 }  // namespace slam

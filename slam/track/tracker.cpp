@@ -109,6 +109,7 @@ void Tracker::UpdateMap(Frame& frame, TrackReport& report) {
   if (report.keyframe) {
     const int keyframe = InsertKeyframe(frame, map_, camera_, config_.mapping.keyframes);
     MapLocally(map_, keyframe, camera_, config_.mapping);
+    CloseLoopAt(keyframe, report);
     frame.T_cw = KeyframePose(map_, keyframe);
     if (uses_planes()) {
       const Stopwatch watch(report.times[Module::kUpm]);
@@ -116,6 +117,17 @@ void Tracker::UpdateMap(Frame& frame, TrackReport& report) {
     }
   }
   points_.Accept(frame, map_);
+  report.reference = points_.reference_keyframe();
+  report.T_cr = frame.T_cw * Inverse(KeyframePose(map_, report.reference));
+}
+
+void Tracker::CloseLoopAt(int keyframe, TrackReport& report) {
+  if (!config_.loop_closing.enabled) return;
+  const auto loop =
+      DetectLoop(map_, points_.Places(map_), keyframe, camera_, config_.loop_closing.detection);
+  if (loop) {
+    report.loop = CloseLoop(map_, *loop, camera_, config_.mapping, config_.loop_closing);
+  }
 }
 
 }  // namespace slam

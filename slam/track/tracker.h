@@ -3,12 +3,14 @@
 #include <cstdint>
 #include <memory>
 #include <opencv2/core/mat.hpp>
+#include <optional>
 
 #include "slam/base/camera.h"
 #include "slam/config/config.h"
 #include "slam/extract/box_tracks.h"
 #include "slam/extract/detections.h"
 #include "slam/localise/point_tracking.h"
+#include "slam/loop/close_loop.h"
 #include "slam/model/frame.h"
 #include "slam/model/map.h"
 #include "slam/model/module_times.h"
@@ -28,8 +30,11 @@ struct TrackReport {
   PointTrackReport points;
   ModuleTimes times;
   bool tracked = false;
-  bool keyframe = false;      ///< the frame was kept
-  int plane_constraints = 0;  ///< frame planes that constrained the pose
+  bool keyframe = false;           ///< the frame was kept
+  int reference = kNone;           ///< keyframe that the pose is tied to, when tracked ...
+  Pose T_cr;                       ///< ... and the camera as seen from it
+  std::optional<LoopReport> loop;  ///< when the frame closed one
+  int plane_constraints = 0;       ///< frame planes that constrained the pose
 };
 
 /// PAS-SLAM: follows a camera by points and planes and maps both. One frame after the other,
@@ -58,6 +63,7 @@ class Tracker {
   void AssociateFramePlanes(Frame& frame);
   void OptimiseWithPlanes(Frame& frame, TrackReport& report);
   void UpdateMap(Frame& frame, TrackReport& report);
+  void CloseLoopAt(int keyframe, TrackReport& report);
 
   Camera camera_;
   Config config_;

@@ -71,12 +71,13 @@ Json VectorJson(const Eigen::Vector3d& x) {
   return Json::array({NumberJson(x.x()), NumberJson(x.y()), NumberJson(x.z())});
 }
 
-Json FramePlanesRecord(const Frame& frame, bool tracked) {
+Json FramePlanesRecord(const Frame& frame, bool tracked, const char* state) {
   Require(frame.plane_matches.empty() || frame.plane_matches.size() == frame.planes.size(),
           "FramePlanesRecord: the matches are not parallel to the planes");
   Json json;
   json["timestamp"] = NumberJson(frame.timestamp_s);
   json["tracked"] = tracked;
+  if (*state != 0) json["state"] = state;
   json["planes"] = Json::array();
   for (std::size_t i = 0; i < frame.planes.size(); ++i) {
     const PlaneMatch match =

@@ -17,7 +17,9 @@ const char* DecisionText(PlaneDecision decision);
 /// @throws std::invalid_argument if the matches are not parallel to the planes, or a number is
 /// not
 ///         finite.
-nlohmann::ordered_json FramePlanesRecord(const Frame& frame, bool tracked);
+/// @param state  of tracking, see StateName; left out when empty
+nlohmann::ordered_json FramePlanesRecord(const Frame& frame, bool tracked,
+                                         const char* state = "");
 
 /// [x, y, z].
 nlohmann::ordered_json VectorJson(const Eigen::Vector3d& x);

@@ -8,8 +8,8 @@
 
 namespace slam {
 
-/// map.json (formats.md), a plane a line: every plane ever made, those merged into others included.
-/// World frame.
+/// map.json (formats.md), a plane a line: every plane ever made, those merged into others
+/// included. World frame.
 std::string MapAsJson(const Map& map);
 
 /// map.ply: the points of the planes that stand for themselves (not merged), ASCII PLY with

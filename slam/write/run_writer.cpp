@@ -59,7 +59,7 @@ void RunWriter::WriteFrame(const FrameRecord& record) {
   const Frame& frame = record.frame;
   Require(frames_ == 0 || frame.timestamp_s > last_s_,
           "RunWriter::WriteFrame: timestamps must increase");
-  const std::string line = FramePlanesRecord(frame, record.tracked)
+  const std::string line = FramePlanesRecord(frame, record.tracked, record.state)
                                .dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
   if (record.tracked) {
     Require(frame.T_cw.R.allFinite() && frame.T_cw.t.allFinite(),

@@ -32,6 +32,7 @@ struct FrameRecord {
   const Frame& frame;
   bool tracked = false;  ///< frame.T_cw is believed
   ModuleTimes times;
+  const char* state = "";  ///< of tracking; written with the frame's planes when not empty
 };
 
 /// A pose of the final trajectory.

@@ -328,6 +328,44 @@ TEST(Twins, AreSixteenScenesThatKnowHowToBeRecorded) {
   EXPECT_THROW(MakeTwin("fr4-desk", 1), InputError);
 }
 
+TEST(Twins, FindRoomWhateverTheSeed) {
+  for (const char* name : {"fr1-desk", "fr1-desk2"}) {
+    for (std::uint64_t seed = 1; seed <= 6; ++seed) {
+      EXPECT_NO_THROW(MakeTwin(name, seed)) << name << " " << seed;
+    }
+  }
+}
+
+TEST(DeskFamily, TakesAsFewAsFiveThings) {
+  for (int count = 5; count <= 7; ++count) {
+    std::set<std::string> things;
+    for (const Object& object : MakeScene("desk", 3, {{"objects", count}}).objects) {
+      if (object.role == Role::kStructure) continue;
+      const int group = object.detection_group;
+      things.insert(group != 0 ? "group " + std::to_string(group) : object.name);
+    }
+    EXPECT_EQ(things.size(), static_cast<std::size_t>(count));
+  }
+}
+
+TEST(PasserFamily, CarriesAToyUnderTheHand) {
+  for (int kind = 1; kind <= 3; ++kind) {
+    const Scene scene = MakeScene("passer", 5, {{"kind", kind}});
+    std::vector<const Object*> moving;
+    for (const Object& object : scene.objects) {
+      if (!object.way.empty()) moving.push_back(&object);
+    }
+    ASSERT_EQ(moving.size(), kind == 3 ? 2u : 1u);
+    EXPECT_EQ(moving[0]->class_name, "person");
+    const auto& way = moving[0]->way;
+    for (std::size_t i = 1; i < way.size(); ++i) {
+      const double speed =
+          (way[i].center_w - way[i - 1].center_w).norm() / (way[i].time_s - way[i - 1].time_s);
+      EXPECT_LT(speed, 1.6) << "no jumps";
+    }
+  }
+}
+
 TEST(SceneSvg, DrawsEveryThingTwiceAndNamesTheSteps) {
   const Scene scene = MakeScene("stack", 1, {{"step_mm", 12.5}, {"count", 3}});
   const std::string svg = SceneSvg(scene);

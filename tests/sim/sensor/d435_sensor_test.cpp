@@ -40,7 +40,7 @@ class D435NoiseAt : public testing::TestWithParam<double> {
 // independent numbers, sd known to 0.6 %.
 TEST_P(D435NoiseAt, HasTheStandardDeviationOfThePublishedLaw) {
   const ErrorMoments m = Errors(0.03, 40);
-  EXPECT_NEAR(m.sd, 1.0, 0.05);
+  EXPECT_NEAR(m.sd, 1.0, 0.03);
   EXPECT_EQ(m.share, 1.0);
 }
 
@@ -80,6 +80,18 @@ TEST_P(D435NoiseAt, LeavesOnlyWholeMillimetres) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Depths, D435NoiseAt, testing::Values(0.6, 1.0, 1.5, 2.0));
+
+// Where disparity's steps and millimetres are near 1 : 2 and 1 : 1 the roundings go along with
+// the noise; at any place in a millimetre the sd must still be the law's.
+TEST(D435Noise, KeepsItsSdWhereTheTwoRoundingsBeat) {
+  const DepthModel model = D435Model{.baseline_m = 0};
+  for (const double z : {0.5870, 0.5873, 0.6005, 0.8210, 0.8297, 0.9004}) {
+    const Rendering rendering = SensorView(OneBoard(z), NarrowCamera(), model);
+    const ErrorMoments m = MeasureErrors(rendering, NarrowCamera(), model, 20,
+                                         [](double at, double) { return PublishedD435Sigma(at); });
+    EXPECT_NEAR(m.sd, 1.0, 0.04) << z;
+  }
+}
 
 // A 7 x 7 mean shares 42 of 49 numbers with its neighbour: correlation 0.7 * 6/7.
 TEST(D435Noise, IsCorrelatedOverTheMatchingWindow) {

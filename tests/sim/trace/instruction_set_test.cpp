@@ -33,8 +33,7 @@ std::vector<std::uint64_t> Hashes(const FrameRenderer& renderer, const std::vect
   for (std::size_t first = 0; first < threads; ++first) {
     workers.emplace_back([&, first] {
       for (std::size_t i = first; i < views.size(); i += threads) {
-        hashes[i] =
-            HashOfTruth(renderer.Render(views[i], {.colour = false, .exact_edges = true}));
+        hashes[i] = HashOfTruth(renderer.Render(views[i], {.colour = false}));
       }
     });
   }
@@ -83,6 +82,11 @@ TEST(DepthAndIds, AreTheSameBitsInAFullClutteredDesk) {
   ExpectOneAnswer(MakeScene("desk", 3), Camera{}, 2);
 }
 
+TEST(DepthAndIds, AreTheSameBitsBehindALens) {
+  ExpectOneAnswer(SmallDesk(),
+                  WithLens(Resize(Camera{}, 320, 240), {-0.2, 0.05, 0.002, -0.001, 0.0}), 6);
+}
+
 // Edges that pass exactly through pixel centres: the ray tracer alone could go either way.
 TEST(DepthAndIds, AreTheSameBitsWhereEdgesPassThroughPixelCentres) {
   Scene scene;
@@ -104,8 +108,8 @@ TEST(DepthAndIds, DifferFromTheRayTracersOwnOnlyAtEdges) {
   const FrameRenderer renderer(SmallDesk(), Camera{});
   int differ = 0;
   for (const Pose& T_wc : Views(3)) {
-    const Rendering exact = renderer.Render(T_wc, {.colour = false, .exact_edges = true});
-    const Rendering traced = renderer.Render(T_wc, {.colour = false});
+    const Rendering exact = renderer.Render(T_wc, {.colour = false});
+    const Rendering traced = renderer.Render(T_wc, {.colour = false, .exact_edges = false});
     for (int v = 0; v < exact.plane_id.rows; ++v) {
       for (int u = 0; u < exact.plane_id.cols; ++u) {
         if (exact.plane_id(v, u) != traced.plane_id(v, u)) {
@@ -117,6 +121,40 @@ TEST(DepthAndIds, DifferFromTheRayTracersOwnOnlyAtEdges) {
     }
   }
   EXPECT_LE(differ, 30);  // 10 a frame of about 10,000 edge pixels
+}
+
+// Shadows' edges are the ray tracer's; it is pinned to what is the same with and without AVX2.
+TEST(Colour, UnderLampsAndAreaLightsIsTheSameBitsWherePinnedAndOnAnyNumberOfThreads) {
+  Scene scene = SmallDesk();
+  Light lamp, panel;
+  lamp.center_w = {0.2, -0.3, 1.3};
+  panel.kind = LightKind::kArea;
+  panel.center_w = {-0.4, 0.1, 2};
+  scene.lights = {lamp, panel};
+  const Camera camera = SmallCamera();
+  const std::vector<Pose> poses = Views(4);
+  const auto hashes = [&](InstructionSet set, std::size_t threads) {
+    const FrameRenderer renderer(scene, camera, set);
+    std::vector<std::uint64_t> found(poses.size());
+    std::vector<std::thread> workers;
+    for (std::size_t first = 0; first < threads; ++first) {
+      workers.emplace_back([&, first] {
+        for (std::size_t i = first; i < poses.size(); i += threads) {
+          found[i] = Hash(renderer.Render(poses[i]).radiance);
+        }
+      });
+    }
+    for (std::thread& worker : workers) worker.join();
+    return found;
+  };
+  const auto expected = hashes(InstructionSet::kPinned, 1);
+  for (const InstructionSet set : {InstructionSet::kSse42, InstructionSet::kAvx2}) {
+    if (!HasInstructionSet(set)) continue;
+    for (const std::size_t threads : {1u, 2u, 4u}) {
+      EXPECT_EQ(hashes(set, threads), expected)
+          << "set " << static_cast<int>(set) << ", " << threads << " threads";
+    }
+  }
 }
 
 }  // namespace

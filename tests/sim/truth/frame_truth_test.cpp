@@ -108,6 +108,31 @@ TEST(FrameTruth, TellsVisibleHiddenAndOutsideCorners) {
   }
 }
 
+// A book lies on the near half of a desk, its back edge in the desk's middle; the camera looks
+// from the front, above, over the book's middle. Depth breaks off at the book's four upper
+// corners; at the two lower ones that are seen, book and desk meet.
+TEST(FrameTruth, TellsCornersWhereDepthBreaksOffFromCreases) {
+  Scene scene;
+  scene.objects = {BoxObject(1, "desk", Role::kStructure, {0, 1.5, -0.515}, {1.6, 1.0, 0.03}),
+                   BoxObject(2, "book", Role::kRegular, {0, 1.35, -0.485}, {0.2, 0.3, 0.03})};
+  const FrameTruth truth = TruthOf(scene, Camera{}, LookAt({0, 0, 0.3}, {0, 1.4, -0.5}));
+  std::map<double, int> ends_by_height, seen_by_height;
+  for (const PlaneInFrame& plane : truth.planes) {
+    if (plane.id <= 6) continue;
+    for (const VertexInFrame& vertex : plane.vertices) {
+      if (vertex.state != VertexState::kVisible) continue;
+      ++seen_by_height[vertex.x_w.z()];
+      ends_by_height[vertex.x_w.z()] += vertex.surface_ends ? 1 : 0;
+    }
+  }
+  // The top has four corners; the front shares two of them and has two below.
+  ASSERT_EQ(seen_by_height.size(), 2u);
+  EXPECT_EQ(seen_by_height.begin()->second, 2);
+  EXPECT_EQ(ends_by_height.begin()->second, 0);
+  EXPECT_EQ(seen_by_height.rbegin()->second, 6);
+  EXPECT_EQ(ends_by_height.rbegin()->second, 6);
+}
+
 TEST(FrameTruth, PutsEveryPixelOfAPlaneInsideItsOutline) {
   const Scene scene = SmallDesk();
   const Pose T_wc = SmallArc(1)[0].T_wc;

@@ -1,0 +1,49 @@
+#pragma once
+
+#include <deque>
+#include <future>
+#include <memory>
+#include <string>
+
+#include "sim/write/recording.h"
+#include "slam/base/camera.h"
+#include "slam/extract/detections.h"
+#include "slam/input/frame_source.h"
+
+namespace app {
+
+/// A rendered scene as a camera: frames are made while the estimator works, `ahead` of them on
+/// threads of their own, and never become files. What leaves is what a camera and a detector
+/// give: colour, depth, time and boxes, with the values that files of the same recording hold.
+/// Memory does not grow with the number of frames. One caller at a time.
+class LiveScene : public slam::FrameSource {
+ public:
+  /// @param ahead  at least 0; never changes a frame
+  LiveScene(const sim::Scene& scene, const sim::RigOptions& rig, sim::Recording recording,
+            int ahead);
+
+  int size() const override { return recording_.frames(); }
+  slam::RecordedFrame Read(int i) override;
+
+  /// The camera as camera.yaml of a sequence would give it.
+  slam::Camera camera() const;
+  /// Boxes of the frame that was read last; null for a rig without a detector. It refers to
+  /// this object.
+  std::unique_ptr<slam::Detector> MakeDetector(const slam::ClassTable& classes) const;
+
+ private:
+  struct Made {
+    slam::RecordedFrame frame;
+    std::string detections;  ///< a line of detections.jsonl
+  };
+  Made Make(int i) const;
+
+  sim::Simulator simulator_;
+  sim::Recording recording_;
+  int ahead_count_;
+  std::string detections_;
+  int next_ = 0;                         ///< first frame that nobody makes yet
+  std::deque<std::future<Made>> ahead_;  ///< last: its threads must end before the rest
+};
+
+}  // namespace app

@@ -1,0 +1,139 @@
+#include "eval/check/check_deep_depth.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "eval/check/check_truth_depth.h"
+
+namespace eval {
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr int kStride_px = 3;
+constexpr double kBaseline_m = 0.1, kLargestBaseline_m = 0.4, kLargestTurn_rad = 0.4;
+constexpr std::size_t kMinPixels = 200;
+
+/// Median |depth - z| / sigma for the pose of index `pose`.
+double Misfit(const DeepFrames& frames, const DeepFrame& frame, std::size_t pose) {
+  const Eigen::Isometry3d& T_wc = frames.truth().poses[pose].T_wc;
+  std::vector<double> ratios;
+  for (int v = 1; v < frame.ids.rows; v += kStride_px) {
+    for (int u = 1; u < frame.ids.cols; u += kStride_px) {
+      const auto plane = frames.truth().scene->planes.find(frame.ids.at<unsigned short>(v, u));
+      const int units = frame.depth.at<unsigned short>(v, u);
+      if (units == 0 || plane == frames.truth().scene->planes.end()) continue;
+      const Vector3d ray_w = T_wc.linear() * frames.Ray(u, v);
+      const double z = -(plane->second.normal.dot(T_wc.translation()) + plane->second.d) /
+                       plane->second.normal.dot(ray_w);
+      if (!(z > 0)) continue;
+      ratios.push_back(std::abs(units * frames.unit_m() - z) /
+                       DepthSigma(frames.truth().sensor, z, 0, frames.unit_m()));
+    }
+  }
+  return ratios.size() < kMinPixels ? -1 : Median(ratios);
+}
+
+/// 1/z of B at a place between four pixels that all show the plane; 0 when they do not.
+double InverseDepthAt(const DeepFrames& frames, const DeepFrame& b, double u, double v,
+                      int plane) {
+  const int u0 = static_cast<int>(std::floor(u)), v0 = static_cast<int>(std::floor(v));
+  if (u0 < 1 || v0 < 1 || u0 + 2 >= b.ids.cols || v0 + 2 >= b.ids.rows) return 0;
+  double sum = 0;
+  for (int k = 0; k < 4; ++k) {
+    const int x = u0 + (k & 1), y = v0 + (k >> 1);
+    const int units = b.depth.at<unsigned short>(y, x);
+    if (b.ids.at<unsigned short>(y, x) != plane || units == 0) return 0;
+    const double weight =
+        ((k & 1) != 0 ? u - u0 : u0 + 1 - u) * ((k >> 1) != 0 ? v - v0 : v0 + 1 - v);
+    sum += weight / (units * frames.unit_m());
+  }
+  return sum;
+}
+
+void Compare(const DeepFrames& frames, const DeepFrame& a, const DeepFrame& b,
+             std::vector<double>& ratios, std::vector<double>& errors_m) {
+  const Eigen::Isometry3d T_ba = frames.Pose(b).inverse() * frames.Pose(a);
+  for (int v = 1; v < a.ids.rows; v += kStride_px) {
+    for (int u = 1; u < a.ids.cols; u += kStride_px) {
+      const int id = a.ids.at<unsigned short>(v, u);
+      const int units = a.depth.at<unsigned short>(v, u);
+      if (id == 0 || units == 0) continue;
+      const Vector3d x_b = T_ba * (units * frames.unit_m() * frames.Ray(u, v));
+      if (!(x_b.z() > 0.05)) continue;
+      const Eigen::Vector2d pixel = frames.Pixel(x_b);
+      const double inverse_z = InverseDepthAt(frames, b, pixel.x(), pixel.y(), id);
+      if (!(inverse_z > 0)) continue;
+      const double error = std::abs(x_b.z() - 1 / inverse_z);
+      const double sa =
+          DepthSigma(frames.truth().sensor, units * frames.unit_m(), 0, frames.unit_m());
+      const double sb = DepthSigma(frames.truth().sensor, 1 / inverse_z, 0, frames.unit_m());
+      errors_m.push_back(error);
+      ratios.push_back(error / std::hypot(sa, sb));
+    }
+  }
+}
+
+}  // namespace
+
+/// An id image goes with the pose; so a depth that fits a neighbour's pose is a neighbour's.
+void CheckDepthTime(FolderCheck& check, const DeepFrames& frames) {
+  int judged = 0, before = 0, after = 0;
+  for (const DeepFrame& frame : frames.frames()) {
+    if (frame.depth.empty() || frame.pose == 0 ||
+        frame.pose + 1 >= frames.truth().poses.size()) {
+      continue;
+    }
+    const double own = Misfit(frames, frame, frame.pose),
+                 last = Misfit(frames, frame, frame.pose - 1),
+                 next = Misfit(frames, frame, frame.pose + 1);
+    if (!(own >= 0) || !(last >= 0) || !(next >= 0)) continue;
+    ++judged;
+    if (last < 0.97 * own && last <= next) ++before;
+    if (next < 0.97 * own && next < last) ++after;
+  }
+  for (const auto& [count, which] : {std::pair{before, "before"}, {after, "after"}}) {
+    if (judged < 2 || 3 * count <= 2 * judged) continue;
+    check.Add("depth.txt", 0,
+              fmt::format("in {} of {} frames the depth fits the pose of the frame {} better "
+                          "than its own",
+                          count, judged, which),
+              "pair depth, ids and poses of one instant");
+  }
+}
+
+void CheckWarp(FolderCheck& check, const DeepFrames& frames) {
+  const std::vector<DeepFrame>& list = frames.frames();
+  int judged = 0, bad = 0;
+  std::vector<double> medians_m;
+  for (std::size_t i = 0; i < list.size(); ++i) {
+    for (std::size_t j = i + 1; j < list.size(); ++j) {
+      if (list[i].depth.empty() || list[j].depth.empty()) continue;
+      const Eigen::Isometry3d T = frames.Pose(list[i]).inverse() * frames.Pose(list[j]);
+      const double far_m = T.translation().norm();
+      if (far_m < kBaseline_m) continue;
+      if (far_m > kLargestBaseline_m ||
+          Eigen::AngleAxisd(T.linear()).angle() > kLargestTurn_rad) {
+        break;
+      }
+      std::vector<double> ratios, errors_m;
+      Compare(frames, list[i], list[j], ratios, errors_m);
+      if (ratios.size() < kMinPixels) continue;
+      ++judged;
+      medians_m.push_back(Median(errors_m));
+      if (!(Median(ratios) <= 1)) ++bad;
+      break;
+    }
+  }
+  if (judged == 0 || 4 * bad <= judged) return;
+  check.Add(".", 0,
+            fmt::format("in {} of {} pairs of frames the depth of one, carried into the "
+                        "other by the poses, is {:.1f} mm (median) off",
+                        bad, judged, Median(medians_m) * 1e3),
+            "check the direction of the poses, planar depth, depth_factor and which images "
+            "belong together");
+}
+
+}  // namespace eval

@@ -1,0 +1,83 @@
+#include "eval/export/exportable.h"
+
+#include <algorithm>
+
+#include "eval/read/input_error.h"
+
+namespace eval {
+
+void PixelSet::Add(int u, int v) {
+  if (count == 0) {
+    x0 = x1 = u;
+    y0 = y1 = v;
+  }
+  ++count;
+  x0 = std::min(x0, u), x1 = std::max(x1, u);
+  y0 = std::min(y0, v), y1 = std::max(y1, v);
+}
+
+Sequence ReadExportable(const std::filesystem::path& folder) {
+  Sequence sequence = ReadSequence(folder);
+  const auto require = [&](bool there, const char* file) {
+    if (!there) {
+      throw InputError((folder / file).string(),
+                       "is missing; only a sequence with truth, as `pas sim` writes it, can be "
+                       "exported");
+    }
+  };
+  require(sequence.camera.has_value(), "camera.yaml");
+  require(sequence.scene.has_value(), "gt/scene.json");
+  require(!sequence.object_id_files.empty(), "gt/object_id");
+  return sequence;
+}
+
+cv::Mat1w ReadCheckedObjectIds(const Sequence& sequence, double stamp_s) {
+  const auto file = sequence.object_id_files.Find(stamp_s);
+  if (!file) {
+    throw InputError((sequence.folder / "gt/object_id").string(),
+                     "has no image of the frame at " + std::to_string(stamp_s) +
+                         "; render the sequence again");
+  }
+  const cv::Mat1w ids = ReadLabels(*file);
+  const Camera& camera = *sequence.camera;
+  if (ids.cols != camera.width || ids.rows != camera.height) {
+    throw InputError(file->string(), "has another size than camera.yaml says; mend the camera");
+  }
+  int last = 0;
+  for (int v = 0; v < ids.rows; ++v) {
+    for (int u = 0; u < ids.cols; ++u) {
+      const int id = ids(v, u);
+      if (id == last || id == 0) continue;
+      if (sequence.scene->FindObject(id) == nullptr) {
+        throw InputError(file->string(), "shows object " + std::to_string(id) +
+                                             ", which gt/scene.json does not have");
+      }
+      last = id;
+    }
+  }
+  return ids;
+}
+
+std::vector<Pose> FramePoses(const Sequence& sequence) {
+  const std::string file = (sequence.folder / "groundtruth.txt").string();
+  if (!sequence.groundtruth) throw InputError(file, "is missing; poses cannot be exported");
+  const Trajectory& truth = *sequence.groundtruth;
+  std::vector<Pose> poses;
+  if (sequence.synthetic && truth.size() == sequence.frames.size()) {
+    for (const StampedPose& pose : truth) poses.push_back(pose.T_wc);
+    return poses;
+  }
+  std::vector<double> stamps_s;
+  for (const StampedPose& pose : truth) stamps_s.push_back(pose.stamp_s);
+  for (const SequenceFrame& frame : sequence.frames) {
+    const auto at = FindStamp(stamps_s, frame.stamp_s);
+    if (!at) {
+      throw InputError(
+          file, "has no pose at " + std::to_string(frame.stamp_s) + "; each frame needs one");
+    }
+    poses.push_back(truth[*at].T_wc);
+  }
+  return poses;
+}
+
+}  // namespace eval

@@ -1,0 +1,48 @@
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <opencv2/core.hpp>
+#include <string>
+#include <vector>
+
+#include "eval/read/sequence.h"
+
+namespace eval {
+
+struct ExportOptions {
+  bool structure = false;    ///< also desk, floor, walls
+  bool force = false;        ///< replace an older export
+  std::string version = {};  ///< of the program, for the dataset's description
+  std::function<void(int done, int total)> progress = {};  ///< frames; may be empty
+};
+
+struct ExportSummary {
+  int images = 0;
+  int instances = 0;  ///< annotations of all images
+  int kinds = 0;      ///< categories, or models
+  int left_out = 0;   ///< objects of the scenes that the format cannot hold
+};
+
+/// A sequence that can be exported: it has a camera, gt/scene.json and gt/object_id.
+/// @throws InputError that names what is missing
+Sequence ReadExportable(const std::filesystem::path& folder);
+
+/// Object ids of a frame.
+/// @throws InputError naming the file when it is missing, has another size than the camera, or
+///   holds an id that the scene does not have
+cv::Mat1w ReadCheckedObjectIds(const Sequence& sequence, double stamp_s);
+
+/// Pose of each frame, T_gc. A simulator's n-th pose is that of the n-th frame, whatever its
+/// stamp says; else they are matched by stamp.
+/// @throws InputError for a frame without a pose
+std::vector<Pose> FramePoses(const Sequence& sequence);
+
+/// Pixels of an object; inclusive box of pixel centres.
+struct PixelSet {
+  int count = 0;
+  int x0 = 0, y0 = 0, x1 = -1, y1 = -1;
+  void Add(int u, int v);
+};
+
+}  // namespace eval

@@ -1,0 +1,70 @@
+#include "sim/scene/read_lights.h"
+
+#include <cmath>
+
+#include "sim/scene/names.h"
+
+namespace sim {
+namespace {
+
+constexpr double kMaxCoordinate_m = 100;
+constexpr double kMinHalf_m = 1e-4, kMaxHalf_m = 25;
+constexpr double kLeastIntensity = 1e-6, kMostIntensity = 1e4;
+constexpr double kSquare = 1e-6;  ///< cosine of what passes for a right angle
+constexpr std::uint64_t kMostSamplesPerSide = 16;
+
+Eigen::Vector3d ReadPoint(const YamlMap& map, const char* key) {
+  return map.At(key).Numbers(3, -kMaxCoordinate_m, kMaxCoordinate_m, "metres");
+}
+
+Eigen::Vector3d ReadHalf(const YamlMap& map, const char* key) {
+  const Eigen::Vector3d half = map.At(key).Numbers(3, -kMaxHalf_m, kMaxHalf_m, "metres");
+  if (!(half.norm() >= kMinHalf_m)) map.At(key).Fail("expected 0.1 mm or more, or kind: lamp");
+  return half;
+}
+
+Light ReadLight(const YamlValue& value) {
+  static const std::vector<std::string> kKeys{"kind",      "position_m", "center_m",
+                                              "half_a_m",  "half_b_m",   "samples_per_side",
+                                              "intensity", "colour"};
+  const YamlMap map(value, kKeys);
+  Light light;
+  light.kind = static_cast<LightKind>(map.At("kind").OneOf(kLightNames));
+  const bool lamp = light.kind == LightKind::kLamp;
+  for (const char* key : {"center_m", "half_a_m", "half_b_m", "samples_per_side"}) {
+    if (lamp && map.Has(key)) {
+      map.At(key).Fail("is for `kind: area`; a lamp has position_m");
+    }
+  }
+  if (lamp) {
+    light.center_w = ReadPoint(map, "position_m");
+  } else {
+    if (map.Has("position_m")) map.At("position_m").Fail("is for `kind: lamp`; name center_m");
+    light.center_w = ReadPoint(map, "center_m");
+    light.half_a_w = ReadHalf(map, "half_a_m");
+    light.half_b_w = ReadHalf(map, "half_b_m");
+    if (!(std::abs(light.half_a_w.normalized().dot(light.half_b_w.normalized())) < kSquare)) {
+      map.At("half_b_m").Fail("is not square to half_a_m; a light is a rectangle");
+    }
+  }
+  if (map.Has("samples_per_side")) {
+    light.samples_per_side =
+        static_cast<int>(map.At("samples_per_side").Whole(1, kMostSamplesPerSide));
+  }
+  light.intensity = map.At("intensity").Number(kLeastIntensity, kMostIntensity, "");
+  if (map.Has("colour")) {
+    const Eigen::VectorXd rgb = map.At("colour").Numbers(3, 0, 1, "linear RGB");
+    light.colour = {rgb[0], rgb[1], rgb[2]};
+  }
+  return light;
+}
+
+}  // namespace
+
+std::vector<Light> ReadLights(const YamlValue& value) {
+  std::vector<Light> lights;
+  for (const YamlValue& entry : value.List(kMaxLights)) lights.push_back(ReadLight(entry));
+  return lights;
+}
+
+}  // namespace sim

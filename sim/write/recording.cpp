@@ -1,0 +1,58 @@
+#include "sim/write/recording.h"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <utility>
+
+#include "sim/write/sequence_text.h"
+
+namespace sim {
+namespace {
+
+/// Of the poses between frames: twenty a period of the fastest tremor (12 Hz).
+constexpr double kPathRate_Hz = 240.0;
+
+void CheckTimes(const std::vector<TimedPose>& trajectory) {
+  if (trajectory.empty()) throw std::invalid_argument("a sequence needs at least one frame");
+  for (std::size_t i = 1; i < trajectory.size(); ++i) {
+    if (!(PrintedTime(trajectory[i].timestamp_s) >
+          PrintedTime(trajectory[i - 1].timestamp_s))) {
+      throw std::invalid_argument("timestamps must grow by a microsecond or more a frame");
+    }
+  }
+}
+
+}  // namespace
+
+Recording PlanRecording(const std::vector<TimedPose>& trajectory, std::vector<TimedPose> path,
+                        const TimingDefects& timing, std::uint64_t seed) {
+  CheckTimes(trajectory);
+  Recording recording;
+  recording.shots = MakeShots(trajectory, timing, seed);
+  recording.path = path.empty() ? trajectory : std::move(path);
+  recording.lost = static_cast<int>(trajectory.size()) - recording.frames();
+  return recording;
+}
+
+Recording PlanRecording(const Scene& scene, const RigOptions& rig, const TimingDefects& timing,
+                        int frames) {
+  const double fps = rig.camera.fps;
+  std::vector<TimedPose> path;
+  if (rig.exposure.Moves() || timing.depth_offset_s != 0) {
+    const int times = std::max(1, static_cast<int>(std::ceil(kPathRate_Hz / fps)));
+    path = MakeTrajectory(scene, frames * times + 1, fps * times, rig.seed);
+  }
+  Recording recording = PlanRecording(MakeTrajectory(scene, frames, fps, rig.seed),
+                                      std::move(path), timing, rig.seed);
+  recording.scenes_own = true;
+  return recording;
+}
+
+SimulatedFrame Record(const Simulator& simulator, const Recording& recording, int i) {
+  const Shot& shot = recording.shots.at(static_cast<std::size_t>(i));
+  return simulator.Simulate(
+      i, shot, [&](double later_s) { return PoseAt(recording.path, shot.time_s + later_s); });
+}
+
+}  // namespace sim

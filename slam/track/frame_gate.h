@@ -1,0 +1,31 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "slam/base/camera.h"
+#include "slam/input/frame_source.h"
+
+namespace slam {
+
+/// Lets in what the estimator can work with, whatever the stream does.
+class FrameGate {
+ public:
+  explicit FrameGate(const Camera& camera) : camera_(camera) {}
+
+  /// @param frame  depth that is not finite, negative or beyond any sensor becomes 0, on a copy
+  /// @returns whether it is later than all before; otherwise it is counted and left out
+  /// @throws InputError when an image is not of the camera's size, or the time is not finite.
+  bool Takes(RecordedFrame& frame);
+
+  /// What was left out, a line a kind; empty when nothing was.
+  std::vector<std::string> Warnings() const;
+
+ private:
+  Camera camera_;
+  double last_s_ = 0.0;
+  bool first_ = true;
+  int not_later_ = 0;
+};
+
+}  // namespace slam

@@ -1,0 +1,113 @@
+#pragma once
+
+#include <fcntl.h>
+#include <signal.h>
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <map>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+/// Runs the project's own program and other executables as processes.
+namespace program {
+
+namespace fs = std::filesystem;
+using Environment = std::map<std::string, std::string>;
+
+inline fs::path Pas() { return fs::path(PAS_BINARY_DIR) / "pas"; }
+
+/// A folder of its own, gone with the object.
+class TemporaryFolder {
+ public:
+  TemporaryFolder() {
+    std::string name = (fs::temp_directory_path() / "pas_program_XXXXXX").string();
+    if (mkdtemp(name.data()) == nullptr) throw std::runtime_error("no temporary folder");
+    path_ = name;
+  }
+  ~TemporaryFolder() {
+    std::error_code ignored;
+    fs::remove_all(path_, ignored);
+  }
+  TemporaryFolder(const TemporaryFolder&) = delete;
+  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+  fs::path operator/(const std::string& name) const { return path_ / name; }
+
+ private:
+  fs::path path_;
+};
+
+inline std::string ReadText(const fs::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+/// Every file below a folder with its bytes, by relative path.
+inline std::map<std::string, std::string> Contents(const fs::path& folder) {
+  std::map<std::string, std::string> contents;
+  if (!fs::exists(folder)) return contents;
+  for (const auto& entry : fs::recursive_directory_iterator(folder)) {
+    if (!entry.is_regular_file()) continue;
+    contents[fs::relative(entry.path(), folder).string()] = ReadText(entry.path());
+  }
+  return contents;
+}
+
+struct Outcome {
+  int exit_code = -1;  ///< -1 when a signal ended it
+  int signal = 0;
+  std::string errors;  ///< what it wrote to its error output
+};
+
+/// A process that has been started.
+class Process {
+ public:
+  /// `changes` are set over this process's own environment.
+  Process(const std::vector<std::string>& command, const Environment& changes,
+          const fs::path& errors)
+      : errors_(errors) {
+    std::vector<std::string> settings;
+    for (char** at = environ; *at != nullptr; ++at) {
+      const std::string setting = *at;
+      if (changes.count(setting.substr(0, setting.find('='))) == 0) settings.push_back(setting);
+    }
+    for (const auto& [name, value] : changes) settings.push_back(name + "=" + value);
+    posix_spawn_file_actions_t files;
+    posix_spawn_file_actions_init(&files);
+    posix_spawn_file_actions_addopen(&files, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
+    posix_spawn_file_actions_addopen(&files, STDERR_FILENO, errors_.c_str(),
+                                     O_WRONLY | O_CREAT | O_TRUNC, 0644);
+    const int error = posix_spawn(&id_, command[0].c_str(), &files, nullptr,
+                                  Pointers(command).data(), Pointers(settings).data());
+    posix_spawn_file_actions_destroy(&files);
+    if (error != 0) throw std::runtime_error(command[0] + " cannot be started");
+  }
+  void Kill() const { kill(id_, SIGKILL); }
+  Outcome Wait() const {
+    int status = 0;
+    waitpid(id_, &status, 0);
+    Outcome outcome;
+    if (WIFEXITED(status)) outcome.exit_code = WEXITSTATUS(status);
+    if (WIFSIGNALED(status)) outcome.signal = WTERMSIG(status);
+    outcome.errors = ReadText(errors_);
+    return outcome;
+  }
+
+ private:
+  static std::vector<char*> Pointers(const std::vector<std::string>& texts) {
+    std::vector<char*> pointers;
+    for (const std::string& text : texts) pointers.push_back(const_cast<char*>(text.c_str()));
+    pointers.push_back(nullptr);
+    return pointers;
+  }
+  fs::path errors_;
+  pid_t id_ = 0;
+};
+
+}  // namespace program

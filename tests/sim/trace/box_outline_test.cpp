@@ -1,0 +1,57 @@
+#include "sim/trace/box_outline.h"
+
+#include <gtest/gtest.h>
+
+#include "sim/scene/random.h"
+#include "sim/trace/exact_cast.h"
+#include "tests/sim/support/sim_worlds.h"
+
+namespace sim {
+namespace {
+
+int PixelsByCasting(const Object& box, const Pose& T_wc, const Camera& camera) {
+  Scene scene;
+  scene.objects = {box};
+  const ExactCaster caster(BuildMesh(scene).triangles);
+  int count = 0;
+  for (int v = 0; v < camera.height; ++v) {
+    for (int u = 0; u < camera.width; ++u) {
+      count += caster.Nearest(T_wc.t, T_wc.R * camera.Ray(u, v), 0).triangle >= 0 ? 1 : 0;
+    }
+  }
+  return count;
+}
+
+void ExpectTheSameAsByCasting(const Camera& camera, int views) {
+  const ImageRays rays(camera);
+  const cv::Rect all(0, 0, camera.width, camera.height);
+  int seen = 0;
+  for (int i = 0; i < views; ++i) {
+    Random random{77, static_cast<std::uint64_t>(i)};
+    const auto draw = [&](double reach) {
+      return Eigen::Vector3d(random.Between(-reach, reach), random.Between(-reach, reach),
+                             random.Between(-reach, reach));
+    };
+    // Some reach behind the camera, some hold it.
+    Object box = BoxObject(1, "box", Role::kRegular, draw(0.8),
+                           draw(0.6).cwiseAbs() + Eigen::Vector3d::Constant(0.001));
+    box.q_wo = Eigen::AngleAxisd(random.Between(-3, 3), draw(1).normalized());
+    const Pose T_wc = LookAt(draw(0.8), draw(0.3));
+    const int expected = PixelsByCasting(box, T_wc, camera);
+    seen += expected > 0 ? 1 : 0;
+    EXPECT_EQ(BoxOutline(box, T_wc).PixelsInside(camera, rays, all), expected) << "view " << i;
+  }
+  EXPECT_GT(seen, views / 4);
+}
+
+TEST(BoxOutline, HoldsThePixelsWhoseRaysMeetTheBox) {
+  ExpectTheSameAsByCasting(Resize(Camera{}, 64, 48), 60);
+}
+
+TEST(BoxOutline, HoldsThePixelsWhoseRaysMeetTheBoxBehindALens) {
+  ExpectTheSameAsByCasting(WithLens(Resize(Camera{}, 64, 48), {-0.2, 0.05, 0.002, -0.001, 0.0}),
+                           20);
+}
+
+}  // namespace
+}  // namespace sim

@@ -1,0 +1,66 @@
+#pragma once
+
+#include <functional>
+#include <opencv2/imgproc.hpp>
+#include <vector>
+
+#include "slam/input/frame_source.h"
+#include "tests/support/textured_world.h"
+
+namespace slam {
+
+/// A frame source whose frames a test has tampered with; what a bad cable, clock, driver or
+/// hand does to a camera's stream.
+class FaultStream : public FrameSource {
+ public:
+  explicit FaultStream(std::vector<RecordedFrame> frames) : frames_(std::move(frames)) {}
+  int size() const override { return static_cast<int>(frames_.size()); }
+  RecordedFrame Read(int i) override {
+    // Images are shared between copies of a stream: nobody may write into them.
+    RecordedFrame frame = frames_.at(static_cast<std::size_t>(i));
+    frame.index = i;
+    return frame;
+  }
+
+ private:
+  std::vector<RecordedFrame> frames_;
+};
+
+/// A hand's swing through a printed corner of a room, 30 frames a second; no fault yet.
+inline std::vector<RecordedFrame> CleanStream(int frames, std::uint64_t world_seed = 1) {
+  const TexturedCorner world(world_seed);
+  const Camera camera = SmallCamera(320, 240);
+  std::vector<RecordedFrame> stream;
+  for (int i = 0; i < frames; ++i) {
+    const Frame seen = world.See(camera, SwingingPose(i), i);
+    RecordedFrame frame;
+    frame.index = i;
+    frame.timestamp_s = 100.0 + i / 30.0;
+    frame.gray = seen.gray;
+    frame.depth_m = seen.depth_m;
+    cv::cvtColor(seen.gray, frame.bgr, cv::COLOR_GRAY2BGR);
+    stream.push_back(frame);
+  }
+  return stream;
+}
+
+/// The frames of [from, from + count), each changed on images of its own.
+inline std::vector<RecordedFrame> Changed(std::vector<RecordedFrame> stream, int from,
+                                          int count,
+                                          const std::function<void(RecordedFrame&)>& change) {
+  for (int i = from; i < from + count && i < static_cast<int>(stream.size()); ++i) {
+    RecordedFrame& frame = stream[static_cast<std::size_t>(i)];
+    frame.bgr = frame.bgr.clone();
+    frame.gray = frame.gray.clone();
+    frame.depth_m = frame.depth_m.clone();
+    change(frame);
+  }
+  return stream;
+}
+
+inline void SetColour(RecordedFrame& frame, const cv::Mat1b& gray) {
+  frame.gray = gray;
+  cv::cvtColor(gray, frame.bgr, cv::COLOR_GRAY2BGR);
+}
+
+}  // namespace slam
