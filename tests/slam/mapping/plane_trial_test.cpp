@@ -213,7 +213,9 @@ TEST(PlaneTrial, ASurfaceOnTrialIsNotTakenByTheLandmarkBesideIt) {
   AssociatePlanes(seen.frame, show.map, camera, show.config.association);
   AssociatePlanes(alone, without, camera, show.config.association);
   for (std::size_t f = 0; f < seen.truth.size(); ++f) {
-    if (seen.truth[f] == 1) EXPECT_EQ(seen.frame.plane_matches[f].map_plane, 1);
+    if (seen.truth[f] == 1) {
+      EXPECT_EQ(seen.frame.plane_matches[f].map_plane, 1);
+    }
     if (seen.truth[f] != 2) continue;
     EXPECT_EQ(seen.frame.plane_matches[f].map_plane, kNone);
     EXPECT_EQ(alone.plane_matches[f].map_plane, 1) << "the scene is too easy to tell";
