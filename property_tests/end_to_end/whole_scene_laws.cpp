@@ -8,6 +8,7 @@
 #include "eval/trajectory/alignment.h"
 #include "property_tests/generators/scenes.h"
 #include "sim/scene/check.h"
+#include "sim/scene/scene_file.h"
 #include "sim/scene/steps.h"
 #include "slam/associate/plane_plane.h"
 #include "slam/extract/plane_segments.h"
@@ -240,6 +241,22 @@ RC_GTEST_PROP(WholeScene, ExactDepthIsNeverAssociatedWronglyWhenStepsAreTwentyMi
   if (decisions.fp > 0) {
     RC_FAIL(std::to_string(decisions.fp) + " wrong, " + std::to_string(decisions.tp) +
             " right; " + pipeline::Replay(scene, recording, kFailures / "exact.yaml"));
+  }
+}
+
+TEST(WholeScene, ScenesThatWereOnceAssociatedWronglyAreRight) {
+  const auto folder =
+      std::filesystem::path(PAS_SOURCE_DIR) / "property_tests/end_to_end/once_failed";
+  for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+    const sim::Scene scene = sim::ReadScene(entry.path());
+    for (const std::uint64_t seed : {1u, 2u}) {
+      pipeline::Recording recording = Exact(30);
+      recording.seed = seed;
+      const eval::DecisionCounts decisions =
+          AssociateAtTruePoses(scene, recording, ContinuedPlanes(scene, 0.020));
+      EXPECT_GT(decisions.tp, 0) << entry.path() << " seed " << seed;
+      EXPECT_EQ(decisions.fp, 0) << entry.path() << " seed " << seed;
+    }
   }
 }
 

@@ -3,18 +3,15 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <map>
-#include <numeric>
 #include <optional>
 
-#include "slam/base/require.h"
-#include "slam/extract/plane_edges.h"
+#include "slam/extract/occluded_parts.h"
+#include "slam/extract/patches.h"
 
 namespace slam {
 namespace {
 
-constexpr int kMostSegments = 254;    // 8-bit label image, 0 = none
-constexpr double kLeastContacts = 8;  // pixels along the common boundary of what touches
+constexpr int kMostSegments = 254;  // 8-bit label image, 0 = none
 
 void AddClusters(const DepthGrid& grid, const BlockClusters& clusters, const DepthNoise& noise,
                  PixelGrowth& growth) {
@@ -74,242 +71,6 @@ std::vector<std::uint8_t> SettledPixels(const DepthGrid& grid, const PixelGrowth
     }
   }
   return settled;
-}
-
-/// The pixels on either side of the common boundary of each pair of labels (lower, higher).
-using Contacts = std::map<std::pair<int, int>, PlaneSums>;
-
-Contacts FindContacts(const DepthGrid& grid, const LabelImage& labels) {
-  Contacts contacts;
-  std::pair<int, int> last{-1, -1};  // neighbouring pixels touch the same pair: look it up once
-  PlaneSums* sums = nullptr;
-  const auto touch = [&](std::size_t i, std::size_t j) {
-    const int a = labels[i], b = labels[j];
-    if (a == b || a == kNoLabel || b == kNoLabel) return;
-    const std::pair<int, int> pair = std::minmax(a, b);
-    if (pair != last) sums = &contacts[pair], last = pair;
-    for (const std::size_t k : {i, j}) {
-      const double g = static_cast<double>(grid.g[k]);
-      sums->Add(static_cast<double>(grid.x[k]), static_cast<double>(grid.y[k]),
-                static_cast<double>(grid.q[k]), g * g);
-    }
-  };
-  for (int v = 0; v < grid.height; ++v) {
-    for (int u = 0; u < grid.width; ++u) {
-      const auto i = static_cast<std::size_t>(grid.Index(u, v));
-      if (labels[i] == kNoLabel) continue;
-      if (u + 1 < grid.width) touch(i, i + 1);
-      if (v + 1 < grid.height) touch(i, i + static_cast<std::size_t>(grid.width));
-    }
-  }
-  return contacts;
-}
-
-/// A label's plane and the pixels that it was fitted to.
-struct Patch {
-  PlaneSums sums;
-  LabelPlane plane;
-};
-
-/// Squared distance of two planes over the pixels of the smaller, in sigmas of those.
-double PatchGap2(const Patch& a, const Patch& b) {
-  const Patch& smaller = a.sums.n < b.sums.n ? a : b;
-  return MeanSquaredGap(smaller.sums, a.plane.plane, b.plane.plane) /
-         (smaller.plane.grazing * smaller.plane.grazing);
-}
-
-/// What noise adds to a squared gap, with what else is allowed.
-double AllowedGap2(const Patch& a, const Patch& b, double max_gap_sigmas,
-                   const PlaneExtractionConfig& config) {
-  return max_gap_sigmas * max_gap_sigmas + config.coarse.max_merge_chi2 *
-                                               config.noise.correlated_px /
-                                               std::min(a.sums.n, b.sums.n);
-}
-
-/// Squared distance of two planes along their common boundary over what is allowed there.
-double ContactGap(const Patch& a, const Patch& b, const PlaneSums& contact,
-                  const PlaneExtractionConfig& config) {
-  const double grazing = std::max(a.plane.grazing, b.plane.grazing);
-  const double gap2 =
-      MeanSquaredGap(contact, a.plane.plane, b.plane.plane) / (grazing * grazing);
-  return gap2 / AllowedGap2(a, b, config.max_merge_gap_sigmas, config);
-}
-
-double PatchGap(const Patch& a, const Patch& b, double max_gap_sigmas,
-                const PlaneExtractionConfig& config) {
-  return PatchGap2(a, b) / AllowedGap2(a, b, max_gap_sigmas, config);
-}
-
-void Refit(Patch& patch, const DepthNoise& noise) {
-  const std::optional<PlaneFit> fit = Fit(patch.sums);
-  if (!fit) return;
-  patch.plane = {fit->plane, GrazingFactor(patch.sums, fit->plane, noise)};
-}
-
-std::vector<Patch> FittedPatches(const DepthGrid& grid, const PixelGrowth& growth,
-                                 const DepthNoise& noise) {
-  const std::vector<PlaneSums> sums =
-      SumLabels(grid, growth.labels(), static_cast<int>(growth.planes().size()));
-  std::vector<Patch> patches;
-  for (std::size_t k = 0; k < sums.size(); ++k) {
-    patches.push_back({sums[k], growth.planes()[k]});
-    Refit(patches.back(), noise);
-  }
-  return patches;
-}
-
-/// Which patch each patch has become part of.
-class PatchUnion {
- public:
-  explicit PatchUnion(std::vector<Patch> patches)
-      : patches_(std::move(patches)), into_(patches_.size()) {
-    std::iota(into_.begin(), into_.end(), 0);
-  }
-  /// The lower number stays.
-  void Join(int a, int b, const DepthNoise& noise) {
-    if (b < a) std::swap(a, b);
-    patches_[Index(a)].sums += patches_[Index(b)].sums;
-    patches_[Index(b)].sums = {};
-    Refit(patches_[Index(a)], noise);
-    for (int& target : into_) target = target == b ? a : target;
-  }
-  int Root(int k) const { return into_[Index(k)]; }
-  const Patch& At(int k) const { return patches_[Index(Root(k))]; }
-  const std::vector<int>& into() const { return into_; }
-  std::vector<LabelPlane> Planes() const {
-    std::vector<LabelPlane> planes;
-    for (const Patch& patch : patches_) planes.push_back(patch.plane);
-    return planes;
-  }
-
- private:
-  static std::size_t Index(int k) { return static_cast<std::size_t>(k); }
-  std::vector<Patch> patches_;
-  std::vector<int> into_;
-};
-
-/// Merges touching labels that are one plane within the noise, closest pair first, refits every
-/// plane to its pixels and grows them anew.
-void MergeEqualNeighbours(const DepthGrid& grid, const PlaneExtractionConfig& config,
-                          PixelGrowth& growth) {
-  PatchUnion merged(FittedPatches(grid, growth, config.noise));
-  const Contacts contacts = FindContacts(grid, growth.labels());
-  while (true) {
-    double least = 1.0;
-    std::pair<int, int> best{-1, -1};
-    for (const auto& [pair, contact] : contacts) {
-      const int a = merged.Root(pair.first), b = merged.Root(pair.second);
-      if (a == b || contact.n < kLeastContacts) continue;
-      const double gap =
-          std::max(PatchGap(merged.At(a), merged.At(b), config.max_merge_gap_sigmas, config),
-                   ContactGap(merged.At(a), merged.At(b), contact, config));
-      if (gap < least) least = gap, best = {a, b};
-    }
-    if (best.first < 0) break;
-    merged.Join(best.first, best.second, config.noise);
-  }
-  growth.Replace(merged.Planes(), merged.into());
-}
-
-/// Joins touching labels that are parts of one surface which the sensor has bent: a real step
-/// stands all along the boundary, while the parts of a bent surface meet there. So the planes
-/// of the two labels must agree along the boundary, and those of the segments that they belong
-/// to must agree within the wider bounds on bending. The labels keep their own planes, and with
-/// them their pixels.
-PatchUnion JoinBentParts(const DepthGrid& grid, const PlaneExtractionConfig& config,
-                         const PixelGrowth& growth) {
-  const std::vector<Patch> parts = FittedPatches(grid, growth, config.noise);
-  PatchUnion joined(parts);
-  std::vector<std::pair<double, std::pair<int, int>>> meeting;
-  for (const auto& [pair, contact] : FindContacts(grid, growth.labels())) {
-    if (contact.n < kLeastContacts) continue;
-    const double gap =
-        ContactGap(parts[static_cast<std::size_t>(pair.first)],
-                   parts[static_cast<std::size_t>(pair.second)], contact, config);
-    if (gap < 1.0) meeting.emplace_back(gap, pair);
-  }
-  std::sort(meeting.begin(), meeting.end());
-  bool changed = true;
-  while (changed) {
-    changed = false;
-    for (const auto& [gap, pair] : meeting) {
-      const int a = joined.Root(pair.first), b = joined.Root(pair.second);
-      if (a == b) continue;
-      const Patch &A = joined.At(a), &B = joined.At(b);
-      const double angle = Angle(A.plane.plane.Hessian().n, B.plane.plane.Hessian().n);
-      if (!(angle < config.max_bend_rad)) continue;
-      if (!(PatchGap(A, B, config.max_bend_sigmas, config) < 1.0)) continue;
-      joined.Join(a, b, config.noise);
-      changed = true;
-    }
-  }
-  return joined;
-}
-
-/// Labels that are one plane though nothing joins them in the image: the smaller lies on the
-/// larger's extension, and what surrounds the smaller is in front of it, so that it can pass
-/// behind. Two book tops of one height are surrounded by the desk behind them and stay apart.
-void JoinAcrossOccluders(const PatchUnion& patches, std::size_t count,
-                         const PlaneExtractionConfig& config, LabelComponents& components) {
-  std::vector<int> behind(count, 0), in_front(count, 0);
-  std::vector<int> order;
-  for (std::size_t k = 0; k < count; ++k) {
-    const bool own = patches.Root(static_cast<int>(k)) == static_cast<int>(k);
-    if (own && patches.At(static_cast<int>(k)).sums.n >= 3)
-      order.push_back(static_cast<int>(k));
-  }
-  for (const LabelComponent& c : components.list) {
-    behind[static_cast<std::size_t>(c.label)] += c.behind;
-    in_front[static_cast<std::size_t>(c.label)] += c.in_front;
-  }
-  std::stable_sort(order.begin(), order.end(),
-                   [&](int a, int b) { return patches.At(a).sums.n > patches.At(b).sums.n; });
-  std::vector<int> into(count);
-  std::iota(into.begin(), into.end(), 0);
-  for (std::size_t k = 1; k < order.size(); ++k) {
-    const auto small = static_cast<std::size_t>(order[k]);
-    if (behind[small] > config.max_island_behind * (behind[small] + in_front[small])) continue;
-    double least = 1.0;
-    for (std::size_t j = 0; j < k; ++j) {
-      const int large = order[j];
-      if (into[static_cast<std::size_t>(large)] != large) continue;
-      const double gap = PatchGap(patches.At(order[k]), patches.At(large),
-                                  config.max_merge_gap_sigmas, config);
-      if (gap < least) least = gap, into[small] = large;
-    }
-  }
-  for (LabelComponent& c : components.list) c.label = into[static_cast<std::size_t>(c.label)];
-}
-
-/// Which segment each connected component belongs to; -1 = none. A label's largest component
-/// makes a segment; another one joins it if what separates them is in front, makes a segment of
-/// its own if it is large enough, or is dropped.
-std::vector<int> SegmentsOfComponents(const LabelComponents& components,
-                                      std::size_t label_count,
-                                      const PlaneExtractionConfig& config, int& segment_count) {
-  std::vector<int> main(label_count, -1);
-  for (std::size_t k = 0; k < components.list.size(); ++k) {
-    int& largest = main[static_cast<std::size_t>(components.list[k].label)];
-    if (largest < 0 ||
-        components.list[k].pixels > components.list[static_cast<std::size_t>(largest)].pixels) {
-      largest = static_cast<int>(k);
-    }
-  }
-  std::vector<int> segment(components.list.size(), -1);
-  segment_count = 0;
-  for (const int k : main) {
-    if (k >= 0) segment[static_cast<std::size_t>(k)] = segment_count++;
-  }
-  for (std::size_t k = 0; k < components.list.size(); ++k) {
-    const LabelComponent& c = components.list[k];
-    if (segment[k] >= 0 || c.pixels < config.min_island_pixels) continue;
-    if (c.behind <= config.max_island_behind * (c.behind + c.in_front)) {
-      segment[k] = segment[static_cast<std::size_t>(main[static_cast<std::size_t>(c.label)])];
-    } else if (c.pixels >= config.min_pixels) {
-      segment[k] = segment_count++;
-    }
-  }
-  return segment;
 }
 
 /// A segment on its way into the frame.
@@ -420,21 +181,11 @@ void ExtractPlanes(Frame& frame, const Camera& camera, const cv::Mat2d& rays,
   MergeEqualNeighbours(grid, config, growth);
 
   const PatchUnion joined = JoinBentParts(grid, config, growth);
-  const std::vector<LabelPlane> planes = joined.Planes();
   LabelImage labels = growth.labels();
   for (std::int16_t& label : labels) {
     if (label != kNoLabel) label = static_cast<std::int16_t>(joined.Root(label));
   }
-  LabelComponents components = ConnectedComponents(grid, labels, planes);
-  JoinAcrossOccluders(joined, planes.size(), config, components);
-  int count = 0;
-  const std::vector<int> segment_of =
-      SegmentsOfComponents(components, planes.size(), config, count);
-  for (std::size_t i = 0; i < labels.size(); ++i) {
-    if (labels[i] == kNoLabel) continue;
-    labels[i] = static_cast<std::int16_t>(
-        segment_of[static_cast<std::size_t>(components.component[i])]);
-  }
+  const int count = SegmentParts(grid, joined, config, labels);
 
   const std::vector<Segment> kept = KeepMeasured(grid, labels, count, config);
   const std::vector<cv::Rect> bounds =

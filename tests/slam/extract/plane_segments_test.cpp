@@ -143,6 +143,25 @@ TEST(PlaneSegments, KeepTwoBooksOfOneHeightApart) {
   EXPECT_NE(left->index, right->index);
 }
 
+TEST(PlaneSegments, KeepAStripBetweenThingsApartFromAnotherTopOfItsHeight) {
+  // What stands on the right book surrounds what is left of its top, and is in front of it; the
+  // desk between the two books is behind both tops.
+  closed_form::World world = closed_form::Desk();
+  closed_form::PutOnDesk(world, -0.25, 0.0, {0.25, 0.22, 0.03}, 0.0, "book");
+  closed_form::PutOnDesk(world, 0.2, 0.0, {0.17, 0.22, 0.03}, 0.0, "book");
+  world.boxes.push_back({{0.145, 0.0, 0.06}, {0.06, 0.22, 0.06}, 0.0, ""});
+  world.boxes.push_back({{0.255, 0.0, 0.06}, {0.06, 0.22, 0.06}, 0.0, ""});
+  const Camera camera;
+  const Pose T_cw = closed_form::LookAt({0.15, -0.2, 0.8}, {0, 0, 0});
+  const closed_form::View view = closed_form::Render(world, camera, T_cw);
+  const Frame frame = Extract(view.depth_m, camera);
+  const FramePlane* left = PlaneOfFace(frame, view.face, FaceId(1, kTop));
+  const FramePlane* strip = PlaneOfFace(frame, view.face, FaceId(2, kTop));
+  ASSERT_NE(left, nullptr);
+  ASSERT_NE(strip, nullptr);
+  EXPECT_NE(left->index, strip->index);
+}
+
 TEST(PlaneSegments, StateStandardErrorsThatMatchTheErrors) {
   // 40 noisy views of one desk: the mean squared error over the stated variance is 1 if the
   // statement is right. It is made for sensors whose noise is correlated over 16 pixels, and

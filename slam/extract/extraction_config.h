@@ -1,0 +1,47 @@
+#pragma once
+
+#include "slam/extract/block_clusters.h"
+#include "slam/extract/depth_noise.h"
+#include "slam/extract/pixel_labels.h"
+#include "slam/extract/plane_edges.h"
+
+namespace slam {
+
+/// Settings of plane extraction. A length here is of the sensor or of the image, and every
+/// threshold on a surface is in units of the noise.
+struct PlaneExtractionConfig {
+  DepthNoise noise;
+  double max_depth_m = 10.0;  ///< beyond it a pixel is not measured; domain (0, inf)
+
+  int block_px = 8;       ///< first clustering; domain [4, 64]
+  int fine_block_px = 4;  ///< second clustering, of what the first left; domain [2, block_px]
+  ClusterConfig coarse;
+  ClusterConfig fine{.min_measured = 0.75, .max_block_error = 3.0, .min_blocks = 10};
+
+  GrowthConfig growth;
+  /// A block whose mean residual exceeds this many standard errors, over the model error, does
+  /// not lie on its plane and is offered to the second clustering; domain (0, inf).
+  double max_block_bias_sigmas = 3.0;
+  /// Two touching segments are one plane if along their common boundary the planes are closer
+  /// than this (root mean square, in sigmas, after their uncertainty); and what does not touch,
+  /// over the pixels of the smaller. Domain (0, inf).
+  double max_merge_gap_sigmas = 1.5;
+  /// How far a real sensor may bend a flat surface: gap over the smaller patch, and angle
+  /// between two touching parts. Domain (0, inf).
+  double max_bend_sigmas = 3.0;
+  double max_bend_rad = 0.12;
+  /// A part cut off from a segment stays with it if fewer than this part of the pixels around
+  /// it lie behind the plane: what cuts it is in front. Domain [0, 1].
+  double max_island_behind = 0.35;
+
+  /// A segment needs this many pixels and this precision: fewer or worse is noise. At 1 m, 300
+  /// pixels are 33 x 33 mm seen frontally.
+  int min_pixels = 300;              ///< domain [3, inf)
+  double max_angle_sigma_rad = 0.1;  ///< domain (0, inf)
+  int min_island_pixels = 40;        ///< a smaller cut-off part is dropped; domain [1, inf)
+
+  int point_grid_px = 6;  ///< spacing of FramePlane::points_c; domain [1, 64]
+  EdgeConfig edges;       ///< of FramePlane::edge_points
+};
+
+}  // namespace slam

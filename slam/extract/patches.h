@@ -1,0 +1,53 @@
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "slam/extract/depth_grid.h"
+#include "slam/extract/extraction_config.h"
+#include "slam/extract/pixel_labels.h"
+#include "slam/extract/plane_sums.h"
+
+namespace slam {
+
+/// A label's plane and the pixels that it was fitted to.
+struct Patch {
+  PlaneSums sums;
+  LabelPlane plane;
+};
+
+/// Squared distance of two planes over the pixels of the smaller patch, over what noise and
+/// `max_gap_sigmas` allow there; below 1: they may be one plane.
+double PatchGap(const Patch& a, const Patch& b, double max_gap_sigmas,
+                const PlaneExtractionConfig& config);
+
+/// Which patch each patch has become part of.
+class PatchUnion {
+ public:
+  explicit PatchUnion(std::vector<Patch> patches);
+  /// The lower number stays, and is fitted to the pixels of both.
+  void Join(int a, int b, const DepthNoise& noise);
+  int Root(int k) const { return into_[static_cast<std::size_t>(k)]; }
+  const Patch& At(int k) const { return patches_[static_cast<std::size_t>(Root(k))]; }
+  const std::vector<int>& into() const { return into_; }
+  std::vector<LabelPlane> Planes() const;
+
+ private:
+  std::vector<Patch> patches_;
+  std::vector<int> into_;
+};
+
+/// Merges touching labels that are one plane within the noise, closest pair first, refits every
+/// plane to its pixels and grows them anew.
+void MergeEqualNeighbours(const DepthGrid& grid, const PlaneExtractionConfig& config,
+                          PixelGrowth& growth);
+
+/// Joins touching labels that are parts of one surface which the sensor has bent: a real step
+/// stands all along the boundary, while the parts of a bent surface meet there. So the planes
+/// of the two labels must agree along the boundary, and those of the segments that they belong
+/// to must agree within the wider bounds on bending. The labels keep their own planes, and with
+/// them their pixels.
+PatchUnion JoinBentParts(const DepthGrid& grid, const PlaneExtractionConfig& config,
+                         const PixelGrowth& growth);
+
+}  // namespace slam
