@@ -45,6 +45,8 @@ void VisitPlaneExtraction(PlaneExtractionConfig& c, FieldVisitor& v) {
            "between touching segments of one plane");
   v.Number("max_bend_sigmas", c.max_bend_sigmas, "(0, inf)",
            "gap that a sensor's bend may make");
+  v.Number("max_bend_step_sigmas", c.max_bend_step_sigmas, "(0, inf)",
+           "step between parts that a sensor has bent");
   v.Degrees("max_bend_deg", c.max_bend_rad, "(0, 90)", "angle that a sensor's bend may make");
   v.Number("max_island_behind", c.max_island_behind, "[0, 1]",
            "pixels behind, round a cut-off part");

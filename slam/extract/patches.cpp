@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "slam/base/plane.h"
+#include "slam/extract/boundary_steps.h"
 
 namespace slam {
 namespace {
@@ -85,6 +86,23 @@ std::vector<Patch> FittedPatches(const DepthGrid& grid, const PixelGrowth& growt
   return patches;
 }
 
+/// Pairs of labels without a step between them, least step first.
+std::vector<std::pair<int, int>> MeetingLabels(const DepthGrid& grid, const LabelImage& labels,
+                                               const std::vector<LabelPlane>& planes,
+                                               const PlaneExtractionConfig& config) {
+  std::vector<std::pair<double, std::pair<int, int>>> ranked;
+  for (const auto& [pair, step] : MeasureSteps(grid, labels, planes)) {
+    if (step.pairs < kLeastContacts) continue;
+    const double square = step.MeanSquare(config.noise.correlated_px);
+    if (square < config.max_bend_step_sigmas * config.max_bend_step_sigmas)
+      ranked.emplace_back(square, pair);
+  }
+  std::sort(ranked.begin(), ranked.end());
+  std::vector<std::pair<int, int>> meeting;
+  for (const auto& [square, pair] : ranked) meeting.push_back(pair);
+  return meeting;
+}
+
 }  // namespace
 
 double PatchGap(const Patch& a, const Patch& b, double max_gap_sigmas,
@@ -136,22 +154,14 @@ void MergeEqualNeighbours(const DepthGrid& grid, const PlaneExtractionConfig& co
 
 PatchUnion JoinBentParts(const DepthGrid& grid, const PlaneExtractionConfig& config,
                          const PixelGrowth& growth) {
-  const std::vector<Patch> parts = FittedPatches(grid, growth, config.noise);
-  PatchUnion joined(parts);
-  std::vector<std::pair<double, std::pair<int, int>>> meeting;
-  for (const auto& [pair, contact] : FindContacts(grid, growth.labels())) {
-    if (contact.n < kLeastContacts) continue;
-    const double gap =
-        ContactGap(parts[static_cast<std::size_t>(pair.first)],
-                   parts[static_cast<std::size_t>(pair.second)], contact, config);
-    if (gap < 1.0) meeting.emplace_back(gap, pair);
-  }
-  std::sort(meeting.begin(), meeting.end());
+  PatchUnion joined(FittedPatches(grid, growth, config.noise));
+  const std::vector<std::pair<int, int>> meeting =
+      MeetingLabels(grid, growth.labels(), joined.Planes(), config);
   bool changed = true;
   while (changed) {
     changed = false;
-    for (const auto& [gap, pair] : meeting) {
-      const int a = joined.Root(pair.first), b = joined.Root(pair.second);
+    for (const auto& [k, l] : meeting) {
+      const int a = joined.Root(k), b = joined.Root(l);
       if (a == b) continue;
       const Patch &A = joined.At(a), &B = joined.At(b);
       const double angle = Angle(A.plane.plane.Hessian().n, B.plane.plane.Hessian().n);

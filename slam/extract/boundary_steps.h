@@ -1,0 +1,33 @@
+#pragma once
+
+#include <map>
+#include <utility>
+#include <vector>
+
+#include "slam/extract/depth_grid.h"
+#include "slam/extract/pixel_labels.h"
+
+namespace slam {
+
+/// The step measured across the common boundary of two labels: what the pixels on one side
+/// differ by from those on the other, as far from the boundary, once their mean slope is taken
+/// off. A crease or a bend has none, however ill the two planes fit near it.
+struct BoundaryStep {
+  double pairs = 0.0;  ///< of pixels compared
+  double squares =
+      0.0;  ///< sum over the pairs of their stretch's mean step, squared, in sigmas
+  double stretches = 0.0;  ///< of boundary, each within a tile of the image
+
+  /// Mean squared step in sigmas of one pixel, less what noise adds to it; may be negative.
+  double MeanSquare(double correlated_px) const {
+    return (squares - 2.0 * correlated_px * stretches) / pairs;
+  }
+};
+
+/// Steps between labels that touch, by (lower, higher) label. Pairs of labels too narrow to
+/// look into are not in it.
+using BoundarySteps = std::map<std::pair<int, int>, BoundaryStep>;
+BoundarySteps MeasureSteps(const DepthGrid& grid, const LabelImage& labels,
+                           const std::vector<LabelPlane>& planes);
+
+}  // namespace slam
