@@ -2,7 +2,7 @@
 
 #include "slam/extract/block_clusters.h"
 #include "slam/extract/depth_noise.h"
-#include "slam/extract/pixel_labels.h"
+#include "slam/extract/pixel_growth.h"
 #include "slam/extract/plane_edges.h"
 
 namespace slam {

@@ -5,6 +5,7 @@
 
 #include "slam/extract/depth_grid.h"
 #include "slam/extract/extraction_config.h"
+#include "slam/extract/pixel_growth.h"
 #include "slam/extract/pixel_labels.h"
 #include "slam/extract/plane_sums.h"
 
