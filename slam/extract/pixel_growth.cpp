@@ -14,14 +14,6 @@ constexpr float kNone = std::numeric_limits<float>::infinity();
 // another surface with the plane's extension are thinner.
 constexpr int kLeastPixelsToSpread = 4;
 
-/// What each label gains over the next best plane at its pixels, and how that would change if
-/// that plane were not there.
-struct Gains {
-  std::vector<double> gain;  ///< sum over the label's pixels
-  std::vector<int> pixels;
-  std::vector<double> without;  ///< [label][next best], increase
-};
-
 }  // namespace
 
 PixelGrowth::PixelGrowth(const DepthGrid& grid, const GrowthConfig& config)
@@ -195,37 +187,50 @@ void PixelGrowth::Grow() {
   }
 }
 
+/// Adds the gains of the pixels of one block.
+void PixelGrowth::AddGains(int block, Gains& gains) {
+  const std::vector<Claim>& claims = reached_[static_cast<std::size_t>(block)];
+  const cv::Rect area = BlockArea(block);
+  const float unexplained = static_cast<float>(config_.max_pixel_sigmas + 1.0);
+  winner_.assign(slot_size_, kNoLabel);  // the label of each pixel
+  for (int y = 0; y < area.height; ++y) {
+    const auto start = static_cast<std::size_t>(grid_.Index(area.x, area.y + y));
+    for (int x = 0; x < area.width; ++x) {
+      winner_[static_cast<std::size_t>(y * config_.block_px + x)] =
+          labels_[start + static_cast<std::size_t>(x)];
+    }
+  }
+  own_.assign(slot_size_, 0.0f);
+  next_.assign(slot_size_, unexplained);
+  next_label_.assign(slot_size_, kNoLabel);
+  for (const Claim& claim : claims) {
+    const float* distances = distances_.data() + claim.slot * slot_size_;
+    const auto label = static_cast<std::int16_t>(claim.label);
+    for (std::size_t k = 0; k < slot_size_; ++k) {
+      const bool owns = winner_[k] == label;
+      const bool nearer = !owns && distances[k] < next_[k];
+      own_[k] = owns ? distances[k] : own_[k];
+      next_[k] = nearer ? distances[k] : next_[k];
+      next_label_[k] = nearer ? label : next_label_[k];
+    }
+  }
+  for (std::size_t k = 0; k < slot_size_; ++k) {
+    if (winner_[k] == kNoLabel) continue;
+    const auto label = static_cast<std::size_t>(winner_[k]);
+    ++gains.pixels[label];
+    const float own = claims.size() > 1 ? own_[k] : 1.0f;  // nobody asks how well it fits
+    gains.gain[label] += static_cast<double>(next_[k] * next_[k] - own * own);
+    if (next_label_[k] == kNoLabel) continue;
+    gains.without[label * planes_.size() + static_cast<std::size_t>(next_label_[k])] +=
+        static_cast<double>(unexplained * unexplained - next_[k] * next_[k]);
+  }
+}
+
 void PixelGrowth::DropUseless() {
   Gains gains{std::vector<double>(planes_.size(), 0.0), std::vector<int>(planes_.size(), 0),
               std::vector<double>(planes_.size() * planes_.size(), 0.0)};
-  const float unexplained = static_cast<float>(config_.max_pixel_sigmas + 1.0);
-  for (int v = 0; v < grid_.height; ++v) {
-    for (int u = 0; u < grid_.width; ++u) {
-      const auto i = static_cast<std::size_t>(grid_.Index(u, v));
-      if (labels_[i] == kNoLabel) continue;
-      const auto label = static_cast<std::size_t>(labels_[i]);
-      ++gains.pixels[label];
-      const auto in_block = static_cast<std::size_t>(v % config_.block_px * config_.block_px +
-                                                     u % config_.block_px);
-      const std::vector<Claim>& candidates = reached_[static_cast<std::size_t>(BlockAt(u, v))];
-      if (candidates.size() == 1) {
-        gains.gain[label] += static_cast<double>(unexplained * unexplained) - 1.0;
-        continue;
-      }
-      float next = unexplained;
-      int next_label = -1;
-      for (const Claim& other : candidates) {
-        if (other.label == labels_[i]) continue;
-        const float distance = distances_[other.slot * slot_size_ + in_block];
-        if (distance < next) next = distance, next_label = other.label;
-      }
-      const float own = ResidualSigmas(grid_, i, planes_[label]);
-      gains.gain[label] += static_cast<double>(next * next - own * own);
-      if (next_label >= 0) {
-        gains.without[label * planes_.size() + static_cast<std::size_t>(next_label)] +=
-            static_cast<double>(unexplained * unexplained - next * next);
-      }
-    }
+  for (std::size_t block = 0; block < reached_.size(); ++block) {
+    if (!reached_[block].empty()) AddGains(static_cast<int>(block), gains);
   }
   std::vector<std::size_t> order(planes_.size());
   std::iota(order.begin(), order.end(), 0u);

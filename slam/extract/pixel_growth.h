@@ -59,6 +59,14 @@ class PixelGrowth {
     bool bidding = false;   ///< bids_ are
   };
 
+  /// What each label gains over the next best plane at its pixels, and how that would change if
+  /// that plane were not there.
+  struct Gains {
+    std::vector<double> gain;  ///< sum over the label's pixels
+    std::vector<int> pixels;
+    std::vector<double> without;  ///< [label][next best], increase
+  };
+
   bool Reach(int block, int label);
   cv::Rect BlockArea(int block) const;
   void Measure(const cv::Rect& area, Claim& claim);
@@ -66,6 +74,7 @@ class PixelGrowth {
   void LabelBlock(int block);
   void ClaimUncontested(const Claim& only);
   void ClaimContested(const cv::Rect& area);
+  void AddGains(int block, Gains& gains);
   void Drop(const std::vector<bool>& dropped);
 
   const DepthGrid& grid_;
@@ -80,11 +89,11 @@ class PixelGrowth {
   /// Sum of the squared distances of the pixels around a pixel, each cut off where it no longer
   /// belongs; infinity where the pixel itself is too far.
   std::vector<float> bids_;
-  // Scratch of LabelBlock.
+  // Scratch of one block.
   std::vector<Claim*> rivals_;
   std::vector<int> owned_;  ///< pixels of each claim
-  std::vector<float> squares_, row_sums_, least_;
-  std::vector<std::int16_t> winner_;
+  std::vector<float> squares_, row_sums_, least_, own_, next_;
+  std::vector<std::int16_t> winner_, next_label_;
 };
 
 }  // namespace slam

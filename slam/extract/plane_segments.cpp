@@ -41,7 +41,8 @@ std::vector<std::uint8_t> SettledPixels(const DepthGrid& grid, const PixelGrowth
   const int size = config.block_px;
   std::vector<double> sum(found.planes().size(), 0.0);
   std::vector<int> count(found.planes().size(), 0);
-  std::vector<int> present;
+  std::vector<std::uint8_t> fits(found.planes().size(), 0);
+  std::vector<std::size_t> present;
   for (int v0 = 0; v0 < grid.height; v0 += size) {
     for (int u0 = 0; u0 < grid.width; u0 += size) {
       const int v1 = std::min(v0 + size, grid.height), u1 = std::min(u0 + size, grid.width);
@@ -55,19 +56,18 @@ std::vector<std::uint8_t> SettledPixels(const DepthGrid& grid, const PixelGrowth
         }
       };
       each([&](std::size_t i, std::size_t label) {
-        if (count[label]++ == 0) present.push_back(labels[i]);
+        if (count[label]++ == 0) present.push_back(label);
         sum[label] += static_cast<double>(ResidualSigmas(grid, i, found.planes()[label]));
       });
-      each([&](std::size_t i, std::size_t label) {
+      for (const std::size_t label : present) {
         const double n = count[label];
         const double bound =
             config.coarse.model_error_sigmas +
             config.max_block_bias_sigmas * std::sqrt(config.noise.correlated_px / n);
-        settled[i] = std::abs(sum[label]) < bound * n ? 1 : 0;
-      });
-      for (const int label : present) {
-        sum[static_cast<std::size_t>(label)] = 0.0, count[static_cast<std::size_t>(label)] = 0;
+        fits[label] = std::abs(sum[label]) < bound * n ? 1 : 0;
+        sum[label] = 0.0, count[label] = 0;
       }
+      each([&](std::size_t i, std::size_t label) { settled[i] = fits[label]; });
     }
   }
   return settled;
@@ -118,7 +118,9 @@ std::vector<cv::Rect> DrawLabels(const DepthGrid& grid, const LabelImage& labels
     for (int u = 0; u < grid.width; ++u) {
       const std::int16_t label = labels[static_cast<std::size_t>(grid.Index(u, v))];
       row[u] = label == kNoLabel ? std::uint8_t{0} : value[static_cast<std::size_t>(label)];
-      if (row[u] == 0) continue;
+      const bool inside_run = u > 0 && row[u - 1] == row[u] && u + 1 < grid.width &&
+                              labels[static_cast<std::size_t>(grid.Index(u + 1, v))] == label;
+      if (row[u] == 0 || inside_run) continue;
       cv::Vec4i& b = bounds[static_cast<std::size_t>(row[u] - 1)];
       b = {std::min(b[0], u), std::min(b[1], v), std::max(b[2], u), std::max(b[3], v)};
     }
