@@ -26,6 +26,8 @@ void View::RowArrays::Resize(std::size_t size) {
   for (auto* row : {&start_x, &start_y, &start_z, &to_eye_x, &to_eye_y, &to_eye_z}) {
     row->resize(size);
   }
+  // Stretches start anywhere, and are read as whole packets.
+  for (auto* row : {&print_u, &print_v}) row->resize(size + kLanes);
   sun_far.assign(size, -1.0F);
   eye_far.assign(size, -1.0F);
 }
@@ -45,13 +47,15 @@ void View::Render(const RenderWorld& world, const Pose& T_wc, const RenderOption
   for (int v = rows_.start; v < rows_.end; ++v) {
     RecordRow(v);
     if (options_.colour) {
+      PlacePrints(v);
       CastToSun(v);
       if (!lights_.Empty()) CastToLights(v);
       ShadeRow(v);
+      if (v > rows_.start) SmoothEdges(v - 1);
     }
     if (options_.projector_offset_m != 0) CastToEye(v);
   }
-  if (options_.colour) SmoothEdges();
+  if (options_.colour && rows_.start < rows_.end) SmoothEdges(rows_.end - 1);
 }
 
 void View::Prepare() {
