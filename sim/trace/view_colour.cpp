@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sim/trace/pixel_rows.h"
 #include "sim/trace/view.h"
 
 namespace sim {
@@ -77,12 +78,8 @@ void View::PlacePrints(int v) {
     stretches_.push_back({first, last, triangle, nullptr, {}});
     if (triangle == PacketHits::kNothing) continue;
     const SeenFacet& facet = facets_.At(triangle);
-    for (int u = first; u < last; ++u) {
-      const std::size_t i = Index(u);
-      const auto at = PrintAt(facet, row_.x[i], row_.y[i], static_cast<float>(depth[u]));
-      row_.print_u[i] = at[0];
-      row_.print_v[i] = at[1];
-    }
+    PlaceOnPrint(facet.uv_over_depth, row_.x.data(), row_.y.data(), depth, first, last,
+                 row_.print_u.data(), row_.print_v.data());
     Stretch& stretch = stretches_.back();
     const std::size_t middle = Index((first + last) / 2);
     stretch.print = &facets_.Print(facet);
