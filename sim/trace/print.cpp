@@ -1,6 +1,7 @@
 #include "sim/trace/print.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 
@@ -30,19 +31,78 @@ struct CellDraw {
   std::uint64_t bits;
 };
 
-int Floor(float x) { return static_cast<int>(std::floor(x)); }
+/// Of numbers that an int holds.
+int Floor(float x) {
+  const int whole = static_cast<int>(x);
+  return static_cast<float>(whole) > x ? whole - 1 : whole;
+}
 float Smooth(float edge, float t) { return std::clamp(t / edge + 0.5F, 0.0F, 1.0F); }
+
+/// The values at the corners of one cell of value noise.
+struct ValueCell {
+  std::uint64_t seed = 0;
+  bool drawn = false;
+  int x = 0, y = 0;
+  std::array<float, 4> corners;  ///< low left and right, high left and right
+
+  bool Is(int x_in, int y_in, std::uint64_t seed_in) const {
+    return drawn && x == x_in && y == y_in && seed == seed_in;
+  }
+  void Draw(int x_in, int y_in, std::uint64_t seed_in) {
+    x = x_in, y = y_in, seed = seed_in, drawn = true;
+    const auto at = [&](int i, int j) { return CellDraw(x + i, y + j, seed)[0]; };
+    corners = {at(0, 0), at(1, 0), at(0, 1), at(1, 1)};
+  }
+};
+
+/// A cell of the last ones that this thread looked at: neighbouring texels share it.
+template <typename Cell>
+Cell& LastCell(std::uint64_t seed) {
+  thread_local std::array<Cell, 16> last;  // memory only
+  return last[Mix(seed) % last.size()];
+}
 
 /// Smooth value noise in [0, 1], one bump a unit cell.
 float ValueNoise(const Vector2f& p, std::uint64_t seed) {
   const int x = Floor(p.x()), y = Floor(p.y());
   Vector2f t(p.x() - static_cast<float>(x), p.y() - static_cast<float>(y));
   t = t.array() * t.array() * (3.0F - 2.0F * t.array());
-  const auto at = [&](int i, int j) { return CellDraw(x + i, y + j, seed)[0]; };
-  const float low = at(0, 0) + (at(1, 0) - at(0, 0)) * t.x();
-  const float high = at(0, 1) + (at(1, 1) - at(0, 1)) * t.x();
+  ValueCell& cell = LastCell<ValueCell>(seed);
+  if (!cell.Is(x, y, seed)) cell.Draw(x, y, seed);
+  const auto& [low_left, low_right, high_left, high_right] = cell.corners;
+  const float low = low_left + (low_right - low_left) * t.x();
+  const float high = high_left + (high_right - high_left) * t.x();
   return low + (high - low) * t.y();
 }
+
+/// The ellipses of random flecks that reach into one cell of their grid.
+struct FleckCell {
+  struct Fleck {
+    float column, row;  ///< of its own cell, from this one
+    float x, y;         ///< its middle there, cells
+    float radius;
+  };
+  std::uint64_t seed = 0;
+  float density = -1;
+  int x = 0, y = 0, count = 0;
+  std::array<Fleck, 9> flecks;
+
+  bool Is(int x_in, int y_in, float density_in, std::uint64_t seed_in) const {
+    return x == x_in && y == y_in && seed == seed_in && density == density_in;
+  }
+  void Draw(int x_in, int y_in, float density_in, std::uint64_t seed_in) {
+    x = x_in, y = y_in, density = density_in, seed = seed_in, count = 0;
+    for (int j = -1; j <= 1; ++j) {
+      for (int i = -1; i <= 1; ++i) {
+        const CellDraw draw(x + i, y + j, seed);
+        if (draw[0] >= density) continue;
+        flecks[static_cast<std::size_t>(count++)] = {static_cast<float>(i),
+                                                     static_cast<float>(j), draw[1], draw[2],
+                                                     0.16F + 0.3F * draw[3]};
+      }
+    }
+  }
+};
 
 /// Coverage in [0, 1] by random flecks: in each cell of `pitch_m` one ellipse with probability
 /// `density`, `stretch` times as long in x as in y.
@@ -51,18 +111,16 @@ float Flecks(const Vector2f& p_m, float pitch_m, float density, float stretch,
   const Vector2f q(p_m.x() / (pitch_m * stretch), p_m.y() / pitch_m);
   const int x = Floor(q.x()), y = Floor(q.y());
   const float fx = q.x() - static_cast<float>(x), fy = q.y() - static_cast<float>(y);
+  FleckCell& cell = LastCell<FleckCell>(seed);
+  if (!cell.Is(x, y, density, seed)) cell.Draw(x, y, density, seed);
+  constexpr float kReach = 0.53F;  // of an ellipse, its soft rim included
   float cover = 0;
-  // No ellipse reaches further than kReach, so two cells a direction are enough.
-  constexpr float kReach = 0.53F;
-  for (int j = fy < kReach ? -1 : 0; j <= (fy > 1 - kReach ? 1 : 0); ++j) {
-    for (int i = fx < kReach ? -1 : 0; i <= (fx > 1 - kReach ? 1 : 0); ++i) {
-      const CellDraw draw(x + i, y + j, seed);
-      if (draw[0] >= density) continue;
-      const float dx = fx - static_cast<float>(i) - draw[1];
-      const float dy = fy - static_cast<float>(j) - draw[2];
-      const float radius = 0.16F + 0.3F * draw[3];
-      cover = std::max(cover, Smooth(0.12F, radius - std::sqrt(dx * dx + dy * dy)));
-    }
+  for (int k = 0; k < cell.count; ++k) {
+    const FleckCell::Fleck& fleck = cell.flecks[static_cast<std::size_t>(k)];
+    const float dx = fx - fleck.column - fleck.x, dy = fy - fleck.row - fleck.y;
+    const float d2 = dx * dx + dy * dy;
+    if (d2 > kReach * kReach) continue;
+    cover = std::max(cover, Smooth(0.12F, fleck.radius - std::sqrt(d2)));
   }
   return cover;
 }
