@@ -75,31 +75,49 @@ float ValueNoise(const Vector2f& p, std::uint64_t seed) {
   return low + (high - low) * t.y();
 }
 
-/// The ellipses of random flecks that reach into one cell of their grid.
+/// The ellipses of random flecks that may reach into one cell of their grid: those of its own
+/// and of eight neighbours, by columns, two of which the next cell shares.
 struct FleckCell {
   struct Fleck {
-    float column, row;  ///< of its own cell, from this one
-    float x, y;         ///< its middle there, cells
+    float row;   ///< of its own cell, from this one
+    float x, y;  ///< its middle there, cells
     float radius;
   };
+  struct Column {
+    int count = 0;
+    std::array<Fleck, 3> flecks;
+  };
+
   std::uint64_t seed = 0;
   float density = -1;
-  int x = 0, y = 0, count = 0;
-  std::array<Fleck, 9> flecks;
+  int x = 0, y = 0;
+  std::array<Column, 3> columns;
 
-  bool Is(int x_in, int y_in, float density_in, std::uint64_t seed_in) const {
-    return x == x_in && y == y_in && seed == seed_in && density == density_in;
+  void MoveTo(int x_in, int y_in, float density_in, std::uint64_t seed_in) {
+    const bool same_row = y == y_in && seed == seed_in && density == density_in;
+    if (same_row && x == x_in) return;
+    const bool next = same_row && x + 1 == x_in;
+    x = x_in, y = y_in, density = density_in, seed = seed_in;
+    if (next) {
+      columns[0] = columns[1];
+      columns[1] = columns[2];
+    } else {
+      Draw(-1);
+      Draw(0);
+    }
+    Draw(1);
   }
-  void Draw(int x_in, int y_in, float density_in, std::uint64_t seed_in) {
-    x = x_in, y = y_in, density = density_in, seed = seed_in, count = 0;
+
+ private:
+  void Draw(int i) {
+    Column& column = columns[static_cast<std::size_t>(i + 1)];
+    column.count = 0;
     for (int j = -1; j <= 1; ++j) {
-      for (int i = -1; i <= 1; ++i) {
-        const CellDraw draw(x + i, y + j, seed);
-        if (draw[0] >= density) continue;
-        flecks[static_cast<std::size_t>(count++)] = {static_cast<float>(i),
-                                                     static_cast<float>(j), draw[1], draw[2],
-                                                     0.16F + 0.3F * draw[3]};
-      }
+      const CellDraw draw(x + i, y + j, seed);
+      // Written in any case: no branch on what is as good as tossed.
+      column.flecks[static_cast<std::size_t>(column.count)] = {static_cast<float>(j), draw[1],
+                                                               draw[2], 0.16F + 0.3F * draw[3]};
+      column.count += draw[0] < density ? 1 : 0;
     }
   }
 };
@@ -112,17 +130,18 @@ float Flecks(const Vector2f& p_m, float pitch_m, float density, float stretch,
   const int x = Floor(q.x()), y = Floor(q.y());
   const float fx = q.x() - static_cast<float>(x), fy = q.y() - static_cast<float>(y);
   FleckCell& cell = LastCell<FleckCell>(seed);
-  if (!cell.Is(x, y, density, seed)) cell.Draw(x, y, density, seed);
-  constexpr float kReach = 0.53F;  // of an ellipse, its soft rim included
-  float cover = 0;
-  for (int k = 0; k < cell.count; ++k) {
-    const FleckCell::Fleck& fleck = cell.flecks[static_cast<std::size_t>(k)];
-    const float dx = fx - fleck.column - fleck.x, dy = fy - fleck.row - fleck.y;
-    const float d2 = dx * dx + dy * dy;
-    if (d2 > kReach * kReach) continue;
-    cover = std::max(cover, Smooth(0.12F, fleck.radius - std::sqrt(d2)));
+  cell.MoveTo(x, y, density, seed);
+  float inside = -1;  // the rim of an ellipse, at most
+  float left = -1;
+  for (const FleckCell::Column& column : cell.columns) {
+    for (int k = 0; k < column.count; ++k) {
+      const FleckCell::Fleck& fleck = column.flecks[static_cast<std::size_t>(k)];
+      const float dx = fx - left - fleck.x, dy = fy - fleck.row - fleck.y;
+      inside = std::max(inside, fleck.radius - std::sqrt(dx * dx + dy * dy));
+    }
+    left += 1;
   }
-  return cover;
+  return Smooth(0.12F, inside);
 }
 
 /// A made-up letter: 1 on its strokes. `q` in the unit square, bits choose the strokes.
