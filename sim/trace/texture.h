@@ -39,12 +39,10 @@ class Texture {
 
   /// About the parallelogram spanned by the steps.
   TextureFootprint Footprint(const TextureSteps& steps) const;
-  /// Linear reflectance at uv, metres, averaged over a footprint. Clamps at the border.
-  /// Channels r, g, b and one without meaning.
-  std::array<float, 4> Sample(float u, float v, const TextureFootprint& footprint) const;
-  /// The same at the first `count` of kLanes places, all with one footprint. All of u and v are
-  /// read.
   static constexpr int kLanes = 8;
+  /// Linear reflectance at the first `count` of kLanes places uv, metres, averaged over a
+  /// footprint. Clamps at the border. Channels r, g, b and one without meaning. All of u and v
+  /// are read.
   void Sample(const float* u, const float* v, int count, const TextureFootprint& footprint,
               std::array<float, 4>* colours) const;
   /// Asks the processor to have ready what Sample is going to look at.

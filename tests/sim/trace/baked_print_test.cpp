@@ -17,6 +17,16 @@ Material Wood() {
   return material;
 }
 
+std::array<float, 4> PrintAt(const Texture& texture, float u, float v,
+                             const TextureFootprint& footprint) {
+  std::array<float, Texture::kLanes> all_u, all_v;
+  all_u.fill(u);
+  all_v.fill(v);
+  std::array<float, 4> colour;
+  texture.Sample(all_u.data(), all_v.data(), 1, footprint, &colour);
+  return colour;
+}
+
 /// What a thread finds right after it asked, from fine to coarse, to the very borders.
 std::vector<std::array<float, 4>> Looks(BakedPrint& print) {
   const Texture& texture = print.Get(kTexel_m, kMostTexels);
@@ -25,7 +35,7 @@ std::vector<std::array<float, 4>> Looks(BakedPrint& print) {
     const TextureFootprint footprint = texture.Footprint({step, 0, 0, step});
     for (float v = -0.001F; v < 0.302F; v += 0.0037F) {
       for (float u = -0.001F; u < 0.502F; u += 0.0031F) {
-        looks.push_back(texture.Sample(u, v, footprint));
+        looks.push_back(PrintAt(texture, u, v, footprint));
         looks.back()[3] = 0;
       }
     }
@@ -70,7 +80,7 @@ TEST(BakedPrint, TakesAPacketOfPlacesForWhatEachIsAlone) {
         texture.Sample(u, v, count, footprint, colours.data());
         for (int i = 0; i < count; ++i) {
           const auto k = static_cast<std::size_t>(i);
-          const auto alone = texture.Sample(u[i], v[i], footprint);
+          const auto alone = PrintAt(texture, u[i], v[i], footprint);
           for (std::size_t c = 0; c < 3; ++c) EXPECT_EQ(colours[k][c], alone[c]);
         }
       }
