@@ -23,7 +23,8 @@ struct SurfaceTable::Baked {
 
 SurfaceTable::SurfaceTable(const Scene& scene, const SceneMesh& mesh, const Camera& camera)
     : texel_m_(kClosestLook_m / std::max(camera.fx, camera.fy)),
-      max_texels_(static_cast<int>(kTexelsAPixel * std::max(camera.width, camera.height))) {
+      max_texels_(std::min(
+          32000, static_cast<int>(kTexelsAPixel * std::max(camera.width, camera.height)))) {
   const std::vector<ScenePlane> planes = ScenePlanes(scene);
   for (const Material& material : mesh.materials) {
     baked_.push_back(std::make_unique<Baked>());

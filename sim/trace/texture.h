@@ -28,7 +28,7 @@ class Texture {
  public:
   /// @param low_m, extent_m  the part of the face's uv plane to bake, metres
   /// @param texel_m          finest texel, metres
-  /// @param max_texels       a side; a larger face gets coarser texels
+  /// @param max_texels       a side, at most 32,000; a larger face gets coarser texels
   Texture(const Material& material, const Eigen::Vector2d& low_m,
           const Eigen::Vector2d& extent_m, double texel_m, int max_texels = 2048);
 
@@ -37,6 +37,14 @@ class Texture {
   /// Linear reflectance at uv, metres, averaged over a footprint. Clamps at the border.
   /// Channels r, g, b and one without meaning.
   std::array<float, 4> Sample(float u, float v, const TextureFootprint& footprint) const;
+  /// The same at the first `count` of kLanes places, all with one footprint. All of u and v are
+  /// read.
+  static constexpr int kLanes = 8;
+  void Sample(const float* u, const float* v, int count, const TextureFootprint& footprint,
+              std::array<float, 4>* colours) const;
+  /// Asks the processor to have ready what Sample is going to look at.
+  void Prefetch(const float* u, const float* v, int count,
+                const TextureFootprint& footprint) const;
 
  private:
   using Texel = std::array<std::uint8_t, 4>;  ///< square root of the reflectance
@@ -53,6 +61,9 @@ class Texture {
     void Allocate();
     void CopyBorder();
   };
+  template <int kQuads>
+  void SampleQuads(const float* u_m, const float* v_m, int count,
+                   const TextureFootprint& footprint, std::array<float, 4>* colours) const;
   void Bake(const Material& material, const Eigen::Vector2d& extent_m);
   void Halve();
 

@@ -43,12 +43,16 @@ class View {
     std::vector<float> start_x, start_y, start_z;  ///< of second rays, world frame
     std::vector<float> to_eye_x, to_eye_y, to_eye_z;
     std::vector<float> sun_far, eye_far;  ///< of second rays; negative: none
+    std::vector<float> print_u, print_v;  ///< places on the prints
     void Resize(std::size_t size);
   };
-  /// One of the four looks at a pixel on an edge.
-  struct SubPixel {
-    int pixel = -1;
-    Eigen::Vector3d ray;
+  /// At most a packet of pixels of one triangle in a row. Their footprints hardly differ: that
+  /// of the middle one serves all.
+  struct Stretch {
+    int first = 0, last = 0;
+    int triangle = 0;
+    const Texture* print = nullptr;
+    TextureFootprint footprint;
   };
 
   void Prepare();
@@ -65,8 +69,9 @@ class View {
   void CastToEye(int v);
   void CastToLights(int v);
   LightAtSpots LightsAt(const Spots& spots) const;
+  void PlacePrints(int v);
   void ShadeRow(int v);
-  void ShadeRun(int v, int first, int last);
+  void ShadeRun(int v, const Stretch& stretch);
   /// Place on the print of what the ray (x, y, 1) meets at depth z, metres.
   static std::array<float, 2> PrintAt(const SeenFacet& facet, double x, double y, float z);
   TextureFootprint Footprint(const SeenFacet& facet, const std::array<float, 2>& at, float z);
@@ -78,7 +83,7 @@ class View {
   /// Makes what the ray (x, y, 1) meets at depth z one of the places.
   void SetSpot(int lane, const SeenFacet& facet, double x, double y, double z,
                Spots& spots) const;
-  void SmoothEdges();
+  void SmoothEdges(int v);
   void MarkEdges(int v, std::vector<int>& pixels) const;
   void SmoothPair(int a, int b);
 
@@ -98,6 +103,7 @@ class View {
   Eigen::Vector3d eye_w_;
   std::size_t stride_ = 0;
   RowArrays row_;
+  std::vector<Stretch> stretches_;  ///< of the row
   ViewFacets facets_;
   std::vector<int> triangles_;  ///< what each pixel shows
   /// SeenFacet::surface, + 1 in the sun; then a bit for each light.

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sim/trace/pixel_rows.h"
 #include "sim/trace/view.h"
 
 namespace sim {
@@ -64,47 +65,60 @@ cv::Vec3f View::Shade(const SeenFacet& facet, double x, double y, float z, bool 
           albedo[2] * (light + lights[2])};
 }
 
-/// A stretch of pixels of one triangle. Their footprints hardly differ over eight pixels: that
-/// of the middle one serves all.
-void View::ShadeRun(int v, int first, int last) {
-  const SeenFacet& facet = facets_.At(Triangles(v)[first]);
-  const Texture& print = facets_.Print(facet);
-  const std::uint32_t* surfaces = Surfaces(v);
+/// Works out where on the prints the row looks, and has them fetched while rays are cast.
+void View::PlacePrints(int v) {
+  static_assert(kLanes == Texture::kLanes);
+  const int* triangles = Triangles(v);
   const double* depth = out_->depth_m[v];
+  const int width = world_->camera.width;
+  stretches_.clear();
+  for (int first = 0, last = 0; first < width; first = last) {
+    const int triangle = triangles[first], most = std::min(first + kLanes, width);
+    while (last < most && triangles[last] == triangle) ++last;
+    stretches_.push_back({first, last, triangle, nullptr, {}});
+    if (triangle == PacketHits::kNothing) continue;
+    const SeenFacet& facet = facets_.At(triangle);
+    PlaceOnPrint(facet.uv_over_depth, row_.x.data(), row_.y.data(), depth, first, last,
+                 row_.print_u.data(), row_.print_v.data());
+    Stretch& stretch = stretches_.back();
+    const std::size_t middle = Index((first + last) / 2);
+    stretch.print = &facets_.Print(facet);
+    stretch.footprint = Footprint(facet, {row_.print_u[middle], row_.print_v[middle]},
+                                  static_cast<float>(depth[middle]));
+    stretch.print->Prefetch(row_.print_u.data() + first, row_.print_v.data() + first,
+                            last - first, stretch.footprint);
+  }
+}
+
+void View::ShadeRun(int v, const Stretch& stretch) {
+  const SeenFacet& facet = facets_.At(stretch.triangle);
+  const std::uint32_t* surfaces = Surfaces(v);
   cv::Vec3f* colour = out_->radiance[v];
-  const auto at = [&](int u) {
-    return PrintAt(facet, row_.x[Index(u)], row_.y[Index(u)], static_cast<float>(depth[u]));
-  };
-  for (int from = first; from < last; from += kLanes) {
-    const int to = std::min(from + kLanes, last), middle = (from + to) / 2;
-    const TextureFootprint footprint =
-        Footprint(facet, at(middle), static_cast<float>(depth[middle]));
-    for (int u = from; u < to; ++u) {
-      const std::array<float, 2> uv = at(u);
-      const std::array<float, 4> albedo = print.Sample(uv[0], uv[1], footprint);
-      const float light =
-          LightOn(facet, row_.x[Index(u)], row_.y[Index(u)], (surfaces[u] & 1u) != 0);
-      const cv::Vec3f lights = lights_.Empty() ? cv::Vec3f(0, 0, 0) : lights_row_[Index(u)];
-      colour[u] = cv::Vec3f(albedo[0] * (light + lights[0]), albedo[1] * (light + lights[1]),
-                            albedo[2] * (light + lights[2]));
-    }
+  std::array<std::array<float, 4>, kLanes> albedo;
+  const int first = stretch.first;
+  stretch.print->Sample(row_.print_u.data() + first, row_.print_v.data() + first,
+                        stretch.last - first, stretch.footprint, albedo.data());
+  for (int u = first; u < stretch.last; ++u) {
+    const std::array<float, 4>& a = albedo[Index(u - first)];
+    const float light =
+        LightOn(facet, row_.x[Index(u)], row_.y[Index(u)], (surfaces[u] & 1u) != 0);
+    const cv::Vec3f lights = lights_.Empty() ? cv::Vec3f(0, 0, 0) : lights_row_[Index(u)];
+    colour[u] = cv::Vec3f(a[0] * (light + lights[0]), a[1] * (light + lights[1]),
+                          a[2] * (light + lights[2]));
   }
 }
 
 void View::ShadeRow(int v) {
-  const int* triangles = Triangles(v);
-  const int width = world_->camera.width;
-  for (int first = 0, last = 0; first < width; first = last) {
-    while (last < width && triangles[last] == triangles[first]) ++last;
-    const bool sky = triangles[first] == PacketHits::kNothing;
+  for (const Stretch& stretch : stretches_) {
+    const bool sky = stretch.triangle == PacketHits::kNothing;
     if (around_->coverage != nullptr) {
-      std::fill((*around_->coverage)[v] + first, (*around_->coverage)[v] + last,
+      std::fill((*around_->coverage)[v] + stretch.first, (*around_->coverage)[v] + stretch.last,
                 static_cast<uchar>(sky ? 0 : 4));
     }
     if (sky) {
-      std::fill(out_->radiance[v] + first, out_->radiance[v] + last, kSky);
+      std::fill(out_->radiance[v] + stretch.first, out_->radiance[v] + stretch.last, kSky);
     } else {
-      ShadeRun(v, first, last);
+      ShadeRun(v, stretch);
     }
   }
 }
@@ -123,9 +137,10 @@ void View::MarkEdges(int v, std::vector<int>& pixels) const {
   }
 }
 
-void View::SmoothEdges() {
+/// Of one row, when the next is known: its prints are at hand still.
+void View::SmoothEdges(int v) {
   on_edge_.clear();
-  for (int v = rows_.start; v < rows_.end; ++v) MarkEdges(v, on_edge_);
+  MarkEdges(v, on_edge_);
   for (std::size_t i = 0; i < on_edge_.size(); i += 2) {
     SmoothPair(on_edge_[i], on_edge_[std::min(i + 1, on_edge_.size() - 1)]);
   }
