@@ -75,14 +75,14 @@ struct Home {
 class Sweeps : public Pattern {
  public:
   Sweeps(const Motion& motion, double scale, Random& random)
-      : home_(motion, random), reach_m_(0.30 * scale) {}
+      : home_(motion, random), reach_m_(0.5 * scale) {}
   View At(double place, double look) const override {
     const Turn3 burst = ThreeBursts(place);
     const SinCos a = SinCosDeg(home_.direction.azimuth_deg);
     const Eigen::Vector3d axes[3] = {{a.cos, a.sin, 0}, {-a.sin, a.cos, 0}, {0, 0, 1}};
     const Eigen::Vector3d camera_w =
         home_.camera_w + reach_m_ * Burst(burst.part) * axes[burst.axis];
-    return Wobbled(camera_w, camera_w + home_.direction.Vector(), look, 6);
+    return Wobbled(camera_w, camera_w + home_.direction.Vector(), look, 9);
   }
 
  private:
@@ -105,6 +105,7 @@ class Turns : public Pattern {
     return Looking(home_.camera_w + reach_m_ * sway, direction,
                    burst.axis == 0 ? swing_deg : 0.0);
   }
+  bool TurnsUnevenly() const override { return true; }
 
  private:
   Home home_;
@@ -190,7 +191,7 @@ class Stations : public Pattern {
     const View view =
         Blend({views_[(i + n - 1) % n], views_[i], views_[(i + 1) % n], views_[(i + 2) % n]},
               at - static_cast<double>(i));
-    return Wobbled(view.camera_w, view.gaze_w, look, 5);
+    return Wobbled(view.camera_w, view.gaze_w, look, 9);
   }
   bool FacesTarget() const override { return false; }
 
