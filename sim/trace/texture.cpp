@@ -32,40 +32,40 @@ void Texture::Level::CopyBorder() {
 
 Texture::Texture(const Material& material, const Eigen::Vector2d& low_m,
                  const Eigen::Vector2d& extent_m, double texel_m, int max_texels)
-    : low_m_(low_m.cast<float>()),
+    : material_(material),
+      extent_m_(extent_m.cast<float>()),
+      low_m_(low_m.cast<float>()),
       texel_m_(static_cast<float>(std::max(texel_m, extent_m.maxCoeff() / max_texels))) {
-  Level finest;
-  finest.width = std::max(1, static_cast<int>(std::ceil(extent_m.x() / texel_m_)));
-  finest.height = std::max(1, static_cast<int>(std::ceil(extent_m.y() / texel_m_)));
-  levels_.push_back(std::move(finest));
-  Bake(material, extent_m);
-  while (levels_.back().width > 1 || levels_.back().height > 1) Halve();
+  int width = std::max(1, static_cast<int>(std::ceil(extent_m.x() / texel_m_)));
+  int height = std::max(1, static_cast<int>(std::ceil(extent_m.y() / texel_m_)));
+  for (;; width = (width + 1) / 2, height = (height + 1) / 2) {
+    levels_.push_back({width, height, {}});
+    levels_.back().Allocate();
+    if (width == 1 && height == 1) break;
+  }
 }
 
-void Texture::Bake(const Material& material, const Eigen::Vector2d& extent_m) {
+void Texture::BakeRows(int first, int last) {
   Level& level = levels_.front();
-  level.Allocate();
-  const Eigen::Vector2f extent = extent_m.cast<float>();
-  for (int y = 0; y < level.height; ++y) {
+  for (int y = first; y < last; ++y) {
     for (int x = 0; x < level.width; ++x) {
       const Eigen::Vector2f p((static_cast<float>(x) + 0.5F) * texel_m_,
                               (static_cast<float>(y) + 0.5F) * texel_m_);
-      const Eigen::Array3f colour = Reflectance(material, {p, extent});
+      const Eigen::Array3f colour = Reflectance(material_, {p, extent_m_});
       for (int channel = 0; channel < 3; ++channel) {
         level.At(x, y)[static_cast<std::size_t>(channel)] =
             static_cast<std::uint8_t>(std::sqrt(colour[channel]) * 255.0F + 0.5F);
       }
     }
   }
-  level.CopyBorder();
 }
 
-void Texture::Halve() {
-  const Level& fine = levels_.back();
-  Level coarse;
-  coarse.width = (fine.width + 1) / 2;
-  coarse.height = (fine.height + 1) / 2;
-  coarse.Allocate();
+void Texture::Finish() {
+  levels_.front().CopyBorder();
+  for (std::size_t i = 1; i < levels_.size(); ++i) Halve(levels_[i - 1], levels_[i]);
+}
+
+void Texture::Halve(const Level& fine, Level& coarse) {
   const auto fine_at = [&](int x, int y) -> const Texel& {
     return fine.At(std::min(x, fine.width - 1), std::min(y, fine.height - 1));
   };
@@ -82,7 +82,6 @@ void Texture::Halve() {
     }
   }
   coarse.CopyBorder();
-  levels_.push_back(std::move(coarse));
 }
 
 TextureFootprint Texture::Footprint(const TextureSteps& steps) const {

@@ -113,18 +113,11 @@ template <int kQuads>
   }
 }
 
-std::array<float, 4> Texture::Sample(float u_m, float v_m,
-                                     const TextureFootprint& footprint) const {
-  std::array<float, 4> colour;
-  const float u[4] = {u_m, u_m, u_m, u_m}, v[4] = {v_m, v_m, v_m, v_m};
-  SampleQuads<1>(u, v, 1, footprint, &colour);
-  return colour;
-}
-
 void Texture::Sample(const float* u_m, const float* v_m, int count,
                      const TextureFootprint& footprint, std::array<float, 4>* colours) const {
   if (count == kLanes) return SampleQuads<2>(u_m, v_m, kLanes, footprint, colours);
-  SampleQuads<2>(u_m, v_m, count, footprint, colours);
+  if (count > 4) return SampleQuads<2>(u_m, v_m, count, footprint, colours);
+  SampleQuads<1>(u_m, v_m, count, footprint, colours);
 }
 
 void Texture::Prefetch(const float* u_m, const float* v_m, int count,

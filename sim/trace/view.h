@@ -1,6 +1,8 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
+#include <span>
 #include <vector>
 
 #include "sim/trace/frame_renderer.h"
@@ -55,6 +57,18 @@ class View {
     TextureFootprint footprint;
   };
 
+  /// One of the four looks at a pixel on an edge.
+  struct Look {
+    Eigen::Vector3d ray;  ///< (x, y, 1), camera frame
+    int triangle = -1;
+    double z = 0;
+    bool sunlit = false;
+    cv::Vec3f lights;  ///< on it, beside the sun's
+  };
+  /// Bits of surfaces_ from here on are those of the lights; below are surface and sun.
+  static constexpr int kLightBit = 18;
+  static constexpr std::uint32_t kSurfaceBits = (1u << kLightBit) - 2;
+
   void Prepare();
   /// Whether anything, of this world or another, is between near and far.
   std::array<bool, RayPacket::kLanes> Blocked(const RayPacket& packet) const;
@@ -75,17 +89,17 @@ class View {
   /// Place on the print of what the ray (x, y, 1) meets at depth z, metres.
   static std::array<float, 2> PrintAt(const SeenFacet& facet, double x, double y, float z);
   TextureFootprint Footprint(const SeenFacet& facet, const std::array<float, 2>& at, float z);
-  /// @param lights  on it, beside the sun's
-  cv::Vec3f Shade(const SeenFacet& facet, double x, double y, float z, bool sunlit,
-                  const cv::Vec3f& lights);
   float LightOn(const SeenFacet& facet, double x, double y, bool sunlit) const;
   Eigen::Vector3d NormalAt(const SeenFacet& facet, double x, double y) const;
   /// Makes what the ray (x, y, 1) meets at depth z one of the places.
   void SetSpot(int lane, const SeenFacet& facet, double x, double y, double z,
                Spots& spots) const;
   void SmoothEdges(int v);
-  void MarkEdges(int v, std::vector<int>& pixels) const;
-  void SmoothPair(int a, int b);
+  void MarkEdges(int v, std::vector<int>& columns) const;
+  void CastLooks(int v, std::size_t first);
+  void SunOnLooks(int v);
+  std::optional<bool> SunAround(int u, int v, std::uint32_t surface) const;
+  cv::Vec3f MeanOf(std::span<const Look> looks);
 
   int* Triangles(int v) { return triangles_.data() + Index(v) * stride_; }
   std::uint32_t* Surfaces(int v) { return surfaces_.data() + Index(v) * stride_; }
@@ -112,7 +126,8 @@ class View {
   std::vector<cv::Vec3f> lights_row_;  ///< light of the lights on a row; empty without lights
   std::vector<EdgePixel> edges_;
   std::vector<std::uint8_t> decided_;  ///< by pixel, while edges are decided
-  std::vector<int> on_edge_;
+  std::vector<int> on_edge_;           ///< columns of a row
+  std::vector<Look> looks_;            ///< four for each of these
 };
 
 }  // namespace sim
