@@ -71,11 +71,22 @@ struct Home {
   Eigen::Vector3d camera_w;
 };
 
+/// A pattern that stays about one place.
+class AtHome : public Pattern {
+ public:
+  AtHome(const Motion& motion, double reach_m, Random& random)
+      : home_(motion, random), reach_m_(reach_m) {}
+
+ protected:
+  Home home_;
+  double reach_m_;
+};
+
 /// Along x, y and z in turn.
-class Sweeps : public Pattern {
+class Sweeps : public AtHome {
  public:
   Sweeps(const Motion& motion, double scale, Random& random)
-      : home_(motion, random), reach_m_(0.5 * scale) {}
+      : AtHome(motion, 0.5 * scale, random) {}
   View At(double place, double look) const override {
     const Turn3 burst = ThreeBursts(place);
     const SinCos a = SinCosDeg(home_.direction.azimuth_deg);
@@ -84,17 +95,13 @@ class Sweeps : public Pattern {
         home_.camera_w + reach_m_ * Burst(burst.part) * axes[burst.axis];
     return Wobbled(camera_w, camera_w + home_.direction.Vector(), look, 9);
   }
-
- private:
-  Home home_;
-  double reach_m_;
 };
 
 /// About the camera's own axes in turn, nearly on the spot.
-class Turns : public Pattern {
+class Turns : public AtHome {
  public:
   Turns(const Motion& motion, double scale, Random& random)
-      : home_(motion, random), reach_m_(0.05 * scale) {}
+      : AtHome(motion, 0.05 * scale, random) {}
   View At(double place, double look) const override {
     const Turn3 burst = ThreeBursts(look);
     const double swing_deg = 28 * Burst(burst.part);
@@ -106,17 +113,13 @@ class Turns : public Pattern {
                    burst.axis == 0 ? swing_deg : 0.0);
   }
   bool TurnsUnevenly() const override { return true; }
-
- private:
-  Home home_;
-  double reach_m_;
 };
 
 /// Round itself.
-class Panorama : public Pattern {
+class Panorama : public AtHome {
  public:
   Panorama(const Motion& motion, double scale, Random& random)
-      : home_(motion, random), reach_m_(0.25 * scale) {}
+      : AtHome(motion, 0.25 * scale, random) {}
   View At(double place, double look) const override {
     const Direction direction{home_.direction.azimuth_deg + 360 * look,
                               home_.direction.pitch_deg + 6 * Sine(3 * look)};
@@ -124,10 +127,6 @@ class Panorama : public Pattern {
     return Looking(home_.camera_w + reach_m_ * sway, direction, 4 * Sine(2 * look));
   }
   bool FacesTarget() const override { return false; }
-
- private:
-  Home home_;
-  double reach_m_;
 };
 
 /// Round the target, wholly when the azimuth is free, else to and fro.

@@ -55,19 +55,7 @@ TEST_P(PatternMotion, KeepsFifteenCentimetresFromEverySurface) {
 
 TEST_P(PatternMotion, ChangesItsVelocityContinuously) {
   const Scene scene = DeskWith(GetParam().preset, 1);
-  const auto largest_change = [&](double fps) {
-    const auto trajectory = MakeTrajectory(scene, static_cast<int>(4 * fps), fps, 1);
-    double largest = 0;
-    for (std::size_t i = 2; i < trajectory.size(); ++i) {
-      const Eigen::Vector3d change =
-          trajectory[i].T_wc.t - 2 * trajectory[i - 1].T_wc.t + trajectory[i - 2].T_wc.t;
-      const Eigen::Matrix3d turn =
-          trajectory[i].T_wc.R - 2 * trajectory[i - 1].T_wc.R + trajectory[i - 2].T_wc.R;
-      largest = std::max({largest, change.norm() * fps, turn.norm() * fps});
-    }
-    return largest;
-  };
-  EXPECT_LT(largest_change(4000), 0.15 * largest_change(400));
+  EXPECT_LT(LargestChange(scene, 4000), 0.15 * LargestChange(scene, 400));
 }
 
 TEST_P(PatternMotion, BeginsALongerOneWithTheFramesOfAShorterOne) {

@@ -59,23 +59,10 @@ TEST_P(HandMotion, KeepsFifteenCentimetresFromEverySurface) {
   }
 }
 
-// A jump of the velocity would not shrink with the interval; a smooth one does, in proportion.
 TEST_P(HandMotion, ChangesItsVelocityContinuously) {
   Scene scene = MakeScene("desk", 1);
   scene.motion.preset = GetParam();
-  const auto largest_change = [&](double fps) {
-    const auto trajectory = MakeTrajectory(scene, static_cast<int>(4 * fps), fps, 1);
-    double largest = 0;
-    for (std::size_t i = 2; i < trajectory.size(); ++i) {
-      const Eigen::Vector3d change =
-          trajectory[i].T_wc.t - 2 * trajectory[i - 1].T_wc.t + trajectory[i - 2].T_wc.t;
-      const Eigen::Matrix3d turn =
-          trajectory[i].T_wc.R - 2 * trajectory[i - 1].T_wc.R + trajectory[i - 2].T_wc.R;
-      largest = std::max({largest, change.norm() * fps, turn.norm() * fps});
-    }
-    return largest;
-  };
-  EXPECT_LT(largest_change(4000), 0.15 * largest_change(400));
+  EXPECT_LT(LargestChange(scene, 4000), 0.15 * LargestChange(scene, 400));
 }
 
 INSTANTIATE_TEST_SUITE_P(Presets, HandMotion, testing::Values("slow", "office", "fast"),
