@@ -43,6 +43,7 @@ struct SlamArguments {
   std::string config_file;
   bool print_config = false;
   bool loop_closing = false;
+  std::string mapping;
   std::string live_scene;
   std::function<SceneRecording(const std::string&)> recording;  ///< with live_scene
 };
@@ -91,6 +92,9 @@ int RunSlam(SlamArguments& arguments, bool quiet) {
   options.variant = slam::VariantOf(arguments.variant);
   if (!arguments.config_file.empty()) options.config = slam::ReadConfig(arguments.config_file);
   if (arguments.loop_closing) options.config.loop_closing.enabled = true;
+  if (!arguments.mapping.empty()) {
+    options.config.async_mapping = arguments.mapping == "async";
+  }
   options.version = PAS_VERSION;
   const InterruptWatch watch;
   options.stop = [] { return interrupted != 0; };
@@ -159,6 +163,12 @@ void AddSlamCommand(CLI::App& pas, const Globals& globals, int& exit_code) {
                    "Threads; 0 = one a core. Changes the speed, never a result")
       ->check(CLI::Range(0, 256))
       ->capture_default_str();
+  command
+      ->add_option("--mapping", arguments->mapping,
+                   "sync: between frames; the same input gives the same bytes. async: on a "
+                   "thread of its own; tracking never waits for an adjustment. Default: as "
+                   "--config says, else sync")
+      ->check(CLI::IsMember({"sync", "async"}));
   command->add_flag("--loop-closing", arguments->loop_closing,
                     "Recognise known places and draw the map together there");
   command->add_flag("--save-segmentation", options.save_segmentation,

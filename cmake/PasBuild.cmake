@@ -74,6 +74,13 @@ function(pas_library name)
   endif()
 endfunction()
 
+# pas_lanes(a.cpp b.cpp): loops over rows that the compiler is to do several pixels at once of. It may
+# take it that nobody reads errno or the processor's floating-point flags; results are the same bits.
+function(pas_lanes)
+  set_source_files_properties(${ARGN} PROPERTIES SKIP_PRECOMPILE_HEADERS ON
+    COMPILE_OPTIONS "-fno-math-errno;-fno-trapping-math")
+endfunction()
+
 # pas_test(slam/planes SOURCES a_test.cpp LINK slam_planes [TIMEOUT s] [CASES n]): one executable a folder;
 # every case is a CTest test of its own, "slam/planes/Suite.Case". CASES is how many inputs a
 # rapidcheck property draws (100). PAS_SHARED_DIR (environment) may

@@ -15,6 +15,7 @@ constexpr double kSample_s = 1.0 / 30;  // rate at which the presets were measur
 constexpr double kClearance_m = 0.15;
 constexpr double kChecksPerSegment = 16;
 constexpr double kBetweenChecks_m = 0.02;  // more than the way between two checks
+constexpr std::size_t kKnotsPerBurst = 2;
 constexpr int kStartTries = 20000, kCandidates = 240, kRetreats = 4;
 
 /// Half the room that a limit leaves, but no more than `margin`.
@@ -24,6 +25,12 @@ double Margin(double low, double high, double margin) {
 
 double PitchBelowHorizon_rad(const Eigen::Vector3d& forward_w) {
   return AsinRad(-forward_w.z() / forward_w.norm());
+}
+
+/// Hands turn in bursts: mostly slower than the mean, at times more than twice as fast.
+double TurnPace(std::uint64_t seed, std::size_t knot) {
+  const double mood = Random({0x6d6f6f64, seed, knot / kKnotsPerBurst}).Uniform();
+  return 0.25 + 2.25 * mood * mood;  // mean 1
 }
 
 Eigen::Vector3d InUnitBall(Random& random) {
@@ -129,7 +136,7 @@ void CameraPath::FindStart() {
                    "azimuth_*_deg or pitch_*_deg, or move target_m");
 }
 
-View CameraPath::Nearby(double step_m, double swerve, Random& random) const {
+View CameraPath::Nearby(double step_m, double turn_deg, double swerve, Random& random) const {
   const View& last = knots_.back();
   const View& before = knots_[knots_.size() - 2];
   const auto onward = [&](const Eigen::Vector3d& from, const Eigen::Vector3d& to) {
@@ -142,8 +149,10 @@ View CameraPath::Nearby(double step_m, double swerve, Random& random) const {
   View view = last;
   view.camera_w += step_m * onward(before.camera_w, last.camera_w);
   const Eigen::Vector3d gaze = onward(before.gaze_w, last.gaze_w);
-  view.gaze_w += 1.6 * step_m * random.Uniform() * gaze.cwiseProduct(Eigen::Vector3d(1, 1, 0));
-  const double roll_step = random.Between(-1, 1) * preset_.turn_deg_s * kKnot_s / 4;
+  const double way_m = (last.gaze_w - last.camera_w).norm();
+  const double reach_m = std::max(1.6 * step_m, 2.2 * DegToRad(turn_deg) * way_m);
+  view.gaze_w += reach_m * random.Uniform() * gaze.cwiseProduct(Eigen::Vector3d(1, 1, 0));
+  const double roll_step = random.Between(-1, 1) * turn_deg * 0.8;
   view.roll_deg += 0.7 * (last.roll_deg - before.roll_deg) + roll_step;
   return view;
 }
@@ -158,7 +167,7 @@ std::vector<View> CameraPath::Candidates(double step_m, double turn_deg, Random&
   std::vector<std::pair<double, View>> scored;
   for (int i = 0; i < kCandidates; ++i) {
     const double swerve = 0.4 + 3.0 * i / kCandidates;  // from nearly straight to a turn back
-    const View view = Nearby(step_m, swerve, random);
+    const View view = Nearby(step_m, turn_deg, swerve, random);
     if (!KnotFits(view)) continue;
     const double off = TurnBetween_deg(T_last, PoseOf(view)) / std::max(turn_deg, 1e-3) - 1;
     const Eigen::Vector3d way = view.camera_w - last.camera_w;
@@ -191,13 +200,14 @@ double CameraPath::WantedDistance_m() const {
 void CameraPath::AddKnot() {
   Measure();
   Random random({0x6b6e6f74, seed_, knots_.size()});
-  const double pace = random.Between(0.6, 1.4);
+  const double pace = random.Between(0.45, 1.55);
   const auto wanted = [&](double rate, double behind) {
     // Makes up what is missing within about two seconds.
-    return rate * kKnot_s * pace * std::clamp(1 + behind / (rate * 2), 0.4, 2.5);
+    return rate * kKnot_s * std::clamp(1 + behind / (rate * 2), 0.4, 2.5);
   };
-  double step_m = wanted(preset_.speed_m_s, length_behind_m_);
-  const double turn_deg = wanted(preset_.turn_deg_s, turn_behind_deg_);
+  double step_m = pace * wanted(preset_.speed_m_s, length_behind_m_);
+  const double turn_deg =
+      TurnPace(seed_, knots_.size()) * wanted(preset_.turn_deg_s, turn_behind_deg_);
   for (int retreat = 0; retreat < kRetreats; ++retreat, step_m /= 2) {
     for (const View& view : Candidates(step_m, turn_deg, random)) {
       if (!IsSafe(view)) continue;

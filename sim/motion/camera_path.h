@@ -35,8 +35,9 @@ class CameraPath {
   void AddKnot();
   void Measure();
   std::vector<View> Candidates(double step_m, double turn_deg, Random& random) const;
-  /// A knot that goes on from the last one; `swerve` 0 goes straight, 3 anywhere.
-  View Nearby(double step_m, double swerve, Random& random) const;
+  /// A knot that goes on from the last one; `swerve` 0 goes straight, 3 anywhere. May turn by
+  /// about `turn_deg`.
+  View Nearby(double step_m, double turn_deg, double swerve, Random& random) const;
   /// Comes near and goes away again in about half a minute.
   double WantedDistance_m() const;
   bool KnotFits(const View& view) const;

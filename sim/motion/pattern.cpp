@@ -71,30 +71,37 @@ struct Home {
   Eigen::Vector3d camera_w;
 };
 
+/// A pattern that stays about one place.
+class AtHome : public Pattern {
+ public:
+  AtHome(const Motion& motion, double reach_m, Random& random)
+      : home_(motion, random), reach_m_(reach_m) {}
+
+ protected:
+  Home home_;
+  double reach_m_;
+};
+
 /// Along x, y and z in turn.
-class Sweeps : public Pattern {
+class Sweeps : public AtHome {
  public:
   Sweeps(const Motion& motion, double scale, Random& random)
-      : home_(motion, random), reach_m_(0.30 * scale) {}
+      : AtHome(motion, 0.5 * scale, random) {}
   View At(double place, double look) const override {
     const Turn3 burst = ThreeBursts(place);
     const SinCos a = SinCosDeg(home_.direction.azimuth_deg);
     const Eigen::Vector3d axes[3] = {{a.cos, a.sin, 0}, {-a.sin, a.cos, 0}, {0, 0, 1}};
     const Eigen::Vector3d camera_w =
         home_.camera_w + reach_m_ * Burst(burst.part) * axes[burst.axis];
-    return Wobbled(camera_w, camera_w + home_.direction.Vector(), look, 6);
+    return Wobbled(camera_w, camera_w + home_.direction.Vector(), look, 9);
   }
-
- private:
-  Home home_;
-  double reach_m_;
 };
 
 /// About the camera's own axes in turn, nearly on the spot.
-class Turns : public Pattern {
+class Turns : public AtHome {
  public:
   Turns(const Motion& motion, double scale, Random& random)
-      : home_(motion, random), reach_m_(0.05 * scale) {}
+      : AtHome(motion, 0.05 * scale, random) {}
   View At(double place, double look) const override {
     const Turn3 burst = ThreeBursts(look);
     const double swing_deg = 28 * Burst(burst.part);
@@ -105,17 +112,14 @@ class Turns : public Pattern {
     return Looking(home_.camera_w + reach_m_ * sway, direction,
                    burst.axis == 0 ? swing_deg : 0.0);
   }
-
- private:
-  Home home_;
-  double reach_m_;
+  bool TurnsUnevenly() const override { return true; }
 };
 
 /// Round itself.
-class Panorama : public Pattern {
+class Panorama : public AtHome {
  public:
   Panorama(const Motion& motion, double scale, Random& random)
-      : home_(motion, random), reach_m_(0.25 * scale) {}
+      : AtHome(motion, 0.25 * scale, random) {}
   View At(double place, double look) const override {
     const Direction direction{home_.direction.azimuth_deg + 360 * look,
                               home_.direction.pitch_deg + 6 * Sine(3 * look)};
@@ -123,10 +127,6 @@ class Panorama : public Pattern {
     return Looking(home_.camera_w + reach_m_ * sway, direction, 4 * Sine(2 * look));
   }
   bool FacesTarget() const override { return false; }
-
- private:
-  Home home_;
-  double reach_m_;
 };
 
 /// Round the target, wholly when the azimuth is free, else to and fro.
@@ -190,7 +190,7 @@ class Stations : public Pattern {
     const View view =
         Blend({views_[(i + n - 1) % n], views_[i], views_[(i + 1) % n], views_[(i + 2) % n]},
               at - static_cast<double>(i));
-    return Wobbled(view.camera_w, view.gaze_w, look, 5);
+    return Wobbled(view.camera_w, view.gaze_w, look, 9);
   }
   bool FacesTarget() const override { return false; }
 

@@ -11,14 +11,16 @@
 namespace sim {
 
 /// A way of moving without its timing: views by how far the camera has come along its closed
-/// way
-/// (`place`, one round is 1) and how far it has come in looking about (`look`, one round is 1).
+/// way (`place`, one round is 1) and how far it has come in looking about (`look`, one round is
+/// 1).
 class Pattern {
  public:
   virtual ~Pattern() = default;
   virtual View At(double place, double look) const = 0;
   /// Whether the camera should see the target from where it starts.
   virtual bool FacesTarget() const { return true; }
+  /// Whether the look itself goes fast and slow, so that it is to be paced evenly.
+  virtual bool TurnsUnevenly() const { return false; }
 };
 
 /// @param scale  of what may be made smaller so that the way is free, 1 full size

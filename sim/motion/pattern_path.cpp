@@ -13,6 +13,7 @@ constexpr double kKnot_s = 0.25;
 constexpr double kSample_s = 1.0 / 30;  // rate at which the presets were measured
 constexpr double kClearance_m = 0.15;
 constexpr double kCorners_m = 0.05;  // more than the spline cuts corners, and the tests miss
+constexpr std::size_t kKnotsPerBurst = 2;
 constexpr int kSamples = 400, kTries = 3000;
 
 }  // namespace
@@ -93,14 +94,18 @@ void PatternPath::AddKnot() {
   const auto wanted = [&](double rate, double behind) {
     return rate * kKnot_s * std::clamp(1 + behind / (rate * 2), 0.1, 3.0);
   };
-  const double step_m = wanted(preset_.speed_m_s, length_behind_m_);
-  const double turn_deg = wanted(preset_.turn_deg_s, turn_behind_deg_);
+  // In bursts: of means 1, turns mostly slower and at times thrice as fast.
+  Random random({0x6d6f6f64, seed_, knots_.size() / kKnotsPerBurst});
+  const double mood = random.Uniform(), pace = random.Between(0.6, 1.4);
+  const double turn_pace = pattern_->TurnsUnevenly() ? 1 : 0.12 + 3.52 * mood * mood * mood;
+  const double step_m = pace * wanted(preset_.speed_m_s, length_behind_m_);
+  const double turn_deg = turn_pace * wanted(preset_.turn_deg_s, turn_behind_deg_);
   const View last = knots_.empty() ? pattern_->At(place_, look_) : knots_.back();
 
-  // The first place that is far enough; where the way turns back, not more than thrice as far
-  // along as on average.
+  // The first place that is far enough; where the way turns back, not more than half as
+  // far again along as on average.
   constexpr int kSteps = 48;
-  const double stride = 3 * step_m / round_m_ / kSteps;
+  const double stride = 1.5 * step_m / round_m_ / kSteps;
   for (int i = 0; i < kSteps; ++i) {
     place_ += stride;
     if ((pattern_->At(place_, look_).camera_w - last.camera_w).norm() >= step_m) break;

@@ -24,13 +24,15 @@ Eigen::Vector3d UnitVector(Random& random) {
 
 Tremor::Tremor(const MotionPreset& preset, std::uint64_t seed) {
   Random random({0x7472656d, seed});
-  const auto add_band = [&](int band, double sd, std::vector<Wave>& waves, double& bound) {
+  const auto add_band = [&](int band, double sd, bool steep, std::vector<Wave>& waves,
+                            double& bound) {
     std::vector<Wave> added;
     double variance = 0;
     for (int i = 0; i < kWavesPerBand; ++i) {
       const double low = kBandEdges_hz[band], high = kBandEdges_hz[band + 1];
       const double frequency = low + (high - low) * (i + random.Uniform()) / kWavesPerBand;
-      added.push_back({frequency, random.Uniform(), UnitVector(random) / frequency});
+      const double fall = steep ? frequency * frequency * frequency : frequency;
+      added.push_back({frequency, random.Uniform(), UnitVector(random) / fall});
       variance += added.back().amplitude.squaredNorm() / 2;
     }
     for (Wave& wave : added) {
@@ -39,10 +41,10 @@ Tremor::Tremor(const MotionPreset& preset, std::uint64_t seed) {
       waves.push_back(wave);
     }
   };
-  add_band(0, preset.slow_tremor_mm / 1000, offset_m_, max_offset_m_);
-  add_band(1, preset.fast_tremor_mm / 1000, offset_m_, max_offset_m_);
-  add_band(0, DegToRad(preset.slow_tremor_deg), turn_rad_, max_turn_rad_);
-  add_band(1, DegToRad(preset.fast_tremor_deg), turn_rad_, max_turn_rad_);
+  add_band(0, preset.slow_tremor_mm / 1000, true, offset_m_, max_offset_m_);
+  add_band(1, preset.fast_tremor_mm / 1000, true, offset_m_, max_offset_m_);
+  add_band(0, DegToRad(preset.slow_tremor_deg), false, turn_rad_, max_turn_rad_);
+  add_band(1, DegToRad(preset.fast_tremor_deg), false, turn_rad_, max_turn_rad_);
 }
 
 Eigen::Vector3d Tremor::Sum(const std::vector<Wave>& waves, double time_s) {

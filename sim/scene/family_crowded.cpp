@@ -7,10 +7,7 @@ Scene MakeCrowdedDesk(std::uint64_t seed, int count) {
   constexpr std::uint64_t kKey = 0x63726f77;
   Random random({kKey, seed});
   Scene scene;
-  Table table;
-  table.width = DrawLength(random, 1.8 + 0.02 * (count - 15), 2.4);
-  table.depth = DrawLength(random, 0.9, 1.0);
-  table.top_z = DrawLength(random, .70, .76);
+  const Table table = DrawTable(random, {1.8 + 0.02 * (count - 15), 2.4}, {0.9, 1.0});
   PutRoom({-2.6, Rounded(table.depth / 2 + 0.05 - 5)}, {2.6, Rounded(table.depth / 2 + 0.05)},
           Print::kSpeckle, random, scene);
   PutTable("desk", table, DrawMaterial(Print::kWood, random), scene);

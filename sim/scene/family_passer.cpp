@@ -24,11 +24,7 @@ double Eased(double part) { return part * part * (3 - 2 * part); }
 void PutMoving(const std::string& name, const std::string& class_name, ShapeKind shape,
                const Eigen::Vector3d& size, const Material& material,
                const std::vector<Waypoint>& way, Scene& scene) {
-  Object object;
-  object.id = static_cast<int>(scene.objects.size()) + 1;
-  object.name = name;
-  object.class_name = class_name;
-  object.role = Role::kUnstructured;
+  Object object = NextObject(scene, name, class_name, Role::kUnstructured);
   object.shape = shape;
   object.size = size.unaryExpr(&Rounded);
   object.faces.fill(material);
@@ -119,10 +115,7 @@ Scene MakePasser(std::uint64_t seed, const ParameterValues& values) {
   Random random({kPasserKey, seed});
   Scene scene;
   PutRoom({-3, -2.6}, {3, 2.4}, Print::kSpeckle, random, scene);
-  Table table;
-  table.width = DrawLength(random, 1.3, 1.6);
-  table.depth = DrawLength(random, 0.65, 0.8);
-  table.top_z = DrawLength(random, .70, .76);
+  const Table table = DrawTable(random, {1.3, 1.6}, {0.65, 0.8});
   PutTable("desk", table, DrawMaterial(Print::kWood, random), scene);
   PutClutter(static_cast<int>(values.at("objects")), table, {kPasserKey, seed, 1}, scene);
   Motion& motion = scene.motion;

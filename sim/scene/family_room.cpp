@@ -46,10 +46,7 @@ Scene MakeOffice(std::uint64_t seed, const ParameterValues& values) {
   Scene scene;
   const double half_x = DrawLength(random, 2.7, 3.1), half_y = DrawLength(random, 2.5, 2.8);
   PutRoom({-half_x, -half_y}, {half_x, half_y}, Print::kSpeckle, random, scene);
-  Table table;
-  table.width = DrawLength(random, 1.3, 1.5);
-  table.depth = DrawLength(random, 0.65, 0.75);
-  table.top_z = DrawLength(random, .70, .76);
+  Table table = DrawTable(random, {1.3, 1.5}, {0.65, 0.75});
   const Material wood = DrawMaterial(Print::kWood, random);
   const int things = static_cast<int>(values.at("objects"));
   for (const int side : {-1, 1}) {
@@ -74,10 +71,7 @@ Scene MakeRoomFamily(std::uint64_t seed, const ParameterValues& values) {
   Scene scene;
   const double half_x = DrawLength(random, 2.0, 2.4), half_y = DrawLength(random, 1.9, 2.2);
   PutRoom({-half_x, -half_y}, {half_x, half_y}, Print::kSpeckle, random, scene);
-  Table table;
-  table.width = DrawLength(random, 1.3, 1.6);
-  table.depth = DrawLength(random, 0.65, 0.8);
-  table.top_z = DrawLength(random, .70, .76);
+  Table table = DrawTable(random, {1.3, 1.6}, {0.65, 0.8});
   table.center = {0, Rounded(half_y - table.depth / 2 - 0.02)};
   PutTable("desk", table, DrawMaterial(Print::kWood, random), scene);
   PutClutter(static_cast<int>(values.at("objects")), table, {kRoomKey, seed, 1}, scene);

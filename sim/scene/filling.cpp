@@ -49,6 +49,15 @@ Wish DrawSmallThing(Random& random) {
 
 }  // namespace
 
+Table DrawTable(Random& random, const std::array<double, 2>& widths_m,
+                const std::array<double, 2>& depths_m) {
+  Table table;
+  table.width = DrawLength(random, widths_m[0], widths_m[1]);
+  table.depth = DrawLength(random, depths_m[0], depths_m[1]);
+  table.top_z = DrawLength(random, .70, .76);
+  return table;
+}
+
 void PutTable(const std::string& name, const Table& table, const Material& material,
               Scene& scene) {
   constexpr double kTop_m = 0.03, kSide_m = 0.03;

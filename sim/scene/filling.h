@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <string>
 #include <vector>
 
@@ -13,6 +14,10 @@ struct Table {
   double width = 1.4, depth = 0.7, top_z = 0.72;  ///< metres, width along x
   bool turned = false;                            ///< its user sits at +y, not at -y
 };
+
+/// At the origin, of drawn size and the height of an office desk.
+Table DrawTable(Random& random, const std::array<double, 2>& widths_m,
+                const std::array<double, 2>& depths_m);
 
 /// Top and two sides, detected as one dining table.
 void PutTable(const std::string& name, const Table& table, const Material& material,

@@ -21,6 +21,17 @@ Item Single(const Part& part) {
   return item;
 }
 
+struct Range {
+  double low, high;
+};
+
+Item SingleRound(const std::string& class_name, ShapeKind shape, const Range& across_m,
+                 const Range& height_m, Print print, Random& random) {
+  const double across = DrawLength(random, across_m.low, across_m.high);
+  const double height = DrawLength(random, height_m.low, height_m.high);
+  return Single(RoundPart(class_name, shape, across, height, 0, DrawMaterial(print, random)));
+}
+
 Item SinglePrinted(const std::string& class_name, const Eigen::Vector3d& size, Print print,
                    Random& random) {
   Part part = BoxPart(class_name, size, 0, 0, 0);
@@ -31,24 +42,16 @@ Item SinglePrinted(const std::string& class_name, const Eigen::Vector3d& size, P
 }  // namespace
 
 Item MakeMug(Random& random) {
-  const double across = DrawLength(random, .070, .095);
-  const double height = DrawLength(random, .080, .115);
-  return Single(RoundPart("cup", ShapeKind::kMug, across, height, 0,
-                          DrawMaterial(Print::kCover, random)));
+  return SingleRound("cup", ShapeKind::kMug, {.070, .095}, {.080, .115}, Print::kCover, random);
 }
 
 Item MakeBottle(Random& random) {
-  const double across = DrawLength(random, .060, .085);
-  const double height = DrawLength(random, .18, .27);
-  return Single(RoundPart("bottle", ShapeKind::kBottle, across, height, 0,
-                          DrawMaterial(Print::kCover, random)));
+  return SingleRound("bottle", ShapeKind::kBottle, {.060, .085}, {.18, .27}, Print::kCover,
+                     random);
 }
 
 Item MakeBowl(Random& random) {
-  const double across = DrawLength(random, .12, .20);
-  const double height = DrawLength(random, .05, .08);
-  return Single(RoundPart("bowl", ShapeKind::kBowl, across, height, 0,
-                          DrawMaterial(Print::kSpeckle, random)));
+  return SingleRound("bowl", ShapeKind::kBowl, {.12, .20}, {.05, .08}, Print::kSpeckle, random);
 }
 
 Item MakePlant(Random& random) {

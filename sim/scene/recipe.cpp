@@ -62,14 +62,20 @@ void Put(const Item& item, const Place& place, Scene& scene) {
   }
 }
 
-void PutStructure(const std::string& name, const std::string& class_name,
-                  const Eigen::Vector3d& size, const Eigen::Vector3d& center_w,
-                  const Material& material, Scene& scene) {
+Object NextObject(const Scene& scene, const std::string& name, const std::string& class_name,
+                  Role role) {
   Object object;
   object.id = static_cast<int>(scene.objects.size()) + 1;
   object.name = name;
   object.class_name = class_name;
-  object.role = Role::kStructure;
+  object.role = role;
+  return object;
+}
+
+void PutStructure(const std::string& name, const std::string& class_name,
+                  const Eigen::Vector3d& size, const Eigen::Vector3d& center_w,
+                  const Material& material, Scene& scene) {
+  Object object = NextObject(scene, name, class_name, Role::kStructure);
   object.size = size;
   object.center_w = center_w.unaryExpr(&Rounded);
   object.faces.fill(material);

@@ -73,6 +73,10 @@ Material DrawMaterial(Print print, Random& random);
 /// Gives each face of the object its look by class: keys on top of a keyboard, and so on.
 void Dress(Object& object, Random& random);
 
+/// What the scene's next object begins with: id, name, class and role.
+Object NextObject(const Scene& scene, const std::string& name, const std::string& class_name,
+                  Role role);
+
 /// A structure box (floor, wall, desk) with one material all over.
 void PutStructure(const std::string& name, const std::string& class_name,
                   const Eigen::Vector3d& size, const Eigen::Vector3d& center_w,

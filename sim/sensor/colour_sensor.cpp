@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <vector>
 
+#include "sim/sensor/colour_rows.h"
 #include "sim/sensor/recycled.h"
 
 namespace sim {
@@ -41,32 +43,52 @@ ColourModel CleanColour() {
   return {.shot_variance = 0, .read_sigma = 0, .corner_loss = 0, .gamma = 2.2};
 }
 
+namespace {
+
+/// One row of samples: three a pixel, in radiance's order.
+struct Samples {
+  std::vector<std::uint64_t> bits;
+  std::vector<float> kept, normal;
+  std::vector<std::int32_t> codes;
+  void Start(int width) {
+    const auto count = static_cast<std::size_t>(3 * width);
+    bits.resize(static_cast<std::size_t>(width));
+    kept.resize(count);
+    normal.assign(count, 0.0F);
+    codes.resize(count);
+  }
+  void Draw(const PixelNoise& noise, int v) {
+    noise.NormalBitsOfRow(0, v, kFirstDraw, bits);
+    float* out = normal.data();
+    for (const std::uint64_t four : bits) {
+      for (std::uint32_t k = 0; k < 3; ++k) *out++ = PixelNoise::NormalOf(four, kFirstDraw + k);
+    }
+  }
+};
+
+}  // namespace
+
 cv::Mat3b MeasureColour(const cv::Mat3f& radiance, const ColourModel& model,
                         const PixelNoise& noise) {
   const GammaCodes& table = GammaTable(model.gamma);
   const bool noisy = model.shot_variance > 0 || model.read_sigma > 0;
-  const auto shot_variance = static_cast<float>(model.shot_variance);
-  const auto read_variance = static_cast<float>(model.read_sigma * model.read_sigma);
+  const LightVariance variance{static_cast<float>(model.shot_variance),
+                               static_cast<float>(model.read_sigma * model.read_sigma)};
   const double mid_u = 0.5 * (radiance.cols - 1), mid_v = 0.5 * (radiance.rows - 1);
   const double loss = model.corner_loss / std::max(1e-9, mid_u * mid_u + mid_v * mid_v);
   thread_local cv::Mat3b kept;
+  thread_local Samples row;  // memory only
   cv::Mat3b image = Recycled(kept, radiance.size());
+  row.Start(radiance.cols);
   for (int v = 0; v < radiance.rows; ++v) {
-    const cv::Vec3f* in = radiance[v];
-    cv::Vec3b* out = image[v];
-    for (int u = 0; u < radiance.cols; ++u) {
-      const double r2 = (u - mid_u) * (u - mid_u) + (v - mid_v) * (v - mid_v);
-      const auto kept_light = static_cast<float>(1.0 - loss * r2);
-      const std::uint64_t bits = noisy ? noise.NormalBits(u, v, kFirstDraw) : 0;
-      for (std::uint32_t channel = 0; channel < 3; ++channel) {
-        float light = kept_light * in[u][static_cast<int>(channel)];
-        if (noisy) {
-          const float sigma = std::sqrt(shot_variance * std::max(light, 0.0F) + read_variance);
-          light += sigma * PixelNoise::NormalOf(bits, kFirstDraw + channel);
-        }
-        const float code = std::clamp(light, 0.0F, 1.0F) * kCodes + 0.5F;
-        out[u][2 - static_cast<int>(channel)] = table[static_cast<std::size_t>(code)];
-      }
+    if (noisy) row.Draw(noise, v);
+    KeptLight(mid_u, mid_v, loss, v, radiance.cols, 3, row.kept.data());
+    LightCodes(radiance.ptr<float>(v), row.kept.data(), row.normal.data(), variance, kCodes,
+               3 * radiance.cols, row.codes.data());
+    const std::int32_t* codes = row.codes.data();
+    uchar* out = image.ptr(v);
+    for (int u = 0; u < radiance.cols; ++u, codes += 3, out += 3) {
+      for (int k = 0; k < 3; ++k) out[2 - k] = table[static_cast<std::size_t>(codes[k])];
     }
   }
   return image;

@@ -1,89 +1,70 @@
 #include "sim/sensor/depth_effects.h"
 
-#include <algorithm>
-#include <cmath>
-#include <vector>
-
 namespace sim {
 
-namespace {
+void SmoothNoiseRows::Start(int width, int radius, const PixelNoise& noise,
+                            std::uint32_t first_draw, std::size_t draws) {
+  noise_ = noise;
+  radius_ = radius;
+  row_ = -1;
+  first_draw_ = first_draw;
+  draws_ = draws;
+  width_ = static_cast<std::size_t>(width);
+  side_ = static_cast<std::size_t>(2 * radius + 1);
+  const std::size_t padded = width_ + side_ - 1;
+  bits_.resize(padded);
+  white_.resize(padded);
+  smooth_.resize(draws_ * width_);
+  across_.resize(side_ * draws_ * width_);
+  for (int v = -radius; v < radius; ++v) AddRow(v);
+}
 
-/// Sums of `side` neighbours in a row of `white`, side - 1 longer than `sums`.
-void SumAcross(const float* white, int side, int width, float* sums) {
-  for (int u = 0; u < width; ++u) sums[u] = white[u];
-  for (int i = 1; i < side; ++i) {
-    for (int u = 0; u < width; ++u) sums[u] += white[u + i];
+float* SmoothNoiseRows::Across(int v, std::size_t k) {
+  const std::size_t slot = static_cast<std::size_t>(v + radius_) % side_;
+  return across_.data() + (slot * draws_ + k) * width_;
+}
+
+/// Sums of `side` neighbours along one row of white noise.
+void SmoothNoiseRows::AddRow(int v) {
+  for (std::size_t k = 0; k < draws_; ++k) {
+    const std::uint32_t draw = first_draw_ + static_cast<std::uint32_t>(k);
+    if (k == 0 || draw % 4 == 0) noise_.NormalBitsOfRow(-radius_, v, draw, bits_);
+    for (std::size_t u = 0; u < bits_.size(); ++u) {
+      white_[u] = PixelNoise::NormalOf(bits_[u], draw);
+    }
+    float* sums = Across(v, k);
+    std::copy_n(white_.data(), width_, sums);
+    for (std::size_t i = 1; i < side_; ++i) {
+      for (std::size_t u = 0; u < width_; ++u) sums[u] += white_[u + i];
+    }
   }
 }
 
-void SumDown(const cv::Mat1f& across, int side, cv::Mat1f& smooth) {
-  const float scale = 1.0F / static_cast<float>(side);
-  for (int v = 0; v < smooth.rows; ++v) {
-    float* out = smooth[v];
-    const float* first = across[v];
-    for (int u = 0; u < smooth.cols; ++u) out[u] = first[u];
-    for (int i = 1; i < side; ++i) {
-      const float* row = across[v + i];
-      for (int u = 0; u < smooth.cols; ++u) out[u] += row[u];
+void SmoothNoiseRows::Next() {
+  ++row_;
+  AddRow(row_ + radius_);
+  const float scale = 1.0F / static_cast<float>(side_);
+  for (std::size_t k = 0; k < draws_; ++k) {
+    float* out = smooth_.data() + k * width_;
+    std::copy_n(Across(row_ - radius_, k), width_, out);
+    for (int v = row_ - radius_ + 1; v <= row_ + radius_; ++v) {
+      const float* sums = Across(v, k);
+      for (std::size_t u = 0; u < width_; ++u) out[u] += sums[u];
     }
-    for (int u = 0; u < smooth.cols; ++u) out[u] *= scale;
-  }
-}
-
-}  // namespace
-
-void SmoothNoise(const cv::Size& size, int radius, const PixelNoise& noise, std::uint32_t first,
-                 std::span<cv::Mat1f> images) {
-  thread_local std::vector<cv::Mat1f> across;
-  thread_local std::vector<float> white;
-  const int side = 2 * radius + 1, width = size.width + 2 * radius;
-  const auto padded = static_cast<std::size_t>(width);
-  across.resize(std::max(across.size(), images.size()));
-  white.resize(padded * images.size());
-  for (cv::Mat1f& sums : std::span(across).first(images.size())) {
-    sums.create(size.height + 2 * radius, size.width);
-  }
-  for (int v = 0; v < size.height + 2 * radius; ++v) {
-    for (int u = 0; u < width; ++u) {
-      std::uint64_t bits = noise.NormalBits(u - radius, v - radius, first);
-      for (std::uint32_t k = 0; k < images.size(); ++k) {
-        const std::uint32_t draw = first + k;
-        if (k > 0 && draw % 4 == 0) bits = noise.NormalBits(u - radius, v - radius, draw);
-        white[k * padded + static_cast<std::size_t>(u)] = PixelNoise::NormalOf(bits, draw);
-      }
-    }
-    for (std::size_t k = 0; k < images.size(); ++k) {
-      SumAcross(white.data() + k * padded, side, size.width, across[k][v]);
-    }
-  }
-  for (std::size_t k = 0; k < images.size(); ++k) {
-    images[k].create(size);
-    SumDown(across[k], side, images[k]);
+    for (std::size_t u = 0; u < width_; ++u) out[u] *= scale;
   }
 }
 
 cv::Mat1f SmoothNoise(const cv::Size& size, int radius, const PixelNoise& noise,
                       std::uint32_t draw) {
-  cv::Mat1f image;
-  SmoothNoise(size, radius, noise, draw, std::span(&image, 1));
+  cv::Mat1f image(size);
+  SmoothNoiseRows rows;
+  rows.Start(size.width, radius, noise, draw, 1);
+  for (int v = 0; v < size.height; ++v) {
+    rows.Next();
+    std::copy_n(rows.Row(0), size.width, image[v]);
+  }
   return image;
-}
-
-double Incidence(float cosine) {
-  const double c = std::clamp(static_cast<double>(cosine), 0.0, 1.0);
-  const double series =
-      1.5707963050 +
-      c * (-0.2145988016 +
-           c * (0.0889789874 +
-                c * (-0.0501743046 +
-                     c * (0.0308918810 +
-                          c * (-0.0170881256 + c * (0.0066700901 - c * 0.0012624911))))));
-  return std::sqrt(1.0 - c) * series;
-}
-
-bool SameSurface(const Rendering& rendering, cv::Point a, cv::Point b) {
-  return rendering.plane_id(a) == rendering.plane_id(b) &&
-         rendering.object_id(a) == rendering.object_id(b);
 }
 
 double RoundDepth(double z_m, double step_m) {

@@ -1,7 +1,9 @@
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <opencv2/core/mat.hpp>
-#include <span>
+#include <vector>
 
 #include "sim/sensor/noise.h"
 #include "sim/trace/frame_renderer.h"
@@ -23,16 +25,48 @@ enum DepthDraw : std::uint32_t {
 cv::Mat1f SmoothNoise(const cv::Size& size, int radius, const PixelNoise& noise,
                       std::uint32_t draw);
 
-/// The same of `images.size()` draws from `first` on, into images that are used again.
-void SmoothNoise(const cv::Size& size, int radius, const PixelNoise& noise, std::uint32_t first,
-                 std::span<cv::Mat1f> images);
+/// The same row by row, so that no whole image of it is needed.
+class SmoothNoiseRows {
+ public:
+  /// Before row 0. Memory of the last time is used again.
+  void Start(int width, int radius, const PixelNoise& noise, std::uint32_t first_draw,
+             std::size_t draws);
+  void Next();
+  /// Draw first_draw + k of the row that Next came to.
+  const float* Row(std::size_t k) const { return smooth_.data() + k * width_; }
+
+ private:
+  void AddRow(int v);
+  float* Across(int v, std::size_t k);
+
+  PixelNoise noise_{0, 0};
+  int radius_ = 0, row_ = -1;
+  std::uint32_t first_draw_ = 0;
+  std::size_t draws_ = 0, width_ = 0, side_ = 1;
+  std::vector<std::uint64_t> bits_;
+  std::vector<float> white_, smooth_;
+  std::vector<float> across_;  ///< sums along the rows that this one needs, in a ring
+};
 
 /// Angle between ray and normal, radians, from its cosine, to 3e-8 (Abramowitz and Stegun
 /// 4.4.46; no libm, so the same bits with every C library).
-double Incidence(float cosine);
+inline double Incidence(float cosine) {
+  const double c = std::clamp(static_cast<double>(cosine), 0.0, 1.0);
+  const double series =
+      1.5707963050 +
+      c * (-0.2145988016 +
+           c * (0.0889789874 +
+                c * (-0.0501743046 +
+                     c * (0.0308918810 +
+                          c * (-0.0170881256 + c * (0.0066700901 - c * 0.0012624911))))));
+  return std::sqrt(1.0 - c) * series;
+}
 
 /// Both pixels show the same plane of the same object.
-bool SameSurface(const Rendering& rendering, cv::Point a, cv::Point b);
+inline bool SameSurface(const Rendering& rendering, cv::Point a, cv::Point b) {
+  return rendering.plane_id(a) == rendering.plane_id(b) &&
+         rendering.object_id(a) == rendering.object_id(b);
+}
 
 /// z rounded to whole multiples of step_m; unchanged when step_m is 0.
 double RoundDepth(double z_m, double step_m);

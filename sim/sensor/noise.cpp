@@ -87,7 +87,7 @@ PixelNoise::PixelNoise(std::uint64_t seed, std::uint64_t frame)
     : key_(Mix(Mix(seed + kGolden) ^ Mix(frame + 0x51ED270B1A2F39C5ull))) {}
 
 double PixelNoise::Uniform(int u, int v, std::uint32_t draw) const {
-  return (static_cast<double>(Bits(u, v, draw) >> 11) + 0.5) * 0x1.0p-53;
+  return (static_cast<double>(BitsOf(key_, u, v, draw) >> 11) + 0.5) * 0x1.0p-53;
 }
 
 const float* PixelNoise::NormalTable() {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 
 namespace sim {
 
@@ -19,9 +20,11 @@ class PixelNoise {
   }
   /// The bits of the normals of draws 4 k to 4 k + 3; NormalOf takes one of them out.
   std::uint64_t NormalBits(int u, int v, std::uint32_t draw) const {
-    // Keys of their own, apart from those of Uniform.
-    constexpr std::uint64_t kNormals = 1ull << 32;
-    return Bits(u, v, kNormals + draw / 4);
+    return BitsOf(key_, u, v, kNormals + draw / 4);
+  }
+  /// Those bits of the pixels (u0, v), (u0 + 1, v) and so on.
+  void NormalBitsOfRow(int u0, int v, std::uint32_t draw, std::span<std::uint64_t> bits) const {
+    FillBits(key_, u0, v, kNormals + draw / 4, bits.data(), bits.size());
   }
   static float NormalOf(std::uint64_t bits, std::uint32_t draw) {
     return NormalTable()[bits >> (16 * (draw % 4)) & 0xFFFFu];
@@ -30,17 +33,22 @@ class PixelNoise {
   static const float* NormalTable();
 
  private:
+  /// Keys of their own for normals, apart from those of Uniform.
+  static constexpr std::uint64_t kNormals = 1ull << 32;
+
   static std::uint64_t Mix(std::uint64_t z) {  // SplitMix64's finaliser
     z = (z ^ (z >> 30)) * 0xBF58476D1CE4E5B9ull;
     z = (z ^ (z >> 27)) * 0x94D049BB133111EBull;
     return z ^ (z >> 31);
   }
-  std::uint64_t Bits(int u, int v, std::uint64_t draw) const {
+  static std::uint64_t BitsOf(std::uint64_t key, int u, int v, std::uint64_t draw) {
     const std::uint64_t place =
         (static_cast<std::uint64_t>(static_cast<std::uint32_t>(v)) << 32) |
         static_cast<std::uint32_t>(u);
-    return Mix(Mix(key_ + place * 0x9E3779B97F4A7C15ull) + draw * 0xD1B54A32D192ED03ull);
+    return Mix(Mix(key + place * 0x9E3779B97F4A7C15ull) + draw * 0xD1B54A32D192ED03ull);
   }
+  static void FillBits(std::uint64_t key, int u0, int v, std::uint64_t draw,
+                       std::uint64_t* bits, std::size_t count);
 
   std::uint64_t key_;
 };

@@ -1,6 +1,7 @@
 #include "sim/trace/print.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 
@@ -30,19 +31,96 @@ struct CellDraw {
   std::uint64_t bits;
 };
 
-int Floor(float x) { return static_cast<int>(std::floor(x)); }
+/// Of numbers that an int holds.
+int Floor(float x) {
+  const int whole = static_cast<int>(x);
+  return static_cast<float>(whole) > x ? whole - 1 : whole;
+}
 float Smooth(float edge, float t) { return std::clamp(t / edge + 0.5F, 0.0F, 1.0F); }
+
+/// The values at the corners of one cell of value noise.
+struct ValueCell {
+  std::uint64_t seed = 0;
+  bool drawn = false;
+  int x = 0, y = 0;
+  std::array<float, 4> corners;  ///< low left and right, high left and right
+
+  bool Is(int x_in, int y_in, std::uint64_t seed_in) const {
+    return drawn && x == x_in && y == y_in && seed == seed_in;
+  }
+  void Draw(int x_in, int y_in, std::uint64_t seed_in) {
+    x = x_in, y = y_in, seed = seed_in, drawn = true;
+    const auto at = [&](int i, int j) { return CellDraw(x + i, y + j, seed)[0]; };
+    corners = {at(0, 0), at(1, 0), at(0, 1), at(1, 1)};
+  }
+};
+
+/// A cell of the last ones that this thread looked at: neighbouring texels share it.
+template <typename Cell>
+Cell& LastCell(std::uint64_t seed) {
+  thread_local std::array<Cell, 16> last;  // memory only
+  return last[Mix(seed) % last.size()];
+}
 
 /// Smooth value noise in [0, 1], one bump a unit cell.
 float ValueNoise(const Vector2f& p, std::uint64_t seed) {
   const int x = Floor(p.x()), y = Floor(p.y());
   Vector2f t(p.x() - static_cast<float>(x), p.y() - static_cast<float>(y));
   t = t.array() * t.array() * (3.0F - 2.0F * t.array());
-  const auto at = [&](int i, int j) { return CellDraw(x + i, y + j, seed)[0]; };
-  const float low = at(0, 0) + (at(1, 0) - at(0, 0)) * t.x();
-  const float high = at(0, 1) + (at(1, 1) - at(0, 1)) * t.x();
+  ValueCell& cell = LastCell<ValueCell>(seed);
+  if (!cell.Is(x, y, seed)) cell.Draw(x, y, seed);
+  const auto& [low_left, low_right, high_left, high_right] = cell.corners;
+  const float low = low_left + (low_right - low_left) * t.x();
+  const float high = high_left + (high_right - high_left) * t.x();
   return low + (high - low) * t.y();
 }
+
+/// The ellipses of random flecks that may reach into one cell of their grid: those of its own
+/// and of eight neighbours, by columns, two of which the next cell shares.
+struct FleckCell {
+  struct Fleck {
+    float row;   ///< of its own cell, from this one
+    float x, y;  ///< its middle there, cells
+    float radius;
+  };
+  struct Column {
+    int count = 0;
+    std::array<Fleck, 3> flecks;
+  };
+
+  std::uint64_t seed = 0;
+  float density = -1;
+  int x = 0, y = 0;
+  std::array<Column, 3> columns;
+
+  void MoveTo(int x_in, int y_in, float density_in, std::uint64_t seed_in) {
+    const bool same_row = y == y_in && seed == seed_in && density == density_in;
+    if (same_row && x == x_in) return;
+    const bool next = same_row && x + 1 == x_in;
+    x = x_in, y = y_in, density = density_in, seed = seed_in;
+    if (next) {
+      columns[0] = columns[1];
+      columns[1] = columns[2];
+    } else {
+      Draw(-1);
+      Draw(0);
+    }
+    Draw(1);
+  }
+
+ private:
+  void Draw(int i) {
+    Column& column = columns[static_cast<std::size_t>(i + 1)];
+    column.count = 0;
+    for (int j = -1; j <= 1; ++j) {
+      const CellDraw draw(x + i, y + j, seed);
+      // Written in any case: no branch on what is as good as tossed.
+      column.flecks[static_cast<std::size_t>(column.count)] = {static_cast<float>(j), draw[1],
+                                                               draw[2], 0.16F + 0.3F * draw[3]};
+      column.count += draw[0] < density ? 1 : 0;
+    }
+  }
+};
 
 /// Coverage in [0, 1] by random flecks: in each cell of `pitch_m` one ellipse with probability
 /// `density`, `stretch` times as long in x as in y.
@@ -51,20 +129,19 @@ float Flecks(const Vector2f& p_m, float pitch_m, float density, float stretch,
   const Vector2f q(p_m.x() / (pitch_m * stretch), p_m.y() / pitch_m);
   const int x = Floor(q.x()), y = Floor(q.y());
   const float fx = q.x() - static_cast<float>(x), fy = q.y() - static_cast<float>(y);
-  float cover = 0;
-  // No ellipse reaches further than kReach, so two cells a direction are enough.
-  constexpr float kReach = 0.53F;
-  for (int j = fy < kReach ? -1 : 0; j <= (fy > 1 - kReach ? 1 : 0); ++j) {
-    for (int i = fx < kReach ? -1 : 0; i <= (fx > 1 - kReach ? 1 : 0); ++i) {
-      const CellDraw draw(x + i, y + j, seed);
-      if (draw[0] >= density) continue;
-      const float dx = fx - static_cast<float>(i) - draw[1];
-      const float dy = fy - static_cast<float>(j) - draw[2];
-      const float radius = 0.16F + 0.3F * draw[3];
-      cover = std::max(cover, Smooth(0.12F, radius - std::sqrt(dx * dx + dy * dy)));
+  FleckCell& cell = LastCell<FleckCell>(seed);
+  cell.MoveTo(x, y, density, seed);
+  float inside = -1;  // the rim of an ellipse, at most
+  float left = -1;
+  for (const FleckCell::Column& column : cell.columns) {
+    for (int k = 0; k < column.count; ++k) {
+      const FleckCell::Fleck& fleck = column.flecks[static_cast<std::size_t>(k)];
+      const float dx = fx - left - fleck.x, dy = fy - fleck.row - fleck.y;
+      inside = std::max(inside, fleck.radius - std::sqrt(dx * dx + dy * dy));
     }
+    left += 1;
   }
-  return cover;
+  return Smooth(0.12F, inside);
 }
 
 /// A made-up letter: 1 on its strokes. `q` in the unit square, bits choose the strokes.

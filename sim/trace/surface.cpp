@@ -1,8 +1,6 @@
 #include "sim/trace/surface.h"
 
 #include <Eigen/Dense>
-#include <mutex>
-#include <optional>
 
 namespace sim {
 namespace {
@@ -12,22 +10,13 @@ constexpr double kTexelsAPixel = 3.2;  ///< of the longer image side, along the 
 
 }  // namespace
 
-/// The print of one material and the part of its uv plane that triangles use.
-struct SurfaceTable::Baked {
-  Material material;
-  Eigen::Vector2d low = Eigen::Vector2d::Constant(1e9);
-  Eigen::Vector2d high = Eigen::Vector2d::Constant(-1e9);
-  std::once_flag once;
-  std::optional<Texture> texture;
-};
-
 SurfaceTable::SurfaceTable(const Scene& scene, const SceneMesh& mesh, const Camera& camera)
     : texel_m_(kClosestLook_m / std::max(camera.fx, camera.fy)),
-      max_texels_(static_cast<int>(kTexelsAPixel * std::max(camera.width, camera.height))) {
+      max_texels_(std::min(
+          32000, static_cast<int>(kTexelsAPixel * std::max(camera.width, camera.height)))) {
   const std::vector<ScenePlane> planes = ScenePlanes(scene);
   for (const Material& material : mesh.materials) {
-    baked_.push_back(std::make_unique<Baked>());
-    baked_.back()->material = material;
+    prints_.push_back(std::make_unique<BakedPrint>(material));
   }
   for (const Triangle& triangle : mesh.triangles) {
     const auto& [a, b, c] = triangle.corners_w;
@@ -51,15 +40,10 @@ SurfaceTable::SurfaceTable(const Scene& scene, const SceneMesh& mesh, const Came
     facet.uv_of = edges.partialPivLu().solve(steps).transpose();
     facet.uv_at = triangle.uv_m[0] - facet.uv_of * a;
     facets_.push_back(facet);
-    Baked& baked = *baked_.at(static_cast<std::size_t>(triangle.material));
-    for (const Eigen::Vector2d& uv : triangle.uv_m) {
-      baked.low = baked.low.cwiseMin(uv);
-      baked.high = baked.high.cwiseMax(uv);
-    }
+    BakedPrint& print = *prints_.at(static_cast<std::size_t>(triangle.material));
+    for (const Eigen::Vector2d& uv : triangle.uv_m) print.Include(uv);
   }
 }
-
-SurfaceTable::~SurfaceTable() = default;
 
 FacetInView SurfaceTable::InView(int triangle, const Pose& T_wc) const {
   const Facet& facet = At(triangle);
@@ -79,13 +63,7 @@ Eigen::Vector3d SurfaceTable::ShadingNormal(int triangle, double b1, double b2) 
 }
 
 const Texture& SurfaceTable::Print(int triangle) const {
-  Baked& baked = *baked_[static_cast<std::size_t>(At(triangle).material)];
-  std::call_once(baked.once, [&] {
-    const bool plain = baked.material.print == Print::kPlain;
-    baked.texture.emplace(baked.material, baked.low, baked.high - baked.low, texel_m_,
-                          plain ? 1 : max_texels_);
-  });
-  return *baked.texture;
+  return prints_[static_cast<std::size_t>(At(triangle).material)]->Get(texel_m_, max_texels_);
 }
 
 }  // namespace sim

@@ -7,7 +7,7 @@
 #include "sim/camera/camera.h"
 #include "sim/scene/mesh.h"
 #include "sim/scene/pose.h"
-#include "sim/trace/texture.h"
+#include "sim/trace/baked_print.h"
 
 namespace sim {
 
@@ -24,7 +24,6 @@ class SurfaceTable {
   /// Scene and mesh must belong together. Prints are baked as finely as an image of `camera`
   /// can show them from 0.4 m, large faces as finely as it can show them whole.
   SurfaceTable(const Scene& scene, const SceneMesh& mesh, const Camera& camera);
-  ~SurfaceTable();
 
   /// The triangle seen from T_wc.
   FacetInView InView(int triangle, const Pose& T_wc) const;
@@ -47,11 +46,10 @@ class SurfaceTable {
     std::array<Eigen::Vector3d, 3> normals_w;
     int material = 0;
   };
-  struct Baked;
   const Facet& At(int triangle) const { return facets_[static_cast<std::size_t>(triangle)]; }
 
   std::vector<Facet> facets_;
-  std::vector<std::unique_ptr<Baked>> baked_;
+  std::vector<std::unique_ptr<BakedPrint>> prints_;
   double texel_m_;
   int max_texels_;
 };

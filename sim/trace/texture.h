@@ -26,17 +26,28 @@ struct TextureFootprint {
 /// look is band-limited to the pixel's footprint: no flicker when the view moves.
 class Texture {
  public:
+  /// Not to be looked at before all rows are baked, in any order and by any thread, and it is
+  /// finished.
   /// @param low_m, extent_m  the part of the face's uv plane to bake, metres
   /// @param texel_m          finest texel, metres
-  /// @param max_texels       a side; a larger face gets coarser texels
+  /// @param max_texels       a side, at most 32,000; a larger face gets coarser texels
   Texture(const Material& material, const Eigen::Vector2d& low_m,
           const Eigen::Vector2d& extent_m, double texel_m, int max_texels = 2048);
+  int rows() const { return levels_.front().height; }
+  void BakeRows(int first, int last);
+  void Finish();
 
   /// About the parallelogram spanned by the steps.
   TextureFootprint Footprint(const TextureSteps& steps) const;
-  /// Linear reflectance at uv, metres, averaged over a footprint. Clamps at the border.
-  /// Channels r, g, b and one without meaning.
-  std::array<float, 4> Sample(float u, float v, const TextureFootprint& footprint) const;
+  static constexpr int kLanes = 8;
+  /// Linear reflectance at the first `count` of kLanes places uv, metres, averaged over a
+  /// footprint. Clamps at the border. Channels r, g, b and one without meaning. All of u and v
+  /// are read.
+  void Sample(const float* u, const float* v, int count, const TextureFootprint& footprint,
+              std::array<float, 4>* colours) const;
+  /// Asks the processor to have ready what Sample is going to look at.
+  void Prefetch(const float* u, const float* v, int count,
+                const TextureFootprint& footprint) const;
 
  private:
   using Texel = std::array<std::uint8_t, 4>;  ///< square root of the reflectance
@@ -53,9 +64,13 @@ class Texture {
     void Allocate();
     void CopyBorder();
   };
-  void Bake(const Material& material, const Eigen::Vector2d& extent_m);
-  void Halve();
+  template <int kQuads>
+  void SampleQuads(const float* u_m, const float* v_m, int count,
+                   const TextureFootprint& footprint, std::array<float, 4>* colours) const;
+  static void Halve(const Level& fine, Level& coarse);
 
+  Material material_;
+  Eigen::Vector2f extent_m_;
   std::vector<Level> levels_;
   Eigen::Vector2f low_m_;
   float texel_m_;

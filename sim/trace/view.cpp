@@ -5,6 +5,8 @@
 #include <cstring>
 #include <limits>
 
+#include "sim/trace/pixel_rows.h"
+
 namespace sim {
 namespace {
 
@@ -19,6 +21,12 @@ void Load(std::array<float, kLanes>& lanes, const std::vector<float>& row, int f
   std::memcpy(lanes.data(), row.data() + first, sizeof lanes);
 }
 
+bool AnyRay(const RayPacket& packet) {
+  int any = 0;
+  for (const float far : packet.far) any |= far >= 0 ? 1 : 0;
+  return any != 0;
+}
+
 }  // namespace
 
 void View::RowArrays::Resize(std::size_t size) {
@@ -26,6 +34,8 @@ void View::RowArrays::Resize(std::size_t size) {
   for (auto* row : {&start_x, &start_y, &start_z, &to_eye_x, &to_eye_y, &to_eye_z}) {
     row->resize(size);
   }
+  // Stretches start anywhere, and are read as whole packets.
+  for (auto* row : {&print_u, &print_v}) row->resize(size + kLanes);
   sun_far.assign(size, -1.0F);
   eye_far.assign(size, -1.0F);
 }
@@ -45,13 +55,15 @@ void View::Render(const RenderWorld& world, const Pose& T_wc, const RenderOption
   for (int v = rows_.start; v < rows_.end; ++v) {
     RecordRow(v);
     if (options_.colour) {
+      PlacePrints(v);
       CastToSun(v);
       if (!lights_.Empty()) CastToLights(v);
       ShadeRow(v);
+      if (v > rows_.start) SmoothEdges(v - 1);
     }
     if (options_.projector_offset_m != 0) CastToEye(v);
   }
-  if (options_.colour) SmoothEdges();
+  if (options_.colour && rows_.start < rows_.end) SmoothEdges(rows_.end - 1);
 }
 
 void View::Prepare() {
@@ -85,27 +97,25 @@ void View::Prepare() {
 
 void View::LoadRow(int v) {
   world_->image_rays.Row(v, row_.x.data(), row_.y.data());
-  const Eigen::Matrix3d R = T_wc_.R;
-  for (std::size_t u = 0; u < stride_; ++u) {
-    const double x = row_.x[u], y = row_.y[u];
-    row_.dx[u] = R(0, 0) * x + R(0, 1) * y + R(0, 2);
-    row_.dy[u] = R(1, 0) * x + R(1, 1) * y + R(1, 2);
-    row_.dz[u] = R(2, 0) * x + R(2, 1) * y + R(2, 2);
-  }
+  TurnRays(T_wc_.R, row_.x.data(), row_.y.data(), static_cast<int>(stride_), row_.dx.data(),
+           row_.dy.data(), row_.dz.data());
 }
 
 void View::TraceRow(int v) {
   LoadRow(v);
-  const int width = world_->camera.width;
+  const int width = world_->camera.width, length = static_cast<int>(stride_);
+  // The arrays of second rays are free still.
+  std::vector<float>&dx = row_.start_x, &dy = row_.start_y, &dz = row_.start_z;
+  ToSingle(row_.dx.data(), length, dx.data());
+  ToSingle(row_.dy.data(), length, dy.data());
+  ToSingle(row_.dz.data(), length, dz.data());
   RayPacket packet;
   for (int i = 0; i < kLanes; ++i) packet.Set(i, T_wc_.t, Eigen::Vector3d::UnitZ(), kNear_m);
   for (int u0 = 0; u0 < width; u0 += kLanes) {
-    for (int i = 0; i < kLanes; ++i) {
-      packet.dx[Index(i)] = static_cast<float>(row_.dx[Index(u0 + i)]);
-      packet.dy[Index(i)] = static_cast<float>(row_.dy[Index(u0 + i)]);
-      packet.dz[Index(i)] = static_cast<float>(row_.dz[Index(u0 + i)]);
-      if (u0 + i >= width) packet.Disable(i);
-    }
+    Load(packet.dx, dx, u0);
+    Load(packet.dy, dy, u0);
+    Load(packet.dz, dz, u0);
+    for (int i = width - u0; i < kLanes; ++i) packet.Disable(i);
     if (log_ != nullptr) log_->nearest.push_back(packet);
     const PacketHits found = world_->rays.Nearest(packet);
     std::memcpy(Triangles(v) + u0, found.triangle.data(), sizeof found.triangle);
@@ -163,27 +173,12 @@ void View::RecordSky(int v, int first, int last) {
 }
 
 void View::RecordRun(int v, int first, int last, const SeenFacet& facet) {
-  double* depth = out_->depth_m[v];
-  float* cosine = out_->incidence_cos[v];
-  const Eigen::Vector3d a = facet.inverse_depth, n = facet.n_c;
-  const Eigen::Vector3d start = T_wc_.t + kLeaveSurface_m * facet.n_w;
-  const Eigen::Vector3d eye = eye_w_;
-  for (int i = first; i < last; ++i) {
-    const std::size_t u = Index(i);
-    const double x = row_.x[u], y = row_.y[u];
-    const double z = 1.0 / (a.x() * x + a.y() * y + a.z());
-    depth[i] = z;
-    cosine[i] = static_cast<float>(std::abs(n.x() * x + n.y() * y + n.z()) /
-                                   std::sqrt(x * x + y * y + 1.0));
-    const double px = start.x() + z * row_.dx[u], py = start.y() + z * row_.dy[u],
-                 pz = start.z() + z * row_.dz[u];
-    row_.start_x[u] = static_cast<float>(px);
-    row_.start_y[u] = static_cast<float>(py);
-    row_.start_z[u] = static_cast<float>(pz);
-    row_.to_eye_x[u] = static_cast<float>(eye.x() - px);
-    row_.to_eye_y[u] = static_cast<float>(eye.y() - py);
-    row_.to_eye_z[u] = static_cast<float>(eye.z() - pz);
-  }
+  MeetPlane(
+      {facet.inverse_depth, facet.n_c, T_wc_.t + kLeaveSurface_m * facet.n_w, eye_w_}, first,
+      last,
+      {row_.x.data(), row_.y.data(), row_.dx.data(), row_.dy.data(), row_.dz.data(),
+       out_->depth_m[v], out_->incidence_cos[v], row_.start_x.data(), row_.start_y.data(),
+       row_.start_z.data(), row_.to_eye_x.data(), row_.to_eye_y.data(), row_.to_eye_z.data()});
   const auto fill = [&](auto* row, auto value) { std::fill(row + first, row + last, value); };
   fill(out_->plane_id[v], ushort{facet.plane});
   fill(out_->object_id[v], ushort{facet.object});
@@ -217,7 +212,7 @@ void View::CastToSun(int v) {
   std::uint32_t* surfaces = Surfaces(v);
   for (int u0 = 0; u0 < world_->camera.width; u0 += kLanes) {
     Load(packet.far, row_.sun_far, u0);
-    if (*std::max_element(packet.far.begin(), packet.far.end()) < 0) continue;
+    if (!AnyRay(packet)) continue;
     Load(packet.x, row_.start_x, u0);
     Load(packet.y, row_.start_y, u0);
     Load(packet.z, row_.start_z, u0);
@@ -237,7 +232,7 @@ void View::CastToEye(int v) {
     const int lanes = std::min(kLanes, width - u0);
     std::fill_n(lit + u0, lanes, uchar{0});
     Load(packet.far, row_.eye_far, u0);
-    if (*std::max_element(packet.far.begin(), packet.far.end()) < 0) continue;
+    if (!AnyRay(packet)) continue;
     Load(packet.x, row_.start_x, u0);
     Load(packet.y, row_.start_y, u0);
     Load(packet.z, row_.start_z, u0);

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
+#include <span>
 #include <vector>
 
 #include "sim/trace/frame_renderer.h"
@@ -43,13 +45,29 @@ class View {
     std::vector<float> start_x, start_y, start_z;  ///< of second rays, world frame
     std::vector<float> to_eye_x, to_eye_y, to_eye_z;
     std::vector<float> sun_far, eye_far;  ///< of second rays; negative: none
+    std::vector<float> print_u, print_v;  ///< places on the prints
     void Resize(std::size_t size);
   };
-  /// One of the four looks at a pixel on an edge.
-  struct SubPixel {
-    int pixel = -1;
-    Eigen::Vector3d ray;
+  /// At most a packet of pixels of one triangle in a row. Their footprints hardly differ: that
+  /// of the middle one serves all.
+  struct Stretch {
+    int first = 0, last = 0;
+    int triangle = 0;
+    const Texture* print = nullptr;
+    TextureFootprint footprint;
   };
+
+  /// One of the four looks at a pixel on an edge.
+  struct Look {
+    Eigen::Vector3d ray;  ///< (x, y, 1), camera frame
+    int triangle = -1;
+    double z = 0;
+    bool sunlit = false;
+    cv::Vec3f lights;  ///< on it, beside the sun's
+  };
+  /// Bits of surfaces_ from here on are those of the lights; below are surface and sun.
+  static constexpr int kLightBit = 18;
+  static constexpr std::uint32_t kSurfaceBits = (1u << kLightBit) - 2;
 
   void Prepare();
   /// Whether anything, of this world or another, is between near and far.
@@ -65,22 +83,23 @@ class View {
   void CastToEye(int v);
   void CastToLights(int v);
   LightAtSpots LightsAt(const Spots& spots) const;
+  void PlacePrints(int v);
   void ShadeRow(int v);
-  void ShadeRun(int v, int first, int last);
+  void ShadeRun(int v, const Stretch& stretch);
   /// Place on the print of what the ray (x, y, 1) meets at depth z, metres.
   static std::array<float, 2> PrintAt(const SeenFacet& facet, double x, double y, float z);
   TextureFootprint Footprint(const SeenFacet& facet, const std::array<float, 2>& at, float z);
-  /// @param lights  on it, beside the sun's
-  cv::Vec3f Shade(const SeenFacet& facet, double x, double y, float z, bool sunlit,
-                  const cv::Vec3f& lights);
   float LightOn(const SeenFacet& facet, double x, double y, bool sunlit) const;
   Eigen::Vector3d NormalAt(const SeenFacet& facet, double x, double y) const;
   /// Makes what the ray (x, y, 1) meets at depth z one of the places.
   void SetSpot(int lane, const SeenFacet& facet, double x, double y, double z,
                Spots& spots) const;
-  void SmoothEdges();
-  void MarkEdges(int v, std::vector<int>& pixels) const;
-  void SmoothPair(int a, int b);
+  void SmoothEdges(int v);
+  void MarkEdges(int v, std::vector<int>& columns) const;
+  void CastLooks(int v, std::size_t first);
+  void SunOnLooks(int v);
+  std::optional<bool> SunAround(int u, int v, std::uint32_t surface) const;
+  cv::Vec3f MeanOf(std::span<const Look> looks);
 
   int* Triangles(int v) { return triangles_.data() + Index(v) * stride_; }
   std::uint32_t* Surfaces(int v) { return surfaces_.data() + Index(v) * stride_; }
@@ -98,6 +117,7 @@ class View {
   Eigen::Vector3d eye_w_;
   std::size_t stride_ = 0;
   RowArrays row_;
+  std::vector<Stretch> stretches_;  ///< of the row
   ViewFacets facets_;
   std::vector<int> triangles_;  ///< what each pixel shows
   /// SeenFacet::surface, + 1 in the sun; then a bit for each light.
@@ -106,7 +126,8 @@ class View {
   std::vector<cv::Vec3f> lights_row_;  ///< light of the lights on a row; empty without lights
   std::vector<EdgePixel> edges_;
   std::vector<std::uint8_t> decided_;  ///< by pixel, while edges are decided
-  std::vector<int> on_edge_;
+  std::vector<int> on_edge_;           ///< columns of a row
+  std::vector<Look> looks_;            ///< four for each of these
 };
 
 }  // namespace sim

@@ -2,15 +2,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sim/trace/pixel_rows.h"
 #include "sim/trace/view.h"
 
 namespace sim {
 namespace {
 
 constexpr int kLanes = RayPacket::kLanes;
-/// Four rays an edge pixel: a rotated grid, the same in each pixel.
-constexpr std::array<std::array<double, 2>, 4> kSubPixels{
-    {{-0.125, -0.375}, {0.375, -0.125}, {0.125, 0.375}, {-0.375, 0.125}}};
 
 }  // namespace
 
@@ -54,132 +52,61 @@ TextureFootprint View::Footprint(const SeenFacet& facet, const std::array<float,
        (uv(0, 1) - at[0] * along_y) * down, (uv(1, 1) - at[1] * along_y) * down});
 }
 
-cv::Vec3f View::Shade(const SeenFacet& facet, double x, double y, float z, bool sunlit,
-                      const cv::Vec3f& lights) {
-  const std::array<float, 2> at = PrintAt(facet, x, y, z);
-  const std::array<float, 4> albedo =
-      facets_.Print(facet).Sample(at[0], at[1], Footprint(facet, at, z));
-  const float light = LightOn(facet, x, y, sunlit);
-  return {albedo[0] * (light + lights[0]), albedo[1] * (light + lights[1]),
-          albedo[2] * (light + lights[2])};
+/// Works out where on the prints the row looks, and has them fetched while rays are cast.
+void View::PlacePrints(int v) {
+  static_assert(kLanes == Texture::kLanes);
+  const int* triangles = Triangles(v);
+  const double* depth = out_->depth_m[v];
+  const int width = world_->camera.width;
+  stretches_.clear();
+  for (int first = 0, last = 0; first < width; first = last) {
+    const int triangle = triangles[first], most = std::min(first + kLanes, width);
+    while (last < most && triangles[last] == triangle) ++last;
+    stretches_.push_back({first, last, triangle, nullptr, {}});
+    if (triangle == PacketHits::kNothing) continue;
+    const SeenFacet& facet = facets_.At(triangle);
+    PlaceOnPrint(facet.uv_over_depth, row_.x.data(), row_.y.data(), depth, first, last,
+                 row_.print_u.data(), row_.print_v.data());
+    Stretch& stretch = stretches_.back();
+    const std::size_t middle = Index((first + last) / 2);
+    stretch.print = &facets_.Print(facet);
+    stretch.footprint = Footprint(facet, {row_.print_u[middle], row_.print_v[middle]},
+                                  static_cast<float>(depth[middle]));
+    stretch.print->Prefetch(row_.print_u.data() + first, row_.print_v.data() + first,
+                            last - first, stretch.footprint);
+  }
 }
 
-/// A stretch of pixels of one triangle. Their footprints hardly differ over eight pixels: that
-/// of the middle one serves all.
-void View::ShadeRun(int v, int first, int last) {
-  const SeenFacet& facet = facets_.At(Triangles(v)[first]);
-  const Texture& print = facets_.Print(facet);
+void View::ShadeRun(int v, const Stretch& stretch) {
+  const SeenFacet& facet = facets_.At(stretch.triangle);
   const std::uint32_t* surfaces = Surfaces(v);
-  const double* depth = out_->depth_m[v];
   cv::Vec3f* colour = out_->radiance[v];
-  const auto at = [&](int u) {
-    return PrintAt(facet, row_.x[Index(u)], row_.y[Index(u)], static_cast<float>(depth[u]));
-  };
-  for (int from = first; from < last; from += kLanes) {
-    const int to = std::min(from + kLanes, last), middle = (from + to) / 2;
-    const TextureFootprint footprint =
-        Footprint(facet, at(middle), static_cast<float>(depth[middle]));
-    for (int u = from; u < to; ++u) {
-      const std::array<float, 2> uv = at(u);
-      const std::array<float, 4> albedo = print.Sample(uv[0], uv[1], footprint);
-      const float light =
-          LightOn(facet, row_.x[Index(u)], row_.y[Index(u)], (surfaces[u] & 1u) != 0);
-      const cv::Vec3f lights = lights_.Empty() ? cv::Vec3f(0, 0, 0) : lights_row_[Index(u)];
-      colour[u] = cv::Vec3f(albedo[0] * (light + lights[0]), albedo[1] * (light + lights[1]),
-                            albedo[2] * (light + lights[2]));
-    }
+  std::array<std::array<float, 4>, kLanes> albedo;
+  const int first = stretch.first;
+  stretch.print->Sample(row_.print_u.data() + first, row_.print_v.data() + first,
+                        stretch.last - first, stretch.footprint, albedo.data());
+  for (int u = first; u < stretch.last; ++u) {
+    const std::array<float, 4>& a = albedo[Index(u - first)];
+    const float light =
+        LightOn(facet, row_.x[Index(u)], row_.y[Index(u)], (surfaces[u] & 1u) != 0);
+    const cv::Vec3f lights = lights_.Empty() ? cv::Vec3f(0, 0, 0) : lights_row_[Index(u)];
+    colour[u] = cv::Vec3f(a[0] * (light + lights[0]), a[1] * (light + lights[1]),
+                          a[2] * (light + lights[2]));
   }
 }
 
 void View::ShadeRow(int v) {
-  const int* triangles = Triangles(v);
-  const int width = world_->camera.width;
-  for (int first = 0, last = 0; first < width; first = last) {
-    while (last < width && triangles[last] == triangles[first]) ++last;
-    const bool sky = triangles[first] == PacketHits::kNothing;
+  for (const Stretch& stretch : stretches_) {
+    const bool sky = stretch.triangle == PacketHits::kNothing;
     if (around_->coverage != nullptr) {
-      std::fill((*around_->coverage)[v] + first, (*around_->coverage)[v] + last,
+      std::fill((*around_->coverage)[v] + stretch.first, (*around_->coverage)[v] + stretch.last,
                 static_cast<uchar>(sky ? 0 : 4));
     }
     if (sky) {
-      std::fill(out_->radiance[v] + first, out_->radiance[v] + last, kSky);
+      std::fill(out_->radiance[v] + stretch.first, out_->radiance[v] + stretch.last, kSky);
     } else {
-      ShadeRun(v, first, last);
+      ShadeRun(v, stretch);
     }
-  }
-}
-
-/// Pixels of a row where a neighbour shows another surface or another side of a shadow's edge.
-void View::MarkEdges(int v, std::vector<int>& pixels) const {
-  const int width = world_->camera.width;
-  const std::uint32_t* here = Surfaces(v);
-  const std::uint32_t* above = Surfaces(std::max(v - 1, rows_.start));
-  const std::uint32_t* below = Surfaces(std::min(v + 1, rows_.end - 1));
-  for (int u = 0; u < width; ++u) {
-    const int left = std::max(u - 1, 0), right = std::min(u + 1, width - 1);
-    const std::uint32_t differs = (here[u] ^ here[left]) | (here[u] ^ here[right]) |
-                                  (here[u] ^ above[u]) | (here[u] ^ below[u]);
-    if (differs != 0) pixels.push_back(v * width + u);
-  }
-}
-
-void View::SmoothEdges() {
-  on_edge_.clear();
-  for (int v = rows_.start; v < rows_.end; ++v) MarkEdges(v, on_edge_);
-  for (std::size_t i = 0; i < on_edge_.size(); i += 2) {
-    SmoothPair(on_edge_[i], on_edge_[std::min(i + 1, on_edge_.size() - 1)]);
-  }
-}
-
-/// Two pixels, four rays each: one packet.
-void View::SmoothPair(int a, int b) {
-  const int width = world_->camera.width;
-  std::array<Eigen::Vector3d, kLanes> rays;
-  RayPacket packet, to_sun;
-  Spots spots;
-  for (int i = 0; i < kLanes; ++i) {
-    const int pixel = i < 4 ? a : b;
-    const auto& [du, dv] = kSubPixels[Index(i % 4)];
-    rays[Index(i)] = world_->image_rays.Beside(pixel % width, pixel / width, du, dv);
-    packet.Set(i, T_wc_.t, T_wc_.R * rays[Index(i)], kNear_m);
-  }
-  const PacketHits found = world_->rays.Nearest(packet);
-  std::array<double, kLanes> z{};
-  bool any = false;
-  for (int i = 0; i < kLanes; ++i) {
-    to_sun.Disable(i);
-    if (found.triangle[Index(i)] == PacketHits::kNothing) continue;
-    const SeenFacet& facet = facets_.At(found.triangle[Index(i)]);
-    z[Index(i)] = 1.0 / facet.inverse_depth.dot(rays[Index(i)]);
-    if (!lights_.Empty()) {
-      SetSpot(i, facet, rays[Index(i)].x(), rays[Index(i)].y(), z[Index(i)], spots);
-    }
-    if (!facet.faces_sun) continue;
-    any = true;
-    to_sun.Set(i, T_wc_ * (z[Index(i)] * rays[Index(i)]) + kLeaveSurface_m * facet.n_w,
-               to_sun_w_, 0.0F);
-  }
-  std::array<bool, kLanes> blocked{};
-  if (any) blocked = Blocked(to_sun);
-  LightAtSpots lights;
-  if (!lights_.Empty()) lights = LightsAt(spots);
-  std::array<cv::Vec3f, 2> sum{cv::Vec3f(0, 0, 0), cv::Vec3f(0, 0, 0)};
-  for (int i = 0; i < kLanes; ++i) {
-    const std::size_t k = Index(i);
-    if (found.triangle[k] == PacketHits::kNothing) {
-      sum[k / 4] += kSky;
-      continue;
-    }
-    const SeenFacet& facet = facets_.At(found.triangle[k]);
-    sum[k / 4] += Shade(facet, rays[k].x(), rays[k].y(), static_cast<float>(z[k]),
-                        facet.faces_sun && !blocked[k], lights.light[k]);
-  }
-  for (const auto& [pixel, k] : {std::pair(a, 0), std::pair(b, 1)}) {
-    out_->radiance(pixel / width, pixel % width) = 0.25F * sum[Index(k)];
-    if (around_->coverage == nullptr) continue;
-    const auto first = found.triangle.begin() + 4 * k;
-    (*around_->coverage)(pixel / width, pixel % width) =
-        static_cast<uchar>(4 - std::count(first, first + 4, PacketHits::kNothing));
   }
 }
 

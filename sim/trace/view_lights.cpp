@@ -7,10 +7,6 @@ namespace sim {
 namespace {
 
 constexpr int kLanes = RayPacket::kLanes;
-/// Bits of View::surfaces_ from here on are those of the lights; below are surface and sun.
-constexpr int kLightBit = 18;
-static_assert(2 * (65536 + 65535) + 1 < 1 << kLightBit);
-static_assert(kLightBit + kMaxLights <= 32);
 
 }  // namespace
 
@@ -28,6 +24,8 @@ LightAtSpots View::LightsAt(const Spots& spots) const {
 }
 
 void View::CastToLights(int v) {
+  static_assert(2 * (65536 + 65535) + 1 < 1 << kLightBit);
+  static_assert(kLightBit + kMaxLights <= 32);
   const int* triangles = Triangles(v);
   const double* depth = out_->depth_m[v];
   std::uint32_t* surfaces = Surfaces(v);

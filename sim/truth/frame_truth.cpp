@@ -13,11 +13,12 @@ namespace {
 struct Extent {
   int pixels = 0;
   int u0 = 1 << 30, v0 = 1 << 30, u1 = -1, v1 = -1;
-  void Include(int u, int v) {
-    ++pixels;
-    u0 = std::min(u0, u);
+  /// Pixels `first` to `last` of row v, that one too.
+  void Include(int first, int last, int v) {
+    pixels += last - first + 1;
+    u0 = std::min(u0, first);
     v0 = std::min(v0, v);
-    u1 = std::max(u1, u);
+    u1 = std::max(u1, last);
     v1 = std::max(v1, v);
   }
 };
@@ -25,10 +26,12 @@ struct Extent {
 std::map<int, Extent> Extents(const cv::Mat1w& ids) {
   std::vector<Extent> by_id;
   for (int v = 0; v < ids.rows; ++v) {
-    for (int u = 0; u < ids.cols; ++u) {
-      const std::size_t id = ids(v, u);
+    const ushort* row = ids[v];
+    for (int first = 0, next = 0; first < ids.cols; first = next) {
+      const std::size_t id = row[first];
+      while (next < ids.cols && row[next] == id) ++next;
       if (id >= by_id.size()) by_id.resize(id + 1);
-      by_id[id].Include(u, v);
+      by_id[id].Include(first, next - 1, v);
     }
   }
   std::map<int, Extent> seen;

@@ -2,6 +2,7 @@
 
 #include <libdeflate.h>
 
+#include <cstring>
 #include <memory>
 #include <new>
 #include <stdexcept>
@@ -36,8 +37,10 @@ void StoreRow(const cv::Mat& image, int v, unsigned char* out) {
   const std::size_t size = image.elemSize(), count = static_cast<std::size_t>(image.cols);
   if (size == 1) std::copy_n(in, count, out);
   for (std::size_t i = 0; size == 2 && i < count; ++i) {
-    out[2 * i] = in[2 * i + 1];
-    out[2 * i + 1] = in[2 * i];
+    std::uint16_t sample;
+    std::memcpy(&sample, in + 2 * i, sizeof sample);
+    sample = static_cast<std::uint16_t>(sample << 8 | sample >> 8);
+    std::memcpy(out + 2 * i, &sample, sizeof sample);
   }
   for (std::size_t i = 0; size == 3 && i < count; ++i) {
     out[3 * i] = in[3 * i + 2];

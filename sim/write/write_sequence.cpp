@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <optional>
+
 #include "sim/motion/preset.h"
 #include "sim/scene/scene_file.h"
 #include "sim/scene/sha256.h"
@@ -129,24 +131,24 @@ class FrameStore {
   }
 
   /// Gathers the records into the two line files and the manifest, which says complete.
+  /// Holds one record at a time.
   void Finish(Json manifest) const {
     std::map<std::string, std::string> sums;
     for (const auto& [file, sum] : manifest["sha256"].items()) sums[file] = sum;
-    std::string truth, detections;
+    AtomicFile truth(folder_ / "gt/frames.jsonl");
+    std::optional<AtomicFile> detections;
+    if (simulator_.options().detector != DetectorKind::kNone) {
+      detections.emplace(folder_ / "detections.jsonl");
+    }
     for (int frame = 0; frame < recording_.frames(); ++frame) {
       const Json record = Json::parse(ReadWholeFile(RecordPath(frame)));
-      truth += record.at("truth").get<std::string>() + "\n";
-      detections += record.at("detections").get<std::string>() + "\n";
+      truth.Add(record.at("truth").get<std::string>() + "\n");
+      if (detections) detections->Add(record.at("detections").get<std::string>() + "\n");
       for (const auto& [file, sum] : record.at("sha256").items()) sums[file] = sum;
     }
-    sums["gt/frames.jsonl"] = Sha256Hex(truth);
-    WriteFileAtomically(folder_ / "gt/frames.jsonl", truth);
-    if (simulator_.options().detector != DetectorKind::kNone) {
-      sums["detections.jsonl"] = Sha256Hex(detections);
-      WriteFileAtomically(folder_ / "detections.jsonl", detections);
-    }
-    manifest["sha256"] = Json::object();
-    for (const auto& [file, sum] : sums) manifest["sha256"][file] = sum;
+    sums["gt/frames.jsonl"] = truth.Finish();
+    if (detections) sums["detections.jsonl"] = detections->Finish();
+    manifest["sha256"] = sums;
     manifest["complete"] = true;
     fs::remove_all(folder_ / kRecordFolder);
     WriteManifest(folder_, manifest);

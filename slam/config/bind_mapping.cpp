@@ -84,6 +84,10 @@ void VisitPlaneMap(PlaneMapConfig& c, FieldVisitor& v) {
 
 void VisitMapping(Config& config, FieldVisitor& v) {
   LocalMappingConfig& c = config.mapping;
+  v.Section("mapping", "where the map is made", [&] {
+    v.Flag("async", config.async_mapping,
+           "beside tracking, which never waits for an adjustment; runs differ then");
+  });
   v.Section("keyframes", "keyframes of the map", [&] { VisitKeyframes(c.keyframes, v); });
   v.Section("point_culling", "removal of map points", [&] { VisitCulling(c.culling, v); });
   v.Section("triangulation", "new points", [&] { VisitTriangulation(c.triangulation, v); });

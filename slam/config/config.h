@@ -34,6 +34,7 @@ struct Config {
   PlaneConstraintConfig plane_constraints;
 
   // (F) the map
+  bool async_mapping = false;  ///< on a thread beside tracking, instead of between frames
   LocalMappingConfig mapping;
   PlaneMapConfig plane_map;
   LoopClosingConfig loop_closing;

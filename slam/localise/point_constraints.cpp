@@ -33,4 +33,17 @@ void DropOutliers(Frame& frame, const FramePoints& points,
   }
 }
 
+int OptimiseByPoints(Frame& frame, const Map& map, const Camera& camera,
+                     const ScalePyramid& scales, const PoseProblemConfig& config) {
+  const FramePoints points = PointConstraints(frame, map, scales);
+  PoseProblem problem;
+  problem.T_cw = frame.T_cw;
+  problem.points = points.constraints;
+  const PoseSummary summary = OptimisePose(problem, camera, config);
+  if (!summary.usable) return 0;
+  frame.T_cw = summary.T_cw;
+  DropOutliers(frame, points, summary.point_inliers);
+  return summary.inlier_count;
+}
+
 }  // namespace slam

@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "slam/base/camera.h"
 #include "slam/model/map.h"
 #include "slam/model/scale_pyramid.h"
 #include "slam/optimise/pose_problem.h"
@@ -25,5 +26,10 @@ FramePoints PointConstraints(const Frame& frame, const Map& map, const ScalePyra
 /// @param point_inliers parallel to `points.features`
 void DropOutliers(Frame& frame, const FramePoints& points,
                   const std::vector<bool>& point_inliers);
+
+/// Optimises the frame's pose over its matched points and takes the match from the outliers.
+/// @returns the inliers; 0, and nothing is changed, when the outcome is not usable
+int OptimiseByPoints(Frame& frame, const Map& map, const Camera& camera,
+                     const ScalePyramid& scales, const PoseProblemConfig& config);
 
 }  // namespace slam

@@ -115,12 +115,12 @@ std::optional<Pose> Ransac(const std::vector<PointConstraint>& constraints,
   return best;
 }
 
-bool SamePose(const Pose& a_cw, const Pose& b_cw, const RelocaliseConfig& config) {
-  const Pose T_ab = a_cw * Inverse(b_cw);
-  return T_ab.t.norm() < config.same_pose_m && LogSo3(T_ab.R).norm() < config.same_pose_rad;
-}
-
 }  // namespace
+
+bool SamePose(const Pose& a_cw, const Pose& b_cw, const RelocaliseConfig& config) {
+  return (a_cw * Inverse(b_cw)).t.norm() < config.same_pose_m &&
+         RotationAngle(a_cw, b_cw) < config.same_pose_rad;
+}
 
 std::optional<Relocalisation> RelocaliseBy(const Keyframe& keyframe, const Frame& frame,
                                            const Map& map, const Camera& camera,

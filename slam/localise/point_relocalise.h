@@ -27,6 +27,9 @@ struct RelocaliseConfig {
   double same_pose_rad = 0.1;    ///< domain (0, pi)
 };
 
+/// Whether two answers are one.
+bool SamePose(const Pose& a_cw, const Pose& b_cw, const RelocaliseConfig& config);
+
 /// A pose found without any prediction, and the matches that it rests on.
 struct Relocalisation {
   int keyframe = kNone;

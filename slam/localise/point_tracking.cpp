@@ -204,17 +204,12 @@ bool PointTracking::TrackLocalMap(Frame& frame, const FeatureGrid& grid, Map& ma
   return true;
 }
 
-/// Optimises the pose over the matched points and drops the outliers; 0 when it is not usable.
 int PointTracking::Optimise(Frame& frame, const Map& map) const {
-  const FramePoints points = PointConstraints(frame, map, config_.keyframes.scales);
-  PoseProblem problem;
-  problem.T_cw = frame.T_cw;
-  problem.points = points.constraints;
-  const PoseSummary summary = OptimisePose(problem, camera_, config_.pose);
-  if (!summary.usable) return 0;
-  frame.T_cw = summary.T_cw;
-  DropOutliers(frame, points, summary.point_inliers);
-  return summary.inlier_count;
+  return OptimiseByPoints(frame, map, camera_, config_.keyframes.scales, config_.pose);
+}
+
+void PointTracking::FollowMap(const Map& map) {
+  if (last_.reference != kNone) motion_.Correct(LastPose(last_, map));
 }
 
 bool PointTracking::NeedKeyframe(const Frame& frame, const Map& map) const {
@@ -236,7 +231,7 @@ void PointTracking::Accept(const Frame& frame, const Map& map) {
     T_cw = newest.T_cw;  // as mapping left it
   }
   // The speed is that between two poses of one map: the last pose as the map has it by now.
-  if (last_.reference != kNone) motion_.Correct(LastPose(last_, map));
+  FollowMap(map);
   motion_.Observe(frame.index, T_cw);
   last_ = {frame.index, frame.features, frame.map_points, reference_,
            T_cw * Inverse(KeyframePose(map, reference_))};

@@ -77,6 +77,10 @@ class PointTracking {
   /// Counts sightings in the map's points; changes nothing else of the map.
   PointTrackReport TrackPoints(Frame& frame, Map& map);
 
+  /// The map was adjusted since the last frame: the last pose is what it has become. Not
+  /// needed when mapping runs between TrackPoints and Accept.
+  void FollowMap(const Map& map);
+
   /// Whether the tracked frame should become a keyframe.
   bool NeedKeyframe(const Frame& frame, const Map& map) const;
 

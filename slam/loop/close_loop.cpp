@@ -6,6 +6,7 @@
 
 #include "slam/loop/carry_map.h"
 #include "slam/loop/pose_graph.h"
+#include "slam/mapping/bundle_window.h"
 
 namespace slam {
 namespace {
@@ -92,10 +93,9 @@ void Spread(Map& map, const std::set<Pair>& ties, const std::vector<Pose>& befor
   CarryPoints(map, before);
 }
 
-}  // namespace
-
-LoopReport CloseLoop(Map& map, const Loop& loop, const Camera& camera,
-                     const LocalMappingConfig& mapping, const LoopClosingConfig& config) {
+/// All of it but the adjustment.
+LoopReport DrawTogether(Map& map, const Loop& loop, const Camera& camera,
+                        const LocalMappingConfig& mapping, const LoopClosingConfig& config) {
   LoopReport report;
   report.loop = loop;
   const std::vector<Pose> before = KeyframePoses(map);
@@ -116,11 +116,35 @@ LoopReport CloseLoop(Map& map, const Loop& loop, const Camera& camera,
   std::set<Pair> ties_now = Ties(map, config.min_edge_points);
   ties_now.emplace(std::min(loop.place, loop.keyframe), std::max(loop.place, loop.keyframe));
   Spread(map, ties, before, ties_now);
-  if (config.full_iterations > 0) {
-    report.adjusted =
-        AdjustFullBundle(map, camera, mapping.bundle, config.full_iterations).usable;
-  }
   CarryPlanes(map, before);
+  return report;
+}
+
+/// Adjusts all keyframes and points. @returns whether that was usable
+bool AdjustAll(Map& map, const Camera& camera, LocalBundleConfig config, int iterations,
+               const MapTurn& turn) {
+  BundleWindow window;
+  turn([&] { window = FullWindow(map, camera, config); });
+  config.first_iterations = config.last_iterations = iterations;
+  if (!SolveWindow(window, config).usable) return false;
+  turn([&] {
+    const std::vector<Pose> before = KeyframePoses(map);
+    MergeWindow(window, config.scales, map);
+    CarryPlanes(map, before);
+  });
+  return true;
+}
+
+}  // namespace
+
+LoopReport CloseLoop(Map& map, const Loop& loop, const Camera& camera,
+                     const LocalMappingConfig& mapping, const LoopClosingConfig& config,
+                     const MapTurn& turn) {
+  LoopReport report;
+  turn([&] { report = DrawTogether(map, loop, camera, mapping, config); });
+  if (config.full_iterations > 0) {
+    report.adjusted = AdjustAll(map, camera, mapping.bundle, config.full_iterations, turn);
+  }
   return report;
 }
 

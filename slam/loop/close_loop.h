@@ -25,7 +25,9 @@ struct LoopReport {
 /// says, what they see is fused with what the place holds, the error is spread over the pose
 /// graph of all keyframes, points and planes are carried along, and everything is adjusted
 /// once. The first keyframe, the world, stays.
+/// @param turn  the map is needed to draw it together and to take the adjustment over
 LoopReport CloseLoop(Map& map, const Loop& loop, const Camera& camera,
-                     const LocalMappingConfig& mapping, const LoopClosingConfig& config);
+                     const LocalMappingConfig& mapping, const LoopClosingConfig& config,
+                     const MapTurn& turn = AtOnce);
 
 }  // namespace slam

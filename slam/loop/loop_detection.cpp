@@ -64,15 +64,7 @@ int LookAround(Frame& frame, const Map& map, const std::vector<int>& own, const 
   for (std::size_t f = 0; f < matches.size(); ++f) {
     if (matches[f] != kNone) frame.map_points[f] = queries[Index(matches[f])].point;
   }
-  const FramePoints points = PointConstraints(frame, map, config.projection.scales);
-  PoseProblem problem;
-  problem.T_cw = frame.T_cw;
-  problem.points = points.constraints;
-  const PoseSummary summary = OptimisePose(problem, camera, config.pose);
-  if (!summary.usable) return 0;
-  frame.T_cw = summary.T_cw;
-  DropOutliers(frame, points, summary.point_inliers);
-  return summary.inlier_count;
+  return OptimiseByPoints(frame, map, camera, config.projection.scales, config.pose);
 }
 
 /// Whether so much can have drifted on the way from the place to the keyframe.
@@ -86,11 +78,6 @@ bool CanHaveDrifted(const Map& map, const Loop& loop, const LoopDetectionConfig&
   return moved_m <= config.base_drift_m + config.drift_per_m * path_m &&
          RotationAngle(loop.T_cw, before_cw) <=
              config.base_drift_rad + config.drift_rad_per_m * path_m;
-}
-
-bool SamePose(const Pose& a_cw, const Pose& b_cw, const RelocaliseConfig& config) {
-  return (a_cw * Inverse(b_cw)).t.norm() < config.same_pose_m &&
-         RotationAngle(a_cw, b_cw) < config.same_pose_rad;
 }
 
 }  // namespace

@@ -76,6 +76,10 @@ void CullKeyframe(Map& map, int id) {
     map.keyframes[Index(other)].covisible.erase(id);
   }
   keyframe.covisible.clear();
+  // Its pose is all that is asked of it from now on: a camera that goes on over known ground
+  // makes and culls keyframes without end.
+  std::vector<PointFeature>().swap(keyframe.features);  // clear() would keep the memory
+  std::vector<int>().swap(keyframe.map_points);
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "slam/base/camera.h"
+#include "slam/mapping/map_turn.h"
 #include "slam/model/map.h"
 #include "slam/model/scale_pyramid.h"
 
@@ -34,12 +35,9 @@ struct LocalBundleReport {
 /// (x, y, z) = T_cw p_w; the third with depth alone. Ceres, Schur complement, one thread,
 /// bounded iterations: same map, same bytes. The gauge is held by the fixed keyframes; when
 /// there are none, by the oldest of the window.
+/// @param turn  the map is needed before and after, not while the window is solved
 LocalBundleReport AdjustLocalBundle(Map& map, int keyframe, const Camera& camera,
-                                    const LocalBundleConfig& config);
-
-/// The same for all keyframes and points; the first keyframe stays.
-/// @param iterations  of each of the two rounds
-LocalBundleReport AdjustFullBundle(Map& map, const Camera& camera,
-                                   const LocalBundleConfig& config, int iterations);
+                                    const LocalBundleConfig& config,
+                                    const MapTurn& turn = AtOnce);
 
 }  // namespace slam

@@ -3,15 +3,21 @@
 namespace slam {
 
 LocalMappingReport MapLocally(Map& map, int keyframe, const Camera& camera,
-                              const LocalMappingConfig& config) {
+                              const LocalMappingConfig& config, const MapTurn& turn) {
   LocalMappingReport report;
-  report.culled_points = CullYoungPoints(map, keyframe, config.culling);
-  report.triangulated = TriangulatePoints(map, keyframe, camera, config.triangulation);
-  report.fused = FusePoints(map, keyframe, camera, config.fusion);
-  UpdateCovisibility(map, keyframe, config.keyframes);
-  report.bundle = AdjustLocalBundle(map, keyframe, camera, config.bundle);
-  UpdateCovisibility(map, keyframe, config.keyframes);
-  report.culled_keyframes = CullKeyframes(map, keyframe, camera, config.keyframes);
+  turn([&] { report.culled_points = CullYoungPoints(map, keyframe, config.culling); });
+  turn([&] {
+    report.triangulated = TriangulatePoints(map, keyframe, camera, config.triangulation);
+  });
+  turn([&] {
+    report.fused = FusePoints(map, keyframe, camera, config.fusion);
+    UpdateCovisibility(map, keyframe, config.keyframes);
+  });
+  report.bundle = AdjustLocalBundle(map, keyframe, camera, config.bundle, turn);
+  turn([&] {
+    UpdateCovisibility(map, keyframe, config.keyframes);
+    report.culled_keyframes = CullKeyframes(map, keyframe, camera, config.keyframes);
+  });
   return report;
 }
 

@@ -24,9 +24,9 @@ struct LocalMappingReport {
 };
 
 /// Brings the map around a new keyframe in order: young points are culled, points triangulated
-/// and fused, poses and points adjusted, keyframes that add nothing culled. Synchronous.
+/// and fused, poses and points adjusted, keyframes that add nothing culled.
 /// Source: Mur-Artal and Tardos 2017, local mapping.
 LocalMappingReport MapLocally(Map& map, int keyframe, const Camera& camera,
-                              const LocalMappingConfig& config);
+                              const LocalMappingConfig& config, const MapTurn& turn = AtOnce);
 
 }  // namespace slam

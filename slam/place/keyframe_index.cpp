@@ -8,7 +8,19 @@
 
 namespace slam {
 
+void KeyframeIndex::Forget(int keyframe) {
+  WordBag& bag = bags_[static_cast<std::size_t>(keyframe)];
+  for (const auto& [word, weight] : bag) {
+    std::vector<int>& shown_by = keyframes_[static_cast<std::size_t>(word)];
+    shown_by.erase(std::lower_bound(shown_by.begin(), shown_by.end(), keyframe));
+  }
+  WordBag().swap(bag);
+}
+
 void KeyframeIndex::Update(const Map& map) {
+  for (std::size_t k = 0; k < bags_.size(); ++k) {
+    if (map.keyframes[k].culled) Forget(static_cast<int>(k));
+  }
   keyframes_.resize(static_cast<std::size_t>(vocabulary_->words()));
   for (std::size_t k = bags_.size(); k < map.keyframes.size(); ++k) {
     bags_.push_back(vocabulary_->Bag(map.keyframes[k].features));

@@ -27,7 +27,8 @@ class KeyframeIndex {
   /// @param vocabulary  must outlive the index
   explicit KeyframeIndex(const Vocabulary& vocabulary) : vocabulary_(&vocabulary) {}
 
-  /// Takes in the keyframes that came to the map since; those of another map must not follow.
+  /// Takes in the keyframes that came to the map since and forgets those that were culled;
+  /// those of another map must not follow.
   void Update(const Map& map);
 
   /// Keyframes that look like the image, best supported first (the older one at a tie), one of
@@ -42,6 +43,8 @@ class KeyframeIndex {
   const WordBag& Bag(int keyframe) const { return bags_[static_cast<std::size_t>(keyframe)]; }
 
  private:
+  void Forget(int keyframe);
+
   const Vocabulary* vocabulary_;
   std::vector<WordBag> bags_;                ///< by keyframe
   std::vector<std::vector<int>> keyframes_;  ///< that show a word, by word, ascending

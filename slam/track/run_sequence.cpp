@@ -79,14 +79,17 @@ RunOutcome Run(LiveCamera input, const RunOptions& options, const std::string& d
   // Its own threads would only compete with ours.
   cv::setNumThreads(1);
   Tracker tracker(input.camera, options.config, options.variant, std::move(input.detector),
-                  options.seed, ThreadsOf(options));
+                  options.seed, ThreadsOf(options), options.before_mapping);
   RunWriter writer(options.run, Describe(options, detector),
-                   {.force = options.force, .save_segmentation = options.save_segmentation});
+                   {.force = options.force,
+                    .save_segmentation = options.save_segmentation,
+                    .frames = input.frames.size()});
 
   RunOutcome outcome;
   FrameGate gate(input.camera);
   std::vector<TiedPose> tied;
   const int total = input.frames.size();
+  tied.reserve(static_cast<std::size_t>(total));
   for (int i = 0; i < total && !outcome.stopped; ++i) {
     RecordedFrame recorded = input.frames.Read(i);
     if (gate.Takes(recorded)) {
@@ -95,19 +98,25 @@ RunOutcome Run(LiveCamera input, const RunOptions& options, const std::string& d
       const TrackReport report = tracker.TrackFrame(frame, recorded.bgr);
       writer.WriteFrame({frame, report.tracked, report.times, StateName(report.points)});
       outcome.tracked += report.tracked ? 1 : 0;
-      outcome.loops += report.loop ? 1 : 0;
       if (report.tracked) tied.push_back({frame.timestamp_s, report.reference, report.T_cr});
     }
     if (options.progress) options.progress(i + 1, total);
     outcome.stopped = i + 1 < total && options.stop && options.stop();
   }
+  tracker.Finish(outcome.stopped ? MappingWorker::Waiting::kDrop : MappingWorker::Waiting::kDo);
+  outcome.loops = tracker.loops();
   // A closed loop moves the past; without one the poses stay as they were found.
   writer.Finish(tracker.map(), outcome.loops > 0 ? FollowKeyframes(tied, tracker.map())
                                                  : std::vector<TimedPose>{});
   outcome.warnings = gate.Warnings();
+  if (const int unmapped = tracker.unmapped_keyframes(); unmapped > 0 && !outcome.stopped) {
+    outcome.warnings.push_back(std::to_string(unmapped) +
+                               " keyframes came too fast to be mapped on their own");
+  }
 
   for (const Keyframe& keyframe : tracker.map().keyframes)
     outcome.keyframes += !keyframe.culled;
+  for (const MapPoint& point : tracker.map().points) outcome.map_points += !point.culled;
   for (const MapPlane& plane : tracker.map().planes) outcome.map_planes += !plane.merged_into;
   outcome.wall_time_s =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();

@@ -29,11 +29,13 @@ struct RunOptions {
   std::function<void(int done, int total)> progress;  ///< may be empty
   /// Asked after each frame; when true the run ends there and is written. May be empty.
   std::function<bool()> stop;
+  /// Called before each keyframe is mapped, on the thread that maps it. May be empty.
+  std::function<void(int keyframe)> before_mapping;
 };
 
 struct RunOutcome {
   int frames = 0, tracked = 0;
-  int keyframes = 0, map_planes = 0, loops = 0;
+  int keyframes = 0, map_points = 0, map_planes = 0, loops = 0;
   bool stopped = false;  ///< before the last frame
   double wall_time_s = 0.0;
   std::vector<std::string> warnings;  ///< what the sequence gave that was not used
@@ -52,7 +54,9 @@ struct LiveCamera {
 };
 
 /// Runs PAS-SLAM over the sequence and writes the run folder (formats.md), whole or not at all.
-/// Truth is never read. The same options give the same bytes, apart from the times.
+/// Truth is never read. The same options give the same bytes, apart from the times; not so
+/// with config.async_mapping. There, keyframes that wait for mapping at the end are mapped
+/// first, unless the run was stopped.
 /// @throws InputError for bad input.
 RunOutcome RunSequence(const RunOptions& options);
 

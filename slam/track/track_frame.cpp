@@ -17,6 +17,9 @@ TrackReport Tracker::TrackFrame(Frame& frame, const cv::Mat3b& bgr) {
     ProcessFramePlanes(frame);  // (C) re-fit, box link, edge lines, vertices, selection
   }
 
+  if (worker_) worker_->Check();
+  const TrackingHold hold(gate());  // mapping beside tracking gives the map away in between
+
   report.tracked = TrackByPoints(frame, report);  // (D) point-point, and a first pose
   if (!report.tracked) return report;
 

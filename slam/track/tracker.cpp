@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <future>
+#include <optional>
 #include <utility>
 
 #include "slam/associate/plane_constraints.h"
@@ -25,10 +26,14 @@ Config ForVariant(Config config, Variant variant, std::uint64_t seed) {
   return config;
 }
 
+/// Keyframes that wait for mapping beside tracking.
+constexpr std::size_t kMaxWaiting = 3;
+
 }  // namespace
 
 Tracker::Tracker(const Camera& camera, const Config& config, Variant variant,
-                 std::unique_ptr<Detector> detector, std::uint64_t seed, int threads)
+                 std::unique_ptr<Detector> detector, std::uint64_t seed, int threads,
+                 std::function<void(int)> before_mapping)
     : camera_(camera),
       config_(ForVariant(config, variant, seed)),
       variant_(variant),
@@ -36,7 +41,20 @@ Tracker::Tracker(const Camera& camera, const Config& config, Variant variant,
       threads_(threads),
       rays_(uses_planes() ? PixelRays(camera) : cv::Mat2d()),
       box_tracks_(config.box_tracks, camera.ImageBox()),
-      points_(camera, config_.tracking) {}
+      points_(camera, config_.tracking),
+      before_mapping_(std::move(before_mapping)) {
+  if (!config_.async_mapping) return;
+  const MapTurn turn = [this](const std::function<void()>& work) {
+    const MappingHold hold(gate_);
+    work();
+  };
+  worker_ = std::make_unique<MappingWorker>(
+      [this, turn](int keyframe) { MapKeyframe(keyframe, turn); }, kMaxWaiting);
+}
+
+void Tracker::Finish(MappingWorker::Waiting waiting) {
+  if (worker_) worker_->Finish(waiting);
+}
 
 void Tracker::ExtractInformation(Frame& frame, const cv::Mat3b& bgr, ModuleTimes& times) {
   // Planes and boxes on one side, points on the other: neither writes what the other reads.
@@ -77,6 +95,7 @@ void Tracker::ProcessFramePlanes(Frame& frame) {
 
 bool Tracker::TrackByPoints(Frame& frame, TrackReport& report) {
   const Stopwatch watch(report.times[Module::kDa]);
+  if (worker_) points_.FollowMap(map_);
   report.points = points_.TrackPoints(frame, map_);
   return report.points.state == TrackState::kTracking;
 }
@@ -108,9 +127,12 @@ void Tracker::UpdateMap(Frame& frame, TrackReport& report) {
   report.keyframe = points_.NeedKeyframe(frame, map_);
   if (report.keyframe) {
     const int keyframe = InsertKeyframe(frame, map_, camera_, config_.mapping.keyframes);
-    MapLocally(map_, keyframe, camera_, config_.mapping);
-    CloseLoopAt(keyframe, report);
-    frame.T_cw = KeyframePose(map_, keyframe);
+    if (worker_) {
+      worker_->Submit(keyframe);
+    } else {
+      MapKeyframe(keyframe, AtOnce);
+      frame.T_cw = KeyframePose(map_, keyframe);
+    }
     if (uses_planes()) {
       const Stopwatch watch(report.times[Module::kUpm]);
       FusePlanes(map_, config_.plane_map);
@@ -121,13 +143,18 @@ void Tracker::UpdateMap(Frame& frame, TrackReport& report) {
   report.T_cr = frame.T_cw * Inverse(KeyframePose(map_, report.reference));
 }
 
-void Tracker::CloseLoopAt(int keyframe, TrackReport& report) {
+void Tracker::MapKeyframe(int keyframe, const MapTurn& turn) {
+  if (before_mapping_) before_mapping_(keyframe);
+  MapLocally(map_, keyframe, camera_, config_.mapping, turn);
   if (!config_.loop_closing.enabled) return;
-  const auto loop =
-      DetectLoop(map_, points_.Places(map_), keyframe, camera_, config_.loop_closing.detection);
-  if (loop) {
-    report.loop = CloseLoop(map_, *loop, camera_, config_.mapping, config_.loop_closing);
-  }
+  std::optional<Loop> loop;
+  turn([&] {
+    loop = DetectLoop(map_, points_.Places(map_), keyframe, camera_,
+                      config_.loop_closing.detection);
+  });
+  if (!loop) return;
+  CloseLoop(map_, *loop, camera_, config_.mapping, config_.loop_closing, turn);
+  turn([&] { ++loops_; });
 }
 
 }  // namespace slam

@@ -1,9 +1,9 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <opencv2/core/mat.hpp>
-#include <optional>
 
 #include "slam/base/camera.h"
 #include "slam/config/config.h"
@@ -14,6 +14,8 @@
 #include "slam/model/frame.h"
 #include "slam/model/map.h"
 #include "slam/model/module_times.h"
+#include "slam/track/map_gate.h"
+#include "slam/track/mapping_worker.h"
 
 namespace slam {
 
@@ -30,29 +32,43 @@ struct TrackReport {
   PointTrackReport points;
   ModuleTimes times;
   bool tracked = false;
-  bool keyframe = false;           ///< the frame was kept
-  int reference = kNone;           ///< keyframe that the pose is tied to, when tracked ...
-  Pose T_cr;                       ///< ... and the camera as seen from it
-  std::optional<LoopReport> loop;  ///< when the frame closed one
-  int plane_constraints = 0;       ///< frame planes that constrained the pose
+  bool keyframe = false;      ///< the frame was kept
+  int reference = kNone;      ///< keyframe that the pose is tied to, when tracked ...
+  Pose T_cr;                  ///< ... and the camera as seen from it
+  int plane_constraints = 0;  ///< frame planes that constrained the pose
 };
 
 /// PAS-SLAM: follows a camera by points and planes and maps both. One frame after the other,
-/// from the first; deterministic for any number of threads.
+/// from the first.
+///
+/// Keyframes are mapped (points, bundle adjustment, loops) before the next frame is taken:
+/// deterministic for any number of threads. With config.async_mapping they are mapped by a
+/// thread of its own instead: tracking waits at most for a piece of that work without any
+/// adjustment in it, and no two runs are quite the same.
 class Tracker {
  public:
   /// @param detector  may be null: no detections
   /// @param threads   1, or more: points, planes and detections are then extracted side by side
+  /// @param before_mapping  called before each keyframe is mapped, where it is mapped
   Tracker(const Camera& camera, const Config& config, Variant variant,
-          std::unique_ptr<Detector> detector, std::uint64_t seed, int threads);
+          std::unique_ptr<Detector> detector, std::uint64_t seed, int threads,
+          std::function<void(int keyframe)> before_mapping = {});
 
   /// Takes one frame, with index, timestamp, gray and depth set, through the stages (A) to (F)
   /// of the paper's framework; fills the rest of it. An untracked frame has no pose: T_cw is
   /// the identity, nothing is matched, and the map is as before.
   /// @param bgr  for the detector; same size
+  /// @throws what mapping beside tracking threw meanwhile
   TrackReport TrackFrame(Frame& frame, const cv::Mat3b& bgr);
 
+  /// Ends mapping beside tracking, after all or none of the keyframes that wait; last call
+  /// before the map is looked at. @throws what mapping threw
+  void Finish(MappingWorker::Waiting waiting);
+
   const Map& map() const { return map_; }
+  int loops() const { return loops_; }  ///< closed
+  /// Keyframes that mapping beside tracking had no time for.
+  int unmapped_keyframes() const { return worker_ ? worker_->dropped() : 0; }
 
  private:
   bool uses_planes() const { return variant_ != Variant::kPoints; }
@@ -63,7 +79,8 @@ class Tracker {
   void AssociateFramePlanes(Frame& frame);
   void OptimiseWithPlanes(Frame& frame, TrackReport& report);
   void UpdateMap(Frame& frame, TrackReport& report);
-  void CloseLoopAt(int keyframe, TrackReport& report);
+  void MapKeyframe(int keyframe, const MapTurn& turn);
+  MapGate* gate() { return worker_ ? &gate_ : nullptr; }
 
   Camera camera_;
   Config config_;
@@ -75,6 +92,11 @@ class Tracker {
   BoxTracks box_tracks_;
   PointTracking points_;
   Map map_;
+  int loops_ = 0;
+
+  std::function<void(int)> before_mapping_;
+  MapGate gate_;                           ///< to map_, points_ and loops_
+  std::unique_ptr<MappingWorker> worker_;  ///< last: its thread uses the rest
 };
 
 }  // namespace slam

@@ -45,6 +45,7 @@ std::vector<TimedPose> KeyframePoses(const Map& map) {
 
 RunWriter::RunWriter(const std::filesystem::path& folder, RunInfo info, Options options)
     : output_(folder, "run.json", options.force), info_(std::move(info)), options_(options) {
+  trajectory_.reserve(static_cast<std::size_t>(options_.frames));
   const auto& partial = output_.partial_path();
   frame_planes_.open(partial / "frame_planes.jsonl", std::ios::binary);
   timing_.open(partial / "timing.csv", std::ios::binary);

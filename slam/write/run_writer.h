@@ -50,6 +50,7 @@ class RunWriter {
   struct Options {
     bool force = false;              ///< replace an older run
     bool save_segmentation = false;  ///< segmentation/T.png
+    int frames = 0;                  ///< expected, for memory alone
   };
 
   /// @throws InputError when the folder exists and force is off, or cannot be made.

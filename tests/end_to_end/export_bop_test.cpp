@@ -155,16 +155,20 @@ class BopRules {
       Say(where, "visib_fract");
     }
     if (about["bbox_visib"] != BoxOf(seen)) Say(where, "bbox_visib");
-    CheckProjection(where, models_.at(pose["obj_id"]), K, R, t, about["bbox_obj"]);
+    CheckProjection(where, models_.at(pose["obj_id"]), K, R, t, about["bbox_obj"],
+                    depth.size());
     CheckDepth(where, pose, K, R, t, seen, depth, camera["depth_scale"]);
   }
 
-  /// The model, moved and projected, fills bbox_obj; its centre is inside.
+  /// The model, moved and projected, fills bbox_obj as far as three images by three reach; its
+  /// centre is inside.
   void CheckProjection(const std::string& where, const std::vector<Eigen::Vector3d>& model,
                        const Eigen::Matrix3d& K, const Eigen::Matrix3d& R,
-                       const Eigen::Vector3d& t, const json& box) {
+                       const Eigen::Vector3d& t, const json& box, const cv::Size& image) {
     Eigen::AlignedBox2d bounds;
     for (const Eigen::Vector3d& x : model) bounds.extend((K * (R * x + t)).hnormalized());
+    bounds = bounds.intersection({Eigen::Vector2d(-image.width, -image.height),
+                                  Eigen::Vector2d(2 * image.width, 2 * image.height)});
     const Eigen::Vector2d centre = (K * t).hnormalized();
     const double x = box[0], y = box[1], w = box[2], h = box[3];
     if (centre.x() < x - 1 || centre.x() > x + w + 1 || centre.y() < y - 1 ||

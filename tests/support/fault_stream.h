@@ -27,8 +27,8 @@ class FaultStream : public FrameSource {
 };
 
 /// A hand's swing through a printed corner of a room, 30 frames a second; no fault yet.
-inline std::vector<RecordedFrame> CleanStream(int frames, std::uint64_t world_seed = 1) {
-  const TexturedCorner world(world_seed);
+inline std::vector<RecordedFrame> CleanStream(int frames,
+                                              const TexturedCorner& world = TexturedCorner()) {
   const Camera camera = SmallCamera(320, 240);
   std::vector<RecordedFrame> stream;
   for (int i = 0; i < frames; ++i) {

@@ -34,9 +34,12 @@ inline cv::Mat1b BlockPattern(int side_px, std::uint64_t seed) {
 /// front, y = 0.7 below, x = 1.1 at the right. Depth is exact.
 class TexturedCorner {
  public:
-  explicit TexturedCorner(std::uint64_t seed = 1) {
+  /// @param repeat_texels  1024 is 14.6 m, which nobody sees; less is wallpaper
+  explicit TexturedCorner(std::uint64_t seed = 1, int repeat_texels = 1024) {
     for (std::uint64_t wall = 0; wall < 3; ++wall) {
-      patterns_.push_back(BlockPattern(1024, seed * 3 + wall));
+      const cv::Mat1b once = BlockPattern(repeat_texels, seed * 3 + wall);
+      const int times = 1024 / repeat_texels;
+      patterns_.push_back(cv::repeat(once, times, times));
     }
   }
 

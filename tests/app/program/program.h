@@ -3,6 +3,7 @@
 #include <fcntl.h>
 #include <signal.h>
 #include <spawn.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -63,6 +64,7 @@ struct Outcome {
   int exit_code = -1;  ///< -1 when a signal ended it
   int signal = 0;
   std::string errors;  ///< what it wrote to its error output
+  double peak_mb = 0;  ///< the most memory it had at a time, 2^20 bytes
 };
 
 /// A process that has been started.
@@ -91,8 +93,10 @@ class Process {
   void Kill() const { kill(id_, SIGKILL); }
   Outcome Wait() const {
     int status = 0;
-    waitpid(id_, &status, 0);
+    rusage usage{};
+    wait4(id_, &status, 0, &usage);
     Outcome outcome;
+    outcome.peak_mb = static_cast<double>(usage.ru_maxrss) / 1024;
     if (WIFEXITED(status)) outcome.exit_code = WEXITSTATUS(status);
     if (WIFSIGNALED(status)) outcome.signal = WTERMSIG(status);
     outcome.errors = ReadText(errors_);

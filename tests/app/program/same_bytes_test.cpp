@@ -79,7 +79,9 @@ struct Circumstances {
   Environment environment = {};
   std::string place = ".";
   int kill_at = 0;  ///< operation of `pas sim` at which it is killed, then resumed
-  int seed = 1;
+  int seed = 1, frames = 6;
+  /// What `pas scene make` is asked for; empty: a scene of the catalogue.
+  std::vector<std::string> scene = {};
 };
 
 class SameBytes : public testing::Test {
@@ -89,14 +91,16 @@ class SameBytes : public testing::Test {
     const fs::path out = folder_ / name / how.place;
     fs::create_directories(out);
     const std::string threads = std::to_string(how.threads);
+    fs::path scene = fs::path(PAS_SOURCE_DIR) / "scenes/ambiguous/desk.yaml";
+    if (!how.scene.empty()) {
+      scene = out / "scene.yaml";
+      std::vector<std::string> make{Pas(), "-q", "scene", "make", "-o", scene};
+      make.insert(make.end(), how.scene.begin(), how.scene.end());
+      EXPECT_EQ(Run(make, how.environment).exit_code, 0);
+    }
     std::vector<std::string> sim{
-        Pas(),       "-q",
-        "sim",       fs::path(PAS_SOURCE_DIR) / "scenes/ambiguous/desk.yaml",
-        "-o",        out / "seq",
-        "--frames",  "6",
-        "--width",   "320",
-        "--height",  "240",
-        "--seed",    std::to_string(how.seed),
+        Pas(),       "-q",      "sim", scene,      "-o",  out / "seq", "--frames",
+        "6",         "--width", "320", "--height", "240", "--seed",    std::to_string(how.seed),
         "--threads", threads};
     if (how.kill_at > 0) {
       Environment interrupted = how.environment;
@@ -140,6 +144,26 @@ TEST_F(SameBytes, ComeOutUnderAllCircumstances) {
       {"killed and resumed", {.threads = 2, .kill_at = 60}}};
   for (const auto& [name, how] : all) {
     EXPECT_EQ(FirstDifference(once, Make(name, how)), "") << "differs first: " << name;
+  }
+}
+
+TEST_F(SameBytes, ComeOutOfEveryKindOfScene) {
+  const std::vector<std::vector<std::string>> scenes{
+      {"--family", "coplanar", "--seed", "3"},
+      {"--family", "passer", "--seed", "5", "--set", "kind=3"},  // toys, and what moves
+      {"--twin", "fr1-xyz"}};                                    // a lens
+  for (const auto& scene : scenes) {
+    const Artefacts once = Make(scene[1] + "_once", {.frames = 3, .scene = scene});
+    ASSERT_GT(once.size(), 3u * 5u + 12u);
+    const Circumstances other{.threads = 3,
+                              .environment = {{"TZ", "Pacific/Kiritimati"},
+                                              {"LC_ALL", "de_DE.UTF-8"},
+                                              {"PAS_INTERRUPT_DELAY", "1000"}},
+                              .place = "an other/place",
+                              .kill_at = 60,
+                              .frames = 3,
+                              .scene = scene};
+    EXPECT_EQ(FirstDifference(once, Make(scene[1] + "_other", other)), "") << scene[1];
   }
 }
 

@@ -87,6 +87,9 @@ TEST(Keyframes, AreCulledWhenOthersSeeTheSameExceptTheFirstAndTheNewestTwo) {
   EXPECT_FALSE(world.map.keyframes[0].culled);
   EXPECT_FALSE(world.map.keyframes[4].culled);
   EXPECT_FALSE(world.map.keyframes[5].culled);
+  for (const Keyframe& keyframe : world.map.keyframes) {
+    EXPECT_EQ(keyframe.features.capacity() == 0, keyframe.culled);  // memory is given back
+  }
   for (const MapPoint& point : world.map.points) {
     for (const auto& [keyframe, feature] : point.observations) {
       EXPECT_FALSE(world.map.keyframes[static_cast<std::size_t>(keyframe)].culled);

@@ -4,83 +4,30 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
-#include <fstream>
 #include <limits>
-#include <nlohmann/json.hpp>
-#include <sstream>
 
 #include "slam/base/require.h"
-#include "slam/track/run_sequence.h"
+#include "tests/support/stream_run.h"
 
 // The fault matrix F1 to F16: what a stream does wrong must not crash the system, put a number
 // that is not finite into a result, or give a wrong pose for a right one.
 namespace slam {
 namespace {
 
-constexpr int kFrames = 60;
 // Twice what the clean stream comes to, 10 mm at a pixel of 8 mm.
 constexpr double kPosition_m = 0.02;
 
-std::string TextOf(const std::filesystem::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), {}};
-}
-
-/// What a run over a stream came to.
-struct Ran {
-  RunOutcome outcome;
-  std::string trajectory, map;
-  std::vector<std::string> states;                ///< by line of frame_planes.jsonl
-  std::vector<std::pair<double, Pose>> poses_wc;  ///< (time, pose)
-};
-
 Ran RunOn(std::vector<RecordedFrame> frames, Variant variant = Variant::kPoints) {
-  const auto folder = std::filesystem::temp_directory_path() /
-                      ("pas_fault_stream_" + std::to_string(::getpid()));
   RunOptions options;
-  options.sequence = "stream";
-  options.run = folder;
   options.variant = variant;
-  options.threads = 1;
-  options.force = true;
-  FaultStream stream(std::move(frames));
-  Ran ran;
-  ran.outcome = RunLive({stream, SmallCamera(320, 240), nullptr}, options);
-  ran.trajectory = TextOf(folder / "trajectory.txt");
-  ran.map = TextOf(folder / "map.json");
-  std::istringstream lines(TextOf(folder / "frame_planes.jsonl"));
-  for (std::string line; std::getline(lines, line);) {
-    ran.states.push_back(nlohmann::json::parse(line).at("state"));
-  }
-  std::istringstream poses(ran.trajectory);
-  for (std::string line; std::getline(poses, line);) {
-    if (line.empty() || line[0] == '#') continue;
-    std::istringstream words(line);
-    double s = 0;
-    Eigen::Vector3d t;
-    Eigen::Quaterniond q;
-    words >> s >> t.x() >> t.y() >> t.z() >> q.x() >> q.y() >> q.z() >> q.w();
-    EXPECT_TRUE(words) << line;
-    EXPECT_TRUE(t.allFinite() && q.coeffs().allFinite()) << line;
-    ran.poses_wc.emplace_back(s, Pose{q.toRotationMatrix(), t});
-  }
-  std::filesystem::remove_all(folder);
-  return ran;
+  return RunStream(std::move(frames), options);
 }
 
 /// Whether every pose is the one that the hand had at that time.
 void ExpectNoWrongPose(const Ran& ran, double tolerance_m = kPosition_m) {
   for (const auto& [s, T_wc] : ran.poses_wc) {
-    const int i = static_cast<int>(std::lround((s - 100.0) * 30));
-    const Pose truth = SwingingPose(0) * Inverse(SwingingPose(i));
-    EXPECT_LT((T_wc.t - truth.t).norm(), tolerance_m) << "frame " << i;
+    EXPECT_LT((T_wc.t - TruePoseAt(s).t).norm(), tolerance_m) << s << " s";
   }
-}
-
-const std::vector<RecordedFrame>& Clean() {
-  static const std::vector<RecordedFrame> clean = CleanStream(kFrames);
-  return clean;
 }
 
 TEST(FaultStream, WithoutAFaultEveryFrameIsTracked) {
@@ -204,6 +151,43 @@ TEST(FaultStreamF7, NotANumberInDepthIsNoMeasurement) {
   }
 }
 
+RunOptions PointsAlone() {
+  RunOptions options;
+  options.variant = Variant::kPoints;
+  return options;
+}
+
+TEST(FaultStreamF8, ACameraThatCannotBeIsRefusedAndAWrongOneGivesFiniteNumbers) {
+  const double kNan = std::numeric_limits<double>::quiet_NaN();
+  for (const double fx : {0.0, -300.0, kNan}) {
+    Camera camera = SmallCamera(320, 240);
+    camera.fx = fx;
+    EXPECT_THROW(RunStream(CleanStream(3), PointsAlone(), camera), InputError);
+  }
+  for (const auto& [factor, shift_px] : {std::pair{1.05, 0.0}, {1.3, 0.0}, {1.0, 20.0}}) {
+    Camera camera = SmallCamera(320, 240);
+    camera.fx *= factor;
+    camera.cx += shift_px;
+    const Ran ran = RunStream(CleanStream(20), PointsAlone(), camera);  // it looks
+    EXPECT_EQ(ran.states.size(), 20u);
+  }
+}
+
+TEST(FaultStreamF9, DepthOfAnotherUnitIsSaid) {
+  for (const double scale : {0.2, 5.0, 1000.0}) {
+    const Ran ran = RunOn(
+        Changed(CleanStream(10), 0, 10, [&](RecordedFrame& frame) { frame.depth_m *= scale; }));
+    ASSERT_EQ(ran.outcome.warnings.size(), 1u) << scale;
+    EXPECT_THAT(ran.outcome.warnings[0],
+                testing::AllOf(testing::HasSubstr("of 10 frames"),
+                               testing::HasSubstr(scale < 1 ? "nearer" : "beyond"),
+                               testing::HasSubstr("depth_factor")));
+    if (scale == 1000.0) {
+      EXPECT_EQ(ran.outcome.tracked, 0);
+    }
+  }
+}
+
 TEST(FaultStreamF10, DepthOfOtherFramesGivesNoNumberThatIsNotFinite) {
   auto stream = Clean();
   for (std::size_t i = 0; i + 10 < stream.size(); ++i) {
@@ -223,7 +207,7 @@ TEST(FaultStreamF11, AClockThatJumpsAnHourDoesNotThrowTheCamera) {
 
 TEST(FaultStreamF12, AKidnappedCameraIsLostAndFoundWhenItComesBack) {
   auto stream = Clean();
-  const auto elsewhere = CleanStream(20, 77);
+  const auto elsewhere = CleanStream(20, TexturedCorner(77));
   for (std::size_t i = 0; i < 20; ++i) {
     const double s = stream[25 + i].timestamp_s;
     stream[25 + i] = elsewhere[i];
@@ -237,6 +221,53 @@ TEST(FaultStreamF12, AKidnappedCameraIsLostAndFoundWhenItComesBack) {
   auto shorter = Clean();
   shorter.erase(shorter.begin() + 25, shorter.begin() + 45);
   EXPECT_EQ(ran.outcome.keyframes, RunOn(shorter).outcome.keyframes);
+}
+
+// A room of wallpaper, repeated every 0.9 m: a lost camera sees what fits in several places.
+TEST(FaultStreamF13, WhereSeveralPlacesLookAlikeALostCameraNeverTakesTheWrongOne) {
+  constexpr int kRepeat = 64;
+  const auto stream = CleanStream(kFrames, TexturedCorner(1, kRepeat));
+  const Ran followed = RunOn(stream);
+  EXPECT_EQ(followed.outcome.tracked, kFrames);  // while it is followed nothing is ambiguous
+  ExpectNoWrongPose(followed);
+  const Ran ran = RunOn(Changed(stream, 25, 5, [](RecordedFrame& frame) {
+    SetColour(frame, cv::Mat1b(frame.gray.size(), 0));
+  }));
+  EXPECT_EQ(std::count(ran.states.begin() + 25, ran.states.begin() + 30, "lost"), 5);
+  ExpectNoWrongPose(ran);  // a repeat off would be 0.9 m
+}
+
+/// A stream whose file `at` cannot be read.
+class BrokenStream : public FaultStream {
+ public:
+  BrokenStream(std::vector<RecordedFrame> frames, int at)
+      : FaultStream(std::move(frames)), at_(at) {}
+  RecordedFrame Read(int i) override {
+    if (i == at_) throw InputError("rgb/7.png", "the image is truncated");
+    return FaultStream::Read(i);
+  }
+
+ private:
+  int at_;
+};
+
+// Which files cannot be read, and what is said of them: sequence_reader_test.cpp.
+TEST(FaultStreamF14, AFileThatCannotBeReadEndsTheRunWithItsPathAndLeavesNoRun) {
+  for (const bool async : {false, true}) {
+    RunOptions options = PointsAlone();
+    options.config.async_mapping = async;
+    options.sequence = "stream";
+    options.run = std::filesystem::temp_directory_path() /
+                  ("pas_broken_stream_" + std::to_string(::getpid()));
+    BrokenStream stream(CleanStream(10), 7);
+    try {
+      RunLive({stream, SmallCamera(320, 240), nullptr}, options);
+      FAIL() << "it was read";
+    } catch (const InputError& error) {
+      EXPECT_THAT(error.what(), testing::HasSubstr("rgb/7.png"));
+    }
+    EXPECT_FALSE(std::filesystem::exists(options.run));
+  }
 }
 
 TEST(FaultStreamF15, AnImageOfAnotherSizeIsRefusedByItsFrame) {
@@ -277,25 +308,16 @@ TEST(FaultStreamF16, BrightnessThatRollsAndNegativesGiveNoWrongPose) {
 }
 
 TEST(RunLive, StopsWhereItIsAskedToAndKeepsWhatItHas) {
-  const auto folder = std::filesystem::temp_directory_path() /
-                      ("pas_stopped_run_" + std::to_string(::getpid()));
-  FaultStream stream(CleanStream(20));
   RunOptions options;
-  options.sequence = "stream";
-  options.run = folder;
-  options.variant = Variant::kPoints;
-  options.force = true;
   int done = 0;
   options.progress = [&](int frames, int) { done = frames; };
   options.stop = [&] { return done >= 7; };
-  const RunOutcome outcome = RunLive({stream, SmallCamera(320, 240), nullptr}, options);
-  EXPECT_TRUE(outcome.stopped);
-  EXPECT_EQ(outcome.frames, 7);
-  EXPECT_EQ(outcome.tracked, 7);
-  const std::string trajectory = TextOf(folder / "trajectory.txt");
-  EXPECT_GE(std::count(trajectory.begin(), trajectory.end(), '\n'), 7);
-  EXPECT_TRUE(std::filesystem::exists(folder / "map.json"));
-  std::filesystem::remove_all(folder);
+  const Ran ran = RunStream(CleanStream(20), options);
+  EXPECT_TRUE(ran.outcome.stopped);
+  EXPECT_EQ(ran.outcome.frames, 7);
+  EXPECT_EQ(ran.outcome.tracked, 7);
+  EXPECT_EQ(ran.poses_wc.size(), 7u);
+  EXPECT_FALSE(ran.map.empty());
 }
 
 }  // namespace

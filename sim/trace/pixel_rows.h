@@ -1,0 +1,39 @@
+#pragma once
+
+#include <Eigen/Core>
+
+// What a view does to every pixel, by rows of `count`. Same bits on every processor.
+namespace sim {
+
+/// (dx, dy, dz) = R (x, y, 1).
+void TurnRays(const Eigen::Matrix3d& R, const double* x, const double* y, int count, double* dx,
+              double* dy, double* dz);
+
+void ToSingle(const double* in, int count, float* out);
+
+/// Rays of pixels, and what is worked out of the plane they meet.
+struct PixelRow {
+  const double *x, *y;                    ///< ray (x, y, 1), camera frame
+  const double *dx, *dy, *dz;             ///< the same, world frame
+  double* depth_m;                        ///< planar z
+  float* cosine;                          ///< |cos| between ray and normal
+  float *start_x, *start_y, *start_z;     ///< of second rays, world frame
+  float *to_eye_x, *to_eye_y, *to_eye_z;  ///< from there
+};
+
+/// A plane as one view sees it.
+struct PlaneSeen {
+  Eigen::Vector3d inverse_depth;  ///< 1/z = inverse_depth . ray
+  Eigen::Vector3d n_c;            ///< unit normal, camera frame
+  Eigen::Vector3d start;          ///< second rays start here + z (dx, dy, dz)
+  Eigen::Vector3d eye;            ///< and may go here
+};
+
+void MeetPlane(const PlaneSeen& plane, int first, int last, const PixelRow& row);
+
+/// uv = z (uv_over_depth (x, y, 1)) of the pixels from first to last.
+void PlaceOnPrint(const Eigen::Matrix<float, 2, 3>& uv_over_depth, const double* x,
+                  const double* y, const double* depth_m, int first, int last, float* u,
+                  float* v);
+
+}  // namespace sim

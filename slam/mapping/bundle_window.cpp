@@ -1,0 +1,149 @@
+#include "slam/mapping/bundle_window.h"
+
+#include <algorithm>
+#include <set>
+
+#include "slam/mapping/keyframes.h"
+#include "slam/mapping/map_points.h"
+
+namespace slam {
+namespace {
+
+std::size_t Index(int i) { return static_cast<std::size_t>(i); }
+
+std::vector<int> PointsOf(const Map& map, const std::vector<int>& keyframes) {
+  std::vector<int> points;
+  for (const int keyframe : keyframes) {
+    for (const int point : map.keyframes[Index(keyframe)].map_points) {
+      if (point != kNone) points.push_back(point);
+    }
+  }
+  std::sort(points.begin(), points.end());
+  points.erase(std::unique(points.begin(), points.end()), points.end());
+  return points;
+}
+
+/// Keyframes outside that see the most of the points, at most `count` of them, ascending.
+std::vector<int> Witnesses(const Map& map, const std::vector<int>& points,
+                           const std::set<int>& inside, int count) {
+  std::map<int, int> seen;
+  for (const int point : points) {
+    for (const auto& [keyframe, feature] : map.points[Index(point)].observations) {
+      if (inside.count(keyframe) == 0) ++seen[keyframe];
+    }
+  }
+  std::vector<int> witnesses;
+  for (const auto& [keyframe, shared] : seen) witnesses.push_back(keyframe);
+  std::stable_sort(witnesses.begin(), witnesses.end(),
+                   [&](int a, int b) { return seen.at(a) > seen.at(b); });
+  if (witnesses.size() > Index(count)) witnesses.resize(Index(count));
+  std::sort(witnesses.begin(), witnesses.end());
+  return witnesses;
+}
+
+std::unique_ptr<BundleTerm> TermOf(const PointFeature& feature, const Camera& camera,
+                                   const LocalBundleConfig& config) {
+  return std::make_unique<BundleTerm>(feature, camera, config.bf_px_m,
+                                      config.scales.Scale(feature.octave),
+                                      config.depth_sigma_px);
+}
+
+/// Blocks and observations of the window's keyframes and points.
+void FillWindow(const Map& map, const Camera& camera, const LocalBundleConfig& config,
+                BundleWindow& window) {
+  std::map<int, std::size_t> pose_at;
+  for (const int id : window.keyframes) {
+    pose_at[id] = window.poses.size();
+    window.poses.push_back(BlockOf(map.keyframes[Index(id)].T_cw));
+  }
+  for (const int id : window.points) {
+    const MapPoint& point = map.points[Index(id)];
+    for (const auto& [seen_by, feature] : point.observations) {
+      const auto at = pose_at.find(seen_by);
+      if (at == pose_at.end()) continue;
+      const PointFeature& seen_as = map.keyframes[Index(seen_by)].features[Index(feature)];
+      window.observations.push_back({seen_by, id, at->second, window.positions.size(),
+                                     seen_as.depth_m > 0, true,
+                                     TermOf(seen_as, camera, config)});
+    }
+    window.positions.push_back({point.p_w.x(), point.p_w.y(), point.p_w.z()});
+  }
+  window.map_keyframes = map.keyframes.size();
+  window.map_points = map.points.size();
+}
+
+}  // namespace
+
+BundleWindow FullWindow(const Map& map, const Camera& camera, const LocalBundleConfig& config) {
+  BundleWindow window;
+  if (map.keyframes.empty()) return window;
+  for (const Keyframe& keyframe : map.keyframes) {
+    if (!keyframe.culled && keyframe.id != 0) window.keyframes.push_back(keyframe.id);
+  }
+  window.free_count = window.keyframes.size();
+  window.keyframes.push_back(0);
+  window.points = PointsOf(map, window.keyframes);
+  FillWindow(map, camera, config, window);
+  return window;
+}
+
+BundleWindow LocalWindow(const Map& map, int keyframe, const Camera& camera,
+                         const LocalBundleConfig& config) {
+  std::vector<int> inside = BestCovisible(map, keyframe, config.max_keyframes - 1);
+  inside.push_back(keyframe);
+  std::sort(inside.begin(), inside.end());
+
+  BundleWindow window;
+  window.points = PointsOf(map, inside);
+  std::vector<int> fixed =
+      Witnesses(map, window.points, {inside.begin(), inside.end()}, config.max_fixed_keyframes);
+  // The first keyframe is the world; without any witness the oldest holds the gauge.
+  if (inside.front() == 0 || fixed.empty()) {
+    fixed.push_back(inside.front());
+    inside.erase(inside.begin());
+  }
+  window.free_count = inside.size();
+  window.keyframes = inside;
+  window.keyframes.insert(window.keyframes.end(), fixed.begin(), fixed.end());
+  FillWindow(map, camera, config, window);
+  return window;
+}
+
+namespace {
+
+/// Keyframes and points that came to the map after the window was taken move as its newest
+/// keyframe does: they were placed by the map as it was.
+void CarryTheNewer(const BundleWindow& window, Map& map) {
+  if (window.map_keyframes == map.keyframes.size()) return;
+  const auto newest =
+      std::max_element(window.keyframes.begin(),
+                       window.keyframes.begin() + static_cast<long>(window.free_count));
+  const Pose T_new_w =
+      PoseOf(window.poses[static_cast<std::size_t>(newest - window.keyframes.begin())].data());
+  const Pose T_new_old = Normalised(Inverse(T_new_w) * map.keyframes[Index(*newest)].T_cw);
+  for (std::size_t k = window.map_keyframes; k < map.keyframes.size(); ++k) {
+    map.keyframes[k].T_cw = Normalised(map.keyframes[k].T_cw * Inverse(T_new_old));
+  }
+  for (std::size_t p = window.map_points; p < map.points.size(); ++p) {
+    map.points[p].p_w = T_new_old * map.points[p].p_w;
+  }
+}
+
+}  // namespace
+
+void MergeWindow(const BundleWindow& window, const ScalePyramid& scales, Map& map) {
+  CarryTheNewer(window, map);
+  for (std::size_t i = 0; i < window.free_count; ++i) {
+    map.keyframes[Index(window.keyframes[i])].T_cw = PoseOf(window.poses[i].data());
+  }
+  for (std::size_t i = 0; i < window.points.size(); ++i) {
+    const auto& p = window.positions[i];
+    map.points[Index(window.points[i])].p_w = {p[0], p[1], p[2]};
+  }
+  for (const BundleWindow::Observation& o : window.observations) {
+    if (!o.inlier) RemoveObservation(map, o.point, o.keyframe);
+  }
+  for (const int id : window.points) UpdatePoint(map, id, scales);
+}
+
+}  // namespace slam

@@ -1,0 +1,53 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <memory>
+#include <vector>
+
+#include "slam/base/camera.h"
+#include "slam/mapping/bundle_terms.h"
+#include "slam/mapping/local_bundle.h"
+#include "slam/model/map.h"
+
+namespace slam {
+
+/// What takes part in an adjustment, copied from the map: the map may go on growing while the
+/// window is solved. In the order of ids, which fixes the order of the solver's sums; blocks of
+/// one kind stand side by side, because the solver orders them by address.
+struct BundleWindow {
+  std::vector<int> keyframes;  ///< free ones, then fixed ones
+  std::size_t free_count = 0;
+  std::vector<int> points;
+  std::vector<PoseBlock> poses;                  ///< parallel to keyframes
+  std::vector<std::array<double, 3>> positions;  ///< parallel to points
+
+  struct Observation {
+    int keyframe, point;               ///< ids
+    std::size_t pose_at, position_at;  ///< into the blocks
+    bool stereo = false;               ///< the feature has depth
+    bool inlier = true;
+    std::unique_ptr<BundleTerm> term;
+  };
+  std::vector<Observation> observations;
+
+  std::size_t map_keyframes = 0, map_points = 0;  ///< that the map had
+};
+
+/// The window of AdjustLocalBundle.
+BundleWindow LocalWindow(const Map& map, int keyframe, const Camera& camera,
+                         const LocalBundleConfig& config);
+
+/// Everything: all keyframes but the first are free.
+BundleWindow FullWindow(const Map& map, const Camera& camera, const LocalBundleConfig& config);
+
+/// Two rounds: robust, then plain without the outliers. Touches no map.
+/// @returns its report; when it is not usable the window must not be merged
+LocalBundleReport SolveWindow(BundleWindow& window, const LocalBundleConfig& config);
+
+/// Takes a usable solution over into the map. Keyframes that came meanwhile, and the points
+/// that they brought, move as the window's newest keyframe does.
+/// @pre nothing else moved poses or fused, culled or removed keyframes meanwhile
+void MergeWindow(const BundleWindow& window, const ScalePyramid& scales, Map& map);
+
+}  // namespace slam

@@ -1,0 +1,87 @@
+#pragma once
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <Eigen/Geometry>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "slam/track/run_sequence.h"
+#include "tests/support/fault_stream.h"
+
+namespace slam {
+
+inline constexpr int kFrames = 60;
+
+inline const std::vector<RecordedFrame>& Clean() {
+  static const std::vector<RecordedFrame> clean = CleanStream(kFrames);
+  return clean;
+}
+
+/// What a run over a stream came to.
+struct Ran {
+  RunOutcome outcome;
+  std::string trajectory, map;
+  std::vector<std::string> states;                ///< by line of frame_planes.jsonl
+  std::vector<std::pair<double, Pose>> poses_wc;  ///< (time, pose)
+};
+
+inline std::string TextOf(const std::filesystem::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+/// Poses of a trajectory file; numbers that are not finite fail the test.
+inline std::vector<std::pair<double, Pose>> PosesOf(const std::string& trajectory) {
+  std::vector<std::pair<double, Pose>> poses_wc;
+  std::istringstream lines(trajectory);
+  for (std::string line; std::getline(lines, line);) {
+    if (line.empty() || line[0] == '#') continue;
+    std::istringstream words(line);
+    double s = 0;
+    Eigen::Vector3d t;
+    Eigen::Quaterniond q;
+    words >> s >> t.x() >> t.y() >> t.z() >> q.x() >> q.y() >> q.z() >> q.w();
+    EXPECT_TRUE(words) << line;
+    EXPECT_TRUE(t.allFinite() && q.coeffs().allFinite()) << line;
+    poses_wc.emplace_back(s, Pose{q.toRotationMatrix(), t});
+  }
+  return poses_wc;
+}
+
+/// Runs on a stream without detections, on one thread. options.run is
+/// chosen here, and removed again.
+inline Ran RunStream(std::vector<RecordedFrame> frames, RunOptions options,
+                     const Camera& camera = SmallCamera(320, 240)) {
+  options.sequence = "stream";
+  options.run =
+      std::filesystem::temp_directory_path() / ("pas_stream_run_" + std::to_string(::getpid()));
+  options.threads = 1;
+  options.force = true;
+  FaultStream stream(std::move(frames));
+  Ran ran;
+  ran.outcome = RunLive({stream, camera, nullptr}, options);
+  ran.trajectory = TextOf(options.run / "trajectory.txt");
+  ran.map = TextOf(options.run / "map.json");
+  std::istringstream lines(TextOf(options.run / "frame_planes.jsonl"));
+  for (std::string line; std::getline(lines, line);) {
+    ran.states.push_back(nlohmann::json::parse(line).at("state"));
+  }
+  ran.poses_wc = PosesOf(ran.trajectory);
+  std::filesystem::remove_all(options.run);
+  return ran;
+}
+
+/// Pose that the swinging hand has at a time, in the world of its first frame.
+inline Pose TruePoseAt(double s) {
+  const int i = static_cast<int>(std::lround((s - 100.0) * 30));
+  return SwingingPose(0) * Inverse(SwingingPose(i));
+}
+
+}  // namespace slam
