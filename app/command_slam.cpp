@@ -148,7 +148,8 @@ void AddSlamCommand(CLI::App& pas, const Globals& globals, int& exit_code) {
       ->capture_default_str();
   CLI::Option* detector = command->add_option(
       "--detector", options.detector,
-      "replay (SEQ/detections.jsonl) | none; default: replay if the file is there");
+      "replay (SEQ/detections.jsonl) | yolox:FILE.onnx (a YOLOX network, settings in "
+      "--config, yolox:) | none; default: replay if the file is there");
   CLI::Option* camera =
       command->add_option("--camera", options.camera,
                           "tum1 | tum2 | tum3 | a camera.yaml; default: SEQ/camera.yaml");

@@ -9,6 +9,16 @@ void VisitClasses(ClassTable& c, FieldVisitor& v) {
   v.Texts("other", c.other, "neither; a class in no list is this as well");
 }
 
+void VisitYolox(YoloxConfig& c, FieldVisitor& v) {
+  v.Number("min_score", c.min_score, "[0, 1]", "objectness times class probability");
+  v.Number("max_nms_iou", c.max_nms_iou, "(0, 1]", "two boxes of a class above it are one");
+  v.Integer("input_width", c.input_width, "[0, 4096]",
+            "where the model does not state its input's; 0: it must");
+  v.Integer("input_height", c.input_height, "[0, 4096]", "the same; multiples of 32");
+  v.Flag("decoded", c.decoded, "the model was exported with --decode_in_inference");
+  v.Texts("classes", c.classes, "in the order of the model's columns");
+}
+
 void VisitBoxTracks(BoxTracksConfig& c, FieldVisitor& v) {
   v.Flag("enabled", c.enabled, "off: detections pass through untouched");
   v.Number("max_duplicate_iou", c.max_duplicate_iou, "(0, 1]",
@@ -41,6 +51,7 @@ void VisitBoxTracks(BoxTracksConfig& c, FieldVisitor& v) {
 void VisitDetections(Config& c, FieldVisitor& v) {
   v.Section("classes", "what objects of a class are good for",
             [&] { VisitClasses(c.classes, v); });
+  v.Section("yolox", "--detector yolox:FILE", [&] { VisitYolox(c.yolox, v); });
   v.Section("box_tracks", "missed-detection compensation",
             [&] { VisitBoxTracks(c.box_tracks, v); });
 }

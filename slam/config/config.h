@@ -6,6 +6,7 @@
 #include "slam/extract/class_table.h"
 #include "slam/extract/plane_segments.h"
 #include "slam/extract/point_features.h"
+#include "slam/extract/yolox_output.h"
 #include "slam/localise/point_tracking.h"
 #include "slam/loop/close_loop.h"
 #include "slam/mapping/local_mapping.h"
@@ -20,6 +21,7 @@ struct Config {
   // (B) extraction
   PointFeatureConfig point_features;
   ClassTable classes = CocoClassTable();
+  YoloxConfig yolox;
   BoxTracksConfig box_tracks;
   PlaneExtractionConfig plane_extraction;
 

@@ -3,8 +3,10 @@
 #include <cmath>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <string_view>
 
 #include "slam/base/require.h"
+#include "slam/extract/yolox_detector.h"
 
 namespace slam {
 namespace {
@@ -134,10 +136,19 @@ std::vector<Detection> ReplayDetector::Detect(double timestamp_s, const cv::Mat3
 
 std::unique_ptr<Detector> MakeDetector(const std::string& choice,
                                        const std::filesystem::path& sequence,
-                                       const Camera& camera, const ClassTable& classes) {
+                                       const Camera& camera, const ClassTable& classes,
+                                       const YoloxConfig& yolox) {
+  static constexpr std::string_view kYolox = "yolox:";
   if (choice == "none") return std::make_unique<NoDetector>();
+  if (choice.starts_with(kYolox)) {
+    const std::string model = choice.substr(kYolox.size());
+    if (model.empty())
+      throw InputError("--detector yolox:", "names no file; expected yolox:FILE.onnx");
+    return std::make_unique<YoloxDetector>(model, camera, classes, yolox);
+  }
   if (choice != "replay")
-    throw InputError("--detector " + choice, "unknown detector; expected replay or none");
+    throw InputError("--detector " + choice,
+                     "unknown detector; expected replay, yolox:FILE.onnx or none");
   return std::make_unique<ReplayDetector>(sequence / "detections.jsonl", camera, classes);
 }
 

@@ -9,11 +9,12 @@
 
 #include "slam/base/camera.h"
 #include "slam/extract/class_table.h"
+#include "slam/extract/yolox_output.h"
 #include "slam/model/detection.h"
 
 namespace slam {
 
-/// Finds objects in a colour image.
+/// Finds objects in a colour image. Asked frame by frame, from one thread at a time.
 class Detector {
  public:
   virtual ~Detector() = default;
@@ -60,10 +61,12 @@ class ReplayDetector : public Detector {
   int outside_ = 0;
 };
 
-/// `choice` is "replay" (SEQUENCE/detections.jsonl) or "none".
-/// @throws InputError for another choice, or when the file to replay is absent.
+/// `choice` is "replay" (SEQUENCE/detections.jsonl), "yolox:FILE" (yolox_detector.h) or "none".
+/// @throws InputError for another choice, or when the file to replay or the model is absent or
+///   bad.
 std::unique_ptr<Detector> MakeDetector(const std::string& choice,
                                        const std::filesystem::path& sequence,
-                                       const Camera& camera, const ClassTable& classes);
+                                       const Camera& camera, const ClassTable& classes,
+                                       const YoloxConfig& yolox = {});
 
 }  // namespace slam

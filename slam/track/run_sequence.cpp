@@ -149,10 +149,10 @@ RunOutcome RunSequence(const RunOptions& options) {
   const Camera camera = ChooseCamera(options.camera, options.sequence);
   SequenceReader reader(options.sequence, camera, {.prefetch = ThreadsOf(options) > 1});
   const std::string detector = DetectorChoice(options);
-  RunOutcome outcome =
-      Run({reader, camera,
-           MakeDetector(detector, options.sequence, camera, options.config.classes)},
-          options, detector);
+  RunOutcome outcome = Run({reader, camera,
+                            MakeDetector(detector, options.sequence, camera,
+                                         options.config.classes, options.config.yolox)},
+                           options, detector);
   const auto& warnings = reader.warnings().text;
   outcome.warnings.insert(outcome.warnings.begin(), warnings.begin(), warnings.end());
   return outcome;

@@ -18,7 +18,7 @@ struct RunOptions {
   std::filesystem::path sequence;
   std::filesystem::path run;  ///< folder to write
   Variant variant = Variant::kFull;
-  std::string detector;  ///< "replay", "none"; empty: replay when the sequence has boxes
+  std::string detector;  ///< see MakeDetector; empty: replay when the sequence has boxes
   std::string camera;    ///< tum1, tum2, tum3, a file; empty: the sequence's camera.yaml
   Config config;
   std::uint64_t seed = 0;  ///< of every random choice of the estimator

@@ -57,33 +57,34 @@ void Tracker::Finish(MappingWorker::Waiting waiting) {
 }
 
 void Tracker::ExtractInformation(Frame& frame, const cv::Mat3b& bgr, ModuleTimes& times) {
-  // Planes and boxes on one side, points on the other: neither writes what the other reads.
-  const auto extract_planes_and_boxes = [&] {
-    if (!uses_planes()) return;
-    {
-      const Stopwatch watch(times[Module::kOd]);
-      frame.detections = detector_->Detect(frame.timestamp_s, bgr);
-    }
-    {
-      const Stopwatch watch(times[Module::kMdc]);
-      frame.detections = box_tracks_.Update(frame.timestamp_s, frame.detections);
-    }
+  // Boxes, planes and points side by side: none writes what another reads.
+  const auto detect = [&] {
+    const Stopwatch watch(times[Module::kOd]);
+    return detector_->Detect(frame.timestamp_s, bgr);
+  };
+  const auto extract_planes = [&] {
     const Stopwatch watch(times[Module::kEpi]);
     ExtractPlanes(frame, camera_, rays_, config_.plane_extraction);
   };
-  std::future<void> beside;
-  if (threads_ > 1) {
-    beside = std::async(std::launch::async, extract_planes_and_boxes);
-  } else {
-    extract_planes_and_boxes();
+  // Deferred work is done where its outcome is asked for.
+  const auto where = threads_ > 1 ? std::launch::async : std::launch::deferred;
+  std::future<std::vector<Detection>> boxes;
+  std::future<void> planes;
+  if (uses_planes()) {
+    boxes = std::async(where, detect);
+    planes = std::async(where, extract_planes);
   }
   {
     const Stopwatch watch(times[Module::kOrb]);
     frame.features =
         ExtractPointFeatures(frame.gray, frame.depth_m, camera_, config_.point_features);
   }
-  if (beside.valid()) beside.get();
   frame.map_points.assign(frame.features.size(), kNone);
+  if (!uses_planes()) return;
+  planes.get();
+  const std::vector<Detection> found = boxes.get();
+  const Stopwatch watch(times[Module::kMdc]);
+  frame.detections = box_tracks_.Update(frame.timestamp_s, found);
 }
 
 void Tracker::ProcessFramePlanes(Frame& frame) {

@@ -48,7 +48,7 @@ struct TrackReport {
 class Tracker {
  public:
   /// @param detector  may be null: no detections
-  /// @param threads   1, or more: points, planes and detections are then extracted side by side
+  /// @param threads   1, or more: points, planes and boxes are then extracted side by side
   /// @param before_mapping  called before each keyframe is mapped, where it is mapped
   Tracker(const Camera& camera, const Config& config, Variant variant,
           std::unique_ptr<Detector> detector, std::uint64_t seed, int threads,

@@ -21,7 +21,7 @@ struct RunInfo {
   std::filesystem::path sequence;  ///< written as an absolute path
   std::string variant;             ///< "full", "no-association", ...
   std::string association;         ///< the association rule
-  std::string detector;            ///< "replay", "none"
+  std::string detector;            ///< "replay", "yolox:FILE", "live", "none"
   std::uint64_t seed = 0;
   std::string version;  ///< of the program, with the commit
   nlohmann::ordered_json options = nlohmann::ordered_json::object();  ///< see ConfigAsJson

@@ -101,7 +101,7 @@ TEST_F(Detections, SaysHowToRunWithoutAFile) {
               ThrowsMessage<InputError>(
                   ContainsRegex("detections.jsonl: no such file.*--detector none")));
   EXPECT_THAT([&] { MakeDetector("yolo", folder_, Camera{}, {}); },
-              ThrowsMessage<InputError>(ContainsRegex("expected replay or none")));
+              ThrowsMessage<InputError>(ContainsRegex("expected replay, yolox:FILE.onnx or none")));
   EXPECT_TRUE(MakeDetector("none", folder_, Camera{}, {})->Detect(1.0, {}).empty());
 }
 
