@@ -5,6 +5,7 @@
 #include <numeric>
 #include <vector>
 
+#include "slam/extract/bridges.h"
 #include "slam/extract/sight_lines.h"
 
 namespace slam {
@@ -118,6 +119,7 @@ int SegmentParts(const DepthGrid& grid, const PatchUnion& joined,
                  const PlaneExtractionConfig& config, LabelImage& labels) {
   const std::vector<LabelPlane> planes = joined.Planes();
   LabelComponents components = ConnectedComponents(grid, labels, planes);
+  CutBridges(grid, labels, planes, config.max_island_behind, components);
   JoinHiddenLabels(grid, joined, planes.size(), config, labels, components);
   int count = 0;
   const std::vector<int> segment_of =

@@ -84,9 +84,16 @@ LabelComponents ConnectedComponents(const DepthGrid& grid, const LabelImage& lab
     out.component[i] = id;
     ++out.list[static_cast<std::size_t>(id)].pixels;
   }
+  CountSides(grid, labels, planes, out);
+  return out;
+}
+
+void CountSides(const DepthGrid& grid, const LabelImage& labels,
+                const std::vector<LabelPlane>& planes, LabelComponents& components) {
+  for (LabelComponent& c : components.list) c.behind = c.in_front = 0;
   const auto count_side = [&](std::size_t from, std::size_t to) {
     if (labels[from] == kNoLabel || labels[to] == labels[from] || !(grid.g[to] > 0)) return;
-    LabelComponent& c = out.list[static_cast<std::size_t>(out.component[from])];
+    LabelComponent& c = components.list[static_cast<std::size_t>(components.component[from])];
     const float residual = ResidualSigmas(grid, to, planes[static_cast<std::size_t>(c.label)]);
     // What lies on the plane itself is another part of it and says nothing.
     if (residual > kOnPlane_sigmas) ++c.in_front;
@@ -100,7 +107,6 @@ LabelComponents ConnectedComponents(const DepthGrid& grid, const LabelImage& lab
       if (v + 1 < grid.height) count_side(i, below), count_side(below, i);
     }
   }
-  return out;
 }
 
 }  // namespace slam

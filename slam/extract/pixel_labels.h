@@ -49,5 +49,8 @@ struct LabelComponents {
 };
 LabelComponents ConnectedComponents(const DepthGrid& grid, const LabelImage& labels,
                                     const std::vector<LabelPlane>& planes);
+/// Counts `behind` and `in_front` of every component.
+void CountSides(const DepthGrid& grid, const LabelImage& labels,
+                const std::vector<LabelPlane>& planes, LabelComponents& components);
 
 }  // namespace slam
