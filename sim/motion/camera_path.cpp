@@ -3,19 +3,20 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sim/motion/pace.h"
 #include "sim/scene/angle.h"
 #include "sim/scene/input_error.h"
 
 namespace sim {
 namespace {
 
-constexpr double kKnot_s = 0.4;         // hand motion has nearly no power above 1 Hz
 constexpr double kLeadIn_s = 8;         // the first frame is in the middle of the motion
 constexpr double kSample_s = 1.0 / 30;  // rate at which the presets were measured
 constexpr double kClearance_m = 0.15;
 constexpr double kChecksPerSegment = 16;
 constexpr double kBetweenChecks_m = 0.02;  // more than the way between two checks
-constexpr std::size_t kKnotsPerBurst = 2;
+constexpr std::size_t kKnotsPerBurst = 2, kKnotsPerPace = 8;
+constexpr double kPaceSpread = 0.5;
 constexpr int kStartTries = 20000, kCandidates = 240, kRetreats = 4;
 
 /// Half the room that a limit leaves, but no more than `margin`.
@@ -54,13 +55,13 @@ CameraPath::CameraPath(const Scene& scene, std::uint64_t seed)
 
 Pose CameraPath::At(double time_s) {
   const double path_time_s = kLeadIn_s + time_s;
-  const auto last = static_cast<std::size_t>(path_time_s / kKnot_s) + 3;
+  const auto last = static_cast<std::size_t>(path_time_s / preset_.knot_s) + 3;
   while (knots_.size() <= last) AddKnot();
   return Shaken(path_time_s);
 }
 
 View CameraPath::Smooth(double path_time_s) const {
-  const double at = path_time_s / kKnot_s;
+  const double at = path_time_s / preset_.knot_s;
   const auto first = static_cast<std::size_t>(at);
   return Blend({knots_[first], knots_[first + 1], knots_[first + 2], knots_[first + 3]},
                at - static_cast<double>(first));
@@ -174,7 +175,7 @@ std::vector<View> CameraPath::Candidates(double step_m, double turn_deg, Random&
     const double bend = 1 - way.dot(heading) / std::max(way.norm() * heading.norm(), 1e-9);
     const double astray = std::abs((view.gaze_w - view.camera_w).norm() - wanted_distance) /
                           std::max(distance_range, 1e-3);
-    scored.emplace_back(1.5 * std::abs(off) + 0.5 * bend + astray + 0.1 * random.Uniform(),
+    scored.emplace_back(1.5 * std::abs(off) + 6 * bend + 0.5 * astray + 0.1 * random.Uniform(),
                         view);
   }
   std::stable_sort(scored.begin(), scored.end(),
@@ -190,7 +191,7 @@ double CameraPath::WantedDistance_m() const {
   double wave = 0;
   for (const double period_s : kPeriods_s) {
     const double turns =
-        static_cast<double>(knots_.size()) * kKnot_s / period_s + random.Uniform();
+        static_cast<double>(knots_.size()) * preset_.knot_s / period_s + random.Uniform();
     wave += SinCosDeg(360 * (turns - std::floor(turns))).sin / 2;
   }
   return motion_.distance_min_m +
@@ -200,10 +201,10 @@ double CameraPath::WantedDistance_m() const {
 void CameraPath::AddKnot() {
   Measure();
   Random random({0x6b6e6f74, seed_, knots_.size()});
-  const double pace = random.Between(0.45, 1.55);
+  const double pace = PaceAt(seed_, knots_.size(), kKnotsPerPace, kPaceSpread);
   const auto wanted = [&](double rate, double behind) {
     // Makes up what is missing within about two seconds.
-    return rate * kKnot_s * std::clamp(1 + behind / (rate * 2), 0.4, 2.5);
+    return rate * preset_.knot_s * std::clamp(1 + behind / (rate * 2), 0.4, 2.5);
   };
   double step_m = pace * wanted(preset_.speed_m_s, length_behind_m_);
   const double turn_deg =
@@ -221,7 +222,7 @@ void CameraPath::AddKnot() {
 void CameraPath::Measure() {
   constexpr double kForgetting =
       0.995;  // a second, so that a long wait is not made up for ever
-  const double known_s = static_cast<double>(knots_.size() - 3) * kKnot_s;
+  const double known_s = static_cast<double>(knots_.size() - 3) * preset_.knot_s;
   while ((measured_samples_ + 1) * kSample_s < known_s) {
     const Pose T_before = Shaken(measured_samples_ * kSample_s);
     const Pose T_after = Shaken(++measured_samples_ * kSample_s);

@@ -95,6 +95,7 @@ class Sweeps : public AtHome {
         home_.camera_w + reach_m_ * Burst(burst.part) * axes[burst.axis];
     return Wobbled(camera_w, camera_w + home_.direction.Vector(), look, 9);
   }
+  bool GoesUnevenly() const override { return true; }
 };
 
 /// About the camera's own axes in turn, nearly on the spot.

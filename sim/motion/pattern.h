@@ -19,6 +19,8 @@ class Pattern {
   virtual View At(double place, double look) const = 0;
   /// Whether the camera should see the target from where it starts.
   virtual bool FacesTarget() const { return true; }
+  /// Whether the camera goes fast and slow by the way alone, as where it turns back.
+  virtual bool GoesUnevenly() const { return false; }
   /// Whether the look itself goes fast and slow, so that it is to be paced evenly.
   virtual bool TurnsUnevenly() const { return false; }
 };

@@ -4,16 +4,18 @@
 #include <array>
 #include <cmath>
 
+#include "sim/motion/pace.h"
 #include "sim/scene/input_error.h"
 
 namespace sim {
 namespace {
 
-constexpr double kKnot_s = 0.25;
 constexpr double kSample_s = 1.0 / 30;  // rate at which the presets were measured
 constexpr double kClearance_m = 0.15;
 constexpr double kCorners_m = 0.05;  // more than the spline cuts corners, and the tests miss
-constexpr std::size_t kKnotsPerBurst = 2;
+constexpr std::size_t kKnotsPerBurst = 2, kKnotsPerPace = 4;
+constexpr double kSpread = 0.7, kLittleSpread = 0.1;
+constexpr double kMostStride = 1.1;  // along the way, against the mean
 constexpr int kSamples = 400, kTries = 3000;
 
 }  // namespace
@@ -72,13 +74,13 @@ void PatternPath::FindWay(const Scene& scene) {
 }
 
 Pose PatternPath::At(double time_s) {
-  const auto last = static_cast<std::size_t>(time_s / kKnot_s) + 3;
+  const auto last = static_cast<std::size_t>(time_s / preset_.knot_s) + 3;
   while (knots_.size() <= last) AddKnot();
   return Shaken(time_s);
 }
 
 Pose PatternPath::Shaken(double time_s) const {
-  const double at = time_s / kKnot_s;
+  const double at = time_s / preset_.knot_s;
   const auto i = static_cast<std::size_t>(at);
   const View view = Blend({knots_[i], knots_[i + 1], knots_[i + 2], knots_[i + 3]},
                           at - static_cast<double>(i));
@@ -92,20 +94,21 @@ Pose PatternPath::Shaken(double time_s) const {
 void PatternPath::AddKnot() {
   Measure();
   const auto wanted = [&](double rate, double behind) {
-    return rate * kKnot_s * std::clamp(1 + behind / (rate * 2), 0.1, 3.0);
+    return rate * preset_.knot_s * std::clamp(1 + behind / (rate * 2), 0.1, 3.0);
   };
   // In bursts: of means 1, turns mostly slower and at times thrice as fast.
   Random random({0x6d6f6f64, seed_, knots_.size() / kKnotsPerBurst});
-  const double mood = random.Uniform(), pace = random.Between(0.6, 1.4);
+  const double spread = pattern_->GoesUnevenly() ? kLittleSpread : kSpread;
+  const double mood = random.Uniform(),
+               pace = PaceAt(seed_, knots_.size(), kKnotsPerPace, spread);
   const double turn_pace = pattern_->TurnsUnevenly() ? 1 : 0.12 + 3.52 * mood * mood * mood;
   const double step_m = pace * wanted(preset_.speed_m_s, length_behind_m_);
   const double turn_deg = turn_pace * wanted(preset_.turn_deg_s, turn_behind_deg_);
   const View last = knots_.empty() ? pattern_->At(place_, look_) : knots_.back();
 
-  // The first place that is far enough; where the way turns back, not more than half as
-  // far again along as on average.
+  // The first place that is far enough; where the way turns back, slower, as a hand does.
   constexpr int kSteps = 48;
-  const double stride = 1.5 * step_m / round_m_ / kSteps;
+  const double stride = kMostStride * step_m / round_m_ / kSteps;
   for (int i = 0; i < kSteps; ++i) {
     place_ += stride;
     if ((pattern_->At(place_, look_).camera_w - last.camera_w).norm() >= step_m) break;
@@ -128,7 +131,7 @@ void PatternPath::AddKnot() {
 
 void PatternPath::Measure() {
   if (knots_.size() < 4) return;
-  const double known_s = static_cast<double>(knots_.size() - 3) * kKnot_s;
+  const double known_s = static_cast<double>(knots_.size() - 3) * preset_.knot_s;
   while ((measured_samples_ + 1) * kSample_s < known_s) {
     const Pose T_before = Shaken(measured_samples_ * kSample_s);
     const Pose T_after = Shaken(++measured_samples_ * kSample_s);

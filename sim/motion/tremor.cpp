@@ -10,6 +10,7 @@ namespace {
 
 constexpr int kWavesPerBand = 6;
 constexpr double kBandEdges_hz[3] = {1, 4, 12};
+constexpr double kWider[2] = {1.2599210498948732, 1.2009369551760027};  // 4^(1/6), 3^(1/6)
 
 Eigen::Vector3d UnitVector(Random& random) {
   while (true) {
@@ -27,11 +28,15 @@ Tremor::Tremor(const MotionPreset& preset, std::uint64_t seed) {
   const auto add_band = [&](int band, double sd, bool steep, std::vector<Wave>& waves,
                             double& bound) {
     std::vector<Wave> added;
-    double variance = 0;
+    const double low = kBandEdges_hz[band], high = kBandEdges_hz[band + 1];
+    double variance = 0, edge_hz = low;
     for (int i = 0; i < kWavesPerBand; ++i) {
-      const double low = kBandEdges_hz[band], high = kBandEdges_hz[band + 1];
-      const double frequency = low + (high - low) * (i + random.Uniform()) / kWavesPerBand;
-      const double fall = steep ? frequency * frequency * frequency : frequency;
+      // Where much of the power is in the lowest, each next part of the band is wider.
+      const double u = random.Uniform();
+      const double frequency = steep ? edge_hz * (1 + (kWider[band] - 1) * u)
+                                     : low + (high - low) * (i + u) / kWavesPerBand;
+      edge_hz *= kWider[band];
+      const double fall = steep ? frequency * frequency * frequency * frequency : frequency;
       added.push_back({frequency, random.Uniform(), UnitVector(random) / fall});
       variance += added.back().amplitude.squaredNorm() / 2;
     }

@@ -9,7 +9,7 @@
 namespace sim {
 
 /// What the hand adds: a sum of sines in two bands, amplitudes falling as 1 / frequency when it
-/// turns and as 1 / frequency^3 when it moves, as in recordings: of the power of the velocity
+/// turns and as 1 / frequency^4 when it moves, as in recordings: of the power of the velocity
 /// less than 1 % is above 2 Hz, of that of the turn rate a third. A smooth function of time
 /// alone, with a bound.
 class Tremor {

@@ -33,8 +33,8 @@ struct PlaneExtractionConfig {
   /// How far a real sensor may bend a flat surface: gap over the smaller patch, and angle
   /// between two touching parts; and the step, measured across their boundary in sigmas of a
   /// pixel, that parts of one surface may seem to have. Domain (0, inf).
-  double max_bend_sigmas = 4.0;
-  double max_bend_rad = 0.15;
+  double max_bend_sigmas = 3.0;
+  double max_bend_rad = 0.12;
   double max_bend_step_sigmas = 1.5;
   /// A part cut off from a segment stays with it if fewer than this part of the pixels around
   /// it lie behind the plane: what cuts it is in front. Domain [0, 1].

@@ -88,7 +88,9 @@ LabelComponents ConnectedComponents(const DepthGrid& grid, const LabelImage& lab
     if (labels[from] == kNoLabel || labels[to] == labels[from] || !(grid.g[to] > 0)) return;
     LabelComponent& c = out.list[static_cast<std::size_t>(out.component[from])];
     const float residual = ResidualSigmas(grid, to, planes[static_cast<std::size_t>(c.label)]);
-    ++(residual > 0 ? c.in_front : c.behind);
+    // What lies on the plane itself is another part of it and says nothing.
+    if (residual > kOnPlane_sigmas) ++c.in_front;
+    if (residual < -kOnPlane_sigmas) ++c.behind;
   };
   for (int v = 0; v < grid.height; ++v) {
     for (int u = 0; u < grid.width; ++u) {

