@@ -53,8 +53,8 @@ struct StepView {
     T_cw = closed_form::LookAt({0.05, -0.7071 * distance_m, 0.7071 * distance_m}, {0, 0, 0});
     view = closed_form::Render(world, camera, T_cw);
   }
-  bool Separated(const cv::Mat1f& depth_m, const PlaneExtractionConfig& config = {}) const {
-    const Frame frame = Extract(depth_m, camera, config);
+  bool Separated(const cv::Mat1f& depth_m) const {
+    const Frame frame = Extract(depth_m, camera);
     return PlaneOfFace(frame, view.face, FaceId(1, kTop)) != nullptr &&
            PlaneOfFace(frame, view.face, FaceId(0, kTop)) != nullptr;
   }
@@ -92,13 +92,6 @@ TEST(PlaneSegments, KeepABookOfTenMillimetresApartFromTheDeskUnderNoise) {
     EXPECT_TRUE(step.Separated(closed_form::AddKinectNoise(step.view.depth_m, seed)))
         << "seed " << seed;
   }
-}
-
-TEST(PlaneSegments, MergeThatBookWithTheDeskByTheMeanErrorAlone) {
-  PlaneExtractionConfig as_peac;
-  as_peac.coarse.merge_rule = as_peac.fine.merge_rule = MergeRule::kMeanError;
-  const StepView step(0.010, 0.8);
-  EXPECT_FALSE(step.Separated(closed_form::AddKinectNoise(step.view.depth_m, 1), as_peac));
 }
 
 TEST(PlaneSegments, ReportTheSmallestStepSeparatedAtEachDistance) {
