@@ -20,6 +20,21 @@ void PutShelf(const Place& place, Random& random, Scene& scene) {
   Put(MakeShelfBooks(size, kBoards, random), place, scene);
 }
 
+/// A low cupboard in every corner of a room round the origin, with a carton or a plant on it.
+void PutCornerCupboards(const Eigen::Vector2d& half, Random& random, Scene& scene) {
+  for (const int corner : {0, 1, 2, 3}) {
+    const int side = corner % 2 == 0 ? 1 : -1, end = corner < 2 ? 1 : -1;
+    const double width = DrawLength(random, 0.45, 0.55), depth = 0.42;
+    const double height = DrawLength(random, 0.55, 0.90);
+    const Eigen::Vector2d at(Rounded(side * (half.x() - depth / 2 - 0.03)),
+                             Rounded(end * (half.y() - width / 2 - 0.03)));
+    Put(MakeCabinet({width, depth, height}, random),
+        {at.x(), at.y(), 0, side > 0 ? -90.0 : 90.0}, scene);
+    const Table top{at, depth, width, height, false};
+    FillTable({{side == end ? MakeCarton(random) : MakePlant(random)}}, top, random, scene);
+  }
+}
+
 Eigen::Vector3d RoundedPoint(double x, double y, double z) {
   return Eigen::Vector3d(x, y, z).unaryExpr(&Rounded);
 }
@@ -83,6 +98,8 @@ Scene MakeRoomFamily(std::uint64_t seed, const ParameterValues& values) {
   Random on_bench({kRoomKey, seed, 2});
   FillTable({{MakeCarton(on_bench)}, {MakeBookStack(3, on_bench)}, {MakeToy(on_bench)}}, bench,
             on_bench, scene);
+  Random in_corners({kRoomKey, seed, 3});
+  PutCornerCupboards({half_x, half_y}, in_corners, scene);
 
   scene.motion.preset = "loop";
   scene.motion.speed_m_s = 0.33;

@@ -75,36 +75,42 @@ TruthMaker::TruthMaker(const FrameRenderer& renderer, const SceneMesh& mesh)
     : renderer_(renderer),
       planes_(ScenePlanes(renderer.scene())),
       ends_(OfWhatStands(renderer.scene(), mesh)) {
+  std::map<int, std::size_t> place_of;
   for (const Object& object : renderer.scene().objects) {
+    place_of.emplace(object.id, triangles_.size());
     triangles_.emplace_back();
-    std::copy_if(mesh.triangles.begin(), mesh.triangles.end(),
-                 std::back_inserter(triangles_.back()),
-                 [&](const Triangle& triangle) { return triangle.object == object.id; });
   }
+  for (const Triangle& triangle : mesh.triangles) {
+    triangles_[place_of.at(triangle.object)].push_back(triangle);
+  }
+  std::map<std::array<double, 3>, std::size_t> numbers;
+  for (const ScenePlane& plane : planes_) {
+    corners_.emplace_back();
+    for (const Eigen::Vector3d& x : plane.vertices_w) {
+      corners_.back().push_back(
+          numbers.emplace(std::array{x.x(), x.y(), x.z()}, numbers.size()).first->second);
+    }
+  }
+  corner_count_ = numbers.size();
 }
 
-PlaneInFrame TruthMaker::DescribePlane(int id, int pixels, const Pose& T_wc,
-                                       double time_s) const {
-  const ScenePlane& plane = planes_.at(static_cast<std::size_t>(id) - 1);
+VertexInFrame TruthMaker::DescribeCorner(const Eigen::Vector3d& x_w, const Pose& T_wc,
+                                         double time_s) const {
   const Camera& camera = renderer_.camera();
-  PlaneInFrame seen{id, pixels, ProjectedFace(plane, T_wc, camera), {}};
-  seen.vertices.resize(plane.vertices_w.size());
-  for (std::size_t i = 0; i < seen.vertices.size(); ++i) {
-    VertexInFrame& vertex = seen.vertices[i];
-    vertex.x_w = plane.vertices_w[i];
-    const Eigen::Vector3d x_c = Inverse(T_wc) * vertex.x_w;
-    vertex.projects = x_c.z() > kSilhouetteNear_m;
-    vertex.pixel = vertex.projects ? camera.Project(x_c) : Eigen::Vector2d::Zero();
-    const auto within = [](double x, int size) { return x >= -0.5 && x <= size - 0.5; };
-    if (!vertex.projects || !within(vertex.pixel.x(), camera.width) ||
-        !within(vertex.pixel.y(), camera.height)) {
-      continue;
-    }
-    vertex.state = renderer_.Sees(T_wc, vertex.x_w, time_s) ? VertexState::kVisible
-                                                            : VertexState::kOccluded;
-    vertex.surface_ends = vertex.state == VertexState::kVisible && ends_.At(T_wc, vertex.x_w);
+  VertexInFrame vertex;
+  vertex.x_w = x_w;
+  const Eigen::Vector3d x_c = Inverse(T_wc) * x_w;
+  vertex.projects = x_c.z() > kSilhouetteNear_m;
+  vertex.pixel = vertex.projects ? camera.Project(x_c) : Eigen::Vector2d::Zero();
+  const auto within = [](double x, int size) { return x >= -0.5 && x <= size - 0.5; };
+  if (!vertex.projects || !within(vertex.pixel.x(), camera.width) ||
+      !within(vertex.pixel.y(), camera.height)) {
+    return vertex;
   }
-  return seen;
+  vertex.state =
+      renderer_.Sees(T_wc, x_w, time_s) ? VertexState::kVisible : VertexState::kOccluded;
+  vertex.surface_ends = vertex.state == VertexState::kVisible && ends_.At(T_wc, x_w);
+  return vertex;
 }
 
 FrameTruth TruthMaker::Describe(const Rendering& rendering, const Pose& T_wc,
@@ -133,8 +139,18 @@ FrameTruth TruthMaker::Describe(const Rendering& rendering, const Pose& T_wc,
   }
   std::sort(truth.objects.begin(), truth.objects.end(),
             [](const auto& a, const auto& b) { return a.id < b.id; });
+  std::vector<std::optional<VertexInFrame>> corners(corner_count_);
   for (const auto& [id, extent] : Extents(rendering.plane_id)) {
-    truth.planes.push_back(DescribePlane(id, extent.pixels, T_wc, time_s));
+    const auto i = static_cast<std::size_t>(id) - 1;
+    const ScenePlane& plane = planes_.at(i);
+    truth.planes.push_back(
+        {id, extent.pixels, ProjectedFace(plane, T_wc, renderer_.camera()), {}});
+    for (std::size_t k = 0; k < plane.vertices_w.size(); ++k) {
+      std::optional<VertexInFrame>& corner = corners[corners_[i][k]];
+      if (!corner) corner = DescribeCorner(plane.vertices_w[k], T_wc, time_s);
+      truth.planes.back().vertices.push_back(*corner);
+      truth.planes.back().vertices.back().x_w = plane.vertices_w[k];  // to the sign of zero
+    }
   }
   return truth;
 }

@@ -87,6 +87,15 @@ void VisitRelocalise(RelocaliseConfig& c, FieldVisitor& v) {
             "covisible keyframes whose likeness supports one");
 }
 
+void VisitLookAlike(LookAlikeConfig& c, FieldVisitor& v) {
+  v.Integer("max_keyframes", c.max_keyframes, "[1, 100000]", "around, whose points compare");
+  v.Integer("max_distance", c.max_distance, "[0, 256]", "bits by which points look alike");
+  v.Number("min_shift_m", c.min_shift_m, "(0, inf)", "nearer is the same place");
+  v.Number("reach", c.reach, "(0, 1)", "of a likeness, as a part of the distance");
+  v.Integer("min_alike", c.min_alike, "[1, 100000]", "features that find their likeness");
+  v.Number("min_share", c.min_share, "(0, 1]", "of those that find any point");
+}
+
 void VisitTracking(PointTrackingConfig& c, FieldVisitor& v) {
   VisitMatch("match_last", c.match_last, v, "with the last frame, by projection");
   VisitMatch("match_local", c.match_local, v, "with the local map, by projection");
@@ -124,6 +133,8 @@ void VisitPoints(Config& c, FieldVisitor& v) {
             [&] { VisitProjection(c.tracking.projection, v); });
   v.Section("relocalise", "finding a lost camera",
             [&] { VisitRelocalise(c.tracking.relocalise, v); });
+  v.Section("look_alike", "when a lost camera could as well be elsewhere",
+            [&] { VisitLookAlike(c.tracking.look_alike, v); });
   v.Section("point_tracking", "tracking by points", [&] { VisitTracking(c.tracking, v); });
 }
 

@@ -68,9 +68,10 @@ PointTrackReport PointTracking::TrackPoints(Frame& frame, Map& map) {
   if (!found) {
     const int min_inliers =
         Scaled(config_.min_relocalised_inliers, features, kFullFeatures, kLeastInliers);
-    found =
-        TrackByRelocalising(frame, map, report) &&
-        TrackLocalMap(frame, grid, map, min_inliers, 2.0 * config_.local_radius_factor, report);
+    found = TrackByRelocalising(frame, map, report) &&
+            TrackLocalMap(frame, grid, map, min_inliers, 2.0 * config_.local_radius_factor,
+                          report) &&
+            !FindLookAlike(frame, map, config_.look_alike);
   }
   if (!found) {
     ForgetPose(frame);

@@ -5,6 +5,7 @@
 #include "slam/localise/keyframe_decision.h"
 #include "slam/localise/last_frame.h"
 #include "slam/localise/local_map.h"
+#include "slam/localise/look_alike.h"
 #include "slam/localise/motion_model.h"
 #include "slam/localise/point_constraints.h"
 #include "slam/localise/point_relocalise.h"
@@ -33,6 +34,7 @@ struct PointTrackingConfig {
   KeyframeDecisionConfig decision;
   PointProjectionConfig projection;
   RelocaliseConfig relocalise;
+  LookAlikeConfig look_alike;
   PointMatchConfig match_last{100, 0.9, true};      ///< with the last frame, by projection
   PointMatchConfig match_local{100, 0.8, false};    ///< with the local map, by projection
   PointMatchConfig match_reference{50, 0.7, true};  ///< with the reference, by descriptors

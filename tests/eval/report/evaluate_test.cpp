@@ -3,8 +3,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <unistd.h>
-
 #include "eval/read/input_error.h"
 #include "eval/read/run.h"
 #include "eval/read/sequence.h"
@@ -12,6 +10,7 @@
 #include "eval/report/evaluate.h"
 #include "eval/report/metrics_json.h"
 #include "eval/report/table.h"
+#include "tests/eval/report/evaluated_world.h"
 #include "tests/eval/tiny_world.h"
 
 namespace eval {
@@ -19,93 +18,8 @@ namespace {
 
 using ::testing::HasSubstr;
 using testing::TinyRun;
-using testing::TinyWorld;
 
 namespace fs = std::filesystem;
-
-// Positions below 2 m through a dozen rigid motions and one alignment, in metres and degrees;
-// millimetres are a thousand times that. Seventeen digits of text lose nothing.
-constexpr double kExact = 1e-9;
-constexpr double kExact_mm = 1e-6;
-
-class EvaluateTinyWorld : public ::testing::Test {
- protected:
-  static void SetUpTestSuite() {
-    world_ = new TinyWorld;
-    folder_ = new fs::path(fs::path(::testing::TempDir()) /
-                           ("pas_eval_" + std::to_string(::getpid())));
-    world_->WriteSequence(*folder_ / "SEQ");
-  }
-  static void TearDownTestSuite() {
-    fs::remove_all(*folder_);
-    delete folder_;
-    delete world_;
-  }
-
-  static fs::path SequenceFolder() { return *folder_ / "SEQ"; }
-  static fs::path RunFolder() { return *folder_ / "RUN"; }
-
-  static Evaluation EvaluationOf(const TinyRun& tiny) {
-    tiny.Write(RunFolder());
-    const eval::Run run = ReadRun(RunFolder());
-    return Evaluate(run, ReadSequence(SequenceOf(run)));
-  }
-  static nlohmann::json Metrics(const TinyRun& tiny) {
-    return nlohmann::json::parse(MetricsText(EvaluationOf(tiny)));
-  }
-
-  /// Groups and keys of metrics.json whose figures differ from those of the perfect run, at the
-  /// depth of "group/key".
-  static std::set<std::string> Moved(const nlohmann::json& before,
-                                     const nlohmann::json& after) {
-    std::set<std::string> moved;
-    for (const auto* one : {&before, &after}) {
-      for (const auto& [group, keys] : one->items()) {
-        if (group == "rules" || group == "format") continue;
-        for (const auto& [key, value] : keys.items()) {
-          const auto path = nlohmann::json::json_pointer("/" + group + "/" + key);
-          if (!Same(before.contains(path) ? before[path] : nlohmann::json(),
-                    after.contains(path) ? after[path] : nlohmann::json())) {
-            moved.insert(group + "/" + key);
-          }
-        }
-      }
-    }
-    return moved;
-  }
-
-  static bool Same(const nlohmann::json& a, const nlohmann::json& b) {
-    if (a.is_number() && b.is_number()) {
-      return std::abs(a.get<double>() - b.get<double>()) < kExact_mm;
-    }
-    if (!a.is_object() || !b.is_object()) return a == b;
-    if (a.size() != b.size()) return false;
-    for (const auto& [key, value] : a.items()) {
-      if (!b.contains(key) || !Same(value, b[key])) return false;
-    }
-    return true;
-  }
-
-  static nlohmann::json* FramePlane(TinyRun& run, std::size_t frame, int truth) {
-    for (auto& plane : run.frames[frame]["planes"]) {
-      if (plane["map_plane"] == TinyRun::MapId(truth)) return &plane;
-    }
-    return nullptr;
-  }
-  static nlohmann::json& MapPlane(TinyRun& run, int truth) {
-    for (auto& plane : run.map["planes"]) {
-      if (plane["id"] == TinyRun::MapId(truth)) return plane;
-    }
-    throw std::logic_error("no such map plane");
-  }
-
-  static TinyWorld* world_;
-  static fs::path* folder_;
-};
-TinyWorld* EvaluateTinyWorld::world_ = nullptr;
-fs::path* EvaluateTinyWorld::folder_ = nullptr;
-
-using Keys = std::set<std::string>;
 
 TEST_F(EvaluateTinyWorld, ARunThatIsTheTruthScoresPerfectly) {
   const nlohmann::json m = Metrics(TinyRun(*world_));
@@ -309,104 +223,6 @@ TEST_F(EvaluateTinyWorld, ATrajectoryShiftedHalfWayMovesItsErrorsAndTheMapsGauge
             "map/vertex_mm", "map/polygon_iou", "map/area_explained"}));
   EXPECT_NEAR(after["trajectory"]["ate_origin"]["max_m"].get<double>(), std::hypot(0.02, 0.01),
               kExact);
-}
-
-TEST_F(EvaluateTinyWorld, AFramePlaneThatLooksTheWrongWayIsHalfATurnOff) {
-  TinyRun run(*world_);
-  const nlohmann::json before = Metrics(run);
-  for (auto& frame : run.frames) {
-    for (auto& plane : frame["planes"]) {
-      for (auto& component : plane["normal"]) component = -component.get<double>();
-      plane["d"] = -plane["d"].get<double>();
-    }
-  }
-  const nlohmann::json after = Metrics(run);
-  EXPECT_EQ(Moved(before, after), Keys{"extraction/normal_deg"});
-  EXPECT_NEAR(after["extraction"]["normal_deg"]["median"].get<double>(), 180.0, 1e-6);
-}
-
-TEST_F(EvaluateTinyWorld, AMapPlaneWithTheWrongSignOfItsDistanceIsFarFromItsTruth) {
-  TinyRun run(*world_);
-  const nlohmann::json before = Metrics(run);
-  for (auto& plane : run.map["planes"]) plane["d"] = -plane["d"].get<double>();
-  const nlohmann::json after = Metrics(run);
-  EXPECT_EQ(Moved(before, after), Keys{"map/offset_mm"});
-  EXPECT_GT(after["map"]["offset_mm"]["median"].get<double>(), 100.0);
-}
-
-TEST_F(EvaluateTinyWorld, CornersOffByAFewMillimetresShowAsSuchAndFarOnesAsMissing) {
-  TinyRun near(*world_), far(*world_);
-  const nlohmann::json before = Metrics(near);
-  const auto shift = [](TinyRun& run, double by_m) {
-    for (auto& frame : run.frames) {
-      for (auto& plane : frame["planes"]) {
-        for (auto& corner : plane["vertices"]) corner[0] = corner[0].get<double>() + by_m;
-      }
-    }
-  };
-  shift(near, 0.004);
-  const nlohmann::json after = Metrics(near);
-  EXPECT_EQ(Moved(before, after), Keys{"vertices/error_mm"});
-  EXPECT_NEAR(after["vertices"]["error_mm"]["median"].get<double>(), 4.0, kExact_mm);
-  shift(far, 5.0);
-  const nlohmann::json lost = Metrics(far);
-  EXPECT_EQ(lost["vertices"]["precision"], 0.0);
-  EXPECT_EQ(lost["vertices"]["recall"], 0.0);
-  EXPECT_EQ(lost["vertices"]["planes_with_4"], 0.0);
-  EXPECT_FALSE(lost["vertices"].contains("error_mm"));
-}
-
-TEST_F(EvaluateTinyWorld, ASegmentThatSwallowsABookIsUnderSegmentedAndNotMissedOnly) {
-  TinyRun run(*world_);
-  for (std::size_t i = 0; i < run.frames.size(); ++i) {
-    const auto* desk = FramePlane(run, i, TinyWorld::kDeskTop);
-    const auto* book = FramePlane(run, i, TinyWorld::kThinTop);
-    ASSERT_TRUE(desk != nullptr && book != nullptr);
-    const int from = (*book)["index"].get<int>() + 1, to = (*desk)["index"].get<int>() + 1;
-    run.segmentation[i].setTo(to, run.segmentation[i] == from);
-    auto& planes = run.frames[i]["planes"];
-    planes.erase(planes.begin() + (from - 1));
-  }
-  const nlohmann::json after = Metrics(run);
-  EXPECT_GT(after["extraction"]["under"].get<double>(), 0.9);
-  EXPECT_LT(after["extraction"]["pixel_precision"].get<double>(), 1.0);
-  EXPECT_LT(after["extraction"]["pq"].get<double>(), 1.0);
-  EXPECT_EQ(after["association"]["decision"]["precision"], 1.0);
-}
-
-TEST_F(EvaluateTinyWorld, APlaneOnTheToyIsNoiseUnlessTheRunDistrustsIt) {
-  TinyRun run(*world_);
-  const nlohmann::json before = Metrics(run);
-  nlohmann::json plane = run.frames[20]["planes"][0];
-  plane["index"] = 40;
-  plane["map_plane"] = nullptr;
-  plane["decision"] = "none";
-  plane["vertices"] = nlohmann::json::array();
-  run.frames[20]["planes"].push_back(plane);
-  cv::Mat1b& labels = run.segmentation[20];
-  labels.setTo(41, world_->frames[20].object_ids == TinyWorld::kToy);
-  nlohmann::json after = Metrics(run);
-  EXPECT_EQ(Moved(before, after),
-            (Keys{"extraction/machine", "extraction/noise", "extraction/pq", "extraction/rq",
-                  "extraction/pixel_precision"}));
-  run.frames[20]["planes"].back()["bad"] = "unstructured";
-  EXPECT_EQ(Moved(before, Metrics(run)), Keys{});
-}
-
-TEST_F(EvaluateTinyWorld, WithoutMasksTheGeometryFindsTheSameTruthAndPixelFiguresAreAbsent) {
-  TinyRun run(*world_);
-  const nlohmann::json before = Metrics(run);
-  run.segmentation.clear();
-  const nlohmann::json after = Metrics(run);
-  EXPECT_EQ(Moved(before, after),
-            (Keys{"extraction/truth", "extraction/machine", "extraction/correct",
-                  "extraction/over", "extraction/under", "extraction/missed",
-                  "extraction/noise", "extraction/pq", "extraction/sq", "extraction/rq",
-                  "extraction/pixel_precision", "extraction/pixel_recall"}));
-  EXPECT_FALSE(after["extraction"].contains("pq"));
-  EXPECT_TRUE(after["extraction"].contains("normal_deg"));
-  EXPECT_THAT(after["rules"]["truth_of_a_frame_plane"].get<std::string>(),
-              HasSubstr("no segmentation images"));
 }
 
 TEST_F(EvaluateTinyWorld, ARunWithoutPosesHasNoErrorOfZero) {

@@ -152,6 +152,25 @@ TEST(MakeTrajectory, HasTheSpeedsOfEveryTwin) {
   }
 }
 
+/// Whether the centre of something but walls and floor is in the picture, at most 4 m away.
+bool ShowsFurniture(const Scene& scene, const Pose& T_wc) {
+  return std::any_of(scene.objects.begin(), scene.objects.end(), [&](const Object& object) {
+    if (object.class_name == "wall" || object.class_name == "floor") return false;
+    const Eigen::Vector3d x_c = Inverse(T_wc) * object.center_w;
+    return x_c.z() > 0.3 && x_c.z() < 4 && std::abs(x_c.x()) < 0.6 * x_c.z() &&
+           std::abs(x_c.y()) < 0.45 * x_c.z();
+  });
+}
+
+TEST(MakeTrajectory, SeesFurnitureWhereverItLooksInARoom) {
+  for (std::uint64_t seed = 1; seed <= 4; ++seed) {
+    const Scene scene = MakeTwin("fr1-room", seed);
+    for (const TimedPose& pose : MakeTrajectory(scene, 150, 5, seed)) {
+      EXPECT_TRUE(ShowsFurniture(scene, pose.T_wc)) << seed << " at " << pose.timestamp_s;
+    }
+  }
+}
+
 TEST(MakeTrajectory, NamesTheWayThatIsNotFree) {
   Scene scene = DeskWith("loop", 1);
   for (int i = 0; i < 4; ++i) {

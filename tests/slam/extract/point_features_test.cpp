@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <opencv2/imgproc.hpp>
+#include <tuple>
 
 #include "slam/associate/point_point.h"
 #include "tests/support/textured_world.h"
@@ -87,6 +88,52 @@ TEST(PointFeatures, AreFoundAgainAndLookAlikeUnderAKnownHomography) {
   }
   EXPECT_GE(pairs.size(), 150u);
   EXPECT_GE(right, 0.9 * static_cast<double>(pairs.size()));
+}
+
+/// Mean 0, deviation 1.
+double Gaussian(Random& random) {
+  double sum = -6;
+  for (int i = 0; i < 12; ++i) sum += random.Uniform();
+  return sum;
+}
+
+/// The image with white noise, from a seed.
+cv::Mat1b Noisy(const cv::Mat1b& image, double sigma, std::uint64_t seed) {
+  Random random{seed, 5};
+  cv::Mat1b noisy = image.clone();
+  for (std::uint8_t& grey : noisy) {
+    grey = cv::saturate_cast<std::uint8_t>(grey + sigma * Gaussian(random));
+  }
+  return noisy;
+}
+
+TEST(PointFeatures, AreFoundAgainAndLookAlikeUnderTheNoiseOfASensor) {
+  cv::Mat1b image = PatternImage(640, 480);
+  image.convertTo(image, CV_8U, 0.5, 64);
+  for (const auto& [sigma, found, alike] : {std::tuple{2.0, 0.7, 0.5}, {6.0, 0.5, 0.33}}) {
+    const auto first = Extract(Noisy(image, sigma, 1)),
+               second = Extract(Noisy(image, sigma, 2));
+    const auto same_place = [](const PointFeature& f, const PointFeature& g) {
+      return (f.u_px - g.u_px).norm() < 1.5 * ScalePyramid{}.Scale(f.octave);
+    };
+    int repeated = 0;
+    for (const PointFeature& f : first) {
+      repeated += std::any_of(second.begin(), second.end(), [&](const PointFeature& g) {
+        return std::abs(f.octave - g.octave) <= 1 && same_place(f, g);
+      });
+    }
+    const auto count = static_cast<double>(first.size());
+    EXPECT_GE(repeated, found * count) << sigma;
+
+    int right = 0;
+    const auto pairs = MatchDescriptors(first, {}, second, {}, {50, 0.8, true});
+    for (const FeaturePair& pair : pairs) {
+      right += same_place(first[static_cast<std::size_t>(pair.first)],
+                          second[static_cast<std::size_t>(pair.second)]);
+    }
+    EXPECT_GE(right, alike * count) << sigma;
+    EXPECT_GE(right, 0.97 * static_cast<double>(pairs.size())) << sigma;
+  }
 }
 
 TEST(PointFeatures, TurnTheirAngleWithTheImage) {

@@ -1,0 +1,113 @@
+// Frame planes, corners, segments and map planes that are wrong in one known way each: the
+// figures that ought to move do, and no others.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/eval/report/evaluated_world.h"
+
+namespace eval {
+namespace {
+
+using ::testing::HasSubstr;
+using testing::TinyRun;
+
+TEST_F(EvaluateTinyWorld, AFramePlaneThatLooksTheWrongWayIsHalfATurnOff) {
+  TinyRun run(*world_);
+  const nlohmann::json before = Metrics(run);
+  for (auto& frame : run.frames) {
+    for (auto& plane : frame["planes"]) {
+      for (auto& component : plane["normal"]) component = -component.get<double>();
+      plane["d"] = -plane["d"].get<double>();
+    }
+  }
+  const nlohmann::json after = Metrics(run);
+  EXPECT_EQ(Moved(before, after), Keys{"extraction/normal_deg"});
+  EXPECT_NEAR(after["extraction"]["normal_deg"]["median"].get<double>(), 180.0, 1e-6);
+}
+
+TEST_F(EvaluateTinyWorld, AMapPlaneWithTheWrongSignOfItsDistanceIsFarFromItsTruth) {
+  TinyRun run(*world_);
+  const nlohmann::json before = Metrics(run);
+  for (auto& plane : run.map["planes"]) plane["d"] = -plane["d"].get<double>();
+  const nlohmann::json after = Metrics(run);
+  EXPECT_EQ(Moved(before, after), Keys{"map/offset_mm"});
+  EXPECT_GT(after["map"]["offset_mm"]["median"].get<double>(), 100.0);
+}
+
+TEST_F(EvaluateTinyWorld, CornersOffByAFewMillimetresShowAsSuchAndFarOnesAsMissing) {
+  TinyRun near(*world_), far(*world_);
+  const nlohmann::json before = Metrics(near);
+  const auto shift = [](TinyRun& run, double by_m) {
+    for (auto& frame : run.frames) {
+      for (auto& plane : frame["planes"]) {
+        for (auto& corner : plane["vertices"]) corner[0] = corner[0].get<double>() + by_m;
+      }
+    }
+  };
+  shift(near, 0.004);
+  const nlohmann::json after = Metrics(near);
+  EXPECT_EQ(Moved(before, after), Keys{"vertices/error_mm"});
+  EXPECT_NEAR(after["vertices"]["error_mm"]["median"].get<double>(), 4.0, kExact_mm);
+  shift(far, 5.0);
+  const nlohmann::json lost = Metrics(far);
+  EXPECT_EQ(lost["vertices"]["precision"], 0.0);
+  EXPECT_EQ(lost["vertices"]["recall"], 0.0);
+  EXPECT_EQ(lost["vertices"]["planes_with_4"], 0.0);
+  EXPECT_FALSE(lost["vertices"].contains("error_mm"));
+}
+
+TEST_F(EvaluateTinyWorld, ASegmentThatSwallowsABookIsUnderSegmentedAndNotMissedOnly) {
+  TinyRun run(*world_);
+  for (std::size_t i = 0; i < run.frames.size(); ++i) {
+    const auto* desk = FramePlane(run, i, TinyWorld::kDeskTop);
+    const auto* book = FramePlane(run, i, TinyWorld::kThinTop);
+    ASSERT_TRUE(desk != nullptr && book != nullptr);
+    const int from = (*book)["index"].get<int>() + 1, to = (*desk)["index"].get<int>() + 1;
+    run.segmentation[i].setTo(to, run.segmentation[i] == from);
+    auto& planes = run.frames[i]["planes"];
+    planes.erase(planes.begin() + (from - 1));
+  }
+  const nlohmann::json after = Metrics(run);
+  EXPECT_GT(after["extraction"]["under"].get<double>(), 0.9);
+  EXPECT_LT(after["extraction"]["pixel_precision"].get<double>(), 1.0);
+  EXPECT_LT(after["extraction"]["pq"].get<double>(), 1.0);
+  EXPECT_EQ(after["association"]["decision"]["precision"], 1.0);
+}
+
+TEST_F(EvaluateTinyWorld, APlaneOnTheToyIsNoiseUnlessTheRunDistrustsIt) {
+  TinyRun run(*world_);
+  const nlohmann::json before = Metrics(run);
+  nlohmann::json plane = run.frames[20]["planes"][0];
+  plane["index"] = 40;
+  plane["map_plane"] = nullptr;
+  plane["decision"] = "none";
+  plane["vertices"] = nlohmann::json::array();
+  run.frames[20]["planes"].push_back(plane);
+  cv::Mat1b& labels = run.segmentation[20];
+  labels.setTo(41, world_->frames[20].object_ids == TinyWorld::kToy);
+  nlohmann::json after = Metrics(run);
+  EXPECT_EQ(Moved(before, after),
+            (Keys{"extraction/machine", "extraction/noise", "extraction/pq", "extraction/rq",
+                  "extraction/pixel_precision"}));
+  run.frames[20]["planes"].back()["bad"] = "unstructured";
+  EXPECT_EQ(Moved(before, Metrics(run)), Keys{});
+}
+
+TEST_F(EvaluateTinyWorld, WithoutMasksTheGeometryFindsTheSameTruthAndPixelFiguresAreAbsent) {
+  TinyRun run(*world_);
+  const nlohmann::json before = Metrics(run);
+  run.segmentation.clear();
+  const nlohmann::json after = Metrics(run);
+  EXPECT_EQ(Moved(before, after),
+            (Keys{"extraction/truth", "extraction/machine", "extraction/correct",
+                  "extraction/over", "extraction/under", "extraction/missed",
+                  "extraction/noise", "extraction/pq", "extraction/sq", "extraction/rq",
+                  "extraction/pixel_precision", "extraction/pixel_recall"}));
+  EXPECT_FALSE(after["extraction"].contains("pq"));
+  EXPECT_TRUE(after["extraction"].contains("normal_deg"));
+  EXPECT_THAT(after["rules"]["truth_of_a_frame_plane"].get<std::string>(),
+              HasSubstr("no segmentation images"));
+}
+
+}  // namespace
+}  // namespace eval
