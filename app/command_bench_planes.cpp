@@ -2,10 +2,13 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <map>
+#include <string>
 
 #include "app/app.h"
 #include "app/bench_planes.h"
 #include "app/console.h"
+#include "app/depth_sensor_option.h"
 #include "slam/config/config_file.h"
 
 namespace app {
@@ -14,6 +17,7 @@ namespace {
 struct Arguments {
   std::vector<std::string> sequences;
   std::string camera, config_file;
+  std::string sensor = slam::DepthSensorNames().front();
   int frames = 0, every = 1;
   bool steps = false, unmeasured = false;
 };
@@ -89,6 +93,30 @@ void PrintSteps(const StepTable& steps) {
   }
 }
 
+/// The smallest step whose tops are separated in this share of cases, and all higher ones of
+/// that distance together too.
+constexpr double kSeparatedShare = 0.95;
+
+void PrintSmallestSteps(const StepTable& steps) {
+  fmt::print("\nSmallest step from which on {:.0f} % of top faces are separated\n",
+             100.0 * kSeparatedShare);
+  fmt::print("  distance from m   step from mm   faces of that step or more\n");
+  std::map<int, std::map<int, Share>> by_distance;
+  for (const auto& [bin, share] : steps) by_distance[bin.second][bin.first] = share;
+  for (const auto& [distance_dm, shares] : by_distance) {
+    Share above;
+    std::string smallest = "none";
+    int faces = 0;
+    for (auto it = shares.rbegin(); it != shares.rend(); ++it) {
+      above.found += it->second.found, above.all += it->second.all;
+      if (it->second.Ratio() < kSeparatedShare || above.Ratio() < kSeparatedShare) continue;
+      smallest = std::to_string(it->first);
+      faces = above.all;
+    }
+    fmt::print("  {:15.1f} {:>14} {:>14}\n", 0.1 * distance_dm, smallest, faces);
+  }
+}
+
 PlaneBench BenchAll(const Arguments& arguments, const slam::Config& config, bool each,
                     bool quiet) {
   PlaneBench sum;
@@ -108,14 +136,12 @@ PlaneBench BenchAll(const Arguments& arguments, const slam::Config& config, bool
 }
 
 int RunBench(const Arguments& arguments, bool quiet) {
-  slam::Config config =
-      arguments.config_file.empty() ? slam::Config{} : slam::ReadConfig(arguments.config_file);
-  slam::ShareFacts(config);
+  const slam::Config config = ConfigFrom(arguments.sensor, arguments.config_file);
   PrintHeader();
   const PlaneBench sum = BenchAll(arguments, config, true, quiet);
   if (sum.scored_frames > 0) PrintScores("all", sum);
   PrintTimes(sum.times);
-  if (arguments.steps) PrintSteps(sum.steps);
+  if (arguments.steps) PrintSteps(sum.steps), PrintSmallestSteps(sum.steps);
   return kDone;
 }
 
@@ -128,6 +154,7 @@ void AddBenchPlanes(CLI::App& bench, const Globals& globals, int& exit_code) {
   command->add_option("SEQ", arguments->sequences, "Sequence folders")->required();
   command->add_option("--camera", arguments->camera,
                       "tum1 | tum2 | tum3 | a camera.yaml; default: SEQ/camera.yaml");
+  AddSensorOption(*command, arguments->sensor);
   command->add_option("--config", arguments->config_file, "Settings over the defaults, YAML");
   command->add_option("--frames", arguments->frames, "At most so many of each; 0 = all")
       ->check(CLI::Range(0, 1000000));

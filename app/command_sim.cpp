@@ -182,7 +182,7 @@ void AddCaptureOptions(CLI::App& command, SimArguments& a, const std::string& pr
                   "else 30")
       ->check(CLI::Range(0.1, 1000.0));
   command.add_option(
-      "--sensor", a.sensor,
+      "--" + prefix + "sensor", a.sensor,
       "ideal: exact depth, clean colour; kinect1: structured light; azure: time of "
       "flight; d435: active stereo; FILE.yaml: one of these as `base:`, with "
       "parameters of your own (docs/sensors.md); left out: as the scene says, else kinect1");

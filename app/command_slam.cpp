@@ -5,6 +5,7 @@
 
 #include "app/app.h"
 #include "app/console.h"
+#include "app/depth_sensor_option.h"
 #include "app/live_scene.h"
 #include "app/recording_options.h"
 #include "slam/base/require.h"
@@ -40,6 +41,7 @@ class InterruptWatch {
 struct SlamArguments {
   slam::RunOptions options;
   std::string variant = "full";
+  std::string sensor = slam::DepthSensorNames().front();
   std::string config_file;
   bool print_config = false;
   bool loop_closing = false;
@@ -79,7 +81,7 @@ void AddLiveOptions(CLI::App& command, SlamArguments& arguments,
 
 int RunSlam(SlamArguments& arguments, bool quiet) {
   if (arguments.print_config) {
-    fmt::print("{}", slam::ConfigAsYaml(slam::Config{}));
+    fmt::print("{}", slam::ConfigAsYaml(ConfigFrom(arguments.sensor, arguments.config_file)));
     return kDone;
   }
   slam::RunOptions& options = arguments.options;
@@ -90,7 +92,7 @@ int RunSlam(SlamArguments& arguments, bool quiet) {
         "needs a sequence folder, or --live SCENE.yaml, and -o RUN; see pas slam --help");
   }
   options.variant = slam::VariantOf(arguments.variant);
-  if (!arguments.config_file.empty()) options.config = slam::ReadConfig(arguments.config_file);
+  options.config = ConfigFrom(arguments.sensor, arguments.config_file);
   if (arguments.loop_closing) options.config.loop_closing.enabled = true;
   if (!arguments.mapping.empty()) {
     options.config.async_mapping = arguments.mapping == "async";
@@ -153,6 +155,7 @@ void AddSlamCommand(CLI::App& pas, const Globals& globals, int& exit_code) {
   CLI::Option* camera =
       command->add_option("--camera", options.camera,
                           "tum1 | tum2 | tum3 | a camera.yaml; default: SEQ/camera.yaml");
+  AddSensorOption(*command, arguments->sensor);
   command->add_option("--config", arguments->config_file,
                       "Settings over the defaults, YAML; --print-config shows them all");
   command->add_flag("--print-config", arguments->print_config,

@@ -17,7 +17,8 @@ struct SceneRecording {
 
 /// Adds the options of `pas sim` that say how a scene is recorded (frames, sensor, motion,
 /// detector, size, ...) to another command, so that both record the same.
-/// @param prefix  before the names `seed` and `detector`, which the command has taken itself
+/// @param prefix  before the names `seed`, `sensor` and `detector`, which the command has taken
+///   itself
 /// @returns reads a scene file and says what the options make of it, once they are parsed
 std::function<SceneRecording(const std::string& scene_file)> AddRecordingOptions(
     CLI::App& command, const std::string& prefix);

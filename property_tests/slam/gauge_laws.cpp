@@ -31,7 +31,7 @@ struct FullProblem {
   int Columns() const { return PlaneColumn(planes_w.size()); }
 };
 
-FullProblem AnyProblem(bool depth) {
+FullProblem AnyFullProblem(bool depth) {
   FullProblem problem;
   problem.depth = depth;
   problem.world = MakePointWorld(AnyInt(2, 4), AnyInt(25, 40),
@@ -165,7 +165,7 @@ int NullityOf(Eigen::MatrixXd J) {
 }
 
 RC_GTEST_PROP(FullProblemP36, LeavesTheSixDirectionsOfTheWorldOpenAndNoOther, ()) {
-  const FullProblem problem = AnyProblem(true);
+  const FullProblem problem = AnyFullProblem(true);
   const Eigen::MatrixXd J = JacobianOf(problem), G = Gauge(problem);
   RC_ASSERT((J * G).cwiseAbs().maxCoeff() < 1e-8 * J.cwiseAbs().maxCoeff());
   RC_ASSERT(NullityOf(J) == 6);
@@ -173,7 +173,7 @@ RC_GTEST_PROP(FullProblemP36, LeavesTheSixDirectionsOfTheWorldOpenAndNoOther, ()
 }
 
 RC_GTEST_PROP(FullProblemP36, LeavesTheScaleOpenTooWithoutDepth, ()) {
-  const Eigen::MatrixXd J = JacobianOf(AnyProblem(false));
+  const Eigen::MatrixXd J = JacobianOf(AnyFullProblem(false));
   RC_ASSERT(NullityOf(J) == 7);
 }
 

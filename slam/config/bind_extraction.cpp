@@ -1,10 +1,12 @@
 #include "slam/config/config_fields.h"
+#include "slam/extract/depth_sensor.h"
 
 namespace slam {
 namespace {
 
 void VisitNoise(DepthNoise& c, FieldVisitor& v) {
   v.Number("floor_m", c.floor_m, "(0, inf)", "standard deviation at and below nearest_m");
+  v.Number("linear_per_m", c.linear_per_m, "[0, inf)", "growth with depth");
   v.Number("quadratic_per_m", c.quadratic_per_m, "[0, inf)", "growth with depth");
   v.Number("nearest_m", c.nearest_m, "[0, inf)", "where growth begins");
   v.Number("grazing_m", c.grazing_m, "[0, inf)", "growth with incidence");
@@ -24,6 +26,8 @@ void VisitClusters(ClusterConfig& c, FieldVisitor& v) {
   v.Number("min_measured", c.min_measured, "(0, 1]", "part of a block with depth");
   v.Number("max_block_error", c.max_block_error, "(0, inf)", "mean squared error, sigma^2");
   v.Number("max_jump_sigmas", c.max_jump_sigmas, "(0, inf)", "between neighbouring pixels");
+  VisitEnum(v, "merge_rule", c.merge_rule, {"added_error", "mean_error"},
+            "mean_error is PEAC's");
   v.Number("max_merge_chi2", c.max_merge_chi2, "(0, inf)",
            "error that a merge adds, 3 degrees of freedom");
   v.Number("model_error_sigmas", c.model_error_sigmas, "[0, inf)",
@@ -32,6 +36,10 @@ void VisitClusters(ClusterConfig& c, FieldVisitor& v) {
 }
 
 void VisitPlaneExtraction(PlaneExtractionConfig& c, FieldVisitor& v) {
+  const DepthSensor before = c.sensor;
+  VisitEnum(v, "sensor", c.sensor, DepthSensorNames(),
+            "whose values the other keys default to");
+  if (c.sensor != before) c = ExtractionFor(c.sensor);
   v.Section("noise", "of a depth; (C) uses it as well", [&] { VisitNoise(c.noise, v); });
   v.Number("max_depth_m", c.max_depth_m, "(0, inf)", "beyond it a pixel is not measured");
   v.Integer("block_px", c.block_px, "[4, 64]", "first clustering");

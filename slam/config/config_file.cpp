@@ -162,9 +162,8 @@ void CheckTogether(const Config& c, const std::string& file) {
 
 }  // namespace
 
-Config ReadConfig(const std::filesystem::path& file) {
+Config ReadConfig(const std::filesystem::path& file, Config config) {
   YamlMap top = YamlMap::Load(file);
-  Config config;
   Reader reader(top);
   VisitConfig(config, reader);
   top.Finish();

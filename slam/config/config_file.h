@@ -8,12 +8,13 @@
 
 namespace slam {
 
-/// Reads settings over the defaults from a YAML file: a section a stage, angles in degrees
-/// (keys in _deg). Keys that are absent keep their default.
+/// Reads settings over `config` (the defaults) from a YAML file: a section a stage, angles in
+/// degrees (keys in _deg). Keys that are absent keep their value; `plane_extraction: sensor:`
+/// chooses the defaults of what stands beside it.
 /// @throws InputError with file:line for an unknown key (listing the legal ones), a wrong type,
 /// a
 ///         value outside its domain, settings that contradict each other.
-Config ReadConfig(const std::filesystem::path& file);
+Config ReadConfig(const std::filesystem::path& file, Config config = {});
 
 /// Every key with its value, in the file's structure and units; for run.json.
 nlohmann::ordered_json ConfigAsJson(const Config& config);

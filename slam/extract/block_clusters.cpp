@@ -21,12 +21,12 @@ struct Region {
 
 /// A possible merge of two neighbouring blocks' regions, as it was when it was evaluated.
 struct Candidate {
-  double added_error;
+  double cost;               ///< error added, or mean error
   int i, j;                  ///< blocks
   int version_i, version_j;  ///< of their regions
   /// Reversed, for a queue with the least on top.
   bool operator<(const Candidate& o) const {
-    if (added_error != o.added_error) return added_error > o.added_error;
+    if (cost != o.cost) return cost > o.cost;
     return i != o.i ? i > o.i : j > o.j;
   }
 };
@@ -115,7 +115,8 @@ class Clustering {
   bool HasJump(const DepthGrid& grid, int u0, int v0, int u1, int v1) const {
     const float most = static_cast<float>(config_.max_jump_sigmas);
     const auto jump = [&](std::size_t i, std::size_t j) {
-      return grid.g[i] > 0 && grid.g[j] > 0 && std::abs(grid.q[i] - grid.q[j]) * grid.g[i] > most;
+      return grid.g[i] > 0 && grid.g[j] > 0 &&
+             std::abs(grid.q[i] - grid.q[j]) * grid.g[i] > most;
     };
     for (int v = v0; v < v1; ++v) {
       for (int u = u0; u < u1; ++u) {
@@ -149,14 +150,15 @@ class Clustering {
     both += b.sums;
     const std::optional<PlaneFit> fit = Fit(both);
     if (!fit) return;
-    const double added = fit->error - a.fit.error - b.fit.error;
-    const double k = config_.model_error_sigmas;
     const double grazing = std::max(a.grazing, b.grazing);
-    const double bound =
-        grazing * grazing *
-        (config_.max_merge_chi2 * noise_.correlated_px + k * k * a.sums.n * b.sums.n / both.n);
-    if (!(added < bound)) return;
-    queue_.push({added, i, j, a.version, b.version});
+    const bool by_mean = config_.merge_rule == MergeRule::kMeanError;
+    const double cost = by_mean ? fit->error / both.n : fit->error - a.fit.error - b.fit.error;
+    const double k = config_.model_error_sigmas;
+    const double bound = by_mean ? config_.max_block_error
+                                 : config_.max_merge_chi2 * noise_.correlated_px +
+                                       k * k * a.sums.n * b.sums.n / both.n;
+    if (!(cost < grazing * grazing * bound)) return;
+    queue_.push({cost, i, j, a.version, b.version});
   }
 
   void Join(int a, int b) {

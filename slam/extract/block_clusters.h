@@ -8,6 +8,12 @@
 
 namespace slam {
 
+/// What decides whether two regions are one plane.
+enum class MergeRule {
+  kAddedError,  ///< the error that the merge adds
+  kMeanError    ///< the mean error of the union, as in PEAC: to compare with
+};
+
 /// When neighbouring blocks and regions are one plane. Everything is in units of the noise.
 struct ClusterConfig {
   /// Part of a block that must be measured; domain (0, 1].
@@ -15,9 +21,11 @@ struct ClusterConfig {
   /// Mean squared error of a block about its own plane, in sigma^2: a block across a depth step
   /// or a crease exceeds it. Domain (0, inf).
   double max_block_error = 3.0;
-  /// A block with a larger jump between neighbouring pixels, in sigmas, lies across a depth step:
-  /// a step can look like a slanted surface, whose larger noise would excuse it. Domain (0, inf).
+  /// A block with a larger jump between neighbouring pixels, in sigmas, lies across a depth
+  /// step: a step can look like a slanted surface, whose larger noise would excuse it. Domain
+  /// (0, inf).
   double max_jump_sigmas = 12.0;
+  MergeRule merge_rule = MergeRule::kAddedError;
   /// Chi-square bound (3 degrees of freedom) on the error that a merge adds; 16.3 is 0.1 %.
   double max_merge_chi2 = 16.3;
   /// Distance, in sigmas, that two parts of one real surface may differ by for reasons other
@@ -45,7 +53,8 @@ struct BlockClusters {
 ///
 /// with E the error sum in sigmas, k = model_error_sigmas and s the grazing factor. (PEAC
 /// bounds the mean error of the union, in which a block of a book vanishes among those of a
-/// desk.) Ties are broken by block number.
+/// desk; `merge_rule` brings that back, with max_block_error as its bound.) Ties are broken by
+/// block number.
 ///
 /// @param taken   one entry a pixel; pixels with a non-zero entry are left out. May be empty.
 /// @param block_px  side of a block, pixels, > 1; the last row and column may be cut

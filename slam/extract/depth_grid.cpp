@@ -12,6 +12,7 @@ DepthGrid MakeDepthGrid(const cv::Mat1f& depth_m, const cv::Mat2d& rays,
   const std::size_t count = depth_m.total();
   grid.x.resize(count), grid.y.resize(count), grid.q.resize(count), grid.g.resize(count);
   const float floor = static_cast<float>(noise.floor_m);
+  const float slope = static_cast<float>(noise.linear_per_m);
   const float growth = static_cast<float>(noise.quadratic_per_m);
   const float nearest = static_cast<float>(noise.nearest_m);
   const float farthest = static_cast<float>(max_depth_m);
@@ -25,7 +26,7 @@ DepthGrid MakeDepthGrid(const cv::Mat1f& depth_m, const cv::Mat2d& rays,
       const float z = z_row[u];
       const bool measured = z > 0.0f && z < farthest;  // false for NaN
       const float beyond = std::max(z - nearest, 0.0f);
-      const float sigma = floor + growth * beyond * beyond;
+      const float sigma = floor + (slope + growth * beyond) * beyond;
       grid.q[i] = measured ? 1.0f / z : 0.0f;
       grid.g[i] = measured ? z * z / sigma : 0.0f;
     }

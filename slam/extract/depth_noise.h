@@ -8,12 +8,14 @@ namespace slam {
 
 /// Standard deviation of one depth measurement, metres, as a function of depth and incidence:
 ///
-///   sigma(z)        = floor_m + quadratic_per_m (z - nearest_m)^2        for z > nearest_m
-///   sigma(z, theta) = sigma(z) + grazing_m / sqrt(z) theta^2 / (pi/2 - theta)^2
+///   sigma(z)        = floor_m + linear_per_m b + quadratic_per_m b^2,   b = max(z - nearest_m,
+///   0) sigma(z, theta) = sigma(z) + grazing_m / sqrt(z) theta^2 / (pi/2 - theta)^2
 ///
 /// The defaults are those of the first Kinect. Source: Nguyen, Izadi, Lovell, 3DIMPVT 2012.
+/// Those of other sensors: depth_sensor.h.
 struct DepthNoise {
   double floor_m = 0.0012;          ///< at and below `nearest_m`; domain (0, inf)
+  double linear_per_m = 0.0;        ///< growth with depth; domain [0, inf)
   double quadratic_per_m = 0.0019;  ///< growth with depth; domain [0, inf)
   double nearest_m = 0.4;           ///< where growth begins; domain [0, inf)
   double grazing_m = 0.0001;        ///< growth with incidence; domain [0, inf)
@@ -23,7 +25,7 @@ struct DepthNoise {
 
   double Sigma(double z_m) const {
     const double beyond = std::max(z_m - nearest_m, 0.0);
-    return floor_m + quadratic_per_m * beyond * beyond;
+    return floor_m + (linear_per_m + quadratic_per_m * beyond) * beyond;
   }
 
   /// sigma(z, theta) / sigma(z) for a surface whose normal makes `cosine` with the ray; >= 1.

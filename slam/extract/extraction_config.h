@@ -7,9 +7,13 @@
 
 namespace slam {
 
+/// What measured the depth; depth_sensor.h has the settings for each.
+enum class DepthSensor { kKinect1, kAzure, kD435 };
+
 /// Settings of plane extraction. A length here is of the sensor or of the image, and every
 /// threshold on a surface is in units of the noise.
 struct PlaneExtractionConfig {
+  DepthSensor sensor = DepthSensor::kKinect1;  ///< that the other defaults are for
   DepthNoise noise;
   double max_depth_m = 10.0;  ///< beyond it a pixel is not measured; domain (0, inf)
 

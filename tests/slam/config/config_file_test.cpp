@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "slam/base/require.h"
+#include "slam/extract/depth_sensor.h"
 
 namespace slam {
 namespace {
@@ -95,6 +96,32 @@ TEST_F(ConfigFile, RefusesAValueOutsideItsDomainOrOfAnotherType) {
   ExpectError("box_tracks: 3\n", "yaml:1: `box_tracks` must be `key: value` lines");
   ExpectError("box_tracks:\n  min_hits: 4\n  min_hits: 5\n",
               "yaml:3: key `min_hits` is given twice");
+}
+
+TEST_F(ConfigFile, TakesTheDefaultsOfTheSensorThatItNames) {
+  Config d435;
+  d435.plane_extraction = ExtractionFor(DepthSensor::kD435);
+  ShareFacts(d435);
+  EXPECT_EQ(ConfigAsJson(Read("plane_extraction: {sensor: d435}")), ConfigAsJson(d435));
+  EXPECT_EQ(Read("plane_extraction: {sensor: d435}").plane_processing.noise.correlated_px,
+            d435.plane_extraction.noise.correlated_px);
+  // What is set goes over them, whatever stands first.
+  d435.plane_extraction.noise.floor_m = 0.001;
+  ShareFacts(d435);
+  EXPECT_EQ(ConfigAsJson(Read("plane_extraction: {noise: {floor_m: 0.001}, sensor: d435}")),
+            ConfigAsJson(d435));
+  EXPECT_EQ(ConfigAsJson(Read(ConfigAsYaml(d435))), ConfigAsJson(d435));
+  ExpectError("plane_extraction: {sensor: kinect9}", "kinect9.*kinect1.*azure.*d435");
+}
+
+TEST_F(ConfigFile, GoesOverTheSettingsThatItIsGiven) {
+  Config d435;
+  d435.plane_extraction = ExtractionFor(DepthSensor::kD435);
+  std::ofstream(file_) << "plane_extraction: {min_pixels: 500}\n";
+  const Config config = ReadConfig(file_, d435);
+  EXPECT_EQ(config.plane_extraction.min_pixels, 500);
+  EXPECT_EQ(config.plane_extraction.noise.correlated_px,
+            d435.plane_extraction.noise.correlated_px);
 }
 
 TEST_F(ConfigFile, RefusesSettingsThatContradictEachOther) {
