@@ -123,7 +123,7 @@ class YoloxDetector::Network {
  private:
   cv::Mat Run(const cv::Mat3b& input) {
     try {
-        net_.setInput(cv::dnn::blobFromImage(input));
+      net_.setInput(cv::dnn::blobFromImage(input));
       return net_.forward();
     } catch (const cv::Exception& error) {
       throw InputError("OpenCV cannot run the model on an input of " +

@@ -16,9 +16,9 @@ struct Keyframe {
   std::vector<PointFeature> features;
   std::vector<int> map_points;   ///< parallel to features: map point id or kNone
   std::map<int, int> covisible;  ///< keyframe id -> shared map points
-  bool culled = false;  ///< then without features
-  int parent = kNone;  ///< when culled: the keyframe that its pose now follows ...
-  Pose T_cp;           ///< ... and where it stands as seen from that one
+  bool culled = false;           ///< then without features
+  int parent = kNone;            ///< when culled: the keyframe that its pose now follows ...
+  Pose T_cp;                     ///< ... and where it stands as seen from that one
 };
 
 }  // namespace slam

@@ -100,8 +100,9 @@ TEST_F(Detections, SaysHowToRunWithoutAFile) {
   EXPECT_THAT([&] { MakeDetector("replay", folder_, Camera{}, {}); },
               ThrowsMessage<InputError>(
                   ContainsRegex("detections.jsonl: no such file.*--detector none")));
-  EXPECT_THAT([&] { MakeDetector("yolo", folder_, Camera{}, {}); },
-              ThrowsMessage<InputError>(ContainsRegex("expected replay, yolox:FILE.onnx or none")));
+  EXPECT_THAT(
+      [&] { MakeDetector("yolo", folder_, Camera{}, {}); },
+      ThrowsMessage<InputError>(ContainsRegex("expected replay, yolox:FILE.onnx or none")));
   EXPECT_TRUE(MakeDetector("none", folder_, Camera{}, {})->Detect(1.0, {}).empty());
 }
 
