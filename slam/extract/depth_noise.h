@@ -8,8 +8,10 @@ namespace slam {
 
 /// Standard deviation of one depth measurement, metres, as a function of depth and incidence:
 ///
-///   sigma(z)        = floor_m + linear_per_m b + quadratic_per_m b^2,   b = max(z - nearest_m,
-///   0) sigma(z, theta) = sigma(z) + grazing_m / sqrt(z) theta^2 / (pi/2 - theta)^2
+///   sigma(z)        = floor_m + linear_per_m b + quadratic_per_m b^2
+///   sigma(z, theta) = sigma(z) + grazing_m / sqrt(z) theta^2 / (pi/2 - theta)^2
+///
+/// with b = max(z - nearest_m, 0).
 ///
 /// The defaults are those of the first Kinect. Source: Nguyen, Izadi, Lovell, 3DIMPVT 2012.
 /// Those of other sensors: depth_sensor.h.

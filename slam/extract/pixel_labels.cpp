@@ -95,9 +95,7 @@ void CountSides(const DepthGrid& grid, const LabelImage& labels,
     if (labels[from] == kNoLabel || labels[to] == labels[from] || !(grid.g[to] > 0)) return;
     LabelComponent& c = components.list[static_cast<std::size_t>(components.component[from])];
     const float residual = ResidualSigmas(grid, to, planes[static_cast<std::size_t>(c.label)]);
-    // What lies on the plane itself is another part of it and says nothing.
-    if (residual > kOnPlane_sigmas) ++c.in_front;
-    if (residual < -kOnPlane_sigmas) ++c.behind;
+    ++(residual > 0 ? c.in_front : c.behind);
   };
   for (int v = 0; v < grid.height; ++v) {
     for (int u = 0; u < grid.width; ++u) {

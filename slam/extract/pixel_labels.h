@@ -29,10 +29,6 @@ inline float ResidualSigmas(const DepthGrid& grid, std::size_t i, const LabelPla
   return (grid.q[i] - predicted) * grid.g[i] / static_cast<float>(p.grazing);
 }
 
-/// A pixel within this of a plane may be part of it; of those that are, 2 % lie beyond, on
-/// either side.
-inline constexpr float kOnPlane_sigmas = 2.0f;
-
 /// A 4-connected set of pixels with one label.
 struct LabelComponent {
   int label = 0;

@@ -10,6 +10,7 @@ namespace {
 
 constexpr int kGrid_px = 8;
 constexpr std::size_t kLines = 5;
+constexpr float kBehind_sigmas = 2.0f;  // other parts of the plane scatter about it
 
 }  // namespace
 
@@ -56,7 +57,7 @@ double SightLines::ShareBehind(int a, int b, const LabelPlane& plane) const {
           grid_.Index(line.from.u + du * s / steps, line.from.v + dv * s / steps));
       if (!(grid_.g[i] > 0) || part_[i] == a || part_[i] == b) continue;
       ++measured;
-      behind += ResidualSigmas(grid_, i, plane) < -kOnPlane_sigmas ? 1 : 0;
+      behind += ResidualSigmas(grid_, i, plane) < -kBehind_sigmas ? 1 : 0;
     }
   }
   return measured > 0 ? static_cast<double>(behind) / measured : 0.0;

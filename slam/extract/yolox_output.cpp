@@ -21,9 +21,8 @@ double Probability(float x) {
   const double p = static_cast<double>(x);
   if (!(p >= 0.0 && p <= 1.0)) {
     throw InputError(
-        "the network's output has an objectness or class probability outside [0, 1]; expected "
-        "a "
-        "YOLOX model exported with its sigmoids");
+        "the network's output has an objectness or class probability outside [0, 1]; "
+        "expected a YOLOX model exported with its sigmoids");
   }
   return p;
 }
