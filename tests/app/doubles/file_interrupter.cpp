@@ -41,12 +41,24 @@ bool Counts(const char* path) {
   return folder != nullptr && path != nullptr && std::strstr(path, folder) != nullptr;
 }
 
-/// Counts one operation; does not come back when it is the last of this process.
-void Happen() {
+/// Counts one operation, before it is done; does not come back when it is the last of this
+/// process, or after it. `last_act` is done before the kill.
+template <typename Act>
+void Happen(Act last_act) {
   static const long last = Setting("PAS_INTERRUPT_KILL");
   static const long delay_us = Setting("PAS_INTERRUPT_DELAY");
   if (delay_us > 0) usleep(static_cast<useconds_t>(std::rand() % delay_us));
-  if (++operations == last) kill(getpid(), SIGKILL);
+  const long operation = ++operations;
+  if (last == 0 || operation < last) return;
+  if (operation == last) {
+    last_act();
+    kill(getpid(), SIGKILL);
+  }
+  // The kill takes a moment to reach the other threads: they must do nothing meanwhile.
+  for (;;) pause();
+}
+void Happen() {
+  Happen([] {});
 }
 
 /// Whether the disk is full by now; sets errno.
@@ -130,10 +142,9 @@ FILE* fopen64(const char* path, const char* mode) {
 ssize_t write(int file, const void* bytes, size_t count) {
   static const auto real = Real("write", &write);
   if (!IsWatched(file)) return real(file, bytes, count);
-  static const long last = Setting("PAS_INTERRUPT_KILL");
-  const bool torn = last != 0 && operations + 1 >= last;
-  if (torn && count > 1) real(file, bytes, count / 2);
-  Happen();
+  Happen([&] {
+    if (count > 1) static_cast<void>(!real(file, bytes, count / 2));
+  });
   if (Fails()) return -1;
   return real(file, bytes, count);
 }
