@@ -51,13 +51,22 @@ void VisitPlaneExtraction(PlaneExtractionConfig& c, FieldVisitor& v) {
            "mean residual of a block");
   v.Number("max_merge_gap_sigmas", c.max_merge_gap_sigmas, "(0, inf)",
            "between touching segments of one plane");
+  v.Number("max_hidden_gap_sigmas", c.max_hidden_gap_sigmas, "(0, inf)",
+           "between parts that something hides");
   v.Number("max_bend_sigmas", c.max_bend_sigmas, "(0, inf)",
            "gap that a sensor's bend may make");
   v.Number("max_bend_step_sigmas", c.max_bend_step_sigmas, "(0, inf)",
            "step between parts that a sensor has bent");
   v.Degrees("max_bend_deg", c.max_bend_rad, "(0, 90)", "angle that a sensor's bend may make");
+  v.Number("max_warp_sigmas", c.max_warp_sigmas, "[0, inf)",
+           "of a frame, that is allowed for; 0: none");
+  v.Number("warp_model_error", c.warp_model_error, "[0, inf)",
+           "added to the model error by a sigma of warp");
+  v.Number("warp_gap", c.warp_gap, "[0, inf)", "added to bent and hidden gaps by it");
   v.Number("max_island_behind", c.max_island_behind, "[0, 1]",
            "pixels behind, round a cut-off part");
+  v.Number("unsure_side_sigmas", c.unsure_side_sigmas, "[0, inf)",
+           "nearer is neither behind nor in front");
   v.Integer("min_pixels", c.min_pixels, "[3, 1000000]", "of a segment");
   v.Degrees("max_angle_sigma_deg", c.max_angle_sigma_rad, "(0, 90)", "of a segment's normal");
   v.Integer("min_island_pixels", c.min_island_pixels, "[1, 1000000]", "of a cut-off part");

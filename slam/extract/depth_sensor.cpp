@@ -36,6 +36,7 @@ PlaneExtractionConfig ExtractionFor(DepthSensor sensor) {
       config.noise = AzureNoise();
       config.max_bend_sigmas = 4.0;  // the wave bends a surface
       config.max_bend_rad = 0.15;
+      config.max_warp_sigmas = 0.0;  // it is in the noise
       break;
     case DepthSensor::kD435:
       config.noise = D435Noise();

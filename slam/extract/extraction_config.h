@@ -27,18 +27,28 @@ struct PlaneExtractionConfig {
   /// not lie on its plane and is offered to the second clustering; domain (0, inf).
   double max_block_bias_sigmas = 3.0;
   /// Two touching segments are one plane if along their common boundary the planes are closer
-  /// than this (root mean square, in sigmas, after their uncertainty); and what does not touch,
-  /// over the pixels of the smaller. Domain (0, inf).
+  /// than this (root mean square, in sigmas, after their uncertainty), and over the pixels of
+  /// the smaller. Domain (0, inf).
   double max_merge_gap_sigmas = 1.5;
+  /// The same for parts that something in front separates, over the pixels of the smaller.
+  double max_hidden_gap_sigmas = 1.5;
   /// How far a real sensor may bend a flat surface: gap over the smaller patch, and angle
   /// between two touching parts; and the step, measured across their boundary in sigmas of a
   /// pixel, that parts of one surface may seem to have. Domain (0, inf).
   double max_bend_sigmas = 3.0;
   double max_bend_rad = 0.12;
   double max_bend_step_sigmas = 1.5;
+  /// Warp of the sensor, as measured in each frame (sensor_warp.h), that is allowed for; 0:
+  /// none. Every sigma of it adds so many to the model error of the clusters, and to the gaps
+  /// between parts that are bent or hidden. Domain [0, inf).
+  double max_warp_sigmas = 1.0;
+  double warp_model_error = 1.5;
+  double warp_gap = 12.0;
   /// A part cut off from a segment stays with it if fewer than this part of the pixels around
   /// it lie behind the plane: what cuts it is in front. Domain [0, 1].
   double max_island_behind = 0.35;
+  /// What lies nearer to the plane is neither behind it nor in front; domain [0, inf).
+  double unsure_side_sigmas = 0.0;
 
   /// A segment needs this many pixels and this precision: fewer or worse is noise. At 1 m, 300
   /// pixels are 33 x 33 mm seen frontally.

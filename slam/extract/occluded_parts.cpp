@@ -46,7 +46,7 @@ void JoinHiddenLabels(const DepthGrid& grid, const PatchUnion& patches, std::siz
   const std::vector<Surroundings> around = OfLabels(components, count);
   const std::vector<int> order = BySize(patches, count);
   const std::vector<int> parts(labels.begin(), labels.end());
-  const SightLines between(grid, parts, static_cast<int>(count));
+  const SightLines between(grid, parts, static_cast<int>(count), config.unsure_side_sigmas);
   std::vector<int> into(count);
   std::iota(into.begin(), into.end(), 0);
   for (std::size_t k = 1; k < order.size(); ++k) {
@@ -57,8 +57,8 @@ void JoinHiddenLabels(const DepthGrid& grid, const PatchUnion& patches, std::siz
       const int large = order[j];
       if (into[static_cast<std::size_t>(large)] != large) continue;
       const double gap = PatchGap(patches.At(order[k]), patches.At(large),
-                                  config.max_merge_gap_sigmas, config);
-      if (!(gap < least)) continue;
+                                  config.max_hidden_gap_sigmas, config);
+      if (!(gap < least) || patches.Apart(order[k], large)) continue;
       const LabelPlane& plane = patches.At(large).plane;
       if (between.ShareBehind(order[k], large, plane) > config.max_island_behind) continue;
       least = gap, into[small] = large;
@@ -87,8 +87,8 @@ std::vector<int> SegmentsOfComponents(const DepthGrid& grid, const LabelComponen
                                       const std::vector<LabelPlane>& planes,
                                       const PlaneExtractionConfig& config, int& segment_count) {
   const std::vector<int> main = MainComponents(components, planes.size());
-  const SightLines between(grid, components.component,
-                           static_cast<int>(components.list.size()));
+  const SightLines between(grid, components.component, static_cast<int>(components.list.size()),
+                           config.unsure_side_sigmas);
   std::vector<int> segment(components.list.size(), -1);
   segment_count = 0;
   for (const int k : main) {
@@ -118,7 +118,8 @@ std::vector<int> SegmentsOfComponents(const DepthGrid& grid, const LabelComponen
 int SegmentParts(const DepthGrid& grid, const PatchUnion& joined,
                  const PlaneExtractionConfig& config, LabelImage& labels) {
   const std::vector<LabelPlane> planes = joined.Planes();
-  LabelComponents components = ConnectedComponents(grid, labels, planes);
+  LabelComponents components =
+      ConnectedComponents(grid, labels, planes, config.unsure_side_sigmas);
   CutBridges(grid, labels, planes, config.max_island_behind, components);
   JoinHiddenLabels(grid, joined, planes.size(), config, labels, components);
   int count = 0;

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "slam/base/plane.h"
+#include "slam/extract/boundary_shares.h"
 #include "slam/extract/boundary_steps.h"
 
 namespace slam {
@@ -103,6 +104,25 @@ std::vector<std::pair<int, int>> MeetingLabels(const DepthGrid& grid, const Labe
   return meeting;
 }
 
+/// Joins the segments of labels that meet while they keep the bounds on bending.
+void JoinMeeting(const std::vector<std::pair<int, int>>& meeting,
+                 const PlaneExtractionConfig& config, PatchUnion& joined) {
+  bool changed = true;
+  while (changed) {
+    changed = false;
+    for (const auto& [k, l] : meeting) {
+      const int a = joined.Root(k), b = joined.Root(l);
+      if (a == b || joined.Apart(a, b)) continue;
+      const Patch &A = joined.At(a), &B = joined.At(b);
+      const double angle = Angle(A.plane.plane.Hessian().n, B.plane.plane.Hessian().n);
+      if (!(angle < config.max_bend_rad)) continue;
+      if (!(PatchGap(A, B, config.max_bend_sigmas, config) < 1.0)) continue;
+      joined.Join(a, b, config.noise);
+      changed = true;
+    }
+  }
+}
+
 }  // namespace
 
 double PatchGap(const Patch& a, const Patch& b, double max_gap_sigmas,
@@ -123,6 +143,13 @@ void PatchUnion::Join(int a, int b, const DepthNoise& noise) {
   goes.sums = {};
   Refit(stays, noise);
   for (int& target : into_) target = target == b ? a : target;
+}
+
+bool PatchUnion::Apart(int a, int b) const {
+  return std::any_of(apart_.begin(), apart_.end(), [&](const std::pair<int, int>& pair) {
+    const int k = Root(pair.first), l = Root(pair.second);
+    return (k == a && l == b) || (k == b && l == a);
+  });
 }
 
 std::vector<LabelPlane> PatchUnion::Planes() const {
@@ -153,24 +180,16 @@ void MergeEqualNeighbours(const DepthGrid& grid, const PlaneExtractionConfig& co
 }
 
 PatchUnion JoinBentParts(const DepthGrid& grid, const PlaneExtractionConfig& config,
-                         const PixelGrowth& growth) {
+                         const PixelGrowth& growth, bool warped) {
   PatchUnion joined(FittedPatches(grid, growth, config.noise));
-  const std::vector<std::pair<int, int>> meeting =
-      MeetingLabels(grid, growth.labels(), joined.Planes(), config);
-  bool changed = true;
-  while (changed) {
-    changed = false;
-    for (const auto& [k, l] : meeting) {
-      const int a = joined.Root(k), b = joined.Root(l);
-      if (a == b) continue;
-      const Patch &A = joined.At(a), &B = joined.At(b);
-      const double angle = Angle(A.plane.plane.Hessian().n, B.plane.plane.Hessian().n);
-      if (!(angle < config.max_bend_rad)) continue;
-      if (!(PatchGap(A, B, config.max_bend_sigmas, config) < 1.0)) continue;
-      joined.Join(a, b, config.noise);
-      changed = true;
+  const std::vector<LabelPlane> planes = joined.Planes();
+  if (warped) {
+    for (const auto& [pair, share] :
+         MeasureShares(grid, growth.labels(), planes, config.noise)) {
+      if (share.IsCrease()) joined.KeepApart(pair.first, pair.second);
     }
   }
+  JoinMeeting(MeetingLabels(grid, growth.labels(), planes, config), config, joined);
   return joined;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <utility>
 #include <vector>
 
 #include "slam/extract/depth_grid.h"
@@ -31,11 +32,15 @@ class PatchUnion {
   int Root(int k) const { return into_[static_cast<std::size_t>(k)]; }
   const Patch& At(int k) const { return patches_[static_cast<std::size_t>(Root(k))]; }
   const std::vector<int>& into() const { return into_; }
+  /// Two surfaces meet where patches k and l touch: nothing may join what they belong to.
+  void KeepApart(int k, int l) { apart_.emplace_back(k, l); }
+  bool Apart(int a, int b) const;
   std::vector<LabelPlane> Planes() const;
 
  private:
   std::vector<Patch> patches_;
   std::vector<int> into_;
+  std::vector<std::pair<int, int>> apart_;
 };
 
 /// Merges touching labels that are one plane within the noise, closest pair first, refits every
@@ -48,7 +53,12 @@ void MergeEqualNeighbours(const DepthGrid& grid, const PlaneExtractionConfig& co
 /// of the two labels must agree along the boundary, and those of the segments that they belong
 /// to must agree within the wider bounds on bending. The labels keep their own planes, and with
 /// them their pixels.
+///
+/// @param warped  the bounds allow for a warp (sensor_warp.h), by which planes alone do not
+/// tell
+///                two surfaces from one: what meets in a crease (boundary_shares.h) is kept
+///                apart, here and when hidden parts are joined
 PatchUnion JoinBentParts(const DepthGrid& grid, const PlaneExtractionConfig& config,
-                         const PixelGrowth& growth);
+                         const PixelGrowth& growth, bool warped);
 
 }  // namespace slam

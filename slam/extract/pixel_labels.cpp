@@ -69,9 +69,11 @@ std::vector<int> NumberRuns(const DepthGrid& grid, const LabelImage& labels,
 }  // namespace
 
 LabelComponents ConnectedComponents(const DepthGrid& grid, const LabelImage& labels,
-                                    const std::vector<LabelPlane>& planes) {
+                                    const std::vector<LabelPlane>& planes,
+                                    double unsure_side_sigmas) {
   std::vector<int> parent;
   LabelComponents out;
+  out.unsure_side_sigmas = unsure_side_sigmas;
   out.component = NumberRuns(grid, labels, parent);
   std::vector<int> compact(parent.size(), -1);
   for (std::size_t i = 0; i < labels.size(); ++i) {
@@ -91,11 +93,13 @@ LabelComponents ConnectedComponents(const DepthGrid& grid, const LabelImage& lab
 void CountSides(const DepthGrid& grid, const LabelImage& labels,
                 const std::vector<LabelPlane>& planes, LabelComponents& components) {
   for (LabelComponent& c : components.list) c.behind = c.in_front = 0;
+  const float unsure = static_cast<float>(components.unsure_side_sigmas);
   const auto count_side = [&](std::size_t from, std::size_t to) {
     if (labels[from] == kNoLabel || labels[to] == labels[from] || !(grid.g[to] > 0)) return;
     LabelComponent& c = components.list[static_cast<std::size_t>(components.component[from])];
     const float residual = ResidualSigmas(grid, to, planes[static_cast<std::size_t>(c.label)]);
-    ++(residual > 0 ? c.in_front : c.behind);
+    if (residual > unsure) ++c.in_front;
+    if (residual <= -unsure) ++c.behind;
   };
   for (int v = 0; v < grid.height; ++v) {
     for (int u = 0; u < grid.width; ++u) {

@@ -42,9 +42,11 @@ struct LabelComponent {
 struct LabelComponents {
   std::vector<int> component;  ///< of each pixel; -1 where there is no label
   std::vector<LabelComponent> list;
+  double unsure_side_sigmas = 0.0;  ///< so near to the plane is neither behind nor in front
 };
 LabelComponents ConnectedComponents(const DepthGrid& grid, const LabelImage& labels,
-                                    const std::vector<LabelPlane>& planes);
+                                    const std::vector<LabelPlane>& planes,
+                                    double unsure_side_sigmas = 0.0);
 /// Counts `behind` and `in_front` of every component.
 void CountSides(const DepthGrid& grid, const LabelImage& labels,
                 const std::vector<LabelPlane>& planes, LabelComponents& components);

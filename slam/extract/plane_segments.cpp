@@ -7,6 +7,7 @@
 
 #include "slam/extract/occluded_parts.h"
 #include "slam/extract/patches.h"
+#include "slam/extract/sensor_warp.h"
 
 namespace slam {
 namespace {
@@ -171,18 +172,21 @@ FramePlane MakeFramePlane(const Segment& segment, int index) {
 }  // namespace
 
 void ExtractPlanes(Frame& frame, const Camera& camera, const cv::Mat2d& rays,
-                   const PlaneExtractionConfig& config) {
-  const DepthGrid grid = MakeDepthGrid(frame.depth_m, rays, config.noise, config.max_depth_m);
+                   const PlaneExtractionConfig& settings) {
+  const DepthNoise& noise = settings.noise;
+  const DepthGrid grid = MakeDepthGrid(frame.depth_m, rays, noise, settings.max_depth_m);
+  BlockClusters clusters = ClusterBlocks(grid, {}, settings.block_px, noise, settings.coarse);
+  const double warp = MeasureWarp(grid, clusters, settings);
+  const PlaneExtractionConfig config = AllowWarp(settings, warp);
+  if (warp > 0.0) clusters = ClusterBlocks(grid, {}, config.block_px, noise, config.coarse);
   PixelGrowth growth(grid, config.growth);
-  AddClusters(grid, ClusterBlocks(grid, {}, config.block_px, config.noise, config.coarse),
-              config.noise, growth);
+  AddClusters(grid, clusters, noise, growth);
   const std::vector<std::uint8_t> settled = SettledPixels(grid, growth, config);
-  AddClusters(grid,
-              ClusterBlocks(grid, settled, config.fine_block_px, config.noise, config.fine),
-              config.noise, growth);
+  AddClusters(grid, ClusterBlocks(grid, settled, config.fine_block_px, noise, config.fine),
+              noise, growth);
   MergeEqualNeighbours(grid, config, growth);
 
-  const PatchUnion joined = JoinBentParts(grid, config, growth);
+  const PatchUnion joined = JoinBentParts(grid, config, growth, warp > 0.0);
   LabelImage labels = growth.labels();
   for (std::int16_t& label : labels) {
     if (label != kNoLabel) label = static_cast<std::int16_t>(joined.Root(label));

@@ -14,8 +14,12 @@ constexpr float kBehind_sigmas = 2.0f;  // other parts of the plane scatter abou
 
 }  // namespace
 
-SightLines::SightLines(const DepthGrid& grid, const std::vector<int>& part, int part_count)
-    : grid_(grid), part_(part), samples_(static_cast<std::size_t>(part_count)) {
+SightLines::SightLines(const DepthGrid& grid, const std::vector<int>& part, int part_count,
+                       double unsure_side_sigmas)
+    : grid_(grid),
+      part_(part),
+      behind_sigmas_(std::max(kBehind_sigmas, static_cast<float>(unsure_side_sigmas))),
+      samples_(static_cast<std::size_t>(part_count)) {
   std::vector<Pixel> first(samples_.size(), Pixel{-1, -1});
   for (int v = 0; v < grid.height; ++v) {
     for (int u = 0; u < grid.width; ++u) {
@@ -57,7 +61,7 @@ double SightLines::ShareBehind(int a, int b, const LabelPlane& plane) const {
           grid_.Index(line.from.u + du * s / steps, line.from.v + dv * s / steps));
       if (!(grid_.g[i] > 0) || part_[i] == a || part_[i] == b) continue;
       ++measured;
-      behind += ResidualSigmas(grid_, i, plane) < -kBehind_sigmas ? 1 : 0;
+      behind += ResidualSigmas(grid_, i, plane) < -behind_sigmas_ ? 1 : 0;
     }
   }
   return measured > 0 ? static_cast<double>(behind) / measured : 0.0;

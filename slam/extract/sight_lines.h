@@ -12,7 +12,9 @@ namespace slam {
 class SightLines {
  public:
   /// Samples every part on a grid of pixels. @param part  of each pixel, -1 = none
-  SightLines(const DepthGrid& grid, const std::vector<int>& part, int part_count);
+  /// @param unsure_side_sigmas  at least so far behind is clearly behind
+  SightLines(const DepthGrid& grid, const std::vector<int>& part, int part_count,
+             double unsure_side_sigmas = 0.0);
 
   /// Share of the measured pixels on the lines between parts `a` and `b`, where they are
   /// nearest to each other, that lie clearly behind `plane`; 0 where nothing between them is
@@ -31,6 +33,7 @@ class SightLines {
 
   const DepthGrid& grid_;
   const std::vector<int>& part_;
+  float behind_sigmas_;
   std::vector<std::vector<Pixel>> samples_;  ///< of each part
 };
 

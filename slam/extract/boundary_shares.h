@@ -1,0 +1,32 @@
+#pragma once
+
+#include <map>
+#include <utility>
+
+#include "slam/extract/depth_grid.h"
+#include "slam/extract/pixel_labels.h"
+#include "slam/extract/plane_sums.h"
+
+namespace slam {
+
+/// How much of the difference between the planes of two labels is there right at their common
+/// boundary, where strips on either side are fitted by themselves: all of it at a crease or a
+/// step, a part where one surface bends from one plane into the other.
+struct BoundaryShare {
+  double share = 0.0;  ///< 1: all of it; the least-squares factor between the differences
+  double sigma = 0.0;  ///< its standard deviation from noise
+
+  /// Whether noise leaves no doubt that two surfaces meet here. A bend of constant curvature
+  /// has a third, as strips reach into a label by a third of its width: what is nearer to all
+  /// than to that is none.
+  bool IsCrease() const { return share - 2.0 * sigma > 0.67; }
+};
+
+/// Shares of labels that touch, by (lower, higher) label. Labels too narrow to look into are
+/// not in it.
+/// @param planes  fitted to the labels' pixels
+using BoundaryShares = std::map<std::pair<int, int>, BoundaryShare>;
+BoundaryShares MeasureShares(const DepthGrid& grid, const LabelImage& labels,
+                             const std::vector<LabelPlane>& planes, const DepthNoise& noise);
+
+}  // namespace slam

@@ -1,0 +1,22 @@
+#pragma once
+
+#include "slam/extract/block_clusters.h"
+#include "slam/extract/depth_grid.h"
+#include "slam/extract/extraction_config.h"
+
+namespace slam {
+
+/// How far this frame's sensor bends what is flat, in sigmas of a pixel: what the mean
+/// residuals of pieces of the clusters (2 x 2 blocks) scatter by, beyond noise; 0 for a sensor
+/// that is as flat as its noise model says. It is the median over the image, which steps or
+/// curved things here and there do not move. A warp larger than the clusters' model error is
+/// underestimated, because it splits them.
+///
+/// @param clusters  of the whole grid, with the bounds of a flat sensor
+double MeasureWarp(const DepthGrid& grid, const BlockClusters& clusters,
+                   const PlaneExtractionConfig& config);
+
+/// The bounds that a surface warped by that much keeps; `config` itself for 0.
+PlaneExtractionConfig AllowWarp(const PlaneExtractionConfig& config, double warp_sigmas);
+
+}  // namespace slam
