@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "slam/extract/depth_grid.h"
+#include "slam/extract/label_runs.h"
 #include "slam/extract/plane_sums.h"
 
 namespace slam {
@@ -42,7 +43,10 @@ struct LabelComponent {
 struct LabelComponents {
   std::vector<int> component;  ///< of each pixel; -1 where there is no label
   std::vector<LabelComponent> list;
+  LabelRuns runs;  ///< of the label image
 };
+/// Without sides.
+LabelComponents ConnectedComponents(const DepthGrid& grid, const LabelImage& labels);
 LabelComponents ConnectedComponents(const DepthGrid& grid, const LabelImage& labels,
                                     const std::vector<LabelPlane>& planes);
 /// Counts `behind` and `in_front` of every component.
