@@ -42,6 +42,7 @@ void BlockClustering::AddBlocks(const DepthGrid& grid, const std::vector<std::ui
   cols_ = (grid.width + block_px - 1) / block_px;
   rows_ = (grid.height + block_px - 1) / block_px;
   regions_.clear();
+  if (taken.empty()) sums_.clear();
   region_at_.assign(static_cast<std::size_t>(cols_ * rows_), -1);
   for (int r = 0; r < rows_; ++r) {
     for (int c = 0; c < cols_; ++c) {
@@ -61,6 +62,7 @@ void BlockClustering::AddBlock(const DepthGrid& grid, const std::uint8_t* taken,
   const double least = config_->min_measured * block_px * block_px;
   if (taken != nullptr && !(CountFree(pixels, taken) >= least)) return;
   const PlaneSums sums = taken == nullptr ? SumBlock(pixels) : SumFree(pixels, taken);
+  if (taken == nullptr) sums_.push_back(sums);
   if (!(sums.n >= least)) return;
   const std::optional<PlaneFit> fit = Fit(sums);
   if (!fit) return;
@@ -82,6 +84,7 @@ void BlockClustering::Merge() {
     if (block % cols_ + 1 < cols_) beside(block + 1);
     if (block / cols_ + 1 < rows_) beside(block + cols_);
   }
+  std::make_heap(queue_.begin(), queue_.end());
   while (!queue_.empty()) {
     const Candidate top = queue_.front();
     std::pop_heap(queue_.begin(), queue_.end());
@@ -89,7 +92,9 @@ void BlockClustering::Merge() {
     const int a = Root(top.i), b = Root(top.j);
     if (a == b) continue;
     if (At(a).version != top.version_i || At(b).version != top.version_j) {
+      const std::size_t before = queue_.size();
       Propose(top.i, top.j);
+      if (queue_.size() > before) std::push_heap(queue_.begin(), queue_.end());
     } else {
       Join(a, b);
     }
@@ -125,7 +130,6 @@ void BlockClustering::Propose(int i, int j) {
                                      k * k * a.sums.n * b.sums.n / both.n;
   if (!(cost < grazing * grazing * bound)) return;
   queue_.push_back({cost, i, j, a.version, b.version});
-  std::push_heap(queue_.begin(), queue_.end());
 }
 
 void BlockClustering::Join(int a, int b) {

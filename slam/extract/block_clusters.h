@@ -65,6 +65,9 @@ class BlockClustering {
                                int block_px, const DepthNoise& noise,
                                const ClusterConfig& config);
 
+  /// Of the measured pixels of each block in the last call in which nothing was taken.
+  const std::vector<PlaneSums>& SumsOfBlocks() const { return sums_; }
+
  private:
   struct Region {
     PlaneSums sums;
@@ -105,6 +108,7 @@ class BlockClustering {
   std::vector<int> parent_;       ///< of each region
   std::vector<Candidate> queue_;  ///< a heap
   std::vector<int> number_;
+  std::vector<PlaneSums> sums_;
   BlockClusters out_;
 };
 

@@ -101,29 +101,30 @@ PAS_INLINE void Bid8(const BlockPixels& block, const PixelPlane& plane, float mo
   }
 }
 
-/// Sums of the squares within `reach`, column by column of the pixels around and then row by
-/// row, as Bid8 adds them.
-void BidAny(const BlockPixels& block, int count, const PixelPlane& plane,
-            const BidWindow& window, const float* residuals, float* bids) {
+constexpr int kMaxSide = 64, kMaxReach = 16;  // GrowthConfig
+
+/// The same for other sizes and beside the image's border, beyond which there are zeros.
+PAS_INLINE void BidAny(const BlockPixels& block, int count, const PixelPlane& plane,
+                       const BidWindow& window, const float* residuals, float* bids) {
   const float most = window.most_sigmas * window.most_sigmas;
+  const int reach = window.reach, size = block.size;
+  float squares[kMaxSide + 2 * kMaxReach], sums[kMaxSide * (kMaxSide + 2 * kMaxReach)];
+  std::fill_n(squares, size + 2 * reach, 0.0f);
+  std::fill_n(sums, size * (size + 2 * reach), 0.0f);
+  for (int v = -window.top; v < block.height + window.bottom; ++v) {
+    const std::ptrdiff_t row = static_cast<std::ptrdiff_t>(v) * block.stride;
+    for (int u = -window.left; u < block.width + window.right; ++u) {
+      const float r = Residual(block, row + u, plane);
+      squares[u + reach] = std::min(r * r, most);
+    }
+    float* sum = sums + (v + reach) * size;
+    for (int offset = 0; offset <= 2 * reach; ++offset)
+      for (int u = 0; u < size; ++u) sum[u] += squares[u + offset];
+  }
   std::fill(bids, bids + count, 0.0f);
-  const auto square = [&](int u, int v) {
-    if (u < -window.left || v < -window.top || u >= block.width + window.right ||
-        v >= block.height + window.bottom) {
-      return 0.0f;  // the image has ended
-    }
-    const float r = Residual(block, static_cast<std::ptrdiff_t>(v) * block.stride + u, plane);
-    return std::min(r * r, most);
-  };
   for (int v = 0; v < block.height; ++v) {
-    for (int u = 0; u < block.width; ++u) {
-      float& bid = bids[v * block.size + u];
-      for (int dv = -window.reach; dv <= window.reach; ++dv) {
-        float row = 0.0f;
-        for (int du = -window.reach; du <= window.reach; ++du) row += square(u + du, v + dv);
-        bid += row;
-      }
-    }
+    for (int offset = 0; offset <= 2 * reach; ++offset)
+      for (int u = 0; u < size; ++u) bids[v * size + u] += sums[(v + offset) * size + u];
   }
   for (int k = 0; k < count; ++k)
     bids[k] = std::abs(residuals[k]) < window.most_sigmas ? bids[k] : kNone;
@@ -243,6 +244,30 @@ SLAM_LANES void ReadOwners(const BlockPixels& block, int count, const std::int16
       for (int u = 0; u < block.width; ++u) to[u] = row[u];
     }
   }
+}
+
+SLAM_LANES int CountOnly(const BlockPixels& block, const std::int16_t* labels,
+                         std::int16_t& label) {
+  // kNoLabel is the least: the greatest label is the only one, or others are below it.
+  int greatest = kNoLabel;
+  for (int v = 0; v < block.height; ++v) {
+    const std::int16_t* row = labels + static_cast<std::ptrdiff_t>(v) * block.stride;
+    if (block.width == kLanes) {
+      for (int u = 0; u < kLanes; ++u) greatest = std::max<int>(greatest, row[u]);
+    } else {
+      for (int u = 0; u < block.width; ++u) greatest = std::max<int>(greatest, row[u]);
+    }
+  }
+  int same = 0, other = 0;
+  for (int v = 0; v < block.height; ++v) {
+    const std::int16_t* row = labels + static_cast<std::ptrdiff_t>(v) * block.stride;
+    for (int u = 0; u < block.width; ++u) {
+      same += row[u] == greatest ? 1 : 0;
+      other += row[u] != greatest && row[u] != kNoLabel ? 1 : 0;
+    }
+  }
+  label = static_cast<std::int16_t>(greatest);
+  return greatest == kNoLabel || other > 0 ? 0 : same;
 }
 
 }  // namespace slam

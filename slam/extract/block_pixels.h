@@ -72,4 +72,8 @@ double SumOwned(const float* residuals, int count, int label, const int* owners)
 void WriteOwners(const BlockPixels& block, const int* owners, std::int16_t* labels);
 void ReadOwners(const BlockPixels& block, int count, const std::int16_t* labels, int* owners);
 
+/// How many pixels of a block have the one label that there is in it, or 0 if there are others.
+/// @param labels  of the block's first pixel
+int CountOnly(const BlockPixels& block, const std::int16_t* labels, std::int16_t& label);
+
 }  // namespace slam

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 
 #include "slam/base/lanes.h"
 
@@ -116,6 +117,23 @@ SLAM_LANES PlaneSums SumBlock(const BlockPixels& block) {
 SLAM_LANES PlaneSums SumLabelled(const BlockPixels& block, const std::int16_t* labels,
                                  std::int16_t label) {
   return Sum(block, labels, label);
+}
+
+void SumTile(const BlockPixels& block, const std::int16_t* labels,
+             std::vector<PlaneSums>& sums) {
+  std::int16_t label = kNoLabel;  // summed last
+  for (int summed = 0; summed < block.width * block.height; ++summed) {
+    // Labels in order: the least that is greater than the last one.
+    int next = std::numeric_limits<std::int16_t>::max() + 1;
+    for (int v = 0; v < block.height; ++v) {
+      const std::int16_t* row = labels + static_cast<std::ptrdiff_t>(v) * block.stride;
+      for (int u = 0; u < block.width; ++u)
+        next = row[u] > label && row[u] < next ? row[u] : next;
+    }
+    if (next > std::numeric_limits<std::int16_t>::max()) return;
+    label = static_cast<std::int16_t>(next);
+    sums[static_cast<std::size_t>(label)] += SumLabelled(block, labels, label);
+  }
 }
 
 SLAM_LANES PlaneSums SumFree(const BlockPixels& block, const std::uint8_t* taken) {

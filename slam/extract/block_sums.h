@@ -14,6 +14,10 @@ PlaneSums SumBlock(const BlockPixels& block);
 /// Of its pixels with that label, all of them measured. @param labels  of its first pixel
 PlaneSums SumLabelled(const BlockPixels& block, const std::int16_t* labels, std::int16_t label);
 
+/// Adds those of each label of a block, lowest first.
+void SumTile(const BlockPixels& block, const std::int16_t* labels,
+             std::vector<PlaneSums>& sums);
+
 /// Of its measured pixels whose entry is 0. @param taken  of its first pixel
 PlaneSums SumFree(const BlockPixels& block, const std::uint8_t* taken);
 

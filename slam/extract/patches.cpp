@@ -68,10 +68,9 @@ void Refit(Patch& patch, const DepthNoise& noise) {
   patch.plane = {fit->plane, GrazingFactor(patch.sums, fit->plane, noise)};
 }
 
-std::vector<Patch> FittedPatches(const DepthGrid& grid, const PixelGrowth& growth,
+std::vector<Patch> FittedPatches(PixelGrowth& growth, const std::vector<PlaneSums>& blocks,
                                  const DepthNoise& noise) {
-  const std::vector<PlaneSums> sums =
-      SumLabels(grid, growth.labels(), static_cast<int>(growth.planes().size()));
+  const std::vector<PlaneSums>& sums = growth.SumLabels(blocks);
   std::vector<Patch> patches;
   for (std::size_t k = 0; k < sums.size(); ++k) {
     patches.push_back({sums[k], growth.planes()[k]});
@@ -125,9 +124,9 @@ std::vector<LabelPlane> PatchUnion::Planes() const {
   return planes;
 }
 
-void MergeEqualNeighbours(const DepthGrid& grid, const PlaneExtractionConfig& config,
-                          PixelGrowth& growth) {
-  PatchUnion merged(FittedPatches(grid, growth, config.noise));
+void MergeEqualNeighbours(const DepthGrid& grid, const std::vector<PlaneSums>& blocks,
+                          const PlaneExtractionConfig& config, PixelGrowth& growth) {
+  PatchUnion merged(FittedPatches(growth, blocks, config.noise));
   const Contacts contacts = FindContacts(grid, growth.labels());
   while (true) {
     double least = 1.0;
@@ -146,9 +145,9 @@ void MergeEqualNeighbours(const DepthGrid& grid, const PlaneExtractionConfig& co
   growth.Replace(merged.Planes(), merged.into());
 }
 
-PatchUnion JoinBentParts(const DepthGrid& grid, const PlaneExtractionConfig& config,
-                         const PixelGrowth& growth) {
-  PatchUnion joined(FittedPatches(grid, growth, config.noise));
+PatchUnion JoinBentParts(const DepthGrid& grid, const std::vector<PlaneSums>& blocks,
+                         const PlaneExtractionConfig& config, PixelGrowth& growth) {
+  PatchUnion joined(FittedPatches(growth, blocks, config.noise));
   const std::vector<std::pair<int, int>> meeting =
       MeetingLabels(grid, growth.labels(), joined.Planes(), config);
   bool changed = true;

@@ -8,6 +8,7 @@
 #include "slam/extract/block_pixels.h"
 #include "slam/extract/depth_grid.h"
 #include "slam/extract/pixel_labels.h"
+#include "slam/extract/plane_sums.h"
 
 namespace slam {
 
@@ -55,6 +56,13 @@ class PixelGrowth {
   /// `bias` + `standard_errors` / sqrt(its pixels there). @param settled  1 or 0 for each pixel
   void MarkSettled(double bias, double standard_errors,
                    std::vector<std::uint8_t>& settled) const;
+
+  /// Sums of the pixels of each label. @param whole  those of the measured pixels of each
+  /// block; empty: not known
+  const std::vector<PlaneSums>& SumLabels(const std::vector<PlaneSums>& whole);
+  /// The same for other labels, 0 to count - 1, of the same pixels or of fewer; after the
+  /// above.
+  void SumOtherLabels(const LabelImage& labels, int count, std::vector<PlaneSums>& sums) const;
 
   const LabelImage& labels() const { return labels_; }
   const std::vector<LabelPlane>& planes() const { return planes_; }
@@ -114,6 +122,8 @@ class PixelGrowth {
   std::vector<float> residuals_;  ///< of each claim, sigmas; infinity where nothing is measured
   std::vector<float> bids_;       ///< BidForBlock
   std::size_t bid_count_ = 0;
+  std::vector<PlaneSums> claim_sums_;  ///< of the pixels that each claim owns
+  std::vector<PlaneSums> label_sums_;
   // What each label gains over the next best plane at its pixels.
   std::vector<double> gain_;
   std::vector<int> pixels_;

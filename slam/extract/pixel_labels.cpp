@@ -11,24 +11,6 @@ namespace {
 
 constexpr int kTile_px = 8;
 
-/// Adds the sums of each label of one tile, in order of their first pixel there.
-void SumTile(const BlockPixels& tile, const std::int16_t* labels,
-             std::vector<PlaneSums>& sums) {
-  std::int16_t seen[kTile_px * kTile_px];
-  int count = 0;
-  for (int v = 0; v < tile.height; ++v) {
-    const std::int16_t* row = labels + static_cast<std::ptrdiff_t>(v) * tile.stride;
-    std::int16_t last = kNoLabel;
-    for (int u = 0; u < tile.width; ++u) {
-      if (row[u] == last || row[u] == kNoLabel) continue;
-      last = row[u];
-      if (std::find(seen, seen + count, last) == seen + count) seen[count++] = last;
-    }
-  }
-  for (int k = 0; k < count; ++k)
-    sums[static_cast<std::size_t>(seen[k])] += SumLabelled(tile, labels, seen[k]);
-}
-
 }  // namespace
 
 std::vector<PlaneSums> SumLabels(const DepthGrid& grid, const LabelImage& labels, int count) {
@@ -40,6 +22,19 @@ std::vector<PlaneSums> SumLabels(const DepthGrid& grid, const LabelImage& labels
     }
   }
   return sums;
+}
+
+void MapLabels(const LabelImage& labels, const std::vector<int>& to, LabelImage& out) {
+  out.resize(labels.size());
+  std::int16_t last = kNoLabel, mapped = kNoLabel;
+  for (std::size_t i = 0; i < labels.size(); ++i) {
+    if (labels[i] != last) {
+      last = labels[i];
+      mapped = last == kNoLabel ? kNoLabel
+                                : static_cast<std::int16_t>(to[static_cast<std::size_t>(last)]);
+    }
+    out[i] = mapped;
+  }
 }
 
 namespace {

@@ -22,6 +22,9 @@ using LabelImage = std::vector<std::int16_t>;  ///< one entry a pixel, kNoLabel 
 /// Sums of the pixels of each label.
 std::vector<PlaneSums> SumLabels(const DepthGrid& grid, const LabelImage& labels, int count);
 
+/// to[label] in place of each label.
+void MapLabels(const LabelImage& labels, const std::vector<int>& to, LabelImage& out);
+
 /// Residual of a pixel from a plane in sigmas; positive: the pixel is nearer than the plane.
 inline float ResidualSigmas(const DepthGrid& grid, std::size_t i, const LabelPlane& p) {
   const float predicted = static_cast<float>(p.plane.a) * grid.x[i] +

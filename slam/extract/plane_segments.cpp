@@ -42,9 +42,8 @@ struct Segment {
 };
 
 /// The segments that are large and precise enough, largest first.
-std::vector<Segment> KeepMeasured(const DepthGrid& grid, const LabelImage& labels, int count,
+std::vector<Segment> KeepMeasured(const std::vector<PlaneSums>& sums,
                                   const PlaneExtractionConfig& config) {
-  const std::vector<PlaneSums> sums = SumLabels(grid, labels, count);
   std::vector<Segment> kept;
   for (std::size_t k = 0; k < sums.size(); ++k) {
     if (!(sums[k].n >= config.min_pixels)) continue;
@@ -137,7 +136,8 @@ struct PlaneExtractor::Workspace {
   BlockClustering clustering;
   PixelGrowth growth;
   std::vector<std::uint8_t> settled;
-  LabelImage labels;
+  LabelImage labels;  ///< of segments
+  std::vector<PlaneSums> sums;
 };
 
 PlaneExtractor::PlaneExtractor(const Camera& camera, const cv::Mat2d& rays,
@@ -171,17 +171,18 @@ void PlaneExtractor::Extract(Frame& frame) {
               work_->clustering.Cluster(grid, work_->settled, config.fine_block_px,
                                         config.noise, config.fine),
               config.noise, growth);
-  MergeEqualNeighbours(grid, config, growth);
+  const std::vector<PlaneSums> unknown;
+  const std::vector<PlaneSums>& blocks =
+      config.block_px == config.growth.block_px ? work_->clustering.SumsOfBlocks() : unknown;
+  MergeEqualNeighbours(grid, blocks, config, growth);
 
-  const PatchUnion joined = JoinBentParts(grid, config, growth);
+  const PatchUnion joined = JoinBentParts(grid, blocks, config, growth);
   LabelImage& labels = work_->labels;
-  labels = growth.labels();
-  for (std::int16_t& label : labels) {
-    if (label != kNoLabel) label = static_cast<std::int16_t>(joined.Root(label));
-  }
+  MapLabels(growth.labels(), joined.into(), labels);
   const int count = SegmentParts(grid, joined, config, labels);
 
-  const std::vector<Segment> kept = KeepMeasured(grid, labels, count, config);
+  growth.SumOtherLabels(labels, count, work_->sums);
+  const std::vector<Segment> kept = KeepMeasured(work_->sums, config);
   const std::vector<cv::Rect> bounds =
       DrawLabels(grid, labels, count, kept, frame.plane_labels);
   frame.planes.clear();
