@@ -5,6 +5,8 @@
 #include <cstddef>
 #include <vector>
 
+#include "slam/extract/pixel_labels.h"
+
 namespace slam {
 namespace {
 
@@ -21,23 +23,29 @@ int RegionOfPiece(const BlockClusters& clusters, int row, int col) {
   return shared ? region : -1;
 }
 
-/// Squared mean residual of a piece, less what noise adds to its median.
-double SquaredMean(const DepthGrid& grid, const cv::Rect& area, const LabelPlane& plane,
-                   double correlated_px) {
-  double sum = 0.0, n = 0.0;
-  for (int v = area.y; v < area.y + area.height; ++v) {
-    for (int u = area.x; u < area.x + area.width; ++u) {
-      const auto i = static_cast<std::size_t>(grid.Index(u, v));
-      if (!(grid.g[i] > 0)) continue;
-      sum += static_cast<double>(ResidualSigmas(grid, i, plane)), n += 1.0;
-    }
-  }
-  return sum * sum / (n * n) - kMedianOfSquare * correlated_px / n;
+/// Sums of 2 x 2 blocks.
+PlaneSums SumPiece(const BlockClusters& clusters, const std::vector<PlaneSums>& blocks, int row,
+                   int col) {
+  const auto first = static_cast<std::size_t>(row * clusters.cols + col);
+  const std::size_t below = first + static_cast<std::size_t>(clusters.cols);
+  PlaneSums sums = blocks[first];
+  sums += blocks[first + 1];
+  sums += blocks[below];
+  sums += blocks[below + 1];
+  return sums;
+}
+
+/// Squared mean residual of a piece in sigmas, which hardly change within it, less what noise
+/// adds to its median.
+double SquaredMean(const PlaneSums& s, const LabelPlane& p, double correlated_px) {
+  const double sum = s.wq - p.plane.a * s.wx - p.plane.b * s.wy - p.plane.c * s.w;
+  return sum * sum / (s.w * s.n * p.grazing * p.grazing) -
+         kMedianOfSquare * correlated_px / s.n;
 }
 
 }  // namespace
 
-double MeasureWarp(const DepthGrid& grid, const BlockClusters& clusters,
+double MeasureWarp(const BlockClusters& clusters, const std::vector<PlaneSums>& blocks,
                    const PlaneExtractionConfig& config) {
   if (!(config.max_warp_sigmas > 0.0)) return 0.0;
   std::vector<LabelPlane> planes;
@@ -45,15 +53,13 @@ double MeasureWarp(const DepthGrid& grid, const BlockClusters& clusters,
     planes.push_back({clusters.planes[k],
                       GrazingFactor(clusters.sums[k], clusters.planes[k], config.noise)});
   }
-  const cv::Rect image(0, 0, grid.width, grid.height);
-  const int size = clusters.block_px;
   std::vector<double> squares;
   for (int r = 0; r + 1 < clusters.rows; r += 2) {
     for (int c = 0; c + 1 < clusters.cols; c += 2) {
       const int region = RegionOfPiece(clusters, r, c);
       if (region < 0) continue;
-      const cv::Rect area = cv::Rect(c * size, r * size, 2 * size, 2 * size) & image;
-      squares.push_back(SquaredMean(grid, area, planes[static_cast<std::size_t>(region)],
+      squares.push_back(SquaredMean(SumPiece(clusters, blocks, r, c),
+                                    planes[static_cast<std::size_t>(region)],
                                     config.noise.correlated_px));
     }
   }

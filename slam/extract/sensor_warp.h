@@ -1,7 +1,8 @@
 #pragma once
 
+#include <vector>
+
 #include "slam/extract/block_clusters.h"
-#include "slam/extract/depth_grid.h"
 #include "slam/extract/extraction_config.h"
 
 namespace slam {
@@ -13,7 +14,8 @@ namespace slam {
 /// underestimated, because it splits them.
 ///
 /// @param clusters  of the whole grid, with the bounds of a flat sensor
-double MeasureWarp(const DepthGrid& grid, const BlockClusters& clusters,
+/// @param blocks    sums of the measured pixels of each of its blocks
+double MeasureWarp(const BlockClusters& clusters, const std::vector<PlaneSums>& blocks,
                    const PlaneExtractionConfig& config);
 
 /// The bounds that a surface warped by that much keeps; `config` itself for 0.

@@ -22,7 +22,7 @@ BlockClusters StepClusters(double step_m, int edge_px, MergeRule rule, double ma
   ClusterConfig config;
   config.merge_rule = rule;
   config.max_block_error = max_block_error;
-  return ClusterBlocks(grid, {}, 8, noise, config);
+  return BlockClustering().Cluster(grid, {}, 8, noise, config);
 }
 
 /// The regions left and right of the step.

@@ -34,8 +34,10 @@ double WarpOf(const cv::Mat1f& depth_m, const Camera& camera,
               const PlaneExtractionConfig& config = {}) {
   const DepthGrid grid =
       MakeDepthGrid(depth_m, PixelRays(camera), config.noise, config.max_depth_m);
-  return MeasureWarp(
-      grid, ClusterBlocks(grid, {}, config.block_px, config.noise, config.coarse), config);
+  BlockClustering clustering;
+  const BlockClusters& clusters =
+      clustering.Cluster(grid, {}, config.block_px, config.noise, config.coarse);
+  return MeasureWarp(clusters, clustering.SumsOfBlocks(), config);
 }
 
 /// Share of the image that the largest segment holds.
