@@ -4,6 +4,7 @@
 #include <ctime>
 
 #include "app/bench_planes_score.h"
+#include "eval/planes/united_faces.h"
 #include "eval/read/sequence.h"
 #include "eval/trajectory/score_trajectory.h"
 #include "slam/extract/box_tracks.h"
@@ -53,7 +54,7 @@ class PlaneFrontEnd {
                 const slam::Config& config)
       : camera_(camera),
         config_(config),
-        rays_(slam::PixelRays(camera)),
+        extractor_(camera, slam::PixelRays(camera), config.plane_extraction),
         boxes_(config.box_tracks, camera.ImageBox()) {
     const bool replay = std::filesystem::exists(sequence / "detections.jsonl");
     detector_ =
@@ -69,8 +70,7 @@ class PlaneFrontEnd {
         boxes_.Update(frame.timestamp_s, detector_->Detect(frame.timestamp_s, recorded.bgr));
     times.plain_pass_ms.push_back(
         TimeOf([&] { BackProject(frame.depth_m, camera_, points_c_); }));
-    times.extraction_ms.push_back(
-        TimeOf([&] { slam::ExtractPlanes(frame, camera_, rays_, config_.plane_extraction); }));
+    times.extraction_ms.push_back(TimeOf([&] { extractor_.Extract(frame); }));
     times.processing_ms.push_back(
         TimeOf([&] { slam::ProcessPlanes(frame, camera_, config_.plane_processing); }));
     return frame;
@@ -79,7 +79,7 @@ class PlaneFrontEnd {
  private:
   slam::Camera camera_;
   slam::Config config_;
-  cv::Mat2d rays_;
+  slam::PlaneExtractor extractor_;
   slam::BoxTracks boxes_;
   std::unique_ptr<slam::Detector> detector_;
   cv::Mat3f points_c_;
@@ -122,7 +122,7 @@ void PlaneBench::Add(const PlaneBench& o) {
 PlaneBench BenchPlanes(const std::filesystem::path& sequence, const std::string& camera_choice,
                        const slam::Config& config, const BenchChoice& choice) {
   const slam::Camera camera = slam::ChooseCamera(camera_choice, sequence);
-  const eval::Sequence truth = eval::ReadSequence(sequence);
+  const eval::Sequence truth = eval::WithUnitedFaces(eval::ReadSequence(sequence));
   slam::SequenceReader reader(sequence, camera);
   PlaneFrontEnd front_end(sequence, camera, config);
   const int count =

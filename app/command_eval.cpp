@@ -47,11 +47,11 @@ void AddEvalCommand(CLI::App& pas, const Globals& globals, int& exit_code) {
   const auto options = std::make_shared<EvalOptions>();
   CLI::App* command = pas.add_subcommand(
       "eval",
-      "Score a run against the truth: trajectory (metres, degrees), association of planes, "
-      "planes and vertices of each frame, map (millimetres, degrees), time (milliseconds). A "
-      "sequence without gt/ gives trajectory and time only; a run without segmentation/ images "
-      "(pas slam --save-segmentation) gives nothing that is counted by pixels. Exit code 1 if "
-      "the run tracked no frame.");
+      "Score a run against the truth: trajectory (metres, degrees), association of planes,\n"
+      "planes and vertices of each frame, map (millimetres, degrees), time (milliseconds).\n"
+      "A sequence without gt/ gives trajectory and time only; a run without segmentation/\n"
+      "images (pas slam --save-segmentation) gives nothing that is counted by pixels.\n"
+      "Exit code 1 if the run tracked no frame.");
   command->add_option("RUN", options->run, "Run folder, as pas slam writes it")->required();
   command->add_option(
       "--truth", options->truth,

@@ -1,8 +1,10 @@
 #include <cstdio>
 #include <exception>
+#include <memory>
 #include <opencv2/core/utility.hpp>
 
 #include "app/app.h"
+#include "app/wrapped_help.h"
 #include "version.h"
 
 namespace {
@@ -44,6 +46,8 @@ int main(int argc, char** argv) {
   pas.set_version_flag("--version", "pas " PAS_VERSION);
   pas.require_subcommand(1);
   pas.fallthrough();
+  pas.formatter(
+      std::make_shared<app::WrappedHelp>());  // before the commands, which take it over
 
   app::Globals globals;
   int exit_code = app::kDone;

@@ -78,7 +78,7 @@ endfunction()
 # take it that nobody reads errno or the processor's floating-point flags; results are the same bits.
 function(pas_lanes)
   set_source_files_properties(${ARGN} PROPERTIES SKIP_PRECOMPILE_HEADERS ON
-    COMPILE_OPTIONS "-fno-math-errno;-fno-trapping-math")
+    COMPILE_OPTIONS "-fno-math-errno;-fno-trapping-math;-Wno-psabi")
 endfunction()
 
 # pas_test(slam/planes SOURCES a_test.cpp LINK slam_planes [TIMEOUT s] [CASES n]): one executable a folder;

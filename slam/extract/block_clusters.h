@@ -56,9 +56,60 @@ struct BlockClusters {
 /// desk; `merge_rule` brings that back, with max_block_error as its bound.) Ties are broken by
 /// block number.
 ///
-/// @param taken   one entry a pixel; pixels with a non-zero entry are left out. May be empty.
-/// @param block_px  side of a block, pixels, > 1; the last row and column may be cut
-BlockClusters ClusterBlocks(const DepthGrid& grid, const std::vector<std::uint8_t>& taken,
-                            int block_px, const DepthNoise& noise, const ClusterConfig& config);
+class BlockClustering {
+ public:
+  /// @param taken   one entry a pixel; pixels with a non-zero entry are left out. May be empty.
+  /// @param block_px  side of a block, pixels, > 1; the last row and column may be cut
+  /// @returns what stands until the next call, in memory that serves again then
+  const BlockClusters& Cluster(const DepthGrid& grid, const std::vector<std::uint8_t>& taken,
+                               int block_px, const DepthNoise& noise,
+                               const ClusterConfig& config);
+
+  /// Of the measured pixels of each block in the last call in which nothing was taken.
+  const std::vector<PlaneSums>& SumsOfBlocks() const { return sums_; }
+
+ private:
+  struct Region {
+    PlaneSums sums;
+    PlaneFit fit;
+    double grazing = 1.0;
+    int version = 0;  ///< counts its merges, so that stale candidates are known
+    int blocks = 1;
+    int block = 0;  ///< its first
+  };
+
+  /// A possible merge of two neighbouring blocks' regions, as it was when it was evaluated.
+  struct Candidate {
+    double cost;               ///< error added, or mean error
+    int i, j;                  ///< regions of one block
+    int version_i, version_j;  ///< of their regions
+    /// Reversed, for a queue with the least on top.
+    bool operator<(const Candidate& o) const {
+      if (cost != o.cost) return cost > o.cost;
+      return i != o.i ? i > o.i : j > o.j;
+    }
+  };
+
+  Region& At(int i) { return regions_[static_cast<std::size_t>(i)]; }
+  void AddBlocks(const DepthGrid& grid, const std::vector<std::uint8_t>& taken, int block_px);
+  void AddBlock(const DepthGrid& grid, const std::uint8_t* taken, int u, int v, int block_px,
+                int block);
+  void Merge();
+  int Root(int i);
+  void Propose(int i, int j);
+  void Join(int a, int b);
+  void Number(int block_px);
+
+  const DepthNoise* noise_ = nullptr;
+  const ClusterConfig* config_ = nullptr;
+  int cols_ = 0, rows_ = 0;
+  std::vector<Region> regions_;   ///< of the blocks that are planar, in their order
+  std::vector<int> region_at_;    ///< of each block; -1 = none
+  std::vector<int> parent_;       ///< of each region
+  std::vector<Candidate> queue_;  ///< a heap
+  std::vector<int> number_;
+  std::vector<PlaneSums> sums_;
+  BlockClusters out_;
+};
 
 }  // namespace slam

@@ -34,6 +34,16 @@ class TileSteps {
     }
   }
 
+  /// Whether a row of a whole tile is of one label, and what is below it too.
+  bool IsInside(int u, int v) const {
+    if (u + kTile_px >= grid_.width || v + 1 >= grid_.height) return false;
+    const std::int16_t* row = labels_.data() + At(u, v);
+    int differs = 0;
+    for (int k = 0; k < kTile_px; ++k)
+      differs |= (row[k] ^ row[k + 1]) | (row[k] ^ row[k + grid_.width]);
+    return differs == 0;
+  }
+
   void AddTo(BoundarySteps& steps) {
     for (const Sum& sum : sums_) {
       BoundaryStep& step = steps[sum.pair];
@@ -86,6 +96,7 @@ BoundarySteps MeasureSteps(const DepthGrid& grid, const LabelImage& labels,
   for (int v0 = 0; v0 < grid.height; v0 += kTile_px) {
     for (int u0 = 0; u0 < grid.width; u0 += kTile_px) {
       for (int v = v0; v < std::min(v0 + kTile_px, grid.height); ++v) {
+        if (tile.IsInside(u0, v)) continue;
         for (int u = u0; u < std::min(u0 + kTile_px, grid.width); ++u) {
           if (u + 1 < grid.width) tile.Look(u, v, 1, 0);
           if (v + 1 < grid.height) tile.Look(u, v, 0, 1);

@@ -18,11 +18,18 @@ struct DepthGrid {
   int Index(int u, int v) const { return v * width + u; }
 };
 
+/// Sets the size of a grid and its x and y. @param rays  PixelRays of the camera
+void SetRays(const cv::Mat2d& rays, DepthGrid& grid);
+
+/// Sets q and g.
 /// @param depth_m  planar z, metres; anything not finite, not positive or not below max_depth_m
 /// is
 ///                 no measurement
-/// @param rays     PixelRays of the camera; same size
-/// @throws std::invalid_argument if the sizes differ.
+/// @throws std::invalid_argument if depth and rays differ in size.
+void SetDepth(const cv::Mat1f& depth_m, const DepthNoise& noise, double max_depth_m,
+              DepthGrid& grid);
+
+/// Both.
 DepthGrid MakeDepthGrid(const cv::Mat1f& depth_m, const cv::Mat2d& rays,
                         const DepthNoise& noise, double max_depth_m);
 

@@ -20,11 +20,13 @@ using Contacts = std::map<std::pair<int, int>, PlaneSums>;
 
 Contacts FindContacts(const DepthGrid& grid, const LabelImage& labels) {
   Contacts contacts;
+  LabelRuns runs;
+  FindRuns(labels, grid.width, grid.height, runs);
   std::pair<int, int> last{-1, -1};  // neighbouring pixels touch the same pair: look it up once
   PlaneSums* sums = nullptr;
-  const auto touch = [&](std::size_t i, std::size_t j) {
+  VisitBoundaries(runs, [&](std::size_t i, std::size_t j) {
     const int a = labels[i], b = labels[j];
-    if (a == b || a == kNoLabel || b == kNoLabel) return;
+    if (a == kNoLabel || b == kNoLabel) return;
     const std::pair<int, int> pair = std::minmax(a, b);
     if (pair != last) sums = &contacts[pair], last = pair;
     for (const std::size_t k : {i, j}) {
@@ -32,15 +34,7 @@ Contacts FindContacts(const DepthGrid& grid, const LabelImage& labels) {
       sums->Add(static_cast<double>(grid.x[k]), static_cast<double>(grid.y[k]),
                 static_cast<double>(grid.q[k]), g * g);
     }
-  };
-  for (int v = 0; v < grid.height; ++v) {
-    for (int u = 0; u < grid.width; ++u) {
-      const auto i = static_cast<std::size_t>(grid.Index(u, v));
-      if (labels[i] == kNoLabel) continue;
-      if (u + 1 < grid.width) touch(i, i + 1);
-      if (v + 1 < grid.height) touch(i, i + static_cast<std::size_t>(grid.width));
-    }
-  }
+  });
   return contacts;
 }
 
@@ -74,10 +68,9 @@ void Refit(Patch& patch, const DepthNoise& noise) {
   patch.plane = {fit->plane, GrazingFactor(patch.sums, fit->plane, noise)};
 }
 
-std::vector<Patch> FittedPatches(const DepthGrid& grid, const PixelGrowth& growth,
+std::vector<Patch> FittedPatches(PixelGrowth& growth, const std::vector<PlaneSums>& blocks,
                                  const DepthNoise& noise) {
-  const std::vector<PlaneSums> sums =
-      SumLabels(grid, growth.labels(), static_cast<int>(growth.planes().size()));
+  const std::vector<PlaneSums>& sums = growth.SumLabels(blocks);
   std::vector<Patch> patches;
   for (std::size_t k = 0; k < sums.size(); ++k) {
     patches.push_back({sums[k], growth.planes()[k]});
@@ -131,9 +124,9 @@ std::vector<LabelPlane> PatchUnion::Planes() const {
   return planes;
 }
 
-void MergeEqualNeighbours(const DepthGrid& grid, const PlaneExtractionConfig& config,
-                          PixelGrowth& growth) {
-  PatchUnion merged(FittedPatches(grid, growth, config.noise));
+void MergeEqualNeighbours(const DepthGrid& grid, const std::vector<PlaneSums>& blocks,
+                          const PlaneExtractionConfig& config, PixelGrowth& growth) {
+  PatchUnion merged(FittedPatches(growth, blocks, config.noise));
   const Contacts contacts = FindContacts(grid, growth.labels());
   while (true) {
     double least = 1.0;
@@ -152,9 +145,9 @@ void MergeEqualNeighbours(const DepthGrid& grid, const PlaneExtractionConfig& co
   growth.Replace(merged.Planes(), merged.into());
 }
 
-PatchUnion JoinBentParts(const DepthGrid& grid, const PlaneExtractionConfig& config,
-                         const PixelGrowth& growth) {
-  PatchUnion joined(FittedPatches(grid, growth, config.noise));
+PatchUnion JoinBentParts(const DepthGrid& grid, const std::vector<PlaneSums>& blocks,
+                         const PlaneExtractionConfig& config, PixelGrowth& growth) {
+  PatchUnion joined(FittedPatches(growth, blocks, config.noise));
   const std::vector<std::pair<int, int>> meeting =
       MeetingLabels(grid, growth.labels(), joined.Planes(), config);
   bool changed = true;

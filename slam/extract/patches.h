@@ -40,15 +40,17 @@ class PatchUnion {
 
 /// Merges touching labels that are one plane within the noise, closest pair first, refits every
 /// plane to its pixels and grows them anew.
-void MergeEqualNeighbours(const DepthGrid& grid, const PlaneExtractionConfig& config,
-                          PixelGrowth& growth);
+/// @param blocks  sums of the measured pixels of each block of `growth`, or empty
+void MergeEqualNeighbours(const DepthGrid& grid, const std::vector<PlaneSums>& blocks,
+                          const PlaneExtractionConfig& config, PixelGrowth& growth);
 
 /// Joins touching labels that are parts of one surface which the sensor has bent: a real step
 /// stands all along the boundary, while the parts of a bent surface meet there. So the planes
 /// of the two labels must agree along the boundary, and those of the segments that they belong
 /// to must agree within the wider bounds on bending. The labels keep their own planes, and with
 /// them their pixels.
-PatchUnion JoinBentParts(const DepthGrid& grid, const PlaneExtractionConfig& config,
-                         const PixelGrowth& growth);
+/// @param blocks  as above
+PatchUnion JoinBentParts(const DepthGrid& grid, const std::vector<PlaneSums>& blocks,
+                         const PlaneExtractionConfig& config, PixelGrowth& growth);
 
 }  // namespace slam

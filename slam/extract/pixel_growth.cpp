@@ -2,281 +2,343 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numeric>
+
+#include "slam/base/lanes.h"
+#include "slam/extract/block_sums.h"
 
 namespace slam {
 namespace {
-
-constexpr float kNone = std::numeric_limits<float>::infinity();
 
 // A plane owning fewer pixels of a block than this does not spread from it: chance crossings of
 // another surface with the plane's extension are thinner.
 constexpr int kLeastPixelsToSpread = 4;
 
+/// Makes room; what is there stays. Grows by more than is asked, so that it soon no longer
+/// does.
+template <typename T>
+void Provide(std::vector<T>& room, std::size_t size) {
+  if (room.size() < size) room.resize(size + size / 2);
+}
+
 }  // namespace
 
-PixelGrowth::PixelGrowth(const DepthGrid& grid, const GrowthConfig& config)
-    : grid_(grid),
-      config_(config),
-      cols_((grid.width + config.block_px - 1) / config.block_px),
-      rows_((grid.height + config.block_px - 1) / config.block_px),
-      slot_size_(static_cast<std::size_t>(config.block_px * config.block_px)),
-      reached_(static_cast<std::size_t>(cols_ * rows_)),
-      labels_(grid.q.size(), kNoLabel) {}
+void PixelGrowth::Begin(const DepthGrid& grid, const GrowthConfig& config) {
+  grid_ = &grid, config_ = config;
+  cols_ = (grid.width + config.block_px - 1) / config.block_px;
+  rows_ = (grid.height + config.block_px - 1) / config.block_px;
+  const auto pixels = static_cast<std::size_t>(config.block_px * config.block_px);
+  const auto blocks = static_cast<std::size_t>(cols_ * rows_);
+  slot_size_ = (pixels + kLanes - 1) / kLanes * kLanes;
+  words_ = (blocks + 63) / 64;
+  planes_.clear(), claims_.clear(), reached_.clear();
+  first_.assign(blocks, kNoClaim);
+  active_.clear(), next_active_.clear(), is_active_.assign(blocks, 0);
+  labels_.assign(grid.q.size(), kNoLabel);
+  bid_count_ = 0;
+  owners_.resize(slot_size_), next_labels_.resize(slot_size_), gains_.resize(slot_size_);
+}
+
+int PixelGrowth::AddPlane(const LabelPlane& plane) {
+  planes_.push_back(plane);
+  reached_.resize(planes_.size() * words_, 0);
+  return static_cast<int>(planes_.size()) - 1;
+}
 
 bool PixelGrowth::Reach(int block, int label) {
-  std::vector<Claim>& at = reached_[static_cast<std::size_t>(block)];
-  const auto place =
-      std::lower_bound(at.begin(), at.end(), label,
-                       [](const Claim& claim, int other) { return claim.label < other; });
-  if (place != at.end() && place->label == label) return false;
-  at.insert(place, Claim{label, 0, false, false, false});
+  std::uint64_t& bits = ReachedBits(block, label);
+  const std::uint64_t bit = std::uint64_t{1} << (block % 64);
+  if ((bits & bit) != 0) return false;
+  bits |= bit;
+  const int claim = static_cast<int>(claims_.size());
+  claims_.push_back({label, kNoClaim, 0, -1, 0.0f, false, false});
+  int* link = &First(block);
+  while (*link != kNoClaim && At(*link).label < label) link = &At(*link).next;
+  At(claim).next = *link;
+  *link = claim;
   return true;
 }
 
-int PixelGrowth::AddPlane(const LabelPlane& plane, const std::vector<int>& blocks) {
-  const int label = static_cast<int>(planes_.size());
-  planes_.push_back(plane);
-  for (const int block : blocks) {
-    if (Reach(block, label)) active_.push_back(block);
-  }
-  return label;
+void PixelGrowth::Activate(int block) {
+  std::uint8_t& is_active = is_active_[static_cast<std::size_t>(block)];
+  if (is_active == 0) active_.push_back(block), is_active = 1;
 }
 
 cv::Rect PixelGrowth::BlockArea(int block) const {
   const int size = config_.block_px;
   const int u = block % cols_ * size, v = block / cols_ * size;
-  return {u, v, std::min(size, grid_.width - u), std::min(size, grid_.height - v)};
+  return {u, v, std::min(size, grid_->width - u), std::min(size, grid_->height - v)};
 }
 
-void PixelGrowth::Measure(const cv::Rect& area, Claim& claim) {
-  claim.slot = distances_.size() / slot_size_;
-  claim.measured = true;
-  distances_.resize(distances_.size() + slot_size_, kNone);
-  const LabelPlane plane = planes_[static_cast<std::size_t>(claim.label)];
-  float* distances = distances_.data() + claim.slot * slot_size_;
-  for (int y = 0; y < area.height; ++y) {
-    const auto start = static_cast<std::size_t>(grid_.Index(area.x, area.y + y));
-    float* row = distances + y * config_.block_px;
-    for (int x = 0; x < area.width; ++x) {
-      const std::size_t i = start + static_cast<std::size_t>(x);
-      // An unmeasured pixel has g = 0 and would seem to lie on every plane.
-      const float r = std::abs(ResidualSigmas(grid_, i, plane));
-      row[x] = grid_.g[i] > 0.0f ? r : kNone;
-    }
-  }
-  const float farthest = static_cast<float>(config_.max_pixel_sigmas);
-  claim.near = std::any_of(distances, distances + slot_size_,
-                           [farthest](float distance) { return distance < farthest; });
+BlockPixels PixelGrowth::PixelsOf(const cv::Rect& area) const {
+  const auto i = static_cast<std::size_t>(grid_->Index(area.x, area.y));
+  return {grid_->x.data() + i, grid_->y.data() + i, grid_->q.data() + i, grid_->g.data() + i,
+          grid_->width,        area.width,          area.height,         config_.block_px};
 }
 
-void PixelGrowth::Bid(const cv::Rect& area, Claim& claim) {
-  claim.bidding = true;
-  const int size = config_.block_px, reach = config_.vote_reach_px;
-  const int top = std::max(area.y - reach, 0);
-  const int bottom = std::min(area.y + area.height + reach, grid_.height);
-  const int left = std::max(area.x - reach, 0);
-  const int right = std::min(area.x + area.width + reach, grid_.width);
-  const LabelPlane plane = planes_[static_cast<std::size_t>(claim.label)];
-  const float most = static_cast<float>(config_.max_pixel_sigmas * config_.max_pixel_sigmas);
-  // Zeros stand where the image ends.
-  squares_.assign(static_cast<std::size_t>(size + 2 * reach), 0.0f);
-  row_sums_.assign(static_cast<std::size_t>(size * (size + 2 * reach)), 0.0f);
-  for (int v = top; v < bottom; ++v) {
-    const auto start = static_cast<std::size_t>(grid_.Index(left, v));
-    float* squares = squares_.data() + (left - (area.x - reach));
-    for (int x = 0; x < right - left; ++x) {
-      const float r = ResidualSigmas(grid_, start + static_cast<std::size_t>(x), plane);
-      squares[x] = std::min(r * r, most);
-    }
-    float* sums = row_sums_.data() + (v - (area.y - reach)) * size;
-    for (int offset = 0; offset <= 2 * reach; ++offset) {
-      for (int x = 0; x < size; ++x) sums[x] += squares_[static_cast<std::size_t>(x + offset)];
-    }
-  }
-  bids_.resize(distances_.size());
-  float* bids = bids_.data() + claim.slot * slot_size_;
-  std::fill(bids, bids + slot_size_, 0.0f);
-  for (int y = 0; y < area.height; ++y) {
-    for (int offset = 0; offset <= 2 * reach; ++offset) {
-      const float* sums = row_sums_.data() + (y + offset) * size;
-      for (int x = 0; x < size; ++x) bids[y * size + x] += sums[x];
-    }
-  }
-  const float farthest = static_cast<float>(config_.max_pixel_sigmas);
-  const float* distances = distances_.data() + claim.slot * slot_size_;
-  for (std::size_t k = 0; k < slot_size_; ++k)
-    bids[k] = distances[k] < farthest ? bids[k] : kNone;
+void PixelGrowth::Measure(const BlockPixels& pixels, int claim) {
+  Provide(residuals_, static_cast<std::size_t>(claim + 1) * slot_size_);
+  Claim& at = At(claim);
+  const PixelPlane plane(planes_[static_cast<std::size_t>(at.label)]);
+  at.measured = true;
+  at.least = MeasureBlock(pixels, static_cast<int>(slot_size_), plane,
+                          residuals_.data() + static_cast<std::size_t>(claim) * slot_size_);
 }
 
-/// Gives the pixels of a block to the nearest of its planes and counts in owned_ what each
-/// gets, in the order of reached_[block].
+void PixelGrowth::Bid(const BlockPixels& pixels, const cv::Rect& area, int claim) {
+  Claim& at = At(claim);
+  at.bid = static_cast<int>(bid_count_++);
+  Provide(bids_, bid_count_ * slot_size_);
+  const int reach = config_.vote_reach_px;
+  const BidWindow window{reach,
+                         std::min(reach, area.x),
+                         std::min(reach, area.y),
+                         std::min(reach, grid_->width - area.x - area.width),
+                         std::min(reach, grid_->height - area.y - area.height),
+                         static_cast<float>(config_.max_pixel_sigmas)};
+  BidForBlock(pixels, static_cast<int>(slot_size_),
+              PixelPlane(planes_[static_cast<std::size_t>(at.label)]), window,
+              ResidualsOf(claim), bids_.data() + static_cast<std::size_t>(at.bid) * slot_size_);
+}
+
+/// The claims of a block with a pixel nearer than that, by label, measured.
+void PixelGrowth::GatherRivals(int block, float nearer_than) {
+  rivals_.clear(), rival_claims_.clear();
+  for (int claim = First(block); claim != kNoClaim; claim = At(claim).next) {
+    if (At(claim).least < nearer_than) rival_claims_.push_back(claim);
+  }
+  for (const int claim : rival_claims_)
+    rivals_.push_back({At(claim).label, ResidualsOf(claim), nullptr, 0, 0.0});
+}
+
+/// Gives the pixels of a block to the nearest of its planes and counts what each gets.
 void PixelGrowth::LabelBlock(int block) {
-  std::vector<Claim>& claims = reached_[static_cast<std::size_t>(block)];
   const cv::Rect area = BlockArea(block);
-  rivals_.clear();
-  for (Claim& claim : claims) {
-    if (!claim.measured) Measure(area, claim);
-    if (claim.near) rivals_.push_back(&claim);
+  const BlockPixels pixels = PixelsOf(area);
+  for (int claim = First(block); claim != kNoClaim; claim = At(claim).next) {
+    if (!At(claim).measured) Measure(pixels, claim);
+    At(claim).pixels = 0;
   }
-  winner_.assign(slot_size_, kNoLabel);
-  if (rivals_.size() == 1) ClaimUncontested(*rivals_.front());
-  if (rivals_.size() > 1) ClaimContested(area);
-  owned_.assign(claims.size(), 0);
-  for (int y = 0; y < area.height; ++y) {
-    const std::int16_t* winner = winner_.data() + y * config_.block_px;
-    std::int16_t* labels =
-        labels_.data() + static_cast<std::size_t>(grid_.Index(area.x, area.y + y));
-    for (int x = 0; x < area.width; ++x) labels[x] = winner[x];
+  const auto farthest = static_cast<float>(config_.max_pixel_sigmas);
+  GatherRivals(block, farthest);
+  if (rivals_.size() > 1) {
+    for (const int claim : rival_claims_) {
+      if (At(claim).bid < 0) Bid(pixels, area, claim);
+    }
+    for (std::size_t k = 0; k < rivals_.size(); ++k) {
+      const auto bid = static_cast<std::size_t>(At(rival_claims_[k]).bid);
+      rivals_[k].bids = bids_.data() + bid * slot_size_;
+    }
   }
-  for (const Claim* rival : rivals_) {
-    const auto label = static_cast<std::int16_t>(rival->label);
-    owned_[static_cast<std::size_t>(rival - claims.data())] =
-        static_cast<int>(std::count(winner_.begin(), winner_.end(), label));
-  }
+  ClaimBlock(rivals_.data(), static_cast<int>(rivals_.size()), static_cast<int>(slot_size_),
+             farthest, owners_.data());
+  for (std::size_t k = 0; k < rivals_.size(); ++k)
+    At(rival_claims_[k]).pixels = rivals_[k].pixels;
+  WriteOwners(pixels, owners_.data(),
+              labels_.data() + static_cast<std::size_t>(grid_->Index(area.x, area.y)));
 }
 
-void PixelGrowth::ClaimUncontested(const Claim& only) {
-  const float farthest = static_cast<float>(config_.max_pixel_sigmas);
-  const float* distances = distances_.data() + only.slot * slot_size_;
-  const auto label = static_cast<std::int16_t>(only.label);
-  for (std::size_t k = 0; k < slot_size_; ++k) {
-    winner_[k] = distances[k] < farthest ? label : kNoLabel;
-  }
-}
-
-void PixelGrowth::ClaimContested(const cv::Rect& area) {
-  least_.assign(slot_size_, kNone);
-  for (Claim* rival : rivals_) {
-    if (!rival->bidding) Bid(area, *rival);
-    const float* bids = bids_.data() + rival->slot * slot_size_;
-    const auto label = static_cast<std::int16_t>(rival->label);
-    for (std::size_t k = 0; k < slot_size_; ++k) {
-      const bool better = bids[k] < least_[k];
-      least_[k] = better ? bids[k] : least_[k];
-      winner_[k] = better ? label : winner_[k];
+void PixelGrowth::SpreadFrom(int block) {
+  const int c = block % cols_, r = block / cols_;
+  for (int claim = First(block); claim != kNoClaim; claim = At(claim).next) {
+    if (At(claim).spread || At(claim).pixels < kLeastPixelsToSpread) continue;
+    At(claim).spread = true;
+    const int label = At(claim).label;
+    for (int y = std::max(r - 1, 0); y <= std::min(r + 1, rows_ - 1); ++y) {
+      for (int x = std::max(c - 1, 0); x <= std::min(c + 1, cols_ - 1); ++x) {
+        Seed(y * cols_ + x, label);
+      }
     }
   }
 }
 
 void PixelGrowth::Grow() {
-  std::vector<std::pair<int, int>> spread;  // (block, label)
   // Each round adds at least one label to a block, so there are finitely many.
   while (!active_.empty()) {
-    std::sort(active_.begin(), active_.end());
-    active_.erase(std::unique(active_.begin(), active_.end()), active_.end());
-    spread.clear();
-    for (const int block : active_) {
-      LabelBlock(block);
-      const int c = block % cols_, r = block / cols_;
-      for (std::size_t k = 0; k < owned_.size(); ++k) {
-        if (owned_[k] < kLeastPixelsToSpread) continue;
-        const int label = reached_[static_cast<std::size_t>(block)][k].label;
-        for (int y = std::max(r - 1, 0); y <= std::min(r + 1, rows_ - 1); ++y) {
-          for (int x = std::max(c - 1, 0); x <= std::min(c + 1, cols_ - 1); ++x) {
-            spread.emplace_back(y * cols_ + x, label);
-          }
-        }
-      }
-    }
+    std::swap(active_, next_active_);
     active_.clear();
-    for (const auto& [block, label] : spread) {
-      if (Reach(block, label)) active_.push_back(block);
+    for (const int block : next_active_) {
+      LabelBlock(block);
+      is_active_[static_cast<std::size_t>(block)] = 0;
     }
+    for (const int block : next_active_) SpreadFrom(block);
   }
 }
 
 /// Adds the gains of the pixels of one block.
-void PixelGrowth::AddGains(int block, Gains& gains) {
-  const std::vector<Claim>& claims = reached_[static_cast<std::size_t>(block)];
-  const cv::Rect area = BlockArea(block);
+void PixelGrowth::AddGains(int block) {
+  if (First(block) == kNoClaim) return;
   const float unexplained = static_cast<float>(config_.max_pixel_sigmas + 1.0);
-  winner_.assign(slot_size_, kNoLabel);  // the label of each pixel
-  for (int y = 0; y < area.height; ++y) {
-    const auto start = static_cast<std::size_t>(grid_.Index(area.x, area.y + y));
-    for (int x = 0; x < area.width; ++x) {
-      winner_[static_cast<std::size_t>(y * config_.block_px + x)] =
-          labels_[start + static_cast<std::size_t>(x)];
-    }
+  if (At(First(block)).next == kNoClaim) {  // nobody asks how well it fits
+    const Claim& only = At(First(block));
+    const auto label = static_cast<std::size_t>(only.label);
+    pixels_[label] += only.pixels;
+    gain_[label] += static_cast<double>(unexplained * unexplained - 1.0f) * only.pixels;
+    return;
   }
-  own_.assign(slot_size_, 0.0f);
-  next_.assign(slot_size_, unexplained);
-  next_label_.assign(slot_size_, kNoLabel);
-  for (const Claim& claim : claims) {
-    const float* distances = distances_.data() + claim.slot * slot_size_;
-    const auto label = static_cast<std::int16_t>(claim.label);
+  GatherRivals(block, unexplained);
+  const cv::Rect area = BlockArea(block);
+  ReadOwners(PixelsOf(area), static_cast<int>(slot_size_),
+             labels_.data() + static_cast<std::size_t>(grid_->Index(area.x, area.y)),
+             owners_.data());
+  GainsOfBlock(rivals_.data(), static_cast<int>(rivals_.size()), static_cast<int>(slot_size_),
+               unexplained, owners_.data(), gains_.data(), next_labels_.data());
+  for (std::size_t k = 0; k < rivals_.size(); ++k) {
+    const auto label = static_cast<std::size_t>(rivals_[k].label);
+    pixels_[label] += At(rival_claims_[k]).pixels;
+    gain_[label] += rivals_[k].gain;
+  }
+}
+
+/// Adds what others gain at pixels where `label`'s plane is the next best, if it is not there.
+void PixelGrowth::AddGainsWithout(int label) {
+  const float unexplained = static_cast<float>(config_.max_pixel_sigmas + 1.0);
+  for (int block = 0; block < cols_ * rows_; ++block) {
+    const std::uint64_t bits = ReachedBits(block, label);
+    if (bits == 0) block |= 63;  // none of these 64
+    if ((bits >> (block % 64) & 1) == 0) continue;
+    GatherRivals(block, unexplained);
+    const cv::Rect area = BlockArea(block);
+    ReadOwners(PixelsOf(area), static_cast<int>(slot_size_),
+               labels_.data() + static_cast<std::size_t>(grid_->Index(area.x, area.y)),
+               owners_.data());
+    GainsOfBlock(rivals_.data(), static_cast<int>(rivals_.size()), static_cast<int>(slot_size_),
+                 unexplained, owners_.data(), gains_.data(), next_labels_.data());
+    const auto own = std::find_if(rivals_.begin(), rivals_.end(),
+                                  [label](const BlockRival& r) { return r.label == label; });
+    if (own == rivals_.end()) continue;
     for (std::size_t k = 0; k < slot_size_; ++k) {
-      const bool owns = winner_[k] == label;
-      const bool nearer = !owns && distances[k] < next_[k];
-      own_[k] = owns ? distances[k] : own_[k];
-      next_[k] = nearer ? distances[k] : next_[k];
-      next_label_[k] = nearer ? label : next_label_[k];
+      if (owners_[k] == kNoLabel || next_labels_[k] != label) continue;
+      gain_[static_cast<std::size_t>(owners_[k])] += static_cast<double>(
+          unexplained * unexplained - own->residuals[k] * own->residuals[k]);
     }
-  }
-  for (std::size_t k = 0; k < slot_size_; ++k) {
-    if (winner_[k] == kNoLabel) continue;
-    const auto label = static_cast<std::size_t>(winner_[k]);
-    ++gains.pixels[label];
-    const float own = claims.size() > 1 ? own_[k] : 1.0f;  // nobody asks how well it fits
-    gains.gain[label] += static_cast<double>(next_[k] * next_[k] - own * own);
-    if (next_label_[k] == kNoLabel) continue;
-    gains.without[label * planes_.size() + static_cast<std::size_t>(next_label_[k])] +=
-        static_cast<double>(unexplained * unexplained - next_[k] * next_[k]);
   }
 }
 
 void PixelGrowth::DropUseless() {
-  Gains gains{std::vector<double>(planes_.size(), 0.0), std::vector<int>(planes_.size(), 0),
-              std::vector<double>(planes_.size() * planes_.size(), 0.0)};
-  for (std::size_t block = 0; block < reached_.size(); ++block) {
-    if (!reached_[block].empty()) AddGains(static_cast<int>(block), gains);
-  }
+  gain_.assign(planes_.size(), 0.0), pixels_.assign(planes_.size(), 0);
+  for (int block = 0; block < cols_ * rows_; ++block) AddGains(block);
   std::vector<std::size_t> order(planes_.size());
   std::iota(order.begin(), order.end(), 0u);
-  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-    return gains.pixels[a] < gains.pixels[b];
-  });
-  std::vector<bool> dropped(planes_.size(), false);
-  bool any = false;
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b) { return pixels_[a] < pixels_[b]; });
+  std::vector<std::uint8_t> dropped(planes_.size(), 0);
   for (const std::size_t label : order) {
-    if (gains.gain[label] >= config_.min_gain * std::max(gains.pixels[label], 1)) continue;
-    dropped[label] = any = true;
-    for (std::size_t other = 0; other < planes_.size(); ++other) {
-      gains.gain[other] += gains.without[other * planes_.size() + label];
-    }
+    if (gain_[label] >= config_.min_gain * std::max(pixels_[label], 1)) continue;
+    dropped[label] = 1;
+    AddGainsWithout(static_cast<int>(label));
   }
-  if (any) Drop(dropped);
+  Drop(dropped);
 }
 
-void PixelGrowth::Drop(const std::vector<bool>& dropped) {
-  for (std::size_t block = 0; block < reached_.size(); ++block) {
-    const auto gone = std::erase_if(reached_[block], [&](const Claim& claim) {
-      return dropped[static_cast<std::size_t>(claim.label)];
-    });
-    if (gone > 0) active_.push_back(static_cast<int>(block));
+void PixelGrowth::Unlink(int block, int label) {
+  int* link = &First(block);
+  while (At(*link).label != label) link = &At(*link).next;
+  *link = At(*link).next;
+}
+
+void PixelGrowth::Drop(const std::vector<std::uint8_t>& dropped) {
+  for (int label = 0; label < static_cast<int>(dropped.size()); ++label) {
+    if (dropped[static_cast<std::size_t>(label)] == 0) continue;
+    for (int block = 0; block < cols_ * rows_; ++block) {
+      std::uint64_t& bits = ReachedBits(block, label);
+      if ((bits >> (block % 64) & 1) == 0) continue;
+      bits &= ~(std::uint64_t{1} << (block % 64));
+      Unlink(block, label);
+      Activate(block);
+    }
   }
   Grow();
 }
 
-void PixelGrowth::Replace(std::vector<LabelPlane> planes, const std::vector<int>& into) {
-  planes_ = std::move(planes);
-  for (std::vector<Claim>& at : reached_) at.clear();
-  distances_.clear();
-  bids_.clear();
-  for (int v = 0; v < grid_.height; ++v) {
-    std::int16_t last = kNoLabel;
-    int last_block = -1;
-    for (int u = 0; u < grid_.width; ++u) {
-      const std::int16_t label = labels_[static_cast<std::size_t>(grid_.Index(u, v))];
-      const int block = BlockAt(u, v);
-      if (label == kNoLabel || (label == last && block == last_block)) continue;
-      if (Reach(block, into[static_cast<std::size_t>(label)])) active_.push_back(block);
-      last = label, last_block = block;
+void PixelGrowth::Replace(const std::vector<LabelPlane>& planes, const std::vector<int>& into) {
+  std::vector<std::pair<int, int>> seeds;  // (block, label)
+  for (int block = 0; block < cols_ * rows_; ++block) {
+    for (int claim = First(block); claim != kNoClaim; claim = At(claim).next) {
+      if (At(claim).pixels > 0)
+        seeds.emplace_back(block, into[static_cast<std::size_t>(At(claim).label)]);
     }
   }
-  std::fill(labels_.begin(), labels_.end(), kNoLabel);
+  planes_ = planes;
+  claims_.clear();
+  bid_count_ = 0;
+  reached_.assign(planes_.size() * words_, 0);
+  std::fill(first_.begin(), first_.end(), kNoClaim);
+  for (const auto& [block, label] : seeds) Seed(block, label);
   Grow();
+}
+
+void PixelGrowth::MarkSettled(double bias, double standard_errors,
+                              std::vector<std::uint8_t>& settled) const {
+  settled.assign(labels_.size(), 0);
+  for (int block = 0; block < cols_ * rows_; ++block) {
+    const cv::Rect area = BlockArea(block);
+    const BlockPixels pixels = PixelsOf(area);
+    const auto start = static_cast<std::size_t>(grid_->Index(area.x, area.y));
+    bool read = false;
+    for (int claim = First(block); claim != kNoClaim; claim = At(claim).next) {
+      const int n = At(claim).pixels, label = At(claim).label;
+      if (n == 0) continue;
+      if (!read) {
+        ReadOwners(pixels, static_cast<int>(slot_size_), labels_.data() + start,
+                   owners_.data());
+        read = true;
+      }
+      const double sum =
+          SumOwned(ResidualsOf(claim), static_cast<int>(slot_size_), label, owners_.data());
+      const double bound = bias + standard_errors / std::sqrt(static_cast<double>(n));
+      if (!(std::abs(sum) < bound * n)) continue;
+      for (int v = 0; v < area.height; ++v) {
+        const int* owners = owners_.data() + v * config_.block_px;
+        std::uint8_t* row = settled.data() + start + static_cast<std::size_t>(v * grid_->width);
+        for (int u = 0; u < area.width; ++u) row[u] |= owners[u] == label ? 1 : 0;
+      }
+    }
+  }
+}
+
+const std::vector<PlaneSums>& PixelGrowth::SumLabels(const std::vector<PlaneSums>& whole) {
+  Provide(claim_sums_, claims_.size());
+  label_sums_.assign(planes_.size(), PlaneSums{});
+  for (int block = 0; block < cols_ * rows_; ++block) {
+    const cv::Rect area = BlockArea(block);
+    const std::int16_t* labels =
+        labels_.data() + static_cast<std::size_t>(grid_->Index(area.x, area.y));
+    for (int claim = First(block); claim != kNoClaim; claim = At(claim).next) {
+      const Claim& at = At(claim);
+      if (at.pixels == 0) continue;
+      const bool all = !whole.empty() && whole[static_cast<std::size_t>(block)].n ==
+                                             static_cast<double>(at.pixels);
+      PlaneSums& sums = claim_sums_[static_cast<std::size_t>(claim)];
+      sums = all ? whole[static_cast<std::size_t>(block)]
+                 : SumLabelled(PixelsOf(area), labels, static_cast<std::int16_t>(at.label));
+      label_sums_[static_cast<std::size_t>(at.label)] += sums;
+    }
+  }
+  return label_sums_;
+}
+
+void PixelGrowth::SumOtherLabels(const LabelImage& labels, int count,
+                                 std::vector<PlaneSums>& sums) const {
+  sums.assign(static_cast<std::size_t>(count), PlaneSums{});
+  for (int block = 0; block < cols_ * rows_; ++block) {
+    int owner = kNoClaim, owner_count = 0;
+    for (int claim = First(block); claim != kNoClaim; claim = At(claim).next) {
+      if (At(claim).pixels > 0) owner = claim, ++owner_count;
+    }
+    if (owner_count == 0) continue;
+    const cv::Rect area = BlockArea(block);
+    const BlockPixels pixels = PixelsOf(area);
+    const std::int16_t* start =
+        labels.data() + static_cast<std::size_t>(grid_->Index(area.x, area.y));
+    std::int16_t label = kNoLabel;
+    const int same = owner_count == 1 ? CountOnly(pixels, start, label) : 0;
+    if (same > 0 && same == At(owner).pixels) {
+      sums[static_cast<std::size_t>(label)] += claim_sums_[static_cast<std::size_t>(owner)];
+    } else {
+      SumTile(pixels, start, sums);
+    }
+  }
 }
 
 }  // namespace slam

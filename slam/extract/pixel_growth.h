@@ -5,8 +5,10 @@
 #include <opencv2/core/types.hpp>
 #include <vector>
 
+#include "slam/extract/block_pixels.h"
 #include "slam/extract/depth_grid.h"
 #include "slam/extract/pixel_labels.h"
+#include "slam/extract/plane_sums.h"
 
 namespace slam {
 
@@ -26,13 +28,18 @@ struct GrowthConfig {
 ///
 /// A pixel goes to the nearest plane, in sigmas, among those that have reached its block, if it
 /// is nearer than max_pixel_sigmas. A plane that owns pixels of a block reaches the block's 8
-/// neighbours. The outcome does not depend on the order of work.
+/// neighbours, all planes a block further at a time. The memory of one image serves the next.
 class PixelGrowth {
  public:
-  PixelGrowth(const DepthGrid& grid, const GrowthConfig& config);
+  /// Forgets everything and begins with an image. `grid` must outlive what is done with it.
+  void Begin(const DepthGrid& grid, const GrowthConfig& config);
 
-  /// Adds a plane that may claim pixels at once in `blocks`. @returns its label.
-  int AddPlane(const LabelPlane& plane, const std::vector<int>& blocks);
+  /// Adds a plane. @returns its label.
+  int AddPlane(const LabelPlane& plane);
+  /// Lets a plane claim pixels in a block.
+  void Seed(int block, int label) {
+    if (Reach(block, label)) Activate(block);
+  }
   int BlockAt(int u, int v) const {
     return v / config_.block_px * cols_ + u / config_.block_px;
   }
@@ -43,57 +50,89 @@ class PixelGrowth {
   void DropUseless();
   /// Goes on with other planes for the labels: `planes` in place of the old ones and the pixels
   /// of label k counted as those of into[k]; everything is grown anew from there.
-  void Replace(std::vector<LabelPlane> planes, const std::vector<int>& into);
+  void Replace(const std::vector<LabelPlane>& planes, const std::vector<int>& into);
+
+  /// Marks the pixels whose label's plane has a mean residual in their block of less than
+  /// `bias` + `standard_errors` / sqrt(its pixels there). @param settled  1 or 0 for each pixel
+  void MarkSettled(double bias, double standard_errors,
+                   std::vector<std::uint8_t>& settled) const;
+
+  /// Sums of the pixels of each label. @param whole  those of the measured pixels of each
+  /// block; empty: not known
+  const std::vector<PlaneSums>& SumLabels(const std::vector<PlaneSums>& whole);
+  /// The same for other labels, 0 to count - 1, of the same pixels or of fewer; after the
+  /// above.
+  void SumOtherLabels(const LabelImage& labels, int count, std::vector<PlaneSums>& sums) const;
 
   const LabelImage& labels() const { return labels_; }
   const std::vector<LabelPlane>& planes() const { return planes_; }
 
  private:
-  /// What is known of a plane in a block that it has reached. Neither distances nor bids
-  /// depend on the other planes there, so they are computed once.
+  static constexpr int kNoClaim = -1;
+
+  /// What is known of a plane in a block that it has reached. Neither residuals nor bids depend
+  /// on the other planes there, so they are computed once.
   struct Claim {
     int label = 0;
-    std::size_t slot = 0;   ///< of its block of pixels in distances_ and bids_
-    bool measured = false;  ///< distances_ are
-    bool near = false;      ///< some pixel of the block may belong to the plane
-    bool bidding = false;   ///< bids_ are
+    int next = kNoClaim;    ///< in its block, by label
+    int pixels = 0;         ///< that it owns
+    int bid = -1;           ///< place of its bids; -1 = it has not bid yet
+    float least = 0.0f;     ///< residual of the block's pixels
+    bool measured = false;  ///< `least` and its residuals are
+    bool spread = false;    ///< to the neighbours
   };
 
-  /// What each label gains over the next best plane at its pixels, and how that would change if
-  /// that plane were not there.
-  struct Gains {
-    std::vector<double> gain;  ///< sum over the label's pixels
-    std::vector<int> pixels;
-    std::vector<double> without;  ///< [label][next best], increase
-  };
-
+  Claim& At(int claim) { return claims_[static_cast<std::size_t>(claim)]; }
+  const Claim& At(int claim) const { return claims_[static_cast<std::size_t>(claim)]; }
+  int& First(int block) { return first_[static_cast<std::size_t>(block)]; }
+  int First(int block) const { return first_[static_cast<std::size_t>(block)]; }
+  const float* ResidualsOf(int claim) const {
+    return residuals_.data() + static_cast<std::size_t>(claim) * slot_size_;
+  }
+  std::uint64_t& ReachedBits(int block, int label) {
+    return reached_[static_cast<std::size_t>(label) * words_ +
+                    static_cast<std::size_t>(block) / 64];
+  }
   bool Reach(int block, int label);
+  void Activate(int block);
   cv::Rect BlockArea(int block) const;
-  void Measure(const cv::Rect& area, Claim& claim);
-  void Bid(const cv::Rect& area, Claim& claim);
+  BlockPixels PixelsOf(const cv::Rect& area) const;
+  void Measure(const BlockPixels& pixels, int claim);
+  void Bid(const BlockPixels& pixels, const cv::Rect& area, int claim);
+  void GatherRivals(int block, float nearer_than);
   void LabelBlock(int block);
-  void ClaimUncontested(const Claim& only);
-  void ClaimContested(const cv::Rect& area);
-  void AddGains(int block, Gains& gains);
-  void Drop(const std::vector<bool>& dropped);
+  void SpreadFrom(int block);
+  void AddGains(int block);
+  void AddGainsWithout(int label);
+  void Drop(const std::vector<std::uint8_t>& dropped);
+  void Unlink(int block, int label);
 
-  const DepthGrid& grid_;
+  const DepthGrid* grid_ = nullptr;
   GrowthConfig config_;
-  int cols_, rows_;
-  std::size_t slot_size_;  ///< pixels of a block
+  int cols_ = 0, rows_ = 0;
+  std::size_t slot_size_ = 0;  ///< pixels of a block, rounded up to whole lanes
+  std::size_t words_ = 0;      ///< of a label in reached_
   std::vector<LabelPlane> planes_;
-  std::vector<std::vector<Claim>> reached_;  ///< of each block, by label
-  std::vector<int> active_;                  ///< blocks whose labels changed
+  std::vector<Claim> claims_;
+  std::vector<int> first_;                 ///< claim of each block
+  std::vector<std::uint64_t> reached_;     ///< a bit a block, label by label
+  std::vector<int> active_, next_active_;  ///< blocks that planes have reached
+  std::vector<std::uint8_t> is_active_;
   LabelImage labels_;
-  std::vector<float> distances_;  ///< sigmas; infinity where nothing is measured
-  /// Sum of the squared distances of the pixels around a pixel, each cut off where it no longer
-  /// belongs; infinity where the pixel itself is too far.
-  std::vector<float> bids_;
+  std::vector<float> residuals_;  ///< of each claim, sigmas; infinity where nothing is measured
+  std::vector<float> bids_;       ///< BidForBlock
+  std::size_t bid_count_ = 0;
+  std::vector<PlaneSums> claim_sums_;  ///< of the pixels that each claim owns
+  std::vector<PlaneSums> label_sums_;
+  // What each label gains over the next best plane at its pixels.
+  std::vector<double> gain_;
+  std::vector<int> pixels_;
   // Scratch of one block.
-  std::vector<Claim*> rivals_;
-  std::vector<int> owned_;  ///< pixels of each claim
-  std::vector<float> squares_, row_sums_, least_, own_, next_;
-  std::vector<std::int16_t> winner_, next_label_;
+  std::vector<BlockRival> rivals_;
+  std::vector<int> rival_claims_;
+  mutable std::vector<int> owners_;
+  std::vector<int> next_labels_;
+  std::vector<float> gains_;
 };
 
 }  // namespace slam

@@ -1,27 +1,40 @@
 #include "slam/extract/pixel_labels.h"
 
 #include <algorithm>
+#include <numeric>
+
+#include "slam/extract/block_sums.h"
 
 namespace slam {
 
+namespace {
+
+constexpr int kTile_px = 8;
+
+}  // namespace
+
 std::vector<PlaneSums> SumLabels(const DepthGrid& grid, const LabelImage& labels, int count) {
   std::vector<PlaneSums> sums(static_cast<std::size_t>(count));
-  std::size_t i = 0;
-  while (i < labels.size()) {
-    const std::int16_t label = labels[i];
-    if (label == kNoLabel) {
-      ++i;
-      continue;
+  for (int v = 0; v < grid.height; v += kTile_px) {
+    for (int u = 0; u < grid.width; u += kTile_px) {
+      SumTile(BlockAt(grid, u, v, kTile_px),
+              labels.data() + static_cast<std::size_t>(grid.Index(u, v)), sums);
     }
-    PlaneSums run;  // sums of a run stay in registers
-    for (; i < labels.size() && labels[i] == label; ++i) {
-      const double g = static_cast<double>(grid.g[i]);
-      run.Add(static_cast<double>(grid.x[i]), static_cast<double>(grid.y[i]),
-              static_cast<double>(grid.q[i]), g * g);
-    }
-    sums[static_cast<std::size_t>(label)] += run;
   }
   return sums;
+}
+
+void MapLabels(const LabelImage& labels, const std::vector<int>& to, LabelImage& out) {
+  out.resize(labels.size());
+  std::int16_t last = kNoLabel, mapped = kNoLabel;
+  for (std::size_t i = 0; i < labels.size(); ++i) {
+    if (labels[i] != last) {
+      last = labels[i];
+      mapped = last == kNoLabel ? kNoLabel
+                                : static_cast<std::int16_t>(to[static_cast<std::size_t>(last)]);
+    }
+    out[i] = mapped;
+  }
 }
 
 namespace {
@@ -41,49 +54,50 @@ void Unite(std::vector<int>& parent, int i, int j) {
   parent[static_cast<std::size_t>(std::max(i, j))] = std::min(i, j);
 }
 
-/// Provisional numbers by runs; equal ones are united in `parent`.
-std::vector<int> NumberRuns(const DepthGrid& grid, const LabelImage& labels,
-                            std::vector<int>& parent) {
-  std::vector<int> number(labels.size(), -1);
-  for (int v = 0; v < grid.height; ++v) {
-    for (int u = 0; u < grid.width; ++u) {
-      const auto i = static_cast<std::size_t>(grid.Index(u, v));
-      if (labels[i] == kNoLabel) continue;
-      const bool left = u > 0 && labels[i - 1] == labels[i];
-      const std::size_t above = v > 0 ? i - static_cast<std::size_t>(grid.width) : i;
-      const bool up = v > 0 && labels[above] == labels[i];
-      if (left) {
-        number[i] = number[i - 1];
-        if (up && number[above] != number[i]) Unite(parent, number[i], number[above]);
-      } else if (up) {
-        number[i] = number[above];
-      } else {
-        number[i] = static_cast<int>(parent.size());
-        parent.push_back(number[i]);
-      }
-    }
-  }
-  return number;
+/// Provisional numbers of runs, -1 without a label; `parent` leads to the first one of their
+/// component.
+std::vector<int> NumberRuns(const LabelRuns& runs) {
+  std::vector<int> parent(runs.runs.size());
+  std::iota(parent.begin(), parent.end(), 0);
+  VisitRunsBelow(runs, [&](std::size_t a, std::size_t b, int, int, int) {
+    if (runs.runs[a].label == runs.runs[b].label)
+      Unite(parent, static_cast<int>(a), static_cast<int>(b));
+  });
+  return parent;
 }
 
 }  // namespace
 
+LabelComponents ConnectedComponents(const DepthGrid& grid, const LabelImage& labels) {
+  LabelComponents out;
+  FindRuns(labels, grid.width, grid.height, out.runs);
+  std::vector<int> parent = NumberRuns(out.runs);
+  std::vector<int> number(parent.size(), -1);
+  out.component.resize(labels.size());
+  std::size_t run = 0;
+  for (int v = 0; v < grid.height; ++v) {
+    for (; run < out.runs.rows[static_cast<std::size_t>(v) + 1]; ++run) {
+      const LabelRun& at = out.runs.runs[run];
+      const int first = grid.Index(at.begin, v), size = at.end - at.begin;
+      int id = -1;
+      if (at.label != kNoLabel) {
+        int& known = number[static_cast<std::size_t>(Root(parent, static_cast<int>(run)))];
+        if (known < 0) {
+          known = static_cast<int>(out.list.size());
+          out.list.push_back({at.label, 0, first, 0, 0});
+        }
+        id = known;
+        out.list[static_cast<std::size_t>(id)].pixels += size;
+      }
+      std::fill_n(out.component.begin() + first, size, id);
+    }
+  }
+  return out;
+}
+
 LabelComponents ConnectedComponents(const DepthGrid& grid, const LabelImage& labels,
                                     const std::vector<LabelPlane>& planes) {
-  std::vector<int> parent;
-  LabelComponents out;
-  out.component = NumberRuns(grid, labels, parent);
-  std::vector<int> compact(parent.size(), -1);
-  for (std::size_t i = 0; i < labels.size(); ++i) {
-    if (labels[i] == kNoLabel) continue;
-    int& id = compact[static_cast<std::size_t>(Root(parent, out.component[i]))];
-    if (id < 0) {
-      id = static_cast<int>(out.list.size());
-      out.list.push_back({labels[i], 0, static_cast<int>(i), 0, 0});
-    }
-    out.component[i] = id;
-    ++out.list[static_cast<std::size_t>(id)].pixels;
-  }
+  LabelComponents out = ConnectedComponents(grid, labels);
   CountSides(grid, labels, planes, out);
   return out;
 }
@@ -92,19 +106,13 @@ void CountSides(const DepthGrid& grid, const LabelImage& labels,
                 const std::vector<LabelPlane>& planes, LabelComponents& components) {
   for (LabelComponent& c : components.list) c.behind = c.in_front = 0;
   const auto count_side = [&](std::size_t from, std::size_t to) {
-    if (labels[from] == kNoLabel || labels[to] == labels[from] || !(grid.g[to] > 0)) return;
+    if (labels[from] == kNoLabel || !(grid.g[to] > 0)) return;
     LabelComponent& c = components.list[static_cast<std::size_t>(components.component[from])];
     const float residual = ResidualSigmas(grid, to, planes[static_cast<std::size_t>(c.label)]);
     ++(residual > 0 ? c.in_front : c.behind);
   };
-  for (int v = 0; v < grid.height; ++v) {
-    for (int u = 0; u < grid.width; ++u) {
-      const auto i = static_cast<std::size_t>(grid.Index(u, v));
-      if (u + 1 < grid.width) count_side(i, i + 1), count_side(i + 1, i);
-      const std::size_t below = i + static_cast<std::size_t>(grid.width);
-      if (v + 1 < grid.height) count_side(i, below), count_side(below, i);
-    }
-  }
+  VisitBoundaries(components.runs,
+                  [&](std::size_t i, std::size_t j) { count_side(i, j), count_side(j, i); });
 }
 
 }  // namespace slam

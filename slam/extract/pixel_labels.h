@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "slam/extract/depth_grid.h"
+#include "slam/extract/label_runs.h"
 #include "slam/extract/plane_sums.h"
 
 namespace slam {
@@ -20,6 +21,9 @@ using LabelImage = std::vector<std::int16_t>;  ///< one entry a pixel, kNoLabel 
 
 /// Sums of the pixels of each label.
 std::vector<PlaneSums> SumLabels(const DepthGrid& grid, const LabelImage& labels, int count);
+
+/// to[label] in place of each label.
+void MapLabels(const LabelImage& labels, const std::vector<int>& to, LabelImage& out);
 
 /// Residual of a pixel from a plane in sigmas; positive: the pixel is nearer than the plane.
 inline float ResidualSigmas(const DepthGrid& grid, std::size_t i, const LabelPlane& p) {
@@ -42,7 +46,10 @@ struct LabelComponent {
 struct LabelComponents {
   std::vector<int> component;  ///< of each pixel; -1 where there is no label
   std::vector<LabelComponent> list;
+  LabelRuns runs;  ///< of the label image
 };
+/// Without sides.
+LabelComponents ConnectedComponents(const DepthGrid& grid, const LabelImage& labels);
 LabelComponents ConnectedComponents(const DepthGrid& grid, const LabelImage& labels,
                                     const std::vector<LabelPlane>& planes);
 /// Counts `behind` and `in_front` of every component.

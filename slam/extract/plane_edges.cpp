@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <opencv2/imgproc.hpp>
 
 namespace slam {
@@ -12,15 +13,25 @@ constexpr std::size_t kLeastContour = 8;  // pixels; shorter ones bound specks
 
 /// Direction from a boundary pixel to the outside: the mean of its outside neighbours.
 Eigen::Vector2d Outward(const cv::Mat1b& labels, int value, const cv::Point& at) {
-  Eigen::Vector2d sum = Eigen::Vector2d::Zero();
+  int sum_u = 0, sum_v = 0;
+  if (at.x >= 2 && at.y >= 2 && at.x + 2 < labels.cols && at.y + 2 < labels.rows) {
+    for (int dv = -2; dv <= 2; ++dv) {
+      const std::uint8_t* row = labels[at.y + dv] + at.x;
+      for (int du = -2; du <= 2; ++du) {
+        const int outside = row[du] != value ? 1 : 0;
+        sum_u += outside * du, sum_v += outside * dv;
+      }
+    }
+    return Eigen::Vector2d(sum_u, sum_v);
+  }
   for (int dv = -2; dv <= 2; ++dv) {
     for (int du = -2; du <= 2; ++du) {
       const int u = at.x + du, v = at.y + dv;
       const bool inside = u >= 0 && v >= 0 && u < labels.cols && v < labels.rows;
-      if (!inside || labels(v, u) != value) sum += Eigen::Vector2d(du, dv);
+      if (!inside || labels(v, u) != value) sum_u += du, sum_v += dv;
     }
   }
-  return sum;
+  return Eigen::Vector2d(sum_u, sum_v);
 }
 
 EdgeKind KindBeyond(const DepthGrid& grid, const cv::Point& at, const Eigen::Vector2d& outward,

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <optional>
 
 #include "slam/extract/occluded_parts.h"
@@ -15,62 +16,21 @@ constexpr int kMostSegments = 254;  // 8-bit label image, 0 = none
 
 void AddClusters(const DepthGrid& grid, const BlockClusters& clusters, const DepthNoise& noise,
                  PixelGrowth& growth) {
-  std::vector<std::vector<int>> blocks(clusters.planes.size());
+  const int first = static_cast<int>(growth.planes().size());
+  for (std::size_t r = 0; r < clusters.planes.size(); ++r) {
+    const InverseDepthPlane& plane = clusters.planes[r];
+    growth.AddPlane({plane, GrazingFactor(clusters.sums[r], plane, noise)});
+  }
   const int half = clusters.block_px / 2;
   for (int block = 0; block < clusters.cols * clusters.rows; ++block) {
     const int region = clusters.region[static_cast<std::size_t>(block)];
     if (region < 0) continue;
     const int u = std::min(block % clusters.cols * clusters.block_px + half, grid.width - 1);
     const int v = std::min(block / clusters.cols * clusters.block_px + half, grid.height - 1);
-    blocks[static_cast<std::size_t>(region)].push_back(growth.BlockAt(u, v));
-  }
-  for (std::size_t r = 0; r < blocks.size(); ++r) {
-    const InverseDepthPlane& plane = clusters.planes[r];
-    growth.AddPlane({plane, GrazingFactor(clusters.sums[r], plane, noise)}, blocks[r]);
+    growth.Seed(growth.BlockAt(u, v), first + region);
   }
   growth.Grow();
   growth.DropUseless();
-}
-
-/// Marks the pixels that need no second look: labelled, in a block whose mean residual from the
-/// label's plane is what noise and model error explain.
-std::vector<std::uint8_t> SettledPixels(const DepthGrid& grid, const PixelGrowth& found,
-                                        const PlaneExtractionConfig& config) {
-  const LabelImage& labels = found.labels();
-  std::vector<std::uint8_t> settled(labels.size(), 0);
-  const int size = config.block_px;
-  std::vector<double> sum(found.planes().size(), 0.0);
-  std::vector<int> count(found.planes().size(), 0);
-  std::vector<std::uint8_t> fits(found.planes().size(), 0);
-  std::vector<std::size_t> present;
-  for (int v0 = 0; v0 < grid.height; v0 += size) {
-    for (int u0 = 0; u0 < grid.width; u0 += size) {
-      const int v1 = std::min(v0 + size, grid.height), u1 = std::min(u0 + size, grid.width);
-      present.clear();
-      const auto each = [&](const auto& visit) {
-        for (int v = v0; v < v1; ++v) {
-          for (int u = u0; u < u1; ++u) {
-            const auto i = static_cast<std::size_t>(grid.Index(u, v));
-            if (labels[i] != kNoLabel) visit(i, static_cast<std::size_t>(labels[i]));
-          }
-        }
-      };
-      each([&](std::size_t i, std::size_t label) {
-        if (count[label]++ == 0) present.push_back(label);
-        sum[label] += static_cast<double>(ResidualSigmas(grid, i, found.planes()[label]));
-      });
-      for (const std::size_t label : present) {
-        const double n = count[label];
-        const double bound =
-            config.coarse.model_error_sigmas +
-            config.max_block_bias_sigmas * std::sqrt(config.noise.correlated_px / n);
-        fits[label] = std::abs(sum[label]) < bound * n ? 1 : 0;
-        sum[label] = 0.0, count[label] = 0;
-      }
-      each([&](std::size_t i, std::size_t label) { settled[i] = fits[label]; });
-    }
-  }
-  return settled;
 }
 
 /// A segment on its way into the frame.
@@ -82,9 +42,8 @@ struct Segment {
 };
 
 /// The segments that are large and precise enough, largest first.
-std::vector<Segment> KeepMeasured(const DepthGrid& grid, const LabelImage& labels, int count,
+std::vector<Segment> KeepMeasured(const std::vector<PlaneSums>& sums,
                                   const PlaneExtractionConfig& config) {
-  const std::vector<PlaneSums> sums = SumLabels(grid, labels, count);
   std::vector<Segment> kept;
   for (std::size_t k = 0; k < sums.size(); ++k) {
     if (!(sums[k].n >= config.min_pixels)) continue;
@@ -170,38 +129,77 @@ FramePlane MakeFramePlane(const Segment& segment, int index) {
 
 }  // namespace
 
-void ExtractPlanes(Frame& frame, const Camera& camera, const cv::Mat2d& rays,
-                   const PlaneExtractionConfig& config) {
-  const DepthGrid grid = MakeDepthGrid(frame.depth_m, rays, config.noise, config.max_depth_m);
-  PixelGrowth growth(grid, config.growth);
-  AddClusters(grid, ClusterBlocks(grid, {}, config.block_px, config.noise, config.coarse),
-              config.noise, growth);
-  const std::vector<std::uint8_t> settled = SettledPixels(grid, growth, config);
-  AddClusters(grid,
-              ClusterBlocks(grid, settled, config.fine_block_px, config.noise, config.fine),
-              config.noise, growth);
-  MergeEqualNeighbours(grid, config, growth);
+struct PlaneExtractor::Workspace {
+  Camera camera;
+  PlaneExtractionConfig config;
+  DepthGrid grid;
+  BlockClustering clustering;
+  PixelGrowth growth;
+  std::vector<std::uint8_t> settled;
+  LabelImage labels;  ///< of segments
+  std::vector<PlaneSums> sums;
+};
 
-  const PatchUnion joined = JoinBentParts(grid, config, growth);
-  LabelImage labels = growth.labels();
-  for (std::int16_t& label : labels) {
-    if (label != kNoLabel) label = static_cast<std::int16_t>(joined.Root(label));
-  }
+PlaneExtractor::PlaneExtractor(const Camera& camera, const cv::Mat2d& rays,
+                               const PlaneExtractionConfig& config)
+    : work_(std::make_unique<Workspace>()) {
+  work_->config = config;
+  Use(camera, rays);
+}
+PlaneExtractor::PlaneExtractor(PlaneExtractor&&) noexcept = default;
+PlaneExtractor& PlaneExtractor::operator=(PlaneExtractor&&) noexcept = default;
+PlaneExtractor::~PlaneExtractor() = default;
+
+void PlaneExtractor::Use(const Camera& camera, const cv::Mat2d& rays) {
+  work_->camera = camera;
+  SetRays(rays, work_->grid);
+}
+
+void PlaneExtractor::Extract(Frame& frame) {
+  const PlaneExtractionConfig& config = work_->config;
+  DepthGrid& grid = work_->grid;
+  PixelGrowth& growth = work_->growth;
+  SetDepth(frame.depth_m, config.noise, config.max_depth_m, grid);
+  growth.Begin(grid, config.growth);
+  AddClusters(grid,
+              work_->clustering.Cluster(grid, {}, config.block_px, config.noise, config.coarse),
+              config.noise, growth);
+  growth.MarkSettled(config.coarse.model_error_sigmas,
+                     config.max_block_bias_sigmas * std::sqrt(config.noise.correlated_px),
+                     work_->settled);
+  AddClusters(grid,
+              work_->clustering.Cluster(grid, work_->settled, config.fine_block_px,
+                                        config.noise, config.fine),
+              config.noise, growth);
+  const std::vector<PlaneSums> unknown;
+  const std::vector<PlaneSums>& blocks =
+      config.block_px == config.growth.block_px ? work_->clustering.SumsOfBlocks() : unknown;
+  MergeEqualNeighbours(grid, blocks, config, growth);
+
+  const PatchUnion joined = JoinBentParts(grid, blocks, config, growth);
+  LabelImage& labels = work_->labels;
+  MapLabels(growth.labels(), joined.into(), labels);
   const int count = SegmentParts(grid, joined, config, labels);
 
-  const std::vector<Segment> kept = KeepMeasured(grid, labels, count, config);
+  growth.SumOtherLabels(labels, count, work_->sums);
+  const std::vector<Segment> kept = KeepMeasured(work_->sums, config);
   const std::vector<cv::Rect> bounds =
       DrawLabels(grid, labels, count, kept, frame.plane_labels);
   frame.planes.clear();
   for (std::size_t k = 0; k < kept.size(); ++k) {
     FramePlane plane = MakeFramePlane(kept[k], static_cast<int>(k));
-    SamplePoints(grid, frame.plane_labels, bounds[k], kept[k], camera, config.point_grid_px,
-                 plane);
+    SamplePoints(grid, frame.plane_labels, bounds[k], kept[k], work_->camera,
+                 config.point_grid_px, plane);
     plane.edge_points = TraceEdges(grid, frame.plane_labels, plane.index + 1, bounds[k],
                                    kept[k].plane, config.edges);
     for (const EdgePoint& point : plane.edge_points) plane.box_px.Include(point.u_px);
     frame.planes.push_back(std::move(plane));
   }
+}
+
+void ExtractPlanes(Frame& frame, const Camera& camera, const cv::Mat2d& rays,
+                   const PlaneExtractionConfig& config) {
+  PlaneExtractor(camera, rays, config).Extract(frame);
 }
 
 }  // namespace slam

@@ -16,18 +16,23 @@ constexpr float kBehind_sigmas = 2.0f;  // other parts of the plane scatter abou
 
 SightLines::SightLines(const DepthGrid& grid, const std::vector<int>& part, int part_count)
     : grid_(grid), part_(part), samples_(static_cast<std::size_t>(part_count)) {
-  std::vector<Pixel> first(samples_.size(), Pixel{-1, -1});
-  for (int v = 0; v < grid.height; ++v) {
-    for (int u = 0; u < grid.width; ++u) {
-      const int p = part[static_cast<std::size_t>(grid.Index(u, v))];
-      if (p < 0) continue;
-      const auto k = static_cast<std::size_t>(p);
-      if (first[k].u < 0) first[k] = {u, v};
-      if (u % kGrid_px == 0 && v % kGrid_px == 0) samples_[k].push_back({u, v});
+  const auto at = [&](int u, int v) {
+    return part[static_cast<std::size_t>(grid.Index(u, v))];
+  };
+  for (int v = 0; v < grid.height; v += kGrid_px) {
+    for (int u = 0; u < grid.width; u += kGrid_px) {
+      if (at(u, v) >= 0) samples_[static_cast<std::size_t>(at(u, v))].push_back({u, v});
     }
   }
-  for (std::size_t k = 0; k < samples_.size(); ++k) {
-    if (samples_[k].empty() && first[k].u >= 0) samples_[k].push_back(first[k]);
+  for (int v = 0; v < grid.height; ++v) {  // what the grid has missed: its first pixel
+    int last = -1;
+    for (int u = 0; u < grid.width; ++u) {
+      const int p = at(u, v);
+      if (p == last || p < 0) continue;
+      last = p;
+      std::vector<Pixel>& samples = samples_[static_cast<std::size_t>(p)];
+      if (samples.empty()) samples.push_back({u, v});
+    }
   }
 }
 

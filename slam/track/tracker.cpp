@@ -39,10 +39,11 @@ Tracker::Tracker(const Camera& camera, const Config& config, Variant variant,
       variant_(variant),
       detector_(detector ? std::move(detector) : std::make_unique<NoDetector>()),
       threads_(threads),
-      rays_(uses_planes() ? PixelRays(camera) : cv::Mat2d()),
       box_tracks_(config.box_tracks, camera.ImageBox()),
       points_(camera, config_.tracking),
       before_mapping_(std::move(before_mapping)) {
+  if (uses_planes())
+    plane_extractor_.emplace(camera_, PixelRays(camera_), config_.plane_extraction);
   if (!config_.async_mapping) return;
   const MapTurn turn = [this](const std::function<void()>& work) {
     const MappingHold hold(gate_);
@@ -64,7 +65,7 @@ void Tracker::ExtractInformation(Frame& frame, const cv::Mat3b& bgr, ModuleTimes
   };
   const auto extract_planes = [&] {
     const Stopwatch watch(times[Module::kEpi]);
-    ExtractPlanes(frame, camera_, rays_, config_.plane_extraction);
+    plane_extractor_->Extract(frame);
   };
   // Deferred work is done where its outcome is asked for.
   const auto where = threads_ > 1 ? std::launch::async : std::launch::deferred;

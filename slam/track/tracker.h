@@ -4,11 +4,13 @@
 #include <functional>
 #include <memory>
 #include <opencv2/core/mat.hpp>
+#include <optional>
 
 #include "slam/base/camera.h"
 #include "slam/config/config.h"
 #include "slam/extract/box_tracks.h"
 #include "slam/extract/detections.h"
+#include "slam/extract/plane_segments.h"
 #include "slam/localise/point_tracking.h"
 #include "slam/loop/close_loop.h"
 #include "slam/model/frame.h"
@@ -88,7 +90,7 @@ class Tracker {
   std::unique_ptr<Detector> detector_;
   int threads_;
 
-  cv::Mat2d rays_;  ///< of every pixel, planes only
+  std::optional<PlaneExtractor> plane_extractor_;  ///< none: no planes
   BoxTracks box_tracks_;
   PointTracking points_;
   Map map_;

@@ -1,0 +1,273 @@
+#include "slam/extract/block_pixels.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+
+#include "slam/base/lanes.h"
+
+#define PAS_INLINE [[gnu::always_inline]] inline
+
+namespace slam {
+namespace {
+
+constexpr float kNone = std::numeric_limits<float>::infinity();
+constexpr int kReach8 = 2;                    // of the usual bid
+constexpr int kSide8 = kLanes + 2 * kReach8;  // what it looks at
+
+PAS_INLINE FloatLanes All(float value) { return FloatLanes{} + value; }
+PAS_INLINE FloatLanes Size(FloatLanes r) { return (FloatLanes)((IntLanes)r & 0x7fffffff); }
+PAS_INLINE float LeastOf(FloatLanes v) {
+  float least = v[0];
+  for (int k = 1; k < kLanes; ++k) least = std::min(least, v[k]);
+  return least;
+}
+PAS_INLINE int SumOf(IntLanes v) {
+  return ((v[0] + v[4]) + (v[2] + v[6])) + ((v[1] + v[5]) + (v[3] + v[7]));
+}
+PAS_INLINE double SumOf(DoubleLanes v) { return (v[0] + v[2]) + (v[1] + v[3]); }
+
+/// Adds eight floats to four sums.
+PAS_INLINE void AddTo(DoubleLanes& sum, FloatLanes v) {
+  sum += DoubleLanes{static_cast<double>(v[0]), static_cast<double>(v[1]),
+                     static_cast<double>(v[2]), static_cast<double>(v[3])};
+  sum += DoubleLanes{static_cast<double>(v[4]), static_cast<double>(v[5]),
+                     static_cast<double>(v[6]), static_cast<double>(v[7])};
+}
+
+/// Residuals of 8 pixels of a row.
+PAS_INLINE FloatLanes Residuals(const BlockPixels& block, std::ptrdiff_t i,
+                                const PixelPlane& p) {
+  return (Lanes(block.q + i) - (p.a * Lanes(block.x + i) + p.b * Lanes(block.y + i) + p.c)) *
+         Lanes(block.g + i) / p.grazing;
+}
+PAS_INLINE float Residual(const BlockPixels& block, std::ptrdiff_t i, const PixelPlane& p) {
+  return (block.q[i] - (p.a * block.x[i] + p.b * block.y[i] + p.c)) * block.g[i] / p.grazing;
+}
+
+/// A whole block of 8 x 8.
+PAS_INLINE float Measure8(const BlockPixels& block, const PixelPlane& plane, float* residuals) {
+  FloatLanes least = All(kNone);
+  for (int v = 0; v < kLanes; ++v) {
+    const std::ptrdiff_t i = static_cast<std::ptrdiff_t>(v) * block.stride;
+    const FloatLanes r = Residuals(block, i, plane);
+    const FloatLanes out = Lanes(block.g + i) > 0.0f ? r : All(kNone);
+    Lanes(residuals + kLanes * v) = out;
+    const FloatLanes size = Size(out);
+    least = size < least ? size : least;
+  }
+  return LeastOf(least);
+}
+
+float MeasureAny(const BlockPixels& block, int count, const PixelPlane& plane,
+                 float* residuals) {
+  std::fill(residuals, residuals + count, kNone);
+  float least = kNone;
+  for (int v = 0; v < block.height; ++v) {
+    for (int u = 0; u < block.width; ++u) {
+      const std::ptrdiff_t i = static_cast<std::ptrdiff_t>(v) * block.stride + u;
+      if (!(block.g[i] > 0.0f)) continue;
+      const float r = Residual(block, i, plane);
+      residuals[v * block.size + u] = r;
+      least = std::min(least, std::abs(r));
+    }
+  }
+  return least;
+}
+
+/// A whole block of 8 x 8 with two pixels of the image to every side.
+PAS_INLINE void Bid8(const BlockPixels& block, const PixelPlane& plane, float most_sigmas,
+                     const float* residuals, float* bids) {
+  const FloatLanes most = All(most_sigmas * most_sigmas);
+  float squares[kSide8 * kSide8 + kLanes], sums[kSide8 * kLanes];
+  for (int v = 0; v < kSide8; ++v) {
+    const std::ptrdiff_t i = static_cast<std::ptrdiff_t>(v - kReach8) * block.stride - kReach8;
+    const FloatLanes left = Residuals(block, i, plane), right = Residuals(block, i + 4, plane);
+    const FloatLanes left2 = left * left, right2 = right * right;
+    Lanes(squares + kSide8 * v) = most < left2 ? most : left2;
+    Lanes(squares + kSide8 * v + 4) = most < right2 ? most : right2;
+  }
+  for (int v = 0; v < kSide8; ++v) {
+    const float* s = squares + kSide8 * v;
+    Lanes(sums + kLanes * v) =
+        (((Lanes(s) + Lanes(s + 1)) + Lanes(s + 2)) + Lanes(s + 3)) + Lanes(s + 4);
+  }
+  for (int k = 0; k < kLanes * kLanes; k += kLanes) {
+    const float* s = sums + k;
+    const FloatLanes sum =
+        (((Lanes(s) + Lanes(s + 8)) + Lanes(s + 16)) + Lanes(s + 24)) + Lanes(s + 32);
+    Lanes(bids + k) = Size(Lanes(residuals + k)) < All(most_sigmas) ? sum : All(kNone);
+  }
+}
+
+constexpr int kMaxSide = 64, kMaxReach = 16;  // GrowthConfig
+
+/// The same for other sizes and beside the image's border, beyond which there are zeros.
+PAS_INLINE void BidAny(const BlockPixels& block, int count, const PixelPlane& plane,
+                       const BidWindow& window, const float* residuals, float* bids) {
+  const float most = window.most_sigmas * window.most_sigmas;
+  const int reach = window.reach, size = block.size;
+  float squares[kMaxSide + 2 * kMaxReach], sums[kMaxSide * (kMaxSide + 2 * kMaxReach)];
+  std::fill_n(squares, size + 2 * reach, 0.0f);
+  std::fill_n(sums, size * (size + 2 * reach), 0.0f);
+  for (int v = -window.top; v < block.height + window.bottom; ++v) {
+    const std::ptrdiff_t row = static_cast<std::ptrdiff_t>(v) * block.stride;
+    for (int u = -window.left; u < block.width + window.right; ++u) {
+      const float r = Residual(block, row + u, plane);
+      squares[u + reach] = std::min(r * r, most);
+    }
+    float* sum = sums + (v + reach) * size;
+    for (int offset = 0; offset <= 2 * reach; ++offset)
+      for (int u = 0; u < size; ++u) sum[u] += squares[u + offset];
+  }
+  std::fill(bids, bids + count, 0.0f);
+  for (int v = 0; v < block.height; ++v) {
+    for (int offset = 0; offset <= 2 * reach; ++offset)
+      for (int u = 0; u < size; ++u) bids[v * size + u] += sums[(v + offset) * size + u];
+  }
+  for (int k = 0; k < count; ++k)
+    bids[k] = std::abs(residuals[k]) < window.most_sigmas ? bids[k] : kNone;
+}
+
+}  // namespace
+
+SLAM_LANES float MeasureBlock(const BlockPixels& block, int count, const PixelPlane& plane,
+                              float* residuals) {
+  const bool whole8 = block.size == kLanes && block.width == kLanes && block.height == kLanes;
+  return whole8 ? Measure8(block, plane, residuals)
+                : MeasureAny(block, count, plane, residuals);
+}
+
+SLAM_LANES void BidForBlock(const BlockPixels& block, int count, const PixelPlane& plane,
+                            const BidWindow& window, const float* residuals, float* bids) {
+  const bool usual = block.size == kLanes && block.width == kLanes && block.height == kLanes &&
+                     window.reach == kReach8 && window.left == kReach8 &&
+                     window.top == kReach8 && window.right == kReach8 &&
+                     window.bottom == kReach8;
+  if (usual) {
+    Bid8(block, plane, window.most_sigmas, residuals, bids);
+  } else {
+    BidAny(block, count, plane, window, residuals, bids);
+  }
+}
+
+SLAM_LANES void ClaimBlock(BlockRival* rivals, int rival_count, int count, float most_sigmas,
+                           int* owners) {
+  const IntLanes none = IntLanes{} + kNoLabel;
+  for (int r = 0; r < rival_count; ++r) rivals[r].pixels = 0;
+  if (rival_count == 1) {
+    const IntLanes label = IntLanes{} + rivals[0].label;
+    IntLanes owned{};
+    for (int k = 0; k < count; k += kLanes) {
+      const IntLanes near = Size(Lanes(rivals[0].residuals + k)) < All(most_sigmas);
+      Lanes(owners + k) = near ? label : none;
+      owned -= near;
+    }
+    rivals[0].pixels = SumOf(owned);
+    return;
+  }
+  for (int k = 0; k < count; k += kLanes) {
+    FloatLanes least = All(kNone);
+    IntLanes owner = none;
+    for (int r = 0; r < rival_count; ++r) {
+      const FloatLanes bid = Lanes(rivals[r].bids + k);
+      const IntLanes better = bid < least;
+      least = better ? bid : least;
+      owner = better ? IntLanes{} + rivals[r].label : owner;
+    }
+    Lanes(owners + k) = owner;
+  }
+  for (int r = 0; r < rival_count; ++r) {
+    IntLanes owned{};
+    for (int k = 0; k < count; k += kLanes) owned -= Lanes(owners + k) == rivals[r].label;
+    rivals[r].pixels = SumOf(owned);
+  }
+}
+
+SLAM_LANES void GainsOfBlock(BlockRival* rivals, int rival_count, int count, float unexplained,
+                             const int* owners, float* gains, int* next_labels) {
+  const FloatLanes zero{};
+  for (int k = 0; k < count; k += kLanes) {
+    const IntLanes owner = Lanes(owners + k);
+    FloatLanes own = zero, next = All(unexplained);
+    IntLanes next_label = IntLanes{} + kNoLabel;
+    for (int r = 0; r < rival_count; ++r) {
+      const FloatLanes size = Size(Lanes(rivals[r].residuals + k));
+      const IntLanes owns = owner == rivals[r].label;
+      const IntLanes nearer = ~owns & (size < next);
+      own = owns ? size : own;
+      next = nearer ? size : next;
+      next_label = nearer ? IntLanes{} + rivals[r].label : next_label;
+    }
+    Lanes(gains + k) = owner >= 0 ? next * next - own * own : zero;
+    Lanes(next_labels + k) = next_label;
+  }
+  for (int r = 0; r < rival_count; ++r) {
+    DoubleLanes sum{};
+    for (int k = 0; k < count; k += kLanes) {
+      AddTo(sum, Lanes(owners + k) == rivals[r].label ? Lanes(gains + k) : zero);
+    }
+    rivals[r].gain = SumOf(sum);
+  }
+}
+
+SLAM_LANES double SumOwned(const float* residuals, int count, int label, const int* owners) {
+  DoubleLanes sum{};
+  for (int k = 0; k < count; k += kLanes)
+    AddTo(sum, Lanes(owners + k) == label ? Lanes(residuals + k) : FloatLanes{});
+  return SumOf(sum);
+}
+
+SLAM_LANES void WriteOwners(const BlockPixels& block, const int* owners, std::int16_t* labels) {
+  for (int v = 0; v < block.height; ++v) {
+    std::int16_t* row = labels + static_cast<std::ptrdiff_t>(v) * block.stride;
+    const int* from = owners + v * block.size;
+    if (block.width == kLanes) {
+      for (int u = 0; u < kLanes; ++u) row[u] = static_cast<std::int16_t>(from[u]);
+    } else {
+      for (int u = 0; u < block.width; ++u) row[u] = static_cast<std::int16_t>(from[u]);
+    }
+  }
+}
+
+SLAM_LANES void ReadOwners(const BlockPixels& block, int count, const std::int16_t* labels,
+                           int* owners) {
+  if (block.width < block.size || block.height < block.size)
+    std::fill(owners, owners + count, static_cast<int>(kNoLabel));
+  for (int v = 0; v < block.height; ++v) {
+    const std::int16_t* row = labels + static_cast<std::ptrdiff_t>(v) * block.stride;
+    int* to = owners + v * block.size;
+    if (block.width == kLanes) {
+      for (int u = 0; u < kLanes; ++u) to[u] = row[u];
+    } else {
+      for (int u = 0; u < block.width; ++u) to[u] = row[u];
+    }
+  }
+}
+
+SLAM_LANES int CountOnly(const BlockPixels& block, const std::int16_t* labels,
+                         std::int16_t& label) {
+  // kNoLabel is the least: the greatest label is the only one, or others are below it.
+  int greatest = kNoLabel;
+  for (int v = 0; v < block.height; ++v) {
+    const std::int16_t* row = labels + static_cast<std::ptrdiff_t>(v) * block.stride;
+    if (block.width == kLanes) {
+      for (int u = 0; u < kLanes; ++u) greatest = std::max<int>(greatest, row[u]);
+    } else {
+      for (int u = 0; u < block.width; ++u) greatest = std::max<int>(greatest, row[u]);
+    }
+  }
+  int same = 0, other = 0;
+  for (int v = 0; v < block.height; ++v) {
+    const std::int16_t* row = labels + static_cast<std::ptrdiff_t>(v) * block.stride;
+    for (int u = 0; u < block.width; ++u) {
+      same += row[u] == greatest ? 1 : 0;
+      other += row[u] != greatest && row[u] != kNoLabel ? 1 : 0;
+    }
+  }
+  label = static_cast<std::int16_t>(greatest);
+  return greatest == kNoLabel || other > 0 ? 0 : same;
+}
+
+}  // namespace slam

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "slam/extract/block_pixels.h"
+#include "slam/extract/plane_sums.h"
+
+namespace slam {
+
+/// Sums of the measured pixels of a block.
+PlaneSums SumBlock(const BlockPixels& block);
+
+/// Of its pixels with that label, all of them measured. @param labels  of its first pixel
+PlaneSums SumLabelled(const BlockPixels& block, const std::int16_t* labels, std::int16_t label);
+
+/// Adds those of each label of a block, lowest first.
+void SumTile(const BlockPixels& block, const std::int16_t* labels,
+             std::vector<PlaneSums>& sums);
+
+/// Of its measured pixels whose entry is 0. @param taken  of its first pixel
+PlaneSums SumFree(const BlockPixels& block, const std::uint8_t* taken);
+
+/// Whether two neighbouring measured pixels differ by more than `most_sigmas`.
+bool HasJump(const BlockPixels& block, float most_sigmas);
+
+/// The block of an image at (u, v), cut off where the image ends.
+BlockPixels BlockAt(const DepthGrid& grid, int u, int v, int size);
+
+}  // namespace slam
