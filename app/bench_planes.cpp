@@ -4,6 +4,7 @@
 #include <ctime>
 
 #include "app/bench_planes_score.h"
+#include "eval/planes/united_faces.h"
 #include "eval/read/sequence.h"
 #include "eval/trajectory/score_trajectory.h"
 #include "slam/extract/box_tracks.h"
@@ -121,7 +122,7 @@ void PlaneBench::Add(const PlaneBench& o) {
 PlaneBench BenchPlanes(const std::filesystem::path& sequence, const std::string& camera_choice,
                        const slam::Config& config, const BenchChoice& choice) {
   const slam::Camera camera = slam::ChooseCamera(camera_choice, sequence);
-  const eval::Sequence truth = eval::ReadSequence(sequence);
+  const eval::Sequence truth = eval::WithUnitedFaces(eval::ReadSequence(sequence));
   slam::SequenceReader reader(sequence, camera);
   PlaneFrontEnd front_end(sequence, camera, config);
   const int count =

@@ -6,6 +6,7 @@
 
 #include "eval/planes/true_frame.h"
 #include "eval/planes/truth_of_planes.h"
+#include "eval/planes/united_faces.h"
 #include "eval/read/input_error.h"
 
 namespace eval {
@@ -260,8 +261,9 @@ void DecideTruth(const Run& run, bool by_pixels, FrameEvidence& e) {
 
 }  // namespace
 
-std::optional<PlaneScore> ScorePlanes(const Run& run, const Sequence& sequence,
+std::optional<PlaneScore> ScorePlanes(const Run& run, const Sequence& as_read,
                                       const TrajectoryScore& trajectory) {
+  const Sequence sequence = WithUnitedFaces(as_read);
   if (!sequence.scene || !sequence.groundtruth || !run.has_planes) return std::nullopt;
   const bool by_pixels = !run.segmentation_files.empty() && !sequence.plane_id_files.empty();
   std::vector<double> frame_stamps_s, run_stamps_s;

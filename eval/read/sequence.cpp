@@ -164,7 +164,13 @@ cv::Mat1w ReadLabels(const fs::path& file) {
 }
 
 std::optional<cv::Mat1w> ReadPlaneIds(const Sequence& sequence, double stamp_s) {
-  return ReadFrameLabels(sequence.plane_id_files, stamp_s);
+  std::optional<cv::Mat1w> ids = ReadFrameLabels(sequence.plane_id_files, stamp_s);
+  if (!ids || sequence.scored_as.empty()) return ids;
+  ids->forEach([&](std::uint16_t& id, const int*) {
+    const auto found = sequence.scored_as.find(id);
+    if (found != sequence.scored_as.end()) id = static_cast<std::uint16_t>(found->second);
+  });
+  return ids;
 }
 
 std::optional<cv::Mat1w> ReadObjectIds(const Sequence& sequence, double stamp_s) {

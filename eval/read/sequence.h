@@ -2,6 +2,7 @@
 
 #include <array>
 #include <filesystem>
+#include <map>
 #include <opencv2/core.hpp>
 #include <optional>
 #include <string>
@@ -42,6 +43,8 @@ struct Sequence {
   std::optional<SceneTruth> scene;
   std::vector<FrameTruth> frame_truth;  ///< by rising stamp; empty without gt/frames.jsonl
   StampedFiles plane_id_files, object_id_files;
+  /// Ids of planes that go by another id, in the images too; empty as a sequence is read.
+  std::map<int, int> scored_as;
   /// A simulator wrote it: manifest.json says "pas-sequence/1". Stamps of truth and frames are
   /// then equal, not merely near.
   bool synthetic = false;

@@ -157,7 +157,10 @@ void AddPlaneRules(const PlaneScore& s, const TrajectoryScore& t, Json& rules) {
       "area) "
       "and it is seen at 75 deg of incidence or less at their middle; planes that show one "
       "that "
-      "does not count are left out of extraction and tracking scores";
+      "does not count are left out of extraction and tracking scores; faces of one object or "
+      "detection group that are one plane to 0.1 mm, with joints of at most 30 mm, are one "
+      "true "
+      "plane";
   rules["truth_of_a_frame_plane"] =
       s.by_pixels ? "the scored plane that holds most of its pixels, none if most show none"
                   : "no segmentation images: of the scored planes in view within 20 deg, the "

@@ -6,6 +6,7 @@
 
 #include "slam/associate/box_plane.h"
 #include "slam/associate/class_likelihood.h"
+#include "slam/associate/frame_relations.h"
 #include "slam/associate/plane_anchors.h"
 #include "slam/associate/plane_plane.h"
 #include "slam/associate/plane_samples.h"
@@ -175,17 +176,7 @@ void IntegratedRule::CheckRanks() {
 
 PlaneRelations IntegratedRule::Relations() const {
   PlaneRelations relations;
-  const std::size_t count = frame_.planes.size();
-  relations.one_surface.assign(count, std::vector<bool>(count, false));
-  for (std::size_t f = 0; f < count; ++f) {
-    for (std::size_t g = f + 1; g < count; ++g) {
-      // Measured from both sides: the answer must not depend on which comes first.
-      const FramePlane &one = frame_.planes[f], &other = frame_.planes[g];
-      const bool same = ComparePlanes(one, other, config_).chi2 < config_.max_chi2 &&
-                        ComparePlanes(other, one, config_).chi2 < config_.max_chi2;
-      relations.one_surface[f][g] = relations.one_surface[g][f] = same;
-    }
-  }
+  relations.one_surface = PiecesOfOneSurface(frame_, camera_, config_);
   for (std::size_t m = 0; m < planes_.size(); ++m) {
     for (std::size_t n = m + 1; n < planes_.size(); ++n) {
       if (SharesFramePlane(m, n) && Duplicates(planes_[m], planes_[n])) {

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <vector>
+
+#include "slam/associate/association_config.h"
+#include "slam/base/camera.h"
+#include "slam/model/frame.h"
+
+namespace slam {
+
+/// The two planes are linked to boxes of two objects. A second box of one object agrees with
+/// the first (a double, maybe of another class) or lies in it (a part, of the same class); the
+/// box of a book before a laptop lies in the laptop's and is of another class.
+bool OnTwoObjects(const FramePlane& one, const FramePlane& other,
+                  const std::vector<Detection>& detections);
+
+/// [f][g]: planes f and g of the frame can be pieces of one surface: each fits the other, they
+/// are not on two objects, and where they are neighbours there is no step. Symmetric; false on
+/// the diagonal.
+std::vector<std::vector<bool>> PiecesOfOneSurface(const Frame& frame, const Camera& camera,
+                                                  const AssociationConfig& config);
+
+}  // namespace slam

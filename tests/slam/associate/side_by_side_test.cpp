@@ -1,0 +1,145 @@
+// Frame planes that lie side by side: is there a step, are they two objects?
+#include "slam/associate/side_by_side.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "slam/associate/frame_relations.h"
+#include "tests/support/plane_world.h"
+
+namespace slam {
+namespace {
+
+Camera HalfCamera() {
+  Camera camera;
+  camera.width = 320, camera.height = 240;
+  camera.fx = camera.fy = 262.5, camera.cx = 159.5, camera.cy = 119.5;
+  return camera;
+}
+
+const Pose kOver = LookAt({0.1, -0.9, 0.8}, {0, 0, 0});
+
+/// Two boards on one level side by side, the right one `step_m` higher.
+SeenWorld TwoBoards(double step_m, double depth_noise, double gap_m = 0.01) {
+  PlaneWorld world;
+  world.Add({-0.2 - gap_m / 2, 0, 0}, {0.2, 0, 0}, {0, 0.2, 0}, "");
+  world.Add({0.2 + gap_m / 2, 0, step_m}, {0.2, 0, 0}, {0, 0.2, 0}, "");
+  return See(world, kOver, HalfCamera(), {.depth_noise = depth_noise}, Random{7});
+}
+
+/// The step onto the right board, measured.
+std::optional<StepBetween> Measured(const SeenWorld& seen) {
+  const std::size_t right = seen.truth.at(0) == 1 ? 0 : 1;
+  return SideBySide(seen.frame, HalfCamera()).Between(right, 1 - right);
+}
+
+/// What a sensor may do to all of a picture: depth bends by `most_m` from its middle to its
+/// sides.
+void Bend(Frame& frame, float most_m) {
+  for (int v = 0; v < frame.depth_m.rows; ++v) {
+    for (int u = 0; u < frame.depth_m.cols; ++u) {
+      const float x = 2.0f * static_cast<float>(u) / static_cast<float>(frame.depth_m.cols) - 1;
+      if (frame.depth_m(v, u) > 0) frame.depth_m(v, u) += most_m * x * x;
+    }
+  }
+}
+
+TEST(StepBetweenPlanes, IsExactOnExactDepth) {
+  for (const double step_m : {-0.03, -0.004, 0.0, 0.004, 0.03}) {
+    const auto step = Measured(TwoBoards(step_m, 0.0));
+    ASSERT_TRUE(step) << step_m;
+    EXPECT_NEAR(step->step_m, step_m, 1e-6);
+  }
+}
+
+TEST(StepBetweenPlanes, LiesWithinItsSigmaUnderNoise) {
+  double sum_chi2 = 0.0;
+  constexpr int kDraws = 40;
+  PlaneWorld world;
+  world.Add({-0.2, 0, 0}, {0.2, 0, 0}, {0, 0.2, 0}, "");
+  world.Add({0.2, 0, 0.006}, {0.2, 0, 0}, {0, 0.2, 0}, "");
+  for (int draw = 0; draw < kDraws; ++draw) {
+    const SeenWorld seen = See(world, kOver, HalfCamera(), {.depth_noise = 1.0},
+                               Random{static_cast<std::uint64_t>(100 + draw)});
+    const auto step = Measured(seen);
+    ASSERT_TRUE(step);
+    EXPECT_LT(step->sigma_m, 0.001);
+    sum_chi2 += std::pow((step->step_m - 0.006) / step->sigma_m, 2);
+  }
+  // The mean of 40 squares of unit normals: 1 with a standard deviation of 0.22.
+  EXPECT_GT(sum_chi2 / kDraws, 0.4);
+  EXPECT_LT(sum_chi2 / kDraws, 1.9);
+}
+
+TEST(StepBetweenPlanes, IsHardlyMovedByWhatTheSensorDoesToBoth) {
+  SeenWorld level = TwoBoards(0.0, 0.0), stepped = TwoBoards(0.006, 0.0);
+  Bend(level.frame, 0.02f);
+  Bend(stepped.frame, 0.02f);
+  EXPECT_NEAR(Measured(level)->step_m, 0.0, 0.001);
+  EXPECT_NEAR(Measured(stepped)->step_m, 0.006, 0.001);
+}
+
+TEST(StepBetweenPlanes, IsNotKnownOfPlanesThatAreFarApart) {
+  EXPECT_TRUE(Measured(TwoBoards(0.01, 0.0, 0.02)));
+  EXPECT_FALSE(Measured(TwoBoards(0.01, 0.0, 0.4)));
+}
+
+TEST(StepBetweenPlanes, IsNotKnownWithoutDepthOrLabels) {
+  SeenWorld seen = TwoBoards(0.01, 0.0);
+  seen.frame.plane_labels.release();
+  EXPECT_FALSE(SideBySide(seen.frame, HalfCamera()).Between(0, 1));
+  seen = TwoBoards(0.01, 0.0);
+  seen.frame.depth_m.setTo(0.0f);
+  EXPECT_FALSE(SideBySide(seen.frame, HalfCamera()).Between(0, 1));
+}
+
+TEST(PiecesOfOneSurface, HaveNoStepWhereTheyMeet) {
+  const AssociationConfig config;
+  const auto one = [&](const SeenWorld& seen) {
+    const auto pieces = PiecesOfOneSurface(seen.frame, HalfCamera(), config);
+    EXPECT_EQ(pieces[0][1], pieces[1][0]);
+    EXPECT_FALSE(pieces[0][0]);
+    return pieces[0][1];
+  };
+  EXPECT_TRUE(one(TwoBoards(0.0, 1.0)));
+  EXPECT_FALSE(one(TwoBoards(0.006, 1.0)));
+  // Six millimetres that only planes extended to each other could tell.
+  EXPECT_TRUE(one(TwoBoards(0.006, 1.0, 0.6)));
+}
+
+/// Two planes, each linked to its own box.
+bool AreTwo(const std::string& class_0, const Box& box_0, const std::string& class_1,
+            const Box& box_1) {
+  std::vector<Detection> detections(2);
+  detections[0].class_name = class_0, detections[0].box_px = box_0;
+  detections[1].class_name = class_1, detections[1].box_px = box_1;
+  FramePlane one, other;
+  one.detection = 0, other.detection = 1;
+  EXPECT_EQ(OnTwoObjects(one, other, detections), OnTwoObjects(other, one, detections));
+  return OnTwoObjects(one, other, detections);
+}
+
+TEST(PlanesOnTwoObjects, HaveBoxesThatAgreeIll) {
+  const Box laptop{{375, 103}, {513, 238}}, book_before_it{{434, 161}, {494, 179}};
+  const Box jittered{{371, 108}, {509, 243}}, beside{{520, 103}, {600, 200}};
+  EXPECT_TRUE(AreTwo("laptop", laptop, "book", book_before_it));
+  EXPECT_TRUE(AreTwo("laptop", laptop, "laptop", beside));
+  EXPECT_FALSE(AreTwo("laptop", laptop, "tv", jittered)) << "a double of another class";
+  EXPECT_FALSE(AreTwo("laptop", laptop, "laptop", jittered));
+  EXPECT_FALSE(AreTwo("book", laptop, "book", book_before_it)) << "a box of a part";
+}
+
+TEST(PlanesOnTwoObjects, BothHaveABox) {
+  std::vector<Detection> detections(1);
+  detections[0].box_px = {{0, 0}, {10, 10}};
+  FramePlane one, other;
+  EXPECT_FALSE(OnTwoObjects(one, other, detections));
+  one.detection = 0;
+  EXPECT_FALSE(OnTwoObjects(one, other, detections));
+  other.detection = 0;
+  EXPECT_FALSE(OnTwoObjects(one, other, detections)) << "one box of both";
+}
+
+}  // namespace
+}  // namespace slam
