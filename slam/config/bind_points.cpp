@@ -56,6 +56,10 @@ void VisitDecision(KeyframeDecisionConfig& c, FieldVisitor& v) {
             "fewer tracked close points ...");
   v.Integer("min_close_untracked", c.min_close_untracked, "[0, 100000]",
             "... and more untracked: insert");
+  v.Number("max_view_rad", c.max_view_rad, "(0, 3.15)",
+           "a point seen from more beside every keyframe looks new");
+  v.Number("max_new_ratio", c.max_new_ratio, "[0, 1]",
+           "tracked points that look new over all: more, and insert");
 }
 
 void VisitProjection(PointProjectionConfig& c, FieldVisitor& v) {
@@ -71,7 +75,11 @@ void VisitProjection(PointProjectionConfig& c, FieldVisitor& v) {
 void VisitRelocalise(RelocaliseConfig& c, FieldVisitor& v) {
   v.Integer("max_keyframes", c.max_keyframes, "[1, 100000]", "tried a frame");
   v.Integer("min_matches", c.min_matches, "[4, 100000]", "descriptor matches with a keyframe");
-  v.Integer("ransac_iterations", c.ransac_iterations, "[1, 1000000]", "tries of a pose");
+  v.Integer("ransac_iterations", c.ransac_iterations, "[1, 1000000]",
+            "samples solved for a pose");
+  v.Integer("ransac_samples", c.ransac_samples, "[1, 10000000]", "samples drawn");
+  v.Number("shape_tolerance", c.shape_tolerance, "(0, inf)",
+           "distances in a sample may differ from the map's by this part of the depth");
   v.Number("ransac_error_px", c.ransac_error_px, "(0, inf)", "of an inlier");
   v.Integer("min_ransac_inliers", c.min_ransac_inliers, "[4, 100000]", "of a pose");
   VisitMatch("match", c.match, v, "with a keyframe, by descriptors");

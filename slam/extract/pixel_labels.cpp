@@ -107,13 +107,18 @@ LabelComponents ConnectedComponents(const DepthGrid& grid, const LabelImage& lab
 void CountSides(const DepthGrid& grid, const LabelImage& labels,
                 const std::vector<LabelPlane>& planes, LabelComponents& components) {
   for (LabelComponent& c : components.list) c.behind = c.in_front = 0;
-  const float unsure = static_cast<float>(components.unsure_side_sigmas);
+  const std::vector<PixelPlane> in_float(planes.begin(), planes.end());
+  const auto unsure = static_cast<float>(components.unsure_side_sigmas);
   const auto count_side = [&](std::size_t from, std::size_t to) {
     if (labels[from] == kNoLabel || !(grid.g[to] > 0)) return;
     LabelComponent& c = components.list[static_cast<std::size_t>(components.component[from])];
-    const float residual = ResidualSigmas(grid, to, planes[static_cast<std::size_t>(c.label)]);
-    if (residual > unsure) ++c.in_front;
-    if (residual <= -unsure) ++c.behind;
+    const auto label = static_cast<std::size_t>(c.label);
+    const PixelPlane& p = in_float[label];
+    const float nearer = grid.q[to] - (p.a * grid.x[to] + p.b * grid.y[to] + p.c);
+    const float margin =
+        unsure > 0 ? unsure * static_cast<float>(planes[label].grazing) / grid.g[to] : 0.0f;
+    if (nearer > margin) ++c.in_front;
+    if (nearer <= -margin) ++c.behind;
   };
   VisitBoundaries(components.runs,
                   [&](std::size_t i, std::size_t j) { count_side(i, j), count_side(j, i); });

@@ -1,6 +1,7 @@
 #include "slam/localise/keyframe_decision.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "slam/base/require.h"
 
@@ -19,6 +20,29 @@ int WellSeenPoints(const Map& map, int keyframe) {
   for (const int point : map.keyframes.at(static_cast<std::size_t>(keyframe)).map_points) {
     if (point == kNone) continue;
     if (map.points[static_cast<std::size_t>(point)].observations.size() >= min_views) ++count;
+  }
+  return count;
+}
+
+/// Whether no keyframe has seen the point from nearly where the camera is.
+bool LooksNew(const Map& map, const MapPoint& point, const Eigen::Vector3d& camera_w,
+              double min_cosine) {
+  const Eigen::Vector3d view_w = (point.p_w - camera_w).normalized();
+  const auto seen_so = [&](const auto& observation) {
+    const Pose& T_cw = map.keyframes[static_cast<std::size_t>(observation.first)].T_cw;
+    const Eigen::Vector3d ray_w = T_cw.R.transpose() * (T_cw * point.p_w);
+    return ray_w.dot(view_w) >= min_cosine * ray_w.norm();
+  };
+  return std::none_of(point.observations.begin(), point.observations.end(), seen_so);
+}
+
+int CountNewLooks(const Frame& frame, const Map& map, double max_view_rad) {
+  const Eigen::Vector3d camera_w = Inverse(frame.T_cw).t;
+  int count = 0;
+  for (const int id : frame.map_points) {
+    if (id == kNone) continue;
+    count += LooksNew(map, map.points[static_cast<std::size_t>(id)], camera_w,
+                      std::cos(max_view_rad));
   }
   return count;
 }
@@ -50,7 +74,9 @@ KeyframeEvidence DecideKeyframe(const Frame& frame, const Map& map, int referenc
   const bool sees_less = evidence.tracked < ratio * evidence.reference_points;
   const bool close_to_be_had = evidence.close_tracked < share * config.min_close_tracked &&
                                evidence.close_untracked > share * config.min_close_untracked;
-  evidence.wanted = sees_less || close_to_be_had;
+  evidence.new_looks = CountNewLooks(frame, map, config.max_view_rad);
+  const bool looks_new = evidence.new_looks > config.max_new_ratio * evidence.tracked;
+  evidence.wanted = sees_less || close_to_be_had || looks_new;
   return evidence;
 }
 

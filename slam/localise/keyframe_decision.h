@@ -13,6 +13,8 @@ struct KeyframeDecisionConfig {
   int min_frames_between = 1;          ///< domain [1, inf)
   int min_close_tracked = 100;         ///< fewer tracked close points ...
   int min_close_untracked = 70;  ///< ... and more untracked ones: insert; of 1000 features
+  double max_view_rad = 0.26;    ///< a point seen from more beside every keyframe looks new
+  double max_new_ratio = 0.5;    ///< share of the tracked points that look new: above, insert
 };
 
 /// Numbers behind the decision.
@@ -20,11 +22,13 @@ struct KeyframeEvidence {
   int tracked = 0;           ///< matched points of the frame
   int reference_points = 0;  ///< points of the reference that are seen by enough keyframes
   int close_tracked = 0, close_untracked = 0;
+  int new_looks = 0;  ///< tracked points that no keyframe has seen from nearly there
   bool wanted = false;
 };
 
 /// Whether the frame should be kept: it sees clearly less of the map than its reference
-/// keyframe did, or it tracks few close points where there are many to be had.
+/// keyframe did, or it tracks few close points where there are many to be had, or it sees most
+/// of what it tracks from a new side: from there no keyframe would know the place again.
 KeyframeEvidence DecideKeyframe(const Frame& frame, const Map& map, int reference,
                                 int frames_since_last, const Camera& camera,
                                 const KeyframeConfig& keyframes,

@@ -16,10 +16,14 @@ struct RelocaliseConfig {
   LikenessConfig likeness;
   int max_keyframes = 6;  ///< tried a frame, those that look most alike first; domain [1, inf)
   int min_matches = 15;   ///< descriptor matches with a keyframe; domain [4, inf)
-  int ransac_iterations = 300;  ///< domain [1, inf)
+  int ransac_iterations = 300;  ///< samples that are solved; domain [1, inf)
+  int ransac_samples = 5000;    ///< samples that are drawn; domain [1, inf)
+  // By how much distances in the frame and in the map may differ in a sample that is solved:
+  // this part of the depth.
+  double shape_tolerance = 0.05;  ///< domain (0, inf)
   double ransac_error_px = 4.0;
   int min_ransac_inliers = 10;
-  PointMatchConfig match{50, 0.75, true};
+  PointMatchConfig match{70, 0.9, true};
   // Two places that both fit are none: the second best must have fewer inliers than this share
   // of the best one's, unless it says the same pose.
   double max_rival_ratio = 0.7;  ///< domain (0, 1]

@@ -48,6 +48,31 @@ TEST(KeyframeDecision, WantsAFrameWithManyNewClosePointsAndFewTrackedOnes) {
   EXPECT_TRUE(Wanted(world, frame));
 }
 
+TEST(KeyframeDecision, WantsAFrameThatSeesWhatItKnowsFromANewSide) {
+  const PointWorld world = MakePointWorld(2, 200, 1);
+  Frame frame = Again(world, static_cast<int>(world.map.keyframes[0].features.size()));
+  const double around_m = 2.0;  // the points are 1 to 3 m away
+  for (const int side : {-1, 1}) {
+    frame.T_cw = world.map.keyframes[0].T_cw;
+    frame.T_cw.t.x() += side * 0.12 * around_m;
+    EXPECT_FALSE(Wanted(world, frame)) << "7 degrees";
+    frame.T_cw.t.x() += side * 0.32 * around_m;
+    EXPECT_TRUE(Wanted(world, frame)) << "24 degrees";
+  }
+  // Turning on the spot shows no point from another side.
+  frame.T_cw = Pose{ExpSo3({0, 0.3, 0.5}), {}} * world.map.keyframes[0].T_cw;
+  EXPECT_FALSE(Wanted(world, frame));
+}
+
+TEST(KeyframeDecision, TakesEveryKeyframeThatSawAPointForItsLook) {
+  PointWorld world = MakePointWorld(2, 200, 1);
+  Frame frame = Again(world, static_cast<int>(world.map.keyframes[0].features.size()));
+  frame.T_cw.t.x() = 0.9;
+  ASSERT_TRUE(Wanted(world, frame));
+  world.map.keyframes[1].T_cw = frame.T_cw;
+  EXPECT_FALSE(Wanted(world, frame));
+}
+
 TEST(KeyframeDecision, WantsNoFrameThatHardlyHoldsOn) {
   const PointWorld world = MakePointWorld(2, 200, 1);
   EXPECT_FALSE(Wanted(world, Again(world, 15)));
