@@ -73,31 +73,41 @@ void BlockClustering::AddBlock(const DepthGrid& grid, const std::uint8_t* taken,
   regions_.push_back({sums, *fit, grazing, 0, 1, block});
 }
 
-void BlockClustering::Merge() {
-  queue_.clear();
+void BlockClustering::ProposeFirst() {
+  pairs_.clear(), queue_.clear();
   for (int k = 0; k < static_cast<int>(regions_.size()); ++k) {
     const int block = At(k).block;
     const auto beside = [&](int other) {
       const int j = region_at_[static_cast<std::size_t>(other)];
-      if (j >= 0) Propose(k, j);
+      if (j >= 0) pairs_.push_back({k, j, 0, 0});
     };
     if (block % cols_ + 1 < cols_) beside(block + 1);
     if (block / cols_ + 1 < rows_) beside(block + cols_);
   }
+  for (int pair = 0; pair < static_cast<int>(pairs_.size()); ++pair) {
+    double cost = 0.0;
+    if (Evaluate(pair, cost)) queue_.push_back({cost, pair});
+  }
   std::make_heap(queue_.begin(), queue_.end());
+}
+
+void BlockClustering::Merge() {
+  ProposeFirst();
   while (!queue_.empty()) {
-    const Candidate top = queue_.front();
+    const int top = queue_.front().pair;
     std::pop_heap(queue_.begin(), queue_.end());
     queue_.pop_back();
-    const int a = Root(top.i), b = Root(top.j);
+    const Pair& pair = pairs_[static_cast<std::size_t>(top)];
+    const int a = Root(pair.i), b = Root(pair.j);
     if (a == b) continue;
-    if (At(a).version != top.version_i || At(b).version != top.version_j) {
-      const std::size_t before = queue_.size();
-      Propose(top.i, top.j);
-      if (queue_.size() > before) std::push_heap(queue_.begin(), queue_.end());
-    } else {
+    if (At(a).version == pair.version_i && At(b).version == pair.version_j) {
       Join(a, b);
+      continue;
     }
+    double cost = 0.0;
+    if (!Evaluate(top, cost)) continue;
+    queue_.push_back({cost, top});
+    std::push_heap(queue_.begin(), queue_.end());
   }
 }
 
@@ -113,23 +123,24 @@ int BlockClustering::Root(int i) {
   return root;
 }
 
-/// Queues the merge of two blocks' regions if noise explains what it adds.
-void BlockClustering::Propose(int i, int j) {
-  const Region& a = At(Root(i));
-  const Region& b = At(Root(j));
+/// Whether noise explains what the merge of two blocks' regions adds.
+bool BlockClustering::Evaluate(int pair, double& cost) {
+  Pair& at = pairs_[static_cast<std::size_t>(pair)];
+  const Region& a = At(Root(at.i));
+  const Region& b = At(Root(at.j));
   PlaneSums both = a.sums;
   both += b.sums;
   const std::optional<PlaneFit> fit = Fit(both);
-  if (!fit) return;
+  if (!fit) return false;
   const double grazing = std::max(a.grazing, b.grazing);
   const bool by_mean = config_->merge_rule == MergeRule::kMeanError;
-  const double cost = by_mean ? fit->error / both.n : fit->error - a.fit.error - b.fit.error;
+  cost = by_mean ? fit->error / both.n : fit->error - a.fit.error - b.fit.error;
   const double k = config_->model_error_sigmas;
   const double bound = by_mean ? config_->max_block_error
                                : config_->max_merge_chi2 * noise_->correlated_px +
                                      k * k * a.sums.n * b.sums.n / both.n;
-  if (!(cost < grazing * grazing * bound)) return;
-  queue_.push_back({cost, i, j, a.version, b.version});
+  at.version_i = a.version, at.version_j = b.version;
+  return cost < grazing * grazing * bound;
 }
 
 void BlockClustering::Join(int a, int b) {

@@ -78,15 +78,17 @@ class BlockClustering {
     int block = 0;  ///< its first
   };
 
-  /// A possible merge of two neighbouring blocks' regions, as it was when it was evaluated.
-  struct Candidate {
-    double cost;               ///< error added, or mean error
+  /// Two neighbouring blocks whose regions may be merged.
+  struct Pair {
     int i, j;                  ///< regions of one block
-    int version_i, version_j;  ///< of their regions
-    /// Reversed, for a queue with the least on top.
+    int version_i, version_j;  ///< of what they are part of, when it was last evaluated
+  };
+  struct Candidate {
+    double cost;  ///< error added, or mean error
+    int pair;
+    /// Reversed, for a heap with the least on top.
     bool operator<(const Candidate& o) const {
-      if (cost != o.cost) return cost > o.cost;
-      return i != o.i ? i > o.i : j > o.j;
+      return cost != o.cost ? cost > o.cost : pair > o.pair;
     }
   };
 
@@ -96,7 +98,8 @@ class BlockClustering {
                 int block);
   void Merge();
   int Root(int i);
-  void Propose(int i, int j);
+  bool Evaluate(int pair, double& cost);
+  void ProposeFirst();
   void Join(int a, int b);
   void Number(int block_px);
 
@@ -106,6 +109,7 @@ class BlockClustering {
   std::vector<Region> regions_;   ///< of the blocks that are planar, in their order
   std::vector<int> region_at_;    ///< of each block; -1 = none
   std::vector<int> parent_;       ///< of each region
+  std::vector<Pair> pairs_;       ///< in order of i, then j
   std::vector<Candidate> queue_;  ///< a heap
   std::vector<int> number_;
   std::vector<PlaneSums> sums_;

@@ -47,7 +47,9 @@ PAS_INLINE float Residual(const BlockPixels& block, std::ptrdiff_t i, const Pixe
 }
 
 /// A whole block of 8 x 8.
-PAS_INLINE float Measure8(const BlockPixels& block, const PixelPlane& plane, float* residuals) {
+PAS_INLINE float Measure8(const BlockPixels& at, const PixelPlane& of, float* residuals) {
+  const BlockPixels block = at;  // what is written cannot change these
+  const PixelPlane plane = of;
   FloatLanes least = All(kNone);
   for (int v = 0; v < kLanes; ++v) {
     const std::ptrdiff_t i = static_cast<std::ptrdiff_t>(v) * block.stride;
@@ -77,8 +79,10 @@ float MeasureAny(const BlockPixels& block, int count, const PixelPlane& plane,
 }
 
 /// A whole block of 8 x 8 with two pixels of the image to every side.
-PAS_INLINE void Bid8(const BlockPixels& block, const PixelPlane& plane, float most_sigmas,
+PAS_INLINE void Bid8(const BlockPixels& at, const PixelPlane& of, float most_sigmas,
                      const float* residuals, float* bids) {
+  const BlockPixels block = at;  // what is written cannot change these
+  const PixelPlane plane = of;
   const FloatLanes most = All(most_sigmas * most_sigmas);
   float squares[kSide8 * kSide8 + kLanes], sums[kSide8 * kLanes];
   for (int v = 0; v < kSide8; ++v) {

@@ -105,11 +105,13 @@ LabelComponents ConnectedComponents(const DepthGrid& grid, const LabelImage& lab
 void CountSides(const DepthGrid& grid, const LabelImage& labels,
                 const std::vector<LabelPlane>& planes, LabelComponents& components) {
   for (LabelComponent& c : components.list) c.behind = c.in_front = 0;
+  const std::vector<PixelPlane> in_float(planes.begin(), planes.end());
   const auto count_side = [&](std::size_t from, std::size_t to) {
     if (labels[from] == kNoLabel || !(grid.g[to] > 0)) return;
     LabelComponent& c = components.list[static_cast<std::size_t>(components.component[from])];
-    const float residual = ResidualSigmas(grid, to, planes[static_cast<std::size_t>(c.label)]);
-    ++(residual > 0 ? c.in_front : c.behind);
+    const PixelPlane& p = in_float[static_cast<std::size_t>(c.label)];
+    const bool nearer = grid.q[to] > p.a * grid.x[to] + p.b * grid.y[to] + p.c;
+    ++(nearer ? c.in_front : c.behind);
   };
   VisitBoundaries(components.runs,
                   [&](std::size_t i, std::size_t j) { count_side(i, j), count_side(j, i); });

@@ -74,14 +74,17 @@ std::vector<cv::Rect> DrawLabels(const DepthGrid& grid, const LabelImage& labels
   out.create(grid.height, grid.width);
   for (int v = 0; v < grid.height; ++v) {
     std::uint8_t* row = out[v];
-    for (int u = 0; u < grid.width; ++u) {
-      const std::int16_t label = labels[static_cast<std::size_t>(grid.Index(u, v))];
-      row[u] = label == kNoLabel ? std::uint8_t{0} : value[static_cast<std::size_t>(label)];
-      const bool inside_run = u > 0 && row[u - 1] == row[u] && u + 1 < grid.width &&
-                              labels[static_cast<std::size_t>(grid.Index(u + 1, v))] == label;
-      if (row[u] == 0 || inside_run) continue;
-      cv::Vec4i& b = bounds[static_cast<std::size_t>(row[u] - 1)];
-      b = {std::min(b[0], u), std::min(b[1], v), std::max(b[2], u), std::max(b[3], v)};
+    const std::int16_t* from = labels.data() + static_cast<std::size_t>(grid.Index(0, v));
+    for (int u = 0; u < grid.width;) {
+      const int begin = u;
+      const std::int16_t label = from[begin];
+      while (u < grid.width && from[u] == label) ++u;
+      const std::uint8_t drawn =
+          label == kNoLabel ? std::uint8_t{0} : value[static_cast<std::size_t>(label)];
+      std::fill(row + begin, row + u, drawn);
+      if (drawn == 0) continue;
+      cv::Vec4i& b = bounds[static_cast<std::size_t>(drawn - 1)];
+      b = {std::min(b[0], begin), std::min(b[1], v), std::max(b[2], u - 1), std::max(b[3], v)};
     }
   }
   std::vector<cv::Rect> rects;
