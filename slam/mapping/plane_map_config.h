@@ -20,11 +20,13 @@ struct PlaneMapConfig {
   double trial_size = 12.0;  ///< and this large in all of them together, times min_pixels
   int max_trial_misses = 2;  ///< more, and more than half of its observations: it is dropped
 
-  double keep_information = 0.97;      ///< of old observations when one is added; (0, 1]
-  double voxel_m = 0.02;               ///< of clouds; grows when a plane is large
-  int max_cloud_points = 2000;         ///< of one plane; its voxel doubles when reached
-  int max_edge_points = 1000;          ///< of one plane
-  double max_vertex_jump_m = 0.05;     ///< a corner observed farther off is another one
+  double keep_information = 0.97;   ///< of old observations when one is added; (0, 1]
+  double voxel_m = 0.02;            ///< of clouds; grows when a plane is large
+  int max_cloud_points = 2000;      ///< of one plane; its voxel doubles when reached
+  int max_edge_points = 1000;       ///< of one plane
+  double max_vertex_jump_m = 0.05;  ///< a corner observed farther off is another one
+  double min_face_weight = 5.0;     ///< of each of four corners; a seen corner weighs 1
+  double face_margin_m = 0.02;      ///< beyond the sides of a known face nothing belongs to it
   double max_point_distance_m = 0.01;  ///< a map point nearer to the plane lies on it
 
   double min_fused_overlap = 0.2;  ///< share of the smaller cloud that two duplicates share

@@ -9,6 +9,7 @@
 #include "slam/associate/pixel_projection.h"
 #include "slam/mapping/class_belief.h"
 #include "slam/mapping/plane_cloud.h"
+#include "slam/mapping/plane_face.h"
 #include "slam/mapping/plane_trial.h"
 #include "slam/mapping/plane_vertices.h"
 
@@ -65,7 +66,10 @@ void UpdateShape(MapPlane& m, const FramePlane& plane, const Pose& T_wc,
                  config.max_cloud_points);
   MergeIntoCloud(m.edge_points_w, TrueEdges(plane, T_wc), grid, anchor_w, config.voxel_m,
                  config.max_edge_points);
-  std::vector<Eigen::Vector3d> extent_w = m.hull_w;
+  // What once lay on the plane stays in its outline, until its corners are known.
+  const bool face_known = KnowsItsFace(m, config);
+  if (face_known) KeepWhatLiesOnFace(m, config);
+  std::vector<Eigen::Vector3d> extent_w = face_known ? m.vertices_w : m.hull_w;
   extent_w.insert(extent_w.end(), m.points_w.begin(), m.points_w.end());
   Outline outline = ConvexOutline(extent_w, m.pi_w);
   m.hull_w = std::move(outline.hull_w);

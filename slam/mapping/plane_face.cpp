@@ -1,0 +1,35 @@
+#include "slam/mapping/plane_face.h"
+
+#include <algorithm>
+
+namespace slam {
+namespace {
+
+constexpr std::size_t kCorners = 4;
+
+}  // namespace
+
+bool KnowsItsFace(const MapPlane& m, const PlaneMapConfig& config) {
+  return m.vertices_w.size() == kCorners && m.vertex_weights.size() == kCorners &&
+         std::all_of(m.vertex_weights.begin(), m.vertex_weights.end(),
+                     [&](double weight) { return weight >= config.min_face_weight; });
+}
+
+void KeepWhatLiesOnFace(MapPlane& m, const PlaneMapConfig& config) {
+  Eigen::Vector3d middle_w = Eigen::Vector3d::Zero();
+  for (const Eigen::Vector3d& corner_w : m.vertices_w) middle_w += corner_w / double(kCorners);
+  const auto beyond = [&](const Eigen::Vector3d& p_w) {
+    for (std::size_t i = 0; i < kCorners; ++i) {
+      const Eigen::Vector3d& from_w = m.vertices_w[i];
+      const Eigen::Vector3d along = m.vertices_w[(i + 1) % kCorners] - from_w;
+      Eigen::Vector3d outwards = along.cross(m.pi_w.n).normalized();
+      if (outwards.dot(middle_w - from_w) > 0) outwards = -outwards;  // either sense of turning
+      if (outwards.dot(p_w - from_w) > config.face_margin_m) return true;
+    }
+    return false;
+  };
+  std::erase_if(m.points_w, beyond);
+  std::erase_if(m.edge_points_w, beyond);
+}
+
+}  // namespace slam

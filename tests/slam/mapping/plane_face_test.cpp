@@ -1,0 +1,53 @@
+// Where a surface ends whose corners are known.
+#include "slam/mapping/plane_face.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+namespace slam {
+namespace {
+
+/// A level face of 0.4 m x 0.3 m about the origin, corners seen `weight` times, either way
+/// round.
+MapPlane FaceWithCorners(double weight, bool reversed = false) {
+  MapPlane m;
+  m.pi_w = {Eigen::Vector3d(0, 0, 1), 0.0};
+  m.vertices_w = {{-0.2, -0.15, 0}, {0.2, -0.15, 0}, {0.2, 0.15, 0}, {-0.2, 0.15, 0}};
+  if (reversed) std::reverse(m.vertices_w.begin(), m.vertices_w.end());
+  m.vertex_weights.assign(4, weight);
+  return m;
+}
+
+TEST(FaceOfAMapPlane, IsKnownWhenEveryCornerHasBeenSeenOften) {
+  const PlaneMapConfig config;
+  EXPECT_TRUE(KnowsItsFace(FaceWithCorners(config.min_face_weight), config));
+  EXPECT_FALSE(KnowsItsFace(FaceWithCorners(config.min_face_weight - 0.25), config));
+  MapPlane m = FaceWithCorners(20);
+  m.vertex_weights[2] = 1;  // hidden mostly
+  EXPECT_FALSE(KnowsItsFace(m, config));
+  m = FaceWithCorners(20);
+  m.vertices_w.pop_back();
+  EXPECT_FALSE(KnowsItsFace(m, config));
+  EXPECT_FALSE(KnowsItsFace(MapPlane{}, config));
+}
+
+TEST(FaceOfAMapPlane, KeepsWhatLiesOnItAndNothingBeyond) {
+  const PlaneMapConfig config;
+  for (const bool reversed : {false, true}) {
+    MapPlane m = FaceWithCorners(20, reversed);
+    const double inside = 0.2 + 0.9 * config.face_margin_m;
+    const double outside = 0.2 + 1.1 * config.face_margin_m;
+    m.points_w = {{0, 0, 0},        {inside, 0.1, 0.003}, {outside, 0.1, 0},
+                  {-outside, 0, 0}, {0, 0.6, 0},          {0.19, -0.14, 0}};
+    m.edge_points_w = {{-0.2, 0, 0}, {0.5, 0, 0}};
+    KeepWhatLiesOnFace(m, config);
+    ASSERT_EQ(m.points_w.size(), 3u) << reversed;
+    EXPECT_DOUBLE_EQ(m.points_w[1].x(), inside);
+    EXPECT_DOUBLE_EQ(m.points_w[2].x(), 0.19);
+    EXPECT_EQ(m.edge_points_w.size(), 1u);
+  }
+}
+
+}  // namespace
+}  // namespace slam
