@@ -8,6 +8,7 @@
 
 #include "slam/extract/occluded_parts.h"
 #include "slam/extract/patches.h"
+#include "slam/extract/roughness.h"
 #include "slam/extract/sensor_warp.h"
 
 namespace slam {
@@ -118,6 +119,11 @@ void SamplePoints(const DepthGrid& grid, const cv::Mat1b& labels, const cv::Rect
   if (sampled > 0) out.area_m2 = area / sampled * out.pixel_count;
 }
 
+/// Some two thousand pixels say how rough a segment is.
+int RoughnessStep(int pixels) {
+  return std::clamp(static_cast<int>(std::sqrt(pixels / 2000.0)), 1, 6);
+}
+
 FramePlane MakeFramePlane(const Segment& segment, int index) {
   FramePlane out;
   out.index = index;
@@ -198,6 +204,9 @@ void PlaneExtractor::Extract(Frame& frame) {
     FramePlane plane = MakeFramePlane(kept[k], static_cast<int>(k));
     SamplePoints(grid, frame.plane_labels, bounds[k], kept[k], work_->camera,
                  config.point_grid_px, plane);
+    plane.roughness = MeasureRoughness(
+        grid, frame.plane_labels, bounds[k], static_cast<std::uint8_t>(plane.index + 1),
+        kept[k].plane.plane, config.noise, RoughnessStep(plane.pixel_count));
     plane.edge_points = TraceEdges(grid, frame.plane_labels, plane.index + 1, bounds[k],
                                    kept[k].plane, config.edges);
     for (const EdgePoint& point : plane.edge_points) plane.box_px.Include(point.u_px);
