@@ -24,7 +24,4 @@ PlaneSums SumFree(const BlockPixels& block, const std::uint8_t* taken);
 /// Whether two neighbouring measured pixels differ by more than `most_sigmas`.
 bool HasJump(const BlockPixels& block, float most_sigmas);
 
-/// The block of an image at (u, v), cut off where the image ends.
-BlockPixels BlockAt(const DepthGrid& grid, int u, int v, int size);
-
 }  // namespace slam

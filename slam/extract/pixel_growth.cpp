@@ -71,9 +71,7 @@ cv::Rect PixelGrowth::BlockArea(int block) const {
 }
 
 BlockPixels PixelGrowth::PixelsOf(const cv::Rect& area) const {
-  const auto i = static_cast<std::size_t>(grid_->Index(area.x, area.y));
-  return {grid_->x.data() + i, grid_->y.data() + i, grid_->q.data() + i, grid_->g.data() + i,
-          grid_->width,        area.width,          area.height,         config_.block_px};
+  return slam::BlockAt(*grid_, area.x, area.y, config_.block_px);
 }
 
 void PixelGrowth::Measure(const BlockPixels& pixels, int claim) {

@@ -64,7 +64,7 @@ std::vector<Segment> KeepMeasured(const std::vector<PlaneSums>& sums,
 }
 
 /// Writes the label image (position in `kept` + 1) and the bounds of each segment.
-std::vector<cv::Rect> DrawLabels(const DepthGrid& grid, const LabelImage& labels, int count,
+std::vector<cv::Rect> DrawLabels(const LabelRuns& segments, int count,
                                  const std::vector<Segment>& kept, cv::Mat1b& out) {
   std::vector<std::uint8_t> value(static_cast<std::size_t>(count), 0);
   for (std::size_t k = 0; k < kept.size(); ++k) {
@@ -72,20 +72,17 @@ std::vector<cv::Rect> DrawLabels(const DepthGrid& grid, const LabelImage& labels
   }
   const int none = std::numeric_limits<int>::max();
   std::vector<cv::Vec4i> bounds(kept.size(), cv::Vec4i(none, none, -1, -1));
-  out.create(grid.height, grid.width);
-  for (int v = 0; v < grid.height; ++v) {
-    std::uint8_t* row = out[v];
-    const std::int16_t* from = labels.data() + static_cast<std::size_t>(grid.Index(0, v));
-    for (int u = 0; u < grid.width;) {
-      const int begin = u;
-      const std::int16_t label = from[begin];
-      while (u < grid.width && from[u] == label) ++u;
+  for (int v = 0; v < out.rows; ++v) {
+    const auto row = static_cast<std::size_t>(v);
+    for (std::size_t k = segments.rows[row]; k < segments.rows[row + 1]; ++k) {
+      const auto [begin, end, label] = segments.runs[k];
       const std::uint8_t drawn =
           label == kNoLabel ? std::uint8_t{0} : value[static_cast<std::size_t>(label)];
-      std::fill(row + begin, row + u, drawn);
+      std::fill(out[v] + begin, out[v] + end, drawn);
       if (drawn == 0) continue;
       cv::Vec4i& b = bounds[static_cast<std::size_t>(drawn - 1)];
-      b = {std::min(b[0], begin), std::min(b[1], v), std::max(b[2], u - 1), std::max(b[3], v)};
+      b = {std::min(b[0], begin), std::min(b[1], v), std::max(b[2], end - 1),
+           std::max(b[3], v)};
     }
   }
   std::vector<cv::Rect> rects;
@@ -140,6 +137,8 @@ struct PlaneExtractor::Workspace {
   BlockClustering clustering;
   PixelGrowth growth;
   std::vector<std::uint8_t> settled;
+  PatchJoining patches;
+  PartSegmentation parts;
   LabelImage labels;  ///< of segments
   std::vector<PlaneSums> sums;
 };
@@ -182,17 +181,16 @@ void PlaneExtractor::Extract(Frame& frame) {
   const std::vector<PlaneSums> unknown;
   const std::vector<PlaneSums>& blocks =
       config.block_px == config.growth.block_px ? work_->clustering.SumsOfBlocks() : unknown;
-  MergeEqualNeighbours(grid, blocks, config, growth);
-
-  const PatchUnion joined = JoinBentParts(grid, blocks, config, growth, warp > 0.0);
-  LabelImage& labels = work_->labels;
-  MapLabels(growth.labels(), joined.into(), labels);
-  const int count = SegmentParts(grid, joined, config, labels);
-
-  growth.SumOtherLabels(labels, count, work_->sums);
+  PatchJoining& patches = work_->patches;
+  patches.MergeEqualNeighbours(grid, blocks, config, growth);
+  const PatchUnion& joined = patches.JoinBentParts(grid, blocks, config, growth, warp > 0.0);
+  const LabelRuns& segments = work_->parts.Segment(grid, joined, patches.runs(), config);
+  DrawRuns(segments, work_->labels);
+  const int count = work_->parts.segment_count();
+  growth.SumOtherLabels(work_->labels, count, work_->sums);
   const std::vector<Segment> kept = KeepMeasured(work_->sums, config);
-  const std::vector<cv::Rect> bounds =
-      DrawLabels(grid, labels, count, kept, frame.plane_labels);
+  frame.plane_labels.create(grid.height, grid.width);
+  const std::vector<cv::Rect> bounds = DrawLabels(segments, count, kept, frame.plane_labels);
   frame.planes.clear();
   for (std::size_t k = 0; k < kept.size(); ++k) {
     FramePlane plane = MakeFramePlane(kept[k], static_cast<int>(k));

@@ -121,7 +121,12 @@ BoundaryShare ShareInTheMiddle(const cv::Mat1f& depth_m, const Camera& camera) {
   std::vector<LabelPlane> planes;
   for (const PlaneSums& side : SumLabels(grid, labels, 2))
     planes.push_back({Fit(side)->plane, 1.0});
-  return MeasureShares(grid, labels, planes, noise).at({0, 1});
+  LabelRuns runs;
+  FindRuns(labels, grid.width, grid.height, runs);
+  LabelPairs<BoundaryStrips> strips;
+  BoundaryShares shares;
+  MeasureShares(grid, labels, runs, planes, noise, strips, shares);
+  return shares.Sorted().at(0).value;
 }
 
 TEST(BoundaryShares, AreAllOfACreaseAndOfAStep) {
