@@ -216,17 +216,18 @@ void PixelGrowth::AddGainsWithout(int label) {
 void PixelGrowth::DropUseless() {
   gain_.assign(planes_.size(), 0.0), pixels_.assign(planes_.size(), 0);
   for (int block = 0; block < cols_ * rows_; ++block) AddGains(block);
-  std::vector<std::size_t> order(planes_.size());
-  std::iota(order.begin(), order.end(), 0u);
-  std::stable_sort(order.begin(), order.end(),
-                   [&](std::size_t a, std::size_t b) { return pixels_[a] < pixels_[b]; });
-  std::vector<std::uint8_t> dropped(planes_.size(), 0);
-  for (const std::size_t label : order) {
+  fewest_first_.resize(planes_.size());
+  std::iota(fewest_first_.begin(), fewest_first_.end(), 0u);
+  std::sort(fewest_first_.begin(), fewest_first_.end(), [&](std::size_t a, std::size_t b) {
+    return pixels_[a] != pixels_[b] ? pixels_[a] < pixels_[b] : a < b;
+  });
+  dropped_.assign(planes_.size(), 0);
+  for (const std::size_t label : fewest_first_) {
     if (gain_[label] >= config_.min_gain * std::max(pixels_[label], 1)) continue;
-    dropped[label] = 1;
+    dropped_[label] = 1;
     AddGainsWithout(static_cast<int>(label));
   }
-  Drop(dropped);
+  Drop();
 }
 
 void PixelGrowth::Unlink(int block, int label) {
@@ -235,9 +236,9 @@ void PixelGrowth::Unlink(int block, int label) {
   *link = At(*link).next;
 }
 
-void PixelGrowth::Drop(const std::vector<std::uint8_t>& dropped) {
-  for (int label = 0; label < static_cast<int>(dropped.size()); ++label) {
-    if (dropped[static_cast<std::size_t>(label)] == 0) continue;
+void PixelGrowth::Drop() {
+  for (int label = 0; label < static_cast<int>(dropped_.size()); ++label) {
+    if (dropped_[static_cast<std::size_t>(label)] == 0) continue;
     for (int block = 0; block < cols_ * rows_; ++block) {
       std::uint64_t& bits = ReachedBits(block, label);
       if ((bits >> (block % 64) & 1) == 0) continue;
@@ -250,11 +251,11 @@ void PixelGrowth::Drop(const std::vector<std::uint8_t>& dropped) {
 }
 
 void PixelGrowth::Replace(const std::vector<LabelPlane>& planes, const std::vector<int>& into) {
-  std::vector<std::pair<int, int>> seeds;  // (block, label)
+  seeds_.clear();
   for (int block = 0; block < cols_ * rows_; ++block) {
     for (int claim = First(block); claim != kNoClaim; claim = At(claim).next) {
       if (At(claim).pixels > 0)
-        seeds.emplace_back(block, into[static_cast<std::size_t>(At(claim).label)]);
+        seeds_.emplace_back(block, into[static_cast<std::size_t>(At(claim).label)]);
     }
   }
   planes_ = planes;
@@ -262,7 +263,7 @@ void PixelGrowth::Replace(const std::vector<LabelPlane>& planes, const std::vect
   bid_count_ = 0;
   reached_.assign(planes_.size() * words_, 0);
   std::fill(first_.begin(), first_.end(), kNoClaim);
-  for (const auto& [block, label] : seeds) Seed(block, label);
+  for (const auto& [block, label] : seeds_) Seed(block, label);
   Grow();
 }
 

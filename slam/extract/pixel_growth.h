@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <opencv2/core/types.hpp>
+#include <utility>
 #include <vector>
 
 #include "slam/extract/block_pixels.h"
@@ -104,7 +105,7 @@ class PixelGrowth {
   void SpreadFrom(int block);
   void AddGains(int block);
   void AddGainsWithout(int label);
-  void Drop(const std::vector<std::uint8_t>& dropped);
+  void Drop();
   void Unlink(int block, int label);
 
   const DepthGrid* grid_ = nullptr;
@@ -127,6 +128,9 @@ class PixelGrowth {
   // What each label gains over the next best plane at its pixels.
   std::vector<double> gain_;
   std::vector<int> pixels_;
+  std::vector<std::size_t> fewest_first_;   ///< labels by pixels_
+  std::vector<std::uint8_t> dropped_;       ///< each label
+  std::vector<std::pair<int, int>> seeds_;  ///< (block, label)
   // Scratch of one block.
   std::vector<BlockRival> rivals_;
   std::vector<int> rival_claims_;

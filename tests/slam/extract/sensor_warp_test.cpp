@@ -37,7 +37,7 @@ double WarpOf(const cv::Mat1f& depth_m, const Camera& camera,
   BlockClustering clustering;
   const BlockClusters& clusters =
       clustering.Cluster(grid, {}, config.block_px, config.noise, config.coarse);
-  return MeasureWarp(clusters, clustering.SumsOfBlocks(), config);
+  return WarpMeasurement().Measure(clusters, clustering.SumsOfBlocks(), config);
 }
 
 /// Share of the image that the largest segment holds.
