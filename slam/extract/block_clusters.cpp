@@ -8,21 +8,6 @@
 #include "slam/extract/block_sums.h"
 
 namespace slam {
-namespace {
-
-/// Measured pixels of a block that nobody has taken.
-int CountFree(const BlockPixels& block, const std::uint8_t* taken) {
-  int count = 0;
-  for (int v = 0; v < block.height; ++v) {
-    const std::ptrdiff_t row = static_cast<std::ptrdiff_t>(v) * block.stride;
-    for (int u = 0; u < block.width; ++u)
-      count += taken[row + u] == 0 && block.g[row + u] > 0.0f ? 1 : 0;
-  }
-  return count;
-}
-
-}  // namespace
-
 const BlockClusters& BlockClustering::Cluster(const DepthGrid& grid,
                                               const std::vector<std::uint8_t>& taken,
                                               int block_px, const DepthNoise& noise,
@@ -44,12 +29,25 @@ void BlockClustering::AddBlocks(const DepthGrid& grid, const std::vector<std::ui
   regions_.clear();
   if (taken.empty()) sums_.clear();
   region_at_.assign(static_cast<std::size_t>(cols_ * rows_), -1);
+  const double least = config_->min_measured * block_px * block_px;
   for (int r = 0; r < rows_; ++r) {
+    const int v = r * block_px;
+    const auto row = static_cast<std::size_t>(grid.Index(0, v));
+    const std::uint8_t* mask = taken.empty() ? nullptr : taken.data() + row;
+    if (mask != nullptr) {
+      free_.resize(static_cast<std::size_t>(grid.width));
+      CountFree(grid.g.data() + row, mask, grid.width, grid.width,
+                std::min(block_px, grid.height - v), free_.data());
+    }
     for (int c = 0; c < cols_; ++c) {
-      const int u = c * block_px, v = r * block_px;
-      const std::uint8_t* mask =
-          taken.empty() ? nullptr : taken.data() + static_cast<std::size_t>(grid.Index(u, v));
-      AddBlock(grid, mask, u, v, block_px, r * cols_ + c);
+      const int u = c * block_px;
+      if (mask == nullptr) {
+        AddBlock(grid, nullptr, u, v, block_px, r * cols_ + c);
+        continue;
+      }
+      const auto first = free_.begin() + u;
+      const int free = std::accumulate(first, first + std::min(block_px, grid.width - u), 0);
+      if (free >= least) AddBlock(grid, mask + u, u, v, block_px, r * cols_ + c);
     }
   }
   parent_.resize(regions_.size());
@@ -60,7 +58,6 @@ void BlockClustering::AddBlock(const DepthGrid& grid, const std::uint8_t* taken,
                                int block_px, int block) {
   const BlockPixels pixels = BlockAt(grid, u, v, block_px);
   const double least = config_->min_measured * block_px * block_px;
-  if (taken != nullptr && !(CountFree(pixels, taken) >= least)) return;
   const PlaneSums sums = taken == nullptr ? SumBlock(pixels) : SumFree(pixels, taken);
   if (taken == nullptr) sums_.push_back(sums);
   if (!(sums.n >= least)) return;

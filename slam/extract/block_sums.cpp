@@ -1,5 +1,6 @@
 #include "slam/extract/block_sums.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <limits>
@@ -139,6 +140,19 @@ void SumTile(const BlockPixels& block, const std::int16_t* labels,
 
 SLAM_LANES PlaneSums SumFree(const BlockPixels& block, const std::uint8_t* taken) {
   return Sum<std::uint8_t>(block, taken, 0);
+}
+
+SLAM_LANES void CountFree(const float* g, const std::uint8_t* taken, int stride, int width,
+                          int height, std::uint8_t* __restrict counts) {
+  std::fill(counts, counts + width, std::uint8_t{0});
+  for (int v = 0; v < height; ++v) {
+    const float* g_row = g + static_cast<std::ptrdiff_t>(v) * stride;
+    const std::uint8_t* taken_row = taken + static_cast<std::ptrdiff_t>(v) * stride;
+    for (int u = 0; u < width; ++u) {
+      const int free = (taken_row[u] == 0 ? 1 : 0) & (g_row[u] > 0.0f ? 1 : 0);
+      counts[u] = static_cast<std::uint8_t>(counts[u] + free);
+    }
+  }
 }
 
 SLAM_LANES bool HasJump(const BlockPixels& block, float most_sigmas) {

@@ -68,8 +68,8 @@ void CountSides(const DepthGrid& grid, const std::vector<LabelPlane>& planes,
     const float nearer = grid.q[to] - (p.a * grid.x[to] + p.b * grid.y[to] + p.c);
     const float margin =
         unsure > 0 ? unsure * static_cast<float>(plane.grazing) / grid.g[to] : 0.0f;
-    if (nearer > margin) ++c.in_front;
-    if (nearer <= -margin) ++c.behind;
+    c.in_front += nearer > margin ? 1 : 0;
+    c.behind += nearer <= -margin ? 1 : 0;
   };
   VisitBoundaries(components.runs, [&](std::size_t i, std::size_t j, std::size_t a,
                                        std::size_t b) { count_side(a, j), count_side(b, i); });

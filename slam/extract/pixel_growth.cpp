@@ -34,6 +34,7 @@ void PixelGrowth::Begin(const DepthGrid& grid, const GrowthConfig& config) {
   planes_.clear(), claims_.clear(), reached_.clear();
   first_.assign(blocks, kNoClaim);
   active_.clear(), next_active_.clear(), is_active_.assign(blocks, 0);
+  is_stale_.assign(blocks, 0);
   labels_.assign(grid.q.size(), kNoLabel);
   bid_count_ = 0;
   owners_.resize(slot_size_), next_labels_.resize(slot_size_), gains_.resize(slot_size_);
@@ -110,14 +111,21 @@ void PixelGrowth::GatherRivals(int block, float nearer_than) {
 }
 
 /// Gives the pixels of a block to the nearest of its planes and counts what each gets.
-void PixelGrowth::LabelBlock(int block) {
+/// @returns whether anything has changed.
+bool PixelGrowth::LabelBlock(int block) {
   const cv::Rect area = BlockArea(block);
   const BlockPixels pixels = PixelsOf(area);
-  for (int claim = First(block); claim != kNoClaim; claim = At(claim).next) {
-    if (!At(claim).measured) Measure(pixels, claim);
-    At(claim).pixels = 0;
-  }
   const auto farthest = static_cast<float>(config_.max_pixel_sigmas);
+  std::uint8_t& is_stale = is_stale_[static_cast<std::size_t>(block)];
+  for (int claim = First(block); claim != kNoClaim; claim = At(claim).next) {
+    if (At(claim).measured) continue;
+    Measure(pixels, claim);
+    if (At(claim).least < farthest) is_stale = 1;
+  }
+  if (is_stale == 0) return false;
+  is_stale = 0;
+  for (int claim = First(block); claim != kNoClaim; claim = At(claim).next)
+    At(claim).pixels = 0;
   GatherRivals(block, farthest);
   if (rivals_.size() > 1) {
     for (const int claim : rival_claims_) {
@@ -134,6 +142,7 @@ void PixelGrowth::LabelBlock(int block) {
     At(rival_claims_[k]).pixels = rivals_[k].pixels;
   WriteOwners(pixels, owners_.data(),
               labels_.data() + static_cast<std::size_t>(grid_->Index(area.x, area.y)));
+  return true;
 }
 
 void PixelGrowth::SpreadFrom(int block) {
@@ -155,10 +164,12 @@ void PixelGrowth::Grow() {
   while (!active_.empty()) {
     std::swap(active_, next_active_);
     active_.clear();
-    for (const int block : next_active_) {
-      LabelBlock(block);
+    const auto unchanged = [&](int block) {
       is_active_[static_cast<std::size_t>(block)] = 0;
-    }
+      return !LabelBlock(block);
+    };
+    next_active_.erase(std::remove_if(next_active_.begin(), next_active_.end(), unchanged),
+                       next_active_.end());
     for (const int block : next_active_) SpreadFrom(block);
   }
 }
@@ -245,6 +256,7 @@ void PixelGrowth::Drop() {
       bits &= ~(std::uint64_t{1} << (block % 64));
       Unlink(block, label);
       Activate(block);
+      is_stale_[static_cast<std::size_t>(block)] = 1;
     }
   }
   Grow();
@@ -263,6 +275,7 @@ void PixelGrowth::Replace(const std::vector<LabelPlane>& planes, const std::vect
   bid_count_ = 0;
   reached_.assign(planes_.size() * words_, 0);
   std::fill(first_.begin(), first_.end(), kNoClaim);
+  std::fill(is_stale_.begin(), is_stale_.end(), 1);
   for (const auto& [block, label] : seeds_) Seed(block, label);
   Grow();
 }

@@ -101,7 +101,7 @@ class PixelGrowth {
   void Measure(const BlockPixels& pixels, int claim);
   void Bid(const BlockPixels& pixels, const cv::Rect& area, int claim);
   void GatherRivals(int block, float nearer_than);
-  void LabelBlock(int block);
+  bool LabelBlock(int block);
   void SpreadFrom(int block);
   void AddGains(int block);
   void AddGainsWithout(int label);
@@ -119,6 +119,7 @@ class PixelGrowth {
   std::vector<std::uint64_t> reached_;     ///< a bit a block, label by label
   std::vector<int> active_, next_active_;  ///< blocks that planes have reached
   std::vector<std::uint8_t> is_active_;
+  std::vector<std::uint8_t> is_stale_;  ///< blocks whose labels are not those of their claims
   LabelImage labels_;
   std::vector<float> residuals_;  ///< of each claim, sigmas; infinity where nothing is measured
   std::vector<float> bids_;       ///< BidForBlock
