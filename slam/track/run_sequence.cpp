@@ -11,6 +11,7 @@
 #include "slam/config/config_file.h"
 #include "slam/input/camera_reader.h"
 #include "slam/input/sequence_reader.h"
+#include "slam/localise/camera_check.h"
 #include "slam/track/frame_gate.h"
 #include "slam/write/run_writer.h"
 
@@ -87,6 +88,7 @@ RunOutcome Run(LiveCamera input, const RunOptions& options, const std::string& d
 
   RunOutcome outcome;
   FrameGate gate(input.camera);
+  CameraCheck camera_check(input.camera, options.config.point_features.scales);
   std::vector<TiedPose> tied;
   const int total = input.frames.size();
   tied.reserve(static_cast<std::size_t>(total));
@@ -98,7 +100,10 @@ RunOutcome Run(LiveCamera input, const RunOptions& options, const std::string& d
       const TrackReport report = tracker.TrackFrame(frame, recorded.bgr);
       writer.WriteFrame({frame, report.tracked, report.times, StateName(report.points)});
       outcome.tracked += report.tracked ? 1 : 0;
-      if (report.tracked) tied.push_back({frame.timestamp_s, report.reference, report.T_cr});
+      if (report.tracked) {
+        tied.push_back({frame.timestamp_s, report.reference, report.T_cr});
+        if (camera_check.See(frame) && options.warn) options.warn(camera_check.Warning());
+      }
     }
     if (options.progress) options.progress(i + 1, total);
     outcome.stopped = i + 1 < total && options.stop && options.stop();
@@ -109,6 +114,9 @@ RunOutcome Run(LiveCamera input, const RunOptions& options, const std::string& d
   writer.Finish(tracker.map(), outcome.loops > 0 ? FollowKeyframes(tied, tracker.map())
                                                  : std::vector<TimedPose>{});
   outcome.warnings = gate.Warnings();
+  if (const std::string warning = camera_check.Warning(); !warning.empty()) {
+    outcome.warnings.push_back(warning);
+  }
   if (const int unmapped = tracker.unmapped_keyframes(); unmapped > 0 && !outcome.stopped) {
     outcome.warnings.push_back(std::to_string(unmapped) +
                                " keyframes came too fast to be mapped on their own");
