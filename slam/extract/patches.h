@@ -55,10 +55,9 @@ void MergeEqualNeighbours(const DepthGrid& grid, const std::vector<PlaneSums>& b
 /// to must agree within the wider bounds on bending. The labels keep their own planes, and with
 /// them their pixels.
 /// @param blocks  as above
-/// @param warped  the bounds allow for a warp (sensor_warp.h), by which planes alone do not
-/// tell
-///                two surfaces from one: what meets in a crease (boundary_shares.h) is kept
-///                apart, here and when hidden parts are joined
+/// @param warped  the bounds allow for a warp (sensor_warp.h), and planes alone do not tell two
+///   surfaces from one: what meets in a crease (boundary_shares.h) is kept apart, here and when
+///   hidden parts are joined
 PatchUnion JoinBentParts(const DepthGrid& grid, const std::vector<PlaneSums>& blocks,
                          const PlaneExtractionConfig& config, PixelGrowth& growth, bool warped);
 

@@ -5,6 +5,7 @@
 #include <numeric>
 
 #include "slam/base/lanes.h"
+#include "slam/base/require.h"
 #include "slam/extract/block_sums.h"
 
 namespace slam {
@@ -24,6 +25,10 @@ void Provide(std::vector<T>& room, std::size_t size) {
 }  // namespace
 
 void PixelGrowth::Begin(const DepthGrid& grid, const GrowthConfig& config) {
+  Require(config.block_px >= 2 && config.block_px <= kMostBlockSide_px,
+          "PixelGrowth: block_px outside [2, 64]");
+  Require(config.vote_reach_px >= 0 && config.vote_reach_px <= kMostBidReach_px,
+          "PixelGrowth: vote_reach_px outside [0, 16]");
   grid_ = &grid, config_ = config;
   cols_ = (grid.width + config.block_px - 1) / config.block_px;
   rows_ = (grid.height + config.block_px - 1) / config.block_px;
@@ -165,6 +170,17 @@ void PixelGrowth::Grow() {
   }
 }
 
+/// What its owner gains at each pixel of a block, over whom.
+void PixelGrowth::CompareRivals(int block, float unexplained) {
+  GatherRivals(block, unexplained);
+  const cv::Rect area = BlockArea(block);
+  ReadOwners(PixelsOf(area), static_cast<int>(slot_size_),
+             labels_.data() + static_cast<std::size_t>(grid_->Index(area.x, area.y)),
+             owners_.data());
+  GainsOfBlock(rivals_.data(), static_cast<int>(rivals_.size()), static_cast<int>(slot_size_),
+               unexplained, owners_.data(), gains_.data(), next_labels_.data());
+}
+
 /// Adds the gains of the pixels of one block.
 void PixelGrowth::AddGains(int block) {
   if (First(block) == kNoClaim) return;
@@ -176,13 +192,7 @@ void PixelGrowth::AddGains(int block) {
     gain_[label] += static_cast<double>(unexplained * unexplained - 1.0f) * only.pixels;
     return;
   }
-  GatherRivals(block, unexplained);
-  const cv::Rect area = BlockArea(block);
-  ReadOwners(PixelsOf(area), static_cast<int>(slot_size_),
-             labels_.data() + static_cast<std::size_t>(grid_->Index(area.x, area.y)),
-             owners_.data());
-  GainsOfBlock(rivals_.data(), static_cast<int>(rivals_.size()), static_cast<int>(slot_size_),
-               unexplained, owners_.data(), gains_.data(), next_labels_.data());
+  CompareRivals(block, unexplained);
   for (std::size_t k = 0; k < rivals_.size(); ++k) {
     const auto label = static_cast<std::size_t>(rivals_[k].label);
     pixels_[label] += At(rival_claims_[k]).pixels;
@@ -197,13 +207,7 @@ void PixelGrowth::AddGainsWithout(int label) {
     const std::uint64_t bits = ReachedBits(block, label);
     if (bits == 0) block |= 63;  // none of these 64
     if ((bits >> (block % 64) & 1) == 0) continue;
-    GatherRivals(block, unexplained);
-    const cv::Rect area = BlockArea(block);
-    ReadOwners(PixelsOf(area), static_cast<int>(slot_size_),
-               labels_.data() + static_cast<std::size_t>(grid_->Index(area.x, area.y)),
-               owners_.data());
-    GainsOfBlock(rivals_.data(), static_cast<int>(rivals_.size()), static_cast<int>(slot_size_),
-                 unexplained, owners_.data(), gains_.data(), next_labels_.data());
+    CompareRivals(block, unexplained);
     const auto own = std::find_if(rivals_.begin(), rivals_.end(),
                                   [label](const BlockRival& r) { return r.label == label; });
     if (own == rivals_.end()) continue;

@@ -6,38 +6,9 @@
 #include "slam/extract/block_sums.h"
 
 namespace slam {
-
 namespace {
 
 constexpr int kTile_px = 8;
-
-}  // namespace
-
-std::vector<PlaneSums> SumLabels(const DepthGrid& grid, const LabelImage& labels, int count) {
-  std::vector<PlaneSums> sums(static_cast<std::size_t>(count));
-  for (int v = 0; v < grid.height; v += kTile_px) {
-    for (int u = 0; u < grid.width; u += kTile_px) {
-      SumTile(BlockAt(grid, u, v, kTile_px),
-              labels.data() + static_cast<std::size_t>(grid.Index(u, v)), sums);
-    }
-  }
-  return sums;
-}
-
-void MapLabels(const LabelImage& labels, const std::vector<int>& to, LabelImage& out) {
-  out.resize(labels.size());
-  std::int16_t last = kNoLabel, mapped = kNoLabel;
-  for (std::size_t i = 0; i < labels.size(); ++i) {
-    if (labels[i] != last) {
-      last = labels[i];
-      mapped = last == kNoLabel ? kNoLabel
-                                : static_cast<std::int16_t>(to[static_cast<std::size_t>(last)]);
-    }
-    out[i] = mapped;
-  }
-}
-
-namespace {
 
 int Root(std::vector<int>& parent, int i) {
   while (parent[static_cast<std::size_t>(i)] != i) {
@@ -67,6 +38,30 @@ std::vector<int> NumberRuns(const LabelRuns& runs) {
 }
 
 }  // namespace
+
+std::vector<PlaneSums> SumLabels(const DepthGrid& grid, const LabelImage& labels, int count) {
+  std::vector<PlaneSums> sums(static_cast<std::size_t>(count));
+  for (int v = 0; v < grid.height; v += kTile_px) {
+    for (int u = 0; u < grid.width; u += kTile_px) {
+      SumTile(BlockAt(grid, u, v, kTile_px),
+              labels.data() + static_cast<std::size_t>(grid.Index(u, v)), sums);
+    }
+  }
+  return sums;
+}
+
+void MapLabels(const LabelImage& labels, const std::vector<int>& to, LabelImage& out) {
+  out.resize(labels.size());
+  std::int16_t last = kNoLabel, mapped = kNoLabel;
+  for (std::size_t i = 0; i < labels.size(); ++i) {
+    if (labels[i] != last) {
+      last = labels[i];
+      mapped = last == kNoLabel ? kNoLabel
+                                : static_cast<std::int16_t>(to[static_cast<std::size_t>(last)]);
+    }
+    out[i] = mapped;
+  }
+}
 
 LabelComponents ConnectedComponents(const DepthGrid& grid, const LabelImage& labels) {
   LabelComponents out;

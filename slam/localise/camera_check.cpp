@@ -208,8 +208,8 @@ std::string CameraCheck::Warning() {
          std::to_string(estimate.pairs) + " pairs of views up to " +
          Fixed(estimate.turn_rad * 180.0 / std::numbers::pi, 0) +
          " degrees apart. Poses and map are distorted by as much: calibrate the camera and "
-         "give the right camera.yaml. Lens distortion left out, and images scaled or cropped "
-         "after calibration, look the same";
+         "give the right camera.yaml. Lens distortion left out, images scaled or cropped after "
+         "calibration, and depth not registered to colour or taken at another time look alike";
 }
 
 }  // namespace slam

@@ -226,12 +226,19 @@ TEST(FaultStreamF9, DepthOfAnotherUnitIsSaid) {
   }
 }
 
-TEST(FaultStreamF10, DepthOfOtherFramesGivesNoNumberThatIsNotFinite) {
-  auto stream = Clean();
-  for (std::size_t i = 0; i + 10 < stream.size(); ++i) {
-    stream[i].depth_m = Clean()[i + 10].depth_m;
+TEST(FaultStreamF10, DepthOfOtherFramesIsSaid) {
+  for (const int late : {-10, -3, 3, 20}) {
+    std::vector<RecordedFrame> stream;
+    for (int i = 0; i < kFrames; ++i) {
+      if (i + late < 0 || i + late >= kFrames) continue;
+      stream.push_back(Clean()[static_cast<std::size_t>(i)]);
+      stream.back().depth_m = Clean()[static_cast<std::size_t>(i + late)].depth_m;
+    }
+    const Ran ran = RunOn(stream);  // finite: RunOn looks
+    EXPECT_THAT(ran.outcome.warnings,
+                testing::ElementsAre(testing::HasSubstr("depth seems to be taken ")))
+        << late;
   }
-  RunOn(stream);  // finite: RunOn looks
 }
 
 TEST(FaultStreamF11, AClockThatJumpsAnHourDoesNotThrowTheCamera) {
