@@ -128,7 +128,12 @@ PlaneBench BenchPlanes(const std::filesystem::path& sequence, const std::string&
   const int count =
       choice.at_most > 0 ? std::min(choice.at_most, reader.size()) : reader.size();
   std::vector<double> stamps_s;
-  for (int i = 0; i < count; ++i) stamps_s.push_back(reader.entry(i).timestamp_s);
+  for (int i = 0; i < count; ++i) {
+    const slam::SequenceEntry& entry = reader.entry(i);
+    // A recording's depth was measured beside its colour; the simulator's truth is the frame's.
+    stamps_s.push_back(truth.scene ? entry.timestamp_s
+                                   : entry.depth_timestamp_s - 1e-3 * choice.depth_delay_ms);
+  }
   std::vector<std::optional<eval::Pose>> poses(stamps_s.size());
   if (truth.groundtruth) {
     poses = eval::TruePosesOfFrames(*truth.groundtruth, stamps_s, truth.synthetic);

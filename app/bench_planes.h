@@ -54,6 +54,8 @@ struct BenchChoice {
   int at_most = 0;  ///< 0 = all
   int every = 1;
   bool unmeasured = false;  ///< count true pixels that have no depth as well
+  /// Of a recording: by how much its depth is stamped later than its true poses.
+  double depth_delay_ms = 0.0;
 };
 
 /// Runs (B) and (C) on every frame of a sequence, on this thread, and scores them when the

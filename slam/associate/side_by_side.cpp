@@ -3,7 +3,8 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
+#include <iterator>
+#include <opencv2/core.hpp>
 
 namespace slam {
 namespace {
@@ -13,12 +14,13 @@ constexpr int kReach = 5;               // tiles, at a width of 640
 constexpr double kMinPixels = 12.0;     // of a tile: fewer are its neighbour's edge
 constexpr std::size_t kMinTiles = 4;    // of each plane
 constexpr std::size_t kMinFreedom = 6;  // to know their scatter
-constexpr std::size_t kMaxTiles = 400;  // of each plane; more say no more
 
 }  // namespace
 
 SideBySide::SideBySide(const Frame& frame, const Camera& camera)
     : frame_(frame),
+      columns_((camera.width + kTile_px - 1) / kTile_px),
+      rows_((camera.height + kTile_px - 1) / kTile_px),
       reach_(std::max(2, kReach * camera.width / 640)),
       tiles_(frame.planes.size()) {
   const cv::Size size(camera.width, camera.height);
@@ -53,15 +55,18 @@ SideBySide::SideBySide(const Frame& frame, const Camera& camera)
   }
 }
 
+/// Those of `of` that are within reach of `to`.
 SideBySide::Tiles SideBySide::Near(const Tiles& of, const Tiles& to) const {
+  cv::Mat1b reached(rows_, columns_, static_cast<unsigned char>(0));
+  const cv::Rect all(0, 0, columns_, rows_);
+  for (const Tile& tile : to) {
+    const cv::Rect around(tile.column - reach_, tile.row - reach_, 2 * reach_ + 1,
+                          2 * reach_ + 1);
+    reached(around & all) = 1;
+  }
   Tiles near;
-  std::copy_if(of.begin(), of.end(), std::back_inserter(near), [&](const Tile& tile) {
-    return std::any_of(to.begin(), to.end(), [&](const Tile& other) {
-      return std::abs(tile.column - other.column) <= reach_ &&
-             std::abs(tile.row - other.row) <= reach_;
-    });
-  });
-  if (near.size() > kMaxTiles) near.resize(kMaxTiles);
+  std::copy_if(of.begin(), of.end(), std::back_inserter(near),
+               [&](const Tile& tile) { return reached(tile.row, tile.column) != 0; });
   return near;
 }
 

@@ -38,6 +38,7 @@ class SideBySide {
   Tiles Near(const Tiles& of, const Tiles& to) const;
 
   const Frame& frame_;
+  int columns_, rows_;
   int reach_;                 ///< tiles
   std::vector<Tiles> tiles_;  ///< by frame plane
 };

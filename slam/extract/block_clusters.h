@@ -55,8 +55,7 @@ struct BlockClusters {
 /// with E the error sum in sigmas, k = model_error_sigmas and s the grazing factor. (PEAC
 /// bounds the mean error of the union, in which a block of a book vanishes among those of a
 /// desk; `merge_rule` brings that back, with max_block_error as its bound.) Ties are broken by
-/// block number.
-///
+/// block number. The memory of one image serves the next.
 class BlockClustering {
  public:
   /// @param taken   one entry a pixel; pixels with a non-zero entry are left out. May be empty.

@@ -107,14 +107,13 @@ PAS_INLINE void Bid8(const BlockPixels& at, const PixelPlane& of, float most_sig
   }
 }
 
-constexpr int kMaxSide = 64, kMaxReach = 16;  // GrowthConfig
-
 /// The same for other sizes and beside the image's border, beyond which there are zeros.
 PAS_INLINE void BidAny(const BlockPixels& block, int count, const PixelPlane& plane,
                        const BidWindow& window, const float* residuals, float* bids) {
   const float most = window.most_sigmas * window.most_sigmas;
   const int reach = window.reach, size = block.size;
-  float squares[kMaxSide + 2 * kMaxReach], sums[kMaxSide * (kMaxSide + 2 * kMaxReach)];
+  constexpr int kRows = kMostBlockSide_px + 2 * kMostBidReach_px;
+  float squares[kRows], sums[kMostBlockSide_px * kRows];
   std::fill_n(squares, size + 2 * reach, 0.0f);
   std::fill_n(sums, size * (size + 2 * reach), 0.0f);
   for (int v = -window.top; v < block.height + window.bottom; ++v) {
@@ -136,6 +135,9 @@ PAS_INLINE void BidAny(const BlockPixels& block, int count, const PixelPlane& pl
 }
 
 }  // namespace
+
+static_assert(DepthGrid::kCopiesBefore >= kMostBidReach_px &&
+              DepthGrid::kRowCopies >= kMostBlockSide_px + 2 * kMostBidReach_px);
 
 BlockPixels BlockAt(const DepthGrid& grid, int u, int v, int size) {
   const auto i = static_cast<std::size_t>(grid.Index(u, v));

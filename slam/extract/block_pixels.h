@@ -46,6 +46,9 @@ struct BidWindow {
   float most_sigmas = 0.0f;
 };
 
+/// The largest `size` and `reach`.
+inline constexpr int kMostBlockSide_px = 64, kMostBidReach_px = 16;
+
 // Arrays of a block have size x size entries, row by row, and go on to `count`, a multiple
 // of 8.
 

@@ -110,10 +110,11 @@ std::vector<Detection> BoxTracks::Update(double timestamp_s,
   for (const Track& track : tracks_) {
     Detection filled;
     if (!Fill(track, filled)) continue;
-    const bool seen_already = std::any_of(answer.begin(), answer.end(), [&](const Detection& d) {
-      return d.class_name == filled.class_name &&
-             Iou(d.box_px, filled.box_px) > config_.max_duplicate_iou;
-    });
+    const bool seen_already =
+        std::any_of(answer.begin(), answer.end(), [&](const Detection& d) {
+          return d.class_name == filled.class_name &&
+                 Iou(d.box_px, filled.box_px) > config_.max_duplicate_iou;
+        });
     if (!seen_already) answer.push_back(std::move(filled));
   }
   std::erase_if(tracks_, [&](const Track& t) {

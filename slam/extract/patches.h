@@ -65,9 +65,9 @@ class PatchJoining {
   /// belong to must agree within the wider bounds on bending. The labels keep their own planes,
   /// and with them their pixels.
   /// @param blocks  as above
-  /// @param warped  the bounds allow for a warp (sensor_warp.h), by which planes alone do not
-  ///                tell two surfaces from one: what meets in a crease (boundary_shares.h) is
-  ///                kept apart, here and when hidden parts are joined
+  /// @param warped  the bounds allow for a warp (sensor_warp.h), and planes alone do not tell
+  ///   two surfaces from one: what meets in a crease (boundary_shares.h) is kept apart, here
+  ///   and when hidden parts are joined
   /// @returns what stands until the next call
   const PatchUnion& JoinBentParts(const DepthGrid& grid, const std::vector<PlaneSums>& blocks,
                                   const PlaneExtractionConfig& config, PixelGrowth& growth,

@@ -5,7 +5,7 @@
 #include <numeric>
 
 #include "slam/base/lanes.h"
-#include "slam/extract/block_sums.h"
+#include "slam/base/require.h"
 
 namespace slam {
 namespace {
@@ -24,6 +24,10 @@ void Provide(std::vector<T>& room, std::size_t size) {
 }  // namespace
 
 void PixelGrowth::Begin(const DepthGrid& grid, const GrowthConfig& config) {
+  Require(config.block_px >= 2 && config.block_px <= kMostBlockSide_px,
+          "PixelGrowth: block_px outside [2, 64]");
+  Require(config.vote_reach_px >= 0 && config.vote_reach_px <= kMostBidReach_px,
+          "PixelGrowth: vote_reach_px outside [0, 16]");
   grid_ = &grid, config_ = config;
   cols_ = (grid.width + config.block_px - 1) / config.block_px;
   rows_ = (grid.height + config.block_px - 1) / config.block_px;
@@ -174,6 +178,17 @@ void PixelGrowth::Grow() {
   }
 }
 
+/// What its owner gains at each pixel of a block, over whom.
+void PixelGrowth::CompareRivals(int block, float unexplained) {
+  GatherRivals(block, unexplained);
+  const cv::Rect area = BlockArea(block);
+  ReadOwners(PixelsOf(area), static_cast<int>(slot_size_),
+             labels_.data() + static_cast<std::size_t>(grid_->Index(area.x, area.y)),
+             owners_.data());
+  GainsOfBlock(rivals_.data(), static_cast<int>(rivals_.size()), static_cast<int>(slot_size_),
+               unexplained, owners_.data(), gains_.data(), next_labels_.data());
+}
+
 /// Adds the gains of the pixels of one block.
 void PixelGrowth::AddGains(int block) {
   if (First(block) == kNoClaim) return;
@@ -185,13 +200,7 @@ void PixelGrowth::AddGains(int block) {
     gain_[label] += static_cast<double>(unexplained * unexplained - 1.0f) * only.pixels;
     return;
   }
-  GatherRivals(block, unexplained);
-  const cv::Rect area = BlockArea(block);
-  ReadOwners(PixelsOf(area), static_cast<int>(slot_size_),
-             labels_.data() + static_cast<std::size_t>(grid_->Index(area.x, area.y)),
-             owners_.data());
-  GainsOfBlock(rivals_.data(), static_cast<int>(rivals_.size()), static_cast<int>(slot_size_),
-               unexplained, owners_.data(), gains_.data(), next_labels_.data());
+  CompareRivals(block, unexplained);
   for (std::size_t k = 0; k < rivals_.size(); ++k) {
     const auto label = static_cast<std::size_t>(rivals_[k].label);
     pixels_[label] += At(rival_claims_[k]).pixels;
@@ -206,13 +215,7 @@ void PixelGrowth::AddGainsWithout(int label) {
     const std::uint64_t bits = ReachedBits(block, label);
     if (bits == 0) block |= 63;  // none of these 64
     if ((bits >> (block % 64) & 1) == 0) continue;
-    GatherRivals(block, unexplained);
-    const cv::Rect area = BlockArea(block);
-    ReadOwners(PixelsOf(area), static_cast<int>(slot_size_),
-               labels_.data() + static_cast<std::size_t>(grid_->Index(area.x, area.y)),
-               owners_.data());
-    GainsOfBlock(rivals_.data(), static_cast<int>(rivals_.size()), static_cast<int>(slot_size_),
-                 unexplained, owners_.data(), gains_.data(), next_labels_.data());
+    CompareRivals(block, unexplained);
     const auto own = std::find_if(rivals_.begin(), rivals_.end(),
                                   [label](const BlockRival& r) { return r.label == label; });
     if (own == rivals_.end()) continue;
@@ -305,50 +308,6 @@ void PixelGrowth::MarkSettled(double bias, double standard_errors,
         std::uint8_t* row = settled.data() + start + static_cast<std::size_t>(v * grid_->width);
         for (int u = 0; u < area.width; ++u) row[u] |= owners[u] == label ? 1 : 0;
       }
-    }
-  }
-}
-
-const std::vector<PlaneSums>& PixelGrowth::SumLabels(const std::vector<PlaneSums>& whole) {
-  Provide(claim_sums_, claims_.size());
-  label_sums_.assign(planes_.size(), PlaneSums{});
-  for (int block = 0; block < cols_ * rows_; ++block) {
-    const cv::Rect area = BlockArea(block);
-    const std::int16_t* labels =
-        labels_.data() + static_cast<std::size_t>(grid_->Index(area.x, area.y));
-    for (int claim = First(block); claim != kNoClaim; claim = At(claim).next) {
-      const Claim& at = At(claim);
-      if (at.pixels == 0) continue;
-      const bool all = !whole.empty() && whole[static_cast<std::size_t>(block)].n ==
-                                             static_cast<double>(at.pixels);
-      PlaneSums& sums = claim_sums_[static_cast<std::size_t>(claim)];
-      sums = all ? whole[static_cast<std::size_t>(block)]
-                 : SumLabelled(PixelsOf(area), labels, static_cast<std::int16_t>(at.label));
-      label_sums_[static_cast<std::size_t>(at.label)] += sums;
-    }
-  }
-  return label_sums_;
-}
-
-void PixelGrowth::SumOtherLabels(const LabelImage& labels, int count,
-                                 std::vector<PlaneSums>& sums) const {
-  sums.assign(static_cast<std::size_t>(count), PlaneSums{});
-  for (int block = 0; block < cols_ * rows_; ++block) {
-    int owner = kNoClaim, owner_count = 0;
-    for (int claim = First(block); claim != kNoClaim; claim = At(claim).next) {
-      if (At(claim).pixels > 0) owner = claim, ++owner_count;
-    }
-    if (owner_count == 0) continue;
-    const cv::Rect area = BlockArea(block);
-    const BlockPixels pixels = PixelsOf(area);
-    const std::int16_t* start =
-        labels.data() + static_cast<std::size_t>(grid_->Index(area.x, area.y));
-    std::int16_t label = kNoLabel;
-    const int same = owner_count == 1 ? CountOnly(pixels, start, label) : 0;
-    if (same > 0 && same == At(owner).pixels) {
-      sums[static_cast<std::size_t>(label)] += claim_sums_[static_cast<std::size_t>(owner)];
-    } else {
-      SumTile(pixels, start, sums);
     }
   }
 }

@@ -33,6 +33,7 @@ struct GrowthConfig {
 class PixelGrowth {
  public:
   /// Forgets everything and begins with an image. `grid` must outlive what is done with it.
+  /// @throws std::invalid_argument for a block or a reach outside its domain
   void Begin(const DepthGrid& grid, const GrowthConfig& config);
 
   /// Adds a plane. @returns its label.
@@ -101,6 +102,7 @@ class PixelGrowth {
   void Measure(const BlockPixels& pixels, int claim);
   void Bid(const BlockPixels& pixels, const cv::Rect& area, int claim);
   void GatherRivals(int block, float nearer_than);
+  void CompareRivals(int block, float unexplained);
   bool LabelBlock(int block);
   void SpreadFrom(int block);
   void AddGains(int block);

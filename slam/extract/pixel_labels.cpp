@@ -3,7 +3,6 @@
 #include "slam/extract/block_sums.h"
 
 namespace slam {
-
 namespace {
 
 constexpr int kTile_px = 8;

@@ -10,10 +10,11 @@ namespace slam {
 
 /// (B) of the paper for planes: segments the depth images of a camera into planes.
 ///
-/// Blocks are clustered (ClusterBlocks), planes grow over pixels (PixelGrowth), what is left
-/// or does not fit is clustered again with finer blocks, touching parts of one plane are
-/// merged, cut-off parts are reunited or separated, and each segment is fitted to all its
-/// pixels. Where all that stands: docs of each function.
+/// Blocks are clustered (BlockClustering), again with wider bounds where the sensor bends what
+/// is flat (sensor_warp.h); planes grow over pixels (PixelGrowth), what is left or does not fit
+/// is clustered with finer blocks, touching parts of one plane are merged (patches.h), cut-off
+/// parts are reunited or separated (occluded_parts.h), and each segment is fitted to all its
+/// pixels.
 ///
 /// The memory of one frame serves the next; what comes out does not depend on what came before.
 /// After a few images no more is asked for, but for what a new Frame has to hold.

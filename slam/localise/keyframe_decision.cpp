@@ -38,11 +38,12 @@ bool LooksNew(const Map& map, const MapPoint& point, const Eigen::Vector3d& came
 
 int CountNewLooks(const Frame& frame, const Map& map, double max_view_rad) {
   const Eigen::Vector3d camera_w = Inverse(frame.T_cw).t;
+  const double min_cosine = std::cos(max_view_rad);
   int count = 0;
   for (const int id : frame.map_points) {
     if (id == kNone) continue;
-    count += LooksNew(map, map.points[static_cast<std::size_t>(id)], camera_w,
-                      std::cos(max_view_rad));
+    const MapPoint& point = map.points[static_cast<std::size_t>(id)];
+    count += LooksNew(map, point, camera_w, min_cosine) ? 1 : 0;
   }
   return count;
 }

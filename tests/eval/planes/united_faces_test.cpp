@@ -71,6 +71,13 @@ TEST_F(UnitedFaces, AreABlockOfThreeThatMeetInTurn) {
   EXPECT_THAT(Ids(), ElementsAre(1));
 }
 
+TEST_F(UnitedFaces, AreThoseOfOneObjectThatIsInNoGroup) {
+  AddFace(1, 0, 0.4, 0);
+  AddFace(2, 0.4, 0.8, 0);
+  scene_.planes[1].object = 1;
+  EXPECT_THAT(Ids(), ElementsAre(1));
+}
+
 TEST_F(UnitedFaces, AreNotThoseOfTwoThings) {
   AddFace(1, 0, 0.4, 7);
   AddFace(2, 0.4, 0.8, 8);
