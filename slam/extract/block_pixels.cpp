@@ -16,6 +16,11 @@ constexpr float kNone = std::numeric_limits<float>::infinity();
 constexpr int kReach8 = 2;                    // of the usual bid
 constexpr int kSide8 = kLanes + 2 * kReach8;  // what it looks at
 
+using EightLabels = std::int16_t __attribute__((vector_size(16), aligned(2), may_alias));
+PAS_INLINE EightLabels Labels8(const std::int16_t* p) {
+  return *reinterpret_cast<const EightLabels*>(p);
+}
+
 PAS_INLINE FloatLanes All(float value) { return FloatLanes{} + value; }
 PAS_INLINE FloatLanes Size(FloatLanes r) { return (FloatLanes)((IntLanes)r & 0x7fffffff); }
 PAS_INLINE float LeastOf(FloatLanes v) {
@@ -269,28 +274,43 @@ SLAM_LANES void ReadOwners(const BlockPixels& block, int count, const std::int16
   }
 }
 
+/// CountOnly for rows of 8 labels.
+PAS_INLINE int CountOnly8(const BlockPixels& block, const std::int16_t* labels,
+                          std::int16_t& label) {
+  const EightLabels none = EightLabels{} + kNoLabel;
+  // kNoLabel is the least: the greatest label is the only one, or others are below it.
+  EightLabels most = none;
+  for (int v = 0; v < block.height; ++v) {
+    const EightLabels row = Labels8(labels + static_cast<std::ptrdiff_t>(v) * block.stride);
+    most = row > most ? row : most;
+  }
+  label = most[0];
+  for (int k = 1; k < kLanes; ++k) label = std::max<std::int16_t>(label, most[k]);
+  const EightLabels only = EightLabels{} + label;
+  EightLabels same{}, other{};
+  for (int v = 0; v < block.height; ++v) {
+    const EightLabels row = Labels8(labels + static_cast<std::ptrdiff_t>(v) * block.stride);
+    same -= row == only, other |= (row != only) & (row != none);
+  }
+  int same_count = 0, others = 0;
+  for (int k = 0; k < kLanes; ++k) same_count += same[k], others |= other[k];
+  return label == kNoLabel || others != 0 ? 0 : same_count;
+}
+
 SLAM_LANES int CountOnly(const BlockPixels& block, const std::int16_t* labels,
                          std::int16_t& label) {
-  // kNoLabel is the least: the greatest label is the only one, or others are below it.
-  int greatest = kNoLabel;
-  for (int v = 0; v < block.height; ++v) {
-    const std::int16_t* row = labels + static_cast<std::ptrdiff_t>(v) * block.stride;
-    if (block.width == kLanes) {
-      for (int u = 0; u < kLanes; ++u) greatest = std::max<int>(greatest, row[u]);
-    } else {
-      for (int u = 0; u < block.width; ++u) greatest = std::max<int>(greatest, row[u]);
-    }
-  }
-  int same = 0, other = 0;
+  if (block.width == kLanes) return CountOnly8(block, labels, label);
+  int same = 0;
+  label = kNoLabel;
   for (int v = 0; v < block.height; ++v) {
     const std::int16_t* row = labels + static_cast<std::ptrdiff_t>(v) * block.stride;
     for (int u = 0; u < block.width; ++u) {
-      same += row[u] == greatest ? 1 : 0;
-      other += row[u] != greatest && row[u] != kNoLabel ? 1 : 0;
+      if (row[u] == kNoLabel) continue;
+      if (label != kNoLabel && row[u] != label) return 0;
+      label = row[u], ++same;
     }
   }
-  label = static_cast<std::int16_t>(greatest);
-  return greatest == kNoLabel || other > 0 ? 0 : same;
+  return same;
 }
 
 }  // namespace slam

@@ -1,10 +1,12 @@
 #include "slam/extract/outer_contours.h"
 
 #include <algorithm>
+#include <cstring>
 
 namespace slam {
 namespace {
 
+constexpr int kAtOnce = 8;      // cells; beyond a row there are others, for a while
 constexpr int kDirections = 8;  // to the right, then counterclockwise
 constexpr int kRight = 0, kLeft = 4;
 constexpr int kStepU[kDirections] = {1, 1, 0, -1, -1, -1, 0, 1};
@@ -23,6 +25,10 @@ void OuterContours::Trace(const cv::Mat1b& labels) {
     const int row = CellAt({0, v});
     for (int u = 0; u < labels.cols; ++u) {
       const std::uint8_t* cell = cells_.data() + row + u;
+      if (std::memcmp(cell, cell - 1, kAtOnce) == 0) {  // no segment begins here
+        u += kAtOnce - 1;
+        continue;
+      }
       if (cell[0] == cell[-1] || cell[0] == 0) continue;
       const Mark* mark = marks_.data() + row + u;
       if (*mark == kNone && !StartsInside(cell, mark, u)) Follow(row + u, {u, v});
