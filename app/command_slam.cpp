@@ -105,6 +105,9 @@ int RunSlam(SlamArguments& arguments, bool quiet) {
     if (!progress) progress = std::make_unique<Progress>("slam", total, quiet);
     progress->Update(done);
   };
+  options.warn = [quiet](const std::string& warning) {
+    fmt::print(stderr, "{}pas: warning, while it runs: {}\n", quiet ? "" : "\n", warning);
+  };
 
   const slam::RunOutcome outcome =
       live ? RunOnScene(arguments, options) : slam::RunSequence(options);

@@ -8,21 +8,6 @@
 #include "slam/extract/block_sums.h"
 
 namespace slam {
-namespace {
-
-/// Measured pixels of a block that nobody has taken.
-int CountFree(const BlockPixels& block, const std::uint8_t* taken) {
-  int count = 0;
-  for (int v = 0; v < block.height; ++v) {
-    const std::ptrdiff_t row = static_cast<std::ptrdiff_t>(v) * block.stride;
-    for (int u = 0; u < block.width; ++u)
-      count += taken[row + u] == 0 && block.g[row + u] > 0.0f ? 1 : 0;
-  }
-  return count;
-}
-
-}  // namespace
-
 const BlockClusters& BlockClustering::Cluster(const DepthGrid& grid,
                                               const std::vector<std::uint8_t>& taken,
                                               int block_px, const DepthNoise& noise,
@@ -44,12 +29,25 @@ void BlockClustering::AddBlocks(const DepthGrid& grid, const std::vector<std::ui
   regions_.clear();
   if (taken.empty()) sums_.clear();
   region_at_.assign(static_cast<std::size_t>(cols_ * rows_), -1);
+  const double least = config_->min_measured * block_px * block_px;
   for (int r = 0; r < rows_; ++r) {
+    const int v = r * block_px;
+    const auto row = static_cast<std::size_t>(grid.Index(0, v));
+    const std::uint8_t* mask = taken.empty() ? nullptr : taken.data() + row;
+    if (mask != nullptr) {
+      free_.resize(static_cast<std::size_t>(grid.width));
+      CountFree(grid.g.data() + row, mask, grid.width, grid.width,
+                std::min(block_px, grid.height - v), free_.data());
+    }
     for (int c = 0; c < cols_; ++c) {
-      const int u = c * block_px, v = r * block_px;
-      const std::uint8_t* mask =
-          taken.empty() ? nullptr : taken.data() + static_cast<std::size_t>(grid.Index(u, v));
-      AddBlock(grid, mask, u, v, block_px, r * cols_ + c);
+      const int u = c * block_px;
+      if (mask == nullptr) {
+        AddBlock(grid, nullptr, u, v, block_px, r * cols_ + c);
+        continue;
+      }
+      const auto first = free_.begin() + u;
+      const int free = std::accumulate(first, first + std::min(block_px, grid.width - u), 0);
+      if (free >= least) AddBlock(grid, mask + u, u, v, block_px, r * cols_ + c);
     }
   }
   parent_.resize(regions_.size());
@@ -60,7 +58,6 @@ void BlockClustering::AddBlock(const DepthGrid& grid, const std::uint8_t* taken,
                                int block_px, int block) {
   const BlockPixels pixels = BlockAt(grid, u, v, block_px);
   const double least = config_->min_measured * block_px * block_px;
-  if (taken != nullptr && !(CountFree(pixels, taken) >= least)) return;
   const PlaneSums sums = taken == nullptr ? SumBlock(pixels) : SumFree(pixels, taken);
   if (taken == nullptr) sums_.push_back(sums);
   if (!(sums.n >= least)) return;
@@ -74,7 +71,7 @@ void BlockClustering::AddBlock(const DepthGrid& grid, const std::uint8_t* taken,
 }
 
 void BlockClustering::ProposeFirst() {
-  pairs_.clear(), queue_.clear();
+  pairs_.clear(), first_costs_.clear();
   for (int k = 0; k < static_cast<int>(regions_.size()); ++k) {
     const int block = At(k).block;
     const auto beside = [&](int other) {
@@ -84,30 +81,21 @@ void BlockClustering::ProposeFirst() {
     if (block % cols_ + 1 < cols_) beside(block + 1);
     if (block / cols_ + 1 < rows_) beside(block + cols_);
   }
-  for (int pair = 0; pair < static_cast<int>(pairs_.size()); ++pair) {
-    double cost = 0.0;
-    if (Evaluate(pair, cost)) queue_.push_back({cost, pair});
-  }
-  std::make_heap(queue_.begin(), queue_.end());
+  for (int pair = 0; pair < static_cast<int>(pairs_.size()); ++pair)
+    first_costs_.push_back(Evaluate(pair));
+  merges_.Begin(first_costs_);
 }
 
 void BlockClustering::Merge() {
   ProposeFirst();
-  while (!queue_.empty()) {
-    const int top = queue_.front().pair;
-    std::pop_heap(queue_.begin(), queue_.end());
-    queue_.pop_back();
-    const Pair& pair = pairs_[static_cast<std::size_t>(top)];
+  while (merges_.least() < Tournament::kOut) {
+    const int next = merges_.winner();
+    const Pair& pair = pairs_[static_cast<std::size_t>(next)];
     const int a = Root(pair.i), b = Root(pair.j);
-    if (a == b) continue;
-    if (At(a).version == pair.version_i && At(b).version == pair.version_j) {
-      Join(a, b);
-      continue;
-    }
-    double cost = 0.0;
-    if (!Evaluate(top, cost)) continue;
-    queue_.push_back({cost, top});
-    std::push_heap(queue_.begin(), queue_.end());
+    const bool known = At(a).version == pair.version_i && At(b).version == pair.version_j;
+    const bool joins = a != b && known;
+    if (joins) Join(a, b);
+    merges_.Change(next, a == b || joins ? Tournament::kOut : Evaluate(next));
   }
 }
 
@@ -123,24 +111,24 @@ int BlockClustering::Root(int i) {
   return root;
 }
 
-/// Whether noise explains what the merge of two blocks' regions adds.
-bool BlockClustering::Evaluate(int pair, double& cost) {
+/// What the merge of two blocks' regions costs, if noise explains it.
+double BlockClustering::Evaluate(int pair) {
   Pair& at = pairs_[static_cast<std::size_t>(pair)];
   const Region& a = At(Root(at.i));
   const Region& b = At(Root(at.j));
   PlaneSums both = a.sums;
   both += b.sums;
   const std::optional<PlaneFit> fit = Fit(both);
-  if (!fit) return false;
+  if (!fit) return Tournament::kOut;
   const double grazing = std::max(a.grazing, b.grazing);
   const bool by_mean = config_->merge_rule == MergeRule::kMeanError;
-  cost = by_mean ? fit->error / both.n : fit->error - a.fit.error - b.fit.error;
+  const double cost = by_mean ? fit->error / both.n : fit->error - a.fit.error - b.fit.error;
   const double k = config_->model_error_sigmas;
   const double bound = by_mean ? config_->max_block_error
                                : config_->max_merge_chi2 * noise_->correlated_px +
                                      k * k * a.sums.n * b.sums.n / both.n;
   at.version_i = a.version, at.version_j = b.version;
-  return cost < grazing * grazing * bound;
+  return cost < grazing * grazing * bound ? cost : Tournament::kOut;
 }
 
 void BlockClustering::Join(int a, int b) {

@@ -5,6 +5,7 @@
 
 #include "slam/extract/depth_grid.h"
 #include "slam/extract/plane_sums.h"
+#include "slam/extract/tournament.h"
 
 namespace slam {
 
@@ -82,14 +83,6 @@ class BlockClustering {
     int i, j;                  ///< regions of one block
     int version_i, version_j;  ///< of what they are part of, when it was last evaluated
   };
-  struct Candidate {
-    double cost;  ///< error added, or mean error
-    int pair;
-    /// Reversed, for a heap with the least on top.
-    bool operator<(const Candidate& o) const {
-      return cost != o.cost ? cost > o.cost : pair > o.pair;
-    }
-  };
 
   Region& At(int i) { return regions_[static_cast<std::size_t>(i)]; }
   void AddBlocks(const DepthGrid& grid, const std::vector<std::uint8_t>& taken, int block_px);
@@ -97,7 +90,7 @@ class BlockClustering {
                 int block);
   void Merge();
   int Root(int i);
-  bool Evaluate(int pair, double& cost);
+  double Evaluate(int pair);
   void ProposeFirst();
   void Join(int a, int b);
   void Number(int block_px);
@@ -105,12 +98,14 @@ class BlockClustering {
   const DepthNoise* noise_ = nullptr;
   const ClusterConfig* config_ = nullptr;
   int cols_ = 0, rows_ = 0;
-  std::vector<Region> regions_;   ///< of the blocks that are planar, in their order
-  std::vector<int> region_at_;    ///< of each block; -1 = none
-  std::vector<int> parent_;       ///< of each region
-  std::vector<Pair> pairs_;       ///< in order of i, then j
-  std::vector<Candidate> queue_;  ///< a heap
+  std::vector<Region> regions_;      ///< of the blocks that are planar, in their order
+  std::vector<int> region_at_;       ///< of each block; -1 = none
+  std::vector<int> parent_;          ///< of each region
+  std::vector<Pair> pairs_;          ///< in order of i, then j
+  std::vector<double> first_costs_;  ///< of each pair
+  Tournament merges_;                ///< of the pairs, by error added or mean error
   std::vector<int> number_;
+  std::vector<std::uint8_t> free_;  ///< pixels of each column of a row of blocks
   std::vector<PlaneSums> sums_;
   BlockClusters out_;
 };

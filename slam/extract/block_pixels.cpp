@@ -16,6 +16,11 @@ constexpr float kNone = std::numeric_limits<float>::infinity();
 constexpr int kReach8 = 2;                    // of the usual bid
 constexpr int kSide8 = kLanes + 2 * kReach8;  // what it looks at
 
+using EightLabels = std::int16_t __attribute__((vector_size(16), aligned(2), may_alias));
+PAS_INLINE EightLabels Labels8(const std::int16_t* p) {
+  return *reinterpret_cast<const EightLabels*>(p);
+}
+
 PAS_INLINE FloatLanes All(float value) { return FloatLanes{} + value; }
 PAS_INLINE FloatLanes Size(FloatLanes r) { return (FloatLanes)((IntLanes)r & 0x7fffffff); }
 PAS_INLINE float LeastOf(FloatLanes v) {
@@ -37,13 +42,16 @@ PAS_INLINE void AddTo(DoubleLanes& sum, FloatLanes v) {
 }
 
 /// Residuals of 8 pixels of a row.
-PAS_INLINE FloatLanes Residuals(const BlockPixels& block, std::ptrdiff_t i,
-                                const PixelPlane& p) {
-  return (Lanes(block.q + i) - (p.a * Lanes(block.x + i) + p.b * Lanes(block.y + i) + p.c)) *
-         Lanes(block.g + i) / p.grazing;
+PAS_INLINE FloatLanes Residuals(const BlockPixels& block, int u, int v, const PixelPlane& p) {
+  const FloatLanes x = Lanes(block.x + (v * block.x_stride + u));
+  const FloatLanes y = Lanes(block.y + (v * block.y_stride + u));
+  const int i = v * block.stride + u;
+  return (Lanes(block.q + i) - (p.a * x + p.b * y + p.c)) * Lanes(block.g + i) / p.grazing;
 }
-PAS_INLINE float Residual(const BlockPixels& block, std::ptrdiff_t i, const PixelPlane& p) {
-  return (block.q[i] - (p.a * block.x[i] + p.b * block.y[i] + p.c)) * block.g[i] / p.grazing;
+PAS_INLINE float Residual(const BlockPixels& block, int u, int v, const PixelPlane& p) {
+  const float x = block.x[v * block.x_stride + u], y = block.y[v * block.y_stride + u];
+  const int i = v * block.stride + u;
+  return (block.q[i] - (p.a * x + p.b * y + p.c)) * block.g[i] / p.grazing;
 }
 
 /// A whole block of 8 x 8.
@@ -52,9 +60,8 @@ PAS_INLINE float Measure8(const BlockPixels& at, const PixelPlane& of, float* re
   const PixelPlane plane = of;
   FloatLanes least = All(kNone);
   for (int v = 0; v < kLanes; ++v) {
-    const std::ptrdiff_t i = static_cast<std::ptrdiff_t>(v) * block.stride;
-    const FloatLanes r = Residuals(block, i, plane);
-    const FloatLanes out = Lanes(block.g + i) > 0.0f ? r : All(kNone);
+    const FloatLanes r = Residuals(block, 0, v, plane);
+    const FloatLanes out = Lanes(block.g + v * block.stride) > 0.0f ? r : All(kNone);
     Lanes(residuals + kLanes * v) = out;
     const FloatLanes size = Size(out);
     least = size < least ? size : least;
@@ -70,7 +77,7 @@ float MeasureAny(const BlockPixels& block, int count, const PixelPlane& plane,
     for (int u = 0; u < block.width; ++u) {
       const std::ptrdiff_t i = static_cast<std::ptrdiff_t>(v) * block.stride + u;
       if (!(block.g[i] > 0.0f)) continue;
-      const float r = Residual(block, i, plane);
+      const float r = Residual(block, u, v, plane);
       residuals[v * block.size + u] = r;
       least = std::min(least, std::abs(r));
     }
@@ -86,8 +93,8 @@ PAS_INLINE void Bid8(const BlockPixels& at, const PixelPlane& of, float most_sig
   const FloatLanes most = All(most_sigmas * most_sigmas);
   float squares[kSide8 * kSide8 + kLanes], sums[kSide8 * kLanes];
   for (int v = 0; v < kSide8; ++v) {
-    const std::ptrdiff_t i = static_cast<std::ptrdiff_t>(v - kReach8) * block.stride - kReach8;
-    const FloatLanes left = Residuals(block, i, plane), right = Residuals(block, i + 4, plane);
+    const FloatLanes left = Residuals(block, -kReach8, v - kReach8, plane);
+    const FloatLanes right = Residuals(block, 4 - kReach8, v - kReach8, plane);
     const FloatLanes left2 = left * left, right2 = right * right;
     Lanes(squares + kSide8 * v) = most < left2 ? most : left2;
     Lanes(squares + kSide8 * v + 4) = most < right2 ? most : right2;
@@ -115,9 +122,8 @@ PAS_INLINE void BidAny(const BlockPixels& block, int count, const PixelPlane& pl
   std::fill_n(squares, size + 2 * reach, 0.0f);
   std::fill_n(sums, size * (size + 2 * reach), 0.0f);
   for (int v = -window.top; v < block.height + window.bottom; ++v) {
-    const std::ptrdiff_t row = static_cast<std::ptrdiff_t>(v) * block.stride;
     for (int u = -window.left; u < block.width + window.right; ++u) {
-      const float r = Residual(block, row + u, plane);
+      const float r = Residual(block, u, v, plane);
       squares[u + reach] = std::min(r * r, most);
     }
     float* sum = sums + (v + reach) * size;
@@ -134,6 +140,25 @@ PAS_INLINE void BidAny(const BlockPixels& block, int count, const PixelPlane& pl
 }
 
 }  // namespace
+
+static_assert(DepthGrid::kCopiesBefore >= kMostBidReach_px &&
+              DepthGrid::kRowCopies >= kMostBlockSide_px + 2 * kMostBidReach_px);
+
+BlockPixels BlockAt(const DepthGrid& grid, int u, int v, int size) {
+  const auto i = static_cast<std::size_t>(grid.Index(u, v));
+  const bool shared = !grid.column_x.empty();
+  const std::size_t row = static_cast<std::size_t>(v) * DepthGrid::kRowCopies;
+  return {shared ? grid.column_x.data() + u : grid.x.data() + i,
+          shared ? grid.row_y.data() + row + DepthGrid::kCopiesBefore : grid.y.data() + i,
+          grid.q.data() + i,
+          grid.g.data() + i,
+          grid.width,
+          shared ? 0 : grid.width,
+          shared ? DepthGrid::kRowCopies : grid.width,
+          std::min(size, grid.width - u),
+          std::min(size, grid.height - v),
+          size};
+}
 
 SLAM_LANES float MeasureBlock(const BlockPixels& block, int count, const PixelPlane& plane,
                               float* residuals) {
@@ -249,28 +274,43 @@ SLAM_LANES void ReadOwners(const BlockPixels& block, int count, const std::int16
   }
 }
 
+/// CountOnly for rows of 8 labels.
+PAS_INLINE int CountOnly8(const BlockPixels& block, const std::int16_t* labels,
+                          std::int16_t& label) {
+  const EightLabels none = EightLabels{} + kNoLabel;
+  // kNoLabel is the least: the greatest label is the only one, or others are below it.
+  EightLabels most = none;
+  for (int v = 0; v < block.height; ++v) {
+    const EightLabels row = Labels8(labels + static_cast<std::ptrdiff_t>(v) * block.stride);
+    most = row > most ? row : most;
+  }
+  label = most[0];
+  for (int k = 1; k < kLanes; ++k) label = std::max<std::int16_t>(label, most[k]);
+  const EightLabels only = EightLabels{} + label;
+  EightLabels same{}, other{};
+  for (int v = 0; v < block.height; ++v) {
+    const EightLabels row = Labels8(labels + static_cast<std::ptrdiff_t>(v) * block.stride);
+    same -= row == only, other |= (row != only) & (row != none);
+  }
+  int same_count = 0, others = 0;
+  for (int k = 0; k < kLanes; ++k) same_count += same[k], others |= other[k];
+  return label == kNoLabel || others != 0 ? 0 : same_count;
+}
+
 SLAM_LANES int CountOnly(const BlockPixels& block, const std::int16_t* labels,
                          std::int16_t& label) {
-  // kNoLabel is the least: the greatest label is the only one, or others are below it.
-  int greatest = kNoLabel;
-  for (int v = 0; v < block.height; ++v) {
-    const std::int16_t* row = labels + static_cast<std::ptrdiff_t>(v) * block.stride;
-    if (block.width == kLanes) {
-      for (int u = 0; u < kLanes; ++u) greatest = std::max<int>(greatest, row[u]);
-    } else {
-      for (int u = 0; u < block.width; ++u) greatest = std::max<int>(greatest, row[u]);
-    }
-  }
-  int same = 0, other = 0;
+  if (block.width == kLanes) return CountOnly8(block, labels, label);
+  int same = 0;
+  label = kNoLabel;
   for (int v = 0; v < block.height; ++v) {
     const std::int16_t* row = labels + static_cast<std::ptrdiff_t>(v) * block.stride;
     for (int u = 0; u < block.width; ++u) {
-      same += row[u] == greatest ? 1 : 0;
-      other += row[u] != greatest && row[u] != kNoLabel ? 1 : 0;
+      if (row[u] == kNoLabel) continue;
+      if (label != kNoLabel && row[u] != label) return 0;
+      label = row[u], ++same;
     }
   }
-  label = static_cast<std::int16_t>(greatest);
-  return greatest == kNoLabel || other > 0 ? 0 : same;
+  return same;
 }
 
 }  // namespace slam

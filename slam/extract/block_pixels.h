@@ -10,10 +10,14 @@ namespace slam {
 /// A block of the depth image, size x size pixels or less where the image ends.
 struct BlockPixels {
   const float *x, *y, *q, *g;  ///< of its first pixel (DepthGrid)
-  int stride;                  ///< from row to row
+  int stride;                  ///< from row to row of q, g and label images
+  int x_stride, y_stride;      ///< and of x and y
   int width, height;
   int size;  ///< row length of what is computed of the block
 };
+
+/// The block of size x size pixels that begins at (u, v).
+BlockPixels BlockAt(const DepthGrid& grid, int u, int v, int size);
 
 /// A plane in the numbers that pixels are in.
 struct PixelPlane {

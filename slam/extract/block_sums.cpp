@@ -25,9 +25,10 @@ PAS_INLINE DoubleLanes Load4(const float* p) {
   return __builtin_convertvector(*reinterpret_cast<const FourFloats*>(p), DoubleLanes);
 }
 
-PAS_INLINE void Add4(const BlockPixels& block, std::ptrdiff_t i, DoubleLanes g,
-                     FourSums& sums) {
-  const DoubleLanes x = Load4(block.x + i), y = Load4(block.y + i), q = Load4(block.q + i);
+PAS_INLINE void Add4(const BlockPixels& block, int u, int v, DoubleLanes g, FourSums& sums) {
+  const DoubleLanes x = Load4(block.x + (v * block.x_stride + u));
+  const DoubleLanes y = Load4(block.y + (v * block.y_stride + u));
+  const DoubleLanes q = Load4(block.q + (v * block.stride + u));
   const DoubleLanes w = g * g, vx = w * x, vy = w * y, vq = w * q;
   sums.n += g > 0.0 ? DoubleLanes{} + 1.0 : DoubleLanes{};
   sums.w += w, sums.wx += vx, sums.wy += vy, sums.wq += vq;
@@ -53,7 +54,7 @@ PAS_INLINE PlaneSums Sum(const BlockPixels& block, const Mark* marks, Mark value
         used = four_marks == static_cast<int>(value);
       }
       const auto kept = (FourFloats)((FourInts)g & used);
-      Add4(block, i, __builtin_convertvector(kept, DoubleLanes), four);
+      Add4(block, u, v, __builtin_convertvector(kept, DoubleLanes), four);
     }
   }
   PlaneSums out;
@@ -66,7 +67,8 @@ PAS_INLINE PlaneSums Sum(const BlockPixels& block, const Mark* marks, Mark value
       const std::ptrdiff_t i = static_cast<std::ptrdiff_t>(v) * block.stride + u;
       const double g = static_cast<double>(block.g[i]);
       if (!(g > 0.0) || (marks != nullptr && marks[i] != value)) continue;
-      out.Add(static_cast<double>(block.x[i]), static_cast<double>(block.y[i]),
+      out.Add(static_cast<double>(block.x[v * block.x_stride + u]),
+              static_cast<double>(block.y[v * block.y_stride + u]),
               static_cast<double>(block.q[i]), g * g);
     }
   }
@@ -140,21 +142,22 @@ SLAM_LANES PlaneSums SumFree(const BlockPixels& block, const std::uint8_t* taken
   return Sum<std::uint8_t>(block, taken, 0);
 }
 
+SLAM_LANES void CountFree(const float* g, const std::uint8_t* taken, int stride, int width,
+                          int height, std::uint8_t* __restrict counts) {
+  std::fill(counts, counts + width, std::uint8_t{0});
+  for (int v = 0; v < height; ++v) {
+    const float* g_row = g + static_cast<std::ptrdiff_t>(v) * stride;
+    const std::uint8_t* taken_row = taken + static_cast<std::ptrdiff_t>(v) * stride;
+    for (int u = 0; u < width; ++u) {
+      const int free = (taken_row[u] == 0 ? 1 : 0) & (g_row[u] > 0.0f ? 1 : 0);
+      counts[u] = static_cast<std::uint8_t>(counts[u] + free);
+    }
+  }
+}
+
 SLAM_LANES bool HasJump(const BlockPixels& block, float most_sigmas) {
   return block.width == kLanes && block.height == kLanes ? HasJump8(block, most_sigmas)
                                                          : HasJumpAny(block, most_sigmas);
-}
-
-BlockPixels BlockAt(const DepthGrid& grid, int u, int v, int size) {
-  const auto i = static_cast<std::size_t>(grid.Index(u, v));
-  return {grid.x.data() + i,
-          grid.y.data() + i,
-          grid.q.data() + i,
-          grid.g.data() + i,
-          grid.width,
-          std::min(size, grid.width - u),
-          std::min(size, grid.height - v),
-          size};
 }
 
 }  // namespace slam

@@ -21,10 +21,12 @@ void SumTile(const BlockPixels& block, const std::int16_t* labels,
 /// Of its measured pixels whose entry is 0. @param taken  of its first pixel
 PlaneSums SumFree(const BlockPixels& block, const std::uint8_t* taken);
 
+/// How many measured pixels with an entry of 0 each column of some rows has; 255 rows at most.
+/// @param g, taken  of the first pixel; rows begin `stride` apart
+void CountFree(const float* g, const std::uint8_t* taken, int stride, int width, int height,
+               std::uint8_t* counts);
+
 /// Whether two neighbouring measured pixels differ by more than `most_sigmas`.
 bool HasJump(const BlockPixels& block, float most_sigmas);
-
-/// The block of an image at (u, v), cut off where the image ends.
-BlockPixels BlockAt(const DepthGrid& grid, int u, int v, int size);
 
 }  // namespace slam

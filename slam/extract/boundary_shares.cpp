@@ -15,29 +15,23 @@ constexpr int kLeastStrip_px = 6;
 constexpr int kHole_px = 3;     // unmeasured or stray pixels that do not end a label
 constexpr int kNearest_px = 2;  // matchers smooth over the pixels nearest to a step
 
-struct Strips {
-  PlaneSums low, high;  ///< on the side of the lower and the higher label
-};
-
 /// Sums strips on either side of boundaries.
 class StripSums {
  public:
-  StripSums(const DepthGrid& grid, const LabelImage& labels) : grid_(grid), labels_(labels) {}
+  StripSums(const DepthGrid& grid, const LabelImage& labels, LabelPairs<BoundaryStrips>& strips)
+      : grid_(grid), labels_(labels), strips_(strips) {}
 
   /// Looks from pixel (u, v) and its neighbour (u + du, v + dv) into their labels.
   void Look(int u, int v, int du, int dv) {
     const int a = labels_[At(u, v)], b = labels_[At(u + du, v + dv)];
-    if (a == b || a == kNoLabel || b == kNoLabel) return;
     const int strip_a = Width(u, v, -du, -dv) / kStripsInWidth;
     if (strip_a < kLeastStrip_px) return;
     const int strip_b = Width(u + du, v + dv, du, dv) / kStripsInWidth;
     if (strip_b < kLeastStrip_px) return;
-    Strips& strips = strips_[std::minmax(a, b)];
+    BoundaryStrips& strips = strips_.Of(a, b);
     Add(u, v, -du, -dv, strip_a, b, a < b ? strips.low : strips.high);
     Add(u + du, v + dv, du, dv, strip_b, a, a < b ? strips.high : strips.low);
   }
-
-  const std::map<std::pair<int, int>, Strips>& strips() const { return strips_; }
 
  private:
   std::size_t At(int u, int v) const { return static_cast<std::size_t>(grid_.Index(u, v)); }
@@ -70,7 +64,7 @@ class StripSums {
 
   const DepthGrid& grid_;
   const LabelImage& labels_;
-  std::map<std::pair<int, int>, Strips> strips_;
+  LabelPairs<BoundaryStrips>& strips_;
 };
 
 Eigen::Matrix3d Covariance(const PlaneSums& s, double grazing, const DepthNoise& noise) {
@@ -85,17 +79,14 @@ Eigen::Vector3d Difference(const InverseDepthPlane& p, const InverseDepthPlane& 
 
 }  // namespace
 
-BoundaryShares MeasureShares(const DepthGrid& grid, const LabelImage& labels,
-                             const std::vector<LabelPlane>& planes, const DepthNoise& noise) {
-  StripSums sums(grid, labels);
-  for (int v = 0; v < grid.height; ++v) {
-    for (int u = 0; u < grid.width; ++u) {
-      if (u + 1 < grid.width) sums.Look(u, v, 1, 0);
-      if (v + 1 < grid.height) sums.Look(u, v, 0, 1);
-    }
-  }
-  BoundaryShares shares;
-  for (const auto& [pair, strips] : sums.strips()) {
+void MeasureShares(const DepthGrid& grid, const LabelImage& labels, const LabelRuns& runs,
+                   const std::vector<LabelPlane>& planes, const DepthNoise& noise,
+                   LabelPairs<BoundaryStrips>& strips_of, BoundaryShares& shares) {
+  const int label_count = static_cast<int>(planes.size());
+  strips_of.Clear(label_count), shares.Clear(label_count);
+  StripSums sums(grid, labels, strips_of);
+  VisitContacts(runs, [&](int u, int v, int du, int dv) { sums.Look(u, v, du, dv); });
+  for (const auto& [pair, strips] : strips_of.Sorted()) {
     const std::optional<PlaneFit> low = Fit(strips.low), high = Fit(strips.high);
     if (!low || !high) continue;
     const LabelPlane &A = planes[static_cast<std::size_t>(pair.first)],
@@ -107,9 +98,9 @@ BoundaryShares MeasureShares(const DepthGrid& grid, const LabelImage& labels,
     const Eigen::Vector3d weighed = cov.inverse() * whole;
     const double information = whole.dot(weighed);
     if (!(information > 0.0)) continue;
-    shares[pair] = {here.dot(weighed) / information, 1.0 / std::sqrt(information)};
+    shares.Of(pair.first, pair.second) = {here.dot(weighed) / information,
+                                          1.0 / std::sqrt(information)};
   }
-  return shares;
 }
 
 }  // namespace slam

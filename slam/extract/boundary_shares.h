@@ -1,9 +1,10 @@
 #pragma once
 
-#include <map>
-#include <utility>
+#include <vector>
 
 #include "slam/extract/depth_grid.h"
+#include "slam/extract/label_pairs.h"
+#include "slam/extract/label_runs.h"
 #include "slam/extract/pixel_labels.h"
 #include "slam/extract/plane_sums.h"
 
@@ -22,11 +23,21 @@ struct BoundaryShare {
   bool IsCrease() const { return share - 2.0 * sigma > 0.67; }
 };
 
-/// Shares of labels that touch, by (lower, higher) label. Labels too narrow to look into are
-/// not in it.
+/// Shares of labels that touch. Labels too narrow to look into are not in it.
+using BoundaryShares = LabelPairs<BoundaryShare>;
+
+/// Strips on either side of a boundary.
+struct BoundaryStrips {
+  PlaneSums low, high;  ///< on the side of the lower and the higher label
+};
+
+/// @param labels  of each pixel
+/// @param runs    of the same
 /// @param planes  fitted to the labels' pixels
-using BoundaryShares = std::map<std::pair<int, int>, BoundaryShare>;
-BoundaryShares MeasureShares(const DepthGrid& grid, const LabelImage& labels,
-                             const std::vector<LabelPlane>& planes, const DepthNoise& noise);
+/// @param strips  scratch
+/// @param shares  what is found; what was in it is forgotten
+void MeasureShares(const DepthGrid& grid, const LabelImage& labels, const LabelRuns& runs,
+                   const std::vector<LabelPlane>& planes, const DepthNoise& noise,
+                   LabelPairs<BoundaryStrips>& strips, BoundaryShares& shares);
 
 }  // namespace slam

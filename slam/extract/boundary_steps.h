@@ -1,10 +1,11 @@
 #pragma once
 
-#include <map>
 #include <utility>
 #include <vector>
 
 #include "slam/extract/depth_grid.h"
+#include "slam/extract/label_pairs.h"
+#include "slam/extract/label_runs.h"
 #include "slam/extract/pixel_labels.h"
 
 namespace slam {
@@ -24,10 +25,27 @@ struct BoundaryStep {
   }
 };
 
-/// Steps between labels that touch, by (lower, higher) label. Pairs of labels too narrow to
-/// look into are not in it.
-using BoundarySteps = std::map<std::pair<int, int>, BoundaryStep>;
-BoundarySteps MeasureSteps(const DepthGrid& grid, const LabelImage& labels,
-                           const std::vector<LabelPlane>& planes);
+/// Steps between labels that touch. Pairs of labels too narrow to look into are not in it.
+using BoundarySteps = LabelPairs<BoundaryStep>;
+
+/// Measures them. The memory of one image serves the next.
+class StepMeasurement {
+ public:
+  /// @param labels  of each pixel
+  /// @param runs    of the same
+  /// @param steps   what is found; what was in it is forgotten
+  void Measure(const DepthGrid& grid, const LabelImage& labels, const LabelRuns& runs,
+               const std::vector<LabelPlane>& planes, BoundarySteps& steps);
+
+ private:
+  struct Sum {
+    std::pair<int, int> labels;
+    double step = 0.0, pairs = 0.0;
+  };
+  Sum& SumOf(int tile, const std::pair<int, int>& labels);
+  void AddTo(BoundarySteps& steps);
+
+  std::vector<std::vector<Sum>> tiles_;  ///< a row of tiles; few pairs in each
+};
 
 }  // namespace slam

@@ -2,132 +2,156 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <cstdint>
-#include <deque>
-
-#include "slam/extract/sight_lines.h"
 
 namespace slam {
 namespace {
 
 constexpr int kLeastCore_px = 40;
+constexpr std::int16_t kOther = -2,
+                       kOpen = -1;  // in part_at_: not of the component; no part yet
 
-/// The labels of the pixels whose 8 neighbours have the same.
-LabelImage Interior(const DepthGrid& grid, const LabelImage& labels) {
-  LabelImage out(labels.size(), kNoLabel);
-  const auto w = static_cast<std::size_t>(grid.width);
-  for (int v = 1; v + 1 < grid.height; ++v) {
-    const std::int16_t* at = labels.data() + static_cast<std::size_t>(v) * w;
-    std::int16_t* inside = out.data() + static_cast<std::size_t>(v) * w;
-    for (std::size_t u = 1; u + 1 < w; ++u) {
-      const std::int16_t *above = at + u - w, *here = at + u, *below = at + u + w;
-      const std::int16_t label = *here;
-      // Bits in which a neighbour differs; no branches, many pixels at once.
-      const int differs = (above[-1] ^ label) | (above[0] ^ label) | (above[1] ^ label) |
-                          (here[-1] ^ label) | (here[1] ^ label) | (below[-1] ^ label) |
-                          (below[0] ^ label) | (below[1] ^ label);
-      inside[u] = differs == 0 ? label : kNoLabel;
+/// Calls visit(pixel, run) for the pixels of the runs of some component.
+template <typename Visit>
+void VisitPixels(const LabelRuns& runs, const Visit& visit) {
+  for (std::size_t row = 0; row + 1 < runs.rows.size(); ++row) {
+    const int start = static_cast<int>(row) * runs.width;
+    for (std::size_t k = runs.rows[row]; k < runs.rows[row + 1]; ++k)
+      visit(start + runs.runs[k].begin, start + runs.runs[k].end, k);
+  }
+}
+
+}  // namespace
+
+void BridgeCutter::FindCores(const LabelComponents& components) {
+  FindInterior(components.runs, interior_.runs);
+  ConnectRuns(interior_);
+  cores_.clear();
+  for (std::size_t k = 0; k < interior_.list.size(); ++k) {
+    const LabelComponent& core = interior_.list[k];
+    if (core.pixels < kLeastCore_px) continue;
+    const int width = components.runs.width;
+    const int of = components.At(core.first_pixel % width, core.first_pixel / width);
+    cores_.push_back({of, static_cast<int>(k), core.pixels, -1});
+  }
+  std::sort(cores_.begin(), cores_.end(), [](const Core& a, const Core& b) {
+    if (a.component != b.component) return a.component < b.component;
+    return a.pixels != b.pixels ? a.pixels > b.pixels : a.id < b.id;
+  });
+}
+
+/// Numbers the parts that the cores of a component make: a core is of the part of a larger one
+/// that nothing behind separates it from.
+int BridgeCutter::NumberParts(std::vector<Core>::iterator first,
+                              std::vector<Core>::iterator last, const LabelPlane& plane,
+                              double max_behind) {
+  int part_count = 0;
+  for (auto core = first; core != last; ++core) {
+    for (auto larger = first; larger != core && core->part < 0; ++larger) {
+      if (between_.ShareBehind(core->id, larger->id, plane) <= max_behind)
+        core->part = larger->part;
     }
+    if (core->part < 0) core->part = part_count++;
   }
-  return out;
+  return part_count;
 }
 
-/// Cores large enough to be a surface of their own, of each component, largest first.
-std::vector<std::vector<int>> CoresOf(const LabelComponents& components,
-                                      const LabelComponents& cores) {
-  std::vector<std::vector<int>> out(components.list.size());
-  for (std::size_t k = 0; k < cores.list.size(); ++k) {
-    if (cores.list[k].pixels < kLeastCore_px) continue;
-    const auto first = static_cast<std::size_t>(cores.list[k].first_pixel);
-    out[static_cast<std::size_t>(components.component[first])].push_back(static_cast<int>(k));
-  }
-  for (std::vector<int>& own : out) {
-    std::stable_sort(own.begin(), own.end(), [&](int a, int b) {
-      return cores.list[static_cast<std::size_t>(a)].pixels >
-             cores.list[static_cast<std::size_t>(b)].pixels;
-    });
-  }
-  return out;
+/// Begins with the pixels of the cores.
+void BridgeCutter::Seed(const DepthGrid& grid, std::vector<Core>::iterator first,
+                        std::vector<Core>::iterator last) {
+  part_of_core_.assign(interior_.list.size(), -1);
+  for (auto core = first; core != last; ++core)
+    part_of_core_[static_cast<std::size_t>(core->id)] = core->part;
+  front_.clear();
+  VisitPixels(interior_.runs, [&](int begin, int end, std::size_t run) {
+    const int core = interior_.component[run];
+    if (core < 0 || part_of_core_[static_cast<std::size_t>(core)] < 0) return;
+    const int part = part_of_core_[static_cast<std::size_t>(core)];
+    std::fill(part_at_.begin() + begin, part_at_.begin() + end,
+              static_cast<std::int16_t>(part));
+    for (int i = begin; i < end; ++i) front_.push_back(i);
+  });
+  Spread(grid);
 }
 
-/// Numbers the parts that cores make: a core is of the part of a larger one that nothing behind
-/// separates it from.
-std::vector<int> PartsOf(const std::vector<int>& cores, const SightLines& between,
-                         const LabelPlane& plane, double max_behind, int& part_count) {
-  std::vector<int> part(cores.size(), -1);
-  part_count = 0;
-  for (std::size_t k = 0; k < cores.size(); ++k) {
-    for (std::size_t j = 0; j < k && part[k] < 0; ++j) {
-      if (between.ShareBehind(cores[k], cores[j], plane) <= max_behind) part[k] = part[j];
-    }
-    if (part[k] < 0) part[k] = part_count++;
-  }
-  return part;
-}
-
-/// Gives each pixel of a component the part whose core is fewest steps away.
-void Spread(const DepthGrid& grid, const std::vector<int>& seeds, int component,
-            const std::vector<int>& ids, LabelComponents& components,
-            std::vector<int>& part_at) {
-  std::deque<int> next(seeds.begin(), seeds.end());
-  while (!next.empty()) {
-    const int i = next.front();
-    next.pop_front();
+/// Gives each open pixel the part that is fewest steps away.
+void BridgeCutter::Spread(const DepthGrid& grid) {
+  for (std::size_t next = 0; next < front_.size(); ++next) {
+    const int i = front_[next];
     const int u = i % grid.width, v = i / grid.width;
     const auto visit = [&](int k) {
-      const auto at = static_cast<std::size_t>(k);
-      if (components.component[at] != component || part_at[at] >= 0) return;
-      part_at[at] = part_at[static_cast<std::size_t>(i)];
-      next.push_back(k);
+      std::int16_t& part = part_at_[static_cast<std::size_t>(k)];
+      if (part != kOpen) return;
+      part = part_at_[static_cast<std::size_t>(i)];
+      front_.push_back(k);
     };
     if (u > 0) visit(i - 1);
     if (u + 1 < grid.width) visit(i + 1);
     if (v > 0) visit(i - grid.width);
     if (v + 1 < grid.height) visit(i + grid.width);
   }
-  for (std::size_t i = 0; i < part_at.size(); ++i) {
-    if (components.component[i] != component || part_at[i] < 0) continue;
-    LabelComponent& to =
-        components.list[static_cast<std::size_t>(ids[static_cast<std::size_t>(part_at[i])])];
-    components.component[i] = ids[static_cast<std::size_t>(part_at[i])];
-    if (to.pixels++ == 0) to.first_pixel = static_cast<int>(i);
-  }
 }
 
-}  // namespace
+/// Makes components of the parts of one: the first keeps its number, the others come last.
+void BridgeCutter::Split(const DepthGrid& grid, int component, int part_count,
+                         LabelComponents& components) {
+  const int first_new = static_cast<int>(components.list.size());
+  components.list[static_cast<std::size_t>(component)].pixels = 0;
+  const int label = components.list[static_cast<std::size_t>(component)].label;
+  components.list.resize(static_cast<std::size_t>(first_new + part_count - 1),
+                         {label, 0, 0, 0, 0});
+  split_runs_.width = grid.width;
+  split_runs_.runs.clear(), split_runs_.rows.clear(), split_components_.clear();
+  VisitPixels(components.runs, [&](int begin, int end, std::size_t run) {
+    const int start = begin - components.runs.runs[run].begin;
+    if (start == begin) split_runs_.rows.push_back(split_runs_.runs.size());
+    const int of = components.component[run];
+    for (int next = begin; begin < end; begin = next) {
+      int id = of;
+      next = end;
+      if (of == component) {
+        const std::int16_t part = part_at_[static_cast<std::size_t>(begin)];
+        for (next = begin + 1; next < end; ++next)
+          if (part_at_[static_cast<std::size_t>(next)] != part) break;
+        id = part == 0 ? component : first_new + part - 1;
+        LabelComponent& to = components.list[static_cast<std::size_t>(id)];
+        if (to.pixels == 0) to.first_pixel = begin;
+        to.pixels += next - begin;
+      }
+      split_runs_.runs.push_back(
+          {begin - start, next - start, components.runs.runs[run].label});
+      split_components_.push_back(id);
+    }
+  });
+  split_runs_.rows.push_back(split_runs_.runs.size());
+  std::swap(components.runs, split_runs_);
+  std::swap(components.component, split_components_);
+}
 
-void CutBridges(const DepthGrid& grid, const LabelImage& labels,
-                const std::vector<LabelPlane>& planes, double max_behind,
-                LabelComponents& components) {
-  const LabelComponents cores = ConnectedComponents(grid, Interior(grid, labels));
-  const std::vector<std::vector<int>> of_component = CoresOf(components, cores);
-  const SightLines between(grid, cores.component, static_cast<int>(cores.list.size()));
+void BridgeCutter::Cut(const DepthGrid& grid, const std::vector<LabelPlane>& planes,
+                       double max_behind, LabelComponents& components) {
+  FindCores(components);
+  between_.Begin(grid, interior_.runs, interior_.component,
+                 static_cast<int>(interior_.list.size()));
   bool cut = false;
-  for (std::size_t c = 0; c < of_component.size(); ++c) {
-    const std::vector<int>& own = of_component[c];
-    if (own.size() < 2) continue;
-    const int label = components.list[c].label;
-    int part_count = 0;
-    const std::vector<int> part =
-        PartsOf(own, between, planes[static_cast<std::size_t>(label)], max_behind, part_count);
+  for (auto first = cores_.begin(), last = first; first != cores_.end(); first = last) {
+    const int component = first->component;
+    last = std::find_if(first, cores_.end(),
+                        [&](const Core& core) { return core.component != component; });
+    if (last - first < 2) continue;
+    const int label = components.list[static_cast<std::size_t>(component)].label;
+    const int part_count =
+        NumberParts(first, last, planes[static_cast<std::size_t>(label)], max_behind);
     if (part_count < 2) continue;
+    if (!cut) part_at_.assign(grid.q.size(), kOther);
     cut = true;
-    std::vector<int> seeds, part_at(labels.size(), -1);
-    for (std::size_t i = 0; i < labels.size(); ++i) {
-      const auto core = std::find(own.begin(), own.end(), cores.component[i]);
-      if (cores.component[i] < 0 || core == own.end()) continue;
-      part_at[i] = part[static_cast<std::size_t>(core - own.begin())];
-      seeds.push_back(static_cast<int>(i));
-    }
-    std::vector<int> ids{static_cast<int>(c)};
-    components.list[c].pixels = 0;
-    for (int k = 1; k < part_count; ++k) {
-      ids.push_back(static_cast<int>(components.list.size()));
-      components.list.push_back({label, 0, 0, 0, 0});
-    }
-    Spread(grid, seeds, static_cast<int>(c), ids, components, part_at);
+    VisitPixels(components.runs, [&](int begin, int end, std::size_t run) {
+      if (components.component[run] == component)
+        std::fill(part_at_.begin() + begin, part_at_.begin() + end, kOpen);
+    });
+    Seed(grid, first, last);
+    Split(grid, component, part_count, components);
   }
-  if (cut) CountSides(grid, labels, planes, components);
+  if (cut) CountSides(grid, planes, components);
 }
 
 }  // namespace slam

@@ -12,19 +12,43 @@ struct FloatNoise {
   float floor, slope, growth, nearest, farthest;
 };
 
+/// Eight pixels of a row, or one.
+template <typename Number>
+[[gnu::always_inline]] inline void SetDepthAt(Number z, const FloatNoise& noise, Number& q,
+                                              Number& g) {
+  const Number zero{};
+  const auto measured = (z > zero) & (z < zero + noise.farthest);  // false for NaN
+  const Number above = z - noise.nearest;
+  const Number beyond = above > zero ? above : zero;
+  const Number sigma = noise.floor + (noise.slope + noise.growth * beyond) * beyond;
+  q = measured ? 1.0f / z : zero;
+  g = measured ? z * z / sigma : zero;
+}
+
 }  // namespace
 
-SLAM_LANES static void SetDepthRow(const float* __restrict z_row, int count,
-                                   const FloatNoise& noise, float* __restrict q,
-                                   float* __restrict g) {
-  for (int u = 0; u < count; ++u) {
-    const float z = z_row[u];
-    const bool measured = z > 0.0f && z < noise.farthest;  // false for NaN
-    const float beyond = z - noise.nearest > 0.0f ? z - noise.nearest : 0.0f;
-    const float sigma = noise.floor + (noise.slope + noise.growth * beyond) * beyond;
-    q[u] = measured ? 1.0f / z : 0.0f;
-    g[u] = measured ? z * z / sigma : 0.0f;
+SLAM_LANES static void SetDepthRow(const float* z, int count, const FloatNoise& noise, float* q,
+                                   float* g) {
+  const FloatNoise in_float = noise;  // what is written cannot change it
+  int u = 0;
+  for (; u + kLanes <= count; u += kLanes)
+    SetDepthAt<FloatLanes>(Lanes(z + u), in_float, Lanes(q + u), Lanes(g + u));
+  for (; u < count; ++u) SetDepthAt<float>(z[u], in_float, q[u], g[u]);
+}
+
+/// Sets column_x and row_y if that is all there is in x and y.
+static void FindSharedRays(DepthGrid& grid) {
+  grid.column_x.clear(), grid.row_y.clear();
+  const auto width = static_cast<std::ptrdiff_t>(grid.width);
+  for (std::ptrdiff_t v = 0; v < grid.height; ++v) {
+    const auto x = grid.x.begin() + v * width, y = grid.y.begin() + v * width;
+    if (!std::equal(x, x + width, grid.x.begin())) return;
+    if (std::any_of(y, y + width, [y](float other) { return other != *y; })) return;
   }
+  grid.column_x.assign(grid.x.begin(), grid.x.begin() + width);
+  for (std::ptrdiff_t v = 0; v < grid.height; ++v)
+    grid.row_y.insert(grid.row_y.end(), DepthGrid::kRowCopies,
+                      grid.y[static_cast<std::size_t>(v * width)]);
 }
 
 void SetRays(const cv::Mat2d& rays, DepthGrid& grid) {
@@ -39,6 +63,7 @@ void SetRays(const cv::Mat2d& rays, DepthGrid& grid) {
       grid.y[i] = static_cast<float>(ray_row[u][1]);
     }
   }
+  FindSharedRays(grid);
 }
 
 void SetDepth(const cv::Mat1f& depth_m, const DepthNoise& noise, double max_depth_m,

@@ -15,6 +15,13 @@ struct DepthGrid {
   std::vector<float> q;     ///< inverse depth, 1/metres; 0 = no measurement
   std::vector<float> g;     ///< 1 / sigma_q = z^2 / sigma(z); 0 = no measurement
 
+  /// The same for cameras without distortion: x of each column, and y of each row, again and
+  /// again over a window around a block. They stay in the processor's cache. Empty otherwise.
+  std::vector<float> column_x, row_y;
+
+  static constexpr int kRowCopies = 96;     ///< of y
+  static constexpr int kCopiesBefore = 16;  ///< the first pixel of a block
+
   int Index(int u, int v) const { return v * width + u; }
 };
 

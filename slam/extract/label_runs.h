@@ -7,6 +7,9 @@
 
 namespace slam {
 
+inline constexpr std::int16_t kNoLabel = -1;
+using LabelImage = std::vector<std::int16_t>;  ///< one entry a pixel, kNoLabel or an index
+
 /// Neighbouring pixels of a row with one label, or with none.
 struct LabelRun {
   int begin = 0, end = 0;  ///< columns, end excluded
@@ -18,10 +21,23 @@ struct LabelRuns {
   int width = 0;
   std::vector<LabelRun> runs;
   std::vector<std::size_t> rows;  ///< first run of each row, and one more
+
+  /// The run that a pixel is in.
+  std::size_t At(int u, int v) const;
 };
 
+// Each writes over `out`, whose memory serves again.
+
 /// @param labels  width x height, row by row
-void FindRuns(const std::vector<std::int16_t>& labels, int width, int height, LabelRuns& out);
+void FindRuns(const LabelImage& labels, int width, int height, LabelRuns& out);
+
+void DrawRuns(const LabelRuns& runs, LabelImage& out);
+
+/// to[label] in place of each label.
+void MapRuns(const LabelRuns& runs, const std::vector<int>& to, LabelRuns& out);
+
+/// The pixels whose 8 neighbours have the same label keep it; the others have none.
+void FindInterior(const LabelRuns& runs, LabelRuns& out);
 
 /// Calls visit(a, b, begin, end, row) for every pair of runs, b below a in the next row, that
 /// share the columns [begin, end).
@@ -40,23 +56,47 @@ void VisitRunsBelow(const LabelRuns& runs, const Visit& visit) {
   }
 }
 
-/// Calls visit(i, j) for every two pixels, side by side or one above the other, that differ in
-/// label; i < j.
+/// Calls visit(i, j, a, b) for every two pixels, side by side or one above the other, that
+/// differ in label, and the runs that they are in; i < j.
 template <typename Visit>
 void VisitBoundaries(const LabelRuns& runs, const Visit& visit) {
   const auto width = static_cast<std::size_t>(runs.width);
   for (std::size_t row = 0; row + 1 < runs.rows.size(); ++row) {
     for (std::size_t a = runs.rows[row]; a + 1 < runs.rows[row + 1]; ++a) {
+      if (runs.runs[a].label == runs.runs[a + 1].label) continue;
       const std::size_t i = row * width + static_cast<std::size_t>(runs.runs[a].end);
-      visit(i - 1, i);
+      visit(i - 1, i, a, a + 1);
     }
   }
   VisitRunsBelow(runs, [&](std::size_t a, std::size_t b, int begin, int end, int row) {
     if (runs.runs[a].label == runs.runs[b].label) return;
     const std::size_t start = static_cast<std::size_t>(row) * width;
     for (auto u = static_cast<std::size_t>(begin); u < static_cast<std::size_t>(end); ++u)
-      visit(start + u, start + u + width);
+      visit(start + u, start + u + width, a, b);
   });
+}
+
+/// Calls visit(u, v, du, dv) for every two neighbours (u, v) and (u + du, v + dv), to the right
+/// or below, that have different labels; row by row, and for a pixel to the right first.
+template <typename Visit>
+void VisitContacts(const LabelRuns& runs, const Visit& visit) {
+  const auto touch = [](const LabelRun& a, const LabelRun& b) {
+    return a.label != b.label && a.label != kNoLabel && b.label != kNoLabel;
+  };
+  const auto look_right = [&](std::size_t a, int row) {
+    if (runs.runs[a].end < runs.width && touch(runs.runs[a], runs.runs[a + 1]))
+      visit(runs.runs[a].end - 1, row, 1, 0);
+  };
+  VisitRunsBelow(runs, [&](std::size_t a, std::size_t b, int begin, int end, int row) {
+    const bool below = touch(runs.runs[a], runs.runs[b]);
+    for (int u = begin; below && u + 1 < end; ++u) visit(u, row, 0, 1);
+    if (runs.runs[a].end == end) look_right(a, row);
+    if (below) visit(end - 1, row, 0, 1);
+  });
+  if (runs.rows.size() < 2) return;
+  const std::size_t last = runs.rows.size() - 2;
+  for (std::size_t a = runs.rows[last]; a < runs.rows[last + 1]; ++a)
+    look_right(a, static_cast<int>(last));
 }
 
 }  // namespace slam

@@ -2,42 +2,16 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <numeric>
 #include <optional>
 #include <utility>
 
 #include "slam/base/plane.h"
-#include "slam/extract/boundary_shares.h"
-#include "slam/extract/boundary_steps.h"
 
 namespace slam {
 namespace {
 
 constexpr double kLeastContacts = 8;  // pixels along the common boundary of what touches
-
-/// The pixels on either side of the common boundary of each pair of labels (lower, higher).
-using Contacts = std::map<std::pair<int, int>, PlaneSums>;
-
-Contacts FindContacts(const DepthGrid& grid, const LabelImage& labels) {
-  Contacts contacts;
-  LabelRuns runs;
-  FindRuns(labels, grid.width, grid.height, runs);
-  std::pair<int, int> last{-1, -1};  // neighbouring pixels touch the same pair: look it up once
-  PlaneSums* sums = nullptr;
-  VisitBoundaries(runs, [&](std::size_t i, std::size_t j) {
-    const int a = labels[i], b = labels[j];
-    if (a == kNoLabel || b == kNoLabel) return;
-    const std::pair<int, int> pair = std::minmax(a, b);
-    if (pair != last) sums = &contacts[pair], last = pair;
-    for (const std::size_t k : {i, j}) {
-      const double g = static_cast<double>(grid.g[k]);
-      sums->Add(static_cast<double>(grid.x[k]), static_cast<double>(grid.y[k]),
-                static_cast<double>(grid.q[k]), g * g);
-    }
-  });
-  return contacts;
-}
 
 /// Squared distance of two planes over the pixels of the smaller, in sigmas of those.
 double PatchGap2(const Patch& a, const Patch& b) {
@@ -69,53 +43,6 @@ void Refit(Patch& patch, const DepthNoise& noise) {
   patch.plane = {fit->plane, GrazingFactor(patch.sums, fit->plane, noise)};
 }
 
-std::vector<Patch> FittedPatches(PixelGrowth& growth, const std::vector<PlaneSums>& blocks,
-                                 const DepthNoise& noise) {
-  const std::vector<PlaneSums>& sums = growth.SumLabels(blocks);
-  std::vector<Patch> patches;
-  for (std::size_t k = 0; k < sums.size(); ++k) {
-    patches.push_back({sums[k], growth.planes()[k]});
-    Refit(patches.back(), noise);
-  }
-  return patches;
-}
-
-/// Pairs of labels without a step between them, least step first.
-std::vector<std::pair<int, int>> MeetingLabels(const DepthGrid& grid, const LabelImage& labels,
-                                               const std::vector<LabelPlane>& planes,
-                                               const PlaneExtractionConfig& config) {
-  std::vector<std::pair<double, std::pair<int, int>>> ranked;
-  for (const auto& [pair, step] : MeasureSteps(grid, labels, planes)) {
-    if (step.pairs < kLeastContacts) continue;
-    const double square = step.MeanSquare(config.noise.correlated_px);
-    if (square < config.max_bend_step_sigmas * config.max_bend_step_sigmas)
-      ranked.emplace_back(square, pair);
-  }
-  std::sort(ranked.begin(), ranked.end());
-  std::vector<std::pair<int, int>> meeting;
-  for (const auto& [square, pair] : ranked) meeting.push_back(pair);
-  return meeting;
-}
-
-/// Joins the segments of labels that meet while they keep the bounds on bending.
-void JoinMeeting(const std::vector<std::pair<int, int>>& meeting,
-                 const PlaneExtractionConfig& config, PatchUnion& joined) {
-  bool changed = true;
-  while (changed) {
-    changed = false;
-    for (const auto& [k, l] : meeting) {
-      const int a = joined.Root(k), b = joined.Root(l);
-      if (a == b || joined.Apart(a, b)) continue;
-      const Patch &A = joined.At(a), &B = joined.At(b);
-      const double angle = Angle(A.plane.plane.Hessian().n, B.plane.plane.Hessian().n);
-      if (!(angle < config.max_bend_rad)) continue;
-      if (!(PatchGap(A, B, config.max_bend_sigmas, config) < 1.0)) continue;
-      joined.Join(a, b, config.noise);
-      changed = true;
-    }
-  }
-}
-
 }  // namespace
 
 double PatchGap(const Patch& a, const Patch& b, double max_gap_sigmas,
@@ -123,8 +50,14 @@ double PatchGap(const Patch& a, const Patch& b, double max_gap_sigmas,
   return PatchGap2(a, b) / AllowedGap2(a, b, max_gap_sigmas, config);
 }
 
-PatchUnion::PatchUnion(std::vector<Patch> patches)
-    : patches_(std::move(patches)), into_(patches_.size()) {
+void PatchUnion::Begin(const std::vector<PlaneSums>& sums,
+                       const std::vector<LabelPlane>& planes, const DepthNoise& noise) {
+  patches_.clear(), apart_.clear();
+  for (std::size_t k = 0; k < sums.size(); ++k) {
+    patches_.push_back({sums[k], planes[k]});
+    Refit(patches_.back(), noise);
+  }
+  into_.resize(patches_.size());
   std::iota(into_.begin(), into_.end(), 0);
 }
 
@@ -145,46 +78,100 @@ bool PatchUnion::Apart(int a, int b) const {
   });
 }
 
-std::vector<LabelPlane> PatchUnion::Planes() const {
-  std::vector<LabelPlane> planes;
+void PatchUnion::CopyPlanes(std::vector<LabelPlane>& planes) const {
+  planes.clear();
   for (const Patch& patch : patches_) planes.push_back(patch.plane);
-  return planes;
 }
 
-void MergeEqualNeighbours(const DepthGrid& grid, const std::vector<PlaneSums>& blocks,
-                          const PlaneExtractionConfig& config, PixelGrowth& growth) {
-  PatchUnion merged(FittedPatches(growth, blocks, config.noise));
-  const Contacts contacts = FindContacts(grid, growth.labels());
+void PatchJoining::FindContacts(const DepthGrid& grid, const PixelGrowth& growth) {
+  FindRuns(growth.labels(), grid.width, grid.height, runs_);
+  contacts_.Clear(static_cast<int>(growth.planes().size()));
+  std::pair<int, int> last{-1, -1};  // neighbouring pixels touch the same pair: look it up once
+  PlaneSums* sums = nullptr;
+  VisitBoundaries(runs_, [&](std::size_t i, std::size_t j, std::size_t a, std::size_t b) {
+    const std::pair<int, int> pair = std::minmax(runs_.runs[a].label, runs_.runs[b].label);
+    if (pair.first == kNoLabel) return;
+    if (pair != last) sums = &contacts_.Of(pair.first, pair.second), last = pair;
+    for (const std::size_t k : {i, j}) {
+      const double g = static_cast<double>(grid.g[k]);
+      sums->Add(static_cast<double>(grid.x[k]), static_cast<double>(grid.y[k]),
+                static_cast<double>(grid.q[k]), g * g);
+    }
+  });
+}
+
+void PatchJoining::MergeEqualNeighbours(const DepthGrid& grid,
+                                        const std::vector<PlaneSums>& blocks,
+                                        const PlaneExtractionConfig& config,
+                                        PixelGrowth& growth) {
+  patches_.Begin(growth.SumLabels(blocks), growth.planes(), config.noise);
+  FindContacts(grid, growth);
+  const auto& contacts = contacts_.Sorted();
   while (true) {
     double least = 1.0;
     std::pair<int, int> best{-1, -1};
     for (const auto& [pair, contact] : contacts) {
-      const int a = merged.Root(pair.first), b = merged.Root(pair.second);
+      const int a = patches_.Root(pair.first), b = patches_.Root(pair.second);
       if (a == b || contact.n < kLeastContacts) continue;
-      const double gap =
-          std::max(PatchGap(merged.At(a), merged.At(b), config.max_merge_gap_sigmas, config),
-                   ContactGap(merged.At(a), merged.At(b), contact, config));
+      const double gap = std::max(
+          PatchGap(patches_.At(a), patches_.At(b), config.max_merge_gap_sigmas, config),
+          ContactGap(patches_.At(a), patches_.At(b), contact, config));
       if (gap < least) least = gap, best = {a, b};
     }
     if (best.first < 0) break;
-    merged.Join(best.first, best.second, config.noise);
+    patches_.Join(best.first, best.second, config.noise);
   }
-  growth.Replace(merged.Planes(), merged.into());
+  patches_.CopyPlanes(planes_);
+  growth.Replace(planes_, patches_.into());
 }
 
-PatchUnion JoinBentParts(const DepthGrid& grid, const std::vector<PlaneSums>& blocks,
-                         const PlaneExtractionConfig& config, PixelGrowth& growth,
-                         bool warped) {
-  PatchUnion joined(FittedPatches(growth, blocks, config.noise));
-  const std::vector<LabelPlane> planes = joined.Planes();
-  if (warped) {
-    for (const auto& [pair, share] :
-         MeasureShares(grid, growth.labels(), planes, config.noise)) {
-      if (share.IsCrease()) joined.KeepApart(pair.first, pair.second);
+/// Pairs of labels without a step between them, least step first.
+void PatchJoining::RankMeetingLabels(const PlaneExtractionConfig& config) {
+  meeting_.clear();
+  for (const auto& [pair, step] : steps_.Sorted()) {
+    if (step.pairs < kLeastContacts) continue;
+    const double square = step.MeanSquare(config.noise.correlated_px);
+    if (square < config.max_bend_step_sigmas * config.max_bend_step_sigmas)
+      meeting_.emplace_back(square, pair);
+  }
+  std::sort(meeting_.begin(), meeting_.end());
+}
+
+/// Joins the segments of labels that meet while they keep the bounds on bending.
+void PatchJoining::JoinMeeting(const PlaneExtractionConfig& config) {
+  bool changed = true;
+  while (changed) {
+    changed = false;
+    for (const auto& [square, pair] : meeting_) {
+      const int a = patches_.Root(pair.first), b = patches_.Root(pair.second);
+      if (a == b || patches_.Apart(a, b)) continue;
+      const Patch &A = patches_.At(a), &B = patches_.At(b);
+      const double angle = Angle(A.plane.plane.Hessian().n, B.plane.plane.Hessian().n);
+      if (!(angle < config.max_bend_rad)) continue;
+      if (!(PatchGap(A, B, config.max_bend_sigmas, config) < 1.0)) continue;
+      patches_.Join(a, b, config.noise);
+      changed = true;
     }
   }
-  JoinMeeting(MeetingLabels(grid, growth.labels(), planes, config), config, joined);
-  return joined;
+}
+
+const PatchUnion& PatchJoining::JoinBentParts(const DepthGrid& grid,
+                                              const std::vector<PlaneSums>& blocks,
+                                              const PlaneExtractionConfig& config,
+                                              PixelGrowth& growth, bool warped) {
+  patches_.Begin(growth.SumLabels(blocks), growth.planes(), config.noise);
+  patches_.CopyPlanes(planes_);
+  FindRuns(growth.labels(), grid.width, grid.height, runs_);
+  if (warped) {
+    MeasureShares(grid, growth.labels(), runs_, planes_, config.noise, strips_, shares_);
+    for (const auto& [pair, share] : shares_.Sorted()) {
+      if (share.IsCrease()) patches_.KeepApart(pair.first, pair.second);
+    }
+  }
+  step_measurement_.Measure(grid, growth.labels(), runs_, planes_, steps_);
+  RankMeetingLabels(config);
+  JoinMeeting(config);
+  return patches_;
 }
 
 }  // namespace slam

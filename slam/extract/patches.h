@@ -4,8 +4,12 @@
 #include <utility>
 #include <vector>
 
+#include "slam/extract/boundary_shares.h"
+#include "slam/extract/boundary_steps.h"
 #include "slam/extract/depth_grid.h"
 #include "slam/extract/extraction_config.h"
+#include "slam/extract/label_pairs.h"
+#include "slam/extract/label_runs.h"
 #include "slam/extract/pixel_growth.h"
 #include "slam/extract/pixel_labels.h"
 #include "slam/extract/plane_sums.h"
@@ -26,7 +30,10 @@ double PatchGap(const Patch& a, const Patch& b, double max_gap_sigmas,
 /// Which patch each patch has become part of.
 class PatchUnion {
  public:
-  explicit PatchUnion(std::vector<Patch> patches);
+  /// Begins with patches that are not joined: the labels' pixels, and planes fitted to them
+  /// (those given, where nothing can be fitted).
+  void Begin(const std::vector<PlaneSums>& sums, const std::vector<LabelPlane>& planes,
+             const DepthNoise& noise);
   /// The lower number stays, and is fitted to the pixels of both.
   void Join(int a, int b, const DepthNoise& noise);
   int Root(int k) const { return into_[static_cast<std::size_t>(k)]; }
@@ -35,7 +42,7 @@ class PatchUnion {
   /// Two surfaces meet where patches k and l touch: nothing may join what they belong to.
   void KeepApart(int k, int l) { apart_.emplace_back(k, l); }
   bool Apart(int a, int b) const;
-  std::vector<LabelPlane> Planes() const;
+  void CopyPlanes(std::vector<LabelPlane>& planes) const;
 
  private:
   std::vector<Patch> patches_;
@@ -43,22 +50,47 @@ class PatchUnion {
   std::vector<std::pair<int, int>> apart_;
 };
 
-/// Merges touching labels that are one plane within the noise, closest pair first, refits every
-/// plane to its pixels and grows them anew.
-/// @param blocks  sums of the measured pixels of each block of `growth`, or empty
-void MergeEqualNeighbours(const DepthGrid& grid, const std::vector<PlaneSums>& blocks,
-                          const PlaneExtractionConfig& config, PixelGrowth& growth);
+/// What of the patches that grew is one plane. The memory of one image serves the next.
+class PatchJoining {
+ public:
+  /// Merges touching labels that are one plane within the noise, closest pair first, refits
+  /// every plane to its pixels and grows them anew.
+  /// @param blocks  sums of the measured pixels of each block of `growth`, or empty
+  void MergeEqualNeighbours(const DepthGrid& grid, const std::vector<PlaneSums>& blocks,
+                            const PlaneExtractionConfig& config, PixelGrowth& growth);
 
-/// Joins touching labels that are parts of one surface which the sensor has bent: a real step
-/// stands all along the boundary, while the parts of a bent surface meet there. So the planes
-/// of the two labels must agree along the boundary, and those of the segments that they belong
-/// to must agree within the wider bounds on bending. The labels keep their own planes, and with
-/// them their pixels.
-/// @param blocks  as above
-/// @param warped  the bounds allow for a warp (sensor_warp.h), and planes alone do not tell two
-///   surfaces from one: what meets in a crease (boundary_shares.h) is kept apart, here and when
-///   hidden parts are joined
-PatchUnion JoinBentParts(const DepthGrid& grid, const std::vector<PlaneSums>& blocks,
-                         const PlaneExtractionConfig& config, PixelGrowth& growth, bool warped);
+  /// Joins touching labels that are parts of one surface which the sensor has bent: a real step
+  /// stands all along the boundary, while the parts of a bent surface meet there. So the planes
+  /// of the two labels must agree along the boundary, and those of the segments that they
+  /// belong to must agree within the wider bounds on bending. The labels keep their own planes,
+  /// and with them their pixels.
+  /// @param blocks  as above
+  /// @param warped  the bounds allow for a warp (sensor_warp.h), and planes alone do not tell
+  ///   two surfaces from one: what meets in a crease (boundary_shares.h) is kept apart, here
+  ///   and when hidden parts are joined
+  /// @returns what stands until the next call
+  const PatchUnion& JoinBentParts(const DepthGrid& grid, const std::vector<PlaneSums>& blocks,
+                                  const PlaneExtractionConfig& config, PixelGrowth& growth,
+                                  bool warped);
+
+  /// Of the labels that the last call has read.
+  const LabelRuns& runs() const { return runs_; }
+
+ private:
+  void FindContacts(const DepthGrid& grid, const PixelGrowth& growth);
+  void RankMeetingLabels(const PlaneExtractionConfig& config);
+  void JoinMeeting(const PlaneExtractionConfig& config);
+
+  PatchUnion patches_;
+  LabelRuns runs_;
+  LabelPairs<PlaneSums> contacts_;  ///< pixels on either side of common boundaries
+  StepMeasurement step_measurement_;
+  BoundarySteps steps_;
+  LabelPairs<BoundaryStrips> strips_;
+  BoundaryShares shares_;
+  std::vector<LabelPlane> planes_;
+  /// Labels without a step between them, by the mean square of what there is.
+  std::vector<std::pair<double, std::pair<int, int>>> meeting_;
+};
 
 }  // namespace slam

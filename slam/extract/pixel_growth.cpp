@@ -6,7 +6,6 @@
 
 #include "slam/base/lanes.h"
 #include "slam/base/require.h"
-#include "slam/extract/block_sums.h"
 
 namespace slam {
 namespace {
@@ -39,6 +38,7 @@ void PixelGrowth::Begin(const DepthGrid& grid, const GrowthConfig& config) {
   planes_.clear(), claims_.clear(), reached_.clear();
   first_.assign(blocks, kNoClaim);
   active_.clear(), next_active_.clear(), is_active_.assign(blocks, 0);
+  is_stale_.assign(blocks, 0);
   labels_.assign(grid.q.size(), kNoLabel);
   bid_count_ = 0;
   owners_.resize(slot_size_), next_labels_.resize(slot_size_), gains_.resize(slot_size_);
@@ -76,9 +76,7 @@ cv::Rect PixelGrowth::BlockArea(int block) const {
 }
 
 BlockPixels PixelGrowth::PixelsOf(const cv::Rect& area) const {
-  const auto i = static_cast<std::size_t>(grid_->Index(area.x, area.y));
-  return {grid_->x.data() + i, grid_->y.data() + i, grid_->q.data() + i, grid_->g.data() + i,
-          grid_->width,        area.width,          area.height,         config_.block_px};
+  return slam::BlockAt(*grid_, area.x, area.y, config_.block_px);
 }
 
 void PixelGrowth::Measure(const BlockPixels& pixels, int claim) {
@@ -117,14 +115,21 @@ void PixelGrowth::GatherRivals(int block, float nearer_than) {
 }
 
 /// Gives the pixels of a block to the nearest of its planes and counts what each gets.
-void PixelGrowth::LabelBlock(int block) {
+/// @returns whether anything has changed.
+bool PixelGrowth::LabelBlock(int block) {
   const cv::Rect area = BlockArea(block);
   const BlockPixels pixels = PixelsOf(area);
-  for (int claim = First(block); claim != kNoClaim; claim = At(claim).next) {
-    if (!At(claim).measured) Measure(pixels, claim);
-    At(claim).pixels = 0;
-  }
   const auto farthest = static_cast<float>(config_.max_pixel_sigmas);
+  std::uint8_t& is_stale = is_stale_[static_cast<std::size_t>(block)];
+  for (int claim = First(block); claim != kNoClaim; claim = At(claim).next) {
+    if (At(claim).measured) continue;
+    Measure(pixels, claim);
+    if (At(claim).least < farthest) is_stale = 1;
+  }
+  if (is_stale == 0) return false;
+  is_stale = 0;
+  for (int claim = First(block); claim != kNoClaim; claim = At(claim).next)
+    At(claim).pixels = 0;
   GatherRivals(block, farthest);
   if (rivals_.size() > 1) {
     for (const int claim : rival_claims_) {
@@ -141,6 +146,7 @@ void PixelGrowth::LabelBlock(int block) {
     At(rival_claims_[k]).pixels = rivals_[k].pixels;
   WriteOwners(pixels, owners_.data(),
               labels_.data() + static_cast<std::size_t>(grid_->Index(area.x, area.y)));
+  return true;
 }
 
 void PixelGrowth::SpreadFrom(int block) {
@@ -162,10 +168,12 @@ void PixelGrowth::Grow() {
   while (!active_.empty()) {
     std::swap(active_, next_active_);
     active_.clear();
-    for (const int block : next_active_) {
-      LabelBlock(block);
+    const auto unchanged = [&](int block) {
       is_active_[static_cast<std::size_t>(block)] = 0;
-    }
+      return !LabelBlock(block);
+    };
+    next_active_.erase(std::remove_if(next_active_.begin(), next_active_.end(), unchanged),
+                       next_active_.end());
     for (const int block : next_active_) SpreadFrom(block);
   }
 }
@@ -222,17 +230,18 @@ void PixelGrowth::AddGainsWithout(int label) {
 void PixelGrowth::DropUseless() {
   gain_.assign(planes_.size(), 0.0), pixels_.assign(planes_.size(), 0);
   for (int block = 0; block < cols_ * rows_; ++block) AddGains(block);
-  std::vector<std::size_t> order(planes_.size());
-  std::iota(order.begin(), order.end(), 0u);
-  std::stable_sort(order.begin(), order.end(),
-                   [&](std::size_t a, std::size_t b) { return pixels_[a] < pixels_[b]; });
-  std::vector<std::uint8_t> dropped(planes_.size(), 0);
-  for (const std::size_t label : order) {
+  fewest_first_.resize(planes_.size());
+  std::iota(fewest_first_.begin(), fewest_first_.end(), 0u);
+  std::sort(fewest_first_.begin(), fewest_first_.end(), [&](std::size_t a, std::size_t b) {
+    return pixels_[a] != pixels_[b] ? pixels_[a] < pixels_[b] : a < b;
+  });
+  dropped_.assign(planes_.size(), 0);
+  for (const std::size_t label : fewest_first_) {
     if (gain_[label] >= config_.min_gain * std::max(pixels_[label], 1)) continue;
-    dropped[label] = 1;
+    dropped_[label] = 1;
     AddGainsWithout(static_cast<int>(label));
   }
-  Drop(dropped);
+  Drop();
 }
 
 void PixelGrowth::Unlink(int block, int label) {
@@ -241,26 +250,27 @@ void PixelGrowth::Unlink(int block, int label) {
   *link = At(*link).next;
 }
 
-void PixelGrowth::Drop(const std::vector<std::uint8_t>& dropped) {
-  for (int label = 0; label < static_cast<int>(dropped.size()); ++label) {
-    if (dropped[static_cast<std::size_t>(label)] == 0) continue;
+void PixelGrowth::Drop() {
+  for (int label = 0; label < static_cast<int>(dropped_.size()); ++label) {
+    if (dropped_[static_cast<std::size_t>(label)] == 0) continue;
     for (int block = 0; block < cols_ * rows_; ++block) {
       std::uint64_t& bits = ReachedBits(block, label);
       if ((bits >> (block % 64) & 1) == 0) continue;
       bits &= ~(std::uint64_t{1} << (block % 64));
       Unlink(block, label);
       Activate(block);
+      is_stale_[static_cast<std::size_t>(block)] = 1;
     }
   }
   Grow();
 }
 
 void PixelGrowth::Replace(const std::vector<LabelPlane>& planes, const std::vector<int>& into) {
-  std::vector<std::pair<int, int>> seeds;  // (block, label)
+  seeds_.clear();
   for (int block = 0; block < cols_ * rows_; ++block) {
     for (int claim = First(block); claim != kNoClaim; claim = At(claim).next) {
       if (At(claim).pixels > 0)
-        seeds.emplace_back(block, into[static_cast<std::size_t>(At(claim).label)]);
+        seeds_.emplace_back(block, into[static_cast<std::size_t>(At(claim).label)]);
     }
   }
   planes_ = planes;
@@ -268,7 +278,8 @@ void PixelGrowth::Replace(const std::vector<LabelPlane>& planes, const std::vect
   bid_count_ = 0;
   reached_.assign(planes_.size() * words_, 0);
   std::fill(first_.begin(), first_.end(), kNoClaim);
-  for (const auto& [block, label] : seeds) Seed(block, label);
+  std::fill(is_stale_.begin(), is_stale_.end(), 1);
+  for (const auto& [block, label] : seeds_) Seed(block, label);
   Grow();
 }
 
@@ -297,50 +308,6 @@ void PixelGrowth::MarkSettled(double bias, double standard_errors,
         std::uint8_t* row = settled.data() + start + static_cast<std::size_t>(v * grid_->width);
         for (int u = 0; u < area.width; ++u) row[u] |= owners[u] == label ? 1 : 0;
       }
-    }
-  }
-}
-
-const std::vector<PlaneSums>& PixelGrowth::SumLabels(const std::vector<PlaneSums>& whole) {
-  Provide(claim_sums_, claims_.size());
-  label_sums_.assign(planes_.size(), PlaneSums{});
-  for (int block = 0; block < cols_ * rows_; ++block) {
-    const cv::Rect area = BlockArea(block);
-    const std::int16_t* labels =
-        labels_.data() + static_cast<std::size_t>(grid_->Index(area.x, area.y));
-    for (int claim = First(block); claim != kNoClaim; claim = At(claim).next) {
-      const Claim& at = At(claim);
-      if (at.pixels == 0) continue;
-      const bool all = !whole.empty() && whole[static_cast<std::size_t>(block)].n ==
-                                             static_cast<double>(at.pixels);
-      PlaneSums& sums = claim_sums_[static_cast<std::size_t>(claim)];
-      sums = all ? whole[static_cast<std::size_t>(block)]
-                 : SumLabelled(PixelsOf(area), labels, static_cast<std::int16_t>(at.label));
-      label_sums_[static_cast<std::size_t>(at.label)] += sums;
-    }
-  }
-  return label_sums_;
-}
-
-void PixelGrowth::SumOtherLabels(const LabelImage& labels, int count,
-                                 std::vector<PlaneSums>& sums) const {
-  sums.assign(static_cast<std::size_t>(count), PlaneSums{});
-  for (int block = 0; block < cols_ * rows_; ++block) {
-    int owner = kNoClaim, owner_count = 0;
-    for (int claim = First(block); claim != kNoClaim; claim = At(claim).next) {
-      if (At(claim).pixels > 0) owner = claim, ++owner_count;
-    }
-    if (owner_count == 0) continue;
-    const cv::Rect area = BlockArea(block);
-    const BlockPixels pixels = PixelsOf(area);
-    const std::int16_t* start =
-        labels.data() + static_cast<std::size_t>(grid_->Index(area.x, area.y));
-    std::int16_t label = kNoLabel;
-    const int same = owner_count == 1 ? CountOnly(pixels, start, label) : 0;
-    if (same > 0 && same == At(owner).pixels) {
-      sums[static_cast<std::size_t>(label)] += claim_sums_[static_cast<std::size_t>(owner)];
-    } else {
-      SumTile(pixels, start, sums);
     }
   }
 }

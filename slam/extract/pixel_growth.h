@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <opencv2/core/types.hpp>
+#include <utility>
 #include <vector>
 
 #include "slam/extract/block_pixels.h"
@@ -102,11 +103,11 @@ class PixelGrowth {
   void Bid(const BlockPixels& pixels, const cv::Rect& area, int claim);
   void GatherRivals(int block, float nearer_than);
   void CompareRivals(int block, float unexplained);
-  void LabelBlock(int block);
+  bool LabelBlock(int block);
   void SpreadFrom(int block);
   void AddGains(int block);
   void AddGainsWithout(int label);
-  void Drop(const std::vector<std::uint8_t>& dropped);
+  void Drop();
   void Unlink(int block, int label);
 
   const DepthGrid* grid_ = nullptr;
@@ -120,6 +121,7 @@ class PixelGrowth {
   std::vector<std::uint64_t> reached_;     ///< a bit a block, label by label
   std::vector<int> active_, next_active_;  ///< blocks that planes have reached
   std::vector<std::uint8_t> is_active_;
+  std::vector<std::uint8_t> is_stale_;  ///< blocks whose labels are not those of their claims
   LabelImage labels_;
   std::vector<float> residuals_;  ///< of each claim, sigmas; infinity where nothing is measured
   std::vector<float> bids_;       ///< BidForBlock
@@ -129,6 +131,9 @@ class PixelGrowth {
   // What each label gains over the next best plane at its pixels.
   std::vector<double> gain_;
   std::vector<int> pixels_;
+  std::vector<std::size_t> fewest_first_;   ///< labels by pixels_
+  std::vector<std::uint8_t> dropped_;       ///< each label
+  std::vector<std::pair<int, int>> seeds_;  ///< (block, label)
   // Scratch of one block.
   std::vector<BlockRival> rivals_;
   std::vector<int> rival_claims_;

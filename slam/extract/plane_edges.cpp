@@ -1,37 +1,18 @@
 #include "slam/extract/plane_edges.h"
 
 #include <algorithm>
-#include <array>
-#include <cmath>
-#include <cstdint>
-#include <opencv2/imgproc.hpp>
+#include <cstddef>
 
 namespace slam {
 namespace {
 
 constexpr std::size_t kLeastContour = 8;  // pixels; shorter ones bound specks
 
-/// Direction from a boundary pixel to the outside: the mean of its outside neighbours.
-Eigen::Vector2d Outward(const cv::Mat1b& labels, int value, const cv::Point& at) {
-  int sum_u = 0, sum_v = 0;
-  if (at.x >= 2 && at.y >= 2 && at.x + 2 < labels.cols && at.y + 2 < labels.rows) {
-    for (int dv = -2; dv <= 2; ++dv) {
-      const std::uint8_t* row = labels[at.y + dv] + at.x;
-      for (int du = -2; du <= 2; ++du) {
-        const int outside = row[du] != value ? 1 : 0;
-        sum_u += outside * du, sum_v += outside * dv;
-      }
-    }
-    return Eigen::Vector2d(sum_u, sum_v);
-  }
-  for (int dv = -2; dv <= 2; ++dv) {
-    for (int du = -2; du <= 2; ++du) {
-      const int u = at.x + du, v = at.y + dv;
-      const bool inside = u >= 0 && v >= 0 && u < labels.cols && v < labels.rows;
-      if (!inside || labels(v, u) != value) sum_u += du, sum_v += dv;
-    }
-  }
-  return Eigen::Vector2d(sum_u, sum_v);
+/// To the nearest integer, halves away from zero.
+int Rounded(double x) {
+  const int whole = static_cast<int>(x);
+  const double rest = x - whole;
+  return whole + (rest >= 0.5 ? 1 : 0) - (rest <= -0.5 ? 1 : 0);
 }
 
 EdgeKind KindBeyond(const DepthGrid& grid, const cv::Point& at, const Eigen::Vector2d& outward,
@@ -42,8 +23,8 @@ EdgeKind KindBeyond(const DepthGrid& grid, const cv::Point& at, const Eigen::Vec
   int measured = 0;
   for (int k = 1; k <= std::max(config.reach_px, config.shadow_px); ++k) {
     if (k > config.reach_px && measured > 0) break;
-    const int u = at.x + static_cast<int>(std::lround(k * step.x()));
-    const int v = at.y + static_cast<int>(std::lround(k * step.y()));
+    const int u = at.x + Rounded(k * step.x());
+    const int v = at.y + Rounded(k * step.y());
     if (u < 0 || v < 0 || u >= grid.width || v >= grid.height) {
       if (measured == 0) return k <= config.reach_px ? EdgeKind::kBorder : EdgeKind::kMissing;
       break;
@@ -65,34 +46,28 @@ EdgeKind KindBeyond(const DepthGrid& grid, const cv::Point& at, const Eigen::Vec
 
 }  // namespace
 
-std::vector<EdgePoint> TraceEdges(const DepthGrid& grid, const cv::Mat1b& labels, int value,
-                                  const cv::Rect& bounds, const LabelPlane& plane,
-                                  const EdgeConfig& config) {
-  // findContours leaves out the outermost rows and columns: give the mask a frame of zeros.
-  cv::Mat1b mask(bounds.height + 2, bounds.width + 2, static_cast<std::uint8_t>(0));
-  cv::Mat inner = mask(cv::Rect(1, 1, bounds.width, bounds.height));
-  cv::compare(labels(bounds), value, inner, cv::CMP_EQ);
-  std::vector<std::vector<cv::Point>> contours;
-  cv::findContours(mask, contours, cv::RETR_EXTERNAL, cv::CHAIN_APPROX_NONE,
-                   bounds.tl() - cv::Point(1, 1));
-  std::stable_sort(contours.begin(), contours.end(),
-                   [](const auto& a, const auto& b) { return a.size() > b.size(); });
-  std::vector<EdgePoint> edge;
-  for (const std::vector<cv::Point>& contour : contours) {
-    if (contour.size() < kLeastContour) continue;
-    for (std::size_t k = 0; k < contour.size(); k += static_cast<std::size_t>(config.step_px)) {
-      const cv::Point& at = contour[k];
-      const Eigen::Vector2d outward = Outward(labels, value, at);
-      if (!(outward.squaredNorm() > 0)) continue;
+void FindEdgePoints(const DepthGrid& grid, const OuterContours& contours, int value,
+                    const LabelPlane& plane, const EdgeConfig& config,
+                    std::vector<EdgePoint>& edge) {
+  edge.clear();
+  const auto& list = contours.contours();
+  auto contour = std::lower_bound(list.begin(), list.end(), value,
+                                  [](const auto& c, int label) { return c.label < label; });
+  for (; contour != list.end() && contour->label == value; ++contour) {
+    if (contour->end - contour->begin < kLeastContour) break;
+    for (std::size_t k = contour->begin; k < contour->end;
+         k += static_cast<std::size_t>(config.step_px)) {
+      const cv::Point& at = contours.points()[k];
+      const cv::Point sum = contours.Outward(at);
+      if (sum.x == 0 && sum.y == 0) continue;
       const auto i = static_cast<std::size_t>(grid.Index(at.x, at.y));
       const double z = 1.0 / static_cast<double>(grid.q[i]);
       edge.push_back({Eigen::Vector3d(static_cast<double>(grid.x[i]) * z,
                                       static_cast<double>(grid.y[i]) * z, z),
                       Eigen::Vector2d(at.x, at.y),
-                      KindBeyond(grid, at, outward, plane, config)});
+                      KindBeyond(grid, at, Eigen::Vector2d(sum.x, sum.y), plane, config)});
     }
   }
-  return edge;
 }
 
 }  // namespace slam

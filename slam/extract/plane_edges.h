@@ -1,8 +1,9 @@
 #pragma once
 
-#include <opencv2/core/mat.hpp>
 #include <vector>
 
+#include "slam/extract/depth_grid.h"
+#include "slam/extract/outer_contours.h"
 #include "slam/extract/pixel_labels.h"
 #include "slam/model/frame_plane.h"
 
@@ -31,11 +32,12 @@ struct EdgeConfig {
 ///   nearer, but growing from the boundary   kSurface (a concave crease)
 /// p_c is the measured point of the boundary pixel.
 ///
-/// @param labels  index + 1 of the segment at each pixel
-/// @param value   the segment's value in it
-/// @param plane   its plane
-std::vector<EdgePoint> TraceEdges(const DepthGrid& grid, const cv::Mat1b& labels, int value,
-                                  const cv::Rect& bounds, const LabelPlane& plane,
-                                  const EdgeConfig& config);
+/// @param contours  of the label image, index + 1 of the segment at each pixel
+/// @param value     the segment's value in it
+/// @param plane     its plane
+/// @param edge      what is found; what was in it is forgotten
+void FindEdgePoints(const DepthGrid& grid, const OuterContours& contours, int value,
+                    const LabelPlane& plane, const EdgeConfig& config,
+                    std::vector<EdgePoint>& edge);
 
 }  // namespace slam

@@ -41,12 +41,13 @@ struct Segment {
   PlaneSums sums;
   LabelPlane plane;
   PlaneSigmas sigmas;
+  cv::Point low, high;  ///< first and last row and column
 };
 
 /// The segments that are large and precise enough, largest first.
-std::vector<Segment> KeepMeasured(const std::vector<PlaneSums>& sums,
-                                  const PlaneExtractionConfig& config) {
-  std::vector<Segment> kept;
+void KeepMeasured(const std::vector<PlaneSums>& sums, const PlaneExtractionConfig& config,
+                  std::vector<Segment>& kept) {
+  kept.clear();
   for (std::size_t k = 0; k < sums.size(); ++k) {
     if (!(sums[k].n >= config.min_pixels)) continue;
     const std::optional<PlaneFit> fit = Fit(sums[k]);
@@ -56,56 +57,50 @@ std::vector<Segment> KeepMeasured(const std::vector<PlaneSums>& sums,
     const double scale = std::max(grazing, std::sqrt(fit->error / dof));
     const PlaneSigmas sigmas = Sigmas(sums[k], fit->plane, config.noise, scale);
     if (!(sigmas.angle_rad < config.max_angle_sigma_rad)) continue;
-    kept.push_back({static_cast<int>(k), sums[k], {fit->plane, grazing}, sigmas});
+    kept.push_back({static_cast<int>(k), sums[k], {fit->plane, grazing}, sigmas, {}, {}});
   }
-  std::stable_sort(kept.begin(), kept.end(),
-                   [](const Segment& a, const Segment& b) { return a.sums.n > b.sums.n; });
+  std::sort(kept.begin(), kept.end(), [](const Segment& a, const Segment& b) {
+    return a.sums.n != b.sums.n ? a.sums.n > b.sums.n : a.id < b.id;
+  });
   if (kept.size() > kMostSegments) kept.resize(kMostSegments);
-  return kept;
 }
 
 /// Writes the label image (position in `kept` + 1) and the bounds of each segment.
-std::vector<cv::Rect> DrawLabels(const DepthGrid& grid, const LabelImage& labels, int count,
-                                 const std::vector<Segment>& kept, cv::Mat1b& out) {
-  std::vector<std::uint8_t> value(static_cast<std::size_t>(count), 0);
+/// @param value  scratch
+void DrawLabels(const LabelRuns& segments, int count, std::vector<Segment>& kept,
+                std::vector<std::uint8_t>& value, cv::Mat1b& out) {
+  value.assign(static_cast<std::size_t>(count), 0);
+  const int none = std::numeric_limits<int>::max();
   for (std::size_t k = 0; k < kept.size(); ++k) {
     value[static_cast<std::size_t>(kept[k].id)] = static_cast<std::uint8_t>(k + 1);
+    kept[k].low = {none, none}, kept[k].high = {-1, -1};
   }
-  const int none = std::numeric_limits<int>::max();
-  std::vector<cv::Vec4i> bounds(kept.size(), cv::Vec4i(none, none, -1, -1));
-  out.create(grid.height, grid.width);
-  for (int v = 0; v < grid.height; ++v) {
-    std::uint8_t* row = out[v];
-    const std::int16_t* from = labels.data() + static_cast<std::size_t>(grid.Index(0, v));
-    for (int u = 0; u < grid.width;) {
-      const int begin = u;
-      const std::int16_t label = from[begin];
-      while (u < grid.width && from[u] == label) ++u;
+  for (int v = 0; v < out.rows; ++v) {
+    const auto row = static_cast<std::size_t>(v);
+    for (std::size_t k = segments.rows[row]; k < segments.rows[row + 1]; ++k) {
+      const auto [begin, end, label] = segments.runs[k];
       const std::uint8_t drawn =
           label == kNoLabel ? std::uint8_t{0} : value[static_cast<std::size_t>(label)];
-      std::fill(row + begin, row + u, drawn);
+      std::fill(out[v] + begin, out[v] + end, drawn);
       if (drawn == 0) continue;
-      cv::Vec4i& b = bounds[static_cast<std::size_t>(drawn - 1)];
-      b = {std::min(b[0], begin), std::min(b[1], v), std::max(b[2], u - 1), std::max(b[3], v)};
+      Segment& segment = kept[static_cast<std::size_t>(drawn - 1)];
+      segment.low = {std::min(segment.low.x, begin), std::min(segment.low.y, v)};
+      segment.high = {std::max(segment.high.x, end - 1), v};
     }
   }
-  std::vector<cv::Rect> rects;
-  for (const cv::Vec4i& b : bounds)
-    rects.emplace_back(b[0], b[1], b[2] - b[0] + 1, b[3] - b[1] + 1);
-  return rects;
 }
 
 /// Thinned points and the visible area. A pixel of dx dy on the ray plane covers
 /// |(a, b, c)| / q^3 dx dy of the surface.
-void SamplePoints(const DepthGrid& grid, const cv::Mat1b& labels, const cv::Rect& bounds,
-                  const Segment& segment, const Camera& camera, int step, FramePlane& out) {
+void SamplePoints(const DepthGrid& grid, const cv::Mat1b& labels, const Segment& segment,
+                  const Camera& camera, int step, FramePlane& out) {
   const InverseDepthPlane& p = segment.plane.plane;
   const double norm = std::sqrt(p.a * p.a + p.b * p.b + p.c * p.c);
   double area = 0.0;
   int sampled = 0;
   const auto first = [step](int from) { return (from + step - 1) / step * step; };
-  for (int v = first(bounds.y); v < bounds.y + bounds.height; v += step) {
-    for (int u = first(bounds.x); u < bounds.x + bounds.width; u += step) {
+  for (int v = first(segment.low.y); v <= segment.high.y; v += step) {
+    for (int u = first(segment.low.x); u <= segment.high.x; u += step) {
       if (labels(v, u) != out.index + 1) continue;
       const auto i = static_cast<std::size_t>(grid.Index(u, v));
       const double x = static_cast<double>(grid.x[i]), y = static_cast<double>(grid.y[i]);
@@ -144,11 +139,60 @@ struct PlaneExtractor::Workspace {
   PlaneExtractionConfig config;
   DepthGrid grid;
   BlockClustering clustering;
+  WarpMeasurement warp;
   PixelGrowth growth;
   std::vector<std::uint8_t> settled;
+  PatchJoining patches;
+  PartSegmentation parts;
   LabelImage labels;  ///< of segments
   std::vector<PlaneSums> sums;
+  std::vector<Segment> kept;
+  std::vector<std::uint8_t> drawn_value;
+  OuterContours contours;
+  /// Planes of the frame's last image, whose points' memory serves again.
+  std::vector<FramePlane> old_planes;
+
+  void TakeMemory(std::vector<FramePlane>& planes);
+  void GiveMemory(FramePlane& plane);
+  void Describe(Frame& frame);
 };
+
+/// Empties a frame's planes, but keeps the memory of their points.
+void PlaneExtractor::Workspace::TakeMemory(std::vector<FramePlane>& planes) {
+  if (old_planes.size() < planes.size()) old_planes.resize(planes.size());
+  for (std::size_t k = 0; k < planes.size(); ++k) {
+    old_planes[k].points_c.swap(planes[k].points_c);
+    old_planes[k].edge_points.swap(planes[k].edge_points);
+  }
+  planes.clear();
+}
+
+void PlaneExtractor::Workspace::GiveMemory(FramePlane& plane) {
+  const auto k = static_cast<std::size_t>(plane.index);
+  if (k >= old_planes.size()) return;
+  plane.points_c.swap(old_planes[k].points_c);
+  plane.edge_points.swap(old_planes[k].edge_points);
+  plane.points_c.clear(), plane.edge_points.clear();
+}
+
+/// Fills the frame's planes from the segments that are kept and its label image.
+void PlaneExtractor::Workspace::Describe(Frame& frame) {
+  contours.Trace(frame.plane_labels);
+  TakeMemory(frame.planes);
+  for (std::size_t k = 0; k < kept.size(); ++k) {
+    FramePlane plane = MakeFramePlane(kept[k], static_cast<int>(k));
+    GiveMemory(plane);
+    SamplePoints(grid, frame.plane_labels, kept[k], camera, config.point_grid_px, plane);
+    plane.roughness = MeasureRoughness(
+        grid, frame.plane_labels, cv::Rect(kept[k].low, kept[k].high + cv::Point(1, 1)),
+        static_cast<std::uint8_t>(plane.index + 1), kept[k].plane.plane, config.noise,
+        RoughnessStep(plane.pixel_count));
+    FindEdgePoints(grid, contours, plane.index + 1, kept[k].plane, config.edges,
+                   plane.edge_points);
+    for (const EdgePoint& point : plane.edge_points) plane.box_px.Include(point.u_px);
+    frame.planes.push_back(std::move(plane));
+  }
+}
 
 PlaneExtractor::PlaneExtractor(const Camera& camera, const cv::Mat2d& rays,
                                const PlaneExtractionConfig& config)
@@ -172,7 +216,7 @@ void PlaneExtractor::Extract(Frame& frame) {
   SetDepth(frame.depth_m, settings.noise, settings.max_depth_m, grid);
   const BlockClusters& clusters =
       work_->clustering.Cluster(grid, {}, settings.block_px, settings.noise, settings.coarse);
-  const double warp = MeasureWarp(clusters, work_->clustering.SumsOfBlocks(), settings);
+  const double warp = work_->warp.Measure(clusters, work_->clustering.SumsOfBlocks(), settings);
   const PlaneExtractionConfig config = AllowWarp(settings, warp);
   if (warp > 0.0)
     work_->clustering.Cluster(grid, {}, config.block_px, config.noise, config.coarse);
@@ -188,30 +232,17 @@ void PlaneExtractor::Extract(Frame& frame) {
   const std::vector<PlaneSums> unknown;
   const std::vector<PlaneSums>& blocks =
       config.block_px == config.growth.block_px ? work_->clustering.SumsOfBlocks() : unknown;
-  MergeEqualNeighbours(grid, blocks, config, growth);
-
-  const PatchUnion joined = JoinBentParts(grid, blocks, config, growth, warp > 0.0);
-  LabelImage& labels = work_->labels;
-  MapLabels(growth.labels(), joined.into(), labels);
-  const int count = SegmentParts(grid, joined, config, labels);
-
-  growth.SumOtherLabels(labels, count, work_->sums);
-  const std::vector<Segment> kept = KeepMeasured(work_->sums, config);
-  const std::vector<cv::Rect> bounds =
-      DrawLabels(grid, labels, count, kept, frame.plane_labels);
-  frame.planes.clear();
-  for (std::size_t k = 0; k < kept.size(); ++k) {
-    FramePlane plane = MakeFramePlane(kept[k], static_cast<int>(k));
-    SamplePoints(grid, frame.plane_labels, bounds[k], kept[k], work_->camera,
-                 config.point_grid_px, plane);
-    plane.roughness = MeasureRoughness(
-        grid, frame.plane_labels, bounds[k], static_cast<std::uint8_t>(plane.index + 1),
-        kept[k].plane.plane, config.noise, RoughnessStep(plane.pixel_count));
-    plane.edge_points = TraceEdges(grid, frame.plane_labels, plane.index + 1, bounds[k],
-                                   kept[k].plane, config.edges);
-    for (const EdgePoint& point : plane.edge_points) plane.box_px.Include(point.u_px);
-    frame.planes.push_back(std::move(plane));
-  }
+  PatchJoining& patches = work_->patches;
+  patches.MergeEqualNeighbours(grid, blocks, config, growth);
+  const PatchUnion& joined = patches.JoinBentParts(grid, blocks, config, growth, warp > 0.0);
+  const LabelRuns& segments = work_->parts.Segment(grid, joined, patches.runs(), config);
+  DrawRuns(segments, work_->labels);
+  const int count = work_->parts.segment_count();
+  growth.SumOtherLabels(work_->labels, count, work_->sums);
+  KeepMeasured(work_->sums, config, work_->kept);
+  frame.plane_labels.create(grid.height, grid.width);
+  DrawLabels(segments, count, work_->kept, work_->drawn_value, frame.plane_labels);
+  work_->Describe(frame);
 }
 
 void ExtractPlanes(Frame& frame, const Camera& camera, const cv::Mat2d& rays,

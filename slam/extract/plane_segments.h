@@ -17,6 +17,7 @@ namespace slam {
 /// pixels.
 ///
 /// The memory of one frame serves the next; what comes out does not depend on what came before.
+/// After a few images no more is asked for, but for what a new Frame has to hold.
 ///
 /// Source: PEAC (Feng, Taguchi, Kamat, ICRA 2014), with changes for thin steps
 /// (block_clusters.h).

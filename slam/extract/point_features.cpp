@@ -18,7 +18,7 @@ int BorderOf(const cv::Size& size) {
   return std::clamp(std::min(size.width, size.height) / 15, 4, 16);
 }
 
-/// FAST in a rectangle of the octave; positions on the octave's image.
+/// FAST in a rectangle of the octave; positions on the octave's image, row by row.
 std::vector<cv::KeyPoint> Corners(const cv::Mat1b& image, const cv::Rect& area, int threshold) {
   // The detector needs a ring of 3 pixels around every corner.
   constexpr int kRing_px = 3;
@@ -49,6 +49,7 @@ std::vector<cv::KeyPoint> CornersOfOctave(const cv::Mat1b& image, const cv::Rect
     const int r = (static_cast<int>(corner.pt.y) - area.y) * rows / area.height;
     occupied(std::clamp(r, 0, rows - 1), std::clamp(c, 0, columns - 1)) = 1;
   }
+  const auto strong = static_cast<std::ptrdiff_t>(corners.size());
   for (int r = 0; r < rows; ++r) {
     for (int c = 0; c < columns; ++c) {
       if (occupied(r, c) != 0) continue;
@@ -57,9 +58,11 @@ std::vector<cv::KeyPoint> CornersOfOctave(const cv::Mat1b& image, const cv::Rect
       corners.insert(corners.end(), weak.begin(), weak.end());
     }
   }
-  std::sort(corners.begin(), corners.end(), [](const cv::KeyPoint& a, const cv::KeyPoint& b) {
+  const auto by_row = [](const cv::KeyPoint& a, const cv::KeyPoint& b) {
     return a.pt.y != b.pt.y ? a.pt.y < b.pt.y : a.pt.x < b.pt.x;
-  });
+  };
+  std::sort(corners.begin() + strong, corners.end(), by_row);
+  std::inplace_merge(corners.begin(), corners.begin() + strong, corners.end(), by_row);
   return corners;
 }
 

@@ -3,9 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <vector>
-
-#include "slam/extract/pixel_labels.h"
 
 namespace slam {
 namespace {
@@ -45,27 +42,27 @@ double SquaredMean(const PlaneSums& s, const LabelPlane& p, double correlated_px
 
 }  // namespace
 
-double MeasureWarp(const BlockClusters& clusters, const std::vector<PlaneSums>& blocks,
-                   const PlaneExtractionConfig& config) {
+double WarpMeasurement::Measure(const BlockClusters& clusters,
+                                const std::vector<PlaneSums>& blocks,
+                                const PlaneExtractionConfig& config) {
   if (!(config.max_warp_sigmas > 0.0)) return 0.0;
-  std::vector<LabelPlane> planes;
+  planes_.clear(), squares_.clear();
   for (std::size_t k = 0; k < clusters.planes.size(); ++k) {
-    planes.push_back({clusters.planes[k],
-                      GrazingFactor(clusters.sums[k], clusters.planes[k], config.noise)});
+    planes_.push_back({clusters.planes[k],
+                       GrazingFactor(clusters.sums[k], clusters.planes[k], config.noise)});
   }
-  std::vector<double> squares;
   for (int r = 0; r + 1 < clusters.rows; r += 2) {
     for (int c = 0; c + 1 < clusters.cols; c += 2) {
       const int region = RegionOfPiece(clusters, r, c);
       if (region < 0) continue;
-      squares.push_back(SquaredMean(SumPiece(clusters, blocks, r, c),
-                                    planes[static_cast<std::size_t>(region)],
-                                    config.noise.correlated_px));
+      squares_.push_back(SquaredMean(SumPiece(clusters, blocks, r, c),
+                                     planes_[static_cast<std::size_t>(region)],
+                                     config.noise.correlated_px));
     }
   }
-  if (squares.size() < kLeastPieces) return 0.0;
-  const auto middle = squares.begin() + static_cast<std::ptrdiff_t>(squares.size() / 2);
-  std::nth_element(squares.begin(), middle, squares.end());
+  if (squares_.size() < kLeastPieces) return 0.0;
+  const auto middle = squares_.begin() + static_cast<std::ptrdiff_t>(squares_.size() / 2);
+  std::nth_element(squares_.begin(), middle, squares_.end());
   const double warp = std::sqrt(std::max(*middle, 0.0) / kMedianOfSquare);
   return std::min(warp, config.max_warp_sigmas);
 }

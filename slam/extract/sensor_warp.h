@@ -4,6 +4,7 @@
 
 #include "slam/extract/block_clusters.h"
 #include "slam/extract/extraction_config.h"
+#include "slam/extract/pixel_labels.h"
 
 namespace slam {
 
@@ -12,11 +13,17 @@ namespace slam {
 /// that is as flat as its noise model says. It is the median over the image, which steps or
 /// curved things here and there do not move. A warp larger than the clusters' model error is
 /// underestimated, because it splits them.
-///
-/// @param clusters  of the whole grid, with the bounds of a flat sensor
-/// @param blocks    sums of the measured pixels of each of its blocks
-double MeasureWarp(const BlockClusters& clusters, const std::vector<PlaneSums>& blocks,
-                   const PlaneExtractionConfig& config);
+class WarpMeasurement {
+ public:
+  /// @param clusters  of the whole grid, with the bounds of a flat sensor
+  /// @param blocks    sums of the measured pixels of each of its blocks
+  double Measure(const BlockClusters& clusters, const std::vector<PlaneSums>& blocks,
+                 const PlaneExtractionConfig& config);
+
+ private:
+  std::vector<LabelPlane> planes_;  ///< of the clusters
+  std::vector<double> squares_;     ///< of the pieces' mean residuals
+};
 
 /// The bounds that a surface warped by that much keeps; `config` itself for 0.
 PlaneExtractionConfig AllowWarp(const PlaneExtractionConfig& config, double warp_sigmas);

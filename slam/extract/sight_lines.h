@@ -1,8 +1,10 @@
 #pragma once
 
+#include <cstddef>
 #include <vector>
 
 #include "slam/extract/depth_grid.h"
+#include "slam/extract/label_runs.h"
 #include "slam/extract/pixel_labels.h"
 
 namespace slam {
@@ -11,15 +13,17 @@ namespace slam {
 /// plane can pass behind, or something behind it, so that the plane ends.
 class SightLines {
  public:
-  /// Samples every part on a grid of pixels. @param part  of each pixel, -1 = none
+  /// Samples every part on a grid of pixels. What is given must outlive what is asked; memory
+  /// serves again.
+  /// @param part  of each run, -1 = none
   /// @param unsure_side_sigmas  at least so far behind is clearly behind
-  SightLines(const DepthGrid& grid, const std::vector<int>& part, int part_count,
-             double unsure_side_sigmas = 0.0);
+  void Begin(const DepthGrid& grid, const LabelRuns& runs, const std::vector<int>& part,
+             int part_count, double unsure_side_sigmas = 0.0);
 
   /// Share of the measured pixels on the lines between parts `a` and `b`, where they are
   /// nearest to each other, that lie clearly behind `plane`; 0 where nothing between them is
   /// measured.
-  double ShareBehind(int a, int b, const LabelPlane& plane) const;
+  double ShareBehind(int a, int b, const LabelPlane& plane);
 
  private:
   struct Pixel {
@@ -29,12 +33,26 @@ class SightLines {
     int length2 = 0;
     Pixel from, to;
   };
-  std::vector<Line> NearestLines(int a, int b) const;
+  /// Samples [begin, end) and what bounds them.
+  struct Part {
+    std::size_t begin = 0, end = 0;
+    Pixel low, high;
+  };
+  struct Sample {
+    int part = 0;
+    Pixel at;
+  };
+  void AddMissed(int part_count);
+  void FindNearestLines(int a, int b);
 
-  const DepthGrid& grid_;
-  const std::vector<int>& part_;
-  float behind_sigmas_;
-  std::vector<std::vector<Pixel>> samples_;  ///< of each part
+  const DepthGrid* grid_ = nullptr;
+  const LabelRuns* runs_ = nullptr;
+  const std::vector<int>* part_ = nullptr;
+  float behind_sigmas_ = 0.0f;
+  std::vector<Part> parts_;
+  std::vector<Sample> samples_;
+  std::vector<Pixel> pixels_;  ///< samples, part by part
+  std::vector<Line> lines_;    ///< the nearest, shortest first
 };
 
 }  // namespace slam

@@ -11,6 +11,7 @@
 #include "slam/config/config_file.h"
 #include "slam/input/camera_reader.h"
 #include "slam/input/sequence_reader.h"
+#include "slam/localise/camera_check.h"
 #include "slam/track/depth_clock.h"
 #include "slam/track/frame_gate.h"
 #include "slam/write/run_writer.h"
@@ -88,6 +89,7 @@ RunOutcome Run(LiveCamera input, const RunOptions& options, const std::string& d
 
   RunOutcome outcome;
   FrameGate gate(input.camera);
+  CameraCheck camera_check(input.camera, options.config.point_features.scales);
   DepthClock depth_clock(input.camera);
   std::vector<TiedPose> tied;
   const int total = input.frames.size();
@@ -102,7 +104,10 @@ RunOutcome Run(LiveCamera input, const RunOptions& options, const std::string& d
                           report.tracked ? std::optional(frame.T_cw) : std::nullopt);
       writer.WriteFrame({frame, report.tracked, report.times, StateName(report.points)});
       outcome.tracked += report.tracked ? 1 : 0;
-      if (report.tracked) tied.push_back({frame.timestamp_s, report.reference, report.T_cr});
+      if (report.tracked) {
+        tied.push_back({frame.timestamp_s, report.reference, report.T_cr});
+        if (camera_check.See(frame) && options.warn) options.warn(camera_check.Warning());
+      }
     }
     if (options.progress) options.progress(i + 1, total);
     outcome.stopped = i + 1 < total && options.stop && options.stop();
@@ -113,6 +118,9 @@ RunOutcome Run(LiveCamera input, const RunOptions& options, const std::string& d
   writer.Finish(tracker.map(), outcome.loops > 0 ? FollowKeyframes(tied, tracker.map())
                                                  : std::vector<TimedPose>{});
   outcome.warnings = gate.Warnings();
+  if (const std::string warning = camera_check.Warning(); !warning.empty()) {
+    outcome.warnings.push_back(warning);
+  }
   for (std::string& late : depth_clock.Warnings()) outcome.warnings.push_back(std::move(late));
   if (const int unmapped = tracker.unmapped_keyframes(); unmapped > 0 && !outcome.stopped) {
     outcome.warnings.push_back(std::to_string(unmapped) +

@@ -27,6 +27,9 @@ struct RunOptions {
   bool force = false;                                 ///< replace an older run
   std::string version;                                ///< of the program, for run.json
   std::function<void(int done, int total)> progress;  ///< may be empty
+  /// Told at once what makes it useless to go on: the camera is not what the file says. The
+  /// outcome's warnings say it again with the latest figures. May be empty.
+  std::function<void(const std::string&)> warn;
   /// Asked after each frame; when true the run ends there and is written. May be empty.
   std::function<bool()> stop;
   /// Called before each keyframe is mapped, on the thread that maps it. May be empty.

@@ -26,13 +26,14 @@ class FaultStream : public FrameSource {
   std::vector<RecordedFrame> frames_;
 };
 
-/// A hand's swing through a printed corner of a room, 30 frames a second; no fault yet.
-inline std::vector<RecordedFrame> CleanStream(int frames,
-                                              const TexturedCorner& world = TexturedCorner()) {
-  const Camera camera = SmallCamera(320, 240);
+/// What a camera sees along a way through a printed corner of a room, 30 frames a second; no
+/// fault yet. @param T_cw_of of a frame's index
+inline std::vector<RecordedFrame> SeenStream(int frames, const TexturedCorner& world,
+                                             const std::function<Pose(int)>& T_cw_of,
+                                             const Camera& camera = SmallCamera(320, 240)) {
   std::vector<RecordedFrame> stream;
   for (int i = 0; i < frames; ++i) {
-    const Frame seen = world.See(camera, SwingingPose(i), i);
+    const Frame seen = world.See(camera, T_cw_of(i), i);
     RecordedFrame frame;
     frame.index = i;
     frame.timestamp_s = 100.0 + i / 30.0;
@@ -42,6 +43,12 @@ inline std::vector<RecordedFrame> CleanStream(int frames,
     stream.push_back(frame);
   }
   return stream;
+}
+
+/// The same along a hand's swing.
+inline std::vector<RecordedFrame> CleanStream(int frames,
+                                              const TexturedCorner& world = TexturedCorner()) {
+  return SeenStream(frames, world, SwingingPose);
 }
 
 /// The frames of [from, from + count), each changed on images of its own.

@@ -31,9 +31,14 @@ struct TwoSides {
     const std::vector<PlaneSums> sums = SumLabels(grid, labels, 2);
     for (const PlaneSums& side : sums) planes.push_back({Fit(side)->plane, 1.0});
   }
-  double MeanSquare() const {
-    return MeasureSteps(grid, labels, planes).at({0, 1}).MeanSquare(noise.correlated_px);
+  BoundaryStep Step() const {
+    LabelRuns runs;
+    FindRuns(labels, grid.width, grid.height, runs);
+    BoundarySteps steps;
+    StepMeasurement().Measure(grid, labels, runs, planes, steps);
+    return steps.Of(0, 1);
   }
+  double MeanSquare() const { return Step().MeanSquare(noise.correlated_px); }
   /// Of a step, in sigmas of a pixel.
   double Sigmas(double step_m) const { return step_m / noise.Sigma(1.0); }
 
@@ -46,11 +51,10 @@ struct TwoSides {
 TEST(BoundarySteps, AreTheStepInSigmasOfAPixelWhateverTheSlope) {
   for (const double slope : {0.0, 0.1, -0.1}) {
     const TwoSides sides(0.020, slope);
-    const double squares =
-        MeasureSteps(sides.grid, sides.labels, sides.planes).at({0, 1}).squares;
-    const double pairs = MeasureSteps(sides.grid, sides.labels, sides.planes).at({0, 1}).pairs;
+    const BoundaryStep step = sides.Step();
     // The slope's curvature over 10 pixels and sigma's own growth: a tenth.
-    EXPECT_NEAR(std::sqrt(squares / pairs), sides.Sigmas(0.020), 0.1 * sides.Sigmas(0.020));
+    EXPECT_NEAR(std::sqrt(step.squares / step.pairs), sides.Sigmas(0.020),
+                0.1 * sides.Sigmas(0.020));
   }
 }
 

@@ -27,10 +27,11 @@ struct TwoSquares {
     fill({50, 10, 30, 30});
     fill({40, 20, 10, bridge_px});
     grid = MakeDepthGrid(depth_m, PixelRays(camera), DepthNoise{}, 10.0);
-    components = ConnectedComponents(grid, labels, planes);
+    FindRuns(labels, grid.width, grid.height, components.runs);
+    ConnectRuns(components);
   }
   std::size_t Cut() {
-    CutBridges(grid, labels, planes, 0.35, components);
+    BridgeCutter().Cut(grid, planes, 0.35, components);
     return components.list.size();
   }
 
@@ -48,8 +49,8 @@ TEST(Bridges, AreCutWhereWhatLiesBetweenIsBehind) {
     EXPECT_EQ(squares.components.list[0].pixels + squares.components.list[1].pixels,
               2 * 900 + 10 * bridge_px);
     EXPECT_NEAR(squares.components.list[0].pixels, squares.components.list[1].pixels, 20);
-    EXPECT_NE(squares.components.component[20 * 90 + 20],
-              squares.components.component[20 * 90 + 60]);
+    EXPECT_EQ(squares.components.At(20, 20), 0);
+    EXPECT_EQ(squares.components.At(60, 20), 1);
     EXPECT_GT(squares.components.list[1].behind, 100);
     EXPECT_EQ(squares.components.list[1].first_pixel, 10 * 90 + 50);
   }

@@ -37,7 +37,7 @@ double WarpOf(const cv::Mat1f& depth_m, const Camera& camera,
   BlockClustering clustering;
   const BlockClusters& clusters =
       clustering.Cluster(grid, {}, config.block_px, config.noise, config.coarse);
-  return MeasureWarp(clusters, clustering.SumsOfBlocks(), config);
+  return WarpMeasurement().Measure(clusters, clustering.SumsOfBlocks(), config);
 }
 
 /// Share of the image that the largest segment holds.
@@ -121,7 +121,12 @@ BoundaryShare ShareInTheMiddle(const cv::Mat1f& depth_m, const Camera& camera) {
   std::vector<LabelPlane> planes;
   for (const PlaneSums& side : SumLabels(grid, labels, 2))
     planes.push_back({Fit(side)->plane, 1.0});
-  return MeasureShares(grid, labels, planes, noise).at({0, 1});
+  LabelRuns runs;
+  FindRuns(labels, grid.width, grid.height, runs);
+  LabelPairs<BoundaryStrips> strips;
+  BoundaryShares shares;
+  MeasureShares(grid, labels, runs, planes, noise, strips, shares);
+  return shares.Sorted().at(0).value;
 }
 
 TEST(BoundaryShares, AreAllOfACreaseAndOfAStep) {

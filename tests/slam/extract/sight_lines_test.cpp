@@ -15,14 +15,19 @@ double ShareBehindAStrip(float between_m, std::uint64_t noise_seed = 0) {
   cv::Mat1f depth_m(50, 90, 1.0f);
   depth_m(cv::Rect(40, 0, 10, 50)).setTo(between_m);
   if (noise_seed > 0) depth_m = closed_form::AddKinectNoise(depth_m, noise_seed);
-  std::vector<int> part(50 * 90, -1);
+  LabelImage labels(50 * 90, kNoLabel);
   for (int v = 0; v < 50; ++v) {
     for (int u = 0; u < 90; ++u) {
-      if (u < 40 || u >= 50) part[static_cast<std::size_t>(v * 90 + u)] = u < 40 ? 0 : 1;
+      if (u < 40 || u >= 50) labels[static_cast<std::size_t>(v * 90 + u)] = u < 40 ? 0 : 1;
     }
   }
+  LabelRuns runs;
+  FindRuns(labels, 90, 50, runs);
+  std::vector<int> part;
+  for (const LabelRun& run : runs.runs) part.push_back(run.label);
   const DepthGrid grid = MakeDepthGrid(depth_m, PixelRays(camera), DepthNoise{}, 10.0);
-  const SightLines lines(grid, part, 2);
+  SightLines lines;
+  lines.Begin(grid, runs, part, 2);
   return lines.ShareBehind(0, 1, {InverseDepthPlane{0.0, 0.0, 1.0}, 1.0});
 }
 

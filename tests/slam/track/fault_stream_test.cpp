@@ -157,21 +157,7 @@ RunOptions PointsAlone() {
   return options;
 }
 
-TEST(FaultStreamF8, ACameraThatCannotBeIsRefusedAndAWrongOneGivesFiniteNumbers) {
-  const double kNan = std::numeric_limits<double>::quiet_NaN();
-  for (const double fx : {0.0, -300.0, kNan}) {
-    Camera camera = SmallCamera(320, 240);
-    camera.fx = fx;
-    EXPECT_THROW(RunStream(CleanStream(3), PointsAlone(), camera), InputError);
-  }
-  for (const auto& [factor, shift_px] : {std::pair{1.05, 0.0}, {1.3, 0.0}, {1.0, 20.0}}) {
-    Camera camera = SmallCamera(320, 240);
-    camera.fx *= factor;
-    camera.cx += shift_px;
-    const Ran ran = RunStream(CleanStream(20), PointsAlone(), camera);  // it looks
-    EXPECT_EQ(ran.states.size(), 20u);
-  }
-}
+// F8, a camera that is not the one said: wrong_camera_test.cpp.
 
 TEST(FaultStreamF9, DepthOfAnotherUnitIsSaid) {
   for (const double scale : {0.2, 5.0, 1000.0}) {
