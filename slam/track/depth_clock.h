@@ -14,7 +14,8 @@ namespace slam {
 
 /// Whether the depth of a frame was taken when its colour was. Poses are colour's, mostly; how
 /// depth changes between two frames says how the depth camera moved meanwhile. The two motions
-/// are laid over each other with every shift up to a second.
+/// are laid over each other with every shift up to a second. It says nothing of cameras with
+/// fewer than ten frames a second.
 ///
 /// Of a tile that is a plane m (m . x = 1), inverse depth is q = m . r along the ray r, and
 /// under the motion X2 = exp(v, omega) X1 it changes by omega . (m x r) - q m . v. A pair of
