@@ -56,6 +56,8 @@ void VisitVertices(VertexConfig& c, FieldVisitor& v) {
 void VisitSelect(SelectConfig& c, FieldVisitor& v) {
   v.Number("max_distance_m", c.max_distance_m, "(0, inf)", "centroid from the camera");
   v.Number("min_inlier_ratio", c.min_inlier_ratio, "[0, 1)", "after the re-fit");
+  v.Number("max_roughness", c.max_roughness, "[1, inf)",
+           "times that of most of the frame's pixels; more are stairs");
   v.Number("max_unstructured_share", c.max_unstructured_share, "(0, 1]",
            "edge points in an unstructured box");
   VisitEnum(v, "structure", c.structure, {"ignored", "partial", "complete"},

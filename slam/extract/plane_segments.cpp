@@ -8,6 +8,7 @@
 
 #include "slam/extract/occluded_parts.h"
 #include "slam/extract/patches.h"
+#include "slam/extract/roughness.h"
 #include "slam/extract/sensor_warp.h"
 
 namespace slam {
@@ -113,6 +114,11 @@ void SamplePoints(const DepthGrid& grid, const cv::Mat1b& labels, const Segment&
   if (sampled > 0) out.area_m2 = area / sampled * out.pixel_count;
 }
 
+/// Some two thousand pixels say how rough a segment is.
+int RoughnessStep(int pixels) {
+  return std::clamp(static_cast<int>(std::sqrt(pixels / 2000.0)), 1, 6);
+}
+
 FramePlane MakeFramePlane(const Segment& segment, int index) {
   FramePlane out;
   out.index = index;
@@ -178,6 +184,10 @@ void PlaneExtractor::Workspace::Describe(Frame& frame) {
     FramePlane plane = MakeFramePlane(kept[k], static_cast<int>(k));
     GiveMemory(plane);
     SamplePoints(grid, frame.plane_labels, kept[k], camera, config.point_grid_px, plane);
+    plane.roughness = MeasureRoughness(
+        grid, frame.plane_labels, cv::Rect(kept[k].low, kept[k].high + cv::Point(1, 1)),
+        static_cast<std::uint8_t>(plane.index + 1), kept[k].plane.plane, config.noise,
+        RoughnessStep(plane.pixel_count));
     FindEdgePoints(grid, contours, plane.index + 1, kept[k].plane, config.edges,
                    plane.edge_points);
     for (const EdgePoint& point : plane.edge_points) plane.box_px.Include(point.u_px);

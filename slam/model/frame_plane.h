@@ -14,7 +14,7 @@ namespace slam {
 /// Why a plane is not to be trusted (PAS-SLAM, Plane Selection). Written as in formats.md.
 enum class BadReason {
   kFar,        ///< "far": too far from the camera
-  kInliers,    ///< "inliers": small inlier ratio after the re-fit
+  kInliers,    ///< "inliers": small inlier ratio after the re-fit, or stairs
   kBorder,     ///< "border": tied to a regular object's box, but at the image border
   kStructure,  ///< "structure": same, but without two pairs of parallel lines or four vertices
   kUnstructured  ///< "unstructured": most edge points in an unstructured object's box
@@ -52,6 +52,7 @@ struct FramePlane {
   int pixel_count = 0;
   double area_m2 = 0.0;          ///< of the visible patch
   double inlier_ratio = 1.0;     ///< after the re-fit, [0, 1]; 1 before
+  double roughness = 0.0;        ///< off the plane, in variances of the noise; 0 = unknown
   double offset_sigma_m = 0.0;   ///< standard deviation of the offset at the centroid
   double angle_sigma_rad = 0.0;  ///< standard deviation of the normal, worse of two directions
   /// Of g = -n / d, 1/m^2; the inverse depth of the plane along the ray (x, y, 1) is

@@ -39,10 +39,11 @@ void OutlineFace(FramePlane& plane, const Frame& frame, const Camera& camera,
 
 void ProcessPlanes(Frame& frame, const Camera& camera, const PlaneProcessingConfig& config) {
   for (FramePlane& plane : frame.planes) RefitPlane(plane, config.noise, config.refit);
+  const double usual_roughness = UsualRoughness(frame.planes);
   LinkBoxes(frame.planes, frame.detections, config.box_link);
   for (FramePlane& plane : frame.planes) {
     OutlineFace(plane, frame, camera, config);
-    plane.bad = FindFault(plane, frame.detections, camera, config.select);
+    plane.bad = FindFault(plane, frame.detections, usual_roughness, camera, config.select);
   }
 }
 

@@ -1,11 +1,15 @@
 #include "slam/planes/select.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "slam/planes/box_link.h"
 
 namespace slam {
 namespace {
+
+// Depth that is cleaner than half the modelled sigma is rough by rounding and small curves.
+constexpr double kLeastUsualRoughness = 0.25;
 
 template <typename Predicate>
 double Share(const std::vector<EdgePoint>& edge, const Predicate& predicate) {
@@ -39,11 +43,31 @@ std::optional<BadReason> StructureFault(const FramePlane& plane, const Camera& c
 
 }  // namespace
 
+double UsualRoughness(const std::vector<FramePlane>& planes) {
+  std::vector<std::pair<double, long>> known;  // roughness, pixels
+  long pixels = 0;
+  for (const FramePlane& plane : planes) {
+    if (!(plane.roughness > 0)) continue;
+    known.emplace_back(plane.roughness, plane.pixel_count);
+    pixels += plane.pixel_count;
+  }
+  std::sort(known.begin(), known.end());
+  long below = 0;
+  for (const auto& [roughness, count] : known) {
+    below += count;
+    if (2 * below >= pixels) return roughness;
+  }
+  return 0.0;
+}
+
 std::optional<BadReason> FindFault(const FramePlane& plane,
                                    const std::vector<Detection>& detections,
-                                   const Camera& camera, const SelectConfig& config) {
+                                   double usual_roughness, const Camera& camera,
+                                   const SelectConfig& config) {
   if (!(plane.centroid_c.norm() < config.max_distance_m)) return BadReason::kFar;
   if (!(plane.inlier_ratio > config.min_inlier_ratio)) return BadReason::kInliers;
+  const double usual = std::max(usual_roughness, kLeastUsualRoughness);
+  if (!(plane.roughness < config.max_roughness * usual)) return BadReason::kInliers;
   double regular_fit = 0.0;
   if (plane.detection) {
     const Detection& linked = detections.at(static_cast<std::size_t>(*plane.detection));

@@ -90,6 +90,21 @@ TEST(MatchQueries, RefusesAnAmbiguousPairOfFeatures) {
               testing::ElementsAre(kNone, kNone));
 }
 
+TEST(MatchQueries, RefusesAnAmbiguousPairWhateverItsOrderButOnlyInOneOctave) {
+  Random random{5};
+  const Descriptor d = AnyDescriptor(random);
+  const std::vector<PointFeature> worse_first{FeatureAt(100, 100, Flip(d, 31)),
+                                              FeatureAt(102, 100, Flip(d, 30))};
+  EXPECT_THAT(MatchQueries({QueryAt(101, 100, d, 1)}, worse_first,
+                           FeatureGrid(worse_first, Camera{}), {}, {}),
+              testing::ElementsAre(kNone, kNone));
+  const std::vector<PointFeature> two_octaves{FeatureAt(100, 100, Flip(d, 31), 1),
+                                              FeatureAt(102, 100, Flip(d, 30))};
+  EXPECT_THAT(MatchQueries({QueryAt(101, 100, d, 1)}, two_octaves,
+                           FeatureGrid(two_octaves, Camera{}), {}, {}),
+              testing::ElementsAre(kNone, 0));
+}
+
 TEST(MatchQueries, ComparesTheDepthThroughTheRightCoordinate) {
   Random random{6};
   const Descriptor d = AnyDescriptor(random);
@@ -133,6 +148,19 @@ TEST(MatchDescriptors, LeavesOutThoseThatTakeNoPart) {
   ASSERT_EQ(pairs.size(), 1u);
   EXPECT_EQ(pairs[0].first, 1);
   EXPECT_EQ(pairs[0].second, 1);
+}
+
+TEST(ConsistentTurns, KnowAFullTurnForNone) {
+  // Around none from both sides, and three smaller turns of which one falls out.
+  std::vector<double> turns_deg;
+  for (int i = 0; i < 4; ++i) {
+    for (const double turn : {358.0, 2.0, -3.0}) turns_deg.push_back(turn);
+  }
+  for (const double turn : {90.0, 90.0, 150.0, 150.0}) turns_deg.push_back(turn);
+  turns_deg.push_back(210.0);
+  std::vector<bool> expected(turns_deg.size(), true);
+  expected.back() = false;
+  EXPECT_EQ(ConsistentTurns(turns_deg), expected);
 }
 
 TEST(ConsistentTurns, KeepsTheMainTurnAndDropsTheOthers) {

@@ -84,5 +84,66 @@ TEST(KeyframeDecision, WantsNoneAtOnceAfterAnother) {
   EXPECT_FALSE(Wanted(world, Again(world, 20), 0));
 }
 
+TEST(KeyframeDecision, CountsAPointOfTheReferenceOnceEnoughKeyframesSeeIt) {
+  // Of a reference with points that 1, 2, 3 and 4 keyframes see, ten of each kind.
+  const auto reference_points = [](int keyframes, int culled) {
+    Map map;
+    map.keyframes.resize(static_cast<std::size_t>(keyframes));
+    for (int k = 0; k < keyframes; ++k) {
+      map.keyframes[static_cast<std::size_t>(k)].culled = k >= keyframes - culled;
+    }
+    for (int i = 0; i < 40; ++i) {
+      MapPoint point;
+      for (int k = 0; k <= i / 10; ++k) point.observations[k] = i;
+      map.points.push_back(point);
+      map.keyframes[0].map_points.push_back(i);
+    }
+    return DecideKeyframe({}, map, 0, 10, {}, {}, {}).reference_points;
+  };
+  EXPECT_EQ(reference_points(2, 0), 40);
+  EXPECT_EQ(reference_points(3, 0), 30);
+  EXPECT_EQ(reference_points(4, 0), 20);
+  EXPECT_EQ(reference_points(4, 1), 30);
+  EXPECT_EQ(reference_points(4, 2), 40);
+}
+
+TEST(KeyframeDecision, KnowsALookFromATurnedKeyframe) {
+  PointWorld world = MakePointWorld(2, 200, 1);
+  Frame frame = Again(world, static_cast<int>(world.map.keyframes[0].features.size()));
+  // Both keyframes turned on the spot about an axis aside: their rays in the world stay.
+  const Pose turn{ExpSo3({0.4, -0.9, 1.1}), {}};
+  for (Keyframe& keyframe : world.map.keyframes) keyframe.T_cw = turn * keyframe.T_cw;
+  frame.T_cw = world.map.keyframes[0].T_cw;
+  EXPECT_EQ(DecideKeyframe(frame, world.map, 0, 10, world.camera, {}, {}).new_looks, 0);
+}
+
+TEST(KeyframeDecision, AsksForClosePointsInProportionToTheFeaturesOfTheImage) {
+  const KeyframeDecisionConfig config;
+  const auto wanted = [&](int features, int tracked, int untracked) {
+    Map map;
+    map.keyframes.resize(1);
+    Frame frame;
+    for (int f = 0; f < features; ++f) {
+      PointFeature feature;
+      feature.depth_m = f < tracked + untracked ? 1.0 : 0.0;
+      frame.features.push_back(feature);
+      frame.map_points.push_back(f < tracked ? f : kNone);
+      if (f >= tracked) continue;
+      MapPoint point;
+      point.observations[0] = f;
+      point.p_w = {0, 0, 1};
+      map.points.push_back(point);
+    }
+    return DecideKeyframe(frame, map, 0, config.min_frames_between, {}, {}, config).wanted;
+  };
+  const int half_tracked = config.min_close_tracked / 2;
+  const int half_untracked = config.min_close_untracked / 2;
+  EXPECT_TRUE(wanted(500, half_tracked - 1, half_untracked + 1));
+  EXPECT_FALSE(wanted(500, half_tracked + 1, half_untracked + 1));
+  EXPECT_FALSE(wanted(500, half_tracked - 1, half_untracked - 1));
+  EXPECT_TRUE(wanted(1000, config.min_close_tracked - 1, config.min_close_untracked + 1));
+  EXPECT_FALSE(wanted(1000, config.min_close_tracked + 1, config.min_close_untracked + 1));
+}
+
 }  // namespace
 }  // namespace slam

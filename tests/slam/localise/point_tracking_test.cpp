@@ -127,6 +127,59 @@ TEST(PointTracking, StandsStillWhenTheFrameRepeats) {
   EXPECT_EQ(odometer.map.keyframes.size(), 1u);
 }
 
+TEST(PointTracking, GoesOnByMotionWhenTheMapIsMovedUnderIt) {
+  const TexturedCorner world;
+  PointOdometer odometer(SmallCamera());
+  const Pose T_new_old{ExpSo3({0.3, -0.5, 0.2}), {1.0, -2.0, 0.5}};
+  for (int i = 0; i < 12; ++i) {
+    if (i == 5 || i == 8) {  // as closing a loop does
+      for (Keyframe& keyframe : odometer.map.keyframes) {
+        keyframe.T_cw = keyframe.T_cw * Inverse(T_new_old);
+      }
+      for (MapPoint& point : odometer.map.points) {
+        point.p_w = T_new_old * point.p_w;
+        point.view_w = T_new_old.R * point.view_w;
+      }
+      odometer.tracking.FollowMap(odometer.map);
+    }
+    Frame frame = SeeSwinging(world, odometer.camera, i);
+    const PointTrackReport report = odometer.Step(frame);
+    ASSERT_EQ(report.state, TrackState::kTracking) << "frame " << i;
+    EXPECT_EQ(report.by_motion, i > 0) << "frame " << i;
+    Pose back_cw = frame.T_cw;  // in the world as it was at first
+    for (const int moved : {5, 8}) {
+      if (i >= moved) back_cw = back_cw * T_new_old;
+    }
+    EXPECT_THAT(back_cw, PoseNear(TruthOf(i), kRotation_rad, kPosition_m)) << "frame " << i;
+  }
+}
+
+TEST(PointTracking, CountsOnItsPointsInWhichFramesTheyShouldBeSeenAndAre) {
+  const TexturedCorner world;
+  PointOdometer odometer(SmallCamera());
+  const auto counts = [&] {
+    std::pair<int, int> sums{0, 0};
+    for (const MapPoint& point : odometer.map.points) {
+      sums.first += point.visible_count, sums.second += point.found_count;
+    }
+    return sums;
+  };
+  for (int i = 0; i < 6; ++i) {
+    Frame frame = SeeSwinging(world, odometer.camera, i);
+    frame.features = ExtractPointFeatures(frame.gray, frame.depth_m, odometer.camera, {});
+    const auto [visible, found] = counts();
+    const PointTrackReport report = odometer.tracking.TrackPoints(frame, odometer.map);
+    if (i > 0) {
+      EXPECT_EQ(counts().first - visible, report.local_points);
+      EXPECT_EQ(counts().second - found, report.inliers);
+      EXPECT_GT(report.local_points, report.inliers);
+    } else {
+      InsertKeyframe(frame, odometer.map, odometer.camera, odometer.mapping.keyframes);
+    }
+    odometer.tracking.Accept(frame, odometer.map);
+  }
+}
+
 TEST(PointTracking, GivesTheSameBytesTwice) {
   const TexturedCorner world;
   PointOdometer first(SmallCamera()), second(SmallCamera());

@@ -115,5 +115,91 @@ TEST(Keyframes, FollowTheOneThatReplacedThemWhenItMoves) {
   EXPECT_GE(checked, 1);
 }
 
+TEST(Keyframes, FollowAChainOfThoseThatReplacedThem) {
+  Map map;
+  map.keyframes.resize(3);
+  const Pose T_01{ExpSo3({0.1, 0.4, -0.2}), {0.3, 0.0, 0.1}};
+  const Pose T_12{ExpSo3({-0.5, 0.2, 0.3}), {0.0, 0.7, -0.2}};
+  const Pose T_2w{ExpSo3({0.2, -0.1, 0.9}), {1.0, 2.0, 3.0}};
+  for (int k = 0; k < 2; ++k) {
+    Keyframe& gone = map.keyframes[static_cast<std::size_t>(k)];
+    gone.culled = true, gone.parent = k + 1, gone.T_cp = k == 0 ? T_01 : T_12;
+  }
+  map.keyframes[2].T_cw = T_2w;
+  EXPECT_THAT(KeyframePose(map, 0), PoseNear(T_01 * T_12 * T_2w, 1e-12, 1e-12));
+}
+
+TEST(Keyframes, AreNotCulledBesideOrAfterTheOneAsked) {
+  PointWorld world = MakePointWorld(8, 200, 5);
+  EXPECT_EQ(CullKeyframes(world.map, 3, world.camera, {}), 1);
+  EXPECT_TRUE(world.map.keyframes[1].culled);  // others see the same of 2, and of 4 to 7
+}
+
+TEST(Keyframes, AreKeptWhileATenthOfTheirClosePointsIsTheirs) {
+  for (const double share : {0.05, 0.2}) {
+    PointWorld world = MakePointWorld(8, 300, 7);
+    const std::vector<int> points = world.map.keyframes[1].map_points;
+    const auto alone = static_cast<std::size_t>(share * static_cast<double>(points.size()));
+    for (std::size_t f = 0; f < alone; ++f) {
+      for (int k = 0; k < 8; ++k) {
+        if (k != 1 && points[f] != kNone) RemoveObservation(world.map, points[f], k);
+      }
+    }
+    // A point that one keyframe alone sees was culled with its last partner: make it anew.
+    for (std::size_t f = 0; f < alone; ++f) {
+      Keyframe& keyframe = world.map.keyframes[1];
+      if (keyframe.map_points[f] != kNone) continue;
+      const PointFeature& seen = keyframe.features[f];
+      AddPoint(world.map,
+               Inverse(keyframe.T_cw) * world.camera.Backproject(seen.u_px, seen.depth_m), 1,
+               static_cast<int>(f), {});
+    }
+    CullKeyframes(world.map, 3, world.camera, {});
+    EXPECT_EQ(world.map.keyframes[1].culled, share < 0.1);
+  }
+}
+
+TEST(Keyframes, AreTiedBothWaysToTheOneThatSharesMostWhereNoneSharesEnough) {
+  Map map;
+  map.keyframes.resize(3);
+  for (int k = 0; k < 3; ++k) {
+    map.keyframes[static_cast<std::size_t>(k)].id = k;
+    map.keyframes[static_cast<std::size_t>(k)].features.resize(3);
+    map.keyframes[static_cast<std::size_t>(k)].map_points.assign(3, kNone);
+  }
+  for (int f = 0; f < 3; ++f) {  // 0 and 2 share three points, 1 and 2 one
+    const int id = AddPoint(map, {0, 0, 1}, 2, f, {});
+    AddObservation(map, id, 0, f);
+    if (f == 0) AddObservation(map, id, 1, f);
+  }
+  UpdateCovisibility(map, 2, {});
+  using testing::ElementsAre;
+  using testing::Pair;
+  EXPECT_THAT(map.keyframes[2].covisible, ElementsAre(Pair(0, 3)));
+  EXPECT_THAT(map.keyframes[0].covisible, ElementsAre(Pair(2, 3)));
+  EXPECT_THAT(map.keyframes[1].covisible, testing::IsEmpty());
+}
+
+TEST(Keyframes, MakePointsOfAllCloseDepthsAndOfTheNearestHundredOtherwise) {
+  KeyframeConfig config;
+  Camera camera;
+  camera.fy = 2 * camera.fx;
+  const double close_m = config.close_baselines * config.bf_px_m / camera.fx;
+  EXPECT_DOUBLE_EQ(CloseDepth(camera, config), close_m);
+  for (const int close : {60, 150}) {
+    Frame frame;
+    frame.features.resize(200);
+    frame.map_points.assign(200, kNone);
+    for (int f = 0; f < 200; ++f) {
+      PointFeature& feature = frame.features[static_cast<std::size_t>(f)];
+      feature.u_px = {3.0 * f, 100.0};
+      feature.depth_m = f < close ? 0.9 * close_m : 1.1 * close_m;
+    }
+    Map map;
+    InsertKeyframe(frame, map, camera, config);
+    EXPECT_EQ(static_cast<int>(map.points.size()), std::max(close, config.min_new_points));
+  }
+}
+
 }  // namespace
 }  // namespace slam

@@ -78,6 +78,19 @@ TEST(MapPoints, AreCulledWhenYoungAndSeldomFound) {
   EXPECT_FALSE(PointOf(map, b).culled);
 }
 
+TEST(MapPoints, AreYoungUpToTheLastKeyframeOfTheirTrial) {
+  const PointCullingConfig config;
+  for (const int late : {0, 1}) {
+    Map map = MakePointWorld(3, 40, 4).map;
+    const int a = PointAt(map, 0, 0);
+    PointOf(map, a).visible_count = 10;
+    PointOf(map, a).found_count = 2;
+    CullYoungPoints(map, PointOf(map, a).first_keyframe + config.trial_keyframes + late,
+                    config);
+    EXPECT_EQ(PointOf(map, a).culled, late == 0);
+  }
+}
+
 TEST(MapPoints, AreKeptWhenOld) {
   Map map = MakePointWorld(3, 40, 5).map;
   for (MapPoint& point : map.points) point.visible_count = 100;
@@ -110,6 +123,38 @@ TEST(MapPoints, LookAtTheMiddleOfTheirViewsAndKnowTheirScales) {
   EXPECT_NEAR(point.max_distance_m, distance * 1.44, 1e-9);
   EXPECT_NEAR(point.min_distance_m, distance * 1.44 / std::pow(1.2, 7), 1e-9);
   EXPECT_EQ(ScalePyramid{}.PredictOctave(distance, point.max_distance_m), 2);
+}
+
+TEST(MapPoints, KnowTheirViewsFromTurnedCamerasAndTheirScaleFromTheFirst) {
+  Map map;
+  const Camera camera;
+  Random random{9};
+  const Descriptor d = AnyDescriptor(random);
+  const Eigen::Vector3d p_w(0.3, -0.2, 2.0);
+  const std::vector<Eigen::Vector3d> stands_w{{1.0, 0.2, -0.5}, {-0.4, -0.6, 0.3}};
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  for (const Eigen::Vector3d& stand_w : stands_w) {
+    Keyframe keyframe;
+    keyframe.id = static_cast<int>(map.keyframes.size());
+    keyframe.T_cw = Inverse(Pose{ExpSo3({0.1, -0.3, 0.6 * keyframe.id}), stand_w});
+    PointFeature feature = FeatureOfPoint(p_w, keyframe.T_cw, camera, d, true);
+    feature.octave = 1 + 3 * keyframe.id;
+    keyframe.features = {feature};
+    keyframe.map_points = {kNone};
+    map.keyframes.push_back(keyframe);
+    sum += (p_w - stand_w).normalized();
+  }
+  // The second keyframe made the point; the first was found to see it as well.
+  const int id = AddPoint(map, p_w, 1, 0, {});
+  AddObservation(map, id, 0, 0);
+  UpdatePoint(map, id, {});
+  EXPECT_LT((PointOf(map, id).view_w - sum.normalized()).norm(), 1e-12);
+  EXPECT_NEAR(PointOf(map, id).max_distance_m, (p_w - stands_w[1]).norm() * std::pow(1.2, 4),
+              1e-9);
+  // Without the one that made it, the oldest that is left says.
+  PointOf(map, id).first_keyframe = 5;
+  UpdatePoint(map, id, {});
+  EXPECT_NEAR(PointOf(map, id).max_distance_m, (p_w - stands_w[0]).norm() * 1.2, 1e-9);
 }
 
 TEST(MapPoints, TakeTheDescriptorNearestToAllOthers) {

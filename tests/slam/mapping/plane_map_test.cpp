@@ -217,6 +217,42 @@ TEST(PlaneVertices, LeanOnThoseThatAreKnownBetterWithinThePlane) {
   EXPECT_NEAR(fused_x(1e-4 * slanted * slanted.transpose()), 0.005, 1e-12);
 }
 
+TEST(ClassBelief, CountsADetectionByItsScoreAndAMissAsAFullFrame) {
+  MapPlane plane;
+  for (int i = 0; i < 2; ++i) {
+    UpdateClassBelief(plane, "", 0.3);
+    UpdateClassBelief(plane, "book", 0.7);
+    UpdateClassBelief(plane, "cup", 0.01);
+  }
+  EXPECT_DOUBLE_EQ(plane.class_belief.at(""), 2.0);
+  EXPECT_DOUBLE_EQ(plane.class_belief.at("book"), 1.4);
+  EXPECT_DOUBLE_EQ(plane.class_belief.at("cup"), 0.2);  // what was reported is some evidence
+}
+
+TEST(PlaneVertices, StayThroughASingleWrongCornerAndCanBeLeftHoweverOftenTheyWereSeen) {
+  MapPlane m;
+  m.pi_w = {Eigen::Vector3d::UnitZ(), 0};
+  const std::vector<Vertex> usual{{{0, 0, 0}}, {{0.2, 0, 0}}, {{0.2, 0.1, 0}}, {{0, 0.1, 0}}};
+  std::vector<Vertex> other = usual;
+  other[1].p_c.x() = 0.3;
+  for (int i = 0; i < 500; ++i) FuseVertices(m, usual, Pose{}, {});
+  FuseVertices(m, other, Pose{}, {});
+  EXPECT_THAT(m.vertices_w[1], VectorNear(usual[1].p_c, 1e-9));
+  for (int i = 0; i < 40; ++i) FuseVertices(m, other, Pose{}, {});
+  EXPECT_THAT(m.vertices_w[1], VectorNear(other[1].p_c, 1e-9));
+}
+
+TEST(PlaneVertices, CountAnExtrapolatedCornerAsAQuarterOfASeenOne) {
+  MapPlane m;
+  m.pi_w = {Eigen::Vector3d::UnitZ(), 0};
+  std::vector<Vertex> seen{{{0, 0, 0}}, {{0.2, 0, 0}}, {{0.2, 0.1, 0}}, {{0, 0.1, 0}}};
+  FuseVertices(m, seen, Pose{}, {});
+  for (Vertex& vertex : seen) vertex.extrapolated = true, vertex.p_c.x() += 0.01;
+  FuseVertices(m, seen, Pose{}, {});
+  EXPECT_THAT(m.vertices_w[0], VectorNear(Eigen::Vector3d(0.01 * 0.25 / 1.25, 0, 0), 1e-12));
+  EXPECT_DOUBLE_EQ(m.vertex_weights[0], 1.25);
+}
+
 TEST(PlaneVertices, LeaveAWrongStartOnceTheEvidenceIsAgainstIt) {
   MapPlane m;
   m.pi_w = {Eigen::Vector3d::UnitZ(), 0};

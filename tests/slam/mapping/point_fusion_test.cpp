@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "slam/mapping/map_points.h"
 #include "tests/support/point_world.h"
 
@@ -23,7 +25,78 @@ TEST(PointFusion, MakesOneOfTwoCopiesAndKeepsTheBetterSeenOne) {
   const int copy = SplitOff(world.map, original);
   EXPECT_GE(FusePoints(world.map, 2, world.camera, {}), 1);
   EXPECT_EQ(CurrentPoint(world.map, copy), original);
-  EXPECT_EQ(world.map.points[static_cast<std::size_t>(original)].observations.size(), 3u);
+  const MapPoint& kept = world.map.points[static_cast<std::size_t>(original)];
+  EXPECT_EQ(kept.observations.size(), 3u);
+  Map again = world.map;  // its mean view is that of all three
+  UpdatePoint(again, original, {});
+  EXPECT_EQ(kept.view_w, again.points[static_cast<std::size_t>(original)].view_w);
+}
+
+/// A point that the first keyframe sees, and a feature of the second that falls near it. The
+/// world is turned by 2 rad against both cameras.
+struct NearMiss {
+  Camera camera;
+  Map map;
+  double distance_m = 0.0;
+
+  NearMiss(int octave, bool with_depth) {
+    const Pose T_gw{ExpSo3({0, 2, 0}), {0.5, -0.3, 0.2}};
+    const Eigen::Vector3d p_w = Inverse(T_gw) * Eigen::Vector3d(0.2, 0.1, 2.0);
+    Random random{3};
+    const Descriptor descriptor = AnyDescriptor(random);
+    for (const double x : {0.0, 0.2}) {
+      Keyframe keyframe;
+      keyframe.id = static_cast<int>(map.keyframes.size());
+      keyframe.T_cw = Pose{Eigen::Matrix3d::Identity(), {-x, 0, 0}} * T_gw;
+      keyframe.features = {FeatureOfPoint(p_w, keyframe.T_cw, camera, descriptor, with_depth)};
+      keyframe.features[0].octave = octave;
+      keyframe.map_points = {kNone};
+      map.keyframes.push_back(keyframe);
+    }
+    map.keyframes[0].covisible[1] = map.keyframes[1].covisible[0] = 1;
+    AddPoint(map, p_w, 0, 0, {});
+    distance_m = (map.keyframes[1].T_cw * p_w).norm();
+  }
+  bool Fuses() const {
+    Map copy = map;
+    FusePoints(copy, 0, camera, {});
+    return copy.points[0].observations.count(1) != 0;
+  }
+  bool FusesWithError(double error_px) {
+    PointFeature& feature = map.keyframes[1].features[0];
+    feature.u_px.y() += error_px;
+    const bool fuses = Fuses();
+    feature.u_px.y() -= error_px;
+    return fuses;
+  }
+};
+
+TEST(PointFusion, AllowsAPointOffItsFeatureByTheChiSquareOfItsKindAndOctave) {
+  const PointFusionConfig config;
+  for (const int octave : {0, 3}) {
+    for (const bool with_depth : {false, true}) {
+      NearMiss miss(octave, with_depth);
+      const double bound_px =
+          std::sqrt(with_depth ? config.stereo_chi2 : config.mono_chi2) * std::pow(1.2, octave);
+      EXPECT_TRUE(miss.FusesWithError(0.98 * bound_px)) << octave << " " << with_depth;
+      EXPECT_FALSE(miss.FusesWithError(1.02 * bound_px)) << octave << " " << with_depth;
+    }
+  }
+}
+
+TEST(PointFusion, AllowsAFifthBeyondTheRangeOfDistancesOfAPoint) {
+  NearMiss miss(0, true);
+  MapPoint& point = miss.map.points[0];
+  for (const double factor : {1.19, 1.21}) {
+    point.max_distance_m = 100.0, point.min_distance_m = factor * miss.distance_m;
+    for (PointFeature& feature : miss.map.keyframes[1].features) {
+      feature.octave = ScalePyramid{}.PredictOctave(miss.distance_m, 100.0);
+    }
+    EXPECT_EQ(miss.Fuses(), factor < 1.2) << "too near";
+    point.max_distance_m = miss.distance_m / factor, point.min_distance_m = 0.1;
+    miss.map.keyframes[1].features[0].octave = 0;
+    EXPECT_EQ(miss.Fuses(), factor < 1.2) << "too far";
+  }
 }
 
 TEST(PointFusion, GivesAPointTheFeatureThatMatchingHadMissed) {

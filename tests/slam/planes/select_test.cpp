@@ -33,9 +33,10 @@ struct GoodBook {
     plane.box_px.Include({110, 190});
   }
   std::optional<BadReason> Fault() const {
-    return FindFault(plane, detections, camera, config);
+    return FindFault(plane, detections, usual_roughness, camera, config);
   }
   FramePlane plane;
+  double usual_roughness = 0.9;
   std::vector<Detection> detections;
   Camera camera;
   SelectConfig config;
@@ -64,6 +65,33 @@ TEST(Select, RefusesASmallInlierRatioAndKeepsALargerOne) {
   EXPECT_EQ(book.Fault(), BadReason::kInliers);
   book.plane.inlier_ratio = book.config.min_inlier_ratio + 0.01;
   EXPECT_EQ(book.Fault(), std::nullopt);
+}
+
+TEST(Select, RefusesWhatIsRougherThanMostOfTheFrame) {
+  GoodBook book;
+  book.plane.roughness = 0.9 * book.config.max_roughness + 0.01;
+  EXPECT_EQ(book.Fault(), BadReason::kInliers);
+  book.usual_roughness = 1.0;  // a noisier frame
+  EXPECT_EQ(book.Fault(), std::nullopt);
+}
+
+TEST(Select, CallsNothingRoughThatIsCleanerThanTheModel) {
+  GoodBook book;
+  book.usual_roughness = 1e-6;
+  book.plane.roughness = 1e-3;
+  EXPECT_EQ(book.Fault(), std::nullopt);
+}
+
+TEST(Select, FindsTheRoughnessOfMostPixels) {
+  const auto face = [](int pixels, double roughness) {
+    FramePlane plane;
+    plane.pixel_count = pixels, plane.roughness = roughness;
+    return plane;
+  };
+  EXPECT_EQ(UsualRoughness({}), 0.0);
+  EXPECT_EQ(UsualRoughness({face(500, 0.0)}), 0.0);  // unknown
+  EXPECT_EQ(UsualRoughness({face(100, 3.0), face(100, 2.5), face(1000, 0.9), face(500, 0.8)}),
+            0.9);
 }
 
 TEST(Select, AsPrintedRefusesAFaceAtTheBorder) {

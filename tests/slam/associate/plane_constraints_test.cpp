@@ -1,0 +1,156 @@
+#include "slam/associate/plane_constraints.h"
+
+#include <gmock/gmock.h>
+
+#include <cmath>
+
+#include "tests/support/slam_matchers.h"
+
+namespace slam {
+namespace {
+
+using ::testing::ElementsAre;
+
+/// A book's top that fills its box, matched with landmark 0, from a turned camera.
+struct SeenBook {
+  Camera camera;
+  Pose T_cw{ExpSo3({0.3, -0.2, 0.4}), {0.2, 0.1, 0.3}};
+  Frame frame;
+  Map map;
+  PlaneConstraintConfig config;
+
+  SeenBook() {
+    frame.T_cw = T_cw;
+    FramePlane plane;
+    plane.pi_c = {Eigen::Vector3d(0, 0, -1), 2.0};
+    plane.centroid_c = {0.1, -0.1, 2.0};
+    plane.offset_sigma_m = 0.001, plane.angle_sigma_rad = 0.002;
+    plane.area_m2 = 0.1;
+    plane.box_px = {{100, 120}, {300, 280}};
+    plane.detection = 0;
+    plane.class_name = "book";
+    for (const Eigen::Vector2d& u_px : {Eigen::Vector2d(100, 200), Eigen::Vector2d(200, 120),
+                                        Eigen::Vector2d(300, 200), Eigen::Vector2d(200, 280)}) {
+      for (int i = 0; i < 4; ++i)
+        plane.edge_points.push_back({Eigen::Vector3d::Zero(), u_px, EdgeKind::kSurface});
+    }
+    frame.planes = {plane};
+    frame.plane_matches = {{PlaneDecision::kMatched, 0, "iou"}};
+    frame.detections.resize(1);
+    frame.detections[0].class_name = "book";
+    frame.detections[0].box_px = plane.box_px;
+    map.planes = {Landmark(0, {0, 0, -1})};
+    map.planes[0].vertices_w.assign(4, Eigen::Vector3d::Zero());
+  }
+
+  /// @param n_c  its normal as it should be seen
+  MapPlane Landmark(int id, const Eigen::Vector3d& n_c) const {
+    MapPlane m;
+    m.id = id;
+    m.pi_w.n = T_cw.R.transpose() * n_c.normalized();
+    m.area_m2 = 1.0;
+    m.observations = 50;
+    return m;
+  }
+  PoseProblem Problem() const {
+    PoseProblem problem;
+    AddPlaneConstraints(frame, map, camera, problem, config);
+    return problem;
+  }
+  std::array<bool, 4> Sides() const {
+    const PoseProblem problem = Problem();
+    return problem.boxes.empty() ? std::array<bool, 4>{} : problem.boxes[0].use;
+  }
+};
+
+TEST(BoxConstraints, TakeEverySideThatTheFaceReachesInsideTheImage) {
+  SeenBook book;
+  EXPECT_THAT(book.Sides(), ElementsAre(true, true, true, true));
+  book.frame.detections[0].box_px.max.x() += book.config.max_box_gap_px + 1;
+  EXPECT_THAT(book.Sides(), ElementsAre(true, true, false, true));
+  // At the right border of the image the box ends with it.
+  const double to_border_px = 639 - 300;
+  for (EdgePoint& edge : book.frame.planes[0].edge_points) edge.u_px.x() += to_border_px;
+  book.frame.planes[0].box_px = {{100 + to_border_px, 120}, {639, 280}};
+  book.frame.detections[0].box_px = book.frame.planes[0].box_px;
+  EXPECT_THAT(book.Sides(), ElementsAre(true, true, false, true));
+}
+
+TEST(BoxConstraints, LeaveOutASideOfWhichHalfLiesBehindSomethingNearer) {
+  for (int hidden = 0; hidden <= 4; ++hidden) {
+    SeenBook book;
+    for (int i = 0; i < hidden; ++i) {  // of the four at the top
+      book.frame.planes[0].edge_points[static_cast<std::size_t>(4 + i)].kind =
+          EdgeKind::kOccluded;
+    }
+    EXPECT_THAT(book.Sides(), ElementsAre(true, hidden < 2, true, true)) << hidden;
+  }
+}
+
+TEST(BoxConstraints, SayLessTheLessTheFaceFillsTheBox) {
+  SeenBook book;
+  EXPECT_NEAR(book.Problem().boxes.at(0).sigma_px, book.config.box_sigma_px, 1e-9);
+  book.frame.detections[0].box_px.max.y() += 160;  // twice as high: half is the face
+  EXPECT_NEAR(book.Problem().boxes.at(0).sigma_px, 2 * book.config.box_sigma_px, 1e-9);
+  book.frame.detections[0].compensated = true;  // predicted, not seen
+  EXPECT_TRUE(book.Problem().boxes.empty());
+}
+
+TEST(DirectionConstraints, TieAFacePlaneToThoseNearlyParallelOrAtARightAngleToIt) {
+  SeenBook book;
+  const double off = 0.01;
+  book.map.planes.push_back(book.Landmark(1, {off, 0, -1}));
+  book.map.planes.push_back(book.Landmark(2, {0, off, 1}));  // seen from its back
+  book.map.planes.push_back(book.Landmark(3, {1, 0, off}));
+  book.map.planes.push_back(book.Landmark(4, {1, 0, 1}));
+  const PoseProblem problem = book.Problem();
+  ASSERT_EQ(problem.parallels.size(), 2u);
+  EXPECT_THAT(problem.parallels[0].n_w, VectorNear(book.map.planes[1].pi_w.n, 1e-12));
+  EXPECT_THAT(problem.parallels[1].n_w, VectorNear(book.map.planes[2].pi_w.n, 1e-12));
+  ASSERT_EQ(problem.perpendiculars.size(), 1u);
+  EXPECT_THAT(problem.perpendiculars[0].n_w, VectorNear(book.map.planes[3].pi_w.n, 1e-12));
+}
+
+TEST(PointPlaneConstraints, OfManyPointsWeighTogetherAsMuchAsTen) {
+  for (const int count : {5, 40}) {
+    SeenBook book;
+    book.frame.plane_labels = cv::Mat1b(480, 640, std::uint8_t{1});
+    for (int i = 0; i < count; ++i) {
+      PointFeature feature;
+      feature.u_px = {120.0 + 4 * i, 200.0};
+      book.frame.features.push_back(feature);
+      book.frame.map_points.push_back(i);
+      MapPoint point;
+      point.id = i;
+      point.p_w = Inverse(book.T_cw) * book.camera.Backproject(feature.u_px, 2.0);
+      book.map.points.push_back(point);
+    }
+    const PoseProblem problem = book.Problem();
+    ASSERT_EQ(static_cast<int>(problem.point_planes.size()), count);
+    double information = 0.0;
+    for (const PointPlaneConstraint& c : problem.point_planes) {
+      information += 1 / (c.sigma_m * c.sigma_m);
+    }
+    const double each = 1 / (book.config.point_plane_sigma_m * book.config.point_plane_sigma_m);
+    EXPECT_NEAR(information, std::min(count, 10) * each, 1e-6 * each) << count;
+  }
+}
+
+TEST(PlaneConstraints, KnowTheLandmarkAtThePlaceOfThePatchInTheWorld) {
+  const SeenBook book;
+  FramePlane patch = book.frame.planes[0];
+  MapPlane m = book.map.planes[0];
+  const Eigen::Vector3d x_w = Inverse(book.T_cw) * patch.centroid_c;
+  const Eigen::Vector3d along = book.T_cw.R.transpose() * Eigen::Vector3d::UnitX();
+  const Eigen::Vector3d seen_w = x_w + 0.8 * along;
+  m.pi_w.d = -m.pi_w.n.dot(x_w);
+  AddObservation(m.estimate, m.pi_w, seen_w, 0.02, 0.004, 1.0);
+  const PlaneConstraint c = MakePlaneConstraint(patch, m, book.T_cw, 0.003, 0.005);
+  // The landmark's offset there: its own, and its slope times the lever of 0.8 m.
+  EXPECT_NEAR(c.offset_sigma_m,
+              std::sqrt(0.001 * 0.001 + 0.003 * 0.003 + 0.004 * 0.004 + 0.016 * 0.016), 1e-9);
+  EXPECT_NEAR(c.angle_sigma_rad, std::sqrt(0.002 * 0.002 + 0.005 * 0.005 + 0.02 * 0.02), 1e-9);
+}
+
+}  // namespace
+}  // namespace slam

@@ -1,0 +1,152 @@
+#include "slam/associate/plane_evidence.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "slam/associate/plane_anchors.h"
+
+namespace slam {
+namespace {
+
+AssociationConfig TinyFloors() {
+  AssociationConfig config;
+  config.offset_floor_m = 1e-6;
+  config.angle_floor_rad = 1e-6;
+  return config;
+}
+
+FramePlane PatchAt(const Eigen::Vector3d& centroid_c, const Eigen::Vector3d& n_c,
+                   double offset_sigma_m, double angle_sigma_rad) {
+  FramePlane plane;
+  plane.pi_c.n = n_c.normalized();
+  plane.pi_c.d = -plane.pi_c.n.dot(centroid_c);
+  plane.centroid_c = centroid_c;
+  plane.offset_sigma_m = offset_sigma_m;
+  plane.angle_sigma_rad = angle_sigma_rad;
+  return plane;
+}
+
+TEST(PlaneEvidence, WidensTheOffsetByTheLeverOfTheOtherPatchWhateverItsDirection) {
+  const AssociationConfig config;
+  const Eigen::Vector3d facing(0, 0, -1), middle_c(0.2, 0.1, 2.0);
+  for (const double angle : {0.0, 0.4, M_PI / 2, 2.5}) {
+    const Eigen::Vector3d aside(0.5 * std::cos(angle), 0.5 * std::sin(angle), 0);
+    const FramePlane one = PatchAt(middle_c, facing, 0.002, 0.01);
+    const FramePlane other = PatchAt(middle_c + aside, facing, 0.003, 0.02);
+    const double floor2 = config.offset_floor_m * config.offset_floor_m;
+    EXPECT_NEAR(ComparePlanes(one, other, config).offset_sigma_m,
+                std::sqrt(2 * floor2 + 4e-6 + 9e-6 + 0.02 * 0.02 * 0.25), 1e-12);
+  }
+}
+
+TEST(PlaneEvidence, ExplainsByOneSlopeBothTheTiltAndTheHeightThatItMakes) {
+  // The other patch is tilted about its own middle by one sigma of its slope: nothing else is
+  // wrong, at its own place or half a metre from it.
+  const double tilt_rad = 0.02;
+  const Eigen::Vector3d middle_c(0.1, -0.2, 2.0);
+  for (const Eigen::Vector3d& axis :
+       {Eigen::Vector3d(1, 0, 0), Eigen::Vector3d(0, 1, 0), Eigen::Vector3d(-0.6, 0.8, 0)}) {
+    for (const Eigen::Vector3d& aside :
+         {Eigen::Vector3d(0.5, 0, 0), Eigen::Vector3d(0.1, -0.5, 0)}) {
+      const Eigen::Vector3d facing(0, 0, -1);
+      const FramePlane one = PatchAt(middle_c + aside, facing, 1e-5, 1e-5);
+      const FramePlane other =
+          PatchAt(middle_c, ExpSo3(tilt_rad * axis) * facing, 1e-5, tilt_rad);
+      EXPECT_NEAR(ComparePlanes(one, other, TinyFloors()).chi2, 1.0, 0.01);
+    }
+  }
+}
+
+TEST(PlaneEvidence, ExplainsWhatAPoseErrorOfOneSigmaDoesAlongEachOfItsSixDirections) {
+  MapPlane m;
+  m.pi_w.n = Eigen::Vector3d(0.3, -0.2, -0.9).normalized();
+  m.centroid_w = {0.4, 0.3, 2.0};
+  m.pi_w.d = -m.pi_w.n.dot(m.centroid_w);
+  AddObservation(m.estimate, m.pi_w, m.centroid_w, 1e-6, 1e-6, 1.0);
+  const Pose truth_cw{ExpSo3({0.1, 0.3, -0.2}), {0.2, -0.1, 0.1}};
+  FramePlane f = PatchAt(truth_cw * m.centroid_w, truth_cw.R * m.pi_w.n, 1e-6, 1e-6);
+  constexpr double kSigma = 0.0005;
+  for (int k = 0; k < 6; ++k) {
+    UncertainPose pose;
+    pose.T_cw = Exp(kSigma * Vector6d::Unit(k)) * truth_cw;
+    pose.covariance(k, k) = kSigma * kSigma;
+    EXPECT_NEAR(ComparePlanes(f, m, pose, TinyFloors()).chi2, 1.0, 0.06) << k;
+  }
+}
+
+TEST(PlaneEvidence, TrustsMapPlanesWithoutAnEstimateByTheDefaultsAndFloorsOfBoth) {
+  const AssociationConfig config;
+  MapPlane one, other;
+  one.pi_w = other.pi_w = {Eigen::Vector3d::UnitZ(), 0.0};
+  one.centroid_w = {0.5, 0.2, 0.0};
+  other.centroid_w = {0.1, -0.1, 0.0};  // half a metre away
+  const double floor2 = config.offset_floor_m * config.offset_floor_m;
+  EXPECT_NEAR(ComparePlanes(one, other, config).offset_sigma_m,
+              std::sqrt(2 * floor2 + 2 * 0.003 * 0.003 + 0.01 * 0.01 * 0.25), 1e-12);
+}
+
+TEST(PlaneEvidence, ComparesMapPlanesAlikeHoweverTheWorldIsTurned) {
+  const auto plane_of = [](const Pose& T, const Eigen::Vector3d& n, double height) {
+    MapPlane m;
+    const Eigen::Vector3d normal = n.normalized();
+    // Seen at two places in a row: known well along the row, badly across.
+    for (const double x : {-0.6, 0.6}) {
+      const Eigen::Vector3d c(x, 0.3 * x, height);
+      const Plane seen{T.R * normal, -(T.R * normal).dot(T * Eigen::Vector3d(0, 0, height))};
+      AddObservation(m.estimate, seen, T * c, 0.05, 0.003, 1.0);
+    }
+    m.pi_w = m.estimate.Mean();
+    m.centroid_w = ProjectOnto(m.pi_w, T * Eigen::Vector3d(0, 0, height));
+    return m;
+  };
+  const auto chi2 = [&](const Pose& T) {
+    return ComparePlanes(plane_of(T, {0.01, 0.03, 1}, 0.004), plane_of(T, {0, 0, 1}, 0), {})
+        .chi2;
+  };
+  const double at_home = chi2({});
+  EXPECT_GT(at_home, 0.1);
+  for (const double turn : {0.3, 1.2, 2.0}) {
+    EXPECT_NEAR(chi2({ExpSo3({0.5 * turn, -0.3, turn}), {1, 2, -1}}), at_home, 1e-6 * at_home);
+  }
+}
+
+// Along its normal one plane and the prior are two measurements of one number.
+TEST(PlaneAnchors, WeighTheirPlaneAgainstThePriorByTheVariances) {
+  constexpr double kPrior_m = 0.006, kOff_m = 0.005;
+  const AssociationConfig config;
+  MapPlane m;
+  m.pi_w = {Eigen::Vector3d(0, 0, -1), 2.0};
+  Frame frame;
+  frame.planes = {PatchAt({0, 0, 2.0}, {0, 0, -1}, 0.004, 0.01)};
+  UncertainPose predicted;
+  predicted.T_cw.t.z() = kOff_m;
+  Vector6d variances = Vector6d::Constant(1e-14);
+  variances[2] = kPrior_m * kPrior_m;
+  predicted.covariance = variances.asDiagonal();
+  const UncertainPose corrected = CorrectByAnchors(predicted, frame, {m}, {{0, 0}}, config);
+  const double measured2 = 0.004 * 0.004 + config.offset_floor_m * config.offset_floor_m;
+  const double prior2 = kPrior_m * kPrior_m;
+  EXPECT_NEAR(corrected.T_cw.t.z(), kOff_m * measured2 / (prior2 + measured2), 1e-7);
+  EXPECT_NEAR(corrected.covariance(2, 2), prior2 * measured2 / (prior2 + measured2), 1e-9);
+}
+
+TEST(PlaneAnchors, PullNoHarderThanTwoSigmasWhenTheirPlaneIsFarOff) {
+  constexpr double kPrior_m = 0.006, kOff_m = 0.05;
+  const AssociationConfig config;
+  MapPlane m;
+  m.pi_w = {Eigen::Vector3d(0, 0, -1), 2.0};
+  Frame frame;
+  frame.planes = {PatchAt({0, 0, 2.0}, {0, 0, -1}, 0.004, 0.01)};
+  UncertainPose predicted;
+  predicted.T_cw.t.z() = kOff_m;
+  Vector6d variances = Vector6d::Constant(1e-14);
+  variances[2] = kPrior_m * kPrior_m;
+  predicted.covariance = variances.asDiagonal();
+  const UncertainPose corrected = CorrectByAnchors(predicted, frame, {m}, {{0, 0}}, config);
+  const double sigma_m = std::hypot(0.004, config.offset_floor_m);
+  EXPECT_NEAR(corrected.T_cw.t.z(), kOff_m - 2 * kPrior_m * kPrior_m / sigma_m, 1e-4);
+}
+
+}  // namespace
+}  // namespace slam

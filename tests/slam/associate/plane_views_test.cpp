@@ -1,0 +1,185 @@
+#include <gmock/gmock.h>
+
+#include "slam/associate/box_plane.h"
+#include "slam/associate/plane_overlap.h"
+#include "slam/associate/plane_samples.h"
+#include "slam/associate/point_plane.h"
+#include "tests/support/slam_matchers.h"
+
+namespace slam {
+namespace {
+
+using ::testing::ElementsAre;
+
+const Pose kView_cw{ExpSo3({0.2, -0.3, 0.5}), {0.1, 0.4, -0.2}};
+
+/// One frame plane, two metres away and facing the camera, on the left half of the image.
+Frame HalfAPlane(const Camera& camera) {
+  Frame frame;
+  frame.T_cw = kView_cw;
+  frame.depth_m = cv::Mat1f(camera.height, camera.width, 2.0f);
+  frame.plane_labels = cv::Mat1b(camera.height, camera.width, std::uint8_t{0});
+  frame.plane_labels(cv::Rect(0, 0, camera.width / 2, camera.height)).setTo(1);
+  FramePlane plane;
+  plane.pi_c = {Eigen::Vector3d(0, 0, -1), 2.0};
+  frame.planes = {plane};
+  return frame;
+}
+
+PointFeature FeatureWithDepth(const Eigen::Vector2d& u_px, double depth_m) {
+  PointFeature feature;
+  feature.u_px = u_px;
+  feature.depth_m = depth_m;
+  return feature;
+}
+
+MapPoint PointSeenAt(int id, const Camera& camera, const Eigen::Vector2d& u_px, double z_m) {
+  MapPoint point;
+  point.id = id;
+  point.p_w = Inverse(kView_cw) * camera.Backproject(u_px, z_m);
+  return point;
+}
+
+TEST(OverlapOfAView, IsTheShareOfTheSmallerFootprintOfThreePointsAtLeast) {
+  PlaneView view;
+  view.expected = 100;
+  view.landed = {20};
+  view.cell_m2 = 0.01;
+  FramePlane patch;
+  patch.area_m2 = 0.25;  // 25 cells
+  EXPECT_DOUBLE_EQ(Overlap(view, patch), 0.8);
+  patch.area_m2 = 4.0;
+  EXPECT_DOUBLE_EQ(Overlap(view, patch), 0.2);
+  patch.area_m2 = 0.01;
+  view.landed = {1};
+  EXPECT_DOUBLE_EQ(Overlap(view, patch), 1.0 / 3.0);
+}
+
+TEST(InPlaneGap, IsMeasuredAlongThePlaneAlone) {
+  MapPlane m;
+  m.pi_w = {Eigen::Vector3d(0, 0, -1), 2.0};
+  m.points_w = {{0.4, 0.7, 2.0}, {5, 5, 2.0}};
+  FramePlane patch;
+  patch.points_c = {Inverse(Pose{ExpSo3({0.1, 0.2, 0.3}), {1, 2, 3}}) *
+                    Eigen::Vector3d(0.1, 0.3, 1.9)};
+  EXPECT_NEAR(InPlaneGap(patch, m, Pose{ExpSo3({0.1, 0.2, 0.3}), {1, 2, 3}}), 0.5, 1e-12);
+}
+
+TEST(FeaturesOnPlanes, AreThoseOnItsPixelsAndLieInTheWorld) {
+  const Camera camera;
+  Frame frame = HalfAPlane(camera);
+  frame.features = {FeatureWithDepth({100, 200}, 2.0), FeatureWithDepth({500, 200}, 2.0),
+                    FeatureWithDepth({50, 200}, 0.0)};
+  const auto on_plane = FeaturesOnPlanes(frame, kView_cw, camera);
+  ASSERT_EQ(on_plane.size(), 1u);
+  ASSERT_EQ(on_plane[0].size(), 1u);
+  EXPECT_THAT(on_plane[0][0], VectorNear(PointSeenAt(0, camera, {100, 200}, 2.0).p_w, 1e-12));
+}
+
+TEST(VisibleMapPoints, AreThoseThatNothingNearerHidesAndThatWereNotCulled) {
+  const Camera camera;
+  Frame frame = HalfAPlane(camera);
+  Map map;
+  map.points = {
+      PointSeenAt(0, camera, {100, 200}, 2.0), PointSeenAt(1, camera, {200, 200}, 2.05),
+      PointSeenAt(2, camera, {300, 200}, 2.2), PointSeenAt(3, camera, {400, 200}, 1.5),
+      PointSeenAt(4, camera, {450, 200}, 2.0), PointSeenAt(5, camera, {-90, 200}, 2.0)};
+  map.points[4].culled = true;
+  MapPlane m;
+  m.map_points = {0, 1, 2, 3, 4, 5};
+  const auto visible = VisibleMapPoints(m, map, frame, kView_cw, camera);
+  EXPECT_THAT(visible, ElementsAre(map.points[0].p_w, map.points[1].p_w, map.points[3].p_w));
+}
+
+TEST(PointsOnPlanes, LieOnBothSidesOfItNearEnough) {
+  const Camera camera;
+  const AssociationConfig config;
+  Frame frame = HalfAPlane(camera);
+  Map map;
+  const double near_m = 0.9 * config.max_point_plane_m, far_m = 1.1 * config.max_point_plane_m;
+  for (const double z_m : {2.0, 2.0 + near_m, 2.0 - near_m, 2.0 + far_m, 2.0 - far_m, 2.0}) {
+    const int id = static_cast<int>(map.points.size());
+    const Eigen::Vector2d u_px(50.0 + 10 * id, 200);
+    map.points.push_back(PointSeenAt(id, camera, u_px, z_m));
+    frame.features.push_back(FeatureWithDepth(u_px, z_m));
+    frame.map_points.push_back(id);
+  }
+  map.points[5].culled = true;
+  std::vector<int> on_it;
+  for (const PointPlaneMatch& match : AssociatePointsToPlanes(frame, map, camera, config)) {
+    EXPECT_EQ(match.frame_plane, 0);
+    on_it.push_back(match.map_point);
+  }
+  EXPECT_THAT(on_it, ElementsAre(0, 1, 2));
+}
+
+TEST(PointsOnPlanes, LieOnTheNearestOfThoseInWhoseBoxesAHoleOfTheSegmentsIs) {
+  const Camera camera;
+  Frame frame = HalfAPlane(camera);
+  frame.plane_labels.setTo(0);
+  frame.detections.resize(1);
+  frame.planes.resize(3, frame.planes[0]);
+  for (int k = 0; k < 3; ++k) {
+    FramePlane& plane = frame.planes[static_cast<std::size_t>(k)];
+    plane.index = k;
+    plane.pi_c.d = 2.0 + std::array{0.001, 0.0, 0.01}[static_cast<std::size_t>(k)];
+    plane.box_px = frame.detections[0].box_px = {{0, 0}, {300, 300}};
+    plane.detection = 0;
+  }
+  Map map;
+  map.points = {PointSeenAt(0, camera, {100, 200}, 2.0),
+                PointSeenAt(1, camera, {400, 200}, 2.0)};
+  frame.features = {FeatureWithDepth({100, 200}, 2.0), FeatureWithDepth({400, 200}, 2.0)};
+  frame.map_points = {0, 1};
+  const auto matches = AssociatePointsToPlanes(frame, map, camera, {});
+  ASSERT_EQ(matches.size(), 1u);
+  EXPECT_EQ(matches[0].frame_plane, 1);
+}
+
+/// A book's corners that fall on these ideal pixels from kView_cw, two metres away.
+MapPlane BookAt(const Camera& camera, const Box& box_px) {
+  MapPlane m;
+  m.class_name = "book";
+  for (const Eigen::Vector2d& u_px :
+       {box_px.min, Eigen::Vector2d(box_px.max.x(), box_px.min.y()), box_px.max,
+        Eigen::Vector2d(box_px.min.x(), box_px.max.y())}) {
+    m.vertices_w.push_back(Inverse(kView_cw) * camera.Backproject(u_px, 2.0));
+  }
+  return m;
+}
+
+TEST(BoxesOfMapPlanes, AreThoseOfTheRecordedImage) {
+  const Camera camera = TumCamera("tum1");
+  const Box ideal{{60, 50}, {200, 150}};
+  const Box box_px = ProjectedBox(BookAt(camera, ideal), kView_cw, camera);
+  Box expected;
+  for (const Eigen::Vector2d& u_px :
+       {ideal.min, ideal.max, Eigen::Vector2d(60, 150), Eigen::Vector2d(200, 50)}) {
+    expected.Include(camera.ProjectDistorted(camera.Backproject(u_px, 1.0)));
+  }
+  EXPECT_THAT(box_px.min, VectorNear(expected.min, 1e-9));
+  EXPECT_THAT(box_px.max, VectorNear(expected.max, 1e-9));
+  EXPECT_GT((box_px.min - ideal.min).norm(), 1.0);  // the lens tells
+}
+
+TEST(BoxesOfMapPlanes, GoToTheDetectionOfTheirClassThatFitsBestWhateverTheOrder) {
+  const Camera camera;
+  const Box book{{100, 100}, {200, 200}};
+  Map map;
+  map.planes = {BookAt(camera, book)};
+  for (const bool best_first : {false, true}) {
+    Frame frame;
+    frame.T_cw = kView_cw;
+    frame.detections.resize(3);
+    for (Detection& d : frame.detections) d.class_name = "book", d.box_px = book;
+    frame.detections[best_first ? 1 : 0].box_px.max.x() += 40;
+    frame.detections[2].class_name = "cup";
+    const auto matches = AssociateBoxes(frame, map, camera, 0.1);
+    ASSERT_EQ(matches.size(), 1u);
+    EXPECT_EQ(matches[0].detection, best_first ? 0 : 1);
+    EXPECT_NEAR(matches[0].iou, 1.0, 1e-9);
+  }
+}
+
+}  // namespace
+}  // namespace slam

@@ -1,0 +1,69 @@
+#include "slam/extract/roughness.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "slam/base/camera.h"
+#include "slam/base/random.h"
+
+namespace slam {
+namespace {
+
+/// A table seen from above at a slant: inverse depth of a pixel.
+const InverseDepthPlane kSlant{0.1, 0.5, 1.0};
+
+/// Depth of that plane with independent noise of the model, and `raised_m` nearer.
+template <typename Raised>
+double RoughnessOf(const Raised& raised_m, double noise_factor = 1.0) {
+  const Camera camera;
+  const DepthNoise noise;
+  cv::Mat1f depth_m(camera.height, camera.width);
+  Random random{3};
+  for (int v = 0; v < camera.height; ++v) {
+    for (int u = 0; u < camera.width; ++u) {
+      const Eigen::Vector3d ray = camera.Backproject({u, v}, 1.0);
+      const double z = 1.0 / kSlant.InverseDepth(ray.x(), ray.y());
+      const double grazing = noise.GrazingFactor(z, kSlant.Cosine(ray.x(), ray.y()));
+      double unit = -6.0;  // a sum of twelve: variance 1
+      for (int k = 0; k < 12; ++k) unit += random.Uniform();
+      depth_m(v, u) = static_cast<float>(z - raised_m(u, v) +
+                                         noise_factor * unit * noise.Sigma(z) * grazing);
+    }
+  }
+  const DepthGrid grid = MakeDepthGrid(depth_m, PixelRays(camera), noise, 10.0);
+  cv::Mat1b labels(camera.height, camera.width, static_cast<unsigned char>(0));
+  const cv::Rect bounds(100, 80, 300, 200);
+  labels(bounds) = 3;
+  return MeasureRoughness(grid, labels, bounds, 3, kSlant, noise, 3);
+}
+
+TEST(Roughness, OfAPlaneIsThatOfItsNoise) {
+  const auto flat = [](int, int) { return 0.0; };
+  EXPECT_NEAR(RoughnessOf(flat), 1.0, 0.05);
+  EXPECT_NEAR(RoughnessOf(flat, 1.5), 2.25, 0.1);
+}
+
+TEST(Roughness, IsNotRaisedByAGentleBend) {
+  const auto bowl = [](int u, int v) {
+    return 1e-7 * ((u - 250.0) * (u - 250.0) + (v - 180.0) * (v - 180.0));  // 3 mm at the rim
+  };
+  EXPECT_NEAR(RoughnessOf(bowl), 1.0, 0.05);
+}
+
+TEST(Roughness, OfStairsIsMoreWhicheverWayTheyRun) {
+  const auto stairs = [](int along) { return along / 8 % 2 == 0 ? 0.004 : -0.004; };
+  EXPECT_GT(RoughnessOf([&](int u, int) { return stairs(u); }), 2.0);
+  EXPECT_GT(RoughnessOf([&](int, int v) { return stairs(v); }), 2.0);
+}
+
+TEST(Roughness, OfAHandfulOfPixelsIsUnknown) {
+  const DepthGrid grid =
+      MakeDepthGrid(cv::Mat1f(480, 640, 1.0f), PixelRays(Camera{}), {}, 10.0);
+  cv::Mat1b labels(480, 640, static_cast<unsigned char>(0));
+  labels(cv::Rect(0, 0, 9, 9)) = 1;
+  EXPECT_EQ(MeasureRoughness(grid, labels, {0, 0, 9, 9}, 1, {0, 0, 1}, {}, 2), 0.0);
+}
+
+}  // namespace
+}  // namespace slam
