@@ -31,6 +31,8 @@ void VisitEdgeLines(EdgeLineConfig& c, FieldVisitor& v) {
   v.Number("min_contour_share", c.min_contour_share, "[0, 1)",
            "of the edge points that a line holds");
   v.Number("inset_px", c.inset_px, "[0, 1]", "boundary pixels lie this far inside the edge");
+  v.Number("shared_sigma_px", c.shared_sigma_px, "[0, inf)",
+           "error that all points of a line have in common");
 }
 
 void VisitVertices(VertexConfig& c, FieldVisitor& v) {

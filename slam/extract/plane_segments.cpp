@@ -129,6 +129,7 @@ FramePlane MakeFramePlane(const Segment& segment, int index) {
   out.pixel_count = static_cast<int>(segment.sums.n);
   out.offset_sigma_m = segment.sigmas.offset_m;
   out.angle_sigma_rad = segment.sigmas.angle_rad;
+  out.inverse_depth_covariance = segment.sigmas.covariance;
   return out;
 }
 

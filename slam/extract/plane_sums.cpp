@@ -22,7 +22,7 @@ PlaneSigmas Sigmas(const PlaneSums& s, const InverseDepthPlane& plane, const Dep
   const Eigen::Vector3d X = ray / plane.InverseDepth(ray.x(), ray.y());
   const double variance = X.dot(cov * X) / (norm * norm);
   return {std::sqrt(std::max(variance, 0.0)),
-          std::sqrt(std::max(spread.eigenvalues().maxCoeff(), 0.0))};
+          std::sqrt(std::max(spread.eigenvalues().maxCoeff(), 0.0)), cov};
 }
 
 }  // namespace slam

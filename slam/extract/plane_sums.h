@@ -95,6 +95,7 @@ inline double GrazingFactor(const PlaneSums& s, const InverseDepthPlane& p,
 /// normal about the worse axis, radians. `scale` multiplies the noise; correlation is included.
 struct PlaneSigmas {
   double offset_m = 0.0, angle_rad = 0.0;
+  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();  ///< of (a, b, c), 1/m^2
 };
 PlaneSigmas Sigmas(const PlaneSums& sums, const InverseDepthPlane& plane,
                    const DepthNoise& noise, double scale);

@@ -9,6 +9,8 @@ namespace {
 
 constexpr std::size_t kCorners = 4;
 constexpr double kSeenWeight = 1.0, kExtrapolatedWeight = 0.25;
+// Errors that a corner's covariance does not hold, first of all those of the camera's pose.
+constexpr double kOtherVariance_m2 = 0.003 * 0.003;
 constexpr double kMaxWeight = 40.0;  // so that a wrong start can still be left
 
 /// observed[order[i]] belongs to known[i].
@@ -33,6 +35,20 @@ std::array<std::size_t, kCorners> Order(const std::vector<Eigen::Vector3d>& know
   return best;
 }
 
+/// Variance of a corner that is known to lie on the plane, mean of its two directions there.
+double VarianceOnPlane(const Eigen::Vector3d& n, const Eigen::Matrix3d& covariance) {
+  const Eigen::Vector3d spread = covariance * n;
+  const double across = n.dot(spread);
+  const double explained = across > 0 ? spread.squaredNorm() / across : 0.0;
+  return 0.5 * (covariance.trace() - explained);
+}
+
+/// Of a corner that is known exactly: 1, less what its lines alone say.
+double Weight(const Vertex& vertex, const Eigen::Vector3d& n_c) {
+  return (vertex.extrapolated ? kExtrapolatedWeight : kSeenWeight) * kOtherVariance_m2 /
+         (kOtherVariance_m2 + VarianceOnPlane(n_c, vertex.covariance_c));
+}
+
 }  // namespace
 
 void FuseVertices(MapPlane& m, const std::vector<Vertex>& vertices_c, const Pose& T_wc,
@@ -43,9 +59,8 @@ void FuseVertices(MapPlane& m, const std::vector<Vertex>& vertices_c, const Pose
     if (!vertex.p_c.allFinite()) return;
     observed_w.push_back(ProjectOnto(m.pi_w, T_wc * vertex.p_c));
   }
-  const auto weight = [&](std::size_t i) {
-    return vertices_c[i].extrapolated ? kExtrapolatedWeight : kSeenWeight;
-  };
+  const Eigen::Vector3d n_c = T_wc.R.transpose() * m.pi_w.n;
+  const auto weight = [&](std::size_t i) { return Weight(vertices_c[i], n_c); };
   if (m.vertices_w.size() != kCorners || m.vertex_weights.size() != kCorners) {
     m.vertices_w = observed_w;
     m.vertex_weights.clear();

@@ -13,7 +13,8 @@ namespace slam {
 /// The corners are laid onto the known ones by the turn (and sense) around the face that moves
 /// them least. A corner within `max_vertex_jump_m` is averaged by weight; one farther off
 /// counts against the known corner, and takes its place when the evidence is used up. A corner
-/// that follows from its lines alone weighs a quarter. Corners end on the map plane.
+/// weighs (3 mm)^2 over that plus its variance within the plane, and a quarter of it if it
+/// follows from its lines alone. Corners end on the map plane.
 /// Observations without four corners change nothing.
 void FuseVertices(MapPlane& map_plane, const std::vector<Vertex>& vertices_c, const Pose& T_wc,
                   const PlaneMapConfig& config);

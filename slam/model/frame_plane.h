@@ -39,6 +39,8 @@ struct EdgePoint {
 struct Vertex {
   Eigen::Vector3d p_c;        ///< metres, camera frame
   bool extrapolated = false;  ///< no edge points near it: it follows from the two lines alone
+  /// Of p_c, m^2, camera frame: from the plane's fit and the two edge lines. Zero: not known.
+  Eigen::Matrix3d covariance_c = Eigen::Matrix3d::Zero();
 };
 
 /// A plane seen in one frame: a segment of the depth image and all that is known of it.
@@ -49,10 +51,13 @@ struct FramePlane {
   Eigen::Vector3d centroid_c = Eigen::Vector3d::Zero();
   int pixel_count = 0;
   double area_m2 = 0.0;          ///< of the visible patch
-  double inlier_ratio = 1.0;      ///< after the re-fit, [0, 1]; 1 before
-  double roughness = 0.0;         ///< off the plane, in variances of the noise; 0 = unknown
+  double inlier_ratio = 1.0;     ///< after the re-fit, [0, 1]; 1 before
+  double roughness = 0.0;        ///< off the plane, in variances of the noise; 0 = unknown
   double offset_sigma_m = 0.0;   ///< standard deviation of the offset at the centroid
   double angle_sigma_rad = 0.0;  ///< standard deviation of the normal, worse of two directions
+  /// Of g = -n / d, 1/m^2; the inverse depth of the plane along the ray (x, y, 1) is
+  /// g . (x, y, 1). Like the two above that of the segment's fit. Zero: not known.
+  Eigen::Matrix3d inverse_depth_covariance = Eigen::Matrix3d::Zero();
 
   std::vector<Eigen::Vector3d> points_c;  ///< inliers, thinned to a regular pixel grid
   std::vector<EdgePoint> edge_points;     ///< B_c, ordered along the contour

@@ -104,6 +104,7 @@ std::vector<ImageLine> FindImageLines(Points points_px, int min_support,
     line.from = line.p + along(piece.front()) * line.v;
     line.to = line.p + along(piece.back()) * line.v;
     line.support = static_cast<int>(piece.size());
+    line.error = MeasureLineError(piece, line.p, line.v);
     if (line.support >= min_support && (line.to - line.from).norm() >= config.min_length_px) {
       lines.push_back(line);
     }
@@ -142,7 +143,13 @@ std::vector<EdgeLine> FindEdgeLines(const FramePlane& plane, const Camera& camer
     const Eigen::Vector3d P = OnPlane(along_rays, camera, from);
     const Eigen::Vector3d V = OnPlane(along_rays, camera, to) - P;
     if (!(V.norm() > 0)) continue;
-    out.push_back({{P, V.normalized()}, from, to, line.support});
+    out.push_back({{P, V.normalized()}, from, to, line.support, line.error});
+    LineError& error = out.back().error;
+    error.at_px += config.inset_px * outward;
+    // At either end by itself, so half of it turns the line.
+    const double shared_px2 = config.shared_sigma_px * config.shared_sigma_px;
+    error.offset_px2 += 0.5 * shared_px2;
+    error.angle_rad2 += 2.0 * shared_px2 / (to - from).squaredNorm();
   }
   return out;
 }

@@ -8,6 +8,7 @@
 #include "slam/base/line.h"
 #include "slam/base/random.h"
 #include "slam/model/frame_plane.h"
+#include "slam/planes/line_error.h"
 
 namespace slam {
 
@@ -21,6 +22,10 @@ struct EdgeLineConfig {
   /// Boundary pixels are the last inside the surface: their centres lie this far inside the
   /// edge itself. Domain [0, 1].
   double inset_px = 0.5;
+  /// What neighbouring points of a line have in common: where a segment ends and where its
+  /// surface does, after windows, votes and creases, differ along a whole side. Standard
+  /// deviation at either end of a side. Domain [0, inf).
+  double shared_sigma_px = 0.25;
 };
 
 /// A straight piece of a plane's boundary.
@@ -28,6 +33,7 @@ struct EdgeLine {
   Line line_c;                     ///< on the plane, camera frame
   Eigen::Vector2d from_px, to_px;  ///< ends of the piece that is seen, ideal image
   int support = 0;                 ///< edge points on it
+  LineError error{};               ///< of the line through from_px and to_px
 };
 
 /// A line in the image: u = p + s v, v unit.
@@ -36,6 +42,7 @@ struct ImageLine {
   /// Ends of the supported piece.
   Eigen::Vector2d from = Eigen::Vector2d::Zero(), to = Eigen::Vector2d::Zero();
   int support = 0;
+  LineError error{};
 };
 
 /// Straight lines in a set of image points, the best supported first, one after the other:

@@ -6,6 +6,8 @@
 #include <limits>
 #include <numbers>
 
+#include "slam/planes/vertex_covariance.h"
+
 namespace slam {
 namespace {
 
@@ -13,6 +15,12 @@ namespace {
 double LineAngle(const Line& a, const Line& b) {
   return std::atan2(a.V.cross(b.V).norm(), std::abs(a.V.dot(b.V)));
 }
+
+/// Where two sides meet; i and j are positions among the edge lines.
+struct Meeting {
+  Eigen::Vector3d p_c;
+  int i, j;
+};
 
 /// Searches the sides of one face among its edge lines.
 class FaceOutline {
@@ -22,8 +30,8 @@ class FaceOutline {
       : plane_(plane), lines_(lines), camera_(camera), box_px_(box_px), config_(config) {}
 
   /// Four corners from two pairs of parallel lines; empty when no two pairs are a rectangle.
-  std::vector<Eigen::Vector3d> Rectangle() const {
-    std::vector<Eigen::Vector3d> best;
+  std::vector<Meeting> Rectangle() const {
+    std::vector<Meeting> best;
     int best_support = 0;
     const int n = static_cast<int>(lines_.size());
     for (int a = 0; a < n; ++a) {
@@ -34,7 +42,7 @@ class FaceOutline {
             if (c == b || d == b || !Parallel(c, d) || !Square(a, c) || !Square(b, d)) continue;
             const int support = Support(a) + Support(b) + Support(c) + Support(d);
             if (support <= best_support) continue;
-            const std::vector<Eigen::Vector3d> corners = Corners({a, c, b, d});
+            const std::vector<Meeting> corners = Corners({a, c, b, d});
             if (corners.size() != 4 || !FitsRegion(corners)) continue;
             best = corners, best_support = support;
           }
@@ -45,11 +53,11 @@ class FaceOutline {
   }
 
   /// Two corners from a side between two parallel ones, or one corner from two sides.
-  std::vector<Eigen::Vector3d> Partial() const {
-    std::vector<Eigen::Vector3d> best;
+  std::vector<Meeting> Partial() const {
+    std::vector<Meeting> best;
     int best_support = 0;
     const int n = static_cast<int>(lines_.size());
-    const auto consider = [&](const std::vector<Eigen::Vector3d>& corners, int support) {
+    const auto consider = [&](const std::vector<Meeting>& corners, int support) {
       const bool more = corners.size() > best.size();
       const bool stronger = corners.size() == best.size() && support > best_support;
       if (more || (stronger && !corners.empty())) best = corners, best_support = support;
@@ -63,7 +71,7 @@ class FaceOutline {
         for (int b = a + 1; b < n; ++b) {
           if (b == across || !Parallel(a, b)) continue;
           const auto second = SupportedCorner(across, b);
-          if (!second || !((*first - *second).norm() > config_.min_side_m)) continue;
+          if (!second || !((first->p_c - second->p_c).norm() > config_.min_side_m)) continue;
           consider({*first, *second}, Support(across) + Support(a) + Support(b));
         }
       }
@@ -82,18 +90,18 @@ class FaceOutline {
            config_.max_square_error_rad;
   }
 
-  std::optional<Eigen::Vector3d> Corner(int a, int b) const {
+  std::optional<Meeting> Corner(int a, int b) const {
     const auto point =
         MeetingPoint(At(a).line_c, At(b).line_c, plane_.pi_c, camera_, box_px_, config_);
-    return point ? std::optional<Eigen::Vector3d>(point.value()) : std::nullopt;
+    return point ? std::optional<Meeting>({point.value(), a, b}) : std::nullopt;
   }
 
   /// Corner of two sides at a right angle that both nearly reach it.
-  std::optional<Eigen::Vector3d> SupportedCorner(int a, int b) const {
+  std::optional<Meeting> SupportedCorner(int a, int b) const {
     if (!Square(a, b)) return std::nullopt;
     const auto point = Corner(a, b);
     if (!point) return std::nullopt;
-    const Eigen::Vector2d u = camera_.Project(*point);
+    const Eigen::Vector2d u = camera_.Project(point->p_c);
     for (const int k : {a, b}) {
       const double length = (At(k).to_px - At(k).from_px).norm();
       const double beyond = std::min((u - At(k).from_px).norm(), (u - At(k).to_px).norm());
@@ -104,8 +112,8 @@ class FaceOutline {
     return point;
   }
 
-  std::vector<Eigen::Vector3d> Corners(const std::array<int, 4>& around) const {
-    std::vector<Eigen::Vector3d> corners;
+  std::vector<Meeting> Corners(const std::array<int, 4>& around) const {
+    std::vector<Meeting> corners;
     for (std::size_t k = 0; k < 4; ++k) {
       const auto corner = Corner(around[k], around[(k + 1) % 4]);
       if (!corner) return {};
@@ -115,13 +123,13 @@ class FaceOutline {
   }
 
   /// Sides long enough, and an area that the visible region fills.
-  bool FitsRegion(const std::vector<Eigen::Vector3d>& corners) const {
+  bool FitsRegion(const std::vector<Meeting>& corners) const {
     Eigen::Vector3d twice_area = Eigen::Vector3d::Zero();
     for (std::size_t k = 0; k < 4; ++k) {
-      const Eigen::Vector3d& p = corners[k];
-      const Eigen::Vector3d& q = corners[(k + 1) % 4];
+      const Eigen::Vector3d& p = corners[k].p_c;
+      const Eigen::Vector3d& q = corners[(k + 1) % 4].p_c;
       if (!((p - q).norm() > config_.min_side_m)) return false;
-      twice_area += (p - corners[0]).cross(q - corners[0]);
+      twice_area += (p - corners[0].p_c).cross(q - corners[0].p_c);
     }
     const double fill = plane_.area_m2 / (0.5 * twice_area.norm());
     return fill > config_.min_fill && fill < config_.max_fill;
@@ -150,15 +158,15 @@ Box OpenAtBorder(Box box_px, const Box& image, double margin_px) {
 }
 
 /// Counter-clockwise seen from the front, beginning with the corner first in reading order.
-void PutInOrder(const Plane& pi_c, const Camera& camera,
-                std::vector<Eigen::Vector3d>& corners) {
+void PutInOrder(const Plane& pi_c, const Camera& camera, std::vector<Meeting>& corners) {
   if (corners.size() == 4) {
-    const Eigen::Vector3d turn = (corners[1] - corners[0]).cross(corners[2] - corners[0]);
+    const Eigen::Vector3d turn =
+        (corners[1].p_c - corners[0].p_c).cross(corners[2].p_c - corners[0].p_c);
     if (turn.dot(pi_c.n) < 0) std::reverse(corners.begin(), corners.end());
   }
-  const auto first = std::min_element(
-      corners.begin(), corners.end(), [&](const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
-        const Eigen::Vector2d u = camera.Project(a), w = camera.Project(b);
+  const auto first =
+      std::min_element(corners.begin(), corners.end(), [&](const Meeting& a, const Meeting& b) {
+        const Eigen::Vector2d u = camera.Project(a.p_c), w = camera.Project(b.p_c);
         return u.y() != w.y() ? u.y() < w.y() : u.x() < w.x();
       });
   std::rotate(corners.begin(), first, corners.end());
@@ -197,16 +205,19 @@ std::vector<Vertex> FindVertices(const FramePlane& plane, const std::vector<Edge
                                  const Camera& camera, const std::optional<Box>& box_px,
                                  const VertexConfig& config) {
   const std::optional<Box> open_px =
-      box_px ? std::optional<Box>(OpenAtBorder(*box_px, camera.ImageBox(), config.box_margin_px))
-             : std::nullopt;
+      box_px
+          ? std::optional<Box>(OpenAtBorder(*box_px, camera.ImageBox(), config.box_margin_px))
+          : std::nullopt;
   const FaceOutline outline(plane, lines, camera, open_px, config);
-  std::vector<Eigen::Vector3d> corners = outline.Rectangle();
+  std::vector<Meeting> corners = outline.Rectangle();
   if (corners.empty()) corners = outline.Partial();
   if (corners.empty()) return {};
   PutInOrder(plane.pi_c, camera, corners);
   std::vector<Vertex> out;
-  for (const Eigen::Vector3d& corner : corners) {
-    out.push_back({corner, !HasSupport(plane, camera, corner, config.max_support_distance_px)});
+  for (const auto& [p_c, i, j] : corners) {
+    out.push_back({p_c, !HasSupport(plane, camera, p_c, config.max_support_distance_px),
+                   VertexCovariance(plane, lines[static_cast<std::size_t>(i)].error,
+                                    lines[static_cast<std::size_t>(j)].error, p_c, camera)});
   }
   return out;
 }

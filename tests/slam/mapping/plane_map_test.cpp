@@ -197,6 +197,26 @@ TEST(PlaneVertices, AreAveragedWhateverCornerTheObservationStartsWith) {
   }
 }
 
+TEST(PlaneVertices, LeanOnThoseThatAreKnownBetterWithinThePlane) {
+  const auto fused_x = [](const Eigen::Matrix3d& covariance_c) {
+    MapPlane m;
+    m.pi_w = {Eigen::Vector3d::UnitZ(), 0};
+    std::vector<Vertex> seen{{{0, 0, 0}}, {{0.3, 0, 0}}, {{0.3, 0.1, 0}}, {{0, 0.1, 0}}};
+    FuseVertices(m, seen, Pose{}, {});
+    for (Vertex& v : seen) v.p_c.x() += 0.01, v.covariance_c = covariance_c;
+    FuseVertices(m, seen, Pose{}, {});
+    return m.vertices_w[0].x();
+  };
+  const Eigen::Matrix3d large = 1e-4 * Eigen::Matrix3d::Identity();
+  EXPECT_NEAR(fused_x(Eigen::Matrix3d::Zero()), 0.005, 1e-12);
+  EXPECT_NEAR(fused_x(large), 0.01 * (9.0 / 109.0) / (1.0 + 9.0 / 109.0), 1e-12);
+  // Depth that is not known says nothing against where the plane's sides meet ...
+  const Eigen::Vector3d z = Eigen::Vector3d::UnitZ(), slanted(1, 0, 1);
+  EXPECT_NEAR(fused_x(1e-4 * z * z.transpose()), 0.005, 1e-12);
+  // ... nor does an error along a slanted ray: the plane says where on it the corner is.
+  EXPECT_NEAR(fused_x(1e-4 * slanted * slanted.transpose()), 0.005, 1e-12);
+}
+
 TEST(ClassBelief, CountsADetectionByItsScoreAndAMissAsAFullFrame) {
   MapPlane plane;
   for (int i = 0; i < 2; ++i) {
