@@ -60,7 +60,8 @@ TEST(KeyframeDecision, WantsAFrameThatSeesWhatItKnowsFromANewSide) {
     EXPECT_TRUE(Wanted(world, frame)) << "24 degrees";
   }
   // Turning on the spot shows no point from another side.
-  frame.T_cw = Pose{ExpSo3({0, 0.3, 0.5}), {}} * world.map.keyframes[0].T_cw;
+  frame.T_cw =
+      Pose{ExpSo3({0, 0.3, 0.5}), Eigen::Vector3d::Zero()} * world.map.keyframes[0].T_cw;
   EXPECT_FALSE(Wanted(world, frame));
 }
 
@@ -111,7 +112,7 @@ TEST(KeyframeDecision, KnowsALookFromATurnedKeyframe) {
   PointWorld world = MakePointWorld(2, 200, 1);
   Frame frame = Again(world, static_cast<int>(world.map.keyframes[0].features.size()));
   // Both keyframes turned on the spot about an axis aside: their rays in the world stay.
-  const Pose turn{ExpSo3({0.4, -0.9, 1.1}), {}};
+  const Pose turn{ExpSo3({0.4, -0.9, 1.1}), Eigen::Vector3d::Zero()};
   for (Keyframe& keyframe : world.map.keyframes) keyframe.T_cw = turn * keyframe.T_cw;
   frame.T_cw = world.map.keyframes[0].T_cw;
   EXPECT_EQ(DecideKeyframe(frame, world.map, 0, 10, world.camera, {}, {}).new_looks, 0);

@@ -55,7 +55,7 @@ TEST(PoseGraph, SpreadsTheErrorOfALoopEvenly) {
   std::vector<Pose> poses(4);
   for (int i = 0; i < 4; ++i) poses[static_cast<std::size_t>(i)].t.x() = -i;
   std::vector<PoseEdge> edges;
-  for (int i = 0; i < 3; ++i) edges.push_back({i, i + 1, Pose{{}, {}}});
+  for (int i = 0; i < 3; ++i) edges.push_back({i, i + 1, Pose{}});
   for (PoseEdge& edge : edges) edge.T_ij = Pose{Eigen::Matrix3d::Identity(), {1.0, 0, 0}};
   // The last one says 2.8 m from the first to the last instead of 3: 0.05 m for each edge.
   edges.push_back({0, 3, Pose{Eigen::Matrix3d::Identity(), {2.8, 0, 0}}});
