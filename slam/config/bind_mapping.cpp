@@ -73,8 +73,10 @@ void VisitPlaneMap(PlaneMapConfig& c, FieldVisitor& v) {
   v.Integer("max_edge_points", c.max_edge_points, "[1, 10000000]", "of one plane");
   v.Number("max_vertex_jump_m", c.max_vertex_jump_m, "(0, inf)",
            "a corner farther off is another one");
-  v.Number("min_face_weight", c.min_face_weight, "[0.25, 40]",
-           "of each of four corners, for them to bound the surface; a seen corner weighs 1");
+  v.Number(
+      "min_face_weight", c.min_face_weight, "[0.25, 40]",
+      "of each of four corners, for them to bound the surface; a seen corner weighs at most 1, "
+      "half of it at a standard deviation of 3 mm");
   v.Number("face_margin_m", c.face_margin_m, "(0, inf)",
            "beyond the sides of such a face nothing belongs to it");
   v.Number("max_point_distance_m", c.max_point_distance_m, "(0, inf)",

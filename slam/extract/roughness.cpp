@@ -1,7 +1,5 @@
 #include "slam/extract/roughness.h"
 
-#include <algorithm>
-
 namespace slam {
 namespace {
 

@@ -25,8 +25,10 @@ struct PlaneMapConfig {
   int max_cloud_points = 2000;      ///< of one plane; its voxel doubles when reached
   int max_edge_points = 1000;       ///< of one plane
   double max_vertex_jump_m = 0.05;  ///< a corner observed farther off is another one
-  double min_face_weight = 5.0;     ///< of each of four corners; a seen corner weighs 1
-  double face_margin_m = 0.02;      ///< beyond the sides of a known face nothing belongs to it
+  /// Of each of four corners; a seen one weighs (3 mm)^2 / ((3 mm)^2 + its variance), at
+  /// most 1.
+  double min_face_weight = 5.0;
+  double face_margin_m = 0.02;  ///< beyond the sides of a known face nothing belongs to it
   double max_point_distance_m = 0.01;  ///< a map point nearer to the plane lies on it
 
   double min_fused_overlap = 0.2;  ///< share of the smaller cloud that two duplicates share

@@ -176,7 +176,8 @@ std::optional<double> DepthClock::Late_s() const {
   }
   const Shift& shift = shifts[best];
   if (best == kUnshifted) return std::nullopt;
-  const double variance = shift.squared_gains / shift.changes - most * most;
+  const double variance =
+      std::max(shift.squared_gains / shift.changes - most * most, 0.0);  // rounding
   if (most < kSure_sigmas * std::sqrt(variance / shift.changes)) return std::nullopt;
   return LateOf(best) + kStep_s * Lowest(shifts, best);
 }

@@ -111,40 +111,39 @@ TEST(PlaneEvidence, ComparesMapPlanesAlikeHoweverTheWorldIsTurned) {
   }
 }
 
-// Along its normal one plane and the prior are two measurements of one number.
-TEST(PlaneAnchors, WeighTheirPlaneAgainstThePriorByTheVariances) {
-  constexpr double kPrior_m = 0.006, kOff_m = 0.005;
-  const AssociationConfig config;
+constexpr double kPrior_m = 0.006, kMeasured_m = 0.004;
+
+/// The camera, predicted `off_m` too far along the normal of the one plane that it sees.
+UncertainPose CorrectedByAnAnchor(double off_m, const AssociationConfig& config) {
   MapPlane m;
   m.pi_w = {Eigen::Vector3d(0, 0, -1), 2.0};
   Frame frame;
-  frame.planes = {PatchAt({0, 0, 2.0}, {0, 0, -1}, 0.004, 0.01)};
+  frame.planes = {PatchAt({0, 0, 2.0}, {0, 0, -1}, kMeasured_m, 0.01)};
   UncertainPose predicted;
-  predicted.T_cw.t.z() = kOff_m;
+  predicted.T_cw.t.z() = off_m;
   Vector6d variances = Vector6d::Constant(1e-14);
   variances[2] = kPrior_m * kPrior_m;
   predicted.covariance = variances.asDiagonal();
-  const UncertainPose corrected = CorrectByAnchors(predicted, frame, {m}, {{0, 0}}, config);
-  const double measured2 = 0.004 * 0.004 + config.offset_floor_m * config.offset_floor_m;
+  return CorrectByAnchors(predicted, frame, {m}, {{0, 0}}, config);
+}
+
+// Along its normal one plane and the prior are two measurements of one number.
+TEST(PlaneAnchors, WeighTheirPlaneAgainstThePriorByTheVariances) {
+  constexpr double kOff_m = 0.005;
+  const AssociationConfig config;
+  const UncertainPose corrected = CorrectedByAnAnchor(kOff_m, config);
+  const double measured2 =
+      kMeasured_m * kMeasured_m + config.offset_floor_m * config.offset_floor_m;
   const double prior2 = kPrior_m * kPrior_m;
   EXPECT_NEAR(corrected.T_cw.t.z(), kOff_m * measured2 / (prior2 + measured2), 1e-7);
   EXPECT_NEAR(corrected.covariance(2, 2), prior2 * measured2 / (prior2 + measured2), 1e-9);
 }
 
 TEST(PlaneAnchors, PullNoHarderThanTwoSigmasWhenTheirPlaneIsFarOff) {
-  constexpr double kPrior_m = 0.006, kOff_m = 0.05;
+  constexpr double kOff_m = 0.05;
   const AssociationConfig config;
-  MapPlane m;
-  m.pi_w = {Eigen::Vector3d(0, 0, -1), 2.0};
-  Frame frame;
-  frame.planes = {PatchAt({0, 0, 2.0}, {0, 0, -1}, 0.004, 0.01)};
-  UncertainPose predicted;
-  predicted.T_cw.t.z() = kOff_m;
-  Vector6d variances = Vector6d::Constant(1e-14);
-  variances[2] = kPrior_m * kPrior_m;
-  predicted.covariance = variances.asDiagonal();
-  const UncertainPose corrected = CorrectByAnchors(predicted, frame, {m}, {{0, 0}}, config);
-  const double sigma_m = std::hypot(0.004, config.offset_floor_m);
+  const UncertainPose corrected = CorrectedByAnAnchor(kOff_m, config);
+  const double sigma_m = std::hypot(kMeasured_m, config.offset_floor_m);
   EXPECT_NEAR(corrected.T_cw.t.z(), kOff_m - 2 * kPrior_m * kPrior_m / sigma_m, 1e-4);
 }
 
