@@ -20,6 +20,9 @@ using FloatLanes = float __attribute__((vector_size(32), aligned(4), may_alias))
 using IntLanes = int __attribute__((vector_size(32), aligned(4), may_alias));
 using DoubleLanes = double __attribute__((vector_size(32), aligned(8), may_alias));
 
+/// For what SLAM_LANES functions call: built with each of them.
+#define SLAM_INLINE [[gnu::always_inline]] inline
+
 inline FloatLanes& Lanes(float* p) { return *reinterpret_cast<FloatLanes*>(p); }
 inline const FloatLanes& Lanes(const float* p) {
   return *reinterpret_cast<const FloatLanes*>(p);

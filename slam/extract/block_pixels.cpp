@@ -5,9 +5,7 @@
 #include <cstddef>
 #include <limits>
 
-#include "slam/base/lanes.h"
-
-#define PAS_INLINE [[gnu::always_inline]] inline
+#include "slam/base/lane_math.h"
 
 namespace slam {
 namespace {
@@ -17,51 +15,31 @@ constexpr int kReach8 = 2;                    // of the usual bid
 constexpr int kSide8 = kLanes + 2 * kReach8;  // what it looks at
 
 using EightLabels = std::int16_t __attribute__((vector_size(16), aligned(2), may_alias));
-PAS_INLINE EightLabels Labels8(const std::int16_t* p) {
+SLAM_INLINE EightLabels Labels8(const std::int16_t* p) {
   return *reinterpret_cast<const EightLabels*>(p);
 }
 
-PAS_INLINE FloatLanes All(float value) { return FloatLanes{} + value; }
-PAS_INLINE FloatLanes Size(FloatLanes r) { return (FloatLanes)((IntLanes)r & 0x7fffffff); }
-PAS_INLINE float LeastOf(FloatLanes v) {
-  float least = v[0];
-  for (int k = 1; k < kLanes; ++k) least = std::min(least, v[k]);
-  return least;
-}
-PAS_INLINE int SumOf(IntLanes v) {
-  return ((v[0] + v[4]) + (v[2] + v[6])) + ((v[1] + v[5]) + (v[3] + v[7]));
-}
-PAS_INLINE double SumOf(DoubleLanes v) { return (v[0] + v[2]) + (v[1] + v[3]); }
-
-/// Adds eight floats to four sums.
-PAS_INLINE void AddTo(DoubleLanes& sum, FloatLanes v) {
-  sum += DoubleLanes{static_cast<double>(v[0]), static_cast<double>(v[1]),
-                     static_cast<double>(v[2]), static_cast<double>(v[3])};
-  sum += DoubleLanes{static_cast<double>(v[4]), static_cast<double>(v[5]),
-                     static_cast<double>(v[6]), static_cast<double>(v[7])};
-}
-
 /// Residuals of 8 pixels of a row.
-PAS_INLINE FloatLanes Residuals(const BlockPixels& block, int u, int v, const PixelPlane& p) {
+SLAM_INLINE FloatLanes Residuals(const BlockPixels& block, int u, int v, const PixelPlane& p) {
   const FloatLanes x = Lanes(block.x + (v * block.x_stride + u));
   const FloatLanes y = Lanes(block.y + (v * block.y_stride + u));
   const int i = v * block.stride + u;
   return (Lanes(block.q + i) - (p.a * x + p.b * y + p.c)) * Lanes(block.g + i) / p.grazing;
 }
-PAS_INLINE float Residual(const BlockPixels& block, int u, int v, const PixelPlane& p) {
+SLAM_INLINE float Residual(const BlockPixels& block, int u, int v, const PixelPlane& p) {
   const float x = block.x[v * block.x_stride + u], y = block.y[v * block.y_stride + u];
   const int i = v * block.stride + u;
   return (block.q[i] - (p.a * x + p.b * y + p.c)) * block.g[i] / p.grazing;
 }
 
 /// A whole block of 8 x 8.
-PAS_INLINE float Measure8(const BlockPixels& at, const PixelPlane& of, float* residuals) {
+SLAM_INLINE float Measure8(const BlockPixels& at, const PixelPlane& of, float* residuals) {
   const BlockPixels block = at;  // what is written cannot change these
   const PixelPlane plane = of;
-  FloatLanes least = All(kNone);
+  FloatLanes least = AllLanes(kNone);
   for (int v = 0; v < kLanes; ++v) {
     const FloatLanes r = Residuals(block, 0, v, plane);
-    const FloatLanes out = Lanes(block.g + v * block.stride) > 0.0f ? r : All(kNone);
+    const FloatLanes out = Lanes(block.g + v * block.stride) > 0.0f ? r : AllLanes(kNone);
     Lanes(residuals + kLanes * v) = out;
     const FloatLanes size = Size(out);
     least = size < least ? size : least;
@@ -86,11 +64,11 @@ float MeasureAny(const BlockPixels& block, int count, const PixelPlane& plane,
 }
 
 /// A whole block of 8 x 8 with two pixels of the image to every side.
-PAS_INLINE void Bid8(const BlockPixels& at, const PixelPlane& of, float most_sigmas,
-                     const float* residuals, float* bids) {
+SLAM_INLINE void Bid8(const BlockPixels& at, const PixelPlane& of, float most_sigmas,
+                      const float* residuals, float* bids) {
   const BlockPixels block = at;  // what is written cannot change these
   const PixelPlane plane = of;
-  const FloatLanes most = All(most_sigmas * most_sigmas);
+  const FloatLanes most = AllLanes(most_sigmas * most_sigmas);
   float squares[kSide8 * kSide8 + kLanes], sums[kSide8 * kLanes];
   for (int v = 0; v < kSide8; ++v) {
     const FloatLanes left = Residuals(block, -kReach8, v - kReach8, plane);
@@ -108,13 +86,14 @@ PAS_INLINE void Bid8(const BlockPixels& at, const PixelPlane& of, float most_sig
     const float* s = sums + k;
     const FloatLanes sum =
         (((Lanes(s) + Lanes(s + 8)) + Lanes(s + 16)) + Lanes(s + 24)) + Lanes(s + 32);
-    Lanes(bids + k) = Size(Lanes(residuals + k)) < All(most_sigmas) ? sum : All(kNone);
+    Lanes(bids + k) =
+        Size(Lanes(residuals + k)) < AllLanes(most_sigmas) ? sum : AllLanes(kNone);
   }
 }
 
 /// The same for other sizes and beside the image's border, beyond which there are zeros.
-PAS_INLINE void BidAny(const BlockPixels& block, int count, const PixelPlane& plane,
-                       const BidWindow& window, const float* residuals, float* bids) {
+SLAM_INLINE void BidAny(const BlockPixels& block, int count, const PixelPlane& plane,
+                        const BidWindow& window, const float* residuals, float* bids) {
   const float most = window.most_sigmas * window.most_sigmas;
   const int reach = window.reach, size = block.size;
   constexpr int kRows = kMostBlockSide_px + 2 * kMostBidReach_px;
@@ -180,73 +159,6 @@ SLAM_LANES void BidForBlock(const BlockPixels& block, int count, const PixelPlan
   }
 }
 
-SLAM_LANES void ClaimBlock(BlockRival* rivals, int rival_count, int count, float most_sigmas,
-                           int* owners) {
-  const IntLanes none = IntLanes{} + kNoLabel;
-  for (int r = 0; r < rival_count; ++r) rivals[r].pixels = 0;
-  if (rival_count == 1) {
-    const IntLanes label = IntLanes{} + rivals[0].label;
-    IntLanes owned{};
-    for (int k = 0; k < count; k += kLanes) {
-      const IntLanes near = Size(Lanes(rivals[0].residuals + k)) < All(most_sigmas);
-      Lanes(owners + k) = near ? label : none;
-      owned -= near;
-    }
-    rivals[0].pixels = SumOf(owned);
-    return;
-  }
-  for (int k = 0; k < count; k += kLanes) {
-    FloatLanes least = All(kNone);
-    IntLanes owner = none;
-    for (int r = 0; r < rival_count; ++r) {
-      const FloatLanes bid = Lanes(rivals[r].bids + k);
-      const IntLanes better = bid < least;
-      least = better ? bid : least;
-      owner = better ? IntLanes{} + rivals[r].label : owner;
-    }
-    Lanes(owners + k) = owner;
-  }
-  for (int r = 0; r < rival_count; ++r) {
-    IntLanes owned{};
-    for (int k = 0; k < count; k += kLanes) owned -= Lanes(owners + k) == rivals[r].label;
-    rivals[r].pixels = SumOf(owned);
-  }
-}
-
-SLAM_LANES void GainsOfBlock(BlockRival* rivals, int rival_count, int count, float unexplained,
-                             const int* owners, float* gains, int* next_labels) {
-  const FloatLanes zero{};
-  for (int k = 0; k < count; k += kLanes) {
-    const IntLanes owner = Lanes(owners + k);
-    FloatLanes own = zero, next = All(unexplained);
-    IntLanes next_label = IntLanes{} + kNoLabel;
-    for (int r = 0; r < rival_count; ++r) {
-      const FloatLanes size = Size(Lanes(rivals[r].residuals + k));
-      const IntLanes owns = owner == rivals[r].label;
-      const IntLanes nearer = ~owns & (size < next);
-      own = owns ? size : own;
-      next = nearer ? size : next;
-      next_label = nearer ? IntLanes{} + rivals[r].label : next_label;
-    }
-    Lanes(gains + k) = owner >= 0 ? next * next - own * own : zero;
-    Lanes(next_labels + k) = next_label;
-  }
-  for (int r = 0; r < rival_count; ++r) {
-    DoubleLanes sum{};
-    for (int k = 0; k < count; k += kLanes) {
-      AddTo(sum, Lanes(owners + k) == rivals[r].label ? Lanes(gains + k) : zero);
-    }
-    rivals[r].gain = SumOf(sum);
-  }
-}
-
-SLAM_LANES double SumOwned(const float* residuals, int count, int label, const int* owners) {
-  DoubleLanes sum{};
-  for (int k = 0; k < count; k += kLanes)
-    AddTo(sum, Lanes(owners + k) == label ? Lanes(residuals + k) : FloatLanes{});
-  return SumOf(sum);
-}
-
 SLAM_LANES void WriteOwners(const BlockPixels& block, const int* owners, std::int16_t* labels) {
   for (int v = 0; v < block.height; ++v) {
     std::int16_t* row = labels + static_cast<std::ptrdiff_t>(v) * block.stride;
@@ -274,43 +186,38 @@ SLAM_LANES void ReadOwners(const BlockPixels& block, int count, const std::int16
   }
 }
 
-/// CountOnly for rows of 8 labels.
-PAS_INLINE int CountOnly8(const BlockPixels& block, const std::int16_t* labels,
-                          std::int16_t& label) {
-  const EightLabels none = EightLabels{} + kNoLabel;
-  // kNoLabel is the least: the greatest label is the only one, or others are below it.
-  EightLabels most = none;
+/// GoToOne for rows of 8 labels.
+SLAM_INLINE bool GoToOne8(const BlockPixels& block, const std::int16_t* from,
+                          std::int16_t label, const std::int16_t* to, std::int16_t& only) {
+  const EightLabels least = EightLabels{} + std::numeric_limits<std::int16_t>::max();
+  const EightLabels of = EightLabels{} + label;
+  EightLabels low = least, high = EightLabels{} + kNoLabel;
   for (int v = 0; v < block.height; ++v) {
-    const EightLabels row = Labels8(labels + static_cast<std::ptrdiff_t>(v) * block.stride);
-    most = row > most ? row : most;
+    const std::ptrdiff_t row = static_cast<std::ptrdiff_t>(v) * block.stride;
+    const EightLabels own = Labels8(from + row) == of, now = Labels8(to + row);
+    const EightLabels low_now = own ? now : least, high_now = own ? now : high;
+    low = low_now < low ? low_now : low, high = high_now > high ? high_now : high;
   }
-  label = most[0];
-  for (int k = 1; k < kLanes; ++k) label = std::max<std::int16_t>(label, most[k]);
-  const EightLabels only = EightLabels{} + label;
-  EightLabels same{}, other{};
-  for (int v = 0; v < block.height; ++v) {
-    const EightLabels row = Labels8(labels + static_cast<std::ptrdiff_t>(v) * block.stride);
-    same -= row == only, other |= (row != only) & (row != none);
-  }
-  int same_count = 0, others = 0;
-  for (int k = 0; k < kLanes; ++k) same_count += same[k], others |= other[k];
-  return label == kNoLabel || others != 0 ? 0 : same_count;
+  std::int16_t first = low[0], last = high[0];
+  for (int k = 1; k < kLanes; ++k)
+    first = std::min<std::int16_t>(first, low[k]), last = std::max<std::int16_t>(last, high[k]);
+  only = first;
+  return first == last;
 }
 
-SLAM_LANES int CountOnly(const BlockPixels& block, const std::int16_t* labels,
-                         std::int16_t& label) {
-  if (block.width == kLanes) return CountOnly8(block, labels, label);
-  int same = 0;
-  label = kNoLabel;
+SLAM_LANES bool GoToOne(const BlockPixels& block, const std::int16_t* from, std::int16_t label,
+                        const std::int16_t* to, std::int16_t& only) {
+  if (block.width == kLanes) return GoToOne8(block, from, label, to, only);
+  bool found = false;
   for (int v = 0; v < block.height; ++v) {
-    const std::int16_t* row = labels + static_cast<std::ptrdiff_t>(v) * block.stride;
+    const std::ptrdiff_t row = static_cast<std::ptrdiff_t>(v) * block.stride;
     for (int u = 0; u < block.width; ++u) {
-      if (row[u] == kNoLabel) continue;
-      if (label != kNoLabel && row[u] != label) return 0;
-      label = row[u], ++same;
+      if (from[row + u] != label) continue;
+      if (found && to[row + u] != only) return false;
+      only = to[row + u], found = true;
     }
   }
-  return same;
+  return found;
 }
 
 }  // namespace slam

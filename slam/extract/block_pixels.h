@@ -29,15 +29,6 @@ struct PixelPlane {
   float a, b, c, grazing;
 };
 
-/// What a plane among others has of a block.
-struct BlockRival {
-  int label = 0;
-  const float* residuals = nullptr;  ///< MeasureBlock
-  const float* bids = nullptr;       ///< BidForBlock
-  int pixels = 0;                    ///< ClaimBlock
-  double gain = 0.0;                 ///< GainsOfBlock
-};
-
 /// Where a bid looks: up to `reach` rows and columns beyond each pixel, in the block and as far
 /// beyond it as the image goes.
 struct BidWindow {
@@ -62,25 +53,14 @@ float MeasureBlock(const BlockPixels& block, int count, const PixelPlane& plane,
 void BidForBlock(const BlockPixels& block, int count, const PixelPlane& plane,
                  const BidWindow& window, const float* residuals, float* bids);
 
-/// Gives each pixel to the only rival, if it is nearer than `most_sigmas`, or to the one with
-/// the least bid (the first of equal ones). @param owners  label or kNoLabel
-void ClaimBlock(BlockRival* rivals, int rival_count, int count, float most_sigmas, int* owners);
-
-/// What each rival gains at its pixels over the next best one there, or over `unexplained`
-/// sigmas: sum of differences of squared sigmas.
-/// @param gains, next_labels  of each pixel; kNoLabel where there is no next best
-void GainsOfBlock(BlockRival* rivals, int rival_count, int count, float unexplained,
-                  const int* owners, float* gains, int* next_labels);
-
-/// Sum of the residuals of the pixels that `label` owns.
-double SumOwned(const float* residuals, int count, int label, const int* owners);
-
 /// Writes owners into the label image, or reads them from it.
 void WriteOwners(const BlockPixels& block, const int* owners, std::int16_t* labels);
 void ReadOwners(const BlockPixels& block, int count, const std::int16_t* labels, int* owners);
 
-/// How many pixels of a block have the one label that there is in it, or 0 if there are others.
-/// @param labels  of the block's first pixel
-int CountOnly(const BlockPixels& block, const std::int16_t* labels, std::int16_t& label);
+/// Whether the pixels of a block with a label in `from`, of which there is at least one, have
+/// one and the same in `to`. @param from, to  of the block's first pixel; @param only  that
+/// label
+bool GoToOne(const BlockPixels& block, const std::int16_t* from, std::int16_t label,
+             const std::int16_t* to, std::int16_t& only);
 
 }  // namespace slam

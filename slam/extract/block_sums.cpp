@@ -5,9 +5,7 @@
 #include <cstddef>
 #include <limits>
 
-#include "slam/base/lanes.h"
-
-#define PAS_INLINE [[gnu::always_inline]] inline
+#include "slam/base/lane_math.h"
 
 namespace slam {
 namespace {
@@ -16,52 +14,77 @@ using FourFloats = float __attribute__((vector_size(16), aligned(4), may_alias))
 using FourInts = int __attribute__((vector_size(16), aligned(4), may_alias));
 constexpr int kFour = 4;
 
-/// PlaneSums of four columns of pixels.
-struct FourSums {
-  DoubleLanes n{}, w{}, wx{}, wy{}, wxx{}, wxy{}, wyy{}, wq{}, wqx{}, wqy{}, wqq{};
-};
+template <typename Mark>
+using FourMarks
+    [[gnu::vector_size(kFour * sizeof(Mark)), gnu::aligned(alignof(Mark)), gnu::may_alias]] =
+        Mark;
 
-PAS_INLINE DoubleLanes Load4(const float* p) {
+SLAM_INLINE DoubleLanes Load4(const float* p) {
   return __builtin_convertvector(*reinterpret_cast<const FourFloats*>(p), DoubleLanes);
 }
 
-PAS_INLINE void Add4(const BlockPixels& block, int u, int v, DoubleLanes g, FourSums& sums) {
-  const DoubleLanes x = Load4(block.x + (v * block.x_stride + u));
-  const DoubleLanes y = Load4(block.y + (v * block.y_stride + u));
-  const DoubleLanes q = Load4(block.q + (v * block.stride + u));
-  const DoubleLanes w = g * g, vx = w * x, vy = w * y, vq = w * q;
-  sums.n += g > 0.0 ? DoubleLanes{} + 1.0 : DoubleLanes{};
-  sums.w += w, sums.wx += vx, sums.wy += vy, sums.wq += vq;
-  sums.wxx += vx * x, sums.wxy += vx * y, sums.wyy += vy * y;
-  sums.wqx += vq * x, sums.wqy += vq * y, sums.wqq += vq * q;
-}
+/// PlaneSums of four columns of pixels.
+struct FourSums {
+  DoubleLanes n{}, w{}, wx{}, wy{}, wxx{}, wxy{}, wyy{}, wq{}, wqx{}, wqy{}, wqq{};
 
-PAS_INLINE double SumOf(DoubleLanes v) { return (v[0] + v[2]) + (v[1] + v[3]); }
+  SLAM_INLINE void Add(DoubleLanes x, DoubleLanes y, DoubleLanes q, DoubleLanes g) {
+    const DoubleLanes vx = g * g * x;
+    AddColumn(y, q, g);
+    wx += vx, wxx += vx * x, wxy += vx * y, wqx += vx * q;
+  }
+  /// All but the sums with x.
+  SLAM_INLINE void AddColumn(DoubleLanes y, DoubleLanes q, DoubleLanes g) {
+    const DoubleLanes weight = g * g, vy = weight * y, vq = weight * q;
+    n += g > 0.0 ? DoubleLanes{} + 1.0 : DoubleLanes{};
+    w += weight, wy += vy, wyy += vy * y, wq += vq, wqy += vq * y, wqq += vq * q;
+  }
+  /// Those with x, of whole columns.
+  SLAM_INLINE void SetX(DoubleLanes x) { wx = w * x, wxx = wx * x, wxy = wy * x, wqx = wq * x; }
+  SLAM_INLINE void operator+=(const FourSums& o) {
+    n += o.n, w += o.w, wx += o.wx, wy += o.wy, wxx += o.wxx, wxy += o.wxy, wyy += o.wyy;
+    wq += o.wq, wqx += o.wqx, wqy += o.wqy, wqq += o.wqq;
+  }
+  SLAM_INLINE PlaneSums Sum() const {
+    return {SumOf(n),   SumOf(w),  SumOf(wx),  SumOf(wy),  SumOf(wxx), SumOf(wxy),
+            SumOf(wyy), SumOf(wq), SumOf(wqx), SumOf(wqy), SumOf(wqq)};
+  }
+};
+
+/// g of four pixels that have `value` in `marks` (null: of all), 0 for the others.
+template <typename Mark>
+SLAM_INLINE DoubleLanes Weights(const float* g, const Mark* marks, Mark value) {
+  if (marks == nullptr) return Load4(g);
+  const auto four =
+      __builtin_convertvector(*reinterpret_cast<const FourMarks<Mark>*>(marks), FourInts);
+  const FourInts used = four == static_cast<int>(value);
+  const auto kept = (FourFloats)((FourInts) * reinterpret_cast<const FourFloats*>(g) & used);
+  return __builtin_convertvector(kept, DoubleLanes);
+}
 
 /// Sums of the pixels that have `value` in `marks` (null: of all); columns four at a time, then
 /// the rest.
 template <typename Mark>
-PAS_INLINE PlaneSums Sum(const BlockPixels& block, const Mark* marks, Mark value) {
-  FourSums four;
+SLAM_INLINE PlaneSums Sum(const BlockPixels& block, const Mark* marks, Mark value) {
+  FourSums fours;
+  const bool whole_columns = block.x_stride == 0;  // of one x, and rows of one y
   const int whole = block.width / kFour * kFour;
   for (int u = 0; u < whole; u += kFour) {
+    FourSums four;
     for (int v = 0; v < block.height; ++v) {
       const std::ptrdiff_t i = static_cast<std::ptrdiff_t>(v) * block.stride + u;
-      const FourFloats g = *reinterpret_cast<const FourFloats*>(block.g + i);
-      FourInts used = FourInts{} - 1;
-      if (marks != nullptr) {
-        const FourInts four_marks{marks[i], marks[i + 1], marks[i + 2], marks[i + 3]};
-        used = four_marks == static_cast<int>(value);
+      const DoubleLanes g = Weights(block.g + i, marks == nullptr ? nullptr : marks + i, value);
+      const DoubleLanes q = Load4(block.q + i);
+      if (whole_columns) {
+        four.AddColumn(DoubleLanes{} + static_cast<double>(block.y[v * block.y_stride]), q, g);
+      } else {
+        four.Add(Load4(block.x + (v * block.x_stride + u)),
+                 Load4(block.y + (v * block.y_stride + u)), q, g);
       }
-      const auto kept = (FourFloats)((FourInts)g & used);
-      Add4(block, u, v, __builtin_convertvector(kept, DoubleLanes), four);
     }
+    if (whole_columns) four.SetX(Load4(block.x + u));
+    fours += four;
   }
-  PlaneSums out;
-  out.n = SumOf(four.n), out.w = SumOf(four.w), out.wx = SumOf(four.wx);
-  out.wy = SumOf(four.wy), out.wxx = SumOf(four.wxx), out.wxy = SumOf(four.wxy);
-  out.wyy = SumOf(four.wyy), out.wq = SumOf(four.wq), out.wqx = SumOf(four.wqx);
-  out.wqy = SumOf(four.wqy), out.wqq = SumOf(four.wqq);
+  PlaneSums out = fours.Sum();
   for (int v = 0; v < block.height; ++v) {
     for (int u = whole; u < block.width; ++u) {
       const std::ptrdiff_t i = static_cast<std::ptrdiff_t>(v) * block.stride + u;
@@ -75,9 +98,7 @@ PAS_INLINE PlaneSums Sum(const BlockPixels& block, const Mark* marks, Mark value
   return out;
 }
 
-PAS_INLINE FloatLanes Size(FloatLanes r) { return (FloatLanes)((IntLanes)r & 0x7fffffff); }
-
-PAS_INLINE bool HasJump8(const BlockPixels& block, float most_sigmas) {
+SLAM_INLINE bool HasJump8(const BlockPixels& block, float most_sigmas) {
   IntLanes jumps{};
   for (int v = 0; v < kLanes; ++v) {
     const std::ptrdiff_t i = static_cast<std::ptrdiff_t>(v) * block.stride;
@@ -91,9 +112,7 @@ PAS_INLINE bool HasJump8(const BlockPixels& block, float most_sigmas) {
     const FloatLanes g_below = Lanes(block.g + i + block.stride);
     jumps |= (Size(q - q_below) * g > most_sigmas) & (g_below > 0.0f);
   }
-  int any = 0;
-  for (int k = 0; k < kLanes; ++k) any |= jumps[k];
-  return any != 0;
+  return AnyOf(jumps);
 }
 
 bool HasJumpAny(const BlockPixels& block, float most_sigmas) {

@@ -38,7 +38,7 @@ void PixelGrowth::Begin(const DepthGrid& grid, const GrowthConfig& config) {
   planes_.clear(), claims_.clear(), reached_.clear();
   first_.assign(blocks, kNoClaim);
   active_.clear(), next_active_.clear(), is_active_.assign(blocks, 0);
-  is_stale_.assign(blocks, 0);
+  is_stale_.assign(blocks, 0), knows_gains_.assign(blocks, 0);
   labels_.assign(grid.q.size(), kNoLabel);
   bid_count_ = 0;
   owners_.resize(slot_size_), next_labels_.resize(slot_size_), gains_.resize(slot_size_);
@@ -56,7 +56,7 @@ bool PixelGrowth::Reach(int block, int label) {
   if ((bits & bit) != 0) return false;
   bits |= bit;
   const int claim = static_cast<int>(claims_.size());
-  claims_.push_back({label, kNoClaim, 0, -1, 0.0f, false, false});
+  claims_.push_back({label, kNoClaim, 0, -1, 0.0f, false, false, 0.0});
   int* link = &First(block);
   while (*link != kNoClaim && At(*link).label < label) link = &At(*link).next;
   At(claim).next = *link;
@@ -124,10 +124,12 @@ bool PixelGrowth::LabelBlock(int block) {
   for (int claim = First(block); claim != kNoClaim; claim = At(claim).next) {
     if (At(claim).measured) continue;
     Measure(pixels, claim);
+    knows_gains_[static_cast<std::size_t>(block)] = 0;
     if (At(claim).least < farthest) is_stale = 1;
   }
   if (is_stale == 0) return false;
   is_stale = 0;
+  knows_gains_[static_cast<std::size_t>(block)] = 0;
   for (int claim = First(block); claim != kNoClaim; claim = At(claim).next)
     At(claim).pixels = 0;
   GatherRivals(block, farthest);
@@ -149,12 +151,29 @@ bool PixelGrowth::LabelBlock(int block) {
   return true;
 }
 
+/// Whether a label has reached a block and all its neighbours, so that it cannot spread.
+bool PixelGrowth::HasReachedAround(int block, int label) const {
+  const int c = block % cols_, r = block / cols_;
+  const int first = std::max(c - 1, 0), count = std::min(c + 1, cols_ - 1) - first + 1;
+  const std::uint64_t all = (std::uint64_t{1} << count) - 1;
+  const std::uint64_t* words = reached_.data() + static_cast<std::size_t>(label) * words_;
+  for (int y = std::max(r - 1, 0); y <= std::min(r + 1, rows_ - 1); ++y) {
+    const int at = y * cols_ + first, shift = at % 64;
+    const std::uint64_t* word = words + at / 64;
+    std::uint64_t bits = *word >> shift;
+    if (shift + count > 64) bits |= word[1] << (64 - shift);
+    if ((bits & all) != all) return false;
+  }
+  return true;
+}
+
 void PixelGrowth::SpreadFrom(int block) {
   const int c = block % cols_, r = block / cols_;
   for (int claim = First(block); claim != kNoClaim; claim = At(claim).next) {
     if (At(claim).spread || At(claim).pixels < kLeastPixelsToSpread) continue;
     At(claim).spread = true;
     const int label = At(claim).label;
+    if (HasReachedAround(block, label)) continue;
     for (int y = std::max(r - 1, 0); y <= std::min(r + 1, rows_ - 1); ++y) {
       for (int x = std::max(c - 1, 0); x <= std::min(c + 1, cols_ - 1); ++x) {
         Seed(y * cols_ + x, label);
@@ -200,11 +219,19 @@ void PixelGrowth::AddGains(int block) {
     gain_[label] += static_cast<double>(unexplained * unexplained - 1.0f) * only.pixels;
     return;
   }
-  CompareRivals(block, unexplained);
-  for (std::size_t k = 0; k < rivals_.size(); ++k) {
-    const auto label = static_cast<std::size_t>(rivals_[k].label);
-    pixels_[label] += At(rival_claims_[k]).pixels;
-    gain_[label] += rivals_[k].gain;
+  std::uint8_t& known = knows_gains_[static_cast<std::size_t>(block)];
+  if (known == 0) {
+    CompareRivals(block, unexplained);
+    for (int claim = First(block); claim != kNoClaim; claim = At(claim).next)
+      At(claim).gain = 0.0;
+    for (std::size_t k = 0; k < rivals_.size(); ++k)
+      At(rival_claims_[k]).gain = rivals_[k].gain;
+    known = 1;
+  }
+  for (int claim = First(block); claim != kNoClaim; claim = At(claim).next) {
+    const auto label = static_cast<std::size_t>(At(claim).label);
+    pixels_[label] += At(claim).pixels;
+    gain_[label] += At(claim).gain;
   }
 }
 
@@ -303,11 +330,7 @@ void PixelGrowth::MarkSettled(double bias, double standard_errors,
           SumOwned(ResidualsOf(claim), static_cast<int>(slot_size_), label, owners_.data());
       const double bound = bias + standard_errors / std::sqrt(static_cast<double>(n));
       if (!(std::abs(sum) < bound * n)) continue;
-      for (int v = 0; v < area.height; ++v) {
-        const int* owners = owners_.data() + v * config_.block_px;
-        std::uint8_t* row = settled.data() + start + static_cast<std::size_t>(v * grid_->width);
-        for (int u = 0; u < area.width; ++u) row[u] |= owners[u] == label ? 1 : 0;
-      }
+      MarkOwned(pixels, label, owners_.data(), settled.data() + start);
     }
   }
 }

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "slam/extract/block_pixels.h"
+#include "slam/extract/block_rivals.h"
 #include "slam/extract/depth_grid.h"
 #include "slam/extract/pixel_labels.h"
 #include "slam/extract/plane_sums.h"
@@ -82,6 +83,7 @@ class PixelGrowth {
     float least = 0.0f;     ///< residual of the block's pixels
     bool measured = false;  ///< `least` and its residuals are
     bool spread = false;    ///< to the neighbours
+    double gain = 0.0;      ///< over the next best one at its pixels; if its block's are known
   };
 
   Claim& At(int claim) { return claims_[static_cast<std::size_t>(claim)]; }
@@ -104,6 +106,7 @@ class PixelGrowth {
   void GatherRivals(int block, float nearer_than);
   void CompareRivals(int block, float unexplained);
   bool LabelBlock(int block);
+  bool HasReachedAround(int block, int label) const;
   void SpreadFrom(int block);
   void AddGains(int block);
   void AddGainsWithout(int label);
@@ -122,6 +125,7 @@ class PixelGrowth {
   std::vector<int> active_, next_active_;  ///< blocks that planes have reached
   std::vector<std::uint8_t> is_active_;
   std::vector<std::uint8_t> is_stale_;  ///< blocks whose labels are not those of their claims
+  std::vector<std::uint8_t> knows_gains_;  ///< blocks whose claims have not changed since
   LabelImage labels_;
   std::vector<float> residuals_;  ///< of each claim, sigmas; infinity where nothing is measured
   std::vector<float> bids_;       ///< BidForBlock
@@ -138,6 +142,7 @@ class PixelGrowth {
   std::vector<BlockRival> rivals_;
   std::vector<int> rival_claims_;
   mutable std::vector<int> owners_;
+  mutable std::vector<std::pair<int, int>> goes_to_;  ///< (claim, other label)
   std::vector<int> next_labels_;
   std::vector<float> gains_;
 };

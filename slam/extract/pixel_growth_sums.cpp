@@ -28,21 +28,25 @@ void PixelGrowth::SumOtherLabels(const LabelImage& labels, int count,
                                  std::vector<PlaneSums>& sums) const {
   sums.assign(static_cast<std::size_t>(count), PlaneSums{});
   for (int block = 0; block < cols_ * rows_; ++block) {
-    int owner = kNoClaim, owner_count = 0;
-    for (int claim = First(block); claim != kNoClaim; claim = At(claim).next) {
-      if (At(claim).pixels > 0) owner = claim, ++owner_count;
-    }
-    if (owner_count == 0) continue;
     const cv::Rect area = BlockArea(block);
+    const auto start = static_cast<std::size_t>(grid_->Index(area.x, area.y));
     const BlockPixels pixels = PixelsOf(area);
-    const std::int16_t* start =
-        labels.data() + static_cast<std::size_t>(grid_->Index(area.x, area.y));
-    std::int16_t label = kNoLabel;
-    const int same = owner_count == 1 ? CountOnly(pixels, start, label) : 0;
-    if (same > 0 && same == At(owner).pixels) {
-      sums[static_cast<std::size_t>(label)] += claim_sums_[static_cast<std::size_t>(owner)];
-    } else {
-      SumTile(pixels, start, sums);
+    goes_to_.clear();
+    bool whole = true;
+    for (int claim = First(block); whole && claim != kNoClaim; claim = At(claim).next) {
+      if (At(claim).pixels == 0) continue;
+      const auto label = static_cast<std::int16_t>(At(claim).label);
+      std::int16_t to = kNoLabel;
+      whole = GoToOne(pixels, labels_.data() + start, label, labels.data() + start, to);
+      goes_to_.emplace_back(claim, to);
+    }
+    if (!whole) {
+      SumTile(pixels, labels.data() + start, sums);
+      continue;
+    }
+    for (const auto& [claim, to] : goes_to_) {
+      if (to == kNoLabel) continue;
+      sums[static_cast<std::size_t>(to)] += claim_sums_[static_cast<std::size_t>(claim)];
     }
   }
 }

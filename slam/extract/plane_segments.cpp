@@ -114,9 +114,9 @@ void SamplePoints(const DepthGrid& grid, const cv::Mat1b& labels, const Segment&
   if (sampled > 0) out.area_m2 = area / sampled * out.pixel_count;
 }
 
-/// Some two thousand pixels say how rough a segment is.
+/// Some thousand pixels say how rough a segment is, to a few per cent.
 int RoughnessStep(int pixels) {
-  return std::clamp(static_cast<int>(std::sqrt(pixels / 2000.0)), 1, 6);
+  return std::clamp(static_cast<int>(std::sqrt(pixels / 1000.0)), 1, 8);
 }
 
 FramePlane MakeFramePlane(const Segment& segment, int index) {

@@ -1,5 +1,7 @@
 #include "slam/extract/roughness.h"
 
+#include "slam/extract/pixel_labels.h"
+
 namespace slam {
 namespace {
 
@@ -11,23 +13,21 @@ constexpr int kMinPairs = 30;
 double MeasureRoughness(const DepthGrid& grid, const cv::Mat1b& labels, const cv::Rect& bounds,
                         std::uint8_t label, const InverseDepthPlane& plane,
                         const DepthNoise& noise, int step_px) {
+  const LabelPlane unslanted{plane, 1.0};
   const auto at = [&](int u, int v) {
-    const auto i = static_cast<std::size_t>(grid.Index(u, v));
-    const auto x = static_cast<double>(grid.x[i]), y = static_cast<double>(grid.y[i]);
-    const auto q = static_cast<double>(grid.q[i]);
-    return (q - plane.InverseDepth(x, y)) * static_cast<double>(grid.g[i]);
+    return ResidualSigmas(grid, static_cast<std::size_t>(grid.Index(u, v)), unslanted);
   };
   double sum = 0.0;
   int pairs = 0;
-  const auto add = [&](double here, int u, int v) {
+  const auto add = [&](float here, int u, int v) {
     if (u >= labels.cols || v >= labels.rows || labels(v, u) != label) return;
-    const double by = here - at(u, v);
-    sum += by * by, ++pairs;
+    const float by = here - at(u, v);
+    sum += static_cast<double>(by * by), ++pairs;
   };
   for (int v = bounds.y; v < bounds.y + bounds.height; v += step_px) {
     for (int u = bounds.x; u < bounds.x + bounds.width; u += step_px) {
       if (labels(v, u) != label) continue;
-      const double here = at(u, v);
+      const float here = at(u, v);
       add(here, u + kApart_px, v);
       add(here, u, v + kApart_px);
     }
