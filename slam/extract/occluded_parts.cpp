@@ -36,7 +36,7 @@ void PartSegmentation::JoinHiddenLabels(const DepthGrid& grid, const PatchUnion&
   std::iota(into_.begin(), into_.end(), 0);
   for (std::size_t k = 1; k < by_size_.size(); ++k) {
     const auto small = static_cast<std::size_t>(by_size_[k]);
-    if (!around_[small].MayHide(config.max_island_behind)) continue;
+    const bool may_hide = around_[small].MayHide(config.max_island_behind);
     double least = 1.0;
     for (std::size_t j = 0; j < k; ++j) {
       const int large = by_size_[j];
@@ -45,8 +45,17 @@ void PartSegmentation::JoinHiddenLabels(const DepthGrid& grid, const PatchUnion&
                                   config.max_hidden_gap_sigmas, config);
       if (!(gap < least) || patches.Apart(by_size_[k], large)) continue;
       const LabelPlane& plane = patches.At(large).plane;
-      if (between_.ShareBehind(by_size_[k], large, plane) > config.max_island_behind) continue;
-      least = gap, into_[small] = large;
+      // Where a part ends in sight, bounds that a warp has widened would let in what lies on
+      // the plane.
+      const auto equal = [&] {
+        return PatchGap(patches.At(by_size_[k]), patches.At(large), config.max_merge_gap_sigmas,
+                        config) < 1.0;
+      };
+      const bool hidden =
+          (may_hide &&
+           between_.ShareBehind(by_size_[k], large, plane) <= config.max_island_behind) ||
+          (equal() && between_.AreSidesOfSomethingInFront(by_size_[k], large, plane));
+      if (hidden) least = gap, into_[small] = large;
     }
   }
   for (LabelComponent& c : components_.list) c.label = into_[static_cast<std::size_t>(c.label)];
@@ -79,13 +88,11 @@ void PartSegmentation::NumberSegments(const DepthGrid& grid,
     const LabelComponent& c = components_.list[k];
     if (segment_[k] >= 0 || c.pixels < config.min_island_pixels) continue;
     const int largest = main_[static_cast<std::size_t>(c.label)];
-    const auto hidden_between = [&] {
-      return between_.ShareBehind(static_cast<int>(k), largest,
-                                  planes_[static_cast<std::size_t>(c.label)]) <=
-             config.max_island_behind;
-    };
-    if (Surroundings{c.behind, c.in_front}.MayHide(config.max_island_behind) &&
-        hidden_between()) {
+    const LabelPlane& plane = planes_[static_cast<std::size_t>(c.label)];
+    const auto part = static_cast<int>(k);
+    if ((Surroundings{c.behind, c.in_front}.MayHide(config.max_island_behind) &&
+         between_.ShareBehind(part, largest, plane) <= config.max_island_behind) ||
+        between_.AreSidesOfSomethingInFront(part, largest, plane)) {
       segment_[k] = segment_[static_cast<std::size_t>(largest)];
     } else if (c.pixels >= config.min_pixels) {
       segment_[k] = segment_count_++;

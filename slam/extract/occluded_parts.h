@@ -13,9 +13,10 @@ namespace slam {
 /// Numbers the segments that connected parts of labels make, across what hides parts of them.
 ///
 /// Two parts are one plane though nothing joins them in the image if the smaller lies on the
-/// larger's extension, and both what surrounds the smaller and what lies between them is in
-/// front of it, so that the plane can pass behind. Two book tops of one height have the desk
-/// between them, which is behind, and stay apart.
+/// larger's extension, and either both what surrounds the smaller and what lies between them is
+/// in front of it, so that the plane can pass behind, or from all over the one to all over the
+/// other something in front is seen and nothing behind, whatever else ends them. Two book tops
+/// of one height have the desk between them, which is behind, and stay apart.
 ///
 /// The memory of one image serves the next.
 class PartSegmentation {

@@ -78,6 +78,17 @@ bool PatchUnion::Apart(int a, int b) const {
   });
 }
 
+bool PatchUnion::Contested(int a, int b, const PlaneExtractionConfig& config) const {
+  const auto is_of_b = [&](int k) {
+    return Root(k) != a && Root(k) != b &&
+           PatchGap(At(k), At(b), config.max_bend_sigmas, config) < 1.0;
+  };
+  return std::any_of(apart_.begin(), apart_.end(), [&](const std::pair<int, int>& pair) {
+    return (Root(pair.first) == a && is_of_b(pair.second)) ||
+           (Root(pair.second) == a && is_of_b(pair.first));
+  });
+}
+
 void PatchUnion::CopyPlanes(std::vector<LabelPlane>& planes) const {
   planes.clear();
   for (const Patch& patch : patches_) planes.push_back(patch.plane);
@@ -149,6 +160,7 @@ void PatchJoining::JoinMeeting(const PlaneExtractionConfig& config) {
       const double angle = Angle(A.plane.plane.Hessian().n, B.plane.plane.Hessian().n);
       if (!(angle < config.max_bend_rad)) continue;
       if (!(PatchGap(A, B, config.max_bend_sigmas, config) < 1.0)) continue;
+      if (patches_.Contested(a, b, config) || patches_.Contested(b, a, config)) continue;
       patches_.Join(a, b, config.noise);
       changed = true;
     }

@@ -42,6 +42,10 @@ class PatchUnion {
   /// Two surfaces meet where patches k and l touch: nothing may join what they belong to.
   void KeepApart(int k, int l) { apart_.emplace_back(k, l); }
   bool Apart(int a, int b) const;
+  /// Whether something that patch `a` is kept apart from agrees with `b` too, within the bounds
+  /// on bending: both cannot be of its plane. A sheet of paper may meet a desk without a step
+  /// on one side, and have a raised edge on the other, beyond which the desk goes on.
+  bool Contested(int a, int b, const PlaneExtractionConfig& config) const;
   void CopyPlanes(std::vector<LabelPlane>& planes) const;
 
  private:

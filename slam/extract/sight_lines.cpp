@@ -11,6 +11,13 @@ constexpr int kGrid_px = 8;
 constexpr std::size_t kLines = 5;
 constexpr float kBehind_sigmas = 2.0f;  // other parts of the plane scatter about it
 
+// Of lines all over two parts.
+constexpr std::size_t kEnds = 12;      // of each part
+constexpr float kClear_sigmas = 3.0f;  // no other part of the plane scatters so far
+constexpr int kClear_px = 3;           // in a row, as single pixels beside an edge may err
+constexpr double kLeastInFront = 0.5;  // share of the lines
+constexpr double kMostBeyond = 0.05;   // share of the lines
+
 int Square(int k) { return k * k; }
 
 /// Distance of a number from an interval.
@@ -109,6 +116,43 @@ double SightLines::ShareBehind(int a, int b, const LabelPlane& plane) {
     }
   }
   return measured > 0 ? static_cast<double>(behind) / measured : 0.0;
+}
+
+SightLines::Sight SightLines::Look(const Line& line, int a, int b,
+                                   const LabelPlane& plane) const {
+  const float clear = std::max(kClear_sigmas, behind_sigmas_);
+  const int du = line.to.u - line.from.u, dv = line.to.v - line.from.v;
+  const int steps = std::max(std::abs(du), std::abs(dv));
+  int beyond = 0, in_front = 0;
+  for (int s = 1; s < steps; ++s) {
+    const int u = line.from.u + du * s / steps, v = line.from.v + dv * s / steps;
+    const auto i = static_cast<std::size_t>(grid_->Index(u, v));
+    if (!(grid_->g[i] > 0)) continue;
+    const float residual = ResidualSigmas(*grid_, i, plane);
+    const bool is_beyond = residual < -clear;
+    if (residual > clear) ++in_front;
+    const int part = is_beyond ? (*part_)[runs_->At(u, v)] : a;
+    beyond = is_beyond && part != a && part != b ? beyond + 1 : 0;
+    if (beyond == kClear_px) return Sight::kBeyond;
+  }
+  return in_front < kClear_px ? Sight::kPlaneOrNothing : Sight::kInFront;
+}
+
+bool SightLines::AreSidesOfSomethingInFront(int a, int b, const LabelPlane& plane) const {
+  const auto end = [&](int part, std::size_t k) {  // of kEnds, in equal steps
+    const Part& p = parts_[static_cast<std::size_t>(part)];
+    return pixels_[p.begin + (p.end - p.begin) * (2 * k + 1) / (2 * kEnds)];
+  };
+  int in_front = 0, beyond = 0;
+  for (std::size_t j = 0; j < kEnds; ++j) {
+    for (std::size_t k = 0; k < kEnds; ++k) {
+      const Sight sight = Look({0, end(a, j), end(b, k)}, a, b, plane);
+      in_front += sight == Sight::kInFront ? 1 : 0;
+      beyond += sight == Sight::kBeyond ? 1 : 0;
+    }
+    if (beyond > kMostBeyond * kEnds * kEnds) return false;
+  }
+  return in_front >= kLeastInFront * kEnds * kEnds;
 }
 
 }  // namespace slam

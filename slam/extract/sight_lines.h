@@ -25,6 +25,12 @@ class SightLines {
   /// measured.
   double ShareBehind(int a, int b, const LabelPlane& plane);
 
+  /// Whether `a` and `b` are what can be seen of one convex surface: of the lines between
+  /// pixels all over both, most pass something clearly in front of `plane`, and hardly any sees
+  /// past it. What else ends the parts, a table's own edge say, is not asked. Not for what
+  /// noise cuts: then nothing is in front.
+  bool AreSidesOfSomethingInFront(int a, int b, const LabelPlane& plane) const;
+
  private:
   struct Pixel {
     int u = 0, v = 0;
@@ -42,7 +48,11 @@ class SightLines {
     int part = 0;
     Pixel at;
   };
+  /// What a line from one part to another passes.
+  enum class Sight { kPlaneOrNothing, kInFront, kBeyond };
+
   void AddMissed(int part_count);
+  Sight Look(const Line& line, int a, int b, const LabelPlane& plane) const;
   void FindNearestLines(int a, int b);
 
   const DepthGrid* grid_ = nullptr;

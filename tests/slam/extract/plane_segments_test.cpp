@@ -130,6 +130,38 @@ TEST(PlaneSegments, ReuniteADeskThatAnObjectCutsInTwo) {
   EXPECT_NE(PlaneOfFace(frame, view.face, FaceId(0, kTop)), nullptr);
 }
 
+/// The planes of two faces in a noisy view of the world.
+std::pair<const FramePlane*, const FramePlane*> TwoTops(const closed_form::World& world,
+                                                        int first, int second, Frame& frame) {
+  const Camera camera;
+  const Pose T_cw = closed_form::LookAt({0.0, -0.2, 0.9}, {0, 0, 0});
+  const closed_form::View view = closed_form::Render(world, camera, T_cw);
+  frame = Extract(closed_form::AddKinectNoise(view.depth_m, 3), camera);
+  return {PlaneOfFace(frame, view.face, FaceId(first, kTop)),
+          PlaneOfFace(frame, view.face, FaceId(second, kTop))};
+}
+
+TEST(PlaneSegments, ReuniteATopThatWhatStandsOnItCutsInTwo) {
+  // The desk, behind it, is all around either part, but not between them.
+  closed_form::World world = closed_form::Desk();
+  closed_form::PutOnDesk(world, 0.0, 0.0, {0.3, 0.2, 0.03}, 0.0, "book");
+  world.boxes.push_back({{0.0, 0.0, 0.08}, {0.04, 0.22, 0.1}, 0.0, ""});
+  Frame frame;
+  EXPECT_NE(TwoTops(world, 1, 2, frame).first, nullptr);
+}
+
+TEST(PlaneSegments, KeepTwoBooksApartThatSomethingStandsBetween) {
+  closed_form::World world = closed_form::Desk();
+  closed_form::PutOnDesk(world, -0.105, 0.0, {0.15, 0.22, 0.03}, 0.0, "book");
+  closed_form::PutOnDesk(world, 0.105, 0.0, {0.15, 0.22, 0.03}, 0.0, "book");
+  world.boxes.push_back({{0.0, 0.0, 0.06}, {0.06, 0.1, 0.12}, 0.0, ""});
+  Frame frame;
+  const auto [left, right] = TwoTops(world, 1, 2, frame);
+  ASSERT_NE(left, nullptr);
+  ASSERT_NE(right, nullptr);
+  EXPECT_NE(left->index, right->index);
+}
+
 TEST(PlaneSegments, KeepTwoBooksOfOneHeightApart) {
   closed_form::World world = closed_form::Desk();
   closed_form::PutOnDesk(world, -0.12, 0.0, {0.15, 0.22, 0.03}, 0.0, "book");
