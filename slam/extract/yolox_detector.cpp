@@ -18,6 +18,9 @@ using cv::utils::logging::getLogLevel;
 using cv::utils::logging::setLogLevel;
 
 constexpr int kCoarsestStride = 32;
+// As COCO counts of an image. A network that finds something everywhere would otherwise keep
+// box tracking busy for half a minute a frame.
+constexpr std::size_t kMostBoxes = 100;
 constexpr int kMostPixels = 1 << 24;  // of an input: far beyond any that is used
 
 /// OpenCV tells of a bad model on the standard error as well as by an exception.
@@ -117,8 +120,10 @@ class YoloxDetector::Network {
   }
 
   std::vector<YoloxBox> Find(const cv::Mat3b& bgr) {
-    return SuppressOverlaps(DecodeYolox(Answer(bgr), letterbox_.input(), config_),
-                            config_.max_nms_iou);
+    std::vector<YoloxBox> boxes = SuppressOverlaps(
+        DecodeYolox(Answer(bgr), letterbox_.input(), config_), config_.max_nms_iou);
+    if (boxes.size() > kMostBoxes) boxes.resize(kMostBoxes);
+    return boxes;
   }
 
   const Letterbox& letterbox() const { return letterbox_; }
