@@ -27,6 +27,11 @@ class OuterContours {
   const std::vector<Contour>& contours() const { return contours_; }
   const std::vector<cv::Point>& points() const { return points_; }
 
+  /// The label image's value at a pixel of it.
+  int LabelAt(const cv::Point& at) const {
+    return cells_[static_cast<std::size_t>(CellAt(at))];
+  }
+
   /// Direction from a pixel to the outside of its segment: the sum of its outside neighbours,
   /// two to each side.
   cv::Point Outward(const cv::Point& at) const;

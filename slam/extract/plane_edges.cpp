@@ -1,11 +1,16 @@
 #include "slam/extract/plane_edges.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 
 namespace slam {
 namespace {
 
+// What rises from a surface at a concave crease either ends it, as a wall does a floor and a
+// desk the side of a book, or stands on it and hides the rest, as a book does on another. It
+// ends it if its visible area is at least this part of the surface's.
+constexpr double kMinRisingArea = 0.5;
 constexpr std::size_t kLeastContour = 8;  // pixels; shorter ones bound specks
 
 /// To the nearest integer, halves away from zero.
@@ -15,23 +20,58 @@ int Rounded(double x) {
   return whole + (rest >= 0.5 ? 1 : 0) - (rest <= -0.5 ? 1 : 0);
 }
 
-EdgeKind KindBeyond(const DepthGrid& grid, const cv::Point& at, const Eigen::Vector2d& outward,
-                    const LabelPlane& plane, const EdgeConfig& config) {
+/// The side of one segment on which its boundary is looked beyond.
+struct Outside {
+  const DepthGrid& grid;
+  const OuterContours& contours;
+  int value;  ///< of the segment
+  const LabelPlane& plane;
+  std::span<const double> areas_m2;
+  const EdgeConfig& config;
+
+  bool Contains(const cv::Point& at) const {
+    return at.x >= 0 && at.y >= 0 && at.x < grid.width && at.y < grid.height;
+  }
+};
+
+cv::Point Along(const cv::Point& at, const Eigen::Vector2d& step, int k) {
+  return {at.x + Rounded(k * step.x()), at.y + Rounded(k * step.y())};
+}
+
+/// Whether what rises from the segment at a concave crease ends it, see kMinRisingArea.
+bool EndsAtCrease(const Outside& outside, const cv::Point& at, const Eigen::Vector2d& step) {
+  for (int k = outside.config.reach_px; k >= 1; --k) {
+    const cv::Point beyond = Along(at, step, k);
+    if (!outside.Contains(beyond)) continue;
+    const int label = outside.contours.LabelAt(beyond);
+    if (label == 0 || label == outside.value) continue;
+    const auto area_m2 = [&](int value) {
+      return outside.areas_m2[static_cast<std::size_t>(value - 1)];
+    };
+    return area_m2(label) >= kMinRisingArea * area_m2(outside.value);
+  }
+  return false;
+}
+
+/// @param step_sigmas  set to the residual of what lies beyond
+EdgeKind KindBeyond(const Outside& outside, const cv::Point& at, const Eigen::Vector2d& outward,
+                    float& step_sigmas) {
+  const EdgeConfig& config = outside.config;
   const Eigen::Vector2d step = outward / outward.cwiseAbs().maxCoeff();
   const float least_step = static_cast<float>(config.min_step_sigmas);
   float first = 0, last = 0;
   int measured = 0;
   for (int k = 1; k <= std::max(config.reach_px, config.shadow_px); ++k) {
     if (k > config.reach_px && measured > 0) break;
-    const int u = at.x + Rounded(k * step.x());
-    const int v = at.y + Rounded(k * step.y());
-    if (u < 0 || v < 0 || u >= grid.width || v >= grid.height) {
+    const cv::Point beyond = Along(at, step, k);
+    if (!outside.Contains(beyond)) {
       if (measured == 0) return k <= config.reach_px ? EdgeKind::kBorder : EdgeKind::kMissing;
       break;
     }
-    const auto i = static_cast<std::size_t>(grid.Index(u, v));
-    if (!(grid.g[i] > 0)) continue;
-    last = ResidualSigmas(grid, i, plane);
+    const auto i = static_cast<std::size_t>(outside.grid.Index(beyond.x, beyond.y));
+    if (!(outside.grid.g[i] > 0)) continue;
+    last = ResidualSigmas(outside.grid, i, outside.plane);
+    step_sigmas = std::abs(last);
     if (k > config.reach_px) {  // beyond a gap
       if (last < -least_step) return EdgeKind::kSurface;
       return last > least_step ? EdgeKind::kOccluded : EdgeKind::kMissing;
@@ -40,16 +80,17 @@ EdgeKind KindBeyond(const DepthGrid& grid, const cv::Point& at, const Eigen::Vec
   }
   if (measured == 0) return EdgeKind::kMissing;
   if (!(last > least_step)) return EdgeKind::kSurface;
-  return first < static_cast<float>(config.max_crease_start) * last ? EdgeKind::kSurface
-                                                                    : EdgeKind::kOccluded;
+  const bool crease = first < static_cast<float>(config.max_crease_start) * last;
+  return crease && EndsAtCrease(outside, at, step) ? EdgeKind::kSurface : EdgeKind::kOccluded;
 }
 
 }  // namespace
 
 void FindEdgePoints(const DepthGrid& grid, const OuterContours& contours, int value,
-                    const LabelPlane& plane, const EdgeConfig& config,
-                    std::vector<EdgePoint>& edge) {
+                    const LabelPlane& plane, std::span<const double> areas_m2,
+                    const EdgeConfig& config, std::vector<EdgePoint>& edge) {
   edge.clear();
+  const Outside outside{grid, contours, value, plane, areas_m2, config};
   const auto& list = contours.contours();
   auto contour = std::lower_bound(list.begin(), list.end(), value,
                                   [](const auto& c, int label) { return c.label < label; });
@@ -62,10 +103,11 @@ void FindEdgePoints(const DepthGrid& grid, const OuterContours& contours, int va
       if (sum.x == 0 && sum.y == 0) continue;
       const auto i = static_cast<std::size_t>(grid.Index(at.x, at.y));
       const double z = 1.0 / static_cast<double>(grid.q[i]);
-      edge.push_back({Eigen::Vector3d(static_cast<double>(grid.x[i]) * z,
-                                      static_cast<double>(grid.y[i]) * z, z),
-                      Eigen::Vector2d(at.x, at.y),
-                      KindBeyond(grid, at, Eigen::Vector2d(sum.x, sum.y), plane, config)});
+      EdgePoint point;
+      point.p_c = {static_cast<double>(grid.x[i]) * z, static_cast<double>(grid.y[i]) * z, z};
+      point.u_px = {at.x, at.y};
+      point.kind = KindBeyond(outside, at, {sum.x, sum.y}, point.step_sigmas);
+      edge.push_back(point);
     }
   }
 }

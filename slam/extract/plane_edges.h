@@ -1,5 +1,6 @@
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "slam/extract/depth_grid.h"
@@ -29,15 +30,17 @@ struct EdgeConfig {
 ///   the image's border                      kBorder
 ///   farther than the plane                  kSurface (a step down, or a convex crease)
 ///   nearer, and suddenly                    kOccluded
-///   nearer, but growing from the boundary   kSurface (a concave crease)
+///   nearer, but growing from the boundary   a concave crease: kSurface, or kOccluded where a
+///                                           small thing stands on the surface
 /// p_c is the measured point of the boundary pixel.
 ///
 /// @param contours  of the label image, index + 1 of the segment at each pixel
 /// @param value     the segment's value in it
 /// @param plane     its plane
+/// @param areas_m2  visible areas of all segments, by value - 1
 /// @param edge      what is found; what was in it is forgotten
 void FindEdgePoints(const DepthGrid& grid, const OuterContours& contours, int value,
-                    const LabelPlane& plane, const EdgeConfig& config,
-                    std::vector<EdgePoint>& edge);
+                    const LabelPlane& plane, std::span<const double> areas_m2,
+                    const EdgeConfig& config, std::vector<EdgePoint>& edge);
 
 }  // namespace slam

@@ -150,6 +150,7 @@ struct PlaneExtractor::Workspace {
   std::vector<Segment> kept;
   std::vector<std::uint8_t> drawn_value;
   OuterContours contours;
+  std::vector<double> areas_m2;  ///< visible, of the frame's planes
   /// Planes of the frame's last image, whose points' memory serves again.
   std::vector<FramePlane> old_planes;
 
@@ -188,10 +189,15 @@ void PlaneExtractor::Workspace::Describe(Frame& frame) {
         grid, frame.plane_labels, cv::Rect(kept[k].low, kept[k].high + cv::Point(1, 1)),
         static_cast<std::uint8_t>(plane.index + 1), kept[k].plane.plane, config.noise,
         RoughnessStep(plane.pixel_count));
-    FindEdgePoints(grid, contours, plane.index + 1, kept[k].plane, config.edges,
+    frame.planes.push_back(std::move(plane));
+  }
+  areas_m2.clear();
+  for (const FramePlane& plane : frame.planes) areas_m2.push_back(plane.area_m2);
+  for (FramePlane& plane : frame.planes) {
+    FindEdgePoints(grid, contours, plane.index + 1,
+                   kept[static_cast<std::size_t>(plane.index)].plane, areas_m2, config.edges,
                    plane.edge_points);
     for (const EdgePoint& point : plane.edge_points) plane.box_px.Include(point.u_px);
-    frame.planes.push_back(std::move(plane));
   }
 }
 

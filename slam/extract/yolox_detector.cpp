@@ -18,6 +18,9 @@ using cv::utils::logging::getLogLevel;
 using cv::utils::logging::setLogLevel;
 
 constexpr int kCoarsestStride = 32;
+// As COCO counts of an image. A network that finds something everywhere would otherwise keep
+// box tracking busy for half a minute a frame.
+constexpr std::size_t kMostBoxes = 100;
 constexpr int kMostPixels = 1 << 24;  // of an input: far beyond any that is used
 
 /// OpenCV tells of a bad model on the standard error as well as by an exception.
@@ -104,15 +107,23 @@ class YoloxDetector::Network {
       : config_(std::move(config)),
         letterbox_({camera.width, camera.height}, InputSize(bytes, config_)),
         net_(Load(bytes)) {
-    Find(cv::Mat3b(camera.height, camera.width, cv::Vec3b::all(Letterbox::kPadding)));
+    const cv::Mat3b grey(camera.height, camera.width, cv::Vec3b::all(Letterbox::kPadding));
+    const cv::Mat1f output = Answer(grey);
+    if (LooksDecoded(output, letterbox_.input()) != config_.decoded) {
+      throw InputError(
+          config_.decoded
+              ? "the model's boxes are not decoded; set yolox: decoded: false in --config"
+              : "the model computes its boxes itself (--decode_in_inference); set yolox: "
+                "decoded: true in --config");
+    }
+    DecodeYolox(output, letterbox_.input(), config_);
   }
 
   std::vector<YoloxBox> Find(const cv::Mat3b& bgr) {
-    const cv::Mat output = Run(letterbox_.Apply(bgr));
-    CheckOutput(output);
-    return SuppressOverlaps(
-        DecodeYolox(output.reshape(1, output.size[1]), letterbox_.input(), config_),
-        config_.max_nms_iou);
+    std::vector<YoloxBox> boxes = SuppressOverlaps(
+        DecodeYolox(Answer(bgr), letterbox_.input(), config_), config_.max_nms_iou);
+    if (boxes.size() > kMostBoxes) boxes.resize(kMostBoxes);
+    return boxes;
   }
 
   const Letterbox& letterbox() const { return letterbox_; }
@@ -121,6 +132,13 @@ class YoloxDetector::Network {
   }
 
  private:
+  /// The network's output, a row a cell; refused if it is of another shape.
+  cv::Mat1f Answer(const cv::Mat3b& bgr) {
+    const cv::Mat output = Run(letterbox_.Apply(bgr));
+    CheckOutput(output);
+    return output.reshape(1, output.size[1]);
+  }
+
   cv::Mat Run(const cv::Mat3b& input) {
     try {
       net_.setInput(cv::dnn::blobFromImage(input));

@@ -110,6 +110,24 @@ std::vector<YoloxBox> DecodeYolox(const cv::Mat1f& output, cv::Size input,
   return boxes;
 }
 
+bool LooksDecoded(const cv::Mat1f& output, cv::Size input) {
+  Require(output.rows == YoloxCells(input) && output.cols > kBoxColumns,
+          "LooksDecoded: the output has another size");
+  double from_cells = 0.0, from_origin = 0.0;  // sums of distances of centres, pixels
+  int i = 0;
+  for (const int stride : kStrides) {
+    for (int row = 0; row < input.height / stride; ++row) {
+      for (int column = 0; column < input.width / stride; ++column, ++i) {
+        const Eigen::Vector2d center(static_cast<double>(output(i, 0)),
+                                     static_cast<double>(output(i, 1)));
+        from_cells += (center - stride * Eigen::Vector2d(column, row)).norm();
+        from_origin += center.norm();
+      }
+    }
+  }
+  return from_cells < from_origin;
+}
+
 std::vector<YoloxBox> SuppressOverlaps(std::vector<YoloxBox> boxes, double max_nms_iou) {
   std::stable_sort(boxes.begin(), boxes.end(),
                    [](const YoloxBox& a, const YoloxBox& b) { return a.score > b.score; });

@@ -48,6 +48,11 @@ int YoloxCells(cv::Size input);
 std::vector<YoloxBox> DecodeYolox(const cv::Mat1f& output, cv::Size input,
                                   const YoloxConfig& config);
 
+/// Whether the boxes of an output are decoded, as its values say: a network's own centres are
+/// offsets of a few cells from the cells of their rows; decoded ones lie near these cells, all
+/// over the image. Needs no box to be right.
+bool LooksDecoded(const cv::Mat1f& output, cv::Size input);
+
 /// Non-maximum suppression within each class: of two boxes that overlap by more than
 /// max_nms_iou the one with the lower score goes (the later one if equal), unless what
 /// outdoes it has gone itself. Highest score first.

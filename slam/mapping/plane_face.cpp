@@ -1,11 +1,14 @@
 #include "slam/mapping/plane_face.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace slam {
 namespace {
 
 constexpr std::size_t kCorners = 4;
+// Of a corner that the final map tells of; a seen corner weighs 1.
+constexpr double kMinCornerWeight = 2.0;
 
 }  // namespace
 
@@ -13,6 +16,18 @@ bool KnowsItsFace(const MapPlane& m, const PlaneMapConfig& config) {
   return m.vertices_w.size() == kCorners && m.vertex_weights.size() == kCorners &&
          std::all_of(m.vertex_weights.begin(), m.vertex_weights.end(),
                      [&](double weight) { return weight >= config.min_face_weight; });
+}
+
+void ForgetDoubtfulCorners(MapPlane& m) {
+  std::vector<Eigen::Vector3d> corners_w;
+  std::vector<double> weights;
+  for (std::size_t i = 0; i < m.vertices_w.size() && i < m.vertex_weights.size(); ++i) {
+    if (!(m.vertex_weights[i] >= kMinCornerWeight)) continue;
+    corners_w.push_back(m.vertices_w[i]);
+    weights.push_back(m.vertex_weights[i]);
+  }
+  m.vertices_w = std::move(corners_w);
+  m.vertex_weights = std::move(weights);
 }
 
 void KeepWhatLiesOnFace(MapPlane& m, const PlaneMapConfig& config) {

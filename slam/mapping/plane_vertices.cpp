@@ -49,11 +49,43 @@ double Weight(const Vertex& vertex, const Eigen::Vector3d& n_c) {
          (kOtherVariance_m2 + VarianceOnPlane(n_c, vertex.covariance_c));
 }
 
+/// Averages an observation of one corner into the known one.
+void Average(MapPlane& m, std::size_t i, const Eigen::Vector3d& observed_w, double weight) {
+  double& known = m.vertex_weights[i];
+  const double sum = known + weight;
+  m.vertices_w[i] = ProjectOnto(m.pi_w, (known * m.vertices_w[i] + weight * observed_w) / sum);
+  known = std::min(sum, kMaxWeight);
+}
+
+/// Of a face seen in part: corners that were seen, not extrapolated, bear out the known ones
+/// that they are at.
+void ConfirmCorners(MapPlane& m, const std::vector<Vertex>& vertices_c, const Pose& T_wc,
+                    const PlaneMapConfig& config) {
+  const Eigen::Vector3d n_c = T_wc.R.transpose() * m.pi_w.n;
+  for (const Vertex& vertex : vertices_c) {
+    if (vertex.extrapolated || !vertex.p_c.allFinite()) continue;
+    const Eigen::Vector3d observed_w = ProjectOnto(m.pi_w, T_wc * vertex.p_c);
+    std::size_t nearest = 0;
+    for (std::size_t i = 1; i < kCorners; ++i) {
+      if ((m.vertices_w[i] - observed_w).norm() < (m.vertices_w[nearest] - observed_w).norm()) {
+        nearest = i;
+      }
+    }
+    if ((m.vertices_w[nearest] - observed_w).norm() < config.max_vertex_jump_m) {
+      Average(m, nearest, observed_w, Weight(vertex, n_c));
+    }
+  }
+}
+
 }  // namespace
 
 void FuseVertices(MapPlane& m, const std::vector<Vertex>& vertices_c, const Pose& T_wc,
                   const PlaneMapConfig& config) {
-  if (vertices_c.size() != kCorners) return;
+  const bool known = m.vertices_w.size() == kCorners && m.vertex_weights.size() == kCorners;
+  if (vertices_c.size() != kCorners) {
+    if (known) ConfirmCorners(m, vertices_c, T_wc, config);
+    return;
+  }
   std::vector<Eigen::Vector3d> observed_w;
   for (const Vertex& vertex : vertices_c) {
     if (!vertex.p_c.allFinite()) return;
@@ -61,7 +93,7 @@ void FuseVertices(MapPlane& m, const std::vector<Vertex>& vertices_c, const Pose
   }
   const Eigen::Vector3d n_c = T_wc.R.transpose() * m.pi_w.n;
   const auto weight = [&](std::size_t i) { return Weight(vertices_c[i], n_c); };
-  if (m.vertices_w.size() != kCorners || m.vertex_weights.size() != kCorners) {
+  if (!known) {
     m.vertices_w = observed_w;
     m.vertex_weights.clear();
     for (std::size_t i = 0; i < kCorners; ++i) m.vertex_weights.push_back(weight(i));
@@ -70,16 +102,16 @@ void FuseVertices(MapPlane& m, const std::vector<Vertex>& vertices_c, const Pose
   const auto order = Order(m.vertices_w, observed_w);
   for (std::size_t i = 0; i < kCorners; ++i) {
     const std::size_t k = order[i];
-    double& known = m.vertex_weights[i];
+    double& evidence = m.vertex_weights[i];
     if ((m.vertices_w[i] - observed_w[k]).norm() < config.max_vertex_jump_m) {
-      const double sum = known + weight(k);
-      m.vertices_w[i] = (known * m.vertices_w[i] + weight(k) * observed_w[k]) / sum;
-      known = std::min(sum, kMaxWeight);
-    } else if (known > weight(k)) {
-      known -= weight(k);
+      Average(m, i, observed_w[k], weight(k));
+      continue;
+    }
+    if (evidence > weight(k)) {
+      evidence -= weight(k);
     } else {
       m.vertices_w[i] = observed_w[k];
-      known = weight(k);
+      evidence = weight(k);
     }
     m.vertices_w[i] = ProjectOnto(m.pi_w, m.vertices_w[i]);
   }

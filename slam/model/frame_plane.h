@@ -33,6 +33,7 @@ struct EdgePoint {
   Eigen::Vector3d p_c;   ///< on the plane's own pixels, metres, camera frame
   Eigen::Vector2d u_px;  ///< pixel, recorded image
   EdgeKind kind = EdgeKind::kSurface;
+  float step_sigmas = 0.0f;  ///< of depth, between the plane and what lies beyond; 0: unknown
 };
 
 /// A corner of a rectangular face.

@@ -9,6 +9,11 @@
 namespace slam {
 namespace {
 
+// Where a segment ends is doubtful where depth hardly changes, at a thin step or a blunt
+// crease: by a pixel along a whole side where the depth a few pixels beyond differs by so many
+// sigmas, and less with the square of these.
+constexpr double kDoubtfulStep_sigmas = 4.0;
+
 using Points = std::vector<Eigen::Vector2d>;
 
 double Distance(const ImageLine& line, const Eigen::Vector2d& u) {
@@ -71,6 +76,28 @@ ImageLine BestHypothesis(const Points& points, const EdgeLineConfig& config, Ran
     if (line.support > best.support) best = line;
   }
   return best;
+}
+
+/// Variance that the points of a line have in common: median step of depth across them.
+double SharedVariance(const FramePlane& plane, const Camera& camera, const ImageLine& line,
+                      const EdgeLineConfig& config) {
+  std::vector<float> steps;
+  for (const EdgePoint& e : plane.edge_points) {
+    if (e.kind != EdgeKind::kSurface || !(e.step_sigmas > 0)) continue;
+    const Eigen::Vector2d u = camera.Project(e.p_c);
+    const double along = line.v.dot(u - line.from);
+    if (along < 0 || along > (line.to - line.from).norm()) continue;
+    if (Distance(line, u) < config.max_distance_px) steps.push_back(e.step_sigmas);
+  }
+  double doubt_px = 0.0;
+  if (!steps.empty()) {
+    const auto middle = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
+    std::nth_element(steps.begin(), middle, steps.end());
+    const double steps_doubtful = kDoubtfulStep_sigmas / static_cast<double>(*middle);
+    // Its points do not lie farther off than that.
+    doubt_px = std::min(steps_doubtful * steps_doubtful, 2.0 * config.max_distance_px);
+  }
+  return config.shared_sigma_px * config.shared_sigma_px + doubt_px * doubt_px;
 }
 
 /// Intersection of the plane with the ray of an ideal pixel.
@@ -147,7 +174,7 @@ std::vector<EdgeLine> FindEdgeLines(const FramePlane& plane, const Camera& camer
     LineError& error = out.back().error;
     error.at_px += config.inset_px * outward;
     // At either end by itself, so half of it turns the line.
-    const double shared_px2 = config.shared_sigma_px * config.shared_sigma_px;
+    const double shared_px2 = SharedVariance(plane, camera, line, config);
     error.offset_px2 += 0.5 * shared_px2;
     error.angle_rad2 += 2.0 * shared_px2 / (to - from).squaredNorm();
   }

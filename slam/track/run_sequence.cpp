@@ -14,6 +14,7 @@
 #include "slam/localise/camera_check.h"
 #include "slam/track/depth_clock.h"
 #include "slam/track/frame_gate.h"
+#include "slam/track/repeated_frame.h"
 #include "slam/write/run_writer.h"
 
 namespace slam {
@@ -71,9 +72,35 @@ Frame FrameOf(const RecordedFrame& recorded) {
   return frame;
 }
 
+std::optional<Pose> PoseOf(const TrackedFrame& tracked) {
+  return tracked.report.tracked ? std::optional(tracked.frame.T_cw) : std::nullopt;
+}
+
+std::string RepeatsWarning(int repeats) {
+  return std::to_string(repeats) + (repeats == 1 ? " frame repeats" : " frames repeat") +
+         " the images of the one before: taken for the same place, nothing learned";
+}
+
+std::vector<std::string> WarningsOf(const FrameGate& gate, int repeats,
+                                    CameraCheck& camera_check, const DepthClock& depth_clock) {
+  std::vector<std::string> warnings = gate.Warnings();
+  if (repeats > 0) warnings.push_back(RepeatsWarning(repeats));
+  if (const std::string warning = camera_check.Warning(); !warning.empty()) {
+    warnings.push_back(warning);
+  }
+  for (std::string& late : depth_clock.Warnings()) warnings.push_back(std::move(late));
+  return warnings;
+}
+
 int ThreadsOf(const RunOptions& options) {
   const int cores = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
   return options.threads > 0 ? options.threads : cores;
+}
+
+void CountMap(const Map& map, RunOutcome& outcome) {
+  for (const Keyframe& keyframe : map.keyframes) outcome.keyframes += !keyframe.culled;
+  for (const MapPoint& point : map.points) outcome.map_points += !point.culled;
+  for (const MapPlane& plane : map.planes) outcome.map_planes += !plane.merged_into;
 }
 
 RunOutcome Run(LiveCamera input, const RunOptions& options, const std::string& detector) {
@@ -91,6 +118,8 @@ RunOutcome Run(LiveCamera input, const RunOptions& options, const std::string& d
   FrameGate gate(input.camera);
   CameraCheck camera_check(input.camera, options.config.point_features.scales);
   DepthClock depth_clock(input.camera);
+  std::optional<TrackedFrame> last;
+  int repeats = 0;
   std::vector<TiedPose> tied;
   const int total = input.frames.size();
   tied.reserve(static_cast<std::size_t>(total));
@@ -98,15 +127,22 @@ RunOutcome Run(LiveCamera input, const RunOptions& options, const std::string& d
     RecordedFrame recorded = input.frames.Read(i);
     if (gate.Takes(recorded)) {
       recorded.index = outcome.frames++;
-      Frame frame = FrameOf(recorded);
-      const TrackReport report = tracker.TrackFrame(frame, recorded.bgr);
-      depth_clock.Observe(frame.timestamp_s, frame.depth_m,
-                          report.tracked ? std::optional(frame.T_cw) : std::nullopt);
-      writer.WriteFrame({frame, report.tracked, report.times, StateName(report.points)});
+      if (last && RepeatsImages(*last, recorded)) {
+        RepeatAt(recorded, *last);
+        ++repeats;
+      } else {
+        last = {FrameOf(recorded), recorded.bgr, {}};
+        last->report = tracker.TrackFrame(last->frame, last->bgr);
+        depth_clock.Observe(last->frame.timestamp_s, last->frame.depth_m, PoseOf(*last));
+        if (PoseOf(*last) && camera_check.See(last->frame) && options.warn) {
+          options.warn(camera_check.Warning());
+        }
+      }
+      const TrackReport& report = last->report;
+      writer.WriteFrame({last->frame, report.tracked, report.times, StateName(report.points)});
       outcome.tracked += report.tracked ? 1 : 0;
       if (report.tracked) {
-        tied.push_back({frame.timestamp_s, report.reference, report.T_cr});
-        if (camera_check.See(frame) && options.warn) options.warn(camera_check.Warning());
+        tied.push_back({last->frame.timestamp_s, report.reference, report.T_cr});
       }
     }
     if (options.progress) options.progress(i + 1, total);
@@ -117,20 +153,12 @@ RunOutcome Run(LiveCamera input, const RunOptions& options, const std::string& d
   // A closed loop moves the past; without one the poses stay as they were found.
   writer.Finish(tracker.map(), outcome.loops > 0 ? FollowKeyframes(tied, tracker.map())
                                                  : std::vector<TimedPose>{});
-  outcome.warnings = gate.Warnings();
-  if (const std::string warning = camera_check.Warning(); !warning.empty()) {
-    outcome.warnings.push_back(warning);
-  }
-  for (std::string& late : depth_clock.Warnings()) outcome.warnings.push_back(std::move(late));
+  outcome.warnings = WarningsOf(gate, repeats, camera_check, depth_clock);
   if (const int unmapped = tracker.unmapped_keyframes(); unmapped > 0 && !outcome.stopped) {
     outcome.warnings.push_back(std::to_string(unmapped) +
                                " keyframes came too fast to be mapped on their own");
   }
-
-  for (const Keyframe& keyframe : tracker.map().keyframes)
-    outcome.keyframes += !keyframe.culled;
-  for (const MapPoint& point : tracker.map().points) outcome.map_points += !point.culled;
-  for (const MapPlane& plane : tracker.map().planes) outcome.map_planes += !plane.merged_into;
+  CountMap(tracker.map(), outcome);
   outcome.wall_time_s =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return outcome;

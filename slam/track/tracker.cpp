@@ -10,6 +10,7 @@
 #include "slam/extract/plane_segments.h"
 #include "slam/extract/point_features.h"
 #include "slam/mapping/local_mapping.h"
+#include "slam/mapping/plane_face.h"
 #include "slam/mapping/plane_fuse.h"
 #include "slam/mapping/plane_update.h"
 #include "slam/planes/process_planes.h"
@@ -55,6 +56,7 @@ Tracker::Tracker(const Camera& camera, const Config& config, Variant variant,
 
 void Tracker::Finish(MappingWorker::Waiting waiting) {
   if (worker_) worker_->Finish(waiting);
+  for (MapPlane& plane : map_.planes) ForgetDoubtfulCorners(plane);
 }
 
 void Tracker::ExtractInformation(Frame& frame, const cv::Mat3b& bgr, ModuleTimes& times) {

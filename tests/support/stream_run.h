@@ -28,7 +28,8 @@ inline const std::vector<RecordedFrame>& Clean() {
 struct Ran {
   RunOutcome outcome;
   std::string trajectory, map;
-  std::vector<std::string> states;                ///< by line of frame_planes.jsonl
+  std::vector<std::string> planes;                ///< lines of frame_planes.jsonl
+  std::vector<std::string> states;                ///< by line of it
   std::vector<std::pair<double, Pose>> poses_wc;  ///< (time, pose)
 };
 
@@ -72,6 +73,7 @@ inline Ran RunStream(std::vector<RecordedFrame> frames, RunOptions options,
   std::istringstream lines(TextOf(options.run / "frame_planes.jsonl"));
   for (std::string line; std::getline(lines, line);) {
     ran.states.push_back(nlohmann::json::parse(line).at("state"));
+    ran.planes.push_back(line);
   }
   ran.poses_wc = PosesOf(ran.trajectory);
   std::filesystem::remove_all(options.run);
@@ -82,6 +84,31 @@ inline Ran RunStream(std::vector<RecordedFrame> frames, RunOptions options,
 inline Pose TruePoseAt(double s) {
   const int i = static_cast<int>(std::lround((s - 100.0) * 30));
   return SwingingPose(0) * Inverse(SwingingPose(i));
+}
+
+// Twice what the clean stream comes to, 10 mm at a pixel of 8 mm.
+inline constexpr double kPosition_m = 0.02;
+
+inline Ran RunOn(std::vector<RecordedFrame> frames, Variant variant = Variant::kPoints) {
+  RunOptions options;
+  options.variant = variant;
+  return RunStream(std::move(frames), options);
+}
+
+/// Whether every pose is the one that the hand had at that time.
+inline void ExpectNoWrongPose(const Ran& ran, double tolerance_m = kPosition_m) {
+  for (const auto& [s, T_wc] : ran.poses_wc) {
+    EXPECT_LT((T_wc.t - TruePoseAt(s).t).norm(), tolerance_m) << s << " s";
+  }
+}
+
+/// What of a line of frame_planes.jsonl was measured, without what was decided in the map.
+inline std::string Measured(const std::string& line) {
+  nlohmann::json planes = nlohmann::json::parse(line).at("planes");
+  for (auto& plane : planes) {
+    for (const char* decided : {"map_plane", "decision", "by"}) plane.erase(decided);
+  }
+  return planes.dump();
 }
 
 }  // namespace slam

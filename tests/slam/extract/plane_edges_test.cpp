@@ -93,5 +93,48 @@ TEST(PlaneEdges, AreTheSurfacesOwnAtAConcaveCrease) {
   EXPECT_LT(occluded, surface / 10);
 }
 
+TEST(PlaneEdges, AreNotTheSurfacesOwnWhereASmallThingStandsOnItAcrossItsWidth) {
+  // A long box lies across a longer plate near its far end: a concave crease, but not an end.
+  closed_form::World world = closed_form::Desk();
+  world.boxes.push_back({{0, 0, 0.02}, {0.2, 0.5, 0.04}, 0.0, ""});
+  world.boxes.push_back({{0, 0.2, 0.06}, {0.5, 0.05, 0.04}, 0.0, ""});
+  const Camera camera;
+  const Pose T_cw = closed_form::LookAt({0, -0.6, 0.7}, {0, 0, 0});
+  const closed_form::View view = closed_form::Render(world, camera, T_cw);
+  Frame frame = closed_form::MakeFrame(view.depth_m);
+  ExtractPlanes(frame, camera, PixelRays(camera), {});
+  int of_plate = 0, occluded = 0, wrong = 0;
+  for (const FramePlane& plane : frame.planes) {
+    for (const EdgePoint& e : plane.edge_points) {
+      if (view.face(int(e.u_px.y()), int(e.u_px.x())) != closed_form::FaceId(1, 5)) continue;
+      ++of_plate;
+      // The foot of what lies across is at y = 0.175; the plate's own end is at 0.25.
+      const Eigen::Vector3d p_w = Inverse(T_cw) * e.p_c;
+      if (p_w.y() < 0.165 || p_w.y() > 0.2 || std::abs(p_w.x()) > 0.09) continue;
+      (e.kind == EdgeKind::kSurface ? wrong : occluded)++;
+    }
+  }
+  EXPECT_GT(of_plate, 200);
+  EXPECT_GT(occluded, 30);
+  EXPECT_EQ(wrong, 0);
+}
+
+TEST(PlaneEdges, SayHowLargeTheStepIs) {
+  // 1.2 m down at 1 m, and next to nothing where another plate lies 10 mm lower beside it.
+  PlateView plate({{{{0.4, 0.0, -0.01}, {0.4, 0.3, 0.02}, 0.0, ""}}});
+  plate.Kinds(plate.view.depth_m);
+  float thin = 0.0f, deep = 0.0f;
+  for (const FramePlane& plane : plate.frame.planes) {
+    if (std::abs(plane.pi_c.d - 1.0) > 0.004) continue;
+    for (const EdgePoint& e : plane.edge_points) {
+      if (std::abs(e.p_c.y()) > 0.1) continue;
+      (e.p_c.x() > 0.15 ? thin : deep) = e.step_sigmas;
+    }
+  }
+  const double sigma_m = DepthNoise{}.Sigma(1.0);
+  EXPECT_NEAR(static_cast<double>(thin), 0.01 / sigma_m, 0.2 * 0.01 / sigma_m);
+  EXPECT_GT(deep, 50.0f);
+}
+
 }  // namespace
 }  // namespace slam

@@ -210,6 +210,13 @@ TEST_F(YoloxModel, RefusesAnAnswerThatIsNoProbability) {
   EXPECT_THAT([&] { Load(); }, FailsWith("outside [0, 1]"));
 }
 
+TEST_F(YoloxModel, SaysWhenTheModelIsNotDecodedAsConfigured) {
+  Write(BlockNetwork().Model());
+  YoloxConfig config;
+  config.decoded = true;
+  EXPECT_THAT([&] { Load(config); }, FailsWith("set yolox: decoded: false"));
+}
+
 TEST_F(YoloxModel, NamesAFileThatIsMissingOrNoModel) {
   EXPECT_THAT([&] { Load(); }, FailsWith("no such file"));
   EXPECT_THAT([&] { MakeDetector("yolox:", "", camera_, {}); },

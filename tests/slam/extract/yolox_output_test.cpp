@@ -63,6 +63,26 @@ TEST(YoloxOutput, TakesBoxesAsTheyAreFromAModelThatComputesThem) {
   EXPECT_EQ(boxes[0].box.max, Eigen::Vector2d(50, 35));
 }
 
+TEST(YoloxOutput, TellsDecodedBoxesFromOffsetsByWhereTheirCentresLie) {
+  cv::Mat1f offsets = Silence(), decoded = Silence();
+  Random random{4};
+  int i = 0;
+  for (const int stride : {8, 16, 32}) {
+    for (int row = 0; row < kInput.height / stride; ++row) {
+      for (int column = 0; column < kInput.width / stride; ++column, ++i) {
+        for (int k = 0; k < 2; ++k) {  // within a cell of the middle of its own
+          offsets(i, k) = static_cast<float>(2.0 * random.Uniform() - 0.5);
+          decoded(i, k) =
+              static_cast<float>(stride) * (offsets(i, k) + float(k == 0 ? column : row));
+        }
+      }
+    }
+  }
+  EXPECT_FALSE(LooksDecoded(offsets, kInput));
+  EXPECT_TRUE(LooksDecoded(decoded, kInput));
+  EXPECT_FALSE(LooksDecoded(Silence(), kInput));
+}
+
 TEST(YoloxOutput, ScoresByObjectnessTimesClassAndKeepsTheThresholdItself) {
   cv::Mat1f output = Silence();
   Say(output, 0, {0, 0, 0, 0, 0.5f, 0.5f, 0.25f, 0});  // 0.25: kept

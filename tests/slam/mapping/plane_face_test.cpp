@@ -49,5 +49,17 @@ TEST(FaceOfAMapPlane, KeepsWhatLiesOnItAndNothingBeyond) {
   }
 }
 
+TEST(FaceOfAMapPlane, IsToldOfInTheEndWhereItsCornersWereSeenMoreThanOnce) {
+  MapPlane m = FaceWithCorners(5);
+  m.vertex_weights[1] = 1.0;
+  m.vertex_weights[3] = 0.25;
+  const MapPlane before = m;
+  ForgetDoubtfulCorners(m);
+  ASSERT_EQ(m.vertices_w.size(), 2u);
+  EXPECT_EQ(m.vertices_w[0], before.vertices_w[0]);
+  EXPECT_EQ(m.vertices_w[1], before.vertices_w[2]);
+  EXPECT_EQ(m.vertex_weights, std::vector<double>({5, 5}));
+}
+
 }  // namespace
 }  // namespace slam

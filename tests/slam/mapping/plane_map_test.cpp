@@ -253,6 +253,23 @@ TEST(PlaneVertices, CountAnExtrapolatedCornerAsAQuarterOfASeenOne) {
   EXPECT_DOUBLE_EQ(m.vertex_weights[0], 1.25);
 }
 
+TEST(PlaneVertices, AreBorneOutByCornersOfAFaceSeenInPart) {
+  MapPlane m;
+  m.pi_w = {Eigen::Vector3d::UnitZ(), 0};
+  const std::vector<Vertex> whole{{{0, 0, 0}}, {{0.3, 0, 0}}, {{0.3, 0.1, 0}}, {{0, 0.1, 0}}};
+  const std::vector<Vertex> part{{{0.31, 0.1, 0.002}}, {{0.1, 0, 0}}};
+  FuseVertices(m, part, Pose{}, {});
+  EXPECT_TRUE(m.vertices_w.empty());  // a part starts nothing
+  FuseVertices(m, whole, Pose{}, {});
+  FuseVertices(m, part, Pose{}, {});
+  EXPECT_THAT(m.vertices_w[2], VectorNear(Eigen::Vector3d(0.305, 0.1, 0), 1e-12));
+  EXPECT_EQ(m.vertex_weights, std::vector<double>({1, 1, 2, 1}));  // the other is at none
+  std::vector<Vertex> guessed = part;
+  guessed[0].extrapolated = true;
+  FuseVertices(m, guessed, Pose{}, {});
+  EXPECT_EQ(m.vertex_weights, std::vector<double>({1, 1, 2, 1}));
+}
+
 TEST(PlaneVertices, LeaveAWrongStartOnceTheEvidenceIsAgainstIt) {
   MapPlane m;
   m.pi_w = {Eigen::Vector3d::UnitZ(), 0};

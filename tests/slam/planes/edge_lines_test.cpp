@@ -77,5 +77,25 @@ TEST(EdgeLines, LieOnThePlaneAndUseOnlyTheSurfacesOwnEdges) {
   EXPECT_NEAR(lines[0].from_px.y(), 199.5, 1e-9);
 }
 
+TEST(EdgeLines, AreDoubtfulAsAWholeWhereDepthHardlyChangesAcrossThem) {
+  const Camera camera;
+  const auto sigma_px = [&](float step_sigmas) {
+    FramePlane plane;
+    plane.pi_c = {Eigen::Vector3d(0, 0, -1), 1.0};
+    plane.centroid_c = {0, 0, 1};
+    for (int k = 0; k < 60; ++k) {
+      const Eigen::Vector2d u(280 + k, 200);
+      plane.edge_points.push_back(
+          {camera.Backproject(u, 1.0), u, EdgeKind::kSurface, step_sigmas});
+    }
+    const auto lines = FindEdgeLines(plane, camera, {}, Random{1});
+    return std::sqrt(lines.at(0).error.Variance(lines.at(0).from_px));
+  };
+  const double unknown_px = sigma_px(0), clear_px = sigma_px(1000), thin_px = sigma_px(5);
+  EXPECT_NEAR(clear_px, unknown_px, 1e-3);
+  EXPECT_NEAR(thin_px * thin_px - clear_px * clear_px, std::pow(4.0 / 5, 4), 0.01);
+  EXPECT_LT(sigma_px(20), thin_px);
+}
+
 }  // namespace
 }  // namespace slam

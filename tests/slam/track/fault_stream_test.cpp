@@ -14,22 +14,6 @@
 namespace slam {
 namespace {
 
-// Twice what the clean stream comes to, 10 mm at a pixel of 8 mm.
-constexpr double kPosition_m = 0.02;
-
-Ran RunOn(std::vector<RecordedFrame> frames, Variant variant = Variant::kPoints) {
-  RunOptions options;
-  options.variant = variant;
-  return RunStream(std::move(frames), options);
-}
-
-/// Whether every pose is the one that the hand had at that time.
-void ExpectNoWrongPose(const Ran& ran, double tolerance_m = kPosition_m) {
-  for (const auto& [s, T_wc] : ran.poses_wc) {
-    EXPECT_LT((T_wc.t - TruePoseAt(s).t).norm(), tolerance_m) << s << " s";
-  }
-}
-
 TEST(FaultStream, WithoutAFaultEveryFrameIsTracked) {
   const Ran ran = RunOn(Clean());
   EXPECT_EQ(ran.outcome.tracked, kFrames);
@@ -62,17 +46,7 @@ TEST(FaultStreamF2, TheSecondOfTwoFramesOfOneTimeIsLeftOut) {
   EXPECT_THAT(ran.outcome.warnings[0], testing::HasSubstr("4 frames"));
 }
 
-TEST(FaultStreamF3, AnImageThatCameTwiceIsTheSamePlace) {
-  auto stream = Clean();
-  RecordedFrame again = stream[30];
-  again.timestamp_s += 0.01;
-  stream.insert(stream.begin() + 31, again);
-  const Ran ran = RunOn(stream);
-  ASSERT_EQ(ran.poses_wc.size(), stream.size());
-  const Pose T = Inverse(ran.poses_wc[30].second) * ran.poses_wc[31].second;
-  EXPECT_LT(T.t.norm(), 1e-3);
-  EXPECT_LT(LogSo3(T.R).norm(), 1e-3);
-}
+// F3, an image that came twice: repeated_frame_test.cpp.
 
 TEST(FaultStreamF4, FramesOutOfOrderAreLeftOutAndCounted) {
   auto swapped = Clean();
@@ -310,21 +284,7 @@ TEST(FaultStreamF15, AnImageOfAnotherSizeIsRefusedByItsFrame) {
   }
 }
 
-TEST(FaultStreamF16, BrightnessThatRollsAndNegativesGiveNoWrongPose) {
-  const Ran rolled = RunOn(Changed(Clean(), 0, kFrames, [](RecordedFrame& frame) {
-    const double gain = std::pow(5.0, std::sin(0.2 * frame.index));
-    cv::Mat1b gray;
-    frame.gray.convertTo(gray, CV_8U, gain);
-    SetColour(frame, gray);
-  }));
-  ExpectNoWrongPose(rolled, 2 * kPosition_m);
-  const Ran negative = RunOn(Changed(Clean(), 30, 30, [](RecordedFrame& frame) {
-    cv::Mat1b gray;
-    cv::bitwise_not(frame.gray, gray);
-    SetColour(frame, gray);
-  }));
-  ExpectNoWrongPose(negative, 2 * kPosition_m);
-}
+// F16, brightness and negatives: colour_fault_test.cpp.
 
 TEST(RunLive, StopsWhereItIsAskedToAndKeepsWhatItHas) {
   RunOptions options;

@@ -1,0 +1,27 @@
+#pragma once
+
+#include <opencv2/core/mat.hpp>
+
+#include "slam/input/frame_source.h"
+#include "slam/model/frame.h"
+#include "slam/track/tracker.h"
+
+namespace slam {
+
+/// A frame after all stages, with what the detector saw.
+struct TrackedFrame {
+  Frame frame;
+  cv::Mat3b bgr;
+  TrackReport report;
+};
+
+/// Whether colour and depth are those of the frame before to the last bit. Noise never repeats
+/// itself: a driver that had nothing new gave its last images again.
+bool RepeatsImages(const TrackedFrame& last, const RecordedFrame& next);
+
+/// Makes the frame before stand for one that repeats its images. The camera is where it was and
+/// sees what it saw; the map learns nothing, for the same noise twice is no second observation,
+/// and what was new then is known now.
+void RepeatAt(const RecordedFrame& next, TrackedFrame& last);
+
+}  // namespace slam
