@@ -84,8 +84,12 @@ void Tracker::ExtractInformation(Frame& frame, const cv::Mat3b& bgr, ModuleTimes
   if (!uses_planes()) return;
   planes.get();
   const std::vector<Detection> found = boxes.get();
-  const Stopwatch watch(times[Module::kMdc]);
-  frame.detections = box_tracks_.Update(frame.timestamp_s, found);
+  {
+    const Stopwatch watch(times[Module::kMdc]);
+    frame.detections = box_tracks_.Update(frame.timestamp_s, found);
+  }
+  const Stopwatch watch(times[Module::kEpi]);
+  plane_extractor_->SplitInBoxes(frame);
 }
 
 void Tracker::ProcessFramePlanes(Frame& frame) {
