@@ -121,10 +121,26 @@ TEST(BoxSplit, FindsNothingInTheMiddleOfAHighThing) {
 
 TEST(BoxSplit, FindsNothingWhereTheSensorBendsTheTable) {
   const Height bump = [](int u, int v) {
-    const double du = (u - 155) / 70.0, dv = (v - 110) / 70.0;
+    const double du = (u - 155) / 45.0, dv = (v - 110) / 45.0;
     return 2.0 * std::exp(-0.5 * (du * du + dv * dv));
   };
   Plate plate(1, bump);
+  const Box box_px{{65, 20}, {245, 200}};
+  EXPECT_FALSE(plate.Find(box_px, box_px));
+}
+
+TEST(BoxSplit, FindsNothingAtTheEdgeOfSomethingThatGoesOn) {
+  Plate plate(1, Raised({160, 0, 160, 240}, 2.5));
+  const Box box_px{{130, 80}, {230, 140}};
+  EXPECT_FALSE(plate.Find(box_px, box_px));
+}
+
+TEST(BoxSplit, FindsNothingWhereABendGoesOnAroundTheBox) {
+  const Height bend = [](int u, int v) {
+    const double du = (u - 155) / 70.0, dv = (v - 110) / 70.0;
+    return 2.0 * std::exp(-0.5 * (du * du + dv * dv));
+  };
+  Plate plate(1, bend);
   EXPECT_FALSE(plate.Find({{95, 50}, {215, 170}}));
 }
 
