@@ -35,6 +35,20 @@ void VisitClusters(ClusterConfig& c, FieldVisitor& v) {
   v.Integer("min_blocks", c.min_blocks, "[1, 100000]", "of a region");
 }
 
+void VisitBoxSplit(BoxSplitConfig& c, FieldVisitor& v) {
+  v.Flag("enabled", c.enabled, "split segments inside detection boxes");
+  v.Number("min_score", c.min_score, "[0, 1)", "of the detection");
+  v.Number("margin_px", c.margin_px, "[0, inf)", "a box is that much inexact, and");
+  v.Number("margin_fraction", c.margin_fraction, "[0, 1]", "by this part of its size");
+  v.Number("vote_errors", c.vote_errors, "[1, 50]", "independent errors that vote on a pixel");
+  v.Number("min_step_votes", c.min_step_votes, "(0, inf)",
+           "step, in standard deviations of a vote");
+  v.Number("min_evidence_sigmas", c.min_evidence_sigmas, "(0, inf)",
+           "mean height, in its standard errors");
+  v.Number("min_box_iou", c.min_box_iou, "[0, 1)", "of what is found and the box");
+  v.Number("max_high_around", c.max_high_around, "[0, 1]", "part around the box as high");
+}
+
 void VisitPlaneExtraction(PlaneExtractionConfig& c, FieldVisitor& v) {
   const DepthSensor before = c.sensor;
   VisitEnum(v, "sensor", c.sensor, DepthSensorNames(),
@@ -70,6 +84,8 @@ void VisitPlaneExtraction(PlaneExtractionConfig& c, FieldVisitor& v) {
   v.Integer("min_pixels", c.min_pixels, "[3, 1000000]", "of a segment");
   v.Degrees("max_angle_sigma_deg", c.max_angle_sigma_rad, "(0, 90)", "of a segment's normal");
   v.Integer("min_island_pixels", c.min_island_pixels, "[1, 1000000]", "of a cut-off part");
+  v.Section("box_split", "thin things in detection boxes",
+            [&] { VisitBoxSplit(c.box_split, v); });
   v.Integer("point_grid_px", c.point_grid_px, "[1, 64]", "spacing of a plane's points");
 }
 
@@ -79,6 +95,8 @@ void VisitEdges(EdgeConfig& c, FieldVisitor& v) {
   v.Number("min_step_sigmas", c.min_step_sigmas, "(0, inf)", "a depth step is at least this");
   v.Number("max_crease_start", c.max_crease_start, "(0, 1)",
            "first residual over last beyond a crease");
+  v.Number("min_rising_area", c.min_rising_area, "[0, inf)",
+           "of what ends a surface at a concave crease, over the surface's");
 }
 
 }  // namespace

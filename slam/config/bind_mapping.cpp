@@ -77,6 +77,8 @@ void VisitPlaneMap(PlaneMapConfig& c, FieldVisitor& v) {
       "min_face_weight", c.min_face_weight, "[0.25, 40]",
       "of each of four corners, for them to bound the surface; a seen corner weighs at most 1, "
       "half of it at a standard deviation of 3 mm");
+  v.Number("min_corner_weight", c.min_corner_weight, "[0, 40]",
+           "of a corner that the final map tells of");
   v.Number("face_margin_m", c.face_margin_m, "(0, inf)",
            "beyond the sides of such a face nothing belongs to it");
   v.Number("max_point_distance_m", c.max_point_distance_m, "(0, inf)",

@@ -33,6 +33,8 @@ void VisitEdgeLines(EdgeLineConfig& c, FieldVisitor& v) {
   v.Number("inset_px", c.inset_px, "[0, 1]", "boundary pixels lie this far inside the edge");
   v.Number("shared_sigma_px", c.shared_sigma_px, "[0, inf)",
            "error that all points of a line have in common");
+  v.Number("doubtful_step_sigmas", c.doubtful_step_sigmas, "[0, inf)",
+           "depth step at which a side is doubtful by a pixel");
 }
 
 void VisitVertices(VertexConfig& c, FieldVisitor& v) {

@@ -40,6 +40,7 @@ PlaneExtractionConfig ExtractionFor(DepthSensor sensor) {
       break;
     case DepthSensor::kD435:
       config.noise = D435Noise();
+      config.box_split.enabled = true;  // thin steps are hidden in its noise
       break;
   }
   return config;

@@ -10,6 +10,26 @@ namespace slam {
 /// What measured the depth; depth_sensor.h has the settings for each.
 enum class DepthSensor { kKinect1, kAzure, kD435 };
 
+/// What it takes to split a segment inside the box of a detected regular object (box_split.h).
+struct BoxSplitConfig {
+  bool enabled = false;           ///< where noise leaves nothing to gain
+  double min_score = 0.3;         ///< of the detection; domain [0, 1)
+  double margin_px = 4.0;         ///< a box is that much inexact, domain [0, inf), and ...
+  double margin_fraction = 0.05;  ///< ... by this part of its size; domain [0, 1]
+  /// Pixels vote in windows that hold this many independent errors; domain [1, 50].
+  double vote_errors = 3.0;
+  /// The step, in standard deviations of a vote: less, and noise makes regions of its own.
+  /// Domain (0, inf).
+  double min_step_votes = 2.5;
+  /// The mean height of the region in its standard errors; domain (0, inf).
+  double min_evidence_sigmas = 8.0;
+  /// The region, with the segments that the box has already, must fill it: intersection over
+  /// union of their bounds and the box. Domain [0, 1).
+  double min_box_iou = 0.5;
+  /// What is around the box is not as high, but for this part of it; domain [0, 1].
+  double max_high_around = 0.1;
+};
+
 /// Settings of plane extraction. A length here is of the sensor or of the image, and every
 /// threshold on a surface is in units of the noise.
 struct PlaneExtractionConfig {
@@ -55,6 +75,8 @@ struct PlaneExtractionConfig {
   int min_pixels = 300;              ///< domain [3, inf)
   double max_angle_sigma_rad = 0.1;  ///< domain (0, inf)
   int min_island_pixels = 40;        ///< a smaller cut-off part is dropped; domain [1, inf)
+
+  BoxSplitConfig box_split;  ///< once the frame's detections are known
 
   int point_grid_px = 6;  ///< spacing of FramePlane::points_c; domain [1, 64]
   EdgeConfig edges;       ///< of FramePlane::edge_points

@@ -7,10 +7,6 @@
 namespace slam {
 namespace {
 
-// What rises from a surface at a concave crease either ends it, as a wall does a floor and a
-// desk the side of a book, or stands on it and hides the rest, as a book does on another. It
-// ends it if its visible area is at least this part of the surface's.
-constexpr double kMinRisingArea = 0.5;
 constexpr std::size_t kLeastContour = 8;  // pixels; shorter ones bound specks
 
 /// To the nearest integer, halves away from zero.
@@ -38,7 +34,7 @@ cv::Point Along(const cv::Point& at, const Eigen::Vector2d& step, int k) {
   return {at.x + Rounded(k * step.x()), at.y + Rounded(k * step.y())};
 }
 
-/// Whether what rises from the segment at a concave crease ends it, see kMinRisingArea.
+/// Whether what rises from the segment at a concave crease ends it (min_rising_area).
 bool EndsAtCrease(const Outside& outside, const cv::Point& at, const Eigen::Vector2d& step) {
   for (int k = outside.config.reach_px; k >= 1; --k) {
     const cv::Point beyond = Along(at, step, k);
@@ -48,7 +44,7 @@ bool EndsAtCrease(const Outside& outside, const cv::Point& at, const Eigen::Vect
     const auto area_m2 = [&](int value) {
       return outside.areas_m2[static_cast<std::size_t>(value - 1)];
     };
-    return area_m2(label) >= kMinRisingArea * area_m2(outside.value);
+    return area_m2(label) >= outside.config.min_rising_area * area_m2(outside.value);
   }
   return false;
 }

@@ -22,6 +22,10 @@ struct EdgeConfig {
   /// is all there at once. A crease's first residual is below this part of the last. Domain (0,
   /// 1).
   double max_crease_start = 0.6;
+  /// What rises from a surface at a concave crease either ends it, as a wall does a floor and a
+  /// desk the side of a book, or stands on it and hides the rest, as a book does on another. It
+  /// ends it if its visible area is at least this part of the surface's. Domain [0, inf).
+  double min_rising_area = 0.5;
 };
 
 /// The outer boundary of a segment, ordered along each of its contours (clockwise in the image,

@@ -7,8 +7,6 @@ namespace slam {
 namespace {
 
 constexpr std::size_t kCorners = 4;
-// Of a corner that the final map tells of; a seen corner weighs 1.
-constexpr double kMinCornerWeight = 2.0;
 
 }  // namespace
 
@@ -18,11 +16,11 @@ bool KnowsItsFace(const MapPlane& m, const PlaneMapConfig& config) {
                      [&](double weight) { return weight >= config.min_face_weight; });
 }
 
-void ForgetDoubtfulCorners(MapPlane& m) {
+void ForgetDoubtfulCorners(MapPlane& m, const PlaneMapConfig& config) {
   std::vector<Eigen::Vector3d> corners_w;
   std::vector<double> weights;
   for (std::size_t i = 0; i < m.vertices_w.size() && i < m.vertex_weights.size(); ++i) {
-    if (!(m.vertex_weights[i] >= kMinCornerWeight)) continue;
+    if (!(m.vertex_weights[i] >= config.min_corner_weight)) continue;
     corners_w.push_back(m.vertices_w[i]);
     weights.push_back(m.vertex_weights[i]);
   }

@@ -9,11 +9,6 @@
 namespace slam {
 namespace {
 
-// Where a segment ends is doubtful where depth hardly changes, at a thin step or a blunt
-// crease: by a pixel along a whole side where the depth a few pixels beyond differs by so many
-// sigmas, and less with the square of these.
-constexpr double kDoubtfulStep_sigmas = 4.0;
-
 using Points = std::vector<Eigen::Vector2d>;
 
 double Distance(const ImageLine& line, const Eigen::Vector2d& u) {
@@ -93,7 +88,7 @@ double SharedVariance(const FramePlane& plane, const Camera& camera, const Image
   if (!steps.empty()) {
     const auto middle = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
     std::nth_element(steps.begin(), middle, steps.end());
-    const double steps_doubtful = kDoubtfulStep_sigmas / static_cast<double>(*middle);
+    const double steps_doubtful = config.doubtful_step_sigmas / static_cast<double>(*middle);
     // Its points do not lie farther off than that.
     doubt_px = std::min(steps_doubtful * steps_doubtful, 2.0 * config.max_distance_px);
   }

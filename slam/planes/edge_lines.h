@@ -26,6 +26,10 @@ struct EdgeLineConfig {
   /// surface does, after windows, votes and creases, differ along a whole side. Standard
   /// deviation at either end of a side. Domain [0, inf).
   double shared_sigma_px = 0.25;
+  /// Where a segment ends is doubtful where depth hardly changes, at a thin step or a blunt
+  /// crease: by a pixel along a whole side where the depth a few pixels beyond differs by so
+  /// many sigmas, and less with the square of these. Domain [0, inf).
+  double doubtful_step_sigmas = 4.0;
 };
 
 /// A straight piece of a plane's boundary.

@@ -15,6 +15,10 @@ struct TrackedFrame {
   TrackReport report;
 };
 
+/// A driver repeats an image once or twice; what comes again more often is a world that stands
+/// still before a camera without noise, of which there is something to learn.
+inline constexpr int kMostRepeats = 2;
+
 /// Whether colour and depth are those of the frame before to the last bit. Noise never repeats
 /// itself: a driver that had nothing new gave its last images again.
 bool RepeatsImages(const TrackedFrame& last, const RecordedFrame& next);

@@ -119,7 +119,7 @@ RunOutcome Run(LiveCamera input, const RunOptions& options, const std::string& d
   CameraCheck camera_check(input.camera, options.config.point_features.scales);
   DepthClock depth_clock(input.camera);
   std::optional<TrackedFrame> last;
-  int repeats = 0;
+  int repeats = 0, in_a_row = 0;
   std::vector<TiedPose> tied;
   const int total = input.frames.size();
   tied.reserve(static_cast<std::size_t>(total));
@@ -127,10 +127,11 @@ RunOutcome Run(LiveCamera input, const RunOptions& options, const std::string& d
     RecordedFrame recorded = input.frames.Read(i);
     if (gate.Takes(recorded)) {
       recorded.index = outcome.frames++;
-      if (last && RepeatsImages(*last, recorded)) {
+      if (last && in_a_row < kMostRepeats && RepeatsImages(*last, recorded)) {
         RepeatAt(recorded, *last);
-        ++repeats;
+        ++repeats, ++in_a_row;
       } else {
+        in_a_row = 0;
         last = {FrameOf(recorded), recorded.bgr, {}};
         last->report = tracker.TrackFrame(last->frame, last->bgr);
         depth_clock.Observe(last->frame.timestamp_s, last->frame.depth_m, PoseOf(*last));

@@ -56,7 +56,7 @@ Tracker::Tracker(const Camera& camera, const Config& config, Variant variant,
 
 void Tracker::Finish(MappingWorker::Waiting waiting) {
   if (worker_) worker_->Finish(waiting);
-  for (MapPlane& plane : map_.planes) ForgetDoubtfulCorners(plane);
+  for (MapPlane& plane : map_.planes) ForgetDoubtfulCorners(plane, config_.plane_map);
 }
 
 void Tracker::ExtractInformation(Frame& frame, const cv::Mat3b& bgr, ModuleTimes& times) {
@@ -86,8 +86,12 @@ void Tracker::ExtractInformation(Frame& frame, const cv::Mat3b& bgr, ModuleTimes
   if (!uses_planes()) return;
   planes.get();
   const std::vector<Detection> found = boxes.get();
-  const Stopwatch watch(times[Module::kMdc]);
-  frame.detections = box_tracks_.Update(frame.timestamp_s, found);
+  {
+    const Stopwatch watch(times[Module::kMdc]);
+    frame.detections = box_tracks_.Update(frame.timestamp_s, found);
+  }
+  const Stopwatch watch(times[Module::kEpi]);
+  plane_extractor_->SplitInBoxes(frame);
 }
 
 void Tracker::ProcessFramePlanes(Frame& frame) {

@@ -54,7 +54,7 @@ TEST(FaceOfAMapPlane, IsToldOfInTheEndWhereItsCornersWereSeenMoreThanOnce) {
   m.vertex_weights[1] = 1.0;
   m.vertex_weights[3] = 0.25;
   const MapPlane before = m;
-  ForgetDoubtfulCorners(m);
+  ForgetDoubtfulCorners(m, {});
   ASSERT_EQ(m.vertices_w.size(), 2u);
   EXPECT_EQ(m.vertices_w[0], before.vertices_w[0]);
   EXPECT_EQ(m.vertices_w[1], before.vertices_w[2]);

@@ -42,19 +42,31 @@ TEST(FaultStreamF3, AnImageThatCameTwiceIsTheSamePlaceAndTeachesNothing) {
   }
 }
 
-TEST(FaultStreamF3, ALastImageThatComesAgainAndAgainLeavesTheMapAsItWas) {
-  // Short of a landmark's trial, so that a second observation would make new ones.
-  const auto seen = CleanStream(2);
-  auto stuck = seen;
-  for (int k = 1; k <= 30; ++k) {
-    stuck.push_back(seen.back());
-    stuck.back().timestamp_s += k / 30.0;
+/// Two frames, the last of which comes so many times more: short of a landmark's trial, so that
+/// a third observation makes new ones.
+Ran RunStuck(int repeats) {
+  auto stream = CleanStream(2);
+  const RecordedFrame last = stream.back();
+  for (int k = 1; k <= repeats; ++k) {
+    stream.push_back(last);
+    stream.back().timestamp_s += k / 30.0;
   }
-  const Ran once = RunStream(seen, {}), ran = RunStream(stuck, {});
-  EXPECT_EQ(ran.outcome.tracked, 32);
+  return RunStream(stream, {});
+}
+
+TEST(FaultStreamF3, ALastImageThatComesTwiceAgainLeavesTheMapAsItWas) {
+  const Ran once = RunStuck(0), ran = RunStuck(kMostRepeats);
+  EXPECT_EQ(ran.outcome.tracked, 2 + kMostRepeats);
   EXPECT_EQ(ran.map, once.map);
   EXPECT_EQ(ran.outcome.map_points, once.outcome.map_points);
   EXPECT_EQ(ran.outcome.keyframes, once.outcome.keyframes);
+}
+
+TEST(RepeatedFrame, OfAWorldThatStandsStillBeforeAPerfectCameraIsLearnedFrom) {
+  const Ran ran = RunStuck(30);
+  EXPECT_EQ(ran.outcome.tracked, 32);
+  EXPECT_GT(ran.outcome.map_planes, 0);
+  ExpectNoWrongPose(ran);
 }
 
 }  // namespace

@@ -1,0 +1,99 @@
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "slam/extract/plane_edges.h"
+#include "slam/extract/plane_workspace.h"
+#include "slam/extract/roughness.h"
+
+namespace slam {
+namespace {
+
+/// Thinned points and the visible area. A pixel of dx dy on the ray plane covers
+/// |(a, b, c)| / q^3 dx dy of the surface.
+void SamplePoints(const DepthGrid& grid, const cv::Mat1b& labels, const Segment& segment,
+                  const Camera& camera, int step, FramePlane& out) {
+  const InverseDepthPlane& p = segment.plane.plane;
+  const double norm = std::sqrt(p.a * p.a + p.b * p.b + p.c * p.c);
+  double area = 0.0;
+  int sampled = 0;
+  const auto first = [step](int from) { return (from + step - 1) / step * step; };
+  for (int v = first(segment.low.y); v <= segment.high.y; v += step) {
+    for (int u = first(segment.low.x); u <= segment.high.x; u += step) {
+      if (labels(v, u) != out.index + 1) continue;
+      const auto i = static_cast<std::size_t>(grid.Index(u, v));
+      const double x = static_cast<double>(grid.x[i]), y = static_cast<double>(grid.y[i]);
+      const double z = 1.0 / static_cast<double>(grid.q[i]);
+      out.points_c.emplace_back(x * z, y * z, z);
+      const double q = p.InverseDepth(x, y);
+      area += norm / (q * q * q * camera.fx * camera.fy);
+      ++sampled;
+    }
+  }
+  if (sampled > 0) out.area_m2 = area / sampled * out.pixel_count;
+}
+
+/// Some thousand pixels say how rough a segment is, to a few per cent.
+int RoughnessStep(int pixels) {
+  return std::clamp(static_cast<int>(std::sqrt(pixels / 1000.0)), 1, 8);
+}
+
+FramePlane MakeFramePlane(const Segment& segment, int index) {
+  FramePlane out;
+  out.index = index;
+  out.pi_c = segment.plane.plane.Hessian();
+  const Eigen::Vector3d ray(segment.sums.wx / segment.sums.w, segment.sums.wy / segment.sums.w,
+                            1.0);
+  out.centroid_c = ray / segment.plane.plane.InverseDepth(ray.x(), ray.y());
+  out.pixel_count = static_cast<int>(segment.sums.n);
+  out.offset_sigma_m = segment.sigmas.offset_m;
+  out.angle_sigma_rad = segment.sigmas.angle_rad;
+  out.inverse_depth_covariance = segment.sigmas.covariance;
+  return out;
+}
+
+}  // namespace
+
+/// Empties a frame's planes, but keeps the memory of their points.
+void PlaneExtractor::Workspace::TakeMemory(std::vector<FramePlane>& planes) {
+  if (old_planes.size() < planes.size()) old_planes.resize(planes.size());
+  for (std::size_t k = 0; k < planes.size(); ++k) {
+    old_planes[k].points_c.swap(planes[k].points_c);
+    old_planes[k].edge_points.swap(planes[k].edge_points);
+  }
+  planes.clear();
+}
+
+void PlaneExtractor::Workspace::GiveMemory(FramePlane& plane) {
+  const auto k = static_cast<std::size_t>(plane.index);
+  if (k >= old_planes.size()) return;
+  plane.points_c.swap(old_planes[k].points_c);
+  plane.edge_points.swap(old_planes[k].edge_points);
+  plane.points_c.clear(), plane.edge_points.clear();
+}
+
+/// Fills the frame's planes from the segments that are kept and its label image.
+void PlaneExtractor::Workspace::Describe(Frame& frame) {
+  contours.Trace(frame.plane_labels);
+  TakeMemory(frame.planes);
+  for (std::size_t k = 0; k < kept.size(); ++k) {
+    FramePlane plane = MakeFramePlane(kept[k], static_cast<int>(k));
+    GiveMemory(plane);
+    SamplePoints(grid, frame.plane_labels, kept[k], camera, config.point_grid_px, plane);
+    plane.roughness = MeasureRoughness(
+        grid, frame.plane_labels, cv::Rect(kept[k].low, kept[k].high + cv::Point(1, 1)),
+        static_cast<std::uint8_t>(plane.index + 1), kept[k].plane.plane, config.noise,
+        RoughnessStep(plane.pixel_count));
+    frame.planes.push_back(std::move(plane));
+  }
+  areas_m2.clear();
+  for (const FramePlane& plane : frame.planes) areas_m2.push_back(plane.area_m2);
+  for (FramePlane& plane : frame.planes) {
+    FindEdgePoints(grid, contours, plane.index + 1,
+                   kept[static_cast<std::size_t>(plane.index)].plane, areas_m2, config.edges,
+                   plane.edge_points);
+    for (const EdgePoint& point : plane.edge_points) plane.box_px.Include(point.u_px);
+  }
+}
+
+}  // namespace slam

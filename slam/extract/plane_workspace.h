@@ -1,0 +1,52 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <opencv2/core/mat.hpp>
+#include <vector>
+
+#include "slam/base/box.h"
+#include "slam/extract/block_clusters.h"
+#include "slam/extract/box_split.h"
+#include "slam/extract/measured_segments.h"
+#include "slam/extract/occluded_parts.h"
+#include "slam/extract/outer_contours.h"
+#include "slam/extract/patches.h"
+#include "slam/extract/pixel_growth.h"
+#include "slam/extract/plane_segments.h"
+#include "slam/extract/sensor_warp.h"
+
+namespace slam {
+
+/// What the extractor works with from frame to frame.
+struct PlaneExtractor::Workspace {
+  Camera camera;
+  PlaneExtractionConfig config;
+  DepthGrid grid;
+  BlockClustering clustering;
+  WarpMeasurement warp;
+  PixelGrowth growth;
+  std::vector<std::uint8_t> settled;
+  PatchJoining patches;
+  PartSegmentation parts;
+  LabelImage labels;  ///< of segments
+  std::vector<PlaneSums> sums;
+  std::vector<Segment> kept;
+  std::vector<std::uint8_t> drawn_value;
+  OuterContours contours;
+  std::vector<double> areas_m2;  ///< visible, of the frame's planes
+  BoxSplit box_split;
+  std::vector<Box> boxes_px;              ///< of detections that may hold thin things
+  std::vector<std::size_t> own_segments;  ///< that lie in a box
+  /// Planes of the frame's last image, whose points' memory serves again.
+  std::vector<FramePlane> old_planes;
+
+  void TakeMemory(std::vector<FramePlane>& planes);
+  void GiveMemory(FramePlane& plane);
+  void Describe(Frame& frame);
+  bool SplitInBox(const Box& box_px, Frame& frame);
+  bool TakeRegion(std::size_t host, cv::Mat1b& drawn);
+  void Renumber(cv::Mat1b& drawn);
+};
+
+}  // namespace slam
