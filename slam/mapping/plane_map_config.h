@@ -28,7 +28,7 @@ struct PlaneMapConfig {
   /// Of each of four corners; a seen one weighs (3 mm)^2 / ((3 mm)^2 + its variance), at
   /// most 1.
   double min_face_weight = 5.0;
-  double min_corner_weight = 2.0;  ///< of a corner that the final map tells of
+  double min_corner_weight = 1.0;  ///< of a corner that the final map tells of
   double face_margin_m = 0.02;     ///< beyond the sides of a known face nothing belongs to it
   double max_point_distance_m = 0.01;  ///< a map point nearer to the plane lies on it
 

@@ -16,8 +16,9 @@ namespace {
 constexpr float kTooFar = std::numeric_limits<float>::infinity();
 
 /// A noisy slope with holes, which planes fit here and there.
-DepthGrid RoughGrid(int width, int height) {
+DepthGrid RoughGrid(int width, int height, double k1 = 0.0) {
   Camera camera;
+  camera.k1 = k1;
   camera.width = width, camera.height = height;
   camera.cx = 0.5 * width, camera.cy = 0.5 * height;
   cv::Mat1f depth_m(height, width);
@@ -91,26 +92,59 @@ TEST(BlockPixels, MeasureAndBidWhatTheirDefinitionsSay) {
   }
 }
 
-TEST(BlockPixels, SumThePixelsOfALabelAndNoOthers) {
-  const DepthGrid grid = RoughGrid(29, 27);
-  std::vector<std::int16_t> labels(grid.q.size());
-  for (std::size_t i = 0; i < labels.size(); ++i)
-    labels[i] = grid.g[i] > 0 ? static_cast<std::int16_t>(i % 5 < 3 ? i % 5 : -1) : kNoLabel;
-  const std::vector<PlaneSums> sums = SumLabels(grid, labels, 3);
-  std::vector<PlaneSums> plain(3);
-  for (std::size_t i = 0; i < labels.size(); ++i) {
-    if (labels[i] == kNoLabel) continue;
-    const double g = static_cast<double>(grid.g[i]);
-    plain[static_cast<std::size_t>(labels[i])].Add(static_cast<double>(grid.x[i]),
-                                                   static_cast<double>(grid.y[i]),
-                                                   static_cast<double>(grid.q[i]), g * g);
+std::vector<double> Numbers(const PlaneSums& s) {
+  return {s.w, s.wx, s.wy, s.wxx, s.wxy, s.wyy, s.wq, s.wqx, s.wqy, s.wqq};
+}
+
+// Columns of one x, and every pixel with its own.
+TEST(BlockPixels, SumThePixelsOfALabelAndNoOthersWithALensAndWithout) {
+  for (const double k1 : {0.0, 0.2}) {
+    const DepthGrid grid = RoughGrid(29, 27, k1);
+    ASSERT_EQ(grid.column_x.empty(), k1 != 0.0);
+    std::vector<std::int16_t> labels(grid.q.size());
+    for (std::size_t i = 0; i < labels.size(); ++i)
+      labels[i] = grid.g[i] > 0 ? static_cast<std::int16_t>(i % 5 < 3 ? i % 5 : -1) : kNoLabel;
+    const std::vector<PlaneSums> sums = SumLabels(grid, labels, 3);
+    std::vector<PlaneSums> plain(3);
+    for (std::size_t i = 0; i < labels.size(); ++i) {
+      if (labels[i] == kNoLabel) continue;
+      const double g = static_cast<double>(grid.g[i]);
+      plain[static_cast<std::size_t>(labels[i])].Add(static_cast<double>(grid.x[i]),
+                                                     static_cast<double>(grid.y[i]),
+                                                     static_cast<double>(grid.q[i]), g * g);
+    }
+    for (std::size_t k = 0; k < 3; ++k) {
+      EXPECT_EQ(sums[k].n, plain[k].n);
+      const std::vector<double> got = Numbers(sums[k]), expected = Numbers(plain[k]);
+      for (std::size_t m = 0; m < got.size(); ++m)
+        EXPECT_NEAR(got[m], expected[m], 1e-12 * plain[k].w) << m;
+    }
   }
-  for (std::size_t k = 0; k < 3; ++k) {
-    EXPECT_EQ(sums[k].n, plain[k].n);
-    EXPECT_NEAR(sums[k].w, plain[k].w, 1e-12 * plain[k].w);
-    EXPECT_NEAR(sums[k].wxy, plain[k].wxy, 1e-12 * plain[k].w);
-    EXPECT_NEAR(sums[k].wqx, plain[k].wqx, 1e-12 * plain[k].w);
-    EXPECT_NEAR(sums[k].wqq, plain[k].wqq, 1e-12 * plain[k].wqq);
+}
+
+TEST(BlockPixels, OfALabelGoToOneIfAllHaveTheSameAfterwards) {
+  const DepthGrid grid = RoughGrid(21, 16);
+  for (const int u : {0, 16}) {  // a whole block, and one that the image cuts off
+    const BlockPixels block = BlockAt(grid, u, 8, 8);
+    std::vector<std::int16_t> from(grid.q.size(), 3), to(grid.q.size(), 7);
+    const auto first = static_cast<std::size_t>(grid.Index(u, 8));
+    const auto last = static_cast<std::size_t>(grid.Index(u + block.width - 1, 15));
+    const auto go = [&](std::int16_t label, std::int16_t& only) {
+      return GoToOne(block, from.data() + first, label, to.data() + first, only);
+    };
+    std::int16_t only = 0;
+    from[first] = 5, to[first] = 9;  // another's
+    EXPECT_TRUE(go(3, only));
+    EXPECT_EQ(only, 7);
+    EXPECT_TRUE(go(5, only));
+    EXPECT_EQ(only, 9);
+    to[last] = kNoLabel;
+    EXPECT_FALSE(go(3, only));
+    std::fill(to.begin(), to.end(), kNoLabel);
+    EXPECT_TRUE(go(3, only));
+    EXPECT_EQ(only, kNoLabel);
+    to[last] = 8;
+    EXPECT_FALSE(go(3, only));
   }
 }
 
