@@ -10,8 +10,8 @@ namespace {
 
 constexpr int kCell_px = 4, kLargeCell_px = 8;
 constexpr double kLargeBox_px = 160.0;  // from here on cells are large
-constexpr int kStep_px =
-    4;  // of a cell only every such pixel of every such row counts: errors are shared
+// Only every such pixel of every such row counts: errors are shared.
+constexpr int kStep_px = 4;
 constexpr int kReach = 1;            // cells around a cell that vote on it
 constexpr float kLeastShare = 0.5f;  // of a cell that must be the segment's
 constexpr float kNoVote = std::numeric_limits<float>::quiet_NaN();
@@ -316,7 +316,6 @@ bool BoxSplit::Find(const DepthGrid& grid, const cv::Mat1b& labels, std::uint8_t
 }
 
 std::array<int, 256> CountLabels(const cv::Mat1b& labels, const Box& box_px) {
-  constexpr int kStep_px = 4;
   std::array<int, 256> pixels{};
   const cv::Point low(std::max(0, static_cast<int>(box_px.min.x())),
                       std::max(0, static_cast<int>(box_px.min.y())));

@@ -17,7 +17,7 @@ constexpr int kStepV[kDirections] = {0, -1, -1, -1, 0, 1, 1, 1};
 void OuterContours::Trace(const cv::Mat1b& labels) {
   stride_ = labels.cols + 2 * kFrame;
   const auto cells = static_cast<std::size_t>(stride_ * (labels.rows + 2 * kFrame));
-  cells_.assign(cells, 0), marks_.assign(cells, kNone);
+  cells_.assign(cells, 0), marks_.assign(cells, kUnmarked);
   points_.clear(), contours_.clear();
   for (int v = 0; v < labels.rows; ++v)
     std::copy_n(labels[v], labels.cols, cells_.data() + CellAt({0, v}));
@@ -31,7 +31,7 @@ void OuterContours::Trace(const cv::Mat1b& labels) {
       }
       if (cell[0] == cell[-1] || cell[0] == 0) continue;
       const Mark* mark = marks_.data() + row + u;
-      if (*mark == kNone && !StartsInside(cell, mark, u)) Follow(row + u, {u, v});
+      if (*mark == kUnmarked && !StartsInside(cell, mark, u)) Follow(row + u, {u, v});
     }
   }
   std::sort(contours_.begin(), contours_.end(), [](const Contour& a, const Contour& b) {
@@ -45,7 +45,7 @@ void OuterContours::Trace(const cv::Mat1b& labels) {
 /// last contour to the left has not ended.
 bool OuterContours::StartsInside(const std::uint8_t* cell, const Mark* mark, int u) const {
   for (int k = 1; k <= u; ++k) {
-    if (cell[-k] == cell[0] && mark[-k] != kNone) return mark[-k] == kEdge;
+    if (cell[-k] == cell[0] && mark[-k] != kUnmarked) return mark[-k] == kEdge;
   }
   return false;
 }
@@ -77,7 +77,7 @@ void OuterContours::Follow(int start, const cv::Point& at) {
       Mark& mark = marks_[static_cast<std::size_t>(cell)];
       if (to > kRight && to <= from) {  // has looked to the right
         mark = kRightEdge;
-      } else if (mark == kNone) {
+      } else if (mark == kUnmarked) {
         mark = kEdge;
       }
       points_.push_back(here);

@@ -38,7 +38,7 @@ class OuterContours {
 
  private:
   /// What is known of a pixel on a contour. To the right of a right edge is the outside.
-  enum Mark : std::uint8_t { kNone, kEdge, kRightEdge };
+  enum Mark : std::uint8_t { kUnmarked, kEdge, kRightEdge };
 
   int CellAt(const cv::Point& at) const { return (at.y + kFrame) * stride_ + at.x + kFrame; }
   bool StartsInside(const std::uint8_t* cell, const Mark* mark, int u) const;

@@ -8,27 +8,36 @@
 namespace slam {
 namespace {
 
+/// What lines between two labels of an image, both of a plane at 1 m, say.
+template <typename Question>
+auto Ask(cv::Mat1f depth_m, const LabelImage& labels, std::uint64_t noise_seed,
+         const Question& question) {
+  Camera camera;
+  camera.width = depth_m.cols, camera.height = depth_m.rows;
+  if (noise_seed > 0) depth_m = closed_form::AddKinectNoise(depth_m, noise_seed);
+  LabelRuns runs;
+  FindRuns(labels, depth_m.cols, depth_m.rows, runs);
+  std::vector<int> part;
+  for (const LabelRun& run : runs.runs) part.push_back(run.label);
+  const DepthGrid grid = MakeDepthGrid(depth_m, PixelRays(camera), DepthNoise{}, 10.0);
+  SightLines lines;
+  lines.Begin(grid, runs, part, 2);
+  return question(lines, LabelPlane{InverseDepthPlane{0.0, 0.0, 1.0}, 1.0});
+}
+
 /// Two parts of a wall at 1 m, with a strip `between_m` away between them (0 = not measured).
 double ShareBehindAStrip(float between_m, std::uint64_t noise_seed = 0) {
-  Camera camera;
-  camera.width = 90, camera.height = 50;
   cv::Mat1f depth_m(50, 90, 1.0f);
   depth_m(cv::Rect(40, 0, 10, 50)).setTo(between_m);
-  if (noise_seed > 0) depth_m = closed_form::AddKinectNoise(depth_m, noise_seed);
   LabelImage labels(50 * 90, kNoLabel);
   for (int v = 0; v < 50; ++v) {
     for (int u = 0; u < 90; ++u) {
       if (u < 40 || u >= 50) labels[static_cast<std::size_t>(v * 90 + u)] = u < 40 ? 0 : 1;
     }
   }
-  LabelRuns runs;
-  FindRuns(labels, 90, 50, runs);
-  std::vector<int> part;
-  for (const LabelRun& run : runs.runs) part.push_back(run.label);
-  const DepthGrid grid = MakeDepthGrid(depth_m, PixelRays(camera), DepthNoise{}, 10.0);
-  SightLines lines;
-  lines.Begin(grid, runs, part, 2);
-  return lines.ShareBehind(0, 1, {InverseDepthPlane{0.0, 0.0, 1.0}, 1.0});
+  return Ask(depth_m, labels, noise_seed, [](SightLines& lines, const LabelPlane& plane) {
+    return lines.ShareBehind(0, 1, plane);
+  });
 }
 
 TEST(SightLines, TellWhatIsBehindFromWhatIsInFront) {
@@ -47,8 +56,6 @@ TEST(SightLines, TakeAThirdPartOfThePlaneForNeither) {
 /// around them. Something `bar_m` away (0 = not measured) stands between them over `bar_rows`
 /// of their 30 rows.
 bool AreSidesOfABar(int bar_rows, float bar_m, std::uint64_t noise_seed = 0) {
-  Camera camera;
-  camera.width = 90, camera.height = 50;
   cv::Mat1f depth_m(50, 90, 1.1f);
   LabelImage labels(50 * 90, kNoLabel);
   for (const int part : {0, 1}) {
@@ -60,15 +67,9 @@ bool AreSidesOfABar(int bar_rows, float bar_m, std::uint64_t noise_seed = 0) {
     }
   }
   depth_m(cv::Rect(40, 25 - bar_rows / 2, 10, bar_rows)).setTo(bar_m);
-  if (noise_seed > 0) depth_m = closed_form::AddKinectNoise(depth_m, noise_seed);
-  LabelRuns runs;
-  FindRuns(labels, 90, 50, runs);
-  std::vector<int> part;
-  for (const LabelRun& run : runs.runs) part.push_back(run.label);
-  const DepthGrid grid = MakeDepthGrid(depth_m, PixelRays(camera), DepthNoise{}, 10.0);
-  SightLines lines;
-  lines.Begin(grid, runs, part, 2);
-  return lines.AreSidesOfSomethingInFront(0, 1, {InverseDepthPlane{0.0, 0.0, 1.0}, 1.0});
+  return Ask(depth_m, labels, noise_seed, [](SightLines& lines, const LabelPlane& plane) {
+    return lines.AreSidesOfSomethingInFront(0, 1, plane);
+  });
 }
 
 TEST(SightLines, UniteWhatSomethingInFrontCutsThoughItEndsElsewhere) {
