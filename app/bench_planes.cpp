@@ -13,6 +13,7 @@
 #include "slam/input/camera_reader.h"
 #include "slam/input/sequence_reader.h"
 #include "slam/planes/process_planes.h"
+#include "slam/track/tracker.h"
 
 namespace app {
 namespace {
@@ -47,6 +48,22 @@ void BackProject(const cv::Mat1f& depth_m, const slam::Camera& camera, cv::Mat3f
   }
 }
 
+slam::Frame FrameOf(const slam::RecordedFrame& recorded) {
+  slam::Frame frame;
+  frame.index = recorded.index;
+  frame.timestamp_s = recorded.timestamp_s;
+  frame.gray = recorded.gray;
+  frame.depth_m = recorded.depth_m;
+  return frame;
+}
+
+std::unique_ptr<slam::Detector> DetectorOf(const std::filesystem::path& sequence,
+                                           const slam::Camera& camera,
+                                           const slam::Config& config) {
+  const bool replay = std::filesystem::exists(sequence / "detections.jsonl");
+  return slam::MakeDetector(replay ? "replay" : "none", sequence, camera, config.classes);
+}
+
 /// Runs (B) for planes and (C) as the tracker does.
 class PlaneFrontEnd {
  public:
@@ -55,17 +72,11 @@ class PlaneFrontEnd {
       : camera_(camera),
         config_(config),
         extractor_(camera, slam::PixelRays(camera), config.plane_extraction),
-        boxes_(config.box_tracks, camera.ImageBox()) {
-    const bool replay = std::filesystem::exists(sequence / "detections.jsonl");
-    detector_ =
-        slam::MakeDetector(replay ? "replay" : "none", sequence, camera, config.classes);
-  }
+        boxes_(config.box_tracks, camera.ImageBox()),
+        detector_(DetectorOf(sequence, camera, config)) {}
 
   slam::Frame Run(const slam::RecordedFrame& recorded, PlaneTimes& times) {
-    slam::Frame frame;
-    frame.index = recorded.index;
-    frame.timestamp_s = recorded.timestamp_s;
-    frame.depth_m = recorded.depth_m;
+    slam::Frame frame = FrameOf(recorded);
     frame.detections =
         boxes_.Update(frame.timestamp_s, detector_->Detect(frame.timestamp_s, recorded.bgr));
     times.plain_pass_ms.push_back(
@@ -128,6 +139,11 @@ PlaneBench BenchPlanes(const std::filesystem::path& sequence, const std::string&
   const eval::Sequence truth = eval::WithUnitedFaces(eval::ReadSequence(sequence));
   slam::SequenceReader reader(sequence, camera);
   PlaneFrontEnd front_end(sequence, camera, config);
+  std::optional<slam::Tracker> tracker;
+  if (choice.track) {
+    tracker.emplace(camera, config, slam::Variant::kFull, DetectorOf(sequence, camera, config),
+                    /*seed=*/0, /*threads=*/1);
+  }
   const int count =
       choice.at_most > 0 ? std::min(choice.at_most, reader.size()) : reader.size();
   std::vector<double> stamps_s;
@@ -142,8 +158,18 @@ PlaneBench BenchPlanes(const std::filesystem::path& sequence, const std::string&
     poses = eval::TruePosesOfFrames(*truth.groundtruth, stamps_s, truth.synthetic);
   }
   PlaneBench bench;
-  for (int i = 0; i < count; i += choice.every) {
-    const slam::Frame frame = front_end.Run(reader.Read(i), bench.times);
+  for (int i = 0; i < count; ++i) {
+    const bool scored = i % choice.every == 0;
+    if (!scored && !tracker) continue;
+    const slam::RecordedFrame recorded = reader.Read(i);
+    slam::Frame tracked;
+    if (tracker) {
+      tracked = FrameOf(recorded);
+      tracker->TrackFrame(tracked, recorded.bgr);
+    }
+    if (!scored) continue;
+    const slam::Frame extracted = front_end.Run(recorded, bench.times);
+    const slam::Frame& frame = tracker ? tracked : extracted;
     ++bench.frames;
     bench.segments += static_cast<int>(frame.planes.size());
     const std::optional<eval::Pose>& pose = poses[static_cast<std::size_t>(i)];

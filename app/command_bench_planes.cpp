@@ -19,7 +19,7 @@ struct Arguments {
   std::string camera, config_file;
   std::string sensor = slam::DepthSensorNames().front();
   int frames = 0, every = 1;
-  bool steps = false, unmeasured = false;
+  bool steps = false, unmeasured = false, track = false;
   double depth_delay_ms = 0.0;
 };
 
@@ -124,9 +124,10 @@ PlaneBench BenchAll(const Arguments& arguments, const slam::Config& config, bool
   Progress progress("bench planes", static_cast<int>(arguments.sequences.size()), quiet);
   int done = 0;
   for (const std::string& sequence : arguments.sequences) {
-    const PlaneBench bench = BenchPlanes(
-        sequence, arguments.camera, config,
-        {arguments.frames, arguments.every, arguments.unmeasured, arguments.depth_delay_ms});
+    const PlaneBench bench =
+        BenchPlanes(sequence, arguments.camera, config,
+                    {arguments.frames, arguments.every, arguments.unmeasured, arguments.track,
+                     arguments.depth_delay_ms});
     const std::string name = std::filesystem::path(sequence).lexically_normal().filename();
     if (each && bench.scored_frames > 0) PrintScores(name, bench);
     if (each && !bench.level_normals_w.empty()) PrintLevelPlane(name, bench);
@@ -165,6 +166,8 @@ void AddBenchPlanes(CLI::App& bench, const Globals& globals, int& exit_code) {
                     "Also: which steps are separated, by height and distance");
   command->add_flag("--unmeasured", arguments->unmeasured,
                     "Score against true pixels without depth too, as pas eval does");
+  command->add_flag("--track", arguments->track,
+                    "Score the planes of a whole run, in which the map has its say");
   command
       ->add_option("--depth-delay-ms", arguments->depth_delay_ms,
                    "Of a recording: its depth is stamped so much later than its true poses")

@@ -51,34 +51,6 @@ double Divide(const std::array<int, kBins>& histogram) {
   return (best_bin + 1) * 2.0 * kMostVote / kBins - kMostVote;
 }
 
-/// The largest 4-connected part of the non-zero entries.
-void LargestPart(const std::vector<std::uint8_t>& mask, int width,
-                 std::vector<std::uint8_t>& seen, std::vector<int>& stack,
-                 std::vector<int>& part, std::vector<int>& largest) {
-  const int count = static_cast<int>(mask.size());
-  seen.assign(mask.size(), 0);
-  largest.clear();
-  const auto visit = [&](int i) {
-    const auto k = static_cast<std::size_t>(i);
-    if (mask[k] == 0 || seen[k] != 0) return;
-    seen[k] = 1;
-    stack.push_back(i), part.push_back(i);
-  };
-  for (int start = 0; start < count; ++start) {
-    part.clear(), stack.clear();
-    visit(start);
-    while (!stack.empty()) {
-      const int i = stack.back();
-      stack.pop_back();
-      if (i % width > 0) visit(i - 1);
-      if (i % width + 1 < width) visit(i + 1);
-      if (i >= width) visit(i - width);
-      if (i + width < count) visit(i + width);
-    }
-    if (part.size() > largest.size()) largest.swap(part);
-  }
-}
-
 }  // namespace
 
 void BoxSplit::SumCells(const DepthGrid& grid, const cv::Mat1b& labels, std::uint8_t host,
@@ -161,7 +133,7 @@ void BoxSplit::FindLargestRegion() {
     const bool high = static_cast<double>(cells_[k].vote) > 0.5 * (low_ + high_);
     mask_[k] = cells_[k].inside && high ? 1 : 0;
   }
-  LargestPart(mask_, cols_, chosen_, stack_, part_, best_);
+  best_ = parts_.Of(mask_, cols_);
   chosen_.assign(cells_.size(), 0);
   for (const int k : best_) chosen_[static_cast<std::size_t>(k)] = 1;
 }
@@ -207,76 +179,6 @@ Box BoxSplit::RegionBounds() const {
   return bounds;
 }
 
-void BoxSplit::ElectPixels(const DepthGrid& grid, const cv::Mat1b& labels, std::uint8_t host,
-                           const LabelPlane& plane, double window_px) {
-  const int reach =
-      std::max(1, static_cast<int>(std::ceil(0.5 * (std::sqrt(window_px) - 1.0))));
-  bounds_ = Widened(RegionBounds(), cell_px_ + reach, labels.size()) & area_;
-  const int width = bounds_.width, stride = width + 1;
-  integral_sum_.assign(static_cast<std::size_t>(stride * (bounds_.height + 1)), 0.0);
-  integral_count_.assign(integral_sum_.size(), 0);
-  for (int v = 0; v < bounds_.height; ++v) {
-    double sum = 0.0;
-    int count = 0;
-    for (int u = 0; u < width; ++u) {
-      const cv::Point at(bounds_.x + u, bounds_.y + v);
-      if (labels(at) == host) {
-        const auto i = static_cast<std::size_t>(grid.Index(at.x, at.y));
-        sum += static_cast<double>(ResidualSigmas(grid, i, plane)), ++count;
-      }
-      const auto k = static_cast<std::size_t>((v + 1) * stride + u + 1);
-      integral_sum_[k] = integral_sum_[k - static_cast<std::size_t>(stride)] + sum;
-      integral_count_[k] = integral_count_[k - static_cast<std::size_t>(stride)] + count;
-    }
-  }
-  const auto window = [&](const auto& integral, int u, int v) {
-    const int l = std::max(u - reach, 0), r = std::min(u + reach + 1, width);
-    const int t = std::max(v - reach, 0), b = std::min(v + reach + 1, bounds_.height);
-    const auto at = [&](int x, int y) {
-      return integral[static_cast<std::size_t>(y * stride + x)];
-    };
-    return at(r, b) - at(l, b) - at(r, t) + at(l, t);
-  };
-  mask_.assign(static_cast<std::size_t>(width * bounds_.height), 0);
-  for (int v = 0; v < bounds_.height; ++v) {
-    for (int u = 0; u < width; ++u) {
-      const cv::Point at(bounds_.x + u, bounds_.y + v);
-      if (labels(at) != host || !search_.contains(at)) continue;
-      const double vote = window(integral_sum_, u, v) / window(integral_count_, u, v);
-      if (vote > 0.5 * (low_ + high_)) mask_[static_cast<std::size_t>(v * width + u)] = 1;
-    }
-  }
-}
-
-void BoxSplit::KeepLargestWithoutHoles(int width, int height) {
-  LargestPart(mask_, width, chosen_, stack_, part_, best_);
-  // What the border does not reach is the region or a hole of it.
-  mask_.assign(mask_.size(), 0);
-  for (const int k : best_) mask_[static_cast<std::size_t>(k)] = 1;
-  stack_.clear();
-  const auto visit = [&](int k) {
-    std::uint8_t& at = mask_[static_cast<std::size_t>(k)];
-    if (at == 0) at = 2, stack_.push_back(k);
-  };
-  for (int u = 0; u < width; ++u) visit(u), visit((height - 1) * width + u);
-  for (int v = 0; v < height; ++v) visit(v * width), visit(v * width + width - 1);
-  while (!stack_.empty()) {
-    const int k = stack_.back();
-    stack_.pop_back();
-    if (k % width > 0) visit(k - 1);
-    if (k % width + 1 < width) visit(k + 1);
-    if (k >= width) visit(k - width);
-    if (k + width < width * height) visit(k + width);
-  }
-}
-
-double BoxSplit::MeanHeight(const DepthGrid& grid, const LabelPlane& plane) const {
-  double sum = 0.0;
-  for (const int i : pixels_)
-    sum += static_cast<double>(ResidualSigmas(grid, static_cast<std::size_t>(i), plane));
-  return sum / static_cast<double>(std::max<std::size_t>(pixels_.size(), 1)) - low_;
-}
-
 bool BoxSplit::Find(const DepthGrid& grid, const cv::Mat1b& labels, std::uint8_t host,
                     const LabelPlane& plane, const Box& box_px, const Box& own_px,
                     const PlaneExtractionConfig& config) {
@@ -302,17 +204,16 @@ bool BoxSplit::Find(const DepthGrid& grid, const cv::Mat1b& labels, std::uint8_t
   if (!own_px.empty()) filled_px.Include(own_px.min), filled_px.Include(own_px.max);
   if (!(Iou(filled_px, box_px) > rules.min_box_iou) || !StepsAtOnce()) return false;
 
-  ElectPixels(grid, labels, host, plane, rules.vote_errors * config.noise.correlated_px);
-  KeepLargestWithoutHoles(bounds_.width, bounds_.height);
-  pixels_.clear();
-  for (int k = 0; k < bounds_.width * bounds_.height; ++k) {
-    if (mask_[static_cast<std::size_t>(k)] == 2) continue;
-    const cv::Point at(bounds_.x + k % bounds_.width, bounds_.y + k / bounds_.width);
-    if (labels(at) == host) pixels_.push_back(grid.Index(at.x, at.y));
-  }
-  const double errors = static_cast<double>(pixels_.size()) / config.noise.correlated_px;
-  return static_cast<double>(pixels_.size()) >= config.min_pixels &&
-         MeanHeight(grid, plane) * std::sqrt(errors) > rules.min_evidence_sigmas;
+  const double votes_px = rules.vote_errors * config.noise.correlated_px;
+  const cv::Rect votes =
+      Widened(region_px, cell_px_ + ElectedRegion::Reach(votes_px), labels.size()) & area_;
+  SetRectangle(search_, eligible_);
+  region_.Elect(grid, labels, {host, plane, low_, high_, votes_px}, votes, eligible_);
+  const double errors =
+      static_cast<double>(region_.pixels().size()) / config.noise.correlated_px;
+  return static_cast<double>(region_.pixels().size()) >= config.min_pixels &&
+         (region_.MeanHeight(grid, plane) - low_) * std::sqrt(errors) >
+             rules.min_evidence_sigmas;
 }
 
 std::array<int, 256> CountLabels(const cv::Mat1b& labels, const Box& box_px) {

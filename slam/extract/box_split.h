@@ -7,7 +7,10 @@
 
 #include "slam/base/box.h"
 #include "slam/extract/depth_grid.h"
+#include "slam/extract/elected_region.h"
 #include "slam/extract/extraction_config.h"
+#include "slam/extract/largest_part.h"
+#include "slam/extract/pixel_area.h"
 #include "slam/extract/pixel_labels.h"
 
 namespace slam {
@@ -42,10 +45,8 @@ class BoxSplit {
             const LabelPlane& plane, const Box& box_px, const Box& own_px,
             const PlaneExtractionConfig& config);
 
-  /// The region of the last search that found one: places in the grid, row by row, and their
-  /// bounds.
-  const std::vector<int>& pixels() const { return pixels_; }
-  const cv::Rect& bounds() const { return bounds_; }
+  /// Of the last search that found one.
+  const ElectedRegion& region() const { return region_; }
 
  private:
   /// The segment's pixels in a square of the image.
@@ -64,10 +65,6 @@ class BoxSplit {
   void FindLargestRegion();
   bool StepsAtOnce() const;
   Box RegionBounds() const;
-  void ElectPixels(const DepthGrid& grid, const cv::Mat1b& labels, std::uint8_t host,
-                   const LabelPlane& plane, double window_px);
-  void KeepLargestWithoutHoles(int width, int height);
-  double MeanHeight(const DepthGrid& grid, const LabelPlane& plane) const;
 
   const Cell& At(int x, int y) const { return cells_[static_cast<std::size_t>(y * cols_ + x)]; }
   bool Chosen(int x, int y) const {
@@ -81,13 +78,12 @@ class BoxSplit {
   std::vector<Cell> cells_;
   std::vector<std::uint8_t> chosen_;  ///< cells of the largest region
   double low_ = 0.0, high_ = 0.0;     ///< mean heights of the two kinds of cells, sigmas
-  cv::Rect bounds_;
-  std::vector<int> pixels_;
+  PixelArea eligible_;
+  ElectedRegion region_;
   // Scratch.
-  std::vector<int> stack_, part_, best_;
+  std::vector<int> best_;
   std::vector<std::uint8_t> mask_;
-  std::vector<double> integral_sum_;
-  std::vector<int> integral_count_;
+  LargestPart parts_;
 };
 
 /// About how many pixels of each label a box holds, from every fourth pixel of every fourth

@@ -8,6 +8,7 @@
 #include "slam/base/box.h"
 #include "slam/extract/block_clusters.h"
 #include "slam/extract/box_split.h"
+#include "slam/extract/map_split.h"
 #include "slam/extract/measured_segments.h"
 #include "slam/extract/occluded_parts.h"
 #include "slam/extract/outer_contours.h"
@@ -36,8 +37,11 @@ struct PlaneExtractor::Workspace {
   OuterContours contours;
   std::vector<double> areas_m2;  ///< visible, of the frame's planes
   BoxSplit box_split;
-  std::vector<Box> boxes_px;              ///< of detections that may hold thin things
-  std::vector<std::size_t> own_segments;  ///< that lie in a box
+  MapSplit map_split;
+  PixelArea expected_area;
+  std::vector<Box> boxes_px;  ///< of detections that may hold thin things
+  /// That lie in a box, or in what is expected.
+  std::vector<std::size_t> own_segments;
   /// Planes of the frame's last image, whose points' memory serves again.
   std::vector<FramePlane> old_planes;
 
@@ -45,7 +49,8 @@ struct PlaneExtractor::Workspace {
   void GiveMemory(FramePlane& plane);
   void Describe(Frame& frame);
   bool SplitInBox(const Box& box_px, Frame& frame);
-  bool TakeRegion(std::size_t host, cv::Mat1b& drawn);
+  bool SplitBy(const std::vector<ExpectedPlane>& all, std::size_t expected, Frame& frame);
+  bool TakeRegion(std::size_t host, const ElectedRegion& found, cv::Mat1b& drawn);
   void Renumber(cv::Mat1b& drawn);
 };
 

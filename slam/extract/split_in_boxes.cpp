@@ -33,14 +33,9 @@ bool LiesIn(const Box& segment_px, const Box& box_px) {
 
 /// Gives the region that was found in a segment to one of the box's own that it agrees with, or
 /// makes it a new one, if what it is and what is left can be measured.
-bool PlaneExtractor::Workspace::TakeRegion(std::size_t host, cv::Mat1b& drawn) {
-  PlaneSums region;
-  for (const int i : box_split.pixels()) {
-    const auto k = static_cast<std::size_t>(i);
-    const double g = static_cast<double>(grid.g[k]);
-    region.Add(static_cast<double>(grid.x[k]), static_cast<double>(grid.y[k]),
-               static_cast<double>(grid.q[k]), g * g);
-  }
+bool PlaneExtractor::Workspace::TakeRegion(std::size_t host, const ElectedRegion& found,
+                                           cv::Mat1b& drawn) {
+  const PlaneSums region = found.Sum(grid);
   const std::optional<Segment> rest =
       Measure(Without(kept[host].sums, region), kept[host].id, config);
   const std::optional<Segment> top = Measure(region, 0, config);
@@ -52,8 +47,8 @@ bool PlaneExtractor::Workspace::TakeRegion(std::size_t host, cv::Mat1b& drawn) {
                                 config.max_merge_gap_sigmas, config);
     if (gap < least_gap) least_gap = gap, into = own;
   }
-  const cv::Point low = box_split.bounds().tl();
-  const cv::Point high = box_split.bounds().br() - cv::Point(1, 1);
+  const cv::Point low = found.bounds().tl();
+  const cv::Point high = found.bounds().br() - cv::Point(1, 1);
   if (into == kept.size()) {
     if (kept.size() == static_cast<std::size_t>(kMostSegments)) return false;
     kept.push_back(*top);
@@ -63,7 +58,7 @@ bool PlaneExtractor::Workspace::TakeRegion(std::size_t host, cv::Mat1b& drawn) {
   }
   kept[host].sums = rest->sums, kept[host].plane = rest->plane;
   kept[host].sigmas = rest->sigmas;
-  for (const int i : box_split.pixels())
+  for (const int i : found.pixels())
     drawn(i / grid.width, i % grid.width) = static_cast<std::uint8_t>(into + 1);
   return true;
 }
@@ -88,7 +83,7 @@ bool PlaneExtractor::Workspace::SplitInBox(const Box& box_px, Frame& frame) {
     if (pixels[k + 1] < least || LiesIn(frame.planes[k].box_px, box_px)) continue;
     if (box_split.Find(grid, frame.plane_labels, static_cast<std::uint8_t>(k + 1),
                        kept[k].plane, box_px, own_px, config)) {
-      split = TakeRegion(k, frame.plane_labels) || split;
+      split = TakeRegion(k, box_split.region(), frame.plane_labels) || split;
     }
   }
   return split;

@@ -69,9 +69,10 @@ struct Plate {
   }
   double IouWith(const cv::Rect& where) const {
     int shared = 0;
-    for (const int i : split.pixels())
+    for (const int i : split.region().pixels())
       shared += where.contains({i % grid.width, i / grid.width}) ? 1 : 0;
-    return shared / (where.area() + static_cast<double>(split.pixels().size()) - shared);
+    return shared /
+           (where.area() + static_cast<double>(split.region().pixels().size()) - shared);
   }
   PlaneExtractionConfig config;
   cv::Mat1b labels;
