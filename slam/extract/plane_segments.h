@@ -46,7 +46,9 @@ class PlaneExtractor {
   void SplitInBoxes(Frame& frame);
 
   /// Another one, once the camera's pose is known: splits segments that hold a plane of the map
-  /// besides another one (map_split.h). What (C) added to the planes is lost where it does.
+  /// besides another one (map_split.h);
+  /// none where the sensor bends what is flat. What (C) added to the planes is lost where it
+  /// does.
   /// @param expected  in the camera frame of the last Extract
   /// @returns whether it split any
   bool SplitByMap(Frame& frame, const std::vector<ExpectedPlane>& expected);

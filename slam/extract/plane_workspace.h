@@ -39,6 +39,7 @@ struct PlaneExtractor::Workspace {
   BoxSplit box_split;
   MapSplit map_split;
   PixelArea expected_area;
+  bool sensor_bends = false;  ///< what is flat, in the last frame
   std::vector<Box> boxes_px;  ///< of detections that may hold thin things
   /// That lie in a box, or in what is expected.
   std::vector<std::size_t> own_segments;

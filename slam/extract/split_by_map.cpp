@@ -37,7 +37,8 @@ bool PlaneExtractor::Workspace::SplitBy(const std::vector<ExpectedPlane>& all,
 }
 
 bool PlaneExtractor::SplitByMap(Frame& frame, const std::vector<ExpectedPlane>& expected) {
-  if (!work_->config.map_split.enabled) return false;
+  // A bend that was once taken for a step would go on as one.
+  if (!work_->config.map_split.enabled || work_->sensor_bends) return false;
   bool split = false;
   for (std::size_t k = 0; k < expected.size(); ++k) {
     if (!expected[k].outline_px.empty()) split = work_->SplitBy(expected, k, frame) || split;
