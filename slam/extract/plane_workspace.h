@@ -34,6 +34,11 @@ struct PlaneExtractor::Workspace {
   std::vector<Segment> kept;
   std::vector<std::uint8_t> drawn_value;
   OuterContours contours;
+  /// Of a plane: |(a, b, c)|, and the area that stands for each of its points, summed.
+  struct Sampled {
+    double norm = 0.0, area = 0.0;
+  };
+  std::vector<Sampled> sampled;
   std::vector<double> areas_m2;  ///< visible, of the frame's planes
   BoxSplit box_split;
   std::vector<Box> boxes_px;              ///< of detections that may hold thin things
@@ -43,6 +48,7 @@ struct PlaneExtractor::Workspace {
 
   void TakeMemory(std::vector<FramePlane>& planes);
   void GiveMemory(FramePlane& plane);
+  void SamplePoints(const cv::Mat1b& labels, std::vector<FramePlane>& planes);
   void Describe(Frame& frame);
   bool SplitInBox(const Box& box_px, Frame& frame);
   bool TakeRegion(std::size_t host, cv::Mat1b& drawn);
