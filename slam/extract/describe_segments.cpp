@@ -50,16 +50,16 @@ void PlaneExtractor::Workspace::GiveMemory(FramePlane& plane) {
 
 /// Thinned points and the visible area of each plane. A pixel of dx dy on the ray plane covers
 /// |(a, b, c)| / q^3 dx dy of the surface.
-void PlaneExtractor::Workspace::SamplePoints(const cv::Mat1b& labels,
+void PlaneExtractor::Workspace::SamplePoints(const cv::Mat1b& drawn,
                                              std::vector<FramePlane>& planes) {
   sampled.assign(planes.size(), Sampled{});
   for (std::size_t k = 0; k < planes.size(); ++k) {
     const InverseDepthPlane& p = kept[k].plane.plane;
     sampled[k].norm = std::sqrt(p.a * p.a + p.b * p.b + p.c * p.c);
   }
-  for (int v = 0; v < labels.rows; v += config.point_grid_px) {
-    const std::uint8_t* row = labels[v];
-    for (int u = 0; u < labels.cols; u += config.point_grid_px) {
+  for (int v = 0; v < drawn.rows; v += config.point_grid_px) {
+    const std::uint8_t* row = drawn[v];
+    for (int u = 0; u < drawn.cols; u += config.point_grid_px) {
       if (row[u] == 0) continue;
       const auto k = static_cast<std::size_t>(row[u] - 1);
       const auto i = static_cast<std::size_t>(grid.Index(u, v));

@@ -117,15 +117,14 @@ void PatchJoining::FindContacts(const DepthGrid& grid, const PixelGrowth& growth
       });
 }
 
-/// Sums the contacts of patches that may soon be one plane: most never come near to it.
+/// Sums the contacts, not summed yet, of patches that may be one plane: most never are.
 void PatchJoining::SumContacts(const DepthGrid& grid, const PlaneExtractionConfig& config) {
-  constexpr double kNear = 4.0;  // times the gap of one plane
   wanted_.assign(patches_.into().size(), 0);
   for (auto& [pair, contact] : contacts_.Sorted()) {
     const int a = patches_.Root(pair.first), b = patches_.Root(pair.second);
     contact.wanted =
         !contact.summed && a != b && contact.pixels >= kLeastContacts &&
-        PatchGap(patches_.At(a), patches_.At(b), config.max_merge_gap_sigmas, config) < kNear;
+        PatchGap(patches_.At(a), patches_.At(b), config.max_merge_gap_sigmas, config) < 1.0;
     if (!contact.wanted) continue;
     contact.summed = true;
     wanted_[static_cast<std::size_t>(pair.first)] = 1;

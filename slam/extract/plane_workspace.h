@@ -48,7 +48,7 @@ struct PlaneExtractor::Workspace {
 
   void TakeMemory(std::vector<FramePlane>& planes);
   void GiveMemory(FramePlane& plane);
-  void SamplePoints(const cv::Mat1b& labels, std::vector<FramePlane>& planes);
+  void SamplePoints(const cv::Mat1b& drawn, std::vector<FramePlane>& planes);
   void Describe(Frame& frame);
   bool SplitInBox(const Box& box_px, Frame& frame);
   bool TakeRegion(std::size_t host, cv::Mat1b& drawn);

@@ -22,22 +22,6 @@ constexpr double kMostBeyond = 0.05;   // share of the lines
 
 int Square(int k) { return k * k; }
 
-/// Numbers k d / n, truncated, for k = 1, 2, ...; 0 <= |d| <= n. Without a division.
-class Steps {
- public:
-  Steps(int from, int d, int n) : at_(from), size_(std::abs(d)), sign_(d < 0 ? -1 : 1), n_(n) {}
-  int Next() {
-    rest_ += size_;
-    const bool over = rest_ >= n_;
-    rest_ -= over ? n_ : 0;
-    at_ += over ? sign_ : 0;
-    return at_;
-  }
-
- private:
-  int at_, size_, sign_, n_, rest_ = 0;
-};
-
 /// Distance of a number from an interval.
 int Outside(int k, int low, int high) { return std::max({low - k, 0, k - high}); }
 
@@ -135,16 +119,29 @@ void SightLines::FindNearestLines(int a, int b) {
   }
 }
 
-/// Visits the pixels between the ends until told to stop.
+/// Visits the pixels between the ends until told to stop, without a division: along the longer
+/// side one at a time, along the other what the division would have rounded towards `from`.
 template <typename Visit>
-void SightLines::Walk(const Line& line, const Visit& visit) {
+void SightLines::Walk(const Line& line, const Visit& visit) const {
   const int du = line.to.u - line.from.u, dv = line.to.v - line.from.v;
+  const int across = du < 0 ? -1 : 1, down = dv < 0 ? -grid_->width : grid_->width;
+  const bool is_level = std::abs(du) >= std::abs(dv);
   const int steps = std::max(std::abs(du), std::abs(dv));
-  Steps u(line.from.u, du, steps), v(line.from.v, dv, steps);
-  for (int s = 1; s < steps; ++s) {
-    const Pixel at{u.Next(), v.Next()};
-    if (!visit(at)) return;
+  const int shorter = std::min(std::abs(du), std::abs(dv));
+  const int always = is_level ? across : down, sometimes = is_level ? down : across;
+  int i = grid_->Index(line.from.u, line.from.v);
+  for (int s = 1, rest = 0; s < steps; ++s) {
+    rest += shorter;
+    const bool over = rest >= steps;
+    rest -= over ? steps : 0;
+    i += always + (over ? sometimes : 0);
+    if (!visit(static_cast<std::size_t>(i))) return;
   }
+}
+
+int SightLines::PartAt(std::size_t i) const {
+  const int pixel = static_cast<int>(i);
+  return (*part_)[runs_->At(pixel % grid_->width, pixel / grid_->width)];
 }
 
 double SightLines::ShareBehind(int a, int b, const LabelPlane& plane) {
@@ -152,10 +149,9 @@ double SightLines::ShareBehind(int a, int b, const LabelPlane& plane) {
   const PixelPlane in_float(plane);
   int behind = 0, measured = 0;
   for (const Line& line : lines_) {
-    Walk(line, [&](const Pixel& at) {
-      const auto i = static_cast<std::size_t>(grid_->Index(at.u, at.v));
+    Walk(line, [&](std::size_t i) {
       if (!(grid_->g[i] > 0)) return true;
-      const int part = (*part_)[runs_->At(at.u, at.v)];
+      const int part = PartAt(i);
       if (part == a || part == b) return true;
       ++measured;
       behind += ResidualSigmas(*grid_, i, in_float) < -behind_sigmas_ ? 1 : 0;
@@ -169,14 +165,17 @@ SightLines::Sight SightLines::Look(const Line& line, int a, int b,
                                    const PixelPlane& plane) const {
   const float clear = std::max(kClear_sigmas, behind_sigmas_);
   int beyond = 0, in_front = 0;
-  Walk(line, [&](const Pixel& at) {
-    const auto i = static_cast<std::size_t>(grid_->Index(at.u, at.v));
-    if (!(grid_->g[i] > 0)) return true;
-    const float residual = ResidualSigmas(*grid_, i, plane);
-    const bool is_beyond = residual < -clear;
-    if (residual > clear) ++in_front;
-    const int part = is_beyond ? (*part_)[runs_->At(at.u, at.v)] : a;
-    beyond = is_beyond && part != a && part != b ? beyond + 1 : 0;
+  const DepthGrid& grid = *grid_;
+  Walk(line, [&](std::size_t i) {
+    if (!(grid.g[i] > 0)) return true;
+    const float residual = ResidualSigmas(grid, i, plane);
+    if (!(residual < -clear)) {
+      in_front += residual > clear ? 1 : 0;
+      beyond = 0;
+      return true;
+    }
+    const int part = PartAt(i);
+    beyond = part != a && part != b ? beyond + 1 : 0;
     return beyond < kClear_px;
   });
   if (beyond == kClear_px) return Sight::kBeyond;

@@ -49,13 +49,13 @@ class SightLines {
     int part = 0;
     Pixel at;
   };
-  /// Visits the pixels between a line's ends, as division with truncation would give them.
-  template <typename Visit>
-  static void Walk(const Line& line, const Visit& visit);
   /// What a line from one part to another passes.
   enum class Sight { kPlaneOrNothing, kInFront, kBeyond };
 
   void AddMissed(int part_count);
+  template <typename Visit>
+  void Walk(const Line& line, const Visit& visit) const;
+  int PartAt(std::size_t i) const;
   Sight Look(const Line& line, int a, int b, const PixelPlane& plane) const;
   void FindNearestLines(int a, int b);
 
