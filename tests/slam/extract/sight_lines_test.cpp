@@ -97,7 +97,7 @@ TEST(SightLines, UniteNothingThatNothingInFrontCuts) {
 /// Parts of a wall at 1 m, and pieces of other depths all over it.
 struct BrokenWall {
   static constexpr int kWidth = 120, kHeight = 96;
-  cv::Mat1f depth_m{kHeight, kWidth, 1.0f};
+  cv::Mat1f depth_m = cv::Mat1f(kHeight, kWidth, 1.0f);
   LabelImage labels = LabelImage(kWidth * kHeight, kNoLabel);
 
   explicit BrokenWall(std::uint64_t seed) {
