@@ -57,18 +57,6 @@ void FindRuns(const LabelImage& labels, int width, int height, LabelRuns& out) {
   out.rows.push_back(out.runs.size());
 }
 
-void DrawRuns(const LabelRuns& runs, LabelImage& out) {
-  const auto width = static_cast<std::size_t>(runs.width);
-  out.resize(runs.rows.empty() ? 0 : (runs.rows.size() - 1) * width);
-  for (std::size_t row = 0; row + 1 < runs.rows.size(); ++row) {
-    std::int16_t* to = out.data() + row * width;
-    for (std::size_t k = runs.rows[row]; k < runs.rows[row + 1]; ++k) {
-      const LabelRun& run = runs.runs[k];
-      std::fill(to + run.begin, to + run.end, static_cast<std::int16_t>(run.label));
-    }
-  }
-}
-
 void MapRuns(const LabelRuns& runs, const std::vector<int>& to, LabelRuns& out) {
   out.width = runs.width;
   out.runs.clear(), out.rows.clear();

@@ -31,8 +31,6 @@ struct LabelRuns {
 /// @param labels  width x height, row by row
 void FindRuns(const LabelImage& labels, int width, int height, LabelRuns& out);
 
-void DrawRuns(const LabelRuns& runs, LabelImage& out);
-
 /// to[label] in place of each label.
 void MapRuns(const LabelRuns& runs, const std::vector<int>& to, LabelRuns& out);
 

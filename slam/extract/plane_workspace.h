@@ -29,8 +29,7 @@ struct PlaneExtractor::Workspace {
   std::vector<std::uint8_t> settled;
   PatchJoining patches;
   PartSegmentation parts;
-  LabelImage labels;  ///< of segments
-  std::vector<PlaneSums> sums;
+  std::vector<PlaneSums> sums;  ///< of segments
   std::vector<Segment> kept;
   std::vector<std::uint8_t> drawn_value;
   OuterContours contours;

@@ -25,6 +25,18 @@ LabelImage Blotches(int width, int height) {
   return labels;
 }
 
+void DrawRuns(const LabelRuns& runs, LabelImage& out) {
+  const auto width = static_cast<std::size_t>(runs.width);
+  out.resize(runs.rows.empty() ? 0 : (runs.rows.size() - 1) * width);
+  for (std::size_t row = 0; row + 1 < runs.rows.size(); ++row) {
+    std::int16_t* to = out.data() + row * width;
+    for (std::size_t k = runs.rows[row]; k < runs.rows[row + 1]; ++k) {
+      const LabelRun& run = runs.runs[k];
+      std::fill(to + run.begin, to + run.end, static_cast<std::int16_t>(run.label));
+    }
+  }
+}
+
 /// Components by flooding, in order of their first pixel.
 std::vector<int> Flood(const LabelImage& labels, int width) {
   std::vector<int> component(labels.size(), -1);
