@@ -130,14 +130,17 @@ void BridgeCutter::Split(const DepthGrid& grid, int component, int part_count,
 void BridgeCutter::Cut(const DepthGrid& grid, const std::vector<LabelPlane>& planes,
                        double max_behind, LabelComponents& components) {
   FindCores(components);
-  between_.Begin(grid, interior_.runs, interior_.component,
-                 static_cast<int>(interior_.list.size()));
-  bool cut = false;
+  bool looks_between = false, cut = false;
   for (auto first = cores_.begin(), last = first; first != cores_.end(); first = last) {
     const int component = first->component;
     last = std::find_if(first, cores_.end(),
                         [&](const Core& core) { return core.component != component; });
     if (last - first < 2) continue;
+    if (!looks_between) {
+      between_.Begin(grid, interior_.runs, interior_.component,
+                     static_cast<int>(interior_.list.size()));
+    }
+    looks_between = true;
     const int label = components.list[static_cast<std::size_t>(component)].label;
     const int part_count =
         NumberParts(first, last, planes[static_cast<std::size_t>(label)], max_behind);

@@ -9,30 +9,6 @@
 namespace slam {
 namespace {
 
-/// Thinned points and the visible area. A pixel of dx dy on the ray plane covers
-/// |(a, b, c)| / q^3 dx dy of the surface.
-void SamplePoints(const DepthGrid& grid, const cv::Mat1b& labels, const Segment& segment,
-                  const Camera& camera, int step, FramePlane& out) {
-  const InverseDepthPlane& p = segment.plane.plane;
-  const double norm = std::sqrt(p.a * p.a + p.b * p.b + p.c * p.c);
-  double area = 0.0;
-  int sampled = 0;
-  const auto first = [step](int from) { return (from + step - 1) / step * step; };
-  for (int v = first(segment.low.y); v <= segment.high.y; v += step) {
-    for (int u = first(segment.low.x); u <= segment.high.x; u += step) {
-      if (labels(v, u) != out.index + 1) continue;
-      const auto i = static_cast<std::size_t>(grid.Index(u, v));
-      const double x = static_cast<double>(grid.x[i]), y = static_cast<double>(grid.y[i]);
-      const double z = 1.0 / static_cast<double>(grid.q[i]);
-      out.points_c.emplace_back(x * z, y * z, z);
-      const double q = p.InverseDepth(x, y);
-      area += norm / (q * q * q * camera.fx * camera.fy);
-      ++sampled;
-    }
-  }
-  if (sampled > 0) out.area_m2 = area / sampled * out.pixel_count;
-}
-
 /// Some thousand pixels say how rough a segment is, to a few per cent.
 int RoughnessStep(int pixels) {
   return std::clamp(static_cast<int>(std::sqrt(pixels / 1000.0)), 1, 8);
@@ -72,6 +48,34 @@ void PlaneExtractor::Workspace::GiveMemory(FramePlane& plane) {
   plane.points_c.clear(), plane.edge_points.clear();
 }
 
+/// Thinned points and the visible area of each plane. A pixel of dx dy on the ray plane covers
+/// |(a, b, c)| / q^3 dx dy of the surface.
+void PlaneExtractor::Workspace::SamplePoints(const cv::Mat1b& drawn,
+                                             std::vector<FramePlane>& planes) {
+  sampled.assign(planes.size(), Sampled{});
+  for (std::size_t k = 0; k < planes.size(); ++k) {
+    const InverseDepthPlane& p = kept[k].plane.plane;
+    sampled[k].norm = std::sqrt(p.a * p.a + p.b * p.b + p.c * p.c);
+  }
+  for (int v = 0; v < drawn.rows; v += config.point_grid_px) {
+    const std::uint8_t* row = drawn[v];
+    for (int u = 0; u < drawn.cols; u += config.point_grid_px) {
+      if (row[u] == 0) continue;
+      const auto k = static_cast<std::size_t>(row[u] - 1);
+      const auto i = static_cast<std::size_t>(grid.Index(u, v));
+      const double x = static_cast<double>(grid.x[i]), y = static_cast<double>(grid.y[i]);
+      const double z = 1.0 / static_cast<double>(grid.q[i]);
+      planes[k].points_c.emplace_back(x * z, y * z, z);
+      const double q = kept[k].plane.plane.InverseDepth(x, y);
+      sampled[k].area += sampled[k].norm / (q * q * q * camera.fx * camera.fy);
+    }
+  }
+  for (std::size_t k = 0; k < planes.size(); ++k) {
+    const auto count = static_cast<double>(planes[k].points_c.size());
+    if (count > 0) planes[k].area_m2 = sampled[k].area / count * planes[k].pixel_count;
+  }
+}
+
 /// Fills the frame's planes from the segments that are kept and its label image.
 void PlaneExtractor::Workspace::Describe(Frame& frame) {
   contours.Trace(frame.plane_labels);
@@ -79,13 +83,13 @@ void PlaneExtractor::Workspace::Describe(Frame& frame) {
   for (std::size_t k = 0; k < kept.size(); ++k) {
     FramePlane plane = MakeFramePlane(kept[k], static_cast<int>(k));
     GiveMemory(plane);
-    SamplePoints(grid, frame.plane_labels, kept[k], camera, config.point_grid_px, plane);
     plane.roughness = MeasureRoughness(
         grid, frame.plane_labels, cv::Rect(kept[k].low, kept[k].high + cv::Point(1, 1)),
         static_cast<std::uint8_t>(plane.index + 1), kept[k].plane.plane, config.noise,
         RoughnessStep(plane.pixel_count));
     frame.planes.push_back(std::move(plane));
   }
+  SamplePoints(frame.plane_labels, frame.planes);
   areas_m2.clear();
   for (const FramePlane& plane : frame.planes) areas_m2.push_back(plane.area_m2);
   for (FramePlane& plane : frame.planes) {

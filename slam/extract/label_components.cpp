@@ -60,19 +60,26 @@ void CountSides(const DepthGrid& grid, const std::vector<LabelPlane>& planes,
                 LabelComponents& components) {
   for (LabelComponent& c : components.list) c.behind = c.in_front = 0;
   const auto unsure = static_cast<float>(components.unsure_side_sigmas);
-  const auto count_side = [&](std::size_t run, std::size_t to) {
-    if (components.component[run] < 0 || !(grid.g[to] > 0)) return;
+  // Counts `count` pixels of a row, from `to` on, that are neighbours of a run.
+  const auto count_sides = [&](std::size_t run, std::size_t to, int count) {
+    if (components.component[run] < 0) return;
     LabelComponent& c = components.list[static_cast<std::size_t>(components.component[run])];
     const LabelPlane& plane = planes[static_cast<std::size_t>(c.label)];
     const PixelPlane p(plane);
-    const float nearer = grid.q[to] - (p.a * grid.x[to] + p.b * grid.y[to] + p.c);
-    const float margin =
-        unsure > 0 ? unsure * static_cast<float>(plane.grazing) / grid.g[to] : 0.0f;
-    c.in_front += nearer > margin ? 1 : 0;
-    c.behind += nearer <= -margin ? 1 : 0;
+    int in_front = 0, behind = 0;
+    for (const std::size_t end = to + static_cast<std::size_t>(count); to < end; ++to) {
+      if (!(grid.g[to] > 0)) continue;
+      const float nearer = grid.q[to] - (p.a * grid.x[to] + p.b * grid.y[to] + p.c);
+      const float margin = unsure > 0 ? unsure * p.grazing / grid.g[to] : 0.0f;
+      in_front += nearer > margin ? 1 : 0;
+      behind += nearer <= -margin ? 1 : 0;
+    }
+    c.in_front += in_front, c.behind += behind;
   };
-  VisitBoundaries(components.runs, [&](std::size_t i, std::size_t j, std::size_t a,
-                                       std::size_t b) { count_side(a, j), count_side(b, i); });
+  VisitBoundaryPieces(components.runs, [&](std::size_t i, std::size_t j, int count,
+                                           std::size_t a, std::size_t b) {
+    count_sides(a, j, count), count_sides(b, i, count);
+  });
 }
 
 }  // namespace slam

@@ -36,11 +36,21 @@ class LabelPairs {
   }
 
   /// In order of their labels from now on; Of() needs a Clear() first.
-  const std::vector<Entry>& Sorted() {
+  std::vector<Entry>& Sorted() {
     std::sort(entries_.begin(), entries_.end(),
               [](const Entry& a, const Entry& b) { return a.labels < b.labels; });
     first_.clear(), next_.clear();
     return entries_;
+  }
+
+  /// After Sorted(): the value of a pair that there is.
+  Value& Known(int a, int b) {
+    const std::pair<int, int> labels = std::minmax(a, b);
+    return std::lower_bound(entries_.begin(), entries_.end(), labels,
+                            [](const Entry& entry, const std::pair<int, int>& pair) {
+                              return entry.labels < pair;
+                            })
+        ->value;
   }
 
  private:

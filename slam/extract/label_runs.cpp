@@ -1,16 +1,9 @@
 #include "slam/extract/label_runs.h"
 
-#include <cstring>
+#include "slam/extract/label_changes.h"
 
 namespace slam {
 namespace {
-
-constexpr int kAtOnce = 8;  // labels in two words
-
-/// Whether the labels of kAtOnce pixels equal those to their left.
-bool EqualLeft(const std::int16_t* labels) {
-  return std::memcmp(labels, labels - 1, kAtOnce * sizeof *labels) == 0;
-}
 
 /// A row of FindInterior from the runs of three rows.
 void FindInside(const LabelRun* above, const LabelRun* here, const LabelRun* below, int width,
@@ -54,32 +47,14 @@ void FindRuns(const LabelImage& labels, int width, int height, LabelRuns& out) {
     const std::int16_t* row =
         labels.data() + static_cast<std::size_t>(v) * static_cast<std::size_t>(width);
     int begin = 0;
-    const auto look = [&](int u) {
-      if (row[u] == row[u - 1]) return;
+    const auto end_run = [&](int u) {
       out.runs.push_back({begin, u, row[begin]});
       begin = u;
     };
-    int u = 1;
-    for (; u + kAtOnce <= width; u += kAtOnce) {
-      if (EqualLeft(row + u)) continue;
-      for (int k = 0; k < kAtOnce; ++k) look(u + k);
-    }
-    for (; u < width; ++u) look(u);
+    VisitChanges(row, 1, width, end_run);
     out.runs.push_back({begin, width, row[begin]});
   }
   out.rows.push_back(out.runs.size());
-}
-
-void DrawRuns(const LabelRuns& runs, LabelImage& out) {
-  const auto width = static_cast<std::size_t>(runs.width);
-  out.resize(runs.rows.empty() ? 0 : (runs.rows.size() - 1) * width);
-  for (std::size_t row = 0; row + 1 < runs.rows.size(); ++row) {
-    std::int16_t* to = out.data() + row * width;
-    for (std::size_t k = runs.rows[row]; k < runs.rows[row + 1]; ++k) {
-      const LabelRun& run = runs.runs[k];
-      std::fill(to + run.begin, to + run.end, static_cast<std::int16_t>(run.label));
-    }
-  }
 }
 
 void MapRuns(const LabelRuns& runs, const std::vector<int>& to, LabelRuns& out) {

@@ -31,8 +31,6 @@ struct LabelRuns {
 /// @param labels  width x height, row by row
 void FindRuns(const LabelImage& labels, int width, int height, LabelRuns& out);
 
-void DrawRuns(const LabelRuns& runs, LabelImage& out);
-
 /// to[label] in place of each label.
 void MapRuns(const LabelRuns& runs, const std::vector<int>& to, LabelRuns& out);
 
@@ -56,23 +54,24 @@ void VisitRunsBelow(const LabelRuns& runs, const Visit& visit) {
   }
 }
 
-/// Calls visit(i, j, a, b) for every two pixels, side by side or one above the other, that
-/// differ in label, and the runs that they are in; i < j.
+/// Calls visit(i, j, count, a, b) for every two runs a and b that differ in label, where pixels
+/// i, i + 1, ... of the one, `count` of them, have j, j + 1, ... of the other beside or below
+/// them; i < j.
 template <typename Visit>
-void VisitBoundaries(const LabelRuns& runs, const Visit& visit) {
+void VisitBoundaryPieces(const LabelRuns& runs, const Visit& visit) {
   const auto width = static_cast<std::size_t>(runs.width);
   for (std::size_t row = 0; row + 1 < runs.rows.size(); ++row) {
     for (std::size_t a = runs.rows[row]; a + 1 < runs.rows[row + 1]; ++a) {
       if (runs.runs[a].label == runs.runs[a + 1].label) continue;
       const std::size_t i = row * width + static_cast<std::size_t>(runs.runs[a].end);
-      visit(i - 1, i, a, a + 1);
+      visit(i - 1, i, 1, a, a + 1);
     }
   }
   VisitRunsBelow(runs, [&](std::size_t a, std::size_t b, int begin, int end, int row) {
     if (runs.runs[a].label == runs.runs[b].label) return;
-    const std::size_t start = static_cast<std::size_t>(row) * width;
-    for (auto u = static_cast<std::size_t>(begin); u < static_cast<std::size_t>(end); ++u)
-      visit(start + u, start + u + width, a, b);
+    const std::size_t i =
+        static_cast<std::size_t>(row) * width + static_cast<std::size_t>(begin);
+    visit(i, i + width, end - begin, a, b);
   });
 }
 

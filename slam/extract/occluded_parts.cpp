@@ -4,7 +4,23 @@
 #include <cstddef>
 #include <numeric>
 
+#include "slam/extract/measured_segments.h"
+
 namespace slam {
+namespace {
+
+PlaneSums SumRun(const DepthGrid& grid, int row, const LabelRun& run) {
+  PlaneSums sums;
+  for (int u = run.begin; u < run.end; ++u) {
+    const auto i = static_cast<std::size_t>(grid.Index(u, row));
+    const double g = static_cast<double>(grid.g[i]);
+    sums.Add(static_cast<double>(grid.x[i]), static_cast<double>(grid.y[i]),
+             static_cast<double>(grid.q[i]), g * g);
+  }
+  return sums;
+}
+
+}  // namespace
 
 /// Labels with pixels, largest first.
 void PartSegmentation::SortBySize(const PatchUnion& patches) {
@@ -117,6 +133,34 @@ const LabelRuns& PartSegmentation::Segment(const DepthGrid& grid, const PatchUni
         component < 0 ? kNoLabel : segment_[static_cast<std::size_t>(component)];
   }
   return components_.runs;
+}
+
+void PartSegmentation::SumSegments(const DepthGrid& grid, const PatchUnion& joined,
+                                   std::vector<PlaneSums>& sums) const {
+  sums.assign(static_cast<std::size_t>(segment_count_), PlaneSums{});
+  const auto segment_of_label = [&](int label) {
+    const int largest = main_[static_cast<std::size_t>(label)];
+    return largest < 0 ? -1 : segment_[static_cast<std::size_t>(largest)];
+  };
+  for (int k = 0; k < static_cast<int>(into_.size()); ++k) {
+    const int segment = segment_of_label(into_[static_cast<std::size_t>(k)]);
+    if (joined.Root(k) == k && segment >= 0)
+      sums[static_cast<std::size_t>(segment)] += joined.At(k).sums;
+  }
+  const LabelRuns& runs = components_.runs;
+  for (std::size_t row = 0; row + 1 < runs.rows.size(); ++row) {
+    for (std::size_t k = runs.rows[row]; k < runs.rows[row + 1]; ++k) {
+      if (components_.component[k] < 0) continue;
+      const auto component = static_cast<std::size_t>(components_.component[k]);
+      const int from = segment_of_label(components_.list[component].label);
+      const int to = segment_[component];
+      if (to == from) continue;
+      const PlaneSums run = SumRun(grid, static_cast<int>(row), runs.runs[k]);
+      PlaneSums& rest = sums[static_cast<std::size_t>(from)];
+      rest = Without(rest, run);
+      if (to >= 0) sums[static_cast<std::size_t>(to)] += run;
+    }
+  }
 }
 
 }  // namespace slam

@@ -6,6 +6,7 @@
 #include "slam/extract/extraction_config.h"
 #include "slam/extract/label_components.h"
 #include "slam/extract/patches.h"
+#include "slam/extract/plane_sums.h"
 #include "slam/extract/sight_lines.h"
 
 namespace slam {
@@ -27,6 +28,11 @@ class PartSegmentation {
   const LabelRuns& Segment(const DepthGrid& grid, const PatchUnion& joined,
                            const LabelRuns& labels, const PlaneExtractionConfig& config);
   int segment_count() const { return segment_count_; }
+
+  /// Sums of the pixels of each segment of the last call: those of the labels that `joined`
+  /// knows, but for the parts that went elsewhere.
+  void SumSegments(const DepthGrid& grid, const PatchUnion& joined,
+                   std::vector<PlaneSums>& sums) const;
 
  private:
   /// Pixels across a boundary that lie behind or in front of the plane.

@@ -2,52 +2,48 @@
 
 #include <algorithm>
 #include <cstring>
+#include <limits>
+
+#include "slam/extract/label_changes.h"
 
 namespace slam {
 namespace {
 
-constexpr int kAtOnce = 8;      // cells; beyond a row there are others, for a while
+constexpr int kRowRead = 8;     // cells of a row that are read at once
 constexpr int kDirections = 8;  // to the right, then counterclockwise
 constexpr int kRight = 0, kLeft = 4;
 constexpr int kStepU[kDirections] = {1, 1, 0, -1, -1, -1, 0, 1};
 constexpr int kStepV[kDirections] = {0, -1, -1, -1, 0, 1, 1, 1};
+constexpr std::uint64_t kEveryByte = 0x0101010101010101;
 
 }  // namespace
 
 void OuterContours::Trace(const cv::Mat1b& labels) {
   stride_ = labels.cols + 2 * kFrame;
   const auto cells = static_cast<std::size_t>(stride_ * (labels.rows + 2 * kFrame));
-  cells_.assign(cells, 0), marks_.assign(cells, kUnmarked);
+  cells_.assign(cells + kRowRead, 0), marks_.assign(cells, kUnmarked);
   points_.clear(), contours_.clear();
   for (int v = 0; v < labels.rows; ++v)
     std::copy_n(labels[v], labels.cols, cells_.data() + CellAt({0, v}));
+  last_in_row_.assign(1 + std::numeric_limits<std::uint8_t>::max(), -1);
   for (int v = 0; v < labels.rows; ++v) {
     const int row = CellAt({0, v});
-    for (int u = 0; u < labels.cols; ++u) {
-      const std::uint8_t* cell = cells_.data() + row + u;
-      if (std::memcmp(cell, cell - 1, kAtOnce) == 0) {  // no segment begins here
-        u += kAtOnce - 1;
-        continue;
-      }
-      if (cell[0] == cell[-1] || cell[0] == 0) continue;
-      const Mark* mark = marks_.data() + row + u;
-      if (*mark == kUnmarked && !StartsInside(cell, mark, u)) Follow(row + u, {u, v});
-    }
+    VisitChanges(cells_.data(), row, row + labels.cols + 1, [&](int at) {
+      const std::uint8_t before = cells_[static_cast<std::size_t>(at - 1)];
+      const std::uint8_t label = cells_[static_cast<std::size_t>(at)];
+      last_in_row_[before] = at - 1;
+      if (label == 0 || marks_[static_cast<std::size_t>(at)] != kUnmarked) return;
+      // It lies in a hole of its own segment if that has not ended with its last pixel.
+      const int last = last_in_row_[label];
+      if (last < row || marks_[static_cast<std::size_t>(last)] == kRightEdge)
+        Follow(at, {at - row, v});
+    });
   }
   std::sort(contours_.begin(), contours_.end(), [](const Contour& a, const Contour& b) {
     if (a.label != b.label) return a.label < b.label;
     const std::size_t size_a = a.end - a.begin, size_b = b.end - b.begin;
     return size_a != size_b ? size_a > size_b : a.begin > b.begin;
   });
-}
-
-/// Whether pixel u of a row lies in a hole of its own segment: the segment's
-/// last contour to the left has not ended.
-bool OuterContours::StartsInside(const std::uint8_t* cell, const Mark* mark, int u) const {
-  for (int k = 1; k <= u; ++k) {
-    if (cell[-k] == cell[0] && mark[-k] != kUnmarked) return mark[-k] == kEdge;
-  }
-  return false;
 }
 
 void OuterContours::Follow(int start, const cv::Point& at) {
@@ -92,14 +88,25 @@ void OuterContours::Follow(int start, const cv::Point& at) {
 
 cv::Point OuterContours::Outward(const cv::Point& at) const {
   const std::uint8_t* center = cells_.data() + CellAt(at);
-  cv::Point sum(0, 0);
-  for (int dv = -2; dv <= 2; ++dv) {
-    for (int du = -2; du <= 2; ++du) {
-      const int outside = center[dv * stride_ + du] != *center ? 1 : 0;
-      sum.x += outside * du, sum.y += outside * dv;
-    }
+  const std::uint64_t own = kEveryByte * *center;
+  std::uint64_t outside[5];  // a byte for each of five pixels of a row: 1 or 0
+  for (int k = 0; k < 5; ++k) {
+    std::uint64_t row;
+    std::memcpy(&row, center + (k - 2) * stride_ - 2, sizeof row);
+    row ^= own;
+    const std::uint64_t low = 0x7f * kEveryByte;
+    outside[k] = (((row & low) + low) | row) >> 7 & kEveryByte;
   }
-  return sum;
+  std::uint8_t column[8], above[8], below[8];
+  const auto store = [](std::uint64_t bytes, std::uint8_t* to) {
+    std::memcpy(to, &bytes, sizeof bytes);
+  };
+  store(outside[0] + outside[1] + outside[2] + outside[3] + outside[4], column);
+  store(2 * outside[0] + outside[1], above);
+  store(outside[3] + 2 * outside[4], below);
+  int down = 0;
+  for (int k = 0; k < 5; ++k) down += below[k] - above[k];
+  return {2 * (column[4] - column[0]) + column[3] - column[1], down};
 }
 
 }  // namespace slam

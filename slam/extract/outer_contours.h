@@ -41,7 +41,6 @@ class OuterContours {
   enum Mark : std::uint8_t { kUnmarked, kEdge, kRightEdge };
 
   int CellAt(const cv::Point& at) const { return (at.y + kFrame) * stride_ + at.x + kFrame; }
-  bool StartsInside(const std::uint8_t* cell, const Mark* mark, int u) const;
   void Follow(int start, const cv::Point& at);
 
   static constexpr int kFrame = 2;  ///< pixels without label around the image
@@ -49,6 +48,7 @@ class OuterContours {
   int stride_ = 0;
   std::vector<std::uint8_t> cells_;  ///< the labels, framed
   std::vector<Mark> marks_;          ///< framed too
+  std::vector<int> last_in_row_;     ///< of each label: its last cell before those looked at
   std::vector<cv::Point> points_;
   std::vector<Contour> contours_;
 };

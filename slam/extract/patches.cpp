@@ -11,7 +11,7 @@
 namespace slam {
 namespace {
 
-constexpr double kLeastContacts = 8;  // pixels along the common boundary of what touches
+constexpr int kLeastContacts = 8;  // pixels along the common boundary of what touches
 
 /// Squared distance of two planes over the pixels of the smaller, in sigmas of those.
 double PatchGap2(const Patch& a, const Patch& b) {
@@ -35,6 +35,15 @@ double ContactGap(const Patch& a, const Patch& b, const PlaneSums& contact,
   const double gap2 =
       MeanSquaredGap(contact, a.plane.plane, b.plane.plane) / (grazing * grazing);
   return gap2 / AllowedGap2(a, b, config.max_merge_gap_sigmas, config);
+}
+
+/// The sums of a pixel that a distance of planes depends on.
+void AddRay(const DepthGrid& grid, std::size_t i, PlaneSums& sums) {
+  const double x = static_cast<double>(grid.x[i]), y = static_cast<double>(grid.y[i]);
+  const double g = static_cast<double>(grid.g[i]), weight = g * g;
+  const double vx = weight * x, vy = weight * y;
+  sums.n += 1, sums.w += weight, sums.wx += vx, sums.wy += vy;
+  sums.wxx += vx * x, sums.wxy += vx * y, sums.wyy += vy * y;
 }
 
 void Refit(Patch& patch, const DepthNoise& noise) {
@@ -97,18 +106,45 @@ void PatchUnion::CopyPlanes(std::vector<LabelPlane>& planes) const {
 void PatchJoining::FindContacts(const DepthGrid& grid, const PixelGrowth& growth) {
   FindRuns(growth.labels(), grid.width, grid.height, runs_);
   contacts_.Clear(static_cast<int>(growth.planes().size()));
-  std::pair<int, int> last{-1, -1};  // neighbouring pixels touch the same pair: look it up once
-  PlaneSums* sums = nullptr;
-  VisitBoundaries(runs_, [&](std::size_t i, std::size_t j, std::size_t a, std::size_t b) {
-    const std::pair<int, int> pair = std::minmax(runs_.runs[a].label, runs_.runs[b].label);
-    if (pair.first == kNoLabel) return;
-    if (pair != last) sums = &contacts_.Of(pair.first, pair.second), last = pair;
-    for (const std::size_t k : {i, j}) {
-      const double g = static_cast<double>(grid.g[k]);
-      sums->Add(static_cast<double>(grid.x[k]), static_cast<double>(grid.y[k]),
-                static_cast<double>(grid.q[k]), g * g);
-    }
-  });
+  std::pair<int, int> last{-1, -1};  // what follows touches the same pair: look it up once
+  Contact* contact = nullptr;
+  VisitBoundaryPieces(
+      runs_, [&](std::size_t, std::size_t, int count, std::size_t a, std::size_t b) {
+        const std::pair<int, int> pair = std::minmax(runs_.runs[a].label, runs_.runs[b].label);
+        if (pair.first == kNoLabel) return;
+        if (pair != last) contact = &contacts_.Of(pair.first, pair.second), last = pair;
+        contact->pixels += 2 * count;
+      });
+}
+
+/// Sums the contacts, not summed yet, of patches that may be one plane: most never are.
+void PatchJoining::SumContacts(const DepthGrid& grid, const PlaneExtractionConfig& config) {
+  wanted_.assign(patches_.into().size(), 0);
+  for (auto& [pair, contact] : contacts_.Sorted()) {
+    const int a = patches_.Root(pair.first), b = patches_.Root(pair.second);
+    contact.wanted =
+        !contact.summed && a != b && contact.pixels >= kLeastContacts &&
+        PatchGap(patches_.At(a), patches_.At(b), config.max_merge_gap_sigmas, config) < 1.0;
+    if (!contact.wanted) continue;
+    contact.summed = true;
+    wanted_[static_cast<std::size_t>(pair.first)] = 1;
+    wanted_[static_cast<std::size_t>(pair.second)] = 1;
+  }
+  std::pair<int, int> last{-1, -1};
+  Contact* contact = nullptr;
+  VisitBoundaryPieces(
+      runs_, [&](std::size_t i, std::size_t j, int count, std::size_t a, std::size_t b) {
+        const std::pair<int, int> pair = std::minmax(runs_.runs[a].label, runs_.runs[b].label);
+        if (pair.first == kNoLabel || wanted_[static_cast<std::size_t>(pair.first)] == 0 ||
+            wanted_[static_cast<std::size_t>(pair.second)] == 0)
+          return;
+        if (pair != last) contact = &contacts_.Known(pair.first, pair.second), last = pair;
+        if (!contact->wanted) return;
+        for (const std::size_t end = i + static_cast<std::size_t>(count); i < end; ++i, ++j) {
+          AddRay(grid, i, contact->rays);
+          AddRay(grid, j, contact->rays);
+        }
+      });
 }
 
 void PatchJoining::MergeEqualNeighbours(const DepthGrid& grid,
@@ -117,16 +153,19 @@ void PatchJoining::MergeEqualNeighbours(const DepthGrid& grid,
                                         PixelGrowth& growth) {
   patches_.Begin(growth.SumLabels(blocks), growth.planes(), config.noise);
   FindContacts(grid, growth);
-  const auto& contacts = contacts_.Sorted();
+  auto& contacts = contacts_.Sorted();
   while (true) {
     double least = 1.0;
     std::pair<int, int> best{-1, -1};
-    for (const auto& [pair, contact] : contacts) {
+    for (auto& [pair, contact] : contacts) {
       const int a = patches_.Root(pair.first), b = patches_.Root(pair.second);
-      if (a == b || contact.n < kLeastContacts) continue;
-      const double gap = std::max(
-          PatchGap(patches_.At(a), patches_.At(b), config.max_merge_gap_sigmas, config),
-          ContactGap(patches_.At(a), patches_.At(b), contact, config));
+      if (a == b || contact.pixels < kLeastContacts) continue;
+      const double patch_gap =
+          PatchGap(patches_.At(a), patches_.At(b), config.max_merge_gap_sigmas, config);
+      if (!(patch_gap < least)) continue;
+      if (!contact.summed) SumContacts(grid, config);
+      const double gap =
+          std::max(patch_gap, ContactGap(patches_.At(a), patches_.At(b), contact.rays, config));
       if (gap < least) least = gap, best = {a, b};
     }
     if (best.first < 0) break;

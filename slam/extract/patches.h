@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <utility>
 #include <vector>
 
@@ -81,13 +82,22 @@ class PatchJoining {
   const LabelRuns& runs() const { return runs_; }
 
  private:
+  /// Pixels on either side of a common boundary; their sums without inverse depth, which a
+  /// distance of planes does not ask for, once they are wanted.
+  struct Contact {
+    int pixels = 0;
+    bool wanted = false, summed = false;
+    PlaneSums rays;
+  };
   void FindContacts(const DepthGrid& grid, const PixelGrowth& growth);
+  void SumContacts(const DepthGrid& grid, const PlaneExtractionConfig& config);
   void RankMeetingLabels(const PlaneExtractionConfig& config);
   void JoinMeeting(const PlaneExtractionConfig& config);
 
   PatchUnion patches_;
   LabelRuns runs_;
-  LabelPairs<PlaneSums> contacts_;  ///< pixels on either side of common boundaries
+  LabelPairs<Contact> contacts_;
+  std::vector<std::uint8_t> wanted_;  ///< labels with a contact that is to be summed
   StepMeasurement step_measurement_;
   BoundarySteps steps_;
   LabelPairs<BoundaryStrips> strips_;

@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <limits>
+
+#include "slam/extract/pixel_residual.h"
 
 namespace slam {
 namespace {
@@ -21,12 +24,15 @@ struct Outside {
   const DepthGrid& grid;
   const OuterContours& contours;
   int value;  ///< of the segment
-  const LabelPlane& plane;
+  PixelPlane plane;
   std::span<const double> areas_m2;
   const EdgeConfig& config;
 
   bool Contains(const cv::Point& at) const {
     return at.x >= 0 && at.y >= 0 && at.x < grid.width && at.y < grid.height;
+  }
+  std::size_t Index(const cv::Point& at) const {
+    return static_cast<std::size_t>(grid.Index(at.x, at.y));
   }
 };
 
@@ -49,33 +55,50 @@ bool EndsAtCrease(const Outside& outside, const cv::Point& at, const Eigen::Vect
   return false;
 }
 
+/// Beyond a gap without depth, which ends within shadow_px.
+EdgeKind KindBeyondGap(const Outside& outside, const cv::Point& at, const Eigen::Vector2d& step,
+                       float& step_sigmas) {
+  const float least_step = static_cast<float>(outside.config.min_step_sigmas);
+  for (int k = outside.config.reach_px + 1; k <= outside.config.shadow_px; ++k) {
+    const cv::Point beyond = Along(at, step, k);
+    if (!outside.Contains(beyond)) break;
+    const std::size_t i = outside.Index(beyond);
+    if (!(outside.grid.g[i] > 0)) continue;
+    const float residual = ResidualSigmas(outside.grid, i, outside.plane);
+    step_sigmas = std::abs(residual);
+    if (residual < -least_step) return EdgeKind::kSurface;
+    return residual > least_step ? EdgeKind::kOccluded : EdgeKind::kMissing;
+  }
+  return EdgeKind::kMissing;
+}
+
 /// @param step_sigmas  set to the residual of what lies beyond
 EdgeKind KindBeyond(const Outside& outside, const cv::Point& at, const Eigen::Vector2d& outward,
                     float& step_sigmas) {
+  constexpr std::size_t kNone = std::numeric_limits<std::size_t>::max();
   const EdgeConfig& config = outside.config;
   const Eigen::Vector2d step = outward / outward.cwiseAbs().maxCoeff();
-  const float least_step = static_cast<float>(config.min_step_sigmas);
-  float first = 0, last = 0;
-  int measured = 0;
-  for (int k = 1; k <= std::max(config.reach_px, config.shadow_px); ++k) {
-    if (k > config.reach_px && measured > 0) break;
+  // The nearest and the farthest that is measured within reach; what lies between does not
+  // count.
+  std::size_t nearest = kNone, farthest = kNone;
+  int k = 1;
+  for (; k <= config.reach_px && nearest == kNone; ++k) {
     const cv::Point beyond = Along(at, step, k);
-    if (!outside.Contains(beyond)) {
-      if (measured == 0) return k <= config.reach_px ? EdgeKind::kBorder : EdgeKind::kMissing;
-      break;
-    }
-    const auto i = static_cast<std::size_t>(outside.grid.Index(beyond.x, beyond.y));
-    if (!(outside.grid.g[i] > 0)) continue;
-    last = ResidualSigmas(outside.grid, i, outside.plane);
-    step_sigmas = std::abs(last);
-    if (k > config.reach_px) {  // beyond a gap
-      if (last < -least_step) return EdgeKind::kSurface;
-      return last > least_step ? EdgeKind::kOccluded : EdgeKind::kMissing;
-    }
-    if (measured++ == 0) first = last;
+    if (!outside.Contains(beyond)) return EdgeKind::kBorder;
+    const std::size_t i = outside.Index(beyond);
+    if (outside.grid.g[i] > 0) nearest = farthest = i;
   }
-  if (measured == 0) return EdgeKind::kMissing;
-  if (!(last > least_step)) return EdgeKind::kSurface;
+  if (nearest == kNone) return KindBeyondGap(outside, at, step, step_sigmas);
+  for (int far = config.reach_px; far >= k; --far) {
+    const cv::Point beyond = Along(at, step, far);
+    if (!outside.Contains(beyond) || !(outside.grid.g[outside.Index(beyond)] > 0)) continue;
+    farthest = outside.Index(beyond);
+    break;
+  }
+  const float last = ResidualSigmas(outside.grid, farthest, outside.plane);
+  step_sigmas = std::abs(last);
+  if (!(last > static_cast<float>(config.min_step_sigmas))) return EdgeKind::kSurface;
+  const float first = ResidualSigmas(outside.grid, nearest, outside.plane);
   const bool crease = first < static_cast<float>(config.max_crease_start) * last;
   return crease && EndsAtCrease(outside, at, step) ? EdgeKind::kSurface : EdgeKind::kOccluded;
 }
@@ -86,7 +109,7 @@ void FindEdgePoints(const DepthGrid& grid, const OuterContours& contours, int va
                     const LabelPlane& plane, std::span<const double> areas_m2,
                     const EdgeConfig& config, std::vector<EdgePoint>& edge) {
   edge.clear();
-  const Outside outside{grid, contours, value, plane, areas_m2, config};
+  const Outside outside{grid, contours, value, PixelPlane(plane), areas_m2, config};
   const auto& list = contours.contours();
   auto contour = std::lower_bound(list.begin(), list.end(), value,
                                   [](const auto& c, int label) { return c.label < label; });

@@ -98,9 +98,8 @@ void PlaneExtractor::Extract(Frame& frame) {
   patches.MergeEqualNeighbours(grid, blocks, config, growth);
   const PatchUnion& joined = patches.JoinBentParts(grid, blocks, config, growth, warp > 0.0);
   const LabelRuns& segments = work_->parts.Segment(grid, joined, patches.runs(), config);
-  DrawRuns(segments, work_->labels);
   const int count = work_->parts.segment_count();
-  growth.SumOtherLabels(work_->labels, count, work_->sums);
+  work_->parts.SumSegments(grid, joined, work_->sums);
   KeepMeasured(work_->sums, config, work_->kept);
   frame.plane_labels.create(grid.height, grid.width);
   DrawLabels(segments, count, work_->kept, work_->drawn_value, frame.plane_labels);

@@ -30,11 +30,15 @@ struct PlaneExtractor::Workspace {
   std::vector<std::uint8_t> settled;
   PatchJoining patches;
   PartSegmentation parts;
-  LabelImage labels;  ///< of segments
-  std::vector<PlaneSums> sums;
+  std::vector<PlaneSums> sums;  ///< of segments
   std::vector<Segment> kept;
   std::vector<std::uint8_t> drawn_value;
   OuterContours contours;
+  /// Of a plane: |(a, b, c)|, and the area that stands for each of its points, summed.
+  struct Sampled {
+    double norm = 0.0, area = 0.0;
+  };
+  std::vector<Sampled> sampled;
   std::vector<double> areas_m2;  ///< visible, of the frame's planes
   BoxSplit box_split;
   MapSplit map_split;
@@ -48,6 +52,7 @@ struct PlaneExtractor::Workspace {
 
   void TakeMemory(std::vector<FramePlane>& planes);
   void GiveMemory(FramePlane& plane);
+  void SamplePoints(const cv::Mat1b& drawn, std::vector<FramePlane>& planes);
   void Describe(Frame& frame);
   bool SplitInBox(const Box& box_px, Frame& frame);
   bool SplitBy(const std::vector<ExpectedPlane>& all, std::size_t expected, Frame& frame);

@@ -14,8 +14,9 @@ namespace slam {
 /// fits. 0 when there are too few such pixels to say.
 ///
 /// @param labels  `label` where the segment is
-/// @param bounds  of the segment
-/// @param step_px only every such pixel of every such row is looked at
+/// @param bounds  of the segment: it has no pixel outside
+/// @param step_px only every such pixel of every such row is looked at; domain [1, 64]
+/// @throws std::invalid_argument for a step outside its domain
 double MeasureRoughness(const DepthGrid& grid, const cv::Mat1b& labels, const cv::Rect& bounds,
                         std::uint8_t label, const InverseDepthPlane& plane,
                         const DepthNoise& noise, int step_px);

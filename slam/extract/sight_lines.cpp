@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "slam/extract/pixel_residual.h"
+
 namespace slam {
 namespace {
 
@@ -54,6 +56,13 @@ void SightLines::Begin(const DepthGrid& grid, const LabelRuns& runs,
     p.low = {std::min(p.low.u, sample.at.u), std::min(p.low.v, sample.at.v)};
     p.high = {std::max(p.high.u, sample.at.u), std::max(p.high.v, sample.at.v)};
   }
+  row_end_.resize(pixels_.size());
+  for (const Part& p : parts_) {
+    for (std::size_t k = p.end; k-- > p.begin;) {
+      const bool last = k + 1 == p.end || pixels_[k + 1].v != pixels_[k].v;
+      row_end_[k] = last ? k + 1 : row_end_[k + 1];
+    }
+  }
 }
 
 /// Counts the samples of each part in Part::end, and adds the first pixel of a part that the
@@ -62,13 +71,16 @@ void SightLines::AddMissed(int part_count) {
   const int none = std::numeric_limits<int>::max();
   parts_.assign(static_cast<std::size_t>(part_count), Part{0, 0, {none, none}, {-1, -1}});
   for (const Sample& sample : samples_) ++parts_[static_cast<std::size_t>(sample.part)].end;
-  for (int v = 0; v < grid_->height; ++v) {
+  auto missed =
+      std::count_if(parts_.begin(), parts_.end(), [](const Part& p) { return p.end == 0; });
+  for (int v = 0; v < grid_->height && missed > 0; ++v) {
     const auto row = static_cast<std::size_t>(v);
     for (std::size_t k = runs_->rows[row]; k < runs_->rows[row + 1]; ++k) {
       const int part = (*part_)[k];
       if (part < 0 || parts_[static_cast<std::size_t>(part)].end > 0) continue;
       parts_[static_cast<std::size_t>(part)].end = 1;
       samples_.push_back({part, {runs_->runs[k].begin, v}});
+      --missed;
     }
   }
 }
@@ -85,10 +97,18 @@ void SightLines::FindNearestLines(int a, int b) {
                       Square(Outside(from.v, to_part.low.v, to_part.high.v));
     if (least >= longest) continue;
     Line nearest{longest, from, from};
-    for (std::size_t j = to_part.begin; j < to_part.end; ++j) {
-      const Pixel to = pixels_[j];
-      const int length2 = Square(to.u - from.u) + Square(to.v - from.v);
-      if (length2 < nearest.length2) nearest = {length2, from, to};
+    for (std::size_t j = to_part.begin; j < to_part.end;) {
+      const std::size_t row_end = row_end_[j];
+      const int dv2 = Square(pixels_[j].v - from.v);
+      if (dv2 >= nearest.length2) {
+        j = row_end;
+        continue;
+      }
+      for (; j < row_end; ++j) {
+        const Pixel to = pixels_[j];
+        const int length2 = Square(to.u - from.u) + dv2;
+        if (length2 < nearest.length2) nearest = {length2, from, to};
+      }
     }
     if (nearest.length2 == longest) continue;
     const auto longer =
@@ -99,60 +119,89 @@ void SightLines::FindNearestLines(int a, int b) {
   }
 }
 
+/// Visits the pixels between the ends until told to stop, without a division: along the longer
+/// side one at a time, along the other what the division would have rounded towards `from`.
+template <typename Visit>
+void SightLines::Walk(const Line& line, const Visit& visit) const {
+  const int du = line.to.u - line.from.u, dv = line.to.v - line.from.v;
+  const int across = du < 0 ? -1 : 1, down = dv < 0 ? -grid_->width : grid_->width;
+  const bool is_level = std::abs(du) >= std::abs(dv);
+  const int steps = std::max(std::abs(du), std::abs(dv));
+  const int shorter = std::min(std::abs(du), std::abs(dv));
+  const int always = is_level ? across : down, sometimes = is_level ? down : across;
+  int i = grid_->Index(line.from.u, line.from.v);
+  for (int s = 1, rest = 0; s < steps; ++s) {
+    rest += shorter;
+    const bool over = rest >= steps;
+    rest -= over ? steps : 0;
+    i += always + (over ? sometimes : 0);
+    if (!visit(static_cast<std::size_t>(i))) return;
+  }
+}
+
+int SightLines::PartAt(std::size_t i) const {
+  const int pixel = static_cast<int>(i);
+  return (*part_)[runs_->At(pixel % grid_->width, pixel / grid_->width)];
+}
+
 double SightLines::ShareBehind(int a, int b, const LabelPlane& plane) {
   FindNearestLines(a, b);
+  const PixelPlane in_float(plane);
   int behind = 0, measured = 0;
   for (const Line& line : lines_) {
-    const int du = line.to.u - line.from.u, dv = line.to.v - line.from.v;
-    const int steps = std::max(std::abs(du), std::abs(dv));
-    for (int s = 1; s < steps; ++s) {
-      const int u = line.from.u + du * s / steps, v = line.from.v + dv * s / steps;
-      const auto i = static_cast<std::size_t>(grid_->Index(u, v));
-      if (!(grid_->g[i] > 0)) continue;
-      const int part = (*part_)[runs_->At(u, v)];
-      if (part == a || part == b) continue;
+    Walk(line, [&](std::size_t i) {
+      if (!(grid_->g[i] > 0)) return true;
+      const int part = PartAt(i);
+      if (part == a || part == b) return true;
       ++measured;
-      behind += ResidualSigmas(*grid_, i, plane) < -behind_sigmas_ ? 1 : 0;
-    }
+      behind += ResidualSigmas(*grid_, i, in_float) < -behind_sigmas_ ? 1 : 0;
+      return true;
+    });
   }
   return measured > 0 ? static_cast<double>(behind) / measured : 0.0;
 }
 
 SightLines::Sight SightLines::Look(const Line& line, int a, int b,
-                                   const LabelPlane& plane) const {
+                                   const PixelPlane& plane) const {
   const float clear = std::max(kClear_sigmas, behind_sigmas_);
-  const int du = line.to.u - line.from.u, dv = line.to.v - line.from.v;
-  const int steps = std::max(std::abs(du), std::abs(dv));
   int beyond = 0, in_front = 0;
-  for (int s = 1; s < steps; ++s) {
-    const int u = line.from.u + du * s / steps, v = line.from.v + dv * s / steps;
-    const auto i = static_cast<std::size_t>(grid_->Index(u, v));
-    if (!(grid_->g[i] > 0)) continue;
-    const float residual = ResidualSigmas(*grid_, i, plane);
-    const bool is_beyond = residual < -clear;
-    if (residual > clear) ++in_front;
-    const int part = is_beyond ? (*part_)[runs_->At(u, v)] : a;
-    beyond = is_beyond && part != a && part != b ? beyond + 1 : 0;
-    if (beyond == kClear_px) return Sight::kBeyond;
-  }
+  const DepthGrid& grid = *grid_;
+  Walk(line, [&](std::size_t i) {
+    if (!(grid.g[i] > 0)) return true;
+    const float residual = ResidualSigmas(grid, i, plane);
+    if (!(residual < -clear)) {
+      in_front += residual > clear ? 1 : 0;
+      beyond = 0;
+      return true;
+    }
+    const int part = PartAt(i);
+    beyond = part != a && part != b ? beyond + 1 : 0;
+    return beyond < kClear_px;
+  });
+  if (beyond == kClear_px) return Sight::kBeyond;
   return in_front < kClear_px ? Sight::kPlaneOrNothing : Sight::kInFront;
 }
 
 bool SightLines::AreSidesOfSomethingInFront(int a, int b, const LabelPlane& plane) const {
+  constexpr double kAll = kEnds * kEnds;
+  const PixelPlane in_float(plane);
   const auto end = [&](int part, std::size_t k) {  // of kEnds, in equal steps
     const Part& p = parts_[static_cast<std::size_t>(part)];
     return pixels_[p.begin + (p.end - p.begin) * (2 * k + 1) / (2 * kEnds)];
   };
-  int in_front = 0, beyond = 0;
+  int beyond = 0, not_in_front = 0;
   for (std::size_t j = 0; j < kEnds; ++j) {
+    const Pixel from = end(a, j);
     for (std::size_t k = 0; k < kEnds; ++k) {
-      const Sight sight = Look({0, end(a, j), end(b, k)}, a, b, plane);
-      in_front += sight == Sight::kInFront ? 1 : 0;
+      const Sight sight = Look({0, from, end(b, k)}, a, b, in_float);
+      not_in_front += sight == Sight::kInFront ? 0 : 1;
       beyond += sight == Sight::kBeyond ? 1 : 0;
+      // What is left cannot change the answer.
+      if (beyond > kMostBeyond * kAll || kAll - not_in_front < kLeastInFront * kAll)
+        return false;
     }
-    if (beyond > kMostBeyond * kEnds * kEnds) return false;
   }
-  return in_front >= kLeastInFront * kEnds * kEnds;
+  return true;
 }
 
 }  // namespace slam

@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "slam/extract/block_pixels.h"
 #include "slam/extract/depth_grid.h"
 #include "slam/extract/label_runs.h"
 #include "slam/extract/pixel_labels.h"
@@ -52,7 +53,10 @@ class SightLines {
   enum class Sight { kPlaneOrNothing, kInFront, kBeyond };
 
   void AddMissed(int part_count);
-  Sight Look(const Line& line, int a, int b, const LabelPlane& plane) const;
+  template <typename Visit>
+  void Walk(const Line& line, const Visit& visit) const;
+  int PartAt(std::size_t i) const;
+  Sight Look(const Line& line, int a, int b, const PixelPlane& plane) const;
   void FindNearestLines(int a, int b);
 
   const DepthGrid* grid_ = nullptr;
@@ -61,8 +65,9 @@ class SightLines {
   float behind_sigmas_ = 0.0f;
   std::vector<Part> parts_;
   std::vector<Sample> samples_;
-  std::vector<Pixel> pixels_;  ///< samples, part by part
-  std::vector<Line> lines_;    ///< the nearest, shortest first
+  std::vector<Pixel> pixels_;         ///< samples, part by part
+  std::vector<std::size_t> row_end_;  ///< of each of them: the next of its part not in its row
+  std::vector<Line> lines_;           ///< the nearest, shortest first
 };
 
 }  // namespace slam

@@ -33,8 +33,9 @@ void LinkBoxes(std::vector<FramePlane>& planes, const std::vector<Detection>& de
       const Detection& d = detections[k];
       if (!(d.score > config.min_score)) continue;
       const double iou = Iou(plane.box_px, d.box_px);
+      if (!(iou > config.min_iou)) continue;
       const double share = EdgeShare(plane, d.box_px, config.margin_px);
-      if (!(iou > config.min_iou) || !(share > config.min_edge_share)) continue;
+      if (!(share > config.min_edge_share)) continue;
       const std::array<double, 6> rank = Rank(iou * share, d);
       const bool same_box = plane.detection && rank == best;
       const bool better =

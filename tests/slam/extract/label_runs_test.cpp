@@ -7,6 +7,7 @@
 #include <set>
 #include <vector>
 
+#include "slam/extract/label_changes.h"
 #include "slam/extract/label_components.h"
 
 namespace slam {
@@ -22,6 +23,18 @@ LabelImage Blotches(int width, int height) {
     }
   }
   return labels;
+}
+
+void DrawRuns(const LabelRuns& runs, LabelImage& out) {
+  const auto width = static_cast<std::size_t>(runs.width);
+  out.resize(runs.rows.empty() ? 0 : (runs.rows.size() - 1) * width);
+  for (std::size_t row = 0; row + 1 < runs.rows.size(); ++row) {
+    std::int16_t* to = out.data() + row * width;
+    for (std::size_t k = runs.rows[row]; k < runs.rows[row + 1]; ++k) {
+      const LabelRun& run = runs.runs[k];
+      std::fill(to + run.begin, to + run.end, static_cast<std::int16_t>(run.label));
+    }
+  }
 }
 
 /// Components by flooding, in order of their first pixel.
@@ -49,6 +62,30 @@ std::vector<int> Flood(const LabelImage& labels, int width) {
     ++count;
   }
   return component;
+}
+
+/// Places that differ from the one before, whatever surrounds [first, end).
+template <typename Label>
+void ExpectChangesFound(int first, int end) {
+  std::vector<Label> labels;
+  for (int k = 0; k < 80; ++k)  // long stretches, short ones, negative labels, high bits
+    labels.push_back(static_cast<Label>(k % 37 < 20 ? -1 : (k * k / 5) % 3 * 64));
+  std::vector<int> found, expected;
+  VisitChanges(labels.data(), first, end, [&](int k) { found.push_back(k); });
+  for (int k = first; k < end; ++k) {
+    if (labels[static_cast<std::size_t>(k)] != labels[static_cast<std::size_t>(k - 1)])
+      expected.push_back(k);
+  }
+  EXPECT_EQ(found, expected) << first << " to " << end;
+}
+
+TEST(LabelRuns, BeginWhereALabelChangesWhereverAWordBegins) {
+  for (int first = 1; first < 20; ++first) {
+    for (int end = first; end <= 80; ++end) {
+      ExpectChangesFound<std::int16_t>(first, end);
+      ExpectChangesFound<std::uint8_t>(first, end);
+    }
+  }
 }
 
 TEST(LabelRuns, MakeTheComponentsThatFloodingMakes) {
@@ -80,11 +117,14 @@ TEST(LabelRuns, MeetEveryBoundaryOnce) {
   LabelRuns runs;
   FindRuns(labels, width, height, runs);
   std::multiset<std::pair<std::size_t, std::size_t>> met, expected;
-  VisitBoundaries(runs, [&](std::size_t i, std::size_t j, std::size_t a, std::size_t b) {
-    met.emplace(i, j);
-    EXPECT_EQ(runs.runs[a].label, labels[i]);
-    EXPECT_EQ(runs.runs[b].label, labels[j]);
-  });
+  VisitBoundaryPieces(
+      runs, [&](std::size_t i, std::size_t j, int count, std::size_t a, std::size_t b) {
+        for (int k = 0; k < count; ++k, ++i, ++j) {
+          met.emplace(i, j);
+          EXPECT_EQ(runs.runs[a].label, labels[i]);
+          EXPECT_EQ(runs.runs[b].label, labels[j]);
+        }
+      });
   for (std::size_t i = 0; i < labels.size(); ++i) {
     const auto w = static_cast<std::size_t>(width);
     if (i % w + 1 < w && labels[i] != labels[i + 1]) expected.emplace(i, i + 1);

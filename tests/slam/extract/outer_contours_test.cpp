@@ -55,6 +55,24 @@ TEST(OuterContours, AreThoseOfEachSegmentAlone) {
   EXPECT_GT(nested, 60) << "there must be holes to be mistaken about";
 }
 
+TEST(OuterContours, PointAwayFromTheirOwnSegment) {
+  const cv::Mat1b labels = TangledLabels(3);
+  cv::Mat1b framed;
+  cv::copyMakeBorder(labels, framed, 2, 2, 2, 2, cv::BORDER_CONSTANT, 0);
+  OuterContours contours;
+  contours.Trace(labels);
+  for (const cv::Point& at : contours.points()) {
+    cv::Point expected(0, 0);
+    for (int dv = -2; dv <= 2; ++dv) {
+      for (int du = -2; du <= 2; ++du) {
+        const bool outside = framed(at.y + 2 + dv, at.x + 2 + du) != labels(at);
+        expected += outside ? cv::Point(du, dv) : cv::Point(0, 0);
+      }
+    }
+    EXPECT_EQ(contours.Outward(at), expected);
+  }
+}
+
 TEST(OuterContours, PointToTheOutsideAcrossTheImagesBorderToo) {
   cv::Mat1b labels(20, 20, static_cast<std::uint8_t>(2));
   labels(cv::Rect(10, 0, 10, 20)).setTo(1);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <vector>
 
+#include "slam/extract/pixel_labels.h"
 #include "slam/extract/plane_segments.h"
 #include "tests/support/closed_form_depth.h"
 
@@ -52,6 +53,34 @@ void ExpectTheSame(const Frame& a, const Frame& b) {
       EXPECT_EQ(p.edge_points[e].kind, q.edge_points[e].kind);
     }
   }
+}
+
+TEST(PlaneExtractor, FitsItsPlanesToThePixelsThatItDraws) {
+  // Sums of labels, less what of them is another segment or none, are those of the pixels.
+  int segments = 0;
+  for (int books = 1; books <= 4; ++books) {
+    SizedView view = BooksView(320, 240, books);
+    Frame frame = closed_form::MakeFrame(view.depth_m);
+    // A pole in front cuts all behind it, and a hole leaves islands.
+    view.depth_m(cv::Rect(150, 0, 6, 200)).setTo(0.3f);
+    for (int u = 30; u < 60; u += 5) view.depth_m(cv::Rect(u, 120, 2, 100)).setTo(0.0f);
+    const cv::Mat2d rays = PixelRays(view.camera);
+    ExtractPlanes(frame, view.camera, rays, {});
+    const DepthGrid grid =
+        MakeDepthGrid(view.depth_m, rays, DepthNoise{}, PlaneExtractionConfig{}.max_depth_m);
+    LabelImage drawn;
+    for (const std::uint8_t value : frame.plane_labels)
+      drawn.push_back(static_cast<std::int16_t>(value - 1));
+    const std::vector<PlaneSums> sums =
+        SumLabels(grid, drawn, static_cast<int>(frame.planes.size()));
+    for (std::size_t k = 0; k < frame.planes.size(); ++k, ++segments) {
+      EXPECT_EQ(frame.planes[k].pixel_count, sums[k].n);
+      const Plane fit = Fit(sums[k])->plane.Hessian();
+      EXPECT_LT((frame.planes[k].pi_c.n - fit.n).norm(), 1e-9);
+      EXPECT_NEAR(frame.planes[k].pi_c.d, fit.d, 1e-9);
+    }
+  }
+  EXPECT_GT(segments, 12);
 }
 
 TEST(PlaneExtractor, GivesTheSameWhateverItHasSeenBefore) {

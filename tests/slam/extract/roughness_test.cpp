@@ -6,6 +6,7 @@
 
 #include "slam/base/camera.h"
 #include "slam/base/random.h"
+#include "slam/extract/pixel_labels.h"
 
 namespace slam {
 namespace {
@@ -55,6 +56,61 @@ TEST(Roughness, OfStairsIsMoreWhicheverWayTheyRun) {
   const auto stairs = [](int along) { return along / 8 % 2 == 0 ? 0.004 : -0.004; };
   EXPECT_GT(RoughnessOf([&](int u, int) { return stairs(u); }), 2.0);
   EXPECT_GT(RoughnessOf([&](int, int v) { return stairs(v); }), 2.0);
+}
+
+/// The same pair by pair.
+double PairByPair(const DepthGrid& grid, const cv::Mat1b& labels, const cv::Rect& bounds,
+                  int step_px) {
+  const LabelPlane plane{kSlant, 1.0};
+  double sum = 0.0;
+  int pairs = 0;
+  for (int v = bounds.y; v < bounds.br().y; v += step_px) {
+    for (int u = bounds.x; u < bounds.br().x; u += step_px) {
+      for (const cv::Point& other : {cv::Point(u + 8, v), cv::Point(u, v + 8)}) {
+        if (other.x >= labels.cols || other.y >= labels.rows) continue;
+        if (labels(v, u) != 3 || labels(other) != 3) continue;
+        const double by =
+            static_cast<double>(
+                ResidualSigmas(grid, static_cast<std::size_t>(grid.Index(u, v)), plane)) -
+            static_cast<double>(ResidualSigmas(
+                grid, static_cast<std::size_t>(grid.Index(other.x, other.y)), plane));
+        sum += by * by, ++pairs;
+      }
+    }
+  }
+  const auto middle = static_cast<std::size_t>(
+      grid.Index(bounds.x + bounds.width / 2, bounds.y + bounds.height / 2));
+  const double x = static_cast<double>(grid.x[middle]), y = static_cast<double>(grid.y[middle]);
+  const double grazing =
+      DepthNoise{}.GrazingFactor(1.0 / kSlant.InverseDepth(x, y), kSlant.Cosine(x, y));
+  return pairs < 30 ? 0.0 : sum / (2.0 * pairs * grazing * grazing);
+}
+
+TEST(Roughness, CountsEveryPairOnceToTheImagesBorders) {
+  const int width = 90, height = 61;
+  Camera camera;
+  camera.width = width, camera.height = height;
+  cv::Mat1f depth_m(height, width);
+  cv::Mat1b labels(height, width);
+  Random random{5};
+  for (int v = 0; v < height; ++v) {
+    for (int u = 0; u < width; ++u) {
+      depth_m(v, u) = static_cast<float>(0.9 + 0.02 * random.Uniform());
+      labels(v, u) = random.Below(10) == 0 || (u + v) % 40 < 9 ? 0 : 3;
+    }
+  }
+  const DepthGrid grid = MakeDepthGrid(depth_m, PixelRays(camera), {}, 10.0);
+  for (const cv::Rect& bounds : {cv::Rect(0, 0, width, height), cv::Rect(3, 2, 71, 40),
+                                 cv::Rect(70, 20, 20, 41), cv::Rect(37, 0, 45, 59)}) {
+    cv::Mat1b own(height, width, static_cast<unsigned char>(0));
+    labels(bounds).copyTo(own(bounds));
+    for (const int step_px : {1, 2, 3, 5, 8, 13}) {
+      const double expected = PairByPair(grid, own, bounds, step_px);
+      EXPECT_NEAR(MeasureRoughness(grid, own, bounds, 3, kSlant, {}, step_px), expected,
+                  1e-5 * expected)
+          << bounds << ", every " << step_px;
+    }
+  }
 }
 
 TEST(Roughness, OfAHandfulOfPixelsIsUnknown) {
