@@ -28,6 +28,7 @@ void BlockClustering::AddBlocks(const DepthGrid& grid, const std::vector<std::ui
   rows_ = (grid.height + block_px - 1) / block_px;
   regions_.clear();
   if (taken.empty()) sums_.clear();
+  measured_.resize(WordsOfSet(block_px));
   region_at_.assign(static_cast<std::size_t>(cols_ * rows_), -1);
   const double least = config_->min_measured * block_px * block_px;
   for (int r = 0; r < rows_; ++r) {
@@ -58,7 +59,9 @@ void BlockClustering::AddBlock(const DepthGrid& grid, const std::uint8_t* taken,
                                int block_px, int block) {
   const BlockPixels pixels = BlockAt(grid, u, v, block_px);
   const double least = config_->min_measured * block_px * block_px;
-  const PlaneSums sums = taken == nullptr ? SumBlock(pixels) : SumFree(pixels, taken);
+  if (taken == nullptr) FindMeasured(pixels, measured_.data());
+  const PlaneSums sums =
+      taken == nullptr ? SumBlock(pixels, measured_.data()) : SumFree(pixels, taken);
   if (taken == nullptr) sums_.push_back(sums);
   if (!(sums.n >= least)) return;
   const std::optional<PlaneFit> fit = Fit(sums);

@@ -105,7 +105,8 @@ class BlockClustering {
   std::vector<double> first_costs_;  ///< of each pair
   Tournament merges_;                ///< of the pairs, by error added or mean error
   std::vector<int> number_;
-  std::vector<std::uint8_t> free_;  ///< pixels of each column of a row of blocks
+  std::vector<std::uint64_t> measured_;  ///< pixels of a block
+  std::vector<std::uint8_t> free_;       ///< pixels of each column of a row of blocks
   std::vector<PlaneSums> sums_;
   BlockClusters out_;
 };

@@ -1,11 +1,13 @@
 #include "slam/extract/block_sums.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <cstddef>
 #include <limits>
 
 #include "slam/base/lane_math.h"
+#include "slam/extract/pixel_set_lanes.h"
 
 namespace slam {
 namespace {
@@ -19,13 +21,19 @@ using FourMarks
     [[gnu::vector_size(kFour * sizeof(Mark)), gnu::aligned(alignof(Mark)), gnu::may_alias]] =
         Mark;
 
-SLAM_INLINE DoubleLanes Load4(const float* p) {
-  return __builtin_convertvector(*reinterpret_cast<const FourFloats*>(p), DoubleLanes);
+SLAM_INLINE FourFloats Floats4(const float* p) {
+  return *reinterpret_cast<const FourFloats*>(p);
 }
+SLAM_INLINE DoubleLanes InDouble(FourFloats v) {
+  return DoubleLanes{static_cast<double>(v[0]), static_cast<double>(v[1]),
+                     static_cast<double>(v[2]), static_cast<double>(v[3])};
+}
+SLAM_INLINE DoubleLanes Load4(const float* p) { return InDouble(Floats4(p)); }
+SLAM_INLINE DoubleLanes AllDoubles(float v) { return DoubleLanes{} + static_cast<double>(v); }
 
-/// PlaneSums of four columns of pixels.
+/// PlaneSums of four columns of pixels, without their number.
 struct FourSums {
-  DoubleLanes n{}, w{}, wx{}, wy{}, wxx{}, wxy{}, wyy{}, wq{}, wqx{}, wqy{}, wqq{};
+  DoubleLanes w{}, wx{}, wy{}, wxx{}, wxy{}, wyy{}, wq{}, wqx{}, wqy{}, wqq{};
 
   SLAM_INLINE void Add(DoubleLanes x, DoubleLanes y, DoubleLanes q, DoubleLanes g) {
     const DoubleLanes vx = g * g * x;
@@ -35,47 +43,107 @@ struct FourSums {
   /// All but the sums with x.
   SLAM_INLINE void AddColumn(DoubleLanes y, DoubleLanes q, DoubleLanes g) {
     const DoubleLanes weight = g * g, vy = weight * y, vq = weight * q;
-    n += g > 0.0 ? DoubleLanes{} + 1.0 : DoubleLanes{};
     w += weight, wy += vy, wyy += vy * y, wq += vq, wqy += vq * y, wqq += vq * q;
   }
   /// Those with x, of whole columns.
   SLAM_INLINE void SetX(DoubleLanes x) { wx = w * x, wxx = wx * x, wxy = wy * x, wqx = wq * x; }
   SLAM_INLINE void operator+=(const FourSums& o) {
-    n += o.n, w += o.w, wx += o.wx, wy += o.wy, wxx += o.wxx, wxy += o.wxy, wyy += o.wyy;
+    w += o.w, wx += o.wx, wy += o.wy, wxx += o.wxx, wxy += o.wxy, wyy += o.wyy;
     wq += o.wq, wqx += o.wqx, wqy += o.wqy, wqq += o.wqq;
   }
-  SLAM_INLINE PlaneSums Sum() const {
-    return {SumOf(n),   SumOf(w),  SumOf(wx),  SumOf(wy),  SumOf(wxx), SumOf(wxy),
-            SumOf(wyy), SumOf(wq), SumOf(wqx), SumOf(wqy), SumOf(wqq)};
+  SLAM_INLINE PlaneSums Sum(int n) const {
+    return {static_cast<double>(n),
+            SumOf(w),
+            SumOf(wx),
+            SumOf(wy),
+            SumOf(wxx),
+            SumOf(wxy),
+            SumOf(wyy),
+            SumOf(wq),
+            SumOf(wqx),
+            SumOf(wqy),
+            SumOf(wqq)};
   }
 };
 
-/// g of four pixels that have `value` in `marks` (null: of all), 0 for the others.
+/// Four columns of a block of 8 x 8, of pixels in a set or of all.
+template <bool kOneX, bool kAll>
+SLAM_INLINE FourSums SumFour(const BlockPixels& block, int u, FourInts columns) {
+  FourSums four;
+#pragma GCC unroll 8
+  for (int v = 0; v < kLanes; ++v) {
+    const std::ptrdiff_t i = static_cast<std::ptrdiff_t>(v) * block.stride + u;
+    FourFloats g = Floats4(block.g + i);
+    if (!kAll) g = (FourFloats)((FourInts)g & (columns << (31 - v) >> 31));
+    if (kOneX) {
+      four.AddColumn(AllDoubles(block.y[v * block.y_stride]), Load4(block.q + i), InDouble(g));
+    } else {
+      four.Add(Load4(block.x + (v * block.x_stride + u)),
+               Load4(block.y + (v * block.y_stride + u)), Load4(block.q + i), InDouble(g));
+    }
+  }
+  if (kOneX) four.SetX(Load4(block.x + u));
+  return four;
+}
+
+template <bool kAll>
+SLAM_INLINE PlaneSums Sum8(const BlockPixels& at, std::uint64_t set, int n) {
+  const BlockPixels block = at;  // what is written cannot change it
+  const IntLanes columns = ColumnsOf(set);
+  const FourInts left = {columns[0], columns[1], columns[2], columns[3]},
+                 right = {columns[4], columns[5], columns[6], columns[7]};
+  FourSums sums;
+  if (block.x_stride == 0) {
+    sums = SumFour<true, kAll>(block, 0, left);
+    sums += SumFour<true, kAll>(block, kFour, right);
+  } else {
+    sums = SumFour<false, kAll>(block, 0, left);
+    sums += SumFour<false, kAll>(block, kFour, right);
+  }
+  return sums.Sum(n);
+}
+
+PlaneSums SumAny(const BlockPixels& block, ConstPixelSet set) {
+  PlaneSums out;
+  for (int v = 0; v < block.height; ++v) {
+    for (int u = 0; u < block.width; ++u) {
+      if (!IsInSet(set, block.size, u, v)) continue;
+      const std::ptrdiff_t i = static_cast<std::ptrdiff_t>(v) * block.stride + u;
+      const double g = static_cast<double>(block.g[i]);
+      out.Add(static_cast<double>(block.x[v * block.x_stride + u]),
+              static_cast<double>(block.y[v * block.y_stride + u]),
+              static_cast<double>(block.q[i]), g * g);
+    }
+  }
+  return out;
+}
+
+/// g of four pixels that have `value` in `marks`, 0 for the others.
 template <typename Mark>
-SLAM_INLINE DoubleLanes Weights(const float* g, const Mark* marks, Mark value) {
-  if (marks == nullptr) return Load4(g);
+SLAM_INLINE FourFloats Weights(const float* g, const Mark* marks, Mark value) {
   const auto four =
       __builtin_convertvector(*reinterpret_cast<const FourMarks<Mark>*>(marks), FourInts);
   const FourInts used = four == static_cast<int>(value);
-  const auto kept = (FourFloats)((FourInts) * reinterpret_cast<const FourFloats*>(g) & used);
-  return __builtin_convertvector(kept, DoubleLanes);
+  return (FourFloats)((FourInts)Floats4(g) & used);
 }
 
-/// Sums of the pixels that have `value` in `marks` (null: of all); columns four at a time, then
-/// the rest.
+/// Sums of the measured pixels that have `value` in `marks`; columns four at a time, then the
+/// rest.
 template <typename Mark>
 SLAM_INLINE PlaneSums Sum(const BlockPixels& block, const Mark* marks, Mark value) {
   FourSums fours;
+  FourInts n{};
   const bool whole_columns = block.x_stride == 0;  // of one x, and rows of one y
   const int whole = block.width / kFour * kFour;
   for (int u = 0; u < whole; u += kFour) {
     FourSums four;
     for (int v = 0; v < block.height; ++v) {
       const std::ptrdiff_t i = static_cast<std::ptrdiff_t>(v) * block.stride + u;
-      const DoubleLanes g = Weights(block.g + i, marks == nullptr ? nullptr : marks + i, value);
-      const DoubleLanes q = Load4(block.q + i);
+      const FourFloats used = Weights(block.g + i, marks + i, value);
+      n -= used > 0.0f;
+      const DoubleLanes g = InDouble(used), q = Load4(block.q + i);
       if (whole_columns) {
-        four.AddColumn(DoubleLanes{} + static_cast<double>(block.y[v * block.y_stride]), q, g);
+        four.AddColumn(AllDoubles(block.y[v * block.y_stride]), q, g);
       } else {
         four.Add(Load4(block.x + (v * block.x_stride + u)),
                  Load4(block.y + (v * block.y_stride + u)), q, g);
@@ -84,12 +152,12 @@ SLAM_INLINE PlaneSums Sum(const BlockPixels& block, const Mark* marks, Mark valu
     if (whole_columns) four.SetX(Load4(block.x + u));
     fours += four;
   }
-  PlaneSums out = fours.Sum();
+  PlaneSums out = fours.Sum((n[0] + n[1]) + (n[2] + n[3]));
   for (int v = 0; v < block.height; ++v) {
     for (int u = whole; u < block.width; ++u) {
       const std::ptrdiff_t i = static_cast<std::ptrdiff_t>(v) * block.stride + u;
       const double g = static_cast<double>(block.g[i]);
-      if (!(g > 0.0) || (marks != nullptr && marks[i] != value)) continue;
+      if (!(g > 0.0) || marks[i] != value) continue;
       out.Add(static_cast<double>(block.x[v * block.x_stride + u]),
               static_cast<double>(block.y[v * block.y_stride + u]),
               static_cast<double>(block.q[i]), g * g);
@@ -131,8 +199,14 @@ bool HasJumpAny(const BlockPixels& block, float most_sigmas) {
 
 }  // namespace
 
-SLAM_LANES PlaneSums SumBlock(const BlockPixels& block) {
-  return Sum<std::uint8_t>(block, nullptr, 0);
+SLAM_LANES PlaneSums SumBlock(const BlockPixels& block, ConstPixelSet measured) {
+  if (!IsWhole8(block)) return SumAny(block, measured);
+  return Sum8<true>(block, 0, std::popcount(*measured));
+}
+
+SLAM_LANES PlaneSums SumOfSet(const BlockPixels& block, ConstPixelSet set) {
+  if (!IsWhole8(block)) return SumAny(block, set);
+  return Sum8<false>(block, *set, std::popcount(*set));
 }
 
 SLAM_LANES PlaneSums SumLabelled(const BlockPixels& block, const std::int16_t* labels,
