@@ -23,22 +23,29 @@ class RowResiduals {
  public:
   /// From column u on.
   SLAM_INLINE RowResiduals(const BlockPixels& block, int u, const PixelPlane& p)
-      : block_(block), plane_(p), u_(u) {
-    if (kOneX) ax_ = p.a * Lanes(block.x + u);
+      : x_(block.x + u),
+        y_(block.y + u),
+        q_(block.q + u),
+        g_(block.g + u),
+        stride_(block.stride),
+        x_stride_(block.x_stride),
+        y_stride_(block.y_stride),
+        a_(AllLanes(p.a)),
+        b_(AllLanes(p.b)),
+        c_(AllLanes(p.c)),
+        grazing_(AllLanes(p.grazing)) {
+    if (kOneX) ax_ = a_ * Lanes(x_);
   }
-  SLAM_INLINE FloatLanes At(int v) const {
-    const FloatLanes ax = kOneX ? ax_ : plane_.a * Lanes(block_.x + (v * block_.x_stride + u_));
-    const FloatLanes y = Lanes(block_.y + (v * block_.y_stride + u_));
-    const int i = v * block_.stride + u_;
-    return (Lanes(block_.q + i) - (ax + plane_.b * y + plane_.c)) * Lanes(block_.g + i) /
-           plane_.grazing;
+  SLAM_INLINE FloatLanes At(std::ptrdiff_t v) const {
+    const FloatLanes ax = kOneX ? ax_ : a_ * Lanes(x_ + v * x_stride_);
+    const FloatLanes predicted = ax + b_ * Lanes(y_ + v * y_stride_) + c_;
+    return (Lanes(q_ + v * stride_) - predicted) * Lanes(g_ + v * stride_) / grazing_;
   }
 
  private:
-  BlockPixels block_;  // copies: what is written cannot change them
-  PixelPlane plane_;
-  int u_;
-  FloatLanes ax_{};
+  const float *x_, *y_, *q_, *g_;
+  std::ptrdiff_t stride_, x_stride_, y_stride_;
+  FloatLanes a_, b_, c_, grazing_, ax_{};
 };
 
 SLAM_INLINE float Residual(const BlockPixels& block, int u, int v, const PixelPlane& p) {
@@ -193,22 +200,6 @@ SLAM_INLINE void BidAny(const BlockPixels& block, int count, const PixelPlane& p
 static_assert(DepthGrid::kCopiesBefore >= kMostBidReach_px &&
               DepthGrid::kRowCopies >= kMostBlockSide_px + 2 * kMostBidReach_px);
 
-BlockPixels BlockAt(const DepthGrid& grid, int u, int v, int size) {
-  const auto i = static_cast<std::size_t>(grid.Index(u, v));
-  const bool shared = !grid.column_x.empty();
-  const std::size_t row = static_cast<std::size_t>(v) * DepthGrid::kRowCopies;
-  return {shared ? grid.column_x.data() + u : grid.x.data() + i,
-          shared ? grid.row_y.data() + row + DepthGrid::kCopiesBefore : grid.y.data() + i,
-          grid.q.data() + i,
-          grid.g.data() + i,
-          grid.width,
-          shared ? 0 : grid.width,
-          shared ? DepthGrid::kRowCopies : grid.width,
-          std::min(size, grid.width - u),
-          std::min(size, grid.height - v),
-          size};
-}
-
 SLAM_LANES void FindMeasured(const BlockPixels& block, PixelSet measured) {
   if (IsWhole8(block)) {
     RowsOfSet rows;
@@ -227,9 +218,9 @@ SLAM_LANES void FindMeasured(const BlockPixels& block, PixelSet measured) {
   }
 }
 
-SLAM_LANES void FindNear(const BlockPixels& block, const PixelPlane& plane,
-                         ConstPixelSet measured, float near_sigmas, float wide_sigmas,
-                         PixelSet near, PixelSet wide) {
+SLAM_LANES int FindNear(const BlockPixels& block, const PixelPlane& plane,
+                        ConstPixelSet measured, float near_sigmas, float wide_sigmas,
+                        PixelSet near, PixelSet wide) {
   if (!IsWhole8(block)) {
     FindNearAny(block, plane, measured, near_sigmas, wide_sigmas, near, wide);
   } else if (HasColumnsOfOneX(block)) {
@@ -237,6 +228,7 @@ SLAM_LANES void FindNear(const BlockPixels& block, const PixelPlane& plane,
   } else {
     FindNear8<false>(block, plane, *measured, near_sigmas, wide_sigmas, near, wide);
   }
+  return CountOf(near, WordsOfSet(block.size));
 }
 
 SLAM_LANES double SumResiduals(const BlockPixels& block, const PixelPlane& plane,

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <algorithm>
+#include <cstddef>
 #include <cstdint>
 
 #include "slam/extract/depth_grid.h"
@@ -23,7 +25,21 @@ inline bool IsWhole8(const BlockPixels& block) {
 }
 
 /// The block of size x size pixels that begins at (u, v).
-BlockPixels BlockAt(const DepthGrid& grid, int u, int v, int size);
+inline BlockPixels BlockAt(const DepthGrid& grid, int u, int v, int size) {
+  const auto i = static_cast<std::ptrdiff_t>(v) * grid.width + u;
+  const bool one_x = !grid.column_x.empty();
+  const std::ptrdiff_t row = static_cast<std::ptrdiff_t>(v) * DepthGrid::kRowCopies;
+  return {one_x ? grid.column_x.data() + u : grid.x.data() + i,
+          one_x ? grid.row_y.data() + (row + DepthGrid::kCopiesBefore) : grid.y.data() + i,
+          grid.q.data() + i,
+          grid.g.data() + i,
+          grid.width,
+          one_x ? 0 : grid.width,
+          one_x ? DepthGrid::kRowCopies : grid.width,
+          std::min(size, grid.width - u),
+          std::min(size, grid.height - v),
+          size};
+}
 
 /// A plane in the numbers that pixels are in.
 struct PixelPlane {
@@ -50,8 +66,9 @@ inline constexpr int kMostBlockSide_px = 64, kMostBidReach_px = 16;
 void FindMeasured(const BlockPixels& block, PixelSet measured);
 
 /// Measured pixels within two distances of a plane, in sigmas (ResidualSigmas).
-void FindNear(const BlockPixels& block, const PixelPlane& plane, ConstPixelSet measured,
-              float near_sigmas, float wide_sigmas, PixelSet near, PixelSet wide);
+/// @returns how many are within the first
+int FindNear(const BlockPixels& block, const PixelPlane& plane, ConstPixelSet measured,
+             float near_sigmas, float wide_sigmas, PixelSet near, PixelSet wide);
 
 /// Sum of the residuals of the pixels of a set, in sigmas.
 double SumResiduals(const BlockPixels& block, const PixelPlane& plane, ConstPixelSet set);

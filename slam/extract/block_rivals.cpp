@@ -30,8 +30,6 @@ SLAM_INLINE void ShareBlock8(const BlockRival* rivals, int rival_count) {
 #pragma GCC unroll 8
   for (FloatLanes& row : least) row = AllLanes(kNone);
   for (int r = 0; r < rival_count; ++r) {
-    *rivals[r].owned = *rivals[r].near;
-    if (rivals[r].bids == nullptr) continue;
     RowsOfSet better;
 #pragma GCC unroll 8
     for (int v = kLanes - 1; v >= 0; --v) {
@@ -44,7 +42,6 @@ SLAM_INLINE void ShareBlock8(const BlockRival* rivals, int rival_count) {
   }
   std::uint64_t taken = 0;  // the last one that was better has it
   for (int r = rival_count - 1; r >= 0; --r) {
-    if (rivals[r].bids == nullptr) continue;
     *rivals[r].owned &= ~taken;
     taken |= *rivals[r].owned;
   }
@@ -59,7 +56,7 @@ void ShareBlockAny(const BlockRival* rivals, int rival_count, int size) {
       float least = kNone;
       for (const BlockRival* r = rivals; r < rivals + rival_count; ++r) {
         if (!IsInSet(r->near, size, u, v)) continue;
-        const float bid = r->bids == nullptr ? 0.0f : r->bids[v * size + u];
+        const float bid = r->bids[v * size + u];
         if (bid < least) least = bid, owner = r;
       }
       if (owner != nullptr) PutInSet(owner->owned, size, u, v);
@@ -93,12 +90,14 @@ SLAM_INLINE void FindOwners8(const BlockGain* gains, int gain_count, int* owners
 
 }  // namespace
 
-SLAM_LANES void ShareBlock(const BlockRival* rivals, int rival_count, int size) {
+SLAM_LANES void ShareBlock(BlockRival* rivals, int rival_count, int size) {
   if (size == kLanes) {
     ShareBlock8(rivals, rival_count);
   } else {
     ShareBlockAny(rivals, rival_count, size);
   }
+  for (int r = 0; r < rival_count; ++r)
+    rivals[r].pixels = CountOf(rivals[r].owned, WordsOfSet(size));
 }
 
 SLAM_LANES void GainsOfBlock(BlockGain* gains, int gain_count, int size, int count,

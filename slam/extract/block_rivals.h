@@ -5,16 +5,16 @@
 
 namespace slam {
 
-/// A plane among others near pixels of a block.
+/// A plane near pixels of a block that others are near too.
 struct BlockRival {
   ConstPixelSet near = nullptr;
-  const float* bids = nullptr;  ///< BidForBlock, if some of those are near others too
-  PixelSet owned = nullptr;     ///< what it gets
+  const float* bids = nullptr;  ///< BidForBlock
+  PixelSet owned = nullptr;     ///< what it gets, and
+  int pixels = 0;               ///< how many
 };
 
-/// Gives each pixel to the rival that is alone near it, or, where more are, to the one of those
-/// with the least bid (the first of equal ones).
-void ShareBlock(const BlockRival* rivals, int rival_count, int size);
+/// Gives each pixel to the one with the least bid of those near it (the first of equal ones).
+void ShareBlock(BlockRival* rivals, int rival_count, int size);
 
 /// A label's pixels of a block.
 struct BlockOwner {

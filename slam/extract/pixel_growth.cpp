@@ -22,12 +22,6 @@ void Provide(std::vector<T>& room, std::size_t size) {
   if (room.size() < size) room.resize(size + size / 2);
 }
 
-int CountOf(ConstPixelSet set, std::size_t words) {
-  int count = 0;
-  for (std::size_t k = 0; k < words; ++k) count += std::popcount(set[k]);
-  return count;
-}
-
 }  // namespace
 
 void PixelGrowth::Begin(const DepthGrid& grid, const GrowthConfig& config) {
@@ -42,7 +36,7 @@ void PixelGrowth::Begin(const DepthGrid& grid, const GrowthConfig& config) {
   const auto blocks = static_cast<std::size_t>(cols_ * rows_);
   slot_size_ = (pixels + kLanes - 1) / kLanes * kLanes;
   set_words_ = WordsOfSet(config.block_px);
-  planes_.clear(), claims_.clear();
+  planes_.clear(), pixel_planes_.clear(), claims_.clear();
   first_.assign(blocks, kNoClaim);
   active_.clear(), next_active_.clear(), is_active_.assign(blocks, 0);
   is_stale_.assign(blocks, 0), knows_gains_.assign(blocks, 0), is_drawn_.assign(blocks, 0);
@@ -77,7 +71,7 @@ void PixelGrowth::BeginReached() {
 }
 
 int PixelGrowth::AddPlane(const LabelPlane& plane) {
-  planes_.push_back(plane);
+  planes_.push_back(plane), pixel_planes_.emplace_back(plane);
   reached_.insert(reached_.end(), nothing_reached_.begin(), nothing_reached_.end());
   return static_cast<int>(planes_.size()) - 1;
 }
@@ -123,17 +117,13 @@ BlockPixels PixelGrowth::PixelsOf(int block) const {
   return slam::BlockAt(*grid_, place.x * size, place.y * size, size);
 }
 
-bool PixelGrowth::IsEmpty(ConstPixelSet set) const {
-  return std::all_of(set, set + set_words_, [](std::uint64_t word) { return word == 0; });
-}
-
 /// @returns whether a pixel is near.
 bool PixelGrowth::Measure(const BlockPixels& pixels, int block, int claim) {
-  FindNear(pixels, PlaneOf(claim), MeasuredOf(block), NearSigmas(), WideSigmas(),
-           SetOf(claim, kNear), SetOf(claim, kWide));
-  At(claim).measured = true;
-  if (!IsEmpty(SetOf(claim, kWide))) knows_gains_[static_cast<std::size_t>(block)] = 0;
-  return !IsEmpty(SetOf(claim, kNear));
+  Claim& at = At(claim);
+  at.near = FindNear(pixels, PlaneOf(claim), MeasuredOf(block), NearSigmas(), WideSigmas(),
+                     SetOf(claim, kNear), SetOf(claim, kWide));
+  at.measured = true;
+  return at.near > 0;
 }
 
 void PixelGrowth::Bid(const BlockPixels& pixels, int block, int claim) {
@@ -151,12 +141,6 @@ void PixelGrowth::Bid(const BlockPixels& pixels, int block, int claim) {
               BidsOf(claim));
 }
 
-bool PixelGrowth::Meet(ConstPixelSet a, ConstPixelSet b) const {
-  for (std::size_t k = 0; k < set_words_; ++k)
-    if ((a[k] & b[k]) != 0) return true;
-  return false;
-}
-
 /// The pixels of a block that more than one claim has in that set.
 void PixelGrowth::FindContested(int block, Set set) {
   std::fill(seen_.begin(), seen_.end(), 0), std::fill(contested_.begin(), contested_.end(), 0);
@@ -169,45 +153,45 @@ void PixelGrowth::FindContested(int block, Set set) {
 
 /// Gives the pixels of a block to the nearest of its planes and counts what each gets.
 void PixelGrowth::Share(const BlockPixels& pixels, int block) {
+  FindContested(block, kNear);
+  const bool is_contested = !IsEmpty(contested_.data(), set_words_);
   rivals_.clear(), rival_claims_.clear();
   for (int claim = First(block); claim != kNoClaim; claim = At(claim).next) {
     const ConstPixelSet near = SetOf(claim, kNear);
-    if (IsEmpty(near)) {
-      std::copy_n(near, set_words_, SetOf(claim, kOwned)), At(claim).pixels = 0;
-      continue;
+    if (is_contested && Meet(near, contested_.data(), set_words_)) {
+      if (At(claim).bid < 0) Bid(pixels, block, claim);
+      rival_claims_.push_back(claim);
+    } else {
+      Copy(near, SetOf(claim, kOwned), set_words_);
+      At(claim).pixels = At(claim).near;
     }
-    rivals_.push_back({near, nullptr, SetOf(claim, kOwned)});
-    rival_claims_.push_back(claim);
   }
-  FindContested(block, kNear);
-  for (std::size_t r = 0; r < rivals_.size(); ++r) {
-    const int claim = rival_claims_[r];
-    if (!Meet(rivals_[r].near, contested_.data())) continue;
-    if (At(claim).bid < 0) Bid(pixels, block, claim);
-  }
-  for (std::size_t r = 0; r < rivals_.size(); ++r) {
-    const int claim = rival_claims_[r];
-    if (Meet(rivals_[r].near, contested_.data())) rivals_[r].bids = BidsOf(claim);
-  }
-  ShareBlock(rivals_.data(), static_cast<int>(rivals_.size()), config_.block_px);
+  if (!is_contested) return;
   for (const int claim : rival_claims_)
-    At(claim).pixels = CountOf(SetOf(claim, kOwned), set_words_);
+    rivals_.push_back({SetOf(claim, kNear), BidsOf(claim), SetOf(claim, kOwned), 0});
+  ShareBlock(rivals_.data(), static_cast<int>(rivals_.size()), config_.block_px);
+  for (std::size_t r = 0; r < rivals_.size(); ++r)
+    At(rival_claims_[r]).pixels = rivals_[r].pixels;
 }
 
 /// @returns whether anything has changed.
 bool PixelGrowth::LabelBlock(int block) {
   const BlockPixels pixels = PixelsOf(block);
   std::uint8_t& is_stale = is_stale_[static_cast<std::size_t>(block)];
-  for (int claim = First(block); claim != kNoClaim; claim = At(claim).next)
-    if (!At(claim).measured && Measure(pixels, block, claim)) is_stale = 1;
+  const int first = First(block);
+  for (int claim = first; claim != kNoClaim; claim = At(claim).next) {
+    if (At(claim).measured) continue;
+    knows_gains_[static_cast<std::size_t>(block)] = 0;
+    if (Measure(pixels, block, claim)) is_stale = 1;
+  }
   if (is_stale == 0) return false;
   is_stale = 0;
   knows_gains_[static_cast<std::size_t>(block)] = 0;
   is_drawn_[static_cast<std::size_t>(block)] = 0;
-  const int only = First(block);
-  if (only != kNoClaim && At(only).next == kNoClaim) {
-    std::copy_n(SetOf(only, kNear), set_words_, SetOf(only, kOwned));
-    At(only).pixels = CountOf(SetOf(only, kOwned), set_words_);
+  if (first == kNoClaim) return true;
+  if (At(first).next == kNoClaim) {
+    Copy(SetOf(first, kNear), SetOf(first, kOwned), set_words_);
+    At(first).pixels = At(first).near;
   } else {
     Share(pixels, block);
   }
@@ -256,7 +240,7 @@ void PixelGrowth::Replace(const std::vector<LabelPlane>& planes, const std::vect
         seeds_.emplace_back(block, into[static_cast<std::size_t>(At(claim).label)]);
     }
   }
-  claims_.clear(), planes_.clear(), reached_.clear();
+  planes_.clear(), pixel_planes_.clear(), claims_.clear(), reached_.clear();
   for (const LabelPlane& plane : planes) AddPlane(plane);
   bid_count_ = 0;
   std::fill(first_.begin(), first_.end(), kNoClaim);

@@ -80,6 +80,7 @@ class PixelGrowth {
   struct Claim {
     int label = 0;
     int next = kNoClaim;    ///< in its block, by label
+    int near = 0;           ///< pixels within max_pixel_sigmas
     int pixels = 0;         ///< that it owns
     int bid = -1;           ///< place of its bids; -1 = it has not bid yet
     bool measured = false;  ///< its sets are
@@ -103,16 +104,14 @@ class PixelGrowth {
   ConstPixelSet MeasuredOf(int block) const {
     return measured_.data() + static_cast<std::size_t>(block) * set_words_;
   }
-  bool IsEmpty(ConstPixelSet set) const;
-  bool Meet(ConstPixelSet a, ConstPixelSet b) const;
   float* BidsOf(int claim) {
     return bids_.data() + static_cast<std::size_t>(At(claim).bid) * slot_size_;
   }
   float NearSigmas() const { return static_cast<float>(config_.max_pixel_sigmas); }
   float WideSigmas() const { return static_cast<float>(config_.max_pixel_sigmas + 1.0); }
   cv::Point PlaceOf(int block) const { return place_[static_cast<std::size_t>(block)]; }
-  PixelPlane PlaneOf(int claim) const {
-    return PixelPlane(planes_[static_cast<std::size_t>(At(claim).label)]);
+  const PixelPlane& PlaneOf(int claim) const {
+    return pixel_planes_[static_cast<std::size_t>(At(claim).label)];
   }
 
   // Which blocks a label has reached: a bit each, row by row, with a margin that counts as
@@ -154,6 +153,7 @@ class PixelGrowth {
   std::size_t set_words_ = 0;
   std::size_t row_bytes_ = 0, label_bytes_ = 0;  ///< of a row and a label in reached_
   std::vector<LabelPlane> planes_;
+  std::vector<PixelPlane> pixel_planes_;  ///< the same
   std::vector<Claim> claims_;
   std::vector<std::uint64_t> sets_;                      ///< of each claim
   std::vector<std::uint64_t> measured_;                  ///< pixels of each block

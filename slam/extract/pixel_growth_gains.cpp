@@ -31,7 +31,7 @@ int PixelGrowth::ClaimOf(int block, int label) const {
 void PixelGrowth::CompareRivals(int block) {
   block_gains_.clear(), rival_claims_.clear();
   for (int claim = First(block); claim != kNoClaim; claim = At(claim).next) {
-    if (!IsEmpty(SetOf(claim, kWide))) rival_claims_.push_back(claim);
+    if (!IsEmpty(SetOf(claim, kWide), set_words_)) rival_claims_.push_back(claim);
   }
   if (residuals_.size() < rival_claims_.size() * slot_size_)
     residuals_.resize(2 * rival_claims_.size() * slot_size_);
@@ -107,7 +107,7 @@ void PixelGrowth::AddGainsWithout(int label) {
     bool matters = false;
     for (int claim = First(block); claim != kNoClaim; claim = At(claim).next) {
       const auto other = static_cast<std::size_t>(At(claim).label);
-      matters |= is_open_[other] != 0 && Meet(SetOf(claim, kOwned), wide);
+      matters |= is_open_[other] != 0 && Meet(SetOf(claim, kOwned), wide, set_words_);
     }
     if (!matters) return;
     CompareRivals(block);
