@@ -117,24 +117,29 @@ double SumResidualsAny(const BlockPixels& block, const PixelPlane& plane, ConstP
 }
 
 template <bool kOneX>
-SLAM_INLINE void Measure8(const BlockPixels& block, const PixelPlane& plane,
-                          std::uint64_t measured, float* out) {
+SLAM_INLINE void LowerToDistance8(const BlockPixels& block, const PixelPlane& plane,
+                                  float* nearest) {
   const RowResiduals<kOneX> residuals(block, 0, plane);
-  const IntLanes columns = ColumnsOf(measured);
 #pragma GCC unroll 8
-  for (int v = 0; v < kLanes; ++v)
-    Lanes(out + kLanes * v) = RowOf(columns, v) ? residuals.At(v) : AllLanes(kNone);
+  for (int v = 0; v < kLanes; ++v) {
+    const FloatLanes distance = Size(residuals.At(v));
+    FloatLanes& least = Lanes(nearest + kLanes * v);
+    least = distance < least ? distance : least;
+  }
 }
 
-void MeasureAny(const BlockPixels& block, int count, const PixelPlane& plane,
-                ConstPixelSet measured, float* out) {
-  std::fill(out, out + count, kNone);
-  for (int v = 0; v < block.height; ++v) {
-    for (int u = 0; u < block.width; ++u) {
-      if (IsInSet(measured, block.size, u, v))
-        out[v * block.size + u] = Residual(block, u, v, plane);
-    }
+template <bool kOneX>
+SLAM_INLINE double SumGains8(const BlockPixels& block, const PixelPlane& plane,
+                             std::uint64_t set, const float* nearest) {
+  const RowResiduals<kOneX> residuals(block, 0, plane);
+  const IntLanes columns = ColumnsOf(set);
+  DoubleLanes sum{};
+#pragma GCC unroll 8
+  for (int v = 0; v < kLanes; ++v) {
+    const FloatLanes own = residuals.At(v), next = Lanes(nearest + kLanes * v);
+    AddTo(sum, (FloatLanes)((IntLanes)(next * next - own * own) & RowOf(columns, v)));
   }
+  return SumOf(sum);
 }
 
 /// A whole block of 8 x 8 with two pixels of the image to every side.
@@ -238,15 +243,36 @@ SLAM_LANES double SumResiduals(const BlockPixels& block, const PixelPlane& plane
                                  : SumResiduals8<false>(block, plane, *set);
 }
 
-SLAM_LANES void MeasureBlock(const BlockPixels& block, int count, const PixelPlane& plane,
-                             ConstPixelSet measured, float* residuals) {
-  if (!IsWhole8(block)) {
-    MeasureAny(block, count, plane, measured, residuals);
-  } else if (HasColumnsOfOneX(block)) {
-    Measure8<true>(block, plane, *measured, residuals);
-  } else {
-    Measure8<false>(block, plane, *measured, residuals);
+SLAM_LANES void LowerToDistance(const BlockPixels& block, const PixelPlane& plane,
+                                float* nearest) {
+  if (IsWhole8(block)) {
+    HasColumnsOfOneX(block) ? LowerToDistance8<true>(block, plane, nearest)
+                            : LowerToDistance8<false>(block, plane, nearest);
+    return;
   }
+  for (int v = 0; v < block.height; ++v) {
+    for (int u = 0; u < block.width; ++u) {
+      float& least = nearest[v * block.size + u];
+      least = std::min(least, std::abs(Residual(block, u, v, plane)));
+    }
+  }
+}
+
+SLAM_LANES double SumGains(const BlockPixels& block, const PixelPlane& plane, ConstPixelSet set,
+                           const float* nearest) {
+  if (IsWhole8(block)) {
+    return HasColumnsOfOneX(block) ? SumGains8<true>(block, plane, *set, nearest)
+                                   : SumGains8<false>(block, plane, *set, nearest);
+  }
+  double sum = 0.0;
+  for (int v = 0; v < block.height; ++v) {
+    for (int u = 0; u < block.width; ++u) {
+      if (!IsInSet(set, block.size, u, v)) continue;
+      const float own = Residual(block, u, v, plane), next = nearest[v * block.size + u];
+      sum += static_cast<double>(next * next - own * own);
+    }
+  }
+  return sum;
 }
 
 SLAM_LANES void BidForBlock(const BlockPixels& block, int count, const PixelPlane& plane,

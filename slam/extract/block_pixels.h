@@ -76,9 +76,12 @@ double SumResiduals(const BlockPixels& block, const PixelPlane& plane, ConstPixe
 // Arrays of a block have size x size entries, row by row, and go on to `count`, a multiple
 // of 8.
 
-/// Residuals in sigmas; infinity where nothing is measured and beyond the image's end.
-void MeasureBlock(const BlockPixels& block, int count, const PixelPlane& plane,
-                  ConstPixelSet measured, float* residuals);
+/// Lowers each entry to the distance of its pixel from a plane, in sigmas.
+void LowerToDistance(const BlockPixels& block, const PixelPlane& plane, float* nearest);
+
+/// Sum over the pixels of a set of the squared entry less the squared distance from a plane.
+double SumGains(const BlockPixels& block, const PixelPlane& plane, ConstPixelSet set,
+                const float* nearest);
 
 /// Sum of the squared residuals of the pixels around each pixel of a set, each cut off at
 /// most_sigmas^2; infinity for the other pixels.

@@ -17,14 +17,6 @@ constexpr float kNone = std::numeric_limits<float>::infinity();
 using EightShorts = std::int16_t __attribute__((vector_size(16), aligned(2), may_alias));
 using EightMarks = std::uint8_t __attribute__((vector_size(8), aligned(1), may_alias));
 
-/// Adds eight floats to four sums.
-SLAM_INLINE void AddTo(DoubleLanes& sum, FloatLanes v) {
-  sum += DoubleLanes{static_cast<double>(v[0]), static_cast<double>(v[1]),
-                     static_cast<double>(v[2]), static_cast<double>(v[3])};
-  sum += DoubleLanes{static_cast<double>(v[4]), static_cast<double>(v[5]),
-                     static_cast<double>(v[6]), static_cast<double>(v[7])};
-}
-
 SLAM_INLINE void ShareBlock8(const BlockRival* rivals, int rival_count) {
   FloatLanes least[kLanes];
 #pragma GCC unroll 8
@@ -64,30 +56,6 @@ void ShareBlockAny(const BlockRival* rivals, int rival_count, int size) {
   }
 }
 
-void FindOwners(const BlockGain* gains, int gain_count, int size, int count, int* owners) {
-  std::fill_n(owners, count, static_cast<int>(kNoLabel));
-  for (const BlockGain* r = gains; r < gains + gain_count; ++r) {
-    for (int v = 0; v < size; ++v) {
-      for (int u = 0; u < size; ++u)
-        if (IsInSet(r->owner.owned, size, u, v)) owners[v * size + u] = r->owner.label;
-    }
-  }
-}
-
-SLAM_INLINE void FindOwners8(const BlockGain* gains, int gain_count, int* owners) {
-  IntLanes rows[kLanes];
-#pragma GCC unroll 8
-  for (IntLanes& row : rows) row = IntLanes{} + kNoLabel;
-  for (int r = 0; r < gain_count; ++r) {
-    const IntLanes columns = ColumnsOf(*gains[r].owner.owned);
-    const IntLanes label = IntLanes{} + gains[r].owner.label;
-#pragma GCC unroll 8
-    for (int v = 0; v < kLanes; ++v) rows[v] = RowOf(columns, v) ? label : rows[v];
-  }
-#pragma GCC unroll 8
-  for (int v = 0; v < kLanes; ++v) Lanes(owners + kLanes * v) = rows[v];
-}
-
 }  // namespace
 
 SLAM_LANES void ShareBlock(BlockRival* rivals, int rival_count, int size) {
@@ -98,38 +66,6 @@ SLAM_LANES void ShareBlock(BlockRival* rivals, int rival_count, int size) {
   }
   for (int r = 0; r < rival_count; ++r)
     rivals[r].pixels = CountOf(rivals[r].owned, WordsOfSet(size));
-}
-
-SLAM_LANES void GainsOfBlock(BlockGain* gains, int gain_count, int size, int count,
-                             float unexplained, int* owners, int* next_labels) {
-  if (size == kLanes) {
-    FindOwners8(gains, gain_count, owners);
-  } else {
-    FindOwners(gains, gain_count, size, count, owners);
-  }
-  float of_pixel[kMostBlockSide_px * kMostBlockSide_px];
-  const FloatLanes zero{};
-  for (int k = 0; k < count; k += kLanes) {
-    const IntLanes owner = Lanes(owners + k);
-    FloatLanes own = zero, next = AllLanes(unexplained);
-    IntLanes next_label = IntLanes{} + kNoLabel;
-    for (int r = 0; r < gain_count; ++r) {
-      const FloatLanes distance = Size(Lanes(gains[r].residuals + k));
-      const IntLanes owns = owner == gains[r].owner.label;
-      const IntLanes nearer = ~owns & (distance < next);
-      own = owns ? distance : own;
-      next = nearer ? distance : next;
-      next_label = nearer ? IntLanes{} + gains[r].owner.label : next_label;
-    }
-    Lanes(of_pixel + k) = owner >= 0 ? next * next - own * own : zero;
-    Lanes(next_labels + k) = next_label;
-  }
-  for (int r = 0; r < gain_count; ++r) {
-    DoubleLanes sum{};
-    for (int k = 0; k < count; k += kLanes)
-      AddTo(sum, Lanes(owners + k) == gains[r].owner.label ? Lanes(of_pixel + k) : zero);
-    gains[r].gain = SumOf(sum);
-  }
 }
 
 SLAM_LANES void DrawOwners(const BlockPixels& block, const BlockOwner* owners, int owner_count,

@@ -27,19 +27,6 @@ struct BlockOwner {
 void DrawOwners(const BlockPixels& block, const BlockOwner* owners, int owner_count,
                 std::int16_t* labels);
 
-/// An owner, and how far the block is from its plane (MeasureBlock).
-struct BlockGain {
-  BlockOwner owner;
-  const float* residuals = nullptr;
-  double gain = 0.0;  ///< GainsOfBlock
-};
-
-/// What each gains at its pixels over the next best one there, or over `unexplained` sigmas:
-/// sum of differences of squared sigmas. Arrays are those of block_pixels.h.
-/// @param owners, next_labels  of each pixel; kNoLabel where there is none
-void GainsOfBlock(BlockGain* gains, int gain_count, int size, int count, float unexplained,
-                  int* owners, int* next_labels);
-
 /// Sets the marks of the pixels of a set. @param marks  of the block's first pixel
 void MarkPixels(const BlockPixels& block, ConstPixelSet set, std::uint8_t* marks);
 

@@ -39,10 +39,10 @@ void PixelGrowth::Begin(const DepthGrid& grid, const GrowthConfig& config) {
   planes_.clear(), pixel_planes_.clear(), claims_.clear();
   first_.assign(blocks, kNoClaim);
   active_.clear(), next_active_.clear(), is_active_.assign(blocks, 0);
-  is_stale_.assign(blocks, 0), knows_gains_.assign(blocks, 0), is_drawn_.assign(blocks, 0);
+  is_stale_.assign(blocks, 0), is_drawn_.assign(blocks, 0);
   labels_.resize(grid.q.size());
   bid_count_ = 0;
-  owners_.resize(slot_size_), next_labels_.resize(slot_size_);
+  nearest_.resize(slot_size_);
   seen_.resize(set_words_), contested_.resize(set_words_);
   BeginReached();
   place_.clear();
@@ -180,13 +180,10 @@ bool PixelGrowth::LabelBlock(int block) {
   std::uint8_t& is_stale = is_stale_[static_cast<std::size_t>(block)];
   const int first = First(block);
   for (int claim = first; claim != kNoClaim; claim = At(claim).next) {
-    if (At(claim).measured) continue;
-    knows_gains_[static_cast<std::size_t>(block)] = 0;
-    if (Measure(pixels, block, claim)) is_stale = 1;
+    if (!At(claim).measured && Measure(pixels, block, claim)) is_stale = 1;
   }
   if (is_stale == 0) return false;
   is_stale = 0;
-  knows_gains_[static_cast<std::size_t>(block)] = 0;
   is_drawn_[static_cast<std::size_t>(block)] = 0;
   if (first == kNoClaim) return true;
   if (At(first).next == kNoClaim) {

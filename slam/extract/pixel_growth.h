@@ -85,7 +85,6 @@ class PixelGrowth {
     int bid = -1;           ///< place of its bids; -1 = it has not bid yet
     bool measured = false;  ///< its sets are
     bool spread = false;    ///< to the neighbours
-    double gain = 0.0;      ///< over the next best one at its pixels; if its block's are known
   };
   /// Sets of a block's pixels that each claim has: those within max_pixel_sigmas, those within
   /// a sigma more, and those that it owns.
@@ -139,10 +138,9 @@ class PixelGrowth {
   double GainAlone(int pixels) const {
     return static_cast<double>(WideSigmas() * WideSigmas() - 1.0f) * pixels;
   }
-  void CompareRivals(int block);
   void BoundGains();
-  void AddGains(int label);
-  void AddGainsWithout(int label);
+  double GainIn(int block, int label);
+  double GainOf(int label);
   void Drop();
   void Unlink(int block, int label);
 
@@ -164,7 +162,6 @@ class PixelGrowth {
   std::vector<std::uint8_t> is_active_;
   std::vector<std::uint8_t>
       is_stale_;  ///< blocks whose pixels are not shared among their claims
-  std::vector<std::uint8_t> knows_gains_;       ///< blocks whose claims have not changed since
   mutable std::vector<std::uint8_t> is_drawn_;  ///< blocks whose labels are up to date
   mutable LabelImage labels_;
   std::vector<float> bids_;  ///< BidForBlock
@@ -172,22 +169,18 @@ class PixelGrowth {
   std::vector<PlaneSums> claim_sums_;  ///< of the pixels that each claim owns
   std::vector<PlaneSums> label_sums_;
   // What each label gains over the next best plane at its pixels.
-  std::vector<double> gain_;
   std::vector<double> least_gain_;  ///< that it has at least
   std::vector<int> pixels_;
-  std::vector<std::size_t> fewest_first_;  ///< labels by pixels_
-  std::vector<std::uint8_t> is_open_;      ///< labels whose gain decides, and is not judged yet
-  std::vector<std::uint8_t> dropped_;      ///< each label
+  std::vector<std::size_t> fewest_first_;   ///< labels by pixels_
+  std::vector<std::uint8_t> dropped_;       ///< each label
   std::vector<std::pair<int, int>> seeds_;  ///< (block, label)
   // Scratch of one block.
   std::vector<BlockRival> rivals_;
-  std::vector<BlockGain> block_gains_;
-  std::vector<int> rival_claims_;  ///< of either
+  std::vector<int> rival_claims_;
   mutable std::vector<BlockOwner> block_owners_;
   std::vector<std::uint64_t> seen_, contested_;
   mutable std::vector<std::pair<int, int>> goes_to_;  ///< (claim, other label)
-  std::vector<float> residuals_;                      ///< of each rival
-  std::vector<int> owners_, next_labels_;
+  std::vector<float> nearest_;  ///< of the planes that a label is compared with, sigmas
 };
 
 }  // namespace slam

@@ -27,26 +27,6 @@ int PixelGrowth::ClaimOf(int block, int label) const {
   return claim;
 }
 
-/// What its owner gains at each pixel of a block, over whom.
-void PixelGrowth::CompareRivals(int block) {
-  block_gains_.clear(), rival_claims_.clear();
-  for (int claim = First(block); claim != kNoClaim; claim = At(claim).next) {
-    if (!IsEmpty(SetOf(claim, kWide), set_words_)) rival_claims_.push_back(claim);
-  }
-  if (residuals_.size() < rival_claims_.size() * slot_size_)
-    residuals_.resize(2 * rival_claims_.size() * slot_size_);
-  const BlockPixels pixels = PixelsOf(block);
-  const int count = static_cast<int>(slot_size_);
-  float* residuals = residuals_.data();
-  for (const int claim : rival_claims_) {
-    MeasureBlock(pixels, count, PlaneOf(claim), MeasuredOf(block), residuals);
-    block_gains_.push_back({{At(claim).label, SetOf(claim, kOwned)}, residuals, 0.0});
-    residuals += slot_size_;
-  }
-  GainsOfBlock(block_gains_.data(), static_cast<int>(block_gains_.size()), config_.block_px,
-               count, WideSigmas(), owners_.data(), next_labels_.data());
-}
-
 /// Counts the pixels of every label and what they gain at least. Where no other plane is near,
 /// that is much; elsewhere the vote may have chosen a plane that fits worse.
 void PixelGrowth::BoundGains() {
@@ -78,48 +58,26 @@ void PixelGrowth::BoundGains() {
   }
 }
 
-/// Sums what a label gains.
-void PixelGrowth::AddGains(int label) {
-  double& gain = gain_[static_cast<std::size_t>(label)];
-  VisitReached(label, [&](int block) {
-    const Claim& own = At(ClaimOf(block, label));
-    if (At(First(block)).next == kNoClaim) {
-      gain += GainAlone(own.pixels);
-      return;
-    }
-    if (own.pixels == 0) return;
-    std::uint8_t& known = knows_gains_[static_cast<std::size_t>(block)];
-    if (known == 0) {
-      CompareRivals(block);
-      for (std::size_t k = 0; k < rival_claims_.size(); ++k)
-        At(rival_claims_[k]).gain = block_gains_[k].gain;
-      known = 1;
-    }
-    gain += own.gain;
-  });
+/// What a label gains at its pixels of a block over the next best plane that is not dropped.
+double PixelGrowth::GainIn(int block, int label) {
+  const int first = First(block), own = ClaimOf(block, label);
+  if (At(first).next == kNoClaim) return GainAlone(At(own).pixels);
+  if (At(own).pixels == 0) return 0.0;
+  const BlockPixels pixels = PixelsOf(block);
+  const ConstPixelSet owned = SetOf(own, kOwned);
+  std::fill(nearest_.begin(), nearest_.end(), WideSigmas());
+  for (int claim = first; claim != kNoClaim; claim = At(claim).next) {
+    if (claim == own || dropped_[static_cast<std::size_t>(At(claim).label)] != 0) continue;
+    if (Meet(SetOf(claim, kWide), owned, set_words_))
+      LowerToDistance(pixels, PlaneOf(claim), nearest_.data());
+  }
+  return SumGains(pixels, PlaneOf(own), owned, nearest_.data());
 }
 
-/// Adds what others gain at pixels where `label`'s plane is the next best, if it is not there.
-void PixelGrowth::AddGainsWithout(int label) {
-  const float unexplained = WideSigmas();
-  VisitReached(label, [&](int block) {
-    const ConstPixelSet wide = SetOf(ClaimOf(block, label), kWide);
-    bool matters = false;
-    for (int claim = First(block); claim != kNoClaim; claim = At(claim).next) {
-      const auto other = static_cast<std::size_t>(At(claim).label);
-      matters |= is_open_[other] != 0 && Meet(SetOf(claim, kOwned), wide, set_words_);
-    }
-    if (!matters) return;
-    CompareRivals(block);
-    const auto own =
-        std::find_if(block_gains_.begin(), block_gains_.end(),
-                     [label](const BlockGain& gain) { return gain.owner.label == label; });
-    for (std::size_t k = 0; k < slot_size_; ++k) {
-      if (owners_[k] == kNoLabel || next_labels_[k] != label) continue;
-      gain_[static_cast<std::size_t>(owners_[k])] += static_cast<double>(
-          unexplained * unexplained - own->residuals[k] * own->residuals[k]);
-    }
-  });
+double PixelGrowth::GainOf(int label) {
+  double gain = 0.0;
+  VisitReached(label, [&](int block) { gain += GainIn(block, label); });
+  return gain;
 }
 
 void PixelGrowth::DropUseless() {
@@ -130,21 +88,13 @@ void PixelGrowth::DropUseless() {
   std::sort(fewest_first_.begin(), fewest_first_.end(), [&](std::size_t a, std::size_t b) {
     return pixels_[a] != pixels_[b] ? pixels_[a] < pixels_[b] : a < b;
   });
-  gain_.assign(count, 0.0), is_open_.assign(count, 0), dropped_.assign(count, 0);
-  for (std::size_t label = 0; label < count; ++label) {
-    // More than what rounding of a sum could take away.
+  dropped_.assign(count, 0);
+  for (const std::size_t label : fewest_first_) {
+    // More than what the rounding of a sum could take away.
     constexpr double kSpare = 1e-6;
     const int n = std::max(pixels_[label], 1);
     if (least_gain_[label] >= (config_.min_gain + kSpare) * n) continue;
-    is_open_[label] = 1;
-    AddGains(static_cast<int>(label));
-  }
-  for (const std::size_t label : fewest_first_) {
-    if (is_open_[label] == 0) continue;
-    is_open_[label] = 0;
-    if (gain_[label] >= config_.min_gain * std::max(pixels_[label], 1)) continue;
-    dropped_[label] = 1;
-    AddGainsWithout(static_cast<int>(label));
+    if (GainOf(static_cast<int>(label)) < config_.min_gain * n) dropped_[label] = 1;
   }
   Drop();
 }
