@@ -15,7 +15,6 @@ namespace {
 constexpr float kNone = std::numeric_limits<float>::infinity();
 
 using EightShorts = std::int16_t __attribute__((vector_size(16), aligned(2), may_alias));
-using EightMarks = std::uint8_t __attribute__((vector_size(8), aligned(1), may_alias));
 
 SLAM_INLINE void ShareBlock8(const BlockRival* rivals, int rival_count) {
   FloatLanes least[kLanes];
@@ -105,20 +104,11 @@ SLAM_LANES void DrawOwners(const BlockPixels& block, const BlockOwner* owners, i
   }
 }
 
-SLAM_LANES void MarkPixels(const BlockPixels& block, ConstPixelSet set, std::uint8_t* marks) {
-  if (block.size == kLanes && block.width == kLanes) {
-    const EightShorts columns = __builtin_convertvector(ColumnsOf(*set), EightShorts);
-    for (int v = 0; v < block.height; ++v) {
-      auto& to =
-          *reinterpret_cast<EightMarks*>(marks + static_cast<std::ptrdiff_t>(v) * block.stride);
-      to |= __builtin_convertvector((columns >> v) & 1, EightMarks);
-    }
-    return;
-  }
+void ClearMarks(const BlockPixels& block, ConstPixelSet set, std::uint8_t* marks) {
   for (int v = 0; v < block.height; ++v) {
     std::uint8_t* row = marks + static_cast<std::ptrdiff_t>(v) * block.stride;
     for (int u = 0; u < block.width; ++u)
-      if (IsInSet(set, block.size, u, v)) row[u] = 1;
+      if (IsInSet(set, block.size, u, v)) row[u] = 0;
   }
 }
 

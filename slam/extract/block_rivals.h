@@ -27,7 +27,7 @@ struct BlockOwner {
 void DrawOwners(const BlockPixels& block, const BlockOwner* owners, int owner_count,
                 std::int16_t* labels);
 
-/// Sets the marks of the pixels of a set. @param marks  of the block's first pixel
-void MarkPixels(const BlockPixels& block, ConstPixelSet set, std::uint8_t* marks);
+/// Sets the marks of the pixels of a set to 0. @param marks  of the block's first pixel
+void ClearMarks(const BlockPixels& block, ConstPixelSet set, std::uint8_t* marks);
 
 }  // namespace slam

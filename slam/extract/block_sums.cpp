@@ -29,7 +29,10 @@ SLAM_INLINE DoubleLanes InDouble(FourFloats v) {
                      static_cast<double>(v[2]), static_cast<double>(v[3])};
 }
 SLAM_INLINE DoubleLanes Load4(const float* p) { return InDouble(Floats4(p)); }
-SLAM_INLINE DoubleLanes AllDoubles(float v) { return DoubleLanes{} + static_cast<double>(v); }
+SLAM_INLINE DoubleLanes AllDoubles(float v) {
+  const double d = static_cast<double>(v);
+  return DoubleLanes{d, d, d, d};
+}
 
 /// PlaneSums of four columns of pixels, without their number.
 struct FourSums {

@@ -43,15 +43,17 @@ void PixelGrowth::Begin(const DepthGrid& grid, const GrowthConfig& config) {
   labels_.resize(grid.q.size());
   bid_count_ = 0;
   nearest_.resize(slot_size_);
-  seen_.resize(set_words_), contested_.resize(set_words_);
+  contested_.resize(set_words_), unsettled_.resize(set_words_);
   BeginReached();
-  place_.clear();
+  place_.clear(), blocks_.clear();
   measured_.resize(blocks * set_words_);
   for (int r = 0; r < rows_; ++r) {
     for (int c = 0; c < cols_; ++c) {
       const std::size_t block = place_.size();
+      const int size = config.block_px;
       place_.emplace_back(c, r);
-      FindMeasured(PixelsOf(static_cast<int>(block)), measured_.data() + block * set_words_);
+      blocks_.push_back(slam::BlockAt(grid, c * size, r * size, size));
+      FindMeasured(blocks_.back(), measured_.data() + block * set_words_);
     }
   }
 }
@@ -111,12 +113,6 @@ void PixelGrowth::Activate(int block) {
   if (is_active == 0) active_.push_back(block), is_active = 1;
 }
 
-BlockPixels PixelGrowth::PixelsOf(int block) const {
-  const cv::Point place = PlaceOf(block);
-  const int size = config_.block_px;
-  return slam::BlockAt(*grid_, place.x * size, place.y * size, size);
-}
-
 /// @returns whether a pixel is near.
 bool PixelGrowth::Measure(const BlockPixels& pixels, int block, int claim) {
   Claim& at = At(claim);
@@ -143,11 +139,13 @@ void PixelGrowth::Bid(const BlockPixels& pixels, int block, int claim) {
 
 /// The pixels of a block that more than one claim has in that set.
 void PixelGrowth::FindContested(int block, Set set) {
-  std::fill(seen_.begin(), seen_.end(), 0), std::fill(contested_.begin(), contested_.end(), 0);
-  for (int claim = First(block); claim != kNoClaim; claim = At(claim).next) {
-    const ConstPixelSet has = SetOf(claim, set);
-    for (std::size_t k = 0; k < set_words_; ++k)
-      contested_[k] |= seen_[k] & has[k], seen_[k] |= has[k];
+  for (std::size_t k = 0; k < set_words_; ++k) {
+    std::uint64_t seen = 0, contested = 0;
+    for (int claim = First(block); claim != kNoClaim; claim = At(claim).next) {
+      const std::uint64_t has = SetOf(claim, set)[k];
+      contested |= seen & has, seen |= has;
+    }
+    contested_[k] = contested;
   }
 }
 
@@ -155,7 +153,7 @@ void PixelGrowth::FindContested(int block, Set set) {
 void PixelGrowth::Share(const BlockPixels& pixels, int block) {
   FindContested(block, kNear);
   const bool is_contested = !IsEmpty(contested_.data(), set_words_);
-  rivals_.clear(), rival_claims_.clear();
+  rival_claims_.clear();
   for (int claim = First(block); claim != kNoClaim; claim = At(claim).next) {
     const ConstPixelSet near = SetOf(claim, kNear);
     if (is_contested && Meet(near, contested_.data(), set_words_)) {
@@ -167,8 +165,11 @@ void PixelGrowth::Share(const BlockPixels& pixels, int block) {
     }
   }
   if (!is_contested) return;
-  for (const int claim : rival_claims_)
-    rivals_.push_back({SetOf(claim, kNear), BidsOf(claim), SetOf(claim, kOwned), 0});
+  rivals_.resize(rival_claims_.size());
+  for (std::size_t r = 0; r < rivals_.size(); ++r) {
+    const int claim = rival_claims_[r];
+    rivals_[r] = {SetOf(claim, kNear), BidsOf(claim), SetOf(claim, kOwned), 0};
+  }
   ShareBlock(rivals_.data(), static_cast<int>(rivals_.size()), config_.block_px);
   for (std::size_t r = 0; r < rivals_.size(); ++r)
     At(rival_claims_[r]).pixels = rivals_[r].pixels;
@@ -176,7 +177,7 @@ void PixelGrowth::Share(const BlockPixels& pixels, int block) {
 
 /// @returns whether anything has changed.
 bool PixelGrowth::LabelBlock(int block) {
-  const BlockPixels pixels = PixelsOf(block);
+  const BlockPixels& pixels = PixelsOf(block);
   std::uint8_t& is_stale = is_stale_[static_cast<std::size_t>(block)];
   const int first = First(block);
   for (int claim = first; claim != kNoClaim; claim = At(claim).next) {
@@ -257,29 +258,29 @@ const LabelImage& PixelGrowth::labels() const {
       if (At(claim).pixels > 0)
         block_owners_.push_back({At(claim).label, SetOf(claim, kOwned)});
     }
-    const cv::Point first = PlaceOf(block) * config_.block_px;
     DrawOwners(PixelsOf(block), block_owners_.data(), static_cast<int>(block_owners_.size()),
-               labels_.data() + static_cast<std::size_t>(grid_->Index(first.x, first.y)));
+               labels_.data() + IndexOf(block));
   }
   return labels_;
 }
 
 void PixelGrowth::MarkSettled(double bias, double standard_errors,
-                              std::vector<std::uint8_t>& settled) const {
-  settled.assign(labels_.size(), 0);
+                              std::vector<std::uint8_t>& settled) {
+  settled.assign(labels_.size(), 1);
   for (int block = 0; block < cols_ * rows_; ++block) {
-    const BlockPixels pixels = PixelsOf(block);
-    const cv::Point first = PlaceOf(block) * config_.block_px;
-    std::uint8_t* marks =
-        settled.data() + static_cast<std::size_t>(grid_->Index(first.x, first.y));
+    const BlockPixels& pixels = PixelsOf(block);
+    const PixelSet unsettled = unsettled_.data();
+    Copy(MeasuredOf(block), unsettled, set_words_);
     for (int claim = First(block); claim != kNoClaim; claim = At(claim).next) {
       const int n = At(claim).pixels;
       if (n == 0) continue;
       const ConstPixelSet owned = SetOf(claim, kOwned);
       const double sum = SumResiduals(pixels, PlaneOf(claim), owned);
       const double bound = bias + standard_errors / std::sqrt(static_cast<double>(n));
-      if (std::abs(sum) < bound * n) MarkPixels(pixels, owned, marks);
+      if (std::abs(sum) < bound * n) TakeOut(owned, unsettled, set_words_);
     }
+    if (!IsEmpty(unsettled, set_words_))
+      ClearMarks(pixels, unsettled, settled.data() + IndexOf(block));
   }
 }
 

@@ -57,9 +57,9 @@ class PixelGrowth {
   void Replace(const std::vector<LabelPlane>& planes, const std::vector<int>& into);
 
   /// Marks the pixels whose label's plane has a mean residual in their block of less than
-  /// `bias` + `standard_errors` / sqrt(its pixels there). @param settled  1 or 0 for each pixel
-  void MarkSettled(double bias, double standard_errors,
-                   std::vector<std::uint8_t>& settled) const;
+  /// `bias` + `standard_errors` / sqrt(its pixels there).
+  /// @param settled  1 or 0 for each pixel; 1 where nothing is measured
+  void MarkSettled(double bias, double standard_errors, std::vector<std::uint8_t>& settled);
 
   /// Sums of the pixels of each label. @param whole  those of the measured pixels of each
   /// block; empty: not known
@@ -126,7 +126,14 @@ class PixelGrowth {
   void VisitReached(int label, const Visit& visit) const;
 
   void Activate(int block);
-  BlockPixels PixelsOf(int block) const;
+  const BlockPixels& PixelsOf(int block) const {
+    return blocks_[static_cast<std::size_t>(block)];
+  }
+  /// Of a block's first pixel.
+  std::size_t IndexOf(int block) const {
+    const cv::Point first = PlaceOf(block) * config_.block_px;
+    return static_cast<std::size_t>(grid_->Index(first.x, first.y));
+  }
   bool Measure(const BlockPixels& pixels, int block, int claim);
   void Bid(const BlockPixels& pixels, int block, int claim);
   void FindContested(int block, Set set);
@@ -153,9 +160,10 @@ class PixelGrowth {
   std::vector<LabelPlane> planes_;
   std::vector<PixelPlane> pixel_planes_;  ///< the same
   std::vector<Claim> claims_;
-  std::vector<std::uint64_t> sets_;                      ///< of each claim
-  std::vector<std::uint64_t> measured_;                  ///< pixels of each block
-  std::vector<cv::Point> place_;                         ///< column and row of each block
+  std::vector<std::uint64_t> sets_;      ///< of each claim
+  std::vector<std::uint64_t> measured_;  ///< pixels of each block
+  std::vector<cv::Point> place_;         ///< column and row of each block
+  std::vector<BlockPixels> blocks_;
   std::vector<int> first_;                               ///< claim of each block
   std::vector<std::uint8_t> reached_, nothing_reached_;  ///< by label; what each begins with
   std::vector<int> active_, next_active_;                ///< blocks that planes have reached
@@ -178,7 +186,7 @@ class PixelGrowth {
   std::vector<BlockRival> rivals_;
   std::vector<int> rival_claims_;
   mutable std::vector<BlockOwner> block_owners_;
-  std::vector<std::uint64_t> seen_, contested_;
+  std::vector<std::uint64_t> contested_, unsettled_;
   mutable std::vector<std::pair<int, int>> goes_to_;  ///< (claim, other label)
   std::vector<float> nearest_;  ///< of the planes that a label is compared with, sigmas
 };

@@ -63,7 +63,7 @@ double PixelGrowth::GainIn(int block, int label) {
   const int first = First(block), own = ClaimOf(block, label);
   if (At(first).next == kNoClaim) return GainAlone(At(own).pixels);
   if (At(own).pixels == 0) return 0.0;
-  const BlockPixels pixels = PixelsOf(block);
+  const BlockPixels& pixels = PixelsOf(block);
   const ConstPixelSet owned = SetOf(own, kOwned);
   std::fill(nearest_.begin(), nearest_.end(), WideSigmas());
   for (int claim = first; claim != kNoClaim; claim = At(claim).next) {

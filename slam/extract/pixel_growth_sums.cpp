@@ -25,10 +25,8 @@ void PixelGrowth::SumOtherLabels(const LabelImage& labels, int count,
                                  std::vector<PlaneSums>& sums) const {
   sums.assign(static_cast<std::size_t>(count), PlaneSums{});
   for (int block = 0; block < cols_ * rows_; ++block) {
-    const BlockPixels pixels = PixelsOf(block);
-    const cv::Point first = PlaceOf(block) * config_.block_px;
-    const std::int16_t* at =
-        labels.data() + static_cast<std::size_t>(grid_->Index(first.x, first.y));
+    const BlockPixels& pixels = PixelsOf(block);
+    const std::int16_t* at = labels.data() + IndexOf(block);
     goes_to_.clear();
     bool whole = true;
     for (int claim = First(block); whole && claim != kNoClaim; claim = At(claim).next) {

@@ -43,6 +43,12 @@ inline void Copy(ConstPixelSet from, PixelSet to, std::size_t words) {
   for (std::size_t k = 1; k < words; ++k) to[k] = from[k];
 }
 
+/// Takes the pixels of one set out of another.
+inline void TakeOut(ConstPixelSet what, PixelSet from, std::size_t words) {
+  from[0] &= ~what[0];
+  for (std::size_t k = 1; k < words; ++k) from[k] &= ~what[k];
+}
+
 inline int CountOf(ConstPixelSet set, std::size_t words) {
   int count = std::popcount(set[0]);
   for (std::size_t k = 1; k < words; ++k) count += std::popcount(set[k]);
