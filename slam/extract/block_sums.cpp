@@ -29,9 +29,14 @@ SLAM_INLINE DoubleLanes InDouble(FourFloats v) {
                      static_cast<double>(v[2]), static_cast<double>(v[3])};
 }
 SLAM_INLINE DoubleLanes Load4(const float* p) { return InDouble(Floats4(p)); }
-SLAM_INLINE DoubleLanes AllDoubles(float v) {
-  const double d = static_cast<double>(v);
-  return DoubleLanes{d, d, d, d};
+SLAM_INLINE DoubleLanes AllDoubles(float v) { return DoubleLanes{} + static_cast<double>(v); }
+
+using TwoDoubles = double __attribute__((vector_size(16)));
+/// SumOf each of two.
+SLAM_INLINE TwoDoubles SumsOf(DoubleLanes a, DoubleLanes b) {
+  const TwoDoubles half_a = TwoDoubles{a[0], a[1]} + TwoDoubles{a[2], a[3]};
+  const TwoDoubles half_b = TwoDoubles{b[0], b[1]} + TwoDoubles{b[2], b[3]};
+  return TwoDoubles{half_a[0], half_b[0]} + TwoDoubles{half_a[1], half_b[1]};
 }
 
 /// PlaneSums of four columns of pixels, without their number.
@@ -55,17 +60,19 @@ struct FourSums {
     wq += o.wq, wqx += o.wqx, wqy += o.wqy, wqq += o.wqq;
   }
   SLAM_INLINE PlaneSums Sum(int n) const {
+    const TwoDoubles ones = SumsOf(w, wq), xs = SumsOf(wx, wqx), ys = SumsOf(wy, wqy);
+    const TwoDoubles squares = SumsOf(wxx, wyy), others = SumsOf(wxy, wqq);
     return {static_cast<double>(n),
-            SumOf(w),
-            SumOf(wx),
-            SumOf(wy),
-            SumOf(wxx),
-            SumOf(wxy),
-            SumOf(wyy),
-            SumOf(wq),
-            SumOf(wqx),
-            SumOf(wqy),
-            SumOf(wqq)};
+            ones[0],
+            xs[0],
+            ys[0],
+            squares[0],
+            others[0],
+            squares[1],
+            ones[1],
+            xs[1],
+            ys[1],
+            others[1]};
   }
 };
 
@@ -73,37 +80,33 @@ struct FourSums {
 template <bool kOneX, bool kAll>
 SLAM_INLINE FourSums SumFour(const BlockPixels& block, int u, FourInts columns) {
   FourSums four;
-#pragma GCC unroll 8
+  const float *x = block.x + u, *y = block.y + u, *q = block.q + u, *g = block.g + u;
+  FourInts set = columns << 31;
+#pragma GCC unroll 1  // sums stay in registers
   for (int v = 0; v < kLanes; ++v) {
-    const std::ptrdiff_t i = static_cast<std::ptrdiff_t>(v) * block.stride + u;
-    FourFloats g = Floats4(block.g + i);
-    if (!kAll) g = (FourFloats)((FourInts)g & (columns << (31 - v) >> 31));
+    FourFloats g_used = Floats4(g);
+    if (!kAll) g_used = (FourFloats)((FourInts)g_used & (set >> 31));
     if (kOneX) {
-      four.AddColumn(AllDoubles(block.y[v * block.y_stride]), Load4(block.q + i), InDouble(g));
+      four.AddColumn(Load4(y), Load4(q), InDouble(g_used));
     } else {
-      four.Add(Load4(block.x + (v * block.x_stride + u)),
-               Load4(block.y + (v * block.y_stride + u)), Load4(block.q + i), InDouble(g));
+      four.Add(Load4(x), Load4(y), Load4(q), InDouble(g_used));
+      x += block.x_stride;
     }
+    if (!kAll) columns >>= 1, set = columns << 31;
+    y += block.y_stride, q += block.stride, g += block.stride;
   }
   if (kOneX) four.SetX(Load4(block.x + u));
   return four;
 }
 
-template <bool kAll>
-SLAM_INLINE PlaneSums Sum8(const BlockPixels& at, std::uint64_t set, int n) {
-  const BlockPixels block = at;  // what is written cannot change it
+template <bool kOneX, bool kAll>
+SLAM_INLINE PlaneSums Sum8(const BlockPixels& block, std::uint64_t set) {
   const IntLanes columns = ColumnsOf(set);
   const FourInts left = {columns[0], columns[1], columns[2], columns[3]},
                  right = {columns[4], columns[5], columns[6], columns[7]};
-  FourSums sums;
-  if (block.x_stride == 0) {
-    sums = SumFour<true, kAll>(block, 0, left);
-    sums += SumFour<true, kAll>(block, kFour, right);
-  } else {
-    sums = SumFour<false, kAll>(block, 0, left);
-    sums += SumFour<false, kAll>(block, kFour, right);
-  }
-  return sums.Sum(n);
+  FourSums sums = SumFour<kOneX, kAll>(block, 0, left);
+  sums += SumFour<kOneX, kAll>(block, kFour, right);
+  return sums.Sum(std::popcount(set));
 }
 
 PlaneSums SumAny(const BlockPixels& block, ConstPixelSet set) {
@@ -204,12 +207,13 @@ bool HasJumpAny(const BlockPixels& block, float most_sigmas) {
 
 SLAM_LANES PlaneSums SumBlock(const BlockPixels& block, ConstPixelSet measured) {
   if (!IsWhole8(block)) return SumAny(block, measured);
-  return Sum8<true>(block, 0, std::popcount(*measured));
+  return block.x_stride == 0 ? Sum8<true, true>(block, *measured)
+                             : Sum8<false, true>(block, *measured);
 }
 
 SLAM_LANES PlaneSums SumOfSet(const BlockPixels& block, ConstPixelSet set) {
   if (!IsWhole8(block)) return SumAny(block, set);
-  return Sum8<false>(block, *set, std::popcount(*set));
+  return block.x_stride == 0 ? Sum8<true, false>(block, *set) : Sum8<false, false>(block, *set);
 }
 
 SLAM_LANES PlaneSums SumLabelled(const BlockPixels& block, const std::int16_t* labels,
