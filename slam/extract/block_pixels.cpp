@@ -17,12 +17,14 @@ constexpr int kSide8 = kLanes + 2 * kReach8;  // what it looks at
 
 SLAM_INLINE bool HasColumnsOfOneX(const BlockPixels& block) { return block.x_stride == 0; }
 
-/// Residuals of 8 pixels of a row at a time. @tparam kOneX  columns have one x
+/// How far 8 pixels of a row at a time are from a plane, in sigmas of a surface that is seen
+/// frontally: what is compared with it is scaled by the grazing factor instead.
+/// @tparam kOneX  columns have one x
 template <bool kOneX>
-class RowResiduals {
+class RowErrors {
  public:
   /// From column u on.
-  SLAM_INLINE RowResiduals(const BlockPixels& block, int u, const PixelPlane& p)
+  SLAM_INLINE RowErrors(const BlockPixels& block, int u, const PixelPlane& p)
       : x_(block.x + u),
         y_(block.y + u),
         q_(block.q + u),
@@ -32,38 +34,38 @@ class RowResiduals {
         y_stride_(block.y_stride),
         a_(AllLanes(p.a)),
         b_(AllLanes(p.b)),
-        c_(AllLanes(p.c)),
-        grazing_(AllLanes(p.grazing)) {
+        c_(AllLanes(p.c)) {
     if (kOneX) ax_ = a_ * Lanes(x_);
   }
   SLAM_INLINE FloatLanes At(std::ptrdiff_t v) const {
     const FloatLanes ax = kOneX ? ax_ : a_ * Lanes(x_ + v * x_stride_);
     const FloatLanes predicted = ax + b_ * Lanes(y_ + v * y_stride_) + c_;
-    return (Lanes(q_ + v * stride_) - predicted) * Lanes(g_ + v * stride_) / grazing_;
+    return (Lanes(q_ + v * stride_) - predicted) * Lanes(g_ + v * stride_);
   }
 
  private:
   const float *x_, *y_, *q_, *g_;
   std::ptrdiff_t stride_, x_stride_, y_stride_;
-  FloatLanes a_, b_, c_, grazing_, ax_{};
+  FloatLanes a_, b_, c_, ax_{};
 };
 
-SLAM_INLINE float Residual(const BlockPixels& block, int u, int v, const PixelPlane& p) {
+SLAM_INLINE float Error(const BlockPixels& block, int u, int v, const PixelPlane& p) {
   const float x = block.x[v * block.x_stride + u], y = block.y[v * block.y_stride + u];
   const int i = v * block.stride + u;
-  return (block.q[i] - (p.a * x + p.b * y + p.c)) * block.g[i] / p.grazing;
+  return (block.q[i] - (p.a * x + p.b * y + p.c)) * block.g[i];
 }
 
 template <bool kOneX>
 SLAM_INLINE void FindNear8(const BlockPixels& block, const PixelPlane& plane,
                            std::uint64_t measured, float near_sigmas, float wide_sigmas,
                            PixelSet near, PixelSet wide) {
-  const RowResiduals<kOneX> residuals(block, 0, plane);
-  const FloatLanes near_lanes = AllLanes(near_sigmas), wide_lanes = AllLanes(wide_sigmas);
+  const RowErrors<kOneX> errors(block, 0, plane);
+  const FloatLanes near_lanes = AllLanes(near_sigmas * plane.grazing),
+                   wide_lanes = AllLanes(wide_sigmas * plane.grazing);
   RowsOfSet near_rows, wide_rows;
 #pragma GCC unroll 8
   for (int v = kLanes - 1; v >= 0; --v) {
-    const FloatLanes size = Size(residuals.At(v));
+    const FloatLanes size = Size(errors.At(v));
     near_rows.Add(size < near_lanes);
     wide_rows.Add(size < wide_lanes);
   }
@@ -78,9 +80,9 @@ void FindNearAny(const BlockPixels& block, const PixelPlane& plane, ConstPixelSe
   for (int v = 0; v < block.height; ++v) {
     for (int u = 0; u < block.width; ++u) {
       if (!IsInSet(measured, block.size, u, v)) continue;
-      const float size = std::abs(Residual(block, u, v, plane));
-      if (size < near_sigmas) PutInSet(near, block.size, u, v);
-      if (size < wide_sigmas) PutInSet(wide, block.size, u, v);
+      const float size = std::abs(Error(block, u, v, plane));
+      if (size < near_sigmas * plane.grazing) PutInSet(near, block.size, u, v);
+      if (size < wide_sigmas * plane.grazing) PutInSet(wide, block.size, u, v);
     }
   }
 }
@@ -94,23 +96,22 @@ SLAM_INLINE void AddTo(DoubleLanes& sum, FloatLanes v) {
 }
 
 template <bool kOneX>
-SLAM_INLINE double SumResiduals8(const BlockPixels& block, const PixelPlane& plane,
-                                 std::uint64_t set) {
-  const RowResiduals<kOneX> residuals(block, 0, plane);
+SLAM_INLINE double SumErrors8(const BlockPixels& block, const PixelPlane& plane,
+                              std::uint64_t set) {
+  const RowErrors<kOneX> errors(block, 0, plane);
   const IntLanes columns = ColumnsOf(set);
   DoubleLanes sum{};
 #pragma GCC unroll 8
   for (int v = 0; v < kLanes; ++v)
-    AddTo(sum, (FloatLanes)((IntLanes)residuals.At(v) & RowOf(columns, v)));
+    AddTo(sum, (FloatLanes)((IntLanes)errors.At(v) & RowOf(columns, v)));
   return SumOf(sum);
 }
 
-double SumResidualsAny(const BlockPixels& block, const PixelPlane& plane, ConstPixelSet set) {
+double SumErrors(const BlockPixels& block, const PixelPlane& plane, ConstPixelSet set) {
   double sum = 0.0;
   for (int v = 0; v < block.height; ++v) {
     for (int u = 0; u < block.width; ++u) {
-      if (IsInSet(set, block.size, u, v))
-        sum += static_cast<double>(Residual(block, u, v, plane));
+      if (IsInSet(set, block.size, u, v)) sum += static_cast<double>(Error(block, u, v, plane));
     }
   }
   return sum;
@@ -119,10 +120,11 @@ double SumResidualsAny(const BlockPixels& block, const PixelPlane& plane, ConstP
 template <bool kOneX>
 SLAM_INLINE void LowerToDistance8(const BlockPixels& block, const PixelPlane& plane,
                                   float* nearest) {
-  const RowResiduals<kOneX> residuals(block, 0, plane);
+  const RowErrors<kOneX> errors(block, 0, plane);
+  const FloatLanes scale = AllLanes(1.0f / plane.grazing);
 #pragma GCC unroll 8
   for (int v = 0; v < kLanes; ++v) {
-    const FloatLanes distance = Size(residuals.At(v));
+    const FloatLanes distance = Size(errors.At(v)) * scale;
     FloatLanes& least = Lanes(nearest + kLanes * v);
     least = distance < least ? distance : least;
   }
@@ -131,12 +133,13 @@ SLAM_INLINE void LowerToDistance8(const BlockPixels& block, const PixelPlane& pl
 template <bool kOneX>
 SLAM_INLINE double SumGains8(const BlockPixels& block, const PixelPlane& plane,
                              std::uint64_t set, const float* nearest) {
-  const RowResiduals<kOneX> residuals(block, 0, plane);
+  const RowErrors<kOneX> errors(block, 0, plane);
   const IntLanes columns = ColumnsOf(set);
+  const FloatLanes scale = AllLanes(1.0f / plane.grazing);
   DoubleLanes sum{};
 #pragma GCC unroll 8
   for (int v = 0; v < kLanes; ++v) {
-    const FloatLanes own = residuals.At(v), next = Lanes(nearest + kLanes * v);
+    const FloatLanes own = errors.At(v) * scale, next = Lanes(nearest + kLanes * v);
     AddTo(sum, (FloatLanes)((IntLanes)(next * next - own * own) & RowOf(columns, v)));
   }
   return SumOf(sum);
@@ -146,8 +149,9 @@ SLAM_INLINE double SumGains8(const BlockPixels& block, const PixelPlane& plane,
 template <bool kOneX>
 SLAM_INLINE void Bid8(const BlockPixels& block, const PixelPlane& plane, float most_sigmas,
                       std::uint64_t near, float* bids) {
-  const RowResiduals<kOneX> lefts(block, -kReach8, plane), rights(block, 4 - kReach8, plane);
-  const FloatLanes most = AllLanes(most_sigmas * most_sigmas);
+  const RowErrors<kOneX> lefts(block, -kReach8, plane), rights(block, 4 - kReach8, plane);
+  const float most_error = most_sigmas * plane.grazing;
+  const FloatLanes most = AllLanes(most_error * most_error);
   float squares[kSide8 * kSide8 + kLanes], sums[kSide8 * kLanes];
   for (int v = 0; v < kSide8; ++v) {
     const FloatLanes left = lefts.At(v - kReach8), right = rights.At(v - kReach8);
@@ -161,19 +165,21 @@ SLAM_INLINE void Bid8(const BlockPixels& block, const PixelPlane& plane, float m
         (((Lanes(s) + Lanes(s + 1)) + Lanes(s + 2)) + Lanes(s + 3)) + Lanes(s + 4);
   }
   const IntLanes columns = ColumnsOf(near);
+  const FloatLanes scale = AllLanes(1.0f / (plane.grazing * plane.grazing));
 #pragma GCC unroll 8
   for (int v = 0; v < kLanes; ++v) {
     const float* s = sums + kLanes * v;
     const FloatLanes sum =
         (((Lanes(s) + Lanes(s + 8)) + Lanes(s + 16)) + Lanes(s + 24)) + Lanes(s + 32);
-    Lanes(bids + kLanes * v) = RowOf(columns, v) ? sum : AllLanes(kNone);
+    Lanes(bids + kLanes * v) = RowOf(columns, v) ? sum * scale : AllLanes(kNone);
   }
 }
 
 /// The same for other sizes and beside the image's border, beyond which there are zeros.
 SLAM_INLINE void BidAny(const BlockPixels& block, int count, const PixelPlane& plane,
                         const BidWindow& window, ConstPixelSet near, float* bids) {
-  const float most = window.most_sigmas * window.most_sigmas;
+  const float most_error = window.most_sigmas * plane.grazing, most = most_error * most_error;
+  const float scale = 1.0f / (plane.grazing * plane.grazing);
   const int reach = window.reach, size = block.size;
   constexpr int kRows = kMostBlockSide_px + 2 * kMostBidReach_px;
   float squares[kRows], sums[kMostBlockSide_px * kRows];
@@ -181,7 +187,7 @@ SLAM_INLINE void BidAny(const BlockPixels& block, int count, const PixelPlane& p
   std::fill_n(sums, size * (size + 2 * reach), 0.0f);
   for (int v = -window.top; v < block.height + window.bottom; ++v) {
     for (int u = -window.left; u < block.width + window.right; ++u) {
-      const float r = Residual(block, u, v, plane);
+      const float r = Error(block, u, v, plane);
       squares[u + reach] = std::min(r * r, most);
     }
     float* sum = sums + (v + reach) * size;
@@ -195,8 +201,10 @@ SLAM_INLINE void BidAny(const BlockPixels& block, int count, const PixelPlane& p
   }
   std::fill(bids + size * size, bids + count, kNone);
   for (int v = 0; v < size; ++v) {
-    for (int u = 0; u < size; ++u)
-      if (!IsInSet(near, size, u, v)) bids[v * size + u] = kNone;
+    for (int u = 0; u < size; ++u) {
+      float& bid = bids[v * size + u];
+      bid = IsInSet(near, size, u, v) ? bid * scale : kNone;
+    }
   }
 }
 
@@ -238,9 +246,10 @@ SLAM_LANES int FindNear(const BlockPixels& block, const PixelPlane& plane,
 
 SLAM_LANES double SumResiduals(const BlockPixels& block, const PixelPlane& plane,
                                ConstPixelSet set) {
-  if (!IsWhole8(block)) return SumResidualsAny(block, plane, set);
-  return HasColumnsOfOneX(block) ? SumResiduals8<true>(block, plane, *set)
-                                 : SumResiduals8<false>(block, plane, *set);
+  const double sum = !IsWhole8(block)          ? SumErrors(block, plane, set)
+                     : HasColumnsOfOneX(block) ? SumErrors8<true>(block, plane, *set)
+                                               : SumErrors8<false>(block, plane, *set);
+  return sum / static_cast<double>(plane.grazing);
 }
 
 SLAM_LANES void LowerToDistance(const BlockPixels& block, const PixelPlane& plane,
@@ -253,7 +262,7 @@ SLAM_LANES void LowerToDistance(const BlockPixels& block, const PixelPlane& plan
   for (int v = 0; v < block.height; ++v) {
     for (int u = 0; u < block.width; ++u) {
       float& least = nearest[v * block.size + u];
-      least = std::min(least, std::abs(Residual(block, u, v, plane)));
+      least = std::min(least, std::abs(Error(block, u, v, plane)) * (1.0f / plane.grazing));
     }
   }
 }
@@ -268,7 +277,8 @@ SLAM_LANES double SumGains(const BlockPixels& block, const PixelPlane& plane, Co
   for (int v = 0; v < block.height; ++v) {
     for (int u = 0; u < block.width; ++u) {
       if (!IsInSet(set, block.size, u, v)) continue;
-      const float own = Residual(block, u, v, plane), next = nearest[v * block.size + u];
+      const float own = Error(block, u, v, plane) * (1.0f / plane.grazing),
+                  next = nearest[v * block.size + u];
       sum += static_cast<double>(next * next - own * own);
     }
   }
