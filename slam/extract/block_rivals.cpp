@@ -14,6 +14,7 @@ namespace {
 
 constexpr float kNone = std::numeric_limits<float>::infinity();
 
+using EightMarks = std::uint8_t __attribute__((vector_size(8), aligned(1), may_alias));
 using EightShorts = std::int16_t __attribute__((vector_size(16), aligned(2), may_alias));
 
 SLAM_INLINE void ShareBlock8(const BlockRival* rivals, int rival_count) {
@@ -104,7 +105,16 @@ SLAM_LANES void DrawOwners(const BlockPixels& block, const BlockOwner* owners, i
   }
 }
 
-void ClearMarks(const BlockPixels& block, ConstPixelSet set, std::uint8_t* marks) {
+SLAM_LANES void ClearMarks(const BlockPixels& block, ConstPixelSet set, std::uint8_t* marks) {
+  if (block.size == kLanes && block.width == kLanes) {
+    const EightShorts columns = __builtin_convertvector(ColumnsOf(*set), EightShorts);
+    for (int v = 0; v < block.height; ++v) {
+      const EightShorts stays = ((columns >> v) & 1) - 1;
+      *reinterpret_cast<EightMarks*>(marks + static_cast<std::ptrdiff_t>(v) * block.stride) &=
+          __builtin_convertvector(stays, EightMarks);
+    }
+    return;
+  }
   for (int v = 0; v < block.height; ++v) {
     std::uint8_t* row = marks + static_cast<std::ptrdiff_t>(v) * block.stride;
     for (int u = 0; u < block.width; ++u)

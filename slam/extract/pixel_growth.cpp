@@ -61,7 +61,7 @@ void PixelGrowth::Begin(const DepthGrid& grid, const GrowthConfig& config) {
 /// What a label that has reached nothing begins with: the margin around the blocks, a column
 /// and a row wide and more on the right.
 void PixelGrowth::BeginReached() {
-  reached_.clear();
+  reached_.clear(), reached_rows_.clear();
   row_bytes_ = static_cast<std::size_t>(cols_ + 2 + 7) / 8;
   // Three bits are read from two bytes, so one more follows.
   label_bytes_ = row_bytes_ * static_cast<std::size_t>(rows_ + 2) + 1;
@@ -75,6 +75,7 @@ void PixelGrowth::BeginReached() {
 int PixelGrowth::AddPlane(const LabelPlane& plane) {
   planes_.push_back(plane), pixel_planes_.emplace_back(plane);
   reached_.insert(reached_.end(), nothing_reached_.begin(), nothing_reached_.end());
+  reached_rows_.push_back({rows_, -1});
   return static_cast<int>(planes_.size()) - 1;
 }
 
@@ -85,6 +86,8 @@ bool PixelGrowth::Reach(int block, int label) {
   const unsigned bit = 1u << c % 8;
   if ((bits & bit) != 0) return false;
   bits = static_cast<std::uint8_t>(bits | bit);
+  Rows& rows = reached_rows_[static_cast<std::size_t>(label)];
+  rows = {std::min(rows.first, place.y), std::max(rows.last, place.y)};
   const int claim = static_cast<int>(claims_.size());
   claims_.push_back({});
   Provide(sets_, claims_.size() * kSetCount * set_words_);
@@ -238,7 +241,8 @@ void PixelGrowth::Replace(const std::vector<LabelPlane>& planes, const std::vect
         seeds_.emplace_back(block, into[static_cast<std::size_t>(At(claim).label)]);
     }
   }
-  planes_.clear(), pixel_planes_.clear(), claims_.clear(), reached_.clear();
+  planes_.clear(), pixel_planes_.clear(), claims_.clear();
+  reached_.clear(), reached_rows_.clear();
   for (const LabelPlane& plane : planes) AddPlane(plane);
   bid_count_ = 0;
   std::fill(first_.begin(), first_.end(), kNoClaim);

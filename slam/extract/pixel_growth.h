@@ -79,12 +79,13 @@ class PixelGrowth {
   /// bids depend on the other planes there, so they are computed once.
   struct Claim {
     int label = 0;
-    int next = kNoClaim;    ///< in its block, by label
-    int near = 0;           ///< pixels within max_pixel_sigmas
-    int pixels = 0;         ///< that it owns
-    int bid = -1;           ///< place of its bids; -1 = it has not bid yet
-    bool measured = false;  ///< its sets are
-    bool spread = false;    ///< to the neighbours
+    int next = kNoClaim;      ///< in its block, by label
+    int near = 0;             ///< pixels within max_pixel_sigmas
+    int pixels = 0;           ///< that it owns
+    int bid = -1;             ///< place of its bids; -1 = it has not bid yet
+    bool measured = false;    ///< its sets are
+    bool spread = false;      ///< to the neighbours
+    double least_gain = 0.0;  ///< BoundGains
   };
   /// Sets of a block's pixels that each claim has: those within max_pixel_sigmas, those within
   /// a sigma more, and those that it owns.
@@ -119,6 +120,9 @@ class PixelGrowth {
     return static_cast<std::size_t>(label) * label_bytes_ +
            static_cast<std::size_t>(row + 1) * row_bytes_;
   }
+  struct Rows {
+    int first, last;
+  };
   void BeginReached();
   bool Reach(int block, int label);
   unsigned NotReachedAround(cv::Point place, int label) const;
@@ -146,8 +150,8 @@ class PixelGrowth {
     return static_cast<double>(WideSigmas() * WideSigmas() - 1.0f) * pixels;
   }
   void BoundGains();
-  double GainIn(int block, int label);
-  double GainOf(int label);
+  double GainOf(int claim, int block);
+  bool IsUseful(int label);
   void Drop();
   void Unlink(int block, int label);
 
@@ -166,6 +170,7 @@ class PixelGrowth {
   std::vector<BlockPixels> blocks_;
   std::vector<int> first_;                               ///< claim of each block
   std::vector<std::uint8_t> reached_, nothing_reached_;  ///< by label; what each begins with
+  std::vector<Rows> reached_rows_;                       ///< by label: the rest is not reached
   std::vector<int> active_, next_active_;                ///< blocks that planes have reached
   std::vector<std::uint8_t> is_active_;
   std::vector<std::uint8_t>

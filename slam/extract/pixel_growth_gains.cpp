@@ -6,16 +6,18 @@
 
 namespace slam {
 
-/// Calls visit(block) for the blocks that a label has reached, in their order.
+/// Calls visit(block) for the blocks that a label has reached, in their order, until it says
+/// that this is enough.
 template <typename Visit>
 void PixelGrowth::VisitReached(int label, const Visit& visit) const {
-  for (int r = 0; r < rows_; ++r) {
-    const std::size_t row = ReachedRow(r, label);
-    for (int byte = 0; byte < static_cast<int>(row_bytes_); ++byte) {
-      unsigned bits = reached_[row + static_cast<std::size_t>(byte)];
+  const Rows rows = reached_rows_[static_cast<std::size_t>(label)];
+  for (int r = rows.first; r <= rows.last; ++r) {
+    const std::size_t row = ReachedRow(r, label), margin = ReachedRow(r, 0);
+    for (std::size_t byte = 0; byte < row_bytes_; ++byte) {
+      unsigned bits = reached_[row + byte] & ~nothing_reached_[margin + byte] & 0xffu;
       for (; bits != 0; bits &= bits - 1) {
-        const int c = 8 * byte + std::countr_zero(bits) - 1;
-        if (c >= 0 && c < cols_) visit(r * cols_ + c);
+        const int c = 8 * static_cast<int>(byte) + std::countr_zero(bits) - 1;
+        if (visit(r * cols_ + c)) return;
       }
     }
   }
@@ -36,66 +38,67 @@ void PixelGrowth::BoundGains() {
   for (int block = 0; block < cols_ * rows_; ++block) {
     const int first = First(block);
     if (first == kNoClaim) continue;
-    if (At(first).next == kNoClaim) {
-      const auto label = static_cast<std::size_t>(At(first).label);
-      pixels_[label] += At(first).pixels;
-      least_gain_[label] += GainAlone(At(first).pixels);
-      continue;
-    }
-    // What more than one plane is near, as seen by each of them.
-    FindContested(block, kWide);
+    const bool is_only = At(first).next == kNoClaim;
+    if (!is_only) FindContested(block, kWide);
     for (int claim = first; claim != kNoClaim; claim = At(claim).next) {
-      const int n = At(claim).pixels;
-      if (n == 0) continue;
-      int shared = 0;
-      const ConstPixelSet owned = SetOf(claim, kOwned);
-      for (std::size_t k = 0; k < set_words_; ++k)
-        shared += std::popcount(owned[k] & contested_[k]);
-      const auto label = static_cast<std::size_t>(At(claim).label);
-      pixels_[label] += n;
-      least_gain_[label] += alone * (n - shared) - contested * shared;
+      Claim& at = At(claim);
+      const auto label = static_cast<std::size_t>(at.label);
+      if (is_only) {
+        at.least_gain = GainAlone(at.pixels);
+      } else if (at.pixels == 0) {
+        at.least_gain = 0.0;
+      } else {
+        const int shared = CountOfBoth(SetOf(claim, kOwned), contested_.data(), set_words_);
+        at.least_gain = alone * (at.pixels - shared) - contested * shared;
+      }
+      pixels_[label] += at.pixels, least_gain_[label] += at.least_gain;
     }
   }
 }
 
-/// What a label gains at its pixels of a block over the next best plane that is not dropped.
-double PixelGrowth::GainIn(int block, int label) {
-  const int first = First(block), own = ClaimOf(block, label);
-  if (At(first).next == kNoClaim) return GainAlone(At(own).pixels);
-  if (At(own).pixels == 0) return 0.0;
+/// What a claim gains at its pixels of a block over the next best plane that is not dropped.
+double PixelGrowth::GainOf(int claim, int block) {
+  if (At(First(block)).next == kNoClaim || At(claim).pixels == 0) return At(claim).least_gain;
   const BlockPixels& pixels = PixelsOf(block);
-  const ConstPixelSet owned = SetOf(own, kOwned);
+  const ConstPixelSet owned = SetOf(claim, kOwned);
   std::fill(nearest_.begin(), nearest_.end(), WideSigmas());
-  for (int claim = first; claim != kNoClaim; claim = At(claim).next) {
-    if (claim == own || dropped_[static_cast<std::size_t>(At(claim).label)] != 0) continue;
-    if (Meet(SetOf(claim, kWide), owned, set_words_))
-      LowerToDistance(pixels, PlaneOf(claim), nearest_.data());
+  for (int other = First(block); other != kNoClaim; other = At(other).next) {
+    if (other == claim || dropped_[static_cast<std::size_t>(At(other).label)] != 0) continue;
+    if (Meet(SetOf(other, kWide), owned, set_words_))
+      LowerToDistance(pixels, PlaneOf(other), nearest_.data());
   }
-  return SumGains(pixels, PlaneOf(own), owned, nearest_.data());
+  return SumGains(pixels, PlaneOf(claim), owned, nearest_.data());
 }
 
-double PixelGrowth::GainOf(int label) {
-  double gain = 0.0;
-  VisitReached(label, [&](int block) { gain += GainIn(block, label); });
-  return gain;
+/// Whether a label gains enough. Looks no further once what it gains at least in the other
+/// blocks suffices.
+bool PixelGrowth::IsUseful(int label) {
+  // More than what the rounding of a sum could take away.
+  constexpr double kSpare = 1e-6;
+  const int pixels = std::max(pixels_[static_cast<std::size_t>(label)], 1);
+  const double enough = config_.min_gain * pixels, surely = enough + kSpare * pixels;
+  double gain = 0.0, others = least_gain_[static_cast<std::size_t>(label)];
+  if (others >= surely) return true;
+  bool is_sure = false;
+  VisitReached(label, [&](int block) {
+    const int claim = ClaimOf(block, label);
+    gain += GainOf(claim, block), others -= At(claim).least_gain;
+    is_sure = gain + others >= surely;
+    return is_sure;
+  });
+  return is_sure || gain >= enough;
 }
 
 void PixelGrowth::DropUseless() {
   BoundGains();
-  const std::size_t count = planes_.size();
-  fewest_first_.resize(count);
+  fewest_first_.resize(planes_.size());
   std::iota(fewest_first_.begin(), fewest_first_.end(), 0u);
   std::sort(fewest_first_.begin(), fewest_first_.end(), [&](std::size_t a, std::size_t b) {
     return pixels_[a] != pixels_[b] ? pixels_[a] < pixels_[b] : a < b;
   });
-  dropped_.assign(count, 0);
-  for (const std::size_t label : fewest_first_) {
-    // More than what the rounding of a sum could take away.
-    constexpr double kSpare = 1e-6;
-    const int n = std::max(pixels_[label], 1);
-    if (least_gain_[label] >= (config_.min_gain + kSpare) * n) continue;
-    if (GainOf(static_cast<int>(label)) < config_.min_gain * n) dropped_[label] = 1;
-  }
+  dropped_.assign(planes_.size(), 0);
+  for (const std::size_t label : fewest_first_)
+    if (!IsUseful(static_cast<int>(label))) dropped_[label] = 1;
   Drop();
 }
 
@@ -106,6 +109,7 @@ void PixelGrowth::Drop() {
       Unlink(block, label);
       Activate(block);
       is_stale_[static_cast<std::size_t>(block)] = 1;
+      return false;
     });
     std::copy(nothing_reached_.begin(), nothing_reached_.end(),
               reached_.begin() + static_cast<std::ptrdiff_t>(ReachedRow(-1, label)));

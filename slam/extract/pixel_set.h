@@ -55,4 +55,10 @@ inline int CountOf(ConstPixelSet set, std::size_t words) {
   return count;
 }
 
+inline int CountOfBoth(ConstPixelSet a, ConstPixelSet b, std::size_t words) {
+  int count = std::popcount(a[0] & b[0]);
+  for (std::size_t k = 1; k < words; ++k) count += std::popcount(a[k] & b[k]);
+  return count;
+}
+
 }  // namespace slam
