@@ -39,7 +39,8 @@ class RowErrors {
   }
   SLAM_INLINE FloatLanes At(std::ptrdiff_t v) const {
     const FloatLanes ax = kOneX ? ax_ : a_ * Lanes(x_ + v * x_stride_);
-    const FloatLanes predicted = ax + b_ * Lanes(y_ + v * y_stride_) + c_;
+    const std::ptrdiff_t y_stride = kOneX ? DepthGrid::kRowCopies : y_stride_;
+    const FloatLanes predicted = ax + b_ * Lanes(y_ + v * y_stride) + c_;
     return (Lanes(q_ + v * stride_) - predicted) * Lanes(g_ + v * stride_);
   }
 
