@@ -247,7 +247,6 @@ void PixelGrowth::Replace(const std::vector<LabelPlane>& planes, const std::vect
   bid_count_ = 0;
   std::fill(first_.begin(), first_.end(), kNoClaim);
   std::fill(is_stale_.begin(), is_stale_.end(), 1);
-  std::fill(is_drawn_.begin(), is_drawn_.end(), 0);
   for (const auto& [block, label] : seeds_) Seed(block, label);
   Grow();
 }

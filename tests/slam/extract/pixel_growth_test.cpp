@@ -265,6 +265,29 @@ TEST(PixelGrowth, DropsThePlanesWhoseGainIsTooLittleAlsoIfItIsOnlyBounded) {
   EXPECT_GT(turns_with_useful, 10);
 }
 
+// Two sigmas away it gains 16 - 4 a pixel, of which the bound promises 16 - 9.
+TEST(PixelGrowth, DropsAPlaneThatGainsTooLittleThoughNoOtherIsNear) {
+  Camera camera;
+  camera.width = 24, camera.height = 8;
+  const cv::Mat1f depth_m(camera.height, camera.width, 1.0f);
+  const DepthGrid grid = MakeDepthGrid(depth_m, PixelRays(camera), {}, 10.0);
+  for (const auto& [min_gain, stays] :
+       std::vector<std::pair<double, bool>>{{6.9, true}, {11.9, true}, {12.1, false}}) {
+    GrowthConfig config;
+    config.min_gain = min_gain;
+    PixelGrowth growth;
+    growth.Begin(grid, config);
+    for (const double sigmas : {2.0, 20.0}) {
+      const int label = growth.AddPlane({{0.0, 0.0, Nearer(grid, sigmas)}, 1.0});
+      for (int block = 0; block < 3; ++block) growth.Seed(block, label);
+    }
+    growth.Grow();
+    EXPECT_EQ(growth.labels()[0], 0);
+    growth.DropUseless();
+    EXPECT_EQ(growth.labels()[0] == 0, stays) << min_gain;
+  }
+}
+
 TEST(PixelGrowth, HasTheSameLabelsHoweverOftenItIsAskedAndWhateverItHeldBefore) {
   std::mt19937 random(6);
   PixelGrowth again;
