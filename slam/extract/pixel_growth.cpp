@@ -42,7 +42,7 @@ void PixelGrowth::Begin(const DepthGrid& grid, const GrowthConfig& config) {
   is_stale_.assign(blocks, 0), is_drawn_.assign(blocks, 0);
   labels_.resize(grid.q.size());
   bid_count_ = 0;
-  nearest_.resize(slot_size_);
+  nearest_.resize(2 * slot_size_);
   contested_.resize(set_words_), unsettled_.resize(set_words_);
   BeginReached();
   place_.clear(), blocks_.clear();

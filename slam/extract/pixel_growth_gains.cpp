@@ -56,18 +56,25 @@ void PixelGrowth::BoundGains() {
   }
 }
 
-/// What a claim gains at its pixels of a block over the next best plane that is not dropped.
+/// What a claim gains at its pixels of a block over the next best plane. Where that is dropped,
+/// as if nobody else were near: the third best is not asked, because in much noise thin things
+/// would go with it.
 double PixelGrowth::GainOf(int claim, int block) {
   if (At(First(block)).next == kNoClaim || At(claim).pixels == 0) return At(claim).least_gain;
   const BlockPixels& pixels = PixelsOf(block);
   const ConstPixelSet owned = SetOf(claim, kOwned);
+  float *stays = nearest_.data(), *goes = stays + slot_size_;
   std::fill(nearest_.begin(), nearest_.end(), WideSigmas());
+  bool any_goes = false;
   for (int other = First(block); other != kNoClaim; other = At(other).next) {
-    if (other == claim || dropped_[static_cast<std::size_t>(At(other).label)] != 0) continue;
-    if (Meet(SetOf(other, kWide), owned, set_words_))
-      LowerToDistance(pixels, PlaneOf(other), nearest_.data());
+    if (other == claim || !Meet(SetOf(other, kWide), owned, set_words_)) continue;
+    const bool is_dropped = dropped_[static_cast<std::size_t>(At(other).label)] != 0;
+    LowerToDistance(pixels, PlaneOf(other), is_dropped ? goes : stays);
+    any_goes |= is_dropped;
   }
-  return SumGains(pixels, PlaneOf(claim), owned, nearest_.data());
+  for (std::size_t k = 0; any_goes && k < slot_size_; ++k)
+    stays[k] = goes[k] < stays[k] ? WideSigmas() : stays[k];
+  return SumGains(pixels, PlaneOf(claim), owned, stays);
 }
 
 /// Whether a label gains enough. Looks no further once what it gains at least in the other

@@ -204,7 +204,8 @@ TEST(PixelGrowth, GivesEveryPixelToTheBestOfThePlanesNearItWhateverTheBlocks) {
   }
 }
 
-/// Planes that gain too little, by definition: smallest first, over what is not dropped.
+/// Without planes that gain too little, by definition: smallest first, over the next best, or
+/// as if there were none where that is dropped.
 std::vector<LabelPlane> PlainlyUseful(const DepthGrid& grid, std::vector<LabelPlane> planes,
                                       double min_gain) {
   const LabelImage labels = PlainLabels(grid, planes);
@@ -218,10 +219,12 @@ std::vector<LabelPlane> PlainlyUseful(const DepthGrid& grid, std::vector<LabelPl
     for (std::size_t i = 0; i < labels.size(); ++i) {
       if (labels[i] != static_cast<int>(k)) continue;
       double next = 4.0;
+      bool is_dropped = false;
       for (std::size_t other = 0; other < planes.size(); ++other) {
-        if (other != k && !dropped[other])
-          next = std::min(next, Residual(grid, i, planes[other]));
+        const double r = Residual(grid, i, planes[other]);
+        if (other != k && r < next) next = r, is_dropped = dropped[other];
       }
+      if (is_dropped) next = 4.0;
       const double own = Residual(grid, i, planes[k]);
       gain += next * next - own * own;
     }
