@@ -22,12 +22,28 @@ const BlockClusters& BlockClustering::Cluster(const DepthGrid& grid,
   return out_;
 }
 
+const BlockClusters& BlockClustering::MergeAgain(const ClusterConfig& config) {
+  config_ = &config;
+  regions_.clear();
+  for (std::size_t block = 0; block < sums_.size(); ++block) {
+    if (region_at_[block] < 0) continue;
+    const PlaneFit fit = *Fit(sums_[block]);
+    regions_.push_back({sums_[block], fit, GrazingFactor(sums_[block], fit.plane, *noise_), 0,
+                        1, static_cast<int>(block)});
+  }
+  std::iota(parent_.begin(), parent_.end(), 0);
+  Merge();
+  Number(out_.block_px);
+  return out_;
+}
+
 void BlockClustering::AddBlocks(const DepthGrid& grid, const std::vector<std::uint8_t>& taken,
                                 int block_px) {
   cols_ = (grid.width + block_px - 1) / block_px;
   rows_ = (grid.height + block_px - 1) / block_px;
   regions_.clear();
   if (taken.empty()) sums_.clear();
+  measured_.resize(WordsOfSet(block_px));
   region_at_.assign(static_cast<std::size_t>(cols_ * rows_), -1);
   const double least = config_->min_measured * block_px * block_px;
   for (int r = 0; r < rows_; ++r) {
@@ -58,7 +74,9 @@ void BlockClustering::AddBlock(const DepthGrid& grid, const std::uint8_t* taken,
                                int block_px, int block) {
   const BlockPixels pixels = BlockAt(grid, u, v, block_px);
   const double least = config_->min_measured * block_px * block_px;
-  const PlaneSums sums = taken == nullptr ? SumBlock(pixels) : SumFree(pixels, taken);
+  if (taken == nullptr) FindMeasured(pixels, measured_.data());
+  const PlaneSums sums =
+      taken == nullptr ? SumBlock(pixels, measured_.data()) : SumFree(pixels, taken);
   if (taken == nullptr) sums_.push_back(sums);
   if (!(sums.n >= least)) return;
   const std::optional<PlaneFit> fit = Fit(sums);

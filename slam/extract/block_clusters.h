@@ -65,6 +65,10 @@ class BlockClustering {
                                int block_px, const DepthNoise& noise,
                                const ClusterConfig& config);
 
+  /// Once more with other bounds on what merges, after a call in which nothing was taken: the
+  /// blocks are the same.
+  const BlockClusters& MergeAgain(const ClusterConfig& config);
+
   /// Of the measured pixels of each block in the last call in which nothing was taken.
   const std::vector<PlaneSums>& SumsOfBlocks() const { return sums_; }
 
@@ -105,7 +109,8 @@ class BlockClustering {
   std::vector<double> first_costs_;  ///< of each pair
   Tournament merges_;                ///< of the pairs, by error added or mean error
   std::vector<int> number_;
-  std::vector<std::uint8_t> free_;  ///< pixels of each column of a row of blocks
+  std::vector<std::uint64_t> measured_;  ///< pixels of a block
+  std::vector<std::uint8_t> free_;       ///< pixels of each column of a row of blocks
   std::vector<PlaneSums> sums_;
   BlockClusters out_;
 };

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "slam/base/lane_math.h"
+#include "slam/extract/pixel_set_lanes.h"
 
 namespace slam {
 namespace {
@@ -14,65 +15,147 @@ constexpr float kNone = std::numeric_limits<float>::infinity();
 constexpr int kReach8 = 2;                    // of the usual bid
 constexpr int kSide8 = kLanes + 2 * kReach8;  // what it looks at
 
-using EightLabels = std::int16_t __attribute__((vector_size(16), aligned(2), may_alias));
-SLAM_INLINE EightLabels Labels8(const std::int16_t* p) {
-  return *reinterpret_cast<const EightLabels*>(p);
-}
+SLAM_INLINE bool HasColumnsOfOneX(const BlockPixels& block) { return block.x_stride == 0; }
 
-/// Residuals of 8 pixels of a row.
-SLAM_INLINE FloatLanes Residuals(const BlockPixels& block, int u, int v, const PixelPlane& p) {
-  const FloatLanes x = Lanes(block.x + (v * block.x_stride + u));
-  const FloatLanes y = Lanes(block.y + (v * block.y_stride + u));
-  const int i = v * block.stride + u;
-  return (Lanes(block.q + i) - (p.a * x + p.b * y + p.c)) * Lanes(block.g + i) / p.grazing;
-}
-SLAM_INLINE float Residual(const BlockPixels& block, int u, int v, const PixelPlane& p) {
+/// How far 8 pixels of a row at a time are from a plane, in sigmas of a surface that is seen
+/// frontally: what is compared with it is scaled by the grazing factor instead.
+/// @tparam kOneX  columns have one x
+template <bool kOneX>
+class RowErrors {
+ public:
+  /// From column u on.
+  SLAM_INLINE RowErrors(const BlockPixels& block, int u, const PixelPlane& p)
+      : x_(block.x + u),
+        y_(block.y + u),
+        q_(block.q + u),
+        g_(block.g + u),
+        stride_(block.stride),
+        x_stride_(block.x_stride),
+        y_stride_(block.y_stride),
+        a_(AllLanes(p.a)),
+        b_(AllLanes(p.b)),
+        c_(AllLanes(p.c)) {
+    if (kOneX) ax_ = a_ * Lanes(x_);
+  }
+  SLAM_INLINE FloatLanes At(std::ptrdiff_t v) const {
+    const FloatLanes ax = kOneX ? ax_ : a_ * Lanes(x_ + v * x_stride_);
+    const std::ptrdiff_t y_stride = kOneX ? DepthGrid::kRowCopies : y_stride_;
+    const FloatLanes predicted = ax + b_ * Lanes(y_ + v * y_stride) + c_;
+    return (Lanes(q_ + v * stride_) - predicted) * Lanes(g_ + v * stride_);
+  }
+
+ private:
+  const float *x_, *y_, *q_, *g_;
+  std::ptrdiff_t stride_, x_stride_, y_stride_;
+  FloatLanes a_, b_, c_, ax_{};
+};
+
+SLAM_INLINE float Error(const BlockPixels& block, int u, int v, const PixelPlane& p) {
   const float x = block.x[v * block.x_stride + u], y = block.y[v * block.y_stride + u];
   const int i = v * block.stride + u;
-  return (block.q[i] - (p.a * x + p.b * y + p.c)) * block.g[i] / p.grazing;
+  return (block.q[i] - (p.a * x + p.b * y + p.c)) * block.g[i];
 }
 
-/// A whole block of 8 x 8.
-SLAM_INLINE float Measure8(const BlockPixels& at, const PixelPlane& of, float* residuals) {
-  const BlockPixels block = at;  // what is written cannot change these
-  const PixelPlane plane = of;
-  FloatLanes least = AllLanes(kNone);
-  for (int v = 0; v < kLanes; ++v) {
-    const FloatLanes r = Residuals(block, 0, v, plane);
-    const FloatLanes out = Lanes(block.g + v * block.stride) > 0.0f ? r : AllLanes(kNone);
-    Lanes(residuals + kLanes * v) = out;
-    const FloatLanes size = Size(out);
-    least = size < least ? size : least;
+template <bool kOneX>
+SLAM_INLINE void FindNear8(const BlockPixels& block, const PixelPlane& plane,
+                           std::uint64_t measured, float near_sigmas, float wide_sigmas,
+                           PixelSet near, PixelSet wide) {
+  const RowErrors<kOneX> errors(block, 0, plane);
+  const FloatLanes near_lanes = AllLanes(near_sigmas * plane.grazing),
+                   wide_lanes = AllLanes(wide_sigmas * plane.grazing);
+  RowsOfSet near_rows, wide_rows;
+#pragma GCC unroll 8
+  for (int v = kLanes - 1; v >= 0; --v) {
+    const FloatLanes size = Size(errors.At(v));
+    near_rows.Add(size < near_lanes);
+    wide_rows.Add(size < wide_lanes);
   }
-  return LeastOf(least);
+  *near = near_rows.Set() & measured;
+  *wide = wide_rows.Set() & measured;
 }
 
-float MeasureAny(const BlockPixels& block, int count, const PixelPlane& plane,
-                 float* residuals) {
-  std::fill(residuals, residuals + count, kNone);
-  float least = kNone;
+void FindNearAny(const BlockPixels& block, const PixelPlane& plane, ConstPixelSet measured,
+                 float near_sigmas, float wide_sigmas, PixelSet near, PixelSet wide) {
+  std::fill_n(near, WordsOfSet(block.size), std::uint64_t{0});
+  std::fill_n(wide, WordsOfSet(block.size), std::uint64_t{0});
   for (int v = 0; v < block.height; ++v) {
     for (int u = 0; u < block.width; ++u) {
-      const std::ptrdiff_t i = static_cast<std::ptrdiff_t>(v) * block.stride + u;
-      if (!(block.g[i] > 0.0f)) continue;
-      const float r = Residual(block, u, v, plane);
-      residuals[v * block.size + u] = r;
-      least = std::min(least, std::abs(r));
+      if (!IsInSet(measured, block.size, u, v)) continue;
+      const float size = std::abs(Error(block, u, v, plane));
+      if (size < near_sigmas * plane.grazing) PutInSet(near, block.size, u, v);
+      if (size < wide_sigmas * plane.grazing) PutInSet(wide, block.size, u, v);
     }
   }
-  return least;
+}
+
+/// Adds eight floats to four sums.
+SLAM_INLINE void AddTo(DoubleLanes& sum, FloatLanes v) {
+  sum += DoubleLanes{static_cast<double>(v[0]), static_cast<double>(v[1]),
+                     static_cast<double>(v[2]), static_cast<double>(v[3])};
+  sum += DoubleLanes{static_cast<double>(v[4]), static_cast<double>(v[5]),
+                     static_cast<double>(v[6]), static_cast<double>(v[7])};
+}
+
+template <bool kOneX>
+SLAM_INLINE double SumErrors8(const BlockPixels& block, const PixelPlane& plane,
+                              std::uint64_t set) {
+  const RowErrors<kOneX> errors(block, 0, plane);
+  const IntLanes columns = ColumnsOf(set);
+  DoubleLanes sum{};
+#pragma GCC unroll 8
+  for (int v = 0; v < kLanes; ++v)
+    AddTo(sum, (FloatLanes)((IntLanes)errors.At(v) & RowOf(columns, v)));
+  return SumOf(sum);
+}
+
+double SumErrors(const BlockPixels& block, const PixelPlane& plane, ConstPixelSet set) {
+  double sum = 0.0;
+  for (int v = 0; v < block.height; ++v) {
+    for (int u = 0; u < block.width; ++u) {
+      if (IsInSet(set, block.size, u, v)) sum += static_cast<double>(Error(block, u, v, plane));
+    }
+  }
+  return sum;
+}
+
+template <bool kOneX>
+SLAM_INLINE void LowerToDistance8(const BlockPixels& block, const PixelPlane& plane,
+                                  float* nearest) {
+  const RowErrors<kOneX> errors(block, 0, plane);
+  const FloatLanes scale = AllLanes(1.0f / plane.grazing);
+#pragma GCC unroll 8
+  for (int v = 0; v < kLanes; ++v) {
+    const FloatLanes distance = Size(errors.At(v)) * scale;
+    FloatLanes& least = Lanes(nearest + kLanes * v);
+    least = distance < least ? distance : least;
+  }
+}
+
+template <bool kOneX>
+SLAM_INLINE double SumGains8(const BlockPixels& block, const PixelPlane& plane,
+                             std::uint64_t set, const float* nearest) {
+  const RowErrors<kOneX> errors(block, 0, plane);
+  const IntLanes columns = ColumnsOf(set);
+  const FloatLanes scale = AllLanes(1.0f / plane.grazing);
+  DoubleLanes sum{};
+#pragma GCC unroll 8
+  for (int v = 0; v < kLanes; ++v) {
+    const FloatLanes own = errors.At(v) * scale, next = Lanes(nearest + kLanes * v);
+    AddTo(sum, (FloatLanes)((IntLanes)(next * next - own * own) & RowOf(columns, v)));
+  }
+  return SumOf(sum);
 }
 
 /// A whole block of 8 x 8 with two pixels of the image to every side.
-SLAM_INLINE void Bid8(const BlockPixels& at, const PixelPlane& of, float most_sigmas,
-                      const float* residuals, float* bids) {
-  const BlockPixels block = at;  // what is written cannot change these
-  const PixelPlane plane = of;
-  const FloatLanes most = AllLanes(most_sigmas * most_sigmas);
+template <bool kOneX>
+SLAM_INLINE void Bid8(const BlockPixels& block, const PixelPlane& plane, float most_sigmas,
+                      std::uint64_t near, float* bids) {
+  const RowErrors<kOneX> lefts(block, -kReach8, plane), rights(block, 4 - kReach8, plane);
+  const float most_error = most_sigmas * plane.grazing;
+  const FloatLanes most = AllLanes(most_error * most_error);
   float squares[kSide8 * kSide8 + kLanes], sums[kSide8 * kLanes];
   for (int v = 0; v < kSide8; ++v) {
-    const FloatLanes left = Residuals(block, -kReach8, v - kReach8, plane);
-    const FloatLanes right = Residuals(block, 4 - kReach8, v - kReach8, plane);
+    const FloatLanes left = lefts.At(v - kReach8), right = rights.At(v - kReach8);
     const FloatLanes left2 = left * left, right2 = right * right;
     Lanes(squares + kSide8 * v) = most < left2 ? most : left2;
     Lanes(squares + kSide8 * v + 4) = most < right2 ? most : right2;
@@ -82,19 +165,22 @@ SLAM_INLINE void Bid8(const BlockPixels& at, const PixelPlane& of, float most_si
     Lanes(sums + kLanes * v) =
         (((Lanes(s) + Lanes(s + 1)) + Lanes(s + 2)) + Lanes(s + 3)) + Lanes(s + 4);
   }
-  for (int k = 0; k < kLanes * kLanes; k += kLanes) {
-    const float* s = sums + k;
+  const IntLanes columns = ColumnsOf(near);
+  const FloatLanes scale = AllLanes(1.0f / (plane.grazing * plane.grazing));
+#pragma GCC unroll 8
+  for (int v = 0; v < kLanes; ++v) {
+    const float* s = sums + kLanes * v;
     const FloatLanes sum =
         (((Lanes(s) + Lanes(s + 8)) + Lanes(s + 16)) + Lanes(s + 24)) + Lanes(s + 32);
-    Lanes(bids + k) =
-        Size(Lanes(residuals + k)) < AllLanes(most_sigmas) ? sum : AllLanes(kNone);
+    Lanes(bids + kLanes * v) = RowOf(columns, v) ? sum * scale : AllLanes(kNone);
   }
 }
 
 /// The same for other sizes and beside the image's border, beyond which there are zeros.
 SLAM_INLINE void BidAny(const BlockPixels& block, int count, const PixelPlane& plane,
-                        const BidWindow& window, const float* residuals, float* bids) {
-  const float most = window.most_sigmas * window.most_sigmas;
+                        const BidWindow& window, ConstPixelSet near, float* bids) {
+  const float most_error = window.most_sigmas * plane.grazing, most = most_error * most_error;
+  const float scale = 1.0f / (plane.grazing * plane.grazing);
   const int reach = window.reach, size = block.size;
   constexpr int kRows = kMostBlockSide_px + 2 * kMostBidReach_px;
   float squares[kRows], sums[kMostBlockSide_px * kRows];
@@ -102,7 +188,7 @@ SLAM_INLINE void BidAny(const BlockPixels& block, int count, const PixelPlane& p
   std::fill_n(sums, size * (size + 2 * reach), 0.0f);
   for (int v = -window.top; v < block.height + window.bottom; ++v) {
     for (int u = -window.left; u < block.width + window.right; ++u) {
-      const float r = Residual(block, u, v, plane);
+      const float r = Error(block, u, v, plane);
       squares[u + reach] = std::min(r * r, most);
     }
     float* sum = sums + (v + reach) * size;
@@ -114,8 +200,13 @@ SLAM_INLINE void BidAny(const BlockPixels& block, int count, const PixelPlane& p
     for (int offset = 0; offset <= 2 * reach; ++offset)
       for (int u = 0; u < size; ++u) bids[v * size + u] += sums[(v + offset) * size + u];
   }
-  for (int k = 0; k < count; ++k)
-    bids[k] = std::abs(residuals[k]) < window.most_sigmas ? bids[k] : kNone;
+  std::fill(bids + size * size, bids + count, kNone);
+  for (int v = 0; v < size; ++v) {
+    for (int u = 0; u < size; ++u) {
+      float& bid = bids[v * size + u];
+      bid = IsInSet(near, size, u, v) ? bid * scale : kNone;
+    }
+  }
 }
 
 }  // namespace
@@ -123,101 +214,121 @@ SLAM_INLINE void BidAny(const BlockPixels& block, int count, const PixelPlane& p
 static_assert(DepthGrid::kCopiesBefore >= kMostBidReach_px &&
               DepthGrid::kRowCopies >= kMostBlockSide_px + 2 * kMostBidReach_px);
 
-BlockPixels BlockAt(const DepthGrid& grid, int u, int v, int size) {
-  const auto i = static_cast<std::size_t>(grid.Index(u, v));
-  const bool shared = !grid.column_x.empty();
-  const std::size_t row = static_cast<std::size_t>(v) * DepthGrid::kRowCopies;
-  return {shared ? grid.column_x.data() + u : grid.x.data() + i,
-          shared ? grid.row_y.data() + row + DepthGrid::kCopiesBefore : grid.y.data() + i,
-          grid.q.data() + i,
-          grid.g.data() + i,
-          grid.width,
-          shared ? 0 : grid.width,
-          shared ? DepthGrid::kRowCopies : grid.width,
-          std::min(size, grid.width - u),
-          std::min(size, grid.height - v),
-          size};
+SLAM_LANES void FindMeasured(const BlockPixels& block, PixelSet measured) {
+  if (IsWhole8(block)) {
+    RowsOfSet rows;
+#pragma GCC unroll 8
+    for (int v = kLanes - 1; v >= 0; --v)
+      rows.Add(Lanes(block.g + static_cast<std::ptrdiff_t>(v) * block.stride) > 0.0f);
+    *measured = rows.Set();
+    return;
+  }
+  std::fill_n(measured, WordsOfSet(block.size), std::uint64_t{0});
+  for (int v = 0; v < block.height; ++v) {
+    for (int u = 0; u < block.width; ++u) {
+      if (block.g[static_cast<std::ptrdiff_t>(v) * block.stride + u] > 0.0f)
+        PutInSet(measured, block.size, u, v);
+    }
+  }
 }
 
-SLAM_LANES float MeasureBlock(const BlockPixels& block, int count, const PixelPlane& plane,
-                              float* residuals) {
-  const bool whole8 = block.size == kLanes && block.width == kLanes && block.height == kLanes;
-  return whole8 ? Measure8(block, plane, residuals)
-                : MeasureAny(block, count, plane, residuals);
+SLAM_LANES int FindNear(const BlockPixels& block, const PixelPlane& plane,
+                        ConstPixelSet measured, float near_sigmas, float wide_sigmas,
+                        PixelSet near, PixelSet wide) {
+  if (!IsWhole8(block)) {
+    FindNearAny(block, plane, measured, near_sigmas, wide_sigmas, near, wide);
+  } else if (HasColumnsOfOneX(block)) {
+    FindNear8<true>(block, plane, *measured, near_sigmas, wide_sigmas, near, wide);
+  } else {
+    FindNear8<false>(block, plane, *measured, near_sigmas, wide_sigmas, near, wide);
+  }
+  return CountOf(near, WordsOfSet(block.size));
+}
+
+SLAM_LANES double SumResiduals(const BlockPixels& block, const PixelPlane& plane,
+                               ConstPixelSet set) {
+  const double sum = !IsWhole8(block)          ? SumErrors(block, plane, set)
+                     : HasColumnsOfOneX(block) ? SumErrors8<true>(block, plane, *set)
+                                               : SumErrors8<false>(block, plane, *set);
+  return sum / static_cast<double>(plane.grazing);
+}
+
+SLAM_LANES void LowerToDistance(const BlockPixels& block, const PixelPlane& plane,
+                                float* nearest) {
+  if (IsWhole8(block)) {
+    HasColumnsOfOneX(block) ? LowerToDistance8<true>(block, plane, nearest)
+                            : LowerToDistance8<false>(block, plane, nearest);
+    return;
+  }
+  for (int v = 0; v < block.height; ++v) {
+    for (int u = 0; u < block.width; ++u) {
+      float& least = nearest[v * block.size + u];
+      least = std::min(least, std::abs(Error(block, u, v, plane)) * (1.0f / plane.grazing));
+    }
+  }
+}
+
+SLAM_LANES double SumGains(const BlockPixels& block, const PixelPlane& plane, ConstPixelSet set,
+                           const float* nearest) {
+  if (IsWhole8(block)) {
+    return HasColumnsOfOneX(block) ? SumGains8<true>(block, plane, *set, nearest)
+                                   : SumGains8<false>(block, plane, *set, nearest);
+  }
+  double sum = 0.0;
+  for (int v = 0; v < block.height; ++v) {
+    for (int u = 0; u < block.width; ++u) {
+      if (!IsInSet(set, block.size, u, v)) continue;
+      const float own = Error(block, u, v, plane) * (1.0f / plane.grazing),
+                  next = nearest[v * block.size + u];
+      sum += static_cast<double>(next * next - own * own);
+    }
+  }
+  return sum;
 }
 
 SLAM_LANES void BidForBlock(const BlockPixels& block, int count, const PixelPlane& plane,
-                            const BidWindow& window, const float* residuals, float* bids) {
-  const bool usual = block.size == kLanes && block.width == kLanes && block.height == kLanes &&
-                     window.reach == kReach8 && window.left == kReach8 &&
+                            const BidWindow& window, ConstPixelSet near, float* bids) {
+  const bool usual = IsWhole8(block) && window.reach == kReach8 && window.left == kReach8 &&
                      window.top == kReach8 && window.right == kReach8 &&
                      window.bottom == kReach8;
-  if (usual) {
-    Bid8(block, plane, window.most_sigmas, residuals, bids);
+  if (!usual) {
+    BidAny(block, count, plane, window, near, bids);
+  } else if (HasColumnsOfOneX(block)) {
+    Bid8<true>(block, plane, window.most_sigmas, *near, bids);
   } else {
-    BidAny(block, count, plane, window, residuals, bids);
+    Bid8<false>(block, plane, window.most_sigmas, *near, bids);
   }
 }
 
-SLAM_LANES void WriteOwners(const BlockPixels& block, const int* owners, std::int16_t* labels) {
-  for (int v = 0; v < block.height; ++v) {
-    std::int16_t* row = labels + static_cast<std::ptrdiff_t>(v) * block.stride;
-    const int* from = owners + v * block.size;
-    if (block.width == kLanes) {
-      for (int u = 0; u < kLanes; ++u) row[u] = static_cast<std::int16_t>(from[u]);
-    } else {
-      for (int u = 0; u < block.width; ++u) row[u] = static_cast<std::int16_t>(from[u]);
+SLAM_LANES bool HaveOneLabel(const BlockPixels& block, ConstPixelSet set,
+                             const std::int16_t* labels, std::int16_t& only) {
+  int least = std::numeric_limits<std::int16_t>::max(), most = kNoLabel;
+  if (IsWhole8(block)) {
+    using EightLabels = std::int16_t __attribute__((vector_size(16), aligned(2), may_alias));
+    const IntLanes columns = ColumnsOf(*set);
+    IntLanes low = IntLanes{} + least, high = IntLanes{} + most;
+#pragma GCC unroll 8
+    for (int v = 0; v < kLanes; ++v) {
+      const std::ptrdiff_t row = static_cast<std::ptrdiff_t>(v) * block.stride;
+      const IntLanes now = __builtin_convertvector(
+          *reinterpret_cast<const EightLabels*>(labels + row), IntLanes);
+      const IntLanes own = RowOf(columns, v);
+      const IntLanes low_now = own ? now : low, high_now = own ? now : high;
+      low = low_now < low ? low_now : low, high = high_now > high ? high_now : high;
+    }
+    for (int k = 0; k < kLanes; ++k)
+      least = std::min(least, low[k]), most = std::max(most, high[k]);
+  } else {
+    for (int v = 0; v < block.height; ++v) {
+      for (int u = 0; u < block.width; ++u) {
+        if (!IsInSet(set, block.size, u, v)) continue;
+        const int label = labels[static_cast<std::ptrdiff_t>(v) * block.stride + u];
+        least = std::min(least, label), most = std::max(most, label);
+      }
     }
   }
-}
-
-SLAM_LANES void ReadOwners(const BlockPixels& block, int count, const std::int16_t* labels,
-                           int* owners) {
-  if (block.width < block.size || block.height < block.size)
-    std::fill(owners, owners + count, static_cast<int>(kNoLabel));
-  for (int v = 0; v < block.height; ++v) {
-    const std::int16_t* row = labels + static_cast<std::ptrdiff_t>(v) * block.stride;
-    int* to = owners + v * block.size;
-    if (block.width == kLanes) {
-      for (int u = 0; u < kLanes; ++u) to[u] = row[u];
-    } else {
-      for (int u = 0; u < block.width; ++u) to[u] = row[u];
-    }
-  }
-}
-
-/// GoToOne for rows of 8 labels.
-SLAM_INLINE bool GoToOne8(const BlockPixels& block, const std::int16_t* from,
-                          std::int16_t label, const std::int16_t* to, std::int16_t& only) {
-  const EightLabels least = EightLabels{} + std::numeric_limits<std::int16_t>::max();
-  const EightLabels of = EightLabels{} + label;
-  EightLabels low = least, high = EightLabels{} + kNoLabel;
-  for (int v = 0; v < block.height; ++v) {
-    const std::ptrdiff_t row = static_cast<std::ptrdiff_t>(v) * block.stride;
-    const EightLabels own = Labels8(from + row) == of, now = Labels8(to + row);
-    const EightLabels low_now = own ? now : least, high_now = own ? now : high;
-    low = low_now < low ? low_now : low, high = high_now > high ? high_now : high;
-  }
-  std::int16_t first = low[0], last = high[0];
-  for (int k = 1; k < kLanes; ++k)
-    first = std::min<std::int16_t>(first, low[k]), last = std::max<std::int16_t>(last, high[k]);
-  only = first;
-  return first == last;
-}
-
-SLAM_LANES bool GoToOne(const BlockPixels& block, const std::int16_t* from, std::int16_t label,
-                        const std::int16_t* to, std::int16_t& only) {
-  if (block.width == kLanes) return GoToOne8(block, from, label, to, only);
-  bool found = false;
-  for (int v = 0; v < block.height; ++v) {
-    const std::ptrdiff_t row = static_cast<std::ptrdiff_t>(v) * block.stride;
-    for (int u = 0; u < block.width; ++u) {
-      if (from[row + u] != label) continue;
-      if (found && to[row + u] != only) return false;
-      only = to[row + u], found = true;
-    }
-  }
-  return found;
+  only = static_cast<std::int16_t>(least);
+  return least == most;
 }
 
 }  // namespace slam

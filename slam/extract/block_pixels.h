@@ -1,9 +1,12 @@
 #pragma once
 
+#include <algorithm>
+#include <cstddef>
 #include <cstdint>
 
 #include "slam/extract/depth_grid.h"
 #include "slam/extract/pixel_labels.h"
+#include "slam/extract/pixel_set.h"
 
 namespace slam {
 
@@ -16,8 +19,27 @@ struct BlockPixels {
   int size;  ///< row length of what is computed of the block
 };
 
+/// Whether a block is 8 x 8 pixels, the usual, and none of it beyond the image's end.
+inline bool IsWhole8(const BlockPixels& block) {
+  return block.size == 8 && block.width == 8 && block.height == 8;
+}
+
 /// The block of size x size pixels that begins at (u, v).
-BlockPixels BlockAt(const DepthGrid& grid, int u, int v, int size);
+inline BlockPixels BlockAt(const DepthGrid& grid, int u, int v, int size) {
+  const auto i = static_cast<std::ptrdiff_t>(v) * grid.width + u;
+  const bool one_x = !grid.column_x.empty();
+  const std::ptrdiff_t row = static_cast<std::ptrdiff_t>(v) * DepthGrid::kRowCopies;
+  return {one_x ? grid.column_x.data() + u : grid.x.data() + i,
+          one_x ? grid.row_y.data() + (row + DepthGrid::kCopiesBefore) : grid.y.data() + i,
+          grid.q.data() + i,
+          grid.g.data() + i,
+          grid.width,
+          one_x ? 0 : grid.width,
+          one_x ? DepthGrid::kRowCopies : grid.width,
+          std::min(size, grid.width - u),
+          std::min(size, grid.height - v),
+          size};
+}
 
 /// A plane in the numbers that pixels are in.
 struct PixelPlane {
@@ -40,27 +62,35 @@ struct BidWindow {
 /// The largest `size` and `reach`.
 inline constexpr int kMostBlockSide_px = 64, kMostBidReach_px = 16;
 
+/// Pixels that are measured.
+void FindMeasured(const BlockPixels& block, PixelSet measured);
+
+/// Measured pixels within two distances of a plane, in sigmas (ResidualSigmas).
+/// @returns how many are within the first
+int FindNear(const BlockPixels& block, const PixelPlane& plane, ConstPixelSet measured,
+             float near_sigmas, float wide_sigmas, PixelSet near, PixelSet wide);
+
+/// Sum of the residuals of the pixels of a set, in sigmas.
+double SumResiduals(const BlockPixels& block, const PixelPlane& plane, ConstPixelSet set);
+
 // Arrays of a block have size x size entries, row by row, and go on to `count`, a multiple
 // of 8.
 
-/// Residuals in sigmas (ResidualSigmas); infinity where nothing is measured and beyond the
-/// image's end. @returns the least of their sizes.
-float MeasureBlock(const BlockPixels& block, int count, const PixelPlane& plane,
-                   float* residuals);
+/// Lowers each entry to the distance of its pixel from a plane, in sigmas.
+void LowerToDistance(const BlockPixels& block, const PixelPlane& plane, float* nearest);
 
-/// Sum of the squared residuals of the pixels around each pixel, each cut off at most_sigmas^2;
-/// infinity where the pixel itself is most_sigmas or more away.
+/// Sum over the pixels of a set of the squared entry less the squared distance from a plane.
+double SumGains(const BlockPixels& block, const PixelPlane& plane, ConstPixelSet set,
+                const float* nearest);
+
+/// Sum of the squared residuals of the pixels around each pixel of a set, each cut off at
+/// most_sigmas^2; infinity for the other pixels.
 void BidForBlock(const BlockPixels& block, int count, const PixelPlane& plane,
-                 const BidWindow& window, const float* residuals, float* bids);
+                 const BidWindow& window, ConstPixelSet near, float* bids);
 
-/// Writes owners into the label image, or reads them from it.
-void WriteOwners(const BlockPixels& block, const int* owners, std::int16_t* labels);
-void ReadOwners(const BlockPixels& block, int count, const std::int16_t* labels, int* owners);
-
-/// Whether the pixels of a block with a label in `from`, of which there is at least one, have
-/// one and the same in `to`. @param from, to  of the block's first pixel; @param only  that
-/// label
-bool GoToOne(const BlockPixels& block, const std::int16_t* from, std::int16_t label,
-             const std::int16_t* to, std::int16_t& only);
+/// Whether the pixels of a set, which is not empty, have one and the same label.
+/// @param labels  of the block's first pixel; @param only  that label
+bool HaveOneLabel(const BlockPixels& block, ConstPixelSet set, const std::int16_t* labels,
+                  std::int16_t& only);
 
 }  // namespace slam

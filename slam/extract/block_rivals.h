@@ -1,34 +1,33 @@
 #pragma once
 
 #include "slam/extract/block_pixels.h"
+#include "slam/extract/pixel_set.h"
 
 namespace slam {
 
-/// What a plane among others has of a block.
+/// A plane near pixels of a block that others are near too.
 struct BlockRival {
-  int label = 0;
-  const float* residuals = nullptr;  ///< MeasureBlock
-  const float* bids = nullptr;       ///< BidForBlock
-  int pixels = 0;                    ///< ClaimBlock
-  double gain = 0.0;                 ///< GainsOfBlock
+  ConstPixelSet near = nullptr;
+  const float* bids = nullptr;  ///< BidForBlock
+  PixelSet owned = nullptr;     ///< what it gets, and
+  int pixels = 0;               ///< how many
 };
 
-// Arrays are those of block_pixels.h.
+/// Gives each pixel to the one with the least bid of those near it (the first of equal ones).
+void ShareBlock(BlockRival* rivals, int rival_count, int size);
 
-/// Gives each pixel to the only rival, if it is nearer than `most_sigmas`, or to the one with
-/// the least bid (the first of equal ones). @param owners  label or kNoLabel
-void ClaimBlock(BlockRival* rivals, int rival_count, int count, float most_sigmas, int* owners);
+/// A label's pixels of a block.
+struct BlockOwner {
+  int label = 0;
+  ConstPixelSet owned = nullptr;
+};
 
-/// What each rival gains at its pixels over the next best one there, or over `unexplained`
-/// sigmas: sum of differences of squared sigmas.
-/// @param gains, next_labels  of each pixel; kNoLabel where there is no next best
-void GainsOfBlock(BlockRival* rivals, int rival_count, int count, float unexplained,
-                  const int* owners, float* gains, int* next_labels);
+/// Writes the labels of the pixels of a block, kNoLabel where nobody owns one.
+/// @param labels  of its first pixel
+void DrawOwners(const BlockPixels& block, const BlockOwner* owners, int owner_count,
+                std::int16_t* labels);
 
-/// Sets the marks of the pixels of a block that `label` owns. @param marks  of its first pixel
-void MarkOwned(const BlockPixels& block, int label, const int* owners, std::uint8_t* marks);
-
-/// Sum of the residuals of the pixels that `label` owns.
-double SumOwned(const float* residuals, int count, int label, const int* owners);
+/// Sets the marks of the pixels of a set to 0. @param marks  of the block's first pixel
+void ClearMarks(const BlockPixels& block, ConstPixelSet set, std::uint8_t* marks);
 
 }  // namespace slam

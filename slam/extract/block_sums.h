@@ -9,7 +9,10 @@
 namespace slam {
 
 /// Sums of the measured pixels of a block.
-PlaneSums SumBlock(const BlockPixels& block);
+PlaneSums SumBlock(const BlockPixels& block, ConstPixelSet measured);
+
+/// Of its pixels in a set, all of them measured.
+PlaneSums SumOfSet(const BlockPixels& block, ConstPixelSet set);
 
 /// Of its pixels with that label, all of them measured. @param labels  of its first pixel
 PlaneSums SumLabelled(const BlockPixels& block, const std::int16_t* labels, std::int16_t label);

@@ -1,6 +1,7 @@
 #include "slam/extract/pixel_growth.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <numeric>
 
@@ -34,34 +35,80 @@ void PixelGrowth::Begin(const DepthGrid& grid, const GrowthConfig& config) {
   const auto pixels = static_cast<std::size_t>(config.block_px * config.block_px);
   const auto blocks = static_cast<std::size_t>(cols_ * rows_);
   slot_size_ = (pixels + kLanes - 1) / kLanes * kLanes;
-  words_ = (blocks + 63) / 64;
-  planes_.clear(), claims_.clear(), reached_.clear();
+  set_words_ = WordsOfSet(config.block_px);
+  planes_.clear(), pixel_planes_.clear(), claims_.clear();
   first_.assign(blocks, kNoClaim);
   active_.clear(), next_active_.clear(), is_active_.assign(blocks, 0);
-  is_stale_.assign(blocks, 0), knows_gains_.assign(blocks, 0);
-  labels_.assign(grid.q.size(), kNoLabel);
+  is_stale_.assign(blocks, 0), is_drawn_.assign(blocks, 0);
+  labels_.resize(grid.q.size());
   bid_count_ = 0;
-  owners_.resize(slot_size_), next_labels_.resize(slot_size_), gains_.resize(slot_size_);
+  nearest_.resize(2 * slot_size_);
+  contested_.resize(set_words_), unsettled_.resize(set_words_);
+  BeginReached();
+  place_.clear(), blocks_.clear();
+  measured_.resize(blocks * set_words_);
+  for (int r = 0; r < rows_; ++r) {
+    for (int c = 0; c < cols_; ++c) {
+      const std::size_t block = place_.size();
+      const int size = config.block_px;
+      place_.emplace_back(c, r);
+      blocks_.push_back(slam::BlockAt(grid, c * size, r * size, size));
+      FindMeasured(blocks_.back(), measured_.data() + block * set_words_);
+    }
+  }
+}
+
+/// What a label that has reached nothing begins with: the margin around the blocks, a column
+/// and a row wide and more on the right.
+void PixelGrowth::BeginReached() {
+  reached_.clear(), reached_rows_.clear();
+  row_bytes_ = static_cast<std::size_t>(cols_ + 2 + 7) / 8;
+  // Three bits are read from two bytes, so one more follows.
+  label_bytes_ = row_bytes_ * static_cast<std::size_t>(rows_ + 2) + 1;
+  nothing_reached_.assign(label_bytes_, 0xff);
+  for (int r = 0; r < rows_; ++r) {
+    for (unsigned c = 1; c <= static_cast<unsigned>(cols_); ++c)
+      nothing_reached_[ReachedRow(r, 0) + c / 8] &= static_cast<std::uint8_t>(~(1u << c % 8));
+  }
 }
 
 int PixelGrowth::AddPlane(const LabelPlane& plane) {
-  planes_.push_back(plane);
-  reached_.resize(planes_.size() * words_, 0);
+  planes_.push_back(plane), pixel_planes_.emplace_back(plane);
+  reached_.insert(reached_.end(), nothing_reached_.begin(), nothing_reached_.end());
+  reached_rows_.push_back({rows_, -1});
   return static_cast<int>(planes_.size()) - 1;
 }
 
 bool PixelGrowth::Reach(int block, int label) {
-  std::uint64_t& bits = ReachedBits(block, label);
-  const std::uint64_t bit = std::uint64_t{1} << (block % 64);
+  const cv::Point place = PlaceOf(block);
+  const auto c = static_cast<unsigned>(place.x + 1);
+  std::uint8_t& bits = reached_[ReachedRow(place.y, label) + c / 8];
+  const unsigned bit = 1u << c % 8;
   if ((bits & bit) != 0) return false;
-  bits |= bit;
+  bits = static_cast<std::uint8_t>(bits | bit);
+  Rows& rows = reached_rows_[static_cast<std::size_t>(label)];
+  rows = {std::min(rows.first, place.y), std::max(rows.last, place.y)};
   const int claim = static_cast<int>(claims_.size());
-  claims_.push_back({label, kNoClaim, 0, -1, 0.0f, false, false, 0.0});
+  claims_.push_back({});
+  Provide(sets_, claims_.size() * kSetCount * set_words_);
   int* link = &First(block);
   while (*link != kNoClaim && At(*link).label < label) link = &At(*link).next;
+  At(claim).label = label;
   At(claim).next = *link;
   *link = claim;
   return true;
+}
+
+/// The blocks around one, and itself, that a label has not reached: three bits a row.
+unsigned PixelGrowth::NotReachedAround(cv::Point place, int label) const {
+  const auto c = static_cast<unsigned>(place.x);  // of the block to the left, after the margin
+  const std::uint8_t* row = reached_.data() + ReachedRow(place.y - 1, label) + c / 8;
+  unsigned reached = 0;
+  for (unsigned r = 0; r < 3; ++r, row += row_bytes_) {
+    const unsigned bits = row[0] | static_cast<unsigned>(row[1]) << 8;
+    reached |= (bits >> c % 8 & 7u) << 3 * r;
+  }
+  return ~reached & 0x1ffu;
 }
 
 void PixelGrowth::Activate(int block) {
@@ -69,115 +116,98 @@ void PixelGrowth::Activate(int block) {
   if (is_active == 0) active_.push_back(block), is_active = 1;
 }
 
-cv::Rect PixelGrowth::BlockArea(int block) const {
-  const int size = config_.block_px;
-  const int u = block % cols_ * size, v = block / cols_ * size;
-  return {u, v, std::min(size, grid_->width - u), std::min(size, grid_->height - v)};
-}
-
-BlockPixels PixelGrowth::PixelsOf(const cv::Rect& area) const {
-  return slam::BlockAt(*grid_, area.x, area.y, config_.block_px);
-}
-
-void PixelGrowth::Measure(const BlockPixels& pixels, int claim) {
-  Provide(residuals_, static_cast<std::size_t>(claim + 1) * slot_size_);
+/// @returns whether a pixel is near.
+bool PixelGrowth::Measure(const BlockPixels& pixels, int block, int claim) {
   Claim& at = At(claim);
-  const PixelPlane plane(planes_[static_cast<std::size_t>(at.label)]);
+  at.near = FindNear(pixels, PlaneOf(claim), MeasuredOf(block), NearSigmas(), WideSigmas(),
+                     SetOf(claim, kNear), SetOf(claim, kWide));
   at.measured = true;
-  at.least = MeasureBlock(pixels, static_cast<int>(slot_size_), plane,
-                          residuals_.data() + static_cast<std::size_t>(claim) * slot_size_);
+  return at.near > 0;
 }
 
-void PixelGrowth::Bid(const BlockPixels& pixels, const cv::Rect& area, int claim) {
-  Claim& at = At(claim);
-  at.bid = static_cast<int>(bid_count_++);
+void PixelGrowth::Bid(const BlockPixels& pixels, int block, int claim) {
+  At(claim).bid = static_cast<int>(bid_count_++);
   Provide(bids_, bid_count_ * slot_size_);
+  const cv::Point first = PlaceOf(block) * config_.block_px;
   const int reach = config_.vote_reach_px;
   const BidWindow window{reach,
-                         std::min(reach, area.x),
-                         std::min(reach, area.y),
-                         std::min(reach, grid_->width - area.x - area.width),
-                         std::min(reach, grid_->height - area.y - area.height),
-                         static_cast<float>(config_.max_pixel_sigmas)};
-  BidForBlock(pixels, static_cast<int>(slot_size_),
-              PixelPlane(planes_[static_cast<std::size_t>(at.label)]), window,
-              ResidualsOf(claim), bids_.data() + static_cast<std::size_t>(at.bid) * slot_size_);
+                         std::min(reach, first.x),
+                         std::min(reach, first.y),
+                         std::min(reach, grid_->width - first.x - pixels.width),
+                         std::min(reach, grid_->height - first.y - pixels.height),
+                         NearSigmas()};
+  BidForBlock(pixels, static_cast<int>(slot_size_), PlaneOf(claim), window, SetOf(claim, kNear),
+              BidsOf(claim));
 }
 
-/// The claims of a block with a pixel nearer than that, by label, measured.
-void PixelGrowth::GatherRivals(int block, float nearer_than) {
-  rivals_.clear(), rival_claims_.clear();
-  for (int claim = First(block); claim != kNoClaim; claim = At(claim).next) {
-    if (At(claim).least < nearer_than) rival_claims_.push_back(claim);
+/// The pixels of a block that more than one claim has in that set.
+void PixelGrowth::FindContested(int block, Set set) {
+  for (std::size_t k = 0; k < set_words_; ++k) {
+    std::uint64_t seen = 0, contested = 0;
+    for (int claim = First(block); claim != kNoClaim; claim = At(claim).next) {
+      const std::uint64_t has = SetOf(claim, set)[k];
+      contested |= seen & has, seen |= has;
+    }
+    contested_[k] = contested;
   }
-  for (const int claim : rival_claims_)
-    rivals_.push_back({At(claim).label, ResidualsOf(claim), nullptr, 0, 0.0});
 }
 
 /// Gives the pixels of a block to the nearest of its planes and counts what each gets.
+void PixelGrowth::Share(const BlockPixels& pixels, int block) {
+  FindContested(block, kNear);
+  const bool is_contested = !IsEmpty(contested_.data(), set_words_);
+  rival_claims_.clear();
+  for (int claim = First(block); claim != kNoClaim; claim = At(claim).next) {
+    const ConstPixelSet near = SetOf(claim, kNear);
+    if (is_contested && Meet(near, contested_.data(), set_words_)) {
+      if (At(claim).bid < 0) Bid(pixels, block, claim);
+      rival_claims_.push_back(claim);
+    } else {
+      Copy(near, SetOf(claim, kOwned), set_words_);
+      At(claim).pixels = At(claim).near;
+    }
+  }
+  if (!is_contested) return;
+  rivals_.resize(rival_claims_.size());
+  for (std::size_t r = 0; r < rivals_.size(); ++r) {
+    const int claim = rival_claims_[r];
+    rivals_[r] = {SetOf(claim, kNear), BidsOf(claim), SetOf(claim, kOwned), 0};
+  }
+  ShareBlock(rivals_.data(), static_cast<int>(rivals_.size()), config_.block_px);
+  for (std::size_t r = 0; r < rivals_.size(); ++r)
+    At(rival_claims_[r]).pixels = rivals_[r].pixels;
+}
+
 /// @returns whether anything has changed.
 bool PixelGrowth::LabelBlock(int block) {
-  const cv::Rect area = BlockArea(block);
-  const BlockPixels pixels = PixelsOf(area);
-  const auto farthest = static_cast<float>(config_.max_pixel_sigmas);
+  const BlockPixels& pixels = PixelsOf(block);
   std::uint8_t& is_stale = is_stale_[static_cast<std::size_t>(block)];
-  for (int claim = First(block); claim != kNoClaim; claim = At(claim).next) {
-    if (At(claim).measured) continue;
-    Measure(pixels, claim);
-    knows_gains_[static_cast<std::size_t>(block)] = 0;
-    if (At(claim).least < farthest) is_stale = 1;
+  const int first = First(block);
+  for (int claim = first; claim != kNoClaim; claim = At(claim).next) {
+    if (!At(claim).measured && Measure(pixels, block, claim)) is_stale = 1;
   }
   if (is_stale == 0) return false;
   is_stale = 0;
-  knows_gains_[static_cast<std::size_t>(block)] = 0;
-  for (int claim = First(block); claim != kNoClaim; claim = At(claim).next)
-    At(claim).pixels = 0;
-  GatherRivals(block, farthest);
-  if (rivals_.size() > 1) {
-    for (const int claim : rival_claims_) {
-      if (At(claim).bid < 0) Bid(pixels, area, claim);
-    }
-    for (std::size_t k = 0; k < rivals_.size(); ++k) {
-      const auto bid = static_cast<std::size_t>(At(rival_claims_[k]).bid);
-      rivals_[k].bids = bids_.data() + bid * slot_size_;
-    }
-  }
-  ClaimBlock(rivals_.data(), static_cast<int>(rivals_.size()), static_cast<int>(slot_size_),
-             farthest, owners_.data());
-  for (std::size_t k = 0; k < rivals_.size(); ++k)
-    At(rival_claims_[k]).pixels = rivals_[k].pixels;
-  WriteOwners(pixels, owners_.data(),
-              labels_.data() + static_cast<std::size_t>(grid_->Index(area.x, area.y)));
-  return true;
-}
-
-/// Whether a label has reached a block and all its neighbours, so that it cannot spread.
-bool PixelGrowth::HasReachedAround(int block, int label) const {
-  const int c = block % cols_, r = block / cols_;
-  const int first = std::max(c - 1, 0), count = std::min(c + 1, cols_ - 1) - first + 1;
-  const std::uint64_t all = (std::uint64_t{1} << count) - 1;
-  const std::uint64_t* words = reached_.data() + static_cast<std::size_t>(label) * words_;
-  for (int y = std::max(r - 1, 0); y <= std::min(r + 1, rows_ - 1); ++y) {
-    const int at = y * cols_ + first, shift = at % 64;
-    const std::uint64_t* word = words + at / 64;
-    std::uint64_t bits = *word >> shift;
-    if (shift + count > 64) bits |= word[1] << (64 - shift);
-    if ((bits & all) != all) return false;
+  is_drawn_[static_cast<std::size_t>(block)] = 0;
+  if (first == kNoClaim) return true;
+  if (At(first).next == kNoClaim) {
+    Copy(SetOf(first, kNear), SetOf(first, kOwned), set_words_);
+    At(first).pixels = At(first).near;
+  } else {
+    Share(pixels, block);
   }
   return true;
 }
 
 void PixelGrowth::SpreadFrom(int block) {
-  const int c = block % cols_, r = block / cols_;
+  const cv::Point place = PlaceOf(block);
   for (int claim = First(block); claim != kNoClaim; claim = At(claim).next) {
     if (At(claim).spread || At(claim).pixels < kLeastPixelsToSpread) continue;
     At(claim).spread = true;
     const int label = At(claim).label;
-    if (HasReachedAround(block, label)) continue;
-    for (int y = std::max(r - 1, 0); y <= std::min(r + 1, rows_ - 1); ++y) {
-      for (int x = std::max(c - 1, 0); x <= std::min(c + 1, cols_ - 1); ++x) {
-        Seed(y * cols_ + x, label);
-      }
+    for (unsigned bits = NotReachedAround(place, label); bits != 0; bits &= bits - 1) {
+      const int k = std::countr_zero(bits);
+      Seed(block + (k / 3 - 1) * cols_ + k % 3 - 1, label);
     }
   }
 }
@@ -197,99 +227,10 @@ void PixelGrowth::Grow() {
   }
 }
 
-/// What its owner gains at each pixel of a block, over whom.
-void PixelGrowth::CompareRivals(int block, float unexplained) {
-  GatherRivals(block, unexplained);
-  const cv::Rect area = BlockArea(block);
-  ReadOwners(PixelsOf(area), static_cast<int>(slot_size_),
-             labels_.data() + static_cast<std::size_t>(grid_->Index(area.x, area.y)),
-             owners_.data());
-  GainsOfBlock(rivals_.data(), static_cast<int>(rivals_.size()), static_cast<int>(slot_size_),
-               unexplained, owners_.data(), gains_.data(), next_labels_.data());
-}
-
-/// Adds the gains of the pixels of one block.
-void PixelGrowth::AddGains(int block) {
-  if (First(block) == kNoClaim) return;
-  const float unexplained = static_cast<float>(config_.max_pixel_sigmas + 1.0);
-  if (At(First(block)).next == kNoClaim) {  // nobody asks how well it fits
-    const Claim& only = At(First(block));
-    const auto label = static_cast<std::size_t>(only.label);
-    pixels_[label] += only.pixels;
-    gain_[label] += static_cast<double>(unexplained * unexplained - 1.0f) * only.pixels;
-    return;
-  }
-  std::uint8_t& known = knows_gains_[static_cast<std::size_t>(block)];
-  if (known == 0) {
-    CompareRivals(block, unexplained);
-    for (int claim = First(block); claim != kNoClaim; claim = At(claim).next)
-      At(claim).gain = 0.0;
-    for (std::size_t k = 0; k < rivals_.size(); ++k)
-      At(rival_claims_[k]).gain = rivals_[k].gain;
-    known = 1;
-  }
-  for (int claim = First(block); claim != kNoClaim; claim = At(claim).next) {
-    const auto label = static_cast<std::size_t>(At(claim).label);
-    pixels_[label] += At(claim).pixels;
-    gain_[label] += At(claim).gain;
-  }
-}
-
-/// Adds what others gain at pixels where `label`'s plane is the next best, if it is not there.
-void PixelGrowth::AddGainsWithout(int label) {
-  const float unexplained = static_cast<float>(config_.max_pixel_sigmas + 1.0);
-  for (int block = 0; block < cols_ * rows_; ++block) {
-    const std::uint64_t bits = ReachedBits(block, label);
-    if (bits == 0) block |= 63;  // none of these 64
-    if ((bits >> (block % 64) & 1) == 0) continue;
-    CompareRivals(block, unexplained);
-    const auto own = std::find_if(rivals_.begin(), rivals_.end(),
-                                  [label](const BlockRival& r) { return r.label == label; });
-    if (own == rivals_.end()) continue;
-    for (std::size_t k = 0; k < slot_size_; ++k) {
-      if (owners_[k] == kNoLabel || next_labels_[k] != label) continue;
-      gain_[static_cast<std::size_t>(owners_[k])] += static_cast<double>(
-          unexplained * unexplained - own->residuals[k] * own->residuals[k]);
-    }
-  }
-}
-
-void PixelGrowth::DropUseless() {
-  gain_.assign(planes_.size(), 0.0), pixels_.assign(planes_.size(), 0);
-  for (int block = 0; block < cols_ * rows_; ++block) AddGains(block);
-  fewest_first_.resize(planes_.size());
-  std::iota(fewest_first_.begin(), fewest_first_.end(), 0u);
-  std::sort(fewest_first_.begin(), fewest_first_.end(), [&](std::size_t a, std::size_t b) {
-    return pixels_[a] != pixels_[b] ? pixels_[a] < pixels_[b] : a < b;
-  });
-  dropped_.assign(planes_.size(), 0);
-  for (const std::size_t label : fewest_first_) {
-    if (gain_[label] >= config_.min_gain * std::max(pixels_[label], 1)) continue;
-    dropped_[label] = 1;
-    AddGainsWithout(static_cast<int>(label));
-  }
-  Drop();
-}
-
 void PixelGrowth::Unlink(int block, int label) {
   int* link = &First(block);
   while (At(*link).label != label) link = &At(*link).next;
   *link = At(*link).next;
-}
-
-void PixelGrowth::Drop() {
-  for (int label = 0; label < static_cast<int>(dropped_.size()); ++label) {
-    if (dropped_[static_cast<std::size_t>(label)] == 0) continue;
-    for (int block = 0; block < cols_ * rows_; ++block) {
-      std::uint64_t& bits = ReachedBits(block, label);
-      if ((bits >> (block % 64) & 1) == 0) continue;
-      bits &= ~(std::uint64_t{1} << (block % 64));
-      Unlink(block, label);
-      Activate(block);
-      is_stale_[static_cast<std::size_t>(block)] = 1;
-    }
-  }
-  Grow();
 }
 
 void PixelGrowth::Replace(const std::vector<LabelPlane>& planes, const std::vector<int>& into) {
@@ -300,38 +241,49 @@ void PixelGrowth::Replace(const std::vector<LabelPlane>& planes, const std::vect
         seeds_.emplace_back(block, into[static_cast<std::size_t>(At(claim).label)]);
     }
   }
-  planes_ = planes;
-  claims_.clear();
+  planes_.clear(), pixel_planes_.clear(), claims_.clear();
+  reached_.clear(), reached_rows_.clear();
+  for (const LabelPlane& plane : planes) AddPlane(plane);
   bid_count_ = 0;
-  reached_.assign(planes_.size() * words_, 0);
   std::fill(first_.begin(), first_.end(), kNoClaim);
   std::fill(is_stale_.begin(), is_stale_.end(), 1);
   for (const auto& [block, label] : seeds_) Seed(block, label);
   Grow();
 }
 
-void PixelGrowth::MarkSettled(double bias, double standard_errors,
-                              std::vector<std::uint8_t>& settled) const {
-  settled.assign(labels_.size(), 0);
+const LabelImage& PixelGrowth::labels() const {
   for (int block = 0; block < cols_ * rows_; ++block) {
-    const cv::Rect area = BlockArea(block);
-    const BlockPixels pixels = PixelsOf(area);
-    const auto start = static_cast<std::size_t>(grid_->Index(area.x, area.y));
-    bool read = false;
+    std::uint8_t& is_drawn = is_drawn_[static_cast<std::size_t>(block)];
+    if (is_drawn != 0) continue;
+    is_drawn = 1;
+    block_owners_.clear();
     for (int claim = First(block); claim != kNoClaim; claim = At(claim).next) {
-      const int n = At(claim).pixels, label = At(claim).label;
-      if (n == 0) continue;
-      if (!read) {
-        ReadOwners(pixels, static_cast<int>(slot_size_), labels_.data() + start,
-                   owners_.data());
-        read = true;
-      }
-      const double sum =
-          SumOwned(ResidualsOf(claim), static_cast<int>(slot_size_), label, owners_.data());
-      const double bound = bias + standard_errors / std::sqrt(static_cast<double>(n));
-      if (!(std::abs(sum) < bound * n)) continue;
-      MarkOwned(pixels, label, owners_.data(), settled.data() + start);
+      if (At(claim).pixels > 0)
+        block_owners_.push_back({At(claim).label, SetOf(claim, kOwned)});
     }
+    DrawOwners(PixelsOf(block), block_owners_.data(), static_cast<int>(block_owners_.size()),
+               labels_.data() + IndexOf(block));
+  }
+  return labels_;
+}
+
+void PixelGrowth::MarkSettled(double bias, double standard_errors,
+                              std::vector<std::uint8_t>& settled) {
+  settled.assign(labels_.size(), 1);
+  for (int block = 0; block < cols_ * rows_; ++block) {
+    const BlockPixels& pixels = PixelsOf(block);
+    const PixelSet unsettled = unsettled_.data();
+    Copy(MeasuredOf(block), unsettled, set_words_);
+    for (int claim = First(block); claim != kNoClaim; claim = At(claim).next) {
+      const int n = At(claim).pixels;
+      if (n == 0) continue;
+      const ConstPixelSet owned = SetOf(claim, kOwned);
+      const double sum = SumResiduals(pixels, PlaneOf(claim), owned);
+      const double bound = bias + standard_errors / std::sqrt(static_cast<double>(n));
+      if (std::abs(sum) < bound * n) TakeOut(owned, unsettled, set_words_);
+    }
+    if (!IsEmpty(unsettled, set_words_))
+      ClearMarks(pixels, unsettled, settled.data() + IndexOf(block));
   }
 }
 

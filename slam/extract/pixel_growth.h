@@ -10,6 +10,7 @@
 #include "slam/extract/block_rivals.h"
 #include "slam/extract/depth_grid.h"
 #include "slam/extract/pixel_labels.h"
+#include "slam/extract/pixel_set.h"
 #include "slam/extract/plane_sums.h"
 
 namespace slam {
@@ -56,9 +57,9 @@ class PixelGrowth {
   void Replace(const std::vector<LabelPlane>& planes, const std::vector<int>& into);
 
   /// Marks the pixels whose label's plane has a mean residual in their block of less than
-  /// `bias` + `standard_errors` / sqrt(its pixels there). @param settled  1 or 0 for each pixel
-  void MarkSettled(double bias, double standard_errors,
-                   std::vector<std::uint8_t>& settled) const;
+  /// `bias` + `standard_errors` / sqrt(its pixels there).
+  /// @param settled  1 or 0 for each pixel; 1 where nothing is measured
+  void MarkSettled(double bias, double standard_errors, std::vector<std::uint8_t>& settled);
 
   /// Sums of the pixels of each label. @param whole  those of the measured pixels of each
   /// block; empty: not known
@@ -67,49 +68,90 @@ class PixelGrowth {
   /// above.
   void SumOtherLabels(const LabelImage& labels, int count, std::vector<PlaneSums>& sums) const;
 
-  const LabelImage& labels() const { return labels_; }
+  /// Of every pixel. The call draws what has changed since the last one.
+  const LabelImage& labels() const;
   const std::vector<LabelPlane>& planes() const { return planes_; }
 
  private:
   static constexpr int kNoClaim = -1;
 
-  /// What is known of a plane in a block that it has reached. Neither residuals nor bids depend
-  /// on the other planes there, so they are computed once.
+  /// What is known of a plane in a block that it has reached. Neither what is near it nor its
+  /// bids depend on the other planes there, so they are computed once.
   struct Claim {
     int label = 0;
-    int next = kNoClaim;    ///< in its block, by label
-    int pixels = 0;         ///< that it owns
-    int bid = -1;           ///< place of its bids; -1 = it has not bid yet
-    float least = 0.0f;     ///< residual of the block's pixels
-    bool measured = false;  ///< `least` and its residuals are
-    bool spread = false;    ///< to the neighbours
-    double gain = 0.0;      ///< over the next best one at its pixels; if its block's are known
+    int next = kNoClaim;      ///< in its block, by label
+    int near = 0;             ///< pixels within max_pixel_sigmas
+    int pixels = 0;           ///< that it owns
+    int bid = -1;             ///< place of its bids; -1 = it has not bid yet
+    bool measured = false;    ///< its sets are
+    bool spread = false;      ///< to the neighbours
+    double least_gain = 0.0;  ///< BoundGains
   };
+  /// Sets of a block's pixels that each claim has: those within max_pixel_sigmas, those within
+  /// a sigma more, and those that it owns.
+  enum Set { kNear, kWide, kOwned, kSetCount };
 
   Claim& At(int claim) { return claims_[static_cast<std::size_t>(claim)]; }
   const Claim& At(int claim) const { return claims_[static_cast<std::size_t>(claim)]; }
   int& First(int block) { return first_[static_cast<std::size_t>(block)]; }
   int First(int block) const { return first_[static_cast<std::size_t>(block)]; }
-  const float* ResidualsOf(int claim) const {
-    return residuals_.data() + static_cast<std::size_t>(claim) * slot_size_;
+  PixelSet SetOf(int claim, Set set) {
+    return sets_.data() + (static_cast<std::size_t>(claim) * kSetCount + set) * set_words_;
   }
-  std::uint64_t& ReachedBits(int block, int label) {
-    return reached_[static_cast<std::size_t>(label) * words_ +
-                    static_cast<std::size_t>(block) / 64];
+  ConstPixelSet SetOf(int claim, Set set) const {
+    return sets_.data() + (static_cast<std::size_t>(claim) * kSetCount + set) * set_words_;
   }
+  ConstPixelSet MeasuredOf(int block) const {
+    return measured_.data() + static_cast<std::size_t>(block) * set_words_;
+  }
+  float* BidsOf(int claim) {
+    return bids_.data() + static_cast<std::size_t>(At(claim).bid) * slot_size_;
+  }
+  float NearSigmas() const { return static_cast<float>(config_.max_pixel_sigmas); }
+  float WideSigmas() const { return static_cast<float>(config_.max_pixel_sigmas + 1.0); }
+  cv::Point PlaceOf(int block) const { return place_[static_cast<std::size_t>(block)]; }
+  const PixelPlane& PlaneOf(int claim) const {
+    return pixel_planes_[static_cast<std::size_t>(At(claim).label)];
+  }
+
+  // Which blocks a label has reached: a bit each, row by row, with a margin that counts as
+  // reached.
+  std::size_t ReachedRow(int row, int label) const {
+    return static_cast<std::size_t>(label) * label_bytes_ +
+           static_cast<std::size_t>(row + 1) * row_bytes_;
+  }
+  struct Rows {
+    int first, last;
+  };
+  void BeginReached();
   bool Reach(int block, int label);
+  unsigned NotReachedAround(cv::Point place, int label) const;
+  template <typename Visit>
+  void VisitReached(int label, const Visit& visit) const;
+
   void Activate(int block);
-  cv::Rect BlockArea(int block) const;
-  BlockPixels PixelsOf(const cv::Rect& area) const;
-  void Measure(const BlockPixels& pixels, int claim);
-  void Bid(const BlockPixels& pixels, const cv::Rect& area, int claim);
-  void GatherRivals(int block, float nearer_than);
-  void CompareRivals(int block, float unexplained);
+  const BlockPixels& PixelsOf(int block) const {
+    return blocks_[static_cast<std::size_t>(block)];
+  }
+  /// Of a block's first pixel.
+  std::size_t IndexOf(int block) const {
+    const cv::Point first = PlaceOf(block) * config_.block_px;
+    return static_cast<std::size_t>(grid_->Index(first.x, first.y));
+  }
+  bool Measure(const BlockPixels& pixels, int block, int claim);
+  void Bid(const BlockPixels& pixels, int block, int claim);
+  void FindContested(int block, Set set);
+  void Share(const BlockPixels& pixels, int block);
   bool LabelBlock(int block);
-  bool HasReachedAround(int block, int label) const;
   void SpreadFrom(int block);
-  void AddGains(int block);
-  void AddGainsWithout(int label);
+  int ClaimOf(int block, int label) const;
+  /// Of the pixels of a block that nobody else has reached: not asked how well the plane fits.
+  double GainAlone(int pixels) const {
+    return static_cast<double>(WideSigmas() * WideSigmas() - 1.0f) * pixels;
+  }
+  void BoundGains();
+  double GainOf(int claim, int block);
+  bool IsUseful(int label);
   void Drop();
   void Unlink(int block, int label);
 
@@ -117,23 +159,30 @@ class PixelGrowth {
   GrowthConfig config_;
   int cols_ = 0, rows_ = 0;
   std::size_t slot_size_ = 0;  ///< pixels of a block, rounded up to whole lanes
-  std::size_t words_ = 0;      ///< of a label in reached_
+  std::size_t set_words_ = 0;
+  std::size_t row_bytes_ = 0, label_bytes_ = 0;  ///< of a row and a label in reached_
   std::vector<LabelPlane> planes_;
+  std::vector<PixelPlane> pixel_planes_;  ///< the same
   std::vector<Claim> claims_;
-  std::vector<int> first_;                 ///< claim of each block
-  std::vector<std::uint64_t> reached_;     ///< a bit a block, label by label
-  std::vector<int> active_, next_active_;  ///< blocks that planes have reached
+  std::vector<std::uint64_t> sets_;      ///< of each claim
+  std::vector<std::uint64_t> measured_;  ///< pixels of each block
+  std::vector<cv::Point> place_;         ///< column and row of each block
+  std::vector<BlockPixels> blocks_;
+  std::vector<int> first_;                               ///< claim of each block
+  std::vector<std::uint8_t> reached_, nothing_reached_;  ///< by label; what each begins with
+  std::vector<Rows> reached_rows_;                       ///< by label: the rest is not reached
+  std::vector<int> active_, next_active_;                ///< blocks that planes have reached
   std::vector<std::uint8_t> is_active_;
-  std::vector<std::uint8_t> is_stale_;  ///< blocks whose labels are not those of their claims
-  std::vector<std::uint8_t> knows_gains_;  ///< blocks whose claims have not changed since
-  LabelImage labels_;
-  std::vector<float> residuals_;  ///< of each claim, sigmas; infinity where nothing is measured
-  std::vector<float> bids_;       ///< BidForBlock
+  std::vector<std::uint8_t>
+      is_stale_;  ///< blocks whose pixels are not shared among their claims
+  mutable std::vector<std::uint8_t> is_drawn_;  ///< blocks whose labels are up to date
+  mutable LabelImage labels_;
+  std::vector<float> bids_;  ///< BidForBlock
   std::size_t bid_count_ = 0;
   std::vector<PlaneSums> claim_sums_;  ///< of the pixels that each claim owns
   std::vector<PlaneSums> label_sums_;
   // What each label gains over the next best plane at its pixels.
-  std::vector<double> gain_;
+  std::vector<double> least_gain_;  ///< that it has at least
   std::vector<int> pixels_;
   std::vector<std::size_t> fewest_first_;   ///< labels by pixels_
   std::vector<std::uint8_t> dropped_;       ///< each label
@@ -141,10 +190,10 @@ class PixelGrowth {
   // Scratch of one block.
   std::vector<BlockRival> rivals_;
   std::vector<int> rival_claims_;
-  mutable std::vector<int> owners_;
+  mutable std::vector<BlockOwner> block_owners_;
+  std::vector<std::uint64_t> contested_, unsettled_;
   mutable std::vector<std::pair<int, int>> goes_to_;  ///< (claim, other label)
-  std::vector<int> next_labels_;
-  std::vector<float> gains_;
+  std::vector<float> nearest_;  ///< of the planes that a label is compared with, sigmas
 };
 
 }  // namespace slam

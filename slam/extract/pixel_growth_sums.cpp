@@ -7,9 +7,6 @@ const std::vector<PlaneSums>& PixelGrowth::SumLabels(const std::vector<PlaneSums
   if (claim_sums_.size() < claims_.size()) claim_sums_.resize(2 * claims_.size());
   label_sums_.assign(planes_.size(), PlaneSums{});
   for (int block = 0; block < cols_ * rows_; ++block) {
-    const cv::Rect area = BlockArea(block);
-    const std::int16_t* labels =
-        labels_.data() + static_cast<std::size_t>(grid_->Index(area.x, area.y));
     for (int claim = First(block); claim != kNoClaim; claim = At(claim).next) {
       const Claim& at = At(claim);
       if (at.pixels == 0) continue;
@@ -17,7 +14,7 @@ const std::vector<PlaneSums>& PixelGrowth::SumLabels(const std::vector<PlaneSums
                                              static_cast<double>(at.pixels);
       PlaneSums& sums = claim_sums_[static_cast<std::size_t>(claim)];
       sums = all ? whole[static_cast<std::size_t>(block)]
-                 : SumLabelled(PixelsOf(area), labels, static_cast<std::int16_t>(at.label));
+                 : SumOfSet(PixelsOf(block), SetOf(claim, kOwned));
       label_sums_[static_cast<std::size_t>(at.label)] += sums;
     }
   }
@@ -28,20 +25,18 @@ void PixelGrowth::SumOtherLabels(const LabelImage& labels, int count,
                                  std::vector<PlaneSums>& sums) const {
   sums.assign(static_cast<std::size_t>(count), PlaneSums{});
   for (int block = 0; block < cols_ * rows_; ++block) {
-    const cv::Rect area = BlockArea(block);
-    const auto start = static_cast<std::size_t>(grid_->Index(area.x, area.y));
-    const BlockPixels pixels = PixelsOf(area);
+    const BlockPixels& pixels = PixelsOf(block);
+    const std::int16_t* at = labels.data() + IndexOf(block);
     goes_to_.clear();
     bool whole = true;
     for (int claim = First(block); whole && claim != kNoClaim; claim = At(claim).next) {
       if (At(claim).pixels == 0) continue;
-      const auto label = static_cast<std::int16_t>(At(claim).label);
       std::int16_t to = kNoLabel;
-      whole = GoToOne(pixels, labels_.data() + start, label, labels.data() + start, to);
+      whole = HaveOneLabel(pixels, SetOf(claim, kOwned), at, to);
       goes_to_.emplace_back(claim, to);
     }
     if (!whole) {
-      SumTile(pixels, labels.data() + start, sums);
+      SumTile(pixels, at, sums);
       continue;
     }
     for (const auto& [claim, to] : goes_to_) {

@@ -80,8 +80,7 @@ void PlaneExtractor::Extract(Frame& frame) {
   const double warp = work_->warp.Measure(clusters, work_->clustering.SumsOfBlocks(), settings);
   const PlaneExtractionConfig config = AllowWarp(settings, warp);
   work_->sensor_bends = warp > 0.0;
-  if (warp > 0.0)
-    work_->clustering.Cluster(grid, {}, config.block_px, config.noise, config.coarse);
+  if (warp > 0.0) work_->clustering.MergeAgain(config.coarse);
   growth.Begin(grid, config.growth);
   AddClusters(grid, clusters, config.noise, growth);
   growth.MarkSettled(config.coarse.model_error_sigmas,

@@ -35,19 +35,21 @@ DepthGrid RoughGrid(int width, int height, double k1 = 0.0) {
 
 const LabelPlane kPlane{{-0.9, 0.02, 0.97}, 1.3};
 
+float ResidualAt(const DepthGrid& grid, int u, int v) {
+  return ResidualSigmas(grid, static_cast<std::size_t>(grid.Index(u, v)), kPlane);
+}
+bool IsMeasured(const DepthGrid& grid, int u, int v) {
+  return grid.g[static_cast<std::size_t>(grid.Index(u, v))] > 0;
+}
+
 /// What a bid is by its definition.
 float PlainBid(const DepthGrid& grid, int u, int v, int reach, float most) {
-  const auto i = static_cast<std::size_t>(grid.Index(u, v));
-  if (!(grid.g[i] > 0) || std::abs(ResidualSigmas(grid, i, kPlane)) >= most) return kTooFar;
   float bid = 0.0f;
-  for (int y = v - reach; y <= v + reach; ++y) {
-    float row = 0.0f;
-    for (int x = u - reach; x <= u + reach; ++x) {
-      if (x < 0 || y < 0 || x >= grid.width || y >= grid.height) continue;
-      const float r = ResidualSigmas(grid, static_cast<std::size_t>(grid.Index(x, y)), kPlane);
-      row += std::min(r * r, most * most);
+  for (int y = std::max(v - reach, 0); y <= std::min(v + reach, grid.height - 1); ++y) {
+    for (int x = std::max(u - reach, 0); x <= std::min(u + reach, grid.width - 1); ++x) {
+      const float r = ResidualAt(grid, x, y);
+      bid += std::min(r * r, most * most);
     }
-    bid += row;
   }
   return bid;
 }
@@ -61,34 +63,86 @@ BidWindow WindowOf(const DepthGrid& grid, const BlockPixels& block, int u, int v
           3.0f};
 }
 
-TEST(BlockPixels, MeasureAndBidWhatTheirDefinitionsSay) {
-  const DepthGrid grid = RoughGrid(29, 27);
-  for (const auto& [size, reach] : std::vector<std::pair<int, int>>{{8, 2}, {8, 3}, {5, 2}}) {
-    const int count = (size * size + 7) / 8 * 8;
-    std::vector<float> residuals(static_cast<std::size_t>(count)), bids(residuals.size());
-    int bidding = 0;
-    for (int v0 = 0; v0 < grid.height; v0 += size) {
-      for (int u0 = 0; u0 < grid.width; u0 += size) {
-        const BlockPixels block = BlockAt(grid, u0, v0, size);
-        const float least = MeasureBlock(block, count, PixelPlane(kPlane), residuals.data());
+/// Calls visit(block, u0, v0) for the blocks of a grid, whole and cut off by the image.
+template <typename Visit>
+void VisitBlocks(const DepthGrid& grid, int size, const Visit& visit) {
+  for (int v0 = 0; v0 < grid.height; v0 += size)
+    for (int u0 = 0; u0 < grid.width; u0 += size) visit(BlockAt(grid, u0, v0, size), u0, v0);
+}
+
+TEST(BlockPixels, FindWhatIsNearAPlaneAndBidWhatTheirDefinitionsSay) {
+  for (const double k1 : {0.0, 0.2}) {
+    const DepthGrid grid = RoughGrid(29, 27, k1);
+    for (const auto& [size, reach] :
+         std::vector<std::pair<int, int>>{{8, 2}, {8, 3}, {5, 2}, {11, 2}}) {
+      const int count = (size * size + 7) / 8 * 8;
+      const std::size_t words = WordsOfSet(size);
+      std::vector<float> bids(static_cast<std::size_t>(count));
+      std::vector<std::uint64_t> measured(words), near(words), wide(words);
+      int bidding = 0, only_wide = 0;
+      VisitBlocks(grid, size, [&](const BlockPixels& block, int u0, int v0) {
+        FindMeasured(block, measured.data());
+        const int found = FindNear(block, PixelPlane(kPlane), measured.data(), 3.0f, 4.0f,
+                                   near.data(), wide.data());
         BidForBlock(block, count, PixelPlane(kPlane), WindowOf(grid, block, u0, v0, reach),
-                    residuals.data(), bids.data());
-        float expected_least = kTooFar;
-        for (int v = 0; v < block.height; ++v) {
-          for (int u = 0; u < block.width; ++u) {
-            const auto i = static_cast<std::size_t>(grid.Index(u0 + u, v0 + v));
-            const auto k = static_cast<std::size_t>(v * size + u);
-            const float r = grid.g[i] > 0 ? ResidualSigmas(grid, i, kPlane) : kTooFar;
-            EXPECT_EQ(residuals[k], r);
-            EXPECT_EQ(bids[k], PlainBid(grid, u0 + u, v0 + v, reach, 3.0f));
-            expected_least = std::min(expected_least, std::abs(r));
-            bidding += bids[k] < kTooFar ? 1 : 0;
+                    near.data(), bids.data());
+        int expected = 0;
+        for (int v = 0; v < size; ++v) {
+          for (int u = 0; u < size; ++u) {
+            const bool inside =
+                u < block.width && v < block.height && IsMeasured(grid, u0 + u, v0 + v);
+            const float r = inside ? std::abs(ResidualAt(grid, u0 + u, v0 + v)) : kTooFar;
+            const float bid = bids[static_cast<std::size_t>(v * size + u)];
+            EXPECT_EQ(IsInSet(measured.data(), size, u, v), inside);
+            EXPECT_EQ(IsInSet(near.data(), size, u, v), r < 3.0f) << r;
+            EXPECT_EQ(IsInSet(wide.data(), size, u, v), r < 4.0f) << r;
+            if (r < 3.0f) {
+              const float plain = PlainBid(grid, u0 + u, v0 + v, reach, 3.0f);
+              EXPECT_NEAR(bid, plain, 1e-5f * plain);
+              ++expected;
+            } else {
+              EXPECT_EQ(bid, kTooFar);
+              only_wide += r < 4.0f ? 1 : 0;
+            }
           }
         }
-        EXPECT_EQ(least, expected_least);
-      }
+        EXPECT_EQ(found, expected);
+        bidding += expected;
+      });
+      EXPECT_GT(bidding, 100);
+      EXPECT_GT(only_wide, 10);
     }
-    EXPECT_GT(bidding, 100);
+  }
+}
+
+TEST(BlockPixels, SumResidualsAndGainsOfTheirSetAlone) {
+  for (const double k1 : {0.0, 0.2}) {
+    const DepthGrid grid = RoughGrid(29, 27, k1);
+    for (const int size : {8, 5, 11}) {
+      const std::size_t words = WordsOfSet(size);
+      VisitBlocks(grid, size, [&](const BlockPixels& block, int u0, int v0) {
+        std::vector<std::uint64_t> set(words);
+        std::vector<float> nearest(static_cast<std::size_t>(size * size + 7), 4.0f);
+        LowerToDistance(block, PixelPlane(kPlane), nearest.data());
+        double residuals = 0.0, gains = 0.0;
+        for (int v = 0; v < block.height; ++v) {
+          for (int u = 0; u < block.width; ++u) {
+            const float r = ResidualAt(grid, u0 + u, v0 + v);
+            float& least = nearest[static_cast<std::size_t>(v * size + u)];
+            EXPECT_NEAR(least, std::min(std::abs(r), 4.0f), 1e-5f);
+            least = 5.0f;
+            if ((u * 7 + v * 3) % 5 > 1 || !IsMeasured(grid, u0 + u, v0 + v)) continue;
+            PutInSet(set.data(), size, u, v);
+            residuals += static_cast<double>(r);
+            gains += 25.0 - static_cast<double>(r * r);
+          }
+        }
+        EXPECT_NEAR(SumResiduals(block, PixelPlane(kPlane), set.data()), residuals,
+                    1e-5 * size * size);
+        EXPECT_NEAR(SumGains(block, PixelPlane(kPlane), set.data(), nearest.data()), gains,
+                    1e-3 * size * size);
+      });
+    }
   }
 }
 
@@ -122,29 +176,69 @@ TEST(BlockPixels, SumThePixelsOfALabelAndNoOthersWithALensAndWithout) {
   }
 }
 
-TEST(BlockPixels, OfALabelGoToOneIfAllHaveTheSameAfterwards) {
+TEST(BlockPixels, SumTheirSetAlone) {
+  for (const double k1 : {0.0, 0.2}) {
+    const DepthGrid grid = RoughGrid(29, 27, k1);
+    for (const int size : {8, 5}) {
+      VisitBlocks(grid, size, [&](const BlockPixels& block, int u0, int v0) {
+        std::vector<std::uint64_t> all(WordsOfSet(size)), set(all);
+        PlaneSums plain_all, plain_set;
+        FindMeasured(block, all.data());
+        for (int v = 0; v < block.height; ++v) {
+          for (int u = 0; u < block.width; ++u) {
+            const auto i = static_cast<std::size_t>(grid.Index(u0 + u, v0 + v));
+            const double g = static_cast<double>(grid.g[i]);
+            if (!(g > 0)) continue;
+            const auto add = [&](PlaneSums& sums) {
+              sums.Add(static_cast<double>(grid.x[i]), static_cast<double>(grid.y[i]),
+                       static_cast<double>(grid.q[i]), g * g);
+            };
+            add(plain_all);
+            if ((u * 5 + v) % 3 == 0) continue;
+            PutInSet(set.data(), size, u, v);
+            add(plain_set);
+          }
+        }
+        for (const auto& [got, expected] :
+             {std::pair(SumBlock(block, all.data()), plain_all),
+              std::pair(SumOfSet(block, set.data()), plain_set)}) {
+          EXPECT_EQ(got.n, expected.n);
+          const std::vector<double> a = Numbers(got), b = Numbers(expected);
+          for (std::size_t m = 0; m < a.size(); ++m)
+            EXPECT_NEAR(a[m], b[m], 1e-12 * expected.w) << m;
+        }
+      });
+    }
+  }
+}
+
+TEST(BlockPixels, HaveOneLabelIfAllOfTheirSetDo) {
   const DepthGrid grid = RoughGrid(21, 16);
   for (const int u : {0, 16}) {  // a whole block, and one that the image cuts off
     const BlockPixels block = BlockAt(grid, u, 8, 8);
-    std::vector<std::int16_t> from(grid.q.size(), 3), to(grid.q.size(), 7);
+    std::vector<std::int16_t> labels(grid.q.size(), 7);
     const auto first = static_cast<std::size_t>(grid.Index(u, 8));
     const auto last = static_cast<std::size_t>(grid.Index(u + block.width - 1, 15));
-    const auto go = [&](std::int16_t label, std::int16_t& only) {
-      return GoToOne(block, from.data() + first, label, to.data() + first, only);
+    std::vector<std::uint64_t> all(1), corner(1);
+    PutInSet(corner.data(), 8, 0, 0);
+    for (int k = 1; k < block.width * block.height; ++k)
+      PutInSet(all.data(), 8, k % block.width, k / block.width);
+    const auto have = [&](const std::vector<std::uint64_t>& set, std::int16_t& only) {
+      return HaveOneLabel(block, set.data(), labels.data() + first, only);
     };
     std::int16_t only = 0;
-    from[first] = 5, to[first] = 9;  // another's
-    EXPECT_TRUE(go(3, only));
+    labels[first] = 9;  // another's
+    EXPECT_TRUE(have(all, only));
     EXPECT_EQ(only, 7);
-    EXPECT_TRUE(go(5, only));
+    EXPECT_TRUE(have(corner, only));
     EXPECT_EQ(only, 9);
-    to[last] = kNoLabel;
-    EXPECT_FALSE(go(3, only));
-    std::fill(to.begin(), to.end(), kNoLabel);
-    EXPECT_TRUE(go(3, only));
+    labels[last] = kNoLabel;
+    EXPECT_FALSE(have(all, only));
+    std::fill(labels.begin(), labels.end(), kNoLabel);
+    EXPECT_TRUE(have(all, only));
     EXPECT_EQ(only, kNoLabel);
-    to[last] = 8;
-    EXPECT_FALSE(go(3, only));
+    labels[last] = 8;
+    EXPECT_FALSE(have(all, only));
   }
 }
 
