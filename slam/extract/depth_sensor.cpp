@@ -36,7 +36,8 @@ PlaneExtractionConfig ExtractionFor(DepthSensor sensor) {
       config.noise = AzureNoise();
       config.max_bend_sigmas = 4.0;  // the wave bends a surface
       config.max_bend_rad = 0.15;
-      config.max_warp_sigmas = 0.0;  // it is in the noise
+      config.max_warp_sigmas = 0.0;     // it is in the noise
+      config.division.enabled = false;  // light from corners bends what is next to them
       break;
     case DepthSensor::kD435:
       config.noise = D435Noise();

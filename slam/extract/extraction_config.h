@@ -30,6 +30,18 @@ struct BoxSplitConfig {
   double max_high_around = 0.1;
 };
 
+/// When a segment holds two faces with a step between them (segment_division.h).
+struct SegmentDivisionConfig {
+  bool enabled = true;
+  /// Of the step along the best line, 2 degrees of freedom; 16.3 is 0.03 %, for the best of
+  /// many lines. Domain (0, inf).
+  double min_chi2 = 16.3;
+  /// Root mean square of the step; a smaller one may be the sensor's. Domain [0, inf).
+  double min_gap_sigmas = 1.0;
+  /// Part of the step that must be there between the nearer halves; domain [0, 1].
+  double min_share = 0.67;
+};
+
 /// Settings of plane extraction. A length here is of the sensor or of the image, and every
 /// threshold on a surface is in units of the noise.
 struct PlaneExtractionConfig {
@@ -60,7 +72,7 @@ struct PlaneExtractionConfig {
   double max_bend_step_sigmas = 1.5;
   /// Warp of the sensor, as measured in each frame (sensor_warp.h), that is allowed for; 0:
   /// none. Every sigma of it adds so many to the model error of the clusters, and to the gaps
-  /// between parts that are bent or hidden. Domain [0, inf).
+  /// between parts that are bent or hidden; and segments are not divided. Domain [0, inf).
   double max_warp_sigmas = 1.0;
   double warp_model_error = 1.5;
   double warp_gap = 12.0;
@@ -69,6 +81,8 @@ struct PlaneExtractionConfig {
   double max_island_behind = 0.35;
   /// What lies nearer to the plane is neither behind it nor in front; domain [0, inf).
   double unsure_side_sigmas = 0.0;
+
+  SegmentDivisionConfig division;
 
   /// A segment needs this many pixels and this precision: fewer or worse is noise. At 1 m, 300
   /// pixels are 33 x 33 mm seen frontally.

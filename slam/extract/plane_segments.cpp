@@ -100,9 +100,13 @@ void PlaneExtractor::Extract(Frame& frame) {
   DrawRuns(segments, work_->labels);
   const int count = work_->parts.segment_count();
   growth.SumOtherLabels(work_->labels, count, work_->sums);
+  const bool divided =
+      work_->division.Divide(grid, segments, config, work_->labels, work_->sums);
+  if (divided) FindRuns(work_->labels, grid.width, grid.height, work_->divided);
   KeepMeasured(work_->sums, config, work_->kept);
   frame.plane_labels.create(grid.height, grid.width);
-  DrawLabels(segments, count, work_->kept, work_->drawn_value, frame.plane_labels);
+  DrawLabels(divided ? work_->divided : segments, static_cast<int>(work_->sums.size()),
+             work_->kept, work_->drawn_value, frame.plane_labels);
   work_->Describe(frame);
 }
 

@@ -14,6 +14,7 @@
 #include "slam/extract/patches.h"
 #include "slam/extract/pixel_growth.h"
 #include "slam/extract/plane_segments.h"
+#include "slam/extract/segment_division.h"
 #include "slam/extract/sensor_warp.h"
 
 namespace slam {
@@ -31,6 +32,8 @@ struct PlaneExtractor::Workspace {
   PartSegmentation parts;
   LabelImage labels;  ///< of segments
   std::vector<PlaneSums> sums;
+  SegmentDivision division;
+  LabelRuns divided;  ///< the segments, if one was divided
   std::vector<Segment> kept;
   std::vector<std::uint8_t> drawn_value;
   OuterContours contours;
