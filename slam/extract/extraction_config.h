@@ -32,11 +32,12 @@ struct BoxSplitConfig {
 
 /// When a segment holds two faces with a step between them (segment_division.h).
 struct SegmentDivisionConfig {
+  /// Off for sensors that bend what is flat as suddenly as two faces differ.
   bool enabled = true;
-  /// Of the step along the best line, 2 degrees of freedom; 16.3 is 0.03 %, for the best of
-  /// many lines. Domain (0, inf).
-  double min_chi2 = 16.3;
-  /// Root mean square of the step; a smaller one may be the sensor's. Domain [0, inf).
+  /// Of the step, 2 degrees of freedom: noise exceeds 20 along one of 20,000 lines, and the
+  /// best of many is looked at. Domain (0, inf).
+  double min_chi2 = 20.0;
+  /// Root mean square of the step along the line; less may be the sensor's. Domain [0, inf).
   double min_gap_sigmas = 1.0;
   /// Part of the step that must be there between the nearer halves; domain [0, 1].
   double min_share = 0.67;

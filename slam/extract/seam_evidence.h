@@ -13,11 +13,11 @@ namespace slam {
 /// its own, fitted without what is next to the line, which the sensor smooths.
 struct SeamEvidence {
   /// Of the gap between the planes along the line, 2 degrees of freedom. A crease has none, nor
-  /// has a bend of one curvature, wherever the line cuts it.
+  /// has a bend of one curvature with sides of one width.
   double chi2 = 0.0;
   double gap_sigmas = 0.0;  ///< root mean square along the line, less what noise adds to it
   /// The part of the gap that is there between planes fitted to the nearer halves of both sides
-  /// (least squares): all of a step, little of what a changing curvature makes.
+  /// (least squares): all of a step, a quarter of what a bend with unequal sides makes.
   double share = 0.0;
 };
 
