@@ -36,13 +36,11 @@ PlaneExtractionConfig ExtractionFor(DepthSensor sensor) {
       config.noise = AzureNoise();
       config.max_bend_sigmas = 4.0;  // the wave bends a surface
       config.max_bend_rad = 0.15;
-      config.max_warp_sigmas = 0.0;     // it is in the noise
-      config.division.enabled = false;  // so do corners, which shine on what is next to them
+      config.max_warp_sigmas = 0.0;  // it is in the noise
       break;
     case DepthSensor::kD435:
       config.noise = D435Noise();
       config.box_split.enabled = true;  // thin steps are hidden in its noise
-      config.division.enabled = false;  // its windows see across edges
       break;
   }
   return config;

@@ -32,8 +32,7 @@ struct BoxSplitConfig {
 
 /// When a segment holds two faces with a step between them (segment_division.h).
 struct SegmentDivisionConfig {
-  /// Off for sensors that bend what is flat as suddenly as two faces differ.
-  bool enabled = true;
+  bool enabled = false;  ///< better frames, but worse association (docs/planes.md)
   /// Of the step, 2 degrees of freedom: noise exceeds 20 along one of 20,000 lines, and the
   /// best of many is looked at. Domain (0, inf).
   double min_chi2 = 20.0;

