@@ -97,11 +97,12 @@ void PlaneExtractor::Extract(Frame& frame) {
   patches.MergeEqualNeighbours(grid, blocks, config, growth);
   const PatchUnion& joined = patches.JoinBentParts(grid, blocks, config, growth, warp > 0.0);
   const LabelRuns& segments = work_->parts.Segment(grid, joined, patches.runs(), config);
-  const int count = work_->parts.segment_count();
   work_->parts.SumSegments(grid, joined, work_->sums);
+  const bool divided = work_->division.Divide(grid, segments, config, work_->sums);
   KeepMeasured(work_->sums, config, work_->kept);
   frame.plane_labels.create(grid.height, grid.width);
-  DrawLabels(segments, count, work_->kept, work_->drawn_value, frame.plane_labels);
+  DrawLabels(divided ? work_->division.runs() : segments, static_cast<int>(work_->sums.size()),
+             work_->kept, work_->drawn_value, frame.plane_labels);
   work_->Describe(frame);
 }
 

@@ -15,6 +15,7 @@
 #include "slam/extract/patches.h"
 #include "slam/extract/pixel_growth.h"
 #include "slam/extract/plane_segments.h"
+#include "slam/extract/segment_division.h"
 #include "slam/extract/sensor_warp.h"
 
 namespace slam {
@@ -31,6 +32,7 @@ struct PlaneExtractor::Workspace {
   PatchJoining patches;
   PartSegmentation parts;
   std::vector<PlaneSums> sums;  ///< of segments
+  SegmentDivision division;
   std::vector<Segment> kept;
   std::vector<std::uint8_t> drawn_value;
   OuterContours contours;

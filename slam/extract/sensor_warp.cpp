@@ -73,9 +73,11 @@ PlaneExtractionConfig AllowWarp(const PlaneExtractionConfig& config, double warp
   allowed.fine.model_error_sigmas += config.warp_model_error * warp_sigmas;
   allowed.max_bend_sigmas += config.warp_gap * warp_sigmas;
   allowed.max_hidden_gap_sigmas += config.warp_gap * warp_sigmas;
-  if (warp_sigmas > 0.0)
+  if (warp_sigmas > 0.0) {
     allowed.unsure_side_sigmas =
         std::max(config.unsure_side_sigmas, allowed.max_hidden_gap_sigmas);
+    allowed.division.enabled = false;  // what is sudden here may be the sensor's
+  }
   return allowed;
 }
 
