@@ -6,6 +6,7 @@
 #include <cmath>
 #include <functional>
 #include <opencv2/core.hpp>
+#include <opencv2/imgproc.hpp>
 
 #include "slam/base/camera.h"
 #include "slam/base/random.h"
