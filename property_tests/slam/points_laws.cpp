@@ -7,8 +7,8 @@
 #include "property_tests/generators/poses.h"
 #include "slam/associate/point_point.h"
 #include "slam/extract/point_spread.h"
-#include "slam/mapping/point_triangulation.h"
 #include "slam/localise/motion_model.h"
+#include "slam/mapping/point_triangulation.h"
 
 namespace slam {
 namespace {

@@ -58,6 +58,6 @@ void VisitExtraction(Config& config, FieldVisitor& visitor);   ///< planes of a 
 void VisitProcessing(Config& config, FieldVisitor& visitor);   ///< (C)
 void VisitAssociation(Config& config, FieldVisitor& visitor);  ///< (D) and the plane factors
 void VisitMapping(Config& config, FieldVisitor& visitor);
-void VisitLoop(Config& config, FieldVisitor& visitor);      ///< (F), (G)
+void VisitLoop(Config& config, FieldVisitor& visitor);  ///< (F), (G)
 
 }  // namespace slam

@@ -87,8 +87,9 @@ TEST(D435Noise, KeepsItsSdWhereTheTwoRoundingsBeat) {
   const DepthModel model = D435Model{.baseline_m = 0};
   for (const double z : {0.5870, 0.5873, 0.6005, 0.8210, 0.8297, 0.9004}) {
     const Rendering rendering = SensorView(OneBoard(z), NarrowCamera(), model);
-    const ErrorMoments m = MeasureErrors(rendering, NarrowCamera(), model, 20,
-                                         [](double at, double) { return PublishedD435Sigma(at); });
+    const ErrorMoments m =
+        MeasureErrors(rendering, NarrowCamera(), model, 20,
+                      [](double at, double) { return PublishedD435Sigma(at); });
     EXPECT_NEAR(m.sd, 1.0, 0.04) << z;
   }
 }
