@@ -79,10 +79,8 @@ bool MapSplit::Elect(const DepthGrid& grid, const cv::Mat1b& labels, int host,
                                    ray.dot(outside.sigmas.covariance * ray));
   if (!(std::abs(q - q_outside) > rules.min_evidence_sigmas * sigma_q)) return false;
   const double off_m = Off(sought_c, ray, q), other_off_m = Off(other_c, ray, q_outside);
-  const double most_off_m = kCertain * rules.pose_sigma_m;
   const double sigma_m = sought_c.d / q * sigma_q;
-  return std::abs(off_m) < most_off_m && std::abs(other_off_m) < most_off_m &&
-         std::abs(off_m - other_off_m) < kCertain * std::hypot(sigma_m, rules.map_sigma_m);
+  return std::abs(off_m - other_off_m) < kCertain * std::hypot(sigma_m, rules.map_sigma_m);
 }
 
 bool MapSplit::Find(const DepthGrid& grid, const cv::Mat1b& labels, int host,

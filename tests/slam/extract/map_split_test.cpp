@@ -115,11 +115,50 @@ TEST(MapSplit, FindsNothingWhereTheBookIsGone) {
 
 TEST(MapSplit, AsksForTheStepOfTheMap) {
   KnownBook known;
-  EXPECT_FALSE(known.SplitWhenOffBy(0.0, {known.Desk(), known.Book(0.012)}))
-      << "the step is not that of the map";
+  for (const double more_m : {0.005, 0.006, 0.012}) {
+    EXPECT_FALSE(known.SplitWhenOffBy(0.0, {known.Desk(), known.Book(more_m)}))
+        << "the step is not that of the map, " << more_m;
+  }
   EXPECT_FALSE(known.SplitWhenOffBy(0.0, {known.Book()})) << "nothing is known of the desk";
   EXPECT_FALSE(known.SplitWhenOffBy(0.04, {known.Desk(), known.Book()}))
       << "farther off than a pose may be";
+}
+
+TEST(MapSplit, FindsNothingInNoise) {
+  // A small step in a large outline, for which noise elects regions: they are not beyond doubt.
+  Camera camera;
+  camera.width = 320, camera.height = 240, camera.cx = 160, camera.cy = 120;
+  const PlaneExtractionConfig config;
+  const InverseDepthPlane table{0.1, 0.5, 1.0};
+  const Plane table_c = table.Hessian();
+  const std::vector<ExpectedPlane> expected = {
+      {table_c, {}, 0.0},
+      {{table_c.n, table_c.d - 0.0014}, {{60, 40}, {260, 40}, {260, 200}, {60, 200}}, 3.0}};
+  for (std::uint64_t seed = 0; seed < 20; ++seed) {
+    DepthGrid grid = MakeDepthGrid(cv::Mat1f(camera.height, camera.width, 1.0f),
+                                   PixelRays(camera), config.noise, 10.0);
+    Random random{seed};
+    cv::Mat1d white(camera.height + 3, camera.width + 3);
+    for (double& at : white) at = closed_form::Gaussian(random);
+    Segment segment;
+    for (int v = 0; v < camera.height; ++v) {
+      for (int u = 0; u < camera.width; ++u) {
+        const auto i = static_cast<std::size_t>(grid.Index(u, v));
+        const double x = static_cast<double>(grid.x[i]), y = static_cast<double>(grid.y[i]);
+        const double q = table.InverseDepth(x, y);
+        const double sigma_q = q * q * config.noise.Sigma(1.0 / q);
+        // Variance 1, shared by 4 x 4 pixels, as the model of the noise has it.
+        const double error = cv::sum(white(cv::Rect(u, v, 4, 4)))[0] / 4.0;
+        grid.q[i] = static_cast<float>(q + error * sigma_q);
+        grid.g[i] = static_cast<float>(1.0 / sigma_q);
+        segment.sums.Add(x, y, static_cast<double>(grid.q[i]), 1.0 / (sigma_q * sigma_q));
+      }
+    }
+    segment.plane = {table, 1.0};
+    const cv::Mat1b labels(camera.height, camera.width, std::uint8_t{1});
+    MapSplit split;
+    EXPECT_FALSE(split.Find(grid, labels, 0, segment, expected, 1, config)) << "seed " << seed;
+  }
 }
 
 TEST(MapSplit, IsOffWhenItIsSwitchedOff) {
