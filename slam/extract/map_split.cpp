@@ -33,12 +33,13 @@ cv::Rect Widened(const cv::Rect& r, int by, const cv::Size& image) {
 }  // namespace
 
 PlaneSums MapSplit::SumIn(const DepthGrid& grid, const cv::Mat1b& labels, int host,
-                          const PixelArea& area) const {
+                          const Segment& segment, const PixelArea& area) const {
   PlaneSums sums;
-  for (std::size_t row = 0; row < area.spans.size(); ++row) {
-    const auto [first, end] = area.spans[row];
-    const int v = area.top + static_cast<int>(row);
-    for (int u = first; u < end; ++u) {
+  const int last_row = area.top + static_cast<int>(area.spans.size()) - 1;
+  for (int v = std::max(area.top, segment.low.y); v <= std::min(last_row, segment.high.y);
+       ++v) {
+    const auto [first, end] = area.spans[static_cast<std::size_t>(v - area.top)];
+    for (int u = std::max(first, segment.low.x); u < std::min(end, segment.high.x + 1); ++u) {
       if (labels(v, u) != host + 1) continue;
       const auto i = static_cast<std::size_t>(grid.Index(u, v));
       const double g = static_cast<double>(grid.g[i]);
@@ -61,6 +62,8 @@ bool MapSplit::Elect(const DepthGrid& grid, const cv::Mat1b& labels, int host,
   const double step = (InverseDepth(sought, middle) - InverseDepth(other, middle)) * weight;
   const double votes = kSureVote * kSureVote / (step * step);
   if (!(votes < kMostVotes)) return false;
+  // The segment's pixels are that near to its plane.
+  if (std::abs(step) > 2.0 * config.growth.max_pixel_sigmas) return false;
   const double window_px = std::max(votes, kLeastVotes) * config.noise.correlated_px;
   region_.Elect(
       grid, labels, {static_cast<std::uint8_t>(host + 1), outside.plane, 0.0, step, window_px},
@@ -89,10 +92,10 @@ bool MapSplit::Find(const DepthGrid& grid, const cv::Mat1b& labels, int host,
   const ExpectedPlane& sought = all[expected];
   SetConvex(sought.outline_px, -sought.margin_px, labels.size(), core_);
   SetConvex(sought.outline_px, sought.margin_px, labels.size(), around_);
-  const PlaneSums inside = SumIn(grid, labels, host, core_);
+  const PlaneSums inside = SumIn(grid, labels, host, segment, core_);
   if (!(inside.n >= 0.5 * config.min_pixels)) return false;
   const std::optional<Segment> outside =
-      Measure(Without(segment.sums, SumIn(grid, labels, host, around_)), 0, config);
+      Measure(Without(segment.sums, SumIn(grid, labels, host, segment, around_)), 0, config);
   if (!outside) return false;
   const Plane outside_c = outside->plane.plane.Hessian();
   const auto is_parallel = [&](const Plane& pi_c) {

@@ -37,7 +37,7 @@ class MapSplit {
 
  private:
   PlaneSums SumIn(const DepthGrid& grid, const cv::Mat1b& labels, int host,
-                  const PixelArea& area) const;
+                  const Segment& segment, const PixelArea& area) const;
   bool Elect(const DepthGrid& grid, const cv::Mat1b& labels, int host, const Segment& outside,
              const PlaneSums& inside, const Plane& sought_c, const Plane& other_c,
              const PlaneExtractionConfig& config);

@@ -25,7 +25,8 @@ bool PlaneExtractor::Workspace::SplitBy(const std::vector<ExpectedPlane>& all,
   bool split = false;
   const std::size_t count = kept.size();
   for (std::size_t k = 0; k < count; ++k) {
-    if (2 * pixels[k + 1] < config.min_pixels) continue;
+    // Where it is most of the segment, the other plane is sought instead.
+    if (2 * pixels[k + 1] < config.min_pixels || 2 * pixels[k + 1] > kept[k].sums.n) continue;
     if (Angle(kept[k].plane.plane.Hessian().n, sought.pi_c.n) > config.map_split.max_angle_rad)
       continue;
     if (!map_split.Find(grid, frame.plane_labels, static_cast<int>(k), kept[k], all, expected,

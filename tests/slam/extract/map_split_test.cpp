@@ -155,6 +155,7 @@ TEST(MapSplit, FindsNothingInNoise) {
       }
     }
     segment.plane = {table, 1.0};
+    segment.high = {camera.width - 1, camera.height - 1};
     const cv::Mat1b labels(camera.height, camera.width, std::uint8_t{1});
     MapSplit split;
     EXPECT_FALSE(split.Find(grid, labels, 0, segment, expected, 1, config)) << "seed " << seed;
