@@ -28,8 +28,8 @@ const BlockClusters& BlockClustering::MergeAgain(const ClusterConfig& config) {
   for (std::size_t block = 0; block < sums_.size(); ++block) {
     if (region_at_[block] < 0) continue;
     const PlaneFit fit = *Fit(sums_[block]);
-    regions_.push_back({sums_[block], fit, GrazingFactor(sums_[block], fit.plane, *noise_), 0,
-                        1, static_cast<int>(block)});
+    AddRegion(sums_[block], fit, GrazingFactor(sums_[block], fit.plane, *noise_),
+              static_cast<int>(block));
   }
   std::iota(parent_.begin(), parent_.end(), 0);
   Merge();
@@ -85,7 +85,12 @@ void BlockClustering::AddBlock(const DepthGrid& grid, const std::uint8_t* taken,
   const double grazing = GrazingFactor(sums, fit->plane, *noise_);
   if (!(fit->error < config_->max_block_error * grazing * grazing * sums.n)) return;
   region_at_[static_cast<std::size_t>(block)] = static_cast<int>(regions_.size());
-  regions_.push_back({sums, *fit, grazing, 0, 1, block});
+  AddRegion(sums, *fit, grazing, block);
+}
+
+void BlockClustering::AddRegion(const PlaneSums& sums, const PlaneFit& fit, double grazing,
+                                int block) {
+  regions_.push_back({sums, fit, grazing, 0, 1, block});
 }
 
 void BlockClustering::ProposeFirst() {
@@ -94,46 +99,55 @@ void BlockClustering::ProposeFirst() {
     const int block = At(k).block;
     const auto beside = [&](int other) {
       const int j = region_at_[static_cast<std::size_t>(other)];
-      if (j >= 0) pairs_.push_back({k, j, 0, 0});
+      if (j < 0) return;
+      pairs_.push_back({k, j, 0, 0});
+      first_costs_.push_back(Evaluate(At(k), At(j)));
     };
     if (block % cols_ + 1 < cols_) beside(block + 1);
     if (block / cols_ + 1 < rows_) beside(block + cols_);
   }
-  for (int pair = 0; pair < static_cast<int>(pairs_.size()); ++pair)
-    first_costs_.push_back(Evaluate(pair));
   merges_.Begin(first_costs_);
 }
 
 void BlockClustering::Merge() {
+  known_costs_.assign(std::size_t{1} << kKnownBits, {});
   ProposeFirst();
   while (merges_.least() < Tournament::kOut) {
     const int next = merges_.winner();
-    const Pair& pair = pairs_[static_cast<std::size_t>(next)];
-    const int a = Root(pair.i), b = Root(pair.j);
-    const bool known = At(a).version == pair.version_i && At(b).version == pair.version_j;
-    const bool joins = a != b && known;
-    if (joins) Join(a, b);
-    merges_.Change(next, a == b || joins ? Tournament::kOut : Evaluate(next));
+    Pair& pair = pairs_[static_cast<std::size_t>(next)];
+    pair.i = Root(pair.i), pair.j = Root(pair.j);
+    if (pair.i == pair.j) {
+      merges_.Change(next, Tournament::kOut);
+      continue;
+    }
+    const bool known =
+        At(pair.i).version == pair.version_i && At(pair.j).version == pair.version_j;
+    if (known) Join(pair.i, pair.j);
+    merges_.Change(next, known ? Tournament::kOut : Renew(pair));
   }
 }
 
 int BlockClustering::Root(int i) {
-  int root = i;
-  while (parent_[static_cast<std::size_t>(root)] != root)
-    root = parent_[static_cast<std::size_t>(root)];
-  while (parent_[static_cast<std::size_t>(i)] != root) {
-    const int next = parent_[static_cast<std::size_t>(i)];
-    parent_[static_cast<std::size_t>(i)] = root;
-    i = next;
+  while (true) {
+    int& parent = parent_[static_cast<std::size_t>(i)];
+    if (parent == i) return i;
+    i = parent = parent_[static_cast<std::size_t>(parent)];
   }
-  return root;
 }
 
-/// What the merge of two blocks' regions costs, if noise explains it.
-double BlockClustering::Evaluate(int pair) {
-  Pair& at = pairs_[static_cast<std::size_t>(pair)];
-  const Region& a = At(Root(at.i));
-  const Region& b = At(Root(at.j));
+/// What the merge of the regions of a pair costs now. Regions that have grown along each other
+/// meet in many pairs, which ask for the same one after the other.
+double BlockClustering::Renew(Pair& pair) {
+  const Region &a = At(pair.i), &b = At(pair.j);
+  pair.version_i = a.version, pair.version_j = b.version;
+  const auto i = static_cast<std::uint32_t>(pair.i), j = static_cast<std::uint32_t>(pair.j);
+  KnownCost& known = known_costs_[(i * 0x9e3779b1u ^ j * 0x85ebca6bu) >> (32 - kKnownBits)];
+  if (known.of != pair) known = {pair, Evaluate(a, b)};
+  return known.cost;
+}
+
+/// What a merge costs, if noise explains it. Flat: of the fit only the error is needed.
+[[gnu::flatten]] double BlockClustering::Evaluate(const Region& a, const Region& b) const {
   PlaneSums both = a.sums;
   both += b.sums;
   const std::optional<PlaneFit> fit = Fit(both);
@@ -145,7 +159,6 @@ double BlockClustering::Evaluate(int pair) {
   const double bound = by_mean ? config_->max_block_error
                                : config_->max_merge_chi2 * noise_->correlated_px +
                                      k * k * a.sums.n * b.sums.n / both.n;
-  at.version_i = a.version, at.version_j = b.version;
   return cost < grazing * grazing * bound ? cost : Tournament::kOut;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -84,17 +85,27 @@ class BlockClustering {
 
   /// Two neighbouring blocks whose regions may be merged.
   struct Pair {
-    int i, j;                  ///< regions of one block
+    int i, j;                  ///< regions of one block, or what they are part of
     int version_i, version_j;  ///< of what they are part of, when it was last evaluated
+    bool operator==(const Pair&) const = default;
   };
+
+  /// What the merge of two regions costs.
+  struct KnownCost {
+    Pair of = {-1, -1, 0, 0};
+    double cost = 0.0;
+  };
+  static constexpr int kKnownBits = 12;
 
   Region& At(int i) { return regions_[static_cast<std::size_t>(i)]; }
   void AddBlocks(const DepthGrid& grid, const std::vector<std::uint8_t>& taken, int block_px);
   void AddBlock(const DepthGrid& grid, const std::uint8_t* taken, int u, int v, int block_px,
                 int block);
+  void AddRegion(const PlaneSums& sums, const PlaneFit& fit, double grazing, int block);
   void Merge();
   int Root(int i);
-  double Evaluate(int pair);
+  double Renew(Pair& pair);
+  double Evaluate(const Region& a, const Region& b) const;
   void ProposeFirst();
   void Join(int a, int b);
   void Number(int block_px);
@@ -102,12 +113,13 @@ class BlockClustering {
   const DepthNoise* noise_ = nullptr;
   const ClusterConfig* config_ = nullptr;
   int cols_ = 0, rows_ = 0;
-  std::vector<Region> regions_;      ///< of the blocks that are planar, in their order
-  std::vector<int> region_at_;       ///< of each block; -1 = none
-  std::vector<int> parent_;          ///< of each region
-  std::vector<Pair> pairs_;          ///< in order of i, then j
-  std::vector<double> first_costs_;  ///< of each pair
-  Tournament merges_;                ///< of the pairs, by error added or mean error
+  std::vector<Region> regions_;         ///< of the blocks that are planar, in their order
+  std::vector<int> region_at_;          ///< of each block; -1 = none
+  std::vector<int> parent_;             ///< of each region
+  std::vector<Pair> pairs_;             ///< in order of i, then j
+  std::vector<double> first_costs_;     ///< of each pair
+  Tournament merges_;                   ///< of the pairs, by error added or mean error
+  std::vector<KnownCost> known_costs_;  ///< by a number made of both regions
   std::vector<int> number_;
   std::vector<std::uint64_t> measured_;  ///< pixels of a block
   std::vector<std::uint8_t> free_;       ///< pixels of each column of a row of blocks

@@ -300,35 +300,4 @@ SLAM_LANES void BidForBlock(const BlockPixels& block, int count, const PixelPlan
   }
 }
 
-SLAM_LANES bool HaveOneLabel(const BlockPixels& block, ConstPixelSet set,
-                             const std::int16_t* labels, std::int16_t& only) {
-  int least = std::numeric_limits<std::int16_t>::max(), most = kNoLabel;
-  if (IsWhole8(block)) {
-    using EightLabels = std::int16_t __attribute__((vector_size(16), aligned(2), may_alias));
-    const IntLanes columns = ColumnsOf(*set);
-    IntLanes low = IntLanes{} + least, high = IntLanes{} + most;
-#pragma GCC unroll 8
-    for (int v = 0; v < kLanes; ++v) {
-      const std::ptrdiff_t row = static_cast<std::ptrdiff_t>(v) * block.stride;
-      const IntLanes now = __builtin_convertvector(
-          *reinterpret_cast<const EightLabels*>(labels + row), IntLanes);
-      const IntLanes own = RowOf(columns, v);
-      const IntLanes low_now = own ? now : low, high_now = own ? now : high;
-      low = low_now < low ? low_now : low, high = high_now > high ? high_now : high;
-    }
-    for (int k = 0; k < kLanes; ++k)
-      least = std::min(least, low[k]), most = std::max(most, high[k]);
-  } else {
-    for (int v = 0; v < block.height; ++v) {
-      for (int u = 0; u < block.width; ++u) {
-        if (!IsInSet(set, block.size, u, v)) continue;
-        const int label = labels[static_cast<std::ptrdiff_t>(v) * block.stride + u];
-        least = std::min(least, label), most = std::max(most, label);
-      }
-    }
-  }
-  only = static_cast<std::int16_t>(least);
-  return least == most;
-}
-
 }  // namespace slam

@@ -88,9 +88,4 @@ double SumGains(const BlockPixels& block, const PixelPlane& plane, ConstPixelSet
 void BidForBlock(const BlockPixels& block, int count, const PixelPlane& plane,
                  const BidWindow& window, ConstPixelSet near, float* bids);
 
-/// Whether the pixels of a set, which is not empty, have one and the same label.
-/// @param labels  of the block's first pixel; @param only  that label
-bool HaveOneLabel(const BlockPixels& block, ConstPixelSet set, const std::int16_t* labels,
-                  std::int16_t& only);
-
 }  // namespace slam

@@ -64,9 +64,6 @@ class PixelGrowth {
   /// Sums of the pixels of each label. @param whole  those of the measured pixels of each
   /// block; empty: not known
   const std::vector<PlaneSums>& SumLabels(const std::vector<PlaneSums>& whole);
-  /// The same for other labels, 0 to count - 1, of the same pixels or of fewer; after the
-  /// above.
-  void SumOtherLabels(const LabelImage& labels, int count, std::vector<PlaneSums>& sums) const;
 
   /// Of every pixel. The call draws what has changed since the last one.
   const LabelImage& labels() const;
@@ -179,7 +176,6 @@ class PixelGrowth {
   mutable LabelImage labels_;
   std::vector<float> bids_;  ///< BidForBlock
   std::size_t bid_count_ = 0;
-  std::vector<PlaneSums> claim_sums_;  ///< of the pixels that each claim owns
   std::vector<PlaneSums> label_sums_;
   // What each label gains over the next best plane at its pixels.
   std::vector<double> least_gain_;  ///< that it has at least
@@ -192,7 +188,6 @@ class PixelGrowth {
   std::vector<int> rival_claims_;
   mutable std::vector<BlockOwner> block_owners_;
   std::vector<std::uint64_t> contested_, unsettled_;
-  mutable std::vector<std::pair<int, int>> goes_to_;  ///< (claim, other label)
   std::vector<float> nearest_;  ///< of the planes that a label is compared with, sigmas
 };
 

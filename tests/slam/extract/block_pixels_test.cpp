@@ -212,36 +212,6 @@ TEST(BlockPixels, SumTheirSetAlone) {
   }
 }
 
-TEST(BlockPixels, HaveOneLabelIfAllOfTheirSetDo) {
-  const DepthGrid grid = RoughGrid(21, 16);
-  for (const int u : {0, 16}) {  // a whole block, and one that the image cuts off
-    const BlockPixels block = BlockAt(grid, u, 8, 8);
-    std::vector<std::int16_t> labels(grid.q.size(), 7);
-    const auto first = static_cast<std::size_t>(grid.Index(u, 8));
-    const auto last = static_cast<std::size_t>(grid.Index(u + block.width - 1, 15));
-    std::vector<std::uint64_t> all(1), corner(1);
-    PutInSet(corner.data(), 8, 0, 0);
-    for (int k = 1; k < block.width * block.height; ++k)
-      PutInSet(all.data(), 8, k % block.width, k / block.width);
-    const auto have = [&](const std::vector<std::uint64_t>& set, std::int16_t& only) {
-      return HaveOneLabel(block, set.data(), labels.data() + first, only);
-    };
-    std::int16_t only = 0;
-    labels[first] = 9;  // another's
-    EXPECT_TRUE(have(all, only));
-    EXPECT_EQ(only, 7);
-    EXPECT_TRUE(have(corner, only));
-    EXPECT_EQ(only, 9);
-    labels[last] = kNoLabel;
-    EXPECT_FALSE(have(all, only));
-    std::fill(labels.begin(), labels.end(), kNoLabel);
-    EXPECT_TRUE(have(all, only));
-    EXPECT_EQ(only, kNoLabel);
-    labels[last] = 8;
-    EXPECT_FALSE(have(all, only));
-  }
-}
-
 TEST(BlockPixels, SeeAJumpOnlyBetweenMeasuredPixelsOfTheBlock) {
   Camera camera;
   camera.width = 17, camera.height = 16;

@@ -9,7 +9,9 @@
 #include <set>
 #include <stdexcept>
 #include <utility>
+#include <vector>
 
+#include "slam/extract/block_clusters.h"
 #include "tests/support/closed_form_depth.h"
 
 namespace slam {
@@ -81,7 +83,7 @@ TEST(PixelGrowth, DropsAPlaneOnceABetterOneHasComeToBlocksWhoseGainsWereKnown) {
   EXPECT_EQ(growth.labels()[15], right);
 }
 
-TEST(PixelGrowth, SumsOtherLabelsOfItsPixelsAsIfTheyWereCountedOneByOne) {
+TEST(PixelGrowth, SumsLabelsAsIfTheirPixelsWereCountedOneByOne) {
   Camera camera;
   camera.width = 61, camera.height = 45;
   cv::Mat1f depth_m(camera.height, camera.width, 1.0f);
@@ -93,22 +95,17 @@ TEST(PixelGrowth, SumsOtherLabelsOfItsPixelsAsIfTheyWereCountedOneByOne) {
   growth.Seed(growth.BlockAt(0, 0), growth.AddPlane({{0.0, 0.0, 1.0}, 1.0}));
   growth.Seed(growth.BlockAt(30, 20), growth.AddPlane({{0.0, 0.0, 1.0 / 0.9}, 1.0}));
   growth.Grow();
-  growth.SumLabels({});
-  LabelImage other = growth.labels();
-  for (std::size_t i = 0; i < other.size(); ++i) {
-    const std::size_t u = i % 61, v = i / 61;
-    if (other[i] == 1) other[i] = 0;
-    if (v > 30) other[i] = other[i] == kNoLabel ? kNoLabel : std::int16_t{2};
-    if (u > 50 && v > 35) other[i] = kNoLabel;
-    if (u < 8 && v < 8 && other[i] == 0) other[i] = 1;
-  }
-  std::vector<PlaneSums> sums;
-  growth.SumOtherLabels(other, 3, sums);
-  const std::vector<PlaneSums> plain = SumLabels(grid, other, 3);
-  ASSERT_EQ(sums.size(), 3u);
-  for (std::size_t k = 0; k < 3; ++k) {
-    EXPECT_EQ(sums[k].n, plain[k].n) << k;
-    EXPECT_NEAR(sums[k].wqx, plain[k].wqx, 1e-12 * plain[k].w) << k;
+  const std::vector<PlaneSums> plain = SumLabels(grid, growth.labels(), 2);
+  BlockClustering clustering;
+  clustering.Cluster(grid, {}, GrowthConfig{}.block_px, {}, {});
+  for (const std::vector<PlaneSums>& whole :
+       {std::vector<PlaneSums>{}, clustering.SumsOfBlocks()}) {
+    const std::vector<PlaneSums>& sums = growth.SumLabels(whole);
+    ASSERT_EQ(sums.size(), 2u);
+    for (std::size_t k = 0; k < 2; ++k) {
+      EXPECT_EQ(sums[k].n, plain[k].n) << k;
+      EXPECT_NEAR(sums[k].wqx, plain[k].wqx, 1e-12 * plain[k].w) << k;
+    }
   }
 }
 
