@@ -90,7 +90,7 @@ void BlockClustering::AddBlock(const DepthGrid& grid, const std::uint8_t* taken,
 
 void BlockClustering::AddRegion(const PlaneSums& sums, const PlaneFit& fit, double grazing,
                                 int block) {
-  regions_.push_back({sums, fit, grazing, 0, 1, block});
+  regions_.push_back({sums, fit, grazing, static_cast<int>(regions_.size()), 1, block});
 }
 
 void BlockClustering::ProposeFirst() {
@@ -100,7 +100,7 @@ void BlockClustering::ProposeFirst() {
     const auto beside = [&](int other) {
       const int j = region_at_[static_cast<std::size_t>(other)];
       if (j < 0) return;
-      pairs_.push_back({k, j, 0, 0});
+      pairs_.push_back({k, j, k, j});
       first_costs_.push_back(Evaluate(At(k), At(j)));
     };
     if (block % cols_ + 1 < cols_) beside(block + 1);
@@ -110,6 +110,7 @@ void BlockClustering::ProposeFirst() {
 }
 
 void BlockClustering::Merge() {
+  next_version_ = static_cast<int>(regions_.size());
   known_costs_.assign(std::size_t{1} << kKnownBits, {});
   ProposeFirst();
   while (merges_.least() < Tournament::kOut) {
@@ -140,9 +141,11 @@ int BlockClustering::Root(int i) {
 double BlockClustering::Renew(Pair& pair) {
   const Region &a = At(pair.i), &b = At(pair.j);
   pair.version_i = a.version, pair.version_j = b.version;
-  const auto i = static_cast<std::uint32_t>(pair.i), j = static_cast<std::uint32_t>(pair.j);
+  const auto i = static_cast<std::uint32_t>(a.version);
+  const auto j = static_cast<std::uint32_t>(b.version);
   KnownCost& known = known_costs_[(i * 0x9e3779b1u ^ j * 0x85ebca6bu) >> (32 - kKnownBits)];
-  if (known.of != pair) known = {pair, Evaluate(a, b)};
+  if (known.version_i != a.version || known.version_j != b.version)
+    known = {a.version, b.version, Evaluate(a, b)};
   return known.cost;
 }
 
@@ -169,7 +172,7 @@ void BlockClustering::Join(int a, int b) {
   into.fit = Fit(into.sums).value_or(into.fit);
   into.grazing = GrazingFactor(into.sums, into.fit.plane, *noise_);
   into.blocks += At(b).blocks;
-  ++into.version;
+  into.version = next_version_++;
   parent_[static_cast<std::size_t>(b)] = a;
 }
 

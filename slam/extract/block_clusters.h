@@ -78,7 +78,7 @@ class BlockClustering {
     PlaneSums sums;
     PlaneFit fit;
     double grazing = 1.0;
-    int version = 0;  ///< counts its merges, so that stale candidates are known
+    int version = 0;  ///< another after each merge, of no other region
     int blocks = 1;
     int block = 0;  ///< its first
   };
@@ -87,12 +87,11 @@ class BlockClustering {
   struct Pair {
     int i, j;                  ///< regions of one block, or what they are part of
     int version_i, version_j;  ///< of what they are part of, when it was last evaluated
-    bool operator==(const Pair&) const = default;
   };
 
   /// What the merge of two regions costs.
   struct KnownCost {
-    Pair of = {-1, -1, 0, 0};
+    int version_i = -1, version_j = -1;
     double cost = 0.0;
   };
   static constexpr int kKnownBits = 12;
@@ -113,13 +112,14 @@ class BlockClustering {
   const DepthNoise* noise_ = nullptr;
   const ClusterConfig* config_ = nullptr;
   int cols_ = 0, rows_ = 0;
-  std::vector<Region> regions_;         ///< of the blocks that are planar, in their order
-  std::vector<int> region_at_;          ///< of each block; -1 = none
-  std::vector<int> parent_;             ///< of each region
-  std::vector<Pair> pairs_;             ///< in order of i, then j
-  std::vector<double> first_costs_;     ///< of each pair
-  Tournament merges_;                   ///< of the pairs, by error added or mean error
-  std::vector<KnownCost> known_costs_;  ///< by a number made of both regions
+  std::vector<Region> regions_;      ///< of the blocks that are planar, in their order
+  std::vector<int> region_at_;       ///< of each block; -1 = none
+  std::vector<int> parent_;          ///< of each region
+  std::vector<Pair> pairs_;          ///< in order of i, then j
+  std::vector<double> first_costs_;  ///< of each pair
+  Tournament merges_;                ///< of the pairs, by error added or mean error
+  int next_version_ = 0;
+  std::vector<KnownCost> known_costs_;  ///< by a number made of both versions
   std::vector<int> number_;
   std::vector<std::uint64_t> measured_;  ///< pixels of a block
   std::vector<std::uint8_t> free_;       ///< pixels of each column of a row of blocks
