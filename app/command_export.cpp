@@ -9,7 +9,7 @@
 namespace app {
 namespace {
 
-constexpr const char* kAbout =
+constexpr const char* kAboutExport =
     "Write sequences with truth in a format that detectors and pose estimators are trained "
     "on.\n"
     "  coco  instances of all objects with exact masks (annotations/instances.json, images/)\n"
@@ -56,7 +56,7 @@ int RunExport(ExportArguments arguments, bool quiet) {
 }  // namespace
 
 void AddExportCommand(CLI::App& pas, const Globals& globals, int& exit_code) {
-  CLI::App* command = pas.add_subcommand("export", kAbout);
+  CLI::App* command = pas.add_subcommand("export", kAboutExport);
   const auto arguments = std::make_shared<ExportArguments>();
   command->add_option("SEQ", arguments->sequences, "Sequence folders with truth")->required();
   const std::map<std::string, Format> formats{{"coco", Format::kCoco}, {"bop", Format::kBop}};

@@ -21,7 +21,7 @@
 namespace app {
 namespace {
 
-constexpr const char* kAbout =
+constexpr const char* kAboutSim =
     "Render a scene file into a sequence: RGB-D frames along a handheld trajectory, replayed\n"
     "detections and exact truth. The same scene and options give the same bytes, whatever the\n"
     "number of threads. A killed run says complete: false in manifest.json; --resume finishes "
@@ -230,7 +230,7 @@ std::function<SceneRecording(const std::string&)> AddRecordingOptions(
 }
 
 void AddSimCommand(CLI::App& pas, const Globals& globals, int& exit_code) {
-  CLI::App* command = pas.add_subcommand("sim", kAbout);
+  CLI::App* command = pas.add_subcommand("sim", kAboutSim);
   const auto arguments = std::make_shared<SimArguments>();
   SimArguments& a = *arguments;
   command->add_option("SCENE", a.scene, "Scene file (YAML); see `pas scene`");

@@ -9,8 +9,8 @@
 #include "app/live_scene.h"
 #include "app/recording_options.h"
 #include "slam/base/require.h"
-#include "slam/config/config_file.h"
-#include "slam/track/run_sequence.h"
+#include "slam/run/config_file.h"
+#include "slam/run/run_sequence.h"
 #include "version.h"
 
 namespace app {

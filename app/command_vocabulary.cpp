@@ -6,11 +6,11 @@
 #include "app/console.h"
 #include "sim/write/atomic_file.h"
 #include "slam/base/require.h"
-#include "slam/config/config.h"
-#include "slam/extract/point_features.h"
+#include "slam/features/point_features.h"
 #include "slam/input/camera_reader.h"
 #include "slam/input/sequence_reader.h"
-#include "slam/place/train_vocabulary.h"
+#include "slam/places/train_vocabulary.h"
+#include "slam/run/config.h"
 
 namespace app {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "slam/config/config_file.h"
+#include "slam/run/config_file.h"
 
 namespace app {
 

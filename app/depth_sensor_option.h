@@ -3,8 +3,8 @@
 #include <CLI/CLI.hpp>
 #include <string>
 
-#include "slam/config/config.h"
-#include "slam/extract/depth_sensor.h"
+#include "slam/run/config.h"
+#include "slam/segment/depth_sensor.h"
 
 namespace app {
 

@@ -6,8 +6,8 @@
 #include <string>
 
 #include "sim/write/recording.h"
-#include "slam/base/camera.h"
-#include "slam/extract/detections.h"
+#include "slam/detect/detections.h"
+#include "slam/geometry/camera.h"
 #include "slam/input/frame_source.h"
 
 namespace app {

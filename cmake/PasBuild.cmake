@@ -57,6 +57,35 @@ function(pas_unity target batch)
   endif()
 endfunction()
 
+# pas_stage(slam geometry LINK Eigen3::Eigen): the folder of one stage as a library, slam_geometry,
+# from all sources in it (a new file is found by itself). It links the stages of its world that were
+# declared before it, so the order of the declarations is the data flow, and joins slam_all.
+# Headers are included from the top of the tree: "slam/geometry/pose.h".
+function(pas_stage world stage)
+  cmake_parse_arguments(ARG "" "" "LINK" ${ARGN})
+  file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/${world}/${stage}/*.cpp)
+  file(GLOB_RECURSE headers CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/${world}/${stage}/*.h)
+  get_property(before GLOBAL PROPERTY pas_stages_${world})
+  set(target ${world}_${stage})
+  if(sources)
+    add_library(${target} STATIC ${sources} ${headers})
+    target_link_libraries(${target} PUBLIC pas_settings ${before} ${ARG_LINK})
+    pas_reuse_precompiled(${target} pas_precompiled)
+    if(world STREQUAL slam)
+      pas_unity(${target} 16)
+    endif()
+  else()
+    add_library(${target} INTERFACE)
+    target_sources(${target} PRIVATE ${headers})
+    target_link_libraries(${target} INTERFACE pas_settings ${before} ${ARG_LINK})
+  endif()
+  set_property(GLOBAL APPEND PROPERTY pas_stages_${world} ${target})
+  if(NOT TARGET ${world}_all)
+    add_library(${world}_all INTERFACE)
+  endif()
+  target_link_libraries(${world}_all INTERFACE ${target})
+endfunction()
+
 # pas_library(slam_base SOURCES a.cpp b.h LINK Eigen3::Eigen): one library a folder.
 # Headers are included from the top of the tree: "slam/base/pose.h".
 function(pas_library name)
@@ -78,6 +107,7 @@ endfunction()
 # take it that nobody reads errno or the processor's floating-point flags; results are the same bits.
 function(pas_lanes)
   set_source_files_properties(${ARGN} PROPERTIES SKIP_PRECOMPILE_HEADERS ON
+    SKIP_UNITY_BUILD_INCLUSION ON
     COMPILE_OPTIONS "-fno-math-errno;-fno-trapping-math;-Wno-psabi")
 endfunction()
 

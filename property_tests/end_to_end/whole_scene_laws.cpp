@@ -11,9 +11,9 @@
 #include "sim/scene/scene_file.h"
 #include "sim/scene/steps.h"
 #include "slam/associate/plane_plane.h"
-#include "slam/extract/plane_segments.h"
+#include "slam/faces/process_planes.h"
 #include "slam/mapping/plane_update.h"
-#include "slam/planes/process_planes.h"
+#include "slam/segment/plane_segments.h"
 #include "tests/support/live.h"
 #include "tests/support/pipeline.h"
 

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "property_tests/generators/poses.h"
-#include "slam/base/plane.h"
+#include "slam/geometry/plane.h"
 
 namespace slam {
 

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "slam/base/pose.h"
+#include "slam/geometry/pose.h"
 
 namespace slam {
 

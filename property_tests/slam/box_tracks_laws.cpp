@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "slam/extract/box_tracks.h"
+#include "slam/detect/box_tracks.h"
 
 namespace slam {
 namespace {

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "property_tests/generators/poses.h"
-#include "slam/planes/common_perpendicular.h"
+#include "slam/faces/common_perpendicular.h"
 
 namespace slam {
 namespace {

@@ -6,7 +6,7 @@
 
 #include "property_tests/generators/poses.h"
 #include "slam/base/random.h"
-#include "slam/extract/plane_segments.h"
+#include "slam/segment/plane_segments.h"
 #include "tests/support/closed_form_depth.h"
 
 namespace slam {

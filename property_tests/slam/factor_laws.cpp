@@ -2,12 +2,12 @@
 #include <rapidcheck/gtest.h>
 
 #include "property_tests/generators/planes.h"
-#include "slam/optimise/factors/box.h"
-#include "slam/optimise/factors/parallel.h"
-#include "slam/optimise/factors/perpendicular.h"
-#include "slam/optimise/factors/plane.h"
-#include "slam/optimise/factors/point.h"
-#include "slam/optimise/factors/point_plane.h"
+#include "slam/pose/factors/box.h"
+#include "slam/pose/factors/parallel.h"
+#include "slam/pose/factors/perpendicular.h"
+#include "slam/pose/factors/plane.h"
+#include "slam/pose/factors/point.h"
+#include "slam/pose/factors/point_plane.h"
 #include "tests/support/numeric_jacobian.h"
 
 namespace slam {

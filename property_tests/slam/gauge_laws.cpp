@@ -5,8 +5,8 @@
 
 #include "property_tests/generators/poses.h"
 #include "slam/mapping/bundle_terms.h"
-#include "slam/optimise/factors/plane.h"
-#include "slam/optimise/factors/point_plane.h"
+#include "slam/pose/factors/plane.h"
+#include "slam/pose/factors/point_plane.h"
 #include "tests/support/point_world.h"
 
 // P36 for the full problem: poses, points and planes that all move. What no measurement tells

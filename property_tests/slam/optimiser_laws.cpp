@@ -2,8 +2,8 @@
 #include <rapidcheck/gtest.h>
 
 #include "property_tests/generators/planes.h"
-#include "slam/optimise/pose_problem.h"
-#include "slam/optimise/solve.h"
+#include "slam/pose/pose_problem.h"
+#include "slam/pose/solve.h"
 
 namespace slam {
 namespace {

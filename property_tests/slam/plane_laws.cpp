@@ -2,7 +2,7 @@
 #include <rapidcheck/gtest.h>
 
 #include "property_tests/generators/planes.h"
-#include "slam/optimise/factors/plane.h"
+#include "slam/pose/factors/plane.h"
 
 namespace slam {
 namespace {

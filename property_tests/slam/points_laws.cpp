@@ -5,10 +5,10 @@
 #include <bitset>
 
 #include "property_tests/generators/poses.h"
-#include "slam/associate/point_point.h"
-#include "slam/extract/point_spread.h"
-#include "slam/localise/motion_model.h"
+#include "slam/features/match_features.h"
+#include "slam/features/point_spread.h"
 #include "slam/mapping/point_triangulation.h"
+#include "slam/tracking/motion_model.h"
 
 namespace slam {
 namespace {

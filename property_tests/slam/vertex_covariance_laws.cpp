@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "property_tests/generators/poses.h"
-#include "slam/planes/vertex_covariance.h"
+#include "slam/faces/vertex_covariance.h"
 
 namespace slam {
 namespace {

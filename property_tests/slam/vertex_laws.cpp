@@ -6,7 +6,7 @@
 
 #include "property_tests/generators/poses.h"
 #include "slam/base/random.h"
-#include "slam/planes/vertices.h"
+#include "slam/faces/vertices.h"
 
 namespace slam {
 namespace {

@@ -1,6 +1,6 @@
 #include "slam/associate/box_plane.h"
 
-#include "slam/associate/pixel_projection.h"
+#include "slam/geometry/pixel_projection.h"
 
 namespace slam {
 namespace {
@@ -8,11 +8,11 @@ namespace {
 /// Corners outside the picture count, as far as the lens model can be trusted.
 bool IncludeCorners(const std::vector<Eigen::Vector3d>& corners_w, const Pose& T_cw,
                     const Camera& camera, Box& box) {
-  constexpr double kMinDepth_m = 0.05, kMaxOutside = 0.5;
+  constexpr double kMaxOutside = 0.5;
   const Eigen::Vector2d size(camera.width, camera.height);
   for (const Eigen::Vector3d& p_w : corners_w) {
     const Eigen::Vector3d x_c = T_cw * p_w;
-    if (!(x_c.z() > kMinDepth_m)) return false;
+    if (!(x_c.z() > kMinVisibleDepth_m)) return false;
     const Eigen::Vector2d ideal = camera.Project(x_c);
     if (!((ideal.array() > -kMaxOutside * size.array()).all() &&
           (ideal.array() < (1 + kMaxOutside) * size.array()).all())) {
@@ -26,8 +26,7 @@ bool IncludeCorners(const std::vector<Eigen::Vector3d>& corners_w, const Pose& T
 }  // namespace
 
 Box ProjectedBox(const MapPlane& map_plane, const Pose& T_cw, const Camera& camera) {
-  constexpr std::size_t kCorners = 4;
-  const bool has_corners = map_plane.vertices_w.size() == kCorners;
+  const bool has_corners = map_plane.vertices_w.size() == kFaceCorners;
   Box box;
   if (!IncludeCorners(has_corners ? map_plane.vertices_w : map_plane.hull_w, T_cw, camera,
                       box)) {

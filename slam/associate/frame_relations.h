@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "slam/associate/association_config.h"
-#include "slam/base/camera.h"
+#include "slam/geometry/camera.h"
 #include "slam/model/frame.h"
 
 namespace slam {

@@ -5,12 +5,12 @@
 #include <optional>
 
 #include "slam/associate/box_plane.h"
-#include "slam/associate/class_likelihood.h"
 #include "slam/associate/frame_relations.h"
 #include "slam/associate/plane_anchors.h"
 #include "slam/associate/plane_plane.h"
 #include "slam/associate/plane_samples.h"
 #include "slam/associate/rank_test.h"
+#include "slam/model/class_belief.h"
 
 namespace slam {
 namespace {

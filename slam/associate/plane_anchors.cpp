@@ -3,9 +3,9 @@
 #include <Eigen/Cholesky>
 
 #include "slam/associate/plane_constraints.h"
-#include "slam/optimise/factors/plane.h"
-#include "slam/optimise/robust.h"
-#include "slam/optimise/solve.h"
+#include "slam/pose/factors/plane.h"
+#include "slam/pose/robust.h"
+#include "slam/pose/solve.h"
 
 namespace slam {
 

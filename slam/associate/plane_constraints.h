@@ -3,7 +3,7 @@
 #include "slam/associate/association_config.h"
 #include "slam/model/frame.h"
 #include "slam/model/map.h"
-#include "slam/optimise/pose_problem.h"
+#include "slam/pose/pose_problem.h"
 
 namespace slam {
 

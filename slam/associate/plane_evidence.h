@@ -1,7 +1,7 @@
 #pragma once
 
 #include "slam/associate/association_config.h"
-#include "slam/base/pose.h"
+#include "slam/geometry/pose.h"
 #include "slam/model/frame_plane.h"
 #include "slam/model/map_plane.h"
 

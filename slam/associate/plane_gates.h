@@ -3,9 +3,9 @@
 #include <Eigen/Core>
 #include <span>
 
-#include "slam/base/plane.h"
-#include "slam/base/pose.h"
 #include "slam/base/result.h"
+#include "slam/geometry/plane.h"
+#include "slam/geometry/pose.h"
 
 namespace slam {
 

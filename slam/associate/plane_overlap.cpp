@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "slam/associate/pixel_projection.h"
+#include "slam/geometry/pixel_projection.h"
 
 namespace slam {
 namespace {

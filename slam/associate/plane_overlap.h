@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "slam/base/camera.h"
+#include "slam/geometry/camera.h"
 #include "slam/model/frame.h"
 #include "slam/model/map.h"
 

@@ -1,6 +1,6 @@
 #include "slam/associate/plane_samples.h"
 
-#include "slam/associate/pixel_projection.h"
+#include "slam/geometry/pixel_projection.h"
 
 namespace slam {
 

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "slam/associate/pixel_projection.h"
+#include "slam/geometry/pixel_projection.h"
 
 namespace slam {
 namespace {

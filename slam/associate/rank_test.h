@@ -4,8 +4,8 @@
 #include <span>
 #include <vector>
 
-#include "slam/base/plane.h"
 #include "slam/base/result.h"
+#include "slam/geometry/plane.h"
 
 namespace slam {
 

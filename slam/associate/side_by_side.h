@@ -3,7 +3,7 @@
 #include <optional>
 #include <vector>
 
-#include "slam/base/camera.h"
+#include "slam/geometry/camera.h"
 #include "slam/model/frame.h"
 
 namespace slam {

@@ -3,7 +3,7 @@
 #include <filesystem>
 #include <string>
 
-#include "slam/base/camera.h"
+#include "slam/geometry/camera.h"
 
 namespace slam {
 

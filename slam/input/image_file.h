@@ -4,7 +4,7 @@
 #include <opencv2/core/mat.hpp>
 #include <string>
 
-#include "slam/base/camera.h"
+#include "slam/geometry/camera.h"
 
 namespace slam {
 

@@ -4,7 +4,7 @@
 #include <future>
 #include <string>
 
-#include "slam/base/camera.h"
+#include "slam/geometry/camera.h"
 #include "slam/input/frame_source.h"
 #include "slam/input/sequence_index.h"
 

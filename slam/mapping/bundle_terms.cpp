@@ -4,11 +4,6 @@
 #include <algorithm>
 
 namespace slam {
-namespace {
-
-constexpr double kMinDepth_m = 0.01;
-
-}  // namespace
 
 PoseBlock BlockOf(const Pose& T_cw) {
   const Eigen::Quaterniond q(T_cw.R);
@@ -66,7 +61,7 @@ bool BundleTerm::Evaluate(double const* const* parameters, double* residuals,
                           double** jacobians) const {
   const Pose T_cw = PoseOf(parameters[0]);
   const Eigen::Vector3d p_c = T_cw * Eigen::Map<const Eigen::Vector3d>(parameters[1]);
-  if (!(p_c.z() > kMinDepth_m)) return EvaluateBehind(residuals, jacobians);
+  if (!(p_c.z() > kMinProjectedDepth_m)) return EvaluateBehind(residuals, jacobians);
   const double inv_z = 1.0 / p_c.z();
   const double x = p_c.x() * inv_z, y = p_c.y() * inv_z;
   const bool depth = disparity_px_ >= 0;

@@ -5,7 +5,7 @@
 
 #include <array>
 
-#include "slam/base/camera.h"
+#include "slam/geometry/camera.h"
 #include "slam/model/frame.h"
 
 namespace slam {

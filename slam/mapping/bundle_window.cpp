@@ -3,13 +3,13 @@
 #include <algorithm>
 #include <set>
 
+#include "slam/base/index.h"
 #include "slam/mapping/keyframes.h"
 #include "slam/mapping/map_points.h"
+#include "slam/model/map_queries.h"
 
 namespace slam {
 namespace {
-
-std::size_t Index(int i) { return static_cast<std::size_t>(i); }
 
 std::vector<int> PointsOf(const Map& map, const std::vector<int>& keyframes) {
   std::vector<int> points;

@@ -5,7 +5,7 @@
 #include <memory>
 #include <vector>
 
-#include "slam/base/camera.h"
+#include "slam/geometry/camera.h"
 #include "slam/mapping/bundle_terms.h"
 #include "slam/mapping/local_bundle.h"
 #include "slam/model/map.h"

@@ -2,10 +2,10 @@
 
 #include <vector>
 
-#include "slam/base/camera.h"
-#include "slam/extract/expected_plane.h"
+#include "slam/geometry/camera.h"
 #include "slam/mapping/plane_map_config.h"
 #include "slam/model/map.h"
+#include "slam/segment/expected_plane.h"
 
 namespace slam {
 

@@ -2,13 +2,13 @@
 
 #include <algorithm>
 
+#include "slam/base/index.h"
 #include "slam/base/require.h"
 #include "slam/mapping/map_points.h"
+#include "slam/model/map_queries.h"
 
 namespace slam {
 namespace {
-
-std::size_t Index(int i) { return static_cast<std::size_t>(i); }
 
 /// Unmatched features with depth, the nearest first.
 std::vector<int> NearestUnmatched(const Keyframe& keyframe) {
@@ -136,16 +136,6 @@ void UpdateCovisibility(Map& map, int keyframe, const KeyframeConfig& config) {
   }
 }
 
-std::vector<int> BestCovisible(const Map& map, int keyframe, int count) {
-  const std::map<int, int>& covisible = map.keyframes[Index(keyframe)].covisible;
-  std::vector<int> ids;
-  for (const auto& [other, shared] : covisible) ids.push_back(other);
-  std::stable_sort(ids.begin(), ids.end(),
-                   [&](int a, int b) { return covisible.at(a) > covisible.at(b); });
-  if (ids.size() > Index(std::max(count, 0))) ids.resize(Index(std::max(count, 0)));
-  return ids;
-}
-
 int CullKeyframes(Map& map, int keyframe, const Camera& camera, const KeyframeConfig& config) {
   const double close_m = CloseDepth(camera, config);
   std::vector<int> neighbours;
@@ -160,16 +150,6 @@ int CullKeyframes(Map& map, int keyframe, const Camera& camera, const KeyframeCo
     ++culled;
   }
   return culled;
-}
-
-Pose KeyframePose(const Map& map, int keyframe) {
-  Pose T_ck;  // identity: from the keyframe walked to, back to the one asked for
-  const Keyframe* k = &map.keyframes.at(Index(keyframe));
-  while (k->culled) {
-    T_ck = T_ck * k->T_cp;
-    k = &map.keyframes.at(Index(k->parent));
-  }
-  return T_ck * k->T_cw;
 }
 
 }  // namespace slam

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "slam/base/camera.h"
+#include "slam/geometry/camera.h"
 #include "slam/model/map.h"
 #include "slam/model/scale_pyramid.h"
 
@@ -31,15 +31,8 @@ int InsertKeyframe(Frame& frame, Map& map, const Camera& camera, const KeyframeC
 /// Recounts the points that `keyframe` shares with others, in both directions.
 void UpdateCovisibility(Map& map, int keyframe, const KeyframeConfig& config);
 
-/// Ids of the keyframes that share the most points with it, most first (lower id at a tie), at
-/// most `count`.
-std::vector<int> BestCovisible(const Map& map, int keyframe, int count);
-
 /// Culls keyframes around `keyframe` whose points others see as well and at least as finely;
 /// never the first, the newest or the one before it. @returns how many.
 int CullKeyframes(Map& map, int keyframe, const Camera& camera, const KeyframeConfig& config);
-
-/// Pose of a keyframe, whether culled or not.
-Pose KeyframePose(const Map& map, int keyframe);
 
 }  // namespace slam

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "slam/base/camera.h"
+#include "slam/geometry/camera.h"
 #include "slam/mapping/map_turn.h"
 #include "slam/model/map.h"
 #include "slam/model/scale_pyramid.h"

@@ -4,8 +4,8 @@
 #include <limits>
 #include <vector>
 
-#include "slam/associate/point_point.h"
 #include "slam/base/require.h"
+#include "slam/features/match_features.h"
 
 namespace slam {
 namespace {
@@ -67,15 +67,6 @@ void UpdateView(const Map& map, MapPoint& point, const ScalePyramid& scales) {
 }
 
 }  // namespace
-
-int CurrentPoint(const Map& map, int point) {
-  while (point != kNone) {
-    const MapPoint& p = PointOf(map, point);
-    if (p.replaced_by == kNone) return p.culled ? kNone : point;
-    point = p.replaced_by;
-  }
-  return kNone;
-}
 
 int AddPoint(Map& map, const Eigen::Vector3d& p_w, int keyframe, int feature,
              const ScalePyramid& scales) {

@@ -5,9 +5,6 @@
 
 namespace slam {
 
-/// The point that `point` has become by fusion, or kNone when it was culled (or is kNone).
-int CurrentPoint(const Map& map, int point);
-
 /// A new point seen by one keyframe's feature, which must have none yet. @returns its id.
 int AddPoint(Map& map, const Eigen::Vector3d& p_w, int keyframe, int feature,
              const ScalePyramid& scales);

@@ -3,7 +3,7 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "slam/base/plane.h"
+#include "slam/geometry/plane.h"
 
 namespace slam {
 

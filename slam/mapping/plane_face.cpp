@@ -4,14 +4,8 @@
 #include <utility>
 
 namespace slam {
-namespace {
-
-constexpr std::size_t kCorners = 4;
-
-}  // namespace
-
 bool KnowsItsFace(const MapPlane& m, const PlaneMapConfig& config) {
-  return m.vertices_w.size() == kCorners && m.vertex_weights.size() == kCorners &&
+  return m.vertices_w.size() == kFaceCorners && m.vertex_weights.size() == kFaceCorners &&
          std::all_of(m.vertex_weights.begin(), m.vertex_weights.end(),
                      [&](double weight) { return weight >= config.min_face_weight; });
 }
@@ -30,11 +24,12 @@ void ForgetDoubtfulCorners(MapPlane& m, const PlaneMapConfig& config) {
 
 void KeepWhatLiesOnFace(MapPlane& m, const PlaneMapConfig& config) {
   Eigen::Vector3d middle_w = Eigen::Vector3d::Zero();
-  for (const Eigen::Vector3d& corner_w : m.vertices_w) middle_w += corner_w / double(kCorners);
+  for (const Eigen::Vector3d& corner_w : m.vertices_w)
+    middle_w += corner_w / double(kFaceCorners);
   const auto beyond = [&](const Eigen::Vector3d& p_w) {
-    for (std::size_t i = 0; i < kCorners; ++i) {
+    for (std::size_t i = 0; i < kFaceCorners; ++i) {
       const Eigen::Vector3d& from_w = m.vertices_w[i];
-      const Eigen::Vector3d along = m.vertices_w[(i + 1) % kCorners] - from_w;
+      const Eigen::Vector3d along = m.vertices_w[(i + 1) % kFaceCorners] - from_w;
       Eigen::Vector3d outwards = along.cross(m.pi_w.n).normalized();
       if (outwards.dot(middle_w - from_w) > 0) outwards = -outwards;  // either sense of turning
       if (outwards.dot(p_w - from_w) > config.face_margin_m) return true;

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 
-#include "slam/associate/class_likelihood.h"
 #include "slam/associate/plane_evidence.h"
 #include "slam/mapping/plane_cloud.h"
+#include "slam/model/class_belief.h"
 
 namespace slam {
 namespace {

@@ -6,12 +6,12 @@
 #include <set>
 #include <utility>
 
-#include "slam/associate/pixel_projection.h"
-#include "slam/mapping/class_belief.h"
+#include "slam/geometry/pixel_projection.h"
 #include "slam/mapping/plane_cloud.h"
 #include "slam/mapping/plane_face.h"
 #include "slam/mapping/plane_trial.h"
 #include "slam/mapping/plane_vertices.h"
+#include "slam/model/class_belief.h"
 
 namespace slam {
 namespace {

@@ -7,23 +7,22 @@
 namespace slam {
 namespace {
 
-constexpr std::size_t kCorners = 4;
 constexpr double kSeenWeight = 1.0, kExtrapolatedWeight = 0.25;
 // Errors that a corner's covariance does not hold, first of all those of the camera's pose.
 constexpr double kOtherVariance_m2 = 0.003 * 0.003;
 constexpr double kMaxWeight = 40.0;  // so that a wrong start can still be left
 
 /// observed[order[i]] belongs to known[i].
-std::array<std::size_t, kCorners> Order(const std::vector<Eigen::Vector3d>& known_w,
-                                        const std::vector<Eigen::Vector3d>& observed_w) {
-  std::array<std::size_t, kCorners> best{0, 1, 2, 3};
+std::array<std::size_t, kFaceCorners> Order(const std::vector<Eigen::Vector3d>& known_w,
+                                            const std::vector<Eigen::Vector3d>& observed_w) {
+  std::array<std::size_t, kFaceCorners> best{0, 1, 2, 3};
   double least = std::numeric_limits<double>::infinity();
   for (const bool reversed : {false, true}) {
-    for (std::size_t shift = 0; shift < kCorners; ++shift) {
-      std::array<std::size_t, kCorners> order{};
+    for (std::size_t shift = 0; shift < kFaceCorners; ++shift) {
+      std::array<std::size_t, kFaceCorners> order{};
       double sum = 0.0;
-      for (std::size_t i = 0; i < kCorners; ++i) {
-        order[i] = (reversed ? shift + kCorners - i : shift + i) % kCorners;
+      for (std::size_t i = 0; i < kFaceCorners; ++i) {
+        order[i] = (reversed ? shift + kFaceCorners - i : shift + i) % kFaceCorners;
         sum += (known_w[i] - observed_w[order[i]]).squaredNorm();
       }
       if (sum < least) {
@@ -66,7 +65,7 @@ void ConfirmCorners(MapPlane& m, const std::vector<Vertex>& vertices_c, const Po
     if (vertex.extrapolated || !vertex.p_c.allFinite()) continue;
     const Eigen::Vector3d observed_w = ProjectOnto(m.pi_w, T_wc * vertex.p_c);
     std::size_t nearest = 0;
-    for (std::size_t i = 1; i < kCorners; ++i) {
+    for (std::size_t i = 1; i < kFaceCorners; ++i) {
       if ((m.vertices_w[i] - observed_w).norm() < (m.vertices_w[nearest] - observed_w).norm()) {
         nearest = i;
       }
@@ -81,8 +80,9 @@ void ConfirmCorners(MapPlane& m, const std::vector<Vertex>& vertices_c, const Po
 
 void FuseVertices(MapPlane& m, const std::vector<Vertex>& vertices_c, const Pose& T_wc,
                   const PlaneMapConfig& config) {
-  const bool known = m.vertices_w.size() == kCorners && m.vertex_weights.size() == kCorners;
-  if (vertices_c.size() != kCorners) {
+  const bool known =
+      m.vertices_w.size() == kFaceCorners && m.vertex_weights.size() == kFaceCorners;
+  if (vertices_c.size() != kFaceCorners) {
     if (known) ConfirmCorners(m, vertices_c, T_wc, config);
     return;
   }
@@ -96,11 +96,11 @@ void FuseVertices(MapPlane& m, const std::vector<Vertex>& vertices_c, const Pose
   if (!known) {
     m.vertices_w = observed_w;
     m.vertex_weights.clear();
-    for (std::size_t i = 0; i < kCorners; ++i) m.vertex_weights.push_back(weight(i));
+    for (std::size_t i = 0; i < kFaceCorners; ++i) m.vertex_weights.push_back(weight(i));
     return;
   }
   const auto order = Order(m.vertices_w, observed_w);
-  for (std::size_t i = 0; i < kCorners; ++i) {
+  for (std::size_t i = 0; i < kFaceCorners; ++i) {
     const std::size_t k = order[i];
     double& evidence = m.vertex_weights[i];
     if ((m.vertices_w[i] - observed_w[k]).norm() < config.max_vertex_jump_m) {

@@ -3,14 +3,14 @@
 #include <algorithm>
 #include <vector>
 
-#include "slam/associate/point_point.h"
+#include "slam/base/index.h"
+#include "slam/features/match_features.h"
 #include "slam/mapping/keyframes.h"
 #include "slam/mapping/map_points.h"
+#include "slam/model/map_queries.h"
 
 namespace slam {
 namespace {
-
-std::size_t Index(int i) { return static_cast<std::size_t>(i); }
 
 std::vector<int> PointsOf(const Keyframe& keyframe) {
   std::vector<int> points;

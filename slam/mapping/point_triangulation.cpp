@@ -3,15 +3,15 @@
 #include <Eigen/Geometry>
 #include <cmath>
 
-#include "slam/associate/point_point.h"
-#include "slam/base/plane.h"
+#include "slam/base/index.h"
+#include "slam/features/match_features.h"
+#include "slam/geometry/plane.h"
 #include "slam/mapping/keyframes.h"
 #include "slam/mapping/map_points.h"
+#include "slam/model/map_queries.h"
 
 namespace slam {
 namespace {
-
-std::size_t Index(int i) { return static_cast<std::size_t>(i); }
 
 Eigen::Vector3d Ray(const Camera& camera, const Eigen::Vector2d& u_px) {
   return camera.Backproject(u_px, 1.0);

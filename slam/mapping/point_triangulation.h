@@ -2,7 +2,7 @@
 
 #include <optional>
 
-#include "slam/base/camera.h"
+#include "slam/geometry/camera.h"
 #include "slam/model/map.h"
 #include "slam/model/scale_pyramid.h"
 

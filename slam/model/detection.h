@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "slam/base/box.h"
+#include "slam/geometry/box.h"
 
 namespace slam {
 

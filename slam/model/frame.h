@@ -6,8 +6,8 @@
 #include <opencv2/core/mat.hpp>
 #include <vector>
 
-#include "slam/base/camera.h"
-#include "slam/base/pose.h"
+#include "slam/geometry/camera.h"
+#include "slam/geometry/pose.h"
 #include "slam/model/detection.h"
 #include "slam/model/frame_plane.h"
 

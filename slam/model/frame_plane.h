@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "slam/base/box.h"
-#include "slam/base/line.h"
-#include "slam/base/plane.h"
+#include "slam/geometry/box.h"
+#include "slam/geometry/line.h"
+#include "slam/geometry/plane.h"
 
 namespace slam {
 
@@ -35,6 +35,9 @@ struct EdgePoint {
   EdgeKind kind = EdgeKind::kSurface;
   float step_sigmas = 0.0f;  ///< of depth, between the plane and what lies beyond; 0: unknown
 };
+
+/// Corners of a rectangular face.
+inline constexpr std::size_t kFaceCorners = 4;
 
 /// A corner of a rectangular face.
 struct Vertex {

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "slam/base/plane.h"
+#include "slam/geometry/plane.h"
 #include "slam/model/plane_estimate.h"
 
 namespace slam {

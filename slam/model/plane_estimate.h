@@ -3,7 +3,7 @@
 #include <Eigen/Cholesky>
 #include <Eigen/Core>
 
-#include "slam/base/plane.h"
+#include "slam/geometry/plane.h"
 
 namespace slam {
 

@@ -6,8 +6,8 @@
 
 #include "sim/motion/trajectory.h"
 #include "sim/scene/families.h"
-#include "slam/associate/point_point.h"
-#include "slam/extract/point_features.h"
+#include "slam/features/match_features.h"
+#include "slam/features/point_features.h"
 #include "slam/model/scale_pyramid.h"
 #include "tests/support/live.h"
 

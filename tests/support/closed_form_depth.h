@@ -9,10 +9,10 @@
 #include <string>
 #include <vector>
 
-#include "slam/base/camera.h"
-#include "slam/base/plane.h"
-#include "slam/base/pose.h"
 #include "slam/base/random.h"
+#include "slam/geometry/camera.h"
+#include "slam/geometry/plane.h"
+#include "slam/geometry/pose.h"
 #include "slam/model/frame.h"
 
 /// Depth images that need no renderer: rays against planes and boxes in closed form. World: z

@@ -7,8 +7,8 @@
 #include "eval/planes/association.h"
 #include "sim/motion/trajectory.h"
 #include "sim/write/simulator.h"
-#include "slam/extract/detections.h"
-#include "slam/track/tracker.h"
+#include "slam/detect/detections.h"
+#include "slam/run/tracker.h"
 
 /// Simulated frames handed to the estimator in memory, without files.
 namespace live {

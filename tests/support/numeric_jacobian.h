@@ -2,7 +2,7 @@
 
 #include <Eigen/Core>
 
-#include "slam/base/pose.h"
+#include "slam/geometry/pose.h"
 
 namespace slam {
 

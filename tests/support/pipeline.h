@@ -5,7 +5,7 @@
 #include <string>
 
 #include "sim/write/write_sequence.h"
-#include "slam/track/run_sequence.h"
+#include "slam/run/run_sequence.h"
 
 /// The whole way in one process: scene -> sequence -> run -> metrics.
 namespace pipeline {

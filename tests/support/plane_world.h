@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "slam/base/camera.h"
 #include "slam/base/random.h"
+#include "slam/geometry/camera.h"
 #include "slam/model/frame.h"
 
 namespace slam {

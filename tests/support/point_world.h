@@ -2,8 +2,8 @@
 
 #include <vector>
 
-#include "slam/base/camera.h"
 #include "slam/base/random.h"
+#include "slam/geometry/camera.h"
 #include "slam/mapping/keyframes.h"
 #include "slam/mapping/map_points.h"
 #include "slam/model/map.h"

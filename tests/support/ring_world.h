@@ -3,7 +3,7 @@
 #include <cmath>
 #include <vector>
 
-#include "slam/place/train_vocabulary.h"
+#include "slam/places/train_vocabulary.h"
 #include "tests/support/point_world.h"
 
 namespace slam {

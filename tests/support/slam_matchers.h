@@ -2,8 +2,8 @@
 
 #include <gmock/gmock.h>
 
-#include "slam/base/plane.h"
-#include "slam/base/pose.h"
+#include "slam/geometry/plane.h"
+#include "slam/geometry/pose.h"
 
 namespace slam {
 

@@ -12,7 +12,7 @@
 #include <utility>
 #include <vector>
 
-#include "slam/track/run_sequence.h"
+#include "slam/run/run_sequence.h"
 #include "tests/support/fault_stream.h"
 
 namespace slam {

@@ -4,9 +4,9 @@
 #include <opencv2/imgproc.hpp>
 #include <vector>
 
-#include "slam/base/camera.h"
-#include "slam/base/pose.h"
 #include "slam/base/random.h"
+#include "slam/geometry/camera.h"
+#include "slam/geometry/pose.h"
 #include "slam/model/frame.h"
 
 namespace slam {

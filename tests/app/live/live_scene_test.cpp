@@ -8,7 +8,7 @@
 
 #include "sim/scene/families.h"
 #include "sim/write/write_sequence.h"
-#include "slam/track/run_sequence.h"
+#include "slam/run/run_sequence.h"
 
 namespace app {
 namespace {

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 
 #include "slam/mapping/map_points.h"
+#include "slam/model/map_queries.h"
 #include "tests/support/point_world.h"
 #include "tests/support/slam_matchers.h"
 

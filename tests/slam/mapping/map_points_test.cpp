@@ -1,4 +1,5 @@
 #include "slam/mapping/map_points.h"
+#include "slam/model/map_queries.h"
 
 #include <gtest/gtest.h>
 

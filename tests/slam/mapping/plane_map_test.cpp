@@ -1,11 +1,11 @@
 #include <gtest/gtest.h>
 
 #include "slam/associate/plane_plane.h"
-#include "slam/mapping/class_belief.h"
 #include "slam/mapping/plane_cloud.h"
 #include "slam/mapping/plane_fuse.h"
 #include "slam/mapping/plane_update.h"
 #include "slam/mapping/plane_vertices.h"
+#include "slam/model/class_belief.h"
 #include "tests/support/decision_score.h"
 #include "tests/support/plane_world.h"
 #include "tests/support/slam_matchers.h"

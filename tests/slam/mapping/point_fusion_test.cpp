@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "slam/mapping/map_points.h"
+#include "slam/model/map_queries.h"
 #include "tests/support/point_world.h"
 
 namespace slam {

@@ -1,0 +1,182 @@
+#include "app/bench/bench_slam.h"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <functional>
+
+#include "eval/read/run.h"
+#include "slam/input/camera_reader.h"
+#include "slam/input/sequence_reader.h"
+#include "slam/run/run_sequence.h"
+
+namespace app {
+namespace {
+
+bool Covered(int frame, int every, int count) {
+  return every > 0 && frame >= every && frame % every < count;
+}
+
+/// A sequence whose lens is covered again and again, to see how the camera is found.
+class CoveredCamera : public slam::FrameSource {
+ public:
+  CoveredCamera(slam::FrameSource& frames, int every, int count)
+      : frames_(frames), every_(every), count_(count) {}
+  int size() const override { return frames_.size(); }
+  slam::RecordedFrame Read(int i) override {
+    slam::RecordedFrame frame = frames_.Read(i);
+    if (Covered(i, every_, count_)) {
+      frame.bgr = cv::Mat3b(frame.bgr.size(), cv::Vec3b(0, 0, 0));
+      frame.gray = cv::Mat1b(frame.gray.size(), 0);
+    }
+    return frame;
+  }
+
+ private:
+  slam::FrameSource& frames_;
+  int every_, count_;
+};
+
+/// A sequence played to and fro, the clock going on.
+class PendulumCamera : public slam::FrameSource {
+ public:
+  PendulumCamera(slam::FrameSource& frames, int laps, double fps)
+      : frames_(frames), laps_(laps), fps_(fps) {}
+  int size() const override { return laps_ * frames_.size(); }
+  slam::RecordedFrame Read(int i) override {
+    const int lap = i / frames_.size(), at = i % frames_.size();
+    slam::RecordedFrame frame = frames_.Read(lap % 2 == 0 ? at : frames_.size() - 1 - at);
+    frame.index = i;
+    frame.timestamp_s = i / fps_;
+    return frame;
+  }
+
+ private:
+  slam::FrameSource& frames_;
+  int laps_;
+  double fps_;
+};
+
+slam::RunOutcome RunOn(const slam::RunOptions& options, const BenchOptions& bench) {
+  if (bench.black_every == 0 && bench.laps == 1) return slam::RunSequence(options);
+  const slam::Camera camera = slam::ChooseCamera("", options.sequence);
+  slam::SequenceReader reader(options.sequence, camera);
+  CoveredCamera covered(reader, bench.black_every, bench.black_frames);
+  if (bench.laps == 1) return slam::RunLive({covered, camera, nullptr}, options);
+  PendulumCamera pendulum(covered, bench.laps, camera.fps);
+  return slam::RunLive({pendulum, camera, nullptr}, options);
+}
+
+double ResidentKib() {
+  std::ifstream statm("/proc/self/statm");
+  double whole = 0, resident = 0;
+  statm >> whole >> resident;
+  return resident * static_cast<double>(::sysconf(_SC_PAGESIZE)) / 1024;
+}
+
+constexpr double kSeenAgain_m = 0.15, kSeenAgain_rad = 0.26;  // 15 degrees
+bool Near(const eval::Pose& a, const eval::Pose& b) {
+  const Eigen::AngleAxisd turn((a.R.transpose() * b.R).eval());
+  return (a.t - b.t).norm() < kSeenAgain_m && std::abs(turn.angle()) < kSeenAgain_rad;
+}
+
+/// @param estimate, truth  by frame
+/// @param covered  whether the lens is covered in a frame: it sees nothing then
+std::vector<Comeback> Comebacks(const std::vector<std::optional<eval::Pose>>& estimate,
+                                const std::vector<std::optional<eval::Pose>>& truth,
+                                const std::optional<eval::Alignment>& gauge,
+                                const std::function<bool(int)>& covered) {
+  std::vector<Comeback> out;
+  std::vector<eval::Pose> seen;
+  std::optional<int> lost_since;  // ... seeing the map
+  bool lost = false;
+  for (std::size_t i = 0; i < truth.size(); ++i) {
+    if (!truth[i]) continue;
+    if (!estimate[i]) {
+      lost = !seen.empty();
+      const bool again = !covered(static_cast<int>(i)) &&
+                         std::any_of(seen.begin(), seen.end(), [&](const eval::Pose& pose) {
+                           return Near(pose, *truth[i]);
+                         });
+      if (lost && again && !lost_since) lost_since = static_cast<int>(i);
+      continue;
+    }
+    if (lost) {
+      const int waited = lost_since ? static_cast<int>(i) - *lost_since : 0;
+      const double error_m = gauge ? ((*gauge * *estimate[i]).t - truth[i]->t).norm() : 0.0;
+      out.push_back({waited, error_m});
+      lost = false;
+      lost_since.reset();
+    }
+    seen.push_back(*truth[i]);
+  }
+  if (lost_since) out.push_back({-1, 0.0});
+  return out;
+}
+
+std::vector<std::optional<eval::Pose>> ByFrame(const eval::Trajectory& trajectory,
+                                               const std::vector<double>& stamps_s) {
+  return eval::TruePosesOfFrames(trajectory, stamps_s, true);
+}
+
+}  // namespace
+
+BenchRow MeasureSlam(const std::string& folder, const BenchOptions& bench) {
+  const auto run =
+      std::filesystem::temp_directory_path() / ("pas_bench_slam_" + std::to_string(::getpid()));
+  slam::RunOptions options;
+  options.sequence = folder;
+  options.run = run;
+  options.variant = slam::VariantOf(bench.variant);
+  options.config = bench.config;
+  options.threads = bench.threads;
+  options.force = true;
+  double half_kib = 0, end_kib = 0;
+  int half = 0, frames = 0;
+  options.progress = [&](int done, int total) {
+    if (done == (total + 1) / 2) half_kib = ResidentKib(), half = done;
+    if (done == total) end_kib = ResidentKib(), frames = total;
+  };
+  const slam::RunOutcome outcome = RunOn(options, bench);
+
+  BenchRow row;
+  row.name = std::filesystem::path(folder).filename().string();
+  if (row.name.empty()) row.name = std::filesystem::path(folder).parent_path().filename();
+  row.frames = outcome.frames, row.tracked = outcome.tracked;
+  row.keyframes = outcome.keyframes, row.points = outcome.map_points;
+  row.kib_a_frame = frames > half ? (end_kib - half_kib) / (frames - half) : 0.0;
+  const eval::Run result = eval::ReadRun(run);
+  const eval::Sequence sequence = eval::ReadSequence(folder);
+  if (result.timing) row.modules_ms = result.timing->rows_ms;
+  if (sequence.groundtruth && bench.laps == 1) {
+    row.score = eval::ScoreTrajectory(result, sequence);
+    std::vector<double> stamps_s;
+    for (const eval::SequenceFrame& frame : sequence.frames) stamps_s.push_back(frame.stamp_s);
+    const auto truth =
+        eval::TruePosesOfFrames(*sequence.groundtruth, stamps_s, sequence.synthetic);
+    const auto estimate = ByFrame(result.trajectory, stamps_s);
+    row.comebacks = Comebacks(estimate, truth, row.score.gauge, [&](int i) {
+      return Covered(i, bench.black_every, bench.black_frames);
+    });
+    std::optional<std::size_t> first, last;
+    for (std::size_t i = 0; i < truth.size(); ++i) {
+      if (!truth[i] || !estimate[i]) continue;
+      if (!first) first = i;
+      last = i;
+    }
+    if (first) {
+      // Laid on the truth at the first pose: what has drifted since.
+      const eval::Pose& e0 = *estimate[*first];
+      const eval::Pose& g0 = *truth[*first];
+      const Eigen::Vector3d moved =
+          g0.R * (e0.R.transpose() * (estimate[*last]->t - e0.t)) + g0.t;
+      row.end_error_m = (moved - truth[*last]->t).norm();
+    }
+  }
+  std::filesystem::remove_all(run);
+  return row;
+}
+
+}  // namespace app

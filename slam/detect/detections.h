@@ -1,0 +1,72 @@
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <opencv2/core/mat.hpp>
+#include <string>
+#include <vector>
+
+#include "slam/detect/class_table.h"
+#include "slam/detect/yolox_output.h"
+#include "slam/geometry/camera.h"
+#include "slam/model/detection.h"
+
+namespace slam {
+
+/// Finds objects in a colour image. Asked frame by frame, from one thread at a time.
+class Detector {
+ public:
+  virtual ~Detector() = default;
+  /// Boxes in pixels of the recorded image, clipped to it; in the detector's order.
+  virtual std::vector<Detection> Detect(double timestamp_s, const cv::Mat3b& bgr) = 0;
+};
+
+/// Sees nothing: every plane is of class -1.
+class NoDetector : public Detector {
+ public:
+  std::vector<Detection> Detect(double, const cv::Mat3b&) override { return {}; }
+};
+
+/// One line of a detections.jsonl (formats.md).
+struct DetectionRecord {
+  double timestamp_s = 0.0;
+  std::vector<Detection> detections;  ///< clipped to the image
+  int outside = 0;                    ///< boxes that lie outside the image, left out
+};
+
+/// @param where  "file:line", for messages
+/// @throws InputError for text that is not JSON, a missing key, a score outside [0, 1], a box
+///   whose max is below its min
+DetectionRecord ParseDetections(const std::string& line, const Camera& camera,
+                                const ClassTable& classes, const std::string& where);
+
+/// Replays a detections.jsonl (formats.md). A frame without a record has no detections.
+class ReplayDetector : public Detector {
+ public:
+  /// Records are found by timestamp within this time, so that a file may print fewer digits.
+  static constexpr double kMaxTimeDifference_s = 5e-4;
+
+  /// @throws InputError with file:line, see ParseDetections; for a timestamp that does not
+  ///   increase.
+  ReplayDetector(const std::filesystem::path& file, const Camera& camera,
+                 const ClassTable& classes);
+  std::vector<Detection> Detect(double timestamp_s, const cv::Mat3b&) override;
+
+  int records() const { return static_cast<int>(records_.size()); }
+  int boxes_outside_image() const { return outside_; }  ///< left out
+
+ private:
+  std::map<double, std::vector<Detection>> records_;
+  int outside_ = 0;
+};
+
+/// `choice` is "replay" (SEQUENCE/detections.jsonl), "yolox:FILE" (yolox_detector.h) or "none".
+/// @throws InputError for another choice, or when the file to replay or the model is absent or
+///   bad.
+std::unique_ptr<Detector> MakeDetector(const std::string& choice,
+                                       const std::filesystem::path& sequence,
+                                       const Camera& camera, const ClassTable& classes,
+                                       const YoloxConfig& yolox = {});
+
+}  // namespace slam

@@ -1,0 +1,50 @@
+#include "slam/faces/process_planes.h"
+
+#include <algorithm>
+
+namespace slam {
+namespace {
+
+void DemandMore(const UnlinkedConfig& unlinked, EdgeLineConfig& lines, VertexConfig& vertices) {
+  lines.min_contour_share = std::max(lines.min_contour_share, unlinked.min_contour_share);
+  lines.min_length_px = std::max(lines.min_length_px, unlinked.min_length_px);
+  vertices.max_parallel_angle_rad =
+      std::min(vertices.max_parallel_angle_rad, unlinked.max_parallel_angle_rad);
+  vertices.max_square_error_rad =
+      std::min(vertices.max_square_error_rad, unlinked.max_square_error_rad);
+}
+
+/// Lines and corners of a face, unless its object is known to have no rectangular ones.
+void OutlineFace(FramePlane& plane, const Frame& frame, const Camera& camera,
+                 const PlaneProcessingConfig& config) {
+  plane.lines_c.clear();
+  plane.vertices_c.clear();
+  const Detection* linked = nullptr;
+  if (plane.detection) {
+    linked = &frame.detections.at(static_cast<std::size_t>(*plane.detection));
+    if (linked->kind != ClassKind::kRegular) return;
+  }
+  const Random random{config.seed, static_cast<std::uint64_t>(frame.index),
+                      static_cast<std::uint64_t>(plane.index)};
+  EdgeLineConfig line_config = config.edge_lines;
+  VertexConfig vertex_config = config.vertices;
+  if (!linked) DemandMore(config.unlinked, line_config, vertex_config);
+  const std::vector<EdgeLine> lines = FindEdgeLines(plane, camera, line_config, random);
+  for (const EdgeLine& line : lines) plane.lines_c.push_back(line.line_c);
+  const std::optional<Box> box_px = linked ? std::optional<Box>(linked->box_px) : std::nullopt;
+  plane.vertices_c = FindVertices(plane, lines, camera, box_px, vertex_config);
+}
+
+}  // namespace
+
+void ProcessPlanes(Frame& frame, const Camera& camera, const PlaneProcessingConfig& config) {
+  for (FramePlane& plane : frame.planes) RefitPlane(plane, config.noise, config.refit);
+  const double usual_roughness = UsualRoughness(frame.planes);
+  LinkBoxes(frame.planes, frame.detections, config.box_link);
+  for (FramePlane& plane : frame.planes) {
+    OutlineFace(plane, frame, camera, config);
+    plane.bad = FindFault(plane, frame.detections, usual_roughness, camera, config.select);
+  }
+}
+
+}  // namespace slam

@@ -1,0 +1,89 @@
+#include "slam/faces/select.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "slam/faces/box_link.h"
+
+namespace slam {
+namespace {
+
+// Depth that is cleaner than half the modelled sigma is rough by rounding and small curves.
+constexpr double kLeastUsualRoughness = 0.25;
+
+template <typename Predicate>
+double Share(const std::vector<EdgePoint>& edge, const Predicate& predicate) {
+  if (edge.empty()) return 0.0;
+  return static_cast<double>(std::count_if(edge.begin(), edge.end(), predicate)) /
+         static_cast<double>(edge.size());
+}
+
+std::optional<BadReason> StructureFault(const FramePlane& plane, const Camera& camera,
+                                        const SelectConfig& config) {
+  if (config.structure == StructureRule::kIgnored) return std::nullopt;
+  const Box image = camera.ImageBox();
+  const Eigen::Vector2d rim = Eigen::Vector2d::Constant(config.border_px);
+  const Box inner{image.min + rim, image.max - rim};
+  const double at_border = Share(plane.edge_points, [&](const EdgePoint& e) {
+    return e.kind == EdgeKind::kBorder || !inner.Contains(e.u_px);
+  });
+  if (config.structure == StructureRule::kComplete) {
+    if (!(at_border < config.max_border_share)) return BadReason::kBorder;
+    if (plane.vertices_c.size() != 4) return BadReason::kStructure;
+    return std::nullopt;
+  }
+  if (!(at_border < config.max_partial_border_share)) return BadReason::kBorder;
+  const double own_end =
+      Share(plane.edge_points, [](const EdgePoint& e) { return e.kind == EdgeKind::kSurface; });
+  if (plane.lines_c.empty() && !(own_end < config.max_unexplained_share)) {
+    return BadReason::kStructure;
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+double UsualRoughness(const std::vector<FramePlane>& planes) {
+  std::vector<std::pair<double, long>> known;  // roughness, pixels
+  long pixels = 0;
+  for (const FramePlane& plane : planes) {
+    if (!(plane.roughness > 0)) continue;
+    known.emplace_back(plane.roughness, plane.pixel_count);
+    pixels += plane.pixel_count;
+  }
+  std::sort(known.begin(), known.end());
+  long below = 0;
+  for (const auto& [roughness, count] : known) {
+    below += count;
+    if (2 * below >= pixels) return roughness;
+  }
+  return 0.0;
+}
+
+std::optional<BadReason> FindFault(const FramePlane& plane,
+                                   const std::vector<Detection>& detections,
+                                   double usual_roughness, const Camera& camera,
+                                   const SelectConfig& config) {
+  if (!(plane.centroid_c.norm() < config.max_distance_m)) return BadReason::kFar;
+  if (!(plane.inlier_ratio > config.min_inlier_ratio)) return BadReason::kInliers;
+  const double usual = std::max(usual_roughness, kLeastUsualRoughness);
+  if (!(plane.roughness < config.max_roughness * usual)) return BadReason::kInliers;
+  double regular_fit = 0.0;
+  if (plane.detection) {
+    const Detection& linked = detections.at(static_cast<std::size_t>(*plane.detection));
+    if (linked.kind == ClassKind::kRegular) {
+      regular_fit = Iou(plane.box_px, linked.box_px);
+      if (const auto fault = StructureFault(plane, camera, config)) return fault;
+    }
+  }
+  for (const Detection& d : detections) {
+    if (d.kind != ClassKind::kUnstructured) continue;
+    if (Iou(plane.box_px, d.box_px) < regular_fit) continue;
+    if (!(EdgeShare(plane, d.box_px, 0.0) < config.max_unstructured_share)) {
+      return BadReason::kUnstructured;
+    }
+  }
+  return std::nullopt;
+}
+
+}  // namespace slam

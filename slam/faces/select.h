@@ -1,0 +1,56 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "slam/geometry/camera.h"
+#include "slam/model/detection.h"
+#include "slam/model/frame_plane.h"
+
+namespace slam {
+
+/// How much a regular object's face must show.
+enum class StructureRule {
+  kIgnored,  ///< no demand
+  /// Default. A face cut by the image border or hidden in part is evidence, not a fault: it is
+  /// bad only if it shows no straight edge although most of its outline is the surface's own
+  /// end, or if most of its outline is the image's border.
+  kPartial,
+  /// As printed: bad near the image border, and without two pairs of parallel lines or four
+  /// vertices.
+  kComplete
+};
+
+/// A `max_` bound is passed strictly below it, a `min_` bound strictly above it.
+struct SelectConfig {
+  double max_distance_m = 5.0;          ///< centroid from the camera; domain (0, inf)
+  double min_inlier_ratio = 0.6;        ///< after the re-fit; domain [0, 1)
+  double max_roughness = 1.8;           ///< times the frame's usual; domain [1, inf)
+  double max_unstructured_share = 0.5;  ///< edge points in an unstructured box; domain (0, 1]
+  StructureRule structure = StructureRule::kPartial;
+  double border_px = 3.0;                 ///< width of the image border; domain [0, inf)
+  double max_border_share = 0.05;         ///< kComplete: edge points there; domain (0, 1]
+  double max_partial_border_share = 0.5;  ///< kPartial: the same; domain (0, 1]
+  double max_unexplained_share = 0.6;     ///< kPartial: kSurface points without a line; (0, 1]
+};
+
+/// The roughness of most pixels of a frame, what its sensor's noise comes to in it (the median
+/// over pixels of FramePlane::roughness); 0 when none is known.
+double UsualRoughness(const std::vector<FramePlane>& planes);
+
+/// The first reason why a plane is not to be trusted, or nothing. In the paper's order:
+///   1. too far from the camera                                          kFar
+///   2. small inlier ratio after the re-fit, or stairs: rougher than the
+///      frame's other surfaces (UsualRoughness)                          kInliers
+///   3. tied to a regular object's box, but at the border, or without
+///      the structure of a rectangle (StructureRule)                     kBorder, kStructure
+///   4. most edge points in the box of an unstructured object, unless a
+///      regular object's box holds it too and fits it better             kUnstructured
+///
+/// Source: PAS-SLAM, Plane Selection.
+std::optional<BadReason> FindFault(const FramePlane& plane,
+                                   const std::vector<Detection>& detections,
+                                   double usual_roughness, const Camera& camera,
+                                   const SelectConfig& config);
+
+}  // namespace slam

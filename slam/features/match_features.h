@@ -1,0 +1,77 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "slam/geometry/camera.h"
+#include "slam/model/frame.h"
+
+namespace slam {
+
+/// Number of differing bits, in [0, 256].
+int DescriptorDistance(const Descriptor& a, const Descriptor& b);
+
+/// Features of one image by where they are; refers to the features by index.
+class FeatureGrid {
+ public:
+  FeatureGrid(const std::vector<PointFeature>& features, const Camera& camera);
+
+  /// Indices of the features within a square of half width `radius_px` around `u_px` whose
+  /// octave is in [min_octave, max_octave]; cell by cell, ascending in each.
+  std::vector<int> Near(const Eigen::Vector2d& u_px, double radius_px, int min_octave,
+                        int max_octave) const;
+
+ private:
+  int ColumnOf(double u_px) const;
+  int RowOf(double v_px) const;
+
+  const std::vector<PointFeature>& features_;
+  int columns_ = 1, rows_ = 1;
+  std::vector<std::vector<int>> cells_;
+};
+
+/// Gates of point matching.
+struct PointMatchConfig {
+  int max_distance = 100;         ///< differing bits; domain [0, 256]
+  double max_ratio = 0.9;         ///< best over second best at the same octave; domain (0, 1]
+  bool check_orientation = true;  ///< keep the main turns of the image alone
+};
+
+/// Something looked for in an image: a map point where it is expected.
+struct PointQuery {
+  int point = kNone;         ///< id that the match will carry
+  Eigen::Vector2d u_px;      ///< expected position, undistorted
+  double right_u_px = -1.0;  ///< expected virtual right coordinate; < 0: not compared
+  double radius_px = 7.0;    ///< search square's half width
+  int min_octave = 0, max_octave = 7;
+  Descriptor descriptor{};
+  float angle_deg = -1.0f;  ///< of the feature it was seen at; < 0: not compared
+};
+
+/// Finds for each query the feature with the nearest descriptor among the near ones. A feature
+/// goes to the query that is nearest to it, the earlier one at a tie.
+/// @param taken parallel to `features`: such features are left out; empty for none
+/// @returns parallel to `features`: index of the query, or kNone
+std::vector<int> MatchQueries(const std::vector<PointQuery>& queries,
+                              const std::vector<PointFeature>& features,
+                              const FeatureGrid& grid, const std::vector<bool>& taken,
+                              const PointMatchConfig& config);
+
+/// Pairs of features of two images by descriptors alone: each is the other's nearest.
+struct FeaturePair {
+  int first, second;
+};
+
+/// @param use_first, use_second  parallel to the features: which take part; empty for all
+std::vector<FeaturePair> MatchDescriptors(const std::vector<PointFeature>& first,
+                                          const std::vector<bool>& use_first,
+                                          const std::vector<PointFeature>& second,
+                                          const std::vector<bool>& use_second,
+                                          const PointMatchConfig& config);
+
+/// Which pairs turn as the image does: a histogram of the angle differences, of which the three
+/// fullest of 30 bins stay (only those with at least a tenth of the fullest).
+/// @param turns_deg differences of angles, any range; NaN always stays
+std::vector<bool> ConsistentTurns(const std::vector<double>& turns_deg);
+
+}  // namespace slam

@@ -1,0 +1,129 @@
+#include "slam/features/point_features.h"
+
+#include <algorithm>
+#include <cmath>
+#include <opencv2/features2d.hpp>
+
+#include "slam/base/require.h"
+#include "slam/features/image_pyramid.h"
+#include "slam/features/point_descriptor.h"
+#include "slam/features/point_spread.h"
+
+namespace slam {
+namespace {
+
+/// Corners this near to an octave's border are left out: 16 pixels as the descriptor's patch
+/// asks, less in small images, where that would leave no image.
+int BorderOf(const cv::Size& size) {
+  return std::clamp(std::min(size.width, size.height) / 15, 4, 16);
+}
+
+/// FAST in a rectangle of the octave; positions on the octave's image, row by row.
+std::vector<cv::KeyPoint> Corners(const cv::Mat1b& image, const cv::Rect& area, int threshold) {
+  // The detector needs a ring of 3 pixels around every corner.
+  constexpr int kRing_px = 3;
+  const cv::Rect with_ring(area.x - kRing_px, area.y - kRing_px, area.width + 2 * kRing_px,
+                           area.height + 2 * kRing_px);
+  std::vector<cv::KeyPoint> corners;
+  cv::FAST(image(with_ring), corners, threshold, true);
+  for (cv::KeyPoint& corner : corners) {
+    corner.pt.x += static_cast<float>(with_ring.x);
+    corner.pt.y += static_cast<float>(with_ring.y);
+  }
+  return corners;
+}
+
+/// Corners of one octave: with the high threshold everywhere, with the low one in the cells
+/// that stayed empty.
+std::vector<cv::KeyPoint> CornersOfOctave(const cv::Mat1b& image, const cv::Rect& area,
+                                          const PointFeatureConfig& config) {
+  std::vector<cv::KeyPoint> corners = Corners(image, area, config.fast_threshold);
+  const int columns = std::max(1, area.width / config.cell_px);
+  const int rows = std::max(1, area.height / config.cell_px);
+  const auto left = [&](int c) { return area.x + c * area.width / columns; };
+  const auto top = [&](int r) { return area.y + r * area.height / rows; };
+
+  cv::Mat1b occupied(rows, columns, std::uint8_t{0});
+  for (const cv::KeyPoint& corner : corners) {
+    const int c = (static_cast<int>(corner.pt.x) - area.x) * columns / area.width;
+    const int r = (static_cast<int>(corner.pt.y) - area.y) * rows / area.height;
+    occupied(std::clamp(r, 0, rows - 1), std::clamp(c, 0, columns - 1)) = 1;
+  }
+  const auto strong = static_cast<std::ptrdiff_t>(corners.size());
+  for (int r = 0; r < rows; ++r) {
+    for (int c = 0; c < columns; ++c) {
+      if (occupied(r, c) != 0) continue;
+      const cv::Rect cell(left(c), top(r), left(c + 1) - left(c), top(r + 1) - top(r));
+      const auto weak = Corners(image, cell, config.min_fast_threshold);
+      corners.insert(corners.end(), weak.begin(), weak.end());
+    }
+  }
+  const auto by_row = [](const cv::KeyPoint& a, const cv::KeyPoint& b) {
+    return a.pt.y != b.pt.y ? a.pt.y < b.pt.y : a.pt.x < b.pt.x;
+  };
+  std::sort(corners.begin() + strong, corners.end(), by_row);
+  std::inplace_merge(corners.begin(), corners.begin() + strong, corners.end(), by_row);
+  return corners;
+}
+
+/// Features wanted of each octave, in proportion to its side length.
+std::vector<int> Shares(const ScalePyramid& scales, std::size_t octaves, int count) {
+  double sum = 0.0;
+  for (std::size_t o = 0; o < octaves; ++o) sum += 1.0 / scales.Scale(static_cast<int>(o));
+  std::vector<int> shares;
+  for (std::size_t o = 0; o < octaves; ++o) {
+    shares.push_back(cvRound(count / (sum * scales.Scale(static_cast<int>(o)))));
+  }
+  return shares;
+}
+
+PointFeature MakeFeature(const cv::KeyPoint& corner, const Descriptor& descriptor, int octave,
+                         const PyramidImage& image, const cv::Mat1f& depth_m,
+                         const Camera& camera, const PointFeatureConfig& config) {
+  // Pixel centres are integers in every octave; the half pixel keeps them aligned.
+  const Eigen::Vector2d recorded_px((corner.pt.x + 0.5) * image.scale_u - 0.5,
+                                    (corner.pt.y + 0.5) * image.scale_v - 0.5);
+  PointFeature feature;
+  feature.u_px = camera.Undistort(recorded_px);
+  feature.octave = octave;
+  feature.angle_deg = corner.angle;
+  feature.descriptor = descriptor;
+  if (!depth_m.empty()) feature.depth_m = DepthAt(depth_m, recorded_px, config.depth);
+  if (feature.depth_m > 0) {
+    feature.right_u_px = feature.u_px.x() - config.bf_px_m / feature.depth_m;
+  }
+  return feature;
+}
+
+}  // namespace
+
+std::vector<PointFeature> ExtractPointFeatures(const cv::Mat1b& gray, const cv::Mat1f& depth_m,
+                                               const Camera& camera,
+                                               const PointFeatureConfig& config) {
+  Require(gray.cols == camera.width && gray.rows == camera.height,
+          "ExtractPointFeatures: the image has not the camera's size");
+  Require(depth_m.empty() || depth_m.size() == gray.size(),
+          "ExtractPointFeatures: the depth image has another size than the grey one");
+  const std::vector<PyramidImage> octaves = BuildImagePyramid(gray, config.scales);
+  const std::vector<int> shares = Shares(config.scales, octaves.size(), config.count);
+
+  std::vector<PointFeature> features;
+  features.reserve(static_cast<std::size_t>(config.count) + 16);
+  for (std::size_t o = 0; o < octaves.size(); ++o) {
+    const cv::Mat1b& image = octaves[o].image;
+    const int border = BorderOf(image.size());
+    const cv::Rect area(border, border, image.cols - 2 * border, image.rows - 2 * border);
+    auto corners = SpreadEvenly(CornersOfOctave(image, area, config), area, shares[o]);
+    for (cv::KeyPoint& corner : corners) {
+      corner.angle = PatchAngle(octaves[o], cvRound(corner.pt.x), cvRound(corner.pt.y));
+    }
+    const auto descriptors = DescribePoints(octaves[o], corners);
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+      features.push_back(MakeFeature(corners[i], descriptors[i], static_cast<int>(o),
+                                     octaves[o], depth_m, camera, config));
+    }
+  }
+  return features;
+}
+
+}  // namespace slam

@@ -1,0 +1,57 @@
+#include "slam/model/local_map.h"
+
+#include <algorithm>
+#include <map>
+#include <set>
+
+#include "slam/base/index.h"
+#include "slam/model/map_queries.h"
+
+namespace slam {
+namespace {
+
+/// Keyframes by the number of the frame's points they see, most first.
+std::vector<int> Voted(const Frame& frame, const Map& map) {
+  std::map<int, int> votes;
+  for (const int match : frame.map_points) {
+    const int id = CurrentPoint(map, match);
+    if (id == kNone) continue;
+    for (const auto& [keyframe, feature] : map.points[Index(id)].observations) {
+      ++votes[keyframe];
+    }
+  }
+  std::vector<int> keyframes;
+  for (const auto& [keyframe, count] : votes) keyframes.push_back(keyframe);
+  std::stable_sort(keyframes.begin(), keyframes.end(),
+                   [&](int a, int b) { return votes.at(a) > votes.at(b); });
+  return keyframes;
+}
+
+}  // namespace
+
+LocalMap GatherLocalMap(const Frame& frame, const Map& map, int max_keyframes) {
+  constexpr int kNeighbours = 5;
+  LocalMap local;
+  std::vector<int> wanted = Voted(frame, map);
+  if (!wanted.empty()) local.reference = wanted.front();
+  const std::size_t voted = wanted.size();
+  for (std::size_t i = 0; i < voted && i < Index(max_keyframes); ++i) {
+    const std::vector<int> best = BestCovisible(map, wanted[i], kNeighbours);
+    wanted.insert(wanted.end(), best.begin(), best.end());
+  }
+  std::set<int> seen;
+  for (const int keyframe : wanted) {
+    if (local.keyframes.size() >= Index(max_keyframes)) break;
+    if (seen.insert(keyframe).second) local.keyframes.push_back(keyframe);
+  }
+  for (const int keyframe : local.keyframes) {
+    for (const int point : map.keyframes[Index(keyframe)].map_points) {
+      if (point != kNone) local.points.push_back(point);
+    }
+  }
+  std::sort(local.points.begin(), local.points.end());
+  local.points.erase(std::unique(local.points.begin(), local.points.end()), local.points.end());
+  return local;
+}
+
+}  // namespace slam

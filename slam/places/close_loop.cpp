@@ -1,0 +1,151 @@
+#include "slam/places/close_loop.h"
+
+#include <algorithm>
+#include <set>
+#include <utility>
+
+#include "slam/base/index.h"
+#include "slam/mapping/bundle_window.h"
+#include "slam/model/map_queries.h"
+#include "slam/places/carry_map.h"
+#include "slam/places/pose_graph.h"
+
+namespace slam {
+namespace {
+
+using Pair = std::pair<int, int>;  // ids of keyframes, the older first
+
+/// Pairs that tie the map together: those that share much, each keyframe with the older one
+/// that shares most with it, and neighbours in time where there is none.
+std::set<Pair> Ties(const Map& map, int min_points) {
+  std::set<Pair> ties;
+  int previous = kNone;
+  for (const Keyframe& keyframe : map.keyframes) {
+    if (keyframe.culled) continue;
+    int parent = kNone, most = 0;
+    for (const auto& [other, shared] : keyframe.covisible) {
+      if (other > keyframe.id) continue;
+      if (shared >= min_points) ties.emplace(other, keyframe.id);
+      if (shared > most) parent = other, most = shared;
+    }
+    if (parent == kNone) parent = previous;
+    if (parent != kNone) ties.emplace(parent, keyframe.id);
+    previous = keyframe.id;
+  }
+  return ties;
+}
+
+/// Moves the keyframe and its neighbours as one to where the loop puts the keyframe.
+void MoveGroup(Map& map, const Loop& loop, const std::vector<int>& group) {
+  const std::vector<Pose> before = KeyframePoses(map);
+  const Pose T_wc_old = Inverse(before[Index(loop.keyframe)]);
+  for (const int id : group) {
+    map.keyframes[Index(id)].T_cw = Normalised(before[Index(id)] * T_wc_old * loop.T_cw);
+  }
+  CarryPoints(map, before);
+}
+
+/// The keyframe's features get the place's points; what they had is fused into them.
+int TakePlacePoints(Map& map, const Loop& loop, const LocalMappingConfig& config) {
+  int fused = 0;
+  for (std::size_t f = 0; f < loop.map_points.size(); ++f) {
+    const int known = CurrentPoint(map, loop.map_points[f]);
+    const int own = map.keyframes[Index(loop.keyframe)].map_points[f];
+    if (known == kNone || own == known) continue;
+    if (own == kNone) {
+      AddObservation(map, known, loop.keyframe, static_cast<int>(f));
+    } else {
+      ReplacePoint(map, own, known);
+    }
+    UpdatePoint(map, known, config.keyframes.scales);
+    ++fused;
+  }
+  return fused;
+}
+
+/// Spreads the error. @param ties  of the map before the loop was known
+void Spread(Map& map, const std::set<Pair>& ties, const std::vector<Pose>& before_loop,
+            const std::set<Pair>& ties_now) {
+  std::vector<int> ids;
+  std::vector<int> position(map.keyframes.size(), kNone);
+  std::vector<Pose> poses;
+  for (const Keyframe& keyframe : map.keyframes) {
+    if (keyframe.culled) continue;
+    position[Index(keyframe.id)] = static_cast<int>(ids.size());
+    ids.push_back(keyframe.id);
+    poses.push_back(keyframe.T_cw);
+  }
+  std::vector<PoseEdge> edges;
+  const auto tie = [&](const Pair& pair, const Pose& T_iw, const Pose& T_jw) {
+    edges.push_back(
+        {position[Index(pair.first)], position[Index(pair.second)], T_iw * Inverse(T_jw)});
+  };
+  for (const Pair& pair : ties) {
+    tie(pair, before_loop[Index(pair.first)], before_loop[Index(pair.second)]);
+  }
+  for (const Pair& pair : ties_now) {
+    if (ties.count(pair) != 0) continue;  // else new by the loop
+    tie(pair, map.keyframes[Index(pair.first)].T_cw, map.keyframes[Index(pair.second)].T_cw);
+  }
+  if (!OptimisePoseGraph(poses, edges)) return;
+  const std::vector<Pose> before = KeyframePoses(map);
+  for (std::size_t i = 0; i < ids.size(); ++i) map.keyframes[Index(ids[i])].T_cw = poses[i];
+  CarryPoints(map, before);
+}
+
+/// All of it but the adjustment.
+LoopReport DrawTogether(Map& map, const Loop& loop, const Camera& camera,
+                        const LocalMappingConfig& mapping, const LoopClosingConfig& config) {
+  LoopReport report;
+  report.loop = loop;
+  const std::vector<Pose> before = KeyframePoses(map);
+  report.moved_m = (Inverse(loop.T_cw).t - Inverse(before[Index(loop.keyframe)]).t).norm();
+  const std::set<Pair> ties = Ties(map, config.min_edge_points);
+  std::vector<int> group{loop.keyframe};
+  for (const auto& [other, shared] : map.keyframes[Index(loop.keyframe)].covisible) {
+    if (other != 0) group.push_back(other);  // the world stays
+  }
+
+  MoveGroup(map, loop, group);
+  report.fused = TakePlacePoints(map, loop, mapping);
+  UpdateCovisibility(map, loop.keyframe, mapping.keyframes);
+  for (const int id : group) {
+    report.fused += FusePoints(map, id, camera, mapping.fusion);
+    UpdateCovisibility(map, id, mapping.keyframes);
+  }
+  std::set<Pair> ties_now = Ties(map, config.min_edge_points);
+  ties_now.emplace(std::min(loop.place, loop.keyframe), std::max(loop.place, loop.keyframe));
+  Spread(map, ties, before, ties_now);
+  CarryPlanes(map, before);
+  return report;
+}
+
+/// Adjusts all keyframes and points. @returns whether that was usable
+bool AdjustAll(Map& map, const Camera& camera, LocalBundleConfig config, int iterations,
+               const MapTurn& turn) {
+  BundleWindow window;
+  turn([&] { window = FullWindow(map, camera, config); });
+  config.first_iterations = config.last_iterations = iterations;
+  if (!SolveWindow(window, config).usable) return false;
+  turn([&] {
+    const std::vector<Pose> before = KeyframePoses(map);
+    MergeWindow(window, config.scales, map);
+    CarryPlanes(map, before);
+  });
+  return true;
+}
+
+}  // namespace
+
+LoopReport CloseLoop(Map& map, const Loop& loop, const Camera& camera,
+                     const LocalMappingConfig& mapping, const LoopClosingConfig& config,
+                     const MapTurn& turn) {
+  LoopReport report;
+  turn([&] { report = DrawTogether(map, loop, camera, mapping, config); });
+  if (config.full_iterations > 0) {
+    report.adjusted = AdjustAll(map, camera, mapping.bundle, config.full_iterations, turn);
+  }
+  return report;
+}
+
+}  // namespace slam

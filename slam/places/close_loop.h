@@ -1,0 +1,33 @@
+#pragma once
+
+#include "slam/mapping/local_mapping.h"
+#include "slam/places/loop_detection.h"
+
+namespace slam {
+
+/// Loop closing; off unless asked for, as in the paper's tables.
+struct LoopClosingConfig {
+  bool enabled = false;
+  LoopDetectionConfig detection;
+  int min_edge_points = 60;  ///< shared points that tie two keyframes in the pose graph
+  int full_iterations = 10;  ///< of the full adjustment, each round; 0: none
+};
+
+/// What closing a loop did.
+struct LoopReport {
+  Loop loop;
+  double moved_m = 0.0;   ///< the keyframe's centre, before the full adjustment
+  int fused = 0;          ///< points that turned out to be known
+  bool adjusted = false;  ///< the full adjustment was usable
+};
+
+/// Draws the map together at a loop: the keyframe and its neighbours move to where the place
+/// says, what they see is fused with what the place holds, the error is spread over the pose
+/// graph of all keyframes, points and planes are carried along, and everything is adjusted
+/// once. The first keyframe, the world, stays.
+/// @param turn  the map is needed to draw it together and to take the adjustment over
+LoopReport CloseLoop(Map& map, const Loop& loop, const Camera& camera,
+                     const LocalMappingConfig& mapping, const LoopClosingConfig& config,
+                     const MapTurn& turn = AtOnce);
+
+}  // namespace slam

@@ -1,0 +1,52 @@
+#pragma once
+
+#include <optional>
+
+#include "slam/features/match_features.h"
+#include "slam/geometry/camera.h"
+#include "slam/model/map.h"
+#include "slam/model/scale_pyramid.h"
+#include "slam/pose/pose_problem.h"
+#include "slam/places/keyframe_index.h"
+
+namespace slam {
+
+/// How a frame finds itself again in the map.
+struct RelocaliseConfig {
+  LikenessConfig likeness;
+  int max_keyframes = 6;  ///< tried a frame, those that look most alike first; domain [1, inf)
+  int min_matches = 15;   ///< descriptor matches with a keyframe; domain [4, inf)
+  int ransac_iterations = 300;  ///< samples that are solved; domain [1, inf)
+  int ransac_samples = 5000;    ///< samples that are drawn; domain [1, inf)
+  // By how much distances in the frame and in the map may differ in a sample that is solved:
+  // this part of the depth.
+  double shape_tolerance = 0.05;  ///< domain (0, inf)
+  double ransac_error_px = 4.0;
+  int min_ransac_inliers = 10;
+  PointMatchConfig match{70, 0.9, true};
+  // Two places that both fit are none: the second best must have fewer inliers than this share
+  // of the best one's, unless it says the same pose.
+  double max_rival_ratio = 0.7;  ///< domain (0, 1]
+  double same_pose_m = 0.1;      ///< domain (0, inf)
+  double same_pose_rad = 0.1;    ///< domain (0, pi)
+};
+
+/// Whether two answers are one.
+bool SamePose(const Pose& a_cw, const Pose& b_cw, const RelocaliseConfig& config);
+
+/// A pose found without any prediction, and the matches that it rests on.
+struct Relocalisation {
+  int keyframe = kNone;
+  Pose T_cw;
+  std::vector<int> map_points;  ///< parallel to the frame's features; inliers alone
+  int inliers = 0;
+};
+
+/// A pose from one keyframe's points alone, by descriptors, RANSAC and pose optimisation.
+std::optional<Relocalisation> RelocaliseBy(const Keyframe& keyframe, const Frame& frame,
+                                           const Map& map, const Camera& camera,
+                                           const ScalePyramid& scales,
+                                           const PoseProblemConfig& pose,
+                                           const RelocaliseConfig& config);
+
+}  // namespace slam

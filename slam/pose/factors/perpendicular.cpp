@@ -1,0 +1,23 @@
+#include "slam/pose/factors/perpendicular.h"
+
+namespace slam {
+namespace {
+
+// The two normals are then parallel: the constraint is nonsense and has no gradient.
+constexpr double kMinCross = 1e-6;
+
+}  // namespace
+
+Linearised<1> PerpendicularFactor(const DirectionConstraint& constraint, const Pose& T_cw) {
+  Linearised<1> out;
+  const Eigen::Vector3d n_p = T_cw.R * constraint.n_w;
+  const Eigen::Vector3d cross = n_p.cross(constraint.n_c);
+  const double s = cross.norm();
+  if (!(s > kMinCross)) return out;
+  out.r[0] = std::atan2(constraint.n_c.dot(n_p), s);  // asin, exact also near a right angle
+  out.J.rightCols<3>() = (cross / s).transpose();
+  out.valid = true;
+  return out;
+}
+
+}  // namespace slam

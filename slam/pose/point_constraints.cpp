@@ -1,0 +1,49 @@
+#include "slam/pose/point_constraints.h"
+
+#include "slam/base/require.h"
+#include "slam/model/map_queries.h"
+
+namespace slam {
+
+PointConstraint ConstraintOf(const PointFeature& feature, const Eigen::Vector3d& p_w,
+                             const ScalePyramid& scales) {
+  return {p_w, feature.u_px, feature.depth_m > 0 ? feature.right_u_px : -1.0,
+          1.0 / scales.Variance(feature.octave)};
+}
+
+FramePoints PointConstraints(const Frame& frame, const Map& map, const ScalePyramid& scales) {
+  FramePoints points;
+  for (std::size_t f = 0; f < frame.map_points.size(); ++f) {
+    const int id = CurrentPoint(map, frame.map_points[f]);
+    if (id == kNone) continue;
+    const Eigen::Vector3d& p_w = map.points[static_cast<std::size_t>(id)].p_w;
+    points.constraints.push_back(ConstraintOf(frame.features[f], p_w, scales));
+    points.features.push_back(static_cast<int>(f));
+  }
+  return points;
+}
+
+void DropOutliers(Frame& frame, const FramePoints& points,
+                  const std::vector<bool>& point_inliers) {
+  Require(points.features.size() == point_inliers.size(),
+          "DropOutliers: point_inliers is not parallel to the points");
+  for (std::size_t i = 0; i < point_inliers.size(); ++i) {
+    if (point_inliers[i]) continue;
+    frame.map_points[static_cast<std::size_t>(points.features[i])] = kNone;
+  }
+}
+
+int OptimiseByPoints(Frame& frame, const Map& map, const Camera& camera,
+                     const ScalePyramid& scales, const PoseProblemConfig& config) {
+  const FramePoints points = PointConstraints(frame, map, scales);
+  PoseProblem problem;
+  problem.T_cw = frame.T_cw;
+  problem.points = points.constraints;
+  const PoseSummary summary = OptimisePose(problem, camera, config);
+  if (!summary.usable) return 0;
+  frame.T_cw = summary.T_cw;
+  DropOutliers(frame, points, summary.point_inliers);
+  return summary.inlier_count;
+}
+
+}  // namespace slam

@@ -1,0 +1,212 @@
+#include "slam/pose/pose_problem.h"
+
+#include <cmath>
+
+#include "slam/pose/factors/box.h"
+#include "slam/pose/factors/parallel.h"
+#include "slam/pose/factors/perpendicular.h"
+#include "slam/pose/factors/plane.h"
+#include "slam/pose/factors/point.h"
+#include "slam/pose/factors/point_plane.h"
+#include "slam/pose/robust.h"
+#include "slam/pose/solve.h"
+
+namespace slam {
+namespace {
+
+bool Sane(const PointConstraint& c) {
+  return c.p_w.allFinite() && c.u_px.allFinite() && std::isfinite(c.right_u_px) &&
+         c.inv_sigma2_px > 0 && std::isfinite(c.inv_sigma2_px);
+}
+
+bool Positive(double sigma) { return sigma > 0 && std::isfinite(sigma); }
+
+bool Sane(const Plane& pi) {
+  return pi.n.allFinite() && std::isfinite(pi.d) && std::abs(pi.n.norm() - 1) < 1e-6;
+}
+
+bool Sane(const PlaneConstraint& c) {
+  return Sane(c.pi_w) && Sane(c.pi_c) && c.centroid_c.allFinite() &&
+         Positive(c.angle_sigma_rad) && Positive(c.offset_sigma_m);
+}
+
+bool Sane(const BoxConstraint& c) {
+  for (const Eigen::Vector3d& p_w : c.corners_w) {
+    if (!p_w.allFinite()) return false;
+  }
+  return !c.box_obs_px.empty() && Positive(c.sigma_px);
+}
+
+bool Sane(const PointPlaneConstraint& c) {
+  return c.p_w.allFinite() && Sane(c.pi_c) && Positive(c.sigma_m);
+}
+
+bool Sane(const DirectionConstraint& c) {
+  return c.n_w.allFinite() && c.n_c.allFinite() && std::abs(c.n_w.norm() - 1) < 1e-6 &&
+         std::abs(c.n_c.norm() - 1) < 1e-6 && Positive(c.sigma_rad);
+}
+
+/// Adds a whitened block: H += w J^T J, g += w J^T r, upper triangle only.
+template <int kRows>
+void Add(const Linearised<kRows>& f, double huber, NormalEquations& sum) {
+  const HuberLoss loss = Huber(f.r.squaredNorm(), huber);
+  const Eigen::Matrix<double, kRows, 6> WJ = loss.weight * f.J;
+  for (int i = 0; i < 6; ++i) {
+    for (int j = i; j < 6; ++j) sum.H(i, j) += WJ.col(i).dot(f.J.col(j));
+    sum.g[i] += WJ.col(i).dot(f.r);
+  }
+  sum.cost += loss.cost;
+}
+
+template <int kRows>
+Linearised<kRows> Whitened(Linearised<kRows> f, double inv_sigma) {
+  f.r *= inv_sigma;
+  f.J *= inv_sigma;
+  return f;
+}
+
+/// Sums the factors of one problem at a pose.
+class Evaluator {
+ public:
+  Evaluator(const PoseProblem& problem, const Camera& camera, const PoseProblemConfig& config)
+      : problem_(problem), camera_(camera), config_(config) {
+    sane_.reserve(problem.points.size());
+    for (const PointConstraint& c : problem.points) sane_.push_back(Sane(c));
+    used = sane_;
+  }
+
+  std::vector<bool> used;     ///< points that take part
+  bool robust_points = true;  ///< Huber on points
+
+  NormalEquations operator()(const Pose& T_cw) const {
+    NormalEquations sum;
+    AddPoints(T_cw, sum);
+    if (config_.use_planes) AddPlanes(T_cw, sum);
+    if (config_.use_boxes) AddBoxes(T_cw, sum);
+    if (config_.use_point_planes) AddPointPlanes(T_cw, sum);
+    if (config_.use_parallel) AddParallels(T_cw, sum);
+    if (config_.use_perpendicular) AddPerpendiculars(T_cw, sum);
+    return sum;
+  }
+
+  /// Takes as inliers the points whose chi-square passes at T_cw.
+  int Classify(const Pose& T_cw) {
+    int inliers = 0;
+    for (std::size_t i = 0; i < used.size(); ++i) {
+      used[i] = false;
+      if (!sane_[i]) continue;
+      const PointConstraint& c = problem_.points[i];
+      const Linearised<3> f = PointFactor(c, T_cw, camera_, config_.virtual_bf_px_m);
+      used[i] = f.valid && f.r.squaredNorm() * c.inv_sigma2_px < Chi2(c);
+      inliers += used[i] ? 1 : 0;
+    }
+    return inliers;
+  }
+
+ private:
+  double Chi2(const PointConstraint& c) const {
+    return c.right_u_px >= 0 ? config_.stereo_chi2 : config_.mono_chi2;
+  }
+
+  void AddPoints(const Pose& T_cw, NormalEquations& sum) const {
+    for (std::size_t i = 0; i < used.size(); ++i) {
+      if (!used[i]) continue;
+      const PointConstraint& c = problem_.points[i];
+      const double huber = robust_points ? std::sqrt(Chi2(c)) : 0.0;
+      const Linearised<3> f = PointFactor(c, T_cw, camera_, config_.virtual_bf_px_m);
+      if (!f.valid) {
+        // A point behind the camera costs as much as the worst that the loss lets pass: else
+        // turning away would look like an improvement.
+        sum.cost += Huber(kBehindSigmas * kBehindSigmas, huber).cost;
+        continue;
+      }
+      Add(Whitened(f, std::sqrt(c.inv_sigma2_px)), huber, sum);
+    }
+  }
+
+  void AddPlanes(const Pose& T_cw, NormalEquations& sum) const {
+    for (const PlaneConstraint& c : problem_.planes) {
+      if (!Sane(c)) continue;
+      Linearised<4> f = PlaneFactor(c, T_cw);
+      f.r.head<3>() /= c.angle_sigma_rad;
+      f.J.topRows<3>() /= c.angle_sigma_rad;
+      f.r[3] /= c.offset_sigma_m;
+      f.J.row(3) /= c.offset_sigma_m;
+      if (f.valid) Add(f, config_.huber_planes, sum);
+    }
+  }
+
+  void AddBoxes(const Pose& T_cw, NormalEquations& sum) const {
+    for (const BoxConstraint& c : problem_.boxes) {
+      if (!Sane(c)) continue;
+      const Linearised<4> f = BoxFactor(c, T_cw, camera_);
+      if (f.valid) Add(Whitened(f, 1 / c.sigma_px), config_.huber_planes, sum);
+    }
+  }
+
+  void AddPointPlanes(const Pose& T_cw, NormalEquations& sum) const {
+    for (const PointPlaneConstraint& c : problem_.point_planes) {
+      if (!Sane(c)) continue;
+      Add(Whitened(PointPlaneFactor(c, T_cw), 1 / c.sigma_m), config_.huber_planes, sum);
+    }
+  }
+
+  void AddParallels(const Pose& T_cw, NormalEquations& sum) const {
+    for (const DirectionConstraint& c : problem_.parallels) {
+      if (!Sane(c)) continue;
+      const Linearised<3> f = ParallelFactor(c, T_cw);
+      if (f.valid) Add(Whitened(f, 1 / c.sigma_rad), config_.huber_planes, sum);
+    }
+  }
+
+  void AddPerpendiculars(const Pose& T_cw, NormalEquations& sum) const {
+    for (const DirectionConstraint& c : problem_.perpendiculars) {
+      if (!Sane(c)) continue;
+      const Linearised<1> f = PerpendicularFactor(c, T_cw);
+      if (f.valid) Add(Whitened(f, 1 / c.sigma_rad), config_.huber_planes, sum);
+    }
+  }
+
+  static constexpr double kBehindSigmas = 100.0;
+
+  const PoseProblem& problem_;
+  const Camera& camera_;
+  const PoseProblemConfig& config_;
+  std::vector<bool> sane_;
+};
+
+bool FinitePose(const Pose& T) { return T.R.allFinite() && T.t.allFinite(); }
+
+}  // namespace
+
+PoseSummary OptimisePose(const PoseProblem& problem, const Camera& camera,
+                         const PoseProblemConfig& config) {
+  PoseSummary out;
+  out.T_cw = problem.T_cw;
+  out.point_inliers.assign(problem.points.size(), false);
+  if (!FinitePose(problem.T_cw)) return out;
+
+  Evaluator evaluate(problem, camera, config);
+  out.initial_cost = evaluate(problem.T_cw).cost;
+  SolveSummary solved;
+  for (int round = 0; round < config.rounds; ++round) {
+    evaluate.robust_points = config.rounds == 1 || round + 1 < config.rounds;
+    solved = SolvePose(out.T_cw, config.iterations, evaluate);
+    out.iterations += solved.iterations;
+    if (!solved.finite || !FinitePose(solved.T_cw)) return out;
+    out.T_cw = solved.T_cw;
+    const std::vector<bool> before = evaluate.used;
+    out.inlier_count = evaluate.Classify(out.T_cw);
+    // The last round has nothing new to say once the inliers stand still under plain squares.
+    if (!evaluate.robust_points && evaluate.used == before) break;
+  }
+  const NormalEquations last = evaluate(out.T_cw);
+  out.information = last.H.selfadjointView<Eigen::Upper>();
+  out.point_inliers = evaluate.used;
+  out.final_cost = last.cost;
+  out.nullity = Nullity(out.information);
+  out.usable = out.nullity == 0 && std::isfinite(last.cost);
+  return out;
+}
+
+}  // namespace slam

@@ -1,0 +1,95 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <vector>
+
+#include "slam/geometry/box.h"
+#include "slam/geometry/camera.h"
+#include "slam/geometry/plane.h"
+#include "slam/geometry/pose.h"
+
+namespace slam {
+
+/// f_p: a map point seen at a feature. With depth the third component is the virtual right
+/// coordinate u - b f / z. Source: PAS-SLAM eq14.
+struct PointConstraint {
+  Eigen::Vector3d p_w;
+  Eigen::Vector2d u_px;        ///< undistorted
+  double right_u_px = -1.0;    ///< < 0: two residuals only
+  double inv_sigma2_px = 1.0;  ///< 1 / sigma^2 of the feature's pyramid level
+};
+
+/// f_pi: a map plane seen as a frame plane. Source: PAS-SLAM eq15, eq16 (corrected).
+struct PlaneConstraint {
+  Plane pi_w, pi_c;
+  Eigen::Vector3d centroid_c = Eigen::Vector3d::Zero();  ///< where the offset was measured
+  double angle_sigma_rad = 0.01;
+  double offset_sigma_m = 0.005;
+};
+
+/// f_b_pi: the box of a map plane's projected corners against a detection box. A side that
+/// carries no information (image border, hidden) has its flag off. Source: PAS-SLAM eq17.
+struct BoxConstraint {
+  std::vector<Eigen::Vector3d> corners_w;
+  Box box_obs_px;                                   ///< recorded image
+  std::array<bool, 4> use{true, true, true, true};  ///< min u, min v, max u, max v
+  double sigma_px = 8.0;
+};
+
+/// f_p_pi: a map point that lies on a frame plane. Source: PAS-SLAM eq18.
+struct PointPlaneConstraint {
+  Eigen::Vector3d p_w;
+  Plane pi_c;
+  double sigma_m = 0.01;
+};
+
+/// f_pi_p and f_pi_v: a map plane parallel or perpendicular to a frame plane.
+/// Source: PAS-SLAM eq19, eq20 (corrected).
+struct DirectionConstraint {
+  Eigen::Vector3d n_w, n_c;
+  double sigma_rad = 0.02;
+};
+
+struct PoseProblemConfig {
+  int rounds = 4;                 ///< optimise, then reclassify outliers; domain [1, 10]
+  int iterations = 10;            ///< Levenberg-Marquardt steps a round; domain [1, 100]
+  double stereo_chi2 = 7.815;     ///< 95 % of chi-square, 3 degrees of freedom
+  double mono_chi2 = 5.991;       ///< 95 %, 2 degrees of freedom
+  double huber_planes = 2.0;      ///< Huber threshold of the plane factors, in sigmas
+  double virtual_bf_px_m = 40.0;  ///< focal length times virtual baseline: right_u = u - bf / z
+  bool use_planes = true, use_boxes = true, use_point_planes = true;
+  bool use_parallel = true, use_perpendicular = true;
+};
+
+/// Everything that constrains one camera pose, eq13.
+struct PoseProblem {
+  Pose T_cw;  ///< first guess
+  std::vector<PointConstraint> points;
+  std::vector<PlaneConstraint> planes;
+  std::vector<BoxConstraint> boxes;
+  std::vector<PointPlaneConstraint> point_planes;
+  std::vector<DirectionConstraint> parallels, perpendiculars;
+};
+
+struct PoseSummary {
+  Pose T_cw;
+  bool usable = false;              ///< all six directions constrained and everything finite
+  int nullity = 6;                  ///< directions of the pose that nothing constrains, 0 to 6
+  std::vector<bool> point_inliers;  ///< parallel to PoseProblem::points
+  int inlier_count = 0;
+  double initial_cost = 0.0, final_cost = 0.0;
+  int iterations = 0;
+  Matrix6d information =
+      Matrix6d::Zero();  ///< J^T W J at the solution; perturbation: T <- Exp(xi) T
+};
+
+/// Minimises eq13 over the camera pose by Levenberg-Marquardt with Huber weights, in rounds:
+/// after each, points are classified by chi-square and outliers left out of the next; the last
+/// round is plain least squares over the inlying points. A constraint that is not finite is
+/// left out. When `usable` is false, T_cw is the best pose found, finite if the first guess
+/// was. Deterministic: sums run in the order of the vectors. Cost: about 1 ms for 500 points.
+PoseSummary OptimisePose(const PoseProblem& problem, const Camera& camera,
+                         const PoseProblemConfig& config);
+
+}  // namespace slam

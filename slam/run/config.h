@@ -1,0 +1,49 @@
+#pragma once
+
+#include "slam/associate/association_config.h"
+#include "slam/associate/plane_constraints.h"
+#include "slam/detect/box_tracks.h"
+#include "slam/detect/class_table.h"
+#include "slam/detect/yolox_output.h"
+#include "slam/faces/process_planes.h"
+#include "slam/features/point_features.h"
+#include "slam/mapping/local_mapping.h"
+#include "slam/mapping/plane_map_config.h"
+#include "slam/places/close_loop.h"
+#include "slam/segment/plane_segments.h"
+#include "slam/tracking/point_tracking.h"
+
+namespace slam {
+
+/// Every stage's settings in one. Defaults stand in the stages' own headers and nowhere else.
+/// As text: config_file.h.
+struct Config {
+  // (B) extraction
+  PointFeatureConfig point_features;
+  ClassTable classes = CocoClassTable();
+  YoloxConfig yolox;
+  BoxTracksConfig box_tracks;
+  PlaneExtractionConfig plane_extraction;
+
+  // (C) plane processing
+  PlaneProcessingConfig plane_processing;
+
+  // (D) association
+  AssociationConfig association;
+
+  // (E) optimisation and tracking by points
+  PointTrackingConfig tracking;
+  PlaneConstraintConfig plane_constraints;
+
+  // (F) the map
+  bool async_mapping = false;  ///< on a thread beside tracking, instead of between frames
+  LocalMappingConfig mapping;
+  PlaneMapConfig plane_map;
+  LoopClosingConfig loop_closing;
+};
+
+/// The pyramid and the virtual baseline are facts of the point features that later stages keep
+/// a copy of; makes all copies those of `point_features`.
+void ShareFacts(Config& config);
+
+}  // namespace slam

@@ -1,0 +1,63 @@
+#pragma once
+
+#include <functional>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include "slam/run/config.h"
+
+namespace slam {
+
+/// Visits every field of a Config: what reads a file, writes one or lists the fields implements
+/// it. A new field of a stage is one line in bind_*.cpp.
+///
+/// `key` is the field's name in the file, `domain` an interval (yaml_map.h) in the file's
+/// units.
+class FieldVisitor {
+ public:
+  virtual ~FieldVisitor() = default;
+  /// Fields visited by `body` stand below `key`.
+  virtual void Section(const char* key, const char* help,
+                       const std::function<void()>& body) = 0;
+  virtual void Number(const char* key, double& value, const char* domain, const char* help) = 0;
+  virtual void Integer(const char* key, int& value, const char* domain, const char* help) = 0;
+  virtual void Flag(const char* key, bool& value, const char* help) = 0;
+  /// One of `names`; the value is its position.
+  virtual void Choice(const char* key, int& value, const std::vector<std::string>& names,
+                      const char* help) = 0;
+  virtual void Texts(const char* key, std::vector<std::string>& value, const char* help) = 0;
+
+  /// An angle: radians in the struct, degrees in the file; `key` ends in _deg.
+  void Degrees(const char* key, double& value_rad, const char* domain, const char* help) {
+    constexpr double kDegree = std::numbers::pi / 180.0;
+    const double before = value_rad / kDegree;
+    double value_deg = before;
+    Number(key, value_deg, domain, help);
+    if (value_deg != before)
+      value_rad = value_deg * kDegree;  // untouched is bit for bit the same
+  }
+};
+
+/// An enumeration whose values count from 0 in the order of `names`.
+template <typename Enum>
+void VisitEnum(FieldVisitor& visitor, const char* key, Enum& value,
+               const std::vector<std::string>& names, const char* help) {
+  int position = static_cast<int>(value);
+  visitor.Choice(key, position, names, help);
+  value = static_cast<Enum>(position);
+}
+
+/// All fields, in the order of the data flow.
+void VisitConfig(Config& config, FieldVisitor& visitor);
+
+// The parts, by file.
+void VisitPoints(Config& config, FieldVisitor& visitor);       ///< features and tracking
+void VisitDetections(Config& config, FieldVisitor& visitor);   ///< classes and box tracks
+void VisitExtraction(Config& config, FieldVisitor& visitor);   ///< planes of a frame
+void VisitProcessing(Config& config, FieldVisitor& visitor);   ///< (C)
+void VisitAssociation(Config& config, FieldVisitor& visitor);  ///< (D) and the plane factors
+void VisitMapping(Config& config, FieldVisitor& visitor);
+void VisitLoop(Config& config, FieldVisitor& visitor);  ///< (F), (G)
+
+}  // namespace slam

@@ -1,0 +1,189 @@
+#include "slam/run/config_file.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <vector>
+
+#include "slam/input/yaml_map.h"
+#include "slam/run/config_fields.h"
+
+namespace slam {
+namespace {
+
+/// Shortest text that reads back as the same number.
+std::string Text(double x) {
+  char buffer[32];
+  const auto [end, error] = std::to_chars(buffer, buffer + sizeof buffer, x);
+  return {buffer, end};
+}
+
+/// In degrees a default such as 0.1745 rad has seventeen digits; what is listed is rounded to
+/// fifteen, far below any meaning.
+double Rounded(double x) {
+  char buffer[32];
+  const auto [end, error] =
+      std::to_chars(buffer, buffer + sizeof buffer, x, std::chars_format::general, 15);
+  double rounded = x;
+  std::from_chars(buffer, end, rounded);
+  return rounded;
+}
+
+class Reader : public FieldVisitor {
+ public:
+  explicit Reader(YamlMap& top) : maps_{&top} {}
+
+  void Section(const char* key, const char*, const std::function<void()>& body) override {
+    YamlMap section = maps_.back()->Section(key);
+    maps_.push_back(&section);
+    body();
+    section.Finish();
+    maps_.pop_back();
+  }
+  void Number(const char* key, double& value, const char* domain, const char*) override {
+    value = maps_.back()->Number(key, ParseInterval(domain), value);
+  }
+  void Integer(const char* key, int& value, const char* domain, const char*) override {
+    value = static_cast<int>(maps_.back()->Integer(key, ParseInterval(domain), value));
+  }
+  void Flag(const char* key, bool& value, const char*) override {
+    value = maps_.back()->Flag(key, value);
+  }
+  void Choice(const char* key, int& value, const std::vector<std::string>& names,
+              const char*) override {
+    const std::string name =
+        maps_.back()->Choice(key, names, names.at(static_cast<std::size_t>(value)));
+    value = static_cast<int>(std::find(names.begin(), names.end(), name) - names.begin());
+  }
+  void Texts(const char* key, std::vector<std::string>& value, const char*) override {
+    if (maps_.back()->Has(key)) value = maps_.back()->Texts(key);
+  }
+
+ private:
+  std::vector<YamlMap*> maps_;
+};
+
+class JsonWriter : public FieldVisitor {
+ public:
+  explicit JsonWriter(nlohmann::ordered_json& top) : objects_{&top} {}
+
+  void Section(const char* key, const char*, const std::function<void()>& body) override {
+    nlohmann::ordered_json section = nlohmann::ordered_json::object();
+    objects_.push_back(&section);
+    body();
+    objects_.pop_back();
+    (*objects_.back())[key] = std::move(section);
+  }
+  void Number(const char* key, double& value, const char*, const char*) override {
+    (*objects_.back())[key] = Rounded(value);
+  }
+  void Integer(const char* key, int& value, const char*, const char*) override {
+    (*objects_.back())[key] = value;
+  }
+  void Flag(const char* key, bool& value, const char*) override {
+    (*objects_.back())[key] = value;
+  }
+  void Choice(const char* key, int& value, const std::vector<std::string>& names,
+              const char*) override {
+    (*objects_.back())[key] = names.at(static_cast<std::size_t>(value));
+  }
+  void Texts(const char* key, std::vector<std::string>& value, const char*) override {
+    (*objects_.back())[key] = value;
+  }
+
+ private:
+  std::vector<nlohmann::ordered_json*> objects_;
+};
+
+class YamlWriter : public FieldVisitor {
+ public:
+  std::string text;
+
+  void Section(const char* key, const char* help, const std::function<void()>& body) override {
+    text += indent_ + key + ":  # " + help + "\n";
+    indent_ += "  ";
+    body();
+    indent_.resize(indent_.size() - 2);
+  }
+  void Number(const char* key, double& value, const char* domain, const char* help) override {
+    Line(key, Text(Rounded(value)), help, domain);
+  }
+  void Integer(const char* key, int& value, const char* domain, const char* help) override {
+    Line(key, std::to_string(value), help, domain);
+  }
+  void Flag(const char* key, bool& value, const char* help) override {
+    Line(key, value ? "true" : "false", help, "true or false");
+  }
+  void Choice(const char* key, int& value, const std::vector<std::string>& names,
+              const char* help) override {
+    std::string domain;
+    for (const std::string& name : names) domain += (domain.empty() ? "" : " | ") + name;
+    Line(key, names.at(static_cast<std::size_t>(value)), help, domain);
+  }
+  void Texts(const char* key, std::vector<std::string>& value, const char* help) override {
+    std::string list;
+    for (const std::string& item : value) list += (list.empty() ? "" : ", ") + Quoted(item);
+    Line(key, "[" + list + "]", help, "texts");
+  }
+
+ private:
+  /// JSON's quoting is YAML's as well.
+  static std::string Quoted(const std::string& item) {
+    return nlohmann::json(item).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+  }
+  void Line(const std::string& key, const std::string& value, const std::string& help,
+            const std::string& domain) {
+    text += indent_ + key + ": " + value + "  # " + help + "; " + domain + "\n";
+  }
+  std::string indent_;
+};
+
+/// What no single domain can say.
+void CheckTogether(const Config& c, const std::string& file) {
+  const auto require = [&](bool holds, const char* what) {
+    if (!holds) throw InputError(file, what);
+  };
+  require(c.point_features.min_fast_threshold <= c.point_features.fast_threshold,
+          "point_features: min_fast_threshold must not be above fast_threshold");
+  require(c.point_features.depth.min_depth_m < c.point_features.depth.max_depth_m,
+          "point_depth: min_depth_m must be below max_depth_m");
+  require(!c.yolox.classes.empty(), "yolox: classes must name at least one class");
+  require(c.plane_extraction.fine_block_px <= c.plane_extraction.block_px,
+          "plane_extraction: fine_block_px must not be above block_px");
+  require(c.plane_processing.vertices.min_fill <= c.plane_processing.vertices.max_fill,
+          "plane_processing: vertices: min_fill must not be above max_fill");
+  require(c.association.max_chi2 <= c.association.new_chi2,
+          "association: max_chi2 must not be above new_chi2");
+  for (const std::string& name : c.classes.regular)
+    require(c.classes.KindOf(name) == ClassKind::kRegular &&
+                ClassTable{{}, c.classes.unstructured, {}}.KindOf(name) == ClassKind::kOther,
+            "classes: a class is both regular and unstructured");
+}
+
+}  // namespace
+
+Config ReadConfig(const std::filesystem::path& file, Config config) {
+  YamlMap top = YamlMap::Load(file);
+  Reader reader(top);
+  VisitConfig(config, reader);
+  top.Finish();
+  CheckTogether(config, file.string());
+  return config;
+}
+
+nlohmann::ordered_json ConfigAsJson(const Config& config) {
+  Config copy = config;  // visitors may write
+  nlohmann::ordered_json json = nlohmann::ordered_json::object();
+  JsonWriter writer(json);
+  VisitConfig(copy, writer);
+  return json;
+}
+
+std::string ConfigAsYaml(const Config& config) {
+  Config copy = config;
+  YamlWriter writer;
+  VisitConfig(copy, writer);
+  return writer.text;
+}
+
+}  // namespace slam

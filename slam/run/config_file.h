@@ -1,0 +1,25 @@
+#pragma once
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "slam/run/config.h"
+
+namespace slam {
+
+/// Reads settings over `config` (the defaults) from a YAML file: a section a stage, angles in
+/// degrees (keys in _deg). Keys that are absent keep their value; `plane_extraction: sensor:`
+/// chooses the defaults of what stands beside it.
+/// @throws InputError with file:line for an unknown key (listing the legal ones), a wrong type,
+/// a
+///         value outside its domain, settings that contradict each other.
+Config ReadConfig(const std::filesystem::path& file, Config config = {});
+
+/// Every key with its value, in the file's structure and units; for run.json.
+nlohmann::ordered_json ConfigAsJson(const Config& config);
+
+/// A file that ReadConfig takes, every key with its value and a comment on meaning and domain.
+std::string ConfigAsYaml(const Config& config);
+
+}  // namespace slam

@@ -1,0 +1,73 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "slam/input/frame_source.h"
+#include "slam/run/config.h"
+#include "slam/run/tracker.h"
+
+namespace slam {
+
+/// One run of the system over a recorded sequence.
+struct RunOptions {
+  std::filesystem::path sequence;
+  std::filesystem::path run;  ///< folder to write
+  Variant variant = Variant::kFull;
+  std::string detector;  ///< see MakeDetector; empty: replay when the sequence has boxes
+  std::string camera;    ///< tum1, tum2, tum3, a file; empty: the sequence's camera.yaml
+  Config config;
+  std::uint64_t seed = 0;  ///< of every random choice of the estimator
+  int threads = 0;         ///< 0: one a core; never changes a byte of the result
+  bool save_segmentation = false;
+  bool force = false;                                 ///< replace an older run
+  std::string version;                                ///< of the program, for run.json
+  std::function<void(int done, int total)> progress;  ///< may be empty
+  /// Told at once what makes it useless to go on: the camera is not what the file says. The
+  /// outcome's warnings say it again with the latest figures. May be empty.
+  std::function<void(const std::string&)> warn;
+  /// Asked after each frame; when true the run ends there and is written. May be empty.
+  std::function<bool()> stop;
+  /// Called before each keyframe is mapped, on the thread that maps it. May be empty.
+  std::function<void(int keyframe)> before_mapping;
+};
+
+struct RunOutcome {
+  int frames = 0, tracked = 0;
+  int keyframes = 0, map_points = 0, map_planes = 0, loops = 0;
+  bool stopped = false;  ///< before the last frame
+  double wall_time_s = 0.0;
+  std::vector<std::string> warnings;  ///< what the sequence gave that was not used
+};
+
+/// "full", "no-association", ...
+const char* VariantName(Variant variant);
+/// @throws InputError listing the variants.
+Variant VariantOf(const std::string& name);
+
+/// Where a run gets its frames, when that is no folder.
+struct LiveCamera {
+  FrameSource& frames;
+  Camera camera;
+  std::unique_ptr<Detector> detector;  ///< null: no detections
+};
+
+/// Runs PAS-SLAM over the sequence and writes the run folder (formats.md), whole or not at all.
+/// Truth is never read. The same options give the same bytes, apart from the times; not so
+/// with config.async_mapping. There, keyframes that wait for mapping at the end are mapped
+/// first, unless the run was stopped.
+/// @throws InputError for bad input.
+RunOutcome RunSequence(const RunOptions& options);
+
+/// The same on frames that never were files. A frame that is not later than the one before is
+/// left out and counted in a warning, numbers in depth that cannot be are no measurement, and
+/// an image of another size is refused. options.sequence is only written into run.json,
+/// options.camera and .detector are not used. Equal frames and detections give the bytes that
+/// RunSequence gives, run.json's paths apart.
+RunOutcome RunLive(LiveCamera live, const RunOptions& options);
+
+}  // namespace slam

@@ -1,0 +1,133 @@
+#include "slam/run/run_writer.h"
+
+#include <sys/resource.h>
+
+#include <opencv2/imgcodecs.hpp>
+
+#include "slam/base/require.h"
+#include "slam/model/map_queries.h"
+#include "slam/run/frame_record.h"
+#include "slam/run/map_file.h"
+#include "slam/run/text_number.h"
+
+namespace slam {
+namespace {
+
+constexpr int kMaxLabel = 255;  // of an 8-bit segmentation
+constexpr int kPngCompression = 1;
+
+void RequireWritten(std::ofstream& stream, const std::filesystem::path& file) {
+  stream.flush();
+  if (!stream)
+    throw std::runtime_error(file.string() + ": cannot be written; is the disk full?");
+}
+
+/// Greatest memory that the process has held, MiB.
+double PeakMemory_mb() {
+  rusage usage{};
+  ::getrusage(RUSAGE_SELF, &usage);
+  return static_cast<double>(usage.ru_maxrss) / 1024.0;
+}
+
+std::string TrajectoryText(const std::vector<TimedPose>& poses) {
+  std::string text = "# timestamp tx ty tz qx qy qz qw (T_wc, camera to world)\n";
+  for (const TimedPose& pose : poses) text += TrajectoryLine(pose.timestamp_s, pose.T_cw);
+  return text;
+}
+
+std::vector<TimedPose> KeyframePoses(const Map& map) {
+  std::vector<TimedPose> poses;
+  for (const Keyframe& keyframe : map.keyframes)
+    if (!keyframe.culled) poses.push_back({keyframe.timestamp_s, keyframe.T_cw});
+  return poses;
+}
+
+}  // namespace
+
+RunWriter::RunWriter(const std::filesystem::path& folder, RunInfo info, Options options)
+    : output_(folder, "run.json", options.force), info_(std::move(info)), options_(options) {
+  trajectory_.reserve(static_cast<std::size_t>(options_.frames));
+  const auto& partial = output_.partial_path();
+  frame_planes_.open(partial / "frame_planes.jsonl", std::ios::binary);
+  timing_.open(partial / "timing.csv", std::ios::binary);
+  timing_ << "timestamp";
+  for (const char* name : kModuleNames) timing_ << ',' << name;
+  timing_ << '\n';
+  RequireWritten(timing_, partial / "timing.csv");
+  if (options_.save_segmentation) std::filesystem::create_directory(partial / "segmentation");
+}
+
+void RunWriter::WriteFrame(const FrameRecord& record) {
+  const Frame& frame = record.frame;
+  Require(frames_ == 0 || frame.timestamp_s > last_s_,
+          "RunWriter::WriteFrame: timestamps must increase");
+  const std::string line = FramePlanesRecord(frame, record.tracked, record.state)
+                               .dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+  if (record.tracked) {
+    Require(frame.T_cw.R.allFinite() && frame.T_cw.t.allFinite(),
+            "RunWriter::WriteFrame: a tracked pose is not finite");
+    trajectory_.push_back({frame.timestamp_s, frame.T_cw});
+  }
+  frame_planes_ << line << '\n';
+  timing_ << StampText(frame.timestamp_s);
+  for (const double ms : record.times.ms) timing_ << ',' << NumberText(ms);
+  timing_ << '\n';
+  if (!frame_planes_ || !timing_)
+    throw std::runtime_error(output_.final_path().string() +
+                             ": cannot be written; is the disk full?");
+  if (options_.save_segmentation) WriteSegmentation(frame);
+  ++frames_;
+  last_s_ = frame.timestamp_s;
+}
+
+void RunWriter::WriteSegmentation(const Frame& frame) const {
+  Require(frame.planes.size() <= kMaxLabel,
+          "RunWriter: more than 255 planes in a frame do not fit an 8-bit segmentation");
+  cv::Mat1b labels = frame.plane_labels;
+  if (labels.empty()) labels = cv::Mat1b::zeros(frame.gray.size());
+  Require(!labels.empty(), "RunWriter: a frame without an image has no segmentation");
+  const auto file =
+      output_.partial_path() / "segmentation" / (StampText(frame.timestamp_s) + ".png");
+  if (!cv::imwrite(file.string(), labels, {cv::IMWRITE_PNG_COMPRESSION, kPngCompression}))
+    throw std::runtime_error(file.string() + ": cannot be written; is the disk full?");
+}
+
+nlohmann::ordered_json RunWriter::RunJson(std::size_t poses) const {
+  const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - start_;
+  nlohmann::ordered_json json;
+  json["format"] = "pas-run/1";
+  json["sequence"] = std::filesystem::absolute(info_.sequence).lexically_normal().string();
+  json["variant"] = info_.variant;
+  json["association"] = info_.association;
+  json["detector"] = info_.detector;
+  json["seed"] = info_.seed;
+  json["version"] = info_.version;
+  json["options"] = info_.options;
+  json["frames"] = frames_;
+  json["tracked"] = poses;
+  json["lost"] = frames_ - static_cast<int>(poses);
+  json["wall_time_s"] = wall.count();
+  json["peak_memory_mb"] = PeakMemory_mb();
+  return json;
+}
+
+void RunWriter::Finish(const Map& map, const std::vector<TimedPose>& trajectory) {
+  const std::vector<TimedPose>& poses = trajectory.empty() ? trajectory_ : trajectory;
+  Require(poses.size() <= static_cast<std::size_t>(frames_),
+          "RunWriter::Finish: more poses than frames");
+  RequireWritten(frame_planes_, output_.final_path() / "frame_planes.jsonl");
+  RequireWritten(timing_, output_.final_path() / "timing.csv");
+  frame_planes_.close();
+  timing_.close();
+  output_.WriteFile("trajectory.txt", TrajectoryText(poses));
+  output_.WriteFile("keyframes.txt", TrajectoryText(KeyframePoses(map)));
+  output_.WriteFile("map.json", MapAsJson(map));
+  output_.WriteFile("map.ply", MapAsPly(map));
+  output_.WriteFile(
+      "run.json",
+      RunJson(poses.size()).dump(2, ' ', false, nlohmann::json::error_handler_t::replace) +
+          "\n");
+  output_.Commit();
+}
+
+}  // namespace slam

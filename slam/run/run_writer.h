@@ -1,0 +1,91 @@
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "slam/model/frame.h"
+#include "slam/model/map.h"
+#include "slam/model/module_times.h"
+#include "slam/run/output_folder.h"
+
+namespace slam {
+
+/// What run.json says of how a run was made. Equal runs have equal bytes, so nothing belongs
+/// here that may differ between them: no number of threads, no output folder.
+struct RunInfo {
+  std::filesystem::path sequence;  ///< written as an absolute path
+  std::string variant;             ///< "full", "no-association", ...
+  std::string association;         ///< the association rule
+  std::string detector;            ///< "replay", "yolox:FILE", "live", "none"
+  std::uint64_t seed = 0;
+  std::string version;  ///< of the program, with the commit
+  nlohmann::ordered_json options = nlohmann::ordered_json::object();  ///< see ConfigAsJson
+};
+
+/// One frame, after all stages.
+struct FrameRecord {
+  const Frame& frame;
+  bool tracked = false;  ///< frame.T_cw is believed
+  ModuleTimes times;
+  const char* state = "";  ///< of tracking; written with the frame's planes when not empty
+};
+
+/// A pose of the final trajectory.
+struct TimedPose {
+  double timestamp_s = 0.0;
+  Pose T_cw;
+};
+
+/// Writes a run folder (formats.md) that is there whole after Finish and not at all before.
+///
+/// run.json has wall_time_s and peak_memory_mb, and timing.csv milliseconds: only these may
+/// differ between equal runs.
+class RunWriter {
+ public:
+  struct Options {
+    bool force = false;              ///< replace an older run
+    bool save_segmentation = false;  ///< segmentation/T.png
+    int frames = 0;                  ///< expected, for memory alone
+  };
+
+  /// @throws InputError when the folder exists and force is off, or cannot be made.
+  RunWriter(const std::filesystem::path& folder, RunInfo info, Options options);
+
+  /// Frames in the order of time, lost ones as well.
+  /// @throws std::invalid_argument when timestamps do not increase or a number is not finite;
+  ///         std::runtime_error when the disk is full.
+  void WriteFrame(const FrameRecord& record);
+
+  /// Writes what remains and puts the folder in its place. Keyframes that were culled are left
+  /// out.
+  /// @param trajectory  replaces the poses of the tracked frames as they were at their time,
+  /// e.g.
+  ///                    by poses that followed the optimised keyframes; empty keeps those
+  void Finish(const Map& map, const std::vector<TimedPose>& trajectory = {});
+
+  /// Poses as given to WriteFrame, tracked frames alone.
+  const std::vector<TimedPose>& trajectory() const { return trajectory_; }
+  int frames() const { return frames_; }
+  int tracked() const { return static_cast<int>(trajectory_.size()); }
+  const std::filesystem::path& folder() const { return output_.final_path(); }
+
+ private:
+  void WriteSegmentation(const Frame& frame) const;
+  nlohmann::ordered_json RunJson(std::size_t poses) const;
+
+  OutputFolder output_;
+  RunInfo info_;
+  Options options_;
+  std::ofstream frame_planes_, timing_;
+  std::vector<TimedPose> trajectory_;
+  int frames_ = 0;
+  double last_s_ = 0.0;
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+}  // namespace slam

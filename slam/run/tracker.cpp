@@ -1,0 +1,183 @@
+#include "slam/run/tracker.h"
+
+#include <algorithm>
+#include <future>
+#include <optional>
+#include <utility>
+
+#include "slam/associate/plane_constraints.h"
+#include "slam/associate/plane_plane.h"
+#include "slam/faces/process_planes.h"
+#include "slam/features/point_features.h"
+#include "slam/mapping/expected_planes.h"
+#include "slam/mapping/local_mapping.h"
+#include "slam/mapping/plane_face.h"
+#include "slam/mapping/plane_fuse.h"
+#include "slam/mapping/plane_update.h"
+#include "slam/model/map_queries.h"
+#include "slam/run/stopwatch.h"
+#include "slam/segment/plane_segments.h"
+
+namespace slam {
+namespace {
+
+Config ForVariant(Config config, Variant variant, std::uint64_t seed) {
+  ShareFacts(config);
+  config.plane_processing.seed += seed;
+  config.association.rule =
+      variant == Variant::kFull ? AssociationRule::kIntegrated : AssociationRule::kParameters;
+  return config;
+}
+
+/// Keyframes that wait for mapping beside tracking.
+constexpr std::size_t kMaxWaiting = 3;
+
+}  // namespace
+
+Tracker::Tracker(const Camera& camera, const Config& config, Variant variant,
+                 std::unique_ptr<Detector> detector, std::uint64_t seed, int threads,
+                 std::function<void(int)> before_mapping)
+    : camera_(camera),
+      config_(ForVariant(config, variant, seed)),
+      variant_(variant),
+      detector_(detector ? std::move(detector) : std::make_unique<NoDetector>()),
+      threads_(threads),
+      box_tracks_(config.box_tracks, camera.ImageBox()),
+      points_(camera, config_.tracking),
+      before_mapping_(std::move(before_mapping)) {
+  if (uses_planes())
+    plane_extractor_.emplace(camera_, PixelRays(camera_), config_.plane_extraction);
+  if (!config_.async_mapping) return;
+  const MapTurn turn = [this](const std::function<void()>& work) {
+    const MappingHold hold(gate_);
+    work();
+  };
+  worker_ = std::make_unique<MappingWorker>(
+      [this, turn](int keyframe) { MapKeyframe(keyframe, turn); }, kMaxWaiting);
+}
+
+void Tracker::Finish(MappingWorker::Waiting waiting) {
+  if (worker_) worker_->Finish(waiting);
+  for (MapPlane& plane : map_.planes) ForgetDoubtfulCorners(plane, config_.plane_map);
+}
+
+void Tracker::ExtractInformation(Frame& frame, const cv::Mat3b& bgr, ModuleTimes& times) {
+  // Boxes, planes and points side by side: none writes what another reads.
+  const auto detect = [&] {
+    const Stopwatch watch(times[Module::kOd]);
+    return detector_->Detect(frame.timestamp_s, bgr);
+  };
+  const auto extract_planes = [&] {
+    const Stopwatch watch(times[Module::kEpi]);
+    plane_extractor_->Extract(frame);
+  };
+  // Deferred work is done where its outcome is asked for.
+  const auto where = threads_ > 1 ? std::launch::async : std::launch::deferred;
+  std::future<std::vector<Detection>> boxes;
+  std::future<void> planes;
+  if (uses_planes()) {
+    boxes = std::async(where, detect);
+    planes = std::async(where, extract_planes);
+  }
+  {
+    const Stopwatch watch(times[Module::kOrb]);
+    frame.features =
+        ExtractPointFeatures(frame.gray, frame.depth_m, camera_, config_.point_features);
+  }
+  frame.map_points.assign(frame.features.size(), kNone);
+  if (!uses_planes()) return;
+  planes.get();
+  const std::vector<Detection> found = boxes.get();
+  {
+    const Stopwatch watch(times[Module::kMdc]);
+    frame.detections = box_tracks_.Update(frame.timestamp_s, found);
+  }
+  const Stopwatch watch(times[Module::kEpi]);
+  plane_extractor_->SplitInBoxes(frame);
+}
+
+void Tracker::ProcessFramePlanes(Frame& frame) {
+  if (variant_ != Variant::kNoProcessingNoAssociation) {
+    ProcessPlanes(frame, camera_, config_.plane_processing);
+  }
+  frame.plane_matches.assign(frame.planes.size(), {});
+}
+
+bool Tracker::TrackByPoints(Frame& frame, TrackReport& report) {
+  const Stopwatch watch(report.times[Module::kDa]);
+  if (worker_) points_.FollowMap(map_);
+  report.points = points_.TrackPoints(frame, map_);
+  return report.points.state == TrackState::kTracking;
+}
+
+void Tracker::SplitByMap(Frame& frame, ModuleTimes& times) {
+  if (variant_ != Variant::kFull) return;
+  bool split = false;
+  {
+    const Stopwatch watch(times[Module::kEpi]);
+    split = plane_extractor_->SplitByMap(
+        frame, ExpectPlanes(map_, frame.T_cw, camera_, config_.plane_map));
+  }
+  if (!split) return;
+  const Stopwatch watch(times[Module::kPp]);
+  ProcessFramePlanes(frame);
+}
+
+void Tracker::AssociateFramePlanes(Frame& frame) {
+  AssociatePlanes(frame, map_, camera_, config_.association);
+}
+
+void Tracker::OptimiseWithPlanes(Frame& frame, TrackReport& report) {
+  const FramePoints points = PointConstraints(frame, map_, config_.tracking.projection.scales);
+  PoseProblem problem;
+  problem.T_cw = frame.T_cw;
+  problem.points = points.constraints;
+  AddPlaneConstraints(frame, map_, camera_, problem, config_.plane_constraints);
+  report.plane_constraints = static_cast<int>(problem.planes.size());
+  if (problem.planes.empty()) return;  // the points alone were optimised before
+
+  const PoseSummary summary = OptimisePose(problem, camera_, config_.tracking.pose);
+  if (!summary.usable) return;
+  frame.T_cw = summary.T_cw;
+  DropOutliers(frame, points, summary.point_inliers);
+}
+
+void Tracker::UpdateMap(Frame& frame, TrackReport& report) {
+  if (uses_planes()) {
+    const Stopwatch watch(report.times[Module::kUpm]);
+    UpdatePlanes(frame, map_, camera_, config_.plane_map);
+  }
+  report.keyframe = points_.NeedKeyframe(frame, map_);
+  if (report.keyframe) {
+    const int keyframe = InsertKeyframe(frame, map_, camera_, config_.mapping.keyframes);
+    if (worker_) {
+      worker_->Submit(keyframe);
+    } else {
+      MapKeyframe(keyframe, AtOnce);
+      frame.T_cw = KeyframePose(map_, keyframe);
+    }
+    if (uses_planes()) {
+      const Stopwatch watch(report.times[Module::kUpm]);
+      FusePlanes(map_, config_.plane_map);
+    }
+  }
+  points_.Accept(frame, map_);
+  report.reference = points_.reference_keyframe();
+  report.T_cr = frame.T_cw * Inverse(KeyframePose(map_, report.reference));
+}
+
+void Tracker::MapKeyframe(int keyframe, const MapTurn& turn) {
+  if (before_mapping_) before_mapping_(keyframe);
+  MapLocally(map_, keyframe, camera_, config_.mapping, turn);
+  if (!config_.loop_closing.enabled) return;
+  std::optional<Loop> loop;
+  turn([&] {
+    loop = DetectLoop(map_, points_.Places(map_), keyframe, camera_,
+                      config_.loop_closing.detection);
+  });
+  if (!loop) return;
+  CloseLoop(map_, *loop, camera_, config_.mapping, config_.loop_closing, turn);
+  turn([&] { ++loops_; });
+}
+
+}  // namespace slam

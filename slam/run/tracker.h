@@ -1,0 +1,105 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <opencv2/core/mat.hpp>
+#include <optional>
+
+#include "slam/detect/box_tracks.h"
+#include "slam/detect/detections.h"
+#include "slam/geometry/camera.h"
+#include "slam/model/frame.h"
+#include "slam/model/map.h"
+#include "slam/model/module_times.h"
+#include "slam/places/close_loop.h"
+#include "slam/run/config.h"
+#include "slam/run/map_gate.h"
+#include "slam/run/mapping_worker.h"
+#include "slam/segment/plane_segments.h"
+#include "slam/tracking/point_tracking.h"
+
+namespace slam {
+
+/// What is left out, as in the paper's ablation.
+enum class Variant {
+  kFull,
+  kNoAssociation,              ///< w/o (D): planes are associated by their parameters alone
+  kNoProcessingNoAssociation,  ///< w/o (C)(D): nor are planes re-fitted, labelled or selected
+  kPoints                      ///< no planes at all
+};
+
+/// What tracking one frame came to.
+struct TrackReport {
+  PointTrackReport points;
+  ModuleTimes times;
+  bool tracked = false;
+  bool keyframe = false;      ///< the frame was kept
+  int reference = kNone;      ///< keyframe that the pose is tied to, when tracked ...
+  Pose T_cr;                  ///< ... and the camera as seen from it
+  int plane_constraints = 0;  ///< frame planes that constrained the pose
+};
+
+/// PAS-SLAM: follows a camera by points and planes and maps both. One frame after the other,
+/// from the first.
+///
+/// Keyframes are mapped (points, bundle adjustment, loops) before the next frame is taken:
+/// deterministic for any number of threads. With config.async_mapping they are mapped by a
+/// thread of its own instead: tracking waits at most for a piece of that work without any
+/// adjustment in it, and no two runs are quite the same.
+class Tracker {
+ public:
+  /// @param detector  may be null: no detections
+  /// @param threads   1, or more: points, planes and boxes are then extracted side by side
+  /// @param before_mapping  called before each keyframe is mapped, where it is mapped
+  Tracker(const Camera& camera, const Config& config, Variant variant,
+          std::unique_ptr<Detector> detector, std::uint64_t seed, int threads,
+          std::function<void(int keyframe)> before_mapping = {});
+
+  /// Takes one frame, with index, timestamp, gray and depth set, through the stages (A) to (F)
+  /// of the paper's framework; fills the rest of it. An untracked frame has no pose: T_cw is
+  /// the identity, nothing is matched, and the map is as before.
+  /// @param bgr  for the detector; same size
+  /// @throws what mapping beside tracking threw meanwhile
+  TrackReport TrackFrame(Frame& frame, const cv::Mat3b& bgr);
+
+  /// Ends mapping beside tracking, after all or none of the keyframes that wait; last call
+  /// before the map is looked at. @throws what mapping threw
+  void Finish(MappingWorker::Waiting waiting);
+
+  const Map& map() const { return map_; }
+  int loops() const { return loops_; }  ///< closed
+  /// Keyframes that mapping beside tracking had no time for.
+  int unmapped_keyframes() const { return worker_ ? worker_->dropped() : 0; }
+
+ private:
+  bool uses_planes() const { return variant_ != Variant::kPoints; }
+
+  void ExtractInformation(Frame& frame, const cv::Mat3b& bgr, ModuleTimes& times);
+  void ProcessFramePlanes(Frame& frame);
+  bool TrackByPoints(Frame& frame, TrackReport& report);
+  void SplitByMap(Frame& frame, ModuleTimes& times);
+  void AssociateFramePlanes(Frame& frame);
+  void OptimiseWithPlanes(Frame& frame, TrackReport& report);
+  void UpdateMap(Frame& frame, TrackReport& report);
+  void MapKeyframe(int keyframe, const MapTurn& turn);
+  MapGate* gate() { return worker_ ? &gate_ : nullptr; }
+
+  Camera camera_;
+  Config config_;
+  Variant variant_;
+  std::unique_ptr<Detector> detector_;
+  int threads_;
+
+  std::optional<PlaneExtractor> plane_extractor_;  ///< none: no planes
+  BoxTracks box_tracks_;
+  PointTracking points_;
+  Map map_;
+  int loops_ = 0;
+
+  std::function<void(int)> before_mapping_;
+  MapGate gate_;                           ///< to map_, points_ and loops_
+  std::unique_ptr<MappingWorker> worker_;  ///< last: its thread uses the rest
+};
+
+}  // namespace slam

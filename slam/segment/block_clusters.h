@@ -1,0 +1,130 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "slam/geometry/plane_sums.h"
+#include "slam/segment/depth_grid.h"
+#include "slam/segment/tournament.h"
+
+namespace slam {
+
+/// What decides whether two regions are one plane.
+enum class MergeRule {
+  kAddedError,  ///< the error that the merge adds
+  kMeanError    ///< the mean error of the union, as in PEAC: to compare with
+};
+
+/// When neighbouring blocks and regions are one plane. Everything is in units of the noise.
+struct ClusterConfig {
+  /// Part of a block that must be measured; domain (0, 1].
+  double min_measured = 0.6;
+  /// Mean squared error of a block about its own plane, in sigma^2: a block across a depth step
+  /// or a crease exceeds it. Domain (0, inf).
+  double max_block_error = 3.0;
+  /// A block with a larger jump between neighbouring pixels, in sigmas, lies across a depth
+  /// step: a step can look like a slanted surface, whose larger noise would excuse it. Domain
+  /// (0, inf).
+  double max_jump_sigmas = 12.0;
+  MergeRule merge_rule = MergeRule::kAddedError;
+  /// Chi-square bound (3 degrees of freedom) on the error that a merge adds; 16.3 is 0.1 %.
+  double max_merge_chi2 = 16.3;
+  /// Distance, in sigmas, that two parts of one real surface may differ by for reasons other
+  /// than noise (calibration, warp of the sensor); domain [0, inf).
+  double model_error_sigmas = 1.0;
+  /// Blocks below which a region is dropped; domain [1, inf).
+  int min_blocks = 4;
+};
+
+/// The blocks of an image grouped into planes.
+struct BlockClusters {
+  int block_px = 0, cols = 0, rows = 0;
+  std::vector<int> region;      ///< of each block, row-major; -1 = none
+  std::vector<PlaneSums> sums;  ///< of each region
+  std::vector<InverseDepthPlane> planes;
+};
+
+/// Agglomerative clustering of blocks into planes (PEAC's method: Feng, Taguchi, Kamat, ICRA
+/// 2014), on the graph of 4-neighbours.
+///
+/// Two changes keep thin steps apart. The pair merged next is the one whose merge adds least
+/// error, and it merges only when that addition is what noise explains:
+///
+///   E(A u B) - E(A) - E(B)  <  s^2 (max_merge_chi2 correlated_px + k^2 n_A n_B / (n_A + n_B))
+///
+/// with E the error sum in sigmas, k = model_error_sigmas and s the grazing factor. (PEAC
+/// bounds the mean error of the union, in which a block of a book vanishes among those of a
+/// desk; `merge_rule` brings that back, with max_block_error as its bound.) Ties are broken by
+/// block number. The memory of one image serves the next.
+class BlockClustering {
+ public:
+  /// @param taken   one entry a pixel; pixels with a non-zero entry are left out. May be empty.
+  /// @param block_px  side of a block, pixels, > 1; the last row and column may be cut
+  /// @returns what stands until the next call, in memory that serves again then
+  const BlockClusters& Cluster(const DepthGrid& grid, const std::vector<std::uint8_t>& taken,
+                               int block_px, const DepthNoise& noise,
+                               const ClusterConfig& config);
+
+  /// Once more with other bounds on what merges, after a call in which nothing was taken: the
+  /// blocks are the same.
+  const BlockClusters& MergeAgain(const ClusterConfig& config);
+
+  /// Of the measured pixels of each block in the last call in which nothing was taken.
+  const std::vector<PlaneSums>& SumsOfBlocks() const { return sums_; }
+
+ private:
+  struct Region {
+    PlaneSums sums;
+    PlaneFit fit;
+    double grazing = 1.0;
+    int version = 0;  ///< another after each merge, of no other region
+    int blocks = 1;
+    int block = 0;  ///< its first
+  };
+
+  /// Two neighbouring blocks whose regions may be merged.
+  struct Pair {
+    int i, j;                  ///< regions of one block, or what they are part of
+    int version_i, version_j;  ///< of what they are part of, when it was last evaluated
+  };
+
+  /// What the merge of two regions costs.
+  struct KnownCost {
+    int version_i = -1, version_j = -1;
+    double cost = 0.0;
+  };
+  static constexpr int kKnownBits = 12;
+
+  Region& At(int i) { return regions_[static_cast<std::size_t>(i)]; }
+  void AddBlocks(const DepthGrid& grid, const std::vector<std::uint8_t>& taken, int block_px);
+  void AddBlock(const DepthGrid& grid, const std::uint8_t* taken, int u, int v, int block_px,
+                int block);
+  void AddRegion(const PlaneSums& sums, const PlaneFit& fit, double grazing, int block);
+  void Merge();
+  int Root(int i);
+  double Renew(Pair& pair);
+  double Evaluate(const Region& a, const Region& b) const;
+  void ProposeFirst();
+  void Join(int a, int b);
+  void Number(int block_px);
+
+  const DepthNoise* noise_ = nullptr;
+  const ClusterConfig* config_ = nullptr;
+  int cols_ = 0, rows_ = 0;
+  std::vector<Region> regions_;      ///< of the blocks that are planar, in their order
+  std::vector<int> region_at_;       ///< of each block; -1 = none
+  std::vector<int> parent_;          ///< of each region
+  std::vector<Pair> pairs_;          ///< in order of i, then j
+  std::vector<double> first_costs_;  ///< of each pair
+  Tournament merges_;                ///< of the pairs, by error added or mean error
+  int next_version_ = 0;
+  std::vector<KnownCost> known_costs_;  ///< by a number made of both versions
+  std::vector<int> number_;
+  std::vector<std::uint64_t> measured_;  ///< pixels of a block
+  std::vector<std::uint8_t> free_;       ///< pixels of each column of a row of blocks
+  std::vector<PlaneSums> sums_;
+  BlockClusters out_;
+};
+
+}  // namespace slam

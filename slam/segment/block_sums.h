@@ -1,0 +1,35 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "slam/geometry/plane_sums.h"
+#include "slam/segment/block_pixels.h"
+
+namespace slam {
+
+/// Sums of the measured pixels of a block.
+PlaneSums SumBlock(const BlockPixels& block, ConstPixelSet measured);
+
+/// Of its pixels in a set, all of them measured.
+PlaneSums SumOfSet(const BlockPixels& block, ConstPixelSet set);
+
+/// Of its pixels with that label, all of them measured. @param labels  of its first pixel
+PlaneSums SumLabelled(const BlockPixels& block, const std::int16_t* labels, std::int16_t label);
+
+/// Adds those of each label of a block, lowest first.
+void SumTile(const BlockPixels& block, const std::int16_t* labels,
+             std::vector<PlaneSums>& sums);
+
+/// Of its measured pixels whose entry is 0. @param taken  of its first pixel
+PlaneSums SumFree(const BlockPixels& block, const std::uint8_t* taken);
+
+/// How many measured pixels with an entry of 0 each column of some rows has; 255 rows at most.
+/// @param g, taken  of the first pixel; rows begin `stride` apart
+void CountFree(const float* g, const std::uint8_t* taken, int stride, int width, int height,
+               std::uint8_t* counts);
+
+/// Whether two neighbouring measured pixels differ by more than `most_sigmas`.
+bool HasJump(const BlockPixels& block, float most_sigmas);
+
+}  // namespace slam

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <cstdint>
+#include <opencv2/core/mat.hpp>
+#include <vector>
+
+#include "slam/geometry/depth_noise.h"
+
+namespace slam {
+
+/// A depth image in the form that planes are fitted in; row-major, one entry a pixel.
+struct DepthGrid {
+  int width = 0, height = 0;
+  std::vector<float> x, y;  ///< ray (x, y, 1)
+  std::vector<float> q;     ///< inverse depth, 1/metres; 0 = no measurement
+  std::vector<float> g;     ///< 1 / sigma_q = z^2 / sigma(z); 0 = no measurement
+
+  /// The same for cameras without distortion: x of each column, and y of each row, again and
+  /// again over a window around a block. They stay in the processor's cache. Empty otherwise.
+  std::vector<float> column_x, row_y;
+
+  static constexpr int kRowCopies = 96;     ///< of y
+  static constexpr int kCopiesBefore = 16;  ///< the first pixel of a block
+
+  int Index(int u, int v) const { return v * width + u; }
+};
+
+/// Sets the size of a grid and its x and y. @param rays  PixelRays of the camera
+void SetRays(const cv::Mat2d& rays, DepthGrid& grid);
+
+/// Sets q and g.
+/// @param depth_m  planar z, metres; anything not finite, not positive or not below max_depth_m
+/// is
+///                 no measurement
+/// @throws std::invalid_argument if depth and rays differ in size.
+void SetDepth(const cv::Mat1f& depth_m, const DepthNoise& noise, double max_depth_m,
+              DepthGrid& grid);
+
+/// Both.
+DepthGrid MakeDepthGrid(const cv::Mat1f& depth_m, const cv::Mat2d& rays,
+                        const DepthNoise& noise, double max_depth_m);
+
+}  // namespace slam

@@ -1,0 +1,103 @@
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "slam/segment/plane_edges.h"
+#include "slam/segment/plane_workspace.h"
+#include "slam/segment/roughness.h"
+
+namespace slam {
+namespace {
+
+/// Some thousand pixels say how rough a segment is, to a few per cent.
+int RoughnessStep(int pixels) {
+  return std::clamp(static_cast<int>(std::sqrt(pixels / 1000.0)), 1, 8);
+}
+
+FramePlane MakeFramePlane(const Segment& segment, int index) {
+  FramePlane out;
+  out.index = index;
+  out.pi_c = segment.plane.plane.Hessian();
+  const Eigen::Vector3d ray(segment.sums.wx / segment.sums.w, segment.sums.wy / segment.sums.w,
+                            1.0);
+  out.centroid_c = ray / segment.plane.plane.InverseDepth(ray.x(), ray.y());
+  out.pixel_count = static_cast<int>(segment.sums.n);
+  out.offset_sigma_m = segment.sigmas.offset_m;
+  out.angle_sigma_rad = segment.sigmas.angle_rad;
+  out.inverse_depth_covariance = segment.sigmas.covariance;
+  return out;
+}
+
+}  // namespace
+
+/// Empties a frame's planes, but keeps the memory of their points.
+void PlaneExtractor::Workspace::TakeMemory(std::vector<FramePlane>& planes) {
+  if (old_planes.size() < planes.size()) old_planes.resize(planes.size());
+  for (std::size_t k = 0; k < planes.size(); ++k) {
+    old_planes[k].points_c.swap(planes[k].points_c);
+    old_planes[k].edge_points.swap(planes[k].edge_points);
+  }
+  planes.clear();
+}
+
+void PlaneExtractor::Workspace::GiveMemory(FramePlane& plane) {
+  const auto k = static_cast<std::size_t>(plane.index);
+  if (k >= old_planes.size()) return;
+  plane.points_c.swap(old_planes[k].points_c);
+  plane.edge_points.swap(old_planes[k].edge_points);
+  plane.points_c.clear(), plane.edge_points.clear();
+}
+
+/// Thinned points and the visible area of each plane. A pixel of dx dy on the ray plane covers
+/// |(a, b, c)| / q^3 dx dy of the surface.
+void PlaneExtractor::Workspace::SamplePoints(const cv::Mat1b& drawn,
+                                             std::vector<FramePlane>& planes) {
+  sampled.assign(planes.size(), Sampled{});
+  for (std::size_t k = 0; k < planes.size(); ++k) {
+    const InverseDepthPlane& p = kept[k].plane.plane;
+    sampled[k].norm = std::sqrt(p.a * p.a + p.b * p.b + p.c * p.c);
+  }
+  for (int v = 0; v < drawn.rows; v += config.point_grid_px) {
+    const std::uint8_t* row = drawn[v];
+    for (int u = 0; u < drawn.cols; u += config.point_grid_px) {
+      if (row[u] == 0) continue;
+      const auto k = static_cast<std::size_t>(row[u] - 1);
+      const auto i = static_cast<std::size_t>(grid.Index(u, v));
+      const double x = static_cast<double>(grid.x[i]), y = static_cast<double>(grid.y[i]);
+      const double z = 1.0 / static_cast<double>(grid.q[i]);
+      planes[k].points_c.emplace_back(x * z, y * z, z);
+      const double q = kept[k].plane.plane.InverseDepth(x, y);
+      sampled[k].area += sampled[k].norm / (q * q * q * camera.fx * camera.fy);
+    }
+  }
+  for (std::size_t k = 0; k < planes.size(); ++k) {
+    const auto count = static_cast<double>(planes[k].points_c.size());
+    if (count > 0) planes[k].area_m2 = sampled[k].area / count * planes[k].pixel_count;
+  }
+}
+
+/// Fills the frame's planes from the segments that are kept and its label image.
+void PlaneExtractor::Workspace::Describe(Frame& frame) {
+  contours.Trace(frame.plane_labels);
+  TakeMemory(frame.planes);
+  for (std::size_t k = 0; k < kept.size(); ++k) {
+    FramePlane plane = MakeFramePlane(kept[k], static_cast<int>(k));
+    GiveMemory(plane);
+    plane.roughness = MeasureRoughness(
+        grid, frame.plane_labels, cv::Rect(kept[k].low, kept[k].high + cv::Point(1, 1)),
+        static_cast<std::uint8_t>(plane.index + 1), kept[k].plane.plane, config.noise,
+        RoughnessStep(plane.pixel_count));
+    frame.planes.push_back(std::move(plane));
+  }
+  SamplePoints(frame.plane_labels, frame.planes);
+  areas_m2.clear();
+  for (const FramePlane& plane : frame.planes) areas_m2.push_back(plane.area_m2);
+  for (FramePlane& plane : frame.planes) {
+    FindEdgePoints(grid, contours, plane.index + 1,
+                   kept[static_cast<std::size_t>(plane.index)].plane, areas_m2, config.edges,
+                   plane.edge_points);
+    for (const EdgePoint& point : plane.edge_points) plane.box_px.Include(point.u_px);
+  }
+}
+
+}  // namespace slam

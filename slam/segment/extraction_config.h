@@ -1,0 +1,112 @@
+#pragma once
+
+#include "slam/geometry/depth_noise.h"
+#include "slam/segment/block_clusters.h"
+#include "slam/segment/pixel_growth.h"
+#include "slam/segment/plane_edges.h"
+
+namespace slam {
+
+/// What measured the depth; depth_sensor.h has the settings for each.
+enum class DepthSensor { kKinect1, kAzure, kD435 };
+
+/// What it takes to split a segment inside the box of a detected regular object (box_split.h).
+struct BoxSplitConfig {
+  bool enabled = false;           ///< where noise leaves nothing to gain
+  double min_score = 0.3;         ///< of the detection; domain [0, 1)
+  double margin_px = 4.0;         ///< a box is that much inexact, domain [0, inf), and ...
+  double margin_fraction = 0.05;  ///< ... by this part of its size; domain [0, 1]
+  /// Pixels vote in windows that hold this many independent errors; domain [1, 50].
+  double vote_errors = 3.0;
+  /// The step, in standard deviations of a vote: less, and noise makes regions of its own.
+  /// Domain (0, inf).
+  double min_step_votes = 2.5;
+  /// The mean height of the region in its standard errors; domain (0, inf).
+  double min_evidence_sigmas = 8.0;
+  /// The region, with the segments that the box has already, must fill it: intersection over
+  /// union of their bounds and the box. Domain [0, 1).
+  double min_box_iou = 0.5;
+  /// What is around the box is not as high, but for this part of it; domain [0, 1].
+  double max_high_around = 0.1;
+};
+
+/// What it takes to split a segment that holds a plane of the map besides another
+/// (map_split.h).
+struct MapSplitConfig {
+  bool enabled = true;
+  double max_angle_rad = 0.12;  ///< between planes that may be taken for one another; (0, pi)
+  /// How far off the segment of the other plane the region must lie, in standard errors of its
+  /// mean; domain (0, inf).
+  double min_evidence_sigmas = 8.0;
+  double pose_sigma_m = 0.006;  ///< of what is expected, for the pose by points; (0, inf)
+  double map_sigma_m = 0.0012;  ///< of a step between planes of the map; (0, inf)
+};
+
+/// When a segment holds two faces with a step between them (segment_division.h).
+struct SegmentDivisionConfig {
+  bool enabled = false;  ///< better frames, but worse association (docs/planes.md)
+  /// Of the step, 2 degrees of freedom: noise exceeds 20 along one of 20,000 lines, and the
+  /// best of many is looked at. Domain (0, inf).
+  double min_chi2 = 20.0;
+  /// Root mean square of the step along the line; less may be the sensor's. Domain [0, inf).
+  double min_gap_sigmas = 1.0;
+  /// Part of the step that must be there between the nearer halves; domain [0, 1].
+  double min_share = 0.67;
+};
+
+/// Settings of plane extraction. A length here is of the sensor or of the image, and every
+/// threshold on a surface is in units of the noise.
+struct PlaneExtractionConfig {
+  DepthSensor sensor = DepthSensor::kKinect1;  ///< that the other defaults are for
+  DepthNoise noise;
+  double max_depth_m = 10.0;  ///< beyond it a pixel is not measured; domain (0, inf)
+
+  int block_px = 8;       ///< first clustering; domain [4, 64]
+  int fine_block_px = 4;  ///< second clustering, of what the first left; domain [2, block_px]
+  ClusterConfig coarse;
+  ClusterConfig fine{.min_measured = 0.75, .max_block_error = 3.0, .min_blocks = 10};
+
+  GrowthConfig growth;
+  /// A block whose mean residual exceeds this many standard errors, over the model error, does
+  /// not lie on its plane and is offered to the second clustering; domain (0, inf).
+  double max_block_bias_sigmas = 3.0;
+  /// Two touching segments are one plane if along their common boundary the planes are closer
+  /// than this (root mean square, in sigmas, after their uncertainty), and over the pixels of
+  /// the smaller. Domain (0, inf).
+  double max_merge_gap_sigmas = 1.5;
+  /// The same for parts that something in front separates, over the pixels of the smaller.
+  double max_hidden_gap_sigmas = 1.5;
+  /// How far a real sensor may bend a flat surface: gap over the smaller patch, and angle
+  /// between two touching parts; and the step, measured across their boundary in sigmas of a
+  /// pixel, that parts of one surface may seem to have. Domain (0, inf).
+  double max_bend_sigmas = 3.0;
+  double max_bend_rad = 0.12;
+  double max_bend_step_sigmas = 1.5;
+  /// Warp of the sensor, as measured in each frame (sensor_warp.h), that is allowed for; 0:
+  /// none. Every sigma of it adds so many to the model error of the clusters, and to the gaps
+  /// between parts that are bent or hidden; and segments are not divided. Domain [0, inf).
+  double max_warp_sigmas = 1.0;
+  double warp_model_error = 1.5;
+  double warp_gap = 12.0;
+  /// A part cut off from a segment stays with it if fewer than this part of the pixels around
+  /// it lie behind the plane: what cuts it is in front. Domain [0, 1].
+  double max_island_behind = 0.35;
+  /// What lies nearer to the plane is neither behind it nor in front; domain [0, inf).
+  double unsure_side_sigmas = 0.0;
+
+  SegmentDivisionConfig division;
+
+  /// A segment needs this many pixels and this precision: fewer or worse is noise. At 1 m, 300
+  /// pixels are 33 x 33 mm seen frontally.
+  int min_pixels = 300;              ///< domain [3, inf)
+  double max_angle_sigma_rad = 0.1;  ///< domain (0, inf)
+  int min_island_pixels = 40;        ///< a smaller cut-off part is dropped; domain [1, inf)
+
+  BoxSplitConfig box_split;  ///< once the frame's detections are known
+  MapSplitConfig map_split;  ///< once its pose is known
+
+  int point_grid_px = 6;  ///< spacing of FramePlane::points_c; domain [1, 64]
+  EdgeConfig edges;       ///< of FramePlane::edge_points
+};
+
+}  // namespace slam

@@ -1,0 +1,85 @@
+#include "slam/segment/label_components.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <numeric>
+
+#include "slam/segment/block_pixels.h"
+
+namespace slam {
+namespace {
+
+int Root(std::vector<int>& parent, int i) {
+  while (parent[static_cast<std::size_t>(i)] != i) {
+    int& up = parent[static_cast<std::size_t>(i)];
+    up = parent[static_cast<std::size_t>(up)];
+    i = up;
+  }
+  return i;
+}
+
+/// The lower number becomes the root, so that a root is its component's first run.
+void Unite(std::vector<int>& parent, int i, int j) {
+  i = Root(parent, i), j = Root(parent, j);
+  parent[static_cast<std::size_t>(std::max(i, j))] = std::min(i, j);
+}
+
+}  // namespace
+
+void ConnectRuns(LabelComponents& components) {
+  const LabelRuns& runs = components.runs;
+  std::vector<int>& of_run = components.component;  // at first a run of the same component
+  of_run.resize(runs.runs.size());
+  std::iota(of_run.begin(), of_run.end(), 0);
+  VisitRunsBelow(runs, [&](std::size_t a, std::size_t b, int, int, int) {
+    if (runs.runs[a].label == runs.runs[b].label && runs.runs[a].label != kNoLabel)
+      Unite(of_run, static_cast<int>(a), static_cast<int>(b));
+  });
+  for (std::size_t k = 0; k < of_run.size(); ++k)
+    of_run[k] = of_run[static_cast<std::size_t>(of_run[k])];  // lower ones are roots' already
+  components.list.clear();
+  for (std::size_t row = 0; row + 1 < runs.rows.size(); ++row) {
+    for (std::size_t k = runs.rows[row]; k < runs.rows[row + 1]; ++k) {
+      const LabelRun& run = runs.runs[k];
+      const auto root = static_cast<std::size_t>(of_run[k]);
+      of_run[k] = -1;
+      if (run.label == kNoLabel) continue;
+      if (root == k) {
+        of_run[k] = static_cast<int>(components.list.size());
+        const int first = static_cast<int>(row) * runs.width + run.begin;
+        components.list.push_back({run.label, 0, first, 0, 0});
+      } else {
+        of_run[k] = of_run[root];
+      }
+      components.list[static_cast<std::size_t>(of_run[k])].pixels += run.end - run.begin;
+    }
+  }
+}
+
+void CountSides(const DepthGrid& grid, const std::vector<LabelPlane>& planes,
+                LabelComponents& components) {
+  for (LabelComponent& c : components.list) c.behind = c.in_front = 0;
+  const auto unsure = static_cast<float>(components.unsure_side_sigmas);
+  // Counts `count` pixels of a row, from `to` on, that are neighbours of a run.
+  const auto count_sides = [&](std::size_t run, std::size_t to, int count) {
+    if (components.component[run] < 0) return;
+    LabelComponent& c = components.list[static_cast<std::size_t>(components.component[run])];
+    const LabelPlane& plane = planes[static_cast<std::size_t>(c.label)];
+    const PixelPlane p(plane);
+    int in_front = 0, behind = 0;
+    for (const std::size_t end = to + static_cast<std::size_t>(count); to < end; ++to) {
+      if (!(grid.g[to] > 0)) continue;
+      const float nearer = grid.q[to] - (p.a * grid.x[to] + p.b * grid.y[to] + p.c);
+      const float margin = unsure > 0 ? unsure * p.grazing / grid.g[to] : 0.0f;
+      in_front += nearer > margin ? 1 : 0;
+      behind += nearer <= -margin ? 1 : 0;
+    }
+    c.in_front += in_front, c.behind += behind;
+  };
+  VisitBoundaryPieces(components.runs, [&](std::size_t i, std::size_t j, int count,
+                                           std::size_t a, std::size_t b) {
+    count_sides(a, j, count), count_sides(b, i, count);
+  });
+}
+
+}  // namespace slam

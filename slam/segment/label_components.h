@@ -1,0 +1,38 @@
+#pragma once
+
+#include <vector>
+
+#include "slam/segment/depth_grid.h"
+#include "slam/segment/label_runs.h"
+#include "slam/segment/pixel_labels.h"
+
+namespace slam {
+
+/// A 4-connected set of pixels with one label.
+struct LabelComponent {
+  int label = 0;
+  int pixels = 0;
+  int first_pixel = 0;  ///< in row-major order
+  /// Measured neighbours across its boundary that lie behind or in front of the label's plane.
+  int behind = 0, in_front = 0;
+};
+
+/// Connected components of a label image, in order of their first pixel.
+struct LabelComponents {
+  LabelRuns runs;              ///< of the label image
+  std::vector<int> component;  ///< of each run; -1 where there is no label
+  std::vector<LabelComponent> list;
+  double unsure_side_sigmas = 0.0;  ///< so near to the plane is neither behind nor in front
+
+  /// Of a pixel.
+  int At(int u, int v) const { return component[runs.At(u, v)]; }
+};
+
+/// Finds the components of components.runs, without sides.
+void ConnectRuns(LabelComponents& components);
+
+/// Counts `behind` and `in_front` of every component.
+void CountSides(const DepthGrid& grid, const std::vector<LabelPlane>& planes,
+                LabelComponents& components);
+
+}  // namespace slam

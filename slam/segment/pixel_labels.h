@@ -1,0 +1,28 @@
+#pragma once
+
+#include <vector>
+
+#include "slam/geometry/plane_sums.h"
+#include "slam/segment/depth_grid.h"
+#include "slam/segment/label_runs.h"
+
+namespace slam {
+
+/// A plane that pixels may belong to.
+struct LabelPlane {
+  InverseDepthPlane plane;
+  double grazing = 1.0;  ///< GrazingFactor of its pixels
+};
+
+/// Sums of the pixels of each label.
+std::vector<PlaneSums> SumLabels(const DepthGrid& grid, const LabelImage& labels, int count);
+
+/// Residual of a pixel from a plane in sigmas; positive: the pixel is nearer than the plane.
+inline float ResidualSigmas(const DepthGrid& grid, std::size_t i, const LabelPlane& p) {
+  const float predicted = static_cast<float>(p.plane.a) * grid.x[i] +
+                          static_cast<float>(p.plane.b) * grid.y[i] +
+                          static_cast<float>(p.plane.c);
+  return (grid.q[i] - predicted) * grid.g[i] / static_cast<float>(p.grazing);
+}
+
+}  // namespace slam

@@ -1,0 +1,114 @@
+#include "slam/segment/plane_segments.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "slam/segment/plane_workspace.h"
+
+namespace slam {
+namespace {
+
+void AddClusters(const DepthGrid& grid, const BlockClusters& clusters, const DepthNoise& noise,
+                 PixelGrowth& growth) {
+  const int first = static_cast<int>(growth.planes().size());
+  for (std::size_t r = 0; r < clusters.planes.size(); ++r) {
+    const InverseDepthPlane& plane = clusters.planes[r];
+    growth.AddPlane({plane, GrazingFactor(clusters.sums[r], plane, noise)});
+  }
+  const int half = clusters.block_px / 2;
+  for (int block = 0; block < clusters.cols * clusters.rows; ++block) {
+    const int region = clusters.region[static_cast<std::size_t>(block)];
+    if (region < 0) continue;
+    const int u = std::min(block % clusters.cols * clusters.block_px + half, grid.width - 1);
+    const int v = std::min(block / clusters.cols * clusters.block_px + half, grid.height - 1);
+    growth.Seed(growth.BlockAt(u, v), first + region);
+  }
+  growth.Grow();
+  growth.DropUseless();
+}
+
+/// Writes the label image (position in `kept` + 1) and the bounds of each segment.
+/// @param value  scratch
+void DrawLabels(const LabelRuns& segments, int count, std::vector<Segment>& kept,
+                std::vector<std::uint8_t>& value, cv::Mat1b& out) {
+  value.assign(static_cast<std::size_t>(count), 0);
+  const int none = std::numeric_limits<int>::max();
+  for (std::size_t k = 0; k < kept.size(); ++k) {
+    value[static_cast<std::size_t>(kept[k].id)] = static_cast<std::uint8_t>(k + 1);
+    kept[k].low = {none, none}, kept[k].high = {-1, -1};
+  }
+  for (int v = 0; v < out.rows; ++v) {
+    const auto row = static_cast<std::size_t>(v);
+    for (std::size_t k = segments.rows[row]; k < segments.rows[row + 1]; ++k) {
+      const auto [begin, end, label] = segments.runs[k];
+      const std::uint8_t drawn =
+          label == kNoLabel ? std::uint8_t{0} : value[static_cast<std::size_t>(label)];
+      std::fill(out[v] + begin, out[v] + end, drawn);
+      if (drawn == 0) continue;
+      Segment& segment = kept[static_cast<std::size_t>(drawn - 1)];
+      segment.low = {std::min(segment.low.x, begin), std::min(segment.low.y, v)};
+      segment.high = {std::max(segment.high.x, end - 1), v};
+    }
+  }
+}
+
+}  // namespace
+
+PlaneExtractor::PlaneExtractor(const Camera& camera, const cv::Mat2d& rays,
+                               const PlaneExtractionConfig& config)
+    : work_(std::make_unique<Workspace>()) {
+  work_->config = config;
+  Use(camera, rays);
+}
+PlaneExtractor::PlaneExtractor(PlaneExtractor&&) noexcept = default;
+PlaneExtractor& PlaneExtractor::operator=(PlaneExtractor&&) noexcept = default;
+PlaneExtractor::~PlaneExtractor() = default;
+
+void PlaneExtractor::Use(const Camera& camera, const cv::Mat2d& rays) {
+  work_->camera = camera;
+  SetRays(rays, work_->grid);
+}
+
+void PlaneExtractor::Extract(Frame& frame) {
+  const PlaneExtractionConfig& settings = work_->config;
+  DepthGrid& grid = work_->grid;
+  PixelGrowth& growth = work_->growth;
+  SetDepth(frame.depth_m, settings.noise, settings.max_depth_m, grid);
+  const BlockClusters& clusters =
+      work_->clustering.Cluster(grid, {}, settings.block_px, settings.noise, settings.coarse);
+  const double warp = work_->warp.Measure(clusters, work_->clustering.SumsOfBlocks(), settings);
+  const PlaneExtractionConfig config = AllowWarp(settings, warp);
+  work_->sensor_bends = warp > 0.0;
+  if (warp > 0.0) work_->clustering.MergeAgain(config.coarse);
+  growth.Begin(grid, config.growth);
+  AddClusters(grid, clusters, config.noise, growth);
+  growth.MarkSettled(config.coarse.model_error_sigmas,
+                     config.max_block_bias_sigmas * std::sqrt(config.noise.correlated_px),
+                     work_->settled);
+  AddClusters(grid,
+              work_->clustering.Cluster(grid, work_->settled, config.fine_block_px,
+                                        config.noise, config.fine),
+              config.noise, growth);
+  const std::vector<PlaneSums> unknown;
+  const std::vector<PlaneSums>& blocks =
+      config.block_px == config.growth.block_px ? work_->clustering.SumsOfBlocks() : unknown;
+  PatchJoining& patches = work_->patches;
+  patches.MergeEqualNeighbours(grid, blocks, config, growth);
+  const PatchUnion& joined = patches.JoinBentParts(grid, blocks, config, growth, warp > 0.0);
+  const LabelRuns& segments = work_->parts.Segment(grid, joined, patches.runs(), config);
+  work_->parts.SumSegments(grid, joined, work_->sums);
+  const bool divided = work_->division.Divide(grid, segments, config, work_->sums);
+  KeepMeasured(work_->sums, config, work_->kept);
+  frame.plane_labels.create(grid.height, grid.width);
+  DrawLabels(divided ? work_->division.runs() : segments, static_cast<int>(work_->sums.size()),
+             work_->kept, work_->drawn_value, frame.plane_labels);
+  work_->Describe(frame);
+}
+
+void ExtractPlanes(Frame& frame, const Camera& camera, const cv::Mat2d& rays,
+                   const PlaneExtractionConfig& config) {
+  PlaneExtractor(camera, rays, config).Extract(frame);
+}
+
+}  // namespace slam

@@ -1,0 +1,65 @@
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "slam/geometry/camera.h"
+#include "slam/model/frame.h"
+#include "slam/segment/expected_plane.h"
+#include "slam/segment/extraction_config.h"
+
+namespace slam {
+
+/// (B) of the paper for planes: segments the depth images of a camera into planes.
+///
+/// Blocks are clustered (BlockClustering), again with wider bounds where the sensor bends what
+/// is flat (sensor_warp.h); planes grow over pixels (PixelGrowth), what is left or does not fit
+/// is clustered with finer blocks, touching parts of one plane are merged (patches.h), cut-off
+/// parts are reunited or separated (occluded_parts.h), and each segment is fitted to all its
+/// pixels.
+///
+/// The memory of one frame serves the next; what comes out does not depend on what came before.
+/// After a few images no more is asked for, but for what a new Frame has to hold.
+///
+/// Source: PEAC (Feng, Taguchi, Kamat, ICRA 2014), with changes for thin steps
+/// (block_clusters.h).
+class PlaneExtractor {
+ public:
+  /// @param rays  PixelRays(camera)
+  PlaneExtractor(const Camera& camera, const cv::Mat2d& rays,
+                 const PlaneExtractionConfig& config);
+  PlaneExtractor(PlaneExtractor&&) noexcept;
+  PlaneExtractor& operator=(PlaneExtractor&&) noexcept;
+  ~PlaneExtractor();
+
+  /// Goes on with another camera.
+  void Use(const Camera& camera, const cv::Mat2d& rays);
+
+  /// Reads frame.depth_m; fills frame.planes (largest first, at most 254, without what planes/
+  /// adds) and frame.plane_labels (index + 1, 0 = none). Never labels an unmeasured pixel.
+  /// @throws std::invalid_argument if depth and rays differ in size.
+  void Extract(Frame& frame);
+
+  /// A second look at the last image, once its detections are known: splits segments where a
+  /// box says that something thin lies on them (box_split.h).
+  /// @param frame  that of the last Extract, with its detections
+  void SplitInBoxes(Frame& frame);
+
+  /// Another one, once the camera's pose is known: splits segments that hold a plane of the map
+  /// besides another one (map_split.h);
+  /// none where the sensor bends what is flat. What (C) added to the planes is lost where it
+  /// does.
+  /// @param expected  in the camera frame of the last Extract
+  /// @returns whether it split any
+  bool SplitByMap(Frame& frame, const std::vector<ExpectedPlane>& expected);
+
+ private:
+  struct Workspace;
+  std::unique_ptr<Workspace> work_;
+};
+
+/// The same for a single frame.
+void ExtractPlanes(Frame& frame, const Camera& camera, const cv::Mat2d& rays,
+                   const PlaneExtractionConfig& config);
+
+}  // namespace slam

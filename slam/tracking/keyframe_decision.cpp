@@ -1,0 +1,84 @@
+#include "slam/tracking/keyframe_decision.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "slam/base/require.h"
+
+namespace slam {
+namespace {
+
+constexpr int kMinTracked = 15;
+constexpr double kFeaturesOfTheRule = 1000.0;
+
+/// Points of a keyframe that others see as well; while there are no others, all of them.
+int WellSeenPoints(const Map& map, int keyframe) {
+  const auto alive = std::count_if(map.keyframes.begin(), map.keyframes.end(),
+                                   [](const Keyframe& k) { return !k.culled; });
+  const std::size_t min_views = alive <= 2 ? 1 : alive == 3 ? 2 : 3;
+  int count = 0;
+  for (const int point : map.keyframes.at(static_cast<std::size_t>(keyframe)).map_points) {
+    if (point == kNone) continue;
+    if (map.points[static_cast<std::size_t>(point)].observations.size() >= min_views) ++count;
+  }
+  return count;
+}
+
+/// Whether no keyframe has seen the point from nearly where the camera is.
+bool LooksNew(const Map& map, const MapPoint& point, const Eigen::Vector3d& camera_w,
+              double min_cosine) {
+  const Eigen::Vector3d view_w = (point.p_w - camera_w).normalized();
+  const auto seen_so = [&](const auto& observation) {
+    const Pose& T_cw = map.keyframes[static_cast<std::size_t>(observation.first)].T_cw;
+    const Eigen::Vector3d ray_w = T_cw.R.transpose() * (T_cw * point.p_w);
+    return ray_w.dot(view_w) >= min_cosine * ray_w.norm();
+  };
+  return std::none_of(point.observations.begin(), point.observations.end(), seen_so);
+}
+
+int CountNewLooks(const Frame& frame, const Map& map, double max_view_rad) {
+  const Eigen::Vector3d camera_w = Inverse(frame.T_cw).t;
+  const double min_cosine = std::cos(max_view_rad);
+  int count = 0;
+  for (const int id : frame.map_points) {
+    if (id == kNone) continue;
+    const MapPoint& point = map.points[static_cast<std::size_t>(id)];
+    count += LooksNew(map, point, camera_w, min_cosine) ? 1 : 0;
+  }
+  return count;
+}
+
+}  // namespace
+
+KeyframeEvidence DecideKeyframe(const Frame& frame, const Map& map, int reference,
+                                int frames_since_last, const Camera& camera,
+                                const KeyframeConfig& keyframes,
+                                const KeyframeDecisionConfig& config) {
+  Require(frame.map_points.size() == frame.features.size(),
+          "DecideKeyframe: map_points is not parallel to features");
+  KeyframeEvidence evidence;
+  const double close_m = CloseDepth(camera, keyframes);
+  for (std::size_t f = 0; f < frame.features.size(); ++f) {
+    const bool tracked = frame.map_points[f] != kNone;
+    const double z = frame.features[f].depth_m;
+    if (tracked) ++evidence.tracked;
+    if (z > 0 && z < close_m) ++(tracked ? evidence.close_tracked : evidence.close_untracked);
+  }
+  evidence.reference_points = WellSeenPoints(map, reference);
+  if (frames_since_last < config.min_frames_between || evidence.tracked <= kMinTracked) {
+    return evidence;
+  }
+  const double ratio =
+      map.keyframes.size() < 2 ? config.first_reference_ratio : config.min_reference_ratio;
+  const double share =
+      std::min(1.0, static_cast<double>(frame.features.size()) / kFeaturesOfTheRule);
+  const bool sees_less = evidence.tracked < ratio * evidence.reference_points;
+  const bool close_to_be_had = evidence.close_tracked < share * config.min_close_tracked &&
+                               evidence.close_untracked > share * config.min_close_untracked;
+  evidence.new_looks = CountNewLooks(frame, map, config.max_view_rad);
+  const bool looks_new = evidence.new_looks > config.max_new_ratio * evidence.tracked;
+  evidence.wanted = sees_less || close_to_be_had || looks_new;
+  return evidence;
+}
+
+}  // namespace slam

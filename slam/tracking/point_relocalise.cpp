@@ -1,0 +1,53 @@
+#include "slam/tracking/point_relocalise.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "slam/base/index.h"
+
+namespace slam {
+namespace {
+
+/// The newest, because a camera that is lost for a moment is near it, and those alike.
+std::vector<int> Candidates(const Frame& frame, const Map& map, const KeyframeIndex& index,
+                            const RelocaliseConfig& config) {
+  std::vector<int> candidates;
+  for (auto k = map.keyframes.rbegin(); k != map.keyframes.rend(); ++k) {
+    if (k->culled) continue;
+    candidates.push_back(k->id);
+    break;
+  }
+  const WordBag bag = index.vocabulary().Bag(frame.features);
+  for (const LikeKeyframe& like : index.Like(bag, map, {}, config.likeness)) {
+    if (candidates.size() >= Index(config.max_keyframes)) break;
+    if (like.keyframe != candidates.front()) candidates.push_back(like.keyframe);
+  }
+  return candidates;
+}
+
+}  // namespace
+
+std::optional<Relocalisation> Relocalise(const Frame& frame, const Map& map,
+                                         const KeyframeIndex& index, const Camera& camera,
+                                         const ScalePyramid& scales,
+                                         const PoseProblemConfig& pose,
+                                         const RelocaliseConfig& config) {
+  std::vector<Relocalisation> found;
+  for (const int id : Candidates(frame, map, index, config)) {
+    auto one = RelocaliseBy(map.keyframes[Index(id)], frame, map, camera, scales, pose, config);
+    if (one) found.push_back(std::move(*one));
+  }
+  if (found.empty()) return std::nullopt;
+  const auto best =
+      std::max_element(found.begin(), found.end(),
+                       [](const auto& a, const auto& b) { return a.inliers < b.inliers; });
+  for (const Relocalisation& rival : found) {
+    if (rival.inliers >= config.max_rival_ratio * best->inliers &&
+        !SamePose(rival.T_cw, best->T_cw, config)) {
+      return std::nullopt;
+    }
+  }
+  return *best;
+}
+
+}  // namespace slam

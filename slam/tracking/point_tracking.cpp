@@ -1,0 +1,240 @@
+#include "slam/tracking/point_tracking.h"
+
+#include <algorithm>
+
+#include "slam/base/index.h"
+#include "slam/base/require.h"
+#include "slam/model/map_queries.h"
+
+namespace slam {
+namespace {
+
+void ForgetPose(Frame& frame) {
+  frame.T_cw = Pose{};
+  frame.map_points.assign(frame.features.size(), kNone);
+}
+
+int CountMatches(const Frame& frame) {
+  return static_cast<int>(frame.map_points.size()) -
+         static_cast<int>(std::count(frame.map_points.begin(), frame.map_points.end(), kNone));
+}
+
+/// A bound meant for `full` features, less in proportion for images that have fewer.
+int Scaled(int bound, double have, double full, int least) {
+  return std::clamp(static_cast<int>(bound * have / full), std::min(least, bound), bound);
+}
+
+constexpr double kFullImage_px2 = 640.0 * 480.0;
+constexpr double kFullFeatures = 300.0;  // a frame with fewer cannot be asked for all inliers
+constexpr int kLeastInliers = 15;
+constexpr int kLeastStartPoints = 40;
+
+}  // namespace
+
+const char* StateName(const PointTrackReport& report) {
+  switch (report.state) {
+    case TrackState::kInitialising:
+      return "initialising";
+    case TrackState::kLost:
+      return "lost";
+    case TrackState::kTracking:
+      break;
+  }
+  return report.by_relocalising ? "relocalised" : "tracking";
+}
+
+PointTracking::PointTracking(const Camera& camera, const PointTrackingConfig& config,
+                             const Vocabulary& vocabulary)
+    : camera_(camera), config_(config), places_(vocabulary) {}
+
+PointTrackReport PointTracking::TrackPoints(Frame& frame, Map& map) {
+  PointTrackReport report;
+  ForgetPose(frame);
+  if (map.keyframes.empty()) {
+    report.started = Start(frame);
+    if (report.started) state_ = TrackState::kTracking;
+    report.state = state_;
+    return report;
+  }
+  const FeatureGrid grid(frame.features, camera_);
+  const double features = static_cast<double>(frame.features.size());
+  bool found = false;
+  if (state_ == TrackState::kTracking) {
+    const int min_inliers = Scaled(config_.min_inliers, features, kFullFeatures, kLeastInliers);
+    found = (TrackByMotion(frame, grid, map, report) || TrackByReference(frame, map, report)) &&
+            TrackLocalMap(frame, grid, map, min_inliers, config_.local_radius_factor, report);
+  }
+  if (!found) {
+    const int min_inliers =
+        Scaled(config_.min_relocalised_inliers, features, kFullFeatures, kLeastInliers);
+    found = TrackByRelocalising(frame, map, report) &&
+            TrackLocalMap(frame, grid, map, min_inliers, 2.0 * config_.local_radius_factor,
+                          report) &&
+            !FindLookAlike(frame, map, config_.look_alike);
+  }
+  if (!found) {
+    ForgetPose(frame);
+    motion_.Forget();
+  }
+  state_ = found ? TrackState::kTracking : TrackState::kLost;
+  report.state = state_;
+  return report;
+}
+
+bool PointTracking::Start(Frame& frame) const {
+  const auto with_depth =
+      std::count_if(frame.features.begin(), frame.features.end(),
+                    [](const PointFeature& feature) { return feature.depth_m > 0; });
+  const double area = static_cast<double>(camera_.width) * camera_.height;
+  return with_depth >=
+         Scaled(config_.min_start_points, area, kFullImage_px2, kLeastStartPoints);
+}
+
+bool PointTracking::TrackByMotion(Frame& frame, const FeatureGrid& grid, const Map& map,
+                                  PointTrackReport& report) const {
+  const Pose predicted_T_cw = motion_.Predict(frame.index).value_or(LastPose(last_, map));
+  const std::vector<SeenPoint> seen =
+      SeenPoints(last_, map, camera_, CloseDepth(camera_, config_.keyframes),
+                 config_.max_temporary_points);
+  std::vector<int> matches;
+  std::vector<PointQuery> queries;
+  for (const double factor : {1.0, 2.0}) {
+    queries = QueriesOf(seen, last_, predicted_T_cw, camera_, factor * config_.last_radius_px,
+                        config_.pose.virtual_bf_px_m, config_.keyframes.scales);
+    matches = MatchQueries(queries, frame.features, grid, {}, config_.match_last);
+    const auto unmatched = std::count(matches.begin(), matches.end(), kNone);
+    if (static_cast<int>(matches.size()) - unmatched >= config_.min_last_matches) break;
+  }
+
+  PoseProblem problem;
+  problem.T_cw = predicted_T_cw;
+  std::vector<std::pair<int, int>> feature_and_point;
+  for (std::size_t f = 0; f < matches.size(); ++f) {
+    if (matches[f] == kNone) continue;
+    const SeenPoint& point = seen[Index(queries[Index(matches[f])].point)];
+    problem.points.push_back(
+        ConstraintOf(frame.features[f], point.p_w, config_.keyframes.scales));
+    feature_and_point.emplace_back(static_cast<int>(f), point.map_point);
+  }
+  const PoseSummary summary = OptimisePose(problem, camera_, config_.pose);
+  if (!summary.usable) return false;
+  ForgetPose(frame);
+  frame.T_cw = summary.T_cw;
+  for (std::size_t i = 0; i < feature_and_point.size(); ++i) {
+    const auto& [feature, point] = feature_and_point[i];
+    if (summary.point_inliers[i]) frame.map_points[Index(feature)] = point;
+  }
+  report.first_matches = CountMatches(frame);
+  report.by_motion = report.first_matches >= config_.min_first_inliers;
+  return report.by_motion;
+}
+
+bool PointTracking::TrackByReference(Frame& frame, const Map& map,
+                                     PointTrackReport& report) const {
+  ForgetPose(frame);
+  const Keyframe& reference = map.keyframes[Index(reference_)];
+  std::vector<bool> has_point(reference.features.size());
+  for (std::size_t f = 0; f < has_point.size(); ++f) {
+    has_point[f] = reference.map_points[f] != kNone;
+  }
+  const auto pairs = MatchDescriptors(frame.features, {}, reference.features, has_point,
+                                      config_.match_reference);
+  if (static_cast<int>(pairs.size()) < config_.min_reference_matches) return false;
+  for (const FeaturePair& pair : pairs) {
+    frame.map_points[Index(pair.first)] = reference.map_points[Index(pair.second)];
+  }
+  frame.T_cw = LastPose(last_, map);
+  report.first_matches = Optimise(frame, map);
+  report.by_reference = report.first_matches >= config_.min_first_inliers;
+  return report.by_reference;
+}
+
+bool PointTracking::TrackByRelocalising(Frame& frame, const Map& map,
+                                        PointTrackReport& report) {
+  report.by_motion = report.by_reference = false;
+  places_.Update(map);
+  const auto found = Relocalise(frame, map, places_, camera_, config_.keyframes.scales,
+                                config_.pose, config_.relocalise);
+  if (!found) return false;
+  frame.T_cw = found->T_cw;
+  frame.map_points = found->map_points;
+  report.first_matches = found->inliers;
+  report.by_relocalising = true;
+  return true;
+}
+
+bool PointTracking::TrackLocalMap(Frame& frame, const FeatureGrid& grid, Map& map,
+                                  int min_inliers, double radius_factor,
+                                  PointTrackReport& report) {
+  const LocalMap local = GatherLocalMap(frame, map, config_.max_local_keyframes);
+  std::vector<bool> taken(frame.features.size());
+  std::vector<int> sighted;  // points that should be in the image
+  for (std::size_t f = 0; f < taken.size(); ++f) {
+    frame.map_points[f] = CurrentPoint(map, frame.map_points[f]);
+    taken[f] = frame.map_points[f] != kNone;
+    if (taken[f]) sighted.push_back(frame.map_points[f]);
+  }
+  std::sort(sighted.begin(), sighted.end());
+  const std::vector<int> matched = sighted;
+
+  std::vector<PointQuery> queries;
+  for (const int id : local.points) {
+    if (std::binary_search(matched.begin(), matched.end(), id)) continue;
+    const PointQuery query =
+        QueryOf(map.points[Index(id)], frame.T_cw, camera_, radius_factor, config_.projection);
+    if (query.point == kNone) continue;
+    queries.push_back(query);
+    sighted.push_back(id);
+  }
+  report.local_points = static_cast<int>(sighted.size());
+  const std::vector<int> matches =
+      MatchQueries(queries, frame.features, grid, taken, config_.match_local);
+  for (std::size_t f = 0; f < matches.size(); ++f) {
+    if (matches[f] != kNone) frame.map_points[f] = queries[Index(matches[f])].point;
+  }
+  report.matches = CountMatches(frame);
+  report.inliers = Optimise(frame, map);
+  if (report.inliers < min_inliers) return false;
+
+  for (const int id : sighted) ++map.points[Index(id)].visible_count;
+  for (const int id : frame.map_points) {
+    if (id != kNone) ++map.points[Index(id)].found_count;
+  }
+  if (local.reference != kNone) reference_ = local.reference;
+  return true;
+}
+
+int PointTracking::Optimise(Frame& frame, const Map& map) const {
+  return OptimiseByPoints(frame, map, camera_, config_.keyframes.scales, config_.pose);
+}
+
+void PointTracking::FollowMap(const Map& map) {
+  if (last_.reference != kNone) motion_.Correct(LastPose(last_, map));
+}
+
+bool PointTracking::NeedKeyframe(const Frame& frame, const Map& map) const {
+  if (state_ != TrackState::kTracking) return false;
+  if (map.keyframes.empty()) return true;
+  const int since = frame.index - map.keyframes.back().frame_index;
+  return DecideKeyframe(frame, map, reference_, since, camera_, config_.keyframes,
+                        config_.decision)
+      .wanted;
+}
+
+void PointTracking::Accept(const Frame& frame, const Map& map) {
+  Require(state_ == TrackState::kTracking, "PointTracking::Accept: the frame was not tracked");
+  Require(!map.keyframes.empty(), "PointTracking::Accept: the first frame must be a keyframe");
+  const Keyframe& newest = map.keyframes.back();
+  Pose T_cw = frame.T_cw;
+  if (newest.frame_index == frame.index) {
+    reference_ = newest.id;
+    T_cw = newest.T_cw;  // as mapping left it
+  }
+  // The speed is that between two poses of one map: the last pose as the map has it by now.
+  FollowMap(map);
+  motion_.Observe(frame.index, T_cw);
+  last_ = {frame.index, frame.features, frame.map_points, reference_,
+           T_cw * Inverse(KeyframePose(map, reference_))};
+}
+
+}  // namespace slam

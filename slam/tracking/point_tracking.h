@@ -1,0 +1,124 @@
+#pragma once
+
+#include <vector>
+
+#include "slam/features/point_projection.h"
+#include "slam/mapping/keyframes.h"
+#include "slam/model/local_map.h"
+#include "slam/model/map.h"
+#include "slam/pose/point_constraints.h"
+#include "slam/pose/pose_problem.h"
+#include "slam/tracking/keyframe_decision.h"
+#include "slam/tracking/last_frame.h"
+#include "slam/tracking/look_alike.h"
+#include "slam/tracking/motion_model.h"
+#include "slam/tracking/point_relocalise.h"
+
+namespace slam {
+
+/// Whether the camera's place is known.
+enum class TrackState {
+  kInitialising,  ///< no map yet: waiting for a frame with enough depth
+  kTracking,
+  kLost  ///< the frame has no pose; relocalisation is tried with every frame
+};
+
+struct PointTrackReport;
+
+/// "initialising", "tracking", "lost", or "relocalised" for the frame that was found again.
+const char* StateName(const PointTrackReport& report);
+
+/// Settings of tracking by points.
+struct PointTrackingConfig {
+  PoseProblemConfig pose;
+  KeyframeConfig keyframes;
+  KeyframeDecisionConfig decision;
+  PointProjectionConfig projection;
+  RelocaliseConfig relocalise;
+  LookAlikeConfig look_alike;
+  PointMatchConfig match_last{100, 0.9, true};      ///< with the last frame, by projection
+  PointMatchConfig match_local{100, 0.8, false};    ///< with the local map, by projection
+  PointMatchConfig match_reference{50, 0.7, true};  ///< with the reference, by descriptors
+  int min_start_points = 100;    ///< features with depth that start the map, at 640 x 480
+  double last_radius_px = 15.0;  ///< search around the prediction, octave 0
+  int min_last_matches = 20;     ///< below, the radius is doubled
+  int min_reference_matches = 15;
+  int min_first_inliers = 10;        ///< map points after the first optimisation
+  int min_inliers = 30;              ///< after the second, for a pose to be believed
+  int min_relocalised_inliers = 50;  ///< the same for a pose found without a prediction
+  int max_temporary_points = 200;    ///< of the last frame, from depth alone
+  int max_local_keyframes = 20;      ///< bound of the work a frame
+  double local_radius_factor = 3.0;  ///< on the projection's radius (depth cameras)
+};
+
+/// What tracking did with a frame.
+struct PointTrackReport {
+  TrackState state = TrackState::kInitialising;
+  bool started = false;          ///< this frame is the map's first keyframe to be
+  bool by_motion = false;        ///< found by the motion model ...
+  bool by_reference = false;     ///< ... by the reference keyframe's descriptors ...
+  bool by_relocalising = false;  ///< ... or without a prediction
+  int first_matches = 0;         ///< before the local map, inliers
+  int local_points = 0;          ///< of the local map, in view
+  int matches = 0;               ///< of map points, before the second optimisation
+  int inliers = 0;               ///< after it
+};
+
+/// Tracks the camera by points, as ORB-SLAM2 does with RGB-D (Mur-Artal and Tardos 2017):
+/// prediction, matching with the last frame, pose; local map, matching, pose.
+///
+/// For each frame, in this order: TrackPoints; whatever else improves frame.T_cw; if wanted,
+/// InsertKeyframe and mapping; Accept.
+class PointTracking {
+ public:
+  /// @param vocabulary  must outlive the tracking
+  PointTracking(const Camera& camera, const PointTrackingConfig& config,
+                const Vocabulary& vocabulary = Vocabulary::Shipped());
+
+  /// Sets frame.T_cw and frame.map_points (inliers alone). When the state is not kTracking
+  /// afterwards, the frame has no pose: T_cw is the identity and nothing is matched.
+  /// Counts sightings in the map's points; changes nothing else of the map.
+  PointTrackReport TrackPoints(Frame& frame, Map& map);
+
+  /// The map was adjusted since the last frame: the last pose is what it has become. Not
+  /// needed when mapping runs between TrackPoints and Accept.
+  void FollowMap(const Map& map);
+
+  /// Whether the tracked frame should become a keyframe.
+  bool NeedKeyframe(const Frame& frame, const Map& map) const;
+
+  /// Takes over the frame as it is after all optimisation and mapping; last call of each frame.
+  /// Frames without a pose must not be given.
+  void Accept(const Frame& frame, const Map& map);
+
+  /// The map's keyframes by their words.
+  const KeyframeIndex& Places(const Map& map) {
+    places_.Update(map);
+    return places_;
+  }
+
+  TrackState state() const { return state_; }
+  /// Keyframe that sees the most of the last frame's points; kNone before the first.
+  int reference_keyframe() const { return reference_; }
+  const PointTrackingConfig& config() const { return config_; }
+
+ private:
+  bool Start(Frame& frame) const;
+  bool TrackByMotion(Frame& frame, const FeatureGrid& grid, const Map& map,
+                     PointTrackReport& report) const;
+  bool TrackByReference(Frame& frame, const Map& map, PointTrackReport& report) const;
+  bool TrackByRelocalising(Frame& frame, const Map& map, PointTrackReport& report);
+  bool TrackLocalMap(Frame& frame, const FeatureGrid& grid, Map& map, int min_inliers,
+                     double radius_factor, PointTrackReport& report);
+  int Optimise(Frame& frame, const Map& map) const;
+
+  Camera camera_;
+  PointTrackingConfig config_;
+  TrackState state_ = TrackState::kInitialising;
+  MotionModel motion_;
+  LastFrame last_;
+  int reference_ = kNone;
+  KeyframeIndex places_;  ///< brought up to date when it is asked
+};
+
+}  // namespace slam

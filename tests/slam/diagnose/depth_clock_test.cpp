@@ -1,0 +1,91 @@
+#include "slam/diagnose/depth_clock.h"
+
+#include <gmock/gmock.h>
+
+#include <cmath>
+
+#include "tests/support/textured_world.h"
+
+namespace slam {
+namespace {
+
+const Camera& ClockCamera() {
+  static const Camera camera = SmallCamera(160, 120);
+  return camera;
+}
+
+/// A hand that holds a camera before the corner of a room; `s` seconds on.
+Pose HandAt(double s) {
+  const Eigen::Vector3d centre_w(0.12 * std::sin(1.5 * s), 0.06 * std::sin(2.5 * s),
+                                 0.08 * (1 - std::cos(1.9 * s)));
+  return Inverse(Pose{
+      ExpSo3({0.06 * std::sin(2.0 * s), 0.1 * std::sin(1.5 * s), 0.04 * std::sin(1.2 * s)}),
+      centre_w});
+}
+
+/// Depth with noise of 1.4 mm at a metre.
+cv::Mat1f DepthFrom(const Pose& T_cw, int frame) {
+  static const TexturedCorner corner;
+  cv::Mat1f depth_m = corner.See(ClockCamera(), T_cw, frame).depth_m;
+  Random random{7, static_cast<std::uint64_t>(frame)};
+  for (float& z_m : depth_m) {
+    z_m += static_cast<float>(0.005 * (random.Uniform() - 0.5)) * z_m * z_m;
+  }
+  return depth_m;
+}
+
+struct Watched {
+  double late_s = 0.0;
+  int frames = 90;
+  double speed = 1.0;            ///< of the hand
+  bool lost_in_between = false;  ///< for 20 frames
+};
+
+DepthClock Watch(const Watched& watched) {
+  DepthClock clock(ClockCamera());
+  for (int i = 0; i < watched.frames; ++i) {
+    const double s = i / 30.0;
+    const bool lost = watched.lost_in_between && i >= 30 && i < 50;
+    clock.Observe(100.0 + s, DepthFrom(HandAt(watched.speed * (s + watched.late_s)), i),
+                  lost ? std::nullopt : std::optional(HandAt(watched.speed * s)));
+  }
+  return clock;
+}
+
+TEST(DepthClock, SaysByHowMuchDepthIsLateOrEarly) {
+  for (const double late_s : {-0.7, -0.1, -1 / 30.0, 0.04, 0.05, 0.3}) {
+    const DepthClock clock = Watch({.late_s = late_s});
+    ASSERT_TRUE(clock.Late_s()) << late_s;
+    EXPECT_NEAR(*clock.Late_s(), late_s, 0.005);
+  }
+}
+
+TEST(DepthClock, WarnsWithTheTimeAndItsSide) {
+  EXPECT_THAT(Watch({.late_s = 0.1}).Warnings(),
+              testing::ElementsAre(testing::ContainsRegex("(9[5-9]|10[0-5]) ms after ")));
+  EXPECT_THAT(Watch({.late_s = -0.1}).Warnings(),
+              testing::ElementsAre(testing::ContainsRegex("(9[5-9]|10[0-5]) ms before ")));
+}
+
+TEST(DepthClock, IsSilentWhereTimeStampsCannotBePairedBetter) {
+  EXPECT_THAT(Watch({.late_s = 0.015}).Warnings(), testing::IsEmpty());
+}
+
+TEST(DepthClock, IsSilentAboutDepthInTime) { EXPECT_FALSE(Watch({}).Late_s()); }
+
+TEST(DepthClock, KnowsNothingWhileTheCameraStands) {
+  EXPECT_FALSE(Watch({.late_s = 0.5, .speed = 0.0}).Late_s());
+}
+
+TEST(DepthClock, KnowsNothingOfAHandfulOfFrames) {
+  EXPECT_FALSE(Watch({.late_s = 0.1, .frames = 10}).Late_s());
+}
+
+TEST(DepthClock, GoesOnAfterTheCameraWasLost) {
+  const DepthClock clock = Watch({.late_s = 0.1, .lost_in_between = true});
+  ASSERT_TRUE(clock.Late_s());
+  EXPECT_NEAR(*clock.Late_s(), 0.1, 0.005);
+}
+
+}  // namespace
+}  // namespace slam

@@ -1,0 +1,86 @@
+#include "slam/diagnose/view_pair.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Cholesky>
+
+#include "slam/base/random.h"
+#include "slam/geometry/camera.h"
+#include "tests/support/slam_matchers.h"
+
+namespace slam {
+namespace {
+
+const Intrinsics kTrue(525.0, 520.0, 319.5, 239.5);
+const Pose kT21{ExpSo3({0.08, -0.16, 0.06}), {0.05, -0.02, 0.03}};
+
+/// Points that a camera of these intrinsics sees from two places, exactly.
+std::vector<TwiceSeen> SeenExactly(int count, const Pose& T_21) {
+  Random random{5};
+  std::vector<TwiceSeen> points;
+  while (static_cast<int>(points.size()) < count) {
+    const Eigen::Vector2d u(640 * random.Uniform(), 480 * random.Uniform());
+    const double z = 0.8 + 2.0 * random.Uniform();
+    const Eigen::Vector3d p_1((u.x() - kTrue[2]) / kTrue[0] * z,
+                              (u.y() - kTrue[3]) / kTrue[1] * z, z);
+    const Eigen::Vector3d p_2 = T_21 * p_1;
+    points.push_back(
+        {u,
+         {kTrue[0] * p_2.x() / p_2.z() + kTrue[2], kTrue[1] * p_2.y() / p_2.z() + kTrue[3]},
+         z,
+         p_2.z(),
+         1.0});
+  }
+  return points;
+}
+
+TEST(ViewPair, OneStepFromEachSmallErrorLeadsToTheTrueIntrinsics) {
+  for (int k = 0; k < 4; ++k) {
+    Intrinsics error = Intrinsics::Zero();
+    error[k] = 1.0;
+    const ViewMotion motion{(Vector6d() << 0.1, 0.2, -0.1, 0.3, -0.4, 0.2).finished(),
+                            (Vector6d() << -0.2, 0.1, 0.1, -0.2, 0.3, 0.3).finished(), 480.0};
+    ViewPair pair(SeenExactly(120, kT21), kT21, motion);
+    const IntrinsicsEvidence evidence = pair.Evidence(kTrue + error);
+    ASSERT_TRUE(evidence.usable);
+    const Intrinsics step = -evidence.information.ldlt().solve(evidence.gradient);
+    // A pixel among 500: what is of second order is a few parts in a thousand.
+    EXPECT_LT((step + error).norm(), 0.02) << k;
+  }
+}
+
+TEST(ViewPair, FindsTheMotionFromAPoorGuess) {
+  const Pose guess =
+      Exp((Vector6d() << 0.03, -0.02, 0.02, 0.02, -0.03, 0.02).finished()) * kT21;
+  ViewPair pair(SeenExactly(120, kT21), guess, {});
+  EXPECT_LT(pair.Evidence(kTrue).gradient.norm(), 1e-6);
+  EXPECT_THAT(pair.T_21(), PoseNear(kT21, 1e-6, 1e-6));
+}
+
+TEST(ViewPair, TranslationAloneSaysNothingOfFocalLengthOrCentre) {
+  const Pose T_21{Eigen::Matrix3d::Identity(), {0.2, -0.1, 0.1}};
+  ViewPair moved(SeenExactly(120, T_21), T_21, {}), turned(SeenExactly(120, kT21), kT21, {});
+  const Intrinsics far_off(100.0, 100.0, 40.0, -30.0);
+  const Eigen::Matrix4d says = moved.Evidence(kTrue).information;
+  // Both focal lengths by one factor, or the centre: scenes that are stretched, sheared.
+  const double all = turned.Evidence(kTrue).information.norm();
+  EXPECT_LT(far_off.dot(says * far_off), 1e-6 * all * far_off.squaredNorm());
+  EXPECT_GT(far_off.dot(turned.Evidence(kTrue).information * far_off),
+            1e-3 * all * far_off.squaredNorm());
+}
+
+TEST(ViewPair, TooFewPointsAndPointsOfNoMotionAreNoEvidence) {
+  ViewPair few(SeenExactly(static_cast<int>(ViewPair::kLeastPoints) - 1, kT21), kT21, {});
+  EXPECT_FALSE(few.Evidence(kTrue).usable);
+  std::vector<TwiceSeen> mixed = SeenExactly(120, kT21);
+  for (std::size_t i = 0; i + 1 < mixed.size(); ++i) {
+    std::swap(mixed[i].second_u_px, mixed[i + 1].second_u_px);
+  }
+  ViewPair none(mixed, kT21, {});
+  const IntrinsicsEvidence evidence = none.Evidence(kTrue);
+  EXPECT_FALSE(evidence.usable);
+  EXPECT_EQ(evidence.information.norm(), 0.0);
+}
+
+}  // namespace
+}  // namespace slam

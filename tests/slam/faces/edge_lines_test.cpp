@@ -1,0 +1,101 @@
+#include "slam/faces/edge_lines.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace slam {
+namespace {
+
+/// Points every 2 px along a segment.
+void AddSegment(std::vector<Eigen::Vector2d>& points, const Eigen::Vector2d& a,
+                const Eigen::Vector2d& b) {
+  const int n = static_cast<int>((b - a).norm() / 2.0);
+  for (int k = 0; k < n; ++k) points.push_back(a + (b - a) * k / n);
+}
+
+std::vector<Eigen::Vector2d> Rectangle() {
+  std::vector<Eigen::Vector2d> points;
+  const Eigen::Vector2d c[4] = {{100, 100}, {220, 120}, {205, 210}, {85, 190}};
+  for (int k = 0; k < 4; ++k) AddSegment(points, c[k], c[(k + 1) % 4]);
+  return points;
+}
+
+TEST(EdgeLines, FindTheFourSidesOfARectangle) {
+  const auto lines = FindImageLines(Rectangle(), 8, {}, Random{1});
+  ASSERT_EQ(lines.size(), 4u);
+  for (const ImageLine& line : lines) EXPECT_GT((line.to - line.from).norm(), 80.0);
+}
+
+TEST(EdgeLines, DoNotDependOnTheOrderOfThePoints) {
+  std::vector<Eigen::Vector2d> points = Rectangle();
+  const auto before = FindImageLines(points, 8, {}, Random{1});
+  std::rotate(points.begin(), points.begin() + 37, points.end());
+  std::reverse(points.begin() + 5, points.begin() + 90);
+  const auto after = FindImageLines(points, 8, {}, Random{1});
+  ASSERT_EQ(before.size(), after.size());
+  for (std::size_t k = 0; k < before.size(); ++k) {
+    EXPECT_EQ(before[k].p, after[k].p);
+    EXPECT_EQ(before[k].v, after[k].v);
+  }
+}
+
+TEST(EdgeLines, DoNotBridgeAGap) {
+  std::vector<Eigen::Vector2d> points;
+  AddSegment(points, {0, 50}, {80, 50});
+  AddSegment(points, {160, 50}, {200, 50});
+  const auto lines = FindImageLines(points, 8, {}, Random{1});
+  ASSERT_EQ(lines.size(), 2u);
+  EXPECT_NEAR((lines[0].to - lines[0].from).norm(), 78.0, 2.0);
+  EXPECT_NEAR((lines[1].to - lines[1].from).norm(), 38.0, 2.0);
+}
+
+TEST(EdgeLines, FindNoneInTooFewPoints) {
+  EXPECT_TRUE(FindImageLines({}, 4, {}, Random{1}).empty());
+  EXPECT_TRUE(FindImageLines({{1, 1}}, 4, {}, Random{1}).empty());
+  EXPECT_TRUE(FindImageLines({{1, 1}, {1, 1}, {1, 1}, {1, 1}}, 4, {}, Random{1}).empty());
+}
+
+TEST(EdgeLines, LieOnThePlaneAndUseOnlyTheSurfacesOwnEdges) {
+  const Camera camera;
+  FramePlane plane;
+  plane.pi_c = {Eigen::Vector3d(0, -0.6, -0.8), 0.8};
+  plane.centroid_c = {0, 0, 1};
+  const auto add = [&](const Eigen::Vector2d& u, EdgeKind kind) {
+    const Eigen::Vector3d ray = camera.Backproject(u, 1.0);
+    plane.edge_points.push_back({ray * (-plane.pi_c.d / plane.pi_c.n.dot(ray)), u, kind});
+  };
+  for (int k = 0; k < 60; ++k) add(Eigen::Vector2d(280 + k, 200), EdgeKind::kSurface);
+  for (int k = 0; k < 60; ++k) add(Eigen::Vector2d(280 + k, 300), EdgeKind::kOccluded);
+  const auto lines = FindEdgeLines(plane, camera, {}, Random{1});
+  ASSERT_EQ(lines.size(), 1u);
+  EXPECT_NEAR(SignedDistance(plane.pi_c, lines[0].line_c.P), 0.0, 1e-12);
+  EXPECT_NEAR(plane.pi_c.n.dot(lines[0].line_c.V), 0.0, 1e-9);
+  EXPECT_NEAR(lines[0].line_c.V.norm(), 1.0, 1e-12);
+  // Half a pixel outwards: up, away from the centroid at v = 239.5.
+  EXPECT_NEAR(lines[0].from_px.y(), 199.5, 1e-9);
+}
+
+TEST(EdgeLines, AreDoubtfulAsAWholeWhereDepthHardlyChangesAcrossThem) {
+  const Camera camera;
+  const auto sigma_px = [&](float step_sigmas) {
+    FramePlane plane;
+    plane.pi_c = {Eigen::Vector3d(0, 0, -1), 1.0};
+    plane.centroid_c = {0, 0, 1};
+    for (int k = 0; k < 60; ++k) {
+      const Eigen::Vector2d u(280 + k, 200);
+      plane.edge_points.push_back(
+          {camera.Backproject(u, 1.0), u, EdgeKind::kSurface, step_sigmas});
+    }
+    const auto lines = FindEdgeLines(plane, camera, {}, Random{1});
+    return std::sqrt(lines.at(0).error.Variance(lines.at(0).from_px));
+  };
+  const double unknown_px = sigma_px(0), clear_px = sigma_px(1000), thin_px = sigma_px(5);
+  EXPECT_NEAR(clear_px, unknown_px, 1e-3);
+  EXPECT_NEAR(thin_px * thin_px - clear_px * clear_px, std::pow(4.0 / 5, 4), 0.01);
+  EXPECT_LT(sigma_px(20), thin_px);
+}
+
+}  // namespace
+}  // namespace slam

@@ -1,0 +1,117 @@
+#include "slam/faces/process_planes.h"
+
+#include <gtest/gtest.h>
+
+#include "slam/segment/plane_segments.h"
+#include "tests/support/closed_form_depth.h"
+
+namespace slam {
+namespace {
+
+/// A book on a desk, its box around all that is seen of it.
+struct BookOnDesk {
+  explicit BookOnDesk(bool noisy) {
+    world = closed_form::Desk();
+    closed_form::PutOnDesk(world, 0.0, 0.0, {0.15, 0.22, 0.025}, 0.4, "book");
+    T_cw = closed_form::LookAt({0.05, -0.5, 0.6}, {0, 0, 0});
+    const closed_form::View view = closed_form::Render(world, camera, T_cw);
+    frame = closed_form::MakeFrame(noisy ? closed_form::AddKinectNoise(view.depth_m, 5)
+                                         : view.depth_m);
+    Detection book;
+    book.class_name = "book", book.kind = ClassKind::kRegular, book.score = 0.9;
+    for (int v = 0; v < camera.height; ++v) {
+      for (int u = 0; u < camera.width; ++u) {
+        if (view.face(v, u) >= closed_form::FaceId(1, 0)) book.box_px.Include({u, v});
+      }
+    }
+    frame.detections = {book};
+    ExtractPlanes(frame, camera, PixelRays(camera), {});
+    ProcessPlanes(frame, camera, {});
+  }
+  /// Largest distance of a found vertex from the nearest true corner; -1 unless there are four.
+  double WorstVertex_m() const {
+    for (const FramePlane& plane : frame.planes) {
+      if (plane.class_name != "book" || plane.vertices_c.size() != 4) continue;
+      double worst = 0.0;
+      for (const Eigen::Vector3d& corner_w : closed_form::TopCorners(world.boxes[1])) {
+        double nearest = 1e9;
+        for (const Vertex& v : plane.vertices_c) {
+          nearest = std::min(nearest, (v.p_c - T_cw * corner_w).norm());
+        }
+        worst = std::max(worst, nearest);
+      }
+      return worst;
+    }
+    return -1.0;
+  }
+  Camera camera;
+  closed_form::World world;
+  Pose T_cw;
+  Frame frame;
+};
+
+TEST(ProcessPlanes, FindTheFourCornersOfABook) {
+  const BookOnDesk exact(false), noisy(true);
+  // A pixel is 1.5 x 2 mm on the book: silhouettes are exact to half of it, and noise bends
+  // them.
+  EXPECT_GE(exact.WorstVertex_m(), 0.0);
+  EXPECT_LT(exact.WorstVertex_m(), 0.003);
+  EXPECT_GE(noisy.WorstVertex_m(), 0.0);
+  EXPECT_LT(noisy.WorstVertex_m(), 0.008);
+}
+
+TEST(ProcessPlanes, TieTheBookAndNotTheDesk) {
+  const BookOnDesk scene(true);
+  int books = 0;
+  for (const FramePlane& plane : scene.frame.planes) {
+    books += plane.class_name == "book" ? 1 : 0;
+    if (plane.pixel_count > 60000) {
+      EXPECT_EQ(plane.class_name, "") << "the desk";
+    }
+    EXPECT_EQ(plane.bad, std::nullopt);
+    EXPECT_GT(plane.inlier_ratio, 0.9);
+  }
+  EXPECT_GE(books, 1);
+}
+
+TEST(ProcessPlanes, DrawNoLinesOnAnUnstructuredObject) {
+  BookOnDesk scene(false);
+  scene.frame.detections[0].class_name = "teddy bear";
+  scene.frame.detections[0].kind = ClassKind::kUnstructured;
+  ProcessPlanes(scene.frame, scene.camera, {});
+  int bad = 0;
+  for (const FramePlane& plane : scene.frame.planes) {
+    if (plane.class_name != "teddy bear") continue;
+    EXPECT_TRUE(plane.lines_c.empty());
+    EXPECT_TRUE(plane.vertices_c.empty());
+    bad += plane.bad == BadReason::kUnstructured ? 1 : 0;
+  }
+  EXPECT_GE(bad, 1);
+}
+
+TEST(ProcessPlanes, FindTheFourCornersOfABookThatNoDetectionSpeaksFor) {
+  BookOnDesk scene(true);
+  scene.frame.detections.clear();
+  ProcessPlanes(scene.frame, scene.camera, {});
+  double worst = 1.0;
+  for (const FramePlane& plane : scene.frame.planes) {
+    if (plane.vertices_c.size() != 4 || plane.area_m2 > 0.1) continue;  // the desk is larger
+    for (const Eigen::Vector3d& corner_w : closed_form::TopCorners(scene.world.boxes[1])) {
+      double nearest = 1e9;
+      for (const Vertex& v : plane.vertices_c) {
+        nearest = std::min(nearest, (v.p_c - scene.T_cw * corner_w).norm());
+      }
+      worst = worst == 1.0 ? nearest : std::max(worst, nearest);
+    }
+  }
+  EXPECT_LT(worst, 0.012);
+}
+
+TEST(ProcessPlanes, AcceptAFrameWithoutPlanes) {
+  Frame frame;
+  ProcessPlanes(frame, Camera{}, {});
+  EXPECT_TRUE(frame.planes.empty());
+}
+
+}  // namespace
+}  // namespace slam

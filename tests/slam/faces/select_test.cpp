@@ -1,0 +1,162 @@
+#include "slam/faces/select.h"
+
+#include <gtest/gtest.h>
+
+namespace slam {
+namespace {
+
+/// A plane 1 m away, tied to a book, complete: nothing is wrong with it.
+struct GoodBook {
+  GoodBook() {
+    Detection book;
+    book.class_name = "book", book.kind = ClassKind::kRegular, book.score = 0.9;
+    book.box_px = {Eigen::Vector2d(100, 100), Eigen::Vector2d(200, 200)};
+    detections = {book};
+    plane.centroid_c = {0, 0, 1};
+    plane.inlier_ratio = 0.95;
+    plane.detection = 0;
+    SetEdge(0.0, EdgeKind::kSurface);
+    plane.lines_c.resize(4);
+    plane.vertices_c.resize(4);
+  }
+  /// 100 edge points down the box, the first `share` of them at the left border of the image.
+  void SetEdge(double share, EdgeKind kind) {
+    plane.edge_points.clear();
+    plane.box_px = {};
+    for (int k = 0; k < 100; ++k) {
+      const bool at_border = k < 100 * share;
+      const Eigen::Vector2d u(at_border ? 0.0 : 150.0, 100.0 + k);
+      plane.edge_points.push_back(
+          {Eigen::Vector3d(0, 0, 1), u, at_border ? EdgeKind::kBorder : kind});
+      plane.box_px.Include(u);
+    }
+    plane.box_px.Include({110, 190});
+  }
+  std::optional<BadReason> Fault() const {
+    return FindFault(plane, detections, usual_roughness, camera, config);
+  }
+  FramePlane plane;
+  double usual_roughness = 0.9;
+  std::vector<Detection> detections;
+  Camera camera;
+  SelectConfig config;
+};
+
+TEST(Select, TrustsACompleteBook) {
+  GoodBook book;
+  EXPECT_EQ(book.Fault(), std::nullopt);
+  book.config.structure = StructureRule::kComplete;
+  EXPECT_EQ(book.Fault(), std::nullopt);
+}
+
+TEST(Select, RefusesAPlaneBeyondTheDistanceAndKeepsOneWithin) {
+  GoodBook book;
+  book.plane.centroid_c = {0, 0, book.config.max_distance_m + 0.01};
+  EXPECT_EQ(book.Fault(), BadReason::kFar);
+  book.plane.centroid_c = {0, 0, book.config.max_distance_m - 0.01};
+  EXPECT_EQ(book.Fault(), std::nullopt);
+  book.plane.centroid_c.z() = std::nan("");
+  EXPECT_EQ(book.Fault(), BadReason::kFar);
+}
+
+TEST(Select, RefusesASmallInlierRatioAndKeepsALargerOne) {
+  GoodBook book;
+  book.plane.inlier_ratio = book.config.min_inlier_ratio;
+  EXPECT_EQ(book.Fault(), BadReason::kInliers);
+  book.plane.inlier_ratio = book.config.min_inlier_ratio + 0.01;
+  EXPECT_EQ(book.Fault(), std::nullopt);
+}
+
+TEST(Select, RefusesWhatIsRougherThanMostOfTheFrame) {
+  GoodBook book;
+  book.plane.roughness = 0.9 * book.config.max_roughness + 0.01;
+  EXPECT_EQ(book.Fault(), BadReason::kInliers);
+  book.usual_roughness = 1.0;  // a noisier frame
+  EXPECT_EQ(book.Fault(), std::nullopt);
+}
+
+TEST(Select, CallsNothingRoughThatIsCleanerThanTheModel) {
+  GoodBook book;
+  book.usual_roughness = 1e-6;
+  book.plane.roughness = 1e-3;
+  EXPECT_EQ(book.Fault(), std::nullopt);
+}
+
+TEST(Select, FindsTheRoughnessOfMostPixels) {
+  const auto face = [](int pixels, double roughness) {
+    FramePlane plane;
+    plane.pixel_count = pixels, plane.roughness = roughness;
+    return plane;
+  };
+  EXPECT_EQ(UsualRoughness({}), 0.0);
+  EXPECT_EQ(UsualRoughness({face(500, 0.0)}), 0.0);  // unknown
+  EXPECT_EQ(UsualRoughness({face(100, 3.0), face(100, 2.5), face(1000, 0.9), face(500, 0.8)}),
+            0.9);
+}
+
+TEST(Select, AsPrintedRefusesAFaceAtTheBorder) {
+  GoodBook book;
+  book.config.structure = StructureRule::kComplete;
+  book.SetEdge(0.10, EdgeKind::kSurface);
+  EXPECT_EQ(book.Fault(), BadReason::kBorder);
+  book.SetEdge(0.04, EdgeKind::kSurface);
+  EXPECT_EQ(book.Fault(), std::nullopt);
+}
+
+TEST(Select, AsPrintedRefusesAFaceWithoutFourVertices) {
+  GoodBook book;
+  book.config.structure = StructureRule::kComplete;
+  book.plane.vertices_c.resize(3);
+  EXPECT_EQ(book.Fault(), BadReason::kStructure);
+}
+
+TEST(Select, KeepsAPartlyHiddenOrCutFaceByDefault) {
+  GoodBook book;
+  book.plane.vertices_c.resize(1);
+  EXPECT_EQ(book.Fault(), std::nullopt);
+  book.SetEdge(0.3, EdgeKind::kSurface);
+  EXPECT_EQ(book.Fault(), std::nullopt);
+  book.SetEdge(0.6, EdgeKind::kSurface);
+  EXPECT_EQ(book.Fault(), BadReason::kBorder);
+}
+
+TEST(Select, RefusesAFaceThatShowsItsOutlineButNoStraightEdge) {
+  GoodBook book;
+  book.plane.lines_c.clear();
+  book.plane.vertices_c.clear();
+  EXPECT_EQ(book.Fault(), BadReason::kStructure);
+  book.SetEdge(0.0, EdgeKind::kOccluded);
+  EXPECT_EQ(book.Fault(), std::nullopt) << "what hides it hides its edges too";
+}
+
+TEST(Select, AsksNoStructureOfAPlaneWithoutABox) {
+  GoodBook book;
+  book.plane.detection.reset();
+  book.plane.lines_c.clear();
+  book.plane.vertices_c.clear();
+  book.config.structure = StructureRule::kComplete;
+  EXPECT_EQ(book.Fault(), std::nullopt);
+}
+
+TEST(Select, RefusesAPlaneInThePersonsBox) {
+  GoodBook book;
+  book.plane.detection.reset();
+  Detection person = book.detections[0];
+  person.class_name = "person", person.kind = ClassKind::kUnstructured;
+  book.detections = {person};
+  EXPECT_EQ(book.Fault(), BadReason::kUnstructured);
+  book.detections[0].box_px.max.y() = 140.0;  // 41 of the 100 edge points
+  EXPECT_EQ(book.Fault(), std::nullopt);
+}
+
+TEST(Select, KeepsABookInFrontOfAPersonWhenItsOwnBoxFitsBetter) {
+  GoodBook book;
+  Detection person;
+  person.class_name = "person", person.kind = ClassKind::kUnstructured;
+  person.box_px = {Eigen::Vector2d(0, 0), Eigen::Vector2d(400, 479)};
+  book.detections.push_back(person);
+  EXPECT_EQ(book.Fault(), std::nullopt);
+}
+
+}  // namespace
+}  // namespace slam

@@ -1,0 +1,159 @@
+#include "slam/faces/vertices.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace slam {
+namespace {
+
+const Plane kFacing{-Eigen::Vector3d::UnitZ(), 1.0};  // z = 1
+const Camera kCamera;
+
+EdgeLine Side(const Eigen::Vector3d& a, const Eigen::Vector3d& b, int support = 30) {
+  return {{a, (b - a).normalized()}, kCamera.Project(a), kCamera.Project(b), support};
+}
+
+/// A rectangle 0.2 x 0.1 m at z = 1, edge points every 5 mm, its four sides as lines.
+struct Face {
+  Face() {
+    plane.pi_c = kFacing, plane.centroid_c = {0, 0, 1}, plane.area_m2 = 0.02;
+    for (int k = 0; k < 4; ++k) {
+      const Eigen::Vector3d a = corner[k], b = corner[(k + 1) % 4];
+      lines.push_back(Side(a, b));
+      for (int s = 0; s < 20; ++s) {
+        const Eigen::Vector3d p = a + (b - a) * s / 20.0;
+        plane.edge_points.push_back({p, kCamera.Project(p), EdgeKind::kSurface});
+      }
+    }
+  }
+  std::vector<Vertex> Find(const std::optional<Box>& box = std::nullopt) const {
+    return FindVertices(plane, lines, kCamera, box, {});
+  }
+  const Eigen::Vector3d corner[4] = {
+      {-0.1, -0.05, 1}, {0.1, -0.05, 1}, {0.1, 0.05, 1}, {-0.1, 0.05, 1}};
+  FramePlane plane;
+  std::vector<EdgeLine> lines;
+};
+
+TEST(Vertices, AreTheCornersOfARectangleInOrder) {
+  const Face face;
+  const auto vertices = face.Find();
+  ASSERT_EQ(vertices.size(), 4u);
+  double area = 0.0;
+  for (std::size_t k = 0; k < 4; ++k) {
+    const Eigen::Vector3d &p = vertices[k].p_c, &q = vertices[(k + 1) % 4].p_c;
+    area += 0.5 * p.cross(q).dot(kFacing.n);
+    EXPECT_FALSE(vertices[k].extrapolated);
+  }
+  EXPECT_NEAR(area, 0.02, 1e-12) << "counter-clockwise seen from the front";
+  EXPECT_NEAR((vertices[0].p_c - face.corner[0]).norm(), 0.0, 1e-12)
+      << "first in reading order";
+}
+
+TEST(Vertices, AreMarkedWhereNoEdgePointIsNear) {
+  Face face;
+  std::erase_if(face.plane.edge_points,
+                [&](const EdgePoint& e) { return (e.p_c - face.corner[2]).norm() < 0.03; });
+  const auto vertices = face.Find();
+  ASSERT_EQ(vertices.size(), 4u);
+  for (const Vertex& v : vertices) {
+    EXPECT_EQ(v.extrapolated, (v.p_c - face.corner[2]).norm() < 1e-9);
+  }
+}
+
+TEST(Vertices, AreTwoWhereOneSideIsHidden) {
+  Face face;
+  face.lines.erase(face.lines.begin());  // the upper side
+  const auto vertices = face.Find();
+  ASSERT_EQ(vertices.size(), 2u);
+  for (const Vertex& v : vertices) EXPECT_NEAR(v.p_c.y(), 0.05, 1e-12);
+}
+
+TEST(Vertices, AreOneWhereTwoSidesAreSeen) {
+  Face face;
+  face.lines.resize(2);
+  const auto vertices = face.Find();
+  ASSERT_EQ(vertices.size(), 1u);
+  EXPECT_NEAR((vertices[0].p_c - face.corner[1]).norm(), 0.0, 1e-12);
+}
+
+TEST(Vertices, LieBeyondABoxOnlyWhereTheImageCutsIt) {
+  // The face is moved so that its right corners lie outside the image, and the box ends there.
+  Face face;
+  const double shift = 0.59;
+  for (EdgeLine& line : face.lines) {
+    line.line_c.P.x() += shift;
+    line.from_px.x() += kCamera.fx * shift, line.to_px.x() += kCamera.fx * shift;
+  }
+  face.plane.centroid_c.x() += shift;
+  for (EdgePoint& e : face.plane.edge_points) e.u_px.x() += kCamera.fx * shift;
+  std::erase_if(face.plane.edge_points, [](const EdgePoint& e) { return e.u_px.x() > 639; });
+  Box box;
+  for (const EdgePoint& e : face.plane.edge_points) box.Include(e.u_px);
+  box.max.x() = kCamera.width - 1;
+  const auto vertices = face.Find(box);
+  ASSERT_EQ(vertices.size(), 4u);
+  for (const Vertex& v : vertices) {
+    EXPECT_EQ(v.extrapolated, kCamera.Project(v.p_c).x() > kCamera.width - 1) << v.p_c.x();
+  }
+  box.max.x() = kCamera.width - 40;  // a box that ends inside the image is believed
+  EXPECT_LT(face.Find(box).size(), 4u);
+}
+
+TEST(Vertices, AreNoneOfParallelLinesAlone) {
+  Face face;
+  face.lines = {face.lines[0], face.lines[2]};
+  EXPECT_TRUE(face.Find().empty());
+  face.lines.clear();
+  EXPECT_TRUE(face.Find().empty());
+}
+
+TEST(Vertices, DoNotMakeARectangleThatTheRegionDoesNotFill) {
+  Face face;
+  face.plane.area_m2 = 0.004;  // a fifth of it: lines of something else
+  EXPECT_LT(face.Find().size(), 4u);
+  face.plane.area_m2 = 0.03;  // the region reaches far beyond
+  EXPECT_LT(face.Find().size(), 4u);
+}
+
+const Line kAlongX{{0, 0, 1}, {1, 0, 0}};
+
+TEST(VerticesConditionOne, RefusesLinesThatPassEachOther) {
+  const VertexConfig config;
+  const auto apart = [&](double gap) {
+    return MeetingPoint(kAlongX, {{0, 0, 1 + gap}, {0, 1, 0}}, kFacing, kCamera, {}, config);
+  };
+  EXPECT_TRUE(apart(0.9 * config.max_feet_distance_m).has_value());
+  const auto refused = apart(1.1 * config.max_feet_distance_m);
+  ASSERT_FALSE(refused.has_value());
+  EXPECT_EQ(refused.error(), NoVertex::kFeetApart);
+}
+
+TEST(VerticesConditionTwo, RefusesAPointOffThePlane) {
+  const VertexConfig config;
+  const auto off = [&](double z) {
+    return MeetingPoint({{0, 0, z}, {1, 0, 0}}, {{0, 0, z}, {0, 1, 0}}, kFacing, kCamera, {},
+                        config);
+  };
+  EXPECT_TRUE(off(1.0 + 0.9 * config.max_plane_distance_m).has_value());
+  const auto refused = off(1.0 - 1.1 * config.max_plane_distance_m);
+  ASSERT_FALSE(refused.has_value());
+  EXPECT_EQ(refused.error(), NoVertex::kOffPlane);
+}
+
+TEST(VerticesConditionThree, RefusesAPointOutsideTheBox) {
+  const VertexConfig config;
+  const Eigen::Vector2d u = kCamera.Project({0, 0, 1});
+  const auto with_box_right_of = [&](double distance_px) {
+    const Box box{u + Eigen::Vector2d(distance_px, -50), u + Eigen::Vector2d(200, 50)};
+    return MeetingPoint(kAlongX, {{0, 0, 1}, {0, 1, 0}}, kFacing, kCamera, box, config);
+  };
+  EXPECT_TRUE(with_box_right_of(config.box_margin_px - 1).has_value());
+  const auto refused = with_box_right_of(config.box_margin_px + 1);
+  ASSERT_FALSE(refused.has_value());
+  EXPECT_EQ(refused.error(), NoVertex::kOutsideBox);
+}
+
+}  // namespace
+}  // namespace slam

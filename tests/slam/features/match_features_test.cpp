@@ -1,0 +1,179 @@
+#include "slam/features/match_features.h"
+
+#include <gmock/gmock.h>
+
+#include <bitset>
+#include <limits>
+
+#include "slam/base/random.h"
+#include "tests/support/point_world.h"
+
+namespace slam {
+namespace {
+
+PointFeature FeatureAt(double u, double v, const Descriptor& descriptor, int octave = 0,
+                       float angle_deg = 0) {
+  PointFeature feature;
+  feature.u_px = {u, v};
+  feature.descriptor = descriptor;
+  feature.octave = octave;
+  feature.angle_deg = angle_deg;
+  return feature;
+}
+
+Descriptor Flip(Descriptor descriptor, int bits) {
+  for (int i = 0; i < bits; ++i) {
+    descriptor[static_cast<std::size_t>(i / 8)] ^= static_cast<std::uint8_t>(1 << (i % 8));
+  }
+  return descriptor;
+}
+
+PointQuery QueryAt(double u, double v, const Descriptor& descriptor, int point) {
+  PointQuery query;
+  query.point = point;
+  query.u_px = {u, v};
+  query.descriptor = descriptor;
+  return query;
+}
+
+TEST(DescriptorDistance, CountsTheDifferingBits) {
+  Random random{1};
+  const Descriptor zeros{}, some = AnyDescriptor(random);
+  Descriptor ones;
+  ones.fill(255);
+  EXPECT_EQ(DescriptorDistance(zeros, zeros), 0);
+  EXPECT_EQ(DescriptorDistance(zeros, ones), 256);
+  for (const int bits : {1, 8, 100, 255}) {
+    EXPECT_EQ(DescriptorDistance(some, Flip(some, bits)), bits);
+  }
+}
+
+TEST(MatchQueries, TakesTheNearestDescriptorNearThePrediction) {
+  Random random{2};
+  const Descriptor d = AnyDescriptor(random), other = AnyDescriptor(random);
+  const std::vector<PointFeature> features{FeatureAt(100, 100, other), FeatureAt(103, 98, d),
+                                           FeatureAt(150, 100, d)};
+  const FeatureGrid grid(features, Camera{});
+  EXPECT_THAT(MatchQueries({QueryAt(101, 100, d, 5)}, features, grid, {}, {}),
+              testing::ElementsAre(kNone, 0, kNone));
+}
+
+TEST(MatchQueries, GivesAFeatureToTheBetterOfTwoQueries) {
+  Random random{3};
+  const Descriptor d = AnyDescriptor(random);
+  const std::vector<PointFeature> features{FeatureAt(100, 100, d)};
+  const FeatureGrid grid(features, Camera{});
+  const std::vector<PointQuery> queries{QueryAt(100, 100, Flip(d, 20), 1),
+                                        QueryAt(100, 100, Flip(d, 5), 2),
+                                        QueryAt(100, 100, Flip(d, 5), 3)};
+  EXPECT_THAT(MatchQueries(queries, features, grid, {}, {}), testing::ElementsAre(1));
+}
+
+TEST(MatchQueries, RefusesADescriptorTooFarAwayAndATakenFeature) {
+  Random random{4};
+  const Descriptor d = AnyDescriptor(random);
+  const std::vector<PointFeature> features{FeatureAt(100, 100, d)};
+  const FeatureGrid grid(features, Camera{});
+  EXPECT_THAT(MatchQueries({QueryAt(100, 100, Flip(d, 101), 1)}, features, grid, {}, {}),
+              testing::ElementsAre(kNone));
+  EXPECT_THAT(MatchQueries({QueryAt(100, 100, d, 1)}, features, grid, {true}, {}),
+              testing::ElementsAre(kNone));
+}
+
+TEST(MatchQueries, RefusesAnAmbiguousPairOfFeatures) {
+  Random random{5};
+  const Descriptor d = AnyDescriptor(random);
+  const std::vector<PointFeature> features{FeatureAt(100, 100, Flip(d, 30)),
+                                           FeatureAt(102, 100, Flip(d, 31))};
+  const FeatureGrid grid(features, Camera{});
+  EXPECT_THAT(MatchQueries({QueryAt(101, 100, d, 1)}, features, grid, {}, {}),
+              testing::ElementsAre(kNone, kNone));
+}
+
+TEST(MatchQueries, RefusesAnAmbiguousPairWhateverItsOrderButOnlyInOneOctave) {
+  Random random{5};
+  const Descriptor d = AnyDescriptor(random);
+  const std::vector<PointFeature> worse_first{FeatureAt(100, 100, Flip(d, 31)),
+                                              FeatureAt(102, 100, Flip(d, 30))};
+  EXPECT_THAT(MatchQueries({QueryAt(101, 100, d, 1)}, worse_first,
+                           FeatureGrid(worse_first, Camera{}), {}, {}),
+              testing::ElementsAre(kNone, kNone));
+  const std::vector<PointFeature> two_octaves{FeatureAt(100, 100, Flip(d, 31), 1),
+                                              FeatureAt(102, 100, Flip(d, 30))};
+  EXPECT_THAT(MatchQueries({QueryAt(101, 100, d, 1)}, two_octaves,
+                           FeatureGrid(two_octaves, Camera{}), {}, {}),
+              testing::ElementsAre(kNone, 0));
+}
+
+TEST(MatchQueries, ComparesTheDepthThroughTheRightCoordinate) {
+  Random random{6};
+  const Descriptor d = AnyDescriptor(random);
+  std::vector<PointFeature> features{FeatureAt(100, 100, d)};
+  features[0].depth_m = 1.0;
+  features[0].right_u_px = 60.0;
+  const FeatureGrid grid(features, Camera{});
+  PointQuery query = QueryAt(100, 100, d, 1);
+  query.right_u_px = 61.0;
+  EXPECT_THAT(MatchQueries({query}, features, grid, {}, {}), testing::ElementsAre(0));
+  query.right_u_px = 80.0;  // the point should be twice as far
+  EXPECT_THAT(MatchQueries({query}, features, grid, {}, {}), testing::ElementsAre(kNone));
+}
+
+TEST(MatchQueries, IsNotUpsetByAPositionThatIsNotFinite) {
+  const std::vector<PointFeature> features{FeatureAt(100, 100, {})};
+  const FeatureGrid grid(features, Camera{});
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_THAT(MatchQueries({QueryAt(nan, 100, {}, 1)}, features, grid, {}, {}),
+              testing::ElementsAre(kNone));
+}
+
+TEST(MatchDescriptors, PairsEachFeatureWithItsMutualNearest) {
+  Random random{7};
+  std::vector<PointFeature> first, second;
+  for (int i = 0; i < 40; ++i) {
+    const Descriptor d = AnyDescriptor(random);
+    first.push_back(FeatureAt(i, 0, d));
+    second.insert(second.begin(), FeatureAt(0, i, Flip(d, 10)));
+  }
+  const auto pairs = MatchDescriptors(first, {}, second, {}, {50, 0.8, true});
+  ASSERT_EQ(pairs.size(), 40u);
+  for (const FeaturePair& pair : pairs) EXPECT_EQ(pair.second, 39 - pair.first);
+}
+
+TEST(MatchDescriptors, LeavesOutThoseThatTakeNoPart) {
+  Random random{8};
+  const Descriptor d = AnyDescriptor(random), e = AnyDescriptor(random);
+  const std::vector<PointFeature> features{FeatureAt(0, 0, d), FeatureAt(5, 5, e)};
+  const auto pairs = MatchDescriptors(features, {}, features, {false, true}, {50, 0.8, false});
+  ASSERT_EQ(pairs.size(), 1u);
+  EXPECT_EQ(pairs[0].first, 1);
+  EXPECT_EQ(pairs[0].second, 1);
+}
+
+TEST(ConsistentTurns, KnowAFullTurnForNone) {
+  // Around none from both sides, and three smaller turns of which one falls out.
+  std::vector<double> turns_deg;
+  for (int i = 0; i < 4; ++i) {
+    for (const double turn : {358.0, 2.0, -3.0}) turns_deg.push_back(turn);
+  }
+  for (const double turn : {90.0, 90.0, 150.0, 150.0}) turns_deg.push_back(turn);
+  turns_deg.push_back(210.0);
+  std::vector<bool> expected(turns_deg.size(), true);
+  expected.back() = false;
+  EXPECT_EQ(ConsistentTurns(turns_deg), expected);
+}
+
+TEST(ConsistentTurns, KeepsTheMainTurnAndDropsTheOthers) {
+  std::vector<double> turns_deg(40, 30.0);
+  turns_deg.push_back(200.0);
+  turns_deg.push_back(std::numeric_limits<double>::quiet_NaN());
+  turns_deg.push_back(30.0 - 360.0);
+  const auto kept = ConsistentTurns(turns_deg);
+  EXPECT_TRUE(kept[0]);
+  EXPECT_FALSE(kept[40]);
+  EXPECT_TRUE(kept[41]);
+  EXPECT_TRUE(kept[42]);
+}
+
+}  // namespace
+}  // namespace slam

@@ -1,0 +1,215 @@
+#include "slam/features/point_features.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <opencv2/imgproc.hpp>
+#include <tuple>
+
+#include "slam/features/match_features.h"
+#include "tests/support/textured_world.h"
+
+namespace slam {
+namespace {
+
+Camera CameraOf(const cv::Mat1b& image) { return SmallCamera(image.cols, image.rows); }
+
+std::vector<PointFeature> Extract(const cv::Mat1b& image,
+                                  const PointFeatureConfig& config = {}) {
+  return ExtractPointFeatures(image, cv::Mat1f(), CameraOf(image), config);
+}
+
+cv::Mat1b PatternImage(int width, int height) {
+  return BlockPattern(std::max(width, height), 5)(cv::Rect(0, 0, width, height)).clone();
+}
+
+TEST(PointFeatures, AreSpreadOverTheWholeImageEvenWhenOneSideHasTheStrongerPrint) {
+  cv::Mat1b image = PatternImage(640, 480);
+  cv::Mat1b pale = image(cv::Rect(0, 0, 320, 480));
+  pale.convertTo(pale, CV_8U, 0.25, 96);
+  std::array<int, 16> counts{};
+  for (const PointFeature& f : Extract(image)) {
+    const int c = std::clamp(static_cast<int>(f.u_px.x() / 160), 0, 3);
+    const int r = std::clamp(static_cast<int>(f.u_px.y() / 120), 0, 3);
+    ++counts[static_cast<std::size_t>(4 * r + c)];
+  }
+  // 1000 features on 16 equal cells are 62 a cell; no cell has less than a third of it.
+  EXPECT_GE(*std::min_element(counts.begin(), counts.end()), 20);
+}
+
+TEST(PointFeatures, ComeInTheNumberAskedFor) {
+  const cv::Mat1b image = PatternImage(640, 480);
+  for (const int count : {200, 1000}) {
+    PointFeatureConfig config;
+    config.count = count;
+    const int found = static_cast<int>(Extract(image, config).size());
+    EXPECT_GE(found, count - 20);
+    EXPECT_LE(found, count + 24);  // two more in each of eight octaves, and rounding
+  }
+}
+
+TEST(PointFeatures, AreFoundAgainAndLookAlikeUnderAKnownHomography) {
+  const cv::Mat1b image = PatternImage(640, 480);
+  // Turned by 20 degrees, smaller by 1.15, a little perspective.
+  const double a = 20.0 * M_PI / 180, s = 1 / 1.15;
+  const cv::Matx33d to_centre(1, 0, -320, 0, 1, -240, 0, 0, 1);
+  const cv::Matx33d from_centre(1, 0, 320, 0, 1, 240, 0, 0, 1);
+  const cv::Matx33d turn(s * std::cos(a), -s * std::sin(a), 0, s * std::sin(a), s * std::cos(a),
+                         0, 1e-4, -5e-5, 1);
+  const cv::Matx33d H = from_centre * turn * to_centre;
+  cv::Mat1b warped;
+  cv::warpPerspective(image, warped, H, image.size());
+
+  const auto first = Extract(image), second = Extract(warped);
+  int visible = 0, repeated = 0;
+  const auto image_of = [&](const PointFeature& f) -> Eigen::Vector2d {
+    const cv::Vec3d h = H * cv::Vec3d(f.u_px.x(), f.u_px.y(), 1);
+    return {h[0] / h[2], h[1] / h[2]};
+  };
+  for (const PointFeature& f : first) {
+    const Eigen::Vector2d expected = image_of(f);
+    if (expected.x() < 20 || expected.x() > 619 || expected.y() < 20 || expected.y() > 459) {
+      continue;
+    }
+    ++visible;
+    repeated += std::any_of(second.begin(), second.end(), [&](const PointFeature& g) {
+      return (g.u_px - expected).norm() < 2.0 * ScalePyramid{}.Scale(f.octave);
+    });
+  }
+  EXPECT_GE(repeated, 0.6 * visible);
+
+  int right = 0;
+  const auto pairs = MatchDescriptors(first, {}, second, {}, {64, 0.8, true});
+  for (const FeaturePair& pair : pairs) {
+    const PointFeature& f = first[static_cast<std::size_t>(pair.first)];
+    const PointFeature& g = second[static_cast<std::size_t>(pair.second)];
+    if ((g.u_px - image_of(f)).norm() < 3.0 * ScalePyramid{}.Scale(f.octave)) ++right;
+  }
+  EXPECT_GE(pairs.size(), 150u);
+  EXPECT_GE(right, 0.9 * static_cast<double>(pairs.size()));
+}
+
+/// Mean 0, deviation 1.
+double Gaussian(Random& random) {
+  double sum = -6;
+  for (int i = 0; i < 12; ++i) sum += random.Uniform();
+  return sum;
+}
+
+/// The image with white noise, from a seed.
+cv::Mat1b Noisy(const cv::Mat1b& image, double sigma, std::uint64_t seed) {
+  Random random{seed, 5};
+  cv::Mat1b noisy = image.clone();
+  for (std::uint8_t& grey : noisy) {
+    grey = cv::saturate_cast<std::uint8_t>(grey + sigma * Gaussian(random));
+  }
+  return noisy;
+}
+
+TEST(PointFeatures, AreFoundAgainAndLookAlikeUnderTheNoiseOfASensor) {
+  cv::Mat1b image = PatternImage(640, 480);
+  image.convertTo(image, CV_8U, 0.5, 64);
+  for (const auto& [sigma, found, alike] : {std::tuple{2.0, 0.7, 0.5}, {6.0, 0.5, 0.33}}) {
+    const auto first = Extract(Noisy(image, sigma, 1)),
+               second = Extract(Noisy(image, sigma, 2));
+    const auto same_place = [](const PointFeature& f, const PointFeature& g) {
+      return (f.u_px - g.u_px).norm() < 1.5 * ScalePyramid{}.Scale(f.octave);
+    };
+    int repeated = 0;
+    for (const PointFeature& f : first) {
+      repeated += std::any_of(second.begin(), second.end(), [&](const PointFeature& g) {
+        return std::abs(f.octave - g.octave) <= 1 && same_place(f, g);
+      });
+    }
+    const auto count = static_cast<double>(first.size());
+    EXPECT_GE(repeated, found * count) << sigma;
+
+    int right = 0;
+    const auto pairs = MatchDescriptors(first, {}, second, {}, {50, 0.8, true});
+    for (const FeaturePair& pair : pairs) {
+      right += same_place(first[static_cast<std::size_t>(pair.first)],
+                          second[static_cast<std::size_t>(pair.second)]);
+    }
+    EXPECT_GE(right, alike * count) << sigma;
+    EXPECT_GE(right, 0.97 * static_cast<double>(pairs.size())) << sigma;
+  }
+}
+
+TEST(PointFeatures, TurnTheirAngleWithTheImage) {
+  const cv::Mat1b image = PatternImage(240, 240);
+  cv::Mat1b turned;
+  cv::rotate(image, turned, cv::ROTATE_90_CLOCKWISE);
+  const auto first = Extract(image), second = Extract(turned);
+  int found = 0, agree = 0;
+  for (const PointFeature& f : first) {
+    if (f.octave != 0) continue;
+    const Eigen::Vector2d expected(239 - f.u_px.y(), f.u_px.x());
+    for (const PointFeature& g : second) {
+      if (g.octave != 0 || (g.u_px - expected).norm() > 0.01) continue;
+      ++found;
+      const double turn_deg = g.angle_deg - f.angle_deg - 90.0;
+      agree += std::abs(std::remainder(turn_deg, 360.0)) < 0.1;
+    }
+  }
+  EXPECT_GE(found, 50);
+  EXPECT_EQ(agree, found);
+}
+
+TEST(PointFeatures, AreNoneInABlackImage) {
+  EXPECT_TRUE(Extract(cv::Mat1b(480, 640, std::uint8_t{0})).empty());
+}
+
+TEST(PointFeatures, ComeFromSmallImagesToo) {
+  EXPECT_GE(Extract(PatternImage(64, 48)).size(), 20u);
+  EXPECT_GE(Extract(PatternImage(160, 120)).size(), 150u);
+  EXPECT_NO_THROW(Extract(PatternImage(70, 400)));
+}
+
+TEST(PointFeatures, AreTheSameBytesTwice) {
+  const cv::Mat1b image = PatternImage(320, 240);
+  const auto first = Extract(image), second = Extract(image);
+  ASSERT_EQ(first.size(), second.size());
+  for (std::size_t i = 0; i < first.size(); ++i) {
+    EXPECT_EQ(first[i].u_px, second[i].u_px);
+    EXPECT_EQ(first[i].angle_deg, second[i].angle_deg);
+    EXPECT_EQ(first[i].descriptor, second[i].descriptor);
+  }
+}
+
+TEST(PointFeatures, CarryDepthAndItsVirtualRightCoordinate) {
+  const cv::Mat1b image = PatternImage(320, 240);
+  const cv::Mat1f depth_m(240, 320, 2.0f);
+  const auto features = ExtractPointFeatures(image, depth_m, CameraOf(image), {});
+  ASSERT_FALSE(features.empty());
+  for (const PointFeature& f : features) {
+    EXPECT_DOUBLE_EQ(f.depth_m, 2.0);
+    EXPECT_DOUBLE_EQ(f.right_u_px, f.u_px.x() - 20.0);
+  }
+}
+
+TEST(PointFeatures, LieOnTheUndistortedImage) {
+  const cv::Mat1b image = PatternImage(640, 480);
+  const Camera lens = TumCamera("tum1");
+  Camera pinhole = lens;
+  pinhole.k1 = pinhole.k2 = pinhole.k3 = pinhole.p1 = pinhole.p2 = 0;
+  const auto ideal = ExtractPointFeatures(image, cv::Mat1f(), lens, {});
+  const auto recorded = ExtractPointFeatures(image, cv::Mat1f(), pinhole, {});
+  ASSERT_EQ(ideal.size(), recorded.size());
+  for (std::size_t i = 0; i < ideal.size(); ++i) {
+    const Eigen::Vector2d back =
+        lens.ProjectDistorted(lens.Backproject(ideal[i].u_px, 1.0)) - recorded[i].u_px;
+    EXPECT_LT(back.norm(), 1e-6);
+  }
+}
+
+TEST(PointFeatures, RefuseImagesOfAnotherSize) {
+  const cv::Mat1b image = PatternImage(320, 240);
+  EXPECT_THROW(ExtractPointFeatures(image, cv::Mat1f(), SmallCamera(640, 480), {}),
+               std::invalid_argument);
+  EXPECT_THROW(ExtractPointFeatures(image, cv::Mat1f(10, 10, 1.0f), CameraOf(image), {}),
+               std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace slam

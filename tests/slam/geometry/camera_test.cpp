@@ -1,0 +1,48 @@
+#include "slam/geometry/camera.h"
+
+#include <gtest/gtest.h>
+
+#include "slam/base/require.h"
+#include "slam/geometry/plane.h"
+#include "tests/support/slam_matchers.h"
+
+namespace slam {
+namespace {
+
+TEST(Camera, UndistortUndoesTheDistortionOverTheWholePicture) {
+  const Camera camera = TumCamera("tum1");
+  for (int v = 0; v < camera.height; v += 40) {
+    for (int u = 0; u < camera.width; u += 40) {
+      const Eigen::Vector2d recorded(u, v);
+      const Eigen::Vector2d ideal = camera.Undistort(recorded);
+      // The fixed-point iteration stops at 1e-12 of the normalised plane: 5e-10 px.
+      EXPECT_THAT(camera.ProjectDistorted(camera.Backproject(ideal, 2.0)),
+                  VectorNear(recorded, 1e-8));
+    }
+  }
+}
+
+TEST(Camera, PutsThePrincipalPointOnTheOpticalAxis) {
+  const Camera camera;
+  EXPECT_THAT(camera.Project({0, 0, 3}),
+              VectorNear(Eigen::Vector2d(camera.cx, camera.cy), 0.0));
+}
+
+TEST(Camera, RefusesAnUnknownCalibration) {
+  EXPECT_THROW(static_cast<void>(TumCamera("tum4")), InputError);
+}
+
+TEST(PlaneTransformEq15, ThrowsWhenTheNormalIsNotUnit) {
+  EXPECT_THROW(static_cast<void>(Transform(Pose{}, {Eigen::Vector3d(0, 0, 1.1), 1})),
+               std::invalid_argument);
+}
+
+TEST(PlaneTransformEq15, MovesTheDeskAwayWhenTheCameraRises) {
+  const Plane desk_w{Eigen::Vector3d::UnitZ(), 0};
+  const Pose T_cw{Eigen::Matrix3d::Identity(), {0, 0, -0.7}};  // the camera is 0.7 m above
+  EXPECT_THAT(Transform(T_cw, desk_w),
+              PlaneNear((Plane{Eigen::Vector3d::UnitZ(), 0.7}), 0, 1e-15));
+}
+
+}  // namespace
+}  // namespace slam

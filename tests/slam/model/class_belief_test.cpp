@@ -1,0 +1,35 @@
+#include "slam/model/class_belief.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace slam {
+namespace {
+
+// By hand, from the rates that class_likelihood.cpp states: none 0.6 a priori, an object missed
+// in 0.35 of its frames, a false class in 0.06.
+TEST(ClassLikelihood, IsThePriorsWhenNothingIsKnown) {
+  EXPECT_NEAR(ClassLikelihood({}, ""), 0.94, 1e-12);
+  EXPECT_NEAR(ClassLikelihood({}, "book"), 0.6 * 0.06 + 0.4 * 0.65, 1e-12);
+  // Once it is seen as a book: posterior 0.036 : 0.26.
+  const double book = 0.26 / 0.296;
+  EXPECT_NEAR(ClassLikelihood({{"book", 1.0}}, ""), book * 0.35 + (1 - book) * 0.94, 1e-12);
+}
+
+TEST(ClassLikelihood, KnowsNoMoreFromEvidenceBeyondTwentyFrames) {
+  const double twenty = ClassLikelihood({{"book", 6.0}, {"", 14.0}}, "book");
+  EXPECT_NEAR(ClassLikelihood({{"book", 60.0}, {"", 140.0}}, "book"), twenty, 1e-12);
+  EXPECT_GT(std::abs(ClassLikelihood({{"book", 3.0}, {"", 7.0}}, "book") - twenty), 1e-3);
+}
+
+TEST(SameClassOdds, AreOneWithoutEvidenceOfBothAndSayWhatTheyShare) {
+  EXPECT_NEAR(SameClassOdds({}, {{"book", 3.0}}), 1.0, 1e-12);
+  const double book = 0.26 / 0.296, none = 0.036 / 0.296;
+  EXPECT_NEAR(SameClassOdds({{"book", 1.0}}, {{"book", 1.0}}),
+              none * none / 0.6 + book * book / 0.4, 1e-12);
+  EXPECT_LT(SameClassOdds({{"book", 3.0}}, {{"cup", 3.0}}), 0.1);
+}
+
+}  // namespace
+}  // namespace slam

@@ -1,0 +1,104 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "slam/pose/factors/box.h"
+#include "slam/pose/factors/parallel.h"
+#include "slam/pose/factors/perpendicular.h"
+#include "slam/pose/factors/plane.h"
+#include "slam/pose/factors/point.h"
+
+namespace slam {
+namespace {
+
+/// q(pi) as printed for the camera frame, with its typing error mended.
+Eigen::Vector3d Chart(const Plane& pi) {
+  return {std::atan2(pi.n.y(), pi.n.x()), std::asin(pi.n.z()), pi.d};
+}
+
+TEST(PlaneFactorEq16, IsSmallWhereTheCameraFrameChartJumps) {
+  // The fronto-parallel surface, measured with an error of a hundredth of a degree.
+  const double error = 1.7e-4;
+  const Eigen::Vector3d n_1 = ExpSo3({error, 0, 0}) * -Eigen::Vector3d::UnitZ();
+  const Eigen::Vector3d n_2 = ExpSo3({0, error, 0}) * -Eigen::Vector3d::UnitZ();
+  PlaneConstraint c;
+  c.pi_c = {n_1, 1.0};
+  c.pi_w = {n_2, 1.0};
+  c.centroid_c = ProjectOnto(c.pi_c, {0, 0, 1});
+  const Linearised<4> factor = PlaneFactor(c, Pose{});
+  EXPECT_NEAR(factor.r.head<3>().norm(), std::sqrt(2.0) * error, 1e-9);
+  EXPECT_GT(std::abs(Chart(c.pi_c)[0] - Chart(c.pi_w)[0]), 1.0);  // the printed phi: a radian
+}
+
+TEST(PlaneFactorEq16, MeasuresTheOffsetAtThePatchNotAtTheCamera) {
+  // Turned by one degree about the patch, three metres away: the patch has not moved.
+  const Eigen::Vector3d x_c(1, 0, 3);
+  const Eigen::Vector3d n(0, 0, -1), turned = ExpSo3({0, M_PI / 180, 0}) * n;
+  PlaneConstraint c;
+  c.pi_w = {n, -n.dot(x_c)};
+  c.pi_c = {turned, -turned.dot(x_c)};
+  c.centroid_c = x_c;
+  EXPECT_NEAR(PlaneFactor(c, Pose{}).r[3], 0.0, 1e-12);
+  EXPECT_GT(std::abs(c.pi_w.d - c.pi_c.d), 0.015);  // the printed difference of d
+}
+
+TEST(PlaneFactorEq16, SaysNothingAboutAPlaneSeenFromBehind) {
+  PlaneConstraint c;
+  c.pi_w = {Eigen::Vector3d::UnitZ(), 1};
+  c.pi_c = {-Eigen::Vector3d::UnitZ(), 1};
+  const Linearised<4> factor = PlaneFactor(c, Pose{});
+  EXPECT_FALSE(factor.valid);
+  EXPECT_TRUE(factor.r.allFinite() && factor.J.allFinite());
+}
+
+TEST(PointFactorEq14, IsNotValidBehindTheCamera) {
+  PointConstraint c;
+  c.p_w = {0, 0, -1};
+  c.u_px = {320, 240};
+  EXPECT_FALSE(PointFactor(c, Pose{}, Camera{}, 40).valid);
+}
+
+TEST(PointFactorEq14, HasTwoRowsWithoutDepth) {
+  PointConstraint c;
+  c.p_w = {0.1, 0.1, 1};
+  c.u_px = {320, 240};
+  const Linearised<3> factor = PointFactor(c, Pose{}, Camera{}, 40);
+  EXPECT_EQ(factor.r[2], 0.0);
+  EXPECT_TRUE(factor.J.row(2).isZero());
+}
+
+TEST(BoxFactorEq17, LeavesOutTheSidesThatCarryNoInformation) {
+  BoxConstraint c;
+  c.corners_w = {{-.1, -.1, 1}, {.1, -.1, 1}, {.1, .1, 1}, {-.1, .1, 1}};
+  c.box_obs_px = {Eigen::Vector2d(0, 100), Eigen::Vector2d(300, 300)};
+  c.use = {false, true, true, false};
+  const Linearised<4> factor = BoxFactor(c, Pose{}, Camera{});
+  ASSERT_TRUE(factor.valid);
+  EXPECT_EQ(factor.r[0], 0.0);
+  EXPECT_EQ(factor.r[3], 0.0);
+  EXPECT_NE(factor.r[1], 0.0);
+  EXPECT_NE(factor.r[2], 0.0);
+  EXPECT_TRUE(factor.J.row(0).isZero() && factor.J.row(3).isZero());
+}
+
+TEST(BoxFactorEq17, IsNotValidWhenACornerIsBehindTheCamera) {
+  BoxConstraint c;
+  c.corners_w = {{-.1, -.1, 1}, {.1, -.1, 1}, {.1, .1, 1}, {-.1, .1, -1}};
+  c.box_obs_px = {Eigen::Vector2d(0, 100), Eigen::Vector2d(300, 300)};
+  EXPECT_FALSE(BoxFactor(c, Pose{}, Camera{}).valid);
+}
+
+TEST(ParallelFactorEq19, AcceptsFacesThatLookAtEachOther) {
+  const Eigen::Vector3d n = Eigen::Vector3d(0.1, 0.2, 1).normalized();
+  EXPECT_NEAR(ParallelFactor({-n, n, 0.02}, Pose{}).r.norm(), 0.0, 1e-15);
+}
+
+TEST(PerpendicularFactorEq20, HasNoGradientWhereThePlanesAreParallel) {
+  const Eigen::Vector3d n = Eigen::Vector3d::UnitZ();
+  const Linearised<1> factor = PerpendicularFactor({n, n, 0.02}, Pose{});
+  EXPECT_FALSE(factor.valid);
+  EXPECT_TRUE(factor.J.isZero());
+}
+
+}  // namespace
+}  // namespace slam

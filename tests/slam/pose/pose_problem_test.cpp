@@ -1,0 +1,95 @@
+#include "slam/pose/pose_problem.h"
+
+#include <gtest/gtest.h>
+
+#include "slam/base/random.h"
+#include "tests/support/plane_world.h"
+#include "tests/support/slam_matchers.h"
+
+namespace slam {
+namespace {
+
+const Pose kTruth{ExpSo3({0.3, -0.2, 0.1}), {0.4, -0.3, 0.2}};
+
+/// Stereo features with `sigma_px` of noise; a share of them are wrong matches.
+PoseProblem Seen(int points, double sigma_px, double wrong_share, std::uint64_t seed) {
+  Random random{seed};
+  const Camera camera;
+  const PoseProblemConfig config;
+  PoseProblem problem;
+  for (int i = 0; i < points; ++i) {
+    PointConstraint c;
+    const Eigen::Vector2d u(random.Uniform() * 600 + 40, random.Uniform() * 440 + 20);
+    const double z = 0.6 + 3 * random.Uniform();
+    c.p_w = Inverse(kTruth) * camera.Backproject(u, z);
+    const bool wrong = random.Uniform() < wrong_share;
+    const auto noise = [&] {
+      return wrong ? 80 * (random.Uniform() - 0.5) : sigma_px * Normal(random);
+    };
+    c.u_px = u + Eigen::Vector2d(noise(), noise());
+    c.right_u_px = u.x() - config.virtual_bf_px_m / z + noise();
+    problem.points.push_back(c);
+  }
+  problem.T_cw = Exp((Vector6d() << 0.02, -0.02, 0.02, 0.02, 0.03, -0.02).finished()) * kTruth;
+  return problem;
+}
+
+TEST(PoseOptimiserEq13, FindsThePoseAmongWrongMatches) {
+  const PoseSummary summary = OptimisePose(Seen(400, 1.0, 0.3, 1), Camera{}, {});
+  EXPECT_TRUE(summary.usable);
+  // One pixel over 280 points at 525 px and about two metres: 0.3 mm and 0.2 mrad; tenfold.
+  EXPECT_THAT(summary.T_cw, PoseNear(kTruth, 2e-3, 3e-3));
+  EXPECT_NEAR(summary.inlier_count, 0.95 * 0.7 * 400, 35);
+}
+
+TEST(PoseOptimiserEq13, IsConsistentWithItsInformation) {
+  // 200 noisy runs: the squared error in units of the covariance is chi-square with 6 degrees
+  // of freedom; five standard deviations of the mean are 5 sqrt(12 / 200).
+  constexpr int kRuns = 200;
+  double sum = 0.0;
+  PoseProblemConfig config;
+  config.stereo_chi2 = 1e9;  // keep every point: the selection would bias the statistic
+  for (int run = 0; run < kRuns; ++run) {
+    const PoseSummary summary = OptimisePose(
+        Seen(60, 1.0, 0.0, 100 + static_cast<std::uint64_t>(run)), Camera{}, config);
+    const Vector6d error = Log(summary.T_cw * Inverse(kTruth));
+    sum += error.dot(summary.information * error);
+  }
+  EXPECT_NEAR(sum / kRuns, 6.0, 5 * std::sqrt(12.0 / kRuns));
+}
+
+TEST(PoseOptimiserEq13, RefusesAProblemThatConstrainsNothing) {
+  PoseProblem problem;
+  const PoseSummary nothing = OptimisePose(problem, Camera{}, {});
+  EXPECT_FALSE(nothing.usable);
+  EXPECT_EQ(nothing.nullity, 6);
+  problem = Seen(2, 0.0, 0.0, 3);
+  EXPECT_FALSE(OptimisePose(problem, Camera{}, {}).usable);  // free to turn about their line
+}
+
+TEST(PoseOptimiserEq13, LeavesTheOpenDirectionsOfASinglePlaneAlone) {
+  PoseProblem problem;
+  problem.T_cw = Pose{Eigen::Matrix3d::Identity(), {0.5, 0.5, 0}};
+  PlaneConstraint c;
+  c.pi_c = {-Eigen::Vector3d::UnitZ(), 1.0};
+  c.pi_w = {-Eigen::Vector3d::UnitZ(), 1.02};
+  c.centroid_c = {0, 0, 1};
+  problem.planes.push_back(c);
+  const PoseSummary summary = OptimisePose(problem, Camera{}, {});
+  EXPECT_EQ(summary.nullity, 3);
+  EXPECT_FALSE(summary.usable);
+  EXPECT_THAT(summary.T_cw,
+              PoseNear((Pose{Eigen::Matrix3d::Identity(), {0.5, 0.5, -0.02}}), 1e-6, 1e-6));
+}
+
+TEST(PoseOptimiserEq13, RefusesAFirstGuessThatIsNotFinite) {
+  PoseProblem problem = Seen(50, 0.0, 0.0, 4);
+  problem.T_cw.t.x() = std::nan("");
+  const PoseSummary summary = OptimisePose(problem, Camera{}, {});
+  EXPECT_FALSE(summary.usable);
+  EXPECT_EQ(summary.inlier_count, 0);
+  EXPECT_EQ(summary.point_inliers.size(), 50u);
+}
+
+}  // namespace
+}  // namespace slam

@@ -1,0 +1,139 @@
+#include "slam/run/config_file.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <fstream>
+#include <numbers>
+
+#include "slam/base/require.h"
+#include "slam/segment/depth_sensor.h"
+
+namespace slam {
+namespace {
+
+using ::testing::ContainsRegex;
+using ::testing::ElementsAre;
+using ::testing::ThrowsMessage;
+
+class ConfigFile : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    const auto* info = ::testing::UnitTest::GetInstance()->current_test_info();
+    file_ = std::filesystem::temp_directory_path() /
+            (std::string("pas_config_") + info->name() + std::to_string(::getpid()) + ".yaml");
+  }
+  void TearDown() override { std::filesystem::remove(file_); }
+
+  Config Read(const std::string& text) {
+    std::ofstream(file_) << text;
+    return ReadConfig(file_);
+  }
+  void ExpectError(const std::string& text, const std::string& regex) {
+    EXPECT_THAT([&] { Read(text); }, ThrowsMessage<InputError>(ContainsRegex(regex))) << text;
+  }
+  std::filesystem::path file_;
+};
+
+TEST_F(ConfigFile, OfNothingGivesTheDefaults) {
+  EXPECT_EQ(ConfigAsJson(Read("")), ConfigAsJson(Config{}));
+  EXPECT_EQ(ConfigAsJson(Read("# only a comment\n")), ConfigAsJson(Config{}));
+}
+
+TEST_F(ConfigFile, ReadsBackWhatItListsToTheSameValues) {
+  Config config;
+  config.box_tracks.min_match_iou = 0.123456789;
+  config.box_tracks.enabled = false;
+  config.point_features.count = 777;
+  config.classes.regular = {"book", "odd: name, \"quoted\" #1"};
+  EXPECT_EQ(ConfigAsJson(Read(ConfigAsYaml(config))), ConfigAsJson(config));
+}
+
+TEST_F(ConfigFile, ChangesTheKeysItNamesAndNoOthers) {
+  const Config config = Read("box_tracks:\n  min_hits: 5\npoint_features: {count: 1500}\n");
+  EXPECT_EQ(config.box_tracks.min_hits, 5);
+  EXPECT_EQ(config.point_features.count, 1500);
+  auto expected = ConfigAsJson(Config{});
+  expected["box_tracks"]["min_hits"] = 5;
+  expected["point_features"]["count"] = 1500;
+  EXPECT_EQ(ConfigAsJson(config), expected);
+}
+
+TEST_F(ConfigFile, HoldsAnglesInDegrees) {
+  const Config config = Read("association: {gates: {max_normal_angle_deg: 30}}\n");
+  EXPECT_NEAR(config.association.gates.max_normal_angle_rad, std::numbers::pi / 6, 1e-15);
+  EXPECT_EQ(ConfigAsJson(config)["association"]["gates"]["max_normal_angle_deg"], 30.0);
+}
+
+TEST_F(ConfigFile, LeavesAnglesItDoesNotNameBitForBit) {
+  EXPECT_EQ(Read("box_tracks: {min_hits: 5}").association.gates.max_normal_angle_rad,
+            Config{}.association.gates.max_normal_angle_rad);
+}
+
+TEST_F(ConfigFile, OverridesTheListsOfClasses) {
+  const Config config = Read("classes:\n  regular: [brick]\n");
+  EXPECT_THAT(config.classes.regular, ElementsAre("brick"));
+  EXPECT_EQ(config.classes.KindOf("book"), ClassKind::kOther);
+  EXPECT_EQ(config.classes.KindOf("person"), ClassKind::kUnstructured);
+  ExpectError("classes:\n  regular: [person]\n", "a class is both regular and unstructured");
+  ExpectError("classes:\n  regular: brick\n", ":2: `regular` must be a list");
+}
+
+TEST_F(ConfigFile, RefusesAnUnknownKeyAndListsTheLegalOnes) {
+  ExpectError("box_trax:\n  min_hits: 5\n",
+              "yaml:1: unknown key `box_trax`; legal keys: .*box_tracks");
+  ExpectError("box_tracks:\n  min_hits: 5\n  min_hit: 5\n",
+              "yaml:3: unknown key `min_hit` in `box_tracks`; legal keys: enabled, .*min_hits");
+}
+
+TEST_F(ConfigFile, RefusesAValueOutsideItsDomainOrOfAnotherType) {
+  ExpectError("box_tracks:\n  min_hits: 0\n",
+              "yaml:2: `min_hits: 0` must be a whole number in .1, 100.");
+  ExpectError("box_tracks:\n  survival: nan\n",
+              "yaml:2: `survival: nan` must be a number in .0, 1.");
+  ExpectError("box_tracks:\n  enabled: 1\n", "yaml:2: `enabled: 1` must be true or false");
+  ExpectError("box_tracks: 3\n", "yaml:1: `box_tracks` must be `key: value` lines");
+  ExpectError("box_tracks:\n  min_hits: 4\n  min_hits: 5\n",
+              "yaml:3: key `min_hits` is given twice");
+}
+
+TEST_F(ConfigFile, TakesTheDefaultsOfTheSensorThatItNames) {
+  Config d435;
+  d435.plane_extraction = ExtractionFor(DepthSensor::kD435);
+  ShareFacts(d435);
+  EXPECT_EQ(ConfigAsJson(Read("plane_extraction: {sensor: d435}")), ConfigAsJson(d435));
+  EXPECT_EQ(Read("plane_extraction: {sensor: d435}").plane_processing.noise.correlated_px,
+            d435.plane_extraction.noise.correlated_px);
+  // What is set goes over them, whatever stands first.
+  d435.plane_extraction.noise.floor_m = 0.001;
+  ShareFacts(d435);
+  EXPECT_EQ(ConfigAsJson(Read("plane_extraction: {noise: {floor_m: 0.001}, sensor: d435}")),
+            ConfigAsJson(d435));
+  EXPECT_EQ(ConfigAsJson(Read(ConfigAsYaml(d435))), ConfigAsJson(d435));
+  ExpectError("plane_extraction: {sensor: kinect9}", "kinect9.*kinect1.*azure.*d435");
+}
+
+TEST_F(ConfigFile, GoesOverTheSettingsThatItIsGiven) {
+  Config d435;
+  d435.plane_extraction = ExtractionFor(DepthSensor::kD435);
+  std::ofstream(file_) << "plane_extraction: {min_pixels: 500}\n";
+  const Config config = ReadConfig(file_, d435);
+  EXPECT_EQ(config.plane_extraction.min_pixels, 500);
+  EXPECT_EQ(config.plane_extraction.noise.correlated_px,
+            d435.plane_extraction.noise.correlated_px);
+}
+
+TEST_F(ConfigFile, RefusesSettingsThatContradictEachOther) {
+  ExpectError("point_features: {fast_threshold: 5}\n", "min_fast_threshold must not be above");
+}
+
+TEST_F(ConfigFile, GivesEveryStageOneBaselineAndOnePyramid) {
+  const Config config = Read("point_features: {bf_px_m: 55}\n");
+  EXPECT_EQ(config.tracking.keyframes.bf_px_m, 55.0);
+  EXPECT_EQ(config.tracking.projection.bf_px_m, 55.0);
+  EXPECT_EQ(config.tracking.pose.virtual_bf_px_m, 55.0);
+}
+
+}  // namespace
+}  // namespace slam

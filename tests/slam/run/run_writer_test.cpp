@@ -1,0 +1,346 @@
+#include "slam/run/run_writer.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <signal.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <fstream>
+#include <opencv2/imgcodecs.hpp>
+#include <sstream>
+
+#include "slam/base/require.h"
+#include "slam/run/map_file.h"
+#include "slam/run/text_number.h"
+
+namespace slam {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+using ::testing::ContainsRegex;
+using ::testing::ElementsAre;
+using ::testing::ThrowsMessage;
+
+std::string Bytes(const fs::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  EXPECT_TRUE(stream) << file;
+  std::stringstream text;
+  text << stream.rdbuf();
+  return text.str();
+}
+
+std::vector<std::string> Lines(const fs::path& file) {
+  std::istringstream stream(Bytes(file));
+  std::vector<std::string> lines;
+  for (std::string line; std::getline(stream, line);) lines.push_back(line);
+  return lines;
+}
+
+/// A frame with two planes: one matched, one of which nothing was decided.
+Frame SomeFrame(int index) {
+  Frame frame;
+  frame.index = index;
+  frame.timestamp_s = 1305031102.175304 + 0.1 * index;
+  frame.gray = cv::Mat1b::zeros(4, 6);
+  frame.plane_labels = cv::Mat1b::zeros(4, 6);
+  frame.plane_labels(1, 2) = 2;
+  frame.T_cw = Exp((Vector6d() << 0.1, -0.2, 0.3, 0.4, 0.5, -0.6).finished());
+  FramePlane book;
+  book.pi_c = {Eigen::Vector3d(0, 0, -1), 1.0 / 3.0};
+  book.centroid_c = {0.1, 0.2, 1.0 / 3.0};
+  book.pixel_count = 5210;
+  book.inlier_ratio = 0.97;
+  book.class_name = "book";
+  book.detection = 3;
+  book.lines_c = {{{1, 2, 3}, {1, 0, 0}}};
+  book.vertices_c = {{{4, 5, 6}, false}, {{7, 8, 9}, true}};
+  FramePlane far;
+  far.index = 1;
+  far.pi_c = {Eigen::Vector3d(0, 0, -1), 8.0};
+  far.bad = BadReason::kFar;
+  frame.planes = {book, far};
+  frame.plane_matches = {{PlaneDecision::kMatched, 17, "iou+ranksum"}, {}};
+  return frame;
+}
+
+Map SomeMap() {
+  Map map;
+  for (int id = 0; id < 2; ++id) {
+    MapPlane plane;
+    plane.id = id;
+    plane.pi_w = {Eigen::Vector3d(0, 0, 1), -0.75};
+    plane.points_w = {{0.1, 0.2, 0.75}, {0.3, 0.4, 0.75}};
+    plane.vertices_w = {{1, 2, 3}};
+    plane.area_m2 = 0.5;
+    plane.observations = 7;
+    plane.first_seen_s = 1.5, plane.last_seen_s = 2.5;
+    map.planes.push_back(plane);
+  }
+  map.planes[0].class_name = "book";
+  map.planes[1].merged_into = 0;
+  Keyframe kept, culled;
+  kept.timestamp_s = 1.5, culled.timestamp_s = 2.0, culled.culled = true;
+  map.keyframes = {kept, culled};
+  return map;
+}
+
+class RunFolder : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    const auto* info = ::testing::UnitTest::GetInstance()->current_test_info();
+    base_ = fs::temp_directory_path() /
+            (std::string("pas_run_") + info->name() + std::to_string(::getpid()));
+    fs::create_directories(base_);
+    run_ = base_ / "run";
+  }
+  void TearDown() override { fs::remove_all(base_); }
+
+  RunInfo Info() {
+    return {base_ / "seq",        "full", "integrated", "replay", 7, "0.1.0 (abc)",
+            {{"a", {{"b", 0.1}}}}};
+  }
+  void WriteRun(const fs::path& folder, RunWriter::Options options) {
+    RunWriter writer(folder, Info(), options);
+    for (int i = 0; i < 3; ++i) {
+      const Frame frame = SomeFrame(i);
+      ModuleTimes times;
+      times[Module::kOrb] = 12.5;
+      times[Module::kMt] = 99;
+      writer.WriteFrame({frame, i != 1, times});
+    }
+    writer.Finish(SomeMap());
+  }
+  std::vector<std::string> Beside() {
+    std::vector<std::string> names;
+    for (const auto& entry : fs::directory_iterator(base_))
+      names.push_back(entry.path().filename().string());
+    std::sort(names.begin(), names.end());
+    return names;
+  }
+  fs::path base_, run_;
+};
+
+TEST_F(RunFolder, SaysInRunJsonWhatWasRun) {
+  WriteRun(run_, {});
+  const json run = json::parse(Bytes(run_ / "run.json"));
+  EXPECT_EQ(run["format"], "pas-run/1");
+  EXPECT_EQ(run["sequence"], (base_ / "seq").string());
+  EXPECT_EQ(run["variant"], "full");
+  EXPECT_EQ(run["association"], "integrated");
+  EXPECT_EQ(run["detector"], "replay");
+  EXPECT_EQ(run["seed"], 7);
+  EXPECT_EQ(run["version"], "0.1.0 (abc)");
+  EXPECT_EQ(run["options"]["a"]["b"], 0.1);
+  EXPECT_EQ(run["frames"], 3);
+  EXPECT_EQ(run["tracked"], 2);
+  EXPECT_EQ(run["lost"], 1);
+  EXPECT_GT(run["wall_time_s"].get<double>(), 0);
+  EXPECT_GT(run["peak_memory_mb"].get<double>(), 1);
+}
+
+TEST_F(RunFolder, WritesEveryPlaneOfEveryFrameAsItWasDecided) {
+  WriteRun(run_, {});
+  const auto lines = Lines(run_ / "frame_planes.jsonl");
+  ASSERT_EQ(lines.size(), 3u);
+  const json frame = json::parse(lines[0]);
+  EXPECT_EQ(frame["timestamp"].get<double>(), 1305031102.175304);
+  EXPECT_EQ(frame["planes"][0],
+            json::parse(R"({"index": 0, "normal": [0.0, 0.0, -1.0], "d": 0.3333333333333333,
+      "centroid": [0.1, 0.2, 0.3333333333333333], "pixels": 5210, "inlier_ratio": 0.97,
+      "class": "book", "detection": 3, "bad": null, "lines": [[[1.0, 2.0, 3.0], [1.0, 0.0, 0.0]]],
+      "vertices": [[4.0, 5.0, 6.0], [7.0, 8.0, 9.0]], "map_plane": 17, "decision": "matched",
+      "by": "iou+ranksum"})"));
+  const json& far = frame["planes"][1];
+  EXPECT_EQ(far["bad"], "far");
+  EXPECT_EQ(far["decision"], "none");
+  EXPECT_TRUE(far["class"].is_null() && far["detection"].is_null() &&
+              far["map_plane"].is_null() && far["by"].is_null());
+}
+
+TEST_F(RunFolder, WritesTrackedPosesFromCameraToWorldToTheLastBit) {
+  WriteRun(run_, {});
+  std::vector<std::string> lines = Lines(run_ / "trajectory.txt");
+  ASSERT_EQ(lines.size(), 3u);  // a comment and two tracked frames of three
+  EXPECT_EQ(lines[0][0], '#');
+  EXPECT_EQ(lines[1].substr(0, lines[1].find(' ')), "1305031102.175304");
+  std::istringstream words(lines[1]);
+  double t, x, y, z, qx, qy, qz, qw;
+  ASSERT_TRUE(words >> t >> x >> y >> z >> qx >> qy >> qz >> qw);
+  const Pose T_wc = Inverse(SomeFrame(0).T_cw);
+  EXPECT_EQ(Eigen::Vector3d(x, y, z), T_wc.t);
+  constexpr double kRoundOff =
+      1e-14;  // matrix to quaternion and back: a few dozen flops near 1
+  EXPECT_LT((Eigen::Quaterniond(qw, qx, qy, qz).toRotationMatrix() - T_wc.R).norm(), kRoundOff);
+  lines = Lines(run_ / "keyframes.txt");
+  ASSERT_EQ(lines.size(), 2u);  // the culled one is absent
+  EXPECT_EQ(lines[1], "1.500000 0 0 0 0 0 0 1");
+}
+
+TEST_F(RunFolder, TakesALaterTrajectoryInPlaceOfTheOneAsTracked) {
+  RunWriter writer(run_, Info(), {});
+  writer.WriteFrame({SomeFrame(0), true, {}});
+  writer.Finish(SomeMap(), {{SomeFrame(0).timestamp_s, Pose{}}});
+  EXPECT_EQ(Lines(run_ / "trajectory.txt")[1], "1305031102.175304 0 0 0 0 0 0 1");
+}
+
+TEST_F(RunFolder, HoldsTheMapWithItsMergedPlanesAndItsPoints) {
+  WriteRun(run_, {});
+  const json map = json::parse(Bytes(run_ / "map.json"));
+  ASSERT_EQ(map["planes"].size(), 2u);
+  EXPECT_EQ(map["planes"][0],
+            json::parse(R"({"id": 0, "class": "book", "normal": [0.0, 0.0, 1.0], "d": -0.75,
+      "area": 0.5, "observations": 7, "first_seen": 1.5, "last_seen": 2.5, "merged_into": null,
+      "vertices": [[1.0, 2.0, 3.0]], "hull": []})"));
+  EXPECT_EQ(map["planes"][1]["merged_into"], 0);
+  EXPECT_TRUE(map["planes"][1]["class"].is_null());
+  const auto ply = Lines(run_ / "map.ply");
+  EXPECT_EQ(ply[0], "ply");
+  EXPECT_THAT(ply, ::testing::Contains("element vertex 2"));  // merged planes stand no more
+  EXPECT_THAT(ply, ::testing::Contains("property int plane_id"));
+  EXPECT_THAT(ply.back(), ContainsRegex("^0.3 0.4 0.75 [0-9]+ [0-9]+ [0-9]+ 0$"));
+}
+
+TEST_F(RunFolder, TimesEveryModule) {
+  WriteRun(run_, {});
+  const auto lines = Lines(run_ / "timing.csv");
+  ASSERT_EQ(lines.size(), 4u);
+  EXPECT_EQ(lines[0], "timestamp,orb,od,mdc,epi,pp,da,po,upm,mt");
+  EXPECT_EQ(lines[1], "1305031102.175304,12.5,0,0,0,0,0,0,0,99");
+}
+
+TEST_F(RunFolder, SavesTheSegmentationWhenAsked) {
+  WriteRun(run_, {});
+  EXPECT_FALSE(fs::exists(run_ / "segmentation"));
+  WriteRun(base_ / "other", {.save_segmentation = true});
+  const cv::Mat labels = cv::imread(
+      (base_ / "other/segmentation/1305031102.175304.png").string(), cv::IMREAD_UNCHANGED);
+  ASSERT_EQ(labels.type(), CV_8UC1);
+  EXPECT_EQ(cv::norm(labels, SomeFrame(0).plane_labels, cv::NORM_INF), 0);
+}
+
+TEST_F(RunFolder, HasTheSameBytesEachTimeApartFromTimeAndMemory) {
+  WriteRun(run_, {});
+  WriteRun(base_ / "again", {});
+  for (const char* name :
+       {"trajectory.txt", "keyframes.txt", "frame_planes.jsonl", "map.json", "map.ply"})
+    EXPECT_EQ(Bytes(run_ / name), Bytes(base_ / "again" / name)) << name;
+  const auto without_costs = [](const fs::path& file) {
+    json run = json::parse(Bytes(file));
+    run.erase("wall_time_s");
+    run.erase("peak_memory_mb");
+    return run.dump();
+  };
+  EXPECT_EQ(without_costs(run_ / "run.json"), without_costs(base_ / "again/run.json"));
+}
+
+TEST_F(RunFolder, IsNeverOverwrittenWithoutForce) {
+  WriteRun(run_, {});
+  const std::string before = Bytes(run_ / "run.json");
+  EXPECT_THAT([&] { RunWriter(run_, Info(), {}); },
+              ThrowsMessage<InputError>(ContainsRegex("run: exists already; .*--force")));
+  EXPECT_THAT([&] { RunWriter(run_.string() + "/", Info(), {}); },
+              ThrowsMessage<InputError>(ContainsRegex("exists already")));
+  EXPECT_EQ(Bytes(run_ / "run.json"), before);
+}
+
+TEST_F(RunFolder, IsReplacedWithForceOnlyWhenTheNewOneIsWhole) {
+  WriteRun(run_, {});
+  std::ofstream(run_ / "metrics.json") << "{}";
+  {
+    RunWriter writer(run_, Info(), {.force = true});
+    writer.WriteFrame({SomeFrame(0), true, {}});
+    EXPECT_TRUE(fs::exists(run_ / "metrics.json"));
+  }  // given up
+  EXPECT_TRUE(fs::exists(run_ / "metrics.json"));
+  EXPECT_EQ(Lines(run_ / "frame_planes.jsonl").size(), 3u);
+  WriteRun(run_, {.force = true});
+  EXPECT_FALSE(fs::exists(run_ / "metrics.json"));  // it told of the old run
+  EXPECT_THAT(Beside(), ElementsAre("run"));
+}
+
+TEST_F(RunFolder, ReplacesNoFolderOfAnotherKindEvenWithForce) {
+  fs::create_directories(run_);
+  std::ofstream(run_ / "thesis.tex") << "years of work";
+  EXPECT_THAT([&] { RunWriter(run_, Info(), {.force = true}); },
+              ThrowsMessage<InputError>(ContainsRegex("holds no run.json")));
+  EXPECT_EQ(Bytes(run_ / "thesis.tex"), "years of work");
+}
+
+TEST_F(RunFolder, LeavesNothingWhenGivenUp) {
+  { RunWriter writer(run_, Info(), {}); }
+  EXPECT_TRUE(Beside().empty());
+}
+
+TEST_F(RunFolder, LooksCompleteAtNoMomentWhenTheProcessIsKilled) {
+  int whole = 0;
+  for (int delay_us = 0; delay_us < 30000; delay_us += 1500) {
+    const pid_t child = ::fork();
+    if (child == 0) {
+      WriteRun(run_, {.force = true});
+      ::_exit(0);
+    }
+    ::usleep(static_cast<useconds_t>(delay_us));
+    ::kill(child, SIGKILL);
+    ::waitpid(child, nullptr, 0);
+    if (!fs::exists(run_)) continue;
+    ++whole;
+    EXPECT_EQ(Lines(run_ / "frame_planes.jsonl").size(), 3u);
+    EXPECT_EQ(json::parse(Bytes(run_ / "run.json"))["frames"], 3);
+    EXPECT_EQ(json::parse(Bytes(run_ / "map.json"))["planes"].size(), 2u);
+  }
+  WriteRun(run_, {.force = true});
+  EXPECT_THAT(Beside(), ElementsAre("run")) << "what killed runs left is cleaned up";
+}
+
+TEST_F(RunFolder, RefusesAPlaceThatCannotBeWrittenTo) {
+  EXPECT_THAT([&] { RunWriter("/proc/run", Info(), {}); },
+              ThrowsMessage<InputError>(ContainsRegex("cannot be created")));
+  EXPECT_THAT([&] { RunWriter("", Info(), {}); },
+              ThrowsMessage<InputError>(ContainsRegex("expected the name of a new folder")));
+}
+
+TEST_F(RunFolder, RefusesWhatMustNotBeWritten) {
+  RunWriter writer(run_, Info(), {});
+  Frame frame = SomeFrame(0);
+  writer.WriteFrame({frame, true, {}});
+  EXPECT_THROW(writer.WriteFrame({frame, true, {}}), std::invalid_argument);  // same time
+  frame = SomeFrame(1);
+  frame.planes[0].pi_c.d = std::nan("");
+  EXPECT_THROW(writer.WriteFrame({frame, true, {}}), std::invalid_argument);
+  frame = SomeFrame(1);
+  frame.T_cw.t.x() = std::nan("");
+  EXPECT_THROW(writer.WriteFrame({frame, true, {}}), std::invalid_argument);
+  frame = SomeFrame(1);
+  frame.plane_matches.pop_back();
+  EXPECT_THROW(writer.WriteFrame({frame, true, {}}), std::invalid_argument);
+}
+
+TEST(NumberText, IsTheShortestThatReadsBack) {
+  for (const double x : {0.1, 1.0 / 3, -0.0, 1e-300, 123456789.125, 5e-324}) {
+    const std::string text = NumberText(x);
+    EXPECT_EQ(std::strtod(text.c_str(), nullptr), x) << text;
+  }
+  EXPECT_EQ(NumberText(-0.0), "0");
+  EXPECT_THROW(NumberText(std::nan("")), std::invalid_argument);
+}
+
+TEST(StampText, KeepsTumsSixDecimalsAndAddsDigitsOnlyWhereNeeded) {
+  EXPECT_EQ(StampText(1305031102.175304), "1305031102.175304");
+  EXPECT_EQ(StampText(0), "0.000000");
+  EXPECT_EQ(StampText(1.0 / 3), "0.3333333333333333");
+  EXPECT_EQ(StampText(1e-7), "0.0000001");
+}
+
+TEST(PlaneColour, TellsNeighbouringIdsApart) {
+  for (int id = 0; id < 100; ++id) {
+    const auto a = PlaneColour(id), b = PlaneColour(id + 1);
+    int difference = 0;
+    for (std::size_t i = 0; i < 3; ++i) difference += std::abs(int{a[i]} - int{b[i]});
+    EXPECT_GT(difference, 100) << id;
+  }
+}
+
+}  // namespace
+}  // namespace slam

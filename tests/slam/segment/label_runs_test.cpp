@@ -1,0 +1,201 @@
+#include "slam/segment/label_runs.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <set>
+#include <vector>
+
+#include "slam/segment/label_changes.h"
+#include "slam/segment/label_components.h"
+
+namespace slam {
+namespace {
+
+/// Blotches of three labels with specks of none, of an odd width.
+LabelImage Blotches(int width, int height) {
+  LabelImage labels;
+  for (int v = 0; v < height; ++v) {
+    for (int u = 0; u < width; ++u) {
+      const int blotch = (u / 5 * 31 + v / 4 * 17 + u / 5 * (v / 4)) % 3;
+      labels.push_back(static_cast<std::int16_t>((u * 13 + v * 29) % 11 == 0 ? -1 : blotch));
+    }
+  }
+  return labels;
+}
+
+void DrawRuns(const LabelRuns& runs, LabelImage& out) {
+  const auto width = static_cast<std::size_t>(runs.width);
+  out.resize(runs.rows.empty() ? 0 : (runs.rows.size() - 1) * width);
+  for (std::size_t row = 0; row + 1 < runs.rows.size(); ++row) {
+    std::int16_t* to = out.data() + row * width;
+    for (std::size_t k = runs.rows[row]; k < runs.rows[row + 1]; ++k) {
+      const LabelRun& run = runs.runs[k];
+      std::fill(to + run.begin, to + run.end, static_cast<std::int16_t>(run.label));
+    }
+  }
+}
+
+/// Components by flooding, in order of their first pixel.
+std::vector<int> Flood(const LabelImage& labels, int width) {
+  std::vector<int> component(labels.size(), -1);
+  int count = 0;
+  for (std::size_t start = 0; start < labels.size(); ++start) {
+    if (labels[start] == kNoLabel || component[start] >= 0) continue;
+    std::vector<std::size_t> open{start};
+    component[start] = count;
+    while (!open.empty()) {
+      const std::size_t i = open.back();
+      open.pop_back();
+      const auto w = static_cast<std::size_t>(width);
+      const auto visit = [&](std::size_t j) {
+        if (labels[j] != labels[i] || component[j] >= 0) return;
+        component[j] = count;
+        open.push_back(j);
+      };
+      if (i % w > 0) visit(i - 1);
+      if (i % w + 1 < w) visit(i + 1);
+      if (i >= w) visit(i - w);
+      if (i + w < labels.size()) visit(i + w);
+    }
+    ++count;
+  }
+  return component;
+}
+
+/// Places that differ from the one before, whatever surrounds [first, end).
+template <typename Label>
+void ExpectChangesFound(int first, int end) {
+  std::vector<Label> labels;
+  for (int k = 0; k < 80; ++k)  // long stretches, short ones, negative labels, high bits
+    labels.push_back(static_cast<Label>(k % 37 < 20 ? -1 : (k * k / 5) % 3 * 64));
+  std::vector<int> found, expected;
+  VisitChanges(labels.data(), first, end, [&](int k) { found.push_back(k); });
+  for (int k = first; k < end; ++k) {
+    if (labels[static_cast<std::size_t>(k)] != labels[static_cast<std::size_t>(k - 1)])
+      expected.push_back(k);
+  }
+  EXPECT_EQ(found, expected) << first << " to " << end;
+}
+
+TEST(LabelRuns, BeginWhereALabelChangesWhereverAWordBegins) {
+  for (int first = 1; first < 20; ++first) {
+    for (int end = first; end <= 80; ++end) {
+      ExpectChangesFound<std::int16_t>(first, end);
+      ExpectChangesFound<std::uint8_t>(first, end);
+    }
+  }
+}
+
+TEST(LabelRuns, MakeTheComponentsThatFloodingMakes) {
+  for (const int width : {1, 2, 5, 37}) {
+    const int height = 23;
+    const LabelImage labels = Blotches(width, height);
+    LabelComponents found;
+    FindRuns(labels, width, height, found.runs);
+    ConnectRuns(found);
+    const std::vector<int> expected = Flood(labels, width);
+    std::vector<int> pixels(found.list.size(), 0);
+    for (std::size_t i = 0; i < labels.size(); ++i) {
+      const int u = static_cast<int>(i) % width, v = static_cast<int>(i) / width;
+      ASSERT_EQ(found.At(u, v), expected[i]) << width;
+      if (expected[i] < 0) continue;
+      const LabelComponent& c = found.list[static_cast<std::size_t>(expected[i])];
+      EXPECT_EQ(c.label, labels[i]);
+      if (pixels[static_cast<std::size_t>(expected[i])]++ == 0) {
+        EXPECT_EQ(c.first_pixel, static_cast<int>(i));
+      }
+    }
+    for (std::size_t k = 0; k < pixels.size(); ++k) EXPECT_EQ(found.list[k].pixels, pixels[k]);
+  }
+}
+
+TEST(LabelRuns, MeetEveryBoundaryOnce) {
+  const int width = 37, height = 23;
+  const LabelImage labels = Blotches(width, height);
+  LabelRuns runs;
+  FindRuns(labels, width, height, runs);
+  std::multiset<std::pair<std::size_t, std::size_t>> met, expected;
+  VisitBoundaryPieces(
+      runs, [&](std::size_t i, std::size_t j, int count, std::size_t a, std::size_t b) {
+        for (int k = 0; k < count; ++k, ++i, ++j) {
+          met.emplace(i, j);
+          EXPECT_EQ(runs.runs[a].label, labels[i]);
+          EXPECT_EQ(runs.runs[b].label, labels[j]);
+        }
+      });
+  for (std::size_t i = 0; i < labels.size(); ++i) {
+    const auto w = static_cast<std::size_t>(width);
+    if (i % w + 1 < w && labels[i] != labels[i + 1]) expected.emplace(i, i + 1);
+    if (i + w < labels.size() && labels[i] != labels[i + w]) expected.emplace(i, i + w);
+  }
+  EXPECT_EQ(met, expected);
+}
+
+TEST(LabelRuns, MeetContactsOfLabelsInTheOrderOfTheirPixels) {
+  for (const int width : {1, 2, 37}) {
+    const int height = 23;
+    const LabelImage labels = Blotches(width, height);
+    LabelRuns runs;
+    FindRuns(labels, width, height, runs);
+    std::vector<std::array<int, 4>> met, expected;
+    VisitContacts(runs, [&](int u, int v, int du, int dv) { met.push_back({u, v, du, dv}); });
+    const auto at = [&](int u, int v) {
+      return labels[static_cast<std::size_t>(v * width + u)];
+    };
+    const auto touch = [](int a, int b) { return a != b && a != kNoLabel && b != kNoLabel; };
+    for (int v = 0; v < height; ++v) {
+      for (int u = 0; u < width; ++u) {
+        if (u + 1 < width && touch(at(u, v), at(u + 1, v))) expected.push_back({u, v, 1, 0});
+        if (v + 1 < height && touch(at(u, v), at(u, v + 1))) expected.push_back({u, v, 0, 1});
+      }
+    }
+    EXPECT_EQ(met, expected) << width;
+  }
+}
+
+TEST(LabelRuns, AreDrawnAsTheyWereFoundAndWithOtherLabels) {
+  const int width = 37, height = 23;
+  const LabelImage labels = Blotches(width, height);
+  LabelRuns runs, mapped, found;
+  FindRuns(labels, width, height, runs);
+  LabelImage drawn, expected = labels;
+  DrawRuns(runs, drawn);
+  EXPECT_EQ(drawn, labels);
+  for (std::int16_t& label : expected) label = label == 2 ? 0 : label;
+  MapRuns(runs, {0, 1, 0}, mapped);
+  DrawRuns(mapped, drawn);
+  EXPECT_EQ(drawn, expected);
+  FindRuns(expected, width, height, found);
+  EXPECT_EQ(mapped.runs.size(), found.runs.size()) << "neighbours of one label make one run";
+}
+
+TEST(LabelRuns, HaveTheInteriorThatNeighboursTell) {
+  const int width = 40, height = 30;
+  LabelImage labels(static_cast<std::size_t>(width * height), kNoLabel);
+  for (int v = 0; v < height; ++v) {
+    for (int u = 0; u < width; ++u) {
+      const int label = (u + v / 7) / 9 % 3 - (u * 5 + v * 11) % 97 / 95;
+      labels[static_cast<std::size_t>(v * width + u)] = static_cast<std::int16_t>(label);
+    }
+  }
+  const auto at = [&](int u, int v) { return labels[static_cast<std::size_t>(v * width + u)]; };
+  LabelImage expected(labels.size(), kNoLabel), interior;
+  for (int v = 1; v + 1 < height; ++v) {
+    for (int u = 1; u + 1 < width; ++u) {
+      bool inside = true;
+      for (int k = 0; k < 9; ++k) inside &= at(u + k % 3 - 1, v + k / 3 - 1) == at(u, v);
+      if (inside) expected[static_cast<std::size_t>(v * width + u)] = at(u, v);
+    }
+  }
+  LabelRuns runs, inner;
+  FindRuns(labels, width, height, runs);
+  FindInterior(runs, inner);
+  DrawRuns(inner, interior);
+  EXPECT_EQ(interior, expected);
+  EXPECT_GT(std::count(interior.begin(), interior.end(), 1), 50);
+}
+
+}  // namespace
+}  // namespace slam

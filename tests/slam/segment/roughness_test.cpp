@@ -1,0 +1,125 @@
+#include "slam/segment/roughness.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "slam/base/random.h"
+#include "slam/geometry/camera.h"
+#include "slam/segment/pixel_labels.h"
+
+namespace slam {
+namespace {
+
+/// A table seen from above at a slant: inverse depth of a pixel.
+const InverseDepthPlane kSlant{0.1, 0.5, 1.0};
+
+/// Depth of that plane with independent noise of the model, and `raised_m` nearer.
+template <typename Raised>
+double RoughnessOf(const Raised& raised_m, double noise_factor = 1.0) {
+  const Camera camera;
+  const DepthNoise noise;
+  cv::Mat1f depth_m(camera.height, camera.width);
+  Random random{3};
+  for (int v = 0; v < camera.height; ++v) {
+    for (int u = 0; u < camera.width; ++u) {
+      const Eigen::Vector3d ray = camera.Backproject({u, v}, 1.0);
+      const double z = 1.0 / kSlant.InverseDepth(ray.x(), ray.y());
+      const double grazing = noise.GrazingFactor(z, kSlant.Cosine(ray.x(), ray.y()));
+      double unit = -6.0;  // a sum of twelve: variance 1
+      for (int k = 0; k < 12; ++k) unit += random.Uniform();
+      depth_m(v, u) = static_cast<float>(z - raised_m(u, v) +
+                                         noise_factor * unit * noise.Sigma(z) * grazing);
+    }
+  }
+  const DepthGrid grid = MakeDepthGrid(depth_m, PixelRays(camera), noise, 10.0);
+  cv::Mat1b labels(camera.height, camera.width, static_cast<unsigned char>(0));
+  const cv::Rect bounds(100, 80, 300, 200);
+  labels(bounds) = 3;
+  return MeasureRoughness(grid, labels, bounds, 3, kSlant, noise, 3);
+}
+
+TEST(Roughness, OfAPlaneIsThatOfItsNoise) {
+  const auto flat = [](int, int) { return 0.0; };
+  EXPECT_NEAR(RoughnessOf(flat), 1.0, 0.05);
+  EXPECT_NEAR(RoughnessOf(flat, 1.5), 2.25, 0.1);
+}
+
+TEST(Roughness, IsNotRaisedByAGentleBend) {
+  const auto bowl = [](int u, int v) {
+    return 1e-7 * ((u - 250.0) * (u - 250.0) + (v - 180.0) * (v - 180.0));  // 3 mm at the rim
+  };
+  EXPECT_NEAR(RoughnessOf(bowl), 1.0, 0.05);
+}
+
+TEST(Roughness, OfStairsIsMoreWhicheverWayTheyRun) {
+  const auto stairs = [](int along) { return along / 8 % 2 == 0 ? 0.004 : -0.004; };
+  EXPECT_GT(RoughnessOf([&](int u, int) { return stairs(u); }), 2.0);
+  EXPECT_GT(RoughnessOf([&](int, int v) { return stairs(v); }), 2.0);
+}
+
+/// The same pair by pair.
+double PairByPair(const DepthGrid& grid, const cv::Mat1b& labels, const cv::Rect& bounds,
+                  int step_px) {
+  const LabelPlane plane{kSlant, 1.0};
+  double sum = 0.0;
+  int pairs = 0;
+  for (int v = bounds.y; v < bounds.br().y; v += step_px) {
+    for (int u = bounds.x; u < bounds.br().x; u += step_px) {
+      for (const cv::Point& other : {cv::Point(u + 8, v), cv::Point(u, v + 8)}) {
+        if (other.x >= labels.cols || other.y >= labels.rows) continue;
+        if (labels(v, u) != 3 || labels(other) != 3) continue;
+        const double by =
+            static_cast<double>(
+                ResidualSigmas(grid, static_cast<std::size_t>(grid.Index(u, v)), plane)) -
+            static_cast<double>(ResidualSigmas(
+                grid, static_cast<std::size_t>(grid.Index(other.x, other.y)), plane));
+        sum += by * by, ++pairs;
+      }
+    }
+  }
+  const auto middle = static_cast<std::size_t>(
+      grid.Index(bounds.x + bounds.width / 2, bounds.y + bounds.height / 2));
+  const double x = static_cast<double>(grid.x[middle]), y = static_cast<double>(grid.y[middle]);
+  const double grazing =
+      DepthNoise{}.GrazingFactor(1.0 / kSlant.InverseDepth(x, y), kSlant.Cosine(x, y));
+  return pairs < 30 ? 0.0 : sum / (2.0 * pairs * grazing * grazing);
+}
+
+TEST(Roughness, CountsEveryPairOnceToTheImagesBorders) {
+  const int width = 90, height = 61;
+  Camera camera;
+  camera.width = width, camera.height = height;
+  cv::Mat1f depth_m(height, width);
+  cv::Mat1b labels(height, width);
+  Random random{5};
+  for (int v = 0; v < height; ++v) {
+    for (int u = 0; u < width; ++u) {
+      depth_m(v, u) = static_cast<float>(0.9 + 0.02 * random.Uniform());
+      labels(v, u) = random.Below(10) == 0 || (u + v) % 40 < 9 ? 0 : 3;
+    }
+  }
+  const DepthGrid grid = MakeDepthGrid(depth_m, PixelRays(camera), {}, 10.0);
+  for (const cv::Rect& bounds : {cv::Rect(0, 0, width, height), cv::Rect(3, 2, 71, 40),
+                                 cv::Rect(70, 20, 20, 41), cv::Rect(37, 0, 45, 59)}) {
+    cv::Mat1b own(height, width, static_cast<unsigned char>(0));
+    labels(bounds).copyTo(own(bounds));
+    for (const int step_px : {1, 2, 3, 5, 8, 13}) {
+      const double expected = PairByPair(grid, own, bounds, step_px);
+      EXPECT_NEAR(MeasureRoughness(grid, own, bounds, 3, kSlant, {}, step_px), expected,
+                  1e-5 * expected)
+          << bounds << ", every " << step_px;
+    }
+  }
+}
+
+TEST(Roughness, OfAHandfulOfPixelsIsUnknown) {
+  const DepthGrid grid =
+      MakeDepthGrid(cv::Mat1f(480, 640, 1.0f), PixelRays(Camera{}), {}, 10.0);
+  cv::Mat1b labels(480, 640, static_cast<unsigned char>(0));
+  labels(cv::Rect(0, 0, 9, 9)) = 1;
+  EXPECT_EQ(MeasureRoughness(grid, labels, {0, 0, 9, 9}, 1, {0, 0, 1}, {}, 2), 0.0);
+}
+
+}  // namespace
+}  // namespace slam

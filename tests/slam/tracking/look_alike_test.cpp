@@ -1,0 +1,80 @@
+#include "slam/tracking/look_alike.h"
+
+#include <gmock/gmock.h>
+
+#include "tests/support/point_world.h"
+#include "tests/support/slam_matchers.h"
+
+namespace slam {
+namespace {
+
+/// Looks spread over a wall, and so many of them again a repeat to the right; two metres from
+/// a camera that stands far from the world's origin.
+struct RepeatingWall {
+  static constexpr int kLooks = 40;
+  const Eigen::Vector3d repeat_w{0.5, 0.0, 0.0};
+  Map map;
+  Frame frame;
+
+  /// @param repeated  looks that are found a repeat away; `others` stand where one would be
+  RepeatingWall(int repeated, int others) {
+    Random random{4};
+    const Eigen::Vector3d eye_w(30, -20, 10);
+    Keyframe keyframe;
+    frame.T_cw = Inverse(Pose{Eigen::Matrix3d::Identity(), eye_w});
+    const auto add = [&](const Eigen::Vector3d& p_w, const Descriptor& look) {
+      MapPoint point;
+      point.id = static_cast<int>(map.points.size());
+      point.p_w = p_w;
+      point.descriptor = look;
+      point.observations[0] = point.id;
+      map.points.push_back(point);
+      keyframe.map_points.push_back(point.id);
+    };
+    std::vector<Eigen::Vector3d> places_w;
+    for (int i = 0; i < kLooks; ++i) {
+      places_w.push_back(eye_w +
+                         Eigen::Vector3d(0.13 * (i % 8) - 0.4, 0.13 * (i / 8) - 0.3, 2.0));
+      PointFeature feature;
+      feature.descriptor = AnyDescriptor(random);
+      frame.features.push_back(feature);
+      frame.map_points.push_back(i);
+      add(places_w.back(), feature.descriptor);
+    }
+    for (int i = 0; i < repeated + others; ++i) {
+      const auto k = static_cast<std::size_t>(i);
+      add(places_w[k] + repeat_w + Eigen::Vector3d(0.001 * (i % 2), 0, 0),
+          i < repeated ? frame.features[k].descriptor : AnyDescriptor(random));
+    }
+    keyframe.features.resize(keyframe.map_points.size());
+    map.keyframes = {keyframe};
+  }
+};
+
+TEST(LookAlike, IsARepeatOfThePatternAway) {
+  const RepeatingWall wall(40, 0);
+  const auto found = FindLookAlike(wall.frame, wall.map, {});
+  ASSERT_TRUE(found);
+  EXPECT_EQ(found->alike, 40);
+  EXPECT_EQ(found->met, 40);
+  EXPECT_THAT(found->shift_w, VectorNear(Eigen::Vector3d(0.5005, 0, 0), 1e-9));
+}
+
+TEST(LookAlike, IsNoneWhereMostOfWhatStandsThereLooksDifferent) {
+  const LookAlikeConfig config;
+  EXPECT_TRUE(FindLookAlike(RepeatingWall(15, 15).frame, RepeatingWall(15, 15).map, config));
+  EXPECT_FALSE(FindLookAlike(RepeatingWall(10, 30).frame, RepeatingWall(10, 30).map, config));
+}
+
+TEST(LookAlike, MayEndWithTheMapButNeedsSomeLikeness) {
+  const LookAlikeConfig config;
+  const RepeatingWall half(20, 0), few(config.min_alike - 1, 0);
+  const auto found = FindLookAlike(half.frame, half.map, config);
+  ASSERT_TRUE(found);
+  EXPECT_EQ(found->alike, 20);
+  EXPECT_FALSE(FindLookAlike(few.frame, few.map, config));
+  EXPECT_FALSE(FindLookAlike(RepeatingWall(0, 0).frame, RepeatingWall(0, 0).map, config));
+}
+
+}  // namespace
+}  // namespace slam

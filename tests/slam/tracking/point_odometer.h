@@ -1,0 +1,33 @@
+#pragma once
+
+#include <vector>
+
+#include "slam/features/point_features.h"
+#include "slam/mapping/local_mapping.h"
+#include "slam/tracking/point_tracking.h"
+
+namespace slam {
+
+/// Tracking and mapping by points alone, frame after frame: what a run does without planes.
+struct PointOdometer {
+  Camera camera;
+  PointTracking tracking;
+  Map map{};
+  LocalMappingConfig mapping{};
+
+  explicit PointOdometer(const Camera& c) : camera(c), tracking(c, PointTrackingConfig{}) {}
+
+  /// @param frame with gray and depth_m; gets features, matches and pose
+  PointTrackReport Step(Frame& frame) {
+    frame.features = ExtractPointFeatures(frame.gray, frame.depth_m, camera, {});
+    const PointTrackReport report = tracking.TrackPoints(frame, map);
+    if (report.state != TrackState::kTracking) return report;
+    if (tracking.NeedKeyframe(frame, map)) {
+      MapLocally(map, InsertKeyframe(frame, map, camera, mapping.keyframes), camera, mapping);
+    }
+    tracking.Accept(frame, map);
+    return report;
+  }
+};
+
+}  // namespace slam

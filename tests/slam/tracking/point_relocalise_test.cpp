@@ -1,0 +1,72 @@
+#include "slam/tracking/point_relocalise.h"
+
+#include <gmock/gmock.h>
+
+#include "tests/support/point_world.h"
+#include "tests/support/slam_matchers.h"
+
+namespace slam {
+namespace {
+
+const Pose kMoved_cw{ExpSo3({0.05, 0.2, 0.1}), {0.15, -0.1, 0.05}};
+
+/// The keyframe's points from a third of a metre beside: `right` of them where they are, the
+/// others each with the look of another one.
+Frame Mistaken(const PointWorld& world, int right, std::uint64_t seed) {
+  Random random{seed};
+  const Keyframe& keyframe = world.map.keyframes[0];
+  const int all = static_cast<int>(keyframe.features.size());
+  Frame frame;
+  for (int f = 0; f < all; ++f) {
+    const int looks_like = f < right ? f : right + (f - right + 7) % (all - right);
+    const int point = keyframe.map_points[static_cast<std::size_t>(f)];
+    PointFeature feature = FeatureOfPoint(
+        world.map.points[static_cast<std::size_t>(point)].p_w, kMoved_cw, world.camera,
+        keyframe.features[static_cast<std::size_t>(looks_like)].descriptor, true);
+    const Eigen::Vector2d noise_px(random.Uniform() - 0.5, random.Uniform() - 0.5);
+    feature.u_px += noise_px;
+    feature.right_u_px += noise_px.x();
+    frame.features.push_back(feature);
+  }
+  return frame;
+}
+
+std::optional<Relocalisation> Find(const PointWorld& world, const Frame& frame,
+                                   const RelocaliseConfig& config = {}) {
+  return RelocaliseBy(world.map.keyframes[0], frame, world.map, world.camera, {}, {}, config);
+}
+
+TEST(Relocalisation, FindsThePoseThatAFifthOfTheMatchesAgreeOn) {
+  for (std::uint64_t seed = 1; seed <= 10; ++seed) {
+    const PointWorld world = MakePointWorld(1, 90, seed);
+    const int all = static_cast<int>(world.map.keyframes[0].features.size());
+    const int right = std::max(12, all / 5);
+    const auto found = Find(world, Mistaken(world, right, seed));
+    ASSERT_TRUE(found) << right << " of " << all << ", seed " << seed;
+    EXPECT_THAT(found->T_cw, PoseNear(kMoved_cw, 0.005, 0.01)) << "seed " << seed;
+    EXPECT_GE(found->inliers, right - 2) << "seed " << seed;
+    for (int f = right; f < all; ++f) {
+      EXPECT_EQ(found->map_points[static_cast<std::size_t>(f)], kNone) << "a wrong match";
+    }
+  }
+}
+
+TEST(Relocalisation, FindsNothingWhereEveryMatchIsWrong) {
+  for (std::uint64_t seed = 1; seed <= 10; ++seed) {
+    const PointWorld world = MakePointWorld(1, 90, seed);
+    EXPECT_FALSE(Find(world, Mistaken(world, 0, seed))) << "seed " << seed;
+  }
+}
+
+TEST(Relocalisation, NeedsNoDepth) {
+  const PointWorld world = MakePointWorld(1, 90, 3);
+  const int all = static_cast<int>(world.map.keyframes[0].features.size());
+  Frame frame = Mistaken(world, all - all / 4, 3);
+  for (PointFeature& feature : frame.features) feature.depth_m = 0, feature.right_u_px = -1;
+  const auto found = Find(world, frame);
+  ASSERT_TRUE(found);
+  EXPECT_THAT(found->T_cw, PoseNear(kMoved_cw, 0.005, 0.02));
+}
+
+}  // namespace
+}  // namespace slam

@@ -1,0 +1,198 @@
+#include "slam/tracking/point_tracking.h"
+
+#include <gmock/gmock.h>
+
+#include "tests/slam/tracking/point_odometer.h"
+#include "tests/support/slam_matchers.h"
+#include "tests/support/textured_world.h"
+
+namespace slam {
+namespace {
+
+// A pixel is 8 mm at 2 m (f = 262 px), and a turn of the camera looks nearly like a step aside.
+// Measured over 60 frames: at most 10 mm and 5 mrad at 320 x 240, 24 mm and 13 mrad at 160 x
+// 120.
+constexpr double kPosition_m = 0.015;
+constexpr double kRotation_rad = 0.008;
+
+Pose TruthOf(int index) { return SwingingPose(index) * Inverse(SwingingPose(0)); }
+
+Frame SeeSwinging(const TexturedCorner& world, const Camera& camera, int index) {
+  return world.See(camera, SwingingPose(index), index);
+}
+
+TEST(PointTracking, FollowsAHandThroughATexturedCorner) {
+  const TexturedCorner world;
+  PointOdometer odometer(SmallCamera());
+  for (int i = 0; i < 60; ++i) {
+    Frame frame = SeeSwinging(world, odometer.camera, i);
+    const PointTrackReport report = odometer.Step(frame);
+    ASSERT_EQ(report.state, TrackState::kTracking) << "frame " << i;
+    EXPECT_EQ(report.started, i == 0);
+    EXPECT_THAT(frame.T_cw, PoseNear(TruthOf(i), kRotation_rad, kPosition_m)) << "frame " << i;
+  }
+  EXPECT_GE(odometer.map.keyframes.size(), 2u);
+}
+
+TEST(PointTracking, WorksWithImagesOf160By120) {
+  const TexturedCorner world(2);
+  PointOdometer odometer(SmallCamera(160, 120));
+  for (int i = 0; i < 30; ++i) {
+    Frame frame = SeeSwinging(world, odometer.camera, i);
+    ASSERT_EQ(odometer.Step(frame).state, TrackState::kTracking) << "frame " << i;
+    // Pixels are twice as coarse.
+    EXPECT_THAT(frame.T_cw, PoseNear(TruthOf(i), 2 * kRotation_rad, 2 * kPosition_m))
+        << "frame " << i;
+  }
+}
+
+TEST(PointTracking, SaysLostOnABlackFrameAndFindsItselfAgainLater) {
+  const TexturedCorner world;
+  PointOdometer odometer(SmallCamera());
+  for (int i = 0; i < 40; ++i) {
+    Frame frame = SeeSwinging(world, odometer.camera, i);
+    const bool black = i >= 20 && i < 28;
+    if (black) frame.gray.setTo(0);
+    const PointTrackReport report = odometer.Step(frame);
+    if (black) {
+      EXPECT_EQ(report.state, TrackState::kLost) << "frame " << i;
+      EXPECT_THAT(frame.T_cw, PoseNear(Pose{}, 0, 0));
+    } else {
+      ASSERT_EQ(report.state, TrackState::kTracking) << "frame " << i;
+      EXPECT_EQ(report.by_relocalising, i == 28) << "frame " << i;
+      EXPECT_THAT(frame.T_cw, PoseNear(TruthOf(i), kRotation_rad, kPosition_m))
+          << "frame " << i;
+    }
+  }
+}
+
+TEST(PointTracking, FindsItselfAfterAJumpThatNoPredictionBridges) {
+  const TexturedCorner world;
+  PointOdometer odometer(SmallCamera());
+  for (int i = 0; i < 10; ++i) {
+    Frame frame = SeeSwinging(world, odometer.camera, i);
+    odometer.Step(frame);
+  }
+  const Pose jumped = Pose{ExpSo3({0.02, 0.2, 0.5}), {0.1, 0.05, 0.05}} * SwingingPose(0);
+  Frame frame = world.See(odometer.camera, jumped, 10);
+  ASSERT_EQ(odometer.Step(frame).state, TrackState::kTracking);
+  EXPECT_THAT(frame.T_cw,
+              PoseNear(jumped * Inverse(SwingingPose(0)), kRotation_rad, kPosition_m));
+}
+
+TEST(PointTracking, StaysLostInAWorldItHasNeverSeen) {
+  const TexturedCorner world(1), other(99);
+  PointOdometer odometer(SmallCamera());
+  for (int i = 0; i < 25; ++i) {
+    const bool elsewhere = i >= 10;
+    Frame frame = SeeSwinging(elsewhere ? other : world, odometer.camera, i);
+    const PointTrackReport report = odometer.Step(frame);
+    EXPECT_EQ(report.state, elsewhere ? TrackState::kLost : TrackState::kTracking)
+        << "frame " << i << " inliers " << report.inliers;
+  }
+}
+
+TEST(PointTracking, WaitsForAFrameWithDepthBeforeItStarts) {
+  const TexturedCorner world;
+  PointOdometer odometer(SmallCamera());
+  for (int i = 0; i < 6; ++i) {
+    Frame frame = SeeSwinging(world, odometer.camera, i);
+    if (i < 2) frame.depth_m.setTo(0);
+    if (i == 2) frame.gray.setTo(0);
+    const PointTrackReport report = odometer.Step(frame);
+    EXPECT_EQ(report.state, i < 3 ? TrackState::kInitialising : TrackState::kTracking);
+    EXPECT_EQ(report.started, i == 3);
+  }
+}
+
+TEST(PointTracking, GoesOnWithoutDepthOnceItHasAMap) {
+  const TexturedCorner world;
+  PointOdometer odometer(SmallCamera());
+  for (int i = 0; i < 12; ++i) {
+    Frame frame = SeeSwinging(world, odometer.camera, i);
+    if (i >= 5) frame.depth_m.setTo(0);
+    ASSERT_EQ(odometer.Step(frame).state, TrackState::kTracking) << "frame " << i;
+    EXPECT_THAT(frame.T_cw, PoseNear(TruthOf(i), kRotation_rad, kPosition_m)) << "frame " << i;
+  }
+}
+
+TEST(PointTracking, StandsStillWhenTheFrameRepeats) {
+  const TexturedCorner world;
+  PointOdometer odometer(SmallCamera());
+  for (int i = 0; i < 10; ++i) {
+    Frame frame = world.See(odometer.camera, Pose{}, i);
+    ASSERT_EQ(odometer.Step(frame).state, TrackState::kTracking);
+    EXPECT_THAT(frame.T_cw, PoseNear(Pose{}, 1e-6, 1e-6));
+  }
+  EXPECT_EQ(odometer.map.keyframes.size(), 1u);
+}
+
+TEST(PointTracking, GoesOnByMotionWhenTheMapIsMovedUnderIt) {
+  const TexturedCorner world;
+  PointOdometer odometer(SmallCamera());
+  const Pose T_new_old{ExpSo3({0.3, -0.5, 0.2}), {1.0, -2.0, 0.5}};
+  for (int i = 0; i < 12; ++i) {
+    if (i == 5 || i == 8) {  // as closing a loop does
+      for (Keyframe& keyframe : odometer.map.keyframes) {
+        keyframe.T_cw = keyframe.T_cw * Inverse(T_new_old);
+      }
+      for (MapPoint& point : odometer.map.points) {
+        point.p_w = T_new_old * point.p_w;
+        point.view_w = T_new_old.R * point.view_w;
+      }
+      odometer.tracking.FollowMap(odometer.map);
+    }
+    Frame frame = SeeSwinging(world, odometer.camera, i);
+    const PointTrackReport report = odometer.Step(frame);
+    ASSERT_EQ(report.state, TrackState::kTracking) << "frame " << i;
+    EXPECT_EQ(report.by_motion, i > 0) << "frame " << i;
+    Pose back_cw = frame.T_cw;  // in the world as it was at first
+    for (const int moved : {5, 8}) {
+      if (i >= moved) back_cw = back_cw * T_new_old;
+    }
+    EXPECT_THAT(back_cw, PoseNear(TruthOf(i), kRotation_rad, kPosition_m)) << "frame " << i;
+  }
+}
+
+TEST(PointTracking, CountsOnItsPointsInWhichFramesTheyShouldBeSeenAndAre) {
+  const TexturedCorner world;
+  PointOdometer odometer(SmallCamera());
+  const auto counts = [&] {
+    std::pair<int, int> sums{0, 0};
+    for (const MapPoint& point : odometer.map.points) {
+      sums.first += point.visible_count, sums.second += point.found_count;
+    }
+    return sums;
+  };
+  for (int i = 0; i < 6; ++i) {
+    Frame frame = SeeSwinging(world, odometer.camera, i);
+    frame.features = ExtractPointFeatures(frame.gray, frame.depth_m, odometer.camera, {});
+    const auto [visible, found] = counts();
+    const PointTrackReport report = odometer.tracking.TrackPoints(frame, odometer.map);
+    if (i > 0) {
+      EXPECT_EQ(counts().first - visible, report.local_points);
+      EXPECT_EQ(counts().second - found, report.inliers);
+      EXPECT_GT(report.local_points, report.inliers);
+    } else {
+      InsertKeyframe(frame, odometer.map, odometer.camera, odometer.mapping.keyframes);
+    }
+    odometer.tracking.Accept(frame, odometer.map);
+  }
+}
+
+TEST(PointTracking, GivesTheSameBytesTwice) {
+  const TexturedCorner world;
+  PointOdometer first(SmallCamera()), second(SmallCamera());
+  for (int i = 0; i < 25; ++i) {
+    Frame a = SeeSwinging(world, first.camera, i), b = SeeSwinging(world, second.camera, i);
+    if (i == 12) a.gray.setTo(0), b.gray.setTo(0);  // through relocalisation as well
+    first.Step(a);
+    second.Step(b);
+    EXPECT_EQ(a.T_cw.R, b.T_cw.R);
+    EXPECT_EQ(a.T_cw.t, b.T_cw.t);
+    EXPECT_EQ(a.map_points, b.map_points);
+  }
+}
+
+}  // namespace
+}  // namespace slam
