@@ -10,7 +10,7 @@
 #include "sim/scene/check.h"
 #include "sim/scene/scene_file.h"
 #include "sim/scene/steps.h"
-#include "slam/associate/plane_plane.h"
+#include "slam/associate/associate_planes.h"
 #include "slam/faces/process_planes.h"
 #include "slam/mapping/plane_update.h"
 #include "slam/segment/plane_segments.h"
@@ -222,8 +222,8 @@ eval::DecisionCounts AssociateAtTruePoses(const sim::Scene& scene,
     slam::ProcessPlanes(frame, camera, {});
     frame.T_cw = live::PoseOf(at.T_wc);
     frame.map_points.assign(frame.features.size(), slam::kNone);
-    slam::AssociatePlanes(frame, map, camera, {});
-    slam::UpdatePlanes(frame, map, camera, {});
+    frame.plane_matches = slam::AssociatePlanes(frame, map, camera, {}).matches;
+    slam::UpdatePlanes(frame, map, camera, {}, {});
     live::AppendRecords(frame, live::TruthOf(frame, simulated, scene), records);
   }
   std::erase_if(records, [&](const eval::AssociationRecord& record) {

@@ -5,9 +5,10 @@
 #include <numeric>
 
 #include "property_tests/generators/planes.h"
+#include "slam/associate/associate_planes.h"
 #include "slam/associate/plane_assignment.h"
-#include "slam/associate/plane_plane.h"
 #include "slam/mapping/plane_update.h"
+#include "tests/support/map_surfaces.h"
 #include "tests/support/plane_world.h"
 
 namespace slam {
@@ -17,7 +18,7 @@ constexpr double kMargin = 1.0;
 
 struct Problem {
   int frames = 0, maps = 0;
-  std::vector<PlaneCandidate> candidates;
+  std::vector<AdmissiblePair> pairs;
   PlaneRelations relations;
 };
 
@@ -27,7 +28,7 @@ Problem AnyProblem() {
   p.maps = AnyInt(1, 7);
   for (int f = 0; f < p.frames; ++f) {
     for (int m = 0; m < p.maps; ++m) {
-      if (AnyInt(0, 2) > 0) p.candidates.push_back({f, m, AnyReal(0, 12)});
+      if (AnyInt(0, 2) > 0) p.pairs.push_back({f, m, AnyReal(0, 12)});
     }
   }
   const auto n = static_cast<std::size_t>(p.frames);
@@ -54,11 +55,11 @@ RC_GTEST_PROP(PlaneAssignment, PermutingPlanesPermutesTheAnswer, ()) {
   const Problem p = AnyProblem();
   const auto to = AnyPermutation(p.frames), map_to = AnyPermutation(p.maps);
   Problem q = p;
-  for (PlaneCandidate& c : q.candidates) {
+  for (AdmissiblePair& c : q.pairs) {
     c.frame_plane = to[static_cast<std::size_t>(c.frame_plane)];
     c.map_plane = map_to[static_cast<std::size_t>(c.map_plane)];
   }
-  std::reverse(q.candidates.begin(), q.candidates.end());
+  std::reverse(q.pairs.begin(), q.pairs.end());
   for (std::size_t f = 0; f < to.size(); ++f) {
     for (std::size_t g = 0; g < to.size(); ++g) {
       q.relations
@@ -66,8 +67,8 @@ RC_GTEST_PROP(PlaneAssignment, PermutingPlanesPermutesTheAnswer, ()) {
           p.relations.one_surface[f][g];
     }
   }
-  const auto a = AssignPlanes(p.frames, p.candidates, p.relations, kMargin);
-  const auto b = AssignPlanes(q.frames, q.candidates, q.relations, kMargin);
+  const auto a = AssignPlanes(p.frames, p.pairs, p.relations, kMargin);
+  const auto b = AssignPlanes(q.frames, q.pairs, q.relations, kMargin);
   for (std::size_t f = 0; f < to.size(); ++f) {
     const int m = a.map_plane[f];
     RC_ASSERT(b.map_plane[static_cast<std::size_t>(to[f])] ==
@@ -77,7 +78,7 @@ RC_GTEST_PROP(PlaneAssignment, PermutingPlanesPermutesTheAnswer, ()) {
 
 RC_GTEST_PROP(PlaneAssignment, OnlyPiecesOfOneSurfaceShareALandmark, ()) {
   const Problem p = AnyProblem();
-  const auto a = AssignPlanes(p.frames, p.candidates, p.relations, kMargin);
+  const auto a = AssignPlanes(p.frames, p.pairs, p.relations, kMargin);
   for (std::size_t f = 0; f < a.map_plane.size(); ++f) {
     for (std::size_t g = f + 1; g < a.map_plane.size(); ++g) {
       if (a.map_plane[f] >= 0 && a.map_plane[f] == a.map_plane[g]) {
@@ -91,13 +92,13 @@ RC_GTEST_PROP(PlaneAssignment, TwoLandmarksThatFitAlikeGiveNoDecision, ()) {
   Problem p;
   p.frames = 1;
   const double cost = AnyReal(0, 10);
-  p.candidates = {{0, 0, cost}, {0, 1, cost + AnyReal(0, 0.99) * kMargin}};
+  p.pairs = {{0, 0, cost}, {0, 1, cost + AnyReal(0, 0.99) * kMargin}};
   p.relations.one_surface = {{false}};
-  if (AnyInt(0, 1)) std::swap(p.candidates[0], p.candidates[1]);
-  const auto a = AssignPlanes(1, p.candidates, p.relations, kMargin);
+  if (AnyInt(0, 1)) std::swap(p.pairs[0], p.pairs[1]);
+  const auto a = AssignPlanes(1, p.pairs, p.relations, kMargin);
   RC_ASSERT(a.map_plane[0] == PlaneAssignment::kAmbiguous);
   p.relations.duplicates = {{0, 1}};
-  RC_ASSERT(AssignPlanes(1, p.candidates, p.relations, kMargin).map_plane[0] >= 0);
+  RC_ASSERT(AssignPlanes(1, p.pairs, p.relations, kMargin).map_plane[0] >= 0);
 }
 
 RC_GTEST_PROP(PlaneAssignment, WhereNothingCompetesEveryPlaneGetsItsBest, ()) {
@@ -107,10 +108,10 @@ RC_GTEST_PROP(PlaneAssignment, WhereNothingCompetesEveryPlaneGetsItsBest, ()) {
   p.relations.one_surface.assign(n, std::vector<bool>(n, false));
   const auto order = AnyPermutation(p.frames);
   for (int f = 0; f < p.frames; ++f) {
-    p.candidates.push_back({f, order[static_cast<std::size_t>(f)], AnyReal(0, 5)});
-    p.candidates.push_back({f, 50 + f, AnyReal(5 + kMargin, 12)});
+    p.pairs.push_back({f, order[static_cast<std::size_t>(f)], AnyReal(0, 5)});
+    p.pairs.push_back({f, 50 + f, AnyReal(5 + kMargin, 12)});
   }
-  const auto a = AssignPlanes(p.frames, p.candidates, p.relations, kMargin);
+  const auto a = AssignPlanes(p.frames, p.pairs, p.relations, kMargin);
   RC_ASSERT(a.map_plane == order);
 }
 
@@ -137,7 +138,7 @@ Views AnyViews() {
   const ViewFaults faults{1.0, 0.3, 1.0, 0.003, 0.002};
   const Pose one = LookAt({AnyReal(-.2, .2), -0.8, AnyReal(.5, .8)}, {0, 0, 0});
   SeenWorld first = See(world, one, v.camera, faults, Random{seed});
-  UpdatePlanes(first.frame, v.map, v.camera, config);
+  UpdatePlanes(first.frame, v.map, v.camera, {}, config);
   const Pose two = LookAt({AnyReal(-.2, .2), -0.8, AnyReal(.5, .8)}, {0, 0, 0});
   v.second = See(world, two, v.camera, faults, Random{seed, 1}).frame;
   return v;
@@ -150,7 +151,7 @@ bool SameDecision(const PlaneMatch& a, const PlaneMatch& b) {
 RC_GTEST_PROP(PlaneAssociation, DoesNotDependOnWhereTheWorldLies, ()) {
   Views v = AnyViews();
   Frame moved = v.second;
-  AssociatePlanes(v.second, v.map, v.camera, {});
+  v.second.plane_matches = AssociatePlanes(v.second, v.map, v.camera, {}).matches;
   const Pose T_vw = AnyPose(5);
   const Pose T_wv = Inverse(T_vw);
   moved.T_cw = moved.T_cw * T_wv;
@@ -165,7 +166,7 @@ RC_GTEST_PROP(PlaneAssociation, DoesNotDependOnWhereTheWorldLies, ()) {
       for (Eigen::Vector3d& p_w : *cloud) p_w = T_vw * p_w;
     }
   }
-  AssociatePlanes(moved, v.map, v.camera, {});
+  moved.plane_matches = AssociatePlanes(moved, v.map, v.camera, {}).matches;
   for (std::size_t f = 0; f < moved.planes.size(); ++f) {
     RC_ASSERT(SameDecision(v.second.plane_matches[f], moved.plane_matches[f]));
   }
@@ -185,8 +186,8 @@ RC_GTEST_PROP(PlaneAssociation, DoesNotDependOnTheOrderOfTheFramesPlanes, ()) {
     if (label > 0)
       label = static_cast<unsigned char>(to[static_cast<std::size_t>(label - 1)] + 1);
   }
-  AssociatePlanes(v.second, v.map, v.camera, {});
-  AssociatePlanes(other, v.map, v.camera, {});
+  v.second.plane_matches = AssociatePlanes(v.second, v.map, v.camera, {}).matches;
+  other.plane_matches = AssociatePlanes(other, v.map, v.camera, {}).matches;
   for (std::size_t f = 0; f < to.size(); ++f) {
     RC_ASSERT(SameDecision(v.second.plane_matches[f],
                            other.plane_matches[static_cast<std::size_t>(to[f])]));
@@ -196,18 +197,17 @@ RC_GTEST_PROP(PlaneAssociation, DoesNotDependOnTheOrderOfTheFramesPlanes, ()) {
 RC_GTEST_PROP(PlaneAssociation, ALandmarkFarAwayChangesNothing, ()) {
   Views v = AnyViews();
   Frame again = v.second;
-  AssociatePlanes(v.second, v.map, v.camera, {});
-  MapPlane far = v.map.planes.front();
+  v.second.plane_matches = AssociatePlanes(v.second, v.map, v.camera, {}).matches;
+  MapPlane far = *v.map.planes.begin();
   const Pose away{Eigen::Matrix3d::Identity(), {50, AnyReal(-5, 5), AnyReal(5, 9)}};
-  far.id = static_cast<int>(v.map.planes.size());
   far.pi_w = Transform(away, far.pi_w);
   far.centroid_w = away * far.centroid_w;
   far.estimate.origin_w = away * far.estimate.origin_w;
   for (auto* cloud : {&far.points_w, &far.hull_w}) {
     for (Eigen::Vector3d& p_w : *cloud) p_w = away * p_w;
   }
-  v.map.planes.push_back(far);
-  AssociatePlanes(again, v.map, v.camera, {});
+  AddLandmark(v.map, far);
+  again.plane_matches = AssociatePlanes(again, v.map, v.camera, {}).matches;
   for (std::size_t f = 0; f < again.planes.size(); ++f) {
     RC_ASSERT(SameDecision(v.second.plane_matches[f], again.plane_matches[f]));
   }

@@ -32,7 +32,7 @@ RC_GTEST_PROP(LocalBundleLaws, FindsTheTrueMapAgainFromADisturbedOne, ()) {
   LocalBundleConfig config;
   config.last_iterations = 30;
   const int newest = static_cast<int>(map.keyframes.size()) - 1;
-  RC_ASSERT(AdjustLocalBundle(map, newest, truth.camera, config).usable);
+  RC_ASSERT(AdjustLocalBundle(map, newest, truth.camera, FeatureScale{}, config).usable);
   for (const Keyframe& keyframe : map.keyframes) {
     const Pose& T_cw = truth.map.keyframes[static_cast<std::size_t>(keyframe.id)].T_cw;
     RC_ASSERT(RotationAngle(keyframe.T_cw, T_cw) < 1e-4);
@@ -53,8 +53,8 @@ RC_GTEST_PROP(LocalBundleLaws, MovesTheMapTheSameWayWhereverTheWorldOriginLies, 
   const int newest = static_cast<int>(here.keyframes.size()) - 1;
   LocalBundleConfig config;
   config.last_iterations = 30;
-  AdjustLocalBundle(here, newest, truth.camera, config);
-  AdjustLocalBundle(there, newest, truth.camera, config);
+  AdjustLocalBundle(here, newest, truth.camera, FeatureScale{}, config);
+  AdjustLocalBundle(there, newest, truth.camera, FeatureScale{}, config);
   for (std::size_t k = 0; k < here.keyframes.size(); ++k) {
     const Pose expected = here.keyframes[k].T_cw * T_wv;
     RC_ASSERT(RotationAngle(expected, there.keyframes[k].T_cw) < 1e-4);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "slam/associate/plane_gates.h"
+#include "slam/pose/pose_prior.h"
 
 namespace slam {
 
@@ -15,9 +16,7 @@ struct AssociationConfig {
   AssociationRule rule = AssociationRule::kIntegrated;
   PlaneGateConfig gates;  ///< the parameter rule's; its angle also bounds the integrated rule
 
-  // What the predicted pose is worth before the planes speak; standard deviations.
-  double pose_sigma_m = 0.006;    ///< domain (0, inf)
-  double pose_sigma_rad = 0.004;  ///< domain (0, inf)
+  PosePrior prior;
   // Errors of a measured or a mapped plane that do not average out (calibration, quantisation).
   double offset_floor_m = 0.0012;  ///< domain (0, inf)
   double angle_floor_rad = 0.006;  ///< domain (0, inf)

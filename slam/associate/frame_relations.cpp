@@ -4,7 +4,7 @@
 #include <cmath>
 #include <optional>
 
-#include "slam/associate/plane_evidence.h"
+#include "slam/associate/plane_comparison.h"
 #include "slam/associate/side_by_side.h"
 
 namespace slam {

@@ -5,7 +5,7 @@
 
 namespace slam {
 
-Result<GateEvidence, GateRefusal> TestPlaneGates(const Plane& pi_c,
+Result<GateEvidence, PairRefusal> TestPlaneGates(const Plane& pi_c,
                                                  const Eigen::Vector3d& centroid_c,
                                                  std::span<const Eigen::Vector3d> edge_points_c,
                                                  const Plane& pi_w, const Pose& T_cw,
@@ -13,8 +13,8 @@ Result<GateEvidence, GateRefusal> TestPlaneGates(const Plane& pi_c,
   const Plane map_pi_c = Transform(T_cw, pi_w);  // the map plane, where we now stand
 
   const double beta = Angle(pi_c.n, map_pi_c.n);  // eq6
-  if (!(beta < config.max_normal_angle_rad)) return GateRefusal::kNormalAngle;
-  if (edge_points_c.empty()) return GateRefusal::kNoEdgePoints;
+  if (!(beta < config.max_normal_angle_rad)) return PairRefusal::kNormalAngle;
+  if (edge_points_c.empty()) return PairRefusal::kNoEdgePoints;
 
   const double offset = std::abs(SignedDistance(map_pi_c, centroid_c));  // eq7
   const auto near = [&](const Eigen::Vector3d& B_c) {                    // eq8
@@ -26,7 +26,7 @@ Result<GateEvidence, GateRefusal> TestPlaneGates(const Plane& pi_c,
 
   const bool accepted =
       offset < config.max_patch_offset_m || ratio > config.min_edge_point_ratio;
-  if (!accepted) return GateRefusal::kOffsetAndEdgePoints;
+  if (!accepted) return PairRefusal::kOffsetAndEdgePoints;
   return GateEvidence{beta, offset, ratio};
 }
 

@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <span>
 
+#include "slam/associate/refusals.h"
 #include "slam/base/result.h"
 #include "slam/geometry/plane.h"
 #include "slam/geometry/pose.h"
@@ -17,9 +18,6 @@ struct PlaneGateConfig {
   double max_edge_point_distance_m = 0.05;  ///< d_T',   eq8; domain (0, inf)
   double min_edge_point_ratio = 0.5;        ///< R_T,    eq8; domain [0, 1)
 };
-
-/// Why a pair was refused. Each is counted in the report, none is logged and lost.
-enum class GateRefusal { kNormalAngle, kNoEdgePoints, kOffsetAndEdgePoints };
 
 /// Numbers behind an accepted pair, for the report.
 struct GateEvidence {
@@ -42,7 +40,7 @@ struct GateEvidence {
 /// Source: PAS-SLAM eq6 (corrected: signed cosine, so that the back of a board is not its
 /// front), eq7 (corrected: measured at the patch, so that the result does not depend on the
 /// world origin), eq8 (corrected: absolute distance). Cost: O(edge_points_c.size()).
-Result<GateEvidence, GateRefusal> TestPlaneGates(const Plane& pi_c,
+Result<GateEvidence, PairRefusal> TestPlaneGates(const Plane& pi_c,
                                                  const Eigen::Vector3d& centroid_c,
                                                  std::span<const Eigen::Vector3d> edge_points_c,
                                                  const Plane& pi_w, const Pose& T_cw,

@@ -39,7 +39,7 @@ int PlaneAt(const Frame& frame, const Eigen::Vector2i& pixel, const Eigen::Vecto
 
 std::vector<PointPlaneMatch> AssociatePointsToPlanes(const Frame& frame, const Map& map,
                                                      const Camera& camera,
-                                                     const AssociationConfig& config) {
+                                                     double max_distance_m) {
   std::vector<PointPlaneMatch> matches;
   const std::size_t count = std::min(frame.features.size(), frame.map_points.size());
   for (std::size_t i = 0; i < count; ++i) {
@@ -51,7 +51,7 @@ std::vector<PointPlaneMatch> AssociatePointsToPlanes(const Frame& frame, const M
     const Eigen::Vector2i pixel =
         RecordedPixel(camera, camera.Backproject(frame.features[i].u_px, 1.0));
     if (pixel.x() < 0) continue;
-    const int plane = PlaneAt(frame, pixel, x_c, config.max_point_plane_m);
+    const int plane = PlaneAt(frame, pixel, x_c, max_distance_m);
     if (plane >= 0) matches.push_back({id, plane});
   }
   return matches;

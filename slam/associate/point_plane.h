@@ -2,24 +2,17 @@
 
 #include <vector>
 
-#include "slam/associate/association_config.h"
 #include "slam/model/frame.h"
 #include "slam/model/map.h"
 
 namespace slam {
 
-/// A matched map point that lies on a plane of the frame.
-struct PointPlaneMatch {
-  int map_point = kNone;
-  int frame_plane = 0;
-};
-
-/// Finds the frame's matched map points that lie on its good planes: within `max_point_plane_m`
+/// Finds the frame's matched map points that lie on its good planes: within `max_distance_m`
 /// of the plane at frame.T_cw, and seen on the plane's pixels or, where the segment has a hole
 /// (print, gloss), inside the detection box that the plane belongs to and inside the plane's
 /// own box. In the order of the features. Cost: O(features x planes with a box).
 std::vector<PointPlaneMatch> AssociatePointsToPlanes(const Frame& frame, const Map& map,
                                                      const Camera& camera,
-                                                     const AssociationConfig& config);
+                                                     double max_distance_m);
 
 }  // namespace slam

@@ -122,11 +122,11 @@ RankTest TestRanks(std::span<const double> sample_c, std::span<const double> sam
   return out;
 }
 
-Result<PlaneRankTest, RankRefusal> TestPlaneRanks(std::span<const Eigen::Vector3d> points_c,
-                                                  std::span<const Eigen::Vector3d> points_w,
-                                                  const Eigen::Matrix3d& axes, int min_points) {
+std::optional<PlaneRankTest> TestPlaneRanks(std::span<const Eigen::Vector3d> points_c,
+                                            std::span<const Eigen::Vector3d> points_w,
+                                            const Eigen::Matrix3d& axes, int min_points) {
   const auto least = static_cast<std::size_t>(std::max(1, min_points));
-  if (points_c.size() < least || points_w.size() < least) return RankRefusal::kTooFewPoints;
+  if (points_c.size() < least || points_w.size() < least) return std::nullopt;
   PlaneRankTest out;
   std::vector<double> along_c(points_c.size()), along_w(points_w.size());
   for (int axis = 0; axis < 3; ++axis) {

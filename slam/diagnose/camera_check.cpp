@@ -22,10 +22,10 @@ std::string Fixed(double x, int decimals) {
 
 }  // namespace
 
-CameraCheck::CameraCheck(const Camera& given, const ScalePyramid& scales,
+CameraCheck::CameraCheck(const Camera& given, const FeatureScale& scale,
                          CameraCheckConfig config)
     : given_(given.fx, given.fy, given.cx, given.cy),
-      scales_(scales),
+      scale_(scale),
       config_(config),
       height_px_(given.height) {
   least_ << config_.least_focal * given_.head<2>(),
@@ -67,7 +67,7 @@ std::vector<TwiceSeen> CameraCheck::Common(const View& first, const View& second
     if (b == second.points.end()) break;
     if (b->id != a.id) continue;
     common.push_back({a.u_px, b->u_px, a.z_m, b->z_m,
-                      std::hypot(scales_.Scale(a.octave), scales_.Scale(b->octave))});
+                      std::hypot(scale_.Scale(a.octave), scale_.Scale(b->octave))});
   }
   return common;
 }

@@ -8,8 +8,8 @@
 
 #include "slam/diagnose/view_pair.h"
 #include "slam/geometry/camera.h"
+#include "slam/model/feature_scale.h"
 #include "slam/model/frame.h"
-#include "slam/model/scale_pyramid.h"
 
 namespace slam {
 
@@ -45,7 +45,7 @@ struct CameraEstimate {
 /// own, sigma is large and nothing is said.
 class CameraCheck {
  public:
-  CameraCheck(const Camera& given, const ScalePyramid& scales, CameraCheckConfig config = {});
+  CameraCheck(const Camera& given, const FeatureScale& scale, CameraCheckConfig config = {});
 
   /// @param frame  tracked, with its matches
   /// @returns whether the camera was found wrong by this frame for the first time
@@ -84,7 +84,7 @@ class CameraCheck {
   bool FindsWrong(int frame_index);
 
   Intrinsics given_, least_, prior_sigma_;
-  ScalePyramid scales_;
+  FeatureScale scale_;
   CameraCheckConfig config_;
   struct Moment {
     double s;

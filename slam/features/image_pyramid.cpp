@@ -20,13 +20,12 @@ PyramidImage Pad(const cv::Mat1b& image, const cv::Size& full) {
 
 }  // namespace
 
-std::vector<PyramidImage> BuildImagePyramid(const cv::Mat1b& image,
-                                            const ScalePyramid& scales) {
+std::vector<PyramidImage> BuildImagePyramid(const cv::Mat1b& image, const FeatureScale& scale) {
   std::vector<PyramidImage> octaves;
   cv::Mat1b current = image;
-  for (int o = 0; o < scales.octaves; ++o) {
-    const double scale = scales.Scale(o);
-    const cv::Size size(cvRound(image.cols / scale), cvRound(image.rows / scale));
+  for (int o = 0; o < scale.octaves; ++o) {
+    const double factor = scale.Scale(o);
+    const cv::Size size(cvRound(image.cols / factor), cvRound(image.rows / factor));
     if (std::min(size.width, size.height) < kMinSide_px) break;
     if (o > 0) {
       cv::Mat1b smaller;

@@ -3,7 +3,7 @@
 #include <opencv2/core/mat.hpp>
 #include <vector>
 
-#include "slam/model/scale_pyramid.h"
+#include "slam/model/feature_scale.h"
 
 namespace slam {
 
@@ -22,6 +22,6 @@ inline constexpr int kPyramidPadding_px = 24;
 
 /// Octaves of an 8-bit image from the finest on; stops where one would be under 24 pixels high
 /// or wide, so there may be fewer than asked for.
-std::vector<PyramidImage> BuildImagePyramid(const cv::Mat1b& image, const ScalePyramid& scales);
+std::vector<PyramidImage> BuildImagePyramid(const cv::Mat1b& image, const FeatureScale& scale);
 
 }  // namespace slam

@@ -67,12 +67,12 @@ std::vector<cv::KeyPoint> CornersOfOctave(const cv::Mat1b& image, const cv::Rect
 }
 
 /// Features wanted of each octave, in proportion to its side length.
-std::vector<int> Shares(const ScalePyramid& scales, std::size_t octaves, int count) {
+std::vector<int> Shares(const FeatureScale& scale, std::size_t octaves, int count) {
   double sum = 0.0;
-  for (std::size_t o = 0; o < octaves; ++o) sum += 1.0 / scales.Scale(static_cast<int>(o));
+  for (std::size_t o = 0; o < octaves; ++o) sum += 1.0 / scale.Scale(static_cast<int>(o));
   std::vector<int> shares;
   for (std::size_t o = 0; o < octaves; ++o) {
-    shares.push_back(cvRound(count / (sum * scales.Scale(static_cast<int>(o)))));
+    shares.push_back(cvRound(count / (sum * scale.Scale(static_cast<int>(o)))));
   }
   return shares;
 }
@@ -90,7 +90,7 @@ PointFeature MakeFeature(const cv::KeyPoint& corner, const Descriptor& descripto
   feature.descriptor = descriptor;
   if (!depth_m.empty()) feature.depth_m = DepthAt(depth_m, recorded_px, config.depth);
   if (feature.depth_m > 0) {
-    feature.right_u_px = feature.u_px.x() - config.bf_px_m / feature.depth_m;
+    feature.right_u_px = config.scale.RightU_px(feature.u_px.x(), feature.depth_m);
   }
   return feature;
 }
@@ -104,8 +104,8 @@ std::vector<PointFeature> ExtractPointFeatures(const cv::Mat1b& gray, const cv::
           "ExtractPointFeatures: the image has not the camera's size");
   Require(depth_m.empty() || depth_m.size() == gray.size(),
           "ExtractPointFeatures: the depth image has another size than the grey one");
-  const std::vector<PyramidImage> octaves = BuildImagePyramid(gray, config.scales);
-  const std::vector<int> shares = Shares(config.scales, octaves.size(), config.count);
+  const std::vector<PyramidImage> octaves = BuildImagePyramid(gray, config.scale);
+  const std::vector<int> shares = Shares(config.scale, octaves.size(), config.count);
 
   std::vector<PointFeature> features;
   features.reserve(static_cast<std::size_t>(config.count) + 16);

@@ -4,8 +4,8 @@
 
 #include "slam/features/point_depth.h"
 #include "slam/geometry/camera.h"
+#include "slam/model/feature_scale.h"
 #include "slam/model/frame.h"
-#include "slam/model/scale_pyramid.h"
 
 namespace slam {
 
@@ -15,8 +15,7 @@ struct PointFeatureConfig {
   int fast_threshold = 20;     ///< grey levels; domain [1, 254]
   int min_fast_threshold = 7;  ///< where a cell has no corner; domain [1, fast_threshold]
   int cell_px = 30;            ///< side of a cell, pixels of its octave; domain [8, inf)
-  double bf_px_m = 40.0;       ///< b f of the virtual right camera; domain (0, inf)
-  ScalePyramid scales;
+  FeatureScale scale;
   PointDepthConfig depth;
 };
 

@@ -1,27 +1,43 @@
 #pragma once
 
+#include <optional>
+
 #include "slam/features/match_features.h"
 #include "slam/geometry/camera.h"
+#include "slam/model/feature_scale.h"
 #include "slam/model/map_point.h"
-#include "slam/model/scale_pyramid.h"
 
 namespace slam {
 
 /// Where and how a map point is looked for.
 struct PointProjectionConfig {
-  ScalePyramid scales;
-  double bf_px_m = 40.0;                ///< b f of the virtual right camera
-  double min_view_cosine = 0.5;         ///< of the turn from the mean view; domain [-1, 1]
   double straight_view_cosine = 0.998;  ///< from here on the smaller radius
   double straight_radius_px = 2.5;      ///< search radius at octave 0, seen as before
   double radius_px = 4.0;               ///< ... and seen from another side
-  double range_margin = 1.2;            ///< on the range of distances; domain [1, inf)
 };
 
-/// The query for a map point from a pose, or nothing (`point` is kNone) when the point is out
-/// of sight: behind, outside the image, too near, too far, seen from behind.
-/// @param radius_factor of the configured radius
+/// How a map point should look from a pose.
+struct ExpectedView {
+  Eigen::Vector2d u_px;  ///< ideal image
+  double depth_m = 0.0;
+  int octave = 0;
+  double cosine = 1.0;  ///< between its ray and the mean view
+};
+
+/// @returns nothing when the point is out of sight: behind, outside the image, too near or too
+/// far for its octaves, or more than 60 degrees from where it was seen. Source: Mur-Artal and
+/// Tardos 2015, V-D.
+std::optional<ExpectedView> ExpectView(const MapPoint& point, const Pose& T_cw,
+                                       const Camera& camera, const FeatureScale& scale);
+
+/// The query for a map point from a pose; `point` is kNone when it is out of sight.
+/// @param radius_factor  times the configured radius
 PointQuery QueryOf(const MapPoint& point, const Pose& T_cw, const Camera& camera,
-                   double radius_factor, const PointProjectionConfig& config);
+                   const FeatureScale& scale, double radius_factor,
+                   const PointProjectionConfig& config);
+
+/// Whether a feature is where a point at p_c should be, and as far away, at 95 %.
+bool AgreesWith(const PointFeature& feature, const Eigen::Vector3d& p_c, const Camera& camera,
+                const FeatureScale& scale);
 
 }  // namespace slam

@@ -42,15 +42,14 @@ std::vector<int> Witnesses(const Map& map, const std::vector<int>& points,
 }
 
 std::unique_ptr<BundleTerm> TermOf(const PointFeature& feature, const Camera& camera,
-                                   const LocalBundleConfig& config) {
-  return std::make_unique<BundleTerm>(feature, camera, config.bf_px_m,
-                                      config.scales.Scale(feature.octave),
-                                      config.depth_sigma_px);
+                                   const FeatureScale& scale, const LocalBundleConfig& config) {
+  return std::make_unique<BundleTerm>(feature, camera, scale.bf_px_m,
+                                      scale.Scale(feature.octave), config.depth_sigma_px);
 }
 
 /// Blocks and observations of the window's keyframes and points.
-void FillWindow(const Map& map, const Camera& camera, const LocalBundleConfig& config,
-                BundleWindow& window) {
+void FillWindow(const Map& map, const Camera& camera, const FeatureScale& scale,
+                const LocalBundleConfig& config, BundleWindow& window) {
   std::map<int, std::size_t> pose_at;
   for (const int id : window.keyframes) {
     pose_at[id] = window.poses.size();
@@ -64,7 +63,7 @@ void FillWindow(const Map& map, const Camera& camera, const LocalBundleConfig& c
       const PointFeature& seen_as = map.keyframes[Index(seen_by)].features[Index(feature)];
       window.observations.push_back({seen_by, id, at->second, window.positions.size(),
                                      seen_as.depth_m > 0, true,
-                                     TermOf(seen_as, camera, config)});
+                                     TermOf(seen_as, camera, scale, config)});
     }
     window.positions.push_back({point.p_w.x(), point.p_w.y(), point.p_w.z()});
   }
@@ -74,7 +73,8 @@ void FillWindow(const Map& map, const Camera& camera, const LocalBundleConfig& c
 
 }  // namespace
 
-BundleWindow FullWindow(const Map& map, const Camera& camera, const LocalBundleConfig& config) {
+BundleWindow FullWindow(const Map& map, const Camera& camera, const FeatureScale& scale,
+                        const LocalBundleConfig& config) {
   BundleWindow window;
   if (map.keyframes.empty()) return window;
   for (const Keyframe& keyframe : map.keyframes) {
@@ -83,12 +83,12 @@ BundleWindow FullWindow(const Map& map, const Camera& camera, const LocalBundleC
   window.free_count = window.keyframes.size();
   window.keyframes.push_back(0);
   window.points = PointsOf(map, window.keyframes);
-  FillWindow(map, camera, config, window);
+  FillWindow(map, camera, scale, config, window);
   return window;
 }
 
 BundleWindow LocalWindow(const Map& map, int keyframe, const Camera& camera,
-                         const LocalBundleConfig& config) {
+                         const FeatureScale& scale, const LocalBundleConfig& config) {
   std::vector<int> inside = BestCovisible(map, keyframe, config.max_keyframes - 1);
   inside.push_back(keyframe);
   std::sort(inside.begin(), inside.end());
@@ -105,7 +105,7 @@ BundleWindow LocalWindow(const Map& map, int keyframe, const Camera& camera,
   window.free_count = inside.size();
   window.keyframes = inside;
   window.keyframes.insert(window.keyframes.end(), fixed.begin(), fixed.end());
-  FillWindow(map, camera, config, window);
+  FillWindow(map, camera, scale, config, window);
   return window;
 }
 
@@ -131,7 +131,7 @@ void CarryTheNewer(const BundleWindow& window, Map& map) {
 
 }  // namespace
 
-void MergeWindow(const BundleWindow& window, const ScalePyramid& scales, Map& map) {
+void MergeWindow(const BundleWindow& window, const FeatureScale& scale, Map& map) {
   CarryTheNewer(window, map);
   for (std::size_t i = 0; i < window.free_count; ++i) {
     map.keyframes[Index(window.keyframes[i])].T_cw = PoseOf(window.poses[i].data());
@@ -143,7 +143,7 @@ void MergeWindow(const BundleWindow& window, const ScalePyramid& scales, Map& ma
   for (const BundleWindow::Observation& o : window.observations) {
     if (!o.inlier) RemoveObservation(map, o.point, o.keyframe);
   }
-  for (const int id : window.points) UpdatePoint(map, id, scales);
+  for (const int id : window.points) UpdatePoint(map, id, scale);
 }
 
 }  // namespace slam

@@ -36,10 +36,11 @@ struct BundleWindow {
 
 /// The window of AdjustLocalBundle.
 BundleWindow LocalWindow(const Map& map, int keyframe, const Camera& camera,
-                         const LocalBundleConfig& config);
+                         const FeatureScale& scale, const LocalBundleConfig& config);
 
 /// Everything: all keyframes but the first are free.
-BundleWindow FullWindow(const Map& map, const Camera& camera, const LocalBundleConfig& config);
+BundleWindow FullWindow(const Map& map, const Camera& camera, const FeatureScale& scale,
+                        const LocalBundleConfig& config);
 
 /// Two rounds: robust, then plain without the outliers. Touches no map.
 /// @returns its report; when it is not usable the window must not be merged
@@ -48,6 +49,6 @@ LocalBundleReport SolveWindow(BundleWindow& window, const LocalBundleConfig& con
 /// Takes a usable solution over into the map. Keyframes that came meanwhile, and the points
 /// that they brought, move as the window's newest keyframe does.
 /// @pre nothing else moved poses or fused, culled or removed keyframes meanwhile
-void MergeWindow(const BundleWindow& window, const ScalePyramid& scales, Map& map);
+void MergeWindow(const BundleWindow& window, const FeatureScale& scale, Map& map);
 
 }  // namespace slam

@@ -34,7 +34,9 @@ std::vector<ExpectedPlane> ExpectPlanes(const Map& map, const Pose& T_cw, const 
                                         const PlaneMapConfig& config) {
   std::vector<ExpectedPlane> expected;
   for (const MapPlane& plane : map.planes) {
-    if (plane.merged_into || plane.observations < config.min_fused_observations) continue;
+    if (plane.status != LandmarkStatus::kLandmark ||
+        plane.observations < config.min_fused_observations)
+      continue;
     ExpectedPlane at;
     at.pi_c = Transform(T_cw, plane.pi_w);
     const double depth_m = (T_cw * plane.centroid_w).z();

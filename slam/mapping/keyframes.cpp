@@ -24,15 +24,15 @@ std::vector<int> NearestUnmatched(const Keyframe& keyframe) {
   return features;
 }
 
-void AddPointsFromDepth(Map& map, int id, const Camera& camera, const KeyframeConfig& config) {
-  const double close_m = CloseDepth(camera, config);
+void AddPointsFromDepth(Map& map, int id, const Camera& camera, const FeatureScale& scale,
+                        const KeyframeConfig& config) {
+  const double close_m = scale.CloseDepth_m(camera.fx);
   const Pose T_wc = Inverse(map.keyframes[Index(id)].T_cw);
   int added = 0;
   for (const int f : NearestUnmatched(map.keyframes[Index(id)])) {
     const PointFeature& feature = map.keyframes[Index(id)].features[Index(f)];
     if (feature.depth_m > close_m && added >= config.min_new_points) break;
-    AddPoint(map, T_wc * camera.Backproject(feature.u_px, feature.depth_m), id, f,
-             config.scales);
+    AddPoint(map, T_wc * camera.Backproject(feature.u_px, feature.depth_m), id, f, scale);
     ++added;
   }
 }
@@ -84,11 +84,8 @@ void CullKeyframe(Map& map, int id) {
 
 }  // namespace
 
-double CloseDepth(const Camera& camera, const KeyframeConfig& config) {
-  return config.close_baselines * config.bf_px_m / camera.fx;
-}
-
-int InsertKeyframe(Frame& frame, Map& map, const Camera& camera, const KeyframeConfig& config) {
+int InsertKeyframe(Frame& frame, Map& map, const Camera& camera, const FeatureScale& scale,
+                   const KeyframeConfig& config) {
   Require(frame.map_points.size() == frame.features.size(),
           "InsertKeyframe: map_points is not parallel to features");
   const int id = static_cast<int>(map.keyframes.size());
@@ -105,9 +102,9 @@ int InsertKeyframe(Frame& frame, Map& map, const Camera& camera, const KeyframeC
     const int point = CurrentPoint(map, frame.map_points[Index(f)]);
     if (point == kNone) continue;
     AddObservation(map, point, id, f);
-    UpdatePoint(map, point, config.scales);
+    UpdatePoint(map, point, scale);
   }
-  AddPointsFromDepth(map, id, camera, config);
+  AddPointsFromDepth(map, id, camera, scale, config);
   UpdateCovisibility(map, id, config);
   frame.map_points = map.keyframes[Index(id)].map_points;
   return id;
@@ -136,8 +133,9 @@ void UpdateCovisibility(Map& map, int keyframe, const KeyframeConfig& config) {
   }
 }
 
-int CullKeyframes(Map& map, int keyframe, const Camera& camera, const KeyframeConfig& config) {
-  const double close_m = CloseDepth(camera, config);
+int CullKeyframes(Map& map, int keyframe, const Camera& camera, const FeatureScale& scale,
+                  const KeyframeConfig& config) {
+  const double close_m = scale.CloseDepth_m(camera.fx);
   std::vector<int> neighbours;
   for (const auto& [other, shared] : map.keyframes[Index(keyframe)].covisible) {
     neighbours.push_back(other);

@@ -3,36 +3,31 @@
 #include <vector>
 
 #include "slam/geometry/camera.h"
+#include "slam/model/feature_scale.h"
 #include "slam/model/map.h"
-#include "slam/model/scale_pyramid.h"
 
 namespace slam {
 
 /// What a new keyframe adds, and when an old one is of no more use.
 struct KeyframeConfig {
-  ScalePyramid scales;
-  double close_baselines =
-      40.0;                    ///< a depth is trusted up to so many virtual baselines (b f / f)
-  double bf_px_m = 40.0;       ///< b f of the virtual right camera
-  int min_new_points = 100;    ///< so many points are made even from farther depths
-  int min_shared_points = 15;  ///< that make two keyframes covisible; domain [1, inf)
+  int min_new_points = 100;     ///< so many points are made even from farther depths
+  int min_shared_points = 15;   ///< that make two keyframes covisible; domain [1, inf)
   double max_redundancy = 0.9;  ///< share of points that others see as well; domain (0, 1]
   int redundant_views = 3;      ///< other keyframes that must see a point; domain [1, inf)
 };
 
-/// Depth up to which measured points are trusted, metres.
-double CloseDepth(const Camera& camera, const KeyframeConfig& config);
-
 /// Keeps the frame in the map: its matched points get an observation, its unmatched features
 /// with depth become new points, the nearest first. `frame.map_points` gets the new ids.
 /// @returns the id of the keyframe
-int InsertKeyframe(Frame& frame, Map& map, const Camera& camera, const KeyframeConfig& config);
+int InsertKeyframe(Frame& frame, Map& map, const Camera& camera, const FeatureScale& scale,
+                   const KeyframeConfig& config);
 
 /// Recounts the points that `keyframe` shares with others, in both directions.
 void UpdateCovisibility(Map& map, int keyframe, const KeyframeConfig& config);
 
 /// Culls keyframes around `keyframe` whose points others see as well and at least as finely;
 /// never the first, the newest or the one before it. @returns how many.
-int CullKeyframes(Map& map, int keyframe, const Camera& camera, const KeyframeConfig& config);
+int CullKeyframes(Map& map, int keyframe, const Camera& camera, const FeatureScale& scale,
+                  const KeyframeConfig& config);
 
 }  // namespace slam

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "slam/base/chi_square.h"
 #include "slam/mapping/bundle_window.h"
 
 namespace slam {
@@ -21,7 +22,7 @@ class Solver {
     ownership.loss_function_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
     ownership.manifold_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
     ceres::Problem problem(ownership);
-    ceres::HuberLoss stereo(std::sqrt(config_.stereo_chi2)), mono(std::sqrt(config_.mono_chi2));
+    ceres::HuberLoss stereo(std::sqrt(kChi2Of3At95)), mono(std::sqrt(kChi2Of2At95));
     PoseManifold manifold;
     for (std::size_t i = 0; i < window_.poses.size(); ++i) {
       problem.AddParameterBlock(window_.poses[i].data(), 7, &manifold);
@@ -63,7 +64,7 @@ class Solver {
   /// Observations beyond the chi-square of their kind are no inliers any more.
   void Classify() {
     for (BundleWindow::Observation& o : window_.observations) {
-      const double gate = o.stereo ? config_.stereo_chi2 : config_.mono_chi2;
+      const double gate = o.stereo ? kChi2Of3At95 : kChi2Of2At95;
       o.inlier = Residual(o).squaredNorm() <= gate;
     }
   }
@@ -116,11 +117,12 @@ LocalBundleReport SolveWindow(BundleWindow& window, const LocalBundleConfig& con
 }
 
 LocalBundleReport AdjustLocalBundle(Map& map, int keyframe, const Camera& camera,
-                                    const LocalBundleConfig& config, const MapTurn& turn) {
+                                    const FeatureScale& scale, const LocalBundleConfig& config,
+                                    const MapTurn& turn) {
   BundleWindow window;
-  turn([&] { window = LocalWindow(map, keyframe, camera, config); });
+  turn([&] { window = LocalWindow(map, keyframe, camera, scale, config); });
   const LocalBundleReport report = SolveWindow(window, config);
-  if (report.usable) turn([&] { MergeWindow(window, config.scales, map); });
+  if (report.usable) turn([&] { MergeWindow(window, scale, map); });
   return report;
 }
 

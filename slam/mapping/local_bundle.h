@@ -2,22 +2,18 @@
 
 #include "slam/geometry/camera.h"
 #include "slam/mapping/map_turn.h"
+#include "slam/model/feature_scale.h"
 #include "slam/model/map.h"
-#include "slam/model/scale_pyramid.h"
 
 namespace slam {
 
 /// Bounds and weights of the local bundle adjustment.
 struct LocalBundleConfig {
-  ScalePyramid scales;
-  double bf_px_m = 40.0;         ///< b f of the virtual right camera
   double depth_sigma_px = 0.3;   ///< of the virtual disparity, octave 0; domain (0, inf)
   int max_keyframes = 10;        ///< poses that move; domain [1, inf)
   int max_fixed_keyframes = 20;  ///< poses that hold the window in place; domain [1, inf)
   int first_iterations = 5;      ///< with Huber's weights, before outliers are left out
   int last_iterations = 5;       ///< plain, after it
-  double stereo_chi2 = 7.815;    ///< 95 % of chi-square, 3 degrees of freedom
-  double mono_chi2 = 5.991;      ///< 95 %, 2 degrees of freedom
 };
 
 /// Size and outcome of one adjustment.
@@ -37,7 +33,7 @@ struct LocalBundleReport {
 /// there are none, by the oldest of the window.
 /// @param turn  the map is needed before and after, not while the window is solved
 LocalBundleReport AdjustLocalBundle(Map& map, int keyframe, const Camera& camera,
-                                    const LocalBundleConfig& config,
+                                    const FeatureScale& scale, const LocalBundleConfig& config,
                                     const MapTurn& turn = AtOnce);
 
 }  // namespace slam

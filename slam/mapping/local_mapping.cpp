@@ -3,20 +3,21 @@
 namespace slam {
 
 LocalMappingReport MapLocally(Map& map, int keyframe, const Camera& camera,
-                              const LocalMappingConfig& config, const MapTurn& turn) {
+                              const FeatureScale& scale, const LocalMappingConfig& config,
+                              const MapTurn& turn) {
   LocalMappingReport report;
   turn([&] { report.culled_points = CullYoungPoints(map, keyframe, config.culling); });
   turn([&] {
-    report.triangulated = TriangulatePoints(map, keyframe, camera, config.triangulation);
+    report.triangulated = TriangulatePoints(map, keyframe, camera, scale, config.triangulation);
   });
   turn([&] {
-    report.fused = FusePoints(map, keyframe, camera, config.fusion);
+    report.fused = FusePoints(map, keyframe, camera, scale, config.fusion);
     UpdateCovisibility(map, keyframe, config.keyframes);
   });
-  report.bundle = AdjustLocalBundle(map, keyframe, camera, config.bundle, turn);
+  report.bundle = AdjustLocalBundle(map, keyframe, camera, scale, config.bundle, turn);
   turn([&] {
     UpdateCovisibility(map, keyframe, config.keyframes);
-    report.culled_keyframes = CullKeyframes(map, keyframe, camera, config.keyframes);
+    report.culled_keyframes = CullKeyframes(map, keyframe, camera, scale, config.keyframes);
   });
   return report;
 }

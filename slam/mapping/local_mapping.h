@@ -27,6 +27,7 @@ struct LocalMappingReport {
 /// and fused, poses and points adjusted, keyframes that add nothing culled.
 /// Source: Mur-Artal and Tardos 2017, local mapping.
 LocalMappingReport MapLocally(Map& map, int keyframe, const Camera& camera,
-                              const LocalMappingConfig& config, const MapTurn& turn = AtOnce);
+                              const FeatureScale& scale, const LocalMappingConfig& config,
+                              const MapTurn& turn = AtOnce);
 
 }  // namespace slam

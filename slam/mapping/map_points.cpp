@@ -49,7 +49,7 @@ Descriptor CentralDescriptor(const Map& map, const MapPoint& point) {
   return *best;
 }
 
-void UpdateView(const Map& map, MapPoint& point, const ScalePyramid& scales) {
+void UpdateView(const Map& map, MapPoint& point, const FeatureScale& scale) {
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
   for (const auto& [keyframe, feature] : point.observations) {
     const Pose T_wc = Inverse(KeyframeOf(map, keyframe).T_cw);
@@ -62,14 +62,14 @@ void UpdateView(const Map& map, MapPoint& point, const ScalePyramid& scales) {
   const auto& [keyframe, feature] =
       first != point.observations.end() ? *first : *point.observations.begin();
   const double distance = (KeyframeOf(map, keyframe).T_cw * point.p_w).norm();
-  point.max_distance_m = distance * scales.Scale(FeatureOf(map, keyframe, feature).octave);
-  point.min_distance_m = point.max_distance_m / scales.Scale(scales.octaves - 1);
+  point.max_distance_m = distance * scale.Scale(FeatureOf(map, keyframe, feature).octave);
+  point.min_distance_m = point.max_distance_m / scale.Scale(scale.octaves - 1);
 }
 
 }  // namespace
 
 int AddPoint(Map& map, const Eigen::Vector3d& p_w, int keyframe, int feature,
-             const ScalePyramid& scales) {
+             const FeatureScale& scale) {
   Require(SlotOf(map, keyframe, feature) == kNone, "AddPoint: the feature has a point already");
   MapPoint point;
   point.id = static_cast<int>(map.points.size());
@@ -77,7 +77,7 @@ int AddPoint(Map& map, const Eigen::Vector3d& p_w, int keyframe, int feature,
   point.first_keyframe = keyframe;
   map.points.push_back(point);
   AddObservation(map, point.id, keyframe, feature);
-  UpdatePoint(map, point.id, scales);
+  UpdatePoint(map, point.id, scale);
   return point.id;
 }
 
@@ -125,11 +125,11 @@ int ObservationWeight(const Map& map, int point) {
   return weight;
 }
 
-void UpdatePoint(Map& map, int point, const ScalePyramid& scales) {
+void UpdatePoint(Map& map, int point, const FeatureScale& scale) {
   MapPoint& p = PointOf(map, point);
   if (p.culled || p.observations.empty()) return;
   p.descriptor = CentralDescriptor(map, p);
-  UpdateView(map, p, scales);
+  UpdateView(map, p, scale);
 }
 
 int CullYoungPoints(Map& map, int keyframe, const PointCullingConfig& config) {

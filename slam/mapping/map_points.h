@@ -1,13 +1,13 @@
 #pragma once
 
+#include "slam/model/feature_scale.h"
 #include "slam/model/map.h"
-#include "slam/model/scale_pyramid.h"
 
 namespace slam {
 
 /// A new point seen by one keyframe's feature, which must have none yet. @returns its id.
 int AddPoint(Map& map, const Eigen::Vector3d& p_w, int keyframe, int feature,
-             const ScalePyramid& scales);
+             const FeatureScale& scale);
 
 /// Notes that `keyframe` sees `point` at `feature`, in both of them. Does nothing when the
 /// keyframe sees it already or the feature has another point.
@@ -28,7 +28,7 @@ int ObservationWeight(const Map& map, int point);
 
 /// Sets descriptor (the one with the least median distance to the others), mean viewing
 /// direction and range of distances from the observations.
-void UpdatePoint(Map& map, int point, const ScalePyramid& scales);
+void UpdatePoint(Map& map, int point, const FeatureScale& scale);
 
 /// Rules by which young points prove themselves.
 struct PointCullingConfig {

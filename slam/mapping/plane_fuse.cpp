@@ -2,9 +2,10 @@
 
 #include <algorithm>
 
-#include "slam/associate/plane_evidence.h"
+#include "slam/associate/plane_comparison.h"
 #include "slam/mapping/plane_cloud.h"
 #include "slam/model/class_belief.h"
+#include "slam/model/map_queries.h"
 
 namespace slam {
 namespace {
@@ -14,8 +15,8 @@ int CovisibleFrames(const MapPlane& one, const MapPlane& other) {
   return found == one.covisible.end() ? 0 : found->second;
 }
 
-bool OneSurface(const MapPlane& one, const MapPlane& other, const PlaneMapConfig& config) {
-  const AssociationConfig& a = config.association;
+bool OneSurface(const MapPlane& one, const MapPlane& other, const AssociationConfig& a,
+                const PlaneMapConfig& config) {
   if (one.observations < config.min_fused_observations ||
       other.observations < config.min_fused_observations) {
     return false;
@@ -80,6 +81,7 @@ void Fuse(MapPlane& into, MapPlane& from, const PlaneMapConfig& config) {
   into.first_seen_s = std::min(into.first_seen_s, from.first_seen_s);
   into.last_frame = std::max(into.last_frame, from.last_frame);
   into.last_seen_s = std::max(into.last_seen_s, from.last_seen_s);
+  from.status = LandmarkStatus::kMerged;
   from.merged_into = into.id;
   // What a fused plane held is held by the other now.
   from.points_w.clear();
@@ -94,9 +96,9 @@ void MoveCovisibility(Map& map, int from, int into) {
     if (m.id != into) m.covisible[into] += found->second;
     m.covisible.erase(from);
   }
-  MapPlane& gone = map.planes[static_cast<std::size_t>(from)];
+  MapPlane& gone = map.planes.At(from);
   for (const auto& [other, frames] : gone.covisible) {
-    if (other != into) map.planes[static_cast<std::size_t>(into)].covisible[other] += frames;
+    if (other != into) map.planes.At(into).covisible[other] += frames;
   }
   gone.covisible.clear();
 }
@@ -112,30 +114,26 @@ void DropCulledPoints(Map& map) {
 
 }  // namespace
 
-int ResolvePlane(const Map& map, int id) {
-  while (map.planes[static_cast<std::size_t>(id)].merged_into) {
-    id = *map.planes[static_cast<std::size_t>(id)].merged_into;
-  }
-  return id;
-}
-
-int FusePlanes(Map& map, const PlaneMapConfig& config) {
+int FusePlanes(Map& map, const AssociationConfig& association, const PlaneMapConfig& config) {
   DropCulledPoints(map);
-  if (config.association.rule == AssociationRule::kParameters) return 0;
+  std::vector<MapPlane*> landmarks;
+  for (MapPlane& m : map.planes) {
+    if (m.status == LandmarkStatus::kLandmark) landmarks.push_back(&m);
+  }
   int fused = 0;
-  for (std::size_t i = 0; i < map.planes.size(); ++i) {
-    if (map.planes[i].merged_into) continue;
-    for (std::size_t k = i + 1; k < map.planes.size(); ++k) {
-      if (map.planes[k].merged_into) continue;
-      if (!OneSurface(map.planes[i], map.planes[k], config)) continue;
-      Fuse(map.planes[i], map.planes[k], config);
-      MoveCovisibility(map, static_cast<int>(k), static_cast<int>(i));
+  for (std::size_t i = 0; i < landmarks.size(); ++i) {
+    if (landmarks[i]->status == LandmarkStatus::kMerged) continue;
+    for (std::size_t k = i + 1; k < landmarks.size(); ++k) {
+      if (landmarks[k]->status == LandmarkStatus::kMerged) continue;
+      if (!OneSurface(*landmarks[i], *landmarks[k], association, config)) continue;
+      Fuse(*landmarks[i], *landmarks[k], config);
+      MoveCovisibility(map, landmarks[k]->id, landmarks[i]->id);
       ++fused;
       k = i;  // it has grown: look at the others again
     }
   }
   for (MapPlane& m : map.planes) {
-    if (m.merged_into) m.merged_into = ResolvePlane(map, *m.merged_into);
+    if (m.status == LandmarkStatus::kMerged) m.merged_into = CurrentPlane(map, m.id);
   }
   return fused;
 }

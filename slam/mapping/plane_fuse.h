@@ -1,12 +1,10 @@
 #pragma once
 
+#include "slam/associate/association_config.h"
 #include "slam/mapping/plane_map_config.h"
 #include "slam/model/map.h"
 
 namespace slam {
-
-/// The landmark that `id` became: follows merged_into to its end.
-int ResolvePlane(const Map& map, int id);
 
 /// Fuses landmarks that are one surface: parameters agree within their uncertainty from both
 /// sides, their clouds share voxels, their classes do not contradict. Two planes often seen
@@ -14,9 +12,9 @@ int ResolvePlane(const Map& map, int id);
 /// planes that are merely in line (tops of equal boxes), because their clouds do not meet. The
 /// older landmark stays, the younger gets `merged_into`; chains are resolved to their end, and
 /// covisibility and points follow. References to culled map points are dropped.
-/// Under the parameter rule nothing is fused. Run at keyframes.
+/// Run at keyframes.
 /// @returns the number of landmarks fused into others.
 /// Source: PAS-SLAM, Local Mapping (fusion by association and covisibility).
-int FusePlanes(Map& map, const PlaneMapConfig& config);
+int FusePlanes(Map& map, const AssociationConfig& association, const PlaneMapConfig& config);
 
 }  // namespace slam

@@ -1,13 +1,9 @@
 #pragma once
 
-#include "slam/associate/association_config.h"
-
 namespace slam {
 
 /// How map planes are made, updated, kept small and fused.
 struct PlaneMapConfig {
-  AssociationConfig association;  ///< fusion asks the same questions as association
-
   // A frame plane starts a candidate only if it is trusted this far.
   int min_pixels = 400;           ///< of the segment
   double min_inlier_ratio = 0.5;  ///< after the re-fit

@@ -1,25 +1,11 @@
 #include "slam/mapping/plane_trial.h"
 
 #include <algorithm>
-#include <cstring>
 
 #include "slam/associate/plane_overlap.h"
-#include "slam/associate/plane_plane.h"
 
 namespace slam {
 namespace {
-
-bool IsGood(const FramePlane& plane, const PlaneMapConfig& config) {
-  return !plane.bad && plane.pixel_count >= config.min_pixels &&
-         plane.inlier_ratio >= config.min_inlier_ratio &&
-         plane.centroid_c.norm() < config.max_distance_m &&
-         plane.offset_sigma_m < config.max_offset_sigma_m &&
-         plane.angle_sigma_rad < config.max_angle_sigma_rad && !plane.points_c.empty();
-}
-
-bool IsUndecided(const PlaneMatch& match) {
-  return match.decision == PlaneDecision::kNone && std::strcmp(match.by, kByAmbiguous) == 0;
-}
 
 double TrialPixels(const PlaneMapConfig& config) {
   return config.trial_size * config.min_pixels;
@@ -42,26 +28,16 @@ bool LiesOnUnstructured(const MapPlane& candidate, const Frame& frame, const Cam
 
 }  // namespace
 
-TrialOutcome AskCandidates(const Frame& frame, const Map& map, const Camera& camera,
-                           const PlaneMapConfig& config) {
-  TrialOutcome out;
-  out.candidate.assign(frame.planes.size(), kNone);
-  const std::vector<PlaneMatch> shown =
-      AssociateCandidates(frame, map, camera, config.association);
-  for (std::size_t f = 0; f < frame.planes.size(); ++f) {
-    const PlaneMatch& match = frame.plane_matches[f];
-    const FramePlane& plane = frame.planes[f];
-    if (match.decision != PlaneDecision::kNone || IsUndecided(match)) continue;
-    if (!IsGood(plane, config) || IsUndecided(shown[f])) continue;
-    if (shown[f].decision == PlaneDecision::kMatched) {
-      out.candidate[f] = shown[f].map_plane;
-    } else {
-      const bool at_once = config.trial_frames <= 1 ||
-                           (map.planes.empty() && plane.pixel_count >= TrialPixels(config));
-      out.candidate[f] = at_once ? TrialOutcome::kStartsAtOnce : TrialOutcome::kStartsTrial;
-    }
-  }
-  return out;
+bool IsGood(const FramePlane& plane, const PlaneMapConfig& config) {
+  return !plane.bad && plane.pixel_count >= config.min_pixels &&
+         plane.inlier_ratio >= config.min_inlier_ratio &&
+         plane.centroid_c.norm() < config.max_distance_m &&
+         plane.offset_sigma_m < config.max_offset_sigma_m &&
+         plane.angle_sigma_rad < config.max_angle_sigma_rad && !plane.points_c.empty();
+}
+
+bool IsProofAlone(const FramePlane& plane, const PlaneMapConfig& config) {
+  return plane.pixel_count >= TrialPixels(config);
 }
 
 bool HasProvenItself(const MapPlane& candidate, const PlaneMapConfig& config) {
@@ -69,14 +45,12 @@ bool HasProvenItself(const MapPlane& candidate, const PlaneMapConfig& config) {
          candidate.seen_px >= TrialPixels(config);
 }
 
-void DropFailedCandidates(const Frame& frame, const Camera& camera,
-                          const PlaneMapConfig& config, Map& map) {
-  std::erase_if(map.plane_candidates, [&](const MapPlane& candidate) {
+void EraseFailedCandidates(const Frame& frame, const Camera& camera,
+                           const PlaneMapConfig& config, Map& map) {
+  map.planes.EraseCandidates([&](const MapPlane& candidate) {
     return MissedTooOften(candidate, frame.index, config) ||
            LiesOnUnstructured(candidate, frame, camera);
   });
-  int id = 0;
-  for (MapPlane& candidate : map.plane_candidates) candidate.id = id++;
 }
 
 }  // namespace slam

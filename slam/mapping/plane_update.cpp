@@ -4,7 +4,6 @@
 #include <cmath>
 #include <map>
 #include <set>
-#include <utility>
 
 #include "slam/geometry/pixel_projection.h"
 #include "slam/mapping/plane_cloud.h"
@@ -16,13 +15,8 @@
 namespace slam {
 namespace {
 
-/// Written at creation: the rule that found nothing.
-constexpr const char* kByNothing = "unmatched";
-
-MapPlane StartPlane(const FramePlane& plane, const Frame& frame, const Pose& T_wc,
-                    std::size_t id) {
+MapPlane StartPlane(const FramePlane& plane, const Frame& frame, const Pose& T_wc) {
   MapPlane m;
-  m.id = static_cast<int>(id);
   m.pi_w = Transform(T_wc, plane.pi_c);
   m.centroid_w = T_wc * plane.centroid_c;
   m.first_frame = frame.index;
@@ -49,8 +43,7 @@ std::vector<Eigen::Vector3d> TrueEdges(const FramePlane& plane, const Pose& T_wc
 }
 
 void UpdateParameters(MapPlane& m, const FramePlane& plane, const Pose& T_wc,
-                      const PlaneMapConfig& config) {
-  const AssociationConfig& a = config.association;
+                      const AssociationConfig& a, const PlaneMapConfig& config) {
   AddObservation(m.estimate, Transform(T_wc, plane.pi_c), T_wc * plane.centroid_c,
                  std::hypot(plane.angle_sigma_rad, a.angle_floor_rad),
                  std::hypot(plane.offset_sigma_m, a.offset_floor_m), config.keep_information);
@@ -91,13 +84,12 @@ void UpdateClass(MapPlane& m, const FramePlane& plane, const Frame& frame) {
   UpdateClassBelief(m, plane.class_name, score);
 }
 
-/// The map plane each label of the frame stands for, or kNone.
+/// The landmark that each label of the frame stands for, or kNone.
 std::vector<int> LandmarkOfPlane(const Frame& frame) {
   std::vector<int> landmark(frame.planes.size(), kNone);
   for (std::size_t f = 0; f < landmark.size(); ++f) {
-    if (frame.plane_matches[f].decision != PlaneDecision::kNone) {
-      landmark[f] = frame.plane_matches[f].map_plane;
-    }
+    const PlaneMatch& match = frame.plane_matches[f];
+    if (match.ShowsLandmark()) landmark[f] = match.map_plane;
   }
   return landmark;
 }
@@ -109,7 +101,7 @@ void UpdateCovisibility(const std::vector<int>& landmark, Map& map) {
   }
   for (const int id : seen) {
     for (const int other : seen) {
-      if (other != id) ++map.planes[static_cast<std::size_t>(id)].covisible[other];
+      if (other != id) ++map.planes.At(id).covisible[other];
     }
   }
 }
@@ -127,7 +119,7 @@ void UpdateMapPoints(const Frame& frame, const std::vector<int>& landmark, const
     if (u.x() < 0) continue;
     const auto label = static_cast<std::size_t>(frame.plane_labels(u.y(), u.x()));
     if (label == 0 || label > landmark.size() || landmark[label - 1] == kNone) continue;
-    MapPlane& m = map.planes[static_cast<std::size_t>(landmark[label - 1])];
+    MapPlane& m = map.planes.At(landmark[label - 1]);
     const MapPoint& point = map.points[static_cast<std::size_t>(id)];
     if (!point.culled && std::abs(SignedDistance(m.pi_w, point.p_w)) < max_distance_m) {
       m.map_points.insert(id);
@@ -141,8 +133,8 @@ bool HasCorners(const FramePlane& plane, const MapPlane& m) {
 }
 
 void Observe(MapPlane& m, const FramePlane& plane, const Frame& frame, const Pose& T_wc,
-             const PlaneMapConfig& config) {
-  UpdateParameters(m, plane, T_wc, config);
+             const AssociationConfig& association, const PlaneMapConfig& config) {
+  UpdateParameters(m, plane, T_wc, association, config);
   UpdateShape(m, plane, T_wc, config);
   UpdateClass(m, plane, frame);
   if (HasCorners(plane, m)) FuseVertices(m, plane.vertices_c, T_wc, config);
@@ -153,73 +145,66 @@ void Observe(MapPlane& m, const FramePlane& plane, const Frame& frame, const Pos
   m.last_seen_s = frame.timestamp_s;
 }
 
-/// Makes the candidate a landmark. @returns its id
-int Promote(const MapPlane& candidate, Map& map) {
-  map.planes.push_back(candidate);
-  map.planes.back().id = static_cast<int>(map.planes.size()) - 1;
-  return map.planes.back().id;
+/// Good planes that show nothing of the map start a candidate; or landmarks, where the map has
+/// none yet and the segment is proof enough.
+void StartCandidates(Frame& frame, const Pose& T_wc, const PlaneMapConfig& config, Map& map) {
+  const bool any_landmark =
+      std::any_of(map.planes.begin(), map.planes.end(),
+                  [](const MapPlane& m) { return m.status != LandmarkStatus::kCandidate; });
+  for (std::size_t f = 0; f < frame.planes.size(); ++f) {
+    PlaneMatch& match = frame.plane_matches[f];
+    const FramePlane& plane = frame.planes[f];
+    if (match.decision != PlaneDecision::kUnmatched ||
+        match.reason == MatchReason::kAmbiguous || !IsGood(plane, config)) {
+      continue;
+    }
+    MapPlane& m = map.planes.Add(StartPlane(plane, frame, T_wc));
+    const bool at_once =
+        config.trial_frames <= 1 || (!any_landmark && IsProofAlone(plane, config));
+    if (at_once) m.status = LandmarkStatus::kLandmark;
+    match = {at_once ? PlaneDecision::kNew : PlaneDecision::kTrial, m.id,
+             MatchReason::kNothing};
+  }
 }
 
-/// Makes landmarks of the candidates of this frame that have proven themselves. The largest
-/// segment is the one that made it: a frame decides all at once, so one can be new.
-void PromoteProven(Frame& frame, const TrialOutcome& trial, const PlaneMapConfig& config,
-                   Map& map) {
-  std::map<int, std::size_t> largest;  // by candidate
+/// Makes landmarks of the candidates in this frame that have proven themselves. The largest
+/// segment is the one that made it, so that one decision a landmark says "new".
+void PromoteProven(Frame& frame, const PlaneMapConfig& config, Map& map) {
+  std::map<int, std::size_t> largest;  // segment, by candidate
   for (std::size_t f = 0; f < frame.planes.size(); ++f) {
-    if (trial.candidate[f] < 0) continue;
-    const auto [found, first] = largest.emplace(trial.candidate[f], f);
+    const PlaneMatch& match = frame.plane_matches[f];
+    if (match.decision != PlaneDecision::kTrial || !IsGood(frame.planes[f], config)) continue;
+    const auto [found, first] = largest.emplace(match.map_plane, f);
     if (!first && frame.planes[f].pixel_count > frame.planes[found->second].pixel_count) {
       found->second = f;
     }
   }
-  std::set<int> promoted;
-  for (const auto& [candidate, f] : largest) {
-    const MapPlane& m = map.plane_candidates[static_cast<std::size_t>(candidate)];
+  for (const auto& [id, f] : largest) {
+    MapPlane& m = map.planes.At(id);
     if (!HasProvenItself(m, config)) continue;
-    frame.plane_matches[f] = {PlaneDecision::kNew, Promote(m, map), kByNothing};
-    promoted.insert(candidate);
+    m.status = LandmarkStatus::kLandmark;
+    frame.plane_matches[f].decision = PlaneDecision::kNew;
   }
-  std::erase_if(map.plane_candidates,
-                [&](const MapPlane& m) { return promoted.contains(m.id); });
-}
-
-/// Takes the frame's planes without landmark through their trial.
-void TryCandidates(Frame& frame, const Pose& T_wc, const Camera& camera,
-                   const PlaneMapConfig& config, Map& map) {
-  const TrialOutcome trial = AskCandidates(frame, map, camera, config);
-  for (std::size_t f = 0; f < frame.planes.size(); ++f) {
-    const FramePlane& plane = frame.planes[f];
-    if (trial.candidate[f] == kNone) continue;
-    frame.plane_matches[f].by = kByCandidate;
-    if (trial.candidate[f] == TrialOutcome::kStartsAtOnce) {
-      map.planes.push_back(StartPlane(plane, frame, T_wc, map.planes.size()));
-      Observe(map.planes.back(), plane, frame, T_wc, config);
-      frame.plane_matches[f] = {PlaneDecision::kNew, map.planes.back().id, kByNothing};
-    } else if (trial.candidate[f] == TrialOutcome::kStartsTrial) {
-      auto& all = map.plane_candidates;
-      all.push_back(StartPlane(plane, frame, T_wc, all.size()));
-      Observe(all.back(), plane, frame, T_wc, config);
-    } else {
-      MapPlane& m = map.plane_candidates[static_cast<std::size_t>(trial.candidate[f])];
-      Observe(m, plane, frame, T_wc, config);
-    }
-  }
-  PromoteProven(frame, trial, config, map);
-  DropFailedCandidates(frame, camera, config, map);
 }
 
 }  // namespace
 
-void UpdatePlanes(Frame& frame, Map& map, const Camera& camera, const PlaneMapConfig& config) {
+void UpdatePlanes(Frame& frame, Map& map, const Camera& camera,
+                  const AssociationConfig& association, const PlaneMapConfig& config) {
   frame.plane_matches.resize(frame.planes.size());
   const Pose T_wc = Inverse(frame.T_cw);
+  StartCandidates(frame, T_wc, config, map);
+
+  // Landmarks learn from whatever was matched with them, candidates from good planes alone.
   for (std::size_t f = 0; f < frame.planes.size(); ++f) {
     const PlaneMatch& match = frame.plane_matches[f];
-    if (match.decision == PlaneDecision::kNone) continue;
-    Observe(map.planes[static_cast<std::size_t>(match.map_plane)], frame.planes[f], frame, T_wc,
-            config);
+    if (match.decision == PlaneDecision::kUnmatched) continue;
+    if (match.decision == PlaneDecision::kTrial && !IsGood(frame.planes[f], config)) continue;
+    Observe(map.planes.At(match.map_plane), frame.planes[f], frame, T_wc, association, config);
   }
-  TryCandidates(frame, T_wc, camera, config, map);
+  PromoteProven(frame, config, map);
+  EraseFailedCandidates(frame, camera, config, map);
+
   const std::vector<int> landmark = LandmarkOfPlane(frame);
   UpdateCovisibility(landmark, map);
   UpdateMapPoints(frame, landmark, camera, config.max_point_distance_m, map);

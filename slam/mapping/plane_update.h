@@ -1,5 +1,6 @@
 #pragma once
 
+#include "slam/associate/association_config.h"
 #include "slam/mapping/plane_map_config.h"
 #include "slam/model/frame.h"
 #include "slam/model/map.h"
@@ -10,12 +11,13 @@ namespace slam {
 ///
 /// A matched plane is updated: parameters (as information), class belief, thinned cloud and
 /// boundary, outline, corners, covisibility, the map points on it. A good plane that nothing
-/// matches becomes a candidate, unless association left it undecided or it is small, far or
-/// poorly measured. A candidate becomes a landmark, and the decision `kNew`, once it has been
-/// seen in several frames and is large or seen often (plane_trial.h); while the map is empty,
-/// large planes are landmarks at once. A map plane keeps the orientation of its first
-/// observation. Memory is bounded per plane by the config. Cost: about 0.1 ms a plane in view.
-/// Source: PAS-SLAM, Local Mapping (update of map planes).
-void UpdatePlanes(Frame& frame, Map& map, const Camera& camera, const PlaneMapConfig& config);
+/// shows nothing of the map starts a candidate, unless association left it undecided or it is
+/// small, far or poorly measured. A candidate becomes a landmark, and the decision `kNew`, once
+/// it has been seen in several frames and is large or seen often (plane_trial.h); while the map
+/// has no landmark, large planes are landmarks at once. A map plane keeps the orientation of
+/// its first observation. Memory is bounded per plane by the config. Cost: about 0.1 ms a plane
+/// in view. Source: PAS-SLAM, Local Mapping (update of map planes).
+void UpdatePlanes(Frame& frame, Map& map, const Camera& camera,
+                  const AssociationConfig& association, const PlaneMapConfig& config);
 
 }  // namespace slam

@@ -3,8 +3,10 @@
 #include <Eigen/Geometry>
 #include <cmath>
 
+#include "slam/base/chi_square.h"
 #include "slam/base/index.h"
 #include "slam/features/match_features.h"
+#include "slam/features/point_projection.h"
 #include "slam/geometry/plane.h"
 #include "slam/mapping/keyframes.h"
 #include "slam/mapping/map_points.h"
@@ -32,28 +34,21 @@ double Distance2(const Eigen::Vector3d& line, const Eigen::Vector2d& u_px) {
   return d * d / line.head<2>().squaredNorm();
 }
 
-bool Agrees(const Eigen::Vector3d& p_w, const Pose& T_cw, const PointFeature& feature,
-            const Camera& camera, const TriangulationConfig& config) {
+bool AgreesInView(const Eigen::Vector3d& p_w, const Pose& T_cw, const PointFeature& feature,
+                  const Camera& camera, const FeatureScale& scale) {
   const Eigen::Vector3d p_c = T_cw * p_w;
-  if (!(p_c.z() > 0)) return false;
-  double error2 = (camera.Project(p_c) - feature.u_px).squaredNorm();
-  double gate = config.mono_chi2;
-  if (feature.depth_m > 0) {
-    const double disparity = config.bf_px_m / p_c.z() - config.bf_px_m / feature.depth_m;
-    error2 += disparity * disparity;
-    gate = config.stereo_chi2;
-  }
-  return error2 <= gate * config.scales.Variance(feature.octave);
+  return p_c.z() > 0 && AgreesWith(feature, p_c, camera, scale);
 }
 
 /// Feature of `second` without a point that fits best to one of `first`; kNone when none does.
 int EpipolarMatch(const PointFeature& feature, const Eigen::Vector3d& line,
-                  const Keyframe& second, const TriangulationConfig& config) {
+                  const Keyframe& second, const FeatureScale& scale,
+                  const TriangulationConfig& config) {
   int best = kNone, best_distance = 257, second_distance = 257;
   for (int j = 0; j < static_cast<int>(second.features.size()); ++j) {
     if (second.map_points[Index(j)] != kNone) continue;
     const PointFeature& other = second.features[Index(j)];
-    const double gate = config.epipolar_chi2 * config.scales.Variance(other.octave);
+    const double gate = kChi2Of1At95 * scale.Variance(other.octave);
     if (!(Distance2(line, other.u_px) <= gate)) continue;
     const int distance = DescriptorDistance(feature.descriptor, other.descriptor);
     if (distance < best_distance) {
@@ -69,7 +64,7 @@ int EpipolarMatch(const PointFeature& feature, const Eigen::Vector3d& line,
 }
 
 int TriangulatePair(Map& map, int first, int second, const Camera& camera,
-                    const TriangulationConfig& config) {
+                    const FeatureScale& scale, const TriangulationConfig& config) {
   const Pose T_1w = map.keyframes[Index(first)].T_cw, T_2w = map.keyframes[Index(second)].T_cw;
   const Eigen::Matrix3d F = Fundamental(T_1w, T_2w, camera);
   int made = 0;
@@ -77,18 +72,18 @@ int TriangulatePair(Map& map, int first, int second, const Camera& camera,
     if (map.keyframes[Index(first)].map_points[Index(i)] != kNone) continue;
     const PointFeature& feature = map.keyframes[Index(first)].features[Index(i)];
     const Eigen::Vector3d line = F * feature.u_px.homogeneous();
-    const int j = EpipolarMatch(feature, line, map.keyframes[Index(second)], config);
+    const int j = EpipolarMatch(feature, line, map.keyframes[Index(second)], scale, config);
     if (j == kNone) continue;
     const PointFeature& other = map.keyframes[Index(second)].features[Index(j)];
     const auto p_w =
         Triangulate(feature.u_px, T_1w, other.u_px, T_2w, camera, config.min_parallax_rad);
-    if (!p_w || !Agrees(*p_w, T_1w, feature, camera, config) ||
-        !Agrees(*p_w, T_2w, other, camera, config)) {
+    if (!p_w || !AgreesInView(*p_w, T_1w, feature, camera, scale) ||
+        !AgreesInView(*p_w, T_2w, other, camera, scale)) {
       continue;
     }
-    const int point = AddPoint(map, *p_w, first, i, config.scales);
+    const int point = AddPoint(map, *p_w, first, i, scale);
     AddObservation(map, point, second, j);
-    UpdatePoint(map, point, config.scales);
+    UpdatePoint(map, point, scale);
     ++made;
   }
   return made;
@@ -112,11 +107,11 @@ std::optional<Eigen::Vector3d> Triangulate(const Eigen::Vector2d& u_1_px, const 
   return 0.5 * (T_w1.t + s * a + T_w2.t + t * b);
 }
 
-int TriangulatePoints(Map& map, int keyframe, const Camera& camera,
+int TriangulatePoints(Map& map, int keyframe, const Camera& camera, const FeatureScale& scale,
                       const TriangulationConfig& config) {
   int made = 0;
   for (const int other : BestCovisible(map, keyframe, config.neighbours)) {
-    made += TriangulatePair(map, keyframe, other, camera, config);
+    made += TriangulatePair(map, keyframe, other, camera, scale, config);
   }
   return made;
 }

@@ -3,21 +3,17 @@
 #include <optional>
 
 #include "slam/geometry/camera.h"
+#include "slam/model/feature_scale.h"
 #include "slam/model/map.h"
-#include "slam/model/scale_pyramid.h"
 
 namespace slam {
 
 /// When two views make a point.
 struct TriangulationConfig {
-  ScalePyramid scales;
-  double bf_px_m = 40.0;           ///< b f of the virtual right camera
   int max_distance = 50;           ///< differing bits of the descriptors
   double max_ratio = 0.8;          ///< best over second best
   double min_parallax_rad = 0.02;  ///< between the two rays; domain (0, pi)
-  double epipolar_chi2 = 3.841;    ///< 95 % of chi-square, one degree of freedom
-  double mono_chi2 = 5.991, stereo_chi2 = 7.815;
-  int neighbours = 5;  ///< keyframes tried; domain [0, inf)
+  int neighbours = 5;              ///< keyframes tried; domain [0, inf)
 };
 
 /// Point nearest to the rays of two ideal pixels (midpoint of the common perpendicular), world;
@@ -28,7 +24,7 @@ std::optional<Eigen::Vector3d> Triangulate(const Eigen::Vector2d& u_1_px, const 
 
 /// Makes points of features that have none in `keyframe` and in a covisible one: matched along
 /// the epipolar line, triangulated, and kept when both views agree. @returns how many.
-int TriangulatePoints(Map& map, int keyframe, const Camera& camera,
+int TriangulatePoints(Map& map, int keyframe, const Camera& camera, const FeatureScale& scale,
                       const TriangulationConfig& config);
 
 }  // namespace slam

@@ -6,6 +6,7 @@
 #include <opencv2/core/mat.hpp>
 #include <vector>
 
+#include "slam/base/index.h"
 #include "slam/geometry/camera.h"
 #include "slam/geometry/pose.h"
 #include "slam/model/detection.h"
@@ -26,16 +27,40 @@ struct PointFeature {
 };
 
 /// What was decided for a frame plane (formats.md, frame_planes.jsonl).
-enum class PlaneDecision { kNone, kMatched, kNew };
+enum class PlaneDecision {
+  kUnmatched,
+  kMatched,  ///< it shows a landmark
+  kTrial,    ///< it shows a candidate; written as "none"
+  kNew       ///< it made its candidate a landmark
+};
 
-/// No map point, no map plane.
-inline constexpr int kNone = -1;
+/// What settled the decision: between two surfaces that both came into question, the cue that
+/// told them apart.
+enum class MatchReason {
+  kNothing,     ///< nothing of the map fits, or the plane was not asked for
+  kParameters,  ///< normal and offset: nothing else lies there
+  kOverlap,     ///< the runner-up's footprint lies elsewhere
+  kClass,       ///< the runner-up's class belief speaks against it
+  kBox,         ///< the runner-up's projected box lies farther from the detection's
+  kRankTest,    ///< the runner-up's points are distributed otherwise
+  kAmbiguous    ///< two answers are too close, or the only one is in doubt: none is given
+};
 
 /// The decision on one frame plane, as it was made in its frame.
 struct PlaneMatch {
-  PlaneDecision decision = PlaneDecision::kNone;
-  int map_plane = kNone;  ///< id of the map plane, when matched or new
-  const char* by = "";    ///< the rule that decided: "parameters", "iou", "iou+ranksum", ...
+  PlaneDecision decision = PlaneDecision::kUnmatched;
+  int map_plane = kNone;  ///< id of the map plane, kNone when unmatched
+  MatchReason reason = MatchReason::kNothing;
+
+  bool ShowsLandmark() const {
+    return decision == PlaneDecision::kMatched || decision == PlaneDecision::kNew;
+  }
+};
+
+/// A matched map point that lies on a plane of the frame.
+struct PointPlaneMatch {
+  int map_point = kNone;  ///< id
+  int frame_plane = 0;    ///< index
 };
 
 /// One RGB-D frame on its way through the stages (A) to (F).
@@ -56,6 +81,7 @@ struct Frame {
   // (D) association; parallel to `features` and `planes`
   std::vector<int> map_points;  ///< id of the matched map point, or kNone
   std::vector<PlaneMatch> plane_matches;
+  std::vector<PointPlaneMatch> point_planes;  ///< in the order of the features
 
   // (E) optimisation
   Pose T_cw;

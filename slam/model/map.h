@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "slam/model/keyframe.h"
-#include "slam/model/map_plane.h"
+#include "slam/model/map_planes.h"
 #include "slam/model/map_point.h"
 
 namespace slam {
@@ -12,10 +12,7 @@ namespace slam {
 struct Map {
   std::vector<Keyframe> keyframes;
   std::vector<MapPoint> points;
-  std::vector<MapPlane> planes;
-  /// Surfaces on trial: seen, but not often enough to be landmarks. `id` is the index here and
-  /// changes when others leave.
-  std::vector<MapPlane> plane_candidates;
+  MapPlanes planes;  ///< candidates, landmarks and those merged into others
 };
 
 }  // namespace slam

@@ -16,6 +16,11 @@ int CurrentPoint(const Map& map, int point) {
   return kNone;
 }
 
+int CurrentPlane(const Map& map, int plane) {
+  while (map.planes.At(plane).merged_into != kNone) plane = map.planes.At(plane).merged_into;
+  return plane;
+}
+
 Pose KeyframePose(const Map& map, int keyframe) {
   Pose T_ck;  // identity: from the keyframe walked to, back to the one asked for
   const Keyframe* k = &map.keyframes.at(Index(keyframe));

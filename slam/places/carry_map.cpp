@@ -65,10 +65,10 @@ void CarryPoints(Map& map, const std::vector<Pose>& before) {
 void CarryPlanes(Map& map, const std::vector<Pose>& before) {
   if (map.keyframes.empty()) return;
   for (MapPlane& plane : map.planes) {
-    MovePlane(plane, Carriage(map, before, NearestInTime(map, plane.first_frame)));
-  }
-  for (MapPlane& plane : map.plane_candidates) {
-    MovePlane(plane, Carriage(map, before, map.keyframes.back().id));
+    const bool on_trial = plane.status == LandmarkStatus::kCandidate;
+    MovePlane(plane, Carriage(map, before,
+                              on_trial ? map.keyframes.back().id
+                                       : NearestInTime(map, plane.first_frame)));
   }
 }
 

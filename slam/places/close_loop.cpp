@@ -46,7 +46,7 @@ void MoveGroup(Map& map, const Loop& loop, const std::vector<int>& group) {
 }
 
 /// The keyframe's features get the place's points; what they had is fused into them.
-int TakePlacePoints(Map& map, const Loop& loop, const LocalMappingConfig& config) {
+int TakePlacePoints(Map& map, const Loop& loop, const FeatureScale& scale) {
   int fused = 0;
   for (std::size_t f = 0; f < loop.map_points.size(); ++f) {
     const int known = CurrentPoint(map, loop.map_points[f]);
@@ -57,7 +57,7 @@ int TakePlacePoints(Map& map, const Loop& loop, const LocalMappingConfig& config
     } else {
       ReplacePoint(map, own, known);
     }
-    UpdatePoint(map, known, config.keyframes.scales);
+    UpdatePoint(map, known, scale);
     ++fused;
   }
   return fused;
@@ -95,7 +95,8 @@ void Spread(Map& map, const std::set<Pair>& ties, const std::vector<Pose>& befor
 
 /// All of it but the adjustment.
 LoopReport DrawTogether(Map& map, const Loop& loop, const Camera& camera,
-                        const LocalMappingConfig& mapping, const LoopClosingConfig& config) {
+                        const FeatureScale& scale, const LocalMappingConfig& mapping,
+                        const LoopClosingConfig& config) {
   LoopReport report;
   report.loop = loop;
   const std::vector<Pose> before = KeyframePoses(map);
@@ -107,10 +108,10 @@ LoopReport DrawTogether(Map& map, const Loop& loop, const Camera& camera,
   }
 
   MoveGroup(map, loop, group);
-  report.fused = TakePlacePoints(map, loop, mapping);
+  report.fused = TakePlacePoints(map, loop, scale);
   UpdateCovisibility(map, loop.keyframe, mapping.keyframes);
   for (const int id : group) {
-    report.fused += FusePoints(map, id, camera, mapping.fusion);
+    report.fused += FusePoints(map, id, camera, scale, mapping.fusion);
     UpdateCovisibility(map, id, mapping.keyframes);
   }
   std::set<Pair> ties_now = Ties(map, config.min_edge_points);
@@ -121,15 +122,15 @@ LoopReport DrawTogether(Map& map, const Loop& loop, const Camera& camera,
 }
 
 /// Adjusts all keyframes and points. @returns whether that was usable
-bool AdjustAll(Map& map, const Camera& camera, LocalBundleConfig config, int iterations,
-               const MapTurn& turn) {
+bool AdjustAll(Map& map, const Camera& camera, const FeatureScale& scale,
+               LocalBundleConfig config, int iterations, const MapTurn& turn) {
   BundleWindow window;
-  turn([&] { window = FullWindow(map, camera, config); });
+  turn([&] { window = FullWindow(map, camera, scale, config); });
   config.first_iterations = config.last_iterations = iterations;
   if (!SolveWindow(window, config).usable) return false;
   turn([&] {
     const std::vector<Pose> before = KeyframePoses(map);
-    MergeWindow(window, config.scales, map);
+    MergeWindow(window, scale, map);
     CarryPlanes(map, before);
   });
   return true;
@@ -138,12 +139,13 @@ bool AdjustAll(Map& map, const Camera& camera, LocalBundleConfig config, int ite
 }  // namespace
 
 LoopReport CloseLoop(Map& map, const Loop& loop, const Camera& camera,
-                     const LocalMappingConfig& mapping, const LoopClosingConfig& config,
-                     const MapTurn& turn) {
+                     const FeatureScale& scale, const LocalMappingConfig& mapping,
+                     const LoopClosingConfig& config, const MapTurn& turn) {
   LoopReport report;
-  turn([&] { report = DrawTogether(map, loop, camera, mapping, config); });
+  turn([&] { report = DrawTogether(map, loop, camera, scale, mapping, config); });
   if (config.full_iterations > 0) {
-    report.adjusted = AdjustAll(map, camera, mapping.bundle, config.full_iterations, turn);
+    report.adjusted =
+        AdjustAll(map, camera, scale, mapping.bundle, config.full_iterations, turn);
   }
   return report;
 }

@@ -27,7 +27,7 @@ struct LoopReport {
 /// once. The first keyframe, the world, stays.
 /// @param turn  the map is needed to draw it together and to take the adjustment over
 LoopReport CloseLoop(Map& map, const Loop& loop, const Camera& camera,
-                     const LocalMappingConfig& mapping, const LoopClosingConfig& config,
-                     const MapTurn& turn = AtOnce);
+                     const FeatureScale& scale, const LocalMappingConfig& mapping,
+                     const LoopClosingConfig& config, const MapTurn& turn = AtOnce);
 
 }  // namespace slam

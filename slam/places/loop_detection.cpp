@@ -41,6 +41,7 @@ Frame AsLost(const Keyframe& keyframe) {
 /// Adds matches with the points around the place and finds the pose from all of them.
 /// @returns inliers
 int LookAround(Frame& frame, const Map& map, const std::vector<int>& own, const Camera& camera,
+               const FeatureScale& scale, const PointSearchConfig& search,
                const LoopDetectionConfig& config) {
   constexpr int kKeyframes = 20;
   const LocalMap local = GatherLocalMap(frame, map, kKeyframes);
@@ -53,8 +54,8 @@ int LookAround(Frame& frame, const Map& map, const std::vector<int>& own, const 
   std::vector<PointQuery> queries;
   for (const int id : local.points) {
     if (matched.count(id) != 0 || std::binary_search(own.begin(), own.end(), id)) continue;
-    const PointQuery query = QueryOf(map.points[Index(id)], frame.T_cw, camera,
-                                     config.radius_factor, config.projection);
+    const PointQuery query = QueryOf(map.points[Index(id)], frame.T_cw, camera, scale,
+                                     config.radius_factor, search.projection);
     if (query.point != kNone) queries.push_back(query);
   }
   const FeatureGrid grid(frame.features, camera);
@@ -63,7 +64,7 @@ int LookAround(Frame& frame, const Map& map, const std::vector<int>& own, const 
   for (std::size_t f = 0; f < matches.size(); ++f) {
     if (matches[f] != kNone) frame.map_points[f] = queries[Index(matches[f])].point;
   }
-  return OptimiseByPoints(frame, map, camera, config.projection.scales, config.pose);
+  return OptimiseByPoints(frame, map, camera, scale, search.pose);
 }
 
 /// Whether so much can have drifted on the way from the place to the keyframe.
@@ -82,7 +83,9 @@ bool CanHaveDrifted(const Map& map, const Loop& loop, const LoopDetectionConfig&
 }  // namespace
 
 std::optional<Loop> DetectLoop(const Map& map, const KeyframeIndex& index, int keyframe,
-                               const Camera& camera, const LoopDetectionConfig& config) {
+                               const Camera& camera, const FeatureScale& scale,
+                               const PointSearchConfig& search,
+                               const LoopDetectionConfig& config) {
   const Keyframe& now = map.keyframes[Index(keyframe)];
   const double least =
       config.min_likeness_ratio * LeastLikenessToNeighbours(map, index, keyframe);
@@ -93,19 +96,19 @@ std::optional<Loop> DetectLoop(const Map& map, const KeyframeIndex& index, int k
   std::sort(own.begin(), own.end());
 
   std::vector<Loop> found;
-  const std::vector<LikeKeyframe> like = index.Like(
-      index.Bag(keyframe), map, Surroundings(map, keyframe), config.relocalise.likeness);
+  const std::vector<LikeKeyframe> like =
+      index.Like(index.Bag(keyframe), map, Surroundings(map, keyframe), search.place.likeness);
   int asked = 0;
   for (const LikeKeyframe& candidate : like) {
     if (candidate.likeness < least || candidate.keyframe > keyframe) continue;
-    if (++asked > config.relocalise.max_keyframes) break;
+    if (++asked > search.place.max_keyframes) break;
     Frame frame = AsLost(now);
-    const auto seen = RelocaliseBy(map.keyframes[Index(candidate.keyframe)], frame, map, camera,
-                                   config.projection.scales, config.pose, config.relocalise);
+    const auto seen =
+        FindPose(map.keyframes[Index(candidate.keyframe)], frame, map, camera, scale, search);
     if (!seen) continue;
     frame.T_cw = seen->T_cw;
     frame.map_points = seen->map_points;
-    const int inliers = LookAround(frame, map, own, camera, config);
+    const int inliers = LookAround(frame, map, own, camera, scale, search, config);
     if (inliers < config.min_inliers) continue;
     found.push_back({keyframe, candidate.keyframe, frame.T_cw, frame.map_points, inliers});
   }
@@ -114,8 +117,8 @@ std::optional<Loop> DetectLoop(const Map& map, const KeyframeIndex& index, int k
       *std::max_element(found.begin(), found.end(),
                         [](const Loop& a, const Loop& b) { return a.inliers < b.inliers; });
   for (const Loop& rival : found) {
-    if (rival.inliers >= config.relocalise.max_rival_ratio * best.inliers &&
-        !SamePose(rival.T_cw, best.T_cw, config.relocalise)) {
+    if (rival.inliers >= search.place.max_rival_ratio * best.inliers &&
+        !SamePose(rival.T_cw, best.T_cw, search.place)) {
       return std::nullopt;
     }
   }

@@ -3,7 +3,6 @@
 #include <optional>
 #include <vector>
 
-#include "slam/features/point_projection.h"
 #include "slam/model/local_map.h"
 #include "slam/places/keyframe_index.h"
 #include "slam/places/place_search.h"
@@ -12,9 +11,6 @@ namespace slam {
 
 /// When a keyframe shows a place that the map holds already.
 struct LoopDetectionConfig {
-  RelocaliseConfig relocalise;  ///< how the place is looked for
-  PoseProblemConfig pose;
-  PointProjectionConfig projection;  ///< of the place's points, once it is found
   PointMatchConfig match{50, 0.9, false};
   double radius_factor = 3.0;  ///< on the projection's radius
   /// Likeness wanted, as a share of the least that the keyframe has to its own neighbours;
@@ -43,6 +39,8 @@ struct Loop {
 /// Source: Mur-Artal and Tardos 2014 (words), 2017 (SE(3), since depth gives the scale).
 /// @param index  up to date with the map
 std::optional<Loop> DetectLoop(const Map& map, const KeyframeIndex& index, int keyframe,
-                               const Camera& camera, const LoopDetectionConfig& config);
+                               const Camera& camera, const FeatureScale& scale,
+                               const PointSearchConfig& search,
+                               const LoopDetectionConfig& config);
 
 }  // namespace slam

@@ -19,7 +19,7 @@ struct Correspondences {
 };
 
 Correspondences Correspond(const Frame& frame, const Keyframe& keyframe, const Map& map,
-                           const Camera& camera, const ScalePyramid& scales,
+                           const Camera& camera, const FeatureScale& scale,
                            const PointMatchConfig& match) {
   std::vector<bool> has_point(keyframe.features.size());
   for (std::size_t f = 0; f < has_point.size(); ++f) {
@@ -32,7 +32,7 @@ Correspondences Correspond(const Frame& frame, const Keyframe& keyframe, const M
     found.features.push_back(pair.first);
     found.points.push_back(point);
     const PointFeature& feature = frame.features[Index(pair.first)];
-    found.constraints.push_back(ConstraintOf(feature, map.points[Index(point)].p_w, scales));
+    found.constraints.push_back(ConstraintOf(feature, map.points[Index(point)].p_w, scale));
     found.measured_c.push_back(camera.Backproject(feature.u_px, feature.depth_m));
   }
   return found;
@@ -112,7 +112,7 @@ struct Agreement {
 std::optional<Agreement> Ransac(const std::vector<PointConstraint>& constraints,
                                 const std::vector<Eigen::Vector3d>& measured_c,
                                 const Camera& camera, Random random,
-                                const RelocaliseConfig& config) {
+                                const PlaceSearchConfig& config) {
   std::optional<Agreement> best;
   std::size_t most = Index(config.min_ransac_inliers - 1);
   const int count = static_cast<int>(constraints.size());
@@ -134,17 +134,16 @@ std::optional<Agreement> Ransac(const std::vector<PointConstraint>& constraints,
 
 }  // namespace
 
-bool SamePose(const Pose& a_cw, const Pose& b_cw, const RelocaliseConfig& config) {
+bool SamePose(const Pose& a_cw, const Pose& b_cw, const PlaceSearchConfig& config) {
   return (a_cw * Inverse(b_cw)).t.norm() < config.same_pose_m &&
          RotationAngle(a_cw, b_cw) < config.same_pose_rad;
 }
 
-std::optional<Relocalisation> RelocaliseBy(const Keyframe& keyframe, const Frame& frame,
-                                           const Map& map, const Camera& camera,
-                                           const ScalePyramid& scales,
-                                           const PoseProblemConfig& pose,
-                                           const RelocaliseConfig& config) {
-  const Correspondences found = Correspond(frame, keyframe, map, camera, scales, config.match);
+std::optional<PlacePose> FindPose(const Keyframe& keyframe, const Frame& frame, const Map& map,
+                                  const Camera& camera, const FeatureScale& scale,
+                                  const PointSearchConfig& search) {
+  const PlaceSearchConfig& config = search.place;
+  const Correspondences found = Correspond(frame, keyframe, map, camera, scale, config.match);
   if (found.features.size() < Index(std::max(config.min_matches, 4))) return std::nullopt;
   const Random random{static_cast<std::uint64_t>(frame.index),
                       static_cast<std::uint64_t>(keyframe.id)};
@@ -154,10 +153,10 @@ std::optional<Relocalisation> RelocaliseBy(const Keyframe& keyframe, const Frame
   PoseProblem problem;  // of the inliers alone: wrong matches would pull the pose away
   problem.T_cw = agreed->T_cw;
   for (const int i : agreed->inliers) problem.points.push_back(found.constraints[Index(i)]);
-  const PoseSummary summary = OptimisePose(problem, camera, pose);
+  const PoseSummary summary = OptimisePose(problem, camera, scale, search.pose);
   if (!summary.usable || summary.inlier_count < config.min_ransac_inliers) return std::nullopt;
-  Relocalisation out{keyframe.id, summary.T_cw, std::vector<int>(frame.features.size(), kNone),
-                     summary.inlier_count};
+  PlacePose out{keyframe.id, summary.T_cw, std::vector<int>(frame.features.size(), kNone),
+                summary.inlier_count};
   for (std::size_t i = 0; i < agreed->inliers.size(); ++i) {
     if (!summary.point_inliers[i]) continue;
     const std::size_t match = Index(agreed->inliers[i]);

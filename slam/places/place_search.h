@@ -3,16 +3,17 @@
 #include <optional>
 
 #include "slam/features/match_features.h"
+#include "slam/features/point_projection.h"
 #include "slam/geometry/camera.h"
+#include "slam/model/feature_scale.h"
 #include "slam/model/map.h"
-#include "slam/model/scale_pyramid.h"
-#include "slam/pose/pose_problem.h"
 #include "slam/places/keyframe_index.h"
+#include "slam/pose/pose_problem.h"
 
 namespace slam {
 
-/// How a frame finds itself again in the map.
-struct RelocaliseConfig {
+/// How the pose of a frame is found from places of the map alone.
+struct PlaceSearchConfig {
   LikenessConfig likeness;
   int max_keyframes = 6;  ///< tried a frame, those that look most alike first; domain [1, inf)
   int min_matches = 15;   ///< descriptor matches with a keyframe; domain [4, inf)
@@ -31,11 +32,18 @@ struct RelocaliseConfig {
   double same_pose_rad = 0.1;    ///< domain (0, pi)
 };
 
+/// How a camera is found by the points of a map: what tracking, relocalisation and loops share.
+struct PointSearchConfig {
+  PoseProblemConfig pose;
+  PointProjectionConfig projection;
+  PlaceSearchConfig place;
+};
+
 /// Whether two answers are one.
-bool SamePose(const Pose& a_cw, const Pose& b_cw, const RelocaliseConfig& config);
+bool SamePose(const Pose& a_cw, const Pose& b_cw, const PlaceSearchConfig& config);
 
 /// A pose found without any prediction, and the matches that it rests on.
-struct Relocalisation {
+struct PlacePose {
   int keyframe = kNone;
   Pose T_cw;
   std::vector<int> map_points;  ///< parallel to the frame's features; inliers alone
@@ -43,10 +51,9 @@ struct Relocalisation {
 };
 
 /// A pose from one keyframe's points alone, by descriptors, RANSAC and pose optimisation.
-std::optional<Relocalisation> RelocaliseBy(const Keyframe& keyframe, const Frame& frame,
-                                           const Map& map, const Camera& camera,
-                                           const ScalePyramid& scales,
-                                           const PoseProblemConfig& pose,
-                                           const RelocaliseConfig& config);
+/// Deterministic: samples are keyed by frame and keyframe.
+std::optional<PlacePose> FindPose(const Keyframe& keyframe, const Frame& frame, const Map& map,
+                                  const Camera& camera, const FeatureScale& scale,
+                                  const PointSearchConfig& config);
 
 }  // namespace slam

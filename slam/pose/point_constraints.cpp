@@ -6,18 +6,18 @@
 namespace slam {
 
 PointConstraint ConstraintOf(const PointFeature& feature, const Eigen::Vector3d& p_w,
-                             const ScalePyramid& scales) {
+                             const FeatureScale& scale) {
   return {p_w, feature.u_px, feature.depth_m > 0 ? feature.right_u_px : -1.0,
-          1.0 / scales.Variance(feature.octave)};
+          1.0 / scale.Variance(feature.octave)};
 }
 
-FramePoints PointConstraints(const Frame& frame, const Map& map, const ScalePyramid& scales) {
+FramePoints PointConstraints(const Frame& frame, const Map& map, const FeatureScale& scale) {
   FramePoints points;
   for (std::size_t f = 0; f < frame.map_points.size(); ++f) {
     const int id = CurrentPoint(map, frame.map_points[f]);
     if (id == kNone) continue;
     const Eigen::Vector3d& p_w = map.points[static_cast<std::size_t>(id)].p_w;
-    points.constraints.push_back(ConstraintOf(frame.features[f], p_w, scales));
+    points.constraints.push_back(ConstraintOf(frame.features[f], p_w, scale));
     points.features.push_back(static_cast<int>(f));
   }
   return points;
@@ -34,12 +34,12 @@ void DropOutliers(Frame& frame, const FramePoints& points,
 }
 
 int OptimiseByPoints(Frame& frame, const Map& map, const Camera& camera,
-                     const ScalePyramid& scales, const PoseProblemConfig& config) {
-  const FramePoints points = PointConstraints(frame, map, scales);
+                     const FeatureScale& scale, const PoseProblemConfig& config) {
+  const FramePoints points = PointConstraints(frame, map, scale);
   PoseProblem problem;
   problem.T_cw = frame.T_cw;
   problem.points = points.constraints;
-  const PoseSummary summary = OptimisePose(problem, camera, config);
+  const PoseSummary summary = OptimisePose(problem, camera, scale, config);
   if (!summary.usable) return 0;
   frame.T_cw = summary.T_cw;
   DropOutliers(frame, points, summary.point_inliers);

@@ -3,8 +3,8 @@
 #include <vector>
 
 #include "slam/geometry/camera.h"
+#include "slam/model/feature_scale.h"
 #include "slam/model/map.h"
-#include "slam/model/scale_pyramid.h"
 #include "slam/pose/pose_problem.h"
 
 namespace slam {
@@ -17,10 +17,10 @@ struct FramePoints {
 
 /// One constraint of a feature and a point at p_w. Source: PAS-SLAM eq14.
 PointConstraint ConstraintOf(const PointFeature& feature, const Eigen::Vector3d& p_w,
-                             const ScalePyramid& scales);
+                             const FeatureScale& scale);
 
 /// Constraints of all matched features, in the order of the features.
-FramePoints PointConstraints(const Frame& frame, const Map& map, const ScalePyramid& scales);
+FramePoints PointConstraints(const Frame& frame, const Map& map, const FeatureScale& scale);
 
 /// Takes the match from the features that the optimisation found to be outliers.
 /// @param point_inliers parallel to `points.features`
@@ -30,6 +30,6 @@ void DropOutliers(Frame& frame, const FramePoints& points,
 /// Optimises the frame's pose over its matched points and takes the match from the outliers.
 /// @returns the inliers; 0, and nothing is changed, when the outcome is not usable
 int OptimiseByPoints(Frame& frame, const Map& map, const Camera& camera,
-                     const ScalePyramid& scales, const PoseProblemConfig& config);
+                     const FeatureScale& scale, const PoseProblemConfig& config);
 
 }  // namespace slam

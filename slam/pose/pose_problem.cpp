@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "slam/base/chi_square.h"
 #include "slam/pose/factors/box.h"
 #include "slam/pose/factors/parallel.h"
 #include "slam/pose/factors/perpendicular.h"
@@ -68,8 +69,9 @@ Linearised<kRows> Whitened(Linearised<kRows> f, double inv_sigma) {
 /// Sums the factors of one problem at a pose.
 class Evaluator {
  public:
-  Evaluator(const PoseProblem& problem, const Camera& camera, const PoseProblemConfig& config)
-      : problem_(problem), camera_(camera), config_(config) {
+  Evaluator(const PoseProblem& problem, const Camera& camera, const FeatureScale& scale,
+            const PoseProblemConfig& config)
+      : problem_(problem), camera_(camera), scale_(scale), config_(config) {
     sane_.reserve(problem.points.size());
     for (const PointConstraint& c : problem.points) sane_.push_back(Sane(c));
     used = sane_;
@@ -96,7 +98,7 @@ class Evaluator {
       used[i] = false;
       if (!sane_[i]) continue;
       const PointConstraint& c = problem_.points[i];
-      const Linearised<3> f = PointFactor(c, T_cw, camera_, config_.virtual_bf_px_m);
+      const Linearised<3> f = PointFactor(c, T_cw, camera_, scale_.bf_px_m);
       used[i] = f.valid && f.r.squaredNorm() * c.inv_sigma2_px < Chi2(c);
       inliers += used[i] ? 1 : 0;
     }
@@ -105,7 +107,7 @@ class Evaluator {
 
  private:
   double Chi2(const PointConstraint& c) const {
-    return c.right_u_px >= 0 ? config_.stereo_chi2 : config_.mono_chi2;
+    return c.right_u_px >= 0 ? kChi2Of3At95 : kChi2Of2At95;
   }
 
   void AddPoints(const Pose& T_cw, NormalEquations& sum) const {
@@ -113,7 +115,7 @@ class Evaluator {
       if (!used[i]) continue;
       const PointConstraint& c = problem_.points[i];
       const double huber = robust_points ? std::sqrt(Chi2(c)) : 0.0;
-      const Linearised<3> f = PointFactor(c, T_cw, camera_, config_.virtual_bf_px_m);
+      const Linearised<3> f = PointFactor(c, T_cw, camera_, scale_.bf_px_m);
       if (!f.valid) {
         // A point behind the camera costs as much as the worst that the loss lets pass: else
         // turning away would look like an improvement.
@@ -171,6 +173,7 @@ class Evaluator {
 
   const PoseProblem& problem_;
   const Camera& camera_;
+  const FeatureScale& scale_;
   const PoseProblemConfig& config_;
   std::vector<bool> sane_;
 };
@@ -180,13 +183,13 @@ bool FinitePose(const Pose& T) { return T.R.allFinite() && T.t.allFinite(); }
 }  // namespace
 
 PoseSummary OptimisePose(const PoseProblem& problem, const Camera& camera,
-                         const PoseProblemConfig& config) {
+                         const FeatureScale& scale, const PoseProblemConfig& config) {
   PoseSummary out;
   out.T_cw = problem.T_cw;
   out.point_inliers.assign(problem.points.size(), false);
   if (!FinitePose(problem.T_cw)) return out;
 
-  Evaluator evaluate(problem, camera, config);
+  Evaluator evaluate(problem, camera, scale, config);
   out.initial_cost = evaluate(problem.T_cw).cost;
   SolveSummary solved;
   for (int round = 0; round < config.rounds; ++round) {

@@ -8,6 +8,7 @@
 #include "slam/geometry/camera.h"
 #include "slam/geometry/plane.h"
 #include "slam/geometry/pose.h"
+#include "slam/model/feature_scale.h"
 
 namespace slam {
 
@@ -52,12 +53,9 @@ struct DirectionConstraint {
 };
 
 struct PoseProblemConfig {
-  int rounds = 4;                 ///< optimise, then reclassify outliers; domain [1, 10]
-  int iterations = 10;            ///< Levenberg-Marquardt steps a round; domain [1, 100]
-  double stereo_chi2 = 7.815;     ///< 95 % of chi-square, 3 degrees of freedom
-  double mono_chi2 = 5.991;       ///< 95 %, 2 degrees of freedom
-  double huber_planes = 2.0;      ///< Huber threshold of the plane factors, in sigmas
-  double virtual_bf_px_m = 40.0;  ///< focal length times virtual baseline: right_u = u - bf / z
+  int rounds = 4;             ///< optimise, then reclassify outliers; domain [1, 10]
+  int iterations = 10;        ///< Levenberg-Marquardt steps a round; domain [1, 100]
+  double huber_planes = 2.0;  ///< Huber threshold of the plane factors, in sigmas
   bool use_planes = true, use_boxes = true, use_point_planes = true;
   bool use_parallel = true, use_perpendicular = true;
 };
@@ -85,11 +83,12 @@ struct PoseSummary {
 };
 
 /// Minimises eq13 over the camera pose by Levenberg-Marquardt with Huber weights, in rounds:
-/// after each, points are classified by chi-square and outliers left out of the next; the last
-/// round is plain least squares over the inlying points. A constraint that is not finite is
-/// left out. When `usable` is false, T_cw is the best pose found, finite if the first guess
-/// was. Deterministic: sums run in the order of the vectors. Cost: about 1 ms for 500 points.
+/// after each, points are classified by chi-square (95 %) and outliers left out of the next;
+/// the last round is plain least squares over the inlying points. A constraint that is not
+/// finite is left out. When `usable` is false, T_cw is the best pose found, finite if the first
+/// guess was. Deterministic: sums run in the order of the vectors. Cost: about 1 ms for 500
+/// points.
 PoseSummary OptimisePose(const PoseProblem& problem, const Camera& camera,
-                         const PoseProblemConfig& config);
+                         const FeatureScale& scale, const PoseProblemConfig& config);
 
 }  // namespace slam

@@ -12,8 +12,8 @@ void VisitGates(PlaneGateConfig& c, FieldVisitor& v) {
 
 void VisitRules(AssociationConfig& c, FieldVisitor& v) {
   v.Section("gates", "by parameters alone", [&] { VisitGates(c.gates, v); });
-  v.Number("pose_sigma_m", c.pose_sigma_m, "(0, inf)", "of the predicted pose");
-  v.Degrees("pose_sigma_deg", c.pose_sigma_rad, "(0, 90)", "of the predicted pose");
+  v.Number("pose_sigma_m", c.prior.sigma_m, "(0, inf)", "of the predicted pose");
+  v.Degrees("pose_sigma_deg", c.prior.sigma_rad, "(0, 90)", "of the predicted pose");
   v.Number("offset_floor_m", c.offset_floor_m, "(0, inf)", "error that does not average out");
   v.Degrees("angle_floor_deg", c.angle_floor_rad, "(0, 90)", "error that does not average out");
   v.Number("max_chi2", c.max_chi2, "(0, inf)", "of a match, 3 degrees of freedom");

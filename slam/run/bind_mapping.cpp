@@ -4,8 +4,6 @@ namespace slam {
 namespace {
 
 void VisitKeyframes(KeyframeConfig& c, FieldVisitor& v) {
-  v.Number("close_baselines", c.close_baselines, "(0, inf)",
-           "depth trusted up to so many virtual baselines");
   v.Integer("min_new_points", c.min_new_points, "[0, 100000]", "made even from farther depths");
   v.Integer("min_shared_points", c.min_shared_points, "[1, 100000]",
             "make two keyframes covisible");
@@ -25,18 +23,12 @@ void VisitTriangulation(TriangulationConfig& c, FieldVisitor& v) {
   v.Integer("max_distance", c.max_distance, "[0, 256]", "differing bits");
   v.Number("max_ratio", c.max_ratio, "(0, 1]", "best over second best");
   v.Degrees("min_parallax_deg", c.min_parallax_rad, "(0, 180)", "between the two rays");
-  v.Number("epipolar_chi2", c.epipolar_chi2, "(0, inf)", "1 degree of freedom");
-  v.Number("mono_chi2", c.mono_chi2, "(0, inf)", "2 degrees of freedom");
-  v.Number("stereo_chi2", c.stereo_chi2, "(0, inf)", "3 degrees of freedom");
   v.Integer("neighbours", c.neighbours, "[0, 1000]", "keyframes tried");
 }
 
 void VisitFusion(PointFusionConfig& c, FieldVisitor& v) {
   v.Number("radius_px", c.radius_px, "(0, inf)", "search around the projection, octave 0");
   v.Integer("max_distance", c.max_distance, "[0, 256]", "differing bits");
-  v.Number("min_view_cosine", c.min_view_cosine, "[-1, 1]", "of the turn from the mean view");
-  v.Number("stereo_chi2", c.stereo_chi2, "(0, inf)", "3 degrees of freedom");
-  v.Number("mono_chi2", c.mono_chi2, "(0, inf)", "2 degrees of freedom");
   v.Integer("neighbours", c.neighbours, "[0, 1000]", "keyframes tried");
 }
 
@@ -49,8 +41,6 @@ void VisitBundle(LocalBundleConfig& c, FieldVisitor& v) {
   v.Integer("first_iterations", c.first_iterations, "[0, 1000]",
             "robust, before outliers are left out");
   v.Integer("last_iterations", c.last_iterations, "[0, 1000]", "plain, after it");
-  v.Number("stereo_chi2", c.stereo_chi2, "(0, inf)", "3 degrees of freedom");
-  v.Number("mono_chi2", c.mono_chi2, "(0, inf)", "2 degrees of freedom");
 }
 
 void VisitPlaneMap(PlaneMapConfig& c, FieldVisitor& v) {

@@ -9,9 +9,11 @@ void VisitFeatures(PointFeatureConfig& c, FieldVisitor& v) {
   v.Integer("min_fast_threshold", c.min_fast_threshold, "[1, 254]",
             "where a cell has no corner");
   v.Integer("cell_px", c.cell_px, "[8, 1000]", "side of a cell");
-  v.Number("bf_px_m", c.bf_px_m, "(0, inf)", "b f of the virtual right camera");
-  v.Integer("octaves", c.scales.octaves, "[1, 16]", "of the image pyramid");
-  v.Number("octave_factor", c.scales.factor, "(1, 2]", "between neighbouring octaves");
+  v.Number("bf_px_m", c.scale.bf_px_m, "(0, inf)", "b f of the virtual right camera");
+  v.Integer("octaves", c.scale.octaves, "[1, 16]", "of the image pyramid");
+  v.Number("octave_factor", c.scale.factor, "(1, 2]", "between neighbouring octaves");
+  v.Number("close_baselines", c.scale.close_baselines, "(0, inf)",
+           "depth trusted up to so many virtual baselines");
 }
 
 void VisitDepth(PointDepthConfig& c, FieldVisitor& v) {
@@ -34,8 +36,6 @@ void VisitMatch(const char* key, PointMatchConfig& c, FieldVisitor& v, const cha
 void VisitPose(PoseProblemConfig& c, FieldVisitor& v) {
   v.Integer("rounds", c.rounds, "[1, 10]", "optimise, then reclassify outliers");
   v.Integer("iterations", c.iterations, "[1, 100]", "Levenberg-Marquardt steps a round");
-  v.Number("stereo_chi2", c.stereo_chi2, "(0, inf)", "outlier bound, points with depth");
-  v.Number("mono_chi2", c.mono_chi2, "(0, inf)", "outlier bound, points without");
   v.Number("huber_planes", c.huber_planes, "(0, inf)",
            "Huber threshold of plane factors, sigmas");
   v.Flag("use_planes", c.use_planes, "f_pi: map plane seen as frame plane");
@@ -63,16 +63,14 @@ void VisitDecision(KeyframeDecisionConfig& c, FieldVisitor& v) {
 }
 
 void VisitProjection(PointProjectionConfig& c, FieldVisitor& v) {
-  v.Number("min_view_cosine", c.min_view_cosine, "[-1, 1]", "of the turn from the mean view");
   v.Number("straight_view_cosine", c.straight_view_cosine, "[-1, 1]",
            "from here on the smaller radius");
   v.Number("straight_radius_px", c.straight_radius_px, "(0, inf)",
            "search radius, seen as before");
   v.Number("radius_px", c.radius_px, "(0, inf)", "search radius, from another side");
-  v.Number("range_margin", c.range_margin, "[1, inf)", "on the range of distances");
 }
 
-void VisitRelocalise(RelocaliseConfig& c, FieldVisitor& v) {
+void VisitRelocalise(PlaceSearchConfig& c, FieldVisitor& v) {
   v.Integer("max_keyframes", c.max_keyframes, "[1, 100000]", "tried a frame");
   v.Integer("min_matches", c.min_matches, "[4, 100000]", "descriptor matches with a keyframe");
   v.Integer("ransac_iterations", c.ransac_iterations, "[1, 1000000]",
@@ -134,13 +132,13 @@ void VisitPoints(Config& c, FieldVisitor& v) {
   v.Section("point_features", "ORB extraction", [&] { VisitFeatures(c.point_features, v); });
   v.Section("point_depth", "depth of a feature",
             [&] { VisitDepth(c.point_features.depth, v); });
-  v.Section("pose", "pose optimisation, eq13", [&] { VisitPose(c.tracking.pose, v); });
+  v.Section("pose", "pose optimisation, eq13", [&] { VisitPose(c.point_search.pose, v); });
   v.Section("keyframe_decision", "when a frame becomes one",
             [&] { VisitDecision(c.tracking.decision, v); });
   v.Section("point_projection", "search of map points",
-            [&] { VisitProjection(c.tracking.projection, v); });
+            [&] { VisitProjection(c.point_search.projection, v); });
   v.Section("relocalise", "finding a lost camera",
-            [&] { VisitRelocalise(c.tracking.relocalise, v); });
+            [&] { VisitRelocalise(c.point_search.place, v); });
   v.Section("look_alike", "when a lost camera could as well be elsewhere",
             [&] { VisitLookAlike(c.tracking.look_alike, v); });
   v.Section("point_tracking", "tracking by points", [&] { VisitTracking(c.tracking, v); });

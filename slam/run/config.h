@@ -1,7 +1,6 @@
 #pragma once
 
 #include "slam/associate/association_config.h"
-#include "slam/associate/plane_constraints.h"
 #include "slam/detect/box_tracks.h"
 #include "slam/detect/class_table.h"
 #include "slam/detect/yolox_output.h"
@@ -10,6 +9,7 @@
 #include "slam/mapping/local_mapping.h"
 #include "slam/mapping/plane_map_config.h"
 #include "slam/places/close_loop.h"
+#include "slam/pose/plane_constraints.h"
 #include "slam/segment/plane_segments.h"
 #include "slam/tracking/point_tracking.h"
 
@@ -32,6 +32,7 @@ struct Config {
   AssociationConfig association;
 
   // (E) optimisation and tracking by points
+  PointSearchConfig point_search;
   PointTrackingConfig tracking;
   PlaneConstraintConfig plane_constraints;
 

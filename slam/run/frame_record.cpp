@@ -12,6 +12,29 @@ Json NumberJson(double x) {
   return x == 0 ? 0.0 : x;  // no -0
 }
 
+/// What settled the decision, or null.
+const char* DecidedBy(const PlaneMatch& match) {
+  if (match.decision == PlaneDecision::kTrial) return "candidate";
+  if (match.decision == PlaneDecision::kNew) return "unmatched";
+  switch (match.reason) {
+    case MatchReason::kNothing:
+      return nullptr;
+    case MatchReason::kParameters:
+      return "parameters";
+    case MatchReason::kOverlap:
+      return "overlap";
+    case MatchReason::kClass:
+      return "class";
+    case MatchReason::kBox:
+      return "iou";
+    case MatchReason::kRankTest:
+      return "ranksum";
+    case MatchReason::kAmbiguous:
+      return "ambiguous";
+  }
+  throw std::invalid_argument("DecidedBy: unknown reason");
+}
+
 Json PlaneJson(const FramePlane& plane, const PlaneMatch& match) {
   Json json;
   json["index"] = plane.index;
@@ -29,11 +52,10 @@ Json PlaneJson(const FramePlane& plane, const PlaneMatch& match) {
   json["vertices"] = Json::array();
   for (const Vertex& vertex : plane.vertices_c)
     json["vertices"].push_back(VectorJson(vertex.p_c));
-  const bool decided = match.decision != PlaneDecision::kNone && match.map_plane != kNone;
-  json["map_plane"] = decided ? Json(match.map_plane) : Json(nullptr);
+  json["map_plane"] = match.ShowsLandmark() ? Json(match.map_plane) : Json(nullptr);
   json["decision"] = DecisionText(match.decision);
-  const bool named = match.by != nullptr && *match.by != '\0';
-  json["by"] = named ? Json(match.by) : Json(nullptr);
+  const char* by = DecidedBy(match);
+  json["by"] = by != nullptr ? Json(by) : Json(nullptr);
   return json;
 }
 
@@ -57,7 +79,8 @@ const char* BadReasonText(BadReason reason) {
 
 const char* DecisionText(PlaneDecision decision) {
   switch (decision) {
-    case PlaneDecision::kNone:
+    case PlaneDecision::kUnmatched:
+    case PlaneDecision::kTrial:
       return "none";
     case PlaneDecision::kMatched:
       return "matched";
@@ -82,7 +105,7 @@ Json FramePlanesRecord(const Frame& frame, bool tracked, const char* state) {
   for (std::size_t i = 0; i < frame.planes.size(); ++i) {
     const PlaneMatch match =
         frame.plane_matches.empty() ? PlaneMatch{} : frame.plane_matches[i];
-    Require(match.decision == PlaneDecision::kNone || match.map_plane >= 0,
+    Require(match.decision == PlaneDecision::kUnmatched || match.map_plane >= 0,
             "FramePlanesRecord: a decision without a map plane");
     json["planes"].push_back(PlaneJson(frame.planes[i], match));
   }

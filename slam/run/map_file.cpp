@@ -34,7 +34,7 @@ Json PlaneJson(const MapPlane& plane) {
   json["observations"] = plane.observations;
   json["first_seen"] = Finite(plane.first_seen_s);
   json["last_seen"] = Finite(plane.last_seen_s);
-  json["merged_into"] = plane.merged_into ? Json(*plane.merged_into) : Json(nullptr);
+  json["merged_into"] = plane.merged_into != kNone ? Json(plane.merged_into) : Json(nullptr);
   json["vertices"] = VectorsJson(plane.vertices_w);
   json["hull"] = VectorsJson(plane.hull_w);
   return json;
@@ -46,6 +46,7 @@ std::string MapAsJson(const Map& map) {
   std::string text = "{\"planes\": [";
   const char* separator = "\n";
   for (const MapPlane& plane : map.planes) {
+    if (plane.status == LandmarkStatus::kCandidate) continue;
     text += separator + PlaneJson(plane).dump(-1, ' ', false, Json::error_handler_t::replace);
     separator = ",\n";
   }
@@ -69,7 +70,7 @@ std::string MapAsPly(const Map& map) {
   std::size_t count = 0;
   std::string body;
   for (const MapPlane& plane : map.planes) {
-    if (plane.merged_into) continue;
+    if (plane.status != LandmarkStatus::kLandmark) continue;
     const auto colour = PlaneColour(plane.id);
     std::string tail;
     for (const int number : {int{colour[0]}, int{colour[1]}, int{colour[2]}, plane.id})

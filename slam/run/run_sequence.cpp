@@ -101,7 +101,8 @@ int ThreadsOf(const RunOptions& options) {
 void CountMap(const Map& map, RunOutcome& outcome) {
   for (const Keyframe& keyframe : map.keyframes) outcome.keyframes += !keyframe.culled;
   for (const MapPoint& point : map.points) outcome.map_points += !point.culled;
-  for (const MapPlane& plane : map.planes) outcome.map_planes += !plane.merged_into;
+  for (const MapPlane& plane : map.planes)
+    outcome.map_planes += plane.status == LandmarkStatus::kLandmark;
 }
 
 RunOutcome Run(LiveCamera input, const RunOptions& options, const std::string& detector) {
@@ -117,7 +118,7 @@ RunOutcome Run(LiveCamera input, const RunOptions& options, const std::string& d
 
   RunOutcome outcome;
   FrameGate gate(input.camera);
-  CameraCheck camera_check(input.camera, options.config.point_features.scales);
+  CameraCheck camera_check(input.camera, options.config.point_features.scale);
   DepthClock depth_clock(input.camera);
   std::optional<TrackedFrame> last;
   int repeats = 0, in_a_row = 0;

@@ -5,8 +5,8 @@
 #include <optional>
 #include <utility>
 
-#include "slam/associate/plane_constraints.h"
-#include "slam/associate/plane_plane.h"
+#include "slam/associate/associate_planes.h"
+#include "slam/associate/point_plane.h"
 #include "slam/faces/process_planes.h"
 #include "slam/features/point_features.h"
 #include "slam/mapping/expected_planes.h"
@@ -15,6 +15,7 @@
 #include "slam/mapping/plane_fuse.h"
 #include "slam/mapping/plane_update.h"
 #include "slam/model/map_queries.h"
+#include "slam/pose/plane_constraints.h"
 #include "slam/run/stopwatch.h"
 #include "slam/segment/plane_segments.h"
 
@@ -43,7 +44,7 @@ Tracker::Tracker(const Camera& camera, const Config& config, Variant variant,
       detector_(detector ? std::move(detector) : std::make_unique<NoDetector>()),
       threads_(threads),
       box_tracks_(config.box_tracks, camera.ImageBox()),
-      points_(camera, config_.tracking),
+      points_(camera, config_.point_features.scale, config_.point_search, config_.tracking),
       before_mapping_(std::move(before_mapping)) {
   if (uses_planes())
     plane_extractor_.emplace(camera_, PixelRays(camera_), config_.plane_extraction);
@@ -124,19 +125,24 @@ void Tracker::SplitByMap(Frame& frame, ModuleTimes& times) {
 }
 
 void Tracker::AssociateFramePlanes(Frame& frame) {
-  AssociatePlanes(frame, map_, camera_, config_.association);
+  PlaneAssociation association = AssociatePlanes(frame, map_, camera_, config_.association);
+  frame.plane_matches = std::move(association.matches);
+  frame.point_planes =
+      AssociatePointsToPlanes(frame, map_, camera_, config_.association.max_point_plane_m);
 }
 
 void Tracker::OptimiseWithPlanes(Frame& frame, TrackReport& report) {
-  const FramePoints points = PointConstraints(frame, map_, config_.tracking.projection.scales);
+  const FramePoints points = PointConstraints(frame, map_, scale());
   PoseProblem problem;
   problem.T_cw = frame.T_cw;
   problem.points = points.constraints;
-  AddPlaneConstraints(frame, map_, camera_, problem, config_.plane_constraints);
+  AddPlaneConstraints(frame, map_, camera_, config_.association.prior,
+                      config_.plane_constraints, problem);
   report.plane_constraints = static_cast<int>(problem.planes.size());
   if (problem.planes.empty()) return;  // the points alone were optimised before
 
-  const PoseSummary summary = OptimisePose(problem, camera_, config_.tracking.pose);
+  const PoseSummary summary =
+      OptimisePose(problem, camera_, scale(), config_.point_search.pose);
   if (!summary.usable) return;
   frame.T_cw = summary.T_cw;
   DropOutliers(frame, points, summary.point_inliers);
@@ -145,11 +151,12 @@ void Tracker::OptimiseWithPlanes(Frame& frame, TrackReport& report) {
 void Tracker::UpdateMap(Frame& frame, TrackReport& report) {
   if (uses_planes()) {
     const Stopwatch watch(report.times[Module::kUpm]);
-    UpdatePlanes(frame, map_, camera_, config_.plane_map);
+    UpdatePlanes(frame, map_, camera_, config_.association, config_.plane_map);
   }
   report.keyframe = points_.NeedKeyframe(frame, map_);
   if (report.keyframe) {
-    const int keyframe = InsertKeyframe(frame, map_, camera_, config_.mapping.keyframes);
+    const int keyframe =
+        InsertKeyframe(frame, map_, camera_, scale(), config_.mapping.keyframes);
     if (worker_) {
       worker_->Submit(keyframe);
     } else {
@@ -158,7 +165,7 @@ void Tracker::UpdateMap(Frame& frame, TrackReport& report) {
     }
     if (uses_planes()) {
       const Stopwatch watch(report.times[Module::kUpm]);
-      FusePlanes(map_, config_.plane_map);
+      FusePlanes(map_, config_.association, config_.plane_map);
     }
   }
   points_.Accept(frame, map_);
@@ -168,15 +175,15 @@ void Tracker::UpdateMap(Frame& frame, TrackReport& report) {
 
 void Tracker::MapKeyframe(int keyframe, const MapTurn& turn) {
   if (before_mapping_) before_mapping_(keyframe);
-  MapLocally(map_, keyframe, camera_, config_.mapping, turn);
+  MapLocally(map_, keyframe, camera_, scale(), config_.mapping, turn);
   if (!config_.loop_closing.enabled) return;
   std::optional<Loop> loop;
   turn([&] {
-    loop = DetectLoop(map_, points_.Places(map_), keyframe, camera_,
-                      config_.loop_closing.detection);
+    loop = DetectLoop(map_, points_.Places(map_), keyframe, camera_, scale(),
+                      config_.point_search, config_.loop_closing.detection);
   });
   if (!loop) return;
-  CloseLoop(map_, *loop, camera_, config_.mapping, config_.loop_closing, turn);
+  CloseLoop(map_, *loop, camera_, scale(), config_.mapping, config_.loop_closing, turn);
   turn([&] { ++loops_; });
 }
 

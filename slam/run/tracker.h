@@ -73,6 +73,7 @@ class Tracker {
   int unmapped_keyframes() const { return worker_ ? worker_->dropped() : 0; }
 
  private:
+  const FeatureScale& scale() const { return config_.point_features.scale; }
   bool uses_planes() const { return variant_ != Variant::kPoints; }
 
   void ExtractInformation(Frame& frame, const cv::Mat3b& bgr, ModuleTimes& times);

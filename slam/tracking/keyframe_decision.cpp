@@ -51,13 +51,11 @@ int CountNewLooks(const Frame& frame, const Map& map, double max_view_rad) {
 }  // namespace
 
 KeyframeEvidence DecideKeyframe(const Frame& frame, const Map& map, int reference,
-                                int frames_since_last, const Camera& camera,
-                                const KeyframeConfig& keyframes,
+                                int frames_since_last, double close_m,
                                 const KeyframeDecisionConfig& config) {
   Require(frame.map_points.size() == frame.features.size(),
           "DecideKeyframe: map_points is not parallel to features");
   KeyframeEvidence evidence;
-  const double close_m = CloseDepth(camera, keyframes);
   for (std::size_t f = 0; f < frame.features.size(); ++f) {
     const bool tracked = frame.map_points[f] != kNone;
     const double z = frame.features[f].depth_m;

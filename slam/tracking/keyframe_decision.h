@@ -1,6 +1,5 @@
 #pragma once
 
-#include "slam/mapping/keyframes.h"
 #include "slam/model/map.h"
 
 namespace slam {
@@ -29,9 +28,9 @@ struct KeyframeEvidence {
 /// Whether the frame should be kept: it sees clearly less of the map than its reference
 /// keyframe did, or it tracks few close points where there are many to be had, or it sees most
 /// of what it tracks from a new side: from there no keyframe would know the place again.
+/// @param close_m  depth up to which a point is close, see FeatureScale
 KeyframeEvidence DecideKeyframe(const Frame& frame, const Map& map, int reference,
-                                int frames_since_last, const Camera& camera,
-                                const KeyframeConfig& keyframes,
+                                int frames_since_last, double close_m,
                                 const KeyframeDecisionConfig& config);
 
 }  // namespace slam

@@ -37,8 +37,8 @@ std::vector<SeenPoint> SeenPoints(const LastFrame& last, const Map& map, const C
 }
 
 std::vector<PointQuery> QueriesOf(const std::vector<SeenPoint>& seen, const LastFrame& last,
-                                  const Pose& T_cw, const Camera& camera, double radius_px,
-                                  double bf_px_m, const ScalePyramid& scales) {
+                                  const Pose& T_cw, const Camera& camera,
+                                  const FeatureScale& scale, double radius_px) {
   std::vector<PointQuery> queries;
   for (int i = 0; i < static_cast<int>(seen.size()); ++i) {
     const Eigen::Vector3d p_c = T_cw * seen[Index(i)].p_w;
@@ -48,8 +48,8 @@ std::vector<PointQuery> QueriesOf(const std::vector<SeenPoint>& seen, const Last
     query.point = i;
     query.u_px = camera.Project(p_c);
     if (!camera.ImageBox().Contains(query.u_px)) continue;
-    query.right_u_px = query.u_px.x() - bf_px_m / p_c.z();
-    query.radius_px = radius_px * scales.Scale(feature.octave);
+    query.right_u_px = scale.RightU_px(query.u_px.x(), p_c.z());
+    query.radius_px = radius_px * scale.Scale(feature.octave);
     query.min_octave = feature.octave - 1;
     query.max_octave = feature.octave + 1;
     query.descriptor = feature.descriptor;

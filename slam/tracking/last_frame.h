@@ -4,8 +4,8 @@
 
 #include "slam/features/match_features.h"
 #include "slam/geometry/camera.h"
+#include "slam/model/feature_scale.h"
 #include "slam/model/map.h"
-#include "slam/model/scale_pyramid.h"
 
 namespace slam {
 
@@ -38,7 +38,7 @@ std::vector<SeenPoint> SeenPoints(const LastFrame& last, const Map& map, const C
 /// that would fall outside the image are left out.
 /// @param radius_px at octave 0; grows with the octave
 std::vector<PointQuery> QueriesOf(const std::vector<SeenPoint>& seen, const LastFrame& last,
-                                  const Pose& T_cw, const Camera& camera, double radius_px,
-                                  double bf_px_m, const ScalePyramid& scales);
+                                  const Pose& T_cw, const Camera& camera,
+                                  const FeatureScale& scale, double radius_px);
 
 }  // namespace slam

@@ -43,9 +43,10 @@ const char* StateName(const PointTrackReport& report) {
   return report.by_relocalising ? "relocalised" : "tracking";
 }
 
-PointTracking::PointTracking(const Camera& camera, const PointTrackingConfig& config,
+PointTracking::PointTracking(const Camera& camera, const FeatureScale& scale,
+                             const PointSearchConfig& search, const PointTrackingConfig& config,
                              const Vocabulary& vocabulary)
-    : camera_(camera), config_(config), places_(vocabulary) {}
+    : camera_(camera), scale_(scale), search_(search), config_(config), places_(vocabulary) {}
 
 PointTrackReport PointTracking::TrackPoints(Frame& frame, Map& map) {
   PointTrackReport report;
@@ -93,14 +94,13 @@ bool PointTracking::Start(Frame& frame) const {
 bool PointTracking::TrackByMotion(Frame& frame, const FeatureGrid& grid, const Map& map,
                                   PointTrackReport& report) const {
   const Pose predicted_T_cw = motion_.Predict(frame.index).value_or(LastPose(last_, map));
-  const std::vector<SeenPoint> seen =
-      SeenPoints(last_, map, camera_, CloseDepth(camera_, config_.keyframes),
-                 config_.max_temporary_points);
+  const std::vector<SeenPoint> seen = SeenPoints(
+      last_, map, camera_, scale_.CloseDepth_m(camera_.fx), config_.max_temporary_points);
   std::vector<int> matches;
   std::vector<PointQuery> queries;
   for (const double factor : {1.0, 2.0}) {
-    queries = QueriesOf(seen, last_, predicted_T_cw, camera_, factor * config_.last_radius_px,
-                        config_.pose.virtual_bf_px_m, config_.keyframes.scales);
+    queries = QueriesOf(seen, last_, predicted_T_cw, camera_, scale_,
+                        factor * config_.last_radius_px);
     matches = MatchQueries(queries, frame.features, grid, {}, config_.match_last);
     const auto unmatched = std::count(matches.begin(), matches.end(), kNone);
     if (static_cast<int>(matches.size()) - unmatched >= config_.min_last_matches) break;
@@ -112,11 +112,10 @@ bool PointTracking::TrackByMotion(Frame& frame, const FeatureGrid& grid, const M
   for (std::size_t f = 0; f < matches.size(); ++f) {
     if (matches[f] == kNone) continue;
     const SeenPoint& point = seen[Index(queries[Index(matches[f])].point)];
-    problem.points.push_back(
-        ConstraintOf(frame.features[f], point.p_w, config_.keyframes.scales));
+    problem.points.push_back(ConstraintOf(frame.features[f], point.p_w, scale_));
     feature_and_point.emplace_back(static_cast<int>(f), point.map_point);
   }
-  const PoseSummary summary = OptimisePose(problem, camera_, config_.pose);
+  const PoseSummary summary = OptimisePose(problem, camera_, scale_, search_.pose);
   if (!summary.usable) return false;
   ForgetPose(frame);
   frame.T_cw = summary.T_cw;
@@ -153,8 +152,7 @@ bool PointTracking::TrackByRelocalising(Frame& frame, const Map& map,
                                         PointTrackReport& report) {
   report.by_motion = report.by_reference = false;
   places_.Update(map);
-  const auto found = Relocalise(frame, map, places_, camera_, config_.keyframes.scales,
-                                config_.pose, config_.relocalise);
+  const auto found = Relocalise(frame, map, places_, camera_, scale_, search_);
   if (!found) return false;
   frame.T_cw = found->T_cw;
   frame.map_points = found->map_points;
@@ -180,8 +178,8 @@ bool PointTracking::TrackLocalMap(Frame& frame, const FeatureGrid& grid, Map& ma
   std::vector<PointQuery> queries;
   for (const int id : local.points) {
     if (std::binary_search(matched.begin(), matched.end(), id)) continue;
-    const PointQuery query =
-        QueryOf(map.points[Index(id)], frame.T_cw, camera_, radius_factor, config_.projection);
+    const PointQuery query = QueryOf(map.points[Index(id)], frame.T_cw, camera_, scale_,
+                                     radius_factor, search_.projection);
     if (query.point == kNone) continue;
     queries.push_back(query);
     sighted.push_back(id);
@@ -205,7 +203,7 @@ bool PointTracking::TrackLocalMap(Frame& frame, const FeatureGrid& grid, Map& ma
 }
 
 int PointTracking::Optimise(Frame& frame, const Map& map) const {
-  return OptimiseByPoints(frame, map, camera_, config_.keyframes.scales, config_.pose);
+  return OptimiseByPoints(frame, map, camera_, scale_, search_.pose);
 }
 
 void PointTracking::FollowMap(const Map& map) {
@@ -216,7 +214,7 @@ bool PointTracking::NeedKeyframe(const Frame& frame, const Map& map) const {
   if (state_ != TrackState::kTracking) return false;
   if (map.keyframes.empty()) return true;
   const int since = frame.index - map.keyframes.back().frame_index;
-  return DecideKeyframe(frame, map, reference_, since, camera_, config_.keyframes,
+  return DecideKeyframe(frame, map, reference_, since, scale_.CloseDepth_m(camera_.fx),
                         config_.decision)
       .wanted;
 }

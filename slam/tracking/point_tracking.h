@@ -2,8 +2,6 @@
 
 #include <vector>
 
-#include "slam/features/point_projection.h"
-#include "slam/mapping/keyframes.h"
 #include "slam/model/local_map.h"
 #include "slam/model/map.h"
 #include "slam/pose/point_constraints.h"
@@ -12,7 +10,7 @@
 #include "slam/tracking/last_frame.h"
 #include "slam/tracking/look_alike.h"
 #include "slam/tracking/motion_model.h"
-#include "slam/tracking/point_relocalise.h"
+#include "slam/tracking/relocalise.h"
 
 namespace slam {
 
@@ -30,11 +28,7 @@ const char* StateName(const PointTrackReport& report);
 
 /// Settings of tracking by points.
 struct PointTrackingConfig {
-  PoseProblemConfig pose;
-  KeyframeConfig keyframes;
   KeyframeDecisionConfig decision;
-  PointProjectionConfig projection;
-  RelocaliseConfig relocalise;
   LookAlikeConfig look_alike;
   PointMatchConfig match_last{100, 0.9, true};      ///< with the last frame, by projection
   PointMatchConfig match_local{100, 0.8, false};    ///< with the local map, by projection
@@ -72,7 +66,8 @@ struct PointTrackReport {
 class PointTracking {
  public:
   /// @param vocabulary  must outlive the tracking
-  PointTracking(const Camera& camera, const PointTrackingConfig& config,
+  PointTracking(const Camera& camera, const FeatureScale& scale,
+                const PointSearchConfig& search, const PointTrackingConfig& config,
                 const Vocabulary& vocabulary = Vocabulary::Shipped());
 
   /// Sets frame.T_cw and frame.map_points (inliers alone). When the state is not kTracking
@@ -100,7 +95,6 @@ class PointTracking {
   TrackState state() const { return state_; }
   /// Keyframe that sees the most of the last frame's points; kNone before the first.
   int reference_keyframe() const { return reference_; }
-  const PointTrackingConfig& config() const { return config_; }
 
  private:
   bool Start(Frame& frame) const;
@@ -113,6 +107,8 @@ class PointTracking {
   int Optimise(Frame& frame, const Map& map) const;
 
   Camera camera_;
+  FeatureScale scale_;
+  PointSearchConfig search_;
   PointTrackingConfig config_;
   TrackState state_ = TrackState::kInitialising;
   MotionModel motion_;

@@ -8,7 +8,7 @@
 #include "sim/scene/families.h"
 #include "slam/features/match_features.h"
 #include "slam/features/point_features.h"
-#include "slam/model/scale_pyramid.h"
+#include "slam/model/feature_scale.h"
 #include "tests/support/live.h"
 
 namespace {
@@ -64,7 +64,7 @@ TEST(PointMatching, FindsTheTrueFlowBetweenTwoViewsOfADesk) {
       const auto& f = views.first.features[static_cast<std::size_t>(pair.first)];
       const auto& g = views.second.features[static_cast<std::size_t>(pair.second)];
       const Eigen::Vector2d expected = TrueFlow(views, f.u_px);
-      const double scale = slam::ScalePyramid{}.Scale(std::max(f.octave, g.octave));
+      const double scale = slam::FeatureScale{}.Scale(std::max(f.octave, g.octave));
       right += (g.u_px - expected).norm() < 3.0 * scale;
       moved_px += (expected - f.u_px).norm();
     }

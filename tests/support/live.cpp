@@ -76,7 +76,7 @@ std::vector<int> TruthOf(const slam::Frame& frame, const sim::SimulatedFrame& si
 void AppendRecords(const slam::Frame& frame, const std::vector<int>& truth,
                    std::vector<eval::AssociationRecord>& records) {
   for (std::size_t i = 0; i < frame.planes.size(); ++i) {
-    if (frame.plane_matches[i].decision == slam::PlaneDecision::kNone) continue;
+    if (!frame.plane_matches[i].ShowsLandmark()) continue;
     records.push_back({frame.index, truth[i], frame.plane_matches[i].map_plane});
   }
 }

@@ -3,7 +3,7 @@
 namespace slam {
 
 Linearised<3> PointFactor(const PointConstraint& constraint, const Pose& T_cw,
-                          const Camera& camera, double virtual_bf_px_m) {
+                          const Camera& camera, double bf_px_m) {
   Linearised<3> out;
   const Eigen::Vector3d x_c = T_cw * constraint.p_w;
   const double x = x_c.x(), y = x_c.y(), z = x_c.z();
@@ -18,9 +18,9 @@ Linearised<3> PointFactor(const PointConstraint& constraint, const Pose& T_cw,
   out.J.row(1) << 0, fy * iz, -fy * y * iz2, -fy * (1 + y * y * iz2), fy * x * y * iz2,
       fy * x * iz;
   if (constraint.right_u_px >= 0) {
-    out.r[2] = u - virtual_bf_px_m * iz - constraint.right_u_px;
+    out.r[2] = u - bf_px_m * iz - constraint.right_u_px;
     // d(bf/z) = -bf/z^2 dz with dz = rho_z + omega_x y - omega_y x.
-    const double g = virtual_bf_px_m * iz2;
+    const double g = bf_px_m * iz2;
     out.J.row(2) = out.J.row(0);
     out.J(2, 2) += g;
     out.J(2, 3) += g * y;

@@ -11,9 +11,9 @@ namespace slam {
 ///   T_cw p_w
 /// The third row is zero for a feature without depth (right_u_px < 0), and not valid is a point
 /// nearer than a centimetre to the image plane or behind it. Pixels are undistorted.
-/// @param virtual_bf_px_m  focal length times baseline of the virtual right camera
+/// @param bf_px_m  focal length times baseline of the virtual right camera
 /// Source: PAS-SLAM eq14.
 Linearised<3> PointFactor(const PointConstraint& constraint, const Pose& T_cw,
-                          const Camera& camera, double virtual_bf_px_m);
+                          const Camera& camera, double bf_px_m);
 
 }  // namespace slam

@@ -25,7 +25,7 @@ TEST(PlaneGatesEq6, RefusesTheBackOfAThinBoard) {
   const Plane back{-kBoard.n, -kBoard.d};
   const auto result = TestPlaneGates(kBoard, kCentroid, kEdge, back, Pose{}, {});
   ASSERT_FALSE(result.has_value());
-  EXPECT_EQ(result.error(), GateRefusal::kNormalAngle);
+  EXPECT_EQ(result.error(), PairRefusal::kNormalAngle);
 }
 
 TEST(PlaneGatesEq6, AsPrintedTakesTheBackForTheFront) {
@@ -55,7 +55,7 @@ TEST(PlaneGatesEq8, RefusesAPatchTwentyCentimetresBehindTheMapPlane) {
   const Plane nearer{kBoard.n, 0.8};
   const auto result = TestPlaneGates(kBoard, kCentroid, kEdge, nearer, Pose{}, {});
   ASSERT_FALSE(result.has_value());
-  EXPECT_EQ(result.error(), GateRefusal::kOffsetAndEdgePoints);
+  EXPECT_EQ(result.error(), PairRefusal::kOffsetAndEdgePoints);
   // As printed, every one of these points passes.
   for (const Eigen::Vector3d& B_c : kEdge) {
     EXPECT_LT(SignedDistance(nearer, B_c), PlaneGateConfig{}.max_edge_point_distance_m);
@@ -72,7 +72,7 @@ TEST(PlaneGatesEq8, AcceptsByEdgePointsWhatTheCentroidAloneRefuses) {
 TEST(PlaneGatesEq8, RefusesAPatchWithoutEdgePoints) {
   const auto result = TestPlaneGates(kBoard, kCentroid, {}, kBoard, Pose{}, {});
   ASSERT_FALSE(result.has_value());
-  EXPECT_EQ(result.error(), GateRefusal::kNoEdgePoints);
+  EXPECT_EQ(result.error(), PairRefusal::kNoEdgePoints);
 }
 
 TEST(PlaneGatesEq6, RefusesWhatIsNotANumber) {

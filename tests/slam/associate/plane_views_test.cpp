@@ -1,9 +1,9 @@
 #include <gmock/gmock.h>
 
-#include "slam/associate/box_plane.h"
 #include "slam/associate/plane_overlap.h"
 #include "slam/associate/plane_samples.h"
 #include "slam/associate/point_plane.h"
+#include "slam/associate/projected_box.h"
 #include "tests/support/slam_matchers.h"
 
 namespace slam {
@@ -106,7 +106,8 @@ TEST(PointsOnPlanes, LieOnBothSidesOfItNearEnough) {
   }
   map.points[5].culled = true;
   std::vector<int> on_it;
-  for (const PointPlaneMatch& match : AssociatePointsToPlanes(frame, map, camera, config)) {
+  for (const PointPlaneMatch& match :
+       AssociatePointsToPlanes(frame, map, camera, config.max_point_plane_m)) {
     EXPECT_EQ(match.frame_plane, 0);
     on_it.push_back(match.map_point);
   }
@@ -131,7 +132,8 @@ TEST(PointsOnPlanes, LieOnTheNearestOfThoseInWhoseBoxesAHoleOfTheSegmentsIs) {
                 PointSeenAt(1, camera, {400, 200}, 2.0)};
   frame.features = {FeatureWithDepth({100, 200}, 2.0), FeatureWithDepth({400, 200}, 2.0)};
   frame.map_points = {0, 1};
-  const auto matches = AssociatePointsToPlanes(frame, map, camera, {});
+  const auto matches =
+      AssociatePointsToPlanes(frame, map, camera, AssociationConfig{}.max_point_plane_m);
   ASSERT_EQ(matches.size(), 1u);
   EXPECT_EQ(matches[0].frame_plane, 1);
 }
@@ -160,25 +162,6 @@ TEST(BoxesOfMapPlanes, AreThoseOfTheRecordedImage) {
   EXPECT_THAT(box_px.min, VectorNear(expected.min, 1e-9));
   EXPECT_THAT(box_px.max, VectorNear(expected.max, 1e-9));
   EXPECT_GT((box_px.min - ideal.min).norm(), 1.0);  // the lens tells
-}
-
-TEST(BoxesOfMapPlanes, GoToTheDetectionOfTheirClassThatFitsBestWhateverTheOrder) {
-  const Camera camera;
-  const Box book{{100, 100}, {200, 200}};
-  Map map;
-  map.planes = {BookAt(camera, book)};
-  for (const bool best_first : {false, true}) {
-    Frame frame;
-    frame.T_cw = kView_cw;
-    frame.detections.resize(3);
-    for (Detection& d : frame.detections) d.class_name = "book", d.box_px = book;
-    frame.detections[best_first ? 1 : 0].box_px.max.x() += 40;
-    frame.detections[2].class_name = "cup";
-    const auto matches = AssociateBoxes(frame, map, camera, 0.1);
-    ASSERT_EQ(matches.size(), 1u);
-    EXPECT_EQ(matches[0].detection, best_first ? 0 : 1);
-    EXPECT_NEAR(matches[0].iou, 1.0, 1e-9);
-  }
 }
 
 }  // namespace

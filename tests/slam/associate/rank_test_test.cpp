@@ -118,7 +118,6 @@ TEST(PlaneRankTest, RefusesSamplesThatAreTooSmall) {
   const std::vector<Eigen::Vector3d> three(cloud.begin(), cloud.begin() + 3);
   const auto test = TestPlaneRanks(three, cloud, Eigen::Matrix3d::Identity(), 6);
   ASSERT_FALSE(test.has_value());
-  EXPECT_EQ(test.error(), RankRefusal::kTooFewPoints);
 }
 
 }  // namespace

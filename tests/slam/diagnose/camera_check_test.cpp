@@ -60,7 +60,7 @@ std::vector<Frame> TrackedFrames(int frames, const Camera& camera, const Way& wa
       }
       PointFeature feature;
       feature.octave = random.Below(4);
-      const double sigma_px = defects.position_px * ScalePyramid{}.Scale(feature.octave);
+      const double sigma_px = defects.position_px * FeatureScale{}.Scale(feature.octave);
       feature.u_px =
           camera.Project(p_c) + sigma_px * Eigen::Vector2d(Bell(random), Bell(random));
       if (random.Uniform() < defects.wrong_share) feature.u_px.x() += 30 * Bell(random);
@@ -84,7 +84,7 @@ Camera Wrong(Intrinsics by) {
 
 TEST(CameraCheck, FindsTheTrueIntrinsicsFromWrongOnes) {
   const Camera truth;
-  CameraCheck check(Wrong({60.0, -25.0, 15.0, -12.0}), ScalePyramid{});
+  CameraCheck check(Wrong({60.0, -25.0, 15.0, -12.0}), FeatureScale{});
   int noticed = 0;
   for (const Frame& frame : TrackedFrames(60, truth, LookingAround, {}, 1)) {
     noticed += check.See(frame);
@@ -102,7 +102,7 @@ TEST(CameraCheck, FindsTheTrueIntrinsicsFromWrongOnes) {
 }
 
 TEST(CameraCheck, NamesOnlyWhatIsWrong) {
-  CameraCheck check(Wrong({0.0, 0.0, 20.0, 0.0}), ScalePyramid{});
+  CameraCheck check(Wrong({0.0, 0.0, 20.0, 0.0}), FeatureScale{});
   for (const Frame& frame : TrackedFrames(60, Camera{}, LookingAround, kNoise, 2))
     check.See(frame);
   EXPECT_THAT(check.Estimate()->wrong, testing::ElementsAre(false, false, true, false));
@@ -114,7 +114,7 @@ TEST(CameraCheck, IsSilentAndKnowsItsErrorWithTheRightCameraUnderNoiseAndWrongMa
   double squares = 0.0;
   for (int run = 0; run < kRuns; ++run) {
     const auto seed = 10 + static_cast<std::uint64_t>(run);
-    CameraCheck check(Camera{}, ScalePyramid{});
+    CameraCheck check(Camera{}, FeatureScale{});
     for (const Frame& frame : TrackedFrames(30, Camera{}, LookingAround, kNoise, seed)) {
       EXPECT_FALSE(check.See(frame)) << "seed " << seed;
     }
@@ -132,7 +132,7 @@ TEST(CameraCheck, ARollingShutterIsNoWrongCamera) {
   Defects rolling = kNoise;
   rolling.read_out_s = 0.025;
   for (const std::uint64_t seed : {40u, 41u, 42u, 43u}) {
-    CameraCheck check(Camera{}, ScalePyramid{});
+    CameraCheck check(Camera{}, FeatureScale{});
     for (const Frame& frame : TrackedFrames(90, Camera{}, LookingAround, rolling, seed)) {
       EXPECT_FALSE(check.See(frame));
     }
@@ -146,7 +146,7 @@ TEST(CameraCheck, SaysNothingOfAWrongCameraThatHardlyTurns) {
                         {0.3 * std::sin(s), 0.1 * s, 0.1 * std::sin(2 * s)}});
   };
   const Camera wrong = Wrong({30.0, 30.0, 0.0, 0.0});
-  CameraCheck check(wrong, ScalePyramid{}), turning(wrong, ScalePyramid{});
+  CameraCheck check(wrong, FeatureScale{}), turning(wrong, FeatureScale{});
   int noticed = 0;
   for (const Frame& frame : TrackedFrames(90, Camera{}, hardly, kNoise, 3)) {
     noticed += check.See(frame);

@@ -74,7 +74,7 @@ TEST(PointFeatures, AreFoundAgainAndLookAlikeUnderAKnownHomography) {
     }
     ++visible;
     repeated += std::any_of(second.begin(), second.end(), [&](const PointFeature& g) {
-      return (g.u_px - expected).norm() < 2.0 * ScalePyramid{}.Scale(f.octave);
+      return (g.u_px - expected).norm() < 2.0 * FeatureScale{}.Scale(f.octave);
     });
   }
   EXPECT_GE(repeated, 0.6 * visible);
@@ -84,7 +84,7 @@ TEST(PointFeatures, AreFoundAgainAndLookAlikeUnderAKnownHomography) {
   for (const FeaturePair& pair : pairs) {
     const PointFeature& f = first[static_cast<std::size_t>(pair.first)];
     const PointFeature& g = second[static_cast<std::size_t>(pair.second)];
-    if ((g.u_px - image_of(f)).norm() < 3.0 * ScalePyramid{}.Scale(f.octave)) ++right;
+    if ((g.u_px - image_of(f)).norm() < 3.0 * FeatureScale{}.Scale(f.octave)) ++right;
   }
   EXPECT_GE(pairs.size(), 150u);
   EXPECT_GE(right, 0.9 * static_cast<double>(pairs.size()));
@@ -114,7 +114,7 @@ TEST(PointFeatures, AreFoundAgainAndLookAlikeUnderTheNoiseOfASensor) {
     const auto first = Extract(Noisy(image, sigma, 1)),
                second = Extract(Noisy(image, sigma, 2));
     const auto same_place = [](const PointFeature& f, const PointFeature& g) {
-      return (f.u_px - g.u_px).norm() < 1.5 * ScalePyramid{}.Scale(f.octave);
+      return (f.u_px - g.u_px).norm() < 1.5 * FeatureScale{}.Scale(f.octave);
     };
     int repeated = 0;
     for (const PointFeature& f : first) {

@@ -39,7 +39,7 @@ Map TiedPair() {
 TEST(BundleWindow, IsHeldByTheFirstKeyframeAndThoseThatSeeMostOfItsPoints) {
   LocalBundleConfig config;
   config.max_fixed_keyframes = 1;
-  const BundleWindow window = LocalWindow(TiedPair(), 1, Camera{}, config);
+  const BundleWindow window = LocalWindow(TiedPair(), 1, Camera{}, FeatureScale{}, config);
   EXPECT_EQ(window.free_count, 1u);
   EXPECT_THAT(window.keyframes, ElementsAre(1, 3, 0));
 }
@@ -52,7 +52,7 @@ LocalBundleReport ReportOnOneOff(bool stereo, double off_px, int octave) {
   feature.u_px.y() += off_px;
   LocalBundleConfig config;
   config.first_iterations = config.last_iterations = 0;
-  BundleWindow window = FullWindow(world.map, world.camera, config);
+  BundleWindow window = FullWindow(world.map, world.camera, FeatureScale{}, config);
   return SolveWindow(window, config);
 }
 
@@ -74,7 +74,7 @@ TEST(BundleWindow, CountsAnOutlierByHubersLossInTheFirstRound) {
 
 TEST(BundleWindow, CarriesWhatCameMeanwhileAlongWithItsNewestKeyframe) {
   PointWorld world = MakePointWorld(4, 80, 3);
-  BundleWindow window = LocalWindow(world.map, 3, world.camera, {});
+  BundleWindow window = LocalWindow(world.map, 3, world.camera, FeatureScale{}, {});
   const auto newest =
       static_cast<std::size_t>(std::find(window.keyframes.begin(), window.keyframes.end(), 3) -
                                window.keyframes.begin());
@@ -100,7 +100,7 @@ TEST(BundleWindow, CarriesWhatCameMeanwhileAlongWithItsNewestKeyframe) {
 
 TEST(BundleWindow, TellsItsPointsWhereTheyAreSeenFromAfterwards) {
   PointWorld world = MakePointWorld(4, 80, 3);
-  BundleWindow window = LocalWindow(world.map, 3, world.camera, {});
+  BundleWindow window = LocalWindow(world.map, 3, world.camera, FeatureScale{}, {});
   for (auto& position : window.positions) position[0] += 0.2;
   MergeWindow(window, {}, world.map);
   Map again = world.map;

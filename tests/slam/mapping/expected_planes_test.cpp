@@ -1,5 +1,6 @@
 // What of the map a camera should see.
 #include "slam/mapping/expected_planes.h"
+#include "tests/support/map_surfaces.h"
 
 #include <gtest/gtest.h>
 
@@ -22,7 +23,7 @@ MapPlane Face(const PlaneMapConfig& config) {
 
 Map MapOf(const MapPlane& plane) {
   Map map;
-  map.planes = {plane};
+  AddLandmark(map, plane);
   return map;
 }
 
@@ -72,13 +73,11 @@ TEST(ExpectedPlanes, AreFrontsOfLandmarksThatWereSeenOften) {
   m.observations = config.min_fused_observations - 1;
   EXPECT_EQ(count(m), 0u) << "hardly seen";
   m = Face(config);
-  m.merged_into = 0;
-  EXPECT_EQ(count(m), 0u) << "fused";
   m = Face(config);
   m.centroid_w.z() = -1.0;
   EXPECT_EQ(count(m), 0u) << "behind the camera";
-  Map map = MapOf(Face(config));
-  map.planes.swap(map.plane_candidates);
+  Map map;
+  map.planes.Add(Face(config));
   EXPECT_TRUE(ExpectPlanes(map, Pose(), camera, config).empty()) << "on trial";
 }
 

@@ -30,7 +30,7 @@ TEST(Keyframes, AddAnObservationForEachMatchAndAPointForEachUnmatchedDepth) {
   const std::size_t seen_before =
       world.map.points[static_cast<std::size_t>(matched)].observations.size();
 
-  const int id = InsertKeyframe(frame, world.map, world.camera, {});
+  const int id = InsertKeyframe(frame, world.map, world.camera, FeatureScale{}, {});
   EXPECT_EQ(id, 2);
   EXPECT_EQ(world.map.points.size(), points_before + 1);
   EXPECT_EQ(world.map.points[static_cast<std::size_t>(matched)].observations.size(),
@@ -55,7 +55,7 @@ TEST(Keyframes, ForgetMatchesWithPointsThatWereCulledAndFollowFusedOnes) {
   for (int& slot : frame.map_points) slot = slot == into ? kNone : slot;
   CullPoint(world.map, culled);
   if (culled != into) ReplacePoint(world.map, fused, into);
-  InsertKeyframe(frame, world.map, world.camera, {});
+  InsertKeyframe(frame, world.map, world.camera, FeatureScale{}, {});
   EXPECT_EQ(frame.map_points[0], kNone);
   EXPECT_EQ(frame.map_points[1], culled == into ? fused : into);
 }
@@ -83,7 +83,7 @@ TEST(Keyframes, RankTheirNeighboursBySharedPoints) {
 
 TEST(Keyframes, AreCulledWhenOthersSeeTheSameExceptTheFirstAndTheNewestTwo) {
   PointWorld world = MakePointWorld(6, 200, 5);
-  const int culled = CullKeyframes(world.map, 5, world.camera, {});
+  const int culled = CullKeyframes(world.map, 5, world.camera, FeatureScale{}, {});
   EXPECT_GE(culled, 1);
   EXPECT_FALSE(world.map.keyframes[0].culled);
   EXPECT_FALSE(world.map.keyframes[4].culled);
@@ -102,7 +102,7 @@ TEST(Keyframes, FollowTheOneThatReplacedThemWhenItMoves) {
   PointWorld world = MakePointWorld(6, 200, 6);
   std::vector<Pose> before;
   for (const Keyframe& keyframe : world.map.keyframes) before.push_back(keyframe.T_cw);
-  CullKeyframes(world.map, 5, world.camera, {});
+  CullKeyframes(world.map, 5, world.camera, FeatureScale{}, {});
   const Pose T_wv{ExpSo3({0.1, -0.2, 0.3}), {1, 2, 3}};  // v: the world, moved
   int checked = 0;
   for (Keyframe& keyframe : world.map.keyframes) {
@@ -132,7 +132,7 @@ TEST(Keyframes, FollowAChainOfThoseThatReplacedThem) {
 
 TEST(Keyframes, AreNotCulledBesideOrAfterTheOneAsked) {
   PointWorld world = MakePointWorld(8, 200, 5);
-  EXPECT_EQ(CullKeyframes(world.map, 3, world.camera, {}), 1);
+  EXPECT_EQ(CullKeyframes(world.map, 3, world.camera, FeatureScale{}, {}), 1);
   EXPECT_TRUE(world.map.keyframes[1].culled);  // others see the same of 2, and of 4 to 7
 }
 
@@ -155,7 +155,7 @@ TEST(Keyframes, AreKeptWhileATenthOfTheirClosePointsIsTheirs) {
                Inverse(keyframe.T_cw) * world.camera.Backproject(seen.u_px, seen.depth_m), 1,
                static_cast<int>(f), {});
     }
-    CullKeyframes(world.map, 3, world.camera, {});
+    CullKeyframes(world.map, 3, world.camera, FeatureScale{}, {});
     EXPECT_EQ(world.map.keyframes[1].culled, share < 0.1);
   }
 }
@@ -185,8 +185,7 @@ TEST(Keyframes, MakePointsOfAllCloseDepthsAndOfTheNearestHundredOtherwise) {
   KeyframeConfig config;
   Camera camera;
   camera.fy = 2 * camera.fx;
-  const double close_m = config.close_baselines * config.bf_px_m / camera.fx;
-  EXPECT_DOUBLE_EQ(CloseDepth(camera, config), close_m);
+  const double close_m = FeatureScale{}.CloseDepth_m(camera.fx);
   for (const int close : {60, 150}) {
     Frame frame;
     frame.features.resize(200);
@@ -197,7 +196,7 @@ TEST(Keyframes, MakePointsOfAllCloseDepthsAndOfTheNearestHundredOtherwise) {
       feature.depth_m = f < close ? 0.9 * close_m : 1.1 * close_m;
     }
     Map map;
-    InsertKeyframe(frame, map, camera, config);
+    InsertKeyframe(frame, map, camera, FeatureScale{}, config);
     EXPECT_EQ(static_cast<int>(map.points.size()), std::max(close, config.min_new_points));
   }
 }

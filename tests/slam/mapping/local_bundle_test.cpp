@@ -41,7 +41,8 @@ TEST(LocalBundle, FindsTheTrueMapAgainFromADisturbedOne) {
   Disturb(map, 0.005, 0.003);
   LocalBundleConfig config;
   config.last_iterations = 20;
-  const LocalBundleReport report = AdjustLocalBundle(map, 4, truth.camera, config);
+  const LocalBundleReport report =
+      AdjustLocalBundle(map, 4, truth.camera, FeatureScale{}, config);
   EXPECT_TRUE(report.usable);
   EXPECT_EQ(report.outliers, 0);
   EXPECT_EQ(report.keyframes, 4);
@@ -62,7 +63,8 @@ TEST(LocalBundle, FindsItWithoutDepthWhenTwoFixedKeyframesGiveTheScale) {
   LocalBundleConfig config;
   config.max_keyframes = 3;  // two keyframes are left to hold position and scale
   config.last_iterations = 30;
-  const LocalBundleReport report = AdjustLocalBundle(map, 4, truth.camera, config);
+  const LocalBundleReport report =
+      AdjustLocalBundle(map, 4, truth.camera, FeatureScale{}, config);
   EXPECT_TRUE(report.usable);
   EXPECT_EQ(report.keyframes, 3);
   EXPECT_EQ(report.fixed_keyframes, 2);
@@ -80,7 +82,8 @@ TEST(LocalBundle, TakesFalseObservationsBackAndIsNotBentByThem) {
   Disturb(map, 0.003, 0.002);
   LocalBundleConfig config;
   config.last_iterations = 20;
-  const LocalBundleReport report = AdjustLocalBundle(map, 4, truth.camera, config);
+  const LocalBundleReport report =
+      AdjustLocalBundle(map, 4, truth.camera, FeatureScale{}, config);
   EXPECT_TRUE(report.usable);
   EXPECT_GE(report.outliers, 12);
   EXPECT_LE(report.outliers, 16);
@@ -94,7 +97,7 @@ TEST(LocalBundle, LeavesFixedKeyframesWhereTheyAre) {
   const Map before = map;
   LocalBundleConfig config;
   config.max_keyframes = 2;
-  AdjustLocalBundle(map, 5, truth.camera, config);
+  AdjustLocalBundle(map, 5, truth.camera, FeatureScale{}, config);
   int moved = 0;
   for (std::size_t k = 0; k < map.keyframes.size(); ++k) {
     moved += map.keyframes[k].T_cw.t != before.keyframes[k].T_cw.t;
@@ -108,8 +111,8 @@ TEST(LocalBundle, GivesTheSameBytesTwice) {
   Map first = truth.map;
   Disturb(first, 0.005, 0.003);
   Map second = first;
-  AdjustLocalBundle(first, 4, truth.camera, {});
-  AdjustLocalBundle(second, 4, truth.camera, {});
+  AdjustLocalBundle(first, 4, truth.camera, FeatureScale{}, {});
+  AdjustLocalBundle(second, 4, truth.camera, FeatureScale{}, {});
   for (std::size_t k = 0; k < first.keyframes.size(); ++k) {
     EXPECT_EQ(first.keyframes[k].T_cw.R, second.keyframes[k].T_cw.R);
     EXPECT_EQ(first.keyframes[k].T_cw.t, second.keyframes[k].T_cw.t);
@@ -123,14 +126,15 @@ TEST(LocalBundle, DropsAPointBehindItsCamera) {
   PointWorld world = MakePointWorld(4, 150, 6);
   const int behind = PointAt(world.map, 3, 0);
   world.map.points[static_cast<std::size_t>(behind)].p_w = {0, 0, -3};
-  const LocalBundleReport report = AdjustLocalBundle(world.map, 3, world.camera, {});
+  const LocalBundleReport report =
+      AdjustLocalBundle(world.map, 3, world.camera, FeatureScale{}, {});
   EXPECT_TRUE(report.usable);
   EXPECT_TRUE(world.map.points[static_cast<std::size_t>(behind)].culled);
 }
 
 TEST(LocalBundle, DoesNothingForTheFirstKeyframeAlone) {
   PointWorld world = MakePointWorld(1, 50, 7);
-  EXPECT_FALSE(AdjustLocalBundle(world.map, 0, world.camera, {}).usable);
+  EXPECT_FALSE(AdjustLocalBundle(world.map, 0, world.camera, FeatureScale{}, {}).usable);
 }
 
 TEST(BundleTerm, IsZeroAtTheTruthAndCountsSigmas) {

@@ -123,7 +123,7 @@ TEST(MapPoints, LookAtTheMiddleOfTheirViewsAndKnowTheirScales) {
   const double distance = std::sqrt(4.25);
   EXPECT_NEAR(point.max_distance_m, distance * 1.44, 1e-9);
   EXPECT_NEAR(point.min_distance_m, distance * 1.44 / std::pow(1.2, 7), 1e-9);
-  EXPECT_EQ(ScalePyramid{}.PredictOctave(distance, point.max_distance_m), 2);
+  EXPECT_EQ(FeatureScale{}.PredictOctave(distance, point.max_distance_m), 2);
 }
 
 TEST(MapPoints, KnowTheirViewsFromTurnedCamerasAndTheirScaleFromTheFirst) {

@@ -1,12 +1,14 @@
 #include <gtest/gtest.h>
 
-#include "slam/associate/plane_plane.h"
+#include "slam/associate/associate_planes.h"
 #include "slam/mapping/plane_cloud.h"
 #include "slam/mapping/plane_fuse.h"
 #include "slam/mapping/plane_update.h"
 #include "slam/mapping/plane_vertices.h"
 #include "slam/model/class_belief.h"
+#include "slam/model/map_queries.h"
 #include "tests/support/decision_score.h"
+#include "tests/support/map_surfaces.h"
 #include "tests/support/plane_world.h"
 #include "tests/support/slam_matchers.h"
 #include "tests/support/small_images.h"
@@ -42,14 +44,16 @@ WalkResult MapAWalk(const PlaneWorld& world, const ViewFaults& faults, int frame
   WalkResult out;
   const Camera camera = SmallCamera();
   PlaneMapConfig config = SmallImages();
-  config.association.rule = rule;
+  AssociationConfig association;
+  association.rule = rule;
   for (int k = 0; k < frames; ++k) {
     SeenWorld seen =
         See(world, Walk(k), camera, faults, Random{7, static_cast<std::uint64_t>(k)});
     seen.frame.index = k;
-    AssociatePlanes(seen.frame, out.map, camera, config.association);
-    UpdatePlanes(seen.frame, out.map, camera, config);
-    if (k % 6 == 5) FusePlanes(out.map, config);
+    seen.frame.plane_matches =
+        AssociatePlanes(seen.frame, out.map, camera, association).matches;
+    UpdatePlanes(seen.frame, out.map, camera, association, config);
+    if (k % 6 == 5) FusePlanes(out.map, association, config);
     out.score.Count(seen.frame, seen.truth);
   }
   return out;
@@ -83,7 +87,7 @@ TEST(PlaneMap, BelievesTheClassThatIsMissedEveryThirdTime) {
   const WalkResult walk = MapAWalk(world, kNoisy, 40, AssociationRule::kIntegrated);
   int books = 0;
   for (const MapPlane& m : walk.map.planes) {
-    if (m.observations < 20 || m.merged_into) continue;
+    if (m.observations < 20 || m.status != LandmarkStatus::kLandmark) continue;
     if (m.area_m2 > 0.3) {
       EXPECT_EQ(m.class_name, "");
     }
@@ -96,7 +100,7 @@ TEST(PlaneMap, KeepsPlanesWithinAMillimetreOfTruthOnExactViews) {
   const PlaneWorld world = CrowdedDesk();
   const WalkResult walk = MapAWalk(world, {}, 20, AssociationRule::kIntegrated);
   for (const MapPlane& m : walk.map.planes) {
-    if (m.merged_into) continue;
+    if (m.status != LandmarkStatus::kLandmark) continue;
     double nearest = 1.0;
     for (const WorldPlane& truth : world.planes) {
       if (Angle(truth.pi_w().n, m.pi_w.n) > 0.01) continue;
@@ -121,13 +125,13 @@ TEST(PlaneMap, StartsNoLandmarkFromAnUndecidedOrSmallOrBadPlane) {
   SeenWorld seen = See(CrowdedDesk(), Walk(0), camera, {}, Random{1});
   ASSERT_GE(seen.frame.planes.size(), 3u);
   seen.frame.plane_matches.assign(seen.frame.planes.size(), {});
-  for (PlaneMatch& match : seen.frame.plane_matches) match.by = kByAmbiguous;
-  seen.frame.plane_matches[0].by = "";
+  for (PlaneMatch& match : seen.frame.plane_matches) match.reason = MatchReason::kAmbiguous;
+  seen.frame.plane_matches[0].reason = MatchReason::kNothing;
   seen.frame.planes[0].pixel_count = 10;
-  seen.frame.plane_matches[1].by = "";
+  seen.frame.plane_matches[1].reason = MatchReason::kNothing;
   seen.frame.planes[1].bad = BadReason::kBorder;
   Map map;
-  UpdatePlanes(seen.frame, map, camera, SmallImages());
+  UpdatePlanes(seen.frame, map, camera, {}, SmallImages());
   EXPECT_TRUE(map.planes.empty());
 }
 
@@ -143,19 +147,19 @@ TEST(PlaneMap, FusesASurfaceThatWasFoundTwiceAndKeepsStepsApart) {
     for (int k = 0; k < 8; ++k) {
       SeenWorld seen = See(world, Walk(k), camera, {}, Random{1});
       seen.frame.index = k;
-      AssociatePlanes(seen.frame, single, camera, config.association);
-      UpdatePlanes(seen.frame, single, camera, config);
+      seen.frame.plane_matches = AssociatePlanes(seen.frame, single, camera, {}).matches;
+      UpdatePlanes(seen.frame, single, camera, {}, config);
     }
     ASSERT_EQ(single.planes.size(), 1u);
-    single.planes[0].id = static_cast<int>(map.planes.size());
-    map.planes.push_back(single.planes[0]);
+    AddLandmark(map, *single.planes.begin());
   }
-  EXPECT_EQ(FusePlanes(map, config), 1);
-  EXPECT_EQ(map.planes[1].merged_into, 0);
-  EXPECT_FALSE(map.planes[2].merged_into);
-  EXPECT_EQ(ResolvePlane(map, 1), 0);
-  EXPECT_EQ(map.planes[0].observations, 16);
-  EXPECT_EQ(FusePlanes(map, config), 0);
+  EXPECT_EQ(FusePlanes(map, {}, config), 1);
+  EXPECT_EQ(map.planes.At(1).merged_into, 0);
+  EXPECT_EQ(map.planes.At(1).status, LandmarkStatus::kMerged);
+  EXPECT_EQ(map.planes.At(2).status, LandmarkStatus::kLandmark);
+  EXPECT_EQ(CurrentPlane(map, 1), 0);
+  EXPECT_EQ(map.planes.At(0).observations, 16);
+  EXPECT_EQ(FusePlanes(map, {}, config), 0);
 }
 
 TEST(ClassBelief, IsNotTheFirstLabel) {

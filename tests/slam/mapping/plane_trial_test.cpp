@@ -5,8 +5,9 @@
 #include <algorithm>
 #include <optional>
 
-#include "slam/associate/plane_plane.h"
+#include "slam/associate/associate_planes.h"
 #include "slam/mapping/plane_update.h"
+#include "tests/support/map_surfaces.h"
 #include "tests/support/plane_world.h"
 #include "tests/support/small_images.h"
 
@@ -28,6 +29,7 @@ constexpr double kLarge_m = 0.25, kSmall_m = 0.09;
 /// Shows worlds to one map, a frame each.
 struct Show {
   Map map;
+  AssociationConfig association;
   PlaneMapConfig config = SmallImages();
   int frames = 0;
   Pose T_old_new;  ///< of the world that the map lives in
@@ -43,8 +45,8 @@ struct Show {
     for (std::size_t f = 0; f < seen.truth.size(); ++f) {
       if (seen.truth[f] == 1) seen.frame.planes[f].bad = bad;
     }
-    AssociatePlanes(seen.frame, map, camera, config.association);
-    UpdatePlanes(seen.frame, map, camera, config);
+    seen.frame.plane_matches = AssociatePlanes(seen.frame, map, camera, association).matches;
+    UpdatePlanes(seen.frame, map, camera, association, config);
     for (std::size_t f = 0; f < seen.truth.size(); ++f) {
       if (seen.truth[f] == 1) return seen.frame.plane_matches[f];
     }
@@ -56,12 +58,12 @@ struct Show {
 TEST(PlaneTrial, WhatIsSeenForTwoFramesLeavesNothingBehind) {
   Show show;
   show.Next(DeskWithSheet(0));
-  ASSERT_EQ(show.map.planes.size(), 1u);
+  ASSERT_EQ(Landmarks(show.map).size(), 1u);
   for (int k = 0; k < 2; ++k) show.Next(DeskWithSheet(kLarge_m));
-  EXPECT_EQ(show.map.plane_candidates.size(), 1u);
+  EXPECT_EQ(Candidates(show.map).size(), 1u);
   for (int k = 0; k < 3; ++k) show.Next(DeskWithSheet(0));
-  EXPECT_EQ(show.map.planes.size(), 1u);
-  EXPECT_TRUE(show.map.plane_candidates.empty());
+  EXPECT_EQ(Landmarks(show.map).size(), 1u);
+  EXPECT_TRUE(Candidates(show.map).empty());
 }
 
 // Fails when a candidate is never promoted, is told as a landmark before, or keeps its own id.
@@ -70,18 +72,17 @@ TEST(PlaneTrial, WhatStaysIsNewOnceAndMatchedFromThenOn) {
   show.Next(DeskWithSheet(0));
   for (int k = 0; k < 2; ++k) {
     const PlaneMatch match = show.Next(DeskWithSheet(kLarge_m));
-    EXPECT_EQ(match.decision, PlaneDecision::kNone);
-    EXPECT_EQ(match.map_plane, kNone);
-    EXPECT_STREQ(match.by, kByCandidate);
+    EXPECT_EQ(match.decision, PlaneDecision::kTrial);
+    EXPECT_EQ(match.map_plane, 1);
   }
   const PlaneMatch made = show.Next(DeskWithSheet(kLarge_m));
   EXPECT_EQ(made.decision, PlaneDecision::kNew);
   EXPECT_EQ(made.map_plane, 1);
-  ASSERT_EQ(show.map.planes.size(), 2u);
-  EXPECT_EQ(show.map.planes[1].id, 1);
-  EXPECT_EQ(show.map.planes[1].observations, 3);
-  EXPECT_EQ(show.map.planes[1].first_frame, 1);
-  EXPECT_TRUE(show.map.plane_candidates.empty());
+  ASSERT_EQ(Landmarks(show.map).size(), 2u);
+  EXPECT_EQ(Landmarks(show.map)[1]->id, 1);
+  EXPECT_EQ(Landmarks(show.map)[1]->observations, 3);
+  EXPECT_EQ(Landmarks(show.map)[1]->first_frame, 1);
+  EXPECT_TRUE(Candidates(show.map).empty());
   const PlaneMatch next = show.Next(DeskWithSheet(kLarge_m));
   EXPECT_EQ(next.decision, PlaneDecision::kMatched);
   EXPECT_EQ(next.map_plane, 1);
@@ -102,13 +103,13 @@ TEST(PlaneTrial, ASmallSurfaceMustBeSeenMoreOften) {
   Show show;
   show.Next(DeskWithSheet(0));
   int frames = 0;
-  while (show.map.planes.size() < 2 && frames < 30) {
+  while (Landmarks(show.map).size() < 2 && frames < 30) {
     show.Next(DeskWithSheet(kSmall_m));
     ++frames;
   }
-  ASSERT_EQ(show.map.planes.size(), 2u);
+  ASSERT_EQ(Landmarks(show.map).size(), 2u);
   EXPECT_GT(frames, show.config.trial_frames);
-  EXPECT_GE(show.map.planes[1].seen_px, show.config.trial_size * show.config.min_pixels);
+  EXPECT_GE(Landmarks(show.map)[1]->seen_px, show.config.trial_size * show.config.min_pixels);
 }
 
 // Fails when a toy whose box was missed for a frame keeps its trial.
@@ -116,20 +117,20 @@ TEST(PlaneTrial, EndsWhereTheSurfaceTurnsOutToBeUnstructured) {
   Show show;
   show.Next(DeskWithSheet(0));
   for (int k = 0; k < 2; ++k) show.Next(DeskWithSheet(kLarge_m));
-  ASSERT_EQ(show.map.plane_candidates.size(), 1u);
+  ASSERT_EQ(Candidates(show.map).size(), 1u);
   show.Next(DeskWithSheet(kLarge_m), BadReason::kUnstructured);
-  EXPECT_TRUE(show.map.plane_candidates.empty());
+  EXPECT_TRUE(Candidates(show.map).empty());
   show.Next(DeskWithSheet(kLarge_m));
-  EXPECT_EQ(show.map.planes.size(), 1u);
+  EXPECT_EQ(Landmarks(show.map).size(), 1u);
 }
 
 // Fails when the first frame starts nothing, or everything.
 TEST(PlaneTrial, AnEmptyMapTakesLargeSurfacesAtOnceAndOthersOnTrial) {
   Show large, small;
   EXPECT_EQ(large.Next(DeskWithSheet(kLarge_m)).decision, PlaneDecision::kNew);
-  EXPECT_EQ(small.Next(DeskWithSheet(kSmall_m)).decision, PlaneDecision::kNone);
-  EXPECT_EQ(small.map.planes.size(), 1u);
-  EXPECT_EQ(small.map.plane_candidates.size(), 1u);
+  EXPECT_EQ(small.Next(DeskWithSheet(kSmall_m)).decision, PlaneDecision::kTrial);
+  EXPECT_EQ(Landmarks(small.map).size(), 1u);
+  EXPECT_EQ(Candidates(small.map).size(), 1u);
 }
 
 // Fails when candidates that are never seen again pile up.
@@ -139,10 +140,10 @@ TEST(PlaneTrial, FlickeringSurfacesDoNotPileUp) {
   std::size_t most = 0;
   for (int k = 0; k < 30; ++k) {
     show.Next(DeskWithSheet(kSmall_m, -0.4 + 0.2 * (k % 5)));
-    most = std::max(most, show.map.plane_candidates.size());
+    most = std::max(most, Candidates(show.map).size());
   }
   EXPECT_LE(most, static_cast<std::size_t>(show.config.max_trial_misses) + 1);
-  EXPECT_EQ(show.map.planes.size(), 1u);
+  EXPECT_EQ(Landmarks(show.map).size(), 1u);
 }
 
 // Fails when a trial asks where in the world something is.
@@ -157,8 +158,8 @@ TEST(PlaneTrial, DoesNotDependOnWhereTheWorldLies) {
     const PlaneMatch other = there.Next(DeskWithSheet(size_m));
     EXPECT_EQ(one.decision, other.decision);
     EXPECT_EQ(one.map_plane, other.map_plane);
-    EXPECT_EQ(here.map.plane_candidates.size(), there.map.plane_candidates.size());
-    landmarks = static_cast<int>(here.map.planes.size());
+    EXPECT_EQ(Candidates(here.map).size(), Candidates(there.map).size());
+    landmarks = static_cast<int>(Landmarks(here.map).size());
   }
   EXPECT_EQ(landmarks, 2);
 }
@@ -171,13 +172,17 @@ TEST(PlaneTrial, CandidatesAreNoLandmarksToTheAssociation) {
   const Camera camera = SmallCamera();
   SeenWorld seen = See(DeskWithSheet(kLarge_m), kView, camera, {}, Random{9});
   Map without = show.map;
-  without.plane_candidates.clear();
-  Frame other = seen.frame;
-  AssociatePlanes(seen.frame, show.map, camera, show.config.association);
-  AssociatePlanes(other, without, camera, show.config.association);
+  without.planes.EraseCandidates([](const MapPlane&) { return true; });
+  const auto matches = AssociatePlanes(seen.frame, show.map, camera, show.association).matches;
+  const auto alone = AssociatePlanes(seen.frame, without, camera, show.association).matches;
   for (std::size_t f = 0; f < seen.truth.size(); ++f) {
-    EXPECT_EQ(seen.frame.plane_matches[f].decision, other.plane_matches[f].decision);
-    EXPECT_EQ(seen.frame.plane_matches[f].map_plane, other.plane_matches[f].map_plane);
+    if (seen.truth[f] == 1) {
+      EXPECT_EQ(matches[f].decision, PlaneDecision::kTrial);
+      EXPECT_EQ(alone[f].decision, PlaneDecision::kUnmatched);
+    } else {
+      EXPECT_EQ(matches[f].decision, alone[f].decision);
+      EXPECT_EQ(matches[f].map_plane, alone[f].map_plane);
+    }
   }
 }
 
@@ -196,16 +201,16 @@ TEST(PlaneTrial, ASurfaceOnTrialIsNotTakenByTheLandmarkBesideIt) {
   Show show;
   show.Next(DeskWithFoot(false));
   for (int k = 0; k < 3; ++k) show.Next(DeskWithFoot(false));
-  ASSERT_EQ(show.map.planes.size(), 2u);
-  ASSERT_EQ(show.map.planes[1].class_name, "tv");
+  ASSERT_EQ(Landmarks(show.map).size(), 2u);
+  ASSERT_EQ(Landmarks(show.map)[1]->class_name, "tv");
   for (int k = 0; k < 2; ++k) show.Next(DeskWithFoot(true));
-  ASSERT_EQ(show.map.plane_candidates.size(), 1u);
+  ASSERT_EQ(Candidates(show.map).size(), 1u);
   // What a segment over both does: the foot is now thought to go on where the phone lies.
-  const std::vector<Eigen::Vector3d>& phone_w = show.map.plane_candidates[0].points_w;
-  auto& foot_w = show.map.planes[1].points_w;
+  const std::vector<Eigen::Vector3d>& phone_w = Candidates(show.map)[0]->points_w;
+  auto& foot_w = Landmarks(show.map)[1]->points_w;
   foot_w.insert(foot_w.end(), phone_w.begin(), phone_w.end());
   Map without = show.map;
-  without.plane_candidates.clear();
+  without.planes.EraseCandidates([](const MapPlane&) { return true; });
 
   const Camera camera = SmallCamera();
   SeenWorld seen = See(DeskWithFoot(true), kView, camera, {}, Random{9});
@@ -215,16 +220,15 @@ TEST(PlaneTrial, ASurfaceOnTrialIsNotTakenByTheLandmarkBesideIt) {
     seen.frame.planes[f].detection.reset();
     seen.frame.planes[f].class_name.clear();
   }
-  Frame alone = seen.frame;
-  AssociatePlanes(seen.frame, show.map, camera, show.config.association);
-  AssociatePlanes(alone, without, camera, show.config.association);
+  const auto matches = AssociatePlanes(seen.frame, show.map, camera, show.association).matches;
+  const auto alone = AssociatePlanes(seen.frame, without, camera, show.association).matches;
   for (std::size_t f = 0; f < seen.truth.size(); ++f) {
     if (seen.truth[f] == 1) {
-      EXPECT_EQ(seen.frame.plane_matches[f].map_plane, 1);
+      EXPECT_EQ(matches[f].map_plane, 1);
     }
     if (seen.truth[f] != 2) continue;
-    EXPECT_EQ(seen.frame.plane_matches[f].map_plane, kNone);
-    EXPECT_EQ(alone.plane_matches[f].map_plane, 1) << "the scene is too easy to tell";
+    EXPECT_EQ(matches[f].decision, PlaneDecision::kTrial);
+    EXPECT_EQ(alone[f].map_plane, 1) << "the scene is too easy to tell";
   }
 }
 

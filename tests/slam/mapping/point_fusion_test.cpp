@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "slam/base/chi_square.h"
 #include "slam/mapping/map_points.h"
 #include "slam/model/map_queries.h"
 #include "tests/support/point_world.h"
@@ -24,7 +25,7 @@ TEST(PointFusion, MakesOneOfTwoCopiesAndKeepsTheBetterSeenOne) {
   PointWorld world = MakePointWorld(3, 100, 1);
   const int original = PointAt(world.map, 2, 0);
   const int copy = SplitOff(world.map, original);
-  EXPECT_GE(FusePoints(world.map, 2, world.camera, {}), 1);
+  EXPECT_GE(FusePoints(world.map, 2, world.camera, FeatureScale{}, {}), 1);
   EXPECT_EQ(CurrentPoint(world.map, copy), original);
   const MapPoint& kept = world.map.points[static_cast<std::size_t>(original)];
   EXPECT_EQ(kept.observations.size(), 3u);
@@ -60,7 +61,7 @@ struct NearMiss {
   }
   bool Fuses() const {
     Map copy = map;
-    FusePoints(copy, 0, camera, {});
+    FusePoints(copy, 0, camera, FeatureScale{}, {});
     return copy.points[0].observations.count(1) != 0;
   }
   bool FusesWithError(double error_px) {
@@ -78,7 +79,7 @@ TEST(PointFusion, AllowsAPointOffItsFeatureByTheChiSquareOfItsKindAndOctave) {
     for (const bool with_depth : {false, true}) {
       NearMiss miss(octave, with_depth);
       const double bound_px =
-          std::sqrt(with_depth ? config.stereo_chi2 : config.mono_chi2) * std::pow(1.2, octave);
+          std::sqrt(with_depth ? kChi2Of3At95 : kChi2Of2At95) * std::pow(1.2, octave);
       EXPECT_TRUE(miss.FusesWithError(0.98 * bound_px)) << octave << " " << with_depth;
       EXPECT_FALSE(miss.FusesWithError(1.02 * bound_px)) << octave << " " << with_depth;
     }
@@ -91,7 +92,7 @@ TEST(PointFusion, AllowsAFifthBeyondTheRangeOfDistancesOfAPoint) {
   for (const double factor : {1.19, 1.21}) {
     point.max_distance_m = 100.0, point.min_distance_m = factor * miss.distance_m;
     for (PointFeature& feature : miss.map.keyframes[1].features) {
-      feature.octave = ScalePyramid{}.PredictOctave(miss.distance_m, 100.0);
+      feature.octave = FeatureScale{}.PredictOctave(miss.distance_m, 100.0);
     }
     EXPECT_EQ(miss.Fuses(), factor < 1.2) << "too near";
     point.max_distance_m = miss.distance_m / factor, point.min_distance_m = 0.1;
@@ -105,7 +106,7 @@ TEST(PointFusion, GivesAPointTheFeatureThatMatchingHadMissed) {
   const int point = PointAt(world.map, 2, 0);
   RemoveObservation(world.map, point, 2);
   ASSERT_FALSE(world.map.points[static_cast<std::size_t>(point)].culled);
-  FusePoints(world.map, 2, world.camera, {});
+  FusePoints(world.map, 2, world.camera, FeatureScale{}, {});
   EXPECT_TRUE(world.map.points[static_cast<std::size_t>(point)].observations.count(2));
 }
 
@@ -118,7 +119,7 @@ TEST(PointFusion, LeavesPointsApartThatLookDifferent) {
       world.map.keyframes[2].features[static_cast<std::size_t>(feature)].descriptor;
   for (auto& byte : descriptor) byte = static_cast<std::uint8_t>(byte ^ 0x33);
   UpdatePoint(world.map, copy, {});
-  FusePoints(world.map, 2, world.camera, {});
+  FusePoints(world.map, 2, world.camera, FeatureScale{}, {});
   EXPECT_EQ(CurrentPoint(world.map, copy), copy);
   EXPECT_EQ(CurrentPoint(world.map, original), original);
 }

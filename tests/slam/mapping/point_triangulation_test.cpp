@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "slam/base/chi_square.h"
 #include "slam/mapping/map_points.h"
 #include "tests/support/point_world.h"
 
@@ -71,13 +72,13 @@ struct TwoViews {
   }
   int Made() const {
     Map copy = map;
-    return TriangulatePoints(copy, 0, camera, {});
+    return TriangulatePoints(copy, 0, camera, FeatureScale{}, {});
   }
 };
 
 TEST(TriangulatePoints, AllowTheSecondFeatureOffItsLineBySoManyPixelsOfItsOctave) {
   const TriangulationConfig config;
-  const double bound_px = std::sqrt(config.epipolar_chi2);
+  const double bound_px = std::sqrt(kChi2Of1At95);
   for (const int octave : {0, 3}) {
     const double at_octave_px = bound_px * std::pow(1.2, octave);
     TwoViews views;
@@ -111,12 +112,13 @@ TEST(TriangulatePoints, RefuseAFeatureWithARivalOfTheSameLookOnItsLine) {
 TEST(TriangulatePoints, RefuseADepthThatIsNotThatOfTheRays) {
   const TriangulationConfig config;
   for (const int octave : {0, 4}) {
-    const double bound_px = std::sqrt(config.stereo_chi2) * std::pow(1.2, octave);
+    const double bound_px = std::sqrt(kChi2Of3At95) * std::pow(1.2, octave);
     TwoViews views;
     views.Feature(0).octave = octave;
     // As far off in disparity as the bound, from the true b f / 2 m.
     const auto with_error = [&](double px) {
-      views.Feature(0).depth_m = config.bf_px_m / (config.bf_px_m / 2.0 + px);
+      views.Feature(0).depth_m =
+          FeatureScale{}.bf_px_m / (FeatureScale{}.Disparity_px(2.0) + px);
       return views.Made();
     };
     EXPECT_EQ(with_error(0.98 * bound_px), 1) << octave;
@@ -133,7 +135,7 @@ TEST(TriangulatePoints, MakesPointsOfFeaturesWithoutDepthWhereTheyAre) {
   }
   for (int k = 0; k < 3; ++k) UpdateCovisibility(world.map, k, {});
   const std::size_t before = world.map.points.size();
-  const int made = TriangulatePoints(world.map, 2, world.camera, {});
+  const int made = TriangulatePoints(world.map, 2, world.camera, FeatureScale{}, {});
   EXPECT_EQ(world.map.points.size(), before + static_cast<std::size_t>(made));
   EXPECT_GE(made, 20);
   for (std::size_t i = before; i < world.map.points.size(); ++i) {

@@ -32,17 +32,17 @@ TEST(QueryOfAPoint, SaysWhereInWhichOctavesAndHowFarAroundToLook) {
   const Eigen::Vector2d u_px(500, 90);
   PointProjectionConfig config;
   const MapPoint aside = PointOnRay(camera, u_px, 0.35);
-  const PointQuery query = QueryOf(aside, kTurned_cw, camera, 3.0, config);
+  const PointQuery query = QueryOf(aside, kTurned_cw, camera, FeatureScale{}, 3.0, config);
   ASSERT_EQ(query.point, 7);
   EXPECT_LT((query.u_px - u_px).norm(), 1e-9);
   const double z_m = (kTurned_cw * aside.p_w).z();
-  EXPECT_NEAR(query.right_u_px, 500 - config.bf_px_m / z_m, 1e-9);
+  EXPECT_NEAR(query.right_u_px, 500 - FeatureScale{}.bf_px_m / z_m, 1e-9);
   EXPECT_EQ(query.min_octave, 1);
   EXPECT_EQ(query.max_octave, 3);
   EXPECT_NEAR(query.radius_px, config.radius_px * 3.0 * 1.44, 1e-9);
 
   const PointQuery straight =
-      QueryOf(PointOnRay(camera, u_px, 0.01), kTurned_cw, camera, 3.0, config);
+      QueryOf(PointOnRay(camera, u_px, 0.01), kTurned_cw, camera, FeatureScale{}, 3.0, config);
   EXPECT_NEAR(straight.radius_px, config.straight_radius_px * 3.0 * 1.44, 1e-9);
 }
 
@@ -51,7 +51,7 @@ TEST(QueryOfAPoint, IsNoneOutOfTheRangeOfItsScalesByMoreThanTheMargin) {
   const auto found = [&](double min_m, double max_m) {
     MapPoint point = PointOnRay(camera, {200, 300}, 0.1);
     point.min_distance_m = min_m, point.max_distance_m = max_m;
-    return QueryOf(point, kTurned_cw, camera, 1.0, {}).point != kNone;
+    return QueryOf(point, kTurned_cw, camera, FeatureScale{}, 1.0, {}).point != kNone;
   };
   EXPECT_TRUE(found(3.0 * 1.19, 20.0));  // nearer than its nearest, within the margin
   EXPECT_FALSE(found(3.0 * 1.21, 20.0));
@@ -63,13 +63,13 @@ TEST(QueryOfAPoint, IsNoneFromBeyondSixtyDegreesOfItsMeanViewAndBehindTheCamera)
   const Camera camera;
   const auto found = [&](double off_rad) {
     const MapPoint point = PointOnRay(camera, {400, 200}, off_rad);
-    return QueryOf(point, kTurned_cw, camera, 1.0, {}).point != kNone;
+    return QueryOf(point, kTurned_cw, camera, FeatureScale{}, 1.0, {}).point != kNone;
   };
   EXPECT_TRUE(found(M_PI / 3 - 0.01));
   EXPECT_FALSE(found(M_PI / 3 + 0.01));
   MapPoint behind = PointOnRay(camera, {400, 200}, 0.0);
   behind.p_w = Inverse(kTurned_cw) * Eigen::Vector3d(0, 0, -3);
-  EXPECT_EQ(QueryOf(behind, kTurned_cw, camera, 1.0, {}).point, kNone);
+  EXPECT_EQ(QueryOf(behind, kTurned_cw, camera, FeatureScale{}, 1.0, {}).point, kNone);
 }
 
 /// Keyframes that see points: [keyframe] -> ids.

@@ -3,6 +3,7 @@
 
 #include <gmock/gmock.h>
 
+#include "tests/support/map_surfaces.h"
 #include "tests/support/slam_matchers.h"
 
 namespace slam {
@@ -71,19 +72,19 @@ TEST(CarryMap, APlaneMovesWithTheKeyframeOfItsFirstSightingAndOneOnTrialWithTheN
     MapPlane plane;
     plane.first_frame = first_frame;
     plane.centroid_w = centroid_w;
-    moved.map.planes.push_back(plane);
+    AddLandmark(moved.map, plane);
   }
   MapPlane trial;
   trial.first_frame = 5;
   trial.centroid_w = centroid_w;
-  moved.map.plane_candidates.push_back(trial);
+  moved.map.planes.Add(trial);
   CarryPlanes(moved.map, moved.before);
   for (std::size_t k = 0; k < 3; ++k) {
-    EXPECT_THAT(moved.map.planes[k].centroid_w,
+    EXPECT_THAT(Landmarks(moved.map)[k]->centroid_w,
                 VectorNear(Eigen::Vector3d(moved.T_new_old[k] * centroid_w), 1e-12))
         << k;
   }
-  EXPECT_THAT(moved.map.plane_candidates[0].centroid_w,
+  EXPECT_THAT(Candidates(moved.map)[0]->centroid_w,
               VectorNear(Eigen::Vector3d(moved.T_new_old[2] * centroid_w), 1e-12));
 }
 

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 
 #include "slam/places/carry_map.h"
+#include "tests/support/map_surfaces.h"
 #include "tests/support/ring_world.h"
 #include "tests/support/slam_matchers.h"
 
@@ -10,12 +11,6 @@ namespace slam {
 namespace {
 
 constexpr int kLast = 39;
-
-LoopDetectionConfig Detection() {
-  LoopDetectionConfig config;
-  config.pose.virtual_bf_px_m = 40.0;
-  return config;
-}
 
 LoopClosingConfig Closing(int full_iterations = 10) {
   LoopClosingConfig config;
@@ -25,10 +20,11 @@ LoopClosingConfig Closing(int full_iterations = 10) {
 }
 
 std::optional<Loop> Detect(const RingWorld& world, int keyframe,
-                           const LoopDetectionConfig& config = Detection()) {
+                           const LoopDetectionConfig& config = {}) {
   KeyframeIndex index(world.vocabulary);
   index.Update(world.map);
-  return DetectLoop(world.map, index, keyframe, world.camera, config);
+  return DetectLoop(world.map, index, keyframe, world.camera, FeatureScale{},
+                    PointSearchConfig{}, config);
 }
 
 double WorstError(const Map& map, const std::vector<Pose>& truth) {
@@ -76,7 +72,7 @@ TEST(LoopDetection, RefusesAPlaceThatOnlyLooksTheSame) {
     std::erase_if(k.covisible, [&](const auto& e) { return e.first > 20; });
   }
   EXPECT_FALSE(Detect(then, 20));
-  LoopDetectionConfig credulous = Detection();
+  LoopDetectionConfig credulous;
   credulous.base_drift_m = credulous.base_drift_rad = 100;
   EXPECT_TRUE(Detect(then, 20, credulous)) << "the two places are not alike enough to tell";
 }
@@ -91,9 +87,9 @@ TEST(CloseLoop, DrawsTheMapTogether) {
   const int seen = PointAt(map, kLast, 3);
   wall.pi_w = {Eigen::Vector3d::UnitX(), -map.points[static_cast<std::size_t>(seen)].p_w.x()};
   wall.centroid_w = map.points[static_cast<std::size_t>(seen)].p_w;
-  map.planes.push_back(wall);
+  AddLandmark(map, wall);
   const double before = WorstError(map, world.truth);
-  const LoopReport report = CloseLoop(map, *loop, world.camera, {}, Closing());
+  const LoopReport report = CloseLoop(map, *loop, world.camera, FeatureScale{}, {}, Closing());
   EXPECT_GT(report.moved_m, 0.1);
   EXPECT_GT(report.fused, 40);
   EXPECT_TRUE(report.adjusted);
@@ -101,8 +97,8 @@ TEST(CloseLoop, DrawsTheMapTogether) {
   EXPECT_THAT(map.keyframes[0].T_cw, PoseNear(world.truth[0], 0.0, 0.0));
   // The plane went along with what it was seen with.
   const Pose carried = Inverse(map.keyframes[kLast].T_cw) * world.map.keyframes[kLast].T_cw;
-  EXPECT_THAT(map.planes[0].centroid_w, VectorNear(carried * wall.centroid_w, 1e-9));
-  EXPECT_NEAR(SignedDistance(map.planes[0].pi_w, map.planes[0].centroid_w), 0, 1e-9);
+  EXPECT_THAT(map.planes.At(0).centroid_w, VectorNear(carried * wall.centroid_w, 1e-9));
+  EXPECT_NEAR(SignedDistance(map.planes.At(0).pi_w, map.planes.At(0).centroid_w), 0, 1e-9);
 }
 
 // Fails when nothing but the full adjustment holds the map together.
@@ -111,7 +107,7 @@ TEST(CloseLoop, ThePoseGraphAloneTakesMostOfTheDrift) {
   const auto loop = Detect(world, kLast);
   ASSERT_TRUE(loop);
   Map map = world.map;
-  const LoopReport report = CloseLoop(map, *loop, world.camera, {}, Closing(0));
+  const LoopReport report = CloseLoop(map, *loop, world.camera, FeatureScale{}, {}, Closing(0));
   EXPECT_FALSE(report.adjusted);
   EXPECT_LT(WorstError(map, world.truth), 0.5 * WorstError(world.map, world.truth));
 }
@@ -121,8 +117,8 @@ TEST(CloseLoop, IsTheSameTwice) {
   const auto loop = Detect(world, kLast);
   ASSERT_TRUE(loop);
   Map one = world.map, two = world.map;
-  CloseLoop(one, *loop, world.camera, {}, Closing());
-  CloseLoop(two, *loop, world.camera, {}, Closing());
+  CloseLoop(one, *loop, world.camera, FeatureScale{}, {}, Closing());
+  CloseLoop(two, *loop, world.camera, FeatureScale{}, {}, Closing());
   for (std::size_t k = 0; k < one.keyframes.size(); ++k) {
     EXPECT_EQ(one.keyframes[k].T_cw.t, two.keyframes[k].T_cw.t);
     EXPECT_EQ(one.keyframes[k].T_cw.R, two.keyframes[k].T_cw.R);

@@ -128,12 +128,5 @@ TEST_F(ConfigFile, RefusesSettingsThatContradictEachOther) {
   ExpectError("point_features: {fast_threshold: 5}\n", "min_fast_threshold must not be above");
 }
 
-TEST_F(ConfigFile, GivesEveryStageOneBaselineAndOnePyramid) {
-  const Config config = Read("point_features: {bf_px_m: 55}\n");
-  EXPECT_EQ(config.tracking.keyframes.bf_px_m, 55.0);
-  EXPECT_EQ(config.tracking.projection.bf_px_m, 55.0);
-  EXPECT_EQ(config.tracking.pose.virtual_bf_px_m, 55.0);
-}
-
 }  // namespace
 }  // namespace slam

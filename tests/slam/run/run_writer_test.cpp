@@ -13,6 +13,7 @@
 #include "slam/base/require.h"
 #include "slam/run/map_file.h"
 #include "slam/run/text_number.h"
+#include "tests/support/map_surfaces.h"
 
 namespace slam {
 namespace {
@@ -61,25 +62,25 @@ Frame SomeFrame(int index) {
   far.pi_c = {Eigen::Vector3d(0, 0, -1), 8.0};
   far.bad = BadReason::kFar;
   frame.planes = {book, far};
-  frame.plane_matches = {{PlaneDecision::kMatched, 17, "iou+ranksum"}, {}};
+  frame.plane_matches = {{PlaneDecision::kMatched, 17, MatchReason::kRankTest}, {}};
   return frame;
 }
 
 Map SomeMap() {
   Map map;
-  for (int id = 0; id < 2; ++id) {
+  for (int k = 0; k < 2; ++k) {
     MapPlane plane;
-    plane.id = id;
     plane.pi_w = {Eigen::Vector3d(0, 0, 1), -0.75};
     plane.points_w = {{0.1, 0.2, 0.75}, {0.3, 0.4, 0.75}};
     plane.vertices_w = {{1, 2, 3}};
     plane.area_m2 = 0.5;
     plane.observations = 7;
     plane.first_seen_s = 1.5, plane.last_seen_s = 2.5;
-    map.planes.push_back(plane);
+    AddLandmark(map, plane);
   }
-  map.planes[0].class_name = "book";
-  map.planes[1].merged_into = 0;
+  map.planes.At(0).class_name = "book";
+  map.planes.At(1).status = LandmarkStatus::kMerged;
+  map.planes.At(1).merged_into = 0;
   Keyframe kept, culled;
   kept.timestamp_s = 1.5, culled.timestamp_s = 2.0, culled.culled = true;
   map.keyframes = {kept, culled};
@@ -151,7 +152,7 @@ TEST_F(RunFolder, WritesEveryPlaneOfEveryFrameAsItWasDecided) {
       "centroid": [0.1, 0.2, 0.3333333333333333], "pixels": 5210, "inlier_ratio": 0.97,
       "class": "book", "detection": 3, "bad": null, "lines": [[[1.0, 2.0, 3.0], [1.0, 0.0, 0.0]]],
       "vertices": [[4.0, 5.0, 6.0], [7.0, 8.0, 9.0]], "map_plane": 17, "decision": "matched",
-      "by": "iou+ranksum"})"));
+      "by": "ranksum"})"));
   const json& far = frame["planes"][1];
   EXPECT_EQ(far["bad"], "far");
   EXPECT_EQ(far["decision"], "none");

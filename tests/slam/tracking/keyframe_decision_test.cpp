@@ -7,6 +7,8 @@
 namespace slam {
 namespace {
 
+constexpr double kClose_m = 3.0;
+
 /// The first keyframe seen again, with only `kept` of its matches.
 Frame Again(const PointWorld& world, int kept) {
   const Keyframe& keyframe = world.map.keyframes[0];
@@ -22,7 +24,7 @@ Frame Again(const PointWorld& world, int kept) {
 }
 
 bool Wanted(const PointWorld& world, const Frame& frame, int since = 10) {
-  return DecideKeyframe(frame, world.map, 0, since, world.camera, {}, {}).wanted;
+  return DecideKeyframe(frame, world.map, 0, since, kClose_m, {}).wanted;
 }
 
 TEST(KeyframeDecision, WantsAFrameThatHasLostSightOfAQuarterOfTheReference) {
@@ -99,7 +101,7 @@ TEST(KeyframeDecision, CountsAPointOfTheReferenceOnceEnoughKeyframesSeeIt) {
       map.points.push_back(point);
       map.keyframes[0].map_points.push_back(i);
     }
-    return DecideKeyframe({}, map, 0, 10, {}, {}, {}).reference_points;
+    return DecideKeyframe({}, map, 0, 10, kClose_m, {}).reference_points;
   };
   EXPECT_EQ(reference_points(2, 0), 40);
   EXPECT_EQ(reference_points(3, 0), 30);
@@ -115,7 +117,7 @@ TEST(KeyframeDecision, KnowsALookFromATurnedKeyframe) {
   const Pose turn{ExpSo3({0.4, -0.9, 1.1}), Eigen::Vector3d::Zero()};
   for (Keyframe& keyframe : world.map.keyframes) keyframe.T_cw = turn * keyframe.T_cw;
   frame.T_cw = world.map.keyframes[0].T_cw;
-  EXPECT_EQ(DecideKeyframe(frame, world.map, 0, 10, world.camera, {}, {}).new_looks, 0);
+  EXPECT_EQ(DecideKeyframe(frame, world.map, 0, 10, kClose_m, {}).new_looks, 0);
 }
 
 TEST(KeyframeDecision, AsksForClosePointsInProportionToTheFeaturesOfTheImage) {
@@ -135,7 +137,7 @@ TEST(KeyframeDecision, AsksForClosePointsInProportionToTheFeaturesOfTheImage) {
       point.p_w = {0, 0, 1};
       map.points.push_back(point);
     }
-    return DecideKeyframe(frame, map, 0, config.min_frames_between, {}, {}, config).wanted;
+    return DecideKeyframe(frame, map, 0, config.min_frames_between, kClose_m, config).wanted;
   };
   const int half_tracked = config.min_close_tracked / 2;
   const int half_untracked = config.min_close_untracked / 2;

@@ -70,7 +70,7 @@ TEST(LastFrame, LooksForItsPointsAroundWhereAPredictionPutsThem) {
   ASSERT_EQ(seen.size(), 1u);
   const Pose ahead_cw = Pose{Eigen::Matrix3d::Identity(), {0, 0, -0.5}} * kStep_cr *
                         kReference_cw;  // half way to the point
-  const auto queries = QueriesOf(seen, r.last, ahead_cw, r.camera, 7.0, 40.0, {});
+  const auto queries = QueriesOf(seen, r.last, ahead_cw, r.camera, FeatureScale{}, 7.0);
   ASSERT_EQ(queries.size(), 1u);
   const Eigen::Vector3d p_c =
       r.camera.Backproject({250, 150}, 1.0) - Eigen::Vector3d(0, 0, 0.5);

@@ -15,7 +15,8 @@ struct PointOdometer {
   Map map{};
   LocalMappingConfig mapping{};
 
-  explicit PointOdometer(const Camera& c) : camera(c), tracking(c, PointTrackingConfig{}) {}
+  explicit PointOdometer(const Camera& c)
+      : camera(c), tracking(c, FeatureScale{}, PointSearchConfig{}, PointTrackingConfig{}) {}
 
   /// @param frame with gray and depth_m; gets features, matches and pose
   PointTrackReport Step(Frame& frame) {
@@ -23,7 +24,9 @@ struct PointOdometer {
     const PointTrackReport report = tracking.TrackPoints(frame, map);
     if (report.state != TrackState::kTracking) return report;
     if (tracking.NeedKeyframe(frame, map)) {
-      MapLocally(map, InsertKeyframe(frame, map, camera, mapping.keyframes), camera, mapping);
+      const int keyframe =
+          InsertKeyframe(frame, map, camera, FeatureScale{}, mapping.keyframes);
+      MapLocally(map, keyframe, camera, FeatureScale{}, mapping);
     }
     tracking.Accept(frame, map);
     return report;

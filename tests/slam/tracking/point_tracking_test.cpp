@@ -174,7 +174,8 @@ TEST(PointTracking, CountsOnItsPointsInWhichFramesTheyShouldBeSeenAndAre) {
       EXPECT_EQ(counts().second - found, report.inliers);
       EXPECT_GT(report.local_points, report.inliers);
     } else {
-      InsertKeyframe(frame, odometer.map, odometer.camera, odometer.mapping.keyframes);
+      InsertKeyframe(frame, odometer.map, odometer.camera, FeatureScale{},
+                     odometer.mapping.keyframes);
     }
     odometer.tracking.Accept(frame, odometer.map);
   }

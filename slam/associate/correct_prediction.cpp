@@ -1,26 +1,34 @@
-#include "slam/associate/plane_anchors.h"
+#include "slam/associate/correct_prediction.h"
 
 #include <Eigen/Cholesky>
 
-#include "slam/associate/plane_constraints.h"
+#include "slam/base/index.h"
 #include "slam/pose/factors/plane.h"
+#include "slam/pose/plane_constraints.h"
 #include "slam/pose/robust.h"
 #include "slam/pose/solve.h"
 
 namespace slam {
 
-UncertainPose CorrectByAnchors(const UncertainPose& predicted, const Frame& frame,
-                               const std::vector<MapPlane>& planes,
-                               const std::vector<std::pair<int, int>>& anchors,
-                               const AssociationConfig& config) {
-  constexpr double kHuberSigmas = 2.0;
-  constexpr int kIterations = 10;
-  if (anchors.empty()) return predicted;
+UncertainPose PredictedPose(const Pose& T_cw, const AssociationConfig& config) {
+  const double t2 = config.prior.sigma_m * config.prior.sigma_m;
+  const double r2 = config.prior.sigma_rad * config.prior.sigma_rad;
+  Vector6d variances;
+  variances << t2, t2, t2, r2, r2, r2;
+  return {T_cw, variances.asDiagonal()};
+}
+
+UncertainPose CorrectPrediction(const UncertainPose& predicted, const Frame& frame,
+                                const Map& map, const std::vector<std::pair<int, int>>& certain,
+                                const AssociationConfig& config) {
+  constexpr double kHuberSigmas = 2.0;  // one wrong pair among several must not rule
+  constexpr int kIterations = 10;       // it starts within millimetres: two or three do
+  if (certain.empty()) return predicted;
   std::vector<PlaneConstraint> constraints;
-  for (const auto& [f, m] : anchors) {
-    constraints.push_back(MakePlaneConstraint(
-        frame.planes[static_cast<std::size_t>(f)], planes[static_cast<std::size_t>(m)],
-        predicted.T_cw, config.offset_floor_m, config.angle_floor_rad));
+  for (const auto& [f, m] : certain) {
+    constraints.push_back(MakePlaneConstraint(frame.planes[Index(f)], map.planes.At(m),
+                                              predicted.T_cw, config.offset_floor_m,
+                                              config.angle_floor_rad));
   }
   const Matrix6d prior = predicted.covariance.ldlt().solve(Matrix6d::Identity());
   const Pose T_wc = Inverse(predicted.T_cw);

@@ -1,10 +1,9 @@
-#include "slam/associate/plane_constraints.h"
+#include "slam/pose/plane_constraints.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "slam/associate/plane_evidence.h"
-#include "slam/associate/point_plane.h"
+#include "slam/base/index.h"
 
 namespace slam {
 namespace {
@@ -13,7 +12,7 @@ const MapPlane* MatchedPlane(const Frame& frame, const Map& map, std::size_t i) 
   if (i >= frame.plane_matches.size()) return nullptr;
   const PlaneMatch& match = frame.plane_matches[i];
   if (match.decision != PlaneDecision::kMatched || match.map_plane < 0) return nullptr;
-  return &map.planes[static_cast<std::size_t>(match.map_plane)];
+  return &map.planes.At(match.map_plane);
 }
 
 /// A side tells where the top face ends only if the face's own pixels reach it, the image goes
@@ -68,28 +67,26 @@ void AddBox(const Frame& frame, const FramePlane& plane, const MapPlane& map_pla
   problem.boxes.push_back(std::move(c));
 }
 
-void AddPointPlanes(const Frame& frame, const Map& map, const Camera& camera,
-                    const PlaneConstraintConfig& config, PoseProblem& problem) {
-  const auto matches = AssociatePointsToPlanes(frame, map, camera, config.association);
+void AddPointPlanes(const Frame& frame, const Map& map, const PlaneConstraintConfig& config,
+                    PoseProblem& problem) {
   std::vector<double> count(frame.planes.size(), 0.0);
-  for (const PointPlaneMatch& m : matches) count[static_cast<std::size_t>(m.frame_plane)] += 1;
-  for (const PointPlaneMatch& m : matches) {
-    const auto f = static_cast<std::size_t>(m.frame_plane);
+  for (const PointPlaneMatch& m : frame.point_planes) count[Index(m.frame_plane)] += 1;
+  for (const PointPlaneMatch& m : frame.point_planes) {
+    const std::size_t f = Index(m.frame_plane);
     // All points of a plane share its error: together they weigh no more than a few.
     const double share = std::max(1.0, count[f] / config.points_per_plane);
-    problem.point_planes.push_back({map.points[static_cast<std::size_t>(m.map_point)].p_w,
-                                    frame.planes[f].pi_c,
+    problem.point_planes.push_back({map.points[Index(m.map_point)].p_w, frame.planes[f].pi_c,
                                     config.point_plane_sigma_m * std::sqrt(share)});
   }
 }
 
 /// Adds f against every big map plane but the one it was matched with.
 void AddDirections(const FramePlane& plane, const MapPlane& matched, const Map& map,
-                   const Pose& T_cw, const PlaneConstraintConfig& config,
-                   PoseProblem& problem) {
+                   const Pose& T_cw, const PosePrior& prior,
+                   const PlaneConstraintConfig& config, PoseProblem& problem) {
   const double floor = config.plane_angle_floor_rad;
   for (const MapPlane& other : map.planes) {
-    if (other.merged_into || other.id == matched.id) continue;
+    if (other.status != LandmarkStatus::kLandmark || other.id == matched.id) continue;
     if (other.observations < config.min_direction_observations) continue;
     if (!(other.area_m2 > config.min_direction_area_m2)) continue;
     double map_variance = floor * floor;
@@ -97,9 +94,8 @@ void AddDirections(const FramePlane& plane, const MapPlane& matched, const Map& 
       map_variance +=
           other.estimate.Covariance().bottomRightCorner<2, 2>().diagonal().maxCoeff();
     }
-    const double sigma =
-        std::sqrt(plane.angle_sigma_rad * plane.angle_sigma_rad + map_variance +
-                  config.association.pose_sigma_rad * config.association.pose_sigma_rad);
+    const double sigma = std::sqrt(plane.angle_sigma_rad * plane.angle_sigma_rad +
+                                   map_variance + prior.sigma_rad * prior.sigma_rad);
     const double angle = Angle(plane.pi_c.n, T_cw.R * other.pi_w.n);
     const double from_parallel = std::min(angle, M_PI - angle);
     const double from_right = std::abs(angle - 0.5 * M_PI);
@@ -135,7 +131,8 @@ PlaneConstraint MakePlaneConstraint(const FramePlane& f, const MapPlane& m, cons
 }
 
 void AddPlaneConstraints(const Frame& frame, const Map& map, const Camera& camera,
-                         PoseProblem& problem, const PlaneConstraintConfig& config) {
+                         const PosePrior& prior, const PlaneConstraintConfig& config,
+                         PoseProblem& problem) {
   for (std::size_t i = 0; i < frame.planes.size(); ++i) {
     const FramePlane& plane = frame.planes[i];
     const MapPlane* matched = MatchedPlane(frame, map, i);
@@ -145,10 +142,10 @@ void AddPlaneConstraints(const Frame& frame, const Map& map, const Camera& camer
                                                  config.plane_angle_floor_rad));
     AddBox(frame, plane, *matched, camera, config, problem);
     if (plane.area_m2 > config.min_direction_area_m2) {
-      AddDirections(plane, *matched, map, frame.T_cw, config, problem);
+      AddDirections(plane, *matched, map, frame.T_cw, prior, config, problem);
     }
   }
-  AddPointPlanes(frame, map, camera, config, problem);
+  AddPointPlanes(frame, map, config, problem);
 }
 
 }  // namespace slam

@@ -1,4 +1,4 @@
-#include "slam/associate/plane_evidence.h"
+#include "slam/associate/plane_comparison.h"
 
 #include <Eigen/Cholesky>
 #include <cmath>

@@ -1,15 +1,14 @@
 #pragma once
 
-#include "slam/associate/association_config.h"
 #include "slam/model/frame.h"
 #include "slam/model/map.h"
+#include "slam/pose/pose_prior.h"
 #include "slam/pose/pose_problem.h"
 
 namespace slam {
 
 /// What the plane factors of the pose optimisation are worth, and when they are added.
 struct PlaneConstraintConfig {
-  AssociationConfig association;        ///< floors of offset and angle, point-to-plane distance
   double plane_offset_floor_m = 0.003;  ///< of f_pi; domain (0, inf)
   double plane_angle_floor_rad = 0.01;  ///< of f_pi; domain (0, inf)
   double point_plane_sigma_m = 0.01;    ///< of f_p_pi; domain (0, inf)
@@ -29,12 +28,13 @@ PlaneConstraint MakePlaneConstraint(const FramePlane& frame_plane, const MapPlan
                                     const Pose& T_cw, double offset_floor_m,
                                     double angle_floor_rad);
 
-/// Adds to `problem` the constraints that frame.plane_matches and frame.map_points give: planes
-/// (eq15, eq16), boxes (eq17), points on planes (eq18), and parallel and perpendicular planes
-/// (eq19, eq20). The last two are added only between large planes whose measured angle is close
-/// to the hypothesis and statistically consistent with it: nearly parallel is not parallel. In
-/// the order of the frame's planes, then of the map's.
+/// Adds to `problem` the constraints that frame.plane_matches and frame.point_planes give:
+/// planes (eq15, eq16), boxes (eq17), points on planes (eq18), and parallel and perpendicular
+/// planes (eq19, eq20). The last two are added only between large planes whose measured angle
+/// is close to the hypothesis and statistically consistent with it: nearly parallel is not
+/// parallel. In the order of the frame's planes, then of the map's.
 void AddPlaneConstraints(const Frame& frame, const Map& map, const Camera& camera,
-                         PoseProblem& problem, const PlaneConstraintConfig& config);
+                         const PosePrior& prior, const PlaneConstraintConfig& config,
+                         PoseProblem& problem);
 
 }  // namespace slam

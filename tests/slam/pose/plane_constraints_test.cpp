@@ -1,9 +1,10 @@
-#include "slam/associate/plane_constraints.h"
+#include "slam/pose/plane_constraints.h"
 
 #include <gmock/gmock.h>
 
 #include <cmath>
 
+#include "tests/support/map_surfaces.h"
 #include "tests/support/slam_matchers.h"
 
 namespace slam {
@@ -35,18 +36,17 @@ struct SeenBook {
         plane.edge_points.push_back({Eigen::Vector3d::Zero(), u_px, EdgeKind::kSurface});
     }
     frame.planes = {plane};
-    frame.plane_matches = {{PlaneDecision::kMatched, 0, "iou"}};
+    frame.plane_matches = {{PlaneDecision::kMatched, 0, MatchReason::kBox}};
     frame.detections.resize(1);
     frame.detections[0].class_name = "book";
     frame.detections[0].box_px = plane.box_px;
-    map.planes = {Landmark(0, {0, 0, -1})};
-    map.planes[0].vertices_w.assign(4, Eigen::Vector3d::Zero());
+    AddLandmark(map, Landmark({0, 0, -1}));
+    map.planes.At(0).vertices_w.assign(4, Eigen::Vector3d::Zero());
   }
 
   /// @param n_c  its normal as it should be seen
-  MapPlane Landmark(int id, const Eigen::Vector3d& n_c) const {
+  MapPlane Landmark(const Eigen::Vector3d& n_c) const {
     MapPlane m;
-    m.id = id;
     m.pi_w.n = T_cw.R.transpose() * n_c.normalized();
     m.area_m2 = 1.0;
     m.observations = 50;
@@ -54,7 +54,7 @@ struct SeenBook {
   }
   PoseProblem Problem() const {
     PoseProblem problem;
-    AddPlaneConstraints(frame, map, camera, problem, config);
+    AddPlaneConstraints(frame, map, camera, PosePrior{}, config, problem);
     return problem;
   }
   std::array<bool, 4> Sides() const {
@@ -99,31 +99,27 @@ TEST(BoxConstraints, SayLessTheLessTheFaceFillsTheBox) {
 TEST(DirectionConstraints, TieAFacePlaneToThoseNearlyParallelOrAtARightAngleToIt) {
   SeenBook book;
   const double off = 0.01;
-  book.map.planes.push_back(book.Landmark(1, {off, 0, -1}));
-  book.map.planes.push_back(book.Landmark(2, {0, off, 1}));  // seen from its back
-  book.map.planes.push_back(book.Landmark(3, {1, 0, off}));
-  book.map.planes.push_back(book.Landmark(4, {1, 0, 1}));
+  AddLandmark(book.map, book.Landmark({off, 0, -1}));
+  AddLandmark(book.map, book.Landmark({0, off, 1}));  // seen from its back
+  AddLandmark(book.map, book.Landmark({1, 0, off}));
+  AddLandmark(book.map, book.Landmark({1, 0, 1}));
   const PoseProblem problem = book.Problem();
   ASSERT_EQ(problem.parallels.size(), 2u);
-  EXPECT_THAT(problem.parallels[0].n_w, VectorNear(book.map.planes[1].pi_w.n, 1e-12));
-  EXPECT_THAT(problem.parallels[1].n_w, VectorNear(book.map.planes[2].pi_w.n, 1e-12));
+  EXPECT_THAT(problem.parallels[0].n_w, VectorNear(book.map.planes.At(1).pi_w.n, 1e-12));
+  EXPECT_THAT(problem.parallels[1].n_w, VectorNear(book.map.planes.At(2).pi_w.n, 1e-12));
   ASSERT_EQ(problem.perpendiculars.size(), 1u);
-  EXPECT_THAT(problem.perpendiculars[0].n_w, VectorNear(book.map.planes[3].pi_w.n, 1e-12));
+  EXPECT_THAT(problem.perpendiculars[0].n_w, VectorNear(book.map.planes.At(3).pi_w.n, 1e-12));
 }
 
 TEST(PointPlaneConstraints, OfManyPointsWeighTogetherAsMuchAsTen) {
   for (const int count : {5, 40}) {
     SeenBook book;
-    book.frame.plane_labels = cv::Mat1b(480, 640, std::uint8_t{1});
     for (int i = 0; i < count; ++i) {
-      PointFeature feature;
-      feature.u_px = {120.0 + 4 * i, 200.0};
-      book.frame.features.push_back(feature);
-      book.frame.map_points.push_back(i);
       MapPoint point;
       point.id = i;
-      point.p_w = Inverse(book.T_cw) * book.camera.Backproject(feature.u_px, 2.0);
+      point.p_w = Inverse(book.T_cw) * book.camera.Backproject({120.0 + 4 * i, 200.0}, 2.0);
       book.map.points.push_back(point);
+      book.frame.point_planes.push_back({i, 0});
     }
     const PoseProblem problem = book.Problem();
     ASSERT_EQ(static_cast<int>(problem.point_planes.size()), count);
@@ -139,7 +135,7 @@ TEST(PointPlaneConstraints, OfManyPointsWeighTogetherAsMuchAsTen) {
 TEST(PlaneConstraints, KnowTheLandmarkAtThePlaceOfThePatchInTheWorld) {
   const SeenBook book;
   FramePlane patch = book.frame.planes[0];
-  MapPlane m = book.map.planes[0];
+  MapPlane m = book.map.planes.At(0);
   const Eigen::Vector3d x_w = Inverse(book.T_cw) * patch.centroid_c;
   const Eigen::Vector3d along = book.T_cw.R.transpose() * Eigen::Vector3d::UnitX();
   const Eigen::Vector3d seen_w = x_w + 0.8 * along;

@@ -1,4 +1,4 @@
-#include "slam/associate/box_plane.h"
+#include "slam/associate/projected_box.h"
 
 #include "slam/geometry/pixel_projection.h"
 
@@ -37,28 +37,6 @@ Box ProjectedBox(const MapPlane& map_plane, const Pose& T_cw, const Camera& came
     }
   }
   return Intersection(box, camera.ImageBox());
-}
-
-std::vector<BoxPlaneMatch> AssociateBoxes(const Frame& frame, const Map& map,
-                                          const Camera& camera, double min_iou) {
-  std::vector<BoxPlaneMatch> matches;
-  for (const MapPlane& plane : map.planes) {
-    if (plane.merged_into || plane.class_name.empty()) continue;
-    BoxPlaneMatch best{plane.id, 0, min_iou};
-    bool found = false;
-    Box box_px;
-    for (std::size_t d = 0; d < frame.detections.size(); ++d) {
-      if (frame.detections[d].class_name != plane.class_name) continue;
-      if (box_px.empty()) box_px = ProjectedBox(plane, frame.T_cw, camera);
-      const double iou = Iou(box_px, frame.detections[d].box_px);
-      if (!(iou > best.iou)) continue;
-      best.detection = static_cast<int>(d);
-      best.iou = iou;
-      found = true;
-    }
-    if (found) matches.push_back(best);
-  }
-  return matches;
 }
 
 }  // namespace slam

@@ -1,4 +1,4 @@
-#include "slam/tracking/point_relocalise.h"
+#include "slam/tracking/relocalise.h"
 
 #include <algorithm>
 #include <utility>
@@ -10,7 +10,7 @@ namespace {
 
 /// The newest, because a camera that is lost for a moment is near it, and those alike.
 std::vector<int> Candidates(const Frame& frame, const Map& map, const KeyframeIndex& index,
-                            const RelocaliseConfig& config) {
+                            const PlaceSearchConfig& config) {
   std::vector<int> candidates;
   for (auto k = map.keyframes.rbegin(); k != map.keyframes.rend(); ++k) {
     if (k->culled) continue;
@@ -27,21 +27,22 @@ std::vector<int> Candidates(const Frame& frame, const Map& map, const KeyframeIn
 
 }  // namespace
 
-std::optional<Relocalisation> Relocalise(const Frame& frame, const Map& map,
-                                         const KeyframeIndex& index, const Camera& camera,
-                                         const ScalePyramid& scales,
-                                         const PoseProblemConfig& pose,
-                                         const RelocaliseConfig& config) {
-  std::vector<Relocalisation> found;
+std::optional<PlacePose> Relocalise(const Frame& frame, const Map& map,
+                                    const KeyframeIndex& index, const Camera& camera,
+                                    const FeatureScale& scale,
+
+                                    const PointSearchConfig& search) {
+  const PlaceSearchConfig& config = search.place;
+  std::vector<PlacePose> found;
   for (const int id : Candidates(frame, map, index, config)) {
-    auto one = RelocaliseBy(map.keyframes[Index(id)], frame, map, camera, scales, pose, config);
+    auto one = FindPose(map.keyframes[Index(id)], frame, map, camera, scale, search);
     if (one) found.push_back(std::move(*one));
   }
   if (found.empty()) return std::nullopt;
   const auto best =
       std::max_element(found.begin(), found.end(),
                        [](const auto& a, const auto& b) { return a.inliers < b.inliers; });
-  for (const Relocalisation& rival : found) {
+  for (const PlacePose& rival : found) {
     if (rival.inliers >= config.max_rival_ratio * best->inliers &&
         !SamePose(rival.T_cw, best->T_cw, config)) {
       return std::nullopt;

@@ -1,10 +1,11 @@
-#include "slam/associate/plane_evidence.h"
+#include "slam/associate/plane_comparison.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "slam/associate/plane_anchors.h"
+#include "slam/associate/correct_prediction.h"
+#include "tests/support/map_surfaces.h"
 
 namespace slam {
 namespace {
@@ -114,9 +115,11 @@ TEST(PlaneEvidence, ComparesMapPlanesAlikeHoweverTheWorldIsTurned) {
 constexpr double kPrior_m = 0.006, kMeasured_m = 0.004;
 
 /// The camera, predicted `off_m` too far along the normal of the one plane that it sees.
-UncertainPose CorrectedByAnAnchor(double off_m, const AssociationConfig& config) {
+UncertainPose CorrectedByOnePlane(double off_m, const AssociationConfig& config) {
+  Map map;
   MapPlane m;
   m.pi_w = {Eigen::Vector3d(0, 0, -1), 2.0};
+  AddLandmark(map, m);
   Frame frame;
   frame.planes = {PatchAt({0, 0, 2.0}, {0, 0, -1}, kMeasured_m, 0.01)};
   UncertainPose predicted;
@@ -124,14 +127,14 @@ UncertainPose CorrectedByAnAnchor(double off_m, const AssociationConfig& config)
   Vector6d variances = Vector6d::Constant(1e-14);
   variances[2] = kPrior_m * kPrior_m;
   predicted.covariance = variances.asDiagonal();
-  return CorrectByAnchors(predicted, frame, {m}, {{0, 0}}, config);
+  return CorrectPrediction(predicted, frame, map, {{0, 0}}, config);
 }
 
 // Along its normal one plane and the prior are two measurements of one number.
-TEST(PlaneAnchors, WeighTheirPlaneAgainstThePriorByTheVariances) {
+TEST(CorrectedPrediction, WeighsItsPlaneAgainstThePriorByTheVariances) {
   constexpr double kOff_m = 0.005;
   const AssociationConfig config;
-  const UncertainPose corrected = CorrectedByAnAnchor(kOff_m, config);
+  const UncertainPose corrected = CorrectedByOnePlane(kOff_m, config);
   const double measured2 =
       kMeasured_m * kMeasured_m + config.offset_floor_m * config.offset_floor_m;
   const double prior2 = kPrior_m * kPrior_m;
@@ -139,10 +142,10 @@ TEST(PlaneAnchors, WeighTheirPlaneAgainstThePriorByTheVariances) {
   EXPECT_NEAR(corrected.covariance(2, 2), prior2 * measured2 / (prior2 + measured2), 1e-9);
 }
 
-TEST(PlaneAnchors, PullNoHarderThanTwoSigmasWhenTheirPlaneIsFarOff) {
+TEST(CorrectedPrediction, IsPulledNoHarderThanTwoSigmasWhenItsPlaneIsFarOff) {
   constexpr double kOff_m = 0.05;
   const AssociationConfig config;
-  const UncertainPose corrected = CorrectedByAnAnchor(kOff_m, config);
+  const UncertainPose corrected = CorrectedByOnePlane(kOff_m, config);
   const double sigma_m = std::hypot(kMeasured_m, config.offset_floor_m);
   EXPECT_NEAR(corrected.T_cw.t.z(), kOff_m - 2 * kPrior_m * kPrior_m / sigma_m, 1e-4);
 }

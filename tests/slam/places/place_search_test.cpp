@@ -1,4 +1,4 @@
-#include "slam/tracking/point_relocalise.h"
+#include "slam/places/place_search.h"
 
 #include <gmock/gmock.h>
 
@@ -31,12 +31,13 @@ Frame Mistaken(const PointWorld& world, int right, std::uint64_t seed) {
   return frame;
 }
 
-std::optional<Relocalisation> Find(const PointWorld& world, const Frame& frame,
-                                   const RelocaliseConfig& config = {}) {
-  return RelocaliseBy(world.map.keyframes[0], frame, world.map, world.camera, {}, {}, config);
+std::optional<PlacePose> Find(const PointWorld& world, const Frame& frame,
+                              const PlaceSearchConfig& config = {}) {
+  return FindPose(world.map.keyframes[0], frame, world.map, world.camera, FeatureScale{},
+                  PointSearchConfig{.place = config});
 }
 
-TEST(Relocalisation, FindsThePoseThatAFifthOfTheMatchesAgreeOn) {
+TEST(PlaceSearch, FindsThePoseThatAFifthOfTheMatchesAgreeOn) {
   for (std::uint64_t seed = 1; seed <= 10; ++seed) {
     const PointWorld world = MakePointWorld(1, 90, seed);
     const int all = static_cast<int>(world.map.keyframes[0].features.size());
@@ -51,14 +52,14 @@ TEST(Relocalisation, FindsThePoseThatAFifthOfTheMatchesAgreeOn) {
   }
 }
 
-TEST(Relocalisation, FindsNothingWhereEveryMatchIsWrong) {
+TEST(PlaceSearch, FindsNothingWhereEveryMatchIsWrong) {
   for (std::uint64_t seed = 1; seed <= 10; ++seed) {
     const PointWorld world = MakePointWorld(1, 90, seed);
     EXPECT_FALSE(Find(world, Mistaken(world, 0, seed))) << "seed " << seed;
   }
 }
 
-TEST(Relocalisation, NeedsNoDepth) {
+TEST(PlaceSearch, NeedsNoDepth) {
   const PointWorld world = MakePointWorld(1, 90, 3);
   const int all = static_cast<int>(world.map.keyframes[0].features.size());
   Frame frame = Mistaken(world, all - all / 4, 3);

@@ -1,10 +1,9 @@
-#include "slam/associate/plane_plane.h"
+#include "slam/associate/associate_planes.h"
 
 #include <gtest/gtest.h>
 
-#include <cstring>
-
 #include "slam/mapping/plane_update.h"
+#include "tests/support/map_surfaces.h"
 #include "tests/support/plane_world.h"
 
 namespace slam {
@@ -41,9 +40,10 @@ Association TwoViews(const PlaneWorld& world, const ViewFaults& faults,
   Association out;
   const Camera camera = SmallCamera();
   out.first = See(world, kFirst, camera, {.depth_noise = faults.depth_noise}, Random{1});
-  UpdatePlanes(out.first.frame, out.map, camera, SmallImages());
+  UpdatePlanes(out.first.frame, out.map, camera, {}, SmallImages());
   out.second = See(world, kSecond, camera, faults, Random{2});
-  AssociatePlanes(out.second.frame, out.map, camera, config);
+  out.second.frame.plane_matches =
+      AssociatePlanes(out.second.frame, out.map, camera, config).matches;
   return out;
 }
 
@@ -91,11 +91,13 @@ TEST(PlaneAssociation, ByParametersAloneTakesTheBookForTheDeskOrTheDeskForTheBoo
     Association a;
     const PlaneWorld world = DeskWithBook(0.008, "book");
     a.first = See(world, kFirst, camera, {}, Random{1});
-    UpdatePlanes(a.first.frame, a.map, camera, SmallImages());
+    UpdatePlanes(a.first.frame, a.map, camera, {}, SmallImages());
     a.second = See(world, kSecond, camera, faults, Random{2, seed});
     for (const bool integrated : {false, true}) {
-      AssociatePlanes(a.second.frame, a.map, camera,
-                      integrated ? AssociationConfig{} : parameters);
+      a.second.frame.plane_matches =
+          AssociatePlanes(a.second.frame, a.map, camera,
+                          integrated ? AssociationConfig{} : parameters)
+              .matches;
       for (std::size_t f = 0; f < a.second.truth.size(); ++f) {
         const int landmark = Landmark(a, f);
         if (landmark < 0 || landmark == a.second.truth[f]) continue;
@@ -115,9 +117,9 @@ TEST(PlaneAssociation, DoesNotTakeOneTopForAnotherOfTheSameHeight) {
   const Camera camera = SmallCamera();
   Map map;
   SeenWorld first = See(world, kFirst, camera, {}, Random{1});
-  UpdatePlanes(first.frame, map, camera, SmallImages());
+  UpdatePlanes(first.frame, map, camera, {}, SmallImages());
   SeenWorld second = See(both, kSecond, camera, {}, Random{2});
-  AssociatePlanes(second.frame, map, camera, {});
+  second.frame.plane_matches = AssociatePlanes(second.frame, map, camera, {}).matches;
   for (std::size_t f = 0; f < second.truth.size(); ++f) {
     if (second.truth[f] < 5) continue;  // of the first book
     EXPECT_NE(second.frame.plane_matches[f].decision, PlaneDecision::kMatched)
@@ -131,9 +133,9 @@ TEST(PlaneAssociation, RecognisesADeskThatGoesOnWhereItWasNotSeen) {
   const Camera camera = SmallCamera();
   Map map;
   SeenWorld first = See(world, LookAt({-0.3, -0.6, 0.4}, {-0.35, 0, 0}), camera, {}, Random{1});
-  UpdatePlanes(first.frame, map, camera, SmallImages());
+  UpdatePlanes(first.frame, map, camera, {}, SmallImages());
   SeenWorld second = See(world, LookAt({0.1, -0.6, 0.4}, {0.15, 0, 0}), camera, {}, Random{2});
-  AssociatePlanes(second.frame, map, camera, {});
+  second.frame.plane_matches = AssociatePlanes(second.frame, map, camera, {}).matches;
   ASSERT_EQ(second.truth.size(), 1u);
   EXPECT_EQ(second.frame.plane_matches[0].decision, PlaneDecision::kMatched);
 }
@@ -144,9 +146,9 @@ TEST(PlaneAssociation, MatchesBothPiecesOfASurfaceThatIsCutInTwo) {
   const Camera camera = SmallCamera();
   Map map;
   SeenWorld first = See(whole, kFirst, camera, {}, Random{1});
-  UpdatePlanes(first.frame, map, camera, SmallImages());
+  UpdatePlanes(first.frame, map, camera, {}, SmallImages());
   SeenWorld second = See(cut, kFirst, camera, {}, Random{2});
-  AssociatePlanes(second.frame, map, camera, {});
+  second.frame.plane_matches = AssociatePlanes(second.frame, map, camera, {}).matches;
   int desk_pieces = 0, matched = 0;
   for (std::size_t f = 0; f < second.truth.size(); ++f) {
     if (second.truth[f] != 0) continue;
@@ -168,20 +170,19 @@ TEST(PlaneAssociation, LeavesATieUndecided) {
     one.Add({0, 0, height}, {0.2, 0, 0}, {0, 0.2, 0}, "");
     SeenWorld seen = See(one, kFirst, camera, {}, Random{1});
     Map single;
-    UpdatePlanes(seen.frame, single, camera, SmallImages());
+    UpdatePlanes(seen.frame, single, camera, {}, SmallImages());
     ASSERT_EQ(single.planes.size(), 1u);
-    MapPlane m = single.planes[0];
-    m.id = static_cast<int>(map.planes.size());
+    MapPlane m = *single.planes.begin();
     // Known to a fraction of a millimetre: they are two.
     m.estimate.information *= 100;
     m.estimate.weighted *= 100;
-    map.planes.push_back(m);
+    AddLandmark(map, m);
   }
   SeenWorld between = See(world, kFirst, camera, {}, Random{2});
-  AssociatePlanes(between.frame, map, camera, {});
+  between.frame.plane_matches = AssociatePlanes(between.frame, map, camera, {}).matches;
   ASSERT_EQ(between.frame.plane_matches.size(), 1u);
-  EXPECT_EQ(between.frame.plane_matches[0].decision, PlaneDecision::kNone);
-  EXPECT_STREQ(between.frame.plane_matches[0].by, kByAmbiguous);
+  EXPECT_EQ(between.frame.plane_matches[0].decision, PlaneDecision::kUnmatched);
+  EXPECT_EQ(between.frame.plane_matches[0].reason, MatchReason::kAmbiguous);
 }
 
 TEST(PlaneAssociation, NeverMatchesAPlaneOnAnUnstructuredObject) {
@@ -189,12 +190,12 @@ TEST(PlaneAssociation, NeverMatchesAPlaneOnAnUnstructuredObject) {
   const PlaneWorld world = DeskWithBook(0.02, "book");
   Map map;
   SeenWorld first = See(world, kFirst, camera, {}, Random{1});
-  UpdatePlanes(first.frame, map, camera, SmallImages());
+  UpdatePlanes(first.frame, map, camera, {}, SmallImages());
   SeenWorld second = See(world, kFirst, camera, {}, Random{2});
   for (FramePlane& plane : second.frame.planes) plane.bad = BadReason::kUnstructured;
-  AssociatePlanes(second.frame, map, camera, {});
+  second.frame.plane_matches = AssociatePlanes(second.frame, map, camera, {}).matches;
   for (const PlaneMatch& match : second.frame.plane_matches) {
-    EXPECT_EQ(match.decision, PlaneDecision::kNone);
+    EXPECT_EQ(match.decision, PlaneDecision::kUnmatched);
   }
 }
 

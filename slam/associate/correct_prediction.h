@@ -1,0 +1,21 @@
+#pragma once
+
+#include <utility>
+#include <vector>
+
+#include "slam/associate/plane_comparison.h"
+#include "slam/model/frame.h"
+#include "slam/model/map.h"
+
+namespace slam {
+
+/// A predicted pose with what association may assume of its error.
+UncertainPose PredictedPose(const Pose& T_cw, const AssociationConfig& config);
+
+/// Corrects the predicted pose by pairs (frame plane index, id of a landmark) that are beyond
+/// doubt, with the prediction as prior and Huber weights; the covariance is that of the result.
+UncertainPose CorrectPrediction(const UncertainPose& predicted, const Frame& frame,
+                                const Map& map, const std::vector<std::pair<int, int>>& certain,
+                                const AssociationConfig& config);
+
+}  // namespace slam

@@ -1,0 +1,148 @@
+#include "slam/associate/pair_evidence.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "slam/associate/plane_overlap.h"
+#include "slam/associate/plane_samples.h"
+#include "slam/associate/projected_box.h"
+#include "slam/associate/rank_test.h"
+#include "slam/base/index.h"
+#include "slam/model/class_belief.h"
+
+namespace slam {
+namespace {
+
+/// Border and structure faults concern corners: such a plane may be recognised, not mapped.
+bool CanBeMatched(const FramePlane& plane) {
+  return !plane.bad || *plane.bad == BadReason::kBorder || *plane.bad == BadReason::kStructure;
+}
+
+/// What one map plane looks like from the predicted pose.
+struct MapPlaneView {
+  PlaneView footprint;
+  Box box_px;
+};
+
+/// Distance between the boxes, where both sides have one.
+double BoxCost(const Frame& frame, const FramePlane& f, const MapPlane& m, const Box& box_px,
+               const AssociationConfig& config) {
+  if (!f.detection || m.class_name.empty() || f.class_name.empty()) return 0.0;
+  const std::size_t d = Index(*f.detection);
+  if (d >= frame.detections.size()) return 0.0;
+  return config.iou_weight * (1 - Iou(box_px, frame.detections[d].box_px));
+}
+
+/// A surface that belongs to no object may go on where it has not been seen yet.
+bool GoesOn(const FramePlane& f, const MapPlane& m, const Pose& T_cw,
+            const AssociationConfig& config) {
+  return f.class_name.empty() && m.class_name.empty() && m.area_m2 > config.min_open_area_m2 &&
+         InPlaneGap(f, m, Inverse(T_cw)) < config.max_extension_gap_m;
+}
+
+PairEvidence Weigh(const Frame& frame, const FramePlane& f, const MapPlane& m,
+                   const PlaneComparison& comparison, const MapPlaneView& view,
+                   const Pose& T_cw, const AssociationConfig& config) {
+  PairEvidence pair;
+  pair.map_plane = m.id;
+  pair.on_trial = m.status == LandmarkStatus::kCandidate;
+  pair.overlap = Overlap(view.footprint, f);
+  pair.parameter_cost = comparison.chi2;
+  pair.overlap_cost = config.overlap_weight * (1 - pair.overlap);
+  pair.class_cost = -2 * std::log(ClassLikelihood(m.class_belief, f.class_name));
+  pair.box_cost = BoxCost(frame, f, m, view.box_px, config);
+
+  // Either the two cover each other, or one goes on from the other.
+  const bool shared = pair.overlap > config.min_overlap;
+  pair.extension = !shared && GoesOn(f, m, T_cw, config);
+  if (!shared && !pair.extension) {
+    pair.refusal = PairRefusal::kOverlap;
+    return pair;
+  }
+  // Beyond its known edge a surface must fit twice as well: no overlap speaks for it.
+  const double max_chi2 = shared ? config.max_chi2 : 0.5 * config.max_chi2;
+  if (!(comparison.chi2 < max_chi2)) {
+    pair.verdict = PairVerdict::kDoubtful;
+    pair.refusal = PairRefusal::kParameters;
+  } else if (!(pair.Cost() < config.max_chi2 + config.overlap_weight)) {
+    pair.verdict = PairVerdict::kDoubtful;
+    pair.refusal = PairRefusal::kCost;
+  } else {
+    pair.verdict = PairVerdict::kPossible;
+  }
+  return pair;
+}
+
+}  // namespace
+
+PairTable WeighPairs(const Frame& frame, const Map& map, const UncertainPose& pose,
+                     const Camera& camera, const AssociationConfig& config,
+                     PairRefusals& refused) {
+  PairTable pairs(frame.planes.size());
+  for (const MapPlane& m : map.planes) {
+    if (m.status == LandmarkStatus::kMerged) continue;
+    std::optional<MapPlaneView> view;  // costs more than the parameters: only where they agree
+    for (std::size_t f = 0; f < frame.planes.size(); ++f) {
+      const FramePlane& plane = frame.planes[f];
+      if (!CanBeMatched(plane)) continue;
+      const PlaneComparison comparison = ComparePlanes(plane, m, pose, config);
+      if (!(comparison.angle_rad < config.gates.max_normal_angle_rad)) {  // eq6
+        refused.Add(PairRefusal::kNormalAngle);
+        continue;
+      }
+      if (!(comparison.chi2 < config.new_chi2)) {
+        refused.Add(PairRefusal::kParameters);
+        continue;
+      }
+      if (!view) {
+        view = {ViewMapPlane(m, frame, pose.T_cw, camera), ProjectedBox(m, pose.T_cw, camera)};
+      }
+      pairs[f].push_back(Weigh(frame, plane, m, comparison, *view, pose.T_cw, config));
+    }
+  }
+  return pairs;
+}
+
+void TestRanks(const Frame& frame, const Map& map, const Pose& T_cw, const Camera& camera,
+               const AssociationConfig& config, PairTable& pairs) {
+  // A pair that shares most of its footprint is one surface however its points are spread.
+  constexpr double kAmpleOverlap = 0.6;
+  const auto points_c = FeaturesOnPlanes(frame, T_cw, camera);
+  std::map<int, std::vector<Eigen::Vector3d>> points_w;  // by map plane
+  for (std::size_t f = 0; f < pairs.size(); ++f) {
+    for (PairEvidence& pair : pairs[f]) {
+      if (pair.verdict != PairVerdict::kPossible || pair.overlap > kAmpleOverlap) continue;
+      const MapPlane& m = map.planes.At(pair.map_plane);
+      const auto [seen, first] = points_w.try_emplace(pair.map_plane);
+      if (first) seen->second = VisibleMapPoints(m, map, frame, T_cw, camera);
+      const auto test = TestPlaneRanks(points_c[f], seen->second,
+                                       PlaneAxes(m.pi_w, seen->second), config.min_rank_points);
+      if (!test || test->p >= config.rank_alpha) continue;
+      pair.verdict = PairVerdict::kDoubtful;
+      pair.refusal = PairRefusal::kRankTest;
+    }
+  }
+}
+
+std::vector<std::pair<int, int>> PairsBeyondDoubt(const Frame& frame, const PairTable& pairs) {
+  constexpr double kMinOverlap = 0.5;  // of the smaller footprint: most of it
+  std::vector<std::pair<int, int>> certain;
+  for (std::size_t f = 0; f < pairs.size(); ++f) {
+    if (frame.planes[f].bad) continue;
+    const PairEvidence* only = nullptr;
+    int competitors = 0;
+    for (const PairEvidence& pair : pairs[f]) {
+      if (pair.on_trial || pair.verdict == PairVerdict::kRefused || pair.extension) continue;
+      only = &pair;
+      ++competitors;
+    }
+    if (competitors != 1 || only->verdict != PairVerdict::kPossible) continue;
+    if (only->overlap > kMinOverlap) {
+      certain.emplace_back(static_cast<int>(f), only->map_plane);
+    }
+  }
+  return certain;
+}
+
+}  // namespace slam

@@ -1,0 +1,53 @@
+#pragma once
+
+#include <vector>
+
+#include "slam/associate/association_config.h"
+#include "slam/associate/plane_comparison.h"
+#include "slam/associate/refusals.h"
+#include "slam/model/frame.h"
+#include "slam/model/map.h"
+
+namespace slam {
+
+/// Whether a frame plane can show a map plane.
+enum class PairVerdict {
+  kRefused,
+  kDoubtful,  ///< not good enough for a match, too good for a new surface
+  kPossible
+};
+
+/// What speaks for and against one frame plane showing one map plane. Costs are -2 log
+/// likelihood: less is better, and they add up.
+struct PairEvidence {
+  int map_plane = kNone;  ///< id
+  bool on_trial = false;  ///< the map plane is a candidate
+  PairVerdict verdict = PairVerdict::kRefused;
+  PairRefusal refusal = PairRefusal::kCost;  ///< of a pair that is not possible
+  double parameter_cost = 0.0;               ///< chi-square of offset and slopes
+  double overlap_cost = 0.0, class_cost = 0.0, box_cost = 0.0;
+  double overlap = 0.0;    ///< share of the smaller footprint, [0, 1]
+  bool extension = false;  ///< no overlap, but one surface may go on from the other
+
+  double Cost() const { return parameter_cost + overlap_cost + class_cost + box_cost; }
+};
+
+/// By frame plane: the map planes that came into question, in the order of their ids.
+using PairTable = std::vector<std::vector<PairEvidence>>;
+
+/// Weighs every frame plane that can be matched against every surface of the map that its
+/// parameters do not rule out at once; those are counted in `refused`.
+PairTable WeighPairs(const Frame& frame, const Map& map, const UncertainPose& pose,
+                     const Camera& camera, const AssociationConfig& config,
+                     PairRefusals& refused);
+
+/// The rank test (eq9 to eq12) puts in doubt the possible pairs of little overlap whose points
+/// are distributed otherwise. A pair with too few points is not tested.
+void TestRanks(const Frame& frame, const Map& map, const Pose& T_cw, const Camera& camera,
+               const AssociationConfig& config, PairTable& pairs);
+
+/// (frame plane, landmark) that fit, overlap by half, and have no competitor on the frame
+/// plane's side: the landmarks by which a predicted pose can be corrected.
+std::vector<std::pair<int, int>> PairsBeyondDoubt(const Frame& frame, const PairTable& pairs);
+
+}  // namespace slam
