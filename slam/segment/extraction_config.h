@@ -42,18 +42,6 @@ struct MapSplitConfig {
   double map_sigma_m = 0.0012;  ///< of a step between planes of the map; (0, inf)
 };
 
-/// When a segment holds two faces with a step between them (segment_division.h).
-struct SegmentDivisionConfig {
-  bool enabled = false;  ///< better frames, but worse association (docs/planes.md)
-  /// Of the step, 2 degrees of freedom: noise exceeds 20 along one of 20,000 lines, and the
-  /// best of many is looked at. Domain (0, inf).
-  double min_chi2 = 20.0;
-  /// Root mean square of the step along the line; less may be the sensor's. Domain [0, inf).
-  double min_gap_sigmas = 1.0;
-  /// Part of the step that must be there between the nearer halves; domain [0, 1].
-  double min_share = 0.67;
-};
-
 /// Settings of plane extraction. A length here is of the sensor or of the image, and every
 /// threshold on a surface is in units of the noise.
 struct PlaneExtractionConfig {
@@ -84,7 +72,7 @@ struct PlaneExtractionConfig {
   double max_bend_step_sigmas = 1.5;
   /// Warp of the sensor, as measured in each frame (sensor_warp.h), that is allowed for; 0:
   /// none. Every sigma of it adds so many to the model error of the clusters, and to the gaps
-  /// between parts that are bent or hidden; and segments are not divided. Domain [0, inf).
+  /// between parts that are bent or hidden. Domain [0, inf).
   double max_warp_sigmas = 1.0;
   double warp_model_error = 1.5;
   double warp_gap = 12.0;
@@ -93,8 +81,6 @@ struct PlaneExtractionConfig {
   double max_island_behind = 0.35;
   /// What lies nearer to the plane is neither behind it nor in front; domain [0, inf).
   double unsure_side_sigmas = 0.0;
-
-  SegmentDivisionConfig division;
 
   /// A segment needs this many pixels and this precision: fewer or worse is noise. At 1 m, 300
   /// pixels are 33 x 33 mm seen frontally.

@@ -98,11 +98,10 @@ void PlaneExtractor::Extract(Frame& frame) {
   const PatchUnion& joined = patches.JoinBentParts(grid, blocks, config, growth, warp > 0.0);
   const LabelRuns& segments = work_->parts.Segment(grid, joined, patches.runs(), config);
   work_->parts.SumSegments(grid, joined, work_->sums);
-  const bool divided = work_->division.Divide(grid, segments, config, work_->sums);
   KeepMeasured(work_->sums, config, work_->kept);
   frame.plane_labels.create(grid.height, grid.width);
-  DrawLabels(divided ? work_->division.runs() : segments, static_cast<int>(work_->sums.size()),
-             work_->kept, work_->drawn_value, frame.plane_labels);
+  DrawLabels(segments, static_cast<int>(work_->sums.size()), work_->kept, work_->drawn_value,
+             frame.plane_labels);
   work_->Describe(frame);
 }
 

@@ -15,7 +15,6 @@
 #include "slam/segment/patches.h"
 #include "slam/segment/pixel_growth.h"
 #include "slam/segment/plane_segments.h"
-#include "slam/segment/segment_division.h"
 #include "slam/segment/sensor_warp.h"
 
 namespace slam {
@@ -32,7 +31,6 @@ struct PlaneExtractor::Workspace {
   PatchJoining patches;
   PartSegmentation parts;
   std::vector<PlaneSums> sums;  ///< of segments
-  SegmentDivision division;
   std::vector<Segment> kept;
   std::vector<std::uint8_t> drawn_value;
   OuterContours contours;
