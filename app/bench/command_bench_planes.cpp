@@ -20,7 +20,7 @@ struct PlaneBenchArguments {
   std::string camera, config_file;
   std::string sensor = slam::DepthSensorNames().front();
   int frames = 0, every = 1;
-  bool steps = false, unmeasured = false, track = false;
+  bool steps = false, unmeasured = false;
   double depth_delay_ms = 0.0;
 };
 
@@ -119,7 +119,7 @@ PlaneBench BenchAll(const PlaneBenchArguments& arguments, const slam::Config& co
   for (const std::string& sequence : arguments.sequences) {
     const PlaneBench bench =
         BenchPlanes(sequence, arguments.camera, config,
-                    {arguments.frames, arguments.every, arguments.unmeasured, arguments.track,
+                    {arguments.frames, arguments.every, arguments.unmeasured,
                      arguments.depth_delay_ms});
     const std::string name = std::filesystem::path(sequence).lexically_normal().filename();
     if (each && bench.scored_frames > 0) PrintScores(name, bench);
@@ -159,8 +159,6 @@ void AddBenchPlanes(CLI::App& bench, const Globals& globals, int& exit_code) {
                     "Also: which steps are separated, by height and distance");
   command->add_flag("--unmeasured", arguments->unmeasured,
                     "Score against true pixels without depth too, as pas eval does");
-  command->add_flag("--track", arguments->track,
-                    "Score the planes of a whole run, in which the map has its say");
   command
       ->add_option("--depth-delay-ms", arguments->depth_delay_ms,
                    "Of a recording: its depth is stamped so much later than its true poses")

@@ -207,8 +207,7 @@ bool BoxSplit::Find(const DepthGrid& grid, const cv::Mat1b& labels, std::uint8_t
   const double votes_px = rules.vote_errors * config.noise.correlated_px;
   const cv::Rect votes =
       Widened(region_px, cell_px_ + ElectedRegion::Reach(votes_px), labels.size()) & area_;
-  SetRectangle(search_, eligible_);
-  region_.Elect(grid, labels, {host, plane, low_, high_, votes_px}, votes, eligible_);
+  region_.Elect(grid, labels, {host, plane, low_, high_, votes_px}, votes, search_);
   const double errors =
       static_cast<double>(region_.pixels().size()) / config.noise.correlated_px;
   return static_cast<double>(region_.pixels().size()) >= config.min_pixels &&

@@ -10,7 +10,6 @@
 #include "slam/segment/elected_region.h"
 #include "slam/segment/extraction_config.h"
 #include "slam/segment/largest_part.h"
-#include "slam/segment/pixel_area.h"
 #include "slam/segment/pixel_labels.h"
 
 namespace slam {
@@ -78,7 +77,6 @@ class BoxSplit {
   std::vector<Cell> cells_;
   std::vector<std::uint8_t> chosen_;  ///< cells of the largest region
   double low_ = 0.0, high_ = 0.0;     ///< mean heights of the two kinds of cells, sigmas
-  PixelArea eligible_;
   ElectedRegion region_;
   // Scratch.
   std::vector<int> best_;

@@ -16,7 +16,7 @@ int ElectedRegion::Reach(double window_px) {
 
 void ElectedRegion::Elect(const DepthGrid& grid, const cv::Mat1b& labels,
                           const HeightElection& election, const cv::Rect& votes,
-                          const PixelArea& eligible) {
+                          const cv::Rect& eligible) {
   const int reach = Reach(election.window_px);
   bounds_ = votes;
   const int width = bounds_.width, stride = width + 1;
@@ -45,14 +45,13 @@ void ElectedRegion::Elect(const DepthGrid& grid, const cv::Mat1b& labels,
     return at(r, b) - at(l, b) - at(r, t) + at(l, t);
   };
   const double middle = 0.5 * (election.low + election.high);
-  const double sign = election.high > election.low ? 1.0 : -1.0;
   mask_.assign(static_cast<std::size_t>(width * bounds_.height), 0);
   for (int v = 0; v < bounds_.height; ++v) {
     for (int u = 0; u < width; ++u) {
       const cv::Point at(bounds_.x + u, bounds_.y + v);
-      if (labels(at) != election.host || !eligible.Contains(at)) continue;
+      if (labels(at) != election.host || !eligible.contains(at)) continue;
       const double vote = window(integral_sum_, u, v) / window(integral_count_, u, v);
-      if (sign * (vote - middle) > 0.0) mask_[static_cast<std::size_t>(v * width + u)] = 1;
+      if (vote > middle) mask_[static_cast<std::size_t>(v * width + u)] = 1;
     }
   }
   FillHoles(width, bounds_.height);

@@ -6,7 +6,6 @@
 
 #include "slam/segment/depth_grid.h"
 #include "slam/segment/largest_part.h"
-#include "slam/segment/pixel_area.h"
 #include "slam/segment/pixel_labels.h"
 
 namespace slam {
@@ -15,7 +14,7 @@ namespace slam {
 struct HeightElection {
   std::uint8_t host = 0;  ///< label of the segment
   LabelPlane plane;
-  double low = 0.0, high = 0.0;  ///< sigmas; the region's is `high`, which may be the lesser
+  double low = 0.0, high = 0.0;  ///< sigmas; the region's is `high`
   double window_px = 1.0;        ///< that vote on a pixel
 };
 
@@ -28,7 +27,7 @@ class ElectedRegion {
   /// @param eligible  pixels that may be elected
   /// Cost: linear in the pixels of `votes`.
   void Elect(const DepthGrid& grid, const cv::Mat1b& labels, const HeightElection& election,
-             const cv::Rect& votes, const PixelArea& eligible);
+             const cv::Rect& votes, const cv::Rect& eligible);
 
   /// How far around a pixel those lie that vote on it.
   static int Reach(double window_px);

@@ -30,18 +30,6 @@ struct BoxSplitConfig {
   double max_high_around = 0.1;
 };
 
-/// What it takes to split a segment that holds a plane of the map besides another
-/// (map_split.h).
-struct MapSplitConfig {
-  bool enabled = true;
-  double max_angle_rad = 0.12;  ///< between planes that may be taken for one another; (0, pi)
-  /// How far off the segment of the other plane the region must lie, in standard errors of its
-  /// mean; domain (0, inf).
-  double min_evidence_sigmas = 8.0;
-  double pose_sigma_m = 0.006;  ///< of what is expected, for the pose by points; (0, inf)
-  double map_sigma_m = 0.0012;  ///< of a step between planes of the map; (0, inf)
-};
-
 /// Settings of plane extraction. A length here is of the sensor or of the image, and every
 /// threshold on a surface is in units of the noise.
 struct PlaneExtractionConfig {
@@ -89,7 +77,6 @@ struct PlaneExtractionConfig {
   int min_island_pixels = 40;        ///< a smaller cut-off part is dropped; domain [1, inf)
 
   BoxSplitConfig box_split;  ///< once the frame's detections are known
-  MapSplitConfig map_split;  ///< once its pose is known
 
   int point_grid_px = 6;  ///< spacing of FramePlane::points_c; domain [1, 64]
   EdgeConfig edges;       ///< of FramePlane::edge_points

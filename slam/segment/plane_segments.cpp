@@ -79,7 +79,6 @@ void PlaneExtractor::Extract(Frame& frame) {
       work_->clustering.Cluster(grid, {}, settings.block_px, settings.noise, settings.coarse);
   const double warp = work_->warp.Measure(clusters, work_->clustering.SumsOfBlocks(), settings);
   const PlaneExtractionConfig config = AllowWarp(settings, warp);
-  work_->sensor_bends = warp > 0.0;
   if (warp > 0.0) work_->clustering.MergeAgain(config.coarse);
   growth.Begin(grid, config.growth);
   AddClusters(grid, clusters, config.noise, growth);

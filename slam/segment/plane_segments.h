@@ -1,11 +1,9 @@
 #pragma once
 
 #include <memory>
-#include <vector>
 
 #include "slam/geometry/camera.h"
 #include "slam/model/frame.h"
-#include "slam/segment/expected_plane.h"
 #include "slam/segment/extraction_config.h"
 
 namespace slam {
@@ -44,14 +42,6 @@ class PlaneExtractor {
   /// box says that something thin lies on them (box_split.h).
   /// @param frame  that of the last Extract, with its detections
   void SplitInBoxes(Frame& frame);
-
-  /// Another one, once the camera's pose is known: splits segments that hold a plane of the map
-  /// besides another one (map_split.h);
-  /// none where the sensor bends what is flat. What (C) added to the planes is lost where it
-  /// does.
-  /// @param expected  in the camera frame of the last Extract
-  /// @returns whether it split any
-  bool SplitByMap(Frame& frame, const std::vector<ExpectedPlane>& expected);
 
  private:
   struct Workspace;

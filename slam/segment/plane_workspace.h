@@ -8,7 +8,6 @@
 #include "slam/geometry/box.h"
 #include "slam/segment/block_clusters.h"
 #include "slam/segment/box_split.h"
-#include "slam/segment/map_split.h"
 #include "slam/segment/measured_segments.h"
 #include "slam/segment/occluded_parts.h"
 #include "slam/segment/outer_contours.h"
@@ -41,12 +40,8 @@ struct PlaneExtractor::Workspace {
   std::vector<Sampled> sampled;
   std::vector<double> areas_m2;  ///< visible, of the frame's planes
   BoxSplit box_split;
-  MapSplit map_split;
-  PixelArea expected_area;
-  bool sensor_bends = false;  ///< what is flat, in the last frame
   std::vector<Box> boxes_px;  ///< of detections that may hold thin things
-  /// That lie in a box, or in what is expected.
-  std::vector<std::size_t> own_segments;
+  std::vector<std::size_t> own_segments;  ///< that lie in a box
   /// Planes of the frame's last image, whose points' memory serves again.
   std::vector<FramePlane> old_planes;
 
@@ -55,7 +50,6 @@ struct PlaneExtractor::Workspace {
   void SamplePoints(const cv::Mat1b& drawn, std::vector<FramePlane>& planes);
   void Describe(Frame& frame);
   bool SplitInBox(const Box& box_px, Frame& frame);
-  bool SplitBy(const std::vector<ExpectedPlane>& all, std::size_t expected, Frame& frame);
   bool TakeRegion(std::size_t host, const ElectedRegion& found, cv::Mat1b& drawn);
   void Renumber(cv::Mat1b& drawn);
 };
