@@ -1,6 +1,6 @@
 #pragma once
 
-#include <vector>
+#include <cstddef>
 
 #include "slam/geometry/plane_sums.h"
 #include "slam/segment/depth_grid.h"
@@ -13,9 +13,6 @@ struct LabelPlane {
   InverseDepthPlane plane;
   double grazing = 1.0;  ///< GrazingFactor of its pixels
 };
-
-/// Sums of the pixels of each label.
-std::vector<PlaneSums> SumLabels(const DepthGrid& grid, const LabelImage& labels, int count);
 
 /// Residual of a pixel from a plane in sigmas; positive: the pixel is nearer than the plane.
 inline float ResidualSigmas(const DepthGrid& grid, std::size_t i, const LabelPlane& p) {

@@ -104,9 +104,4 @@ void PlaneExtractor::Extract(Frame& frame) {
   work_->Describe(frame);
 }
 
-void ExtractPlanes(Frame& frame, const Camera& camera, const cv::Mat2d& rays,
-                   const PlaneExtractionConfig& config) {
-  PlaneExtractor(camera, rays, config).Extract(frame);
-}
-
 }  // namespace slam

@@ -48,8 +48,4 @@ class PlaneExtractor {
   std::unique_ptr<Workspace> work_;
 };
 
-/// The same for a single frame.
-void ExtractPlanes(Frame& frame, const Camera& camera, const cv::Mat2d& rays,
-                   const PlaneExtractionConfig& config);
-
 }  // namespace slam

@@ -13,6 +13,7 @@
 #include "slam/segment/depth_sensor.h"
 #include "slam/segment/plane_segments.h"
 #include "tests/support/closed_form_depth.h"
+#include "tests/support/depth_planes.h"
 
 namespace slam {
 namespace {
