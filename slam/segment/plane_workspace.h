@@ -38,9 +38,8 @@ struct PlaneExtractor::Workspace {
     double norm = 0.0, area = 0.0;
   };
   std::vector<Sampled> sampled;
-  std::vector<double> areas_m2;  ///< visible, of the frame's planes
-  BoxSplit box_split;
-  std::vector<Box> boxes_px;  ///< of detections that may hold thin things
+  std::vector<double> areas_m2;           ///< visible, of the frame's planes
+  std::vector<Box> boxes_px;              ///< of detections that may hold thin things
   std::vector<std::size_t> own_segments;  ///< that lie in a box
   /// Planes of the frame's last image, whose points' memory serves again.
   std::vector<FramePlane> old_planes;
@@ -50,7 +49,7 @@ struct PlaneExtractor::Workspace {
   void SamplePoints(const cv::Mat1b& drawn, std::vector<FramePlane>& planes);
   void Describe(Frame& frame);
   bool SplitInBox(const Box& box_px, Frame& frame);
-  bool TakeRegion(std::size_t host, const ElectedRegion& found, cv::Mat1b& drawn);
+  bool TakeRegion(std::size_t host, const PixelRegion& found, cv::Mat1b& drawn);
   void Renumber(cv::Mat1b& drawn);
 };
 
