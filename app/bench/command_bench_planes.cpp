@@ -117,10 +117,9 @@ PlaneBench BenchAll(const PlaneBenchArguments& arguments, const slam::Config& co
   Progress progress("bench planes", static_cast<int>(arguments.sequences.size()), quiet);
   int done = 0;
   for (const std::string& sequence : arguments.sequences) {
-    const PlaneBench bench =
-        BenchPlanes(sequence, arguments.camera, config,
-                    {arguments.frames, arguments.every, arguments.unmeasured,
-                     arguments.depth_delay_ms});
+    const PlaneBench bench = BenchPlanes(
+        sequence, arguments.camera, config,
+        {arguments.frames, arguments.every, arguments.unmeasured, arguments.depth_delay_ms});
     const std::string name = std::filesystem::path(sequence).lexically_normal().filename();
     if (each && bench.scored_frames > 0) PrintScores(name, bench);
     if (each && !bench.level_normals_w.empty()) PrintLevelPlane(name, bench);

@@ -6,7 +6,7 @@
 
 #include "slam/geometry/plane_sums.h"
 #include "slam/segment/depth_grid.h"
-#include "slam/segment/tournament.h"
+#include "slam/segment/min_tree.h"
 
 namespace slam {
 
@@ -117,7 +117,7 @@ class BlockClustering {
   std::vector<int> parent_;          ///< of each region
   std::vector<Pair> pairs_;          ///< in order of i, then j
   std::vector<double> first_costs_;  ///< of each pair
-  Tournament merges_;                ///< of the pairs, by error added or mean error
+  MinTree merges_;                   ///< of the pairs, by error added or mean error
   int next_version_ = 0;
   std::vector<KnownCost> known_costs_;  ///< by a number made of both versions
   std::vector<int> number_;
