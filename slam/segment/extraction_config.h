@@ -1,9 +1,9 @@
 #pragma once
 
 #include "slam/geometry/depth_noise.h"
-#include "slam/segment/block_clusters.h"
-#include "slam/segment/pixel_growth.h"
-#include "slam/segment/plane_edges.h"
+#include "slam/segment/cluster_config.h"
+#include "slam/segment/edge_config.h"
+#include "slam/segment/growth_config.h"
 
 namespace slam {
 
