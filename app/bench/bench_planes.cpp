@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <ctime>
+#include <memory>
+#include <optional>
 
 #include "app/bench/bench_planes_score.h"
 #include "eval/planes/united_faces.h"
@@ -12,7 +14,6 @@
 #include "slam/faces/process_planes.h"
 #include "slam/input/camera_reader.h"
 #include "slam/input/sequence_reader.h"
-#include "slam/run/tracker.h"
 #include "slam/segment/plane_segments.h"
 
 namespace app {
@@ -139,11 +140,6 @@ PlaneBench BenchPlanes(const std::filesystem::path& sequence, const std::string&
   const eval::Sequence truth = eval::WithUnitedFaces(eval::ReadSequence(sequence));
   slam::SequenceReader reader(sequence, camera);
   PlaneFrontEnd front_end(sequence, camera, config);
-  std::optional<slam::Tracker> tracker;
-  if (choice.track) {
-    tracker.emplace(camera, config, slam::Variant::kFull, DetectorOf(sequence, camera, config),
-                    /*seed=*/0, /*threads=*/1);
-  }
   const int count =
       choice.at_most > 0 ? std::min(choice.at_most, reader.size()) : reader.size();
   std::vector<double> stamps_s;
@@ -158,18 +154,9 @@ PlaneBench BenchPlanes(const std::filesystem::path& sequence, const std::string&
     poses = eval::TruePosesOfFrames(*truth.groundtruth, stamps_s, truth.synthetic);
   }
   PlaneBench bench;
-  for (int i = 0; i < count; ++i) {
-    const bool scored = i % choice.every == 0;
-    if (!scored && !tracker) continue;
+  for (int i = 0; i < count; i += choice.every) {
     const slam::RecordedFrame recorded = reader.Read(i);
-    slam::Frame tracked;
-    if (tracker) {
-      tracked = FrameOf(recorded);
-      tracker->TrackFrame(tracked, recorded.bgr);
-    }
-    if (!scored) continue;
-    const slam::Frame extracted = front_end.Run(recorded, bench.times);
-    const slam::Frame& frame = tracker ? tracked : extracted;
+    const slam::Frame frame = front_end.Run(recorded, bench.times);
     ++bench.frames;
     bench.segments += static_cast<int>(frame.planes.size());
     const std::optional<eval::Pose>& pose = poses[static_cast<std::size_t>(i)];

@@ -54,9 +54,6 @@ struct BenchChoice {
   int at_most = 0;  ///< 0 = all
   int every = 1;
   bool unmeasured = false;  ///< count true pixels that have no depth as well
-  /// Run the whole system on every frame, so that the map has its say in the planes; what is
-  /// timed is no different.
-  bool track = false;
   /// Of a recording: by how much its depth is stamped later than its true poses.
   double depth_delay_ms = 0.0;
 };

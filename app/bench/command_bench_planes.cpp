@@ -20,7 +20,7 @@ struct PlaneBenchArguments {
   std::string camera, config_file;
   std::string sensor = slam::DepthSensorNames().front();
   int frames = 0, every = 1;
-  bool steps = false, unmeasured = false, track = false;
+  bool steps = false, unmeasured = false;
   double depth_delay_ms = 0.0;
 };
 
@@ -117,10 +117,9 @@ PlaneBench BenchAll(const PlaneBenchArguments& arguments, const slam::Config& co
   Progress progress("bench planes", static_cast<int>(arguments.sequences.size()), quiet);
   int done = 0;
   for (const std::string& sequence : arguments.sequences) {
-    const PlaneBench bench =
-        BenchPlanes(sequence, arguments.camera, config,
-                    {arguments.frames, arguments.every, arguments.unmeasured, arguments.track,
-                     arguments.depth_delay_ms});
+    const PlaneBench bench = BenchPlanes(
+        sequence, arguments.camera, config,
+        {arguments.frames, arguments.every, arguments.unmeasured, arguments.depth_delay_ms});
     const std::string name = std::filesystem::path(sequence).lexically_normal().filename();
     if (each && bench.scored_frames > 0) PrintScores(name, bench);
     if (each && !bench.level_normals_w.empty()) PrintLevelPlane(name, bench);
@@ -159,8 +158,6 @@ void AddBenchPlanes(CLI::App& bench, const Globals& globals, int& exit_code) {
                     "Also: which steps are separated, by height and distance");
   command->add_flag("--unmeasured", arguments->unmeasured,
                     "Score against true pixels without depth too, as pas eval does");
-  command->add_flag("--track", arguments->track,
-                    "Score the planes of a whole run, in which the map has its say");
   command
       ->add_option("--depth-delay-ms", arguments->depth_delay_ms,
                    "Of a recording: its depth is stamped so much later than its true poses")

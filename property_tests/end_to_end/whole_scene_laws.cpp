@@ -14,6 +14,7 @@
 #include "slam/faces/process_planes.h"
 #include "slam/mapping/plane_update.h"
 #include "slam/segment/plane_segments.h"
+#include "tests/support/depth_planes.h"
 #include "tests/support/live.h"
 #include "tests/support/pipeline.h"
 

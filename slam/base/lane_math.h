@@ -9,11 +9,6 @@ namespace slam {
 SLAM_INLINE FloatLanes AllLanes(float value) { return FloatLanes{} + value; }
 /// Absolute values.
 SLAM_INLINE FloatLanes Size(FloatLanes r) { return (FloatLanes)((IntLanes)r & 0x7fffffff); }
-SLAM_INLINE float LeastOf(FloatLanes v) {
-  float least = v[0];
-  for (int k = 1; k < kLanes; ++k) least = v[k] < least ? v[k] : least;
-  return least;
-}
 SLAM_INLINE int SumOf(IntLanes v) {
   return ((v[0] + v[4]) + (v[2] + v[6])) + ((v[1] + v[5]) + (v[3] + v[7]));
 }

@@ -93,10 +93,7 @@ DetectionRecord ParseDetections(const std::string& text, const Camera& camera,
     const std::string owner = std::string("detection ").append(std::to_string(i));
     Detection d = GetDetection(list[i], classes, where, owner);
     d.box_px = Intersection(d.box_px, camera.ImageBox());
-    if (d.box_px.area() > 0)
-      record.detections.push_back(std::move(d));
-    else
-      ++record.outside;
+    if (d.box_px.area() > 0) record.detections.push_back(std::move(d));
   }
   return record;
 }
@@ -117,7 +114,6 @@ ReplayDetector::ReplayDetector(const std::filesystem::path& file, const Camera& 
     if (!records_.empty() && !(record.timestamp_s > records_.rbegin()->first))
       throw InputError(where, "\"timestamp\" does not increase; expected one record a frame");
     records_[record.timestamp_s] = std::move(record.detections);
-    outside_ += record.outside;
   }
 }
 

@@ -31,8 +31,7 @@ class NoDetector : public Detector {
 /// One line of a detections.jsonl (formats.md).
 struct DetectionRecord {
   double timestamp_s = 0.0;
-  std::vector<Detection> detections;  ///< clipped to the image
-  int outside = 0;                    ///< boxes that lie outside the image, left out
+  std::vector<Detection> detections;  ///< clipped to the image; without those outside of it
 };
 
 /// @param where  "file:line", for messages
@@ -54,11 +53,9 @@ class ReplayDetector : public Detector {
   std::vector<Detection> Detect(double timestamp_s, const cv::Mat3b&) override;
 
   int records() const { return static_cast<int>(records_.size()); }
-  int boxes_outside_image() const { return outside_; }  ///< left out
 
  private:
   std::map<double, std::vector<Detection>> records_;
-  int outside_ = 0;
 };
 
 /// `choice` is "replay" (SEQUENCE/detections.jsonl), "yolox:FILE" (yolox_detector.h) or "none".

@@ -49,23 +49,6 @@ void VisitBoxSplit(BoxSplitConfig& c, FieldVisitor& v) {
   v.Number("max_high_around", c.max_high_around, "[0, 1]", "part around the box as high");
 }
 
-void VisitMapSplit(MapSplitConfig& c, FieldVisitor& v) {
-  v.Flag("enabled", c.enabled, "split segments that hold a plane of the map");
-  v.Degrees("max_angle_deg", c.max_angle_rad, "(0, 180)",
-            "between planes taken for one another");
-  v.Number("min_evidence_sigmas", c.min_evidence_sigmas, "(0, inf)",
-           "mean height over the other plane, in its standard errors");
-  v.Number("pose_sigma_m", c.pose_sigma_m, "(0, inf)", "of what is expected");
-  v.Number("map_sigma_m", c.map_sigma_m, "(0, inf)", "of a step between planes of the map");
-}
-
-void VisitDivision(SegmentDivisionConfig& c, FieldVisitor& v) {
-  v.Flag("enabled", c.enabled, "divide segments that hold two faces with a step between them");
-  v.Number("min_chi2", c.min_chi2, "(0, inf)", "of the step, 2 degrees of freedom");
-  v.Number("min_gap_sigmas", c.min_gap_sigmas, "[0, inf)", "root mean square of the step");
-  v.Number("min_share", c.min_share, "[0, 1]", "of the step, between the nearer halves");
-}
-
 void VisitPlaneExtraction(PlaneExtractionConfig& c, FieldVisitor& v) {
   const DepthSensor before = c.sensor;
   VisitEnum(v, "sensor", c.sensor, DepthSensorNames(),
@@ -101,11 +84,8 @@ void VisitPlaneExtraction(PlaneExtractionConfig& c, FieldVisitor& v) {
   v.Integer("min_pixels", c.min_pixels, "[3, 1000000]", "of a segment");
   v.Degrees("max_angle_sigma_deg", c.max_angle_sigma_rad, "(0, 90)", "of a segment's normal");
   v.Integer("min_island_pixels", c.min_island_pixels, "[1, 1000000]", "of a cut-off part");
-  v.Section("division", "stacked faces", [&] { VisitDivision(c.division, v); });
   v.Section("box_split", "thin things in detection boxes",
             [&] { VisitBoxSplit(c.box_split, v); });
-  v.Section("map_split", "planes of the map in a segment of another",
-            [&] { VisitMapSplit(c.map_split, v); });
   v.Integer("point_grid_px", c.point_grid_px, "[1, 64]", "spacing of a plane's points");
 }
 

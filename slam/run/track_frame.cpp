@@ -23,8 +23,6 @@ TrackReport Tracker::TrackFrame(Frame& frame, const cv::Mat3b& bgr) {
   report.tracked = TrackByPoints(frame, report);  // (D) point-point, and a first pose
   if (!report.tracked) return report;
 
-  if (uses_planes()) SplitByMap(frame, report.times);  // (B), (C) again, with the map's word
-
   if (uses_planes()) {
     const Stopwatch watch(report.times[Module::kDa]);
     AssociateFramePlanes(frame);  // (D) box-plane, plane-plane, point-plane

@@ -9,7 +9,6 @@
 #include "slam/associate/point_plane.h"
 #include "slam/faces/process_planes.h"
 #include "slam/features/point_features.h"
-#include "slam/mapping/expected_planes.h"
 #include "slam/mapping/local_mapping.h"
 #include "slam/mapping/plane_face.h"
 #include "slam/mapping/plane_fuse.h"
@@ -109,19 +108,6 @@ bool Tracker::TrackByPoints(Frame& frame, TrackReport& report) {
   if (worker_) points_.FollowMap(map_);
   report.points = points_.TrackPoints(frame, map_);
   return report.points.state == TrackState::kTracking;
-}
-
-void Tracker::SplitByMap(Frame& frame, ModuleTimes& times) {
-  if (variant_ != Variant::kFull) return;
-  bool split = false;
-  {
-    const Stopwatch watch(times[Module::kEpi]);
-    split = plane_extractor_->SplitByMap(
-        frame, ExpectPlanes(map_, frame.T_cw, camera_, config_.plane_map));
-  }
-  if (!split) return;
-  const Stopwatch watch(times[Module::kPp]);
-  ProcessFramePlanes(frame);
 }
 
 void Tracker::AssociateFramePlanes(Frame& frame) {

@@ -79,7 +79,6 @@ class Tracker {
   void ExtractInformation(Frame& frame, const cv::Mat3b& bgr, ModuleTimes& times);
   void ProcessFramePlanes(Frame& frame);
   bool TrackByPoints(Frame& frame, TrackReport& report);
-  void SplitByMap(Frame& frame, ModuleTimes& times);
   void AssociateFramePlanes(Frame& frame);
   void OptimiseWithPlanes(Frame& frame, TrackReport& report);
   void UpdateMap(Frame& frame, TrackReport& report);

@@ -113,18 +113,18 @@ void BlockClustering::Merge() {
   next_version_ = static_cast<int>(regions_.size());
   known_costs_.assign(std::size_t{1} << kKnownBits, {});
   ProposeFirst();
-  while (merges_.least() < Tournament::kOut) {
-    const int next = merges_.winner();
+  while (merges_.min() < MinTree::kNone) {
+    const int next = merges_.first();
     Pair& pair = pairs_[static_cast<std::size_t>(next)];
     pair.i = Root(pair.i), pair.j = Root(pair.j);
     if (pair.i == pair.j) {
-      merges_.Change(next, Tournament::kOut);
+      merges_.Change(next, MinTree::kNone);
       continue;
     }
     const bool known =
         At(pair.i).version == pair.version_i && At(pair.j).version == pair.version_j;
     if (known) Join(pair.i, pair.j);
-    merges_.Change(next, known ? Tournament::kOut : Renew(pair));
+    merges_.Change(next, known ? MinTree::kNone : Renew(pair));
   }
 }
 
@@ -154,7 +154,7 @@ double BlockClustering::Renew(Pair& pair) {
   PlaneSums both = a.sums;
   both += b.sums;
   const std::optional<PlaneFit> fit = Fit(both);
-  if (!fit) return Tournament::kOut;
+  if (!fit) return MinTree::kNone;
   const double grazing = std::max(a.grazing, b.grazing);
   const bool by_mean = config_->merge_rule == MergeRule::kMeanError;
   const double cost = by_mean ? fit->error / both.n : fit->error - a.fit.error - b.fit.error;
@@ -162,7 +162,7 @@ double BlockClustering::Renew(Pair& pair) {
   const double bound = by_mean ? config_->max_block_error
                                : config_->max_merge_chi2 * noise_->correlated_px +
                                      k * k * a.sums.n * b.sums.n / both.n;
-  return cost < grazing * grazing * bound ? cost : Tournament::kOut;
+  return cost < grazing * grazing * bound ? cost : MinTree::kNone;
 }
 
 void BlockClustering::Join(int a, int b) {

@@ -4,7 +4,6 @@
 #include <bit>
 #include <cmath>
 #include <cstddef>
-#include <limits>
 
 #include "slam/base/lane_math.h"
 #include "slam/segment/pixel_set_lanes.h"
@@ -16,10 +15,7 @@ using FourFloats = float __attribute__((vector_size(16), aligned(4), may_alias))
 using FourInts = int __attribute__((vector_size(16), aligned(4), may_alias));
 constexpr int kFour = 4;
 
-template <typename Mark>
-using FourMarks
-    [[gnu::vector_size(kFour * sizeof(Mark)), gnu::aligned(alignof(Mark)), gnu::may_alias]] =
-        Mark;
+using FourMarks = std::uint8_t __attribute__((vector_size(4), aligned(1), may_alias));
 
 SLAM_INLINE FourFloats Floats4(const float* p) {
   return *reinterpret_cast<const FourFloats*>(p);
@@ -124,19 +120,16 @@ PlaneSums SumAny(const BlockPixels& block, ConstPixelSet set) {
   return out;
 }
 
-/// g of four pixels that have `value` in `marks`, 0 for the others.
-template <typename Mark>
-SLAM_INLINE FourFloats Weights(const float* g, const Mark* marks, Mark value) {
+/// g of four pixels that are not taken, 0 for the others.
+SLAM_INLINE FourFloats Weights(const float* g, const std::uint8_t* taken) {
   const auto four =
-      __builtin_convertvector(*reinterpret_cast<const FourMarks<Mark>*>(marks), FourInts);
-  const FourInts used = four == static_cast<int>(value);
+      __builtin_convertvector(*reinterpret_cast<const FourMarks*>(taken), FourInts);
+  const FourInts used = four == 0;
   return (FourFloats)((FourInts)Floats4(g) & used);
 }
 
-/// Sums of the measured pixels that have `value` in `marks`; columns four at a time, then the
-/// rest.
-template <typename Mark>
-SLAM_INLINE PlaneSums Sum(const BlockPixels& block, const Mark* marks, Mark value) {
+/// Sums of the measured pixels that are not taken; columns four at a time, then the rest.
+SLAM_INLINE PlaneSums SumNotTaken(const BlockPixels& block, const std::uint8_t* taken) {
   FourSums fours;
   FourInts n{};
   const bool whole_columns = block.x_stride == 0;  // of one x, and rows of one y
@@ -145,7 +138,7 @@ SLAM_INLINE PlaneSums Sum(const BlockPixels& block, const Mark* marks, Mark valu
     FourSums four;
     for (int v = 0; v < block.height; ++v) {
       const std::ptrdiff_t i = static_cast<std::ptrdiff_t>(v) * block.stride + u;
-      const FourFloats used = Weights(block.g + i, marks + i, value);
+      const FourFloats used = Weights(block.g + i, taken + i);
       n -= used > 0.0f;
       const DoubleLanes g = InDouble(used), q = Load4(block.q + i);
       if (whole_columns) {
@@ -163,7 +156,7 @@ SLAM_INLINE PlaneSums Sum(const BlockPixels& block, const Mark* marks, Mark valu
     for (int u = whole; u < block.width; ++u) {
       const std::ptrdiff_t i = static_cast<std::ptrdiff_t>(v) * block.stride + u;
       const double g = static_cast<double>(block.g[i]);
-      if (!(g > 0.0) || marks[i] != value) continue;
+      if (!(g > 0.0) || taken[i] != 0) continue;
       out.Add(static_cast<double>(block.x[v * block.x_stride + u]),
               static_cast<double>(block.y[v * block.y_stride + u]),
               static_cast<double>(block.q[i]), g * g);
@@ -216,30 +209,8 @@ SLAM_LANES PlaneSums SumOfSet(const BlockPixels& block, ConstPixelSet set) {
   return block.x_stride == 0 ? Sum8<true, false>(block, *set) : Sum8<false, false>(block, *set);
 }
 
-SLAM_LANES PlaneSums SumLabelled(const BlockPixels& block, const std::int16_t* labels,
-                                 std::int16_t label) {
-  return Sum(block, labels, label);
-}
-
-void SumTile(const BlockPixels& block, const std::int16_t* labels,
-             std::vector<PlaneSums>& sums) {
-  std::int16_t label = kNoLabel;  // summed last
-  for (int summed = 0; summed < block.width * block.height; ++summed) {
-    // Labels in order: the least that is greater than the last one.
-    int next = std::numeric_limits<std::int16_t>::max() + 1;
-    for (int v = 0; v < block.height; ++v) {
-      const std::int16_t* row = labels + static_cast<std::ptrdiff_t>(v) * block.stride;
-      for (int u = 0; u < block.width; ++u)
-        next = row[u] > label && row[u] < next ? row[u] : next;
-    }
-    if (next > std::numeric_limits<std::int16_t>::max()) return;
-    label = static_cast<std::int16_t>(next);
-    sums[static_cast<std::size_t>(label)] += SumLabelled(block, labels, label);
-  }
-}
-
 SLAM_LANES PlaneSums SumFree(const BlockPixels& block, const std::uint8_t* taken) {
-  return Sum<std::uint8_t>(block, taken, 0);
+  return SumNotTaken(block, taken);
 }
 
 SLAM_LANES void CountFree(const float* g, const std::uint8_t* taken, int stride, int width,

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstdint>
-#include <vector>
 
 #include "slam/geometry/plane_sums.h"
 #include "slam/segment/block_pixels.h"
@@ -13,13 +12,6 @@ PlaneSums SumBlock(const BlockPixels& block, ConstPixelSet measured);
 
 /// Of its pixels in a set, all of them measured.
 PlaneSums SumOfSet(const BlockPixels& block, ConstPixelSet set);
-
-/// Of its pixels with that label, all of them measured. @param labels  of its first pixel
-PlaneSums SumLabelled(const BlockPixels& block, const std::int16_t* labels, std::int16_t label);
-
-/// Adds those of each label of a block, lowest first.
-void SumTile(const BlockPixels& block, const std::int16_t* labels,
-             std::vector<PlaneSums>& sums);
 
 /// Of its measured pixels whose entry is 0. @param taken  of its first pixel
 PlaneSums SumFree(const BlockPixels& block, const std::uint8_t* taken);

@@ -56,9 +56,7 @@ class StripSums {
     for (int k = kNearest_px; k < strip; ++k) {
       const std::size_t i = At(u + k * du, v + k * dv);
       if (labels_[i] != label && labels_[i] != other) continue;
-      const double g = static_cast<double>(grid_.g[i]);
-      sums.Add(static_cast<double>(grid_.x[i]), static_cast<double>(grid_.y[i]),
-               static_cast<double>(grid_.q[i]), g * g);
+      AddPixel(grid_, i, sums);
     }
   }
 

@@ -80,12 +80,4 @@ void SetDepth(const cv::Mat1f& depth_m, const DepthNoise& noise, double max_dept
   }
 }
 
-DepthGrid MakeDepthGrid(const cv::Mat1f& depth_m, const cv::Mat2d& rays,
-                        const DepthNoise& noise, double max_depth_m) {
-  DepthGrid grid;
-  SetRays(rays, grid);
-  SetDepth(depth_m, noise, max_depth_m, grid);
-  return grid;
-}
-
 }  // namespace slam

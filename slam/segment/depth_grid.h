@@ -36,8 +36,4 @@ void SetRays(const cv::Mat2d& rays, DepthGrid& grid);
 void SetDepth(const cv::Mat1f& depth_m, const DepthNoise& noise, double max_depth_m,
               DepthGrid& grid);
 
-/// Both.
-DepthGrid MakeDepthGrid(const cv::Mat1f& depth_m, const cv::Mat2d& rays,
-                        const DepthNoise& noise, double max_depth_m);
-
 }  // namespace slam

@@ -1,9 +1,9 @@
 #pragma once
 
 #include "slam/geometry/depth_noise.h"
-#include "slam/segment/block_clusters.h"
-#include "slam/segment/pixel_growth.h"
-#include "slam/segment/plane_edges.h"
+#include "slam/segment/cluster_config.h"
+#include "slam/segment/edge_config.h"
+#include "slam/segment/growth_config.h"
 
 namespace slam {
 
@@ -28,30 +28,6 @@ struct BoxSplitConfig {
   double min_box_iou = 0.5;
   /// What is around the box is not as high, but for this part of it; domain [0, 1].
   double max_high_around = 0.1;
-};
-
-/// What it takes to split a segment that holds a plane of the map besides another
-/// (map_split.h).
-struct MapSplitConfig {
-  bool enabled = true;
-  double max_angle_rad = 0.12;  ///< between planes that may be taken for one another; (0, pi)
-  /// How far off the segment of the other plane the region must lie, in standard errors of its
-  /// mean; domain (0, inf).
-  double min_evidence_sigmas = 8.0;
-  double pose_sigma_m = 0.006;  ///< of what is expected, for the pose by points; (0, inf)
-  double map_sigma_m = 0.0012;  ///< of a step between planes of the map; (0, inf)
-};
-
-/// When a segment holds two faces with a step between them (segment_division.h).
-struct SegmentDivisionConfig {
-  bool enabled = false;  ///< better frames, but worse association (docs/planes.md)
-  /// Of the step, 2 degrees of freedom: noise exceeds 20 along one of 20,000 lines, and the
-  /// best of many is looked at. Domain (0, inf).
-  double min_chi2 = 20.0;
-  /// Root mean square of the step along the line; less may be the sensor's. Domain [0, inf).
-  double min_gap_sigmas = 1.0;
-  /// Part of the step that must be there between the nearer halves; domain [0, 1].
-  double min_share = 0.67;
 };
 
 /// Settings of plane extraction. A length here is of the sensor or of the image, and every
@@ -84,7 +60,7 @@ struct PlaneExtractionConfig {
   double max_bend_step_sigmas = 1.5;
   /// Warp of the sensor, as measured in each frame (sensor_warp.h), that is allowed for; 0:
   /// none. Every sigma of it adds so many to the model error of the clusters, and to the gaps
-  /// between parts that are bent or hidden; and segments are not divided. Domain [0, inf).
+  /// between parts that are bent or hidden. Domain [0, inf).
   double max_warp_sigmas = 1.0;
   double warp_model_error = 1.5;
   double warp_gap = 12.0;
@@ -94,8 +70,6 @@ struct PlaneExtractionConfig {
   /// What lies nearer to the plane is neither behind it nor in front; domain [0, inf).
   double unsure_side_sigmas = 0.0;
 
-  SegmentDivisionConfig division;
-
   /// A segment needs this many pixels and this precision: fewer or worse is noise. At 1 m, 300
   /// pixels are 33 x 33 mm seen frontally.
   int min_pixels = 300;              ///< domain [3, inf)
@@ -103,7 +77,6 @@ struct PlaneExtractionConfig {
   int min_island_pixels = 40;        ///< a smaller cut-off part is dropped; domain [1, inf)
 
   BoxSplitConfig box_split;  ///< once the frame's detections are known
-  MapSplitConfig map_split;  ///< once its pose is known
 
   int point_grid_px = 6;  ///< spacing of FramePlane::points_c; domain [1, 64]
   EdgeConfig edges;       ///< of FramePlane::edge_points

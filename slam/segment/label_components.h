@@ -28,7 +28,9 @@ struct LabelComponents {
   int At(int u, int v) const { return component[runs.At(u, v)]; }
 };
 
-/// Finds the components of components.runs, without sides.
+/// Finds the components of components.runs, without sides. Our own because it joins runs
+/// instead of pixels: cv::connectedComponentsWithStats, called for each label within its bounds,
+/// took 21 times as long on label images of desks, a seventh of the whole extraction.
 void ConnectRuns(LabelComponents& components);
 
 /// Counts `behind` and `in_front` of every component.

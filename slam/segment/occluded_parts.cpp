@@ -11,12 +11,8 @@ namespace {
 
 PlaneSums SumRun(const DepthGrid& grid, int row, const LabelRun& run) {
   PlaneSums sums;
-  for (int u = run.begin; u < run.end; ++u) {
-    const auto i = static_cast<std::size_t>(grid.Index(u, row));
-    const double g = static_cast<double>(grid.g[i]);
-    sums.Add(static_cast<double>(grid.x[i]), static_cast<double>(grid.y[i]),
-             static_cast<double>(grid.q[i]), g * g);
-  }
+  for (int u = run.begin; u < run.end; ++u)
+    AddPixel(grid, static_cast<std::size_t>(grid.Index(u, row)), sums);
   return sums;
 }
 

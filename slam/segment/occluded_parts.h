@@ -27,7 +27,6 @@ class PartSegmentation {
   ///          beside each other may be of one segment. They stand until the next call.
   const LabelRuns& Segment(const DepthGrid& grid, const PatchUnion& joined,
                            const LabelRuns& labels, const PlaneExtractionConfig& config);
-  int segment_count() const { return segment_count_; }
 
   /// Sums of the pixels of each segment of the last call: those of the labels that `joined`
   /// knows, but for the parts that went elsewhere.

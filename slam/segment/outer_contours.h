@@ -11,8 +11,9 @@ namespace slam {
 /// along it from its first pixel, 8-connected; what lies in a hole of its own segment has none.
 ///
 /// Source: Suzuki and Abe, CVGIP 30 (1985), point by point as cv::findContours (RETR_EXTERNAL,
-/// CHAIN_APPROX_NONE) follows each segment alone; but all of them at once, in memory that
-/// serves the next image.
+/// CHAIN_APPROX_NONE) follows each segment alone. Our own because it follows all of them at
+/// once: with cv::findContours in the bounds of each segment the whole extraction took 5 % more
+/// instructions and 4 to 8 % more time (callgrind; desks of kinect1 and d435).
 class OuterContours {
  public:
   struct Contour {

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <vector>
+#include <cstddef>
 
 #include "slam/geometry/plane_sums.h"
 #include "slam/segment/depth_grid.h"
@@ -14,8 +14,12 @@ struct LabelPlane {
   double grazing = 1.0;  ///< GrazingFactor of its pixels
 };
 
-/// Sums of the pixels of each label.
-std::vector<PlaneSums> SumLabels(const DepthGrid& grid, const LabelImage& labels, int count);
+/// Adds a measured pixel to the sums of a plane.
+inline void AddPixel(const DepthGrid& grid, std::size_t i, PlaneSums& sums) {
+  const double g = static_cast<double>(grid.g[i]);
+  sums.Add(static_cast<double>(grid.x[i]), static_cast<double>(grid.y[i]),
+           static_cast<double>(grid.q[i]), g * g);
+}
 
 /// Residual of a pixel from a plane in sigmas; positive: the pixel is nearer than the plane.
 inline float ResidualSigmas(const DepthGrid& grid, std::size_t i, const LabelPlane& p) {

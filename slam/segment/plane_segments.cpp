@@ -79,7 +79,6 @@ void PlaneExtractor::Extract(Frame& frame) {
       work_->clustering.Cluster(grid, {}, settings.block_px, settings.noise, settings.coarse);
   const double warp = work_->warp.Measure(clusters, work_->clustering.SumsOfBlocks(), settings);
   const PlaneExtractionConfig config = AllowWarp(settings, warp);
-  work_->sensor_bends = warp > 0.0;
   if (warp > 0.0) work_->clustering.MergeAgain(config.coarse);
   growth.Begin(grid, config.growth);
   AddClusters(grid, clusters, config.noise, growth);
@@ -98,17 +97,11 @@ void PlaneExtractor::Extract(Frame& frame) {
   const PatchUnion& joined = patches.JoinBentParts(grid, blocks, config, growth, warp > 0.0);
   const LabelRuns& segments = work_->parts.Segment(grid, joined, patches.runs(), config);
   work_->parts.SumSegments(grid, joined, work_->sums);
-  const bool divided = work_->division.Divide(grid, segments, config, work_->sums);
   KeepMeasured(work_->sums, config, work_->kept);
   frame.plane_labels.create(grid.height, grid.width);
-  DrawLabels(divided ? work_->division.runs() : segments, static_cast<int>(work_->sums.size()),
-             work_->kept, work_->drawn_value, frame.plane_labels);
+  DrawLabels(segments, static_cast<int>(work_->sums.size()), work_->kept, work_->drawn_value,
+             frame.plane_labels);
   work_->Describe(frame);
-}
-
-void ExtractPlanes(Frame& frame, const Camera& camera, const cv::Mat2d& rays,
-                   const PlaneExtractionConfig& config) {
-  PlaneExtractor(camera, rays, config).Extract(frame);
 }
 
 }  // namespace slam

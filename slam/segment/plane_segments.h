@@ -1,11 +1,9 @@
 #pragma once
 
 #include <memory>
-#include <vector>
 
 #include "slam/geometry/camera.h"
 #include "slam/model/frame.h"
-#include "slam/segment/expected_plane.h"
 #include "slam/segment/extraction_config.h"
 
 namespace slam {
@@ -45,21 +43,9 @@ class PlaneExtractor {
   /// @param frame  that of the last Extract, with its detections
   void SplitInBoxes(Frame& frame);
 
-  /// Another one, once the camera's pose is known: splits segments that hold a plane of the map
-  /// besides another one (map_split.h);
-  /// none where the sensor bends what is flat. What (C) added to the planes is lost where it
-  /// does.
-  /// @param expected  in the camera frame of the last Extract
-  /// @returns whether it split any
-  bool SplitByMap(Frame& frame, const std::vector<ExpectedPlane>& expected);
-
  private:
   struct Workspace;
   std::unique_ptr<Workspace> work_;
 };
-
-/// The same for a single frame.
-void ExtractPlanes(Frame& frame, const Camera& camera, const cv::Mat2d& rays,
-                   const PlaneExtractionConfig& config);
 
 }  // namespace slam

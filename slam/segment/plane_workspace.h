@@ -8,14 +8,12 @@
 #include "slam/geometry/box.h"
 #include "slam/segment/block_clusters.h"
 #include "slam/segment/box_split.h"
-#include "slam/segment/map_split.h"
 #include "slam/segment/measured_segments.h"
 #include "slam/segment/occluded_parts.h"
 #include "slam/segment/outer_contours.h"
 #include "slam/segment/patches.h"
 #include "slam/segment/pixel_growth.h"
 #include "slam/segment/plane_segments.h"
-#include "slam/segment/segment_division.h"
 #include "slam/segment/sensor_warp.h"
 
 namespace slam {
@@ -32,7 +30,6 @@ struct PlaneExtractor::Workspace {
   PatchJoining patches;
   PartSegmentation parts;
   std::vector<PlaneSums> sums;  ///< of segments
-  SegmentDivision division;
   std::vector<Segment> kept;
   std::vector<std::uint8_t> drawn_value;
   OuterContours contours;
@@ -41,14 +38,9 @@ struct PlaneExtractor::Workspace {
     double norm = 0.0, area = 0.0;
   };
   std::vector<Sampled> sampled;
-  std::vector<double> areas_m2;  ///< visible, of the frame's planes
-  BoxSplit box_split;
-  MapSplit map_split;
-  PixelArea expected_area;
-  bool sensor_bends = false;  ///< what is flat, in the last frame
-  std::vector<Box> boxes_px;  ///< of detections that may hold thin things
-  /// That lie in a box, or in what is expected.
-  std::vector<std::size_t> own_segments;
+  std::vector<double> areas_m2;           ///< visible, of the frame's planes
+  std::vector<Box> boxes_px;              ///< of detections that may hold thin things
+  std::vector<std::size_t> own_segments;  ///< that lie in a box
   /// Planes of the frame's last image, whose points' memory serves again.
   std::vector<FramePlane> old_planes;
 
@@ -57,8 +49,7 @@ struct PlaneExtractor::Workspace {
   void SamplePoints(const cv::Mat1b& drawn, std::vector<FramePlane>& planes);
   void Describe(Frame& frame);
   bool SplitInBox(const Box& box_px, Frame& frame);
-  bool SplitBy(const std::vector<ExpectedPlane>& all, std::size_t expected, Frame& frame);
-  bool TakeRegion(std::size_t host, const ElectedRegion& found, cv::Mat1b& drawn);
+  bool TakeRegion(std::size_t host, const PixelRegion& found, cv::Mat1b& drawn);
   void Renumber(cv::Mat1b& drawn);
 };
 

@@ -76,7 +76,6 @@ PlaneExtractionConfig AllowWarp(const PlaneExtractionConfig& config, double warp
   if (warp_sigmas > 0.0) {
     allowed.unsure_side_sigmas =
         std::max(config.unsure_side_sigmas, allowed.max_hidden_gap_sigmas);
-    allowed.division.enabled = false;  // what is sudden here may be the sensor's
   }
   return allowed;
 }

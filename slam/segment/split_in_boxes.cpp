@@ -29,13 +29,28 @@ bool LiesIn(const Box& segment_px, const Box& box_px) {
   return Intersection(segment_px, box_px).area() > kInBox * segment_px.area();
 }
 
+/// About how many pixels of each label a box holds, from every fourth pixel of every fourth
+/// row.
+std::array<int, 256> CountLabels(const cv::Mat1b& labels, const Box& box_px) {
+  constexpr int kStep_px = 4;
+  std::array<int, 256> pixels{};
+  const cv::Point low(std::max(0, static_cast<int>(box_px.min.x())),
+                      std::max(0, static_cast<int>(box_px.min.y())));
+  const int right = std::min(labels.cols - 1, static_cast<int>(box_px.max.x()));
+  const int bottom = std::min(labels.rows - 1, static_cast<int>(box_px.max.y()));
+  for (int v = low.y; v <= bottom; v += kStep_px) {
+    for (int u = low.x; u <= right; u += kStep_px) pixels[labels(v, u)] += kStep_px * kStep_px;
+  }
+  return pixels;
+}
+
 }  // namespace
 
 /// Gives the region that was found in a segment to one of the box's own that it agrees with, or
 /// makes it a new one, if what it is and what is left can be measured.
-bool PlaneExtractor::Workspace::TakeRegion(std::size_t host, const ElectedRegion& found,
+bool PlaneExtractor::Workspace::TakeRegion(std::size_t host, const PixelRegion& found,
                                            cv::Mat1b& drawn) {
-  const PlaneSums region = found.Sum(grid);
+  const PlaneSums region = SumOf(grid, found);
   const std::optional<Segment> rest =
       Measure(Without(kept[host].sums, region), kept[host].id, config);
   const std::optional<Segment> top = Measure(region, 0, config);
@@ -47,8 +62,8 @@ bool PlaneExtractor::Workspace::TakeRegion(std::size_t host, const ElectedRegion
                                 config.max_merge_gap_sigmas, config);
     if (gap < least_gap) least_gap = gap, into = own;
   }
-  const cv::Point low = found.bounds().tl();
-  const cv::Point high = found.bounds().br() - cv::Point(1, 1);
+  const cv::Point low = found.bounds.tl();
+  const cv::Point high = found.bounds.br() - cv::Point(1, 1);
   if (into == kept.size()) {
     if (kept.size() == static_cast<std::size_t>(kMostSegments)) return false;
     kept.push_back(*top);
@@ -58,7 +73,7 @@ bool PlaneExtractor::Workspace::TakeRegion(std::size_t host, const ElectedRegion
   }
   kept[host].sums = rest->sums, kept[host].plane = rest->plane;
   kept[host].sigmas = rest->sigmas;
-  for (const int i : found.pixels())
+  for (const int i : found.pixels)
     drawn(i / grid.width, i % grid.width) = static_cast<std::uint8_t>(into + 1);
   return true;
 }
@@ -76,15 +91,14 @@ bool PlaneExtractor::Workspace::SplitInBox(const Box& box_px, Frame& frame) {
   double own_pixels = 0.0;
   for (const std::size_t own : own_segments) own_pixels += pixels[own + 1];
   if (own_pixels > kFull * box_px.area()) return false;
-  const double least =
-      std::max(1.0 * config.min_pixels, BoxSplit::kLeastFilled * box_px.area());
+  const double least = std::max(1.0 * config.min_pixels, kMinFilledShare * box_px.area());
   bool split = false;
   for (std::size_t k = 0; k < frame.planes.size(); ++k) {
     if (pixels[k + 1] < least || LiesIn(frame.planes[k].box_px, box_px)) continue;
-    if (box_split.Find(grid, frame.plane_labels, static_cast<std::uint8_t>(k + 1),
-                       kept[k].plane, box_px, own_px, config)) {
-      split = TakeRegion(k, box_split.region(), frame.plane_labels) || split;
-    }
+    const std::optional<PixelRegion> top =
+        FindThinTop(grid, frame.plane_labels, static_cast<std::uint8_t>(k + 1), kept[k].plane,
+                    box_px, own_px, config);
+    if (top) split = TakeRegion(k, *top, frame.plane_labels) || split;
   }
   return split;
 }

@@ -5,6 +5,7 @@
 #include "slam/geometry/camera.h"
 #include "slam/segment/plane_segments.h"
 #include "tests/support/closed_form_depth.h"
+#include "tests/support/depth_planes.h"
 #include "tests/support/slam_matchers.h"
 
 namespace slam {

@@ -7,7 +7,6 @@
 #include <cstddef>
 #include <vector>
 
-#include "slam/segment/depth_sensor.h"
 #include "slam/segment/plane_segments.h"
 #include "tests/support/closed_form_depth.h"
 
@@ -107,37 +106,6 @@ TEST(PlaneExtractor, AsksForNoMemoryOnceItIsWarm) {
       if (pass + 1 == kPasses) {
         EXPECT_EQ(asked, 0) << "image " << k;
       }
-    }
-  }
-}
-
-TEST(PlaneExtractor, AsksForNoMemoryToSplitInBoxesOnceItIsWarm) {
-  if (!PAS_COUNTS_ALLOCATIONS) GTEST_SKIP() << "this build's heap cannot be watched";
-  const Camera camera;
-  closed_form::World world = closed_form::Desk();
-  closed_form::PutOnDesk(world, 0.0, 0.0, {0.16, 0.22, 0.005}, 0.3, "book");
-  const closed_form::View view =
-      closed_form::Render(world, camera, closed_form::LookAt({0.05, -0.65, 0.8}, {0, 0, 0}));
-  Detection book{"book", ClassKind::kRegular, 0.9, {}, 0, false};
-  for (int v = 0; v < camera.height; ++v) {
-    for (int u = 0; u < camera.width; ++u) {
-      if (view.face(v, u) == closed_form::FaceId(1, closed_form::kTop))
-        book.box_px.Include(Eigen::Vector2d(u, v));
-    }
-  }
-  PlaneExtractor extractor(camera, PixelRays(camera), ExtractionFor(DepthSensor::kD435));
-  Frame frame;
-  frame.depth_m = closed_form::AddKinectNoise(view.depth_m, 5);
-  frame.detections = {book};
-  for (int pass = 0; pass < 4; ++pass) {
-    extractor.Extract(frame);
-    const cv::Mat1b before = frame.plane_labels.clone();
-    const long asked_before = allocation_count;
-    extractor.SplitInBoxes(frame);
-    const long asked = allocation_count - asked_before;
-    EXPECT_GT(cv::countNonZero(before != frame.plane_labels), 1000) << "nothing was split";
-    if (pass == 3) {
-      EXPECT_EQ(asked, 0);
     }
   }
 }

@@ -9,6 +9,7 @@
 
 #include "slam/geometry/camera.h"
 #include "slam/segment/block_sums.h"
+#include "tests/support/depth_planes.h"
 
 namespace slam {
 namespace {
@@ -151,28 +152,30 @@ std::vector<double> Numbers(const PlaneSums& s) {
 }
 
 // Columns of one x, and every pixel with its own.
-TEST(BlockPixels, SumThePixelsOfALabelAndNoOthersWithALensAndWithout) {
+TEST(BlockPixels, SumThePixelsThatAreNotTakenWithALensAndWithout) {
   for (const double k1 : {0.0, 0.2}) {
     const DepthGrid grid = RoughGrid(29, 27, k1);
     ASSERT_EQ(grid.column_x.empty(), k1 != 0.0);
-    std::vector<std::int16_t> labels(grid.q.size());
-    for (std::size_t i = 0; i < labels.size(); ++i)
-      labels[i] = grid.g[i] > 0 ? static_cast<std::int16_t>(i % 5 < 3 ? i % 5 : -1) : kNoLabel;
-    const std::vector<PlaneSums> sums = SumLabels(grid, labels, 3);
-    std::vector<PlaneSums> plain(3);
-    for (std::size_t i = 0; i < labels.size(); ++i) {
-      if (labels[i] == kNoLabel) continue;
-      const double g = static_cast<double>(grid.g[i]);
-      plain[static_cast<std::size_t>(labels[i])].Add(static_cast<double>(grid.x[i]),
-                                                     static_cast<double>(grid.y[i]),
-                                                     static_cast<double>(grid.q[i]), g * g);
-    }
-    for (std::size_t k = 0; k < 3; ++k) {
-      EXPECT_EQ(sums[k].n, plain[k].n);
-      const std::vector<double> got = Numbers(sums[k]), expected = Numbers(plain[k]);
+    std::vector<std::uint8_t> taken(grid.q.size());
+    for (std::size_t i = 0; i < taken.size(); ++i)
+      taken[i] = static_cast<std::uint8_t>(i % 5 < 3 ? 0 : i % 5);
+    VisitBlocks(grid, 8, [&](const BlockPixels& block, int u0, int v0) {
+      PlaneSums plain;
+      for (int v = 0; v < block.height; ++v) {
+        for (int u = 0; u < block.width; ++u) {
+          const auto i = static_cast<std::size_t>(grid.Index(u0 + u, v0 + v));
+          const double g = static_cast<double>(grid.g[i]);
+          if (!(g > 0) || taken[i] != 0) continue;
+          plain.Add(static_cast<double>(grid.x[i]), static_cast<double>(grid.y[i]),
+                    static_cast<double>(grid.q[i]), g * g);
+        }
+      }
+      const PlaneSums sums = SumFree(block, taken.data() + grid.Index(u0, v0));
+      EXPECT_EQ(sums.n, plain.n);
+      const std::vector<double> got = Numbers(sums), expected = Numbers(plain);
       for (std::size_t m = 0; m < got.size(); ++m)
-        EXPECT_NEAR(got[m], expected[m], 1e-12 * plain[k].w) << m;
-    }
+        EXPECT_NEAR(got[m], expected[m], 1e-12 * plain.w) << m;
+    });
   }
 }
 

@@ -13,6 +13,7 @@
 #include "slam/segment/depth_sensor.h"
 #include "slam/segment/plane_segments.h"
 #include "tests/support/closed_form_depth.h"
+#include "tests/support/depth_planes.h"
 
 namespace slam {
 namespace {
@@ -65,19 +66,21 @@ struct Plate {
     }
   }
   bool Find(const Box& box_px, const Box& own_px = {}) {
-    return split.Find(grid, labels, kHost, kTable, box_px, own_px, config);
+    const std::optional<PixelRegion> found =
+        FindThinTop(grid, labels, kHost, kTable, box_px, own_px, config);
+    top = found.value_or(PixelRegion{});
+    return found.has_value();
   }
   double IouWith(const cv::Rect& where) const {
     int shared = 0;
-    for (const int i : split.region().pixels())
+    for (const int i : top.pixels)
       shared += where.contains({i % grid.width, i / grid.width}) ? 1 : 0;
-    return shared /
-           (where.area() + static_cast<double>(split.region().pixels().size()) - shared);
+    return shared / (where.area() + static_cast<double>(top.pixels.size()) - shared);
   }
   PlaneExtractionConfig config;
   cv::Mat1b labels;
   DepthGrid grid;
-  BoxSplit split;
+  PixelRegion top;  ///< what the last search has found
 };
 
 Box BoxOf(const cv::Rect& r, double du = 0.0, double dv = 0.0) {

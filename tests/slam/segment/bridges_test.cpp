@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "slam/geometry/camera.h"
+#include "tests/support/depth_planes.h"
 
 namespace slam {
 namespace {

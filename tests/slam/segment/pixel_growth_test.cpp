@@ -13,6 +13,7 @@
 
 #include "slam/segment/block_clusters.h"
 #include "tests/support/closed_form_depth.h"
+#include "tests/support/depth_planes.h"
 
 namespace slam {
 namespace {

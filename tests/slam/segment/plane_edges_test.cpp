@@ -6,6 +6,7 @@
 
 #include "slam/segment/plane_segments.h"
 #include "tests/support/closed_form_depth.h"
+#include "tests/support/depth_planes.h"
 
 namespace slam {
 namespace {

@@ -13,6 +13,7 @@
 
 #include "slam/geometry/plane.h"
 #include "tests/support/closed_form_depth.h"
+#include "tests/support/depth_planes.h"
 #include "tests/support/slam_matchers.h"
 
 namespace slam {

@@ -9,6 +9,7 @@
 #include "slam/segment/boundary_shares.h"
 #include "slam/segment/plane_segments.h"
 #include "tests/support/closed_form_depth.h"
+#include "tests/support/depth_planes.h"
 
 namespace slam {
 namespace {

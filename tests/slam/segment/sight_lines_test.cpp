@@ -10,6 +10,7 @@
 #include "slam/base/random.h"
 #include "slam/geometry/camera.h"
 #include "tests/support/closed_form_depth.h"
+#include "tests/support/depth_planes.h"
 
 namespace slam {
 namespace {
