@@ -6,10 +6,10 @@
 #include "app/app.h"
 #include "eval/read/run.h"
 #include "eval/read/sequence.h"
-#include "eval/read/write_file.h"
 #include "eval/report/evaluate.h"
 #include "eval/report/metrics_json.h"
 #include "eval/report/table.h"
+#include "io/atomic_file.h"
 
 namespace app {
 namespace {
@@ -30,7 +30,7 @@ int RunEval(const EvalOptions& options, const Globals& globals) {
   const std::filesystem::path output = options.output.empty()
                                            ? run.folder / "metrics.json"
                                            : std::filesystem::path(options.output);
-  eval::WriteFile(output, eval::MetricsText(evaluation));
+  io::WriteFile(output, eval::MetricsText(evaluation));
   if (!globals.quiet) {
     std::fputs(eval::MetricsTable(evaluation).c_str(), stdout);
     std::printf("wrote %s\n", output.c_str());

@@ -2,18 +2,18 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
 #include <map>
 #include <optional>
 #include <stdexcept>
 #include <string>
-#include <system_error>
 #include <vector>
 
 #include "app/app.h"
+#include "io/atomic_file.h"
+#include "io/input_error.h"
+#include "io/number_text.h"
 #include "sim/scene/drawing.h"
 #include "sim/scene/families.h"
-#include "sim/scene/input_error.h"
 #include "sim/scene/names.h"
 #include "sim/scene/scene_file.h"
 #include "sim/scene/steps.h"
@@ -36,18 +36,14 @@ std::map<std::string, double> ParseSettings(const std::vector<std::string>& sett
   std::map<std::string, double> values;
   for (const std::string& setting : settings) {
     const std::size_t equals = setting.find('=');
-    std::size_t used = 0;
-    double value = 0;
-    try {
-      value = std::stod(setting.substr(equals == std::string::npos ? 0 : equals + 1), &used);
-    } catch (const std::logic_error&) {
-      used = 0;
+    const auto value = equals == std::string::npos
+                           ? std::nullopt
+                           : io::ParseNumber(setting.substr(equals + 1));
+    if (!value) {
+      throw io::InputError("--set " + setting, "expected NAME=NUMBER, such as step_mm=20");
     }
-    if (equals == std::string::npos || used == 0 || used != setting.size() - equals - 1) {
-      throw sim::InputError("--set " + setting, "expected NAME=NUMBER, such as step_mm=20");
-    }
-    if (!values.emplace(setting.substr(0, equals), value).second) {
-      throw sim::InputError("--set " + setting, "was given twice; keep one");
+    if (!values.emplace(setting.substr(0, equals), *value).second) {
+      throw io::InputError("--set " + setting, "was given twice; keep one");
     }
   }
   return values;
@@ -58,7 +54,7 @@ std::map<std::string, double> Parameters(const MakeOptions& options) {
   std::map<std::string, double> values = ParseSettings(options.settings);
   for (const auto& [name, value] : options.parameters) {
     if (value && !values.emplace(name, *value).second) {
-      throw sim::InputError("--set " + name, "and its own option give it twice; keep one");
+      throw io::InputError("--set " + name, "and its own option give it twice; keep one");
     }
   }
   return values;
@@ -66,7 +62,7 @@ std::map<std::string, double> Parameters(const MakeOptions& options) {
 
 void Make(const MakeOptions& options, const Globals& globals) {
   if (std::filesystem::exists(options.out) && !options.force) {
-    throw sim::InputError(options.out, "exists already; choose another name or add --force");
+    throw io::InputError(options.out, "exists already; choose another name or add --force");
   }
   const sim::Scene scene =
       options.twin.empty() ? sim::MakeScene(options.family, options.seed, Parameters(options))
@@ -117,22 +113,6 @@ std::string NameOf(const sim::ScenePlane& plane, const sim::Object& owner) {
     return sim::kFaceNames[static_cast<std::size_t>(plane.face)];
   }
   return std::to_string(plane.vertices_w.size()) + "-gon";
-}
-
-/// Writes the whole text or nothing.
-void WriteText(const std::string& text, const std::string& path) {
-  const std::string part = path + ".part";
-  {
-    std::ofstream file(part, std::ios::binary);
-    file << text;
-    file.close();
-    if (!file) {
-      std::error_code ignored;
-      std::filesystem::remove(part, ignored);
-      throw sim::InputError(path, "cannot be written; check that the folder exists");
-    }
-  }
-  std::filesystem::rename(part, path);
 }
 
 void Show(const std::string& path) {
@@ -225,7 +205,7 @@ void AddSceneCommand(CLI::App& pas, const Globals& globals, int& exit_code) {
     if (svg->empty()) {
       Show(*path);
     } else {
-      WriteText(sim::SceneSvg(sim::ReadScene(*path)), *svg);
+      io::WriteFile(*svg, sim::SceneSvg(sim::ReadScene(*path)));
     }
     exit_code = kDone;
   });

@@ -9,11 +9,11 @@
 #include "app/detector_figures.h"
 #include "app/recording_options.h"
 #include "app/sim_arguments.h"
+#include "io/atomic_file.h"
 #include "sim/motion/clearance.h"
 #include "sim/scene/names.h"
 #include "sim/sensor/read_sensor.h"
 #include "sim/sensor/sensor_report.h"
-#include "sim/write/atomic_file.h"
 #include "sim/write/png.h"
 #include "sim/write/preview.h"
 #include "sim/write/write_sequence.h"
@@ -37,9 +37,8 @@ int Report(const SimArguments& arguments, bool quiet) {
   std::string name = "sensor_" + sensor.name;
   std::replace_if(
       name.begin(), name.end(), [](char c) { return c == '/' || c == ' '; }, '_');
-  sim::WriteFileAtomically(folder / (name + ".txt"), table);
-  sim::WriteFileAtomically(folder / (name + ".png"),
-                           sim::EncodePng(sim::DrawReport(sensor, report)));
+  io::WriteFile(folder / (name + ".txt"), table);
+  io::WriteFile(folder / (name + ".png"), sim::EncodePng(sim::DrawReport(sensor, report)));
   if (!quiet) std::printf("%s\n%s", sensor.name.c_str(), table.c_str());
   return kDone;
 }
@@ -77,7 +76,7 @@ int Preview(const SimArguments& arguments, bool quiet) {
   shot.T_wc = trajectory[static_cast<std::size_t>(frame)].T_wc;
   const sim::SimulatedFrame made =
       simulator.Simulate(frame, shot, [&](double) { return shot.T_wc; });
-  sim::WriteFileAtomically(arguments.preview, sim::EncodePng(sim::PreviewPicture(made)));
+  io::WriteFile(arguments.preview, sim::EncodePng(sim::PreviewPicture(made)));
   if (!quiet) {
     std::printf("%s: frame %d, %.3f s: colour, depth; planes, objects\n",
                 arguments.preview.c_str(), frame, shot.time_s);

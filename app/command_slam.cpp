@@ -8,7 +8,7 @@
 #include "app/depth_sensor_option.h"
 #include "app/live_scene.h"
 #include "app/recording_options.h"
-#include "slam/base/require.h"
+#include "io/input_error.h"
 #include "slam/run/config_file.h"
 #include "slam/run/run_sequence.h"
 #include "version.h"
@@ -87,7 +87,7 @@ int RunSlam(SlamArguments& arguments, bool quiet) {
   slam::RunOptions& options = arguments.options;
   const bool live = !arguments.live_scene.empty();
   if ((options.sequence.empty() && !live) || options.run.empty()) {
-    throw slam::InputError(
+    throw io::InputError(
         "pas slam",
         "needs a sequence folder, or --live SCENE.yaml, and -o RUN; see pas slam --help");
   }

@@ -4,8 +4,8 @@
 
 #include "app/app.h"
 #include "app/console.h"
-#include "sim/write/atomic_file.h"
-#include "slam/base/require.h"
+#include "io/atomic_file.h"
+#include "io/input_error.h"
 #include "slam/features/point_features.h"
 #include "slam/input/camera_reader.h"
 #include "slam/input/sequence_reader.h"
@@ -51,7 +51,7 @@ int TrainWords(const VocabularyArguments& arguments, bool quiet) {
   std::size_t descriptors = 0;
   for (const auto& image : images) descriptors += image.size();
   if (descriptors == 0) {
-    throw slam::InputError("pas vocabulary", "no image of these sequences has a feature");
+    throw io::InputError("pas vocabulary", "no image of these sequences has a feature");
   }
   slam::Vocabulary vocabulary = [&] {
     Progress progress("words", 100, quiet);
@@ -60,7 +60,7 @@ int TrainWords(const VocabularyArguments& arguments, bool quiet) {
     });
   }();
   const std::string bytes = vocabulary.Bytes();
-  sim::WriteFileAtomically(arguments.output, bytes);
+  io::WriteFile(arguments.output, bytes);
   if (!quiet) {
     fmt::print("{}: {} words from {} descriptors of {} images, {} bytes\n", arguments.output,
                vocabulary.words(), descriptors, images.size(), bytes.size());

@@ -13,7 +13,7 @@ CLI::Option* AddSensorOption(CLI::App& command, std::string& sensor);
 
 /// The settings for a sensor, with those of a file over them when one is named.
 /// @param sensor  one of slam::DepthSensorNames()
-/// @throws slam::InputError of slam::ReadConfig.
+/// @throws io::InputError of slam::ReadConfig.
 slam::Config ConfigFrom(const std::string& sensor, const std::string& config_file);
 
 }  // namespace app

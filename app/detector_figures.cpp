@@ -5,10 +5,10 @@
 
 #include "app/app.h"
 #include "app/console.h"
+#include "io/atomic_file.h"
 #include "sim/detect/detector_score.h"
 #include "sim/motion/trajectory.h"
 #include "sim/scene/families.h"
-#include "sim/write/atomic_file.h"
 #include "sim/write/parallel_frames.h"
 
 namespace app {
@@ -69,7 +69,7 @@ int ReportDetectors(const std::filesystem::path& output, bool quiet) {
     text += std::string(preset.name) + "\n" + sim::ScoreTable(preset.score);
   }
   std::filesystem::create_directories(output);
-  sim::WriteFileAtomically(output / "detectors.txt", text);
+  io::WriteFile(output / "detectors.txt", text);
   if (!quiet) std::printf("%s", text.c_str());
   return kDone;
 }

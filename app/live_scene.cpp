@@ -4,6 +4,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "io/json_field.h"
 #include "sim/write/sequence_text.h"
 #include "slam/input/image_file.h"
 
@@ -17,8 +18,9 @@ class LiveDetector : public slam::Detector {
       : line_(line), camera_(camera), classes_(std::move(classes)) {}
 
   std::vector<slam::Detection> Detect(double timestamp_s, const cv::Mat3b&) override {
+    const nlohmann::json json = io::ParseJson(line_, "simulated detections");
     slam::DetectionRecord record =
-        slam::ParseDetections(line_, camera_, classes_, "simulated detections");
+        slam::ReadDetections(io::JsonField(json, "simulated detections"), camera_, classes_);
     if (record.timestamp_s != timestamp_s) {
       throw std::logic_error("LiveDetector: asked for another frame than was read");
     }

@@ -3,10 +3,10 @@
 #include <cmath>
 #include <filesystem>
 
+#include "io/sha256.h"
 #include "sim/motion/recorded.h"
 #include "sim/scene/names.h"
 #include "sim/scene/scene_file.h"
-#include "sim/scene/sha256.h"
 #include "sim/sensor/read_sensor.h"
 #include "version.h"
 
@@ -56,7 +56,7 @@ std::vector<sim::TimedPose> ReplayOf(const SimArguments& arguments,
   options.path = sim::ReadTrajectory(arguments.trajectory);
   options.motion = {
       {"trajectory", std::filesystem::path(arguments.trajectory).filename().string()},
-      {"sha256", sim::Sha256OfFile(arguments.trajectory)}};
+      {"sha256", io::Sha256OfFile(arguments.trajectory)}};
   const double fps = options.rig.camera.fps;
   const double length_s = options.path.back().timestamp_s;
   if (!arguments.frames) options.frames = static_cast<int>(std::floor(length_s * fps)) + 1;

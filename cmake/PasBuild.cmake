@@ -57,50 +57,40 @@ function(pas_unity target batch)
   endif()
 endfunction()
 
-# pas_stage(slam geometry LINK Eigen3::Eigen): the folder of one stage as a library, slam_geometry,
-# from all sources in it (a new file is found by itself). It links the stages of its world that were
-# declared before it, so the order of the declarations is the data flow, and joins slam_all.
-# Headers are included from the top of the tree: "slam/geometry/pose.h".
-function(pas_stage world stage)
+# pas_library(io io LINK yaml-cpp): a folder of the tree as a library, from all sources in it (a new
+# file is found by itself). Headers are included from the top of the tree: "slam/geometry/pose.h".
+function(pas_library target folder)
   cmake_parse_arguments(ARG "" "" "LINK" ${ARGN})
-  file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/${world}/${stage}/*.cpp)
-  file(GLOB_RECURSE headers CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/${world}/${stage}/*.h)
-  get_property(before GLOBAL PROPERTY pas_stages_${world})
-  set(target ${world}_${stage})
+  file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/${folder}/*.cpp)
+  file(GLOB_RECURSE headers CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/${folder}/*.h)
   if(sources)
     add_library(${target} STATIC ${sources} ${headers})
-    target_link_libraries(${target} PUBLIC pas_settings ${before} ${ARG_LINK})
+    target_link_libraries(${target} PUBLIC pas_settings ${ARG_LINK})
     pas_reuse_precompiled(${target} pas_precompiled)
-    if(world STREQUAL slam)
-      pas_unity(${target} 16)
-    endif()
   else()
     add_library(${target} INTERFACE)
     target_sources(${target} PRIVATE ${headers})
-    target_link_libraries(${target} INTERFACE pas_settings ${before} ${ARG_LINK})
+    target_link_libraries(${target} INTERFACE pas_settings ${ARG_LINK})
+  endif()
+endfunction()
+
+# pas_stage(slam geometry LINK Eigen3::Eigen): the folder of one stage as a library, slam_geometry. It
+# links io and the stages of its world that were declared before it, so the order of the declarations
+# is the data flow, and joins slam_all.
+function(pas_stage world stage)
+  cmake_parse_arguments(ARG "" "" "LINK" ${ARGN})
+  get_property(before GLOBAL PROPERTY pas_stages_${world})
+  set(target ${world}_${stage})
+  pas_library(${target} ${world}/${stage} LINK io ${before} ${ARG_LINK})
+  get_target_property(type ${target} TYPE)
+  if(world STREQUAL slam AND type STREQUAL STATIC_LIBRARY)
+    pas_unity(${target} 16)
   endif()
   set_property(GLOBAL APPEND PROPERTY pas_stages_${world} ${target})
   if(NOT TARGET ${world}_all)
     add_library(${world}_all INTERFACE)
   endif()
   target_link_libraries(${world}_all INTERFACE ${target})
-endfunction()
-
-# pas_library(slam_base SOURCES a.cpp b.h LINK Eigen3::Eigen): one library a folder.
-# Headers are included from the top of the tree: "slam/base/pose.h".
-function(pas_library name)
-  cmake_parse_arguments(ARG "" "" "SOURCES;LINK" ${ARGN})
-  set(has_code ${ARG_SOURCES})
-  list(FILTER has_code INCLUDE REGEX "\\.cpp$")
-  if(has_code)
-    add_library(${name} STATIC ${ARG_SOURCES})
-    target_link_libraries(${name} PUBLIC pas_settings ${ARG_LINK})
-    pas_reuse_precompiled(${name} pas_precompiled)
-  else()
-    add_library(${name} INTERFACE)
-    target_sources(${name} PRIVATE ${ARG_SOURCES})
-    target_link_libraries(${name} INTERFACE pas_settings ${ARG_LINK})
-  endif()
 endfunction()
 
 # pas_lanes(a.cpp b.cpp): loops over rows that the compiler is to do several pixels at once of. It may

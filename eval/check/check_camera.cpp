@@ -1,77 +1,62 @@
 #include "eval/check/check_camera.h"
 
-#include <fmt/format.h>
-#include <yaml-cpp/yaml.h>
+#include <cstdlib>
 
-#include <cmath>
-#include <limits>
-
-#include "eval/check/checked_text.h"
+#include "io/input_error.h"
+#include "io/number_text.h"
+#include "io/read_file.h"
+#include "io/yaml_value.h"
 
 namespace eval {
 namespace {
 
 const std::string kFile = "camera.yaml";
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-// Reads one number strictly inside (low, high) or on `low` when it says so.
-class CameraKeys {
- public:
-  CameraKeys(FolderCheck& check, YAML::Node root) : check_(check), root_(std::move(root)) {}
-
-  double Number(const std::string& key, double above, double below, const std::string& unit) {
-    const YAML::Node node = root_[key];
-    if (!node) return Fail(0, key + " is missing", "add `" + key + ": <number>` in " + unit);
-    const int line = node.Mark().line + 1;
-    const auto value =
-        node.IsScalar() ? FiniteNumberIn(node.Scalar()) : std::optional<double>();
-    if (!value) return Fail(line, key + " is not a finite number", "give it in " + unit);
-    if (*value > above && *value < below) return *value;
-    return Fail(line, fmt::format("{} is {}; expected {}", key, *value, Range(above, below)),
-                "give it in " + unit);
+// Calls `read`; what it throws ("camera.yaml:8: fps: expected ...") is a fault.
+template <typename Read>
+void Collect(FolderCheck& check, Read read) {
+  try {
+    read();
+  } catch (const io::InputError& error) {
+    const std::string text = error.what();
+    const bool placed = text.starts_with(kFile + ":");
+    const int line = placed ? std::atoi(text.c_str() + kFile.size() + 1) : 0;
+    check.Add(kFile, line, text.substr(text.find(": ") + 2), "write it as the format says");
   }
+}
 
-  int Size(const std::string& key) {
-    const double value = Number(key, 0, 100000, "pixels");
-    if (std::isnan(value) || value == std::floor(value)) {
-      return std::isnan(value) ? 0 : static_cast<int>(value);
-    }
-    Fail(root_[key].Mark().line + 1, fmt::format("{} is {}; expected whole pixels", key, value),
-         "give a whole number");
-    return 0;
+// Where the principal point of an image of so many pixels may be; anywhere when they are
+// unknown.
+io::Interval Inside(int pixels) {
+  if (pixels == 0) return io::Interval("(-0.5, inf)");
+  return io::Interval("(-0.5, " + io::NumberText(pixels - 0.5) + ")");
+}
+
+CheckedCamera ReadKeys(FolderCheck& check, const io::YamlMap& map) {
+  CheckedCamera camera;
+  const io::Interval size("(0, 100000)"), positive("(0, inf)"), any("(-inf, inf)");
+  const auto whole = [&](const char* key, int& value) {
+    Collect(check, [&] { value = map.At(key).Whole(size); });
+  };
+  const auto number = [&](const char* key, const io::Interval& domain, const char* unit,
+                          double& value) {
+    Collect(check, [&] { value = map.At(key).Number(domain, unit); });
+  };
+  Collect(check, [&] { map.At("model").OneOf({"pinhole"}); });
+  whole("width", camera.width);
+  whole("height", camera.height);
+  number("fx", positive, "pixels", camera.fx);
+  number("fy", positive, "pixels", camera.fy);
+  number("cx", Inside(camera.width), "pixels", camera.cx);
+  number("cy", Inside(camera.height), "pixels", camera.cy);
+  double fps = 0;
+  number("fps", positive, "frames per second", fps);
+  number("depth_factor", positive, "depth units per metre", camera.depth_factor);
+  const char* const names[] = {"k1", "k2", "p1", "p2", "k3"};
+  for (std::size_t i = 0; i < camera.distortion.size(); ++i) {
+    if (map.Has(names[i])) number(names[i], any, "as OpenCV's", camera.distortion[i]);
   }
-
-  double Optional(const std::string& key) {
-    return root_[key] ? Number(key, -kInfinity, kInfinity, "the model of OpenCV") : 0.0;
-  }
-
-  double Fail(int line, std::string what, std::string mend) {
-    good_ = false;
-    check_.Add(kFile, line, std::move(what), std::move(mend));
-    return std::numeric_limits<double>::quiet_NaN();
-  }
-
-  bool good() const { return good_; }
-
- private:
-  static std::string Range(double above, double below) {
-    if (std::isinf(below)) return fmt::format("more than {}", above);
-    return fmt::format("between {} and {}", above, below);
-  }
-
-  FolderCheck& check_;
-  YAML::Node root_;
-  bool good_ = true;
-};
-
-void CheckModel(CameraKeys& keys, const YAML::Node& root) {
-  const YAML::Node model = root["model"];
-  if (!model) {
-    keys.Fail(0, "model is missing", "add `model: pinhole`");
-  } else if (!model.IsScalar() || model.Scalar() != "pinhole") {
-    keys.Fail(model.Mark().line + 1, "model is not pinhole",
-              "only `model: pinhole` is defined");
-  }
+  return camera;
 }
 
 }  // namespace
@@ -79,33 +64,13 @@ void CheckModel(CameraKeys& keys, const YAML::Node& root) {
 std::optional<CheckedCamera> CheckCamera(FolderCheck& check) {
   if (!check.Has(kFile)) return std::nullopt;
   check.files.insert(kFile);
-  YAML::Node root;
-  try {
-    root = YAML::LoadFile((check.root / kFile).string());
-  } catch (const YAML::Exception& error) {
-    check.Add(kFile, error.mark.line + 1, "is not valid YAML: " + error.msg, "mend the syntax");
-    return std::nullopt;
-  }
-  if (!root.IsMap()) {
-    check.Add(kFile, 0, "is not a list of `key: value`", "write one key a line");
-    return std::nullopt;
-  }
-  CameraKeys keys(check, root);
-  CheckModel(keys, root);
+  const std::size_t faults = check.faults.size();
   CheckedCamera camera;
-  camera.width = keys.Size("width");
-  camera.height = keys.Size("height");
-  camera.fx = keys.Number("fx", 0, kInfinity, "pixels");
-  camera.fy = keys.Number("fy", 0, kInfinity, "pixels");
-  camera.cx =
-      keys.Number("cx", -0.5, camera.width > 0 ? camera.width - 0.5 : kInfinity, "pixels");
-  camera.cy =
-      keys.Number("cy", -0.5, camera.height > 0 ? camera.height - 0.5 : kInfinity, "pixels");
-  keys.Number("fps", 0, kInfinity, "frames per second");
-  camera.depth_factor = keys.Number("depth_factor", 0, kInfinity, "depth units per metre");
-  const char* const names[] = {"k1", "k2", "p1", "p2", "k3"};
-  for (std::size_t i = 0; i < 5; ++i) camera.distortion[i] = keys.Optional(names[i]);
-  if (!keys.good()) return std::nullopt;
+  Collect(check, [&] {
+    const std::string text = io::ReadFile(check.root / kFile);
+    camera = ReadKeys(check, io::YamlMap(io::ParseYaml(text, kFile)));
+  });
+  if (check.faults.size() > faults) return std::nullopt;
   return camera;
 }
 

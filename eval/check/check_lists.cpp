@@ -7,6 +7,7 @@
 #include <set>
 
 #include "eval/check/checked_text.h"
+#include "io/number_text.h"
 
 namespace eval {
 namespace {
@@ -81,7 +82,7 @@ std::vector<ListedImage> CheckImageList(FolderCheck& check, const std::string& l
   StampOrder order(check, list);
   std::set<std::string> seen;
   for (const CheckedLine& line : RecordsToCheck(check, list)) {
-    const auto stamp = FiniteNumberIn(line.words[0]);
+    const auto stamp = io::ParseNumber(line.words[0]);
     if (line.words.size() != 2 || !stamp) {
       check.Add(list, line.number, "expected `timestamp file`, found `" + line.text + "`",
                 "write the time in seconds, a blank and the file");
@@ -108,9 +109,9 @@ std::vector<ListedPair> CheckAssociations(FolderCheck& check,
   std::vector<ListedPair> pairs;
   StampOrder order(check, file);
   for (const CheckedLine& line : RecordsToCheck(check, file)) {
-    const auto rgb_s = FiniteNumberIn(line.words[0]);
+    const auto rgb_s = io::ParseNumber(line.words[0]);
     const auto depth_s =
-        line.words.size() == 4 ? FiniteNumberIn(line.words[2]) : std::optional<double>();
+        line.words.size() == 4 ? io::ParseNumber(line.words[2]) : std::optional<double>();
     if (!rgb_s || !depth_s) {
       check.Add(file, line.number,
                 "expected `t_rgb rgb t_depth depth`, found `" + line.text + "`",

@@ -1,15 +1,13 @@
 #include "eval/check/check_manifest.h"
 
 #include <fmt/format.h>
-#include <openssl/evp.h>
 
-#include <array>
-#include <fstream>
 #include <map>
-#include <memory>
 #include <optional>
 
 #include "eval/check/checked_json.h"
+#include "io/input_error.h"
+#include "io/sha256.h"
 
 namespace eval {
 namespace {
@@ -18,24 +16,13 @@ namespace fs = std::filesystem;
 
 const std::string kFile = "manifest.json";
 
-std::optional<std::string> Sha256(const fs::path& path) {
-  std::ifstream in(path, std::ios::binary);
-  if (!in) return std::nullopt;
-  const std::unique_ptr<EVP_MD_CTX, decltype(&EVP_MD_CTX_free)> context(EVP_MD_CTX_new(),
-                                                                        &EVP_MD_CTX_free);
-  if (!context || EVP_DigestInit_ex(context.get(), EVP_sha256(), nullptr) != 1) {
+// Nothing for a file that cannot be read.
+std::optional<std::string> HashOf(const fs::path& file) {
+  try {
+    return io::Sha256OfFile(file);
+  } catch (const io::InputError&) {
     return std::nullopt;
   }
-  std::array<char, 65536> block;
-  while (in.read(block.data(), block.size()) || in.gcount() > 0) {
-    EVP_DigestUpdate(context.get(), block.data(), static_cast<std::size_t>(in.gcount()));
-  }
-  std::array<unsigned char, EVP_MAX_MD_SIZE> digest{};
-  unsigned length = 0;
-  EVP_DigestFinal_ex(context.get(), digest.data(), &length);
-  std::string hex;
-  for (unsigned i = 0; i < length; ++i) hex += fmt::format("{:02x}", digest[i]);
-  return hex;
 }
 
 // The hashes stand in "sha256" (or "files"), as an object of file -> hash.
@@ -74,7 +61,7 @@ bool IsPartOfFormat(const std::string& file) {
 
 void CheckHashes(FolderCheck& check, const std::map<std::string, std::string>& hashes) {
   for (const auto& [file, told] : hashes) {
-    const auto hash = Sha256(check.root / file);
+    const auto hash = HashOf(check.root / file);
     if (!hash) {
       check.Add(file, 0, "is in manifest.json, but is missing", "make the sequence again");
     } else if (*hash != told) {

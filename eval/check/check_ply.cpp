@@ -9,6 +9,7 @@
 #include <sstream>
 
 #include "eval/check/checked_text.h"
+#include "io/number_text.h"
 
 namespace eval {
 namespace {
@@ -110,7 +111,7 @@ class Points {
     at_ = std::min(end + 1, bytes_.size());
     std::vector<double> values;
     for (std::string word; words >> word;) {
-      values.push_back(FiniteNumberIn(word).value_or(std::nan("")));
+      values.push_back(io::ParseNumber(word).value_or(std::nan("")));
     }
     if (values.size() != header_.properties.size()) return std::nullopt;
     return values;

@@ -7,6 +7,7 @@
 
 #include "eval/check/check_images.h"
 #include "eval/check/checked_text.h"
+#include "io/number_text.h"
 
 namespace eval {
 namespace {
@@ -48,7 +49,7 @@ void CheckSegmentation(FolderCheck& check, const FramePlaneCounts& planes) {
   std::set<std::size_t> seen;
   for (const std::string& name : Names(check)) {
     const std::string file = kFolder + "/" + name;
-    const auto stamp = FiniteNumberIn(std::filesystem::path(name).stem().string());
+    const auto stamp = io::ParseNumber(std::filesystem::path(name).stem().string());
     const auto frame = stamp ? NearestStamp(planes.stamps_s, *stamp, kSameInstant_s)
                              : std::optional<std::size_t>();
     if (!frame) {

@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "eval/check/checked_text.h"
+#include "io/number_text.h"
 
 namespace eval {
 namespace {
@@ -46,7 +47,7 @@ void CheckRow(FolderCheck& check, const CheckedLine& line,
   for (std::size_t i = 0; i < cells.size(); ++i) {
     // A module that did not run has an empty cell.
     if (cells[i].empty() && columns[i] != "timestamp") continue;
-    const auto value = FiniteNumberIn(cells[i]);
+    const auto value = io::ParseNumber(cells[i]);
     if (!value || (columns[i] != "timestamp" && *value < 0)) {
       check.Add(kFile, line.number, fmt::format("{} is `{}`", columns[i], cells[i]),
                 "write milliseconds, a finite number of at least 0");

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "eval/check/checked_text.h"
+#include "io/number_text.h"
 
 namespace eval {
 namespace {
@@ -22,7 +23,7 @@ std::vector<CheckedPose> CheckTrajectory(FolderCheck& check, const std::string& 
     std::array<double, 8> v{};
     bool numbers = line.words.size() == v.size();
     for (std::size_t i = 0; numbers && i < v.size(); ++i) {
-      const auto value = FiniteNumberIn(line.words[i]);
+      const auto value = io::ParseNumber(line.words[i]);
       numbers = value.has_value();
       v[i] = value.value_or(0);
     }

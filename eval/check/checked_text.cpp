@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <fstream>
 #include <sstream>
@@ -36,16 +35,6 @@ std::vector<CheckedLine> RecordsToCheck(FolderCheck& check, const std::string& f
     records.push_back(std::move(record));
   }
   return records;
-}
-
-std::optional<double> FiniteNumberIn(const std::string& word) {
-  double value = 0;
-  const char* begin = word.data();
-  const char* end = begin + word.size();
-  if (begin != end && *begin == '+') ++begin;
-  const auto [stop, error] = std::from_chars(begin, end, value);
-  if (error != std::errc() || stop != end || !std::isfinite(value)) return std::nullopt;
-  return value;
 }
 
 StampOrder::StampOrder(FolderCheck& check, std::string file)

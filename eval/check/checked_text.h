@@ -19,9 +19,6 @@ struct CheckedLine {
 /// is a fault and has no records.
 std::vector<CheckedLine> RecordsToCheck(FolderCheck& check, const std::string& file);
 
-/// The number a whole word stands for; nothing when it is no number, infinite or NaN.
-std::optional<double> FiniteNumberIn(const std::string& word);
-
 /// Follows the time stamps of a file: seconds, strictly increasing.
 class StampOrder {
  public:

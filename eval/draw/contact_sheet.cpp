@@ -8,7 +8,7 @@
 
 #include "eval/draw/frame_picture.h"
 #include "eval/draw/paint.h"
-#include "eval/read/input_error.h"
+#include "io/input_error.h"
 
 namespace eval {
 namespace {
@@ -31,7 +31,7 @@ FrameScene Collect(const Run& run, const Sequence& sequence, const SequenceFrame
   const std::filesystem::path file = sequence.folder / frame.rgb;
   scene.rgb = cv::imread(file.string(), cv::IMREAD_COLOR);
   if (scene.rgb.empty()) {
-    throw InputError(file.string(), "cannot be read as an image; restore it");
+    throw io::InputError(file.string(), "cannot be read as an image; restore it");
   }
   scene.labels = ReadSegmentation(run, frame.stamp_s);
   scene.frame = FindByStamp(run.frames, frame.stamp_s, [](const auto& f) { return f.stamp_s; });
@@ -146,7 +146,7 @@ cv::Mat ContactSheet(const Run& run, const Sequence& sequence,
                            cv::Rect({0, 0}, page.size());
     tile(cv::Rect({0, 0}, place.size())).copyTo(page(place));
   }
-  if (page.empty()) throw InputError(sequence.folder.string(), "has no frames to draw");
+  if (page.empty()) throw io::InputError(sequence.folder.string(), "has no frames to draw");
   PutHeader(page, run, sequence, LivePlanes(run));
   return page;
 }

@@ -1,25 +1,14 @@
 #include "eval/draw/draw_camera.h"
 
-#include <yaml-cpp/yaml.h>
-
-#include <cmath>
 #include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "eval/read/input_error.h"
+#include "io/yaml_value.h"
 
 namespace eval {
 namespace {
 
 constexpr double kNear_m = 0.05;
-
-double Key(const YAML::Node& root, const std::string& file, const char* key, bool required) {
-  const YAML::Node node = root[key];
-  if (!node && !required) return 0;
-  const double value = node ? node.as<double>(std::nan("")) : std::nan("");
-  if (std::isfinite(value)) return value;
-  throw InputError(file, std::string(key) + " is missing or no number; give it in pixels");
-}
 
 }  // namespace
 
@@ -71,20 +60,16 @@ DrawCamera ReadDrawCamera(const std::string& name) {
             {0.231222, -0.784899, -0.003257, -0.000105, 0.917205}};
   }
   if (name == "tum3") return {535.4, 539.2, 320.1, 247.6, {}};
-  YAML::Node root;
-  try {
-    root = YAML::LoadFile(name);
-  } catch (const YAML::Exception& error) {
-    throw InputError(
-        name, "is no camera: " + error.msg + "; expected tum1, tum2, tum3 or a camera.yaml");
-  }
-  return {
-      Key(root, name, "fx", true),
-      Key(root, name, "fy", true),
-      Key(root, name, "cx", true),
-      Key(root, name, "cy", true),
-      {Key(root, name, "k1", false), Key(root, name, "k2", false), Key(root, name, "p1", false),
-       Key(root, name, "p2", false), Key(root, name, "k3", false)}};
+  const io::YamlMap map(io::ReadYaml(name, "expected tum1, tum2, tum3 or a camera.yaml"));
+  const auto number = [&](const char* key) {
+    return map.At(key).Number(io::Interval("(-inf, inf)"), "pixels");
+  };
+  const auto optional = [&](const char* key) { return map.Has(key) ? number(key) : 0.0; };
+  return {number("fx"),
+          number("fy"),
+          number("cx"),
+          number("cy"),
+          {optional("k1"), optional("k2"), optional("p1"), optional("p2"), optional("k3")}};
 }
 
 std::optional<DrawCamera> ChooseDrawCamera(const std::string& choice,

@@ -1,17 +1,23 @@
 #include "eval/draw/draw_run.h"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <opencv2/imgcodecs.hpp>
 
 #include "eval/draw/contact_sheet.h"
 #include "eval/draw/error_picture.h"
 #include "eval/draw/map_picture.h"
-#include "eval/read/input_error.h"
+#include "io/atomic_file.h"
+#include "io/input_error.h"
+#include "io/output_folder.h"
 
 namespace eval {
 namespace fs = std::filesystem;
+namespace {
+
+constexpr const char* kContactSheet = "contact_sheet.png";
+
+}  // namespace
 
 std::vector<Picture> DrawRun(const fs::path& folder, const DrawOptions& options) {
   const Run run = ReadRun(folder);
@@ -19,13 +25,12 @@ std::vector<Picture> DrawRun(const fs::path& folder, const DrawOptions& options)
   const Sequence sequence = ReadSequence(sequence_folder);
   const auto camera = ChooseDrawCamera(options.camera, sequence_folder, folder);
   if (!camera && run.segmentation_files.empty()) {
-    throw InputError(sequence_folder.string(),
-                     "has no camera.yaml, and run.json names no camera; give one with "
-                     "--camera tum1|tum2|tum3|FILE");
+    throw io::InputError(sequence_folder.string(),
+                         "has no camera.yaml, and run.json names no camera; give one with "
+                         "--camera tum1|tum2|tum3|FILE");
   }
   std::vector<Picture> pictures;
-  pictures.push_back(
-      {"contact_sheet.png", ContactSheet(run, sequence, camera, options.frames)});
+  pictures.push_back({kContactSheet, ContactSheet(run, sequence, camera, options.frames)});
   const std::string title =
       fmt::format("Map of {}  (variant {}), seen from above",
                   fs::absolute(folder).lexically_normal().filename().string(),
@@ -38,36 +43,22 @@ std::vector<Picture> DrawRun(const fs::path& folder, const DrawOptions& options)
 }
 
 void WritePictures(const std::vector<Picture>& pictures, const fs::path& folder, bool force) {
-  if (fs::exists(folder) && !force) {
-    throw InputError(folder.string(), "exists; name another folder or pass --force");
+  std::vector<std::string> files;
+  for (const Picture& picture : pictures) {
+    std::vector<unsigned char> bytes;
+    cv::imencode(".png", picture.image, bytes);
+    files.emplace_back(bytes.begin(), bytes.end());
   }
-  const fs::path target = fs::absolute(folder / "").parent_path();
-  const fs::path temporary =
-      target.parent_path() / fmt::format(".{}.{}", target.filename().string(), getpid());
-  try {
-    fs::create_directories(target.parent_path());
-    fs::remove_all(temporary);
-    fs::create_directory(temporary);
-    for (const Picture& picture : pictures) {
-      if (!cv::imwrite((temporary / picture.name).string(), picture.image)) {
-        throw InputError((temporary / picture.name).string(), "cannot be written");
-      }
+  // Only pictures are replaced: other files of a folder that was named by mistake stay.
+  if (force && fs::is_directory(folder)) {
+    for (std::size_t i = 0; i < files.size(); ++i) {
+      io::WriteFile(folder / pictures[i].name, files[i]);
     }
-    // Only pictures are replaced: other files of a folder that was named by mistake stay.
-    if (fs::exists(target)) {
-      for (const Picture& picture : pictures) {
-        fs::rename(temporary / picture.name, target / picture.name);
-      }
-      fs::remove_all(temporary);
-    } else {
-      fs::rename(temporary, target);
-    }
-  } catch (const fs::filesystem_error& error) {
-    std::error_code ignored;
-    fs::remove_all(temporary, ignored);
-    throw InputError(folder.string(), "cannot be written (" + error.code().message() +
-                                          "); choose another folder");
+    return;
   }
+  io::OutputFolder output(folder, kContactSheet, force);
+  for (std::size_t i = 0; i < files.size(); ++i) output.Write(pictures[i].name, files[i]);
+  output.Commit();
 }
 
 }  // namespace eval

@@ -8,9 +8,10 @@
 #include <tuple>
 
 #include "eval/export/box_model.h"
-#include "eval/export/dataset_folder.h"
 #include "eval/export/silhouette.h"
-#include "eval/read/input_error.h"
+#include "io/input_error.h"
+#include "io/output_folder.h"
+#include "io/read_file.h"
 
 namespace eval {
 namespace {
@@ -32,7 +33,7 @@ class Models {
   }
   int size() const { return static_cast<int>(objects_.size()); }
 
-  void Write(const DatasetFolder& folder, const ExportOptions& options) const {
+  void Write(const io::OutputFolder& folder, const ExportOptions& options) const {
     Json info = Json::object();
     std::string about = "# Simulated tabletop scenes\n\nWritten by pas " + options.version +
                         ".\nModels are boxes without texture.\n\n| obj_id | class | name |\n"
@@ -66,15 +67,16 @@ Json BoxOf(const PixelSet& pixels) {
   return {pixels.x0, pixels.y0, pixels.x1 - pixels.x0, pixels.y1 - pixels.y0};
 }
 
-void WriteMask(const DatasetFolder& folder, const fs::path& relative, const cv::Mat1b& mask) {
-  if (!cv::imwrite(folder.File(relative).string(), mask)) {
-    throw InputError(relative.string(), "cannot be written; is the disk full?");
+void WriteMask(const io::OutputFolder& folder, const fs::path& relative,
+               const cv::Mat1b& mask) {
+  if (!cv::imwrite(folder.Path(relative).string(), mask)) {
+    throw io::InputError(relative.string(), "cannot be written; is the disk full?");
   }
 }
 
 class BopScene {
  public:
-  BopScene(const DatasetFolder& folder, const Sequence& sequence, std::size_t number,
+  BopScene(const io::OutputFolder& folder, const Sequence& sequence, std::size_t number,
            const ExportOptions& options, Models& models)
       : folder_(folder),
         sequence_(sequence),
@@ -92,8 +94,8 @@ class BopScene {
 
   void AddFrame(int im_id, const SequenceFrame& frame, const Pose& T_gc) {
     const std::string image = fmt::format("{:06}.png", im_id);
-    folder_.Copy(sequence_.folder / frame.rgb, place_ / "rgb" / image);
-    folder_.Copy(sequence_.folder / frame.depth, place_ / "depth" / image);
+    folder_.Write(place_ / "rgb" / image, io::ReadFile(sequence_.folder / frame.rgb));
+    folder_.Write(place_ / "depth" / image, io::ReadFile(sequence_.folder / frame.depth));
     const Camera& camera = *sequence_.camera;
     const Pose T_cg = Inverse(T_gc);
     const std::string key = std::to_string(im_id);
@@ -107,8 +109,8 @@ class BopScene {
     const cv::Mat1w ids = ReadCheckedObjectIds(sequence_, frame.stamp_s);
     const cv::Mat1w depth = ReadLabels(sequence_.folder / frame.depth);
     if (depth.size() != ids.size()) {
-      throw InputError((sequence_.folder / frame.depth).string(),
-                       "has another size than camera.yaml says");
+      throw io::InputError((sequence_.folder / frame.depth).string(),
+                           "has another size than camera.yaml says");
     }
     for (const TruthObject* object : objects_) AddObject(im_id, *object, T_cg, ids, depth);
   }
@@ -164,7 +166,7 @@ class BopScene {
     ++instances_;
   }
 
-  const DatasetFolder& folder_;
+  const io::OutputFolder& folder_;
   const Sequence& sequence_;
   fs::path place_;
   Models& models_;
@@ -175,12 +177,13 @@ class BopScene {
 
 void RefuseLens(const Sequence& sequence) {
   if (!sequence.camera->distorted()) return;
-  throw InputError((sequence.folder / "camera.yaml").string(),
-                   "has lens distortion, which BOP's camera cannot say: poses would miss their "
-                   "masks. Record without --lens, or export to COCO, which needs no camera");
+  throw io::InputError(
+      (sequence.folder / "camera.yaml").string(),
+      "has lens distortion, which BOP's camera cannot say: poses would miss their "
+      "masks. Record without --lens, or export to COCO, which needs no camera");
 }
 
-void WriteCamera(const DatasetFolder& folder, const Camera& camera) {
+void WriteCamera(const io::OutputFolder& folder, const Camera& camera) {
   const Json json{
       {"cx", camera.cx},      {"cy", camera.cy}, {"depth_scale", 1000.0 / camera.depth_factor},
       {"fx", camera.fx},      {"fy", camera.fy}, {"height", camera.height},
@@ -199,7 +202,7 @@ ExportSummary ExportBop(const std::vector<fs::path>& folders, const fs::path& ou
     RefuseLens(sequences.back());
     total += sequences.back().frames.size();
   }
-  DatasetFolder folder(output, "bop", options.force);
+  io::OutputFolder folder(output, kExportMarker, options.force);
   if (!sequences.empty()) WriteCamera(folder, *sequences.front().camera);
   ExportSummary summary;
   Models models;
@@ -214,7 +217,7 @@ ExportSummary ExportBop(const std::vector<fs::path>& folders, const fs::path& ou
     scene.Finish(summary);
   }
   models.Write(folder, options);
-  folder.Finish();
+  CommitExport(folder, "bop");
   summary.kinds = models.size();
   return summary;
 }

@@ -17,8 +17,8 @@ namespace eval {
 /// px_count_all counts the silhouette beyond the image border too; boxes of pixels are [x, y,
 /// last x - x, last y - y], both as bop_toolkit's calc_gt_info.py has them.
 /// Source: bop_toolkit, docs/bop_datasets_format.md.
-/// @throws InputError, see ReadExportable, ReadCheckedObjectIds, FramePoses, DatasetFolder; for
-///   a camera with distortion, which the format cannot say
+/// @throws InputError, see ReadExportable, ReadCheckedObjectIds, FramePoses, io::OutputFolder;
+///   for a camera with distortion, which the format cannot say
 ExportSummary ExportBop(const std::vector<std::filesystem::path>& sequences,
                         const std::filesystem::path& output, const ExportOptions& options);
 

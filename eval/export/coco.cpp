@@ -7,8 +7,9 @@
 #include <set>
 
 #include "eval/export/coco_classes.h"
-#include "eval/export/dataset_folder.h"
 #include "eval/export/run_lengths.h"
+#include "io/output_folder.h"
+#include "io/read_file.h"
 
 namespace eval {
 namespace {
@@ -65,14 +66,14 @@ std::map<int, int> Instances(const SceneTruth& scene, const ExportOptions& optio
 
 class CocoWriter {
  public:
-  CocoWriter(const DatasetFolder& folder, std::map<std::string, int> categories)
+  CocoWriter(const io::OutputFolder& folder, std::map<std::string, int> categories)
       : folder_(folder), categories_(std::move(categories)) {}
 
   void AddFrame(const Sequence& sequence, std::size_t number, const SequenceFrame& frame,
                 const std::map<int, int>& instance_of) {
     const std::string name =
         fmt::format("{:06}/{}", number, fs::path(frame.rgb).filename().string());
-    folder_.Copy(sequence.folder / frame.rgb, "images/" + name);
+    folder_.Write("images/" + name, io::ReadFile(sequence.folder / frame.rgb));
     const int image_id = static_cast<int>(images_.size()) + 1;
     images_.push_back({{"id", image_id},
                        {"width", sequence.camera->width},
@@ -134,7 +135,7 @@ class CocoWriter {
          {"iscrowd", 0}});
   }
 
-  const DatasetFolder& folder_;
+  const io::OutputFolder& folder_;
   std::map<std::string, int> categories_;
   Json images_ = Json::array(), annotations_ = Json::array();
 };
@@ -149,7 +150,7 @@ ExportSummary ExportCoco(const std::vector<fs::path>& folders, const fs::path& o
     sequences.push_back(ReadExportable(folder));
     total += sequences.back().frames.size();
   }
-  DatasetFolder folder(output, "coco", options.force);
+  io::OutputFolder folder(output, kExportMarker, options.force);
   CocoWriter writer(folder, Categories(sequences, options));
   int done = 0;
   for (std::size_t i = 0; i < sequences.size(); ++i) {
@@ -160,7 +161,7 @@ ExportSummary ExportCoco(const std::vector<fs::path>& folders, const fs::path& o
     }
   }
   writer.Finish(options);
-  folder.Finish();
+  CommitExport(folder, "coco");
   return writer.Summary();
 }
 

@@ -15,7 +15,7 @@ namespace eval {
 /// pixels. Ids count from 1. Categories keep COCO's ids; classes that COCO does not have get
 /// ids from 101 on, by name. Structure is left out unless asked for.
 /// Source: cocodataset.org/#format-data, and the run lengths of its API.
-/// @throws InputError, see ReadExportable, ReadCheckedObjectIds, DatasetFolder
+/// @throws InputError, see ReadExportable, ReadCheckedObjectIds, io::OutputFolder
 ExportSummary ExportCoco(const std::vector<std::filesystem::path>& sequences,
                          const std::filesystem::path& output, const ExportOptions& options);
 

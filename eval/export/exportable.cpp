@@ -2,9 +2,15 @@
 
 #include <algorithm>
 
-#include "eval/read/input_error.h"
+#include "io/input_error.h"
 
 namespace eval {
+
+void CommitExport(io::OutputFolder& folder, const std::string& kind) {
+  const nlohmann::json marker{{"format", "pas-export/1"}, {"kind", kind}};
+  folder.Write(kExportMarker, marker.dump(1) + "\n");
+  folder.Commit();
+}
 
 void PixelSet::Add(int u, int v) {
   if (count == 0) {
@@ -20,9 +26,10 @@ Sequence ReadExportable(const std::filesystem::path& folder) {
   Sequence sequence = ReadSequence(folder);
   const auto require = [&](bool there, const char* file) {
     if (!there) {
-      throw InputError((folder / file).string(),
-                       "is missing; only a sequence with truth, as `pas sim` writes it, can be "
-                       "exported");
+      throw io::InputError(
+          (folder / file).string(),
+          "is missing; only a sequence with truth, as `pas sim` writes it, can be "
+          "exported");
     }
   };
   require(sequence.camera.has_value(), "camera.yaml");
@@ -34,14 +41,15 @@ Sequence ReadExportable(const std::filesystem::path& folder) {
 cv::Mat1w ReadCheckedObjectIds(const Sequence& sequence, double stamp_s) {
   const auto file = sequence.object_id_files.Find(stamp_s);
   if (!file) {
-    throw InputError((sequence.folder / "gt/object_id").string(),
-                     "has no image of the frame at " + std::to_string(stamp_s) +
-                         "; render the sequence again");
+    throw io::InputError((sequence.folder / "gt/object_id").string(),
+                         "has no image of the frame at " + std::to_string(stamp_s) +
+                             "; render the sequence again");
   }
   const cv::Mat1w ids = ReadLabels(*file);
   const Camera& camera = *sequence.camera;
   if (ids.cols != camera.width || ids.rows != camera.height) {
-    throw InputError(file->string(), "has another size than camera.yaml says; mend the camera");
+    throw io::InputError(file->string(),
+                         "has another size than camera.yaml says; mend the camera");
   }
   int last = 0;
   for (int v = 0; v < ids.rows; ++v) {
@@ -49,8 +57,8 @@ cv::Mat1w ReadCheckedObjectIds(const Sequence& sequence, double stamp_s) {
       const int id = ids(v, u);
       if (id == last || id == 0) continue;
       if (sequence.scene->FindObject(id) == nullptr) {
-        throw InputError(file->string(), "shows object " + std::to_string(id) +
-                                             ", which gt/scene.json does not have");
+        throw io::InputError(file->string(), "shows object " + std::to_string(id) +
+                                                 ", which gt/scene.json does not have");
       }
       last = id;
     }
@@ -60,7 +68,7 @@ cv::Mat1w ReadCheckedObjectIds(const Sequence& sequence, double stamp_s) {
 
 std::vector<Pose> FramePoses(const Sequence& sequence) {
   const std::string file = (sequence.folder / "groundtruth.txt").string();
-  if (!sequence.groundtruth) throw InputError(file, "is missing; poses cannot be exported");
+  if (!sequence.groundtruth) throw io::InputError(file, "is missing; poses cannot be exported");
   const Trajectory& truth = *sequence.groundtruth;
   std::vector<Pose> poses;
   if (sequence.synthetic && truth.size() == sequence.frames.size()) {
@@ -72,7 +80,7 @@ std::vector<Pose> FramePoses(const Sequence& sequence) {
   for (const SequenceFrame& frame : sequence.frames) {
     const auto at = FindStamp(stamps_s, frame.stamp_s);
     if (!at) {
-      throw InputError(
+      throw io::InputError(
           file, "has no pose at " + std::to_string(frame.stamp_s) + "; each frame needs one");
     }
     poses.push_back(truth[*at].T_wc);

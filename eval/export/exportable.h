@@ -7,8 +7,12 @@
 #include <vector>
 
 #include "eval/read/sequence.h"
+#include "io/output_folder.h"
 
 namespace eval {
+
+/// The file that marks a folder as an export.
+inline constexpr const char* kExportMarker = "export.json";
 
 struct ExportOptions {
   bool structure = false;    ///< also desk, floor, walls
@@ -37,6 +41,9 @@ cv::Mat1w ReadCheckedObjectIds(const Sequence& sequence, double stamp_s);
 /// stamp says; else they are matched by stamp.
 /// @throws InputError for a frame without a pose
 std::vector<Pose> FramePoses(const Sequence& sequence);
+
+/// Writes the marker, which says what `kind` of export it is, and puts the folder in its place.
+void CommitExport(io::OutputFolder& folder, const std::string& kind);
 
 /// Pixels of an object; inclusive box of pixel centres.
 struct PixelSet {

@@ -7,7 +7,7 @@
 #include "eval/planes/true_frame.h"
 #include "eval/planes/truth_of_planes.h"
 #include "eval/planes/united_faces.h"
-#include "eval/read/input_error.h"
+#include "io/input_error.h"
 
 namespace eval {
 namespace {
@@ -245,16 +245,17 @@ void DecideTruth(const Run& run, bool by_pixels, FrameEvidence& e) {
   e.segmentation = ReadSegmentation(run, e.truth.stamp_s);
   if (!e.segmentation) {
     if (!e.planes.empty()) {
-      throw InputError((run.folder / "segmentation").string(),
-                       "has no image for the frame at " + std::to_string(e.truth.stamp_s) +
-                           " s, which has planes; save all of them or none");
+      throw io::InputError((run.folder / "segmentation").string(),
+                           "has no image for the frame at " + std::to_string(e.truth.stamp_s) +
+                               " s, which has planes; save all of them or none");
     }
     e.segmentation = cv::Mat1w::zeros(e.truth.plane_ids->size());
   }
   if (e.segmentation->size() != e.truth.plane_ids->size()) {
-    throw InputError((run.folder / "segmentation").string(),
-                     "the image at " + std::to_string(e.truth.stamp_s) +
-                         " s differs in size from the truth's; is this the right sequence?");
+    throw io::InputError(
+        (run.folder / "segmentation").string(),
+        "the image at " + std::to_string(e.truth.stamp_s) +
+            " s differs in size from the truth's; is this the right sequence?");
   }
   e.truth_of = TruthByPixels(e.truth, *e.segmentation);
 }

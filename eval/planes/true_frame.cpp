@@ -5,7 +5,7 @@
 #include <map>
 #include <numbers>
 
-#include "eval/read/input_error.h"
+#include "io/input_error.h"
 
 namespace eval {
 namespace {
@@ -94,13 +94,13 @@ const SeenPlane* TrueFrame::Find(int id) const {
 
 TrueFrame ReadTrueFrame(const Sequence& sequence, double stamp_s, const Pose& T_gc) {
   if (!sequence.camera) {
-    throw InputError((sequence.folder / "camera.yaml").string(),
-                     "is missing; it is needed to know what the camera could see");
+    throw io::InputError((sequence.folder / "camera.yaml").string(),
+                         "is missing; it is needed to know what the camera could see");
   }
   const Camera& camera = *sequence.camera;
   TrueFrame frame{stamp_s, T_gc, {}, ReadPlaneIds(sequence, stamp_s)};
   if (!frame.plane_ids && sequence.frame_truth.empty()) {
-    throw InputError(
+    throw io::InputError(
         (sequence.folder / "gt").string(),
         "has neither plane_id/ images nor frames.jsonl; one of them must say which "
         "planes a frame shows");

@@ -3,18 +3,18 @@
 #include <algorithm>
 #include <limits>
 
-#include "eval/read/input_error.h"
-#include "eval/read/json_fields.h"
 #include "eval/read/sequence.h"
-#include "eval/read/text_table.h"
 #include "eval/read/trajectory_file.h"
+#include "io/input_error.h"
+#include "io/json_field.h"
+#include "io/text_table.h"
 
 namespace eval {
 namespace {
 
 namespace fs = std::filesystem;
 
-std::optional<double> FirstNumber(const JsonField& root,
+std::optional<double> FirstNumber(const io::JsonField& root,
                                   std::initializer_list<const char*> keys) {
   for (const char* key : keys) {
     if (const auto field = root.Find(key)) return field->Number();
@@ -23,8 +23,8 @@ std::optional<double> FirstNumber(const JsonField& root,
 }
 
 RunInfo ReadRunInfo(const fs::path& file) {
-  const nlohmann::json json = ParseJson(ReadWholeFile(file, "to know what was run"), file);
-  const JsonField root(json, file.string());
+  const nlohmann::json json = io::ReadJson(file, "it is needed to know what was run");
+  const io::JsonField root(json, file.string());
   if (root["format"].Text() != "pas-run/1") root["format"].Fail("\"pas-run/1\"");
   RunInfo info;
   info.sequence = root["sequence"].Text();
@@ -48,9 +48,9 @@ void SortByStamp(Trajectory& trajectory, const fs::path& file) {
       [](const StampedPose& a, const StampedPose& b) { return a.stamp_s < b.stamp_s; });
   for (std::size_t i = 1; i < trajectory.size(); ++i) {
     if (trajectory[i].stamp_s <= trajectory[i - 1].stamp_s + kSameStamp_s) {
-      throw InputError(file.string(), "two poses for the frame at " +
-                                          std::to_string(trajectory[i].stamp_s) +
-                                          " s; write one line per tracked frame");
+      throw io::InputError(file.string(), "two poses for the frame at " +
+                                              std::to_string(trajectory[i].stamp_s) +
+                                              " s; write one line per tracked frame");
     }
   }
 }
@@ -58,25 +58,25 @@ void SortByStamp(Trajectory& trajectory, const fs::path& file) {
 }  // namespace
 
 Timing ReadTiming(const fs::path& file) {
-  const std::vector<TextLine> lines = ReadTextTable(file, ',');
-  if (lines.empty() || lines.front().fields.front() != "timestamp") {
-    throw InputError(Where(file, 1), "expected a header \"timestamp,<module>,...\"");
+  const std::vector<io::TextRecord> records = io::ReadCommaRecords(file);
+  if (records.empty() || records.front().fields.front() != "timestamp") {
+    throw io::InputError(io::Where(file, 1), "expected a header \"timestamp,<module>,...\"");
   }
   Timing timing;
-  const std::vector<std::string>& header = lines.front().fields;
+  const std::vector<std::string>& header = records.front().fields;
   timing.modules.assign(header.begin() + 1, header.end());
-  for (auto line = lines.begin() + 1; line != lines.end(); ++line) {
-    if (line->fields.size() != header.size()) {
-      throw InputError(Where(file, line->number), "expected " + std::to_string(header.size()) +
-                                                      " fields as in the header, found " +
-                                                      std::to_string(line->fields.size()));
+  for (auto record = records.begin() + 1; record != records.end(); ++record) {
+    if (record->fields.size() != header.size()) {
+      throw io::InputError(record->where, "expected " + std::to_string(header.size()) +
+                                              " fields as in the header, found " +
+                                              std::to_string(record->fields.size()));
     }
-    timing.stamps_s.push_back(ParseNumber(line->fields[0], "timestamp", file, line->number));
+    timing.stamps_s.push_back(record->Number(0, "timestamp"));
     std::vector<double> row;
     for (std::size_t i = 1; i < header.size(); ++i) {
-      const std::string& field = line->fields[i];
-      row.push_back(field.empty() ? std::numeric_limits<double>::quiet_NaN()
-                                  : ParseNumber(field, header[i], file, line->number));
+      const bool ran = !record->fields[i].empty();
+      row.push_back(ran ? record->Number(i, header[i])
+                        : std::numeric_limits<double>::quiet_NaN());
     }
     timing.rows_ms.push_back(std::move(row));
   }
@@ -84,7 +84,8 @@ Timing ReadTiming(const fs::path& file) {
 }
 
 Run ReadRun(const fs::path& folder) {
-  if (!fs::is_directory(folder)) throw InputError(folder.string(), "there is no such folder");
+  if (!fs::is_directory(folder))
+    throw io::InputError(folder.string(), "there is no such folder");
   Run run;
   run.folder = folder;
   run.info = ReadRunInfo(folder / "run.json");
@@ -109,9 +110,9 @@ fs::path SequenceOf(const Run& run) {
     std::error_code ignored;
     if (!written.empty() && fs::is_directory(candidate, ignored)) return candidate;
   }
-  throw InputError((run.folder / "run.json").string(),
-                   "sequence: found no folder \"" + written.string() + "\" nor \"" +
-                       beside.string() + "\"; name it with --truth");
+  throw io::InputError((run.folder / "run.json").string(),
+                       "sequence: found no folder \"" + written.string() + "\" nor \"" +
+                           beside.string() + "\"; name it with --truth");
 }
 
 std::optional<cv::Mat1w> ReadSegmentation(const Run& run, double stamp_s) {

@@ -3,9 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "eval/read/input_error.h"
-#include "eval/read/json_fields.h"
-#include "eval/read/text_table.h"
+#include "io/input_error.h"
+#include "io/json_field.h"
 
 namespace eval {
 namespace {
@@ -13,31 +12,31 @@ namespace {
 constexpr double kUnitTolerance = 1e-6;
 constexpr int kMaxPlanes = 255;  // of a frame: a segmentation has 8 bits and 0 means none
 
-Plane ReadPlane(const JsonField& field) {
+Plane ReadPlane(const io::JsonField& field) {
   Plane pi{field["normal"].Vector3(), field["d"].Number()};
   if (!(std::abs(pi.n.norm() - 1.0) <= kUnitTolerance)) field["normal"].Fail("a unit normal");
   pi.n.normalize();
   return pi;
 }
 
-std::optional<std::string> OptionalText(const JsonField& field, const char* key) {
+std::optional<std::string> OptionalText(const io::JsonField& field, const char* key) {
   const auto found = field.Find(key);
   return found ? std::optional(found->Text()) : std::nullopt;
 }
-std::optional<int> OptionalInteger(const JsonField& field, const char* key) {
+std::optional<int> OptionalInteger(const io::JsonField& field, const char* key) {
   const auto found = field.Find(key);
   return found ? std::optional(found->Integer()) : std::nullopt;
 }
-std::optional<double> OptionalNumber(const JsonField& field, const char* key) {
+std::optional<double> OptionalNumber(const io::JsonField& field, const char* key) {
   const auto found = field.Find(key);
   return found ? std::optional(found->Number()) : std::nullopt;
 }
-std::vector<Eigen::Vector3d> OptionalPoints(const JsonField& field, const char* key) {
+std::vector<Eigen::Vector3d> OptionalPoints(const io::JsonField& field, const char* key) {
   const auto found = field.Find(key);
   return found ? found->Points() : std::vector<Eigen::Vector3d>{};
 }
 
-RunFramePlane ReadFramePlane(const JsonField& field) {
+RunFramePlane ReadFramePlane(const io::JsonField& field) {
   RunFramePlane plane;
   plane.index = field["index"].Integer();
   if (plane.index < 0 || plane.index >= kMaxPlanes)
@@ -51,7 +50,7 @@ RunFramePlane ReadFramePlane(const JsonField& field) {
   plane.bad = OptionalText(field, "bad");
   plane.vertices_c = OptionalPoints(field, "vertices");
   if (const auto lines = field.Find("lines")) {
-    for (const JsonField& line : lines->Elements()) {
+    for (const io::JsonField& line : lines->Elements()) {
       const std::vector<Eigen::Vector3d> point_and_direction = line.Points();
       if (point_and_direction.size() != 2) line.Fail("a point and a direction [[..], [..]]");
       plane.lines_c.push_back({point_and_direction[0], point_and_direction[1]});
@@ -70,24 +69,23 @@ RunFramePlane ReadFramePlane(const JsonField& field) {
 
 std::vector<RunFrame> ReadRunFrames(const std::filesystem::path& file) {
   std::vector<RunFrame> frames;
-  for (const JsonLine& line : ReadJsonLines(file)) {
-    const JsonField root(line.value, Where(file, line.number));
+  io::ForEachJsonLine(file, "", [&](const io::JsonField& root) {
     RunFrame frame;
     frame.stamp_s = root["timestamp"].Number();
-    for (const JsonField& field : root["planes"].Elements()) {
+    for (const io::JsonField& field : root["planes"].Elements()) {
       frame.planes.push_back(ReadFramePlane(field));
     }
     frames.push_back(std::move(frame));
-  }
+  });
   std::stable_sort(frames.begin(), frames.end(),
                    [](const RunFrame& a, const RunFrame& b) { return a.stamp_s < b.stamp_s; });
   return frames;
 }
 
 std::vector<RunMapPlane> ReadRunMap(const std::filesystem::path& file) {
-  const nlohmann::json json = ParseJson(ReadWholeFile(file), file);
+  const nlohmann::json json = io::ReadJson(file);
   std::vector<RunMapPlane> planes;
-  for (const JsonField& field : JsonField(json, file.string())["planes"].Elements()) {
+  for (const io::JsonField& field : io::JsonField(json, file.string())["planes"].Elements()) {
     RunMapPlane plane;
     plane.id = field["id"].Integer();
     plane.plane_class = OptionalText(field, "class");
@@ -106,8 +104,8 @@ std::vector<RunMapPlane> ReadRunMap(const std::filesystem::path& file) {
   const auto twice = std::adjacent_find(
       planes.begin(), planes.end(), [](const auto& a, const auto& b) { return a.id == b.id; });
   if (twice != planes.end()) {
-    throw InputError(file.string(), "plane id " + std::to_string(twice->id) +
-                                        " stands twice; ids must differ");
+    throw io::InputError(file.string(), "plane id " + std::to_string(twice->id) +
+                                            " stands twice; ids must differ");
   }
   return planes;
 }

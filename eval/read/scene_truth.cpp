@@ -3,16 +3,15 @@
 #include <algorithm>
 #include <cmath>
 
-#include "eval/read/input_error.h"
-#include "eval/read/json_fields.h"
-#include "eval/read/text_table.h"
+#include "io/input_error.h"
+#include "io/json_field.h"
 
 namespace eval {
 namespace {
 
 constexpr double kUnitTolerance = 1e-6;
 
-Role ReadRole(const JsonField& field) {
+Role ReadRole(const io::JsonField& field) {
   const std::string text = field.Text();
   if (text == "structure") return Role::kStructure;
   if (text == "regular") return Role::kRegular;
@@ -21,7 +20,7 @@ Role ReadRole(const JsonField& field) {
   field.Fail("structure, regular, unstructured or other");
 }
 
-TruthObject ReadObject(const JsonField& field) {
+TruthObject ReadObject(const io::JsonField& field) {
   TruthObject object;
   object.id = field["id"].Integer();
   if (const auto name = field.Find("name")) object.name = name->Text();
@@ -43,7 +42,7 @@ TruthObject ReadObject(const JsonField& field) {
   return object;
 }
 
-TruthPlane ReadPlane(const JsonField& field) {
+TruthPlane ReadPlane(const io::JsonField& field) {
   TruthPlane plane;
   plane.id = field["id"].Integer();
   if (plane.id <= 0 || plane.id > 65535) {
@@ -78,12 +77,12 @@ void SortById(std::vector<Entry>& entries, const std::filesystem::path& file,
       std::adjacent_find(entries.begin(), entries.end(),
                          [](const Entry& a, const Entry& b) { return a.id == b.id; });
   if (twice != entries.end()) {
-    throw InputError(file.string(), std::string(what) + " id " + std::to_string(twice->id) +
-                                        " stands twice; ids must differ");
+    throw io::InputError(file.string(), std::string(what) + " id " + std::to_string(twice->id) +
+                                            " stands twice; ids must differ");
   }
 }
 
-std::optional<std::array<double, 4>> ReadBox(const std::optional<JsonField>& field) {
+std::optional<std::array<double, 4>> ReadBox(const std::optional<io::JsonField>& field) {
   if (!field) return std::nullopt;
   const std::vector<double> box = field->Numbers();
   if (box.size() != 4) field->Fail("4 numbers [x0, y0, x1, y1]");
@@ -96,15 +95,15 @@ const TruthPlane* SceneTruth::FindPlane(int id) const { return FindById(planes, 
 const TruthObject* SceneTruth::FindObject(int id) const { return FindById(objects, id); }
 
 SceneTruth ReadSceneTruth(const std::filesystem::path& file) {
-  const nlohmann::json json = ParseJson(ReadWholeFile(file), file);
-  const JsonField root(json, file.string());
+  const nlohmann::json json = io::ReadJson(file);
+  const io::JsonField root(json, file.string());
   if (root["format"].Text() != "pas-scene-gt/1") root["format"].Fail("\"pas-scene-gt/1\"");
   SceneTruth scene;
-  for (const JsonField& field : root["objects"].Elements()) {
+  for (const io::JsonField& field : root["objects"].Elements()) {
     scene.objects.push_back(ReadObject(field));
   }
   SortById(scene.objects, file, "object");
-  for (const JsonField& field : root["planes"].Elements()) {
+  for (const io::JsonField& field : root["planes"].Elements()) {
     TruthPlane plane = ReadPlane(field);
     const TruthObject* object = scene.FindObject(plane.object);
     if (object == nullptr) field["object"].Fail("the id of an object of this scene");
@@ -117,11 +116,10 @@ SceneTruth ReadSceneTruth(const std::filesystem::path& file) {
 
 std::vector<FrameTruth> ReadFrameTruth(const std::filesystem::path& file) {
   std::vector<FrameTruth> frames;
-  for (const JsonLine& line : ReadJsonLines(file)) {
-    const JsonField root(line.value, Where(file, line.number));
+  io::ForEachJsonLine(file, "", [&](const io::JsonField& root) {
     FrameTruth frame;
     frame.stamp_s = root["timestamp"].Number();
-    for (const JsonField& field : root["objects"].Elements()) {
+    for (const io::JsonField& field : root["objects"].Elements()) {
       VisibleObject object;
       object.id = field["id"].Integer();
       object.pixels = field["pixels"].Integer();
@@ -132,11 +130,11 @@ std::vector<FrameTruth> ReadFrameTruth(const std::filesystem::path& file) {
       }
       frame.objects.push_back(object);
     }
-    for (const JsonField& field : root["planes"].Elements()) {
+    for (const io::JsonField& field : root["planes"].Elements()) {
       frame.planes.push_back({field["id"].Integer(), field["pixels"].Integer()});
     }
     frames.push_back(std::move(frame));
-  }
+  });
   std::stable_sort(frames.begin(), frames.end(), [](const FrameTruth& a, const FrameTruth& b) {
     return a.stamp_s < b.stamp_s;
   });

@@ -1,15 +1,14 @@
 #include "eval/read/sequence.h"
 
-#include <yaml-cpp/yaml.h>
-
 #include <algorithm>
 #include <cmath>
 #include <opencv2/imgcodecs.hpp>
 
-#include "eval/read/input_error.h"
-#include "eval/read/json_fields.h"
-#include "eval/read/text_table.h"
 #include "eval/read/trajectory_file.h"
+#include "io/input_error.h"
+#include "io/json_field.h"
+#include "io/text_table.h"
+#include "io/yaml_value.h"
 
 namespace eval {
 namespace {
@@ -25,12 +24,8 @@ struct ListedFile {
 
 std::vector<ListedFile> ReadFileList(const fs::path& list) {
   std::vector<ListedFile> files;
-  for (const TextLine& line : ReadTextTable(list)) {
-    if (line.fields.size() != 2) {
-      throw InputError(Where(list, line.number), "expected \"timestamp file\"");
-    }
-    files.push_back(
-        {ParseNumber(line.fields[0], "timestamp", list, line.number), line.fields[1]});
+  for (const io::TextRecord& record : io::ReadRecords(list, "timestamp file")) {
+    files.push_back({record.Number(0, "timestamp"), record.fields[1]});
   }
   std::stable_sort(files.begin(), files.end(), [](const ListedFile& a, const ListedFile& b) {
     return a.stamp_s < b.stamp_s;
@@ -40,33 +35,17 @@ std::vector<ListedFile> ReadFileList(const fs::path& list) {
 
 std::vector<SequenceFrame> ReadAssociations(const fs::path& file) {
   std::vector<SequenceFrame> frames;
-  for (const TextLine& line : ReadTextTable(file)) {
-    if (line.fields.size() != 4) {
-      throw InputError(Where(file, line.number),
-                       "expected \"t_rgb rgb t_depth depth\", found " +
-                           std::to_string(line.fields.size()) + " fields");
-    }
-    frames.push_back({ParseNumber(line.fields[0], "t_rgb", file, line.number), line.fields[1],
-                      ParseNumber(line.fields[2], "t_depth", file, line.number),
-                      line.fields[3]});
+  for (const io::TextRecord& record : io::ReadRecords(file, "t_rgb rgb t_depth depth")) {
+    frames.push_back({record.Number(0, "t_rgb"), record.fields[1], record.Number(2, "t_depth"),
+                      record.fields[3]});
   }
   return frames;
 }
 
 bool IsSynthetic(const fs::path& manifest) {
   if (!fs::exists(manifest)) return false;
-  const nlohmann::json json = ParseJson(ReadWholeFile(manifest), manifest);
-  return JsonField(json, manifest.string())["format"].Text() == "pas-sequence/1";
-}
-
-double ReadYamlNumber(const YAML::Node& root, const char* key, const fs::path& file) {
-  const YAML::Node node = root[key];
-  if (!node) throw InputError(file.string(), "the key \"" + std::string(key) + "\" is missing");
-  const int line = node.Mark().line + 1;
-  if (!node.IsScalar()) {
-    throw InputError(Where(file, line), std::string(key) + ": expected a number");
-  }
-  return ParseNumber(node.Scalar(), key, file, line);
+  const nlohmann::json json = io::ReadJson(manifest);
+  return io::JsonField(json, manifest.string())["format"].Text() == "pas-sequence/1";
 }
 
 std::optional<cv::Mat1w> ReadFrameLabels(const StampedFiles& files, double stamp_s) {
@@ -78,34 +57,20 @@ std::optional<cv::Mat1w> ReadFrameLabels(const StampedFiles& files, double stamp
 }  // namespace
 
 Camera ReadCamera(const fs::path& file) {
-  YAML::Node root;
-  try {
-    root = YAML::Load(ReadWholeFile(file));
-  } catch (const YAML::Exception& error) {
-    throw InputError(Where(file, error.mark.line + 1), "not valid YAML: " + error.msg);
-  }
-  if (!root.IsMap()) throw InputError(Where(file, 1), "expected \"key: value\" lines");
-  const auto number = [&](const char* key) { return ReadYamlNumber(root, key, file); };
-  const auto positive = [&](const char* key) {
-    const double value = number(key);
-    if (!(value > 0.0)) {
-      throw InputError(Where(file, root[key].Mark().line + 1),
-                       std::string(key) + ": expected a number above 0");
-    }
-    return value;
-  };
+  const io::YamlMap map(io::ReadYaml(file));
+  const io::Interval size("[1, 1000000]"), positive("(0, inf)"), any("(-inf, inf)");
   Camera camera;
-  camera.width = static_cast<int>(std::lround(std::min(positive("width"), 1e6)));
-  camera.height = static_cast<int>(std::lround(std::min(positive("height"), 1e6)));
-  camera.fx = positive("fx");
-  camera.fy = positive("fy");
-  camera.cx = number("cx");
-  camera.cy = number("cy");
-  camera.fps = positive("fps");
-  camera.depth_factor = positive("depth_factor");
+  camera.width = map.At("width").Whole(size);
+  camera.height = map.At("height").Whole(size);
+  camera.fx = map.At("fx").Number(positive);
+  camera.fy = map.At("fy").Number(positive);
+  camera.cx = map.At("cx").Number(any);
+  camera.cy = map.At("cy").Number(any);
+  camera.fps = map.At("fps").Number(positive);
+  camera.depth_factor = map.At("depth_factor").Number(positive);
   constexpr std::array<const char*, 5> kDistortion{"k1", "k2", "p1", "p2", "k3"};
   for (std::size_t i = 0; i < kDistortion.size(); ++i) {
-    if (root[kDistortion[i]]) camera.distortion[i] = number(kDistortion[i]);
+    if (map.Has(kDistortion[i])) camera.distortion[i] = map.At(kDistortion[i]).Number(any);
   }
   return camera;
 }
@@ -127,7 +92,8 @@ std::vector<SequenceFrame> AssociateByTime(const fs::path& rgb_list,
 }
 
 Sequence ReadSequence(const fs::path& folder) {
-  if (!fs::is_directory(folder)) throw InputError(folder.string(), "there is no such folder");
+  if (!fs::is_directory(folder))
+    throw io::InputError(folder.string(), "there is no such folder");
   Sequence sequence;
   sequence.folder = folder;
   sequence.synthetic = IsSynthetic(folder / "manifest.json");
@@ -154,9 +120,9 @@ Sequence ReadSequence(const fs::path& folder) {
 
 cv::Mat1w ReadLabels(const fs::path& file) {
   const cv::Mat image = cv::imread(file.string(), cv::IMREAD_UNCHANGED);
-  if (image.empty()) throw InputError(file.string(), "cannot be read as an image");
+  if (image.empty()) throw io::InputError(file.string(), "cannot be read as an image");
   if (image.channels() != 1 || (image.depth() != CV_8U && image.depth() != CV_16U)) {
-    throw InputError(file.string(), "expected one channel of 8 or 16 bits");
+    throw io::InputError(file.string(), "expected one channel of 8 or 16 bits");
   }
   cv::Mat1w labels;
   image.convertTo(labels, CV_16U);

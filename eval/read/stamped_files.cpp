@@ -1,9 +1,8 @@
 #include "eval/read/stamped_files.h"
 
 #include <algorithm>
-#include <cmath>
 
-#include "eval/read/text_table.h"
+#include "io/number_text.h"
 
 namespace eval {
 
@@ -11,11 +10,9 @@ StampedFiles::StampedFiles(const std::filesystem::path& folder, const char* exte
   std::error_code ignored;
   if (!std::filesystem::is_directory(folder, ignored)) return;
   for (const auto& entry : std::filesystem::directory_iterator(folder)) {
-    double stamp_s = 0.0;
     if (entry.path().extension() != extension) continue;
-    if (ParseNumber(entry.path().stem().string(), stamp_s)) {
-      files_.emplace_back(stamp_s, entry.path());
-    }
+    const auto stamp_s = io::ParseNumber(entry.path().stem().string());
+    if (stamp_s) files_.emplace_back(*stamp_s, entry.path());
   }
   std::sort(files_.begin(), files_.end());
 }

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "eval/read/input_error.h"
 #include "eval/trajectory/pose_errors.h"
+#include "io/input_error.h"
 
 namespace eval {
 namespace {
@@ -165,10 +165,10 @@ TrajectoryScore ScoreTrajectory(const Run& run, const Sequence& sequence) {
   if (equal) {
     for (const StampedPose& pose : run.trajectory) {
       if (FindStamp(frame_stamps_s, pose.stamp_s)) continue;
-      throw InputError((run.folder / "trajectory.txt").string(),
-                       "the pose at " + std::to_string(pose.stamp_s) +
-                           " s belongs to no frame of " + sequence.folder.string() +
-                           "; score a run against the sequence it was made from");
+      throw io::InputError((run.folder / "trajectory.txt").string(),
+                           "the pose at " + std::to_string(pose.stamp_s) +
+                               " s belongs to no frame of " + sequence.folder.string() +
+                               "; score a run against the sequence it was made from");
     }
   }
   return ScoreTrajectory(run.trajectory, sequence.groundtruth.value_or(Trajectory{}),

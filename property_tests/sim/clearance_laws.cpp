@@ -9,10 +9,10 @@
 #include <numbers>
 #include <vector>
 
+#include "io/input_error.h"
 #include "property_tests/generators/scenes.h"
 #include "sim/motion/trajectory.h"
 #include "sim/scene/geometry.h"
-#include "sim/scene/input_error.h"
 #include "sim/scene/mesh.h"
 #include "sim/scene/names.h"
 
@@ -135,7 +135,7 @@ RC_GTEST_PROP(MakeTrajectory, StaysOutsideAndClearOfWhatIsDrawnInAnyFamilyWithAn
     if (DrawInt(0, 3) == 0) scene.objects.push_back(PassingBox(scene.motion, 1000));
     RC_LOG() << recipe.Command() << ", preset " << scene.motion.preset << ", seed " << seed;
     trajectory = MakeTrajectory(scene, 45, 3, seed);
-  } catch (const InputError&) {
+  } catch (const io::InputError&) {
     RC_DISCARD("so much does not fit, or leaves the camera no such way");
   }
   const std::map<int, Skin> skins = SkinsOf(scene);

@@ -4,11 +4,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "io/input_error.h"
 #include "property_tests/generators/scenes.h"
 #include "sim/motion/trajectory.h"
 #include "sim/scene/check.h"
 #include "sim/scene/geometry.h"
-#include "sim/scene/input_error.h"
 #include "sim/scene/scene_file.h"
 #include "sim/scene/steps.h"
 
@@ -24,7 +24,7 @@ RC_GTEST_PROP(SceneFamilies, MakeScenesThatCanBe, ()) {
   Scene scene;
   try {
     scene = recipe.Make();
-  } catch (const InputError&) {
+  } catch (const io::InputError&) {
     RC_DISCARD("that many things do not fit on a desk of this size");
   }
   RC_ASSERT(!FindFault(scene).has_value());

@@ -1,25 +1,20 @@
 #include "sim/camera/camera.h"
 
 #include <algorithm>
-#include <charconv>
 #include <limits>
 #include <stdexcept>
+
+#include "io/number_text.h"
 
 namespace sim {
 namespace {
 
-/// Shortest text that reads back as the same number.
-std::string Number(double value) {
-  char text[32];
-  const auto end = std::to_chars(text, text + sizeof text, value).ptr;
-  return std::string(text, end);
-}
-
 /// Nothing when there is no distortion.
 std::string LensYaml(const Lens& lens) {
   if (lens.IsNone()) return "";
-  return "k1: " + Number(lens.k1) + "\nk2: " + Number(lens.k2) + "\np1: " + Number(lens.p1) +
-         "\np2: " + Number(lens.p2) + "\nk3: " + Number(lens.k3) + "\n";
+  return "k1: " + io::NumberText(lens.k1) + "\nk2: " + io::NumberText(lens.k2) +
+         "\np1: " + io::NumberText(lens.p1) + "\np2: " + io::NumberText(lens.p2) +
+         "\nk3: " + io::NumberText(lens.k3) + "\n";
 }
 
 }  // namespace
@@ -74,7 +69,8 @@ Camera WithLens(const Camera& camera, const Lens& lens) {
     const double r = bent.Ray(u, v).head<2>().norm();
     if (!(r <= growing)) {
       throw std::invalid_argument(
-          "lens distortion: no single ray belongs to pixel (" + Number(u) + ", " + Number(v) +
+          "lens distortion: no single ray belongs to pixel (" + io::NumberText(u) + ", " +
+          io::NumberText(v) +
           "); the coefficients k1 k2 p1 p2 k3 are too strong for this field of view");
     }
     corner = std::max(corner, r);
@@ -88,10 +84,11 @@ Camera WithLens(const Camera& camera, const Lens& lens) {
 
 std::string CameraYaml(const Camera& camera) {
   return "model: pinhole\nwidth: " + std::to_string(camera.width) +
-         "\nheight: " + std::to_string(camera.height) + "\nfx: " + Number(camera.fx) +
-         "\nfy: " + Number(camera.fy) + "\ncx: " + Number(camera.cx) +
-         "\ncy: " + Number(camera.cy) + "\nfps: " + Number(camera.fps) +
-         "\ndepth_factor: " + Number(camera.depth_factor) + "\n" + LensYaml(camera.lens);
+         "\nheight: " + std::to_string(camera.height) + "\nfx: " + io::NumberText(camera.fx) +
+         "\nfy: " + io::NumberText(camera.fy) + "\ncx: " + io::NumberText(camera.cx) +
+         "\ncy: " + io::NumberText(camera.cy) + "\nfps: " + io::NumberText(camera.fps) +
+         "\ndepth_factor: " + io::NumberText(camera.depth_factor) + "\n" +
+         LensYaml(camera.lens);
 }
 
 }  // namespace sim

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "io/input_error.h"
 #include "sim/motion/pace.h"
 #include "sim/scene/angle.h"
-#include "sim/scene/input_error.h"
 
 namespace sim {
 namespace {
@@ -132,9 +132,10 @@ void CameraPath::FindStart() {
     knots_.assign(4, view);
     return;
   }
-  throw InputError("motion",
-                   "leaves the camera no place 15 cm from every surface; widen distance_*_m, "
-                   "azimuth_*_deg or pitch_*_deg, or move target_m");
+  throw io::InputError(
+      "motion",
+      "leaves the camera no place 15 cm from every surface; widen distance_*_m, "
+      "azimuth_*_deg or pitch_*_deg, or move target_m");
 }
 
 View CameraPath::Nearby(double step_m, double turn_deg, double swerve, Random& random) const {

@@ -3,9 +3,9 @@
 #include <cmath>
 #include <limits>
 
+#include "io/input_error.h"
+#include "io/number_text.h"
 #include "sim/scene/geometry.h"
-#include "sim/scene/input_error.h"
-#include "sim/scene/number_text.h"
 
 namespace sim {
 
@@ -26,13 +26,14 @@ std::string ClearanceWarning(const Scene& scene, const std::vector<TimedPose>& t
   const NearestPass pass = NearestPassOf(scene, trajectory);
   if (pass.distance_m >= kCameraClearance_m) return "";
   const auto millimetres = [](double length_m) {
-    return NumberText(std::round(std::abs(length_m) * 1e3)) + " mm";
+    return io::NumberText(std::round(std::abs(length_m) * 1e3)) + " mm";
   };
-  const std::string when = "at " + NumberText(std::round(pass.timestamp_s * 1e3) / 1e3) + " s";
+  const std::string when =
+      "at " + io::NumberText(std::round(pass.timestamp_s * 1e3) / 1e3) + " s";
   if (pass.distance_m < 0 && pass.box) {
-    throw InputError("trajectory", when + " the camera is " + millimetres(pass.distance_m) +
-                                       " inside '" + pass.object +
-                                       "'; move the object or the trajectory");
+    throw io::InputError("trajectory", when + " the camera is " + millimetres(pass.distance_m) +
+                                           " inside '" + pass.object +
+                                           "'; move the object or the trajectory");
   }
   return "trajectory: " + when + " the camera is " +
          (pass.distance_m < 0 ? "inside the box of '" + pass.object + "'"

@@ -4,8 +4,8 @@
 #include <array>
 #include <cmath>
 
+#include "io/input_error.h"
 #include "sim/motion/pace.h"
-#include "sim/scene/input_error.h"
 
 namespace sim {
 namespace {
@@ -68,9 +68,9 @@ void PatternPath::FindWay(const Scene& scene) {
     for (int k = 0; k < 4; ++k) AddKnot();
     return;
   }
-  throw InputError("motion", "the way of preset '" + scene.motion.preset +
-                                 "' comes within 15 cm of a surface; widen distance_*_m or "
-                                 "pitch_*_deg, or move target_m or the stations");
+  throw io::InputError("motion", "the way of preset '" + scene.motion.preset +
+                                     "' comes within 15 cm of a surface; widen distance_*_m or "
+                                     "pitch_*_deg, or move target_m or the stations");
 }
 
 Pose PatternPath::At(double time_s) {

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "sim/scene/input_error.h"
+#include "io/input_error.h"
 #include "sim/scene/names.h"
 
 namespace sim {
@@ -20,7 +20,7 @@ MotionPreset PresetOf(const std::string& name) {
   if (name == "lookaway") return {0.20, 25, 8, 0.25, 2.5, 0.25, 0.40, 0.06};
   std::string known;
   for (const std::string& one : kPresetNames) known += (known.empty() ? "" : ", ") + one;
-  throw InputError("motion.preset '" + name + "'", "expected one of: " + known);
+  throw io::InputError("motion.preset '" + name + "'", "expected one of: " + known);
 }
 
 MotionPreset PresetOf(const Motion& motion) {

@@ -2,51 +2,29 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
-#include <fstream>
 #include <stdexcept>
 #include <string>
-#include <string_view>
 
-#include "sim/scene/input_error.h"
-#include "sim/scene/number_text.h"
+#include "io/input_error.h"
+#include "io/number_text.h"
+#include "io/text_table.h"
 
 namespace sim {
 namespace {
 
-constexpr const char* kForm = "expected 'timestamp tx ty tz qx qy qz qw'";
-
-std::array<double, 8> ReadNumbers(std::string_view line, const std::string& where) {
-  constexpr std::string_view kBlanks = " \t\r";
-  std::array<double, 8> numbers{};
-  for (double& number : numbers) {
-    line.remove_prefix(std::min(line.find_first_not_of(kBlanks), line.size()));
-    const auto [end, error] = std::from_chars(line.data(), line.data() + line.size(), number);
-    if (error != std::errc() || !std::isfinite(number)) {
-      throw InputError(where, std::string(kForm) + ", found '" + std::string(line) + "'");
-    }
-    line.remove_prefix(static_cast<std::size_t>(end - line.data()));
-    if (!line.empty() && kBlanks.find(line.front()) == std::string_view::npos) {
-      throw InputError(where, std::string(kForm) + ", found '" + std::string(line) + "'");
-    }
-  }
-  if (line.find_first_not_of(kBlanks) != std::string_view::npos) {
-    throw InputError(where, std::string(kForm) + ", found more than eight numbers");
-  }
-  return numbers;
-}
-
-TimedPose PoseFrom(const std::array<double, 8>& n, const std::string& where) {
+TimedPose PoseFrom(const io::TextRecord& record) {
   constexpr double kUnit = 0.02, kFar_m = 1000;
+  std::array<double, 8> n{};
+  for (std::size_t i = 0; i < n.size(); ++i) n[i] = record.Number(i, "a pose");
   const Eigen::Vector3d t(n[1], n[2], n[3]);
   if (!(t.cwiseAbs().maxCoeff() <= kFar_m)) {
-    throw InputError(where, "expected metres, found a position more than 1 km away");
+    throw io::InputError(record.where, "expected metres, found a position more than 1 km away");
   }
   const Eigen::Quaterniond q(n[7], n[4], n[5], n[6]);
   if (!(std::abs(q.norm() - 1) < kUnit)) {
-    throw InputError(where,
-                     "expected a unit quaternion, found one of norm " + NumberText(q.norm()));
+    throw io::InputError(record.where, "expected a unit quaternion, found one of norm " +
+                                           io::NumberText(q.norm()));
   }
   return {n[0], {q.normalized().toRotationMatrix(), t}};
 }
@@ -64,26 +42,20 @@ Pose Between(const Pose& a, const Pose& b, double part) {
 }  // namespace
 
 std::vector<TimedPose> ReadTrajectory(const std::filesystem::path& path) {
-  std::ifstream file(path);
-  if (!file || !std::filesystem::is_regular_file(path)) {
-    throw InputError(path.string(), "cannot be read; expected a trajectory in the TUM form");
-  }
   std::vector<TimedPose> poses;
-  std::string line;
   double first_s = 0;
-  for (int number = 1; std::getline(file, line); ++number) {
-    const std::size_t at = line.find_first_not_of(" \t\r");
-    if (at == std::string::npos || line[at] == '#') continue;
-    const std::string where = path.string() + ":" + std::to_string(number);
-    TimedPose pose = PoseFrom(ReadNumbers(line, where), where);
+  for (const io::TextRecord& record : io::ReadRecords(
+           path, "timestamp tx ty tz qx qy qz qw", "expected a trajectory in the TUM form")) {
+    TimedPose pose = PoseFrom(record);
     if (poses.empty()) first_s = pose.timestamp_s;
     pose.timestamp_s -= first_s;
     if (!poses.empty() && !(pose.timestamp_s > poses.back().timestamp_s)) {
-      throw InputError(where, "its timestamp is not after the one before; sort the lines");
+      throw io::InputError(record.where,
+                           "its timestamp is not after the one before; sort the lines");
     }
     poses.push_back(pose);
   }
-  if (poses.size() < 2) throw InputError(path.string(), "expected two poses or more");
+  if (poses.size() < 2) throw io::InputError(path.string(), "expected two poses or more");
   return poses;
 }
 
@@ -94,9 +66,9 @@ std::vector<TimedPose> Replay(const std::vector<TimedPose>& recorded, int frames
   if (recorded.size() < 2) throw std::invalid_argument("a recording has two poses or more");
   const double end_s = recorded.back().timestamp_s;
   if ((frames - 1) / fps > end_s + kRounding_s) {
-    throw InputError("trajectory", "is " + NumberText(end_s) + " s long; ask for at most " +
-                                       std::to_string(static_cast<int>(end_s * fps) + 1) +
-                                       " frames");
+    throw io::InputError("trajectory",
+                         "is " + io::NumberText(end_s) + " s long; ask for at most " +
+                             std::to_string(static_cast<int>(end_s * fps) + 1) + " frames");
   }
   std::vector<TimedPose> trajectory;
   std::size_t next = 1;
@@ -106,8 +78,9 @@ std::vector<TimedPose> Replay(const std::vector<TimedPose>& recorded, int frames
     const TimedPose &a = recorded[next - 1], &b = recorded[next];
     const double gap_s = b.timestamp_s - a.timestamp_s;
     if (gap_s > kHole_s) {
-      throw InputError("trajectory", "has a hole of " + NumberText(gap_s) + " s after " +
-                                         NumberText(a.timestamp_s) + " s; cut it there");
+      throw io::InputError("trajectory", "has a hole of " + io::NumberText(gap_s) +
+                                             " s after " + io::NumberText(a.timestamp_s) +
+                                             " s; cut it there");
     }
     const double part = std::clamp((time_s - a.timestamp_s) / gap_s, 0.0, 1.0);
     trajectory.push_back({time_s, Between(a.T_wc, b.T_wc, part)});

@@ -6,14 +6,14 @@
 #include <map>
 #include <set>
 
+#include "io/number_text.h"
 #include "sim/scene/geometry.h"
-#include "sim/scene/number_text.h"
 
 namespace sim {
 namespace {
 
 std::string Millimetres(double length_m) {
-  return NumberText(std::round(length_m * 1e4) / 10) + " mm";
+  return io::NumberText(std::round(length_m * 1e4) / 10) + " mm";
 }
 
 double Lowest(const Object& object) {
@@ -75,7 +75,7 @@ std::optional<std::string> FaultOfWay(const Scene& scene, std::size_t i, double 
   if (moving.way.empty()) return std::nullopt;
   for (const double time_s : MomentsOf(moving, kStep_m)) {
     const Object there = ObjectAt(moving, time_s);
-    const std::string when = " at " + NumberText(std::round(time_s * 100) / 100) + " s";
+    const std::string when = " at " + io::NumberText(std::round(time_s * 100) / 100) + " s";
     if (!(floor_z - Lowest(there) <= kTouch_m)) {
       return "'" + moving.name + "' is below the floor" + when + "; raise its way";
     }

@@ -6,8 +6,8 @@
 #include <map>
 #include <vector>
 
+#include "io/number_text.h"
 #include "sim/scene/geometry.h"
-#include "sim/scene/number_text.h"
 #include "sim/scene/steps.h"
 
 namespace sim {
@@ -15,7 +15,7 @@ namespace {
 
 constexpr double kPixelsPerMetre = 500, kMargin_m = 0.15, kBetween_m = 0.30;
 
-std::string Number(double x) { return NumberText(std::round(x * 10) / 10 + 0.0); }
+std::string Number(double x) { return io::NumberText(std::round(x * 10) / 10 + 0.0); }
 
 std::string Escaped(const std::string& text) {
   std::string escaped;
@@ -108,7 +108,7 @@ std::map<int, std::string> StepLabels(const Scene& scene) {
     for (const Object& object : scene.objects) {
       if (object.id != step.object) continue;
       labels[object.id] =
-          object.name + " +" + NumberText(std::round(step.step_mm * 10) / 10) + " mm";
+          object.name + " +" + io::NumberText(std::round(step.step_mm * 10) / 10) + " mm";
     }
   }
   return labels;

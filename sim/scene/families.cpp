@@ -4,11 +4,11 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "io/input_error.h"
+#include "io/number_text.h"
 #include "sim/scene/check.h"
 #include "sim/scene/filling.h"
-#include "sim/scene/input_error.h"
 #include "sim/scene/keycaps.h"
-#include "sim/scene/number_text.h"
 #include "sim/scene/recipe.h"
 
 namespace sim {
@@ -142,13 +142,13 @@ ParameterValues Complete(const Family& family, const std::map<std::string, doubl
     const auto at = std::find_if(family.parameters.begin(), family.parameters.end(),
                                  [&](const FamilyParameter& p) { return p.name == name; });
     if (at == family.parameters.end()) {
-      throw InputError("family " + family.name,
-                       "has no parameter '" + name + "'; expected one of: " + known);
+      throw io::InputError("family " + family.name,
+                           "has no parameter '" + name + "'; expected one of: " + known);
     }
     if (!(value >= at->low && value <= at->high)) {
-      throw InputError("family " + family.name,
-                       "expected " + name + " from " + NumberText(at->low) + " to " +
-                           NumberText(at->high) + ", found " + NumberText(value));
+      throw io::InputError("family " + family.name,
+                           "expected " + name + " from " + io::NumberText(at->low) + " to " +
+                               io::NumberText(at->high) + ", found " + io::NumberText(value));
     }
     values[name] = Rounded(value);
   }
@@ -176,7 +176,7 @@ Scene MakeScene(const std::string& family, std::uint64_t seed,
     for (const FamilyParameter& parameter : one.parameters) {
       const double value = values.at(parameter.name);
       if (parameter.whole && value != std::floor(value)) {
-        throw InputError("family " + family, parameter.name + " is a whole number");
+        throw io::InputError("family " + family, parameter.name + " is a whole number");
       }
     }
     Scene scene = make(seed, values);
@@ -193,7 +193,7 @@ Scene MakeScene(const std::string& family, std::uint64_t seed,
     }
     return scene;
   }
-  throw InputError("family '" + family + "'", "is not known; expected one of: " + known);
+  throw io::InputError("family '" + family + "'", "is not known; expected one of: " + known);
 }
 
 }  // namespace sim

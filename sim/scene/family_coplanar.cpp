@@ -1,8 +1,8 @@
 #include <algorithm>
 
+#include "io/input_error.h"
 #include "sim/scene/angle.h"
 #include "sim/scene/filling.h"
-#include "sim/scene/input_error.h"
 
 namespace sim {
 namespace {
@@ -101,8 +101,8 @@ Scene MakeOnDesk(std::uint64_t family, std::uint64_t seed, int count, const Make
     });
     if (FillTable(wishes, table, random, scene)) return scene;
   }
-  throw InputError("--set count=" + std::to_string(count),
-                   "does not fit on the desk; ask for fewer");
+  throw io::InputError("--set count=" + std::to_string(count),
+                       "does not fit on the desk; ask for fewer");
 }
 
 }  // namespace
@@ -147,8 +147,8 @@ Scene MakeBoards(std::uint64_t seed, const ParameterValues& values) {
     }
     if (FillTable(wishes, table, random, scene)) return scene;
   }
-  throw InputError("--set count=" + std::to_string(count),
-                   "does not fit on the desk; ask for fewer");
+  throw io::InputError("--set count=" + std::to_string(count),
+                       "does not fit on the desk; ask for fewer");
 }
 
 }  // namespace sim

@@ -1,5 +1,5 @@
+#include "io/input_error.h"
 #include "sim/scene/filling.h"
-#include "sim/scene/input_error.h"
 
 namespace sim {
 
@@ -17,9 +17,9 @@ Scene MakeCrowdedDesk(std::uint64_t seed, int count) {
     Random things({kKey, seed, 1, attempt});
     if (FillTable(DrawClutter(count, things), table, things, scene)) return scene;
   }
-  throw InputError("family desk", "no room for " + std::to_string(count) +
-                                      " objects on the desk of seed " + std::to_string(seed) +
-                                      "; ask for fewer");
+  throw io::InputError("family desk", "no room for " + std::to_string(count) +
+                                          " objects on the desk of seed " +
+                                          std::to_string(seed) + "; ask for fewer");
 }
 
 }  // namespace sim

@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <string>
 
-#include "sim/scene/input_error.h"
+#include "io/input_error.h"
 #include "sim/scene/items.h"
 #include "sim/scene/layout.h"
 #include "sim/scene/recipe.h"
@@ -136,7 +136,8 @@ Scene MakeDesk(std::uint64_t seed, const ParameterValues& values) {
   scene.motion.target_w = {0, Rounded(-0.05 * desk.depth), desk.top_z};
   const int wanted = asked;
   if (wanted != 0 && wanted < kFewestObjects) {
-    throw InputError("family desk", "expected objects from 5 to 40, or 0 to draw the number");
+    throw io::InputError("family desk",
+                         "expected objects from 5 to 40, or 0 to draw the number");
   }
   const int count = wanted > 0 ? wanted : 8 + room.Below(7);
   for (std::uint64_t attempt = 0; attempt < kLayouts; ++attempt) {
@@ -148,9 +149,9 @@ Scene MakeDesk(std::uint64_t seed, const ParameterValues& values) {
                             : DrawWishes(std::max(kMinObjects, count - fewer), random);
     if (PutWishes(wishes, desk, random, scene)) return scene;
   }
-  throw InputError("family desk", "no room for " + std::to_string(count) +
-                                      " objects on the desk of seed " + std::to_string(seed) +
-                                      "; ask for fewer");
+  throw io::InputError("family desk", "no room for " + std::to_string(count) +
+                                          " objects on the desk of seed " +
+                                          std::to_string(seed) + "; ask for fewer");
 }
 
 }  // namespace sim

@@ -1,9 +1,9 @@
 #include <cmath>
 
+#include "io/input_error.h"
 #include "sim/scene/angle.h"
 #include "sim/scene/check.h"
 #include "sim/scene/filling.h"
-#include "sim/scene/input_error.h"
 
 namespace sim {
 namespace {
@@ -139,7 +139,8 @@ Scene MakePasser(std::uint64_t seed, const ParameterValues& values) {
       return scene;
     }
   }
-  throw InputError("family passer", "no way for a hand over the desk; ask for fewer objects");
+  throw io::InputError("family passer",
+                       "no way for a hand over the desk; ask for fewer objects");
 }
 
 }  // namespace sim

@@ -1,9 +1,9 @@
 #include <algorithm>
 
+#include "io/input_error.h"
 #include "sim/scene/angle.h"
 #include "sim/scene/filling.h"
 #include "sim/scene/furniture.h"
-#include "sim/scene/input_error.h"
 
 namespace sim {
 namespace {
@@ -51,7 +51,7 @@ Scene MakeTwins(std::uint64_t seed, const ParameterValues& values) {
 
   const auto missing = static_cast<std::size_t>(values.at("missing"));
   for (std::uint64_t attempt = 0;; ++attempt) {
-    if (attempt == 200) throw InputError("family twins", "no room on the desks");
+    if (attempt == 200) throw io::InputError("family twins", "no room on the desks");
     Random things({kTwinsKey, seed, 1, attempt});
     std::vector<Wish> wishes = DrawClutter(8, things);
     // The same draws put what both desks have in the same places.

@@ -5,10 +5,10 @@
 #include <cmath>
 #include <map>
 
-#include "sim/scene/input_error.h"
+#include "io/input_error.h"
+#include "io/number_text.h"
 #include "sim/scene/model_file.h"
 #include "sim/scene/model_planes.h"
-#include "sim/scene/number_text.h"
 
 namespace sim {
 namespace {
@@ -19,7 +19,7 @@ constexpr double kMinSize_m = 1e-5, kMaxSize_m = 50;
 constexpr double kThinnest_m2 = 1e-14;  ///< twice the area of a triangle that is kept
 
 std::string PointText(const Vector3d& x) {
-  const auto text = [](double a) { return NumberText(std::round(a * 1e6) / 1e6 + 0.0); };
+  const auto text = [](double a) { return io::NumberText(std::round(a * 1e6) / 1e6 + 0.0); };
   return "(" + text(x.x()) + ", " + text(x.y()) + ", " + text(x.z()) + ")";
 }
 
@@ -27,8 +27,8 @@ void CheckCorners(const ModelFile& file, const std::string& path) {
   for (std::size_t t = 0; t < file.triangles.size(); ++t) {
     for (const Vector3d& x : file.triangles[t]) {
       if (x.allFinite()) continue;
-      throw InputError(path, "triangle " + std::to_string(t + 1) +
-                                 " has a corner that is not finite; mend the file");
+      throw io::InputError(path, "triangle " + std::to_string(t + 1) +
+                                     " has a corner that is not finite; mend the file");
     }
   }
 }
@@ -42,10 +42,10 @@ void TakeShape(const ModelFile& file, Model& model, const std::string& path) {
   model.middle_f = box.center();
   model.size = box.sizes().cwiseMax(kMinSize_m);
   if (!(model.size.maxCoeff() <= kMaxSize_m && box.sizes().maxCoeff() >= kMinSize_m)) {
-    throw InputError(path,
-                     "is " + NumberText(std::round(1e3 * model.size.maxCoeff()) / 1e3) +
-                         " m large; expected 0.01 mm to 50 m: set `scale` to metres a unit "
-                         "of the file (0.001 for millimetres)");
+    throw io::InputError(path,
+                         "is " + io::NumberText(std::round(1e3 * model.size.maxCoeff()) / 1e3) +
+                             " m large; expected 0.01 mm to 50 m: set `scale` to metres a unit "
+                             "of the file (0.001 for millimetres)");
   }
   std::map<std::array<double, 3>, int> vertex;
   for (std::size_t t = 0; t < file.triangles.size(); ++t) {
@@ -90,7 +90,7 @@ void CheckEdges(const Model& model, const std::string& path) {
     return;
   }
   const Vector3d at = model.vertices_o[static_cast<std::size_t>(first.first)] + model.middle_f;
-  throw InputError(
+  throw io::InputError(
       path, "is no closed surface: of " + std::to_string(uses.size()) + " edges " +
                 std::to_string(open) + " have one triangle, " + std::to_string(twisted) +
                 " two that disagree which side is out, " + std::to_string(crowded) +
@@ -107,9 +107,9 @@ void CheckSide(const Model& model, const std::string& path) {
   // A sheet with one side encloses nothing.
   if (model.options.open_edges > 0 && !(volume < -1e-3 * model.size.prod())) return;
   if (volume > 0) return;
-  throw InputError(path,
-                   "is inside out: its triangles turn their fronts inwards; flip the "
-                   "normals, or set `flip: true`");
+  throw io::InputError(path,
+                       "is inside out: its triangles turn their fronts inwards; flip the "
+                       "normals, or set `flip: true`");
 }
 
 /// Triangles without area join their neighbours, but show nothing.
@@ -125,7 +125,8 @@ void DropThinTriangles(Model& model, const std::string& path) {
     model.colour_of[kept] = model.colour_of[t];
     ++kept;
   }
-  if (kept == 0) throw InputError(path, "has only triangles without area; expected a surface");
+  if (kept == 0)
+    throw io::InputError(path, "has only triangles without area; expected a surface");
   model.triangles.resize(kept);
   model.plane_of.resize(kept);
   model.colour_of.resize(kept);
@@ -148,8 +149,9 @@ Model ReadModel(const ModelOptions& options, const std::filesystem::path& folder
   if (options.declared.empty()) {
     FindPlanes(model);
   } else if (const int missed = TakeDeclaredPlanes(model); missed >= 0) {
-    throw InputError(path, "has no triangle in plane " + std::to_string(missed + 1) +
-                               " of `planes`; give its corners in the coordinates of the file");
+    throw io::InputError(path,
+                         "has no triangle in plane " + std::to_string(missed + 1) +
+                             " of `planes`; give its corners in the coordinates of the file");
   }
   DropThinTriangles(model, path);
   return model;

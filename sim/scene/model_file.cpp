@@ -7,13 +7,12 @@
 #include <algorithm>
 #include <assimp/Importer.hpp>
 #include <cmath>
-#include <fstream>
-#include <iterator>
 #include <set>
 
-#include "sim/scene/input_error.h"
+#include "io/input_error.h"
+#include "io/read_file.h"
+#include "io/sha256.h"
 #include "sim/scene/loops.h"
-#include "sim/scene/sha256.h"
 
 namespace sim {
 namespace {
@@ -34,19 +33,16 @@ class NotingFiles : public Assimp::DefaultIOSystem {
   std::vector<std::string>& opened_;
 };
 
-std::string Bytes(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
-}
-
 /// The file first, then each other one once, in the order of their names.
 std::string HashOf(const std::filesystem::path& path, const std::vector<std::string>& opened) {
-  std::string bytes = Bytes(path.string());
+  std::string bytes = io::ReadFile(path);
   for (const std::string& other : std::set<std::string>(opened.begin(), opened.end())) {
     std::error_code ignored;
-    if (!std::filesystem::equivalent(other, path, ignored)) bytes += Bytes(other);
+    const bool file = std::filesystem::is_regular_file(other, ignored);
+    if (file && !std::filesystem::equivalent(other, path, ignored))
+      bytes += io::ReadFile(other);
   }
-  return Sha256Hex(bytes);
+  return io::Sha256Hex(bytes);
 }
 
 std::array<double, 3> ColourOf(const aiMaterial& material) {
@@ -81,12 +77,12 @@ void AddTriangles(const aiMesh& mesh, ModelFile& file) {
 ModelFile ReadModelFile(const std::filesystem::path& path) {
   std::error_code error;
   if (!std::filesystem::is_regular_file(path, error)) {
-    throw InputError(path.string(),
-                     "is not there; `mesh` names a file relative to the scene file");
+    throw io::InputError(path.string(),
+                         "is not there; `mesh` names a file relative to the scene file");
   }
   if (std::filesystem::file_size(path, error) > kMaxBytes || error) {
-    throw InputError(path.string(),
-                     "cannot be read or is larger than 64 MiB; simplify the mesh");
+    throw io::InputError(path.string(),
+                         "cannot be read or is larger than 64 MiB; simplify the mesh");
   }
   std::vector<std::string> opened;
   Assimp::Importer importer;
@@ -94,8 +90,8 @@ ModelFile ReadModelFile(const std::filesystem::path& path) {
   // Its own triangulation folds some polygons that are not convex.
   const aiScene* scene = importer.ReadFile(path.string(), aiProcess_PreTransformVertices);
   if (scene == nullptr) {
-    throw InputError(path.string(),
-                     std::string("is no mesh that can be read: ") + importer.GetErrorString());
+    throw io::InputError(path.string(), std::string("is no mesh that can be read: ") +
+                                            importer.GetErrorString());
   }
   ModelFile file;
   for (unsigned i = 0; i < scene->mNumMaterials; ++i) {
@@ -103,7 +99,7 @@ ModelFile ReadModelFile(const std::filesystem::path& path) {
   }
   for (unsigned i = 0; i < scene->mNumMeshes; ++i) AddTriangles(*scene->mMeshes[i], file);
   if (file.triangles.empty()) {
-    throw InputError(path.string(), "has no triangles; export faces, not points or curves");
+    throw io::InputError(path.string(), "has no triangles; export faces, not points or curves");
   }
   file.sha256 = HashOf(path, opened);
   return file;

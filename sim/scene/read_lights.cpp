@@ -13,21 +13,21 @@ constexpr double kLeastIntensity = 1e-6, kMostIntensity = 1e4;
 constexpr double kSquare = 1e-6;  ///< cosine of what passes for a right angle
 constexpr std::uint64_t kMostSamplesPerSide = 16;
 
-Eigen::Vector3d ReadPoint(const YamlMap& map, const char* key) {
-  return map.At(key).Numbers(3, -kMaxCoordinate_m, kMaxCoordinate_m, "metres");
+Eigen::Vector3d ReadPoint(const io::YamlMap& map, const char* key) {
+  return map.At(key).Numbers(3, {-kMaxCoordinate_m, kMaxCoordinate_m}, "metres");
 }
 
-Eigen::Vector3d ReadHalf(const YamlMap& map, const char* key) {
-  const Eigen::Vector3d half = map.At(key).Numbers(3, -kMaxHalf_m, kMaxHalf_m, "metres");
+Eigen::Vector3d ReadHalf(const io::YamlMap& map, const char* key) {
+  const Eigen::Vector3d half = map.At(key).Numbers(3, {-kMaxHalf_m, kMaxHalf_m}, "metres");
   if (!(half.norm() >= kMinHalf_m)) map.At(key).Fail("expected 0.1 mm or more, or kind: lamp");
   return half;
 }
 
-Light ReadLight(const YamlValue& value) {
+Light ReadLight(const io::YamlValue& value) {
   static const std::vector<std::string> kKeys{"kind",      "position_m", "center_m",
                                               "half_a_m",  "half_b_m",   "samples_per_side",
                                               "intensity", "colour"};
-  const YamlMap map(value, kKeys);
+  const io::YamlMap map(value, kKeys);
   Light light;
   light.kind = static_cast<LightKind>(map.At("kind").OneOf(kLightNames));
   const bool lamp = light.kind == LightKind::kLamp;
@@ -48,12 +48,11 @@ Light ReadLight(const YamlValue& value) {
     }
   }
   if (map.Has("samples_per_side")) {
-    light.samples_per_side =
-        static_cast<int>(map.At("samples_per_side").Whole(1, kMostSamplesPerSide));
+    light.samples_per_side = map.At("samples_per_side").Whole({1, kMostSamplesPerSide});
   }
-  light.intensity = map.At("intensity").Number(kLeastIntensity, kMostIntensity, "");
+  light.intensity = map.At("intensity").Number({kLeastIntensity, kMostIntensity});
   if (map.Has("colour")) {
-    const Eigen::VectorXd rgb = map.At("colour").Numbers(3, 0, 1, "linear RGB");
+    const Eigen::VectorXd rgb = map.At("colour").Numbers(3, {0, 1}, "linear RGB");
     light.colour = {rgb[0], rgb[1], rgb[2]};
   }
   return light;
@@ -61,9 +60,9 @@ Light ReadLight(const YamlValue& value) {
 
 }  // namespace
 
-std::vector<Light> ReadLights(const YamlValue& value) {
+std::vector<Light> ReadLights(const io::YamlValue& value) {
   std::vector<Light> lights;
-  for (const YamlValue& entry : value.List(kMaxLights)) lights.push_back(ReadLight(entry));
+  for (const io::YamlValue& entry : value.List(kMaxLights)) lights.push_back(ReadLight(entry));
   return lights;
 }
 

@@ -1,6 +1,6 @@
 #include "sim/scene/read_model.h"
 
-#include "sim/scene/number_text.h"
+#include "io/number_text.h"
 
 namespace sim {
 namespace {
@@ -8,12 +8,13 @@ namespace {
 constexpr double kMaxCoordinate_m = 100, kMaxInFile = 1e6;
 constexpr std::size_t kMaxPlanes = 1000, kMaxCorners = 1000;
 
-std::vector<std::vector<Eigen::Vector3d>> ReadPlanes(const YamlValue& value) {
+std::vector<std::vector<Eigen::Vector3d>> ReadPlanes(const io::YamlValue& value) {
   std::vector<std::vector<Eigen::Vector3d>> planes;
-  for (const YamlValue& entry : value.List(kMaxPlanes)) {
+  for (const io::YamlValue& entry : value.List(kMaxPlanes)) {
     planes.emplace_back();
-    for (const YamlValue& corner : entry.List(kMaxCorners)) {
-      planes.back().push_back(corner.Numbers(3, -kMaxInFile, kMaxInFile, "units of the file"));
+    for (const io::YamlValue& corner : entry.List(kMaxCorners)) {
+      planes.back().push_back(
+          corner.Numbers(3, {-kMaxInFile, kMaxInFile}, "units of the file"));
     }
     if (planes.back().size() < 3) entry.Fail("expected 3 corners or more");
   }
@@ -21,10 +22,10 @@ std::vector<std::vector<Eigen::Vector3d>> ReadPlanes(const YamlValue& value) {
   return planes;
 }
 
-ModelOptions ReadOptions(const YamlMap& map) {
+ModelOptions ReadOptions(const io::YamlMap& map) {
   ModelOptions options;
   const auto number = [&](const char* key, double low, double high, double otherwise) {
-    return map.Has(key) ? map.At(key).Number(low, high, "") : otherwise;
+    return map.Has(key) ? map.At(key).Number({low, high}) : otherwise;
   };
   options.file = map.At("mesh").Path();
   options.scale = number("scale", 1e-9, 1e6, 1);
@@ -41,8 +42,8 @@ std::string PlanesText(const std::vector<std::vector<Eigen::Vector3d>>& planes) 
   for (const auto& plane : planes) {
     text += "      - [";
     for (std::size_t i = 0; i < plane.size(); ++i) {
-      text += std::string(i > 0 ? ", " : "") + "[" + NumberText(plane[i].x()) + ", " +
-              NumberText(plane[i].y()) + ", " + NumberText(plane[i].z()) + "]";
+      text += std::string(i > 0 ? ", " : "") + "[" + io::NumberText(plane[i].x()) + ", " +
+              io::NumberText(plane[i].y()) + ", " + io::NumberText(plane[i].z()) + "]";
     }
     text += "]\n";
   }
@@ -51,12 +52,13 @@ std::string PlanesText(const std::vector<std::vector<Eigen::Vector3d>>& planes) 
 
 }  // namespace
 
-void ReadObjectModel(const YamlMap& map, const std::filesystem::path& folder, Object& object) {
+void ReadObjectModel(const io::YamlMap& map, const std::filesystem::path& folder,
+                     Object& object) {
   if (map.Has("size_m")) {
     map.At("size_m").Fail("is given by the mesh; leave it out, and set `scale`");
   }
   if (map.Has("center_m") + map.Has("origin_m") + map.Has("way") != 1) {
-    map.Value().Fail(
+    map.value().Fail(
         "a mesh stands by `center_m` (middle of its box) or `origin_m` (place of the file's "
         "origin), or moves along a `way`; give one of them");
   }
@@ -71,7 +73,7 @@ void ReadObjectModel(const YamlMap& map, const std::filesystem::path& folder, Ob
   object.model_colours = !map.Has("faces");
   if (map.Has("origin_m")) {
     const Eigen::Vector3d origin_w =
-        map.At("origin_m").Numbers(3, -kMaxCoordinate_m, kMaxCoordinate_m, "metres");
+        map.At("origin_m").Numbers(3, {-kMaxCoordinate_m, kMaxCoordinate_m}, "metres");
     object.center_w = origin_w + object.q_wo * model->middle_f;
   }
   object.model = model;
@@ -85,15 +87,15 @@ std::string ModelText(const Object& object) {
   const auto line = [&](const char* key, const std::string& value) {
     text += std::string("    ") + key + ": " + value + "\n";
   };
-  if (options.scale != usual.scale) line("scale", NumberText(options.scale));
+  if (options.scale != usual.scale) line("scale", io::NumberText(options.scale));
   if (options.flip) line("flip", "true");
   if (options.flatness_m != usual.flatness_m) {
-    line("flatness_mm", NumberText(1e3 * options.flatness_m));
+    line("flatness_mm", io::NumberText(1e3 * options.flatness_m));
   }
   if (options.min_plane_m2 != usual.min_plane_m2) {
-    line("min_plane_cm2", NumberText(1e4 * options.min_plane_m2));
+    line("min_plane_cm2", io::NumberText(1e4 * options.min_plane_m2));
   }
-  if (options.open_edges != 0) line("open_edges", NumberText(options.open_edges));
+  if (options.open_edges != 0) line("open_edges", io::NumberText(options.open_edges));
   if (!options.declared.empty()) text += "    planes:\n" + PlanesText(options.declared);
   return text;
 }

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "io/yaml_value.h"
 #include "sim/scene/scene.h"
-#include "sim/scene/yaml_value.h"
 
 namespace sim {
 
@@ -18,7 +18,8 @@ inline const std::vector<std::string> kModelKeys{"mesh",       "mesh_sha256", "s
 /// or by `origin_m`, the place of the file's origin. The object's rotation is known.
 /// @param folder  of the scene file
 /// @throws InputError
-void ReadObjectModel(const YamlMap& map, const std::filesystem::path& folder, Object& object);
+void ReadObjectModel(const io::YamlMap& map, const std::filesystem::path& folder,
+                     Object& object);
 
 /// The lines of the scene file that say all that, each with its indent.
 std::string ModelText(const Object& object);

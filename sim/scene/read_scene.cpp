@@ -1,48 +1,42 @@
 #include <algorithm>
 #include <cmath>
-#include <fstream>
-#include <iterator>
 
+#include "io/yaml_value.h"
 #include "sim/scene/angle.h"
 #include "sim/scene/check.h"
-#include "sim/scene/input_error.h"
 #include "sim/scene/names.h"
 #include "sim/scene/read_lights.h"
 #include "sim/scene/read_model.h"
 #include "sim/scene/scene_file.h"
-#include "sim/scene/yaml_value.h"
 
 namespace sim {
 namespace {
 
-constexpr std::size_t kMaxFileBytes = 1 << 20;
-constexpr int kMaxDepth = 8;
 constexpr std::size_t kMaxObjects = 1000;
-constexpr std::uint64_t kMaxId = 65535;  // object and plane ids fit 16-bit images
+constexpr int kMaxId = 65535;  // object and plane ids fit 16-bit images
 constexpr double kMaxCoordinate_m = 100;
 constexpr double kMinSize_m = 1e-5, kMaxSize_m = 50;
-constexpr std::uint64_t kAnySeed = ~std::uint64_t{0};
 
-Material ReadMaterial(const YamlValue& value) {
-  const YamlMap map(value, {"print", "colour", "ink", "richness", "seed"});
+Material ReadMaterial(const io::YamlValue& value) {
+  const io::YamlMap map(value, {"print", "colour", "ink", "richness", "seed"});
   const auto colour = [&](const char* key, std::array<double, 3> otherwise) {
     if (!map.Has(key)) return otherwise;
-    const Eigen::VectorXd rgb = map.At(key).Numbers(3, 0, 1, "linear RGB");
+    const Eigen::VectorXd rgb = map.At(key).Numbers(3, {0, 1}, "linear RGB");
     return std::array{rgb[0], rgb[1], rgb[2]};
   };
   Material material;
   material.print = static_cast<Print>(map.At("print").OneOf(kPrintNames));
   material.colour = colour("colour", material.colour);
   material.ink = colour("ink", material.ink);
-  if (map.Has("richness")) material.richness = map.At("richness").Number(0, 1, "");
-  if (map.Has("seed")) material.seed = map.At("seed").Whole(0, kAnySeed);
+  if (map.Has("richness")) material.richness = map.At("richness").Number({0, 1});
+  if (map.Has("seed")) material.seed = map.At("seed").Seed();
   return material;
 }
 
-std::array<Material, 6> ReadFaces(const YamlValue& value) {
+std::array<Material, 6> ReadFaces(const io::YamlValue& value) {
   std::vector<std::string> keys{"all"};
   keys.insert(keys.end(), kFaceNames.begin(), kFaceNames.end());
-  const YamlMap map(value, keys);
+  const io::YamlMap map(value, keys);
   std::array<Material, 6> faces;
   if (map.Has("all")) faces.fill(ReadMaterial(map.At("all")));
   for (std::size_t i = 0; i < faces.size(); ++i) {
@@ -51,15 +45,15 @@ std::array<Material, 6> ReadFaces(const YamlValue& value) {
   return faces;
 }
 
-Eigen::Quaterniond ReadRotation(const YamlMap& map) {
+Eigen::Quaterniond ReadRotation(const io::YamlMap& map) {
   if (map.Has("rpy_deg") && map.Has("q_xyzw")) {
     map.At("q_xyzw").Fail("stands beside rpy_deg; keep one of the two");
   }
   if (map.Has("rpy_deg")) {
-    return QuaternionFromRpyDeg(map.At("rpy_deg").Numbers(3, -360, 360, "degrees"));
+    return QuaternionFromRpyDeg(map.At("rpy_deg").Numbers(3, {-360, 360}, "degrees"));
   }
   if (!map.Has("q_xyzw")) return Eigen::Quaterniond::Identity();
-  const Eigen::VectorXd q = map.At("q_xyzw").Numbers(4, -1.001, 1.001, "");
+  const Eigen::VectorXd q = map.At("q_xyzw").Numbers(4, {-1.001, 1.001});
   Eigen::Quaterniond rotation(q[3], q[0], q[1], q[2]);
   const double excess = std::abs(rotation.squaredNorm() - 1);
   if (!(excess < 1e-5)) map.At("q_xyzw").Fail("expected a unit quaternion x, y, z, w");
@@ -68,16 +62,17 @@ Eigen::Quaterniond ReadRotation(const YamlMap& map) {
   return rotation;
 }
 
-std::vector<Waypoint> ReadWay(const YamlValue& value) {
+std::vector<Waypoint> ReadWay(const io::YamlValue& value) {
   constexpr std::size_t kMost = 10000;
   std::vector<Waypoint> way;
-  for (const YamlValue& entry : value.List(kMost)) {
-    const YamlMap map(entry, {"time_s", "center_m", "yaw_deg"});
+  for (const io::YamlValue& entry : value.List(kMost)) {
+    const io::YamlMap map(entry, {"time_s", "center_m", "yaw_deg"});
     Waypoint point;
-    point.time_s = map.At("time_s").Number(0, 1e5, "seconds");
+    point.time_s = map.At("time_s").Number({0, 1e5}, "seconds");
     point.center_w =
-        map.At("center_m").Numbers(3, -kMaxCoordinate_m, kMaxCoordinate_m, "metres");
-    if (map.Has("yaw_deg")) point.yaw_deg = map.At("yaw_deg").Number(-36000, 36000, "degrees");
+        map.At("center_m").Numbers(3, {-kMaxCoordinate_m, kMaxCoordinate_m}, "metres");
+    if (map.Has("yaw_deg"))
+      point.yaw_deg = map.At("yaw_deg").Number({-36000, 36000}, "degrees");
     if (!way.empty() && !(point.time_s > way.back().time_s)) {
       map.At("time_s").Fail("is not after the one before; sort the way by time");
     }
@@ -88,7 +83,7 @@ std::vector<Waypoint> ReadWay(const YamlValue& value) {
 }
 
 /// What only a mesh has cannot stand without one, nor a mesh be another shape.
-void CheckShape(const YamlMap& map) {
+void CheckShape(const io::YamlMap& map) {
   const bool mesh = map.Has("mesh");
   if (map.Has("shape") && (kShapeNames[map.At("shape").OneOf(kShapeNames)] == "mesh") != mesh) {
     map.At("shape").Fail(mesh ? "is another one than `mesh`; leave it out"
@@ -99,15 +94,15 @@ void CheckShape(const YamlMap& map) {
   }
 }
 
-Object ReadObject(const YamlValue& value, const std::filesystem::path& folder) {
+Object ReadObject(const io::YamlValue& value, const std::filesystem::path& folder) {
   std::vector<std::string> keys{"id",       "name",    "class",  "role",   "shape",
                                 "center_m", "rpy_deg", "q_xyzw", "size_m", "detection_group",
                                 "way",      "seed",    "faces"};
   keys.insert(keys.end(), kModelKeys.begin(), kModelKeys.end());
-  const YamlMap map(value, keys);
+  const io::YamlMap map(value, keys);
   CheckShape(map);
   Object object;
-  object.id = static_cast<int>(map.At("id").Whole(1, kMaxId));
+  object.id = map.At("id").Whole({1, kMaxId});
   object.name = map.At("name").Word();
   object.class_name = map.At("class").Word();
   object.role = static_cast<Role>(map.At("role").OneOf(kRoleNames));
@@ -122,40 +117,40 @@ Object ReadObject(const YamlValue& value, const std::filesystem::path& folder) {
     object.center_w = object.way.front().center_w;
   } else if (map.Has("center_m") || !map.Has("mesh")) {
     object.center_w =
-        map.At("center_m").Numbers(3, -kMaxCoordinate_m, kMaxCoordinate_m, "metres");
+        map.At("center_m").Numbers(3, {-kMaxCoordinate_m, kMaxCoordinate_m}, "metres");
   }
   if (map.Has("mesh")) {
     ReadObjectModel(map, folder, object);
   } else {
-    object.size = map.At("size_m").Numbers(3, kMinSize_m, kMaxSize_m, "metres");
+    object.size = map.At("size_m").Numbers(3, {kMinSize_m, kMaxSize_m}, "metres");
   }
   if (map.Has("detection_group")) {
-    object.detection_group = static_cast<int>(map.At("detection_group").Whole(0, kMaxId));
+    object.detection_group = map.At("detection_group").Whole({0, kMaxId});
   }
-  if (map.Has("seed")) object.seed = map.At("seed").Whole(0, kAnySeed);
+  if (map.Has("seed")) object.seed = map.At("seed").Seed();
   if (map.Has("faces")) object.faces = ReadFaces(map.At("faces"));
   return object;
 }
 
-Sun ReadSun(const YamlValue& value) {
-  const YamlMap map(value, {"direction", "intensity", "ambient"});
+Sun ReadSun(const io::YamlValue& value) {
+  const io::YamlMap map(value, {"direction", "intensity", "ambient"});
   Sun sun;
   if (map.Has("direction")) {
-    sun.direction_w = map.At("direction").Numbers(3, -100, 100, "");
+    sun.direction_w = map.At("direction").Numbers(3, {-100, 100});
     if (!(sun.direction_w.norm() > 1e-6))
       map.At("direction").Fail("expected a direction, not 0");
   }
-  if (map.Has("intensity")) sun.intensity = map.At("intensity").Number(0, 10, "");
-  if (map.Has("ambient")) sun.ambient = map.At("ambient").Number(0, 10, "");
+  if (map.Has("intensity")) sun.intensity = map.At("intensity").Number({0, 10});
+  if (map.Has("ambient")) sun.ambient = map.At("ambient").Number({0, 10});
   return sun;
 }
 
 /// Reads `low_key` and `high_key` over the defaults; low may not exceed high.
-void ReadRange(const YamlMap& map, const std::string& low_key, const std::string& high_key,
+void ReadRange(const io::YamlMap& map, const std::string& low_key, const std::string& high_key,
                double least, double most, const std::string& unit, double& low, double& high) {
   const auto read = [&](const std::string& key, double& into) {
     if (!map.Has(key)) return;
-    const double number = map.At(key).Number(least, most, unit);
+    const double number = map.At(key).Number({least, most}, unit);
     into = unit == "degrees" ? DegToRad(number) : number;
   };
   read(low_key, low);
@@ -164,13 +159,13 @@ void ReadRange(const YamlMap& map, const std::string& low_key, const std::string
   map.At(map.Has(low_key) ? low_key : high_key).Fail("exceeds its maximum; swap the two");
 }
 
-std::vector<Station> ReadStations(const YamlValue& value) {
+std::vector<Station> ReadStations(const io::YamlValue& value) {
   constexpr std::size_t kMost = 64;
   std::vector<Station> stations;
-  for (const YamlValue& entry : value.List(kMost)) {
-    const YamlMap map(entry, {"camera_m", "gaze_m"});
+  for (const io::YamlValue& entry : value.List(kMost)) {
+    const io::YamlMap map(entry, {"camera_m", "gaze_m"});
     const auto point = [&](const char* key) -> Eigen::Vector3d {
-      return map.At(key).Numbers(3, -kMaxCoordinate_m, kMaxCoordinate_m, "metres");
+      return map.At(key).Numbers(3, {-kMaxCoordinate_m, kMaxCoordinate_m}, "metres");
     };
     stations.push_back({point("camera_m"), point("gaze_m")});
     const Eigen::Vector3d way = stations.back().gaze_w - stations.back().camera_w;
@@ -182,35 +177,35 @@ std::vector<Station> ReadStations(const YamlValue& value) {
   return stations;
 }
 
-Capture ReadCapture(const YamlValue& value) {
-  const YamlMap map(value, {"width_px", "height_px", "focal_px", "centre_px", "distortion",
-                            "sensor", "fps", "frames"});
+Capture ReadCapture(const io::YamlValue& value) {
+  const io::YamlMap map(value, {"width_px", "height_px", "focal_px", "centre_px", "distortion",
+                                "sensor", "fps", "frames"});
   Capture capture;
-  const auto whole = [&](const char* key, std::uint64_t low, std::uint64_t high, int& into) {
-    if (map.Has(key)) into = static_cast<int>(map.At(key).Whole(low, high));
+  const auto whole = [&](const char* key, double low, double high, int& into) {
+    if (map.Has(key)) into = map.At(key).Whole({low, high});
   };
   whole("width_px", 16, 8192, capture.width);
   whole("height_px", 16, 8192, capture.height);
   whole("frames", 1, 1000000, capture.frames);
   const auto pair = [&](const char* key, double low, double& x, double& y) {
     if (!map.Has(key)) return;
-    const Eigen::VectorXd two = map.At(key).Numbers(2, low, 20000, "pixels");
+    const Eigen::VectorXd two = map.At(key).Numbers(2, {low, 20000}, "pixels");
     x = two[0];
     y = two[1];
   };
   pair("focal_px", 1, capture.fx, capture.fy);
   pair("centre_px", 0, capture.cx, capture.cy);
   if (map.Has("distortion")) {
-    const Eigen::VectorXd k = map.At("distortion").Numbers(5, -10, 10, "");
+    const Eigen::VectorXd k = map.At("distortion").Numbers(5, {-10, 10});
     std::copy(k.begin(), k.end(), capture.distortion.begin());
   }
   if (map.Has("sensor")) capture.sensor = kSensorNames[map.At("sensor").OneOf(kSensorNames)];
-  if (map.Has("fps")) capture.fps = map.At("fps").Number(0.1, 1000, "frames a second");
+  if (map.Has("fps")) capture.fps = map.At("fps").Number({0.1, 1000}, "frames a second");
   return capture;
 }
 
-Motion ReadMotion(const YamlValue& value) {
-  const YamlMap map(
+Motion ReadMotion(const io::YamlValue& value) {
+  const io::YamlMap map(
       value, {"preset", "target_m", "target_spread_m", "distance_min_m", "distance_max_m",
               "azimuth_min_deg", "azimuth_max_deg", "pitch_min_deg", "pitch_max_deg",
               "speed_m_s", "turn_deg_s", "stations"});
@@ -218,10 +213,10 @@ Motion ReadMotion(const YamlValue& value) {
   if (map.Has("preset")) motion.preset = kPresetNames[map.At("preset").OneOf(kPresetNames)];
   if (map.Has("target_m")) {
     motion.target_w =
-        map.At("target_m").Numbers(3, -kMaxCoordinate_m, kMaxCoordinate_m, "metres");
+        map.At("target_m").Numbers(3, {-kMaxCoordinate_m, kMaxCoordinate_m}, "metres");
   }
   if (map.Has("target_spread_m")) {
-    motion.target_spread_m = map.At("target_spread_m").Number(0, 10, "metres");
+    motion.target_spread_m = map.At("target_spread_m").Number({0, 10}, "metres");
   }
   ReadRange(map, "distance_min_m", "distance_max_m", 0.2, 20, "metres", motion.distance_min_m,
             motion.distance_max_m);
@@ -229,47 +224,43 @@ Motion ReadMotion(const YamlValue& value) {
             motion.azimuth_min_rad, motion.azimuth_max_rad);
   ReadRange(map, "pitch_min_deg", "pitch_max_deg", -80, 80, "degrees", motion.pitch_min_rad,
             motion.pitch_max_rad);
-  if (map.Has("speed_m_s")) motion.speed_m_s = map.At("speed_m_s").Number(0.005, 3, "m/s");
-  if (map.Has("turn_deg_s")) motion.turn_deg_s = map.At("turn_deg_s").Number(0.5, 180, "deg/s");
+  if (map.Has("speed_m_s")) motion.speed_m_s = map.At("speed_m_s").Number({0.005, 3}, "m/s");
+  if (map.Has("turn_deg_s"))
+    motion.turn_deg_s = map.At("turn_deg_s").Number({0.5, 180}, "deg/s");
   if (map.Has("stations")) motion.stations = ReadStations(map.At("stations"));
   return motion;
+}
+
+/// `name` is the file's, whose folder is where meshes are looked for.
+Scene SceneFrom(const io::YamlValue& file, const std::filesystem::path& name) {
+  const io::YamlMap map(file, {"format", "name", "family", "seed", "sun", "lights", "motion",
+                               "capture", "objects"});
+  map.At("format").OneOf({kSceneFormat});
+  Scene scene;
+  scene.name = map.At("name").Word();
+  if (map.Has("family")) scene.family = map.At("family").Word();
+  if (map.Has("seed")) scene.seed = map.At("seed").Seed();
+  if (map.Has("sun")) scene.sun = ReadSun(map.At("sun"));
+  if (map.Has("lights")) scene.lights = ReadLights(map.At("lights"));
+  if (map.Has("motion")) scene.motion = ReadMotion(map.At("motion"));
+  if (map.Has("capture")) scene.capture = ReadCapture(map.At("capture"));
+  const std::filesystem::path folder = name.parent_path();
+  const std::vector<io::YamlValue> objects = map.At("objects").List(kMaxObjects);
+  if (objects.empty()) map.At("objects").Fail("expected at least one object");
+  for (const io::YamlValue& object : objects)
+    scene.objects.push_back(ReadObject(object, folder));
+  if (const auto fault = FindFault(scene)) objects[fault->object].Fail(fault->what);
+  return scene;
 }
 
 }  // namespace
 
 Scene ParseScene(const std::string& text, const std::string& name) {
-  const YamlMap map(
-      ParseYaml(text, name, kMaxDepth),
-      {"format", "name", "family", "seed", "sun", "lights", "motion", "capture", "objects"});
-  map.At("format").OneOf({kSceneFormat});
-  Scene scene;
-  scene.name = map.At("name").Word();
-  if (map.Has("family")) scene.family = map.At("family").Word();
-  if (map.Has("seed")) scene.seed = map.At("seed").Whole(0, kAnySeed);
-  if (map.Has("sun")) scene.sun = ReadSun(map.At("sun"));
-  if (map.Has("lights")) scene.lights = ReadLights(map.At("lights"));
-  if (map.Has("motion")) scene.motion = ReadMotion(map.At("motion"));
-  if (map.Has("capture")) scene.capture = ReadCapture(map.At("capture"));
-  const std::filesystem::path folder = std::filesystem::path(name).parent_path();
-  const std::vector<YamlValue> objects = map.At("objects").List(kMaxObjects);
-  if (objects.empty()) map.At("objects").Fail("expected at least one object");
-  for (const YamlValue& object : objects) scene.objects.push_back(ReadObject(object, folder));
-  if (const auto fault = FindFault(scene)) objects[fault->object].Fail(fault->what);
-  return scene;
+  return SceneFrom(io::ParseYaml(text, name), name);
 }
 
 Scene ReadScene(const std::filesystem::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  if (!file || !std::filesystem::is_regular_file(path)) {
-    throw InputError(path.string(), "cannot be read; expected a scene file (pas scene make)");
-  }
-  std::string text(kMaxFileBytes + 1, '\0');
-  file.read(text.data(), static_cast<std::streamsize>(text.size()));
-  text.resize(static_cast<std::size_t>(file.gcount()));
-  if (text.size() > kMaxFileBytes) {
-    throw InputError(path.string(), "is larger than 1 MiB; a scene file is not");
-  }
-  return ParseScene(text, path.string());
+  return SceneFrom(io::ReadYaml(path, "expected a scene file (pas scene make)"), path);
 }
 
 }  // namespace sim

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <map>
 
+#include "io/input_error.h"
 #include "sim/scene/angle.h"
 #include "sim/scene/families.h"
-#include "sim/scene/input_error.h"
 
 namespace sim {
 namespace {
@@ -56,7 +56,7 @@ Scene MakeFilled(const std::string& family, std::uint64_t seed,
   while (true) {
     try {
       return MakeScene(family, seed, parameters);
-    } catch (const InputError&) {
+    } catch (const io::InputError&) {
       const auto objects = parameters.find("objects");
       if (objects == parameters.end() || objects->second <= kFewest) throw;
       objects->second -= 1;
@@ -110,7 +110,7 @@ Scene MakeTwin(const std::string& name, std::uint64_t seed) {
     scene.capture->frames = static_cast<int>(twin.duration_s * kFps + 0.5);
     return scene;
   }
-  throw InputError("twin '" + name + "'", "is not known; expected one of: " + known);
+  throw io::InputError("twin '" + name + "'", "is not known; expected one of: " + known);
 }
 
 }  // namespace sim

@@ -1,14 +1,12 @@
 #include <cmath>
-#include <fstream>
-#include <system_error>
 
+#include "io/atomic_file.h"
+#include "io/number_text.h"
+#include "io/sha256.h"
 #include "sim/scene/angle.h"
-#include "sim/scene/input_error.h"
 #include "sim/scene/names.h"
-#include "sim/scene/number_text.h"
 #include "sim/scene/read_model.h"
 #include "sim/scene/scene_file.h"
-#include "sim/scene/sha256.h"
 
 namespace sim {
 namespace {
@@ -16,7 +14,8 @@ namespace {
 template <typename Numbers>
 std::string ListText(const Numbers& numbers) {
   std::string text;
-  for (const double number : numbers) text += (text.empty() ? "[" : ", ") + NumberText(number);
+  for (const double number : numbers)
+    text += (text.empty() ? "[" : ", ") + io::NumberText(number);
   return text + "]";
 }
 
@@ -24,15 +23,15 @@ std::string ListText(const Numbers& numbers) {
 std::string DegreesText(double angle_rad) {
   const double angle_deg = RadToDeg(angle_rad);
   const double rounded_deg = std::round(angle_deg * 1e6) / 1e6;
-  if (DegToRad(rounded_deg) == angle_rad) return NumberText(rounded_deg);
+  if (DegToRad(rounded_deg) == angle_rad) return io::NumberText(rounded_deg);
   for (const double towards : {-1e9, 1e9}) {
     double near_deg = angle_deg;
     for (int i = 0; i < 4; ++i) {
-      if (DegToRad(near_deg) == angle_rad) return NumberText(near_deg);
+      if (DegToRad(near_deg) == angle_rad) return io::NumberText(near_deg);
       near_deg = std::nextafter(near_deg, towards);
     }
   }
-  return NumberText(angle_deg);
+  return io::NumberText(angle_deg);
 }
 
 std::string RotationText(const Eigen::Quaterniond& q) {
@@ -47,7 +46,7 @@ std::string RotationText(const Eigen::Quaterniond& q) {
 std::string MaterialText(const Material& material) {
   return "{print: " + kPrintNames[static_cast<std::size_t>(material.print)] +
          ", colour: " + ListText(material.colour) + ", ink: " + ListText(material.ink) +
-         ", richness: " + NumberText(material.richness) +
+         ", richness: " + io::NumberText(material.richness) +
          ", seed: " + std::to_string(material.seed) + "}";
 }
 
@@ -67,8 +66,8 @@ std::string ObjectText(const Object& object) {
   }
   if (!object.way.empty()) line("way:");
   for (const Waypoint& point : object.way) {
-    line("  - {time_s: " + NumberText(point.time_s) + ", center_m: " +
-         ListText(point.center_w) + ", yaw_deg: " + NumberText(point.yaw_deg) + "}");
+    line("  - {time_s: " + io::NumberText(point.time_s) + ", center_m: " +
+         ListText(point.center_w) + ", yaw_deg: " + io::NumberText(point.yaw_deg) + "}");
   }
   if (object.detection_group != 0) {
     line("detection_group: " + std::to_string(object.detection_group));
@@ -88,8 +87,9 @@ std::string ObjectText(const Object& object) {
 /// What only some scenes have; nothing at all for the others.
 std::string PaceText(const Motion& motion) {
   std::string text;
-  if (motion.speed_m_s > 0) text += "  speed_m_s: " + NumberText(motion.speed_m_s) + "\n";
-  if (motion.turn_deg_s > 0) text += "  turn_deg_s: " + NumberText(motion.turn_deg_s) + "\n";
+  if (motion.speed_m_s > 0) text += "  speed_m_s: " + io::NumberText(motion.speed_m_s) + "\n";
+  if (motion.turn_deg_s > 0)
+    text += "  turn_deg_s: " + io::NumberText(motion.turn_deg_s) + "\n";
   if (!motion.stations.empty()) text += "  stations:\n";
   for (const Station& station : motion.stations) {
     text += "    - {camera_m: " + ListText(station.camera_w) +
@@ -104,7 +104,7 @@ std::string CaptureText(const Capture& capture) {
          "\n  focal_px: " + ListText(std::array{capture.fx, capture.fy}) +
          "\n  centre_px: " + ListText(std::array{capture.cx, capture.cy}) +
          "\n  distortion: " + ListText(capture.distortion) + "\n  sensor: " + capture.sensor +
-         "\n  fps: " + NumberText(capture.fps) +
+         "\n  fps: " + io::NumberText(capture.fps) +
          "\n  frames: " + std::to_string(capture.frames) + "\n";
 }
 
@@ -120,15 +120,15 @@ std::string LightText(const Light& light) {
             points("half_b_m", light.half_b_w) +
             ", samples_per_side: " + std::to_string(light.samples_per_side);
   }
-  return text + ", intensity: " + NumberText(light.intensity) +
+  return text + ", intensity: " + io::NumberText(light.intensity) +
          ", colour: " + ListText(light.colour) + "}\n";
 }
 
 std::string MotionText(const Motion& motion) {
   return "motion:\n  preset: " + motion.preset + "\n  target_m: " + ListText(motion.target_w) +
-         "\n  target_spread_m: " + NumberText(motion.target_spread_m) +
-         "\n  distance_min_m: " + NumberText(motion.distance_min_m) +
-         "\n  distance_max_m: " + NumberText(motion.distance_max_m) +
+         "\n  target_spread_m: " + io::NumberText(motion.target_spread_m) +
+         "\n  distance_min_m: " + io::NumberText(motion.distance_min_m) +
+         "\n  distance_max_m: " + io::NumberText(motion.distance_max_m) +
          "\n  azimuth_min_deg: " + DegreesText(motion.azimuth_min_rad) +
          "\n  azimuth_max_deg: " + DegreesText(motion.azimuth_max_rad) +
          "\n  pitch_min_deg: " + DegreesText(motion.pitch_min_rad) +
@@ -142,8 +142,8 @@ std::string SceneText(const Scene& scene) {
   if (!scene.family.empty()) text += "family: " + scene.family + "\n";
   text += "seed: " + std::to_string(scene.seed) + "\n";
   text += "sun:\n  direction: " + ListText(scene.sun.direction_w) +
-          "\n  intensity: " + NumberText(scene.sun.intensity) +
-          "\n  ambient: " + NumberText(scene.sun.ambient) + "\n";
+          "\n  intensity: " + io::NumberText(scene.sun.intensity) +
+          "\n  ambient: " + io::NumberText(scene.sun.ambient) + "\n";
   if (!scene.lights.empty()) text += "lights:\n";
   for (const Light& light : scene.lights) text += LightText(light);
   text += MotionText(scene.motion);
@@ -154,24 +154,9 @@ std::string SceneText(const Scene& scene) {
 }
 
 void WriteScene(const Scene& scene, const std::filesystem::path& path) {
-  const std::filesystem::path part = path.string() + ".part";
-  {
-    std::ofstream file(part, std::ios::binary);
-    file << SceneText(scene);
-    file.close();
-    if (!file) {
-      std::error_code ignored;
-      std::filesystem::remove(part, ignored);
-      throw InputError(path.string(),
-                       "cannot be written; check that the folder exists and has "
-                       "room");
-    }
-  }
-  std::error_code error;
-  std::filesystem::rename(part, path, error);
-  if (error) throw InputError(path.string(), "cannot be written: " + error.message());
+  io::WriteFile(path, SceneText(scene));
 }
 
-std::string SceneHash(const Scene& scene) { return Sha256Hex(SceneText(scene)); }
+std::string SceneHash(const Scene& scene) { return io::Sha256Hex(SceneText(scene)); }
 
 }  // namespace sim

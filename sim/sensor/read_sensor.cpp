@@ -1,18 +1,15 @@
 #include "sim/sensor/read_sensor.h"
 
 #include <cmath>
-#include <fstream>
-#include <iterator>
 #include <numbers>
 
-#include "sim/scene/input_error.h"
-#include "sim/scene/yaml_value.h"
+#include "io/input_error.h"
+#include "io/yaml_value.h"
 
 namespace sim {
 namespace {
 
 constexpr double kDegree = std::numbers::pi / 180.0;
-constexpr int kMaxDepth = 4;
 const std::vector<std::string> kNames{"ideal", "kinect1", "azure", "d435"};
 constexpr SensorKind kKinds[] = {SensorKind::kIdeal, SensorKind::kKinect1, SensorKind::kAzure,
                                  SensorKind::kD435};
@@ -98,15 +95,23 @@ std::vector<std::string> Keys(const Sensor& sensor) {
   return keys;
 }
 
-/// `base` alone, before it is known which other keys there may be.
-SensorKind BaseOf(const YAML::Node& root, const std::string& file) {
-  const YAML::Node base = root.IsMap() ? root["base"] : YAML::Node();
-  if (!root.IsMap() || !base) {
-    throw InputError(file + ":1",
-                     "expected a mapping with the key base: one of kinect1, azure, d435, "
-                     "ideal; the other keys change its parameters");
+Sensor SensorFrom(const io::YamlValue& file) {
+  const io::YamlMap map(file);
+  Sensor sensor(kKinds[map.At("base").OneOf(kNames)]);
+  map.RefuseOtherKeys(Keys(sensor));
+  if (map.Has("name")) sensor.name = map.At("name").Word();
+  Lister([&](const char* key, double low, double high, const char* unit, double,
+             const auto& set) {
+    if (!map.Has(key)) return;
+    const double value = map.At(key).Number({low, high}, unit);
+    set(value);
+    sensor.changed[key] = value;
+  }).All(sensor);
+  const auto* d435 = std::get_if<D435Model>(&sensor.depth);
+  if (d435 != nullptr && d435->window_px % 2 == 0) {
+    map.At("window_px").Fail("expected an odd number of pixels, so that a window has a centre");
   }
-  return kKinds[YamlValue(base, file, "base", base.Mark().line + 1).OneOf(kNames)];
+  return sensor;
 }
 
 }  // namespace
@@ -122,32 +127,11 @@ std::vector<SensorParameter> Parameters(const Sensor& sensor) {
 }
 
 Sensor ParseSensor(const std::string& text, const std::string& file) {
-  ParseYaml(text, file, kMaxDepth);  // refuses what is not one plain, shallow document
-  const YAML::Node root = YAML::Load(text);
-  Sensor sensor(BaseOf(root, file));
-  const YamlMap map(YamlValue(root, file, "", root.Mark().line + 1), Keys(sensor));
-  if (map.Has("name")) sensor.name = map.At("name").Word();
-  Lister([&](const char* key, double low, double high, const char* unit, double,
-             const auto& set) {
-    if (!map.Has(key)) return;
-    const double value = map.At(key).Number(low, high, unit);
-    set(value);
-    sensor.changed[key] = value;
-  }).All(sensor);
-  const auto* d435 = std::get_if<D435Model>(&sensor.depth);
-  if (d435 != nullptr && d435->window_px % 2 == 0) {
-    map.At("window_px").Fail("expected an odd number of pixels, so that a window has a centre");
-  }
-  return sensor;
+  return SensorFrom(io::ParseYaml(text, file));
 }
 
 Sensor ReadSensor(const std::filesystem::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  if (!stream) {
-    throw InputError(file.string(), "this sensor file cannot be opened; check the path");
-  }
-  const std::string text{std::istreambuf_iterator<char>(stream), {}};
-  return ParseSensor(text, file.string());
+  return SensorFrom(io::ReadYaml(file, "expected a sensor file (docs/sensors.md)"));
 }
 
 Sensor SensorByName(const std::string& text) {
@@ -156,8 +140,8 @@ Sensor SensorByName(const std::string& text) {
   }
   const std::string suffix = std::filesystem::path(text).extension().string();
   if (suffix == ".yaml" || suffix == ".yml") return ReadSensor(text);
-  throw InputError("--sensor " + text,
-                   "expected ideal, kinect1, azure, d435, or a file that ends in .yaml");
+  throw io::InputError("--sensor " + text,
+                       "expected ideal, kinect1, azure, d435, or a file that ends in .yaml");
 }
 
 }  // namespace sim

@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 
 #include <Eigen/Geometry>
+#include <cmath>
 
+#include "io/number_text.h"
 #include "sim/truth/truth_json.h"
 
 namespace sim {
@@ -22,7 +24,9 @@ std::string PoseLine(const Shot& shot) {
 
 std::string TimeText(double timestamp_s) { return fmt::format("{:.6f}", timestamp_s); }
 
-double PrintedTime(double timestamp_s) { return std::stod(TimeText(timestamp_s)); }
+double PrintedTime(double timestamp_s) {
+  return io::ParseNumber(TimeText(timestamp_s)).value_or(std::nan(""));
+}
 
 std::map<std::string, std::string> FixedFiles(const Scene& scene, const Camera& camera,
                                               const std::vector<Shot>& shots) {

@@ -4,11 +4,13 @@
 
 #include <optional>
 
+#include "io/atomic_file.h"
+#include "io/json_field.h"
+#include "io/read_file.h"
+#include "io/sha256.h"
 #include "sim/motion/preset.h"
 #include "sim/scene/scene_file.h"
-#include "sim/scene/sha256.h"
 #include "sim/truth/truth_json.h"
-#include "sim/write/atomic_file.h"
 #include "sim/write/parallel_frames.h"
 #include "sim/write/png.h"
 #include "sim/write/sequence_text.h"
@@ -77,7 +79,7 @@ Json Plan(const Scene& scene, const SequenceOptions& options, std::size_t frames
   plan["frame_count"] = frames;
   plan["complete"] = false;
   plan["sha256"] = Json::object();
-  for (const auto& [path, text] : fixed) plan["sha256"][path] = Sha256Hex(text);
+  for (const auto& [path, text] : fixed) plan["sha256"][path] = io::Sha256Hex(text);
   return plan;
 }
 
@@ -105,19 +107,19 @@ class FrameStore {
         {"gt/object_id/" + name, &made.object_id}};
     for (const auto& [file, image] : images) {
       const std::string bytes = EncodePng(*image);
-      WriteFileAtomically(folder_ / file, bytes);
-      record["sha256"][file] = Sha256Hex(bytes);
+      io::WriteFile(folder_ / file, bytes);
+      record["sha256"][file] = io::Sha256Hex(bytes);
     }
-    WriteFileAtomically(RecordPath(frame), record.dump());
+    io::WriteFile(RecordPath(frame), record.dump());
   }
 
   /// True when the frame's record and the images it names are there, bit for bit.
   bool Made(int frame) const {
     if (!fs::exists(RecordPath(frame))) return false;
-    const Json record = Json::parse(ReadWholeFile(RecordPath(frame)), nullptr, false);
+    const Json record = Json::parse(io::ReadFile(RecordPath(frame)), nullptr, false);
     if (!record.is_object()) return false;
     for (const auto& [file, sum] : record.at("sha256").items()) {
-      if (!fs::exists(folder_ / file) || Sha256OfFile(folder_ / file) != sum) return false;
+      if (!fs::exists(folder_ / file) || io::Sha256OfFile(folder_ / file) != sum) return false;
     }
     return true;
   }
@@ -135,19 +137,24 @@ class FrameStore {
   void Finish(Json manifest) const {
     std::map<std::string, std::string> sums;
     for (const auto& [file, sum] : manifest["sha256"].items()) sums[file] = sum;
-    AtomicFile truth(folder_ / "gt/frames.jsonl");
-    std::optional<AtomicFile> detections;
+    io::AtomicFile truth(folder_ / "gt/frames.jsonl");
+    std::optional<io::AtomicFile> detections;
     if (simulator_.options().detector != DetectorKind::kNone) {
       detections.emplace(folder_ / "detections.jsonl");
     }
     for (int frame = 0; frame < recording_.frames(); ++frame) {
-      const Json record = Json::parse(ReadWholeFile(RecordPath(frame)));
-      truth.Add(record.at("truth").get<std::string>() + "\n");
-      if (detections) detections->Add(record.at("detections").get<std::string>() + "\n");
-      for (const auto& [file, sum] : record.at("sha256").items()) sums[file] = sum;
+      const nlohmann::json json = io::ReadJson(RecordPath(frame));
+      const io::JsonField record(json, RecordPath(frame).string());
+      truth.Add(record["truth"].Text() + "\n");
+      if (detections) detections->Add(record["detections"].Text() + "\n");
+      for (const auto& [file, sum] : json.at("sha256").items()) sums[file] = sum;
     }
-    sums["gt/frames.jsonl"] = truth.Finish();
-    if (detections) sums["detections.jsonl"] = detections->Finish();
+    truth.Finish();
+    sums["gt/frames.jsonl"] = io::Sha256OfFile(folder_ / "gt/frames.jsonl");
+    if (detections) {
+      detections->Finish();
+      sums["detections.jsonl"] = io::Sha256OfFile(folder_ / "detections.jsonl");
+    }
     manifest["sha256"] = sums;
     manifest["complete"] = true;
     fs::remove_all(folder_ / kRecordFolder);
@@ -180,7 +187,7 @@ int WriteSequence(const Scene& scene, const Recording& recording,
   const Simulator simulator(scene, options.rig);
   if (PrepareFolder(folder, plan, options.existing)) return 0;
 
-  for (const auto& [path, text] : fixed) WriteFileAtomically(folder / path, text);
+  for (const auto& [path, text] : fixed) io::WriteFile(folder / path, text);
   const FrameStore store(folder, simulator, recording);
   const std::vector<int> missing = store.Missing();
   ForEachFrame(

@@ -6,8 +6,8 @@
 #include <string>
 
 #include "sim/motion/trajectory.h"
-#include "sim/write/output_folder.h"
 #include "sim/write/recording.h"
+#include "sim/write/sequence_folder.h"
 #include "sim/write/simulator.h"
 
 namespace sim {

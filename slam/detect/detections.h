@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "io/json_field.h"
 #include "slam/detect/class_table.h"
 #include "slam/detect/yolox_output.h"
 #include "slam/geometry/camera.h"
@@ -34,11 +35,10 @@ struct DetectionRecord {
   std::vector<Detection> detections;  ///< clipped to the image; without those outside of it
 };
 
-/// @param where  "file:line", for messages
-/// @throws InputError for text that is not JSON, a missing key, a score outside [0, 1], a box
-///   whose max is below its min
-DetectionRecord ParseDetections(const std::string& line, const Camera& camera,
-                                const ClassTable& classes, const std::string& where);
+/// @throws InputError for a missing key, a score outside [0, 1], a box whose max is
+///   below its min
+DetectionRecord ReadDetections(const io::JsonField& record, const Camera& camera,
+                               const ClassTable& classes);
 
 /// Replays a detections.jsonl (formats.md). A frame without a record has no detections.
 class ReplayDetector : public Detector {
@@ -46,8 +46,8 @@ class ReplayDetector : public Detector {
   /// Records are found by timestamp within this time, so that a file may print fewer digits.
   static constexpr double kMaxTimeDifference_s = 5e-4;
 
-  /// @throws InputError with file:line, see ParseDetections; for a timestamp that does not
-  ///   increase.
+  /// @throws InputError with file:line for text that is not JSON, see also ReadDetections, and
+  ///   for a timestamp that does not increase.
   ReplayDetector(const std::filesystem::path& file, const Camera& camera,
                  const ClassTable& classes);
   std::vector<Detection> Detect(double timestamp_s, const cv::Mat3b&) override;

@@ -5,7 +5,7 @@
 #include <limits>
 #include <set>
 
-#include "slam/base/require.h"
+#include "io/input_error.h"
 
 namespace slam {
 namespace {
@@ -49,7 +49,7 @@ class Fields {
   }
 
  private:
-  [[noreturn]] static void Fail() { throw InputError("not an ONNX model, or cut off"); }
+  [[noreturn]] static void Fail() { throw io::InputError("not an ONNX model, or cut off"); }
   std::string_view Take(std::uint64_t count) {
     if (count > rest_.size()) Fail();
     const std::string_view taken = rest_.substr(0, static_cast<std::size_t>(count));
@@ -105,7 +105,7 @@ std::vector<OnnxInput> ReadOnnxInputs(std::string_view bytes) {
   for (Field field; model.Next(field);) {
     if (field.number == 7) graph = field.bytes;
   }
-  if (graph.empty()) throw InputError("not an ONNX model: it has no graph");
+  if (graph.empty()) throw io::InputError("not an ONNX model: it has no graph");
   std::vector<OnnxInput> inputs;
   std::set<std::string_view> initializers;
   Fields parts(graph);

@@ -1,13 +1,12 @@
 #include "slam/detect/yolox_detector.h"
 
-#include <fstream>
 #include <opencv2/core/utils/logger.hpp>
 #include <opencv2/dnn.hpp>
-#include <sstream>
 #include <string>
 #include <utility>
 
-#include "slam/base/require.h"
+#include "io/input_error.h"
+#include "io/read_file.h"
 #include "slam/detect/letterbox.h"
 #include "slam/detect/onnx_inputs.h"
 
@@ -46,25 +45,12 @@ std::string Reason(const cv::Exception& error) {
   return error.err.substr(0, error.err.find('\n'));
 }
 
-std::string ReadBytes(const std::filesystem::path& file) {
-  std::error_code failed;
-  if (!std::filesystem::is_regular_file(file, failed)) {
-    throw InputError(file.string(),
-                     "no such file; expected a YOLOX model: --detector yolox:FILE.onnx");
-  }
-  std::ifstream stream(file, std::ios::binary);
-  std::ostringstream bytes;
-  bytes << stream.rdbuf();
-  if (!stream || !bytes) throw InputError(file.string(), "is empty or cannot be read");
-  return bytes.str();
-}
-
 /// The size that the model states, or the configuration for it.
 cv::Size InputSize(const std::string& bytes, const YoloxConfig& config) {
   const std::vector<OnnxInput> inputs = ReadOnnxInputs(bytes);
   if (inputs.size() != 1) {
-    throw InputError("the model has " + std::to_string(inputs.size()) +
-                     " inputs; expected one image");
+    throw io::InputError("the model has " + std::to_string(inputs.size()) +
+                         " inputs; expected one image");
   }
   std::vector<int> shape = inputs.front().shape;
   if (shape.size() == 4) {
@@ -72,7 +58,7 @@ cv::Size InputSize(const std::string& bytes, const YoloxConfig& config) {
     if (shape[2] == 0) shape[2] = config.input_height;
     if (shape[3] == 0) shape[3] = config.input_width;
     if (shape[2] == 0 || shape[3] == 0) {
-      throw InputError(
+      throw io::InputError(
           "the model does not state the size of its input; set yolox: input_width and "
           "input_height in --config");
     }
@@ -80,8 +66,9 @@ cv::Size InputSize(const std::string& bytes, const YoloxConfig& config) {
   const auto fits = [](int side) { return side > 0 && side % kCoarsestStride == 0; };
   if (shape.size() != 4 || shape[0] != 1 || shape[1] != 3 || !fits(shape[2]) ||
       !fits(shape[3]) || shape[2] > kMostPixels / shape[3]) {
-    throw InputError("the model's input is " + ShapeText(shape) +
-                     "; expected 1 x 3 x height x width with sides that are multiples of 32");
+    throw io::InputError(
+        "the model's input is " + ShapeText(shape) +
+        "; expected 1 x 3 x height x width with sides that are multiples of 32");
   }
   return {shape[3], shape[2]};
 }
@@ -93,8 +80,8 @@ cv::dnn::Net Load(const std::string& bytes) {
     net.setPreferableTarget(cv::dnn::DNN_TARGET_CPU);
     return net;
   } catch (const cv::Exception& error) {
-    throw InputError("OpenCV cannot read it as an ONNX model (" + Reason(error) +
-                     "); export one with YOLOX's tools/export_onnx.py");
+    throw io::InputError("OpenCV cannot read it as an ONNX model (" + Reason(error) +
+                         "); export one with YOLOX's tools/export_onnx.py");
   }
 }
 
@@ -110,7 +97,7 @@ class YoloxDetector::Network {
     const cv::Mat3b grey(camera.height, camera.width, cv::Vec3b::all(Letterbox::kPadding));
     const cv::Mat1f output = Answer(grey);
     if (LooksDecoded(output, letterbox_.input()) != config_.decoded) {
-      throw InputError(
+      throw io::InputError(
           config_.decoded
               ? "the model's boxes are not decoded; set yolox: decoded: false in --config"
               : "the model computes its boxes itself (--decode_in_inference); set yolox: "
@@ -144,9 +131,9 @@ class YoloxDetector::Network {
       net_.setInput(cv::dnn::blobFromImage(input));
       return net_.forward();
     } catch (const cv::Exception& error) {
-      throw InputError("OpenCV cannot run the model on an input of " +
-                       std::to_string(input.cols) + " x " + std::to_string(input.rows) + " (" +
-                       Reason(error) + ")");
+      throw io::InputError("OpenCV cannot run the model on an input of " +
+                           std::to_string(input.cols) + " x " + std::to_string(input.rows) +
+                           " (" + Reason(error) + ")");
     }
   }
 
@@ -155,10 +142,10 @@ class YoloxDetector::Network {
                                        5 + static_cast<int>(config_.classes.size())};
     const std::vector<int> found(output.size.p, output.size.p + output.dims);
     if (found == expected && output.type() == CV_32F && output.isContinuous()) return;
-    throw InputError("the model's output is " + ShapeText(found) + "; expected " +
-                     ShapeText(expected) + " (1, cells of strides 8, 16 and 32, 5 + " +
-                     std::to_string(config_.classes.size()) +
-                     " classes); another list of classes is set by yolox: classes in --config");
+    throw io::InputError(
+        "the model's output is " + ShapeText(found) + "; expected " + ShapeText(expected) +
+        " (1, cells of strides 8, 16 and 32, 5 + " + std::to_string(config_.classes.size()) +
+        " classes); another list of classes is set by yolox: classes in --config");
   }
 
   YoloxConfig config_;
@@ -169,7 +156,8 @@ class YoloxDetector::Network {
 YoloxDetector::YoloxDetector(const std::filesystem::path& model, const Camera& camera,
                              const ClassTable& table, const YoloxConfig& config)
     : file_(model.string()), camera_(camera), table_(table) {
-  const std::string bytes = ReadBytes(model);
+  const std::string bytes =
+      io::ReadFile(model, "expected a YOLOX model: --detector yolox:FILE.onnx");
   const QuietOpenCv quiet;
   NamingTheFile([&] { network_ = std::make_unique<Network>(bytes, camera, config); });
 }
@@ -179,8 +167,8 @@ YoloxDetector::~YoloxDetector() = default;
 void YoloxDetector::NamingTheFile(const std::function<void()>& work) const {
   try {
     work();
-  } catch (const InputError& error) {
-    throw InputError(file_, error.what());
+  } catch (const io::InputError& error) {
+    throw io::InputError(file_, error.what());
   }
 }
 

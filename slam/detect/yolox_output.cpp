@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "io/input_error.h"
 #include "slam/base/require.h"
 
 namespace slam {
@@ -20,7 +21,7 @@ struct Cell {
 double Probability(float x) {
   const double p = static_cast<double>(x);
   if (!(p >= 0.0 && p <= 1.0)) {
-    throw InputError(
+    throw io::InputError(
         "the network's output has an objectness or class probability outside [0, 1]; "
         "expected a YOLOX model exported with its sigmoids");
   }
@@ -36,7 +37,7 @@ Box BoxOfCell(const float* row, const Cell& cell, bool decoded) {
   }
   const Box box{center - 0.5 * size, center + 0.5 * size};
   if (!box.min.allFinite() || !box.max.allFinite() || box.empty()) {
-    throw InputError("the network's output has a box that is no finite rectangle");
+    throw io::InputError("the network's output has a box that is no finite rectangle");
   }
   return box;
 }

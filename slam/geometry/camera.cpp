@@ -2,7 +2,7 @@
 
 #include <string_view>
 
-#include "slam/base/require.h"
+#include "io/input_error.h"
 
 namespace slam {
 namespace {
@@ -49,8 +49,8 @@ Camera TumCamera(const char* name) {
   } else if (key == "tum3") {
     c.fx = 535.4, c.fy = 539.2, c.cx = 320.1, c.cy = 247.6;
   } else {
-    throw InputError("--camera " + std::string(name),
-                     "unknown camera; expected tum1, tum2, tum3 or a camera.yaml");
+    throw io::InputError("--camera " + std::string(name),
+                         "unknown camera; expected tum1, tum2, tum3 or a camera.yaml");
   }
   return c;
 }

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "slam/base/require.h"
+#include "io/input_error.h"
 
 namespace slam {
 namespace {
@@ -37,11 +37,11 @@ std::string OfFrames(int some, int all) {
 
 void RequireSize(const cv::Mat& image, const char* what, const Camera& camera, int frame) {
   if (image.cols == camera.width && image.rows == camera.height) return;
-  throw InputError("frame " + std::to_string(frame),
-                   std::string(what) + " image of " + std::to_string(image.cols) + " x " +
-                       std::to_string(image.rows) + ", expected " +
-                       std::to_string(camera.width) + " x " + std::to_string(camera.height) +
-                       " as the camera says");
+  throw io::InputError("frame " + std::to_string(frame),
+                       std::string(what) + " image of " + std::to_string(image.cols) + " x " +
+                           std::to_string(image.rows) + ", expected " +
+                           std::to_string(camera.width) + " x " +
+                           std::to_string(camera.height) + " as the camera says");
 }
 
 }  // namespace
@@ -52,9 +52,9 @@ FrameGate::FrameGate(const Camera& camera) : camera_(camera) {
       std::isfinite(camera.cy) && camera.width > 0 && camera.height > 0) {
     return;
   }
-  throw InputError("camera",
-                   "fx and fy must be positive and finite, cx and cy finite, and the "
-                   "image must have a size");
+  throw io::InputError("camera",
+                       "fx and fy must be positive and finite, cx and cy finite, and the "
+                       "image must have a size");
 }
 
 bool FrameGate::Takes(RecordedFrame& frame) {
@@ -62,7 +62,7 @@ bool FrameGate::Takes(RecordedFrame& frame) {
   RequireSize(frame.bgr, "colour", camera_, frame.index);
   RequireSize(frame.depth_m, "depth", camera_, frame.index);
   if (!std::isfinite(frame.timestamp_s)) {
-    throw InputError("frame " + std::to_string(frame.index), "its time is not finite");
+    throw io::InputError("frame " + std::to_string(frame.index), "its time is not finite");
   }
   if (!first_ && !(frame.timestamp_s > last_s_)) {
     ++not_later_;

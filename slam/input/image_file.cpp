@@ -3,11 +3,12 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
-#include <fstream>
 #include <limits>
 #include <opencv2/imgcodecs.hpp>
-#include <vector>
+#include <span>
 
+#include "io/input_error.h"
+#include "io/read_file.h"
 #include "slam/base/require.h"
 
 namespace slam {
@@ -18,24 +19,6 @@ constexpr std::array<std::uint8_t, 8> kPngSignature = {0x89, 'P',  'N', 'G',
 constexpr std::array<std::uint8_t, 8> kPngEnd = {'I', 'E', 'N', 'D', 0xAE, 0x42, 0x60, 0x82};
 constexpr std::size_t kHeaderBytes = 33;          // signature and IHDR
 constexpr std::uintmax_t kMaxBytes = 512u << 20;  // 8192^2 pixels of 16 bits, and some
-
-std::vector<std::uint8_t> ReadBytes(const std::filesystem::path& file,
-                                    const std::string& where) {
-  std::error_code error;
-  if (!std::filesystem::exists(file, error))
-    throw InputError(where, "no such file; the list of images names it");
-  if (!std::filesystem::is_regular_file(file, error))
-    throw InputError(where, "not a file; expected a PNG image");
-  const std::uintmax_t size = std::filesystem::file_size(file, error);
-  if (error) throw InputError(where, "cannot be read: " + error.message());
-  if (size == 0) throw InputError(where, "the file is empty (0 bytes); copy it again");
-  if (size > kMaxBytes) throw InputError(where, "larger than 512 MiB; expected a PNG image");
-  std::vector<std::uint8_t> bytes(size);
-  std::ifstream stream(file, std::ios::binary);
-  stream.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(size));
-  if (!stream) throw InputError(where, "cannot be read; check its permissions");
-  return bytes;
-}
 
 std::uint32_t BigEndian(const std::uint8_t* p) {
   return (std::uint32_t{p[0]} << 24) | (std::uint32_t{p[1]} << 16) |
@@ -50,27 +33,28 @@ std::string PixelText(int bits, int colour) {
   return std::to_string(bits) + "-bit " + name;
 }
 
-void CheckHeader(const std::vector<std::uint8_t>& bytes, ImageType type, const Camera& camera,
+void CheckHeader(std::span<const std::uint8_t> bytes, ImageType type, const Camera& camera,
                  const std::string& where) {
+  if (bytes.empty()) throw io::InputError(where, "the file is empty (0 bytes); copy it again");
   if (bytes.size() < kHeaderBytes ||
       !std::equal(kPngSignature.begin(), kPngSignature.end(), bytes.begin()))
-    throw InputError(where, "not a PNG image (or cut off in its header)");
+    throw io::InputError(where, "not a PNG image (or cut off in its header)");
   const std::uint32_t width = BigEndian(&bytes[16]), height = BigEndian(&bytes[20]);
   if (width != static_cast<std::uint32_t>(camera.width) ||
       height != static_cast<std::uint32_t>(camera.height))
-    throw InputError(where,
-                     "the image is " + std::to_string(width) + " x " + std::to_string(height) +
-                         ", the camera says " + std::to_string(camera.width) + " x " +
-                         std::to_string(camera.height) + "; mend the camera file or the image");
+    throw io::InputError(
+        where, "the image is " + std::to_string(width) + " x " + std::to_string(height) +
+                   ", the camera says " + std::to_string(camera.width) + " x " +
+                   std::to_string(camera.height) + "; mend the camera file or the image");
   const std::string found = PixelText(bytes[24], bytes[25]);
   const std::string expected = type == ImageType::kColour ? "8-bit RGB" : "16-bit gray";
   if (found != expected)
-    throw InputError(where,
-                     "the image is " + found + ", expected " + expected +
-                         (type == ImageType::kColour ? "" : " (depth_factor units a metre)"));
+    throw io::InputError(
+        where, "the image is " + found + ", expected " + expected +
+                   (type == ImageType::kColour ? "" : " (depth_factor units a metre)"));
   if (!std::equal(kPngEnd.begin(), kPngEnd.end(), bytes.end() - kPngEnd.size()) &&
       std::search(bytes.begin(), bytes.end(), kPngEnd.begin(), kPngEnd.end()) == bytes.end())
-    throw InputError(where, "the image is truncated (its end is missing); copy it again");
+    throw io::InputError(where, "the image is truncated (its end is missing); copy it again");
 }
 
 }  // namespace
@@ -78,11 +62,12 @@ void CheckHeader(const std::vector<std::uint8_t>& bytes, ImageType type, const C
 cv::Mat ReadImage(const std::filesystem::path& file, ImageType type, const Camera& camera,
                   const std::string& context) {
   const std::string where = file.string() + " (" + context + ")";
-  const std::vector<std::uint8_t> bytes = ReadBytes(file, where);
-  CheckHeader(bytes, type, camera, where);
+  std::string bytes = io::ReadFile(file, "expected the image of " + context, kMaxBytes);
+  auto* const first = reinterpret_cast<std::uint8_t*>(bytes.data());
+  CheckHeader({first, bytes.size()}, type, camera, where);
   cv::Mat image;
   try {
-    image = cv::imdecode(bytes,
+    image = cv::imdecode(cv::Mat1b(1, static_cast<int>(bytes.size()), first),
                          type == ImageType::kColour ? cv::IMREAD_COLOR : cv::IMREAD_UNCHANGED);
   } catch (const cv::Exception&) {
     image.release();
@@ -90,7 +75,7 @@ cv::Mat ReadImage(const std::filesystem::path& file, ImageType type, const Camer
   const int expected = type == ImageType::kColour ? CV_8UC3 : CV_16UC1;
   if (image.empty() || image.type() != expected || image.cols != camera.width ||
       image.rows != camera.height)
-    throw InputError(where, "the image is damaged and cannot be decoded; copy it again");
+    throw io::InputError(where, "the image is damaged and cannot be decoded; copy it again");
   return image;
 }
 

@@ -1,28 +1,18 @@
 #include "slam/input/sequence_index.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
-#include <fstream>
-#include <sstream>
 #include <tuple>
 
-#include "slam/base/require.h"
+#include "io/input_error.h"
+#include "io/number_text.h"
+#include "io/text_table.h"
 
 namespace slam {
 namespace {
 
 constexpr double kMaxPairing_s = 0.02;
 constexpr double kMaxStamp_s = 1e11;  // the year 5138; milliseconds since 1970 are above it
-constexpr std::size_t kMaxLine = 4096;
-constexpr std::size_t kMaxLines = 10'000'000;
-
-/// One line of a list: its words and where it stands.
-struct Line {
-  std::vector<std::string> words;
-  std::string where;   ///< full path:line
-  std::string source;  ///< file name:line
-};
 
 /// One image of rgb.txt or depth.txt.
 struct Stamped {
@@ -30,72 +20,52 @@ struct Stamped {
   std::string file, source;
 };
 
-std::vector<Line> ReadLines(const std::filesystem::path& file, std::size_t words,
-                            const std::string& form) {
-  std::error_code ignored;
-  if (!std::filesystem::is_regular_file(file, ignored))
-    throw InputError(file.string(),
-                     "no such file; a sequence has associations.txt, or rgb.txt "
-                     "and depth.txt");
-  std::ifstream stream(file);
-  if (!stream) throw InputError(file.string(), "cannot be read; check its permissions");
-  std::vector<Line> lines;
-  std::string text;
-  for (std::size_t number = 1; std::getline(stream, text); ++number) {
-    const std::string at = std::string(":").append(std::to_string(number));
-    const std::string where = file.string() + at;
-    if (text.size() > kMaxLine || number > kMaxLines)
-      throw InputError(where, "too long for a list of images; expected `" + form + "`");
-    if (!text.empty() && text.back() == '\r') text.pop_back();
-    std::istringstream stream_of_words(text);
-    Line line{{}, where, file.filename().string() + at};
-    for (std::string word; stream_of_words >> word;) line.words.push_back(word);
-    if (line.words.empty() || line.words[0][0] == '#') continue;
-    if (line.words.size() != words)
-      throw InputError(where, "expected `" + form + "`, found " +
-                                  std::to_string(line.words.size()) + " words");
-    lines.push_back(std::move(line));
-  }
-  if (lines.empty())
-    throw InputError(file.string(), "names no image; expected lines `" + form + "`");
-  return lines;
+std::vector<io::TextRecord> ReadImages(const std::filesystem::path& file,
+                                       const std::string& form) {
+  auto records =
+      io::ReadRecords(file, form, "a sequence has associations.txt, or rgb.txt and depth.txt");
+  if (records.empty())
+    throw io::InputError(file.string(), "names no image; expected lines `" + form + "`");
+  return records;
 }
 
-double ParseStamp(const std::string& text, const std::string& where) {
-  double t = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), t);
-  if (error != std::errc() || end != text.data() + text.size() || !std::isfinite(t) || t < 0)
-    throw InputError(where, "timestamp `" + text + "` is not a number of seconds >= 0");
+double StampOf(const io::TextRecord& record, std::size_t field) {
+  const std::string& text = record.fields[field];
+  const double t = io::ParseNumber(text).value_or(-1);
+  if (t < 0)
+    throw io::InputError(record.where,
+                         "timestamp `" + text + "` is not a number of seconds >= 0");
   if (t < kMaxStamp_s) return t;
   const char* unit = t < 1e14   ? "milliseconds: divide by 1e3"
                      : t < 1e17 ? "microseconds: divide by 1e6"
                                 : "nanoseconds: divide by 1e9";
-  throw InputError(where, "timestamp `" + text + "` is not in seconds; it looks like " + unit);
+  throw io::InputError(record.where,
+                       "timestamp `" + text + "` is not in seconds; it looks like " + unit);
 }
 
-std::string ParseFile(const std::string& text, const std::string& where) {
-  const std::filesystem::path path = std::filesystem::path(text).lexically_normal();
+std::string FileOf(const io::TextRecord& record, std::size_t field) {
+  const auto path = std::filesystem::path(record.fields[field]).lexically_normal();
   if (path.is_absolute() || path.empty() || *path.begin() == "..")
-    throw InputError(where, "file `" + text + "` must lie inside the sequence folder");
+    throw io::InputError(record.where, "file `" + record.fields[field] +
+                                           "` must lie inside the sequence folder");
   return path.generic_string();
+}
+
+std::string SourceOf(const io::TextRecord& record) {
+  return std::filesystem::path(record.where).filename().string();
 }
 
 std::vector<SequenceEntry> ReadAssociations(const std::filesystem::path& file) {
   std::vector<SequenceEntry> entries;
-  for (const Line& line : ReadLines(file, 4, "t_rgb rgb_file t_depth depth_file")) {
-    entries.push_back({ParseStamp(line.words[0], line.where),
-                       ParseStamp(line.words[2], line.where),
-                       ParseFile(line.words[1], line.where),
-                       ParseFile(line.words[3], line.where), line.source});
-  }
+  for (const io::TextRecord& r : ReadImages(file, "t_rgb rgb_file t_depth depth_file"))
+    entries.push_back({StampOf(r, 0), StampOf(r, 2), FileOf(r, 1), FileOf(r, 3), SourceOf(r)});
   return entries;
 }
 
 std::vector<Stamped> ReadList(const std::filesystem::path& file) {
   std::vector<Stamped> images;
-  for (const Line& line : ReadLines(file, 2, "timestamp file"))
-    images.push_back({ParseStamp(line.words[0], line.where),
-                      ParseFile(line.words[1], line.where), line.source});
+  for (const io::TextRecord& r : ReadImages(file, "timestamp file"))
+    images.push_back({StampOf(r, 0), FileOf(r, 1), SourceOf(r)});
   return images;
 }
 
@@ -205,8 +175,8 @@ std::vector<SequenceEntry> Pair(const std::vector<Stamped>& rgb, std::vector<Sta
 SequenceIndex IndexSequence(const std::filesystem::path& sequence) {
   std::error_code ignored;
   if (!std::filesystem::is_directory(sequence, ignored))
-    throw InputError(sequence.string(),
-                     "no such folder; expected a sequence (a TUM RGB-D folder)");
+    throw io::InputError(sequence.string(),
+                         "no such folder; expected a sequence (a TUM RGB-D folder)");
   SequenceIndex index;
   SequenceWarnings& w = index.warnings;
   if (std::filesystem::exists(sequence / "associations.txt", ignored)) {
@@ -218,7 +188,7 @@ SequenceIndex IndexSequence(const std::filesystem::path& sequence) {
         ReadList(sequence / "rgb.txt"), [](const Stamped& s) { return s.t; }, w);
     index.entries = Pair(rgb, ReadList(sequence / "depth.txt"), w);
     if (index.entries.empty())
-      throw InputError(
+      throw io::InputError(
           sequence.string(),
           "no colour image of rgb.txt has a depth image of depth.txt within 20 ms; "
           "check that both lists use one clock");

@@ -3,6 +3,7 @@
 #include <opencv2/imgproc.hpp>
 #include <utility>
 
+#include "io/input_error.h"
 #include "slam/base/require.h"
 #include "slam/input/image_file.h"
 
@@ -14,11 +15,11 @@ void RequireFile(const std::filesystem::path& file, int frame, const std::string
       file.string() + " (frame " + std::to_string(frame) + ", " + source + ")";
   std::error_code error;
   if (!std::filesystem::exists(file, error))
-    throw InputError(where, "no such file; the list of images names it");
+    throw io::InputError(where, "no such file; the list of images names it");
   if (!std::filesystem::is_regular_file(file, error))
-    throw InputError(where, "not a file; expected a PNG image");
+    throw io::InputError(where, "not a file; expected a PNG image");
   if (std::filesystem::file_size(file, error) == 0)
-    throw InputError(where, "the file is empty (0 bytes); copy it again");
+    throw io::InputError(where, "the file is empty (0 bytes); copy it again");
 }
 
 }  // namespace

@@ -4,10 +4,10 @@
 #include <bit>
 #include <cmath>
 #include <cstring>
-#include <fstream>
-#include <iterator>
 #include <map>
 
+#include "io/input_error.h"
+#include "io/read_file.h"
 #include "slam/base/require.h"
 #include "slam/features/match_features.h"
 
@@ -87,26 +87,23 @@ Vocabulary::Vocabulary(std::vector<VocabularyNode> nodes, std::vector<float> wei
 }
 
 Vocabulary Vocabulary::Read(const std::filesystem::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  if (!in) throw InputError(file.string(), "cannot read the vocabulary; see pas vocabulary");
-  const std::string bytes{std::istreambuf_iterator<char>(in), {}};
-  return Parse(bytes, file.string());
+  return Parse(io::ReadFile(file, "make one with pas vocabulary"), file.string());
 }
 
 Vocabulary Vocabulary::Parse(std::string_view bytes, const std::string& name) {
   const std::string mend = "; make one with pas vocabulary";
   if (bytes.size() < kHeader || bytes.substr(0, kMagic.size()) != kMagic) {
-    throw InputError(name, "is no vocabulary of binary words" + mend);
+    throw io::InputError(name, "is no vocabulary of binary words" + mend);
   }
   bytes.remove_prefix(kMagic.size());
   if (const auto version = Take<std::uint32_t>(bytes); version != kVersion) {
-    throw InputError(name, "is a vocabulary of version " + std::to_string(version) +
-                               ", expected " + std::to_string(kVersion) + mend);
+    throw io::InputError(name, "is a vocabulary of version " + std::to_string(version) +
+                                   ", expected " + std::to_string(kVersion) + mend);
   }
   const std::size_t nodes = Take<std::uint32_t>(bytes), words = Take<std::uint32_t>(bytes);
   const auto checksum = Take<std::uint64_t>(bytes);
   if (bytes.size() != nodes * kNode + words * kWeight || Checksum(bytes) != checksum) {
-    throw InputError(name, "is damaged: its length or checksum is wrong" + mend);
+    throw io::InputError(name, "is damaged: its length or checksum is wrong" + mend);
   }
   std::vector<VocabularyNode> tree(nodes);
   for (VocabularyNode& node : tree) node = TakeNode(bytes);
@@ -115,7 +112,7 @@ Vocabulary Vocabulary::Parse(std::string_view bytes, const std::string& name) {
   try {
     return Vocabulary(std::move(tree), std::move(weights));
   } catch (const std::invalid_argument& fault) {
-    throw InputError(name, fault.what() + mend);
+    throw io::InputError(name, fault.what() + mend);
   }
 }
 

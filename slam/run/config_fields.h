@@ -12,7 +12,7 @@ namespace slam {
 /// Visits every field of a Config: what reads a file, writes one or lists the fields implements
 /// it. A new field of a stage is one line in bind_*.cpp.
 ///
-/// `key` is the field's name in the file, `domain` an interval (yaml_map.h) in the file's
+/// `key` is the field's name in the file, `domain` an interval (io/interval.h) in the file's
 /// units.
 class FieldVisitor {
  public:

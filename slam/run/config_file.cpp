@@ -1,22 +1,16 @@
 #include "slam/run/config_file.h"
 
-#include <algorithm>
 #include <charconv>
-#include <cmath>
+#include <optional>
 #include <vector>
 
-#include "slam/input/yaml_map.h"
+#include "io/input_error.h"
+#include "io/number_text.h"
+#include "io/yaml_value.h"
 #include "slam/run/config_fields.h"
 
 namespace slam {
 namespace {
-
-/// Shortest text that reads back as the same number.
-std::string Text(double x) {
-  char buffer[32];
-  const auto [end, error] = std::to_chars(buffer, buffer + sizeof buffer, x);
-  return {buffer, end};
-}
 
 /// In degrees a default such as 0.1745 rad has seventeen digits; what is listed is rounded to
 /// fifteen, far below any meaning.
@@ -31,36 +25,53 @@ double Rounded(double x) {
 
 class Reader : public FieldVisitor {
  public:
-  explicit Reader(YamlMap& top) : maps_{&top} {}
+  explicit Reader(const io::YamlValue& file) : sections_{{io::YamlMap(file), {}}} {}
 
   void Section(const char* key, const char*, const std::function<void()>& body) override {
-    YamlMap section = maps_.back()->Section(key);
-    maps_.push_back(&section);
+    sections_.back().keys.push_back(key);
+    sections_.push_back({io::YamlMap(sections_.back().map.At(key)), {}});
     body();
-    section.Finish();
-    maps_.pop_back();
+    Finish();
   }
   void Number(const char* key, double& value, const char* domain, const char*) override {
-    value = maps_.back()->Number(key, ParseInterval(domain), value);
+    if (const auto found = Find(key)) value = found->Number(io::Interval(domain));
   }
   void Integer(const char* key, int& value, const char* domain, const char*) override {
-    value = static_cast<int>(maps_.back()->Integer(key, ParseInterval(domain), value));
+    if (const auto found = Find(key)) value = found->Whole(io::Interval(domain));
   }
   void Flag(const char* key, bool& value, const char*) override {
-    value = maps_.back()->Flag(key, value);
+    if (const auto found = Find(key)) value = found->Flag();
   }
   void Choice(const char* key, int& value, const std::vector<std::string>& names,
               const char*) override {
-    const std::string name =
-        maps_.back()->Choice(key, names, names.at(static_cast<std::size_t>(value)));
-    value = static_cast<int>(std::find(names.begin(), names.end(), name) - names.begin());
+    if (const auto found = Find(key)) value = static_cast<int>(found->OneOf(names));
   }
   void Texts(const char* key, std::vector<std::string>& value, const char*) override {
-    if (maps_.back()->Has(key)) value = maps_.back()->Texts(key);
+    const auto found = Find(key);
+    if (!found) return;
+    value.clear();
+    for (const io::YamlValue& text : found->List()) value.push_back(text.Text());
+  }
+
+  /// Ends the innermost section: a key in it that no field has is an error.
+  void Finish() {
+    sections_.back().map.RefuseOtherKeys(sections_.back().keys);
+    sections_.pop_back();
   }
 
  private:
-  std::vector<YamlMap*> maps_;
+  struct OpenSection {
+    io::YamlMap map;
+    std::vector<std::string> keys;  ///< of the fields visited so far
+  };
+
+  std::optional<io::YamlValue> Find(const char* key) {
+    OpenSection& section = sections_.back();
+    section.keys.push_back(key);
+    return section.map.Has(key) ? std::optional(section.map.At(key)) : std::nullopt;
+  }
+
+  std::vector<OpenSection> sections_;
 };
 
 class JsonWriter : public FieldVisitor {
@@ -106,7 +117,7 @@ class YamlWriter : public FieldVisitor {
     indent_.resize(indent_.size() - 2);
   }
   void Number(const char* key, double& value, const char* domain, const char* help) override {
-    Line(key, Text(Rounded(value)), help, domain);
+    Line(key, io::NumberText(Rounded(value)), help, domain);
   }
   void Integer(const char* key, int& value, const char* domain, const char* help) override {
     Line(key, std::to_string(value), help, domain);
@@ -141,7 +152,7 @@ class YamlWriter : public FieldVisitor {
 /// What no single domain can say.
 void CheckTogether(const Config& c, const std::string& file) {
   const auto require = [&](bool holds, const char* what) {
-    if (!holds) throw InputError(file, what);
+    if (!holds) throw io::InputError(file, what);
   };
   require(c.point_features.min_fast_threshold <= c.point_features.fast_threshold,
           "point_features: min_fast_threshold must not be above fast_threshold");
@@ -163,10 +174,9 @@ void CheckTogether(const Config& c, const std::string& file) {
 }  // namespace
 
 Config ReadConfig(const std::filesystem::path& file, Config config) {
-  YamlMap top = YamlMap::Load(file);
-  Reader reader(top);
+  Reader reader(io::ReadYaml(file, "expected settings (pas slam --print-config)"));
   VisitConfig(config, reader);
-  top.Finish();
+  reader.Finish();
   CheckTogether(config, file.string());
   return config;
 }

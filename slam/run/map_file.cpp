@@ -76,8 +76,8 @@ std::string MapAsPly(const Map& map) {
     for (const int number : {int{colour[0]}, int{colour[1]}, int{colour[2]}, plane.id})
       tail.append(" ").append(std::to_string(number));
     for (const Eigen::Vector3d& p : plane.points_w) {
-      body +=
-          NumberText(p.x()) + ' ' + NumberText(p.y()) + ' ' + NumberText(p.z()) + tail + '\n';
+      body += FiniteNumberText(p.x()) + ' ' + FiniteNumberText(p.y()) + ' ' +
+              FiniteNumberText(p.z()) + tail + '\n';
       ++count;
     }
   }

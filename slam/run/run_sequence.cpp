@@ -7,7 +7,7 @@
 #include <thread>
 #include <utility>
 
-#include "slam/base/require.h"
+#include "io/input_error.h"
 #include "slam/diagnose/camera_check.h"
 #include "slam/diagnose/depth_clock.h"
 #include "slam/input/camera_reader.h"
@@ -181,12 +181,12 @@ Variant VariantOf(const std::string& name) {
     if (name == text) return variant;
     known += (known.empty() ? "" : ", ") + std::string(text);
   }
-  throw InputError("--variant " + name, "unknown variant; expected one of " + known);
+  throw io::InputError("--variant " + name, "unknown variant; expected one of " + known);
 }
 
 RunOutcome RunSequence(const RunOptions& options) {
   if (!std::filesystem::is_directory(options.sequence)) {
-    throw InputError(
+    throw io::InputError(
         options.sequence.string(),
         "no such folder; expected a sequence made by pas sim, or a TUM RGB-D folder");
   }

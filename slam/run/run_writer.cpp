@@ -4,6 +4,7 @@
 
 #include <opencv2/imgcodecs.hpp>
 
+#include "io/input_error.h"
 #include "slam/base/require.h"
 #include "slam/model/map_queries.h"
 #include "slam/run/frame_record.h"
@@ -15,12 +16,6 @@ namespace {
 
 constexpr int kMaxLabel = 255;  // of an 8-bit segmentation
 constexpr int kPngCompression = 1;
-
-void RequireWritten(std::ofstream& stream, const std::filesystem::path& file) {
-  stream.flush();
-  if (!stream)
-    throw std::runtime_error(file.string() + ": cannot be written; is the disk full?");
-}
 
 /// Greatest memory that the process has held, MiB.
 double PeakMemory_mb() {
@@ -45,16 +40,15 @@ std::vector<TimedPose> KeyframePoses(const Map& map) {
 }  // namespace
 
 RunWriter::RunWriter(const std::filesystem::path& folder, RunInfo info, Options options)
-    : output_(folder, "run.json", options.force), info_(std::move(info)), options_(options) {
+    : output_(folder, "run.json", options.force),
+      info_(std::move(info)),
+      options_(options),
+      frame_planes_(output_.Path("frame_planes.jsonl")),
+      timing_(output_.Path("timing.csv")) {
   trajectory_.reserve(static_cast<std::size_t>(options_.frames));
-  const auto& partial = output_.partial_path();
-  frame_planes_.open(partial / "frame_planes.jsonl", std::ios::binary);
-  timing_.open(partial / "timing.csv", std::ios::binary);
-  timing_ << "timestamp";
-  for (const char* name : kModuleNames) timing_ << ',' << name;
-  timing_ << '\n';
-  RequireWritten(timing_, partial / "timing.csv");
-  if (options_.save_segmentation) std::filesystem::create_directory(partial / "segmentation");
+  std::string header = "timestamp";
+  for (const char* name : kModuleNames) header.append(",").append(name);
+  timing_.Add(header + '\n');
 }
 
 void RunWriter::WriteFrame(const FrameRecord& record) {
@@ -68,13 +62,10 @@ void RunWriter::WriteFrame(const FrameRecord& record) {
             "RunWriter::WriteFrame: a tracked pose is not finite");
     trajectory_.push_back({frame.timestamp_s, frame.T_cw});
   }
-  frame_planes_ << line << '\n';
-  timing_ << StampText(frame.timestamp_s);
-  for (const double ms : record.times.ms) timing_ << ',' << NumberText(ms);
-  timing_ << '\n';
-  if (!frame_planes_ || !timing_)
-    throw std::runtime_error(output_.final_path().string() +
-                             ": cannot be written; is the disk full?");
+  frame_planes_.Add(line + '\n');
+  std::string times = StampText(frame.timestamp_s);
+  for (const double ms : record.times.ms) times.append(",").append(FiniteNumberText(ms));
+  timing_.Add(times + '\n');
   if (options_.save_segmentation) WriteSegmentation(frame);
   ++frames_;
   last_s_ = frame.timestamp_s;
@@ -86,10 +77,9 @@ void RunWriter::WriteSegmentation(const Frame& frame) const {
   cv::Mat1b labels = frame.plane_labels;
   if (labels.empty()) labels = cv::Mat1b::zeros(frame.gray.size());
   Require(!labels.empty(), "RunWriter: a frame without an image has no segmentation");
-  const auto file =
-      output_.partial_path() / "segmentation" / (StampText(frame.timestamp_s) + ".png");
+  const auto file = output_.Path("segmentation/" + StampText(frame.timestamp_s) + ".png");
   if (!cv::imwrite(file.string(), labels, {cv::IMWRITE_PNG_COMPRESSION, kPngCompression}))
-    throw std::runtime_error(file.string() + ": cannot be written; is the disk full?");
+    throw io::InputError(file.string(), "cannot be written; is the disk full?");
 }
 
 nlohmann::ordered_json RunWriter::RunJson(std::size_t poses) const {
@@ -115,15 +105,13 @@ void RunWriter::Finish(const Map& map, const std::vector<TimedPose>& trajectory)
   const std::vector<TimedPose>& poses = trajectory.empty() ? trajectory_ : trajectory;
   Require(poses.size() <= static_cast<std::size_t>(frames_),
           "RunWriter::Finish: more poses than frames");
-  RequireWritten(frame_planes_, output_.final_path() / "frame_planes.jsonl");
-  RequireWritten(timing_, output_.final_path() / "timing.csv");
-  frame_planes_.close();
-  timing_.close();
-  output_.WriteFile("trajectory.txt", TrajectoryText(poses));
-  output_.WriteFile("keyframes.txt", TrajectoryText(KeyframePoses(map)));
-  output_.WriteFile("map.json", MapAsJson(map));
-  output_.WriteFile("map.ply", MapAsPly(map));
-  output_.WriteFile(
+  frame_planes_.Finish();
+  timing_.Finish();
+  output_.Write("trajectory.txt", TrajectoryText(poses));
+  output_.Write("keyframes.txt", TrajectoryText(KeyframePoses(map)));
+  output_.Write("map.json", MapAsJson(map));
+  output_.Write("map.ply", MapAsPly(map));
+  output_.Write(
       "run.json",
       RunJson(poses.size()).dump(2, ' ', false, nlohmann::json::error_handler_t::replace) +
           "\n");

@@ -3,15 +3,15 @@
 #include <chrono>
 #include <cstdint>
 #include <filesystem>
-#include <fstream>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
+#include "io/atomic_file.h"
+#include "io/output_folder.h"
 #include "slam/model/frame.h"
 #include "slam/model/map.h"
 #include "slam/model/module_times.h"
-#include "slam/run/output_folder.h"
 
 namespace slam {
 
@@ -58,7 +58,7 @@ class RunWriter {
 
   /// Frames in the order of time, lost ones as well.
   /// @throws std::invalid_argument when timestamps do not increase or a number is not finite;
-  ///         std::runtime_error when the disk is full.
+  ///         InputError when the disk is full.
   void WriteFrame(const FrameRecord& record);
 
   /// Writes what remains and puts the folder in its place. Keyframes that were culled are left
@@ -72,16 +72,15 @@ class RunWriter {
   const std::vector<TimedPose>& trajectory() const { return trajectory_; }
   int frames() const { return frames_; }
   int tracked() const { return static_cast<int>(trajectory_.size()); }
-  const std::filesystem::path& folder() const { return output_.final_path(); }
 
  private:
   void WriteSegmentation(const Frame& frame) const;
   nlohmann::ordered_json RunJson(std::size_t poses) const;
 
-  OutputFolder output_;
+  io::OutputFolder output_;
   RunInfo info_;
   Options options_;
-  std::ofstream frame_planes_, timing_;
+  io::AtomicFile frame_planes_, timing_;
   std::vector<TimedPose> trajectory_;
   int frames_ = 0;
   double last_s_ = 0.0;

@@ -4,15 +4,14 @@
 #include <charconv>
 #include <cmath>
 
+#include "io/number_text.h"
 #include "slam/base/require.h"
 
 namespace slam {
 
-std::string NumberText(double x) {
+std::string FiniteNumberText(double x) {
   Require(std::isfinite(x), "a number to write is not finite");
-  char buffer[64];
-  const auto [end, error] = std::to_chars(buffer, buffer + sizeof buffer, x == 0 ? 0.0 : x);
-  return {buffer, end};
+  return io::NumberText(x == 0 ? 0.0 : x);
 }
 
 std::string StampText(double timestamp_s) {
@@ -35,7 +34,7 @@ std::string TrajectoryLine(double timestamp_s, const Pose& T_cw) {
   if (q.w() < 0) q.coeffs() *= -1;
   std::string line = StampText(timestamp_s);
   for (const double x : {T_wc.t.x(), T_wc.t.y(), T_wc.t.z(), q.x(), q.y(), q.z(), q.w()})
-    line.append(" ").append(NumberText(x));
+    line.append(" ").append(FiniteNumberText(x));
   return line + '\n';
 }
 

@@ -6,9 +6,9 @@
 
 namespace slam {
 
-/// The shortest text that reads back as the same number.
+/// The shortest text that reads back as the same number, -0 as 0.
 /// @throws std::invalid_argument when it is not finite: such a number is never written.
-std::string NumberText(double x);
+std::string FiniteNumberText(double x);
 
 /// A timestamp as TUM writes it, six decimals, when those read back as the same number; else
 /// the shortest text that does, without exponent. Also the T of segmentation/T.png.

@@ -7,8 +7,8 @@
 #include <opencv2/imgcodecs.hpp>
 
 #include "eval/check/check_folder.h"
+#include "io/sha256.h"
 #include "sim/scene/families.h"
-#include "sim/scene/sha256.h"
 #include "tests/support/pipeline.h"
 
 namespace {
@@ -48,7 +48,7 @@ void Rehash(const fs::path& folder) {
   std::ifstream in(folder / "manifest.json");
   nlohmann::ordered_json manifest = nlohmann::ordered_json::parse(in);
   for (auto& [file, sum] : manifest["sha256"].items()) {
-    sum = sim::Sha256OfFile(folder / file);
+    sum = io::Sha256OfFile(folder / file);
   }
   std::ofstream(folder / "manifest.json") << manifest.dump(1);
 }

@@ -4,9 +4,6 @@
 #include <filesystem>
 #include <string>
 
-#include "eval/read/json_fields.h"
-#include "eval/read/text_table.h"
-
 namespace eval::testing {
 
 /// The folder with reference figures and recordings: PAS_SHARED_DIR, else beside the sources.
@@ -14,10 +11,6 @@ inline std::filesystem::path SharedFolder() {
   const char* named = std::getenv("PAS_SHARED_DIR");
   return named != nullptr ? std::filesystem::path(named)
                           : std::filesystem::path(PAS_SOURCE_DIR) / "../shared";
-}
-
-inline nlohmann::json ReadJson(const std::filesystem::path& file) {
-  return ParseJson(ReadWholeFile(file), file);
 }
 
 }  // namespace eval::testing

@@ -14,7 +14,7 @@
 #include <vector>
 
 #include "eval/read/plane.h"
-#include "eval/read/write_file.h"
+#include "io/atomic_file.h"
 
 /// A desk with two books and a toy, its truth as a sequence folder, and the run that says
 /// exactly the truth. Written with nothing but the file formats, so that readers and scores are
@@ -92,15 +92,15 @@ class TinyWorld {
       cv::imwrite((folder / "gt/object_id" / (t + ".png")).string(), frame.object_ids);
       frame_lines += FrameTruthLine(frame).dump() + "\n";
     }
-    WriteFile(folder / "groundtruth.txt", truth);
-    WriteFile(folder / "associations.txt", associations);
-    WriteFile(folder / "gt/frames.jsonl", frame_lines);
-    WriteFile(folder / "gt/scene.json", SceneJson().dump(1));
-    WriteFile(folder / "camera.yaml",
-              "model: pinhole\nwidth: 160\nheight: 120\nfx: 150\nfy: 150\ncx: 79.5\n"
-              "cy: 59.5\nfps: 30\ndepth_factor: 5000\n");
-    WriteFile(folder / "manifest.json",
-              "{\"format\": \"pas-sequence/1\", \"complete\": true, \"frames\": 45}\n");
+    io::WriteFile(folder / "groundtruth.txt", truth);
+    io::WriteFile(folder / "associations.txt", associations);
+    io::WriteFile(folder / "gt/frames.jsonl", frame_lines);
+    io::WriteFile(folder / "gt/scene.json", SceneJson().dump(1));
+    io::WriteFile(folder / "camera.yaml",
+                  "model: pinhole\nwidth: 160\nheight: 120\nfx: 150\nfy: 150\ncx: 79.5\n"
+                  "cy: 59.5\nfps: 30\ndepth_factor: 5000\n");
+    io::WriteFile(folder / "manifest.json",
+                  "{\"format\": \"pas-sequence/1\", \"complete\": true, \"frames\": 45}\n");
   }
 
   json SceneJson() const {
@@ -285,11 +285,11 @@ struct TinyRun {
     std::string poses, lines;
     for (const auto& [stamp_s, T_wc] : trajectory) poses += TumLine(stamp_s, T_wc);
     for (const json& frame : frames) lines += frame.dump() + "\n";
-    WriteFile(folder / "run.json", info.dump(1));
-    WriteFile(folder / "trajectory.txt", poses);
-    WriteFile(folder / "frame_planes.jsonl", lines);
-    WriteFile(folder / "map.json", map.dump(1));
-    WriteFile(folder / "timing.csv", timing);
+    io::WriteFile(folder / "run.json", info.dump(1));
+    io::WriteFile(folder / "trajectory.txt", poses);
+    io::WriteFile(folder / "frame_planes.jsonl", lines);
+    io::WriteFile(folder / "map.json", map.dump(1));
+    io::WriteFile(folder / "timing.csv", timing);
     if (segmentation.empty()) return;
     std::filesystem::create_directories(folder / "segmentation");
     for (std::size_t i = 0; i < frames.size(); ++i) {

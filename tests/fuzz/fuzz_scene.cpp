@@ -5,8 +5,8 @@
 #include <cstdlib>
 #include <string>
 
+#include "io/input_error.h"
 #include "sim/scene/check.h"
-#include "sim/scene/input_error.h"
 #include "sim/scene/scene_file.h"
 #include "sim/scene/steps.h"
 
@@ -50,7 +50,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   sim::Scene scene;
   try {
     scene = sim::ParseScene(text, "fuzz.yaml");
-  } catch (const sim::InputError& error) {
+  } catch (const io::InputError& error) {
     CheckRefusal(error.what());
     return 0;
   }

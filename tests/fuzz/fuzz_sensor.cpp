@@ -4,7 +4,7 @@
 #include <cstdlib>
 #include <string>
 
-#include "sim/scene/input_error.h"
+#include "io/input_error.h"
 #include "sim/sensor/read_sensor.h"
 
 namespace {
@@ -27,7 +27,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
           parameter.value >= parameter.low - slack && parameter.value <= parameter.high + slack,
           "a parameter is outside its range");
     }
-  } catch (const sim::InputError& error) {
+  } catch (const io::InputError& error) {
     Require(std::string(error.what()).starts_with("fuzz.yaml"),
             "an error does not say in which file");
   }

@@ -10,7 +10,7 @@
 #include <opencv2/imgcodecs.hpp>
 #include <thread>
 
-#include "tests/app/program/program.h"
+#include "tests/support/program.h"
 
 namespace {
 

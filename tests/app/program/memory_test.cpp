@@ -1,7 +1,7 @@
 // A long recording needs no more memory than a short one.
 #include <gtest/gtest.h>
 
-#include "tests/app/program/program.h"
+#include "tests/support/program.h"
 
 namespace {
 

@@ -6,7 +6,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "tests/app/program/program.h"
+#include "tests/support/program.h"
 
 namespace {
 

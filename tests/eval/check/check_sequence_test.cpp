@@ -107,12 +107,13 @@ TEST_F(CheckSequenceFolder, NamesAnImageOfAnotherSizeThanTheCameraTells) {
 
 TEST_F(CheckSequenceFolder, NamesACameraKeyOutOfRange) {
   EditSequence("camera.yaml", "fps: 30", "fps: 0");
-  ExpectOnly("camera.yaml", 8, "", "fps is 0; expected more than 0");
+  ExpectOnly("camera.yaml", 8, "",
+             "fps: expected a number in (0, inf) (frames per second), found `0`");
 }
 
 TEST_F(CheckSequenceFolder, NamesACameraKeyThatIsMissing) {
   EditSequence("camera.yaml", "depth_factor", "depth_scale");
-  ExpectOnly("camera.yaml", 0, "", "depth_factor is missing");
+  ExpectOnly("camera.yaml", 1, "", "key `depth_factor` is missing");
 }
 
 TEST_F(CheckSequenceFolder, NamesAQuaternionThatIsNotUnit) {

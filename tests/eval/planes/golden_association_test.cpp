@@ -8,6 +8,8 @@
 #include "eval/planes/association.h"
 #include "eval/planes/segmentation_score.h"
 #include "eval/planes/tracking.h"
+#include "io/json_field.h"
+#include "io/text_table.h"
 #include "tests/eval/shared_data.h"
 
 namespace eval {
@@ -16,12 +18,8 @@ namespace {
 // Sums of a few hundred terms near 1: 1e3 * 2^-53.
 constexpr double kRoundOff = 1e-12;
 
-double Cell(const TextLine& line, std::size_t column, const std::filesystem::path& file) {
-  return ParseNumber(line.fields[column], "cell", file, line.number);
-}
-
-std::vector<TextLine> ReadCells(const std::filesystem::path& file, bool header) {
-  std::vector<TextLine> lines = ReadTextTable(file, ',');
+std::vector<io::TextRecord> ReadCells(const std::filesystem::path& file, bool header) {
+  std::vector<io::TextRecord> lines = io::ReadCommaRecords(file);
   if (header) lines.erase(lines.begin());
   return lines;
 }
@@ -29,14 +27,14 @@ std::vector<TextLine> ReadCells(const std::filesystem::path& file, bool header) 
 TEST(GoldenAssociation, AgreesOnPairsBCubedDecisionsAndMapPlanes) {
   const std::filesystem::path folder = testing::SharedFolder() / "golden/association";
   SKIP_WITHOUT(folder);
-  const nlohmann::json golden = testing::ReadJson(folder / "association_golden.json");
+  const nlohmann::json golden = io::ReadJson(folder / "association_golden.json");
   for (const auto& [name, expected] : golden["cases"].items()) {
     SCOPED_TRACE(name);
     const std::filesystem::path file = folder / (name + ".csv");
     std::vector<AssociationRecord> records;
-    for (const TextLine& line : ReadCells(file, true)) {
-      records.push_back(
-          {int(Cell(line, 0, file)), int(Cell(line, 1, file)), int(Cell(line, 2, file))});
+    for (const io::TextRecord& line : ReadCells(file, true)) {
+      records.push_back({int(line.Number(0, "cell")), int(line.Number(1, "cell")),
+                         int(line.Number(2, "cell"))});
     }
     const AssociationScore s = ScoreAssociation(records);
     EXPECT_EQ(s.records, expected["n_det"].get<std::size_t>());
@@ -73,12 +71,13 @@ std::vector<TrackingFrame> ReadTracking(const std::filesystem::path& file, std::
     std::map<std::pair<int, int>, double> similarity;
   };
   std::vector<Rows> rows(count);
-  for (const TextLine& line : ReadCells(file, true)) {
-    Rows& row = rows[std::size_t(Cell(line, 0, file))];
-    const int truth = int(Cell(line, 1, file)), predicted = int(Cell(line, 2, file));
+  for (const io::TextRecord& line : ReadCells(file, true)) {
+    Rows& row = rows[std::size_t(line.Number(0, "cell"))];
+    const int truth = int(line.Number(1, "cell")), predicted = int(line.Number(2, "cell"));
     if (truth >= 0) row.truths.insert(truth);
     if (predicted >= 0) row.predictions.insert(predicted);
-    if (truth >= 0 && predicted >= 0) row.similarity[{truth, predicted}] = Cell(line, 3, file);
+    if (truth >= 0 && predicted >= 0)
+      row.similarity[{truth, predicted}] = line.Number(3, "cell");
   }
   std::vector<TrackingFrame> frames;
   for (const Rows& row : rows) {
@@ -102,7 +101,7 @@ std::vector<TrackingFrame> ReadTracking(const std::filesystem::path& file, std::
 TEST(GoldenTrackEval, AgreesOnClearIdentityAndHota) {
   const std::filesystem::path folder = testing::SharedFolder() / "golden/trackeval";
   SKIP_WITHOUT(folder);
-  const nlohmann::json golden = testing::ReadJson(folder / "trackeval_golden.json");
+  const nlohmann::json golden = io::ReadJson(folder / "trackeval_golden.json");
   for (const auto& [name, expected] : golden["cases"].items()) {
     SCOPED_TRACE(name);
     const std::vector<TrackingFrame> frames =
@@ -127,12 +126,12 @@ TEST(GoldenTrackEval, AgreesOnClearIdentityAndHota) {
 }
 
 cv::Mat1w ReadLabelTable(const std::filesystem::path& file) {
-  const std::vector<TextLine> lines = ReadCells(file, false);
+  const std::vector<io::TextRecord> lines = ReadCells(file, false);
   cv::Mat1w labels(int(lines.size()), int(lines.front().fields.size()));
   for (int y = 0; y < labels.rows; ++y) {
     for (int x = 0; x < labels.cols; ++x) {
       labels(y, x) =
-          static_cast<std::uint16_t>(Cell(lines[std::size_t(y)], std::size_t(x), file));
+          static_cast<std::uint16_t>(lines[std::size_t(y)].Number(std::size_t(x), "cell"));
     }
   }
   return labels;
@@ -141,7 +140,7 @@ cv::Mat1w ReadLabelTable(const std::filesystem::path& file) {
 TEST(GoldenSegmentation, AgreesOnHooverAndPanopticQuality) {
   const std::filesystem::path folder = testing::SharedFolder() / "golden/segmentation";
   SKIP_WITHOUT(folder);
-  const nlohmann::json golden = testing::ReadJson(folder / "segmentation_golden.json");
+  const nlohmann::json golden = io::ReadJson(folder / "segmentation_golden.json");
   for (const auto& [name, expected] : golden["cases"].items()) {
     SCOPED_TRACE(name);
     const Overlap overlap = CountOverlap(ReadLabelTable(folder / (name + "_gt.csv")),

@@ -5,12 +5,12 @@
 #include <cmath>
 #include <fstream>
 
-#include "eval/read/input_error.h"
 #include "eval/read/run.h"
 #include "eval/read/sequence.h"
-#include "eval/read/text_table.h"
 #include "eval/read/trajectory_file.h"
-#include "eval/read/write_file.h"
+#include "io/atomic_file.h"
+#include "io/input_error.h"
+#include "io/read_file.h"
 #include "tests/eval/shared_data.h"
 #include "tests/eval/tiny_world.h"
 
@@ -32,7 +32,7 @@ class ReadFolders : public ::testing::Test {
 
   fs::path Write(const std::string& name, const std::string& text) const {
     fs::create_directories((folder_ / name).parent_path());
-    WriteFile(folder_ / name, text);
+    io::WriteFile(folder_ / name, text);
     return folder_ / name;
   }
 
@@ -41,14 +41,14 @@ class ReadFolders : public ::testing::Test {
   static std::string ErrorOf(const Read& read) {
     try {
       read();
-    } catch (const InputError& error) {
+    } catch (const io::InputError& error) {
       return error.what();
     }
     return "";
   }
 
   void Replace(const std::string& name, const std::string& what, const std::string& by) const {
-    std::string text = ReadWholeFile(folder_ / name);
+    std::string text = io::ReadFile(folder_ / name);
     const auto at = text.find(what);
     ASSERT_NE(at, std::string::npos) << what;
     Write(name, text.replace(at, what.size(), by));
@@ -202,14 +202,6 @@ TEST_F(ReadFolders, TheRunsSequenceThatIsNowhereIsNamedWithBothPlaces) {
   Write("trajectory.txt", "1 0 0 0 0 0 0 1\n");
   EXPECT_THAT(ErrorOf([&] { SequenceOf(ReadRun(folder_)); }),
               AllOf(HasSubstr("run.json"), HasSubstr("lost"), HasSubstr("--truth")));
-}
-
-TEST_F(ReadFolders, AFileIsWrittenWholeOrNotAtAll) {
-  EXPECT_NE(ErrorOf([&] { WriteFile(folder_ / "no/such/folder.txt", "x"); }), "");
-  WriteFile(folder_ / "a.txt", "one");
-  WriteFile(folder_ / "a.txt", "two");
-  EXPECT_EQ(ReadWholeFile(folder_ / "a.txt"), "two");
-  EXPECT_EQ(std::distance(fs::directory_iterator(folder_), fs::directory_iterator()), 1);
 }
 
 TEST(ReadRecording, FindsTheFramesAndTheTruthOfARealSequence) {

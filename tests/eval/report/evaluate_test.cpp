@@ -3,13 +3,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "eval/read/input_error.h"
 #include "eval/read/run.h"
 #include "eval/read/sequence.h"
-#include "eval/read/text_table.h"
 #include "eval/report/evaluate.h"
 #include "eval/report/metrics_json.h"
 #include "eval/report/table.h"
+#include "io/input_error.h"
 #include "tests/eval/report/evaluated_world.h"
 #include "tests/eval/tiny_world.h"
 
@@ -244,7 +243,7 @@ TEST_F(EvaluateTinyWorld, APoseForAFrameThatDoesNotExistIsRefused) {
   try {
     EvaluationOf(run);
     FAIL() << "no error";
-  } catch (const InputError& error) {
+  } catch (const io::InputError& error) {
     EXPECT_THAT(error.what(), HasSubstr("trajectory.txt"));
     EXPECT_THAT(error.what(), HasSubstr("99.5"));
   }

@@ -13,6 +13,7 @@
 #include "eval/trajectory/match_stamps.h"
 #include "eval/trajectory/pose_errors.h"
 #include "eval/trajectory/statistics.h"
+#include "io/json_field.h"
 #include "tests/eval/shared_data.h"
 
 namespace eval {
@@ -85,7 +86,7 @@ class GoldenEvo : public ::testing::TestWithParam<const char*> {};
 TEST_P(GoldenEvo, AgreesOnEveryAbsoluteAndRelativeError) {
   const std::filesystem::path folder = testing::SharedFolder() / "golden" / GetParam();
   SKIP_WITHOUT(folder);
-  const nlohmann::json golden = testing::ReadJson(folder / "evo_golden.json");
+  const nlohmann::json golden = io::ReadJson(folder / "evo_golden.json");
   std::map<std::string, Matched> cases;
   for (const auto& [name, files] : golden["matches"].items()) {
     const Trajectory truth = ReadTrajectory(folder / "data" / files["ref"].get<std::string>());
@@ -117,7 +118,7 @@ INSTANTIATE_TEST_SUITE_P(References, GoldenEvo, ::testing::Values("evo", "evo_sy
 TEST(GoldenUmeyama, AgreesWhereTheRotationIsDefinedAndRefusesWhereItIsNot) {
   const std::filesystem::path file = testing::SharedFolder() / "golden/umeyama.json";
   SKIP_WITHOUT(file);
-  for (const auto& example : testing::ReadJson(file)["cases"]) {
+  for (const auto& example : io::ReadJson(file)["cases"]) {
     SCOPED_TRACE(example["name"]);
     std::vector<Eigen::Vector3d> x, y;
     for (const auto& p : example["x_est"]) x.emplace_back(p[0], p[1], p[2]);

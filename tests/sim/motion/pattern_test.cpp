@@ -4,12 +4,12 @@
 #include <cmath>
 #include <cstring>
 
+#include "io/input_error.h"
+#include "io/sha256.h"
 #include "sim/motion/trajectory.h"
 #include "sim/scene/angle.h"
 #include "sim/scene/families.h"
 #include "sim/scene/geometry.h"
-#include "sim/scene/input_error.h"
-#include "sim/scene/sha256.h"
 #include "sim/scene/twin.h"
 #include "tests/support/trajectory_means.h"
 
@@ -176,7 +176,7 @@ TEST(MakeTrajectory, NamesTheWayThatIsNotFree) {
   for (int i = 0; i < 4; ++i) {
     scene.motion.stations.push_back({{0.1 * i, 0, 0.1}, {0.1 * i, 1, 0.1}});  // under the desk
   }
-  EXPECT_THROW(MakeTrajectory(scene, 10, kPatternFps, 1), InputError);
+  EXPECT_THROW(MakeTrajectory(scene, 10, kPatternFps, 1), io::InputError);
 }
 
 // Recorded baselines stand on these very bits.
@@ -201,7 +201,7 @@ TEST(MakeTrajectory, StillGivesTheFirstPresetsBitForBit) {
         bytes.append(reinterpret_cast<const char*>(&number), sizeof(number));
       }
     }
-    EXPECT_EQ(Sha256Hex(bytes).substr(0, 16), golden.hash)
+    EXPECT_EQ(io::Sha256Hex(bytes).substr(0, 16), golden.hash)
         << golden.family << " " << golden.preset;
   }
 }

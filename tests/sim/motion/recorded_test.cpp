@@ -7,11 +7,11 @@
 #include <fstream>
 #include <string>
 
+#include "io/input_error.h"
 #include "sim/motion/clearance.h"
 #include "sim/motion/trajectory.h"
 #include "sim/scene/angle.h"
 #include "sim/scene/families.h"
-#include "sim/scene/input_error.h"
 
 namespace sim {
 namespace {
@@ -25,7 +25,7 @@ class ReadTrajectoryTest : public testing::Test {
   std::string ErrorOf(const std::string& text) {
     try {
       Read(text);
-    } catch (const InputError& error) {
+    } catch (const io::InputError& error) {
       return error.what();
     }
     return "";
@@ -56,7 +56,7 @@ TEST_F(ReadTrajectoryTest, NamesTheLineThatIsWrong) {
     EXPECT_NE(ErrorOf(good + bad + "\n").find(".txt:2: "), std::string::npos) << bad;
   }
   EXPECT_NE(ErrorOf(good).find("two poses"), std::string::npos);
-  EXPECT_THROW(ReadTrajectory("no/such/file.txt"), InputError);
+  EXPECT_THROW(ReadTrajectory("no/such/file.txt"), io::InputError);
 }
 
 TEST_F(ReadTrajectoryTest, GivesBackAWrittenTrajectory) {
@@ -94,8 +94,8 @@ TEST(Replay, RefusesMoreThanWasRecorded) {
   std::vector<TimedPose> poses(3);
   poses[1].timestamp_s = 0.1;
   poses[2].timestamp_s = 0.9;
-  EXPECT_THROW(Replay(poses, 31, 30), InputError);
-  EXPECT_THROW(Replay(poses, 20, 30), InputError) << "a hole of 0.8 s";
+  EXPECT_THROW(Replay(poses, 31, 30), io::InputError);
+  EXPECT_THROW(Replay(poses, 20, 30), io::InputError) << "a hole of 0.8 s";
   EXPECT_EQ(Replay(poses, 4, 30).size(), 4u);
 }
 
@@ -125,7 +125,7 @@ TEST(ClearanceWarning, TellsHowNearTheCameraComesAndWhen) {
   EXPECT_NEAR(pass.distance_m, 0.04, 1e-12);
   EXPECT_NEAR(pass.timestamp_s, 0.4, 1e-12) << "first of those as near";
   EXPECT_NE(ClearanceWarning(scene, near).find("40 mm from 'carton'"), std::string::npos);
-  EXPECT_THROW(ClearanceWarning(scene, Through({-1, 0, 0}, {1, 0, 0})), InputError);
+  EXPECT_THROW(ClearanceWarning(scene, Through({-1, 0, 0}, {1, 0, 0})), io::InputError);
 }
 
 TEST(ClearanceWarning, FollowsWhatMoves) {
@@ -133,7 +133,7 @@ TEST(ClearanceWarning, FollowsWhatMoves) {
   scene.objects[0].way = {{0, {0, 0, 0}, 0}, {1, {0, 2, 0}, 0}};
   // At 1 s the carton has gone, at 0 s the camera is far.
   EXPECT_EQ(ClearanceWarning(scene, Through({0, -3, 0}, {0, 0, 0})), "");
-  EXPECT_THROW(ClearanceWarning(scene, Through({0, 2, 0}, {0, 2, 0})), InputError);
+  EXPECT_THROW(ClearanceWarning(scene, Through({0, 2, 0}, {0, 2, 0})), io::InputError);
 }
 
 }  // namespace

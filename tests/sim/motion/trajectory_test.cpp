@@ -5,10 +5,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "io/input_error.h"
 #include "sim/scene/angle.h"
 #include "sim/scene/families.h"
 #include "sim/scene/geometry.h"
-#include "sim/scene/input_error.h"
 #include "sim/scene/scene_file.h"
 #include "tests/support/trajectory_means.h"
 
@@ -125,10 +125,10 @@ TEST(MakeTrajectory, MovesInEverySceneOfTheCatalogue) {
 TEST(MakeTrajectory, SaysWhenThereIsNoPlaceForTheCamera) {
   Scene scene = MakeScene("desk", 1);
   scene.motion.distance_min_m = scene.motion.distance_max_m = 0.1;  // inside the desk's margin
-  EXPECT_THROW(MakeTrajectory(scene, 10, kFps, 1), InputError);
+  EXPECT_THROW(MakeTrajectory(scene, 10, kFps, 1), io::InputError);
   scene = MakeScene("desk", 1);
   scene.motion.preset = "running";
-  EXPECT_THROW(MakeTrajectory(scene, 10, kFps, 1), InputError);
+  EXPECT_THROW(MakeTrajectory(scene, 10, kFps, 1), io::InputError);
   EXPECT_THROW(MakeTrajectory(MakeScene("desk", 1), 0, kFps, 1), std::invalid_argument);
   EXPECT_THROW(MakeTrajectory(MakeScene("desk", 1), 10, 0, 1), std::invalid_argument);
 }

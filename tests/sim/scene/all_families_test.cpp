@@ -9,10 +9,10 @@
 #include <string>
 #include <vector>
 
+#include "io/input_error.h"
 #include "sim/scene/drawing.h"
 #include "sim/scene/families.h"
 #include "sim/scene/geometry.h"
-#include "sim/scene/input_error.h"
 #include "sim/scene/mesh.h"
 #include "sim/scene/scene_file.h"
 #include "sim/scene/twin.h"
@@ -325,7 +325,7 @@ TEST(Twins, AreSixteenScenesThatKnowHowToBeRecorded) {
     EXPECT_EQ(read.capture->distortion, scene.capture->distortion);
   }
   EXPECT_EQ(MakeTwin("fr1-xyz", 1).capture->fx, 517.3);
-  EXPECT_THROW(MakeTwin("fr4-desk", 1), InputError);
+  EXPECT_THROW(MakeTwin("fr4-desk", 1), io::InputError);
 }
 
 TEST(Twins, FindRoomWhateverTheSeed) {
@@ -393,7 +393,7 @@ TEST(DeskFamily, TakesFortyThingsOnALargeDesk) {
     EXPECT_EQ(things.size(), 40u);
     EXPECT_GE(classes.size(), 12u) << "hardly any variety";
   }
-  EXPECT_THROW(MakeScene("desk", 1, {{"objects", 41}}), InputError);
+  EXPECT_THROW(MakeScene("desk", 1, {{"objects", 41}}), io::InputError);
 }
 
 }  // namespace

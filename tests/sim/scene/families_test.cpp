@@ -7,9 +7,9 @@
 #include <set>
 #include <string>
 
+#include "io/input_error.h"
 #include "sim/scene/check.h"
 #include "sim/scene/geometry.h"
-#include "sim/scene/input_error.h"
 #include "sim/scene/scene_file.h"
 
 namespace sim {
@@ -158,12 +158,12 @@ TEST(MakeScene, GivesTheSameBytesForTheSameSeedAndOthersForAnother) {
 }
 
 TEST(MakeScene, RefusesWhatNoFamilyOffers) {
-  EXPECT_THROW(MakeScene("kitchen", 1), InputError);
-  EXPECT_THROW(MakeScene("plates", 1, {{"step", 20}}), InputError);
-  EXPECT_THROW(MakeScene("plates", 1, {{"step_mm", -1}}), InputError);
-  EXPECT_THROW(MakeScene("plates", 1, {{"step_mm", std::nan("")}}), InputError);
-  EXPECT_THROW(MakeScene("stack", 1, {{"count", 2.5}}), InputError);
-  EXPECT_THROW(MakeScene("desk", 1, {{"objects", 3}}), InputError);
+  EXPECT_THROW(MakeScene("kitchen", 1), io::InputError);
+  EXPECT_THROW(MakeScene("plates", 1, {{"step", 20}}), io::InputError);
+  EXPECT_THROW(MakeScene("plates", 1, {{"step_mm", -1}}), io::InputError);
+  EXPECT_THROW(MakeScene("plates", 1, {{"step_mm", std::nan("")}}), io::InputError);
+  EXPECT_THROW(MakeScene("stack", 1, {{"count", 2.5}}), io::InputError);
+  EXPECT_THROW(MakeScene("desk", 1, {{"objects", 3}}), io::InputError);
 }
 
 TEST(MakeScene, TiltsThePlateAsAsked) {

@@ -1,9 +1,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "io/input_error.h"
 #include "sim/scene/families.h"
 #include "sim/scene/geometry.h"
-#include "sim/scene/input_error.h"
 #include "sim/scene/scene_file.h"
 
 namespace sim {
@@ -24,7 +24,7 @@ std::string WithLights(const std::vector<std::string>& lights) {
 std::string ErrorOf(const std::vector<std::string>& lights) {
   try {
     ParseScene(WithLights(lights), "s.yaml");
-  } catch (const InputError& error) {
+  } catch (const io::InputError& error) {
     return error.what();
   }
   return "no error";
@@ -83,9 +83,9 @@ TEST(LightsInAFile, AreRefusedWithTheirLineWhenTheyCannotBe) {
   EXPECT_THAT(lamp("position_m: [0, 0, 1], intensity: 0"),
               AllOf(HasSubstr("s.yaml:5"), HasSubstr("intensity")));
   EXPECT_THAT(lamp("position_m: [0, 0, 1], intensity: -1"), HasSubstr("intensity"));
-  EXPECT_THAT(lamp("position_m: [0, 0, 1]"), HasSubstr("'intensity' is missing"));
+  EXPECT_THAT(lamp("position_m: [0, 0, 1]"), HasSubstr(".intensity` is missing"));
   EXPECT_THAT(lamp("position_m: [0, 0, 1], intensity: 1, power_w: 60"),
-              HasSubstr("unknown key 'power_w'"));
+              HasSubstr("unknown key `power_w`"));
   EXPECT_THAT(lamp("position_m: [0, 0, 1], intensity: 1, colour: [2, 0, 0]"),
               HasSubstr("linear RGB"));
   EXPECT_THAT(lamp("position_m: [0, 0, 1], intensity: 1, samples_per_side: 4"),

@@ -9,10 +9,10 @@
 #include <filesystem>
 #include <fstream>
 
-#include "sim/scene/input_error.h"
+#include "io/input_error.h"
+#include "io/sha256.h"
 #include "sim/scene/mesh.h"
 #include "sim/scene/scene_file.h"
-#include "sim/scene/sha256.h"
 #include "sim/scene/steps.h"
 
 namespace sim {
@@ -110,7 +110,7 @@ class OwnMesh : public testing::Test {
   std::string ErrorOf(const std::string& text, const ModelOptions& options = {}) const {
     try {
       Read(text, options);
-    } catch (const InputError& error) {
+    } catch (const io::InputError& error) {
       return error.what();
     }
     return "no error";
@@ -127,7 +127,7 @@ class OwnMesh : public testing::Test {
   std::string ParseError(const std::string& lines) const {
     try {
       Parse(lines);
-    } catch (const InputError& error) {
+    } catch (const io::InputError& error) {
       return error.what();
     }
     return "no error";
@@ -239,7 +239,7 @@ TEST_F(OwnMesh, TakesDeclaredPlanesOnly) {
 TEST_F(OwnMesh, SaysWhatIsWrongWithAFile) {
   ModelOptions missing;
   missing.file = "nowhere.obj";
-  EXPECT_THROW(ReadModel(missing, folder_), InputError);
+  EXPECT_THROW(ReadModel(missing, folder_), io::InputError);
   EXPECT_THAT(ErrorOf("v 0 0 0\nv 1 0 0\nv 0 1 0\n"), HasSubstr("it.obj"));
   EXPECT_THAT(ErrorOf("no mesh at all"), HasSubstr("it.obj"));
   std::string text = kCube;
@@ -295,7 +295,7 @@ TEST_F(OwnMesh, ChangesTheHashOfTheSceneWithItsBytes) {
   Write(kCube);
   const std::string lines = "    mesh: it.obj\n    center_m: [0, 0, 0.06]\n";
   const Scene before = Parse(lines);
-  EXPECT_EQ(before.objects[1].model->sha256, Sha256OfFile(folder_ / "it.obj"));
+  EXPECT_EQ(before.objects[1].model->sha256, io::Sha256OfFile(folder_ / "it.obj"));
   Write(kCube + "# a comment\n");
   EXPECT_NE(SceneHash(Parse(lines)), SceneHash(before));
   EXPECT_THAT(ParseError(lines + "    mesh_sha256: " + before.objects[1].model->sha256 + "\n"),

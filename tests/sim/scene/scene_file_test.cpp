@@ -3,13 +3,14 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <string>
 
+#include "io/input_error.h"
 #include "sim/scene/angle.h"
 #include "sim/scene/families.h"
-#include "sim/scene/input_error.h"
 
 namespace sim {
 namespace {
@@ -29,7 +30,7 @@ const std::string kPlaced = "    center_m: [0, 0, 0.5]\n    size_m: [1, 1, 1]\n"
 std::string ErrorOf(const std::string& text) {
   try {
     ParseScene(text, "s.yaml");
-  } catch (const InputError& error) {
+  } catch (const io::InputError& error) {
     return error.what();
   }
   return "no error";
@@ -41,21 +42,21 @@ std::string SourcePath(const std::string& name) {
 
 TEST(SceneFile, NamesTheLineOfAnUnknownKeyAndTheUnitThatIsMeant) {
   EXPECT_THAT(ErrorOf(kHead + Box(1, "a", kPlaced + "    size_mm: [1, 1, 1]\n")),
-              AllOf(HasSubstr("s.yaml:10"), HasSubstr("unknown key 'size_mm'"),
-                    HasSubstr("did you mean size_m?")));
+              AllOf(HasSubstr("s.yaml:10"), HasSubstr("unknown key `size_mm`"),
+                    HasSubstr("did you mean `size_m`?")));
   EXPECT_THAT(ErrorOf("format: pas-scene/1\nname: test\ncolour: 1\nobjects: []\n"),
-              AllOf(HasSubstr("s.yaml:3"), HasSubstr("unknown key 'colour'")));
+              AllOf(HasSubstr("s.yaml:3"), HasSubstr("unknown key `colour`")));
 }
 
 TEST(SceneFile, RefusesAKeyThatStandsTwice) {
   EXPECT_THAT(ErrorOf(kHead + Box(1, "a", kPlaced + "    role: regular\n")),
-              AllOf(HasSubstr("s.yaml:10"), HasSubstr("'role' stands twice")));
+              AllOf(HasSubstr("s.yaml:10"), HasSubstr("key `role` is given twice")));
 }
 
 TEST(SceneFile, RefusesAnotherFormatOrVersion) {
   EXPECT_THAT(ErrorOf("format: pas-scene/2\nname: a\nobjects: []\n"),
               AllOf(HasSubstr("s.yaml:1"), HasSubstr("pas-scene/1")));
-  EXPECT_THAT(ErrorOf("name: a\nobjects: []\n"), HasSubstr("key 'format' is missing"));
+  EXPECT_THAT(ErrorOf("name: a\nobjects: []\n"), HasSubstr("key `format` is missing"));
 }
 
 TEST(SceneFile, RefusesRepeatedIdsAndNames) {
@@ -101,7 +102,7 @@ TEST(SceneFile, RefusesAnObjectBelowTheFloor) {
 TEST(SceneFile, RefusesWhatIsNotPlainYaml) {
   EXPECT_THAT(ErrorOf(""), HasSubstr("the file is empty"));
   EXPECT_THAT(ErrorOf("a: [1, 2\nb: }"), HasSubstr("not valid YAML"));
-  EXPECT_THAT(ErrorOf("- 1\n"), HasSubstr("expected a mapping"));
+  EXPECT_THAT(ErrorOf("- 1\n"), HasSubstr("expected `key: value` lines"));
   EXPECT_THAT(ErrorOf("a: &x 1\nb: *x\n"), HasSubstr("anchors"));
   EXPECT_THAT(ErrorOf("a: 1\n---\nb: 2\n"), HasSubstr("more than one"));
   EXPECT_THAT(ErrorOf(std::string(100000, '[')), HasSubstr("nested deeper"));
@@ -126,11 +127,11 @@ TEST(SceneFile, RefusesARotationGivenTwiceOrNotUnit) {
 }
 
 TEST(SceneFile, RefusesFilesThatAreTooLargeOrNotThere) {
-  EXPECT_THROW(ReadScene("/nonexistent/scene.yaml"), InputError);
-  EXPECT_THROW(ReadScene(std::filesystem::temp_directory_path()), InputError);
+  EXPECT_THROW(ReadScene("/nonexistent/scene.yaml"), io::InputError);
+  EXPECT_THROW(ReadScene(std::filesystem::temp_directory_path()), io::InputError);
   const auto path = std::filesystem::temp_directory_path() / "pas_scene_too_large.yaml";
   std::ofstream(path) << std::string((1 << 20) + 1, '#');
-  EXPECT_THROW(ReadScene(path), InputError);
+  EXPECT_THROW(ReadScene(path), io::InputError);
   std::filesystem::remove(path);
 }
 
@@ -176,7 +177,7 @@ TEST(SceneFile, IsWrittenWholeAndReadBackFromDisk) {
   EXPECT_EQ(SceneHash(ReadScene(path)), SceneHash(made));
   EXPECT_FALSE(std::filesystem::exists(path.string() + ".part"));
   std::filesystem::remove(path);
-  EXPECT_THROW(WriteScene(made, "/nonexistent/folder/scene.yaml"), InputError);
+  EXPECT_THROW(WriteScene(made, "/nonexistent/folder/scene.yaml"), io::InputError);
 }
 
 TEST(SceneFile, ReadsEveryCommittedScene) {
@@ -193,6 +194,13 @@ TEST(SceneFile, ReadsEveryCommittedScene) {
 TEST(SceneFile, CommittedDeskIsSeedOneOfItsFamily) {
   EXPECT_EQ(SceneText(ReadScene(SourcePath("scenes/ambiguous/desk.yaml"))),
             SceneText(MakeScene("desk", 1)));
+}
+
+TEST(SceneHash, ChangesWithTheLastBitOfAnyLength) {
+  Scene scene = MakeScene("plates", 1);
+  const std::string before = SceneHash(scene);
+  scene.objects[1].size.x() = std::nextafter(scene.objects[1].size.x(), 1.0);
+  EXPECT_NE(SceneHash(scene), before);
 }
 
 }  // namespace

@@ -3,7 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "sim/scene/input_error.h"
+#include "io/input_error.h"
 
 namespace sim {
 namespace {
@@ -13,7 +13,7 @@ using testing::HasSubstr;
 std::string ErrorOf(const std::string& text) {
   try {
     ParseSensor(text, "mine.yaml");
-  } catch (const InputError& error) {
+  } catch (const io::InputError& error) {
     return error.what();
   }
   return "no error";
@@ -57,8 +57,8 @@ TEST(SensorFile, RefusesValuesOutOfRange) {
 TEST(SensorFile, RefusesAMissingOrUnknownBase) {
   EXPECT_THAT(ErrorOf("noise_scale: 1\n"), HasSubstr("base"));
   EXPECT_THAT(ErrorOf("base: kinect3\n"), HasSubstr("mine.yaml:1"));
-  EXPECT_THAT(ErrorOf("- 1\n"), HasSubstr("base"));
-  EXPECT_THAT(ErrorOf(""), HasSubstr("mine.yaml:1"));
+  EXPECT_THAT(ErrorOf("- 1\n"), HasSubstr("mine.yaml:1: expected `key: value` lines"));
+  EXPECT_THAT(ErrorOf(""), HasSubstr("mine.yaml:1: key `base` is missing"));
 }
 
 TEST(SensorFile, CanSetEveryParameterThatIsListed) {
@@ -79,8 +79,8 @@ TEST(SensorFile, CanSetEveryParameterThatIsListed) {
 
 TEST(SensorName, MayBeAFileThatMustExist) {
   EXPECT_EQ(SensorByName("azure").name, "azure");
-  EXPECT_THROW(SensorByName("no/such/file.yaml"), InputError);
-  EXPECT_THROW(SensorByName("kinect"), InputError);
+  EXPECT_THROW(SensorByName("no/such/file.yaml"), io::InputError);
+  EXPECT_THROW(SensorByName("kinect"), io::InputError);
 }
 
 }  // namespace

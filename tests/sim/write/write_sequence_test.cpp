@@ -11,9 +11,10 @@
 #include <opencv2/imgcodecs.hpp>
 #include <set>
 
-#include "sim/scene/input_error.h"
-#include "sim/scene/sha256.h"
-#include "sim/write/atomic_file.h"
+#include "io/atomic_file.h"
+#include "io/input_error.h"
+#include "io/read_file.h"
+#include "io/sha256.h"
 #include "sim/write/sequence_text.h"
 #include "tests/sim/support/sim_worlds.h"
 
@@ -48,7 +49,7 @@ class WrittenSequence : public testing::Test {
     std::map<std::string, std::string> content;
     for (const auto& entry : fs::recursive_directory_iterator(folder)) {
       if (entry.is_regular_file()) {
-        content[fs::relative(entry.path(), folder).string()] = ReadWholeFile(entry.path());
+        content[fs::relative(entry.path(), folder).string()] = io::ReadFile(entry.path());
       }
     }
     return content;
@@ -56,7 +57,7 @@ class WrittenSequence : public testing::Test {
   static std::string ErrorOf(const std::function<void()>& call) {
     try {
       call();
-    } catch (const InputError& error) {
+    } catch (const io::InputError& error) {
       return error.what();
     }
     return "no error";
@@ -81,7 +82,7 @@ TEST_F(WrittenSequence, HoldsEveryFileOfTheFormatAndNothingElse) {
 
 TEST_F(WrittenSequence, ListsTheHashOfEveryOtherFileInItsManifest) {
   Write(root_ / "seq", Options(), 3);
-  const auto manifest = nlohmann::json::parse(ReadWholeFile(root_ / "seq/manifest.json"));
+  const auto manifest = nlohmann::json::parse(io::ReadFile(root_ / "seq/manifest.json"));
   EXPECT_EQ(manifest["format"], "pas-sequence/1");
   EXPECT_EQ(manifest["complete"], true);
   EXPECT_EQ(manifest["frame_count"], 3);
@@ -89,7 +90,7 @@ TEST_F(WrittenSequence, ListsTheHashOfEveryOtherFileInItsManifest) {
   content.erase("manifest.json");
   EXPECT_EQ(manifest["sha256"].size(), content.size());
   for (const auto& [path, bytes] : content) {
-    EXPECT_EQ(manifest["sha256"][path], Sha256Hex(bytes)) << path;
+    EXPECT_EQ(manifest["sha256"][path], io::Sha256Hex(bytes)) << path;
   }
 }
 
@@ -120,8 +121,8 @@ TEST_F(WrittenSequence, ChangesWithTheSeed) {
   other.rig.seed = 2;
   Write(root_ / "one", Options(), 1);
   Write(root_ / "two", other, 1);
-  EXPECT_NE(ReadWholeFile(root_ / "one/depth/0.000000.png"),
-            ReadWholeFile(root_ / "two/depth/0.000000.png"));
+  EXPECT_NE(io::ReadFile(root_ / "one/depth/0.000000.png"),
+            io::ReadFile(root_ / "two/depth/0.000000.png"));
 }
 
 TEST_F(WrittenSequence, LeavesNoDetectionsFileWithoutADetector) {
@@ -149,11 +150,11 @@ TEST_F(WrittenSequence, ReplacesAnOldSequenceWhenForced) {
 
 TEST_F(WrittenSequence, NeverReplacesAFolderThatIsNotASequence) {
   fs::create_directories(root_ / "mine");
-  WriteFileAtomically(root_ / "mine/thesis.tex", "years of work");
+  io::WriteFile(root_ / "mine/thesis.tex", "years of work");
   SequenceOptions options = Options();
   options.existing = Existing::kReplace;
   EXPECT_THAT(ErrorOf([&] { Write(root_ / "mine", options, 1); }), HasSubstr("left alone"));
-  EXPECT_EQ(ReadWholeFile(root_ / "mine/thesis.tex"), "years of work");
+  EXPECT_EQ(io::ReadFile(root_ / "mine/thesis.tex"), "years of work");
 }
 
 /// Death tests run in a process of their own, started anew: a fork alone would lack the ray
@@ -241,7 +242,7 @@ TEST_F(InterruptedSequence, SaysWhichFileDoesNotFitOnTheDisk) {
 }
 
 TEST_F(WrittenSequence, SaysWhichFolderCannotBeMade) {
-  WriteFileAtomically(root_ / "file", "");
+  io::WriteFile(root_ / "file", "");
   EXPECT_THAT(ErrorOf([&] { Write(root_ / "file/seq", Options()); }),
               HasSubstr("cannot be made"));
   EXPECT_THAT(ErrorOf([&] { Write(root_ / "file", Options()); }), HasSubstr("is a file"));

@@ -6,7 +6,7 @@
 #include <filesystem>
 #include <fstream>
 
-#include "slam/base/require.h"
+#include "io/input_error.h"
 
 namespace slam {
 namespace {
@@ -30,7 +30,8 @@ class Detections : public ::testing::Test {
     return MakeDetector("replay", folder_, Camera{}, CocoClassTable());
   }
   void ExpectError(const std::string& text, const std::string& regex) {
-    EXPECT_THAT([&] { Replay(text); }, ThrowsMessage<InputError>(ContainsRegex(regex))) << text;
+    EXPECT_THAT([&] { Replay(text); }, ThrowsMessage<io::InputError>(ContainsRegex(regex)))
+        << text;
   }
   std::filesystem::path folder_;
 };
@@ -56,7 +57,7 @@ TEST_F(Detections, ClipsBoxesToTheImageAndLeavesOutThoseOutside) {
       << R"({"timestamp": 0, "detections": [{"class": "tv", "score": 1, "box": [-9, 470, 50, 600]},
  {"class": "tv", "score": 1, "box": [700, 0, 800, 50]}]})";
   // One record a line: the text above is two.
-  EXPECT_THROW(ReplayDetector(folder_ / "detections.jsonl", Camera{}, {}), InputError);
+  EXPECT_THROW(ReplayDetector(folder_ / "detections.jsonl", Camera{}, {}), io::InputError);
   std::ofstream(folder_ / "detections.jsonl")
       << R"({"timestamp": 0, "detections": [{"class": "tv", "score": 1, "box": [-9, 470, 50, 600]},)"
       << R"( {"class": "tv", "score": 1, "box": [700, 0, 800, 50]}]})";
@@ -69,39 +70,42 @@ TEST_F(Detections, ClipsBoxesToTheImageAndLeavesOutThoseOutside) {
 
 TEST_F(Detections, NamesFileLineAndKeyOfWhatIsWrong) {
   const std::string good = "{\"timestamp\": 1, \"detections\": []}\n";
-  ExpectError(good + "{\"timestamp\": 2, \"detections\": [", "detections.jsonl:2: not JSON");
-  ExpectError(good + "[]", "jsonl:2: the record is not an object");
-  ExpectError(good + "{\"detections\": []}", "jsonl:2: the record has no key \"timestamp\"");
+  ExpectError(good + "{\"timestamp\": 2, \"detections\": [",
+              "detections.jsonl:2: not valid JSON");
+  ExpectError(good + "[]", "jsonl:2: expected an object with the key \"timestamp\"");
+  ExpectError(good + "{\"detections\": []}", "jsonl:2: the key \"timestamp\" is missing");
   ExpectError(good + "{\"timestamp\": \"2\", \"detections\": []}",
-              "jsonl:2: \"timestamp\" is \"2\"");
-  ExpectError(good + good, "jsonl:2: \"timestamp\" does not increase");
+              "jsonl:2: timestamp: expected a number .*found \"2\"");
+  ExpectError(good + good, "jsonl:2: timestamp: expected more than in the line before");
   ExpectError(good + "{\"timestamp\": 1e18, \"detections\": []}",
-              "jsonl:2: .*expected seconds");
+              "jsonl:2: timestamp: expected a number in .0, 100000000000.");
   ExpectError("{\"timestamp\": 1, \"detections\": {}}",
-              "jsonl:1: \"detections\" is not a list");
+              "jsonl:1: detections: expected an array");
   const auto with = [](const std::string& detection) {
     return "{\"timestamp\": 1, \"detections\": [" + detection + "]}";
   };
-  ExpectError(with("7"), "detection 0 is not an object");
-  ExpectError(with(R"({"score": 1, "box": [0, 0, 1, 1]})"), "detection 0 has no key \"class\"");
+  ExpectError(with("7"), "detections.0.: expected an object");
+  ExpectError(with(R"({"score": 1, "box": [0, 0, 1, 1]})"),
+              "the key \"detections.0..class\" is missing");
   ExpectError(with(R"({"class": "", "score": 1, "box": [0, 0, 1, 1]})"),
-              "\"class\" of detection 0");
+              "detections.0..class: expected a text of 1 to 100 bytes");
   ExpectError(with(R"({"class": "a", "score": 1.5, "box": [0, 0, 1, 1]})"),
-              "\"score\" of detection 0 is 1.5; expected a number in .0, 1.");
-  ExpectError(with(R"({"class": "a", "score": NaN, "box": [0, 0, 1, 1]})"), "not JSON");
+              "detections.0..score: expected a number in .0, 1., found 1.5");
+  ExpectError(with(R"({"class": "a", "score": NaN, "box": [0, 0, 1, 1]})"), "not valid JSON");
   ExpectError(with(R"({"class": "a", "score": 1, "box": [0, 0, 1]})"),
-              "\"box\" of detection 0");
-  ExpectError(with(R"({"class": "a", "score": 1, "box": [9, 0, 1, 1]})"), "turned over");
-  ExpectError(std::string(100000, '['), "jsonl:1: not JSON");
+              "detections.0..box: expected .x0, y0, x1, y1. in pixels");
+  ExpectError(with(R"({"class": "a", "score": 1, "box": [9, 0, 1, 1]})"),
+              "detections.0..box: expected .*x0 <= x1 .*found .9,0,1,1.");
+  ExpectError(std::string(100000, '['), "jsonl:1: nested deeper");
 }
 
 TEST_F(Detections, SaysHowToRunWithoutAFile) {
   EXPECT_THAT([&] { MakeDetector("replay", folder_, Camera{}, {}); },
-              ThrowsMessage<InputError>(
+              ThrowsMessage<io::InputError>(
                   ContainsRegex("detections.jsonl: no such file.*--detector none")));
   EXPECT_THAT(
       [&] { MakeDetector("yolo", folder_, Camera{}, {}); },
-      ThrowsMessage<InputError>(ContainsRegex("expected replay, yolox:FILE.onnx or none")));
+      ThrowsMessage<io::InputError>(ContainsRegex("expected replay, yolox:FILE.onnx or none")));
   EXPECT_TRUE(MakeDetector("none", folder_, Camera{}, {})->Detect(1.0, {}).empty());
 }
 

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <fstream>
 
-#include "slam/base/require.h"
+#include "io/input_error.h"
 #include "tests/support/onnx_writer.h"
 
 namespace slam {
@@ -87,7 +87,7 @@ class YoloxModel : public ::testing::Test {
     return MakeDetector("yolox:" + file_.string(), "", camera_, CocoClassTable(), config);
   }
   auto FailsWith(const std::string& what) {
-    return ThrowsMessage<InputError>(AllOf(HasSubstr(file_.string()), HasSubstr(what)));
+    return ThrowsMessage<io::InputError>(AllOf(HasSubstr(file_.string()), HasSubstr(what)));
   }
   std::filesystem::path file_;
   Camera camera_;
@@ -220,11 +220,11 @@ TEST_F(YoloxModel, SaysWhenTheModelIsNotDecodedAsConfigured) {
 TEST_F(YoloxModel, NamesAFileThatIsMissingOrNoModel) {
   EXPECT_THAT([&] { Load(); }, FailsWith("no such file"));
   EXPECT_THAT([&] { MakeDetector("yolox:", "", camera_, {}); },
-              ThrowsMessage<InputError>(HasSubstr("names no file")));
+              ThrowsMessage<io::InputError>(HasSubstr("names no file")));
   for (const std::string& text : {std::string(), std::string("not a model"),
                                   std::string(1000, '\xff'), std::string(1000, '\0')}) {
     Write(text);
-    EXPECT_THAT([&] { Load(); }, ThrowsMessage<InputError>(HasSubstr(file_.string())));
+    EXPECT_THAT([&] { Load(); }, ThrowsMessage<io::InputError>(HasSubstr(file_.string())));
   }
 }
 
@@ -233,7 +233,8 @@ TEST_F(YoloxModel, RefusesAModelThatIsCutOffAnywhereAndIsSilentOtherwise) {
   testing::internal::CaptureStderr();
   for (std::size_t part = 0; part < 60; ++part) {
     Write(model.substr(0, model.size() * part / 60));
-    EXPECT_THAT([&] { Load(); }, ThrowsMessage<InputError>(HasSubstr(file_.string()))) << part;
+    EXPECT_THAT([&] { Load(); }, ThrowsMessage<io::InputError>(HasSubstr(file_.string())))
+        << part;
   }
   EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
 }

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <set>
 
+#include "io/input_error.h"
 #include "slam/base/random.h"
-#include "slam/base/require.h"
 #include "slam/detect/class_table.h"
 
 namespace slam {
@@ -103,7 +103,7 @@ TEST(YoloxOutput, RefusesWhatNoSigmoidGives) {
       cv::Mat1f output = Silence();
       output(kCells - 1, column) = bad;
       EXPECT_THAT([&] { DecodeYolox(output, kInput, ThreeClasses()); },
-                  ThrowsMessage<InputError>(HasSubstr("outside [0, 1]")));
+                  ThrowsMessage<io::InputError>(HasSubstr("outside [0, 1]")));
     }
   }
   for (const int column : {0, 1, 2, 3}) {
@@ -111,7 +111,7 @@ TEST(YoloxOutput, RefusesWhatNoSigmoidGives) {
     Say(output, 3, {0, 0, 0, 0, 1, 1, 0, 0});
     output(3, column) = column < 2 ? std::nanf("") : INFINITY;
     EXPECT_THAT([&] { DecodeYolox(output, kInput, ThreeClasses()); },
-                ThrowsMessage<InputError>(HasSubstr("no finite rectangle")));
+                ThrowsMessage<io::InputError>(HasSubstr("no finite rectangle")));
   }
   EXPECT_THROW(DecodeYolox(cv::Mat1f(kCells, 9, 0.0f), kInput, ThreeClasses()),
                std::invalid_argument);

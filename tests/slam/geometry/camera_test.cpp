@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "slam/base/require.h"
+#include "io/input_error.h"
 #include "slam/geometry/plane.h"
 #include "tests/support/slam_matchers.h"
 
@@ -29,7 +29,7 @@ TEST(Camera, PutsThePrincipalPointOnTheOpticalAxis) {
 }
 
 TEST(Camera, RefusesAnUnknownCalibration) {
-  EXPECT_THROW(static_cast<void>(TumCamera("tum4")), InputError);
+  EXPECT_THROW(static_cast<void>(TumCamera("tum4")), io::InputError);
 }
 
 TEST(PlaneTransformEq15, ThrowsWhenTheNormalIsNotUnit) {

@@ -6,8 +6,7 @@
 
 #include <fstream>
 
-#include "slam/base/require.h"
-#include "slam/input/yaml_map.h"
+#include "io/input_error.h"
 
 namespace slam {
 namespace {
@@ -33,7 +32,8 @@ class CameraReader : public ::testing::Test {
     return ReadCamera(folder_ / "camera.yaml");
   }
   void ExpectError(const std::string& text, const std::string& regex) {
-    EXPECT_THAT([&] { Read(text); }, ThrowsMessage<InputError>(ContainsRegex(regex))) << text;
+    EXPECT_THAT([&] { Read(text); }, ThrowsMessage<io::InputError>(ContainsRegex(regex)))
+        << text;
   }
   std::filesystem::path folder_;
 };
@@ -59,12 +59,13 @@ TEST_F(CameraReader, ReadsEveryKey) {
 
 TEST_F(CameraReader, RefusesAnUnknownKeyAndListsTheLegalOnes) {
   ExpectError(kGood + "focal: 3\n",
-              "camera.yaml:8: unknown key `focal`; legal keys: model, width, height, fx");
+              "camera.yaml:8: unknown key `focal`; keys here: model, width, height, fx");
 }
 
 TEST_F(CameraReader, RefusesAMissingKey) {
-  ExpectError("width: 320\nheight: 240\nfx: 260\n", "camera.yaml:1: key `fy` is missing");
-  ExpectError("", "camera.yaml.*key `width` is missing");
+  ExpectError("width: 320\nheight: 240\nfx: 260\n",
+              "camera.yaml:1: key `fy` is missing; expected a number in .1, 100000.");
+  ExpectError("", "camera.yaml:1: the file is empty; expected .*width");
 }
 
 TEST_F(CameraReader, RefusesValuesOutsideTheirDomain) {
@@ -73,64 +74,55 @@ TEST_F(CameraReader, RefusesValuesOutsideTheirDomain) {
     const std::size_t at = text.find(key + ":");
     return text.replace(at, text.find('\n', at) - at, key + ": " + value);
   };
-  ExpectError(with("fx", "0"), "camera.yaml:4: `fx: 0` must be a number in .1, 100000.");
-  ExpectError(with("fx", "-525"), "camera.yaml:4: `fx: -525`");
-  ExpectError(with("fx", "nan"), "`fx: nan` must be a number");
-  ExpectError(with("fx", ".inf"), "`fx: .inf` must be a number");
-  ExpectError(with("fx", "525px"), "`fx: 525px` must be a number");
-  ExpectError(with("fx", "[1, 2]"), "`fx` must be a number");
-  ExpectError(with("width", "0"), "camera.yaml:2: `width: 0` must be a whole number");
+  ExpectError(with("fx", "0"),
+              "camera.yaml:4: fx: expected a number in .1, 100000., found `0`");
+  ExpectError(with("fx", "-525"), "camera.yaml:4: fx: expected .*found `-525`");
+  ExpectError(with("fx", "nan"), "fx: expected a number .*found `nan`");
+  ExpectError(with("fx", ".inf"), "fx: expected a number .*found `.inf`");
+  ExpectError(with("fx", "525px"), "fx: expected a number .*found `525px`");
+  ExpectError(with("fx", "[1, 2]"), "fx: expected a number .*found a list");
+  ExpectError(with("width", "0"), "camera.yaml:2: width: expected a whole number .*found `0`");
   ExpectError(with("width", "1000000"),
-              "`width: 1000000` must be a whole number in .16, 8192.");
-  ExpectError(with("width", "320.5"), "`width: 320.5` must be a whole number");
-  ExpectError(with("cx", "400"), "camera.yaml:6: the principal point");
+              "width: expected a whole number in .16, 8192., found `1000000`");
+  ExpectError(with("width", "320.5"), "width: expected a whole number .*found `320.5`");
+  ExpectError(with("cx", "400"), "camera.yaml:6: cx: the principal point");
   ExpectError(with("model", "fisheye"),
-              "camera.yaml:1: `model: fisheye` must be one of pinhole");
-  ExpectError(kGood + "depth_factor: 0\n", "camera.yaml:8: `depth_factor: 0`");
+              "camera.yaml:1: model: expected one of: pinhole, found `fisheye`");
+  ExpectError(kGood + "depth_factor: 0\n", "camera.yaml:8: depth_factor: .*found `0`");
   ExpectError(kGood + "fx: 3\n", "camera.yaml:8: key `fx` is given twice");
 }
 
 TEST_F(CameraReader, RefusesADistortionThatCannotBeInverted) {
-  ExpectError(kGood + "k1: -5\n", "camera.yaml:8: the distortion .* cannot be inverted");
+  ExpectError(kGood + "k1: -5\n", "camera.yaml:8: k1: the distortion .* cannot be inverted");
 }
 
 TEST_F(CameraReader, RefusesTextThatIsNotYaml) {
-  ExpectError("width: [320\n", "camera.yaml:[0-9]+: not YAML");
-  ExpectError("- 1\n- 2\n", "the file must be `key: value` lines");
-  ExpectError(std::string(1000000, '['), "not YAML");  // yaml-cpp bounds its own recursion
+  ExpectError("width: [320\n", "camera.yaml:[0-9]+: not valid YAML");
+  ExpectError("- 1\n- 2\n", "camera.yaml:1: expected `key: value` lines, found a list");
+  ExpectError(std::string(1000000, '['), "camera.yaml:1: nested deeper");
   std::string stairs;
   for (std::size_t depth = 0; depth < 1000; ++depth) stairs += std::string(depth, ' ') + "a:\n";
-  ExpectError(stairs, "not YAML");
+  ExpectError(stairs, "camera.yaml:9: nested deeper");
   ExpectError(std::string(2 << 20, ' '), "larger than 1 MiB");
   EXPECT_THAT([&] { ReadCamera(folder_ / "none.yaml"); },
-              ThrowsMessage<InputError>(ContainsRegex("none.yaml: no such file")));
+              ThrowsMessage<io::InputError>(ContainsRegex("none.yaml: no such file")));
 }
 
 TEST_F(CameraReader, TakesTheCameraOfTheSequenceUnlessToldOtherwise) {
-  EXPECT_THAT([&] { ChooseCamera("", folder_); },
-              ThrowsMessage<InputError>(ContainsRegex("camera.yaml: .*pass --camera tum1")));
+  EXPECT_THAT(
+      [&] { ChooseCamera("", folder_); },
+      ThrowsMessage<io::InputError>(ContainsRegex("camera.yaml: .*pass --camera tum1")));
   Read(kGood);
   EXPECT_EQ(ChooseCamera("", folder_).width, 320);
   EXPECT_EQ(ChooseCamera("tum3", folder_).fx, TumCamera("tum3").fx);
   EXPECT_EQ(ChooseCamera((folder_ / "camera.yaml").string(), "elsewhere").width, 320);
-  EXPECT_THAT([&] { ChooseCamera("tum9", folder_); },
-              ThrowsMessage<InputError>(ContainsRegex("--camera tum9: .*expected tum1, tum2")));
+  EXPECT_THAT(
+      [&] { ChooseCamera("tum9", folder_); },
+      ThrowsMessage<io::InputError>(ContainsRegex("--camera tum9: .*expected tum1, tum2")));
 }
 
 TEST_F(CameraReader, ReadsTheCalibrationsOfTum) {
   for (const char* name : {"tum1", "tum2", "tum3"}) EXPECT_EQ(TumCamera(name).width, 640);
-}
-
-TEST(Interval, KnowsItsEndsAndRefusesNotANumber) {
-  const Interval half = ParseInterval("(0, 1]");
-  EXPECT_FALSE(half.Contains(0));
-  EXPECT_TRUE(half.Contains(1e-300));
-  EXPECT_TRUE(half.Contains(1));
-  EXPECT_FALSE(half.Contains(std::nan("")));
-  const Interval open = ParseInterval("[0, inf)");
-  EXPECT_TRUE(open.Contains(0));
-  EXPECT_FALSE(open.Contains(std::numeric_limits<double>::infinity()));
-  EXPECT_THROW(ParseInterval("0..1"), std::invalid_argument);
 }
 
 }  // namespace

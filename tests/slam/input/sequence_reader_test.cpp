@@ -10,7 +10,7 @@
 #include <opencv2/imgcodecs.hpp>
 #include <sstream>
 
-#include "slam/base/require.h"
+#include "io/input_error.h"
 
 namespace slam {
 namespace {
@@ -59,7 +59,7 @@ class Sequences : public ::testing::Test {
   }
   void ExpectIndexError(const std::string& regex) {
     EXPECT_THAT([&] { IndexSequence(folder_); },
-                ThrowsMessage<InputError>(ContainsRegex(regex)));
+                ThrowsMessage<io::InputError>(ContainsRegex(regex)));
   }
   void ExpectReadError(const std::string& regex) {
     EXPECT_THAT(
@@ -67,7 +67,7 @@ class Sequences : public ::testing::Test {
           SequenceReader reader(folder_, camera_);
           for (int i = 0; i < reader.size(); ++i) reader.Read(i);
         },
-        ThrowsMessage<InputError>(ContainsRegex(regex)));
+        ThrowsMessage<io::InputError>(ContainsRegex(regex)));
   }
 
   fs::path folder_;
@@ -172,7 +172,7 @@ TEST_F(Sequences, NameFileAndLineOfAListThatCannotBeUnderstood) {
   WriteText("associations.txt", std::string(10000, 'x'));
   ExpectIndexError("associations.txt:1: too long");
   EXPECT_THAT([] { IndexSequence("/nowhere/at/all"); },
-              ThrowsMessage<InputError>(ContainsRegex("/nowhere/at/all: no such folder")));
+              ThrowsMessage<io::InputError>(ContainsRegex("/nowhere/at/all: no such folder")));
 }
 
 TEST_F(Sequences, SayWhenTheTwoListsHaveNothingInCommon) {

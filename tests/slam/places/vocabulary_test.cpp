@@ -2,8 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include "io/input_error.h"
 #include "slam/base/random.h"
-#include "slam/base/require.h"
 #include "slam/features/match_features.h"
 #include "slam/places/train_vocabulary.h"
 
@@ -109,13 +109,13 @@ TEST(Vocabulary, DamagedBytesAreRefusedByName) {
   for (std::size_t at = 0; at < good.size(); at += 1 + at / 16) {
     std::string bad = good;
     bad[at] = static_cast<char>(bad[at] ^ 0x10);
-    EXPECT_THROW(Vocabulary::Parse(bad, "words.bin"), InputError) << "byte " << at;
-    EXPECT_THROW(Vocabulary::Parse(good.substr(0, at), "words.bin"), InputError);
+    EXPECT_THROW(Vocabulary::Parse(bad, "words.bin"), io::InputError) << "byte " << at;
+    EXPECT_THROW(Vocabulary::Parse(good.substr(0, at), "words.bin"), io::InputError);
   }
   try {
     Vocabulary::Parse("PNG", "words.bin");
     FAIL();
-  } catch (const InputError& error) {
+  } catch (const io::InputError& error) {
     EXPECT_NE(std::string(error.what()).find("words.bin"), std::string::npos);
     EXPECT_NE(std::string(error.what()).find("pas vocabulary"), std::string::npos);
   }

@@ -2,7 +2,7 @@
 
 #include <thread>
 
-#include "slam/base/require.h"
+#include "io/input_error.h"
 #include "slam/run/tracker.h"
 #include "tests/support/textured_world.h"
 
@@ -19,7 +19,7 @@ class BookFinder : public Detector {
       : asked_by_(asked_by), fails_at_s_(fails_at_s) {}
   std::vector<Detection> Detect(double timestamp_s, const cv::Mat3b& bgr) override {
     asked_by_ = std::this_thread::get_id();
-    if (timestamp_s >= fails_at_s_) throw InputError("model", "has no answer");
+    if (timestamp_s >= fails_at_s_) throw io::InputError("model", "has no answer");
     Detection book{"book", ClassKind::kRegular, 0.5, {}, -1, false};
     book.box_px = {{1, 2}, {bgr.cols / 2.0, bgr.rows / 2.0}};
     return {book};
@@ -63,7 +63,7 @@ TEST_P(DetectionBesidePoints, CarriesItsErrorToTheCaller) {
   tracker.TrackFrame(first, Colour());
   Frame second = corner_.See(camera_, Pose{}, 1);
   EXPECT_THAT([&] { tracker.TrackFrame(second, Colour()); },
-              ThrowsMessage<InputError>(StrEq("model: has no answer")));
+              ThrowsMessage<io::InputError>(StrEq("model: has no answer")));
 }
 
 }  // namespace

@@ -1,4 +1,5 @@
 #include "tests/support/fault_stream.h"
+#include "io/input_error.h"
 
 #include <gmock/gmock.h>
 
@@ -6,7 +7,6 @@
 #include <cmath>
 #include <limits>
 
-#include "slam/base/require.h"
 #include "tests/support/stream_run.h"
 
 // The fault matrix F1 to F16: what a stream does wrong must not crash the system, put a number
@@ -236,7 +236,7 @@ class BrokenStream : public FaultStream {
   BrokenStream(std::vector<RecordedFrame> frames, int at)
       : FaultStream(std::move(frames)), at_(at) {}
   RecordedFrame Read(int i) override {
-    if (i == at_) throw InputError("rgb/7.png", "the image is truncated");
+    if (i == at_) throw io::InputError("rgb/7.png", "the image is truncated");
     return FaultStream::Read(i);
   }
 
@@ -256,7 +256,7 @@ TEST(FaultStreamF14, AFileThatCannotBeReadEndsTheRunWithItsPathAndLeavesNoRun) {
     try {
       RunLive({stream, SmallCamera(320, 240), nullptr}, options);
       FAIL() << "it was read";
-    } catch (const InputError& error) {
+    } catch (const io::InputError& error) {
       EXPECT_THAT(error.what(), testing::HasSubstr("rgb/7.png"));
     }
     EXPECT_FALSE(std::filesystem::exists(options.run));
@@ -277,7 +277,7 @@ TEST(FaultStreamF15, AnImageOfAnotherSizeIsRefusedByItsFrame) {
     try {
       RunOn(Changed(Clean(), 9, 1, change));
       FAIL() << "it was taken";
-    } catch (const InputError& error) {
+    } catch (const io::InputError& error) {
       EXPECT_THAT(error.what(), testing::AllOf(testing::HasSubstr("frame 9"),
                                                testing::HasSubstr("320 x 240")));
     }

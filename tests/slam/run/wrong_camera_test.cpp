@@ -2,7 +2,7 @@
 
 #include <limits>
 
-#include "slam/base/require.h"
+#include "io/input_error.h"
 #include "tests/support/fault_stream.h"
 #include "tests/support/stream_run.h"
 
@@ -21,7 +21,7 @@ TEST(FaultStreamF8, ACameraThatCannotBeIsRefused) {
   for (const double fx : {0.0, -300.0, kNan}) {
     Camera camera = SmallCamera(320, 240);
     camera.fx = fx;
-    EXPECT_THROW(RunStream(CleanStream(3), TrackPointsAlone(), camera), InputError);
+    EXPECT_THROW(RunStream(CleanStream(3), TrackPointsAlone(), camera), io::InputError);
   }
 }
 

@@ -1,14 +1,30 @@
-#include "eval/read/json_fields.h"
+#include "io/json_field.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <sstream>
 
-#include "eval/read/input_error.h"
-#include "eval/read/text_table.h"
+#include "io/input_error.h"
+#include "io/read_file.h"
 
-namespace eval {
+namespace io {
+namespace {
+
+constexpr int kMaxJsonDepth = 32;  // our formats need 6; a line of brackets must not end us
+
+/// What the parser found, without its own name and place: those of the file are told instead.
+std::string Reason(const nlohmann::json::exception& error) {
+  const std::string text = error.what();
+  const auto at = text.find(": ");
+  return at == std::string::npos ? text : text.substr(at + 2);
+}
+
+bool IsShallow(int depth, nlohmann::json::parse_event_t, nlohmann::json&) {
+  if (depth > kMaxJsonDepth) throw InputError("nested deeper than any of our formats");
+  return true;
+}
+
+}  // namespace
 
 JsonField::JsonField(const nlohmann::json& value, std::string where, std::string path)
     : value_(&value), where_(std::move(where)), path_(std::move(path)) {}
@@ -50,6 +66,13 @@ double JsonField::Number() const {
   return value_->get<double>();
 }
 
+double JsonField::Number(const Interval& domain) const {
+  if (!value_->is_number() || !domain.Contains(value_->get<double>())) {
+    Fail("a number in " + domain.text());
+  }
+  return value_->get<double>();
+}
+
 int JsonField::Integer() const {
   const double number = value_->is_number() ? value_->get<double>() : 0.5;
   const bool fits = std::abs(number) <= std::numeric_limits<int>::max();
@@ -85,28 +108,34 @@ std::vector<Eigen::Vector3d> JsonField::Points() const {
   return points;
 }
 
-nlohmann::json ParseJson(const std::string& text, const std::filesystem::path& file,
+nlohmann::json ParseJson(const std::string& text, const std::filesystem::path& where,
                          int first_line) {
   try {
-    return nlohmann::json::parse(text);
+    return nlohmann::json::parse(text, IsShallow);
   } catch (const nlohmann::json::parse_error& error) {
     const auto end = text.begin() + static_cast<std::ptrdiff_t>(std::min(
                                         error.byte > 0 ? error.byte - 1 : 0, text.size()));
     const auto line = first_line + static_cast<int>(std::count(text.begin(), end, '\n'));
-    throw InputError(Where(file, line),
-                     "not valid JSON (the file may be cut off): " + std::string(error.what()));
+    throw InputError(Where(where, line),
+                     "not valid JSON (the file may be cut off): " + Reason(error));
+  } catch (const InputError& deep) {
+    throw InputError(Where(where, first_line), deep.what());
   }
 }
 
-std::vector<JsonLine> ReadJsonLines(const std::filesystem::path& file) {
-  std::istringstream stream(ReadWholeFile(file));
-  std::vector<JsonLine> lines;
+nlohmann::json ReadJson(const std::filesystem::path& file, const std::string& mend) {
+  return ParseJson(ReadFile(file, mend), file);
+}
+
+void ForEachJsonLine(const std::filesystem::path& file, const std::string& mend,
+                     const std::function<void(const JsonField& document)>& visit) {
+  std::ifstream stream = OpenFile(file, mend);
   std::string text;
   for (int number = 1; std::getline(stream, text); ++number) {
     if (text.find_first_not_of(" \t\r") == std::string::npos) continue;
-    lines.push_back({number, ParseJson(text, file, number)});
+    const nlohmann::json document = ParseJson(text, file, number);
+    visit(JsonField(document, Where(file, number)));
   }
-  return lines;
 }
 
-}  // namespace eval
+}  // namespace io

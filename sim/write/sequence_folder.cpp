@@ -1,9 +1,10 @@
-#include "sim/write/output_folder.h"
+#include "sim/write/sequence_folder.h"
 
 #include <system_error>
 
-#include "sim/scene/input_error.h"
-#include "sim/write/atomic_file.h"
+#include "io/atomic_file.h"
+#include "io/input_error.h"
+#include "io/read_file.h"
 
 namespace sim {
 namespace {
@@ -16,7 +17,7 @@ void MakeFolders(const fs::path& folder) {
     std::error_code error;
     fs::create_directories(folder / name, error);
     if (error) {
-      throw InputError(
+      throw io::InputError(
           (folder / name).string(),
           "this folder cannot be made: " + error.message() + "; choose another output folder");
     }
@@ -25,14 +26,14 @@ void MakeFolders(const fs::path& folder) {
 
 void RemoveUnfinished(const fs::path& folder) {
   for (const auto& entry : fs::recursive_directory_iterator(folder)) {
-    if (entry.path().extension() == kUnfinishedSuffix) fs::remove(entry.path());
+    if (entry.path().extension() == io::kUnfinishedSuffix) fs::remove(entry.path());
   }
 }
 
 /// True when there are only folders and perhaps an unfinished manifest: what a run leaves that
 /// was killed before the manifest was there.
 bool HoldsNothing(const fs::path& folder) {
-  const fs::path unfinished = std::string("manifest.json") + kUnfinishedSuffix;
+  const fs::path unfinished = std::string("manifest.json") + io::kUnfinishedSuffix;
   for (const auto& entry : fs::recursive_directory_iterator(folder)) {
     if (!entry.is_directory() && entry.path() != folder / unfinished) return false;
   }
@@ -52,10 +53,10 @@ void RemoveOld(const fs::path& folder, Json manifest) {
 /// @throws InputError unless `old`, begun or finished, was made with the plan's options.
 void RequireSamePlan(const fs::path& folder, const Json& old, const Json& plan) {
   const auto refuse = [&](const std::string& key, const Json& was, const Json& is) {
-    throw InputError((folder / "manifest.json").string(),
-                     "cannot resume: " + key + " was " + was.dump() + ", now it is " +
-                         is.dump() +
-                         "; repeat the first command's options, or use --force to start again");
+    throw io::InputError(
+        (folder / "manifest.json").string(),
+        "cannot resume: " + key + " was " + was.dump() + ", now it is " + is.dump() +
+            "; repeat the first command's options, or use --force to start again");
   };
   const auto value = [](const Json& json, const std::string& key) {
     return json.contains(key) ? json.at(key) : Json();
@@ -74,7 +75,7 @@ void RequireSamePlan(const fs::path& folder, const Json& old, const Json& plan) 
 
 std::optional<Json> ReadManifest(const fs::path& folder) {
   if (!fs::exists(folder / "manifest.json")) return std::nullopt;
-  Json manifest = Json::parse(ReadWholeFile(folder / "manifest.json"), nullptr, false);
+  Json manifest = Json::parse(io::ReadFile(folder / "manifest.json"), nullptr, false);
   if (!manifest.is_object() || !manifest.contains("format") ||
       manifest["format"] != "pas-sequence/1") {
     return std::nullopt;
@@ -83,26 +84,27 @@ std::optional<Json> ReadManifest(const fs::path& folder) {
 }
 
 void WriteManifest(const fs::path& folder, const Json& manifest) {
-  WriteFileAtomically(folder / "manifest.json", manifest.dump(1) + "\n");
+  io::WriteFile(folder / "manifest.json", manifest.dump(1) + "\n");
 }
 
 bool PrepareFolder(const fs::path& folder, const Json& plan, Existing existing) {
   const bool there = fs::exists(folder);
   if (there && !fs::is_directory(folder)) {
-    throw InputError(folder.string(), "is a file; name a folder for the sequence");
+    throw io::InputError(folder.string(), "is a file; name a folder for the sequence");
   }
   const bool empty =
       !there || (existing == Existing::kRefuse ? fs::is_empty(folder) : HoldsNothing(folder));
   const std::optional<Json> old = empty ? std::nullopt : ReadManifest(folder);
   if (!empty && existing == Existing::kRefuse) {
-    throw InputError(folder.string(),
-                     "exists already; use --force to replace it, --resume to finish an "
-                     "interrupted run, or name another folder");
+    throw io::InputError(folder.string(),
+                         "exists already; use --force to replace it, --resume to finish an "
+                         "interrupted run, or name another folder");
   }
   if (!empty && !old) {
-    throw InputError(folder.string(),
-                     "exists and has no manifest.json of a simulated sequence, so it is left "
-                     "alone; remove it yourself or name another folder");
+    throw io::InputError(
+        folder.string(),
+        "exists and has no manifest.json of a simulated sequence, so it is left "
+        "alone; remove it yourself or name another folder");
   }
   if (!empty && existing == Existing::kReplace) RemoveOld(folder, *old);
   const bool resumed = !empty && existing == Existing::kResume;

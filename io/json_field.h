@@ -1,19 +1,22 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <array>
 #include <filesystem>
+#include <functional>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <vector>
 
-namespace eval {
+#include "io/interval.h"
+
+namespace io {
 
 /// A JSON value together with the place it came from, so that every fault can be named:
 /// "file:line: planes[2].normal: expected 3 finite numbers". Unknown keys are ignored.
 class JsonField {
  public:
+  /// @param value  must outlive the field and those made from it
   JsonField(const nlohmann::json& value, std::string where, std::string path = "");
 
   /// The member `key`, which must be there. @throws InputError naming it.
@@ -23,7 +26,8 @@ class JsonField {
   /// The elements of an array. @throws InputError if it is none.
   std::vector<JsonField> Elements() const;
 
-  double Number() const;  ///< finite
+  double Number() const;                        ///< finite
+  double Number(const Interval& domain) const;  ///< in the domain
   int Integer() const;
   std::string Text() const;
   bool Boolean() const;
@@ -32,6 +36,7 @@ class JsonField {
   std::vector<Eigen::Vector3d> Points() const;  ///< array of arrays of 3
 
   bool IsNull() const { return value_->is_null(); }
+  /// @throws InputError "where: path: expected ..., found ..."
   [[noreturn]] void Fail(const std::string& expected) const;
 
  private:
@@ -40,18 +45,19 @@ class JsonField {
   std::string path_;
 };
 
-/// Parses a text; syntax faults become InputError with `file` and the line (counted from
-/// `first_line`).
-nlohmann::json ParseJson(const std::string& text, const std::filesystem::path& file,
+/// The document in a text. `where` (the file) is for messages.
+/// @throws InputError with file:line, the text's first line being `first_line`, for what is not
+///   JSON or is nested without reason
+nlohmann::json ParseJson(const std::string& text, const std::filesystem::path& where,
                          int first_line = 1);
 
-/// One document of a JSON lines file.
-struct JsonLine {
-  int number = 0;  ///< from 1
-  nlohmann::json value;
-};
+/// The document in a file. @param mend  see ReadFile
+/// @throws InputError
+nlohmann::json ReadJson(const std::filesystem::path& file, const std::string& mend = "");
 
-/// Every non-empty line as a JSON document. @throws InputError with file:line.
-std::vector<JsonLine> ReadJsonLines(const std::filesystem::path& file);
+/// Reads a file of one document a line; empty lines are left out. Holds one document at a time.
+/// @throws InputError with file:line
+void ForEachJsonLine(const std::filesystem::path& file, const std::string& mend,
+                     const std::function<void(const JsonField& document)>& visit);
 
-}  // namespace eval
+}  // namespace io

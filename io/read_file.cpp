@@ -1,0 +1,44 @@
+#include "io/read_file.h"
+
+#include <cerrno>
+#include <system_error>
+
+#include "io/input_error.h"
+
+namespace io {
+namespace {
+
+[[noreturn]] void FailToRead(const std::filesystem::path& file, const std::string& what,
+                             const std::string& mend) {
+  throw InputError(file.string(), what + (mend.empty() ? "" : "; " + mend));
+}
+
+}  // namespace
+
+std::ifstream OpenFile(const std::filesystem::path& file, const std::string& mend) {
+  std::error_code ignored;
+  const auto type = std::filesystem::status(file, ignored).type();
+  if (type == std::filesystem::file_type::not_found) FailToRead(file, "no such file", mend);
+  std::ifstream stream(file, std::ios::binary);
+  if (!stream) {
+    FailToRead(file, "cannot be read: " + std::generic_category().message(errno), mend);
+  }
+  if (type != std::filesystem::file_type::regular) FailToRead(file, "is not a file", mend);
+  return stream;
+}
+
+std::string ReadFile(const std::filesystem::path& file, const std::string& mend,
+                     std::uintmax_t max_bytes) {
+  std::ifstream stream = OpenFile(file, mend);
+  const std::uintmax_t size = std::filesystem::file_size(file);
+  if (size > max_bytes) {
+    FailToRead(file, "is larger than " + std::to_string(max_bytes >> 20) + " MiB", mend);
+  }
+  std::string bytes(size, '\0');
+  if (!stream.read(bytes.data(), static_cast<std::streamsize>(size))) {
+    FailToRead(file, "cannot be read to its end", mend);
+  }
+  return bytes;
+}
+
+}  // namespace io
