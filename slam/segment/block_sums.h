@@ -21,7 +21,7 @@ PlaneSums SumFree(const BlockPixels& block, const std::uint8_t* taken);
 void CountFree(const float* g, const std::uint8_t* taken, int stride, int width, int height,
                std::uint8_t* counts);
 
-/// Whether two neighbouring measured pixels differ by more than `most_sigmas`.
-bool HasJump(const BlockPixels& block, float most_sigmas);
+/// Whether two neighbouring measured pixels differ by more than `max_sigmas`.
+bool HasJump(const BlockPixels& block, float max_sigmas);
 
 }  // namespace slam

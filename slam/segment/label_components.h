@@ -29,8 +29,8 @@ struct LabelComponents {
 };
 
 /// Finds the components of components.runs, without sides. Our own because it joins runs
-/// instead of pixels: cv::connectedComponentsWithStats, called for each label within its bounds,
-/// took 21 times as long on label images of desks, a seventh of the whole extraction.
+/// instead of pixels: cv::connectedComponentsWithStats, called for each label within its
+/// bounds, took 21 times as long on label images of desks, a seventh of the whole extraction.
 void ConnectRuns(LabelComponents& components);
 
 /// Counts `behind` and `in_front` of every component.

@@ -103,8 +103,9 @@ void PatchUnion::CopyPlanes(std::vector<LabelPlane>& planes) const {
   for (const Patch& patch : patches_) planes.push_back(patch.plane);
 }
 
-void PatchJoining::FindContacts(const DepthGrid& grid, const PixelGrowth& growth) {
-  FindRuns(growth.labels(), grid.width, grid.height, runs_);
+void PatchJoining::FindContacts(const DepthGrid& grid, PixelGrowth& growth) {
+  growth.DrawLabels(labels_);
+  FindRuns(labels_, grid.width, grid.height, runs_);
   contacts_.Clear(static_cast<int>(growth.planes().size()));
   std::pair<int, int> last{-1, -1};  // what follows touches the same pair: look it up once
   Contact* contact = nullptr;
@@ -151,7 +152,8 @@ void PatchJoining::MergeEqualNeighbours(const DepthGrid& grid,
                                         const std::vector<PlaneSums>& blocks,
                                         const PlaneExtractionConfig& config,
                                         PixelGrowth& growth) {
-  patches_.Begin(growth.SumLabels(blocks), growth.planes(), config.noise);
+  growth.SumLabels(blocks, sums_);
+  patches_.Begin(sums_, growth.planes(), config.noise);
   FindContacts(grid, growth);
   auto& contacts = contacts_.Sorted();
   while (true) {
@@ -210,16 +212,18 @@ const PatchUnion& PatchJoining::JoinBentParts(const DepthGrid& grid,
                                               const std::vector<PlaneSums>& blocks,
                                               const PlaneExtractionConfig& config,
                                               PixelGrowth& growth, bool warped) {
-  patches_.Begin(growth.SumLabels(blocks), growth.planes(), config.noise);
+  growth.SumLabels(blocks, sums_);
+  patches_.Begin(sums_, growth.planes(), config.noise);
   patches_.CopyPlanes(planes_);
-  FindRuns(growth.labels(), grid.width, grid.height, runs_);
+  growth.DrawLabels(labels_);
+  FindRuns(labels_, grid.width, grid.height, runs_);
   if (warped) {
-    MeasureShares(grid, growth.labels(), runs_, planes_, config.noise, strips_, shares_);
+    MeasureShares(grid, labels_, runs_, planes_, config.noise, strips_, shares_);
     for (const auto& [pair, share] : shares_.Sorted()) {
       if (share.IsCrease()) patches_.KeepApart(pair.first, pair.second);
     }
   }
-  step_measurement_.Measure(grid, growth.labels(), runs_, planes_, steps_);
+  step_measurement_.Measure(grid, labels_, runs_, planes_, steps_);
   RankMeetingLabels(config);
   JoinMeeting(config);
   return patches_;

@@ -89,12 +89,14 @@ class PatchJoining {
     bool wanted = false, summed = false;
     PlaneSums rays;
   };
-  void FindContacts(const DepthGrid& grid, const PixelGrowth& growth);
+  void FindContacts(const DepthGrid& grid, PixelGrowth& growth);
   void SumContacts(const DepthGrid& grid, const PlaneExtractionConfig& config);
   void RankMeetingLabels(const PlaneExtractionConfig& config);
   void JoinMeeting(const PlaneExtractionConfig& config);
 
   PatchUnion patches_;
+  std::vector<PlaneSums> sums_;  ///< one a label
+  LabelImage labels_;
   LabelRuns runs_;
   LabelPairs<Contact> contacts_;
   std::vector<std::uint8_t> wanted_;  ///< labels with a contact that is to be summed

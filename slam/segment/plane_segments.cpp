@@ -82,11 +82,11 @@ void PlaneExtractor::Extract(Frame& frame) {
   if (warp > 0.0) work_->clustering.MergeAgain(config.coarse);
   growth.Begin(grid, config.growth);
   AddClusters(grid, clusters, config.noise, growth);
-  growth.MarkSettled(config.coarse.model_error_sigmas,
-                     config.max_block_bias_sigmas * std::sqrt(config.noise.correlated_px),
-                     work_->settled);
+  growth.MarkExplained(config.coarse.model_error_sigmas,
+                       config.max_block_bias_sigmas * std::sqrt(config.noise.correlated_px),
+                       work_->explained);
   AddClusters(grid,
-              work_->clustering.Cluster(grid, work_->settled, config.fine_block_px,
+              work_->clustering.Cluster(grid, work_->explained, config.fine_block_px,
                                         config.noise, config.fine),
               config.noise, growth);
   const std::vector<PlaneSums> unknown;

@@ -26,7 +26,7 @@ struct PlaneExtractor::Workspace {
   BlockClustering clustering;
   WarpMeasurement warp;
   PixelGrowth growth;
-  std::vector<std::uint8_t> settled;
+  std::vector<std::uint8_t> explained;  ///< pixels of the first clustering's planes
   PatchJoining patches;
   PartSegmentation parts;
   std::vector<PlaneSums> sums;  ///< of segments
