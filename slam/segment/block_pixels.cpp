@@ -212,9 +212,6 @@ SLAM_INLINE void FindCostsAny(const BlockPixels& block, const PixelPlane& plane,
 
 }  // namespace
 
-static_assert(DepthGrid::kCopiesBefore >= kMaxCostReach_px &&
-              DepthGrid::kRowCopies >= kMaxBlockSide_px + 2 * kMaxCostReach_px);
-
 SLAM_LANES void FindMeasured(const BlockPixels& block, PixelSet measured) {
   if (IsWhole8(block)) {
     RowsOfSet rows;

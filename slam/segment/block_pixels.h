@@ -60,9 +60,6 @@ struct CostWindow {
   float max_sigmas = 0.0f;                       ///< larger residuals count as this
 };
 
-/// The largest `size` and `reach`: what GrowthConfig allows.
-inline constexpr int kMaxBlockSide_px = 64, kMaxCostReach_px = 16;
-
 /// Pixels that are measured.
 void FindMeasured(const BlockPixels& block, PixelSet measured);
 

@@ -132,7 +132,7 @@ SLAM_INLINE FourFloats Weights(const float* g, const std::uint8_t* taken) {
 SLAM_INLINE PlaneSums SumNotTaken(const BlockPixels& block, const std::uint8_t* taken) {
   FourSums fours;
   FourInts n{};
-  const bool whole_columns = block.x_stride == 0;  // of one x, and rows of one y
+  const bool whole_columns = block.x_stride == 0;  // each of one x, and rows of one y
   const int whole = block.width / kFour * kFour;
   for (int u = 0; u < whole; u += kFour) {
     FourSums four;

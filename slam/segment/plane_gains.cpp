@@ -69,8 +69,8 @@ double PlaneGains::GainOf(const PlanesOnBlocks& on, int hypothesis, int block,
 /// Whether a label gains enough. Looks no further once the bounds of the other blocks suffice.
 bool PlaneGains::IsUseful(const PlanesOnBlocks& on, int label,
                           const std::vector<std::uint8_t>& useless) {
-  constexpr double kSpare =
-      1e-6;  // sigmas^2 a pixel: more than the rounding of a sum takes away
+  // sigmas^2 a pixel: more than the rounding of a sum takes away.
+  constexpr double kSpare = 1e-6;
   const int pixels = std::max(pixels_[static_cast<std::size_t>(label)], 1);
   const double enough = min_gain_ * pixels, surely = enough + kSpare * pixels;
   double gain = 0.0, others = bounds_[static_cast<std::size_t>(label)];
@@ -93,6 +93,9 @@ void PlaneGains::FindUseless(const PlanesOnBlocks& on, const GrowthConfig& confi
   nearest_.resize(2 * EntriesOfBlock(config.block_px));
   shared_.resize(on.hypotheses.set_words());
   BoundGains(on);
+
+  // Fewest pixels first: a small plane that only steals from its neighbours goes before these
+  // are asked.
   fewest_first_.resize(on.planes.size());
   std::iota(fewest_first_.begin(), fewest_first_.end(), 0u);
   std::sort(fewest_first_.begin(), fewest_first_.end(), [&](std::size_t a, std::size_t b) {

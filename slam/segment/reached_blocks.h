@@ -40,7 +40,7 @@ class ReachedBlocks {
   /// left one lowest.
   unsigned MissingAround(int label, const cv::Point& place) const {
     const auto c =
-        static_cast<unsigned>(place.x);  // of the block to the left, after the margin
+        static_cast<unsigned>(place.x);  // column of the block to the left, after the margin
     const std::uint8_t* row = bits_.data() + Row(place.y - 1, label) + c / 8;
     unsigned reached = 0;
     for (unsigned r = 0; r < 3; ++r, row += row_bytes_) {
