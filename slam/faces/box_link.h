@@ -9,10 +9,10 @@ namespace slam {
 
 /// When a plane belongs to a detected object. Strict bounds, as the paper prints them.
 struct BoxLinkConfig {
-  double min_iou = 0.10;        ///< of the plane's rectangle and the box; domain [0, 1)
-  double min_edge_share = 0.8;  ///< of edge points inside the box; domain [0, 1)
+  double min_iou = 0.10;        ///< overlap of the plane's rectangle and the box; domain [0, 1)
+  double min_edge_share = 0.8;  ///< part of its edge points inside the box; domain [0, 1)
   double margin_px = 4.0;       ///< a box is that much inexact; domain [0, inf)
-  double min_score = 0.3;       ///< of the detection; domain [0, 1)
+  double min_score = 0.3;       ///< score of the detection; domain [0, 1)
 };
 
 /// Links each plane to at most one detection: FramePlane::detection and class_name; a plane

@@ -24,8 +24,7 @@ enum class NoPerpendicular {
 ///
 /// @param L_i, L_j  one frame, metres; directions of any length (they are normalised)
 /// @param min_angle_rad  the denominator of eq5 is sin^2 of the angle between the lines: at
-/// this
-///                       angle and below there is no answer; domain (0, pi/2)
+///                       this angle and below there is no answer; domain (0, pi/2)
 ///
 /// Source: PAS-SLAM eq2, eq3 (corrected: the foot is a projection along V_i, the paper prints
 /// P_i), eq5. Error: below 1e-14 L / sin^2(angle) for coordinates of size L.

@@ -14,13 +14,15 @@ namespace {
 
 using Points = std::vector<Eigen::Vector2d>;
 
+constexpr int kMinSupport = 4;  // points of a line: any two make one, and three often do
+
 LineStrip StripAlong(const ImageLine& line, double max_distance) {
   return {line.p.x(), line.p.y(), line.v.x(), line.v.y(), max_distance};
 }
 
 double Along(const ImageLine& line, const Eigen::Vector2d& u) { return line.v.dot(u - line.p); }
 
-/// Total least squares.
+/// The line of total least squares: along the scatter's larger axis.
 ImageLine FitLine(const Points& points) {
   Eigen::Vector2d mean = Eigen::Vector2d::Zero();
   for (const Eigen::Vector2d& u : points) mean += u;
@@ -54,7 +56,7 @@ class LineSearch {
       ImageLine line;
       line.p = points_[static_cast<std::size_t>(random.Below(n))];
       const Eigen::Vector2d d = points_[static_cast<std::size_t>(random.Below(n))] - line.p;
-      // Two points closer than half the least length do not fix a direction.
+      // Two points closer than half the shortest line do not fix a direction.
       if (!(d.norm() > 0.5 * config_.min_length_px)) continue;
       line.v = d.normalized();
       line.support =
@@ -91,7 +93,7 @@ class LineSearch {
   }
 
  private:
-  /// The most of the near points in a row along the line without a gap.
+  /// The longest row of near points along the line without a gap.
   void TakeLongestPiece(const ImageLine& line) {
     sorted_.clear();
     for (const int k : near_)
@@ -111,7 +113,7 @@ class LineSearch {
   }
 
   Points points_;
-  PointColumns columns_;  ///< of the same
+  PointColumns columns_;  ///< the same points
   const EdgeLineConfig& config_;
   std::vector<int> near_;                       ///< places of points near a line
   std::vector<std::pair<double, int>> sorted_;  ///< where along it, and their places
@@ -123,7 +125,7 @@ class LineSearch {
 /// Points where the surface itself ends.
 struct OwnEnds {
   Points u_px;                     ///< ideal image
-  std::vector<float> step_sigmas;  ///< of each (EdgePoint)
+  std::vector<float> step_sigmas;  ///< one a point (EdgePoint)
 };
 
 OwnEnds ProjectOwnEnds(const FramePlane& plane, const Camera& camera) {
@@ -150,6 +152,8 @@ double SharedVariance(const OwnEnds& ends, const ImageLine& line,
     const double along = line.v.dot(u - line.from);
     if (along >= 0 && along <= length) steps.push_back(ends.step_sigmas[k]);
   }
+
+  // Where the depth hardly changes, the place of the whole side is doubtful.
   double doubt_px = 0.0;
   if (!steps.empty()) {
     const auto middle = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
@@ -175,6 +179,8 @@ std::vector<ImageLine> FindImageLines(Points points_px, int min_support,
   std::sort(points_px.begin(), points_px.end(), [](const auto& a, const auto& b) {
     return a.y() != b.y() ? a.y() < b.y() : a.x() < b.x();
   });
+
+  // One line after the other, each from what the ones before have left.
   LineSearch search(std::move(points_px), config);
   std::vector<ImageLine> lines;
   while (static_cast<int>(lines.size()) < config.max_lines &&
@@ -200,11 +206,13 @@ std::vector<ImageLine> FindImageLines(Points points_px, int min_support,
 std::vector<EdgeLine> FindEdgeLines(const FramePlane& plane, const Camera& camera,
                                     const EdgeLineConfig& config, const Random& random) {
   const OwnEnds ends = ProjectOwnEnds(plane, camera);
-  const int min_support =
-      std::max(4, static_cast<int>(std::ceil(config.min_contour_share *
-                                             static_cast<double>(plane.edge_points.size()))));
+  const int min_support = std::max(
+      kMinSupport, static_cast<int>(std::ceil(config.min_contour_share *
+                                              static_cast<double>(plane.edge_points.size()))));
   const InverseDepthPlane along_rays = SeenAlongRays(plane.pi_c);
   const Eigen::Vector2d center = camera.Project(plane.centroid_c);
+
+  // Each line moves out to the edge itself, and from the image onto the plane.
   std::vector<EdgeLine> out;
   for (const ImageLine& line : FindImageLines(ends.u_px, min_support, config, random)) {
     Eigen::Vector2d outward(-line.v.y(), line.v.x());

@@ -14,11 +14,11 @@ namespace slam {
 
 struct EdgeLineConfig {
   int max_lines = 6;             ///< domain [1, 16]
-  int iterations = 120;          ///< of RANSAC, per line; domain [1, inf)
-  double max_distance_px = 2.0;  ///< of an inlier from its line; domain (0, inf)
+  int iterations = 120;          ///< hypotheses of RANSAC for each line; domain [1, inf)
+  double max_distance_px = 2.0;  ///< from an inlier to its line; domain (0, inf)
   double max_gap_px = 16.0;      ///< between neighbouring inliers of one line; domain (0, inf)
   double min_length_px = 10.0;   ///< domain (0, inf)
-  double min_contour_share = 0.03;  ///< of the edge points that a line must hold; domain [0, 1)
+  double min_contour_share = 0.03;  ///< part of the edge points on a line; domain [0, 1)
   /// Boundary pixels are the last inside the surface: their centres lie this far inside the
   /// edge itself. Domain [0, 1].
   double inset_px = 0.5;
@@ -37,7 +37,7 @@ struct EdgeLine {
   Line line_c;                     ///< on the plane, camera frame
   Eigen::Vector2d from_px, to_px;  ///< ends of the piece that is seen, ideal image
   int support = 0;                 ///< edge points on it
-  LineError error{};               ///< of the line through from_px and to_px
+  LineError error{};               ///< that of the line through from_px and to_px
 };
 
 /// A line in the image: u = p + s v, v unit.

@@ -13,10 +13,10 @@ namespace slam {
 /// What a plane that no detection speaks for must show to have corners: its shape is then the
 /// only evidence that it is a rectangle.
 struct UnlinkedConfig {
-  double min_contour_share = 0.08;       ///< of its edge points, that a line holds; [0, 1)
-  double min_length_px = 20.0;           ///< of a line; domain (0, inf)
-  double max_parallel_angle_rad = 0.09;  ///< of opposite sides; domain (0, pi/2)
-  double max_square_error_rad = 0.10;    ///< of a corner from a right angle; domain (0, pi/2)
+  double min_contour_share = 0.08;       ///< part of its edge points on a line; [0, 1)
+  double min_length_px = 20.0;           ///< a line's; domain (0, inf)
+  double max_parallel_angle_rad = 0.09;  ///< between opposite sides; domain (0, pi/2)
+  double max_square_error_rad = 0.10;    ///< a corner's, from a right angle; domain (0, pi/2)
 };
 
 struct PlaneProcessingConfig {
@@ -27,7 +27,7 @@ struct PlaneProcessingConfig {
   VertexConfig vertices;
   UnlinkedConfig unlinked;
   SelectConfig select;
-  std::uint64_t seed = 1;  ///< of RANSAC; any value
+  std::uint64_t seed = 1;  ///< for RANSAC; any value
 };
 
 /// (C) of the paper: makes planes out of segments that can be trusted, and says which cannot.

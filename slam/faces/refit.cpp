@@ -15,6 +15,10 @@
 namespace slam {
 namespace {
 
+constexpr std::size_t kMinPoints = 3;  // a plane has three parameters
+// Cosine of 87 degrees: the bound must not vanish for a plane that is seen from its edge.
+constexpr double kMinCosine = 0.05;
+
 /// Distance of a point from a plane along its ray, in sigmas of its depth.
 double DistanceSigmas(const InverseDepthPlane& plane, double grazing,
                       const Eigen::Vector3d& x_c, const DepthNoise& noise) {
@@ -59,28 +63,33 @@ void SilencePcl() {
 /// PCL's robust plane, refined on its inliers; nothing when it finds none.
 std::optional<Plane> RobustPlane(const FramePlane& plane, const DepthNoise& noise,
                                  const RefitConfig& config) {
+  // The points, thinned evenly.
   auto cloud = pcl::make_shared<pcl::PointCloud<pcl::PointXYZ>>();
-  const std::size_t most = static_cast<std::size_t>(std::max(config.max_sample_points, 3));
-  const std::size_t step = (plane.points_c.size() + most - 1) / most;
+  const std::size_t max_points =
+      std::max(static_cast<std::size_t>(std::max(config.max_sample_points, 0)), kMinPoints);
+  const std::size_t step = (plane.points_c.size() + max_points - 1) / max_points;
   for (std::size_t k = 0; k < plane.points_c.size(); k += std::max<std::size_t>(step, 1)) {
     const Eigen::Vector3f p = plane.points_c[k].cast<float>();
     cloud->push_back({p.x(), p.y(), p.z()});
   }
-  if (cloud->size() < 3) return std::nullopt;
+  if (cloud->size() < kMinPoints) return std::nullopt;
   SilencePcl();
   const bool random_seed = false;
   const auto model =
       pcl::make_shared<pcl::SampleConsensusModelPlane<pcl::PointXYZ>>(cloud, random_seed);
+
   // The bound is along the ray; the distance that PCL measures is along the normal.
   const Candidate segment = SeenFrom(plane.pi_c, plane.centroid_c, noise);
   const double x = plane.centroid_c.x() / plane.centroid_c.z();
   const double y = plane.centroid_c.y() / plane.centroid_c.z();
   const double cosine = segment.plane.Cosine(x, y) * std::sqrt(x * x + y * y + 1.0);
   const double bound = config.max_inlier_sigmas * noise.Sigma(plane.centroid_c.z()) *
-                       segment.grazing * std::max(cosine, 0.05);
+                       segment.grazing * std::max(cosine, kMinCosine);
   pcl::MEstimatorSampleConsensus<pcl::PointXYZ> msac(model, bound);
   msac.setMaxIterations(config.max_iterations);
   if (!msac.computeModel()) return std::nullopt;
+
+  // MSAC's plane, fitted again to its inliers.
   Eigen::VectorXf coefficients;
   pcl::Indices inliers;
   msac.getModelCoefficients(coefficients);
@@ -127,13 +136,14 @@ Plane ChoosePlane(const FramePlane& plane, const DepthNoise& noise, const RefitC
 }  // namespace
 
 void RefitPlane(FramePlane& plane, const DepthNoise& noise, const RefitConfig& config) {
-  if (plane.points_c.size() < 3) {
+  if (plane.points_c.size() < kMinPoints) {
     plane.inlier_ratio = 0.0;
     return;
   }
   plane.pi_c = ChoosePlane(plane, noise, config);
   plane.centroid_c = ProjectOnto(plane.pi_c, plane.centroid_c);
 
+  // Points off the plane go.
   const Candidate now = SeenFrom(plane.pi_c, plane.centroid_c, noise);
   const auto off = [&](const Eigen::Vector3d& x_c, double max_sigmas) {
     return !(DistanceSigmas(now.plane, now.grazing, x_c, noise) < max_sigmas);
@@ -143,6 +153,7 @@ void RefitPlane(FramePlane& plane, const DepthNoise& noise, const RefitConfig& c
                 [&](const Eigen::Vector3d& x_c) { return off(x_c, config.max_inlier_sigmas); });
   plane.inlier_ratio = static_cast<double>(plane.points_c.size()) / before;
 
+  // Edge points off the plane go too; the others move along their rays onto it.
   std::erase_if(plane.edge_points,
                 [&](const EdgePoint& e) { return off(e.p_c, config.max_edge_sigmas); });
   plane.box_px = {};

@@ -16,7 +16,7 @@ struct RefitConfig {
   RefitMethod method = RefitMethod::kBest;
   double max_inlier_sigmas = 2.5;  ///< distance of an inlier, in sigmas of the depth; (0, inf)
   int max_sample_points = 300;     ///< points given to the robust fit; domain [3, inf)
-  int max_iterations = 100;        ///< of the robust fit; domain [1, inf)
+  int max_iterations = 100;        ///< hypotheses of the robust fit; domain [1, inf)
   /// How much less the squared error of the re-fit must be, in sigmas^2, before it replaces the
   /// segment's fit, which rests on all pixels; chi-square, 3 degrees of freedom. Domain [0,
   /// inf).

@@ -9,7 +9,7 @@ namespace slam {
 namespace {
 
 // Depth that is cleaner than half the modelled sigma is rough by rounding and small curves.
-constexpr double kLeastUsualRoughness = 0.25;
+constexpr double kMinUsualRoughness = 0.25;
 
 template <typename Predicate>
 double Share(const std::vector<EdgePoint>& edge, const Predicate& predicate) {
@@ -64,10 +64,13 @@ std::optional<BadReason> FindFault(const FramePlane& plane,
                                    const std::vector<Detection>& detections,
                                    double usual_roughness, const Camera& camera,
                                    const SelectConfig& config) {
+  // Too far away, or no plane.
   if (!(plane.centroid_c.norm() < config.max_distance_m)) return BadReason::kFar;
   if (!(plane.inlier_ratio > config.min_inlier_ratio)) return BadReason::kInliers;
-  const double usual = std::max(usual_roughness, kLeastUsualRoughness);
+  const double usual = std::max(usual_roughness, kMinUsualRoughness);
   if (!(plane.roughness < config.max_roughness * usual)) return BadReason::kInliers;
+
+  // The face of a regular object must show its structure.
   double regular_fit = 0.0;
   if (plane.detection) {
     const Detection& linked = detections.at(static_cast<std::size_t>(*plane.detection));
@@ -76,6 +79,8 @@ std::optional<BadReason> FindFault(const FramePlane& plane,
       if (const auto fault = StructureFault(plane, camera, config)) return fault;
     }
   }
+
+  // Nothing is taken from an unstructured object, unless a regular one's box fits better.
   for (const Detection& d : detections) {
     if (d.kind != ClassKind::kUnstructured) continue;
     if (Iou(plane.box_px, d.box_px) < regular_fit) continue;

@@ -11,8 +11,9 @@ Eigen::Matrix2d CrossingCovariance(const LineError& line_i, const LineError& lin
                                    const Eigen::Vector2d& u_px) {
   Eigen::Matrix2d normals;
   normals << -line_i.along.y(), line_i.along.x(), -line_j.along.y(), line_j.along.x();
-  if (!(std::abs(normals.determinant()) > 1e-6)) return Eigen::Matrix2d::Zero();
-  const Eigen::Matrix2d moved = normals.inverse();  // of the crossing, by lines moved across
+  constexpr double kMinSine = 1e-6;  // only guards the division: corners are much squarer
+  if (!(std::abs(normals.determinant()) > kMinSine)) return Eigen::Matrix2d::Zero();
+  const Eigen::Matrix2d moved = normals.inverse();  // how the crossing moves with the lines
   const Eigen::Vector2d across(line_i.Variance(u_px), line_j.Variance(u_px));
   return moved * across.asDiagonal() * moved.transpose();
 }
@@ -22,6 +23,7 @@ Eigen::Matrix2d CrossingCovariance(const LineError& line_i, const LineError& lin
 Eigen::Matrix3d VertexCovariance(const FramePlane& plane, const LineError& line_i,
                                  const LineError& line_j, const Eigen::Vector3d& p_c,
                                  const Camera& camera) {
+  // The corner x = ray / q depends on the pixel where the lines cross and on the plane's q.
   const Eigen::Vector3d ray = p_c / p_c.z();
   const Eigen::Vector3d g = -plane.pi_c.n / plane.pi_c.d;
   const double q = g.dot(ray);

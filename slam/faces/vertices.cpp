@@ -34,6 +34,7 @@ class FaceOutline {
     std::vector<Meeting> best;
     int best_support = 0;
     const int n = static_cast<int>(lines_.size());
+    // Of all two pairs of parallel sides, those that most edge points support.
     for (int a = 0; a < n; ++a) {
       for (int b = a + 1; b < n; ++b) {
         if (!Parallel(a, b)) continue;
@@ -189,6 +190,8 @@ Result<Eigen::Vector3d, NoVertex> MeetingPoint(const Line& L_i, const Line& L_j,
                                                const VertexConfig& config) {
   const auto feet = CommonPerpendicular(L_i, L_j, config.min_crossing_angle_rad);
   if (!feet) return NoVertex::kNearlyParallel;
+
+  // The three conditions of the paper.
   const auto& [P_pi, P_pj] = feet.value();
   if (!((P_pi - P_pj).norm() < config.max_feet_distance_m)) return NoVertex::kFeetApart;
   for (const Eigen::Vector3d& foot : {P_pi, P_pj}) {
@@ -204,6 +207,7 @@ Result<Eigen::Vector3d, NoVertex> MeetingPoint(const Line& L_i, const Line& L_j,
 std::vector<Vertex> FindVertices(const FramePlane& plane, const std::vector<EdgeLine>& lines,
                                  const Camera& camera, const std::optional<Box>& box_px,
                                  const VertexConfig& config) {
+  // A whole rectangle is sought first, then what of one can be seen.
   const std::optional<Box> open_px =
       box_px
           ? std::optional<Box>(OpenAtBorder(*box_px, camera.ImageBox(), config.box_margin_px))
@@ -212,6 +216,7 @@ std::vector<Vertex> FindVertices(const FramePlane& plane, const std::vector<Edge
   std::vector<Meeting> corners = outline.Rectangle();
   if (corners.empty()) corners = outline.Partial();
   if (corners.empty()) return {};
+
   PutInOrder(plane.pi_c, camera, corners);
   std::vector<Vertex> out;
   for (const auto& [p_c, i, j] : corners) {

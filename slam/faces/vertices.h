@@ -14,9 +14,9 @@ namespace slam {
 
 /// A `max_` bound is passed strictly below it.
 struct VertexConfig {
-  double min_crossing_angle_rad = 0.5;   ///< of two lines that make a corner; domain (0, pi/2)
-  double max_parallel_angle_rad = 0.17;  ///< of opposite sides; domain (0, pi/2)
-  double max_square_error_rad = 0.20;    ///< of a corner from a right angle; domain (0, pi/2)
+  double min_crossing_angle_rad = 0.5;   ///< between lines that make a corner; (0, pi/2)
+  double max_parallel_angle_rad = 0.17;  ///< between opposite sides; domain (0, pi/2)
+  double max_square_error_rad = 0.20;    ///< a corner's, from a right angle; domain (0, pi/2)
   double max_feet_distance_m = 0.01;     ///< condition 1; domain (0, inf)
   double max_plane_distance_m = 0.01;    ///< condition 2; domain (0, inf)
   double box_margin_px = 12.0;           ///< condition 3: outside the box by less; [0, inf)
@@ -25,7 +25,7 @@ struct VertexConfig {
   /// Where a partial outline has two sides only, its corner must be at most this part of their
   /// length beyond the end of either. Domain [0, inf).
   double max_extension = 0.25;
-  double min_side_m = 0.02;  ///< of a rectangle; domain (0, inf)
+  double min_side_m = 0.02;  ///< a rectangle's shortest side; domain (0, inf)
   /// Visible area over the rectangle's: less means lines of something else, or a face mostly
   /// hidden; more means that the rectangle misses part of the face. Domain [0, max].
   double min_fill = 0.5;

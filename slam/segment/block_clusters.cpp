@@ -8,6 +8,15 @@
 #include "slam/segment/block_sums.h"
 
 namespace slam {
+namespace {
+
+// Odd factors that spread versions over the table: 2^32 over the golden ratio (Knuth), and one
+// of MurmurHash3 (Appleby).
+constexpr std::uint32_t kSpreadI = 0x9e3779b1u, kSpreadJ = 0x85ebca6bu;
+constexpr int kVersionBits = 32;
+
+}  // namespace
+
 const BlockClusters& BlockClustering::Cluster(const DepthGrid& grid,
                                               const std::vector<std::uint8_t>& taken,
                                               int block_px, const DepthNoise& noise,
@@ -45,7 +54,9 @@ void BlockClustering::AddBlocks(const DepthGrid& grid, const std::vector<std::ui
   if (taken.empty()) sums_.clear();
   measured_.resize(WordsOfSet(block_px));
   region_at_.assign(static_cast<std::size_t>(cols_ * rows_), -1);
-  const double least = config_->min_measured * block_px * block_px;
+  const double min_pixels = config_->min_measured * block_px * block_px;
+
+  // With a mask, most blocks have too few free pixels, which counting columns tells first.
   for (int r = 0; r < rows_; ++r) {
     const int v = r * block_px;
     const auto row = static_cast<std::size_t>(grid.Index(0, v));
@@ -63,7 +74,7 @@ void BlockClustering::AddBlocks(const DepthGrid& grid, const std::vector<std::ui
       }
       const auto first = free_.begin() + u;
       const int free = std::accumulate(first, first + std::min(block_px, grid.width - u), 0);
-      if (free >= least) AddBlock(grid, mask + u, u, v, block_px, r * cols_ + c);
+      if (free >= min_pixels) AddBlock(grid, mask + u, u, v, block_px, r * cols_ + c);
     }
   }
   parent_.resize(regions_.size());
@@ -73,12 +84,15 @@ void BlockClustering::AddBlocks(const DepthGrid& grid, const std::vector<std::ui
 void BlockClustering::AddBlock(const DepthGrid& grid, const std::uint8_t* taken, int u, int v,
                                int block_px, int block) {
   const BlockPixels pixels = BlockAt(grid, u, v, block_px);
-  const double least = config_->min_measured * block_px * block_px;
+  const double min_pixels = config_->min_measured * block_px * block_px;
   if (taken == nullptr) FindMeasured(pixels, measured_.data());
   const PlaneSums sums =
       taken == nullptr ? SumBlock(pixels, measured_.data()) : SumFree(pixels, taken);
   if (taken == nullptr) sums_.push_back(sums);
-  if (!(sums.n >= least)) return;
+
+  // A block is planar if enough of it is measured, nothing in it jumps, and noise explains how
+  // it scatters about its plane.
+  if (!(sums.n >= min_pixels)) return;
   const std::optional<PlaneFit> fit = Fit(sums);
   if (!fit) return;
   if (HasJump(pixels, static_cast<float>(config_->max_jump_sigmas))) return;
@@ -113,6 +127,9 @@ void BlockClustering::Merge() {
   next_version_ = static_cast<int>(regions_.size());
   known_costs_.assign(std::size_t{1} << kKnownBits, {});
   ProposeFirst();
+
+  // The cheapest pair merges, unless one of its regions has grown since it was evaluated: then
+  // it is put back with what it costs now.
   while (merges_.min() < MinTree::kNone) {
     const int next = merges_.first();
     Pair& pair = pairs_[static_cast<std::size_t>(next)];
@@ -143,7 +160,7 @@ double BlockClustering::Renew(Pair& pair) {
   pair.version_i = a.version, pair.version_j = b.version;
   const auto i = static_cast<std::uint32_t>(a.version);
   const auto j = static_cast<std::uint32_t>(b.version);
-  KnownCost& known = known_costs_[(i * 0x9e3779b1u ^ j * 0x85ebca6bu) >> (32 - kKnownBits)];
+  KnownCost& known = known_costs_[(i * kSpreadI ^ j * kSpreadJ) >> (kVersionBits - kKnownBits)];
   if (known.version_i != a.version || known.version_j != b.version)
     known = {a.version, b.version, Evaluate(a, b)};
   return known.cost;

@@ -14,8 +14,8 @@ namespace slam {
 /// The blocks of an image grouped into planes.
 struct BlockClusters {
   int block_px = 0, cols = 0, rows = 0;
-  std::vector<int> region;      ///< of each block, row-major; -1 = none
-  std::vector<PlaneSums> sums;  ///< of each region
+  std::vector<int> region;      ///< one a block, row-major; -1 = none
+  std::vector<PlaneSums> sums;  ///< one a region
   std::vector<InverseDepthPlane> planes;
 };
 
@@ -44,7 +44,7 @@ class BlockClustering {
   /// blocks are the same.
   const BlockClusters& MergeAgain(const ClusterConfig& config);
 
-  /// Of the measured pixels of each block in the last call in which nothing was taken.
+  /// Sums of the measured pixels of each block in the last call in which nothing was taken.
   const std::vector<PlaneSums>& SumsOfBlocks() const { return sums_; }
 
  private:
@@ -60,7 +60,7 @@ class BlockClustering {
   /// Two neighbouring blocks whose regions may be merged.
   struct Pair {
     int i, j;                  ///< regions of one block, or what they are part of
-    int version_i, version_j;  ///< of what they are part of, when it was last evaluated
+    int version_i, version_j;  ///< those of what they are part of, when last evaluated
   };
 
   /// What the merge of two regions costs.
@@ -68,7 +68,7 @@ class BlockClustering {
     int version_i = -1, version_j = -1;
     double cost = 0.0;
   };
-  static constexpr int kKnownBits = 12;
+  static constexpr int kKnownBits = 12;  ///< 4096 costs in 64 KiB
 
   Region& At(int i) { return regions_[static_cast<std::size_t>(i)]; }
   void AddBlocks(const DepthGrid& grid, const std::vector<std::uint8_t>& taken, int block_px);
@@ -86,12 +86,12 @@ class BlockClustering {
   const DepthNoise* noise_ = nullptr;
   const ClusterConfig* config_ = nullptr;
   int cols_ = 0, rows_ = 0;
-  std::vector<Region> regions_;      ///< of the blocks that are planar, in their order
-  std::vector<int> region_at_;       ///< of each block; -1 = none
-  std::vector<int> parent_;          ///< of each region
+  std::vector<Region> regions_;      ///< first the blocks that are planar, in their order
+  std::vector<int> region_at_;       ///< one a block; -1 = none
+  std::vector<int> parent_;          ///< one a region; its own number: it is part of no other
   std::vector<Pair> pairs_;          ///< in order of i, then j
-  std::vector<double> first_costs_;  ///< of each pair
-  MinTree merges_;                   ///< of the pairs, by error added or mean error
+  std::vector<double> first_costs_;  ///< one a pair
+  MinTree merges_;                   ///< what each pair costs: error added or mean error
   int next_version_ = 0;
   std::vector<KnownCost> known_costs_;  ///< by a number made of both versions
   std::vector<int> number_;

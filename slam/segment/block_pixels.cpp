@@ -12,8 +12,8 @@ namespace slam {
 namespace {
 
 constexpr float kNone = std::numeric_limits<float>::infinity();
-constexpr int kReach8 = 2;                    // of the usual bid
-constexpr int kSide8 = kLanes + 2 * kReach8;  // what it looks at
+constexpr int kReach8 = 2;                    // pixels; the usual reach of a cost
+constexpr int kSide8 = kLanes + 2 * kReach8;  // pixels; what the costs of a block of 8 look at
 
 SLAM_INLINE bool HasColumnsOfOneX(const BlockPixels& block) { return block.x_stride == 0; }
 
@@ -66,9 +66,9 @@ SLAM_INLINE void FindNear8(const BlockPixels& block, const PixelPlane& plane,
   RowsOfSet near_rows, wide_rows;
 #pragma GCC unroll 8
   for (int v = kLanes - 1; v >= 0; --v) {
-    const FloatLanes size = Size(errors.At(v));
-    near_rows.Add(size < near_lanes);
-    wide_rows.Add(size < wide_lanes);
+    const FloatLanes distance = Abs(errors.At(v));
+    near_rows.Add(distance < near_lanes);
+    wide_rows.Add(distance < wide_lanes);
   }
   *near = near_rows.Set() & measured;
   *wide = wide_rows.Set() & measured;
@@ -81,9 +81,9 @@ void FindNearAny(const BlockPixels& block, const PixelPlane& plane, ConstPixelSe
   for (int v = 0; v < block.height; ++v) {
     for (int u = 0; u < block.width; ++u) {
       if (!IsInSet(measured, block.size, u, v)) continue;
-      const float size = std::abs(Error(block, u, v, plane));
-      if (size < near_sigmas * plane.grazing) PutInSet(near, block.size, u, v);
-      if (size < wide_sigmas * plane.grazing) PutInSet(wide, block.size, u, v);
+      const float distance = std::abs(Error(block, u, v, plane));
+      if (distance < near_sigmas * plane.grazing) PutInSet(near, block.size, u, v);
+      if (distance < wide_sigmas * plane.grazing) PutInSet(wide, block.size, u, v);
     }
   }
 }
@@ -125,9 +125,9 @@ SLAM_INLINE void LowerToDistance8(const BlockPixels& block, const PixelPlane& pl
   const FloatLanes scale = AllLanes(1.0f / plane.grazing);
 #pragma GCC unroll 8
   for (int v = 0; v < kLanes; ++v) {
-    const FloatLanes distance = Size(errors.At(v)) * scale;
-    FloatLanes& least = Lanes(nearest + kLanes * v);
-    least = distance < least ? distance : least;
+    const FloatLanes distance = Abs(errors.At(v)) * scale;
+    FloatLanes& entry = Lanes(nearest + kLanes * v);
+    entry = distance < entry ? distance : entry;
   }
 }
 
@@ -148,17 +148,17 @@ SLAM_INLINE double SumGains8(const BlockPixels& block, const PixelPlane& plane,
 
 /// A whole block of 8 x 8 with two pixels of the image to every side.
 template <bool kOneX>
-SLAM_INLINE void Bid8(const BlockPixels& block, const PixelPlane& plane, float most_sigmas,
-                      std::uint64_t near, float* bids) {
+SLAM_INLINE void FindCosts8(const BlockPixels& block, const PixelPlane& plane, float max_sigmas,
+                            std::uint64_t near, float* costs) {
   const RowErrors<kOneX> lefts(block, -kReach8, plane), rights(block, 4 - kReach8, plane);
-  const float most_error = most_sigmas * plane.grazing;
-  const FloatLanes most = AllLanes(most_error * most_error);
+  const float max_error = max_sigmas * plane.grazing;
+  const FloatLanes max_square = AllLanes(max_error * max_error);
   float squares[kSide8 * kSide8 + kLanes], sums[kSide8 * kLanes];
   for (int v = 0; v < kSide8; ++v) {
     const FloatLanes left = lefts.At(v - kReach8), right = rights.At(v - kReach8);
     const FloatLanes left2 = left * left, right2 = right * right;
-    Lanes(squares + kSide8 * v) = most < left2 ? most : left2;
-    Lanes(squares + kSide8 * v + 4) = most < right2 ? most : right2;
+    Lanes(squares + kSide8 * v) = max_square < left2 ? max_square : left2;
+    Lanes(squares + kSide8 * v + 4) = max_square < right2 ? max_square : right2;
   }
   for (int v = 0; v < kSide8; ++v) {
     const float* s = squares + kSide8 * v;
@@ -172,47 +172,45 @@ SLAM_INLINE void Bid8(const BlockPixels& block, const PixelPlane& plane, float m
     const float* s = sums + kLanes * v;
     const FloatLanes sum =
         (((Lanes(s) + Lanes(s + 8)) + Lanes(s + 16)) + Lanes(s + 24)) + Lanes(s + 32);
-    Lanes(bids + kLanes * v) = RowOf(columns, v) ? sum * scale : AllLanes(kNone);
+    Lanes(costs + kLanes * v) = RowOf(columns, v) ? sum * scale : AllLanes(kNone);
   }
 }
 
 /// The same for other sizes and beside the image's border, beyond which there are zeros.
-SLAM_INLINE void BidAny(const BlockPixels& block, int count, const PixelPlane& plane,
-                        const BidWindow& window, ConstPixelSet near, float* bids) {
-  const float most_error = window.most_sigmas * plane.grazing, most = most_error * most_error;
+SLAM_INLINE void FindCostsAny(const BlockPixels& block, const PixelPlane& plane,
+                              const CostWindow& window, ConstPixelSet near, float* costs) {
+  const float max_error = window.max_sigmas * plane.grazing, max_square = max_error * max_error;
   const float scale = 1.0f / (plane.grazing * plane.grazing);
   const int reach = window.reach, size = block.size;
-  constexpr int kRows = kMostBlockSide_px + 2 * kMostBidReach_px;
-  float squares[kRows], sums[kMostBlockSide_px * kRows];
+  const std::size_t count = EntriesOfBlock(size);
+  constexpr int kRows = kMaxBlockSide_px + 2 * kMaxCostReach_px;
+  float squares[kRows], sums[kMaxBlockSide_px * kRows];
   std::fill_n(squares, size + 2 * reach, 0.0f);
   std::fill_n(sums, size * (size + 2 * reach), 0.0f);
   for (int v = -window.top; v < block.height + window.bottom; ++v) {
     for (int u = -window.left; u < block.width + window.right; ++u) {
       const float r = Error(block, u, v, plane);
-      squares[u + reach] = std::min(r * r, most);
+      squares[u + reach] = std::min(r * r, max_square);
     }
     float* sum = sums + (v + reach) * size;
     for (int offset = 0; offset <= 2 * reach; ++offset)
       for (int u = 0; u < size; ++u) sum[u] += squares[u + offset];
   }
-  std::fill(bids, bids + count, 0.0f);
+  std::fill(costs, costs + count, 0.0f);
   for (int v = 0; v < block.height; ++v) {
     for (int offset = 0; offset <= 2 * reach; ++offset)
-      for (int u = 0; u < size; ++u) bids[v * size + u] += sums[(v + offset) * size + u];
+      for (int u = 0; u < size; ++u) costs[v * size + u] += sums[(v + offset) * size + u];
   }
-  std::fill(bids + size * size, bids + count, kNone);
+  std::fill(costs + size * size, costs + count, kNone);
   for (int v = 0; v < size; ++v) {
     for (int u = 0; u < size; ++u) {
-      float& bid = bids[v * size + u];
-      bid = IsInSet(near, size, u, v) ? bid * scale : kNone;
+      float& cost = costs[v * size + u];
+      cost = IsInSet(near, size, u, v) ? cost * scale : kNone;
     }
   }
 }
 
 }  // namespace
-
-static_assert(DepthGrid::kCopiesBefore >= kMostBidReach_px &&
-              DepthGrid::kRowCopies >= kMostBlockSide_px + 2 * kMostBidReach_px);
 
 SLAM_LANES void FindMeasured(const BlockPixels& block, PixelSet measured) {
   if (IsWhole8(block)) {
@@ -262,8 +260,8 @@ SLAM_LANES void LowerToDistance(const BlockPixels& block, const PixelPlane& plan
   }
   for (int v = 0; v < block.height; ++v) {
     for (int u = 0; u < block.width; ++u) {
-      float& least = nearest[v * block.size + u];
-      least = std::min(least, std::abs(Error(block, u, v, plane)) * (1.0f / plane.grazing));
+      float& entry = nearest[v * block.size + u];
+      entry = std::min(entry, std::abs(Error(block, u, v, plane)) * (1.0f / plane.grazing));
     }
   }
 }
@@ -286,17 +284,17 @@ SLAM_LANES double SumGains(const BlockPixels& block, const PixelPlane& plane, Co
   return sum;
 }
 
-SLAM_LANES void BidForBlock(const BlockPixels& block, int count, const PixelPlane& plane,
-                            const BidWindow& window, ConstPixelSet near, float* bids) {
+SLAM_LANES void FindCosts(const BlockPixels& block, const PixelPlane& plane,
+                          const CostWindow& window, ConstPixelSet near, float* costs) {
   const bool usual = IsWhole8(block) && window.reach == kReach8 && window.left == kReach8 &&
                      window.top == kReach8 && window.right == kReach8 &&
                      window.bottom == kReach8;
   if (!usual) {
-    BidAny(block, count, plane, window, near, bids);
+    FindCostsAny(block, plane, window, near, costs);
   } else if (HasColumnsOfOneX(block)) {
-    Bid8<true>(block, plane, window.most_sigmas, *near, bids);
+    FindCosts8<true>(block, plane, window.max_sigmas, *near, costs);
   } else {
-    Bid8<false>(block, plane, window.most_sigmas, *near, bids);
+    FindCosts8<false>(block, plane, window.max_sigmas, *near, costs);
   }
 }
 

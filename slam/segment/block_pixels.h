@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "slam/base/lanes.h"
 #include "slam/segment/depth_grid.h"
 #include "slam/segment/pixel_labels.h"
 #include "slam/segment/pixel_set.h"
@@ -12,9 +13,9 @@ namespace slam {
 
 /// A block of the depth image, size x size pixels or less where the image ends.
 struct BlockPixels {
-  const float *x, *y, *q, *g;  ///< of its first pixel (DepthGrid)
+  const float *x, *y, *q, *g;  ///< where the first pixel's are (DepthGrid)
   int stride;                  ///< from row to row of q, g and label images
-  int x_stride, y_stride;      ///< and of x and y
+  int x_stride, y_stride;      ///< from row to row of x and y
   int width, height;
   int size;  ///< row length of what is computed of the block
 };
@@ -51,16 +52,13 @@ struct PixelPlane {
   float a, b, c, grazing;
 };
 
-/// Where a bid looks: up to `reach` rows and columns beyond each pixel, in the block and as far
-/// beyond it as the image goes.
-struct BidWindow {
+/// Where the cost of a pixel looks: up to `reach` rows and columns beyond the pixel, in the
+/// block and as far beyond it as the image goes.
+struct CostWindow {
   int reach = 0;
-  int left = 0, top = 0, right = 0, bottom = 0;  ///< at most reach
-  float most_sigmas = 0.0f;
+  int left = 0, top = 0, right = 0, bottom = 0;  ///< beyond the block; at most reach
+  float max_sigmas = 0.0f;                       ///< larger residuals count as this
 };
-
-/// The largest `size` and `reach`.
-inline constexpr int kMostBlockSide_px = 64, kMostBidReach_px = 16;
 
 /// Pixels that are measured.
 void FindMeasured(const BlockPixels& block, PixelSet measured);
@@ -73,8 +71,11 @@ int FindNear(const BlockPixels& block, const PixelPlane& plane, ConstPixelSet me
 /// Sum of the residuals of the pixels of a set, in sigmas.
 double SumResiduals(const BlockPixels& block, const PixelPlane& plane, ConstPixelSet set);
 
-// Arrays of a block have size x size entries, row by row, and go on to `count`, a multiple
-// of 8.
+/// An array of a block has size x size entries, row by row, and goes on to so many, whole
+/// lanes.
+constexpr std::size_t EntriesOfBlock(int size) {
+  return (static_cast<std::size_t>(size * size) + kLanes - 1) / kLanes * kLanes;
+}
 
 /// Lowers each entry to the distance of its pixel from a plane, in sigmas.
 void LowerToDistance(const BlockPixels& block, const PixelPlane& plane, float* nearest);
@@ -83,9 +84,10 @@ void LowerToDistance(const BlockPixels& block, const PixelPlane& plane, float* n
 double SumGains(const BlockPixels& block, const PixelPlane& plane, ConstPixelSet set,
                 const float* nearest);
 
-/// Sum of the squared residuals of the pixels around each pixel of a set, each cut off at
-/// most_sigmas^2; infinity for the other pixels.
-void BidForBlock(const BlockPixels& block, int count, const PixelPlane& plane,
-                 const BidWindow& window, ConstPixelSet near, float* bids);
+/// What it costs to give each pixel of a set to a plane: the sum of the squared residuals of
+/// the pixels around it, each cut off at max_sigmas^2, in sigmas^2; infinity for the other
+/// pixels.
+void FindCosts(const BlockPixels& block, const PixelPlane& plane, const CostWindow& window,
+               ConstPixelSet near, float* costs);
 
 }  // namespace slam

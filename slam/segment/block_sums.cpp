@@ -132,7 +132,7 @@ SLAM_INLINE FourFloats Weights(const float* g, const std::uint8_t* taken) {
 SLAM_INLINE PlaneSums SumNotTaken(const BlockPixels& block, const std::uint8_t* taken) {
   FourSums fours;
   FourInts n{};
-  const bool whole_columns = block.x_stride == 0;  // of one x, and rows of one y
+  const bool whole_columns = block.x_stride == 0;  // each of one x, and rows of one y
   const int whole = block.width / kFour * kFour;
   for (int u = 0; u < whole; u += kFour) {
     FourSums four;
@@ -165,7 +165,7 @@ SLAM_INLINE PlaneSums SumNotTaken(const BlockPixels& block, const std::uint8_t* 
   return out;
 }
 
-SLAM_INLINE bool HasJump8(const BlockPixels& block, float most_sigmas) {
+SLAM_INLINE bool HasJump8(const BlockPixels& block, float max_sigmas) {
   IntLanes jumps{};
   for (int v = 0; v < kLanes; ++v) {
     const std::ptrdiff_t i = static_cast<std::ptrdiff_t>(v) * block.stride;
@@ -173,18 +173,18 @@ SLAM_INLINE bool HasJump8(const BlockPixels& block, float most_sigmas) {
     // The last pixel beside itself: no jump.
     const FloatLanes q_right = {q[1], q[2], q[3], q[4], q[5], q[6], q[7], q[7]};
     const FloatLanes g_right = {g[1], g[2], g[3], g[4], g[5], g[6], g[7], g[7]};
-    jumps |= (Size(q - q_right) * g > most_sigmas) & (g_right > 0.0f);
+    jumps |= (Abs(q - q_right) * g > max_sigmas) & (g_right > 0.0f);
     if (v + 1 == kLanes) break;
     const FloatLanes q_below = Lanes(block.q + i + block.stride);
     const FloatLanes g_below = Lanes(block.g + i + block.stride);
-    jumps |= (Size(q - q_below) * g > most_sigmas) & (g_below > 0.0f);
+    jumps |= (Abs(q - q_below) * g > max_sigmas) & (g_below > 0.0f);
   }
   return AnyOf(jumps);
 }
 
-bool HasJumpAny(const BlockPixels& block, float most_sigmas) {
+bool HasJumpAny(const BlockPixels& block, float max_sigmas) {
   const auto jump = [&](std::ptrdiff_t i, std::ptrdiff_t j) {
-    return block.g[j] > 0.0f && std::abs(block.q[i] - block.q[j]) * block.g[i] > most_sigmas;
+    return block.g[j] > 0.0f && std::abs(block.q[i] - block.q[j]) * block.g[i] > max_sigmas;
   };
   for (int v = 0; v < block.height; ++v) {
     for (int u = 0; u < block.width; ++u) {
@@ -226,9 +226,9 @@ SLAM_LANES void CountFree(const float* g, const std::uint8_t* taken, int stride,
   }
 }
 
-SLAM_LANES bool HasJump(const BlockPixels& block, float most_sigmas) {
-  return block.width == kLanes && block.height == kLanes ? HasJump8(block, most_sigmas)
-                                                         : HasJumpAny(block, most_sigmas);
+SLAM_LANES bool HasJump(const BlockPixels& block, float max_sigmas) {
+  return block.width == kLanes && block.height == kLanes ? HasJump8(block, max_sigmas)
+                                                         : HasJumpAny(block, max_sigmas);
 }
 
 }  // namespace slam

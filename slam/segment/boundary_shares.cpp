@@ -9,11 +9,11 @@
 namespace slam {
 namespace {
 
-constexpr int kFarthest_px = 120;  // a label's width is sought so far
-constexpr int kStripsInWidth = 3;
-constexpr int kLeastStrip_px = 6;
-constexpr int kHole_px = 3;     // unmeasured or stray pixels that do not end a label
-constexpr int kNearest_px = 2;  // matchers smooth over the pixels nearest to a step
+constexpr int kFarthest_px = 120;  // a label's width is sought so far, to save time
+constexpr int kStripsInWidth = 3;  // a strip is a third of a label: a bend then shows a third
+constexpr int kMinStrip_px = 6;    // balances narrow labels against strips that noise tilts
+constexpr int kHole_px = 3;        // unmeasured or stray pixels that do not end a label
+constexpr int kNearest_px = 2;     // matchers smooth over the pixels nearest to a step
 
 /// Sums strips on either side of boundaries.
 class StripSums {
@@ -25,9 +25,9 @@ class StripSums {
   void Look(int u, int v, int du, int dv) {
     const int a = labels_[At(u, v)], b = labels_[At(u + du, v + dv)];
     const int strip_a = Width(u, v, -du, -dv) / kStripsInWidth;
-    if (strip_a < kLeastStrip_px) return;
+    if (strip_a < kMinStrip_px) return;
     const int strip_b = Width(u + du, v + dv, du, dv) / kStripsInWidth;
-    if (strip_b < kLeastStrip_px) return;
+    if (strip_b < kMinStrip_px) return;
     BoundaryStrips& strips = strips_.Of(a, b);
     Add(u, v, -du, -dv, strip_a, b, a < b ? strips.low : strips.high);
     Add(u + du, v + dv, du, dv, strip_b, a, a < b ? strips.high : strips.low);
@@ -80,10 +80,14 @@ Eigen::Vector3d Difference(const InverseDepthPlane& p, const InverseDepthPlane& 
 void MeasureShares(const DepthGrid& grid, const LabelImage& labels, const LabelRuns& runs,
                    const std::vector<LabelPlane>& planes, const DepthNoise& noise,
                    LabelPairs<BoundaryStrips>& strips_of, BoundaryShares& shares) {
+  // The pixels of the strips along every common boundary.
   const int label_count = static_cast<int>(planes.size());
   strips_of.Clear(label_count), shares.Clear(label_count);
   StripSums sums(grid, labels, strips_of);
   VisitContacts(runs, [&](int u, int v, int du, int dv) { sums.Look(u, v, du, dv); });
+
+  // How much of the difference between whole labels the strips show, weighted by how well
+  // noise lets them.
   for (const auto& [pair, strips] : strips_of.Sorted()) {
     const std::optional<PlaneFit> low = Fit(strips.low), high = Fit(strips.high);
     if (!low || !high) continue;

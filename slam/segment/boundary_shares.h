@@ -20,7 +20,8 @@ struct BoundaryShare {
   /// Whether noise leaves no doubt that two surfaces meet here. A bend of constant curvature
   /// has a third, as strips reach into a label by a third of its width: what is nearer to all
   /// than to that is none.
-  bool IsCrease() const { return share - 2.0 * sigma > 0.67; }
+  bool IsCrease() const { return share - 2.0 * sigma > kMinCreaseShare; }
+  static constexpr double kMinCreaseShare = 0.67;  ///< half way from a third to all
 };
 
 /// Shares of labels that touch. Labels too narrow to look into are not in it.
@@ -31,8 +32,8 @@ struct BoundaryStrips {
   PlaneSums low, high;  ///< on the side of the lower and the higher label
 };
 
-/// @param labels  of each pixel
-/// @param runs    of the same
+/// @param labels  one a pixel
+/// @param runs    runs of these labels
 /// @param planes  fitted to the labels' pixels
 /// @param strips  scratch
 /// @param shares  what is found; what was in it is forgotten

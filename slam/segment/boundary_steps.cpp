@@ -8,14 +8,14 @@
 namespace slam {
 namespace {
 
-constexpr int kTile_px = 16;
-constexpr std::array kReaches_px{4, 7,
-                                 10};  // matchers smooth over the pixels nearest to a step
+constexpr int kTile_px = 16;  // a stretch: longer than errors are shared, shorter than bends
+// How far from the boundary pixels are compared, beyond what matchers smooth beside a step.
+constexpr std::array kReaches_px{4, 7, 10};
 
 /// What two labels' pixels are measured by.
 struct Sides {
   std::int16_t a = kNoLabel, b = kNoLabel;
-  double slope_x = 0.0, slope_y = 0.0;  ///< of the mean of both planes
+  double slope_x = 0.0, slope_y = 0.0;  ///< mean of both planes
   double half_a = 0.0, half_b = 0.0;    ///< half of a sigma of one pixel, over 1 / g
 
   Sides() = default;
@@ -53,6 +53,8 @@ void StepMeasurement::Measure(const DepthGrid& grid, const LabelImage& labels,
     const std::ptrdiff_t i = grid.Index(u, v), stride = grid.Index(du, dv);
     const std::int16_t a = labels[static_cast<std::size_t>(i)];
     const std::int16_t b = labels[static_cast<std::size_t>(i + stride)];
+
+    // The steps between pixels as far from the boundary on either side, inside both labels.
     double step = 0.0;
     int pairs = 0;
     for (const int reach : kReaches_px) {

@@ -14,10 +14,10 @@ namespace slam {
 /// differ by from those on the other, as far from the boundary, once their mean slope is taken
 /// off. A crease or a bend has none, however ill the two planes fit near it.
 struct BoundaryStep {
-  double pairs = 0.0;  ///< of pixels compared
+  double pairs = 0.0;  ///< how many pairs of pixels were compared
   double squares =
       0.0;  ///< sum over the pairs of their stretch's mean step, squared, in sigmas
-  double stretches = 0.0;  ///< of boundary, each within a tile of the image
+  double stretches = 0.0;  ///< pieces of the boundary, each within a tile of the image
 
   /// Mean squared step in sigmas of one pixel, less what noise adds to it; may be negative.
   double MeanSquare(double correlated_px) const {
@@ -31,8 +31,8 @@ using BoundarySteps = LabelPairs<BoundaryStep>;
 /// Measures them. The memory of one image serves the next.
 class StepMeasurement {
  public:
-  /// @param labels  of each pixel
-  /// @param runs    of the same
+  /// @param labels  one a pixel
+  /// @param runs    runs of these labels
   /// @param steps   what is found; what was in it is forgotten
   void Measure(const DepthGrid& grid, const LabelImage& labels, const LabelRuns& runs,
                const std::vector<LabelPlane>& planes, BoundarySteps& steps);

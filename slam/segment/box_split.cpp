@@ -19,16 +19,14 @@ constexpr int kStep_px = 4;      // only such pixels and rows count: nearer ones
 constexpr int kReach_cells = 1;  // so far around a cell others vote on it: 3 x 3
 constexpr float kMinOwnShare = 0.5f;  // a cell with less of the segment has no vote
 constexpr float kNoVote = std::numeric_limits<float>::quiet_NaN();
-constexpr int kBins = 128;  // of votes, from -kMaxVote_sigmas to kMaxVote_sigmas
-constexpr double kMaxVote_sigmas =
-    6.0;                         // twice what a pixel may be off its plane (GrowthConfig)
-constexpr int kRefinements = 3;  // of both heights after the first threshold
+constexpr int kBins = 128;  // for votes from -kMaxVote_sigmas to kMaxVote_sigmas
+// Twice what a pixel may be off its plane (GrowthConfig).
+constexpr double kMaxVote_sigmas = 6.0;
+constexpr int kRefinements = 3;          // passes for both heights after the first threshold
 constexpr double kMargins_around = 3.0;  // so many margins around the box are compared with it
-constexpr int kNear_cells = 1,
-              kFar_cells = 2;            // the step is looked for within these of its edge
-constexpr double kMinSuddenShare = 0.9;  // part of the step within them; a bend has less
-constexpr double kMinCoreShare =
-    0.25;  // part of a region that is not its edge, or it is a line
+constexpr int kNear_cells = 1, kFar_cells = 2;  // the step is looked for so near its edge
+constexpr double kMinSuddenShare = 0.9;         // part of the step within them; a bend has less
+constexpr double kMinCoreShare = 0.25;  // part of a region inside its edge; a line has none
 
 cv::Rect Widened(const Box& box, double by_px, const cv::Size& size) {
   const int left = static_cast<int>(std::floor(box.min.x() - by_px));
@@ -73,7 +71,7 @@ class HeightCells {
   cv::Mat1b LargestHighRegion() const;
   /// Whether the step to a region is there within some cells of its boundary.
   bool StepsAtOnce(const cv::Mat1b& region) const;
-  /// Of a region, pixels.
+  /// The bounds of a region, pixels.
   Box BoundsOf(const cv::Mat1b& region) const;
 
  private:

@@ -6,7 +6,7 @@
 namespace slam {
 namespace {
 
-constexpr int kLeastCore_px = 40;
+constexpr int kMinCore_px = 40;  // balances small surfaces against specks
 constexpr std::int16_t kOther = -2,
                        kOpen = -1;  // in part_at_: not of the component; no part yet
 
@@ -28,7 +28,7 @@ void BridgeCutter::FindCores(const LabelComponents& components) {
   cores_.clear();
   for (std::size_t k = 0; k < interior_.list.size(); ++k) {
     const LabelComponent& core = interior_.list[k];
-    if (core.pixels < kLeastCore_px) continue;
+    if (core.pixels < kMinCore_px) continue;
     const int width = components.runs.width;
     const int of = components.At(core.first_pixel % width, core.first_pixel / width);
     cores_.push_back({of, static_cast<int>(k), core.pixels, -1});
@@ -99,6 +99,8 @@ void BridgeCutter::Split(const DepthGrid& grid, int component, int part_count,
   const int label = components.list[static_cast<std::size_t>(component)].label;
   components.list.resize(static_cast<std::size_t>(first_new + part_count - 1),
                          {label, 0, 0, 0, 0});
+
+  // Runs are written anew, cut where the part changes.
   split_runs_.width = grid.width;
   split_runs_.runs.clear(), split_runs_.rows.clear(), split_components_.clear();
   VisitPixels(components.runs, [&](int begin, int end, std::size_t run) {
@@ -135,6 +137,8 @@ void BridgeCutter::Cut(const DepthGrid& grid, const std::vector<LabelPlane>& pla
     const int component = first->component;
     last = std::find_if(first, cores_.end(),
                         [&](const Core& core) { return core.component != component; });
+
+    // Parts that the depth between cores keeps apart.
     if (last - first < 2) continue;
     if (!looks_between) {
       between_.Begin(grid, interior_.runs, interior_.component,
@@ -145,6 +149,8 @@ void BridgeCutter::Cut(const DepthGrid& grid, const std::vector<LabelPlane>& pla
     const int part_count =
         NumberParts(first, last, planes[static_cast<std::size_t>(label)], max_behind);
     if (part_count < 2) continue;
+
+    // Its pixels go to the nearest core's part.
     if (!cut) part_at_.assign(grid.q.size(), kOther);
     cut = true;
     VisitPixels(components.runs, [&](int begin, int end, std::size_t run) {

@@ -16,9 +16,10 @@ namespace slam {
 /// stays whole. The memory of one image serves the next.
 class BridgeCutter {
  public:
-  /// @param planes      of the labels
+  /// @param planes      one a label
   /// @param max_behind  share of the measured pixels between two parts that may lie behind
-  /// @param components  of a label image; what is cut is split into runs of one component each
+  /// @param components  those of a label image; what is cut is split into runs of one
+  ///                    component each
   void Cut(const DepthGrid& grid, const std::vector<LabelPlane>& planes, double max_behind,
            LabelComponents& components);
 
@@ -26,7 +27,7 @@ class BridgeCutter {
   /// A core large enough to be a surface of its own.
   struct Core {
     int component = 0, id = 0, pixels = 0;
-    int part = 0;  ///< of its component
+    int part = 0;  ///< which part of its component it belongs to
   };
   void FindCores(const LabelComponents& components);
   int NumberParts(std::vector<Core>::iterator first, std::vector<Core>::iterator last,
@@ -39,7 +40,7 @@ class BridgeCutter {
   LabelComponents interior_;
   std::vector<Core> cores_;  ///< by component, the largest first
   SightLines between_;
-  std::vector<std::int16_t> part_at_;  ///< of each pixel of a component that is cut
+  std::vector<std::int16_t> part_at_;  ///< for each pixel of a component that is cut
   std::vector<int> front_;             ///< pixels whose neighbours are to be looked at
   std::vector<int> part_of_core_;
   LabelRuns split_runs_;

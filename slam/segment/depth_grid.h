@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "slam/geometry/depth_noise.h"
+#include "slam/segment/growth_config.h"
 
 namespace slam {
 
@@ -19,8 +20,10 @@ struct DepthGrid {
   /// again over a window around a block. They stay in the processor's cache. Empty otherwise.
   std::vector<float> column_x, row_y;
 
-  static constexpr int kRowCopies = 96;     ///< of y
-  static constexpr int kCopiesBefore = 16;  ///< the first pixel of a block
+  /// Copies of a y: as many as the widest window around a block has columns; and how many of
+  /// them come before the block.
+  static constexpr int kCopiesBefore = kMaxCostReach_px;
+  static constexpr int kRowCopies = kMaxBlockSide_px + 2 * kMaxCostReach_px;
 
   int Index(int u, int v) const { return v * width + u; }
 };

@@ -9,9 +9,11 @@
 namespace slam {
 namespace {
 
-/// Some thousand pixels say how rough a segment is, to a few per cent.
+/// About a thousand pixels say how rough a segment is, to a few per cent (sqrt(2 / 1000)).
 int RoughnessStep(int pixels) {
-  return std::clamp(static_cast<int>(std::sqrt(pixels / 1000.0)), 1, 8);
+  constexpr double kEnough_px = 1000.0;
+  constexpr int kMaxRoughnessStep_px = 8;  // a larger one would miss segments that are narrow
+  return std::clamp(static_cast<int>(std::sqrt(pixels / kEnough_px)), 1, kMaxRoughnessStep_px);
 }
 
 FramePlane MakeFramePlane(const Segment& segment, int index) {
@@ -78,6 +80,7 @@ void PlaneExtractor::Workspace::SamplePoints(const cv::Mat1b& drawn,
 
 /// Fills the frame's planes from the segments that are kept and its label image.
 void PlaneExtractor::Workspace::Describe(Frame& frame) {
+  // Parameters, precision and roughness of each segment.
   contours.Trace(frame.plane_labels);
   TakeMemory(frame.planes);
   for (std::size_t k = 0; k < kept.size(); ++k) {
@@ -89,6 +92,8 @@ void PlaneExtractor::Workspace::Describe(Frame& frame) {
         RoughnessStep(plane.pixel_count));
     frame.planes.push_back(std::move(plane));
   }
+
+  // Where each of them ends depends on the areas of the others (min_rising_area).
   SamplePoints(frame.plane_labels, frame.planes);
   areas_m2.clear();
   for (const FramePlane& plane : frame.planes) areas_m2.push_back(plane.area_m2);

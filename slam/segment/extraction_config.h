@@ -13,7 +13,7 @@ enum class DepthSensor { kKinect1, kAzure, kD435 };
 /// What it takes to split a segment inside the box of a detected regular object (box_split.h).
 struct BoxSplitConfig {
   bool enabled = false;           ///< where noise leaves nothing to gain
-  double min_score = 0.3;         ///< of the detection; domain [0, 1)
+  double min_score = 0.3;         ///< score of the detection; domain [0, 1)
   double margin_px = 4.0;         ///< a box is that much inexact, domain [0, inf), and ...
   double margin_fraction = 0.05;  ///< ... by this part of its size; domain [0, 1]
   /// Pixels vote in windows that hold this many independent errors; domain [1, 50].
@@ -33,7 +33,7 @@ struct BoxSplitConfig {
 /// Settings of plane extraction. A length here is of the sensor or of the image, and every
 /// threshold on a surface is in units of the noise.
 struct PlaneExtractionConfig {
-  DepthSensor sensor = DepthSensor::kKinect1;  ///< that the other defaults are for
+  DepthSensor sensor = DepthSensor::kKinect1;  ///< what the other defaults are for
   DepthNoise noise;
   double max_depth_m = 10.0;  ///< beyond it a pixel is not measured; domain (0, inf)
 
@@ -79,7 +79,7 @@ struct PlaneExtractionConfig {
   BoxSplitConfig box_split;  ///< once the frame's detections are known
 
   int point_grid_px = 6;  ///< spacing of FramePlane::points_c; domain [1, 64]
-  EdgeConfig edges;       ///< of FramePlane::edge_points
+  EdgeConfig edges;       ///< for FramePlane::edge_points
 };
 
 }  // namespace slam

@@ -2,6 +2,9 @@
 
 namespace slam {
 
+/// Largest block_px and vote_reach_px, pixels: the memory around a block is made for them.
+inline constexpr int kMaxBlockSide_px = 64, kMaxCostReach_px = 16;
+
 /// How planes grow over pixels (PixelGrowth).
 struct GrowthConfig {
   int block_px = 8;               ///< regions spread from block to block; domain [2, 64]

@@ -35,6 +35,8 @@ void ConnectRuns(LabelComponents& components) {
     if (runs.runs[a].label == runs.runs[b].label && runs.runs[a].label != kNoLabel)
       Unite(of_run, static_cast<int>(a), static_cast<int>(b));
   });
+
+  // Components are numbered by their first run, which is the root.
   for (std::size_t k = 0; k < of_run.size(); ++k)
     of_run[k] = of_run[static_cast<std::size_t>(of_run[k])];  // lower ones are roots' already
   components.list.clear();

@@ -19,18 +19,18 @@ struct LabelComponent {
 
 /// Connected components of a label image, in order of their first pixel.
 struct LabelComponents {
-  LabelRuns runs;              ///< of the label image
-  std::vector<int> component;  ///< of each run; -1 where there is no label
+  LabelRuns runs;              ///< those of the label image
+  std::vector<int> component;  ///< one a run; -1 where there is no label
   std::vector<LabelComponent> list;
   double unsure_side_sigmas = 0.0;  ///< so near to the plane is neither behind nor in front
 
-  /// Of a pixel.
+  /// The component of a pixel.
   int At(int u, int v) const { return component[runs.At(u, v)]; }
 };
 
 /// Finds the components of components.runs, without sides. Our own because it joins runs
-/// instead of pixels: cv::connectedComponentsWithStats, called for each label within its bounds,
-/// took 21 times as long on label images of desks, a seventh of the whole extraction.
+/// instead of pixels: cv::connectedComponentsWithStats, called for each label within its
+/// bounds, took 21 times as long on label images of desks, a seventh of the whole extraction.
 void ConnectRuns(LabelComponents& components);
 
 /// Counts `behind` and `in_front` of every component.

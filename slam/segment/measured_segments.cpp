@@ -11,7 +11,9 @@ std::optional<Segment> Measure(const PlaneSums& sums, int id,
   const std::optional<PlaneFit> fit = Fit(sums);
   if (!fit) return std::nullopt;
   const double grazing = GrazingFactor(sums, fit->plane, config.noise);
-  const double dof = std::max(sums.n - 3.0, 1.0);
+  // Its pixels may scatter by more than noise does; then the plane is less sure.
+  constexpr double kParameters = 3.0;  // degrees of freedom of a plane
+  const double dof = std::max(sums.n - kParameters, 1.0);
   const double scale = std::max(grazing, std::sqrt(fit->error / dof));
   const PlaneSigmas sigmas = Sigmas(sums, fit->plane, config.noise, scale);
   if (!(sigmas.angle_rad < config.max_angle_sigma_rad)) return std::nullopt;
@@ -32,7 +34,7 @@ void KeepMeasured(const std::vector<PlaneSums>& sums, const PlaneExtractionConfi
       kept.push_back(*segment);
   }
   SortBySize(kept);
-  if (kept.size() > static_cast<std::size_t>(kMostSegments)) kept.resize(kMostSegments);
+  if (kept.size() > static_cast<std::size_t>(kMaxSegments)) kept.resize(kMaxSegments);
 }
 
 PlaneSums Without(PlaneSums all, const PlaneSums& part) {

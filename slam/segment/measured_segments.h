@@ -10,7 +10,7 @@
 
 namespace slam {
 
-inline constexpr int kMostSegments = 254;  ///< of an 8-bit label image, 0 = none
+inline constexpr int kMaxSegments = 254;  ///< what an 8-bit label image has room for, 0 = none
 
 /// A segment on its way into the frame.
 struct Segment {
@@ -29,7 +29,7 @@ std::optional<Segment> Measure(const PlaneSums& sums, int id,
 /// The largest first; of equal ones that of the smaller id.
 void SortBySize(std::vector<Segment>& segments);
 
-/// The labels that are segments, the largest first, at most kMostSegments.
+/// The labels that are segments, the largest first, at most kMaxSegments.
 void KeepMeasured(const std::vector<PlaneSums>& sums, const PlaneExtractionConfig& config,
                   std::vector<Segment>& kept);
 

@@ -9,6 +9,8 @@
 namespace slam {
 namespace {
 
+constexpr double kMinPlane_px = 3.0;  // a plane has three parameters
+
 PlaneSums SumRun(const DepthGrid& grid, int row, const LabelRun& run) {
   PlaneSums sums;
   for (int u = run.begin; u < run.end; ++u)
@@ -22,7 +24,7 @@ PlaneSums SumRun(const DepthGrid& grid, int row, const LabelRun& run) {
 void PartSegmentation::SortBySize(const PatchUnion& patches) {
   by_size_.clear();
   for (int k = 0; k < static_cast<int>(planes_.size()); ++k) {
-    if (patches.Root(k) == k && patches.At(k).sums.n >= 3) by_size_.push_back(k);
+    if (patches.Root(k) == k && patches.At(k).sums.n >= kMinPlane_px) by_size_.push_back(k);
   }
   std::sort(by_size_.begin(), by_size_.end(), [&](int a, int b) {
     const double n_a = patches.At(a).sums.n, n_b = patches.At(b).sums.n;
@@ -34,6 +36,7 @@ void PartSegmentation::SortBySize(const PatchUnion& patches) {
 /// the larger label.
 void PartSegmentation::JoinHiddenLabels(const DepthGrid& grid, const PatchUnion& patches,
                                         const PlaneExtractionConfig& config) {
+  // What surrounds the parts of each label, and the lines of sight between them.
   around_.assign(planes_.size(), {});
   for (const LabelComponent& c : components_.list) {
     Surroundings& s = around_[static_cast<std::size_t>(c.label)];
@@ -44,18 +47,20 @@ void PartSegmentation::JoinHiddenLabels(const DepthGrid& grid, const PatchUnion&
   for (const LabelRun& run : components_.runs.runs) label_of_run_.push_back(run.label);
   between_.Begin(grid, components_.runs, label_of_run_, static_cast<int>(planes_.size()),
                  config.unsure_side_sigmas);
+
+  // Each label, the larger first, joins the larger one that fits its pixels best.
   into_.resize(planes_.size());
   std::iota(into_.begin(), into_.end(), 0);
   for (std::size_t k = 1; k < by_size_.size(); ++k) {
     const auto small = static_cast<std::size_t>(by_size_[k]);
     const bool may_hide = around_[small].MayHide(config.max_island_behind);
-    double least = 1.0;
+    double min_gap = 1.0;
     for (std::size_t j = 0; j < k; ++j) {
       const int large = by_size_[j];
       if (into_[static_cast<std::size_t>(large)] != large) continue;
       const double gap = PatchGap(patches.At(by_size_[k]), patches.At(large),
                                   config.max_hidden_gap_sigmas, config);
-      if (!(gap < least) || patches.Apart(by_size_[k], large)) continue;
+      if (!(gap < min_gap) || patches.Apart(by_size_[k], large)) continue;
       const LabelPlane& plane = patches.At(large).plane;
       // Where a part ends in sight, bounds that a warp has widened would let in what lies on
       // the plane.
@@ -67,7 +72,7 @@ void PartSegmentation::JoinHiddenLabels(const DepthGrid& grid, const PatchUnion&
           (may_hide &&
            between_.ShareBehind(by_size_[k], large, plane) <= config.max_island_behind) ||
           (equal() && between_.AreSidesOfSomethingInFront(by_size_[k], large, plane));
-      if (hidden) least = gap, into_[small] = large;
+      if (hidden) min_gap = gap, into_[small] = large;
     }
   }
   for (LabelComponent& c : components_.list) c.label = into_[static_cast<std::size_t>(c.label)];
@@ -88,6 +93,7 @@ void PartSegmentation::FindMainComponents() {
 /// in front, makes a segment of its own if it is large enough, or is dropped.
 void PartSegmentation::NumberSegments(const DepthGrid& grid,
                                       const PlaneExtractionConfig& config) {
+  // One segment for the largest component of each label.
   FindMainComponents();
   between_.Begin(grid, components_.runs, components_.component,
                  static_cast<int>(components_.list.size()), config.unsure_side_sigmas);
@@ -96,6 +102,8 @@ void PartSegmentation::NumberSegments(const DepthGrid& grid,
   for (const int k : main_) {
     if (k >= 0) segment_[static_cast<std::size_t>(k)] = segment_count_++;
   }
+
+  // The other components.
   for (std::size_t k = 0; k < components_.list.size(); ++k) {
     const LabelComponent& c = components_.list[k];
     if (segment_[k] >= 0 || c.pixels < config.min_island_pixels) continue;
@@ -115,12 +123,15 @@ void PartSegmentation::NumberSegments(const DepthGrid& grid,
 const LabelRuns& PartSegmentation::Segment(const DepthGrid& grid, const PatchUnion& joined,
                                            const LabelRuns& labels,
                                            const PlaneExtractionConfig& config) {
+  // Connected parts of the labels, cut at bridges.
   joined.CopyPlanes(planes_);
   MapRuns(labels, joined.into(), components_.runs);
   components_.unsure_side_sigmas = config.unsure_side_sigmas;
   ConnectRuns(components_);
   CountSides(grid, planes_, components_);
   bridges_.Cut(grid, planes_, config.max_island_behind, components_);
+
+  // Which of them are one segment, and the runs drawn with its number.
   JoinHiddenLabels(grid, joined, config);
   NumberSegments(grid, config);
   for (std::size_t k = 0; k < components_.component.size(); ++k) {
@@ -134,6 +145,8 @@ const LabelRuns& PartSegmentation::Segment(const DepthGrid& grid, const PatchUni
 void PartSegmentation::SumSegments(const DepthGrid& grid, const PatchUnion& joined,
                                    std::vector<PlaneSums>& sums) const {
   sums.assign(static_cast<std::size_t>(segment_count_), PlaneSums{});
+
+  // Whole labels first.
   const auto segment_of_label = [&](int label) {
     const int largest = main_[static_cast<std::size_t>(label)];
     return largest < 0 ? -1 : segment_[static_cast<std::size_t>(largest)];
@@ -143,6 +156,8 @@ void PartSegmentation::SumSegments(const DepthGrid& grid, const PatchUnion& join
     if (joined.Root(k) == k && segment >= 0)
       sums[static_cast<std::size_t>(segment)] += joined.At(k).sums;
   }
+
+  // Then parts move that are not of their label's segment.
   const LabelRuns& runs = components_.runs;
   for (std::size_t row = 0; row + 1 < runs.rows.size(); ++row) {
     for (std::size_t k = runs.rows[row]; k < runs.rows[row + 1]; ++k) {

@@ -49,13 +49,13 @@ class PartSegmentation {
   LabelComponents components_;
   BridgeCutter bridges_;
   SightLines between_;
-  std::vector<LabelPlane> planes_;    ///< of each label
-  std::vector<Surroundings> around_;  ///< each label
+  std::vector<LabelPlane> planes_;    ///< one a label
+  std::vector<Surroundings> around_;  ///< one a label
   std::vector<int> by_size_;          ///< labels with pixels, largest first
   std::vector<int> label_of_run_;
   std::vector<int> into_;     ///< label that each label is part of
   std::vector<int> main_;     ///< largest component of each label; -1 = it has none
-  std::vector<int> segment_;  ///< of each component; -1 = none
+  std::vector<int> segment_;  ///< the segment that each component is part of; -1 = none
   int segment_count_ = 0;
 };
 

@@ -25,6 +25,8 @@ void OuterContours::Trace(const cv::Mat1b& labels) {
   points_.clear(), contours_.clear();
   for (int v = 0; v < labels.rows; ++v)
     std::copy_n(labels[v], labels.cols, cells_.data() + CellAt({0, v}));
+
+  // Row by row; where a label begins that no walk has passed yet, a contour may begin.
   last_in_row_.assign(1 + std::numeric_limits<std::uint8_t>::max(), -1);
   for (int v = 0; v < labels.rows; ++v) {
     const int row = CellAt({0, v});
@@ -53,8 +55,8 @@ void OuterContours::Follow(int start, const cv::Point& at) {
     step[k] = kStepU[k % kDirections] + kStepV[k % kDirections] * stride_;
   const auto is_own = [&](int cell) { return cells_[static_cast<std::size_t>(cell)] == label; };
   const std::size_t begin = points_.size();
-  // The last pixel of the walk: the first of the segment clockwise from the
-  // left.
+
+  // The last pixel of the walk: the first of the segment clockwise from the left.
   int to = kLeft;
   do {
     to = (to + kDirections - 1) % kDirections;
@@ -63,6 +65,7 @@ void OuterContours::Follow(int start, const cv::Point& at) {
     points_.push_back(at);
     marks_[static_cast<std::size_t>(start)] = kRightEdge;
   } else {
+    // From pixel to pixel, counterclockwise from the one before, until the walk closes.
     const int last = start + step[to];
     cv::Point here = at;
     for (int cell = start;;) {

@@ -49,7 +49,7 @@ class OuterContours {
   int stride_ = 0;
   std::vector<std::uint8_t> cells_;  ///< the labels, framed
   std::vector<Mark> marks_;          ///< framed too
-  std::vector<int> last_in_row_;     ///< of each label: its last cell before those looked at
+  std::vector<int> last_in_row_;     ///< each label's last cell before those looked at
   std::vector<cv::Point> points_;
   std::vector<Contour> contours_;
 };

@@ -11,7 +11,8 @@
 namespace slam {
 namespace {
 
-constexpr int kLeastContacts = 8;  // pixels along the common boundary of what touches
+// Along a common boundary; what touches in fewer may do so by stray pixels.
+constexpr int kMinContact_px = 8;
 
 /// Squared distance of two planes over the pixels of the smaller, in sigmas of those.
 double PatchGap2(const Patch& a, const Patch& b) {
@@ -87,7 +88,7 @@ bool PatchUnion::Apart(int a, int b) const {
   });
 }
 
-bool PatchUnion::Contested(int a, int b, const PlaneExtractionConfig& config) const {
+bool PatchUnion::IsAmbiguous(int a, int b, const PlaneExtractionConfig& config) const {
   const auto is_of_b = [&](int k) {
     return Root(k) != a && Root(k) != b &&
            PatchGap(At(k), At(b), config.max_bend_sigmas, config) < 1.0;
@@ -103,8 +104,9 @@ void PatchUnion::CopyPlanes(std::vector<LabelPlane>& planes) const {
   for (const Patch& patch : patches_) planes.push_back(patch.plane);
 }
 
-void PatchJoining::FindContacts(const DepthGrid& grid, const PixelGrowth& growth) {
-  FindRuns(growth.labels(), grid.width, grid.height, runs_);
+void PatchJoining::FindContacts(const DepthGrid& grid, PixelGrowth& growth) {
+  growth.DrawLabels(labels_);
+  FindRuns(labels_, grid.width, grid.height, runs_);
   contacts_.Clear(static_cast<int>(growth.planes().size()));
   std::pair<int, int> last{-1, -1};  // what follows touches the same pair: look it up once
   Contact* contact = nullptr;
@@ -123,7 +125,7 @@ void PatchJoining::SumContacts(const DepthGrid& grid, const PlaneExtractionConfi
   for (auto& [pair, contact] : contacts_.Sorted()) {
     const int a = patches_.Root(pair.first), b = patches_.Root(pair.second);
     contact.wanted =
-        !contact.summed && a != b && contact.pixels >= kLeastContacts &&
+        !contact.summed && a != b && contact.pixels >= kMinContact_px &&
         PatchGap(patches_.At(a), patches_.At(b), config.max_merge_gap_sigmas, config) < 1.0;
     if (!contact.wanted) continue;
     contact.summed = true;
@@ -151,35 +153,41 @@ void PatchJoining::MergeEqualNeighbours(const DepthGrid& grid,
                                         const std::vector<PlaneSums>& blocks,
                                         const PlaneExtractionConfig& config,
                                         PixelGrowth& growth) {
-  patches_.Begin(growth.SumLabels(blocks), growth.planes(), config.noise);
+  growth.SumLabels(blocks, sums_);
+  patches_.Begin(sums_, growth.planes(), config.noise);
   FindContacts(grid, growth);
+
+  // The closest pair joins, as long as noise explains its distance. The sums of a contact are
+  // taken only once the patches themselves agree.
   auto& contacts = contacts_.Sorted();
   while (true) {
-    double least = 1.0;
+    double min_gap = 1.0;
     std::pair<int, int> best{-1, -1};
     for (auto& [pair, contact] : contacts) {
       const int a = patches_.Root(pair.first), b = patches_.Root(pair.second);
-      if (a == b || contact.pixels < kLeastContacts) continue;
+      if (a == b || contact.pixels < kMinContact_px) continue;
       const double patch_gap =
           PatchGap(patches_.At(a), patches_.At(b), config.max_merge_gap_sigmas, config);
-      if (!(patch_gap < least)) continue;
+      if (!(patch_gap < min_gap)) continue;
       if (!contact.summed) SumContacts(grid, config);
       const double gap =
           std::max(patch_gap, ContactGap(patches_.At(a), patches_.At(b), contact.rays, config));
-      if (gap < least) least = gap, best = {a, b};
+      if (gap < min_gap) min_gap = gap, best = {a, b};
     }
     if (best.first < 0) break;
     patches_.Join(best.first, best.second, config.noise);
   }
+
+  // Growth begins anew with the planes of what was joined.
   patches_.CopyPlanes(planes_);
   growth.Replace(planes_, patches_.into());
 }
 
-/// Pairs of labels without a step between them, least step first.
+/// Pairs of labels without a step between them, smallest step first.
 void PatchJoining::RankMeetingLabels(const PlaneExtractionConfig& config) {
   meeting_.clear();
   for (const auto& [pair, step] : steps_.Sorted()) {
-    if (step.pairs < kLeastContacts) continue;
+    if (step.pairs < kMinContact_px) continue;
     const double square = step.MeanSquare(config.noise.correlated_px);
     if (square < config.max_bend_step_sigmas * config.max_bend_step_sigmas)
       meeting_.emplace_back(square, pair);
@@ -199,7 +207,7 @@ void PatchJoining::JoinMeeting(const PlaneExtractionConfig& config) {
       const double angle = Angle(A.plane.plane.Hessian().n, B.plane.plane.Hessian().n);
       if (!(angle < config.max_bend_rad)) continue;
       if (!(PatchGap(A, B, config.max_bend_sigmas, config) < 1.0)) continue;
-      if (patches_.Contested(a, b, config) || patches_.Contested(b, a, config)) continue;
+      if (patches_.IsAmbiguous(a, b, config) || patches_.IsAmbiguous(b, a, config)) continue;
       patches_.Join(a, b, config.noise);
       changed = true;
     }
@@ -210,16 +218,20 @@ const PatchUnion& PatchJoining::JoinBentParts(const DepthGrid& grid,
                                               const std::vector<PlaneSums>& blocks,
                                               const PlaneExtractionConfig& config,
                                               PixelGrowth& growth, bool warped) {
-  patches_.Begin(growth.SumLabels(blocks), growth.planes(), config.noise);
+  growth.SumLabels(blocks, sums_);
+  patches_.Begin(sums_, growth.planes(), config.noise);
   patches_.CopyPlanes(planes_);
-  FindRuns(growth.labels(), grid.width, grid.height, runs_);
+  growth.DrawLabels(labels_);
+  FindRuns(labels_, grid.width, grid.height, runs_);
+
+  // What meets in a crease or a step is kept apart; what meets without one may be joined.
   if (warped) {
-    MeasureShares(grid, growth.labels(), runs_, planes_, config.noise, strips_, shares_);
+    MeasureShares(grid, labels_, runs_, planes_, config.noise, strips_, shares_);
     for (const auto& [pair, share] : shares_.Sorted()) {
       if (share.IsCrease()) patches_.KeepApart(pair.first, pair.second);
     }
   }
-  step_measurement_.Measure(grid, growth.labels(), runs_, planes_, steps_);
+  step_measurement_.Measure(grid, labels_, runs_, planes_, steps_);
   RankMeetingLabels(config);
   JoinMeeting(config);
   return patches_;

@@ -46,7 +46,7 @@ class PatchUnion {
   /// Whether something that patch `a` is kept apart from agrees with `b` too, within the bounds
   /// on bending: both cannot be of its plane. A sheet of paper may meet a desk without a step
   /// on one side, and have a raised edge on the other, beyond which the desk goes on.
-  bool Contested(int a, int b, const PlaneExtractionConfig& config) const;
+  bool IsAmbiguous(int a, int b, const PlaneExtractionConfig& config) const;
   void CopyPlanes(std::vector<LabelPlane>& planes) const;
 
  private:
@@ -78,7 +78,7 @@ class PatchJoining {
                                   const PlaneExtractionConfig& config, PixelGrowth& growth,
                                   bool warped);
 
-  /// Of the labels that the last call has read.
+  /// Runs of the labels that the last call has read.
   const LabelRuns& runs() const { return runs_; }
 
  private:
@@ -89,12 +89,14 @@ class PatchJoining {
     bool wanted = false, summed = false;
     PlaneSums rays;
   };
-  void FindContacts(const DepthGrid& grid, const PixelGrowth& growth);
+  void FindContacts(const DepthGrid& grid, PixelGrowth& growth);
   void SumContacts(const DepthGrid& grid, const PlaneExtractionConfig& config);
   void RankMeetingLabels(const PlaneExtractionConfig& config);
   void JoinMeeting(const PlaneExtractionConfig& config);
 
   PatchUnion patches_;
+  std::vector<PlaneSums> sums_;  ///< one a label
+  LabelImage labels_;
   LabelRuns runs_;
   LabelPairs<Contact> contacts_;
   std::vector<std::uint8_t> wanted_;  ///< labels with a contact that is to be summed

@@ -10,7 +10,7 @@
 namespace slam {
 namespace {
 
-constexpr std::size_t kLeastContour = 8;  // pixels; shorter ones bound specks
+constexpr std::size_t kMinContour_px = 8;  // shorter ones bound specks
 
 /// To the nearest integer, halves away from zero.
 int Rounded(double x) {
@@ -23,7 +23,7 @@ int Rounded(double x) {
 struct Outside {
   const DepthGrid& grid;
   const OuterContours& contours;
-  int value;  ///< of the segment
+  int value;  ///< the segment's
   PixelPlane plane;
   std::span<const double> areas_m2;
   const EdgeConfig& config;
@@ -58,7 +58,7 @@ bool EndsAtCrease(const Outside& outside, const cv::Point& at, const Eigen::Vect
 /// Beyond a gap without depth, which ends within shadow_px.
 EdgeKind KindBeyondGap(const Outside& outside, const cv::Point& at, const Eigen::Vector2d& step,
                        float& step_sigmas) {
-  const float least_step = static_cast<float>(outside.config.min_step_sigmas);
+  const float min_step = static_cast<float>(outside.config.min_step_sigmas);
   for (int k = outside.config.reach_px + 1; k <= outside.config.shadow_px; ++k) {
     const cv::Point beyond = Along(at, step, k);
     if (!outside.Contains(beyond)) break;
@@ -66,8 +66,8 @@ EdgeKind KindBeyondGap(const Outside& outside, const cv::Point& at, const Eigen:
     if (!(outside.grid.g[i] > 0)) continue;
     const float residual = ResidualSigmas(outside.grid, i, outside.plane);
     step_sigmas = std::abs(residual);
-    if (residual < -least_step) return EdgeKind::kSurface;
-    return residual > least_step ? EdgeKind::kOccluded : EdgeKind::kMissing;
+    if (residual < -min_step) return EdgeKind::kSurface;
+    return residual > min_step ? EdgeKind::kOccluded : EdgeKind::kMissing;
   }
   return EdgeKind::kMissing;
 }
@@ -78,6 +78,7 @@ EdgeKind KindBeyond(const Outside& outside, const cv::Point& at, const Eigen::Ve
   constexpr std::size_t kNone = std::numeric_limits<std::size_t>::max();
   const EdgeConfig& config = outside.config;
   const Eigen::Vector2d step = outward / outward.cwiseAbs().maxCoeff();
+
   // The nearest and the farthest that is measured within reach; what lies between does not
   // count.
   std::size_t nearest = kNone, farthest = kNone;
@@ -95,6 +96,8 @@ EdgeKind KindBeyond(const Outside& outside, const cv::Point& at, const Eigen::Ve
     farthest = outside.Index(beyond);
     break;
   }
+
+  // What lies nearer than the plane occludes it, unless it rises from the plane at a crease.
   const float last = ResidualSigmas(outside.grid, farthest, outside.plane);
   step_sigmas = std::abs(last);
   if (!(last > static_cast<float>(config.min_step_sigmas))) return EdgeKind::kSurface;
@@ -114,7 +117,7 @@ void FindEdgePoints(const DepthGrid& grid, const OuterContours& contours, int va
   auto contour = std::lower_bound(list.begin(), list.end(), value,
                                   [](const auto& c, int label) { return c.label < label; });
   for (; contour != list.end() && contour->label == value; ++contour) {
-    if (contour->end - contour->begin < kLeastContour) break;
+    if (contour->end - contour->begin < kMinContour_px) break;
     for (std::size_t k = contour->begin; k < contour->end;
          k += static_cast<std::size_t>(config.step_px)) {
       const cv::Point& at = contours.points()[k];

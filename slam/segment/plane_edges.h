@@ -21,7 +21,7 @@ namespace slam {
 ///                                           small thing stands on the surface
 /// p_c is the measured point of the boundary pixel.
 ///
-/// @param contours  of the label image, index + 1 of the segment at each pixel
+/// @param contours  those of the label image, index + 1 of the segment at each pixel
 /// @param value     the segment's value in it
 /// @param plane     its plane
 /// @param areas_m2  visible areas of all segments, by value - 1

@@ -9,6 +9,7 @@
 namespace slam {
 namespace {
 
+/// Grows the planes of clusters from the middles of their blocks, and drops the useless ones.
 void AddClusters(const DepthGrid& grid, const BlockClusters& clusters, const DepthNoise& noise,
                  PixelGrowth& growth) {
   const int first = static_cast<int>(growth.planes().size());
@@ -16,6 +17,7 @@ void AddClusters(const DepthGrid& grid, const BlockClusters& clusters, const Dep
     const InverseDepthPlane& plane = clusters.planes[r];
     growth.AddPlane({plane, GrazingFactor(clusters.sums[r], plane, noise)});
   }
+
   const int half = clusters.block_px / 2;
   for (int block = 0; block < clusters.cols * clusters.rows; ++block) {
     const int region = clusters.region[static_cast<std::size_t>(block)];
@@ -75,20 +77,26 @@ void PlaneExtractor::Extract(Frame& frame) {
   DepthGrid& grid = work_->grid;
   PixelGrowth& growth = work_->growth;
   SetDepth(frame.depth_m, settings.noise, settings.max_depth_m, grid);
+
+  // Planar blocks grouped into planes, again with wider bounds where the sensor bends them.
   const BlockClusters& clusters =
       work_->clustering.Cluster(grid, {}, settings.block_px, settings.noise, settings.coarse);
   const double warp = work_->warp.Measure(clusters, work_->clustering.SumsOfBlocks(), settings);
   const PlaneExtractionConfig config = AllowWarp(settings, warp);
   if (warp > 0.0) work_->clustering.MergeAgain(config.coarse);
+
+  // The planes grow over pixels; what they do not explain is clustered in finer blocks.
   growth.Begin(grid, config.growth);
   AddClusters(grid, clusters, config.noise, growth);
-  growth.MarkSettled(config.coarse.model_error_sigmas,
-                     config.max_block_bias_sigmas * std::sqrt(config.noise.correlated_px),
-                     work_->settled);
+  growth.MarkExplained(config.coarse.model_error_sigmas,
+                       config.max_block_bias_sigmas * std::sqrt(config.noise.correlated_px),
+                       work_->explained);
   AddClusters(grid,
-              work_->clustering.Cluster(grid, work_->settled, config.fine_block_px,
+              work_->clustering.Cluster(grid, work_->explained, config.fine_block_px,
                                         config.noise, config.fine),
               config.noise, growth);
+
+  // Parts of one plane are joined, where they touch and across what hides them.
   const std::vector<PlaneSums> unknown;
   const std::vector<PlaneSums>& blocks =
       config.block_px == config.growth.block_px ? work_->clustering.SumsOfBlocks() : unknown;
@@ -96,6 +104,8 @@ void PlaneExtractor::Extract(Frame& frame) {
   patches.MergeEqualNeighbours(grid, blocks, config, growth);
   const PatchUnion& joined = patches.JoinBentParts(grid, blocks, config, growth, warp > 0.0);
   const LabelRuns& segments = work_->parts.Segment(grid, joined, patches.runs(), config);
+
+  // Segments that can be measured become planes of the frame.
   work_->parts.SumSegments(grid, joined, work_->sums);
   KeepMeasured(work_->sums, config, work_->kept);
   frame.plane_labels.create(grid.height, grid.width);

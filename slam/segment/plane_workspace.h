@@ -26,21 +26,21 @@ struct PlaneExtractor::Workspace {
   BlockClustering clustering;
   WarpMeasurement warp;
   PixelGrowth growth;
-  std::vector<std::uint8_t> settled;
+  std::vector<std::uint8_t> explained;  ///< pixels of the first clustering's planes
   PatchJoining patches;
   PartSegmentation parts;
-  std::vector<PlaneSums> sums;  ///< of segments
+  std::vector<PlaneSums> sums;  ///< one a segment
   std::vector<Segment> kept;
   std::vector<std::uint8_t> drawn_value;
   OuterContours contours;
-  /// Of a plane: |(a, b, c)|, and the area that stands for each of its points, summed.
+  /// A plane's |(a, b, c)|, and the area that stands for each of its points, summed.
   struct Sampled {
     double norm = 0.0, area = 0.0;
   };
   std::vector<Sampled> sampled;
-  std::vector<double> areas_m2;           ///< visible, of the frame's planes
-  std::vector<Box> boxes_px;              ///< of detections that may hold thin things
-  std::vector<std::size_t> own_segments;  ///< that lie in a box
+  std::vector<double> areas_m2;           ///< visible area of each of the frame's planes
+  std::vector<Box> boxes_px;              ///< where detections may hold thin things
+  std::vector<std::size_t> own_segments;  ///< those that lie in a box
   /// Planes of the frame's last image, whose points' memory serves again.
   std::vector<FramePlane> old_planes;
 

@@ -12,8 +12,8 @@ namespace slam {
 namespace {
 
 constexpr int kApart_px = kLanes;  // so the right pixels of eight are the next eight
-constexpr int kMinPairs = 30;
-constexpr int kMostStep_px = 64;
+constexpr int kMinPairs = 30;  // the mean square is then known to about a quarter: sqrt(2 / 30)
+constexpr int kMaxStep_px = 64;  // pixels; bounds the table of columns
 
 using EightMarks = signed char __attribute__((vector_size(8)));  // -1 or 0
 using EightLabels = std::uint8_t __attribute__((vector_size(8)));
@@ -49,7 +49,7 @@ struct Looked {
   std::uint8_t label;
   int step_px;
   /// -1 for every step-th column, beginning with one.
-  std::array<signed char, kMostStep_px + kLanes> columns{};
+  std::array<signed char, kMaxStep_px + kLanes> columns{};
 
   Looked(const cv::Mat1b& labels_in, const cv::Rect& bounds_in, std::uint8_t label_in, int step)
       : labels(labels_in), bounds(bounds_in), label(label_in), step_px(step) {
@@ -100,17 +100,21 @@ SLAM_LANES static int AddRow(const DepthGrid& grid, const PixelPlane& of, const 
 double MeasureRoughness(const DepthGrid& grid, const cv::Mat1b& labels, const cv::Rect& bounds,
                         std::uint8_t label, const InverseDepthPlane& plane,
                         const DepthNoise& noise, int step_px) {
-  Require(step_px >= 1 && step_px <= kMostStep_px, "MeasureRoughness: step_px outside [1, 64]");
+  Require(step_px >= 1 && step_px <= kMaxStep_px, "MeasureRoughness: step_px outside [1, 64]");
   const PixelPlane unslanted(LabelPlane{plane, 1.0});
   const Looked looked(labels, bounds, label, step_px);
   double squares = 0.0;
   int count = 0;
+
+  // Adds the difference from a pixel's residual to that of another, if the segment has it.
   const auto add = [&](float here, int u, int v) {
     if (u >= labels.cols || v >= labels.rows || labels(v, u) != label) return;
     const auto i = static_cast<std::size_t>(grid.Index(u, v));
     const float by = here - ResidualSigmas(grid, i, unslanted);
     squares += static_cast<double>(by * by), ++count;
   };
+
+  // Each pixel that is looked at, with the one to its right and the one below.
   for (int v = bounds.y; v < bounds.y + bounds.height; v += step_px) {
     for (int u = AddRow(grid, unslanted, looked, v, squares, count);
          u < bounds.x + bounds.width; ++u) {
@@ -121,6 +125,8 @@ double MeasureRoughness(const DepthGrid& grid, const cv::Mat1b& labels, const cv
       add(here, u, v + kApart_px);
     }
   }
+
+  // A difference has the noise of two pixels, as seen at the slant in the segment's middle.
   if (count < kMinPairs) return 0.0;
   const int u = bounds.x + bounds.width / 2, v = bounds.y + bounds.height / 2;
   const auto i = static_cast<std::size_t>(grid.Index(u, v));

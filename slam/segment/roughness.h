@@ -14,7 +14,7 @@ namespace slam {
 /// fits. 0 when there are too few such pixels to say.
 ///
 /// @param labels  `label` where the segment is
-/// @param bounds  of the segment: it has no pixel outside
+/// @param bounds  the segment has no pixel outside
 /// @param step_px only every such pixel of every such row is looked at; domain [1, 64]
 /// @throws std::invalid_argument for a step outside its domain
 double MeasureRoughness(const DepthGrid& grid, const cv::Mat1b& labels, const cv::Rect& bounds,

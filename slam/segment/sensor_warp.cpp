@@ -7,8 +7,8 @@
 namespace slam {
 namespace {
 
-constexpr std::size_t kLeastPieces = 20;
-constexpr double kMedianOfSquare = 0.4549;  // of a chi-square with one degree of freedom
+constexpr std::size_t kMinPieces = 20;  // balances a doubtful median against no answer at all
+constexpr double kMedianOfSquare = 0.4549;  // chi-square with one degree of freedom
 
 /// The region of 2 x 2 blocks from (row, column) on; -1: they do not share one.
 int RegionOfPiece(const BlockClusters& clusters, int row, int col) {
@@ -51,6 +51,7 @@ double WarpMeasurement::Measure(const BlockClusters& clusters,
     planes_.push_back({clusters.planes[k],
                        GrazingFactor(clusters.sums[k], clusters.planes[k], config.noise)});
   }
+  // The mean residual of every piece that lies in one cluster.
   for (int r = 0; r + 1 < clusters.rows; r += 2) {
     for (int c = 0; c + 1 < clusters.cols; c += 2) {
       const int region = RegionOfPiece(clusters, r, c);
@@ -60,7 +61,9 @@ double WarpMeasurement::Measure(const BlockClusters& clusters,
                                      config.noise.correlated_px));
     }
   }
-  if (squares_.size() < kLeastPieces) return 0.0;
+
+  // The median, which few pieces across steps do not move, as a standard deviation.
+  if (squares_.size() < kMinPieces) return 0.0;
   const auto middle = squares_.begin() + static_cast<std::ptrdiff_t>(squares_.size() / 2);
   std::nth_element(squares_.begin(), middle, squares_.end());
   const double warp = std::sqrt(std::max(*middle, 0.0) / kMedianOfSquare);

@@ -15,14 +15,14 @@ namespace slam {
 /// underestimated, because it splits them.
 class WarpMeasurement {
  public:
-  /// @param clusters  of the whole grid, with the bounds of a flat sensor
+  /// @param clusters  those of the whole grid, with the bounds of a flat sensor
   /// @param blocks    sums of the measured pixels of each of its blocks
   double Measure(const BlockClusters& clusters, const std::vector<PlaneSums>& blocks,
                  const PlaneExtractionConfig& config);
 
  private:
-  std::vector<LabelPlane> planes_;  ///< of the clusters
-  std::vector<double> squares_;     ///< of the pieces' mean residuals
+  std::vector<LabelPlane> planes_;  ///< one a cluster
+  std::vector<double> squares_;     ///< squared mean residual of each piece
 };
 
 /// The bounds that a surface warped by that much keeps; `config` itself for 0.

@@ -9,16 +9,16 @@
 namespace slam {
 namespace {
 
-constexpr int kGrid_px = 8;
-constexpr std::size_t kLines = 5;
+constexpr int kGrid_px = 8;             // spacing of samples; balances time against small parts
+constexpr std::size_t kLines = 5;       // nearest lines; one alone may end in a stray pixel
 constexpr float kBehind_sigmas = 2.0f;  // other parts of the plane scatter about it
 
-// Of lines all over two parts.
-constexpr std::size_t kEnds = 12;      // of each part
-constexpr float kClear_sigmas = 3.0f;  // no other part of the plane scatters so far
-constexpr int kClear_px = 3;           // in a row, as single pixels beside an edge may err
-constexpr double kLeastInFront = 0.5;  // share of the lines
-constexpr double kMostBeyond = 0.05;   // share of the lines
+// Lines all over two parts.
+constexpr std::size_t kEnds = 12;         // samples of each part that they join; balances time
+constexpr float kClear_sigmas = 3.0f;     // no other part of the plane scatters so far
+constexpr int kClear_px = 3;              // in a row, as single pixels beside an edge may err
+constexpr double kMinInFrontShare = 0.5;  // of the lines: most of them
+constexpr double kMaxBeyondShare = 0.05;  // of the lines: stray pixels let a few through
 
 int Square(int k) { return k * k; }
 
@@ -32,6 +32,8 @@ void SightLines::Begin(const DepthGrid& grid, const LabelRuns& runs,
                        double unsure_side_sigmas) {
   grid_ = &grid, runs_ = &runs, part_ = &part;
   behind_sigmas_ = std::max(kBehind_sigmas, static_cast<float>(unsure_side_sigmas));
+
+  // Samples on the grid, and one of each part that it misses.
   samples_.clear();
   for (int v = 0; v < grid.height; v += kGrid_px) {
     const auto row = static_cast<std::size_t>(v);
@@ -43,6 +45,8 @@ void SightLines::Begin(const DepthGrid& grid, const LabelRuns& runs,
     }
   }
   AddMissed(part_count);
+
+  // Sorted by part, with the bounds of each.
   std::size_t place = 0;
   for (Part& p : parts_) {
     const std::size_t count = p.end;
@@ -56,6 +60,8 @@ void SightLines::Begin(const DepthGrid& grid, const LabelRuns& runs,
     p.low = {std::min(p.low.u, sample.at.u), std::min(p.low.v, sample.at.v)};
     p.high = {std::max(p.high.u, sample.at.u), std::max(p.high.v, sample.at.v)};
   }
+
+  // Where a search may go on after a row that is too far away.
   row_end_.resize(pixels_.size());
   for (const Part& p : parts_) {
     for (std::size_t k = p.end; k-- > p.begin;) {
@@ -89,13 +95,14 @@ void SightLines::FindNearestLines(int a, int b) {
   const Part &from_part = parts_[static_cast<std::size_t>(a)],
              &to_part = parts_[static_cast<std::size_t>(b)];
   lines_.clear();
+  // From each sample the nearest of the other part, if it is nearer than the lines so far.
   for (std::size_t i = from_part.begin; i < from_part.end; ++i) {
     const Pixel from = pixels_[i];
     const int longest =
         lines_.size() < kLines ? std::numeric_limits<int>::max() : lines_.back().length2;
-    const int least = Square(DistanceFrom(from.u, to_part.low.u, to_part.high.u)) +
-                      Square(DistanceFrom(from.v, to_part.low.v, to_part.high.v));
-    if (least >= longest) continue;
+    const int shortest = Square(DistanceFrom(from.u, to_part.low.u, to_part.high.u)) +
+                         Square(DistanceFrom(from.v, to_part.low.v, to_part.high.v));
+    if (shortest >= longest) continue;
     Line nearest{longest, from, from};
     for (std::size_t j = to_part.begin; j < to_part.end;) {
       const std::size_t row_end = row_end_[j];
@@ -185,7 +192,7 @@ SightLines::Sight SightLines::Look(const Line& line, int a, int b,
 bool SightLines::AreSidesOfSomethingInFront(int a, int b, const LabelPlane& plane) const {
   constexpr double kAll = kEnds * kEnds;
   const PixelPlane in_float(plane);
-  const auto end = [&](int part, std::size_t k) {  // of kEnds, in equal steps
+  const auto end = [&](int part, std::size_t k) {  // one of kEnds, in equal steps
     const Part& p = parts_[static_cast<std::size_t>(part)];
     return pixels_[p.begin + (p.end - p.begin) * (2 * k + 1) / (2 * kEnds)];
   };
@@ -197,7 +204,7 @@ bool SightLines::AreSidesOfSomethingInFront(int a, int b, const LabelPlane& plan
       not_in_front += sight == Sight::kInFront ? 0 : 1;
       beyond += sight == Sight::kBeyond ? 1 : 0;
       // What is left cannot change the answer.
-      if (beyond > kMostBeyond * kAll || kAll - not_in_front < kLeastInFront * kAll)
+      if (beyond > kMaxBeyondShare * kAll || kAll - not_in_front < kMinInFrontShare * kAll)
         return false;
     }
   }

@@ -16,7 +16,7 @@ class SightLines {
  public:
   /// Samples every part on a grid of pixels. What is given must outlive what is asked; memory
   /// serves again.
-  /// @param part  of each run, -1 = none
+  /// @param part  one a run, -1 = none
   /// @param unsure_side_sigmas  at least so far behind is clearly behind
   void Begin(const DepthGrid& grid, const LabelRuns& runs, const std::vector<int>& part,
              int part_count, double unsure_side_sigmas = 0.0);
@@ -66,7 +66,7 @@ class SightLines {
   std::vector<Part> parts_;
   std::vector<Sample> samples_;
   std::vector<Pixel> pixels_;         ///< samples, part by part
-  std::vector<std::size_t> row_end_;  ///< of each of them: the next of its part not in its row
+  std::vector<std::size_t> row_end_;  ///< for each of them the next of its part not in its row
   std::vector<Line> lines_;           ///< the nearest, shortest first
 };
 

@@ -22,10 +22,12 @@ void SortBoxes(const std::vector<Detection>& detections, double min_score,
             [&](const Box& a, const Box& b) { return rank(a) < rank(b); });
 }
 
-constexpr double kFull = 0.7;  // of a box, by what belongs to it: nothing is missing
+// A box that its own segments fill by this share misses nothing; balances thin things beside
+// others against false ones.
+constexpr double kFullShare = 0.7;
 
 bool LiesIn(const Box& segment_px, const Box& box_px) {
-  constexpr double kInBox = 0.8;
+  constexpr double kInBox = 0.8;  // share of its bounds: boxes are several pixels inexact
   return Intersection(segment_px, box_px).area() > kInBox * segment_px.area();
 }
 
@@ -56,16 +58,20 @@ bool PlaneExtractor::Workspace::TakeRegion(std::size_t host, const PixelRegion& 
   const std::optional<Segment> top = Measure(region, 0, config);
   if (!rest || !top) return false;
   std::size_t into = kept.size();
-  double least_gap = 1.0;
+
+  // It is part of the box's own segment whose plane is nearest, if one agrees within noise.
+  double min_gap = 1.0;
   for (const std::size_t own : own_segments) {
     const double gap = PatchGap({kept[own].sums, kept[own].plane}, {region, top->plane},
                                 config.max_merge_gap_sigmas, config);
-    if (gap < least_gap) least_gap = gap, into = own;
+    if (gap < min_gap) min_gap = gap, into = own;
   }
+
+  // Otherwise it makes a segment of its own; the host keeps the rest.
   const cv::Point low = found.bounds.tl();
   const cv::Point high = found.bounds.br() - cv::Point(1, 1);
   if (into == kept.size()) {
-    if (kept.size() == static_cast<std::size_t>(kMostSegments)) return false;
+    if (kept.size() == static_cast<std::size_t>(kMaxSegments)) return false;
     kept.push_back(*top);
     kept[into].low = low, kept[into].high = high;
   } else {
@@ -79,6 +85,7 @@ bool PlaneExtractor::Workspace::TakeRegion(std::size_t host, const PixelRegion& 
 }
 
 bool PlaneExtractor::Workspace::SplitInBox(const Box& box_px, Frame& frame) {
+  // Segments that lie in the box are its own: what it shows may be there already.
   Box own_px;
   own_segments.clear();
   for (std::size_t k = 0; k < frame.planes.size(); ++k) {
@@ -90,11 +97,13 @@ bool PlaneExtractor::Workspace::SplitInBox(const Box& box_px, Frame& frame) {
   const std::array<int, 256> pixels = CountLabels(frame.plane_labels, box_px);
   double own_pixels = 0.0;
   for (const std::size_t own : own_segments) own_pixels += pixels[own + 1];
-  if (own_pixels > kFull * box_px.area()) return false;
-  const double least = std::max(1.0 * config.min_pixels, kMinFilledShare * box_px.area());
+  if (own_pixels > kFullShare * box_px.area()) return false;
+
+  // The others may hold a thin thing in the box that became part of them.
+  const double min_px = std::max(1.0 * config.min_pixels, kMinFilledShare * box_px.area());
   bool split = false;
   for (std::size_t k = 0; k < frame.planes.size(); ++k) {
-    if (pixels[k + 1] < least || LiesIn(frame.planes[k].box_px, box_px)) continue;
+    if (pixels[k + 1] < min_px || LiesIn(frame.planes[k].box_px, box_px)) continue;
     const std::optional<PixelRegion> top =
         FindThinTop(grid, frame.plane_labels, static_cast<std::uint8_t>(k + 1), kept[k].plane,
                     box_px, own_px, config);

@@ -43,19 +43,19 @@ bool IsMeasured(const DepthGrid& grid, int u, int v) {
   return grid.g[static_cast<std::size_t>(grid.Index(u, v))] > 0;
 }
 
-/// What a bid is by its definition.
-float PlainBid(const DepthGrid& grid, int u, int v, int reach, float most) {
-  float bid = 0.0f;
+/// What a cost is by its definition.
+float PlainCost(const DepthGrid& grid, int u, int v, int reach, float most) {
+  float cost = 0.0f;
   for (int y = std::max(v - reach, 0); y <= std::min(v + reach, grid.height - 1); ++y) {
     for (int x = std::max(u - reach, 0); x <= std::min(u + reach, grid.width - 1); ++x) {
       const float r = ResidualAt(grid, x, y);
-      bid += std::min(r * r, most * most);
+      cost += std::min(r * r, most * most);
     }
   }
-  return bid;
+  return cost;
 }
 
-BidWindow WindowOf(const DepthGrid& grid, const BlockPixels& block, int u, int v, int reach) {
+CostWindow WindowOf(const DepthGrid& grid, const BlockPixels& block, int u, int v, int reach) {
   return {reach,
           std::min(reach, u),
           std::min(reach, v),
@@ -71,46 +71,45 @@ void VisitBlocks(const DepthGrid& grid, int size, const Visit& visit) {
     for (int u0 = 0; u0 < grid.width; u0 += size) visit(BlockAt(grid, u0, v0, size), u0, v0);
 }
 
-TEST(BlockPixels, FindWhatIsNearAPlaneAndBidWhatTheirDefinitionsSay) {
+TEST(BlockPixels, FindWhatIsNearAPlaneAndItsCostsAsTheirDefinitionsSay) {
   for (const double k1 : {0.0, 0.2}) {
     const DepthGrid grid = RoughGrid(29, 27, k1);
     for (const auto& [size, reach] :
          std::vector<std::pair<int, int>>{{8, 2}, {8, 3}, {5, 2}, {11, 2}}) {
-      const int count = (size * size + 7) / 8 * 8;
       const std::size_t words = WordsOfSet(size);
-      std::vector<float> bids(static_cast<std::size_t>(count));
+      std::vector<float> costs(EntriesOfBlock(size));
       std::vector<std::uint64_t> measured(words), near(words), wide(words);
-      int bidding = 0, only_wide = 0;
+      int with_costs = 0, only_wide = 0;
       VisitBlocks(grid, size, [&](const BlockPixels& block, int u0, int v0) {
         FindMeasured(block, measured.data());
         const int found = FindNear(block, PixelPlane(kPlane), measured.data(), 3.0f, 4.0f,
                                    near.data(), wide.data());
-        BidForBlock(block, count, PixelPlane(kPlane), WindowOf(grid, block, u0, v0, reach),
-                    near.data(), bids.data());
+        FindCosts(block, PixelPlane(kPlane), WindowOf(grid, block, u0, v0, reach), near.data(),
+                  costs.data());
         int expected = 0;
         for (int v = 0; v < size; ++v) {
           for (int u = 0; u < size; ++u) {
             const bool inside =
                 u < block.width && v < block.height && IsMeasured(grid, u0 + u, v0 + v);
             const float r = inside ? std::abs(ResidualAt(grid, u0 + u, v0 + v)) : kTooFar;
-            const float bid = bids[static_cast<std::size_t>(v * size + u)];
+            const float cost = costs[static_cast<std::size_t>(v * size + u)];
             EXPECT_EQ(IsInSet(measured.data(), size, u, v), inside);
             EXPECT_EQ(IsInSet(near.data(), size, u, v), r < 3.0f) << r;
             EXPECT_EQ(IsInSet(wide.data(), size, u, v), r < 4.0f) << r;
             if (r < 3.0f) {
-              const float plain = PlainBid(grid, u0 + u, v0 + v, reach, 3.0f);
-              EXPECT_NEAR(bid, plain, 1e-5f * plain);
+              const float plain = PlainCost(grid, u0 + u, v0 + v, reach, 3.0f);
+              EXPECT_NEAR(cost, plain, 1e-5f * plain);
               ++expected;
             } else {
-              EXPECT_EQ(bid, kTooFar);
+              EXPECT_EQ(cost, kTooFar);
               only_wide += r < 4.0f ? 1 : 0;
             }
           }
         }
         EXPECT_EQ(found, expected);
-        bidding += expected;
+        with_costs += expected;
       });
-      EXPECT_GT(bidding, 100);
+      EXPECT_GT(with_costs, 100);
       EXPECT_GT(only_wide, 10);
     }
   }

@@ -39,22 +39,22 @@ struct SheetOnADesk {
 
 TEST(PatchUnion, ContestsASheetWhoseOtherEdgeIsRaisedOverTheSameDesk) {
   const SheetOnADesk scene(1.0f);
-  EXPECT_TRUE(scene.patches.Contested(1, 2, scene.config));
-  EXPECT_FALSE(scene.patches.Contested(2, 1, scene.config))
+  EXPECT_TRUE(scene.patches.IsAmbiguous(1, 2, scene.config));
+  EXPECT_FALSE(scene.patches.IsAmbiguous(2, 1, scene.config))
       << "nothing is apart from the right";
-  EXPECT_FALSE(scene.patches.Contested(1, 0, scene.config)) << "that is what Apart() says";
+  EXPECT_FALSE(scene.patches.IsAmbiguous(1, 0, scene.config)) << "that is what Apart() says";
 }
 
 TEST(PatchUnion, DoesNotContestASheetBesideAnotherSurface) {
   const SheetOnADesk scene(1.05f);
-  EXPECT_FALSE(scene.patches.Contested(1, 2, scene.config));
+  EXPECT_FALSE(scene.patches.IsAmbiguous(1, 2, scene.config));
 }
 
 TEST(PatchUnion, KeepsASheetApartFromADeskWhosePartsAreJoined) {
   SheetOnADesk scene(1.0f);
   scene.patches.Join(0, 2, scene.config.noise);
   EXPECT_TRUE(scene.patches.Apart(0, 1));
-  EXPECT_FALSE(scene.patches.Contested(1, 0, scene.config));
+  EXPECT_FALSE(scene.patches.IsAmbiguous(1, 0, scene.config));
 }
 
 }  // namespace

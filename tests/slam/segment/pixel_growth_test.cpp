@@ -18,6 +18,12 @@
 namespace slam {
 namespace {
 
+LabelImage LabelsOf(PixelGrowth& growth) {
+  LabelImage labels;
+  growth.DrawLabels(labels);
+  return labels;
+}
+
 TEST(PixelGrowth, RefusesBlocksAndReachesThatItHasNoRoomFor) {
   const Camera camera;
   const cv::Mat1f depth_m(camera.height, camera.width, 1.0f);
@@ -40,8 +46,9 @@ TEST(PixelGrowth, TakesThePixelsBackFromAPlaneThatMovedAway) {
   const Camera camera;
   const cv::Mat1f depth_m(camera.height, camera.width, 1.0f);
   const DepthGrid grid = MakeDepthGrid(depth_m, PixelRays(camera), {}, 10.0);
-  const auto pixels_of = [&](const PixelGrowth& growth, int label) {
-    return std::count(growth.labels().begin(), growth.labels().end(), label);
+  const auto pixels_of = [](PixelGrowth& growth, int label) {
+    const LabelImage labels = LabelsOf(growth);
+    return std::count(labels.begin(), labels.end(), label);
   };
   PixelGrowth growth;
   growth.Begin(grid, {});
@@ -77,11 +84,11 @@ TEST(PixelGrowth, DropsAPlaneOnceABetterOneHasComeToBlocksWhoseGainsWereKnown) {
     return label;
   };
   const int right = add(1, 3.5), near = add(0, 1.0);
-  EXPECT_EQ(growth.labels()[0], near);
-  EXPECT_EQ(growth.labels()[15], right);
+  EXPECT_EQ(LabelsOf(growth)[0], near);
+  EXPECT_EQ(LabelsOf(growth)[15], right);
   const int exact = add(0, 0.0);
-  EXPECT_EQ(growth.labels()[0], exact);
-  EXPECT_EQ(growth.labels()[15], right);
+  EXPECT_EQ(LabelsOf(growth)[0], exact);
+  EXPECT_EQ(LabelsOf(growth)[15], right);
 }
 
 TEST(PixelGrowth, SumsLabelsAsIfTheirPixelsWereCountedOneByOne) {
@@ -96,12 +103,13 @@ TEST(PixelGrowth, SumsLabelsAsIfTheirPixelsWereCountedOneByOne) {
   growth.Seed(growth.BlockAt(0, 0), growth.AddPlane({{0.0, 0.0, 1.0}, 1.0}));
   growth.Seed(growth.BlockAt(30, 20), growth.AddPlane({{0.0, 0.0, 1.0 / 0.9}, 1.0}));
   growth.Grow();
-  const std::vector<PlaneSums> plain = SumLabels(grid, growth.labels(), 2);
+  const std::vector<PlaneSums> plain = SumLabels(grid, LabelsOf(growth), 2);
   BlockClustering clustering;
   clustering.Cluster(grid, {}, GrowthConfig{}.block_px, {}, {});
   for (const std::vector<PlaneSums>& whole :
        {std::vector<PlaneSums>{}, clustering.SumsOfBlocks()}) {
-    const std::vector<PlaneSums>& sums = growth.SumLabels(whole);
+    std::vector<PlaneSums> sums;
+    growth.SumLabels(whole, sums);
     ASSERT_EQ(sums.size(), 2u);
     for (std::size_t k = 0; k < 2; ++k) {
       EXPECT_EQ(sums[k].n, plain[k].n) << k;
@@ -169,15 +177,15 @@ LabelImage PlainLabels(const DepthGrid& grid, const std::vector<LabelPlane>& pla
       double least = std::numeric_limits<double>::infinity();
       for (std::size_t k = 0; k < planes.size() && grid.g[i] > 0; ++k) {
         if (Residual(grid, i, planes[k]) >= 3.0) continue;
-        double bid = 0.0;
+        double cost = 0.0;
         for (int y = std::max(v - 2, 0); y <= std::min(v + 2, grid.height - 1); ++y) {
           for (int x = std::max(u - 2, 0); x <= std::min(u + 2, grid.width - 1); ++x) {
             const double r =
                 Residual(grid, static_cast<std::size_t>(grid.Index(x, y)), planes[k]);
-            bid += std::min(r * r, 9.0);
+            cost += std::min(r * r, 9.0);
           }
         }
-        if (bid < least) least = bid, labels[i] = static_cast<std::int16_t>(k);
+        if (cost < least) least = cost, labels[i] = static_cast<std::int16_t>(k);
       }
     }
   }
@@ -197,7 +205,7 @@ TEST(PixelGrowth, GivesEveryPixelToTheBestOfThePlanesNearItWhateverTheBlocks) {
       config.block_px = block_px;
       PixelGrowth growth;
       GrowEverywhere(grid, config, planes, growth);
-      EXPECT_EQ(growth.labels(), expected) << block_px;
+      EXPECT_EQ(LabelsOf(growth), expected) << block_px;
     }
   }
 }
@@ -251,8 +259,9 @@ TEST(PixelGrowth, DropsThePlanesWhoseGainIsTooLittleAlsoIfItIsOnlyBounded) {
       turns_with_useless += useful.size() < planes.size() ? 1 : 0;
       turns_with_useful += useful.size() > 1 ? 1 : 0;
       // Labels have other numbers without the others.
+      const LabelImage labels = LabelsOf(growth);
       for (std::size_t i = 0; i < expected.size(); ++i) {
-        const int label = growth.labels()[i];
+        const int label = labels[i];
         ASSERT_EQ(label == kNoLabel, expected[i] == kNoLabel);
         if (label == kNoLabel) continue;
         const InverseDepthPlane &is = planes[static_cast<std::size_t>(label)].plane,
@@ -283,9 +292,9 @@ TEST(PixelGrowth, DropsAPlaneThatGainsTooLittleThoughNoOtherIsNear) {
       for (int block = 0; block < 3; ++block) growth.Seed(block, label);
     }
     growth.Grow();
-    EXPECT_EQ(growth.labels()[0], 0);
+    EXPECT_EQ(LabelsOf(growth)[0], 0);
     growth.DropUseless();
-    EXPECT_EQ(growth.labels()[0] == 0, stays) << min_gain;
+    EXPECT_EQ(LabelsOf(growth)[0] == 0, stays) << min_gain;
   }
 }
 
@@ -298,19 +307,19 @@ TEST(PixelGrowth, HasTheSameLabelsHoweverOftenItIsAskedAndWhateverItHeldBefore) 
     PixelGrowth once;
     const auto run = [&](PixelGrowth& growth, bool ask) {
       GrowEverywhere(grid, {}, planes, growth);
-      if (ask) growth.labels();
+      if (ask) LabelsOf(growth);
       growth.DropUseless();
-      if (ask) growth.labels();
+      if (ask) LabelsOf(growth);
       std::vector<LabelPlane> moved = planes;
       for (LabelPlane& plane : moved) plane.plane.c += 0.01;
       growth.Replace(moved, {0, 1, 2, 3, 4, 0});
-      return growth.labels();
+      return LabelsOf(growth);
     };
     EXPECT_EQ(run(again, true), run(once, false));
   }
 }
 
-TEST(PixelGrowth, LeavesUnsettledWhatLiesOffItsPlaneAndWhatHasNone) {
+TEST(PixelGrowth, LeavesUnexplainedWhatLiesOffItsPlaneAndWhatHasNone) {
   Camera camera;
   camera.width = 24, camera.height = 8;
   cv::Mat1f depth_m(camera.height, camera.width, 1.0f);
@@ -323,11 +332,11 @@ TEST(PixelGrowth, LeavesUnsettledWhatLiesOffItsPlaneAndWhatHasNone) {
   growth.Begin(grid, {});
   growth.Seed(0, growth.AddPlane({{0.0, 0.0, 1.0}, 1.0}));
   growth.Grow();
-  std::vector<std::uint8_t> settled;
-  growth.MarkSettled(1.0, 1.0, settled);  // at most 1 + 1 / 8 sigmas
+  std::vector<std::uint8_t> explained;
+  growth.MarkExplained(1.0, 1.0, explained);  // at most 1 + 1 / 8 sigmas
   for (int v = 0; v < camera.height; ++v) {
     for (int u = 0; u < camera.width; ++u)
-      EXPECT_EQ(settled[static_cast<std::size_t>(grid.Index(u, v))],
+      EXPECT_EQ(explained[static_cast<std::size_t>(grid.Index(u, v))],
                 u < 8 || (u == 20 && v == 3) ? 1 : 0);
   }
 }

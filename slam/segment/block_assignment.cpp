@@ -1,4 +1,4 @@
-#include "slam/segment/block_rivals.h"
+#include "slam/segment/block_assignment.h"
 
 #include <algorithm>
 #include <cstddef>
@@ -17,39 +17,39 @@ constexpr float kNone = std::numeric_limits<float>::infinity();
 using EightMarks = std::uint8_t __attribute__((vector_size(8), aligned(1), may_alias));
 using EightShorts = std::int16_t __attribute__((vector_size(16), aligned(2), may_alias));
 
-SLAM_INLINE void ShareBlock8(const BlockRival* rivals, int rival_count) {
-  FloatLanes least[kLanes];
+SLAM_INLINE void AssignPixels8(const CompetingPlane* planes, int plane_count) {
+  FloatLanes lowest[kLanes];
 #pragma GCC unroll 8
-  for (FloatLanes& row : least) row = AllLanes(kNone);
-  for (int r = 0; r < rival_count; ++r) {
+  for (FloatLanes& row : lowest) row = AllLanes(kNone);
+  for (int r = 0; r < plane_count; ++r) {
     RowsOfSet better;
 #pragma GCC unroll 8
     for (int v = kLanes - 1; v >= 0; --v) {
-      const FloatLanes bid = Lanes(rivals[r].bids + kLanes * v);
-      const IntLanes is_better = bid < least[v];
-      least[v] = is_better ? bid : least[v];
+      const FloatLanes cost = Lanes(planes[r].costs + kLanes * v);
+      const IntLanes is_better = cost < lowest[v];
+      lowest[v] = is_better ? cost : lowest[v];
       better.Add(is_better);
     }
-    *rivals[r].owned = better.Set();
+    *planes[r].owned = better.Set();
   }
   std::uint64_t taken = 0;  // the last one that was better has it
-  for (int r = rival_count - 1; r >= 0; --r) {
-    *rivals[r].owned &= ~taken;
-    taken |= *rivals[r].owned;
+  for (int r = plane_count - 1; r >= 0; --r) {
+    *planes[r].owned &= ~taken;
+    taken |= *planes[r].owned;
   }
 }
 
-void ShareBlockAny(const BlockRival* rivals, int rival_count, int size) {
-  for (int r = 0; r < rival_count; ++r)
-    std::fill_n(rivals[r].owned, WordsOfSet(size), std::uint64_t{0});
+void AssignPixelsAny(const CompetingPlane* planes, int plane_count, int size) {
+  for (int r = 0; r < plane_count; ++r)
+    std::fill_n(planes[r].owned, WordsOfSet(size), std::uint64_t{0});
   for (int v = 0; v < size; ++v) {
     for (int u = 0; u < size; ++u) {
-      const BlockRival* owner = nullptr;
-      float least = kNone;
-      for (const BlockRival* r = rivals; r < rivals + rival_count; ++r) {
-        if (!IsInSet(r->near, size, u, v)) continue;
-        const float bid = r->bids[v * size + u];
-        if (bid < least) least = bid, owner = r;
+      const CompetingPlane* owner = nullptr;
+      float lowest = kNone;
+      for (const CompetingPlane* p = planes; p < planes + plane_count; ++p) {
+        if (!IsInSet(p->near, size, u, v)) continue;
+        const float cost = p->costs[v * size + u];
+        if (cost < lowest) lowest = cost, owner = p;
       }
       if (owner != nullptr) PutInSet(owner->owned, size, u, v);
     }
@@ -58,14 +58,14 @@ void ShareBlockAny(const BlockRival* rivals, int rival_count, int size) {
 
 }  // namespace
 
-SLAM_LANES void ShareBlock(BlockRival* rivals, int rival_count, int size) {
+SLAM_LANES void AssignPixels(CompetingPlane* planes, int plane_count, int size) {
   if (size == kLanes) {
-    ShareBlock8(rivals, rival_count);
+    AssignPixels8(planes, plane_count);
   } else {
-    ShareBlockAny(rivals, rival_count, size);
+    AssignPixelsAny(planes, plane_count, size);
   }
-  for (int r = 0; r < rival_count; ++r)
-    rivals[r].pixels = CountOf(rivals[r].owned, WordsOfSet(size));
+  for (int r = 0; r < plane_count; ++r)
+    planes[r].pixels = CountOf(planes[r].owned, WordsOfSet(size));
 }
 
 SLAM_LANES void DrawOwners(const BlockPixels& block, const BlockOwner* owners, int owner_count,

@@ -6,15 +6,15 @@
 namespace slam {
 
 /// A plane near pixels of a block that others are near too.
-struct BlockRival {
+struct CompetingPlane {
   ConstPixelSet near = nullptr;
-  const float* bids = nullptr;  ///< BidForBlock
-  PixelSet owned = nullptr;     ///< what it gets, and
-  int pixels = 0;               ///< how many
+  const float* costs = nullptr;  ///< FindCosts
+  PixelSet owned = nullptr;      ///< set to the pixels that it gets, and
+  int pixels = 0;                ///< to their number
 };
 
-/// Gives each pixel to the one with the least bid of those near it (the first of equal ones).
-void ShareBlock(BlockRival* rivals, int rival_count, int size);
+/// Gives each pixel to the plane of least cost of those near it, to the first of equal ones.
+void AssignPixels(CompetingPlane* planes, int plane_count, int size);
 
 /// A label's pixels of a block.
 struct BlockOwner {
@@ -23,11 +23,11 @@ struct BlockOwner {
 };
 
 /// Writes the labels of the pixels of a block, kNoLabel where nobody owns one.
-/// @param labels  of its first pixel
+/// @param labels  where the first pixel's is
 void DrawOwners(const BlockPixels& block, const BlockOwner* owners, int owner_count,
                 std::int16_t* labels);
 
-/// Sets the marks of the pixels of a set to 0. @param marks  of the block's first pixel
+/// Sets the marks of the pixels of a set to 0. @param marks  where the block's first pixel's is
 void ClearMarks(const BlockPixels& block, ConstPixelSet set, std::uint8_t* marks);
 
 }  // namespace slam

@@ -1,4 +1,4 @@
-#include "slam/segment/block_rivals.h"
+#include "slam/segment/block_assignment.h"
 
 #include <gtest/gtest.h>
 
@@ -12,46 +12,46 @@ namespace slam {
 namespace {
 
 // Some sizes have rows of whole lanes and one word, others neither.
-TEST(BlockRivals, ShareABlockByTheLeastBidOfThoseNearAndTheFirstOfEqualOnes) {
+TEST(BlockAssignment, GivesPixelsToTheLeastCostOfThePlanesNearAndTheFirstOfEqualOnes) {
   std::mt19937 random(5);
   for (const int size : {8, 5, 11}) {
     const std::size_t words = WordsOfSet(size);
     const auto count = static_cast<std::size_t>((size * size + 7) / 8 * 8);
     for (int turn = 0; turn < 50; ++turn) {
-      constexpr std::size_t kRivals = 4;
-      std::vector<std::vector<std::uint64_t>> near(kRivals, std::vector<std::uint64_t>(words));
+      constexpr std::size_t kPlanes = 4;
+      std::vector<std::vector<std::uint64_t>> near(kPlanes, std::vector<std::uint64_t>(words));
       std::vector<std::vector<std::uint64_t>> owned = near;
-      std::vector<std::vector<float>> bids(
-          kRivals, std::vector<float>(count, std::numeric_limits<float>::infinity()));
-      std::vector<BlockRival> rivals;
-      for (std::size_t r = 0; r < kRivals; ++r) {
+      std::vector<std::vector<float>> costs(
+          kPlanes, std::vector<float>(count, std::numeric_limits<float>::infinity()));
+      std::vector<CompetingPlane> planes;
+      for (std::size_t r = 0; r < kPlanes; ++r) {
         for (int k = 0; k < size * size; ++k) {
           if (random() % 3 == 0) continue;
           PutInSet(near[r].data(), size, k % size, k / size);
-          bids[r][static_cast<std::size_t>(k)] = static_cast<float>(random() % 4);
+          costs[r][static_cast<std::size_t>(k)] = static_cast<float>(random() % 4);
         }
         owned[r].assign(words, ~std::uint64_t{0});  // of what was there before
-        rivals.push_back({near[r].data(), bids[r].data(), owned[r].data(), 0});
+        planes.push_back({near[r].data(), costs[r].data(), owned[r].data(), 0});
       }
-      ShareBlock(rivals.data(), static_cast<int>(kRivals), size);
-      std::vector<int> pixels(kRivals);
+      AssignPixels(planes.data(), static_cast<int>(kPlanes), size);
+      std::vector<int> pixels(kPlanes);
       for (int k = 0; k < size * size; ++k) {
-        std::size_t best = kRivals;
-        for (std::size_t r = 0; r < kRivals; ++r) {
+        std::size_t best = kPlanes;
+        for (std::size_t r = 0; r < kPlanes; ++r) {
           if (!IsInSet(near[r].data(), size, k % size, k / size)) continue;
           const auto at = static_cast<std::size_t>(k);
-          if (best == kRivals || bids[r][at] < bids[best][at]) best = r;
+          if (best == kPlanes || costs[r][at] < costs[best][at]) best = r;
         }
-        for (std::size_t r = 0; r < kRivals; ++r)
+        for (std::size_t r = 0; r < kPlanes; ++r)
           EXPECT_EQ(IsInSet(owned[r].data(), size, k % size, k / size), r == best);
-        if (best < kRivals) ++pixels[best];
+        if (best < kPlanes) ++pixels[best];
       }
-      for (std::size_t r = 0; r < kRivals; ++r) EXPECT_EQ(rivals[r].pixels, pixels[r]);
+      for (std::size_t r = 0; r < kPlanes; ++r) EXPECT_EQ(planes[r].pixels, pixels[r]);
     }
   }
 }
 
-TEST(BlockRivals, DrawTheirPixelsAndNobodysWithinTheImageAlone) {
+TEST(BlockAssignment, IsDrawnWithNobodysPixelsWithinTheImageAlone) {
   Camera camera;
   camera.width = 21, camera.height = 19;
   const DepthGrid grid =
