@@ -10,7 +10,7 @@ CLI::Option* AddSensorOption(CLI::App& command, std::string& sensor) {
   return command
       .add_option("--sensor", sensor,
                   "What measured the depth: its noise is what planes are told apart by. A "
-                  "--config goes over it (plane_extraction: sensor: is the same)")
+                  "--config goes over it (sensor: model: is the same)")
       ->check(CLI::IsMember(slam::DepthSensorNames()))
       ->capture_default_str();
 }
@@ -18,11 +18,8 @@ CLI::Option* AddSensorOption(CLI::App& command, std::string& sensor) {
 slam::Config ConfigFrom(const std::string& sensor, const std::string& config_file) {
   const std::vector<std::string>& names = slam::DepthSensorNames();
   const auto position = std::find(names.begin(), names.end(), sensor) - names.begin();
-  slam::Config config;
-  config.plane_extraction = slam::ExtractionFor(static_cast<slam::DepthSensor>(position));
-  if (!config_file.empty()) config = slam::ReadConfig(config_file, config);
-  slam::ShareFacts(config);
-  return config;
+  const slam::Config config = slam::ConfigFor(static_cast<slam::DepthSensor>(position));
+  return config_file.empty() ? config : slam::ReadConfig(config_file, config);
 }
 
 }  // namespace app

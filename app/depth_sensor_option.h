@@ -4,7 +4,6 @@
 #include <string>
 
 #include "slam/run/config.h"
-#include "slam/segment/depth_sensor.h"
 
 namespace app {
 

@@ -72,7 +72,7 @@ class PlaneFrontEnd {
                 const slam::Config& config)
       : camera_(camera),
         config_(config),
-        extractor_(camera, slam::PixelRays(camera), config.plane_extraction),
+        extractor_(camera, slam::PixelRays(camera), config.sensor, config.plane_extraction),
         boxes_(config.box_tracks, camera.ImageBox()),
         detector_(DetectorOf(sequence, camera, config)) {}
 
@@ -86,8 +86,9 @@ class PlaneFrontEnd {
       extractor_.Extract(frame);
       extractor_.SplitInBoxes(frame);
     }));
-    times.processing_ms.push_back(
-        TimeOf([&] { slam::ProcessPlanes(frame, camera_, config_.plane_processing); }));
+    times.processing_ms.push_back(TimeOf([&] {
+      slam::ProcessPlanes(frame, camera_, config_.sensor, config_.plane_processing);
+    }));
     return frame;
   }
 

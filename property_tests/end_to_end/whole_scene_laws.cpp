@@ -125,7 +125,7 @@ RC_GTEST_PROP(WholeScene, CornersOfUnoccludedRegularTopsAreWhereTheyAre, ()) {
     slam::Frame frame = live::FrameOf(simulated, f, f / 30.0, camera.depth_factor);
     frame.detections = live::DetectionsOf(simulated);
     slam::ExtractPlanes(frame, camera, rays, {});
-    slam::ProcessPlanes(frame, camera, {});
+    slam::ProcessPlanes(frame, camera, {}, {});
     const std::vector<int> truth = live::TruthOf(frame, simulated, scene);
 
     for (const sim::TopStep& step : sim::TopSteps(scene)) {
@@ -220,7 +220,7 @@ eval::DecisionCounts AssociateAtTruePoses(const sim::Scene& scene,
     slam::Frame frame = live::FrameOf(simulated, f, at.timestamp_s, camera.depth_factor);
     frame.detections = box_tracks.Update(at.timestamp_s, live::DetectionsOf(simulated));
     slam::ExtractPlanes(frame, camera, rays, {});
-    slam::ProcessPlanes(frame, camera, {});
+    slam::ProcessPlanes(frame, camera, {}, {});
     frame.T_cw = live::PoseOf(at.T_wc);
     frame.map_points.assign(frame.features.size(), slam::kNone);
     frame.plane_matches = slam::AssociatePlanes(frame, map, camera, {}).matches;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "slam/associate/plane_gates.h"
+#include "slam/base/field_visitor.h"
 #include "slam/pose/pose_prior.h"
 
 namespace slam {
@@ -35,5 +36,29 @@ struct AssociationConfig {
   int min_rank_points = 6;          ///< smaller samples are not tested
   double max_point_plane_m = 0.02;  ///< a map point nearer to a frame plane may lie on it
 };
+
+inline void VisitFields(AssociationConfig& c, FieldVisitor& v) {
+  v.Section("gates", "by parameters alone", c.gates);
+  v.Number("pose_sigma_m", c.prior.sigma_m, "(0, inf)", "of the predicted pose");
+  v.Degrees("pose_sigma_deg", c.prior.sigma_rad, "(0, 90)", "of the predicted pose");
+  v.Number("offset_floor_m", c.offset_floor_m, "(0, inf)", "error that does not average out");
+  v.Degrees("angle_floor_deg", c.angle_floor_rad, "(0, 90)", "error that does not average out");
+  v.Number("max_chi2", c.max_chi2, "(0, inf)", "of a match, 3 degrees of freedom");
+  v.Number("new_chi2", c.new_chi2, "(0, inf)", "above: certainly another plane");
+  v.Number("min_overlap", c.min_overlap, "(0, 1)", "share of the smaller footprint");
+  v.Number("min_margin", c.min_margin, "[0, inf)",
+           "nearer candidates are ambiguous, -2 log likelihood");
+  v.Number("overlap_weight", c.overlap_weight, "[0, inf)", "of no overlap, -2 log likelihood");
+  v.Number("iou_weight", c.iou_weight, "[0, inf)", "of boxes apart, -2 log likelihood");
+  v.Number("max_extension_gap_m", c.max_extension_gap_m, "[0, inf)",
+           "an open surface may go on this far");
+  v.Number("min_open_area_m2", c.min_open_area_m2, "[0, inf)", "of a plane that may extend");
+  v.Number("rank_alpha", c.rank_alpha, "(0, 1)",
+           "two-sided level of the rank test, eq9 to eq12");
+  v.Integer("min_rank_points", c.min_rank_points, "[1, 100000]",
+            "smaller samples are not tested");
+  v.Number("max_point_plane_m", c.max_point_plane_m, "(0, inf)",
+           "of a map point on a frame plane");
+}
 
 }  // namespace slam

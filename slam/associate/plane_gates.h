@@ -4,6 +4,7 @@
 #include <span>
 
 #include "slam/associate/refusals.h"
+#include "slam/base/field_visitor.h"
 #include "slam/base/result.h"
 #include "slam/geometry/plane.h"
 #include "slam/geometry/pose.h"
@@ -18,6 +19,13 @@ struct PlaneGateConfig {
   double max_edge_point_distance_m = 0.05;  ///< d_T',   eq8; domain (0, inf)
   double min_edge_point_ratio = 0.5;        ///< R_T,    eq8; domain [0, 1)
 };
+
+inline void VisitFields(PlaneGateConfig& c, FieldVisitor& v) {
+  v.Degrees("max_normal_angle_deg", c.max_normal_angle_rad, "(0, 180)", "beta_T, eq6");
+  v.Number("max_patch_offset_m", c.max_patch_offset_m, "(0, inf)", "d_T, eq7");
+  v.Number("max_edge_point_distance_m", c.max_edge_point_distance_m, "(0, inf)", "d_T', eq8");
+  v.Number("min_edge_point_ratio", c.min_edge_point_ratio, "[0, 1)", "R_T, eq8");
+}
 
 /// Numbers behind an accepted pair, for the report.
 struct GateEvidence {

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "slam/base/field_visitor.h"
 #include "slam/geometry/box.h"
 #include "slam/model/detection.h"
 
@@ -32,6 +33,33 @@ struct BoxTracksConfig {
       2.0;                     ///< evidence for a class over another that outvotes it; [1, inf)
   double class_memory = 0.97;  ///< evidence kept from frame to frame; domain (0, 1]
 };
+
+inline void VisitFields(BoxTracksConfig& c, FieldVisitor& v) {
+  v.Flag("enabled", c.enabled, "off: detections pass through untouched");
+  v.Number("max_duplicate_iou", c.max_duplicate_iou, "(0, 1]",
+           "two boxes of a class above it are one");
+  v.Number("min_match_iou", c.min_match_iou, "[0, 1)", "box and predicted box");
+  v.Number("class_change_iou_penalty", c.class_change_iou_penalty, "[0, 1]",
+           "less IoU for two classes");
+  v.Integer("min_hits", c.min_hits, "[1, 100]", "detections that confirm a track");
+  v.Integer("max_gap_frames", c.max_gap_frames, "[0, 100]", "misses in a row that are filled");
+  v.Integer("max_coast_frames", c.max_coast_frames, "[1, 1000]",
+            "misses in a row that end a track");
+  v.Number("min_existence", c.min_existence, "[0, 1]",
+           "fill while the object is this likely there");
+  v.Number("survival", c.survival, "(0, 1]", "probability to stay in view, a frame");
+  v.Number("max_detection_rate", c.max_detection_rate, "(0, 1)", "never trust a detector more");
+  v.Number("min_visible_fraction", c.min_visible_fraction, "[0, 1]",
+           "of a predicted box in the image");
+  v.Number("jitter_px", c.jitter_px, "(0, inf)", "standard deviation of a box side");
+  v.Number("jitter_fraction", c.jitter_fraction, "[0, 1]",
+           "the same, as part of the box's size");
+  v.Number("acceleration_px_s2", c.acceleration_px_s2, "(0, inf)",
+           "standard deviation of a side's");
+  v.Number("min_class_ratio", c.min_class_ratio, "[1, inf)",
+           "evidence that outvotes another class");
+  v.Number("class_memory", c.class_memory, "(0, 1]", "evidence kept from frame to frame");
+}
 
 /// Where a box of the previous frame lies now by the camera's motion alone (a homography, a
 /// warp by depth). Optional; without it the common shift of the boxes themselves is used.

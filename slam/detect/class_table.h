@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "slam/base/field_visitor.h"
 #include "slam/model/detection.h"
 
 namespace slam {
@@ -17,6 +18,12 @@ struct ClassTable {
 
   ClassKind KindOf(const std::string& class_name) const;
 };
+
+inline void VisitFields(ClassTable& c, FieldVisitor& v) {
+  v.Texts("regular", c.regular, "box-shaped: their faces are rectangles");
+  v.Texts("unstructured", c.unstructured, "planes found on them are noise");
+  v.Texts("other", c.other, "neither; a class in no list is this as well");
+}
 
 /// COCO's 80 classes, with its older spellings, and "box".
 ClassTable CocoClassTable();

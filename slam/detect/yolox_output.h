@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "slam/base/field_visitor.h"
 #include "slam/geometry/box.h"
 
 namespace slam {
@@ -21,6 +22,16 @@ struct YoloxConfig {
   bool decoded = false;
   std::vector<std::string> classes = CocoNames();  ///< in the order of the model's columns
 };
+
+inline void VisitFields(YoloxConfig& c, FieldVisitor& v) {
+  v.Number("min_score", c.min_score, "[0, 1]", "objectness times class probability");
+  v.Number("max_nms_iou", c.max_nms_iou, "(0, 1]", "two boxes of a class above it are one");
+  v.Integer("input_width", c.input_width, "[0, 4096]",
+            "where the model does not state its input's; 0: it must");
+  v.Integer("input_height", c.input_height, "[0, 4096]", "the same; multiples of 32");
+  v.Flag("decoded", c.decoded, "the model was exported with --decode_in_inference");
+  v.Texts("classes", c.classes, "in the order of the model's columns");
+}
 
 /// A box in the network's input, whose first pixel spans [0, 1).
 struct YoloxBox {

@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "slam/base/field_visitor.h"
 #include "slam/model/detection.h"
 #include "slam/model/frame_plane.h"
 
@@ -14,6 +15,13 @@ struct BoxLinkConfig {
   double margin_px = 4.0;       ///< a box is that much inexact; domain [0, inf)
   double min_score = 0.3;       ///< score of the detection; domain [0, 1)
 };
+
+inline void VisitFields(BoxLinkConfig& c, FieldVisitor& v) {
+  v.Number("min_iou", c.min_iou, "[0, 1)", "of the plane's rectangle and the box");
+  v.Number("min_edge_share", c.min_edge_share, "[0, 1)", "of edge points inside the box");
+  v.Number("margin_px", c.margin_px, "[0, inf)", "a box is that much inexact");
+  v.Number("min_score", c.min_score, "[0, 1)", "of the detection");
+}
 
 /// Links each plane to at most one detection: FramePlane::detection and class_name; a plane
 /// with none has an empty class name (the paper's -1). One box may hold several faces.

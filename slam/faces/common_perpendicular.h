@@ -1,6 +1,7 @@
 #pragma once
 
-#include "slam/base/result.h"
+#include <optional>
+
 #include "slam/geometry/line.h"
 
 namespace slam {
@@ -8,11 +9,6 @@ namespace slam {
 /// Feet of the common perpendicular: the closest points of two lines.
 struct PerpendicularFeet {
   Eigen::Vector3d on_i, on_j;
-};
-
-enum class NoPerpendicular {
-  kNearlyParallel,  ///< the angle between the lines is not above the bound
-  kNotALine         ///< a direction is zero or not finite
 };
 
 /// Closest points of L_i = (P_i, V_i) and L_j = (P_j, V_j), any two lines that are not
@@ -25,10 +21,11 @@ enum class NoPerpendicular {
 /// @param L_i, L_j  one frame, metres; directions of any length (they are normalised)
 /// @param min_angle_rad  the denominator of eq5 is sin^2 of the angle between the lines: at
 ///                       this angle and below there is no answer; domain (0, pi/2)
+/// @returns nothing for lines nearly parallel, and where a direction is zero or not finite
 ///
 /// Source: PAS-SLAM eq2, eq3 (corrected: the foot is a projection along V_i, the paper prints
 /// P_i), eq5. Error: below 1e-14 L / sin^2(angle) for coordinates of size L.
-Result<PerpendicularFeet, NoPerpendicular> CommonPerpendicular(const Line& L_i, const Line& L_j,
-                                                               double min_angle_rad);
+std::optional<PerpendicularFeet> CommonPerpendicular(const Line& L_i, const Line& L_j,
+                                                     double min_angle_rad);
 
 }  // namespace slam

@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "slam/base/field_visitor.h"
 #include "slam/base/random.h"
 #include "slam/faces/line_error.h"
 #include "slam/geometry/camera.h"
@@ -31,6 +32,21 @@ struct EdgeLineConfig {
   /// many sigmas, and less with the square of these. Domain [0, inf).
   double doubtful_step_sigmas = 4.0;
 };
+
+inline void VisitFields(EdgeLineConfig& c, FieldVisitor& v) {
+  v.Integer("max_lines", c.max_lines, "[1, 16]", "of a plane");
+  v.Integer("iterations", c.iterations, "[1, 1000000]", "of RANSAC, a line");
+  v.Number("max_distance_px", c.max_distance_px, "(0, inf)", "of an inlier from its line");
+  v.Number("max_gap_px", c.max_gap_px, "(0, inf)", "between neighbouring inliers");
+  v.Number("min_length_px", c.min_length_px, "(0, inf)", "of a line");
+  v.Number("min_contour_share", c.min_contour_share, "[0, 1)",
+           "of the edge points that a line holds");
+  v.Number("inset_px", c.inset_px, "[0, 1]", "boundary pixels lie this far inside the edge");
+  v.Number("shared_sigma_px", c.shared_sigma_px, "[0, inf)",
+           "error that all points of a line have in common");
+  v.Number("doubtful_step_sigmas", c.doubtful_step_sigmas, "[0, inf)",
+           "depth step at which a side is doubtful by a pixel");
+}
 
 /// A straight piece of a plane's boundary.
 struct EdgeLine {

@@ -37,8 +37,9 @@ void OutlineFace(FramePlane& plane, const Frame& frame, const Camera& camera,
 
 }  // namespace
 
-void ProcessPlanes(Frame& frame, const Camera& camera, const PlaneProcessingConfig& config) {
-  for (FramePlane& plane : frame.planes) RefitPlane(plane, config.noise, config.refit);
+void ProcessPlanes(Frame& frame, const Camera& camera, const SensorModel& sensor,
+                   const PlaneProcessingConfig& config) {
+  for (FramePlane& plane : frame.planes) RefitPlane(plane, sensor.noise, config.refit);
   const double usual_roughness = UsualRoughness(frame.planes);
   LinkBoxes(frame.planes, frame.detections, config.box_link);
   for (FramePlane& plane : frame.planes) {

@@ -6,6 +6,7 @@
 #include "slam/faces/select.h"
 #include "slam/faces/vertices.h"
 #include "slam/geometry/camera.h"
+#include "slam/geometry/sensor_model.h"
 #include "slam/model/frame.h"
 
 namespace slam {
@@ -19,8 +20,16 @@ struct UnlinkedConfig {
   double max_square_error_rad = 0.10;    ///< a corner's, from a right angle; domain (0, pi/2)
 };
 
+inline void VisitFields(UnlinkedConfig& c, FieldVisitor& v) {
+  v.Number("min_contour_share", c.min_contour_share, "[0, 1)",
+           "of the edge points that a line holds");
+  v.Number("min_length_px", c.min_length_px, "(0, inf)", "of a line");
+  v.Degrees("max_parallel_angle_deg", c.max_parallel_angle_rad, "(0, 90)", "of opposite sides");
+  v.Degrees("max_square_error_deg", c.max_square_error_rad, "(0, 90)",
+            "of a corner from a right angle");
+}
+
 struct PlaneProcessingConfig {
-  DepthNoise noise;  ///< that of PlaneExtractionConfig
   RefitConfig refit;
   BoxLinkConfig box_link;
   EdgeLineConfig edge_lines;
@@ -30,11 +39,21 @@ struct PlaneProcessingConfig {
   std::uint64_t seed = 1;  ///< for RANSAC; any value
 };
 
+inline void VisitFields(PlaneProcessingConfig& c, FieldVisitor& v) {
+  v.Section("refit", "robust re-fit", c.refit);
+  v.Section("box_link", "plane and detection", c.box_link);
+  v.Section("edge_lines", "straight edges", c.edge_lines);
+  v.Section("vertices", "corners", c.vertices);
+  v.Section("unlinked", "corners without a detection", c.unlinked);
+  v.Section("select", "good planes and bad", c.select);
+}
+
 /// (C) of the paper: makes planes out of segments that can be trusted, and says which cannot.
 ///
 /// Re-fit, link to detection boxes, edge lines and vertices of faces that may be rectangles,
 /// selection, in this order, for every plane of the frame. Reads frame.planes (ExtractPlanes),
 /// frame.detections and frame.index; fills the rest of each FramePlane. Deterministic.
-void ProcessPlanes(Frame& frame, const Camera& camera, const PlaneProcessingConfig& config);
+void ProcessPlanes(Frame& frame, const Camera& camera, const SensorModel& sensor,
+                   const PlaneProcessingConfig& config);
 
 }  // namespace slam

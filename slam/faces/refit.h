@@ -1,5 +1,6 @@
 #pragma once
 
+#include "slam/base/field_visitor.h"
 #include "slam/geometry/depth_noise.h"
 #include "slam/model/frame_plane.h"
 
@@ -23,6 +24,18 @@ struct RefitConfig {
   double min_improvement_chi2 = 16.3;
   double max_edge_sigmas = 4.0;  ///< distance of an edge point that is kept; domain (0, inf)
 };
+
+inline void VisitFields(RefitConfig& c, FieldVisitor& v) {
+  v.Named("method", c.method, {"pcl", "weighted", "best"}, "which fit is kept");
+  v.Number("max_inlier_sigmas", c.max_inlier_sigmas, "(0, inf)", "distance of an inlier");
+  v.Integer("max_sample_points", c.max_sample_points, "[3, 1000000]",
+            "given to the robust fit");
+  v.Integer("max_iterations", c.max_iterations, "[1, 1000000]", "of the robust fit");
+  v.Number("min_improvement_chi2", c.min_improvement_chi2, "[0, inf)",
+           "before a re-fit replaces the fit");
+  v.Number("max_edge_sigmas", c.max_edge_sigmas, "(0, inf)",
+           "distance of an edge point that is kept");
+}
 
 /// Fits a plane again, robustly, to its thinned points, and cleans its edge points.
 ///

@@ -3,6 +3,7 @@
 #include <optional>
 #include <vector>
 
+#include "slam/base/field_visitor.h"
 #include "slam/geometry/camera.h"
 #include "slam/model/detection.h"
 #include "slam/model/frame_plane.h"
@@ -33,6 +34,23 @@ struct SelectConfig {
   double max_partial_border_share = 0.5;  ///< kPartial: the same; domain (0, 1]
   double max_unexplained_share = 0.6;     ///< kPartial: kSurface points without a line; (0, 1]
 };
+
+inline void VisitFields(SelectConfig& c, FieldVisitor& v) {
+  v.Number("max_distance_m", c.max_distance_m, "(0, inf)", "centroid from the camera");
+  v.Number("min_inlier_ratio", c.min_inlier_ratio, "[0, 1)", "after the re-fit");
+  v.Number("max_roughness", c.max_roughness, "[1, inf)",
+           "times that of most of the frame's pixels; more are stairs");
+  v.Number("max_unstructured_share", c.max_unstructured_share, "(0, 1]",
+           "edge points in an unstructured box");
+  v.Named("structure", c.structure, {"ignored", "partial", "complete"},
+          "demand on regular objects");
+  v.Number("border_px", c.border_px, "[0, inf)", "width of the image border");
+  v.Number("max_border_share", c.max_border_share, "(0, 1]", "complete: edge points there");
+  v.Number("max_partial_border_share", c.max_partial_border_share, "(0, 1]",
+           "partial: the same");
+  v.Number("max_unexplained_share", c.max_unexplained_share, "(0, 1]",
+           "partial: edge points without a line");
+}
 
 /// The roughness of most pixels of a frame, what its sensor's noise comes to in it (the median
 /// over pixels of FramePlane::roughness); 0 when none is known.

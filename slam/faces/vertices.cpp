@@ -184,22 +184,23 @@ bool HasSupport(const FramePlane& plane, const Camera& camera, const Eigen::Vect
 
 }  // namespace
 
-Result<Eigen::Vector3d, NoVertex> MeetingPoint(const Line& L_i, const Line& L_j,
-                                               const Plane& pi_c, const Camera& camera,
-                                               const std::optional<Box>& box_px,
-                                               const VertexConfig& config) {
+std::optional<Eigen::Vector3d> MeetingPoint(const Line& L_i, const Line& L_j, const Plane& pi_c,
+                                            const Camera& camera,
+                                            const std::optional<Box>& box_px,
+                                            const VertexConfig& config) {
   const auto feet = CommonPerpendicular(L_i, L_j, config.min_crossing_angle_rad);
-  if (!feet) return NoVertex::kNearlyParallel;
+  if (!feet) return std::nullopt;
 
   // The three conditions of the paper.
-  const auto& [P_pi, P_pj] = feet.value();
-  if (!((P_pi - P_pj).norm() < config.max_feet_distance_m)) return NoVertex::kFeetApart;
+  const auto& [P_pi, P_pj] = *feet;
+  if (!((P_pi - P_pj).norm() < config.max_feet_distance_m)) return std::nullopt;
   for (const Eigen::Vector3d& foot : {P_pi, P_pj}) {
     if (!(std::abs(SignedDistance(pi_c, foot)) < config.max_plane_distance_m)) {
-      return NoVertex::kOffPlane;
+      return std::nullopt;
     }
-    if (box_px && !InBox(foot, camera, *box_px, config.box_margin_px))
-      return NoVertex::kOutsideBox;
+    if (box_px && !InBox(foot, camera, *box_px, config.box_margin_px)) {
+      return std::nullopt;
+    }
   }
   return ProjectOnto(pi_c, 0.5 * (P_pi + P_pj));
 }

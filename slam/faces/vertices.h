@@ -3,7 +3,7 @@
 #include <optional>
 #include <vector>
 
-#include "slam/base/result.h"
+#include "slam/base/field_visitor.h"
 #include "slam/faces/common_perpendicular.h"
 #include "slam/faces/edge_lines.h"
 #include "slam/geometry/box.h"
@@ -32,13 +32,23 @@ struct VertexConfig {
   double max_fill = 1.15;  ///< domain [min, inf)
 };
 
-/// Why two lines make no vertex.
-enum class NoVertex {
-  kNearlyParallel,  ///< no common perpendicular
-  kFeetApart,       ///< condition 1: the lines pass each other
-  kOffPlane,        ///< condition 2
-  kOutsideBox       ///< condition 3
-};
+inline void VisitFields(VertexConfig& c, FieldVisitor& v) {
+  v.Degrees("min_crossing_angle_deg", c.min_crossing_angle_rad, "(0, 90)",
+            "of two lines at a corner");
+  v.Degrees("max_parallel_angle_deg", c.max_parallel_angle_rad, "(0, 90)", "of opposite sides");
+  v.Degrees("max_square_error_deg", c.max_square_error_rad, "(0, 90)",
+            "of a corner from a right angle");
+  v.Number("max_feet_distance_m", c.max_feet_distance_m, "(0, inf)", "condition 1, eq2");
+  v.Number("max_plane_distance_m", c.max_plane_distance_m, "(0, inf)", "condition 2, eq3");
+  v.Number("box_margin_px", c.box_margin_px, "[0, inf)",
+           "condition 3, outside the box by less");
+  v.Number("max_support_distance_px", c.max_support_distance_px, "(0, inf)",
+           "farther is extrapolated");
+  v.Number("max_extension", c.max_extension, "[0, inf)", "of a side beyond its end");
+  v.Number("min_side_m", c.min_side_m, "(0, inf)", "of a rectangle");
+  v.Number("min_fill", c.min_fill, "[0, inf)", "visible area over the rectangle's");
+  v.Number("max_fill", c.max_fill, "(0, inf)", "the same, at most");
+}
 
 /// The corner of a face at which two of its edge lines meet: the middle of the feet of their
 /// common perpendicular, projected onto the plane, under the paper's three conditions:
@@ -47,10 +57,10 @@ enum class NoVertex {
 ///   3. both project into the detection box (recorded image), if there is one.
 ///
 /// Source: PAS-SLAM, Extraction Vertices of Planes; eq2, eq3, eq5 in common_perpendicular.h.
-Result<Eigen::Vector3d, NoVertex> MeetingPoint(const Line& L_i, const Line& L_j,
-                                               const Plane& pi_c, const Camera& camera,
-                                               const std::optional<Box>& box_px,
-                                               const VertexConfig& config);
+std::optional<Eigen::Vector3d> MeetingPoint(const Line& L_i, const Line& L_j, const Plane& pi_c,
+                                            const Camera& camera,
+                                            const std::optional<Box>& box_px,
+                                            const VertexConfig& config);
 
 /// The corners of a rectangular face from its edge lines.
 ///

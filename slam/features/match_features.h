@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <vector>
 
+#include "slam/base/field_visitor.h"
 #include "slam/geometry/camera.h"
 #include "slam/model/frame.h"
 
@@ -36,6 +37,12 @@ struct PointMatchConfig {
   double max_ratio = 0.9;         ///< best over second best at the same octave; domain (0, 1]
   bool check_orientation = true;  ///< keep the main turns of the image alone
 };
+
+inline void VisitFields(PointMatchConfig& c, FieldVisitor& v) {
+  v.Integer("max_distance", c.max_distance, "[0, 256]", "differing bits");
+  v.Number("max_ratio", c.max_ratio, "(0, 1]", "best over second best");
+  v.Flag("check_orientation", c.check_orientation, "keep the main turns of the image alone");
+}
 
 /// Something looked for in an image: a map point where it is expected.
 struct PointQuery {

@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "slam/base/field_visitor.h"
 #include "slam/features/point_depth.h"
 #include "slam/geometry/camera.h"
 #include "slam/model/feature_scale.h"
@@ -18,6 +19,19 @@ struct PointFeatureConfig {
   FeatureScale scale;
   PointDepthConfig depth;
 };
+
+inline void VisitFields(PointFeatureConfig& c, FieldVisitor& v) {
+  v.Integer("count", c.count, "[1, 10000]", "features an image, about");
+  v.Integer("fast_threshold", c.fast_threshold, "[1, 254]", "grey levels");
+  v.Integer("min_fast_threshold", c.min_fast_threshold, "[1, 254]",
+            "where a cell has no corner");
+  v.Integer("cell_px", c.cell_px, "[8, 1000]", "side of a cell");
+  v.Number("bf_px_m", c.scale.bf_px_m, "(0, inf)", "b f of the virtual right camera");
+  v.Integer("octaves", c.scale.octaves, "[1, 16]", "of the image pyramid");
+  v.Number("octave_factor", c.scale.factor, "(1, 2]", "between neighbouring octaves");
+  v.Number("close_baselines", c.scale.close_baselines, "(0, inf)",
+           "depth trusted up to so many virtual baselines");
+}
 
 /// ORB features: FAST corners over a pyramid with two thresholds, spread evenly by quartering,
 /// oriented by the intensity centroid, described by rotated BRIEF. Rublee et al. 2011; the

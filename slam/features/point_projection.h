@@ -2,6 +2,7 @@
 
 #include <optional>
 
+#include "slam/base/field_visitor.h"
 #include "slam/features/match_features.h"
 #include "slam/geometry/camera.h"
 #include "slam/model/feature_scale.h"
@@ -15,6 +16,14 @@ struct PointProjectionConfig {
   double straight_radius_px = 2.5;      ///< search radius at octave 0, seen as before
   double radius_px = 4.0;               ///< ... and seen from another side
 };
+
+inline void VisitFields(PointProjectionConfig& c, FieldVisitor& v) {
+  v.Number("straight_view_cosine", c.straight_view_cosine, "[-1, 1]",
+           "from here on the smaller radius");
+  v.Number("straight_radius_px", c.straight_radius_px, "(0, inf)",
+           "search radius, seen as before");
+  v.Number("radius_px", c.radius_px, "(0, inf)", "search radius, from another side");
+}
 
 /// How a map point should look from a pose.
 struct ExpectedView {

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "slam/base/field_visitor.h"
+
 namespace slam {
 
 /// Standard deviation of one depth measurement, metres, as a function of depth and incidence:
@@ -14,7 +16,7 @@ namespace slam {
 /// with b = max(z - nearest_m, 0).
 ///
 /// The defaults are those of the first Kinect. Source: Nguyen, Izadi, Lovell, 3DIMPVT 2012.
-/// Those of other sensors: depth_sensor.h.
+/// Those of other sensors: sensor_model.h.
 struct DepthNoise {
   double floor_m = 0.0012;          ///< at and below `nearest_m`; domain (0, inf)
   double linear_per_m = 0.0;        ///< growth with depth; domain [0, inf)
@@ -40,5 +42,14 @@ struct DepthNoise {
  private:
   static constexpr double kLeastCosine = 0.05;  // 87 deg: nothing is measured beyond
 };
+
+inline void VisitFields(DepthNoise& c, FieldVisitor& v) {
+  v.Number("floor_m", c.floor_m, "(0, inf)", "standard deviation at and below nearest_m");
+  v.Number("linear_per_m", c.linear_per_m, "[0, inf)", "growth with depth");
+  v.Number("quadratic_per_m", c.quadratic_per_m, "[0, inf)", "growth with depth");
+  v.Number("nearest_m", c.nearest_m, "[0, inf)", "where growth begins");
+  v.Number("grazing_m", c.grazing_m, "[0, inf)", "growth with incidence");
+  v.Number("correlated_px", c.correlated_px, "[1, inf)", "pixels that share one error");
+}
 
 }  // namespace slam

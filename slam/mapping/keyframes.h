@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "slam/base/field_visitor.h"
 #include "slam/geometry/camera.h"
 #include "slam/model/feature_scale.h"
 #include "slam/model/map.h"
@@ -15,6 +16,16 @@ struct KeyframeConfig {
   double max_redundancy = 0.9;  ///< share of points that others see as well; domain (0, 1]
   int redundant_views = 3;      ///< other keyframes that must see a point; domain [1, inf)
 };
+
+inline void VisitFields(KeyframeConfig& c, FieldVisitor& v) {
+  v.Integer("min_new_points", c.min_new_points, "[0, 100000]", "made even from farther depths");
+  v.Integer("min_shared_points", c.min_shared_points, "[1, 100000]",
+            "make two keyframes covisible");
+  v.Number("max_redundancy", c.max_redundancy, "(0, 1]",
+           "share of points that others see as well");
+  v.Integer("redundant_views", c.redundant_views, "[1, 1000]",
+            "other keyframes that must see a point");
+}
 
 /// Keeps the frame in the map: its matched points get an observation, its unmatched features
 /// with depth become new points, the nearest first. `frame.map_points` gets the new ids.

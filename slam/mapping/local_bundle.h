@@ -1,5 +1,6 @@
 #pragma once
 
+#include "slam/base/field_visitor.h"
 #include "slam/geometry/camera.h"
 #include "slam/mapping/map_turn.h"
 #include "slam/model/feature_scale.h"
@@ -15,6 +16,17 @@ struct LocalBundleConfig {
   int first_iterations = 5;      ///< with Huber's weights, before outliers are left out
   int last_iterations = 5;       ///< plain, after it
 };
+
+inline void VisitFields(LocalBundleConfig& c, FieldVisitor& v) {
+  v.Number("depth_sigma_px", c.depth_sigma_px, "(0, inf)",
+           "of the virtual disparity, octave 0");
+  v.Integer("max_keyframes", c.max_keyframes, "[1, 1000]", "poses that move");
+  v.Integer("max_fixed_keyframes", c.max_fixed_keyframes, "[1, 1000]",
+            "poses that hold the window");
+  v.Integer("first_iterations", c.first_iterations, "[0, 1000]",
+            "robust, before outliers are left out");
+  v.Integer("last_iterations", c.last_iterations, "[0, 1000]", "plain, after it");
+}
 
 /// Size and outcome of one adjustment.
 struct LocalBundleReport {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "slam/base/field_visitor.h"
 #include "slam/model/feature_scale.h"
 #include "slam/model/map.h"
 
@@ -36,6 +37,12 @@ struct PointCullingConfig {
   int trial_keyframes = 3;        ///< keyframes during which a point is young; domain [1, 100]
   int min_weight = 4;             ///< ObservationWeight wanted after two keyframes
 };
+
+inline void VisitFields(PointCullingConfig& c, FieldVisitor& v) {
+  v.Number("min_found_ratio", c.min_found_ratio, "[0, 1]", "found over expected");
+  v.Integer("trial_keyframes", c.trial_keyframes, "[1, 100]", "during which a point is young");
+  v.Integer("min_weight", c.min_weight, "[1, 1000]", "wanted after two keyframes");
+}
 
 /// Culls young points that are seldom found where they should be, or that no second keyframe
 /// sees. @returns how many.

@@ -2,6 +2,7 @@
 
 #include <optional>
 
+#include "slam/base/field_visitor.h"
 #include "slam/geometry/camera.h"
 #include "slam/model/feature_scale.h"
 #include "slam/model/map.h"
@@ -15,6 +16,13 @@ struct TriangulationConfig {
   double min_parallax_rad = 0.02;  ///< between the two rays; domain (0, pi)
   int neighbours = 5;              ///< keyframes tried; domain [0, inf)
 };
+
+inline void VisitFields(TriangulationConfig& c, FieldVisitor& v) {
+  v.Integer("max_distance", c.max_distance, "[0, 256]", "differing bits");
+  v.Number("max_ratio", c.max_ratio, "(0, 1]", "best over second best");
+  v.Degrees("min_parallax_deg", c.min_parallax_rad, "(0, 180)", "between the two rays");
+  v.Integer("neighbours", c.neighbours, "[0, 1000]", "keyframes tried");
+}
 
 /// Point nearest to the rays of two ideal pixels (midpoint of the common perpendicular), world;
 /// nothing when the rays make less than `min_parallax_rad` or meet behind a camera.

@@ -13,6 +13,15 @@ struct LoopClosingConfig {
   int full_iterations = 10;  ///< of the full adjustment, each round; 0: none
 };
 
+inline void VisitFields(LoopClosingConfig& c, FieldVisitor& v) {
+  v.Flag("enabled", c.enabled, "off as in the paper's tables");
+  VisitFields(c.detection, v);
+  v.Integer("min_edge_points", c.min_edge_points, "[1, 100000]",
+            "that tie two keyframes in the pose graph");
+  v.Integer("full_iterations", c.full_iterations, "[0, 1000]",
+            "of the full adjustment, each round; 0: none");
+}
+
 /// What closing a loop did.
 struct LoopReport {
   Loop loop;

@@ -3,6 +3,7 @@
 #include <optional>
 #include <vector>
 
+#include "slam/base/field_visitor.h"
 #include "slam/model/local_map.h"
 #include "slam/places/keyframe_index.h"
 #include "slam/places/place_search.h"
@@ -23,6 +24,18 @@ struct LoopDetectionConfig {
   double base_drift_rad = 0.10;
   double drift_rad_per_m = 0.05;
 };
+
+inline void VisitFields(LoopDetectionConfig& c, FieldVisitor& v) {
+  v.Number("min_likeness_ratio", c.min_likeness_ratio, "[0, inf)",
+           "of the least likeness to the keyframe's own neighbours");
+  v.Number("radius_factor", c.radius_factor, "(0, inf)",
+           "on the search radius around the place's points");
+  v.Integer("min_inliers", c.min_inliers, "[4, 100000]", "points that agree on one pose");
+  v.Number("base_drift_m", c.base_drift_m, "[0, inf)", "a larger correction is refused ...");
+  v.Number("drift_per_m", c.drift_per_m, "[0, inf)", "... beyond this share of the path");
+  v.Degrees("base_drift_deg", c.base_drift_rad, "[0, 180)", "the same of the turn");
+  v.Degrees("drift_deg_per_m", c.drift_rad_per_m, "[0, 180)", "the same of the turn");
+}
 
 /// The place of the map that a keyframe shows, as seen from there.
 struct Loop {

@@ -2,6 +2,7 @@
 
 #include <optional>
 
+#include "slam/base/field_visitor.h"
 #include "slam/features/match_features.h"
 #include "slam/features/point_projection.h"
 #include "slam/geometry/camera.h"
@@ -31,6 +32,29 @@ struct PlaceSearchConfig {
   double same_pose_m = 0.1;      ///< domain (0, inf)
   double same_pose_rad = 0.1;    ///< domain (0, pi)
 };
+
+inline void VisitFields(PlaceSearchConfig& c, FieldVisitor& v) {
+  v.Integer("max_keyframes", c.max_keyframes, "[1, 100000]", "tried a frame");
+  v.Integer("min_matches", c.min_matches, "[4, 100000]", "descriptor matches with a keyframe");
+  v.Integer("ransac_iterations", c.ransac_iterations, "[1, 1000000]",
+            "samples solved for a pose");
+  v.Integer("ransac_samples", c.ransac_samples, "[1, 10000000]", "samples drawn");
+  v.Number("shape_tolerance", c.shape_tolerance, "(0, inf)",
+           "distances in a sample may differ from the map's by this part of the depth");
+  v.Number("ransac_error_px", c.ransac_error_px, "(0, inf)", "of an inlier");
+  v.Integer("min_ransac_inliers", c.min_ransac_inliers, "[4, 100000]", "of a pose");
+  v.Section("match", "with a keyframe, by descriptors", c.match);
+  v.Number("max_rival_ratio", c.max_rival_ratio, "(0, 1]",
+           "of the best place's inliers; another place with more makes both doubtful");
+  v.Number("same_pose_m", c.same_pose_m, "(0, inf)", "nearer poses are one place");
+  v.Number("same_pose_rad", c.same_pose_rad, "(0, 3.15)", "nearer poses are one place");
+  v.Number("min_common_words", c.likeness.min_common_words, "(0, 1]",
+           "share of the most words that any keyframe has in common with the image");
+  v.Number("min_support", c.likeness.min_support, "(0, 1]",
+           "share of the best supported keyframe's likeness");
+  v.Integer("neighbours", c.likeness.neighbours, "[0, 100000]",
+            "covisible keyframes whose likeness supports one");
+}
 
 /// How a camera is found by the points of a map: what tracking, relocalisation and loops share.
 struct PointSearchConfig {

@@ -4,6 +4,7 @@
 #include <array>
 #include <vector>
 
+#include "slam/base/field_visitor.h"
 #include "slam/geometry/box.h"
 #include "slam/geometry/camera.h"
 #include "slam/geometry/plane.h"
@@ -59,6 +60,18 @@ struct PoseProblemConfig {
   bool use_planes = true, use_boxes = true, use_point_planes = true;
   bool use_parallel = true, use_perpendicular = true;
 };
+
+inline void VisitFields(PoseProblemConfig& c, FieldVisitor& v) {
+  v.Integer("rounds", c.rounds, "[1, 10]", "optimise, then reclassify outliers");
+  v.Integer("iterations", c.iterations, "[1, 100]", "Levenberg-Marquardt steps a round");
+  v.Number("huber_planes", c.huber_planes, "(0, inf)",
+           "Huber threshold of plane factors, sigmas");
+  v.Flag("use_planes", c.use_planes, "f_pi: map plane seen as frame plane");
+  v.Flag("use_boxes", c.use_boxes, "f_b_pi: projected corners against boxes");
+  v.Flag("use_point_planes", c.use_point_planes, "f_p_pi: map points on planes");
+  v.Flag("use_parallel", c.use_parallel, "f_pi_p: parallel planes");
+  v.Flag("use_perpendicular", c.use_perpendicular, "f_pi_v: perpendicular planes");
+}
 
 /// Everything that constrains one camera pose, eq13.
 struct PoseProblem {

@@ -6,18 +6,21 @@
 #include "slam/detect/yolox_output.h"
 #include "slam/faces/process_planes.h"
 #include "slam/features/point_features.h"
+#include "slam/geometry/sensor_model.h"
 #include "slam/mapping/local_mapping.h"
 #include "slam/mapping/plane_map_config.h"
 #include "slam/places/close_loop.h"
 #include "slam/pose/plane_constraints.h"
-#include "slam/segment/plane_segments.h"
+#include "slam/segment/extraction_config.h"
 #include "slam/tracking/point_tracking.h"
 
 namespace slam {
 
-/// Every stage's settings in one. Defaults stand in the stages' own headers and nowhere else.
-/// As text: config_file.h.
+/// Every stage's settings in one. Default, key, domain and help of each field stand in the
+/// stage's own header and nowhere else. As text: config_file.h.
 struct Config {
+  SensorModel sensor;
+
   // (B) extraction
   PointFeatureConfig point_features;
   ClassTable classes = CocoClassTable();
@@ -43,8 +46,10 @@ struct Config {
   LoopClosingConfig loop_closing;
 };
 
-/// The pyramid and the virtual baseline are facts of the point features that later stages keep
-/// a copy of; makes all copies those of `point_features`.
-void ShareFacts(Config& config);
+/// The defaults for a sensor.
+Config ConfigFor(DepthSensor sensor);
+
+/// All fields, a section a stage.
+void VisitFields(Config& config, FieldVisitor& visitor);
 
 }  // namespace slam

@@ -7,7 +7,7 @@
 #include "io/input_error.h"
 #include "io/number_text.h"
 #include "io/yaml_value.h"
-#include "slam/run/config_fields.h"
+#include "slam/base/field_visitor.h"
 
 namespace slam {
 namespace {
@@ -175,7 +175,7 @@ void CheckTogether(const Config& c, const std::string& file) {
 
 Config ReadConfig(const std::filesystem::path& file, Config config) {
   Reader reader(io::ReadYaml(file, "expected settings (pas slam --print-config)"));
-  VisitConfig(config, reader);
+  VisitFields(config, reader);
   reader.Finish();
   CheckTogether(config, file.string());
   return config;
@@ -185,14 +185,14 @@ nlohmann::ordered_json ConfigAsJson(const Config& config) {
   Config copy = config;  // visitors may write
   nlohmann::ordered_json json = nlohmann::ordered_json::object();
   JsonWriter writer(json);
-  VisitConfig(copy, writer);
+  VisitFields(copy, writer);
   return json;
 }
 
 std::string ConfigAsYaml(const Config& config) {
   Config copy = config;
   YamlWriter writer;
-  VisitConfig(copy, writer);
+  VisitFields(copy, writer);
   return writer.text;
 }
 

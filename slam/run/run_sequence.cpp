@@ -12,10 +12,10 @@
 #include "slam/diagnose/depth_clock.h"
 #include "slam/input/camera_reader.h"
 #include "slam/input/frame_gate.h"
+#include "slam/input/repeated_images.h"
 #include "slam/input/sequence_reader.h"
 #include "slam/model/map_queries.h"
 #include "slam/run/config_file.h"
-#include "slam/run/repeated_frame.h"
 #include "slam/run/run_writer.h"
 
 namespace slam {
@@ -64,35 +64,6 @@ std::vector<TimedPose> FollowKeyframes(const std::vector<TiedPose>& tied, const 
   return trajectory;
 }
 
-Frame FrameOf(const RecordedFrame& recorded) {
-  Frame frame;
-  frame.index = recorded.index;
-  frame.timestamp_s = recorded.timestamp_s;
-  frame.gray = recorded.gray;
-  frame.depth_m = recorded.depth_m;
-  return frame;
-}
-
-std::optional<Pose> PoseOf(const TrackedFrame& tracked) {
-  return tracked.report.tracked ? std::optional(tracked.frame.T_cw) : std::nullopt;
-}
-
-std::string RepeatsWarning(int repeats) {
-  return std::to_string(repeats) + (repeats == 1 ? " frame repeats" : " frames repeat") +
-         " the images of the one before: taken for the same place, nothing learned";
-}
-
-std::vector<std::string> WarningsOf(const FrameGate& gate, int repeats,
-                                    CameraCheck& camera_check, const DepthClock& depth_clock) {
-  std::vector<std::string> warnings = gate.Warnings();
-  if (repeats > 0) warnings.push_back(RepeatsWarning(repeats));
-  if (const std::string warning = camera_check.Warning(); !warning.empty()) {
-    warnings.push_back(warning);
-  }
-  for (std::string& late : depth_clock.Warnings()) warnings.push_back(std::move(late));
-  return warnings;
-}
-
 int ThreadsOf(const RunOptions& options) {
   const int cores = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
   return options.threads > 0 ? options.threads : cores;
@@ -105,63 +76,130 @@ void CountMap(const Map& map, RunOutcome& outcome) {
     outcome.map_planes += plane.status == LandmarkStatus::kLandmark;
 }
 
+/// One run, frame by frame: what goes through the tracker, who watches the input, and what the
+/// writer is told.
+class SequenceRun {
+ public:
+  SequenceRun(LiveCamera input, const RunOptions& options, const std::string& detector)
+      : options_(options),
+        frames_(input.frames),
+        tracker_(input.camera, options.config, options.variant, std::move(input.detector),
+                 options.seed, ThreadsOf(options), options.before_mapping),
+        writer_(options.run, Describe(options, detector),
+                {.force = options.force,
+                 .save_segmentation = options.save_segmentation,
+                 .frames = input.frames.size()}),
+        gate_(input.camera),
+        camera_check_(input.camera, options.config.point_features.scale),
+        depth_clock_(input.camera) {}
+
+  RunOutcome Run() {
+    const int total = frames_.size();
+    tied_.reserve(static_cast<std::size_t>(total));
+    for (int i = 0; i < total && !outcome_.stopped; ++i) {
+      RecordedFrame recorded = frames_.Read(i);
+      if (gate_.Takes(recorded)) Take(recorded);
+      if (options_.progress) options_.progress(i + 1, total);
+      outcome_.stopped = i + 1 < total && options_.stop && options_.stop();
+    }
+    Finish();
+    return std::move(outcome_);
+  }
+
+ private:
+  void Take(RecordedFrame& recorded) {
+    recorded.index = outcome_.frames++;
+    if (repeated_.Repeats(recorded)) {
+      StandForRepeat(recorded);
+    } else {
+      Track(recorded);
+    }
+    writer_.WriteFrame(
+        {frame_, report_.tracked, report_.times, StateName(report_.points), report_.refused});
+    if (!report_.tracked) return;
+    ++outcome_.tracked;
+    tied_.push_back({frame_.timestamp_s, report_.reference, report_.T_cr});
+  }
+
+  void Track(const RecordedFrame& recorded) {
+    frame_ = Frame{};
+    frame_.index = recorded.index;
+    frame_.timestamp_s = recorded.timestamp_s;
+    frame_.gray = recorded.gray;
+    frame_.depth_m = recorded.depth_m;
+    report_ = tracker_.TrackFrame(frame_, recorded.bgr);
+    depth_clock_.Observe(frame_.timestamp_s, frame_.depth_m,
+                         report_.tracked ? std::optional(frame_.T_cw) : std::nullopt);
+    if (report_.tracked && camera_check_.See(frame_) && options_.warn) {
+      options_.warn(camera_check_.Warning());
+    }
+  }
+
+  /// The frame before stands for one that repeats its images. The camera is where it was and
+  /// sees what it saw; the map learns nothing, for the same noise twice is no second
+  /// observation, and what was new then is known now.
+  void StandForRepeat(const RecordedFrame& repeat) {
+    frame_.index = repeat.index;
+    frame_.timestamp_s = repeat.timestamp_s;
+    for (PlaneMatch& match : frame_.plane_matches) {
+      if (match.decision == PlaneDecision::kNew) match.decision = PlaneDecision::kMatched;
+    }
+    report_.times = {};
+    report_.refused = {};
+    report_.keyframe = false;
+    report_.points.by_relocalising = false;  // that was the frame before
+  }
+
+  void Finish() {
+    tracker_.Finish(outcome_.stopped ? MappingWorker::Waiting::kDrop
+                                     : MappingWorker::Waiting::kDo);
+    outcome_.loops = tracker_.loops();
+    // A closed loop moves the past; without one the poses stay as they were found.
+    writer_.Finish(tracker_.map(), outcome_.loops > 0 ? FollowKeyframes(tied_, tracker_.map())
+                                                      : std::vector<TimedPose>{});
+    CountMap(tracker_.map(), outcome_);
+    outcome_.warnings = Warnings();
+  }
+
+  std::vector<std::string> Warnings() {
+    std::vector<std::string> warnings = gate_.Warnings();
+    if (const int repeats = repeated_.count(); repeats > 0) {
+      warnings.push_back(std::to_string(repeats) +
+                         (repeats == 1 ? " frame repeats" : " frames repeat") +
+                         " the images of the one before: taken for the same place, nothing "
+                         "learned");
+    }
+    if (const std::string warning = camera_check_.Warning(); !warning.empty()) {
+      warnings.push_back(warning);
+    }
+    for (std::string& late : depth_clock_.Warnings()) warnings.push_back(std::move(late));
+    if (const int unmapped = tracker_.unmapped_keyframes(); unmapped > 0 && !outcome_.stopped) {
+      warnings.push_back(std::to_string(unmapped) +
+                         " keyframes came too fast to be mapped on their own");
+    }
+    return warnings;
+  }
+
+  const RunOptions& options_;
+  FrameSource& frames_;
+  Tracker tracker_;
+  RunWriter writer_;
+
+  FrameGate gate_;
+  RepeatedImages repeated_;
+  CameraCheck camera_check_;
+  DepthClock depth_clock_;
+
+  Frame frame_;         ///< the last that was tracked, and ...
+  TrackReport report_;  ///< ... what it came to
+  std::vector<TiedPose> tied_;
+  RunOutcome outcome_;
+};
+
 RunOutcome Run(LiveCamera input, const RunOptions& options, const std::string& detector) {
   const auto start = std::chrono::steady_clock::now();
-  // Its own threads would only compete with ours.
-  cv::setNumThreads(1);
-  Tracker tracker(input.camera, options.config, options.variant, std::move(input.detector),
-                  options.seed, ThreadsOf(options), options.before_mapping);
-  RunWriter writer(options.run, Describe(options, detector),
-                   {.force = options.force,
-                    .save_segmentation = options.save_segmentation,
-                    .frames = input.frames.size()});
-
-  RunOutcome outcome;
-  FrameGate gate(input.camera);
-  CameraCheck camera_check(input.camera, options.config.point_features.scale);
-  DepthClock depth_clock(input.camera);
-  std::optional<TrackedFrame> last;
-  int repeats = 0, in_a_row = 0;
-  std::vector<TiedPose> tied;
-  const int total = input.frames.size();
-  tied.reserve(static_cast<std::size_t>(total));
-  for (int i = 0; i < total && !outcome.stopped; ++i) {
-    RecordedFrame recorded = input.frames.Read(i);
-    if (gate.Takes(recorded)) {
-      recorded.index = outcome.frames++;
-      if (last && in_a_row < kMostRepeats && RepeatsImages(*last, recorded)) {
-        RepeatAt(recorded, *last);
-        ++repeats, ++in_a_row;
-      } else {
-        in_a_row = 0;
-        last = {FrameOf(recorded), recorded.bgr, {}};
-        last->report = tracker.TrackFrame(last->frame, last->bgr);
-        depth_clock.Observe(last->frame.timestamp_s, last->frame.depth_m, PoseOf(*last));
-        if (PoseOf(*last) && camera_check.See(last->frame) && options.warn) {
-          options.warn(camera_check.Warning());
-        }
-      }
-      const TrackReport& report = last->report;
-      writer.WriteFrame({last->frame, report.tracked, report.times, StateName(report.points)});
-      outcome.tracked += report.tracked ? 1 : 0;
-      if (report.tracked) {
-        tied.push_back({last->frame.timestamp_s, report.reference, report.T_cr});
-      }
-    }
-    if (options.progress) options.progress(i + 1, total);
-    outcome.stopped = i + 1 < total && options.stop && options.stop();
-  }
-  tracker.Finish(outcome.stopped ? MappingWorker::Waiting::kDrop : MappingWorker::Waiting::kDo);
-  outcome.loops = tracker.loops();
-  // A closed loop moves the past; without one the poses stay as they were found.
-  writer.Finish(tracker.map(), outcome.loops > 0 ? FollowKeyframes(tied, tracker.map())
-                                                 : std::vector<TimedPose>{});
-  outcome.warnings = WarningsOf(gate, repeats, camera_check, depth_clock);
-  if (const int unmapped = tracker.unmapped_keyframes(); unmapped > 0 && !outcome.stopped) {
-    outcome.warnings.push_back(std::to_string(unmapped) +
-                               " keyframes came too fast to be mapped on their own");
-  }
-  CountMap(tracker.map(), outcome);
+  cv::setNumThreads(1);  // OpenCV's own threads would only compete with ours
+  RunOutcome outcome = SequenceRun(std::move(input), options, detector).Run();
   outcome.wall_time_s =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return outcome;

@@ -67,6 +67,7 @@ void RunWriter::WriteFrame(const FrameRecord& record) {
   for (const double ms : record.times.ms) times.append(",").append(FiniteNumberText(ms));
   timing_.Add(times + '\n');
   if (options_.save_segmentation) WriteSegmentation(frame);
+  refused_.Add(record.refused);
   ++frames_;
   last_s_ = frame.timestamp_s;
 }
@@ -96,6 +97,8 @@ nlohmann::ordered_json RunWriter::RunJson(std::size_t poses) const {
   json["frames"] = frames_;
   json["tracked"] = poses;
   json["lost"] = frames_ - static_cast<int>(poses);
+  for (std::size_t k = 0; k < kPairRefusalNames.size(); ++k)
+    json["refused_pairs"][kPairRefusalNames[k]] = refused_.count[k];
   json["wall_time_s"] = wall.count();
   json["peak_memory_mb"] = PeakMemory_mb();
   return json;

@@ -9,6 +9,7 @@
 
 #include "io/atomic_file.h"
 #include "io/output_folder.h"
+#include "slam/associate/refusals.h"
 #include "slam/model/frame.h"
 #include "slam/model/map.h"
 #include "slam/model/module_times.h"
@@ -32,7 +33,8 @@ struct FrameRecord {
   const Frame& frame;
   bool tracked = false;  ///< frame.T_cw is believed
   ModuleTimes times;
-  const char* state = "";  ///< of tracking; written with the frame's planes when not empty
+  const char* state = "";  ///< tracking's; written with the frame's planes when not empty
+  PairRefusals refused;    ///< pairs of frame and map planes; summed in run.json
 };
 
 /// A pose of the final trajectory.
@@ -82,6 +84,7 @@ class RunWriter {
   Options options_;
   io::AtomicFile frame_planes_, timing_;
   std::vector<TimedPose> trajectory_;
+  PairRefusals refused_;
   int frames_ = 0;
   double last_s_ = 0.0;
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();

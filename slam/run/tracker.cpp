@@ -22,7 +22,6 @@ namespace slam {
 namespace {
 
 Config ForVariant(Config config, Variant variant, std::uint64_t seed) {
-  ShareFacts(config);
   config.plane_processing.seed += seed;
   config.association.rule =
       variant == Variant::kFull ? AssociationRule::kIntegrated : AssociationRule::kParameters;
@@ -45,8 +44,9 @@ Tracker::Tracker(const Camera& camera, const Config& config, Variant variant,
       box_tracks_(config.box_tracks, camera.ImageBox()),
       points_(camera, config_.point_features.scale, config_.point_search, config_.tracking),
       before_mapping_(std::move(before_mapping)) {
-  if (uses_planes())
-    plane_extractor_.emplace(camera_, PixelRays(camera_), config_.plane_extraction);
+  if (variant_ != Variant::kPoints)
+    plane_extractor_.emplace(camera_, PixelRays(camera_), config_.sensor,
+                             config_.plane_extraction);
   if (!config_.async_mapping) return;
   const MapTurn turn = [this](const std::function<void()>& work) {
     const MappingHold hold(gate_);
@@ -61,7 +61,8 @@ void Tracker::Finish(MappingWorker::Waiting waiting) {
   for (MapPlane& plane : map_.planes) ForgetDoubtfulCorners(plane, config_.plane_map);
 }
 
-void Tracker::ExtractInformation(Frame& frame, const cv::Mat3b& bgr, ModuleTimes& times) {
+void Tracker::ExtractInformation(Frame& frame, const cv::Mat3b& bgr, TrackReport& report) {
+  ModuleTimes& times = report.times;
   // Boxes, planes and points side by side: none writes what another reads.
   const auto detect = [&] {
     const Stopwatch watch(times[Module::kOd]);
@@ -75,7 +76,7 @@ void Tracker::ExtractInformation(Frame& frame, const cv::Mat3b& bgr, ModuleTimes
   const auto where = threads_ > 1 ? std::launch::async : std::launch::deferred;
   std::future<std::vector<Detection>> boxes;
   std::future<void> planes;
-  if (uses_planes()) {
+  if (plane_extractor_) {
     boxes = std::async(where, detect);
     planes = std::async(where, extract_planes);
   }
@@ -85,7 +86,7 @@ void Tracker::ExtractInformation(Frame& frame, const cv::Mat3b& bgr, ModuleTimes
         ExtractPointFeatures(frame.gray, frame.depth_m, camera_, config_.point_features);
   }
   frame.map_points.assign(frame.features.size(), kNone);
-  if (!uses_planes()) return;
+  if (!plane_extractor_) return;
   planes.get();
   const std::vector<Detection> found = boxes.get();
   {
@@ -96,28 +97,35 @@ void Tracker::ExtractInformation(Frame& frame, const cv::Mat3b& bgr, ModuleTimes
   plane_extractor_->SplitInBoxes(frame);
 }
 
-void Tracker::ProcessFramePlanes(Frame& frame) {
+void Tracker::ProcessFramePlanes(Frame& frame, TrackReport& report) const {
+  const Stopwatch watch(report.times[Module::kPp]);
   if (variant_ != Variant::kNoProcessingNoAssociation) {
-    ProcessPlanes(frame, camera_, config_.plane_processing);
+    ProcessPlanes(frame, camera_, config_.sensor, config_.plane_processing);
   }
   frame.plane_matches.assign(frame.planes.size(), {});
 }
 
-bool Tracker::TrackByPoints(Frame& frame, TrackReport& report) {
+void Tracker::TrackByPoints(Frame& frame, TrackReport& report) {
   const Stopwatch watch(report.times[Module::kDa]);
-  if (worker_) points_.FollowMap(map_);
+  if (worker_) {
+    worker_->Check();
+    points_.FollowMap(map_);
+  }
   report.points = points_.TrackPoints(frame, map_);
-  return report.points.state == TrackState::kTracking;
+  report.tracked = report.points.state == TrackState::kTracking;
 }
 
-void Tracker::AssociateFramePlanes(Frame& frame) {
+void Tracker::AssociateFramePlanes(Frame& frame, TrackReport& report) const {
+  const Stopwatch watch(report.times[Module::kDa]);
   PlaneAssociation association = AssociatePlanes(frame, map_, camera_, config_.association);
   frame.plane_matches = std::move(association.matches);
+  report.refused = association.refused;
   frame.point_planes =
       AssociatePointsToPlanes(frame, map_, camera_, config_.association.max_point_plane_m);
 }
 
-void Tracker::OptimiseWithPlanes(Frame& frame, TrackReport& report) {
+void Tracker::OptimiseWithPlanes(Frame& frame, TrackReport& report) const {
+  const Stopwatch watch(report.times[Module::kPo]);
   const FramePoints points = PointConstraints(frame, map_, scale());
   PoseProblem problem;
   problem.T_cw = frame.T_cw;
@@ -135,28 +143,30 @@ void Tracker::OptimiseWithPlanes(Frame& frame, TrackReport& report) {
 }
 
 void Tracker::UpdateMap(Frame& frame, TrackReport& report) {
-  if (uses_planes()) {
+  {
     const Stopwatch watch(report.times[Module::kUpm]);
     UpdatePlanes(frame, map_, camera_, config_.association, config_.plane_map);
   }
   report.keyframe = points_.NeedKeyframe(frame, map_);
   if (report.keyframe) {
-    const int keyframe =
-        InsertKeyframe(frame, map_, camera_, scale(), config_.mapping.keyframes);
-    if (worker_) {
-      worker_->Submit(keyframe);
-    } else {
-      MapKeyframe(keyframe, AtOnce);
-      frame.T_cw = KeyframePose(map_, keyframe);
-    }
-    if (uses_planes()) {
-      const Stopwatch watch(report.times[Module::kUpm]);
-      FusePlanes(map_, config_.association, config_.plane_map);
-    }
+    KeepFrame(frame);
+    const Stopwatch watch(report.times[Module::kUpm]);
+    FusePlanes(map_, config_.association, config_.plane_map);
   }
   points_.Accept(frame, map_);
   report.reference = points_.reference_keyframe();
   report.T_cr = frame.T_cw * Inverse(KeyframePose(map_, report.reference));
+}
+
+/// Makes the frame a keyframe, and maps it now or has it mapped beside tracking.
+void Tracker::KeepFrame(Frame& frame) {
+  const int keyframe = InsertKeyframe(frame, map_, camera_, scale(), config_.mapping.keyframes);
+  if (worker_) {
+    worker_->Submit(keyframe);
+    return;
+  }
+  MapKeyframe(keyframe, AtOnce);
+  frame.T_cw = KeyframePose(map_, keyframe);
 }
 
 void Tracker::MapKeyframe(int keyframe, const MapTurn& turn) {

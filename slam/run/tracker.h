@@ -6,6 +6,7 @@
 #include <opencv2/core/mat.hpp>
 #include <optional>
 
+#include "slam/associate/refusals.h"
 #include "slam/detect/box_tracks.h"
 #include "slam/detect/detections.h"
 #include "slam/geometry/camera.h"
@@ -37,6 +38,7 @@ struct TrackReport {
   bool keyframe = false;      ///< the frame was kept
   int reference = kNone;      ///< keyframe that the pose is tied to, when tracked ...
   Pose T_cr;                  ///< ... and the camera as seen from it
+  PairRefusals refused;       ///< pairs of frame and map planes, by what refused them
   int plane_constraints = 0;  ///< frame planes that constrained the pose
 };
 
@@ -74,14 +76,15 @@ class Tracker {
 
  private:
   const FeatureScale& scale() const { return config_.point_features.scale; }
-  bool uses_planes() const { return variant_ != Variant::kPoints; }
 
-  void ExtractInformation(Frame& frame, const cv::Mat3b& bgr, ModuleTimes& times);
-  void ProcessFramePlanes(Frame& frame);
-  bool TrackByPoints(Frame& frame, TrackReport& report);
-  void AssociateFramePlanes(Frame& frame);
-  void OptimiseWithPlanes(Frame& frame, TrackReport& report);
+  // The stages, in order. A frame without planes passes through all of them.
+  void ExtractInformation(Frame& frame, const cv::Mat3b& bgr, TrackReport& report);
+  void ProcessFramePlanes(Frame& frame, TrackReport& report) const;
+  void TrackByPoints(Frame& frame, TrackReport& report);
+  void AssociateFramePlanes(Frame& frame, TrackReport& report) const;
+  void OptimiseWithPlanes(Frame& frame, TrackReport& report) const;
   void UpdateMap(Frame& frame, TrackReport& report);
+  void KeepFrame(Frame& frame);
   void MapKeyframe(int keyframe, const MapTurn& turn);
   MapGate* gate() { return worker_ ? &gate_ : nullptr; }
 

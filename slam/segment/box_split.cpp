@@ -230,6 +230,7 @@ Box HeightCells::BoundsOf(const cv::Mat1b& region) const {
 std::optional<PixelRegion> FindThinTop(const DepthGrid& grid, const cv::Mat1b& labels,
                                        std::uint8_t label, const LabelPlane& plane,
                                        const Box& box_px, const Box& own_px,
+                                       const DepthNoise& noise,
                                        const PlaneExtractionConfig& config) {
   const BoxSplitConfig& rules = config.box_split;
   const double side_px = std::max(box_px.width(), box_px.height());
@@ -241,7 +242,7 @@ std::optional<PixelRegion> FindThinTop(const DepthGrid& grid, const cv::Mat1b& l
 
   // Cells of two heights, farther apart than votes of noise are, and none as high around.
   const double window_px = (2 * kReach_cells + 1) * cell_px;
-  const double vote_sigma = std::sqrt(config.noise.correlated_px) / window_px;
+  const double vote_sigma = std::sqrt(noise.correlated_px) / window_px;
   if (!cells.FindHeights() || !(cells.high() - cells.low() > rules.min_step_votes * vote_sigma))
     return std::nullopt;
   if (cells.IsHighAround(rules.max_high_around)) return std::nullopt;
@@ -258,13 +259,13 @@ std::optional<PixelRegion> FindThinTop(const DepthGrid& grid, const cv::Mat1b& l
     return std::nullopt;
 
   // Its pixels, if they are enough and surely higher.
-  const double votes_px = rules.vote_errors * config.noise.correlated_px;
+  const double votes_px = rules.vote_errors * noise.correlated_px;
   const cv::Rect voters = Widened(high_px, cell_px + VoteReach(votes_px), labels.size()) & area;
   PixelRegion region = FindRaisedRegion(
       grid, labels,
       {label, plane, 0.5 * (cells.low() + cells.high()), votes_px, voters, inside});
   const auto pixels = static_cast<double>(region.pixels.size());
-  const double errors = pixels / config.noise.correlated_px;
+  const double errors = pixels / noise.correlated_px;
   const double height = MeanHeight(grid, region, plane) - cells.low();
   if (!(pixels >= config.min_pixels) ||
       !(height * std::sqrt(errors) > rules.min_evidence_sigmas))

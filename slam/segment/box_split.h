@@ -39,6 +39,7 @@ inline constexpr double kMinFilledShare = 0.1;
 std::optional<PixelRegion> FindThinTop(const DepthGrid& grid, const cv::Mat1b& labels,
                                        std::uint8_t label, const LabelPlane& plane,
                                        const Box& box_px, const Box& own_px,
+                                       const DepthNoise& noise,
                                        const PlaneExtractionConfig& config);
 
 }  // namespace slam

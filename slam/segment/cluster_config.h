@@ -1,5 +1,7 @@
 #pragma once
 
+#include "slam/base/field_visitor.h"
+
 namespace slam {
 
 /// What decides whether two regions are one plane.
@@ -28,5 +30,17 @@ struct ClusterConfig {
   /// Blocks below which a region is dropped; domain [1, inf).
   int min_blocks = 4;
 };
+
+inline void VisitFields(ClusterConfig& c, FieldVisitor& v) {
+  v.Number("min_measured", c.min_measured, "(0, 1]", "part of a block with depth");
+  v.Number("max_block_error", c.max_block_error, "(0, inf)", "mean squared error, sigma^2");
+  v.Number("max_jump_sigmas", c.max_jump_sigmas, "(0, inf)", "between neighbouring pixels");
+  v.Named("merge_rule", c.merge_rule, {"added_error", "mean_error"}, "mean_error is PEAC's");
+  v.Number("max_merge_chi2", c.max_merge_chi2, "(0, inf)",
+           "error that a merge adds, 3 degrees of freedom");
+  v.Number("model_error_sigmas", c.model_error_sigmas, "[0, inf)",
+           "of one real surface, besides noise");
+  v.Integer("min_blocks", c.min_blocks, "[1, 100000]", "of a region");
+}
 
 }  // namespace slam

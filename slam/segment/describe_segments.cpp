@@ -88,7 +88,7 @@ void PlaneExtractor::Workspace::Describe(Frame& frame) {
     GiveMemory(plane);
     plane.roughness = MeasureRoughness(
         grid, frame.plane_labels, cv::Rect(kept[k].low, kept[k].high + cv::Point(1, 1)),
-        static_cast<std::uint8_t>(plane.index + 1), kept[k].plane.plane, config.noise,
+        static_cast<std::uint8_t>(plane.index + 1), kept[k].plane.plane, sensor.noise,
         RoughnessStep(plane.pixel_count));
     frame.planes.push_back(std::move(plane));
   }

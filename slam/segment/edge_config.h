@@ -1,5 +1,7 @@
 #pragma once
 
+#include "slam/base/field_visitor.h"
+
 namespace slam {
 
 /// Where the boundary of a segment ends the surface (FindEdgePoints).
@@ -20,5 +22,15 @@ struct EdgeConfig {
   /// ends it if its visible area is at least this part of the surface's. Domain [0, inf).
   double min_rising_area = 0.5;
 };
+
+inline void VisitFields(EdgeConfig& c, FieldVisitor& v) {
+  v.Integer("step_px", c.step_px, "[1, 64]", "spacing along the contour");
+  v.Integer("reach_px", c.reach_px, "[2, 16]", "how far beyond the boundary is looked");
+  v.Number("min_step_sigmas", c.min_step_sigmas, "(0, inf)", "a depth step is at least this");
+  v.Number("max_crease_start", c.max_crease_start, "(0, 1)",
+           "first residual over last beyond a crease");
+  v.Number("min_rising_area", c.min_rising_area, "[0, inf)",
+           "of what ends a surface at a concave crease, over the surface's");
+}
 
 }  // namespace slam

@@ -1,14 +1,12 @@
 #pragma once
 
-#include "slam/geometry/depth_noise.h"
+#include "slam/base/field_visitor.h"
+#include "slam/geometry/sensor_model.h"
 #include "slam/segment/cluster_config.h"
 #include "slam/segment/edge_config.h"
 #include "slam/segment/growth_config.h"
 
 namespace slam {
-
-/// What measured the depth; depth_sensor.h has the settings for each.
-enum class DepthSensor { kKinect1, kAzure, kD435 };
 
 /// What it takes to split a segment inside the box of a detected regular object (box_split.h).
 struct BoxSplitConfig {
@@ -30,13 +28,23 @@ struct BoxSplitConfig {
   double max_high_around = 0.1;
 };
 
+inline void VisitFields(BoxSplitConfig& c, FieldVisitor& v) {
+  v.Flag("enabled", c.enabled, "split segments inside detection boxes");
+  v.Number("min_score", c.min_score, "[0, 1)", "of the detection");
+  v.Number("margin_px", c.margin_px, "[0, inf)", "a box is that much inexact, and");
+  v.Number("margin_fraction", c.margin_fraction, "[0, 1]", "by this part of its size");
+  v.Number("vote_errors", c.vote_errors, "[1, 50]", "independent errors that vote on a pixel");
+  v.Number("min_step_votes", c.min_step_votes, "(0, inf)",
+           "step, in standard deviations of a vote");
+  v.Number("min_evidence_sigmas", c.min_evidence_sigmas, "(0, inf)",
+           "mean height, in its standard errors");
+  v.Number("min_box_iou", c.min_box_iou, "[0, 1)", "of what is found and the box");
+  v.Number("max_high_around", c.max_high_around, "[0, 1]", "part around the box as high");
+}
+
 /// Settings of plane extraction. A length here is of the sensor or of the image, and every
 /// threshold on a surface is in units of the noise.
 struct PlaneExtractionConfig {
-  DepthSensor sensor = DepthSensor::kKinect1;  ///< what the other defaults are for
-  DepthNoise noise;
-  double max_depth_m = 10.0;  ///< beyond it a pixel is not measured; domain (0, inf)
-
   int block_px = 8;       ///< first clustering; domain [4, 64]
   int fine_block_px = 4;  ///< second clustering, of what the first left; domain [2, block_px]
   ClusterConfig coarse;
@@ -81,5 +89,41 @@ struct PlaneExtractionConfig {
   int point_grid_px = 6;  ///< spacing of FramePlane::points_c; domain [1, 64]
   EdgeConfig edges;       ///< for FramePlane::edge_points
 };
+
+inline void VisitFields(PlaneExtractionConfig& c, FieldVisitor& v) {
+  v.Integer("block_px", c.block_px, "[4, 64]", "first clustering");
+  v.Integer("fine_block_px", c.fine_block_px, "[2, 64]", "second clustering, at most block_px");
+  v.Section("coarse", "first clustering", c.coarse);
+  v.Section("fine", "second clustering", c.fine);
+  v.Section("growth", "from blocks to pixels", c.growth);
+  v.Number("max_block_bias_sigmas", c.max_block_bias_sigmas, "(0, inf)",
+           "mean residual of a block");
+  v.Number("max_merge_gap_sigmas", c.max_merge_gap_sigmas, "(0, inf)",
+           "between touching segments of one plane");
+  v.Number("max_hidden_gap_sigmas", c.max_hidden_gap_sigmas, "(0, inf)",
+           "between parts that something hides");
+  v.Number("max_bend_sigmas", c.max_bend_sigmas, "(0, inf)",
+           "gap that a sensor's bend may make");
+  v.Number("max_bend_step_sigmas", c.max_bend_step_sigmas, "(0, inf)",
+           "step between parts that a sensor has bent");
+  v.Degrees("max_bend_deg", c.max_bend_rad, "(0, 90)", "angle that a sensor's bend may make");
+  v.Number("max_warp_sigmas", c.max_warp_sigmas, "[0, inf)",
+           "of a frame, that is allowed for; 0: none");
+  v.Number("warp_model_error", c.warp_model_error, "[0, inf)",
+           "added to the model error by a sigma of warp");
+  v.Number("warp_gap", c.warp_gap, "[0, inf)", "added to bent and hidden gaps by it");
+  v.Number("max_island_behind", c.max_island_behind, "[0, 1]",
+           "pixels behind, round a cut-off part");
+  v.Number("unsure_side_sigmas", c.unsure_side_sigmas, "[0, inf)",
+           "nearer is neither behind nor in front");
+  v.Integer("min_pixels", c.min_pixels, "[3, 1000000]", "of a segment");
+  v.Degrees("max_angle_sigma_deg", c.max_angle_sigma_rad, "(0, 90)", "of a segment's normal");
+  v.Integer("min_island_pixels", c.min_island_pixels, "[1, 1000000]", "of a cut-off part");
+  v.Section("box_split", "thin things in detection boxes", c.box_split);
+  v.Integer("point_grid_px", c.point_grid_px, "[1, 64]", "spacing of a plane's points");
+}
+
+/// The defaults for a sensor, where they follow from more than its noise.
+PlaneExtractionConfig ExtractionFor(DepthSensor sensor);
 
 }  // namespace slam

@@ -1,5 +1,7 @@
 #pragma once
 
+#include "slam/base/field_visitor.h"
+
 namespace slam {
 
 /// Largest block_px and vote_reach_px, pixels: the memory around a block is made for them.
@@ -17,5 +19,14 @@ struct GrowthConfig {
   /// as the plane of a block across a step does. Domain [0, inf).
   double min_gain = 3.0;
 };
+
+inline void VisitFields(GrowthConfig& c, FieldVisitor& v) {
+  v.Integer("block_px", c.block_px, "[2, 64]", "regions spread from block to block");
+  v.Number("max_pixel_sigmas", c.max_pixel_sigmas, "(0, inf)",
+           "distance of a plane's pixel from it");
+  v.Integer("vote_reach_px", c.vote_reach_px, "[0, 16]",
+            "pixels that decide between two planes");
+  v.Number("min_gain", c.min_gain, "[0, inf)", "over the next best plane, squared sigmas");
+}
 
 }  // namespace slam

@@ -5,17 +5,17 @@
 
 namespace slam {
 
-std::optional<Segment> Measure(const PlaneSums& sums, int id,
+std::optional<Segment> Measure(const PlaneSums& sums, int id, const DepthNoise& noise,
                                const PlaneExtractionConfig& config) {
   if (!(sums.n >= config.min_pixels)) return std::nullopt;
   const std::optional<PlaneFit> fit = Fit(sums);
   if (!fit) return std::nullopt;
-  const double grazing = GrazingFactor(sums, fit->plane, config.noise);
+  const double grazing = GrazingFactor(sums, fit->plane, noise);
   // Its pixels may scatter by more than noise does; then the plane is less sure.
   constexpr double kParameters = 3.0;  // degrees of freedom of a plane
   const double dof = std::max(sums.n - kParameters, 1.0);
   const double scale = std::max(grazing, std::sqrt(fit->error / dof));
-  const PlaneSigmas sigmas = Sigmas(sums, fit->plane, config.noise, scale);
+  const PlaneSigmas sigmas = Sigmas(sums, fit->plane, noise, scale);
   if (!(sigmas.angle_rad < config.max_angle_sigma_rad)) return std::nullopt;
   return Segment{id, sums, {fit->plane, grazing}, sigmas, {}, {}};
 }
@@ -26,11 +26,12 @@ void SortBySize(std::vector<Segment>& segments) {
   });
 }
 
-void KeepMeasured(const std::vector<PlaneSums>& sums, const PlaneExtractionConfig& config,
-                  std::vector<Segment>& kept) {
+void KeepMeasured(const std::vector<PlaneSums>& sums, const DepthNoise& noise,
+                  const PlaneExtractionConfig& config, std::vector<Segment>& kept) {
   kept.clear();
   for (std::size_t k = 0; k < sums.size(); ++k) {
-    if (const std::optional<Segment> segment = Measure(sums[k], static_cast<int>(k), config))
+    if (const std::optional<Segment> segment =
+            Measure(sums[k], static_cast<int>(k), noise, config))
       kept.push_back(*segment);
   }
   SortBySize(kept);
@@ -46,10 +47,10 @@ PlaneSums Without(PlaneSums all, const PlaneSums& part) {
 }
 
 void Extend(const PlaneSums& more, const cv::Point& low, const cv::Point& high,
-            const PlaneExtractionConfig& config, Segment& segment) {
+            const DepthNoise& noise, const PlaneExtractionConfig& config, Segment& segment) {
   PlaneSums sums = segment.sums;
   sums += more;
-  const std::optional<Segment> both = Measure(sums, segment.id, config);
+  const std::optional<Segment> both = Measure(sums, segment.id, noise, config);
   if (!both) return;
   const cv::Point old_low = segment.low, old_high = segment.high;
   segment = *both;

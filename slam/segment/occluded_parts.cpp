@@ -35,6 +35,7 @@ void PartSegmentation::SortBySize(const PatchUnion& patches) {
 /// Gives labels whose parts lie on the extension of a larger label's plane, hidden in between,
 /// the larger label.
 void PartSegmentation::JoinHiddenLabels(const DepthGrid& grid, const PatchUnion& patches,
+                                        const DepthNoise& noise,
                                         const PlaneExtractionConfig& config) {
   // What surrounds the parts of each label, and the lines of sight between them.
   around_.assign(planes_.size(), {});
@@ -59,14 +60,14 @@ void PartSegmentation::JoinHiddenLabels(const DepthGrid& grid, const PatchUnion&
       const int large = by_size_[j];
       if (into_[static_cast<std::size_t>(large)] != large) continue;
       const double gap = PatchGap(patches.At(by_size_[k]), patches.At(large),
-                                  config.max_hidden_gap_sigmas, config);
+                                  config.max_hidden_gap_sigmas, noise, config);
       if (!(gap < min_gap) || patches.Apart(by_size_[k], large)) continue;
       const LabelPlane& plane = patches.At(large).plane;
       // Where a part ends in sight, bounds that a warp has widened would let in what lies on
       // the plane.
       const auto equal = [&] {
         return PatchGap(patches.At(by_size_[k]), patches.At(large), config.max_merge_gap_sigmas,
-                        config) < 1.0;
+                        noise, config) < 1.0;
       };
       const bool hidden =
           (may_hide &&
@@ -121,7 +122,7 @@ void PartSegmentation::NumberSegments(const DepthGrid& grid,
 }
 
 const LabelRuns& PartSegmentation::Segment(const DepthGrid& grid, const PatchUnion& joined,
-                                           const LabelRuns& labels,
+                                           const LabelRuns& labels, const DepthNoise& noise,
                                            const PlaneExtractionConfig& config) {
   // Connected parts of the labels, cut at bridges.
   joined.CopyPlanes(planes_);
@@ -132,7 +133,7 @@ const LabelRuns& PartSegmentation::Segment(const DepthGrid& grid, const PatchUni
   bridges_.Cut(grid, planes_, config.max_island_behind, components_);
 
   // Which of them are one segment, and the runs drawn with its number.
-  JoinHiddenLabels(grid, joined, config);
+  JoinHiddenLabels(grid, joined, noise, config);
   NumberSegments(grid, config);
   for (std::size_t k = 0; k < components_.component.size(); ++k) {
     const int component = components_.component[k];

@@ -26,7 +26,8 @@ class PartSegmentation {
   /// @returns runs of segments 0, 1, ...; kNoLabel where a part is too small to be one. Two
   ///          beside each other may be of one segment. They stand until the next call.
   const LabelRuns& Segment(const DepthGrid& grid, const PatchUnion& joined,
-                           const LabelRuns& labels, const PlaneExtractionConfig& config);
+                           const LabelRuns& labels, const DepthNoise& noise,
+                           const PlaneExtractionConfig& config);
 
   /// Sums of the pixels of each segment of the last call: those of the labels that `joined`
   /// knows, but for the parts that went elsewhere.
@@ -42,7 +43,7 @@ class PartSegmentation {
   };
   void SortBySize(const PatchUnion& patches);
   void JoinHiddenLabels(const DepthGrid& grid, const PatchUnion& patches,
-                        const PlaneExtractionConfig& config);
+                        const DepthNoise& noise, const PlaneExtractionConfig& config);
   void FindMainComponents();
   void NumberSegments(const DepthGrid& grid, const PlaneExtractionConfig& config);
 

@@ -23,19 +23,18 @@ double PatchGap2(const Patch& a, const Patch& b) {
 
 /// What noise adds to a squared gap, with what else is allowed.
 double AllowedGap2(const Patch& a, const Patch& b, double max_gap_sigmas,
-                   const PlaneExtractionConfig& config) {
-  return max_gap_sigmas * max_gap_sigmas + config.coarse.max_merge_chi2 *
-                                               config.noise.correlated_px /
-                                               std::min(a.sums.n, b.sums.n);
+                   const DepthNoise& noise, const PlaneExtractionConfig& config) {
+  return max_gap_sigmas * max_gap_sigmas +
+         config.coarse.max_merge_chi2 * noise.correlated_px / std::min(a.sums.n, b.sums.n);
 }
 
 /// Squared distance of two planes along their common boundary over what is allowed there.
 double ContactGap(const Patch& a, const Patch& b, const PlaneSums& contact,
-                  const PlaneExtractionConfig& config) {
+                  const DepthNoise& noise, const PlaneExtractionConfig& config) {
   const double grazing = std::max(a.plane.grazing, b.plane.grazing);
   const double gap2 =
       MeanSquaredGap(contact, a.plane.plane, b.plane.plane) / (grazing * grazing);
-  return gap2 / AllowedGap2(a, b, config.max_merge_gap_sigmas, config);
+  return gap2 / AllowedGap2(a, b, config.max_merge_gap_sigmas, noise, config);
 }
 
 /// The sums of a pixel that a distance of planes depends on.
@@ -55,9 +54,9 @@ void Refit(Patch& patch, const DepthNoise& noise) {
 
 }  // namespace
 
-double PatchGap(const Patch& a, const Patch& b, double max_gap_sigmas,
+double PatchGap(const Patch& a, const Patch& b, double max_gap_sigmas, const DepthNoise& noise,
                 const PlaneExtractionConfig& config) {
-  return PatchGap2(a, b) / AllowedGap2(a, b, max_gap_sigmas, config);
+  return PatchGap2(a, b) / AllowedGap2(a, b, max_gap_sigmas, noise, config);
 }
 
 void PatchUnion::Begin(const std::vector<PlaneSums>& sums,
@@ -88,10 +87,11 @@ bool PatchUnion::Apart(int a, int b) const {
   });
 }
 
-bool PatchUnion::IsAmbiguous(int a, int b, const PlaneExtractionConfig& config) const {
+bool PatchUnion::IsAmbiguous(int a, int b, const DepthNoise& noise,
+                             const PlaneExtractionConfig& config) const {
   const auto is_of_b = [&](int k) {
     return Root(k) != a && Root(k) != b &&
-           PatchGap(At(k), At(b), config.max_bend_sigmas, config) < 1.0;
+           PatchGap(At(k), At(b), config.max_bend_sigmas, noise, config) < 1.0;
   };
   return std::any_of(apart_.begin(), apart_.end(), [&](const std::pair<int, int>& pair) {
     return (Root(pair.first) == a && is_of_b(pair.second)) ||
@@ -120,13 +120,14 @@ void PatchJoining::FindContacts(const DepthGrid& grid, PixelGrowth& growth) {
 }
 
 /// Sums the contacts, not summed yet, of patches that may be one plane: most never are.
-void PatchJoining::SumContacts(const DepthGrid& grid, const PlaneExtractionConfig& config) {
+void PatchJoining::SumContacts(const DepthGrid& grid, const DepthNoise& noise,
+                               const PlaneExtractionConfig& config) {
   wanted_.assign(patches_.into().size(), 0);
   for (auto& [pair, contact] : contacts_.Sorted()) {
     const int a = patches_.Root(pair.first), b = patches_.Root(pair.second);
-    contact.wanted =
-        !contact.summed && a != b && contact.pixels >= kMinContact_px &&
-        PatchGap(patches_.At(a), patches_.At(b), config.max_merge_gap_sigmas, config) < 1.0;
+    contact.wanted = !contact.summed && a != b && contact.pixels >= kMinContact_px &&
+                     PatchGap(patches_.At(a), patches_.At(b), config.max_merge_gap_sigmas,
+                              noise, config) < 1.0;
     if (!contact.wanted) continue;
     contact.summed = true;
     wanted_[static_cast<std::size_t>(pair.first)] = 1;
@@ -151,10 +152,11 @@ void PatchJoining::SumContacts(const DepthGrid& grid, const PlaneExtractionConfi
 
 void PatchJoining::MergeEqualNeighbours(const DepthGrid& grid,
                                         const std::vector<PlaneSums>& blocks,
+                                        const DepthNoise& noise,
                                         const PlaneExtractionConfig& config,
                                         PixelGrowth& growth) {
   growth.SumLabels(blocks, sums_);
-  patches_.Begin(sums_, growth.planes(), config.noise);
+  patches_.Begin(sums_, growth.planes(), noise);
   FindContacts(grid, growth);
 
   // The closest pair joins, as long as noise explains its distance. The sums of a contact are
@@ -167,15 +169,15 @@ void PatchJoining::MergeEqualNeighbours(const DepthGrid& grid,
       const int a = patches_.Root(pair.first), b = patches_.Root(pair.second);
       if (a == b || contact.pixels < kMinContact_px) continue;
       const double patch_gap =
-          PatchGap(patches_.At(a), patches_.At(b), config.max_merge_gap_sigmas, config);
+          PatchGap(patches_.At(a), patches_.At(b), config.max_merge_gap_sigmas, noise, config);
       if (!(patch_gap < min_gap)) continue;
-      if (!contact.summed) SumContacts(grid, config);
-      const double gap =
-          std::max(patch_gap, ContactGap(patches_.At(a), patches_.At(b), contact.rays, config));
+      if (!contact.summed) SumContacts(grid, noise, config);
+      const double gap = std::max(
+          patch_gap, ContactGap(patches_.At(a), patches_.At(b), contact.rays, noise, config));
       if (gap < min_gap) min_gap = gap, best = {a, b};
     }
     if (best.first < 0) break;
-    patches_.Join(best.first, best.second, config.noise);
+    patches_.Join(best.first, best.second, noise);
   }
 
   // Growth begins anew with the planes of what was joined.
@@ -184,11 +186,12 @@ void PatchJoining::MergeEqualNeighbours(const DepthGrid& grid,
 }
 
 /// Pairs of labels without a step between them, smallest step first.
-void PatchJoining::RankMeetingLabels(const PlaneExtractionConfig& config) {
+void PatchJoining::RankMeetingLabels(const DepthNoise& noise,
+                                     const PlaneExtractionConfig& config) {
   meeting_.clear();
   for (const auto& [pair, step] : steps_.Sorted()) {
     if (step.pairs < kMinContact_px) continue;
-    const double square = step.MeanSquare(config.noise.correlated_px);
+    const double square = step.MeanSquare(noise.correlated_px);
     if (square < config.max_bend_step_sigmas * config.max_bend_step_sigmas)
       meeting_.emplace_back(square, pair);
   }
@@ -196,7 +199,7 @@ void PatchJoining::RankMeetingLabels(const PlaneExtractionConfig& config) {
 }
 
 /// Joins the segments of labels that meet while they keep the bounds on bending.
-void PatchJoining::JoinMeeting(const PlaneExtractionConfig& config) {
+void PatchJoining::JoinMeeting(const DepthNoise& noise, const PlaneExtractionConfig& config) {
   bool changed = true;
   while (changed) {
     changed = false;
@@ -206,9 +209,11 @@ void PatchJoining::JoinMeeting(const PlaneExtractionConfig& config) {
       const Patch &A = patches_.At(a), &B = patches_.At(b);
       const double angle = Angle(A.plane.plane.Hessian().n, B.plane.plane.Hessian().n);
       if (!(angle < config.max_bend_rad)) continue;
-      if (!(PatchGap(A, B, config.max_bend_sigmas, config) < 1.0)) continue;
-      if (patches_.IsAmbiguous(a, b, config) || patches_.IsAmbiguous(b, a, config)) continue;
-      patches_.Join(a, b, config.noise);
+      if (!(PatchGap(A, B, config.max_bend_sigmas, noise, config) < 1.0)) continue;
+      if (patches_.IsAmbiguous(a, b, noise, config) ||
+          patches_.IsAmbiguous(b, a, noise, config))
+        continue;
+      patches_.Join(a, b, noise);
       changed = true;
     }
   }
@@ -216,24 +221,25 @@ void PatchJoining::JoinMeeting(const PlaneExtractionConfig& config) {
 
 const PatchUnion& PatchJoining::JoinBentParts(const DepthGrid& grid,
                                               const std::vector<PlaneSums>& blocks,
+                                              const DepthNoise& noise,
                                               const PlaneExtractionConfig& config,
                                               PixelGrowth& growth, bool warped) {
   growth.SumLabels(blocks, sums_);
-  patches_.Begin(sums_, growth.planes(), config.noise);
+  patches_.Begin(sums_, growth.planes(), noise);
   patches_.CopyPlanes(planes_);
   growth.DrawLabels(labels_);
   FindRuns(labels_, grid.width, grid.height, runs_);
 
   // What meets in a crease or a step is kept apart; what meets without one may be joined.
   if (warped) {
-    MeasureShares(grid, labels_, runs_, planes_, config.noise, strips_, shares_);
+    MeasureShares(grid, labels_, runs_, planes_, noise, strips_, shares_);
     for (const auto& [pair, share] : shares_.Sorted()) {
       if (share.IsCrease()) patches_.KeepApart(pair.first, pair.second);
     }
   }
   step_measurement_.Measure(grid, labels_, runs_, planes_, steps_);
-  RankMeetingLabels(config);
-  JoinMeeting(config);
+  RankMeetingLabels(noise, config);
+  JoinMeeting(noise, config);
   return patches_;
 }
 

@@ -25,7 +25,7 @@ struct Patch {
 
 /// Squared distance of two planes over the pixels of the smaller patch, over what noise and
 /// `max_gap_sigmas` allow there; below 1: they may be one plane.
-double PatchGap(const Patch& a, const Patch& b, double max_gap_sigmas,
+double PatchGap(const Patch& a, const Patch& b, double max_gap_sigmas, const DepthNoise& noise,
                 const PlaneExtractionConfig& config);
 
 /// Which patch each patch has become part of.
@@ -46,7 +46,8 @@ class PatchUnion {
   /// Whether something that patch `a` is kept apart from agrees with `b` too, within the bounds
   /// on bending: both cannot be of its plane. A sheet of paper may meet a desk without a step
   /// on one side, and have a raised edge on the other, beyond which the desk goes on.
-  bool IsAmbiguous(int a, int b, const PlaneExtractionConfig& config) const;
+  bool IsAmbiguous(int a, int b, const DepthNoise& noise,
+                   const PlaneExtractionConfig& config) const;
   void CopyPlanes(std::vector<LabelPlane>& planes) const;
 
  private:
@@ -62,7 +63,8 @@ class PatchJoining {
   /// every plane to its pixels and grows them anew.
   /// @param blocks  sums of the measured pixels of each block of `growth`, or empty
   void MergeEqualNeighbours(const DepthGrid& grid, const std::vector<PlaneSums>& blocks,
-                            const PlaneExtractionConfig& config, PixelGrowth& growth);
+                            const DepthNoise& noise, const PlaneExtractionConfig& config,
+                            PixelGrowth& growth);
 
   /// Joins touching labels that are parts of one surface which the sensor has bent: a real step
   /// stands all along the boundary, while the parts of a bent surface meet there. So the planes
@@ -75,8 +77,8 @@ class PatchJoining {
   ///   and when hidden parts are joined
   /// @returns what stands until the next call
   const PatchUnion& JoinBentParts(const DepthGrid& grid, const std::vector<PlaneSums>& blocks,
-                                  const PlaneExtractionConfig& config, PixelGrowth& growth,
-                                  bool warped);
+                                  const DepthNoise& noise, const PlaneExtractionConfig& config,
+                                  PixelGrowth& growth, bool warped);
 
   /// Runs of the labels that the last call has read.
   const LabelRuns& runs() const { return runs_; }
@@ -90,9 +92,10 @@ class PatchJoining {
     PlaneSums rays;
   };
   void FindContacts(const DepthGrid& grid, PixelGrowth& growth);
-  void SumContacts(const DepthGrid& grid, const PlaneExtractionConfig& config);
-  void RankMeetingLabels(const PlaneExtractionConfig& config);
-  void JoinMeeting(const PlaneExtractionConfig& config);
+  void SumContacts(const DepthGrid& grid, const DepthNoise& noise,
+                   const PlaneExtractionConfig& config);
+  void RankMeetingLabels(const DepthNoise& noise, const PlaneExtractionConfig& config);
+  void JoinMeeting(const DepthNoise& noise, const PlaneExtractionConfig& config);
 
   PatchUnion patches_;
   std::vector<PlaneSums> sums_;  ///< one a label

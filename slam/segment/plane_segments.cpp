@@ -58,8 +58,9 @@ void DrawLabels(const LabelRuns& segments, int count, std::vector<Segment>& kept
 }  // namespace
 
 PlaneExtractor::PlaneExtractor(const Camera& camera, const cv::Mat2d& rays,
-                               const PlaneExtractionConfig& config)
+                               const SensorModel& sensor, const PlaneExtractionConfig& config)
     : work_(std::make_unique<Workspace>()) {
+  work_->sensor = sensor;
   work_->config = config;
   Use(camera, rays);
 }
@@ -74,40 +75,43 @@ void PlaneExtractor::Use(const Camera& camera, const cv::Mat2d& rays) {
 
 void PlaneExtractor::Extract(Frame& frame) {
   const PlaneExtractionConfig& settings = work_->config;
+  const DepthNoise& noise = work_->sensor.noise;
   DepthGrid& grid = work_->grid;
   PixelGrowth& growth = work_->growth;
-  SetDepth(frame.depth_m, settings.noise, settings.max_depth_m, grid);
+  SetDepth(frame.depth_m, noise, work_->sensor.max_depth_m, grid);
 
   // Planar blocks grouped into planes, again with wider bounds where the sensor bends them.
   const BlockClusters& clusters =
-      work_->clustering.Cluster(grid, {}, settings.block_px, settings.noise, settings.coarse);
-  const double warp = work_->warp.Measure(clusters, work_->clustering.SumsOfBlocks(), settings);
+      work_->clustering.Cluster(grid, {}, settings.block_px, noise, settings.coarse);
+  const double warp =
+      work_->warp.Measure(clusters, work_->clustering.SumsOfBlocks(), noise, settings);
   const PlaneExtractionConfig config = AllowWarp(settings, warp);
   if (warp > 0.0) work_->clustering.MergeAgain(config.coarse);
 
   // The planes grow over pixels; what they do not explain is clustered in finer blocks.
   growth.Begin(grid, config.growth);
-  AddClusters(grid, clusters, config.noise, growth);
+  AddClusters(grid, clusters, noise, growth);
   growth.MarkExplained(config.coarse.model_error_sigmas,
-                       config.max_block_bias_sigmas * std::sqrt(config.noise.correlated_px),
+                       config.max_block_bias_sigmas * std::sqrt(noise.correlated_px),
                        work_->explained);
   AddClusters(grid,
-              work_->clustering.Cluster(grid, work_->explained, config.fine_block_px,
-                                        config.noise, config.fine),
-              config.noise, growth);
+              work_->clustering.Cluster(grid, work_->explained, config.fine_block_px, noise,
+                                        config.fine),
+              noise, growth);
 
   // Parts of one plane are joined, where they touch and across what hides them.
   const std::vector<PlaneSums> unknown;
   const std::vector<PlaneSums>& blocks =
       config.block_px == config.growth.block_px ? work_->clustering.SumsOfBlocks() : unknown;
   PatchJoining& patches = work_->patches;
-  patches.MergeEqualNeighbours(grid, blocks, config, growth);
-  const PatchUnion& joined = patches.JoinBentParts(grid, blocks, config, growth, warp > 0.0);
-  const LabelRuns& segments = work_->parts.Segment(grid, joined, patches.runs(), config);
+  patches.MergeEqualNeighbours(grid, blocks, noise, config, growth);
+  const PatchUnion& joined =
+      patches.JoinBentParts(grid, blocks, noise, config, growth, warp > 0.0);
+  const LabelRuns& segments = work_->parts.Segment(grid, joined, patches.runs(), noise, config);
 
   // Segments that can be measured become planes of the frame.
   work_->parts.SumSegments(grid, joined, work_->sums);
-  KeepMeasured(work_->sums, config, work_->kept);
+  KeepMeasured(work_->sums, noise, config, work_->kept);
   frame.plane_labels.create(grid.height, grid.width);
   DrawLabels(segments, static_cast<int>(work_->sums.size()), work_->kept, work_->drawn_value,
              frame.plane_labels);

@@ -24,7 +24,7 @@ namespace slam {
 class PlaneExtractor {
  public:
   /// @param rays  PixelRays(camera)
-  PlaneExtractor(const Camera& camera, const cv::Mat2d& rays,
+  PlaneExtractor(const Camera& camera, const cv::Mat2d& rays, const SensorModel& sensor,
                  const PlaneExtractionConfig& config);
   PlaneExtractor(PlaneExtractor&&) noexcept;
   PlaneExtractor& operator=(PlaneExtractor&&) noexcept;

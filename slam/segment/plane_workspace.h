@@ -21,6 +21,7 @@ namespace slam {
 /// What the extractor works with from frame to frame.
 struct PlaneExtractor::Workspace {
   Camera camera;
+  SensorModel sensor;
   PlaneExtractionConfig config;
   DepthGrid grid;
   BlockClustering clustering;

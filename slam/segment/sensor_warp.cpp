@@ -43,13 +43,13 @@ double SquaredMean(const PlaneSums& s, const LabelPlane& p, double correlated_px
 }  // namespace
 
 double WarpMeasurement::Measure(const BlockClusters& clusters,
-                                const std::vector<PlaneSums>& blocks,
+                                const std::vector<PlaneSums>& blocks, const DepthNoise& noise,
                                 const PlaneExtractionConfig& config) {
   if (!(config.max_warp_sigmas > 0.0)) return 0.0;
   planes_.clear(), squares_.clear();
   for (std::size_t k = 0; k < clusters.planes.size(); ++k) {
-    planes_.push_back({clusters.planes[k],
-                       GrazingFactor(clusters.sums[k], clusters.planes[k], config.noise)});
+    planes_.push_back(
+        {clusters.planes[k], GrazingFactor(clusters.sums[k], clusters.planes[k], noise)});
   }
   // The mean residual of every piece that lies in one cluster.
   for (int r = 0; r + 1 < clusters.rows; r += 2) {
@@ -58,7 +58,7 @@ double WarpMeasurement::Measure(const BlockClusters& clusters,
       if (region < 0) continue;
       squares_.push_back(SquaredMean(SumPiece(clusters, blocks, r, c),
                                      planes_[static_cast<std::size_t>(region)],
-                                     config.noise.correlated_px));
+                                     noise.correlated_px));
     }
   }
 

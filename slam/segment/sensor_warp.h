@@ -18,7 +18,7 @@ class WarpMeasurement {
   /// @param clusters  those of the whole grid, with the bounds of a flat sensor
   /// @param blocks    sums of the measured pixels of each of its blocks
   double Measure(const BlockClusters& clusters, const std::vector<PlaneSums>& blocks,
-                 const PlaneExtractionConfig& config);
+                 const DepthNoise& noise, const PlaneExtractionConfig& config);
 
  private:
   std::vector<LabelPlane> planes_;  ///< one a cluster

@@ -54,8 +54,8 @@ bool PlaneExtractor::Workspace::TakeRegion(std::size_t host, const PixelRegion& 
                                            cv::Mat1b& drawn) {
   const PlaneSums region = SumOf(grid, found);
   const std::optional<Segment> rest =
-      Measure(Without(kept[host].sums, region), kept[host].id, config);
-  const std::optional<Segment> top = Measure(region, 0, config);
+      Measure(Without(kept[host].sums, region), kept[host].id, sensor.noise, config);
+  const std::optional<Segment> top = Measure(region, 0, sensor.noise, config);
   if (!rest || !top) return false;
   std::size_t into = kept.size();
 
@@ -63,7 +63,7 @@ bool PlaneExtractor::Workspace::TakeRegion(std::size_t host, const PixelRegion& 
   double min_gap = 1.0;
   for (const std::size_t own : own_segments) {
     const double gap = PatchGap({kept[own].sums, kept[own].plane}, {region, top->plane},
-                                config.max_merge_gap_sigmas, config);
+                                config.max_merge_gap_sigmas, sensor.noise, config);
     if (gap < min_gap) min_gap = gap, into = own;
   }
 
@@ -75,7 +75,7 @@ bool PlaneExtractor::Workspace::TakeRegion(std::size_t host, const PixelRegion& 
     kept.push_back(*top);
     kept[into].low = low, kept[into].high = high;
   } else {
-    Extend(region, low, high, config, kept[into]);
+    Extend(region, low, high, sensor.noise, config, kept[into]);
   }
   kept[host].sums = rest->sums, kept[host].plane = rest->plane;
   kept[host].sigmas = rest->sigmas;
@@ -106,7 +106,7 @@ bool PlaneExtractor::Workspace::SplitInBox(const Box& box_px, Frame& frame) {
     if (pixels[k + 1] < min_px || LiesIn(frame.planes[k].box_px, box_px)) continue;
     const std::optional<PixelRegion> top =
         FindThinTop(grid, frame.plane_labels, static_cast<std::uint8_t>(k + 1), kept[k].plane,
-                    box_px, own_px, config);
+                    box_px, own_px, sensor.noise, config);
     if (top) split = TakeRegion(k, *top, frame.plane_labels) || split;
   }
   return split;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "slam/base/field_visitor.h"
 #include "slam/model/map.h"
 
 namespace slam {
@@ -15,6 +16,23 @@ struct KeyframeDecisionConfig {
   double max_view_rad = 0.26;    ///< a point seen from more beside every keyframe looks new
   double max_new_ratio = 0.5;    ///< share of the tracked points that look new: above, insert
 };
+
+inline void VisitFields(KeyframeDecisionConfig& c, FieldVisitor& v) {
+  v.Number("min_reference_ratio", c.min_reference_ratio, "[0, 1]",
+           "tracked over the reference's points");
+  v.Number("first_reference_ratio", c.first_reference_ratio, "[0, 1]",
+           "the same with one keyframe");
+  v.Integer("min_frames_between", c.min_frames_between, "[1, 1000]",
+            "frames from one to the next");
+  v.Integer("min_close_tracked", c.min_close_tracked, "[0, 100000]",
+            "fewer tracked close points ...");
+  v.Integer("min_close_untracked", c.min_close_untracked, "[0, 100000]",
+            "... and more untracked: insert");
+  v.Number("max_view_rad", c.max_view_rad, "(0, 3.15)",
+           "a point seen from more beside every keyframe looks new");
+  v.Number("max_new_ratio", c.max_new_ratio, "[0, 1]",
+           "tracked points that look new over all: more, and insert");
+}
 
 /// Numbers behind the decision.
 struct KeyframeEvidence {

@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <optional>
 
+#include "slam/base/field_visitor.h"
 #include "slam/model/map.h"
 
 namespace slam {
@@ -17,6 +18,15 @@ struct LookAlikeConfig {
   int min_alike = 10;      ///< features that find their likeness; domain [1, inf)
   double min_share = 0.3;  ///< ... of those that find any point there; domain (0, 1]
 };
+
+inline void VisitFields(LookAlikeConfig& c, FieldVisitor& v) {
+  v.Integer("max_keyframes", c.max_keyframes, "[1, 100000]", "around, whose points compare");
+  v.Integer("max_distance", c.max_distance, "[0, 256]", "bits by which points look alike");
+  v.Number("min_shift_m", c.min_shift_m, "(0, inf)", "nearer is the same place");
+  v.Number("reach", c.reach, "(0, 1)", "of a likeness, as a part of the distance");
+  v.Integer("min_alike", c.min_alike, "[1, 100000]", "features that find their likeness");
+  v.Number("min_share", c.min_share, "(0, 1]", "of those that find any point");
+}
 
 /// A place from which the frame would look as it does.
 struct LookAlike {

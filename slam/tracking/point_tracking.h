@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "slam/base/field_visitor.h"
 #include "slam/model/local_map.h"
 #include "slam/model/map.h"
 #include "slam/pose/point_constraints.h"
@@ -44,6 +45,30 @@ struct PointTrackingConfig {
   int max_local_keyframes = 20;      ///< bound of the work a frame
   double local_radius_factor = 3.0;  ///< on the projection's radius (depth cameras)
 };
+
+inline void VisitFields(PointTrackingConfig& c, FieldVisitor& v) {
+  v.Section("match_last", "with the last frame, by projection", c.match_last);
+  v.Section("match_local", "with the local map, by projection", c.match_local);
+  v.Section("match_reference", "with the reference, by descriptors", c.match_reference);
+  v.Integer("min_start_points", c.min_start_points, "[1, 100000]",
+            "features with depth that start the map");
+  v.Number("last_radius_px", c.last_radius_px, "(0, inf)", "search around the prediction");
+  v.Integer("min_last_matches", c.min_last_matches, "[0, 100000]",
+            "below, the radius is doubled");
+  v.Integer("min_reference_matches", c.min_reference_matches, "[0, 100000]",
+            "with the reference keyframe");
+  v.Integer("min_first_inliers", c.min_first_inliers, "[0, 100000]",
+            "after the first optimisation");
+  v.Integer("min_inliers", c.min_inliers, "[0, 100000]", "after the second");
+  v.Integer("min_relocalised_inliers", c.min_relocalised_inliers, "[0, 100000]",
+            "of a pose without prediction");
+  v.Integer("max_temporary_points", c.max_temporary_points, "[0, 100000]",
+            "of the last frame, from depth alone");
+  v.Integer("max_local_keyframes", c.max_local_keyframes, "[1, 100000]",
+            "bound of the work a frame");
+  v.Number("local_radius_factor", c.local_radius_factor, "(0, inf)",
+           "on the projection's radius");
+}
 
 /// What tracking did with a frame.
 struct PointTrackReport {

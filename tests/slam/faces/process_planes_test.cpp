@@ -27,7 +27,7 @@ struct BookOnDesk {
     }
     frame.detections = {book};
     ExtractPlanes(frame, camera, PixelRays(camera), {});
-    ProcessPlanes(frame, camera, {});
+    ProcessPlanes(frame, camera, {}, {});
   }
   /// Largest distance of a found vertex from the nearest true corner; -1 unless there are four.
   double WorstVertex_m() const {
@@ -79,7 +79,7 @@ TEST(ProcessPlanes, DrawNoLinesOnAnUnstructuredObject) {
   BookOnDesk scene(false);
   scene.frame.detections[0].class_name = "teddy bear";
   scene.frame.detections[0].kind = ClassKind::kUnstructured;
-  ProcessPlanes(scene.frame, scene.camera, {});
+  ProcessPlanes(scene.frame, scene.camera, {}, {});
   int bad = 0;
   for (const FramePlane& plane : scene.frame.planes) {
     if (plane.class_name != "teddy bear") continue;
@@ -93,7 +93,7 @@ TEST(ProcessPlanes, DrawNoLinesOnAnUnstructuredObject) {
 TEST(ProcessPlanes, FindTheFourCornersOfABookThatNoDetectionSpeaksFor) {
   BookOnDesk scene(true);
   scene.frame.detections.clear();
-  ProcessPlanes(scene.frame, scene.camera, {});
+  ProcessPlanes(scene.frame, scene.camera, {}, {});
   double worst = 1.0;
   for (const FramePlane& plane : scene.frame.planes) {
     if (plane.vertices_c.size() != 4 || plane.area_m2 > 0.1) continue;  // the desk is larger
@@ -110,7 +110,7 @@ TEST(ProcessPlanes, FindTheFourCornersOfABookThatNoDetectionSpeaksFor) {
 
 TEST(ProcessPlanes, AcceptAFrameWithoutPlanes) {
   Frame frame;
-  ProcessPlanes(frame, Camera{}, {});
+  ProcessPlanes(frame, Camera{}, {}, {});
   EXPECT_TRUE(frame.planes.empty());
 }
 

@@ -69,7 +69,7 @@ struct HalfHiddenBook {
     }
     frame.detections = {book};
     ExtractPlanes(frame, camera, PixelRays(camera), {});
-    ProcessPlanes(frame, camera, {});
+    ProcessPlanes(frame, camera, {}, {});
   }
   /// Adds the corners of the book's top that were found, seen and extrapolated.
   void AddTo(std::array<Consistency, 2>& sums) const {

@@ -8,7 +8,6 @@
 #include <numbers>
 
 #include "io/input_error.h"
-#include "slam/segment/depth_sensor.h"
 
 namespace slam {
 namespace {
@@ -104,30 +103,25 @@ TEST_F(ConfigFile, RefusesAValueOutsideItsDomainOrOfAnotherType) {
 }
 
 TEST_F(ConfigFile, TakesTheDefaultsOfTheSensorThatItNames) {
-  Config d435;
-  d435.plane_extraction = ExtractionFor(DepthSensor::kD435);
-  ShareFacts(d435);
-  EXPECT_EQ(ConfigAsJson(Read("plane_extraction: {sensor: d435}")), ConfigAsJson(d435));
-  EXPECT_EQ(Read("plane_extraction: {sensor: d435}").plane_processing.noise.correlated_px,
-            d435.plane_extraction.noise.correlated_px);
+  Config d435 = ConfigFor(DepthSensor::kD435);
+  EXPECT_TRUE(d435.plane_extraction.box_split.enabled);
+  EXPECT_EQ(ConfigAsJson(Read("sensor: {model: d435}")), ConfigAsJson(d435));
   // What is set goes over them, whatever stands first.
-  d435.plane_extraction.noise.floor_m = 0.001;
-  ShareFacts(d435);
-  EXPECT_EQ(ConfigAsJson(Read("plane_extraction: {noise: {floor_m: 0.001}, sensor: d435}")),
+  d435.sensor.noise.floor_m = 0.001;
+  d435.plane_extraction.box_split.enabled = false;
+  EXPECT_EQ(ConfigAsJson(Read("plane_extraction: {box_split: {enabled: false}}\n"
+                              "sensor: {noise: {floor_m: 0.001}, model: d435}")),
             ConfigAsJson(d435));
   EXPECT_EQ(ConfigAsJson(Read(ConfigAsYaml(d435))), ConfigAsJson(d435));
-  ExpectError("plane_extraction: {sensor: kinect9}",
-              "one of: kinect1, azure, d435, found `kinect9`");
+  ExpectError("sensor: {model: kinect9}", "one of: kinect1, azure, d435, found `kinect9`");
 }
 
 TEST_F(ConfigFile, GoesOverTheSettingsThatItIsGiven) {
-  Config d435;
-  d435.plane_extraction = ExtractionFor(DepthSensor::kD435);
+  const Config d435 = ConfigFor(DepthSensor::kD435);
   std::ofstream(file_) << "plane_extraction: {min_pixels: 500}\n";
   const Config config = ReadConfig(file_, d435);
   EXPECT_EQ(config.plane_extraction.min_pixels, 500);
-  EXPECT_EQ(config.plane_extraction.noise.correlated_px,
-            d435.plane_extraction.noise.correlated_px);
+  EXPECT_EQ(config.sensor.noise.correlated_px, d435.sensor.noise.correlated_px);
 }
 
 TEST_F(ConfigFile, RefusesSettingsThatContradictEachOther) {

@@ -1,4 +1,4 @@
-#include "slam/run/repeated_frame.h"
+#include "slam/input/repeated_images.h"
 
 #include <gmock/gmock.h>
 
@@ -55,8 +55,8 @@ Ran RunStuck(int repeats) {
 }
 
 TEST(FaultStreamF3, ALastImageThatComesTwiceAgainLeavesTheMapAsItWas) {
-  const Ran once = RunStuck(0), ran = RunStuck(kMostRepeats);
-  EXPECT_EQ(ran.outcome.tracked, 2 + kMostRepeats);
+  const Ran once = RunStuck(0), ran = RunStuck(kMaxRepeats);
+  EXPECT_EQ(ran.outcome.tracked, 2 + kMaxRepeats);
   EXPECT_EQ(ran.map, once.map);
   EXPECT_EQ(ran.outcome.map_points, once.outcome.map_points);
   EXPECT_EQ(ran.outcome.keyframes, once.outcome.keyframes);

@@ -90,7 +90,7 @@ TEST(PlaneExtractor, AsksForNoMemoryOnceItIsWarm) {
   const std::vector<cv::Mat1f> images{
       DeskWithBooks(camera, 4, 0.0), DeskWithBooks(camera, 1, 0.0),
       DeskWithBooks(camera, 3, 0.006), DeskWithBooks(camera, 5, 0.0)};
-  PlaneExtractor extractor(camera, PixelRays(camera), {});
+  PlaneExtractor extractor(camera, PixelRays(camera), {}, {});
   Frame frame;
   constexpr int kPasses = 4;
   for (int pass = 0; pass < kPasses; ++pass) {

@@ -10,7 +10,7 @@
 
 #include "slam/base/random.h"
 #include "slam/geometry/camera.h"
-#include "slam/segment/depth_sensor.h"
+#include "slam/segment/extraction_config.h"
 #include "slam/segment/plane_segments.h"
 #include "tests/support/closed_form_depth.h"
 #include "tests/support/depth_planes.h"
@@ -58,7 +58,7 @@ struct Plate {
         const auto i = static_cast<std::size_t>(grid.Index(u, v));
         const double q = kTable.plane.InverseDepth(static_cast<double>(grid.x[i]),
                                                    static_cast<double>(grid.y[i]));
-        const double sigma_q = q * q * config.noise.Sigma(1.0 / q);
+        const double sigma_q = q * q * noise.Sigma(1.0 / q);
         const double off = height(u, v) + static_cast<double>(error(v, u));
         grid.q[i] = static_cast<float>(q + off * sigma_q);
         grid.g[i] = static_cast<float>(1.0 / sigma_q);
@@ -67,7 +67,7 @@ struct Plate {
   }
   bool Find(const Box& box_px, const Box& own_px = {}) {
     const std::optional<PixelRegion> found =
-        FindThinTop(grid, labels, kHost, kTable, box_px, own_px, config);
+        FindThinTop(grid, labels, kHost, kTable, box_px, own_px, noise, config);
     top = found.value_or(PixelRegion{});
     return found.has_value();
   }
@@ -77,6 +77,7 @@ struct Plate {
       shared += where.contains({i % grid.width, i / grid.width}) ? 1 : 0;
     return shared / (where.area() + static_cast<double>(top.pixels.size()) - shared);
   }
+  DepthNoise noise;
   PlaneExtractionConfig config;
   cv::Mat1b labels;
   DepthGrid grid;
@@ -190,7 +191,7 @@ struct ThinBook {
     PlaneExtractionConfig config = ExtractionFor(DepthSensor::kD435);
     config.box_split.enabled = enabled;
     frame = closed_form::MakeFrame(closed_form::AddKinectNoise(view.depth_m, 5));
-    extractor.emplace(camera, PixelRays(camera), config);
+    extractor.emplace(camera, PixelRays(camera), ModelOf(DepthSensor::kD435), config);
     extractor->Extract(frame);
     Detection detection{"book", ClassKind::kRegular, 0.9, box_px, 0, false};
     frame.detections = {detection};

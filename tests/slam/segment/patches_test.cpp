@@ -27,34 +27,36 @@ struct SheetOnADesk {
         if (u >= 55) depth_m(v, u) = right_m;
       }
     }
-    const DepthGrid grid = MakeDepthGrid(closed_form::AddKinectNoise(depth_m, 1),
-                                         PixelRays(camera), config.noise, 10.0);
+    const DepthGrid grid =
+        MakeDepthGrid(closed_form::AddKinectNoise(depth_m, 1), PixelRays(camera), noise, 10.0);
     const std::vector<PlaneSums> sums = SumLabels(grid, labels, 3);
-    patches.Begin(sums, {3, LabelPlane{}}, config.noise);
+    patches.Begin(sums, {3, LabelPlane{}}, noise);
     patches.KeepApart(0, 1);
   }
+  DepthNoise noise;
   PlaneExtractionConfig config;
   PatchUnion patches;
 };
 
 TEST(PatchUnion, ContestsASheetWhoseOtherEdgeIsRaisedOverTheSameDesk) {
   const SheetOnADesk scene(1.0f);
-  EXPECT_TRUE(scene.patches.IsAmbiguous(1, 2, scene.config));
-  EXPECT_FALSE(scene.patches.IsAmbiguous(2, 1, scene.config))
+  EXPECT_TRUE(scene.patches.IsAmbiguous(1, 2, scene.noise, scene.config));
+  EXPECT_FALSE(scene.patches.IsAmbiguous(2, 1, scene.noise, scene.config))
       << "nothing is apart from the right";
-  EXPECT_FALSE(scene.patches.IsAmbiguous(1, 0, scene.config)) << "that is what Apart() says";
+  EXPECT_FALSE(scene.patches.IsAmbiguous(1, 0, scene.noise, scene.config))
+      << "that is what Apart() says";
 }
 
 TEST(PatchUnion, DoesNotContestASheetBesideAnotherSurface) {
   const SheetOnADesk scene(1.05f);
-  EXPECT_FALSE(scene.patches.IsAmbiguous(1, 2, scene.config));
+  EXPECT_FALSE(scene.patches.IsAmbiguous(1, 2, scene.noise, scene.config));
 }
 
 TEST(PatchUnion, KeepsASheetApartFromADeskWhosePartsAreJoined) {
   SheetOnADesk scene(1.0f);
-  scene.patches.Join(0, 2, scene.config.noise);
+  scene.patches.Join(0, 2, scene.noise);
   EXPECT_TRUE(scene.patches.Apart(0, 1));
-  EXPECT_FALSE(scene.patches.IsAmbiguous(1, 0, scene.config));
+  EXPECT_FALSE(scene.patches.IsAmbiguous(1, 0, scene.noise, scene.config));
 }
 
 }  // namespace

@@ -68,7 +68,7 @@ TEST(PlaneExtractor, FitsItsPlanesToThePixelsThatItDraws) {
     const cv::Mat2d rays = PixelRays(view.camera);
     ExtractPlanes(frame, view.camera, rays, {});
     const DepthGrid grid =
-        MakeDepthGrid(view.depth_m, rays, DepthNoise{}, PlaneExtractionConfig{}.max_depth_m);
+        MakeDepthGrid(view.depth_m, rays, DepthNoise{}, SensorModel{}.max_depth_m);
     LabelImage drawn;
     for (const std::uint8_t value : frame.plane_labels)
       drawn.push_back(static_cast<std::int16_t>(value - 1));
@@ -90,7 +90,7 @@ TEST(PlaneExtractor, GivesTheSameWhateverItHasSeenBefore) {
   views.push_back({SizedCamera(320, 240), cv::Mat1f(240, 320, 0.0f)});
   views.push_back({SizedCamera(3, 2), cv::Mat1f(2, 3, 1.0f)});
   views.push_back(views.front());
-  PlaneExtractor used(views[0].camera, PixelRays(views[0].camera), {});
+  PlaneExtractor used(views[0].camera, PixelRays(views[0].camera), {}, {});
   for (std::size_t k = 0; k < views.size(); ++k) {
     SCOPED_TRACE(k);
     Frame by_used = closed_form::MakeFrame(views[k].depth_m);

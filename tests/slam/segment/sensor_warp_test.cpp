@@ -33,12 +33,13 @@ cv::Mat1f WarpedDepth(const Camera& camera, double crease_deg, double bend_m,
 
 double WarpOf(const cv::Mat1f& depth_m, const Camera& camera,
               const PlaneExtractionConfig& config = {}) {
+  const SensorModel sensor;
   const DepthGrid grid =
-      MakeDepthGrid(depth_m, PixelRays(camera), config.noise, config.max_depth_m);
+      MakeDepthGrid(depth_m, PixelRays(camera), sensor.noise, sensor.max_depth_m);
   BlockClustering clustering;
   const BlockClusters& clusters =
-      clustering.Cluster(grid, {}, config.block_px, config.noise, config.coarse);
-  return WarpMeasurement().Measure(clusters, clustering.SumsOfBlocks(), config);
+      clustering.Cluster(grid, {}, config.block_px, sensor.noise, config.coarse);
+  return WarpMeasurement().Measure(clusters, clustering.SumsOfBlocks(), sensor.noise, config);
 }
 
 /// Share of the image that the largest segment holds.

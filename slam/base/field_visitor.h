@@ -5,12 +5,10 @@
 #include <string>
 #include <vector>
 
-#include "slam/run/config.h"
-
 namespace slam {
 
-/// Visits every field of a Config: what reads a file, writes one or lists the fields implements
-/// it. A new field of a stage is one line in bind_*.cpp.
+/// Visits the fields of settings: what reads a file, writes one or lists the fields implements
+/// it. Each struct of settings has a VisitFields below it, which is the table of its keys.
 ///
 /// `key` is the field's name in the file, `domain` an interval (io/interval.h) in the file's
 /// units.
@@ -28,6 +26,25 @@ class FieldVisitor {
                       const char* help) = 0;
   virtual void Texts(const char* key, std::vector<std::string>& value, const char* help) = 0;
 
+  /// The settings of a part stand below `key`.
+  template <typename Part>
+  void Section(const char* key, const char* help, Part& part) requires
+      requires(Part& p, FieldVisitor& v) {
+    VisitFields(p, v);
+  }
+  {
+    Section(key, help, std::function<void()>([&] { VisitFields(part, *this); }));
+  }
+
+  /// An enumeration whose values count from 0 in the order of `names`.
+  template <typename Enum>
+  void Named(const char* key, Enum& value, const std::vector<std::string>& names,
+             const char* help) {
+    int position = static_cast<int>(value);
+    Choice(key, position, names, help);
+    value = static_cast<Enum>(position);
+  }
+
   /// An angle: radians in the struct, degrees in the file; `key` ends in _deg.
   void Degrees(const char* key, double& value_rad, const char* domain, const char* help) {
     constexpr double kDegree = std::numbers::pi / 180.0;
@@ -38,26 +55,5 @@ class FieldVisitor {
       value_rad = value_deg * kDegree;  // untouched is bit for bit the same
   }
 };
-
-/// An enumeration whose values count from 0 in the order of `names`.
-template <typename Enum>
-void VisitEnum(FieldVisitor& visitor, const char* key, Enum& value,
-               const std::vector<std::string>& names, const char* help) {
-  int position = static_cast<int>(value);
-  visitor.Choice(key, position, names, help);
-  value = static_cast<Enum>(position);
-}
-
-/// All fields, in the order of the data flow.
-void VisitConfig(Config& config, FieldVisitor& visitor);
-
-// The parts, by file.
-void VisitPoints(Config& config, FieldVisitor& visitor);       ///< features and tracking
-void VisitDetections(Config& config, FieldVisitor& visitor);   ///< classes and box tracks
-void VisitExtraction(Config& config, FieldVisitor& visitor);   ///< planes of a frame
-void VisitProcessing(Config& config, FieldVisitor& visitor);   ///< (C)
-void VisitAssociation(Config& config, FieldVisitor& visitor);  ///< (D) and the plane factors
-void VisitMapping(Config& config, FieldVisitor& visitor);
-void VisitLoop(Config& config, FieldVisitor& visitor);  ///< (F), (G)
 
 }  // namespace slam

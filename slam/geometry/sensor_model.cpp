@@ -1,4 +1,4 @@
-#include "slam/segment/depth_sensor.h"
+#include "slam/geometry/sensor_model.h"
 
 namespace slam {
 namespace {
@@ -26,24 +26,20 @@ DepthNoise D435Noise() {
 
 }  // namespace
 
-PlaneExtractionConfig ExtractionFor(DepthSensor sensor) {
-  PlaneExtractionConfig config;
-  config.sensor = sensor;
+SensorModel ModelOf(DepthSensor sensor) {
+  SensorModel model;
+  model.sensor = sensor;
   switch (sensor) {
     case DepthSensor::kKinect1:
       break;
     case DepthSensor::kAzure:
-      config.noise = AzureNoise();
-      config.max_bend_sigmas = 4.0;  // the wave bends a surface
-      config.max_bend_rad = 0.15;
-      config.max_warp_sigmas = 0.0;  // it is in the noise
+      model.noise = AzureNoise();
       break;
     case DepthSensor::kD435:
-      config.noise = D435Noise();
-      config.box_split.enabled = true;  // thin steps are hidden in its noise
+      model.noise = D435Noise();
       break;
   }
-  return config;
+  return model;
 }
 
 const std::vector<std::string>& DepthSensorNames() {

@@ -1,4 +1,4 @@
-#include "slam/segment/depth_sensor.h"
+#include "slam/segment/extraction_config.h"
 
 #include <gmock/gmock.h>
 
@@ -10,30 +10,6 @@
 
 namespace slam {
 namespace {
-
-TEST(DepthSensor, HasTheNoiseThatItsSourcesState) {
-  const DepthNoise kinect = ExtractionFor(DepthSensor::kKinect1).noise;
-  EXPECT_NEAR(kinect.Sigma(1.0), 0.0012 + 0.0019 * 0.36, 1e-12);
-  EXPECT_EQ(kinect.Sigma(0.3), 0.0012);
-  const DepthNoise d435 = ExtractionFor(DepthSensor::kD435).noise;
-  for (const double z_m : {0.5, 1.0, 2.0, 3.0}) {
-    EXPECT_NEAR(d435.Sigma(z_m), z_m * z_m * 0.08 / 21.5645, 0.00025) << z_m;
-  }
-  const DepthNoise azure = ExtractionFor(DepthSensor::kAzure).noise;
-  for (const double z_m : {0.5, 1.0, 1.5}) {
-    EXPECT_NEAR(azure.Sigma(z_m), std::hypot(0.0016 * z_m, 0.002), 0.0004) << z_m;
-  }
-}
-
-TEST(DepthSensor, IsNamedInTheOrderOfItsEnumeration) {
-  const std::vector<std::string>& names = DepthSensorNames();
-  ASSERT_EQ(names.size(), 3u);
-  EXPECT_EQ(names[static_cast<std::size_t>(DepthSensor::kAzure)], "azure");
-  EXPECT_EQ(names[static_cast<std::size_t>(DepthSensor::kD435)], "d435");
-  for (int k = 0; k < 3; ++k) {
-    EXPECT_EQ(ExtractionFor(static_cast<DepthSensor>(k)).sensor, static_cast<DepthSensor>(k));
-  }
-}
 
 /// Depth of a stereo camera: disparity errors of 0.08 px with 70 % of their variance smooth
 /// over windows of 7 x 7 pixels.
@@ -54,7 +30,7 @@ cv::Mat1f AddStereoNoise(const cv::Mat1f& depth_m, std::uint64_t seed) {
   return noisy;
 }
 
-TEST(DepthSensor, KeepsADeskWholeAndABookApartInStereoDepth) {
+TEST(ExtractionConfig, KeepsADeskWholeAndABookApartInStereoDepth) {
   closed_form::World world = closed_form::Desk();
   closed_form::PutOnDesk(world, 0.0, 0.0, {0.2, 0.25, 0.04}, 0.3, "book");
   const Camera camera;
@@ -62,7 +38,7 @@ TEST(DepthSensor, KeepsADeskWholeAndABookApartInStereoDepth) {
   const closed_form::View view = closed_form::Render(world, camera, T_cw);
   const auto planes = [&](DepthSensor sensor) {
     Frame frame = closed_form::MakeFrame(AddStereoNoise(view.depth_m, 5));
-    ExtractPlanes(frame, camera, PixelRays(camera), ExtractionFor(sensor));
+    ExtractPlanes(frame, camera, PixelRays(camera), ExtractionFor(sensor), ModelOf(sensor));
     return frame.planes.size();
   };
   EXPECT_EQ(planes(DepthSensor::kD435), 2u);

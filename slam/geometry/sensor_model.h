@@ -1,0 +1,47 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "slam/base/field_visitor.h"
+#include "slam/geometry/depth_noise.h"
+
+namespace slam {
+
+/// What measured the depth.
+enum class DepthSensor { kKinect1, kAzure, kD435 };
+
+/// Names as in files and on the command line, in the order of the enumeration.
+const std::vector<std::string>& DepthSensorNames();
+
+/// What is known of a depth sensor, whatever is done with its depth.
+struct SensorModel {
+  DepthSensor sensor = DepthSensor::kKinect1;
+  DepthNoise noise;
+  double max_depth_m = 10.0;
+};
+
+/// The model of a sensor:
+///
+/// - kKinect1: the defaults. Nguyen, Izadi, Lovell, "Modeling Kinect sensor noise", 3DIMPVT
+///   2012.
+/// - kAzure: time of flight. Noise of 0.5 mm + 1 mm/m (z - 0.5 m) on light surfaces, more on
+///   others, as fitted by Toelgyessy et al., "Evaluation of the Azure Kinect", Sensors 21(2),
+///   2021, and a systematic error, within the data sheet's 11 mm + 0.1 % of distance, taken as
+///   a wave of 2 mm over fractions of a metre. It does not average out over a surface.
+/// - kD435: active stereo. The error is one of disparity: sigma(z) = z^2 0.08 px / (430 px x
+///   50.15 mm), subpixel error and formula of Intel's "Tuning D435 and D415 cameras for best
+///   performance". Matching windows of 7 x 7 pixels share most of it.
+SensorModel ModelOf(DepthSensor sensor);
+
+/// A named sensor brings its whole model with it; the keys beside it go over that.
+inline void VisitFields(SensorModel& c, FieldVisitor& v) {
+  const DepthSensor before = c.sensor;
+  v.Named("model", c.sensor, DepthSensorNames(),
+          "what measured the depth; the defaults of noise and plane_extraction follow from it");
+  if (c.sensor != before) c = ModelOf(c.sensor);
+  v.Section("noise", "standard deviation of a depth", c.noise);
+  v.Number("max_depth_m", c.max_depth_m, "(0, inf)", "beyond it a pixel is not measured");
+}
+
+}  // namespace slam
