@@ -12,12 +12,12 @@
 #include "io/atomic_file.h"
 #include "io/input_error.h"
 #include "io/number_text.h"
-#include "sim/scene/drawing.h"
-#include "sim/scene/families.h"
+#include "sim/families/families.h"
+#include "sim/families/twin.h"
 #include "sim/scene/names.h"
 #include "sim/scene/scene_file.h"
-#include "sim/scene/steps.h"
-#include "sim/scene/twin.h"
+#include "sim/shapes/drawing.h"
+#include "sim/shapes/steps.h"
 
 namespace app {
 namespace {

@@ -8,7 +8,7 @@
 #include <filesystem>
 
 #include "app/app.h"
-#include "sim/scene/families.h"
+#include "sim/families/families.h"
 #include "sim/scene/scene_file.h"
 #include "sim/trace/frame_renderer.h"
 #include "sim/truth/truth_json.h"

@@ -9,7 +9,7 @@
 #include "property_tests/generators/scenes.h"
 #include "sim/scene/check.h"
 #include "sim/scene/scene_file.h"
-#include "sim/scene/steps.h"
+#include "sim/shapes/steps.h"
 #include "slam/associate/associate_planes.h"
 #include "slam/faces/process_planes.h"
 #include "slam/mapping/plane_update.h"

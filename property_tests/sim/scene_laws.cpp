@@ -10,7 +10,7 @@
 #include "sim/scene/check.h"
 #include "sim/scene/geometry.h"
 #include "sim/scene/scene_file.h"
-#include "sim/scene/steps.h"
+#include "sim/shapes/steps.h"
 
 namespace sim {
 namespace {

@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "io/input_error.h"
+#include "sim/base/angle.h"
 #include "sim/motion/pace.h"
-#include "sim/scene/angle.h"
 
 namespace sim {
 namespace {

@@ -2,7 +2,7 @@
 #include <cmath>
 
 #include "io/yaml_value.h"
-#include "sim/scene/angle.h"
+#include "sim/base/angle.h"
 #include "sim/scene/check.h"
 #include "sim/scene/names.h"
 #include "sim/scene/read_lights.h"

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "sim/scene/model.h"
+#include "sim/models/model.h"
 
 namespace sim {
 

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#include "sim/scene/faces.h"
+#include "sim/shapes/faces.h"
 
 namespace sim {
 

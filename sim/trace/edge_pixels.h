@@ -6,9 +6,9 @@
 #include <span>
 #include <vector>
 
+#include "sim/base/pose.h"
 #include "sim/camera/camera.h"
-#include "sim/scene/mesh.h"
-#include "sim/scene/pose.h"
+#include "sim/shapes/mesh.h"
 #include "sim/trace/image_rays.h"
 
 namespace sim {

@@ -3,8 +3,8 @@
 #include <memory>
 #include <opencv2/core/mat.hpp>
 
+#include "sim/base/pose.h"
 #include "sim/camera/camera.h"
-#include "sim/scene/pose.h"
 #include "sim/scene/scene.h"
 #include "sim/trace/ray_scene.h"
 

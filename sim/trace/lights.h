@@ -6,7 +6,7 @@
 #include <opencv2/core/matx.hpp>
 #include <vector>
 
-#include "sim/scene/pose.h"
+#include "sim/base/pose.h"
 #include "sim/scene/scene.h"
 #include "sim/trace/ray_scene.h"
 

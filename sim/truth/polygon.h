@@ -3,8 +3,8 @@
 #include <Eigen/Core>
 #include <vector>
 
+#include "sim/base/pose.h"
 #include "sim/camera/camera.h"
-#include "sim/scene/pose.h"
 #include "sim/scene/scene.h"
 
 namespace sim {

@@ -5,8 +5,8 @@
 #include <span>
 #include <vector>
 
-#include "sim/scene/mesh.h"
-#include "sim/scene/pose.h"
+#include "sim/base/pose.h"
+#include "sim/shapes/mesh.h"
 #include "sim/trace/exact_cast.h"
 
 namespace sim {

@@ -8,7 +8,7 @@
 #include "io/input_error.h"
 #include "sim/scene/check.h"
 #include "sim/scene/scene_file.h"
-#include "sim/scene/steps.h"
+#include "sim/shapes/steps.h"
 
 namespace {
 

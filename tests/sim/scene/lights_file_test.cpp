@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "io/input_error.h"
-#include "sim/scene/families.h"
+#include "sim/families/families.h"
 #include "sim/scene/geometry.h"
 #include "sim/scene/scene_file.h"
 

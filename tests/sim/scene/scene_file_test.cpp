@@ -9,8 +9,8 @@
 #include <string>
 
 #include "io/input_error.h"
-#include "sim/scene/angle.h"
-#include "sim/scene/families.h"
+#include "sim/base/angle.h"
+#include "sim/families/families.h"
 
 namespace sim {
 namespace {
