@@ -15,8 +15,10 @@
 #include "sim/families/families.h"
 #include "sim/families/twin.h"
 #include "sim/scene/names.h"
-#include "sim/scene/scene_file.h"
+#include "sim/scene/read_scene.h"
+#include "sim/scene/write_scene.h"
 #include "sim/shapes/drawing.h"
+#include "sim/shapes/planes.h"
 #include "sim/shapes/steps.h"
 
 namespace app {

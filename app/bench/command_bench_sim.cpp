@@ -9,7 +9,7 @@
 
 #include "app/app.h"
 #include "sim/families/families.h"
-#include "sim/scene/scene_file.h"
+#include "sim/scene/read_scene.h"
 #include "sim/trace/frame_renderer.h"
 #include "sim/truth/truth_json.h"
 #include "sim/write/parallel_frames.h"

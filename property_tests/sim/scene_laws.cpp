@@ -9,7 +9,9 @@
 #include "sim/motion/trajectory.h"
 #include "sim/scene/check.h"
 #include "sim/scene/geometry.h"
-#include "sim/scene/scene_file.h"
+#include "sim/scene/read_scene.h"
+#include "sim/scene/write_scene.h"
+#include "sim/shapes/planes.h"
 #include "sim/shapes/steps.h"
 
 namespace sim {

@@ -1,3 +1,5 @@
+#include "sim/scene/read_scene.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -7,7 +9,6 @@
 #include "sim/scene/names.h"
 #include "sim/scene/read_lights.h"
 #include "sim/scene/read_model.h"
-#include "sim/scene/scene_file.h"
 
 namespace sim {
 namespace {

@@ -1,3 +1,5 @@
+#include "sim/scene/write_scene.h"
+
 #include <cmath>
 
 #include "io/atomic_file.h"
@@ -6,7 +8,6 @@
 #include "sim/base/angle.h"
 #include "sim/scene/names.h"
 #include "sim/scene/read_model.h"
-#include "sim/scene/scene_file.h"
 
 namespace sim {
 namespace {

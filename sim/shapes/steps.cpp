@@ -3,6 +3,7 @@
 #include <optional>
 
 #include "sim/scene/geometry.h"
+#include "sim/shapes/planes.h"
 
 namespace sim {
 namespace {

@@ -1,4 +1,5 @@
 #include "sim/trace/surface.h"
+#include "sim/shapes/planes.h"
 
 #include <Eigen/Dense>
 

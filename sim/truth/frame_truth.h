@@ -4,6 +4,7 @@
 #include <optional>
 #include <vector>
 
+#include "sim/shapes/planes.h"
 #include "sim/trace/frame_renderer.h"
 #include "sim/truth/polygon.h"
 #include "sim/truth/silhouette.h"

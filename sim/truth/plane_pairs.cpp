@@ -7,6 +7,7 @@
 #include <optional>
 #include <set>
 
+#include "sim/shapes/planes.h"
 #include "sim/truth/polygon.h"
 
 namespace sim {

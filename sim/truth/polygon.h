@@ -6,6 +6,7 @@
 #include "sim/base/pose.h"
 #include "sim/camera/camera.h"
 #include "sim/scene/scene.h"
+#include "sim/shapes/planes.h"
 
 namespace sim {
 

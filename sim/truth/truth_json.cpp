@@ -2,6 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "sim/shapes/planes.h"
 #include "sim/truth/plane_pairs.h"
 
 namespace sim {

@@ -9,7 +9,7 @@
 #include "io/read_file.h"
 #include "io/sha256.h"
 #include "sim/motion/preset.h"
-#include "sim/scene/scene_file.h"
+#include "sim/scene/write_scene.h"
 #include "sim/truth/truth_json.h"
 #include "sim/write/parallel_frames.h"
 #include "sim/write/png.h"

@@ -7,7 +7,9 @@
 
 #include "io/input_error.h"
 #include "sim/scene/check.h"
-#include "sim/scene/scene_file.h"
+#include "sim/scene/read_scene.h"
+#include "sim/scene/write_scene.h"
+#include "sim/shapes/planes.h"
 #include "sim/shapes/steps.h"
 
 namespace {

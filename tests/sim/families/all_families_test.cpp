@@ -13,9 +13,11 @@
 #include "sim/families/families.h"
 #include "sim/families/twin.h"
 #include "sim/scene/geometry.h"
-#include "sim/scene/scene_file.h"
+#include "sim/scene/read_scene.h"
+#include "sim/scene/write_scene.h"
 #include "sim/shapes/drawing.h"
 #include "sim/shapes/mesh.h"
+#include "sim/shapes/planes.h"
 #include "tests/support/place.h"
 
 namespace sim {

@@ -10,7 +10,8 @@
 #include "io/input_error.h"
 #include "sim/scene/check.h"
 #include "sim/scene/geometry.h"
-#include "sim/scene/scene_file.h"
+#include "sim/scene/write_scene.h"
+#include "sim/shapes/planes.h"
 
 namespace sim {
 namespace {

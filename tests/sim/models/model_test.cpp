@@ -11,8 +11,10 @@
 
 #include "io/input_error.h"
 #include "io/sha256.h"
-#include "sim/scene/scene_file.h"
+#include "sim/scene/read_scene.h"
+#include "sim/scene/write_scene.h"
 #include "sim/shapes/mesh.h"
+#include "sim/shapes/planes.h"
 #include "sim/shapes/steps.h"
 
 namespace sim {

@@ -9,7 +9,7 @@
 #include "sim/base/angle.h"
 #include "sim/families/families.h"
 #include "sim/scene/geometry.h"
-#include "sim/scene/scene_file.h"
+#include "sim/scene/read_scene.h"
 #include "tests/support/trajectory_means.h"
 
 namespace sim {

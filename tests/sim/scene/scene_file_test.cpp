@@ -1,4 +1,5 @@
-#include "sim/scene/scene_file.h"
+#include "sim/scene/read_scene.h"
+#include "sim/scene/write_scene.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -11,6 +11,7 @@
 
 #include "sim/families/families.h"
 #include "sim/shapes/faces.h"
+#include "sim/shapes/planes.h"
 #include "tests/support/place.h"
 
 namespace sim {

@@ -6,7 +6,8 @@
 #include <fstream>
 #include <map>
 
-#include "sim/scene/scene_file.h"
+#include "sim/scene/read_scene.h"
+#include "sim/shapes/planes.h"
 #include "sim/truth/frame_truth.h"
 #include "sim/truth/plane_pairs.h"
 #include "tests/sim/support/sim_worlds.h"

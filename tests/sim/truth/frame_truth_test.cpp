@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "sim/shapes/planes.h"
 #include "sim/truth/truth_json.h"
 #include "tests/sim/support/sim_worlds.h"
 

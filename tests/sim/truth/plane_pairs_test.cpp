@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "sim/shapes/planes.h"
 #include "sim/truth/truth_json.h"
 #include "tests/sim/support/sim_worlds.h"
 
