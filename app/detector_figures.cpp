@@ -7,8 +7,8 @@
 #include "app/console.h"
 #include "io/atomic_file.h"
 #include "sim/detect/detector_score.h"
+#include "sim/families/families.h"
 #include "sim/motion/trajectory.h"
-#include "sim/scene/families.h"
 #include "sim/write/parallel_frames.h"
 
 namespace app {

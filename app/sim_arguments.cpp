@@ -6,7 +6,7 @@
 #include "io/sha256.h"
 #include "sim/motion/recorded.h"
 #include "sim/scene/names.h"
-#include "sim/scene/scene_file.h"
+#include "sim/scene/read_scene.h"
 #include "sim/sensor/read_sensor.h"
 #include "version.h"
 

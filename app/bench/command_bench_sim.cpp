@@ -8,8 +8,8 @@
 #include <filesystem>
 
 #include "app/app.h"
-#include "sim/scene/families.h"
-#include "sim/scene/scene_file.h"
+#include "sim/families/families.h"
+#include "sim/scene/read_scene.h"
 #include "sim/trace/frame_renderer.h"
 #include "sim/truth/truth_json.h"
 #include "sim/write/parallel_frames.h"

@@ -6,8 +6,8 @@
 #include <map>
 #include <string>
 
-#include "sim/scene/angle.h"
-#include "sim/scene/families.h"
+#include "sim/base/angle.h"
+#include "sim/families/families.h"
 #include "sim/scene/scene.h"
 
 namespace sim {

@@ -13,8 +13,8 @@
 #include "property_tests/generators/scenes.h"
 #include "sim/motion/trajectory.h"
 #include "sim/scene/geometry.h"
-#include "sim/scene/mesh.h"
 #include "sim/scene/names.h"
+#include "sim/shapes/mesh.h"
 
 namespace sim {
 namespace {

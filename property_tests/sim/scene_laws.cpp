@@ -9,8 +9,10 @@
 #include "sim/motion/trajectory.h"
 #include "sim/scene/check.h"
 #include "sim/scene/geometry.h"
-#include "sim/scene/scene_file.h"
-#include "sim/scene/steps.h"
+#include "sim/scene/read_scene.h"
+#include "sim/scene/write_scene.h"
+#include "sim/shapes/planes.h"
+#include "sim/shapes/steps.h"
 
 namespace sim {
 namespace {
@@ -35,7 +37,7 @@ RC_GTEST_PROP(SceneFamilies, StepEveryRegularTopUpwards, ()) {
   const SceneRecipe recipe = DrawSceneRecipe();
   RC_LOG() << recipe.Command();
   const Scene scene = recipe.Make();
-  for (const TopStep& step : TopSteps(scene)) RC_ASSERT(step.step_mm > 0.5);
+  for (const TopStep& step : TopSteps(scene, ScenePlanes(scene))) RC_ASSERT(step.step_mm > 0.5);
 }
 
 RC_GTEST_PROP(SceneFile, GivesBackAnyBoxBitForBit, ()) {

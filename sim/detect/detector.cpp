@@ -5,9 +5,9 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
+#include "sim/base/random.h"
 #include "sim/detect/confusions.h"
 #include "sim/detect/slow_noise.h"
-#include "sim/scene/random.h"
 #include "sim/sensor/noise.h"
 
 namespace sim {

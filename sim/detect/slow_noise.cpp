@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "sim/scene/random.h"
+#include "sim/base/random.h"
 #include "sim/sensor/noise.h"
 
 namespace sim {

@@ -5,12 +5,12 @@
 #include <cstdint>
 #include <vector>
 
+#include "sim/base/pose.h"
+#include "sim/base/random.h"
 #include "sim/motion/free_space.h"
 #include "sim/motion/preset.h"
 #include "sim/motion/tremor.h"
 #include "sim/motion/view.h"
-#include "sim/scene/pose.h"
-#include "sim/scene/random.h"
 #include "sim/scene/scene.h"
 
 namespace sim {

@@ -1,6 +1,6 @@
 #include "sim/motion/pace.h"
 
-#include "sim/scene/random.h"
+#include "sim/base/random.h"
 
 namespace sim {
 

@@ -5,7 +5,7 @@
 #include <stdexcept>
 #include <vector>
 
-#include "sim/scene/angle.h"
+#include "sim/base/angle.h"
 
 namespace sim {
 namespace {

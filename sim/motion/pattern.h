@@ -4,8 +4,8 @@
 #include <memory>
 #include <string>
 
+#include "sim/base/random.h"
 #include "sim/motion/view.h"
-#include "sim/scene/random.h"
 #include "sim/scene/scene.h"
 
 namespace sim {

@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "sim/scene/pose.h"
+#include "sim/base/pose.h"
 #include "sim/scene/scene.h"
 
 namespace sim {

@@ -2,8 +2,8 @@
 
 #include <cmath>
 
-#include "sim/scene/angle.h"
-#include "sim/scene/random.h"
+#include "sim/base/angle.h"
+#include "sim/base/random.h"
 
 namespace sim {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "sim/scene/angle.h"
+#include "sim/base/angle.h"
 
 namespace sim {
 

@@ -3,7 +3,7 @@
 #include <Eigen/Core>
 #include <array>
 
-#include "sim/scene/pose.h"
+#include "sim/base/pose.h"
 
 namespace sim {
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "sim/scene/angle.h"
+#include "sim/base/angle.h"
 
 namespace sim {
 namespace {

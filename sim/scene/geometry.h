@@ -4,7 +4,7 @@
 #include <array>
 #include <vector>
 
-#include "sim/scene/pose.h"
+#include "sim/base/pose.h"
 #include "sim/scene/scene.h"
 
 namespace sim {

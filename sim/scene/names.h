@@ -5,6 +5,9 @@
 
 namespace sim {
 
+/// First key of a scene file.
+inline constexpr const char* kSceneFormat = "pas-scene/1";
+
 /// Names of the enumerations in files, in the order of the enumerators.
 inline const std::vector<std::string> kRoleNames{"structure", "regular", "unstructured",
                                                  "other"};

@@ -1,12 +1,13 @@
+#include "sim/scene/write_scene.h"
+
 #include <cmath>
 
 #include "io/atomic_file.h"
 #include "io/number_text.h"
 #include "io/sha256.h"
-#include "sim/scene/angle.h"
+#include "sim/base/angle.h"
 #include "sim/scene/names.h"
 #include "sim/scene/read_model.h"
-#include "sim/scene/scene_file.h"
 
 namespace sim {
 namespace {

@@ -4,8 +4,8 @@
 #include <opencv2/core/types.hpp>
 #include <vector>
 
+#include "sim/base/pose.h"
 #include "sim/camera/camera.h"
-#include "sim/scene/pose.h"
 #include "sim/scene/scene.h"
 #include "sim/trace/image_rays.h"
 

@@ -6,12 +6,14 @@
 #include <span>
 #include <vector>
 
+#include "sim/base/pose.h"
 #include "sim/camera/camera.h"
-#include "sim/scene/mesh.h"
-#include "sim/scene/pose.h"
+#include "sim/shapes/mesh.h"
 #include "sim/trace/image_rays.h"
 
 namespace sim {
+
+inline constexpr double kNear_m = 1e-3;  ///< nothing is seen closer than this
 
 /// A pixel whose centre lies beside the projection of an edge.
 struct EdgePixel {

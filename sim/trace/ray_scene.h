@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "sim/scene/mesh.h"
+#include "sim/shapes/mesh.h"
 
 namespace sim {
 

@@ -12,12 +12,13 @@
 
 namespace sim {
 
-inline constexpr float kNear_m = 1e-3F;          ///< nothing is seen closer than this
+inline constexpr float kNearRay_m = static_cast<float>(kNear_m);  ///< the same for rays
 inline constexpr double kLeaveSurface_m = 1e-4;  ///< second rays start this far off the surface
 
 /// Everything about a scene that its views share. Const and thread-safe.
 struct RenderWorld {
   RenderWorld(const Scene& scene_in, const Camera& camera_in, InstructionSet set_in);
+  std::vector<Triangle> TrianglesOf(std::size_t object_index) const;
   /// The object with nothing else there, built when it is first asked for.
   const RayScene& Alone(std::size_t object_index) const;
 

@@ -6,15 +6,15 @@ namespace sim {
 namespace {
 
 constexpr double kClosestLook_m = 0.4;  ///< prints are baked for this viewing distance
-constexpr double kTexelsAPixel = 3.2;  ///< of the longer image side, along the longer face side
+constexpr double kTexelsAPixel =
+    3.2;  ///< per pixel of the longer image side, along the longer face side
 
 }  // namespace
 
-SurfaceTable::SurfaceTable(const Scene& scene, const SceneMesh& mesh, const Camera& camera)
+SurfaceTable::SurfaceTable(const SceneMesh& mesh, const Camera& camera)
     : texel_m_(kClosestLook_m / std::max(camera.fx, camera.fy)),
       max_texels_(std::min(
           32000, static_cast<int>(kTexelsAPixel * std::max(camera.width, camera.height)))) {
-  const std::vector<ScenePlane> planes = ScenePlanes(scene);
   for (const Material& material : mesh.materials) {
     prints_.push_back(std::make_unique<BakedPrint>(material));
   }
@@ -24,7 +24,7 @@ SurfaceTable::SurfaceTable(const Scene& scene, const SceneMesh& mesh, const Came
     facet.material = triangle.material;
     facet.normals_w = triangle.normals_w;
     if (triangle.plane > 0) {
-      const ScenePlane& plane = planes.at(static_cast<std::size_t>(triangle.plane) - 1);
+      const ScenePlane& plane = mesh.planes.at(static_cast<std::size_t>(triangle.plane) - 1);
       facet.n_w = plane.n_w;
       facet.d = plane.d;
     } else {

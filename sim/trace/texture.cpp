@@ -9,8 +9,8 @@
 namespace sim {
 namespace {
 
-constexpr int kMaxTaps = 4;           ///< along the longer side of a slanted footprint
-constexpr float kLeastBlend = 1e-3F;  ///< less of the coarser level is none
+constexpr int kMaxTaps = 4;         ///< along the longer side of a slanted footprint
+constexpr float kMinBlend = 1e-3F;  ///< less of the coarser level is none
 
 /// log2 to 0.09, from the bits alone: exactly the same everywhere.
 float RoughLog2(float x) {
@@ -88,17 +88,20 @@ TextureFootprint Texture::Footprint(const TextureSteps& steps) const {
   const float scale = 1.0F / texel_m_;
   const float right = steps.right_u * steps.right_u + steps.right_v * steps.right_v;
   const float down = steps.down_u * steps.down_u + steps.down_v * steps.down_v;
+  // The pixel's footprint on the print is a parallelogram: its longer side is covered by taps,
+  // its shorter one by the level.
   const bool wide = right > down;
   const float major = std::sqrt(wide ? right : down);
   const float area = std::abs(steps.right_u * steps.down_v - steps.right_v * steps.down_u);
   const float minor = std::max(area / std::max(major, 1e-12F), major / kMaxTaps);
+  // The level whose texels are as large as the shorter side.
   const float last = static_cast<float>(levels_.size() - 1);
   const float lod = std::clamp(RoughLog2(std::max(minor * scale, 1e-6F)), 0.0F, last);
   TextureFootprint footprint;
   footprint.taps = std::clamp(static_cast<int>(major / minor + 0.5F), 1, kMaxTaps);
   footprint.level = static_cast<std::size_t>(lod);
   const float blend = lod - static_cast<float>(footprint.level);
-  if (blend >= kLeastBlend && footprint.level + 1 < levels_.size()) footprint.blend = blend;
+  if (blend >= kMinBlend && footprint.level + 1 < levels_.size()) footprint.blend = blend;
   const float share = scale / static_cast<float>(footprint.taps);
   footprint.step_u = (wide ? steps.right_u : steps.down_u) * share;
   footprint.step_v = (wide ? steps.right_v : steps.down_v) * share;

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <set>
 
 #include "sim/scene/geometry.h"
 
@@ -54,34 +53,15 @@ cv::Rect PixelsOf(const PixelBox& box, const Camera& camera) {
          cv::Rect(0, 0, camera.width, camera.height);
 }
 
-/// What moves has no corners, and never bears one.
-std::vector<Triangle> OfWhatStands(const Scene& scene, const SceneMesh& mesh) {
-  std::set<int> moving;
-  for (const Object& object : scene.objects) {
-    if (!object.way.empty()) moving.insert(object.id);
-  }
-  std::vector<Triangle> standing;
-  std::copy_if(mesh.triangles.begin(), mesh.triangles.end(), std::back_inserter(standing),
-               [&](const Triangle& triangle) { return moving.count(triangle.object) == 0; });
-  return standing;
-}
-
 }  // namespace
 
 TruthMaker::TruthMaker(const FrameRenderer& renderer)
-    : TruthMaker(renderer, BuildMesh(renderer.scene())) {}
-
-TruthMaker::TruthMaker(const FrameRenderer& renderer, const SceneMesh& mesh)
     : renderer_(renderer),
-      planes_(ScenePlanes(renderer.scene())),
-      ends_(OfWhatStands(renderer.scene(), mesh)) {
-  std::map<int, std::size_t> place_of;
-  for (const Object& object : renderer.scene().objects) {
-    place_of.emplace(object.id, triangles_.size());
-    triangles_.emplace_back();
-  }
-  for (const Triangle& triangle : mesh.triangles) {
-    triangles_[place_of.at(triangle.object)].push_back(triangle);
+      planes_(renderer.standing().planes),
+      // What moves has no corners, and never bears one.
+      ends_(renderer.standing().triangles) {
+  for (std::size_t i = 0; i < renderer.scene().objects.size(); ++i) {
+    triangles_.push_back(renderer.TrianglesOf(i));
   }
   std::map<std::array<double, 3>, std::size_t> numbers;
   for (const ScenePlane& plane : planes_) {
@@ -127,6 +107,7 @@ FrameTruth TruthMaker::Describe(const Rendering& rendering, const Pose& T_wc,
     object.pixels = extent.pixels;
     object.visible_box = {static_cast<double>(extent.u0), static_cast<double>(extent.v0),
                           static_cast<double>(extent.u1), static_cast<double>(extent.v1)};
+    // What moved is seen as if it stood and the camera had moved round it.
     object.amodal_box = ProjectedBox(triangles_[i], Inverse(renderer_.Moved(i, time_s)) * T_wc,
                                      renderer_.camera())
                             .value_or(object.visible_box);
@@ -139,6 +120,7 @@ FrameTruth TruthMaker::Describe(const Rendering& rendering, const Pose& T_wc,
   }
   std::sort(truth.objects.begin(), truth.objects.end(),
             [](const auto& a, const auto& b) { return a.id < b.id; });
+  // Faces that meet share their corners: each is described once.
   std::vector<std::optional<VertexInFrame>> corners(corner_count_);
   for (const auto& [id, extent] : Extents(rendering.plane_id)) {
     const auto i = static_cast<std::size_t>(id) - 1;

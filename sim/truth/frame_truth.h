@@ -4,6 +4,7 @@
 #include <optional>
 #include <vector>
 
+#include "sim/shapes/planes.h"
 #include "sim/trace/frame_renderer.h"
 #include "sim/truth/polygon.h"
 #include "sim/truth/silhouette.h"
@@ -17,8 +18,8 @@ struct ObjectInFrame {
   int pixels = 0;             ///< visible, of the object_id image
   int unoccluded_pixels = 0;  ///< inside the image, were nothing else there
   PixelBox visible_box;       ///< first to last visible pixel centre, inclusive
-  PixelBox amodal_box;       ///< of the whole object with z > 1 cm, not cut at the image border
-  std::optional<Pose> T_wo;  ///< of what moves, at the moment of the frame
+  PixelBox amodal_box;        ///< the whole object's with z > 1 cm, not cut at the image border
+  std::optional<Pose> T_wo;   ///< only of what moves, at the moment of the frame
   double visible_fraction = 0;  ///< pixels / unoccluded_pixels, in (0, 1]
 };
 
@@ -26,7 +27,7 @@ struct ObjectInFrame {
 enum class VertexState {
   kVisible,
   kOccluded,  ///< inside the image, but something is 0.1 mm or more before it
-  kOutside    ///< of the image, or nearer than kSilhouetteNear_m
+  kOutside    ///< outside the image, or nearer than kSilhouetteNear_m
 };
 
 struct VertexInFrame {
@@ -34,7 +35,7 @@ struct VertexInFrame {
   Eigen::Vector2d pixel;  ///< its projection; only when z > kSilhouetteNear_m
   bool projects = false;
   VertexState state = VertexState::kOutside;
-  bool surface_ends = false;  ///< of a visible one: whether it lies at the surface's edge,
+  bool surface_ends = false;  ///< only when visible: whether it lies at the surface's edge,
                               ///< where depth breaks off (SurfaceEnds)
 };
 
@@ -63,10 +64,9 @@ class TruthMaker {
   const FrameRenderer& renderer_;
   VertexInFrame DescribeCorner(const Eigen::Vector3d& x_w, const Pose& T_wc,
                                double time_s) const;
-  TruthMaker(const FrameRenderer& renderer, const SceneMesh& mesh);
 
   std::vector<std::vector<Triangle>> triangles_;  ///< by object
-  std::vector<ScenePlane> planes_;                ///< by id - 1
+  const std::vector<ScenePlane>& planes_;         ///< by id - 1
   /// By id - 1 and vertex: the same number where faces meet in the very same point.
   std::vector<std::vector<std::size_t>> corners_;
   std::size_t corner_count_ = 0;

@@ -3,9 +3,10 @@
 #include <Eigen/Core>
 #include <vector>
 
+#include "sim/base/pose.h"
 #include "sim/camera/camera.h"
-#include "sim/scene/pose.h"
 #include "sim/scene/scene.h"
+#include "sim/shapes/planes.h"
 
 namespace sim {
 

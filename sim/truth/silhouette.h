@@ -4,9 +4,9 @@
 #include <optional>
 #include <span>
 
+#include "sim/base/pose.h"
 #include "sim/camera/camera.h"
-#include "sim/scene/mesh.h"
-#include "sim/scene/pose.h"
+#include "sim/shapes/mesh.h"
 
 namespace sim {
 

@@ -4,7 +4,7 @@
 #include <opencv2/imgproc.hpp>
 #include <vector>
 
-#include "sim/scene/random.h"
+#include "sim/base/random.h"
 
 namespace sim {
 namespace {

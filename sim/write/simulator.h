@@ -14,8 +14,8 @@ struct RigOptions {
   Camera camera;
   Sensor sensor = SensorKind::kKinect1;
   DetectorKind detector = DetectorKind::kNoisy;
-  Exposure exposure;       ///< of the colour camera
-  std::uint64_t seed = 1;  ///< of all noise
+  Exposure exposure;       ///< the colour camera's
+  std::uint64_t seed = 1;  ///< for all noise
 };
 
 /// One frame as it is recorded, with its truth; images are height x width.
@@ -39,6 +39,7 @@ class Simulator {
   /// shot.DepthDelay_s() later. Truth is of shot.T_wc, the middle of the colour exposure.
   SimulatedFrame Simulate(int frame, const Shot& shot, const PoseAround& around) const;
   const RigOptions& options() const { return options_; }
+  const std::vector<ScenePlane>& planes() const { return renderer_.standing().planes; }
 
  private:
   Rendering RenderForDepth(const Pose& T_wc, double time_s) const;

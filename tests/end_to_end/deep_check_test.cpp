@@ -8,7 +8,7 @@
 
 #include "eval/check/check_folder.h"
 #include "io/sha256.h"
-#include "sim/scene/families.h"
+#include "sim/families/families.h"
 #include "tests/support/pipeline.h"
 
 namespace {

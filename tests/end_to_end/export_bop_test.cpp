@@ -8,7 +8,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "eval/export/bop.h"
-#include "sim/scene/families.h"
+#include "sim/families/families.h"
 #include "tests/support/pipeline.h"
 
 namespace export_bop {

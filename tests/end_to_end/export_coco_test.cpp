@@ -8,7 +8,7 @@
 #include <set>
 
 #include "eval/export/coco.h"
-#include "sim/scene/families.h"
+#include "sim/families/families.h"
 #include "tests/support/pipeline.h"
 
 namespace export_coco {

@@ -5,7 +5,7 @@
 
 #include <locale>
 
-#include "sim/scene/families.h"
+#include "sim/families/families.h"
 #include "tests/support/pipeline.h"
 
 namespace {

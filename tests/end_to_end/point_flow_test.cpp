@@ -4,8 +4,8 @@
 #include <cmath>
 #include <tuple>
 
+#include "sim/families/families.h"
 #include "sim/motion/trajectory.h"
-#include "sim/scene/families.h"
 #include "slam/features/match_features.h"
 #include "slam/features/point_features.h"
 #include "slam/model/feature_scale.h"

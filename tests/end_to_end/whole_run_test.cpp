@@ -3,7 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "sim/scene/families.h"
+#include "sim/families/families.h"
 #include "tests/support/pipeline.h"
 
 namespace {

@@ -7,8 +7,10 @@
 
 #include "io/input_error.h"
 #include "sim/scene/check.h"
-#include "sim/scene/scene_file.h"
-#include "sim/scene/steps.h"
+#include "sim/scene/read_scene.h"
+#include "sim/scene/write_scene.h"
+#include "sim/shapes/planes.h"
+#include "sim/shapes/steps.h"
 
 namespace {
 
@@ -59,7 +61,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   Require(sim::SceneText(sim::ParseScene(canonical, "canonical")) == canonical,
           "a scene does not read back as itself");
   CheckPlanes(scene);
-  sim::TopSteps(scene);
+  sim::TopSteps(scene, sim::ScenePlanes(scene));
   CountBySize(scene);
   return 0;
 }

@@ -8,7 +8,7 @@
 #include <fstream>
 
 #include "eval/regression/baseline.h"
-#include "sim/scene/families.h"
+#include "sim/families/families.h"
 #include "tests/support/pipeline.h"
 
 namespace {

@@ -2,6 +2,7 @@
 
 #include <opencv2/imgproc.hpp>
 
+#include "sim/shapes/planes.h"
 #include "slam/input/image_file.h"
 
 namespace live {

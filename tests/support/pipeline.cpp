@@ -10,7 +10,7 @@
 #include "eval/read/sequence.h"
 #include "eval/report/evaluate.h"
 #include "eval/report/metrics_json.h"
-#include "sim/scene/scene_file.h"
+#include "sim/scene/write_scene.h"
 
 namespace pipeline {
 namespace fs = std::filesystem;

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <vector>
 
+#include "sim/base/angle.h"
 #include "sim/motion/trajectory.h"
-#include "sim/scene/angle.h"
 
 namespace sim {
 

@@ -6,7 +6,7 @@
 #include <fstream>
 #include <sstream>
 
-#include "sim/scene/families.h"
+#include "sim/families/families.h"
 #include "sim/write/write_sequence.h"
 #include "slam/run/run_sequence.h"
 

@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
+#include "sim/families/families.h"
+#include "sim/families/twin.h"
 #include "sim/motion/trajectory.h"
-#include "sim/scene/families.h"
-#include "sim/scene/twin.h"
 #include "tests/support/hand_measures.h"
 #include "tests/support/trajectory_means.h"
 

@@ -6,11 +6,11 @@
 
 #include "io/input_error.h"
 #include "io/sha256.h"
+#include "sim/base/angle.h"
+#include "sim/families/families.h"
+#include "sim/families/twin.h"
 #include "sim/motion/trajectory.h"
-#include "sim/scene/angle.h"
-#include "sim/scene/families.h"
 #include "sim/scene/geometry.h"
-#include "sim/scene/twin.h"
 #include "tests/support/trajectory_means.h"
 
 namespace sim {

@@ -8,10 +8,10 @@
 #include <string>
 
 #include "io/input_error.h"
+#include "sim/base/angle.h"
+#include "sim/families/families.h"
 #include "sim/motion/clearance.h"
 #include "sim/motion/trajectory.h"
-#include "sim/scene/angle.h"
-#include "sim/scene/families.h"
 
 namespace sim {
 namespace {

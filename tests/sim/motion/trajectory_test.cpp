@@ -6,10 +6,10 @@
 #include <cmath>
 
 #include "io/input_error.h"
-#include "sim/scene/angle.h"
-#include "sim/scene/families.h"
+#include "sim/base/angle.h"
+#include "sim/families/families.h"
 #include "sim/scene/geometry.h"
-#include "sim/scene/scene_file.h"
+#include "sim/scene/read_scene.h"
 #include "tests/support/trajectory_means.h"
 
 namespace sim {

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "sim/scene/angle.h"
+#include "sim/base/angle.h"
 
 namespace sim {
 namespace {

@@ -2,9 +2,10 @@
 #include <gtest/gtest.h>
 
 #include "io/input_error.h"
-#include "sim/scene/families.h"
+#include "sim/families/families.h"
 #include "sim/scene/geometry.h"
-#include "sim/scene/scene_file.h"
+#include "sim/scene/read_scene.h"
+#include "sim/scene/write_scene.h"
 
 namespace sim {
 namespace {

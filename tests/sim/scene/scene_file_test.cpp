@@ -1,4 +1,5 @@
-#include "sim/scene/scene_file.h"
+#include "sim/scene/read_scene.h"
+#include "sim/scene/write_scene.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -9,8 +10,8 @@
 #include <string>
 
 #include "io/input_error.h"
-#include "sim/scene/angle.h"
-#include "sim/scene/families.h"
+#include "sim/base/angle.h"
+#include "sim/families/families.h"
 
 namespace sim {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "sim/scene/random.h"
+#include "sim/base/random.h"
 #include "sim/trace/exact_cast.h"
 #include "tests/sim/support/sim_worlds.h"
 

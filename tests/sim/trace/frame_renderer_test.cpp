@@ -1,4 +1,5 @@
 #include "sim/trace/frame_renderer.h"
+#include "sim/shapes/planes.h"
 
 #include <gtest/gtest.h>
 

@@ -3,7 +3,7 @@
 #include <opencv2/core.hpp>
 #include <thread>
 
-#include "sim/scene/families.h"
+#include "sim/families/families.h"
 #include "sim/trace/frame_renderer.h"
 #include "tests/sim/support/sim_worlds.h"
 
