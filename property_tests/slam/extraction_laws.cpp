@@ -24,9 +24,9 @@ Camera AnyCamera() {
 }
 
 Frame Extract(const cv::Mat1f& depth_m, const Camera& camera,
-              const PlaneExtractionConfig& config = {}) {
+              const SensorModel& sensor = {}) {
   Frame frame = closed_form::MakeFrame(depth_m);
-  ExtractPlanes(frame, camera, PixelRays(camera), config);
+  ExtractPlanes(frame, camera, PixelRays(camera), {}, sensor);
   return frame;
 }
 
@@ -166,13 +166,13 @@ RC_GTEST_PROP(PlaneExtraction, ScalingDepthAndNoiseByAPowerOfTwoChangesNoLabel, 
   const Camera camera = SmallCamera();
   const closed_form::View view = ViewOf(AnyBoxes(), camera);
   const float s = AnyInt(0, 1) == 0 ? 0.5f : 2.0f;
-  PlaneExtractionConfig scaled;
+  SensorModel scaled;
   // sigma'(s z) = s sigma(z), with the length that the incidence term holds to the 3/2.
   scaled.noise.floor_m *= static_cast<double>(s);
   scaled.noise.quadratic_per_m /= static_cast<double>(s);
   scaled.noise.nearest_m *= static_cast<double>(s);
   scaled.noise.grazing_m = 0.0;
-  PlaneExtractionConfig plain;
+  SensorModel plain;
   plain.noise.grazing_m = 0.0;
   const Frame a = Extract(view.depth_m, camera, plain);
   const Frame b = Extract(cv::Mat1f(cv::Mat(view.depth_m * s)), camera, scaled);

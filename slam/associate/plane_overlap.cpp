@@ -4,16 +4,12 @@
 #include <cmath>
 #include <limits>
 
+#include "slam/associate/occlusion.h"
 #include "slam/geometry/pixel_projection.h"
 
 namespace slam {
 namespace {
 
-// A cloud point farther behind the measured depth than this is hidden. It must exceed what
-// sensor and pose get wrong, and stay below the height of things that hide; planes that lie
-// closer are told apart by their labels, not here.
-constexpr double kHidden_m = 0.02;
-constexpr double kHiddenShare = 0.02;  // of the distance
 constexpr std::size_t kGapPatchPoints = 60, kGapCloudPoints = 400;
 
 std::size_t Stride(std::size_t count, std::size_t wanted) {
@@ -37,7 +33,7 @@ PlaneView ViewMapPlane(const MapPlane& map_plane, const Frame& frame, const Pose
     const Eigen::Vector2i u = RecordedPixel(camera, x_c);
     if (u.x() < 0) continue;
     const double depth = has_depth ? static_cast<double>(frame.depth_m(u.y(), u.x())) : x_c.z();
-    if (!(depth > 0) || depth < x_c.z() - kHidden_m - kHiddenShare * x_c.z()) continue;
+    if (!(depth > 0) || IsHidden(depth, x_c.z())) continue;
     ++view.expected;
     const int label = has_labels ? frame.plane_labels(u.y(), u.x()) : 0;
     if (label > 0 && label <= static_cast<int>(frame.planes.size())) {

@@ -1,5 +1,6 @@
 #include "slam/associate/plane_samples.h"
 
+#include "slam/associate/occlusion.h"
 #include "slam/geometry/pixel_projection.h"
 
 namespace slam {
@@ -23,7 +24,6 @@ std::vector<std::vector<Eigen::Vector3d>> FeaturesOnPlanes(const Frame& frame, c
 std::vector<Eigen::Vector3d> VisibleMapPoints(const MapPlane& map_plane, const Map& map,
                                               const Frame& frame, const Pose& T_cw,
                                               const Camera& camera) {
-  constexpr double kHiddenShare = 0.04;  // of the distance: noise of depth and pose
   std::vector<Eigen::Vector3d> visible;
   for (const int id : map_plane.map_points) {
     if (id < 0 || id >= static_cast<int>(map.points.size())) continue;
@@ -34,7 +34,7 @@ std::vector<Eigen::Vector3d> VisibleMapPoints(const MapPlane& map_plane, const M
     if (u.x() < 0) continue;
     const double depth =
         frame.depth_m.empty() ? x_c.z() : static_cast<double>(frame.depth_m(u.y(), u.x()));
-    if (depth > 0 && depth < x_c.z() * (1 - kHiddenShare)) continue;
+    if (depth > 0 && IsHidden(depth, x_c.z())) continue;
     visible.push_back(point.p_w);
   }
   return visible;

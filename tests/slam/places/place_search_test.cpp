@@ -33,8 +33,10 @@ Frame Mistaken(const PointWorld& world, int right, std::uint64_t seed) {
 
 std::optional<PlacePose> Find(const PointWorld& world, const Frame& frame,
                               const PlaceSearchConfig& config = {}) {
+  PointSearchConfig search;
+  search.place = config;
   return FindPose(world.map.keyframes[0], frame, world.map, world.camera, FeatureScale{},
-                  PointSearchConfig{.place = config});
+                  search);
 }
 
 TEST(PlaceSearch, FindsThePoseThatAFifthOfTheMatchesAgreeOn) {

@@ -109,7 +109,7 @@ class RunFolder : public ::testing::Test {
       ModuleTimes times;
       times[Module::kOrb] = 12.5;
       times[Module::kMt] = 99;
-      writer.WriteFrame({frame, i != 1, times});
+      writer.WriteFrame({frame, i != 1, times, "", {}});
     }
     writer.Finish(SomeMap());
   }
@@ -181,7 +181,7 @@ TEST_F(RunFolder, WritesTrackedPosesFromCameraToWorldToTheLastBit) {
 
 TEST_F(RunFolder, TakesALaterTrajectoryInPlaceOfTheOneAsTracked) {
   RunWriter writer(run_, Info(), {});
-  writer.WriteFrame({SomeFrame(0), true, {}});
+  writer.WriteFrame({SomeFrame(0), true, {}, "", {}});
   writer.Finish(SomeMap(), {{SomeFrame(0).timestamp_s, Pose{}}});
   EXPECT_EQ(Lines(run_ / "trajectory.txt")[1], "1305031102.175304 0 0 0 0 0 0 1");
 }
@@ -251,7 +251,7 @@ TEST_F(RunFolder, IsReplacedWithForceOnlyWhenTheNewOneIsWhole) {
   std::ofstream(run_ / "metrics.json") << "{}";
   {
     RunWriter writer(run_, Info(), {.force = true});
-    writer.WriteFrame({SomeFrame(0), true, {}});
+    writer.WriteFrame({SomeFrame(0), true, {}, "", {}});
     EXPECT_TRUE(fs::exists(run_ / "metrics.json"));
   }  // given up
   EXPECT_TRUE(fs::exists(run_ / "metrics.json"));
@@ -285,17 +285,17 @@ TEST_F(RunFolder, LooksCompleteAtNoMomentWhenTheProcessIsKilled) {
 TEST_F(RunFolder, RefusesWhatMustNotBeWritten) {
   RunWriter writer(run_, Info(), {});
   Frame frame = SomeFrame(0);
-  writer.WriteFrame({frame, true, {}});
-  EXPECT_THROW(writer.WriteFrame({frame, true, {}}), std::invalid_argument);  // same time
+  writer.WriteFrame({frame, true, {}, "", {}});
+  EXPECT_THROW(writer.WriteFrame({frame, true, {}, "", {}}), std::invalid_argument);  // same time
   frame = SomeFrame(1);
   frame.planes[0].pi_c.d = std::nan("");
-  EXPECT_THROW(writer.WriteFrame({frame, true, {}}), std::invalid_argument);
+  EXPECT_THROW(writer.WriteFrame({frame, true, {}, "", {}}), std::invalid_argument);
   frame = SomeFrame(1);
   frame.T_cw.t.x() = std::nan("");
-  EXPECT_THROW(writer.WriteFrame({frame, true, {}}), std::invalid_argument);
+  EXPECT_THROW(writer.WriteFrame({frame, true, {}, "", {}}), std::invalid_argument);
   frame = SomeFrame(1);
   frame.plane_matches.pop_back();
-  EXPECT_THROW(writer.WriteFrame({frame, true, {}}), std::invalid_argument);
+  EXPECT_THROW(writer.WriteFrame({frame, true, {}, "", {}}), std::invalid_argument);
 }
 
 TEST(FiniteNumberText, IsTheShortestThatReadsBackAndNeverMinusZero) {

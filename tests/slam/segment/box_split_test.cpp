@@ -51,7 +51,7 @@ struct Plate {
     Camera camera;
     camera.width = labels.cols, camera.height = labels.rows;
     camera.cx = 160, camera.cy = 120;
-    grid = MakeDepthGrid(cv::Mat1f(labels.size(), 1.0f), PixelRays(camera), config.noise, 10.0);
+    grid = MakeDepthGrid(cv::Mat1f(labels.size(), 1.0f), PixelRays(camera), noise, 10.0);
     const cv::Mat1f error = SharedErrors(labels.size(), seed);
     for (int v = 0; v < labels.rows; ++v) {
       for (int u = 0; u < labels.cols; ++u) {
