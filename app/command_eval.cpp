@@ -4,8 +4,8 @@
 #include <string>
 
 #include "app/app.h"
-#include "eval/read/run.h"
-#include "eval/read/sequence.h"
+#include "eval/formats/run.h"
+#include "eval/formats/sequence.h"
 #include "eval/report/evaluate.h"
 #include "eval/report/metrics_json.h"
 #include "eval/report/table.h"

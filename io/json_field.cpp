@@ -118,6 +118,8 @@ nlohmann::json ParseJson(const std::string& text, const std::filesystem::path& w
     const auto line = first_line + static_cast<int>(std::count(text.begin(), end, '\n'));
     throw InputError(Where(where, line),
                      "not valid JSON (the file may be cut off): " + Reason(error));
+  } catch (const nlohmann::json::out_of_range& error) {  // a number that no double holds
+    throw InputError(Where(where, first_line), "not valid JSON: " + Reason(error));
   } catch (const InputError& deep) {
     throw InputError(Where(where, first_line), deep.what());
   }

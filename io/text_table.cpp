@@ -64,7 +64,7 @@ std::vector<TextRecord> ReadRecords(const std::filesystem::path& file, const std
   const std::size_t count = Words(form).size();
   std::vector<TextRecord> records = Records(file, mend, Words);
   for (const TextRecord& record : records) {
-    if (record.fields.size() == count) continue;
+    if (form.empty() || record.fields.size() == count) continue;
     throw InputError(record.where, "expected `" + form + "`, found " +
                                        std::to_string(record.fields.size()) + " words");
   }

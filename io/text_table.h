@@ -18,11 +18,12 @@ struct TextRecord {
 
 /// Records of a file with fields between blanks, such as TUM's lists; `#` lines and empty lines
 /// are left out.
-/// @param form  one word for each field of a record: "timestamp file"
+/// @param form  one word for each field of a record: "timestamp file"; empty: any number of
+/// them
 /// @param mend  what to do when the file cannot be read, see ReadFile
 /// @throws InputError when it cannot be read, and with file:line for a record of another form
-std::vector<TextRecord> ReadRecords(const std::filesystem::path& file, const std::string& form,
-                                    const std::string& mend = "");
+std::vector<TextRecord> ReadRecords(const std::filesystem::path& file,
+                                    const std::string& form = "", const std::string& mend = "");
 
 /// The same with fields between commas, any number of them. An empty field stays.
 std::vector<TextRecord> ReadCommaRecords(const std::filesystem::path& file);

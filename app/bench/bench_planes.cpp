@@ -6,8 +6,8 @@
 #include <optional>
 
 #include "app/bench/bench_planes_score.h"
+#include "eval/formats/sequence.h"
 #include "eval/planes/united_faces.h"
-#include "eval/read/sequence.h"
 #include "eval/trajectory/score_trajectory.h"
 #include "slam/detect/box_tracks.h"
 #include "slam/detect/detections.h"
@@ -113,20 +113,10 @@ void PlaneBench::Add(const PlaneBench& o) {
   Append(o.times.extraction_ms, times.extraction_ms);
   Append(o.times.processing_ms, times.processing_ms);
   Append(o.times.plain_pass_ms, times.plain_pass_ms);
-  hoover.truth += o.hoover.truth, hoover.machine += o.hoover.machine;
-  hoover.correct += o.hoover.correct, hoover.over += o.hoover.over;
-  hoover.under += o.hoover.under, hoover.missed += o.hoover.missed;
-  hoover.noise += o.hoover.noise;
-  panoptic.tp += o.panoptic.tp, panoptic.fp += o.panoptic.fp, panoptic.fn += o.panoptic.fn;
-  panoptic.iou_sum += o.panoptic.iou_sum;
+  hoover += o.hoover, panoptic += o.panoptic;
   Append(o.normal_deg, normal_deg);
   Append(o.offset_mm, offset_mm);
-  corners.claimed += o.corners.claimed, corners.matched += o.corners.matched;
-  corners.true_in_view += o.corners.true_in_view;
-  corners.found_in_view += o.corners.found_in_view;
-  corners.faces_in_view += o.corners.faces_in_view;
-  corners.faces_with_4 += o.corners.faces_with_4;
-  Append(o.corners.errors_mm, corners.errors_mm);
+  corners += o.corners;
   thin_tops.found += o.thin_tops.found, thin_tops.all += o.thin_tops.all;
   for (const auto& [bin, share] : o.steps) {
     steps[bin].found += share.found, steps[bin].all += share.all;

@@ -33,10 +33,10 @@ struct PlaneBench {
   int frames = 0, scored_frames = 0;
   int segments = 0;
   PlaneTimes times;
-  eval::HooverScore hoover;       ///< of trusted planes, summed over frames
-  eval::PanopticCounts panoptic;  ///< of trusted planes
+  eval::HooverScore hoover;       ///< trusted planes, summed over frames
+  eval::PanopticCounts panoptic;  ///< the same
   std::vector<double> normal_deg, offset_mm;
-  eval::CornerCounts corners;  ///< of top faces of regular objects
+  eval::CornerCounts corners;  ///< corners of top faces of regular objects
   Share thin_tops;             ///< step of 10 mm or more, within 1.2 m: separated
   StepTable steps;
   /// Of the largest level plane of each frame, where camera poses are known and plane truth is

@@ -51,11 +51,6 @@ int BinOf(double step_m) {
   return *(above - 1);
 }
 
-void AddCounts(const eval::PanopticCounts& from, eval::PanopticCounts& to) {
-  to.tp += from.tp, to.fp += from.fp, to.fn += from.fn;
-  to.iou_sum += from.iou_sum;
-}
-
 /// One frame with what is found in it and what is there.
 struct ScoredFrame {
   const slam::Frame& found;
@@ -102,23 +97,15 @@ eval::Overlap OverlapOf(const ScoredFrame& f) {
 bool Separated(const eval::Overlap& overlap, int truth_id) {
   const auto row = overlap.shared.find(truth_id);
   if (row == overlap.shared.end()) return false;
-  const auto share = [](long long part, long long whole) {
-    return static_cast<double>(part) >= eval::kHooverShare * static_cast<double>(whole);
-  };
   return std::any_of(row->second.begin(), row->second.end(), [&](const auto& entry) {
-    return share(entry.second, overlap.truth_pixels.at(truth_id)) &&
-           share(entry.second, overlap.machine_pixels.at(entry.first));
+    return eval::IsCorrect(overlap, truth_id, entry.first);
   });
 }
 
 void AddRegions(const ScoredFrame& f, const eval::SceneTruth& scene, PlaneBench& bench) {
   const eval::Overlap overlap = OverlapOf(f);
-  const eval::HooverScore hoover = eval::ScoreHoover(overlap);
-  bench.hoover.truth += hoover.truth, bench.hoover.machine += hoover.machine;
-  bench.hoover.correct += hoover.correct, bench.hoover.over += hoover.over;
-  bench.hoover.under += hoover.under, bench.hoover.missed += hoover.missed;
-  bench.hoover.noise += hoover.noise;
-  AddCounts(eval::CountPanoptic(overlap), bench.panoptic);
+  bench.hoover += eval::ScoreHoover(overlap);
+  bench.panoptic += eval::CountPanoptic(overlap);
   for (const eval::SeenPlane& seen : f.truth.planes) {
     const bool top =
         seen.object->role == eval::Role::kRegular && seen.plane->pi_g.n.z() > kLevelNormalZ;

@@ -21,7 +21,7 @@ struct BenchOptions {
 /// A time without pose, from when the camera sees again what it saw while it was tracked.
 struct Comeback {
   int waited = 0;      ///< frames until it was found; -1: never
-  double error_m = 0;  ///< of the first pose, the run laid on the truth
+  double error_m = 0;  ///< error of the first pose, the run laid on the truth
 };
 
 /// What one sequence came to.
@@ -30,7 +30,7 @@ struct BenchRow {
   int frames = 0, tracked = 0;
   eval::TrajectoryScore score;  ///< empty with laps: the truth knows one only
   int keyframes = 0, points = 0;
-  double end_error_m = 0;  ///< of the last pose, the first ones laid on the truth
+  double end_error_m = 0;  ///< error of the last pose, the first ones laid on the truth
   std::vector<std::vector<double>> modules_ms;
   double kib_a_frame = 0;  ///< resident memory, over the second half
   std::vector<Comeback> comebacks;

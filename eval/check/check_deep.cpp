@@ -4,7 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <opencv2/imgproc.hpp>
 
 #include "eval/check/check_deep_depth.h"
 
@@ -16,34 +16,21 @@ using Eigen::Vector3d;
 constexpr double kOutside_px = 0.2;     // rendering in single precision reaches 0.002
 constexpr double kOutsideShare = 5e-4;  // of a frame's pixels; a shift by a pixel has 1e-2
 
-/// Whether the loop goes round x, seen along right and up.
-bool Encloses(const std::vector<Vector3d>& loop, const Vector3d& x, const Vector3d& right,
-              const Vector3d& up) {
-  bool inside = false;
-  for (std::size_t i = 0; i < loop.size(); ++i) {
-    const Vector3d a = loop[i] - x, b = loop[(i + 1) % loop.size()] - x;
-    const double ya = up.dot(a), yb = up.dot(b);
-    if ((ya > 0) == (yb > 0)) continue;
-    if (right.dot(a) + ya / (ya - yb) * right.dot(b - a) > 0) inside = !inside;
+/// Distance from x to a loop in the plane of right and up; positive when the loop goes round x.
+double DistanceInto(const std::vector<Vector3d>& loop, const Vector3d& x, const Vector3d& right,
+                    const Vector3d& up) {
+  std::vector<cv::Point2f> outline;  // about x, so that single precision is enough
+  for (const Vector3d& corner : loop) {
+    outline.emplace_back(static_cast<float>(right.dot(corner - x)),
+                         static_cast<float>(up.dot(corner - x)));
   }
-  return inside;
-}
-
-double DistanceToLoop(const std::vector<Vector3d>& loop, const Vector3d& x) {
-  double nearest = std::numeric_limits<double>::infinity();
-  for (std::size_t i = 0; i < loop.size(); ++i) {
-    const Vector3d& a = loop[i];
-    const Vector3d along = loop[(i + 1) % loop.size()] - a;
-    const double part = std::clamp(along.dot(x - a) / along.squaredNorm(), 0.0, 1.0);
-    nearest = std::min(nearest, (x - a - part * along).norm());
-  }
-  return nearest;
+  return cv::pointPolygonTest(outline, {0.0f, 0.0f}, true);
 }
 
 class IdCheck {
  public:
-  IdCheck(FolderCheck& check, const DeepFrames& frames)
-      : check_(check), frames_(frames), truth_(frames.truth()) {}
+  IdCheck(Folder& folder, const DeepFrames& frames)
+      : folder_(folder), frames_(frames), truth_(frames.truth()) {}
 
   void Run() {
     for (const DeepFrame& frame : frames_.frames()) CheckFrame(frame);
@@ -51,27 +38,28 @@ class IdCheck {
 
  private:
   /// How far outside its face the pixel's ray meets the plane, in pixels; 0 inside.
-  double Outside(const DeepFrame& frame, int u, int v, const CheckedScene::Plane& plane) const {
-    const Eigen::Isometry3d& T_wc = frames_.Pose(frame);
-    const Vector3d ray_w = T_wc.linear() * frames_.Ray(u, v);
-    const double towards = plane.normal.dot(ray_w);
-    const double z = -(plane.normal.dot(T_wc.translation()) + plane.d) / towards;
+  double Outside(const DeepFrame& frame, int u, int v, const TruthPlane& plane) const {
+    const Pose& T_wc = frames_.PoseOf(frame);
+    const Vector3d ray_w = T_wc.R * frames_.Ray(u, v);
+    const double towards = plane.pi_g.n.dot(ray_w);
+    const double z = -SignedDistance(plane.pi_g, T_wc.t) / towards;
     if (!(towards < 0) || !(z > 0)) return 1e6;
-    const Vector3d x_w = T_wc.translation() + z * ray_w;
+    const Vector3d x_w = T_wc.t + z * ray_w;
     const double cosine = std::abs(towards) / ray_w.norm();
     // The longest a pixel gets on the plane.
     const double pixel_m = z * ray_w.norm() / std::min(truth_.camera->fx, truth_.camera->fy) /
                            std::max(cosine, 1e-3);
     // Inside the outline and outside the holes: an odd number of loops goes round the point.
-    const Vector3d right = plane.normal.unitOrthogonal(), up = plane.normal.cross(right);
-    bool inside = Encloses(plane.corners, x_w, right, up);
-    for (const auto& hole : plane.holes) inside ^= Encloses(hole, x_w, right, up);
-    if (inside) return 0;
-    double nearest_m = DistanceToLoop(plane.corners, x_w);
-    for (const auto& hole : plane.holes) {
-      nearest_m = std::min(nearest_m, DistanceToLoop(hole, x_w));
+    const Vector3d right = plane.pi_g.n.unitOrthogonal(), up = plane.pi_g.n.cross(right);
+    const double into_m = DistanceInto(plane.vertices_g, x_w, right, up);
+    bool inside = into_m > 0;
+    double nearest_m = std::abs(into_m);
+    for (const auto& hole : plane.holes_g) {
+      const double into_hole_m = DistanceInto(hole, x_w, right, up);
+      inside ^= into_hole_m > 0;
+      nearest_m = std::min(nearest_m, std::abs(into_hole_m));
     }
-    return nearest_m / pixel_m;
+    return inside ? 0 : nearest_m / pixel_m;
   }
 
   /// Share of pixels with a plane that lie outside its face when ids are read `shift` away.
@@ -82,10 +70,10 @@ class IdCheck {
       for (int u = 0; u < frame.ids.cols; ++u) {
         const cv::Point from = cv::Point(u, v) + shift;
         if (!image.contains(from)) continue;
-        const auto plane = truth_.scene->planes.find(frame.ids.at<unsigned short>(from));
-        if (plane == truth_.scene->planes.end() || plane->second.corners.empty()) continue;
+        const TruthPlane* plane = truth_.scene->FindPlane(frame.ids.at<unsigned short>(from));
+        if (plane == nullptr || plane->vertices_g.empty()) continue;
         ++all;
-        if (Outside(frame, u, v, plane->second) > kOutside_px) ++outside;
+        if (Outside(frame, u, v, *plane) > kOutside_px) ++outside;
       }
     }
     return all > 0 ? static_cast<double>(outside) / static_cast<double>(all) : 0.0;
@@ -105,28 +93,28 @@ class IdCheck {
         du = dv = 3;
       }
     }
-    check_.Add(
+    folder_.Tell(
         frame.plane_file, 0,
         fmt::format("{:.2f} % of its pixels lie outside the face they name", 100 * share),
         mend);
   }
 
-  FolderCheck& check_;
+  Folder& folder_;
   const DeepFrames& frames_;
   const SequenceTruth& truth_;
 };
 
 }  // namespace
 
-void CheckDeep(FolderCheck& check, const SequenceTruth& truth) {
+void CheckDeep(Folder& folder, const SequenceTruth& truth) {
   if (!truth.camera || truth.poses.empty() || truth.rgb.empty()) return;
-  if (!check.Has("gt/plane_id")) return;
-  const DeepFrames frames(check, truth);
+  if (!folder.Has("gt/plane_id")) return;
+  const DeepFrames frames(folder, truth);
   if (truth.scene) {
-    IdCheck(check, frames).Run();
-    CheckDepthTime(check, frames);
+    IdCheck(folder, frames).Run();
+    CheckDepthTime(folder, frames);
   }
-  CheckWarp(check, frames);
+  CheckWarp(folder, frames);
 }
 
 }  // namespace eval

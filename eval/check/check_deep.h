@@ -1,6 +1,6 @@
 #pragma once
 
-#include "eval/check/check_truth_frames.h"
+#include "eval/check/sequence_truth.h"
 
 namespace eval {
 
@@ -13,6 +13,6 @@ namespace eval {
 ///  - Warp: depth of frame A, carried by the poses into frame B 0.1 to 0.4 m away, agrees
 ///    with B's where both show the same plane; it needs no plane equation. The median of
 ///    |difference| / sigma must be at most 1, where sigma is the sensor's.
-void CheckDeep(FolderCheck& check, const SequenceTruth& truth);
+void CheckDeep(Folder& folder, const SequenceTruth& truth);
 
 }  // namespace eval

@@ -6,34 +6,35 @@
 #include <cmath>
 
 #include "eval/check/check_truth_depth.h"
+#include "eval/trajectory/statistics.h"
 
 namespace eval {
 namespace {
 
 using Eigen::Vector3d;
 
-constexpr int kStride_px = 3;
-constexpr double kBaseline_m = 0.1, kLargestBaseline_m = 0.4, kLargestTurn_rad = 0.4;
-constexpr std::size_t kMinPixels = 200;
+constexpr int kWarpStride_px = 3;
+constexpr double kMinBaseline_m = 0.1, kMaxBaseline_m = 0.4, kMaxTurn_rad = 0.4;
+constexpr std::size_t kMinWarpPixels = 200;
 
 /// Median |depth - z| / sigma for the pose of index `pose`.
 double Misfit(const DeepFrames& frames, const DeepFrame& frame, std::size_t pose) {
-  const Eigen::Isometry3d& T_wc = frames.truth().poses[pose].T_wc;
+  const Pose& T_wc = frames.truth().poses[pose].T_wc;
   std::vector<double> ratios;
-  for (int v = 1; v < frame.ids.rows; v += kStride_px) {
-    for (int u = 1; u < frame.ids.cols; u += kStride_px) {
-      const auto plane = frames.truth().scene->planes.find(frame.ids.at<unsigned short>(v, u));
+  for (int v = 1; v < frame.ids.rows; v += kWarpStride_px) {
+    for (int u = 1; u < frame.ids.cols; u += kWarpStride_px) {
+      const TruthPlane* plane =
+          frames.truth().scene->FindPlane(frame.ids.at<unsigned short>(v, u));
       const int units = frame.depth.at<unsigned short>(v, u);
-      if (units == 0 || plane == frames.truth().scene->planes.end()) continue;
-      const Vector3d ray_w = T_wc.linear() * frames.Ray(u, v);
-      const double z = -(plane->second.normal.dot(T_wc.translation()) + plane->second.d) /
-                       plane->second.normal.dot(ray_w);
+      if (units == 0 || plane == nullptr) continue;
+      const Vector3d ray_w = T_wc.R * frames.Ray(u, v);
+      const double z = -SignedDistance(plane->pi_g, T_wc.t) / plane->pi_g.n.dot(ray_w);
       if (!(z > 0)) continue;
       ratios.push_back(std::abs(units * frames.unit_m() - z) /
                        DepthSigma(frames.truth().sensor, z, 0, frames.unit_m()));
     }
   }
-  return ratios.size() < kMinPixels ? -1 : Median(ratios);
+  return ratios.size() < kMinWarpPixels ? -1 : Quantile(ratios, 0.5);
 }
 
 /// 1/z of B at a place between four pixels that all show the plane; 0 when they do not.
@@ -53,11 +54,11 @@ double InverseDepthAt(const DeepFrames& frames, const DeepFrame& b, double u, do
   return sum;
 }
 
-void Compare(const DeepFrames& frames, const DeepFrame& a, const DeepFrame& b,
-             std::vector<double>& ratios, std::vector<double>& errors_m) {
-  const Eigen::Isometry3d T_ba = frames.Pose(b).inverse() * frames.Pose(a);
-  for (int v = 1; v < a.ids.rows; v += kStride_px) {
-    for (int u = 1; u < a.ids.cols; u += kStride_px) {
+void CompareViews(const DeepFrames& frames, const DeepFrame& a, const DeepFrame& b,
+                  std::vector<double>& ratios, std::vector<double>& errors_m) {
+  const Pose T_ba = Inverse(frames.PoseOf(b)) * frames.PoseOf(a);
+  for (int v = 1; v < a.ids.rows; v += kWarpStride_px) {
+    for (int u = 1; u < a.ids.cols; u += kWarpStride_px) {
       const int id = a.ids.at<unsigned short>(v, u);
       const int units = a.depth.at<unsigned short>(v, u);
       if (id == 0 || units == 0) continue;
@@ -79,7 +80,7 @@ void Compare(const DeepFrames& frames, const DeepFrame& a, const DeepFrame& b,
 }  // namespace
 
 /// An id image goes with the pose; so a depth that fits a neighbour's pose is a neighbour's.
-void CheckDepthTime(FolderCheck& check, const DeepFrames& frames) {
+void CheckDepthTime(Folder& folder, const DeepFrames& frames) {
   int judged = 0, before = 0, after = 0;
   for (const DeepFrame& frame : frames.frames()) {
     if (frame.depth.empty() || frame.pose == 0 ||
@@ -96,44 +97,43 @@ void CheckDepthTime(FolderCheck& check, const DeepFrames& frames) {
   }
   for (const auto& [count, which] : {std::pair{before, "before"}, {after, "after"}}) {
     if (judged < 2 || 3 * count <= 2 * judged) continue;
-    check.Add("depth.txt", 0,
-              fmt::format("in {} of {} frames the depth fits the pose of the frame {} better "
-                          "than its own",
-                          count, judged, which),
-              "pair depth, ids and poses of one instant");
+    folder.Tell("depth.txt", 0,
+                fmt::format("in {} of {} frames the depth fits the pose of the frame {} better "
+                            "than its own",
+                            count, judged, which),
+                "pair depth, ids and poses of one instant");
   }
 }
 
-void CheckWarp(FolderCheck& check, const DeepFrames& frames) {
+void CheckWarp(Folder& folder, const DeepFrames& frames) {
   const std::vector<DeepFrame>& list = frames.frames();
   int judged = 0, bad = 0;
   std::vector<double> medians_m;
   for (std::size_t i = 0; i < list.size(); ++i) {
     for (std::size_t j = i + 1; j < list.size(); ++j) {
       if (list[i].depth.empty() || list[j].depth.empty()) continue;
-      const Eigen::Isometry3d T = frames.Pose(list[i]).inverse() * frames.Pose(list[j]);
-      const double far_m = T.translation().norm();
-      if (far_m < kBaseline_m) continue;
-      if (far_m > kLargestBaseline_m ||
-          Eigen::AngleAxisd(T.linear()).angle() > kLargestTurn_rad) {
+      const Pose T_ij = Inverse(frames.PoseOf(list[i])) * frames.PoseOf(list[j]);
+      const double far_m = T_ij.t.norm();
+      if (far_m < kMinBaseline_m) continue;
+      if (far_m > kMaxBaseline_m || AngleOf(T_ij.R) > kMaxTurn_rad) {
         break;
       }
       std::vector<double> ratios, errors_m;
-      Compare(frames, list[i], list[j], ratios, errors_m);
-      if (ratios.size() < kMinPixels) continue;
+      CompareViews(frames, list[i], list[j], ratios, errors_m);
+      if (ratios.size() < kMinWarpPixels) continue;
       ++judged;
-      medians_m.push_back(Median(errors_m));
-      if (!(Median(ratios) <= 1)) ++bad;
+      medians_m.push_back(Quantile(errors_m, 0.5));
+      if (!(Quantile(ratios, 0.5) <= 1)) ++bad;
       break;
     }
   }
   if (judged == 0 || 4 * bad <= judged) return;
-  check.Add(".", 0,
-            fmt::format("in {} of {} pairs of frames the depth of one, carried into the "
-                        "other by the poses, is {:.1f} mm (median) off",
-                        bad, judged, Median(medians_m) * 1e3),
-            "check the direction of the poses, planar depth, depth_factor and which images "
-            "belong together");
+  folder.Tell(".", 0,
+              fmt::format("in {} of {} pairs of frames the depth of one, carried into the "
+                          "other by the poses, is {:.1f} mm (median) off",
+                          bad, judged, Quantile(medians_m, 0.5) * 1e3),
+              "check the direction of the poses, planar depth, depth_factor and which images "
+              "belong together");
 }
 
 }  // namespace eval

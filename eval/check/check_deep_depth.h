@@ -6,9 +6,9 @@ namespace eval {
 
 /// Whether depth fits the pose of its own frame better than those of the frames before and
 /// after.
-void CheckDepthTime(FolderCheck& check, const DeepFrames& frames);
+void CheckDepthTime(Folder& folder, const DeepFrames& frames);
 
 /// Whether depth of one frame, carried into another by the poses, agrees with that one's.
-void CheckWarp(FolderCheck& check, const DeepFrames& frames);
+void CheckWarp(Folder& folder, const DeepFrames& frames);
 
 }  // namespace eval

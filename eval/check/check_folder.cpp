@@ -9,15 +9,15 @@
 namespace eval {
 
 CheckReport CheckFolder(const std::filesystem::path& folder, bool deep) {
-  const FolderCheck check{folder, {}, {}, {}};
+  const Folder place(folder);
   const auto has_any = [&](const std::vector<std::string>& files) {
     return std::any_of(files.begin(), files.end(),
-                       [&](const std::string& file) { return check.Has(file); });
+                       [&](const std::string& file) { return place.Has(file); });
   };
   if (!std::filesystem::is_directory(folder)) {
     return {"folder", {{".", 0, "", "is not a folder", "name a sequence or a run"}}, 0, 0};
   }
-  if (check.Has("run.json")) return CheckRun(folder);
+  if (place.Has("run.json")) return CheckRun(folder);
   if (has_any({"manifest.json", "rgb.txt", "depth.txt", "rgb", "depth"})) {
     return CheckSequence(folder, deep);
   }

@@ -2,7 +2,7 @@
 
 #include <filesystem>
 
-#include "eval/check/fault.h"
+#include "eval/check/report.h"
 
 namespace eval {
 

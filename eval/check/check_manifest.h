@@ -2,13 +2,13 @@
 
 #include <string>
 
-#include "eval/check/fault.h"
+#include "eval/formats/folder.h"
 
 namespace eval {
 
 /// Checks manifest.json: format, completeness, frame count, and the sha256 of every file.
 /// @param frames  how many colour images rgb.txt lists
 /// @returns the name of the sensor, empty when the manifest is absent or does not tell
-std::string CheckManifest(FolderCheck& check, int frames);
+std::string CheckManifest(Folder& folder, int frames);
 
 }  // namespace eval

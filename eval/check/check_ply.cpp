@@ -6,15 +6,15 @@
 #include <cstring>
 #include <fstream>
 #include <iterator>
+#include <set>
 #include <sstream>
 
-#include "eval/check/checked_text.h"
 #include "io/number_text.h"
 
 namespace eval {
 namespace {
 
-const std::string kFile = "map.ply";
+const std::string kPly = "map.ply";
 constexpr const char* kRunAgain = "write the file again";
 
 struct Property {
@@ -24,7 +24,7 @@ struct Property {
 struct Header {
   bool ascii = true;
   long vertices = -1;
-  std::vector<Property> properties;  ///< of element vertex
+  std::vector<Property> properties;  ///< what element vertex has
   std::size_t body = 0;              ///< byte at which it starts
   int lines = 0;
 };
@@ -39,7 +39,7 @@ std::size_t SizeOf(const std::string& type) {
              : 0;
 }
 
-std::optional<Header> ReadHeader(FolderCheck& check, const std::string& bytes) {
+std::optional<Header> ReadHeader(Folder& folder, const std::string& bytes) {
   Header header;
   std::istringstream in(bytes);
   std::string text, element;
@@ -52,8 +52,8 @@ std::optional<Header> ReadHeader(FolderCheck& check, const std::string& bytes) {
     if (first == "format") {
       header.ascii = second == "ascii";
       if (header.ascii || second == "binary_little_endian") continue;
-      check.Add(kFile, header.lines + 1, "has the format " + second,
-                "use ascii or binary_little_endian");
+      folder.Tell(kPly, header.lines + 1, "has the format " + second,
+                  "use ascii or binary_little_endian");
       return std::nullopt;
     }
     if (first == "element") {
@@ -65,15 +65,15 @@ std::optional<Header> ReadHeader(FolderCheck& check, const std::string& bytes) {
     ended = first == "end_header";
   }
   if (!ended || header.vertices < 0) {
-    check.Add(kFile, 0, "has no complete PLY header (ply, format, element vertex, end_header)",
-              kRunAgain);
+    folder.Tell(kPly, 0, "has no complete PLY header (ply, format, element vertex, end_header)",
+                kRunAgain);
     return std::nullopt;
   }
   header.body = static_cast<std::size_t>(in.tellg());
   return header;
 }
 
-bool CheckProperties(FolderCheck& check, const Header& header) {
+bool CheckProperties(Folder& folder, const Header& header) {
   bool good = true;
   for (const char* name : {"x", "y", "z", "red", "green", "blue", "plane_id"}) {
     bool found = false;
@@ -83,8 +83,8 @@ bool CheckProperties(FolderCheck& check, const Header& header) {
       if (std::strcmp(name, "plane_id") == 0) found = SizeOf(property.type) == 4;
     }
     if (found) continue;
-    check.Add(kFile, 0, fmt::format("has no property `{}` of a known type", name),
-              "write x y z red green blue and `property int plane_id`");
+    folder.Tell(kPly, 0, fmt::format("has no property `{}` of a known type", name),
+                "write x y z red green blue and `property int plane_id`");
     good = false;
   }
   return good;
@@ -144,53 +144,54 @@ class Points {
   std::size_t at_;
 };
 
-void CheckPoints(FolderCheck& check, const Header& header, const std::string& bytes,
-                 const CheckedMap& map) {
+void CheckPoints(Folder& folder, const Header& header, const std::string& bytes,
+                 const Run& run) {
   Points points(bytes, header);
-  std::set<long> unknown;
+  std::set<long> known, unknown;
+  for (const RunMapPlane& plane : run.map) known.insert(plane.id);
   long not_finite = 0;
   for (long i = 0; i < header.vertices; ++i) {
     const auto point = points.Next();
     if (!point) {
-      check.Add(kFile, header.ascii ? header.lines + static_cast<int>(i) + 1 : 0,
-                fmt::format("ends or breaks at point {} of {}", i, header.vertices), kRunAgain);
+      folder.Tell(kPly, header.ascii ? header.lines + static_cast<int>(i) + 1 : 0,
+                  fmt::format("ends or breaks at point {} of {}", i, header.vertices),
+                  kRunAgain);
       return;
     }
     for (std::size_t k = 0; k < point->size(); ++k) {
       const double value = (*point)[k];
       if (!std::isfinite(value)) {
         ++not_finite;
-      } else if (header.properties[k].name == "plane_id" && map.read &&
-                 map.ids.count(std::lround(value)) == 0) {
+      } else if (header.properties[k].name == "plane_id" && run.has_map &&
+                 known.count(std::lround(value)) == 0) {
         unknown.insert(std::lround(value));
       }
     }
   }
   if (!points.AtEnd()) {
-    check.Add(kFile, 0,
-              fmt::format("goes on after the {} points of its header", header.vertices),
-              kRunAgain);
+    folder.Tell(kPly, 0,
+                fmt::format("goes on after the {} points of its header", header.vertices),
+                kRunAgain);
   }
   if (not_finite > 0) {
-    check.Add(kFile, 0, fmt::format("has {} values that are no finite numbers", not_finite),
-              kRunAgain);
+    folder.Tell(kPly, 0, fmt::format("has {} values that are no finite numbers", not_finite),
+                kRunAgain);
   }
   for (const long id : unknown) {
-    check.Add(kFile, 0, fmt::format("has points of plane {}, which is not in map.json", id),
-              "write the id that map.json gives the plane");
+    folder.Tell(kPly, 0, fmt::format("has points of plane {}, which is not in map.json", id),
+                "write the id that map.json gives the plane");
   }
 }
 
 }  // namespace
 
-void CheckPly(FolderCheck& check, const CheckedMap& map) {
-  if (!check.Require(kFile, "run the SLAM system again")) return;
-  std::ifstream in(check.root / kFile, std::ios::binary);
-  check.files.insert(kFile);
+void CheckPly(Folder& folder, const Run& run) {
+  if (!folder.Require(kPly, "run the SLAM system again")) return;
+  std::ifstream in(folder.Open(kPly), std::ios::binary);
   const std::string bytes((std::istreambuf_iterator<char>(in)),
                           std::istreambuf_iterator<char>());
-  const auto header = ReadHeader(check, bytes);
-  if (header && CheckProperties(check, *header)) CheckPoints(check, *header, bytes, map);
+  const auto header = ReadHeader(folder, bytes);
+  if (header && CheckProperties(folder, *header)) CheckPoints(folder, *header, bytes, run);
 }
 
 }  // namespace eval

@@ -1,11 +1,11 @@
 #pragma once
 
-#include "eval/check/check_map.h"
-#include "eval/check/fault.h"
+#include "eval/formats/run.h"
 
 namespace eval {
 
-/// Checks map.ply: header, number of points, finite coordinates, plane ids of map.json.
-void CheckPly(FolderCheck& check, const CheckedMap& map);
+/// Checks map.ply: header, number of points, finite coordinates, plane ids of map.json when it
+/// could be read.
+void CheckPly(Folder& folder, const Run& run);
 
 }  // namespace eval

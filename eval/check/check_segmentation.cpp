@@ -4,9 +4,9 @@
 
 #include <algorithm>
 #include <array>
+#include <set>
 
-#include "eval/check/check_images.h"
-#include "eval/check/checked_text.h"
+#include "eval/formats/images.h"
 #include "io/number_text.h"
 
 namespace eval {
@@ -14,17 +14,20 @@ namespace {
 
 const std::string kFolder = "segmentation";
 
-void CheckLabels(FolderCheck& check, const std::string& file, const cv::Mat& labels,
-                 const std::set<long>& indices) {
+void CheckLabels(Folder& folder, const std::string& file, const cv::Mat& labels,
+                 const RunFrame& frame) {
   std::array<long, 256> pixels{};
   for (int y = 0; y < labels.rows; ++y) {
     const unsigned char* row = labels.ptr<unsigned char>(y);
     for (int x = 0; x < labels.cols; ++x) ++pixels[row[x]];
   }
+  for (const RunFramePlane& plane : frame.planes) {
+    pixels[static_cast<std::size_t>(plane.index + 1)] = 0;
+  }
   for (int value = 1; value < 256; ++value) {
     const long count = pixels[static_cast<std::size_t>(value)];
-    if (count == 0 || indices.count(value - 1) != 0) continue;
-    check.Add(
+    if (count == 0) continue;
+    folder.Tell(
         file, 0,
         fmt::format("shows the value {} in {} pixels, but the frame has no plane of index {}",
                     value, count, value - 1),
@@ -32,9 +35,9 @@ void CheckLabels(FolderCheck& check, const std::string& file, const cv::Mat& lab
   }
 }
 
-std::vector<std::string> Names(const FolderCheck& check) {
+std::vector<std::string> Names(const Folder& folder) {
   std::vector<std::string> names;
-  for (const auto& entry : std::filesystem::directory_iterator(check.root / kFolder)) {
+  for (const auto& entry : std::filesystem::directory_iterator(folder.root() / kFolder)) {
     if (entry.path().extension() == ".png") names.push_back(entry.path().filename().string());
   }
   std::sort(names.begin(), names.end());
@@ -43,30 +46,31 @@ std::vector<std::string> Names(const FolderCheck& check) {
 
 }  // namespace
 
-void CheckSegmentation(FolderCheck& check, const FramePlaneCounts& planes) {
-  if (!std::filesystem::is_directory(check.root / kFolder)) return;
+void CheckSegmentation(Folder& folder, const Run& run) {
+  if (!std::filesystem::is_directory(folder.root() / kFolder)) return;
   cv::Size size;
   std::set<std::size_t> seen;
-  for (const std::string& name : Names(check)) {
+  const std::vector<double> stamps_s = StampsOf(run.frames);
+  for (const std::string& name : Names(folder)) {
     const std::string file = kFolder + "/" + name;
     const auto stamp = io::ParseNumber(std::filesystem::path(name).stem().string());
-    const auto frame = stamp ? NearestStamp(planes.stamps_s, *stamp, kSameInstant_s)
-                             : std::optional<std::size_t>();
+    const auto frame =
+        stamp ? NearestStamp(stamps_s, *stamp, kSameInstant_s) : std::optional<std::size_t>();
     if (!frame) {
-      check.Add(file, 0, "is named by no time of frame_planes.jsonl",
-                "name the image by the time of its frame");
+      folder.Tell(file, 0, "is named by no time of frame_planes.jsonl",
+                  "name the image by the time of its frame");
       continue;
     }
     seen.insert(*frame);
-    const cv::Mat labels = CheckImage(check, file, {CV_8U, 1, size});
+    const cv::Mat labels = ReadImage(folder, file, {CV_8U, 1, size});
     if (labels.empty()) continue;
     if (size.empty()) size = labels.size();
-    CheckLabels(check, file, labels, planes.indices[*frame]);
+    CheckLabels(folder, file, labels, run.frames[*frame]);
   }
-  for (std::size_t i = 0; i < planes.stamps_s.size(); ++i) {
+  for (std::size_t i = 0; i < stamps_s.size(); ++i) {
     if (seen.count(i) != 0) continue;
-    check.Add(kFolder, 0, fmt::format("lacks the image of frame {:.6f}", planes.stamps_s[i]),
-              "write all frames or none");
+    folder.Tell(kFolder, 0, fmt::format("lacks the image of frame {:.6f}", stamps_s[i]),
+                "write all frames or none");
   }
 }
 

@@ -4,48 +4,54 @@
 
 #include "eval/check/check_deep.h"
 #include "eval/check/check_detections.h"
-#include "eval/check/check_images.h"
+#include "eval/check/check_image_lists.h"
 #include "eval/check/check_manifest.h"
 #include "eval/check/check_truth_frames.h"
-#include "eval/check/checked_text.h"
+#include "eval/formats/stamps.h"
+#include "eval/formats/trajectory.h"
 
 namespace eval {
 namespace {
 
 // Exact truth has a pose for every frame; a motion capture system has its own times.
-void CheckPosesCoverFrames(FolderCheck& check, const SequenceTruth& truth) {
-  if (!check.Has("gt/frames.jsonl")) return;
-  if (!check.Require("groundtruth.txt", "write the pose of every frame")) return;
-  std::vector<double> stamps;
-  for (const CheckedPose& pose : truth.poses) stamps.push_back(pose.stamp_s);
+void CheckPosesCoverFrames(Folder& folder, const SequenceTruth& truth) {
+  if (!folder.Has("gt/frames.jsonl")) return;
+  if (!folder.Require("groundtruth.txt", "write the pose of every frame")) return;
+  const std::vector<double> stamps_s = StampsOf(truth.poses);
   for (const ListedImage& image : truth.rgb) {
-    if (NearestStamp(stamps, image.stamp_s, kSameInstant_s)) continue;
-    check.Add("groundtruth.txt", 0,
-              fmt::format("lacks a pose for the frame {:.6f} of rgb.txt", image.stamp_s),
-              "write the pose of every frame");
+    if (NearestStamp(stamps_s, image.stamp_s, kSameInstant_s)) continue;
+    folder.Tell("groundtruth.txt", 0,
+                fmt::format("lacks a pose for the frame {:.6f} of rgb.txt", image.stamp_s),
+                "write the pose of every frame");
   }
+}
+
+std::vector<ListedImage> ReadListedImages(Folder& folder, const std::string& list) {
+  std::vector<ListedImage> images = ReadImageList(folder, list);
+  CheckListedFiles(folder, list, images);
+  return images;
 }
 
 }  // namespace
 
-CheckReport CheckSequence(const std::filesystem::path& folder, bool deep) {
-  FolderCheck check{folder, {}, {}, {}};
+CheckReport CheckSequence(const std::filesystem::path& path, bool deep) {
+  Folder folder(path, OnFault::kCollect);
   SequenceTruth truth;
-  truth.rgb = CheckImageList(check, "rgb.txt");
-  const std::vector<ListedImage> depth = CheckImageList(check, "depth.txt");
-  truth.pairs = CheckAssociations(check, truth.rgb, depth);
-  truth.camera = CheckCamera(check);
+  truth.rgb = ReadListedImages(folder, "rgb.txt");
+  const std::vector<ListedImage> depth = ReadListedImages(folder, "depth.txt");
+  truth.pairs = CheckAssociations(folder, truth.rgb, depth);
+  if (folder.Has("camera.yaml")) truth.camera = ReadCamera(folder);
   const cv::Size told =
       truth.camera ? cv::Size(truth.camera->width, truth.camera->height) : cv::Size();
-  truth.size = CheckListedImages(check, truth.rgb, depth, told);
-  if (check.Has("groundtruth.txt")) truth.poses = CheckTrajectory(check, "groundtruth.txt");
-  CheckPosesCoverFrames(check, truth);
-  CheckDetections(check, truth.rgb, truth.size);
-  truth.scene = CheckSceneTruth(check);
-  truth.sensor = CheckManifest(check, static_cast<int>(truth.rgb.size()));
-  CheckTruthFrames(check, truth);
-  if (deep) CheckDeep(check, truth);
-  return {"sequence", std::move(check.faults), static_cast<int>(check.files.size()),
+  truth.size = CheckListedImages(folder, truth.rgb, depth, told);
+  if (folder.Has("groundtruth.txt")) truth.poses = ReadTrajectory(folder, "groundtruth.txt");
+  CheckPosesCoverFrames(folder, truth);
+  CheckDetections(folder, truth.rgb, truth.size);
+  if (folder.Has("gt/scene.json")) truth.scene = ReadSceneTruth(folder);
+  truth.sensor = CheckManifest(folder, static_cast<int>(truth.rgb.size()));
+  CheckTruthFrames(folder, truth);
+  if (deep) CheckDeep(folder, truth);
+  return {"sequence", std::move(folder.faults()), static_cast<int>(folder.opened().size()),
           static_cast<int>(truth.rgb.size())};
 }
 

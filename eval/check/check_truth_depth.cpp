@@ -7,16 +7,16 @@
 #include <functional>
 #include <map>
 #include <opencv2/calib3d.hpp>
-#include <opencv2/imgcodecs.hpp>
 
-#include "eval/check/checked_text.h"
+#include "eval/formats/images.h"
+#include "eval/formats/stamps.h"
+#include "eval/trajectory/statistics.h"
 
 namespace eval {
 
 using Eigen::Vector3d;
 
-std::vector<Vector3d> RaysOf(const CheckedCamera& camera,
-                             const std::vector<cv::Point2d>& pixels) {
+std::vector<Vector3d> RaysOf(const Camera& camera, const std::vector<cv::Point2d>& pixels) {
   const cv::Matx33d K(camera.fx, 0, camera.cx, 0, camera.fy, camera.cy, 0, 0, 1);
   const auto& k = camera.distortion;
   std::vector<cv::Point2d> points;
@@ -40,33 +40,27 @@ double DepthSigma(const std::string& sensor, double z, double tilt_rad, double u
 
 namespace {
 
-constexpr int kStride_px = 4;             // every sixteenth pixel: 19,200 of a VGA image
-constexpr std::size_t kMinPixels = 100;   // fewer say nothing about a median
-constexpr double kLargestTilt_rad = 1.4;  // beyond, sensors measure nothing to rely on
+constexpr int kDepthStride_px = 4;            // every sixteenth pixel: 19,200 of a VGA image
+constexpr std::size_t kMinDepthPixels = 100;  // fewer say nothing about a median
+constexpr double kMaxTilt_rad = 1.4;          // beyond, sensors measure nothing to rely on
 
 /// A measured depth with the plane and the ray it belongs to.
 struct Sample {
   double depth_m;
   Vector3d ray_c;  ///< z = 1
-  const CheckedScene::Plane* plane;
+  const TruthPlane* plane;
 };
 
-double Median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
-std::vector<Sample> Samples(const cv::Mat& depth, const cv::Mat& ids, const CheckedScene& scene,
-                            const CheckedCamera& camera) {
+std::vector<Sample> Samples(const cv::Mat& depth, const cv::Mat& ids, const SceneTruth& scene,
+                            const Camera& camera) {
   std::vector<Sample> samples;
   std::vector<cv::Point2d> pixels;
-  for (int y = kStride_px / 2; y < ids.rows; y += kStride_px) {
-    for (int x = kStride_px / 2; x < ids.cols; x += kStride_px) {
-      const auto plane = scene.planes.find(ids.at<unsigned short>(y, x));
+  for (int y = kDepthStride_px / 2; y < ids.rows; y += kDepthStride_px) {
+    for (int x = kDepthStride_px / 2; x < ids.cols; x += kDepthStride_px) {
+      const TruthPlane* plane = scene.FindPlane(ids.at<unsigned short>(y, x));
       const int units = depth.at<unsigned short>(y, x);
-      if (units == 0 || plane == scene.planes.end()) continue;
-      samples.push_back({units / camera.depth_factor, Vector3d::UnitZ(), &plane->second});
+      if (units == 0 || plane == nullptr) continue;
+      samples.push_back({units / camera.depth_factor, Vector3d::UnitZ(), plane});
       pixels.emplace_back(x, y);
     }
   }
@@ -83,18 +77,17 @@ struct Agreement {
   std::size_t pixels = 0;
 };
 
-Agreement Compare(const std::vector<Sample>& samples, const Eigen::Isometry3d& T_wc,
+Agreement Compare(const std::vector<Sample>& samples, const Pose& T_wc,
                   const std::function<double(const Sample&)>& measured,
                   const std::string& sensor, double unit_m) {
   std::vector<double> ratios, errors, scales;
   for (const Sample& sample : samples) {
-    const Vector3d ray_w = T_wc.linear() * sample.ray_c;
-    const double towards = sample.plane->normal.dot(ray_w);
-    const double z =
-        -(sample.plane->normal.dot(T_wc.translation()) + sample.plane->d) / towards;
+    const Vector3d ray_w = T_wc.R * sample.ray_c;
+    const double towards = sample.plane->pi_g.n.dot(ray_w);
+    const double z = -SignedDistance(sample.plane->pi_g, T_wc.t) / towards;
     const double tilt =
         std::acos(std::clamp(std::abs(towards) / sample.ray_c.norm(), 0.0, 1.0));
-    if (tilt > kLargestTilt_rad) continue;
+    if (tilt > kMaxTilt_rad) continue;
     const double z_measured = measured(sample);
     // A plane behind the camera is predicted nowhere: as wrong as can be.
     const bool ahead = std::isfinite(z) && z > 0;
@@ -103,15 +96,15 @@ Agreement Compare(const std::vector<Sample>& samples, const Eigen::Isometry3d& T
     ratios.push_back(ahead ? error / DepthSigma(sensor, z, tilt, unit_m) : 1e6);
     scales.push_back(ahead ? z_measured / z : 0);
   }
-  if (errors.size() < kMinPixels) return {};
-  return {Median(ratios), Median(errors), Median(scales), errors.size()};
+  if (errors.size() < kMinDepthPixels) return {};
+  return {Quantile(ratios, 0.5), Quantile(errors, 0.5), Quantile(scales, 0.5), errors.size()};
 }
 
 // Tries the usual mistakes on a bad frame; the first that makes it good is named.
-std::string Explain(const std::vector<Sample>& samples, const Eigen::Isometry3d& T_wc,
+std::string Explain(const std::vector<Sample>& samples, const Pose& T_wc,
                     const Agreement& found, const std::string& sensor, double unit_m) {
   const auto as_told = [](const Sample& s) { return s.depth_m; };
-  const auto agrees = [&](const Eigen::Isometry3d& pose,
+  const auto agrees = [&](const Pose& pose,
                           const std::function<double(const Sample&)>& measured) {
     const Agreement tried = Compare(samples, pose, measured, sensor, unit_m);
     return tried.pixels > 0 && tried.ratio <= 1;
@@ -119,7 +112,7 @@ std::string Explain(const std::vector<Sample>& samples, const Eigen::Isometry3d&
   if (agrees(T_wc, [](const Sample& s) { return s.depth_m / s.ray_c.norm(); })) {
     return "the depth is the length of the ray; write the coordinate along the optical axis";
   }
-  if (agrees(T_wc.inverse(), as_told)) {
+  if (agrees(Inverse(T_wc), as_told)) {
     return "groundtruth.txt holds world to camera; write camera to world";
   }
   const double scale = found.scale;
@@ -132,33 +125,30 @@ std::string Explain(const std::vector<Sample>& samples, const Eigen::Isometry3d&
 
 }  // namespace
 
-TruthDepthCheck::TruthDepthCheck(FolderCheck& check, const SequenceTruth& truth)
-    : check_(check), truth_(truth) {
-  for (const CheckedPose& pose : truth.poses) pose_stamps_.push_back(pose.stamp_s);
-}
+TruthDepthCheck::TruthDepthCheck(Folder& folder, const SequenceTruth& truth)
+    : folder_(folder), truth_(truth), pose_stamps_(StampsOf(truth.poses)) {}
 
 void TruthDepthCheck::Frame(double stamp_s, const cv::Mat& plane_ids) {
   if (!truth_.camera || !truth_.scene || plane_ids.empty()) return;
   const auto pair = std::find_if(
       truth_.pairs.begin(), truth_.pairs.end(),
-      [&](const ListedPair& p) { return std::abs(p.rgb.stamp_s - stamp_s) <= kSameInstant_s; });
+      [&](const SequenceFrame& p) { return std::abs(p.stamp_s - stamp_s) <= kSameInstant_s; });
   // A depth image of another instant shows another picture than the id image.
-  if (pair == truth_.pairs.end() || check_.broken.count(pair->depth.file) != 0 ||
-      std::abs(pair->depth.stamp_s - stamp_s) > kSameInstant_s) {
+  if (pair == truth_.pairs.end() || std::abs(pair->depth_stamp_s - stamp_s) > kSameInstant_s) {
     return;
   }
   const auto pose = NearestStamp(pose_stamps_, stamp_s, kSameInstant_s);
-  const cv::Mat depth =
-      cv::imread((check_.root / pair->depth.file).string(), cv::IMREAD_UNCHANGED);
-  if (!pose || depth.type() != CV_16UC1 || depth.size() != plane_ids.size()) return;
+  Folder again(folder_.root(), OnFault::kCollect);  // its faults have been told
+  const cv::Mat depth = ReadImage(again, pair->depth, {CV_16U, 1, plane_ids.size()});
+  if (!pose || depth.empty()) return;
 
   const std::vector<Sample> samples = Samples(depth, plane_ids, *truth_.scene, *truth_.camera);
-  const Eigen::Isometry3d& T_wc = truth_.poses[*pose].T_wc;
+  const Pose& T_wc = truth_.poses[*pose].T_wc;
   const double unit_m = 1 / truth_.camera->depth_factor;
   const auto as_told = [](const Sample& s) { return s.depth_m; };
   const Agreement found = Compare(samples, T_wc, as_told, truth_.sensor, unit_m);
   if (found.pixels == 0) return;
-  Verdict verdict{pair->depth.file, found.error_m, !(found.ratio <= 1), ""};
+  Verdict verdict{pair->depth, found.error_m, !(found.ratio <= 1), ""};
   if (verdict.bad) {
     verdict.explanation = Explain(samples, T_wc, found, truth_.sensor, unit_m);
   }
@@ -174,10 +164,10 @@ void TruthDepthCheck::Finish() {
       "check the poses, camera.yaml, the planes of gt/scene.json and the order of the images";
   if (bad.size() <= verdicts_.size() / 2) {
     for (const Verdict& verdict : bad) {
-      check_.Add(verdict.file, 0,
-                 fmt::format("is {:.1f} mm (median) off the depth that the truth predicts",
-                             verdict.error_m * 1e3),
-                 verdict.explanation.empty() ? unexplained : verdict.explanation);
+      folder_.Tell(verdict.file, 0,
+                   fmt::format("is {:.1f} mm (median) off the depth that the truth predicts",
+                               verdict.error_m * 1e3),
+                   verdict.explanation.empty() ? unexplained : verdict.explanation);
     }
     return;
   }
@@ -197,11 +187,11 @@ void TruthDepthCheck::Finish() {
       break;
     }
   }
-  check_.Add(
+  folder_.Tell(
       "depth.txt", 0,
       fmt::format("in {} of {} frames the depth is off what the truth predicts, by {:.1f} mm "
                   "(median)",
-                  bad.size(), verdicts_.size(), Median(errors) * 1e3),
+                  bad.size(), verdicts_.size(), Quantile(errors, 0.5) * 1e3),
       mend);
 }
 

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "eval/check/check_truth_frames.h"
+#include "eval/check/sequence_truth.h"
 
 namespace eval {
 
@@ -14,7 +14,7 @@ namespace eval {
 double DepthSigma(const std::string& sensor, double z, double tilt_rad, double unit_m);
 
 /// Rays (x/z, y/z, 1) of pixels, without the lens's distortion.
-std::vector<Eigen::Vector3d> RaysOf(const CheckedCamera& camera,
+std::vector<Eigen::Vector3d> RaysOf(const Camera& camera,
                                     const std::vector<cv::Point2d>& pixels);
 
 /// Compares depth images with the depth that the truth predicts: the plane seen through the
@@ -26,7 +26,7 @@ std::vector<Eigen::Vector3d> RaysOf(const CheckedCamera& camera,
 /// fits.
 class TruthDepthCheck {
  public:
-  TruthDepthCheck(FolderCheck& check, const SequenceTruth& truth);
+  TruthDepthCheck(Folder& folder, const SequenceTruth& truth);
   /// @param plane_ids  CV_16U, as gt/plane_id; frames that lack anything are left out
   void Frame(double stamp_s, const cv::Mat& plane_ids);
   /// Reports: one fault for each bad frame, or a single one when more than half are bad.
@@ -40,7 +40,7 @@ class TruthDepthCheck {
     std::string explanation;  ///< the mistake that would explain it; may be empty
   };
 
-  FolderCheck& check_;
+  Folder& folder_;
   const SequenceTruth& truth_;
   std::vector<double> pose_stamps_;
   std::vector<Verdict> verdicts_;

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "eval/check/check_truth_frames.h"
+#include "eval/check/sequence_truth.h"
 
 namespace eval {
 
@@ -20,14 +20,12 @@ struct DeepFrame {
 class DeepFrames {
  public:
   /// @pre truth has a camera; kept by reference
-  DeepFrames(const FolderCheck& check, const SequenceTruth& truth);
+  DeepFrames(const Folder& folder, const SequenceTruth& truth);
 
   const std::vector<DeepFrame>& frames() const { return frames_; }
   const SequenceTruth& truth() const { return truth_; }
-  double unit_m() const { return unit_m_; }  ///< of the depth image
-  const Eigen::Isometry3d& Pose(const DeepFrame& frame) const {
-    return truth_.poses[frame.pose].T_wc;
-  }
+  double unit_m() const { return unit_m_; }  ///< what a unit of the depth image is
+  const Pose& PoseOf(const DeepFrame& frame) const { return truth_.poses[frame.pose].T_wc; }
   /// (x/z, y/z, 1) of a pixel of the image.
   const Eigen::Vector3d& Ray(int u, int v) const {
     return rays_[static_cast<std::size_t>(v) * static_cast<std::size_t>(truth_.camera->width) +
@@ -38,8 +36,8 @@ class DeepFrames {
   Eigen::Vector2d Pixel(const Eigen::Vector3d& x_c) const;
 
  private:
-  void Load(const FolderCheck& check);
-  cv::Mat Read(const FolderCheck& check, const std::string& file) const;
+  void Load(const Folder& folder);
+  cv::Mat Read(const Folder& folder, const std::string& file) const;
 
   const SequenceTruth& truth_;
   double unit_m_;
@@ -47,7 +45,5 @@ class DeepFrames {
   std::vector<Eigen::Vector3d> rays_;
   std::vector<DeepFrame> frames_;
 };
-
-double Median(std::vector<double> values);
 
 }  // namespace eval

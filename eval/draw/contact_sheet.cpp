@@ -26,7 +26,7 @@ const typename Items::value_type* FindByStamp(const Items& items, double stamp_s
 }
 
 FrameScene Collect(const Run& run, const Sequence& sequence, const SequenceFrame& frame,
-                   const std::optional<DrawCamera>& camera) {
+                   const std::optional<Camera>& camera) {
   FrameScene scene;
   const std::filesystem::path file = sequence.folder / frame.rgb;
   scene.rgb = cv::imread(file.string(), cv::IMREAD_COLOR);
@@ -122,7 +122,7 @@ std::vector<std::size_t> SpreadEvenly(std::size_t total, std::size_t count) {
 }
 
 cv::Mat ContactSheet(const Run& run, const Sequence& sequence,
-                     const std::optional<DrawCamera>& camera, int frames) {
+                     const std::optional<Camera>& camera, int frames) {
   const std::vector<std::size_t> indices =
       SpreadEvenly(sequence.frames.size(), static_cast<std::size_t>(std::max(frames, 1)));
   const int columns = std::max(1, std::min(3, static_cast<int>(indices.size())));

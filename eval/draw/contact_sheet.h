@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "eval/draw/draw_camera.h"
-#include "eval/read/run.h"
-#include "eval/read/sequence.h"
+#include "eval/formats/run.h"
+#include "eval/formats/sequence.h"
 
 namespace eval {
 
@@ -16,6 +16,6 @@ std::vector<std::size_t> SpreadEvenly(std::size_t total, std::size_t count);
 /// A page of frames of a run, evenly spread over the sequence, each drawn by DrawFrame under
 /// its number and time. @throws InputError when an image cannot be read
 cv::Mat ContactSheet(const Run& run, const Sequence& sequence,
-                     const std::optional<DrawCamera>& camera, int frames);
+                     const std::optional<Camera>& camera, int frames);
 
 }  // namespace eval

@@ -23,7 +23,7 @@ std::vector<Picture> DrawRun(const fs::path& folder, const DrawOptions& options)
   const Run run = ReadRun(folder);
   const fs::path sequence_folder = options.truth ? *options.truth : SequenceOf(run);
   const Sequence sequence = ReadSequence(sequence_folder);
-  const auto camera = ChooseDrawCamera(options.camera, sequence_folder, folder);
+  const auto camera = ChooseCamera(options.camera, sequence, run);
   if (!camera && run.segmentation_files.empty()) {
     throw io::InputError(sequence_folder.string(),
                          "has no camera.yaml, and run.json names no camera; give one with "

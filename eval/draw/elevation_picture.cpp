@@ -15,7 +15,7 @@ namespace {
 
 constexpr double kShown_mm = 400;
 constexpr double kLabelStep_px = 21;
-const Colour kFaint{232, 229, 226};
+const Colour kFaintEdge{232, 229, 226};
 
 /// A level plane seen from the side.
 struct Bar {
@@ -33,7 +33,7 @@ void Extend(Bar& bar, const std::vector<Eigen::Vector3d>& points) {
 }
 
 /// Pixels of the panel from metres along x and millimetres of height.
-struct Axes {
+struct ElevationAxes {
   const MapScale& scale;
   cv::Rect2d panel;
   double low_mm, high_mm;
@@ -92,18 +92,18 @@ Heights Measure(const MapScene& scene, const MapScene::Estimate& base) {
   return heights;
 }
 
-void PutGrid(cv::Mat& page, const Axes& axes) {
+void PutGrid(cv::Mat& page, const ElevationAxes& axes) {
   const double step = RoundStep(axes.high_mm - axes.low_mm, 8);
   for (double mm = std::ceil(axes.low_mm / step) * step; mm <= axes.high_mm; mm += step) {
     const double y = axes.At(0, mm).y;
-    PutLine(page, {axes.panel.x, y}, {axes.panel.x + axes.panel.width, y}, kFaint);
+    PutLine(page, {axes.panel.x, y}, {axes.panel.x + axes.panel.width, y}, kFaintEdge);
     PutText(page, fmt::format("{:g}", std::abs(mm) < 1e-9 ? 0.0 : mm),
             {axes.panel.x + 6, y - 4}, {8.5, Colour(150, 145, 140), false, Align::kLeft});
   }
 }
 
 // Labels from top to bottom in the order of height, none over another.
-void PutLabels(cv::Mat& page, const Axes& axes, std::vector<Bar> bars) {
+void PutElevationLabels(cv::Mat& page, const ElevationAxes& axes, std::vector<Bar> bars) {
   const auto fits = static_cast<std::size_t>(axes.panel.height / kLabelStep_px);
   if (bars.size() > fits) {
     std::stable_sort(bars.begin(), bars.end(), [](const Bar& a, const Bar& b) {
@@ -162,7 +162,7 @@ void PutElevation(cv::Mat& page, const MapScene& scene, const MapScale& scale,
     }
   }
   const double room = 0.07 * (high - low);
-  const Axes axes{scale, panel, low - room, high + room};
+  const ElevationAxes axes{scale, panel, low - room, high + room};
   PutGrid(page, axes);
   for (const Bar& bar : heights.estimated) {
     const Colour colour = ColourOfPlane(bar.plane->id);
@@ -175,7 +175,7 @@ void PutElevation(cv::Mat& page, const MapScene& scene, const MapScale& scale,
     PutDashedLine(page, axes.At(bar.x0_m, bar.height_mm), axes.At(bar.x1_m, bar.height_mm),
                   kTruthColour, 1, 6);
   }
-  PutLabels(page, axes, heights.estimated);
+  PutElevationLabels(page, axes, heights.estimated);
   if (!heights.elsewhere.empty()) {
     PutText(page, "not drawn:  " + Joined(heights.elsewhere),
             {panel.x, panel.y + panel.height + 24}, {9.5, kInkColour, false, Align::kLeft});

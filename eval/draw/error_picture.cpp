@@ -15,7 +15,8 @@ namespace {
 
 constexpr int kWidth_px = 1400, kHeight_px = 520;
 const cv::Rect2d kPlot(86, 74, kWidth_px - 86 - 40, kHeight_px - 74 - 62);
-const Colour kInk{60, 55, 50}, kFaint{232, 229, 226}, kCurve{190, 95, 30}, kLost{205, 205, 250};
+const Colour kInk{60, 55, 50}, kFaintGrid{232, 229, 226}, kCurve{190, 95, 30},
+    kLost{205, 205, 250};
 
 struct Sample {
   double time_s, error_mm;
@@ -44,7 +45,7 @@ std::vector<Sample> Errors(const Run& run, const Sequence& sequence) {
 }
 
 /// Pixels of the plot from seconds and millimetres.
-struct Axes {
+struct ErrorAxes {
   double t0, t1, top_mm;
   cv::Point2d At(double t, double mm) const {
     return {kPlot.x + (t - t0) / (t1 - t0) * kPlot.width,
@@ -52,11 +53,11 @@ struct Axes {
   }
 };
 
-void PutAxes(cv::Mat& image, const Axes& axes) {
+void PutAxes(cv::Mat& image, const ErrorAxes& axes) {
   const TextStyle style{9.5, kInk, false, Align::kRight};
   const double step = RoundStep(axes.top_mm, 6);
   for (double mm = 0; mm <= axes.top_mm * (1 + 1e-9); mm += step) {
-    PutLine(image, axes.At(axes.t0, mm), axes.At(axes.t1, mm), kFaint);
+    PutLine(image, axes.At(axes.t0, mm), axes.At(axes.t1, mm), kFaintGrid);
     PutText(image, fmt::format("{:g}", mm), axes.At(axes.t0, mm) + cv::Point2d(-9, 4.5), style);
   }
   const double tick = RoundStep(axes.t1 - axes.t0, 10);
@@ -73,7 +74,8 @@ void PutAxes(cv::Mat& image, const Axes& axes) {
 }
 
 // Frames of the sequence without a pose.
-void ShadeLost(cv::Mat& image, const Axes& axes, const Run& run, const Sequence& sequence) {
+void ShadeLost(cv::Mat& image, const ErrorAxes& axes, const Run& run,
+               const Sequence& sequence) {
   std::vector<double> stamps;
   for (const StampedPose& pose : run.trajectory) stamps.push_back(pose.stamp_s);
   const double half = 0.5 * (axes.t1 - axes.t0) /
@@ -89,7 +91,7 @@ void ShadeLost(cv::Mat& image, const Axes& axes, const Run& run, const Sequence&
   }
 }
 
-void PutCurve(cv::Mat& image, const Axes& axes, const std::vector<Sample>& samples,
+void PutCurve(cv::Mat& image, const ErrorAxes& axes, const std::vector<Sample>& samples,
               double frame_s) {
   std::vector<cv::Point2d> part;
   for (std::size_t i = 0; i < samples.size(); ++i) {
@@ -135,8 +137,8 @@ std::optional<cv::Mat> ErrorOverTime(const Run& run, const Sequence& sequence) {
   double largest = 0.1;  // below, the curve would show round-off
   for (const Sample& sample : samples) largest = std::max(largest, sample.error_mm);
   const double step = RoundStep(largest, 6);
-  const Axes axes{sequence.frames.front().stamp_s, sequence.frames.back().stamp_s,
-                  step * std::ceil(largest * 1.02 / step)};
+  const ErrorAxes axes{sequence.frames.front().stamp_s, sequence.frames.back().stamp_s,
+                       step * std::ceil(largest * 1.02 / step)};
   cv::Mat image(kHeight_px, kWidth_px, CV_8UC3, kWhite);
   ShadeLost(image, axes, run, sequence);
   PutAxes(image, axes);

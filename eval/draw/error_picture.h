@@ -3,8 +3,8 @@
 #include <opencv2/core.hpp>
 #include <optional>
 
-#include "eval/read/run.h"
-#include "eval/read/sequence.h"
+#include "eval/formats/run.h"
+#include "eval/formats/sequence.h"
 
 namespace eval {
 

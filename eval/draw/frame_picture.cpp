@@ -76,7 +76,7 @@ class FramePainter {
 
   std::vector<cv::Point2d> Outline(const std::vector<Eigen::Vector3d>& points_c) const {
     if (!scene_.camera) return {};
-    return Scaled(scene_.camera->ProjectOutline(points_c), zoom_);
+    return Scaled(ProjectOutline(*scene_.camera, points_c), zoom_);
   }
 
   // What stands in for the segment when it was not saved.
@@ -123,7 +123,7 @@ class FramePainter {
       const Eigen::Vector3d reach = V.normalized() * 3.0;
       std::vector<cv::Point2d> ends;
       for (int i = -60; i <= 60; ++i) {
-        const auto pixel = scene_.camera->Project(foot + reach * (i / 60.0));
+        const auto pixel = Project(*scene_.camera, foot + reach * (i / 60.0));
         if (pixel) ends.push_back(Scaled({*pixel}, zoom_)[0]);
       }
       PutPath(drawn, ends, false, kWhite, 1);
@@ -141,7 +141,7 @@ class FramePainter {
       PutPath(image_, face, true, kWhite, 1);
     }
     for (const Eigen::Vector3d& vertex : plane.vertices_c) {
-      const auto pixel = scene_.camera->Project(vertex);
+      const auto pixel = Project(*scene_.camera, vertex);
       if (pixel) PutRingedDot(image_, Scaled({*pixel}, zoom_)[0], 4.6, colour, kBlack);
       if (pixel) PutDot(image_, Scaled({*pixel}, zoom_)[0], 1.4, kWhite);
     }
@@ -166,7 +166,7 @@ class FramePainter {
       if (furthest > 0) return cv::Point2d(at.x - 1, at.y - 1);
     }
     if (!scene_.camera) return std::nullopt;
-    const auto pixel = scene_.camera->Project(plane.centroid_c);
+    const auto pixel = Project(*scene_.camera, plane.centroid_c);
     if (!pixel) return std::nullopt;
     const cv::Point2d at = Scaled({*pixel}, zoom_)[0];
     const bool seen = at.x >= 0 && at.y >= 0 && at.x < image_.cols && at.y < image_.rows;

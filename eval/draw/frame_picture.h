@@ -4,7 +4,7 @@
 #include <optional>
 
 #include "eval/draw/draw_camera.h"
-#include "eval/read/run.h"
+#include "eval/formats/run.h"
 
 namespace eval {
 
@@ -15,7 +15,7 @@ struct FrameScene {
   const RunFrame* frame = nullptr;  ///< null: the run says nothing of it
   std::optional<Pose> T_wc;         ///< null: not tracked
   const std::vector<RunMapPlane>* map = nullptr;
-  std::optional<DrawCamera> camera;  ///< null: only the segmentation can be drawn
+  std::optional<Camera> camera;  ///< null: only the segmentation can be drawn
 };
 
 /// The image scaled to `width_px`, with each plane tinted in the colour of its map plane, its

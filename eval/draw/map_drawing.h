@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "eval/read/run.h"
-#include "eval/read/sequence.h"
+#include "eval/formats/run.h"
+#include "eval/formats/sequence.h"
 
 namespace eval {
 

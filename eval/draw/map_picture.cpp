@@ -13,8 +13,8 @@
 namespace eval {
 namespace {
 
-constexpr int kPage_px = 1640, kHeader_px = 64, kMargin_px = 30, kColumn_px = 340;
-constexpr int kMaxTop_px = 1000, kGap_px = 56, kElevation_px = 460;
+constexpr int kPage_px = 1640, kMapHeader_px = 64, kMargin_px = 30, kColumn_px = 340;
+constexpr int kMaxTop_px = 1000, kMapGap_px = 56, kElevation_px = 460;
 const Colour kFrame{215, 211, 208};
 const Colour kRunPath{40, 70, 225}, kTruthPath{120, 115, 110};
 
@@ -69,7 +69,7 @@ void PutPaths(cv::Mat& view, const MapScene& scene, const MapScale& scale) {
   PutDot(view, run.back(), 4, kRunPath);
 }
 
-// Of the upright box around an outline, pixels.
+// The upright box around an outline, pixels.
 double LongestSide(const std::vector<cv::Point2d>& outline) {
   double low_x = 1e9, low_y = 1e9, high_x = -1e9, high_y = -1e9;
   for (const cv::Point2d& p : outline) {
@@ -167,11 +167,11 @@ void PutLegend(cv::Mat& page, const MapScene& scene, cv::Point2d at) {
 cv::Mat DrawMap(const MapScene& scene, const std::string& title) {
   const double width = kPage_px - 2.0 * kMargin_px - kColumn_px;
   const MapScale scale =
-      FitMap(scene, {static_cast<double>(kMargin_px), static_cast<double>(kHeader_px), width,
+      FitMap(scene, {static_cast<double>(kMargin_px), static_cast<double>(kMapHeader_px), width,
                      static_cast<double>(kMaxTop_px)});
-  const int top = kHeader_px + static_cast<int>(scale.page.height);
-  cv::Mat page(std::max(top, kHeader_px + 240) + kGap_px + kElevation_px, kPage_px, CV_8UC3,
-               kWhite);
+  const int top = kMapHeader_px + static_cast<int>(scale.page.height);
+  cv::Mat page(std::max(top, kMapHeader_px + 240) + kMapGap_px + kElevation_px, kPage_px,
+               CV_8UC3, kWhite);
   PutText(page, title, {static_cast<double>(kMargin_px), 38},
           {13, kInkColour, true, Align::kLeft});
 
@@ -186,18 +186,18 @@ cv::Mat DrawMap(const MapScene& scene, const std::string& title) {
   PutVertices(view, scene, inner);
   PutPaths(view, scene, inner);
   PutLabels(view, scene, inner);
-  view.copyTo(page(cv::Rect(kMargin_px, kHeader_px, view.cols, view.rows)));
-  const double x1 = kMargin_px + view.cols, y1 = kHeader_px + view.rows;
+  view.copyTo(page(cv::Rect(kMargin_px, kMapHeader_px, view.cols, view.rows)));
+  const double x1 = kMargin_px + view.cols, y1 = kMapHeader_px + view.rows;
   PutPath(page,
-          {{kMargin_px - 0.5, kHeader_px - 0.5},
-           {x1, kHeader_px - 0.5},
+          {{kMargin_px - 0.5, kMapHeader_px - 0.5},
+           {x1, kMapHeader_px - 0.5},
            {x1, y1},
            {kMargin_px - 0.5, y1}},
           true, kFrame);
   PutScaleBar(page, scale);
-  PutLegend(page, scene, {x1 + 24, kHeader_px + 22.0});
+  PutLegend(page, scene, {x1 + 24, kMapHeader_px + 22.0});
 
-  const double below = std::max(top, kHeader_px + 240) + kGap_px;
+  const double below = std::max(top, kMapHeader_px + 240) + kMapGap_px;
   PutElevation(page, scene, scale,
                {static_cast<double>(kMargin_px), below + 34, width, kElevation_px - 70.0});
   return page;

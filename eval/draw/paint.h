@@ -22,7 +22,7 @@ Colour Darker(const Colour& colour, double factor = 0.6);
 enum class Align { kLeft, kCentre, kRight };
 
 struct TextStyle {
-  double height_px = 11;  ///< of a capital letter
+  double height_px = 11;  ///< height of a capital letter
   Colour colour = kWhite;
   bool bold = false;
   Align align = Align::kLeft;

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "eval/read/run.h"
-#include "eval/read/sequence.h"
+#include "eval/formats/run.h"
+#include "eval/formats/sequence.h"
 
 namespace eval {
 

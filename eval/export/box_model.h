@@ -3,7 +3,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "eval/read/scene_truth.h"
+#include "eval/formats/scene_truth.h"
 
 namespace eval {
 

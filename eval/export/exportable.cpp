@@ -1,7 +1,5 @@
 #include "eval/export/exportable.h"
 
-#include <algorithm>
-
 #include "io/input_error.h"
 
 namespace eval {
@@ -10,16 +8,6 @@ void CommitExport(io::OutputFolder& folder, const std::string& kind) {
   const nlohmann::json marker{{"format", "pas-export/1"}, {"kind", kind}};
   folder.Write(kExportMarker, marker.dump(1) + "\n");
   folder.Commit();
-}
-
-void PixelSet::Add(int u, int v) {
-  if (count == 0) {
-    x0 = x1 = u;
-    y0 = y1 = v;
-  }
-  ++count;
-  x0 = std::min(x0, u), x1 = std::max(x1, u);
-  y0 = std::min(y0, v), y1 = std::max(y1, v);
 }
 
 Sequence ReadExportable(const std::filesystem::path& folder) {

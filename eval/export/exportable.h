@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "eval/read/sequence.h"
+#include "eval/formats/sequence.h"
 #include "io/output_folder.h"
 
 namespace eval {
@@ -17,7 +17,7 @@ inline constexpr const char* kExportMarker = "export.json";
 struct ExportOptions {
   bool structure = false;    ///< also desk, floor, walls
   bool force = false;        ///< replace an older export
-  std::string version = {};  ///< of the program, for the dataset's description
+  std::string version = {};  ///< the program's, for the dataset's description
   std::function<void(int done, int total)> progress = {};  ///< frames; may be empty
 };
 
@@ -44,12 +44,5 @@ std::vector<Pose> FramePoses(const Sequence& sequence);
 
 /// Writes the marker, which says what `kind` of export it is, and puts the folder in its place.
 void CommitExport(io::OutputFolder& folder, const std::string& kind);
-
-/// Pixels of an object; inclusive box of pixel centres.
-struct PixelSet {
-  int count = 0;
-  int x0 = 0, y0 = 0, x1 = -1, y1 = -1;
-  void Add(int u, int v);
-};
 
 }  // namespace eval

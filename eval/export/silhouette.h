@@ -3,13 +3,13 @@
 #include <opencv2/core.hpp>
 
 #include "eval/export/exportable.h"
-#include "eval/read/pose.h"
+#include "eval/formats/pose.h"
 
 namespace eval {
 
 /// What a box alone would cover.
 struct Silhouette {
-  cv::Mat1b mask;  ///< of the image: 255 or 0
+  cv::Mat1b mask;  ///< as large as the image: 255 or 0
   PixelSet all;    ///< also beyond the border, on a canvas of three images by three
 };
 

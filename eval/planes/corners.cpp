@@ -34,6 +34,14 @@ std::vector<int> MatchCorners(const std::vector<Eigen::Vector3d>& claimed,
   return match;
 }
 
+CornerCounts& CornerCounts::operator+=(const CornerCounts& other) {
+  claimed += other.claimed, matched += other.matched;
+  true_in_view += other.true_in_view, found_in_view += other.found_in_view;
+  faces_in_view += other.faces_in_view, faces_with_4 += other.faces_with_4;
+  errors_mm.insert(errors_mm.end(), other.errors_mm.begin(), other.errors_mm.end());
+  return *this;
+}
+
 void CornerCounts::AddPlane(const SeenPlane& seen,
                             const std::vector<Eigen::Vector3d>& claimed_c) {
   std::vector<bool> found(seen.corners_c.size(), false);

@@ -4,9 +4,9 @@
 #include <set>
 #include <vector>
 
+#include "eval/formats/run_map.h"
+#include "eval/formats/scene_truth.h"
 #include "eval/planes/association.h"
-#include "eval/read/run_planes.h"
-#include "eval/read/scene_truth.h"
 #include "eval/trajectory/alignment.h"
 #include "eval/trajectory/statistics.h"
 
@@ -16,9 +16,9 @@ inline constexpr double kMaxMapCornerError_m = 0.10;
 
 /// The final map against the truth. Planes that were merged into others stand for these.
 struct MapScore {
-  int planes = 0;            ///< of the final map
+  int planes = 0;            ///< planes of the final map
   int true_planes_seen = 0;  ///< that counted in at least one frame
-  int matched = 0;           ///< of these, the majority of at least one map plane
+  int matched = 0;           ///< those of them that are the majority of at least one map plane
   int duplicates = 0;        ///< map planes beyond the first with the same majority
   int merged = 0;            ///< with >= 2 truths that have n_ij >= max(3, 5 % of n_.j)
   int spurious = 0;  ///< whose observations show mostly no scored plane, or that have none

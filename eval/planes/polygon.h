@@ -3,7 +3,7 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "eval/read/plane.h"
+#include "eval/formats/plane.h"
 
 namespace eval {
 

@@ -135,19 +135,8 @@ class PlaneScorer {
       truth_of_label[plane.index + 1] = e.TruthOf(plane);
       return plane.index + 1;
     });
-    const HooverScore hoover = ScoreHoover(overlap);
-    regions_.truth += hoover.truth;
-    regions_.machine += hoover.machine;
-    regions_.correct += hoover.correct;
-    regions_.over += hoover.over;
-    regions_.under += hoover.under;
-    regions_.missed += hoover.missed;
-    regions_.noise += hoover.noise;
-    const PanopticCounts panoptic = CountPanoptic(overlap);
-    regions_.panoptic.tp += panoptic.tp;
-    regions_.panoptic.fp += panoptic.fp;
-    regions_.panoptic.fn += panoptic.fn;
-    regions_.panoptic.iou_sum += panoptic.iou_sum;
+    hoover_ += ScoreHoover(overlap);
+    panoptic_ += CountPanoptic(overlap);
     for (const auto& [truth, pixels] : overlap.truth_pixels) truth_pixels_ += double(pixels);
     for (const auto& [label, pixels] : overlap.machine_pixels) {
       machine_pixels_ += double(pixels);
@@ -157,14 +146,11 @@ class PlaneScorer {
 
   void FinishRegions() {
     const double n = region_frames_;
-    for (double* sum : {&regions_.truth, &regions_.machine, &regions_.correct, &regions_.over,
-                        &regions_.under, &regions_.missed, &regions_.noise}) {
-      *sum /= n;
-    }
     const PrecisionRecall pixels = MakeScores(right_pixels_, machine_pixels_, truth_pixels_);
-    regions_.pixel_precision = pixels.precision;
-    regions_.pixel_recall = pixels.recall;
-    score_.regions = regions_;
+    score_.regions = {hoover_.truth / n, hoover_.machine / n, hoover_.correct / n,
+                      hoover_.over / n,  hoover_.under / n,   hoover_.missed / n,
+                      hoover_.noise / n, panoptic_,           pixels.precision,
+                      pixels.recall};
   }
 
   /// Map planes of the frame, one label each: masks of one map plane are one prediction.
@@ -226,7 +212,8 @@ class PlaneScorer {
   }
 
   PlaneScore score_;
-  RegionScore regions_;
+  HooverScore hoover_;
+  PanopticCounts panoptic_;
   int region_frames_ = 0;
   double truth_pixels_ = 0.0, machine_pixels_ = 0.0, right_pixels_ = 0.0;
   std::vector<double> normal_deg_, offset_mm_;

@@ -3,12 +3,12 @@
 #include <optional>
 #include <set>
 
+#include "eval/formats/run.h"
 #include "eval/planes/association.h"
 #include "eval/planes/corners.h"
 #include "eval/planes/map_score.h"
 #include "eval/planes/segmentation_score.h"
 #include "eval/planes/tracking.h"
-#include "eval/read/run.h"
 #include "eval/trajectory/score_trajectory.h"
 
 namespace eval {

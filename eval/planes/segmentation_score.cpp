@@ -45,11 +45,10 @@ std::vector<Instance> FindInstances(const Overlap& o, double min_share) {
   std::vector<Instance> instances;
   for (const auto& [t, row] : o.shared) {
     for (const auto& [m, both] : row) {
+      if (!IsCorrect(o, t, m, min_share)) continue;
       const double of_truth = Share(both, o.truth_pixels.at(t));
       const double of_machine = Share(both, o.machine_pixels.at(m));
-      if (of_truth >= min_share && of_machine >= min_share) {
-        instances.push_back({Kind::kCorrect, {t}, {m}, 0.5 * (of_truth + of_machine)});
-      }
+      instances.push_back({Kind::kCorrect, {t}, {m}, 0.5 * (of_truth + of_machine)});
     }
   }
   for (const auto& [t, pixels] : o.truth_pixels) {
@@ -75,6 +74,25 @@ std::vector<Instance> FindInstances(const Overlap& o, double min_share) {
 }
 
 }  // namespace
+
+HooverScore& HooverScore::operator+=(const HooverScore& other) {
+  truth += other.truth, machine += other.machine;
+  correct += other.correct, over += other.over, under += other.under;
+  missed += other.missed, noise += other.noise;
+  return *this;
+}
+
+PanopticCounts& PanopticCounts::operator+=(const PanopticCounts& other) {
+  tp += other.tp, fp += other.fp, fn += other.fn;
+  iou_sum += other.iou_sum;
+  return *this;
+}
+
+bool IsCorrect(const Overlap& overlap, int truth, int machine, double min_share) {
+  const long long both = overlap.Shared(truth, machine);
+  return Share(both, overlap.truth_pixels.at(truth)) >= min_share &&
+         Share(both, overlap.machine_pixels.at(machine)) >= min_share;
+}
 
 HooverScore ScoreHoover(const Overlap& overlap, double min_share) {
   HooverScore score;

@@ -9,8 +9,12 @@ namespace eval {
 struct HooverScore {
   int truth = 0, machine = 0;
   int correct = 0, over = 0, under = 0, missed = 0, noise = 0;
+
+  HooverScore& operator+=(const HooverScore& other);
 };
 inline constexpr double kHooverShare = 0.8;
+/// Whether the regions make a correct instance: each holds `min_share` of the other.
+bool IsCorrect(const Overlap& overlap, int truth, int machine, double min_share = kHooverShare);
 HooverScore ScoreHoover(const Overlap& overlap, double min_share = kHooverShare);
 
 /// Panoptic quality (Kirillov, arXiv 1801.00868): TP iff IoU > 0.5; counts add over frames.
@@ -24,6 +28,7 @@ struct PanopticCounts {
     return whole > 0.0 ? tp / whole : 0.0;
   }
   double Pq() const { return Sq() * Rq(); }
+  PanopticCounts& operator+=(const PanopticCounts& other);
 };
 PanopticCounts CountPanoptic(const Overlap& overlap);
 

@@ -4,7 +4,7 @@
 #include <optional>
 #include <vector>
 
-#include "eval/read/sequence.h"
+#include "eval/formats/sequence.h"
 
 namespace eval {
 
@@ -29,7 +29,7 @@ struct TrueFrame {
   double stamp_s = 0.0;
   Pose T_gc;
   std::vector<SeenPlane> planes;       ///< scored planes with at least one pixel, by rising id
-  std::optional<cv::Mat1w> plane_ids;  ///< of all planes; 0 = none
+  std::optional<cv::Mat1w> plane_ids;  ///< ids of all planes; 0 = none
 
   const SeenPlane* Find(int id) const;  ///< null if the frame does not show it
 };

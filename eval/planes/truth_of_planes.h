@@ -2,8 +2,8 @@
 
 #include <map>
 
+#include "eval/formats/frame_planes.h"
 #include "eval/planes/true_frame.h"
-#include "eval/read/run_planes.h"
 
 namespace eval {
 

@@ -1,12 +1,13 @@
 #pragma once
 
-#include "eval/read/sequence.h"
+#include "eval/formats/sequence.h"
 
 namespace eval {
 
 /// When two faces of one thing count as one plane.
-inline constexpr double kSamePlane_m = 1e-4;  ///< of every corner, from the other's plane
-inline constexpr double kMaxJoint_m = 0.03;   ///< from outline to outline
+inline constexpr double kSamePlane_m =
+    1e-4;  ///< distance of every corner from the other's plane
+inline constexpr double kMaxJoint_m = 0.03;  ///< from outline to outline
 /// The sequence as it is scored: faces of one thing (an object, or the objects of one
 /// detection group) that are one plane with a joint between them, like the two doors of a
 /// cabinet or the blocks of keys of a keyboard, are one true plane. Nothing that measures

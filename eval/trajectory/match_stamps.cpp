@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "eval/read/stamped_files.h"
+#include "eval/formats/stamped_files.h"
 
 namespace eval {
 namespace {

@@ -3,7 +3,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "eval/read/pose.h"
+#include "eval/formats/pose.h"
 
 namespace eval {
 

@@ -4,7 +4,7 @@
 #include <utility>
 #include <vector>
 
-#include "eval/read/pose.h"
+#include "eval/formats/pose.h"
 
 namespace eval {
 

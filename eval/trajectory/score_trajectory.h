@@ -3,8 +3,8 @@
 #include <optional>
 #include <string>
 
-#include "eval/read/run.h"
-#include "eval/read/sequence.h"
+#include "eval/formats/run.h"
+#include "eval/formats/sequence.h"
 #include "eval/trajectory/alignment.h"
 #include "eval/trajectory/match_stamps.h"
 #include "eval/trajectory/statistics.h"
@@ -20,8 +20,8 @@ struct RelativeScore {
 
 /// The group `trajectory` of metrics.json; what is not defined is empty.
 struct TrajectoryScore {
-  std::size_t frames = 0;             ///< of the sequence
-  std::size_t tracked = 0;            ///< of these, with a pose in the run
+  std::size_t frames = 0;             ///< frames of the sequence
+  std::size_t tracked = 0;            ///< those of them with a pose in the run
   std::size_t lost_events = 0;        ///< times a tracked frame is followed by one that is not
   std::optional<Statistics> ate_se3;  ///< metres
   std::optional<Statistics> ate_origin;  ///< metres, first matched pose laid on the truth

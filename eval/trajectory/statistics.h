@@ -9,7 +9,7 @@ namespace eval {
 struct Statistics {
   std::size_t count = 0;
   double rmse = 0.0, mean = 0.0, median = 0.0;
-  double std_dev = 0.0;  ///< of the population (ddof 0)
+  double std_dev = 0.0;  ///< that of the population (ddof 0)
   double min = 0.0, max = 0.0, sse = 0.0;
 };
 

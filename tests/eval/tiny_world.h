@@ -13,7 +13,7 @@
 #include <string>
 #include <vector>
 
-#include "eval/read/plane.h"
+#include "eval/formats/plane.h"
 #include "io/atomic_file.h"
 
 /// A desk with two books and a toy, its truth as a sequence folder, and the run that says

@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "eval/check/fault.h"
+#include "eval/check/report.h"
 
 namespace eval {
 

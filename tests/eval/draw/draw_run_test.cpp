@@ -64,7 +64,7 @@ class DrawRunFolder : public ::testing::Test {
     scene.frame = &run.frames[frame];
     scene.T_wc = run.trajectory[frame].T_wc;
     scene.map = &run.map;
-    scene.camera = ReadDrawCamera((seq() / "camera.yaml").string());
+    scene.camera = ReadNamedCamera((seq() / "camera.yaml").string());
     return scene;
   }
 

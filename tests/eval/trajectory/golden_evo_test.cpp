@@ -8,7 +8,7 @@
 #include <map>
 #include <numbers>
 
-#include "eval/read/trajectory_file.h"
+#include "eval/formats/trajectory.h"
 #include "eval/trajectory/alignment.h"
 #include "eval/trajectory/match_stamps.h"
 #include "eval/trajectory/pose_errors.h"
@@ -89,9 +89,9 @@ TEST_P(GoldenEvo, AgreesOnEveryAbsoluteAndRelativeError) {
   const nlohmann::json golden = io::ReadJson(folder / "evo_golden.json");
   std::map<std::string, Matched> cases;
   for (const auto& [name, files] : golden["matches"].items()) {
-    const Trajectory truth = ReadTrajectory(folder / "data" / files["ref"].get<std::string>());
-    const Trajectory estimate =
-        ReadTrajectory(folder / "data" / files["est"].get<std::string>());
+    Folder data(folder / "data");
+    const Trajectory truth = ReadTrajectory(data, files["ref"]);
+    const Trajectory estimate = ReadTrajectory(data, files["est"]);
     EXPECT_EQ(truth.size(), files["ref_poses"].get<std::size_t>());
     cases[name] = Match(truth, estimate);
     EXPECT_EQ(cases[name].truth.size(), files["matched"].get<std::size_t>()) << name;

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "eval/read/sequence.h"
+#include "eval/formats/sequence.h"
 #include "eval/trajectory/pairs.h"
 #include "eval/trajectory/score_trajectory.h"
 #include "tests/eval/shared_data.h"

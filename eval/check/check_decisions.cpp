@@ -1,0 +1,78 @@
+#include "eval/check/check_decisions.h"
+
+#include <fmt/format.h>
+
+#include <set>
+
+namespace eval {
+namespace {
+
+/// Follows which map planes exist when a frame decides.
+class DecisionCheck {
+ public:
+  DecisionCheck(Folder& folder, const Run& run) : folder_(folder), map_is_read_(run.has_map) {
+    for (const RunMapPlane& plane : run.map) ids_.insert(plane.id);
+  }
+
+  void Frame(const RunFrame& frame) {
+    for (std::size_t i = 0; i < frame.planes.size(); ++i) {
+      line_ = frame.line;
+      pointer_ = fmt::format("/planes/{}/", i);
+      Decision(frame.planes[i]);
+    }
+    // Decisions of a frame are made at once, so what is new in it can be matched only later.
+    made_.merge(made_now_);
+    made_now_.clear();
+  }
+
+ private:
+  void Tell(const std::string& key, std::string what, std::string mend) {
+    folder_.Tell(
+        {"frame_planes.jsonl", line_, pointer_ + key, std::move(what), std::move(mend)});
+  }
+
+  void Decision(const RunFramePlane& plane) {
+    if (plane.map_plane && map_is_read_ && ids_.count(*plane.map_plane) == 0) {
+      Tell("map_plane", fmt::format("is {}, which is no plane of map.json", *plane.map_plane),
+           "keep merged planes in the map, with merged_into");
+    } else if (plane.decision == "none" || plane.decision.empty()) {
+      return;
+    } else if (!plane.map_plane) {
+      Tell("map_plane", "is null, but the decision is " + plane.decision,
+           "name the map plane that was " +
+               std::string(plane.decision == "new" ? "made" : "matched"));
+    } else {
+      Follow(plane.decision, *plane.map_plane);
+    }
+  }
+
+  void Follow(const std::string& decision, int id) {
+    const bool known = made_.count(id) != 0;
+    if (decision == "new") {
+      if (!made_now_.insert(id).second || known) {
+        Tell("decision", fmt::format("is new, but map plane {} has been made before", id),
+             "write each decision as it was made at that frame");
+      }
+    } else if (!known && unmade_.insert(id).second) {
+      Tell("decision", fmt::format("is matched, but no earlier frame made map plane {}", id),
+           "write the frame that makes a map plane as new");
+    }
+  }
+
+  Folder& folder_;
+  bool map_is_read_;
+  std::set<int> ids_;  ///< in map.json
+  std::set<int> made_, made_now_;
+  std::set<int> unmade_;  ///< told already
+  int line_ = 0;          ///< where the decision stands
+  std::string pointer_;
+};
+
+}  // namespace
+
+void CheckDecisions(Folder& folder, const Run& run) {
+  DecisionCheck decisions(folder, run);
+  for (const RunFrame& frame : run.frames) decisions.Frame(frame);
+}
+
+}  // namespace eval

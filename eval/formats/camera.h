@@ -1,0 +1,33 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <optional>
+#include <string>
+
+#include "eval/formats/folder.h"
+
+namespace eval {
+
+/// Pinhole camera of camera.yaml, with its distortion; pixel centres are whole numbers, the
+/// first at (0, 0).
+struct Camera {
+  int width = 0, height = 0;
+  double fx = 0.0, fy = 0.0, cx = 0.0, cy = 0.0;  ///< pixels
+  double fps = 0.0;
+  double depth_factor = 0.0;           ///< depth image units per metre
+  std::array<double, 5> distortion{};  ///< k1 k2 p1 p2 k3, OpenCV's order
+
+  bool distorted() const { return distortion != std::array<double, 5>{}; }
+};
+
+/// Pixel of a point with z > 0, by Brown's model of the lens as OpenCV documents it. Far
+/// outside the image the model may fold back.
+Eigen::Vector2d PixelOf(const Camera& camera, const Eigen::Vector3d& x_c);
+
+/// Reads a camera.yaml. Nothing is returned when a key is at fault.
+/// @param mend  what to do when the file cannot be read
+std::optional<Camera> ReadCamera(Folder& folder, const std::string& file = "camera.yaml",
+                                 const std::string& mend = "");
+
+}  // namespace eval

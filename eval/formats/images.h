@@ -1,0 +1,36 @@
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <opencv2/core.hpp>
+#include <string>
+
+#include "eval/formats/folder.h"
+
+namespace eval {
+
+/// What an image of a folder must be.
+struct ImageKind {
+  int depth = CV_8U;  ///< CV_8U or CV_16U
+  int channels = 1;
+  cv::Size size;  ///< any when it is empty
+};
+
+/// Decodes a PNG as it is stored. One that is cut off or broken, or of another kind, is a
+/// fault, and the image is then empty.
+cv::Mat ReadImage(Folder& folder, const std::string& file, const ImageKind& kind);
+
+/// Pixels of a plane or an object; inclusive box of pixel centres.
+struct PixelSet {
+  int count = 0;
+  int x0 = 0, y0 = 0, x1 = -1, y1 = -1;
+  void Add(int u, int v);
+};
+
+/// The pixels of every id in an image of ids (CV_16U) but 0, which is none.
+std::map<int, PixelSet> PixelsOfIds(const cv::Mat1w& ids);
+
+/// A PNG of one channel and 8 or 16 bits, widened to 16. @throws InputError
+cv::Mat1w ReadLabels(const std::filesystem::path& file);
+
+}  // namespace eval

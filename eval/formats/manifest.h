@@ -1,0 +1,24 @@
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+
+#include "eval/formats/folder.h"
+
+namespace eval {
+
+/// manifest.json: who made the sequence, and of what files it consists.
+struct Manifest {
+  bool synthetic = false;          ///< a simulator wrote it: format "pas-sequence/1"
+  std::string sensor;              ///< empty when it does not tell
+  std::optional<int> frame_count;  ///< colour images
+  std::string frame_count_key;     ///< the key it stands under
+  std::optional<std::map<std::string, std::string>> sha256;  ///< by file
+};
+
+/// Reads manifest.json; all that is wrong with it but its syntax is a flaw. Without the file
+/// nothing is told in the manifest.
+Manifest ReadManifest(Folder& folder);
+
+}  // namespace eval

@@ -1,0 +1,41 @@
+#pragma once
+
+#include <opencv2/core.hpp>
+
+#include "eval/formats/frame_planes.h"
+#include "eval/formats/pose.h"
+#include "eval/formats/run_info.h"
+#include "eval/formats/run_map.h"
+#include "eval/formats/stamped_files.h"
+#include "eval/formats/timing.h"
+
+namespace eval {
+
+/// A run folder: what a SLAM system said about a sequence. Images are read on demand.
+struct Run {
+  std::filesystem::path folder;
+  RunInfo info;
+  Trajectory trajectory;  ///< T_wc, tracked frames, by rising stamp
+  std::optional<Trajectory> keyframes;
+  std::vector<RunFrame> frames;  ///< empty without frame_planes.jsonl
+  std::vector<RunMapPlane> map;  ///< empty without map.json
+  bool has_planes = false;       ///< there is a frame_planes.jsonl
+  bool has_map = false;          ///< there is a map.json with a list of planes
+  std::optional<Timing> timing;
+  StampedFiles segmentation_files;  ///< index of the frame plane + 1, 0 = none
+};
+
+/// Reads the folder. run.json and trajectory.txt are required; that one of the rest is missing
+/// is a flaw, so that other systems can be scored by what they give.
+Run ReadRun(Folder& folder);
+/// @throws InputError naming the file and line, or the required file that is missing.
+Run ReadRun(const std::filesystem::path& folder);
+
+/// The sequence that run.json names: the path as it stands, else relative to the run folder.
+/// @throws InputError naming both places if neither is a folder.
+std::filesystem::path SequenceOf(const Run& run);
+
+/// The segmentation of the frame, if the run saved it.
+std::optional<cv::Mat1w> ReadSegmentation(const Run& run, double stamp_s);
+
+}  // namespace eval

@@ -1,0 +1,100 @@
+#include "eval/formats/run_map.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+
+#include "eval/formats/plane_record.h"
+
+namespace eval {
+namespace {
+
+RunMapPlane ReadMapPlane(const JsonRecord& record) {
+  const JsonRecord expected = record.Expected(), optional = record.Optional();
+  RunMapPlane plane;
+  plane.plane_class = optional.Text("class");
+  const auto pi_w = ReadPlane(record, kRunUnit);
+  if (pi_w) plane.pi_w = *pi_w;
+  plane.area_m2 = expected.Number("area", io::Interval("[0, inf)")).value_or(0.0);
+  plane.observations = expected.Integer("observations", 1).value_or(0);
+  plane.first_seen = expected.Number("first_seen");
+  plane.last_seen = expected.Number("last_seen");
+  if (plane.first_seen && plane.last_seen && !(*plane.first_seen <= *plane.last_seen)) {
+    record.TellAt("first_seen", "is later than last_seen", "write times in seconds, in order",
+                  Severity::kFlaw);
+  }
+  plane.merged_into = optional.Integer("merged_into");
+  plane.vertices_w = ReadPointsOnPlane(record, "vertices", pi_w);
+  plane.hull_w = ReadPointsOnPlane(record, "hull", pi_w);
+  return plane;
+}
+
+/// Whether following the merges from a plane leads back to it.
+bool MergesIntoItself(int id, const std::map<int, int>& merged_into) {
+  auto next = merged_into.find(id);
+  for (std::size_t steps = 0; steps <= merged_into.size(); ++steps) {
+    if (next == merged_into.end()) return false;
+    if (next->second == id) return true;
+    next = merged_into.find(next->second);
+  }
+  return false;
+}
+
+class MapReader {
+ public:
+  std::vector<RunMapPlane> Read(const JsonRecord& root) {
+    for (const JsonRecord& record : root.Items("planes")) Add(record);
+    for (const auto& [id, record] : records_) CheckMerge(id, record);
+    std::sort(planes_.begin(), planes_.end(),
+              [](const RunMapPlane& a, const RunMapPlane& b) { return a.id < b.id; });
+    return std::move(planes_);
+  }
+
+ private:
+  void Add(const JsonRecord& record) {
+    RunMapPlane plane = ReadMapPlane(record);
+    const auto id = record.Integer("id", 0);
+    if (!id) return;
+    if (!records_.emplace(*id, record).second) {
+      record.TellAt("id", fmt::format("{} is used a second time", *id),
+                    "give every plane its own id");
+      return;
+    }
+    plane.id = *id;
+    if (plane.merged_into) merged_into_[*id] = *plane.merged_into;
+    planes_.push_back(std::move(plane));
+  }
+
+  // Merges lead to a plane that is left; a circle leaves none.
+  void CheckMerge(int id, const JsonRecord& record) const {
+    const auto target = merged_into_.find(id);
+    if (target == merged_into_.end()) return;
+    if (records_.count(target->second) == 0) {
+      record.TellAt(
+          "merged_into", fmt::format("is {}, which is no plane of the map", target->second),
+          "name the plane that took this one in, and keep it in the map", Severity::kFlaw);
+    } else if (MergesIntoItself(id, merged_into_)) {
+      record.TellAt("merged_into", "leads back to the plane itself",
+                    "merge into a plane that is left", Severity::kFlaw);
+    }
+  }
+
+  std::vector<RunMapPlane> planes_;
+  std::map<int, JsonRecord> records_;
+  std::map<int, int> merged_into_;
+};
+
+}  // namespace
+
+std::optional<std::vector<RunMapPlane>> ReadRunMap(Folder& folder) {
+  std::optional<std::vector<RunMapPlane>> planes;
+  VisitJson(folder, "map.json", [&](const JsonRecord& root) {
+    const bool listed = root.Has("planes");
+    std::vector<RunMapPlane> read = MapReader().Read(root);
+    if (listed) planes = std::move(read);
+  });
+  return planes;
+}
+
+}  // namespace eval

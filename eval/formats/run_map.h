@@ -1,0 +1,29 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "eval/formats/folder.h"
+#include "eval/formats/plane.h"
+
+namespace eval {
+
+/// A plane of map.json; world frame w of the run, metres.
+struct RunMapPlane {
+  int id = 0;
+  std::optional<std::string> plane_class;
+  Plane pi_w;
+  double area_m2 = 0.0;
+  int observations = 0;
+  std::optional<double> first_seen, last_seen;
+  std::optional<int> merged_into;  ///< not a plane of the final map any more
+  std::vector<Eigen::Vector3d> vertices_w;
+  std::vector<Eigen::Vector3d> hull_w;
+};
+
+/// Reads map.json, by rising id. Points off their plane and merges that lead nowhere are flaws.
+/// Nothing is returned when there is no list of planes.
+std::optional<std::vector<RunMapPlane>> ReadRunMap(Folder& folder);
+
+}  // namespace eval

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <vector>
+
+#include "eval/formats/camera.h"
+#include "eval/formats/frame_truth.h"
+#include "eval/formats/image_lists.h"
+#include "eval/formats/images.h"
+#include "eval/formats/pose.h"
+#include "eval/formats/scene_truth.h"
+#include "eval/formats/stamped_files.h"
+
+namespace eval {
+
+/// A sequence folder: lists, truth and where its images are. Everything optional in the format
+/// is optional here. Images are read on demand.
+struct Sequence {
+  std::filesystem::path folder;
+  std::vector<SequenceFrame> frames;  ///< by rising stamp
+  std::optional<Camera> camera;
+  std::optional<Trajectory> groundtruth;  ///< T_gc
+  std::optional<SceneTruth> scene;
+  std::vector<FrameTruth> frame_truth;  ///< by rising stamp; empty without gt/frames.jsonl
+  StampedFiles plane_id_files, object_id_files;
+  /// Ids of planes that go by another id, in the images too; empty as a sequence is read.
+  std::map<int, int> scored_as;
+  /// A simulator wrote it: manifest.json says "pas-sequence/1". Stamps of truth and frames are
+  /// then equal, not merely near.
+  bool synthetic = false;
+};
+
+/// Reads the folder; images are not opened.
+/// @throws InputError naming the file and line, or the required file that is missing.
+Sequence ReadSequence(const std::filesystem::path& folder);
+
+/// Ids of the true planes that the frame shows, if the sequence has them; 0 = none.
+std::optional<cv::Mat1w> ReadPlaneIds(const Sequence& sequence, double stamp_s);
+
+}  // namespace eval

@@ -1,0 +1,65 @@
+#include "eval/formats/stamps.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace eval {
+namespace {
+
+// Seconds since 1970 reach 1e11 in the year 5138; milliseconds passed it in 1973.
+constexpr double kMaxStamp_s = 1e11;
+// Nobody records a frame every quarter of an hour; a 1 Hz recording in milliseconds has this
+// gap.
+constexpr double kMaxMedianGap_s = 900;
+
+}  // namespace
+
+std::optional<std::size_t> FindStamp(const std::vector<double>& stamps_s, double stamp_s) {
+  const auto from = std::lower_bound(stamps_s.begin(), stamps_s.end(), stamp_s - kSameStamp_s);
+  if (from == stamps_s.end() || !(*from <= stamp_s + kSameStamp_s)) return std::nullopt;
+  return static_cast<std::size_t>(from - stamps_s.begin());
+}
+
+std::optional<std::size_t> NearestStamp(const std::vector<double>& stamps_s, double t_s,
+                                        double max_difference_s) {
+  auto nearest = std::lower_bound(stamps_s.begin(), stamps_s.end(), t_s);
+  if (nearest != stamps_s.begin() &&
+      (nearest == stamps_s.end() || t_s - *(nearest - 1) <= *nearest - t_s)) {
+    // The first of equal ones.
+    nearest = std::lower_bound(stamps_s.begin(), nearest, *(nearest - 1));
+  }
+  if (nearest == stamps_s.end() || std::abs(*nearest - t_s) > max_difference_s) {
+    return std::nullopt;
+  }
+  return static_cast<std::size_t>(nearest - stamps_s.begin());
+}
+
+void StampOrder::Next(double stamp_s, int line) {
+  if (!stamps_s_.empty() && !(stamp_s > stamps_s_.back())) {
+    folder_.Tell(
+        file_, line,
+        fmt::format("time stamp {:.6f} does not follow {:.6f}; stamps must increase strictly",
+                    stamp_s, stamps_s_.back()),
+        "sort the records by time and drop duplicates", Severity::kFlaw);
+  }
+  stamps_s_.push_back(stamp_s);
+}
+
+void StampOrder::Finish() {
+  if (stamps_s_.empty()) return;
+  std::vector<double> gaps;
+  for (std::size_t i = 1; i < stamps_s_.size(); ++i) {
+    gaps.push_back(std::abs(stamps_s_[i] - stamps_s_[i - 1]));
+  }
+  std::sort(gaps.begin(), gaps.end());
+  const double latest = *std::max_element(stamps_s_.begin(), stamps_s_.end());
+  const bool slow = gaps.size() >= 2 && gaps[gaps.size() / 2] > kMaxMedianGap_s;
+  if (!(latest > kMaxStamp_s) && !slow) return;
+  folder_.Tell(file_, 0, fmt::format("time stamps like {:.0f} are not seconds", latest),
+               "write stamps in seconds (divide nanoseconds by 1e9, milliseconds by 1e3)",
+               Severity::kFlaw);
+}
+
+}  // namespace eval

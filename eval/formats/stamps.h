@@ -1,0 +1,51 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "eval/formats/folder.h"
+
+namespace eval {
+
+/// Two stamps closer than this are one frame: above the round-off of a six-digit stamp in a
+/// double (2.4e-7 s at 1.3e9 s), far below any camera's frame time.
+inline constexpr double kSameStamp_s = 1e-5;
+
+/// Two stamps that are further apart than this are two instants: stamps are text with at least
+/// four decimals, and half a unit of the last of them is lost on either side.
+inline constexpr double kSameInstant_s = 1e-4;
+
+/// Index of the entry of rising `stamps_s` that is the frame at `stamp_s`, if any.
+std::optional<std::size_t> FindStamp(const std::vector<double>& stamps_s, double stamp_s);
+
+/// Index of the entry of rising `stamps_s` that is nearest to t_s, if it is at most
+/// max_difference_s away; the earlier one on ties.
+std::optional<std::size_t> NearestStamp(const std::vector<double>& stamps_s, double t_s,
+                                        double max_difference_s);
+
+/// The stamps of a list of records.
+template <typename Records>
+std::vector<double> StampsOf(const Records& records) {
+  std::vector<double> stamps_s;
+  for (const auto& record : records) stamps_s.push_back(record.stamp_s);
+  return stamps_s;
+}
+
+/// Follows the time stamps of a file: that they are not in seconds or do not increase strictly
+/// is a flaw.
+class StampOrder {
+ public:
+  StampOrder(Folder& folder, std::string file) : folder_(folder), file_(std::move(file)) {}
+  /// @param line   0 when the file has no lines of its own
+  void Next(double stamp_s, int line);
+  /// Tells stamps that cannot be seconds, once for the file.
+  void Finish();
+
+ private:
+  Folder& folder_;
+  std::string file_;
+  std::vector<double> stamps_s_;
+};
+
+}  // namespace eval
