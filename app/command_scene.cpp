@@ -119,12 +119,13 @@ std::string NameOf(const sim::ScenePlane& plane, const sim::Object& owner) {
 
 void Show(const std::string& path) {
   const sim::Scene scene = sim::ReadScene(path);
+  const std::vector<sim::ScenePlane> planes = sim::ScenePlanes(scene);
   fmt::print("{}: {} objects, sha256 {}\n", scene.name, scene.objects.size(),
              sim::SceneHash(scene));
   fmt::print("\nPlanes, n . x + d = 0 in the world (metres, z up), n out of the object:\n");
   fmt::print("{:>5}  {:<18} {:<14} {:<12} {:>6} {:>8} {:>8} {:>8} {:>9} {:>9}\n", "plane",
              "object", "class", "role", "face", "n_x", "n_y", "n_z", "d_m", "area_m2");
-  for (const sim::ScenePlane& plane : sim::ScenePlanes(scene)) {
+  for (const sim::ScenePlane& plane : planes) {
     const sim::Object& owner = Owner(scene, plane.object);
     // Adding zero turns -0 into 0.
     fmt::print(
@@ -143,7 +144,7 @@ void Show(const std::string& path) {
   }
   fmt::print("\nSteps of regular tops, to the highest surface under each:\n");
   fmt::print("{:>5}  {:<18} {:>9}  {}\n", "plane", "top of", "step_mm", "over");
-  for (const sim::TopStep& step : sim::TopSteps(scene)) {
+  for (const sim::TopStep& step : sim::TopSteps(scene, planes)) {
     fmt::print("{:>5}  {:<18} {:>9.3f}  {}\n", step.plane, Owner(scene, step.object).name,
                step.step_mm, Owner(scene, step.below_object).name);
   }

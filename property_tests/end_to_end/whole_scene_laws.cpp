@@ -34,7 +34,7 @@ sim::Scene DrawScene() {
 /// raised, because something rests on it, is taken away together with what rests on it.
 sim::Scene WithStepsOfAtLeast(sim::Scene scene, double min_step_mm) {
   for (;;) {
-    const std::vector<sim::TopStep> steps = sim::TopSteps(scene);
+    const std::vector<sim::TopStep> steps = sim::TopSteps(scene, sim::ScenePlanes(scene));
     const auto low = std::find_if(steps.begin(), steps.end(), [&](const sim::TopStep& step) {
       return step.step_mm < min_step_mm;
     });
@@ -129,8 +129,8 @@ RC_GTEST_PROP(WholeScene, CornersOfUnoccludedRegularTopsAreWhereTheyAre, ()) {
     slam::ProcessPlanes(frame, camera, {});
     const std::vector<int> truth = live::TruthOf(frame, simulated, scene);
 
-    for (const sim::TopStep& step : sim::TopSteps(scene)) {
-      const auto faces = sim::ScenePlanes(scene);
+    const std::vector<sim::ScenePlane> faces = sim::ScenePlanes(scene);
+    for (const sim::TopStep& step : sim::TopSteps(scene, faces)) {
       const sim::ScenePlane& face = faces[static_cast<std::size_t>(step.plane - 1)];
       Eigen::Vector3d middle = Eigen::Vector3d::Zero();
       for (const Eigen::Vector3d& corner : face.vertices_w) middle += 0.25 * corner;

@@ -37,7 +37,7 @@ RC_GTEST_PROP(SceneFamilies, StepEveryRegularTopUpwards, ()) {
   const SceneRecipe recipe = DrawSceneRecipe();
   RC_LOG() << recipe.Command();
   const Scene scene = recipe.Make();
-  for (const TopStep& step : TopSteps(scene)) RC_ASSERT(step.step_mm > 0.5);
+  for (const TopStep& step : TopSteps(scene, ScenePlanes(scene))) RC_ASSERT(step.step_mm > 0.5);
 }
 
 RC_GTEST_PROP(SceneFile, GivesBackAnyBoxBitForBit, ()) {

@@ -104,7 +104,7 @@ std::string Label(const Eigen::Vector2d& at, const std::string& text) {
 /// "book_2 +24.5": the step in mm to what is under the object's top.
 std::map<int, std::string> StepLabels(const Scene& scene) {
   std::map<int, std::string> labels;
-  for (const TopStep& step : TopSteps(scene)) {
+  for (const TopStep& step : TopSteps(scene, ScenePlanes(scene))) {
     for (const Object& object : scene.objects) {
       if (object.id != step.object) continue;
       labels[object.id] =

@@ -168,6 +168,7 @@ void AddModel(const Object& object, int& plane_id, SceneMesh& mesh) {
 
 SceneMesh BuildMesh(const Scene& scene) {
   SceneMesh mesh;
+  mesh.planes = ScenePlanes(scene);
   int plane_id = 0;  // counts as ScenePlanes does
   for (const Object& given : scene.objects) {
     const bool moves = !given.way.empty();

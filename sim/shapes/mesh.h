@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "sim/scene/scene.h"
+#include "sim/shapes/planes.h"
 
 namespace sim {
 
@@ -21,10 +22,11 @@ struct Triangle {
 struct SceneMesh {
   std::vector<Triangle> triangles;
   std::vector<Material> materials;
+  std::vector<ScenePlane> planes;  ///< by id - 1
 };
 
-/// Triangles of every object: two a box face, a few hundred a toy. What moves stands at the
-/// first point of its way, and has no planes.
+/// Planes and triangles of every object: two triangles a box face, a few hundred a toy. What
+/// moves stands at the first point of its way, and has no planes.
 SceneMesh BuildMesh(const Scene& scene);
 
 }  // namespace sim

@@ -3,7 +3,6 @@
 #include <optional>
 
 #include "sim/scene/geometry.h"
-#include "sim/shapes/planes.h"
 
 namespace sim {
 namespace {
@@ -82,9 +81,9 @@ std::optional<double> StepOver(const ScenePlane& top, const ScenePlane& below) {
 
 }  // namespace
 
-std::vector<TopStep> TopSteps(const Scene& scene) {
+std::vector<TopStep> TopSteps(const Scene& scene, const std::vector<ScenePlane>& planes) {
   std::vector<ScenePlane> upward;
-  for (const ScenePlane& plane : ScenePlanes(scene)) {
+  for (const ScenePlane& plane : planes) {
     if (plane.n_w.z() > kMinUpward) upward.push_back(plane);
   }
   const auto role_of = [&](int id) {

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "sim/scene/scene.h"
+#include "sim/shapes/planes.h"
 
 namespace sim {
 
@@ -17,6 +18,7 @@ struct TopStep {
 
 /// One entry for each upward face (within 10 degrees) of a regular box that has an upward face
 /// of another box under any part of it. In the order of the planes.
-std::vector<TopStep> TopSteps(const Scene& scene);
+/// @param planes  all of the scene
+std::vector<TopStep> TopSteps(const Scene& scene, const std::vector<ScenePlane>& planes);
 
 }  // namespace sim

@@ -103,7 +103,13 @@ bool FrameRenderer::Sees(const Pose& T_wc, const Eigen::Vector3d& x_w, double ti
   });
 }
 
+std::vector<Triangle> FrameRenderer::TrianglesOf(std::size_t object_index) const {
+  const auto [world, place] = world_->Find(object_index);
+  return world->TrianglesOf(place);
+}
+
 const Camera& FrameRenderer::camera() const { return world_->standing.camera; }
 const Scene& FrameRenderer::scene() const { return world_->scene; }
+const SceneMesh& FrameRenderer::standing() const { return world_->standing.mesh; }
 
 }  // namespace sim

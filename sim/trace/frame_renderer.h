@@ -2,10 +2,12 @@
 
 #include <memory>
 #include <opencv2/core/mat.hpp>
+#include <vector>
 
 #include "sim/base/pose.h"
 #include "sim/camera/camera.h"
 #include "sim/scene/scene.h"
+#include "sim/shapes/mesh.h"
 #include "sim/trace/ray_scene.h"
 
 namespace sim {
@@ -75,8 +77,13 @@ class FrameRenderer {
   /// Decided in double.
   bool Sees(const Pose& T_wc, const Eigen::Vector3d& x_w, double time_s = 0) const;
 
+  /// Triangles of an object; of what moves, where it is at the first point of its way.
+  std::vector<Triangle> TrianglesOf(std::size_t object_index) const;
+
   const Camera& camera() const;
   const Scene& scene() const;
+  /// Triangles and planes of what stands.
+  const SceneMesh& standing() const;
 
  private:
   std::unique_ptr<const RenderedScene> world_;

@@ -31,7 +31,7 @@ RenderWorld::RenderWorld(const Scene& scene_in, const Camera& camera_in, Instruc
       rays(mesh.triangles, set),
       edges(mesh.triangles),
       caster(mesh.triangles),
-      surfaces(scene, mesh, camera),
+      surfaces(mesh, camera),
       to_sun_w(-scene.sun.direction_w.normalized()) {
   CheckIds(scene, mesh);
   for (std::size_t i = 0; i < scene.objects.size(); ++i) {
@@ -39,15 +39,19 @@ RenderWorld::RenderWorld(const Scene& scene_in, const Camera& camera_in, Instruc
   }
 }
 
+std::vector<Triangle> RenderWorld::TrianglesOf(std::size_t object_index) const {
+  std::vector<Triangle> own;
+  std::copy_if(mesh.triangles.begin(), mesh.triangles.end(), std::back_inserter(own),
+               [id = scene.objects.at(object_index).id](const Triangle& triangle) {
+                 return triangle.object == id;
+               });
+  return own;
+}
+
 const RayScene& RenderWorld::Alone(std::size_t object_index) const {
   LoneObject& lone = *alone_.at(object_index);
   std::call_once(lone.once, [&] {
-    std::vector<Triangle> own;
-    std::copy_if(mesh.triangles.begin(), mesh.triangles.end(), std::back_inserter(own),
-                 [&](const Triangle& triangle) {
-                   return triangle.object == scene.objects[object_index].id;
-                 });
-    lone.rays = std::make_unique<const RayScene>(own, set);
+    lone.rays = std::make_unique<const RayScene>(TrianglesOf(object_index), set);
   });
   return *lone.rays;
 }

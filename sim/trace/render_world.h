@@ -18,6 +18,7 @@ inline constexpr double kLeaveSurface_m = 1e-4;  ///< second rays start this far
 /// Everything about a scene that its views share. Const and thread-safe.
 struct RenderWorld {
   RenderWorld(const Scene& scene_in, const Camera& camera_in, InstructionSet set_in);
+  std::vector<Triangle> TrianglesOf(std::size_t object_index) const;
   /// The object with nothing else there, built when it is first asked for.
   const RayScene& Alone(std::size_t object_index) const;
 

@@ -1,5 +1,4 @@
 #include "sim/trace/surface.h"
-#include "sim/shapes/planes.h"
 
 #include <Eigen/Dense>
 
@@ -11,11 +10,10 @@ constexpr double kTexelsAPixel = 3.2;  ///< of the longer image side, along the 
 
 }  // namespace
 
-SurfaceTable::SurfaceTable(const Scene& scene, const SceneMesh& mesh, const Camera& camera)
+SurfaceTable::SurfaceTable(const SceneMesh& mesh, const Camera& camera)
     : texel_m_(kClosestLook_m / std::max(camera.fx, camera.fy)),
       max_texels_(std::min(
           32000, static_cast<int>(kTexelsAPixel * std::max(camera.width, camera.height)))) {
-  const std::vector<ScenePlane> planes = ScenePlanes(scene);
   for (const Material& material : mesh.materials) {
     prints_.push_back(std::make_unique<BakedPrint>(material));
   }
@@ -25,7 +23,7 @@ SurfaceTable::SurfaceTable(const Scene& scene, const SceneMesh& mesh, const Came
     facet.material = triangle.material;
     facet.normals_w = triangle.normals_w;
     if (triangle.plane > 0) {
-      const ScenePlane& plane = planes.at(static_cast<std::size_t>(triangle.plane) - 1);
+      const ScenePlane& plane = mesh.planes.at(static_cast<std::size_t>(triangle.plane) - 1);
       facet.n_w = plane.n_w;
       facet.d = plane.d;
     } else {

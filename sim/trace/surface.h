@@ -21,9 +21,9 @@ struct FacetInView {
 /// The triangles of a scene with the exact planes they lie in and the prints they carry.
 class SurfaceTable {
  public:
-  /// Scene and mesh must belong together. Prints are baked as finely as an image of `camera`
-  /// can show them from 0.4 m, large faces as finely as it can show them whole.
-  SurfaceTable(const Scene& scene, const SceneMesh& mesh, const Camera& camera);
+  /// Prints are baked as finely as an image of `camera` can show them from 0.4 m, large faces
+  /// as finely as it can show them whole.
+  SurfaceTable(const SceneMesh& mesh, const Camera& camera);
 
   /// The triangle seen from T_wc.
   FacetInView InView(int triangle, const Pose& T_wc) const;

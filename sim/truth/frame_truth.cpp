@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <set>
 
 #include "sim/scene/geometry.h"
 
@@ -54,34 +53,15 @@ cv::Rect PixelsOf(const PixelBox& box, const Camera& camera) {
          cv::Rect(0, 0, camera.width, camera.height);
 }
 
-/// What moves has no corners, and never bears one.
-std::vector<Triangle> OfWhatStands(const Scene& scene, const SceneMesh& mesh) {
-  std::set<int> moving;
-  for (const Object& object : scene.objects) {
-    if (!object.way.empty()) moving.insert(object.id);
-  }
-  std::vector<Triangle> standing;
-  std::copy_if(mesh.triangles.begin(), mesh.triangles.end(), std::back_inserter(standing),
-               [&](const Triangle& triangle) { return moving.count(triangle.object) == 0; });
-  return standing;
-}
-
 }  // namespace
 
 TruthMaker::TruthMaker(const FrameRenderer& renderer)
-    : TruthMaker(renderer, BuildMesh(renderer.scene())) {}
-
-TruthMaker::TruthMaker(const FrameRenderer& renderer, const SceneMesh& mesh)
     : renderer_(renderer),
-      planes_(ScenePlanes(renderer.scene())),
-      ends_(OfWhatStands(renderer.scene(), mesh)) {
-  std::map<int, std::size_t> place_of;
-  for (const Object& object : renderer.scene().objects) {
-    place_of.emplace(object.id, triangles_.size());
-    triangles_.emplace_back();
-  }
-  for (const Triangle& triangle : mesh.triangles) {
-    triangles_[place_of.at(triangle.object)].push_back(triangle);
+      planes_(renderer.standing().planes),
+      // What moves has no corners, and never bears one.
+      ends_(renderer.standing().triangles) {
+  for (std::size_t i = 0; i < renderer.scene().objects.size(); ++i) {
+    triangles_.push_back(renderer.TrianglesOf(i));
   }
   std::map<std::array<double, 3>, std::size_t> numbers;
   for (const ScenePlane& plane : planes_) {

@@ -64,10 +64,9 @@ class TruthMaker {
   const FrameRenderer& renderer_;
   VertexInFrame DescribeCorner(const Eigen::Vector3d& x_w, const Pose& T_wc,
                                double time_s) const;
-  TruthMaker(const FrameRenderer& renderer, const SceneMesh& mesh);
 
   std::vector<std::vector<Triangle>> triangles_;  ///< by object
-  std::vector<ScenePlane> planes_;                ///< by id - 1
+  const std::vector<ScenePlane>& planes_;         ///< by id - 1
   /// By id - 1 and vertex: the same number where faces meet in the very same point.
   std::vector<std::vector<std::size_t>> corners_;
   std::size_t corner_count_ = 0;

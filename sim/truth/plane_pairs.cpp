@@ -7,7 +7,6 @@
 #include <optional>
 #include <set>
 
-#include "sim/shapes/planes.h"
 #include "sim/truth/polygon.h"
 
 namespace sim {
@@ -67,14 +66,13 @@ std::optional<PlanePair> Compare(const ScenePlane& a, const ScenePlane& b) {
 
 }  // namespace
 
-std::vector<PlanePair> PlanePairs(const Scene& scene) {
+std::vector<PlanePair> PlanePairs(const Scene& scene, const std::vector<ScenePlane>& planes) {
   std::set<int> scored;
   for (const Object& object : scene.objects) {
     if (object.role == Role::kStructure || object.role == Role::kRegular) {
       scored.insert(object.id);
     }
   }
-  const std::vector<ScenePlane> planes = ScenePlanes(scene);
   std::vector<PlanePair> pairs;
   for (std::size_t i = 0; i < planes.size(); ++i) {
     if (!scored.contains(planes[i].object)) continue;

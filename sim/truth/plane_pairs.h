@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "sim/scene/scene.h"
+#include "sim/shapes/planes.h"
 
 namespace sim {
 
@@ -24,6 +25,7 @@ inline constexpr double kPairMaxGap_m = 0.1;
 inline constexpr double kPairSigma_m = 0.0012 + 0.0019 * 0.6 * 0.6;
 
 /// All such pairs of planes of structure and regular objects, in the order of (a, b).
-std::vector<PlanePair> PlanePairs(const Scene& scene);
+/// @param planes  all of the scene
+std::vector<PlanePair> PlanePairs(const Scene& scene, const std::vector<ScenePlane>& planes);
 
 }  // namespace sim

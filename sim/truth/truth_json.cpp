@@ -2,7 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "sim/shapes/planes.h"
+#include "sim/scene/names.h"
 #include "sim/truth/plane_pairs.h"
 
 namespace sim {
@@ -13,27 +13,13 @@ using Json = nlohmann::ordered_json;
 Json Vector(const Eigen::Vector3d& x) { return {x.x(), x.y(), x.z()}; }
 Json Box(const PixelBox& box) { return {box.x0, box.y0, box.x1, box.y1}; }
 
-const char* RoleName(Role role) {
-  switch (role) {
-    case Role::kStructure:
-      return "structure";
-    case Role::kRegular:
-      return "regular";
-    case Role::kUnstructured:
-      return "unstructured";
-    case Role::kOther:
-      break;
-  }
-  return "other";
-}
-
 Json ObjectJson(const Object& object) {
   const Eigen::Quaterniond& q = object.q_wo;
   Json json;
   json["id"] = object.id;
   json["name"] = object.name;
   json["class"] = object.class_name;
-  json["role"] = RoleName(object.role);
+  json["role"] = kRoleNames[static_cast<std::size_t>(object.role)];
   json["regular"] = object.role == Role::kRegular;
   json["center"] = Vector(object.center_w);
   json["size"] = Vector(object.size);
@@ -94,16 +80,16 @@ Json PlaneInFrameJson(const PlaneInFrame& plane) {
 
 }  // namespace
 
-std::string SceneTruthJson(const Scene& scene) {
+std::string SceneTruthJson(const Scene& scene, const std::vector<ScenePlane>& planes) {
   Json json;
   json["format"] = "pas-scene-gt/1";
   json["name"] = scene.name;
   json["objects"] = Json::array();
   for (const Object& object : scene.objects) json["objects"].push_back(ObjectJson(object));
   json["planes"] = Json::array();
-  for (const ScenePlane& plane : ScenePlanes(scene)) json["planes"].push_back(PlaneJson(plane));
+  for (const ScenePlane& plane : planes) json["planes"].push_back(PlaneJson(plane));
   json["pairs"] = Json::array();
-  for (const PlanePair& pair : PlanePairs(scene)) {
+  for (const PlanePair& pair : PlanePairs(scene, planes)) {
     json["pairs"].push_back({{"a", pair.a},
                              {"b", pair.b},
                              {"angle_deg", pair.angle_deg},

@@ -28,7 +28,9 @@ double PrintedTime(double timestamp_s) {
   return io::ParseNumber(TimeText(timestamp_s)).value_or(std::nan(""));
 }
 
-std::map<std::string, std::string> FixedFiles(const Scene& scene, const Camera& camera,
+std::map<std::string, std::string> FixedFiles(const Scene& scene,
+                                              const std::vector<ScenePlane>& planes,
+                                              const Camera& camera,
                                               const std::vector<Shot>& shots) {
   std::string rgb = "# colour images\n# timestamp filename\n";
   std::string depth = "# depth images\n# timestamp filename\n";
@@ -45,7 +47,7 @@ std::map<std::string, std::string> FixedFiles(const Scene& scene, const Camera& 
           {"camera.yaml", CameraYaml(camera)},
           {"depth.txt", depth},
           {"groundtruth.txt", truth},
-          {"gt/scene.json", SceneTruthJson(scene)},
+          {"gt/scene.json", SceneTruthJson(scene, planes)},
           {"rgb.txt", rgb}};
 }
 

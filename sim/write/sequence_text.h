@@ -6,6 +6,7 @@
 
 #include "sim/camera/camera.h"
 #include "sim/scene/scene.h"
+#include "sim/shapes/planes.h"
 #include "sim/write/timing.h"
 
 namespace sim {
@@ -17,7 +18,10 @@ double PrintedTime(double timestamp_s);
 
 /// Texts of a sequence that are known before the first frame, by path inside the folder:
 /// camera.yaml, rgb.txt, depth.txt, associations.txt, groundtruth.txt, gt/scene.json.
-std::map<std::string, std::string> FixedFiles(const Scene& scene, const Camera& camera,
+/// @param planes  all of the scene
+std::map<std::string, std::string> FixedFiles(const Scene& scene,
+                                              const std::vector<ScenePlane>& planes,
+                                              const Camera& camera,
                                               const std::vector<Shot>& shots);
 
 }  // namespace sim

@@ -39,6 +39,7 @@ class Simulator {
   /// shot.DepthDelay_s() later. Truth is of shot.T_wc, the middle of the colour exposure.
   SimulatedFrame Simulate(int frame, const Shot& shot, const PoseAround& around) const;
   const RigOptions& options() const { return options_; }
+  const std::vector<ScenePlane>& planes() const { return renderer_.standing().planes; }
 
  private:
   Rendering RenderForDepth(const Pose& T_wc, double time_s) const;

@@ -175,7 +175,8 @@ class FrameStore {
 
 int WriteSequence(const Scene& scene, const Recording& recording,
                   const SequenceOptions& options, const fs::path& folder) {
-  const auto fixed = FixedFiles(scene, options.rig.camera, recording.shots);
+  const Simulator simulator(scene, options.rig);
+  const auto fixed = FixedFiles(scene, simulator.planes(), options.rig.camera, recording.shots);
   SequenceOptions told = options;
   if (recording.scenes_own) {
     const MotionPreset preset = PresetOf(scene.motion);
@@ -184,7 +185,6 @@ int WriteSequence(const Scene& scene, const Recording& recording,
                    {"turn_deg_s", fmt::format("{}", preset.turn_deg_s)}};
   }
   const Json plan = Plan(scene, told, recording.shots.size(), fixed);
-  const Simulator simulator(scene, options.rig);
   if (PrepareFolder(folder, plan, options.existing)) return 0;
 
   for (const auto& [path, text] : fixed) io::WriteFile(folder / path, text);

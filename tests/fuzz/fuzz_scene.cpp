@@ -61,7 +61,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   Require(sim::SceneText(sim::ParseScene(canonical, "canonical")) == canonical,
           "a scene does not read back as itself");
   CheckPlanes(scene);
-  sim::TopSteps(scene);
+  sim::TopSteps(scene, sim::ScenePlanes(scene));
   CountBySize(scene);
   return 0;
 }

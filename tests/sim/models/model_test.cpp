@@ -286,7 +286,7 @@ TEST_F(OwnMesh, StandsInASceneAsItSays) {
       EXPECT_NEAR(plane.n_w.dot(x_w) + plane.d, 0, kSingle_m);
     }
   }
-  const auto steps = TopSteps(scene);
+  const auto steps = TopSteps(scene, ScenePlanes(scene));
   ASSERT_EQ(steps.size(), 1u);
   EXPECT_NEAR(steps[0].step_mm, 50, 1e-4);
   const std::string text = SceneText(scene);

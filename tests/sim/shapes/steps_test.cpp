@@ -27,8 +27,10 @@ Scene TableAnd(const std::vector<Object>& objects) {
   return scene;
 }
 
+std::vector<TopStep> StepsOf(const Scene& scene) { return TopSteps(scene, ScenePlanes(scene)); }
+
 TEST(TopSteps, MeasureABookOverTheTable) {
-  const auto steps = TopSteps(TableAnd({Box(2, {0.15, 0.2, 0.02}, 0.1, 0.1, 0.73)}));
+  const auto steps = StepsOf(TableAnd({Box(2, {0.15, 0.2, 0.02}, 0.1, 0.1, 0.73)}));
   ASSERT_EQ(steps.size(), 1u);
   EXPECT_EQ(steps[0].object, 2);
   EXPECT_EQ(steps[0].below_object, 1);
@@ -38,7 +40,7 @@ TEST(TopSteps, MeasureABookOverTheTable) {
 
 TEST(TopSteps, TakeTheHighestSurfaceUnderAnOverhang) {
   // The upper book lies half on the lower one; the table is under its other half.
-  const auto steps = TopSteps(TableAnd(
+  const auto steps = StepsOf(TableAnd(
       {Box(2, {0.2, 0.2, 0.030}, 0, 0, 0.73), Box(3, {0.2, 0.2, 0.012}, 0.1, 0, 0.76)}));
   ASSERT_EQ(steps.size(), 2u);
   EXPECT_NEAR(steps[0].step_mm, 30, 1e-9);
@@ -47,7 +49,7 @@ TEST(TopSteps, TakeTheHighestSurfaceUnderAnOverhang) {
 }
 
 TEST(TopSteps, IgnoreNeighboursThatOnlyTouch) {
-  const auto steps = TopSteps(
+  const auto steps = StepsOf(
       TableAnd({Box(2, {0.2, 0.2, 0.03}, 0, 0, 0.73), Box(3, {0.2, 0.2, 0.05}, 0.2, 0, 0.73)}));
   ASSERT_EQ(steps.size(), 2u);
   EXPECT_EQ(steps[0].below_object, 1);
@@ -58,9 +60,9 @@ TEST(TopSteps, IgnoreNeighboursThatOnlyTouch) {
 TEST(TopSteps, DoNotDependOnHowABookIsTurned) {
   Object book = Box(2, {0.15, 0.2, 0.02}, 0.1, 0.1, 0.73);
   book.q_wo = QuaternionFromRpyDeg({0, 0, 33});
-  EXPECT_NEAR(TopSteps(TableAnd({book}))[0].step_mm, 20, 1e-9);
+  EXPECT_NEAR(StepsOf(TableAnd({book}))[0].step_mm, 20, 1e-9);
   book.q_wo = QuaternionFromRpyDeg({180, 0, 33});  // on its face: another face is the top
-  const auto steps = TopSteps(TableAnd({book}));
+  const auto steps = StepsOf(TableAnd({book}));
   ASSERT_EQ(steps.size(), 1u);
   EXPECT_EQ(steps[0].plane, 11);
   EXPECT_NEAR(steps[0].step_mm, 20, 1e-9);
@@ -68,14 +70,14 @@ TEST(TopSteps, DoNotDependOnHowABookIsTurned) {
 
 TEST(TopSteps, AreThoseThePlatesWereAskedFor) {
   for (const double step_mm : {0.0, 3.0, 20.0, 55.5}) {
-    const auto steps = TopSteps(MakeScene("plates", 7, {{"step_mm", step_mm}}));
+    const auto steps = StepsOf(MakeScene("plates", 7, {{"step_mm", step_mm}}));
     ASSERT_EQ(steps.size(), 2u);
     EXPECT_NEAR(steps[1].step_mm - steps[0].step_mm, step_mm, kFile_mm);
   }
 }
 
 TEST(TopSteps, AreEqualInAStack) {
-  const auto steps = TopSteps(MakeScene("stack", 5, {{"step_mm", 12}, {"count", 5}}));
+  const auto steps = StepsOf(MakeScene("stack", 5, {{"step_mm", 12}, {"count", 5}}));
   ASSERT_EQ(steps.size(), 5u);
   for (const TopStep& step : steps) EXPECT_NEAR(step.step_mm, 12, kFile_mm);
 }

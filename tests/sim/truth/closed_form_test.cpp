@@ -75,7 +75,7 @@ TEST(ClosedForm, ParallelBoardsAreTwentyMillimetresApart) {
     EXPECT_NEAR(std::abs(x_w.x() + 0.16), 0.15, 1e-12);
     EXPECT_NEAR(std::abs(x_w.y()), 0.15, 1e-12);
   }
-  for (const PlanePair& pair : PlanePairs(scene)) {
+  for (const PlanePair& pair : PlanePairs(scene, ScenePlanes(scene))) {
     if (pair.a != low.id || pair.b != high.id) continue;
     EXPECT_NEAR(pair.step_mm, 20, 1e-9);
     EXPECT_NEAR(pair.lateral_gap_mm, 20, 1e-9);
@@ -112,7 +112,7 @@ TEST(ClosedForm, StaircaseIsTheMoreAmbiguousTheThinnerTheBoard) {
   const Scene scene = Read("staircase");
   const int floor = FaceOf(scene, 1, Face::kPlusZ).id;
   const std::map<int, double> steps_mm{{2, 5}, {3, 10}, {4, 20}, {5, 40}};
-  const std::vector<PlanePair> pairs = PlanePairs(scene);
+  const std::vector<PlanePair> pairs = PlanePairs(scene, ScenePlanes(scene));
   for (const auto& [object, step_mm] : steps_mm) {
     const int top = FaceOf(scene, object, Face::kPlusZ).id;
     const auto found = std::find_if(pairs.begin(), pairs.end(), [&](const PlanePair& pair) {

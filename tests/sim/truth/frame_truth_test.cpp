@@ -175,7 +175,7 @@ TEST(ProjectedBox, IsEmptyForWhatLiesBehind) {
 
 TEST(SceneTruth, ListsEveryFaceWithItsOwnerEvenIfItIsNeverSeen) {
   const Scene scene = SmallDesk();
-  const auto json = nlohmann::json::parse(SceneTruthJson(scene));
+  const auto json = nlohmann::json::parse(SceneTruthJson(scene, ScenePlanes(scene)));
   EXPECT_EQ(json["format"], "pas-scene-gt/1");
   EXPECT_EQ(json["objects"].size(), 7u);
   EXPECT_EQ(json["planes"].size(), 36u);

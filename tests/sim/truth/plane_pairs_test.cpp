@@ -25,7 +25,7 @@ std::optional<PlanePair> Tops(const Scene& scene, int object_a, int object_b) {
                         })
         ->id;
   };
-  for (const PlanePair& pair : PlanePairs(scene)) {
+  for (const PlanePair& pair : PlanePairs(scene, ScenePlanes(scene))) {
     if (pair.a == top(object_a) && pair.b == top(object_b)) return pair;
   }
   return std::nullopt;
@@ -77,9 +77,9 @@ TEST(PlanePairs, LeaveOutWhatIsFarSteepOrNotScored) {
 
 TEST(PlanePairs, AreListedInTheSceneTruth) {
   const Scene scene = TwoBoards(0.03, 0.005, 0);
-  const auto json = nlohmann::json::parse(SceneTruthJson(scene));
-  ASSERT_EQ(json["pairs"].size(), PlanePairs(scene).size());
-  EXPECT_EQ(json["pairs"][0]["a"], PlanePairs(scene)[0].a);
+  const auto json = nlohmann::json::parse(SceneTruthJson(scene, ScenePlanes(scene)));
+  ASSERT_EQ(json["pairs"].size(), PlanePairs(scene, ScenePlanes(scene)).size());
+  EXPECT_EQ(json["pairs"][0]["a"], PlanePairs(scene, ScenePlanes(scene))[0].a);
 }
 
 }  // namespace

@@ -251,7 +251,7 @@ TEST_F(WrittenSequence, SaysWhichFolderCannotBeMade) {
 TEST(GroundTruthText, ReadsBackAsTheVeryPose) {
   const auto trajectory = SmallArc(1);
   const std::string text =
-      FixedFiles(SmallDesk(), Camera{}, MakeShots(trajectory, {}, 1)).at("groundtruth.txt");
+      FixedFiles(SmallDesk(), {}, Camera{}, MakeShots(trajectory, {}, 1)).at("groundtruth.txt");
   std::istringstream line(text.substr(text.rfind("0.000000")));
   double t, x, y, z, qx, qy, qz, qw;
   line >> t >> x >> y >> z >> qx >> qy >> qz >> qw;
