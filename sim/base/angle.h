@@ -19,7 +19,8 @@ double Atan2Rad(double y, double x);
 double AsinRad(double sine);
 
 inline constexpr double kPi = 3.14159265358979323846;
-inline double DegToRad(double angle_deg) { return angle_deg * (kPi / 180); }
+inline constexpr double kDegree_rad = kPi / 180;
+inline double DegToRad(double angle_deg) { return angle_deg * kDegree_rad; }
 inline double RadToDeg(double angle_rad) { return angle_rad * (180 / kPi); }
 
 /// R = Rz(yaw) Ry(pitch) Rx(roll), all in degrees.

@@ -2,6 +2,7 @@
 #include <string>
 
 #include "io/input_error.h"
+#include "sim/families/filling.h"
 #include "sim/families/items.h"
 #include "sim/families/layout.h"
 #include "sim/families/recipe.h"
@@ -9,26 +10,18 @@
 namespace sim {
 namespace {
 
-constexpr std::uint64_t kFamilyKey = 0x6465736b;
-constexpr double kMargin_m = 0.012;    // between things, and to the edge of the desk
+constexpr std::uint64_t kDeskKey = 0x6465736b;
 constexpr double kHalfView_m = 0.66;   // things stay where the camera looks
 constexpr double kClearSide_m = 1.40;  // the side wall leaves the camera its room
-constexpr int kFewestObjects = 5;      // when asked for
+constexpr int kMinAskedObjects = 5;    // when asked for
 constexpr int kMinObjects = 8, kMaxObjects = 14;
-constexpr int kTriesEach = 300, kLayouts = 400;
+constexpr int kDeskLayouts = 400;  // tried before the seed is given up
 
 struct Desk {
   double width, depth, top_z;
 };
 
-/// What stands on the desk, largest first, with its zone as parts of the desk's depth.
-struct Wish {
-  Item item;
-  double low_part = -0.5, high_part = 0.5;
-  double max_yaw_deg = 180;
-};
-
-Desk PutRoom(Random& random, Scene& scene) {
+Desk PutDeskRoom(Random& random, Scene& scene) {
   const Desk desk{DrawLength(random, 1.2, 1.8), DrawLength(random, 0.6, 0.8),
                   DrawLength(random, 0.70, 0.76)};
   const double wall_y = Rounded(desk.depth / 2 + DrawLength(random, 0.02, 0.12));
@@ -110,13 +103,13 @@ std::vector<Wish> DrawFewWishes(int count, Random& random) {
 bool PutWishes(const std::vector<Wish>& wishes, const Desk& desk, Random& random,
                Scene& scene) {
   const double half_x = std::min(desk.width / 2, kHalfView_m);
-  Layout layout({-half_x, -desk.depth / 2}, {half_x, desk.depth / 2}, kMargin_m);
+  Layout layout({-half_x, -desk.depth / 2}, {half_x, desk.depth / 2}, kThingMargin_m);
   Scene filled = scene;
   for (const Wish& wish : wishes) {
     const Zone zone{{-half_x, wish.low_part * desk.depth},
                     {half_x, wish.high_part * desk.depth},
                     wish.max_yaw_deg};
-    auto place = layout.Find(wish.item.footprint, zone, kTriesEach, random);
+    auto place = layout.Find(wish.item.footprint, zone, kTriesAThing, random);
     if (!place) return false;
     place->z = desk.top_z;
     Put(wish.item, *place, filled);
@@ -131,19 +124,19 @@ Scene MakeDesk(std::uint64_t seed, const ParameterValues& values) {
   const int asked = static_cast<int>(values.at("objects"));
   if (asked > kMaxObjects) return MakeCrowdedDesk(seed, asked);
   Scene scene;
-  Random room({kFamilyKey, seed, 0});
-  const Desk desk = PutRoom(room, scene);
+  Random room({kDeskKey, seed, 0});
+  const Desk desk = PutDeskRoom(room, scene);
   scene.motion.target_w = {0, Rounded(-0.05 * desk.depth), desk.top_z};
   const int wanted = asked;
-  if (wanted != 0 && wanted < kFewestObjects) {
+  if (wanted != 0 && wanted < kMinAskedObjects) {
     throw io::InputError("family desk",
                          "expected objects from 5 to 40, or 0 to draw the number");
   }
   const int count = wanted > 0 ? wanted : 8 + room.Below(7);
-  for (std::uint64_t attempt = 0; attempt < kLayouts; ++attempt) {
+  for (std::uint64_t attempt = 0; attempt < kDeskLayouts; ++attempt) {
     // Where a full desk has no room at all, the things are drawn anew, then fewer of them.
     const int fewer = wanted > 0 ? 0 : static_cast<int>(attempt / 50);
-    Random random({kFamilyKey, seed, 1, attempt});
+    Random random({kDeskKey, seed, 1, attempt});
     const std::vector<Wish> wishes =
         count < kMinObjects ? DrawFewWishes(count, random)
                             : DrawWishes(std::max(kMinObjects, count - fewer), random);

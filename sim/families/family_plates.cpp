@@ -6,7 +6,7 @@
 namespace sim {
 namespace {
 
-constexpr std::uint64_t kFamilyKey = 0x706c6174;
+constexpr std::uint64_t kPlatesKey = 0x706c6174;
 constexpr double kFloor_m = 4;
 
 void PutFloor(Random& random, Scene& scene) {
@@ -22,7 +22,7 @@ void AimAt(double z, Scene& scene) {
 }  // namespace
 
 Scene MakePlates(std::uint64_t seed, const ParameterValues& values) {
-  Random random({kFamilyKey, seed});
+  Random random({kPlatesKey, seed});
   Scene scene;
   PutFloor(random, scene);
   const double gap = values.at("gap_mm") / 1000, side = values.at("side_mm") / 1000;
@@ -50,7 +50,7 @@ Scene MakePlates(std::uint64_t seed, const ParameterValues& values) {
 }
 
 Scene MakeStack(std::uint64_t seed, const ParameterValues& values) {
-  Random random({kFamilyKey, 1, seed});
+  Random random({kPlatesKey, 1, seed});
   Scene scene;
   PutFloor(random, scene);
   const int count = static_cast<int>(values.at("count"));

@@ -7,14 +7,7 @@
 namespace sim {
 namespace {
 
-constexpr double kMargin_m = 0.012;
-constexpr int kTriesEach = 300, kLayouts = 200;
-
-int NextGroup(const Scene& scene) {
-  int group = 0;
-  for (const Object& object : scene.objects) group = std::max(group, object.detection_group);
-  return group + 1;
-}
+constexpr int kTableLayouts = 200;  ///< tried before a thing less is put on the table
 
 Wish DrawSmallThing(Random& random) {
   switch (random.Below(16)) {
@@ -130,14 +123,14 @@ std::vector<Wish> DrawClutter(int count, Random& random) {
 bool FillTable(const std::vector<Wish>& wishes, const Table& table, Random& random,
                Scene& scene) {
   const double half_x = table.width / 2;
-  Layout layout({-half_x, -table.depth / 2}, {half_x, table.depth / 2}, kMargin_m);
+  Layout layout({-half_x, -table.depth / 2}, {half_x, table.depth / 2}, kThingMargin_m);
   Scene filled = scene;
   const double sign = table.turned ? -1 : 1;
   for (const Wish& wish : wishes) {
     const Zone zone{{-half_x, wish.low_part * table.depth},
                     {half_x, wish.high_part * table.depth},
                     wish.max_yaw_deg};
-    auto place = layout.Find(wish.item.footprint, zone, kTriesEach, random);
+    auto place = layout.Find(wish.item.footprint, zone, kTriesAThing, random);
     if (!place) return false;
     place->x = table.center.x() + sign * place->x;
     place->y = table.center.y() + sign * place->y;
@@ -153,7 +146,7 @@ void PutClutter(int count, const Table& table, std::initializer_list<std::uint64
                 Scene& scene) {
   Random named(key);
   const std::uint64_t stream = named.Bits();
-  for (std::uint64_t attempt = 0; attempt < kLayouts && count > 0; ++attempt) {
+  for (std::uint64_t attempt = 0; attempt < kTableLayouts && count > 0; ++attempt) {
     const int fewer = std::min(count - 1, static_cast<int>(attempt / 8));
     Random random({stream, attempt});
     if (FillTable(DrawClutter(count - fewer, random), table, random, scene)) return;

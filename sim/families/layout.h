@@ -9,6 +9,9 @@
 
 namespace sim {
 
+inline constexpr double kThingMargin_m = 0.012;  ///< between things, and to the table's edge
+inline constexpr int kTriesAThing = 300;  ///< places drawn for one before a layout is given up
+
 /// Where the centre of a thing may come, and how far it may be turned.
 struct Zone {
   Eigen::Vector2d low, high;  ///< metres, world x and y

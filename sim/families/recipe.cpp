@@ -20,13 +20,13 @@ std::string FreshName(const Scene& scene, const std::string& class_name) {
   return base + "_" + std::to_string(number);
 }
 
+}  // namespace
+
 int NextGroup(const Scene& scene) {
   int group = 0;
   for (const Object& object : scene.objects) group = std::max(group, object.detection_group);
   return group + 1;
 }
-
-}  // namespace
 
 double Rounded(double number) { return std::round(number * 1e6) / 1e6 + 0.0; }
 

@@ -68,6 +68,9 @@ struct Place {
 /// is detected as one, a detection group of its own.
 void Put(const Item& item, const Place& place, Scene& scene);
 
+/// The first detection group that no object of the scene is in.
+int NextGroup(const Scene& scene);
+
 /// Materials rich enough for corner features; the base colour is drawn too.
 Material DrawMaterial(Print print, Random& random);
 /// Gives each face of the object its look by class: keys on top of a keyboard, and so on.

@@ -15,8 +15,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kMinSize_m = 1e-5, kMaxSize_m = 50;
-constexpr double kThinnest_m2 = 1e-14;  ///< twice the area of a triangle that is kept
+constexpr double kMinTwiceArea_m2 = 1e-14;  ///< twice the area of a triangle that is kept
 
 std::string PointText(const Vector3d& x) {
   const auto text = [](double a) { return io::NumberText(std::round(a * 1e6) / 1e6 + 0.0); };
@@ -119,7 +118,7 @@ void DropThinTriangles(Model& model, const std::string& path) {
     const auto x = [&](std::size_t k) {
       return model.vertices_o[static_cast<std::size_t>(model.triangles[t][k])];
     };
-    if (!((x(1) - x(0)).cross(x(2) - x(0)).norm() > kThinnest_m2)) continue;
+    if (!((x(1) - x(0)).cross(x(2) - x(0)).norm() > kMinTwiceArea_m2)) continue;
     model.triangles[kept] = model.triangles[t];
     model.plane_of[kept] = model.plane_of[t];
     model.colour_of[kept] = model.colour_of[t];

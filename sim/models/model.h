@@ -8,6 +8,8 @@
 
 namespace sim {
 
+inline constexpr double kMinSize_m = 1e-5, kMaxSize_m = 50;  ///< lengths of a body's sides
+
 /// How a mesh of the user's own is read.
 struct ModelOptions {
   std::string file;   ///< as the scene names it, relative to the scene file

@@ -17,7 +17,7 @@ using Edge = std::pair<int, int>;
 
 constexpr double kAlike = 0.9;  ///< cosine: a triangle of the plane faces as it does
 constexpr double kSmooth = 0.965925826289;  ///< cos 15 degrees
-constexpr double kMostSmooth = 0.5;         ///< share of a plane's rim
+constexpr double kMaxSmooth = 0.5;          ///< share of a plane's rim
 constexpr double kOutline_m = 5e-5;
 constexpr double kSliver_m = 1e-6;  ///< height of a triangle; single precision makes 1e-7
 constexpr int kFits = 3;
@@ -175,7 +175,7 @@ void FindPlanes(Model& model) {
     tried.insert(region.begin(), region.end());
     if (!(faces.FarthestFrom(plane, seed) <= model.options.flatness_m)) continue;
     const Rim rim = RimOf(faces, region);
-    if (rim.smooth > kMostSmooth * rim.length) continue;
+    if (rim.smooth > kMaxSmooth * rim.length) continue;
     ModelPlane found = PlaneWith(plane, Loops(rim.edges, model.vertices_o, plane.n));
     if (!(found.area_m2 >= model.options.min_plane_m2) || found.outline_o.size() < 3) continue;
     for (const std::size_t t : region) {

@@ -10,12 +10,10 @@
 namespace sim {
 namespace {
 
-constexpr double kLeadIn_s = 8;         // the first frame is in the middle of the motion
-constexpr double kSample_s = 1.0 / 30;  // rate at which the presets were measured
-constexpr double kClearance_m = 0.15;
+constexpr double kLeadIn_s = 8;  // the first frame is in the middle of the motion
 constexpr double kChecksPerSegment = 16;
 constexpr double kBetweenChecks_m = 0.02;  // more than the way between two checks
-constexpr std::size_t kKnotsPerBurst = 2, kKnotsPerPace = 8;
+constexpr std::size_t kPathKnotsPerPace = 8;
 constexpr double kPaceSpread = 0.5;
 constexpr int kStartTries = 20000, kCandidates = 240, kRetreats = 4;
 
@@ -91,7 +89,7 @@ bool CameraPath::KnotFits(const View& view) const {
 }
 
 bool CameraPath::SegmentIsSafe(const Segment& segment) const {
-  const double clearance = kClearance_m + tremor_.MaxOffset_m() + kBetweenChecks_m;
+  const double clearance = kCameraClearance_m + tremor_.MaxOffset_m() + kBetweenChecks_m;
   const double low = motion_.pitch_min_rad, high = motion_.pitch_max_rad;
   // Limits too narrow for a moving hand are kept by the knots alone.
   const double margin = Margin(low, high, tremor_.MaxTurn_rad());
@@ -202,7 +200,7 @@ double CameraPath::WantedDistance_m() const {
 void CameraPath::AddKnot() {
   Measure();
   Random random({0x6b6e6f74, seed_, knots_.size()});
-  const double pace = PaceAt(seed_, knots_.size(), kKnotsPerPace, kPaceSpread);
+  const double pace = PaceAt(seed_, knots_.size(), kPathKnotsPerPace, kPaceSpread);
   const auto wanted = [&](double rate, double behind) {
     // Makes up what is missing within about two seconds.
     return rate * preset_.knot_s * std::clamp(1 + behind / (rate * 2), 0.4, 2.5);
@@ -224,13 +222,13 @@ void CameraPath::Measure() {
   constexpr double kForgetting =
       0.995;  // a second, so that a long wait is not made up for ever
   const double known_s = static_cast<double>(knots_.size() - 3) * preset_.knot_s;
-  while ((measured_samples_ + 1) * kSample_s < known_s) {
-    const Pose T_before = Shaken(measured_samples_ * kSample_s);
-    const Pose T_after = Shaken(++measured_samples_ * kSample_s);
-    const double forget = 1 - (1 - kForgetting) * kSample_s;
-    length_behind_m_ = length_behind_m_ * forget + preset_.speed_m_s * kSample_s -
+  while ((measured_samples_ + 1) * kPresetSample_s < known_s) {
+    const Pose T_before = Shaken(measured_samples_ * kPresetSample_s);
+    const Pose T_after = Shaken(++measured_samples_ * kPresetSample_s);
+    const double forget = 1 - (1 - kForgetting) * kPresetSample_s;
+    length_behind_m_ = length_behind_m_ * forget + preset_.speed_m_s * kPresetSample_s -
                        (T_after.t - T_before.t).norm();
-    turn_behind_deg_ = turn_behind_deg_ * forget + preset_.turn_deg_s * kSample_s -
+    turn_behind_deg_ = turn_behind_deg_ * forget + preset_.turn_deg_s * kPresetSample_s -
                        TurnBetween_deg(T_before, T_after);
   }
 }

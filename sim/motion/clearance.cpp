@@ -5,6 +5,7 @@
 
 #include "io/input_error.h"
 #include "io/number_text.h"
+#include "sim/motion/free_space.h"
 #include "sim/scene/geometry.h"
 
 namespace sim {

@@ -8,9 +8,6 @@
 
 namespace sim {
 
-/// The presets keep this far from every object; nearer, real depth cameras see nothing.
-inline constexpr double kCameraClearance_m = 0.15;
-
 /// The pose of a trajectory that comes nearest to a solid.
 struct NearestPass {
   double timestamp_s = 0;

@@ -7,6 +7,9 @@
 
 namespace sim {
 
+/// The presets keep this far from every object; nearer, real depth cameras see nothing.
+inline constexpr double kCameraClearance_m = 0.15;
+
 /// Where the camera can be: outside every object, toys by their boxes, and of the whole way of
 /// what moves.
 class FreeSpace {

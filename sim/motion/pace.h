@@ -5,6 +5,8 @@
 
 namespace sim {
 
+inline constexpr std::size_t kKnotsPerBurst = 2;  ///< a burst of turning lasts so many knots
+
 /// How fast a hand goes at a knot against its mean: between 1 - spread and 1 + spread, drawn
 /// anew every so many knots and going over smoothly from one to the next, since a hand that
 /// hurries goes on hurrying for some seconds.

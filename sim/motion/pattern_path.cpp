@@ -10,12 +10,10 @@
 namespace sim {
 namespace {
 
-constexpr double kSample_s = 1.0 / 30;  // rate at which the presets were measured
-constexpr double kClearance_m = 0.15;
 constexpr double kCorners_m = 0.05;  // more than the spline cuts corners, and the tests miss
-constexpr std::size_t kKnotsPerBurst = 2, kKnotsPerPace = 4;
+constexpr std::size_t kPatternKnotsPerPace = 4;
 constexpr double kSpread = 0.7, kLittleSpread = 0.1;
-constexpr double kMostStride = 1.1;  // along the way, against the mean
+constexpr double kMaxStride = 1.1;  // along the way, against the mean
 constexpr int kSamples = 400, kTries = 3000;
 
 }  // namespace
@@ -33,7 +31,7 @@ PatternPath::PatternPath(const Scene& scene, std::uint64_t seed)
 }
 
 bool PatternPath::IsFree(const Pattern& pattern, const FreeSpace& space) const {
-  const double clearance = kClearance_m + tremor_.MaxOffset_m() + kCorners_m;
+  const double clearance = kCameraClearance_m + tremor_.MaxOffset_m() + kCorners_m;
   for (int i = 0; i < kSamples; ++i) {
     const View view = pattern.At(static_cast<double>(i) / kSamples, 0);
     if (!space.Clear(view.camera_w, clearance)) return false;
@@ -100,7 +98,7 @@ void PatternPath::AddKnot() {
   Random random({0x6d6f6f64, seed_, knots_.size() / kKnotsPerBurst});
   const double spread = pattern_->GoesUnevenly() ? kLittleSpread : kSpread;
   const double mood = random.Uniform(),
-               pace = PaceAt(seed_, knots_.size(), kKnotsPerPace, spread);
+               pace = PaceAt(seed_, knots_.size(), kPatternKnotsPerPace, spread);
   const double turn_pace = pattern_->TurnsUnevenly() ? 1 : 0.12 + 3.52 * mood * mood * mood;
   const double step_m = pace * wanted(preset_.speed_m_s, length_behind_m_);
   const double turn_deg = turn_pace * wanted(preset_.turn_deg_s, turn_behind_deg_);
@@ -108,18 +106,18 @@ void PatternPath::AddKnot() {
 
   // The first place that is far enough; where the way turns back, slower, as a hand does.
   constexpr int kSteps = 48;
-  const double stride = kMostStride * step_m / round_m_ / kSteps;
+  const double stride = kMaxStride * step_m / round_m_ / kSteps;
   for (int i = 0; i < kSteps; ++i) {
     place_ += stride;
     if ((pattern_->At(place_, look_).camera_w - last.camera_w).norm() >= step_m) break;
   }
   // The first look that turns by what is wanted, else the one that turns most.
   constexpr int kLooks = 120;
-  constexpr double kMostLook = 0.30;
+  constexpr double kMaxLook = 0.30;
   const Pose T_last = PoseOf(last);
   double most_deg = -1, best = look_;
   for (int i = 0; i <= kLooks && most_deg < turn_deg; ++i) {
-    const double look = look_ + kMostLook * i / kLooks;
+    const double look = look_ + kMaxLook * i / kLooks;
     const double turned_deg = TurnBetween_deg(T_last, PoseOf(pattern_->At(place_, look)));
     if (turned_deg <= most_deg) continue;
     most_deg = turned_deg;
@@ -132,11 +130,12 @@ void PatternPath::AddKnot() {
 void PatternPath::Measure() {
   if (knots_.size() < 4) return;
   const double known_s = static_cast<double>(knots_.size() - 3) * preset_.knot_s;
-  while ((measured_samples_ + 1) * kSample_s < known_s) {
-    const Pose T_before = Shaken(measured_samples_ * kSample_s);
-    const Pose T_after = Shaken(++measured_samples_ * kSample_s);
-    length_behind_m_ += preset_.speed_m_s * kSample_s - (T_after.t - T_before.t).norm();
-    turn_behind_deg_ += preset_.turn_deg_s * kSample_s - TurnBetween_deg(T_before, T_after);
+  while ((measured_samples_ + 1) * kPresetSample_s < known_s) {
+    const Pose T_before = Shaken(measured_samples_ * kPresetSample_s);
+    const Pose T_after = Shaken(++measured_samples_ * kPresetSample_s);
+    length_behind_m_ += preset_.speed_m_s * kPresetSample_s - (T_after.t - T_before.t).norm();
+    turn_behind_deg_ +=
+        preset_.turn_deg_s * kPresetSample_s - TurnBetween_deg(T_before, T_after);
   }
 }
 

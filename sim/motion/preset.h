@@ -6,6 +6,9 @@
 
 namespace sim {
 
+/// Time between the poses of which a preset's mean speeds are taken.
+inline constexpr double kPresetSample_s = 1.0 / 30;
+
 /// How a hand moves a camera: means at 30 Hz of recorded sequences (TUM RGB-D: fr2/desk,
 /// fr3/long_office_household, fr1/desk), and the tremor on top of the intended motion.
 struct MotionPreset {

@@ -7,11 +7,10 @@
 namespace sim {
 namespace {
 
-constexpr double kMaxCoordinate_m = 100;
 constexpr double kMinHalf_m = 1e-4, kMaxHalf_m = 25;
-constexpr double kLeastIntensity = 1e-6, kMostIntensity = 1e4;
+constexpr double kMinIntensity = 1e-6, kMaxIntensity = 1e4;
 constexpr double kSquare = 1e-6;  ///< cosine of what passes for a right angle
-constexpr std::uint64_t kMostSamplesPerSide = 16;
+constexpr std::uint64_t kMaxSamplesPerSide = 16;
 
 Eigen::Vector3d ReadPoint(const io::YamlMap& map, const char* key) {
   return map.At(key).Numbers(3, {-kMaxCoordinate_m, kMaxCoordinate_m}, "metres");
@@ -48,9 +47,9 @@ Light ReadLight(const io::YamlValue& value) {
     }
   }
   if (map.Has("samples_per_side")) {
-    light.samples_per_side = map.At("samples_per_side").Whole({1, kMostSamplesPerSide});
+    light.samples_per_side = map.At("samples_per_side").Whole({1, kMaxSamplesPerSide});
   }
-  light.intensity = map.At("intensity").Number({kLeastIntensity, kMostIntensity});
+  light.intensity = map.At("intensity").Number({kMinIntensity, kMaxIntensity});
   if (map.Has("colour")) {
     const Eigen::VectorXd rgb = map.At("colour").Numbers(3, {0, 1}, "linear RGB");
     light.colour = {rgb[0], rgb[1], rgb[2]};

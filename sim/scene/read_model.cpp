@@ -5,7 +5,7 @@
 namespace sim {
 namespace {
 
-constexpr double kMaxCoordinate_m = 100, kMaxInFile = 1e6;
+constexpr double kMaxInFile = 1e6;
 constexpr std::size_t kMaxPlanes = 1000, kMaxCorners = 1000;
 
 std::vector<std::vector<Eigen::Vector3d>> ReadPlanes(const io::YamlValue& value) {

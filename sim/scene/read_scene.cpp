@@ -14,9 +14,7 @@ namespace sim {
 namespace {
 
 constexpr std::size_t kMaxObjects = 1000;
-constexpr int kMaxId = 65535;  // object and plane ids fit 16-bit images
-constexpr double kMaxCoordinate_m = 100;
-constexpr double kMinSize_m = 1e-5, kMaxSize_m = 50;
+constexpr std::size_t kMaxWaypoints = 10000, kMaxStations = 64;
 
 Material ReadMaterial(const io::YamlValue& value) {
   const io::YamlMap map(value, {"print", "colour", "ink", "richness", "seed"});
@@ -64,9 +62,8 @@ Eigen::Quaterniond ReadRotation(const io::YamlMap& map) {
 }
 
 std::vector<Waypoint> ReadWay(const io::YamlValue& value) {
-  constexpr std::size_t kMost = 10000;
   std::vector<Waypoint> way;
-  for (const io::YamlValue& entry : value.List(kMost)) {
+  for (const io::YamlValue& entry : value.List(kMaxWaypoints)) {
     const io::YamlMap map(entry, {"time_s", "center_m", "yaw_deg"});
     Waypoint point;
     point.time_s = map.At("time_s").Number({0, 1e5}, "seconds");
@@ -161,9 +158,8 @@ void ReadRange(const io::YamlMap& map, const std::string& low_key, const std::st
 }
 
 std::vector<Station> ReadStations(const io::YamlValue& value) {
-  constexpr std::size_t kMost = 64;
   std::vector<Station> stations;
-  for (const io::YamlValue& entry : value.List(kMost)) {
+  for (const io::YamlValue& entry : value.List(kMaxStations)) {
     const io::YamlMap map(entry, {"camera_m", "gaze_m"});
     const auto point = [&](const char* key) -> Eigen::Vector3d {
       return map.At(key).Numbers(3, {-kMaxCoordinate_m, kMaxCoordinate_m}, "metres");

@@ -134,6 +134,8 @@ struct Capture {
 };
 
 inline constexpr std::size_t kMaxLights = 8;
+inline constexpr int kMaxId = 65535;  ///< ids of objects and planes fit images of 16 bits
+inline constexpr double kMaxCoordinate_m = 100;  ///< the farthest a scene may reach
 
 struct Scene {
   std::string name;

@@ -1,16 +1,15 @@
 #include "sim/sensor/read_sensor.h"
 
 #include <cmath>
-#include <numbers>
 
 #include "io/input_error.h"
 #include "io/yaml_value.h"
+#include "sim/base/angle.h"
+#include "sim/scene/names.h"
 
 namespace sim {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180.0;
-const std::vector<std::string> kNames{"ideal", "kinect1", "azure", "d435"};
 constexpr SensorKind kKinds[] = {SensorKind::kIdeal, SensorKind::kKinect1, SensorKind::kAzure,
                                  SensorKind::kD435};
 
@@ -39,7 +38,7 @@ class Lister {
     Number("projector_offset_m", m.projector_offset_m, -1, 1, "m");
     Number("min_depth_m", m.min_depth_m, 0, 100, "m");
     Number("max_depth_m", m.max_depth_m, 0, 100, "m");
-    Number("max_incidence_deg", m.max_incidence_rad, 0, 90, "degrees", kDegree);
+    Number("max_incidence_deg", m.max_incidence_rad, 0, 90, "degrees", kDegree_rad);
     Number("noise_scale", m.noise_scale, 0, 100, "");
     Number("lateral_scale", m.lateral_scale, 0, 20, "");
     Switch("quantise", m.quantise);
@@ -97,7 +96,7 @@ std::vector<std::string> Keys(const Sensor& sensor) {
 
 Sensor SensorFrom(const io::YamlValue& file) {
   const io::YamlMap map(file);
-  Sensor sensor(kKinds[map.At("base").OneOf(kNames)]);
+  Sensor sensor(kKinds[map.At("base").OneOf(kSensorNames)]);
   map.RefuseOtherKeys(Keys(sensor));
   if (map.Has("name")) sensor.name = map.At("name").Word();
   Lister([&](const char* key, double low, double high, const char* unit, double,
@@ -135,8 +134,8 @@ Sensor ReadSensor(const std::filesystem::path& file) {
 }
 
 Sensor SensorByName(const std::string& text) {
-  for (std::size_t i = 0; i < kNames.size(); ++i) {
-    if (text == kNames[i]) return kKinds[i];
+  for (std::size_t i = 0; i < kSensorNames.size(); ++i) {
+    if (text == kSensorNames[i]) return kKinds[i];
   }
   const std::string suffix = std::filesystem::path(text).extension().string();
   if (suffix == ".yaml" || suffix == ".yml") return ReadSensor(text);

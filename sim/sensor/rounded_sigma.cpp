@@ -15,9 +15,9 @@ namespace {
 constexpr double kSpacing_m = 2e-5;  ///< a twentieth of the steps where it matters
 /// Beyond, a step of disparity is so much larger than one of depth that rounding to the latter
 /// no longer counts.
-constexpr double kMostStepRatio = 4.0;
+constexpr double kMaxStepRatio = 4.0;
 /// Of the range that has a table: coarse steps of a user's own model would need no end of it.
-constexpr double kMostRange_m = 3.0;
+constexpr double kMaxRange_m = 3.0;
 constexpr double kTail = 5.0;  ///< sds of noise that are summed
 constexpr int kRounds = 2;     ///< of the fixed point; the second changes less than 0.3 %
 
@@ -54,8 +54,8 @@ double VarianceOut(double z, double sigma_px, const D435Model& m) {
 
 RoundedSigma::RoundedSigma(const D435Model& model) : model_(model) {
   if (!(model.grid_px > 0 && model.rounding_m > 0 && model.subpixel_px > 0)) return;
-  const double last_m = std::min({model.max_depth_m, model.min_depth_m + kMostRange_m,
-                                  std::sqrt(kMostStepRatio * model.rounding_m *
+  const double last_m = std::min({model.max_depth_m, model.min_depth_m + kMaxRange_m,
+                                  std::sqrt(kMaxStepRatio * model.rounding_m *
                                             model.focal_baseline_px_m / model.grid_px)});
   if (!(last_m > model.min_depth_m) || !(model.min_depth_m > 0)) return;
   first_m_ = model.min_depth_m;

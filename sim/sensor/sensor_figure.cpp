@@ -1,15 +1,14 @@
 #include <algorithm>
 #include <cstdio>
 #include <functional>
-#include <numbers>
 #include <opencv2/imgproc.hpp>
 
+#include "sim/base/angle.h"
 #include "sim/sensor/sensor_report.h"
 
 namespace sim {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180.0;
 const cv::Scalar kInk(60, 60, 60), kGrid(225, 225, 225), kStated(190, 110, 30),
     kMeasured(40, 40, 210);
 
@@ -96,9 +95,10 @@ cv::Mat3b DrawReport(const Sensor& sensor, const SensorReport& report) {
 
   Diagram tilt(picture, {570, 40, 400, 290}, 0, 80, Highest(report.by_tilt));
   tilt.Frame(20, "tilt of the wall, deg", "sd of depth, mm: wall at 1 m, tilted");
-  tilt.Curve([&](double deg) { return 1e3 * DepthSigma(sensor.depth, 1.0, deg * kDegree); });
+  tilt.Curve(
+      [&](double deg) { return 1e3 * DepthSigma(sensor.depth, 1.0, deg * kDegree_rad); });
   for (const WallMeasurement& wall : report.by_tilt) {
-    tilt.Dot(wall.tilt_rad / kDegree, 1e3 * wall.sd_m);
+    tilt.Dot(wall.tilt_rad / kDegree_rad, 1e3 * wall.sd_m);
   }
   depth.Text("line: stated   dots: measured", {85, 62});
   return picture;

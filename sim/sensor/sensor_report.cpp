@@ -3,15 +3,14 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <numbers>
 #include <set>
 
+#include "sim/base/angle.h"
 #include "sim/trace/frame_renderer.h"
 
 namespace sim {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180.0;
 constexpr int kFrames = 20;
 constexpr std::uint64_t kSeed = 1;
 
@@ -109,7 +108,7 @@ SensorReport MeasureWalls(const Sensor& sensor) {
     report.by_depth.push_back(Measure(model, z, 0));
   }
   for (int degrees = 0; degrees <= 75; degrees += 15) {
-    report.by_tilt.push_back(Measure(model, 1.0, degrees * kDegree));
+    report.by_tilt.push_back(Measure(model, 1.0, degrees * kDegree_rad));
   }
   return report;
 }
@@ -122,7 +121,7 @@ std::string ReportTable(const SensorReport& report) {
     const double ratio = wall.stated_sd_m > 0 ? wall.sd_m / wall.stated_sd_m : 1.0;
     char line[160];
     std::snprintf(line, sizeof line, "%5.2f %5.0f %7.2f %8.2f %6.3f %7.2f %8.2f", wall.z_m,
-                  wall.tilt_rad / kDegree, 1e3 * wall.stated_sd_m, 1e3 * wall.sd_m, ratio,
+                  wall.tilt_rad / kDegree_rad, 1e3 * wall.stated_sd_m, 1e3 * wall.sd_m, ratio,
                   1e3 * wall.stated_bias_m, 1e3 * wall.bias_m);
     table += line;
     if (with_step) {

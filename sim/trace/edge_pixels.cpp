@@ -8,8 +8,6 @@
 namespace sim {
 namespace {
 
-constexpr double kNear_m = 1e-3;  ///< as the renderer's
-
 /// The edge in the image, along the axis on which it is longer.
 struct ImageEdge {
   bool steep = false;  ///< `along` is v

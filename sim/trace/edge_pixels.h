@@ -13,6 +13,8 @@
 
 namespace sim {
 
+inline constexpr double kNear_m = 1e-3;  ///< nothing is seen closer than this
+
 /// A pixel whose centre lies beside the projection of an edge.
 struct EdgePixel {
   std::uint32_t pixel = 0;   ///< v * width + u

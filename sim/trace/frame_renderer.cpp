@@ -31,7 +31,7 @@ int CastAlone(const RenderWorld& world, std::size_t object_index, const Pose& T_
         ++count;
         continue;
       }
-      packet.Set(lane++, T_wc.t, T_wc.R * world.image_rays.At(u, v), kNear_m);
+      packet.Set(lane++, T_wc.t, T_wc.R * world.image_rays.At(u, v), kNearRay_m);
       if (lane == RayPacket::kLanes) cast();
     }
     if (lane > 0) cast();

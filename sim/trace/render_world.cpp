@@ -8,7 +8,7 @@ namespace sim {
 namespace {
 
 void CheckIds(const Scene& scene, const SceneMesh& mesh) {
-  const auto fits = [](int id) { return id >= 0 && id <= 65535; };
+  const auto fits = [](int id) { return id >= 0 && id <= kMaxId; };
   for (const Object& object : scene.objects) {
     if (!fits(object.id) || object.id == 0) {
       throw std::invalid_argument("object id " + std::to_string(object.id) +

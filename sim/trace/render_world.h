@@ -12,7 +12,7 @@
 
 namespace sim {
 
-inline constexpr float kNear_m = 1e-3F;          ///< nothing is seen closer than this
+inline constexpr float kNearRay_m = static_cast<float>(kNear_m);  ///< the same for rays
 inline constexpr double kLeaveSurface_m = 1e-4;  ///< second rays start this far off the surface
 
 /// Everything about a scene that its views share. Const and thread-safe.

@@ -9,8 +9,8 @@
 namespace sim {
 namespace {
 
-constexpr int kMaxTaps = 4;           ///< along the longer side of a slanted footprint
-constexpr float kLeastBlend = 1e-3F;  ///< less of the coarser level is none
+constexpr int kMaxTaps = 4;         ///< along the longer side of a slanted footprint
+constexpr float kMinBlend = 1e-3F;  ///< less of the coarser level is none
 
 /// log2 to 0.09, from the bits alone: exactly the same everywhere.
 float RoughLog2(float x) {
@@ -98,7 +98,7 @@ TextureFootprint Texture::Footprint(const TextureSteps& steps) const {
   footprint.taps = std::clamp(static_cast<int>(major / minor + 0.5F), 1, kMaxTaps);
   footprint.level = static_cast<std::size_t>(lod);
   const float blend = lod - static_cast<float>(footprint.level);
-  if (blend >= kLeastBlend && footprint.level + 1 < levels_.size()) footprint.blend = blend;
+  if (blend >= kMinBlend && footprint.level + 1 < levels_.size()) footprint.blend = blend;
   const float share = scale / static_cast<float>(footprint.taps);
   footprint.step_u = (wide ? steps.right_u : steps.down_u) * share;
   footprint.step_v = (wide ? steps.right_v : steps.down_v) * share;

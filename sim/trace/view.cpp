@@ -10,7 +10,6 @@
 namespace sim {
 namespace {
 
-constexpr int kLanes = RayPacket::kLanes;
 /// The ray tracer takes origins, directions and corners in single precision: 1e-3 px at most
 /// for things metres away.
 constexpr double kEdgeMargin_px = 0.03;
@@ -110,7 +109,7 @@ void View::TraceRow(int v) {
   ToSingle(row_.dy.data(), length, dy.data());
   ToSingle(row_.dz.data(), length, dz.data());
   RayPacket packet;
-  for (int i = 0; i < kLanes; ++i) packet.Set(i, T_wc_.t, Eigen::Vector3d::UnitZ(), kNear_m);
+  for (int i = 0; i < kLanes; ++i) packet.Set(i, T_wc_.t, Eigen::Vector3d::UnitZ(), kNearRay_m);
   for (int u0 = 0; u0 < width; u0 += kLanes) {
     Load(packet.dx, dx, u0);
     Load(packet.dy, dy, u0);
@@ -142,8 +141,7 @@ void View::DecidePixel(const EdgePixel& edge) {
     const double shown = facets_.At(triangle).inverse_depth.dot(ray);
     if (!(edge.inverse_depth >= kEdgeDepthShare * shown)) return;
   }
-  triangle =
-      world_->caster.Nearest(T_wc_.t, T_wc_.R * ray, static_cast<double>(kNear_m)).triangle;
+  triangle = world_->caster.Nearest(T_wc_.t, T_wc_.R * ray, kNear_m).triangle;
   decided_[edge.pixel] = 1;
 }
 

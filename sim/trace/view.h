@@ -12,6 +12,8 @@
 
 namespace sim {
 
+inline constexpr int kLanes = RayPacket::kLanes;  ///< pixels at once
+
 /// What is seen where nothing is.
 inline const cv::Vec3f kSky(0.55F, 0.6F, 0.66F);
 

@@ -6,12 +6,6 @@
 #include "sim/trace/view.h"
 
 namespace sim {
-namespace {
-
-constexpr int kLanes = RayPacket::kLanes;
-
-}  // namespace
-
 /// Unit normal to shade by at the spot that the ray (x, y, 1) meets.
 Eigen::Vector3d View::NormalAt(const SeenFacet& facet, double x, double y) const {
   if (facet.flat) return facet.n_w;

@@ -6,7 +6,6 @@
 namespace sim {
 namespace {
 
-constexpr int kLanes = RayPacket::kLanes;
 constexpr int kLooks = 4;
 /// A rotated grid, the same in each pixel.
 constexpr std::array<std::array<double, 2>, kLooks> kSubPixels{
@@ -58,7 +57,7 @@ void View::CastLooks(int v, std::size_t first) {
     const auto& [du, dv] = kSubPixels[Index(i % kLooks)];
     Look& look = looks_[first + Index(i)];
     look.ray = world_->image_rays.Beside(on_edge_[(first + Index(i)) / kLooks], v, du, dv);
-    packet.Set(i, T_wc_.t, T_wc_.R * look.ray, kNear_m);
+    packet.Set(i, T_wc_.t, T_wc_.R * look.ray, kNearRay_m);
   }
   const PacketHits found = world_->rays.Nearest(packet);
   for (int i = 0; i < count; ++i) {

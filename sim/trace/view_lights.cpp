@@ -4,12 +4,6 @@
 #include "sim/trace/view.h"
 
 namespace sim {
-namespace {
-
-constexpr int kLanes = RayPacket::kLanes;
-
-}  // namespace
-
 void View::SetSpot(int lane, const SeenFacet& facet, double x, double y, double z,
                    Spots& spots) const {
   const std::size_t i = Index(lane);
