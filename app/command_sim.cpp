@@ -13,6 +13,7 @@
 #include "sim/motion/clearance.h"
 #include "sim/scene/names.h"
 #include "sim/sensor/read_sensor.h"
+#include "sim/sensor/sensor_figure.h"
 #include "sim/sensor/sensor_report.h"
 #include "sim/write/png.h"
 #include "sim/write/preview.h"

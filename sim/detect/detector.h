@@ -40,11 +40,11 @@ struct DetectorModel {
   double hidden_miss = 0.6;                     ///< + hidden_miss (1 - visible fraction)^2
   int miss_run_frames = 8;                      ///< misses come in runs of about this length
   double jitter_ratio = 0.02, jitter_px = 0.5;  ///< sd of each side: ratio x box side + px
-  double slow_jitter_share = 0.5;               ///< of the jitter's variance, drifts over runs
-  double confused = 0.02;        ///< share of detections with a wrong class, in runs
-  double duplicate = 0.015;      ///< share of detections reported twice, in runs ...
-  int duplicate_run_frames = 4;  ///< ... of about this length
-  double phantom = 0.02;         ///< chance a window of 4 frames holds a box where nothing is
+  double slow_jitter_share = 0.5;  ///< part of the jitter's variance that drifts over runs
+  double confused = 0.02;          ///< share of detections with a wrong class, in runs
+  double duplicate = 0.015;        ///< share of detections reported twice, in runs ...
+  int duplicate_run_frames = 4;    ///< ... of about this length
+  double phantom = 0.02;           ///< chance a window of 4 frames holds a box where nothing is
 };
 
 /// A detector on its limits: half-hidden and small things are mostly missed, boxes are loose.

@@ -11,10 +11,10 @@ namespace sim {
 /// What became of the things to detect, all or those of one size.
 struct DetectorFigures {
   long targets = 0;      ///< boxes there were, all frames
-  long found = 0;        ///< of them, with a detection of IoU 0.5 or more
-  long right_class = 0;  ///< of the found
+  long found = 0;        ///< those with a detection of IoU 0.5 or more
+  long right_class = 0;  ///< those found with the right class
   long runs = 0;         ///< times that misses began while the thing was in view
-  double iou_sum = 0;    ///< of the found
+  double iou_sum = 0;    ///< over those found
 
   double Recall() const;
   double MeanIou() const;
@@ -55,7 +55,7 @@ class DetectorScore {
   DetectorFigures all_;
   std::array<DetectorFigures, 3> by_size_;  ///< small, medium, large
   long boxes_ = 0, doubles_ = 0, phantoms_ = 0;
-  std::map<std::uint64_t, bool> missing_;  ///< of the frame before; only what was in view
+  std::map<std::uint64_t, bool> missing_;  ///< in the frame before; only what was in view
 };
 
 /// Intersection over union of two boxes as areas.

@@ -1,3 +1,5 @@
+#include "sim/families/materials.h"
+
 #include <vector>
 
 #include "sim/families/recipe.h"

@@ -6,9 +6,10 @@
 #include <vector>
 
 #include "sim/base/random.h"
+#include "sim/families/materials.h"
 #include "sim/scene/scene.h"
 
-/// What the families are cooked from; not for use outside families_*.cpp.
+/// What the families are cooked from; for the sources of this folder alone.
 namespace sim {
 
 /// Values of a family's parameters, complete and within their ranges.
@@ -70,11 +71,6 @@ void Put(const Item& item, const Place& place, Scene& scene);
 
 /// The first detection group that no object of the scene is in.
 int NextGroup(const Scene& scene);
-
-/// Materials rich enough for corner features; the base colour is drawn too.
-Material DrawMaterial(Print print, Random& random);
-/// Gives each face of the object its look by class: keys on top of a keyboard, and so on.
-void Dress(Object& object, Random& random);
 
 /// What the scene's next object begins with: id, name, class and role.
 Object NextObject(const Scene& scene, const std::string& name, const std::string& class_name,

@@ -36,10 +36,10 @@ struct ModelPlane {
 /// A mesh of the user's own. Frame o: the file's axes, metres, origin in the middle of its box.
 struct Model {
   ModelOptions options;
-  std::string sha256;  ///< of the mesh file, followed by the files it names
+  std::string sha256;  ///< hash of the mesh file, followed by the files it names
   Eigen::Vector3d middle_f =
-      Eigen::Vector3d::Zero();  ///< of its box, from the file's origin, metres
-  Eigen::Vector3d size = Eigen::Vector3d::Zero();  ///< of its box, metres
+      Eigen::Vector3d::Zero();  ///< middle of its box, from the file's origin, metres
+  Eigen::Vector3d size = Eigen::Vector3d::Zero();  ///< lengths of its box, metres
   std::vector<Eigen::Vector3d> vertices_o;
   std::vector<std::array<int, 3>> triangles;   ///< counter-clockwise seen from outside
   std::vector<int> plane_of;                   ///< by triangle: index into planes, -1 = none

@@ -67,10 +67,10 @@ struct Object {
   Eigen::Vector3d size = Eigen::Vector3d::Ones();  ///< full lengths, metres
   std::array<Material, 6> faces;                   ///< by Face; a toy uses the first
   std::uint64_t seed = 0;
-  std::shared_ptr<const Model> model;  ///< of a kMesh
+  std::shared_ptr<const Model> model;  ///< only of a kMesh
   bool model_colours = true;           ///< a kMesh looks as its file says; else as `faces[0]`
-  /// Of what moves, times grow; it stands at its ends before and after. Then `center_w` is the
-  /// first of them.
+  /// Only of what moves; times grow, it stands at its ends before and after. Then `center_w` is
+  /// the first of them.
   std::vector<Waypoint> way;
   int detection_group =
       0;  ///< objects of one group are detected as one (laptop base and lid); 0 = alone
@@ -94,12 +94,13 @@ enum class LightKind {
 struct Light {
   LightKind kind = LightKind::kLamp;
   Eigen::Vector3d center_w = Eigen::Vector3d::Zero();
-  /// Of a rectangle: from its centre to the middles of two sides, square to each other. Its
-  /// front is where half_a x half_b points.
+  /// Only of a rectangle: from its centre to the middles of two sides, square to each other.
+  /// Its front is where half_a x half_b points.
   Eigen::Vector3d half_a_w{0.3, 0, 0}, half_b_w{0, -0.3, 0};
   double intensity = 1;
   std::array<double, 3> colour{1, 1, 1};  ///< linear RGB
-  int samples_per_side = 4;  ///< of a rectangle, whose square is the rays to it from each place
+  int samples_per_side =
+      4;  ///< only of a rectangle; its square is the rays to it from each place
 };
 
 /// A place on the way of the camera, and what it looks at there.

@@ -36,15 +36,19 @@ class AzureSensor {
   double At(int u, int v) const {
     if (!(rendering_.depth_m(v, u) > 0)) return 0;
     if (model_.hexagon && !InHexagon(camera_.Ray(u, v))) return 0;
+    // The surface that is seen, and where two share the footprint, a depth between them.
     const cv::Point seen = Seen(u, v);
     double z = model_.flying_pixels ? Mixed(seen) : rendering_.depth_m(seen);
     if (!(z >= model_.min_depth_m && z <= model_.max_depth_m)) return 0;
     const double true_z = z;
+    // Light that comes by way of the other face of a corner lengthens the path, or drowns it.
     if (!glow_.empty() && glow_(seen) > 0) {
       const double glow = static_cast<double>(glow_(seen));
       if (noise_.Uniform(u, v, kLossDraw) < model_.multipath_loss * glow) return 0;
       z += model_.multipath_m * glow;
     }
+    // Errors of the whole recording, of the depth, and of each pixel; then the sensor's
+    // rounding.
     z += offset_m_ +
          model_.wiggle_m * std::sin(2.0 * std::numbers::pi * true_z / model_.wiggle_period_m);
     if (model_.noise_scale > 0) {

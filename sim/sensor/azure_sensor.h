@@ -15,9 +15,9 @@ namespace sim {
 /// BlenderProc; [C] a choice of ours within [S].
 struct AzureModel {
   double min_depth_m = 0.5, max_depth_m = 3.86;  ///< [S]
-  double noise_scale = 1.0;                      ///< of AzureSigma; 0 = no axial noise
-  double reflectivity = 0.9;        ///< of all surfaces in the infrared, (0, 1] [C]
-  double lateral_px = 0.25;         ///< sd of edge jitter [T]
+  double noise_scale = 1.0;                      ///< times AzureSigma; 0 = no axial noise
+  double reflectivity = 0.9;                     ///< all surfaces' in the infrared, (0, 1] [C]
+  double lateral_px = 0.25;                      ///< sd of edge jitter [T]
   bool flying_pixels = true;        ///< a pixel averages the light of its 3x3 footprint
   double max_mixed_m = 0.10;        ///< a mix of surfaces further apart is refused ... [C]
   double min_mixed_share = 0.2;     ///< ... when each gives more than this share of light [C]
@@ -26,9 +26,9 @@ struct AzureModel {
   double multipath_loss = 0.2;      ///< share of pixels lost in the very corner [C]
   double wiggle_m = 0.002;          ///< amplitude of the cyclic error [C]
   double wiggle_period_m = 0.75;    ///< [C]
-  double session_offset_m = 0.005;  ///< of a recording: uniform in +- this [C]
-  bool hexagon = true;              ///< of 75 x 65 deg; nothing outside [S]
-  double rounding_m = 0.001;        ///< of the sensor's output [S]
+  double session_offset_m = 0.005;  ///< drawn once a recording: uniform in +- this [C]
+  bool hexagon = true;              ///< the field is 75 x 65 deg; nothing outside [S]
+  double rounding_m = 0.001;        ///< step of the sensor's output [S]
 };
 
 /// sigma_z, metres: (0.5 mm + 1.0 mm/m max(z - 0.5 m, 0)) sqrt(0.9 / (reflectivity cosine)), at

@@ -8,8 +8,8 @@ namespace sim {
 
 /// The colour camera: vignetting, shot and read noise, gamma, 8 bits.
 struct ColourModel {
-  double shot_variance = 1.4e-4;  ///< of linear light, times its value
-  double read_sigma = 1.0e-3;     ///< of linear light
+  double shot_variance = 1.4e-4;  ///< variance of linear light where that is 1; in proportion
+  double read_sigma = 1.0e-3;     ///< standard deviation of linear light
   double corner_loss = 0.12;      ///< share of light lost in the image's corners
   double gamma = 2.2;
 };

@@ -28,6 +28,7 @@ struct Sums {
   /// q with 1/z = q . ray, zero when the pixels do not tell.
   Eigen::Vector3d Plane() const {
     if (count < kMinPixels) return Eigen::Vector3d::Zero();
+    // Least squares: in a plane, inverse depth is affine in the ray (x, y).
     const Eigen::Vector3d mean = sum / count;
     const Eigen::Matrix3d spread = square / count - mean * mean.transpose();
     const Eigen::Matrix2d rays = spread.topLeftCorner<2, 2>();
@@ -63,6 +64,7 @@ class CornerFinder {
     if (corners_.empty()) return glow;
     cv::Mat1f distance_px;
     cv::Mat1i label;
+    // Each pixel takes the light of the nearest corner in the image.
     cv::distanceTransform(away_, distance_px, label, cv::DIST_L2, cv::DIST_MASK_5,
                           cv::DIST_LABEL_PIXEL);
     std::map<int, const Corner*> of_label;
@@ -112,7 +114,8 @@ class CornerFinder {
     const Eigen::Vector3d& q_a = planes_.at(plane_a);
     const Eigen::Vector3d& q_b = planes_.at(plane_b);
     if (q_a.isZero() || q_b.isZero()) return;
-    // q . p < 1 on the camera's side of a plane.
+    // A corner is hollow when each face has the other's pixel before it, and they touch when it
+    // is hardly before it. q . p < 1 on the camera's side of a plane.
     const Eigen::Vector3d p_a = Point(a), p_b = Point(b);
     const double a_before_b = (1.0 - q_b.dot(p_a)) / q_b.norm();
     const double b_before_a = (1.0 - q_a.dot(p_b)) / q_a.norm();

@@ -76,6 +76,8 @@ class D435Sensor {
   cv::Point NearestThing(int u, int v, int reach) const {
     const cv::Point here(u, v);
     if (!(rendering_.depth_m(here) > 0)) return here;
+    // Of what is before this pixel's surface by more than the match tells apart, the closest in
+    // the image.
     const double threshold = Disparity(rendering_.depth_m(here)) + model_.max_mixed_px;
     cv::Point best = here;
     int best_distance2 = 3 * reach * reach;
@@ -94,6 +96,7 @@ class D435Sensor {
 
   bool SeenByRightImager(int u, int v, cv::Point seen) const {
     if (!rendering_.projector_lit.empty() && rendering_.projector_lit(seen) == 0) return false;
+    // The right imager stands a baseline to the right, and its image ends too.
     const Eigen::Vector3d p_c = rendering_.depth_m(seen) * camera_.Ray(u, v);
     const Eigen::Vector2d right =
         camera_.Project(p_c - Eigen::Vector3d(model_.baseline_m, 0, 0));
@@ -124,6 +127,7 @@ class D435Sensor {
       disparity += model_.ripple_px * std::sin(2.0 * std::numbers::pi * disparity);
     }
     if (model_.subpixel_px > 0) {
+      // The noise is partly common to a matching window, partly each pixel's own.
       const double sigma = sigma_->At(z);
       const double smooth = smooth_.empty() ? 0.0 : static_cast<double>(smooth_(v, u));
       disparity +=

@@ -18,7 +18,7 @@ struct D435Model {
   double baseline_m =
       0.05015;  ///< right imager along camera +x; 0 = no shadow, no blind band [P]
   double subpixel_px = 0.08;      ///< sd of disparity; 0 = no noise [I]
-  double correlated_share = 0.7;  ///< of its variance, smooth over the matching window [C]
+  double correlated_share = 0.7;  ///< part of the variance, smooth over the window [C]
   int window_px = 7;              ///< side of the matching window, odd [P]
   double grid_px = 1.0 / 32.0;    ///< disparity is kept in steps of this [I]
   double ripple_px = 0.03;        ///< sub-pixel error ripple_px sin(2 pi d) [I]
@@ -26,7 +26,7 @@ struct D435Model {
   double max_mixed_px = 1.0;  ///< window that sees disparities further apart is refused ... [C]
   double min_share = 0.6;     ///< ... unless one surface has more than this; 0 = never [C]
   double min_depth_m = 0.28, max_depth_m = 10.0;  ///< [D]
-  double rounding_m = 0.001;                      ///< of the sensor's output [D]
+  double rounding_m = 0.001;                      ///< step of the sensor's output [D]
 };
 
 /// sigma_z = z^2 s / (f B), metres. Source: [I].

@@ -43,6 +43,7 @@ void SmoothNoiseRows::AddRow(int v) {
 void SmoothNoiseRows::Next() {
   ++row_;
   AddRow(row_ + radius_);
+  // The mean over side x side pixels, scaled back to unit variance: the root of their number.
   const float scale = 1.0F / static_cast<float>(side_);
   for (std::size_t k = 0; k < draws_; ++k) {
     float* out = smooth_.data() + k * width_;

@@ -25,15 +25,18 @@ struct KinectModel {
   double projector_offset_m = 0.075;  ///< along camera +x; shadows fall left of things; 0 = off
   double min_depth_m = 0.5, max_depth_m = 4.5;    ///< near mode: 0.4
   double max_incidence_rad = 1.3962634015954636;  ///< 80 deg; flatter surfaces give nothing
-  double noise_scale = 1.0;                       ///< of sigma_z; 0 = no axial noise
-  double lateral_scale = 1.0;                     ///< of sigma_L; 0 = sharp edges
+  double noise_scale = 1.0;                       ///< times sigma_z; 0 = no axial noise
+  double lateral_scale = 1.0;                     ///< times sigma_L; 0 = sharp edges
   bool quantise = true;                           ///< to whole disparity steps
 };
 
+/// The numbers of sigma_z above, up to 60 degrees.
+inline constexpr double kAxialFloor_m = 0.0012;
+inline constexpr double kAxialGrowth_per_m = 0.0019;
+inline constexpr double kAxialNearest_m = 0.4;
+
 /// sigma_z of the model above, metres. `theta_rad` in [0, pi/2).
 double AxialSigma(double z_m, double theta_rad);
-/// sigma_L, pixels.
-double LateralSigma(double theta_rad);
 
 /// Measured depth in metres, 0 = none, before rounding to file units. Order of effects: which
 /// surface the pixel sees (lateral jitter moves edges, it does not tilt a plane), projector

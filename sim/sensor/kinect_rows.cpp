@@ -11,6 +11,9 @@ namespace sim {
 namespace {
 
 constexpr double kHalfPi = std::numbers::pi / 2;
+// The rest of the law of depth_sensor.h, from the same paper.
+constexpr double kGrazing = 0.0001;  ///< m^1.5, beyond 60 degrees
+constexpr double kLateralFloor_px = 0.8, kLateralGrowth_px = 0.035;
 
 /// To nearest, halves away from zero.
 inline int Nearest(double x) { return static_cast<int>(x < 0 ? x - 0.5 : x + 0.5); }
@@ -22,12 +25,15 @@ inline double Rounded(double x) {
   return near > up ? near - 1.0 : near;
 }
 
-inline double Lateral(double theta) { return 0.8 + 0.035 * theta / (kHalfPi - theta); }
+inline double Lateral(double theta) {
+  return kLateralFloor_px + kLateralGrowth_px * theta / (kHalfPi - theta);
+}
 
 inline double Axial(double z, double theta) {
   const double ratio = theta / (kHalfPi - theta);
-  const double grazing = 0.0001 / std::sqrt(z) * ratio * ratio;
-  const double sigma = 0.0012 + 0.0019 * (z - 0.4) * (z - 0.4);
+  const double grazing = kGrazing / std::sqrt(z) * ratio * ratio;
+  const double sigma =
+      kAxialFloor_m + kAxialGrowth_per_m * (z - kAxialNearest_m) * (z - kAxialNearest_m);
   return theta > std::numbers::pi / 3 ? sigma + grazing : sigma;
 }
 
@@ -47,6 +53,7 @@ template <bool kNoisy, bool kQuantise>
   const double least = model.min_depth_m, most = model.max_depth_m;
   const double flattest = model.max_incidence_rad;
   for (int i = 0; i < count; ++i) {
+    // Noise is added and rounded in disparity, where the sensor measures, and turned back.
     double disparity = steps / z[i];
     if (kNoisy) {
       const double sigma_m = scale * Axial(z[i], theta[i]);
@@ -64,7 +71,6 @@ template <bool kNoisy, bool kQuantise>
 }  // namespace
 
 double AxialSigma(double z_m, double theta_rad) { return Axial(z_m, theta_rad); }
-double LateralSigma(double theta_rad) { return Lateral(theta_rad); }
 
 SIM_LANES void KinectAngles(const float* cosine, int count, double* theta) {
   for (int i = 0; i < count; ++i) theta[i] = Incidence(cosine[i]);

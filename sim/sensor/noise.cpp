@@ -7,7 +7,6 @@
 namespace sim {
 namespace {
 
-constexpr std::uint64_t kGolden = 0x9E3779B97F4A7C15ull;
 constexpr double kLn2 = 0.693147180559945309417;
 
 /// ln x, x normal and positive: exponent and the series of atanh, IEEE operations only.
@@ -84,7 +83,7 @@ double NormalProbability(double x) {
 }
 
 PixelNoise::PixelNoise(std::uint64_t seed, std::uint64_t frame)
-    : key_(Mix(Mix(seed + kGolden) ^ Mix(frame + 0x51ED270B1A2F39C5ull))) {}
+    : key_(MixBits(MixBits(seed + kGoldenRatio) ^ MixBits(frame + 0x51ED270B1A2F39C5ull))) {}
 
 double PixelNoise::Uniform(int u, int v, std::uint32_t draw) const {
   return (static_cast<double>(BitsOf(key_, u, v, draw) >> 11) + 0.5) * 0x1.0p-53;

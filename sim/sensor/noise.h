@@ -3,6 +3,8 @@
 #include <cstdint>
 #include <span>
 
+#include "sim/base/random.h"
+
 namespace sim {
 
 /// Random numbers of an image, counter-based: each depends on (seed, frame, pixel, draw) alone,
@@ -36,16 +38,11 @@ class PixelNoise {
   /// Keys of their own for normals, apart from those of Uniform.
   static constexpr std::uint64_t kNormals = 1ull << 32;
 
-  static std::uint64_t Mix(std::uint64_t z) {  // SplitMix64's finaliser
-    z = (z ^ (z >> 30)) * 0xBF58476D1CE4E5B9ull;
-    z = (z ^ (z >> 27)) * 0x94D049BB133111EBull;
-    return z ^ (z >> 31);
-  }
   static std::uint64_t BitsOf(std::uint64_t key, int u, int v, std::uint64_t draw) {
     const std::uint64_t place =
         (static_cast<std::uint64_t>(static_cast<std::uint32_t>(v)) << 32) |
         static_cast<std::uint32_t>(u);
-    return Mix(Mix(key + place * 0x9E3779B97F4A7C15ull) + draw * 0xD1B54A32D192ED03ull);
+    return MixBits(MixBits(key + place * kGoldenRatio) + draw * 0xD1B54A32D192ED03ull);
   }
   static void FillBits(std::uint64_t key, int u0, int v, std::uint64_t draw,
                        std::uint64_t* bits, std::size_t count);

@@ -16,10 +16,10 @@ constexpr double kSpacing_m = 2e-5;  ///< a twentieth of the steps where it matt
 /// Beyond, a step of disparity is so much larger than one of depth that rounding to the latter
 /// no longer counts.
 constexpr double kMaxStepRatio = 4.0;
-/// Of the range that has a table: coarse steps of a user's own model would need no end of it.
+/// Depth range that has a table: coarse steps of a user's own model would need no end of it.
 constexpr double kMaxRange_m = 3.0;
 constexpr double kTail = 5.0;  ///< sds of noise that are summed
-constexpr int kRounds = 2;     ///< of the fixed point; the second changes less than 0.3 %
+constexpr int kRounds = 2;  ///< rounds of the fixed point; the second changes less than 0.3 %
 
 double Simple(double z, const D435Model& m) {
   return SigmaBeforeRounding(m.subpixel_px, m.grid_px,
@@ -33,6 +33,7 @@ double VarianceOut(double z, double sigma_px, const D435Model& m) {
   const auto tick = [&](double d) { return static_cast<long>(std::lround(d / m.grid_px)); };
   const long first = std::max(1L, tick(disparity - kTail * sigma_px));
   const long last = tick(disparity + kTail * sigma_px);
+  // Each step of disparity comes out as one depth; the normal law says how often.
   double below = 0, sum = 0, mean = 0, square = 0;
   for (long k = first; k <= last; ++k) {
     const double edge = (static_cast<double>(k) + 0.5) * m.grid_px;
@@ -66,6 +67,7 @@ RoundedSigma::RoundedSigma(const D435Model& model) : model_(model) {
     const double z = first_m_ + static_cast<double>(i) * step_m_;
     const double per_m = model.focal_baseline_px_m / (z * z);
     const double wanted = D435Sigma(z, model), least = model.grid_px / 6;
+    // A fixed point: the noise grows by what the variance that comes out still lacks.
     double sigma = Simple(z, model);
     for (int round = 0; round < kRounds; ++round) {
       const double lacks = (wanted * wanted - VarianceOut(z, sigma, model)) * per_m * per_m;

@@ -1,10 +1,11 @@
+#include "sim/sensor/sensor_figure.h"
+
 #include <algorithm>
 #include <cstdio>
 #include <functional>
 #include <opencv2/imgproc.hpp>
 
 #include "sim/base/angle.h"
-#include "sim/sensor/sensor_report.h"
 
 namespace sim {
 namespace {

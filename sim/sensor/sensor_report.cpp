@@ -91,6 +91,7 @@ WallMeasurement Measure(const DepthModel& model, double z_m, double tilt_rad) {
       }
     }
   }
+  // What is left of the errors without the stated bias is noise.
   if (count == 0) return wall;
   wall.bias_m = sum / count;
   const double mean = random_sum / count;

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <opencv2/core/mat.hpp>
 #include <string>
 #include <vector>
 
@@ -11,7 +10,7 @@ namespace sim {
 /// A wall as a sensor measures it, against what its model states. Metres.
 struct WallMeasurement {
   double z_m = 0, tilt_rad = 0;
-  double stated_sd_m = 0, sd_m = 0;      ///< of what is not the stated bias
+  double stated_sd_m = 0, sd_m = 0;      ///< without the stated bias
   double stated_bias_m = 0, bias_m = 0;  ///< mean error; stated for walls without tilt
   double stated_step_m = 0, step_m = 0;  ///< median gap between the depths that occur
 };
@@ -28,8 +27,5 @@ SensorReport MeasureWalls(const Sensor& sensor);
 
 /// The report as a table for people, a line a wall.
 std::string ReportTable(const SensorReport& report);
-
-/// Stated curves and measured points: by depth on the left, by tilt on the right.
-cv::Mat3b DrawReport(const Sensor& sensor, const SensorReport& report);
 
 }  // namespace sim

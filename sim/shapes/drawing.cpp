@@ -55,8 +55,8 @@ bool IsDrawn(const Object& object) {
 /// One of the two views: which axes of the world go right and up the page, and where.
 struct Sheet {
   int right, up;
-  Eigen::Vector2d low, high;  ///< of what is drawn, metres
-  double top_px = 0;          ///< of the sheet on the page
+  Eigen::Vector2d low, high;  ///< corners of what is drawn, metres
+  double top_px = 0;          ///< where the sheet is on the page
   Eigen::Vector2d operator()(const Eigen::Vector3d& x_w) const {
     return {(x_w[right] - low.x()) * kPixelsPerMetre,
             top_px + (high.y() - x_w[up]) * kPixelsPerMetre};

@@ -11,15 +11,14 @@ namespace sim {
 struct ScenePlane {
   int id = 0;                ///< from 1, in the order of objects and faces
   int object = 0;            ///< Object::id
-  Face face = Face::kPlusZ;  ///< of a box
+  Face face = Face::kPlusZ;  ///< which face of a box
   Eigen::Vector3d n_w = Eigen::Vector3d::UnitZ();
   double d = 0;
   double area_m2 = 0;
   /// Counter-clockwise seen from the front. Four of a box; those of a mesh may turn either way.
   std::vector<Eigen::Vector3d> vertices_w;
-  std::vector<std::vector<Eigen::Vector3d>> holes_w;  ///< of a mesh; clockwise
-  std::vector<std::vector<Eigen::Vector3d>>
-      pieces_w;  ///< of a mesh: triangles that it consists of
+  std::vector<std::vector<Eigen::Vector3d>> holes_w;   ///< only in a mesh; clockwise
+  std::vector<std::vector<Eigen::Vector3d>> pieces_w;  ///< only in a mesh: its triangles
 };
 
 /// All truth planes, by object; those of a box in the order of its faces.

@@ -49,6 +49,7 @@ int BoxOutline::InStraightRow(const Camera& camera, const ImageRays& rays, const
                               int v) const {
   double from = area.x, to = area.x + area.width - 1;  // pixels, as good as the division
   const double y = rays.At(area.x, v).y();
+  // Each side of the outline leaves a half of the row; what all leave is the stretch.
   for (const Eigen::Vector3d& side : sides_c_) {
     const double rest = side.y() * y + side.z();
     if (side.x() == 0) {

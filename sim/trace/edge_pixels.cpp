@@ -23,10 +23,12 @@ struct Piece {
 
 /// The part of the edge before the camera and in the window, if there is one.
 bool Clip(Eigen::Vector3d a, Eigen::Vector3d b, const RayWindow& window, Piece& piece) {
+  // What is behind the camera is cut off before it is projected.
   if (!(a.z() > kNear_m) && !(b.z() > kNear_m)) return false;
   if (a.z() < kNear_m) a += (kNear_m - a.z()) / (b.z() - a.z()) * (b - a);
   if (b.z() < kNear_m) b += (kNear_m - b.z()) / (a.z() - b.z()) * (a - b);
   const Eigen::Vector2d p = a.head<2>() / a.z(), q = b.head<2>() / b.z();
+  // Then the window's four sides cut the projection (Liang and Barsky).
   double from = 0, to = 1;
   // Keeps the shares s of the way where at + s slope <= 0.
   const auto keep = [&](double at, double slope) {
@@ -40,6 +42,7 @@ bool Clip(Eigen::Vector3d a, Eigen::Vector3d b, const RayWindow& window, Piece& 
     keep(p[axis] - window.high[axis], way);
   }
   if (!(from <= to)) return false;
+  // Inverse depth is affine along the projection, depth is not.
   const double wa = 1 / a.z(), wb = 1 / b.z();
   piece = {p + from * (q - p), p + to * (q - p), wa + from * (wb - wa), wa + to * (wb - wa)};
   return true;
@@ -51,6 +54,7 @@ ImageEdge InImage(const Piece& piece, const Camera& camera) {
   Eigen::Vector2d q = camera.Project({piece.q.x(), piece.q.y(), 1.0});
   double zp = piece.wp, zq = piece.wq;
   edge.steep = std::abs(q.y() - p.y()) > std::abs(q.x() - p.x());
+  // Each step along the longer axis meets one pixel, or few, across.
   const int axis = edge.steep ? 1 : 0;
   if (p[axis] > q[axis]) {
     std::swap(p, q);
@@ -76,6 +80,8 @@ void Walk(const ImageEdge& edge, const Camera& camera, double margin_px,
     const auto share = [&](double where) {
       return span > 0 ? std::clamp((where - edge.along[0]) / span, 0.0, 1.0) : 0.5;
     };
+    // Only the pixel centre nearest across can be within the margin, which is below half a
+    // pixel.
     const double across = edge.across[0] + share(at) * (edge.across[1] - edge.across[0]);
     const double near = std::round(across);
     if (!(std::abs(across - near) <= reach) || !(near >= 0 && near < breadth)) continue;
@@ -123,7 +129,7 @@ bool MayBeSeen(const Eigen::Vector3d& center_c, double radius, const RayWindow& 
 }
 
 constexpr std::size_t kBundle = 36;        ///< the lines of a few boxes
-constexpr double kInsideAFaceShare = 0.2;  ///< of the margin
+constexpr double kInsideAFaceShare = 0.2;  ///< share of the margin
 
 }  // namespace
 
@@ -134,6 +140,7 @@ SceneEdges::SceneEdges(std::span<const Triangle> triangles) {
     for (std::size_t i = 0; i < 3; ++i) {
       const Eigen::Vector3d& a = triangle.corners_w[i];
       const Eigen::Vector3d& b = triangle.corners_w[(i + 1) % 3];
+      // Both triangles of an edge name it by the same key, its lower corner first.
       const bool ordered =
           std::lexicographical_compare(a.data(), a.data() + 3, b.data(), b.data() + 3);
       const Eigen::Vector3d &low = ordered ? a : b, &high = ordered ? b : a;
@@ -145,6 +152,7 @@ SceneEdges::SceneEdges(std::span<const Triangle> triangles) {
       edges_.push_back({{low, high}, twin.plane > 0 && twin.plane == triangle.plane});
     }
   }
+  // What no second triangle closed is a rim, and always a border of what is seen.
   for (const auto& [key, triangle] : open) {
     edges_.push_back(
         {{Eigen::Vector3d(key[0], key[1], key[2]), Eigen::Vector3d(key[3], key[4], key[5])},
@@ -163,6 +171,7 @@ void SceneEdges::MakeBundles() {
         high = high.cwiseMax(end);
       }
     }
+    // The ball is a little larger than the box's, so that rounding loses no edge.
     bundle.center_w = 0.5 * (low + high);
     bundle.radius_m = 0.5 * (high - low).norm() * (1 + 1e-9) + 1e-9;
     bundles_.push_back(bundle);

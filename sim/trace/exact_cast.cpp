@@ -49,6 +49,7 @@ int ExactCaster::Build(int first, int count) {
   const int index = static_cast<int>(nodes_.size());
   nodes_.emplace_back();
   Node node;
+  // The node's box holds all its triangles.
   node.low.setConstant(std::numeric_limits<double>::infinity());
   node.high = -node.low;
   const auto begin = order_.begin() + first;
@@ -64,6 +65,8 @@ int ExactCaster::Build(int first, int count) {
     node.first = first;
     node.count = count;
   } else {
+    // Half of the triangles go to each child, parted along the longest side. Ties go by index,
+    // so that the tree is the same everywhere.
     Eigen::Index axis = 0;
     (node.high - node.low).maxCoeff(&axis);
     const auto middle = [&](int i) {
@@ -90,10 +93,12 @@ void ExactCaster::Try(int triangle, const Eigen::Vector3d& origin_w,
   const bool inside = (ab >= 0 && bc >= 0 && ca >= 0) || (ab <= 0 && bc <= 0 && ca <= 0);
   const double sum = ab + bc + ca;
   if (!inside || !(sum != 0)) return;
+  // The distance comes from the plane, in units of the direction.
   const Eigen::Vector3d n = (t.b - t.a).cross(t.c - t.a);
   const double slope = n.dot(direction_w), distance = n.dot(a) / slope;
   if (!(distance > near)) return;
   const ExactHit hit{triangle, distance, ca / sum, ab / sum, slope < 0};
+  // Of triangles at one distance, that seen from its front wins, then the first in the scene.
   if (best.triangle < 0 || distance < best.distance * (1 - kSame)) {
     best = hit;
   } else if (distance <= best.distance * (1 + kSame)) {
@@ -131,6 +136,7 @@ ExactHit ExactCaster::Nearest(const Eigen::Vector3d& origin_w,
       Try(order_[static_cast<std::size_t>(i)], origin_w, direction_w, near, best);
     }
     if (node.count > 0) continue;
+    // The nearer child is looked at first: what it holds may rule the other out.
     Visit first = visit(node.left), second = visit(node.right);
     if (second.enter < first.enter) std::swap(first, second);
     if (second.enter <= far()) stack[size++] = second;

@@ -31,7 +31,7 @@ class ExactCaster {
  private:
   struct Node {
     Eigen::Array3d low, high;
-    int first = 0, count = 0;  ///< of order_; count 0: an inner node
+    int first = 0, count = 0;  ///< in order_; count 0: an inner node
     int left = 0, right = 0;
   };
   struct Corners {

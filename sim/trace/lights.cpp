@@ -61,6 +61,8 @@ bool LightPoints::FindWays(const Shining& light, const Eigen::Vector3d& point_w,
     if (!spots.used[i]) continue;
     const Eigen::Vector3d way = point_w - spots.x_w[i];
     const double r2 = way.squaredNorm(), r = std::sqrt(r2);
+    // Light falls with the square of the distance, the cosine at the surface and, of a
+    // rectangle, that at the light.
     const double from_light = light.one_sided ? -light.front_w.dot(way) : r;
     const double on_surface = spots.shading_n_w[i].dot(way);
     if (!(spots.n_w[i].dot(way) > 0 && from_light > 0 && on_surface > 0)) continue;

@@ -15,9 +15,10 @@ namespace sim {
 /// Eight places on surfaces, in the frame of the world that is traced.
 struct Spots {
   std::array<bool, RayPacket::kLanes> used{};
-  std::array<Eigen::Vector3d, RayPacket::kLanes> x_w;          ///< on the surface
-  std::array<Eigen::Vector3d, RayPacket::kLanes> n_w;          ///< of the surface itself, unit
-  std::array<Eigen::Vector3d, RayPacket::kLanes> shading_n_w;  ///< of what it stands for, unit
+  std::array<Eigen::Vector3d, RayPacket::kLanes> x_w;  ///< on the surface
+  std::array<Eigen::Vector3d, RayPacket::kLanes> n_w;  ///< normal of the surface itself, unit
+  std::array<Eigen::Vector3d, RayPacket::kLanes>
+      shading_n_w;  ///< normal of what it stands for, unit
 };
 
 /// What a scene's lights give at eight places.
@@ -54,10 +55,10 @@ class LightPoints {
 
  private:
   struct Shining {
-    std::size_t first = 0, last = 0;  ///< of points_w_
+    std::size_t first = 0, last = 0;  ///< places in points_w_
     bool one_sided = false;
     Eigen::Vector3d front_w = Eigen::Vector3d::Zero();
-    double intensity = 0;  ///< of one point
+    double intensity = 0;  ///< one point's
     cv::Vec3f colour;
   };
   /// From eight places to one point.

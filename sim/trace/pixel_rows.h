@@ -17,7 +17,7 @@ struct PixelRow {
   const double *dx, *dy, *dz;             ///< the same, world frame
   double* depth_m;                        ///< planar z
   float* cosine;                          ///< |cos| between ray and normal
-  float *start_x, *start_y, *start_z;     ///< of second rays, world frame
+  float *start_x, *start_y, *start_z;     ///< where second rays begin, world frame
   float *to_eye_x, *to_eye_y, *to_eye_z;  ///< from there
 };
 

@@ -2,170 +2,15 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstdint>
+
+#include "sim/trace/print_noise.h"
 
 namespace sim {
 namespace {
 
 using Eigen::Array3f;
 using Eigen::Vector2f;
-
-/// SplitMix64's finaliser.
-std::uint64_t Mix(std::uint64_t z) {
-  z = (z ^ (z >> 30)) * 0xBF58476D1CE4E5B9ull;
-  z = (z ^ (z >> 27)) * 0x94D049BB133111EBull;
-  return z ^ (z >> 31);
-}
-
-/// Four uniform numbers in [0, 1) of a grid cell.
-struct CellDraw {
-  explicit CellDraw(int x, int y, std::uint64_t seed)
-      : bits(Mix(Mix(seed + 1) ^
-                 ((static_cast<std::uint64_t>(static_cast<std::uint32_t>(x)) << 32) |
-                  static_cast<std::uint32_t>(y)) *
-                     0x9E3779B97F4A7C15ull)) {}
-  float operator[](int i) const {
-    return static_cast<float>(bits >> (16 * i) & 0xFFFF) * (1.0F / 65536.0F);
-  }
-  std::uint64_t bits;
-};
-
-/// Of numbers that an int holds.
-int Floor(float x) {
-  const int whole = static_cast<int>(x);
-  return static_cast<float>(whole) > x ? whole - 1 : whole;
-}
-float Smooth(float edge, float t) { return std::clamp(t / edge + 0.5F, 0.0F, 1.0F); }
-
-/// The values at the corners of one cell of value noise.
-struct ValueCell {
-  std::uint64_t seed = 0;
-  bool drawn = false;
-  int x = 0, y = 0;
-  std::array<float, 4> corners;  ///< low left and right, high left and right
-
-  bool Is(int x_in, int y_in, std::uint64_t seed_in) const {
-    return drawn && x == x_in && y == y_in && seed == seed_in;
-  }
-  void Draw(int x_in, int y_in, std::uint64_t seed_in) {
-    x = x_in, y = y_in, seed = seed_in, drawn = true;
-    const auto at = [&](int i, int j) { return CellDraw(x + i, y + j, seed)[0]; };
-    corners = {at(0, 0), at(1, 0), at(0, 1), at(1, 1)};
-  }
-};
-
-/// A cell of the last ones that this thread looked at: neighbouring texels share it.
-template <typename Cell>
-Cell& LastCell(std::uint64_t seed) {
-  thread_local std::array<Cell, 16> last;  // memory only
-  return last[Mix(seed) % last.size()];
-}
-
-/// Smooth value noise in [0, 1], one bump a unit cell.
-float ValueNoise(const Vector2f& p, std::uint64_t seed) {
-  const int x = Floor(p.x()), y = Floor(p.y());
-  Vector2f t(p.x() - static_cast<float>(x), p.y() - static_cast<float>(y));
-  t = t.array() * t.array() * (3.0F - 2.0F * t.array());
-  ValueCell& cell = LastCell<ValueCell>(seed);
-  if (!cell.Is(x, y, seed)) cell.Draw(x, y, seed);
-  const auto& [low_left, low_right, high_left, high_right] = cell.corners;
-  const float low = low_left + (low_right - low_left) * t.x();
-  const float high = high_left + (high_right - high_left) * t.x();
-  return low + (high - low) * t.y();
-}
-
-/// The ellipses of random flecks that may reach into one cell of their grid: those of its own
-/// and of eight neighbours, by columns, two of which the next cell shares.
-struct FleckCell {
-  struct Fleck {
-    float row;   ///< of its own cell, from this one
-    float x, y;  ///< its middle there, cells
-    float radius;
-  };
-  struct Column {
-    int count = 0;
-    std::array<Fleck, 3> flecks;
-  };
-
-  std::uint64_t seed = 0;
-  float density = -1;
-  int x = 0, y = 0;
-  std::array<Column, 3> columns;
-
-  void MoveTo(int x_in, int y_in, float density_in, std::uint64_t seed_in) {
-    const bool same_row = y == y_in && seed == seed_in && density == density_in;
-    if (same_row && x == x_in) return;
-    const bool next = same_row && x + 1 == x_in;
-    x = x_in, y = y_in, density = density_in, seed = seed_in;
-    if (next) {
-      columns[0] = columns[1];
-      columns[1] = columns[2];
-    } else {
-      Draw(-1);
-      Draw(0);
-    }
-    Draw(1);
-  }
-
- private:
-  void Draw(int i) {
-    Column& column = columns[static_cast<std::size_t>(i + 1)];
-    column.count = 0;
-    for (int j = -1; j <= 1; ++j) {
-      const CellDraw draw(x + i, y + j, seed);
-      // Written in any case: no branch on what is as good as tossed.
-      column.flecks[static_cast<std::size_t>(column.count)] = {static_cast<float>(j), draw[1],
-                                                               draw[2], 0.16F + 0.3F * draw[3]};
-      column.count += draw[0] < density ? 1 : 0;
-    }
-  }
-};
-
-/// Coverage in [0, 1] by random flecks: in each cell of `pitch_m` one ellipse with probability
-/// `density`, `stretch` times as long in x as in y.
-float Flecks(const Vector2f& p_m, float pitch_m, float density, float stretch,
-             std::uint64_t seed) {
-  const Vector2f q(p_m.x() / (pitch_m * stretch), p_m.y() / pitch_m);
-  const int x = Floor(q.x()), y = Floor(q.y());
-  const float fx = q.x() - static_cast<float>(x), fy = q.y() - static_cast<float>(y);
-  FleckCell& cell = LastCell<FleckCell>(seed);
-  cell.MoveTo(x, y, density, seed);
-  float inside = -1;  // the rim of an ellipse, at most
-  float left = -1;
-  for (const FleckCell::Column& column : cell.columns) {
-    for (int k = 0; k < column.count; ++k) {
-      const FleckCell::Fleck& fleck = column.flecks[static_cast<std::size_t>(k)];
-      const float dx = fx - left - fleck.x, dy = fy - fleck.row - fleck.y;
-      inside = std::max(inside, fleck.radius - std::sqrt(dx * dx + dy * dy));
-    }
-    left += 1;
-  }
-  return Smooth(0.12F, inside);
-}
-
-/// A made-up letter: 1 on its strokes. `q` in the unit square, bits choose the strokes.
-bool Glyph(const Vector2f& q, std::uint64_t bits) {
-  if (q.x() < 0.1F || q.x() > 0.85F || q.y() < 0.12F || q.y() > 0.88F) return false;
-  const int column = std::min(2, static_cast<int>((q.x() - 0.1F) * 4.0F));
-  const int row = std::min(4, static_cast<int>((q.y() - 0.12F) * 6.6F));
-  return (bits >> (5 * column + row) & 1) != 0;
-}
-
-/// Ink of running text: lines of words of letters, with ragged ends and paragraphs.
-float TextInk(const Vector2f& p_m, float line_m, float width_m, std::uint64_t seed) {
-  const int line = Floor(p_m.y() / line_m);
-  const CellDraw draw(line, 7, seed);
-  const float end = width_m * (draw[0] < 0.2F ? 0.35F + 0.4F * draw[1] : 0.97F);
-  if (draw[2] < 0.1F || p_m.x() > end || p_m.x() < 0.03F * width_m) return 0;
-  const float letter_m = 0.55F * line_m;
-  const int letter = Floor(p_m.x() / letter_m);
-  const CellDraw glyph(letter, line, seed + 1);
-  if (glyph[0] < 0.19F) return 0;  // between words
-  const Vector2f q(p_m.x() / letter_m - static_cast<float>(letter),
-                   (p_m.y() / line_m - static_cast<float>(line)) * 1.45F);
-  return Glyph(q, glyph.bits >> 16) ? 1.0F : 0.0F;
-}
 
 /// A tint of the palette between base and ink, with some hue of its own.
 Array3f Tint(const Array3f& base, const Array3f& ink, const CellDraw& draw, float strength) {
@@ -212,7 +57,7 @@ Array3f Text(const Palette& c, const Vector2f& p, const Vector2f& extent) {
   const float fine = TextInk(p, 0.0075F, extent.x(), c.seed);
   // Headings and figures, one band in five: what is left to see from afar.
   const float band_m = 0.055F;
-  const int band = Floor(p.y() / band_m);
+  const int band = FloorOf(p.y() / band_m);
   const CellDraw draw(band, 3, c.seed + 5);
   if (draw[0] < 0.4F) {
     const Vector2f q(p.x(), p.y() - static_cast<float>(band) * band_m);
@@ -220,7 +65,7 @@ Array3f Text(const Palette& c, const Vector2f& p, const Vector2f& extent) {
       if (draw[1] < 0.5F)
         return c.Mixed(TextInk(q, 0.03F, extent.x(),
                                c.seed + 11 * (static_cast<std::uint64_t>(band) + 9)));
-      const int cell = Floor(p.x() / 0.02F);
+      const int cell = FloorOf(p.x() / 0.02F);
       const CellDraw bar(cell, band, c.seed + 6);
       return c.Mixed(q.y() < 0.03F * bar[0] ? 0.3F + 0.6F * bar[1] : 0.05F);
     }
@@ -240,7 +85,7 @@ CellDraw Block(Vector2f& p, Vector2f& size, float smallest_m, std::uint64_t seed
     const bool upper = p[axis] >= cut;
     if (upper) p[axis] -= cut;
     size[axis] = upper ? size[axis] - cut : cut;
-    name = Mix(name + (upper ? 0x51ull : 0xA3ull) + static_cast<std::uint64_t>(depth));
+    name = MixBits(name + (upper ? 0x51ull : 0xA3ull) + static_cast<std::uint64_t>(depth));
   }
   return CellDraw(1, 2, name);
 }
@@ -278,10 +123,10 @@ Array3f Keys(const Palette& c, const PrintSpot& spot) {
     return frame +
            (c.ink - frame) * (0.7F * c.richness * Flecks(spot.p_m, 0.011F, 0.2F, 2.0F, c.seed));
   }
-  const int row = Floor(p.y() / kPitch_m);
+  const int row = FloorOf(p.y() / kPitch_m);
   const float shift = 0.25F * static_cast<float>(row);  // rows are staggered
   const float along = p.x() / kPitch_m + shift;
-  const int column = Floor(along);
+  const int column = FloorOf(along);
   const CellDraw key(column, row, c.seed);
   const Vector2f q(along - static_cast<float>(column),
                    p.y() / kPitch_m - static_cast<float>(row));
@@ -327,7 +172,7 @@ Array3f Printed(const Material& material, const PrintSpot& spot) {
   };
   const Palette c{colour(material.colour), colour(material.ink),
                   static_cast<float>(std::clamp(material.richness, 0.0, 1.0)),
-                  Mix(material.seed)};
+                  MixBits(material.seed)};
   switch (material.print) {
     case Print::kWood:
       return Wood(c, spot.p_m);

@@ -88,10 +88,13 @@ TextureFootprint Texture::Footprint(const TextureSteps& steps) const {
   const float scale = 1.0F / texel_m_;
   const float right = steps.right_u * steps.right_u + steps.right_v * steps.right_v;
   const float down = steps.down_u * steps.down_u + steps.down_v * steps.down_v;
+  // The pixel's footprint on the print is a parallelogram: its longer side is covered by taps,
+  // its shorter one by the level.
   const bool wide = right > down;
   const float major = std::sqrt(wide ? right : down);
   const float area = std::abs(steps.right_u * steps.down_v - steps.right_v * steps.down_u);
   const float minor = std::max(area / std::max(major, 1e-12F), major / kMaxTaps);
+  // The level whose texels are as large as the shorter side.
   const float last = static_cast<float>(levels_.size() - 1);
   const float lod = std::clamp(RoughLog2(std::max(minor * scale, 1e-6F)), 0.0F, last);
   TextureFootprint footprint;

@@ -17,7 +17,7 @@ struct Grid {
 /// Where between four texels each of four places is.
 struct Between {
   alignas(16) int texel[4];    ///< the upper left one
-  alignas(16) int weights[4];  ///< of right and left, halves of a word
+  alignas(16) int weights[4];  ///< right and left, halves of a word
   alignas(16) float down[4];
 };
 
@@ -27,10 +27,13 @@ struct Between {
     const __m128 x = _mm_sub_ps(_mm_mul_ps(place, grid.size), half);
     return _mm_min_ps(_mm_max_ps(x, zero), last);
   };
+  // The whole part of a place is its upper left texel; the indices of two words are joined, so
+  // that one multiplication gives the texel's number.
   const __m128 x = inside(u, grid.last_x), y = inside(v, grid.last_y);
   const __m128i x0 = _mm_cvttps_epi32(x), y0 = _mm_cvttps_epi32(y);
   const __m128i place = _mm_or_si128(y0, _mm_slli_epi32(x0, 16));
   _mm_store_si128(reinterpret_cast<__m128i*>(at.texel), _mm_madd_epi16(place, grid.row));
+  // What is left of it is how the right texel weighs against the left one.
   const __m128 share = _mm_mul_ps(_mm_sub_ps(x, _mm_cvtepi32_ps(x0)), _mm_set1_ps(kOne));
   const __m128i right = _mm_cvttps_epi32(_mm_add_ps(share, half));
   const __m128i left = _mm_sub_epi32(_mm_set1_epi32(kOne), right);
@@ -64,6 +67,7 @@ template <int kQuads>
                                                         std::array<float, 4>* colours) const {
   const __m128 scale = _mm_set1_ps(1.0F / texel_m_);
   const float middle = 0.5F * static_cast<float>(footprint.taps - 1);
+  // The first of the taps, which lie evenly about the middle of the footprint.
   const auto first = [&](const float* at_m, float low_m, float step, __m128* at) {
     const __m128 low = _mm_set1_ps(low_m), back = _mm_set1_ps(middle * step);
     for (int q = 0; q < kQuads; ++q) {
@@ -89,6 +93,7 @@ template <int kQuads>
       for (int q = 0; q < kQuads; ++q) {
         Find(grid, _mm_add_ps(u[q], step_u), _mm_add_ps(v[q], step_v), at[q]);
       }
+      // Four texels are mixed, first along the row and then down, all channels at once.
       for (int i = 0; i < count; ++i) {
         const Between& quad = at[i / 4];
         const Texel* texel = level.texels.data() + quad.texel[i % 4];
@@ -99,12 +104,14 @@ template <int kQuads>
         sum[i] = _mm_add_ps(sum[i], _mm_add_ps(high, _mm_mul_ps(_mm_sub_ps(low, high), down)));
       }
     }
+    // The coarser level is mixed into the finer one (trilinear).
     const __m128 blend = _mm_set1_ps(footprint.blend);
     for (int i = 0; i < count; ++i) {
       root[i] =
           k == 0 ? sum[i] : _mm_add_ps(root[i], _mm_mul_ps(_mm_sub_ps(sum[i], root[i]), blend));
     }
   }
+  // Texels hold square roots of reflectance.
   const float share = 1.0F / static_cast<float>(footprint.taps);
   const __m128 whole = _mm_set1_ps(share / (255.0F * kOne));
   for (int i = 0; i < count; ++i) {

@@ -48,9 +48,12 @@ void View::Render(const RenderWorld& world, const Pose& T_wc, const RenderOption
   options_ = options;
   out_ = &out;
   log_ = log;
+  // First which triangle each pixel shows; its neighbours decide where edges are.
   Prepare();
   for (int v = rows_.start; v < rows_.end; ++v) TraceRow(v);
   if (options_.exact_edges) DecideEdges();
+  // Then depth, ids and light, row by row; a row's edges are smoothed once the next row is
+  // known.
   for (int v = rows_.start; v < rows_.end; ++v) {
     RecordRow(v);
     if (options_.colour) {
@@ -137,6 +140,7 @@ void View::DecidePixel(const EdgePixel& edge) {
   if (decided_[edge.pixel] != 0 || v < rows_.start || v >= rows_.end) return;
   int& triangle = Triangles(v)[u];
   const Eigen::Vector3d ray = world_->image_rays.At(u, v);
+  // An edge well behind what the ray tracer found cannot change the answer.
   if (triangle != PacketHits::kNothing) {
     const double shown = facets_.At(triangle).inverse_depth.dot(ray);
     if (!(edge.inverse_depth >= kEdgeDepthShare * shown)) return;
@@ -149,6 +153,7 @@ void View::RecordRow(int v) {
   LoadRow(v);
   const int* triangles = Triangles(v);
   const int width = world_->camera.width;
+  // Neighbours that show one triangle are worked out together.
   for (int first = 0, last = 0; first < width; first = last) {
     while (last < width && triangles[last] == triangles[first]) ++last;
     if (triangles[first] == PacketHits::kNothing) {
@@ -188,6 +193,7 @@ void View::RecordRun(int v, int first, int last, const SeenFacet& facet) {
 std::array<bool, kLanes> View::Blocked(const RayPacket& packet) const {
   auto blocked = world_->rays.Blocked(packet);
   for (const Blocker& other : around_->others) {
+    // The same rays in the other world's frame; those already blocked are not cast again.
     RayPacket moved;
     for (int i = 0; i < kLanes; ++i) {
       const std::size_t k = Index(i);

@@ -40,13 +40,13 @@ class View {
               const Surroundings& around, Rendering& out, RayLog* log = nullptr);
 
  private:
-  /// Of one row of pixels, as long as whole packets.
+  /// What belongs to one row of pixels, as long as whole packets.
   struct RowArrays {
     std::vector<double> x, y;                      ///< ray (x, y, 1), camera frame
     std::vector<double> dx, dy, dz;                ///< the same, world frame
-    std::vector<float> start_x, start_y, start_z;  ///< of second rays, world frame
+    std::vector<float> start_x, start_y, start_z;  ///< where second rays begin, world frame
     std::vector<float> to_eye_x, to_eye_y, to_eye_z;
-    std::vector<float> sun_far, eye_far;  ///< of second rays; negative: none
+    std::vector<float> sun_far, eye_far;  ///< how far second rays go; negative: none
     std::vector<float> print_u, print_v;  ///< places on the prints
     void Resize(std::size_t size);
   };
@@ -119,7 +119,7 @@ class View {
   Eigen::Vector3d eye_w_;
   std::size_t stride_ = 0;
   RowArrays row_;
-  std::vector<Stretch> stretches_;  ///< of the row
+  std::vector<Stretch> stretches_;  ///< the row's
   ViewFacets facets_;
   std::vector<int> triangles_;  ///< what each pixel shows
   /// SeenFacet::surface, + 1 in the sun; then a bit for each light.

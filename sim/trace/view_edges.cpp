@@ -21,13 +21,14 @@ void View::MarkEdges(int v, std::vector<int>& columns) const {
   const std::uint32_t* below = Surfaces(std::min(v + 1, rows_.end - 1));
   for (int u = 0; u < width; ++u) {
     const int left = std::max(u - 1, 0), right = std::min(u + 1, width - 1);
+    // One comparison tells of surface, sun and lights: each has its bits.
     const std::uint32_t differs = (here[u] ^ here[left]) | (here[u] ^ here[right]) |
                                   (here[u] ^ above[u]) | (here[u] ^ below[u]);
     if (differs != 0) columns.push_back(u);
   }
 }
 
-/// Of one row, when the next is known: its prints are at hand still.
+/// Smooths a row when the next is known: its prints are at hand still.
 void View::SmoothEdges(int v) {
   on_edge_.clear();
   MarkEdges(v, on_edge_);
@@ -106,6 +107,7 @@ void View::SunOnLooks(int v) {
     if (look.triangle == PacketHits::kNothing) continue;
     const SeenFacet& facet = facets_.At(look.triangle);
     if (!facet.faces_sun) continue;
+    // Most looks are far from a shadow's edge, and need no ray of their own.
     if (const auto known = SunAround(on_edge_[k / kLooks], v, facet.surface)) {
       look.sunlit = *known;
       continue;
@@ -132,6 +134,7 @@ cv::Vec3f View::MeanOf(std::span<const Look> looks) {
     std::array<float, kLanes> print_u{}, print_v{};
     std::array<const Look*, kLooks> same{};
     int count = 0;
+    // Looks at one triangle are sampled together, with the footprint of the first.
     for (std::size_t k = i; k < looks.size(); ++k) {
       if (looks[k].triangle != looks[i].triangle) continue;
       const auto at =

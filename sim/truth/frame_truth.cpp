@@ -107,6 +107,7 @@ FrameTruth TruthMaker::Describe(const Rendering& rendering, const Pose& T_wc,
     object.pixels = extent.pixels;
     object.visible_box = {static_cast<double>(extent.u0), static_cast<double>(extent.v0),
                           static_cast<double>(extent.u1), static_cast<double>(extent.v1)};
+    // What moved is seen as if it stood and the camera had moved round it.
     object.amodal_box = ProjectedBox(triangles_[i], Inverse(renderer_.Moved(i, time_s)) * T_wc,
                                      renderer_.camera())
                             .value_or(object.visible_box);
@@ -119,6 +120,7 @@ FrameTruth TruthMaker::Describe(const Rendering& rendering, const Pose& T_wc,
   }
   std::sort(truth.objects.begin(), truth.objects.end(),
             [](const auto& a, const auto& b) { return a.id < b.id; });
+  // Faces that meet share their corners: each is described once.
   std::vector<std::optional<VertexInFrame>> corners(corner_count_);
   for (const auto& [id, extent] : Extents(rendering.plane_id)) {
     const auto i = static_cast<std::size_t>(id) - 1;

@@ -18,8 +18,8 @@ struct ObjectInFrame {
   int pixels = 0;             ///< visible, of the object_id image
   int unoccluded_pixels = 0;  ///< inside the image, were nothing else there
   PixelBox visible_box;       ///< first to last visible pixel centre, inclusive
-  PixelBox amodal_box;       ///< of the whole object with z > 1 cm, not cut at the image border
-  std::optional<Pose> T_wo;  ///< of what moves, at the moment of the frame
+  PixelBox amodal_box;        ///< the whole object's with z > 1 cm, not cut at the image border
+  std::optional<Pose> T_wo;   ///< only of what moves, at the moment of the frame
   double visible_fraction = 0;  ///< pixels / unoccluded_pixels, in (0, 1]
 };
 
@@ -27,7 +27,7 @@ struct ObjectInFrame {
 enum class VertexState {
   kVisible,
   kOccluded,  ///< inside the image, but something is 0.1 mm or more before it
-  kOutside    ///< of the image, or nearer than kSilhouetteNear_m
+  kOutside    ///< outside the image, or nearer than kSilhouetteNear_m
 };
 
 struct VertexInFrame {
@@ -35,7 +35,7 @@ struct VertexInFrame {
   Eigen::Vector2d pixel;  ///< its projection; only when z > kSilhouetteNear_m
   bool projects = false;
   VertexState state = VertexState::kOutside;
-  bool surface_ends = false;  ///< of a visible one: whether it lies at the surface's edge,
+  bool surface_ends = false;  ///< only when visible: whether it lies at the surface's edge,
                               ///< where depth breaks off (SurfaceEnds)
 };
 

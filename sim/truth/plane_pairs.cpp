@@ -35,7 +35,7 @@ std::vector<Polygon> FlatFace(const PlaneFrame& frame, const ScenePlane& plane) 
   return pieces;
 }
 
-/// Of all pieces; where several overlap, the first that do.
+/// Closest points of all pieces; where several overlap, of the first that do.
 ClosestPoints ClosestOf(const std::vector<Polygon>& a, const std::vector<Polygon>& b) {
   ClosestPoints best{{}, {}, std::numeric_limits<double>::infinity()};
   for (const Polygon& one : a) {
@@ -52,6 +52,7 @@ std::optional<PlanePair> Compare(const ScenePlane& a, const ScenePlane& b) {
   const double sine = a.n_w.cross(b.n_w).norm(), cosine = a.n_w.dot(b.n_w);
   const double angle_deg = std::atan2(sine, cosine) * 180 / std::numbers::pi;
   if (!(angle_deg <= kPairMaxAngle_deg)) return std::nullopt;
+  // Both faces are laid flat into a's plane, where their gap is measured.
   const PlaneFrame frame(a);
   const ClosestPoints closest = ClosestOf(FlatFace(frame, a), FlatFace(frame, b));
   if (!(closest.distance <= kPairMaxGap_m)) return std::nullopt;

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "sim/scene/scene.h"
+#include "sim/sensor/depth_sensor.h"
 #include "sim/shapes/planes.h"
 
 namespace sim {
@@ -20,9 +21,9 @@ struct PlanePair {
 
 inline constexpr double kPairMaxAngle_deg = 15.0;
 inline constexpr double kPairMaxGap_m = 0.1;
-/// Axial noise of the first Kinect at 1 m, 1.2 mm + 1.9 mm (z - 0.4)^2 (Nguyen, Izadi and
-/// Lovell, 3DIMPVT 2012), in metres: a desk's objects are seen from about there.
-inline constexpr double kPairSigma_m = 0.0012 + 0.0019 * 0.6 * 0.6;
+/// Axial noise of the first Kinect at 1 m: a desk's objects are seen from about there.
+inline constexpr double kPairSigma_m =
+    kAxialFloor_m + kAxialGrowth_per_m * (1 - kAxialNearest_m) * (1 - kAxialNearest_m);
 
 /// All such pairs of planes of structure and regular objects, in the order of (a, b).
 /// @param planes  all of the scene

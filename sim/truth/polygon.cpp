@@ -57,6 +57,7 @@ double SignedArea(const Polygon& polygon) {
 
 Polygon Overlap(const Polygon& a, const Polygon& b) {
   Polygon shared = a;
+  // Sutherland and Hodgman: every edge of b cuts off what lies outside of it.
   const double turn = SignedArea(b) < 0 ? -1.0 : 1.0;
   for (std::size_t i = 0; i < b.size() && !shared.empty(); ++i) {
     const Eigen::Vector2d edge = b[(i + 1) % b.size()] - b[i];
@@ -73,6 +74,7 @@ ClosestPoints Closest(const Polygon& a, const Polygon& b) {
     for (const Eigen::Vector2d& p : shared) mean += p / static_cast<double>(shared.size());
     return {mean, mean, 0};
   }
+  // Of convex polygons apart, a corner of one of them is among the closest points.
   ClosestPoints best{{}, {}, std::numeric_limits<double>::infinity()};
   TryCorners(a, b, true, best);
   TryCorners(b, a, false, best);
@@ -81,6 +83,7 @@ ClosestPoints Closest(const Polygon& a, const Polygon& b) {
 
 Polygon ProjectedFace(const ScenePlane& plane, const Pose& T_wc, const Camera& camera) {
   const Pose T_cw = Inverse(T_wc);
+  // What is too near is cut off in space, where edges are straight; the rest in the image.
   Polygon polygon;
   for (std::size_t i = 0; i < plane.vertices_w.size(); ++i) {
     const Eigen::Vector3d a = T_cw * plane.vertices_w[i];

@@ -10,7 +10,7 @@
 namespace sim {
 namespace {
 
-/// Of the poses between frames: twenty a period of the fastest tremor (12 Hz).
+/// Rate of the poses between frames: twenty a period of the fastest tremor (12 Hz).
 constexpr double kPathRate_Hz = 240.0;
 
 void CheckTimes(const std::vector<TimedPose>& trajectory) {

@@ -14,8 +14,8 @@ struct RigOptions {
   Camera camera;
   Sensor sensor = SensorKind::kKinect1;
   DetectorKind detector = DetectorKind::kNoisy;
-  Exposure exposure;       ///< of the colour camera
-  std::uint64_t seed = 1;  ///< of all noise
+  Exposure exposure;       ///< the colour camera's
+  std::uint64_t seed = 1;  ///< for all noise
 };
 
 /// One frame as it is recorded, with its truth; images are height x width.

@@ -21,7 +21,7 @@ struct SequenceOptions {
   int frames = 300;  ///< at least 1
   int threads = 0;   ///< 0: one a core; never changes a byte
   Existing existing = Existing::kRefuse;
-  std::string version;  ///< of the program, for the manifest
+  std::string version;  ///< the program's, for the manifest
   /// How the camera was moved, for the manifest: key, value.
   std::map<std::string, std::string> motion;
   std::function<void(int)> progress;  ///< frames done of this call; may be empty
