@@ -101,7 +101,7 @@ function(pas_lanes)
     COMPILE_OPTIONS "-fno-math-errno;-fno-trapping-math;-Wno-psabi")
 endfunction()
 
-# pas_test(slam/planes SOURCES a_test.cpp LINK slam_planes [TIMEOUT s] [CASES n]): one executable a folder;
+# pas_test(slam/faces SOURCES a_test.cpp LINK slam_faces [TIMEOUT s] [CASES n]): one executable a folder;
 # every case is a CTest test of its own, "slam/planes/Suite.Case". CASES is how many inputs a
 # rapidcheck property draws (100). PAS_SHARED_DIR (environment) may
 # name the folder with the reference figures and recordings; tests that need it skip without it.

@@ -49,7 +49,7 @@ TEST(TopSteps, TakeTheHighestSurfaceUnderAnOverhang) {
 }
 
 TEST(TopSteps, IgnoreNeighboursThatOnlyTouch) {
-  const auto steps = TopSteps(
+  const auto steps = StepsOf(
       TableAnd({Box(2, {0.2, 0.2, 0.03}, 0, 0, 0.73), Box(3, {0.2, 0.2, 0.05}, 0.2, 0, 0.73)}));
   ASSERT_EQ(steps.size(), 2u);
   EXPECT_EQ(steps[0].below_object, 1);
