@@ -20,6 +20,7 @@ constexpr double kOutsideShare = 5e-4;  // of a frame's pixels; a shift by a pix
 double DistanceInto(const std::vector<Vector3d>& loop, const Vector3d& x, const Vector3d& right,
                     const Vector3d& up) {
   std::vector<cv::Point2f> outline;  // about x, so that single precision is enough
+  outline.reserve(loop.size());
   for (const Vector3d& corner : loop) {
     outline.emplace_back(static_cast<float>(right.dot(corner - x)),
                          static_cast<float>(up.dot(corner - x)));

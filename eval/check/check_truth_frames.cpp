@@ -20,24 +20,6 @@ const std::string kFrames = "gt/frames.jsonl";
 // A box may be given by pixel centres, by pixel edges, or rounded outwards.
 constexpr double kBoxRounding_px = 1.0;
 
-/// An entry of a list of frames.jsonl, and where it stands.
-struct ListedId {
-  int id, pixels;
-  std::optional<Box> box_px;
-};
-
-std::vector<ListedId> Listed(const std::vector<VisibleObject>& objects) {
-  std::vector<ListedId> ids;
-  for (const VisibleObject& o : objects) ids.push_back({o.id, o.pixels, o.visible_box_px});
-  return ids;
-}
-
-std::vector<ListedId> Listed(const std::vector<VisiblePlane>& planes) {
-  std::vector<ListedId> ids;
-  for (const VisiblePlane& plane : planes) ids.push_back({plane.id, plane.pixels, {}});
-  return ids;
-}
-
 /// A list of a frame against the image that shows its ids.
 class ListCheck {
  public:
@@ -48,8 +30,8 @@ class ListCheck {
         image_file_(std::move(image_file)) {}
 
   /// @param is_known  whether the scene has the id
-  template <typename IsKnown>
-  void Run(const std::vector<ListedId>& ids, const cv::Mat& image, const IsKnown& is_known) {
+  template <typename Visible, typename IsKnown>
+  void Run(const std::vector<Visible>& ids, const cv::Mat& image, const IsKnown& is_known) {
     std::map<int, PixelSet> seen = PixelsOfIds(image);
     for (std::size_t i = 0; i < ids.size(); ++i) {
       pointer_ = fmt::format("/{}/{}", list_, i);
@@ -74,19 +56,22 @@ class ListCheck {
     folder_.Tell({kFrames, line_, pointer_ + key, std::move(what), std::move(mend)});
   }
 
-  void CheckEntry(const ListedId& listed, const PixelSet& seen) {
-    if (listed.pixels >= 0 && listed.pixels != seen.count) {
-      Tell("/pixels",
-           fmt::format("is {}, but {} shows {}", listed.pixels, image_file_, seen.count),
-           "count the pixels of the id image");
-    }
-    if (seen.count == 0 || !listed.box_px) return;
+  void CheckEntry(const VisiblePlane& listed, const PixelSet& seen) {
+    if (listed.pixels < 0 || listed.pixels == seen.count) return;  // negative: told already
+    Tell("/pixels",
+         fmt::format("is {}, but {} shows {}", listed.pixels, image_file_, seen.count),
+         "count the pixels of the id image");
+  }
+
+  void CheckEntry(const VisibleObject& listed, const PixelSet& seen) {
+    CheckEntry(static_cast<const VisiblePlane&>(listed), seen);
+    if (seen.count == 0 || !listed.visible_box_px) return;
     const Box shown{1.0 * seen.x0, 1.0 * seen.y0, 1.0 * seen.x1, 1.0 * seen.y1};
     for (std::size_t i = 0; i < shown.size(); ++i) {
-      if (std::abs((*listed.box_px)[i] - shown[i]) <= kBoxRounding_px) continue;
+      if (std::abs((*listed.visible_box_px)[i] - shown[i]) <= kBoxRounding_px) continue;
       Tell("/visible_box",
-           fmt::format("is {}, but the id image shows {} to {} by {} to {}", *listed.box_px,
-                       seen.x0, seen.x1, seen.y0, seen.y1),
+           fmt::format("is {}, but the id image shows {} to {} by {} to {}",
+                       *listed.visible_box_px, seen.x0, seen.x1, seen.y0, seen.y1),
            "compute it from gt/object_id, as x0 y0 x1 y1");
       return;
     }
@@ -160,12 +145,12 @@ class FramesCheck {
     const auto& scene = truth_.scene;
     if (!object_ids.empty()) {
       ListCheck(folder_, frame.line, "objects", object_file)
-          .Run(Listed(frame.objects), object_ids,
+          .Run(frame.objects, object_ids,
                [&](int id) { return !scene || scene->FindObject(id) != nullptr; });
     }
     if (!plane_ids.empty()) {
       ListCheck(folder_, frame.line, "planes", plane_file)
-          .Run(Listed(frame.planes), plane_ids,
+          .Run(frame.planes, plane_ids,
                [&](int id) { return !scene || scene->FindPlane(id) != nullptr; });
     }
     if (scene) CheckOwners(folder_, *scene, plane_ids, object_ids, plane_file);

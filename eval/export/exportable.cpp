@@ -33,12 +33,10 @@ cv::Mat1w ReadCheckedObjectIds(const Sequence& sequence, double stamp_s) {
                          "has no image of the frame at " + std::to_string(stamp_s) +
                              "; render the sequence again");
   }
-  const cv::Mat1w ids = ReadLabels(*file);
-  const Camera& camera = *sequence.camera;
-  if (ids.cols != camera.width || ids.rows != camera.height) {
-    throw io::InputError(file->string(),
-                         "has another size than camera.yaml says; mend the camera");
-  }
+  Folder folder(file->parent_path());
+  const cv::Mat1w ids =
+      ReadImage(folder, file->filename().string(),
+                {CV_16U, 1, {sequence.camera->width, sequence.camera->height}});
   int last = 0;
   for (int v = 0; v < ids.rows; ++v) {
     for (int u = 0; u < ids.cols; ++u) {

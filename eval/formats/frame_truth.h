@@ -9,15 +9,13 @@
 namespace eval {
 
 /// What of the scene one frame shows (gt/frames.jsonl). Boxes are [x0, y0, x1, y1] in pixels.
-struct VisibleObject {
-  int id = 0;
-  int pixels = 0;
-  std::optional<Box> visible_box_px, amodal_box_px;
-  double visible_fraction = 0.0;
-};
 struct VisiblePlane {
   int id = 0;
   int pixels = 0;
+};
+struct VisibleObject : VisiblePlane {
+  std::optional<Box> visible_box_px, amodal_box_px;
+  double visible_fraction = 0.0;
 };
 struct FrameTruth {
   double stamp_s = 0.0;

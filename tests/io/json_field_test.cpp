@@ -67,6 +67,7 @@ TEST(ParseJson, NamesTheLineOfASyntaxErrorOrOfTheEnd) {
               HasSubstr("a.json:3: not valid JSON"));
   EXPECT_THAT(ErrorOf("{\n\"a\": [1,", nothing), HasSubstr("a.json:2: not valid JSON"));
   EXPECT_THAT(ErrorOf("[NaN]", nothing), HasSubstr("a.json:1: not valid JSON"));
+  EXPECT_THAT(ErrorOf("[1e999]", nothing), HasSubstr("a.json:1: not valid JSON"));
 }
 
 TEST(ParseJson, RefusesNestingThatNobodyNeeds) {
