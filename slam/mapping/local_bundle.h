@@ -32,9 +32,9 @@ inline void VisitFields(LocalBundleConfig& c, FieldVisitor& v) {
 
 /// Size and outcome of one adjustment.
 struct LocalBundleReport {
-  int keyframes = 0, fixed_keyframes = 0, points = 0, observations = 0;
+  int keyframes = 0, fixed_keyframes = 0;
   int outliers = 0;  ///< observations taken back
-  double initial_cost = 0.0, final_cost = 0.0;
+  double initial_cost = 0.0;
   bool usable = false;  ///< solved and finite; otherwise the map is as before
 };
 

@@ -92,10 +92,9 @@ struct PoseSummary {
   int nullity = 6;                  ///< directions of the pose that nothing constrains, 0 to 6
   std::vector<bool> point_inliers;  ///< parallel to PoseProblem::points
   int inlier_count = 0;
-  double initial_cost = 0.0, final_cost = 0.0;
-  int iterations = 0;
-  Matrix6d information =
-      Matrix6d::Zero();  ///< J^T W J at the solution; perturbation: T <- Exp(xi) T
+  double initial_cost = 0.0;
+  /// J^T W J at the solution, for T <- Exp(xi) T.
+  Matrix6d information = Matrix6d::Zero();
 };
 
 /// Minimises eq13 over the camera pose by Levenberg-Marquardt with Huber weights, in rounds:
