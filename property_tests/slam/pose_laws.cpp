@@ -46,15 +46,6 @@ RC_GTEST_PROP(PoseExponential, ExpUndoesLog, ()) {
   RC_ASSERT(Difference(Exp(Log(T)), T) < 1e-12 * (1 + T.t.norm()));
 }
 
-RC_GTEST_PROP(PoseExponential, AdjointCarriesAPerturbationAcross, ()) {
-  const Pose T = AnyPose(10);
-  Vector6d xi;
-  const Eigen::Vector3d axis = AnyUnit();
-  xi << AnyPoint(1), AnyReal(0, 2.5) * axis;
-  const double scale = 1 + T.t.norm();
-  RC_ASSERT(Difference(T * Exp(xi) * Inverse(T), Exp(Adjoint(T) * xi)) < 1e-12 * scale * scale);
-}
-
 RC_GTEST_PROP(PoseExponential, PointJacobianAgreesWithDifferences, ()) {
   const Pose T = AnyPose(5);
   const Eigen::Vector3d x = AnyPoint(5);

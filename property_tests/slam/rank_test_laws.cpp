@@ -81,12 +81,12 @@ RC_GTEST_PROP(PlaneRankTest, DoesNotDependOnHowTheWorldIsTurned, ()) {
     b.emplace_back(AnyReal(-0.2, 0.2), AnyReal(-0.1, 0.1), AnyReal(-0.002, 0.002));
   }
   const Plane pi{Eigen::Vector3d::UnitZ(), 0};
-  const double here = TestPlaneRanks(a, b, PlaneAxes(pi, b), 6).value().p;
+  const double here = TestPlaneRanks(a, b, PlaneAxes(pi, b), 6).value();
   const Pose T_vw = AnyPose(5);
   for (auto* cloud : {&a, &b}) {
     for (Eigen::Vector3d& p : *cloud) p = T_vw * p;
   }
-  const double there = TestPlaneRanks(a, b, PlaneAxes(Transform(T_vw, pi), b), 6).value().p;
+  const double there = TestPlaneRanks(a, b, PlaneAxes(Transform(T_vw, pi), b), 6).value();
   RC_ASSERT(std::abs(here - there) < 1e-9);
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "slam/associate/plane_gates.h"
+#include "slam/base/chi_square.h"
 #include "slam/base/field_visitor.h"
 #include "slam/pose/pose_prior.h"
 
@@ -18,47 +19,59 @@ struct AssociationConfig {
   PlaneGateConfig gates;  ///< the parameter rule's; its angle also bounds the integrated rule
 
   PosePrior prior;
-  // Errors of a measured or a mapped plane that do not average out (calibration, quantisation).
-  double offset_floor_m = 0.0012;  ///< domain (0, inf)
-  double angle_floor_rad = 0.006;  ///< domain (0, inf)
+  double offset_floor_m = 0.0012;
+  double angle_floor_rad = 0.006;
 
-  double max_chi2 = 16.3;     ///< 99.9 % of chi-square with 3 degrees of freedom
-  double new_chi2 = 36.0;     ///< above: certainly another plane; between the two: no decision
-  double min_overlap = 0.25;  ///< share of the smaller footprint that must be common; (0, 1)
-  double min_margin = 4.0;    ///< in -2 log likelihood: nearer candidates are ambiguous
-  double overlap_weight = 8.0;  ///< -2 log likelihood of no overlap at all between equal planes
-  double iou_weight = 4.0;      ///< -2 log likelihood of boxes that do not meet
-  double min_class_odds = 0.1;  ///< that two landmarks share a class; below: they are two
-  double max_extension_gap_m = 0.15;  ///< an open surface may go on this far from what was seen
-  double min_open_area_m2 = 0.05;     ///< of a map plane that may be seen to extend
+  double max_chi2 = kChi2Of3At999;
+  double new_chi2 = 36.0;       // 99.99999 % of chi-square with 3 degrees of freedom
+  double min_overlap = 0.25;    // balances matches of planes seen in part against false ones
+  double min_margin = 4.0;      // the better answer is e^2, or 7 times, as likely as the next
+  double overlap_weight = 8.0;  // no overlap makes a match e^4, or 55 times, less likely
+  double iou_weight = 4.0;      // boxes that do not meet make it e^2 times less likely
+  double min_class_odds = 0.1;
+  double max_extension_gap_m = 0.15;
+  double min_open_area_m2 = 0.05;
 
-  double rank_alpha = 0.01;         ///< two-sided level of the rank test; (0, 1)
-  int min_rank_points = 6;          ///< smaller samples are not tested
-  double max_point_plane_m = 0.02;  ///< a map point nearer to a frame plane may lie on it
+  double rank_alpha = 0.01;
+  int min_rank_points = 6;
+  double max_point_plane_m = 0.02;
 };
 
 inline void VisitFields(AssociationConfig& c, FieldVisitor& v) {
-  v.Section("gates", "by parameters alone", c.gates);
-  v.Number("pose_sigma_m", c.prior.sigma_m, "(0, inf)", "of the predicted pose");
-  v.Degrees("pose_sigma_deg", c.prior.sigma_rad, "(0, 90)", "of the predicted pose");
-  v.Number("offset_floor_m", c.offset_floor_m, "(0, inf)", "error that does not average out");
-  v.Degrees("angle_floor_deg", c.angle_floor_rad, "(0, 90)", "error that does not average out");
-  v.Number("max_chi2", c.max_chi2, "(0, inf)", "of a match, 3 degrees of freedom");
-  v.Number("new_chi2", c.new_chi2, "(0, inf)", "above: certainly another plane");
-  v.Number("min_overlap", c.min_overlap, "(0, 1)", "share of the smaller footprint");
+  v.Section("gates", "bounds on the parameters of a pair of planes", c.gates);
+  v.Number("pose_sigma_m", c.prior.sigma_m, "(0, inf)",
+           "standard deviation of the predicted position, by axis");
+  v.Degrees("pose_sigma_deg", c.prior.sigma_rad, "(0, 90)",
+            "standard deviation of the predicted rotation, by axis");
+  v.Number("offset_floor_m", c.offset_floor_m, "(0, inf)",
+           "error of a plane's offset that does not average out (calibration, quantisation)");
+  v.Degrees("angle_floor_deg", c.angle_floor_rad, "(0, 90)",
+            "error of a plane's normal that does not average out (calibration, quantisation)");
+  v.Number("max_chi2", c.max_chi2, "(0, inf)",
+           "largest chi-square of offset and slopes (3 degrees of freedom) of a match");
+  v.Number("new_chi2", c.new_chi2, "(0, inf)",
+           "chi-square from which two planes are certainly two; below it, and above max_chi2, "
+           "there is no decision");
+  v.Number("min_overlap", c.min_overlap, "(0, 1)",
+           "share of the smaller footprint that both planes must cover");
   v.Number("min_margin", c.min_margin, "[0, inf)",
-           "nearer candidates are ambiguous, -2 log likelihood");
-  v.Number("overlap_weight", c.overlap_weight, "[0, inf)", "of no overlap, -2 log likelihood");
-  v.Number("iou_weight", c.iou_weight, "[0, inf)", "of boxes apart, -2 log likelihood");
+           "lead, in -2 log likelihood, below which two answers are ambiguous");
+  v.Number("overlap_weight", c.overlap_weight, "[0, inf)",
+           "cost, in -2 log likelihood, of footprints that do not overlap at all");
+  v.Number("iou_weight", c.iou_weight, "[0, inf)",
+           "cost, in -2 log likelihood, of boxes that do not meet");
+  v.Number("min_class_odds", c.min_class_odds, "(0, 1]",
+           "odds that two map planes share a class, below which they are two surfaces");
   v.Number("max_extension_gap_m", c.max_extension_gap_m, "[0, inf)",
-           "an open surface may go on this far");
-  v.Number("min_open_area_m2", c.min_open_area_m2, "[0, inf)", "of a plane that may extend");
+           "gap over which a surface without class may go on from what was seen of it");
+  v.Number("min_open_area_m2", c.min_open_area_m2, "[0, inf)",
+           "smallest area of a map plane that may go on beyond what was seen of it");
   v.Number("rank_alpha", c.rank_alpha, "(0, 1)",
-           "two-sided level of the rank test, eq9 to eq12");
+           "two-sided significance level of the rank test, eq9 to eq12");
   v.Integer("min_rank_points", c.min_rank_points, "[1, 100000]",
-            "smaller samples are not tested");
+            "points of each sample below which the rank test is not made");
   v.Number("max_point_plane_m", c.max_point_plane_m, "(0, inf)",
-           "of a map point on a frame plane");
+           "largest distance from a frame plane of a map point that lies on it");
 }
 
 }  // namespace slam

@@ -116,9 +116,9 @@ void TestRanks(const Frame& frame, const Map& map, const Pose& T_cw, const Camer
       const MapPlane& m = map.planes.At(pair.map_plane);
       const auto [seen, first] = points_w.try_emplace(pair.map_plane);
       if (first) seen->second = VisibleMapPoints(m, map, frame, T_cw, camera);
-      const auto test = TestPlaneRanks(points_c[f], seen->second,
-                                       PlaneAxes(m.pi_w, seen->second), config.min_rank_points);
-      if (!test || test->p >= config.rank_alpha) continue;
+      const auto p = TestPlaneRanks(points_c[f], seen->second, PlaneAxes(m.pi_w, seen->second),
+                                    config.min_rank_points);
+      if (!p || *p >= config.rank_alpha) continue;
       pair.verdict = PairVerdict::kDoubtful;
       pair.refusal = PairRefusal::kRankTest;
     }

@@ -16,9 +16,8 @@ struct UncertainPose {
 /// Parameters of a frame plane against those of a map plane, with everybody's uncertainty.
 struct PlaneComparison {
   double angle_rad = 0.0;  ///< between the oriented normals
-  double offset_m = 0.0;   ///< signed: the patch in front of the map plane, at the patch
   double offset_sigma_m = 0.0;
-  double chi2 = 0.0;  ///< of offset and two slopes: 3 degrees of freedom
+  double chi2 = 0.0;  ///< chi-square of offset and two slopes: 3 degrees of freedom
 };
 
 /// Compares where the patch is: height and slopes of the measured plane over the map plane at

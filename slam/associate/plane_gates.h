@@ -14,17 +14,21 @@ namespace slam {
 /// Gates of the parameter test. A pair passes a `max_` gate strictly below it and a `min_` gate
 /// strictly above it, as the paper prints.
 struct PlaneGateConfig {
-  double max_normal_angle_rad = 0.1745;     ///< beta_T, eq6; domain (0, pi)
-  double max_patch_offset_m = 0.05;         ///< d_T,    eq7; domain (0, inf)
-  double max_edge_point_distance_m = 0.05;  ///< d_T',   eq8; domain (0, inf)
-  double min_edge_point_ratio = 0.5;        ///< R_T,    eq8; domain [0, 1)
+  double max_normal_angle_rad = 0.1745;  // 10 degrees
+  double max_patch_offset_m = 0.05;
+  double max_edge_point_distance_m = 0.05;
+  double min_edge_point_ratio = 0.5;  // most of them
 };
 
 inline void VisitFields(PlaneGateConfig& c, FieldVisitor& v) {
-  v.Degrees("max_normal_angle_deg", c.max_normal_angle_rad, "(0, 180)", "beta_T, eq6");
-  v.Number("max_patch_offset_m", c.max_patch_offset_m, "(0, inf)", "d_T, eq7");
-  v.Number("max_edge_point_distance_m", c.max_edge_point_distance_m, "(0, inf)", "d_T', eq8");
-  v.Number("min_edge_point_ratio", c.min_edge_point_ratio, "[0, 1)", "R_T, eq8");
+  v.Degrees("max_normal_angle_deg", c.max_normal_angle_rad, "(0, 180)",
+            "largest angle between the two planes' oriented normals; beta_T of eq6");
+  v.Number("max_patch_offset_m", c.max_patch_offset_m, "(0, inf)",
+           "largest distance of the patch's centroid from the map plane; d_T of eq7");
+  v.Number("max_edge_point_distance_m", c.max_edge_point_distance_m, "(0, inf)",
+           "distance from the map plane below which an edge point is near it; d_T' of eq8");
+  v.Number("min_edge_point_ratio", c.min_edge_point_ratio, "[0, 1)",
+           "share of the edge points that must be near the map plane; R_T of eq8");
 }
 
 /// Numbers behind an accepted pair, for the report.

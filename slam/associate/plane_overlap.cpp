@@ -40,7 +40,6 @@ PlaneView ViewMapPlane(const MapPlane& map_plane, const Frame& frame, const Pose
       ++view.landed[static_cast<std::size_t>(label - 1)];
     }
   }
-  view.in_view = view.expected > 0;
   return view;
 }
 
@@ -50,9 +49,9 @@ double Overlap(const PlaneView& view, const FramePlane& frame_plane) {
   const double cells = view.cell_m2 > 0 ? frame_plane.area_m2 / view.cell_m2
                                         : std::numeric_limits<double>::max();
   const double smaller = std::min(static_cast<double>(view.expected), cells);
-  // A single point of a coarse cloud is no overlap: at least three must be possible.
-  constexpr double kLeast = 3.0;
-  return std::min(1.0, view.landed[index] / std::max(smaller, kLeast));
+  // A single point of a coarse cloud is no overlap.
+  constexpr double kMinPoints = 3.0;
+  return std::min(1.0, view.landed[index] / std::max(smaller, kMinPoints));
 }
 
 double InPlaneGap(const FramePlane& frame_plane, const MapPlane& map_plane, const Pose& T_wc) {

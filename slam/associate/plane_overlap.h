@@ -10,7 +10,6 @@ namespace slam {
 
 /// How a map plane's cloud falls on the frame's plane segments.
 struct PlaneView {
-  bool in_view = false;
   int expected = 0;         ///< cloud points in the picture that nothing nearer hides
   std::vector<int> landed;  ///< of these, how many on each frame plane's pixels
   double cell_m2 = 0.0;     ///< area of the map plane that one cloud point stands for

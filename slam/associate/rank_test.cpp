@@ -122,23 +122,21 @@ RankTest TestRanks(std::span<const double> sample_c, std::span<const double> sam
   return out;
 }
 
-std::optional<PlaneRankTest> TestPlaneRanks(std::span<const Eigen::Vector3d> points_c,
-                                            std::span<const Eigen::Vector3d> points_w,
-                                            const Eigen::Matrix3d& axes, int min_points) {
-  const auto least = static_cast<std::size_t>(std::max(1, min_points));
-  if (points_c.size() < least || points_w.size() < least) return std::nullopt;
-  PlaneRankTest out;
+std::optional<double> TestPlaneRanks(std::span<const Eigen::Vector3d> points_c,
+                                     std::span<const Eigen::Vector3d> points_w,
+                                     const Eigen::Matrix3d& axes, int min_points) {
+  const auto min_size = static_cast<std::size_t>(std::max(1, min_points));
+  if (points_c.size() < min_size || points_w.size() < min_size) return std::nullopt;
+  double p = 1.0;
   std::vector<double> along_c(points_c.size()), along_w(points_w.size());
   for (int axis = 0; axis < 3; ++axis) {
     for (std::size_t i = 0; i < points_c.size(); ++i)
       along_c[i] = axes.col(axis).dot(points_c[i]);
     for (std::size_t i = 0; i < points_w.size(); ++i)
       along_w[i] = axes.col(axis).dot(points_w[i]);
-    const RankTest test = TestRanks(along_c, along_w);
-    out.p = std::min(out.p, 3 * test.p);
-    out.exact = test.exact;
+    p = std::min(p, 3 * TestRanks(along_c, along_w).p);  // Bonferroni
   }
-  return out;
+  return p;
 }
 
 Eigen::Matrix3d PlaneAxes(const Plane& pi, std::span<const Eigen::Vector3d> points) {

@@ -33,20 +33,15 @@ struct RankTest {
 /// exact: O(I J (I + J) min(I, J)), with the larger sample thinned to 60.
 RankTest TestRanks(std::span<const double> sample_c, std::span<const double> sample_w);
 
-/// What three tests along a plane's own axes say together.
-struct PlaneRankTest {
-  double p = 1.0;  ///< smallest of the three, Bonferroni-corrected: min(1, 3 p_min)
-  bool exact = false;
-};
-
 /// Tests two clouds along the two in-plane principal axes and the normal of a plane: not along
 /// the world's axes, so that the outcome does not depend on how the world is turned.
 /// @param axes  unit columns: two in the plane, then the normal
 /// @param min_points  with three each no p-value can be under 0.1
-/// @returns nothing when either sample has fewer
-std::optional<PlaneRankTest> TestPlaneRanks(std::span<const Eigen::Vector3d> points_c,
-                                            std::span<const Eigen::Vector3d> points_w,
-                                            const Eigen::Matrix3d& axes, int min_points);
+/// @returns the smallest of the three p-values, Bonferroni-corrected: min(1, 3 p_min); nothing
+/// when either sample has fewer points
+std::optional<double> TestPlaneRanks(std::span<const Eigen::Vector3d> points_c,
+                                     std::span<const Eigen::Vector3d> points_w,
+                                     const Eigen::Matrix3d& axes, int min_points);
 
 /// The two principal in-plane axes of a cloud and the plane's normal, as columns.
 /// Where the cloud has no preferred direction any orthonormal pair is returned.

@@ -5,7 +5,7 @@
 
 namespace slam {
 
-/// What refused a pair of a frame plane and a map plane. Counted in run.json.
+/// What refused a pair of a frame plane and a map plane, or put it in doubt.
 enum class PairRefusal {
   kNormalAngle,          ///< eq6
   kNoEdgePoints,         ///< eq8 has nothing to ask
@@ -20,7 +20,8 @@ inline constexpr std::array<const char*, 7> kPairRefusalNames = {
     "normal_angle", "no_edge_points", "offset_and_edge_points", "parameters", "overlap",
     "cost",         "rank_test"};
 
-/// How many pairs each cue refused.
+/// How many pairs each cue refused or put in doubt. The sums over a run stand in run.json as
+/// `refused_pairs`, by these names.
 struct PairRefusals {
   std::array<long, kPairRefusalNames.size()> count{};
 

@@ -10,17 +10,21 @@ namespace slam {
 
 /// When a plane belongs to a detected object. Strict bounds, as the paper prints them.
 struct BoxLinkConfig {
-  double min_iou = 0.10;        ///< overlap of the plane's rectangle and the box; domain [0, 1)
-  double min_edge_share = 0.8;  ///< part of its edge points inside the box; domain [0, 1)
-  double margin_px = 4.0;       ///< a box is that much inexact; domain [0, inf)
-  double min_score = 0.3;       ///< score of the detection; domain [0, 1)
+  double min_iou = 0.10;
+  double min_edge_share = 0.8;
+  // Apart from those of BoxSplitConfig: here a box names a segment, there it makes one.
+  double margin_px = 4.0;
+  double min_score = 0.3;
 };
 
 inline void VisitFields(BoxLinkConfig& c, FieldVisitor& v) {
-  v.Number("min_iou", c.min_iou, "[0, 1)", "of the plane's rectangle and the box");
-  v.Number("min_edge_share", c.min_edge_share, "[0, 1)", "of edge points inside the box");
-  v.Number("margin_px", c.margin_px, "[0, inf)", "a box is that much inexact");
-  v.Number("min_score", c.min_score, "[0, 1)", "of the detection");
+  v.Number("min_iou", c.min_iou, "[0, 1)",
+           "intersection over union that the plane's rectangle and the box must exceed");
+  v.Number("min_edge_share", c.min_edge_share, "[0, 1)",
+           "share of the plane's edge points inside the box that must be exceeded");
+  v.Number("margin_px", c.margin_px, "[0, inf)", "inexactness of a box");
+  v.Number("min_score", c.min_score, "[0, 1)",
+           "score that a detection must exceed to be linked");
 }
 
 /// Links each plane to at most one detection: FramePlane::detection and class_name; a plane

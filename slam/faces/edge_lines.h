@@ -14,38 +14,41 @@
 namespace slam {
 
 struct EdgeLineConfig {
-  int max_lines = 6;             ///< domain [1, 16]
-  int iterations = 120;          ///< hypotheses of RANSAC for each line; domain [1, inf)
-  double max_distance_px = 2.0;  ///< from an inlier to its line; domain (0, inf)
-  double max_gap_px = 16.0;      ///< between neighbouring inliers of one line; domain (0, inf)
-  double min_length_px = 10.0;   ///< domain (0, inf)
-  double min_contour_share = 0.03;  ///< part of the edge points on a line; domain [0, 1)
-  /// Boundary pixels are the last inside the surface: their centres lie this far inside the
-  /// edge itself. Domain [0, 1].
-  double inset_px = 0.5;
-  /// What neighbouring points of a line have in common: where a segment ends and where its
-  /// surface does, after windows, votes and creases, differ along a whole side. Standard
-  /// deviation at either end of a side. Domain [0, inf).
+  int max_lines = 6;
+  int iterations = 120;
+  double max_distance_px = 2.0;
+  double max_gap_px = 16.0;
+  double min_length_px = 10.0;
+  double min_contour_share = 0.03;
+  double inset_px =
+      0.5;  // boundary pixels are the last inside, and centres lie half a pixel in
+  /// Where a segment ends and where its surface does, after windows, votes and creases, differ
+  /// along a whole side.
   double shared_sigma_px = 0.25;
   /// Where a segment ends is doubtful where depth hardly changes, at a thin step or a blunt
   /// crease: by a pixel along a whole side where the depth a few pixels beyond differs by so
-  /// many sigmas, and less with the square of these. Domain [0, inf).
+  /// many sigmas, and less with the square of these.
   double doubtful_step_sigmas = 4.0;
 };
 
 inline void VisitFields(EdgeLineConfig& c, FieldVisitor& v) {
-  v.Integer("max_lines", c.max_lines, "[1, 16]", "of a plane");
-  v.Integer("iterations", c.iterations, "[1, 1000000]", "of RANSAC, a line");
-  v.Number("max_distance_px", c.max_distance_px, "(0, inf)", "of an inlier from its line");
-  v.Number("max_gap_px", c.max_gap_px, "(0, inf)", "between neighbouring inliers");
-  v.Number("min_length_px", c.min_length_px, "(0, inf)", "of a line");
+  v.Integer("max_lines", c.max_lines, "[1, 16]", "largest number of edge lines of a plane");
+  v.Integer("iterations", c.iterations, "[1, 1000000]",
+            "number of RANSAC's hypotheses for each line");
+  v.Number("max_distance_px", c.max_distance_px, "(0, inf)",
+           "largest distance of an inlier from its line");
+  v.Number("max_gap_px", c.max_gap_px, "(0, inf)",
+           "largest gap between neighbouring inliers of one line");
+  v.Number("min_length_px", c.min_length_px, "(0, inf)", "shortest line");
   v.Number("min_contour_share", c.min_contour_share, "[0, 1)",
-           "of the edge points that a line holds");
-  v.Number("inset_px", c.inset_px, "[0, 1]", "boundary pixels lie this far inside the edge");
+           "smallest share of the plane's edge points on a line");
+  v.Number("inset_px", c.inset_px, "[0, 1]",
+           "distance by which boundary pixels lie inside the edge itself");
   v.Number("shared_sigma_px", c.shared_sigma_px, "[0, inf)",
-           "error that all points of a line have in common");
+           "standard deviation of the error that all points of a line have in common, at "
+           "either end of a side");
   v.Number("doubtful_step_sigmas", c.doubtful_step_sigmas, "[0, inf)",
-           "depth step at which a side is doubtful by a pixel");
+           "depth step, in standard deviations, at which a side is doubtful by a pixel");
 }
 
 /// A straight piece of a plane's boundary.

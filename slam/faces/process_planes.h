@@ -14,19 +14,20 @@ namespace slam {
 /// What a plane that no detection speaks for must show to have corners: its shape is then the
 /// only evidence that it is a rectangle.
 struct UnlinkedConfig {
-  double min_contour_share = 0.08;       ///< part of its edge points on a line; [0, 1)
-  double min_length_px = 20.0;           ///< a line's; domain (0, inf)
-  double max_parallel_angle_rad = 0.09;  ///< between opposite sides; domain (0, pi/2)
-  double max_square_error_rad = 0.10;    ///< a corner's, from a right angle; domain (0, pi/2)
+  double min_contour_share = 0.08;
+  double min_length_px = 20.0;
+  double max_parallel_angle_rad = 0.09;
+  double max_square_error_rad = 0.10;
 };
 
 inline void VisitFields(UnlinkedConfig& c, FieldVisitor& v) {
   v.Number("min_contour_share", c.min_contour_share, "[0, 1)",
-           "of the edge points that a line holds");
-  v.Number("min_length_px", c.min_length_px, "(0, inf)", "of a line");
-  v.Degrees("max_parallel_angle_deg", c.max_parallel_angle_rad, "(0, 90)", "of opposite sides");
+           "smallest share of the plane's edge points on a line");
+  v.Number("min_length_px", c.min_length_px, "(0, inf)", "shortest line");
+  v.Degrees("max_parallel_angle_deg", c.max_parallel_angle_rad, "(0, 90)",
+            "largest angle between opposite sides");
   v.Degrees("max_square_error_deg", c.max_square_error_rad, "(0, 90)",
-            "of a corner from a right angle");
+            "largest deviation of a corner from a right angle");
 }
 
 struct PlaneProcessingConfig {
@@ -40,12 +41,13 @@ struct PlaneProcessingConfig {
 };
 
 inline void VisitFields(PlaneProcessingConfig& c, FieldVisitor& v) {
-  v.Section("refit", "robust re-fit", c.refit);
-  v.Section("box_link", "plane and detection", c.box_link);
-  v.Section("edge_lines", "straight edges", c.edge_lines);
-  v.Section("vertices", "corners", c.vertices);
-  v.Section("unlinked", "corners without a detection", c.unlinked);
-  v.Section("select", "good planes and bad", c.select);
+  v.Section("refit", "robust re-fit of each plane", c.refit);
+  v.Section("box_link", "link of a plane with a detection", c.box_link);
+  v.Section("edge_lines", "straight edges of a plane", c.edge_lines);
+  v.Section("vertices", "corners of a rectangular face", c.vertices);
+  v.Section("unlinked", "what a plane without a detection must show to have corners",
+            c.unlinked);
+  v.Section("select", "which planes are trusted", c.select);
 }
 
 /// (C) of the paper: makes planes out of segments that can be trusted, and says which cannot.

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "slam/base/chi_square.h"
 #include "slam/base/field_visitor.h"
 #include "slam/geometry/depth_noise.h"
 #include "slam/model/frame_plane.h"
@@ -15,26 +16,28 @@ enum class RefitMethod {
 
 struct RefitConfig {
   RefitMethod method = RefitMethod::kBest;
-  double max_inlier_sigmas = 2.5;  ///< distance of an inlier, in sigmas of the depth; (0, inf)
-  int max_sample_points = 300;     ///< points given to the robust fit; domain [3, inf)
-  int max_iterations = 100;        ///< hypotheses of the robust fit; domain [1, inf)
-  /// How much less the squared error of the re-fit must be, in sigmas^2, before it replaces the
-  /// segment's fit, which rests on all pixels; chi-square, 3 degrees of freedom. Domain [0,
-  /// inf).
-  double min_improvement_chi2 = 16.3;
-  double max_edge_sigmas = 4.0;  ///< distance of an edge point that is kept; domain (0, inf)
+  double max_inlier_sigmas = 2.5;  // 1 in 80 is farther off
+  int max_sample_points = 300;
+  int max_iterations = 100;
+  double min_improvement_chi2 = kChi2Of3At999;  // the segment's fit rests on all pixels
+  double max_edge_sigmas = 4.0;                 // 1 in 16,000 is farther off
 };
 
 inline void VisitFields(RefitConfig& c, FieldVisitor& v) {
-  v.Named("method", c.method, {"pcl", "weighted", "best"}, "which fit is kept");
-  v.Number("max_inlier_sigmas", c.max_inlier_sigmas, "(0, inf)", "distance of an inlier");
+  v.Named("method", c.method, {"pcl", "weighted", "best"},
+          "which fit is kept: PCL's, the one weighted by depth noise, or the best");
+  v.Number("max_inlier_sigmas", c.max_inlier_sigmas, "(0, inf)",
+           "largest distance of an inlier from the plane, in standard deviations of the depth");
   v.Integer("max_sample_points", c.max_sample_points, "[3, 1000000]",
-            "given to the robust fit");
-  v.Integer("max_iterations", c.max_iterations, "[1, 1000000]", "of the robust fit");
+            "largest number of points given to the robust fit");
+  v.Integer("max_iterations", c.max_iterations, "[1, 1000000]",
+            "number of hypotheses of the robust fit");
   v.Number("min_improvement_chi2", c.min_improvement_chi2, "[0, inf)",
-           "before a re-fit replaces the fit");
+           "chi-square (3 degrees of freedom) that a re-fit must gain to replace the "
+           "segment's fit");
   v.Number("max_edge_sigmas", c.max_edge_sigmas, "(0, inf)",
-           "distance of an edge point that is kept");
+           "largest distance of an edge point from the plane, in standard deviations of the "
+           "depth");
 }
 
 /// Fits a plane again, robustly, to its thinned points, and cleans its edge points.

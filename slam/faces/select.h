@@ -24,32 +24,35 @@ enum class StructureRule {
 
 /// A `max_` bound is passed strictly below it, a `min_` bound strictly above it.
 struct SelectConfig {
-  double max_distance_m = 5.0;          ///< centroid from the camera; domain (0, inf)
-  double min_inlier_ratio = 0.6;        ///< after the re-fit; domain [0, 1)
-  double max_roughness = 1.8;           ///< times the frame's usual; domain [1, inf)
-  double max_unstructured_share = 0.5;  ///< edge points in an unstructured box; domain (0, 1]
+  double max_distance_m = 5.0;
+  double min_inlier_ratio = 0.6;
+  double max_roughness = 1.8;  // more are stairs
+  double max_unstructured_share = 0.5;
   StructureRule structure = StructureRule::kPartial;
-  double border_px = 3.0;                 ///< width of the image border; domain [0, inf)
-  double max_border_share = 0.05;         ///< kComplete: edge points there; domain (0, 1]
-  double max_partial_border_share = 0.5;  ///< kPartial: the same; domain (0, 1]
-  double max_unexplained_share = 0.6;     ///< kPartial: kSurface points without a line; (0, 1]
+  double border_px = 3.0;
+  double max_border_share = 0.05;
+  double max_partial_border_share = 0.5;
+  double max_unexplained_share = 0.6;
 };
 
 inline void VisitFields(SelectConfig& c, FieldVisitor& v) {
-  v.Number("max_distance_m", c.max_distance_m, "(0, inf)", "centroid from the camera");
-  v.Number("min_inlier_ratio", c.min_inlier_ratio, "[0, 1)", "after the re-fit");
+  v.Number("max_distance_m", c.max_distance_m, "(0, inf)",
+           "largest distance of a plane's centroid from the camera");
+  v.Number("min_inlier_ratio", c.min_inlier_ratio, "[0, 1)",
+           "smallest inlier ratio after the re-fit");
   v.Number("max_roughness", c.max_roughness, "[1, inf)",
-           "times that of most of the frame's pixels; more are stairs");
+           "largest roughness, as a multiple of that of most of the frame's pixels");
   v.Number("max_unstructured_share", c.max_unstructured_share, "(0, 1]",
-           "edge points in an unstructured box");
+           "largest share of edge points in the box of an unstructured object");
   v.Named("structure", c.structure, {"ignored", "partial", "complete"},
-          "demand on regular objects");
+          "how much the face of a regular object must show");
   v.Number("border_px", c.border_px, "[0, inf)", "width of the image border");
-  v.Number("max_border_share", c.max_border_share, "(0, 1]", "complete: edge points there");
+  v.Number("max_border_share", c.max_border_share, "(0, 1]",
+           "with complete: largest share of edge points at the image border");
   v.Number("max_partial_border_share", c.max_partial_border_share, "(0, 1]",
-           "partial: the same");
+           "with partial: largest share of edge points at the image border");
   v.Number("max_unexplained_share", c.max_unexplained_share, "(0, 1]",
-           "partial: edge points without a line");
+           "with partial: largest share of the surface's own edge points without a line");
 }
 
 /// The roughness of most pixels of a frame, what its sensor's noise comes to in it (the median

@@ -14,40 +14,42 @@ namespace slam {
 
 /// A `max_` bound is passed strictly below it.
 struct VertexConfig {
-  double min_crossing_angle_rad = 0.5;   ///< between lines that make a corner; (0, pi/2)
-  double max_parallel_angle_rad = 0.17;  ///< between opposite sides; domain (0, pi/2)
-  double max_square_error_rad = 0.20;    ///< a corner's, from a right angle; domain (0, pi/2)
-  double max_feet_distance_m = 0.01;     ///< condition 1; domain (0, inf)
-  double max_plane_distance_m = 0.01;    ///< condition 2; domain (0, inf)
-  double box_margin_px = 12.0;           ///< condition 3: outside the box by less; [0, inf)
-  /// A corner farther than this from every true edge point is extrapolated; domain (0, inf).
+  double min_crossing_angle_rad = 0.5;
+  double max_parallel_angle_rad = 0.17;
+  double max_square_error_rad = 0.20;
+  double max_feet_distance_m = 0.01;
+  double max_plane_distance_m = 0.01;
+  double box_margin_px = 12.0;
   double max_support_distance_px = 6.0;
-  /// Where a partial outline has two sides only, its corner must be at most this part of their
-  /// length beyond the end of either. Domain [0, inf).
   double max_extension = 0.25;
-  double min_side_m = 0.02;  ///< a rectangle's shortest side; domain (0, inf)
-  /// Visible area over the rectangle's: less means lines of something else, or a face mostly
-  /// hidden; more means that the rectangle misses part of the face. Domain [0, max].
-  double min_fill = 0.5;
-  double max_fill = 1.15;  ///< domain [min, inf)
+  double min_side_m = 0.02;
+  double min_fill = 0.5;   // less: lines of something else, or a face mostly hidden
+  double max_fill = 1.15;  // more: the rectangle misses part of the face
 };
 
 inline void VisitFields(VertexConfig& c, FieldVisitor& v) {
   v.Degrees("min_crossing_angle_deg", c.min_crossing_angle_rad, "(0, 90)",
-            "of two lines at a corner");
-  v.Degrees("max_parallel_angle_deg", c.max_parallel_angle_rad, "(0, 90)", "of opposite sides");
+            "smallest angle between two lines that make a corner");
+  v.Degrees("max_parallel_angle_deg", c.max_parallel_angle_rad, "(0, 90)",
+            "largest angle between opposite sides");
   v.Degrees("max_square_error_deg", c.max_square_error_rad, "(0, 90)",
-            "of a corner from a right angle");
-  v.Number("max_feet_distance_m", c.max_feet_distance_m, "(0, inf)", "condition 1, eq2");
-  v.Number("max_plane_distance_m", c.max_plane_distance_m, "(0, inf)", "condition 2, eq3");
+            "largest deviation of a corner from a right angle");
+  v.Number("max_feet_distance_m", c.max_feet_distance_m, "(0, inf)",
+           "condition 1: largest distance between the feet of the common perpendicular");
+  v.Number("max_plane_distance_m", c.max_plane_distance_m, "(0, inf)",
+           "condition 2: largest distance of the feet from the plane");
   v.Number("box_margin_px", c.box_margin_px, "[0, inf)",
-           "condition 3, outside the box by less");
+           "condition 3: largest distance of the projected feet outside the detection box");
   v.Number("max_support_distance_px", c.max_support_distance_px, "(0, inf)",
-           "farther is extrapolated");
-  v.Number("max_extension", c.max_extension, "[0, inf)", "of a side beyond its end");
-  v.Number("min_side_m", c.min_side_m, "(0, inf)", "of a rectangle");
-  v.Number("min_fill", c.min_fill, "[0, inf)", "visible area over the rectangle's");
-  v.Number("max_fill", c.max_fill, "(0, inf)", "the same, at most");
+           "distance from every true edge point beyond which a corner is extrapolated");
+  v.Number("max_extension", c.max_extension, "[0, inf)",
+           "largest distance of the only corner of two sides beyond their ends, as a part of "
+           "their length");
+  v.Number("min_side_m", c.min_side_m, "(0, inf)", "shortest side of a rectangle");
+  v.Number("min_fill", c.min_fill, "[0, inf)",
+           "smallest visible area, as a part of the rectangle's; at most max_fill");
+  v.Number("max_fill", c.max_fill, "(0, inf)",
+           "largest visible area, as a part of the rectangle's");
 }
 
 /// The corner of a face at which two of its edge lines meet: the middle of the feet of their

@@ -18,13 +18,13 @@ namespace slam {
 /// The defaults are those of the first Kinect. Source: Nguyen, Izadi, Lovell, 3DIMPVT 2012.
 /// Those of other sensors: sensor_model.h.
 struct DepthNoise {
-  double floor_m = 0.0012;          ///< at and below `nearest_m`; domain (0, inf)
-  double linear_per_m = 0.0;        ///< growth with depth; domain [0, inf)
-  double quadratic_per_m = 0.0019;  ///< growth with depth; domain [0, inf)
-  double nearest_m = 0.4;           ///< where growth begins; domain [0, inf)
-  double grazing_m = 0.0001;        ///< growth with incidence; domain [0, inf)
-  /// Pixels that share one independent error: the matcher of a structured-light sensor smooths
-  /// over a window, so n pixels average only like n / correlated_px. Domain [1, inf).
+  double floor_m = 0.0012;
+  double linear_per_m = 0.0;
+  double quadratic_per_m = 0.0019;
+  double nearest_m = 0.4;
+  double grazing_m = 0.0001;
+  /// The matcher of a structured-light sensor smooths over a window, so n pixels average only
+  /// like n / correlated_px.
   double correlated_px = 16.0;
 
   double Sigma(double z_m) const {
@@ -34,22 +34,28 @@ struct DepthNoise {
 
   /// sigma(z, theta) / sigma(z) for a surface whose normal makes `cosine` with the ray; >= 1.
   double GrazingFactor(double z_m, double cosine) const {
-    const double theta = std::acos(std::clamp(cosine, kLeastCosine, 1.0));
+    const double theta = std::acos(std::clamp(cosine, kMinCosine, 1.0));
     const double ratio = theta / (0.5 * std::numbers::pi - theta);
     return 1.0 + grazing_m / std::sqrt(z_m) * ratio * ratio / Sigma(z_m);
   }
 
  private:
-  static constexpr double kLeastCosine = 0.05;  // 87 deg: nothing is measured beyond
+  static constexpr double kMinCosine = 0.05;  // 87 deg: nothing is measured beyond
 };
 
 inline void VisitFields(DepthNoise& c, FieldVisitor& v) {
-  v.Number("floor_m", c.floor_m, "(0, inf)", "standard deviation at and below nearest_m");
-  v.Number("linear_per_m", c.linear_per_m, "[0, inf)", "growth with depth");
-  v.Number("quadratic_per_m", c.quadratic_per_m, "[0, inf)", "growth with depth");
-  v.Number("nearest_m", c.nearest_m, "[0, inf)", "where growth begins");
-  v.Number("grazing_m", c.grazing_m, "[0, inf)", "growth with incidence");
-  v.Number("correlated_px", c.correlated_px, "[1, inf)", "pixels that share one error");
+  v.Number("floor_m", c.floor_m, "(0, inf)",
+           "standard deviation of a depth at and below nearest_m");
+  v.Number("linear_per_m", c.linear_per_m, "[0, inf)",
+           "metres by which the standard deviation grows with each metre beyond nearest_m");
+  v.Number("quadratic_per_m", c.quadratic_per_m, "[0, inf)",
+           "metres by which it grows with the square of the metres beyond nearest_m");
+  v.Number("nearest_m", c.nearest_m, "[0, inf)",
+           "depth up to which the standard deviation is floor_m");
+  v.Number("grazing_m", c.grazing_m, "[0, inf)",
+           "growth of the standard deviation of a surface that is seen at a slant");
+  v.Number("correlated_px", c.correlated_px, "[1, inf)",
+           "number of pixels that share one independent error");
 }
 
 }  // namespace slam

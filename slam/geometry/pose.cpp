@@ -70,14 +70,6 @@ Vector6d Log(const Pose& T) {
   return xi;
 }
 
-Matrix6d Adjoint(const Pose& T) {
-  Matrix6d A = Matrix6d::Zero();
-  A.topLeftCorner<3, 3>() = T.R;
-  A.topRightCorner<3, 3>() = Hat(T.t) * T.R;
-  A.bottomRightCorner<3, 3>() = T.R;
-  return A;
-}
-
 double RotationAngle(const Pose& T_1, const Pose& T_2) {
   return LogSo3(T_1.R.transpose() * T_2.R).norm();
 }

@@ -39,9 +39,6 @@ Pose Exp(const Vector6d& xi);
 /// Inverse of Exp for rotations below pi.
 Vector6d Log(const Pose& T);
 
-/// T Exp(xi) T^-1 = Exp(Adjoint(T) xi).
-Matrix6d Adjoint(const Pose& T);
-
 /// Angle of the rotation between two poses, radians in [0, pi].
 double RotationAngle(const Pose& T_1, const Pose& T_2);
 

@@ -40,8 +40,10 @@ inline void VisitFields(SensorModel& c, FieldVisitor& v) {
   v.Named("model", c.sensor, DepthSensorNames(),
           "what measured the depth; the defaults of noise and plane_extraction follow from it");
   if (c.sensor != before) c = ModelOf(c.sensor);
-  v.Section("noise", "standard deviation of a depth", c.noise);
-  v.Number("max_depth_m", c.max_depth_m, "(0, inf)", "beyond it a pixel is not measured");
+  v.Section("noise", "standard deviation of a depth as a function of depth and incidence",
+            c.noise);
+  v.Number("max_depth_m", c.max_depth_m, "(0, inf)",
+           "depth beyond which a pixel counts as not measured");
 }
 
 }  // namespace slam

@@ -11,20 +11,22 @@ namespace slam {
 
 /// What a new keyframe adds, and when an old one is of no more use.
 struct KeyframeConfig {
-  int min_new_points = 100;     ///< so many points are made even from farther depths
-  int min_shared_points = 15;   ///< that make two keyframes covisible; domain [1, inf)
-  double max_redundancy = 0.9;  ///< share of points that others see as well; domain (0, 1]
-  int redundant_views = 3;      ///< other keyframes that must see a point; domain [1, inf)
+  // Mur-Artal and Tardos 2017 (new points); Mur-Artal, Montiel, Tardos 2015 (all others).
+  int min_new_points = 100;
+  int min_shared_points = 15;
+  double max_redundancy = 0.9;
+  int redundant_views = 3;
 };
 
 inline void VisitFields(KeyframeConfig& c, FieldVisitor& v) {
-  v.Integer("min_new_points", c.min_new_points, "[0, 100000]", "made even from farther depths");
+  v.Integer("min_new_points", c.min_new_points, "[0, 100000]",
+            "points that a keyframe makes even from depths too far to be trusted");
   v.Integer("min_shared_points", c.min_shared_points, "[1, 100000]",
-            "make two keyframes covisible");
+            "map points that two keyframes must share to be covisible");
   v.Number("max_redundancy", c.max_redundancy, "(0, 1]",
-           "share of points that others see as well");
+           "share of points that others see as well, above which a keyframe is culled");
   v.Integer("redundant_views", c.redundant_views, "[1, 1000]",
-            "other keyframes that must see a point");
+            "other keyframes that must see a point for it to count as redundant");
 }
 
 /// Keeps the frame in the map: its matched points get an observation, its unmatched features

@@ -96,8 +96,6 @@ LocalBundleReport SolveWindow(BundleWindow& window, const LocalBundleConfig& con
   LocalBundleReport report;
   report.keyframes = static_cast<int>(window.free_count);
   report.fixed_keyframes = static_cast<int>(window.keyframes.size() - window.free_count);
-  report.points = static_cast<int>(window.points.size());
-  report.observations = static_cast<int>(window.observations.size());
   if (window.free_count == 0 || window.observations.empty()) return report;
 
   Solver solver(window, config);
@@ -107,7 +105,6 @@ LocalBundleReport SolveWindow(BundleWindow& window, const LocalBundleConfig& con
   const ceres::Solver::Summary last = solver.Solve(false, config.last_iterations);
   solver.Classify();
   report.initial_cost = first.initial_cost;
-  report.final_cost = last.final_cost;
   report.usable = first.IsSolutionUsable() && last.IsSolutionUsable() && AllFinite(window);
   if (!report.usable) return report;
   report.outliers = static_cast<int>(

@@ -10,29 +10,31 @@ namespace slam {
 
 /// Bounds and weights of the local bundle adjustment.
 struct LocalBundleConfig {
-  double depth_sigma_px = 0.3;   ///< of the virtual disparity, octave 0; domain (0, inf)
-  int max_keyframes = 10;        ///< poses that move; domain [1, inf)
-  int max_fixed_keyframes = 20;  ///< poses that hold the window in place; domain [1, inf)
-  int first_iterations = 5;      ///< with Huber's weights, before outliers are left out
-  int last_iterations = 5;       ///< plain, after it
+  double depth_sigma_px = 0.3;
+  int max_keyframes = 10;
+  int max_fixed_keyframes = 20;
+  int first_iterations = 5;
+  int last_iterations = 5;
 };
 
 inline void VisitFields(LocalBundleConfig& c, FieldVisitor& v) {
   v.Number("depth_sigma_px", c.depth_sigma_px, "(0, inf)",
-           "of the virtual disparity, octave 0");
-  v.Integer("max_keyframes", c.max_keyframes, "[1, 1000]", "poses that move");
+           "standard deviation of the virtual disparity at octave 0");
+  v.Integer("max_keyframes", c.max_keyframes, "[1, 1000]",
+            "largest number of keyframes whose poses are adjusted");
   v.Integer("max_fixed_keyframes", c.max_fixed_keyframes, "[1, 1000]",
-            "poses that hold the window");
+            "largest number of keyframes that hold the adjusted ones in place");
   v.Integer("first_iterations", c.first_iterations, "[0, 1000]",
-            "robust, before outliers are left out");
-  v.Integer("last_iterations", c.last_iterations, "[0, 1000]", "plain, after it");
+            "iterations with Huber's weights, before outliers are left out");
+  v.Integer("last_iterations", c.last_iterations, "[0, 1000]",
+            "iterations with plain squares, after outliers are left out");
 }
 
 /// Size and outcome of one adjustment.
 struct LocalBundleReport {
-  int keyframes = 0, fixed_keyframes = 0, points = 0, observations = 0;
+  int keyframes = 0, fixed_keyframes = 0;
   int outliers = 0;  ///< observations taken back
-  double initial_cost = 0.0, final_cost = 0.0;
+  double initial_cost = 0.0;
   bool usable = false;  ///< solved and finite; otherwise the map is as before
 };
 

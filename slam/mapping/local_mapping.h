@@ -17,17 +17,10 @@ struct LocalMappingConfig {
   LocalBundleConfig bundle;
 };
 
-/// What local mapping did with a keyframe.
-struct LocalMappingReport {
-  int culled_points = 0, triangulated = 0, fused = 0, culled_keyframes = 0;
-  LocalBundleReport bundle;
-};
-
 /// Brings the map around a new keyframe in order: young points are culled, points triangulated
 /// and fused, poses and points adjusted, keyframes that add nothing culled.
 /// Source: Mur-Artal and Tardos 2017, local mapping.
-LocalMappingReport MapLocally(Map& map, int keyframe, const Camera& camera,
-                              const FeatureScale& scale, const LocalMappingConfig& config,
-                              const MapTurn& turn = AtOnce);
+void MapLocally(Map& map, int keyframe, const Camera& camera, const FeatureScale& scale,
+                const LocalMappingConfig& config, const MapTurn& turn = AtOnce);
 
 }  // namespace slam

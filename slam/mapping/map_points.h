@@ -33,15 +33,20 @@ void UpdatePoint(Map& map, int point, const FeatureScale& scale);
 
 /// Rules by which young points prove themselves.
 struct PointCullingConfig {
-  double min_found_ratio = 0.25;  ///< found over expected; domain [0, 1]
-  int trial_keyframes = 3;        ///< keyframes during which a point is young; domain [1, 100]
-  int min_weight = 4;             ///< ObservationWeight wanted after two keyframes
+  // Mur-Artal, Montiel, Tardos 2015.
+  double min_found_ratio = 0.25;
+  int trial_keyframes = 3;
+  int min_weight = 4;  // two keyframes that see it with depth
 };
 
 inline void VisitFields(PointCullingConfig& c, FieldVisitor& v) {
-  v.Number("min_found_ratio", c.min_found_ratio, "[0, 1]", "found over expected");
-  v.Integer("trial_keyframes", c.trial_keyframes, "[1, 100]", "during which a point is young");
-  v.Integer("min_weight", c.min_weight, "[1, 1000]", "wanted after two keyframes");
+  v.Number("min_found_ratio", c.min_found_ratio, "[0, 1]",
+           "share of the frames that should see a young point, in which it must be found");
+  v.Integer("trial_keyframes", c.trial_keyframes, "[1, 100]",
+            "number of keyframes during which a point is young");
+  v.Integer("min_weight", c.min_weight, "[1, 1000]",
+            "evidence that a point needs after two keyframes: 2 for each observation with "
+            "depth, 1 for each without");
 }
 
 /// Culls young points that are seldom found where they should be, or that no second keyframe

@@ -9,15 +9,18 @@ namespace slam {
 
 /// When two points are one.
 struct PointFusionConfig {
-  double radius_px = 3.0;  ///< search around the projection, octave 0
-  int max_distance = 50;   ///< differing bits of the descriptors
-  int neighbours = 8;      ///< keyframes tried; domain [0, inf)
+  double radius_px = 3.0;
+  int max_distance = 50;  // Mur-Artal, Montiel, Tardos 2015, for matches that must be sure
+  int neighbours = 8;
 };
 
 inline void VisitFields(PointFusionConfig& c, FieldVisitor& v) {
-  v.Number("radius_px", c.radius_px, "(0, inf)", "search around the projection, octave 0");
-  v.Integer("max_distance", c.max_distance, "[0, 256]", "differing bits");
-  v.Integer("neighbours", c.neighbours, "[0, 1000]", "keyframes tried");
+  v.Number("radius_px", c.radius_px, "(0, inf)",
+           "radius of the search around the projected point, at octave 0");
+  v.Integer("max_distance", c.max_distance, "[0, 256]",
+            "largest number of bits in which the two descriptors differ");
+  v.Integer("neighbours", c.neighbours, "[0, 1000]",
+            "number of covisible keyframes that points are exchanged with");
 }
 
 /// Projects the points of `keyframe` into covisible keyframes and theirs into it. Where a point

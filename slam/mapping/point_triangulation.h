@@ -11,17 +11,21 @@ namespace slam {
 
 /// When two views make a point.
 struct TriangulationConfig {
-  int max_distance = 50;           ///< differing bits of the descriptors
-  double max_ratio = 0.8;          ///< best over second best
-  double min_parallax_rad = 0.02;  ///< between the two rays; domain (0, pi)
-  int neighbours = 5;              ///< keyframes tried; domain [0, inf)
+  int max_distance = 50;   // Mur-Artal, Montiel, Tardos 2015, for matches that must be sure
+  double max_ratio = 0.8;  // Lowe 2004
+  double min_parallax_rad = 0.02;
+  int neighbours = 5;
 };
 
 inline void VisitFields(TriangulationConfig& c, FieldVisitor& v) {
-  v.Integer("max_distance", c.max_distance, "[0, 256]", "differing bits");
-  v.Number("max_ratio", c.max_ratio, "(0, 1]", "best over second best");
-  v.Degrees("min_parallax_deg", c.min_parallax_rad, "(0, 180)", "between the two rays");
-  v.Integer("neighbours", c.neighbours, "[0, 1000]", "keyframes tried");
+  v.Integer("max_distance", c.max_distance, "[0, 256]",
+            "largest number of bits in which the two descriptors differ");
+  v.Number("max_ratio", c.max_ratio, "(0, 1]",
+           "largest ratio of the best descriptor distance to the second best");
+  v.Degrees("min_parallax_deg", c.min_parallax_rad, "(0, 180)",
+            "smallest angle between the two rays");
+  v.Integer("neighbours", c.neighbours, "[0, 1000]",
+            "number of covisible keyframes that points are triangulated with");
 }
 
 /// Point nearest to the rays of two ideal pixels (midpoint of the common perpendicular), world;

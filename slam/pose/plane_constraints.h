@@ -10,37 +10,43 @@ namespace slam {
 
 /// What the plane factors of the pose optimisation are worth, and when they are added.
 struct PlaneConstraintConfig {
-  double plane_offset_floor_m = 0.003;  ///< of f_pi; domain (0, inf)
-  double plane_angle_floor_rad = 0.01;  ///< of f_pi; domain (0, inf)
-  double point_plane_sigma_m = 0.01;    ///< of f_p_pi; domain (0, inf)
-  double points_per_plane = 10.0;  ///< a plane's points weigh no more than so many together
-  double box_sigma_px = 8.0;       ///< of f_b_pi; domain (0, inf)
-  double max_box_gap_px =
-      8.0;  ///< a box side farther from the plane's own pixels is not its edge
-  double max_direction_angle_rad = 0.05;  ///< how far from parallel or a right angle; (0, 0.5)
-  double max_direction_sigmas = 2.0;      ///< and by its own uncertainty
-  double direction_sigma_rad = 0.03;      ///< of f_pi_p and f_pi_v: structure is a hypothesis
-  double min_direction_area_m2 = 0.05;    ///< of both planes
-  int min_direction_observations = 5;     ///< of the map plane
+  double plane_offset_floor_m = 0.003;
+  double plane_angle_floor_rad = 0.01;
+  double point_plane_sigma_m = 0.01;
+  double points_per_plane = 10.0;  // all points of a plane share its error
+  double box_sigma_px = 8.0;
+  double max_box_gap_px = 8.0;
+  double max_direction_angle_rad = 0.05;
+  double max_direction_sigmas = 2.0;  // passes 95 % of the pairs that are as supposed
+  double direction_sigma_rad = 0.03;  // structure is a hypothesis: weaker than f_pi
+  double min_direction_area_m2 = 0.05;
+  int min_direction_observations = 5;
 };
 
 inline void VisitFields(PlaneConstraintConfig& c, FieldVisitor& v) {
-  v.Number("plane_offset_floor_m", c.plane_offset_floor_m, "(0, inf)", "of f_pi");
-  v.Degrees("plane_angle_floor_deg", c.plane_angle_floor_rad, "(0, 90)", "of f_pi");
-  v.Number("point_plane_sigma_m", c.point_plane_sigma_m, "(0, inf)", "of f_p_pi");
+  v.Number("plane_offset_floor_m", c.plane_offset_floor_m, "(0, inf)",
+           "smallest standard deviation of an offset in f_pi (eq16)");
+  v.Degrees("plane_angle_floor_deg", c.plane_angle_floor_rad, "(0, 90)",
+            "smallest standard deviation of a normal in f_pi (eq16)");
+  v.Number("point_plane_sigma_m", c.point_plane_sigma_m, "(0, inf)",
+           "standard deviation of a point's distance from its plane in f_p_pi (eq18)");
   v.Number("points_per_plane", c.points_per_plane, "(0, inf)",
-           "a plane's points weigh no more together");
-  v.Number("box_sigma_px", c.box_sigma_px, "(0, inf)", "of f_b_pi");
+           "number of points that all points of a plane together weigh at most");
+  v.Number("box_sigma_px", c.box_sigma_px, "(0, inf)",
+           "standard deviation of a box side in f_b_pi (eq17)");
   v.Number("max_box_gap_px", c.max_box_gap_px, "[0, inf)",
-           "a farther box side is not the plane's edge");
+           "gap between a box side and the plane's own pixels beyond which the side is not "
+           "the plane's edge");
   v.Degrees("max_direction_angle_deg", c.max_direction_angle_rad, "(0, 28)",
-            "from parallel or a right angle");
+            "largest angle by which two planes miss being parallel or at a right angle");
   v.Number("max_direction_sigmas", c.max_direction_sigmas, "(0, inf)",
-           "the same, by its own uncertainty");
-  v.Degrees("direction_sigma_deg", c.direction_sigma_rad, "(0, 90)", "of f_pi_p and f_pi_v");
-  v.Number("min_direction_area_m2", c.min_direction_area_m2, "[0, inf)", "of both planes");
+           "the same bound, in standard deviations of the measured angle");
+  v.Degrees("direction_sigma_deg", c.direction_sigma_rad, "(0, 90)",
+            "standard deviation of f_pi_p and f_pi_v (eq19, eq20), besides the measured one");
+  v.Number("min_direction_area_m2", c.min_direction_area_m2, "[0, inf)",
+           "smallest area of both planes of f_pi_p and f_pi_v");
   v.Integer("min_direction_observations", c.min_direction_observations, "[1, 100000]",
-            "of the map plane");
+            "smallest number of observations of the map plane of f_pi_p and f_pi_v");
 }
 
 /// The constraint of one matched pair, with the uncertainty of both sides.

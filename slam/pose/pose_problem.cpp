@@ -191,11 +191,9 @@ PoseSummary OptimisePose(const PoseProblem& problem, const Camera& camera,
 
   Evaluator evaluate(problem, camera, scale, config);
   out.initial_cost = evaluate(problem.T_cw).cost;
-  SolveSummary solved;
   for (int round = 0; round < config.rounds; ++round) {
     evaluate.robust_points = config.rounds == 1 || round + 1 < config.rounds;
-    solved = SolvePose(out.T_cw, config.iterations, evaluate);
-    out.iterations += solved.iterations;
+    const SolveSummary solved = SolvePose(out.T_cw, config.iterations, evaluate);
     if (!solved.finite || !FinitePose(solved.T_cw)) return out;
     out.T_cw = solved.T_cw;
     const std::vector<bool> before = evaluate.used;
@@ -206,7 +204,6 @@ PoseSummary OptimisePose(const PoseProblem& problem, const Camera& camera,
   const NormalEquations last = evaluate(out.T_cw);
   out.information = last.H.selfadjointView<Eigen::Upper>();
   out.point_inliers = evaluate.used;
-  out.final_cost = last.cost;
   out.nullity = Nullity(out.information);
   out.usable = out.nullity == 0 && std::isfinite(last.cost);
   return out;

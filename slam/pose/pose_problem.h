@@ -54,23 +54,26 @@ struct DirectionConstraint {
 };
 
 struct PoseProblemConfig {
-  int rounds = 4;             ///< optimise, then reclassify outliers; domain [1, 10]
-  int iterations = 10;        ///< Levenberg-Marquardt steps a round; domain [1, 100]
-  double huber_planes = 2.0;  ///< Huber threshold of the plane factors, in sigmas
+  int rounds = 4;  // Mur-Artal and Tardos 2017, with iterations
+  int iterations = 10;
+  double huber_planes = 2.0;
   bool use_planes = true, use_boxes = true, use_point_planes = true;
   bool use_parallel = true, use_perpendicular = true;
 };
 
 inline void VisitFields(PoseProblemConfig& c, FieldVisitor& v) {
-  v.Integer("rounds", c.rounds, "[1, 10]", "optimise, then reclassify outliers");
-  v.Integer("iterations", c.iterations, "[1, 100]", "Levenberg-Marquardt steps a round");
+  v.Integer("rounds", c.rounds, "[1, 10]",
+            "number of rounds; after each, points are classified as inliers or outliers");
+  v.Integer("iterations", c.iterations, "[1, 100]",
+            "largest number of Levenberg-Marquardt steps in a round");
   v.Number("huber_planes", c.huber_planes, "(0, inf)",
-           "Huber threshold of plane factors, sigmas");
-  v.Flag("use_planes", c.use_planes, "f_pi: map plane seen as frame plane");
-  v.Flag("use_boxes", c.use_boxes, "f_b_pi: projected corners against boxes");
-  v.Flag("use_point_planes", c.use_point_planes, "f_p_pi: map points on planes");
-  v.Flag("use_parallel", c.use_parallel, "f_pi_p: parallel planes");
-  v.Flag("use_perpendicular", c.use_perpendicular, "f_pi_v: perpendicular planes");
+           "Huber's threshold for the plane factors, in standard deviations");
+  v.Flag("use_planes", c.use_planes, "f_pi: a map plane seen as a frame plane");
+  v.Flag("use_boxes", c.use_boxes, "f_b_pi: projected corners against a detection box");
+  v.Flag("use_point_planes", c.use_point_planes, "f_p_pi: a map point on a frame plane");
+  v.Flag("use_parallel", c.use_parallel, "f_pi_p: a map plane parallel to a frame plane");
+  v.Flag("use_perpendicular", c.use_perpendicular,
+         "f_pi_v: a map plane perpendicular to a frame plane");
 }
 
 /// Everything that constrains one camera pose, eq13.
@@ -89,10 +92,9 @@ struct PoseSummary {
   int nullity = 6;                  ///< directions of the pose that nothing constrains, 0 to 6
   std::vector<bool> point_inliers;  ///< parallel to PoseProblem::points
   int inlier_count = 0;
-  double initial_cost = 0.0, final_cost = 0.0;
-  int iterations = 0;
-  Matrix6d information =
-      Matrix6d::Zero();  ///< J^T W J at the solution; perturbation: T <- Exp(xi) T
+  double initial_cost = 0.0;
+  /// J^T W J at the solution, for T <- Exp(xi) T.
+  Matrix6d information = Matrix6d::Zero();
 };
 
 /// Minimises eq13 over the camera pose by Levenberg-Marquardt with Huber weights, in rounds:

@@ -17,8 +17,6 @@ struct NormalEquations {
 struct SolveSummary {
   Pose T_cw;
   NormalEquations at;  ///< at the solution, H symmetric
-  int iterations = 0;
-  bool converged = false;
   bool finite = true;  ///< false: the cost was not finite at the first guess
 };
 
@@ -47,19 +45,21 @@ SolveSummary SolvePose(const Pose& T_cw, int max_iterations, const Evaluate& eva
   out.at = evaluate(T_cw);
   out.finite = solve_detail::Finite(out.at);
   double lambda = kFirstLambda;
-  for (; out.finite && !out.converged && out.iterations < max_iterations; ++out.iterations) {
+  bool converged = false;
+  for (int trial_step = 0; out.finite && !converged && trial_step < max_iterations;
+       ++trial_step) {
     const Vector6d xi = solve_detail::DampedStep(out.at, lambda);
     if (!xi.allFinite()) break;
     const Pose trial_cw = Exp(xi) * out.T_cw;
     const NormalEquations trial = evaluate(trial_cw);
     const bool small = solve_detail::StepIsSmall(xi);
     if (solve_detail::Finite(trial) && trial.cost < out.at.cost) {
-      out.converged = small || out.at.cost - trial.cost < kMinRelativeDecrease * out.at.cost;
+      converged = small || out.at.cost - trial.cost < kMinRelativeDecrease * out.at.cost;
       out.T_cw = trial_cw;
       out.at = trial;
       lambda = lambda > kMinLambda ? 0.1 * lambda : lambda;
     } else {
-      out.converged = small || !(lambda < kMaxLambda);
+      converged = small || !(lambda < kMaxLambda);
       lambda *= 10;
     }
   }

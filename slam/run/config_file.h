@@ -9,11 +9,10 @@
 namespace slam {
 
 /// Reads settings over `config` (the defaults) from a YAML file: a section a stage, angles in
-/// degrees (keys in _deg). Keys that are absent keep their value; `plane_extraction: sensor:`
-/// chooses the defaults of what stands beside it.
+/// degrees (keys in _deg). Keys that are absent keep their value; `sensor: model:`
+/// chooses the defaults that follow from the sensor.
 /// @throws InputError with file:line for an unknown key (listing the legal ones), a wrong type,
-/// a
-///         value outside its domain, settings that contradict each other.
+///         a value outside its domain, settings that contradict each other.
 Config ReadConfig(const std::filesystem::path& file, Config config = {});
 
 /// Every key with its value, in the file's structure and units; for run.json.

@@ -70,11 +70,6 @@ class RunWriter {
   ///                    by poses that followed the optimised keyframes; empty keeps those
   void Finish(const Map& map, const std::vector<TimedPose>& trajectory = {});
 
-  /// Poses as given to WriteFrame, tracked frames alone.
-  const std::vector<TimedPose>& trajectory() const { return trajectory_; }
-  int frames() const { return frames_; }
-  int tracked() const { return static_cast<int>(trajectory_.size()); }
-
  private:
   void WriteSegmentation(const Frame& frame) const;
   nlohmann::ordered_json RunJson(std::size_t poses) const;
@@ -83,7 +78,7 @@ class RunWriter {
   RunInfo info_;
   Options options_;
   io::AtomicFile frame_planes_, timing_;
-  std::vector<TimedPose> trajectory_;
+  std::vector<TimedPose> trajectory_;  ///< as given to WriteFrame, tracked frames alone
   PairRefusals refused_;
   int frames_ = 0;
   double last_s_ = 0.0;

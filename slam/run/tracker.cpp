@@ -132,7 +132,6 @@ void Tracker::OptimiseWithPlanes(Frame& frame, TrackReport& report) const {
   problem.points = points.constraints;
   AddPlaneConstraints(frame, map_, camera_, config_.association.prior,
                       config_.plane_constraints, problem);
-  report.plane_constraints = static_cast<int>(problem.planes.size());
   if (problem.planes.empty()) return;  // the points alone were optimised before
 
   const PoseSummary summary =

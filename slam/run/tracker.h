@@ -35,11 +35,10 @@ struct TrackReport {
   PointTrackReport points;
   ModuleTimes times;
   bool tracked = false;
-  bool keyframe = false;      ///< the frame was kept
-  int reference = kNone;      ///< keyframe that the pose is tied to, when tracked ...
-  Pose T_cr;                  ///< ... and the camera as seen from it
-  PairRefusals refused;       ///< pairs of frame and map planes, by what refused them
-  int plane_constraints = 0;  ///< frame planes that constrained the pose
+  bool keyframe = false;  ///< the frame was kept
+  int reference = kNone;  ///< keyframe that the pose is tied to, when tracked ...
+  Pose T_cr;              ///< ... and the camera as seen from it
+  PairRefusals refused;   ///< pairs of frame and map planes, by what refused them
 };
 
 /// PAS-SLAM: follows a camera by points and planes and maps both. One frame after the other,

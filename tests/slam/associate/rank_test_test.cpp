@@ -108,9 +108,9 @@ std::vector<Eigen::Vector3d> Cloud(double x, double height, std::uint64_t key) {
 TEST(PlaneRankTest, PassesOneSurfaceAndRefusesOneBesideOrAbove) {
   const auto here = Cloud(0, 0, 1), again = Cloud(0, 0, 2);
   const Eigen::Matrix3d axes = PlaneAxes({Eigen::Vector3d::UnitZ(), 0}, here);
-  EXPECT_GT(TestPlaneRanks(again, here, axes, 6).value().p, 0.01);
-  EXPECT_LT(TestPlaneRanks(Cloud(0.3, 0, 3), here, axes, 6).value().p, 1e-6);
-  EXPECT_LT(TestPlaneRanks(Cloud(0, 0.01, 4), here, axes, 6).value().p, 1e-6);
+  EXPECT_GT(TestPlaneRanks(again, here, axes, 6).value(), 0.01);
+  EXPECT_LT(TestPlaneRanks(Cloud(0.3, 0, 3), here, axes, 6).value(), 1e-6);
+  EXPECT_LT(TestPlaneRanks(Cloud(0, 0.01, 4), here, axes, 6).value(), 1e-6);
 }
 
 TEST(PlaneRankTest, RefusesSamplesThatAreTooSmall) {
