@@ -19,7 +19,8 @@ target_compile_options(pas_settings INTERFACE
   $<$<BOOL:${PAS_WARNINGS_AS_ERRORS}>:-Werror>)
 target_include_directories(pas_settings INTERFACE ${PROJECT_SOURCE_DIR})
 if(PAS_SANITIZE)
-  target_compile_options(pas_settings INTERFACE -fsanitize=${PAS_SANITIZE} -fno-omit-frame-pointer)
+  target_compile_options(pas_settings INTERFACE
+    -fsanitize=${PAS_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer)
   target_link_options(pas_settings INTERFACE -fsanitize=${PAS_SANITIZE})
 endif()
 
@@ -118,6 +119,9 @@ function(pas_test name)
   target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>)
   if(NOT ARG_TIMEOUT)
     set(ARG_TIMEOUT 120)
+  endif()
+  if(PAS_SANITIZE)
+    math(EXPR ARG_TIMEOUT "10 * ${ARG_TIMEOUT}")  # several times slower, and on machines that are shared
   endif()
   if(NOT ARG_CASES)
     set(ARG_CASES 100)

@@ -67,30 +67,13 @@ bool Ignored(const ScoredFrame& f, int truth_id) {
 /// Labels of both without what is ignored: true planes too small or too slanted to be asked
 /// for, and what was found on them.
 eval::Overlap OverlapOf(const ScoredFrame& f) {
-  std::array<std::uint16_t, 256> machine_of{};
+  std::map<int, int> region_of;
   for (const slam::FramePlane& plane : f.found.planes) {
     const auto truth = f.truth_of.find(plane.index);
-    if (truth == f.truth_of.end() || Ignored(f, truth->second)) continue;
-    if (plane.bad) continue;
-    machine_of[static_cast<std::size_t>(plane.index + 1)] =
-        static_cast<std::uint16_t>(plane.index + 1);
+    if (truth == f.truth_of.end() || Ignored(f, truth->second) || plane.bad) continue;
+    region_of[plane.index + 1] = plane.index + 1;
   }
-  std::vector<std::uint16_t> truth_of(65536, 0);
-  std::vector<bool> is_void(65536, false);
-  for (const eval::SeenPlane& seen : f.truth.planes) {
-    const auto id = static_cast<std::size_t>(seen.plane->id);
-    if (seen.counted) truth_of[id] = static_cast<std::uint16_t>(id);
-    is_void[id] = !seen.counted;
-  }
-  cv::Mat1w truth(f.labels.size()), machine(f.labels.size());
-  for (int v = 0; v < truth.rows; ++v) {
-    for (int u = 0; u < truth.cols; ++u) {
-      const std::uint16_t id = (*f.truth.plane_ids)(v, u);
-      truth(v, u) = truth_of[id];
-      machine(v, u) = is_void[id] ? std::uint16_t{0} : machine_of[f.labels(v, u)];
-    }
-  }
-  return eval::CountOverlap(truth, machine);
+  return eval::CountedOverlap(f.truth, f.labels, region_of);
 }
 
 /// A found region holds 80 % of the true one, and the true one 80 % of it.

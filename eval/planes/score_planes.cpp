@@ -41,29 +41,11 @@ bool Decided(const RunFramePlane& plane) {
 /// label of a frame plane, 0 to leave it out.
 template <typename LabelOf>
 Overlap OverlapOf(const FrameEvidence& e, const LabelOf& label_of) {
-  std::map<int, int> label_of_pixel;  // segmentation value -> machine label
+  std::map<int, int> region_of;
   for (const RunFramePlane& plane : e.planes) {
-    if (!e.Ignored(e.TruthOf(plane))) label_of_pixel[plane.index + 1] = label_of(plane);
+    if (!e.Ignored(e.TruthOf(plane))) region_of[plane.index + 1] = label_of(plane);
   }
-  std::vector<std::uint16_t> machine_table(65536, 0), truth_table(65536, 0);
-  std::vector<bool> is_void(65536, false);
-  for (const auto& [value, label] : label_of_pixel) {
-    machine_table[std::size_t(value)] = static_cast<std::uint16_t>(label);
-  }
-  for (const SeenPlane& seen : e.truth.planes) {
-    const auto id = static_cast<std::uint16_t>(seen.plane->id);
-    is_void[id] = !seen.counted;
-    if (seen.counted) truth_table[id] = id;
-  }
-  cv::Mat1w truth(e.segmentation->size()), machine(e.segmentation->size());
-  for (int y = 0; y < truth.rows; ++y) {
-    for (int x = 0; x < truth.cols; ++x) {
-      const std::uint16_t id = (*e.truth.plane_ids)(y, x);
-      truth(y, x) = truth_table[id];
-      machine(y, x) = is_void[id] ? std::uint16_t(0) : machine_table[(*e.segmentation)(y, x)];
-    }
-  }
-  return CountOverlap(truth, machine);
+  return CountedOverlap(e.truth, *e.segmentation, region_of);
 }
 
 class PlaneScorer {

@@ -2,11 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <numbers>
 #include <stdexcept>
+#include <vector>
 
-#include "eval/planes/overlap.h"
 #include "eval/planes/polygon.h"
 
 namespace eval {
@@ -59,6 +60,30 @@ int TruthByGeometry(const TrueFrame& frame, const RunFramePlane& plane) {
     least_gap_m = c.gap_m;
   }
   return truth;
+}
+
+Overlap CountedOverlap(const TrueFrame& frame, const cv::Mat1w& segmentation,
+                       const std::map<int, int>& region_of) {
+  constexpr std::size_t kLabels = std::size_t{1} << 16;  // all that a pixel can hold
+  std::vector<std::uint16_t> machine_table(kLabels, 0), truth_table(kLabels, 0);
+  std::vector<bool> is_void(kLabels, false);
+  for (const auto& [label, region] : region_of) {
+    machine_table[static_cast<std::size_t>(label)] = static_cast<std::uint16_t>(region);
+  }
+  for (const SeenPlane& seen : frame.planes) {
+    const auto id = static_cast<std::uint16_t>(seen.plane->id);
+    is_void[id] = !seen.counted;
+    if (seen.counted) truth_table[id] = id;
+  }
+  cv::Mat1w truth(segmentation.size()), machine(segmentation.size());
+  for (int y = 0; y < truth.rows; ++y) {
+    for (int x = 0; x < truth.cols; ++x) {
+      const std::uint16_t id = (*frame.plane_ids)(y, x);
+      truth(y, x) = truth_table[id];
+      machine(y, x) = is_void[id] ? std::uint16_t{0} : machine_table[segmentation(y, x)];
+    }
+  }
+  return CountOverlap(truth, machine);
 }
 
 }  // namespace eval

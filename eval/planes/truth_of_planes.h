@@ -3,6 +3,7 @@
 #include <map>
 
 #include "eval/formats/frame_planes.h"
+#include "eval/planes/overlap.h"
 #include "eval/planes/true_frame.h"
 
 namespace eval {
@@ -24,5 +25,12 @@ std::map<int, int> TruthByPixels(const TrueFrame& frame, const cv::Mat1w& segmen
 /// (at most kMaxTruthOffset_m; equal within kSameOffset_m), and of these the one whose polygon
 /// is nearest to the centroid (at most kMaxTruthGap_m). 0 if there is none.
 int TruthByGeometry(const TrueFrame& frame, const RunFramePlane& plane);
+
+/// Overlap of the true planes that count with regions of the machine; pixels of true planes that do
+/// not count belong to no region.
+/// @param segmentation  any labels, as large as the image of plane ids
+/// @param region_of     the region by label; a label that is not in it is none
+Overlap CountedOverlap(const TrueFrame& frame, const cv::Mat1w& segmentation,
+                       const std::map<int, int>& region_of);
 
 }  // namespace eval

@@ -28,6 +28,18 @@ std::vector<double> PathLengths(const std::vector<Pose>& poses) {
   return lengths_m;
 }
 
+/// Each place but the last with the later one that is nearest to `delta` further on, if it is within
+/// the tolerance. `places` rise.
+std::vector<PosePair> PairsAlong(const std::vector<double>& places, double delta,
+                                 double tolerance) {
+  std::vector<PosePair> pairs;
+  for (std::size_t i = 0; i + 1 < places.size(); ++i) {
+    const std::size_t j = Nearest(places, i + 1, places[i] + delta);
+    if (std::abs(places[j] - places[i] - delta) <= tolerance) pairs.emplace_back(i, j);
+  }
+  return pairs;
+}
+
 std::vector<PosePair> PairsOfMarks(const std::vector<Pose>& poses, double delta_m) {
   std::vector<PosePair> pairs;
   double path_m = 0.0;
@@ -57,14 +69,7 @@ std::vector<PosePair> PairsByFrames(std::size_t count, std::size_t delta, PairMo
 std::vector<PosePair> PairsByPath(const std::vector<Pose>& poses, double delta_m,
                                   double tolerance_m, PairMode mode) {
   if (mode == PairMode::kConsecutive) return PairsOfMarks(poses, delta_m);
-  std::vector<PosePair> pairs;
-  const std::vector<double> lengths_m = PathLengths(poses);
-  for (std::size_t i = 0; i + 1 < poses.size(); ++i) {
-    const std::size_t j = Nearest(lengths_m, i + 1, lengths_m[i] + delta_m);
-    if (std::abs(lengths_m[j] - lengths_m[i] - delta_m) <= tolerance_m)
-      pairs.emplace_back(i, j);
-  }
-  return pairs;
+  return PairsAlong(PathLengths(poses), delta_m, tolerance_m);
 }
 
 std::vector<PosePair> PairsByAngle(const std::vector<Pose>& poses, double delta_rad,
@@ -95,12 +100,7 @@ std::vector<PosePair> PairsByAngle(const std::vector<Pose>& poses, double delta_
 
 std::vector<PosePair> PairsByTime(const std::vector<double>& stamps_s, double delta_s,
                                   double tolerance_s) {
-  std::vector<PosePair> pairs;
-  for (std::size_t i = 0; i + 1 < stamps_s.size(); ++i) {
-    const std::size_t j = Nearest(stamps_s, i + 1, stamps_s[i] + delta_s);
-    if (std::abs(stamps_s[j] - stamps_s[i] - delta_s) <= tolerance_s) pairs.emplace_back(i, j);
-  }
-  return pairs;
+  return PairsAlong(stamps_s, delta_s, tolerance_s);
 }
 
 }  // namespace eval

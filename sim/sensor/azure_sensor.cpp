@@ -126,11 +126,7 @@ cv::Mat1d MeasureDepth(const Rendering& rendering, const AzureModel& model,
                        const Camera& camera, const PixelNoise& noise,
                        const PixelNoise& session) {
   const AzureSensor sensor(rendering, model, camera, noise, session);
-  cv::Mat1d measured(rendering.depth_m.size());
-  for (int v = 0; v < measured.rows; ++v) {
-    for (int u = 0; u < measured.cols; ++u) measured(v, u) = sensor.At(u, v);
-  }
-  return measured;
+  return MeasureEach(sensor, rendering.depth_m.size());
 }
 
 }  // namespace sim

@@ -73,6 +73,11 @@ class D435Sensor {
     }
   }
 
+  /// The pixels of the image at most `reach` rows and columns away.
+  cv::Rect Window(int u, int v, int reach) const {
+    return cv::Rect(u - reach, v - reach, 2 * reach + 1, 2 * reach + 1) & cv::Rect({}, size_);
+  }
+
   cv::Point NearestThing(int u, int v, int reach) const {
     const cv::Point here(u, v);
     if (!(rendering_.depth_m(here) > 0)) return here;
@@ -81,8 +86,9 @@ class D435Sensor {
     const double threshold = Disparity(rendering_.depth_m(here)) + model_.max_mixed_px;
     cv::Point best = here;
     int best_distance2 = 3 * reach * reach;
-    for (int y = std::max(0, v - reach); y <= std::min(size_.height - 1, v + reach); ++y) {
-      for (int x = std::max(0, u - reach); x <= std::min(size_.width - 1, u + reach); ++x) {
+    const cv::Rect window = Window(u, v, reach);
+    for (int y = window.y; y < window.br().y; ++y) {
+      for (int x = window.x; x < window.br().x; ++x) {
         const double z = rendering_.depth_m(y, x);
         if (!(z > 0) || !(Disparity(z) > threshold)) continue;
         const int distance2 = (x - u) * (x - u) + (y - v) * (y - v);
@@ -108,8 +114,9 @@ class D435Sensor {
     const int reach = model_.window_px / 2;
     const double own = Disparity(rendering_.depth_m(seen_(v, u)));
     int same = 0, others = 0;
-    for (int y = std::max(0, v - reach); y <= std::min(size_.height - 1, v + reach); ++y) {
-      for (int x = std::max(0, u - reach); x <= std::min(size_.width - 1, u + reach); ++x) {
+    const cv::Rect window = Window(u, v, reach);
+    for (int y = window.y; y < window.br().y; ++y) {
+      for (int x = window.x; x < window.br().x; ++x) {
         const double z = rendering_.depth_m(seen_(y, x));
         const bool own_surface =
             z > 0 && (std::abs(Disparity(z) - own) <= model_.max_mixed_px ||
@@ -162,11 +169,7 @@ double D435Sigma(double z_m, const D435Model& model) {
 cv::Mat1d MeasureDepth(const Rendering& rendering, const D435Model& model, const Camera& camera,
                        const PixelNoise& noise) {
   const D435Sensor sensor(rendering, model, camera, noise);
-  cv::Mat1d measured(rendering.depth_m.size());
-  for (int v = 0; v < measured.rows; ++v) {
-    for (int u = 0; u < measured.cols; ++u) measured(v, u) = sensor.At(u, v);
-  }
-  return measured;
+  return MeasureEach(sensor, rendering.depth_m.size());
 }
 
 }  // namespace sim

@@ -68,6 +68,16 @@ inline bool SameSurface(const Rendering& rendering, cv::Point a, cv::Point b) {
          rendering.object_id(a) == rendering.object_id(b);
 }
 
+/// An image of what the sensor measures at each pixel.
+template <typename Sensor>
+cv::Mat1d MeasureEach(const Sensor& sensor, cv::Size size) {
+  cv::Mat1d measured(size);
+  for (int v = 0; v < measured.rows; ++v) {
+    for (int u = 0; u < measured.cols; ++u) measured(v, u) = sensor.At(u, v);
+  }
+  return measured;
+}
+
 /// z rounded to whole multiples of step_m; unchanged when step_m is 0.
 double RoundDepth(double z_m, double step_m);
 

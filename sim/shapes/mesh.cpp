@@ -59,13 +59,18 @@ Eigen::Vector3d Smoothed(const std::vector<Eigen::Vector3d>& round_vertex,
   return sum.normalized();
 }
 
+/// Normal of a triangle, as long as twice its area.
+Eigen::Vector3d FaceNormal(const std::vector<Eigen::Vector3d>& vertices,
+                           const std::array<int, 3>& t) {
+  const auto corner = [&](int i) { return vertices[static_cast<std::size_t>(i)]; };
+  return (corner(t[1]) - corner(t[0])).cross(corner(t[2]) - corner(t[0]));
+}
+
 void AddBody(const Object& object, SceneMesh& mesh) {
   const ClosedSurface body = BodyOf(object);
   const Pose T_wo = ObjectPose(object);
   const auto corner = [&](int i) { return body.vertices_o[static_cast<std::size_t>(i)]; };
-  const auto face_normal = [&](const std::array<int, 3>& t) -> Eigen::Vector3d {
-    return (corner(t[1]) - corner(t[0])).cross(corner(t[2]) - corner(t[0]));
-  };
+  const auto face_normal = [&](const auto& t) { return FaceNormal(body.vertices_o, t); };
   const bool creased = object.shape != ShapeKind::kToy;
   std::vector<Eigen::Vector3d> normals_o(body.vertices_o.size(), Eigen::Vector3d::Zero());
   std::vector<std::vector<Eigen::Vector3d>> faces_o(body.vertices_o.size());
@@ -130,9 +135,7 @@ void AddModel(const Object& object, int& plane_id, SceneMesh& mesh) {
   const Model& model = *object.model;
   const Pose T_wo = ObjectPose(object);
   const auto corner = [&](int i) { return model.vertices_o[static_cast<std::size_t>(i)]; };
-  const auto face_normal = [&](const std::array<int, 3>& t) -> Eigen::Vector3d {
-    return (corner(t[1]) - corner(t[0])).cross(corner(t[2]) - corner(t[0]));
-  };
+  const auto face_normal = [&](const auto& t) { return FaceNormal(model.vertices_o, t); };
   std::vector<std::vector<Eigen::Vector3d>> faces_o(model.vertices_o.size());
   for (const auto& t : model.triangles) {
     for (const int i : t) faces_o[static_cast<std::size_t>(i)].push_back(face_normal(t));

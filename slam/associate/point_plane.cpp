@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "slam/geometry/pixel_projection.h"
+#include "slam/model/map_queries.h"
 
 namespace slam {
 namespace {
@@ -41,15 +42,10 @@ std::vector<PointPlaneMatch> AssociatePointsToPlanes(const Frame& frame, const M
                                                      const Camera& camera,
                                                      double max_distance_m) {
   std::vector<PointPlaneMatch> matches;
-  const std::size_t count = std::min(frame.features.size(), frame.map_points.size());
-  for (std::size_t i = 0; i < count; ++i) {
-    const int id = frame.map_points[i];
-    if (id == kNone || id >= static_cast<int>(map.points.size())) continue;
-    const MapPoint& point = map.points[static_cast<std::size_t>(id)];
-    if (point.culled) continue;
-    const Eigen::Vector3d x_c = frame.T_cw * point.p_w;
+  for (const auto& [feature, id] : MatchedPoints(frame, map)) {
+    const Eigen::Vector3d x_c = frame.T_cw * map.points[static_cast<std::size_t>(id)].p_w;
     const Eigen::Vector2i pixel =
-        RecordedPixel(camera, camera.Backproject(frame.features[i].u_px, 1.0));
+        RecordedPixel(camera, camera.Backproject(frame.features[feature].u_px, 1.0));
     if (pixel.x() < 0) continue;
     const int plane = PlaneAt(frame, pixel, x_c, max_distance_m);
     if (plane >= 0) matches.push_back({id, plane});

@@ -32,10 +32,7 @@ std::vector<int> Witnesses(const Map& map, const std::vector<int>& points,
       if (inside.count(keyframe) == 0) ++seen[keyframe];
     }
   }
-  std::vector<int> witnesses;
-  for (const auto& [keyframe, shared] : seen) witnesses.push_back(keyframe);
-  std::stable_sort(witnesses.begin(), witnesses.end(),
-                   [&](int a, int b) { return seen.at(a) > seen.at(b); });
+  std::vector<int> witnesses = MostCountedFirst(seen);
   if (witnesses.size() > Index(count)) witnesses.resize(Index(count));
   std::sort(witnesses.begin(), witnesses.end());
   return witnesses;

@@ -11,6 +11,7 @@
 #include "slam/mapping/plane_trial.h"
 #include "slam/mapping/plane_vertices.h"
 #include "slam/model/class_belief.h"
+#include "slam/model/map_queries.h"
 
 namespace slam {
 namespace {
@@ -110,20 +111,15 @@ void UpdateCovisibility(const std::vector<int>& landmark, Map& map) {
 void UpdateMapPoints(const Frame& frame, const std::vector<int>& landmark, const Camera& camera,
                      double max_distance_m, Map& map) {
   if (frame.plane_labels.empty()) return;
-  const std::size_t count = std::min(frame.features.size(), frame.map_points.size());
-  for (std::size_t i = 0; i < count; ++i) {
-    const int id = frame.map_points[i];
-    if (id == kNone || id >= static_cast<int>(map.points.size())) continue;
+  for (const auto& [feature, id] : MatchedPoints(frame, map)) {
     const Eigen::Vector2i u =
-        RecordedPixel(camera, camera.Backproject(frame.features[i].u_px, 1.0));
+        RecordedPixel(camera, camera.Backproject(frame.features[feature].u_px, 1.0));
     if (u.x() < 0) continue;
     const auto label = static_cast<std::size_t>(frame.plane_labels(u.y(), u.x()));
     if (label == 0 || label > landmark.size() || landmark[label - 1] == kNone) continue;
     MapPlane& m = map.planes.At(landmark[label - 1]);
-    const MapPoint& point = map.points[static_cast<std::size_t>(id)];
-    if (!point.culled && std::abs(SignedDistance(m.pi_w, point.p_w)) < max_distance_m) {
-      m.map_points.insert(id);
-    }
+    const Eigen::Vector3d& p_w = map.points[static_cast<std::size_t>(id)].p_w;
+    if (std::abs(SignedDistance(m.pi_w, p_w)) < max_distance_m) m.map_points.insert(id);
   }
 }
 

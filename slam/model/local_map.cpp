@@ -20,11 +20,7 @@ std::vector<int> Voted(const Frame& frame, const Map& map) {
       ++votes[keyframe];
     }
   }
-  std::vector<int> keyframes;
-  for (const auto& [keyframe, count] : votes) keyframes.push_back(keyframe);
-  std::stable_sort(keyframes.begin(), keyframes.end(),
-                   [&](int a, int b) { return votes.at(a) > votes.at(b); });
-  return keyframes;
+  return MostCountedFirst(votes);
 }
 
 }  // namespace

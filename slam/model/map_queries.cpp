@@ -31,12 +31,28 @@ Pose KeyframePose(const Map& map, int keyframe) {
   return T_ck * k->T_cw;
 }
 
-std::vector<int> BestCovisible(const Map& map, int keyframe, int count) {
-  const std::map<int, int>& covisible = map.keyframes[Index(keyframe)].covisible;
+std::vector<MatchedPoint> MatchedPoints(const Frame& frame, const Map& map) {
+  std::vector<MatchedPoint> matched;
+  const std::size_t count = std::min(frame.features.size(), frame.map_points.size());
+  for (std::size_t feature = 0; feature < count; ++feature) {
+    const int point = frame.map_points[feature];
+    if (point == kNone || point >= static_cast<int>(map.points.size())) continue;
+    if (!map.points[Index(point)].culled) matched.push_back({feature, point});
+  }
+  return matched;
+}
+
+std::vector<int> MostCountedFirst(const std::map<int, int>& count_of_id) {
   std::vector<int> ids;
-  for (const auto& [other, shared] : covisible) ids.push_back(other);
+  ids.reserve(count_of_id.size());
+  for (const auto& [id, count] : count_of_id) ids.push_back(id);
   std::stable_sort(ids.begin(), ids.end(),
-                   [&](int a, int b) { return covisible.at(a) > covisible.at(b); });
+                   [&](int a, int b) { return count_of_id.at(a) > count_of_id.at(b); });
+  return ids;
+}
+
+std::vector<int> BestCovisible(const Map& map, int keyframe, int count) {
+  std::vector<int> ids = MostCountedFirst(map.keyframes[Index(keyframe)].covisible);
   if (ids.size() > Index(std::max(count, 0))) ids.resize(Index(std::max(count, 0)));
   return ids;
 }

@@ -1,7 +1,9 @@
 #pragma once
 
+#include <map>
 #include <vector>
 
+#include "slam/model/frame.h"
 #include "slam/model/map.h"
 
 namespace slam {
@@ -14,6 +16,18 @@ int CurrentPlane(const Map& map, int plane);
 
 /// Pose of a keyframe, whether culled or not.
 Pose KeyframePose(const Map& map, int keyframe);
+
+/// A feature of a frame and the map point that it was matched to.
+struct MatchedPoint {
+  std::size_t feature;
+  int point;
+};
+
+/// The frame's matches with points that the map holds and that were not culled.
+std::vector<MatchedPoint> MatchedPoints(const Frame& frame, const Map& map);
+
+/// The ids that were counted, most often counted first (lower id at a tie).
+std::vector<int> MostCountedFirst(const std::map<int, int>& count_of_id);
 
 /// Ids of the keyframes that share the most points with it, most first (lower id at a tie), at
 /// most `count`.
