@@ -23,8 +23,7 @@ Camera AnyCamera() {
   return camera;
 }
 
-Frame Extract(const cv::Mat1f& depth_m, const Camera& camera,
-              const SensorModel& sensor = {}) {
+Frame Extract(const cv::Mat1f& depth_m, const Camera& camera, const SensorModel& sensor = {}) {
   Frame frame = closed_form::MakeFrame(depth_m);
   ExtractPlanes(frame, camera, PixelRays(camera), {}, sensor);
   return frame;

@@ -286,7 +286,8 @@ TEST_F(RunFolder, RefusesWhatMustNotBeWritten) {
   RunWriter writer(run_, Info(), {});
   Frame frame = SomeFrame(0);
   writer.WriteFrame({frame, true, {}, "", {}});
-  EXPECT_THROW(writer.WriteFrame({frame, true, {}, "", {}}), std::invalid_argument);  // same time
+  EXPECT_THROW(writer.WriteFrame({frame, true, {}, "", {}}),
+               std::invalid_argument);  // same time
   frame = SomeFrame(1);
   frame.planes[0].pi_c.d = std::nan("");
   EXPECT_THROW(writer.WriteFrame({frame, true, {}, "", {}}), std::invalid_argument);
