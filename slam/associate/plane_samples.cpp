@@ -23,7 +23,7 @@ std::vector<std::vector<Eigen::Vector3d>> FeaturesOnPlanes(const Frame& frame, c
 std::vector<Eigen::Vector3d> VisibleMapPoints(const MapPlane& map_plane, const Map& map,
                                               const Frame& frame, const Pose& T_cw,
                                               const Camera& camera) {
-  constexpr double kHiddenShare = 0.04;  // of the distance: noise of depth and pose
+  constexpr double kHiddenShare = 0.04;  // of the distance: beyond the noise of single depths
   std::vector<Eigen::Vector3d> visible;
   for (const int id : map_plane.map_points) {
     if (id < 0 || id >= static_cast<int>(map.points.size())) continue;
