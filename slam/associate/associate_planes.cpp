@@ -28,6 +28,7 @@ bool AreDuplicates(const MapPlane& one, const MapPlane& other,
 /// Ids of map planes that one frame plane could show both of, and that can be duplicates.
 std::set<std::pair<int, int>> DuplicatesAmong(const PairTable& pairs, const Map& map,
                                               const AssociationConfig& config) {
+  // Pairs of map planes in question for one frame plane; then those that fit each other.
   std::set<std::pair<int, int>> together, duplicates;
   for (const auto& row : pairs) {
     for (std::size_t i = 0; i < row.size(); ++i) {
@@ -44,10 +45,10 @@ std::set<std::pair<int, int>> DuplicatesAmong(const PairTable& pairs, const Map&
   return duplicates;
 }
 
-/// A candidate has no say where a landmark is in doubt, or where it can be that landmark found
+/// A candidate is excluded where a landmark is in doubt, or where it can be that landmark found
 /// twice.
-bool HasNoSay(const PairEvidence& candidate, const std::vector<PairEvidence>& row,
-              const std::set<std::pair<int, int>>& duplicates) {
+bool IsExcluded(const PairEvidence& candidate, const std::vector<PairEvidence>& row,
+                const std::set<std::pair<int, int>>& duplicates) {
   return std::any_of(row.begin(), row.end(), [&](const PairEvidence& other) {
     return !other.on_trial &&
            (other.verdict == PairVerdict::kDoubtful ||
@@ -55,6 +56,7 @@ bool HasNoSay(const PairEvidence& candidate, const std::vector<PairEvidence>& ro
   });
 }
 
+/// What the assignment may choose from.
 std::vector<AdmissiblePair> AdmissiblePairs(const PairTable& pairs,
                                             const std::set<std::pair<int, int>>& duplicates,
                                             const AssociationConfig& config) {
@@ -62,7 +64,7 @@ std::vector<AdmissiblePair> AdmissiblePairs(const PairTable& pairs,
   for (std::size_t f = 0; f < pairs.size(); ++f) {
     for (const PairEvidence& pair : pairs[f]) {
       if (pair.verdict != PairVerdict::kPossible) continue;
-      if (pair.on_trial && HasNoSay(pair, pairs[f], duplicates)) continue;
+      if (pair.on_trial && IsExcluded(pair, pairs[f], duplicates)) continue;
       // To be believed before a landmark, a candidate must be clearly nearer.
       const double handicap = pair.on_trial ? config.min_margin : 0.0;
       admissible.push_back(
@@ -87,6 +89,7 @@ MatchReason ReasonOf(PairRefusal refusal) {
 /// which it is dearest.
 MatchReason WhatDecided(const std::vector<PairEvidence>& row, const PairEvidence& match,
                         const std::set<std::pair<int, int>>& duplicates) {
+  // The cheapest other pair, duplicates of the match apart.
   const PairEvidence* runner_up = nullptr;
   for (const PairEvidence& pair : row) {
     if (pair.map_plane == match.map_plane) continue;
@@ -98,6 +101,7 @@ MatchReason WhatDecided(const std::vector<PairEvidence>& row, const PairEvidence
       runner_up->refusal != PairRefusal::kCost) {
     return ReasonOf(runner_up->refusal);
   }
+  // It was possible: the cue that made it dearest.
   const std::array<std::pair<double, MatchReason>, 4> dearer = {
       {{runner_up->parameter_cost - match.parameter_cost, MatchReason::kParameters},
        {runner_up->overlap_cost - match.overlap_cost, MatchReason::kOverlap},
@@ -132,13 +136,14 @@ PlaneAssociation IntegratedRule(const Frame& frame, const Map& map, const Camera
                                 const AssociationConfig& config) {
   // What fits beyond doubt corrects the predicted pose, and all pairs are weighed again there.
   PlaneAssociation out;
-  PairRefusals before_correction;
+  PairRefusals before_correction;  // not counted: these pairs are asked again
   UncertainPose pose = PredictedPose(frame.T_cw, config);
   PairTable pairs = WeighPairs(frame, map, pose, camera, config, before_correction);
   pose = CorrectPrediction(pose, frame, map, PairsBeyondDoubt(frame, pairs), config);
   pairs = WeighPairs(frame, map, pose, camera, config, out.refused);
   TestRanks(frame, map, pose.T_cw, camera, config, pairs);
 
+  // All planes of the frame are assigned together; what refused a pair is counted.
   const auto duplicates = DuplicatesAmong(pairs, map, config);
   const PlaneAssignment assignment = AssignPlanes(
       static_cast<int>(frame.planes.size()), AdmissiblePairs(pairs, duplicates, config),

@@ -11,8 +11,8 @@ namespace slam {
 
 /// What association came to in one frame.
 struct PlaneAssociation {
-  std::vector<PlaneMatch>
-      matches;           ///< parallel to frame.planes; kMatched, kTrial or kUnmatched
+  /// Parallel to frame.planes; kMatched, kTrial or kUnmatched.
+  std::vector<PlaneMatch> matches;
   PairRefusals refused;  ///< pairs by the cue that refused them
 };
 

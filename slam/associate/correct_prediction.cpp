@@ -24,12 +24,14 @@ UncertainPose CorrectPrediction(const UncertainPose& predicted, const Frame& fra
   constexpr double kHuberSigmas = 2.0;  // one wrong pair among several must not rule
   constexpr int kIterations = 10;       // it starts within millimetres: two or three do
   if (certain.empty()) return predicted;
+  // The pairs as plane constraints (eq15, eq16) ...
   std::vector<PlaneConstraint> constraints;
   for (const auto& [f, m] : certain) {
     constraints.push_back(MakePlaneConstraint(frame.planes[Index(f)], map.planes.At(m),
                                               predicted.T_cw, config.offset_floor_m,
                                               config.angle_floor_rad));
   }
+  // ... against the prediction: minus log likelihood of the pose, and its derivatives.
   const Matrix6d prior = predicted.covariance.ldlt().solve(Matrix6d::Identity());
   const Pose T_wc = Inverse(predicted.T_cw);
   const auto evaluate = [&](const Pose& T_cw) {

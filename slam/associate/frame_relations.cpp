@@ -13,7 +13,7 @@ namespace {
 /// A step where they meet that neither noise nor what neighbours have in common explains.
 bool HaveStep(const SideBySide& neighbours, std::size_t f, std::size_t g,
               const AssociationConfig& config) {
-  constexpr double kCertain = 4.0;  // sigmas
+  constexpr double kCertain = 4.0;  // sigmas: 1 in 16,000
   const double common_m = 0.5 * config.offset_floor_m;
   const auto between = neighbours.Between(f, g);
   return between &&

@@ -25,7 +25,7 @@ struct MapPlaneView {
   Box box_px;
 };
 
-/// Distance between the boxes, where both sides have one.
+/// Cost of boxes that do not agree, where both sides have one.
 double BoxCost(const Frame& frame, const FramePlane& f, const MapPlane& m, const Box& box_px,
                const AssociationConfig& config) {
   if (!f.detection || m.class_name.empty() || f.class_name.empty()) return 0.0;
@@ -61,7 +61,7 @@ PairEvidence Weigh(const Frame& frame, const FramePlane& f, const MapPlane& m,
     return pair;
   }
   // Beyond its known edge a surface must fit twice as well: no overlap speaks for it.
-  const double max_chi2 = shared ? config.max_chi2 : 0.5 * config.max_chi2;
+  const double max_chi2 = shared ? config.max_chi2 : 0.5 * config.max_chi2;  // eq7, weighted
   if (!(comparison.chi2 < max_chi2)) {
     pair.verdict = PairVerdict::kDoubtful;
     pair.refusal = PairRefusal::kParameters;
@@ -107,12 +107,12 @@ PairTable WeighPairs(const Frame& frame, const Map& map, const UncertainPose& po
 void TestRanks(const Frame& frame, const Map& map, const Pose& T_cw, const Camera& camera,
                const AssociationConfig& config, PairTable& pairs) {
   // A pair that shares most of its footprint is one surface however its points are spread.
-  constexpr double kAmpleOverlap = 0.6;
+  constexpr double kMaxTestedOverlap = 0.6;
   const auto points_c = FeaturesOnPlanes(frame, T_cw, camera);
   std::map<int, std::vector<Eigen::Vector3d>> points_w;  // by map plane
   for (std::size_t f = 0; f < pairs.size(); ++f) {
     for (PairEvidence& pair : pairs[f]) {
-      if (pair.verdict != PairVerdict::kPossible || pair.overlap > kAmpleOverlap) continue;
+      if (pair.verdict != PairVerdict::kPossible || pair.overlap > kMaxTestedOverlap) continue;
       const MapPlane& m = map.planes.At(pair.map_plane);
       const auto [seen, first] = points_w.try_emplace(pair.map_plane);
       if (first) seen->second = VisibleMapPoints(m, map, frame, T_cw, camera);
@@ -126,10 +126,11 @@ void TestRanks(const Frame& frame, const Map& map, const Pose& T_cw, const Camer
 }
 
 std::vector<std::pair<int, int>> PairsBeyondDoubt(const Frame& frame, const PairTable& pairs) {
-  constexpr double kMinOverlap = 0.5;  // of the smaller footprint: most of it
+  constexpr double kMinOverlap = 0.5;  // share of the smaller footprint: most of it
   std::vector<std::pair<int, int>> certain;
   for (std::size_t f = 0; f < pairs.size(); ++f) {
     if (frame.planes[f].bad) continue;
+    // The landmarks in question for this frame plane: exactly one, and possible.
     const PairEvidence* only = nullptr;
     int competitors = 0;
     for (const PairEvidence& pair : pairs[f]) {

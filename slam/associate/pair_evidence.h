@@ -23,7 +23,7 @@ struct PairEvidence {
   int map_plane = kNone;  ///< id
   bool on_trial = false;  ///< the map plane is a candidate
   PairVerdict verdict = PairVerdict::kRefused;
-  PairRefusal refusal = PairRefusal::kCost;  ///< of a pair that is not possible
+  PairRefusal refusal = PairRefusal::kCost;  ///< why the pair is not possible
   double parameter_cost = 0.0;               ///< chi-square of offset and slopes
   double overlap_cost = 0.0, class_cost = 0.0, box_cost = 0.0;
   double overlap = 0.0;    ///< share of the smaller footprint, [0, 1]

@@ -6,7 +6,7 @@
 namespace slam {
 namespace {
 
-// Without an estimate (a map made by hand) a plane is trusted this much.
+// A map plane without an estimate (a map made by hand) is trusted this much.
 constexpr double kDefaultOffsetSigma_m = 0.003;
 constexpr double kDefaultAngleSigma_rad = 0.01;
 
@@ -47,8 +47,8 @@ PlaneComparison Compare(const Plane& pi, const Eigen::Vector3d& x, const Plane& 
                         const Eigen::Matrix<double, 3, 2>& axes,
                         const Covariance3& covariance) {
   PlaneComparison out;
-  out.angle_rad = Angle(pi.n, base.n);
-  const double offset_m = SignedDistance(base, ProjectOnto(pi, x));
+  out.angle_rad = Angle(pi.n, base.n);                               // eq6
+  const double offset_m = SignedDistance(base, ProjectOnto(pi, x));  // eq7
   out.offset_sigma_m = std::sqrt(covariance(0, 0));
   // Slopes as the sine-direction times the angle: finite for every pair of normals.
   const Eigen::Vector2d sine = -(axes.transpose() * pi.n);
@@ -63,10 +63,12 @@ PlaneComparison Compare(const Plane& pi, const Eigen::Vector3d& x, const Plane& 
 
 PlaneComparison ComparePlanes(const FramePlane& f, const MapPlane& m, const UncertainPose& pose,
                               const AssociationConfig& config) {
+  // Everything in the camera frame, where the patch was measured.
   const Plane map_pi_c = Transform(pose.T_cw, m.pi_w);
   const Eigen::Matrix<double, 3, 2> axes_c = TangentBasis(map_pi_c.n);
   const Eigen::Vector3d x_c = ProjectOnto(f.pi_c, f.centroid_c);
   const Eigen::Vector3d x_w = pose.T_cw.R.transpose() * (x_c - pose.T_cw.t);
+  // Everybody's uncertainty: errors that do not average out, patch, map plane there, and pose.
   Covariance3 covariance = FloorOf(config);
   if (m.estimate.empty()) covariance += FloorOf(config);  // else its observations hold it
   covariance += PatchCovariance(f.offset_sigma_m, f.angle_sigma_rad, Eigen::Vector2d::Zero());

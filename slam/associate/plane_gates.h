@@ -31,7 +31,7 @@ inline void VisitFields(PlaneGateConfig& c, FieldVisitor& v) {
            "share of the edge points that must be near the map plane; R_T of eq8");
 }
 
-/// Numbers behind an accepted pair, for the report.
+/// What accepted a pair.
 struct GateEvidence {
   double normal_angle_rad;
   double patch_offset_m;    ///< absolute

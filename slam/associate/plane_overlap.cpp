@@ -10,6 +10,7 @@
 namespace slam {
 namespace {
 
+// Thinned to this many: a gap of centimetres needs no more.
 constexpr std::size_t kGapPatchPoints = 60, kGapCloudPoints = 400;
 
 std::size_t Stride(std::size_t count, std::size_t wanted) {
@@ -28,6 +29,7 @@ PlaneView ViewMapPlane(const MapPlane& map_plane, const Frame& frame, const Pose
       frame.depth_m.rows == camera.height && frame.depth_m.cols == camera.width;
   const bool has_labels =
       frame.plane_labels.rows == camera.height && frame.plane_labels.cols == camera.width;
+  // Points in the picture that nothing nearer hides are expected; some land on a segment.
   for (const Eigen::Vector3d& p_w : map_plane.points_w) {
     const Eigen::Vector3d x_c = T_cw * p_w;
     const Eigen::Vector2i u = RecordedPixel(camera, x_c);
@@ -46,6 +48,7 @@ PlaneView ViewMapPlane(const MapPlane& map_plane, const Frame& frame, const Pose
 double Overlap(const PlaneView& view, const FramePlane& frame_plane) {
   const auto index = static_cast<std::size_t>(frame_plane.index);
   if (index >= view.landed.size() || view.landed[index] == 0) return 0.0;
+  // Both footprints in cloud points.
   const double cells = view.cell_m2 > 0 ? frame_plane.area_m2 / view.cell_m2
                                         : std::numeric_limits<double>::max();
   const double smaller = std::min(static_cast<double>(view.expected), cells);

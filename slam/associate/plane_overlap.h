@@ -11,7 +11,7 @@ namespace slam {
 /// How a map plane's cloud falls on the frame's plane segments.
 struct PlaneView {
   int expected = 0;         ///< cloud points in the picture that nothing nearer hides
-  std::vector<int> landed;  ///< of these, how many on each frame plane's pixels
+  std::vector<int> landed;  ///< by frame plane: how many of these fall on its pixels
   double cell_m2 = 0.0;     ///< area of the map plane that one cloud point stands for
 };
 
@@ -21,13 +21,13 @@ struct PlaneView {
 PlaneView ViewMapPlane(const MapPlane& map_plane, const Frame& frame, const Pose& T_cw,
                        const Camera& camera);
 
-/// Share of the smaller of the two footprints that the other covers, both as seen now, in [0,
-/// 1].
+/// Share of the smaller of the two footprints that the other covers, both as seen now, in
+/// [0, 1].
 double Overlap(const PlaneView& view, const FramePlane& frame_plane);
 
 /// Distance from a frame plane's patch to a map plane's cloud within the plane, metres;
-/// infinite without points. Cost: O(points_c x points_w) on thinned samples of at most 60 x
-/// 400.
+/// infinite without points. Cost: O(points_c x points_w) on thinned samples of at most
+/// 60 x 400.
 double InPlaneGap(const FramePlane& frame_plane, const MapPlane& map_plane, const Pose& T_wc);
 
 }  // namespace slam

@@ -8,7 +8,7 @@ namespace {
 /// Corners outside the picture count, as far as the lens model can be trusted.
 bool IncludeCorners(const std::vector<Eigen::Vector3d>& corners_w, const Pose& T_cw,
                     const Camera& camera, Box& box) {
-  constexpr double kMaxOutside = 0.5;
+  constexpr double kMaxOutside = 0.5;  // image sizes
   const Eigen::Vector2d size(camera.width, camera.height);
   for (const Eigen::Vector3d& p_w : corners_w) {
     const Eigen::Vector3d x_c = T_cw * p_w;

@@ -8,9 +8,10 @@
 namespace slam {
 namespace {
 
-constexpr std::size_t kNormalFrom = 8;     // both samples at least: the normal form holds
-constexpr std::size_t kExactLargest = 60;  // larger partners of a small sample are thinned
+constexpr std::size_t kMinNormal = 8;  // smallest sample for which the normal form holds
+constexpr std::size_t kMaxExact = 60;  // larger partners of a small sample are thinned: memory
 
+/// Both samples in one order.
 struct Pooled {
   std::vector<std::int64_t> twice_ranks;  ///< 2 x mean rank of each value, ascending values
   std::vector<bool> from_c;
@@ -23,6 +24,7 @@ Pooled Pool(std::span<const double> sample_c, std::span<const double> sample_w) 
   for (const double v : sample_c) values.emplace_back(v, true);
   for (const double v : sample_w) values.emplace_back(v, false);
   std::sort(values.begin(), values.end());
+  // Equal values are a group of size tau and share their mean rank.
   Pooled pooled;
   for (std::size_t i = 0; i < values.size();) {
     std::size_t end = i;
@@ -45,6 +47,7 @@ double ExactP(const std::vector<std::int64_t>& twice_ranks, std::size_t size,
   const std::int64_t n = static_cast<std::int64_t>(twice_ranks.size());
   const std::int64_t mean = static_cast<std::int64_t>(size) * (n + 1);
   const std::int64_t far = std::abs(sum - mean);
+  // ways[k][s]: ways to choose k of the ranks so far with the sum s.
   std::int64_t largest = 0;
   for (std::size_t i = 0; i < size; ++i) largest += twice_ranks[twice_ranks.size() - 1 - i];
   const auto width = static_cast<std::size_t>(largest + 1);
@@ -57,6 +60,7 @@ double ExactP(const std::vector<std::int64_t>& twice_ranks, std::size_t size,
         ways[(k + 1) * width + s] += ways[k * width + s - r];
     }
   }
+  // Of all ways, those at least as far from the mean as what was observed.
   double all = 0.0, extreme = 0.0;
   for (std::size_t s = 0; s < width; ++s) {
     const double count = ways[size * width + s];
@@ -66,6 +70,7 @@ double ExactP(const std::vector<std::int64_t>& twice_ranks, std::size_t size,
   return extreme / all;
 }
 
+/// Two-sided p-value of W in the normal approximation.
 double NormalP(double W, double I, double J, double tie_sum) {
   const double mean = I * J / 2;  // eq10
   const double N = I + J;
@@ -95,11 +100,11 @@ RankTest TestRanks(std::span<const double> sample_c, std::span<const double> sam
   }
   RankTest out;
   if (sample_c.empty() || sample_w.empty()) return out;
-  out.exact = std::min(sample_c.size(), sample_w.size()) < kNormalFrom;
+  out.exact = std::min(sample_c.size(), sample_w.size()) < kMinNormal;
   std::vector<double> thin_c, thin_w;
   if (out.exact) {
-    thin_c = Thinned(sample_c, kExactLargest);
-    thin_w = Thinned(sample_w, kExactLargest);
+    thin_c = Thinned(sample_c, kMaxExact);
+    thin_w = Thinned(sample_w, kMaxExact);
     sample_c = thin_c;
     sample_w = thin_w;
   }

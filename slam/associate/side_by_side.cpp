@@ -10,10 +10,12 @@ namespace slam {
 namespace {
 
 constexpr int kTile_px = 8;
-constexpr int kReach = 5;               // tiles, at a width of 640
-constexpr double kMinPixels = 12.0;     // of a tile: fewer are its neighbour's edge
-constexpr std::size_t kMinTiles = 4;    // of each plane
-constexpr std::size_t kMinFreedom = 6;  // to know their scatter
+constexpr int kReach = 5;  // tiles, at a width of kFullWidth_px
+constexpr int kFullWidth_px = 640;
+constexpr double kMinPixels = 12.0;     // in a tile: fewer are its neighbour's edge
+constexpr std::size_t kMinTiles = 4;    // for each plane
+constexpr std::size_t kUnknowns = 4;    // two slopes, a height and the step
+constexpr std::size_t kMinFreedom = 6;  // to know the scatter of the tiles
 
 }  // namespace
 
@@ -21,10 +23,11 @@ SideBySide::SideBySide(const Frame& frame, const Camera& camera)
     : frame_(frame),
       columns_((camera.width + kTile_px - 1) / kTile_px),
       rows_((camera.height + kTile_px - 1) / kTile_px),
-      reach_(std::max(2, kReach * camera.width / 640)),
+      reach_(std::max(2, kReach * camera.width / kFullWidth_px)),
       tiles_(frame.planes.size()) {
   const cv::Size size(camera.width, camera.height);
   if (frame.depth_m.size() != size || frame.plane_labels.size() != size) return;
+  // Tile by tile: the mean point of each plane that has enough pixels there.
   std::vector<Tile> row_of_tiles(frame.planes.size());
   std::vector<std::size_t> seen;
   for (int v0 = 0; v0 < size.height; v0 += kTile_px) {
@@ -55,7 +58,7 @@ SideBySide::SideBySide(const Frame& frame, const Camera& camera)
   }
 }
 
-/// Those of `of` that are within reach of `to`.
+/// The tiles of `of` that are within reach of `to`.
 SideBySide::Tiles SideBySide::Near(const Tiles& of, const Tiles& to) const {
   cv::Mat1b reached(rows_, columns_, static_cast<unsigned char>(0));
   const cv::Rect all(0, 0, columns_, rows_);
@@ -73,7 +76,7 @@ SideBySide::Tiles SideBySide::Near(const Tiles& of, const Tiles& to) const {
 std::optional<StepBetween> SideBySide::Between(std::size_t one, std::size_t other) const {
   const Tiles a = Near(tiles_[one], tiles_[other]), b = Near(tiles_[other], a);
   if (a.size() < kMinTiles || b.size() < kMinTiles) return std::nullopt;
-  if (a.size() + b.size() < 4 + kMinFreedom) return std::nullopt;
+  if (a.size() + b.size() < kUnknowns + kMinFreedom) return std::nullopt;
   const Eigen::Vector3d n =
       (frame_.planes[one].pi_c.n + frame_.planes[other].pi_c.n).normalized();
   const Eigen::Matrix<double, 3, 2> axes = TangentBasis(n);
@@ -94,10 +97,11 @@ std::optional<StepBetween> SideBySide::Between(std::size_t one, std::size_t othe
     }
   };
   add(a, 1), add(b, 0);
+  // The step and, from the scatter of the tiles about the fit, its standard deviation.
   const Eigen::LDLT<Eigen::Matrix4d> solver(A);
   if (solver.info() != Eigen::Success || !solver.isPositive()) return std::nullopt;
   const Eigen::Vector4d fit = solver.solve(y);
-  const double freedom = static_cast<double>(a.size() + b.size() - 4);
+  const double freedom = static_cast<double>(a.size() + b.size() - kUnknowns);
   const double variance = std::max(0.0, squares - fit.dot(y)) / freedom;
   const double spread = solver.solve(Eigen::Vector4d::UnitW()).w();
   if (!(spread > 0) || !std::isfinite(fit.w())) return std::nullopt;

@@ -27,10 +27,12 @@ Eigen::Vector2d Camera::Undistort(const Eigen::Vector2d& u_px) const {
   if (!distorted()) return u_px;
   const Eigen::Vector2d measured((u_px.x() - cx) / fx, (u_px.y() - cy) / fy);
   // Fixed-point iteration x <- measured - (Distort(x) - x); it contracts for real lenses.
+  constexpr int kMaxIterations = 50;
+  constexpr double kMinStep2 = 1e-24;  // of the normalised plane: 1e-9 pixels
   Eigen::Vector2d x = measured;
-  for (int i = 0; i < 50; ++i) {
+  for (int i = 0; i < kMaxIterations; ++i) {
     const Eigen::Vector2d next = measured - (Distort(*this, x) - x);
-    const bool done = (next - x).squaredNorm() < 1e-24;
+    const bool done = (next - x).squaredNorm() < kMinStep2;
     x = next;
     if (done) break;
   }

@@ -14,7 +14,8 @@ inline Eigen::Vector2i RecordedPixel(const Camera& camera, const Eigen::Vector3d
   // Far outside, the distortion polynomial folds back into the image: look at the ideal pixel
   // first.
   const Eigen::Vector2d ideal = camera.Project(x_c);
-  const double margin = 0.25 * camera.width;
+  constexpr double kMargin = 0.25;  // image widths: more than real lenses move a pixel
+  const double margin = kMargin * camera.width;
   if (!(ideal.x() > -margin && ideal.x() < camera.width + margin && ideal.y() > -margin &&
         ideal.y() < camera.height + margin)) {
     return none;

@@ -7,7 +7,7 @@
 namespace slam {
 namespace {
 
-constexpr double kUnitTolerance = 1e-9;
+constexpr double kUnitTolerance = 1e-9;  // rounding of long products stays far below
 
 bool IsUnit(const Eigen::Vector3d& n) { return std::abs(n.norm() - 1.0) <= kUnitTolerance; }
 
@@ -15,7 +15,7 @@ bool IsUnit(const Eigen::Vector3d& n) { return std::abs(n.norm() - 1.0) <= kUnit
 
 Plane Transform(const Pose& T_cw, const Plane& pi_w) {
   Require(IsUnit(pi_w.n), "Transform: the plane's normal is not unit");
-  const Eigen::Vector3d n_c = T_cw.R * pi_w.n;
+  const Eigen::Vector3d n_c = T_cw.R * pi_w.n;  // eq15
   return {n_c, pi_w.d - T_cw.t.dot(n_c)};
 }
 

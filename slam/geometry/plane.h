@@ -28,15 +28,15 @@ inline Eigen::Vector3d ProjectOnto(const Plane& pi_a, const Eigen::Vector3d& x_a
 
 /// Re-expresses a plane in another frame:
 ///   n_c = R_cw n_w,   d_c = d_w - t_cw . n_c        (pi_c = T_cw^{-T} pi_w)
-/// Source: PAS-SLAM eq15 (the transform only; the residual is in optimise/factors).
+/// Source: PAS-SLAM eq15 (the transform only; the residual is in slam/pose/factors).
 /// @throws std::invalid_argument if |n_w| differs from 1 by more than 1e-9.
 Plane Transform(const Pose& T_cw, const Plane& pi_w);
 
 /// The same plane with its front on the origin's side (d >= 0), as a camera measures it.
 Plane FacingOrigin(const Plane& pi);
 
-/// Signed angle test's angle: between the oriented normals, radians in [0, pi]; exact near 0
-/// and pi (atan2 of cross and dot).
+/// Angle between two oriented normals, radians in [0, pi]; exact near 0 and pi (atan2 of cross
+/// and dot).
 double Angle(const Eigen::Vector3d& n_1, const Eigen::Vector3d& n_2);
 
 /// Two unit vectors that make (e_1, e_2, n) right-handed and orthonormal; continuous in n

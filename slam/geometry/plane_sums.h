@@ -69,7 +69,8 @@ inline std::optional<PlaneFit> Fit(const PlaneSums& s) {
   const double cxx = s.wxx - s.wx * mx, cxy = s.wxy - s.wx * my, cyy = s.wyy - s.wy * my;
   const double cxq = s.wqx - s.wx * mq, cyq = s.wqy - s.wy * mq, cqq = s.wqq - s.wq * mq;
   const double det = cxx * cyy - cxy * cxy;
-  if (!(det > 1e-9 * cxx * cyy)) return std::nullopt;
+  constexpr double kMinSpread = 1e-9;  // 1 - squared correlation of x and y: below, a line
+  if (!(det > kMinSpread * cxx * cyy)) return std::nullopt;
   const double a = (cyy * cxq - cxy * cyq) / det, b = (cxx * cyq - cxy * cxq) / det;
   return PlaneFit{{a, b, mq - a * mx - b * my}, std::max(0.0, cqq - a * cxq - b * cyq)};
 }
@@ -95,7 +96,7 @@ inline double GrazingFactor(const PlaneSums& s, const InverseDepthPlane& p,
 /// normal about the worse axis, radians. `scale` multiplies the noise; correlation is included.
 struct PlaneSigmas {
   double offset_m = 0.0, angle_rad = 0.0;
-  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();  ///< of (a, b, c), 1/m^2
+  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();  ///< that of (a, b, c), 1/m^2
 };
 PlaneSigmas Sigmas(const PlaneSums& sums, const InverseDepthPlane& plane,
                    const DepthNoise& noise, double scale);

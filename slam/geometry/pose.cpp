@@ -9,7 +9,8 @@ namespace {
 // Below this angle the series are exact to double precision and the closed forms lose digits.
 constexpr double kSmallAngle_rad = 1e-4;
 
-/// J_l(omega) = I + (1 - cos a)/a^2 w^ + (a - sin a)/a^3 w^2.
+/// J_l(omega) = I + (1 - cos a)/a^2 w^ + (a - sin a)/a^3 (w^)^2 with w^ = Hat(omega), a =
+/// |omega|.
 Eigen::Matrix3d LeftJacobian(const Eigen::Vector3d& omega_rad) {
   const double a2 = omega_rad.squaredNorm();
   const double a = std::sqrt(a2);

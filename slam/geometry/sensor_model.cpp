@@ -18,7 +18,7 @@ DepthNoise AzureNoise() {
 DepthNoise D435Noise() {
   return {.floor_m = 0.0002,
           .linear_per_m = 0.0,
-          .quadratic_per_m = 0.08 / (430.0 * 0.05015),
+          .quadratic_per_m = 0.08 / (430.0 * 0.05015),  // px / (px m), see ModelOf
           .nearest_m = 0.0,
           .grazing_m = 0.0,
           .correlated_px = 35.0};

@@ -65,11 +65,12 @@ bool BundleTerm::Evaluate(double const* const* parameters, double* residuals,
   const double inv_z = 1.0 / p_c.z();
   const double x = p_c.x() * inv_z, y = p_c.y() * inv_z;
   const bool depth = disparity_px_ >= 0;
-  residuals[0] = weight_ * (fx_ * x + cx_ - u_px_.x());
+  residuals[0] = weight_ * (fx_ * x + cx_ - u_px_.x());  // eq14
   residuals[1] = weight_ * (fy_ * y + cy_ - u_px_.y());
   residuals[2] = depth ? depth_weight_ * (bf_px_m_ * inv_z - disparity_px_) : 0.0;
   if (jacobians == nullptr) return true;
 
+  // By the point in the camera, then by the chain rule by pose and point.
   Eigen::Matrix3d by_p_c;
   by_p_c << weight_ * fx_ * inv_z, 0, -weight_ * fx_ * x * inv_z,  //
       0, weight_ * fy_ * inv_z, -weight_ * fy_ * y * inv_z,        //

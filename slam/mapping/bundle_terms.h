@@ -31,14 +31,15 @@ class PoseManifold : public ceres::Manifold {
 
 /// Residual of one observation, in sigmas:
 ///   ( fx x/z + cx - u,  fy y/z + cy - v,  (b f / z - b f / z_measured) / depth_sigma ) / sigma
-/// with (x, y, z) = T_cw p_w; the third is 0 for a feature without depth. Not defined for a
-/// point nearer than a centimetre to the image plane or behind it: Evaluate answers false
-/// there.
+/// with (x, y, z) = T_cw p_w; the third is 0 for a feature without depth (eq14). A point nearer
+/// than kMinProjectedDepth_m to the image plane, or behind it, has the residual kBehind and no
+/// derivative.
 class BundleTerm : public ceres::SizedCostFunction<3, 7, 3> {
  public:
   static constexpr double kBehind = 1e3;  ///< sigmas; far beyond any gate
 
-  /// @param sigma_px of the feature's octave; @param depth_sigma relative to it
+  /// @param sigma_px     standard deviation of a position at the feature's octave
+  /// @param depth_sigma  that of the disparity, relative to sigma_px
   BundleTerm(const PointFeature& feature, const Camera& camera, double bf_px_m, double sigma_px,
              double depth_sigma);
   /// parameters: PoseBlock, p_w. Jacobians: by xi (see PoseManifold) and by p_w.

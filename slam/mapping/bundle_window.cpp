@@ -11,6 +11,7 @@
 namespace slam {
 namespace {
 
+/// Ids of the points that the keyframes see, each once, ascending.
 std::vector<int> PointsOf(const Map& map, const std::vector<int>& keyframes) {
   std::vector<int> points;
   for (const int keyframe : keyframes) {
@@ -24,18 +25,18 @@ std::vector<int> PointsOf(const Map& map, const std::vector<int>& keyframes) {
 }
 
 /// Keyframes outside that see the most of the points, at most `count` of them, ascending.
-std::vector<int> Witnesses(const Map& map, const std::vector<int>& points,
-                           const std::set<int>& inside, int count) {
+std::vector<int> OutsideViewers(const Map& map, const std::vector<int>& points,
+                                const std::set<int>& inside, int count) {
   std::map<int, int> seen;
   for (const int point : points) {
     for (const auto& [keyframe, feature] : map.points[Index(point)].observations) {
       if (inside.count(keyframe) == 0) ++seen[keyframe];
     }
   }
-  std::vector<int> witnesses = MostCountedFirst(seen);
-  if (witnesses.size() > Index(count)) witnesses.resize(Index(count));
-  std::sort(witnesses.begin(), witnesses.end());
-  return witnesses;
+  std::vector<int> outside = MostCountedFirst(seen);
+  if (outside.size() > Index(count)) outside.resize(Index(count));
+  std::sort(outside.begin(), outside.end());
+  return outside;
 }
 
 std::unique_ptr<BundleTerm> TermOf(const PointFeature& feature, const Camera& camera,
@@ -86,15 +87,17 @@ BundleWindow FullWindow(const Map& map, const Camera& camera, const FeatureScale
 
 BundleWindow LocalWindow(const Map& map, int keyframe, const Camera& camera,
                          const FeatureScale& scale, const LocalBundleConfig& config) {
+  // The keyframes that move, the points that they see, and who else sees these.
   std::vector<int> inside = BestCovisible(map, keyframe, config.max_keyframes - 1);
   inside.push_back(keyframe);
   std::sort(inside.begin(), inside.end());
 
   BundleWindow window;
   window.points = PointsOf(map, inside);
-  std::vector<int> fixed =
-      Witnesses(map, window.points, {inside.begin(), inside.end()}, config.max_fixed_keyframes);
-  // The first keyframe is the world; without any witness the oldest holds the gauge.
+  std::vector<int> fixed = OutsideViewers(map, window.points, {inside.begin(), inside.end()},
+                                          config.max_fixed_keyframes);
+  // The first keyframe is the world; where no other sees the points, the oldest holds the
+  // gauge.
   if (inside.front() == 0 || fixed.empty()) {
     fixed.push_back(inside.front());
     inside.erase(inside.begin());
@@ -112,6 +115,7 @@ namespace {
 /// keyframe does: they were placed by the map as it was.
 void CarryTheNewer(const BundleWindow& window, Map& map) {
   if (window.map_keyframes == map.keyframes.size()) return;
+  // The motion of the newest keyframe of the window, in the world.
   const auto newest =
       std::max_element(window.keyframes.begin(),
                        window.keyframes.begin() + static_cast<long>(window.free_count));

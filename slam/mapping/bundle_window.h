@@ -26,12 +26,12 @@ struct BundleWindow {
     int keyframe, point;               ///< ids
     std::size_t pose_at, position_at;  ///< into the blocks
     bool stereo = false;               ///< the feature has depth
-    bool inlier = true;
+    bool inlier = true;                ///< takes part
     std::unique_ptr<BundleTerm> term;
   };
   std::vector<Observation> observations;
 
-  std::size_t map_keyframes = 0, map_points = 0;  ///< that the map had
+  std::size_t map_keyframes = 0, map_points = 0;  ///< sizes of the map when it was copied
 };
 
 /// The window of AdjustLocalBundle.

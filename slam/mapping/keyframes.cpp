@@ -24,6 +24,7 @@ std::vector<int> NearestUnmatched(const Keyframe& keyframe) {
   return features;
 }
 
+/// Makes points of features with trusted depth, and of farther ones until there are enough.
 void AddPointsFromDepth(Map& map, int id, const Camera& camera, const FeatureScale& scale,
                         const KeyframeConfig& config) {
   const double close_m = scale.CloseDepth_m(camera.fx);
@@ -48,6 +49,7 @@ bool SeenByOthers(const Map& map, const MapPoint& point, int keyframe, int octav
   return others >= config.redundant_views;
 }
 
+/// Most of the keyframe's points with trusted depth are seen by enough others.
 bool IsRedundant(const Map& map, const Keyframe& keyframe, double close_m,
                  const KeyframeConfig& config) {
   int points = 0, redundant = 0;
@@ -63,6 +65,7 @@ bool IsRedundant(const Map& map, const Keyframe& keyframe, double close_m,
   return points > 0 && redundant > config.max_redundancy * points;
 }
 
+/// Takes the keyframe out of the map; its pose follows its best neighbour from now on.
 void CullKeyframe(Map& map, int id) {
   const std::vector<int> best = BestCovisible(map, id, 1);
   Keyframe& keyframe = map.keyframes[Index(id)];
@@ -98,6 +101,7 @@ int InsertKeyframe(Frame& frame, Map& map, const Camera& camera, const FeatureSc
   keyframe.map_points.assign(frame.features.size(), kNone);
   map.keyframes.push_back(std::move(keyframe));
 
+  // What tracking matched is observed, what it did not match makes new points.
   for (int f = 0; f < static_cast<int>(frame.features.size()); ++f) {
     const int point = CurrentPoint(map, frame.map_points[Index(f)]);
     if (point == kNone) continue;
@@ -111,6 +115,7 @@ int InsertKeyframe(Frame& frame, Map& map, const Camera& camera, const FeatureSc
 }
 
 void UpdateCovisibility(Map& map, int keyframe, const KeyframeConfig& config) {
+  // Points shared with each other keyframe.
   std::map<int, int> shared;
   for (const int point : map.keyframes[Index(keyframe)].map_points) {
     if (point == kNone) continue;
@@ -119,15 +124,16 @@ void UpdateCovisibility(Map& map, int keyframe, const KeyframeConfig& config) {
     }
   }
   // Where none shares enough, the best one still ties the keyframe to the map.
-  const auto most =
+  const auto best =
       std::max_element(shared.begin(), shared.end(),
                        [](const auto& a, const auto& b) { return a.second < b.second; });
+  // The old relation goes, from both sides, and the new one is noted in both.
   for (const auto& [other, count] : map.keyframes[Index(keyframe)].covisible) {
     map.keyframes[Index(other)].covisible.erase(keyframe);
   }
   map.keyframes[Index(keyframe)].covisible.clear();
   for (const auto& [other, count] : shared) {
-    if (count < config.min_shared_points && other != most->first) continue;
+    if (count < config.min_shared_points && other != best->first) continue;
     map.keyframes[Index(keyframe)].covisible[other] = count;
     map.keyframes[Index(other)].covisible[keyframe] = count;
   }
@@ -142,7 +148,7 @@ int CullKeyframes(Map& map, int keyframe, const Camera& camera, const FeatureSca
   }
   int culled = 0;
   for (const int id : neighbours) {
-    if (id == 0 || id + 1 >= keyframe) continue;
+    if (id == 0 || id + 1 >= keyframe) continue;  // the first, the newest, the one before
     if (!IsRedundant(map, map.keyframes[Index(id)], close_m, config)) continue;
     CullKeyframe(map, id);
     ++culled;

@@ -11,6 +11,7 @@
 namespace slam {
 namespace {
 
+/// Ceres on one window.
 class Solver {
  public:
   Solver(BundleWindow& window, const LocalBundleConfig& config)
@@ -23,17 +24,20 @@ class Solver {
     ownership.manifold_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
     ceres::Problem problem(ownership);
     ceres::HuberLoss stereo(std::sqrt(kChi2Of3At95)), mono(std::sqrt(kChi2Of2At95));
+    // Poses, the fixed ones constant.
     PoseManifold manifold;
     for (std::size_t i = 0; i < window_.poses.size(); ++i) {
       problem.AddParameterBlock(window_.poses[i].data(), 7, &manifold);
       if (i >= window_.free_count) problem.SetParameterBlockConstant(window_.poses[i].data());
     }
+    // Points are eliminated first: the Schur complement leaves the poses.
     ceres::ParameterBlockOrdering* order = new ceres::ParameterBlockOrdering;
     for (auto& position : window_.positions) {
       problem.AddParameterBlock(position.data(), 3);
       order->AddElementToGroup(position.data(), 0);
     }
     for (PoseBlock& pose : window_.poses) order->AddElementToGroup(pose.data(), 1);
+    // Observations that are not outliers.
     for (const BundleWindow::Observation& o : window_.observations) {
       if (!o.inlier) continue;
       ceres::LossFunction* loss = o.stereo ? &stereo : &mono;
@@ -42,9 +46,9 @@ class Solver {
                                window_.positions[o.position_at].data());
     }
     ceres::Solver::Options options;
-    constexpr std::size_t kDense = 50;  // poses; beyond, most pairs share no point
+    constexpr std::size_t kMaxDense = 50;  // poses; with more, most pairs share no point
     options.linear_solver_type =
-        window_.free_count > kDense ? ceres::SPARSE_SCHUR : ceres::DENSE_SCHUR;
+        window_.free_count > kMaxDense ? ceres::SPARSE_SCHUR : ceres::DENSE_SCHUR;
     options.linear_solver_ordering.reset(order);
     options.num_threads = 1;
     options.max_num_iterations = iterations;

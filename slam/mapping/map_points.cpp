@@ -28,8 +28,9 @@ const PointFeature& FeatureOf(const Map& map, int keyframe, int feature) {
 }
 
 // A point that loses an observation needs more than one view with depth to go on.
-constexpr int kMinWeightLeft = 3;
+constexpr int kMinWeightLeft = 3;  // see ObservationWeight
 
+/// The descriptor with the least median distance to all others of the point.
 Descriptor CentralDescriptor(const Map& map, const MapPoint& point) {
   std::vector<const Descriptor*> seen;
   for (const auto& [keyframe, feature] : point.observations) {
@@ -49,6 +50,7 @@ Descriptor CentralDescriptor(const Map& map, const MapPoint& point) {
   return *best;
 }
 
+/// Mean viewing direction, and the distances at which the pyramid's scales can match.
 void UpdateView(const Map& map, MapPoint& point, const FeatureScale& scale) {
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
   for (const auto& [keyframe, feature] : point.observations) {

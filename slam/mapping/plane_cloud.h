@@ -11,11 +11,12 @@ namespace slam {
 /// are squares on the plane, so noise along the normal makes no second layer. When the cloud
 /// exceeds `max_points` the voxel doubles until it fits: memory is bounded however large the
 /// plane.
-/// @param pi_w     the plane, for the directions of the grid; the grid is anchored at
-/// `anchor_w` Cost: O(n log n) of both clouds.
+/// @param pi_w           the plane, for the directions of the grid
+/// @param grid_origin_w  a corner of the grid
+/// Cost: O(n) of both clouds.
 void MergeIntoCloud(std::vector<Eigen::Vector3d>& cloud_w,
                     const std::vector<Eigen::Vector3d>& points_w, const Plane& pi_w,
-                    const Eigen::Vector3d& anchor_w, double voxel_m, int max_points);
+                    const Eigen::Vector3d& grid_origin_w, double voxel_m, int max_points);
 
 /// Share of the smaller cloud's voxels that the other cloud has a point in or beside, [0, 1].
 double CloudOverlap(const std::vector<Eigen::Vector3d>& one_w,

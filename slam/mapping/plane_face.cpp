@@ -4,6 +4,7 @@
 #include <utility>
 
 namespace slam {
+
 bool KnowsItsFace(const MapPlane& m, const PlaneMapConfig& config) {
   return m.vertices_w.size() == kFaceCorners && m.vertex_weights.size() == kFaceCorners &&
          std::all_of(m.vertex_weights.begin(), m.vertex_weights.end(),
@@ -26,6 +27,7 @@ void KeepWhatLiesOnFace(MapPlane& m, const PlaneMapConfig& config) {
   Eigen::Vector3d middle_w = Eigen::Vector3d::Zero();
   for (const Eigen::Vector3d& corner_w : m.vertices_w)
     middle_w += corner_w / double(kFaceCorners);
+  // Beyond a side: outwards of it, in the plane, by more than the margin.
   const auto beyond = [&](const Eigen::Vector3d& p_w) {
     for (std::size_t i = 0; i < kFaceCorners; ++i) {
       const Eigen::Vector3d& from_w = m.vertices_w[i];

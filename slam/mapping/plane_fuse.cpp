@@ -15,6 +15,7 @@ int CovisibleFrames(const MapPlane& one, const MapPlane& other) {
   return found == one.covisible.end() ? 0 : found->second;
 }
 
+/// Parameters agree from both sides, classes do not contradict, clouds meet.
 bool OneSurface(const MapPlane& one, const MapPlane& other, const AssociationConfig& a,
                 const PlaneMapConfig& config) {
   if (one.observations < config.min_fused_observations ||
@@ -22,7 +23,7 @@ bool OneSurface(const MapPlane& one, const MapPlane& other, const AssociationCon
     return false;
   }
   const PlaneComparison forth = ComparePlanes(one, other, a);
-  if (!(forth.angle_rad < a.gates.max_normal_angle_rad)) return false;
+  if (!(forth.angle_rad < a.gates.max_normal_angle_rad)) return false;  // eq6
   // Two segments seen side by side again and again have shown any step there is.
   const bool side_by_side = CovisibleFrames(one, other) >= config.min_fused_observations;
   const double max_chi2 = side_by_side ? 0.5 * a.max_chi2 : a.max_chi2;
@@ -38,6 +39,7 @@ bool OneSurface(const MapPlane& one, const MapPlane& other, const AssociationCon
   return CloudOverlap(one.points_w, other.points_w, one.pi_w, cell) > config.min_fused_overlap;
 }
 
+/// Adds what `from` knows of its parameters to `into`.
 void FuseEstimate(MapPlane& into, const MapPlane& from) {
   if (from.estimate.empty()) return;
   // Express the other's knowledge as one observation at its own best-known place.
@@ -52,16 +54,19 @@ void FuseEstimate(MapPlane& into, const MapPlane& from) {
   into.pi_w = into.estimate.Mean();
 }
 
+/// Evidence for all corners together.
 double Evidence(const MapPlane& m) {
   double sum = 0.0;
   for (const double w : m.vertex_weights) sum += w;
   return sum;
 }
 
+/// `from` becomes a part of `into`.
 void Fuse(MapPlane& into, MapPlane& from, const PlaneMapConfig& config) {
   FuseEstimate(into, from);
   for (const auto& [name, evidence] : from.class_belief) into.class_belief[name] += evidence;
   into.class_name = BelievedClass(into.class_belief);
+  // The shape: clouds, outline, and the corners that are better known.
   MergeIntoCloud(into.points_w, from.points_w, {into.estimate.normal_w, 0.0},
                  into.estimate.origin_w, config.voxel_m, config.max_cloud_points);
   MergeIntoCloud(into.edge_points_w, from.edge_points_w, {into.estimate.normal_w, 0.0},
@@ -89,6 +94,7 @@ void Fuse(MapPlane& into, MapPlane& from, const PlaneMapConfig& config) {
   from.map_points.clear();
 }
 
+/// Frames in which the fused plane was seen beside others count for the one it became.
 void MoveCovisibility(Map& map, int from, int into) {
   for (MapPlane& m : map.planes) {
     const auto found = m.covisible.find(from);
@@ -132,6 +138,7 @@ int FusePlanes(Map& map, const AssociationConfig& association, const PlaneMapCon
       k = i;  // it has grown: look at the others again
     }
   }
+  // Chains of fusions are resolved to their end.
   for (MapPlane& m : map.planes) {
     if (m.status == LandmarkStatus::kMerged) m.merged_into = CurrentPlane(map, m.id);
   }

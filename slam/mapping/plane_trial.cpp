@@ -7,6 +7,7 @@
 namespace slam {
 namespace {
 
+/// Size from which a candidate is proven, pixels.
 double TrialPixels(const PlaneMapConfig& config) {
   return config.trial_size * config.min_pixels;
 }

@@ -16,6 +16,7 @@
 namespace slam {
 namespace {
 
+/// A candidate before its first observation.
 MapPlane StartPlane(const FramePlane& plane, const Frame& frame, const Pose& T_wc) {
   MapPlane m;
   m.pi_w = Transform(T_wc, plane.pi_c);
@@ -43,6 +44,7 @@ std::vector<Eigen::Vector3d> TrueEdges(const FramePlane& plane, const Pose& T_wc
   return points_w;
 }
 
+/// The observation's information, errors that do not average out included.
 void UpdateParameters(MapPlane& m, const FramePlane& plane, const Pose& T_wc,
                       const AssociationConfig& a, const PlaneMapConfig& config) {
   AddObservation(m.estimate, Transform(T_wc, plane.pi_c), T_wc * plane.centroid_c,
@@ -51,14 +53,15 @@ void UpdateParameters(MapPlane& m, const FramePlane& plane, const Pose& T_wc,
   if (!m.estimate.empty()) m.pi_w = m.estimate.Mean();
 }
 
+/// Clouds, outline, area and centroid.
 void UpdateShape(MapPlane& m, const FramePlane& plane, const Pose& T_wc,
                  const PlaneMapConfig& config) {
-  // The grid hangs on the first observation, so that voxels do not move with the estimate.
+  // The grid starts at the first observation, so that voxels do not move with the estimate.
   const Plane grid{m.estimate.normal_w, 0.0};
-  const Eigen::Vector3d& anchor_w = m.estimate.origin_w;
-  MergeIntoCloud(m.points_w, InWorld(plane.points_c, T_wc), grid, anchor_w, config.voxel_m,
+  const Eigen::Vector3d& grid_origin_w = m.estimate.origin_w;
+  MergeIntoCloud(m.points_w, InWorld(plane.points_c, T_wc), grid, grid_origin_w, config.voxel_m,
                  config.max_cloud_points);
-  MergeIntoCloud(m.edge_points_w, TrueEdges(plane, T_wc), grid, anchor_w, config.voxel_m,
+  MergeIntoCloud(m.edge_points_w, TrueEdges(plane, T_wc), grid, grid_origin_w, config.voxel_m,
                  config.max_edge_points);
   // What once lay on the plane stays in its outline, until its corners are known.
   const bool face_known = KnowsItsFace(m, config);
@@ -68,6 +71,7 @@ void UpdateShape(MapPlane& m, const FramePlane& plane, const Pose& T_wc,
   Outline outline = ConvexOutline(extent_w, m.pi_w);
   m.hull_w = std::move(outline.hull_w);
   m.area_m2 = outline.area_m2;
+  // The centroid of the cloud, on the plane.
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
   for (const Eigen::Vector3d& p_w : m.points_w) sum += p_w;
   if (!m.points_w.empty()) m.centroid_w = sum / static_cast<double>(m.points_w.size());
@@ -95,6 +99,7 @@ std::vector<int> LandmarkOfPlane(const Frame& frame) {
   return landmark;
 }
 
+/// Counts the frame for every pair of landmarks in it.
 void UpdateCovisibility(const std::vector<int>& landmark, Map& map) {
   std::set<int> seen;
   for (const int id : landmark) {
@@ -128,6 +133,7 @@ bool HasCorners(const FramePlane& plane, const MapPlane& m) {
   return !plane.bad && !m.class_name.empty();
 }
 
+/// Adds one frame plane to the map plane that it shows.
 void Observe(MapPlane& m, const FramePlane& plane, const Frame& frame, const Pose& T_wc,
              const AssociationConfig& association, const PlaneMapConfig& config) {
   UpdateParameters(m, plane, T_wc, association, config);

@@ -10,7 +10,7 @@ namespace slam {
 /// Takes one tracked frame into the map's planes, at the final frame.T_cw.
 ///
 /// A matched plane is updated: parameters (as information), class belief, thinned cloud and
-/// boundary, outline, corners, covisibility, the map points on it. A good plane that nothing
+/// boundary, outline, corners, covisibility, the map points on it. A good plane that
 /// shows nothing of the map starts a candidate, unless association left it undecided or it is
 /// small, far or poorly measured. A candidate becomes a landmark, and the decision `kNew`, once
 /// it has been seen in several frames and is large or seen often (plane_trial.h); while the map

@@ -7,16 +7,18 @@
 namespace slam {
 namespace {
 
+// An extrapolated corner has twice the standard deviation of one that was seen.
 constexpr double kSeenWeight = 1.0, kExtrapolatedWeight = 0.25;
 // Errors that a corner's covariance does not hold, first of all those of the camera's pose.
 constexpr double kOtherVariance_m2 = 0.003 * 0.003;
 constexpr double kMaxWeight = 40.0;  // so that a wrong start can still be left
 
-/// observed[order[i]] belongs to known[i].
+/// The order around the face that moves the corners least: observed[order[i]] belongs to
+/// known[i].
 std::array<std::size_t, kFaceCorners> Order(const std::vector<Eigen::Vector3d>& known_w,
                                             const std::vector<Eigen::Vector3d>& observed_w) {
   std::array<std::size_t, kFaceCorners> best{0, 1, 2, 3};
-  double least = std::numeric_limits<double>::infinity();
+  double min_sum = std::numeric_limits<double>::infinity();
   for (const bool reversed : {false, true}) {
     for (std::size_t shift = 0; shift < kFaceCorners; ++shift) {
       std::array<std::size_t, kFaceCorners> order{};
@@ -25,8 +27,8 @@ std::array<std::size_t, kFaceCorners> Order(const std::vector<Eigen::Vector3d>& 
         order[i] = (reversed ? shift + kFaceCorners - i : shift + i) % kFaceCorners;
         sum += (known_w[i] - observed_w[order[i]]).squaredNorm();
       }
-      if (sum < least) {
-        least = sum;
+      if (sum < min_sum) {
+        min_sum = sum;
         best = order;
       }
     }
@@ -42,7 +44,7 @@ double VarianceOnPlane(const Eigen::Vector3d& n, const Eigen::Matrix3d& covarian
   return 0.5 * (covariance.trace() - explained);
 }
 
-/// Of a corner that is known exactly: 1, less what its lines alone say.
+/// Weight of an observed corner: 1 for one that was seen and is known exactly.
 double Weight(const Vertex& vertex, const Eigen::Vector3d& n_c) {
   return (vertex.extrapolated ? kExtrapolatedWeight : kSeenWeight) * kOtherVariance_m2 /
          (kOtherVariance_m2 + VarianceOnPlane(n_c, vertex.covariance_c));
@@ -56,8 +58,8 @@ void Average(MapPlane& m, std::size_t i, const Eigen::Vector3d& observed_w, doub
   known = std::min(sum, kMaxWeight);
 }
 
-/// Of a face seen in part: corners that were seen, not extrapolated, bear out the known ones
-/// that they are at.
+/// A face seen in part: corners that were seen, not extrapolated, are averaged into the known
+/// ones that they are at.
 void ConfirmCorners(MapPlane& m, const std::vector<Vertex>& vertices_c, const Pose& T_wc,
                     const PlaneMapConfig& config) {
   const Eigen::Vector3d n_c = T_wc.R.transpose() * m.pi_w.n;
@@ -86,6 +88,7 @@ void FuseVertices(MapPlane& m, const std::vector<Vertex>& vertices_c, const Pose
     if (known) ConfirmCorners(m, vertices_c, T_wc, config);
     return;
   }
+  // The four corners of a whole face, on the map plane.
   std::vector<Eigen::Vector3d> observed_w;
   for (const Vertex& vertex : vertices_c) {
     if (!vertex.p_c.allFinite()) return;
@@ -99,6 +102,7 @@ void FuseVertices(MapPlane& m, const std::vector<Vertex>& vertices_c, const Pose
     for (std::size_t i = 0; i < kFaceCorners; ++i) m.vertex_weights.push_back(weight(i));
     return;
   }
+  // Near ones are averaged; a far one uses up the evidence for the known one, then replaces it.
   const auto order = Order(m.vertices_w, observed_w);
   for (std::size_t i = 0; i < kFaceCorners; ++i) {
     const std::size_t k = order[i];

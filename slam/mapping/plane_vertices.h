@@ -15,8 +15,8 @@ namespace slam {
 /// counts against the known corner, and takes its place when the evidence is used up. A corner
 /// weighs (3 mm)^2 over that plus its variance within the plane, and a quarter of it if it
 /// follows from its lines alone. Corners end on the map plane.
-/// Of an observation with fewer, seen corners within max_vertex_jump_m of known ones are
-/// averaged too.
+/// An observation with fewer corners adds those that were seen and lie within
+/// max_vertex_jump_m of known ones.
 void FuseVertices(MapPlane& map_plane, const std::vector<Vertex>& vertices_c, const Pose& T_wc,
                   const PlaneMapConfig& config);
 

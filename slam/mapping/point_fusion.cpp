@@ -46,6 +46,7 @@ int FeatureAt(const MapPoint& point, const Keyframe& keyframe, const FeatureGrid
   return best;
 }
 
+/// Gives the keyframe the points that it sees too; returns fusions and observations.
 int FuseInto(Map& map, const std::vector<int>& points, int keyframe, const FeatureGrid& grid,
              const Search& search) {
   int fused = 0;

@@ -34,6 +34,7 @@ double Distance2(const Eigen::Vector3d& line, const Eigen::Vector2d& u_px) {
   return d * d / line.head<2>().squaredNorm();
 }
 
+/// The point projects onto the feature, and at its depth where it has one.
 bool AgreesInView(const Eigen::Vector3d& p_w, const Pose& T_cw, const PointFeature& feature,
                   const Camera& camera, const FeatureScale& scale) {
   const Eigen::Vector3d p_c = T_cw * p_w;
@@ -44,7 +45,8 @@ bool AgreesInView(const Eigen::Vector3d& p_w, const Pose& T_cw, const PointFeatu
 int EpipolarMatch(const PointFeature& feature, const Eigen::Vector3d& line,
                   const Keyframe& second, const FeatureScale& scale,
                   const TriangulationConfig& config) {
-  int best = kNone, best_distance = 257, second_distance = 257;
+  constexpr int kNoMatch = 8 * static_cast<int>(sizeof(Descriptor)) + 1;  // bits
+  int best = kNone, best_distance = kNoMatch, second_distance = kNoMatch;
   for (int j = 0; j < static_cast<int>(second.features.size()); ++j) {
     if (second.map_points[Index(j)] != kNone) continue;
     const PointFeature& other = second.features[Index(j)];
@@ -63,6 +65,7 @@ int EpipolarMatch(const PointFeature& feature, const Eigen::Vector3d& line,
   return clear ? best : kNone;
 }
 
+/// Makes the points of one pair of keyframes; returns how many.
 int TriangulatePair(Map& map, int first, int second, const Camera& camera,
                     const FeatureScale& scale, const TriangulationConfig& config) {
   const Pose T_1w = map.keyframes[Index(first)].T_cw, T_2w = map.keyframes[Index(second)].T_cw;

@@ -8,11 +8,12 @@
 namespace slam {
 namespace {
 
+// Rates of the simulated detector; of real ones only the order of magnitude is known.
 constexpr double kMiss = 0.35;      // a detector misses an object of its classes this often
 constexpr double kFalse = 0.06;     // a plane without class is linked to some box this often
 constexpr double kConfused = 0.03;  // an object is given one particular other class this often
 constexpr double kPriorNone = 0.6;  // most planes belong to no detected object
-// Frames are not independent: evidence beyond this says no more.
+// Frames are not independent: evidence beyond this many of them says no more.
 constexpr double kMaxEvidence = 20.0;
 
 /// P(observed | true class).
@@ -27,19 +28,22 @@ struct Posterior {
   std::vector<double> probabilities;
 };
 
-/// Over no class, the classes of the evidence, and those of `also`.
+/// P(class | evidence) over no class, the classes of the evidence, and those of `also`.
 Posterior PosteriorOf(const std::map<std::string, double>& belief,
                       const std::set<std::string>& also) {
+  // Evidence beyond the bound is scaled down to it.
   Posterior out;
   double total = 0.0;
   for (const auto& [name, evidence] : belief) total += evidence;
   const double scale = total > kMaxEvidence ? kMaxEvidence / total : 1.0;
+  // The hypotheses: no class first, then each class once.
   out.names.emplace_back();
   std::set<std::string> classes = also;
   for (const auto& [name, evidence] : belief) classes.insert(name);
   for (const std::string& name : classes) {
     if (!name.empty()) out.names.push_back(name);
   }
+  // Bayes in logarithms: prior times the likelihood of all evidence.
   const double other =
       (1 - kPriorNone) / static_cast<double>(std::max<std::size_t>(2, out.names.size()) - 1);
   std::vector<double> logs;
@@ -50,6 +54,7 @@ Posterior PosteriorOf(const std::map<std::string, double>& belief,
     }
     logs.push_back(log_p);
   }
+  // Normalised; the largest is taken out first, so that nothing underflows.
   const double largest = *std::max_element(logs.begin(), logs.end());
   double sum = 0.0;
   for (const double log_p : logs) out.probabilities.push_back(std::exp(log_p - largest));

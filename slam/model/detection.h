@@ -6,7 +6,7 @@
 
 namespace slam {
 
-/// What an object of a class is good for. Which class is which: extract/class_table.h.
+/// What an object of a class is good for. Which class is which: slam/detect/class_table.h.
 enum class ClassKind {
   kRegular,       ///< box-shaped: its faces are rectangles (book, keyboard, tv, laptop ...)
   kUnstructured,  ///< planes found on it are noise (person, teddy bear, plant ...)

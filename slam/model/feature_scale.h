@@ -12,12 +12,12 @@ namespace slam {
 /// right coordinate u - b f / z, as if a second camera stood a baseline b beside the first: so
 /// depth is weighed by a disparity, whose error is the same at every distance.
 struct FeatureScale {
-  int octaves = 8;        ///< domain [1, 16]
-  double factor = 1.2;    ///< between neighbouring octaves; domain (1, 2]
-  double bf_px_m = 40.0;  ///< b f, focal length times virtual baseline; domain (0, inf)
+  int octaves = 8;        ///< levels of the image pyramid
+  double factor = 1.2;    ///< ratio of the scales of neighbouring octaves
+  double bf_px_m = 40.0;  ///< b f, focal length times virtual baseline
   /// A depth is trusted up to so many virtual baselines. Source: Mur-Artal and Tardos 2017,
   /// III-B.
-  double close_baselines = 40.0;  ///< domain (0, inf)
+  double close_baselines = 40.0;
 
   double Scale(int octave) const { return std::pow(factor, octave); }
   /// Variance of a feature's position, pixels^2 of the full image; 1 at octave 0.

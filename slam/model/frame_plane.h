@@ -33,7 +33,7 @@ struct EdgePoint {
   Eigen::Vector3d p_c;   ///< on the plane's own pixels, metres, camera frame
   Eigen::Vector2d u_px;  ///< pixel, recorded image
   EdgeKind kind = EdgeKind::kSurface;
-  float step_sigmas = 0.0f;  ///< of depth, between the plane and what lies beyond; 0: unknown
+  float step_sigmas = 0.0f;  ///< depth step between the plane and what lies beyond; 0: unknown
 };
 
 /// Corners of a rectangular face.
@@ -43,7 +43,7 @@ inline constexpr std::size_t kFaceCorners = 4;
 struct Vertex {
   Eigen::Vector3d p_c;        ///< metres, camera frame
   bool extrapolated = false;  ///< no edge points near it: it follows from the two lines alone
-  /// Of p_c, m^2, camera frame: from the plane's fit and the two edge lines. Zero: not known.
+  /// Covariance of p_c, m^2, from the plane's fit and the two edge lines. Zero: not known.
   Eigen::Matrix3d covariance_c = Eigen::Matrix3d::Zero();
 };
 
@@ -54,12 +54,12 @@ struct FramePlane {
   Plane pi_c;     ///< facing the camera, d > 0
   Eigen::Vector3d centroid_c = Eigen::Vector3d::Zero();
   int pixel_count = 0;
-  double area_m2 = 0.0;          ///< of the visible patch
+  double area_m2 = 0.0;          ///< the visible patch's
   double inlier_ratio = 1.0;     ///< after the re-fit, [0, 1]; 1 before
   double roughness = 0.0;        ///< off the plane, in variances of the noise; 0 = unknown
   double offset_sigma_m = 0.0;   ///< standard deviation of the offset at the centroid
   double angle_sigma_rad = 0.0;  ///< standard deviation of the normal, worse of two directions
-  /// Of g = -n / d, 1/m^2; the inverse depth of the plane along the ray (x, y, 1) is
+  /// Covariance of g = -n / d, 1/m^2; the inverse depth of the plane along the ray (x, y, 1) is
   /// g . (x, y, 1). Like the two above that of the segment's fit. Zero: not known.
   Eigen::Matrix3d inverse_depth_covariance = Eigen::Matrix3d::Zero();
 
@@ -68,12 +68,12 @@ struct FramePlane {
   Box box_px;                             ///< bounds the edge points, recorded image
 
   std::optional<int> detection;  ///< index into Frame::detections
-  std::string class_name;        ///< of that detection; empty is the paper's class -1
+  std::string class_name;        ///< that detection's; empty is the paper's class -1
 
   std::vector<Line> lines_c;       ///< edge lines L = (P, V)
   std::vector<Vertex> vertices_c;  ///< in order around the face; 4 when complete
 
-  std::optional<BadReason> bad;
+  std::optional<BadReason> bad;  ///< nothing: the plane is trusted
 };
 
 }  // namespace slam

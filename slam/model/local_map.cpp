@@ -26,8 +26,9 @@ std::vector<int> Voted(const Frame& frame, const Map& map) {
 }  // namespace
 
 LocalMap GatherLocalMap(const Frame& frame, const Map& map, int max_keyframes) {
-  constexpr int kNeighbours = 5;
+  constexpr int kNeighbours = 5;  // balances what may come into view against work
   LocalMap local;
+  // Keyframes that see the frame's points, and the nearest neighbours of each.
   std::vector<int> wanted = Voted(frame, map);
   if (!wanted.empty()) local.reference = wanted.front();
   const std::size_t voted = wanted.size();
@@ -35,11 +36,13 @@ LocalMap GatherLocalMap(const Frame& frame, const Map& map, int max_keyframes) {
     const std::vector<int> best = BestCovisible(map, wanted[i], kNeighbours);
     wanted.insert(wanted.end(), best.begin(), best.end());
   }
+  // Each once, in this order, up to the bound.
   std::set<int> seen;
   for (const int keyframe : wanted) {
     if (local.keyframes.size() >= Index(max_keyframes)) break;
     if (seen.insert(keyframe).second) local.keyframes.push_back(keyframe);
   }
+  // The points of all of them, each once.
   for (const int keyframe : local.keyframes) {
     for (const int point : map.keyframes[Index(keyframe)].map_points) {
       if (point != kNone) local.points.push_back(point);

@@ -15,7 +15,7 @@ struct LocalMap {
 
 /// Keyframes that see the frame's matched points, their nearest neighbours, and the points of
 /// all.
-/// @param max_keyframes bound of the work; domain [1, inf)
+/// @param max_keyframes bounds the work; at least 1
 LocalMap GatherLocalMap(const Frame& frame, const Map& map, int max_keyframes);
 
 }  // namespace slam

@@ -20,7 +20,7 @@ struct MapPoint {
   int visible_count = 1;  ///< frames that should have seen it
   int found_count = 1;    ///< frames that did
   bool culled = false;
-  int replaced_by = -1;  ///< when fused into another point
+  int replaced_by = kNone;  ///< id of the point into which this one was fused
 };
 
 }  // namespace slam

@@ -16,7 +16,7 @@ struct PlaneEstimate {
   Eigen::Vector3d origin_w = Eigen::Vector3d::Zero();
   Eigen::Vector3d normal_w = Eigen::Vector3d::UnitZ();  ///< unit, the reference plane's front
   Eigen::Matrix<double, 3, 2> axes = Eigen::Matrix<double, 3, 2>::Identity();
-  Eigen::Matrix3d information = Eigen::Matrix3d::Zero();  ///< of (a, b, c)
+  Eigen::Matrix3d information = Eigen::Matrix3d::Zero();  ///< inverse covariance of (a, b, c)
   Eigen::Vector3d weighted = Eigen::Vector3d::Zero();     ///< information times (a, b, c)
 
   bool empty() const { return !(information(0, 0) > 0); }
@@ -39,13 +39,12 @@ struct PlaneEstimate {
 
 /// Adds one observation. The first one sets the reference.
 /// @param keep  share of the old information that is kept, (0, 1]: errors of neighbouring
-/// frames
-///              are alike, so a thousand frames do not know a thousand times as much as one
+///              frames are alike, so a thousand frames do not know a thousand times as much as
+///              one
 inline void AddObservation(PlaneEstimate& estimate, const Plane& pi_w,
                            const Eigen::Vector3d& centroid_w, double angle_sigma_rad,
                            double offset_sigma_m, double keep) {
-  constexpr double kMinCosine =
-      0.5;  // a slope of 60 degrees is not the same plane: no division
+  constexpr double kMinCosine = 0.5;  // a slope of 60 degrees is not the same plane
   const Eigen::Vector3d foot_w = ProjectOnto(pi_w, centroid_w);
   if (estimate.empty()) {
     estimate.origin_w = foot_w;
@@ -54,11 +53,13 @@ inline void AddObservation(PlaneEstimate& estimate, const Plane& pi_w,
   }
   const double cosine = pi_w.n.dot(estimate.normal_w);
   if (!(cosine > kMinCosine)) return;
+  // What was observed: two slopes, and a height at the foot of the centroid.
   const Eigen::Vector2d slope = -(estimate.axes.transpose() * pi_w.n) / cosine;
   const Eigen::Vector3d lever = estimate.Lever(foot_w);
   const double height = estimate.normal_w.dot(foot_w - estimate.origin_w);
   const double w_z = 1.0 / (offset_sigma_m * offset_sigma_m);
   const double w_s = 1.0 / (angle_sigma_rad * angle_sigma_rad);
+  // The old information fades, the new one is added in the form of normal equations.
   estimate.information *= keep;
   estimate.weighted *= keep;
   estimate.information += w_z * lever * lever.transpose();

@@ -8,6 +8,7 @@
 namespace slam {
 namespace {
 
+/// The landmark that the frame plane was matched with, or null.
 const MapPlane* MatchedPlane(const Frame& frame, const Map& map, std::size_t i) {
   if (i >= frame.plane_matches.size()) return nullptr;
   const PlaneMatch& match = frame.plane_matches[i];
@@ -20,10 +21,11 @@ const MapPlane* MatchedPlane(const Frame& frame, const Map& map, std::size_t i) 
 std::array<bool, 4> InformativeSides(const Frame& frame, const FramePlane& plane,
                                      std::size_t detection, const Camera& camera,
                                      double max_gap_px) {
-  constexpr double kImageMargin_px = 4.0;
+  constexpr double kImageMargin_px = 4.0;  // as inexact as a detection box is
   const Box& box = frame.detections[detection].box_px;
   const Box& own = plane.box_px;
   const Box image = camera.ImageBox();
+  // The face's own pixels reach the side, and the image goes on behind it.
   std::array<bool, 4> use{std::abs(box.min.x() - own.min.x()) < max_gap_px &&
                               box.min.x() > image.min.x() + kImageMargin_px,
                           std::abs(box.min.y() - own.min.y()) < max_gap_px &&
@@ -32,7 +34,8 @@ std::array<bool, 4> InformativeSides(const Frame& frame, const FramePlane& plane
                               box.max.x() < image.max.x() - kImageMargin_px,
                           std::abs(box.max.y() - own.max.y()) < max_gap_px &&
                               box.max.y() < image.max.y() - kImageMargin_px};
-  // Boundary points at a side that lie behind something nearer: the object goes on beneath it.
+  // Where most boundary points at a side are no end of the surface, it goes on beneath
+  // something nearer.
   std::array<int, 4> at_side{}, hidden{};
   for (const EdgePoint& edge : plane.edge_points) {
     const std::array<double, 4> gap{edge.u_px.x() - own.min.x(), edge.u_px.y() - own.min.y(),
@@ -49,6 +52,7 @@ std::array<bool, 4> InformativeSides(const Frame& frame, const FramePlane& plane
   return use;
 }
 
+/// The box of the matched corners against the detection's, eq17.
 void AddBox(const Frame& frame, const FramePlane& plane, const MapPlane& map_plane,
             const Camera& camera, const PlaneConstraintConfig& config, PoseProblem& problem) {
   if (!plane.detection || map_plane.vertices_w.size() != 4) return;
@@ -59,7 +63,7 @@ void AddBox(const Frame& frame, const FramePlane& plane, const MapPlane& map_pla
   if (std::none_of(c.use.begin(), c.use.end(), [](bool side) { return side; })) return;
   // A thick object's box shows its sides too: the less the face explains, the less it says.
   const double explained = Iou(plane.box_px, frame.detections[d].box_px);
-  constexpr double kMinExplained = 0.25;
+  constexpr double kMinExplained = 0.25;  // below, sigma would be more than fourfold
   if (!(explained > kMinExplained)) return;
   c.corners_w = map_plane.vertices_w;
   c.box_obs_px = frame.detections[d].box_px;
@@ -67,6 +71,7 @@ void AddBox(const Frame& frame, const FramePlane& plane, const MapPlane& map_pla
   problem.boxes.push_back(std::move(c));
 }
 
+/// Matched points on the frame's planes, eq18.
 void AddPointPlanes(const Frame& frame, const Map& map, const PlaneConstraintConfig& config,
                     PoseProblem& problem) {
   std::vector<double> count(frame.planes.size(), 0.0);
@@ -80,7 +85,8 @@ void AddPointPlanes(const Frame& frame, const Map& map, const PlaneConstraintCon
   }
 }
 
-/// Adds f against every big map plane but the one it was matched with.
+/// The frame plane against every large landmark but the one it was matched with: parallel
+/// (eq19) or perpendicular (eq20) where the measured angle says that they can be.
 void AddDirections(const FramePlane& plane, const MapPlane& matched, const Map& map,
                    const Pose& T_cw, const PosePrior& prior,
                    const PlaneConstraintConfig& config, PoseProblem& problem) {
@@ -89,6 +95,7 @@ void AddDirections(const FramePlane& plane, const MapPlane& matched, const Map& 
     if (other.status != LandmarkStatus::kLandmark || other.id == matched.id) continue;
     if (other.observations < config.min_direction_observations) continue;
     if (!(other.area_m2 > config.min_direction_area_m2)) continue;
+    // Standard deviation of the angle: frame plane, map plane and pose.
     double map_variance = floor * floor;
     if (!other.estimate.empty()) {
       map_variance +=
@@ -96,15 +103,17 @@ void AddDirections(const FramePlane& plane, const MapPlane& matched, const Map& 
     }
     const double sigma = std::sqrt(plane.angle_sigma_rad * plane.angle_sigma_rad +
                                    map_variance + prior.sigma_rad * prior.sigma_rad);
+    // Close to the hypothesis, and consistent with it.
     const double angle = Angle(plane.pi_c.n, T_cw.R * other.pi_w.n);
     const double from_parallel = std::min(angle, M_PI - angle);
     const double from_right = std::abs(angle - 0.5 * M_PI);
-    const double most =
+    const double max_error =
         std::min(config.max_direction_angle_rad, config.max_direction_sigmas * sigma);
-    const double weight = std::hypot(config.direction_sigma_rad, sigma);
-    if (from_parallel < most) problem.parallels.push_back({other.pi_w.n, plane.pi_c.n, weight});
-    if (from_right < most)
-      problem.perpendiculars.push_back({other.pi_w.n, plane.pi_c.n, weight});
+    const double factor_sigma = std::hypot(config.direction_sigma_rad, sigma);
+    if (from_parallel < max_error)
+      problem.parallels.push_back({other.pi_w.n, plane.pi_c.n, factor_sigma});
+    if (from_right < max_error)
+      problem.perpendiculars.push_back({other.pi_w.n, plane.pi_c.n, factor_sigma});
   }
 }
 
@@ -118,6 +127,7 @@ PlaneConstraint MakePlaneConstraint(const FramePlane& f, const MapPlane& m, cons
   c.centroid_c = f.centroid_c;
   double offset2 = f.offset_sigma_m * f.offset_sigma_m + offset_floor_m * offset_floor_m;
   double angle2 = f.angle_sigma_rad * f.angle_sigma_rad + angle_floor_rad * angle_floor_rad;
+  // The map plane's uncertainty where the patch is.
   if (!m.estimate.empty()) {
     const Eigen::Matrix3d covariance = m.estimate.Covariance();
     const Eigen::Vector3d x_w = T_cw.R.transpose() * (f.centroid_c - T_cw.t);

@@ -6,7 +6,7 @@ namespace slam {
 /// axis. Measured on simulated desks; real recordings drift more.
 struct PosePrior {
   double sigma_m = 0.006;
-  double sigma_rad = 0.004;
+  double sigma_rad = 0.004;  // 0.23 degrees
 };
 
 }  // namespace slam

@@ -15,6 +15,9 @@
 namespace slam {
 namespace {
 
+constexpr double kNormalTolerance = 1e-6;  // a normal farther from unit length is not one
+
+/// Whether a constraint is finite: others are left out of the sums.
 bool Sane(const PointConstraint& c) {
   return c.p_w.allFinite() && c.u_px.allFinite() && std::isfinite(c.right_u_px) &&
          c.inv_sigma2_px > 0 && std::isfinite(c.inv_sigma2_px);
@@ -22,9 +25,11 @@ bool Sane(const PointConstraint& c) {
 
 bool Positive(double sigma) { return sigma > 0 && std::isfinite(sigma); }
 
-bool Sane(const Plane& pi) {
-  return pi.n.allFinite() && std::isfinite(pi.d) && std::abs(pi.n.norm() - 1) < 1e-6;
+bool IsNormal(const Eigen::Vector3d& n) {
+  return n.allFinite() && std::abs(n.norm() - 1) < kNormalTolerance;
 }
+
+bool Sane(const Plane& pi) { return std::isfinite(pi.d) && IsNormal(pi.n); }
 
 bool Sane(const PlaneConstraint& c) {
   return Sane(c.pi_w) && Sane(c.pi_c) && c.centroid_c.allFinite() &&
@@ -43,8 +48,7 @@ bool Sane(const PointPlaneConstraint& c) {
 }
 
 bool Sane(const DirectionConstraint& c) {
-  return c.n_w.allFinite() && c.n_c.allFinite() && std::abs(c.n_w.norm() - 1) < 1e-6 &&
-         std::abs(c.n_c.norm() - 1) < 1e-6 && Positive(c.sigma_rad);
+  return IsNormal(c.n_w) && IsNormal(c.n_c) && Positive(c.sigma_rad);
 }
 
 /// Adds a whitened block: H += w J^T J, g += w J^T r, upper triangle only.
@@ -59,6 +63,7 @@ void Add(const Linearised<kRows>& f, double huber, NormalEquations& sum) {
   sum.cost += loss.cost;
 }
 
+/// The factor in sigmas.
 template <int kRows>
 Linearised<kRows> Whitened(Linearised<kRows> f, double inv_sigma) {
   f.r *= inv_sigma;
@@ -66,7 +71,7 @@ Linearised<kRows> Whitened(Linearised<kRows> f, double inv_sigma) {
   return f;
 }
 
-/// Sums the factors of one problem at a pose.
+/// Sums the factors of one problem at a pose, eq13.
 class Evaluator {
  public:
   Evaluator(const PoseProblem& problem, const Camera& camera, const FeatureScale& scale,
@@ -82,12 +87,12 @@ class Evaluator {
 
   NormalEquations operator()(const Pose& T_cw) const {
     NormalEquations sum;
-    AddPoints(T_cw, sum);
-    if (config_.use_planes) AddPlanes(T_cw, sum);
-    if (config_.use_boxes) AddBoxes(T_cw, sum);
-    if (config_.use_point_planes) AddPointPlanes(T_cw, sum);
-    if (config_.use_parallel) AddParallels(T_cw, sum);
-    if (config_.use_perpendicular) AddPerpendiculars(T_cw, sum);
+    AddPoints(T_cw, sum);                                         // eq14
+    if (config_.use_planes) AddPlanes(T_cw, sum);                 // eq15, eq16
+    if (config_.use_boxes) AddBoxes(T_cw, sum);                   // eq17
+    if (config_.use_point_planes) AddPointPlanes(T_cw, sum);      // eq18
+    if (config_.use_parallel) AddParallels(T_cw, sum);            // eq19
+    if (config_.use_perpendicular) AddPerpendiculars(T_cw, sum);  // eq20
     return sum;
   }
 
@@ -169,7 +174,7 @@ class Evaluator {
     }
   }
 
-  static constexpr double kBehindSigmas = 100.0;
+  static constexpr double kBehindSigmas = 100.0;  // far beyond any gate
 
   const PoseProblem& problem_;
   const Camera& camera_;
@@ -191,6 +196,7 @@ PoseSummary OptimisePose(const PoseProblem& problem, const Camera& camera,
 
   Evaluator evaluate(problem, camera, scale, config);
   out.initial_cost = evaluate(problem.T_cw).cost;
+  // Optimise, classify the points, and again without the outliers; the last round is plain.
   for (int round = 0; round < config.rounds; ++round) {
     evaluate.robust_points = config.rounds == 1 || round + 1 < config.rounds;
     const SolveSummary solved = SolvePose(out.T_cw, config.iterations, evaluate);
@@ -201,6 +207,7 @@ PoseSummary OptimisePose(const PoseProblem& problem, const Camera& camera,
     // The last round has nothing new to say once the inliers stand still under plain squares.
     if (!evaluate.robust_points && evaluate.used == before) break;
   }
+  // What the solution is worth.
   const NormalEquations last = evaluate(out.T_cw);
   out.information = last.H.selfadjointView<Eigen::Upper>();
   out.point_inliers = evaluate.used;

@@ -86,6 +86,7 @@ struct PoseProblem {
   std::vector<DirectionConstraint> parallels, perpendiculars;
 };
 
+/// What OptimisePose came to.
 struct PoseSummary {
   Pose T_cw;
   bool usable = false;              ///< all six directions constrained and everything finite

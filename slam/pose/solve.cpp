@@ -8,7 +8,7 @@
 namespace slam {
 namespace {
 
-constexpr double kSmallStep = 1e-10;     // metres and radians
+constexpr double kSmallStep = 1e-10;     // metres and radians: below any meaning
 constexpr double kNullRatio = 1e-9;      // relative eigenvalue of an unobservable direction
 constexpr double kDiagonalFloor = 1e-9;  // of the largest in its block: below is rounding
 

@@ -38,7 +38,9 @@ bool StepIsSmall(const Vector6d& xi);
 /// after `max_iterations` trial steps. Never returns a pose worse than T_cw.
 template <typename Evaluate>
 SolveSummary SolvePose(const Pose& T_cw, int max_iterations, const Evaluate& evaluate) {
+  // Relative to the curvature: nearly Gauss-Newton at first; beyond the bounds nothing changes.
   constexpr double kFirstLambda = 1e-4, kMinLambda = 1e-12, kMaxLambda = 1e12;
+  constexpr double kLambdaDown = 0.1, kLambdaUp = 10.0;  // Marquardt 1963
   constexpr double kMinRelativeDecrease = 1e-9;
   SolveSummary out;
   out.T_cw = T_cw;
@@ -57,10 +59,10 @@ SolveSummary SolvePose(const Pose& T_cw, int max_iterations, const Evaluate& eva
       converged = small || out.at.cost - trial.cost < kMinRelativeDecrease * out.at.cost;
       out.T_cw = trial_cw;
       out.at = trial;
-      lambda = lambda > kMinLambda ? 0.1 * lambda : lambda;
+      lambda = lambda > kMinLambda ? kLambdaDown * lambda : lambda;
     } else {
       converged = small || !(lambda < kMaxLambda);
-      lambda *= 10;
+      lambda *= kLambdaUp;
     }
   }
   out.T_cw = Normalised(out.T_cw);

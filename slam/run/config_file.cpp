@@ -12,17 +12,21 @@
 namespace slam {
 namespace {
 
+/// Digits that are listed: the fifteen that every double keeps.
+constexpr int kDigits = 15;
+
 /// In degrees a default such as 0.1745 rad has seventeen digits; what is listed is rounded to
 /// fifteen, far below any meaning.
 double Rounded(double x) {
   char buffer[32];
   const auto [end, error] =
-      std::to_chars(buffer, buffer + sizeof buffer, x, std::chars_format::general, 15);
+      std::to_chars(buffer, buffer + sizeof buffer, x, std::chars_format::general, kDigits);
   double rounded = x;
   std::from_chars(buffer, end, rounded);
   return rounded;
 }
 
+/// Takes from a YAML file what it names.
 class Reader : public FieldVisitor {
  public:
   explicit Reader(const io::YamlValue& file) : sections_{{io::YamlMap(file), {}}} {}
@@ -62,7 +66,7 @@ class Reader : public FieldVisitor {
  private:
   struct OpenSection {
     io::YamlMap map;
-    std::vector<std::string> keys;  ///< of the fields visited so far
+    std::vector<std::string> keys;  ///< those of the fields visited so far
   };
 
   std::optional<io::YamlValue> Find(const char* key) {
@@ -74,6 +78,7 @@ class Reader : public FieldVisitor {
   std::vector<OpenSection> sections_;
 };
 
+/// Writes all fields as nested objects.
 class JsonWriter : public FieldVisitor {
  public:
   explicit JsonWriter(nlohmann::ordered_json& top) : objects_{&top} {}
@@ -106,6 +111,7 @@ class JsonWriter : public FieldVisitor {
   std::vector<nlohmann::ordered_json*> objects_;
 };
 
+/// Writes all fields as a file that Reader takes, with help and domain as comments.
 class YamlWriter : public FieldVisitor {
  public:
   std::string text;

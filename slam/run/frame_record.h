@@ -15,8 +15,7 @@ const char* DecisionText(PlaneDecision decision);
 /// One line of frame_planes.jsonl: what was seen in a frame, and what was decided in it. `by`
 /// is null where nothing decided.
 /// @throws std::invalid_argument if the matches are not parallel to the planes, or a number is
-/// not
-///         finite.
+///         not finite.
 /// @param state  of tracking, see StateName; left out when empty
 nlohmann::ordered_json FramePlanesRecord(const Frame& frame, bool tracked,
                                          const char* state = "");

@@ -54,7 +54,7 @@ std::string MapAsJson(const Map& map) {
 }
 
 std::array<std::uint8_t, 3> PlaneColour(int id) {
-  // Golden-angle steps round the colour circle, at two brightnesses.
+  // Steps by the golden ratio round the colour circle, at two brightnesses.
   const double hue = std::fmod(0.1 + id * 0.6180339887498949, 1.0) * 6.0;
   const double value = id % 2 == 0 ? 1.0 : 0.75;
   constexpr double kSaturation = 0.75;

@@ -5,7 +5,7 @@
 
 namespace slam {
 
-/// The door to a map that tracking and mapping share: one of them at a time, and tracking goes
+/// Access to a map that tracking and mapping share: one of them at a time, and tracking goes
 /// first, so that it never waits for more than the piece of work in hand.
 class MapGate {
  public:

@@ -21,11 +21,11 @@ struct RunOptions {
   std::string detector;  ///< see MakeDetector; empty: replay when the sequence has boxes
   std::string camera;    ///< tum1, tum2, tum3, a file; empty: the sequence's camera.yaml
   Config config;
-  std::uint64_t seed = 0;  ///< of every random choice of the estimator
+  std::uint64_t seed = 0;  ///< seeds every random choice of the estimator
   int threads = 0;         ///< 0: one a core; never changes a byte of the result
   bool save_segmentation = false;
   bool force = false;                                 ///< replace an older run
-  std::string version;                                ///< of the program, for run.json
+  std::string version;                                ///< the program's, for run.json
   std::function<void(int done, int total)> progress;  ///< may be empty
   /// Told at once what makes it useless to go on: the camera is not what the file says. The
   /// outcome's warnings say it again with the latest figures. May be empty.

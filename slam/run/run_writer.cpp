@@ -14,8 +14,8 @@
 namespace slam {
 namespace {
 
-constexpr int kMaxLabel = 255;  // of an 8-bit segmentation
-constexpr int kPngCompression = 1;
+constexpr int kMaxLabel = 255;      // an 8-bit segmentation holds no more
+constexpr int kPngCompression = 1;  // fast; labels compress well at any level
 
 /// Greatest memory that the process has held, MiB.
 double PeakMemory_mb() {

@@ -24,7 +24,7 @@ struct RunInfo {
   std::string association;         ///< the association rule
   std::string detector;            ///< "replay", "yolox:FILE", "live", "none"
   std::uint64_t seed = 0;
-  std::string version;  ///< of the program, with the commit
+  std::string version;  ///< the program's, with the commit
   nlohmann::ordered_json options = nlohmann::ordered_json::object();  ///< see ConfigAsJson
 };
 
@@ -66,8 +66,7 @@ class RunWriter {
   /// Writes what remains and puts the folder in its place. Keyframes that were culled are left
   /// out.
   /// @param trajectory  replaces the poses of the tracked frames as they were at their time,
-  /// e.g.
-  ///                    by poses that followed the optimised keyframes; empty keeps those
+  ///                    e.g. by poses that followed the optimised keyframes; empty keeps those
   void Finish(const Map& map, const std::vector<TimedPose>& trajectory = {});
 
  private:

@@ -21,6 +21,7 @@
 namespace slam {
 namespace {
 
+/// The settings of the variant, with the run's seed.
 Config ForVariant(Config config, Variant variant, std::uint64_t seed) {
   config.plane_processing.seed += seed;
   config.association.rule =
@@ -28,7 +29,8 @@ Config ForVariant(Config config, Variant variant, std::uint64_t seed) {
   return config;
 }
 
-/// Keyframes that wait for mapping beside tracking.
+/// Keyframes that may wait for mapping beside tracking: balances how many are dropped against
+/// how far the map lags behind.
 constexpr std::size_t kMaxWaiting = 3;
 
 }  // namespace
@@ -126,6 +128,7 @@ void Tracker::AssociateFramePlanes(Frame& frame, TrackReport& report) const {
 
 void Tracker::OptimiseWithPlanes(Frame& frame, TrackReport& report) const {
   const Stopwatch watch(report.times[Module::kPo]);
+  // eq13 from all points and planes of the frame.
   const FramePoints points = PointConstraints(frame, map_, scale());
   PoseProblem problem;
   problem.T_cw = frame.T_cw;
@@ -152,6 +155,7 @@ void Tracker::UpdateMap(Frame& frame, TrackReport& report) {
     const Stopwatch watch(report.times[Module::kUpm]);
     FusePlanes(map_, config_.association, config_.plane_map);
   }
+  // The pose is tied to a keyframe, which moves on when the map is adjusted.
   points_.Accept(frame, map_);
   report.reference = points_.reference_keyframe();
   report.T_cr = frame.T_cw * Inverse(KeyframePose(map_, report.reference));

@@ -57,8 +57,8 @@ class Tracker {
           std::unique_ptr<Detector> detector, std::uint64_t seed, int threads,
           std::function<void(int keyframe)> before_mapping = {});
 
-  /// Takes one frame, with index, timestamp, gray and depth set, through the stages (A) to (F)
-  /// of the paper's framework; fills the rest of it. An untracked frame has no pose: T_cw is
+  /// Takes one frame, with index, timestamp, gray and depth set, through the paper's stages (A)
+  /// to (F); fills the rest of it. An untracked frame has no pose: T_cw is
   /// the identity, nothing is matched, and the map is as before.
   /// @param bgr  for the detector; same size
   /// @throws what mapping beside tracking threw meanwhile
@@ -69,7 +69,8 @@ class Tracker {
   void Finish(MappingWorker::Waiting waiting);
 
   const Map& map() const { return map_; }
-  int loops() const { return loops_; }  ///< closed
+  /// Number of loops closed.
+  int loops() const { return loops_; }
   /// Keyframes that mapping beside tracking had no time for.
   int unmapped_keyframes() const { return worker_ ? worker_->dropped() : 0; }
 

@@ -4,7 +4,7 @@ namespace slam {
 namespace {
 
 // Corners farther from the image than its own size are beyond the calibrated part of the lens.
-constexpr double kMaxOutside = 1.0;
+constexpr double kMaxOutside = 1.0;  // image sizes
 
 /// d (recorded pixel) / d x_c, Brown's distortion included.
 Eigen::Matrix<double, 2, 3> ProjectionJacobian(const Camera& k, const Eigen::Vector3d& x_c) {
@@ -29,6 +29,7 @@ Linearised<4> BoxFactor(const BoxConstraint& constraint, const Pose& T_cw,
                         const Camera& camera) {
   Linearised<4> out;
   if (constraint.corners_w.empty()) return out;
+  // eta: the box around the projected corners, and the corner that makes each side.
   const Eigen::Vector2d size(camera.width, camera.height);
   std::array<Eigen::Vector3d, 4> extreme_c;
   Eigen::Vector4d eta;
@@ -55,7 +56,7 @@ Linearised<4> BoxFactor(const BoxConstraint& constraint, const Pose& T_cw,
   for (int side = 0; side < 4; ++side) {
     const auto i = static_cast<std::size_t>(side);
     if (!constraint.use[i]) continue;
-    out.r[side] = eta[side] - observed[side];
+    out.r[side] = eta[side] - observed[side];  // eq17
     out.J.row(side) =
         ProjectionJacobian(camera, extreme_c[i]).row(side % 2) * PointJacobian(extreme_c[i]);
   }

@@ -10,7 +10,7 @@ Linearised<3> ParallelFactor(const DirectionConstraint& constraint, const Pose& 
   if (n_p.dot(constraint.n_c) < 0) n_p = -n_p;
   const NormalDifference turn = TurnBetween(constraint.n_c, n_p);
   if (!turn.valid) return out;
-  out.r = turn.r;
+  out.r = turn.r;  // eq19
   out.J.rightCols<3>() = -turn.dr_dn2 * Hat(n_p);
   out.valid = true;
   return out;

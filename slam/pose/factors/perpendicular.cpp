@@ -3,8 +3,8 @@
 namespace slam {
 namespace {
 
-// The two normals are then parallel: the constraint is nonsense and has no gradient.
-constexpr double kMinCross = 1e-6;
+// Below, the two normals are parallel: the constraint is nonsense and has no gradient.
+constexpr double kMinCross = 1e-6;  // sine of the angle
 
 }  // namespace
 
@@ -14,7 +14,7 @@ Linearised<1> PerpendicularFactor(const DirectionConstraint& constraint, const P
   const Eigen::Vector3d cross = n_p.cross(constraint.n_c);
   const double s = cross.norm();
   if (!(s > kMinCross)) return out;
-  out.r[0] = std::atan2(constraint.n_c.dot(n_p), s);  // asin, exact also near a right angle
+  out.r[0] = std::atan2(constraint.n_c.dot(n_p), s);  // eq20; asin, exact also near pi/2
   out.J.rightCols<3>() = (cross / s).transpose();
   out.valid = true;
   return out;

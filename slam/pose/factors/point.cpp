@@ -11,7 +11,7 @@ Linearised<3> PointFactor(const PointConstraint& constraint, const Pose& T_cw,
   const double iz = 1.0 / z, iz2 = iz * iz;
   const double fx = camera.fx, fy = camera.fy;
   const double u = fx * x * iz + camera.cx;
-  out.r[0] = u - constraint.u_px.x();
+  out.r[0] = u - constraint.u_px.x();  // eq14
   out.r[1] = fy * y * iz + camera.cy - constraint.u_px.y();
   out.J.row(0) << fx * iz, 0, -fx * x * iz2, -fx * x * y * iz2, fx * (1 + x * x * iz2),
       -fx * y * iz;
