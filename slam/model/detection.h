@@ -6,7 +6,7 @@
 
 namespace slam {
 
-/// What an object of a class is good for. Which class is which: extract/class_table.h.
+/// What an object of a class is good for. Which class is which: detect/class_table.h.
 enum class ClassKind {
   kRegular,       ///< box-shaped: its faces are rectangles (book, keyboard, tv, laptop ...)
   kUnstructured,  ///< planes found on it are noise (person, teddy bear, plant ...)
@@ -20,7 +20,6 @@ struct Detection {
   ClassKind kind = ClassKind::kOther;
   double score = 0.0;  ///< [0, 1]
   Box box_px;
-  int track = -1;            ///< id of its box track over frames, -1 before tracking
   bool compensated = false;  ///< not detected in this frame: predicted from its track
 };
 
