@@ -48,7 +48,7 @@ std::vector<std::vector<Detection>> AnyFrames() {
 
 bool Same(const Detection& a, const Detection& b) {
   return a.class_name == b.class_name && a.kind == b.kind && a.score == b.score &&
-         a.box_px.min == b.box_px.min && a.box_px.max == b.box_px.max && a.track == b.track &&
+         a.box_px.min == b.box_px.min && a.box_px.max == b.box_px.max &&
          a.compensated == b.compensated;
 }
 
@@ -56,7 +56,7 @@ std::vector<Detection> Sorted(std::vector<Detection> list) {
   std::sort(list.begin(), list.end(), [](const Detection& a, const Detection& b) {
     const auto key = [](const Detection& d) {
       return std::make_tuple(d.box_px.min.x(), d.box_px.min.y(), d.box_px.max.x(),
-                             d.box_px.max.y(), d.class_name, d.score, d.track);
+                             d.box_px.max.y(), d.class_name, d.score);
     };
     return key(a) < key(b);
   });
@@ -82,7 +82,6 @@ RC_GTEST_PROP(BoxTracks, MakeNothingFromNothing, ()) {
   BoxTracks tracks({}, kImage);
   for (int i = Whole(1, 30); i > 0; --i)
     RC_ASSERT(tracks.Update(1.0 - i * kFrame_s, {}).empty());
-  RC_ASSERT(tracks.tracks() == 0);
 }
 
 RC_GTEST_PROP(BoxTracks, LeavePerfectDetectionsAsTheyAre, ()) {
@@ -121,21 +120,7 @@ RC_GTEST_PROP(BoxTracks, GiveBoxesInsideTheImageWithScoresBetweenZeroAndOne, ())
       RC_ASSERT(kImage.Contains(d.box_px.min) && kImage.Contains(d.box_px.max));
       RC_ASSERT(!d.box_px.empty());
       RC_ASSERT(d.score >= 0 && d.score <= 1);
-      RC_ASSERT(!d.compensated || d.track >= 0);
     }
-  }
-}
-
-RC_GTEST_PROP(BoxTracks, OfOneFrameHaveDifferentIds, ()) {
-  BoxTracks tracks({}, kImage);
-  double t = 0;
-  for (const auto& frame : AnyFrames()) {
-    t += kFrame_s;
-    std::vector<int> ids;
-    for (const Detection& d : tracks.Update(t, frame))
-      if (d.track >= 0) ids.push_back(d.track);
-    std::sort(ids.begin(), ids.end());
-    RC_ASSERT(std::adjacent_find(ids.begin(), ids.end()) == ids.end());
   }
 }
 

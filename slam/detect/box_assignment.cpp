@@ -20,8 +20,8 @@ std::vector<int> AssignForLargestGain(const std::vector<std::vector<double>>& ga
     return r < rows && c < columns ? -std::max(gain[r][c], 0.0) : 0.0;
   };
 
-  // Position 0 of `row_of` and `way` is a virtual column from which each augmenting path
-  // starts.
+  // Rows are added one by one. Position 0 of `row_of` and `way` is a virtual column from which
+  // each augmenting path starts.
   constexpr double kInf = std::numeric_limits<double>::infinity();
   std::vector<double> row_price(n + 1, 0.0), column_price(n + 1, 0.0);
   std::vector<std::size_t> row_of(n + 1, 0), way(n + 1, 0);
@@ -30,6 +30,7 @@ std::vector<int> AssignForLargestGain(const std::vector<std::vector<double>>& ga
     std::vector<bool> reached(n + 1, false);
     row_of[0] = r;
     std::size_t at = 0;
+    // Shortest path by reduced costs to a column that is free.
     do {
       reached[at] = true;
       const std::size_t from = row_of[at];
@@ -41,6 +42,7 @@ std::vector<int> AssignForLargestGain(const std::vector<std::vector<double>>& ga
         if (reduced < slack[c]) slack[c] = reduced, way[c] = at;
         if (slack[c] < step) step = slack[c], next = c;
       }
+      // Prices, so that the path found so far costs nothing.
       for (std::size_t c = 0; c <= n; ++c) {
         if (reached[c])
           row_price[row_of[c]] += step, column_price[c] -= step;
@@ -49,6 +51,7 @@ std::vector<int> AssignForLargestGain(const std::vector<std::vector<double>>& ga
       }
       at = next;
     } while (row_of[at] != 0);
+    // Along the path each row moves on to the next column.
     for (; at != 0; at = way[at]) row_of[at] = row_of[way[at]];
   }
 

@@ -11,11 +11,12 @@
 namespace slam {
 namespace {
 
-constexpr double kMaxPause_s = 1.0;       // after it the boxes say nothing of where objects are
-constexpr double kFirstSpeed_px_s = 400;  // standard deviation of an unknown speed
-// Detections and misses that every track is thought to have had: a rate of 0.8 to begin with.
+constexpr double kMaxPause_s = 1.0;  // after it the boxes say nothing of where objects are
+// Standard deviation of an unknown speed: a hand-held camera that turns by 45 degrees a second.
+constexpr double kFirstSpeed_px_s = 400;
+// Prior of the detection rate: 4 of 5 frames, which as many frames of its own outweigh.
 constexpr double kPriorHits = 4, kPriorFrames = 5;
-constexpr std::size_t kMinCommonShift = 3;  // boxes that must agree on a shift of the image
+constexpr std::size_t kMinCommonShift = 3;  // boxes whose median tells a shift of the image
 
 std::array<double, 4> Sides(const Box& b) {
   return {b.min.x(), b.min.y(), b.max.x(), b.max.y()};
@@ -35,8 +36,8 @@ double Median(std::vector<double> x) {
 }  // namespace
 
 Box BoxTracks::Track::box() const {
-  const double u0 = sides[0].x,
-               v0 = sides[1].x;  // noise may turn a thin box over: keep it a box
+  // Noise may turn a thin box over: keep it a box.
+  const double u0 = sides[0].x, v0 = sides[1].x;
   return {{u0, v0}, {std::max(u0, sides[2].x), std::max(v0, sides[3].x)}};
 }
 
@@ -63,60 +64,31 @@ BoxTracks::BoxTracks(const BoxTracksConfig& config, const Box& image_px)
 }
 
 std::vector<Detection> BoxTracks::Update(double timestamp_s,
-                                         const std::vector<Detection>& detections,
-                                         const BoxMotion& motion) {
+                                         const std::vector<Detection>& detections) {
   if (!config_.enabled) return detections;
   Require(std::isfinite(timestamp_s) && (!started_ || timestamp_s > last_s_),
           "BoxTracks::Update: timestamps must increase");
   if (started_ && timestamp_s - last_s_ > kMaxPause_s) tracks_.clear();
-  Predict(started_ ? timestamp_s - last_s_ : 0.0, motion);
+  Predict(started_ ? timestamp_s - last_s_ : 0.0);
   started_ = true;
   last_s_ = timestamp_s;
 
-  // One canonical order, so that ids and ties do not depend on the order given.
+  // One canonical order, so that tracks and ties do not depend on the order given.
   const std::vector<std::size_t> kept = Deduplicated(detections);
   std::vector<Detection> sorted;
   for (const std::size_t i : kept) sorted.push_back(detections[i]);
-  const std::vector<int> detection_of = Assign(sorted);
+  const std::vector<std::size_t> track_of = Follow(sorted);
 
-  std::vector<int> track_of(sorted.size(), -1);
-  for (std::size_t t = 0; t < detection_of.size(); ++t) {
-    Track& track = tracks_[t];
-    ++track.frames;
-    for (auto& [name, evidence] : track.classes) evidence.weight *= config_.class_memory;
-    const int d = detection_of[t];
-    if (d < 0) {
-      Miss(track);
-    } else {
-      track_of[static_cast<std::size_t>(d)] = static_cast<int>(t);
-      Correct(track, sorted[static_cast<std::size_t>(d)]);
-    }
-  }
-  for (std::size_t d = 0; d < sorted.size(); ++d) {
-    if (track_of[d] >= 0) continue;
-    track_of[d] = static_cast<int>(tracks_.size());
-    Start(sorted[d]);
-  }
-
+  // The answer: what was detected, in the order given, then what was missed.
   std::vector<std::pair<std::size_t, Detection>> given;
   for (std::size_t d = 0; d < sorted.size(); ++d)
-    given.emplace_back(kept[d],
-                       Labelled(tracks_[static_cast<std::size_t>(track_of[d])], sorted[d]));
+    given.emplace_back(kept[d], Labelled(tracks_[track_of[d]], sorted[d]));
   std::sort(given.begin(), given.end(),
             [](const auto& a, const auto& b) { return a.first < b.first; });
   std::vector<Detection> answer;
   for (auto& [position, detection] : given) answer.push_back(std::move(detection));
+  AddMissed(answer);
 
-  for (const Track& track : tracks_) {
-    Detection filled;
-    if (!Fill(track, filled)) continue;
-    const bool seen_already =
-        std::any_of(answer.begin(), answer.end(), [&](const Detection& d) {
-          return d.class_name == filled.class_name &&
-                 Iou(d.box_px, filled.box_px) > config_.max_duplicate_iou;
-        });
-    if (!seen_already) answer.push_back(std::move(filled));
-  }
   std::erase_if(tracks_, [&](const Track& t) {
     const bool tentative = t.hits < config_.min_hits && t.misses_in_row > config_.min_hits;
     return tentative || t.misses_in_row > config_.max_coast_frames;
@@ -124,6 +96,47 @@ std::vector<Detection> BoxTracks::Update(double timestamp_s,
   return answer;
 }
 
+/// Brings the tracks up to date with the detections.
+/// @returns the position of each detection's track
+std::vector<std::size_t> BoxTracks::Follow(const std::vector<Detection>& detections) {
+  const std::vector<int> detection_of = Assign(detections);
+  constexpr std::size_t kNoTrack = static_cast<std::size_t>(-1);
+  std::vector<std::size_t> track_of(detections.size(), kNoTrack);
+  for (std::size_t t = 0; t < detection_of.size(); ++t) {
+    Track& track = tracks_[t];
+    ++track.frames;
+    for (auto& [name, evidence] : track.classes) evidence.weight *= config_.class_memory;
+    if (detection_of[t] < 0) {
+      Miss(track);
+      continue;
+    }
+    const auto d = static_cast<std::size_t>(detection_of[t]);
+    track_of[d] = t;
+    Correct(track, detections[d]);
+  }
+  for (std::size_t d = 0; d < detections.size(); ++d) {
+    if (track_of[d] != kNoTrack) continue;
+    track_of[d] = tracks_.size();
+    Start(detections[d]);
+  }
+  return track_of;
+}
+
+/// Adds the boxes of tracks that were missed, unless the answer has such a box already.
+void BoxTracks::AddMissed(std::vector<Detection>& answer) const {
+  for (const Track& track : tracks_) {
+    std::optional<Detection> filled = Filled(track);
+    if (!filled) continue;
+    const bool seen_already =
+        std::any_of(answer.begin(), answer.end(), [&](const Detection& d) {
+          return d.class_name == filled->class_name &&
+                 Iou(d.box_px, filled->box_px) > config_.max_duplicate_iou;
+        });
+    if (!seen_already) answer.push_back(std::move(*filled));
+  }
+}
+
+/// Positions of the detections without duplicates, in canonical order.
 std::vector<std::size_t> BoxTracks::Deduplicated(
     const std::vector<Detection>& detections) const {
   std::vector<std::size_t> order(detections.size()), kept;
@@ -141,25 +154,13 @@ std::vector<std::size_t> BoxTracks::Deduplicated(
   return kept;
 }
 
-void BoxTracks::Predict(double dt_s, const BoxMotion& motion) {
+/// Moves each side by its velocity, with white acceleration over the step.
+void BoxTracks::Predict(double dt_s) {
   if (!(dt_s > 0)) return;
   const double q = config_.acceleration_px_s2 * config_.acceleration_px_s2;
   for (Track& track : tracks_) {
-    const Box before = track.box();
-    const Box moved = motion ? motion(before) : Box{};
-    // A motion that cannot say (object behind the camera, no depth) leaves the box to its
-    // velocity.
-    const bool told = !moved.empty() && moved.min.allFinite() && moved.max.allFinite();
-    const std::array<double, 4> from = Sides(before), to = Sides(moved);
-    for (std::size_t i = 0; i < 4; ++i) {
-      Side& s = track.sides[i];
-      if (told) {
-        s.v = (to[i] - from[i]) / dt_s;
-        s.p_vv = std::min(s.p_vv, q * dt_s * dt_s);
-        s.p_xv = 0;
-      }
+    for (Side& s : track.sides) {
       s.x += s.v * dt_s;
-      // White acceleration over the step.
       s.p_xx += 2 * dt_s * s.p_xv + dt_s * dt_s * s.p_vv + 0.25 * q * std::pow(dt_s, 4);
       s.p_xv += dt_s * s.p_vv + 0.5 * q * std::pow(dt_s, 3);
       s.p_vv += q * dt_s * dt_s;
@@ -167,6 +168,7 @@ void BoxTracks::Predict(double dt_s, const BoxMotion& motion) {
   }
 }
 
+/// Gain of pairing a track with a detection; 0: they do not belong together.
 double BoxTracks::Affinity(const Track& track, const Detection& detection) const {
   // The image cuts detections off; cut the prediction off as well before they are compared.
   const double iou = Iou(Intersection(track.box(), image_px_), detection.box_px);
@@ -175,6 +177,7 @@ double BoxTracks::Affinity(const Track& track, const Detection& detection) const
   return gain > config_.min_match_iou ? gain : 0.0;
 }
 
+/// Best pairing of some tracks with the detections not taken: by track, or -1.
 std::vector<int> BoxTracks::Match(const std::vector<Detection>& detections,
                                   const std::vector<std::size_t>& tracks,
                                   const std::vector<bool>& taken) const {
@@ -188,6 +191,7 @@ std::vector<int> BoxTracks::Match(const std::vector<Detection>& detections,
   return AssignForLargestGain(gain);
 }
 
+/// The detection of each track, or -1.
 std::vector<int> BoxTracks::Assign(const std::vector<Detection>& detections) {
   std::vector<int> detection_of(tracks_.size(), -1);
   std::vector<bool> taken(detections.size(), false);
@@ -207,9 +211,16 @@ std::vector<int> BoxTracks::Assign(const std::vector<Detection>& detections) {
   };
   match();
   if (open.empty()) return detection_of;
+  MoveWithTheOthers(detections, detection_of, open);
+  match();
+  return detection_of;
+}
 
-  // How far the paired boxes are from where they were expected: when the hand jerks, all of
-  // them by the same. The missed ones moved with them.
+/// How far the paired boxes are from where they were expected: when the hand jerks, all of them
+/// by the same. The missed ones moved with them.
+void BoxTracks::MoveWithTheOthers(const std::vector<Detection>& detections,
+                                  const std::vector<int>& detection_of,
+                                  const std::vector<std::size_t>& missed) {
   std::vector<double> shift_u, shift_v;
   for (std::size_t t = 0; t < tracks_.size(); ++t) {
     if (detection_of[t] < 0) continue;
@@ -218,16 +229,15 @@ std::vector<int> BoxTracks::Assign(const std::vector<Detection>& detections) {
     shift_u.push_back(seen.center().x() - expected.center().x());
     shift_v.push_back(seen.center().y() - expected.center().y());
   }
-  if (shift_u.size() < kMinCommonShift) return detection_of;
+  if (shift_u.size() < kMinCommonShift) return;
   const double du = Median(shift_u), dv = Median(shift_v);
-  for (const std::size_t t : open) {
+  for (const std::size_t t : missed) {
     auto& sides = tracks_[t].sides;
     sides[0].x += du, sides[1].x += dv, sides[2].x += du, sides[3].x += dv;
   }
-  match();
-  return detection_of;
 }
 
+/// Kalman update of each side by the detected box.
 void BoxTracks::Correct(Track& track, const Detection& detection) const {
   const Box& seen = detection.box_px;
   const std::array<double, 4> z = Sides(seen);
@@ -253,6 +263,7 @@ void BoxTracks::Correct(Track& track, const Detection& detection) const {
   evidence.kind = detection.kind;
 }
 
+/// Probability that the object is detected in a frame in which it is there.
 double BoxTracks::DetectionRate(const Track& track) const {
   // The present run of misses is what is being judged: it has no say in its own likelihood.
   const double frames = track.frames - track.misses_in_row;
@@ -270,7 +281,6 @@ void BoxTracks::Miss(Track& track) const {
 
 void BoxTracks::Start(const Detection& detection) {
   Track track;
-  track.id = next_id_++;
   const std::array<double, 4> z = Sides(detection.box_px);
   for (std::size_t i = 0; i < 4; ++i) {
     const double size = i % 2 == 0 ? detection.box_px.width() : detection.box_px.height();
@@ -283,11 +293,10 @@ void BoxTracks::Start(const Detection& detection) {
   tracks_.push_back(std::move(track));
 }
 
+/// The detection with the class that its track believes in.
 Detection BoxTracks::Labelled(const Track& track, Detection detection) const {
-  const bool confirmed = track.hits >= config_.min_hits;
-  detection.track = confirmed ? track.id : -1;
   detection.compensated = false;
-  if (!confirmed) return detection;
+  if (track.hits < config_.min_hits) return detection;
   const std::string& believed = track.class_name();
   const ClassEvidence& best = track.classes.at(believed);
   const double own = track.classes.at(detection.class_name).weight;
@@ -298,20 +307,21 @@ Detection BoxTracks::Labelled(const Track& track, Detection detection) const {
   return detection;
 }
 
-bool BoxTracks::Fill(const Track& track, Detection& filled) const {
+/// The box of a missed object that is most likely still there and in view.
+std::optional<Detection> BoxTracks::Filled(const Track& track) const {
   if (track.misses_in_row == 0 || track.hits < config_.min_hits ||
       track.misses_in_row > config_.max_gap_frames ||
       !(track.existence > config_.min_existence))
-    return false;
+    return std::nullopt;
   const Box whole = track.box(), seen = Intersection(whole, image_px_);
-  if (!(seen.area() > config_.min_visible_fraction * whole.area())) return false;
+  if (!(seen.area() > config_.min_visible_fraction * whole.area())) return std::nullopt;
+  Detection filled;
   filled.class_name = track.class_name();
   filled.kind = track.classes.at(filled.class_name).kind;
   filled.score = track.score * track.existence;
   filled.box_px = seen;
-  filled.track = track.id;
   filled.compensated = true;
-  return true;
+  return filled;
 }
 
 }  // namespace slam

@@ -1,8 +1,8 @@
 #pragma once
 
 #include <array>
-#include <functional>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -12,58 +12,59 @@
 
 namespace slam {
 
-/// Missed-detection compensation: how boxes are followed over frames.
+/// Missed-detection compensation: how boxes are followed over frames. Unless a source is named,
+/// the defaults balance gaps that are filled against boxes where nothing is any more.
 struct BoxTracksConfig {
-  bool enabled = true;             ///< off: detections pass through untouched
-  double max_duplicate_iou = 0.8;  ///< two boxes of a class above it are one; domain (0, 1]
-  double min_match_iou = 0.2;      ///< box and predicted box; domain [0, 1)
-  double class_change_iou_penalty =
-      0.35;                            ///< less IoU for a pair of two classes; domain [0, 1]
-  int min_hits = 3;                    ///< detections that confirm a track; domain [1, 100]
-  int max_gap_frames = 8;              ///< misses in a row that are filled; domain [0, 100]
-  int max_coast_frames = 15;           ///< misses in a row that end a track; domain [1, 1000]
-  double min_existence = 0.35;         ///< fill while the object is this likely there; [0, 1]
-  double survival = 0.995;             ///< an object stays in view, a frame; domain (0, 1]
-  double max_detection_rate = 0.85;    ///< misses come in bursts: never trust more; (0, 1)
-  double min_visible_fraction = 0.5;   ///< of a predicted box inside the image; domain [0, 1]
-  double jitter_px = 2.0;              ///< standard deviation of a box side; domain (0, inf)
-  double jitter_fraction = 0.03;       ///< the same, as part of the box's size; domain [0, 1]
-  double acceleration_px_s2 = 1500.0;  ///< standard deviation of a side's; domain (0, inf)
-  double min_class_ratio =
-      2.0;                     ///< evidence for a class over another that outvotes it; [1, inf)
-  double class_memory = 0.97;  ///< evidence kept from frame to frame; domain (0, 1]
+  bool enabled = true;
+  double max_duplicate_iou = 0.8;
+  double min_match_iou = 0.2;
+  double class_change_iou_penalty = 0.35;
+  int min_hits = 3;
+  int max_gap_frames = 8;
+  int max_coast_frames = 15;  // half a second at 30 Hz
+  double min_existence = 0.35;
+  double survival = 0.995;           // an object stays in view for 200 frames, about
+  double max_detection_rate = 0.85;  // misses come in bursts: they are less telling than chance
+  double min_visible_fraction = 0.5;
+  double jitter_px = 2.0;
+  double jitter_fraction = 0.03;
+  double acceleration_px_s2 = 1500.0;
+  double min_class_ratio = 2.0;
+  double class_memory = 0.97;  // half is forgotten in 23 frames
 };
 
 inline void VisitFields(BoxTracksConfig& c, FieldVisitor& v) {
-  v.Flag("enabled", c.enabled, "off: detections pass through untouched");
+  v.Flag("enabled", c.enabled,
+         "follow boxes over frames; without it detections pass untouched");
   v.Number("max_duplicate_iou", c.max_duplicate_iou, "(0, 1]",
-           "two boxes of a class above it are one");
-  v.Number("min_match_iou", c.min_match_iou, "[0, 1)", "box and predicted box");
+           "two boxes of one class with a higher IoU are one");
+  v.Number("min_match_iou", c.min_match_iou, "[0, 1)",
+           "IoU of a detected and a predicted box that belong together, at least");
   v.Number("class_change_iou_penalty", c.class_change_iou_penalty, "[0, 1]",
-           "less IoU for two classes");
+           "subtracted from the IoU of two boxes of different classes");
   v.Integer("min_hits", c.min_hits, "[1, 100]", "detections that confirm a track");
-  v.Integer("max_gap_frames", c.max_gap_frames, "[0, 100]", "misses in a row that are filled");
+  v.Integer("max_gap_frames", c.max_gap_frames, "[0, 100]",
+            "misses in a row that are filled, at most");
   v.Integer("max_coast_frames", c.max_coast_frames, "[1, 1000]",
-            "misses in a row that end a track");
+            "a track ends after more misses in a row than this");
   v.Number("min_existence", c.min_existence, "[0, 1]",
-           "fill while the object is this likely there");
-  v.Number("survival", c.survival, "(0, 1]", "probability to stay in view, a frame");
-  v.Number("max_detection_rate", c.max_detection_rate, "(0, 1)", "never trust a detector more");
+           "fill only while the object is in view with a higher probability than this");
+  v.Number("survival", c.survival, "(0, 1]",
+           "probability that an object stays in view from frame to frame");
+  v.Number("max_detection_rate", c.max_detection_rate, "(0, 1)",
+           "upper bound on the probability with which an object in view is detected");
   v.Number("min_visible_fraction", c.min_visible_fraction, "[0, 1]",
-           "of a predicted box in the image");
-  v.Number("jitter_px", c.jitter_px, "(0, inf)", "standard deviation of a box side");
-  v.Number("jitter_fraction", c.jitter_fraction, "[0, 1]",
-           "the same, as part of the box's size");
+           "share of a predicted box inside the image for which it is filled");
+  v.Number("jitter_px", c.jitter_px, "(0, inf)",
+           "standard deviation of a side of a detected box, plus ...");
+  v.Number("jitter_fraction", c.jitter_fraction, "[0, 1]", "... this share of the box's size");
   v.Number("acceleration_px_s2", c.acceleration_px_s2, "(0, inf)",
-           "standard deviation of a side's");
+           "standard deviation of the acceleration of a side");
   v.Number("min_class_ratio", c.min_class_ratio, "[1, inf)",
-           "evidence that outvotes another class");
-  v.Number("class_memory", c.class_memory, "(0, 1]", "evidence kept from frame to frame");
+           "evidence for another class over that for the detected one that overrules it");
+  v.Number("class_memory", c.class_memory, "(0, 1]",
+           "share of the evidence for a class that is kept from frame to frame");
 }
-
-/// Where a box of the previous frame lies now by the camera's motion alone (a homography, a
-/// warp by depth). Optional; without it the common shift of the boxes themselves is used.
-using BoxMotion = std::function<Box(const Box& previous_px)>;
 
 /// Follows detection boxes over frames and fills the gaps.
 ///
@@ -76,14 +77,11 @@ using BoxMotion = std::function<Box(const Box& previous_px)>;
 ///
 /// What Update returns:
 /// - Every detection given, in the order given, box and score untouched, except duplicates
-/// (same
-///   class, IoU above `max_duplicate_iou`), of which the one with the larger score stays.
-///   `track` is the id of its track once that is confirmed, -1 before: a lone false positive is
-///   passed on, not believed, and never filled.
+///   (same class, IoU above `max_duplicate_iou`), of which the one with the larger score stays.
 ///   The class is the track's when its evidence outvotes a single confused label.
-/// - Then, by track id, a box for each confirmed track that was missed: `compensated`,
-/// predicted,
-///   clipped to the image, score times the probability that the object is there.
+/// - Then, by age of the track, a box for each confirmed track that was missed: `compensated`,
+///   predicted, clipped to the image, score times the probability that the object is there. A
+///   lone false positive is passed on, not believed, and never filled.
 ///
 /// Deterministic; the order of the detections changes the order of the answer only.
 class BoxTracks {
@@ -94,10 +92,7 @@ class BoxTracks {
 
   /// One frame. Timestamps increase; after a gap of over a second all tracks are forgotten.
   /// @throws std::invalid_argument if the timestamp does not increase.
-  std::vector<Detection> Update(double timestamp_s, const std::vector<Detection>& detections,
-                                const BoxMotion& motion = {});
-
-  int tracks() const { return static_cast<int>(tracks_.size()); }
+  std::vector<Detection> Update(double timestamp_s, const std::vector<Detection>& detections);
 
  private:
   /// Position and velocity of one side, pixels and pixels a second, with covariance.
@@ -110,35 +105,38 @@ class BoxTracks {
     ClassKind kind = ClassKind::kOther;
   };
   struct Track {
-    int id = 0;
     std::array<Side, 4> sides;  ///< min u, min v, max u, max v
     int hits = 0, misses_in_row = 0, frames = 0;
     double existence = 1.0;  ///< probability that the object is in view
-    double score = 0.0;      ///< of the last detection
+    double score = 0.0;      ///< the last detection's
     std::map<std::string, ClassEvidence> classes;
 
     Box box() const;
-    const std::string& class_name() const;  ///< of most evidence; by name where equal
+    const std::string& class_name() const;  ///< with most evidence; by name where equal
   };
 
   std::vector<std::size_t> Deduplicated(const std::vector<Detection>& detections) const;
-  void Predict(double dt_s, const BoxMotion& motion);
+  void Predict(double dt_s);
   std::vector<int> Assign(const std::vector<Detection>& detections);
+  void MoveWithTheOthers(const std::vector<Detection>& detections,
+                         const std::vector<int>& detection_of,
+                         const std::vector<std::size_t>& missed);
   std::vector<int> Match(const std::vector<Detection>& detections,
                          const std::vector<std::size_t>& tracks,
                          const std::vector<bool>& taken) const;
   double Affinity(const Track& track, const Detection& detection) const;
+  std::vector<std::size_t> Follow(const std::vector<Detection>& detections);
   void Correct(Track& track, const Detection& detection) const;
   void Miss(Track& track) const;
   void Start(const Detection& detection);
   Detection Labelled(const Track& track, Detection detection) const;
-  bool Fill(const Track& track, Detection& filled) const;
+  std::optional<Detection> Filled(const Track& track) const;
+  void AddMissed(std::vector<Detection>& answer) const;
   double DetectionRate(const Track& track) const;
 
   BoxTracksConfig config_;
   Box image_px_;
-  std::vector<Track> tracks_;  ///< by id
-  int next_id_ = 0;
+  std::vector<Track> tracks_;  ///< oldest first
   bool started_ = false;
   double last_s_ = 0.0;
 };

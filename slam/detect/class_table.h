@@ -1,6 +1,5 @@
 #pragma once
 
-#include <map>
 #include <string>
 #include <vector>
 
@@ -14,15 +13,16 @@ namespace slam {
 struct ClassTable {
   std::vector<std::string> regular;
   std::vector<std::string> unstructured;
-  std::vector<std::string> other;  ///< known, and neither; a class in no list is kOther as well
+  std::vector<std::string> other;
 
   ClassKind KindOf(const std::string& class_name) const;
 };
 
 inline void VisitFields(ClassTable& c, FieldVisitor& v) {
-  v.Texts("regular", c.regular, "box-shaped: their faces are rectangles");
-  v.Texts("unstructured", c.unstructured, "planes found on them are noise");
-  v.Texts("other", c.other, "neither; a class in no list is this as well");
+  v.Texts("regular", c.regular, "box-shaped classes: their faces are rectangles");
+  v.Texts("unstructured", c.unstructured,
+          "classes without planes: what is found on them is noise");
+  v.Texts("other", c.other, "known classes that are neither, as is a class in no list");
 }
 
 /// COCO's 80 classes, with its older spellings, and "box".

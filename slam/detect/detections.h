@@ -23,7 +23,7 @@ class Detector {
   virtual std::vector<Detection> Detect(double timestamp_s, const cv::Mat3b& bgr) = 0;
 };
 
-/// Sees nothing: every plane is of class -1.
+/// Sees nothing: no plane gets a class.
 class NoDetector : public Detector {
  public:
   std::vector<Detection> Detect(double, const cv::Mat3b&) override { return {}; }
@@ -32,11 +32,11 @@ class NoDetector : public Detector {
 /// One line of a detections.jsonl (formats.md).
 struct DetectionRecord {
   double timestamp_s = 0.0;
-  std::vector<Detection> detections;  ///< clipped to the image; without those outside of it
+  std::vector<Detection> detections;  ///< clipped to the image, without those outside
 };
 
-/// @throws InputError for a missing key, a score outside [0, 1], a box whose max is
-///   below its min
+/// @throws InputError for a missing key, a score outside [0, 1], a box whose max is below its
+/// min
 DetectionRecord ReadDetections(const io::JsonField& record, const Camera& camera,
                                const ClassTable& classes);
 
@@ -51,8 +51,6 @@ class ReplayDetector : public Detector {
   ReplayDetector(const std::filesystem::path& file, const Camera& camera,
                  const ClassTable& classes);
   std::vector<Detection> Detect(double timestamp_s, const cv::Mat3b&) override;
-
-  int records() const { return static_cast<int>(records_.size()); }
 
  private:
   std::map<double, std::vector<Detection>> records_;

@@ -35,8 +35,4 @@ Eigen::Vector2d Letterbox::ToImage(const Eigen::Vector2d& at_input) const {
   return (at_input.array() / scale_ - 0.5).matrix();
 }
 
-Eigen::Vector2d Letterbox::ToInput(const Eigen::Vector2d& u_px) const {
-  return ((u_px.array() + 0.5) * scale_).matrix();
-}
-
 }  // namespace slam

@@ -15,13 +15,12 @@ namespace slam {
 /// each axis, and not by the ratio before rounding, so that the way there and back is exact.
 class Letterbox {
  public:
-  static constexpr int kPadding = 114;  ///< of every channel
+  static constexpr int kPadding = 114;  ///< grey level of the rest: YOLOX
 
   /// @throws std::invalid_argument if a side is not positive.
   Letterbox(cv::Size image, cv::Size input);
 
   cv::Size input() const { return input_; }
-  cv::Size scaled() const { return scaled_; }  ///< the part of the input that shows the image
 
   /// The network's input. @throws std::invalid_argument if the image has another size.
   cv::Mat3b Apply(const cv::Mat3b& bgr) const;
@@ -29,10 +28,10 @@ class Letterbox {
   /// From the input, whose first pixel spans [0, 1), to pixels of the image, centres at
   /// integers.
   Eigen::Vector2d ToImage(const Eigen::Vector2d& at_input) const;
-  Eigen::Vector2d ToInput(const Eigen::Vector2d& u_px) const;  ///< the other way
 
  private:
-  cv::Size image_, input_, scaled_;
+  cv::Size image_, input_;
+  cv::Size scaled_;  ///< the part of the input that shows the image
   Eigen::Array2d scale_;
 };
 

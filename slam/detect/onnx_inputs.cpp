@@ -81,8 +81,8 @@ Field Find(std::string_view message, int number) {
 /// instead.
 int Side(std::string_view dimension) {
   const std::uint64_t value = Find(dimension, 1).value;
-  constexpr std::uint64_t kMost = std::numeric_limits<int>::max();
-  return value <= kMost ? static_cast<int>(value) : 0;
+  constexpr std::uint64_t kMaxSide = std::numeric_limits<int>::max();
+  return value <= kMaxSide ? static_cast<int>(value) : 0;
 }
 
 /// A ValueInfoProto: name = 1, type = 2 { tensor_type = 1 { shape = 2 { dim = 1 } } }.
@@ -100,18 +100,21 @@ OnnxInput ReadInput(std::string_view value_info) {
 }  // namespace
 
 std::vector<OnnxInput> ReadOnnxInputs(std::string_view bytes) {
+  // Field numbers of onnx.proto3.
+  constexpr int kGraph = 7, kInitializer = 5, kTensorName = 8, kGraphInput = 11;
   std::string_view graph;
   Fields model(bytes);
   for (Field field; model.Next(field);) {
-    if (field.number == 7) graph = field.bytes;
+    if (field.number == kGraph) graph = field.bytes;
   }
   if (graph.empty()) throw io::InputError("not an ONNX model: it has no graph");
+  // Older files list the initializers among the inputs.
   std::vector<OnnxInput> inputs;
   std::set<std::string_view> initializers;
   Fields parts(graph);
   for (Field field; parts.Next(field);) {
-    if (field.number == 5) initializers.insert(Find(field.bytes, 8).bytes);
-    if (field.number == 11) inputs.push_back(ReadInput(field.bytes));
+    if (field.number == kInitializer) initializers.insert(Find(field.bytes, kTensorName).bytes);
+    if (field.number == kGraphInput) inputs.push_back(ReadInput(field.bytes));
   }
   std::erase_if(inputs,
                 [&](const OnnxInput& input) { return initializers.contains(input.name); });

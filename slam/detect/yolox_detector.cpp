@@ -16,11 +16,11 @@ namespace {
 using cv::utils::logging::getLogLevel;
 using cv::utils::logging::setLogLevel;
 
-constexpr int kCoarsestStride = 32;
-// As COCO counts of an image. A network that finds something everywhere would otherwise keep
-// box tracking busy for half a minute a frame.
-constexpr std::size_t kMostBoxes = 100;
-constexpr int kMostPixels = 1 << 24;  // of an input: far beyond any that is used
+constexpr int kCoarsestStride = 32;  // pixels of the input: YOLOX
+// COCO scores as many detections an image. A network that finds something everywhere would
+// otherwise keep box tracking busy for half a minute a frame.
+constexpr std::size_t kMaxBoxes = 100;
+constexpr int kMaxInputPixels = 1 << 24;  // far beyond any network that is used
 
 /// OpenCV tells of a bad model on the standard error as well as by an exception.
 class QuietOpenCv {
@@ -52,6 +52,7 @@ cv::Size InputSize(const std::string& bytes, const YoloxConfig& config) {
     throw io::InputError("the model has " + std::to_string(inputs.size()) +
                          " inputs; expected one image");
   }
+  // What the model leaves open, the configuration says.
   std::vector<int> shape = inputs.front().shape;
   if (shape.size() == 4) {
     if (shape[0] == 0) shape[0] = 1;
@@ -63,9 +64,10 @@ cv::Size InputSize(const std::string& bytes, const YoloxConfig& config) {
           "input_height in --config");
     }
   }
+  // Whole cells of the coarsest grid, and no more pixels than memory can be expected for.
   const auto fits = [](int side) { return side > 0 && side % kCoarsestStride == 0; };
   if (shape.size() != 4 || shape[0] != 1 || shape[1] != 3 || !fits(shape[2]) ||
-      !fits(shape[3]) || shape[2] > kMostPixels / shape[3]) {
+      !fits(shape[3]) || shape[2] > kMaxInputPixels / shape[3]) {
     throw io::InputError(
         "the model's input is " + ShapeText(shape) +
         "; expected 1 x 3 x height x width with sides that are multiples of 32");
@@ -109,7 +111,7 @@ class YoloxDetector::Network {
   std::vector<YoloxBox> Find(const cv::Mat3b& bgr) {
     std::vector<YoloxBox> boxes = SuppressOverlaps(
         DecodeYolox(Answer(bgr), letterbox_.input(), config_), config_.max_nms_iou);
-    if (boxes.size() > kMostBoxes) boxes.resize(kMostBoxes);
+    if (boxes.size() > kMaxBoxes) boxes.resize(kMaxBoxes);
     return boxes;
   }
 

@@ -27,8 +27,8 @@ class YoloxDetector : public Detector {
                 const ClassTable& table, const YoloxConfig& config);
   ~YoloxDetector() override;
 
-  /// Boxes clipped to the image, highest score first; what lies outside it is left
-  /// out, and so are all but the 100 best.
+  /// Boxes clipped to the image, highest score first; what lies outside it is left out, and so
+  /// are all but the 100 best.
   /// @throws InputError naming the file, see DecodeYolox.
   std::vector<Detection> Detect(double timestamp_s, const cv::Mat3b& bgr) override;
 

@@ -10,14 +10,16 @@
 namespace slam {
 namespace {
 
-constexpr std::array<int, 3> kStrides = {8, 16, 32};
-constexpr int kBoxColumns = 5;  // x, y, w, h, objectness
+constexpr std::array<int, 3> kStrides = {8, 16, 32};  // pixels of the input: YOLOX
+constexpr int kBoxColumns = 5;                        // x, y, w, h, objectness
 
 /// A cell of a grid, in pixels of the input.
 struct Cell {
   int column = 0, row = 0, stride = 1;
 };
 
+/// The value as a probability.
+/// @throws InputError when it is none
 double Probability(float x) {
   const double p = static_cast<double>(x);
   if (!(p >= 0.0 && p <= 1.0)) {
@@ -28,6 +30,7 @@ double Probability(float x) {
   return p;
 }
 
+/// The box that a row of the output gives, in pixels of the input.
 Box BoxOfCell(const float* row, const Cell& cell, bool decoded) {
   Eigen::Vector2d center(static_cast<double>(row[0]), static_cast<double>(row[1]));
   Eigen::Vector2d size(static_cast<double>(row[2]), static_cast<double>(row[3]));
@@ -42,6 +45,7 @@ Box BoxOfCell(const float* row, const Cell& cell, bool decoded) {
   return box;
 }
 
+/// Adds the box of a cell when its score is high enough.
 void DecodeCell(const float* row, const Cell& cell, const YoloxConfig& config,
                 std::vector<YoloxBox>& boxes) {
   const float* first = row + kBoxColumns;

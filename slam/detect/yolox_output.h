@@ -14,23 +14,24 @@ std::vector<std::string> CocoNames();
 
 /// A YOLOX network: how its output is read and which boxes are believed.
 struct YoloxConfig {
-  double min_score = 0.3;     ///< of a box: objectness times class probability; domain [0, 1]
-  double max_nms_iou = 0.45;  ///< of two boxes of one class, else the lesser goes; (0, 1]
-  /// Size of the network's input, pixels, where the model does not say its own; 0 = it must.
+  double min_score = 0.3;     // YOLOX's published ONNX demo
+  double max_nms_iou = 0.45;  // the same
   int input_width = 0, input_height = 0;
-  /// The model computes boxes itself (exported with --decode_in_inference).
   bool decoded = false;
-  std::vector<std::string> classes = CocoNames();  ///< in the order of the model's columns
+  std::vector<std::string> classes = CocoNames();
 };
 
 inline void VisitFields(YoloxConfig& c, FieldVisitor& v) {
-  v.Number("min_score", c.min_score, "[0, 1]", "objectness times class probability");
-  v.Number("max_nms_iou", c.max_nms_iou, "(0, 1]", "two boxes of a class above it are one");
+  v.Number("min_score", c.min_score, "[0, 1]",
+           "boxes with a lower objectness times class probability are left out");
+  v.Number("max_nms_iou", c.max_nms_iou, "(0, 1]",
+           "two boxes of one class with a higher IoU are one object");
   v.Integer("input_width", c.input_width, "[0, 4096]",
-            "where the model does not state its input's; 0: it must");
-  v.Integer("input_height", c.input_height, "[0, 4096]", "the same; multiples of 32");
+            "width of the network's input, px, where the model does not state it; 0: it must");
+  v.Integer("input_height", c.input_height, "[0, 4096]",
+            "height of the network's input, px; both are multiples of 32");
   v.Flag("decoded", c.decoded, "the model was exported with --decode_in_inference");
-  v.Texts("classes", c.classes, "in the order of the model's columns");
+  v.Texts("classes", c.classes, "class names in the order of the model's columns");
 }
 
 /// A box in the network's input, whose first pixel spans [0, 1).

@@ -10,8 +10,26 @@
 namespace slam {
 namespace {
 
+// Intrinsics are called wrong when they are off by so many sigmas and by so much that poses and
+// map suffer.
+constexpr double kWrong_sigmas = 6.0;  // 1 in 5e8 of noise; its spread is estimated from little
+constexpr double kMinFocalError_ratio = 0.025;    // share of the focal length
+constexpr double kMinCentreError_ratio = 0.0125;  // share of the image's width
+
+// So wide that it says nothing; it keeps finite what the views do not see.
+constexpr double kPriorFocal_ratio = 0.4;    // share of the focal length
+constexpr double kPriorCentre_ratio = 0.16;  // share of the image's width
+
+// Which views are compared: these bound time and memory, and keep the pairs that say most.
+constexpr double kMinTurn_rad = 0.026;        // 1.5 degrees between neighbouring views
+constexpr std::size_t kMinCommonPoints = 60;  // of two views; twice what a pair needs
+constexpr std::size_t kMaxPoints = 250;       // taken of a pair of views
+constexpr std::size_t kMaxViews = 12;         // kept for later ones
+constexpr std::size_t kMinPairs = 3;          // before anything is said
+constexpr std::size_t kMaxPairs = 40;         // kept, those that turn most
+
 constexpr int kEstimateSteps = 3;
-constexpr double kLongestGap_s = 0.2;  ///< over which a speed is one
+constexpr double kMaxSpeedGap_s = 0.2;  // a longer one says nothing of the speed at its ends
 constexpr std::array<const char*, 4> kNames = {"fx", "fy", "cx", "cy"};
 
 std::string Fixed(double x, int decimals) {
@@ -22,22 +40,18 @@ std::string Fixed(double x, int decimals) {
 
 }  // namespace
 
-CameraCheck::CameraCheck(const Camera& given, const FeatureScale& scale,
-                         CameraCheckConfig config)
-    : given_(given.fx, given.fy, given.cx, given.cy),
-      scale_(scale),
-      config_(config),
-      height_px_(given.height) {
-  least_ << config_.least_focal * given_.head<2>(),
-      Eigen::Vector2d::Constant(config_.least_centre * given.width);
-  // So wide that it says nothing; it keeps what the views do not see finite.
-  prior_sigma_ << 0.4 * given_.head<2>(), Eigen::Vector2d::Constant(0.16 * given.width);
+CameraCheck::CameraCheck(const Camera& given, const FeatureScale& scale)
+    : given_(given.fx, given.fy, given.cx, given.cy), scale_(scale), height_px_(given.height) {
+  min_error_ << kMinFocalError_ratio * given_.head<2>(),
+      Eigen::Vector2d::Constant(kMinCentreError_ratio * given.width);
+  prior_sigma_ << kPriorFocal_ratio * given_.head<2>(),
+      Eigen::Vector2d::Constant(kPriorCentre_ratio * given.width);
 }
 
 void CameraCheck::NoteSpeed(const Frame& frame) {
   const std::optional<Vector6d> before = speed_per_s_;
   speed_per_s_.reset();
-  if (last_ && frame.timestamp_s > last_->s && frame.timestamp_s - last_->s < kLongestGap_s) {
+  if (last_ && frame.timestamp_s > last_->s && frame.timestamp_s - last_->s < kMaxSpeedGap_s) {
     speed_per_s_ = Log(frame.T_cw * Inverse(last_->T_cw)) / (frame.timestamp_s - last_->s);
     // A view's own speed lies between that before and that after it.
     if (last_->view) {
@@ -74,18 +88,19 @@ std::vector<TwiceSeen> CameraCheck::Common(const View& first, const View& second
 
 bool CameraCheck::Compare(const View& first, const View& second) {
   const double turn_rad = RotationAngle(first.T_cw, second.T_cw);
-  const auto least =
+  // Of too many pairs, the one that turns least gives way.
+  const auto flattest =
       std::min_element(pairs_.begin(), pairs_.end(),
                        [](const Pair& a, const Pair& b) { return a.turn_rad < b.turn_rad; });
-  const bool full = pairs_.size() >= config_.most_pairs;
-  if (full && turn_rad <= least->turn_rad) return false;
+  const bool full = pairs_.size() >= kMaxPairs;
+  if (full && turn_rad <= flattest->turn_rad) return false;
 
   std::vector<TwiceSeen> common = Common(first, second);
-  if (common.size() > config_.most_points) {  // evenly over the ages of the points
-    for (std::size_t i = 0; i < config_.most_points; ++i) {
-      common[i] = common[i * common.size() / config_.most_points];
+  if (common.size() > kMaxPoints) {  // evenly over the ages of the points
+    for (std::size_t i = 0; i < kMaxPoints; ++i) {
+      common[i] = common[i * common.size() / kMaxPoints];
     }
-    common.resize(config_.most_points);
+    common.resize(kMaxPoints);
   }
   const ViewMotion motion{first.speed_per_s, second.speed_per_s,
                           static_cast<double>(height_px_)};
@@ -93,7 +108,7 @@ bool CameraCheck::Compare(const View& first, const View& second) {
       turn_rad, ViewPair(std::move(common), second.T_cw * Inverse(first.T_cw), motion), {}};
   pair.at_given = pair.views.Evidence(given_);
   if (!pair.at_given.usable) return false;
-  if (full) pairs_.erase(least);
+  if (full) pairs_.erase(flattest);
   pairs_.push_back(std::move(pair));
   ++compared_;
   return true;
@@ -101,6 +116,7 @@ bool CameraCheck::Compare(const View& first, const View& second) {
 
 CameraEstimate CameraCheck::Combine(const std::vector<IntrinsicsEvidence>& evidence,
                                     const Intrinsics& at) const {
+  // Sum of what the pairs say and of the prior around the given camera.
   const Intrinsics prior = prior_sigma_.cwiseAbs2().cwiseInverse();
   Eigen::Matrix4d information = prior.asDiagonal();
   Eigen::Vector4d gradient = prior.cwiseProduct(at - given_);
@@ -119,6 +135,7 @@ CameraEstimate CameraCheck::Combine(const std::vector<IntrinsicsEvidence>& evide
   }
   const double apart = chi2 / (4.0 * static_cast<double>(evidence.size() - 1));
 
+  // An intrinsic is wrong when that is sure, and matters.
   CameraEstimate estimate;
   estimate.found = at + move;
   const Eigen::Matrix4d covariance = factor.solve(Eigen::Matrix4d::Identity());
@@ -126,7 +143,7 @@ CameraEstimate CameraCheck::Combine(const std::vector<IntrinsicsEvidence>& evide
   for (int k = 0; k < 4; ++k) {
     const double off = std::abs(estimate.found[k] - given_[k]);
     estimate.wrong[static_cast<std::size_t>(k)] =
-        off > least_[k] && off > config_.sigmas * estimate.sigma[k];
+        off > min_error_[k] && off > kWrong_sigmas * estimate.sigma[k];
   }
   estimate.pairs = evidence.size();
   for (const Pair& pair : pairs_)
@@ -135,7 +152,7 @@ CameraEstimate CameraCheck::Combine(const std::vector<IntrinsicsEvidence>& evide
 }
 
 std::optional<CameraEstimate> CameraCheck::Estimate() {
-  if (pairs_.size() < config_.least_pairs) return std::nullopt;
+  if (pairs_.size() < kMinPairs) return std::nullopt;
   CameraEstimate estimate;
   Intrinsics at = given_;
   for (int step = 0; step < kEstimateSteps; ++step) {
@@ -144,17 +161,17 @@ std::optional<CameraEstimate> CameraCheck::Estimate() {
       evidence.push_back(step == 0 ? pair.at_given : pair.views.Evidence(at));
       if (!evidence.back().usable) evidence.pop_back();
     }
-    if (evidence.size() < config_.least_pairs) return std::nullopt;
+    if (evidence.size() < kMinPairs) return std::nullopt;
     estimate = Combine(evidence, at);
-    // No further from the last than can be: the next step is from there.
+    // The next step is from there, but not farther than the prior believes.
     at = estimate.found.cwiseMax(at - prior_sigma_).cwiseMin(at + prior_sigma_);
   }
   return estimate;
 }
 
 bool CameraCheck::FindsWrong(int frame_index) {
-  if (noticed_ || pairs_.size() < config_.least_pairs || compared_ < next_estimate_)
-    return false;
+  if (noticed_ || pairs_.size() < kMinPairs || compared_ < next_estimate_) return false;
+  // One step from the given camera costs little, and is asked first.
   std::vector<IntrinsicsEvidence> evidence;
   for (const Pair& pair : pairs_) evidence.push_back(pair.at_given);
   if (!Combine(evidence, given_).AnyWrong()) return false;
@@ -169,13 +186,14 @@ bool CameraCheck::FindsWrong(int frame_index) {
 
 bool CameraCheck::See(const Frame& frame) {
   NoteSpeed(frame);
-  if (!views_.empty() && RotationAngle(views_.back().T_cw, frame.T_cw) < config_.turn_rad) {
+  if (!views_.empty() && RotationAngle(views_.back().T_cw, frame.T_cw) < kMinTurn_rad) {
     return false;
   }
   View view = ViewOf(frame);
+  // Views that share too little with this one will not share more later.
   std::vector<View> kept;
   for (View& earlier : views_) {
-    if (Common(earlier, view).size() >= config_.least_common) {
+    if (Common(earlier, view).size() >= kMinCommonPoints) {
       kept.push_back(std::move(earlier));
     }
   }
@@ -183,7 +201,7 @@ bool CameraCheck::See(const Frame& frame) {
   bool compared = !kept.empty() && Compare(kept.front(), view);
   if (kept.size() >= 3) compared |= Compare(kept[kept.size() / 2], view);
   kept.push_back(std::move(view));
-  if (kept.size() > config_.most_views) kept.erase(kept.begin());
+  if (kept.size() > kMaxViews) kept.erase(kept.begin());
   views_ = std::move(kept);
   last_->view = true;
   return compared && FindsWrong(frame.index);

@@ -13,26 +13,13 @@
 
 namespace slam {
 
-/// When intrinsics are called wrong, and what is looked at.
-struct CameraCheckConfig {
-  double sigmas = 6.0;            ///< deviation at least this many; domain (0, inf)
-  double least_focal = 0.025;     ///< and this share of the focal length; domain (0, 1)
-  double least_centre = 0.0125;   ///< or this share of the image's width; domain (0, 1)
-  double turn_rad = 0.026;        ///< between views, 1.5 degrees; domain (0, pi)
-  std::size_t least_common = 60;  ///< points that two views share; domain [30, inf)
-  std::size_t most_points = 250;  ///< of a pair of views; domain [30, inf)
-  std::size_t most_views = 12;    ///< kept for later ones; domain [1, inf)
-  std::size_t least_pairs = 3;    ///< before anything is said; domain [2, inf)
-  std::size_t most_pairs = 40;    ///< kept, those that turn most; domain [least_pairs, inf)
-};
-
 /// What the views say of the intrinsics.
 struct CameraEstimate {
   Intrinsics found = Intrinsics::Zero();
-  Intrinsics sigma = Intrinsics::Zero();  ///< with what the pairs disagree by
+  Intrinsics sigma = Intrinsics::Zero();  ///< larger when the pairs disagree
   std::array<bool, 4> wrong{};            ///< significantly and relevantly off; fx, fy, cx, cy
   std::size_t pairs = 0;
-  double turn_rad = 0.0;  ///< between the views that are most apart
+  double turn_rad = 0.0;  ///< rotation between the two views that are most apart
 
   bool AnyWrong() const { return wrong[0] || wrong[1] || wrong[2] || wrong[3]; }
 };
@@ -45,7 +32,7 @@ struct CameraEstimate {
 /// own, sigma is large and nothing is said.
 class CameraCheck {
  public:
-  CameraCheck(const Camera& given, const FeatureScale& scale, CameraCheckConfig config = {});
+  CameraCheck(const Camera& given, const FeatureScale& scale);
 
   /// @param frame  tracked, with its matches
   /// @returns whether the camera was found wrong by this frame for the first time
@@ -66,7 +53,7 @@ class CameraCheck {
   };
   struct View {
     Pose T_cw;
-    Vector6d speed_per_s;           ///< of T_cw
+    Vector6d speed_per_s;           ///< d T_cw / dt = xi^ T_cw
     std::vector<SeenPoint> points;  ///< with depth, by id
   };
   struct Pair {
@@ -83,9 +70,10 @@ class CameraCheck {
                          const Intrinsics& at) const;
   bool FindsWrong(int frame_index);
 
-  Intrinsics given_, least_, prior_sigma_;
+  Intrinsics given_;
+  Intrinsics min_error_;  ///< deviations up to it do not matter
+  Intrinsics prior_sigma_;
   FeatureScale scale_;
-  CameraCheckConfig config_;
   struct Moment {
     double s;
     Pose T_cw;
@@ -96,7 +84,8 @@ class CameraCheck {
   int height_px_;
   std::vector<View> views_;
   std::vector<Pair> pairs_;
-  std::size_t compared_ = 0, next_estimate_ = 0;  ///< pairs, since the start
+  std::size_t compared_ = 0;       ///< pairs since the start
+  std::size_t next_estimate_ = 0;  ///< no estimate before so many pairs
   std::optional<CameraEstimate> noticed_;
   int noticed_frame_ = 0;
 };

@@ -8,19 +8,23 @@
 namespace slam {
 namespace {
 
-constexpr int kTiles = 40;   // across the image
-constexpr int kStep_px = 4;  // of the pixels of a tile
-constexpr int kMinPixels = 8;
-constexpr double kMostBend = 0.01;  // of the depth, root mean square, in a tile that is a plane
-constexpr double kMostChange = 0.1;  // of the inverse depth; more is another surface
+constexpr int kTiles = 40;     // across the image: small enough to be planes
+constexpr int kStep_px = 4;    // between the pixels of a tile that are read
+constexpr int kMinPixels = 8;  // measured, of a tile; a plane has three unknowns
+// Measured pixels for one without depth; with fewer, the edge of an object is near.
+constexpr int kMinMeasuredPerMissing = 8;
+// Root mean square distance from its plane, in inverse depth, as a share of it: above, the tile
+// is not one plane.
+constexpr double kMaxBend_ratio = 0.01;
+constexpr double kMaxChange_ratio = 0.1;  // share of the inverse depth; more is another surface
 
 // Between frames that are compared: long enough for the motion to be more than poses jitter.
-constexpr double kMostStep_s = 0.11;
+constexpr double kMaxStep_s = 0.11;
 
-constexpr double kMost_s = 1.0;
+constexpr double kMaxLate_s = 1.0;
 constexpr std::size_t kShifts = 61;  // to both sides of none; at 30 Hz a step is a frame
-constexpr double kStep_s = 2 * kMost_s / (kShifts - 1);
-constexpr double kMostGap_s = 0.15;  // between poses, to say what was in between
+constexpr double kStep_s = 2 * kMaxLate_s / (kShifts - 1);
+constexpr double kMaxPoseGap_s = 0.15;  // between poses, to say what was in between
 
 // Changes overlap: 3.5 sigmas of independent ones at 30 Hz.
 constexpr double kSure_sigmas = 6.0;
@@ -28,7 +32,7 @@ constexpr int kMinChanges = 10;
 constexpr double kPaired_s = 0.025;  // time stamps are paired to 20 ms
 
 constexpr std::size_t kUnshifted = kShifts / 2;
-double LateOf(std::size_t shift) { return static_cast<double>(shift) * kStep_s - kMost_s; }
+double LateOf(std::size_t shift) { return static_cast<double>(shift) * kStep_s - kMaxLate_s; }
 
 }  // namespace
 
@@ -68,11 +72,11 @@ DepthClock::Tile DepthClock::Fit(const cv::Mat1f& depth_m, const cv::Rect& area)
       ++count;
     }
   }
-  if (count < kMinPixels || missing * 8 > count) return {};
+  if (count < kMinPixels || missing * kMinMeasuredPerMissing > count) return {};
   const Eigen::Vector3d m = A.ldlt().solve(b);
   const double q = m.dot(Middle(area));
   const double bend = std::sqrt(std::max(0.0, squares - m.dot(b)) / count);
-  return q > 0 && bend < kMostBend * q ? Tile{m, q} : Tile{};
+  return q > 0 && bend < kMaxBend_ratio * q ? Tile{m, q} : Tile{};
 }
 
 std::vector<DepthClock::Tile> DepthClock::Tiles(const cv::Mat1f& depth_m) const {
@@ -82,13 +86,15 @@ std::vector<DepthClock::Tile> DepthClock::Tiles(const cv::Mat1f& depth_m) const 
   return tiles;
 }
 
+/// Normal equations of the motion between two frames, from the tiles that both have.
 DepthClock::Change DepthClock::Between(const Seen& from, const Seen& to) const {
   Change change;
   change.from_s = from.s, change.to_s = to.s;
   for (std::size_t k = 0; k < areas_.size(); ++k) {
     const Tile &a = from.tiles[k], &b = to.tiles[k];
     const double q = 0.5 * (a.q + b.q), by = b.q - a.q;
-    if (a.q <= 0 || b.q <= 0 || std::abs(by) > kMostChange * q) continue;
+    if (a.q <= 0 || b.q <= 0 || std::abs(by) > kMaxChange_ratio * q) continue;
+    // dq = omega . (m x r) - q m . v, around the mean of both frames.
     const Eigen::Vector3d m = 0.5 * (a.m + b.m), r = Middle(areas_[k]);
     Vector6d J;
     J << -q * m, m.cross(r);
@@ -98,20 +104,23 @@ DepthClock::Change DepthClock::Between(const Seen& from, const Seen& to) const {
   return change;
 }
 
+/// T_cw at a time; none when no poses are near enough.
 std::optional<Pose> DepthClock::PoseAt(double s) const {
-  constexpr double kSame_s = 1e-4;
+  constexpr double kSame_s = 1e-4;  // rounding of time stamps; a camera moves less than noise
   const auto after = std::lower_bound(poses_.begin(), poses_.end(), s - kSame_s,
                                       [](const TimedPose& p, double t) { return p.s < t; });
   if (after == poses_.end()) return std::nullopt;
   if (after->s - s <= kSame_s) return after->T_cw;
   if (after == poses_.begin()) return std::nullopt;
+  // In between the camera moves evenly.
   const auto before = after - 1;
   const double gap_s = after->s - before->s;
-  if (gap_s > kMostGap_s) return std::nullopt;
+  if (gap_s > kMaxPoseGap_s) return std::nullopt;
   const Vector6d xi = Log(after->T_cw * Inverse(before->T_cw));
   return Exp((s - before->s) / gap_s * xi) * before->T_cw;
 }
 
+/// How badly the poses of the two times, so much later, explain the change.
 std::optional<double> DepthClock::Cost(const Change& change, double late_s) const {
   const auto from = PoseAt(change.from_s + late_s), to = PoseAt(change.to_s + late_s);
   if (!from || !to) return std::nullopt;
@@ -119,6 +128,7 @@ std::optional<double> DepthClock::Cost(const Change& change, double late_s) cons
   return xi.dot(change.H * xi) - 2 * xi.dot(change.g) + change.c;
 }
 
+/// Adds to each shift how it explains the change, against none.
 void DepthClock::Add(const Change& change, Shifts& shifts) const {
   const auto unshifted = Cost(change, 0.0);
   if (!unshifted) return;
@@ -136,18 +146,20 @@ void DepthClock::Add(const Change& change, Shifts& shifts) const {
 
 void DepthClock::Observe(double timestamp_s, const cv::Mat1f& depth_m,
                          const std::optional<Pose>& T_cw) {
+  // The change since the oldest frame that is near enough.
   seen_.push_back({timestamp_s, Tiles(depth_m)});
-  while (seen_.front().s < timestamp_s - kMostStep_s) seen_.pop_front();
+  while (seen_.front().s < timestamp_s - kMaxStep_s) seen_.pop_front();
   if (seen_.size() > 1) {
     const Change change = Between(seen_.front(), seen_.back());
     if (change.tiles > 0) changes_.push_back(change);
   }
   if (T_cw) poses_.push_back({timestamp_s, *T_cw});
-  while (!changes_.empty() && changes_.front().to_s + kMost_s <= timestamp_s) {
+  // Changes to which no more poses will come are added up.
+  while (!changes_.empty() && changes_.front().to_s + kMaxLate_s <= timestamp_s) {
     Add(changes_.front(), shifts_);
     changes_.pop_front();
   }
-  while (!poses_.empty() && poses_.front().s + 2 * kMost_s + kMostGap_s < timestamp_s) {
+  while (!poses_.empty() && poses_.front().s + 2 * kMaxLate_s + kMaxPoseGap_s < timestamp_s) {
     poses_.pop_front();
   }
 }
@@ -166,6 +178,7 @@ double DepthClock::Lowest(const Shifts& shifts, std::size_t at) {
 std::optional<double> DepthClock::Late_s() const {
   Shifts shifts = shifts_;
   for (const Change& change : changes_) Add(change, shifts);
+  // The shift that explains most, if it does so for enough of the changes.
   const int needed = std::max(kMinChanges, shifts[kUnshifted].changes / 2);
   std::size_t best = kUnshifted;
   double most = 0.0;
@@ -174,6 +187,7 @@ std::optional<double> DepthClock::Late_s() const {
     if (shift.changes < needed || shift.gains / shift.changes <= most) continue;
     best = k, most = shift.gains / shift.changes;
   }
+  // It must be better than none by more than the changes scatter.
   const Shift& shift = shifts[best];
   if (best == kUnshifted) return std::nullopt;
   const double variance =

@@ -17,7 +17,7 @@ namespace slam {
 /// are laid over each other with every shift up to a second. It says nothing of cameras with
 /// fewer than ten frames a second.
 ///
-/// Of a tile that is a plane m (m . x = 1), inverse depth is q = m . r along the ray r, and
+/// The inverse depth of a tile that is a plane m (m . x = 1) is q = m . r along the ray r, and
 /// under the motion X2 = exp(v, omega) X1 it changes by omega . (m x r) - q m . v. A pair of
 /// frames is kept as the normal equations of that. Inverse depth, as noise hardly depends on
 /// the distance then.
@@ -25,7 +25,9 @@ class DepthClock {
  public:
   explicit DepthClock(const Camera& camera);
 
-  /// Frames in the order of their time. @param T_cw  none: the frame was not tracked
+  /// Takes in the next frame, in the order of time.
+  /// @param depth_m  planar z, metres; 0 = none
+  /// @param T_cw  none: the frame was not tracked
   void Observe(double timestamp_s, const cv::Mat1f& depth_m, const std::optional<Pose>& T_cw);
 
   /// By how much later than its colour depth was taken: seconds, negative: earlier, at most a
@@ -37,8 +39,8 @@ class DepthClock {
 
  private:
   struct Tile {
-    Eigen::Vector3d m = Eigen::Vector3d::Zero();  ///< 1/m; zero: no plane
-    double q = 0.0;                               ///< 1/m, at the centre's ray
+    Eigen::Vector3d m = Eigen::Vector3d::Zero();  ///< plane m . x = 1, 1/metre; zero: none
+    double q = 0.0;                               ///< inverse depth at the centre, 1/metre
   };
   struct Seen {
     double s = 0.0;
@@ -56,10 +58,11 @@ class DepthClock {
     double c = 0.0;
     int tiles = 0;
   };
-  /// At one shift, over the changes for which poses are known so shifted.
+  /// Sums for one shift over the changes for which poses are known so shifted.
   struct Shift {
     double cost = 0.0;
-    /// Of (unshifted cost - cost) / (unshifted cost + cost), in which all changes weigh alike.
+    /// Sums of gain = (unshifted cost - cost) / (unshifted cost + cost), in which all changes
+    /// weigh alike, and of its square.
     double gains = 0.0, squared_gains = 0.0;
     int changes = 0;
   };
@@ -76,9 +79,9 @@ class DepthClock {
   static double Lowest(const Shifts& shifts, std::size_t at);
 
   cv::Mat2d rays_;
-  std::vector<cv::Rect> areas_;  ///< of the tiles
+  std::vector<cv::Rect> areas_;  ///< the tiles
   std::deque<Seen> seen_;        ///< the last few frames
-  std::deque<TimedPose> poses_;  ///< of the last seconds
+  std::deque<TimedPose> poses_;  ///< those of the last seconds
   std::deque<Change> changes_;   ///< those that may yet meet a pose
   Shifts shifts_;
 };

@@ -8,21 +8,21 @@
 namespace slam {
 namespace {
 
-constexpr int kFitSteps = 3;
+constexpr int kFitSteps = 3;  // Gauss-Newton; each fit begins at the last one
 
 // Spreads below which noise is not believed to be: half of what a subpixel fit resolves, and
 // half a millimetre at a metre.
-constexpr double kLeastSpread_px = 0.2, kLeastSpread_per_m = 5e-4;
+constexpr double kMinSpread_px = 0.2, kMinSpread_per_m = 5e-4;
 // Points spread wider than that are not one motion's, even by a camera that is very wrong.
-constexpr double kMostSpread_px = 10.0;
-// In sigmas.
-constexpr double kHuber = 2.0, kLeaveOut = 8.0;
+constexpr double kMaxSpread_px = 10.0;
+// Residuals above the first count linearly (Huber), those above the second not at all.
+constexpr double kHuber_sigmas = 2.0, kLeaveOut_sigmas = 8.0;
 
 // Sigmas: colour cameras read an image out in up to 33 ms, and depth is taken within 20 ms of
 // it.
 constexpr double kReadOut_s = 0.015, kDepthLate_s = 0.010;
 
-constexpr double kSigmaOfMedian = 1.4826;  ///< from the absolute values of normal noise
+constexpr double kSigmaOfMedian = 1.4826;  // sigma over median absolute value, normal noise
 
 double Median(std::vector<double>& values) {
   const auto middle = values.begin() + static_cast<long>(values.size() / 2);
@@ -37,7 +37,7 @@ struct ViewPair::System {
   Eigen::Matrix<double, kUnknowns, kUnknowns> H =
       Eigen::Matrix<double, kUnknowns, kUnknowns>::Zero();
   Eigen::Matrix<double, kUnknowns, 1> g = Eigen::Matrix<double, kUnknowns, 1>::Zero();
-  std::size_t points = 0;  ///< that count
+  std::size_t points = 0;  ///< number of points that were not left out
   double spread_px = 0.0;
 };
 
@@ -47,13 +47,13 @@ struct ViewPair::Spread {
   Effects effects;
 };
 
-/// A point at both views.
+/// A point in both views.
 struct ViewPair::Geometry {
   Eigen::Vector3d ray_1, p_1;            ///< K^-1(first), and it at its depth
   Eigen::Vector3d p_2;                   ///< T_21 p_1
   double x_2 = 0.0, y_2 = 0.0;           ///< K^-1(second)
-  double inv_z = 0.0, x = 0.0, y = 0.0;  ///< of p_2
-  Eigen::Matrix3d by_p_2;                ///< of the residual
+  double inv_z = 0.0, x = 0.0, y = 0.0;  ///< p_2: 1/z, x/z, y/z
+  Eigen::Matrix3d by_p_2;                ///< derivative of the residual by p_2
 };
 
 ViewPair::ViewPair(std::vector<TwiceSeen> points, const Pose& T_21, const ViewMotion& motion)
@@ -76,8 +76,8 @@ ViewPair::Geometry ViewPair::At(const TwiceSeen& point, const Intrinsics& at) co
   return g;
 }
 
-/// Columns: inverse depth times 1, x, y; skew of u, of v; seconds from the first row to the
-/// last; seconds that depth is late.
+/// Derivatives of the residual by the effects. Columns: inverse depth times 1, x, y; skew of u,
+/// of v; seconds from the first row to the last; seconds that depth is late.
 ViewPair::ByEffects ViewPair::EffectsOf(const TwiceSeen& point, const Geometry& g) const {
   const auto speed = [](const Vector6d& xi, const Eigen::Vector3d& p) -> Eigen::Vector3d {
     return xi.head<3>() + xi.tail<3>().cross(p);
@@ -103,6 +103,7 @@ Eigen::Vector3d ViewPair::Residual(const TwiceSeen& point, const Intrinsics& at,
   const ByEffects by_effects = EffectsOf(point, g);
   const double weight = 1.0 / point.scale;
   if (rows != nullptr) {
+    // Derivatives by the pose (translation, rotation), the effects, and fx, fy, cx, cy.
     const Eigen::Matrix3d by_p_1 = g.by_p_2 * T_21_.R * point.first_z_m;
     rows->leftCols<3>() = g.by_p_2;
     rows->middleCols<3>(3) = -g.by_p_2 * Hat(g.p_2);
@@ -131,8 +132,8 @@ ViewPair::Spread ViewPair::SpreadOf(const std::vector<Eigen::Vector3d>& residual
   }
   for (const TwiceSeen& point : points_) measured.push_back(1.0 / point.second_z_m);
   Spread spread;
-  spread.position_px = std::max(kSigmaOfMedian * Median(positions), kLeastSpread_px);
-  spread.inverse_depth = std::max(kSigmaOfMedian * Median(inverse_depths), kLeastSpread_per_m);
+  spread.position_px = std::max(kSigmaOfMedian * Median(positions), kMinSpread_px);
+  spread.inverse_depth = std::max(kSigmaOfMedian * Median(inverse_depths), kMinSpread_per_m);
   const double relative = spread.inverse_depth / Median(measured);
   spread.effects << relative, relative, relative, spread.position_px, spread.position_px,
       kReadOut_s, kDepthLate_s;
@@ -140,6 +141,7 @@ ViewPair::Spread ViewPair::SpreadOf(const std::vector<Eigen::Vector3d>& residual
 }
 
 ViewPair::System ViewPair::Linearise(const Intrinsics& at) const {
+  // The residuals give the scale of their own noise.
   std::vector<Eigen::Vector3d> residuals;
   residuals.reserve(points_.size());
   for (const TwiceSeen& point : points_) residuals.push_back(Residual(point, at, nullptr));
@@ -148,18 +150,20 @@ ViewPair::System ViewPair::Linearise(const Intrinsics& at) const {
   system.spread_px = spread.position_px;
   const Eigen::Vector3d whiten(1.0 / spread.position_px, 1.0 / spread.position_px,
                                1.0 / spread.inverse_depth);
+  // Robust normal equations.
   Rows rows;
   for (std::size_t i = 0; i < points_.size(); ++i) {
     const Eigen::Vector3d r = whiten.cwiseProduct(residuals[i]);
     const double e = r.norm();
-    if (!(e < kLeaveOut)) continue;
-    const double weight = e > kHuber ? kHuber / e : 1.0;
+    if (!(e < kLeaveOut_sigmas)) continue;
+    const double weight = e > kHuber_sigmas ? kHuber_sigmas / e : 1.0;
     Residual(points_[i], at, &rows);
     rows = whiten.asDiagonal() * rows;
     system.H.noalias() += weight * rows.transpose() * rows;
     system.g.noalias() += weight * rows.transpose() * r;
     ++system.points;
   }
+  // Each effect is expected to be near 0.
   for (int k = 0; k < kEffects; ++k) {
     const double information = 1.0 / (spread.effects[k] * spread.effects[k]);
     system.H(6 + k, 6 + k) += information;
@@ -170,10 +174,11 @@ ViewPair::System ViewPair::Linearise(const Intrinsics& at) const {
 
 IntrinsicsEvidence ViewPair::Evidence(const Intrinsics& at) {
   IntrinsicsEvidence evidence;
-  if (points_.size() < kLeastPoints) return evidence;
+  if (points_.size() < kMinPoints) return evidence;
+  // Fit pose and effects for these intrinsics.
   System system = Linearise(at);
   for (int step = 0; step < kFitSteps; ++step) {
-    if (system.points < kLeastPoints) return evidence;
+    if (system.points < kMinPoints) return evidence;
     const Eigen::Matrix<double, kOthers, 1> move =
         system.H.topLeftCorner<kOthers, kOthers>().ldlt().solve(-system.g.head<kOthers>());
     if (!move.allFinite()) return evidence;
@@ -181,7 +186,8 @@ IntrinsicsEvidence ViewPair::Evidence(const Intrinsics& at) {
     effects_ += move.tail<kEffects>();
     system = Linearise(at);
   }
-  if (system.points < kLeastPoints || !(system.spread_px < kMostSpread_px)) return evidence;
+  if (system.points < kMinPoints || !(system.spread_px < kMaxSpread_px)) return evidence;
+  // Eliminate them (Schur complement): what is left speaks of the intrinsics alone.
   const Eigen::Matrix<double, kOthers, 4> across = system.H.topRightCorner<kOthers, 4>();
   const auto others = system.H.topLeftCorner<kOthers, kOthers>().ldlt();
   evidence.information =

@@ -42,7 +42,7 @@ struct ViewMotion {
 /// of a rolling shutter, and inverse depth that is off by a factor affine in the image.
 class ViewPair {
  public:
-  static constexpr std::size_t kLeastPoints = 30;
+  static constexpr std::size_t kMinPoints = 30;  ///< 90 residuals for 17 unknowns
 
   /// @param T_21  first guess of the motion: takes the first camera's coordinates to the
   ///   second's
@@ -51,11 +51,9 @@ class ViewPair {
   /// Fits the motion for these intrinsics, from the last fit, then eliminates it.
   IntrinsicsEvidence Evidence(const Intrinsics& at);
 
-  const Pose& T_21() const { return T_21_; }
-
  private:
   static constexpr int kEffects = 7;             ///< see EffectsOf
-  static constexpr int kOthers = 6 + kEffects;   ///< all but the intrinsics
+  static constexpr int kOthers = 6 + kEffects;   ///< unknowns that are not intrinsics
   static constexpr int kUnknowns = kOthers + 4;  ///< pose, effects, intrinsics
   using Effects = Eigen::Matrix<double, kEffects, 1>;
   using ByEffects = Eigen::Matrix<double, 3, kEffects>;

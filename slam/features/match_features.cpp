@@ -13,10 +13,10 @@
 namespace slam {
 namespace {
 
-constexpr double kCell_px = 20.0;
-constexpr int kTooFar = 257;  // more than any two descriptors differ
+constexpr double kCell_px = 20.0;  // side of a grid cell: about the usual search radius
+constexpr int kTooFar = 257;       // more than any two descriptors differ
 
-/// The two nearest of the candidates.
+/// The two nearest candidates of a query.
 struct Nearest {
   int index = kNone, distance = kTooFar, octave = -1;
   int second_distance = kTooFar, second_octave = -1;
@@ -35,6 +35,7 @@ struct Nearest {
   }
 };
 
+/// Compares the query with the free features near it that agree with its depth.
 Nearest Search(const PointQuery& query, const std::vector<PointFeature>& features,
                const FeatureGrid& grid, const std::vector<bool>& taken) {
   Nearest nearest;
@@ -112,6 +113,7 @@ std::vector<int> MatchQueries(const std::vector<PointQuery>& queries,
                               const std::vector<PointFeature>& features,
                               const FeatureGrid& grid, const std::vector<bool>& taken,
                               const PointMatchConfig& config) {
+  // Each query takes its nearest feature; of two that want one, the nearer query has it.
   std::vector<int> matches(features.size(), kNone);
   std::vector<int> distances(features.size(), kTooFar);
   for (int q = 0; q < static_cast<int>(queries.size()); ++q) {
@@ -123,6 +125,7 @@ std::vector<int> MatchQueries(const std::vector<PointQuery>& queries,
   }
   if (!config.check_orientation) return matches;
 
+  // Wrong matches turn at random: keep those that turn as most do.
   std::vector<double> turns_deg(features.size(), std::numeric_limits<double>::quiet_NaN());
   for (std::size_t f = 0; f < features.size(); ++f) {
     if (matches[f] == kNone) continue;
@@ -141,6 +144,7 @@ std::vector<FeaturePair> MatchDescriptors(const std::vector<PointFeature>& first
                                           const std::vector<PointFeature>& second,
                                           const std::vector<bool>& use_second,
                                           const PointMatchConfig& config) {
+  // Compare all with all, and note the nearest of each on both sides.
   std::vector<Nearest> of_first(first.size());
   std::vector<int> of_second(second.size(), kNone);
   std::vector<int> distance_of_second(second.size(), kTooFar);
@@ -156,6 +160,7 @@ std::vector<FeaturePair> MatchDescriptors(const std::vector<PointFeature>& first
       }
     }
   }
+  // Keep pairs in which each is the other's nearest, near enough, and clearly so.
   std::vector<FeaturePair> pairs;
   std::vector<double> turns_deg;
   for (int i = 0; i < static_cast<int>(first.size()); ++i) {
@@ -177,17 +182,19 @@ std::vector<FeaturePair> MatchDescriptors(const std::vector<PointFeature>& first
 }
 
 std::vector<bool> ConsistentTurns(const std::vector<double>& turns_deg) {
-  constexpr int kBins = 30, kKept = 3;
-  constexpr double kMinShare = 0.1;
+  constexpr int kBins = 30, kKept = 3;  // bins of 12 degrees; values of ORB-SLAM2
+  constexpr double kMinShare = 0.1;     // share of the fullest bin that a kept one has
   const auto bin_of = [](double turn_deg) {
     const double turns = turn_deg / 360.0;
     const int bin = static_cast<int>(std::lround((turns - std::floor(turns)) * kBins));
     return Index(bin % kBins);
   };
+  // Histogram of the turns.
   std::array<int, kBins> counts{};
   for (const double turn : turns_deg) {
     if (std::isfinite(turn)) ++counts[bin_of(turn)];
   }
+  // The fullest bins stay, and what lies in them.
   std::array<std::size_t, kBins> order;
   std::iota(order.begin(), order.end(), 0u);
   std::stable_sort(order.begin(), order.end(),

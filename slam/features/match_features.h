@@ -33,15 +33,18 @@ class FeatureGrid {
 
 /// Gates of point matching.
 struct PointMatchConfig {
-  int max_distance = 100;         ///< differing bits; domain [0, 256]
-  double max_ratio = 0.9;         ///< best over second best at the same octave; domain (0, 1]
-  bool check_orientation = true;  ///< keep the main turns of the image alone
+  int max_distance = 100;  // TH_HIGH of ORB-SLAM2
+  double max_ratio = 0.9;
+  bool check_orientation = true;
 };
 
 inline void VisitFields(PointMatchConfig& c, FieldVisitor& v) {
-  v.Integer("max_distance", c.max_distance, "[0, 256]", "differing bits");
-  v.Number("max_ratio", c.max_ratio, "(0, 1]", "best over second best");
-  v.Flag("check_orientation", c.check_orientation, "keep the main turns of the image alone");
+  v.Integer("max_distance", c.max_distance, "[0, 256]",
+            "largest number of differing bits of two matched descriptors");
+  v.Number("max_ratio", c.max_ratio, "(0, 1]",
+           "largest distance to the best candidate over that to the second best of its octave");
+  v.Flag("check_orientation", c.check_orientation,
+         "keep only matches that turn as most matches of the image do");
 }
 
 /// Something looked for in an image: a map point where it is expected.
@@ -49,10 +52,10 @@ struct PointQuery {
   int point = kNone;         ///< id that the match will carry
   Eigen::Vector2d u_px;      ///< expected position, undistorted
   double right_u_px = -1.0;  ///< expected virtual right coordinate; < 0: not compared
-  double radius_px = 7.0;    ///< search square's half width
+  double radius_px = 7.0;    ///< half width of the search square
   int min_octave = 0, max_octave = 7;
   Descriptor descriptor{};
-  float angle_deg = -1.0f;  ///< of the feature it was seen at; < 0: not compared
+  float angle_deg = -1.0f;  ///< orientation of the feature it was seen at; < 0: not compared
 };
 
 /// Finds for each query the feature with the nearest descriptor among the near ones. A feature
@@ -64,11 +67,11 @@ std::vector<int> MatchQueries(const std::vector<PointQuery>& queries,
                               const FeatureGrid& grid, const std::vector<bool>& taken,
                               const PointMatchConfig& config);
 
-/// Pairs of features of two images by descriptors alone: each is the other's nearest.
 struct FeaturePair {
-  int first, second;
+  int first, second;  ///< indices into the features of the two images
 };
 
+/// Pairs of features of two images by descriptors alone: each is the other's nearest.
 /// @param use_first, use_second  parallel to the features: which take part; empty for all
 std::vector<FeaturePair> MatchDescriptors(const std::vector<PointFeature>& first,
                                           const std::vector<bool>& use_first,
@@ -77,7 +80,7 @@ std::vector<FeaturePair> MatchDescriptors(const std::vector<PointFeature>& first
                                           const PointMatchConfig& config);
 
 /// Which pairs turn as the image does: a histogram of the angle differences, of which the three
-/// fullest of 30 bins stay (only those with at least a tenth of the fullest).
+/// fullest of 30 bins stay (only those with at least a tenth of the fullest), as in ORB-SLAM2.
 /// @param turns_deg differences of angles, any range; NaN always stays
 std::vector<bool> ConsistentTurns(const std::vector<double>& turns_deg);
 

@@ -13,6 +13,7 @@ double DepthAt(const cv::Mat1f& depth_m, const Eigen::Vector2d& u_px,
   if (u < 0 || v < 0 || u >= depth_m.cols || v >= depth_m.rows) return 0.0;
   if (!(depth_m(v, u) > 0)) return 0.0;
 
+  // Collect the measured depths of the square.
   const int w = config.window_px;
   cv::AutoBuffer<float, 64> z(static_cast<std::size_t>((2 * w + 1) * (2 * w + 1)));
   float* end = z.data();
@@ -21,6 +22,7 @@ double DepthAt(const cv::Mat1f& depth_m, const Eigen::Vector2d& u_px,
       if (depth_m(y, x) > 0) *end++ = depth_m(y, x);
     }
   }
+  // Two surfaces, or a depth that no sensor measures well: no answer.
   std::sort(z.data(), end);
   const double step = *(end - 1) - z[0];
   const double median = z[static_cast<std::size_t>((end - z.data()) / 2)];

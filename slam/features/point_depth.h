@@ -9,19 +9,20 @@ namespace slam {
 
 /// How a point's depth is read from the image.
 struct PointDepthConfig {
-  int window_px = 1;  ///< half width of the square looked at; domain [0, 5]
-  double max_step_ratio =
-      0.02;                  ///< depths in it may differ by this share of z, domain (0, 1) ...
-  double max_step_m = 0.01;  ///< ... or by this much, whichever is more; domain (0, inf)
-  double min_depth_m = 0.2;  ///< domain [0, inf)
-  double max_depth_m = 8.0;  ///< domain (min_depth_m, inf)
+  int window_px = 1;
+  double max_step_ratio = 0.02;  // balances slanted surfaces against steps between two objects
+  double max_step_m = 0.01;      // the same, where noise is more than the share of the depth
+  double min_depth_m = 0.2;      // depth cameras are blind below
+  double max_depth_m = 8.0;      // the noise of depth grows with its square
 };
 
 inline void VisitFields(PointDepthConfig& c, FieldVisitor& v) {
-  v.Integer("window_px", c.window_px, "[0, 5]", "half width of the square looked at");
+  v.Integer("window_px", c.window_px, "[0, 5]",
+            "half width of the square around a feature whose depths are read");
   v.Number("max_step_ratio", c.max_step_ratio, "(0, 1)",
-           "depths in it may differ by this share");
-  v.Number("max_step_m", c.max_step_m, "(0, inf)", "or by this much, whichever is more");
+           "largest spread of the depths in the square, as a share of their median");
+  v.Number("max_step_m", c.max_step_m, "(0, inf)",
+           "the spread that is allowed in any case, whichever is more");
   v.Number("min_depth_m", c.min_depth_m, "[0, inf)", "nearest depth used");
   v.Number("max_depth_m", c.max_depth_m, "(0, inf)", "farthest depth used");
 }

@@ -14,10 +14,10 @@
 namespace slam {
 namespace {
 
-constexpr int kRadius_px = 15;
+constexpr int kRadius_px = 15;  // patch of 31 x 31 pixels: Rublee et al. 2011
 constexpr int kPatch_px = 2 * kRadius_px + 1;
 
-/// What a row of the patch weighs in its moments: 1 in the disc, and dx there.
+/// Weights of a row of the patch in its moments: 1 in the disc, and dx there.
 constexpr int kRow_px = 32;  // from -kRadius_px on; the last is beyond the disc
 struct RowWeights {
   std::array<std::int16_t, kRow_px> one{}, dx{};
@@ -38,7 +38,8 @@ constexpr std::array<RowWeights, kRadius_px + 1> kDisc = DiscRows();
 
 }  // namespace
 
-/// Moments of the patch around a pixel. @param stride  of its image
+/// Moments of the patch around a pixel.
+/// @param stride  bytes from one row of the image to the next
 SLAM_LANES static void Moments(const std::uint8_t* center, std::ptrdiff_t stride, int& m10,
                                int& m01) {
   m10 = m01 = 0;
@@ -67,6 +68,7 @@ float PatchAngle(const PyramidImage& octave, int x, int y) {
 std::vector<Descriptor> DescribePoints(const PyramidImage& octave,
                                        const std::vector<cv::KeyPoint>& corners) {
   if (corners.empty()) return {};
+  // OpenCV describes the corners on the padded octave, as an image of one octave.
   std::vector<cv::KeyPoint> padded = corners;
   for (cv::KeyPoint& corner : padded) {
     corner.pt.x += static_cast<float>(kPyramidPadding_px);

@@ -10,7 +10,7 @@ namespace slam {
 
 /// Orientation of a patch by its intensity centroid: atan2(m01, m10) over a disc of radius 15
 /// pixels, degrees in [0, 360). Rublee et al. 2011, section 3.2.
-/// @param x, y pixel of the octave's image, inside it
+/// @param x, y  pixel of the octave's image, inside it
 float PatchAngle(const PyramidImage& octave, int x, int y);
 
 /// Rotated BRIEF (256 tests, OpenCV's learnt pattern) on the blurred octave, parallel to

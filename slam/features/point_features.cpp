@@ -15,7 +15,8 @@ namespace {
 /// Corners this near to an octave's border are left out: 16 pixels as the descriptor's patch
 /// asks, less in small images, where that would leave no image.
 int BorderOf(const cv::Size& size) {
-  return std::clamp(std::min(size.width, size.height) / 15, 4, 16);
+  constexpr int kBorder_px = 16, kMinBorder_px = 4, kBorders = 15;  // of a side
+  return std::clamp(std::min(size.width, size.height) / kBorders, kMinBorder_px, kBorder_px);
 }
 
 /// FAST in a rectangle of the octave; positions on the octave's image, row by row.
@@ -43,12 +44,14 @@ std::vector<cv::KeyPoint> CornersOfOctave(const cv::Mat1b& image, const cv::Rect
   const auto left = [&](int c) { return area.x + c * area.width / columns; };
   const auto top = [&](int r) { return area.y + r * area.height / rows; };
 
+  // Which cells have a corner already.
   cv::Mat1b occupied(rows, columns, std::uint8_t{0});
   for (const cv::KeyPoint& corner : corners) {
     const int c = (static_cast<int>(corner.pt.x) - area.x) * columns / area.width;
     const int r = (static_cast<int>(corner.pt.y) - area.y) * rows / area.height;
     occupied(std::clamp(r, 0, rows - 1), std::clamp(c, 0, columns - 1)) = 1;
   }
+  // The empty cells are asked again with the low threshold.
   const auto strong = static_cast<std::ptrdiff_t>(corners.size());
   for (int r = 0; r < rows; ++r) {
     for (int c = 0; c < columns; ++c) {
@@ -58,6 +61,7 @@ std::vector<cv::KeyPoint> CornersOfOctave(const cv::Mat1b& image, const cv::Rect
       corners.insert(corners.end(), weak.begin(), weak.end());
     }
   }
+  // One order for both: row by row.
   const auto by_row = [](const cv::KeyPoint& a, const cv::KeyPoint& b) {
     return a.pt.y != b.pt.y ? a.pt.y < b.pt.y : a.pt.x < b.pt.x;
   };
@@ -108,12 +112,15 @@ std::vector<PointFeature> ExtractPointFeatures(const cv::Mat1b& gray, const cv::
   const std::vector<int> shares = Shares(config.scale, octaves.size(), config.count);
 
   std::vector<PointFeature> features;
-  features.reserve(static_cast<std::size_t>(config.count) + 16);
+  constexpr std::size_t kSpare = 16;  // two an octave: SpreadEvenly may exceed its count so
+  features.reserve(static_cast<std::size_t>(config.count) + kSpare);
   for (std::size_t o = 0; o < octaves.size(); ++o) {
     const cv::Mat1b& image = octaves[o].image;
+    // Corners of the octave, spread evenly over it.
     const int border = BorderOf(image.size());
     const cv::Rect area(border, border, image.cols - 2 * border, image.rows - 2 * border);
     auto corners = SpreadEvenly(CornersOfOctave(image, area, config), area, shares[o]);
+    // Orientation and descriptor of each, then its place and depth in the recorded image.
     for (cv::KeyPoint& corner : corners) {
       corner.angle = PatchAngle(octaves[o], cvRound(corner.pt.x), cvRound(corner.pt.y));
     }

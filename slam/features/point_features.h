@@ -10,27 +10,29 @@
 
 namespace slam {
 
-/// What is taken for a point feature.
+/// What is taken for a point feature. Defaults: ORB-SLAM2's for 640 x 480.
 struct PointFeatureConfig {
-  int count = 1000;            ///< features an image, about; domain [1, 10000]
-  int fast_threshold = 20;     ///< grey levels; domain [1, 254]
-  int min_fast_threshold = 7;  ///< where a cell has no corner; domain [1, fast_threshold]
-  int cell_px = 30;            ///< side of a cell, pixels of its octave; domain [8, inf)
+  int count = 1000;
+  int fast_threshold = 20;
+  int min_fast_threshold = 7;
+  int cell_px = 30;
   FeatureScale scale;
   PointDepthConfig depth;
 };
 
 inline void VisitFields(PointFeatureConfig& c, FieldVisitor& v) {
-  v.Integer("count", c.count, "[1, 10000]", "features an image, about");
-  v.Integer("fast_threshold", c.fast_threshold, "[1, 254]", "grey levels");
+  v.Integer("count", c.count, "[1, 10000]", "number of features wanted in an image, about");
+  v.Integer("fast_threshold", c.fast_threshold, "[1, 254]",
+            "FAST threshold, grey levels between a corner and its ring");
   v.Integer("min_fast_threshold", c.min_fast_threshold, "[1, 254]",
-            "where a cell has no corner");
-  v.Integer("cell_px", c.cell_px, "[8, 1000]", "side of a cell");
-  v.Number("bf_px_m", c.scale.bf_px_m, "(0, inf)", "b f of the virtual right camera");
-  v.Integer("octaves", c.scale.octaves, "[1, 16]", "of the image pyramid");
-  v.Number("octave_factor", c.scale.factor, "(1, 2]", "between neighbouring octaves");
+            "FAST threshold for cells in which the first one finds no corner; at most that");
+  v.Integer("cell_px", c.cell_px, "[8, 1000]", "side of such a cell, pixels of its octave");
+  v.Number("bf_px_m", c.scale.bf_px_m, "(0, inf)",
+           "focal length times baseline of the virtual right camera, px m");
+  v.Integer("octaves", c.scale.octaves, "[1, 16]", "number of octaves of the image pyramid");
+  v.Number("octave_factor", c.scale.factor, "(1, 2]", "scale between neighbouring octaves");
   v.Number("close_baselines", c.scale.close_baselines, "(0, inf)",
-           "depth trusted up to so many virtual baselines");
+           "a depth is trusted up to so many virtual baselines");
 }
 
 /// ORB features: FAST corners over a pyramid with two thresholds, spread evenly by quartering,

@@ -6,10 +6,11 @@ namespace slam {
 
 std::optional<ExpectedView> ExpectView(const MapPoint& point, const Pose& T_cw,
                                        const Camera& camera, const FeatureScale& scale) {
-  constexpr double kRangeMargin = 1.2;    // on the range of distances: one octave
+  constexpr double kRangeMargin = 1.2;    // one octave on the range of distances; ORB-SLAM2
   constexpr double kMinViewCosine = 0.5;  // 60 degrees: beyond, a corner looks otherwise
   const Eigen::Vector3d p_c = T_cw * point.p_w;
   if (!(p_c.z() > 0)) return std::nullopt;
+  // From too near or too far the point shows in an octave that the pyramid does not have.
   const double distance = p_c.norm();
   if (!(distance * kRangeMargin >= point.min_distance_m &&
         distance <= kRangeMargin * point.max_distance_m)) {
@@ -43,6 +44,7 @@ PointQuery QueryOf(const MapPoint& point, const Pose& T_cw, const Camera& camera
 
 bool AgreesWith(const PointFeature& feature, const Eigen::Vector3d& p_c, const Camera& camera,
                 const FeatureScale& scale) {
+  // Reprojection error, and that of the disparity where the feature has a depth.
   double error2_px2 = (camera.Project(p_c) - feature.u_px).squaredNorm();
   const bool has_depth = feature.depth_m > 0;
   if (has_depth) {

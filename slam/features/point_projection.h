@@ -10,24 +10,25 @@
 
 namespace slam {
 
-/// Where and how a map point is looked for.
+/// Where and how a map point is looked for. Defaults: ORB-SLAM2's.
 struct PointProjectionConfig {
-  double straight_view_cosine = 0.998;  ///< from here on the smaller radius
-  double straight_radius_px = 2.5;      ///< search radius at octave 0, seen as before
-  double radius_px = 4.0;               ///< ... and seen from another side
+  double straight_view_cosine = 0.998;  // 3.6 degrees
+  double straight_radius_px = 2.5;
+  double radius_px = 4.0;
 };
 
 inline void VisitFields(PointProjectionConfig& c, FieldVisitor& v) {
   v.Number("straight_view_cosine", c.straight_view_cosine, "[-1, 1]",
-           "from here on the smaller radius");
+           "cosine between ray and mean view from which on the smaller search radius is used");
   v.Number("straight_radius_px", c.straight_radius_px, "(0, inf)",
-           "search radius, seen as before");
-  v.Number("radius_px", c.radius_px, "(0, inf)", "search radius, from another side");
+           "search radius at octave 0 for a point seen from where it was seen before");
+  v.Number("radius_px", c.radius_px, "(0, inf)",
+           "search radius at octave 0 for a point seen from another side");
 }
 
 /// How a map point should look from a pose.
 struct ExpectedView {
-  Eigen::Vector2d u_px;  ///< ideal image
+  Eigen::Vector2d u_px;  ///< in the ideal (undistorted) image
   double depth_m = 0.0;
   int octave = 0;
   double cosine = 1.0;  ///< between its ray and the mean view
@@ -40,7 +41,7 @@ std::optional<ExpectedView> ExpectView(const MapPoint& point, const Pose& T_cw,
                                        const Camera& camera, const FeatureScale& scale);
 
 /// The query for a map point from a pose; `point` is kNone when it is out of sight.
-/// @param radius_factor  times the configured radius
+/// @param radius_factor  multiplies the configured radius
 PointQuery QueryOf(const MapPoint& point, const Pose& T_cw, const Camera& camera,
                    const FeatureScale& scale, double radius_factor,
                    const PointProjectionConfig& config);

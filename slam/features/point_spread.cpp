@@ -7,9 +7,10 @@
 namespace slam {
 namespace {
 
+/// A rectangle of the area, and which candidates lie in it.
 struct Cell {
   double x0, y0, x1, y1;
-  std::size_t begin, end;  ///< of its candidates' indices, which ascend
+  std::size_t begin, end;  ///< range of its candidates' indices, which ascend
   int number;              ///< count of cells made before: breaks ties
 
   std::size_t size() const { return end - begin; }
@@ -24,7 +25,7 @@ struct FullerFirst {
 
 using CellQueue = std::priority_queue<Cell, std::vector<Cell>, FullerFirst>;
 
-/// Candidates in the order of the cells that they are in.
+/// Candidates sorted by the cells of a quadtree that they lie in.
 class Spread {
  public:
   Spread(const std::vector<cv::KeyPoint>& candidates, const cv::Rect& area)
@@ -48,11 +49,14 @@ class Spread {
     number_ = static_cast<int>(queue_.size());
   }
 
-  /// Quarters the fullest cell. @returns whether it could be.
+  /// Quarters the fullest cell.
+  /// @returns whether it could be quartered
   bool Quarter() {
+    constexpr double kMinCell_px = 1.0;  // smaller cells cannot part two corners
     const Cell cell = queue_.top();
-    if (!(cell.size() > 1 && cell.x1 - cell.x0 > 1.0)) return false;
+    if (!(cell.size() > 1 && cell.x1 - cell.x0 > kMinCell_px)) return false;
     queue_.pop();
+    // Sort the candidates into upper and lower half, and each half into left and right.
     const double x = 0.5 * (cell.x0 + cell.x1), y = 0.5 * (cell.y0 + cell.y1);
     const auto right = [&](int i) { return At(i).pt.x >= x; };
     const std::size_t lower =
@@ -69,7 +73,7 @@ class Spread {
 
   std::size_t size() const { return queue_.size(); }
 
-  /// The strongest of each cell, ascending. Empties the cells.
+  /// Indices of the strongest candidate of each cell, ascending. Empties the cells.
   std::vector<int> Strongest() {
     std::vector<int> kept;
     for (; !queue_.empty(); queue_.pop()) {
@@ -89,7 +93,8 @@ class Spread {
     if (cell.size() > 0) queue_.push(cell);
   }
 
-  /// Moves what is `last` behind the rest; the order of both stays. @returns where it begins.
+  /// Moves what is `last` behind the rest; the order of both stays.
+  /// @returns where it begins
   template <typename Last>
   std::size_t Part(std::size_t begin, std::size_t end, const Last& last) {
     std::size_t kept = begin, moved = 0;

@@ -9,8 +9,8 @@ namespace slam {
 /// the fullest cells first, until there are as many occupied cells as points wanted; the
 /// strongest candidate of each cell stays. Order of the result and ties depend on the input's
 /// order alone.
-/// @param candidates corners with `response`, inside `area`; pixels of one octave
-/// @param count wanted; the result has at most count + 2, fewer when candidates are few
+/// @param candidates  corners with `response`, inside `area`; pixels of one octave
+/// @param count  number wanted; the result has at most count + 2, fewer when candidates are few
 std::vector<cv::KeyPoint> SpreadEvenly(const std::vector<cv::KeyPoint>& candidates,
                                        const cv::Rect& area, int count);
 

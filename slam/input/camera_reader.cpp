@@ -9,10 +9,12 @@ namespace {
 /// The lens must be invertible over the whole image: a pixel that does not come back from its
 /// ray means that the coefficients are wrong (or of another model).
 void RequireInvertible(const Camera& c, const io::YamlMap& map) {
-  constexpr double kTolerance_px = 0.5;
-  for (int i = 0; i <= 8; ++i) {
-    for (int j = 0; j <= 8; ++j) {
-      const Eigen::Vector2d u((c.width - 1) * i / 8.0, (c.height - 1) * j / 8.0);
+  constexpr double kTolerance_px = 0.5;  // then it is another pixel
+  constexpr int kSteps = 8;              // a lens is smooth: a coarse grid shows where it folds
+  for (int i = 0; i <= kSteps; ++i) {
+    for (int j = 0; j <= kSteps; ++j) {
+      const Eigen::Vector2d u(static_cast<double>((c.width - 1) * i) / kSteps,
+                              static_cast<double>((c.height - 1) * j) / kSteps);
       const Eigen::Vector2d ideal = c.Undistort(u);
       const Eigen::Vector2d back = c.ProjectDistorted(c.Backproject(ideal, 1.0));
       if (!((back - u).norm() < kTolerance_px))

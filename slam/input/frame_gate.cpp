@@ -8,7 +8,7 @@
 namespace slam {
 namespace {
 
-constexpr float kMaxDepth_m = 1000.0f;
+constexpr float kMaxDepth_m = 1000.0f;  // beyond any sensor
 
 bool CanBe(float z_m) { return z_m >= 0 && z_m < kMaxDepth_m; }  // false for NaN
 
@@ -16,7 +16,7 @@ bool CanBe(float z_m) { return z_m >= 0 && z_m < kMaxDepth_m; }  // false for Na
 // it is blind, farther its depth is mostly noise.
 constexpr float kNear_m = 0.4f, kFar_m = 6.0f;
 
-/// Of the depth as it came, of every 16th pixel of every 16th row; 0 when nothing was measured.
+/// Median depth of every 16th pixel of every 16th row, metres; 0 when nothing was measured.
 float MedianDepth(const cv::Mat1f& depth_m) {
   constexpr int kStep_px = 16;
   std::vector<float> measured;
@@ -68,12 +68,14 @@ bool FrameGate::Takes(RecordedFrame& frame) {
     ++not_later_;
     return false;
   }
+  // Counted over all frames: a wrong unit of depth shows in most of them.
   first_ = false;
   last_s_ = frame.timestamp_s;
   ++taken_;
   const float median_m = MedianDepth(frame.depth_m);
   too_near_ += median_m > 0 && median_m < kNear_m;
   too_far_ += median_m > kFar_m;
+  // The source may still hold the image: mend a copy.
   if (!std::all_of(frame.depth_m.begin(), frame.depth_m.end(), CanBe)) {
     frame.depth_m = frame.depth_m.clone();
     for (float& z_m : frame.depth_m) z_m = CanBe(z_m) ? z_m : 0.0f;

@@ -27,7 +27,7 @@ class FrameGate {
   double last_s_ = 0.0;
   bool first_ = true;
   int not_later_ = 0, taken_ = 0;
-  int too_near_ = 0, too_far_ = 0;  ///< frames whose depth is that, most of it
+  int too_near_ = 0, too_far_ = 0;  ///< frames in which most of the depth is so
 };
 
 }  // namespace slam

@@ -7,7 +7,7 @@ namespace slam {
 /// One frame as recorded: what a camera gives, and no more.
 struct RecordedFrame {
   int index = 0;
-  double timestamp_s = 0.0;  ///< of the colour image
+  double timestamp_s = 0.0;  ///< when the colour image was taken
   cv::Mat3b bgr;             ///< 8-bit, OpenCV's order of channels
   cv::Mat1b gray;            ///< 8-bit, Rec. 601 luma of bgr
   cv::Mat1f depth_m;         ///< planar z, metres; 0 = no measurement

@@ -33,12 +33,14 @@ std::string PixelText(int bits, int colour) {
   return std::to_string(bits) + "-bit " + name;
 }
 
+/// Refuses a file that is no whole PNG of the camera's size and the type wanted.
 void CheckHeader(std::span<const std::uint8_t> bytes, ImageType type, const Camera& camera,
                  const std::string& where) {
   if (bytes.empty()) throw io::InputError(where, "the file is empty (0 bytes); copy it again");
   if (bytes.size() < kHeaderBytes ||
       !std::equal(kPngSignature.begin(), kPngSignature.end(), bytes.begin()))
     throw io::InputError(where, "not a PNG image (or cut off in its header)");
+  // IHDR, after signature, length and name: width, height, bits, colour type.
   const std::uint32_t width = BigEndian(&bytes[16]), height = BigEndian(&bytes[20]);
   if (width != static_cast<std::uint32_t>(camera.width) ||
       height != static_cast<std::uint32_t>(camera.height))

@@ -17,8 +17,7 @@ enum class ImageType {
 /// Reads a PNG of the camera's size: CV_8UC3 in BGR order, or CV_16UC1.
 /// @param context  what the file is, for messages: "frame 12"
 /// @throws InputError naming file and context when the file is missing, empty, truncated,
-/// damaged,
-///         or of another type or size.
+///   damaged, or of another type or size.
 cv::Mat ReadImage(const std::filesystem::path& file, ImageType type, const Camera& camera,
                   const std::string& context);
 

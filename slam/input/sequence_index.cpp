@@ -11,8 +11,8 @@
 namespace slam {
 namespace {
 
-constexpr double kMaxPairing_s = 0.02;
-constexpr double kMaxStamp_s = 1e11;  // the year 5138; milliseconds since 1970 are above it
+constexpr double kMaxPairing_s = 0.02;  // TUM's associate.py
+constexpr double kMaxStamp_s = 1e11;    // the year 5138; milliseconds since 1970 are above it
 
 /// One image of rgb.txt or depth.txt.
 struct Stamped {
@@ -36,9 +36,9 @@ double StampOf(const io::TextRecord& record, std::size_t field) {
     throw io::InputError(record.where,
                          "timestamp `" + text + "` is not a number of seconds >= 0");
   if (t < kMaxStamp_s) return t;
-  const char* unit = t < 1e14   ? "milliseconds: divide by 1e3"
-                     : t < 1e17 ? "microseconds: divide by 1e6"
-                                : "nanoseconds: divide by 1e9";
+  const char* unit = t < 1e3 * kMaxStamp_s   ? "milliseconds: divide by 1e3"
+                     : t < 1e6 * kMaxStamp_s ? "microseconds: divide by 1e6"
+                                             : "nanoseconds: divide by 1e9";
   throw io::InputError(record.where,
                        "timestamp `" + text + "` is not in seconds; it looks like " + unit);
 }
@@ -87,8 +87,8 @@ void Count(int& count, const std::string& what, const std::string& source,
 /// first in dictionary order of positions. O(n log n).
 std::vector<std::size_t> LongestIncreasing(const std::vector<double>& t) {
   const std::size_t n = t.size();
-  std::vector<std::size_t> length(n);  // of the longest that starts at i
-  std::vector<double> best;            // best[k]: largest start of one of length k + 1
+  std::vector<std::size_t> length(n);  // longest that starts at i
+  std::vector<double> best;            // best[k]: largest start of those of length k + 1
   for (std::size_t i = n; i-- > 0;) {
     const auto it = std::lower_bound(best.begin(), best.end(), t[i],
                                      [](double start, double x) { return start > x; });
@@ -98,6 +98,7 @@ std::vector<std::size_t> LongestIncreasing(const std::vector<double>& t) {
     else
       *it = std::max(*it, t[i]);
   }
+  // From the front: the first that can still be followed by as many as are wanted.
   std::vector<std::size_t> chosen;
   std::size_t wanted = best.size();
   for (std::size_t i = 0; i < n && wanted > 0; ++i) {
@@ -129,10 +130,12 @@ std::vector<Item> InOrder(const std::vector<Item>& items, Stamp stamp, SequenceW
   return kept;
 }
 
+/// Pairs colour and depth by nearest time, one to one, nearest pairs first.
 std::vector<SequenceEntry> Pair(const std::vector<Stamped>& rgb, std::vector<Stamped> depth,
                                 SequenceWarnings& w) {
   std::stable_sort(depth.begin(), depth.end(),
                    [](const Stamped& a, const Stamped& b) { return a.t < b.t; });
+  // All pairs within the limit: time between them, colour, depth.
   std::vector<std::tuple<double, std::size_t, std::size_t>> candidates;
   for (std::size_t i = 0; i < rgb.size(); ++i) {
     auto it = std::lower_bound(depth.begin(), depth.end(), rgb[i].t - kMaxPairing_s,
@@ -146,6 +149,7 @@ std::vector<SequenceEntry> Pair(const std::vector<Stamped>& rgb, std::vector<Sta
       last = it->t;
     }
   }
+  // The nearest pairs first, each image once.
   std::sort(candidates.begin(), candidates.end());
   constexpr std::size_t kFree = static_cast<std::size_t>(-1);
   std::vector<std::size_t> depth_of(rgb.size(), kFree);
@@ -155,6 +159,7 @@ std::vector<SequenceEntry> Pair(const std::vector<Stamped>& rgb, std::vector<Sta
     depth_of[i] = j;
     taken[j] = true;
   }
+  // Frames in the order of the colour images; what is left over is counted.
   std::vector<SequenceEntry> entries;
   for (std::size_t i = 0; i < rgb.size(); ++i) {
     if (depth_of[i] == kFree) {

@@ -8,7 +8,7 @@ namespace slam {
 
 /// One frame of a sequence: which files make it up.
 struct SequenceEntry {
-  double timestamp_s = 0.0;  ///< of the colour image; it is the frame's
+  double timestamp_s = 0.0;  ///< the colour image's, and so the frame's
   double depth_timestamp_s = 0.0;
   std::string rgb, depth;  ///< file names, relative to the sequence
   std::string source;      ///< "associations.txt:12", for messages
@@ -36,7 +36,7 @@ struct SequenceIndex {
 /// strictly increase, the later line where two choices are equal.
 /// @throws InputError with file:line for a line that cannot be understood, stamps in units
 /// other
-///         than seconds, a file name that leads out of the folder, a list without frames.
+///   than seconds, a file name that leads out of the folder, a list without frames.
 SequenceIndex IndexSequence(const std::filesystem::path& sequence);
 
 }  // namespace slam

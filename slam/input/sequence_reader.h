@@ -17,7 +17,7 @@ namespace slam {
 class SequenceReader : public FrameSource {
  public:
   struct Options {
-    bool prefetch = true;
+    bool prefetch = true;  ///< decode the next frame on a thread of its own
   };
 
   /// Lists the frames and checks that every image file is there and not empty.
@@ -32,8 +32,7 @@ class SequenceReader : public FrameSource {
 
   /// Frame i of [0, size()).
   /// @throws InputError naming file and frame for an image that is missing, damaged, or of
-  /// another
-  ///         size or type.
+  ///   another size or type.
   RecordedFrame Read(int i) override;
 
  private:
@@ -44,8 +43,8 @@ class SequenceReader : public FrameSource {
   Options options_;
   SequenceIndex index_;
   int ahead_index_ = -1;
-  std::future<RecordedFrame>
-      ahead_;  ///< last: its thread must end before the rest is destroyed
+  /// Last: its thread must end before the rest is destroyed.
+  std::future<RecordedFrame> ahead_;
 };
 
 }  // namespace slam

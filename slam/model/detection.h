@@ -20,7 +20,6 @@ struct Detection {
   ClassKind kind = ClassKind::kOther;
   double score = 0.0;  ///< [0, 1]
   Box box_px;
-  int track = -1;            ///< id of its box track over frames, -1 before tracking
   bool compensated = false;  ///< not detected in this frame: predicted from its track
 };
 

@@ -9,7 +9,7 @@
 namespace slam {
 namespace {
 
-/// What was at x in the old world is at this times x in the new one.
+/// T_new_old of a keyframe: what was at x in the old world is at T x in the new one.
 Pose Carriage(const Map& map, const std::vector<Pose>& before, int keyframe) {
   return Normalised(Inverse(KeyframePose(map, keyframe)) * before[Index(keyframe)]);
 }
@@ -18,6 +18,7 @@ void MoveAll(std::vector<Eigen::Vector3d>& points_w, const Pose& T_new_old) {
   for (Eigen::Vector3d& p_w : points_w) p_w = T_new_old * p_w;
 }
 
+/// Id of the keyframe nearest in time to a frame; the first at a tie.
 int NearestInTime(const Map& map, int frame_index) {
   int nearest = 0;
   for (const Keyframe& keyframe : map.keyframes) {
@@ -65,10 +66,10 @@ void CarryPoints(Map& map, const std::vector<Pose>& before) {
 void CarryPlanes(Map& map, const std::vector<Pose>& before) {
   if (map.keyframes.empty()) return;
   for (MapPlane& plane : map.planes) {
-    const bool on_trial = plane.status == LandmarkStatus::kCandidate;
+    const bool candidate = plane.status == LandmarkStatus::kCandidate;
     MovePlane(plane, Carriage(map, before,
-                              on_trial ? map.keyframes.back().id
-                                       : NearestInTime(map, plane.first_frame)));
+                              candidate ? map.keyframes.back().id
+                                        : NearestInTime(map, plane.first_frame)));
   }
 }
 

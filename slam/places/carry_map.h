@@ -14,12 +14,12 @@ std::vector<Pose> KeyframePoses(const Map& map);
 void MovePlane(MapPlane& plane, const Pose& T_new_old);
 
 /// Carries points along with the keyframe that made them.
-/// @param before  poses of the keyframes that the points were placed by, by id; the map holds
-/// those of now
+/// @param before  poses of the keyframes by id when the points were placed; the map holds the
+///   present ones
 void CarryPoints(Map& map, const std::vector<Pose>& before);
 
-/// Carries planes along with the keyframe nearest in time to their first sighting, and those
-/// on trial with the newest one.
+/// Carries landmarks along with the keyframe nearest in time to their first sighting, and
+/// candidates with the newest one.
 void CarryPlanes(Map& map, const std::vector<Pose>& before);
 
 }  // namespace slam

@@ -63,9 +63,12 @@ int TakePlacePoints(Map& map, const Loop& loop, const FeatureScale& scale) {
   return fused;
 }
 
-/// Spreads the error. @param ties  of the map before the loop was known
+/// Spreads the error over the pose graph.
+/// @param ties, before_loop  edges and poses before the loop was known
+/// @param ties_now  edges with what the loop has tied together
 void Spread(Map& map, const std::set<Pair>& ties, const std::vector<Pose>& before_loop,
             const std::set<Pair>& ties_now) {
+  // Nodes: all keyframes, where the loop has put them so far.
   std::vector<int> ids;
   std::vector<int> position(map.keyframes.size(), kNone);
   std::vector<Pose> poses;
@@ -75,6 +78,7 @@ void Spread(Map& map, const std::set<Pair>& ties, const std::vector<Pose>& befor
     ids.push_back(keyframe.id);
     poses.push_back(keyframe.T_cw);
   }
+  // Edges: as it was before the loop, and as the loop says where that is new.
   std::vector<PoseEdge> edges;
   const auto tie = [&](const Pair& pair, const Pose& T_iw, const Pose& T_jw) {
     edges.push_back(
@@ -84,21 +88,21 @@ void Spread(Map& map, const std::set<Pair>& ties, const std::vector<Pose>& befor
     tie(pair, before_loop[Index(pair.first)], before_loop[Index(pair.second)]);
   }
   for (const Pair& pair : ties_now) {
-    if (ties.count(pair) != 0) continue;  // else new by the loop
+    if (ties.count(pair) != 0) continue;
     tie(pair, map.keyframes[Index(pair.first)].T_cw, map.keyframes[Index(pair.second)].T_cw);
   }
   if (!OptimisePoseGraph(poses, edges)) return;
+  // Points move along with their keyframes.
   const std::vector<Pose> before = KeyframePoses(map);
   for (std::size_t i = 0; i < ids.size(); ++i) map.keyframes[Index(ids[i])].T_cw = poses[i];
   CarryPoints(map, before);
 }
 
-/// All of it but the adjustment.
+/// Moves, fuses and spreads the error: all but the adjustment of the whole map.
 LoopReport DrawTogether(Map& map, const Loop& loop, const Camera& camera,
                         const FeatureScale& scale, const LocalMappingConfig& mapping,
                         const LoopClosingConfig& config) {
   LoopReport report;
-  report.loop = loop;
   const std::vector<Pose> before = KeyframePoses(map);
   report.moved_m = (Inverse(loop.T_cw).t - Inverse(before[Index(loop.keyframe)]).t).norm();
   const std::set<Pair> ties = Ties(map, config.min_edge_points);
@@ -107,6 +111,7 @@ LoopReport DrawTogether(Map& map, const Loop& loop, const Camera& camera,
     if (other != 0) group.push_back(other);  // the world stays
   }
 
+  // What the group sees there is what the place holds.
   MoveGroup(map, loop, group);
   report.fused = TakePlacePoints(map, loop, scale);
   UpdateCovisibility(map, loop.keyframe, mapping.keyframes);
@@ -114,6 +119,7 @@ LoopReport DrawTogether(Map& map, const Loop& loop, const Camera& camera,
     report.fused += FusePoints(map, id, camera, scale, mapping.fusion);
     UpdateCovisibility(map, id, mapping.keyframes);
   }
+  // The rest of the map shares the error.
   std::set<Pair> ties_now = Ties(map, config.min_edge_points);
   ties_now.emplace(std::min(loop.place, loop.keyframe), std::max(loop.place, loop.keyframe));
   Spread(map, ties, before, ties_now);
@@ -121,7 +127,8 @@ LoopReport DrawTogether(Map& map, const Loop& loop, const Camera& camera,
   return report;
 }
 
-/// Adjusts all keyframes and points. @returns whether that was usable
+/// Adjusts all keyframes and points.
+/// @returns whether that was usable
 bool AdjustAll(Map& map, const Camera& camera, const FeatureScale& scale,
                LocalBundleConfig config, int iterations, const MapTurn& turn) {
   BundleWindow window;

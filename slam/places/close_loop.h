@@ -9,25 +9,24 @@ namespace slam {
 struct LoopClosingConfig {
   bool enabled = false;
   LoopDetectionConfig detection;
-  int min_edge_points = 60;  ///< shared points that tie two keyframes in the pose graph
-  int full_iterations = 10;  ///< of the full adjustment, each round; 0: none
+  int min_edge_points = 60;  // ORB-SLAM2: 100
+  int full_iterations = 10;  // ORB-SLAM2
 };
 
 inline void VisitFields(LoopClosingConfig& c, FieldVisitor& v) {
-  v.Flag("enabled", c.enabled, "off as in the paper's tables");
+  v.Flag("enabled", c.enabled, "close loops; the paper's tables are without");
   VisitFields(c.detection, v);
   v.Integer("min_edge_points", c.min_edge_points, "[1, 100000]",
-            "that tie two keyframes in the pose graph");
+            "shared points that tie two keyframes in the pose graph");
   v.Integer("full_iterations", c.full_iterations, "[0, 1000]",
-            "of the full adjustment, each round; 0: none");
+            "iterations a round of the adjustment of the whole map; 0: none");
 }
 
 /// What closing a loop did.
 struct LoopReport {
-  Loop loop;
-  double moved_m = 0.0;   ///< the keyframe's centre, before the full adjustment
+  double moved_m = 0.0;   ///< shift of the keyframe's centre, before the adjustment of all
   int fused = 0;          ///< points that turned out to be known
-  bool adjusted = false;  ///< the full adjustment was usable
+  bool adjusted = false;  ///< the adjustment of all was usable
 };
 
 /// Draws the map together at a loop: the keyframe and its neighbours move to where the place

@@ -33,6 +33,7 @@ void KeyframeIndex::Update(const Map& map) {
 std::vector<LikeKeyframe> KeyframeIndex::Like(const WordBag& bag, const Map& map,
                                               const std::vector<int>& except,
                                               const LikenessConfig& config) const {
+  // How many words each keyframe shares with the image.
   std::map<int, int> common;  // keyframe -> words
   int most = 0;
   for (const auto& [word, weight] : bag) {
@@ -43,6 +44,7 @@ std::vector<LikeKeyframe> KeyframeIndex::Like(const WordBag& bag, const Map& map
       most = std::max(most, ++common[k]);
     }
   }
+  // Only those that share many are compared in full.
   std::map<int, double> likeness;
   for (const auto& [k, words] : common) {
     if (words >= config.min_common_words * most) likeness[k] = Likeness(bag, Bag(k));
@@ -62,6 +64,7 @@ std::vector<LikeKeyframe> KeyframeIndex::Like(const WordBag& bag, const Map& map
     LikeKeyframe& kept = places.emplace(place.keyframe, place).first->second;
     kept.support = std::max(kept.support, place.support);
   }
+  // The best supported places.
   std::vector<LikeKeyframe> out;
   for (const auto& [k, place] : places) {
     if (place.support >= config.min_support * best) out.push_back(place);

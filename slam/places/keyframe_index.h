@@ -10,15 +10,15 @@ namespace slam {
 /// A keyframe that looks like an image.
 struct LikeKeyframe {
   int keyframe = kNone;
-  double likeness = 0.0;  ///< of it alone
-  double support = 0.0;   ///< of it and of the keyframes that share the most points with it
+  double likeness = 0.0;  ///< see Likeness
+  double support = 0.0;  ///< the same, summed over it and the keyframes that share most with it
 };
 
-/// Bounds of a question by words.
+/// Bounds of a question by words; keys: see VisitFields(PlaceSearchConfig).
 struct LikenessConfig {
-  double min_common_words = 0.8;  ///< of the most that any keyframe shares; domain (0, 1]
-  double min_support = 0.6;       ///< of the best supported one's; domain (0, 1]
-  int neighbours = 10;            ///< whose likeness supports a keyframe; domain [0, inf)
+  double min_common_words = 0.8;  // ORB-SLAM2
+  double min_support = 0.6;       // ORB-SLAM2: 0.75
+  int neighbours = 10;            // ORB-SLAM2
 };
 
 /// Keyframes by the words that they show.
@@ -47,7 +47,7 @@ class KeyframeIndex {
 
   const Vocabulary* vocabulary_;
   std::vector<WordBag> bags_;                ///< by keyframe
-  std::vector<std::vector<int>> keyframes_;  ///< that show a word, by word, ascending
+  std::vector<std::vector<int>> keyframes_;  ///< by word: those that show it, ascending
 };
 
 }  // namespace slam

@@ -10,7 +10,7 @@
 namespace slam {
 namespace {
 
-/// The keyframe, its neighbours and theirs: what it sees of them is no news.
+/// The keyframe, its neighbours and theirs: that it sees them again is no loop.
 std::vector<int> Surroundings(const Map& map, int keyframe) {
   std::set<int> near{keyframe};
   for (const auto& [other, shared] : map.keyframes[Index(keyframe)].covisible) {
@@ -20,12 +20,13 @@ std::vector<int> Surroundings(const Map& map, int keyframe) {
   return {near.begin(), near.end()};
 }
 
-double LeastLikenessToNeighbours(const Map& map, const KeyframeIndex& index, int keyframe) {
-  double least = 1.0;
+/// Lowest likeness of the keyframe to those that share points with it; 1 when none does.
+double MinLikenessToNeighbours(const Map& map, const KeyframeIndex& index, int keyframe) {
+  double lowest = 1.0;
   for (const auto& [other, shared] : map.keyframes[Index(keyframe)].covisible) {
-    least = std::min(least, Likeness(index.Bag(keyframe), index.Bag(other)));
+    lowest = std::min(lowest, Likeness(index.Bag(keyframe), index.Bag(other)));
   }
-  return least;
+  return lowest;
 }
 
 /// The keyframe as a frame that knows nothing of the map yet.
@@ -43,7 +44,7 @@ Frame AsLost(const Keyframe& keyframe) {
 int LookAround(Frame& frame, const Map& map, const std::vector<int>& own, const Camera& camera,
                const FeatureScale& scale, const PointSearchConfig& search,
                const LoopDetectionConfig& config) {
-  constexpr int kKeyframes = 20;
+  constexpr int kKeyframes = 20;  // bounds the work, as tracking does
   const LocalMap local = GatherLocalMap(frame, map, kKeyframes);
   std::vector<bool> taken(frame.features.size());
   std::set<int> matched;
@@ -51,6 +52,7 @@ int LookAround(Frame& frame, const Map& map, const std::vector<int>& own, const 
     taken[f] = frame.map_points[f] != kNone;
     if (taken[f]) matched.insert(frame.map_points[f]);
   }
+  // The place's other points, but not those that the keyframe sees already.
   std::vector<PointQuery> queries;
   for (const int id : local.points) {
     if (matched.count(id) != 0 || std::binary_search(own.begin(), own.end(), id)) continue;
@@ -87,20 +89,21 @@ std::optional<Loop> DetectLoop(const Map& map, const KeyframeIndex& index, int k
                                const PointSearchConfig& search,
                                const LoopDetectionConfig& config) {
   const Keyframe& now = map.keyframes[Index(keyframe)];
-  const double least =
-      config.min_likeness_ratio * LeastLikenessToNeighbours(map, index, keyframe);
+  const double min_likeness =
+      config.min_likeness_ratio * MinLikenessToNeighbours(map, index, keyframe);
   std::vector<int> own;
   for (const int id : now.map_points) {
     if (id != kNone) own.push_back(id);
   }
   std::sort(own.begin(), own.end());
 
+  // The pose of the keyframe from each older place that looks like it.
   std::vector<Loop> found;
   const std::vector<LikeKeyframe> like =
       index.Like(index.Bag(keyframe), map, Surroundings(map, keyframe), search.place.likeness);
   int asked = 0;
   for (const LikeKeyframe& candidate : like) {
-    if (candidate.likeness < least || candidate.keyframe > keyframe) continue;
+    if (candidate.likeness < min_likeness || candidate.keyframe > keyframe) continue;
     if (++asked > search.place.max_keyframes) break;
     Frame frame = AsLost(now);
     const auto seen =
@@ -113,12 +116,13 @@ std::optional<Loop> DetectLoop(const Map& map, const KeyframeIndex& index, int k
     found.push_back({keyframe, candidate.keyframe, frame.T_cw, frame.map_points, inliers});
   }
   if (found.empty()) return std::nullopt;
+  // The one with most inliers, unless another fits nearly as well or nothing drifts so far.
   const Loop& best =
       *std::max_element(found.begin(), found.end(),
                         [](const Loop& a, const Loop& b) { return a.inliers < b.inliers; });
-  for (const Loop& rival : found) {
-    if (rival.inliers >= search.place.max_rival_ratio * best.inliers &&
-        !SamePose(rival.T_cw, best.T_cw, search.place)) {
+  for (const Loop& other : found) {
+    if (other.inliers >= search.place.max_second_best_ratio * best.inliers &&
+        !SamePose(other.T_cw, best.T_cw, search.place)) {
       return std::nullopt;
     }
   }

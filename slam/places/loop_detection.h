@@ -13,36 +13,40 @@ namespace slam {
 /// When a keyframe shows a place that the map holds already.
 struct LoopDetectionConfig {
   PointMatchConfig match{50, 0.9, false};
-  double radius_factor = 3.0;  ///< on the projection's radius
-  /// Likeness wanted, as a share of the least that the keyframe has to its own neighbours;
-  /// domain [0, inf)
-  double min_likeness_ratio = 0.8;
-  int min_inliers = 40;  ///< map points of the place that agree on one pose; domain [4, inf)
-  // What may have drifted since: a larger correction is another place that looks the same.
-  double base_drift_m = 0.10;  ///< whatever the path
-  double drift_per_m = 0.05;   ///< of the path since the place was seen
+  double radius_factor = 3.0;
+  double min_likeness_ratio = 0.8;  // ORB-SLAM2: 1
+  int min_inliers = 40;             // ORB-SLAM2
+  // A larger correction than can have drifted means another place that looks the same. The
+  // bounds balance long loops against such places.
+  double base_drift_m = 0.10;
+  double drift_per_m = 0.05;
   double base_drift_rad = 0.10;
   double drift_rad_per_m = 0.05;
 };
 
 inline void VisitFields(LoopDetectionConfig& c, FieldVisitor& v) {
   v.Number("min_likeness_ratio", c.min_likeness_ratio, "[0, inf)",
-           "of the least likeness to the keyframe's own neighbours");
+           "likeness wanted, as a share of the lowest to the keyframe's own neighbours");
   v.Number("radius_factor", c.radius_factor, "(0, inf)",
-           "on the search radius around the place's points");
-  v.Integer("min_inliers", c.min_inliers, "[4, 100000]", "points that agree on one pose");
-  v.Number("base_drift_m", c.base_drift_m, "[0, inf)", "a larger correction is refused ...");
-  v.Number("drift_per_m", c.drift_per_m, "[0, inf)", "... beyond this share of the path");
-  v.Degrees("base_drift_deg", c.base_drift_rad, "[0, 180)", "the same of the turn");
-  v.Degrees("drift_deg_per_m", c.drift_rad_per_m, "[0, 180)", "the same of the turn");
+           "factor on the search radius around the place's points");
+  v.Integer("min_inliers", c.min_inliers, "[4, 100000]",
+            "map points of the place that agree on one pose, at least");
+  v.Number("base_drift_m", c.base_drift_m, "[0, inf)",
+           "largest correction of the position on a path of no length, plus ...");
+  v.Number("drift_per_m", c.drift_per_m, "[0, inf)",
+           "... this for each metre of path since the place was seen");
+  v.Degrees("base_drift_deg", c.base_drift_rad, "[0, 180)",
+            "largest correction of the rotation on a path of no length, plus ...");
+  v.Degrees("drift_deg_per_m", c.drift_rad_per_m, "[0, 180)",
+            "... this for each metre of path since the place was seen");
 }
 
 /// The place of the map that a keyframe shows, as seen from there.
 struct Loop {
   int keyframe = kNone;         ///< the one that came back
   int place = kNone;            ///< the old one it was recognised by
-  Pose T_cw;                    ///< of `keyframe`, as the place's points say
-  std::vector<int> map_points;  ///< of the place, parallel to the keyframe's features
+  Pose T_cw;                    ///< pose of `keyframe`, as the place's points say
+  std::vector<int> map_points;  ///< the place's, parallel to the keyframe's features
   int inliers = 0;
 };
 

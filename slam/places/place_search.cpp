@@ -11,11 +11,13 @@
 namespace slam {
 namespace {
 
+constexpr int kSampleSize = 4;  // three points and one that chooses among the solutions
+
 /// Correspondences of the frame with one keyframe's points.
 struct Correspondences {
   std::vector<int> features, points;
   std::vector<PointConstraint> constraints;
-  std::vector<Eigen::Vector3d> measured_c;  ///< by the frame's depth; z of 0 without
+  std::vector<Eigen::Vector3d> measured_c;  ///< from the frame's depth; z = 0 without
 };
 
 Correspondences Correspond(const Frame& frame, const Keyframe& keyframe, const Map& map,
@@ -38,9 +40,9 @@ Correspondences Correspond(const Frame& frame, const Keyframe& keyframe, const M
   return found;
 }
 
-/// Poses from three points and a fourth that chooses among the solutions.
+/// Pose from three points and a fourth that chooses among the solutions.
 std::optional<Pose> SolveP3p(const std::vector<PointConstraint>& constraints,
-                             const std::array<int, 4>& sample, const Camera& camera) {
+                             const std::array<int, kSampleSize>& sample, const Camera& camera) {
   std::vector<cv::Point3d> world;
   std::vector<cv::Point2d> rays;  // on the normalised plane: the camera is the identity
   for (const int i : sample) {
@@ -63,8 +65,8 @@ std::optional<Pose> SolveP3p(const std::vector<PointConstraint>& constraints,
 /// map: most samples with a wrong match are not, which costs less to see than a pose. Pairs
 /// without depth say nothing.
 bool SameShape(const std::vector<PointConstraint>& constraints,
-               const std::vector<Eigen::Vector3d>& measured_c, const std::array<int, 4>& sample,
-               double tolerance) {
+               const std::vector<Eigen::Vector3d>& measured_c,
+               const std::array<int, kSampleSize>& sample, double tolerance) {
   for (std::size_t i = 0; i < sample.size(); ++i) {
     for (std::size_t j = i + 1; j < sample.size(); ++j) {
       const Eigen::Vector3d &a_c = measured_c[Index(sample[i])],
@@ -79,6 +81,7 @@ bool SameShape(const std::vector<PointConstraint>& constraints,
   return true;
 }
 
+/// Positions of the constraints whose reprojection error is at most error_px at octave 0.
 std::vector<int> Inliers(const std::vector<PointConstraint>& constraints, const Pose& T_cw,
                          const Camera& camera, double error_px) {
   std::vector<int> inliers;
@@ -92,8 +95,9 @@ std::vector<int> Inliers(const std::vector<PointConstraint>& constraints, const 
   return inliers;
 }
 
-std::array<int, 4> Sample(int count, Random& random) {
-  std::array<int, 4> sample{};
+/// Four different numbers below count.
+std::array<int, kSampleSize> Sample(int count, Random& random) {
+  std::array<int, kSampleSize> sample{};
   for (std::size_t i = 0; i < sample.size(); ++i) {
     do {
       sample[i] = random.Below(count);
@@ -103,12 +107,17 @@ std::array<int, 4> Sample(int count, Random& random) {
   return sample;
 }
 
+// Solved samples after which a pose with half of all matches is taken: four such matches
+// are drawn once in 16 samples.
+constexpr int kMinSolved = 50;
+
 /// What RANSAC found: a pose, and the correspondences that agree with it.
 struct Agreement {
   Pose T_cw;
   std::vector<int> inliers;
 };
 
+/// The pose with the most inliers, of those with enough.
 std::optional<Agreement> Ransac(const std::vector<PointConstraint>& constraints,
                                 const std::vector<Eigen::Vector3d>& measured_c,
                                 const Camera& camera, Random random,
@@ -118,7 +127,7 @@ std::optional<Agreement> Ransac(const std::vector<PointConstraint>& constraints,
   const int count = static_cast<int>(constraints.size());
   int solved = 0;
   for (int i = 0; i < config.ransac_samples && solved < config.ransac_iterations; ++i) {
-    const std::array<int, 4> sample = Sample(count, random);
+    const std::array<int, kSampleSize> sample = Sample(count, random);
     if (!SameShape(constraints, measured_c, sample, config.shape_tolerance)) continue;
     ++solved;
     const auto T_cw = SolveP3p(constraints, sample, camera);
@@ -127,7 +136,7 @@ std::optional<Agreement> Ransac(const std::vector<PointConstraint>& constraints,
     if (inliers.size() <= most) continue;
     most = inliers.size();
     best = {*T_cw, std::move(inliers)};
-    if (2 * most > constraints.size() && solved >= 50) break;
+    if (2 * most > constraints.size() && solved >= kMinSolved) break;
   }
   return best;
 }
@@ -144,13 +153,15 @@ std::optional<PlacePose> FindPose(const Keyframe& keyframe, const Frame& frame, 
                                   const PointSearchConfig& search) {
   const PlaceSearchConfig& config = search.place;
   const Correspondences found = Correspond(frame, keyframe, map, camera, scale, config.match);
-  if (found.features.size() < Index(std::max(config.min_matches, 4))) return std::nullopt;
+  if (found.features.size() < Index(std::max(config.min_matches, kSampleSize)))
+    return std::nullopt;
   const Random random{static_cast<std::uint64_t>(frame.index),
                       static_cast<std::uint64_t>(keyframe.id)};
   const auto agreed = Ransac(found.constraints, found.measured_c, camera, random, config);
   if (!agreed) return std::nullopt;
 
-  PoseProblem problem;  // of the inliers alone: wrong matches would pull the pose away
+  // Refine by the inliers alone: wrong matches would pull the pose away.
+  PoseProblem problem;
   problem.T_cw = agreed->T_cw;
   for (const int i : agreed->inliers) problem.points.push_back(found.constraints[Index(i)]);
   const PoseSummary summary = OptimisePose(problem, camera, scale, search.pose);

@@ -12,13 +12,15 @@
 namespace slam {
 namespace {
 
-constexpr double kSigma_m = 0.01, kSigma_rad = 0.01;
-constexpr int kIterations = 50;
+constexpr double kSigma_m = 0.01, kSigma_rad = 0.01;  // a radian weighs as much as a metre
+constexpr int kMaxIterations = 50;                    // bounds the work
+constexpr double kFunctionTolerance = 1e-12;  // steps are cheap, and what follows starts here
+constexpr double kDifferenceStep = 1e-6;      // metres, radians: rounding and curvature alike
 
+/// Residual of an edge, whitened, by the two poses; derivatives by central differences.
 class EdgeTerm : public ceres::SizedCostFunction<6, 7, 7> {
  public:
-  explicit EdgeTerm(const PoseEdge& edge)
-      : T_ji_(Inverse(edge.T_ij)), root_(std::sqrt(edge.weight)) {}
+  explicit EdgeTerm(const PoseEdge& edge) : T_ji_(Inverse(edge.T_ij)) {}
 
   bool Evaluate(double const* const* parameters, double* residuals,
                 double** jacobians) const override {
@@ -29,16 +31,15 @@ class EdgeTerm : public ceres::SizedCostFunction<6, 7, 7> {
       if (!jacobians[which]) continue;
       Eigen::Map<Eigen::Matrix<double, 6, 7, Eigen::RowMajor>> J(jacobians[which]);
       J.setZero();
-      constexpr double kStep = 1e-6;
       for (int c = 0; c < 6; ++c) {
         Vector6d xi = Vector6d::Zero();
-        xi[c] = kStep;
+        xi[c] = kDifferenceStep;
         const Pose plus = Exp(xi), minus = Exp(-xi);
         const Vector6d forth =
             which == 0 ? Residual(plus * T_iw, T_jw) : Residual(T_iw, plus * T_jw);
         const Vector6d back =
             which == 0 ? Residual(minus * T_iw, T_jw) : Residual(T_iw, minus * T_jw);
-        J.col(c) = (forth - back) / (2 * kStep);
+        J.col(c) = (forth - back) / (2 * kDifferenceStep);
       }
     }
     return true;
@@ -47,13 +48,12 @@ class EdgeTerm : public ceres::SizedCostFunction<6, 7, 7> {
  private:
   Vector6d Residual(const Pose& T_iw, const Pose& T_jw) const {
     Vector6d r = Log(T_ji_ * T_iw * Inverse(T_jw));
-    r.head<3>() *= root_ / kSigma_m;
-    r.tail<3>() *= root_ / kSigma_rad;
+    r.head<3>() *= 1.0 / kSigma_m;
+    r.tail<3>() *= 1.0 / kSigma_rad;
     return r;
   }
 
   Pose T_ji_;
-  double root_;
 };
 
 }  // namespace
@@ -61,11 +61,11 @@ class EdgeTerm : public ceres::SizedCostFunction<6, 7, 7> {
 bool OptimisePoseGraph(std::vector<Pose>& poses, const std::vector<PoseEdge>& edges) {
   const int count = static_cast<int>(poses.size());
   for (const PoseEdge& edge : edges) {
-    Require(edge.i >= 0 && edge.j >= 0 && edge.i < count && edge.j < count &&
-                edge.i != edge.j && edge.weight > 0,
+    Require(edge.i >= 0 && edge.j >= 0 && edge.i < count && edge.j < count && edge.i != edge.j,
             "OptimisePoseGraph: an edge names no two poses");
   }
   if (edges.empty()) return true;
+  // A block a pose, of which the first is held; a term an edge.
   std::vector<PoseBlock> blocks;
   for (const Pose& T_iw : poses) blocks.push_back(BlockOf(T_iw));
   ceres::Problem::Options ownership;
@@ -82,11 +82,12 @@ bool OptimisePoseGraph(std::vector<Pose>& poses, const std::vector<PoseEdge>& ed
                              blocks[static_cast<std::size_t>(edge.i)].data(),
                              blocks[static_cast<std::size_t>(edge.j)].data());
   }
+  // Solve, and take the poses over when they are numbers.
   ceres::Solver::Options options;
   options.linear_solver_type = ceres::SPARSE_NORMAL_CHOLESKY;
   options.num_threads = 1;
-  options.max_num_iterations = kIterations;
-  options.function_tolerance = 1e-12;  // the steps are cheap, and what follows starts here
+  options.max_num_iterations = kMaxIterations;
+  options.function_tolerance = kFunctionTolerance;
   options.logging_type = ceres::SILENT;
   ceres::Solver::Summary summary;
   ceres::Solve(options, &problem, &summary);

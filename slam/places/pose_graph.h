@@ -10,11 +10,10 @@ namespace slam {
 struct PoseEdge {
   int i = 0, j = 0;  ///< positions in the vector of poses
   Pose T_ij;
-  double weight = 1.0;  ///< of the squared residual; domain (0, inf)
 };
 
 /// Finds the poses that agree best with the edges:
-///   minimise sum of weight |(rho / sigma_m, omega / sigma_rad)|^2,
+///   minimise sum of |(rho / sigma_m, omega / sigma_rad)|^2,
 ///   (rho, omega) = Log(T_ij^-1 T_iw T_wj), sigma_m = 0.01, sigma_rad = 0.01.
 /// The first pose stays. Poses that no edge ties to it stay as they are. Ceres, one thread,
 /// bounded iterations: the same input gives the same bytes.

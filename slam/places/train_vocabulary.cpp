@@ -13,13 +13,18 @@
 namespace slam {
 namespace {
 
+constexpr int kBits = 256;               // in a descriptor
+constexpr int kMoreThanAll = kBits + 1;  // more bits than any two descriptors differ in
+constexpr double kTooFarSquared = 1e9;   // more than the square of that
+
 using Members = std::vector<const Descriptor*>;
 
-/// First centres: each next one drawn by the squared distance to the nearest so far.
+/// First centres (k-means++): each next one is drawn in proportion to the squared distance to
+/// the nearest so far.
 std::vector<Descriptor> FirstCentres(const Members& members, int count, Random& random) {
   std::vector<Descriptor> centres{
       *members[static_cast<std::size_t>(random.Below(static_cast<int>(members.size())))]};
-  std::vector<double> squares(members.size(), 1e9);
+  std::vector<double> squares(members.size(), kTooFarSquared);
   while (static_cast<int>(centres.size()) < count) {
     double sum = 0;
     for (std::size_t i = 0; i < members.size(); ++i) {
@@ -41,13 +46,15 @@ std::vector<Descriptor> FirstCentres(const Members& members, int count, Random& 
   return centres;
 }
 
-std::size_t Nearest(const Descriptor& descriptor, const std::vector<Descriptor>& centres) {
+/// Position of the nearest centre; the first at a tie.
+std::size_t NearestCentre(const Descriptor& descriptor,
+                          const std::vector<Descriptor>& centres) {
   std::size_t nearest = 0;
-  int least = 257;
+  int smallest = kMoreThanAll;
   for (std::size_t c = 0; c < centres.size(); ++c) {
     const int distance = DescriptorDistance(descriptor, centres[c]);
-    if (distance < least) {
-      least = distance;
+    if (distance < smallest) {
+      smallest = distance;
       nearest = c;
     }
   }
@@ -56,7 +63,7 @@ std::size_t Nearest(const Descriptor& descriptor, const std::vector<Descriptor>&
 
 /// Bits that most members have; a tie keeps the bit as it was.
 Descriptor Majority(const Members& members, const Descriptor& before) {
-  std::array<int, 256> ones{};
+  std::array<int, kBits> ones{};
   for (const Descriptor* member : members) {
     for (std::size_t bit = 0; bit < ones.size(); ++bit) {
       ones[bit] += ((*member)[bit / 8] >> (bit % 8)) & 1;
@@ -72,18 +79,20 @@ Descriptor Majority(const Members& members, const Descriptor& before) {
   return out;
 }
 
+/// Centres, and by centre the members that are nearest to it.
 struct Clusters {
   std::vector<Descriptor> centres;
   std::vector<Members> members;
 };
 
+/// Divides the members among centres until these stay (k-majority).
 Clusters Cluster(const Members& members, const TrainingConfig& config, Random random) {
   Clusters out;
   out.centres = FirstCentres(members, config.branching, random);
   for (int i = 0; i < config.iterations; ++i) {
     out.members.assign(out.centres.size(), {});
     for (const Descriptor* member : members) {
-      out.members[Nearest(*member, out.centres)].push_back(member);
+      out.members[NearestCentre(*member, out.centres)].push_back(member);
     }
     const std::vector<Descriptor> before = out.centres;
     for (std::size_t c = 0; c < out.centres.size(); ++c) {
@@ -91,14 +100,15 @@ Clusters Cluster(const Members& members, const TrainingConfig& config, Random ra
     }
     if (out.centres == before) break;
   }
-  // As the finished tree will divide them.
+  // Divide them as the finished tree will.
   out.members.assign(out.centres.size(), {});
   for (const Descriptor* member : members) {
-    out.members[Nearest(*member, out.centres)].push_back(member);
+    out.members[NearestCentre(*member, out.centres)].push_back(member);
   }
   return out;
 }
 
+/// Weights by word: ln(images / images that have the word).
 std::vector<float> Weigh(const Vocabulary& tree,
                          const std::vector<std::vector<Descriptor>>& images) {
   std::vector<int> having(static_cast<std::size_t>(tree.words()));
@@ -128,6 +138,7 @@ Vocabulary TrainVocabulary(const std::vector<std::vector<Descriptor>>& images,
     int level;
     Members members;
   };
+  // The root is to be divided, with all descriptors.
   std::vector<VocabularyNode> nodes(1);
   std::deque<Task> tasks{{0, 0, {}}};
   for (const auto& image : images) {

@@ -8,13 +8,13 @@
 
 namespace slam {
 
-/// Size of a tree of words.
+/// Size of a tree of words, and how it is grown.
 struct TrainingConfig {
-  int branching = 10;   ///< children of a node; domain [2, 256]
-  int depth = 4;        ///< levels below the root; domain [1, 8]
-  int iterations = 12;  ///< of the clustering at most; domain [1, inf)
-  int min_members = 8;  ///< a node of fewer descriptors is not divided; domain [1, inf)
-  std::uint64_t seed = 0;
+  int branching = 10;      ///< children of a node; domain [2, 256]
+  int depth = 4;           ///< levels below the root; domain [1, 8]
+  int iterations = 12;     ///< largest number of rounds of clustering; domain [1, inf)
+  int min_members = 8;     ///< a node of fewer descriptors is not divided; domain [1, inf)
+  std::uint64_t seed = 0;  ///< chooses the first centres
 };
 
 /// Grows a vocabulary from the descriptors of training images: clusters of nearest centres in

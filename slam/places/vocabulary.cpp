@@ -4,6 +4,7 @@
 #include <bit>
 #include <cmath>
 #include <cstring>
+#include <limits>
 #include <map>
 
 #include "io/input_error.h"
@@ -20,7 +21,8 @@ constexpr std::string_view kMagic = "PASWORDS";
 constexpr std::uint32_t kVersion = 1;
 constexpr std::size_t kHeader = 8 + 4 + 4 + 4 + 8, kNode = 32 + 4 + 4, kWeight = 4;
 
-std::uint64_t Checksum(std::string_view bytes) {  // FNV-1a
+/// FNV-1a, 64 bits.
+std::uint64_t Checksum(std::string_view bytes) {
   std::uint64_t hash = 0xcbf29ce484222325ull;
   for (const char c : bytes) hash = (hash ^ static_cast<std::uint8_t>(c)) * 0x100000001b3ull;
   return hash;
@@ -70,7 +72,8 @@ Vocabulary::Vocabulary(std::vector<VocabularyNode> nodes, std::vector<float> wei
     : nodes_(std::move(nodes)), weights_(std::move(weights)) {
   const char* const kNoTree = "Vocabulary: the nodes are no tree with a weight for each leaf";
   Require(!nodes_.empty(), kNoTree);
-  std::size_t next = 1, words = 0;  // children follow in the order of their parents
+  // Number the leaves; children must follow in the order of their parents.
+  std::size_t next = 1, words = 0;
   for (std::size_t i = 0; i < nodes_.size(); ++i) {
     VocabularyNode& node = nodes_[i];
     if (node.children == 0) {
@@ -136,12 +139,12 @@ int Vocabulary::Word(const Descriptor& descriptor) const {
   const VocabularyNode* node = &nodes_.front();
   while (node->children > 0) {
     const VocabularyNode* nearest = nullptr;
-    int least = 257;
+    int smallest = std::numeric_limits<int>::max();
     for (int c = 0; c < node->children; ++c) {
       const VocabularyNode& child = nodes_[static_cast<std::size_t>(node->first_child + c)];
       const int distance = DescriptorDistance(descriptor, child.centre);
-      if (distance >= least) continue;
-      least = distance;
+      if (distance >= smallest) continue;
+      smallest = distance;
       nearest = &child;
     }
     node = nearest;
@@ -156,6 +159,7 @@ WordBag Vocabulary::Bag(const std::vector<PointFeature>& features) const {
     const auto weight = static_cast<double>(weights_[static_cast<std::size_t>(word)]);
     if (weight > 0) weights[word] += weight;
   }
+  // Weights are shares: their sum is one.
   double sum = 0;
   for (const auto& [word, weight] : weights) sum += weight;
   WordBag bag(weights.begin(), weights.end());

@@ -25,7 +25,7 @@ struct VocabularyNode {
   Descriptor centre{};
   int first_child = 0;  ///< its children stand side by side, after it
   int children = 0;     ///< 0: a leaf, which is a word
-  int word = -1;        ///< of a leaf
+  int word = -1;        ///< number of a leaf; -1: no leaf
 };
 
 /// A tree of binary words for ORB descriptors. A descriptor goes down to the nearest child

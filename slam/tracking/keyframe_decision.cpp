@@ -8,10 +8,10 @@
 namespace slam {
 namespace {
 
-constexpr int kMinTracked = 15;
-constexpr double kFeaturesOfTheRule = 1000.0;
+constexpr int kMinTracked = 15;  // points; with fewer a pose is not worth keeping: ORB-SLAM2
+constexpr double kFullFeatures = 1000.0;  // an image for which the bounds on points are meant
 
-/// Points of a keyframe that others see as well; while there are no others, all of them.
+/// Number of a keyframe's points that others see as well; all, while there are no others.
 int WellSeenPoints(const Map& map, int keyframe) {
   const auto alive = std::count_if(map.keyframes.begin(), map.keyframes.end(),
                                    [](const Keyframe& k) { return !k.culled; });
@@ -36,6 +36,7 @@ bool LooksNew(const Map& map, const MapPoint& point, const Eigen::Vector3d& came
   return std::none_of(point.observations.begin(), point.observations.end(), seen_so);
 }
 
+/// Number of the frame's points that no keyframe has seen from nearly where the camera is.
 int CountNewLooks(const Frame& frame, const Map& map, double max_view_rad) {
   const Eigen::Vector3d camera_w = Inverse(frame.T_cw).t;
   const double min_cosine = std::cos(max_view_rad);
@@ -55,6 +56,7 @@ KeyframeEvidence DecideKeyframe(const Frame& frame, const Map& map, int referenc
                                 const KeyframeDecisionConfig& config) {
   Require(frame.map_points.size() == frame.features.size(),
           "DecideKeyframe: map_points is not parallel to features");
+  // Count the features with a map point, and those near enough to give a new one.
   KeyframeEvidence evidence;
   for (std::size_t f = 0; f < frame.features.size(); ++f) {
     const bool tracked = frame.map_points[f] != kNone;
@@ -66,10 +68,11 @@ KeyframeEvidence DecideKeyframe(const Frame& frame, const Map& map, int referenc
   if (frames_since_last < config.min_frames_between || evidence.tracked <= kMinTracked) {
     return evidence;
   }
+  // Insert when the frame sees less, lacks close points, or looks at the map from a new side.
   const double ratio =
       map.keyframes.size() < 2 ? config.first_reference_ratio : config.min_reference_ratio;
   const double share =
-      std::min(1.0, static_cast<double>(frame.features.size()) / kFeaturesOfTheRule);
+      std::min(1.0, static_cast<double>(frame.features.size()) / kFullFeatures);
   const bool sees_less = evidence.tracked < ratio * evidence.reference_points;
   const bool close_to_be_had = evidence.close_tracked < share * config.min_close_tracked &&
                                evidence.close_untracked > share * config.min_close_untracked;

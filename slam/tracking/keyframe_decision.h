@@ -7,31 +7,30 @@ namespace slam {
 
 /// When a frame becomes a keyframe.
 struct KeyframeDecisionConfig {
-  double min_reference_ratio =
-      0.75;  ///< tracked over the reference's good points: below, insert
-  double first_reference_ratio = 0.4;  ///< the same while the map has one keyframe
-  int min_frames_between = 1;          ///< domain [1, inf)
-  int min_close_tracked = 100;         ///< fewer tracked close points ...
-  int min_close_untracked = 70;  ///< ... and more untracked ones: insert; of 1000 features
-  double max_view_rad = 0.26;    ///< a point seen from more beside every keyframe looks new
-  double max_new_ratio = 0.5;    ///< share of the tracked points that look new: above, insert
+  double min_reference_ratio = 0.75;   // ORB-SLAM2
+  double first_reference_ratio = 0.4;  // ORB-SLAM2
+  int min_frames_between = 1;
+  int min_close_tracked = 100;   // ORB-SLAM2
+  int min_close_untracked = 70;  // ORB-SLAM2
+  double max_view_rad = 0.26;    // 15 degrees: balances the size of the map against lost places
+  double max_new_ratio = 0.5;
 };
 
 inline void VisitFields(KeyframeDecisionConfig& c, FieldVisitor& v) {
   v.Number("min_reference_ratio", c.min_reference_ratio, "[0, 1]",
-           "tracked over the reference's points");
+           "insert below this ratio of tracked points to the reference keyframe's good points");
   v.Number("first_reference_ratio", c.first_reference_ratio, "[0, 1]",
-           "the same with one keyframe");
+           "the same ratio while the map has one keyframe");
   v.Integer("min_frames_between", c.min_frames_between, "[1, 1000]",
-            "frames from one to the next");
+            "frames from one keyframe to the next, at least");
   v.Integer("min_close_tracked", c.min_close_tracked, "[0, 100000]",
-            "fewer tracked close points ...");
+            "insert when fewer close points are tracked, among 1000 features, and ...");
   v.Integer("min_close_untracked", c.min_close_untracked, "[0, 100000]",
-            "... and more untracked: insert");
+            "... more close features than this are not tracked");
   v.Number("max_view_rad", c.max_view_rad, "(0, 3.15)",
-           "a point seen from more beside every keyframe looks new");
+           "a point looks new when seen from more than this beside every keyframe");
   v.Number("max_new_ratio", c.max_new_ratio, "[0, 1]",
-           "tracked points that look new over all: more, and insert");
+           "insert when more than this share of the tracked points looks new");
 }
 
 /// Numbers behind the decision.

@@ -13,6 +13,7 @@ Pose LastPose(const LastFrame& last, const Map& map) {
 
 std::vector<SeenPoint> SeenPoints(const LastFrame& last, const Map& map, const Camera& camera,
                                   double close_m, int max_temporary) {
+  // Features with a map point; the others wait when their depth is near enough.
   std::vector<SeenPoint> seen;
   std::vector<int> unmatched;
   for (int f = 0; f < static_cast<int>(last.features.size()); ++f) {
@@ -24,6 +25,7 @@ std::vector<SeenPoint> SeenPoints(const LastFrame& last, const Map& map, const C
       unmatched.push_back(f);
     }
   }
+  // The nearest of these become points for one frame, placed by their depth.
   std::stable_sort(unmatched.begin(), unmatched.end(), [&](int a, int b) {
     return last.features[Index(a)].depth_m < last.features[Index(b)].depth_m;
   });

@@ -21,7 +21,7 @@ struct LastFrame {
 /// Where a feature of the last frame is in the world.
 struct SeenPoint {
   int map_point = kNone;  ///< kNone: known from the last frame's depth alone
-  int feature = kNone;    ///< of the last frame
+  int feature = kNone;    ///< index into the last frame's features
   Eigen::Vector3d p_w;
 };
 
@@ -36,7 +36,7 @@ std::vector<SeenPoint> SeenPoints(const LastFrame& last, const Map& map, const C
 
 /// Queries for these points from a predicted pose; `point` is the index into `seen`. Points
 /// that would fall outside the image are left out.
-/// @param radius_px at octave 0; grows with the octave
+/// @param radius_px  at octave 0; grows with the octave
 std::vector<PointQuery> QueriesOf(const std::vector<SeenPoint>& seen, const LastFrame& last,
                                   const Pose& T_cw, const Camera& camera,
                                   const FeatureScale& scale, double radius_px);

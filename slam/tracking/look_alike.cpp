@@ -11,6 +11,7 @@
 namespace slam {
 namespace {
 
+/// A cell of a grid in space.
 using Cell = std::array<int, 3>;
 
 Cell CellOf(const Eigen::Vector3d& p, double side) {
@@ -63,6 +64,8 @@ class PointCells {
   std::map<Cell, std::vector<int>> cells_;
 };
 
+/// The frame's matches with the map.
+/// @param reach  share of the distance to the camera
 std::vector<Seen> MatchedFeatures(const Frame& frame, const Map& map, double reach) {
   std::vector<Seen> seen;
   for (std::size_t f = 0; f < frame.map_points.size(); ++f) {
@@ -77,11 +80,12 @@ std::vector<Seen> MatchedFeatures(const Frame& frame, const Map& map, double rea
 std::vector<Eigen::Vector3d> VotedShifts(const std::vector<Seen>& seen,
                                          const std::vector<int>& points, const Map& map,
                                          const LookAlikeConfig& config) {
-  constexpr std::size_t kShifts = 8;
+  constexpr std::size_t kShifts = 8;  // that are tried; bounds the work
   struct Votes {
     int count = 0;
     Eigen::Vector3d sum = Eigen::Vector3d::Zero();
   };
+  // Each pair that looks alike votes for the shift between its points.
   std::map<Cell, Votes> votes;
   for (const Seen& one : seen) {
     for (const int id : points) {
@@ -96,6 +100,7 @@ std::vector<Eigen::Vector3d> VotedShifts(const std::vector<Seen>& seen,
       cell.sum += shift;
     }
   }
+  // The mean shift of each of the fullest cells.
   std::vector<Votes> most;
   for (const auto& [cell, vote] : votes) most.push_back(vote);
   std::stable_sort(most.begin(), most.end(),
@@ -108,7 +113,9 @@ std::vector<Eigen::Vector3d> VotedShifts(const std::vector<Seen>& seen,
   return shifts;
 }
 
-/// How the features fare at a shift; the shift becomes the mean of those that are alike.
+/// How many features meet a point at a shift, and one that looks alike; the shift becomes the
+/// mean of the latter.
+/// @param slack  multiplies the reach
 LookAlike TryShift(const std::vector<Seen>& seen, const PointCells& points,
                    const Eigen::Vector3d& shift_w, double slack, int max_distance) {
   LookAlike out{shift_w, 0, 0};
@@ -138,16 +145,18 @@ LookAlike TryShift(const std::vector<Seen>& seen, const PointCells& points,
 
 std::optional<LookAlike> FindLookAlike(const Frame& frame, const Map& map,
                                        const LookAlikeConfig& config) {
+  constexpr double kCoarse = 2.0, kFine = 1.0;  // times the reach
   const std::vector<int> around = GatherLocalMap(frame, map, config.max_keyframes).points;
   const std::vector<Seen> seen = MatchedFeatures(frame, map, config.reach);
   double side_m = config.min_shift_m;
-  for (const Seen& one : seen) side_m = std::max(side_m, 2 * one.reach_m);
+  for (const Seen& one : seen) side_m = std::max(side_m, kCoarse * one.reach_m);
   const PointCells cells(around, map, side_m);
 
+  // Try each shift twice: from the coarse vote, then from the mean of what it found.
   std::optional<LookAlike> best;
   for (const Eigen::Vector3d& voted : VotedShifts(seen, around, map, config)) {
-    LookAlike there = TryShift(seen, cells, voted, 2.0, config.max_distance);
-    there = TryShift(seen, cells, there.shift_w, 1.0, config.max_distance);
+    LookAlike there = TryShift(seen, cells, voted, kCoarse, config.max_distance);
+    there = TryShift(seen, cells, there.shift_w, kFine, config.max_distance);
     if (there.shift_w.norm() < config.min_shift_m || there.alike < config.min_alike ||
         there.alike < config.min_share * there.met) {
       continue;

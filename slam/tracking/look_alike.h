@@ -10,27 +10,31 @@ namespace slam {
 
 /// How alike two places must look to be taken for each other.
 struct LookAlikeConfig {
-  int max_keyframes = 20;    ///< of the map around, whose points are compared; domain [1, inf)
-  int max_distance = 50;     ///< differing bits of points that look alike; domain [0, 256]
-  double min_shift_m = 0.1;  ///< nearer than that it is the same place; domain (0, inf)
-  // How far apart a moved point and its likeness may be: a part of the distance to the camera.
-  double reach = 0.03;     ///< domain (0, 1)
-  int min_alike = 10;      ///< features that find their likeness; domain [1, inf)
-  double min_share = 0.3;  ///< ... of those that find any point there; domain (0, 1]
+  int max_keyframes = 20;  // bounds the work
+  int max_distance = 50;   // TH_LOW of ORB-SLAM2
+  double min_shift_m = 0.1;
+  double reach = 0.03;  // noise of depth and pose; more finds likenesses by chance
+  int min_alike = 10;
+  double min_share = 0.3;  // balances a false refusal against a camera a repeat away
 };
 
 inline void VisitFields(LookAlikeConfig& c, FieldVisitor& v) {
-  v.Integer("max_keyframes", c.max_keyframes, "[1, 100000]", "around, whose points compare");
-  v.Integer("max_distance", c.max_distance, "[0, 256]", "bits by which points look alike");
-  v.Number("min_shift_m", c.min_shift_m, "(0, inf)", "nearer is the same place");
-  v.Number("reach", c.reach, "(0, 1)", "of a likeness, as a part of the distance");
-  v.Integer("min_alike", c.min_alike, "[1, 100000]", "features that find their likeness");
-  v.Number("min_share", c.min_share, "(0, 1]", "of those that find any point");
+  v.Integer("max_keyframes", c.max_keyframes, "[1, 100000]",
+            "keyframes of the map around whose points are compared");
+  v.Integer("max_distance", c.max_distance, "[0, 256]",
+            "largest number of differing bits of points that look alike");
+  v.Number("min_shift_m", c.min_shift_m, "(0, inf)", "places nearer than this are the same");
+  v.Number("reach", c.reach, "(0, 1)",
+           "largest distance from a moved point to its likeness, as a share of its range");
+  v.Integer("min_alike", c.min_alike, "[1, 100000]",
+            "features that must find their likeness at the other place");
+  v.Number("min_share", c.min_share, "(0, 1]",
+           "share of the features that find any point there that must find their likeness");
 }
 
 /// A place from which the frame would look as it does.
 struct LookAlike {
-  Eigen::Vector3d shift_w;  ///< from where the frame is held to be
+  Eigen::Vector3d shift_w;  ///< from where the frame is believed to be
   int alike = 0;            ///< matched features that find a point of their look there ...
   int met = 0;              ///< ... of those that find a point at all
 };

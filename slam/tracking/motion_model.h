@@ -25,7 +25,7 @@ class MotionModel {
     Pose T_cw;
   };
   std::optional<Known> last_;
-  std::optional<Vector6d> speed_;  ///< Log of T_cl a frame, l the frame before
+  std::optional<Vector6d> speed_;  ///< Log(T_cl) per frame, l the frame before
 };
 
 }  // namespace slam

@@ -19,15 +19,17 @@ int CountMatches(const Frame& frame) {
          static_cast<int>(std::count(frame.map_points.begin(), frame.map_points.end(), kNone));
 }
 
-/// A bound meant for `full` features, less in proportion for images that have fewer.
-int Scaled(int bound, double have, double full, int least) {
-  return std::clamp(static_cast<int>(bound * have / full), std::min(least, bound), bound);
+/// A bound meant for `full` features, less in proportion for images that have fewer, but not
+/// below `lowest`.
+int Scaled(int bound, double have, double full, int lowest) {
+  return std::clamp(static_cast<int>(bound * have / full), std::min(lowest, bound), bound);
 }
 
 constexpr double kFullImage_px2 = 640.0 * 480.0;
-constexpr double kFullFeatures = 300.0;  // a frame with fewer cannot be asked for all inliers
-constexpr int kLeastInliers = 15;
-constexpr int kLeastStartPoints = 40;
+constexpr double kRichFeatures = 300.0;  // a frame with fewer cannot be asked for all inliers
+constexpr int kMinInliers = 15;      // balances images with few features against wrong poses
+constexpr int kMinStartPoints = 40;  // balances a bare start against none
+constexpr double kLostRadiusFactor = 2.0;  // a pose without prediction is less exact
 
 }  // namespace
 
@@ -60,17 +62,19 @@ PointTrackReport PointTracking::TrackPoints(Frame& frame, Map& map) {
   const FeatureGrid grid(frame.features, camera_);
   const double features = static_cast<double>(frame.features.size());
   bool found = false;
+  // From a prediction, by motion or by the reference keyframe; then with the local map.
   if (state_ == TrackState::kTracking) {
-    const int min_inliers = Scaled(config_.min_inliers, features, kFullFeatures, kLeastInliers);
-    found = (TrackByMotion(frame, grid, map, report) || TrackByReference(frame, map, report)) &&
+    const int min_inliers = Scaled(config_.min_inliers, features, kRichFeatures, kMinInliers);
+    found = (TrackByMotion(frame, grid, map, report) || TrackByReference(frame, map)) &&
             TrackLocalMap(frame, grid, map, min_inliers, config_.local_radius_factor, report);
   }
+  // Lost: from the places that look like the frame, unless the map looks so elsewhere too.
   if (!found) {
     const int min_inliers =
-        Scaled(config_.min_relocalised_inliers, features, kFullFeatures, kLeastInliers);
+        Scaled(config_.min_relocalised_inliers, features, kRichFeatures, kMinInliers);
     found = TrackByRelocalising(frame, map, report) &&
-            TrackLocalMap(frame, grid, map, min_inliers, 2.0 * config_.local_radius_factor,
-                          report) &&
+            TrackLocalMap(frame, grid, map, min_inliers,
+                          kLostRadiusFactor * config_.local_radius_factor, report) &&
             !FindLookAlike(frame, map, config_.look_alike);
   }
   if (!found) {
@@ -87,8 +91,7 @@ bool PointTracking::Start(Frame& frame) const {
       std::count_if(frame.features.begin(), frame.features.end(),
                     [](const PointFeature& feature) { return feature.depth_m > 0; });
   const double area = static_cast<double>(camera_.width) * camera_.height;
-  return with_depth >=
-         Scaled(config_.min_start_points, area, kFullImage_px2, kLeastStartPoints);
+  return with_depth >= Scaled(config_.min_start_points, area, kFullImage_px2, kMinStartPoints);
 }
 
 bool PointTracking::TrackByMotion(Frame& frame, const FeatureGrid& grid, const Map& map,
@@ -96,6 +99,7 @@ bool PointTracking::TrackByMotion(Frame& frame, const FeatureGrid& grid, const M
   const Pose predicted_T_cw = motion_.Predict(frame.index).value_or(LastPose(last_, map));
   const std::vector<SeenPoint> seen = SeenPoints(
       last_, map, camera_, scale_.CloseDepth_m(camera_.fx), config_.max_temporary_points);
+  // Match with what the last frame saw, in a wider square when few are found.
   std::vector<int> matches;
   std::vector<PointQuery> queries;
   for (const double factor : {1.0, 2.0}) {
@@ -106,6 +110,7 @@ bool PointTracking::TrackByMotion(Frame& frame, const FeatureGrid& grid, const M
     if (static_cast<int>(matches.size()) - unmatched >= config_.min_last_matches) break;
   }
 
+  // Pose from these matches; only inliers that are in the map stay matched.
   PoseProblem problem;
   problem.T_cw = predicted_T_cw;
   std::vector<std::pair<int, int>> feature_and_point;
@@ -123,13 +128,11 @@ bool PointTracking::TrackByMotion(Frame& frame, const FeatureGrid& grid, const M
     const auto& [feature, point] = feature_and_point[i];
     if (summary.point_inliers[i]) frame.map_points[Index(feature)] = point;
   }
-  report.first_matches = CountMatches(frame);
-  report.by_motion = report.first_matches >= config_.min_first_inliers;
+  report.by_motion = CountMatches(frame) >= config_.min_first_inliers;
   return report.by_motion;
 }
 
-bool PointTracking::TrackByReference(Frame& frame, const Map& map,
-                                     PointTrackReport& report) const {
+bool PointTracking::TrackByReference(Frame& frame, const Map& map) const {
   ForgetPose(frame);
   const Keyframe& reference = map.keyframes[Index(reference_)];
   std::vector<bool> has_point(reference.features.size());
@@ -143,20 +146,17 @@ bool PointTracking::TrackByReference(Frame& frame, const Map& map,
     frame.map_points[Index(pair.first)] = reference.map_points[Index(pair.second)];
   }
   frame.T_cw = LastPose(last_, map);
-  report.first_matches = Optimise(frame, map);
-  report.by_reference = report.first_matches >= config_.min_first_inliers;
-  return report.by_reference;
+  return Optimise(frame, map) >= config_.min_first_inliers;
 }
 
 bool PointTracking::TrackByRelocalising(Frame& frame, const Map& map,
                                         PointTrackReport& report) {
-  report.by_motion = report.by_reference = false;
+  report.by_motion = false;
   places_.Update(map);
   const auto found = Relocalise(frame, map, places_, camera_, scale_, search_);
   if (!found) return false;
   frame.T_cw = found->T_cw;
   frame.map_points = found->map_points;
-  report.first_matches = found->inliers;
   report.by_relocalising = true;
   return true;
 }
@@ -164,6 +164,7 @@ bool PointTracking::TrackByRelocalising(Frame& frame, const Map& map,
 bool PointTracking::TrackLocalMap(Frame& frame, const FeatureGrid& grid, Map& map,
                                   int min_inliers, double radius_factor,
                                   PointTrackReport& report) {
+  // Points matched so far; some may have been replaced in the map.
   const LocalMap local = GatherLocalMap(frame, map, config_.max_local_keyframes);
   std::vector<bool> taken(frame.features.size());
   std::vector<int> sighted;  // points that should be in the image
@@ -175,6 +176,7 @@ bool PointTracking::TrackLocalMap(Frame& frame, const FeatureGrid& grid, Map& ma
   std::sort(sighted.begin(), sighted.end());
   const std::vector<int> matched = sighted;
 
+  // Look for the other points of the local map that should be in the image.
   std::vector<PointQuery> queries;
   for (const int id : local.points) {
     if (std::binary_search(matched.begin(), matched.end(), id)) continue;
@@ -190,10 +192,10 @@ bool PointTracking::TrackLocalMap(Frame& frame, const FeatureGrid& grid, Map& ma
   for (std::size_t f = 0; f < matches.size(); ++f) {
     if (matches[f] != kNone) frame.map_points[f] = queries[Index(matches[f])].point;
   }
-  report.matches = CountMatches(frame);
   report.inliers = Optimise(frame, map);
   if (report.inliers < min_inliers) return false;
 
+  // Mapping culls points that are seldom found where they should be.
   for (const int id : sighted) ++map.points[Index(id)].visible_count;
   for (const int id : frame.map_points) {
     if (id != kNone) ++map.points[Index(id)].found_count;

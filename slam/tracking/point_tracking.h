@@ -31,56 +31,57 @@ const char* StateName(const PointTrackReport& report);
 struct PointTrackingConfig {
   KeyframeDecisionConfig decision;
   LookAlikeConfig look_alike;
-  PointMatchConfig match_last{100, 0.9, true};      ///< with the last frame, by projection
-  PointMatchConfig match_local{100, 0.8, false};    ///< with the local map, by projection
-  PointMatchConfig match_reference{50, 0.7, true};  ///< with the reference, by descriptors
-  int min_start_points = 100;    ///< features with depth that start the map, at 640 x 480
-  double last_radius_px = 15.0;  ///< search around the prediction, octave 0
-  int min_last_matches = 20;     ///< below, the radius is doubled
-  int min_reference_matches = 15;
-  int min_first_inliers = 10;        ///< map points after the first optimisation
-  int min_inliers = 30;              ///< after the second, for a pose to be believed
-  int min_relocalised_inliers = 50;  ///< the same for a pose found without a prediction
-  int max_temporary_points = 200;    ///< of the last frame, from depth alone
-  int max_local_keyframes = 20;      ///< bound of the work a frame
-  double local_radius_factor = 3.0;  ///< on the projection's radius (depth cameras)
+  // Distances and ratios: ORB-SLAM2's.
+  PointMatchConfig match_last{100, 0.9, true};
+  PointMatchConfig match_local{100, 0.8, false};
+  PointMatchConfig match_reference{50, 0.7, true};
+  int min_start_points = 100;        // balances a bare start against a late one; ORB-SLAM2: 500
+  double last_radius_px = 15.0;      // ORB-SLAM2
+  int min_last_matches = 20;         // ORB-SLAM2
+  int min_reference_matches = 15;    // ORB-SLAM2
+  int min_first_inliers = 10;        // ORB-SLAM2
+  int min_inliers = 30;              // ORB-SLAM2
+  int min_relocalised_inliers = 50;  // ORB-SLAM2
+  int max_temporary_points = 200;    // ORB-SLAM2: 100
+  int max_local_keyframes = 20;      // bounds the work a frame; ORB-SLAM2: 80
+  double local_radius_factor = 3.0;  // ORB-SLAM2, for cameras with depth
 };
 
 inline void VisitFields(PointTrackingConfig& c, FieldVisitor& v) {
-  v.Section("match_last", "with the last frame, by projection", c.match_last);
-  v.Section("match_local", "with the local map, by projection", c.match_local);
-  v.Section("match_reference", "with the reference, by descriptors", c.match_reference);
+  v.Section("match_last", "matching with the last frame, by projection", c.match_last);
+  v.Section("match_local", "matching with the local map, by projection", c.match_local);
+  v.Section("match_reference", "matching with the reference keyframe, by descriptors",
+            c.match_reference);
   v.Integer("min_start_points", c.min_start_points, "[1, 100000]",
-            "features with depth that start the map");
-  v.Number("last_radius_px", c.last_radius_px, "(0, inf)", "search around the prediction");
+            "features with depth that start the map, in an image of 640 x 480");
+  v.Number("last_radius_px", c.last_radius_px, "(0, inf)",
+           "search radius around the prediction, at octave 0");
   v.Integer("min_last_matches", c.min_last_matches, "[0, 100000]",
-            "below, the radius is doubled");
+            "with fewer matches the search is repeated with twice the radius");
   v.Integer("min_reference_matches", c.min_reference_matches, "[0, 100000]",
-            "with the reference keyframe");
+            "matches with the reference keyframe, at least");
   v.Integer("min_first_inliers", c.min_first_inliers, "[0, 100000]",
-            "after the first optimisation");
-  v.Integer("min_inliers", c.min_inliers, "[0, 100000]", "after the second");
+            "inliers after the first optimisation, at least");
+  v.Integer("min_inliers", c.min_inliers, "[0, 100000]",
+            "inliers after the second optimisation for a pose to be believed");
   v.Integer("min_relocalised_inliers", c.min_relocalised_inliers, "[0, 100000]",
-            "of a pose without prediction");
+            "the same for a pose that was found without a prediction");
   v.Integer("max_temporary_points", c.max_temporary_points, "[0, 100000]",
-            "of the last frame, from depth alone");
+            "largest number of points taken from the last frame's depth alone");
   v.Integer("max_local_keyframes", c.max_local_keyframes, "[1, 100000]",
-            "bound of the work a frame");
+            "largest number of keyframes in the local map");
   v.Number("local_radius_factor", c.local_radius_factor, "(0, inf)",
-           "on the projection's radius");
+           "factor on the search radius of the projection");
 }
 
 /// What tracking did with a frame.
 struct PointTrackReport {
   TrackState state = TrackState::kInitialising;
-  bool started = false;          ///< this frame is the map's first keyframe to be
-  bool by_motion = false;        ///< found by the motion model ...
-  bool by_reference = false;     ///< ... by the reference keyframe's descriptors ...
-  bool by_relocalising = false;  ///< ... or without a prediction
-  int first_matches = 0;         ///< before the local map, inliers
-  int local_points = 0;          ///< of the local map, in view
-  int matches = 0;               ///< of map points, before the second optimisation
-  int inliers = 0;               ///< after it
+  bool started = false;          ///< this frame becomes the map's first keyframe
+  bool by_motion = false;        ///< found by the motion model
+  bool by_relocalising = false;  ///< found without a prediction
+  int local_points = 0;          ///< points of the local map in view
+  int inliers = 0;               ///< matches with the map after the last optimisation
 };
 
 /// Tracks the camera by points, as ORB-SLAM2 does with RGB-D (Mur-Artal and Tardos 2017):
@@ -125,7 +126,7 @@ class PointTracking {
   bool Start(Frame& frame) const;
   bool TrackByMotion(Frame& frame, const FeatureGrid& grid, const Map& map,
                      PointTrackReport& report) const;
-  bool TrackByReference(Frame& frame, const Map& map, PointTrackReport& report) const;
+  bool TrackByReference(Frame& frame, const Map& map) const;
   bool TrackByRelocalising(Frame& frame, const Map& map, PointTrackReport& report);
   bool TrackLocalMap(Frame& frame, const FeatureGrid& grid, Map& map, int min_inliers,
                      double radius_factor, PointTrackReport& report);

@@ -30,8 +30,8 @@ std::vector<int> Candidates(const Frame& frame, const Map& map, const KeyframeIn
 std::optional<PlacePose> Relocalise(const Frame& frame, const Map& map,
                                     const KeyframeIndex& index, const Camera& camera,
                                     const FeatureScale& scale,
-
                                     const PointSearchConfig& search) {
+  // Each candidate gives a pose, or none.
   const PlaceSearchConfig& config = search.place;
   std::vector<PlacePose> found;
   for (const int id : Candidates(frame, map, index, config)) {
@@ -39,12 +39,13 @@ std::optional<PlacePose> Relocalise(const Frame& frame, const Map& map,
     if (one) found.push_back(std::move(*one));
   }
   if (found.empty()) return std::nullopt;
+  // The one with most inliers, unless another place fits nearly as well.
   const auto best =
       std::max_element(found.begin(), found.end(),
                        [](const auto& a, const auto& b) { return a.inliers < b.inliers; });
-  for (const PlacePose& rival : found) {
-    if (rival.inliers >= config.max_rival_ratio * best->inliers &&
-        !SamePose(rival.T_cw, best->T_cw, config)) {
+  for (const PlacePose& other : found) {
+    if (other.inliers >= config.max_second_best_ratio * best->inliers &&
+        !SamePose(other.T_cw, best->T_cw, config)) {
       return std::nullopt;
     }
   }

@@ -15,8 +15,6 @@ namespace slam {
 /// @param index  up to date with the map
 std::optional<PlacePose> Relocalise(const Frame& frame, const Map& map,
                                     const KeyframeIndex& index, const Camera& camera,
-                                    const FeatureScale& scale,
-
-                                    const PointSearchConfig& search);
+                                    const FeatureScale& scale, const PointSearchConfig& search);
 
 }  // namespace slam
