@@ -20,7 +20,7 @@ class BookFinder : public Detector {
   std::vector<Detection> Detect(double timestamp_s, const cv::Mat3b& bgr) override {
     asked_by_ = std::this_thread::get_id();
     if (timestamp_s >= fails_at_s_) throw io::InputError("model", "has no answer");
-    Detection book{"book", ClassKind::kRegular, 0.5, {}, -1, false};
+    Detection book{"book", ClassKind::kRegular, 0.5, {}, false};
     book.box_px = {{1, 2}, {bgr.cols / 2.0, bgr.rows / 2.0}};
     return {book};
   }

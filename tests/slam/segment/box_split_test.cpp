@@ -193,7 +193,7 @@ struct ThinBook {
     frame = closed_form::MakeFrame(closed_form::AddKinectNoise(view.depth_m, 5));
     extractor.emplace(camera, PixelRays(camera), ModelOf(DepthSensor::kD435), config);
     extractor->Extract(frame);
-    Detection detection{"book", ClassKind::kRegular, 0.9, box_px, 0, false};
+    Detection detection{"book", ClassKind::kRegular, 0.9, box_px, false};
     frame.detections = {detection};
   }
   /// The share of the book in the segment that has most of it, and the other way round.
