@@ -39,9 +39,7 @@ constexpr app::AddCommand kCommands[] = {
     app::AddBenchCommand,       //
 };
 
-}  // namespace
-
-int main(int argc, char** argv) {
+int Run(int argc, char** argv) {
   CLI::App pas(kFlow, "pas");
   pas.set_version_flag("--version", "pas " PAS_VERSION);
   pas.require_subcommand(1);
@@ -61,9 +59,17 @@ int main(int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     const int code = pas.exit(error);
     return code == 0 ? app::kDone : app::kBadInput;
+  }
+  return exit_code;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    return Run(argc, argv);
   } catch (const std::exception& error) {
     std::fprintf(stderr, "pas: %s\n", error.what());
     return app::kBadInput;
   }
-  return exit_code;
 }

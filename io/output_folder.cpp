@@ -21,7 +21,7 @@ namespace fs = std::filesystem;
 
 /// The full name of a folder, "run/" being "run".
 fs::path PlaceOf(const fs::path& folder) {
-  const fs::path place =
+  fs::path place =
       folder.empty() ? folder : fs::absolute(folder / "").lexically_normal().parent_path();
   if (!place.filename().empty()) return place;
   throw InputError("output folder `" + folder.string() + "`",
@@ -107,7 +107,7 @@ void OutputFolder::RefuseWhatIsThere() const {
 
 fs::path OutputFolder::Path(const fs::path& relative) const {
   if (partial_.empty()) throw std::invalid_argument("OutputFolder: it is in its place already");
-  const fs::path file = partial_ / relative;
+  fs::path file = partial_ / relative;
   std::error_code error;
   fs::create_directories(file.parent_path(), error);
   if (error) FailToWrite(final_ / relative, error);

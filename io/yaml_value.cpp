@@ -82,7 +82,7 @@ void YamlValue::Expected(const std::string& expected) const {
     throw InputError(Where(file_, node_->line),
                      "key `" + name_ + "` is missing; expected " + expected);
   }
-  const char* const kFound[] = {"", "nothing", "", "a list", "a mapping"};
+  constexpr const char* kFound[] = {"", "nothing", "", "a list", "a mapping"};
   Fail("expected " + expected + ", found " +
        (node_->kind == Kind::kScalar ? Quoted(node_->text)
                                      : kFound[static_cast<std::size_t>(node_->kind)]) +

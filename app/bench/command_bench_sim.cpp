@@ -79,6 +79,7 @@ void Print(const char* what, const Rate& rate) {
 Rate InMemory(const sim::Simulator& simulator, const std::vector<sim::TimedPose>& path,
               int threads) {
   std::vector<int> frames;
+  frames.reserve(path.size());
   for (int i = 0; i < static_cast<int>(path.size()); ++i) frames.push_back(i);
   return RateOf(static_cast<int>(path.size()), [&] {
     sim::ForEachFrame(
@@ -177,7 +178,8 @@ sim::Scene Field(int boxes) {
   const int side = static_cast<int>(std::ceil(std::sqrt(boxes)));
   const double cell = 1.2 / side;
   for (int i = 0; i < boxes; ++i) {
-    const double x = (i % side + 0.5) * cell - 0.6, y = (i / side + 0.5) * cell - 0.6;
+    const int column = i % side, row = i / side;
+    const double x = (column + 0.5) * cell - 0.6, y = (row + 0.5) * cell - 0.6;
     add(sim::Role::kRegular, {x, y, 0.2 * cell}, {0.6 * cell, 0.6 * cell, 0.4 * cell});
   }
   return scene;

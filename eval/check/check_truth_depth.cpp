@@ -24,6 +24,7 @@ std::vector<Vector3d> RaysOf(const Camera& camera, const std::vector<cv::Point2d
     cv::undistortPoints(pixels, points, K, cv::Vec<double, 5>(k[0], k[1], k[2], k[3], k[4]));
   }
   std::vector<Vector3d> rays;
+  rays.reserve(points.size());
   for (const cv::Point2d& p : points) rays.emplace_back(p.x, p.y, 1);
   return rays;
 }

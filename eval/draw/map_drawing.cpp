@@ -17,6 +17,7 @@ constexpr double kRarelySeen = 0.03;  // of the most seen plane's observations
 std::vector<Eigen::Vector3d> Moved(const Pose& T_vw,
                                    const std::vector<Eigen::Vector3d>& points_w) {
   std::vector<Eigen::Vector3d> points_v;
+  points_v.reserve(points_w.size());
   for (const Eigen::Vector3d& p : points_w) points_v.push_back(T_vw * p);
   return points_v;
 }
@@ -31,7 +32,7 @@ Eigen::Vector3d Mean(const std::vector<Eigen::Vector3d>& points) {
 bool Contains(const std::vector<Eigen::Vector3d>& convex, const Eigen::Vector3d& p) {
   bool left = false, right = false;
   for (std::size_t i = 0; i < convex.size(); ++i) {
-    const Eigen::Vector3d a = convex[i], b = convex[(i + 1) % convex.size()];
+    const Eigen::Vector3d &a = convex[i], &b = convex[(i + 1) % convex.size()];
     const double side = (b.x() - a.x()) * (p.y() - a.y()) - (b.y() - a.y()) * (p.x() - a.x());
     left = left || side > 0;
     right = right || side < 0;
@@ -93,6 +94,7 @@ Bounds BoundsOf(const MapScene& scene) {
 
 std::vector<cv::Point2d> MapScale::At(const std::vector<Eigen::Vector3d>& points_v) const {
   std::vector<cv::Point2d> pixels;
+  pixels.reserve(points_v.size());
   for (const Eigen::Vector3d& p : points_v) pixels.push_back(At(p));
   return pixels;
 }

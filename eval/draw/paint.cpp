@@ -117,6 +117,7 @@ void PutPath(cv::Mat& image, const std::vector<cv::Point2d>& points, bool closed
              const Colour& colour, int width_px) {
   if (points.size() < 2) return;
   std::vector<cv::Point> fixed;
+  fixed.reserve(points.size());
   for (const cv::Point2d& p : points) fixed.push_back(Fixed(p));
   cv::polylines(image, fixed, closed, colour, width_px, cv::LINE_AA, kShift);
 }
@@ -136,6 +137,7 @@ void FillArea(cv::Mat& image, const std::vector<cv::Point2d>& polygon, const Col
               double opacity) {
   if (polygon.size() < 3) return;
   std::vector<cv::Point> fixed;
+  fixed.reserve(polygon.size());
   for (const cv::Point2d& p : polygon) fixed.push_back(Fixed(p));
   cv::Mat mask = cv::Mat::zeros(image.size(), CV_8U);
   cv::fillPoly(mask, std::vector<std::vector<cv::Point>>{fixed}, cv::Scalar(255), cv::LINE_AA,

@@ -34,9 +34,8 @@ cv::Mat1w ReadCheckedObjectIds(const Sequence& sequence, double stamp_s) {
                              "; render the sequence again");
   }
   Folder folder(file->parent_path());
-  const cv::Mat1w ids =
-      ReadImage(folder, file->filename().string(),
-                {CV_16U, 1, {sequence.camera->width, sequence.camera->height}});
+  cv::Mat1w ids = ReadImage(folder, file->filename().string(),
+                            {CV_16U, 1, {sequence.camera->width, sequence.camera->height}});
   int last = 0;
   for (int v = 0; v < ids.rows; ++v) {
     for (int u = 0; u < ids.cols; ++u) {

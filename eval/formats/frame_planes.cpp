@@ -17,7 +17,7 @@ constexpr int kMaxIndex = 254;  // a segmentation has 8 bits, and 0 means none
 /// A text that should be one of `words`.
 std::optional<std::string> ReadWord(const JsonRecord& plane, const char* key,
                                     const std::vector<std::string>& words, Severity severity) {
-  const auto text = plane.Text(key);
+  auto text = plane.Text(key);
   if (text && std::find(words.begin(), words.end(), *text) == words.end()) {
     plane.TellAt(key, "is " + *text, fmt::format("use {}", fmt::join(words, ", ")), severity);
     if (severity == Severity::kFatal) return std::nullopt;

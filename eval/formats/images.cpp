@@ -49,7 +49,7 @@ cv::Mat Decode(Folder& folder, const std::string& file) {
 }  // namespace
 
 cv::Mat ReadImage(Folder& folder, const std::string& file, const ImageKind& kind) {
-  const cv::Mat image = Decode(folder, file);
+  cv::Mat image = Decode(folder, file);
   if (image.empty()) return image;
   if (image.depth() != kind.depth || image.channels() != kind.channels) {
     folder.Tell(file, 0,

@@ -28,7 +28,7 @@ std::optional<Plane> ReadPlane(const JsonRecord& record, double unit_tolerance) 
 
 std::vector<Eigen::Vector3d> ReadPointsOnPlane(const JsonRecord& record, const std::string& key,
                                                const std::optional<Plane>& pi) {
-  const std::vector<Eigen::Vector3d> points = record.Expected().Points(key);
+  std::vector<Eigen::Vector3d> points = record.Expected().Points(key);
   for (std::size_t i = 0; pi && i < points.size(); ++i) {
     const double off_m = SignedDistance(*pi, points[i]);
     if (std::abs(off_m) <= kOffRunPlane_m) continue;

@@ -28,6 +28,7 @@ std::optional<std::size_t> NearestStamp(const std::vector<double>& stamps_s, dou
 template <typename Records>
 std::vector<double> StampsOf(const Records& records) {
   std::vector<double> stamps_s;
+  stamps_s.reserve(records.size());
   for (const auto& record : records) stamps_s.push_back(record.stamp_s);
   return stamps_s;
 }

@@ -53,6 +53,7 @@ int CountMerged(const Counts& counts) {
 std::vector<Eigen::Vector3d> InTruthWorld(const Alignment& gauge,
                                           const std::vector<Eigen::Vector3d>& points_w) {
   std::vector<Eigen::Vector3d> points_g;
+  points_g.reserve(points_w.size());
   for (const Eigen::Vector3d& p : points_w) points_g.push_back(gauge.T_gw * (gauge.scale * p));
   return points_g;
 }

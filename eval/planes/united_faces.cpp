@@ -44,6 +44,7 @@ std::vector<std::vector<const TruthPlane*>> FacesOfThings(const SceneTruth& scen
     things[{grouped, grouped ? object->detection_group : object->id}].push_back(&plane);
   }
   std::vector<std::vector<const TruthPlane*>> out;
+  out.reserve(things.size());
   for (auto& [thing, faces] : things) out.push_back(std::move(faces));
   return out;
 }
@@ -105,6 +106,7 @@ std::vector<VisiblePlane> United(const std::vector<VisiblePlane>& seen,
     pixels[found == scored_as.end() ? plane.id : found->second] += plane.pixels;
   }
   std::vector<VisiblePlane> out;
+  out.reserve(pixels.size());
   for (const auto& [id, count] : pixels) out.push_back({id, count});
   return out;
 }

@@ -41,7 +41,7 @@ std::optional<Alignment> AlignUmeyama(const std::vector<Eigen::Vector3d>& x_w,
   };
   if (stands_still(variance_x, mean_x) || stands_still(variance_y, mean_y)) return std::nullopt;
   const Eigen::JacobiSVD<Eigen::Matrix3d> svd(sigma, Eigen::ComputeFullU | Eigen::ComputeFullV);
-  const Eigen::Vector3d d = svd.singularValues();
+  const Eigen::Vector3d& d = svd.singularValues();
   if (!(d[0] > 0.0) || !(d[1] >= kMinSingularRatio * d[0])) return std::nullopt;
   Eigen::Vector3d s = Eigen::Vector3d::Ones();
   if (svd.matrixU().determinant() * svd.matrixV().determinant() < 0.0) s[2] = -1.0;

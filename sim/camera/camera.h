@@ -27,7 +27,7 @@ struct Camera {
   }
   /// Ray (x/z, y/z, 1) of a pixel, camera frame.
   Eigen::Vector3d Ray(double u, double v) const {
-    const Eigen::Vector3d bent((u - cx) / fx, (v - cy) / fy, 1.0);
+    Eigen::Vector3d bent((u - cx) / fx, (v - cy) / fy, 1.0);
     if (lens.IsNone()) return bent;
     const Eigen::Vector2d ray = lens.Undistort(bent.head<2>());
     return {ray.x(), ray.y(), 1.0};

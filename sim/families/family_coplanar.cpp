@@ -93,6 +93,7 @@ Scene MakeOnDesk(std::uint64_t family, std::uint64_t seed, int count, const Make
   for (std::uint64_t attempt = 0; attempt < 200; ++attempt) {
     Random random({family, seed, 1, attempt});
     std::vector<Wish> wishes;
+    wishes.reserve(static_cast<std::size_t>(count) + 2);
     for (int i = 0; i < count; ++i) wishes.push_back({make(random)});
     wishes.push_back({MakeMug(random)});
     wishes.push_back({MakePlant(random), 0.1, 0.5});

@@ -35,7 +35,7 @@ double TurnPace(std::uint64_t seed, std::size_t knot) {
 Eigen::Vector3d InUnitBall(Random& random) {
   while (true) {
     const double x = random.Between(-1, 1), y = random.Between(-1, 1);
-    const Eigen::Vector3d v(x, y, random.Between(-1, 1));
+    Eigen::Vector3d v(x, y, random.Between(-1, 1));
     if (v.squaredNorm() <= 1) return v;
   }
 }
@@ -180,6 +180,7 @@ std::vector<View> CameraPath::Candidates(double step_m, double turn_deg, Random&
   std::stable_sort(scored.begin(), scored.end(),
                    [](const auto& a, const auto& b) { return a.first < b.first; });
   std::vector<View> views;
+  views.reserve(scored.size());
   for (const auto& [score, view] : scored) views.push_back(view);
   return views;
 }

@@ -166,7 +166,7 @@ class LooksAway : public Orbit {
     constexpr double kAway_deg = 110, kStays = 0.5;
     const double round = look - std::floor(look);
     // Three wobbles while it stays, and one excursion, alternately to either side.
-    const View facing = Orbit::At(place, 6 * look);
+    View facing = Orbit::At(place, 6 * look);
     if (round < kStays) return facing;
     const double out = Sine((round - kStays) / (1 - kStays) / 2);
     const bool left = static_cast<long long>(std::floor(look)) % 2 == 0;

@@ -17,7 +17,7 @@ Eigen::Vector3d ReadPoint(const io::YamlMap& map, const char* key) {
 }
 
 Eigen::Vector3d ReadHalf(const io::YamlMap& map, const char* key) {
-  const Eigen::Vector3d half = map.At(key).Numbers(3, {-kMaxHalf_m, kMaxHalf_m}, "metres");
+  Eigen::Vector3d half = map.At(key).Numbers(3, {-kMaxHalf_m, kMaxHalf_m}, "metres");
   if (!(half.norm() >= kMinHalf_m)) map.At(key).Fail("expected 0.1 mm or more, or kind: lamp");
   return half;
 }

@@ -30,7 +30,8 @@ Recording PlanRecording(const std::vector<TimedPose>& trajectory, std::vector<Ti
   CheckTimes(trajectory);
   Recording recording;
   recording.shots = MakeShots(trajectory, timing, seed);
-  recording.path = path.empty() ? trajectory : std::move(path);
+  recording.path = std::move(path);
+  if (recording.path.empty()) recording.path = trajectory;
   recording.lost = static_cast<int>(trajectory.size()) - recording.frames();
   return recording;
 }

@@ -26,6 +26,7 @@ UncertainPose CorrectPrediction(const UncertainPose& predicted, const Frame& fra
   if (certain.empty()) return predicted;
   // The pairs as plane constraints (eq15, eq16) ...
   std::vector<PlaneConstraint> constraints;
+  constraints.reserve(certain.size());
   for (const auto& [f, m] : certain) {
     constraints.push_back(MakePlaneConstraint(frame.planes[Index(f)], map.planes.At(m),
                                               predicted.T_cw, config.offset_floor_m,

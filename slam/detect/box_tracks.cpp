@@ -76,6 +76,7 @@ std::vector<Detection> BoxTracks::Update(double timestamp_s,
   // One canonical order, so that tracks and ties do not depend on the order given.
   const std::vector<std::size_t> kept = Deduplicated(detections);
   std::vector<Detection> sorted;
+  sorted.reserve(kept.size());
   for (const std::size_t i : kept) sorted.push_back(detections[i]);
   const std::vector<std::size_t> track_of = Follow(sorted);
 
@@ -86,6 +87,7 @@ std::vector<Detection> BoxTracks::Update(double timestamp_s,
   std::sort(given.begin(), given.end(),
             [](const auto& a, const auto& b) { return a.first < b.first; });
   std::vector<Detection> answer;
+  answer.reserve(given.size());
   for (auto& [position, detection] : given) answer.push_back(std::move(detection));
   AddMissed(answer);
 

@@ -17,8 +17,8 @@ Box ReadBox(const io::JsonField& field) {
   static constexpr const char* kForm = "[x0, y0, x1, y1] in pixels with x0 <= x1 and y0 <= y1";
   const std::vector<io::JsonField> side = field.Elements();
   if (side.size() != 4) field.Fail(kForm);
-  const Box box{{side[0].Number(kPixels), side[1].Number(kPixels)},
-                {side[2].Number(kPixels), side[3].Number(kPixels)}};
+  Box box{{side[0].Number(kPixels), side[1].Number(kPixels)},
+          {side[2].Number(kPixels), side[3].Number(kPixels)}};
   if (!(box.min.x() <= box.max.x() && box.min.y() <= box.max.y())) field.Fail(kForm);
   return box;
 }

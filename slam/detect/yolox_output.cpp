@@ -38,7 +38,7 @@ Box BoxOfCell(const float* row, const Cell& cell, bool decoded) {
     center = (center + Eigen::Vector2d(cell.column, cell.row)) * cell.stride;
     size = size.array().exp() * cell.stride;
   }
-  const Box box{center - 0.5 * size, center + 0.5 * size};
+  Box box{center - 0.5 * size, center + 0.5 * size};
   if (!box.min.allFinite() || !box.max.allFinite() || box.empty()) {
     throw io::InputError("the network's output has a box that is no finite rectangle");
   }

@@ -122,7 +122,7 @@ Plane ChoosePlane(const FramePlane& plane, const DepthNoise& noise, const RefitC
   const std::optional<Plane> robust = RobustPlane(plane, noise, config);
   if (!robust) return plane.pi_c;
   if (config.method == RefitMethod::kPcl) return *robust;
-  const Plane weighted =
+  Plane weighted =
       WeightedPlane(plane, *robust, noise, config.max_inlier_sigmas).value_or(*robust);
   if (config.method == RefitMethod::kWeighted) return weighted;
   const auto error = [&](const Plane& pi_c) {

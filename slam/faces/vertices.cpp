@@ -100,7 +100,7 @@ class FaceOutline {
   /// Corner of two sides at a right angle that both nearly reach it.
   std::optional<Meeting> SupportedCorner(int a, int b) const {
     if (!Square(a, b)) return std::nullopt;
-    const auto point = Corner(a, b);
+    auto point = Corner(a, b);
     if (!point) return std::nullopt;
     const Eigen::Vector2d u = camera_.Project(point->p_c);
     for (const int k : {a, b}) {
@@ -220,6 +220,7 @@ std::vector<Vertex> FindVertices(const FramePlane& plane, const std::vector<Edge
 
   PutInOrder(plane.pi_c, camera, corners);
   std::vector<Vertex> out;
+  out.reserve(corners.size());
   for (const auto& [p_c, i, j] : corners) {
     out.push_back({p_c, !HasSupport(plane, camera, p_c, config.max_support_distance_px),
                    VertexCovariance(plane, lines[static_cast<std::size_t>(i)].error,

@@ -9,7 +9,7 @@ namespace slam {
 /// Nearest recorded pixel of a point, or x < 0 when it is not in the picture in front of the
 /// camera.
 inline Eigen::Vector2i RecordedPixel(const Camera& camera, const Eigen::Vector3d& x_c) {
-  const Eigen::Vector2i none(-1, -1);
+  Eigen::Vector2i none(-1, -1);
   if (!(x_c.z() > kMinVisibleDepth_m)) return none;
   // Far outside, the distortion polynomial folds back into the image: look at the ideal pixel
   // first.

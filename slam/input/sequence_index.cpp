@@ -113,6 +113,7 @@ std::vector<std::size_t> LongestIncreasing(const std::vector<double>& t) {
 template <typename Item, typename Stamp>
 std::vector<Item> InOrder(const std::vector<Item>& items, Stamp stamp, SequenceWarnings& w) {
   std::vector<double> t;
+  t.reserve(items.size());
   for (const Item& item : items) t.push_back(stamp(item));
   std::vector<Item> kept;
   std::size_t next = 0;

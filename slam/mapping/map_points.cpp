@@ -40,6 +40,7 @@ Descriptor CentralDescriptor(const Map& map, const MapPoint& point) {
   const Descriptor* best = seen.front();
   for (const Descriptor* candidate : seen) {
     std::vector<int> distances;
+    distances.reserve(seen.size());
     for (const Descriptor* other : seen) {
       distances.push_back(DescriptorDistance(*candidate, *other));
     }

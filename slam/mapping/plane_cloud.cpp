@@ -54,6 +54,7 @@ std::vector<Cell> Cells(const std::vector<Eigen::Vector3d>& cloud_w,
                         const Eigen::Matrix<double, 3, 2>& axes,
                         const Eigen::Vector3d& grid_origin_w, double voxel_m) {
   std::vector<Cell> cells;
+  cells.reserve(cloud_w.size());
   for (const Eigen::Vector3d& p_w : cloud_w) {
     cells.push_back(CellOf(axes.transpose() * (p_w - grid_origin_w), voxel_m));
   }
@@ -107,7 +108,7 @@ Outline ConvexOutline(const std::vector<Eigen::Vector3d>& points_w, const Plane&
   Outline out;
   if (points_w.size() < 3) return out;
   const Eigen::Matrix<double, 3, 2> axes = TangentBasis(pi_w.n);
-  const Eigen::Vector3d grid_origin_w = points_w.front();
+  const Eigen::Vector3d& grid_origin_w = points_w.front();
   std::vector<Eigen::Vector2d> q;
   q.reserve(points_w.size());
   for (const Eigen::Vector3d& p_w : points_w)

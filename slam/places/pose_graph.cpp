@@ -67,6 +67,7 @@ bool OptimisePoseGraph(std::vector<Pose>& poses, const std::vector<PoseEdge>& ed
   if (edges.empty()) return true;
   // A block a pose, of which the first is held; a term an edge.
   std::vector<PoseBlock> blocks;
+  blocks.reserve(poses.size());
   for (const Pose& T_iw : poses) blocks.push_back(BlockOf(T_iw));
   ceres::Problem::Options ownership;
   ownership.cost_function_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;

@@ -118,6 +118,7 @@ std::vector<float> Weigh(const Vocabulary& tree,
     for (const int word : words) ++having[static_cast<std::size_t>(word)];
   }
   std::vector<float> weights;
+  weights.reserve(having.size());
   const auto all = static_cast<double>(images.size());
   for (const int count : having) {
     weights.push_back(static_cast<float>(std::log(all / std::max(count, 1))));

@@ -70,7 +70,8 @@ double Likeness(const WordBag& a, const WordBag& b) {
 
 Vocabulary::Vocabulary(std::vector<VocabularyNode> nodes, std::vector<float> weights)
     : nodes_(std::move(nodes)), weights_(std::move(weights)) {
-  const char* const kNoTree = "Vocabulary: the nodes are no tree with a weight for each leaf";
+  constexpr const char* kNoTree =
+      "Vocabulary: the nodes are no tree with a weight for each leaf";
   Require(!nodes_.empty(), kNoTree);
   // Number the leaves; children must follow in the order of their parents.
   std::size_t next = 1, words = 0;

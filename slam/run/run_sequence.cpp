@@ -57,6 +57,7 @@ struct TiedPose {
 
 std::vector<TimedPose> FollowKeyframes(const std::vector<TiedPose>& tied, const Map& map) {
   std::vector<TimedPose> trajectory;
+  trajectory.reserve(tied.size());
   for (const TiedPose& pose : tied) {
     trajectory.push_back(
         {pose.timestamp_s, Normalised(pose.T_cr * KeyframePose(map, pose.reference))});

@@ -102,6 +102,7 @@ std::vector<Eigen::Vector3d> VotedShifts(const std::vector<Seen>& seen,
   }
   // The mean shift of each of the fullest cells.
   std::vector<Votes> most;
+  most.reserve(votes.size());
   for (const auto& [cell, vote] : votes) most.push_back(vote);
   std::stable_sort(most.begin(), most.end(),
                    [](const Votes& a, const Votes& b) { return a.count > b.count; });
