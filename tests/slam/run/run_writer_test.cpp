@@ -109,7 +109,10 @@ class RunFolder : public ::testing::Test {
       ModuleTimes times;
       times[Module::kOrb] = 12.5;
       times[Module::kMt] = 99;
-      writer.WriteFrame({frame, i != 1, times, "", {}});
+      PairRefusals refused;
+      for (int k = 0; k <= i; ++k) refused.Add(PairRefusal::kOverlap);
+      if (i == 1) refused.Add(PairRefusal::kRankTest);
+      writer.WriteFrame({frame, i != 1, times, "", refused});
     }
     writer.Finish(SomeMap());
   }
@@ -137,6 +140,9 @@ TEST_F(RunFolder, SaysInRunJsonWhatWasRun) {
   EXPECT_EQ(run["frames"], 3);
   EXPECT_EQ(run["tracked"], 2);
   EXPECT_EQ(run["lost"], 1);
+  EXPECT_EQ(run["refused_pairs"]["overlap"], 1 + 2 + 3);  // summed over all frames, lost or not
+  EXPECT_EQ(run["refused_pairs"]["rank_test"], 1);
+  EXPECT_EQ(run["refused_pairs"]["normal_angle"], 0);
   EXPECT_GT(run["wall_time_s"].get<double>(), 0);
   EXPECT_GT(run["peak_memory_mb"].get<double>(), 1);
 }
