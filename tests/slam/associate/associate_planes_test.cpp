@@ -159,6 +159,22 @@ TEST(PlaneAssociation, MatchesBothPiecesOfASurfaceThatIsCutInTwo) {
   EXPECT_EQ(matched, desk_pieces);
 }
 
+TEST(PlaneAssociation, ACandidateThatIsALandmarkFoundTwiceTakesNothingFromIt) {
+  // The copy on trial explains the frame clearly better, by 5 mm under a pose that is known well:
+  // it is still the landmark's surface.
+  const Camera camera = SmallCamera();
+  AssociationConfig config;
+  config.prior = {.sigma_m = 0.0005, .sigma_rad = 0.0005};
+  Association a = TwoViews(DeskWithBook(0.02, ""), {}, config);
+  const int desk = a.first.frame.plane_matches[0].map_plane;
+  MapPlane copy = a.map.planes.At(desk);
+  copy.status = LandmarkStatus::kCandidate;
+  a.map.planes.Add(copy);
+  a.map.planes.At(desk).pi_w.d += 0.005;
+  a.second.frame.plane_matches = AssociatePlanes(a.second.frame, a.map, camera, config).matches;
+  ExpectAllRight(a);
+}
+
 TEST(PlaneAssociation, LeavesATieUndecided) {
   // Two landmarks six millimetres apart, the measured plane half way, nothing else to tell.
   PlaneWorld world;
