@@ -149,7 +149,7 @@ Json TrajectoryRules(const TrajectoryScore& s) {
   return rules;
 }
 
-void AddPlaneRules(const PlaneScore& s, const TrajectoryScore& t, Json& rules) {
+void AddPlaneRules(const PlaneScore& s, Json& rules) {
   rules["truth"] =
       "planes of structure and regular objects are scored, everything else is noise; a true "
       "plane "
@@ -186,11 +186,8 @@ void AddPlaneRules(const PlaneScore& s, const TrajectoryScore& t, Json& rules) {
                               : ", here with similarity 1 for a plane that shows the truth");
   if (s.map) {
     rules["map"] =
-        std::string("in the world of the truth by ") +
-        (t.gauge_by_origin ? "the first matched pose"
-                           : "the SE(3) alignment of the "
-                             "trajectory") +
-        "; a map plane belongs to the truth of most of its observations, that with "
+        "in the world of the truth by the mean rotation and the mean position of all matched "
+        "poses; a map plane belongs to the truth of most of its observations, that with "
         "most of them is the match; offset is the rms distance of the true vertices to "
         "the map plane; vertices one to one within 100 mm; normals are oriented";
   }
@@ -214,7 +211,7 @@ Json MetricsJson(const Evaluation& e) {
   }
   if (e.timing) json["timing_ms"] = TimingGroup(*e.timing);
   json["rules"] = e.trajectory ? TrajectoryRules(*e.trajectory) : Json::object();
-  if (e.planes) AddPlaneRules(*e.planes, *e.trajectory, json["rules"]);
+  if (e.planes) AddPlaneRules(*e.planes, json["rules"]);
   return json;
 }
 

@@ -52,6 +52,32 @@ std::optional<Alignment> AlignUmeyama(const std::vector<Eigen::Vector3d>& x_w,
   return alignment;
 }
 
+std::optional<Alignment> AlignByPoses(const std::vector<Pose>& T_wc,
+                                      const std::vector<Pose>& T_gc) {
+  if (T_wc.size() != T_gc.size()) {
+    throw std::invalid_argument("AlignByPoses: the lists differ in length");
+  }
+  if (T_wc.empty()) return std::nullopt;
+  Eigen::Matrix3d sum_R = Eigen::Matrix3d::Zero();
+  Eigen::Vector3d sum_w = Eigen::Vector3d::Zero(), sum_g = Eigen::Vector3d::Zero();
+  for (std::size_t i = 0; i < T_wc.size(); ++i) {
+    sum_R += T_gc[i].R * T_wc[i].R.transpose();
+    sum_w += T_wc[i].t;
+    sum_g += T_gc[i].t;
+  }
+  // The rotation nearest to the sum; it is the only one unless the two lesser axes cancel.
+  const Eigen::JacobiSVD<Eigen::Matrix3d> svd(sum_R, Eigen::ComputeFullU | Eigen::ComputeFullV);
+  const Eigen::Vector3d& d = svd.singularValues();
+  Eigen::Vector3d s = Eigen::Vector3d::Ones();
+  if (svd.matrixU().determinant() * svd.matrixV().determinant() < 0.0) s[2] = -1.0;
+  if (!(d[1] + s[2] * d[2] > kMinSingularRatio * d[0])) return std::nullopt;
+  Alignment alignment;
+  alignment.T_gw.R = svd.matrixU() * s.asDiagonal() * svd.matrixV().transpose();
+  const double n = static_cast<double>(T_wc.size());
+  alignment.T_gw.t = sum_g / n - alignment.T_gw.R * (sum_w / n);
+  return alignment;
+}
+
 Alignment AlignOrigin(const Pose& first_T_wc, const Pose& first_T_gc) {
   return {1.0, first_T_gc * Inverse(first_T_wc)};
 }

@@ -136,15 +136,13 @@ TrajectoryScore ScoreTrajectory(const Trajectory& estimate, const Trajectory& un
     const Alignment origin = AlignOrigin(poses.estimate.front(), poses.truth.front());
     score.ate_origin = Describe(
         AbsoluteErrors(Apply(origin, poses.estimate), poses.truth, Relation::kTranslation));
-    score.gauge = origin;
-    score.gauge_by_origin = true;
   }
   if (const auto se3 = AlignUmeyama(Positions(poses.estimate), Positions(poses.truth))) {
     score.ate_se3 = Describe(
         AbsoluteErrors(Apply(*se3, poses.estimate), poses.truth, Relation::kTranslation));
-    score.gauge = se3;
-    score.gauge_by_origin = false;
   }
+
+  score.gauge = AlignByPoses(poses.estimate, poses.truth);
 
   std::vector<Eigen::Vector3d> true_positions;
   for (const auto& pose : TruePosesOfFrames(truth, frame_stamps_s, equal_stamps)) {

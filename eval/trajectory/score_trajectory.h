@@ -29,9 +29,8 @@ struct TrajectoryScore {
   /// path, so that giving up frames cannot improve a run whose errors stay below that.
   std::optional<double> ate_complete_rmse_m;
   std::optional<RelativeScore> rpe_1s, rpe_1m;
-  /// World of the run to world of the truth: SE(3), or by the origin where that is not defined.
+  /// World of the run to world of the truth, by whole poses: what the map is scored in.
   std::optional<Alignment> gauge;
-  bool gauge_by_origin = false;
 };
 
 /// @throws InputError if the sequence is synthetic and the run has a pose for no frame of it.
