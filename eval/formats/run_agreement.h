@@ -4,8 +4,8 @@
 
 namespace eval {
 
-/// Checks the decisions of frame_planes.jsonl against map.json, when it could be read, and
-/// against each other: map planes exist, and are "new" before they are "matched".
-void CheckDecisions(Folder& folder, const Run& run);
+/// Tells where the files of a run contradict each other: numbers of poses and frames, times of
+/// frames, poses and keyframes, and decisions about map planes that do not exist, or not yet.
+void TellRunDisagreements(Folder& folder, const Run& run);
 
 }  // namespace eval

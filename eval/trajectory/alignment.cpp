@@ -4,6 +4,7 @@
 #include <Eigen/SVD>
 #include <cmath>
 #include <stdexcept>
+#include <variant>
 
 namespace eval {
 namespace {
@@ -18,15 +19,13 @@ Eigen::Vector3d MeanOf(const std::vector<Eigen::Vector3d>& points) {
   return sum / static_cast<double>(points.size());
 }
 
-}  // namespace
-
-std::optional<Alignment> AlignUmeyama(const std::vector<Eigen::Vector3d>& x_w,
-                                      const std::vector<Eigen::Vector3d>& y_g,
-                                      bool with_scale) {
+std::variant<Alignment, NoAlignment> Align(const std::vector<Eigen::Vector3d>& x_w,
+                                           const std::vector<Eigen::Vector3d>& y_g,
+                                           bool with_scale) {
   if (x_w.size() != y_g.size()) {
     throw std::invalid_argument("AlignUmeyama: the lists differ in length");
   }
-  if (x_w.size() < 3) return std::nullopt;
+  if (x_w.size() < 3) return NoAlignment::kFewPoses;
   const double n = static_cast<double>(x_w.size());
   const Eigen::Vector3d mean_x = MeanOf(x_w), mean_y = MeanOf(y_g);
   Eigen::Matrix3d sigma = Eigen::Matrix3d::Zero();
@@ -39,10 +38,12 @@ std::optional<Alignment> AlignUmeyama(const std::vector<Eigen::Vector3d>& x_w,
   const auto stands_still = [](double variance, const Eigen::Vector3d& mean) {
     return !(std::sqrt(variance) > kMinSpreadRatio * mean.norm());
   };
-  if (stands_still(variance_x, mean_x) || stands_still(variance_y, mean_y)) return std::nullopt;
+  if (stands_still(variance_x, mean_x) || stands_still(variance_y, mean_y)) {
+    return NoAlignment::kStandsStill;
+  }
   const Eigen::JacobiSVD<Eigen::Matrix3d> svd(sigma, Eigen::ComputeFullU | Eigen::ComputeFullV);
   const Eigen::Vector3d& d = svd.singularValues();
-  if (!(d[0] > 0.0) || !(d[1] >= kMinSingularRatio * d[0])) return std::nullopt;
+  if (!(d[0] > 0.0) || !(d[1] >= kMinSingularRatio * d[0])) return NoAlignment::kLine;
   Eigen::Vector3d s = Eigen::Vector3d::Ones();
   if (svd.matrixU().determinant() * svd.matrixV().determinant() < 0.0) s[2] = -1.0;
   Alignment alignment;
@@ -50,6 +51,23 @@ std::optional<Alignment> AlignUmeyama(const std::vector<Eigen::Vector3d>& x_w,
   if (with_scale) alignment.scale = d.dot(s) / variance_x;
   alignment.T_gw.t = mean_y - alignment.scale * (alignment.T_gw.R * mean_x);
   return alignment;
+}
+
+}  // namespace
+
+std::optional<Alignment> AlignUmeyama(const std::vector<Eigen::Vector3d>& x_w,
+                                      const std::vector<Eigen::Vector3d>& y_g,
+                                      bool with_scale) {
+  const auto found = Align(x_w, y_g, with_scale);
+  const auto* alignment = std::get_if<Alignment>(&found);
+  return alignment != nullptr ? std::optional(*alignment) : std::nullopt;
+}
+
+std::optional<NoAlignment> WhyNotAligned(const std::vector<Eigen::Vector3d>& x_w,
+                                         const std::vector<Eigen::Vector3d>& y_g) {
+  const auto found = Align(x_w, y_g, false);
+  const auto* reason = std::get_if<NoAlignment>(&found);
+  return reason != nullptr ? std::optional(*reason) : std::nullopt;
 }
 
 std::optional<Alignment> AlignByPoses(const std::vector<Pose>& T_wc,

@@ -242,13 +242,17 @@ TEST_F(EvaluateTinyWorld, ARunWithoutPosesHasNoErrorOfZero) {
   TinyRun run(*world_);
   run.trajectory.clear();
   const Evaluation evaluation = EvaluationOf(run);
-  EXPECT_EQ(evaluation.tracked, 0u);
+  EXPECT_EQ(evaluation.trajectory.tracked, 0u);
   const nlohmann::json m = nlohmann::json::parse(MetricsText(evaluation));
-  EXPECT_FALSE(m["trajectory"].contains("ate_se3"));
-  EXPECT_FALSE(m["trajectory"].contains("ate_origin"));
-  EXPECT_FALSE(m.contains("map"));
+  EXPECT_TRUE(m["trajectory"].at("ate_se3").is_null());
+  EXPECT_TRUE(m["trajectory"].at("ate_origin").is_null());
+  for (const char* key : {"normal_deg", "offset_mm", "vertex_mm", "polygon_iou"}) {
+    EXPECT_TRUE(m["map"].at(key).is_null()) << key;
+    EXPECT_EQ(m["reasons"].at(std::string("map/") + key), "the run has no pose");
+  }
   EXPECT_GT(m["trajectory"]["ate_complete_rmse_m"].get<double>(), 1.0);  // all frames charged
-  EXPECT_THAT(MetricsTable(evaluation), HasSubstr("not defined"));
+  EXPECT_EQ(m["reasons"]["trajectory/ate_se3"], "the run has no pose");
+  EXPECT_THAT(MetricsTable(evaluation), HasSubstr("-  (the run has no pose)"));
 }
 
 TEST_F(EvaluateTinyWorld, APoseForAFrameThatDoesNotExistIsRefused) {
