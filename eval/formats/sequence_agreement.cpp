@@ -45,10 +45,9 @@ void TellFramesWithoutPose(Folder& folder, const std::vector<double>& frames_s,
     }
     return;
   }
-  const bool overlaps =
-      std::any_of(frames_s.begin(), frames_s.end(), [&](double frame_s) {
-        return NearestStamp(poses_s, frame_s, kMaxStampDifference_s).has_value();
-      });
+  const bool overlaps = std::any_of(frames_s.begin(), frames_s.end(), [&](double frame_s) {
+    return NearestStamp(poses_s, frame_s, kMaxStampDifference_s).has_value();
+  });
   if (overlaps || frames_s.empty() || truth.empty() || !IsFaultless(folder, kPoses)) return;
   folder.Tell(kPoses, 0,
               fmt::format("has no pose within {:.0f} ms of any frame: poses are from {:.3f} to "
