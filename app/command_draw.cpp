@@ -1,6 +1,7 @@
 #include <cstdio>
 
 #include "app/app.h"
+#include "app/console.h"
 #include "eval/draw/draw_run.h"
 
 namespace app {
@@ -16,6 +17,7 @@ int RunDraw(const DrawArguments& arguments, bool quiet) {
   eval::DrawOptions options;
   options.frames = arguments.frames;
   options.camera = arguments.camera;
+  options.warn = PrintWarning;
   if (!arguments.truth.empty()) options.truth = arguments.truth;
   if (!arguments.force && std::filesystem::exists(arguments.output)) {
     eval::WritePictures({}, arguments.output, false);  // refuses before the work is done

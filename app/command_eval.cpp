@@ -4,6 +4,7 @@
 #include <string>
 
 #include "app/app.h"
+#include "app/console.h"
 #include "eval/formats/run.h"
 #include "eval/formats/sequence.h"
 #include "eval/report/evaluate.h"
@@ -20,12 +21,22 @@ struct EvalOptions {
   std::string output;
 };
 
+/// One line for each kind of fault that the figures can live with.
+void PrintWarnings(const std::vector<eval::Fault>& faults,
+                   const std::filesystem::path& folder) {
+  for (const std::string& line : eval::Summaries(faults, folder)) {
+    PrintWarning(line);
+  }
+}
+
 int RunEval(const EvalOptions& options, const Globals& globals) {
   const eval::Run run = eval::ReadRun(options.run);
   const std::filesystem::path truth =
       options.truth.empty() ? eval::SequenceOf(run) : std::filesystem::path(options.truth);
   const eval::Sequence sequence = eval::ReadSequence(truth);
   const eval::Evaluation evaluation = eval::Evaluate(run, sequence);
+  PrintWarnings(evaluation.run_warnings, run.folder);
+  PrintWarnings(evaluation.sequence_warnings, sequence.folder);
 
   const std::filesystem::path output = options.output.empty()
                                            ? run.folder / "metrics.json"
@@ -35,9 +46,9 @@ int RunEval(const EvalOptions& options, const Globals& globals) {
     std::fputs(eval::MetricsTable(evaluation).c_str(), stdout);
     std::printf("wrote %s\n", output.c_str());
   }
-  if (evaluation.tracked > 0) return kDone;
+  if (evaluation.trajectory.tracked > 0) return kDone;
   std::fprintf(stderr, "pas eval: %s tracked none of %zu frames\n", run.folder.c_str(),
-               evaluation.frames);
+               evaluation.trajectory.frames);
   return kFailure;
 }
 
@@ -51,12 +62,14 @@ void AddEvalCommand(CLI::App& pas, const Globals& globals, int& exit_code) {
       "planes and vertices of each frame, map (millimetres, degrees), time (milliseconds).\n"
       "A sequence without gt/ gives trajectory and time only; a run without segmentation/\n"
       "images (pas slam --save-segmentation) gives nothing that is counted by pixels.\n"
+      "What cannot be scored is refused; what should be known beside the figures is a "
+      "warning.\n"
       "Exit code 1 if the run tracked no frame.");
   command->add_option("RUN", options->run, "Run folder, as pas slam writes it")->required();
   command->add_option(
       "--truth", options->truth,
       "Sequence folder with the truth (default: the one that RUN/run.json names, "
-      "as written or relative to RUN)");
+      "relative to RUN, to the folder above or to here, else where it was)");
   command->add_option("-o,--output", options->output,
                       "File to write (default: RUN/metrics.json); an older one is replaced");
   command->callback(

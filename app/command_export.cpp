@@ -28,6 +28,7 @@ struct ExportArguments {
 int RunExport(ExportArguments arguments, bool quiet) {
   std::unique_ptr<Progress> progress;
   arguments.options.version = PAS_VERSION;
+  arguments.options.warn = PrintWarning;
   arguments.options.progress = [&](int done, int total) {
     if (!progress) progress = std::make_unique<Progress>("export", total, quiet);
     progress->Update(done);

@@ -41,4 +41,8 @@ void Progress::Update(int done) {
   std::fflush(stderr);
 }
 
+void PrintWarning(const std::string& warning) {
+  std::fprintf(stderr, "pas: warning: %s\n", warning.c_str());
+}
+
 }  // namespace app

@@ -23,4 +23,7 @@ class Progress {
   std::chrono::steady_clock::time_point start_;
 };
 
+/// Says on stderr what should be known beside a result, in a line of its own.
+void PrintWarning(const std::string& warning);
+
 }  // namespace app

@@ -13,11 +13,6 @@ namespace {
 
 constexpr double kStampRoundOff_s = 1e-6;  // stamps are printed with six decimals
 
-bool Escapes(const std::string& file) {
-  const std::filesystem::path path = std::filesystem::path(file).lexically_normal();
-  return path.is_absolute() || (!path.empty() && *path.begin() == "..");
-}
-
 // An association must name an image that its list has under that time.
 void CheckAgainstList(Folder& folder, const ListedImage& image, const std::string& list,
                       const std::vector<ListedImage>& images) {
@@ -46,13 +41,9 @@ void CheckApart(Folder& folder, const SequenceFrame& frame) {
 void CheckListedFiles(Folder& folder, const std::string& list,
                       const std::vector<ListedImage>& images) {
   for (const ListedImage& image : images) {
-    if (Escapes(image.file)) {
-      folder.Tell(list, image.line, "names " + image.file + ", which is outside the folder",
-                  "write the path relative to the folder");
-    } else if (!folder.Has(image.file)) {
-      folder.Tell(list, image.line, "names " + image.file + ", which does not exist",
-                  "restore the image or drop the line");
-    }
+    if (folder.Has(image.file)) continue;
+    folder.Tell(list, image.line, "names " + image.file + ", which does not exist",
+                "restore the image or drop the line");
   }
 }
 
@@ -75,14 +66,7 @@ cv::Size CheckListedImages(Folder& folder, const std::vector<ListedImage>& rgb,
 std::vector<SequenceFrame> CheckAssociations(Folder& folder,
                                              const std::vector<ListedImage>& rgb,
                                              const std::vector<ListedImage>& depth) {
-  if (!folder.Has("associations.txt")) {
-    std::vector<SequenceFrame> frames = AssociateByTime(rgb, depth);
-    if (frames.empty() && !rgb.empty() && !depth.empty()) {
-      folder.Tell("depth.txt", 0, "no depth image is within 20 ms of a colour image",
-                  "bring both lists to one clock, or give the pairs in associations.txt");
-    }
-    return frames;
-  }
+  if (!folder.Has("associations.txt")) return AssociateByTime(folder, rgb, depth);
   std::vector<SequenceFrame> frames = ReadAssociations(folder);
   for (const SequenceFrame& frame : frames) {
     CheckAgainstList(folder, {frame.stamp_s, frame.rgb, frame.line}, "rgb.txt", rgb);

@@ -1,7 +1,5 @@
 #include "eval/check/check_manifest.h"
 
-#include <fmt/format.h>
-
 #include <map>
 #include <optional>
 #include <set>
@@ -63,11 +61,7 @@ void CheckHashes(Folder& folder, const std::map<std::string, std::string>& hashe
 
 std::string CheckManifest(Folder& folder, int frames) {
   const Manifest manifest = ReadManifest(folder);
-  if (manifest.frame_count && *manifest.frame_count != frames) {
-    folder.Tell({"manifest.json", 0, "/" + manifest.frame_count_key,
-                 fmt::format("is {}, but rgb.txt lists {}", *manifest.frame_count, frames),
-                 "make the sequence again"});
-  }
+  TellFrameCount(folder, manifest, static_cast<std::size_t>(frames));
   if (manifest.sha256) CheckHashes(folder, *manifest.sha256);
   return manifest.sensor;
 }

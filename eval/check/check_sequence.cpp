@@ -1,29 +1,23 @@
 #include "eval/check/check_sequence.h"
 
-#include <fmt/format.h>
-
 #include "eval/check/check_deep.h"
 #include "eval/check/check_detections.h"
 #include "eval/check/check_image_lists.h"
 #include "eval/check/check_manifest.h"
 #include "eval/check/check_truth_frames.h"
-#include "eval/formats/stamps.h"
+#include "eval/formats/sequence_agreement.h"
 #include "eval/formats/trajectory.h"
 
 namespace eval {
 namespace {
 
 // Exact truth has a pose for every frame; a motion capture system has its own times.
-void CheckPosesCoverFrames(Folder& folder, const SequenceTruth& truth) {
-  if (!folder.Has("gt/frames.jsonl")) return;
-  if (!folder.Require("groundtruth.txt", "write the pose of every frame")) return;
-  const std::vector<double> stamps_s = StampsOf(truth.poses);
-  for (const ListedImage& image : truth.rgb) {
-    if (NearestStamp(stamps_s, image.stamp_s, kSameInstant_s)) continue;
-    folder.Tell("groundtruth.txt", 0,
-                fmt::format("lacks a pose for the frame {:.6f} of rgb.txt", image.stamp_s),
-                "write the pose of every frame");
-  }
+void CheckPoses(Folder& folder, const SequenceTruth& truth) {
+  const bool exact = folder.Has("gt/frames.jsonl") || folder.Has("gt/scene.json");
+  const std::string file = "groundtruth.txt";
+  if (exact ? !folder.Require(file, "write the pose of every frame") : !folder.Has(file))
+    return;
+  TellFramesWithoutPose(folder, truth.frames_s(), truth.poses, exact);
 }
 
 std::vector<ListedImage> ReadListedImages(Folder& folder, const std::string& list) {
@@ -44,8 +38,8 @@ CheckReport CheckSequence(const std::filesystem::path& path, bool deep) {
   const cv::Size told =
       truth.camera ? cv::Size(truth.camera->width, truth.camera->height) : cv::Size();
   truth.size = CheckListedImages(folder, truth.rgb, depth, told);
-  if (folder.Has("groundtruth.txt")) truth.poses = ReadTrajectory(folder, "groundtruth.txt");
-  CheckPosesCoverFrames(folder, truth);
+  if (folder.Has("groundtruth.txt")) truth.poses = ReadGroundtruth(folder);
+  CheckPoses(folder, truth);
   CheckDetections(folder, truth.rgb, truth.size);
   if (folder.Has("gt/scene.json")) truth.scene = ReadSceneTruth(folder);
   truth.sensor = CheckManifest(folder, static_cast<int>(truth.rgb.size()));

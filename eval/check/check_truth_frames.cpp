@@ -11,7 +11,7 @@
 #include "eval/check/check_truth_depth.h"
 #include "eval/formats/frame_truth.h"
 #include "eval/formats/images.h"
-#include "eval/formats/stamps.h"
+#include "eval/formats/sequence_agreement.h"
 
 namespace eval {
 namespace {
@@ -29,16 +29,12 @@ class ListCheck {
         list_(std::move(list)),
         image_file_(std::move(image_file)) {}
 
-  /// @param is_known  whether the scene has the id
-  template <typename Visible, typename IsKnown>
-  void Run(const std::vector<Visible>& ids, const cv::Mat& image, const IsKnown& is_known) {
+  template <typename Visible>
+  void Run(const std::vector<Visible>& ids, const cv::Mat& image) {
     std::map<int, PixelSet> seen = PixelsOfIds(image);
     for (std::size_t i = 0; i < ids.size(); ++i) {
       pointer_ = fmt::format("/{}/{}", list_, i);
       if (ids[i].id == 0) continue;  // at fault, which has been told
-      if (!is_known(ids[i].id)) {
-        Tell("/id", fmt::format("{} is not in gt/scene.json", ids[i].id), "mend the id");
-      }
       CheckEntry(ids[i], seen[ids[i].id]);
       seen.erase(ids[i].id);
     }
@@ -130,41 +126,24 @@ class FramesCheck {
 
   void Frame(const FrameTruth& frame) {
     const auto near = NearestStamp(stamps_, frame.stamp_s, kSameInstant_s);
-    if (!near) {
-      folder_.Tell({kFrames, frame.line, "/timestamp",
-                    fmt::format("{:.6f} is no time of rgb.txt", frame.stamp_s),
-                    "use the time of the colour image"});
-      return;
-    }
+    if (!near) return;  // which has been told
     const ListedImage& image = images_.at(stamps_[*near]);
-    done_.insert(image.stamp_s);
     const std::string name = std::filesystem::path(image.file).filename().string();
     const std::string plane_file = "gt/plane_id/" + name, object_file = "gt/object_id/" + name;
     const cv::Mat plane_ids = IdImage(folder_, plane_file, frame.line, truth_.size);
     const cv::Mat object_ids = IdImage(folder_, object_file, frame.line, truth_.size);
     const auto& scene = truth_.scene;
     if (!object_ids.empty()) {
-      ListCheck(folder_, frame.line, "objects", object_file)
-          .Run(frame.objects, object_ids,
-               [&](int id) { return !scene || scene->FindObject(id) != nullptr; });
+      ListCheck(folder_, frame.line, "objects", object_file).Run(frame.objects, object_ids);
     }
     if (!plane_ids.empty()) {
-      ListCheck(folder_, frame.line, "planes", plane_file)
-          .Run(frame.planes, plane_ids,
-               [&](int id) { return !scene || scene->FindPlane(id) != nullptr; });
+      ListCheck(folder_, frame.line, "planes", plane_file).Run(frame.planes, plane_ids);
     }
     if (scene) CheckOwners(folder_, *scene, plane_ids, object_ids, plane_file);
     depth_.Frame(image.stamp_s, plane_ids);
   }
 
-  void Finish() {
-    for (const auto& [stamp, image] : images_) {
-      if (done_.count(stamp) != 0) continue;
-      folder_.Tell(kFrames, 0, fmt::format("lacks the frame {:.6f} of rgb.txt", stamp),
-                   "write the truth of every frame");
-    }
-    depth_.Finish();
-  }
+  void Finish() { depth_.Finish(); }
 
  private:
   Folder& folder_;
@@ -172,15 +151,16 @@ class FramesCheck {
   TruthDepthCheck depth_;
   std::map<double, ListedImage> images_;
   std::vector<double> stamps_;
-  std::set<double> done_;
 };
 
 }  // namespace
 
 void CheckTruthFrames(Folder& folder, const SequenceTruth& truth) {
   if (!folder.Has(kFrames)) return;
+  const std::vector<FrameTruth> told = ReadFrameTruth(folder);
+  TellFrameTruth(folder, truth.frames_s(), told, truth.scene ? &*truth.scene : nullptr);
   FramesCheck frames(folder, truth);
-  for (const FrameTruth& frame : ReadFrameTruth(folder)) frames.Frame(frame);
+  for (const FrameTruth& frame : told) frames.Frame(frame);
   frames.Finish();
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <opencv2/core/types.hpp>
 #include <optional>
 #include <string>
@@ -10,6 +11,7 @@
 #include "eval/formats/image_lists.h"
 #include "eval/formats/pose.h"
 #include "eval/formats/scene_truth.h"
+#include "eval/formats/stamps.h"
 
 namespace eval {
 
@@ -22,6 +24,13 @@ struct SequenceTruth {
   std::optional<SceneTruth> scene;
   cv::Size size;
   std::string sensor;  ///< as manifest.json names it; empty when unknown
+
+  /// Times of the colour images, rising.
+  std::vector<double> frames_s() const {
+    std::vector<double> stamps_s = StampsOf(rgb);
+    std::sort(stamps_s.begin(), stamps_s.end());
+    return stamps_s;
+  }
 };
 
 }  // namespace eval

@@ -23,6 +23,12 @@ std::vector<Picture> DrawRun(const fs::path& folder, const DrawOptions& options)
   const Run run = ReadRun(folder);
   const fs::path sequence_folder = options.truth ? *options.truth : SequenceOf(run);
   const Sequence sequence = ReadSequence(sequence_folder);
+  if (options.warn) {
+    for (const std::string& line : Summaries(run.warnings, folder)) options.warn(line);
+    for (const std::string& line : Summaries(sequence.warnings, sequence_folder)) {
+      options.warn(line);
+    }
+  }
   const auto camera = ChooseCamera(options.camera, sequence, run);
   if (!camera && run.segmentation_files.empty()) {
     throw io::InputError(sequence_folder.string(),

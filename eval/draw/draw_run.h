@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <opencv2/core.hpp>
 #include <optional>
 #include <string>
@@ -12,6 +13,8 @@ struct DrawOptions {
   int frames = 12;                             ///< on the contact sheet
   std::optional<std::filesystem::path> truth;  ///< the sequence; by default the one in run.json
   std::string camera;  ///< tum1, tum2, tum3 or a file; empty: SEQ/camera.yaml
+  /// Told what should be known of run and sequence beside the pictures; may be empty.
+  std::function<void(const std::string& warning)> warn = {};
 };
 
 struct Picture {

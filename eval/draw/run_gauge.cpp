@@ -1,9 +1,9 @@
 #include "eval/draw/run_gauge.h"
 
 #include <Eigen/Geometry>
-#include <Eigen/SVD>
 #include <algorithm>
 
+#include "eval/trajectory/alignment.h"
 #include "eval/trajectory/match_stamps.h"
 
 namespace eval {
@@ -12,22 +12,13 @@ std::optional<Pose> AlignByPoses(const Trajectory& run, const Trajectory& truth,
                                  bool synthetic) {
   const std::vector<StampMatch> matches =
       synthetic ? MatchEqual(truth, run) : MatchNearest(truth, run);
-  if (matches.empty()) return std::nullopt;
-  Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
-  Eigen::Vector3d mean_g = Eigen::Vector3d::Zero(), mean_w = Eigen::Vector3d::Zero();
+  std::vector<Pose> T_wc, T_gc;
   for (const StampMatch& match : matches) {
-    const Pose& T_gc = truth[match.truth].T_wc;
-    const Pose& T_wc = run[match.estimate].T_wc;
-    sum += T_gc.R * T_wc.R.transpose();
-    mean_g += T_gc.t;
-    mean_w += T_wc.t;
+    T_wc.push_back(run[match.estimate].T_wc);
+    T_gc.push_back(truth[match.truth].T_wc);
   }
-  const Eigen::JacobiSVD<Eigen::Matrix3d> svd(sum, Eigen::ComputeFullU | Eigen::ComputeFullV);
-  Eigen::Vector3d signs = Eigen::Vector3d::Ones();
-  if ((svd.matrixU() * svd.matrixV().transpose()).determinant() < 0) signs.z() = -1;
-  const Eigen::Matrix3d R = svd.matrixU() * signs.asDiagonal() * svd.matrixV().transpose();
-  const double n = static_cast<double>(matches.size());
-  return Pose{R, mean_g / n - R * (mean_w / n)};
+  const auto alignment = AlignByPoses(T_wc, T_gc);
+  return alignment ? std::optional(alignment->T_gw) : std::nullopt;
 }
 
 MapGauge ChooseMapGauge(const Run& run, const Sequence& sequence) {

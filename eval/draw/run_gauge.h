@@ -5,9 +5,8 @@
 
 namespace eval {
 
-/// Rigid motion that lays a run on the truth, from whole poses: the rotation nearest to the sum
-/// of R_gc R_wc^T, then the mean offset of positions. Unlike an alignment of positions alone it
-/// holds for short and straight paths, and it does not tilt the map to please the path.
+/// Rigid motion that lays a run on the truth, from whole poses of the same time, as the map is
+/// scored.
 /// @returns nothing when no pose has a truth of the same time
 std::optional<Pose> AlignByPoses(const Trajectory& run, const Trajectory& truth,
                                  bool synthetic);

@@ -107,7 +107,7 @@ class BopScene {
     poses_[key] = Json::array();
     infos_[key] = Json::array();
     const cv::Mat1w ids = ReadCheckedObjectIds(sequence_, frame.stamp_s);
-    const cv::Mat1w depth = ReadLabels(sequence_.folder / frame.depth);
+    const cv::Mat1w depth = ReadLabels(sequence_.folder / frame.depth, {CV_16U, 1, {}});
     if (depth.size() != ids.size()) {
       throw io::InputError((sequence_.folder / frame.depth).string(),
                            "has another size than camera.yaml says");
@@ -198,7 +198,7 @@ ExportSummary ExportBop(const std::vector<fs::path>& folders, const fs::path& ou
   std::vector<Sequence> sequences;
   std::size_t total = 0;
   for (const fs::path& folder : folders) {
-    sequences.push_back(ReadExportable(folder));
+    sequences.push_back(ReadExportable(folder, options));
     RefuseLens(sequences.back());
     total += sequences.back().frames.size();
   }

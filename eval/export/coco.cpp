@@ -147,7 +147,7 @@ ExportSummary ExportCoco(const std::vector<fs::path>& folders, const fs::path& o
   std::vector<Sequence> sequences;
   std::size_t total = 0;
   for (const fs::path& folder : folders) {
-    sequences.push_back(ReadExportable(folder));
+    sequences.push_back(ReadExportable(folder, options));
     total += sequences.back().frames.size();
   }
   io::OutputFolder folder(output, kExportMarker, options.force);

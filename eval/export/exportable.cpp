@@ -10,8 +10,17 @@ void CommitExport(io::OutputFolder& folder, const std::string& kind) {
   folder.Commit();
 }
 
-Sequence ReadExportable(const std::filesystem::path& folder) {
+Sequence ReadExportable(const std::filesystem::path& folder, const ExportOptions& options) {
   Sequence sequence = ReadSequence(folder);
+  // Whoever trains on an export does not see that frames are missing.
+  if (!sequence.complete) {
+    throw io::InputError((folder / "manifest.json").string(),
+                         "complete is false: the sequence was not finished; resume or make it "
+                         "again");
+  }
+  if (options.warn) {
+    for (const std::string& line : Summaries(sequence.warnings, folder)) options.warn(line);
+  }
   const auto require = [&](bool there, const char* file) {
     if (!there) {
       throw io::InputError(

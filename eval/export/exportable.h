@@ -19,6 +19,8 @@ struct ExportOptions {
   bool force = false;        ///< replace an older export
   std::string version = {};  ///< the program's, for the dataset's description
   std::function<void(int done, int total)> progress = {};  ///< frames; may be empty
+  /// Told what should be known of a sequence that is exported all the same; may be empty.
+  std::function<void(const std::string& warning)> warn = {};
 };
 
 struct ExportSummary {
@@ -28,9 +30,10 @@ struct ExportSummary {
   int left_out = 0;   ///< objects of the scenes that the format cannot hold
 };
 
-/// A sequence that can be exported: it has a camera, gt/scene.json and gt/object_id.
+/// A sequence that can be exported: it is complete and has a camera, gt/scene.json and
+/// gt/object_id.
 /// @throws InputError that names what is missing
-Sequence ReadExportable(const std::filesystem::path& folder);
+Sequence ReadExportable(const std::filesystem::path& folder, const ExportOptions& options);
 
 /// Object ids of a frame.
 /// @throws InputError naming the file when it is missing, has another size than the camera, or

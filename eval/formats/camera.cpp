@@ -16,7 +16,8 @@ class CameraKeys {
     Try([&] { map_.At("model").OneOf({"pinhole"}); },
         map_.Has("model") ? Severity::kFatal : Severity::kFlaw);
     Camera camera;
-    const io::Interval size("(0, 100000)"), positive("(0, inf)"), any("(-inf, inf)");
+    // Wider than any lens, sensor and file of one, and far from where squares overflow.
+    const io::Interval size("(0, 100000)"), positive("(0, 1e9)"), any("(-1e9, 1e9)");
     Try([&] { camera.width = map_.At("width").Whole(size); });
     Try([&] { camera.height = map_.At("height").Whole(size); });
     Number("fx", positive, "pixels", camera.fx);
@@ -36,7 +37,7 @@ class CameraKeys {
   template <typename ReadKey>
   bool Try(const ReadKey& read, Severity severity = Severity::kFatal) {
     const bool good = folder_.Try(file_, read, severity);
-    good_ = good_ && (good || severity == Severity::kFlaw);
+    good_ = good_ && (good || severity != Severity::kFatal);
     return good;
   }
 
@@ -46,9 +47,9 @@ class CameraKeys {
 
   /// It lies in the image, as a rule; a picture that was cut out of a larger one may lack it.
   void PrincipalPoint(const char* key, int pixels, double& value) {
-    if (!Number(key, io::Interval("(-inf, inf)"), "pixels", value) || pixels == 0) return;
+    if (!Number(key, io::Interval("(-1e9, 1e9)"), "pixels", value) || pixels == 0) return;
     const io::Interval inside("(-0.5, " + io::NumberText(pixels - 0.5) + ")");
-    Try([&] { map_.At(key).Number(inside, "pixels"); }, Severity::kFlaw);
+    Try([&] { map_.At(key).Number(inside, "pixels"); }, Severity::kWarning);
   }
 
   Folder& folder_;

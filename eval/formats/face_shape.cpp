@@ -21,7 +21,7 @@ void TellCornersOffPlane(const JsonRecord& record, const TruthPlane& plane) {
     if (std::abs(off_m) <= kOnPlane_m) continue;
     record.TellAt(fmt::format("vertices/{}", i),
                   fmt::format("is {:.6f} m off the plane n . x + d = 0", off_m),
-                  "mend the corner, or the sign or value of d", Severity::kFlaw);
+                  "mend the corner, or the sign or value of d");
   }
 }
 
@@ -42,8 +42,9 @@ double SignedArea(const std::vector<Vector3d>& corners, const Vector3d& normal) 
 }
 
 void TellWrongShape(const JsonRecord& record, const TruthPlane& plane, bool is_mesh) {
-  const auto tell = [&](const char* key, std::string what, const char* mend) {
-    record.TellAt(key, std::move(what), mend, Severity::kFlaw);
+  const auto tell = [&](const char* key, std::string what, const char* mend,
+                        Severity severity = Severity::kWarning) {
+    record.TellAt(key, std::move(what), mend, severity);
   };
   const std::vector<Vector3d>& corners = plane.vertices_g;
   if (!is_mesh && corners.size() != 4) {
@@ -63,7 +64,7 @@ void TellWrongShape(const JsonRecord& record, const TruthPlane& plane, bool is_m
   if (std::abs(plane.area_m2 - area_m2) > kArea_ratio * area_m2) {
     tell("area",
          fmt::format("is {} m^2, but the corners enclose {:.6f} m^2", plane.area_m2, area_m2),
-         "give the area of the whole face");
+         "give the area of the whole face", Severity::kFlaw);
   }
 }
 
@@ -73,15 +74,14 @@ void TellOutsideObject(const JsonRecord& record, const TruthPlane& plane,
   const std::vector<Vector3d>& corners = plane.vertices_g;
   const Vector3d middle_g = (corners[0] + corners[2]) / 2;
   if (!object.is_mesh && !(plane.pi_g.n.dot(middle_g - object.center_g) > 0)) {
-    record.TellAt("normal", "points into the object", "turn the normal and d around",
-                  Severity::kFlaw);
+    record.TellAt("normal", "points into the object", "turn the normal and d around");
   }
   for (std::size_t i = 0; i < corners.size(); ++i) {
     const Vector3d x_o = object.R_go.transpose() * (corners[i] - object.center_g);
     if (((x_o.cwiseAbs() - object.size_m / 2).array() <= kInBox_m).all()) continue;
     record.TellAt(fmt::format("vertices/{}", i), "is outside the box of the object",
                   "mend the corner, or the object's center, size (full lengths) or q_xyzw",
-                  Severity::kFlaw);
+                  Severity::kWarning);
     return;
   }
 }

@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdlib>
+#include <utility>
 
 namespace eval {
 
@@ -11,6 +13,30 @@ std::string Describe(const Fault& fault) {
   if (fault.line > 0) where += fmt::format(":{}", fault.line);
   if (!fault.pointer.empty()) where += " " + fault.pointer;
   return fmt::format("{}: {}; {}", where, fault.what, fault.mend);
+}
+
+std::vector<std::string> Summaries(const std::vector<Fault>& faults,
+                                   const std::filesystem::path& place) {
+  // What is there differs from line to line; how it is mended tells the kind.
+  std::vector<std::pair<const Fault*, int>> kinds;
+  for (const Fault& fault : faults) {
+    const auto kind = std::find_if(kinds.begin(), kinds.end(), [&](const auto& other) {
+      return other.first->file == fault.file && other.first->mend == fault.mend;
+    });
+    if (kind == kinds.end()) {
+      kinds.emplace_back(&fault, 0);
+    } else {
+      ++kind->second;
+    }
+  }
+  std::vector<std::string> lines;
+  for (const auto& [first, more] : kinds) {
+    Fault placed = *first;
+    placed.file = (place / placed.file).string();
+    lines.push_back(Describe(placed));
+    if (more > 0) lines.back() += fmt::format(" (and {} more like it)", more);
+  }
+  return lines;
 }
 
 bool Folder::Has(const std::string& file) const {
@@ -30,7 +56,7 @@ std::filesystem::path Folder::Open(const std::string& file) {
 }
 
 void Folder::Tell(Fault fault, Severity severity) {
-  if (on_fault_ == OnFault::kCollect) {
+  if (on_fault_ == OnFault::kCollect || severity == Severity::kWarning) {
     faults_.push_back(std::move(fault));
   } else if (severity == Severity::kFatal) {
     fault.file = (root_ / fault.file).string();

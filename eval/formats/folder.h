@@ -24,17 +24,25 @@ struct Fault {
 /// "rgb.txt:12: what; mend", with the JSON pointer behind the line where there is one.
 std::string Describe(const Fault& fault);
 
-/// Whether a value can be read in spite of a fault.
+/// What a fault does to figures and pictures that rest on the file. docs/faults.md lists which
+/// fault is which.
 enum class Severity {
-  kFatal,  ///< no: nothing sensible can be done with the file
-  kFlaw,   ///< yes: the format asks for something else, but only a check tells so
+  kFatal,    ///< they would be wrong, or there are none
+  kWarning,  ///< they can be made, but who looks at them should know
+  kFlaw,     ///< nothing: the format asks for something else, and only a check tells so
 };
 
 /// What becomes of faults.
 enum class OnFault {
-  kThrow,   ///< the first fatal one is thrown as an InputError, flaws are passed over
+  kThrow,  ///< the first fatal one is thrown as an InputError, warnings are kept, flaws are not
   kCollect  ///< all are kept; a reader leaves out what is at fault, and goes on
 };
+
+/// A line for each kind of fault, the first of the kind standing for the rest:
+/// "RUN/frame_planes.jsonl:12 /planes/3/d: is -1; turn it around (and 11 more like it)".
+/// @param place  goes before the file
+std::vector<std::string> Summaries(const std::vector<Fault>& faults,
+                                   const std::filesystem::path& place);
 
 /// A folder that is read, and what is wrong in it.
 class Folder {
@@ -70,7 +78,7 @@ class Folder {
   /// Notes that a file was opened. @returns its path
   std::filesystem::path Open(const std::string& file);
 
-  std::vector<Fault>& faults() { return faults_; }
+  std::vector<Fault>& faults() { return faults_; }  ///< those that are kept
   const std::set<std::string>& opened() const { return opened_; }
 
  private:

@@ -48,14 +48,14 @@ void ReadGeometry(const JsonRecord& record, RunFramePlane& plane) {
   if (pi_c && !(pi_c->d > 0)) {
     record.TellAt("d", fmt::format("is {}; a plane that the camera sees has d > 0", pi_c->d),
                   "turn the normal and d around, so that the normal faces the camera",
-                  Severity::kFlaw);
+                  Severity::kWarning);
     pi_c.reset();
   }
   if (const auto centroid_c = record.Vector3("centroid")) {
     plane.centroid_c = *centroid_c;
     if (!(centroid_c->z() > 0)) {
       record.TellAt("centroid", "is behind the camera", "write it in the camera frame, z ahead",
-                    Severity::kFlaw);
+                    Severity::kWarning);
     }
   }
   plane.lines_c = ReadLines(record);
@@ -73,7 +73,7 @@ RunFramePlane ReadFramePlane(const JsonRecord& record) {
   plane.detection = optional.Integer("detection", 0);
   plane.bad =
       ReadWord(record.Contains("bad") ? optional : record.Expected(), "bad",
-               {"far", "inliers", "border", "structure", "unstructured"}, Severity::kFlaw);
+               {"far", "inliers", "border", "structure", "unstructured"}, Severity::kWarning);
   if (!record.Contains("map_plane")) {
     record.TellAt("map_plane", "is missing; expected an id or null", "tell the decision");
   }
@@ -93,7 +93,7 @@ RunFrame ReadFrame(const JsonRecord& root) {
     const int index = frame.planes.back().index;
     if (index < 0 || indices.insert(index).second) continue;
     record.TellAt("index", fmt::format("{} is used a second time", index),
-                  "give every plane of a frame its own index", Severity::kFlaw);
+                  "give every plane of a frame its own index");
   }
   return frame;
 }
@@ -113,6 +113,9 @@ std::vector<RunFrame> ReadRunFrames(Folder& folder) {
     frames.push_back(std::move(frame));
   });
   order.Finish();
+  if (frames.empty()) {
+    folder.Tell(file, 0, "holds no frame", "write a line for each frame, or remove the file");
+  }
   std::stable_sort(frames.begin(), frames.end(),
                    [](const RunFrame& a, const RunFrame& b) { return a.stamp_s < b.stamp_s; });
   return frames;

@@ -34,8 +34,7 @@ struct RunFrame {
   int line = 0;                       ///< in the file; 0 when it comes from none
 };
 
-/// Reads frame_planes.jsonl, by rising stamp. Planes that turn their back to the camera, points
-/// off their plane and unknown reasons are flaws.
+/// Reads frame_planes.jsonl, by rising stamp.
 std::vector<RunFrame> ReadRunFrames(Folder& folder);
 
 }  // namespace eval

@@ -88,18 +88,10 @@ std::map<int, PixelSet> PixelsOfIds(const cv::Mat1w& ids) {
   return pixels;
 }
 
-cv::Mat1w ReadLabels(const std::filesystem::path& file) {
+cv::Mat1w ReadLabels(const std::filesystem::path& file, const ImageKind& kind) {
   Folder folder(file.parent_path());
-  const std::string name = file.filename().string();
-  const cv::Mat image = Decode(folder, name);
-  if (image.channels() != 1 || (image.depth() != CV_8U && image.depth() != CV_16U)) {
-    folder.Tell(name, 0,
-                "is " + TypeName(image.depth(), image.channels()) +
-                    "; expected one channel of 8 or 16 bits",
-                "convert the image");
-  }
   cv::Mat1w labels;
-  image.convertTo(labels, CV_16U);
+  ReadImage(folder, file.filename().string(), kind).convertTo(labels, CV_16U);
   return labels;
 }
 

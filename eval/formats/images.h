@@ -30,7 +30,8 @@ struct PixelSet {
 /// The pixels of every id in an image of ids (CV_16U) but 0, which is none.
 std::map<int, PixelSet> PixelsOfIds(const cv::Mat1w& ids);
 
-/// A PNG of one channel and 8 or 16 bits, widened to 16. @throws InputError
-cv::Mat1w ReadLabels(const std::filesystem::path& file);
+/// An image of labels or depths, of this kind and no other, widened to 16 bits.
+/// @throws InputError
+cv::Mat1w ReadLabels(const std::filesystem::path& file, const ImageKind& kind);
 
 }  // namespace eval

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "eval/formats/pose.h"
 #include "io/json_field.h"
 #include "io/read_file.h"
 
@@ -167,7 +168,10 @@ std::optional<std::vector<double>> JsonRecord::Numbers(const std::string& key,
 std::optional<Eigen::Vector3d> JsonRecord::AsVector3() const {
   const auto xyz = AsNumbers(3);
   if (!xyz) return std::nullopt;
-  return Eigen::Vector3d((*xyz)[0], (*xyz)[1], (*xyz)[2]);
+  const Eigen::Vector3d v((*xyz)[0], (*xyz)[1], (*xyz)[2]);
+  if (v.cwiseAbs().maxCoeff() <= kMaxCoordinate_m) return v;
+  TellExpected(fmt::format("coordinates of at most {:g} m", kMaxCoordinate_m));
+  return std::nullopt;
 }
 
 std::optional<Eigen::Vector3d> JsonRecord::Vector3(const std::string& key) const {

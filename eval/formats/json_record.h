@@ -48,6 +48,7 @@ class JsonRecord {
   /// Exactly `count` finite numbers; those of this value itself.
   std::optional<std::vector<double>> Numbers(const std::string& key, std::size_t count) const;
   std::optional<std::vector<double>> AsNumbers(std::size_t count) const;
+  /// Three numbers, none of them beyond kMaxCoordinate_m.
   std::optional<Eigen::Vector3d> Vector3(const std::string& key) const;
   std::optional<Eigen::Vector3d> AsVector3() const;
   /// Vectors of a list; none when one of them is at fault.

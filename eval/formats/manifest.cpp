@@ -1,5 +1,7 @@
 #include "eval/formats/manifest.h"
 
+#include <fmt/format.h>
+
 #include "eval/formats/json_record.h"
 
 namespace eval {
@@ -53,14 +55,15 @@ Manifest Read(const JsonRecord& root) {
   manifest.synthetic = format == kFormat;
   if (format && !manifest.synthetic) {
     root.TellAt("format", "is " + *format + "; expected " + kFormat,
-                "convert the sequence to this version of the format", Severity::kFlaw);
+                "convert the sequence to this version of the format", Severity::kWarning);
   }
   expected.Text("generator");
   expected.Text("version");
   expected.Whole("seed");
-  if (expected.Flag("complete") == false) {
+  manifest.complete = expected.Flag("complete").value_or(true);
+  if (!manifest.complete) {
     root.TellAt("complete", "is false: the sequence was not finished",
-                "resume or make the sequence again", Severity::kFlaw);
+                "resume or make the sequence again", Severity::kWarning);
   }
   manifest.frame_count_key = root.Contains("frame_count") ? "frame_count" : "frames";
   manifest.frame_count = expected.Integer(manifest.frame_count_key);
@@ -70,6 +73,14 @@ Manifest Read(const JsonRecord& root) {
 }
 
 }  // namespace
+
+void TellFrameCount(Folder& folder, const Manifest& manifest, std::size_t frames) {
+  if (!manifest.frame_count || *manifest.frame_count == static_cast<int>(frames)) return;
+  folder.Tell(
+      {"manifest.json", 0, "/" + manifest.frame_count_key,
+       fmt::format("is {}, but rgb.txt lists {}", *manifest.frame_count, frames), kMakeAgain},
+      Severity::kWarning);
+}
 
 Manifest ReadManifest(Folder& folder) {
   const std::string file = "manifest.json";

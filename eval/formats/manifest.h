@@ -11,14 +11,17 @@ namespace eval {
 /// manifest.json: who made the sequence, and of what files it consists.
 struct Manifest {
   bool synthetic = false;          ///< a simulator wrote it: format "pas-sequence/1"
+  bool complete = true;            ///< false: it says that it was not finished
   std::string sensor;              ///< empty when it does not tell
   std::optional<int> frame_count;  ///< colour images
   std::string frame_count_key;     ///< the key it stands under
   std::optional<std::map<std::string, std::string>> sha256;  ///< by file
 };
 
-/// Reads manifest.json; all that is wrong with it but its syntax is a flaw. Without the file
-/// nothing is told in the manifest.
+/// Reads manifest.json. Without the file nothing is told in the manifest.
 Manifest ReadManifest(Folder& folder);
+
+/// Tells a frame count that is not that of the lists.
+void TellFrameCount(Folder& folder, const Manifest& manifest, std::size_t frames);
 
 }  // namespace eval

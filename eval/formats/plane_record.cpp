@@ -11,11 +11,13 @@ namespace {
 // sigma). What is beyond is in another frame or belongs to another plane.
 constexpr double kOffRunPlane_m = 0.10;
 
+const io::Interval kOffsets(fmt::format("[{0:g}, {1:g}]", -kMaxCoordinate_m, kMaxCoordinate_m));
+
 }  // namespace
 
 std::optional<Plane> ReadPlane(const JsonRecord& record, double unit_tolerance) {
   const auto n = record.Vector3("normal");
-  const auto d = record.Number("d");
+  const auto d = record.Number("d", kOffsets);
   if (!n || !d) return std::nullopt;
   if (!(std::abs(n->norm() - 1) <= unit_tolerance)) {
     record.TellAt("normal",
@@ -34,7 +36,7 @@ std::vector<Eigen::Vector3d> ReadPointsOnPlane(const JsonRecord& record, const s
     if (std::abs(off_m) <= kOffRunPlane_m) continue;
     record.TellAt(fmt::format("{}/{}", key, i),
                   fmt::format("is {:.3f} m off its plane n . x + d = 0", off_m),
-                  "write points and plane in one frame, n . x + d = 0", Severity::kFlaw);
+                  "write points and plane in one frame, n . x + d = 0", Severity::kWarning);
   }
   return points;
 }

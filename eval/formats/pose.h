@@ -5,6 +5,10 @@
 
 namespace eval {
 
+/// Coordinates in files are nearer than this. Map projections (UTM) and earth-centred coordinates
+/// are below 1e7 m, where a double still resolves 2e-9 m; 1e200 overflows when it is squared.
+inline constexpr double kMaxCoordinate_m = 1e7;
+
 /// Rigid motion T_ab: takes coordinates in b to coordinates in a, x_a = R x_b + t.
 ///
 /// Frames of the evaluation: g world of the truth, w world of the run, c camera.

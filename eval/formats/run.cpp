@@ -2,32 +2,16 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
+#include <system_error>
 
 #include "eval/formats/images.h"
+#include "eval/formats/run_agreement.h"
 #include "eval/formats/trajectory.h"
 
 namespace eval {
 namespace {
 
 namespace fs = std::filesystem;
-
-void SortPoses(Trajectory& trajectory) {
-  std::stable_sort(
-      trajectory.begin(), trajectory.end(),
-      [](const StampedPose& a, const StampedPose& b) { return a.stamp_s < b.stamp_s; });
-}
-
-void TellTwoPosesOfAFrame(Folder& folder, const std::string& file,
-                          const Trajectory& trajectory) {
-  for (std::size_t i = 1; i < trajectory.size(); ++i) {
-    const double stamp_s = trajectory[i].stamp_s;
-    if (stamp_s > trajectory[i - 1].stamp_s + kSameStamp_s) continue;
-    folder.Tell(file, trajectory[i].line,
-                fmt::format("two poses for the frame at {:.6f} s", stamp_s),
-                "write one line per tracked frame");
-  }
-}
 
 }  // namespace
 
@@ -40,9 +24,7 @@ Run ReadRun(Folder& folder) {
   run.folder = folder.root();
   run.info = ReadRunInfo(folder);
   if (folder.Require(poses, kRunAgain)) {
-    run.trajectory = ReadTrajectory(folder, poses);
-    SortPoses(run.trajectory);
-    TellTwoPosesOfAFrame(folder, poses, run.trajectory);
+    run.trajectory = ReadTrajectory(folder, poses, Severity::kFatal);
   }
   if (expects(keyframes.c_str())) run.keyframes = ReadTrajectory(folder, keyframes);
   if (expects("map.json")) {
@@ -54,31 +36,42 @@ Run ReadRun(Folder& folder) {
   if (run.has_planes) run.frames = ReadRunFrames(folder);
   if (expects("timing.csv")) run.timing = ReadTiming(folder);
   run.segmentation_files = StampedFiles(folder.root() / "segmentation");
+  TellRunDisagreements(folder, run);
   return run;
 }
 
 Run ReadRun(const fs::path& path) {
   if (!fs::is_directory(path)) throw io::InputError(path.string(), "there is no such folder");
   Folder folder(path);
-  return ReadRun(folder);
+  Run run = ReadRun(folder);
+  run.warnings = std::move(folder.faults());
+  return run;
 }
 
 fs::path SequenceOf(const Run& run) {
   const fs::path written = run.info.sequence;
-  const fs::path beside = run.folder / written;
-  for (const fs::path& candidate : {written, beside}) {
+  const fs::path here = fs::absolute(run.folder).lexically_normal() / "";
+  const fs::path above = here.parent_path().parent_path();
+  std::vector<fs::path> places;
+  if (!written.empty()) places = {here / written, above / written, written};
+  if (!run.info.sequence_absolute.empty()) places.emplace_back(run.info.sequence_absolute);
+  std::string tried;
+  for (const fs::path& place : places) {
     std::error_code ignored;
-    if (!written.empty() && fs::is_directory(candidate, ignored)) return candidate;
+    if (fs::is_directory(place, ignored)) return fs::canonical(place);
+    if (tried.find(fmt::format("\"{}\"", place.string())) != std::string::npos) continue;
+    tried += (tried.empty() ? "\"" : ", \"") + place.string() + "\"";
   }
-  throw io::InputError((run.folder / "run.json").string(),
-                       "sequence: found no folder \"" + written.string() + "\" nor \"" +
-                           beside.string() + "\"; name it with --truth");
+  throw io::InputError(
+      (run.folder / "run.json").string(),
+      "sequence: " + (tried.empty() ? "is empty" : "found no folder " + tried) +
+          "; name it with --truth");
 }
 
 std::optional<cv::Mat1w> ReadSegmentation(const Run& run, double stamp_s) {
   const auto file = run.segmentation_files.Find(stamp_s);
   if (!file) return std::nullopt;
-  return ReadLabels(*file);
+  return ReadLabels(*file, {CV_8U, 1, {}});
 }
 
 }  // namespace eval

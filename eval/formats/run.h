@@ -23,6 +23,7 @@ struct Run {
   bool has_map = false;          ///< there is a map.json with a list of planes
   std::optional<Timing> timing;
   StampedFiles segmentation_files;  ///< index of the frame plane + 1, 0 = none
+  std::vector<Fault> warnings;      ///< faults that figures and pictures can live with
 };
 
 /// Reads the folder. run.json and trajectory.txt are required; that one of the rest is missing
@@ -31,8 +32,9 @@ Run ReadRun(Folder& folder);
 /// @throws InputError naming the file and line, or the required file that is missing.
 Run ReadRun(const std::filesystem::path& folder);
 
-/// The sequence that run.json names: the path as it stands, else relative to the run folder.
-/// @throws InputError naming both places if neither is a folder.
+/// The sequence that run.json names: relative to the run folder, to the folder above, to the
+/// caller, else where it was when the run was made.
+/// @throws InputError naming all these places if none is a folder.
 std::filesystem::path SequenceOf(const Run& run);
 
 /// The segmentation of the frame, if the run saved it.

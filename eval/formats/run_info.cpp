@@ -37,6 +37,7 @@ RunInfo ReadInfo(const JsonRecord& root) {
   const JsonRecord expected = root.Expected();
   RunInfo info;
   info.sequence = OptionalText(root, "sequence");
+  info.sequence_absolute = OptionalText(root.Optional(), "sequence_absolute");
   info.variant = OptionalText(expected, "variant");
   OptionalText(expected, "association");
   info.detector = OptionalText(expected, "detector");
@@ -52,8 +53,11 @@ RunInfo ReadInfo(const JsonRecord& root) {
   expected.Integer("lost", 0);
   if (info.frames && info.tracked && !(*info.tracked >= 0 && *info.tracked <= *info.frames)) {
     root.TellAt("tracked", fmt::format("is {} of {} frames", *info.tracked, *info.frames),
-                kRunAgain, Severity::kFlaw);
+                kRunAgain, Severity::kWarning);
   }
+  const JsonRecord optional = root.Optional();
+  info.interrupted = optional.Flag("interrupted").value_or(false);
+  info.sequence_frames = optional.Integer("sequence_frames", 0);
   info.wall_time_s = Figure(root, "wall", "the wall time", {"wall_time_s", "wall_s"});
   info.peak_memory_mb = Figure(root, "peak", "the peak memory",
                                {"peak_memory_mb", "peak_rss_mb", "peak_memory_mib"});

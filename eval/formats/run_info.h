@@ -9,10 +9,13 @@ namespace eval {
 
 /// run.json: what was run on what.
 struct RunInfo {
-  std::string sequence;  ///< as written: absolute, or relative to the caller or to the run
-  std::string camera;    ///< a name or a file; empty when the run does not tell
+  std::string sequence;           ///< as written: relative to the run, or absolute
+  std::string sequence_absolute;  ///< where it was when the run was made; may be empty
+  std::string camera;             ///< a name or a file; empty when the run does not tell
   std::string variant, detector, version;
   std::optional<int> frames, tracked;
+  bool interrupted = false;            ///< it ended before the sequence did
+  std::optional<int> sequence_frames;  ///< of the whole sequence, when the run tells
   std::optional<double> wall_time_s, peak_memory_mb;
 };
 

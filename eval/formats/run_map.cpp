@@ -71,12 +71,12 @@ class MapReader {
     const auto target = merged_into_.find(id);
     if (target == merged_into_.end()) return;
     if (records_.count(target->second) == 0) {
-      record.TellAt(
-          "merged_into", fmt::format("is {}, which is no plane of the map", target->second),
-          "name the plane that took this one in, and keep it in the map", Severity::kFlaw);
+      record.TellAt("merged_into",
+                    fmt::format("is {}, which is no plane of the map", target->second),
+                    "name the plane that took this one in, and keep it in the map");
     } else if (MergesIntoItself(id, merged_into_)) {
       record.TellAt("merged_into", "leads back to the plane itself",
-                    "merge into a plane that is left", Severity::kFlaw);
+                    "merge into a plane that is left");
     }
   }
 

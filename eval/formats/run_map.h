@@ -22,8 +22,7 @@ struct RunMapPlane {
   std::vector<Eigen::Vector3d> hull_w;
 };
 
-/// Reads map.json, by rising id. Points off their plane and merges that lead nowhere are flaws.
-/// Nothing is returned when there is no list of planes.
+/// Reads map.json, by rising id. Nothing is returned when there is no list of planes.
 std::optional<std::vector<RunMapPlane>> ReadRunMap(Folder& folder);
 
 }  // namespace eval

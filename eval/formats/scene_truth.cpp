@@ -68,7 +68,7 @@ void ReadObjectBox(const JsonRecord& record, TruthObject& object) {
   const auto R = ReadRotation(record);
   if (size && !(size->minCoeff() > 0)) {
     record.TellAt("size", "has a length that is not positive", "give full lengths in metres",
-                  Severity::kFlaw);
+                  Severity::kWarning);
   }
   object.size_m.setConstant(std::numeric_limits<double>::infinity());
   if (!center || !size || !R) return;
@@ -94,7 +94,7 @@ std::vector<std::vector<Eigen::Vector3d>> ReadHoles(const JsonRecord& plane) {
   for (const JsonRecord& hole : plane.Optional().Items("holes")) {
     holes.push_back(hole.AsPoints());
     if (holes.back().size() >= 3) continue;
-    hole.Tell("has not 3 corners", "give the outline of each hole", Severity::kFlaw);
+    hole.Tell("has not 3 corners", "give the outline of each hole", Severity::kWarning);
     return {};
   }
   return holes;
@@ -149,6 +149,11 @@ SceneTruth ReadSceneTruth(Folder& folder) {
       }
     }
     SortById(scene.planes);
+    if (std::none_of(scene.planes.begin(), scene.planes.end(),
+                     [](const TruthPlane& plane) { return plane.scored; })) {
+      root.TellAt("planes", "holds no plane of a structure or regular object",
+                  "expect every plane of a run to count as noise", Severity::kWarning);
+    }
   });
   return scene;
 }

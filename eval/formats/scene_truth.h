@@ -48,8 +48,7 @@ struct SceneTruth {
   const TruthObject* FindObject(int id) const;  ///< null if there is none
 };
 
-/// Reads gt/scene.json. Faces that are no rectangle (of a mesh: no outline that turns left), or
-/// lie off their plane or outside their object's box, and wrong areas are flaws.
+/// Reads gt/scene.json and looks whether each face can be one (face_shape.h).
 SceneTruth ReadSceneTruth(Folder& folder);
 
 }  // namespace eval

@@ -1,56 +1,56 @@
 #include "eval/formats/sequence.h"
 
-#include <algorithm>
+#include <string>
 
 #include "eval/formats/manifest.h"
+#include "eval/formats/sequence_agreement.h"
 #include "eval/formats/trajectory.h"
 
 namespace eval {
-namespace {
-
 namespace fs = std::filesystem;
-
-std::vector<SequenceFrame> ReadFrames(Folder& folder) {
-  if (!folder.Has("associations.txt")) {
-    const std::vector<ListedImage> depth = ReadImageList(folder, "depth.txt");
-    return AssociateByTime(ReadImageList(folder, "rgb.txt"), depth);
-  }
-  std::vector<SequenceFrame> frames = ReadAssociations(folder);
-  std::stable_sort(
-      frames.begin(), frames.end(),
-      [](const SequenceFrame& a, const SequenceFrame& b) { return a.stamp_s < b.stamp_s; });
-  return frames;
-}
-
-}  // namespace
 
 Sequence ReadSequence(const fs::path& path) {
   if (!fs::is_directory(path)) throw io::InputError(path.string(), "there is no such folder");
   Folder folder(path);
   Sequence sequence;
   sequence.folder = path;
-  sequence.synthetic = ReadManifest(folder).synthetic;
+  const Manifest manifest = ReadManifest(folder);
+  sequence.synthetic = manifest.synthetic;
+  sequence.complete = manifest.complete;
   sequence.frames = ReadFrames(folder);
+  TellFrameCount(folder, manifest, sequence.frames.size());
   if (folder.Has("camera.yaml")) sequence.camera = ReadCamera(folder);
-  if (folder.Has("groundtruth.txt")) {
-    sequence.groundtruth = ReadTrajectory(folder, "groundtruth.txt");
-  }
+  if (folder.Has("groundtruth.txt")) sequence.groundtruth = ReadGroundtruth(folder);
   if (folder.Has("gt/scene.json")) sequence.scene = ReadSceneTruth(folder);
   if (folder.Has("gt/frames.jsonl")) sequence.frame_truth = ReadFrameTruth(folder);
+  TellSequenceDisagreements(folder, sequence);
   sequence.plane_id_files = StampedFiles(path / "gt/plane_id");
   sequence.object_id_files = StampedFiles(path / "gt/object_id");
+  sequence.warnings = std::move(folder.faults());
   return sequence;
 }
 
 std::optional<cv::Mat1w> ReadPlaneIds(const Sequence& sequence, double stamp_s) {
   const auto file = sequence.plane_id_files.Find(stamp_s);
   if (!file) return std::nullopt;
-  cv::Mat1w ids = ReadLabels(*file);
-  if (sequence.scored_as.empty()) return ids;
-  ids.forEach([&](std::uint16_t& id, const int*) {
-    const auto found = sequence.scored_as.find(id);
-    if (found != sequence.scored_as.end()) id = static_cast<std::uint16_t>(found->second);
-  });
+  const cv::Size size =
+      sequence.camera ? cv::Size(sequence.camera->width, sequence.camera->height) : cv::Size();
+  cv::Mat1w ids = ReadLabels(*file, {CV_16U, 1, size});
+  // Neighbours mostly repeat: each id is looked up where it begins.
+  int last = 0, scored_as = 0;
+  for (std::uint16_t& id : ids) {
+    if (id != last) {
+      last = id;
+      const auto found = sequence.scored_as.find(id);
+      scored_as = found == sequence.scored_as.end() ? id : found->second;
+      if (id != 0 && sequence.scene && sequence.scene->FindPlane(scored_as) == nullptr) {
+        throw io::InputError(file->string(), "shows plane " + std::to_string(id) +
+                                                 ", which is not in gt/scene.json; write image "
+                                                 "and scene from the same truth");
+      }
+    }
+    id = static_cast<std::uint16_t>(scored_as);
+  }
   return ids;
 }
 

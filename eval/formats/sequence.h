@@ -30,13 +30,16 @@ struct Sequence {
   /// A simulator wrote it: manifest.json says "pas-sequence/1". Stamps of truth and frames are
   /// then equal, not merely near.
   bool synthetic = false;
+  bool complete = true;         ///< false: manifest.json says that it was not finished
+  std::vector<Fault> warnings;  ///< faults that figures and pictures can live with
 };
 
-/// Reads the folder; images are not opened.
+/// Reads the folder. Images are not opened: colour and depth need not be there.
 /// @throws InputError naming the file and line, or the required file that is missing.
 Sequence ReadSequence(const std::filesystem::path& folder);
 
 /// Ids of the true planes that the frame shows, if the sequence has them; 0 = none.
+/// @throws InputError for an image of another kind, and for an id that gt/scene.json does not have
 std::optional<cv::Mat1w> ReadPlaneIds(const Sequence& sequence, double stamp_s);
 
 }  // namespace eval

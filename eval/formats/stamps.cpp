@@ -37,14 +37,18 @@ std::optional<std::size_t> NearestStamp(const std::vector<double>& stamps_s, dou
 }
 
 void StampOrder::Next(double stamp_s, int line) {
-  if (!stamps_s_.empty() && !(stamp_s > stamps_s_.back())) {
-    folder_.Tell(
-        file_, line,
-        fmt::format("time stamp {:.6f} does not follow {:.6f}; stamps must increase strictly",
-                    stamp_s, stamps_s_.back()),
-        "sort the records by time and drop duplicates", Severity::kFlaw);
+  const auto from = seen_s_.lower_bound(stamp_s - kSameStamp_s);
+  const bool repeats = from != seen_s_.end() && *from <= stamp_s + kSameStamp_s;
+  if (repeats || (!stamps_s_.empty() && !(stamp_s > stamps_s_.back()))) {
+    folder_.Tell(file_, line,
+                 fmt::format("time stamp {:.6f} {}; stamps must increase strictly", stamp_s,
+                             repeats ? "comes a second time"
+                                     : fmt::format("does not follow {:.6f}", stamps_s_.back())),
+                 repeats ? "keep one record of each time" : "sort the records by time",
+                 repeats ? repetition_ : disorder_);
   }
   stamps_s_.push_back(stamp_s);
+  seen_s_.insert(stamp_s);
 }
 
 void StampOrder::Finish() {
@@ -58,8 +62,7 @@ void StampOrder::Finish() {
   const bool slow = gaps.size() >= 2 && gaps[gaps.size() / 2] > kMaxMedianGap_s;
   if (!(latest > kMaxStamp_s) && !slow) return;
   folder_.Tell(file_, 0, fmt::format("time stamps like {:.0f} are not seconds", latest),
-               "write stamps in seconds (divide nanoseconds by 1e9, milliseconds by 1e3)",
-               Severity::kFlaw);
+               "write stamps in seconds (divide nanoseconds by 1e9, milliseconds by 1e3)");
 }
 
 }  // namespace eval

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -33,11 +34,14 @@ std::vector<double> StampsOf(const Records& records) {
   return stamps_s;
 }
 
-/// Follows the time stamps of a file: that they are not in seconds or do not increase strictly
-/// is a flaw.
+/// Follows the time stamps of a file, which should be seconds and increase strictly.
 class StampOrder {
  public:
-  StampOrder(Folder& folder, std::string file) : folder_(folder), file_(std::move(file)) {}
+  /// @param disorder    what a stamp that goes back does; readers sort
+  /// @param repetition  what a stamp that comes again does: which of the two holds?
+  StampOrder(Folder& folder, std::string file, Severity disorder = Severity::kWarning,
+             Severity repetition = Severity::kFatal)
+      : folder_(folder), file_(std::move(file)), disorder_(disorder), repetition_(repetition) {}
   /// @param line   0 when the file has no lines of its own
   void Next(double stamp_s, int line);
   /// Tells stamps that cannot be seconds, once for the file.
@@ -46,7 +50,9 @@ class StampOrder {
  private:
   Folder& folder_;
   std::string file_;
+  Severity disorder_, repetition_;
   std::vector<double> stamps_s_;
+  std::set<double> seen_s_;
 };
 
 }  // namespace eval

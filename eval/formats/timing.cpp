@@ -61,7 +61,7 @@ Timing ReadTiming(Folder& folder, const std::string& file) {
   const std::vector<std::string>& columns = records.front().fields;
   CheckHeader(folder, file, records.front());
   timing.modules.assign(columns.begin() + 1, columns.end());
-  StampOrder order(folder, file);
+  StampOrder order(folder, file, Severity::kWarning, Severity::kWarning);
   for (auto record = records.begin() + 1; record != records.end(); ++record) {
     const auto row = ReadRow(folder, file, *record, columns);
     if (!row) continue;

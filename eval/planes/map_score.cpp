@@ -122,8 +122,8 @@ std::optional<double> AreaExplained(
 }  // namespace
 
 MapScore ScoreMap(const std::vector<RunMapPlane>& map, const SceneTruth& scene,
-                  const Alignment& gauge, const std::vector<AssociationRecord>& records,
-                  const std::set<int>& seen) {
+                  const std::optional<Alignment>& gauge,
+                  const std::vector<AssociationRecord>& records, const std::set<int>& seen) {
   Counts counts;
   for (const AssociationRecord& r : records) ++counts[FinalId(map, r.map_plane)][r.truth];
   MapScore score;
@@ -150,13 +150,13 @@ MapScore ScoreMap(const std::vector<RunMapPlane>& map, const SceneTruth& scene,
     score.duplicates += static_cast<int>(planes.size()) - 1;
     if (seen.count(truth) == 0) continue;
     ++score.matched;
-    errors.Add(*planes.front(), *scene.FindPlane(truth), gauge);
+    if (gauge) errors.Add(*planes.front(), *scene.FindPlane(truth), *gauge);
   }
   score.normal_deg = SpreadOf(errors.normal_deg);
   score.offset_mm = SpreadOf(errors.offset_mm);
   score.vertex_mm = SpreadOf(errors.vertex_mm);
   if (!errors.iou.empty()) score.polygon_iou_median = Quantile(errors.iou, 0.5);
-  score.area_explained = AreaExplained(planes_of, scene, gauge, seen);
+  if (gauge) score.area_explained = AreaExplained(planes_of, scene, *gauge, seen);
   return score;
 }
 

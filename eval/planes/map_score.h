@@ -30,11 +30,12 @@ struct MapScore {
                                          ///< hulls of their map planes cover
 };
 
-/// @param gauge    world of the run to world of the truth, the trajectory's
+/// @param gauge    world of the run to world of the truth, the trajectory's; without one there are
+///                 counts and no geometry
 /// @param records  decisions, with the map ids of their time
 /// @param seen     ids of true planes that counted in a frame
 MapScore ScoreMap(const std::vector<RunMapPlane>& map, const SceneTruth& scene,
-                  const Alignment& gauge, const std::vector<AssociationRecord>& records,
-                  const std::set<int>& seen);
+                  const std::optional<Alignment>& gauge,
+                  const std::vector<AssociationRecord>& records, const std::set<int>& seen);
 
 }  // namespace eval

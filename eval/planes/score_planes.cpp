@@ -71,8 +71,8 @@ class PlaneScorer {
     score_.clear = ScoreClear(tracking_);
     score_.identity = ScoreIdentity(tracking_);
     score_.hota = ScoreHota(tracking_);
-    if (run.has_map && trajectory.gauge) {
-      score_.map = ScoreMap(run.map, scene, *trajectory.gauge, records_, seen_);
+    if (run.has_map) {
+      score_.map = ScoreMap(run.map, scene, trajectory.gauge, records_, seen_);
     }
     if (region_frames_ > 0) FinishRegions();
     return score_;
@@ -204,6 +204,23 @@ class PlaneScorer {
   std::set<int> seen_;
 };
 
+/// A label without a plane would be pixels that nobody answers for.
+void RequireKnownLabels(const Run& run, const FrameEvidence& e) {
+  std::set<int> known{0};
+  for (const RunFramePlane& plane : e.planes) known.insert(plane.index + 1);
+  int last = 0;
+  for (const std::uint16_t label : *e.segmentation) {
+    if (label == last || known.count(label) > 0) {
+      last = label;
+      continue;
+    }
+    throw io::InputError(
+        run.segmentation_files.Find(e.truth.stamp_s)->string(),
+        "shows the value " + std::to_string(label) + ", but the frame has no plane of index " +
+            std::to_string(label - 1) + "; write index + 1 of the plane, 0 for none");
+  }
+}
+
 void DecideTruth(const Run& run, bool by_pixels, FrameEvidence& e) {
   if (!by_pixels || !e.truth.plane_ids) {
     for (const RunFramePlane& plane : e.planes) {
@@ -226,6 +243,7 @@ void DecideTruth(const Run& run, bool by_pixels, FrameEvidence& e) {
         "the image at " + std::to_string(e.truth.stamp_s) +
             " s differs in size from the truth's; is this the right sequence?");
   }
+  RequireKnownLabels(run, e);
   e.truth_of = TruthByPixels(e.truth, *e.segmentation);
 }
 

@@ -34,7 +34,7 @@ struct PlaneScore {
   ClearScore clear;
   IdentityScore identity;
   HotaScore hota;
-  std::optional<MapScore> map;  ///< empty without map.json or without a gauge
+  std::optional<MapScore> map;  ///< empty without map.json
 };
 
 /// Scores the planes of a run. Every frame of the sequence with a true pose counts; one that

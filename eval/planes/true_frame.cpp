@@ -105,6 +105,11 @@ TrueFrame ReadTrueFrame(const Sequence& sequence, double stamp_s, const Pose& T_
         "has neither plane_id/ images nor frames.jsonl; one of them must say which "
         "planes a frame shows");
   }
+  if (!frame.plane_ids && !sequence.plane_id_files.empty()) {
+    throw io::InputError((sequence.folder / "gt/plane_id").string(),
+                         "has no image of the frame at " + std::to_string(stamp_s) +
+                             " s; write the id image of every frame");
+  }
   const auto patches =
       frame.plane_ids ? PatchesOf(*frame.plane_ids) : PatchesOf(sequence, stamp_s);
   const double min_pixels = kMinPixels * camera.width * camera.height / kReferenceArea_px;

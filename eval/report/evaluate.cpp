@@ -1,6 +1,9 @@
 #include "eval/report/evaluate.h"
 
+#include <fmt/format.h>
+
 #include <cmath>
+#include <utility>
 
 namespace eval {
 namespace {
@@ -24,16 +27,48 @@ std::optional<TimingScore> ScoreTiming(const Run& run) {
   return score;
 }
 
+/// What is no fault of the run, but has to be known beside its figures.
+std::vector<Fault> Caveats(const Run& run, const Sequence& sequence) {
+  const std::size_t frames = sequence.frames.size();
+  std::vector<Fault> caveats;
+  if (run.info.interrupted) {
+    const std::string given = run.info.frames ? fmt::format("{}", *run.info.frames) : "some";
+    const auto whole = run.info.sequence_frames.value_or(static_cast<int>(frames));
+    caveats.push_back(
+        {"run.json", 0, "/interrupted",
+         fmt::format("the run was interrupted after {} of {} frames", given, whole),
+         "frames after that count as lost"});
+  } else if (run.info.frames && *run.info.frames != static_cast<int>(frames)) {
+    caveats.push_back({"run.json", 0, "/frames",
+                       fmt::format("the run was given {} frames, the sequence has {}",
+                                   *run.info.frames, frames),
+                       "figures are over those of the sequence"});
+  }
+  const auto has_frame = [&, stamps_s = StampsOf(sequence.frames)](const StampedPose& pose) {
+    return NearestStamp(stamps_s, pose.stamp_s, kMaxStampDifference_s).has_value();
+  };
+  for (const StampedPose& pose : run.trajectory) {
+    if (has_frame(pose)) continue;
+    caveats.push_back({"trajectory.txt", pose.line, "",
+                       fmt::format("the pose at {:.6f} s belongs to no frame", pose.stamp_s),
+                       "score a run against the sequence it was made from"});
+  }
+  return caveats;
+}
+
 }  // namespace
 
 Evaluation Evaluate(const Run& run, const Sequence& sequence) {
   Evaluation evaluation;
-  const TrajectoryScore trajectory = ScoreTrajectory(run, sequence);
-  evaluation.frames = trajectory.frames;
-  evaluation.tracked = trajectory.tracked;
-  if (sequence.groundtruth) evaluation.trajectory = trajectory;
-  evaluation.planes = ScorePlanes(run, sequence, trajectory);
+  evaluation.trajectory = ScoreTrajectory(run, sequence);
+  evaluation.planes = ScorePlanes(run, sequence, evaluation.trajectory);
   evaluation.timing = ScoreTiming(run);
+  evaluation.interrupted = run.info.interrupted;
+  evaluation.run_warnings = run.warnings;
+  for (Fault& caveat : Caveats(run, sequence)) {
+    evaluation.run_warnings.push_back(std::move(caveat));
+  }
+  evaluation.sequence_warnings = sequence.warnings;
   return evaluation;
 }
 

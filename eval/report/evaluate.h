@@ -25,10 +25,12 @@ struct TimingScore {
 
 /// All that can be said about a run; a group that cannot be computed is empty.
 struct Evaluation {
-  std::optional<TrajectoryScore> trajectory;  ///< empty without groundtruth.txt
-  std::size_t frames = 0, tracked = 0;
+  TrajectoryScore trajectory;  ///< without groundtruth.txt there are counts and no errors
   std::optional<PlaneScore> planes;
   std::optional<TimingScore> timing;
+  bool interrupted = false;              ///< the run ended before the sequence did
+  std::vector<Fault> run_warnings;       ///< what to know of the run beside its figures
+  std::vector<Fault> sequence_warnings;  ///< and of the sequence
 };
 
 /// Scores a run against a sequence. @throws InputError as the readers and scorers do.

@@ -1,6 +1,8 @@
 #include "eval/report/metrics_json.h"
 
+#include <optional>
 #include <string>
+#include <utility>
 
 namespace eval {
 namespace {
@@ -20,117 +22,199 @@ Json ToJson(const RelativeScore& s) {
       {"trans_rmse_m", s.trans_rmse_m}, {"rot_rmse_deg", s.rot_rmse_deg}, {"pairs", s.pairs}};
 }
 
-Json ToJson(const PrecisionRecall& s) {
-  return {{"precision", s.precision}, {"recall", s.recall}, {"f1", s.f1}};
-}
+/// One group of figures. A figure that is not defined is null, and the reason stands in `reasons`
+/// under "group/figure".
+class Group {
+ public:
+  Group(std::string name, Json& reasons) : name_(std::move(name)), reasons_(reasons) {}
 
-template <typename Value>
-void Put(Json& group, const char* key, const std::optional<Value>& value) {
-  if (value) group[key] = ToJson(*value);
-}
-void Put(Json& group, const char* key, const std::optional<Spread>& spread) {
-  if (spread) group[key] = {{"median", spread->median}, {"p95", spread->p95}};
-}
-void Put(Json& group, const char* key, const std::optional<double>& value) {
-  if (value) group[key] = *value;
-}
-
-Json TrajectoryGroup(const TrajectoryScore& s) {
-  Json group;
-  group["frames"] = s.frames;
-  group["tracked"] = s.tracked;
-  if (s.frames > 0) group["tracked_fraction"] = double(s.tracked) / double(s.frames);
-  group["lost_events"] = s.lost_events;
-  Put(group, "ate_se3", s.ate_se3);
-  Put(group, "ate_origin", s.ate_origin);
-  Put(group, "ate_complete_rmse_m", s.ate_complete_rmse_m);
-  Put(group, "rpe_1s", s.rpe_1s);
-  Put(group, "rpe_1m", s.rpe_1m);
-  return group;
-}
-
-Json ExtractionGroup(const PlaneScore& s) {
-  Json group;
-  if (s.regions) {
-    const RegionScore& r = *s.regions;
-    group["truth"] = r.truth;
-    group["machine"] = r.machine;
-    group["correct"] = r.correct;
-    group["over"] = r.over;
-    group["under"] = r.under;
-    group["missed"] = r.missed;
-    group["noise"] = r.noise;
-    group["pq"] = r.panoptic.Pq();
-    group["sq"] = r.panoptic.Sq();
-    group["rq"] = r.panoptic.Rq();
-    group["pixel_precision"] = r.pixel_precision;
-    group["pixel_recall"] = r.pixel_recall;
+  /// @param key  of the group, or of an object in it ("decision/recall")
+  template <typename Value>
+  void Put(const std::string& key, const Value& value) {
+    json_[Json::json_pointer("/" + key)] = value;
   }
-  Put(group, "normal_deg", s.normal_deg);
-  Put(group, "offset_mm", s.offset_mm);
-  return group;
+  template <typename Value>
+  void Put(const std::string& key, const std::optional<Value>& value,
+           const std::string& reason) {
+    if (!value) return Undefined(key, reason);
+    Put(key, ToJson(*value));
+  }
+  void Undefined(const std::string& key, const std::string& reason) {
+    Put(key, nullptr);
+    reasons_[name_ + "/" + key] = reason;
+  }
+  void PutShare(const std::string& key, double value, bool defined, const std::string& reason) {
+    if (!defined) return Undefined(key, reason);
+    Put(key, value);
+  }
+  /// Precision, recall and f1 of what was found among what is there.
+  void PutShares(const std::string& key, const PrecisionRecall& s, const std::string& no_found,
+                 const std::string& no_truth) {
+    PutShare(key + "/precision", s.precision, no_found.empty(), no_found);
+    PutShare(key + "/recall", s.recall, no_truth.empty(), no_truth);
+    PutShare(key + "/f1", s.f1, no_found.empty() || no_truth.empty(), no_found);
+  }
+  const Json& json() const { return json_; }
+
+ private:
+  static Json ToJson(double value) { return value; }
+  static Json ToJson(const Spread& s) { return {{"median", s.median}, {"p95", s.p95}}; }
+  static Json ToJson(const Statistics& s) { return eval::ToJson(s); }
+  static Json ToJson(const RelativeScore& s) { return eval::ToJson(s); }
+
+  std::string name_;
+  Json json_ = Json::object();
+  Json& reasons_;
+};
+
+Json TrajectoryGroup(const TrajectoryScore& s, Json& reasons) {
+  const auto why = [&](const char* otherwise) {
+    return s.no_match.empty() ? std::string(otherwise) : s.no_match;
+  };
+  Group group("trajectory", reasons);
+  group.Put("frames", s.frames);
+  group.Put("tracked", s.tracked);
+  group.PutShare("tracked_fraction", double(s.tracked) / double(s.frames), s.frames > 0,
+                 "the sequence has no frames");
+  group.Put("lost_events", s.lost_events);
+  group.Put("ate_se3", s.ate_se3, s.no_ate_se3);
+  group.Put("ate_origin", s.ate_origin, s.no_match);
+  group.Put("ate_complete_rmse_m", s.ate_complete_rmse_m, s.no_ate_complete);
+  group.Put("rpe_1s", s.rpe_1s, why("no two matched poses are 1 s apart"));
+  group.Put("rpe_1m", s.rpe_1m, why("no two matched poses are 1 m of the true path apart"));
+  return group.json();
 }
 
-Json VertexGroup(const CornerCounts& c) {
-  Json group;
-  if (c.claimed > 0) group["precision"] = double(c.matched) / c.claimed;
-  if (c.true_in_view > 0) group["recall"] = double(c.found_in_view) / c.true_in_view;
-  Put(group, "error_mm", SpreadOf(c.errors_mm));
-  if (c.faces_in_view > 0) group["planes_with_4"] = double(c.faces_with_4) / c.faces_in_view;
-  return group;
+void PutRegions(const RegionScore& r, Group& group) {
+  group.Put("truth", r.truth);
+  group.Put("machine", r.machine);
+  group.Put("correct", r.correct);
+  group.Put("over", r.over);
+  group.Put("under", r.under);
+  group.Put("missed", r.missed);
+  group.Put("noise", r.noise);
+  const bool any = r.truth > 0.0 || r.machine > 0.0;
+  const char* const none = "no frame shows a plane that counts, nor was one found";
+  group.PutShare("pq", r.panoptic.Pq(), any, none);
+  group.PutShare("sq", r.panoptic.Sq(), r.panoptic.tp > 0, "no plane was found");
+  group.PutShare("rq", r.panoptic.Rq(), any, none);
+  group.PutShare("pixel_precision", r.pixel_precision, r.machine > 0.0, "no plane was found");
+  group.PutShare("pixel_recall", r.pixel_recall, r.truth > 0.0,
+                 "no frame shows a plane that counts");
 }
 
-Json AssociationGroup(const PlaneScore& s) {
+Json ExtractionGroup(const PlaneScore& s, Json& reasons) {
+  Group group("extraction", reasons);
+  if (s.regions) {
+    PutRegions(*s.regions, group);
+  } else {
+    for (const char* key : {"truth", "machine", "correct", "over", "under", "missed", "noise",
+                            "pq", "sq", "rq", "pixel_precision", "pixel_recall"}) {
+      group.Undefined(key,
+                      "the run has no segmentation images, or the sequence no gt/plane_id");
+    }
+  }
+  const char* const none = "no trusted frame plane shows a true plane";
+  group.Put("normal_deg", s.normal_deg, none);
+  group.Put("offset_mm", s.offset_mm, none);
+  return group.json();
+}
+
+Json VertexGroup(const CornerCounts& c, Json& reasons) {
+  Group group("vertices", reasons);
+  group.PutShare("precision", double(c.matched) / c.claimed, c.claimed > 0,
+                 "no trusted frame plane has a vertex");
+  group.PutShare("recall", double(c.found_in_view) / c.true_in_view, c.true_in_view > 0,
+                 "no true corner is in view");
+  group.Put("error_mm", SpreadOf(c.errors_mm), "no vertex is near a true corner");
+  group.PutShare("planes_with_4", double(c.faces_with_4) / c.faces_in_view, c.faces_in_view > 0,
+                 "no top face of a regular object is in view with four corners");
+  return group.json();
+}
+
+Json AssociationGroup(const PlaneScore& s, Json& reasons) {
   const AssociationScore& a = s.association;
   const DecisionCounts& d = a.decision;
-  Json group;
-  group["pair"] = ToJson(a.pair);
-  group["b_cubed"] = ToJson(a.b_cubed);
-  group["decision"] = {{"precision", d.scores.precision},
-                       {"recall", d.scores.recall},
-                       {"f1", d.scores.f1},
-                       {"tp", d.tp},
-                       {"fp", d.fp},
-                       {"fn", d.fn},
-                       {"tn", d.tn},
-                       {"spurious", d.spurious}};
-  group["idf1"] = s.identity.idf1;
-  group["hota"] = s.hota.hota;
-  group["ass_a"] = s.hota.ass_a;
-  group["mota"] = s.clear.mota;
-  group["id_switches"] = s.clear.id_switches;
-  group["merged_map_planes"] = a.merged_map_planes;
-  group["split_truth_planes"] = a.split_truth_planes;
-  return group;
+  const auto unless = [](bool defined, const char* reason) {
+    return std::string(defined ? "" : reason);
+  };
+  Group group("association", reasons);
+  group.PutShares("pair", a.pair,
+                  unless(a.pair_predicted > 0, "no two decisions name one map plane"),
+                  unless(a.pair_truth > 0, "no two decisions show one true plane"));
+  const std::string no_truth =
+      unless(a.records_with_truth > 0, "no decision was made on a frame plane with a truth");
+  group.PutShares("b_cubed", a.b_cubed, no_truth, no_truth);
+  group.PutShares(
+      "decision", d.scores,
+      unless(d.tp + d.fp > 0, "no frame plane was matched to a map plane"),
+      unless(d.tp + d.fn > 0, "no decision was made on a surface that was in the map already"));
+  group.Put("decision/tp", d.tp);
+  group.Put("decision/fp", d.fp);
+  group.Put("decision/fn", d.fn);
+  group.Put("decision/tn", d.tn);
+  group.Put("decision/spurious", d.spurious);
+  const bool any = s.identity.idtp + s.identity.idfp + s.identity.idfn > 0;
+  const char* const none = "no frame shows a plane that counts or one of the map";
+  group.PutShare("idf1", s.identity.idf1, any, none);
+  group.PutShare("hota", s.hota.hota, any, none);
+  group.PutShare("ass_a", s.hota.ass_a, any, none);
+  group.PutShare("mota", s.clear.mota, s.clear.tp + s.clear.fn > 0,
+                 "no frame shows a plane that counts");
+  group.Put("id_switches", s.clear.id_switches);
+  group.Put("merged_map_planes", a.merged_map_planes);
+  group.Put("split_truth_planes", a.split_truth_planes);
+  return group.json();
 }
 
-Json MapGroup(const MapScore& m) {
-  Json group;
-  group["planes"] = m.planes;
-  group["true_planes_seen"] = m.true_planes_seen;
-  group["matched"] = m.matched;
-  group["duplicates"] = m.duplicates;
-  group["merged"] = m.merged;
-  group["spurious"] = m.spurious;
-  Put(group, "normal_deg", m.normal_deg);
-  Put(group, "offset_mm", m.offset_mm);
-  Put(group, "vertex_mm", m.vertex_mm);
-  if (m.polygon_iou_median) group["polygon_iou"] = {{"median", *m.polygon_iou_median}};
-  Put(group, "area_explained", m.area_explained);
-  return group;
-}
-
-Json TimingGroup(const TimingScore& t) {
-  Json group = Json::object();
-  for (const ModuleTime& m : t.modules) {
-    group[m.module] = {{"mean", m.mean}, {"median", m.median}, {"p95", m.p95}};
+Json MapGroup(const MapScore& m, const TrajectoryScore& trajectory, Json& reasons) {
+  const auto why = [&](const char* otherwise) {
+    if (trajectory.gauge) return std::string(otherwise);
+    return trajectory.no_match.empty()
+               ? "the rotations of run and truth contradict each other: no alignment is best"
+               : trajectory.no_match;
+  };
+  const char* const none = "no map plane shows a true plane that counts";
+  Group group("map", reasons);
+  group.Put("planes", m.planes);
+  group.Put("true_planes_seen", m.true_planes_seen);
+  group.Put("matched", m.matched);
+  group.Put("duplicates", m.duplicates);
+  group.Put("merged", m.merged);
+  group.Put("spurious", m.spurious);
+  group.Put("normal_deg", m.normal_deg, why(none));
+  group.Put("offset_mm", m.offset_mm, why(none));
+  group.Put("vertex_mm", m.vertex_mm, why("no vertex of the map is near a true corner"));
+  if (m.polygon_iou_median) {
+    group.Put("polygon_iou", Json{{"median", *m.polygon_iou_median}});
+  } else {
+    group.Undefined("polygon_iou", why("no matched map plane has an outline"));
   }
-  Put(group, "fps", t.fps);
-  Put(group, "peak_rss_mb", t.peak_rss_mb);
-  return group;
+  group.Put("area_explained", m.area_explained, why("no true plane counts"));
+  return group.json();
 }
 
-Json TrajectoryRules(const TrajectoryScore& s) {
+Json TimingGroup(const TimingScore& t, Json& reasons) {
+  Group group("timing_ms", reasons);
+  for (const ModuleTime& m : t.modules) {
+    group.Put(m.module, Json{{"mean", m.mean}, {"median", m.median}, {"p95", m.p95}});
+  }
+  group.Put("fps", t.fps, "timing.csv has no times of mt, the whole tracking");
+  group.Put("peak_rss_mb", t.peak_rss_mb, "run.json does not tell");
+  return group.json();
+}
+
+Json Warnings(const Evaluation& e) {
+  Json warnings = Json::array();
+  for (std::string& line : Summaries(e.run_warnings, "RUN"))
+    warnings.push_back(std::move(line));
+  for (std::string& line : Summaries(e.sequence_warnings, "SEQ")) {
+    warnings.push_back(std::move(line));
+  }
+  return warnings;
+}
+
+Json TrajectoryRules() {
   Json rules;
   rules["trajectory"] =
       "matched by equal stamps on synthetic data, else by the nearest within 10 ms; a frame is "
@@ -141,15 +225,10 @@ Json TrajectoryRules(const TrajectoryScore& s) {
   rules["rpe"] =
       "all pairs; 1 s by time, kept within half a frame; 1 m by the length of the true path, "
       "kept within 0.1 m";
-  if (!s.ate_se3) {
-    rules["ate_se3"] =
-        "not defined: fewer than 3 matched poses, or their positions lie on a line to working "
-        "precision";
-  }
   return rules;
 }
 
-void AddPlaneRules(const PlaneScore& s, const TrajectoryScore& t, Json& rules) {
+void AddPlaneRules(const PlaneScore& s, Json& rules) {
   rules["truth"] =
       "planes of structure and regular objects are scored, everything else is noise; a true "
       "plane "
@@ -186,11 +265,8 @@ void AddPlaneRules(const PlaneScore& s, const TrajectoryScore& t, Json& rules) {
                               : ", here with similarity 1 for a plane that shows the truth");
   if (s.map) {
     rules["map"] =
-        std::string("in the world of the truth by ") +
-        (t.gauge_by_origin ? "the first matched pose"
-                           : "the SE(3) alignment of the "
-                             "trajectory") +
-        "; a map plane belongs to the truth of most of its observations, that with "
+        "in the world of the truth by the mean rotation and the mean position of all matched "
+        "poses; a map plane belongs to the truth of most of its observations, that with "
         "most of them is the match; offset is the rms distance of the true vertices to "
         "the map plane; vertices one to one within 100 mm; normals are oriented";
   }
@@ -199,22 +275,21 @@ void AddPlaneRules(const PlaneScore& s, const TrajectoryScore& t, Json& rules) {
 }  // namespace
 
 Json MetricsJson(const Evaluation& e) {
-  Json json;
+  Json json, reasons = Json::object();
   json["format"] = "pas-metrics/1";
-  if (e.trajectory) {
-    json["trajectory"] = TrajectoryGroup(*e.trajectory);
-  } else {
-    json["trajectory"] = {{"frames", e.frames}, {"tracked", e.tracked}};
-  }
+  if (e.interrupted) json["interrupted"] = true;
+  if (Json warnings = Warnings(e); !warnings.empty()) json["warnings"] = std::move(warnings);
+  json["trajectory"] = TrajectoryGroup(e.trajectory, reasons);
   if (e.planes) {
-    json["extraction"] = ExtractionGroup(*e.planes);
-    json["vertices"] = VertexGroup(e.planes->corners);
-    json["association"] = AssociationGroup(*e.planes);
-    if (e.planes->map) json["map"] = MapGroup(*e.planes->map);
+    json["extraction"] = ExtractionGroup(*e.planes, reasons);
+    json["vertices"] = VertexGroup(e.planes->corners, reasons);
+    json["association"] = AssociationGroup(*e.planes, reasons);
+    if (e.planes->map) json["map"] = MapGroup(*e.planes->map, e.trajectory, reasons);
   }
-  if (e.timing) json["timing_ms"] = TimingGroup(*e.timing);
-  json["rules"] = e.trajectory ? TrajectoryRules(*e.trajectory) : Json::object();
-  if (e.planes) AddPlaneRules(*e.planes, *e.trajectory, json["rules"]);
+  if (e.timing) json["timing_ms"] = TimingGroup(*e.timing, reasons);
+  if (!reasons.empty()) json["reasons"] = std::move(reasons);
+  json["rules"] = TrajectoryRules();
+  if (e.planes) AddPlaneRules(*e.planes, json["rules"]);
   return json;
 }
 

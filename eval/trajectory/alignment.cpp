@@ -4,6 +4,7 @@
 #include <Eigen/SVD>
 #include <cmath>
 #include <stdexcept>
+#include <variant>
 
 namespace eval {
 namespace {
@@ -18,15 +19,13 @@ Eigen::Vector3d MeanOf(const std::vector<Eigen::Vector3d>& points) {
   return sum / static_cast<double>(points.size());
 }
 
-}  // namespace
-
-std::optional<Alignment> AlignUmeyama(const std::vector<Eigen::Vector3d>& x_w,
-                                      const std::vector<Eigen::Vector3d>& y_g,
-                                      bool with_scale) {
+std::variant<Alignment, NoAlignment> Align(const std::vector<Eigen::Vector3d>& x_w,
+                                           const std::vector<Eigen::Vector3d>& y_g,
+                                           bool with_scale) {
   if (x_w.size() != y_g.size()) {
     throw std::invalid_argument("AlignUmeyama: the lists differ in length");
   }
-  if (x_w.size() < 3) return std::nullopt;
+  if (x_w.size() < 3) return NoAlignment::kFewPoses;
   const double n = static_cast<double>(x_w.size());
   const Eigen::Vector3d mean_x = MeanOf(x_w), mean_y = MeanOf(y_g);
   Eigen::Matrix3d sigma = Eigen::Matrix3d::Zero();
@@ -39,16 +38,61 @@ std::optional<Alignment> AlignUmeyama(const std::vector<Eigen::Vector3d>& x_w,
   const auto stands_still = [](double variance, const Eigen::Vector3d& mean) {
     return !(std::sqrt(variance) > kMinSpreadRatio * mean.norm());
   };
-  if (stands_still(variance_x, mean_x) || stands_still(variance_y, mean_y)) return std::nullopt;
+  if (stands_still(variance_x, mean_x) || stands_still(variance_y, mean_y)) {
+    return NoAlignment::kStandsStill;
+  }
   const Eigen::JacobiSVD<Eigen::Matrix3d> svd(sigma, Eigen::ComputeFullU | Eigen::ComputeFullV);
   const Eigen::Vector3d& d = svd.singularValues();
-  if (!(d[0] > 0.0) || !(d[1] >= kMinSingularRatio * d[0])) return std::nullopt;
+  if (!(d[0] > 0.0) || !(d[1] >= kMinSingularRatio * d[0])) return NoAlignment::kLine;
   Eigen::Vector3d s = Eigen::Vector3d::Ones();
   if (svd.matrixU().determinant() * svd.matrixV().determinant() < 0.0) s[2] = -1.0;
   Alignment alignment;
   alignment.T_gw.R = svd.matrixU() * s.asDiagonal() * svd.matrixV().transpose();
   if (with_scale) alignment.scale = d.dot(s) / variance_x;
   alignment.T_gw.t = mean_y - alignment.scale * (alignment.T_gw.R * mean_x);
+  return alignment;
+}
+
+}  // namespace
+
+std::optional<Alignment> AlignUmeyama(const std::vector<Eigen::Vector3d>& x_w,
+                                      const std::vector<Eigen::Vector3d>& y_g,
+                                      bool with_scale) {
+  const auto found = Align(x_w, y_g, with_scale);
+  const auto* alignment = std::get_if<Alignment>(&found);
+  return alignment != nullptr ? std::optional(*alignment) : std::nullopt;
+}
+
+std::optional<NoAlignment> WhyNotAligned(const std::vector<Eigen::Vector3d>& x_w,
+                                         const std::vector<Eigen::Vector3d>& y_g) {
+  const auto found = Align(x_w, y_g, false);
+  const auto* reason = std::get_if<NoAlignment>(&found);
+  return reason != nullptr ? std::optional(*reason) : std::nullopt;
+}
+
+std::optional<Alignment> AlignByPoses(const std::vector<Pose>& T_wc,
+                                      const std::vector<Pose>& T_gc) {
+  if (T_wc.size() != T_gc.size()) {
+    throw std::invalid_argument("AlignByPoses: the lists differ in length");
+  }
+  if (T_wc.empty()) return std::nullopt;
+  Eigen::Matrix3d sum_R = Eigen::Matrix3d::Zero();
+  Eigen::Vector3d sum_w = Eigen::Vector3d::Zero(), sum_g = Eigen::Vector3d::Zero();
+  for (std::size_t i = 0; i < T_wc.size(); ++i) {
+    sum_R += T_gc[i].R * T_wc[i].R.transpose();
+    sum_w += T_wc[i].t;
+    sum_g += T_gc[i].t;
+  }
+  // The rotation nearest to the sum; it is the only one unless the two lesser axes cancel.
+  const Eigen::JacobiSVD<Eigen::Matrix3d> svd(sum_R, Eigen::ComputeFullU | Eigen::ComputeFullV);
+  const Eigen::Vector3d& d = svd.singularValues();
+  Eigen::Vector3d s = Eigen::Vector3d::Ones();
+  if (svd.matrixU().determinant() * svd.matrixV().determinant() < 0.0) s[2] = -1.0;
+  if (!(d[1] + s[2] * d[2] > kMinSingularRatio * d[0])) return std::nullopt;
+  Alignment alignment;
+  alignment.T_gw.R = svd.matrixU() * s.asDiagonal() * svd.matrixV().transpose();
+  const double n = static_cast<double>(T_wc.size());
+  alignment.T_gw.t = sum_g / n - alignment.T_gw.R * (sum_w / n);
   return alignment;
 }
 

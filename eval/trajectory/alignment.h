@@ -31,6 +31,22 @@ std::optional<Alignment> AlignUmeyama(const std::vector<Eigen::Vector3d>& x_w,
                                       const std::vector<Eigen::Vector3d>& y_g,
                                       bool with_scale = false);
 
+/// Why positions of equal count have no alignment.
+enum class NoAlignment { kFewPoses, kStandsStill, kLine };
+/// @returns nothing where AlignUmeyama gives one
+std::optional<NoAlignment> WhyNotAligned(const std::vector<Eigen::Vector3d>& x_w,
+                                         const std::vector<Eigen::Vector3d>& y_g);
+
+/// The rigid motion that lays whole poses on the truth, from rotations and positions alike:
+///   R = argmin sum |R_gc - R R_wc|^2 (the chordal mean of R_gc R_wc^T),  t = my - R mx.
+/// Unlike an alignment of positions alone it holds for one pose, and on short and straight paths,
+/// and it does not tilt a map to please the path.
+/// @param T_wc, T_gc  poses of equal count, matched one by one
+/// @returns nothing ("not defined") without poses, and where the rotations contradict each other
+///          so that no mean is nearest
+std::optional<Alignment> AlignByPoses(const std::vector<Pose>& T_wc,
+                                      const std::vector<Pose>& T_gc);
+
 /// The motion that lays the first pose of the estimate on that of the truth.
 Alignment AlignOrigin(const Pose& first_T_wc, const Pose& first_T_gc);
 

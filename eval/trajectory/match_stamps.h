@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "eval/formats/pose.h"
+#include "eval/formats/sequence_agreement.h"
 
 namespace eval {
 
@@ -12,8 +13,6 @@ struct StampMatch {
   std::size_t truth = 0;
   std::size_t estimate = 0;
 };
-
-inline constexpr double kMaxStampDifference_s = 0.01;
 
 /// evo's rule, for recordings whose truth has its own clock: for each stamp of the shorter list
 /// (the estimate, on equal lengths) the nearest of the longer one, the first on ties, kept if

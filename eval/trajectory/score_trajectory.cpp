@@ -87,6 +87,24 @@ std::optional<RelativeScore> ScorePairs(const MatchedPoses& poses,
   return RelativeScore{translation->rmse, angle->rmse, pairs.size()};
 }
 
+std::string TextOf(NoAlignment reason, const std::string& what, std::size_t count) {
+  switch (reason) {
+    case NoAlignment::kFewPoses:
+      return "only " + std::to_string(count) + " " + what + ", 3 are needed";
+    case NoAlignment::kStandsStill:
+      return "the " + what + " stand still";
+    case NoAlignment::kLine:
+      break;
+  }
+  return "the " + what + " lie on a line to working precision, about which any turn fits";
+}
+
+std::string WhyNoMatch(const Trajectory& estimate, const Trajectory& truth) {
+  if (truth.empty()) return "the sequence has no groundtruth.txt";
+  if (estimate.empty()) return "the run has no pose";
+  return "no pose of the run has a true pose of its time";
+}
+
 /// Charges the frames that the run does not answer for; nothing where the truth itself has no
 /// alignment (a camera on a tripod or on a rail).
 std::optional<double> CompleteRmse(const std::vector<Eigen::Vector3d>& true_positions,
@@ -136,19 +154,28 @@ TrajectoryScore ScoreTrajectory(const Trajectory& estimate, const Trajectory& un
     const Alignment origin = AlignOrigin(poses.estimate.front(), poses.truth.front());
     score.ate_origin = Describe(
         AbsoluteErrors(Apply(origin, poses.estimate), poses.truth, Relation::kTranslation));
-    score.gauge = origin;
-    score.gauge_by_origin = true;
   }
   if (const auto se3 = AlignUmeyama(Positions(poses.estimate), Positions(poses.truth))) {
     score.ate_se3 = Describe(
         AbsoluteErrors(Apply(*se3, poses.estimate), poses.truth, Relation::kTranslation));
-    score.gauge = se3;
-    score.gauge_by_origin = false;
   }
+  if (poses.truth.empty()) score.no_match = WhyNoMatch(estimate, truth);
+  if (const auto reason = WhyNotAligned(Positions(poses.estimate), Positions(poses.truth))) {
+    score.no_ate_se3 = poses.truth.empty()
+                           ? score.no_match
+                           : TextOf(*reason, "matched positions", poses.truth.size());
+  }
+
+  score.gauge = AlignByPoses(poses.estimate, poses.truth);
 
   std::vector<Eigen::Vector3d> true_positions;
   for (const auto& pose : TruePosesOfFrames(truth, frame_stamps_s, equal_stamps)) {
     if (pose) true_positions.push_back(pose->t);
+  }
+  if (const auto reason = WhyNotAligned(true_positions, true_positions)) {
+    score.no_ate_complete =
+        truth.empty() ? score.no_match
+                      : TextOf(*reason, "true positions of frames", true_positions.size());
   }
   score.ate_complete_rmse_m = CompleteRmse(true_positions, poses.truth.size(), score.ate_se3);
   const double half_frame_s = 0.5 * MedianInterval(frame_stamps_s);
@@ -162,14 +189,19 @@ TrajectoryScore ScoreTrajectory(const Run& run, const Sequence& sequence) {
   std::vector<double> frame_stamps_s;
   for (const SequenceFrame& frame : sequence.frames) frame_stamps_s.push_back(frame.stamp_s);
   const bool equal = sequence.synthetic || sequence.scene.has_value();
-  if (equal) {
-    for (const StampedPose& pose : run.trajectory) {
-      if (FindStamp(frame_stamps_s, pose.stamp_s)) continue;
-      throw io::InputError((run.folder / "trajectory.txt").string(),
-                           "the pose at " + std::to_string(pose.stamp_s) +
-                               " s belongs to no frame of " + sequence.folder.string() +
-                               "; score a run against the sequence it was made from");
-    }
+  // Of a recording a pose or two may stand alone; if all do, it is another recording.
+  const auto has_frame = [&](const StampedPose& pose) {
+    return equal
+               ? FindStamp(frame_stamps_s, pose.stamp_s).has_value()
+               : NearestStamp(frame_stamps_s, pose.stamp_s, kMaxStampDifference_s).has_value();
+  };
+  const auto stray = std::find_if_not(run.trajectory.begin(), run.trajectory.end(), has_frame);
+  if (stray != run.trajectory.end() &&
+      (equal || std::none_of(run.trajectory.begin(), run.trajectory.end(), has_frame))) {
+    throw io::InputError(io::Where(run.folder / "trajectory.txt", stray->line),
+                         "the pose at " + std::to_string(stray->stamp_s) +
+                             " s belongs to no frame of " + sequence.folder.string() +
+                             "; score a run against the sequence it was made from");
   }
   return ScoreTrajectory(run.trajectory, sequence.groundtruth.value_or(Trajectory{}),
                          frame_stamps_s, equal);

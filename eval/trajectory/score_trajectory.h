@@ -18,7 +18,8 @@ struct RelativeScore {
   std::size_t pairs = 0;
 };
 
-/// The group `trajectory` of metrics.json; what is not defined is empty.
+/// The group `trajectory` of metrics.json; what is not defined is empty, and the text beside it
+/// says why.
 struct TrajectoryScore {
   std::size_t frames = 0;             ///< frames of the sequence
   std::size_t tracked = 0;            ///< those of them with a pose in the run
@@ -29,9 +30,11 @@ struct TrajectoryScore {
   /// path, so that giving up frames cannot improve a run whose errors stay below that.
   std::optional<double> ate_complete_rmse_m;
   std::optional<RelativeScore> rpe_1s, rpe_1m;
-  /// World of the run to world of the truth: SE(3), or by the origin where that is not defined.
+  std::string no_match;         ///< why no pose has a truth; empty when some have
+  std::string no_ate_se3;       ///< why ate_se3 is empty
+  std::string no_ate_complete;  ///< why ate_complete_rmse_m is empty
+  /// World of the run to world of the truth, by whole poses: what the map is scored in.
   std::optional<Alignment> gauge;
-  bool gauge_by_origin = false;
 };
 
 /// @throws InputError if the sequence is synthetic and the run has a pose for no frame of it.

@@ -131,6 +131,49 @@ RC_GTEST_PROP(AbsoluteTrajectoryErrorP38, IsNotDefinedForPosesOnALine, ()) {
   RC_ASSERT(Score(walk).ate_origin.has_value());
 }
 
+/// A straight path of a camera that turns as it likes, positions with `noise_m` of error along and
+/// across it: an alignment of positions alone leaves the turn about the path free.
+Walk AnyStraightWalk(double noise_m) {
+  const auto seed = *rc::gen::noShrink(rc::gen::arbitrary<std::uint64_t>());
+  const int count = *rc::gen::resize(100, rc::gen::inRange(1, 100));
+  std::mt19937_64 random(seed);
+  const Pose T_wg = AnyPose(random, 5.0);
+  const Eigen::Vector3d direction = Gaussian(random, 1.0).normalized();
+  Walk walk;
+  for (int i = 0; i < count; ++i) {
+    const Pose T_gc{AnyPose(random, 1.0).R, 0.01 * i * direction};
+    Pose T_wc = T_wg * T_gc;
+    T_wc.t += Gaussian(random, noise_m);
+    walk.truth.push_back({i / 30.0, T_gc});
+    walk.estimate.push_back({i / 30.0, T_wc});
+    walk.stamps_s.push_back(i / 30.0);
+  }
+  return walk;
+}
+
+RC_GTEST_PROP(MapGauge, IsExactForExactRotationsHoweverStraightThePath, ()) {
+  const Walk walk = AnyStraightWalk(0.001);
+  const auto gauge = Score(walk).gauge;
+  RC_ASSERT(gauge.has_value());
+  for (std::size_t i = 0; i < walk.truth.size(); ++i) {
+    const Pose laid = *gauge * walk.estimate[i].T_wc;
+    RC_ASSERT(AngleOf(laid.R.transpose() * walk.truth[i].T_wc.R) < 1e-7);
+    RC_ASSERT((laid.t - walk.truth[i].T_wc.t).norm() < 0.02);  // the noise itself
+  }
+}
+
+RC_GTEST_PROP(MapGauge, TurnsWithTheWorldOfTheRun, ()) {
+  const Walk walk = AnyStraightWalk(0.001);
+  Walk moved = walk;
+  const Pose T_vw = AnyMotion();
+  moved.estimate = Moved(T_vw, walk.estimate);
+  const auto here = Score(walk).gauge, there = Score(moved).gauge;
+  RC_ASSERT(here.has_value() && there.has_value());
+  const Pose back = there->T_gw * T_vw;
+  RC_ASSERT(AngleOf(back.R.transpose() * here->T_gw.R) < 1e-7);
+  RC_ASSERT((back.t - here->T_gw.t).norm() < 1e-9);
+}
+
 // The charge for a missing frame is the diameter of the true path; no pose of these runs is
 // that far off (noise of 0.02 steps over walks that are several steps wide), so that giving up
 // a frame can only cost. Plain ATE has no such law: see the case below.

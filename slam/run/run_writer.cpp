@@ -3,6 +3,7 @@
 #include <sys/resource.h>
 
 #include <opencv2/imgcodecs.hpp>
+#include <system_error>
 
 #include "io/input_error.h"
 #include "slam/base/require.h"
@@ -40,7 +41,8 @@ std::vector<TimedPose> KeyframePoses(const Map& map) {
 }  // namespace
 
 RunWriter::RunWriter(const std::filesystem::path& folder, RunInfo info, Options options)
-    : output_(folder, "run.json", options.force),
+    : folder_(folder),
+      output_(folder, "run.json", options.force),
       info_(std::move(info)),
       options_(options),
       frame_planes_(output_.Path("frame_planes.jsonl")),
@@ -87,7 +89,13 @@ nlohmann::ordered_json RunWriter::RunJson(std::size_t poses) const {
   const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - start_;
   nlohmann::ordered_json json;
   json["format"] = "pas-run/1";
-  json["sequence"] = std::filesystem::absolute(info_.sequence).lexically_normal().string();
+  // Relative, so that run and sequence can be moved together; absolute, so that the run can be moved
+  // alone.
+  const auto absolute = std::filesystem::absolute(info_.sequence).lexically_normal();
+  std::error_code unrelated;
+  const auto relative = std::filesystem::relative(absolute, folder_, unrelated);
+  json["sequence"] = (relative.empty() ? absolute : relative).generic_string();
+  json["sequence_absolute"] = absolute.string();
   json["variant"] = info_.variant;
   json["association"] = info_.association;
   json["detector"] = info_.detector;

@@ -19,7 +19,7 @@ namespace slam {
 /// What run.json says of how a run was made. Equal runs have equal bytes, so nothing belongs
 /// here that may differ between them: no number of threads, no output folder.
 struct RunInfo {
-  std::filesystem::path sequence;  ///< written as an absolute path
+  std::filesystem::path sequence;  ///< written relative to the run folder, and absolute
   std::string variant;             ///< "full", "no-association", ...
   std::string association;         ///< the association rule
   std::string detector;            ///< "replay", "yolox:FILE", "live", "none"
@@ -73,6 +73,7 @@ class RunWriter {
   void WriteSegmentation(const Frame& frame) const;
   nlohmann::ordered_json RunJson(std::size_t poses) const;
 
+  std::filesystem::path folder_;  ///< where the run will be
   io::OutputFolder output_;
   RunInfo info_;
   Options options_;

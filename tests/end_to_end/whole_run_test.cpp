@@ -17,7 +17,8 @@ constexpr pipeline::Recording kShort{.frames = 20};
 /// run.json without what may differ: times, memory, and where the sequence lies.
 nlohmann::json ComparableRunJson(const std::string& text) {
   nlohmann::json run = nlohmann::json::parse(text);
-  for (const char* key : {"wall_time_s", "peak_memory_mb", "sequence"}) run.erase(key);
+  for (const char* key : {"wall_time_s", "peak_memory_mb", "sequence", "sequence_absolute"})
+    run.erase(key);
   return run;
 }
 

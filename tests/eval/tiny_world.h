@@ -107,12 +107,13 @@ class TinyWorld {
     json scene{
         {"format", "pas-scene-gt/1"}, {"objects", json::array()}, {"planes", json::array()}};
     const auto object = [&](int id, const char* object_class, const char* role) {
+      const auto [low, high] = BoundsOf(id);
       scene["objects"].push_back({{"id", id},
                                   {"class", object_class},
                                   {"role", role},
                                   {"regular", std::string(role) == "regular"},
-                                  {"center", {0, 0, 0.7}},
-                                  {"size", {0.1, 0.1, 0.1}},
+                                  {"center", ToJson(Eigen::Vector3d((low + high) / 2))},
+                                  {"size", ToJson(Eigen::Vector3d(high - low))},
                                   {"q_xyzw", {0, 0, 0, 1}}});
     };
     object(kDesk, "desk", "structure");
@@ -145,6 +146,20 @@ class TinyWorld {
 
  private:
   static constexpr double kCx = 79.5, kCy = 59.5;
+
+  /// The box of an object: all its faces, and 4 cm below its highest one.
+  std::pair<Eigen::Vector3d, Eigen::Vector3d> BoundsOf(int object) const {
+    Eigen::Vector3d low = Eigen::Vector3d::Constant(1e3), high = -low;
+    for (const TinyPlane& face : faces_) {
+      if (face.object != object) continue;
+      for (const Eigen::Vector3d& corner_g : face.corners_g) {
+        low = low.cwiseMin(corner_g);
+        high = high.cwiseMax(corner_g);
+      }
+    }
+    low.z() = std::min(low.z(), high.z() - 0.04);
+    return {low, high};
+  }
 
   void AddFace(int id, int object, const Eigen::Vector3d& middle, const Eigen::Vector3d& half_u,
                const Eigen::Vector3d& half_v) {

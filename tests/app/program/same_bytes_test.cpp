@@ -19,7 +19,8 @@ using Artefacts = std::vector<std::pair<std::string, std::string>>;
 std::string WithoutTimes(const std::string& name, const std::string& bytes) {
   if (name != "run/run.json" && name != "run/metrics.json") return bytes;
   nlohmann::json json = nlohmann::json::parse(bytes);
-  for (const char* key : {"wall_time_s", "peak_memory_mb", "sequence", "timing_ms"}) {
+  for (const char* key :
+       {"wall_time_s", "peak_memory_mb", "sequence", "sequence_absolute", "timing_ms"}) {
     json.erase(key);
   }
   return json.dump();

@@ -108,7 +108,7 @@ TEST_F(CheckSequenceFolder, NamesAnImageOfAnotherSizeThanTheCameraTells) {
 TEST_F(CheckSequenceFolder, NamesACameraKeyOutOfRange) {
   EditSequence("camera.yaml", "fps: 30", "fps: 0");
   ExpectOnly("camera.yaml", 8, "",
-             "fps: expected a number in (0, inf) (frames per second), found `0`");
+             "fps: expected a number in (0, 1e9) (frames per second), found `0`");
 }
 
 TEST_F(CheckSequenceFolder, NamesACameraKeyThatIsMissing) {

@@ -229,6 +229,14 @@ TEST_F(DrawRunFolder, DrawsARunThatTrackedNothing) {
   const fs::path run = MakeRun("run", Moved());
   WriteText(run / "trajectory.txt", "");
   WriteText(run / "map.json", "{\"planes\": []}");
+  std::istringstream in(ReadText(run / "frame_planes.jsonl"));
+  std::string lines, line;
+  while (std::getline(in, line)) {
+    lines +=
+        json{{"timestamp", json::parse(line)["timestamp"]}, {"planes", json::array()}}.dump();
+    lines += "\n";
+  }
+  WriteText(run / "frame_planes.jsonl", lines);
   EXPECT_EQ(DrawRun(run, {}).size(), 2u);
 }
 

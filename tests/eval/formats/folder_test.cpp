@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "eval/formats/camera.h"
+#include "eval/formats/manifest.h"
 #include "eval/formats/stamps.h"
 #include "eval/formats/trajectory.h"
 #include "tests/eval/check/small_world.h"
@@ -39,11 +40,28 @@ TEST(FolderFaults, StopAScoreAtTheFirstThatIsFatal) {
               ::testing::ThrowsMessage<io::InputError>(HasSubstr("t.txt:2: expected")));
 }
 
+TEST(FolderFaults, ThatAreWarningsAreKeptForAScoreWhichReadsOn) {
+  const TemporaryFolder place("folder_warnings");
+  WriteText(place.path() / "t.txt",
+            "2 0 0 0 0 0 0 1\n1 0 0 0 0 0 0 1\n4 0 0 0 0 0 0 1\n3 0 0 0 0 0 0 1\n");
+  Folder folder(place.path());
+  EXPECT_EQ(ReadTrajectory(folder, "t.txt").size(), 4u);
+  ASSERT_EQ(folder.faults().size(), 2u);
+  const std::vector<std::string> lines = Summaries(folder.faults(), "RUN");
+  ASSERT_EQ(lines.size(), 1u);
+  EXPECT_THAT(lines[0],
+              ::testing::StartsWith("RUN/t.txt:2: time stamp 1.000000 does not follow"));
+  EXPECT_THAT(lines[0], ::testing::EndsWith("(and 1 more like it)"));
+}
+
 TEST(FolderFaults, ThatAreFlawsArePassedOverByAScore) {
   const TemporaryFolder place("folder_flaws");
-  WriteText(place.path() / "t.txt", "2 0 0 0 0 0 0 1\n1 0 0 0 0 0 0 2\n");
-  Folder folder(place.path());
-  EXPECT_EQ(ReadTrajectory(folder, "t.txt").size(), 2u);
+  WriteText(place.path() / "manifest.json", "{\"format\": \"pas-sequence/1\"}");
+  Folder scored(place.path()), checked(place.path(), OnFault::kCollect);
+  EXPECT_TRUE(ReadManifest(scored).synthetic);
+  EXPECT_TRUE(ReadManifest(checked).synthetic);
+  EXPECT_EQ(scored.faults().size(), 0u);
+  EXPECT_GT(checked.faults().size(), 0u);
 }
 
 TEST(FolderFaults, OfIoComeWithTheirLine) {

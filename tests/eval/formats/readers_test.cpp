@@ -59,7 +59,7 @@ class ReadFolders : public ::testing::Test {
 };
 
 TEST_F(ReadFolders, TrajectoryNormalisesQuaternionsAndSkipsComments) {
-  Write("t.txt", "# a comment\n\n1.5 1 2 3 0 0 0 2\r\n2.5\t1 2 3 0 0 1 0\n");
+  Write("t.txt", "# a comment\n\n1.5 1 2 3 0 0 0 1.0005\r\n2.5\t1 2 3 0 0 1 0\n");
   const Trajectory trajectory = ReadTrajectory(in_, "t.txt");
   ASSERT_EQ(trajectory.size(), 2u);
   EXPECT_EQ(trajectory[0].stamp_s, 1.5);
@@ -69,9 +69,9 @@ TEST_F(ReadFolders, TrajectoryNormalisesQuaternionsAndSkipsComments) {
 }
 
 TEST_F(ReadFolders, TrajectoryNamesTheLineOfEveryFault) {
-  for (const char* line :
-       {"1 2 3 4 5 6 7", "1 2 3 4 0 0 0 0", "1 2 3 x 0 0 0 1", "1 nan 0 0 0 0 0 1",
-        "1 1e999 0 0 0 0 0 1", "1 2 3 4 0 0 0 1 9", "1,5 0 0 0 0 0 0 1"}) {
+  for (const char* line : {"1 2 3 4 5 6 7", "1 2 3 4 0 0 0 0", "1 2 3 4 0 0 0 10",
+                           "1 1e200 3 4 0 0 0 1", "1 2 3 x 0 0 0 1", "1 nan 0 0 0 0 0 1",
+                           "1 1e999 0 0 0 0 0 1", "1 2 3 4 0 0 0 1 9", "1,5 0 0 0 0 0 0 1"}) {
     Write("t.txt", std::string("1 0 0 0 0 0 0 1\n") + line + "\n");
     EXPECT_THAT(ErrorOf([&] { ReadTrajectory(in_, "t.txt"); }), HasSubstr("t.txt:2: expected"))
         << line;
@@ -95,6 +95,27 @@ TEST_F(ReadFolders, FramesAreAssociatedByNearestTimeWithinTwentyMilliseconds) {
   EXPECT_EQ(sequence.frames[1].depth, "d.png");
   EXPECT_FALSE(sequence.synthetic);
   EXPECT_FALSE(sequence.camera || sequence.groundtruth || sequence.scene);
+}
+
+TEST_F(ReadFolders, ADepthImageBelongsToOneFrameAlone) {
+  // Depth at half the rate of colour: the frames that the estimator is given, not twice as many.
+  std::string rgb, depth;
+  for (int i = 0; i < 8; ++i) {
+    rgb += std::to_string(1.0 + 0.02 * i + 0.001) + " rgb/" + std::to_string(i) + ".png\n";
+    if (i % 2 == 0) depth += std::to_string(1.0 + 0.02 * i) + " d" + std::to_string(i) + "\n";
+  }
+  Write("rgb.txt", rgb + "1.001 rgb/again.png\n");
+  Write("depth.txt", depth);
+  const Sequence sequence = ReadSequence(folder_);
+  ASSERT_EQ(sequence.frames.size(), 4u);
+  EXPECT_EQ(sequence.frames[3].depth, "d6");
+  EXPECT_EQ(sequence.warnings.size(), 1u);  // the stamp that comes again
+}
+
+TEST_F(ReadFolders, AFileOutsideTheFolderIsRefused) {
+  Write("associations.txt", "1 ../rgb/a.png 1 depth/a.png\n");
+  EXPECT_THAT(ErrorOf([&] { ReadSequence(folder_); }),
+              AllOf(HasSubstr("associations.txt:1"), HasSubstr("outside the folder")));
 }
 
 TEST_F(ReadFolders, CameraFaultsNameKeyAndLine) {
@@ -204,6 +225,25 @@ TEST_F(ReadFolders, TheRunsSequenceThatIsNowhereIsNamedWithBothPlaces) {
   Write("trajectory.txt", "1 0 0 0 0 0 0 1\n");
   EXPECT_THAT(ErrorOf([&] { SequenceOf(ReadRun(folder_)); }),
               AllOf(HasSubstr("run.json"), HasSubstr("lost"), HasSubstr("--truth")));
+}
+
+TEST_F(ReadFolders, TheRunsSequenceIsFoundWhereverTheTwoWereMoved) {
+  const auto found = [&](const std::string& sequence, const std::string& absolute) {
+    Write("a/run/run.json",
+          nlohmann::json{
+              {"format", "pas-run/1"}, {"sequence", sequence}, {"sequence_absolute", absolute}}
+              .dump());
+    Write("a/run/trajectory.txt", "1 0 0 0 0 0 0 1\n");
+    return fs::weakly_canonical(SequenceOf(ReadRun(folder_ / "a/run")));
+  };
+  fs::create_directories(folder_ / "a/seq");
+  fs::create_directories(folder_ / "a/run/truth");
+  const fs::path seq = fs::weakly_canonical(folder_ / "a/seq");
+  EXPECT_EQ(found("../seq", "/nowhere"), seq);
+  EXPECT_EQ(found("seq", "/nowhere"), seq);
+  EXPECT_EQ(found(seq.string(), ""), seq);
+  EXPECT_EQ(found("../moved/away", seq.string()), seq);
+  EXPECT_EQ(found("truth", seq.string()), fs::weakly_canonical(folder_ / "a/run/truth"));
 }
 
 TEST(ReadRecording, FindsTheFramesAndTheTruthOfARealSequence) {

@@ -215,26 +215,44 @@ TEST_F(EvaluateTinyWorld, ATrajectoryShiftedHalfWayMovesItsErrorsAndTheMapsGauge
     run.trajectory[i].second.t += Eigen::Vector3d(0.02, 0.01, 0.0);
   }
   const nlohmann::json after = Metrics(run);
-  EXPECT_EQ(
-      Moved(before, after),
-      (Keys{"trajectory/ate_se3", "trajectory/ate_origin", "trajectory/ate_complete_rmse_m",
-            "trajectory/rpe_1s", "trajectory/rpe_1m", "map/normal_deg", "map/offset_mm",
-            "map/vertex_mm", "map/polygon_iou", "map/area_explained"}));
+  EXPECT_EQ(Moved(before, after),
+            (Keys{"trajectory/ate_se3", "trajectory/ate_origin",
+                  "trajectory/ate_complete_rmse_m", "trajectory/rpe_1s", "trajectory/rpe_1m",
+                  "map/offset_mm", "map/vertex_mm", "map/polygon_iou", "map/area_explained"}));
   EXPECT_NEAR(after["trajectory"]["ate_origin"]["max_m"].get<double>(), std::hypot(0.02, 0.01),
               kExact);
+}
+
+TEST_F(EvaluateTinyWorld, AFewNoisyPositionsDoNotTiltTheMap) {
+  for (const std::size_t count : {6, 12, 30}) {
+    TinyRun run(*world_);
+    run.trajectory.resize(count);
+    for (std::size_t i = 0; i < count; ++i) {
+      run.trajectory[i].second.t +=
+          0.01 * Eigen::Vector3d(std::sin(1.0 * double(i)), std::sin(2.0 * double(i)),
+                                 std::sin(3.0 * double(i)));
+    }
+    const nlohmann::json map = Metrics(run)["map"];
+    EXPECT_LT(map["normal_deg"]["p95"].get<double>(), 1e-6) << count;
+    EXPECT_LT(map["offset_mm"]["p95"].get<double>(), 10.0) << count;
+  }
 }
 
 TEST_F(EvaluateTinyWorld, ARunWithoutPosesHasNoErrorOfZero) {
   TinyRun run(*world_);
   run.trajectory.clear();
   const Evaluation evaluation = EvaluationOf(run);
-  EXPECT_EQ(evaluation.tracked, 0u);
+  EXPECT_EQ(evaluation.trajectory.tracked, 0u);
   const nlohmann::json m = nlohmann::json::parse(MetricsText(evaluation));
-  EXPECT_FALSE(m["trajectory"].contains("ate_se3"));
-  EXPECT_FALSE(m["trajectory"].contains("ate_origin"));
-  EXPECT_FALSE(m.contains("map"));
+  EXPECT_TRUE(m["trajectory"].at("ate_se3").is_null());
+  EXPECT_TRUE(m["trajectory"].at("ate_origin").is_null());
+  for (const char* key : {"normal_deg", "offset_mm", "vertex_mm", "polygon_iou"}) {
+    EXPECT_TRUE(m["map"].at(key).is_null()) << key;
+    EXPECT_EQ(m["reasons"].at(std::string("map/") + key), "the run has no pose");
+  }
   EXPECT_GT(m["trajectory"]["ate_complete_rmse_m"].get<double>(), 1.0);  // all frames charged
-  EXPECT_THAT(MetricsTable(evaluation), HasSubstr("not defined"));
+  EXPECT_EQ(m["reasons"]["trajectory/ate_se3"], "the run has no pose");
+  EXPECT_THAT(MetricsTable(evaluation), HasSubstr("-  (the run has no pose)"));
 }
 
 TEST_F(EvaluateTinyWorld, APoseForAFrameThatDoesNotExistIsRefused) {

@@ -1,6 +1,10 @@
 #include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
 #include <cmath>
+#include <cstdint>
+#include <numbers>
+#include <random>
 
 #include "eval/formats/sequence.h"
 #include "eval/trajectory/pairs.h"
@@ -91,8 +95,51 @@ TEST(ScoreTrajectory, SaysNotDefinedForACameraOnARail) {
   EXPECT_FALSE(score.ate_se3.has_value());
   EXPECT_FALSE(score.ate_complete_rmse_m.has_value());
   EXPECT_TRUE(score.ate_origin.has_value());
-  EXPECT_TRUE(score.gauge_by_origin);
+  EXPECT_TRUE(score.gauge.has_value());
   EXPECT_TRUE(score.rpe_1s.has_value());
+}
+
+/// Position error of a millimetre and rotation error of a tenth of a degree on a path of `count`
+/// poses; the angle between the world of the truth and where the gauge lays it.
+double GaugeErrorDeg(Trajectory truth, std::uint32_t seed) {
+  std::mt19937 random(seed);
+  std::normal_distribution<double> position_m(0.0, 0.001), angle_rad(0.0, 0.0017);
+  const Pose T_wg{Eigen::AngleAxisd(0.7, Eigen::Vector3d(1, 2, 3).normalized()).matrix(),
+                  Eigen::Vector3d(0.4, -1.1, 0.2)};
+  Trajectory estimate = truth;
+  for (StampedPose& pose : estimate) {
+    pose.T_wc = T_wg * pose.T_wc;
+    for (int axis = 0; axis < 3; ++axis) {
+      pose.T_wc.t[axis] += position_m(random);
+      pose.T_wc.R *=
+          Eigen::AngleAxisd(angle_rad(random), Eigen::Vector3d::Unit(axis)).toRotationMatrix();
+    }
+  }
+  const TrajectoryScore score = ScoreTrajectory(estimate, truth, Stamps(truth), true);
+  return AngleOf(score.gauge.value().T_gw.R * T_wg.R) * 180.0 / std::numbers::pi;
+}
+
+TEST(MapGauge, IsAsGoodAsTheRotationsOnAShortPath) {
+  for (const int count : {6, 12, 30}) {
+    Trajectory path = Helix(count, 30.0);
+    for (StampedPose& pose : path) pose.T_wc.t *= 0.02;  // 2 mm a frame
+    EXPECT_LT(GaugeErrorDeg(path, 1), 0.2) << count;
+  }
+}
+
+TEST(MapGauge, IsAsGoodAsTheRotationsOnALineWithJitter) {
+  Trajectory rail;
+  for (int i = 0; i < 60; ++i) {
+    rail.push_back({i / 30.0, {Eigen::Matrix3d::Identity(), {0.01 * i, 0.02 * i, 0.0}}});
+  }
+  EXPECT_LT(GaugeErrorDeg(rail, 2), 0.2);
+}
+
+TEST(MapGauge, IsNotDefinedWhereRotationsContradictEachOther) {
+  const Trajectory truth = Helix(2, 30.0);
+  Trajectory estimate = truth;
+  estimate[1].T_wc.R = Eigen::Vector3d(1, -1, -1).asDiagonal();  // half a turn about x
+  EXPECT_FALSE(ScoreTrajectory(estimate, truth, Stamps(truth), true).gauge.has_value());
 }
 
 TEST(ScoreTrajectory, SaysNotDefinedForACameraOnATripod) {

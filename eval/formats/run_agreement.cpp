@@ -1,4 +1,4 @@
-#include "eval/check/check_decisions.h"
+#include "eval/formats/run_agreement.h"
 
 #include <fmt/format.h>
 
@@ -6,6 +6,24 @@
 
 namespace eval {
 namespace {
+
+// Poses exist only at times of frames, keyframes only at times of poses.
+void TellOtherTimes(Folder& folder, const std::string& file, const Trajectory& poses,
+                    const std::vector<double>& stamps_s, const std::string& of,
+                    Severity severity) {
+  for (const StampedPose& pose : poses) {
+    if (NearestStamp(stamps_s, pose.stamp_s, kSameInstant_s)) continue;
+    folder.Tell(file, pose.line, fmt::format("{:.6f} is no time of {}", pose.stamp_s, of),
+                "write the time of the frame as the sequence gives it", severity);
+  }
+}
+
+void TellOtherCount(Folder& folder, const std::string& file, std::size_t count,
+                    const char* what, const std::optional<int>& told, const char* records) {
+  if (!told || *told == static_cast<int>(count)) return;
+  folder.Tell(file, 0, fmt::format("has {} {}, but run.json tells of {}", count, what, *told),
+              fmt::format("write one line for each {}", records), Severity::kWarning);
+}
 
 /// Follows which map planes exist when a frame decides.
 class DecisionCheck {
@@ -26,9 +44,11 @@ class DecisionCheck {
   }
 
  private:
-  void Tell(const std::string& key, std::string what, std::string mend) {
+  void Tell(const std::string& key, std::string what, std::string mend,
+            Severity severity = Severity::kFatal) {
     folder_.Tell(
-        {"frame_planes.jsonl", line_, pointer_ + key, std::move(what), std::move(mend)});
+        {"frame_planes.jsonl", line_, pointer_ + key, std::move(what), std::move(mend)},
+        severity);
   }
 
   void Decision(const RunFramePlane& plane) {
@@ -51,11 +71,11 @@ class DecisionCheck {
     if (decision == "new") {
       if (!made_now_.insert(id).second || known) {
         Tell("decision", fmt::format("is new, but map plane {} has been made before", id),
-             "write each decision as it was made at that frame");
+             "write each decision as it was made at that frame", Severity::kWarning);
       }
     } else if (!known && unmade_.insert(id).second) {
       Tell("decision", fmt::format("is matched, but no earlier frame made map plane {}", id),
-           "write the frame that makes a map plane as new");
+           "write the frame that makes a map plane as new", Severity::kWarning);
     }
   }
 
@@ -70,7 +90,20 @@ class DecisionCheck {
 
 }  // namespace
 
-void CheckDecisions(Folder& folder, const Run& run) {
+void TellRunDisagreements(Folder& folder, const Run& run) {
+  if (folder.Has("trajectory.txt")) {
+    TellOtherCount(folder, "trajectory.txt", run.trajectory.size(), "poses", run.info.tracked,
+                   "tracked frame");
+  }
+  if (run.keyframes) {
+    TellOtherTimes(folder, "keyframes.txt", *run.keyframes, StampsOf(run.trajectory),
+                   "trajectory.txt", Severity::kFlaw);
+  }
+  if (!run.has_planes) return;
+  TellOtherTimes(folder, "trajectory.txt", run.trajectory, StampsOf(run.frames),
+                 "frame_planes.jsonl", Severity::kWarning);
+  TellOtherCount(folder, "frame_planes.jsonl", run.frames.size(), "frames", run.info.frames,
+                 "frame");
   DecisionCheck decisions(folder, run);
   for (const RunFrame& frame : run.frames) decisions.Frame(frame);
 }
