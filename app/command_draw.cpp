@@ -17,15 +17,14 @@ int RunDraw(const DrawArguments& arguments, bool quiet) {
   options.frames = arguments.frames;
   options.camera = arguments.camera;
   if (!arguments.truth.empty()) options.truth = arguments.truth;
-  if (!arguments.force && std::filesystem::exists(arguments.output)) {
-    eval::WritePictures({}, arguments.output, false);  // refuses before the work is done
-  }
-  const std::vector<eval::Picture> pictures = eval::DrawRun(arguments.run, options);
-  eval::WritePictures(pictures, arguments.output, arguments.force);
-  for (const eval::Picture& picture : pictures) {
-    if (quiet) break;
+  eval::RefuseOutput(arguments.output, arguments.force);  // before the work is done
+  const eval::Drawing drawing = eval::DrawRun(arguments.run, options);
+  eval::WritePictures(drawing.pictures, arguments.output, arguments.force);
+  if (quiet) return kDone;
+  for (const eval::Picture& picture : drawing.pictures) {
     std::printf("%s\n", (std::filesystem::path(arguments.output) / picture.name).c_str());
   }
+  for (const std::string& note : drawing.notes) std::printf("%s\n", note.c_str());
   return kDone;
 }
 

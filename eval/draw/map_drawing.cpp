@@ -103,6 +103,7 @@ MapScene CollectMap(const Run& run, const Sequence& sequence) {
   const MapGauge gauge = ChooseMapGauge(run, sequence);
   MapScene scene;
   scene.on_truth = gauge.on_truth;
+  scene.levelled = gauge.levelled;
   for (const RunMapPlane& plane : run.map) {
     if (plane.merged_into) continue;
     MapScene::Estimate drawn{plane.id,
@@ -131,15 +132,16 @@ MapScene CollectMap(const Run& run, const Sequence& sequence) {
   const double last = sequence.frames.empty() ? 0 : sequence.frames.back().stamp_s + 0.05;
   for (const StampedPose& pose : *sequence.groundtruth) {
     if (pose.stamp_s >= first && pose.stamp_s <= last) {
-      scene.truth_path_v.push_back(pose.T_wc.t);
+      scene.truth_path_v.push_back(gauge.T_vg * pose.T_wc.t);
     }
   }
   if (!sequence.scene) return scene;
   for (const TruthPlane& plane : sequence.scene->planes) {
     if (!plane.scored) continue;
     const TruthObject* object = sequence.scene->FindObject(plane.object);
-    scene.truth.push_back(
-        {object == nullptr ? "" : object->object_class, plane.pi_g, plane.vertices_g});
+    scene.truth.push_back({object == nullptr ? "" : object->object_class,
+                           Transform(gauge.T_vg, plane.pi_g),
+                           Moved(gauge.T_vg, plane.vertices_g)});
   }
   return scene;
 }
@@ -175,7 +177,7 @@ std::optional<std::size_t> BasePlane(const MapScene& scene) {
       const double step =
           HeightAt(other.pi_v, other.centre_v) - HeightAt(base.pi_v, other.centre_v);
       above += other.pi_v.n.z() > kLevel_cos && step > 0 && step < kStandsOn_m &&
-               other.area_m2 < base.area_m2;
+               other.area_m2 < base.area_m2 && Contains(base.hull_v, other.centre_v);
     }
     const std::pair<int, double> score(above, base.observations * base.area_m2);
     if (best && !(score > best_score)) continue;

@@ -49,6 +49,8 @@ RunInfo ReadInfo(const JsonRecord& root) {
   }
   info.frames = expected.Integer("frames", 0);
   info.tracked = expected.Integer("tracked");
+  info.interrupted = root.Optional().Flag("interrupted").value_or(false);
+  info.sequence_frames = root.Optional().Integer("sequence_frames", 0);
   expected.Integer("lost", 0);
   if (info.frames && info.tracked && !(*info.tracked >= 0 && *info.tracked <= *info.frames)) {
     root.TellAt("tracked", fmt::format("is {} of {} frames", *info.tracked, *info.frames),

@@ -13,6 +13,8 @@ struct RunInfo {
   std::string camera;    ///< a name or a file; empty when the run does not tell
   std::string variant, detector, version;
   std::optional<int> frames, tracked;
+  bool interrupted = false;            ///< stopped before the end of the sequence
+  std::optional<int> sequence_frames;  ///< all there were to process
   std::optional<double> wall_time_s, peak_memory_mb;
 };
 
