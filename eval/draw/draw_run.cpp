@@ -47,6 +47,14 @@ std::vector<std::string> Encoded(const std::vector<Picture>& pictures) {
 /// would tell of another run.
 void ReplacePictures(const std::vector<Picture>& pictures,
                      const std::vector<std::string>& files, const fs::path& folder) {
+  for (const Picture& picture : pictures) {
+    std::error_code error;
+    const auto there = fs::symlink_status(folder / picture.name, error);
+    if (fs::exists(there) && !fs::is_regular_file(there)) {
+      throw io::InputError((folder / picture.name).string(),
+                           "is no regular file, so it is not replaced; choose another folder");
+    }
+  }
   std::vector<std::unique_ptr<io::AtomicFile>> written;
   for (std::size_t i = 0; i < files.size(); ++i) {
     written.push_back(std::make_unique<io::AtomicFile>(folder / pictures[i].name));

@@ -35,7 +35,8 @@ void PutPlanes(cv::Mat& view, const MapScene& scene, const MapScale& scale) {
     const std::vector<cv::Point2d> hull = scale.At(plane.hull_v);
     const bool steep = IsSteep(plane.pi_v);
     // A slanted plane hides what is under it, and tells little from above.
-    if (steep || IsNearlyLevel(plane.pi_v)) FillArea(view, hull, colour, steep ? 0.75 : 0.5);
+    if (steep) FillArea(view, hull, colour, 0.75);
+    if (IsNearlyLevel(plane.pi_v)) FillArea(view, hull, LevelFill(plane.id), kLevelOpacity);
     PutPath(view, hull, true, Darker(colour, 0.8), steep ? 2 : 1);
   }
 }
@@ -148,7 +149,7 @@ void PutMapLegend(cv::Mat& page, const MapScene& scene, cv::Point2d at) {
   PutEntry(page, at, "estimated plane, colour by id", [&](cv::Point2d p) {
     const std::vector<cv::Point2d> box{p + cv::Point2d(0, -7), p + cv::Point2d(36, -7),
                                        p + cv::Point2d(36, 7), p + cv::Point2d(0, 7)};
-    FillArea(page, box, sample, 0.5);
+    FillArea(page, box, LevelFill(3), kLevelOpacity);
     PutPath(page, box, true, Darker(sample, 0.8));
   });
   PutEntry(page, at, "its face from four vertices", [&](cv::Point2d p) {
@@ -210,6 +211,11 @@ cv::Mat DrawMapView(const MapScene& scene, MapScale scale) {
 }
 
 }  // namespace
+
+cv::Scalar LevelFill(int id) {
+  constexpr double kShare = 0.6;  // of the plane's colour, the rest is white
+  return ColourOfPlane(id) * kShare + kWhite * (1 - kShare);
+}
 
 std::vector<MapLabel> LabelsOfMap(const MapScene& scene, const MapScale& scale) {
   const cv::Rect2d view(0, 0, scale.page.width, scale.page.height);

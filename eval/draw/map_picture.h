@@ -26,6 +26,11 @@ struct MapLabel {
 /// small ones. `scale.page` begins at (0, 0).
 std::vector<MapLabel> LabelsOfMap(const MapScene& scene, const MapScale& scale);
 
+/// The fill of a level plane: pale and nearly opaque, so that what lies under it is still seen,
+/// and the colours of a stack do not run into one.
+inline constexpr double kLevelOpacity = 0.85;
+cv::Scalar LevelFill(int id);
+
 /// Colours that both views share.
 inline const cv::Scalar kInkColour{60, 55, 50}, kTruthColour{35, 30, 28};
 
