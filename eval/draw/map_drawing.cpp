@@ -28,18 +28,6 @@ Eigen::Vector3d Mean(const std::vector<Eigen::Vector3d>& points) {
   return points.empty() ? sum : Eigen::Vector3d(sum / static_cast<double>(points.size()));
 }
 
-// Seen from above, in either direction of turning.
-bool Contains(const std::vector<Eigen::Vector3d>& convex, const Eigen::Vector3d& p) {
-  bool left = false, right = false;
-  for (std::size_t i = 0; i < convex.size(); ++i) {
-    const Eigen::Vector3d &a = convex[i], &b = convex[(i + 1) % convex.size()];
-    const double side = (b.x() - a.x()) * (p.y() - a.y()) - (b.y() - a.y()) * (p.x() - a.x());
-    left = left || side > 0;
-    right = right || side < 0;
-  }
-  return convex.size() >= 3 && !(left && right);
-}
-
 struct Bounds {
   double x0 = std::numeric_limits<double>::infinity(), y0 = x0, x1 = -x0, y1 = -x0;
   void Add(const std::vector<Eigen::Vector3d>& points) {
@@ -91,6 +79,36 @@ Bounds BoundsOf(const MapScene& scene) {
 }
 
 }  // namespace
+
+bool Contains(const std::vector<Eigen::Vector3d>& convex, const Eigen::Vector3d& p) {
+  bool left = false, right = false;
+  for (std::size_t i = 0; i < convex.size(); ++i) {
+    const Eigen::Vector3d &a = convex[i], &b = convex[(i + 1) % convex.size()];
+    const double side = (b.x() - a.x()) * (p.y() - a.y()) - (b.y() - a.y()) * (p.x() - a.x());
+    left = left || side > 0;
+    right = right || side < 0;
+  }
+  return convex.size() >= 3 && !(left && right);
+}
+
+Eigen::Vector3d OpenPoint(const MapScene& scene, const MapScene::Estimate& plane,
+                          const MapScale& scale) {
+  const auto covered = [&](const Eigen::Vector3d& p_v) {
+    return std::any_of(scene.planes.begin(), scene.planes.end(), [&](const auto& other) {
+      const bool level = other.pi_v.n.z() > kLevel_cos;
+      return level && HeightAt(other.pi_v, p_v) > HeightAt(plane.pi_v, p_v) &&
+             Contains(other.hull_v, p_v);
+    });
+  };
+  if (!(plane.pi_v.n.z() > kLevel_cos) || !covered(plane.centre_v)) return plane.centre_v;
+  for (const double share : {0.2, 0.4, 0.6, 0.8}) {
+    for (const Eigen::Vector3d& corner : plane.hull_v) {
+      const Eigen::Vector3d p_v = (1 - share) * plane.centre_v + share * corner;
+      if (scale.page.contains(scale.At(p_v)) && !covered(p_v)) return p_v;
+    }
+  }
+  return plane.centre_v;
+}
 
 std::vector<cv::Point2d> MapScale::At(const std::vector<Eigen::Vector3d>& points_v) const {
   std::vector<cv::Point2d> pixels;

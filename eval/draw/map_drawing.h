@@ -57,6 +57,14 @@ inline constexpr double kLevel_cos = 0.985;
 /// Height of the plane below or above a point of v.
 double HeightAt(const Plane& pi_v, const Eigen::Vector3d& p_v);
 
+/// Whether a convex outline contains the point, seen from above; in either direction of turning.
+bool Contains(const std::vector<Eigen::Vector3d>& convex_v, const Eigen::Vector3d& p_v);
+
+/// A point of the plane on the page that no level plane above it covers: its centre, or, for a
+/// floor under a desk, one towards its border. The centre when there is none.
+Eigen::Vector3d OpenPoint(const MapScene& scene, const MapScene::Estimate& plane,
+                          const MapScale& scale);
+
 /// The level plane that most others stand on, over it and up to 0.4 m above (the desk, usually); the
 /// most observed one on ties. Nothing without a level plane.
 std::optional<std::size_t> BasePlane(const MapScene& scene);

@@ -222,7 +222,7 @@ std::vector<MapLabel> LabelsOfMap(const MapScene& scene, const MapScale& scale) 
   LabelLayout layout({4, 4, view.width - 8, view.height - 8});
   std::vector<MapLabel> labels;
   for (const MapScene::Estimate* plane : ByRank(scene)) {
-    const cv::Point2d at = scale.At(plane->centre_v);
+    const cv::Point2d at = scale.At(OpenPoint(scene, *plane, scale));
     const bool level = IsNearlyLevel(plane->pi_v);
     const double side = LongestSide(scale.At(plane->hull_v));
     const bool shown = side >= (level ? kMinLevelSide_px : kMinOtherSide_px);

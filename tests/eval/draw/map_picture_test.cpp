@@ -54,6 +54,19 @@ TEST(LabelsOfMap, NameLevelPlanesBeforeALargerWall) {
   EXPECT_EQ(labels.front().id, 2);
 }
 
+TEST(LabelsOfMap, NameAFloorWhereNoDeskCoversIt) {
+  MapScene scene;
+  scene.planes = {Top(1, 0, 0.9, Eigen::Vector3d::UnitZ()),
+                  Top(2, 0, 0.3, Eigen::Vector3d::UnitZ())};
+  scene.planes[1].pi_v.d = -0.7;  // the desk, 0.7 m over the floor
+  const std::vector<MapLabel> labels = LabelsOfMap(scene, OneMetre());
+  ASSERT_EQ(labels.size(), 2u);
+  const cv::Rect2d desk(210, 210, 180, 180);
+  EXPECT_EQ(labels[0].id, 1);
+  EXPECT_EQ((labels[0].place & desk).area(), 0);
+  EXPECT_GT((labels[1].place & desk).area(), 0);
+}
+
 TEST(DrawMap, SaysThatNoPlaneWasMapped) {
   const cv::Mat page = DrawMap({}, {"run", "seq", "", "nothing was tracked"});
   EXPECT_FALSE(page.empty());
