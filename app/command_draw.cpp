@@ -19,15 +19,14 @@ int RunDraw(const DrawArguments& arguments, bool quiet) {
   options.camera = arguments.camera;
   options.warn = PrintWarning;
   if (!arguments.truth.empty()) options.truth = arguments.truth;
-  if (!arguments.force && std::filesystem::exists(arguments.output)) {
-    eval::WritePictures({}, arguments.output, false);  // refuses before the work is done
-  }
-  const std::vector<eval::Picture> pictures = eval::DrawRun(arguments.run, options);
-  eval::WritePictures(pictures, arguments.output, arguments.force);
-  for (const eval::Picture& picture : pictures) {
-    if (quiet) break;
+  eval::RefuseOutput(arguments.output, arguments.force);  // before the work is done
+  const eval::Drawing drawing = eval::DrawRun(arguments.run, options);
+  eval::WritePictures(drawing.pictures, arguments.output, arguments.force);
+  if (quiet) return kDone;
+  for (const eval::Picture& picture : drawing.pictures) {
     std::printf("%s\n", (std::filesystem::path(arguments.output) / picture.name).c_str());
   }
+  for (const std::string& note : drawing.notes) std::printf("%s\n", note.c_str());
   return kDone;
 }
 
@@ -36,13 +35,15 @@ int RunDraw(const DrawArguments& arguments, bool quiet) {
 void AddDrawCommand(CLI::App& pas, const Globals& globals, int& exit_code) {
   CLI::App* draw = pas.add_subcommand(
       "draw",
-      "Draws a run into pictures: contact_sheet.png (frames with segmented planes, edge "
-      "lines,\n"
-      "vertices, map ids and decisions), top_view.png (estimated over true map, both camera "
-      "paths,\n"
-      "heights of level planes in mm) and, with a true trajectory, error_over_time.png.\n"
-      "Run `pas slam --save-segmentation` for tinted segments; without it planes are "
-      "outlined.");
+      "Draws a run into pictures: contact_sheet.png (frames with their planes, map ids and "
+      "decisions),\n"
+      "top_view.png (estimated over true map, both camera paths, heights of level planes in "
+      "mm) "
+      "and,\n"
+      "with a true trajectory, error_over_time.png (position in mm, rotation in degrees, lost "
+      "spans).\n"
+      "Run `pas slam --save-segmentation` for tinted segments; without it planes are mere "
+      "outlines.");
   auto arguments = std::make_shared<DrawArguments>();
   draw->add_option("RUN", arguments->run, "Folder written by `pas slam`")
       ->required()

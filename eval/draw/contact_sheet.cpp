@@ -4,17 +4,21 @@
 
 #include <algorithm>
 #include <cmath>
-#include <opencv2/imgcodecs.hpp>
 
+#include "eval/draw/colour_image.h"
 #include "eval/draw/frame_picture.h"
 #include "eval/draw/paint.h"
+#include "eval/draw/plane_name.h"
+#include "eval/draw/run_title.h"
+#include "eval/draw/sheet_header.h"
 #include "io/input_error.h"
 
 namespace eval {
 namespace {
 
 const Colour kPage{40, 34, 31}, kPale{215, 208, 202}, kWarning{90, 110, 255};
-constexpr int kTile_px = 600, kGap_px = 14, kCaption_px = 28, kHeader_px = 84;
+constexpr int kTile_px = 600, kGap_px = 14, kCaption_px = 30;
+constexpr int kMaxTileHeight_px = 1500;  // an image that is a mere column fills no wall
 
 template <typename Items, typename Stamp>
 const typename Items::value_type* FindByStamp(const Items& items, double stamp_s,
@@ -28,11 +32,7 @@ const typename Items::value_type* FindByStamp(const Items& items, double stamp_s
 FrameScene Collect(const Run& run, const Sequence& sequence, const SequenceFrame& frame,
                    const std::optional<Camera>& camera) {
   FrameScene scene;
-  const std::filesystem::path file = sequence.folder / frame.rgb;
-  scene.rgb = cv::imread(file.string(), cv::IMREAD_COLOR);
-  if (scene.rgb.empty()) {
-    throw io::InputError(file.string(), "cannot be read as an image; restore it");
-  }
+  scene.rgb = ReadColourImage(sequence.folder / frame.rgb);
   scene.labels = ReadSegmentation(run, frame.stamp_s);
   scene.frame = FindByStamp(run.frames, frame.stamp_s, [](const auto& f) { return f.stamp_s; });
   const StampedPose* pose =
@@ -43,71 +43,33 @@ FrameScene Collect(const Run& run, const Sequence& sequence, const SequenceFrame
   return scene;
 }
 
-std::string Counts(const RunFrame* frame) {
-  if (frame == nullptr) return "";
-  int matched = 0, made = 0, bad = 0;
-  for (const RunFramePlane& plane : frame->planes) {
-    if (plane.bad) {
-      ++bad;
-    } else {
-      matched += plane.decision == "matched";
-      made += plane.decision == "new";
-    }
-  }
-  return fmt::format("{} planes: {} matched, {} new, {} bad", frame->planes.size(), matched,
-                     made, bad);
+std::string Counts(const RunFrame* frame, bool tracked) {
+  if (frame == nullptr) return "no planes on record";
+  if (!tracked) return fmt::format("{} planes", frame->planes.size());
+  int counts[4] = {};
+  for (const RunFramePlane& plane : frame->planes) ++counts[static_cast<int>(MarkOf(plane))];
+  const auto of = [&](DecisionMark mark) { return counts[static_cast<int>(mark)]; };
+  return fmt::format("{} planes: {} matched, {} new, {} not trusted", frame->planes.size(),
+                     of(DecisionMark::kMatched), of(DecisionMark::kNew),
+                     of(DecisionMark::kBad));
 }
 
-void PutCaption(cv::Mat& page, cv::Point corner, std::size_t index, double stamp_s,
-                const FrameScene& scene) {
-  const cv::Point2d base(corner.x + 2, corner.y + kCaption_px - 9);
-  const TextStyle bold{10, kWhite, true, Align::kLeft};
+void PutCaption(cv::Mat& page, cv::Point corner, int width_px, std::size_t index,
+                double since_first_s, const FrameScene& scene) {
+  const cv::Point2d base(corner.x + 2, corner.y + kCaption_px - 10);
+  const TextStyle bold{11, kWhite, true, Align::kLeft};
   const std::string name = fmt::format("frame {}", index);
   PutText(page, name, base, bold);
-  const TextStyle plain{9.5, kPale, false, Align::kLeft};
+  const TextStyle plain{10, kPale, false, Align::kLeft};
   const cv::Point2d after = base + cv::Point2d(TextWidth(name, bold) + 14, 0);
-  const std::string time = fmt::format("{:.6f} s", stamp_s);
+  const std::string time = fmt::format("{:.2f} s", since_first_s);
   PutText(page, time, after, plain);
   if (!scene.T_wc) {
     PutText(page, "not tracked", after + cv::Point2d(TextWidth(time, plain) + 14, 0),
-            {9.5, kWarning, true, Align::kLeft});
+            {10, kWarning, true, Align::kLeft});
   }
-  PutText(page, Counts(scene.frame), base + cv::Point2d(kTile_px - 4, 0),
-          {9.5, kPale, false, Align::kRight});
-}
-
-void PutHeader(cv::Mat& page, const Run& run, const Sequence& sequence, int planes) {
-  const std::string run_name =
-      std::filesystem::absolute(run.folder).lexically_normal().string();
-  const std::string title = fmt::format(
-      "{}  on  {}", std::filesystem::path(run_name).filename().string(),
-      std::filesystem::absolute(sequence.folder).lexically_normal().filename().string());
-  PutText(page, title, {kGap_px + 2.0, 38}, {15, kWhite, true, Align::kLeft});
-  PutText(page,
-          fmt::format("variant {}   tracked {} of {} frames   {} map planes",
-                      run.info.variant.empty() ? "?" : run.info.variant, run.trajectory.size(),
-                      sequence.frames.size(), planes),
-          {kGap_px + 2.0, 66}, {10.5, kPale, false, Align::kLeft});
-  double x = page.cols - kGap_px;
-  const std::vector<std::pair<Colour, const char*>> marks{{kOpenMark, "no decision"},
-                                                          {kBadMark, "bad, with the reason"},
-                                                          {kNewMark, "new map plane"},
-                                                          {kMatchedMark, "matched"}};
-  const TextStyle style{10.5, kPale, false, Align::kLeft};
-  for (const auto& [colour, text] : marks) {
-    x -= TextWidth(text, style);
-    PutText(page, text, {x, 66}, style);
-    PutDot(page, {x - 12, 61}, 4.5, colour);
-    x -= 40;
-  }
-  PutText(page, "chip: map plane and class; colour: the map plane",
-          {page.cols - kGap_px * 1.0, 38}, {10.5, kPale, false, Align::kRight});
-}
-
-int LivePlanes(const Run& run) {
-  return static_cast<int>(std::count_if(run.map.begin(), run.map.end(), [](const auto& plane) {
-    return !plane.merged_into.has_value();
-  }));
+  PutText(page, Counts(scene.frame, scene.T_wc.has_value()),
+          base + cv::Point2d(width_px - 4, 0), {10, kPale, false, Align::kRight});
 }
 
 }  // namespace
@@ -121,33 +83,48 @@ std::vector<std::size_t> SpreadEvenly(std::size_t total, std::size_t count) {
   return indices;
 }
 
+std::size_t FramesSeen(const Run& run, const Sequence& sequence) {
+  if (!run.info.interrupted || run.frames.empty()) return sequence.frames.size();
+  const double last_s = run.frames.back().stamp_s + kSameStamp_s;
+  return static_cast<std::size_t>(
+      std::count_if(sequence.frames.begin(), sequence.frames.end(),
+                    [&](const SequenceFrame& frame) { return frame.stamp_s <= last_s; }));
+}
+
 cv::Mat ContactSheet(const Run& run, const Sequence& sequence,
                      const std::optional<Camera>& camera, int frames) {
   const std::vector<std::size_t> indices =
-      SpreadEvenly(sequence.frames.size(), static_cast<std::size_t>(std::max(frames, 1)));
-  const int columns = std::max(1, std::min(3, static_cast<int>(indices.size())));
+      SpreadEvenly(FramesSeen(run, sequence), static_cast<std::size_t>(std::max(frames, 1)));
+  if (indices.empty()) throw io::InputError(sequence.folder.string(), "has no frames to draw");
+  const int columns = std::min(3, static_cast<int>(indices.size()));
   const int rows = (static_cast<int>(indices.size()) + columns - 1) / columns;
+  // A single frame has the room of two.
+  const int tile_width = columns == 1 ? 2 * kTile_px : kTile_px;
+  const int page_width = columns * (tile_width + kGap_px) + kGap_px;
+  const SheetHeader header = HeaderOf(TitleOf(run, sequence), run, page_width - 2 * kGap_px);
+  const int top = static_cast<int>(HeightOf(header)) + kGap_px;
+
   cv::Mat page;
   int tile_height = 0;
   for (std::size_t k = 0; k < indices.size(); ++k) {
     const SequenceFrame& frame = sequence.frames[indices[k]];
     const FrameScene scene = Collect(run, sequence, frame, camera);
-    const cv::Mat tile = DrawFrame(scene, kTile_px);
+    const cv::Mat tile = DrawFrame(scene, tile_width);
     if (page.empty()) {
-      tile_height = tile.rows;
-      page = cv::Mat(kHeader_px + rows * (tile_height + kCaption_px + kGap_px),
-                     std::max(columns, 2) * (kTile_px + kGap_px) + kGap_px, CV_8UC3, kPage);
+      tile_height = std::min(tile.rows, kMaxTileHeight_px);
+      page = cv::Mat(top + rows * (tile_height + kCaption_px + kGap_px), page_width, CV_8UC3,
+                     kPage);
     }
     const int column = static_cast<int>(k) % columns, row = static_cast<int>(k) / columns;
-    const cv::Point corner(kGap_px + column * (kTile_px + kGap_px),
-                           kHeader_px + row * (tile_height + kCaption_px + kGap_px));
-    PutCaption(page, corner, indices[k], frame.stamp_s, scene);
-    const cv::Rect place = cv::Rect(corner + cv::Point(0, kCaption_px), tile.size()) &
-                           cv::Rect({0, 0}, page.size());
+    const cv::Point corner(kGap_px + column * (tile_width + kGap_px),
+                           top + row * (tile_height + kCaption_px + kGap_px));
+    PutCaption(page, corner, tile_width, indices[k],
+               frame.stamp_s - sequence.frames.front().stamp_s, scene);
+    const cv::Rect place(corner + cv::Point(0, kCaption_px),
+                         cv::Size(tile.cols, std::min(tile.rows, tile_height)));
     tile(cv::Rect({0, 0}, place.size())).copyTo(page(place));
   }
-  if (page.empty()) throw io::InputError(sequence.folder.string(), "has no frames to draw");
-  PutHeader(page, run, sequence, LivePlanes(run));
+  PutHeader(page, header, {kGap_px + 2.0, kGap_px * 1.0});
   return page;
 }
 

@@ -22,13 +22,26 @@ struct Picture {
   cv::Mat image;     ///< 8-bit BGR
 };
 
-/// Draws a run: contact_sheet.png, top_view.png, and error_over_time.png when there is a truth.
-/// The same folders give the same pixels. @throws InputError for folders that cannot be read
-std::vector<Picture> DrawRun(const std::filesystem::path& run, const DrawOptions& options);
+/// The pictures of a run, and what its user should know of them, a sentence each: what is
+/// missing, why, and how to get it.
+struct Drawing {
+  std::vector<Picture> pictures;
+  std::vector<std::string> notes;
+};
 
-/// Writes the pictures into a folder of their own, all or none: under a temporary name, then
-/// renamed. @throws InputError when the folder exists and `force` is not set, or on failure to
-/// write
+/// Draws a run: contact_sheet.png, top_view.png, and error_over_time.png when there is a true
+/// trajectory. The same folders give the same pixels.
+/// @throws InputError for folders that cannot be read
+Drawing DrawRun(const std::filesystem::path& run, const DrawOptions& options);
+
+/// Refuses an output that exists and is not to be replaced; an empty folder may be filled.
+/// @throws InputError
+void RefuseOutput(const std::filesystem::path& folder, bool force);
+
+/// Writes the pictures into a folder of their own, all or none: under temporary names, then
+/// renamed. In a folder that exists, only pictures of these names and those that an earlier
+/// drawing left are replaced.
+/// @throws InputError when RefuseOutput does, or on failure to write
 void WritePictures(const std::vector<Picture>& pictures, const std::filesystem::path& folder,
                    bool force);
 

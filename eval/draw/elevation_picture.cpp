@@ -177,7 +177,7 @@ void PutElevation(cv::Mat& page, const MapScene& scene, const MapScale& scale,
   }
   PutElevationLabels(page, axes, heights.estimated);
   if (!heights.elsewhere.empty()) {
-    PutText(page, "not drawn:  " + Joined(heights.elsewhere),
+    PutText(page, "too far above or below to be drawn:  " + Joined(heights.elsewhere),
             {panel.x, panel.y + panel.height + 24}, {9.5, kInkColour, false, Align::kLeft});
   }
 }

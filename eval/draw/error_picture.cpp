@@ -5,146 +5,247 @@
 #include <algorithm>
 #include <cmath>
 
+#include "eval/draw/legend.h"
 #include "eval/draw/paint.h"
-#include "eval/draw/run_gauge.h"
-#include "eval/trajectory/alignment.h"
-#include "eval/trajectory/match_stamps.h"
 
 namespace eval {
 namespace {
 
-constexpr int kWidth_px = 1400, kHeight_px = 520;
-const cv::Rect2d kPlot(86, 74, kWidth_px - 86 - 40, kHeight_px - 74 - 62);
-const Colour kInk{60, 55, 50}, kFaintGrid{232, 229, 226}, kCurve{190, 95, 30},
-    kLost{205, 205, 250};
+constexpr int kErrorWidth_px = 1400, kErrorHeight_px = 742, kGapLegend_px = 38;
+constexpr double kLeft_px = 86, kPanelWidth_px = kErrorWidth_px - kLeft_px - 40;
+const cv::Rect2d kPositionPanel(kLeft_px, 128, kPanelWidth_px, 280);
+const cv::Rect2d kRotationPanel(kLeft_px, 488, kPanelWidth_px, 190);
+const Colour kErrorInk{60, 55, 50}, kFaintGrid{232, 229, 226}, kPositionCurve{190, 95, 30},
+    kRotationCurve{60, 130, 30}, kErrorWarning{40, 40, 215};
+constexpr std::size_t kMaxDots = 120;  // more samples than these melt into the line
+const TextStyle kErrorLegend{10.5, kErrorInk, false, Align::kLeft};
 
-struct Sample {
-  double time_s, error_mm;
+Colour ColourOf(Gap gap) {
+  switch (gap) {
+    case Gap::kLost:
+      return {200, 200, 255};
+    case Gap::kNotRun:
+      return {225, 225, 225};
+    case Gap::kNoTruth:
+      break;
+  }
+  return {205, 240, 250};
+}
+
+const char* MeaningOf(Gap gap) {
+  switch (gap) {
+    case Gap::kLost:
+      return "lost: no pose";
+    case Gap::kNotRun:
+      return "not run: interrupted before";
+    case Gap::kNoTruth:
+      break;
+  }
+  return "no true pose to compare with";
+}
+
+/// One quantity over time.
+struct Panel {
+  cv::Rect2d area;
+  std::string title;
+  Colour colour;
+  std::vector<double> values;  ///< of the samples
+  double top;                  ///< value at the upper edge
+  double duration_s;
+  cv::Point2d At(double time_s, double value) const {
+    return {area.x + time_s / duration_s * area.width,
+            area.y + area.height * (1 - value / top)};
+  }
 };
 
-std::vector<Sample> Errors(const Run& run, const Sequence& sequence) {
-  const Trajectory& truth = *sequence.groundtruth;
-  const std::vector<StampMatch> matches = sequence.synthetic
-                                              ? MatchEqual(truth, run.trajectory)
-                                              : MatchNearest(truth, run.trajectory);
-  std::vector<Eigen::Vector3d> x_w, y_g;
-  for (const StampMatch& match : matches) {
-    x_w.push_back(run.trajectory[match.estimate].T_wc.t);
-    y_g.push_back(truth[match.truth].T_wc.t);
-  }
-  const auto umeyama = AlignUmeyama(x_w, y_g);
-  const auto poses = AlignByPoses(run.trajectory, truth, sequence.synthetic);
-  if (!umeyama && !poses) return {};
-  const Pose T_gw = umeyama ? umeyama->T_gw : *poses;
-  std::vector<Sample> samples;
-  for (std::size_t i = 0; i < matches.size(); ++i) {
-    samples.push_back(
-        {run.trajectory[matches[i].estimate].stamp_s, (T_gw * x_w[i] - y_g[i]).norm() * 1e3});
-  }
-  return samples;
+constexpr double kRoom = 1.02;  // of a panel above its largest value, so that its dot is whole
+
+/// The upper edge of a panel: a round value at or above the largest one.
+double TopOf(double largest) {
+  const double step = RoundStep(largest, 5);
+  return step * std::ceil(largest / step);
 }
 
-/// Pixels of the plot from seconds and millimetres.
-struct ErrorAxes {
-  double t0, t1, top_mm;
-  cv::Point2d At(double t, double mm) const {
-    return {kPlot.x + (t - t0) / (t1 - t0) * kPlot.width,
-            kPlot.y + kPlot.height * (1 - mm / top_mm)};
-  }
-};
-
-void PutAxes(cv::Mat& image, const ErrorAxes& axes) {
-  const TextStyle style{9.5, kInk, false, Align::kRight};
-  const double step = RoundStep(axes.top_mm, 6);
-  for (double mm = 0; mm <= axes.top_mm * (1 + 1e-9); mm += step) {
-    PutLine(image, axes.At(axes.t0, mm), axes.At(axes.t1, mm), kFaintGrid);
-    PutText(image, fmt::format("{:g}", mm), axes.At(axes.t0, mm) + cv::Point2d(-9, 4.5), style);
-  }
-  const double tick = RoundStep(axes.t1 - axes.t0, 10);
-  for (double t = 0; t <= axes.t1 - axes.t0 + 1e-9; t += tick) {
-    const cv::Point2d at = axes.At(axes.t0 + t, 0);
-    PutLine(image, at, at + cv::Point2d(0, 5), kInk);
-    PutText(image, fmt::format("{:g}", t), at + cv::Point2d(0, 21),
-            {9.5, kInk, false, Align::kCentre});
-  }
-  PutLine(image, axes.At(axes.t0, 0), axes.At(axes.t1, 0), kInk);
-  PutText(image, "seconds since the first frame",
-          {kPlot.x + kPlot.width / 2, kHeight_px - 16.0}, {10, kInk, false, Align::kCentre});
-  PutText(image, "mm", {kPlot.x - 9, kPlot.y - 14}, {10, kInk, false, Align::kRight});
-}
-
-// Frames of the sequence without a pose.
-void ShadeLost(cv::Mat& image, const ErrorAxes& axes, const Run& run,
-               const Sequence& sequence) {
-  std::vector<double> stamps;
-  for (const StampedPose& pose : run.trajectory) stamps.push_back(pose.stamp_s);
-  const double half = 0.5 * (axes.t1 - axes.t0) /
-                      std::max<double>(1, static_cast<double>(sequence.frames.size()) - 1);
-  for (const SequenceFrame& frame : sequence.frames) {
-    if (FindStamp(stamps, frame.stamp_s)) continue;
-    const double from = std::max(axes.t0, frame.stamp_s - half);
-    const double to = std::min(axes.t1, frame.stamp_s + half);
-    FillArea(image,
-             {axes.At(from, 0), axes.At(to, 0), axes.At(to, axes.top_mm),
-              axes.At(from, axes.top_mm)},
-             kLost, 1.0);
+void ShadeGaps(cv::Mat& image, const Panel& panel, const std::vector<GapSpan>& gaps) {
+  constexpr double kMinShade_px = 2;  // a single frame of a long sequence is still seen
+  for (const GapSpan& gap : gaps) {
+    double from = panel.At(gap.from_s, 0).x, to = panel.At(gap.to_s, 0).x;
+    const double missing = std::max(0.0, kMinShade_px - (to - from));
+    from -= missing / 2, to += missing / 2;
+    const double y0 = panel.area.y, y1 = panel.area.y + panel.area.height;
+    FillArea(image, {{from, y0}, {to, y0}, {to, y1}, {from, y1}}, ColourOf(gap.gap), 1.0);
   }
 }
 
-void PutCurve(cv::Mat& image, const ErrorAxes& axes, const std::vector<Sample>& samples,
-              double frame_s) {
+void PutPanelAxes(cv::Mat& image, const Panel& panel) {
+  const TextStyle style{10, kErrorInk, false, Align::kRight};
+  const double step = RoundStep(panel.top, 5);
+  for (double value = 0; value <= panel.top * (1 + 1e-9); value += step) {
+    PutLine(image, panel.At(0, value), panel.At(panel.duration_s, value), kFaintGrid);
+    PutText(image, fmt::format("{:g}", value), panel.At(0, value) + cv::Point2d(-9, 4.5),
+            style);
+  }
+  PutText(image, panel.title, {panel.area.x, panel.area.y - 14},
+          {11, kErrorInk, true, Align::kLeft});
+  PutLine(image, panel.At(0, 0), panel.At(panel.duration_s, 0), kErrorInk);
+  const double tick = RoundStep(panel.duration_s, 10);
+  for (double t = 0; t <= panel.duration_s * (1 + 1e-9); t += tick) {
+    const cv::Point2d at = panel.At(t, 0);
+    PutLine(image, at, at + cv::Point2d(0, 5), kErrorInk);
+    PutText(image, fmt::format("{:g}", t), at + cv::Point2d(0, 22),
+            {10, kErrorInk, false, Align::kCentre});
+  }
+}
+
+/// Time between the samples without a gap, most often.
+double UsualStep(const std::vector<ErrorSample>& samples) {
+  std::vector<double> steps;
+  for (std::size_t i = 1; i < samples.size(); ++i) {
+    steps.push_back(samples[i].time_s - samples[i - 1].time_s);
+  }
+  if (steps.empty()) return 0;
+  std::nth_element(steps.begin(), steps.begin() + static_cast<long>(steps.size() / 2),
+                   steps.end());
+  return steps[steps.size() / 2];
+}
+
+void PutErrorCurve(cv::Mat& image, const Panel& panel,
+                   const std::vector<ErrorSample>& samples) {
+  constexpr double kMaxStepRatio = 2.5;  // a longer step is a gap, over which no line leads
+  const double max_step_s = kMaxStepRatio * UsualStep(samples);
   std::vector<cv::Point2d> part;
   for (std::size_t i = 0; i < samples.size(); ++i) {
-    if (i > 0 && samples[i].time_s - samples[i - 1].time_s > 2.5 * frame_s) {
-      PutPath(image, part, false, kCurve, 2);
+    if (i > 0 && samples[i].time_s - samples[i - 1].time_s > max_step_s) {
+      PutPath(image, part, false, panel.colour, 2);
       part.clear();
     }
-    part.push_back(axes.At(samples[i].time_s, samples[i].error_mm));
-    if (samples.size() < 120) PutDot(image, part.back(), 2.6, kCurve);
+    part.push_back(panel.At(samples[i].time_s, panel.values[i]));
+    if (samples.size() < kMaxDots) PutDot(image, part.back(), 2.6, panel.colour);
   }
-  PutPath(image, part, false, kCurve, 2);
+  PutPath(image, part, false, panel.colour, 2);
 }
 
-void PutTitle(cv::Mat& image, const std::vector<Sample>& samples, std::size_t frames) {
-  double squares = 0, largest = 0;
-  for (const Sample& sample : samples) {
-    squares += sample.error_mm * sample.error_mm;
-    largest = std::max(largest, sample.error_mm);
+struct Range {
+  double rmse = 0, max = 0;
+};
+Range RangeOf(const std::vector<double>& values) {
+  Range range;
+  for (const double value : values) {
+    range.rmse += value * value;
+    range.max = std::max(range.max, value);
   }
-  const double rmse = std::sqrt(squares / static_cast<double>(samples.size()));
-  PutText(image, "Position error after rigid alignment", {kPlot.x, 34},
-          {13, kInk, true, Align::kLeft});
+  if (!values.empty()) range.rmse = std::sqrt(range.rmse / static_cast<double>(values.size()));
+  return range;
+}
+
+Panel PositionPanel(const ErrorCurve& curve) {
+  constexpr double kMinTop = 0.1;  // mm; below, round-off would be drawn
+  constexpr double kMaxInMillimetres = 2000;
+  std::vector<double> errors;
+  for (const ErrorSample& sample : curve.samples) errors.push_back(sample.position_mm);
+  const bool metres = RangeOf(errors).max > kMaxInMillimetres;
+  if (metres) {
+    for (double& error : errors) error /= 1000;
+  }
+  const Range range = RangeOf(errors);
+  std::string title = fmt::format("Position error, {}", metres ? "m" : "mm");
+  if (!errors.empty()) {
+    title += fmt::format("  ({} {:.3g}, max {:.3g}; {})",
+                         curve.alignment == ErrorAlignment::kPositions ? "ATE rmse" : "rmse",
+                         range.rmse, range.max, Explain(curve.alignment));
+  }
+  return {kPositionPanel,
+          title,
+          kPositionCurve,
+          errors,
+          TopOf(std::max(kRoom * range.max, kMinTop)),
+          curve.duration_s};
+}
+
+Panel RotationPanel(const ErrorCurve& curve) {
+  constexpr double kMinTop = 0.01;  // degrees; below, round-off would be drawn
+  std::vector<double> errors;
+  for (const ErrorSample& sample : curve.samples) errors.push_back(sample.rotation_deg);
+  const Range range = RangeOf(errors);
+  std::string title = "Rotation error, degrees";
+  if (!errors.empty()) {
+    title += fmt::format("  (rmse {:.3g}, max {:.3g}; after the mean rotation is taken out)",
+                         range.rmse, range.max);
+  }
+  return {kRotationPanel,
+          title,
+          kRotationCurve,
+          errors,
+          TopOf(std::max(kRoom * range.max, kMinTop)),
+          curve.duration_s};
+}
+
+void PutErrorTitle(cv::Mat& image, const RunTitle& title, const ErrorCurve& curve) {
+  const TextStyle bold{14, kErrorInk, true, Align::kLeft};
+  TextStyle warning = bold;
+  warning.colour = kErrorWarning;
+  const double warning_width =
+      title.warning.empty() ? 0 : TextWidth(title.warning, warning) + 24;
+  const std::string name =
+      Fitted("Errors of " + title.run + " over time", bold, kPanelWidth_px - warning_width);
+  PutText(image, name, {kLeft_px, 34}, bold);
+  PutText(image, title.warning, {kLeft_px + TextWidth(name, bold) + 24, 34}, warning);
   PutText(image,
-          fmt::format("ATE rmse {:.2f} mm   max {:.2f} mm   {} of {} frames compared", rmse,
-                      largest, samples.size(), frames),
-          {kPlot.x + kPlot.width, 34}, {11, kInk, false, Align::kRight});
+          fmt::format("{}   {} of {} frames compared with the truth", title.figures,
+                      curve.samples.size(), curve.frames),
+          {kLeft_px, 62}, kErrorLegend);
+}
+
+void PutGapLegend(cv::Mat& image, const ErrorCurve& curve) {
+  std::vector<LegendItem> items;
+  for (const Gap gap : {Gap::kLost, Gap::kNotRun, Gap::kNoTruth}) {
+    int spans = 0, frames = 0;
+    for (const GapSpan& span : curve.gaps) {
+      if (span.gap == gap) ++spans, frames += span.frames;
+    }
+    if (spans == 0) continue;
+    items.push_back({24,
+                     fmt::format("{} ({} frame{} in {} span{})", MeaningOf(gap), frames,
+                                 frames == 1 ? "" : "s", spans, spans == 1 ? "" : "s"),
+                     [gap](cv::Mat& page, cv::Point2d left) {
+                       FillArea(page,
+                                {left + cv::Point2d(0, -8), left + cv::Point2d(24, -8),
+                                 left + cv::Point2d(24, 8), left + cv::Point2d(0, 8)},
+                                ColourOf(gap), 1.0);
+                     }});
+  }
+  PutLegend(image, items, kErrorLegend,
+            {kLeft_px, kRotationPanel.y + kRotationPanel.height + 62}, kPanelWidth_px);
 }
 
 }  // namespace
 
 double RoundStep(double range, int parts) {
-  if (!(range > 0)) return 1;
+  if (!(range > 0 && std::isfinite(range))) return 1;
   const double raw = range / parts;
   const double power = std::pow(10.0, std::floor(std::log10(raw)));
   const double mantissa = raw / power;
   return power * (mantissa <= 1 ? 1 : mantissa <= 2 ? 2 : mantissa <= 5 ? 5 : 10);
 }
 
-std::optional<cv::Mat> ErrorOverTime(const Run& run, const Sequence& sequence) {
-  if (!sequence.groundtruth) return std::nullopt;
-  const std::vector<Sample> samples = Errors(run, sequence);
-  if (samples.size() < 2 || sequence.frames.size() < 2) return std::nullopt;
-  double largest = 0.1;  // below, the curve would show round-off
-  for (const Sample& sample : samples) largest = std::max(largest, sample.error_mm);
-  const double step = RoundStep(largest, 6);
-  const ErrorAxes axes{sequence.frames.front().stamp_s, sequence.frames.back().stamp_s,
-                       step * std::ceil(largest * 1.02 / step)};
-  cv::Mat image(kHeight_px, kWidth_px, CV_8UC3, kWhite);
-  ShadeLost(image, axes, run, sequence);
-  PutAxes(image, axes);
-  PutCurve(image, axes, samples,
-           (axes.t1 - axes.t0) / static_cast<double>(sequence.frames.size() - 1));
-  PutTitle(image, samples, sequence.frames.size());
+cv::Mat DrawErrors(const ErrorCurve& curve, const RunTitle& title) {
+  const int height = kErrorHeight_px + (curve.gaps.empty() ? 0 : kGapLegend_px);
+  cv::Mat image(height, kErrorWidth_px, CV_8UC3, kWhite);
+  PutErrorTitle(image, title, curve);
+  for (const Panel& panel : {PositionPanel(curve), RotationPanel(curve)}) {
+    ShadeGaps(image, panel, curve.gaps);
+    PutPanelAxes(image, panel);
+    PutErrorCurve(image, panel, curve.samples);
+  }
+  PutText(image, "seconds since the first frame",
+          {kLeft_px + kPanelWidth_px / 2, kRotationPanel.y + kRotationPanel.height + 46},
+          {10.5, kErrorInk, false, Align::kCentre});
+  if (curve.samples.empty()) {
+    PutText(image, Explain(curve.alignment),
+            {kLeft_px + kPanelWidth_px / 2, kPositionPanel.y + kPositionPanel.height / 2},
+            {12, kErrorWarning, true, Align::kCentre});
+  }
+  PutGapLegend(image, curve);
   return image;
 }
 

@@ -2,8 +2,10 @@
 
 #include <opencv2/core.hpp>
 #include <optional>
+#include <vector>
 
 #include "eval/draw/draw_camera.h"
+#include "eval/draw/frame_labels.h"
 #include "eval/formats/run.h"
 
 namespace eval {
@@ -18,13 +20,18 @@ struct FrameScene {
   std::optional<Camera> camera;  ///< null: only the segmentation can be drawn
 };
 
-/// The image scaled to `width_px`, with each plane tinted in the colour of its map plane, its
-/// boundary, edge lines and vertices, and a chip with map id, class and decision. Without a
-/// segmentation a plane is outlined by its four vertices, or by the hull of its map plane.
+/// The image scaled to `width_px` with its planes, in the colours of their map planes, and with
+/// chips that tell id, class and decision. With a segmentation the segments are tinted, and
+/// edge lines, vertices and faces are drawn; without one each map plane is a mere outline: its
+/// four vertices if this frame found them, else the hull of the map plane.
 cv::Mat DrawFrame(const FrameScene& scene, int width_px);
 
-/// Marks of the decisions, for the legend.
-inline const cv::Scalar kMatchedMark{110, 215, 110}, kNewMark{60, 190, 255},
-    kBadMark{80, 80, 245}, kOpenMark{170, 170, 170};
+/// The labels that the planes of the frame ask for, in the order of the frame's planes, in a
+/// picture `width_px` wide. Planes whose place is not seen ask for none.
+struct PlaneLabel {
+  const RunFramePlane* plane = nullptr;
+  LabelWish wish;
+};
+std::vector<PlaneLabel> LabelsOfFrame(const FrameScene& scene, int width_px);
 
 }  // namespace eval

@@ -44,8 +44,11 @@ class LabelLayout {
     return r;
   }
   bool IsFree(const cv::Rect2d& r) const {
+    constexpr double kApart_px = 2;  // labels that touch read as one
+    const cv::Rect2d wide(r.x - kApart_px, r.y - kApart_px, r.width + 2 * kApart_px,
+                          r.height + 2 * kApart_px);
     return std::none_of(taken_.begin(), taken_.end(),
-                        [&](const cv::Rect2d& other) { return (r & other).area() > 0; });
+                        [&](const cv::Rect2d& other) { return (wide & other).area() > 0; });
   }
 
   cv::Rect2d page_;

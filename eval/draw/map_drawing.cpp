@@ -28,18 +28,6 @@ Eigen::Vector3d Mean(const std::vector<Eigen::Vector3d>& points) {
   return points.empty() ? sum : Eigen::Vector3d(sum / static_cast<double>(points.size()));
 }
 
-// Seen from above, in either direction of turning.
-bool Contains(const std::vector<Eigen::Vector3d>& convex, const Eigen::Vector3d& p) {
-  bool left = false, right = false;
-  for (std::size_t i = 0; i < convex.size(); ++i) {
-    const Eigen::Vector3d &a = convex[i], &b = convex[(i + 1) % convex.size()];
-    const double side = (b.x() - a.x()) * (p.y() - a.y()) - (b.y() - a.y()) * (p.x() - a.x());
-    left = left || side > 0;
-    right = right || side < 0;
-  }
-  return convex.size() >= 3 && !(left && right);
-}
-
 struct Bounds {
   double x0 = std::numeric_limits<double>::infinity(), y0 = x0, x1 = -x0, y1 = -x0;
   void Add(const std::vector<Eigen::Vector3d>& points) {
@@ -92,6 +80,36 @@ Bounds BoundsOf(const MapScene& scene) {
 
 }  // namespace
 
+bool Contains(const std::vector<Eigen::Vector3d>& convex, const Eigen::Vector3d& p) {
+  bool left = false, right = false;
+  for (std::size_t i = 0; i < convex.size(); ++i) {
+    const Eigen::Vector3d &a = convex[i], &b = convex[(i + 1) % convex.size()];
+    const double side = (b.x() - a.x()) * (p.y() - a.y()) - (b.y() - a.y()) * (p.x() - a.x());
+    left = left || side > 0;
+    right = right || side < 0;
+  }
+  return convex.size() >= 3 && !(left && right);
+}
+
+Eigen::Vector3d OpenPoint(const MapScene& scene, const MapScene::Estimate& plane,
+                          const MapScale& scale) {
+  const auto covered = [&](const Eigen::Vector3d& p_v) {
+    return std::any_of(scene.planes.begin(), scene.planes.end(), [&](const auto& other) {
+      const bool level = other.pi_v.n.z() > kLevel_cos;
+      return level && HeightAt(other.pi_v, p_v) > HeightAt(plane.pi_v, p_v) &&
+             Contains(other.hull_v, p_v);
+    });
+  };
+  if (!(plane.pi_v.n.z() > kLevel_cos) || !covered(plane.centre_v)) return plane.centre_v;
+  for (const double share : {0.2, 0.4, 0.6, 0.8}) {
+    for (const Eigen::Vector3d& corner : plane.hull_v) {
+      const Eigen::Vector3d p_v = (1 - share) * plane.centre_v + share * corner;
+      if (scale.page.contains(scale.At(p_v)) && !covered(p_v)) return p_v;
+    }
+  }
+  return plane.centre_v;
+}
+
 std::vector<cv::Point2d> MapScale::At(const std::vector<Eigen::Vector3d>& points_v) const {
   std::vector<cv::Point2d> pixels;
   pixels.reserve(points_v.size());
@@ -103,6 +121,7 @@ MapScene CollectMap(const Run& run, const Sequence& sequence) {
   const MapGauge gauge = ChooseMapGauge(run, sequence);
   MapScene scene;
   scene.on_truth = gauge.on_truth;
+  scene.levelled = gauge.levelled;
   for (const RunMapPlane& plane : run.map) {
     if (plane.merged_into) continue;
     MapScene::Estimate drawn{plane.id,
@@ -131,15 +150,16 @@ MapScene CollectMap(const Run& run, const Sequence& sequence) {
   const double last = sequence.frames.empty() ? 0 : sequence.frames.back().stamp_s + 0.05;
   for (const StampedPose& pose : *sequence.groundtruth) {
     if (pose.stamp_s >= first && pose.stamp_s <= last) {
-      scene.truth_path_v.push_back(pose.T_wc.t);
+      scene.truth_path_v.push_back(gauge.T_vg * pose.T_wc.t);
     }
   }
   if (!sequence.scene) return scene;
   for (const TruthPlane& plane : sequence.scene->planes) {
     if (!plane.scored) continue;
     const TruthObject* object = sequence.scene->FindObject(plane.object);
-    scene.truth.push_back(
-        {object == nullptr ? "" : object->object_class, plane.pi_g, plane.vertices_g});
+    scene.truth.push_back({object == nullptr ? "" : object->object_class,
+                           Transform(gauge.T_vg, plane.pi_g),
+                           Moved(gauge.T_vg, plane.vertices_g)});
   }
   return scene;
 }
@@ -175,7 +195,7 @@ std::optional<std::size_t> BasePlane(const MapScene& scene) {
       const double step =
           HeightAt(other.pi_v, other.centre_v) - HeightAt(base.pi_v, other.centre_v);
       above += other.pi_v.n.z() > kLevel_cos && step > 0 && step < kStandsOn_m &&
-               other.area_m2 < base.area_m2;
+               other.area_m2 < base.area_m2 && Contains(base.hull_v, other.centre_v);
     }
     const std::pair<int, double> score(above, base.observations * base.area_m2);
     if (best && !(score > best_score)) continue;

@@ -29,7 +29,8 @@ struct MapScene {
   std::vector<Estimate> planes;  ///< those that no merge took away, lowest first
   std::vector<Truth> truth;      ///< scored planes; empty without gt/scene.json
   std::vector<Eigen::Vector3d> run_path_v, truth_path_v;
-  bool on_truth = false;  ///< v is the world of the truth
+  bool on_truth = false;  ///< the run is laid on the truth
+  bool levelled = false;  ///< turned until the main level plane lies level (MapGauge)
 };
 
 /// Collects a run and its truth in the frame that ChooseMapGauge gives.
@@ -56,7 +57,15 @@ inline constexpr double kLevel_cos = 0.985;
 /// Height of the plane below or above a point of v.
 double HeightAt(const Plane& pi_v, const Eigen::Vector3d& p_v);
 
-/// The level plane that most others stand on, up to 0.4 m below them (the desk, usually); the
+/// Whether a convex outline contains the point, seen from above; in either direction of turning.
+bool Contains(const std::vector<Eigen::Vector3d>& convex_v, const Eigen::Vector3d& p_v);
+
+/// A point of the plane on the page that no level plane above it covers: its centre, or, for a
+/// floor under a desk, one towards its border. The centre when there is none.
+Eigen::Vector3d OpenPoint(const MapScene& scene, const MapScene::Estimate& plane,
+                          const MapScale& scale);
+
+/// The level plane that most others stand on, over it and up to 0.4 m above (the desk, usually); the
 /// most observed one on ties. Nothing without a level plane.
 std::optional<std::size_t> BasePlane(const MapScene& scene);
 

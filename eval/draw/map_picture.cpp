@@ -13,20 +13,30 @@
 namespace eval {
 namespace {
 
-constexpr int kPage_px = 1640, kMapHeader_px = 64, kMargin_px = 30, kColumn_px = 340;
-constexpr int kMaxTop_px = 1000, kMapGap_px = 56, kElevation_px = 460;
+constexpr int kPage_px = 1640, kMapHeader_px = 76, kMargin_px = 30, kColumn_px = 340;
+// Planes that look shorter have no label: level ones, and others, which from above are lines.
+constexpr double kMinLevelSide_px = 14, kMinOtherSide_px = 60;
+constexpr double kBesideLabel_px = 10;
+constexpr int kMaxTop_px = 1000, kMaxEmpty_px = 400, kLegendHeight_px = 240, kMapGap_px = 56,
+              kElevation_px = 460;
 const Colour kFrame{215, 211, 208};
-const Colour kRunPath{40, 70, 225}, kTruthPath{120, 115, 110};
+const Colour kRunPath{40, 70, 225}, kTruthPath{120, 115, 110}, kWarningColour{40, 40, 215};
 
 bool IsLevel(const Plane& pi_v) { return pi_v.n.z() > kLevel_cos; }
+/// Within 25 degrees: what noise makes of a small top.
+bool IsNearlyLevel(const Plane& pi_v) { return pi_v.n.z() > 0.906; }
+/// Within 17 degrees of upright: from above a mere line.
+bool IsSteep(const Plane& pi_v) { return std::abs(pi_v.n.z()) < 0.3; }
 
 // Planes are painted from below, so that a book lies on its desk.
 void PutPlanes(cv::Mat& view, const MapScene& scene, const MapScale& scale) {
   for (const MapScene::Estimate& plane : scene.planes) {
     const Colour colour = ColourOfPlane(plane.id);
     const std::vector<cv::Point2d> hull = scale.At(plane.hull_v);
-    const bool steep = std::abs(plane.pi_v.n.z()) < 0.3;
-    FillArea(view, hull, colour, steep ? 0.75 : 0.5);
+    const bool steep = IsSteep(plane.pi_v);
+    // A slanted plane hides what is under it, and tells little from above.
+    if (steep) FillArea(view, hull, colour, 0.75);
+    if (IsNearlyLevel(plane.pi_v)) FillArea(view, hull, LevelFill(plane.id), kLevelOpacity);
     PutPath(view, hull, true, Darker(colour, 0.8), steep ? 2 : 1);
   }
 }
@@ -79,26 +89,25 @@ double LongestSide(const std::vector<cv::Point2d>& outline) {
   return std::max(high_x - low_x, high_y - low_y);
 }
 
-// Small planes and steep ones that are mere lines stay without a label where they would hide
-// others.
-void PutLabels(cv::Mat& view, const MapScene& scene, const MapScale& scale) {
-  LabelLayout layout(cv::Rect2d(4, 4, view.cols - 8.0, view.rows - 8.0));
-  for (auto plane = scene.planes.rbegin(); plane != scene.planes.rend(); ++plane) {
-    if (plane->hull_v.empty() && plane->vertices_v.empty()) continue;
-    const cv::Point2d at = scale.At(plane->centre_v);
-    if (at.x < 0 || at.y < 0 || at.x > view.cols || at.y > view.rows) continue;
-    const bool level = std::abs(plane->pi_v.n.z()) > 0.5;
-    if (LongestSide(scale.At(plane->hull_v)) < (level ? 14 : 60)) continue;
-    const TextStyle style{level ? 9.5 : 8.0, kInkColour, level, Align::kCentre};
-    const std::string text = level && !plane->class_name.empty()
-                                 ? fmt::format("{} {}", plane->id, plane->class_name)
-                                 : std::to_string(plane->id);
-    const double height = style.height_px + 7;
-    const auto place = layout.Place(at, {TextWidth(text, style) + 10, height}, 3);
-    if (!place) continue;
-    const cv::Point2d a(place->x, place->y), b(place->x + place->width, place->y + height);
-    FillArea(view, {a, {b.x, a.y}, b, {a.x, b.y}}, kWhite, 0.8);
-    PutText(view, text, {(a.x + b.x) / 2, b.y - 3.5}, style);
+/// The planes in the order in which they are labelled: level ones before others, large before
+/// small.
+std::vector<const MapScene::Estimate*> ByRank(const MapScene& scene) {
+  std::vector<const MapScene::Estimate*> planes;
+  for (const MapScene::Estimate& plane : scene.planes) planes.push_back(&plane);
+  std::stable_sort(planes.begin(), planes.end(), [](const auto* a, const auto* b) {
+    const bool a_level = IsNearlyLevel(a->pi_v), b_level = IsNearlyLevel(b->pi_v);
+    return a_level != b_level ? a_level : a->area_m2 > b->area_m2;
+  });
+  return planes;
+}
+
+void PutLabels(cv::Mat& view, const std::vector<MapLabel>& labels) {
+  for (const MapLabel& label : labels) {
+    const cv::Point2d a = label.place.tl(), b = label.place.br();
+    FillArea(view, {a, {b.x, a.y}, b, {a.x, b.y}}, kWhite, 0.85);
+    FillArea(view, {a, {a.x + 4, a.y}, {a.x + 4, b.y}, {a.x, b.y}}, ColourOfPlane(label.id), 1);
+    PutText(view, label.text, {a.x + kBesideLabel_px, b.y - 4.5},
+            {label.height_px, kInkColour, label.bold, Align::kLeft});
   }
 }
 
@@ -124,14 +133,23 @@ void PutEntry(cv::Mat& page, cv::Point2d& at, const std::string& text, Draw draw
   at.y += 26;
 }
 
-void PutLegend(cv::Mat& page, const MapScene& scene, cv::Point2d at) {
+/// What the frame of the drawing is.
+std::vector<std::string> MapNotes(const MapScene& scene) {
+  std::vector<std::string> notes{fmt::format("{} map planes", scene.planes.size())};
+  notes.emplace_back(scene.on_truth ? "laid on the true camera poses"
+                                    : "not laid on true camera poses");
+  if (scene.levelled) notes.emplace_back("turned until the main level plane is level");
+  return notes;
+}
+
+void PutMapLegend(cv::Mat& page, const MapScene& scene, cv::Point2d at) {
   const Colour sample = ColourOfPlane(3), dark = Darker(sample, 0.55),
                face = Darker(sample, 0.75);
   const cv::Point2d right(36, 0);
   PutEntry(page, at, "estimated plane, colour by id", [&](cv::Point2d p) {
     const std::vector<cv::Point2d> box{p + cv::Point2d(0, -7), p + cv::Point2d(36, -7),
                                        p + cv::Point2d(36, 7), p + cv::Point2d(0, 7)};
-    FillArea(page, box, sample, 0.5);
+    FillArea(page, box, LevelFill(3), kLevelOpacity);
     PutPath(page, box, true, Darker(sample, 0.8));
   });
   PutEntry(page, at, "its face from four vertices", [&](cv::Point2d p) {
@@ -153,53 +171,94 @@ void PutLegend(cv::Mat& page, const MapScene& scene, cv::Point2d at) {
   }
   at.y += 10;
   const TextStyle note{9.5, kInkColour, false, Align::kLeft};
-  for (const std::string& line :
-       {std::string(scene.on_truth ? "aligned rigidly to the truth, z of the truth up"
-                                   : "no truth: largest plane laid level"),
-        fmt::format("{} map planes", scene.planes.size())}) {
+  for (const std::string& line : MapNotes(scene)) {
     PutText(page, line, at, note);
     at.y += 22;
   }
 }
 
-}  // namespace
+void PutMapTitle(cv::Mat& page, const RunTitle& title) {
+  const TextStyle bold{14, kInkColour, true, Align::kLeft};
+  TextStyle warning = bold;
+  warning.colour = kWarningColour;
+  const double width = kPage_px - 2.0 * kMargin_px;
+  const double warning_width =
+      title.warning.empty() ? 0 : TextWidth(title.warning, warning) + 24;
+  const std::string name =
+      Fitted("Map of " + title.run + ", seen from above", bold, width - warning_width);
+  PutText(page, name, {kMargin_px * 1.0, 34}, bold);
+  PutText(page, title.warning, {kMargin_px + TextWidth(name, bold) + 24, 34}, warning);
+  PutText(page, Fitted(title.figures, {10.5}, width), {kMargin_px * 1.0, 58},
+          {10.5, kInkColour, false, Align::kLeft});
+}
 
-cv::Mat DrawMap(const MapScene& scene, const std::string& title) {
-  const double width = kPage_px - 2.0 * kMargin_px - kColumn_px;
-  const MapScale scale =
-      FitMap(scene, {static_cast<double>(kMargin_px), static_cast<double>(kMapHeader_px), width,
-                     static_cast<double>(kMaxTop_px)});
-  const int top = kMapHeader_px + static_cast<int>(scale.page.height);
-  cv::Mat page(std::max(top, kMapHeader_px + 240) + kMapGap_px + kElevation_px, kPage_px,
-               CV_8UC3, kWhite);
-  PutText(page, title, {static_cast<double>(kMargin_px), 38},
-          {13, kInkColour, true, Align::kLeft});
-
-  // The view is a picture of its own: nothing that is cut off spills over the page.
+/// The map from above. A picture of its own: nothing that is cut off spills over the page.
+cv::Mat DrawMapView(const MapScene& scene, MapScale scale) {
   cv::Mat view(static_cast<int>(scale.page.height), static_cast<int>(scale.page.width), CV_8UC3,
                cv::Scalar(250, 249, 248));
-  MapScale inner = scale;
-  inner.page.x = inner.page.y = 0;
-  PutPlanes(view, scene, inner);
-  PutFaces(view, scene, inner);
-  PutTruth(view, scene, inner);
-  PutVertices(view, scene, inner);
-  PutPaths(view, scene, inner);
-  PutLabels(view, scene, inner);
-  view.copyTo(page(cv::Rect(kMargin_px, kMapHeader_px, view.cols, view.rows)));
-  const double x1 = kMargin_px + view.cols, y1 = kMapHeader_px + view.rows;
-  PutPath(page,
-          {{kMargin_px - 0.5, kMapHeader_px - 0.5},
-           {x1, kMapHeader_px - 0.5},
-           {x1, y1},
-           {kMargin_px - 0.5, y1}},
-          true, kFrame);
-  PutScaleBar(page, scale);
-  PutLegend(page, scene, {x1 + 24, kMapHeader_px + 22.0});
+  scale.page.x = scale.page.y = 0;
+  PutPlanes(view, scene, scale);
+  PutFaces(view, scene, scale);
+  PutTruth(view, scene, scale);
+  PutVertices(view, scene, scale);
+  PutPaths(view, scene, scale);
+  PutLabels(view, LabelsOfMap(scene, scale));
+  if (scene.planes.empty()) {
+    PutText(view, "the run mapped no plane", {view.cols / 2.0, view.rows / 2.0},
+            {13, kWarningColour, true, Align::kCentre});
+  }
+  return view;
+}
 
-  const double below = std::max(top, kMapHeader_px + 240) + kMapGap_px;
-  PutElevation(page, scene, scale,
-               {static_cast<double>(kMargin_px), below + 34, width, kElevation_px - 70.0});
+}  // namespace
+
+cv::Scalar LevelFill(int id) {
+  constexpr double kShare = 0.6;  // of the plane's colour, the rest is white
+  return ColourOfPlane(id) * kShare + kWhite * (1 - kShare);
+}
+
+std::vector<MapLabel> LabelsOfMap(const MapScene& scene, const MapScale& scale) {
+  const cv::Rect2d view(0, 0, scale.page.width, scale.page.height);
+  LabelLayout layout({4, 4, view.width - 8, view.height - 8});
+  std::vector<MapLabel> labels;
+  for (const MapScene::Estimate* plane : ByRank(scene)) {
+    const cv::Point2d at = scale.At(OpenPoint(scene, *plane, scale));
+    const bool level = IsNearlyLevel(plane->pi_v);
+    const double side = LongestSide(scale.At(plane->hull_v));
+    const bool shown = side >= (level ? kMinLevelSide_px : kMinOtherSide_px);
+    if (!view.contains(at) || !shown) continue;
+    MapLabel label{plane->id, std::to_string(plane->id), {}, level ? 10.5 : 9.0, level};
+    if (level && !plane->class_name.empty()) label.text.append(" ").append(plane->class_name);
+    const TextStyle style{label.height_px, kInkColour, label.bold, Align::kLeft};
+    const cv::Size2d size(TextWidth(label.text, style) + kBesideLabel_px + 6,
+                          label.height_px + 9);
+    // Farther off than its plane is long, a label would name another one.
+    const auto place = layout.Place(at, size, side > kMinOtherSide_px ? 3 : 1);
+    if (!place) continue;
+    label.place = *place;
+    labels.push_back(label);
+  }
+  return labels;
+}
+
+cv::Mat DrawMap(const MapScene& scene, const RunTitle& title) {
+  const double left = kMargin_px, top = kMapHeader_px;
+  const double width = kPage_px - 2.0 * kMargin_px - kColumn_px;
+  const bool empty = scene.planes.empty();
+  const MapScale scale =
+      FitMap(scene, {left, top, width, empty ? kMaxEmpty_px * 1.0 : kMaxTop_px * 1.0});
+  const cv::Mat view = DrawMapView(scene, scale);
+  const int below = kMapHeader_px + std::max(view.rows, kLegendHeight_px) + kMapGap_px;
+  cv::Mat page(below + (empty ? 0 : kElevation_px), kPage_px, CV_8UC3, kWhite);
+  view.copyTo(page(cv::Rect(kMargin_px, kMapHeader_px, view.cols, view.rows)));
+  const double x1 = left + view.cols, y1 = top + view.rows;
+  PutPath(page, {{left - 0.5, top - 0.5}, {x1, top - 0.5}, {x1, y1}, {left - 0.5, y1}}, true,
+          kFrame);
+  PutMapTitle(page, title);
+  PutScaleBar(page, scale);
+  PutMapLegend(page, scene, {x1 + 24, top + 22});
+  if (!empty)
+    PutElevation(page, scene, scale, {left, below + 34.0, width, kElevation_px - 70.0});
   return page;
 }
 

@@ -75,6 +75,14 @@ double TextWidth(const std::string& text, const TextStyle& style) {
   return static_cast<double>(size.width) / kTextZoom;
 }
 
+std::string Fitted(const std::string& text, const TextStyle& style, double width_px) {
+  std::string fitted = Ascii(text);
+  if (TextWidth(fitted, style) <= width_px) return fitted;
+  const std::string dots = "...";
+  while (!fitted.empty() && TextWidth(fitted + dots, style) > width_px) fitted.pop_back();
+  return fitted + dots;
+}
+
 void PutText(cv::Mat& image, const std::string& text, cv::Point2d base,
              const TextStyle& style) {
   const std::string ascii = Ascii(text);
@@ -131,6 +139,12 @@ void PutRingedDot(cv::Mat& image, cv::Point2d centre, double radius_px, const Co
                   const Colour& ring) {
   PutDot(image, centre, radius_px, ring);
   PutDot(image, centre, radius_px * 0.58, fill);
+}
+
+void PutHaloedPath(cv::Mat& image, const std::vector<cv::Point2d>& points, bool closed,
+                   const Colour& colour, int width_px) {
+  PutPath(image, points, closed, kBlack, width_px + 2);
+  PutPath(image, points, closed, colour, width_px);
 }
 
 void FillArea(cv::Mat& image, const std::vector<cv::Point2d>& polygon, const Colour& colour,

@@ -30,6 +30,8 @@ struct TextStyle {
 
 /// Width of the text in pixels.
 double TextWidth(const std::string& text, const TextStyle& style);
+/// The text, cut off with "..." where it is wider than `width_px`.
+std::string Fitted(const std::string& text, const TextStyle& style, double width_px);
 /// Writes text whose base line starts (or is centred, or ends) at `base`. Characters outside
 /// ASCII become '?'.
 void PutText(cv::Mat& image, const std::string& text, cv::Point2d base, const TextStyle& style);
@@ -44,6 +46,9 @@ void PutDot(cv::Mat& image, cv::Point2d centre, double radius_px, const Colour& 
 /// A dot with a ring around it.
 void PutRingedDot(cv::Mat& image, cv::Point2d centre, double radius_px, const Colour& fill,
                   const Colour& ring);
+/// A line on a dark one, seen on any ground.
+void PutHaloedPath(cv::Mat& image, const std::vector<cv::Point2d>& points, bool closed,
+                   const Colour& colour, int width_px);
 /// Fills a polygon; opacity 0 to 1.
 void FillArea(cv::Mat& image, const std::vector<cv::Point2d>& polygon, const Colour& colour,
               double opacity);

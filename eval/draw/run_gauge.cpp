@@ -7,6 +7,47 @@
 #include "eval/trajectory/match_stamps.h"
 
 namespace eval {
+namespace {
+
+/// A plane can be what things stand on if its normal is so near to the camera's up: cameras
+/// look down by up to 70 degrees, and a wall's normal is level.
+constexpr double kMinUp_cos = 0.3;
+/// Without a level plane the z axis of a truth is up if the camera agrees within 60 degrees.
+constexpr double kMinUpright_cos = 0.5;
+/// A truth's z axis that is up agrees with the normal of floor or desk within 15 degrees.
+constexpr double kMinLevel_cos = 0.966;
+
+/// Mean direction of the camera's up, -y, in the world of the run.
+Eigen::Vector3d MeanUp(const Trajectory& trajectory) {
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  for (const StampedPose& pose : trajectory) sum -= pose.T_wc.R.col(1);
+  constexpr double kMinShare = 0.1;  // of unit length: a camera that tumbles has no up
+  if (sum.norm() > kMinShare * static_cast<double>(trajectory.size())) return sum.normalized();
+  return trajectory.empty() ? -Eigen::Vector3d::UnitY()
+                            : Eigen::Vector3d(-trajectory.front().T_wc.R.col(1));
+}
+
+/// The large, often seen plane that things stand on: floor or desk. Null if there is none.
+const RunMapPlane* MainLevelPlane(const std::vector<RunMapPlane>& map,
+                                  const Eigen::Vector3d& up_w) {
+  const RunMapPlane* main = nullptr;
+  double most = 0;
+  for (const RunMapPlane& plane : map) {
+    const double weight = plane.area_m2 * std::max(plane.observations, 1);
+    if (plane.merged_into || !(plane.pi_w.n.dot(up_w) > kMinUp_cos) || !(weight > most))
+      continue;
+    most = weight;
+    main = &plane;
+  }
+  return main;
+}
+
+bool StandsUpright(const Pose& T_gw, const RunMapPlane* floor, const Eigen::Vector3d& up_w) {
+  if (floor != nullptr) return (T_gw.R * floor->pi_w.n).z() > kMinLevel_cos;
+  return (T_gw.R * up_w).z() > kMinUpright_cos;
+}
+
+}  // namespace
 
 std::optional<Pose> AlignByPoses(const Trajectory& run, const Trajectory& truth,
                                  bool synthetic) {
@@ -22,40 +63,22 @@ std::optional<Pose> AlignByPoses(const Trajectory& run, const Trajectory& truth,
 }
 
 MapGauge ChooseMapGauge(const Run& run, const Sequence& sequence) {
+  MapGauge gauge;
   if (sequence.groundtruth) {
     const auto T_gw = AlignByPoses(run.trajectory, *sequence.groundtruth, sequence.synthetic);
-    if (T_gw) return {*T_gw, true};
+    if (T_gw) gauge = {*T_gw, Pose{}, true, false};
   }
-  const auto largest = std::max_element(
-      run.map.begin(), run.map.end(),
-      [](const RunMapPlane& a, const RunMapPlane& b) { return a.area_m2 < b.area_m2; });
-  if (largest == run.map.end()) {
-    // No plane tells where up is: the first camera does, whose y axis points down.
-    Pose T_vw;
-    if (!run.trajectory.empty()) {
-      const Eigen::Vector3d up = -run.trajectory.front().T_wc.R.col(1);
-      T_vw.R =
-          Eigen::Quaterniond::FromTwoVectors(up, Eigen::Vector3d::UnitZ()).toRotationMatrix();
-    }
-    return {T_vw, false};
+  const bool z_is_up = sequence.synthetic || sequence.scene.has_value();
+  const Eigen::Vector3d up_w = MeanUp(run.trajectory);
+  const RunMapPlane* floor = MainLevelPlane(run.map, up_w);
+  if (gauge.on_truth && (z_is_up || StandsUpright(gauge.T_vw, floor, up_w))) {
+    return gauge;
   }
-  Pose T_vw;
-  T_vw.R = Eigen::Quaterniond::FromTwoVectors(largest->pi_w.n, Eigen::Vector3d::UnitZ())
-               .toRotationMatrix();
-  return {T_vw, false};
-}
-
-const RunMapPlane* FinalPlane(const std::vector<RunMapPlane>& map, int id) {
-  const RunMapPlane* plane = nullptr;
-  for (std::size_t steps = 0; steps <= map.size(); ++steps) {
-    const auto found = std::find_if(map.begin(), map.end(),
-                                    [&](const RunMapPlane& other) { return other.id == id; });
-    if (found == map.end()) return plane;
-    plane = &*found;
-    if (!found->merged_into) return plane;
-    id = *found->merged_into;
-  }
-  return plane;
+  Pose T_turn;
+  const Eigen::Vector3d up_v = gauge.T_vw.R * (floor == nullptr ? up_w : floor->pi_w.n);
+  T_turn.R =
+      Eigen::Quaterniond::FromTwoVectors(up_v, Eigen::Vector3d::UnitZ()).toRotationMatrix();
+  return {T_turn * gauge.T_vw, T_turn, gauge.on_truth, floor != nullptr};
 }
 
 }  // namespace eval

@@ -14,14 +14,15 @@ std::optional<Pose> AlignByPoses(const Trajectory& run, const Trajectory& truth,
 /// Frame v in which maps are drawn: z up, metres.
 struct MapGauge {
   Pose T_vw;              ///< world of the run to v
-  bool on_truth = false;  ///< v is the world of the truth
+  Pose T_vg;              ///< world of the truth to v; only where `on_truth`
+  bool on_truth = false;  ///< the run is laid on the truth
+  bool levelled = false;  ///< v is turned until the main level plane lies level
 };
 
-/// v is the world of the truth when there is one, else the run turned until its largest plane
-/// lies level with its front up.
+/// v is the world of the truth where that has its z axis up: a simulator's has, and a
+/// recording's if the map has a plane that is level in it. Else v is turned until the most
+/// seen large plane below the camera (its normal nearer to the camera's up than to level) lies
+/// level; without one, until the camera stands upright in the mean.
 MapGauge ChooseMapGauge(const Run& run, const Sequence& sequence);
-
-/// The plane a map plane ended up in.
-const RunMapPlane* FinalPlane(const std::vector<RunMapPlane>& map, int id);
 
 }  // namespace eval

@@ -50,14 +50,13 @@ RunInfo ReadInfo(const JsonRecord& root) {
   }
   info.frames = expected.Integer("frames", 0);
   info.tracked = expected.Integer("tracked");
+  info.interrupted = root.Optional().Flag("interrupted").value_or(false);
+  info.sequence_frames = root.Optional().Integer("sequence_frames", 0);
   expected.Integer("lost", 0);
   if (info.frames && info.tracked && !(*info.tracked >= 0 && *info.tracked <= *info.frames)) {
     root.TellAt("tracked", fmt::format("is {} of {} frames", *info.tracked, *info.frames),
                 kRunAgain, Severity::kWarning);
   }
-  const JsonRecord optional = root.Optional();
-  info.interrupted = optional.Flag("interrupted").value_or(false);
-  info.sequence_frames = optional.Integer("sequence_frames", 0);
   info.wall_time_s = Figure(root, "wall", "the wall time", {"wall_time_s", "wall_s"});
   info.peak_memory_mb = Figure(root, "peak", "the peak memory",
                                {"peak_memory_mb", "peak_rss_mb", "peak_memory_mib"});

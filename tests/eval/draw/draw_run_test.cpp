@@ -6,14 +6,11 @@
 #include <opencv2/imgproc.hpp>
 
 #include "eval/draw/contact_sheet.h"
-#include "eval/draw/error_picture.h"
-#include "eval/draw/frame_picture.h"
-#include "eval/draw/label_layout.h"
 #include "eval/draw/map_picture.h"
 #include "eval/draw/paint.h"
-#include "eval/draw/run_gauge.h"
+#include "eval/draw/run_title.h"
 #include "io/input_error.h"
-#include "tests/eval/check/small_run.h"
+#include "tests/eval/draw/drawn_world.h"
 
 namespace eval {
 namespace {
@@ -34,47 +31,12 @@ Eigen::Isometry3d Moved() {
   return T_wg;
 }
 
-class DrawRunFolder : public ::testing::Test {
- protected:
-  DrawRunFolder()
-      : folder_("draw_" +
-                std::string(::testing::UnitTest::GetInstance()->current_test_info()->name())) {
-    WriteSequence(seq(), world_);
-  }
-  fs::path seq() const { return folder_.path() / "seq"; }
-  fs::path MakeRun(const std::string& name, const Eigen::Isometry3d& T_wg,
-                   bool segmentation = true) {
-    RunOptions options;
-    options.T_wg = T_wg;
-    options.segmentation = segmentation;
-    options.sequence = seq().string();
-    WriteRun(folder_.path() / name, world_, options);
-    return folder_.path() / name;
-  }
-  cv::Mat Named(const std::vector<Picture>& pictures, const std::string& name) {
-    for (const Picture& picture : pictures) {
-      if (picture.name == name) return picture.image;
-    }
-    return {};
-  }
-  FrameScene SceneOf(const ::eval::Run& run, std::size_t frame) {
-    FrameScene scene;
-    scene.rgb = Render(world_, world_.views[frame]).rgb;
-    scene.labels = ReadSegmentation(run, run.frames[frame].stamp_s);
-    scene.frame = &run.frames[frame];
-    scene.T_wc = run.trajectory[frame].T_wc;
-    scene.map = &run.map;
-    scene.camera = ReadNamedCamera((seq() / "camera.yaml").string());
-    return scene;
-  }
-
-  TemporaryFolder folder_;
-  World world_ = MakeWorld(160, 120, 5);
-};
+using DrawRunFolder = DrawnWorld;
 
 TEST_F(DrawRunFolder, GivesTheSamePixelsTwice) {
   const fs::path run = MakeRun("run", Moved());
-  const std::vector<Picture> first = DrawRun(run, {}), second = DrawRun(run, {});
+  const std::vector<Picture> first = DrawRun(run, {}).pictures,
+                             second = DrawRun(run, {}).pictures;
   ASSERT_EQ(first.size(), 3u);
   ASSERT_EQ(second.size(), 3u);
   for (std::size_t i = 0; i < 3; ++i) {
@@ -100,9 +62,11 @@ TEST_F(DrawRunFolder, LaysARunInAnyWorldFrameOnTheTruth) {
 
 TEST_F(DrawRunFolder, DrawsARunInAnotherWorldFrameAtTheSamePixels) {
   const Sequence sequence = ReadSequence(seq());
-  const cv::Mat still = DrawMap(
-      CollectMap(ReadRun(MakeRun("a", Eigen::Isometry3d::Identity())), sequence), "map");
-  const cv::Mat moved = DrawMap(CollectMap(ReadRun(MakeRun("b", Moved())), sequence), "map");
+  const cv::Mat still =
+      DrawMap(CollectMap(ReadRun(MakeRun("a", Eigen::Isometry3d::Identity())), sequence),
+              RunTitle{"map", "", "", ""});
+  const cv::Mat moved = DrawMap(CollectMap(ReadRun(MakeRun("b", Moved())), sequence),
+                                RunTitle{"map", "", "", ""});
   ASSERT_EQ(still.size(), moved.size());
   cv::Mat difference;
   cv::absdiff(still, moved, difference);
@@ -113,19 +77,21 @@ TEST_F(DrawRunFolder, DrawsARunInAnotherWorldFrameAtTheSamePixels) {
 
 TEST_F(DrawRunFolder, PaintsTheTopOfTheBookInItsColourWhereTheTruthHasIt) {
   const MapScene scene = CollectMap(ReadRun(MakeRun("run", Moved())), ReadSequence(seq()));
-  const cv::Mat page = DrawMap(scene, "map");
-  // The page as DrawMap lays it out: margins of 30 and 64, a column of 340 to the right.
-  const MapScale scale = FitMap(scene, {30, 64, 1640 - 60 - 340, 1000});
+  const cv::Mat page = DrawMap(scene, RunTitle{"map", "", "", ""});
+  // The page as DrawMap lays it out: margins of 30 and 76, a column of 340 to the right.
+  const MapScale scale = FitMap(scene, {30, 76, 1640 - 60 - 340, 1000});
   const Face& top = world_.faces[11];
   ASSERT_GT(top.n.z(), 0.99);
   const Eigen::Vector3d inside = 0.8 * top.vertices[0] + 0.2 * top.vertices[2];
   const cv::Point2d at = scale.At(inside);
   const cv::Vec3b found = page.at<cv::Vec3b>(cvRound(at.y), cvRound(at.x));
-  // Half the book's colour over half the table's over the page.
-  const Colour book = ColourOfPlane(MapId(12)), table = ColourOfPlane(MapId(6));
+  // The book's fill over the table's over the page.
+  const Colour book = LevelFill(MapId(12)), table = LevelFill(MapId(6));
   const Colour paper(250, 249, 248);
+  const double through = 1 - kLevelOpacity;
   for (int c = 0; c < 3; ++c) {
-    EXPECT_NEAR(found[c], 0.5 * book[c] + 0.25 * table[c] + 0.25 * paper[c], 2);
+    const double under = kLevelOpacity * table[c] + through * paper[c];
+    EXPECT_NEAR(found[c], kLevelOpacity * book[c] + through * under, 2);
   }
 }
 
@@ -149,7 +115,7 @@ TEST_F(DrawRunFolder, LaysTheLargestPlaneLevelWithoutATruth) {
   const fs::path run = MakeRun("run", Moved());
   fs::remove(seq() / "groundtruth.txt");
   fs::remove_all(seq() / "gt");
-  const std::vector<Picture> pictures = DrawRun(run, {});
+  const std::vector<Picture> pictures = DrawRun(run, {}).pictures;
   EXPECT_EQ(pictures.size(), 2u);
   EXPECT_TRUE(Named(pictures, "error_over_time.png").empty());
   EXPECT_FALSE(CollectMap(ReadRun(run), ReadSequence(seq())).on_truth);
@@ -194,7 +160,7 @@ TEST_F(DrawRunFolder, OutlinesPlanesByTheirVerticesWithoutASegmentation) {
   const cv::Mat book = Render(world_, world_.views[1]).plane_ids == 12;
   const cv::Scalar on_book = cv::mean(difference, book);
   EXPECT_GT(on_book[0] + on_book[1] + on_book[2], 30);
-  EXPECT_EQ(DrawRun(folder, {}).size(), 3u);
+  EXPECT_EQ(DrawRun(folder, {}).pictures.size(), 3u);
 }
 
 TEST_F(DrawRunFolder, AsksForACameraWhenNothingElseCanPlaceThePlanes) {
@@ -208,7 +174,7 @@ TEST_F(DrawRunFolder, AsksForACameraWhenNothingElseCanPlaceThePlanes) {
   }
   DrawOptions options;
   options.camera = "tum1";
-  EXPECT_EQ(DrawRun(run, options).size(), 3u);
+  EXPECT_EQ(DrawRun(run, options).pictures.size(), 3u);
 }
 
 TEST_F(DrawRunFolder, RefusesAFolderThatExistsUnlessForced) {
@@ -225,7 +191,7 @@ TEST_F(DrawRunFolder, RefusesAFolderThatExistsUnlessForced) {
       << "something was left behind";
 }
 
-TEST_F(DrawRunFolder, DrawsARunThatTrackedNothing) {
+TEST_F(DrawRunFolder, DrawsARunThatTrackedNothingAndSaysSo) {
   const fs::path run = MakeRun("run", Moved());
   WriteText(run / "trajectory.txt", "");
   WriteText(run / "map.json", "{\"planes\": []}");
@@ -237,22 +203,116 @@ TEST_F(DrawRunFolder, DrawsARunThatTrackedNothing) {
     lines += "\n";
   }
   WriteText(run / "frame_planes.jsonl", lines);
-  EXPECT_EQ(DrawRun(run, {}).size(), 2u);
+  const Drawing drawing = DrawRun(run, {});
+  EXPECT_EQ(drawing.pictures.size(), 3u);
+  EXPECT_THAT(drawing.notes, ::testing::Contains(HasSubstr("nothing was tracked")));
+  EXPECT_THAT(drawing.notes, ::testing::Contains(HasSubstr("the run tracked no frame")));
 }
 
-TEST(AlignByPoses, RecoversTheMotionOfAStraightPath) {
-  const Eigen::Isometry3d T_wg = Moved();
-  Trajectory truth, run;
-  for (int i = 0; i < 4; ++i) {
-    const Pose T_gc{Eigen::Matrix3d::Identity(), Eigen::Vector3d(0.1 * i, 0, 0)};
-    truth.push_back({i * 0.1, T_gc});
-    run.push_back({i * 0.1, Pose{T_wg.linear(), T_wg.translation()} * T_gc});
+TEST_F(DrawRunFolder, SaysHowToGetASegmentationWhereThereIsNone) {
+  const auto notes = DrawRun(MakeRun("run", Moved(), false), {}).notes;
+  EXPECT_THAT(notes, ::testing::ElementsAre(HasSubstr("pas slam --save-segmentation")));
+  EXPECT_TRUE(DrawRun(MakeRun("segmented", Moved()), {}).notes.empty());
+}
+
+TEST_F(DrawRunFolder, LeavesPlanesUnfilledWithoutASegmentation) {
+  const ::eval::Run run = ReadRun(MakeRun("run", Moved(), false));
+  const FrameScene scene = SceneOf(run, 1);
+  const cv::Mat image = DrawFrame(scene, world_.width);
+  // Lines and chips cover less than half of the table.
+  const cv::Mat table = Render(world_, world_.views[1]).plane_ids == 6;
+  cv::Mat difference;
+  cv::absdiff(image, scene.rgb, difference);
+  cv::cvtColor(difference, difference, cv::COLOR_BGR2GRAY);
+  EXPECT_LT(cv::countNonZero((difference > 0) & table), cv::countNonZero(table) / 2);
+}
+
+TEST_F(DrawRunFolder, SaysWhyThereAreNoErrorsWithoutTruePoses) {
+  const fs::path run = MakeRun("run", Moved());
+  fs::remove(seq() / "groundtruth.txt");
+  EXPECT_THAT(DrawRun(run, {}).notes, ::testing::ElementsAre(HasSubstr("groundtruth.txt")));
+}
+
+TEST_F(DrawRunFolder, NamesAnInterruptedRunInItsTitle) {
+  const fs::path folder = MakeRun("run", Moved());
+  json info = json::parse(ReadText(folder / "run.json"));
+  info["interrupted"] = true;
+  info["sequence_frames"] = 300;
+  WriteText(folder / "run.json", info.dump());
+  const RunTitle title = TitleOf(ReadRun(folder), ReadSequence(seq()));
+  EXPECT_EQ(title.run, "run");
+  EXPECT_EQ(title.sequence, "seq");
+  EXPECT_EQ(title.warning, "interrupted after 5 of 300 frames");
+  EXPECT_THAT(DrawRun(folder, {}).notes, ::testing::Contains(HasSubstr(title.warning)));
+}
+
+TEST_F(DrawRunFolder, SpreadsTheFramesOfAnInterruptedRunOverWhatItSaw) {
+  ::eval::Run run = ReadRun(MakeRun("run", Moved()));
+  const Sequence sequence = ReadSequence(seq());
+  run.frames.resize(2);
+  EXPECT_EQ(FramesSeen(run, sequence), sequence.frames.size());
+  run.info.interrupted = true;
+  EXPECT_EQ(FramesSeen(run, sequence), 2u);
+}
+
+TEST_F(DrawRunFolder, FillsAnEmptyFolder) {
+  const fs::path out = folder_.path() / "pictures";
+  fs::create_directory(out);
+  WritePictures({{"a.png", cv::Mat::zeros(4, 4, CV_8UC3)}}, out, false);
+  EXPECT_TRUE(fs::exists(out / "a.png"));
+}
+
+TEST_F(DrawRunFolder, RemovesThePictureOfAnEarlierRunThatThisOneHasNot) {
+  const fs::path out = folder_.path() / "pictures";
+  const cv::Mat image = cv::Mat::zeros(4, 4, CV_8UC3);
+  WritePictures({{"contact_sheet.png", image}, {"error_over_time.png", image}}, out, false);
+  WritePictures({{"contact_sheet.png", image}}, out, true);
+  EXPECT_FALSE(fs::exists(out / "error_over_time.png"));
+}
+
+TEST_F(DrawRunFolder, LeavesNothingBehindWhenAPictureCannotBeWritten) {
+  const cv::Mat image = cv::Mat::zeros(4, 4, CV_8UC3);
+  const std::string too_long(300, 'x');
+  EXPECT_THROW(
+      WritePictures({{"a.png", image}, {too_long, image}}, folder_.path() / "new", false),
+      io::InputError);
+  EXPECT_EQ(std::distance(fs::directory_iterator(folder_.path()), fs::directory_iterator()), 1)
+      << "only the sequence";
+}
+
+TEST_F(DrawRunFolder, ReplacesNothingWhenOneOfThePicturesIsNoFile) {
+  const fs::path out = folder_.path() / "pictures";
+  WriteText(out / "a.png", "mine");
+  fs::create_directory(out / "b.png");
+  const cv::Mat image = cv::Mat::zeros(4, 4, CV_8UC3);
+  EXPECT_THROW(WritePictures({{"a.png", image}, {"b.png", image}}, out, true), io::InputError);
+  EXPECT_EQ(ReadText(out / "a.png"), "mine");
+  EXPECT_EQ(std::distance(fs::directory_iterator(out), fs::directory_iterator()), 2);
+}
+
+TEST_F(DrawRunFolder, DrawsColourThatIsJpeg) {
+  const fs::path run = MakeRun("run", Moved());
+  const auto before = Named(DrawRun(run, {}).pictures, "contact_sheet.png");
+  for (const fs::directory_entry& image : fs::directory_iterator(seq() / "rgb")) {
+    const cv::Mat pixels = cv::imread(image.path().string());
+    const fs::path jpeg = fs::path(image.path()).replace_extension(".jpg");
+    cv::imwrite(jpeg.string(), pixels, {cv::IMWRITE_JPEG_QUALITY, 100});
+    fs::remove(image.path());
   }
-  const auto T_gw = AlignByPoses(run, truth, true);
-  ASSERT_TRUE(T_gw.has_value());
-  EXPECT_LT((T_gw->R - T_wg.linear().transpose()).norm(), 1e-12);
-  EXPECT_LT((*T_gw * run[3].T_wc.t - truth[3].T_wc.t).norm(), 1e-12);
-  EXPECT_FALSE(AlignByPoses(run, {}, true).has_value());
+  for (const char* name : {"rgb.txt", "associations.txt"}) {
+    if (!fs::exists(seq() / name)) continue;
+    std::string text = ReadText(seq() / name), png = ".png";
+    for (std::size_t at = text.find("rgb/"); at != std::string::npos;
+         at = text.find("rgb/", at + 1)) {
+      text.replace(text.find(png, at), png.size(), ".jpg");
+    }
+    WriteText(seq() / name, text);
+  }
+  const auto after = Named(DrawRun(run, {}).pictures, "contact_sheet.png");
+  ASSERT_EQ(before.size(), after.size());
+  cv::Mat difference;
+  cv::absdiff(before, after, difference);
+  EXPECT_LT(cv::mean(difference)[0], 3);  // what JPEG does to flat colours
 }
 
 TEST(ColourOfPlane, TellsNeighbouringIdsApart) {
@@ -263,32 +323,11 @@ TEST(ColourOfPlane, TellsNeighbouringIdsApart) {
   }
 }
 
-TEST(LabelLayout, NeverPutsOneLabelOverAnother) {
-  LabelLayout layout({0, 0, 400, 300});
-  std::vector<cv::Rect2d> placed;
-  for (int i = 0; i < 30; ++i) {
-    const auto place = layout.Place({200.0 + i, 150}, {60, 16});
-    if (!place) continue;
-    for (const cv::Rect2d& other : placed) EXPECT_EQ((other & *place).area(), 0);
-    EXPECT_GE(place->x, 0);
-    EXPECT_LE(place->y + place->height, 300);
-    placed.push_back(*place);
-  }
-  EXPECT_GT(placed.size(), 5u);
-}
-
 TEST(SpreadEvenly, TakesTheFirstAndTheLastAndNoneTwice) {
   EXPECT_THAT(SpreadEvenly(100, 4), ::testing::ElementsAre(0, 33, 66, 99));
   EXPECT_THAT(SpreadEvenly(3, 12), ::testing::ElementsAre(0, 1, 2));
   EXPECT_THAT(SpreadEvenly(9, 1), ::testing::ElementsAre(0));
   EXPECT_TRUE(SpreadEvenly(0, 5).empty());
-}
-
-TEST(RoundStep, IsOneTwoOrFiveTimesAPowerOfTen) {
-  EXPECT_DOUBLE_EQ(RoundStep(10, 10), 1);
-  EXPECT_DOUBLE_EQ(RoundStep(37, 10), 5);
-  EXPECT_DOUBLE_EQ(RoundStep(0.18, 10), 0.02);
-  EXPECT_DOUBLE_EQ(RoundStep(0, 10), 1);
 }
 
 }  // namespace

@@ -1,0 +1,83 @@
+// `pas draw` as a process: a run or a sequence with a fault is named, and nothing is left behind.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/eval/check/small_run.h"
+#include "tests/support/program.h"
+
+namespace program {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+class DrawProgram : public ::testing::Test {
+ protected:
+  DrawProgram() {
+    namespace world = eval::small_world;
+    const world::World made = world::MakeWorld();
+    world::WriteSequence(folder_ / "seq", made);
+    world::RunOptions options;
+    options.sequence = (folder_ / "seq").string();
+    world::WriteRun(folder_ / "run", made, options);
+  }
+  Outcome Draw() const {
+    return Process({Pas().string(), "draw", (folder_ / "run").string(), "-o",
+                    (folder_ / "pictures").string()},
+                   {}, folder_ / "errors")
+        .Wait();
+  }
+  void ExpectRefusedWith(const std::string& where) const {
+    const Outcome outcome = Draw();
+    EXPECT_EQ(outcome.exit_code, 2);
+    EXPECT_THAT(outcome.errors, HasSubstr(where));
+    EXPECT_THAT(outcome.errors, Not(HasSubstr("OpenCV")));
+    std::vector<std::string> there;
+    for (const auto& entry : fs::directory_iterator(folder_ / "")) {
+      there.push_back(entry.path().filename().string());
+    }
+    EXPECT_THAT(there, ::testing::UnorderedElementsAre("seq", "run", "errors"));
+  }
+  fs::path FirstColourImage() const {
+    std::vector<fs::path> images;
+    for (const auto& entry : fs::directory_iterator(folder_ / "seq/rgb")) {
+      images.push_back(entry.path());
+    }
+    return *std::min_element(images.begin(), images.end());
+  }
+  TemporaryFolder folder_;
+};
+
+TEST_F(DrawProgram, DrawsAWholeRun) {
+  EXPECT_EQ(Draw().exit_code, 0);
+  EXPECT_EQ(Contents(folder_ / "pictures").size(), 3u);
+}
+
+TEST_F(DrawProgram, NamesAColourImageThatIsCutOffAndLeavesNothing) {
+  const fs::path image = FirstColourImage();
+  fs::resize_file(image, 40);
+  ExpectRefusedWith(image.filename().string());
+}
+
+TEST_F(DrawProgram, NamesAColourImageThatSaysItIsHugeAndLeavesNothing) {
+  const fs::path image = FirstColourImage();
+  std::string bytes = ReadText(image);
+  bytes[16] = bytes[20] = 1;  // the first of four bytes of width and of height
+  eval::small_world::WriteText(image, bytes);
+  ExpectRefusedWith(image.filename().string());
+}
+
+TEST_F(DrawProgram, NamesAFolderThatIsAnImageAndLeavesNothing) {
+  const fs::path image = FirstColourImage();
+  fs::remove(image);
+  fs::create_directory(image);
+  ExpectRefusedWith(image.filename().string());
+}
+
+TEST_F(DrawProgram, NamesARunThatIsBrokenAndLeavesNothing) {
+  eval::small_world::WriteText(folder_ / "run/map.json", "{\"planes\": [");
+  ExpectRefusedWith("map.json");
+}
+
+}  // namespace
+}  // namespace program
