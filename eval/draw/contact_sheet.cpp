@@ -4,10 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <opencv2/imgcodecs.hpp>
 
 #include "eval/draw/frame_picture.h"
 #include "eval/draw/paint.h"
+#include "eval/formats/images.h"
 #include "io/input_error.h"
 
 namespace eval {
@@ -28,11 +28,7 @@ const typename Items::value_type* FindByStamp(const Items& items, double stamp_s
 FrameScene Collect(const Run& run, const Sequence& sequence, const SequenceFrame& frame,
                    const std::optional<Camera>& camera) {
   FrameScene scene;
-  const std::filesystem::path file = sequence.folder / frame.rgb;
-  scene.rgb = cv::imread(file.string(), cv::IMREAD_COLOR);
-  if (scene.rgb.empty()) {
-    throw io::InputError(file.string(), "cannot be read as an image; restore it");
-  }
+  scene.rgb = ReadColour(sequence.folder / frame.rgb);
   scene.labels = ReadSegmentation(run, frame.stamp_s);
   scene.frame = FindByStamp(run.frames, frame.stamp_s, [](const auto& f) { return f.stamp_s; });
   const StampedPose* pose =

@@ -30,6 +30,9 @@ struct PixelSet {
 /// The pixels of every id in an image of ids (CV_16U) but 0, which is none.
 std::map<int, PixelSet> PixelsOfIds(const cv::Mat1w& ids);
 
+/// An image (PNG or JPEG) in colour, CV_8UC3 in BGR order, whatever is stored. @throws InputError
+cv::Mat ReadColour(const std::filesystem::path& file);
+
 /// A PNG of one channel and 8 or 16 bits, widened to 16. @throws InputError
 cv::Mat1w ReadLabels(const std::filesystem::path& file);
 
