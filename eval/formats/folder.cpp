@@ -4,6 +4,8 @@
 
 #include <cstdlib>
 
+#include "io/path_type.h"
+
 namespace eval {
 
 std::string Describe(const Fault& fault) {
@@ -13,10 +15,7 @@ std::string Describe(const Fault& fault) {
   return fmt::format("{}: {}; {}", where, fault.what, fault.mend);
 }
 
-bool Folder::Has(const std::string& file) const {
-  std::error_code ignored;
-  return std::filesystem::exists(root_ / file, ignored);
-}
+bool Folder::Has(const std::string& file) const { return io::Exists(root_ / file); }
 
 bool Folder::Require(const std::string& file, const std::string& mend, Severity severity) {
   if (Has(file)) return true;

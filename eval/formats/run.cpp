@@ -6,6 +6,7 @@
 
 #include "eval/formats/images.h"
 #include "eval/formats/trajectory.h"
+#include "io/folder_kind.h"
 
 namespace eval {
 namespace {
@@ -58,7 +59,7 @@ Run ReadRun(Folder& folder) {
 }
 
 Run ReadRun(const fs::path& path) {
-  if (!fs::is_directory(path)) throw io::InputError(path.string(), "there is no such folder");
+  io::RequireRun(path);
   Folder folder(path);
   return ReadRun(folder);
 }

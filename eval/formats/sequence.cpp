@@ -4,6 +4,7 @@
 
 #include "eval/formats/manifest.h"
 #include "eval/formats/trajectory.h"
+#include "io/folder_kind.h"
 
 namespace eval {
 namespace {
@@ -25,7 +26,7 @@ std::vector<SequenceFrame> ReadFrames(Folder& folder) {
 }  // namespace
 
 Sequence ReadSequence(const fs::path& path) {
-  if (!fs::is_directory(path)) throw io::InputError(path.string(), "there is no such folder");
+  io::RequireSequence(path);
   Folder folder(path);
   Sequence sequence;
   sequence.folder = path;
