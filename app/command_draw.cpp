@@ -2,6 +2,7 @@
 
 #include "app/app.h"
 #include "eval/draw/draw_run.h"
+#include "io/output_folder.h"
 
 namespace app {
 namespace {
@@ -17,9 +18,8 @@ int RunDraw(const DrawArguments& arguments, bool quiet) {
   options.frames = arguments.frames;
   options.camera = arguments.camera;
   if (!arguments.truth.empty()) options.truth = arguments.truth;
-  if (!arguments.force && std::filesystem::exists(arguments.output)) {
-    eval::WritePictures({}, arguments.output, false);  // refuses before the work is done
-  }
+  // Refuses before the work is done.
+  if (!arguments.force) io::OutputFolder(arguments.output, "", false);
   const std::vector<eval::Picture> pictures = eval::DrawRun(arguments.run, options);
   eval::WritePictures(pictures, arguments.output, arguments.force);
   for (const eval::Picture& picture : pictures) {
