@@ -10,7 +10,7 @@
 #include "eval/report/evaluate.h"
 #include "eval/report/metrics_json.h"
 #include "eval/report/table.h"
-#include "io/atomic_file.h"
+#include "io/output_file.h"
 
 namespace app {
 namespace {
@@ -19,6 +19,7 @@ struct EvalOptions {
   std::string run;
   std::string truth;
   std::string output;
+  bool force = false;
 };
 
 /// One line for each kind of fault that the figures can live with.
@@ -33,15 +34,19 @@ int RunEval(const EvalOptions& options, const Globals& globals) {
   const eval::Run run = eval::ReadRun(options.run);
   const std::filesystem::path truth =
       options.truth.empty() ? eval::SequenceOf(run) : std::filesystem::path(options.truth);
+  // The default is what an earlier call wrote.
+  constexpr const char* kMetrics = "metrics.json";
+  const bool by_default = options.output.empty();
+  const std::filesystem::path output =
+      by_default ? run.folder / kMetrics : std::filesystem::path(options.output);
+  const io::OutputFile file(output,
+                            {options.force || by_default, {run.folder, truth}, kMetrics});
   const eval::Sequence sequence = eval::ReadSequence(truth);
   const eval::Evaluation evaluation = eval::Evaluate(run, sequence);
   PrintWarnings(evaluation.run_warnings, run.folder);
   PrintWarnings(evaluation.sequence_warnings, sequence.folder);
 
-  const std::filesystem::path output = options.output.empty()
-                                           ? run.folder / "metrics.json"
-                                           : std::filesystem::path(options.output);
-  io::WriteFile(output, eval::MetricsText(evaluation));
+  file.Write(eval::MetricsText(evaluation));
   if (!globals.quiet) {
     std::fputs(eval::MetricsTable(evaluation).c_str(), stdout);
     std::printf("wrote %s\n", output.c_str());
@@ -71,7 +76,9 @@ void AddEvalCommand(CLI::App& pas, const Globals& globals, int& exit_code) {
       "Sequence folder with the truth (default: the one that RUN/run.json names, "
       "relative to RUN, to the folder above or to here, else where it was)");
   command->add_option("-o,--output", options->output,
-                      "File to write (default: RUN/metrics.json); an older one is replaced");
+                      "File to write, which must not exist (default: RUN/metrics.json, which "
+                      "replaces an older one)");
+  command->add_flag("--force", options->force, "Replace the file of -o when it exists");
   command->callback(
       [options, &globals, &exit_code] { exit_code = RunEval(*options, globals); });
 }

@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <filesystem>
 #include <map>
 #include <optional>
 #include <stdexcept>
@@ -9,9 +8,9 @@
 #include <vector>
 
 #include "app/app.h"
-#include "io/atomic_file.h"
 #include "io/input_error.h"
 #include "io/number_text.h"
+#include "io/output_file.h"
 #include "sim/families/families.h"
 #include "sim/families/twin.h"
 #include "sim/scene/names.h"
@@ -63,13 +62,11 @@ std::map<std::string, double> Parameters(const MakeOptions& options) {
 }
 
 void Make(const MakeOptions& options, const Globals& globals) {
-  if (std::filesystem::exists(options.out) && !options.force) {
-    throw io::InputError(options.out, "exists already; choose another name or add --force");
-  }
+  const io::OutputFile output(options.out, {.force = options.force});
   const sim::Scene scene =
       options.twin.empty() ? sim::MakeScene(options.family, options.seed, Parameters(options))
                            : sim::MakeTwin(options.twin, options.seed);
-  sim::WriteScene(scene, options.out);
+  output.Write(sim::SceneText(scene));
   if (!globals.quiet) {
     fmt::print("{}: {} objects, {} planes, sha256 {}\n", options.out, scene.objects.size(),
                sim::ScenePlanes(scene).size(), sim::SceneHash(scene).substr(0, 16));
@@ -204,11 +201,14 @@ void AddSceneCommand(CLI::App& pas, const Globals& globals, int& exit_code) {
   show->add_option("scene", *path, "Scene file (YAML)")->required();
   show->add_option("--svg", *svg,
                    "Draw plan and elevation with the steps in mm into this file instead");
-  show->callback([path, svg, &exit_code] {
+  auto force = std::make_shared<bool>(false);
+  show->add_flag("--force", *force, "Replace the file of --svg when it exists");
+  show->callback([path, svg, force, &exit_code] {
     if (svg->empty()) {
       Show(*path);
     } else {
-      io::WriteFile(*svg, sim::SceneSvg(sim::ReadScene(*path)));
+      const io::OutputFile output(*svg, {.force = *force, .inputs = {*path}});
+      output.Write(sim::SceneSvg(sim::ReadScene(*path)));
     }
     exit_code = kDone;
   });

@@ -2,14 +2,15 @@
 #include <cstdio>
 #include <filesystem>
 #include <map>
-#include <stdexcept>
 
 #include "app/app.h"
 #include "app/console.h"
 #include "app/detector_figures.h"
 #include "app/recording_options.h"
 #include "app/sim_arguments.h"
-#include "io/atomic_file.h"
+#include "io/input_error.h"
+#include "io/output_file.h"
+#include "io/output_folder.h"
 #include "sim/motion/clearance.h"
 #include "sim/scene/names.h"
 #include "sim/sensor/read_sensor.h"
@@ -31,15 +32,18 @@ constexpr const char* kAboutSim =
 /// Measures a sensor's model on walls: a table, and a figure of it.
 int Report(const SimArguments& arguments, bool quiet) {
   const sim::Sensor sensor = sim::SensorByName(arguments.sensor_report);
-  const sim::SensorReport report = sim::MeasureWalls(sensor);
-  const std::string table = sim::ReportTable(report);
   const std::filesystem::path folder = arguments.output;
-  std::filesystem::create_directories(folder);
+  io::MakeFolder(folder);
   std::string name = "sensor_" + sensor.name;
   std::replace_if(
       name.begin(), name.end(), [](char c) { return c == '/' || c == ' '; }, '_');
-  io::WriteFile(folder / (name + ".txt"), table);
-  io::WriteFile(folder / (name + ".png"), sim::EncodePng(sim::DrawReport(sensor, report)));
+  const io::OutputRules rules{.force = arguments.force, .inputs = {arguments.sensor_report}};
+  const io::OutputFile text(folder / (name + ".txt"), rules);
+  const io::OutputFile figure(folder / (name + ".png"), rules);
+  const sim::SensorReport report = sim::MeasureWalls(sensor);
+  const std::string table = sim::ReportTable(report);
+  text.Write(table);
+  figure.Write(sim::EncodePng(sim::DrawReport(sensor, report)));
   if (!quiet) std::printf("%s\n%s", sensor.name.c_str(), table.c_str());
   return kDone;
 }
@@ -54,7 +58,14 @@ void WarnOfContact(const sim::Scene& scene, const sim::Recording& recording) {
   Warn(sim::ClearanceWarning(scene, poses));
 }
 
+/// The files that a sequence is made of.
+std::vector<std::filesystem::path> InputsOf(const SimArguments& arguments) {
+  return {arguments.scene, arguments.trajectory, arguments.sensor.value_or("")};
+}
+
 int Preview(const SimArguments& arguments, bool quiet) {
+  const io::OutputFile output(arguments.preview,
+                              {.force = arguments.force, .inputs = InputsOf(arguments)});
   const sim::Scene scene = SceneOf(arguments);
   sim::SequenceOptions options = OptionsOf(arguments, scene);
   const int frame = arguments.preview_frame;
@@ -67,9 +78,9 @@ int Preview(const SimArguments& arguments, bool quiet) {
     Warn(sim::ClearanceWarning(scene, trajectory));
   }
   if (frame >= static_cast<int>(trajectory.size())) {
-    throw std::invalid_argument("sim: --frame " + std::to_string(frame) +
-                                ": the trajectory has frames 0 to " +
-                                std::to_string(trajectory.size() - 1));
+    throw io::InputError(
+        "--frame " + std::to_string(frame),
+        "the trajectory has frames 0 to " + std::to_string(trajectory.size() - 1));
   }
   const sim::Simulator simulator(scene, options.rig);
   sim::Shot shot;
@@ -77,7 +88,7 @@ int Preview(const SimArguments& arguments, bool quiet) {
   shot.T_wc = trajectory[static_cast<std::size_t>(frame)].T_wc;
   const sim::SimulatedFrame made =
       simulator.Simulate(frame, shot, [&](double) { return shot.T_wc; });
-  io::WriteFile(arguments.preview, sim::EncodePng(sim::PreviewPicture(made)));
+  output.Write(sim::EncodePng(sim::PreviewPicture(made)));
   if (!quiet) {
     std::printf("%s: frame %d, %.3f s: colour, depth; planes, objects\n",
                 arguments.preview.c_str(), frame, shot.time_s);
@@ -86,6 +97,7 @@ int Preview(const SimArguments& arguments, bool quiet) {
 }
 
 int Write(const SimArguments& arguments, bool quiet) {
+  if (arguments.force) io::RefuseInputsInside(arguments.output, InputsOf(arguments));
   const sim::Scene scene = SceneOf(arguments);
   sim::SequenceOptions options = OptionsOf(arguments, scene);
   const sim::Recording recording = RecordingOf(arguments, scene, options);
@@ -107,13 +119,14 @@ int Write(const SimArguments& arguments, bool quiet) {
 
 int Run(const SimArguments& arguments, bool quiet) {
   if (arguments.preview.empty() && arguments.output.empty()) {
-    throw std::invalid_argument("sim: name a folder to write to (-o FOLDER), or --preview PNG");
+    throw io::InputError("sim", "name a folder to write to (-o FOLDER), or --preview PNG");
   }
   if (!arguments.sensor_report.empty()) return Report(arguments, quiet);
-  if (arguments.detector_report) return ReportDetectors(arguments.output, quiet);
+  if (arguments.detector_report)
+    return ReportDetectors(arguments.output, arguments.force, quiet);
   if (arguments.scene.empty()) {
-    throw std::invalid_argument(
-        "sim: name a scene file (SCENE), or use --sensor-report SENSOR or --detector-report");
+    throw io::InputError(
+        "sim", "name a scene file (SCENE), or use --sensor-report SENSOR or --detector-report");
   }
   return arguments.preview.empty() ? Write(arguments, quiet) : Preview(arguments, quiet);
 }
@@ -241,7 +254,7 @@ void AddSimCommand(CLI::App& pas, const Globals& globals, int& exit_code) {
                     "Instead of rendering a scene: score the presets of --detector on desks of "
                     "known truth; writes detectors.txt to the output folder");
   command->add_option("-o,--output", a.output,
-                      "Folder to write the sequence to; must not exist");
+                      "Folder to write the sequence to; must not exist, or be empty");
   CLI::Option* preview = command->add_option(
       "--preview", a.preview,
       "Instead of a sequence: one picture (PNG) of one frame: colour, depth, plane ids, "
@@ -255,7 +268,8 @@ void AddSimCommand(CLI::App& pas, const Globals& globals, int& exit_code) {
       ->capture_default_str();
   CLI::Option* resume = command->add_flag(
       "--resume", a.resume, "Finish an interrupted run; same bytes as one that was not");
-  command->add_flag("--force", a.force, "Replace an existing sequence")->excludes(resume);
+  command->add_flag("--force", a.force, "Replace an existing sequence, picture or report")
+      ->excludes(resume);
   AddCaptureOptions(*command, a, "");
   command->callback(
       [arguments, &globals, &exit_code] { exit_code = Run(*arguments, globals.quiet); });

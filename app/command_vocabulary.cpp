@@ -4,8 +4,8 @@
 
 #include "app/app.h"
 #include "app/console.h"
-#include "io/atomic_file.h"
 #include "io/input_error.h"
+#include "io/output_file.h"
 #include "slam/features/point_features.h"
 #include "slam/input/camera_reader.h"
 #include "slam/input/sequence_reader.h"
@@ -19,6 +19,7 @@ struct VocabularyArguments {
   std::vector<std::string> sequences;
   std::string output, camera;
   int every = 10;
+  bool force = false;
   slam::TrainingConfig training;
 };
 
@@ -46,6 +47,10 @@ std::vector<std::vector<slam::Descriptor>> Describe(const VocabularyArguments& a
 }
 
 int TrainWords(const VocabularyArguments& arguments, bool quiet) {
+  std::vector<std::filesystem::path> inputs(arguments.sequences.begin(),
+                                            arguments.sequences.end());
+  if (!arguments.camera.empty()) inputs.emplace_back(arguments.camera);
+  const io::OutputFile output(arguments.output, {.force = arguments.force, .inputs = inputs});
   cv::setNumThreads(1);
   const auto images = Describe(arguments, quiet);
   std::size_t descriptors = 0;
@@ -60,7 +65,7 @@ int TrainWords(const VocabularyArguments& arguments, bool quiet) {
     });
   }();
   const std::string bytes = vocabulary.Bytes();
-  io::WriteFile(arguments.output, bytes);
+  output.Write(bytes);
   if (!quiet) {
     fmt::print("{}: {} words from {} descriptors of {} images, {} bytes\n", arguments.output,
                vocabulary.words(), descriptors, images.size(), bytes.size());
@@ -78,6 +83,7 @@ void AddVocabularyCommand(CLI::App& pas, const Globals& globals, int& exit_code)
   command->add_option("SEQ", arguments->sequences, "Sequences whose images to learn from")
       ->required();
   command->add_option("-o,--output", arguments->output, "File to write")->required();
+  command->add_flag("--force", arguments->force, "Replace the output when it exists");
   command->add_option("--camera", arguments->camera,
                       "tum1 | tum2 | tum3 | a camera.yaml; default: SEQ/camera.yaml");
   command->add_option("--every", arguments->every, "Learn from every n-th frame")

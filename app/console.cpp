@@ -7,6 +7,17 @@
 
 namespace app {
 
+std::string RateText(int done, int total, double seconds) {
+  constexpr double kTooSoon_s = 0.2;  // the first steps say nothing of the rate yet
+  if (!(seconds > kTooSoon_s) || done <= 0) return "";
+  std::string text = ", " + std::to_string(std::lround(done / seconds)) + "/s";
+  if (done >= total) return text;
+  const long left_s = std::lround(seconds * (total - done) / done);
+  const std::string part = std::to_string(left_s % 60);
+  return text + ", " + std::to_string(left_s / 60) + ":" + (part.size() < 2 ? "0" : "") + part +
+         " left";
+}
+
 Progress::Progress(std::string label, int total, bool quiet)
     : label_(std::move(label)),
       total_(total > 0 ? total : 1),
@@ -27,13 +38,11 @@ void Progress::Update(int done) {
 
   const double seconds =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
-  // The first steps say nothing of the rate yet.
-  const std::string rate =
-      seconds > 0.2 ? ", " + std::to_string(std::lround(done / seconds)) + "/s" : "";
+  const std::string rate = RateText(done, total_, seconds);
   if (terminal_) {
     std::string bar(static_cast<std::size_t>(step * 30 / steps), '#');
     bar.resize(30, '.');
-    std::fprintf(stderr, "\r%s [%s] %d/%d%s ", label_.c_str(), bar.c_str(), done, total_,
+    std::fprintf(stderr, "\r%s [%s] %d/%d%s \033[K", label_.c_str(), bar.c_str(), done, total_,
                  rate.c_str());
   } else {
     std::fprintf(stderr, "%s %d/%d%s\n", label_.c_str(), done, total_, rate.c_str());

@@ -5,7 +5,8 @@
 
 #include "app/app.h"
 #include "app/console.h"
-#include "io/atomic_file.h"
+#include "io/output_file.h"
+#include "io/output_folder.h"
 #include "sim/detect/detector_score.h"
 #include "sim/families/families.h"
 #include "sim/motion/trajectory.h"
@@ -44,7 +45,9 @@ std::vector<sim::FrameTruth> TruthOf(const sim::Scene& scene, const sim::Camera&
 
 }  // namespace
 
-int ReportDetectors(const std::filesystem::path& output, bool quiet) {
+int ReportDetectors(const std::filesystem::path& output, bool force, bool quiet) {
+  io::MakeFolder(output);
+  const io::OutputFile file(output / "detectors.txt", {.force = force});
   std::vector<Preset> presets{{"perfect", sim::DetectorKind::kPerfect, {}},
                               {"noisy", sim::DetectorKind::kNoisy, {}},
                               {"poor", sim::DetectorKind::kPoor, {}}};
@@ -68,8 +71,7 @@ int ReportDetectors(const std::filesystem::path& output, bool quiet) {
   for (const Preset& preset : presets) {
     text += std::string(preset.name) + "\n" + sim::ScoreTable(preset.score);
   }
-  std::filesystem::create_directories(output);
-  io::WriteFile(output / "detectors.txt", text);
+  file.Write(text);
   if (!quiet) std::printf("%s", text.c_str());
   return kDone;
 }

@@ -1,10 +1,15 @@
+#include <algorithm>
 #include <cstdio>
 #include <exception>
 #include <memory>
-#include <opencv2/core/utility.hpp>
+#include <opencv2/core/utils/logger.hpp>
 
 #include "app/app.h"
+#include "app/command_line.h"
+#include "app/failure.h"
+#include "app/number_options.h"
 #include "app/wrapped_help.h"
+#include "io/input_error.h"
 #include "version.h"
 
 namespace {
@@ -23,6 +28,7 @@ constexpr const char* kFlow =
     "  pas check  validate a SEQ or RUN folder, fault by fault\n"
     "  pas vocabulary  train the words by which a lost camera finds its place\n"
     "  pas bench  measure one part by itself\n"
+    "  pas help COMMAND  the options of a command\n"
     "\n"
     "Exit codes: 0 done, 1 the result is a failure, 2 bad input or usage.";
 
@@ -53,23 +59,41 @@ int Run(int argc, char** argv) {
   for (const app::AddCommand add : kCommands) {
     add(pas, globals, exit_code);
   }
+  app::CheckValues(pas);
 
+  std::vector<std::string> arguments = app::ArgumentsOf(argc, argv);
+  app::RequireKnownCommands(pas, arguments);
+  std::reverse(arguments.begin(), arguments.end());  // as CLI11 wants them
   try {
-    pas.parse(argc, argv);
+    pas.parse(arguments);
   } catch (const CLI::ParseError& error) {
-    const int code = pas.exit(error);
-    return code == 0 ? app::kDone : app::kBadInput;
+    if (error.get_exit_code() == 0) return pas.exit(error);  // help, or the version
+    throw io::InputError(error.what() + ("; see " + app::CommandName(pas) + " --help"));
   }
   return exit_code;
+}
+
+/// Runs what may throw. @returns its exit code, or kBadInput after telling why it has none
+template <typename Work>
+int Guarded(const Work& work) {
+  try {
+    return work();
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "pas: %s\n", app::Words(error).c_str());
+    return app::kBadInput;
+  }
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  try {
-    return Run(argc, argv);
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "pas: %s\n", error.what());
-    return app::kBadInput;
-  }
+  app::KeepStandardStreams();
+  // What OpenCV would log of a broken image is told in our own words.
+  cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);
+  const int code = Guarded([&] { return Run(argc, argv); });
+  const int output = Guarded([] {
+    app::FinishOutput();
+    return app::kDone;
+  });
+  return code != app::kDone ? code : output;
 }

@@ -16,6 +16,16 @@ std::filesystem::path Unfinished(const std::filesystem::path& path) {
   return path.string() + kUnfinishedSuffix;
 }
 
+/// Whether a file may come to stand there: in the place of nothing or of a file, that is. (For a
+/// folder the system says why not.)
+bool MayBeReplaced(const std::filesystem::path& path) {
+  using Type = std::filesystem::file_type;
+  std::error_code ignored;
+  const Type type = std::filesystem::symlink_status(path, ignored).type();
+  return type == Type::not_found || type == Type::regular || type == Type::directory ||
+         type == Type::none;
+}
+
 /// Closes it, and puts it in its place unless something went wrong before. @returns 0 or errno
 int PutInPlace(int file, int error, const std::filesystem::path& path) {
   const std::filesystem::path unfinished = Unfinished(path);
@@ -33,23 +43,28 @@ void FailToWrite(const std::filesystem::path& path, const std::error_code& error
                                       "another place");
 }
 
-AtomicFile::AtomicFile(std::filesystem::path path)
-    : path_(std::move(path)),
-      file_(::open(Unfinished(path_).c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666)) {
+void WriteAll(int file, std::string_view bytes, const std::filesystem::path& path) {
+  while (!bytes.empty()) {
+    const ssize_t written = ::write(file, bytes.data(), bytes.size());
+    if (written < 0 && errno == EINTR) continue;
+    if (written < 0) FailToWrite(path, {errno, std::generic_category()});
+    bytes.remove_prefix(static_cast<std::size_t>(written));
+  }
+}
+
+AtomicFile::AtomicFile(std::filesystem::path path) : path_(std::move(path)) {
+  if (!MayBeReplaced(path_)) {
+    throw InputError(path_.string(),
+                     "is a link or a device, which is never replaced; remove it or choose "
+                     "another name");
+  }
+  file_ = ::open(Unfinished(path_).c_str(),
+                 O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC | O_NOFOLLOW, 0666);
   if (file_ < 0) FailToWrite(path_, {errno, std::generic_category()});
 }
 
 AtomicFile::~AtomicFile() {
   if (file_ >= 0) PutInPlace(file_, ECANCELED, path_);
-}
-
-void AtomicFile::Write(std::string_view bytes) {
-  while (!bytes.empty()) {
-    const ssize_t written = ::write(file_, bytes.data(), bytes.size());
-    if (written < 0 && errno == EINTR) continue;
-    if (written < 0) FailToWrite(path_, {errno, std::generic_category()});
-    bytes.remove_prefix(static_cast<std::size_t>(written));
-  }
 }
 
 void AtomicFile::Add(std::string_view bytes) {
@@ -58,12 +73,12 @@ void AtomicFile::Add(std::string_view bytes) {
     pending_ += bytes;
     return;
   }
-  Write(std::exchange(pending_, {}));
-  Write(bytes);
+  WriteAll(file_, std::exchange(pending_, {}), path_);
+  WriteAll(file_, bytes, path_);
 }
 
 void AtomicFile::Finish() {
-  Write(std::exchange(pending_, {}));
+  WriteAll(file_, std::exchange(pending_, {}), path_);
   const int error = PutInPlace(std::exchange(file_, -1), 0, path_);
   if (error != 0) FailToWrite(path_, {error, std::generic_category()});
 }

@@ -11,7 +11,7 @@ namespace io {
 inline constexpr const char* kUnfinishedSuffix = ".part";
 
 /// A file that is there whole after Finish and not at all before, made piece by piece under a
-/// temporary name beside its place. All calls throw InputError naming the file and the reason
+/// temporary name beside its place. It replaces no link and no device. All calls throw InputError naming the file and the reason
 /// (no space, no permission ...).
 class AtomicFile {
  public:
@@ -25,15 +25,16 @@ class AtomicFile {
   void Finish();
 
  private:
-  void Write(std::string_view bytes);
-
   std::filesystem::path path_;
-  int file_;
+  int file_ = -1;
   std::string pending_;
 };
 
 /// The same for a file that is held as a whole.
 void WriteFile(const std::filesystem::path& path, std::string_view bytes);
+
+/// Writes to an open descriptor. @throws InputError naming `path`
+void WriteAll(int file, std::string_view bytes, const std::filesystem::path& path);
 
 /// @throws InputError: the file or folder cannot be written, why, and what can be done
 [[noreturn]] void FailToWrite(const std::filesystem::path& path, const std::error_code& error);

@@ -6,6 +6,7 @@
 
 #include "io/input_error.h"
 #include "io/read_file.h"
+#include "io/text_lines.h"
 
 namespace io {
 namespace {
@@ -131,12 +132,11 @@ nlohmann::json ReadJson(const std::filesystem::path& file, const std::string& me
 
 void ForEachJsonLine(const std::filesystem::path& file, const std::string& mend,
                      const std::function<void(const JsonField& document)>& visit) {
-  std::ifstream stream = OpenFile(file, mend);
-  std::string text;
-  for (int number = 1; std::getline(stream, text); ++number) {
+  TextLines lines(file, mend, kMaxJsonLine_bytes);
+  for (std::string text; lines.Next(text);) {
     if (text.find_first_not_of(" \t\r") == std::string::npos) continue;
-    const nlohmann::json document = ParseJson(text, file, number);
-    visit(JsonField(document, Where(file, number)));
+    const nlohmann::json document = ParseJson(text, file, lines.number());
+    visit(JsonField(document, lines.where()));
   }
 }
 

@@ -55,6 +55,9 @@ nlohmann::json ParseJson(const std::string& text, const std::filesystem::path& w
 /// @throws InputError
 nlohmann::json ReadJson(const std::filesystem::path& file, const std::string& mend = "");
 
+/// Most bytes of a line that is one document; a frame of ours has some ten thousand.
+inline constexpr std::size_t kMaxJsonLine_bytes = std::size_t{1} << 24;
+
 /// Reads a file of one document a line; empty lines are left out. Holds one document at a time.
 /// @throws InputError with file:line
 void ForEachJsonLine(const std::filesystem::path& file, const std::string& mend,

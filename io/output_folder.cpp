@@ -13,6 +13,7 @@
 
 #include "io/atomic_file.h"
 #include "io/input_error.h"
+#include "io/path_type.h"
 
 namespace io {
 namespace {
@@ -77,27 +78,42 @@ OutputFolder::OutputFolder(const fs::path& folder, std::string marker, bool forc
       marker_(std::move(marker)),
       force_(force) {
   RefuseWhatIsThere();
+  for (fs::path above = final_.parent_path(); !Exists(above); above = above.parent_path()) {
+    made_.push_back(above);
+  }
   std::error_code error;
   fs::create_directories(final_.parent_path(), error);
   RemoveLeftovers(final_);
-  fs::create_directory(partial_, error);
-  if (error) FailToWrite(final_, error);
+  if (!error) fs::create_directory(partial_, error);
+  if (!error) return;
+  GiveUp();
+  FailToWrite(final_, error);
 }
 
 OutputFolder::~OutputFolder() {
+  if (!partial_.empty()) GiveUp();
+}
+
+void OutputFolder::GiveUp() const {
   std::error_code ignored;
-  if (!partial_.empty()) fs::remove_all(partial_, ignored);
+  fs::remove_all(partial_, ignored);
+  for (const fs::path& above : made_) fs::remove(above, ignored);  // if it is empty
 }
 
 void OutputFolder::RefuseWhatIsThere() const {
   std::error_code ignored;
-  if (!fs::exists(fs::symlink_status(final_, ignored))) return;
+  const fs::file_type type = fs::symlink_status(final_, ignored).type();
+  if (type == fs::file_type::not_found) return;
+  const bool folder = type == fs::file_type::directory;
+  if (folder && fs::equivalent(final_, fs::current_path(ignored), ignored)) {
+    throw InputError(final_.string(),
+                     "is the folder you are in, which cannot be replaced; name a folder in it");
+  }
+  if (folder && fs::is_empty(final_, ignored)) return;  // nobody's work
   if (!force_) {
     throw InputError(final_.string(), "exists already; choose another name or pass --force");
   }
-  const bool ours = fs::is_directory(final_, ignored) &&
-                    (fs::exists(final_ / marker_, ignored) || fs::is_empty(final_, ignored));
-  if (!ours) {
+  if (!folder || !fs::exists(final_ / marker_, ignored)) {
     throw InputError(final_.string(),
                      "exists and holds no " + marker_ +
                          ", so even --force does not replace it; choose another name or "
@@ -128,6 +144,16 @@ void OutputFolder::Commit() {
   }
   if (error) FailToWrite(final_, error);
   partial_.clear();
+}
+
+void MakeFolder(const fs::path& folder) {
+  const fs::file_type type = TypeAt(folder);
+  if (type != fs::file_type::directory && type != fs::file_type::not_found) {
+    throw InputError(folder.string(), std::string("is ") + NameOf(type) + "; name a folder");
+  }
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (error) FailToWrite(folder, error);
 }
 
 }  // namespace io

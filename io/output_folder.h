@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace io {
 
@@ -12,10 +13,10 @@ namespace io {
 /// the same name removes it when its process is gone.
 class OutputFolder {
  public:
-  /// @param marker  file that a folder of this kind holds; `force` replaces no other folder but
-  ///   an empty one
+  /// @param marker  file that a folder of this kind holds; `force` replaces no other. An empty
+  ///   folder is replaced in any case
   /// @throws InputError when the folder exists and `force` is off, when it exists and is not of
-  ///   this kind, or when the place cannot be written to
+  ///   this kind, when it is the current folder, or when the place cannot be written to
   OutputFolder(const std::filesystem::path& folder, std::string marker, bool force);
   ~OutputFolder();
   OutputFolder(const OutputFolder&) = delete;
@@ -33,10 +34,16 @@ class OutputFolder {
 
  private:
   void RefuseWhatIsThere() const;
+  void GiveUp() const;
 
   std::filesystem::path final_, partial_;
+  std::vector<std::filesystem::path> made_;  ///< folders above it, the innermost first
   std::string marker_;
   bool force_;
 };
+
+/// Makes a folder, and those above it, unless it is there.
+/// @throws InputError when it is a file or cannot be made
+void MakeFolder(const std::filesystem::path& folder);
 
 }  // namespace io

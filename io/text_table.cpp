@@ -4,7 +4,7 @@
 
 #include "io/input_error.h"
 #include "io/number_text.h"
-#include "io/read_file.h"
+#include "io/text_lines.h"
 
 namespace io {
 namespace {
@@ -36,14 +36,12 @@ std::vector<std::string> BetweenCommas(const std::string& text) {
 template <typename Split>
 std::vector<TextRecord> Records(const std::filesystem::path& file, const std::string& mend,
                                 Split split) {
-  std::ifstream stream = OpenFile(file, mend);
+  TextLines lines(file, mend, kMaxLine);
   std::vector<TextRecord> records;
-  std::string text;
-  for (int line = 1; std::getline(stream, text); ++line) {
-    const std::string where = Where(file, line);
-    if (text.size() > kMaxLine) throw InputError(where, "too long a line for a text file");
+  for (std::string text; lines.Next(text);) {
     text = Trimmed(text);
-    if (!text.empty() && text.front() != '#') records.push_back({where, line, split(text)});
+    if (text.empty() || text.front() == '#') continue;
+    records.push_back({lines.where(), lines.number(), split(text)});
   }
   return records;
 }

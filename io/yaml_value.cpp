@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <charconv>
-#include <numeric>
 #include <optional>
 
 #include "io/input_error.h"
+#include "io/nearest_word.h"
 #include "io/number_text.h"
 #include "io/read_file.h"
 
@@ -31,34 +31,6 @@ bool IsPlain(const std::string& text) {
   return std::all_of(text.begin(), text.end(), [](char c) {
     return IsLetterOrDigit(c) || std::string_view(" _-./").find(c) != std::string_view::npos;
   });
-}
-
-/// Letters to insert, remove or replace to make one of the other (Levenshtein).
-std::size_t EditDistance(const std::string& a, const std::string& b) {
-  std::vector<std::size_t> row(b.size() + 1);
-  std::iota(row.begin(), row.end(), std::size_t{0});
-  for (std::size_t i = 0; i < a.size(); ++i) {
-    std::size_t diagonal = std::exchange(row[0], i + 1);
-    for (std::size_t j = 0; j < b.size(); ++j) {
-      const std::size_t replaced = diagonal + (a[i] == b[j] ? 0 : 1);
-      diagonal = row[j + 1];
-      row[j + 1] = std::min({replaced, diagonal + 1, row[j] + 1});
-    }
-  }
-  return row.back();
-}
-
-/// The legal key that is spelt nearly as `key`, but for a third of its letters; or nothing.
-std::string NearestKey(const std::string& key, const std::vector<std::string>& legal) {
-  std::size_t least = 1 + (key.size() + 2) / 3;
-  std::string nearest;
-  for (const std::string& known : legal) {
-    const std::size_t distance = EditDistance(key, known);
-    if (distance >= least) continue;
-    least = distance;
-    nearest = known;
-  }
-  return nearest;
 }
 
 template <typename Whole>
@@ -219,7 +191,7 @@ void YamlMap::RefuseOtherKeys(const std::vector<std::string>& legal) const {
   constexpr std::size_t kMaxKey = 64;  // letters that are compared; no legal key has more
   for (const YamlNode& entry : value_.node_->entries) {
     if (std::find(legal.begin(), legal.end(), entry.key) != legal.end()) continue;
-    const std::string nearest = NearestKey(entry.key.substr(0, kMaxKey), legal);
+    const std::string nearest = NearestWord(entry.key.substr(0, kMaxKey), legal);
     throw InputError(Where(value_.file_, entry.key_line),
                      (value_.name_.empty() ? "" : value_.name_ + ": ") + "unknown key " +
                          Quoted(entry.key) +

@@ -4,12 +4,11 @@
 
 #include <cmath>
 #include <cstring>
-#include <fstream>
-#include <iterator>
 #include <set>
 #include <sstream>
 
 #include "io/number_text.h"
+#include "io/read_file.h"
 
 namespace eval {
 namespace {
@@ -187,9 +186,8 @@ void CheckPoints(Folder& folder, const Header& header, const std::string& bytes,
 
 void CheckPly(Folder& folder, const Run& run) {
   if (!folder.Require(kPly, "run the SLAM system again")) return;
-  std::ifstream in(folder.Open(kPly), std::ios::binary);
-  const std::string bytes((std::istreambuf_iterator<char>(in)),
-                          std::istreambuf_iterator<char>());
+  std::string bytes;
+  if (!folder.Try(kPly, [&] { bytes = io::ReadFile(folder.Open(kPly)); })) return;
   const auto header = ReadHeader(folder, bytes);
   if (header && CheckProperties(folder, *header)) CheckPoints(folder, *header, bytes, run);
 }

@@ -5,12 +5,12 @@
 #include <algorithm>
 #include <cmath>
 
-#include "eval/draw/colour_image.h"
 #include "eval/draw/frame_picture.h"
 #include "eval/draw/paint.h"
 #include "eval/draw/plane_name.h"
 #include "eval/draw/run_title.h"
 #include "eval/draw/sheet_header.h"
+#include "eval/formats/images.h"
 #include "io/input_error.h"
 
 namespace eval {
@@ -32,7 +32,7 @@ const typename Items::value_type* FindByStamp(const Items& items, double stamp_s
 FrameScene Collect(const Run& run, const Sequence& sequence, const SequenceFrame& frame,
                    const std::optional<Camera>& camera) {
   FrameScene scene;
-  scene.rgb = ReadColourImage(sequence.folder / frame.rgb);
+  scene.rgb = ReadColour(sequence.folder / frame.rgb);
   scene.labels = ReadSegmentation(run, frame.stamp_s);
   scene.frame = FindByStamp(run.frames, frame.stamp_s, [](const auto& f) { return f.stamp_s; });
   const StampedPose* pose =

@@ -6,6 +6,8 @@
 #include <cstdlib>
 #include <utility>
 
+#include "io/path_type.h"
+
 namespace eval {
 
 std::string Describe(const Fault& fault) {
@@ -39,10 +41,7 @@ std::vector<std::string> Summaries(const std::vector<Fault>& faults,
   return lines;
 }
 
-bool Folder::Has(const std::string& file) const {
-  std::error_code ignored;
-  return std::filesystem::exists(root_ / file, ignored);
-}
+bool Folder::Has(const std::string& file) const { return io::Exists(root_ / file); }
 
 bool Folder::Require(const std::string& file, const std::string& mend, Severity severity) {
   if (Has(file)) return true;

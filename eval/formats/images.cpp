@@ -3,14 +3,18 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
-#include <fstream>
-#include <iterator>
 #include <opencv2/imgcodecs.hpp>
-#include <vector>
+#include <string_view>
+
+#include "io/image_header.h"
+#include "io/input_error.h"
+#include "io/read_file.h"
 
 namespace eval {
 namespace {
+
+constexpr int kColourAsStored = cv::IMREAD_COLOR | cv::IMREAD_IGNORE_ORIENTATION;
+constexpr int kMaxImageSide_px = 8192;  // the largest camera that a camera.yaml may describe
 
 std::string TypeName(int depth, int channels) {
   const char* bits = depth == CV_8U ? "8-bit" : depth == CV_16U ? "16-bit" : "other";
@@ -18,30 +22,48 @@ std::string TypeName(int depth, int channels) {
 }
 
 // A PNG ends with an empty IEND chunk; decoders fill up what is missing before it.
-bool IsWholePng(const std::vector<unsigned char>& bytes) {
-  constexpr std::array<unsigned char, 8> kSignature{0x89, 'P',  'N',  'G',
-                                                    '\r', '\n', 0x1a, '\n'};
-  constexpr std::array<unsigned char, 12> kEnd{0,   0,   0,    0,    'I',  'E',
-                                               'N', 'D', 0xae, 0x42, 0x60, 0x82};
-  return bytes.size() > kSignature.size() + kEnd.size() &&
-         std::equal(kSignature.begin(), kSignature.end(), bytes.begin()) &&
-         std::equal(kEnd.begin(), kEnd.end(), bytes.end() - kEnd.size());
+bool IsWholePng(std::string_view bytes) {
+  using namespace std::string_view_literals;
+  constexpr std::string_view kSignature = "\x89PNG\r\n\x1a\n"sv;
+  constexpr std::string_view kEnd = "\0\0\0\0IEND\xae\x42\x60\x82"sv;
+  return bytes.size() > kSignature.size() + kEnd.size() && bytes.starts_with(kSignature) &&
+         bytes.ends_with(kEnd);
+}
+
+/// What OpenCV makes of the bytes; empty when it fails.
+cv::Mat Decoded(std::string& bytes, int mode) {
+  try {
+    return cv::imdecode(cv::Mat1b(1, static_cast<int>(bytes.size()),
+                                  reinterpret_cast<unsigned char*>(bytes.data())),
+                        mode);
+  } catch (const cv::Exception&) {
+    return {};
+  }
+}
+
+/// Whether the header asks for no more pixels than an image may have: a few bytes could ask for
+/// gigabytes.
+bool IsOfSensibleSize(const std::string& bytes) {
+  const auto size = io::ImageSizeOf(bytes);
+  return size && size->width > 0 && size->height > 0 && size->width <= kMaxImageSide_px &&
+         size->height <= kMaxImageSide_px;
 }
 
 cv::Mat Decode(Folder& folder, const std::string& file) {
-  std::ifstream in(folder.Open(file), std::ios::binary);
-  const std::vector<unsigned char> bytes((std::istreambuf_iterator<char>(in)),
-                                         std::istreambuf_iterator<char>());
-  cv::Mat image;
+  std::string bytes;
+  if (!folder.Try(file, [&] { bytes = io::ReadFile(folder.Open(file)); })) return {};
   if (!IsWholePng(bytes)) {
     folder.Tell(file, 0, "is not a whole PNG file", "write the image again");
-    return image;
+    return {};
   }
-  try {
-    image = cv::imdecode(bytes, cv::IMREAD_UNCHANGED);
-  } catch (const cv::Exception&) {
-    image.release();
+  if (!IsOfSensibleSize(bytes)) {
+    folder.Tell(file, 0,
+                fmt::format("its header asks for more than {0} x {0} pixels, or for none",
+                            kMaxImageSide_px),
+                "write the image again");
+    return {};
   }
+  const cv::Mat image = Decoded(bytes, cv::IMREAD_UNCHANGED);
   if (image.empty()) folder.Tell(file, 0, "cannot be decoded", "write the image again");
   return image;
 }
@@ -86,6 +108,24 @@ std::map<int, PixelSet> PixelsOfIds(const cv::Mat1w& ids) {
     }
   }
   return pixels;
+}
+
+cv::Mat ReadColour(const std::filesystem::path& file) {
+  std::string bytes = io::ReadFile(file, "expected a colour image");
+  const auto size = io::ImageSizeOf(bytes);
+  if (!size) throw io::InputError(file.string(), "is no PNG or JPEG image; copy it again");
+  if (!IsOfSensibleSize(bytes)) {
+    throw io::InputError(
+        file.string(),
+        fmt::format("says that it is {} x {} pixels; expected at most {} a side: "
+                    "copy it again",
+                    size->width, size->height, kMaxImageSide_px));
+  }
+  const cv::Mat image = Decoded(bytes, kColourAsStored);
+  if (image.empty()) {
+    throw io::InputError(file.string(), "is damaged and cannot be decoded; copy it again");
+  }
+  return image;
 }
 
 cv::Mat1w ReadLabels(const std::filesystem::path& file, const ImageKind& kind) {

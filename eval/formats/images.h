@@ -34,4 +34,9 @@ std::map<int, PixelSet> PixelsOfIds(const cv::Mat1w& ids);
 /// @throws InputError
 cv::Mat1w ReadLabels(const std::filesystem::path& file, const ImageKind& kind);
 
+/// A colour image, PNG or JPEG, as CV_8UC3 in BGR order, its pixels as they are stored whatever the
+/// file says of the camera's orientation.
+/// @throws InputError when it cannot be read, is no image or is too large
+cv::Mat ReadColour(const std::filesystem::path& file);
+
 }  // namespace eval

@@ -6,7 +6,7 @@
 
 #include "eval/formats/pose.h"
 #include "io/json_field.h"
-#include "io/read_file.h"
+#include "io/text_lines.h"
 
 namespace eval {
 namespace {
@@ -223,10 +223,13 @@ void VisitJson(Folder& folder, const std::string& file,
 void VisitJsonLines(Folder& folder, const std::string& file,
                     const std::function<void(const JsonRecord&)>& visit) {
   const std::filesystem::path path = folder.Open(file);
-  std::ifstream stream;
-  if (!folder.Try(file, [&] { stream = io::OpenFile(path); })) return;
+  std::optional<io::TextLines> lines;
+  if (!folder.Try(file, [&] { lines.emplace(path, "", io::kMaxJsonLine_bytes); })) return;
   std::string text;
-  for (int line = 1; std::getline(stream, text); ++line) {
+  bool more = true;
+  const auto next = [&] { more = lines->Next(text); };
+  while (folder.Try(file, next) && more) {
+    const int line = lines->number();
     if (text.find_first_not_of(" \t\r") == std::string::npos) {
       folder.Tell(file, line, "is blank", "write one JSON object a line", Severity::kFlaw);
       continue;

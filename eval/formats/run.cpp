@@ -7,6 +7,7 @@
 #include "eval/formats/images.h"
 #include "eval/formats/run_agreement.h"
 #include "eval/formats/trajectory.h"
+#include "io/folder_kind.h"
 
 namespace eval {
 namespace {
@@ -41,7 +42,7 @@ Run ReadRun(Folder& folder) {
 }
 
 Run ReadRun(const fs::path& path) {
-  if (!fs::is_directory(path)) throw io::InputError(path.string(), "there is no such folder");
+  io::RequireRun(path);
   Folder folder(path);
   Run run = ReadRun(folder);
   run.warnings = std::move(folder.faults());

@@ -5,12 +5,13 @@
 #include "eval/formats/manifest.h"
 #include "eval/formats/sequence_agreement.h"
 #include "eval/formats/trajectory.h"
+#include "io/folder_kind.h"
 
 namespace eval {
 namespace fs = std::filesystem;
 
 Sequence ReadSequence(const fs::path& path) {
-  if (!fs::is_directory(path)) throw io::InputError(path.string(), "there is no such folder");
+  io::RequireSequence(path);
   Folder folder(path);
   Sequence sequence;
   sequence.folder = path;

@@ -4,6 +4,7 @@
 #include <limits>
 #include <stdexcept>
 
+#include "io/input_error.h"
 #include "io/number_text.h"
 
 namespace sim {
@@ -68,7 +69,7 @@ Camera WithLens(const Camera& camera, const Lens& lens) {
   const auto look = [&](double u, double v) {
     const double r = bent.Ray(u, v).head<2>().norm();
     if (!(r <= growing)) {
-      throw std::invalid_argument(
+      throw io::InputError(
           "lens distortion: no single ray belongs to pixel (" + io::NumberText(u) + ", " +
           io::NumberText(v) +
           "); the coefficients k1 k2 p1 p2 k3 are too strong for this field of view");

@@ -39,12 +39,12 @@ struct Camera {
 Camera Resize(const Camera& camera, int width, int height);
 
 /// The camera with a lens.
-/// @throws std::invalid_argument when the distortion folds the image, so that not every pixel,
+/// @throws io::InputError when the distortion folds the image, so that not every pixel,
 ///   and a rim of two pixels, has one ray.
 Camera WithLens(const Camera& camera, const Lens& lens);
 
 /// The camera that a scene asks for, with its lens.
-/// @throws std::invalid_argument as Resize and WithLens do
+/// @throws as Resize and WithLens do
 Camera CameraOf(const Capture& capture);
 
 /// Text of camera.yaml (formats.md).

@@ -44,7 +44,8 @@ struct RenderedScene;
 /// others.
 class FrameRenderer {
  public:
-  /// @throws std::invalid_argument when ids do not fit in 16 bits.
+  /// @throws std::invalid_argument when ids of objects do not fit in 16 bits, InputError when
+  ///   those of planes do not.
   FrameRenderer(const Scene& scene, const Camera& camera,
                 InstructionSet set = InstructionSet::kPinned);
   ~FrameRenderer();

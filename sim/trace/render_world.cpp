@@ -4,6 +4,8 @@
 #include <stdexcept>
 #include <string>
 
+#include "io/input_error.h"
+
 namespace sim {
 namespace {
 
@@ -16,7 +18,10 @@ void CheckIds(const Scene& scene, const SceneMesh& mesh) {
     }
   }
   for (const Triangle& triangle : mesh.triangles) {
-    if (!fits(triangle.plane)) throw std::invalid_argument("more than 65535 planes");
+    if (!fits(triangle.plane))
+      throw io::InputError(scene.name,
+                           "has more than 65535 planes, which id images of 16 bits cannot "
+                           "hold; simplify its meshes");
   }
 }
 

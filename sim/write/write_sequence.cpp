@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "io/atomic_file.h"
+#include "io/folder_lock.h"
 #include "io/json_field.h"
 #include "io/read_file.h"
 #include "io/sha256.h"
@@ -185,6 +186,7 @@ int WriteSequence(const Scene& scene, const Recording& recording,
                    {"turn_deg_s", fmt::format("{}", preset.turn_deg_s)}};
   }
   const Json plan = Plan(scene, told, recording.shots.size(), fixed);
+  const io::FolderLock lock(folder);
   if (PrepareFolder(folder, plan, options.existing)) return 0;
 
   for (const auto& [path, text] : fixed) io::WriteFile(folder / path, text);

@@ -31,7 +31,8 @@ struct SequenceOptions {
 /// with all truth. manifest.json says complete: false until the last file is there. The same
 /// scene and options give the same bytes, with any number of threads, in one go or resumed.
 /// @returns frames rendered now (fewer than options.frames when resumed)
-/// @throws InputError for a folder that is in the way or cannot be written, a scene without
+/// @throws InputError for a folder that is in the way, is written by another process or cannot
+///   be written, a scene without
 ///   room for the camera; std::invalid_argument for options out of range
 int WriteSequence(const Scene& scene, const SequenceOptions& options,
                   const std::filesystem::path& folder);

@@ -1,6 +1,7 @@
 #include "slam/input/camera_reader.h"
 
 #include "io/input_error.h"
+#include "io/path_type.h"
 #include "io/yaml_value.h"
 
 namespace slam {
@@ -59,16 +60,17 @@ Camera ReadCamera(const std::filesystem::path& file) {
 }
 
 Camera ChooseCamera(const std::string& choice, const std::filesystem::path& sequence) {
-  std::error_code ignored;
   if (choice.empty()) {
     const auto file = sequence / "camera.yaml";
-    if (!std::filesystem::exists(file, ignored))
+    if (!io::Exists(file))
       throw io::InputError(
           file.string(),
           "no camera.yaml in the sequence; pass --camera tum1, tum2, tum3 or a file");
     return ReadCamera(file);
   }
-  if (std::filesystem::is_regular_file(choice, ignored)) return ReadCamera(choice);
+  using Type = std::filesystem::file_type;
+  const Type type = io::TypeAt(choice);
+  if (type != Type::not_found && type != Type::directory) return ReadCamera(choice);
   if (choice == "tum1" || choice == "tum2" || choice == "tum3")
     return TumCamera(choice.c_str());
   throw io::InputError("--camera " + choice,

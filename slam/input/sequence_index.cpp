@@ -4,8 +4,10 @@
 #include <cmath>
 #include <tuple>
 
+#include "io/folder_kind.h"
 #include "io/input_error.h"
 #include "io/number_text.h"
+#include "io/path_type.h"
 #include "io/text_table.h"
 
 namespace slam {
@@ -179,13 +181,10 @@ std::vector<SequenceEntry> Pair(const std::vector<Stamped>& rgb, std::vector<Sta
 }  // namespace
 
 SequenceIndex IndexSequence(const std::filesystem::path& sequence) {
-  std::error_code ignored;
-  if (!std::filesystem::is_directory(sequence, ignored))
-    throw io::InputError(sequence.string(),
-                         "no such folder; expected a sequence (a TUM RGB-D folder)");
+  io::RequireSequence(sequence);
   SequenceIndex index;
   SequenceWarnings& w = index.warnings;
-  if (std::filesystem::exists(sequence / "associations.txt", ignored)) {
+  if (io::Exists(sequence / "associations.txt")) {
     index.entries = InOrder(
         ReadAssociations(sequence / "associations.txt"),
         [](const SequenceEntry& e) { return e.timestamp_s; }, w);

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "io/input_error.h"
+#include "io/path_type.h"
 #include "slam/base/require.h"
 #include "slam/input/image_file.h"
 
@@ -13,9 +14,9 @@ namespace {
 void RequireFile(const std::filesystem::path& file, int frame, const std::string& source) {
   const std::string where =
       file.string() + " (frame " + std::to_string(frame) + ", " + source + ")";
-  std::error_code error;
-  if (!std::filesystem::exists(file, error))
+  if (!io::Exists(file))
     throw io::InputError(where, "no such file; the list of images names it");
+  std::error_code error;
   if (!std::filesystem::is_regular_file(file, error))
     throw io::InputError(where, "not a file; expected a PNG image");
   if (std::filesystem::file_size(file, error) == 0)

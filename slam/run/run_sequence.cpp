@@ -7,7 +7,9 @@
 #include <thread>
 #include <utility>
 
+#include "io/folder_kind.h"
 #include "io/input_error.h"
+#include "io/path_type.h"
 #include "slam/diagnose/camera_check.h"
 #include "slam/diagnose/depth_clock.h"
 #include "slam/input/camera_reader.h"
@@ -30,7 +32,7 @@ constexpr std::array<std::pair<Variant, const char*>, 4> kVariants = {
 std::string DetectorChoice(const RunOptions& options) {
   if (options.variant == Variant::kPoints) return "none";  // boxes serve planes alone
   if (!options.detector.empty()) return options.detector;
-  return std::filesystem::exists(options.sequence / "detections.jsonl") ? "replay" : "none";
+  return io::Exists(options.sequence / "detections.jsonl") ? "replay" : "none";
 }
 
 RunInfo Describe(const RunOptions& options, const std::string& detector) {
@@ -224,11 +226,7 @@ Variant VariantOf(const std::string& name) {
 }
 
 RunOutcome RunSequence(const RunOptions& options) {
-  if (!std::filesystem::is_directory(options.sequence)) {
-    throw io::InputError(
-        options.sequence.string(),
-        "no such folder; expected a sequence made by pas sim, or a TUM RGB-D folder");
-  }
+  io::RequireSequence(options.sequence);
   const Camera camera = ChooseCamera(options.camera, options.sequence);
   SequenceReader reader(options.sequence, camera, {.prefetch = ThreadsOf(options) > 1});
   const std::string detector = DetectorChoice(options);

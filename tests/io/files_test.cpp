@@ -37,7 +37,8 @@ TEST_F(Files, ThatCannotBeReadAreNamedWithTheReasonAndWhatToDo) {
   };
   EXPECT_THAT(reading("none"),
               ThrowsMessage<InputError>(EndsWith("none: no such file; make one")));
-  EXPECT_THAT(reading(""), ThrowsMessage<InputError>(EndsWith("is not a file; make one")));
+  EXPECT_THAT(reading(""),
+              ThrowsMessage<InputError>(EndsWith("is a folder, expected a file; make one")));
   WriteFile(folder_ / "large", std::string((1 << 20) + 1, 'x'));
   EXPECT_THAT(reading("large"),
               ThrowsMessage<InputError>(EndsWith("is larger than 1 MiB; make one")));

@@ -108,6 +108,30 @@ TEST_F(OutputFolders, ReplaceNoFolderOrFileOfAnotherKindEvenWithForce) {
   EXPECT_NO_THROW(Make(true)) << "an empty one is nobody's work";
 }
 
+TEST_F(OutputFolders, TakeThePlaceOfAnEmptyOneWithoutForce) {
+  fs::create_directory(place());
+  Make();
+  EXPECT_EQ(Contents(place()).at("marker.json"), "old");
+  EXPECT_THAT(Beside(), ElementsAre("out"));
+}
+
+TEST_F(OutputFolders, NeverTakeThePlaceOfTheCurrentOne) {
+  fs::create_directory(place());
+  const fs::path before = fs::current_path();
+  fs::current_path(place());
+  EXPECT_THAT([] { OutputFolder(".", "marker.json", true); },
+              ThrowsMessage<InputError>(HasSubstr("is the folder you are in")));
+  fs::current_path(before);
+}
+
+TEST_F(OutputFolders, LeaveNoFolderAboveThemWhenGivenUp) {
+  { OutputFolder(place() / "deep/down", "marker.json", false).Write("a.txt", "a"); }
+  EXPECT_THAT(Beside(), IsEmpty());
+  fs::create_directory(place());
+  { OutputFolder(place() / "deep/down", "marker.json", false).Write("a.txt", "a"); }
+  EXPECT_THAT(Beside(), ElementsAre("out"));
+}
+
 TEST_F(OutputFolders, ReplaceNothingThatAppearedWhileTheyWereWritten) {
   OutputFolder output(place(), "marker.json", true);
   fs::create_directories(place());

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <opencv2/calib3d.hpp>
 
+#include "io/input_error.h"
+
 namespace sim {
 namespace {
 
@@ -76,8 +78,8 @@ TEST(LensDistortion, DoesNotFoldWhatLiesFarOutsideIntoTheImage) {
 }
 
 TEST(LensDistortion, IsRefusedWhereItFoldsTheImage) {
-  EXPECT_THROW(WithLens(Camera{}, {.k1 = -2.0}), std::invalid_argument);
-  EXPECT_THROW(WithLens(Camera{}, {.k1 = std::nan("")}), std::invalid_argument);
+  EXPECT_THROW(WithLens(Camera{}, {.k1 = -2.0}), io::InputError);
+  EXPECT_THROW(WithLens(Camera{}, {.k1 = std::nan("")}), io::InputError);
 }
 
 TEST(LensDistortion, StandsInCameraYamlOnlyWhenThereIsOne) {

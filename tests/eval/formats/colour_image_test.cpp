@@ -1,4 +1,4 @@
-#include "eval/draw/colour_image.h"
+#include "eval/formats/images.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -20,7 +20,7 @@ class ColourImageFile : public ::testing::Test {
     const fs::path file = folder_.path() / "colour.png";
     small_world::WriteText(file, bytes);
     try {
-      ReadColourImage(file);
+      ReadColour(file);
     } catch (const io::InputError& error) {
       EXPECT_THAT(error.what(), HasSubstr(file.string()));
       return error.what();
@@ -39,7 +39,7 @@ class ColourImageFile : public ::testing::Test {
 TEST_F(ColourImageFile, IsReadAsPngAndAsJpeg) {
   for (const char* extension : {".png", ".jpg"}) {
     EXPECT_EQ(WhyRefused(Encoded(extension)), "");
-    const cv::Mat read = ReadColourImage(folder_.path() / "colour.png");
+    const cv::Mat read = ReadColour(folder_.path() / "colour.png");
     ASSERT_EQ(read.size(), image_.size());
     ASSERT_EQ(read.type(), CV_8UC3);
     EXPECT_LT(cv::norm(read, image_, cv::NORM_INF), 4);

@@ -1,0 +1,83 @@
+#include "app/command_line.h"
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "io/input_error.h"
+#include "io/nearest_word.h"
+
+namespace app {
+namespace {
+
+bool IsUtf8(const std::string& text) {
+  try {
+    static_cast<void>(nlohmann::json(text).dump());
+    return true;
+  } catch (const nlohmann::json::type_error&) {
+    return false;
+  }
+}
+
+std::vector<const CLI::App*> CommandsOf(const CLI::App& app) {
+  return app.get_subcommands([](const CLI::App*) { return true; });
+}
+
+const CLI::App* Find(const std::vector<const CLI::App*>& commands, const std::string& name) {
+  for (const CLI::App* command : commands) {
+    if (command->get_name() == name) return command;
+  }
+  return nullptr;
+}
+
+}  // namespace
+
+std::vector<std::string> ArgumentsOf(int argc, const char* const* argv) {
+  std::vector<std::string> arguments(argv + 1, argv + argc);
+  for (const std::string& argument : arguments) {
+    if (IsUtf8(argument)) continue;
+    throw io::InputError("the argument " + io::Quoted(argument),
+                         "is not valid UTF-8; give files and folders other names");
+  }
+  std::error_code ignored;
+  const std::string here = std::filesystem::current_path(ignored).string();
+  if (!IsUtf8(here)) {
+    throw io::InputError("the current folder " + io::Quoted(here),
+                         "has a name that is not valid UTF-8; rename it");
+  }
+  if (!arguments.empty() && arguments.front() == "help") {
+    arguments.erase(arguments.begin());
+    arguments.emplace_back("--help");
+  }
+  return arguments;
+}
+
+void RequireKnownCommands(const CLI::App& app, const std::vector<std::string>& arguments) {
+  const CLI::App* at = &app;
+  for (const std::string& word : arguments) {
+    const std::vector<const CLI::App*> commands = CommandsOf(*at);
+    if (commands.empty()) return;
+    if (word.starts_with('-')) continue;  // flags; none of them has a value
+    const CLI::App* command = Find(commands, word);
+    if (command != nullptr) {
+      at = command;
+      continue;
+    }
+    std::vector<std::string> names;
+    std::string known;
+    for (const CLI::App* one : commands) {
+      names.push_back(one->get_name());
+      known += (known.empty() ? "" : ", ") + one->get_name();
+    }
+    const std::string nearest = io::NearestWord(word, names);
+    throw io::InputError("unknown command " + io::Quoted(word) +
+                         (nearest.empty() ? "; " : "; did you mean `" + nearest + "`? ") +
+                         "commands here: " + known);
+  }
+}
+
+std::string CommandName(const CLI::App& app) {
+  const std::vector<CLI::App*> parsed = app.get_subcommands();
+  return app.get_name() + (parsed.empty() ? "" : " " + CommandName(*parsed.front()));
+}
+
+}  // namespace app

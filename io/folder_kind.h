@@ -1,0 +1,40 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+namespace io {
+
+/// What a folder, or the file in its place, seems to be, by the names in it.
+enum class FolderKind {
+  kNothing,      ///< there is nothing
+  kFile,         ///< no folder
+  kEmpty,        ///< a folder without anything
+  kSequence,     ///< of `pas sim`, or a recording in TUM's format
+  kRun,          ///< of `pas slam`
+  kPictures,     ///< of `pas draw`
+  kExport,       ///< of `pas export`
+  kRosBag,       ///< of ROS: FILE.bag, or metadata.yaml beside *.db3 or *.mcap
+  kScanNet,      ///< FILE.sens, or color/, depth/ and pose/
+  kSevenScenes,  ///< frame-000000.color.png and so on
+  kIclNuim,      ///< scene_00_0000.png and scene_00_0000.depth
+  kOther         ///< none of these
+};
+
+/// @throws InputError when it cannot be read
+FolderKind KindOf(const std::filesystem::path& folder);
+
+/// What stands there and was not expected, and what to do: "is a sequence, expected a run; make
+/// one with `pas slam seq -o RUN`".
+struct WrongFolder {
+  std::string what, mend;
+};
+/// @param expected  kSequence, kRun or kOther, which is either
+WrongFolder Unexpected(const std::filesystem::path& folder, FolderKind found,
+                       FolderKind expected);
+
+/// @throws InputError that says what the folder is instead, see Unexpected
+void RequireSequence(const std::filesystem::path& folder);
+void RequireRun(const std::filesystem::path& folder);
+
+}  // namespace io
