@@ -94,7 +94,7 @@ class BopScene {
 
   void AddFrame(int im_id, const SequenceFrame& frame, const Pose& T_gc) {
     const std::string image = fmt::format("{:06}.png", im_id);
-    folder_.Write(place_ / "rgb" / image, io::ReadFile(sequence_.folder / frame.rgb));
+    folder_.Write(place_ / "rgb" / image, ColourFile(sequence_, frame));
     folder_.Write(place_ / "depth" / image, io::ReadFile(sequence_.folder / frame.depth));
     const Camera& camera = *sequence_.camera;
     const Pose T_cg = Inverse(T_gc);

@@ -1,6 +1,9 @@
 #include "eval/export/exportable.h"
 
+#include <fmt/format.h>
+
 #include "io/input_error.h"
+#include "io/read_file.h"
 
 namespace eval {
 
@@ -33,6 +36,19 @@ Sequence ReadExportable(const std::filesystem::path& folder, const ExportOptions
   require(sequence.scene.has_value(), "gt/scene.json");
   require(!sequence.object_id_files.empty(), "gt/object_id");
   return sequence;
+}
+
+std::string ColourFile(const Sequence& sequence, const SequenceFrame& frame) {
+  const std::filesystem::path file = sequence.folder / frame.rgb;
+  const cv::Size size = ReadColour(file).size(),
+                 expected(sequence.camera->width, sequence.camera->height);
+  if (size != expected) {
+    throw io::InputError(
+        file.string(),
+        fmt::format("is {} x {}; expected {} x {} as in camera.yaml; restore the image",
+                    size.width, size.height, expected.width, expected.height));
+  }
+  return io::ReadFile(file);
 }
 
 cv::Mat1w ReadCheckedObjectIds(const Sequence& sequence, double stamp_s) {

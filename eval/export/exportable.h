@@ -35,6 +35,10 @@ struct ExportSummary {
 /// @throws InputError that names what is missing
 Sequence ReadExportable(const std::filesystem::path& folder, const ExportOptions& options);
 
+/// The file of a frame's colour image, byte for byte.
+/// @throws InputError when it is no image or has another size than the camera
+std::string ColourFile(const Sequence& sequence, const SequenceFrame& frame);
+
 /// Object ids of a frame.
 /// @throws InputError naming the file when it is missing, has another size than the camera, or
 ///   holds an id that the scene does not have

@@ -21,13 +21,14 @@ std::string TypeName(int depth, int channels) {
   return fmt::format("{} with {} channel{}", bits, channels, channels == 1 ? "" : "s");
 }
 
+constexpr std::string_view kPngSignature = "\x89PNG\r\n\x1a\n";
+
 // A PNG ends with an empty IEND chunk; decoders fill up what is missing before it.
 bool IsWholePng(std::string_view bytes) {
   using namespace std::string_view_literals;
-  constexpr std::string_view kSignature = "\x89PNG\r\n\x1a\n"sv;
   constexpr std::string_view kEnd = "\0\0\0\0IEND\xae\x42\x60\x82"sv;
-  return bytes.size() > kSignature.size() + kEnd.size() && bytes.starts_with(kSignature) &&
-         bytes.ends_with(kEnd);
+  return bytes.size() > kPngSignature.size() + kEnd.size() &&
+         bytes.starts_with(kPngSignature) && bytes.ends_with(kEnd);
 }
 
 /// What OpenCV makes of the bytes; empty when it fails.
@@ -121,7 +122,8 @@ cv::Mat ReadColour(const std::filesystem::path& file) {
                     "copy it again",
                     size->width, size->height, kMaxImageSide_px));
   }
-  const cv::Mat image = Decoded(bytes, kColourAsStored);
+  const bool whole = !bytes.starts_with(kPngSignature) || IsWholePng(bytes);
+  const cv::Mat image = whole ? Decoded(bytes, kColourAsStored) : cv::Mat();
   if (image.empty()) {
     throw io::InputError(file.string(), "is damaged and cannot be decoded; copy it again");
   }
