@@ -1,6 +1,8 @@
 #include "eval/export/exportable.h"
 
+#include "io/image_header.h"
 #include "io/input_error.h"
+#include "io/read_file.h"
 
 namespace eval {
 
@@ -24,6 +26,18 @@ Sequence ReadExportable(const std::filesystem::path& folder) {
   require(sequence.scene.has_value(), "gt/scene.json");
   require(!sequence.object_id_files.empty(), "gt/object_id");
   return sequence;
+}
+
+std::string ReadImageBytes(const Sequence& sequence, const std::filesystem::path& image) {
+  const std::filesystem::path file = sequence.folder / image;
+  std::string bytes = io::ReadFile(file);
+  const auto size = io::ImageSizeOf(bytes);
+  if (!size || size->width != sequence.camera->width ||
+      size->height != sequence.camera->height) {
+    throw io::InputError(file.string(),
+                         "is no image of the size that camera.yaml says; restore it");
+  }
+  return bytes;
 }
 
 cv::Mat1w ReadCheckedObjectIds(const Sequence& sequence, double stamp_s) {
