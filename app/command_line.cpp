@@ -1,5 +1,6 @@
 #include "app/command_line.h"
 
+#include <algorithm>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
@@ -44,8 +45,10 @@ std::vector<std::string> ArgumentsOf(int argc, const char* const* argv) {
     throw io::InputError("the current folder " + io::Quoted(here),
                          "has a name that is not valid UTF-8; rename it");
   }
-  if (!arguments.empty() && arguments.front() == "help") {
-    arguments.erase(arguments.begin());
+  const auto command = std::find_if(arguments.begin(), arguments.end(),
+                                    [](const std::string& a) { return !a.starts_with('-'); });
+  if (command != arguments.end() && *command == "help") {
+    arguments.erase(command);
     arguments.emplace_back("--help");
   }
   return arguments;

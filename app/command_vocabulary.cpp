@@ -4,6 +4,7 @@
 
 #include "app/app.h"
 #include "app/console.h"
+#include "io/folder_kind.h"
 #include "io/input_error.h"
 #include "io/output_file.h"
 #include "slam/features/point_features.h"
@@ -51,6 +52,7 @@ int TrainWords(const VocabularyArguments& arguments, bool quiet) {
                                             arguments.sequences.end());
   if (!arguments.camera.empty()) inputs.emplace_back(arguments.camera);
   const io::OutputFile output(arguments.output, {.force = arguments.force, .inputs = inputs});
+  for (const std::string& sequence : arguments.sequences) io::RequireSequence(sequence);
   cv::setNumThreads(1);
   const auto images = Describe(arguments, quiet);
   std::size_t descriptors = 0;

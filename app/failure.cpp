@@ -3,7 +3,6 @@
 #include <fcntl.h>
 #include <unistd.h>
 
-#include <cerrno>
 #include <cstdio>
 #include <filesystem>
 #include <iostream>
@@ -16,6 +15,7 @@
 namespace app {
 namespace {
 
+constexpr const char* kOutput = "standard output";
 constexpr const char* kReport = "; please report it with the command that was run";
 
 }  // namespace
@@ -32,8 +32,8 @@ std::string Words(const std::exception& error) {
            "; mend the path or its permissions";
   }
   if (const auto* system = dynamic_cast<const std::system_error*>(&error)) {
-    return "the system refuses: " + system->code().message() +
-           "; free what it lacks and try again";
+    const std::string where = std::ferror(stdout) != 0 ? kOutput : "the system";
+    return where + ": " + system->code().message() + "; free what is lacking and try again";
   }
   // Of OpenCV's text, which names its own source files, only what went wrong.
   const std::string text = of_opencv != nullptr ? of_opencv->err : error.what();
@@ -49,13 +49,9 @@ void KeepStandardStreams() {
 
 void FinishOutput() {
   std::cout.flush();
-  const bool failed_before = std::ferror(stdout) != 0;
-  errno = 0;
-  if (std::fflush(stdout) == 0 && !failed_before) return;
-  const std::string reason =
-      errno != 0 ? std::generic_category().message(errno) : "an earlier part was lost";
-  throw io::InputError("standard output",
-                       "cannot be written: " + reason + "; send it to another place");
+  if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return;
+  throw io::InputError(kOutput,
+                       "cannot be written; the disk may be full, send it to another place");
 }
 
 }  // namespace app

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <csignal>
 #include <cstdio>
 #include <exception>
 #include <memory>
@@ -73,27 +74,19 @@ int Run(int argc, char** argv) {
   return exit_code;
 }
 
-/// Runs what may throw. @returns its exit code, or kBadInput after telling why it has none
-template <typename Work>
-int Guarded(const Work& work) {
-  try {
-    return work();
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "pas: %s\n", app::Words(error).c_str());
-    return app::kBadInput;
-  }
-}
-
 }  // namespace
 
 int main(int argc, char** argv) {
   app::KeepStandardStreams();
+  std::signal(SIGXFSZ, SIG_IGN);  // a file over the limit of its size is an error of writing
   // What OpenCV would log of a broken image is told in our own words.
   cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);
-  const int code = Guarded([&] { return Run(argc, argv); });
-  const int output = Guarded([] {
+  try {
+    const int code = Run(argc, argv);
     app::FinishOutput();
-    return app::kDone;
-  });
-  return code != app::kDone ? code : output;
+    return code;
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "pas: %s\n", app::Words(error).c_str());
+    return app::kBadInput;
+  }
 }

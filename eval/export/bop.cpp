@@ -11,7 +11,6 @@
 #include "eval/export/silhouette.h"
 #include "io/input_error.h"
 #include "io/output_folder.h"
-#include "io/read_file.h"
 
 namespace eval {
 namespace {
@@ -94,8 +93,8 @@ class BopScene {
 
   void AddFrame(int im_id, const SequenceFrame& frame, const Pose& T_gc) {
     const std::string image = fmt::format("{:06}.png", im_id);
-    folder_.Write(place_ / "rgb" / image, ColourFile(sequence_, frame));
-    folder_.Write(place_ / "depth" / image, io::ReadFile(sequence_.folder / frame.depth));
+    folder_.Write(place_ / "rgb" / image, ReadColourBytes(sequence_, frame.rgb));
+    folder_.Write(place_ / "depth" / image, ReadImageBytes(sequence_, frame.depth));
     const Camera& camera = *sequence_.camera;
     const Pose T_cg = Inverse(T_gc);
     const std::string key = std::to_string(im_id);

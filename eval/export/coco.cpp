@@ -9,7 +9,6 @@
 #include "eval/export/coco_classes.h"
 #include "eval/export/run_lengths.h"
 #include "io/output_folder.h"
-#include "io/read_file.h"
 
 namespace eval {
 namespace {
@@ -73,7 +72,7 @@ class CocoWriter {
                 const std::map<int, int>& instance_of) {
     const std::string name =
         fmt::format("{:06}/{}", number, fs::path(frame.rgb).filename().string());
-    folder_.Write("images/" + name, ColourFile(sequence, frame));
+    folder_.Write("images/" + name, ReadColourBytes(sequence, frame.rgb));
     const int image_id = static_cast<int>(images_.size()) + 1;
     images_.push_back({{"id", image_id},
                        {"width", sequence.camera->width},

@@ -1,7 +1,6 @@
 #include "eval/export/exportable.h"
 
-#include <fmt/format.h>
-
+#include "io/image_header.h"
 #include "io/input_error.h"
 #include "io/read_file.h"
 
@@ -38,17 +37,21 @@ Sequence ReadExportable(const std::filesystem::path& folder, const ExportOptions
   return sequence;
 }
 
-std::string ColourFile(const Sequence& sequence, const SequenceFrame& frame) {
-  const std::filesystem::path file = sequence.folder / frame.rgb;
-  const cv::Size size = ReadColour(file).size(),
-                 expected(sequence.camera->width, sequence.camera->height);
-  if (size != expected) {
-    throw io::InputError(
-        file.string(),
-        fmt::format("is {} x {}; expected {} x {} as in camera.yaml; restore the image",
-                    size.width, size.height, expected.width, expected.height));
+std::string ReadImageBytes(const Sequence& sequence, const std::filesystem::path& image) {
+  const std::filesystem::path file = sequence.folder / image;
+  std::string bytes = io::ReadFile(file);
+  const auto size = io::ImageSizeOf(bytes);
+  if (!size || size->width != sequence.camera->width ||
+      size->height != sequence.camera->height) {
+    throw io::InputError(file.string(),
+                         "is no image of the size that camera.yaml says; restore it");
   }
-  return io::ReadFile(file);
+  return bytes;
+}
+
+std::string ReadColourBytes(const Sequence& sequence, const std::filesystem::path& image) {
+  ReadColour(sequence.folder / image);  // refuses a damaged one
+  return ReadImageBytes(sequence, image);
 }
 
 cv::Mat1w ReadCheckedObjectIds(const Sequence& sequence, double stamp_s) {

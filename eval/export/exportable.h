@@ -39,6 +39,11 @@ Sequence ReadExportable(const std::filesystem::path& folder, const ExportOptions
 /// @throws InputError when it is no image or has another size than the camera
 std::string ColourFile(const Sequence& sequence, const SequenceFrame& frame);
 
+/// The bytes of an image of the sequence, relative to its folder.
+/// @throws InputError naming it when it cannot be read, or its header tells another size than the
+///   camera has
+std::string ReadImageBytes(const Sequence& sequence, const std::filesystem::path& image);
+
 /// Object ids of a frame.
 /// @throws InputError naming the file when it is missing, has another size than the camera, or
 ///   holds an id that the scene does not have

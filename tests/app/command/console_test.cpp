@@ -1,0 +1,20 @@
+#include "app/console.h"
+
+#include <gtest/gtest.h>
+
+namespace app {
+namespace {
+
+TEST(Progress, SaysHowLongItStillTakes) {
+  EXPECT_EQ(RateText(60, 125, 6.0), ", 10/s, 0:07 left");
+  EXPECT_EQ(RateText(10, 110, 10.0), ", 1/s, 1:40 left");
+  EXPECT_EQ(RateText(125, 125, 12.5), ", 10/s");
+}
+
+TEST(Progress, SaysNothingOfTheRateTooSoon) {
+  EXPECT_EQ(RateText(1, 100, 0.1), "");
+  EXPECT_EQ(RateText(0, 100, 5.0), "");
+}
+
+}  // namespace
+}  // namespace app
