@@ -156,6 +156,10 @@ std::string UnitOf(std::string_view key) {
   return "no unit";
 }
 
+constexpr const char* kAboutSettings =
+    "# The settings of pas slam, as `pas config` prints them: each with its unit, domain and\n"
+    "# default, and what it means. A file for --config needs only the keys that it changes.\n";
+
 /// Writes all fields as a file that Reader takes, with meaning, unit, domain and default as
 /// comments.
 class YamlWriter : public FieldVisitor {
@@ -164,7 +168,7 @@ class YamlWriter : public FieldVisitor {
   YamlWriter(std::vector<std::string> values, std::vector<std::string> defaults)
       : values_(std::move(values)), defaults_(std::move(defaults)) {}
 
-  std::string text;
+  std::string text = kAboutSettings;
 
   void Section(const char* key, const char* help, const std::function<void()>& body) override {
     text += indent_ + key + ":  # " + help + "\n";
@@ -173,11 +177,11 @@ class YamlWriter : public FieldVisitor {
     indent_.resize(indent_.size() - 2);
   }
   void Number(const char* key, double&, const char* domain, const char* help) override {
-    Line(key, help, UnitOf(key) + "; " + domain);
+    Line(key, help, UnitOf(key) + " in " + domain);
   }
   void Integer(const char* key, int&, const char* domain, const char* help) override {
     const std::string unit = UnitOf(key);
-    Line(key, help, (unit == "no unit" ? "whole number" : unit + ", whole") + "; " + domain);
+    Line(key, help, (unit == "no unit" ? "whole number" : "whole " + unit) + " in " + domain);
   }
   void Flag(const char* key, bool&, const char* help) override {
     Line(key, help, "true or false");
@@ -198,7 +202,7 @@ class YamlWriter : public FieldVisitor {
     const std::string& normal = defaults_.at(next_++);
     const bool list = normal.starts_with('[');  // too long to be said twice
     const std::string told = !list ? normal : value == normal ? "as here" : "another list";
-    text += indent_ + key + ": " + value + "  # " + help + "; " + domain + "; default " + told +
+    text += indent_ + key + ": " + value + "  # " + domain + ", default " + told + ": " + help +
             "\n";
   }
 
