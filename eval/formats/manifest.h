@@ -11,6 +11,7 @@ namespace eval {
 /// manifest.json: who made the sequence, and of what files it consists.
 struct Manifest {
   bool synthetic = false;          ///< a simulator wrote it: format "pas-sequence/1"
+  bool images = true;              ///< false: of a live run, whose images never were files
   std::string sensor;              ///< empty when it does not tell
   std::optional<int> frame_count;  ///< colour images
   std::string frame_count_key;     ///< the key it stands under

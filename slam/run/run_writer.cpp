@@ -37,15 +37,26 @@ std::vector<TimedPose> KeyframePoses(const Map& map) {
   return poses;
 }
 
+/// How run.json names the sequence: so that a run that holds its own may be moved.
+std::string SequenceText(const std::filesystem::path& sequence,
+                         const std::filesystem::path& run) {
+  const auto from_root = std::filesystem::absolute(sequence).lexically_normal();
+  const auto from_run =
+      from_root.lexically_relative(std::filesystem::absolute(run).lexically_normal());
+  const bool inside = !from_run.empty() && *from_run.begin() != "..";
+  return (inside ? from_run : from_root).generic_string();
+}
+
 }  // namespace
 
 RunWriter::RunWriter(const std::filesystem::path& folder, RunInfo info, Options options)
     : output_(folder, "run.json", options.force),
       info_(std::move(info)),
+      sequence_(SequenceText(info_.sequence, folder)),
       options_(options),
       frame_planes_(output_.Path("frame_planes.jsonl")),
       timing_(output_.Path("timing.csv")) {
-  trajectory_.reserve(static_cast<std::size_t>(options_.frames));
+  trajectory_.reserve(static_cast<std::size_t>(info_.sequence_frames));
   std::string header = "timestamp";
   for (const char* name : kModuleNames) header.append(",").append(name);
   timing_.Add(header + '\n');
@@ -83,28 +94,32 @@ void RunWriter::WriteSegmentation(const Frame& frame) const {
     throw io::InputError(file.string(), "cannot be written; is the disk full?");
 }
 
-nlohmann::ordered_json RunWriter::RunJson(std::size_t poses) const {
+nlohmann::ordered_json RunWriter::RunJson(std::size_t poses, const RunEnd& end) const {
   const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - start_;
   nlohmann::ordered_json json;
   json["format"] = "pas-run/1";
-  json["sequence"] = std::filesystem::absolute(info_.sequence).lexically_normal().string();
+  json["sequence"] = sequence_;
   json["variant"] = info_.variant;
   json["association"] = info_.association;
   json["detector"] = info_.detector;
   json["seed"] = info_.seed;
   json["version"] = info_.version;
   json["options"] = info_.options;
+  json["sequence_frames"] = info_.sequence_frames;
+  json["interrupted"] = end.interrupted;
   json["frames"] = frames_;
   json["tracked"] = poses;
   json["lost"] = frames_ - static_cast<int>(poses);
   for (std::size_t k = 0; k < kPairRefusalNames.size(); ++k)
     json["refused_pairs"][kPairRefusalNames[k]] = refused_.count[k];
+  json["warnings"] = end.warnings;
   json["wall_time_s"] = wall.count();
   json["peak_memory_mb"] = PeakMemory_mb();
   return json;
 }
 
-void RunWriter::Finish(const Map& map, const std::vector<TimedPose>& trajectory) {
+void RunWriter::Finish(const Map& map, const RunEnd& end,
+                       const std::vector<TimedPose>& trajectory) {
   const std::vector<TimedPose>& poses = trajectory.empty() ? trajectory_ : trajectory;
   Require(poses.size() <= static_cast<std::size_t>(frames_),
           "RunWriter::Finish: more poses than frames");
@@ -116,7 +131,7 @@ void RunWriter::Finish(const Map& map, const std::vector<TimedPose>& trajectory)
   output_.Write("map.ply", MapAsPly(map));
   output_.Write(
       "run.json",
-      RunJson(poses.size()).dump(2, ' ', false, nlohmann::json::error_handler_t::replace) +
+      RunJson(poses.size(), end).dump(2, ' ', false, nlohmann::json::error_handler_t::replace) +
           "\n");
   output_.Commit();
 }
