@@ -28,6 +28,7 @@ using AddCommand = void (*)(CLI::App& pas, const Globals& globals, int& exit_cod
 void AddSceneCommand(CLI::App& pas, const Globals& globals, int& exit_code);
 void AddSimCommand(CLI::App& pas, const Globals& globals, int& exit_code);
 void AddSlamCommand(CLI::App& pas, const Globals& globals, int& exit_code);
+void AddConfigCommand(CLI::App& pas, const Globals& globals, int& exit_code);
 void AddEvalCommand(CLI::App& pas, const Globals& globals, int& exit_code);
 void AddDrawCommand(CLI::App& pas, const Globals& globals, int& exit_code);
 void AddExportCommand(CLI::App& pas, const Globals& globals, int& exit_code);

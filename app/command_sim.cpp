@@ -212,7 +212,11 @@ void AddCaptureOptions(CLI::App& command, SimArguments& a, const std::string& pr
       ->transform(
           CLI::CheckedTransformer(detectors).description("perfect, noisy, poor or none"))
       ->default_str("noisy");
-  command.add_option("--" + prefix + "seed", a.seed, "Of the trajectory and all noise")
+  command
+      .add_option("--" + prefix + "seed", a.seed,
+                  prefix.empty() ? "Of the trajectory and all noise"
+                                 : "Of the trajectory and all noise; left out: --seed if that "
+                                   "is given, else 1")
       ->capture_default_str();
   for (const auto& [name, into] : {std::pair("--width", &a.width), {"--height", &a.height}}) {
     command
@@ -227,17 +231,18 @@ void AddCaptureOptions(CLI::App& command, SimArguments& a, const std::string& pr
 
 }  // namespace
 
-std::function<SceneRecording(const std::string&)> AddRecordingOptions(
-    CLI::App& command, const std::string& prefix) {
+ReadRecording AddRecordingOptions(CLI::App& command, const std::string& prefix) {
   const auto arguments = std::make_shared<SimArguments>();
   AddCaptureOptions(command, *arguments, prefix);
-  return [arguments](const std::string& scene_file) {
+  const CLI::Option* seed_option = command.get_option("--" + prefix + "seed");
+  return [arguments, seed_option](const std::string& scene_file,
+                                  std::optional<std::uint64_t> seed) {
     arguments->scene = scene_file;
+    if (seed && seed_option->count() == 0) arguments->seed = *seed;
     SceneRecording result;
     result.scene = SceneOf(*arguments);
-    sim::SequenceOptions options = OptionsOf(*arguments, result.scene);
-    result.recording = RecordingOf(*arguments, result.scene, options);
-    result.rig = options.rig;
+    result.options = OptionsOf(*arguments, result.scene);
+    result.recording = RecordingOf(*arguments, result.scene, result.options);
     return result;
   };
 }

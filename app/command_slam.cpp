@@ -1,13 +1,14 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <csignal>
+#include <optional>
 
 #include "app/app.h"
 #include "app/console.h"
 #include "app/depth_sensor_option.h"
 #include "app/live_scene.h"
 #include "app/recording_options.h"
+#include "app/stop_signal.h"
 #include "io/input_error.h"
 #include "slam/run/config_file.h"
 #include "slam/run/run_sequence.h"
@@ -15,28 +16,6 @@
 
 namespace app {
 namespace {
-
-constexpr int kInterrupted = 130;  ///< as shells say of Ctrl-C
-
-volatile std::sig_atomic_t interrupted = 0;
-
-/// While it lives, Ctrl-C asks for an end after the frame in hand; a second one ends at once.
-class InterruptWatch {
- public:
-  InterruptWatch() {
-    interrupted = 0;
-    struct sigaction action {};
-    action.sa_handler = [](int) { interrupted = 1; };
-    action.sa_flags = static_cast<int>(SA_RESETHAND);
-    ::sigaction(SIGINT, &action, &before_);
-  }
-  ~InterruptWatch() { ::sigaction(SIGINT, &before_, nullptr); }
-  InterruptWatch(const InterruptWatch&) = delete;
-  InterruptWatch& operator=(const InterruptWatch&) = delete;
-
- private:
-  struct sigaction before_ {};
-};
 
 struct SlamArguments {
   slam::RunOptions options;
@@ -47,18 +26,25 @@ struct SlamArguments {
   bool loop_closing = false;
   std::string mapping;
   std::string live_scene;
-  std::function<SceneRecording(const std::string&)> recording;  ///< with live_scene
+  ReadRecording recording;  ///< with live_scene
+  bool no_truth = false;
+  bool seeded = false;  ///< --seed was given
 };
 
 /// Frames ahead of the estimator: enough to keep a second core busy, few enough for memory.
 constexpr int kFramesAhead = 2;
 
+/// One --seed seeds both, as `pas sim --seed N` and `pas slam --seed N` would.
 slam::RunOutcome RunOnScene(const SlamArguments& arguments, slam::RunOptions options) {
-  options.sequence = arguments.live_scene;
-  SceneRecording recorded = arguments.recording(arguments.live_scene);
-  LiveScene live(recorded.scene, recorded.rig, std::move(recorded.recording),
+  SceneRecording recorded = arguments.recording(
+      arguments.live_scene, arguments.seeded ? std::optional(options.seed) : std::nullopt);
+  LiveScene live(recorded.scene, recorded.options.rig, std::move(recorded.recording),
                  options.threads == 1 ? 0 : kFramesAhead);
-  return slam::RunLive({live, live.camera(), live.MakeDetector(options.config.classes)},
+  options.sequence = arguments.live_scene;
+  if (!arguments.no_truth) options.sequence = options.run / "truth";
+  slam::LiveTruth* truth =
+      arguments.no_truth ? nullptr : &live.KeepTruth(recorded.scene, recorded.options);
+  return slam::RunLive({live, live.camera(), live.MakeDetector(options.config.classes), truth},
                        options);
 }
 
@@ -68,15 +54,38 @@ void AddLiveOptions(CLI::App& command, SlamArguments& arguments,
   CLI::Option* live = command.add_option(
       "--live", arguments.live_scene,
       "SCENE.yaml: render its frames in memory instead of reading SEQ; the estimator gets "
-      "what `pas sim` would write and the run is the same, but there is no truth on disk to "
-      "score it with");
+      "what `pas sim` would write and the run is the same. The truth is written to RUN/truth, "
+      "so that `pas eval RUN` scores it");
   for (CLI::Option* option : of_folders) live->excludes(option);
   const std::vector<CLI::Option*> before = command.get_options();
+  command.add_flag("--no-truth", arguments.no_truth,
+                   "Do not write RUN/truth: nothing of the scene reaches the disk");
   arguments.recording = AddRecordingOptions(command, "sim-");
   for (CLI::Option* option : command.get_options()) {
     if (std::find(before.begin(), before.end(), option) != before.end()) continue;
     option->needs(live)->group("With --live, as in `pas sim`");
   }
+}
+
+/// Says on stderr how a run ended that did not go well. @returns the exit code
+int Verdict(const slam::RunOutcome& outcome, const std::string& sequence) {
+  if (outcome.stopped) {
+    fmt::print(stderr,
+               "pas: interrupted after {} of {} frames; the run up to there is written\n",
+               outcome.frames, outcome.sequence_frames);
+    return ExitCodeOf(StopSignal::Caught());
+  }
+  if (outcome.tracked == 0) {
+    fmt::print(stderr,
+               "pas: tracking never started: no frame of {} has enough features with depth\n",
+               sequence);
+    return kFailure;
+  }
+  if (outcome.ended_lost && 2 * outcome.tracked < outcome.frames) {
+    fmt::print(stderr, "pas: the camera was lost for more than half of {}\n", sequence);
+    return kFailure;
+  }
+  return kDone;
 }
 
 int RunSlam(SlamArguments& arguments, bool quiet) {
@@ -98,8 +107,8 @@ int RunSlam(SlamArguments& arguments, bool quiet) {
     options.config.async_mapping = arguments.mapping == "async";
   }
   options.version = PAS_VERSION;
-  const InterruptWatch watch;
-  options.stop = [] { return interrupted != 0; };
+  const StopSignal stop;
+  options.stop = [] { return StopSignal::Caught() != 0; };
   std::unique_ptr<Progress> progress;
   options.progress = [&](int done, int total) {
     if (!progress) progress = std::make_unique<Progress>("slam", total, quiet);
@@ -122,18 +131,7 @@ int RunSlam(SlamArguments& arguments, bool quiet) {
                outcome.loops > 0 ? fmt::format(", {} loops closed", outcome.loops) : "",
                outcome.frames / outcome.wall_time_s);
   }
-  if (outcome.stopped) {
-    fmt::print(stderr, "pas: interrupted after frame {}; the run up to there is written\n",
-               outcome.frames);
-    return kInterrupted;
-  }
-  if (outcome.tracked == 0) {
-    fmt::print(stderr,
-               "pas: tracking never started: no frame of {} has enough features with depth\n",
-               live ? arguments.live_scene : options.sequence.string());
-    return kFailure;
-  }
-  return kDone;
+  return Verdict(outcome, live ? arguments.live_scene : options.sequence.string());
 }
 
 }  // namespace
@@ -157,14 +155,19 @@ void AddSlamCommand(CLI::App& pas, const Globals& globals, int& exit_code) {
       "--config, yolox:) | none; default: replay if the file is there");
   CLI::Option* camera =
       command->add_option("--camera", options.camera,
-                          "tum1 | tum2 | tum3 | a camera.yaml; default: SEQ/camera.yaml");
+                          "tum1 | tum2 | tum3 | a camera.yaml, or settings of ORB-SLAM2, "
+                          "ORB-SLAM3, OpenCV or ROS; default: SEQ/camera.yaml");
   AddSensorOption(*command, arguments->sensor);
   command->add_option("--config", arguments->config_file,
-                      "Settings over the defaults, YAML; --print-config shows them all");
+                      "Settings over the defaults, YAML; `pas config` prints them all");
   command->add_flag("--print-config", arguments->print_config,
-                    "Print every setting with its default, meaning and domain, and stop");
-  command->add_option("--seed", options.seed, "Seed of every random choice of the estimator")
-      ->capture_default_str();
+                    "Print the settings, as `pas config` does, and stop");
+  CLI::Option* seed =
+      command
+          ->add_option("--seed", options.seed,
+                       "Seed of every random choice of the estimator; with --live of the "
+                       "simulator too, unless --sim-seed says another")
+          ->capture_default_str();
   command
       ->add_option("--threads", options.threads,
                    "Threads; 0 = one a core. Changes the speed, never a result")
@@ -182,8 +185,10 @@ void AddSlamCommand(CLI::App& pas, const Globals& globals, int& exit_code) {
                     "Also write the label image of every frame");
   command->add_flag("--force", options.force, "Replace an existing run folder");
   AddLiveOptions(*command, *arguments, {sequence, detector, camera});
-  command->callback(
-      [arguments, &globals, &exit_code] { exit_code = RunSlam(*arguments, globals.quiet); });
+  command->callback([arguments, seed, &globals, &exit_code] {
+    arguments->seeded = seed->count() > 0;
+    exit_code = RunSlam(*arguments, globals.quiet);
+  });
 }
 
 }  // namespace app

@@ -32,7 +32,7 @@ std::vector<std::vector<slam::Descriptor>> Describe(const VocabularyArguments& a
   Progress progress("sequences", static_cast<int>(arguments.sequences.size()), quiet);
   int done = 0;
   for (const std::string& sequence : arguments.sequences) {
-    const slam::Camera camera = slam::ChooseCamera(arguments.camera, sequence);
+    const slam::Camera camera = slam::ChooseCamera(arguments.camera, sequence).camera;
     slam::SequenceReader reader(sequence, camera, {.prefetch = false});
     for (int i = 0; i < reader.size(); i += arguments.every) {
       const slam::RecordedFrame frame = reader.Read(i);

@@ -50,7 +50,15 @@ LiveScene::Made LiveScene::Make(int i) const {
   made.frame.depth_m =
       slam::DepthInMetres(simulated.depth, simulator_.options().camera.depth_factor);
   made.detections = sim::DetectionsJson(made.frame.timestamp_s, simulated.detections);
+  if (truth_) made.truth = EncodeTruth(made.frame.timestamp_s, simulated);
   return made;
+}
+
+slam::LiveTruth& LiveScene::KeepTruth(const sim::Scene& scene,
+                                      const sim::SequenceOptions& options) {
+  if (next_ > 0) throw std::logic_error("LiveScene::KeepTruth: frames were read already");
+  truth_ = std::make_unique<TruthFolder>(scene, simulator_.planes(), recording_, options);
+  return *truth_;
 }
 
 slam::RecordedFrame LiveScene::Read(int i) {
@@ -65,6 +73,7 @@ slam::RecordedFrame LiveScene::Read(int i) {
   Made made = ahead_.front().get();
   ahead_.pop_front();
   detections_ = std::move(made.detections);
+  if (truth_) truth_->Add(made.truth, detections_);
   return std::move(made.frame);
 }
 

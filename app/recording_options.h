@@ -1,7 +1,9 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <cstdint>
 #include <functional>
+#include <optional>
 #include <string>
 
 #include "sim/write/write_sequence.h"
@@ -11,7 +13,7 @@ namespace app {
 /// A scene and how it is to be recorded.
 struct SceneRecording {
   sim::Scene scene;
-  sim::RigOptions rig;
+  sim::SequenceOptions options;
   sim::Recording recording;
 };
 
@@ -19,8 +21,10 @@ struct SceneRecording {
 /// detector, size, ...) to another command, so that both record the same.
 /// @param prefix  before the names `seed`, `sensor` and `detector`, which the command has taken
 ///   itself
-/// @returns reads a scene file and says what the options make of it, once they are parsed
-std::function<SceneRecording(const std::string& scene_file)> AddRecordingOptions(
-    CLI::App& command, const std::string& prefix);
+/// @returns reads a scene file and says what the options make of it, once they are parsed;
+///   `seed` stands in for a --PREFIXseed that is not given
+using ReadRecording = std::function<SceneRecording(const std::string& scene_file,
+                                                   std::optional<std::uint64_t> seed)>;
+ReadRecording AddRecordingOptions(CLI::App& command, const std::string& prefix);
 
 }  // namespace app

@@ -127,7 +127,7 @@ void PlaneBench::Add(const PlaneBench& o) {
 
 PlaneBench BenchPlanes(const std::filesystem::path& sequence, const std::string& camera_choice,
                        const slam::Config& config, const BenchChoice& choice) {
-  const slam::Camera camera = slam::ChooseCamera(camera_choice, sequence);
+  const slam::Camera camera = slam::ChooseCamera(camera_choice, sequence).camera;
   const eval::Sequence truth = eval::WithUnitedFaces(eval::ReadSequence(sequence));
   slam::SequenceReader reader(sequence, camera);
   PlaneFrontEnd front_end(sequence, camera, config);

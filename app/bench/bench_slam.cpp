@@ -61,7 +61,7 @@ class PendulumCamera : public slam::FrameSource {
 
 slam::RunOutcome RunOn(const slam::RunOptions& options, const BenchOptions& bench) {
   if (bench.black_every == 0 && bench.laps == 1) return slam::RunSequence(options);
-  const slam::Camera camera = slam::ChooseCamera("", options.sequence);
+  const slam::Camera camera = slam::ChooseCamera("", options.sequence).camera;
   slam::SequenceReader reader(options.sequence, camera);
   CoveredCamera covered(reader, bench.black_every, bench.black_frames);
   if (bench.laps == 1) return slam::RunLive({covered, camera, nullptr}, options);

@@ -35,14 +35,14 @@ struct ExportSummary {
 /// @throws InputError that names what is missing
 Sequence ReadExportable(const std::filesystem::path& folder, const ExportOptions& options);
 
-/// The file of a frame's colour image, byte for byte.
-/// @throws InputError when it is no image or has another size than the camera
-std::string ColourFile(const Sequence& sequence, const SequenceFrame& frame);
-
 /// The bytes of an image of the sequence, relative to its folder.
 /// @throws InputError naming it when it cannot be read, or its header tells another size than the
 ///   camera has
 std::string ReadImageBytes(const Sequence& sequence, const std::filesystem::path& image);
+
+/// The same of a colour image, which can be decoded.
+/// @throws InputError also when it cannot
+std::string ReadColourBytes(const Sequence& sequence, const std::filesystem::path& image);
 
 /// Object ids of a frame.
 /// @throws InputError naming the file when it is missing, has another size than the camera, or

@@ -67,6 +67,7 @@ Manifest Read(const JsonRecord& root) {
   }
   manifest.frame_count_key = root.Contains("frame_count") ? "frame_count" : "frames";
   manifest.frame_count = expected.Integer(manifest.frame_count_key);
+  manifest.images = !root.Contains("images") || root.value().at("images") != false;
   manifest.sensor = ReadSensor(root);
   manifest.sha256 = ReadHashes(root);
   return manifest;

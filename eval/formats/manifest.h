@@ -12,6 +12,7 @@ namespace eval {
 struct Manifest {
   bool synthetic = false;          ///< a simulator wrote it: format "pas-sequence/1"
   bool complete = true;            ///< false: it says that it was not finished
+  bool images = true;              ///< false: of a live run, whose images never were files
   std::string sensor;              ///< empty when it does not tell
   std::optional<int> frame_count;  ///< colour images
   std::string frame_count_key;     ///< the key it stands under

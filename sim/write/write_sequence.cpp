@@ -174,10 +174,9 @@ class FrameStore {
 
 }  // namespace
 
-int WriteSequence(const Scene& scene, const Recording& recording,
-                  const SequenceOptions& options, const fs::path& folder) {
-  const Simulator simulator(scene, options.rig);
-  const auto fixed = FixedFiles(scene, simulator.planes(), options.rig.camera, recording.shots);
+Json PlannedManifest(const Scene& scene, const Recording& recording,
+                     const SequenceOptions& options,
+                     const std::map<std::string, std::string>& fixed) {
   SequenceOptions told = options;
   if (recording.scenes_own) {
     const MotionPreset preset = PresetOf(scene.motion);
@@ -185,7 +184,14 @@ int WriteSequence(const Scene& scene, const Recording& recording,
                    {"speed_m_s", fmt::format("{}", preset.speed_m_s)},
                    {"turn_deg_s", fmt::format("{}", preset.turn_deg_s)}};
   }
-  const Json plan = Plan(scene, told, recording.shots.size(), fixed);
+  return Plan(scene, told, recording.shots.size(), fixed);
+}
+
+int WriteSequence(const Scene& scene, const Recording& recording,
+                  const SequenceOptions& options, const fs::path& folder) {
+  const Simulator simulator(scene, options.rig);
+  const auto fixed = FixedFiles(scene, simulator.planes(), options.rig.camera, recording.shots);
+  const Json plan = PlannedManifest(scene, recording, options, fixed);
   const io::FolderLock lock(folder);
   if (PrepareFolder(folder, plan, options.existing)) return 0;
 

@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <functional>
 #include <map>
+#include <nlohmann/json.hpp>
 #include <string>
 
 #include "sim/motion/trajectory.h"
@@ -26,6 +27,12 @@ struct SequenceOptions {
   std::map<std::string, std::string> motion;
   std::function<void(int)> progress;  ///< frames done of this call; may be empty
 };
+
+/// manifest.json of a recording before its first frame: complete: false, and sha256 of `fixed`
+/// alone (FixedFiles).
+nlohmann::ordered_json PlannedManifest(const Scene& scene, const Recording& recording,
+                                       const SequenceOptions& options,
+                                       const std::map<std::string, std::string>& fixed);
 
 /// Renders the scene along the scene's own motion and writes a sequence folder (formats.md)
 /// with all truth. manifest.json says complete: false until the last file is there. The same

@@ -1,9 +1,10 @@
 #pragma once
 
 #include <functional>
-#include <numbers>
 #include <string>
 #include <vector>
+
+#include "slam/base/degrees.h"
 
 namespace slam {
 
@@ -45,14 +46,14 @@ class FieldVisitor {
     value = static_cast<Enum>(position);
   }
 
-  /// An angle: radians in the struct, degrees in the file; `key` ends in _deg.
-  void Degrees(const char* key, double& value_rad, const char* domain, const char* help) {
-    constexpr double kDegree = std::numbers::pi / 180.0;
-    const double before = value_rad / kDegree;
+  /// An angle: radians in the struct, degrees in the file; `key` ends in _deg. What is written
+  /// reads back bit for bit (see DegreesOf).
+  virtual void Degrees(const char* key, double& value_rad, const char* domain,
+                       const char* help) {
+    const double before = DegreesOf(value_rad);
     double value_deg = before;
     Number(key, value_deg, domain, help);
-    if (value_deg != before)
-      value_rad = value_deg * kDegree;  // untouched is bit for bit the same
+    if (value_deg != before) value_rad = RadiansOf(value_deg);
   }
 };
 

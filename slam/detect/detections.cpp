@@ -1,10 +1,13 @@
 #include "slam/detect/detections.h"
 
+#include <algorithm>
 #include <cmath>
+#include <set>
 #include <string_view>
 
 #include "io/input_error.h"
 #include "io/json_field.h"
+#include "io/number_text.h"
 #include "slam/detect/yolox_detector.h"
 
 namespace slam {
@@ -50,7 +53,8 @@ DetectionRecord ReadDetections(const io::JsonField& record, const Camera& camera
 }
 
 ReplayDetector::ReplayDetector(const std::filesystem::path& file, const Camera& camera,
-                               const ClassTable& classes) {
+                               const ClassTable& classes)
+    : file_(file) {
   const auto read = [&](const io::JsonField& line) {
     DetectionRecord record = ReadDetections(line, camera, classes);
     if (!records_.empty() && !(record.timestamp_s > records_.rbegin()->first))
@@ -60,7 +64,7 @@ ReplayDetector::ReplayDetector(const std::filesystem::path& file, const Camera& 
   io::ForEachJsonLine(file, "without it pass --detector none", read);
 }
 
-std::vector<Detection> ReplayDetector::Detect(double timestamp_s, const cv::Mat3b&) {
+ReplayDetector::Records::const_iterator ReplayDetector::Find(double timestamp_s) const {
   const auto after = records_.lower_bound(timestamp_s);
   auto nearest = after;
   if (after != records_.begin()) {
@@ -68,9 +72,52 @@ std::vector<Detection> ReplayDetector::Detect(double timestamp_s, const cv::Mat3
     if (after == records_.end() || timestamp_s - before->first < after->first - timestamp_s)
       nearest = before;
   }
-  if (nearest == records_.end()) return {};
+  if (nearest == records_.end()) return nearest;
   const bool same = std::abs(nearest->first - timestamp_s) <= kMaxTimeDifference_s;
-  return same ? nearest->second : std::vector<Detection>{};
+  return same ? nearest : records_.end();
+}
+
+std::vector<Detection> ReplayDetector::Detect(double timestamp_s, const cv::Mat3b&) {
+  const auto record = Find(timestamp_s);
+  return record == records_.end() ? std::vector<Detection>{} : record->second;
+}
+
+std::vector<std::string> ReplayDetector::WarningsFor(
+    const std::vector<double>& frames_s) const {
+  std::set<double> used;
+  std::size_t without = 0;
+  for (const double frame_s : frames_s) {
+    const auto record = Find(frame_s);
+    if (record == records_.end()) {
+      ++without;
+    } else {
+      used.insert(record->first);
+    }
+  }
+  if (!records_.empty() && used.empty()) {
+    throw io::InputError(file_.string(),
+                         "none of its lines has the time of a frame; it is of another "
+                         "recording: make it again, or pass --detector none");
+  }
+  std::vector<std::string> warnings;
+  const auto of = [](std::size_t some, std::size_t all) {
+    return std::to_string(some) + " of " + std::to_string(all);
+  };
+  if (used.size() < records_.size()) {
+    const auto first = std::find_if(records_.begin(), records_.end(), [&](const auto& record) {
+      return used.count(record.first) == 0;
+    });
+    warnings.push_back(of(records_.size() - used.size(), records_.size()) +
+                       " lines of detections.jsonl have the time of no frame and are not used; "
+                       "first timestamp " +
+                       io::NumberText(first->first));
+  }
+  if (without > 0) {
+    warnings.push_back(of(without, frames_s.size()) +
+                       " frames have no line in detections.jsonl; they are taken to show no "
+                       "object");
+  }
+  return warnings;
 }
 
 std::unique_ptr<Detector> MakeDetector(const std::string& choice,

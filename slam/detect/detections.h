@@ -21,6 +21,10 @@ class Detector {
   virtual ~Detector() = default;
   /// Boxes in pixels of the recorded image, clipped to it; in the detector's order.
   virtual std::vector<Detection> Detect(double timestamp_s, const cv::Mat3b& bgr) = 0;
+  /// What does not go together between what it has and the frames at these times, a line a
+  /// kind.
+  /// @throws InputError when nothing goes together
+  virtual std::vector<std::string> WarningsFor(const std::vector<double>&) const { return {}; }
 };
 
 /// Sees nothing: no plane gets a class.
@@ -52,8 +56,15 @@ class ReplayDetector : public Detector {
                  const ClassTable& classes);
   std::vector<Detection> Detect(double timestamp_s, const cv::Mat3b&) override;
 
+  std::vector<std::string> WarningsFor(const std::vector<double>& frames_s) const override;
+
  private:
-  std::map<double, std::vector<Detection>> records_;
+  using Records = std::map<double, std::vector<Detection>>;
+  /// The record of a frame, or the end.
+  Records::const_iterator Find(double timestamp_s) const;
+
+  std::filesystem::path file_;
+  Records records_;
 };
 
 /// `choice` is "replay" (SEQUENCE/detections.jsonl), "yolox:FILE" (yolox_detector.h) or "none".

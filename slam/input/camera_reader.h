@@ -2,18 +2,31 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "slam/geometry/camera.h"
 
 namespace slam {
 
-/// Reads a camera.yaml (formats.md): model (pinhole), width, height, fx, fy, cx, cy; optional
-/// fps, depth_factor and Brown's k1 k2 p1 p2 k3.
-/// @throws InputError with file:line for a missing, unknown or impossible value.
-Camera ReadCamera(const std::filesystem::path& file);
+/// A camera as a file gives it.
+struct CameraFile {
+  Camera camera;
+  std::vector<std::string> warnings;  ///< what the file leaves open, a line a key
+};
+
+/// Reads a camera from one of
+/// - a camera.yaml (formats.md): width, height, fx, fy, cx, cy, depth_factor; model (pinhole)
+///   and fps, without which there is a warning; Brown's k1 k2 p1 p2 k3, 0 where absent;
+/// - settings of ORB-SLAM2 or 3: Camera.fx or Camera1.fx, Camera.width, DepthMapFactor or
+///   RGBD.DepthMapFactor ...; what is not about the camera is passed over;
+/// - a calibration of OpenCV or ROS: image_width, camera_matrix, distortion_coefficients ...,
+///   to which depth_factor has to be added.
+/// @throws InputError with file:line for a missing or impossible value, a camera that is no
+///   pinhole, and an unknown key of a camera.yaml.
+CameraFile ReadCamera(const std::filesystem::path& file);
 
 /// The camera of a run: `choice` is tum1, tum2, tum3, a file, or empty for SEQ/camera.yaml.
 /// @throws InputError; without camera.yaml it says to pass --camera.
-Camera ChooseCamera(const std::string& choice, const std::filesystem::path& sequence);
+CameraFile ChooseCamera(const std::string& choice, const std::filesystem::path& sequence);
 
 }  // namespace slam

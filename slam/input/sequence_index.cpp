@@ -13,8 +13,9 @@
 namespace slam {
 namespace {
 
-constexpr double kMaxPairing_s = 0.02;  // TUM's associate.py
-constexpr double kMaxStamp_s = 1e11;    // the year 5138; milliseconds since 1970 are above it
+constexpr double kMaxPairing_s = 0.02;     // TUM's associate.py
+constexpr double kStampRoundOff_s = 1e-6;  // lists print six decimals
+constexpr double kMaxStamp_s = 1e11;  // the year 5138; milliseconds since 1970 are above it
 
 /// One image of rgb.txt or depth.txt.
 struct Stamped {
@@ -57,99 +58,89 @@ std::string SourceOf(const io::TextRecord& record) {
   return std::filesystem::path(record.where).filename().string();
 }
 
+/// Time goes on from line to line.
+class StampOrder {
+ public:
+  void Next(double t, const io::TextRecord& record, std::size_t field) {
+    if (t <= last_) {
+      throw io::InputError(
+          record.where, "timestamp `" + record.fields[field] + "` " +
+                            (t == last_ ? "is that of the line before; drop one of the two"
+                                        : "is earlier than that of the line before; sort the "
+                                          "lines by time"));
+    }
+    last_ = t;
+  }
+
+ private:
+  double last_ = -1;
+};
+
 std::vector<SequenceEntry> ReadAssociations(const std::filesystem::path& file) {
   std::vector<SequenceEntry> entries;
-  for (const io::TextRecord& r : ReadImages(file, "t_rgb rgb_file t_depth depth_file"))
+  StampOrder order;
+  for (const io::TextRecord& r : ReadImages(file, "t_rgb rgb_file t_depth depth_file")) {
     entries.push_back({StampOf(r, 0), StampOf(r, 2), FileOf(r, 1), FileOf(r, 3), SourceOf(r)});
+    order.Next(entries.back().timestamp_s, r, 0);
+  }
   return entries;
 }
 
 std::vector<Stamped> ReadList(const std::filesystem::path& file) {
   std::vector<Stamped> images;
-  for (const io::TextRecord& r : ReadImages(file, "timestamp file"))
+  StampOrder order;
+  for (const io::TextRecord& r : ReadImages(file, "timestamp file")) {
     images.push_back({StampOf(r, 0), FileOf(r, 1), SourceOf(r)});
+    order.Next(images.back().t, r, 0);
+  }
   return images;
 }
 
-/// One more of a kind: "3 frames left out: timestamp repeated, first at rgb.txt:12".
-void Count(int& count, const std::string& what, const std::string& source,
-           SequenceWarnings& warnings) {
-  const std::string rest = what + ", first at ";
-  ++count;
-  for (std::string& line : warnings.text) {
-    const std::size_t at = line.find(rest);
-    if (at == std::string::npos) continue;
-    line = std::to_string(count).append(" ").append(line.substr(at));
-    return;
+/// Warnings that are counted: what, how often, and where first.
+class Counted {
+ public:
+  void Add(const std::string& source) {
+    if (count_++ == 0) first_ = source;
   }
-  warnings.text.push_back("1 " + rest + source);
+  int count() const { return count_; }
+  const std::string& first() const { return first_; }
+
+ private:
+  int count_ = 0;
+  std::string first_;
+};
+
+/// "12 of 300 lines of associations.txt (first associations.txt:7)".
+std::string LinesText(const Counted& lines, std::size_t all) {
+  return std::to_string(lines.count()) + " of " + std::to_string(all) +
+         " lines of associations.txt (first " + lines.first() + ")";
 }
 
-/// Positions of a longest strictly increasing subsequence of `t`; of several the one that is
-/// first in dictionary order of positions. O(n log n).
-std::vector<std::size_t> LongestIncreasing(const std::vector<double>& t) {
-  const std::size_t n = t.size();
-  std::vector<std::size_t> length(n);  // longest that starts at i
-  std::vector<double> best;            // best[k]: largest start of those of length k + 1
-  for (std::size_t i = n; i-- > 0;) {
-    const auto it = std::lower_bound(best.begin(), best.end(), t[i],
-                                     [](double start, double x) { return start > x; });
-    length[i] = static_cast<std::size_t>(it - best.begin()) + 1;
-    if (it == best.end())
-      best.push_back(t[i]);
-    else
-      *it = std::max(*it, t[i]);
-  }
-  // From the front: the first that can still be followed by as many as are wanted.
-  std::vector<std::size_t> chosen;
-  std::size_t wanted = best.size();
-  for (std::size_t i = 0; i < n && wanted > 0; ++i) {
-    if (length[i] != wanted || (!chosen.empty() && !(t[i] > t[chosen.back()]))) continue;
-    chosen.push_back(i);
-    --wanted;
-  }
-  return chosen;
+/// What the colour and depth images without a partner come to; empty when there are none.
+std::vector<std::string> LeftOut(const std::vector<Stamped>& images, const Counted& rgb,
+                                 const std::vector<Stamped>& depth_images,
+                                 const Counted& depth) {
+  if (rgb.count() + depth.count() == 0) return {};
+  const auto share = [](const Counted& some, std::size_t all, const char* what) {
+    return std::to_string(some.count()) + " of " + std::to_string(all) + what +
+           (some.count() > 0 ? " (first " + some.first() + ")" : "");
+  };
+  return {"left out, for nothing of the other kind is within 20 ms: " +
+          share(rgb, images.size(), " colour images") + " and " +
+          share(depth, depth_images.size(), " depth images")};
 }
 
-/// Leaves out what repeats or goes back. `Item` has the stamp `stamp(item)` and a source.
-template <typename Item, typename Stamp>
-std::vector<Item> InOrder(const std::vector<Item>& items, Stamp stamp, SequenceWarnings& w) {
-  std::vector<double> t;
-  t.reserve(items.size());
-  for (const Item& item : items) t.push_back(stamp(item));
-  std::vector<Item> kept;
-  std::size_t next = 0;
-  const std::vector<std::size_t> chosen = LongestIncreasing(t);
-  for (std::size_t i = 0; i < items.size(); ++i) {
-    if (next < chosen.size() && chosen[next] == i) {
-      kept.push_back(items[i]);
-      ++next;
-    } else if (!kept.empty() && t[i] == stamp(kept.back())) {
-      Count(w.repeated, "frames left out: timestamp repeated", items[i].source, w);
-    } else {
-      Count(w.out_of_order, "frames left out: timestamp out of order", items[i].source, w);
-    }
-  }
-  return kept;
-}
-
-/// Pairs colour and depth by nearest time, one to one, nearest pairs first.
-std::vector<SequenceEntry> Pair(const std::vector<Stamped>& rgb, std::vector<Stamped> depth,
-                                SequenceWarnings& w) {
-  std::stable_sort(depth.begin(), depth.end(),
-                   [](const Stamped& a, const Stamped& b) { return a.t < b.t; });
+/// Pairs colour and depth as TUM's associate.py does: one to one, nearest pairs first.
+SequenceIndex Pair(const std::vector<Stamped>& rgb, const std::vector<Stamped>& depth) {
   // All pairs within the limit: time between them, colour, depth.
   std::vector<std::tuple<double, std::size_t, std::size_t>> candidates;
   for (std::size_t i = 0; i < rgb.size(); ++i) {
     auto it = std::lower_bound(depth.begin(), depth.end(), rgb[i].t - kMaxPairing_s,
                                [](const Stamped& d, double t) { return d.t < t; });
-    double last = -1;
     for (; it != depth.end() && it->t < rgb[i].t + kMaxPairing_s; ++it) {
       const double dt = std::abs(it->t - rgb[i].t);
-      if (it->t == last || !(dt < kMaxPairing_s))
-        continue;  // a repeated depth stamp: the first
+      if (!(dt < kMaxPairing_s)) continue;
       candidates.emplace_back(dt, i, static_cast<std::size_t>(it - depth.begin()));
-      last = it->t;
     }
   }
   // The nearest pairs first, each image once.
@@ -163,41 +154,77 @@ std::vector<SequenceEntry> Pair(const std::vector<Stamped>& rgb, std::vector<Sta
     taken[j] = true;
   }
   // Frames in the order of the colour images; what is left over is counted.
-  std::vector<SequenceEntry> entries;
+  SequenceIndex index;
+  Counted lone_rgb, lone_depth;
   for (std::size_t i = 0; i < rgb.size(); ++i) {
     if (depth_of[i] == kFree) {
-      Count(w.unpaired_rgb, "colour images without depth within 20 ms", rgb[i].source, w);
+      lone_rgb.Add(rgb[i].source);
       continue;
     }
     const Stamped& d = depth[depth_of[i]];
-    entries.push_back({rgb[i].t, d.t, rgb[i].file, d.file, rgb[i].source});
+    index.entries.push_back({rgb[i].t, d.t, rgb[i].file, d.file, rgb[i].source});
   }
-  for (std::size_t j = 0; j < depth.size(); ++j)
-    if (!taken[j])
-      Count(w.unpaired_depth, "depth images without colour within 20 ms", depth[j].source, w);
-  return entries;
+  for (std::size_t j = 0; j < depth.size(); ++j) {
+    if (!taken[j]) lone_depth.Add(depth[j].source);
+  }
+  index.warnings = LeftOut(rgb, lone_rgb, depth, lone_depth);
+  return index;
+}
+
+/// Whether a list that is there has the image under that time.
+bool Lists(const std::vector<Stamped>& list, double t, const std::string& file) {
+  if (list.empty()) return true;
+  const auto it = std::lower_bound(list.begin(), list.end(), t - kStampRoundOff_s,
+                                   [](const Stamped& s, double x) { return s.t < x; });
+  return it != list.end() && it->t <= t + kStampRoundOff_s && it->file == file;
+}
+
+/// What is odd about pairs that are given, and yet can be used.
+std::vector<std::string> Oddities(const std::filesystem::path& sequence,
+                                  const std::vector<SequenceEntry>& entries) {
+  const auto list = [&](const char* name) {
+    return io::Exists(sequence / name) ? ReadList(sequence / name) : std::vector<Stamped>{};
+  };
+  const std::vector<Stamped> rgb = list("rgb.txt"), depth = list("depth.txt");
+  Counted apart, unlisted;
+  double worst_s = 0;
+  for (const SequenceEntry& e : entries) {
+    const double dt = std::abs(e.timestamp_s - e.depth_timestamp_s);
+    worst_s = std::max(worst_s, dt);
+    if (dt > kMaxPairing_s + kStampRoundOff_s) apart.Add(e.source);
+    if (!Lists(rgb, e.timestamp_s, e.rgb) || !Lists(depth, e.depth_timestamp_s, e.depth)) {
+      unlisted.Add(e.source);
+    }
+  }
+  std::vector<std::string> warnings;
+  if (apart.count() > 0) {
+    warnings.push_back("colour and depth are more than 20 ms apart, up to " +
+                       std::to_string(std::lround(1e3 * worst_s)) + " ms, in " +
+                       LinesText(apart, entries.size()));
+  }
+  if (unlisted.count() > 0) {
+    warnings.push_back("rgb.txt or depth.txt has not the time and file of " +
+                       LinesText(unlisted, entries.size()));
+  }
+  return warnings;
 }
 
 }  // namespace
 
 SequenceIndex IndexSequence(const std::filesystem::path& sequence) {
   io::RequireSequence(sequence);
-  SequenceIndex index;
-  SequenceWarnings& w = index.warnings;
   if (io::Exists(sequence / "associations.txt")) {
-    index.entries = InOrder(
-        ReadAssociations(sequence / "associations.txt"),
-        [](const SequenceEntry& e) { return e.timestamp_s; }, w);
-  } else {
-    const auto rgb = InOrder(
-        ReadList(sequence / "rgb.txt"), [](const Stamped& s) { return s.t; }, w);
-    index.entries = Pair(rgb, ReadList(sequence / "depth.txt"), w);
-    if (index.entries.empty())
-      throw io::InputError(
-          sequence.string(),
-          "no colour image of rgb.txt has a depth image of depth.txt within 20 ms; "
-          "check that both lists use one clock");
+    SequenceIndex index{ReadAssociations(sequence / "associations.txt"), {}};
+    index.warnings = Oddities(sequence, index.entries);
+    return index;
   }
+  const std::vector<Stamped> rgb = ReadList(sequence / "rgb.txt");
+  SequenceIndex index = Pair(rgb, ReadList(sequence / "depth.txt"));
+  if (index.entries.empty())
+    throw io::InputError(
+        sequence.string(),
+        "no colour image of rgb.txt has a depth image of depth.txt within 20 ms; "
+        "check that both lists use one clock");
   return index;
 }
 

@@ -7,18 +7,20 @@
 #include "io/path_type.h"
 #include "slam/base/require.h"
 #include "slam/input/image_file.h"
+#include "slam/input/manifest_state.h"
 
 namespace slam {
 namespace {
 
-void RequireFile(const std::filesystem::path& file, int frame, const std::string& source) {
+/// @param missing  what to do about a file that is not there
+void RequireFile(const std::filesystem::path& file, int frame, const std::string& source,
+                 const char* missing) {
   const std::string where =
       file.string() + " (frame " + std::to_string(frame) + ", " + source + ")";
-  if (!io::Exists(file))
-    throw io::InputError(where, "no such file; the list of images names it");
+  if (!io::Exists(file)) throw io::InputError(where, std::string("no such file; ") + missing);
   std::error_code error;
   if (!std::filesystem::is_regular_file(file, error))
-    throw io::InputError(where, "not a file; expected a PNG image");
+    throw io::InputError(where, "not a file; expected an image");
   if (std::filesystem::file_size(file, error) == 0)
     throw io::InputError(where, "the file is empty (0 bytes); copy it again");
 }
@@ -31,10 +33,15 @@ SequenceReader::SequenceReader(std::filesystem::path sequence, const Camera& cam
       camera_(camera),
       options_(options),
       index_(IndexSequence(sequence_)) {
+  const ManifestState state = ReadManifestState(sequence_, size());
+  const char* missing = state.unfinished
+                            ? "the sequence is not complete; finish it with `pas sim --resume`"
+                            : "the list of images names it";
   for (int i = 0; i < size(); ++i) {
-    RequireFile(sequence_ / entry(i).rgb, i, entry(i).source);
-    RequireFile(sequence_ / entry(i).depth, i, entry(i).source);
+    RequireFile(sequence_ / entry(i).rgb, i, entry(i).source, missing);
+    RequireFile(sequence_ / entry(i).depth, i, entry(i).source, missing);
   }
+  index_.warnings.insert(index_.warnings.end(), state.warnings.begin(), state.warnings.end());
 }
 
 const SequenceEntry& SequenceReader::entry(int i) const {

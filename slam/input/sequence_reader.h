@@ -28,7 +28,8 @@ class SequenceReader : public FrameSource {
 
   int size() const override { return static_cast<int>(index_.entries.size()); }
   const SequenceEntry& entry(int i) const;
-  const SequenceWarnings& warnings() const { return index_.warnings; }
+  /// What is not used or looks wrong: of IndexSequence and ManifestState.
+  const std::vector<std::string>& warnings() const { return index_.warnings; }
 
   /// Frame i of [0, size()).
   /// @throws InputError naming file and frame for an image that is missing, damaged, or of

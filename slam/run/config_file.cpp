@@ -1,7 +1,8 @@
 #include "slam/run/config_file.h"
 
-#include <charconv>
 #include <optional>
+#include <string_view>
+#include <utility>
 #include <vector>
 
 #include "io/input_error.h"
@@ -11,20 +12,6 @@
 
 namespace slam {
 namespace {
-
-/// Digits that are listed: the fifteen that every double keeps.
-constexpr int kDigits = 15;
-
-/// In degrees a default such as 0.1745 rad has seventeen digits; what is listed is rounded to
-/// fifteen, far below any meaning.
-double Rounded(double x) {
-  char buffer[32];
-  const auto [end, error] =
-      std::to_chars(buffer, buffer + sizeof buffer, x, std::chars_format::general, kDigits);
-  double rounded = x;
-  std::from_chars(buffer, end, rounded);
-  return rounded;
-}
 
 /// Takes from a YAML file what it names.
 class Reader : public FieldVisitor {
@@ -91,7 +78,7 @@ class JsonWriter : public FieldVisitor {
     (*objects_.back())[key] = std::move(section);
   }
   void Number(const char* key, double& value, const char*, const char*) override {
-    (*objects_.back())[key] = Rounded(value);
+    (*objects_.back())[key] = value;
   }
   void Integer(const char* key, int& value, const char*, const char*) override {
     (*objects_.back())[key] = value;
@@ -111,36 +98,29 @@ class JsonWriter : public FieldVisitor {
   std::vector<nlohmann::ordered_json*> objects_;
 };
 
-/// Writes all fields as a file that Reader takes, with help and domain as comments.
-class YamlWriter : public FieldVisitor {
+/// Each field's value as a file gives it, in the order of the visit.
+class ValueTexts : public FieldVisitor {
  public:
-  std::string text;
+  std::vector<std::string> texts;
 
-  void Section(const char* key, const char* help, const std::function<void()>& body) override {
-    text += indent_ + key + ":  # " + help + "\n";
-    indent_ += "  ";
-    body();
-    indent_.resize(indent_.size() - 2);
+  void Section(const char*, const char*, const std::function<void()>& body) override { body(); }
+  void Number(const char*, double& value, const char*, const char*) override {
+    texts.push_back(io::NumberText(value));
   }
-  void Number(const char* key, double& value, const char* domain, const char* help) override {
-    Line(key, io::NumberText(Rounded(value)), help, domain);
+  void Integer(const char*, int& value, const char*, const char*) override {
+    texts.push_back(std::to_string(value));
   }
-  void Integer(const char* key, int& value, const char* domain, const char* help) override {
-    Line(key, std::to_string(value), help, domain);
+  void Flag(const char*, bool& value, const char*) override {
+    texts.push_back(value ? "true" : "false");
   }
-  void Flag(const char* key, bool& value, const char* help) override {
-    Line(key, value ? "true" : "false", help, "true or false");
+  void Choice(const char*, int& value, const std::vector<std::string>& names,
+              const char*) override {
+    texts.push_back(names.at(static_cast<std::size_t>(value)));
   }
-  void Choice(const char* key, int& value, const std::vector<std::string>& names,
-              const char* help) override {
-    std::string domain;
-    for (const std::string& name : names) domain += (domain.empty() ? "" : " | ") + name;
-    Line(key, names.at(static_cast<std::size_t>(value)), help, domain);
-  }
-  void Texts(const char* key, std::vector<std::string>& value, const char* help) override {
+  void Texts(const char*, std::vector<std::string>& value, const char*) override {
     std::string list;
     for (const std::string& item : value) list += (list.empty() ? "" : ", ") + Quoted(item);
-    Line(key, "[" + list + "]", help, "texts");
+    texts.push_back("[" + list + "]");
   }
 
  private:
@@ -148,10 +128,86 @@ class YamlWriter : public FieldVisitor {
   static std::string Quoted(const std::string& item) {
     return nlohmann::json(item).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
   }
-  void Line(const std::string& key, const std::string& value, const std::string& help,
-            const std::string& domain) {
-    text += indent_ + key + ": " + value + "  # " + help + "; " + domain + "\n";
+};
+
+std::vector<std::string> TextsOf(Config config) {
+  ValueTexts visitor;
+  VisitFields(config, visitor);
+  return std::move(visitor.texts);
+}
+
+/// The unit that a key ends in; "no unit" for a ratio, a probability, a number of bits ...
+std::string UnitOf(std::string_view key) {
+  static constexpr std::pair<const char*, const char*> kUnits[] = {
+      {"_deg_per_m", "degrees per m"},
+      {"_per_m", "per m"},
+      {"_px_m", "px m"},
+      {"_px_s2", "px/s^2"},
+      {"_m2", "m^2"},
+      {"_m", "m"},
+      {"_px", "px"},
+      {"_pixels", "px"},
+      {"_deg", "degrees"},
+      {"_rad", "radians"},
+      {"_sigmas", "standard deviations"}};
+  for (const auto& [suffix, unit] : kUnits) {
+    if (key.ends_with(suffix)) return unit;
   }
+  return "no unit";
+}
+
+constexpr const char* kAboutSettings =
+    "# The settings of pas slam, as `pas config` prints them: each with its unit, domain and\n"
+    "# default, and what it means. A file for --config needs only the keys that it changes.\n";
+
+/// Writes all fields as a file that Reader takes, with meaning, unit, domain and default as
+/// comments.
+class YamlWriter : public FieldVisitor {
+ public:
+  /// Both in the order of the visit.
+  YamlWriter(std::vector<std::string> values, std::vector<std::string> defaults)
+      : values_(std::move(values)), defaults_(std::move(defaults)) {}
+
+  std::string text = kAboutSettings;
+
+  void Section(const char* key, const char* help, const std::function<void()>& body) override {
+    text += indent_ + key + ":  # " + help + "\n";
+    indent_ += "  ";
+    body();
+    indent_.resize(indent_.size() - 2);
+  }
+  void Number(const char* key, double&, const char* domain, const char* help) override {
+    Line(key, help, UnitOf(key) + " in " + domain);
+  }
+  void Integer(const char* key, int&, const char* domain, const char* help) override {
+    const std::string unit = UnitOf(key);
+    Line(key, help, (unit == "no unit" ? "whole number" : "whole " + unit) + " in " + domain);
+  }
+  void Flag(const char* key, bool&, const char* help) override {
+    Line(key, help, "true or false");
+  }
+  void Choice(const char* key, int&, const std::vector<std::string>& names,
+              const char* help) override {
+    std::string domain;
+    for (const std::string& name : names) domain += (domain.empty() ? "" : " | ") + name;
+    Line(key, help, domain);
+  }
+  void Texts(const char* key, std::vector<std::string>&, const char* help) override {
+    Line(key, help, "texts");
+  }
+
+ private:
+  void Line(const std::string& key, const std::string& help, const std::string& domain) {
+    const std::string& value = values_.at(next_);
+    const std::string& normal = defaults_.at(next_++);
+    const bool list = normal.starts_with('[');  // too long to be said twice
+    const std::string told = !list ? normal : value == normal ? "as here" : "another list";
+    text += indent_ + key + ": " + value + "  # " + domain + ", default " + told + ": " + help +
+            "\n";
+  }
+
+  std::vector<std::string> values_, defaults_;
+  std::size_t next_ = 0;
   std::string indent_;
 };
 
@@ -180,7 +236,7 @@ void CheckTogether(const Config& c, const std::string& file) {
 }  // namespace
 
 Config ReadConfig(const std::filesystem::path& file, Config config) {
-  Reader reader(io::ReadYaml(file, "expected settings (pas slam --print-config)"));
+  Reader reader(io::ReadYaml(file, "expected settings (pas config)"));
   VisitFields(config, reader);
   reader.Finish();
   CheckTogether(config, file.string());
@@ -197,9 +253,9 @@ nlohmann::ordered_json ConfigAsJson(const Config& config) {
 
 std::string ConfigAsYaml(const Config& config) {
   Config copy = config;
-  YamlWriter writer;
+  YamlWriter writer(TextsOf(config), TextsOf(ConfigFor(config.sensor.sensor)));
   VisitFields(copy, writer);
-  return writer.text;
+  return std::move(writer.text);
 }
 
 }  // namespace slam

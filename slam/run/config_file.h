@@ -18,7 +18,8 @@ Config ReadConfig(const std::filesystem::path& file, Config config = {});
 /// Every key with its value, in the file's structure and units; for run.json.
 nlohmann::ordered_json ConfigAsJson(const Config& config);
 
-/// A file that ReadConfig takes, every key with its value and a comment on meaning and domain.
+/// A file that ReadConfig takes to exactly these settings, every key with its value and a
+/// comment: meaning, unit, domain, and the default for the sensor that the file names.
 std::string ConfigAsYaml(const Config& config);
 
 }  // namespace slam

@@ -18,6 +18,7 @@
 #include "slam/input/sequence_reader.h"
 #include "slam/model/map_queries.h"
 #include "slam/run/config_file.h"
+#include "slam/run/lost_frames.h"
 #include "slam/run/run_writer.h"
 
 namespace slam {
@@ -35,9 +36,10 @@ std::string DetectorChoice(const RunOptions& options) {
   return io::Exists(options.sequence / "detections.jsonl") ? "replay" : "none";
 }
 
-RunInfo Describe(const RunOptions& options, const std::string& detector) {
+RunInfo Describe(const RunOptions& options, const std::string& detector, int frames) {
   RunInfo info;
   info.sequence = options.sequence;
+  info.sequence_frames = frames;
   info.variant = VariantName(options.variant);
   info.association = options.variant == Variant::kPoints ? "none"
                      : options.variant == Variant::kFull ? "integrated"
@@ -83,21 +85,27 @@ void CountMap(const Map& map, RunOutcome& outcome) {
 /// writer is told.
 class SequenceRun {
  public:
-  SequenceRun(LiveCamera input, const RunOptions& options, const std::string& detector)
+  /// @param doubts  warnings about the input that are known before the first frame
+  SequenceRun(LiveCamera input, const RunOptions& options, const std::string& detector,
+              std::vector<std::string> doubts)
       : options_(options),
         frames_(input.frames),
+        truth_(input.truth),
+        doubts_(std::move(doubts)),
         tracker_(input.camera, options.config, options.variant, std::move(input.detector),
                  options.seed, ThreadsOf(options), options.before_mapping),
-        writer_(options.run, Describe(options, detector),
-                {.force = options.force,
-                 .save_segmentation = options.save_segmentation,
-                 .frames = input.frames.size()}),
+        writer_(options.run, Describe(options, detector, input.frames.size()),
+                {.force = options.force, .save_segmentation = options.save_segmentation}),
         gate_(input.camera),
         camera_check_(input.camera, options.config.point_features.scale),
         depth_clock_(input.camera) {}
 
   RunOutcome Run() {
     const int total = frames_.size();
+    outcome_.sequence_frames = total;
+    if (truth_ != nullptr) {
+      truth_->Begin(writer_.Path(options_.sequence.lexically_relative(options_.run)));
+    }
     tied_.reserve(static_cast<std::size_t>(total));
     for (int i = 0; i < total && !outcome_.stopped; ++i) {
       RecordedFrame recorded = frames_.Read(i);
@@ -119,6 +127,7 @@ class SequenceRun {
     }
     writer_.WriteFrame(
         {frame_, report_.tracked, report_.times, StateName(report_.points), report_.refused});
+    lost_.See(frame_.timestamp_s, report_.tracked);
     if (!report_.tracked) return;
     ++outcome_.tracked;
     tied_.push_back({frame_.timestamp_s, report_.reference, report_.T_cr});
@@ -156,24 +165,28 @@ class SequenceRun {
   void Finish() {
     tracker_.Finish(outcome_.stopped ? MappingWorker::Waiting::kDrop
                                      : MappingWorker::Waiting::kDo);
+    if (truth_ != nullptr) truth_->Finish();
     outcome_.loops = tracker_.loops();
-    // A closed loop moves the past; without one the poses stay as they were found.
-    writer_.Finish(tracker_.map(), outcome_.loops > 0 ? FollowKeyframes(tied_, tracker_.map())
-                                                      : std::vector<TimedPose>{});
-    CountMap(tracker_.map(), outcome_);
+    outcome_.ended_lost = lost_.ended_lost();
     outcome_.warnings = Warnings();
+    // A closed loop moves the past; without one the poses stay as they were found.
+    writer_.Finish(
+        tracker_.map(), {outcome_.stopped, outcome_.warnings},
+        outcome_.loops > 0 ? FollowKeyframes(tied_, tracker_.map()) : std::vector<TimedPose>{});
+    CountMap(tracker_.map(), outcome_);
   }
 
   std::vector<std::string> Warnings() {
-    std::vector<std::string> warnings = gate_.Warnings();
+    std::vector<std::string> warnings = doubts_;
+    for (std::string& left_out : gate_.Warnings()) warnings.push_back(std::move(left_out));
     if (const int repeats = repeated_.count(); repeats > 0) {
       warnings.push_back(std::to_string(repeats) +
                          (repeats == 1 ? " frame repeats" : " frames repeat") +
                          " the images of the one before: taken for the same place, nothing "
                          "learned");
     }
-    if (const std::string warning = camera_check_.Warning(); !warning.empty()) {
-      warnings.push_back(warning);
+    for (const std::string& warning : {lost_.Warning(), camera_check_.Warning()}) {
+      if (!warning.empty()) warnings.push_back(warning);
     }
     for (std::string& late : depth_clock_.Warnings()) warnings.push_back(std::move(late));
     if (const int unmapped = tracker_.unmapped_keyframes(); unmapped > 0 && !outcome_.stopped) {
@@ -185,10 +198,13 @@ class SequenceRun {
 
   const RunOptions& options_;
   FrameSource& frames_;
+  LiveTruth* truth_;
+  std::vector<std::string> doubts_;
   Tracker tracker_;
   RunWriter writer_;
 
   FrameGate gate_;
+  LostFrames lost_;
   RepeatedImages repeated_;
   CameraCheck camera_check_;
   DepthClock depth_clock_;
@@ -199,10 +215,12 @@ class SequenceRun {
   RunOutcome outcome_;
 };
 
-RunOutcome Run(LiveCamera input, const RunOptions& options, const std::string& detector) {
+RunOutcome Run(LiveCamera input, const RunOptions& options, const std::string& detector,
+               std::vector<std::string> doubts) {
   const auto start = std::chrono::steady_clock::now();
   cv::setNumThreads(1);  // OpenCV's own threads would only compete with ours
-  RunOutcome outcome = SequenceRun(std::move(input), options, detector).Run();
+  RunOutcome outcome =
+      SequenceRun(std::move(input), options, detector, std::move(doubts)).Run();
   outcome.wall_time_s =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return outcome;
@@ -227,23 +245,28 @@ Variant VariantOf(const std::string& name) {
 
 RunOutcome RunSequence(const RunOptions& options) {
   io::RequireSequence(options.sequence);
-  const Camera camera = ChooseCamera(options.camera, options.sequence);
+  CameraFile camera_file = ChooseCamera(options.camera, options.sequence);
+  const Camera& camera = camera_file.camera;
   SequenceReader reader(options.sequence, camera, {.prefetch = ThreadsOf(options) > 1});
-  const std::string detector = DetectorChoice(options);
-  RunOutcome outcome = Run({reader, camera,
-                            MakeDetector(detector, options.sequence, camera,
-                                         options.config.classes, options.config.yolox)},
-                           options, detector);
-  const auto& warnings = reader.warnings().text;
-  outcome.warnings.insert(outcome.warnings.begin(), warnings.begin(), warnings.end());
-  return outcome;
+  const std::string choice = DetectorChoice(options);
+  std::unique_ptr<Detector> detector = MakeDetector(
+      choice, options.sequence, camera, options.config.classes, options.config.yolox);
+
+  // What is doubtful before the first frame is told with the run.
+  std::vector<double> frames_s;
+  for (int i = 0; i < reader.size(); ++i) frames_s.push_back(reader.entry(i).timestamp_s);
+  std::vector<std::string> doubts = std::move(camera_file.warnings);
+  for (const auto& more : {reader.warnings(), detector->WarningsFor(frames_s)}) {
+    doubts.insert(doubts.end(), more.begin(), more.end());
+  }
+  return Run({reader, camera, std::move(detector)}, options, choice, std::move(doubts));
 }
 
 RunOutcome RunLive(LiveCamera live, const RunOptions& options) {
   // Boxes serve planes alone.
   if (options.variant == Variant::kPoints) live.detector = nullptr;
   const std::string detector = live.detector ? "live" : "none";
-  return Run(std::move(live), options, detector);
+  return Run(std::move(live), options, detector, {});
 }
 
 }  // namespace slam

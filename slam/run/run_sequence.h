@@ -37,9 +37,11 @@ struct RunOptions {
 };
 
 struct RunOutcome {
+  int sequence_frames = 0;  ///< that there are, those after a stop too
   int frames = 0, tracked = 0;
   int keyframes = 0, map_points = 0, map_planes = 0, loops = 0;
-  bool stopped = false;  ///< before the last frame
+  bool stopped = false;     ///< before the last frame
+  bool ended_lost = false;  ///< the last frame that was run is not tracked
   double wall_time_s = 0.0;
   std::vector<std::string> warnings;  ///< what the sequence gave that was not used
 };
@@ -49,11 +51,23 @@ const char* VariantName(Variant variant);
 /// @throws InputError listing the variants.
 Variant VariantOf(const std::string& name);
 
+/// Writes what a live recording is to be scored against beside the run, which never reads it.
+class LiveTruth {
+ public:
+  virtual ~LiveTruth() = default;
+  /// Before the first frame is read.
+  /// @param folder  to be made, inside the unfinished run: options.sequence once that is done
+  virtual void Begin(const std::filesystem::path& folder) = 0;
+  /// After the last frame that is read.
+  virtual void Finish() = 0;
+};
+
 /// Where a run gets its frames, when that is no folder.
 struct LiveCamera {
   FrameSource& frames;
   Camera camera;
   std::unique_ptr<Detector> detector;  ///< null: no detections
+  LiveTruth* truth = nullptr;          ///< null: none is written
 };
 
 /// Runs PAS-SLAM over the sequence and writes the run folder (formats.md), whole or not at all.
@@ -65,8 +79,8 @@ RunOutcome RunSequence(const RunOptions& options);
 
 /// The same on frames that never were files. A frame that is not later than the one before is
 /// left out and counted in a warning, numbers in depth that cannot be are no measurement, and
-/// an image of another size is refused. options.sequence is only written into run.json,
-/// options.camera and .detector are not used. Equal frames and detections give the bytes that
+/// an image of another size is refused. options.sequence is only written into run.json (with
+/// live.truth it is the folder of the run in which that is written), options.camera and .detector are not used. Equal frames and detections give the bytes that
 /// RunSequence gives, run.json's paths apart.
 RunOutcome RunLive(LiveCamera live, const RunOptions& options);
 

@@ -47,7 +47,7 @@ RunWriter::RunWriter(const std::filesystem::path& folder, RunInfo info, Options 
       options_(options),
       frame_planes_(output_.Path("frame_planes.jsonl")),
       timing_(output_.Path("timing.csv")) {
-  trajectory_.reserve(static_cast<std::size_t>(options_.frames));
+  trajectory_.reserve(static_cast<std::size_t>(info_.sequence_frames));
   std::string header = "timestamp";
   for (const char* name : kModuleNames) header.append(",").append(name);
   timing_.Add(header + '\n');
@@ -85,7 +85,7 @@ void RunWriter::WriteSegmentation(const Frame& frame) const {
     throw io::InputError(file.string(), "cannot be written; is the disk full?");
 }
 
-nlohmann::ordered_json RunWriter::RunJson(std::size_t poses) const {
+nlohmann::ordered_json RunWriter::RunJson(std::size_t poses, const RunEnd& end) const {
   const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - start_;
   nlohmann::ordered_json json;
   json["format"] = "pas-run/1";
@@ -102,17 +102,21 @@ nlohmann::ordered_json RunWriter::RunJson(std::size_t poses) const {
   json["seed"] = info_.seed;
   json["version"] = info_.version;
   json["options"] = info_.options;
+  json["sequence_frames"] = info_.sequence_frames;
+  json["interrupted"] = end.interrupted;
   json["frames"] = frames_;
   json["tracked"] = poses;
   json["lost"] = frames_ - static_cast<int>(poses);
   for (std::size_t k = 0; k < kPairRefusalNames.size(); ++k)
     json["refused_pairs"][kPairRefusalNames[k]] = refused_.count[k];
+  json["warnings"] = end.warnings;
   json["wall_time_s"] = wall.count();
   json["peak_memory_mb"] = PeakMemory_mb();
   return json;
 }
 
-void RunWriter::Finish(const Map& map, const std::vector<TimedPose>& trajectory) {
+void RunWriter::Finish(const Map& map, const RunEnd& end,
+                       const std::vector<TimedPose>& trajectory) {
   const std::vector<TimedPose>& poses = trajectory.empty() ? trajectory_ : trajectory;
   Require(poses.size() <= static_cast<std::size_t>(frames_),
           "RunWriter::Finish: more poses than frames");
@@ -124,7 +128,7 @@ void RunWriter::Finish(const Map& map, const std::vector<TimedPose>& trajectory)
   output_.Write("map.ply", MapAsPly(map));
   output_.Write(
       "run.json",
-      RunJson(poses.size()).dump(2, ' ', false, nlohmann::json::error_handler_t::replace) +
+      RunJson(poses.size(), end).dump(2, ' ', false, nlohmann::json::error_handler_t::replace) +
           "\n");
   output_.Commit();
 }

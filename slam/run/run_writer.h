@@ -19,10 +19,12 @@ namespace slam {
 /// What run.json says of how a run was made. Equal runs have equal bytes, so nothing belongs
 /// here that may differ between them: no number of threads, no output folder.
 struct RunInfo {
-  std::filesystem::path sequence;  ///< written relative to the run folder, and absolute
-  std::string variant;             ///< "full", "no-association", ...
-  std::string association;         ///< the association rule
-  std::string detector;            ///< "replay", "yolox:FILE", "live", "none"
+  /// Written relative to the run folder, and absolute.
+  std::filesystem::path sequence;
+  int sequence_frames = 0;  ///< that the sequence has, whether or not all are run
+  std::string variant;      ///< "full", "no-association", ...
+  std::string association;  ///< the association rule
+  std::string detector;     ///< "replay", "yolox:FILE", "live", "none"
   std::uint64_t seed = 0;
   std::string version;  ///< the program's, with the commit
   nlohmann::ordered_json options = nlohmann::ordered_json::object();  ///< see ConfigAsJson
@@ -43,6 +45,13 @@ struct TimedPose {
   Pose T_cw;
 };
 
+/// How a run ended.
+struct RunEnd {
+  bool interrupted = false;  ///< before the last frame of the sequence
+  std::vector<std::string>
+      warnings;  ///< for who reads the run; no paths, no times of the clock
+};
+
 /// Writes a run folder (formats.md) that is there whole after Finish and not at all before.
 ///
 /// run.json has wall_time_s and peak_memory_mb, and timing.csv milliseconds: only these may
@@ -52,7 +61,6 @@ class RunWriter {
   struct Options {
     bool force = false;              ///< replace an older run
     bool save_segmentation = false;  ///< segmentation/T.png
-    int frames = 0;                  ///< expected, for memory alone
   };
 
   /// @throws InputError when the folder exists and force is off, or cannot be made.
@@ -67,11 +75,17 @@ class RunWriter {
   /// out.
   /// @param trajectory  replaces the poses of the tracked frames as they were at their time,
   ///                    e.g. by poses that followed the optimised keyframes; empty keeps those
-  void Finish(const Map& map, const std::vector<TimedPose>& trajectory = {});
+  void Finish(const Map& map, const RunEnd& end, const std::vector<TimedPose>& trajectory = {});
+
+  /// The place in the unfinished run of a file or folder that somebody else writes into it,
+  /// before Finish.
+  std::filesystem::path Path(const std::filesystem::path& relative) const {
+    return output_.Path(relative);
+  }
 
  private:
   void WriteSegmentation(const Frame& frame) const;
-  nlohmann::ordered_json RunJson(std::size_t poses) const;
+  nlohmann::ordered_json RunJson(std::size_t poses, const RunEnd& end) const;
 
   std::filesystem::path folder_;  ///< where the run will be
   io::OutputFolder output_;

@@ -85,12 +85,22 @@ class Process {
     posix_spawn_file_actions_addopen(&files, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
     posix_spawn_file_actions_addopen(&files, STDERR_FILENO, errors_.c_str(),
                                      O_WRONLY | O_CREAT | O_TRUNC, 0644);
-    const int error = posix_spawn(&id_, command[0].c_str(), &files, nullptr,
+    // Whatever this process ignores, as those in the background of a shell do.
+    posix_spawnattr_t attributes;
+    posix_spawnattr_init(&attributes);
+    sigset_t signals;
+    sigemptyset(&signals);
+    for (const int signal : {SIGINT, SIGTERM, SIGHUP}) sigaddset(&signals, signal);
+    posix_spawnattr_setsigdefault(&attributes, &signals);
+    posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGDEF);
+    const int error = posix_spawn(&id_, command[0].c_str(), &files, &attributes,
                                   Pointers(command).data(), Pointers(settings).data());
+    posix_spawnattr_destroy(&attributes);
     posix_spawn_file_actions_destroy(&files);
     if (error != 0) throw std::runtime_error(command[0] + " cannot be started");
   }
-  void Kill() const { kill(id_, SIGKILL); }
+  void Kill() const { Send(SIGKILL); }
+  void Send(int signal) const { kill(id_, signal); }
   Outcome Wait() const {
     int status = 0;
     rusage usage{};

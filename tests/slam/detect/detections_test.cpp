@@ -12,6 +12,8 @@ namespace slam {
 namespace {
 
 using ::testing::ContainsRegex;
+using ::testing::ElementsAre;
+using ::testing::IsEmpty;
 using ::testing::ThrowsMessage;
 
 /// A folder of this test alone, with a detections.jsonl.
@@ -97,6 +99,24 @@ TEST_F(Detections, NamesFileLineAndKeyOfWhatIsWrong) {
   ExpectError(with(R"({"class": "a", "score": 1, "box": [9, 0, 1, 1]})"),
               "detections.0..box: expected .*x0 <= x1 .*found .9,0,1,1.");
   ExpectError(std::string(100000, '['), "jsonl:1: nested deeper");
+}
+
+TEST_F(Detections, WarnsOfLinesWithoutFrameAndOfFramesWithoutLine) {
+  const auto detector = Replay(
+      "{\"timestamp\": 1.0, \"detections\": []}\n{\"timestamp\": 1.1, \"detections\": []}\n"
+      "{\"timestamp\": 1.2, \"detections\": []}\n");
+  EXPECT_THAT(detector->WarningsFor({1.0, 1.1, 1.2001}), IsEmpty());
+  EXPECT_THAT(detector->WarningsFor({1.0}),
+              ElementsAre(ContainsRegex("2 of 3 lines .* time of no frame .*timestamp 1.1$")));
+  EXPECT_THAT(detector->WarningsFor({1.0, 1.1, 1.2, 1.3}),
+              ElementsAre(ContainsRegex("1 of 4 frames have no line in detections.jsonl")));
+  EXPECT_THAT(
+      [&] {
+        (void)detector->WarningsFor({5.0, 5.1});
+      },
+      ThrowsMessage<io::InputError>(ContainsRegex(
+          "detections.jsonl: none of its lines has the time of a frame; .*--detector")));
+  EXPECT_THAT(NoDetector().WarningsFor({1.0}), IsEmpty());
 }
 
 TEST_F(Detections, SaysHowToRunWithoutAFile) {

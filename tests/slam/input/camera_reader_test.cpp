@@ -12,10 +12,13 @@ namespace slam {
 namespace {
 
 using ::testing::ContainsRegex;
+using ::testing::ElementsAre;
+using ::testing::IsEmpty;
 using ::testing::ThrowsMessage;
 
 const std::string kGood =
-    "model: pinhole\nwidth: 320\nheight: 240\nfx: 260.5\nfy: 261\ncx: 159.5\ncy: 119.5\n";
+    "model: pinhole\nwidth: 320\nheight: 240\nfx: 260.5\nfy: 261\ncx: 159.5\ncy: 119.5\n"
+    "depth_factor: 1000\n";
 
 class CameraReader : public ::testing::Test {
  protected:
@@ -27,10 +30,11 @@ class CameraReader : public ::testing::Test {
   }
   void TearDown() override { std::filesystem::remove_all(folder_); }
 
-  Camera Read(const std::string& text) {
+  CameraFile ReadFile(const std::string& text) {
     std::ofstream(folder_ / "camera.yaml") << text;
     return ReadCamera(folder_ / "camera.yaml");
   }
+  Camera Read(const std::string& text) { return ReadFile(text).camera; }
   void ExpectError(const std::string& text, const std::string& regex) {
     EXPECT_THAT([&] { Read(text); }, ThrowsMessage<io::InputError>(ContainsRegex(regex)))
         << text;
@@ -40,7 +44,7 @@ class CameraReader : public ::testing::Test {
 
 TEST_F(CameraReader, ReadsEveryKey) {
   const Camera c = Read(kGood +
-                        "fps: 15\ndepth_factor: 1000\nk1: 0.1\nk2: -0.2\np1: 0.001\np2: 0.002\n"
+                        "fps: 15\nk1: 0.1\nk2: -0.2\np1: 0.001\np2: 0.002\n"
                         "k3: 0.03\n");
   EXPECT_EQ(c.width, 320);
   EXPECT_EQ(c.height, 240);
@@ -59,13 +63,27 @@ TEST_F(CameraReader, ReadsEveryKey) {
 
 TEST_F(CameraReader, RefusesAnUnknownKeyAndListsTheLegalOnes) {
   ExpectError(kGood + "focal: 3\n",
-              "camera.yaml:8: unknown key `focal`; keys here: model, width, height, fx");
+              "camera.yaml:9: unknown key `focal`; keys here: model, width, height, fx");
 }
 
 TEST_F(CameraReader, RefusesAMissingKey) {
   ExpectError("width: 320\nheight: 240\nfx: 260\n",
               "camera.yaml:1: key `fy` is missing; expected a number in .1, 100000.");
   ExpectError("", "camera.yaml:1: the file is empty; expected .*width");
+}
+
+TEST_F(CameraReader, RefusesACameraWithoutTheUnitOfDepth) {
+  ExpectError("model: pinhole\nwidth: 320\nheight: 240\nfx: 260\nfy: 261\ncx: 159\ncy: 119\n",
+              "camera.yaml:1: key `depth_factor` is missing; expected .*1000 for millimetres");
+}
+
+TEST_F(CameraReader, WarnsWhenTheModelOrTheRateIsMissing) {
+  EXPECT_THAT(ReadFile(kGood + "fps: 15\n").warnings, IsEmpty());
+  EXPECT_THAT(ReadFile(kGood).warnings,
+              ElementsAre(ContainsRegex("camera.yaml: key `fps` is missing; 30")));
+  const std::string no_model = kGood.substr(kGood.find('\n') + 1);
+  EXPECT_THAT(ReadFile(no_model + "fps: 15\n").warnings,
+              ElementsAre(ContainsRegex("key `model` is missing; `pinhole`")));
 }
 
 TEST_F(CameraReader, RefusesValuesOutsideTheirDomain) {
@@ -88,12 +106,12 @@ TEST_F(CameraReader, RefusesValuesOutsideTheirDomain) {
   ExpectError(with("cx", "400"), "camera.yaml:6: cx: the principal point");
   ExpectError(with("model", "fisheye"),
               "camera.yaml:1: model: expected one of: pinhole, found `fisheye`");
-  ExpectError(kGood + "depth_factor: 0\n", "camera.yaml:8: depth_factor: .*found `0`");
-  ExpectError(kGood + "fx: 3\n", "camera.yaml:8: key `fx` is given twice");
+  ExpectError(with("depth_factor", "0"), "camera.yaml:8: depth_factor: .*found `0`");
+  ExpectError(kGood + "fx: 3\n", "camera.yaml:9: key `fx` is given twice");
 }
 
 TEST_F(CameraReader, RefusesADistortionThatCannotBeInverted) {
-  ExpectError(kGood + "k1: -5\n", "camera.yaml:8: k1: the distortion .* cannot be inverted");
+  ExpectError(kGood + "k1: -5\n", "camera.yaml:9: k1: the distortion .* cannot be inverted");
 }
 
 TEST_F(CameraReader, RefusesTextThatIsNotYaml) {
@@ -113,9 +131,9 @@ TEST_F(CameraReader, TakesTheCameraOfTheSequenceUnlessToldOtherwise) {
       [&] { ChooseCamera("", folder_); },
       ThrowsMessage<io::InputError>(ContainsRegex("camera.yaml: .*pass --camera tum1")));
   Read(kGood);
-  EXPECT_EQ(ChooseCamera("", folder_).width, 320);
-  EXPECT_EQ(ChooseCamera("tum3", folder_).fx, TumCamera("tum3").fx);
-  EXPECT_EQ(ChooseCamera((folder_ / "camera.yaml").string(), "elsewhere").width, 320);
+  EXPECT_EQ(ChooseCamera("", folder_).camera.width, 320);
+  EXPECT_EQ(ChooseCamera("tum3", folder_).camera.fx, TumCamera("tum3").fx);
+  EXPECT_EQ(ChooseCamera((folder_ / "camera.yaml").string(), "elsewhere").camera.width, 320);
   EXPECT_THAT(
       [&] { ChooseCamera("tum9", folder_); },
       ThrowsMessage<io::InputError>(ContainsRegex("--camera tum9: .*expected tum1, tum2")));

@@ -14,6 +14,7 @@ namespace {
 
 using ::testing::ContainsRegex;
 using ::testing::ElementsAre;
+using ::testing::HasSubstr;
 using ::testing::ThrowsMessage;
 
 class ConfigFile : public ::testing::Test {
@@ -48,6 +49,23 @@ TEST_F(ConfigFile, ReadsBackWhatItListsToTheSameValues) {
   config.point_features.count = 777;
   config.classes.regular = {"book", "odd: name, \"quoted\" #1"};
   EXPECT_EQ(ConfigAsJson(Read(ConfigAsYaml(config))), ConfigAsJson(config));
+}
+
+TEST_F(ConfigFile, ListsUnitDomainDefaultAndMeaningOfEachKey) {
+  Config config;
+  config.association.gates.max_normal_angle_rad = std::numbers::pi / 6;
+  const std::string text = ConfigAsYaml(config);
+  EXPECT_THAT(text, HasSubstr("    max_normal_angle_deg: 30  # degrees in (0, 180), default "
+                              "9.998113525032865: largest angle between"));
+  EXPECT_THAT(text, HasSubstr("  count: 1000  # whole number in [1, 10000], default 1000: "));
+  EXPECT_THAT(text, HasSubstr("  model: kinect1  # kinect1 | azure | d435, default kinect1: "));
+  EXPECT_THAT(text, HasSubstr("  async: false  # true or false, default false: "));
+}
+
+TEST(SettingsExample, OfTheDocumentationIsUpToDate) {
+  std::ifstream file(std::string(PAS_SOURCE_DIR) + "/docs/settings.yaml");
+  const std::string example{std::istreambuf_iterator<char>(file), {}};
+  EXPECT_EQ(example, ConfigAsYaml(Config{})) << "mend with: pas config > docs/settings.yaml";
 }
 
 TEST_F(ConfigFile, ChangesTheKeysItNamesAndNoOthers) {

@@ -99,8 +99,8 @@ class RunFolder : public ::testing::Test {
   void TearDown() override { fs::remove_all(base_); }
 
   RunInfo Info() {
-    return {base_ / "seq",        "full", "integrated", "replay", 7, "0.1.0 (abc)",
-            {{"a", {{"b", 0.1}}}}};
+    return {base_ / "seq", 5, "full",        "integrated",
+            "replay",      7, "0.1.0 (abc)", {{"a", {{"b", 0.1}}}}};
   }
   void WriteRun(const fs::path& folder, RunWriter::Options options) {
     RunWriter writer(folder, Info(), options);
@@ -114,7 +114,7 @@ class RunFolder : public ::testing::Test {
       if (i == 1) refused.Add(PairRefusal::kRankTest);
       writer.WriteFrame({frame, i != 1, times, "", refused});
     }
-    writer.Finish(SomeMap());
+    writer.Finish(SomeMap(), {});
   }
   std::vector<std::string> Beside() {
     std::vector<std::string> names;
@@ -138,6 +138,9 @@ TEST_F(RunFolder, SaysInRunJsonWhatWasRun) {
   EXPECT_EQ(run["seed"], 7);
   EXPECT_EQ(run["version"], "0.1.0 (abc)");
   EXPECT_EQ(run["options"]["a"]["b"], 0.1);
+  EXPECT_EQ(run["sequence_frames"], 5);
+  EXPECT_EQ(run["interrupted"], false);
+  EXPECT_EQ(run["warnings"], json::array());
   EXPECT_EQ(run["frames"], 3);
   EXPECT_EQ(run["tracked"], 2);
   EXPECT_EQ(run["lost"], 1);
@@ -146,6 +149,25 @@ TEST_F(RunFolder, SaysInRunJsonWhatWasRun) {
   EXPECT_EQ(run["refused_pairs"]["normal_angle"], 0);
   EXPECT_GT(run["wall_time_s"].get<double>(), 0);
   EXPECT_GT(run["peak_memory_mb"].get<double>(), 1);
+}
+
+TEST_F(RunFolder, SaysWhenTheRunWasInterruptedAndWhatItWarnedOf) {
+  RunWriter writer(run_, Info(), {});
+  writer.WriteFrame({SomeFrame(0), true, {}, "", {}});
+  writer.Finish(SomeMap(), {true, {"one", "two"}});
+  const json run = json::parse(Bytes(run_ / "run.json"));
+  EXPECT_EQ(run["interrupted"], true);
+  EXPECT_EQ(run["frames"], 1);
+  EXPECT_EQ(run["sequence_frames"], 5);
+  EXPECT_EQ(run["warnings"], json({"one", "two"}));
+}
+
+TEST_F(RunFolder, NamesASequenceInsideItSoThatItMayBeMoved) {
+  RunInfo info = Info();
+  info.sequence = run_ / "truth";
+  RunWriter writer(run_, info, {});
+  writer.Finish(SomeMap(), {});
+  EXPECT_EQ(json::parse(Bytes(run_ / "run.json"))["sequence"], "truth");
 }
 
 TEST_F(RunFolder, WritesEveryPlaneOfEveryFrameAsItWasDecided) {
@@ -189,7 +211,7 @@ TEST_F(RunFolder, WritesTrackedPosesFromCameraToWorldToTheLastBit) {
 TEST_F(RunFolder, TakesALaterTrajectoryInPlaceOfTheOneAsTracked) {
   RunWriter writer(run_, Info(), {});
   writer.WriteFrame({SomeFrame(0), true, {}, "", {}});
-  writer.Finish(SomeMap(), {{SomeFrame(0).timestamp_s, Pose{}}});
+  writer.Finish(SomeMap(), {}, {{SomeFrame(0).timestamp_s, Pose{}}});
   EXPECT_EQ(Lines(run_ / "trajectory.txt")[1], "1305031102.175304 0 0 0 0 0 0 1");
 }
 

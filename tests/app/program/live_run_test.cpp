@@ -1,0 +1,105 @@
+// `pas slam --live`: what it leaves beside the run, and which seed is whose.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "tests/support/program.h"
+
+namespace {
+
+using namespace program;
+
+class LiveRun : public testing::Test {
+ protected:
+  static fs::path Scene() { return fs::path(PAS_SOURCE_DIR) / "scenes/ambiguous/desk.yaml"; }
+
+  Outcome Pass(std::vector<std::string> arguments, int frames = 0) const {
+    arguments.insert(arguments.begin(), {Pas().string(), "-q"});
+    if (frames > 0) {
+      arguments.insert(arguments.end(), {"--frames", std::to_string(frames), "--width", "320",
+                                         "--height", "240"});
+    }
+    const Outcome outcome = Process(arguments, {}, folder_ / "errors").Wait();
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.errors;
+    return outcome;
+  }
+  Outcome Live(const std::string& run, int frames,
+               const std::vector<std::string>& more = {}) const {
+    std::vector<std::string> arguments{"slam", "--live", Scene(), "-o", folder_ / run};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return Pass(arguments, frames);
+  }
+  nlohmann::json Metrics(const std::string& run) const {
+    Pass({"eval", folder_ / run});
+    nlohmann::json metrics = nlohmann::json::parse(ReadText(folder_ / run / "metrics.json"));
+    for (const char* key : {"timing_ms", "run", "sequence"}) metrics.erase(key);
+    return metrics;
+  }
+
+  TemporaryFolder folder_;
+};
+
+TEST_F(LiveRun, IsScoredAsTheRunOnTheFilesOfTheSameSeed) {
+  constexpr int kFrames = 12;
+  Pass({"sim", Scene(), "-o", folder_ / "seq", "--seed", "5"}, kFrames);
+  Pass(
+      {"slam", folder_ / "seq", "-o", folder_ / "files", "--seed", "5", "--save-segmentation"});
+  Live("live", kFrames, {"--seed", "5", "--save-segmentation"});
+  EXPECT_EQ(ReadText(folder_ / "live" / "map.json"), ReadText(folder_ / "files" / "map.json"));
+  EXPECT_EQ(Metrics("live"), Metrics("files"));
+  EXPECT_EQ(nlohmann::json::parse(ReadText(folder_ / "live" / "run.json"))["sequence"],
+            "truth");
+  Pass({"check", folder_ / "live"});
+  Pass({"check", folder_ / "live/truth"});
+
+  // All but the images, byte for byte.
+  const auto live = Contents(folder_ / "live/truth");
+  for (const auto& [file, bytes] : Contents(folder_ / "seq")) {
+    if (file.starts_with("rgb/") || file.starts_with("depth/") || file == "manifest.json") {
+      continue;
+    }
+    ASSERT_EQ(live.count(file), 1u) << file;
+    EXPECT_EQ(live.at(file), bytes) << file;
+  }
+}
+
+TEST_F(LiveRun, CanBeMovedWithItsTruth) {
+  Live("run", 4);
+  fs::rename(folder_ / "run", folder_ / "moved");
+  Pass({"eval", folder_ / "moved"});
+}
+
+TEST_F(LiveRun, IsSeededAsTheTwoCommandsAre) {
+  Live("plain", 4, {"--no-truth"});
+  Live("defaults", 4, {"--no-truth", "--seed", "0", "--sim-seed", "1"});
+  Live("both", 4, {"--no-truth", "--seed", "7"});
+  Live("apart", 4, {"--no-truth", "--seed", "7", "--sim-seed", "7"});
+  Live("other", 4, {"--no-truth", "--seed", "7", "--sim-seed", "1"});
+  const auto poses = [&](const char* run) {
+    return ReadText(folder_ / run / "trajectory.txt");
+  };
+  EXPECT_EQ(poses("plain"), poses("defaults"));
+  EXPECT_EQ(poses("both"), poses("apart"));
+  EXPECT_NE(poses("both"), poses("other"));
+  EXPECT_NE(poses("both"), poses("plain"));
+}
+
+TEST_F(LiveRun, LeavesTheTruthOutWhenAsked) {
+  Live("run", 2, {"--no-truth"});
+  EXPECT_FALSE(fs::exists(folder_ / "run/truth"));
+  EXPECT_EQ(nlohmann::json::parse(ReadText(folder_ / "run" / "run.json"))["sequence"],
+            Scene().string());
+}
+
+TEST_F(LiveRun, NeedsNoMoreMemoryForTheTruthOfMoreFrames) {
+  // The estimator itself grows with its map: what is compared is with and without truth.
+  constexpr double kMaxGrowth_mb = 6;
+  const auto cost = [&](int frames) {
+    const std::string name = std::to_string(frames);
+    return Live(name + "truth", frames).peak_mb - Live(name, frames, {"--no-truth"}).peak_mb;
+  };
+  EXPECT_LT(cost(120), kMaxGrowth_mb);
+}
+
+}  // namespace

@@ -1,0 +1,187 @@
+// `pas slam` as a user meets it: stopped by signals, on doubtful input, with printed settings.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <nlohmann/json.hpp>
+#include <opencv2/imgcodecs.hpp>
+#include <thread>
+
+#include "tests/support/program.h"
+
+namespace {
+
+using namespace program;
+using testing::AllOf;
+using testing::ContainsRegex;
+using testing::HasSubstr;
+using testing::Not;
+
+constexpr int kFrames = 90;
+
+/// One sequence for all cases, which they copy before they change it.
+const fs::path& Recorded() {
+  static const TemporaryFolder folder;
+  static const fs::path sequence = [] {
+    const fs::path path = folder / "seq";
+    const std::vector<std::string> sim{
+        Pas(),     "-q",  "sim",      fs::path(PAS_SOURCE_DIR) / "scenes/ambiguous/desk.yaml",
+        "-o",      path,  "--frames", std::to_string(kFrames),
+        "--width", "320", "--height", "240"};
+    EXPECT_EQ(Process(sim, {}, folder / "errors").Wait().exit_code, 0);
+    return path;
+  }();
+  return sequence;
+}
+
+class SlamProgram : public testing::Test {
+ protected:
+  fs::path Copy(int frames = kFrames) const {
+    const fs::path copy = folder_ / "seq";
+    fs::copy(Recorded(), copy, fs::copy_options::recursive);
+    std::istringstream all(ReadText(copy / "associations.txt"));
+    std::ofstream kept(copy / "associations.txt");
+    std::string line;
+    for (int i = 0; i < frames && std::getline(all, line); ++i) kept << line << "\n";
+    return copy;
+  }
+  std::vector<std::string> Command(const fs::path& sequence, const std::string& run,
+                                   const std::vector<std::string>& more = {}) const {
+    std::vector<std::string> command{Pas(), "slam", sequence, "-o", folder_ / run};
+    command.insert(command.end(), more.begin(), more.end());
+    return command;
+  }
+  Outcome Run(const std::vector<std::string>& command) const {
+    return Process(command, {}, folder_ / "errors").Wait();
+  }
+  /// Sends the signal once the first tenth of the frames is done.
+  Outcome Interrupted(const std::vector<std::string>& command, int signal) const {
+    const Process process(command, {}, folder_ / "errors");
+    while (ReadText(folder_ / "errors").find("slam ") == std::string::npos) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(2));
+    }
+    process.Send(signal);
+    return process.Wait();
+  }
+  nlohmann::json RunJson(const std::string& run) const {
+    return nlohmann::json::parse(ReadText(folder_ / run / "run.json"));
+  }
+  /// Frames from `first` on are black and have no depth.
+  static void Blacken(const fs::path& sequence, int first) {
+    std::istringstream lines(ReadText(sequence / "associations.txt"));
+    std::string t, rgb, t_depth, depth;
+    for (int i = 0; lines >> t >> rgb >> t_depth >> depth; ++i) {
+      if (i < first) continue;
+      cv::imwrite((sequence / rgb).string(), cv::Mat3b(240, 320, cv::Vec3b()));
+      cv::imwrite((sequence / depth).string(), cv::Mat1w(240, 320, ushort{0}));
+    }
+  }
+
+  TemporaryFolder folder_;
+};
+
+TEST_F(SlamProgram, KeepsTheRunThatASignalStops) {
+  for (const char* mapping : {"sync", "async"}) {
+    for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
+      const std::string run = std::string(mapping) + std::to_string(signal);
+      const Outcome outcome =
+          Interrupted(Command(Recorded(), run, {"--mapping", mapping}), signal);
+      EXPECT_EQ(outcome.exit_code, 128 + signal) << run << outcome.errors;
+      EXPECT_THAT(outcome.errors, ContainsRegex("interrupted after [0-9]+ of 90 frames"));
+      const nlohmann::json told = RunJson(run);
+      EXPECT_EQ(told["interrupted"], true) << run;
+      EXPECT_EQ(told["sequence_frames"], kFrames);
+      EXPECT_LT(told["frames"], kFrames);
+      EXPECT_GE(told["frames"], kFrames / 10);
+      EXPECT_EQ(Run({Pas(), "-q", "check", folder_ / run}).exit_code, 0);
+    }
+  }
+}
+
+TEST_F(SlamProgram, LeavesASignalAloneThatIsIgnored) {
+  std::vector<std::string> command = Command(Recorded(), "run");
+  command.insert(command.begin(), "/usr/bin/nohup");
+  EXPECT_EQ(Interrupted(command, SIGHUP).exit_code, 0);
+  EXPECT_EQ(RunJson("run")["frames"], kFrames);
+  EXPECT_EQ(RunJson("run")["interrupted"], false);
+}
+
+TEST_F(SlamProgram, GivesTheSameBytesWithItsOwnSettingsPrintedAndRead) {
+  const fs::path sequence = Copy(20);
+  ASSERT_EQ(Run(Command(sequence, "plain", {"-q"})).exit_code, 0);
+  for (const char* print : {"config", "slam --print-config"}) {
+    const std::string file = folder_ / "settings.yaml";
+    ASSERT_EQ(Run({"/bin/sh", "-c", Pas().string() + " " + print + " > " + file}).exit_code, 0);
+    fs::remove_all(folder_ / "printed");
+    ASSERT_EQ(Run(Command(sequence, "printed", {"-q", "--config", file})).exit_code, 0);
+    for (const char* name : {"map.json", "trajectory.txt", "frame_planes.jsonl"}) {
+      EXPECT_EQ(ReadText(folder_ / "plain" / name), ReadText(folder_ / "printed" / name))
+          << print << " " << name;
+    }
+    EXPECT_EQ(RunJson("plain")["options"], RunJson("printed")["options"]);
+  }
+}
+
+TEST_F(SlamProgram, FailsWhenTheCameraEndsLostForMoreThanHalf) {
+  const fs::path sequence = Copy(30);
+  Blacken(sequence, 10);
+  const Outcome outcome = Run(Command(sequence, "run"));
+  EXPECT_EQ(outcome.exit_code, 1);
+  EXPECT_THAT(
+      outcome.errors,
+      AllOf(ContainsRegex("warning: 20 of 30 frames are not tracked; the camera is lost "
+                          "since frame 10 .0.333333 s. and was not found again"),
+            HasSubstr("lost for more than half of")));
+}
+
+TEST_F(SlamProgram, WarnsWhenTheCameraEndsLostForLess) {
+  const fs::path sequence = Copy(30);
+  Blacken(sequence, 20);
+  const Outcome outcome = Run(Command(sequence, "run"));
+  EXPECT_EQ(outcome.exit_code, 0);
+  EXPECT_THAT(outcome.errors,
+              HasSubstr("warning: 10 of 30 frames are not tracked; the camera"));
+}
+
+TEST_F(SlamProgram, TellsOfDoubtfulInputInWarningsAndInTheRun) {
+  const fs::path sequence = Copy(12);
+  std::string camera = ReadText(sequence / "camera.yaml");
+  camera.erase(camera.find("fps:"),
+               camera.find('\n', camera.find("fps:")) + 1 - camera.find("fps:"));
+  std::ofstream(sequence / "camera.yaml") << camera;
+  std::string manifest = ReadText(sequence / "manifest.json");
+  const std::string complete = "\"complete\": true";
+  manifest.replace(manifest.find(complete), complete.size(), "\"complete\": false");
+  std::ofstream(sequence / "manifest.json") << manifest;
+
+  const Outcome outcome = Run(Command(sequence, "run", {"-q"}));
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.errors;
+  const nlohmann::json warnings = RunJson("run")["warnings"];
+  ASSERT_EQ(warnings.size(), 3u) << warnings;
+  for (const auto& warning : warnings) {
+    EXPECT_THAT(outcome.errors, HasSubstr("pas: warning: " + warning.get<std::string>()));
+    EXPECT_THAT(warning.get<std::string>(), Not(HasSubstr(folder_ / "")));
+  }
+  EXPECT_THAT(warnings[0], HasSubstr("camera.yaml: key `fps` is missing"));
+  EXPECT_THAT(warnings[1], HasSubstr("manifest.json does not say complete: true"));
+  EXPECT_THAT(warnings[2], HasSubstr("78 of 90 lines of detections.jsonl"));
+}
+
+TEST_F(SlamProgram, ReadsCamerasInSettingsOfOrbSlam) {
+  const fs::path sequence = Copy(12);
+  ASSERT_EQ(Run(Command(sequence, "own", {"-q"})).exit_code, 0);
+  std::istringstream own(ReadText(sequence / "camera.yaml"));
+  std::ofstream orb(folder_ / "orb.yaml");
+  orb << "%YAML:1.0\n\nORBextractor.nFeatures: 1000\n";
+  for (std::string key, value; std::getline(own, key, ':') && std::getline(own, value);) {
+    if (key == "model") continue;
+    orb << (key == "depth_factor" ? "DepthMapFactor" : "Camera." + key) << ":" << value << "\n";
+  }
+  orb.close();
+  fs::remove(sequence / "camera.yaml");
+  const Outcome outcome = Run(Command(sequence, "orb", {"--camera", folder_ / "orb.yaml"}));
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.errors;
+  EXPECT_EQ(ReadText(folder_ / "own" / "map.json"), ReadText(folder_ / "orb" / "map.json"));
+}
+
+}  // namespace
