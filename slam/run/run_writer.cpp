@@ -41,7 +41,7 @@ std::vector<TimedPose> KeyframePoses(const Map& map) {
 }  // namespace
 
 RunWriter::RunWriter(const std::filesystem::path& folder, RunInfo info, Options options)
-    : folder_(folder),
+    : folder_(std::filesystem::absolute(folder)),
       output_(folder, "run.json", options.force),
       info_(std::move(info)),
       options_(options),

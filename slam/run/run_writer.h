@@ -87,7 +87,7 @@ class RunWriter {
   void WriteSegmentation(const Frame& frame) const;
   nlohmann::ordered_json RunJson(std::size_t poses, const RunEnd& end) const;
 
-  std::filesystem::path folder_;  ///< where the run will be
+  std::filesystem::path folder_;  ///< where the run will be, absolute
   io::OutputFolder output_;
   RunInfo info_;
   Options options_;

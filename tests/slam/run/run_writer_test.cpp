@@ -126,6 +126,11 @@ class RunFolder : public ::testing::Test {
   fs::path base_, run_;
 };
 
+TEST_F(RunFolder, NamesTheSequenceRelativeToARunThatIsGivenRelativeToTheCaller) {
+  WriteRun(fs::proximate(run_) / "", {});
+  EXPECT_EQ(json::parse(Bytes(run_ / "run.json"))["sequence"], "../seq");
+}
+
 TEST_F(RunFolder, SaysInRunJsonWhatWasRun) {
   WriteRun(run_, {});
   const json run = json::parse(Bytes(run_ / "run.json"));
