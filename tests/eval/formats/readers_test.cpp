@@ -80,8 +80,11 @@ TEST_F(ReadFolders, TrajectoryNamesTheLineOfEveryFault) {
 
 TEST_F(ReadFolders, AMissingFileIsNamed) {
   EXPECT_THAT(ErrorOf([&] { ReadSequence(folder_ / "nowhere"); }), HasSubstr("nowhere"));
+  EXPECT_THAT(ErrorOf([&] { ReadSequence(folder_); }), HasSubstr("is an empty folder"));
+  EXPECT_THAT(ErrorOf([&] { ReadRun(folder_); }), HasSubstr("is an empty folder"));
+  Write("rgb.txt", "1 rgb/1.png\n");
   EXPECT_THAT(ErrorOf([&] { ReadSequence(folder_); }), HasSubstr("depth.txt"));
-  EXPECT_THAT(ErrorOf([&] { ReadRun(folder_); }), HasSubstr("run.json"));
+  EXPECT_THAT(ErrorOf([&] { ReadRun(folder_); }), HasSubstr("run folder"));
   Write("run.json", "{\"format\": \"pas-run/1\", \"sequence\": \"SEQ\"}");
   EXPECT_THAT(ErrorOf([&] { ReadRun(folder_); }), HasSubstr("trajectory.txt"));
 }
