@@ -16,6 +16,10 @@ fs::file_type TypeAt(const fs::path& path) {
                                         "; mend the path, or the permissions of it and of the "
                                         "folders above");
   }
+  if (type == fs::file_type::not_found && fs::is_symlink(path, error)) {
+    throw InputError(path.string(), "is a link to " + fs::read_symlink(path, error).string() +
+                                        ", which is not there; remove or mend the link");
+  }
   return type;
 }
 

@@ -12,7 +12,9 @@ VisibleObject ReadVisibleObject(const JsonRecord& record) {
   VisibleObject object;
   object.id = record.Integer("id", 1, kMaxId).value_or(0);
   object.pixels = record.Integer("pixels", 0).value_or(-1);
-  object.visible_box_px = ReadBox(record.Optional(), "visible_box", {}, true);
+  // What nothing shows of has no box.
+  const JsonRecord box_holder = object.pixels > 0 ? record.Expected() : record.Optional();
+  object.visible_box_px = ReadBox(box_holder, "visible_box", {}, true);
   object.amodal_box_px = ReadBox(record.Optional(), "amodal_box", {}, true);
   object.visible_fraction =
       record.Expected().Number("visible_fraction", io::Interval("[0, 1]")).value_or(0.0);

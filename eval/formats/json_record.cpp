@@ -227,12 +227,17 @@ void VisitJsonLines(Folder& folder, const std::string& file,
   if (!folder.Try(file, [&] { lines.emplace(path, "", io::kMaxJsonLine_bytes); })) return;
   std::string text;
   bool more = true;
+  int blank = 0;  // the first line of blanks that a record may follow
   const auto next = [&] { more = lines->Next(text); };
   while (folder.Try(file, next) && more) {
     const int line = lines->number();
     if (text.find_first_not_of(" \t\r") == std::string::npos) {
-      folder.Tell(file, line, "is blank", "write one JSON object a line", Severity::kFlaw);
+      if (blank == 0) blank = line;
       continue;
+    }
+    if (blank != 0) {
+      folder.Tell(file, std::exchange(blank, 0), "is blank", "write one JSON object a line",
+                  Severity::kFlaw);
     }
     json document;
     if (!folder.Try(file, [&] { document = io::ParseJson(text, path, line); })) continue;
