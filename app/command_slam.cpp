@@ -9,6 +9,7 @@
 #include "app/live_scene.h"
 #include "app/recording_options.h"
 #include "io/input_error.h"
+#include "io/output_file.h"
 #include "slam/run/config_file.h"
 #include "slam/run/run_sequence.h"
 #include "version.h"
@@ -90,6 +91,10 @@ int RunSlam(SlamArguments& arguments, bool quiet) {
     throw io::InputError(
         "pas slam",
         "needs a sequence folder, or --live SCENE.yaml, and -o RUN; see pas slam --help");
+  }
+  if (options.force) {
+    io::RefuseInputsInside(options.run, {options.sequence, arguments.live_scene,
+                                         arguments.config_file, options.camera});
   }
   options.variant = slam::VariantOf(arguments.variant);
   options.config = ConfigFrom(arguments.sensor, arguments.config_file);
