@@ -4,6 +4,7 @@
 #include "app/console.h"
 #include "eval/export/bop.h"
 #include "eval/export/coco.h"
+#include "io/output_file.h"
 #include "version.h"
 
 namespace app {
@@ -35,6 +36,7 @@ int RunExport(ExportArguments arguments, bool quiet) {
   };
   const std::vector<std::filesystem::path> folders(arguments.sequences.begin(),
                                                    arguments.sequences.end());
+  if (arguments.options.force) io::RefuseInputsInside(arguments.output, folders);
   const bool coco = arguments.format == Format::kCoco;
   const eval::ExportSummary summary =
       coco ? eval::ExportCoco(folders, arguments.output, arguments.options)

@@ -10,6 +10,7 @@
 #include "app/recording_options.h"
 #include "app/stop_signal.h"
 #include "io/input_error.h"
+#include "io/output_file.h"
 #include "slam/run/config_file.h"
 #include "slam/run/run_sequence.h"
 #include "version.h"
@@ -99,6 +100,10 @@ int RunSlam(SlamArguments& arguments, bool quiet) {
     throw io::InputError(
         "pas slam",
         "needs a sequence folder, or --live SCENE.yaml, and -o RUN; see pas slam --help");
+  }
+  if (options.force) {
+    io::RefuseInputsInside(options.run, {options.sequence, arguments.live_scene,
+                                         arguments.config_file, options.camera});
   }
   options.variant = slam::VariantOf(arguments.variant);
   options.config = ConfigFrom(arguments.sensor, arguments.config_file);

@@ -155,9 +155,10 @@ FolderKind KindOf(const fs::path& folder) {
 }
 
 WrongFolder Unexpected(const fs::path& folder, FolderKind found, FolderKind expected) {
-  const char* wanted = expected == FolderKind::kSequence ? ", expected a sequence folder"
-                       : expected == FolderKind::kRun    ? ", expected a run folder"
-                                                         : ", expected a sequence or a run";
+  const char* wanted =
+      expected == FolderKind::kSequence ? ", expected a sequence folder (rgb.txt, depth.txt)"
+      : expected == FolderKind::kRun    ? ", expected a run folder (run.json)"
+                                        : ", neither a sequence (rgb.txt) nor a run (run.json)";
   WrongFolder wrong{Said(found) + wanted, Mend(folder, found, expected)};
   if (found == FolderKind::kOther && expected != FolderKind::kOther) {
     const std::string inside = Inside(folder, expected);

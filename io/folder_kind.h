@@ -24,8 +24,8 @@ enum class FolderKind {
 /// @throws InputError when it cannot be read
 FolderKind KindOf(const std::filesystem::path& folder);
 
-/// What stands there and was not expected, and what to do: "is a sequence, expected a run; make
-/// one with `pas slam seq -o RUN`".
+/// What stands there and was not expected, and what to do: "is a sequence, expected a run
+/// folder (run.json); make one of it with `pas slam seq -o RUN`".
 struct WrongFolder {
   std::string what, mend;
 };

@@ -153,7 +153,10 @@ void MakeFolder(const fs::path& folder) {
   }
   std::error_code error;
   fs::create_directories(folder, error);
-  if (error) FailToWrite(folder, error);
+  if (error) {
+    throw InputError(folder.string(), "this folder cannot be made: " + error.message() +
+                                          "; choose another output folder");
+  }
 }
 
 }  // namespace io

@@ -23,7 +23,13 @@ constexpr std::uintmax_t kMaxBytes = 64u << 20;
 class NotingFiles : public Assimp::DefaultIOSystem {
  public:
   explicit NotingFiles(std::vector<std::string>& opened) : opened_(opened) {}
+  /// Without opening it, as Assimp does: a pipe would wait for its writer.
+  bool Exists(const char* file) const override {
+    std::error_code ignored;
+    return std::filesystem::is_regular_file(file, ignored);
+  }
   Assimp::IOStream* Open(const char* file, const char* mode) override {
+    if (!Exists(file)) return nullptr;
     Assimp::IOStream* stream = DefaultIOSystem::Open(file, mode);
     if (stream != nullptr) opened_.emplace_back(file);
     return stream;

@@ -92,6 +92,14 @@ TEST_F(HostileUse, SimReplacesNoSequenceThatHoldsItsScene) {
   EXPECT_TRUE(fs::exists(folder_ / "own/scene.yaml"));
 }
 
+TEST_F(HostileUse, SlamReplacesNoRunThatHoldsItsSequence) {
+  fs::copy(run(), folder_ / "run", fs::copy_options::recursive);
+  fs::copy(seq(), folder_ / "run/seq", fs::copy_options::recursive);
+  ExpectRefusal({"slam", folder_ / "run/seq", "--force", "-o", folder_ / "run"},
+                "run/seq is in it, which is read by this command");
+  EXPECT_TRUE(fs::exists(folder_ / "run/seq/rgb.txt"));
+}
+
 TEST_F(HostileUse, EvalReplacesItsOwnMetricsAlone) {
   EXPECT_EQ(Do({"eval", run()}).exit_code, 0);
   EXPECT_EQ(Do({"eval", run()}).exit_code, 0);
@@ -179,7 +187,7 @@ TEST_F(HostileUse, AFolderOfAnotherKindIsNamed) {
   ExpectRefusal({"vocabulary", run(), "-o", folder_ / "x"}, "is a run of");
   const Outcome check = Do({"check", scene()});
   EXPECT_EQ(check.exit_code, 2);
-  EXPECT_THAT(check.errors, HasSubstr("is a file, expected a sequence or a run"));
+  EXPECT_THAT(check.errors, HasSubstr("is a file, neither a sequence"));
 }
 
 TEST_F(HostileUse, NumbersThatAreNoneAreRefused) {

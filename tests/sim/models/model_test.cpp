@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <Eigen/Geometry>
@@ -320,6 +321,12 @@ TEST_F(OwnMesh, TakesItsColourFromTheFileOrThePrintOfTheScene) {
   const std::string hash = SceneHash(Parse(lines));
   Write("newmtl red\nKd 0.1 0.1 0.8\n", "it.mtl");
   EXPECT_NE(SceneHash(Parse(lines)), hash);
+}
+
+TEST_F(OwnMesh, WaitsForNoPipeThatItNames) {
+  ASSERT_EQ(mkfifo((folder_ / "it.mtl").c_str(), 0600), 0);
+  Write("mtllib it.mtl\nusemtl red\n" + kCube);
+  EXPECT_EQ(Parse("    mesh: it.obj\n    center_m: [0, 0, 0.06]\n").objects.size(), 2u);
 }
 
 TEST_F(OwnMesh, NamesTheLineOfAWrongKey) {
