@@ -21,7 +21,7 @@ struct Property {
 };
 
 struct Header {
-  std::optional<bool> ascii;
+  bool has_format = false, ascii = true;
   long vertices = -1;
   std::vector<Property> properties;  ///< what element vertex has
   std::size_t body = 0;              ///< byte at which it starts
@@ -49,8 +49,9 @@ std::optional<Header> ReadHeader(Folder& folder, const std::string& bytes) {
     words >> first >> second >> third;
     if (header.lines == 0 && first != "ply") break;
     if (first == "format") {
+      header.has_format = true;
       header.ascii = second == "ascii";
-      if (*header.ascii || second == "binary_little_endian") continue;
+      if (header.ascii || second == "binary_little_endian") continue;
       folder.Tell(kPly, header.lines + 1, "has the format " + second,
                   "use ascii or binary_little_endian");
       return std::nullopt;
@@ -63,7 +64,7 @@ std::optional<Header> ReadHeader(Folder& folder, const std::string& bytes) {
     }
     ended = first == "end_header";
   }
-  if (!ended || header.vertices < 0 || !header.ascii) {
+  if (!ended || header.vertices < 0 || !header.has_format) {
     folder.Tell(kPly, 0, "has no complete PLY header (ply, format, element vertex, end_header)",
                 kRunAgain);
     return std::nullopt;

@@ -251,11 +251,11 @@ class Campaign:
 
 
 def names_cause(case, said):
-    """The message names the file, or the file that names it, or the option."""
+    """The message names the file, or one below its folder that disagrees with it, or the option."""
     if not case.file:
         return case.name.split("=")[0] in said
-    name = pathlib.PurePath(case.file).name
-    return name in said or f"{pathlib.PurePath(case.file).parts[0]}:" in said
+    path = pathlib.PurePath(case.file)
+    return path.name in said or len(path.parts) > 1 and re.search(rf"\b{path.parts[0]}(/[\w./]+)?:", said)
 
 
 def steady(said):
