@@ -33,6 +33,14 @@ FrameScene Collect(const Run& run, const Sequence& sequence, const SequenceFrame
                    const std::optional<Camera>& camera) {
   FrameScene scene;
   scene.rgb = ReadColour(sequence.folder / frame.rgb);
+  if (camera && scene.rgb.size() != cv::Size(camera->width, camera->height)) {
+    throw io::InputError(
+        (sequence.folder / frame.rgb).string(),
+        fmt::format(
+            "is {} x {}, the camera {} x {}; restore the image, or name its camera with "
+            "--camera",
+            scene.rgb.cols, scene.rgb.rows, camera->width, camera->height));
+  }
   scene.labels = ReadSegmentation(run, frame.stamp_s);
   scene.frame = FindByStamp(run.frames, frame.stamp_s, [](const auto& f) { return f.stamp_s; });
   const StampedPose* pose =

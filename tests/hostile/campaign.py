@@ -255,7 +255,7 @@ def names_cause(case, said):
     if not case.file:
         return case.name.split("=")[0] in said
     path = pathlib.PurePath(case.file)
-    return path.name in said or len(path.parts) > 1 and re.search(rf"\b{path.parts[0]}(/[\w./]+)?:", said)
+    return path.name in said or len(path.parts) > 1 and re.search(rf"\b{path.parts[0]}\b", said)
 
 
 def steady(said):
