@@ -62,7 +62,8 @@ std::optional<Camera> ChooseCamera(const std::string& choice, const Sequence& se
                                    const Run& run) {
   if (!choice.empty()) return ReadNamedCamera(choice);
   if (sequence.camera) return sequence.camera;
-  const std::string& name = run.info.camera;
+  if (run.info.camera) return run.info.camera;
+  const std::string& name = run.info.camera_name;
   if (name.starts_with("tum") || (!name.empty() && std::filesystem::exists(name))) {
     return ReadNamedCamera(name);
   }

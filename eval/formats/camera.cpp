@@ -6,6 +6,12 @@
 namespace eval {
 namespace {
 
+// Wider than any lens, sensor and file of one, and far from where squares overflow.
+constexpr const char* kSize = "(0, 100000)";
+constexpr const char* kPositive = "(0, 1e9)";
+constexpr const char* kAny = "(-1e9, 1e9)";
+constexpr const char* kDistortion[] = {"k1", "k2", "p1", "p2", "k3"};
+
 /// Reads the keys one by one, so that each fault is told.
 class CameraKeys {
  public:
@@ -16,8 +22,7 @@ class CameraKeys {
     Try([&] { map_.At("model").OneOf({"pinhole"}); },
         map_.Has("model") ? Severity::kFatal : Severity::kFlaw);
     Camera camera;
-    // Wider than any lens, sensor and file of one, and far from where squares overflow.
-    const io::Interval size("(0, 100000)"), positive("(0, 1e9)"), any("(-1e9, 1e9)");
+    const io::Interval size(kSize), positive(kPositive), any(kAny);
     Try([&] { camera.width = map_.At("width").Whole(size); });
     Try([&] { camera.height = map_.At("height").Whole(size); });
     Number("fx", positive, "pixels", camera.fx);
@@ -26,9 +31,10 @@ class CameraKeys {
     PrincipalPoint("cy", camera.height, camera.cy);
     Number("fps", positive, "frames per second", camera.fps);
     Number("depth_factor", positive, "depth units per metre", camera.depth_factor);
-    const char* const names[] = {"k1", "k2", "p1", "p2", "k3"};
     for (std::size_t i = 0; i < camera.distortion.size(); ++i) {
-      if (map_.Has(names[i])) Number(names[i], any, "as OpenCV's", camera.distortion[i]);
+      if (map_.Has(kDistortion[i])) {
+        Number(kDistortion[i], any, "as OpenCV's", camera.distortion[i]);
+      }
     }
     return good_ ? std::optional(camera) : std::nullopt;
   }
@@ -47,7 +53,7 @@ class CameraKeys {
 
   /// It lies in the image, as a rule; a picture that was cut out of a larger one may lack it.
   void PrincipalPoint(const char* key, int pixels, double& value) {
-    if (!Number(key, io::Interval("(-1e9, 1e9)"), "pixels", value) || pixels == 0) return;
+    if (!Number(key, io::Interval(kAny), "pixels", value) || pixels == 0) return;
     const io::Interval inside("(-0.5, " + io::NumberText(pixels - 0.5) + ")");
     Try([&] { map_.At(key).Number(inside, "pixels"); }, Severity::kWarning);
   }
@@ -75,6 +81,28 @@ std::optional<Camera> ReadCamera(Folder& folder, const std::string& file,
     const io::YamlMap map(io::ReadYaml(folder.Open(file), mend));
     camera = CameraKeys(folder, file, map).Read();
   });
+  return camera;
+}
+
+std::optional<Camera> ReadCamera(const JsonRecord& record) {
+  const io::Interval size(kSize), positive(kPositive), any(kAny);
+  const auto width = record.Number("width", size), height = record.Number("height", size);
+  const auto fx = record.Number("fx", positive), fy = record.Number("fy", positive);
+  const auto cx = record.Number("cx", any), cy = record.Number("cy", any);
+  const auto fps = record.Number("fps", positive);
+  const auto depth_factor = record.Number("depth_factor", positive);
+  if (!width || !height || !fx || !fy || !cx || !cy || !fps || !depth_factor) return {};
+  Camera camera{static_cast<int>(*width),
+                static_cast<int>(*height),
+                *fx,
+                *fy,
+                *cx,
+                *cy,
+                *fps,
+                *depth_factor};
+  for (std::size_t i = 0; i < camera.distortion.size(); ++i) {
+    camera.distortion[i] = record.Number(kDistortion[i], any).value_or(0);
+  }
   return camera;
 }
 

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "eval/formats/folder.h"
+#include "eval/formats/json_record.h"
 
 namespace eval {
 
@@ -29,5 +30,9 @@ Eigen::Vector2d PixelOf(const Camera& camera, const Eigen::Vector3d& x_c);
 /// @param mend  what to do when the file cannot be read
 std::optional<Camera> ReadCamera(Folder& folder, const std::string& file = "camera.yaml",
                                  const std::string& mend = "");
+
+/// The same keys in an object of JSON, as run.json has them; nothing when one is missing.
+/// @param record  Optional(), for what another system writes there is its own
+std::optional<Camera> ReadCamera(const JsonRecord& record);
 
 }  // namespace eval

@@ -208,6 +208,10 @@ std::vector<JsonRecord> JsonRecord::AsItems() const {
   return items;
 }
 
+std::optional<JsonRecord> JsonRecord::Object(const std::string& key) const {
+  return Find(key, "an object");
+}
+
 std::vector<JsonRecord> JsonRecord::Items(const std::string& key) const {
   const auto found = Find(key, "a list");
   return found ? found->AsItems() : std::vector<JsonRecord>{};

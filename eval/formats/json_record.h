@@ -54,6 +54,7 @@ class JsonRecord {
   /// Vectors of a list; none when one of them is at fault.
   std::vector<Eigen::Vector3d> Points(const std::string& key) const;
   std::vector<Eigen::Vector3d> AsPoints() const;
+  std::optional<JsonRecord> Object(const std::string& key) const;
   /// Members of an array, or none (a fault) when it is no array.
   std::vector<JsonRecord> Items(const std::string& key) const;
   std::vector<JsonRecord> AsItems() const;

@@ -23,7 +23,7 @@ std::string OptionalText(const JsonRecord& record, const char* key) {
 }
 
 /// `pas slam` tells its camera among the options, others may do so beside them.
-std::string CameraOf(const nlohmann::json& root) {
+std::string CameraNameOf(const nlohmann::json& root) {
   const nlohmann::json options = root.value("options", nlohmann::json());
   for (const nlohmann::json& place : {root, options}) {
     if (!place.is_object() || !place.contains("camera")) continue;
@@ -43,7 +43,9 @@ RunInfo ReadInfo(const JsonRecord& root) {
   info.detector = OptionalText(expected, "detector");
   info.version = OptionalText(expected, "version");
   expected.Whole("seed");
-  info.camera = CameraOf(root.value());
+  info.camera_name = CameraNameOf(root.value());
+  const bool has_numbers = root.Has("camera") && !root.value()["camera"].is_string();
+  if (has_numbers) info.camera = ReadCamera(root.Object("camera")->Optional());
   if (!root.Has("options")) {
     root.TellAt("options", "is missing; expected the options of the run", kRunAgain,
                 Severity::kFlaw);

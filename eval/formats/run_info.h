@@ -3,6 +3,7 @@
 #include <optional>
 #include <string>
 
+#include "eval/formats/camera.h"
 #include "eval/formats/folder.h"
 
 namespace eval {
@@ -11,7 +12,8 @@ namespace eval {
 struct RunInfo {
   std::string sequence;           ///< as written: relative to the run, or absolute
   std::string sequence_absolute;  ///< where it was when the run was made; may be empty
-  std::string camera;             ///< a name or a file; empty when the run does not tell
+  std::optional<Camera> camera;   ///< with which the run was made, when it tells its numbers
+  std::string camera_name;        ///< a name or a file; empty when the run does not tell
   std::string variant, detector, version;
   std::optional<int> frames, tracked;
   bool interrupted = false;            ///< it ended before the sequence did

@@ -36,7 +36,8 @@ std::string DetectorChoice(const RunOptions& options) {
   return io::Exists(options.sequence / "detections.jsonl") ? "replay" : "none";
 }
 
-RunInfo Describe(const RunOptions& options, const std::string& detector, int frames) {
+RunInfo Describe(const RunOptions& options, const Camera& camera, const std::string& detector,
+                 int frames) {
   RunInfo info;
   info.sequence = options.sequence;
   info.sequence_frames = frames;
@@ -45,6 +46,7 @@ RunInfo Describe(const RunOptions& options, const std::string& detector, int fra
                      : options.variant == Variant::kFull ? "integrated"
                                                          : "parameters";
   info.detector = detector;
+  info.camera = camera;
   info.seed = options.seed;
   info.version = options.version;
   info.options = ConfigAsJson(options.config);
@@ -94,7 +96,7 @@ class SequenceRun {
         doubts_(std::move(doubts)),
         tracker_(input.camera, options.config, options.variant, std::move(input.detector),
                  options.seed, ThreadsOf(options), options.before_mapping),
-        writer_(options.run, Describe(options, detector, input.frames.size()),
+        writer_(options.run, Describe(options, input.camera, detector, input.frames.size()),
                 {.force = options.force, .save_segmentation = options.save_segmentation}),
         gate_(input.camera),
         camera_check_(input.camera, options.config.point_features.scale),

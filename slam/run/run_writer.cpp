@@ -38,6 +38,23 @@ std::vector<TimedPose> KeyframePoses(const Map& map) {
   return poses;
 }
 
+/// The keys of camera.yaml.
+nlohmann::ordered_json CameraJson(const Camera& c) {
+  return {{"width", c.width},
+          {"height", c.height},
+          {"fx", c.fx},
+          {"fy", c.fy},
+          {"cx", c.cx},
+          {"cy", c.cy},
+          {"k1", c.k1},
+          {"k2", c.k2},
+          {"p1", c.p1},
+          {"p2", c.p2},
+          {"k3", c.k3},
+          {"fps", c.fps},
+          {"depth_factor", c.depth_factor}};
+}
+
 }  // namespace
 
 RunWriter::RunWriter(const std::filesystem::path& folder, RunInfo info, Options options)
@@ -99,6 +116,7 @@ nlohmann::ordered_json RunWriter::RunJson(std::size_t poses, const RunEnd& end) 
   json["variant"] = info_.variant;
   json["association"] = info_.association;
   json["detector"] = info_.detector;
+  json["camera"] = CameraJson(info_.camera);
   json["seed"] = info_.seed;
   json["version"] = info_.version;
   json["options"] = info_.options;

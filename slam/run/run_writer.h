@@ -10,6 +10,7 @@
 #include "io/atomic_file.h"
 #include "io/output_folder.h"
 #include "slam/associate/refusals.h"
+#include "slam/geometry/camera.h"
 #include "slam/model/frame.h"
 #include "slam/model/map.h"
 #include "slam/model/module_times.h"
@@ -25,6 +26,7 @@ struct RunInfo {
   std::string variant;      ///< "full", "no-association", ...
   std::string association;  ///< the association rule
   std::string detector;     ///< "replay", "yolox:FILE", "live", "none"
+  Camera camera;            ///< its numbers, whatever file they came from
   std::uint64_t seed = 0;
   std::string version;  ///< the program's, with the commit
   nlohmann::ordered_json options = nlohmann::ordered_json::object();  ///< see ConfigAsJson

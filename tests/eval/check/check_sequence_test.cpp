@@ -185,7 +185,7 @@ TEST(CheckFolderKind, TellsAFolderThatIsNeitherSequenceNorRun) {
   const TemporaryFolder folder("neither");
   const CheckReport report = CheckFolder(folder.path());
   ASSERT_EQ(report.faults.size(), 1u);
-  EXPECT_THAT(report.faults[0].what, HasSubstr("expected a sequence or a run"));
+  EXPECT_THAT(report.faults[0].what, HasSubstr("neither a sequence"));
   EXPECT_EQ(CheckFolder(folder.path() / "absent").faults.size(), 1u);
 }
 

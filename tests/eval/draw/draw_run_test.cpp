@@ -177,6 +177,20 @@ TEST_F(DrawRunFolder, AsksForACameraWhenNothingElseCanPlaceThePlanes) {
   EXPECT_EQ(DrawRun(run, options).pictures.size(), 3u);
 }
 
+TEST_F(DrawRunFolder, TakesTheCameraOfTheRunWhenTheSequenceHasNone) {
+  const fs::path run = MakeRun("run", Moved());
+  const cv::Mat before = DrawRun(run, {}).pictures[0].image;
+  const Camera camera = *ReadSequence(seq()).camera;
+  json info = json::parse(ReadText(run / "run.json"));
+  info["camera"] = {{"width", camera.width}, {"height", camera.height},
+                    {"fx", camera.fx},       {"fy", camera.fy},
+                    {"cx", camera.cx},       {"cy", camera.cy},
+                    {"fps", camera.fps},     {"depth_factor", camera.depth_factor}};
+  WriteText(run / "run.json", info.dump());
+  fs::remove(seq() / "camera.yaml");
+  EXPECT_EQ(cv::norm(DrawRun(run, {}).pictures[0].image, before, cv::NORM_INF), 0.0);
+}
+
 TEST_F(DrawRunFolder, RefusesAFolderThatExistsUnlessForced) {
   const fs::path out = folder_.path() / "pictures";
   const std::vector<Picture> pictures{{"a.png", cv::Mat::zeros(4, 4, CV_8UC3)}};

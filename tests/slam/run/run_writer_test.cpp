@@ -99,8 +99,8 @@ class RunFolder : public ::testing::Test {
   void TearDown() override { fs::remove_all(base_); }
 
   RunInfo Info() {
-    return {base_ / "seq", 5, "full",        "integrated",
-            "replay",      7, "0.1.0 (abc)", {{"a", {{"b", 0.1}}}}};
+    return {base_ / "seq",        5, "full",        "integrated",         "replay",
+            Camera{.fx = 517.25}, 7, "0.1.0 (abc)", {{"a", {{"b", 0.1}}}}};
   }
   void WriteRun(const fs::path& folder, RunWriter::Options options) {
     RunWriter writer(folder, Info(), options);
@@ -137,6 +137,7 @@ TEST_F(RunFolder, SaysInRunJsonWhatWasRun) {
   EXPECT_EQ(run["format"], "pas-run/1");
   EXPECT_EQ(run["sequence"], "../seq");  // they may be moved together ...
   EXPECT_EQ(run["sequence_absolute"], (base_ / "seq").string());  // ... or the run alone
+  EXPECT_EQ(run["camera"]["fx"], 517.25);
   EXPECT_EQ(run["variant"], "full");
   EXPECT_EQ(run["association"], "integrated");
   EXPECT_EQ(run["detector"], "replay");
