@@ -4,11 +4,13 @@
 #include <string>
 
 #include "app/app.h"
+#include "app/surfaces_option.h"
 #include "eval/formats/run.h"
 #include "eval/formats/sequence.h"
 #include "eval/report/evaluate.h"
 #include "eval/report/metrics_json.h"
 #include "eval/report/table.h"
+#include "eval/surfaces/report_surfaces.h"
 #include "io/atomic_file.h"
 
 namespace app {
@@ -18,6 +20,7 @@ struct EvalOptions {
   std::string run;
   std::string truth;
   std::string output;
+  SurfacesOption surfaces;
 };
 
 int RunEval(const EvalOptions& options, const Globals& globals) {
@@ -27,12 +30,17 @@ int RunEval(const EvalOptions& options, const Globals& globals) {
   const eval::Sequence sequence = eval::ReadSequence(truth);
   const eval::Evaluation evaluation = eval::Evaluate(run, sequence);
 
+  const auto surfaces = ScoreOnSurfaces(run, sequence, options.surfaces);
+
   const std::filesystem::path output = options.output.empty()
                                            ? run.folder / "metrics.json"
                                            : std::filesystem::path(options.output);
-  io::WriteFile(output, eval::MetricsText(evaluation));
+  nlohmann::ordered_json metrics = eval::MetricsJson(evaluation);
+  if (surfaces) eval::AddSurfaces(*surfaces, options.surfaces.file, metrics);
+  io::WriteFile(output, metrics.dump(2) + "\n");
   if (!globals.quiet) {
     std::fputs(eval::MetricsTable(evaluation).c_str(), stdout);
+    if (surfaces) std::fputs(eval::SurfacesTable(*surfaces).c_str(), stdout);
     std::printf("wrote %s\n", output.c_str());
   }
   if (evaluation.tracked > 0) return kDone;
@@ -59,6 +67,7 @@ void AddEvalCommand(CLI::App& pas, const Globals& globals, int& exit_code) {
       "as written or relative to RUN)");
   command->add_option("-o,--output", options->output,
                       "File to write (default: RUN/metrics.json); an older one is replaced");
+  AddSurfacesOption(*command, options->surfaces);
   command->callback(
       [options, &globals, &exit_code] { exit_code = RunEval(*options, globals); });
 }

@@ -17,6 +17,7 @@ constexpr const char* kFlow =
     "  pas scene  make, list or show a tabletop scene with known planes\n"
     "  pas sim    render it: RGB-D frames, detections, exact truth        -> SEQ\n"
     "  pas slam   track the camera and map the planes; never reads truth  -> RUN\n"
+    "  pas surfaces   large flat surfaces of a SEQ with camera truth      -> YAML\n"
     "  pas eval   score a run against the truth                           -> metrics.json\n"
     "  pas draw   contact sheet and top view of a run                     -> pictures\n"
     "  pas export a SEQ with truth as COCO or BOP, to train detectors     -> data set\n"
@@ -32,6 +33,7 @@ constexpr app::AddCommand kCommands[] = {
     app::AddSimCommand,         //
     app::AddSlamCommand,        //
     app::AddVocabularyCommand,  //
+    app::AddSurfacesCommand,    //
     app::AddEvalCommand,        //
     app::AddDrawCommand,        //
     app::AddExportCommand,      //

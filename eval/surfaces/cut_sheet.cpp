@@ -1,0 +1,204 @@
+#include "eval/surfaces/cut_sheet.h"
+
+#include <algorithm>
+#include <cmath>
+#include <opencv2/imgproc.hpp>
+#include <optional>
+
+#include "eval/surfaces/depth_error.h"
+
+namespace eval {
+namespace {
+
+constexpr int kStepBaseline_cells = 2;  // the blur of a depth edge at 1 m is as wide
+constexpr double kRing_cells =
+    10;  // within which two parts meet: wider than the rim of an edge
+constexpr double kMaxEmpty_cells = 10;  // that a bridge may cross: a gap of 10 cm is a gap
+constexpr int kMinPart_cells = 40;      // smaller parts are judged cell by cell
+constexpr int kMinRing_cells = 5;       // fewer cells tell no height
+constexpr int kMinHits = 3;             // of a cell; a point or two is noise
+
+/// Cells that hold something.
+CellMask OccupiedCells(const Sheet& sheet) {
+  CellMask occupied(sheet.hits.size(), std::uint8_t(0));
+  for (int v = 0; v < occupied.rows; ++v) {
+    for (int u = 0; u < occupied.cols; ++u) {
+      const int hits = sheet.hits(v, u);
+      if (hits >= kMinHits && hits > sheet.passes(v, u)) occupied(v, u) = 255;
+    }
+  }
+  return occupied;
+}
+
+/// Occupied cells where no height changes by a step.
+CellMask SmoothCells(const Sheet& sheet, const CellMask& occupied) {
+  CellMask smooth = occupied.clone();
+  const auto compare = [&](cv::Point a, cv::Point b) {
+    if (!sheet.Holds(b) || occupied(a) == 0 || occupied(b) == 0) return;
+    const double step_m = DepthError::OfStep_m(0.5 * (sheet.depth_m(a) + sheet.depth_m(b)));
+    if (std::abs(sheet.height_m(a) - sheet.height_m(b)) < step_m) return;
+    smooth(a) = smooth(b) = smooth((a + b) / 2) = 0;
+  };
+  for (int v = 0; v < occupied.rows; ++v) {
+    for (int u = 0; u < occupied.cols; ++u) {
+      compare({u, v}, {u + kStepBaseline_cells, v});
+      compare({u, v}, {u, v + kStepBaseline_cells});
+    }
+  }
+  return smooth;
+}
+
+/// Mean height and depth of the cells of a mask that a second one holds as well.
+struct MeanCell {
+  double height_m = 0.0, depth_m = 0.0;
+  int cells = 0;
+};
+MeanCell MeanOf(const Sheet& sheet, const CellMask& mask, const CellMask& where) {
+  MeanCell mean;
+  for (int v = 0; v < mask.rows; ++v) {
+    for (int u = 0; u < mask.cols; ++u) {
+      if (mask(v, u) == 0 || where(v, u) == 0) continue;
+      mean.height_m += sheet.height_m(v, u);
+      mean.depth_m += sheet.depth_m(v, u);
+      ++mean.cells;
+    }
+  }
+  if (mean.cells == 0) return mean;
+  mean.height_m /= mean.cells;
+  mean.depth_m /= mean.cells;
+  return mean;
+}
+
+/// How far each cell is from a mask, and where the nearest cell of the mask is.
+class DistanceTo {
+ public:
+  explicit DistanceTo(const CellMask& mask) {
+    cv::distanceTransform(mask == 0, cells_, labels_, cv::DIST_L2, cv::DIST_MASK_5,
+                          cv::DIST_LABEL_PIXEL);
+    for (int v = 0; v < mask.rows; ++v) {
+      for (int u = 0; u < mask.cols; ++u) {
+        if (mask(v, u) == 0) continue;
+        const auto label = std::size_t(labels_(v, u));
+        if (at_.size() <= label) at_.resize(label + 1);
+        at_[label] = {u, v};
+      }
+    }
+  }
+  float operator()(cv::Point cell) const { return cells_(cell); }
+  CellMask Within(double cells) const {
+    CellMask within;
+    within = cells_ <= cells;
+    return within;
+  }
+  cv::Point Nearest(cv::Point cell) const { return at_[std::size_t(labels_(cell))]; }
+
+ private:
+  cv::Mat1f cells_;
+  cv::Mat1i labels_;
+  std::vector<cv::Point> at_;
+};
+
+/// Whether rays passed between two cells: more of the line is seen to be empty than is let
+/// through.
+bool IsEmptyBetween(const Sheet& sheet, cv::Point a, cv::Point b) {
+  int empty = 0;
+  cv::LineIterator line(sheet.hits, a, b);
+  for (int i = 0; i < line.count; ++i, ++line) {
+    const cv::Point cell = line.pos();
+    empty += sheet.passes(cell) > sheet.hits(cell) ? 1 : 0;
+  }
+  return empty > kMaxEmpty_cells;
+}
+
+bool IsOneSurface(const Sheet& sheet, const CellMask& group, const DistanceTo& to_group,
+                  const CellMask& part) {
+  // Where they meet, their heights must agree to a step.
+  const MeanCell at_group = MeanOf(sheet, part, to_group.Within(kRing_cells));
+  if (at_group.cells >= kMinRing_cells) {
+    const MeanCell at_part = MeanOf(sheet, group, DistanceTo(part).Within(kRing_cells));
+    const double step_m = DepthError::OfStep_m(at_group.depth_m);
+    return std::abs(at_group.height_m - at_part.height_m) < step_m;
+  }
+
+  // Where they do not, to the bend, and the way from one to the other must not be empty.
+  const MeanCell mean_part = MeanOf(sheet, part, part),
+                 mean_group = MeanOf(sheet, group, group);
+  const double bend_m =
+      2 * DepthError::OfMean_m(std::max(mean_part.depth_m, mean_group.depth_m));
+  if (!(std::abs(mean_part.height_m - mean_group.height_m) < bend_m)) return false;
+  std::optional<cv::Point> nearest;
+  for (int v = 0; v < part.rows; ++v) {
+    for (int u = 0; u < part.cols; ++u) {
+      const cv::Point cell(u, v);
+      if (part(cell) == 0 || (nearest && to_group(cell) >= to_group(*nearest))) continue;
+      nearest = cell;
+    }
+  }
+  return !IsEmptyBetween(sheet, *nearest, to_group.Nearest(*nearest));
+}
+
+/// Connected parts of a mask with enough cells, largest first.
+std::vector<CellMask> PartsOf(const CellMask& mask) {
+  cv::Mat1i labels;
+  cv::Mat statistics, centres;
+  const int count = cv::connectedComponentsWithStats(mask, labels, statistics, centres, 4);
+  std::vector<std::pair<int, int>> by_size;
+  for (int label = 1; label < count; ++label) {
+    const int cells = statistics.at<int>(label, cv::CC_STAT_AREA);
+    if (cells >= kMinPart_cells) by_size.emplace_back(-cells, label);
+  }
+  std::sort(by_size.begin(), by_size.end());
+  std::vector<CellMask> parts;
+  for (const auto& [size, label] : by_size) parts.emplace_back() = labels == label;
+  return parts;
+}
+
+/// The parts put together that are one surface.
+std::vector<CellMask> GroupsOf(const Sheet& sheet, const std::vector<CellMask>& parts) {
+  std::vector<CellMask> groups;
+  for (const CellMask& part : parts) {
+    const auto joined = std::find_if(groups.begin(), groups.end(), [&](const CellMask& group) {
+      return IsOneSurface(sheet, group, DistanceTo(group), part);
+    });
+    if (joined == groups.end()) {
+      groups.push_back(part.clone());
+    } else {
+      *joined |= part;
+    }
+  }
+  return groups;
+}
+
+/// Gives edge cells and small parts to the group beside them, where their height is the
+/// group's: the rim of a thing that lies on a desk is desk again.
+void TakeLevelCells(const Sheet& sheet, const CellMask& occupied, CellMask& group) {
+  constexpr int kSide = 11;  // cells over which the group's height is averaged: a ring's
+  cv::Mat1d heights, cells;
+  cv::Mat1d in_group;
+  group.convertTo(in_group, CV_64F, 1.0 / 255);
+  cv::boxFilter(in_group, cells, CV_64F, {kSide, kSide}, {-1, -1}, false, cv::BORDER_CONSTANT);
+  cv::boxFilter(in_group.mul(sheet.height_m), heights, CV_64F, {kSide, kSide}, {-1, -1}, false,
+                cv::BORDER_CONSTANT);
+  for (int v = 0; v < group.rows; ++v) {
+    for (int u = 0; u < group.cols; ++u) {
+      if (occupied(v, u) == 0 || group(v, u) != 0 || !(cells(v, u) > 0.5)) continue;
+      const double off_m = sheet.height_m(v, u) - heights(v, u) / cells(v, u);
+      if (std::abs(off_m) < DepthError::OfStep_m(sheet.depth_m(v, u))) group(v, u) = 255;
+    }
+  }
+}
+
+}  // namespace
+
+std::vector<CellMask> CutSheet(const Sheet& sheet, double min_area_m2) {
+  const CellMask occupied = OccupiedCells(sheet);
+  const int min_cells = int(min_area_m2 / (Sheet::kCell_m * Sheet::kCell_m));
+  std::vector<CellMask> surfaces;
+  for (CellMask& group : GroupsOf(sheet, PartsOf(SmoothCells(sheet, occupied)))) {
+    TakeLevelCells(sheet, occupied, group);
+    if (cv::countNonZero(group) >= min_cells) surfaces.push_back(group);
+  }
+  return surfaces;
+}
+
+}  // namespace eval
