@@ -22,8 +22,7 @@ void WriteWorstFrames(const std::string& folder, const eval::SurfaceScore& score
   std::filesystem::create_directories(folder);
   int rank = 0;
   for (const eval::FrameWholeness& frame : eval::WorstFrames(score, kWorstFrames)) {
-    const std::string name =
-        fmt::format("worst_{:02}_at_{:.6f}.png", ++rank, views.StampOf(frame.view));
+    const std::string name = fmt::format("worst_{:02}.png", ++rank);
     WritePng((std::filesystem::path(folder) / name).string(),
              eval::DrawCutSurfaces(label(views.Read(frame.view)), run, views, frame));
   }

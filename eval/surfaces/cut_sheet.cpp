@@ -2,8 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <limits>
 #include <opencv2/imgproc.hpp>
-#include <optional>
 
 #include "eval/surfaces/depth_error.h"
 
@@ -13,10 +14,10 @@ namespace {
 constexpr int kStepBaseline_cells = 2;  // the blur of a depth edge at 1 m is as wide
 constexpr double kRing_cells =
     10;  // within which two parts meet: wider than the rim of an edge
-constexpr double kMaxEmpty_cells = 10;  // that a bridge may cross: a gap of 10 cm is a gap
-constexpr int kMinPart_cells = 40;      // smaller parts are judged cell by cell
-constexpr int kMinRing_cells = 5;       // fewer cells tell no height
-constexpr int kMinHits = 3;             // of a cell; a point or two is noise
+constexpr double kMaxParted_cells = 10;  // that a bridge may cross: a gap of 10 cm is a gap
+constexpr int kMinPart_cells = 40;       // smaller parts are judged cell by cell
+constexpr int kMinRing_cells = 5;        // fewer cells tell no height
+constexpr int kMinHits = 3;              // of a cell; a point or two is noise
 
 /// Cells that hold something.
 CellMask OccupiedCells(const Sheet& sheet) {
@@ -31,11 +32,12 @@ CellMask OccupiedCells(const Sheet& sheet) {
 }
 
 /// Occupied cells where no height changes by a step.
-CellMask SmoothCells(const Sheet& sheet, const CellMask& occupied) {
+CellMask SmoothCells(const Sheet& sheet, const CellMask& occupied, const DepthError& error) {
   CellMask smooth = occupied.clone();
   const auto compare = [&](cv::Point a, cv::Point b) {
     if (!sheet.Holds(b) || occupied(a) == 0 || occupied(b) == 0) return;
-    const double step_m = DepthError::OfStep_m(0.5 * (sheet.depth_m(a) + sheet.depth_m(b)));
+    const double step_m = error.OfStep_m(0.5 * (sheet.depth_m(a) + sheet.depth_m(b)),
+                                         std::min(sheet.hits(a), sheet.hits(b)));
     if (std::abs(sheet.height_m(a) - sheet.height_m(b)) < step_m) return;
     smooth(a) = smooth(b) = smooth((a + b) / 2) = 0;
   };
@@ -98,25 +100,51 @@ class DistanceTo {
   std::vector<cv::Point> at_;
 };
 
-/// Whether rays passed between two cells: more of the line is seen to be empty than is let
-/// through.
-bool IsEmptyBetween(const Sheet& sheet, cv::Point a, cv::Point b) {
-  int empty = 0;
+/// Whether something else is between two cells: more of the line than is let through is seen
+/// to be empty, or is of another level.
+bool IsPartedBetween(const Sheet& sheet, const CellMask& others, cv::Point a, cv::Point b) {
+  constexpr int kAbout_cells = 2;  // rays through a plane are told of more thinly than hits
+  int parted = 0;
   cv::LineIterator line(sheet.hits, a, b);
   for (int i = 0; i < line.count; ++i, ++line) {
     const cv::Point cell = line.pos();
-    empty += sheet.passes(cell) > sheet.hits(cell) ? 1 : 0;
+    const cv::Rect about = cv::Rect(cell.x - kAbout_cells, cell.y - kAbout_cells,
+                                    2 * kAbout_cells + 1, 2 * kAbout_cells + 1) &
+                           cv::Rect({0, 0}, sheet.hits.size());
+    const bool is_empty = cv::sum(sheet.passes(about))[0] > cv::sum(sheet.hits(about))[0];
+    parted += is_empty || others(cell) != 0 ? 1 : 0;
   }
-  return empty > kMaxEmpty_cells;
+  return parted > kMaxParted_cells;
+}
+
+/// The same of most of the ways from the side of a part that faces the group.
+bool ArePartedMostly(const Sheet& sheet, const CellMask& others, const DistanceTo& to_group,
+                     const CellMask& part) {
+  constexpr float kSide_cells = 5;  // further than the nearest cell, and on the same side still
+  constexpr std::size_t kMaxWays = 50;  // that are looked at, evenly
+  float nearest = std::numeric_limits<float>::infinity();
+  std::vector<cv::Point> cells;
+  cv::findNonZero(part, cells);
+  for (const cv::Point& cell : cells) nearest = std::min(nearest, to_group(cell));
+  std::vector<cv::Point> side;
+  std::copy_if(cells.begin(), cells.end(), std::back_inserter(side),
+               [&](const cv::Point& cell) { return to_group(cell) <= nearest + kSide_cells; });
+  const std::size_t step = (side.size() + kMaxWays - 1) / kMaxWays;
+  int ways = 0, parted = 0;
+  for (std::size_t i = 0; i < side.size(); i += step) {
+    ++ways;
+    parted += IsPartedBetween(sheet, others, side[i], to_group.Nearest(side[i])) ? 1 : 0;
+  }
+  return 2 * parted > ways;
 }
 
 bool IsOneSurface(const Sheet& sheet, const CellMask& group, const DistanceTo& to_group,
-                  const CellMask& part) {
+                  const CellMask& part, const CellMask& others, const DepthError& error) {
   // Where they meet, their heights must agree to a step.
   const MeanCell at_group = MeanOf(sheet, part, to_group.Within(kRing_cells));
   if (at_group.cells >= kMinRing_cells) {
     const MeanCell at_part = MeanOf(sheet, group, DistanceTo(part).Within(kRing_cells));
-    const double step_m = DepthError::OfStep_m(at_group.depth_m);
+    const double step_m = error.OfStep_m(at_group.depth_m, kMinHits * at_group.cells);
     return std::abs(at_group.height_m - at_part.height_m) < step_m;
   }
 
@@ -126,15 +154,7 @@ bool IsOneSurface(const Sheet& sheet, const CellMask& group, const DistanceTo& t
   const double bend_m =
       2 * DepthError::OfMean_m(std::max(mean_part.depth_m, mean_group.depth_m));
   if (!(std::abs(mean_part.height_m - mean_group.height_m) < bend_m)) return false;
-  std::optional<cv::Point> nearest;
-  for (int v = 0; v < part.rows; ++v) {
-    for (int u = 0; u < part.cols; ++u) {
-      const cv::Point cell(u, v);
-      if (part(cell) == 0 || (nearest && to_group(cell) >= to_group(*nearest))) continue;
-      nearest = cell;
-    }
-  }
-  return !IsEmptyBetween(sheet, *nearest, to_group.Nearest(*nearest));
+  return !ArePartedMostly(sheet, others, to_group, part);
 }
 
 /// Connected parts of a mask with enough cells, largest first.
@@ -154,11 +174,16 @@ std::vector<CellMask> PartsOf(const CellMask& mask) {
 }
 
 /// The parts put together that are one surface.
-std::vector<CellMask> GroupsOf(const Sheet& sheet, const std::vector<CellMask>& parts) {
+std::vector<CellMask> GroupsOf(const Sheet& sheet, const std::vector<CellMask>& parts,
+                               const DepthError& error) {
   std::vector<CellMask> groups;
   for (const CellMask& part : parts) {
     const auto joined = std::find_if(groups.begin(), groups.end(), [&](const CellMask& group) {
-      return IsOneSurface(sheet, group, DistanceTo(group), part);
+      CellMask others(sheet.hits.size(), std::uint8_t(0));
+      for (const CellMask& other : groups) {
+        if (&other != &group) others |= other;
+      }
+      return IsOneSurface(sheet, group, DistanceTo(group), part, others, error);
     });
     if (joined == groups.end()) {
       groups.push_back(part.clone());
@@ -171,7 +196,8 @@ std::vector<CellMask> GroupsOf(const Sheet& sheet, const std::vector<CellMask>& 
 
 /// Gives edge cells and small parts to the group beside them, where their height is the
 /// group's: the rim of a thing that lies on a desk is desk again.
-void TakeLevelCells(const Sheet& sheet, const CellMask& occupied, CellMask& group) {
+void TakeLevelCells(const Sheet& sheet, const CellMask& occupied, const DepthError& error,
+                    CellMask& group) {
   constexpr int kSide = 11;  // cells over which the group's height is averaged: a ring's
   cv::Mat1d heights, cells;
   cv::Mat1d in_group;
@@ -183,19 +209,21 @@ void TakeLevelCells(const Sheet& sheet, const CellMask& occupied, CellMask& grou
     for (int u = 0; u < group.cols; ++u) {
       if (occupied(v, u) == 0 || group(v, u) != 0 || !(cells(v, u) > 0.5)) continue;
       const double off_m = sheet.height_m(v, u) - heights(v, u) / cells(v, u);
-      if (std::abs(off_m) < DepthError::OfStep_m(sheet.depth_m(v, u))) group(v, u) = 255;
+      if (std::abs(off_m) < error.OfStep_m(sheet.depth_m(v, u), sheet.hits(v, u)))
+        group(v, u) = 255;
     }
   }
 }
 
 }  // namespace
 
-std::vector<CellMask> CutSheet(const Sheet& sheet, double min_area_m2) {
+std::vector<CellMask> CutSheet(const Sheet& sheet, double min_area_m2, double noise_per_m) {
+  const DepthError error{noise_per_m};
   const CellMask occupied = OccupiedCells(sheet);
   const int min_cells = int(min_area_m2 / (Sheet::kCell_m * Sheet::kCell_m));
   std::vector<CellMask> surfaces;
-  for (CellMask& group : GroupsOf(sheet, PartsOf(SmoothCells(sheet, occupied)))) {
-    TakeLevelCells(sheet, occupied, group);
+  for (CellMask& group : GroupsOf(sheet, PartsOf(SmoothCells(sheet, occupied, error)), error)) {
+    TakeLevelCells(sheet, occupied, error, group);
     if (cv::countNonZero(group) >= min_cells) surfaces.push_back(group);
   }
   return surfaces;

@@ -74,7 +74,7 @@ SurfaceFile FindSurfaces(const DepthViews& views, double min_area_m2,
   });
   for (Sheet& sheet : sheets) {
     MeanOverHits(sheet);
-    for (const CellMask& mask : CutSheet(sheet, min_area_m2)) {
+    for (const CellMask& mask : CutSheet(sheet, min_area_m2, file.noise_per_m)) {
       file.surfaces.push_back(OutlinedSurface(sheet, mask));
     }
   }

@@ -6,9 +6,9 @@
 
 namespace eval {
 
-/// Poses further apart than this are not interpolated: at 30 Hz three frames, in which a
-/// hand-held camera moves by some centimetres on a nearly straight way.
-inline constexpr double kMaxPoseGap_s = 0.1;
+/// Poses further apart than this are not interpolated: truth of 10 Hz is still
+/// interpolated; in that time a hand-held camera moves by some centimetres, nearly straight.
+inline constexpr double kMaxPoseGap_s = 0.11;
 
 /// The pose at a moment, between its two neighbours: positions along the line, rotations along
 /// the shortest turn.
