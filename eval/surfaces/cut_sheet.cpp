@@ -14,10 +14,10 @@ namespace {
 constexpr int kStepBaseline_cells = 2;  // the blur of a depth edge at 1 m is as wide
 constexpr double kRing_cells =
     10;  // within which two parts meet: wider than the rim of an edge
-constexpr double kMaxParted_cells = 10;  // that a bridge may cross: a gap of 10 cm is a gap
-constexpr int kMinPart_cells = 40;       // smaller parts are judged cell by cell
-constexpr int kMinRing_cells = 5;        // fewer cells tell no height
-constexpr int kMinHits = 3;              // of a cell; a point or two is noise
+constexpr double kMaxEmpty_cells = 10;  // that a bridge may cross: a gap of 10 cm is a gap
+constexpr int kMinPart_cells = 40;      // smaller parts are judged cell by cell
+constexpr int kMinRing_cells = 5;       // fewer cells tell no height
+constexpr int kMinHits = 3;             // of a cell; a point or two is noise
 
 /// Cells that hold something.
 CellMask OccupiedCells(const Sheet& sheet) {
@@ -100,26 +100,30 @@ class DistanceTo {
   std::vector<cv::Point> at_;
 };
 
-/// Whether something else is between two cells: more of the line than is let through is seen
-/// to be empty, or is of another level.
-bool IsPartedBetween(const Sheet& sheet, const CellMask& others, cv::Point a, cv::Point b) {
+/// Whether the way between two cells is seen to be empty, for the most part or over a wide gap:
+/// rays passed through it, or ended on something lower. What is higher hides it.
+bool IsEmptyBetween(const Sheet& sheet, cv::Point a, cv::Point b, const DepthError& error) {
   constexpr int kAbout_cells = 2;  // rays through a plane are told of more thinly than hits
-  int parted = 0;
+  const double level_m = 0.5 * (sheet.height_m(a) + sheet.height_m(b));
+  int empty = 0;
   cv::LineIterator line(sheet.hits, a, b);
   for (int i = 0; i < line.count; ++i, ++line) {
     const cv::Point cell = line.pos();
     const cv::Rect about = cv::Rect(cell.x - kAbout_cells, cell.y - kAbout_cells,
                                     2 * kAbout_cells + 1, 2 * kAbout_cells + 1) &
                            cv::Rect({0, 0}, sheet.hits.size());
-    const bool is_empty = cv::sum(sheet.passes(about))[0] > cv::sum(sheet.hits(about))[0];
-    parted += is_empty || others(cell) != 0 ? 1 : 0;
+    const int hits = sheet.hits(cell);
+    const bool is_lower = hits >= kMinHits && level_m - sheet.height_m(cell) >
+                                                  error.OfStep_m(sheet.depth_m(cell), hits);
+    const bool is_passed = cv::sum(sheet.passes(about))[0] > cv::sum(sheet.hits(about))[0];
+    empty += is_lower || is_passed ? 1 : 0;
   }
-  return parted > kMaxParted_cells;
+  return empty > std::min(kMaxEmpty_cells, 0.5 * line.count);
 }
 
 /// The same of most of the ways from the side of a part that faces the group.
-bool ArePartedMostly(const Sheet& sheet, const CellMask& others, const DistanceTo& to_group,
-                     const CellMask& part) {
+bool IsMostlyEmptyBetween(const Sheet& sheet, const DistanceTo& to_group, const CellMask& part,
+                          const DepthError& error) {
   constexpr float kSide_cells = 5;  // further than the nearest cell, and on the same side still
   constexpr std::size_t kMaxWays = 50;  // that are looked at, evenly
   float nearest = std::numeric_limits<float>::infinity();
@@ -130,16 +134,16 @@ bool ArePartedMostly(const Sheet& sheet, const CellMask& others, const DistanceT
   std::copy_if(cells.begin(), cells.end(), std::back_inserter(side),
                [&](const cv::Point& cell) { return to_group(cell) <= nearest + kSide_cells; });
   const std::size_t step = (side.size() + kMaxWays - 1) / kMaxWays;
-  int ways = 0, parted = 0;
+  int ways = 0, empty = 0;
   for (std::size_t i = 0; i < side.size(); i += step) {
     ++ways;
-    parted += IsPartedBetween(sheet, others, side[i], to_group.Nearest(side[i])) ? 1 : 0;
+    empty += IsEmptyBetween(sheet, side[i], to_group.Nearest(side[i]), error) ? 1 : 0;
   }
-  return 2 * parted > ways;
+  return 2 * empty > ways;
 }
 
 bool IsOneSurface(const Sheet& sheet, const CellMask& group, const DistanceTo& to_group,
-                  const CellMask& part, const CellMask& others, const DepthError& error) {
+                  const CellMask& part, const DepthError& error) {
   // Where they meet, their heights must agree to a step.
   const MeanCell at_group = MeanOf(sheet, part, to_group.Within(kRing_cells));
   if (at_group.cells >= kMinRing_cells) {
@@ -154,7 +158,7 @@ bool IsOneSurface(const Sheet& sheet, const CellMask& group, const DistanceTo& t
   const double bend_m =
       2 * DepthError::OfMean_m(std::max(mean_part.depth_m, mean_group.depth_m));
   if (!(std::abs(mean_part.height_m - mean_group.height_m) < bend_m)) return false;
-  return !ArePartedMostly(sheet, others, to_group, part);
+  return !IsMostlyEmptyBetween(sheet, to_group, part, error);
 }
 
 /// Connected parts of a mask with enough cells, largest first.
@@ -179,11 +183,7 @@ std::vector<CellMask> GroupsOf(const Sheet& sheet, const std::vector<CellMask>& 
   std::vector<CellMask> groups;
   for (const CellMask& part : parts) {
     const auto joined = std::find_if(groups.begin(), groups.end(), [&](const CellMask& group) {
-      CellMask others(sheet.hits.size(), std::uint8_t(0));
-      for (const CellMask& other : groups) {
-        if (&other != &group) others |= other;
-      }
-      return IsOneSurface(sheet, group, DistanceTo(group), part, others, error);
+      return IsOneSurface(sheet, group, DistanceTo(group), part, error);
     });
     if (joined == groups.end()) {
       groups.push_back(part.clone());

@@ -14,8 +14,8 @@ using CellMask = cv::Mat1b;
 /// A bend of the device is smooth, the edge of a thing is not: cells that differ from one two
 /// cells further by more than DepthError::OfStep_m are edges. What edges enclose belongs
 /// together when its heights agree where it meets; parts with nothing but hidden or unseen cells
-/// between them are one surface, parts with cells between them that rays passed through, or that
-/// are of another level, are not.
+/// between them are one surface, parts with cells between them that rays passed through, or ended
+/// on something lower, are not.
 /// @param noise_per_m  of one pixel's inverse depth
 /// @returns masks of at least min_area_m2, largest first
 std::vector<CellMask> CutSheet(const Sheet& sheet, double min_area_m2, double noise_per_m);

@@ -63,8 +63,8 @@ SurfaceFile FindSurfaces(const DepthViews& views, double min_area_m2,
   for_each_view([&](const DepthView& view, const LocalNormals& local) {
     cloud.Add(view, views.rays(), local, file.noise_per_m);
   });
-  const std::vector<PlanePatch> patches =
-      GrowPlanes(WithoutTails(cloud.Surfels(), file.noise_per_m), kMinPatchShare * min_area_m2);
+  const std::vector<PlanePatch> patches = GrowPlanes(
+      DrawnTogether(cloud.Surfels(), file.noise_per_m), kMinPatchShare * min_area_m2);
 
   // Pixels on the planes, and from them the surfaces.
   std::vector<Sheet> sheets;

@@ -10,7 +10,8 @@ namespace eval {
 namespace {
 
 constexpr int kAxes = 6;
-const double kMinFacingCosine = std::cos(35.0 * std::numbers::pi / 180);  // tails are rough
+const double kMinFacingCosine =
+    std::cos(35.0 * std::numbers::pi / 180);  // noise makes normals rough
 constexpr int kBits = 20;  // of a coordinate of a cell, in a key that also holds the axis
 
 int NearestAxis(const Eigen::Vector3d& n) {
@@ -79,29 +80,33 @@ SurfelIndex::SurfelIndex(const std::vector<Surfel>& surfels) {
   }
 }
 
-std::vector<Surfel> WithoutTails(const std::vector<Surfel>& surfels, double noise_per_m) {
-  constexpr int kMinPointsRatio =
-      3;  // balances: halves of a sheet on a border of cells are alike
-  constexpr int kMaxReach_cells = 5;  // the work; the noise at 4 m
+std::vector<Surfel> DrawnTogether(const std::vector<Surfel>& surfels, double noise_per_m) {
+  constexpr int kMaxReach_cells = 6;  // the work; 3 sigmas of a first Kinect at 5 m
   const SurfelIndex index(surfels);
-  std::vector<Surfel> kept;
-  for (const Surfel& surfel : surfels) {
+  std::vector<Surfel> together = surfels;
+  for (Surfel& surfel : together) {
     const double max_m =
         DepthError::kSigmas * DepthError{noise_per_m}.OfPixel_m(surfel.depth_m, 1.0);
     const int reach = std::min(kMaxReach_cells, int(std::ceil(max_m / SurfelCloud::kCell_m)));
-    bool is_tail = false;
-    index.ForNear(surfel.cell, reach, [&](std::size_t j) {
+    double points = 0.0, behind_sum_m = 0.0;
+    const Surfel own = surfel;
+    index.ForNear(own.cell, reach, [&](std::size_t j) {
       const Surfel& other = surfels[j];
-      if (other.count < kMinPointsRatio * surfel.count) return;
-      if (!(other.n_g.dot(surfel.n_g) > kMinFacingCosine)) return;
-      const Eigen::Vector3d apart = surfel.p_g - other.p_g;
-      const double behind_m = apart.dot(other.n_g);
-      const double beside_m = (apart - behind_m * other.n_g).norm();
-      is_tail = is_tail || (std::abs(behind_m) < max_m && beside_m < SurfelCloud::kCell_m);
+      if (!(other.n_g.dot(own.n_g) > kMinFacingCosine)) return;
+      const Eigen::Vector3d apart = other.p_g - own.p_g;
+      const double behind_m = apart.dot(own.n_g);
+      const double beside_m = (apart - behind_m * own.n_g).norm();
+      if (!(std::abs(behind_m) < max_m &&
+            beside_m < std::max(SurfelCloud::kCell_m, max_m / 2))) {
+        return;
+      }
+      points += other.count;
+      behind_sum_m += other.count * behind_m;
     });
-    if (!is_tail) kept.push_back(surfel);
+    surfel.p_g += behind_sum_m / points * own.n_g;
+    surfel.cell = (surfel.p_g / SurfelCloud::kCell_m).array().floor().cast<int>();
   }
-  return kept;
+  return together;
 }
 
 }  // namespace eval

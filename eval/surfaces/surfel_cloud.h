@@ -66,10 +66,9 @@ class SurfelIndex {
   std::unordered_map<std::uint64_t, std::vector<std::size_t>> at_;
 };
 
-/// The surfels without the tails of noise: before and behind a far surface noise fills cells of
-/// their own, which look like thinner sheets beside it. Of surfels that face the same way and
-/// stand one behind the other, within the noise of their distance, those with far fewer points
-/// are left out.
-std::vector<Surfel> WithoutTails(const std::vector<Surfel>& surfels, double noise_per_m);
+/// The surfels, each moved along its normal to the mean of those that face the same way and
+/// stand before or behind it, within the noise of their distance: noise spreads a far wall over
+/// many cells, which look like thinner walls one behind the other.
+std::vector<Surfel> DrawnTogether(const std::vector<Surfel>& surfels, double noise_per_m);
 
 }  // namespace eval
