@@ -15,6 +15,7 @@ namespace {
 
 constexpr std::size_t kWorstFrames = 12;  // that are drawn
 constexpr const char* kTruth = "true";
+constexpr const char* kTruthOnDepth = "true-on-depth";
 
 void WriteWorstFrames(const std::string& folder, const eval::SurfaceScore& score,
                       const eval::Run& run, const eval::DepthViews& views,
@@ -61,7 +62,9 @@ void AddSurfacesOption(CLI::App& command, SurfacesOption& option) {
       "--surfaces", option.file,
       "File of `pas surfaces`: also score segments and landmarks on the large surfaces of a "
       "recording without planes of truth; needs RUN/segmentation/. `true`: on the true planes "
-      "of a simulated sequence, as far as they are as large");
+      "of a simulated sequence, as far as they are as large; `true-on-depth`: on those of "
+      "their "
+      "pixels whose depth lies on the plane");
   command
       .add_option("--surface-pictures", option.pictures,
                   "Folder for pictures of the worst frames: surfaces, and what the run made of "
@@ -89,9 +92,12 @@ std::optional<eval::SurfaceScore> ScoreOnSurfaces(const eval::Run& run,
   if (option.file.empty()) return std::nullopt;
   const eval::DepthViews views = ViewsOf(sequence, run.info.camera, option.camera);
   eval::LabelView label;
-  if (option.file == kTruth) {
-    label = [labeller = eval::TrueSurfaceLabeller(sequence, views, option.min_area_m2)](
-                const eval::DepthView& view) { return labeller.Label(view); };
+  if (option.file == kTruth || option.file == kTruthOnDepth) {
+    const auto pixels =
+        option.file == kTruth ? eval::TruePixels::kWithDepth : eval::TruePixels::kDepthOnPlane;
+    label = [&views,
+             labeller = eval::TrueSurfaceLabeller(sequence, views, option.min_area_m2, pixels)](
+                const eval::DepthView& view) { return labeller.Label(view, views.rays()); };
   } else {
     label = [&views, labeller = eval::SurfaceLabeller(eval::ReadSurfaces(option.file))](
                 const eval::DepthView& view) { return labeller.Label(view, views.rays()); };

@@ -27,7 +27,7 @@ eval::DepthViews ViewsOf(const eval::Sequence& sequence, const std::string& run_
 
 /// The options of `pas eval` that score a run on surfaces.
 struct SurfacesOption {
-  std::string file;           ///< of pas surfaces, or "true"
+  std::string file;           ///< of pas surfaces, "true" or "true-on-depth"
   std::string pictures;       ///< folder for the worst frames
   double min_area_m2 = 0.15;  ///< with "true"
   DepthCamera camera;

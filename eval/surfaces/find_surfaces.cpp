@@ -29,6 +29,8 @@ std::vector<std::size_t> Evenly(std::size_t views, std::size_t count) {
   return chosen;
 }
 
+}  // namespace
+
 double MeasureNoise(const DepthViews& views) {
   std::vector<double> noise_per_m;
   for (const std::size_t i : Evenly(views.size(), kMaxNoiseViews)) {
@@ -39,8 +41,6 @@ double MeasureNoise(const DepthViews& views) {
   std::sort(noise_per_m.begin(), noise_per_m.end());
   return std::max(kMinNoise_per_m, noise_per_m[noise_per_m.size() / 2]);
 }
-
-}  // namespace
 
 SurfaceFile FindSurfaces(const DepthViews& views, double min_area_m2,
                          const TellProgress& tell) {

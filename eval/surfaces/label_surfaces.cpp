@@ -8,6 +8,7 @@
 
 #include "eval/planes/united_faces.h"
 #include "eval/surfaces/depth_error.h"
+#include "eval/surfaces/find_surfaces.h"
 #include "eval/surfaces/local_normals.h"
 #include "eval/surfaces/sheet.h"
 #include "eval/surfaces/surfel_cloud.h"
@@ -101,7 +102,6 @@ cv::Mat1w SurfaceLabeller::Label(const DepthView& view, const cv::Mat2d& rays) c
       if (!(z > 0)) continue;
       const Eigen::Vector3d ray_c(rays(v, u)[0], rays(v, u)[1], 1.0);
       const int nv = v - v % kNormalStride, nu = u - u % kNormalStride;
-      const bool smooth = IsSmooth(local, nv, nu, noise_per_m_);
       double best_share = 1.0;
       for (std::size_t i = 0; i < surfaces_.size(); ++i) {
         const double slope = -planes_c[i].n.dot(ray_c);
@@ -109,7 +109,7 @@ cv::Mat1w SurfaceLabeller::Label(const DepthView& view, const cv::Mat2d& rays) c
         const double off_m = std::abs(planes_c[i].d - slope * z);
         const double share = off_m / (DepthError::kSigmas * error.OfPixel_m(z, slope));
         if (!(share < best_share)) continue;
-        if (smooth && !FacesAs(local.normals_c(nv, nu), planes_c[i].n)) continue;
+        if (SpeaksAgainst(local, nv, nu, z, planes_c[i].n, noise_per_m_)) continue;
         if (!surfaces_[i].area.Holds(view.T_gc * (z * ray_c))) continue;
         best_share = share;
         labels(v, u) = std::uint16_t(surfaces_[i].label);
@@ -120,8 +120,8 @@ cv::Mat1w SurfaceLabeller::Label(const DepthView& view, const cv::Mat2d& rays) c
 }
 
 TrueSurfaceLabeller::TrueSurfaceLabeller(const Sequence& sequence, const DepthViews& views,
-                                         double min_area_m2)
-    : sequence_(WithUnitedFaces(sequence)) {
+                                         double min_area_m2, TruePixels pixels)
+    : sequence_(WithUnitedFaces(sequence)), pixels_(pixels), noise_per_m_(MeasureNoise(views)) {
   if (!sequence_.scene || sequence_.plane_id_files.empty()) {
     throw io::InputError(sequence.folder.string(),
                          "has no gt/scene.json or no gt/plane_id/, so there are no true planes "
@@ -135,11 +135,24 @@ TrueSurfaceLabeller::TrueSurfaceLabeller(const Sequence& sequence, const DepthVi
   ids_ = areas.AtLeast(min_area_m2);
 }
 
-cv::Mat1w TrueSurfaceLabeller::Label(const DepthView& view) const {
+cv::Mat1w TrueSurfaceLabeller::Label(const DepthView& view, const cv::Mat2d& rays) const {
   cv::Mat1w ids = TrueIds(sequence_, view);
-  const std::set<int> counted(ids_.begin(), ids_.end());
-  ids.forEach([&](std::uint16_t& id, const int*) {
-    if (counted.count(id) == 0) id = 0;
+  const Pose T_cg = Inverse(view.T_gc);
+  std::map<int, Plane> counted_c;
+  for (const int id : ids_)
+    counted_c[id] = Transform(T_cg, sequence_.scene->FindPlane(id)->pi_g);
+  const DepthError error{noise_per_m_};
+  ids.forEach([&](std::uint16_t& id, const int* at) {
+    const auto plane_c = counted_c.find(id);
+    if (plane_c == counted_c.end()) {
+      id = 0;
+    } else if (pixels_ == TruePixels::kDepthOnPlane) {
+      const double z = view.depth_m(at[0], at[1]);
+      const cv::Vec2d& ray = rays(at[0], at[1]);
+      const double slope = -plane_c->second.n.dot(Eigen::Vector3d(ray[0], ray[1], 1.0));
+      const double max_m = DepthError::kSigmas * error.OfPixel_m(z, slope);
+      if (!(std::abs(plane_c->second.d - slope * z) < max_m)) id = 0;
+    }
   });
   return ids;
 }

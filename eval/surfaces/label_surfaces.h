@@ -29,18 +29,27 @@ class SurfaceLabeller {
   std::vector<LabelledSurface> surfaces_;
 };
 
-/// The same of a simulated sequence by its truth: gt/plane_id where there is depth, of the
-/// scored planes of which all views together show min_area_m2.
+/// Which pixels of a true plane count.
+enum class TruePixels {
+  kWithDepth,     ///< all that have depth
+  kDepthOnPlane,  ///< those whose depth lies on the plane, within its tolerance
+};
+
+/// The same of a simulated sequence by its truth, gt/plane_id, of the scored planes of which all
+/// views together show min_area_m2.
 class TrueSurfaceLabeller {
  public:
   /// @throws InputError when the sequence has no gt/scene.json or no gt/plane_id
-  TrueSurfaceLabeller(const Sequence& sequence, const DepthViews& views, double min_area_m2);
+  TrueSurfaceLabeller(const Sequence& sequence, const DepthViews& views, double min_area_m2,
+                      TruePixels pixels);
 
-  cv::Mat1w Label(const DepthView& view) const;
+  cv::Mat1w Label(const DepthView& view, const cv::Mat2d& rays) const;
   const std::vector<int>& ids() const { return ids_; }
 
  private:
   Sequence sequence_;
+  TruePixels pixels_;
+  double noise_per_m_;
   std::vector<int> ids_;
 };
 

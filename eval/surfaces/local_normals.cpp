@@ -53,6 +53,12 @@ bool Fit(const Moments& m, InverseDepthFit& fit) {
   return true;
 }
 
+/// From ray to ray, about the middle of the image.
+double RaySpacing(const cv::Mat2d& rays) {
+  const int v = rays.rows / 2, u = rays.cols / 2;
+  return rays(v, u)[0] - rays(v, u - 1)[0];
+}
+
 }  // namespace
 
 LocalNormals FitLocalNormals(const cv::Mat1f& depth_m, const cv::Mat2d& rays, int stride) {
@@ -60,7 +66,7 @@ LocalNormals FitLocalNormals(const cv::Mat1f& depth_m, const cv::Mat2d& rays, in
   const int radius = std::max(1, int(std::lround(kWindowRadius * depth_m.cols)));
   const double min_pixels = kMinFilled * (2 * radius + 1) * (2 * radius + 1);
   LocalNormals local{cv::Mat3f(depth_m.size(), cv::Vec3f(0, 0, 0)),
-                     cv::Mat1f(depth_m.size(), 0.0F)};
+                     cv::Mat1f(depth_m.size(), 0.0F), radius * RaySpacing(rays)};
   for (int v = 0; v < depth_m.rows; v += stride) {
     const int v0 = std::max(0, v - radius), v1 = std::min(depth_m.rows, v + radius + 1);
     for (int u = 0; u < depth_m.cols; u += stride) {
@@ -89,6 +95,20 @@ double NoiseOf(const LocalNormals& local) {
   const auto middle = rms.begin() + std::ptrdiff_t(rms.size() / 2);
   std::nth_element(rms.begin(), middle, rms.end());
   return *middle;
+}
+
+bool SpeaksAgainst(const LocalNormals& local, int v, int u, double depth_m,
+                   const Eigen::Vector3d& n_c, double noise_per_m) {
+  if (!IsSmooth(local, v, u, noise_per_m)) return false;
+  constexpr double kMinAngle_rad = 0.52;  // 30 deg: a bend and the rim of an edge turn it less
+  constexpr double kIndependent = 4;  // of a window's parts: noise of stereo comes in patches
+  constexpr double kSigmas = 3;       // 1 in 370 beyond
+  const double slope_sigma =
+      noise_per_m * depth_m / local.half_window / std::sqrt(kIndependent);
+  const double max_angle_rad = std::max(kMinAngle_rad, kSigmas * slope_sigma);
+  const cv::Vec3f& n = local.normals_c(v, u);
+  const double cosine = n_c.dot(Eigen::Vector3d(n[0], n[1], n[2]));
+  return std::acos(std::clamp(cosine, -1.0, 1.0)) > max_angle_rad;
 }
 
 }  // namespace eval

@@ -9,6 +9,7 @@ namespace eval {
 struct LocalNormals {
   cv::Mat3f normals_c;  ///< unit, towards the camera; zero where there is no depth
   cv::Mat1f rms_per_m;  ///< of the inverse depths about the fit; meaningless without a normal
+  double half_window = 0.0;  ///< of the windows, in x of the rays
 };
 
 /// Fits a plane to the window around each pixel that has depth. In inverse depth a plane is
@@ -28,11 +29,10 @@ inline bool IsSmooth(const LocalNormals& local, int v, int u, double noise_per_m
   return local.normals_c(v, u)[2] != 0 && local.rms_per_m(v, u) <= kMaxRms * noise_per_m;
 }
 
-/// Whether a normal that was fitted to a few pixels may be that of a plane: noise and bend turn
-/// it by some degrees, another face of the same thing by far more.
-inline bool FacesAs(const cv::Vec3f& normal_c, const Eigen::Vector3d& n_c) {
-  constexpr double kMinCosine = 0.866;  // 30 deg
-  return n_c.dot(Eigen::Vector3d(normal_c[0], normal_c[1], normal_c[2])) > kMinCosine;
-}
+/// Whether the fit at a pixel speaks against a plane: its place is smooth and faces another way.
+/// Near, noise and bend turn a normal by some degrees and another face of a thing by far more;
+/// far away noise turns it by any angle, and it says nothing.
+bool SpeaksAgainst(const LocalNormals& local, int v, int u, double depth_m,
+                   const Eigen::Vector3d& n_c, double noise_per_m);
 
 }  // namespace eval

@@ -24,7 +24,7 @@ struct PlaneInView {
 struct SeenPoint {
   Eigen::Vector3d ray_c;
   double depth_m = 0.0;
-  const cv::Vec3f* normal_c = nullptr;  ///< null where the place is not smooth
+  int v = 0, u = 0;
 };
 
 void AddPass(const PlaneInView& plane, double slope, const Eigen::Vector3d& ray_c,
@@ -36,7 +36,7 @@ void AddPass(const PlaneInView& plane, double slope, const Eigen::Vector3d& ray_
 
 /// The plane that a point lies on, and its height over it.
 void AddPoint(const SeenPoint& point, const std::vector<PlaneInView>& planes, const Pose& T_gc,
-              const DepthError& error, bool tells_passes) {
+              const LocalNormals& local, const DepthError& error, bool tells_passes) {
   const Eigen::Vector3d x_g = T_gc * (point.depth_m * point.ray_c);
   const PlaneInView* best = nullptr;
   double best_share = 1.0, best_height_m = 0.0;
@@ -48,7 +48,10 @@ void AddPoint(const SeenPoint& point, const std::vector<PlaneInView>& planes, co
     if (height_m < -max_m && tells_passes) AddPass(plane, slope, point.ray_c, T_gc);
     const double share = std::abs(height_m) / max_m;
     if (!(share < best_share)) continue;
-    if (point.normal_c != nullptr && !FacesAs(*point.normal_c, plane.pi_c.n)) continue;
+    if (SpeaksAgainst(local, point.v, point.u, point.depth_m, plane.pi_c.n,
+                      error.noise_per_m)) {
+      continue;
+    }
     const cv::Point cell = plane.sheet->CellOf(x_g);
     if (!plane.sheet->Holds(cell) || plane.sheet->near(cell) == 0) continue;
     best = &plane;
@@ -110,12 +113,10 @@ void AddToSheets(const DepthView& view, const cv::Mat2d& rays, const LocalNormal
     for (int u = 0; u < view.depth_m.cols; u += stride) {
       const double z = view.depth_m(v, u);
       if (!(z > 0)) continue;
-      const SeenPoint point{
-          {rays(v, u)[0], rays(v, u)[1], 1.0},
-          z,
-          IsSmooth(local, v, u, noise_per_m) ? &local.normals_c(v, u) : nullptr};
+      const SeenPoint point{{rays(v, u)[0], rays(v, u)[1], 1.0}, z, v, u};
       const int pass_stride = stride * kPassStride;
-      AddPoint(point, planes, view.T_gc, error, v % pass_stride == 0 && u % pass_stride == 0);
+      AddPoint(point, planes, view.T_gc, local, error,
+               v % pass_stride == 0 && u % pass_stride == 0);
     }
   }
 }

@@ -30,12 +30,12 @@ BothScores ScoreBoth(const std::string& family, std::uint64_t seed, sim::SensorK
   const eval::DepthViews views(sequence, *sequence.camera, std::nullopt);
   const eval::SurfaceFile file = eval::FindSurfaces(views, 0.15);
   const eval::SurfaceLabeller found(file);
-  const eval::TrueSurfaceLabeller truth(sequence, views, 0.15);
+  const eval::TrueSurfaceLabeller truth(sequence, views, 0.15, eval::TruePixels::kWithDepth);
   const auto score = [&](const eval::LabelView& label) {
     return eval::ScoreSurfaces(run, views, label).total;
   };
   return {score([&](const eval::DepthView& view) { return found.Label(view, views.rays()); }),
-          score([&](const eval::DepthView& view) { return truth.Label(view); })};
+          score([&](const eval::DepthView& view) { return truth.Label(view, views.rays()); })};
 }
 
 void ExpectAgreement(const BothScores& both) {
