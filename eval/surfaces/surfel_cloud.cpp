@@ -82,29 +82,34 @@ SurfelIndex::SurfelIndex(const std::vector<Surfel>& surfels) {
 
 std::vector<Surfel> DrawnTogether(const std::vector<Surfel>& surfels, double noise_per_m) {
   constexpr int kMaxReach_cells = 6;  // the work; 3 sigmas of a first Kinect at 5 m
+  constexpr double kMaxRatio =
+      1.5;  // balances: halves of a sheet on a border of cells are alike
   const SurfelIndex index(surfels);
-  std::vector<Surfel> together = surfels;
-  for (Surfel& surfel : together) {
+  std::vector<Surfel> together;
+  for (const Surfel& own : surfels) {
     const double max_m =
-        DepthError::kSigmas * DepthError{noise_per_m}.OfPixel_m(surfel.depth_m, 1.0);
+        DepthError::kSigmas * DepthError{noise_per_m}.OfPixel_m(own.depth_m, 1.0);
     const int reach = std::min(kMaxReach_cells, int(std::ceil(max_m / SurfelCloud::kCell_m)));
     double points = 0.0, behind_sum_m = 0.0;
-    const Surfel own = surfel;
+    bool is_tail = false;
     index.ForNear(own.cell, reach, [&](std::size_t j) {
       const Surfel& other = surfels[j];
       if (!(other.n_g.dot(own.n_g) > kMinFacingCosine)) return;
       const Eigen::Vector3d apart = other.p_g - own.p_g;
       const double behind_m = apart.dot(own.n_g);
       const double beside_m = (apart - behind_m * own.n_g).norm();
-      if (!(std::abs(behind_m) < max_m &&
-            beside_m < std::max(SurfelCloud::kCell_m, max_m / 2))) {
-        return;
-      }
+      if (!(std::abs(behind_m) < max_m)) return;
+      is_tail =
+          is_tail || (beside_m < SurfelCloud::kCell_m && other.count > kMaxRatio * own.count);
+      if (!(beside_m < std::max(SurfelCloud::kCell_m, max_m / 2))) return;
       points += other.count;
       behind_sum_m += other.count * behind_m;
     });
-    surfel.p_g += behind_sum_m / points * own.n_g;
-    surfel.cell = (surfel.p_g / SurfelCloud::kCell_m).array().floor().cast<int>();
+    if (is_tail) continue;
+    Surfel moved = own;
+    moved.p_g += behind_sum_m / points * own.n_g;
+    moved.cell = (moved.p_g / SurfelCloud::kCell_m).array().floor().cast<int>();
+    together.push_back(moved);
   }
   return together;
 }

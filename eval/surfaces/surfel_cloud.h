@@ -68,7 +68,8 @@ class SurfelIndex {
 
 /// The surfels, each moved along its normal to the mean of those that face the same way and
 /// stand before or behind it, within the noise of their distance: noise spreads a far wall over
-/// many cells, which look like thinner walls one behind the other.
+/// many cells, which look like thinner walls one behind the other. Those with fewer points than
+/// one before or behind them are left out.
 std::vector<Surfel> DrawnTogether(const std::vector<Surfel>& surfels, double noise_per_m);
 
 }  // namespace eval
