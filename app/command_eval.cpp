@@ -5,11 +5,13 @@
 
 #include "app/app.h"
 #include "app/console.h"
+#include "app/surfaces_option.h"
 #include "eval/formats/run.h"
 #include "eval/formats/sequence.h"
 #include "eval/report/evaluate.h"
 #include "eval/report/metrics_json.h"
 #include "eval/report/table.h"
+#include "eval/surfaces/report_surfaces.h"
 #include "io/output_file.h"
 
 namespace app {
@@ -20,6 +22,7 @@ struct EvalOptions {
   std::string truth;
   std::string output;
   bool force = false;
+  SurfacesOption surfaces;
 };
 
 /// One line for each kind of fault that the figures can live with.
@@ -46,9 +49,13 @@ int RunEval(const EvalOptions& options, const Globals& globals) {
   PrintWarnings(evaluation.run_warnings, run.folder);
   PrintWarnings(evaluation.sequence_warnings, sequence.folder);
 
-  file.Write(eval::MetricsText(evaluation));
+  const auto surfaces = ScoreOnSurfaces(run, sequence, options.surfaces, options.force);
+  nlohmann::ordered_json metrics = eval::MetricsJson(evaluation);
+  if (surfaces) eval::AddSurfaces(*surfaces, options.surfaces.file, metrics);
+  file.Write(metrics.dump(2) + "\n");
   if (!globals.quiet) {
     std::fputs(eval::MetricsTable(evaluation).c_str(), stdout);
+    if (surfaces) std::fputs(eval::SurfacesTable(*surfaces).c_str(), stdout);
     std::printf("wrote %s\n", output.c_str());
   }
   if (evaluation.trajectory.tracked > 0) return kDone;
@@ -79,6 +86,7 @@ void AddEvalCommand(CLI::App& pas, const Globals& globals, int& exit_code) {
                       "File to write, which must not exist (default: RUN/metrics.json, which "
                       "replaces an older one)");
   command->add_flag("--force", options->force, "Replace the file of -o when it exists");
+  AddSurfacesOption(*command, options->surfaces);
   command->callback(
       [options, &globals, &exit_code] { exit_code = RunEval(*options, globals); });
 }

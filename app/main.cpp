@@ -24,6 +24,7 @@ constexpr const char* kFlow =
     "  pas sim    render it: RGB-D frames, detections, exact truth        -> SEQ\n"
     "  pas slam   track the camera and map the planes; never reads truth  -> RUN\n"
     "  pas config print every setting of pas slam, as a file for --config\n"
+    "  pas surfaces   large flat surfaces of a SEQ with camera truth      -> YAML\n"
     "  pas eval   score a run against the truth                           -> metrics.json\n"
     "  pas draw   contact sheet and top view of a run                     -> pictures\n"
     "  pas export a SEQ with truth as COCO or BOP, to train detectors     -> data set\n"
@@ -41,6 +42,7 @@ constexpr app::AddCommand kCommands[] = {
     app::AddSlamCommand,        //
     app::AddConfigCommand,      //
     app::AddVocabularyCommand,  //
+    app::AddSurfacesCommand,    //
     app::AddEvalCommand,        //
     app::AddDrawCommand,        //
     app::AddExportCommand,      //

@@ -165,7 +165,8 @@ TEST_F(DrawRunFolder, OutlinesPlanesByTheirVerticesWithoutASegmentation) {
 
 TEST_F(DrawRunFolder, AsksForACameraWhenNothingElseCanPlaceThePlanes) {
   const fs::path run = MakeRun("run", Moved(), false);
-  fs::remove(seq() / "camera.yaml");
+  const fs::path camera = folder_.path() / "camera.yaml";
+  fs::rename(seq() / "camera.yaml", camera);
   try {
     DrawRun(run, {});
     FAIL() << "drawn without a camera";
@@ -173,7 +174,7 @@ TEST_F(DrawRunFolder, AsksForACameraWhenNothingElseCanPlaceThePlanes) {
     EXPECT_THAT(error.what(), HasSubstr("--camera"));
   }
   DrawOptions options;
-  options.camera = "tum1";
+  options.camera = camera;
   EXPECT_EQ(DrawRun(run, options).pictures.size(), 3u);
 }
 

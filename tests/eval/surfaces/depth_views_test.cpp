@@ -1,0 +1,75 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include "eval/surfaces/depth_registration.h"
+#include "eval/surfaces/true_pose.h"
+#include "io/atomic_file.h"
+#include "io/input_error.h"
+
+namespace eval {
+namespace {
+
+TEST(PoseAt, LiesBetweenItsNeighboursAndNowhereElse) {
+  Trajectory poses(3);
+  poses[0].stamp_s = 1.0;
+  poses[1] = {1.1,
+              {Eigen::AngleAxisd(0.2, Eigen::Vector3d::UnitZ()).toRotationMatrix(), {1, 0, 0}}};
+  poses[2].stamp_s = 1.5;
+  const auto pose = PoseAt(poses, 1.025);
+  ASSERT_TRUE(pose);
+  EXPECT_NEAR(pose->t.x(), 0.25, 1e-9);
+  EXPECT_NEAR(AngleOf(pose->R), 0.05, 1e-9);
+  EXPECT_EQ(PoseAt(poses, 1.1)->t.x(), 1.0);
+  EXPECT_FALSE(PoseAt(poses, 0.99));
+  EXPECT_FALSE(PoseAt(poses, 1.3)) << "a gap of 0.4 s";
+  EXPECT_FALSE(PoseAt(poses, 1.51));
+  EXPECT_TRUE(PoseAt(poses, 1.5));
+}
+
+DepthRegistration Kitchen() {
+  DepthRegistration registration;
+  registration.depth = {640, 480, 585, 585, 320, 240, 30, 1000, {}};
+  registration.colour = {640, 480, 525.93, 525.93, 322.43, 236.17, 30, 1000, {}};
+  registration.T_colour_depth.t = {-0.0313, 0.0065, 0};
+  return registration;
+}
+
+TEST(LayOnColour, PutsADepthWhereTheColourCameraSeesItWithoutHoles) {
+  const DepthRegistration registration = Kitchen();
+  cv::Mat1f depth_m(480, 640, 2.0F);
+  depth_m(240, 320) = 1.0F;
+  const cv::Mat1f laid_m = LayOnColour(depth_m, registration);
+  // The point in the middle, 1 m away: (-0.0313, 0.0065, 1) in the colour camera.
+  const int u = int(std::lround(322.43 - 525.93 * 0.0313));
+  const int v = int(std::lround(236.17 + 525.93 * 0.0065));
+  EXPECT_FLOAT_EQ(laid_m(v, u), 1.0F);
+  const cv::Mat1f inside = laid_m(cv::Rect(100, 60, 400, 340));
+  EXPECT_EQ(cv::countNonZero(inside), int(inside.total()) - 1)
+      << "all but the pixel that the near point hid from the depth camera";
+}
+
+TEST(ReadDepthRegistration, ReadsTwoCamerasAndTheWayBetweenThem) {
+  const auto path = std::filesystem::temp_directory_path() /
+                    ("pas_registration_" + std::to_string(::getpid()) + ".yaml");
+  const std::string cameras =
+      "depth: {width: 640, height: 480, fx: 585, fy: 585, cx: 320, cy: 240}\n"
+      "colour: {width: 640, height: 480, fx: 525.93, fy: 525.93, cx: 322.43, cy: 236.17}\n";
+  io::WriteFile(path, cameras + "translation: [-0.0313, 0.0065, 0]\nrotation: [0, 0, 0, 1]\n");
+  const DepthRegistration registration = ReadDepthRegistration(path);
+  EXPECT_EQ(registration.depth.fx, 585);
+  EXPECT_EQ(registration.colour.cy, 236.17);
+  EXPECT_EQ(registration.T_colour_depth.t.x(), -0.0313);
+
+  io::WriteFile(path, cameras + "translation: [-31.3, 6.5, 0]\n");  // in millimetres
+  try {
+    ReadDepthRegistration(path);
+    FAIL();
+  } catch (const io::InputError& error) {
+    EXPECT_THAT(error.what(), ::testing::HasSubstr(".yaml:3: translation"));
+  }
+  std::filesystem::remove(path);
+}
+
+}  // namespace
+}  // namespace eval

@@ -1,0 +1,116 @@
+#include "eval/surfaces/score_surfaces.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/eval/surfaces/boards.h"
+
+namespace eval {
+namespace {
+
+using testing::BoardWorld;
+
+/// A run on the boards' recording: every frame has the same segmentation.
+class SurfaceScoreTest : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    BoardWorld world;
+    world.boards = {{{0, 0, 2}, {-2, 0, 0}, {0, 2, 0}}};
+    sequence_ = world.Write(folder_ / "SEQ");
+    run_.folder = folder_ / "RUN";
+    std::filesystem::create_directories(run_.folder / "segmentation");
+    for (const SequenceFrame& frame : sequence_.frames) {
+      RunFrame planes;
+      planes.stamp_s = frame.stamp_s;
+      planes.planes.resize(3);
+      for (int i = 0; i < 3; ++i) planes.planes[std::size_t(i)].index = i;
+      run_.frames.push_back(planes);
+    }
+  }
+  void TearDown() override { std::filesystem::remove_all(folder_); }
+
+  /// The image in four quarters, from left to right.
+  static cv::Mat1w Quarters(int a, int b, int c, int d) {
+    cv::Mat1w labels(BoardWorld::kHeight, BoardWorld::kWidth);
+    for (int u = 0; u < labels.cols; ++u) {
+      const std::array<int, 4> values{a, b, c, d};
+      labels.col(u).setTo(values[std::size_t(4 * u / labels.cols)]);
+    }
+    return labels;
+  }
+  void Segment(const cv::Mat1w& labels) {
+    for (const SequenceFrame& frame : sequence_.frames) {
+      const std::string name = io::NumberText(frame.stamp_s) + ".png";
+      cv::Mat1b bytes;
+      labels.convertTo(bytes, CV_8U);
+      cv::imwrite((run_.folder / "segmentation" / name).string(), bytes);
+    }
+    run_.segmentation_files = StampedFiles(run_.folder / "segmentation");
+  }
+  void SetLandmark(std::size_t segment, std::optional<int> landmark) {
+    for (RunFrame& frame : run_.frames) frame.planes[segment].map_plane = landmark;
+  }
+  SurfaceScore Score(const cv::Mat1w& surfaces) const {
+    const DepthViews views(sequence_, *sequence_.camera, std::nullopt);
+    return ScoreSurfaces(run_, views, [&](const DepthView&) { return surfaces; });
+  }
+
+  std::filesystem::path folder_ = BoardWorld::Folder("score");
+  Sequence sequence_;
+  eval::Run run_;
+};
+
+TEST_F(SurfaceScoreTest, CountsSegmentsOfASurface) {
+  // A surface of three quarters; a segment of two of them, one of the third and of no surface.
+  Segment(Quarters(1, 1, 2, 2));
+  const SurfaceScore score = Score(Quarters(7, 7, 7, 0));
+  EXPECT_NEAR(score.total.whole, 2.0 / 3, 1e-9);
+  EXPECT_NEAR(score.total.covered, 1.0, 1e-9);
+  EXPECT_NEAR(score.total.purity, 1.0, 1e-9) << "pixels on no surface do not count";
+  EXPECT_EQ(score.surfaces.at(7).segments_per_frame, 2.0);
+  EXPECT_EQ(score.surfaces.at(7).no_decision, 1.0);
+  EXPECT_EQ(score.frames, BoardWorld::kFrames);
+}
+
+TEST_F(SurfaceScoreTest, CallsASegmentOverTwoSurfacesImpure) {
+  Segment(Quarters(1, 1, 1, 0));
+  const SurfaceScore score = Score(Quarters(7, 7, 8, 8));
+  EXPECT_NEAR(score.total.purity, 2.0 / 3, 1e-9);
+  EXPECT_NEAR(score.total.covered, 3.0 / 4, 1e-9);
+  EXPECT_NEAR(score.surfaces.at(8).whole, 0.5, 1e-9);
+  EXPECT_EQ(score.surfaces.at(8).segments_per_frame, 0.0);
+}
+
+TEST_F(SurfaceScoreTest, FollowsMergesOfLandmarks) {
+  Segment(Quarters(1, 2, 3, 0));
+  SetLandmark(0, 10);
+  SetLandmark(1, 11);
+  SetLandmark(2, 12);
+  run_.map.resize(3);
+  for (int i = 0; i < 3; ++i) run_.map[std::size_t(i)].id = 10 + i;
+  const SurfaceScore apart = Score(Quarters(7, 7, 7, 7));
+  EXPECT_NEAR(apart.total.coverage, 0.75, 1e-9);
+  EXPECT_NEAR(apart.total.identity, 1.0 / 3, 1e-9);
+  EXPECT_EQ(apart.total.landmarks, 3.0);
+  EXPECT_EQ(apart.total.no_decision, 0.0);
+
+  run_.map[1].merged_into = 10;
+  const SurfaceScore merged = Score(Quarters(7, 7, 7, 7));
+  EXPECT_NEAR(merged.total.identity, 2.0 / 3, 1e-9);
+  EXPECT_EQ(merged.total.landmarks, 2.0);
+
+  run_.map.pop_back();  // a candidate that never became a landmark
+  EXPECT_NEAR(Score(Quarters(7, 7, 7, 7)).total.coverage, 0.5, 1e-9);
+}
+
+TEST_F(SurfaceScoreTest, RefusesARunWithoutSegmentation) {
+  try {
+    Score(Quarters(7, 7, 7, 7));
+    FAIL();
+  } catch (const io::InputError& error) {
+    EXPECT_THAT(error.what(), ::testing::HasSubstr("--save-segmentation"));
+  }
+}
+
+}  // namespace
+}  // namespace eval
