@@ -249,7 +249,7 @@ def of_csv(data, rng):
     for value in BAD_NUMBERS:
         fields = lines[line].split(",")
         fields[rng.randrange(len(fields))] = value
-        yield f"line {line + 1} a field = {value}", BROKEN, text(lines[:line] + [",".join(fields)] + lines[line + 1:])
+        yield f"line {line + 1} a field = `{value}`", BROKEN, text(lines[:line] + [",".join(fields)] + lines[line + 1:])
 
 
 def of_png(data, rng, ids):
