@@ -13,15 +13,18 @@ namespace {
 /// The work of one frame, row by row. Its memory is kept from one frame to the next.
 class KinectRow {
  public:
-  void Start(const Rendering& rendering, const KinectModel& model, const PixelNoise& noise) {
+  void Start(const Rendering& rendering, const KinectModel& model, const PixelNoise& noise,
+             const BendField* bend) {
     rendering_ = &rendering;
     model_ = &model;
+    bend_ = bend;
     const auto width = static_cast<std::size_t>(rendering.depth_m.cols);
     noise_.Start(rendering.depth_m.cols, 1, noise, kAxialDraw, 3);
     z_.resize(width);
     theta_.resize(width);
     du_.resize(width);
     dv_.resize(width);
+    bent_.resize(bend == nullptr ? 0 : width);
   }
 
   /// Rows 0, 1, 2 and so on.
@@ -37,6 +40,11 @@ class KinectRow {
       for (int u = 0; u < width; ++u) z_[Index(u)] = lit[u] != 0 ? depth[u] : 0.0;
     }
     if (model_->lateral_scale > 0) LookBeside(v);
+    if (bend_ != nullptr) {
+      bend_->Row(v, bent_);
+      for (int u = 0; u < width; ++u)
+        z_[Index(u)] *= 1.0 + static_cast<double>(bent_[Index(u)]);
+    }
     KinectMeasured(z_.data(), theta_.data(), noise_.Row(kAxialDraw), *model_, width, out);
   }
 
@@ -66,19 +74,21 @@ class KinectRow {
 
   const Rendering* rendering_ = nullptr;
   const KinectModel* model_ = nullptr;
+  const BendField* bend_ = nullptr;
   SmoothNoiseRows noise_;
   std::vector<double> z_, theta_;
   std::vector<int> du_, dv_;
+  std::vector<float> bent_;
 };
 
 }  // namespace
 
 cv::Mat1d MeasureDepth(const Rendering& rendering, const KinectModel& model,
-                       const PixelNoise& noise) {
+                       const PixelNoise& noise, const BendField* bend) {
   thread_local KinectRow row;  // memory only
   thread_local cv::Mat1d kept;
   cv::Mat1d measured = Recycled(kept, rendering.depth_m.size());
-  row.Start(rendering, model, noise);
+  row.Start(rendering, model, noise, bend);
   for (int v = 0; v < measured.rows; ++v) row.Measure(v, measured[v]);
   return measured;
 }

@@ -3,6 +3,7 @@
 #include <opencv2/core/mat.hpp>
 
 #include "sim/camera/camera.h"
+#include "sim/sensor/depth_bend.h"
 #include "sim/sensor/noise.h"
 #include "sim/trace/frame_renderer.h"
 
@@ -28,6 +29,7 @@ struct KinectModel {
   double noise_scale = 1.0;                       ///< times sigma_z; 0 = no axial noise
   double lateral_scale = 1.0;                     ///< times sigma_L; 0 = sharp edges
   bool quantise = true;                           ///< to whole disparity steps
+  DepthBend bend = {};                            ///< none unless asked for
 };
 
 /// The numbers of sigma_z above, up to 60 degrees.
@@ -41,11 +43,11 @@ double AxialSigma(double z_m, double theta_rad);
 /// Measured depth in metres, 0 = none, before rounding to file units. Order of effects: which
 /// surface the pixel sees (lateral jitter moves edges, it does not tilt a plane), projector
 /// shadow and limits there, disparity noise (white, averaged over 3x3 pixels and scaled back to
-/// its sd), rounding to steps. The sd of the result, quantisation included, is sigma_z. The
+/// its sd), rounding to steps. `bend` comes before the limits. The sd of the result, quantisation included, is sigma_z. The
 /// noise of a pixel depends on `noise` and the pixel alone; where depth_m is 0 so is the
 /// result.
 cv::Mat1d MeasureDepth(const Rendering& rendering, const KinectModel& model,
-                       const PixelNoise& noise);
+                       const PixelNoise& noise, const BendField* bend = nullptr);
 
 /// 16-bit file units, rounded to nearest; 0 where there is no depth or it does not fit.
 cv::Mat1w EncodeDepth(const cv::Mat1d& depth_m, double depth_factor);

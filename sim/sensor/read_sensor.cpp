@@ -42,6 +42,9 @@ class Lister {
     Number("noise_scale", m.noise_scale, 0, 100, "");
     Number("lateral_scale", m.lateral_scale, 0, 20, "");
     Switch("quantise", m.quantise);
+    Number("bend_rms", m.bend.rms, 0, 0.05, "of the depth");
+    Number("bend_drift_share", m.bend.drift_share, 0, 1, "");
+    Whole("device", m.bend.device, 0, 1000000000, "");
   }
   void List(AzureModel& m) {
     Number("min_depth_m", m.min_depth_m, 0, 100, "m");

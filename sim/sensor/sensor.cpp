@@ -104,7 +104,11 @@ cv::Mat1d MeasureDepth(const Rendering& rendering, const DepthModel& model,
   const PixelNoise noise(seed, frame);
   return std::visit(
       Overloaded{[&](const IdealModel&) { return rendering.depth_m; },
-                 [&](const KinectModel& m) { return MeasureDepth(rendering, m, noise); },
+                 [&](const KinectModel& m) {
+                   if (m.bend.rms == 0) return MeasureDepth(rendering, m, noise);
+                   const BendField bend(m.bend, camera, seed, frame);
+                   return MeasureDepth(rendering, m, noise, &bend);
+                 },
                  [&](const AzureModel& m) {
                    return MeasureDepth(rendering, m, camera, noise, PixelNoise(seed, kSession));
                  },

@@ -1,0 +1,164 @@
+#include "sim/sensor/depth_bend.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <opencv2/core.hpp>
+#include <vector>
+
+#include "sim/sensor/sensor.h"
+
+namespace sim {
+namespace {
+
+constexpr double kRms = 0.0033;
+constexpr int kBlock_px = 16;
+
+/// A frontal wall that fills the view; nothing of the renderer.
+Rendering BareWall(const Camera& camera, double z_m) {
+  Rendering wall;
+  const cv::Size size(camera.width, camera.height);
+  wall.depth_m = cv::Mat1d(size, z_m);
+  wall.plane_id = cv::Mat1w(size, 1);
+  wall.object_id = cv::Mat1w(size, 1);
+  wall.incidence_cos = cv::Mat1f(size, 1.0F);
+  return wall;
+}
+
+/// Residuals of disparity (steps of 1/8 pixel) from its best plane over the image.
+cv::Mat1d Residuals(const cv::Mat1d& z, double disparity_m_steps) {
+  cv::Mat1d a(z.rows * z.cols, 3), b(z.rows * z.cols, 1), plane;
+  for (int v = 0, i = 0; v < z.rows; ++v) {
+    for (int u = 0; u < z.cols; ++u, ++i) {
+      a(i, 0) = u, a(i, 1) = v, a(i, 2) = 1;
+      b(i) = disparity_m_steps / z(v, u);
+    }
+  }
+  cv::solve(a, b, plane, cv::DECOMP_NORMAL);
+  const cv::Mat rest = b - a * plane;
+  return rest.reshape(1, z.rows).clone();
+}
+
+cv::Mat1d BlockMeans(const cv::Mat1d& residuals) {
+  cv::Mat1d means(residuals.rows / kBlock_px, residuals.cols / kBlock_px);
+  for (int j = 0; j < means.rows; ++j) {
+    for (int i = 0; i < means.cols; ++i) {
+      means(j, i) =
+          cv::mean(residuals(cv::Rect(i * kBlock_px, j * kBlock_px, kBlock_px, kBlock_px)))[0];
+    }
+  }
+  return means;
+}
+
+double Rms(const cv::Mat1d& values) {
+  return std::sqrt(values.dot(values) / static_cast<double>(values.total()));
+}
+
+KinectModel Bent(int device) {
+  KinectModel model;
+  model.bend = {.rms = kRms, .device = device};
+  return model;
+}
+
+cv::Mat1d WallResiduals(double z_m, const KinectModel& model, std::uint64_t frame) {
+  const Camera camera;
+  return Residuals(MeasureDepth(BareWall(camera, z_m), model, camera, 5, frame),
+                   model.disparity_m_steps);
+}
+
+struct Measured {
+  double z_m, pixels, blocks;  ///< metres; rms in steps
+};
+
+// Large flat surfaces of a real kitchen, single frames.
+constexpr Measured kReal[] = {
+    {1.4, 1.01, 0.83}, {1.8, 0.79, 0.57}, {2.25, 0.66, 0.45}, {3, 0.57, 0.36}};
+constexpr int kDevices = 12;
+
+TEST(DepthBend, LeavesOfAWallWhatARealKinectLeaves) {
+  for (const Measured& real : kReal) {
+    double pixels = 0, blocks = 0;
+    for (int device = 1; device <= kDevices; ++device) {
+      const cv::Mat1d rest = WallResiduals(real.z_m, Bent(device), 3);
+      pixels += Rms(rest) / kDevices;
+      blocks += Rms(BlockMeans(rest)) / kDevices;
+    }
+    EXPECT_NEAR(blocks, real.blocks, 0.25 * real.blocks) << real.z_m << " m";
+    EXPECT_NEAR(pixels, real.pixels, 0.25 * real.pixels) << real.z_m << " m";
+  }
+}
+
+TEST(DepthBend, IsMostlyThePatternOfTheDevice) {
+  double share = 0;
+  for (int device = 1; device <= kDevices; ++device) {
+    const cv::Mat1d a = BlockMeans(WallResiduals(1.5, Bent(device), 0));
+    const cv::Mat1d b = BlockMeans(WallResiduals(1.5, Bent(device), 100000));
+    share += a.dot(b) / std::sqrt(a.dot(a) * b.dot(b)) / kDevices;
+  }
+  EXPECT_GT(share, 0.65);
+  EXPECT_LT(share, 0.85);
+}
+
+double Correlation(const cv::Mat1d& p, int du, int dv) {
+  const cv::Rect all(0, 0, p.cols - du, p.rows - dv);
+  const cv::Mat1d a = p(all), b = p(all + cv::Point(du, dv));
+  return a.dot(b) / std::sqrt(a.dot(a) * b.dot(b));
+}
+
+/// Where the autocorrelation along x or y first falls below `level`, pixels; averaged over devices.
+double FallsBelow(double level, cv::Point along) {
+  constexpr int kStep_px = 8;
+  std::vector<cv::Mat1d> patterns(kDevices);
+  for (int i = 0; i < kDevices; ++i) {
+    DevicePattern(Bent(i + 1).bend, Camera{}, 0)
+        .convertTo(patterns[static_cast<std::size_t>(i)], CV_64F);
+  }
+  double before = 1;
+  for (int lag_px = kStep_px;; lag_px += kStep_px) {
+    double here = 0;
+    for (const cv::Mat1d& p : patterns)
+      here += Correlation(p, lag_px * along.x, lag_px * along.y) / kDevices;
+    if (here < level) return lag_px - kStep_px * (level - here) / (before - here);
+    before = here;
+  }
+}
+
+// The real one: 0.44 after 32 pixels and 0 after 56 along x; 0.77 after 32 and 0.28 after 112
+// along y, so 0.5 after 76.
+TEST(DepthBend, IsABandAcrossTheImageAsWideAsARealOne) {
+  EXPECT_NEAR(FallsBelow(0.44, {1, 0}), 32, 0.3 * 32);
+  EXPECT_NEAR(FallsBelow(0, {1, 0}), 56, 0.3 * 56);
+  EXPECT_NEAR(FallsBelow(0.5, {0, 1}), 76, 0.3 * 76);
+}
+
+TEST(DepthBend, IsTheSameOfADeviceWhateverTheSeedAndTheSizeOfTheImage) {
+  const DepthBend bend{.rms = kRms, .device = 7};
+  const Camera large, small = Resize(large, 320, 240);
+  const cv::Mat1f p = DevicePattern(bend, large, 1), q = DevicePattern(bend, small, 2);
+  // Pixel (u, v) of the small image lies between four of the large one.
+  for (int v = 0; v < small.height; v += 40) {
+    for (int u = 0; u < small.width; u += 40) {
+      const double mean = cv::mean(p(cv::Rect(2 * u, 2 * v, 2, 2)))[0];
+      EXPECT_NEAR(mean, static_cast<double>(q(v, u)), 0.01 * kRms);
+    }
+  }
+}
+
+TEST(DepthBend, OfSeedsAreDifferentDevices) {
+  const DepthBend bend{.rms = kRms};
+  const cv::Mat1f p = DevicePattern(bend, Camera{}, 1), q = DevicePattern(bend, Camera{}, 2);
+  EXPECT_LT(std::abs(p.dot(q)) / std::sqrt(p.dot(p) * q.dot(q)), 0.5);
+}
+
+TEST(DepthBend, BetweenItsKnotsIsTheFieldToTwoPerCent) {
+  const DepthBend bend{.rms = kRms, .drift_share = 0, .device = 3};
+  const Camera camera;
+  const cv::Mat1f exact = DevicePattern(bend, camera, 1);
+  const BendField field(bend, camera, 1, 0);
+  cv::Mat1f p(exact.size());
+  for (int v = 0; v < p.rows; ++v) field.Row(v, {p[v], static_cast<std::size_t>(p.cols)});
+  EXPECT_LT(cv::norm(p, exact, cv::NORM_L2) / cv::norm(exact, cv::NORM_L2), 0.02);
+}
+
+}  // namespace
+}  // namespace sim
