@@ -60,7 +60,7 @@ std::vector<sim::TimedPose> ReplayOf(const SimArguments& arguments,
   const double fps = options.rig.camera.fps;
   const double length_s = options.path.back().timestamp_s;
   if (!arguments.frames) options.frames = static_cast<int>(std::floor(length_s * fps)) + 1;
-  return sim::Replay(options.path, options.frames, fps);
+  return sim::Replay(options.path, options.frames, fps, arguments.trajectory);
 }
 
 sim::Recording RecordingOf(const SimArguments& arguments, const sim::Scene& scene,

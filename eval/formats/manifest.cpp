@@ -59,6 +59,7 @@ Manifest Read(const JsonRecord& root) {
   }
   expected.Text("generator");
   expected.Text("version");
+  if (manifest.synthetic) expected.Text("scene_hash");
   expected.Whole("seed");
   manifest.complete = expected.Flag("complete").value_or(true);
   if (!manifest.complete) {

@@ -24,6 +24,8 @@ void CheckHeader(Folder& folder, const std::string& file, const io::TextRecord& 
   }
 }
 
+constexpr double kMax_ms = 1e9;  // eleven days for a frame
+
 /// Numbers of a row; NaN for an empty cell, nothing when one is at fault.
 std::optional<std::vector<double>> ReadRow(Folder& folder, const std::string& file,
                                            const io::TextRecord& record,
@@ -39,9 +41,9 @@ std::optional<std::vector<double>> ReadRow(Folder& folder, const std::string& fi
     const std::string& cell = record.fields[i];
     const auto value = cell.empty() && i > 0 ? std::numeric_limits<double>::quiet_NaN()
                                              : io::ParseNumber(cell);
-    if (!value || (i > 0 && *value < 0)) {
+    if (!value || (i > 0 && (*value < 0 || *value > kMax_ms))) {
       folder.Tell(file, record.line, fmt::format("{} is `{}`", columns[i], cell),
-                  "write milliseconds, a finite number of at least 0");
+                  "write milliseconds, a number from 0 to 1e9");
       return std::nullopt;
     }
     row.push_back(*value);

@@ -59,16 +59,17 @@ std::vector<TimedPose> ReadTrajectory(const std::filesystem::path& path) {
   return poses;
 }
 
-std::vector<TimedPose> Replay(const std::vector<TimedPose>& recorded, int frames, double fps) {
+std::vector<TimedPose> Replay(const std::vector<TimedPose>& recorded, int frames, double fps,
+                              const std::string& name) {
   constexpr double kHole_s = 0.5, kRounding_s = 1e-6;
   if (!(frames >= 1)) throw std::invalid_argument("a trajectory has at least one frame");
   if (!(fps > 0 && std::isfinite(fps))) throw std::invalid_argument("fps must be positive");
   if (recorded.size() < 2) throw std::invalid_argument("a recording has two poses or more");
   const double end_s = recorded.back().timestamp_s;
   if ((frames - 1) / fps > end_s + kRounding_s) {
-    throw io::InputError("trajectory",
-                         "is " + io::NumberText(end_s) + " s long; ask for at most " +
-                             std::to_string(static_cast<int>(end_s * fps) + 1) + " frames");
+    throw io::InputError(name, "is " + io::NumberText(end_s) + " s long; ask for at most " +
+                                   std::to_string(static_cast<int>(end_s * fps) + 1) +
+                                   " frames");
   }
   std::vector<TimedPose> trajectory;
   std::size_t next = 1;
@@ -78,9 +79,8 @@ std::vector<TimedPose> Replay(const std::vector<TimedPose>& recorded, int frames
     const TimedPose &a = recorded[next - 1], &b = recorded[next];
     const double gap_s = b.timestamp_s - a.timestamp_s;
     if (gap_s > kHole_s) {
-      throw io::InputError("trajectory", "has a hole of " + io::NumberText(gap_s) +
-                                             " s after " + io::NumberText(a.timestamp_s) +
-                                             " s; cut it there");
+      throw io::InputError(name, "has a hole of " + io::NumberText(gap_s) + " s after " +
+                                     io::NumberText(a.timestamp_s) + " s; cut it there");
     }
     const double part = std::clamp((time_s - a.timestamp_s) / gap_s, 0.0, 1.0);
     trajectory.push_back({time_s, Between(a.T_wc, b.T_wc, part)});

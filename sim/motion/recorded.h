@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 #include <vector>
 
 #include "sim/motion/trajectory.h"
@@ -15,8 +16,10 @@ std::vector<TimedPose> ReadTrajectory(const std::filesystem::path& path);
 
 /// The recording sampled like MakeTrajectory: frame i at i / fps, positions and rotations
 /// interpolated between the two poses around it.
+/// @param name  of the recording, for messages
 /// @throws InputError when the recording is shorter than that or has a hole of more than half a
 ///   second; std::invalid_argument for frames or fps out of range
-std::vector<TimedPose> Replay(const std::vector<TimedPose>& recorded, int frames, double fps);
+std::vector<TimedPose> Replay(const std::vector<TimedPose>& recorded, int frames, double fps,
+                              const std::string& name = "trajectory");
 
 }  // namespace sim

@@ -228,7 +228,7 @@ class Campaign:
             words, files = self.outcome_of_plain(case.command)
             same = words == steady(said) and files == written(folder / "out")
         if case.expected == HARMLESS:
-            return NO_EFFECT if same else REFUSED_GOOD
+            return NO_EFFECT if same or self.is_accepted(case) else REFUSED_GOOD
         if code == 2:
             return REFUSED if names_cause(case, said) else UNCLEAR
         if same and case.command.name != "check":
