@@ -31,6 +31,12 @@ bool IsWholePng(std::string_view bytes) {
          bytes.starts_with(kPngSignature) && bytes.ends_with(kEnd);
 }
 
+/// A JPEG ends with its EOI marker; some writers pad the file after it.
+bool IsWholeJpeg(std::string_view bytes) {
+  while (bytes.ends_with('\0')) bytes.remove_suffix(1);
+  return bytes.starts_with("\xFF\xD8") && bytes.ends_with("\xFF\xD9");
+}
+
 /// What OpenCV makes of the bytes; empty when it fails.
 cv::Mat Decoded(std::string& bytes, int mode) {
   try {
@@ -50,11 +56,13 @@ bool IsOfSensibleSize(const std::string& bytes) {
          size->height <= kMaxImageSide_px;
 }
 
-cv::Mat Decode(Folder& folder, const std::string& file) {
+cv::Mat Decode(Folder& folder, const std::string& file, bool is_colour) {
   std::string bytes;
   if (!folder.Try(file, [&] { bytes = io::ReadFile(folder.Open(file)); })) return {};
-  if (!IsWholePng(bytes)) {
-    folder.Tell(file, 0, "is not a whole PNG file", "write the image again");
+  if (!IsWholePng(bytes) && !(is_colour && IsWholeJpeg(bytes))) {
+    folder.Tell(file, 0,
+                is_colour ? "is not a whole PNG or JPEG file" : "is not a whole PNG file",
+                "write the image again");
     return {};
   }
   if (!IsOfSensibleSize(bytes)) {
@@ -64,7 +72,8 @@ cv::Mat Decode(Folder& folder, const std::string& file) {
                 "write the image again");
     return {};
   }
-  const cv::Mat image = Decoded(bytes, cv::IMREAD_UNCHANGED);
+  const cv::Mat image =
+      Decoded(bytes, IsWholePng(bytes) ? int{cv::IMREAD_UNCHANGED} : kColourAsStored);
   if (image.empty()) folder.Tell(file, 0, "cannot be decoded", "write the image again");
   return image;
 }
@@ -72,7 +81,7 @@ cv::Mat Decode(Folder& folder, const std::string& file) {
 }  // namespace
 
 cv::Mat ReadImage(Folder& folder, const std::string& file, const ImageKind& kind) {
-  cv::Mat image = Decode(folder, file);
+  cv::Mat image = Decode(folder, file, kind.depth == CV_8U && kind.channels == 3);
   if (image.empty()) return image;
   if (image.depth() != kind.depth || image.channels() != kind.channels) {
     folder.Tell(file, 0,
@@ -122,7 +131,7 @@ cv::Mat ReadColour(const std::filesystem::path& file) {
                     "copy it again",
                     size->width, size->height, kMaxImageSide_px));
   }
-  const bool whole = !bytes.starts_with(kPngSignature) || IsWholePng(bytes);
+  const bool whole = IsWholePng(bytes) || IsWholeJpeg(bytes);
   const cv::Mat image = whole ? Decoded(bytes, kColourAsStored) : cv::Mat();
   if (image.empty()) {
     throw io::InputError(file.string(), "is damaged and cannot be decoded; copy it again");

@@ -16,8 +16,8 @@ struct ImageKind {
   cv::Size size;  ///< any when it is empty
 };
 
-/// Decodes a PNG as it is stored. One that is cut off or broken, or of another kind, is a
-/// fault, and the image is then empty.
+/// Decodes a PNG as it is stored; colour (8 bits, 3 channels) may be JPEG. One that is cut off or
+/// broken, or of another kind, is a fault, and the image is then empty.
 cv::Mat ReadImage(Folder& folder, const std::string& file, const ImageKind& kind);
 
 /// Pixels of a plane or an object; inclusive box of pixel centres.

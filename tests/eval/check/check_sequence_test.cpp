@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
 #include "eval/check/check_folder.h"
@@ -96,6 +97,22 @@ TEST_F(CheckSequenceFolder, NamesAnImageThatWasCutOff) {
   WriteText(seq() / name, bytes.substr(0, bytes.size() / 2));
   Renew();
   ExpectOnly(name, 0, "", "not a whole PNG");
+}
+
+TEST_F(CheckSequenceFolder, TakesColourAsJpegAndDepthAsNothingButPng) {
+  const std::string colour = "rgb/" + Stamp(1) + ".png", depth = "depth/" + Stamp(1) + ".png";
+  std::vector<uchar> jpeg;
+  cv::imencode(".jpg", cv::imread((seq() / colour).string()), jpeg);
+  WriteText(seq() / colour, std::string(jpeg.begin(), jpeg.end()));
+  Renew();
+  EXPECT_EQ(CheckFolder(seq()).faults.size(), 0u) << All(CheckFolder(seq()));
+  WriteText(seq() / colour, std::string(jpeg.begin(), jpeg.end() - 20));
+  Renew();
+  ExpectOnly(colour, 0, "", "is not a whole PNG or JPEG file");
+  WriteText(seq() / colour, std::string(jpeg.begin(), jpeg.end()));
+  WriteText(seq() / depth, std::string(jpeg.begin(), jpeg.end()));
+  Renew();
+  ExpectOnly(depth, 0, "", "is not a whole PNG file");
 }
 
 TEST_F(CheckSequenceFolder, NamesAnImageOfAnotherSizeThanTheCameraTells) {
