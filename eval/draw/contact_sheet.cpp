@@ -42,6 +42,14 @@ FrameScene Collect(const Run& run, const Sequence& sequence, const SequenceFrame
             scene.rgb.cols, scene.rgb.rows, camera->width, camera->height));
   }
   scene.labels = ReadSegmentation(run, frame.stamp_s);
+  if (scene.labels && scene.labels->size() != scene.rgb.size()) {
+    throw io::InputError(
+        (run.folder / "segmentation").string(),
+        fmt::format("the image at {:.6f} s is {} x {}, that of the sequence {} x {}; is "
+                    "this the right sequence?",
+                    frame.stamp_s, scene.labels->cols, scene.labels->rows, scene.rgb.cols,
+                    scene.rgb.rows));
+  }
   scene.frame = FindByStamp(run.frames, frame.stamp_s, [](const auto& f) { return f.stamp_s; });
   const StampedPose* pose =
       FindByStamp(run.trajectory, frame.stamp_s, [](const auto& p) { return p.stamp_s; });

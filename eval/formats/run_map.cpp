@@ -16,10 +16,11 @@ RunMapPlane ReadMapPlane(const JsonRecord& record) {
   plane.plane_class = optional.Text("class");
   const auto pi_w = ReadPlane(record, kRunUnit);
   if (pi_w) plane.pi_w = *pi_w;
-  plane.area_m2 = expected.Number("area", io::Interval("[0, inf)")).value_or(0.0);
+  plane.area_m2 = expected.Number("area", io::Interval("[0, 1e14)")).value_or(0.0);
   plane.observations = expected.Integer("observations", 1).value_or(0);
-  plane.first_seen = expected.Number("first_seen");
-  plane.last_seen = expected.Number("last_seen");
+  const io::Interval seconds("[0, 1e11)");  // as stamps are
+  plane.first_seen = expected.Number("first_seen", seconds);
+  plane.last_seen = expected.Number("last_seen", seconds);
   if (plane.first_seen && plane.last_seen && !(*plane.first_seen <= *plane.last_seen)) {
     record.TellAt("first_seen", "is later than last_seen", "write times in seconds, in order",
                   Severity::kFlaw);

@@ -85,8 +85,9 @@ CameraFile ChooseCamera(const std::string& choice, const std::filesystem::path& 
   if (choice == "tum1" || choice == "tum2" || choice == "tum3")
     return {TumCamera(choice.c_str()), {}};
   throw io::InputError("--camera " + choice,
-                       "no such file; expected tum1, tum2, tum3, a camera.yaml, or settings of "
-                       "ORB-SLAM or OpenCV");
+                       std::string(type == Type::directory ? "is a folder" : "no such file") +
+                           "; expected tum1, tum2, tum3, a camera.yaml, or settings of "
+                           "ORB-SLAM or OpenCV");
 }
 
 }  // namespace slam

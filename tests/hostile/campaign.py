@@ -23,7 +23,7 @@ MAX_SECONDS = 20
 MAX_BYTES = 1 << 30
 # What a library or the language says, not the program.
 RAW_TEXT = re.compile(
-    r"std::|basic_|OpenCV|cv::|what\(\)|terminate called|filesystem error|bad_alloc|[Aa]ssert|"
+    r"std::|basic_|OpenCV\(|cv::|what\(\)|terminate called|filesystem error|bad_alloc|[Aa]ssert|"
     r"json\.exception|yaml-cpp|\.(cpp|h|hpp):\d|vector::|stoi|stod|Sanitizer|__")
 CRASH, HANG, MEMORY, RAW, SILENT, UNCLEAR, REFUSED_GOOD = (
     "crash", "hang", "memory", "raw text", "silent", "unclear", "harmless, refused")
