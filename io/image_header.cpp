@@ -18,7 +18,7 @@ std::size_t BigEndian(std::string_view bytes, std::size_t at, std::size_t count)
 std::optional<ImageSize> SizeFrom(std::size_t width, std::size_t height) {
   constexpr std::size_t kMax = std::numeric_limits<int>::max();
   if (width > kMax || height > kMax) return std::nullopt;
-  return ImageSize{static_cast<int>(width), static_cast<int>(height)};
+  return ImageSize{static_cast<int>(width), static_cast<int>(height), false};
 }
 
 /// Whether a segment of a JPEG file begins a frame, and so tells its size (ITU-T T.81, B.1.1.3).
@@ -30,6 +30,9 @@ bool IsFrame(unsigned char marker) {
 
 std::optional<ImageSize> JpegSize(std::string_view bytes) {
   // Segments: 0xFF, a marker, two bytes of length (which count themselves), content.
+  constexpr unsigned char kStartOfScan = 0xDA;
+  constexpr std::string_view kEnd = "\xFF\xD9";
+  std::optional<ImageSize> size;
   std::size_t at = 2;
   while (at + 9 <= bytes.size() && bytes[at] == '\xFF') {
     const auto marker = static_cast<unsigned char>(bytes[at + 1]);
@@ -38,20 +41,28 @@ std::optional<ImageSize> JpegSize(std::string_view bytes) {
       continue;
     }
     if (IsFrame(marker)) {
-      return SizeFrom(BigEndian(bytes, at + 7, 2), BigEndian(bytes, at + 5, 2));
+      size = SizeFrom(BigEndian(bytes, at + 7, 2), BigEndian(bytes, at + 5, 2));
+    }
+    if (marker == kStartOfScan) {
+      // 0xFF is escaped inside a scan, so this is the end of the image and not of a thumbnail.
+      if (size) size->whole = bytes.find(kEnd, at) != std::string_view::npos;
+      return size;
     }
     at += 2 + BigEndian(bytes, at + 2, 2);
   }
-  return std::nullopt;
+  return size;
 }
 
 }  // namespace
 
 std::optional<ImageSize> ImageSizeOf(std::string_view bytes) {
   constexpr std::string_view kPng = "\x89PNG\r\n\x1a\n", kJpeg = "\xFF\xD8";
+  constexpr std::string_view kPngEnd = "IEND\xAE\x42\x60\x82";
   constexpr std::size_t kPngHeader_bytes = 24;  // signature, length, "IHDR", width, height
   if (bytes.starts_with(kPng) && bytes.size() >= kPngHeader_bytes) {
-    return SizeFrom(BigEndian(bytes, 16, 4), BigEndian(bytes, 20, 4));
+    auto size = SizeFrom(BigEndian(bytes, 16, 4), BigEndian(bytes, 20, 4));
+    if (size) size->whole = bytes.ends_with(kPngEnd);
+    return size;
   }
   return bytes.starts_with(kJpeg) ? JpegSize(bytes) : std::nullopt;
 }

@@ -5,9 +5,10 @@
 
 namespace io {
 
-/// Width and height of an image, pixels.
+/// Width and height of an image, pixels, and whether the mark of its end is there.
 struct ImageSize {
   int width = 0, height = 0;
+  bool whole = false;
 };
 
 /// The size that the header of a PNG or a JPEG file tells, before anything is decoded: a header

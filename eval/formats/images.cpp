@@ -31,10 +31,10 @@ bool IsWholePng(std::string_view bytes) {
          bytes.starts_with(kPngSignature) && bytes.ends_with(kEnd);
 }
 
-/// A JPEG ends with its EOI marker; some writers pad the file after it.
 bool IsWholeJpeg(std::string_view bytes) {
-  while (bytes.ends_with('\0')) bytes.remove_suffix(1);
-  return bytes.starts_with("\xFF\xD8") && bytes.ends_with("\xFF\xD9");
+  if (!bytes.starts_with("\xFF\xD8")) return false;
+  const auto size = io::ImageSizeOf(bytes);
+  return size && size->whole;
 }
 
 /// What OpenCV makes of the bytes; empty when it fails.

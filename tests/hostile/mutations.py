@@ -18,7 +18,7 @@ BAD_NUMBERS = ("nan", "inf", "-1e200", "1e200", "1e999", "abc", "0x10", "")
 OTHER_NUMBERS = ("0", "-1", "0.5", "1e6")
 
 
-def of_any_text(data, rng):
+def of_any_text(data, rng, cut_is=VALUE):
     """What a text editor, a full disk or a broken copy does."""
     yield "empty", BROKEN, b""
     yield "a BOM before it", HARMLESS, BOM + data
@@ -27,14 +27,15 @@ def of_any_text(data, rng):
     yield "binary", BROKEN, rng.randbytes(512)
     yield "zeros", BROKEN, bytes(512)
     yield "a line of 1 MB", BROKEN, b"x" * (1 << 20) + b"\n"
-    yield "not UTF-8", BROKEN, data.replace(b"a", b"\xff\xfe", 1) if b"a" in data else b"\xff" + data
+    last = max(i for i, byte in enumerate(data) if chr(byte).isalnum())  # not in a comment at the top
+    yield "not UTF-8", BROKEN, data[:last] + b"\xff\xfe" + data[last + 1:]
     yield "HTML", BROKEN, b"<!DOCTYPE html><html><body>404 Not Found</body></html>\n"
     for part in (0.2, 0.5, 0.9):
         # Cut within a line, not after one: what is left is then no record.
         cut = int(part * len(data))
         while cut > 1 and data[cut - 1:cut + 1].count(b"\n"):
             cut -= 1
-        yield f"cut off at {part:.0%}", VALUE, data[:cut]
+        yield f"cut off at {part:.0%}", cut_is, data[:cut]
     for i in range(6):
         flipped = bytearray(data)
         for _ in range(4):
@@ -61,7 +62,7 @@ def of_list(data, rng):
     yield "tabs", HARMLESS, text([line if line.startswith("#") else line.replace(" ", "\t") for line in lines])
     yield "no records", BROKEN, text([line for line in lines if line.startswith("#")])
     yield "one record", VALUE, text([lines[records[0]]])
-    yield "stamps a year later", VALUE, text(
+    yield "stamps a year later", BROKEN, text(
         [line if i not in records else shifted(line, 3.2e7) for i, line in enumerate(lines)])
     yield "reversed", VALUE, text(list(reversed(lines)))
     for _ in range(2):
@@ -190,7 +191,7 @@ def of_jsonl(data, rng, places=14):
     yield f"line {n + 1} blank", VALUE, text(lines[:n] + [""] + lines[n + 1:])
     yield f"line {n + 1} cut in half", BROKEN, text(lines[:n] + [lines[n][:len(lines[n]) // 2]] + lines[n + 1:])
     yield f"line {n + 1} a list", BROKEN, text(lines[:n] + ["[1]"] + lines[n + 1:])
-    yield "stamps a year later", VALUE, text(
+    yield "stamps a year later", BROKEN, text(
         [json.dumps({**r, "timestamp": r["timestamp"] + 3.2e7}) for r in records])
     yield "stamp of no frame", BROKEN, text(
         lines[:n] + [json.dumps({**records[n], "timestamp": records[n]["timestamp"] + 0.01})] + lines[n + 1:])
@@ -291,6 +292,7 @@ def of_format(kind, data, rng):
     if kind in ("depth", "colour", "ids"):
         yield from of_png(data, rng, kind == "ids")
         return
-    yield from of_any_text(data, rng)
+    # JSON that is cut off is never JSON; a list or YAML may end anywhere.
+    yield from of_any_text(data, rng, BROKEN if kind in ("json", "jsonl") else VALUE)
     yield from {"list": of_list, "json": of_json, "jsonl": of_jsonl, "yaml": of_yaml, "csv": of_csv,
                 "text": lambda *_: ()}[kind](data, rng)

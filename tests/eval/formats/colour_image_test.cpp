@@ -46,6 +46,12 @@ TEST_F(ColourImageFile, IsReadAsPngAndAsJpeg) {
   }
 }
 
+TEST_F(ColourImageFile, MayHaveMoreBehindTheEndOfAJpeg) {
+  EXPECT_EQ(WhyRefused(Encoded(".jpg") + "written by the camera"), "");
+  const std::string jpeg = Encoded(".jpg");
+  EXPECT_THAT(WhyRefused(jpeg.substr(0, jpeg.size() - 2)), HasSubstr("is damaged"));
+}
+
 TEST_F(ColourImageFile, IsRefusedWhenItIsNoImageOrBroken) {
   EXPECT_THAT(WhyRefused(""), HasSubstr("is no PNG or JPEG image"));
   EXPECT_THAT(WhyRefused("GIF89a and more that is none"), HasSubstr("is no PNG or JPEG image"));
