@@ -10,10 +10,11 @@
 namespace sim {
 
 enum class SensorKind {
-  kIdeal,    ///< exact depth, clean colour
-  kKinect1,  ///< structured light as the first Kinect's
-  kAzure,    ///< time of flight as the Azure Kinect's
-  kD435,     ///< active stereo as the RealSense D435's
+  kIdeal,         ///< exact depth, clean colour
+  kKinect1,       ///< the first Kinect as its recordings are
+  kKinect1Clean,  ///< its noise alone: nothing bends, all is in step and well calibrated
+  kAzure,         ///< time of flight as the Azure Kinect's
+  kD435,          ///< active stereo as the RealSense D435's
 };
 
 /// Structured-light depth, Kinect v1. Each step can be switched off alone.

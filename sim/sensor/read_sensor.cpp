@@ -10,7 +10,8 @@
 namespace sim {
 namespace {
 
-constexpr SensorKind kKinds[] = {SensorKind::kIdeal, SensorKind::kKinect1, SensorKind::kAzure,
+constexpr SensorKind kKinds[] = {SensorKind::kIdeal, SensorKind::kKinect1,
+                                 SensorKind::kKinect1Clean, SensorKind::kAzure,
                                  SensorKind::kD435};
 
 /// Calls visit(key, low, high, unit, get, set) for each parameter; get and set use file units.
@@ -85,6 +86,20 @@ class Lister {
     Number("colour_read_sigma", sensor.colour.read_sigma, 0, 1, "");
     Number("colour_corner_loss", sensor.colour.corner_loss, 0, 1, "");
     Number("colour_gamma", sensor.colour.gamma, 0.1, 10, "");
+    Number("shutter_ms", sensor.exposure.shutter_s, 0, 1000, "ms", 1e-3);
+    Number("rolling_ms", sensor.exposure.rolling_s, 0, 1000, "ms", 1e-3);
+    Number("exposure_drift_stops", sensor.exposure.drift_stops, 0, 4, "stops");
+    Number("drop_ratio", sensor.timing.drop_ratio, 0, 0.9, "");
+    Number("repeat_ratio", sensor.timing.repeat_ratio, 0, 0.9, "");
+    Number("depth_offset_ms", sensor.timing.depth_offset_s, 0, 20, "ms", 1e-3);
+    Number("stamp_jitter_ms", sensor.timing.stamp_jitter_s, 0, 1000, "ms", 1e-3);
+    Number("registration_px", sensor.calibration.registration_px, 0, 20, "pixels");
+    Number("intrinsics_error", sensor.calibration.intrinsics, 0, 0.05, "");
+    Number("lens_k1", sensor.lens.k1, -10, 10, "");
+    Number("lens_k2", sensor.lens.k2, -10, 10, "");
+    Number("lens_p1", sensor.lens.p1, -1, 1, "");
+    Number("lens_p2", sensor.lens.p2, -1, 1, "");
+    Number("lens_k3", sensor.lens.k3, -10, 10, "");
   }
 
  private:
@@ -142,8 +157,9 @@ Sensor SensorByName(const std::string& text) {
   }
   const std::string suffix = std::filesystem::path(text).extension().string();
   if (suffix == ".yaml" || suffix == ".yml") return ReadSensor(text);
-  throw io::InputError("--sensor " + text,
-                       "expected ideal, kinect1, azure, d435, or a file that ends in .yaml");
+  throw io::InputError(
+      "--sensor " + text,
+      "expected ideal, kinect1, kinect1-clean, azure, d435, or a file that ends in .yaml");
 }
 
 }  // namespace sim
