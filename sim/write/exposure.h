@@ -22,6 +22,10 @@ struct Exposure {
 /// T_wc at a time relative to the frame's own, seconds.
 using PoseAround = std::function<Pose(double)>;
 
+/// When the middle of row v, which may lie between two, is exposed, after the frame's time:
+/// rolling_s (v / (height - 1) - 1/2).
+double RowTime_s(const Exposure& exposure, double v, int height);
+
 /// Linear radiance of a frame that is exposed while the camera moves: row v is centred on
 /// rolling_s (v / (height - 1) - 1/2), by bands of 8 rows; the shutter's samples lie evenly
 /// about that. So the pose of the frame's time is that of the middle of its exposure.

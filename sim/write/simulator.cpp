@@ -1,5 +1,7 @@
 #include "sim/write/simulator.h"
 
+#include "sim/write/carried_exposure.h"
+
 namespace sim {
 
 Simulator::Simulator(const Scene& scene, const RigOptions& options)
@@ -20,12 +22,15 @@ SimulatedFrame Simulator::Simulate(int frame, const Shot& shot,
   const double delay_s = shot.DepthDelay_s();
   const bool moves = options_.exposure.Moves();
   RenderOptions view;
-  view.colour = !moves;
+  const bool carried = moves && CanCarry(renderer_);
+  view.colour = !moves || carried;
   view.time_s = shot.time_s;
   if (delay_s == 0) view.projector_offset_m = SecondEyeOffset(sensor.depth);
   thread_local Rendering rendering;  // memory only
   renderer_.Render(shot.T_wc, view, rendering);
-  if (moves)
+  if (carried)
+    CarryExposure(renderer_, options_.exposure, around, shot.T_wc, rendering);
+  else if (moves)
     rendering.radiance = ExposeMoving(renderer_, options_.exposure, around, shot.time_s);
   const double gain = ExposureGain(options_.exposure, options_.seed, shot.time_s);
   if (gain != 1.0) rendering.radiance = rendering.radiance * gain;
