@@ -78,7 +78,7 @@ TEST(StillCamera, SeesTheSameHoweverItExposes) {
 
 // An edge at z moves f v T / z pixels while the shutter is open: a ramp of that width about
 // where it is at the middle.
-void ExpectSmear(const Way& expose, double wall_m) {
+void ExpectSmear(const Way& expose, double wall_m, double tolerance) {
   const Camera camera;
   const FrameRenderer renderer(OneEdge(wall_m), camera);
   const double shutter_s = 0.04, way_px = camera.fx * kSpeed_mps * shutter_s / kBoard_m;
@@ -87,14 +87,14 @@ void ExpectSmear(const Way& expose, double wall_m) {
   EXPECT_NEAR(EdgeAt(profile), camera.cx, 0.15);
   for (int u = 0; u < camera.width; ++u) {
     const double ramp = std::clamp((u - camera.cx) / way_px + 0.5, 0.0, 1.0);
-    EXPECT_NEAR(profile[static_cast<std::size_t>(u)], ramp, 1.5 / 16) << u;
+    EXPECT_NEAR(profile[static_cast<std::size_t>(u)], ramp, tolerance) << u;
   }
 }
 
 TEST(MotionBlur, SmearsAnEdgeOverTheWayItMoves) {
-  ExpectSmear(RenderedAgain, kFarWall_m);
-  ExpectSmear(RenderedAgain, kNearWall_m);
-  ExpectSmear(RenderedOnce, kNearWall_m);
+  ExpectSmear(RenderedAgain, kFarWall_m, 1.5 / 16);
+  ExpectSmear(RenderedAgain, kNearWall_m, 1.5 / 16);
+  ExpectSmear(RenderedOnce, kNearWall_m, 0.06);  // one of 17 taps
 }
 
 // Row v is seen rolling (v / 479 - 1/2) later: its edge lies f V t / z further left.
