@@ -109,6 +109,7 @@ std::vector<Triangle> FrameRenderer::TrianglesOf(std::size_t object_index) const
 }
 
 const Camera& FrameRenderer::camera() const { return world_->standing.camera; }
+const ImageRays& FrameRenderer::image_rays() const { return world_->standing.image_rays; }
 const Scene& FrameRenderer::scene() const { return world_->scene; }
 const SceneMesh& FrameRenderer::standing() const { return world_->standing.mesh; }
 

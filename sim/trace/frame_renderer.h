@@ -8,6 +8,7 @@
 #include "sim/camera/camera.h"
 #include "sim/scene/scene.h"
 #include "sim/shapes/mesh.h"
+#include "sim/trace/image_rays.h"
 #include "sim/trace/ray_scene.h"
 
 namespace sim {
@@ -82,6 +83,7 @@ class FrameRenderer {
   std::vector<Triangle> TrianglesOf(std::size_t object_index) const;
 
   const Camera& camera() const;
+  const ImageRays& image_rays() const;
   const Scene& scene() const;
   /// Triangles and planes of what stands.
   const SceneMesh& standing() const;

@@ -1,5 +1,7 @@
 #include "sim/write/simulator.h"
 
+#include "sim/write/carried_exposure.h"
+
 namespace sim {
 
 std::uint64_t RigOptions::device() const { return DeviceOf(sensor.depth, seed); }
@@ -29,12 +31,17 @@ SimulatedFrame Simulator::Simulate(int frame, const Shot& shot,
   const bool one_view = delay_s == 0 && sensor.calibration.registration_px == 0;
   const bool moves = sensor.exposure.Moves();
   RenderOptions view;
-  view.colour = !moves;
+  const bool carried = moves && CanCarry(renderer_);
+  view.colour = !moves || carried;
   view.time_s = shot.time_s;
   if (one_view) view.projector_offset_m = SecondEyeOffset(sensor.depth);
   thread_local Rendering rendering;  // memory only
   renderer_.Render(shot.T_wc, view, rendering);
-  if (moves) rendering.radiance = ExposeMoving(renderer_, sensor.exposure, around, shot.time_s);
+  if (carried) {
+    CarryExposure(renderer_, sensor.exposure, around, shot.T_wc, rendering);
+  } else if (moves) {
+    rendering.radiance = ExposeMoving(renderer_, sensor.exposure, around, shot.time_s);
+  }
   const double gain = ExposureGain(sensor.exposure, options_.seed, shot.time_s);
   if (gain != 1.0) rendering.radiance = rendering.radiance * gain;
 
