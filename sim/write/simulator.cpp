@@ -4,7 +4,8 @@ namespace sim {
 
 Simulator::Simulator(const Scene& scene, const RigOptions& options)
     : options_(options),
-      renderer_(scene, options.camera),
+      renderer_(scene, options.camera, InstructionSet::kPinned,
+                options.sensor.colour.reflections),
       truth_(renderer_),
       detector_(scene, options.camera, options.detector, options.seed) {}
 
