@@ -5,7 +5,7 @@
 namespace sim {
 namespace {
 
-/// measured: a black display in fr1/xyz, together with kRecordedReturn of depth_loss.h
+/// measured: a black display in fr1/xyz, together with kRecordedReturn of return_loss.h
 constexpr double kScreenInfrared = 0.003;
 constexpr double kScreenGloss = 1.0;  ///< glass or plastic all over
 constexpr double kCoverGloss = 0.3;   ///< our choice: some covers are laminated, most are paper

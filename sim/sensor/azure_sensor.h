@@ -3,8 +3,8 @@
 #include <opencv2/core/mat.hpp>
 
 #include "sim/camera/camera.h"
-#include "sim/sensor/depth_loss.h"
 #include "sim/sensor/noise.h"
+#include "sim/sensor/return_loss.h"
 #include "sim/trace/frame_renderer.h"
 
 namespace sim {

@@ -4,8 +4,9 @@
 
 #include "sim/camera/camera.h"
 #include "sim/sensor/depth_bend.h"
-#include "sim/sensor/depth_loss.h"
+#include "sim/sensor/match_window.h"
 #include "sim/sensor/noise.h"
+#include "sim/sensor/return_loss.h"
 #include "sim/trace/frame_renderer.h"
 
 namespace sim {

@@ -1,3 +1,5 @@
+#include "sim/sensor/match_window.h"
+
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -5,7 +7,6 @@
 
 #include "sim/sensor/blob_noise.h"
 #include "sim/sensor/depth_effects.h"
-#include "sim/sensor/depth_loss.h"
 
 namespace sim {
 namespace {

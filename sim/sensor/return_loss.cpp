@@ -1,10 +1,11 @@
+#include "sim/sensor/return_loss.h"
+
 #include <algorithm>
 #include <cmath>
 
 #include "sim/scene/surface_light.h"
 #include "sim/sensor/blob_noise.h"
 #include "sim/sensor/depth_effects.h"
-#include "sim/sensor/depth_loss.h"
 
 namespace sim {
 namespace {

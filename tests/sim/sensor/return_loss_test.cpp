@@ -1,4 +1,4 @@
-#include "sim/sensor/depth_loss.h"
+#include "sim/sensor/return_loss.h"
 
 #include <gtest/gtest.h>
 
@@ -19,7 +19,7 @@ constexpr ReturnLoss kDim{.min_return_per_m2 = 0.012, .spread_ln = 0.2};
 constexpr ReturnLoss kSpot{.mirror_spot_rad = 0.05};
 
 /// A Kinect with nothing but what is asked for.
-KinectModel Bare(const ReturnLoss& loss, const MatchWindow& window = {}) {
+KinectModel LossyKinect(const ReturnLoss& loss, const MatchWindow& window = {}) {
   KinectModel model;
   model.projector_offset_m = 0;
   model.max_depth_m = 20;
@@ -59,11 +59,11 @@ double Share(const cv::Mat1b& missing) {
 /// Lost of a board that fills a narrow view, mean over frames.
 double ShareLost(double z_m, double theta_rad, double infrared, double gloss = 0) {
   const Rendering rendering =
-      SensorView(Board(z_m, theta_rad, infrared, gloss), NarrowCamera(), Bare(kDim));
+      SensorView(Board(z_m, theta_rad, infrared, gloss), NarrowCamera(), LossyKinect(kDim));
   double sum = 0;
   constexpr int kFrames = 40;
   for (std::uint64_t frame = 0; frame < kFrames; ++frame) {
-    sum += Share(Missing(rendering, Bare(kDim), 3, frame));
+    sum += Share(Missing(rendering, LossyKinect(kDim), 3, frame));
   }
   return sum / kFrames;
 }
@@ -98,10 +98,10 @@ TEST(ReturnLoss, HasTheAngleAtWhichARealBlackDisplayIsLost) {
 }
 
 TEST(ReturnLoss, ComesInBlobsOfSomePixels) {
-  const Rendering rendering = SensorView(Board(1, 0, 0.012), NarrowCamera(), Bare(kDim));
+  const Rendering rendering = SensorView(Board(1, 0, 0.012), NarrowCamera(), LossyKinect(kDim));
   double same = 0, count = 0;
   for (std::uint64_t frame = 0; frame < 20; ++frame) {
-    const cv::Mat1b missing = Missing(rendering, Bare(kDim), 3, frame);
+    const cv::Mat1b missing = Missing(rendering, LossyKinect(kDim), 3, frame);
     for (int v = 0; v < missing.rows; ++v) {
       for (int u = 0; u + 5 < missing.cols; ++u, ++count) {
         same += missing(v, u) == missing(v, u + 5);
@@ -113,7 +113,7 @@ TEST(ReturnLoss, ComesInBlobsOfSomePixels) {
 }
 
 TEST(ReturnLoss, DependsOnSeedAndFrameAlone) {
-  const Rendering rendering = SensorView(Board(1, 0, 0.012), NarrowCamera(), Bare(kDim));
+  const Rendering rendering = SensorView(Board(1, 0, 0.012), NarrowCamera(), LossyKinect(kDim));
   const KinectModel model = RecordedKinect();
   const auto measured = [&](std::uint64_t seed, std::uint64_t frame) {
     return MeasureDepth(rendering, model, NarrowCamera(), seed, frame).clone();
@@ -129,7 +129,7 @@ TEST(ReturnLoss, DependsOnSeedAndFrameAlone) {
 TEST(MirrorSpot, IsWhereTheFaceThrowsTheProjectorsLightAtTheCamera) {
   // A mirror at 1 m, square to the axis: half way between camera and projector, 75 mm apart along x,
   // is 37.5 mm from the axis, 19.7 px; the radius is tan(0.05) m of 525 px / m, 26 px.
-  KinectModel model = Bare(kSpot);
+  KinectModel model = LossyKinect(kSpot);
   model.projector_offset_m = 0.075;
   const Camera camera;
   const Rendering rendering = SensorView(Board(1, 0, 0.7, 1), camera, model);
@@ -141,7 +141,7 @@ TEST(MirrorSpot, IsWhereTheFaceThrowsTheProjectorsLightAtTheCamera) {
 }
 
 TEST(MirrorSpot, IsNotOnMattNorOnTurnedFaces) {
-  const KinectModel model = Bare(kSpot);
+  const KinectModel model = LossyKinect(kSpot);
   const Camera camera;
   EXPECT_EQ(Share(Missing(SensorView(Board(1, 0, 0.7, 0), camera, model), model)), 0.0);
   // The view reaches 31 degrees to each side.
@@ -169,7 +169,7 @@ int MissingInARow(double z_wall_m, const KinectModel& model) {
 TEST(MatchWindow, LosesThePixelsThatHaveTooSmallAShareOfIt) {
   // k pixels from a straight edge, 5 + k of 9 columns show the own surface.
   const auto lost = [](double share) {
-    return MissingInARow(2, Bare({}, {.side_px = 9, .min_share = share, .dots = 0}));
+    return MissingInARow(2, LossyKinect({}, {.side_px = 9, .min_share = share, .dots = 0}));
   };
   EXPECT_EQ(lost(0), 0);
   EXPECT_EQ(lost(0.6), 4);  // two edges, a pixel on both sides of each: 5/9 < 0.6 < 6/9
@@ -180,7 +180,7 @@ TEST(MatchWindow, LosesThePixelsThatHaveTooSmallAShareOfIt) {
 TEST(MatchWindow, LosesAsManyAsDotsAtRandomDo) {
   // The row k from an edge has (5 + k) / 9 of the window's area on its own side; nine dots.
   const Camera camera;
-  const KinectModel model = Bare({}, kRecordedWindow);
+  const KinectModel model = LossyKinect({}, kRecordedWindow);
   const Rendering rendering = SensorView(BoardBeforeWall(1, 2), camera, model);
   int top = 0;  // the board's first row
   while (rendering.object_id(top, camera.width / 2) != 2) ++top;
@@ -198,13 +198,13 @@ TEST(MatchWindow, LosesAsManyAsDotsAtRandomDo) {
 
 TEST(MatchWindow, SparesSurfacesThatMatchAsOne) {
   // Disparity at 1 m is 351.3 steps; 16 less is 1.0477 m.
-  const KinectModel model = Bare({}, kSharp);
+  const KinectModel model = LossyKinect({}, kSharp);
   EXPECT_EQ(MissingInARow(1.045, model), 0);
   EXPECT_EQ(MissingInARow(1.05, model), 4);
 }
 
 TEST(MatchWindow, SeesNoDotsInTheProjectorsShadow) {
-  KinectModel model = Bare({});
+  KinectModel model = LossyKinect({});
   model.projector_offset_m = 0.075;
   const int shadow = MissingInARow(2, model);
   model.window = kSharp;
