@@ -34,6 +34,11 @@ class Lister {
   }
 
   void List(IdealModel&) {}
+  void List(ReturnLoss& loss) {
+    Number("min_return_per_m2", loss.min_return_per_m2, 0, 10, "1/m^2");
+    Number("return_spread_ln", loss.spread_ln, 0, 2, "");
+    Number("mirror_spot_deg", loss.mirror_spot_rad, 0, 45, "degrees", kDegree_rad);
+  }
   void List(KinectModel& m) {
     Number("disparity_m_steps", m.disparity_m_steps, 1, 1e6, "m");
     Number("projector_offset_m", m.projector_offset_m, -1, 1, "m");
@@ -46,6 +51,11 @@ class Lister {
     Number("bend_rms", m.bend.rms, 0, 0.05, "of the depth");
     Number("bend_drift_share", m.bend.drift_share, 0, 1, "");
     Whole("device", m.bend.device, 0, 1000000000, "");
+    List(m.loss);
+    Whole("window_px", m.window.side_px, 0, 31, "pixels");
+    Number("window_min_share", m.window.min_share, 0, 1, "");
+    Number("window_dots", m.window.dots, 0, 1000, "");
+    Number("window_max_apart_steps", m.window.max_apart_steps, 0, 1e4, "steps");
   }
   void List(AzureModel& m) {
     Number("min_depth_m", m.min_depth_m, 0, 100, "m");
@@ -64,6 +74,7 @@ class Lister {
     Number("session_offset_m", m.session_offset_m, 0, 0.2, "m");
     Switch("hexagon", m.hexagon);
     Number("rounding_m", m.rounding_m, 0, 0.1, "m");
+    List(m.loss);
   }
   void List(D435Model& m) {
     Number("focal_baseline_px_m", m.focal_baseline_px_m, 0.1, 1e4, "px m");
@@ -100,6 +111,7 @@ class Lister {
     Number("lens_p1", sensor.lens.p1, -1, 1, "");
     Number("lens_p2", sensor.lens.p2, -1, 1, "");
     Number("lens_k3", sensor.lens.k3, -10, 10, "");
+    Number("colour_reflections", sensor.colour.reflections, 0, 10, "");
   }
 
  private:
@@ -110,6 +122,14 @@ std::vector<std::string> Keys(const Sensor& sensor) {
   std::vector<std::string> keys{"base", "name"};
   for (const SensorParameter& parameter : Parameters(sensor)) keys.push_back(parameter.key);
   return keys;
+}
+
+/// A window without a centre. A Kinect's may be 0: none.
+bool HasEvenWindow(const DepthModel& model) {
+  const auto* d435 = std::get_if<D435Model>(&model);
+  const auto* kinect = std::get_if<KinectModel>(&model);
+  return (d435 != nullptr && d435->window_px % 2 == 0) ||
+         (kinect != nullptr && kinect->window.side_px > 0 && kinect->window.side_px % 2 == 0);
 }
 
 Sensor SensorFrom(const io::YamlValue& file) {
@@ -124,8 +144,7 @@ Sensor SensorFrom(const io::YamlValue& file) {
     set(value);
     sensor.changed[key] = value;
   }).All(sensor);
-  const auto* d435 = std::get_if<D435Model>(&sensor.depth);
-  if (d435 != nullptr && d435->window_px % 2 == 0) {
+  if (HasEvenWindow(sensor.depth)) {
     map.At("window_px").Fail("expected an odd number of pixels, so that a window has a centre");
   }
   return sensor;

@@ -16,7 +16,6 @@ template <typename... Cases>
 Overloaded(Cases...) -> Overloaded<Cases...>;
 
 // What a recording of the first Kinect has besides noise.
-constexpr double kMeasuredBend = 0.0033;  // of depth; measured on a real kitchen
 /// Colour is read row by row over the whole frame: at 30 frames/s, its sensor (MT9M112) reads
 /// without a pause.
 constexpr double kRolling_s = 0.030;
@@ -37,11 +36,8 @@ constexpr std::uint64_t kSession = std::numeric_limits<std::uint64_t>::max();
 
 DepthModel ModelOf(SensorKind kind) {
   switch (kind) {
-    case SensorKind::kKinect1: {
-      KinectModel model;
-      model.bend.rms = kMeasuredBend;
-      return model;
-    }
+    case SensorKind::kKinect1:
+      return RecordedKinect();
     case SensorKind::kKinect1Clean:
       return KinectModel{};
     case SensorKind::kAzure:
@@ -78,6 +74,7 @@ Sensor::Sensor(SensorKind kind)
       colour(kind == SensorKind::kIdeal ? CleanColour() : ColourModel{}) {
   if (kind != SensorKind::kKinect1) return;
   // As recorded: what the recordings of the first Kinect have (docs/sensors.md).
+  colour.reflections = 1;
   exposure = {.shutter_s = kIndoorShutter_s,
               .rolling_s = kRolling_s,
               .drift_stops = kAutoExposure_stops};

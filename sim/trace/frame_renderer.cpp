@@ -41,8 +41,9 @@ int CastAlone(const RenderWorld& world, std::size_t object_index, const Pose& T_
 
 }  // namespace
 
-FrameRenderer::FrameRenderer(const Scene& scene, const Camera& camera, InstructionSet set)
-    : world_(std::make_unique<const RenderedScene>(scene, camera, set)) {}
+FrameRenderer::FrameRenderer(const Scene& scene, const Camera& camera, InstructionSet set,
+                             double reflections)
+    : world_(std::make_unique<const RenderedScene>(scene, camera, set, reflections)) {}
 FrameRenderer::~FrameRenderer() = default;
 FrameRenderer::FrameRenderer(FrameRenderer&&) noexcept = default;
 

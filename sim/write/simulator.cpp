@@ -13,7 +13,8 @@ Camera RigOptions::CameraAsTold() const {
 Simulator::Simulator(const Scene& scene, const RigOptions& options)
     : options_(options),
       depth_error_(RegistrationError(options.sensor.calibration, options.device())),
-      renderer_(scene, options.camera),
+      renderer_(scene, options.camera, InstructionSet::kPinned,
+                options.sensor.colour.reflections),
       truth_(renderer_),
       detector_(scene, options.camera, options.detector, options.seed) {}
 
