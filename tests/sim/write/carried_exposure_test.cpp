@@ -206,8 +206,9 @@ TEST(SimulatedColour, IsCarriedUnlessSomethingMovesByItself) {
     const Scene scene = Shaken(MakeScene(family, 3));
     RigOptions rig;
     rig.camera = SmallCamera();
+    rig.sensor = SensorKind::kKinect1Clean;
     rig.sensor.colour = CleanColour();
-    rig.exposure = kKinect;
+    rig.sensor.exposure = kKinect;
     const Simulator simulator(scene, rig);
     const FrameRenderer renderer(scene, rig.camera);
     const auto path = MakeTrajectory(scene, 80, 240, 1);
