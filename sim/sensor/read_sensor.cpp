@@ -34,6 +34,11 @@ class Lister {
   }
 
   void List(IdealModel&) {}
+  void List(DepthBend& bend) {
+    Number("bend_rms", bend.rms, 0, 0.05, "of the depth");
+    Number("bend_drift_share", bend.drift_share, 0, 1, "");
+    Whole("device", bend.device, 0, 1000000000, "");
+  }
   void List(ReturnLoss& loss) {
     Number("min_return_per_m2", loss.min_return_per_m2, 0, 10, "1/m^2");
     Number("return_spread_ln", loss.spread_ln, 0, 2, "");
@@ -48,9 +53,7 @@ class Lister {
     Number("noise_scale", m.noise_scale, 0, 100, "");
     Number("lateral_scale", m.lateral_scale, 0, 20, "");
     Switch("quantise", m.quantise);
-    Number("bend_rms", m.bend.rms, 0, 0.05, "of the depth");
-    Number("bend_drift_share", m.bend.drift_share, 0, 1, "");
-    Whole("device", m.bend.device, 0, 1000000000, "");
+    List(m.bend);
     List(m.loss);
     Whole("window_px", m.window.side_px, 0, 31, "pixels");
     Number("window_min_share", m.window.min_share, 0, 1, "");
@@ -75,6 +78,7 @@ class Lister {
     Switch("hexagon", m.hexagon);
     Number("rounding_m", m.rounding_m, 0, 0.1, "m");
     List(m.loss);
+    List(m.bend);
   }
   void List(D435Model& m) {
     Number("focal_baseline_px_m", m.focal_baseline_px_m, 0.1, 1e4, "px m");
@@ -90,6 +94,7 @@ class Lister {
     Number("min_depth_m", m.min_depth_m, 0, 100, "m");
     Number("max_depth_m", m.max_depth_m, 0, 100, "m");
     Number("rounding_m", m.rounding_m, 0, 0.1, "m");
+    List(m.bend);
   }
   void All(Sensor& sensor) {
     std::visit([this](auto& model) { this->List(model); }, sensor.depth);

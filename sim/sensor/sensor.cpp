@@ -66,6 +66,28 @@ const char* NameOf(SensorKind kind) {
   return "ideal";
 }
 
+DepthBend BendOf(const DepthModel& model) {
+  return std::visit(Overloaded{[](const IdealModel&) { return DepthBend{}; },
+                               [](const auto& m) { return m.bend; }},
+                    model);
+}
+
+/// What a device that bends sees instead.
+Rendering Bent(const Rendering& rendering, const DepthBend& bend, const Camera& camera,
+               std::uint64_t seed, std::uint64_t frame) {
+  if (bend.rms == 0) return rendering;
+  const BendField field(bend, camera, seed, frame);
+  std::vector<float> p(static_cast<std::size_t>(rendering.depth_m.cols));
+  Rendering bent = rendering;  // images are shared
+  bent.depth_m = rendering.depth_m.clone();
+  for (int v = 0; v < bent.depth_m.rows; ++v) {
+    field.Row(v, p);
+    double* z = bent.depth_m[v];
+    for (std::size_t u = 0; u < p.size(); ++u) z[u] *= 1.0 + static_cast<double>(p[u]);
+  }
+  return bent;
+}
+
 }  // namespace
 
 Sensor::Sensor(SensorKind kind)
@@ -85,15 +107,14 @@ Sensor::Sensor(SensorKind kind)
 }
 
 std::uint64_t DeviceOf(const DepthModel& model, std::uint64_t seed) {
-  const auto* kinect = std::get_if<KinectModel>(&model);
-  const bool named = kinect != nullptr && kinect->bend.device != 0;
-  return named ? static_cast<std::uint64_t>(kinect->bend.device) : seed;
+  const DepthBend bend = BendOf(model);
+  return bend.device != 0 ? static_cast<std::uint64_t>(bend.device) : seed;
 }
 
 cv::Mat1f DevicePattern(const DepthModel& model, const Camera& camera, std::uint64_t seed) {
-  const auto* kinect = std::get_if<KinectModel>(&model);
-  if (kinect == nullptr || kinect->bend.rms == 0) return {};
-  return DevicePattern(kinect->bend, camera, seed);
+  const DepthBend bend = BendOf(model);
+  if (bend.rms == 0) return {};
+  return DevicePattern(bend, camera, seed);
 }
 
 double SecondEyeOffset(const DepthModel& model) {
@@ -153,9 +174,13 @@ cv::Mat1d MeasureDepth(const Rendering& rendering, const DepthModel& model,
                    return MeasureDepth(rendering, m, noise, &bend);
                  },
                  [&](const AzureModel& m) {
-                   return MeasureDepth(rendering, m, camera, noise, PixelNoise(seed, kSession));
+                   return MeasureDepth(Bent(rendering, m.bend, camera, seed, frame), m, camera,
+                                       noise, PixelNoise(seed, kSession));
                  },
-                 [&](const D435Model& m) { return MeasureDepth(rendering, m, camera, noise); }},
+                 [&](const D435Model& m) {
+                   return MeasureDepth(Bent(rendering, m.bend, camera, seed, frame), m, camera,
+                                       noise);
+                 }},
       model);
 }
 

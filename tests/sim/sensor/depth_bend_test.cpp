@@ -122,6 +122,19 @@ TEST(BendReport, OfACleanSensorIsItsNoise) {
   EXPECT_EQ(report.along_x_32, 0);
 }
 
+TEST(DepthBend, BendsWhatTheOthersMeasureToo) {
+  for (const SensorKind kind : {SensorKind::kAzure, SensorKind::kD435}) {
+    Sensor sensor(kind);
+    const double flat = MeasureBend(sensor, 2).walls[0].blocks;
+    if (auto* azure = std::get_if<AzureModel>(&sensor.depth)) azure->bend.rms = kRms;
+    if (auto* d435 = std::get_if<D435Model>(&sensor.depth)) d435->bend.rms = kRms;
+    const BendReport report = MeasureBend(sensor, 2);
+    EXPECT_GT(report.walls[0].blocks, 0.5) << sensor.name;
+    EXPECT_LT(flat, 0.35) << sensor.name;
+    EXPECT_GT(report.fixed_share, 0.55) << sensor.name;
+  }
+}
+
 TEST(DepthBend, IsTheSameOfADeviceWhateverTheSeedAndTheSizeOfTheImage) {
   const DepthBend bend{.rms = kRms, .device = 7};
   const Camera large, small = Resize(large, 320, 240);
