@@ -39,7 +39,7 @@ cv::Mat3b DrawCells(const slam::WarpCells& cells, const Eigen::VectorXd& values,
     const double value = 2.0 * (u - left) / (right - left) - 1;
     page(cv::Rect(u, top, 1, 14)).setTo(ColourOf(value));
   }
-  Write(page, fmt::format("{:.1f} mm/m", -1e3 * full), {left - 90, top + 12});
+  Write(page, fmt::format("{:.1f} mm/m", -1e3 * full), {left - 110, top + 12});
   Write(page, fmt::format("{:.1f} mm/m", 1e3 * full), {right + 10, top + 12});
   return page;
 }
