@@ -129,8 +129,9 @@ TEST(DepthBend, BendsWhatTheOthersMeasureToo) {
     if (auto* azure = std::get_if<AzureModel>(&sensor.depth)) azure->bend.rms = kRms;
     if (auto* d435 = std::get_if<D435Model>(&sensor.depth)) d435->bend.rms = kRms;
     const BendReport report = MeasureBend(sensor, 2);
-    EXPECT_GT(report.walls[0].blocks, 0.5) << sensor.name;
-    EXPECT_LT(flat, 0.35) << sensor.name;
+    // Beside its own noise: 0.0033 of 351.3 m / 1.4 m is 0.83 steps.
+    EXPECT_NEAR(std::sqrt(std::pow(report.walls[0].blocks, 2) - flat * flat), 0.83, 0.25)
+        << sensor.name;
     EXPECT_GT(report.fixed_share, 0.55) << sensor.name;
   }
 }
