@@ -13,6 +13,7 @@
 #include "io/output_folder.h"
 #include "sim/motion/clearance.h"
 #include "sim/scene/names.h"
+#include "sim/sensor/bend_report.h"
 #include "sim/sensor/read_sensor.h"
 #include "sim/sensor/sensor_figure.h"
 #include "sim/sensor/sensor_report.h"
@@ -41,7 +42,7 @@ int Report(const SimArguments& arguments, bool quiet) {
   const io::OutputFile text(folder / (name + ".txt"), rules);
   const io::OutputFile figure(folder / (name + ".png"), rules);
   const sim::SensorReport report = sim::MeasureWalls(sensor);
-  const std::string table = sim::ReportTable(report);
+  const std::string table = sim::ReportTable(report) + sim::BendTable(sim::MeasureBend(sensor));
   text.Write(table);
   figure.Write(sim::EncodePng(sim::DrawReport(sensor, report)));
   if (!quiet) std::printf("%s\n%s", sensor.name.c_str(), table.c_str());
@@ -153,11 +154,13 @@ void AddMotionOptions(CLI::App& command, SimArguments& a) {
 }
 
 void AddCameraOptions(CLI::App& command, SimArguments& a) {
-  const std::string colour = "What the colour camera does", time = "Timing defects";
+  const std::string colour = "What the colour camera does (left out: as the sensor has it)",
+                    time = "Timing defects (left out: as the sensor has them)",
+                    calibration = "What calibration leaves (left out: as the sensor has it)";
   command
       .add_option("--lens", a.lens,
                   "K1 K2 P1 P2 K3: distortion of the image, depth and truth follow it; left "
-                  "out: as the scene says, else none")
+                  "out: as the scene says, else as the sensor has it")
       ->expected(5)
       ->group(colour);
   command.add_option("--shutter-ms", a.shutter_ms, "Exposure time: motion blur")
@@ -176,6 +179,11 @@ void AddCameraOptions(CLI::App& command, SimArguments& a) {
       ->check(CLI::Range(0.0, 0.9))
       ->group(time);
   command
+      .add_option("--repeat-ratio", a.repeat_ratio,
+                  "Share of frames that show the one before again")
+      ->check(CLI::Range(0.0, 0.9))
+      ->group(time);
+  command
       .add_option("--depth-offset-ms", a.depth_offset_ms,
                   "Depth is taken this much after colour; more than 20 would make no pairs")
       ->check(CLI::Range(0.0, 20.0))
@@ -183,6 +191,18 @@ void AddCameraOptions(CLI::App& command, SimArguments& a) {
   command.add_option("--stamp-jitter-ms", a.stamp_jitter_ms, "Sd of the time stamps' error")
       ->check(CLI::Range(0.0, 1000.0))
       ->group(time);
+  command
+      .add_option("--registration-px", a.registration_px,
+                  "How far depth lies beside its colour, rms over devices")
+      ->check(CLI::Range(0.0, 20.0))
+      ->group(calibration);
+  command
+      .add_option(
+          "--intrinsics-error", a.intrinsics_error,
+          "Sd of what camera.yaml tells of focal length and principal point, as a share "
+          "of the focal length; gt/camera.yaml tells them as they are")
+      ->check(CLI::Range(0.0, 0.05))
+      ->group(calibration);
 }
 
 /// How a scene is recorded. `prefix` goes before the names that a command may have taken.
@@ -196,8 +216,9 @@ void AddCaptureOptions(CLI::App& command, SimArguments& a, const std::string& pr
       ->check(CLI::Range(0.1, 1000.0));
   command.add_option(
       "--" + prefix + "sensor", a.sensor,
-      "ideal: exact depth, clean colour; kinect1: structured light; azure: time of "
-      "flight; d435: active stereo; FILE.yaml: one of these as `base:`, with "
+      "ideal: exact depth, clean colour; kinect1: structured light, as recordings of the first "
+      "Kinect are; kinect1-clean: its noise alone; azure: time of flight; d435: active stereo; "
+      "FILE.yaml: one of these as `base:`, with "
       "parameters of your own (docs/sensors.md); left out: as the scene says, else kinect1");
   const std::map<std::string, sim::DetectorKind> detectors{
       {"perfect", sim::DetectorKind::kPerfect},

@@ -25,7 +25,7 @@ struct SlamArguments {
   std::string config_file;
   bool print_config = false;
   bool loop_closing = false;
-  std::string mapping;
+  std::string mapping, depth_warp;
   std::string live_scene;
   ReadRecording recording;  ///< with live_scene
   bool no_truth = false;
@@ -102,12 +102,14 @@ int RunSlam(SlamArguments& arguments, bool quiet) {
         "needs a sequence folder, or --live SCENE.yaml, and -o RUN; see pas slam --help");
   }
   if (options.force) {
-    io::RefuseInputsInside(options.run, {options.sequence, arguments.live_scene,
-                                         arguments.config_file, options.camera});
+    io::RefuseInputsInside(options.run,
+                           {options.sequence, arguments.live_scene, arguments.config_file,
+                            options.camera, arguments.depth_warp});
   }
   options.variant = slam::VariantOf(arguments.variant);
   options.config = ConfigFrom(arguments.sensor, arguments.config_file);
   if (arguments.loop_closing) options.config.loop_closing.enabled = true;
+  if (!arguments.depth_warp.empty()) options.config.depth_warp.source = arguments.depth_warp;
   if (!arguments.mapping.empty()) {
     options.config.async_mapping = arguments.mapping == "async";
   }
@@ -184,6 +186,11 @@ void AddSlamCommand(CLI::App& pas, const Globals& globals, int& exit_code) {
                    "thread of its own; tracking never waits for an adjustment. Default: as "
                    "--config says, else sync")
       ->check(CLI::IsMember({"sync", "async"}));
+  command->add_option(
+      "--depth-warp", arguments->depth_warp,
+      "auto: learn from the planes of the run how the depth camera bends what is flat, and "
+      "take that out once it is worth it; off; or a file of pas calibrate. Default: as "
+      "--config says, else auto");
   command->add_flag("--loop-closing", arguments->loop_closing,
                     "Recognise known places and draw the map together there");
   command->add_flag("--save-segmentation", options.save_segmentation,

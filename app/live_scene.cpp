@@ -78,7 +78,7 @@ slam::RecordedFrame LiveScene::Read(int i) {
 }
 
 slam::Camera LiveScene::camera() const {
-  const sim::Camera& from = simulator_.options().camera;
+  const sim::Camera from = simulator_.options().CameraAsTold();
   slam::Camera camera;
   camera.width = from.width, camera.height = from.height;
   camera.fx = from.fx, camera.fy = from.fy, camera.cx = from.cx, camera.cy = from.cy;

@@ -24,6 +24,7 @@ constexpr const char* kFlow =
     "  pas sim    render it: RGB-D frames, detections, exact truth        -> SEQ\n"
     "  pas slam   track the camera and map the planes; never reads truth  -> RUN\n"
     "  pas config print every setting of pas slam, as a file for --config\n"
+    "  pas calibrate  how a SEQ's depth camera bends what is flat         -> YAML\n"
     "  pas surfaces   large flat surfaces of a SEQ with camera truth      -> YAML\n"
     "  pas eval   score a run against the truth                           -> metrics.json\n"
     "  pas draw   contact sheet and top view of a run                     -> pictures\n"
@@ -42,6 +43,7 @@ constexpr app::AddCommand kCommands[] = {
     app::AddSlamCommand,        //
     app::AddConfigCommand,      //
     app::AddVocabularyCommand,  //
+    app::AddCalibrateCommand,   //
     app::AddSurfacesCommand,    //
     app::AddEvalCommand,        //
     app::AddDrawCommand,        //

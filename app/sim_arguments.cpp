@@ -11,6 +11,25 @@
 #include "version.h"
 
 namespace app {
+namespace {
+
+/// What the command line says instead of the sensor.
+void SetRecordingOf(const SimArguments& arguments, sim::Sensor& sensor) {
+  const auto set = [](const std::optional<double>& told, double unit, double& value) {
+    if (told) value = unit * *told;
+  };
+  set(arguments.shutter_ms, 1e-3, sensor.exposure.shutter_s);
+  set(arguments.rolling_ms, 1e-3, sensor.exposure.rolling_s);
+  set(arguments.exposure_drift_stops, 1, sensor.exposure.drift_stops);
+  set(arguments.drop_ratio, 1, sensor.timing.drop_ratio);
+  set(arguments.repeat_ratio, 1, sensor.timing.repeat_ratio);
+  set(arguments.depth_offset_ms, 1e-3, sensor.timing.depth_offset_s);
+  set(arguments.stamp_jitter_ms, 1e-3, sensor.timing.stamp_jitter_s);
+  set(arguments.registration_px, 1, sensor.calibration.registration_px);
+  set(arguments.intrinsics_error, 1, sensor.calibration.intrinsics);
+}
+
+}  // namespace
 
 sim::Scene SceneOf(const SimArguments& arguments) {
   sim::Scene scene = sim::ReadScene(arguments.scene);
@@ -35,14 +54,11 @@ sim::SequenceOptions OptionsOf(const SimArguments& arguments, const sim::Scene& 
   rig.camera = sim::Resize(sim::CameraOf(capture), arguments.width.value_or(capture.width),
                            arguments.height.value_or(capture.height));
   rig.sensor = sim::SensorByName(arguments.sensor.value_or(capture.sensor));
-  rig.exposure.shutter_s = 1e-3 * arguments.shutter_ms;
-  rig.exposure.rolling_s = 1e-3 * arguments.rolling_ms;
-  rig.exposure.drift_stops = arguments.exposure_drift_stops;
+  SetRecordingOf(arguments, rig.sensor);
+  const bool own_lens = !k.empty() || !rig.camera.lens.IsNone();
+  if (!own_lens) rig.camera = sim::WithLens(rig.camera, rig.sensor.lens);
   rig.detector = arguments.detector;
   rig.seed = arguments.seed;
-  options.timing.drop_ratio = arguments.drop_ratio;
-  options.timing.depth_offset_s = 1e-3 * arguments.depth_offset_ms;
-  options.timing.stamp_jitter_s = 1e-3 * arguments.stamp_jitter_ms;
   options.frames = arguments.frames.value_or(capture.frames);
   options.threads = arguments.threads;
   options.version = PAS_VERSION;
@@ -66,10 +82,10 @@ std::vector<sim::TimedPose> ReplayOf(const SimArguments& arguments,
 sim::Recording RecordingOf(const SimArguments& arguments, const sim::Scene& scene,
                            sim::SequenceOptions& options) {
   if (arguments.trajectory.empty()) {
-    return sim::PlanRecording(scene, options.rig, options.timing, options.frames);
+    return sim::PlanRecording(scene, options.rig, options.frames);
   }
   const std::vector<sim::TimedPose> trajectory = ReplayOf(arguments, options);
-  return sim::PlanRecording(trajectory, options.path, options.timing, options.rig.seed);
+  return sim::PlanRecording(trajectory, options.path, options.rig);
 }
 
 }  // namespace app

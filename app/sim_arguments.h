@@ -23,8 +23,9 @@ struct SimArguments {
   std::uint64_t seed = 1;
   int threads = 0;
   std::vector<double> lens;
-  double shutter_ms = 0, rolling_ms = 0, exposure_drift_stops = 0;
-  double drop_ratio = 0, depth_offset_ms = 0, stamp_jitter_ms = 0;
+  /// What is left out is the sensor's.
+  std::optional<double> shutter_ms, rolling_ms, exposure_drift_stops, drop_ratio, repeat_ratio,
+      depth_offset_ms, stamp_jitter_ms, registration_px, intrinsics_error;
   bool resume = false, force = false, detector_report = false;
 };
 

@@ -85,6 +85,18 @@ void AddSurfacesOption(CLI::App& command, SurfacesOption& option) {
   AddRegistrationOption(command, option.camera.registration);
 }
 
+eval::LabelView LabelsOf(const std::string& file, double min_area_m2,
+                         const eval::Sequence& sequence, const eval::DepthViews& views) {
+  if (file == kTruth || file == kTruthOnDepth) {
+    const auto pixels =
+        file == kTruth ? eval::TruePixels::kWithDepth : eval::TruePixels::kDepthOnPlane;
+    return [&views, labeller = eval::TrueSurfaceLabeller(sequence, views, min_area_m2, pixels)](
+               const eval::DepthView& view) { return labeller.Label(view, views.rays()); };
+  }
+  return [&views, labeller = eval::SurfaceLabeller(eval::ReadSurfaces(file))](
+             const eval::DepthView& view) { return labeller.Label(view, views.rays()); };
+}
+
 std::optional<eval::SurfaceScore> ScoreOnSurfaces(const eval::Run& run,
                                                   const eval::Sequence& sequence,
                                                   const SurfacesOption& option, bool force) {
@@ -92,17 +104,7 @@ std::optional<eval::SurfaceScore> ScoreOnSurfaces(const eval::Run& run,
   std::optional<io::OutputFolder> pictures;  // refused before the work
   if (!option.pictures.empty()) pictures.emplace(option.pictures, kFirstPicture, force);
   const eval::DepthViews views = ViewsOf(sequence, run, option.camera);
-  eval::LabelView label;
-  if (option.file == kTruth || option.file == kTruthOnDepth) {
-    const auto pixels =
-        option.file == kTruth ? eval::TruePixels::kWithDepth : eval::TruePixels::kDepthOnPlane;
-    label = [&views,
-             labeller = eval::TrueSurfaceLabeller(sequence, views, option.min_area_m2, pixels)](
-                const eval::DepthView& view) { return labeller.Label(view, views.rays()); };
-  } else {
-    label = [&views, labeller = eval::SurfaceLabeller(eval::ReadSurfaces(option.file))](
-                const eval::DepthView& view) { return labeller.Label(view, views.rays()); };
-  }
+  const eval::LabelView label = LabelsOf(option.file, option.min_area_m2, sequence, views);
   eval::SurfaceScore score = eval::ScoreSurfaces(run, views, label);
   if (pictures) WriteWorstFrames(*pictures, score, run, views, label);
   return score;

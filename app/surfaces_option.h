@@ -34,6 +34,12 @@ struct SurfacesOption {
 };
 void AddSurfacesOption(CLI::App& command, SurfacesOption& option);
 
+/// Which surface each pixel of a view shows.
+/// @param file   of pas surfaces, "true" or "true-on-depth"
+/// @param views  has to outlive what is returned
+eval::LabelView LabelsOf(const std::string& file, double min_area_m2,
+                         const eval::Sequence& sequence, const eval::DepthViews& views);
+
 /// @param force  an older folder of pictures is replaced
 /// Scores the run and writes the pictures when they are asked for. Nothing without --surfaces.
 std::optional<eval::SurfaceScore> ScoreOnSurfaces(const eval::Run& run,

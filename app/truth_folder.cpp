@@ -55,7 +55,7 @@ void TruthFolder::Finish() {
   sim::Recording run;
   run.shots.assign(recording_.shots.begin(), recording_.shots.begin() + count_);
   run.scenes_own = recording_.scenes_own;
-  const auto fixed = sim::FixedFiles(scene_, planes_, options_.rig.camera, run.shots);
+  const auto fixed = sim::FixedFiles(scene_, planes_, options_.rig, run.shots);
   for (const auto& [file, text] : fixed) Write(file, text);
   nlohmann::ordered_json manifest = sim::PlannedManifest(scene_, run, options_, fixed);
   manifest["images"] = false;

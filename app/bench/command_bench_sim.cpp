@@ -12,8 +12,10 @@
 #include "sim/scene/read_scene.h"
 #include "sim/trace/frame_renderer.h"
 #include "sim/truth/truth_json.h"
+#include "sim/write/carried_exposure.h"
 #include "sim/write/parallel_frames.h"
 #include "sim/write/png.h"
+#include "sim/write/timing.h"
 #include "sim/write/write_sequence.h"
 
 namespace app {
@@ -139,6 +141,27 @@ Stages MeasureStages(const sim::Scene& scene, const std::vector<sim::TimedPose>&
   return sum;
 }
 
+/// Milliseconds of this thread a frame for colour by rolling shutter with motion blur, from one
+/// rendering, of a hand that moves fast.
+double ExposureCost_ms(sim::Scene scene, int frames) {
+  constexpr double kFps = 30.0;
+  constexpr int kPosesAFrame = 8;
+  constexpr sim::Exposure kExposure{.shutter_s = 0.015, .rolling_s = 0.03};
+  scene.motion.preset = "fast";
+  scene.motion.speed_m_s = scene.motion.turn_deg_s = 0;
+  const auto path =
+      sim::MakeTrajectory(scene, frames * kPosesAFrame + 1, kFps * kPosesAFrame, 1);
+  const sim::FrameRenderer renderer(scene, sim::Camera{});
+  sim::Rendering seen;
+  double seconds = 0;
+  for (int i = 0; i < frames; ++i) {
+    const auto around = [&](double later_s) { return sim::PoseAt(path, i / kFps + later_s); };
+    renderer.Render(around(0), {}, seen);
+    seconds += Cost([&] { sim::CarryExposure(renderer, kExposure, around, around(0), seen); });
+  }
+  return 1e3 * seconds / frames;
+}
+
 void PrintStages(const Stages& sum, std::size_t frames) {
   const double ms = 1e3 / static_cast<double>(frames);
   std::printf("\nms of a core a frame, one thread\n");
@@ -229,6 +252,8 @@ int RunSimBench(const SimBenchArguments& arguments) {
   }
   const std::size_t few = std::min<std::size_t>(path.size(), 20);
   PrintStages(MeasureStages(scene, {path.begin(), path.begin() + static_cast<long>(few)}), few);
+  std::printf("  rolling shutter and blur, fast hand       %6.2f ms, not in the above\n",
+              ExposureCost_ms(scene, static_cast<int>(few)));
   if (arguments.most_boxes >= 10) PrintScaling(arguments.most_boxes);
   return kDone;
 }

@@ -102,7 +102,9 @@ void PrintComebacks(const std::vector<BenchRow>& rows) {
 int RunSlamBench(const SlamBenchArguments& arguments) {
   BenchOptions bench = arguments.bench;
   slam::VariantOf(bench.variant);  // refused before anything runs
-  if (!arguments.config_file.empty()) bench.config = slam::ReadConfig(arguments.config_file);
+  if (!arguments.config_file.empty()) {
+    bench.config = slam::ReadConfig(arguments.config_file, bench.config);
+  }
   bench.config.loop_closing.enabled |= arguments.loop_closing;
   fmt::print("{:<14} {:<5} {:>6} {:>7} {:>4} {:>7} {:>7} {:>4} {:>6} {:>6} {:>6} {:>5} {:>7}\n",
              "sequence", "map", "frames", "tracked", "lost", "ate mm", "end mm", "kf", "points",

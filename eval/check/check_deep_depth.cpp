@@ -7,6 +7,7 @@
 
 #include "eval/check/check_truth_depth.h"
 #include "eval/trajectory/statistics.h"
+#include "eval/trajectory/true_pose.h"
 
 namespace eval {
 namespace {
@@ -17,14 +18,13 @@ constexpr int kWarpStride_px = 3;
 constexpr double kMinBaseline_m = 0.1, kMaxBaseline_m = 0.4, kMaxTurn_rad = 0.4;
 constexpr std::size_t kMinWarpPixels = 200;
 
-/// Median |depth - z| / sigma for the pose of index `pose`.
-double Misfit(const DeepFrames& frames, const DeepFrame& frame, std::size_t pose) {
-  const Pose& T_wc = frames.truth().poses[pose].T_wc;
+/// Median |depth - z| / sigma for a pose.
+double Misfit(const DeepFrames& frames, const DeepFrame& frame, const Pose& T_wc) {
   std::vector<double> ratios;
-  for (int v = 1; v < frame.ids.rows; v += kWarpStride_px) {
-    for (int u = 1; u < frame.ids.cols; u += kWarpStride_px) {
+  for (int v = 1; v < frame.depth_ids.rows; v += kWarpStride_px) {
+    for (int u = 1; u < frame.depth_ids.cols; u += kWarpStride_px) {
       const TruthPlane* plane =
-          frames.truth().scene->FindPlane(frame.ids.at<unsigned short>(v, u));
+          frames.truth().scene->FindPlane(frame.depth_ids.at<unsigned short>(v, u));
       const int units = frame.depth.at<unsigned short>(v, u);
       if (units == 0 || plane == nullptr) continue;
       const Vector3d ray_w = T_wc.R * frames.Ray(u, v);
@@ -41,12 +41,12 @@ double Misfit(const DeepFrames& frames, const DeepFrame& frame, std::size_t pose
 double InverseDepthAt(const DeepFrames& frames, const DeepFrame& b, double u, double v,
                       int plane) {
   const int u0 = static_cast<int>(std::floor(u)), v0 = static_cast<int>(std::floor(v));
-  if (u0 < 1 || v0 < 1 || u0 + 2 >= b.ids.cols || v0 + 2 >= b.ids.rows) return 0;
+  if (u0 < 1 || v0 < 1 || u0 + 2 >= b.depth_ids.cols || v0 + 2 >= b.depth_ids.rows) return 0;
   double sum = 0;
   for (int k = 0; k < 4; ++k) {
     const int x = u0 + (k & 1), y = v0 + (k >> 1);
     const int units = b.depth.at<unsigned short>(y, x);
-    if (b.ids.at<unsigned short>(y, x) != plane || units == 0) return 0;
+    if (b.depth_ids.at<unsigned short>(y, x) != plane || units == 0) return 0;
     const double weight =
         ((k & 1) != 0 ? u - u0 : u0 + 1 - u) * ((k >> 1) != 0 ? v - v0 : v0 + 1 - v);
     sum += weight / (units * frames.unit_m());
@@ -56,10 +56,10 @@ double InverseDepthAt(const DeepFrames& frames, const DeepFrame& b, double u, do
 
 void CompareViews(const DeepFrames& frames, const DeepFrame& a, const DeepFrame& b,
                   std::vector<double>& ratios, std::vector<double>& errors_m) {
-  const Pose T_ba = Inverse(frames.PoseOf(b)) * frames.PoseOf(a);
-  for (int v = 1; v < a.ids.rows; v += kWarpStride_px) {
-    for (int u = 1; u < a.ids.cols; u += kWarpStride_px) {
-      const int id = a.ids.at<unsigned short>(v, u);
+  const Pose T_ba = Inverse(b.T_wc_depth) * a.T_wc_depth;
+  for (int v = 1; v < a.depth_ids.rows; v += kWarpStride_px) {
+    for (int u = 1; u < a.depth_ids.cols; u += kWarpStride_px) {
+      const int id = a.depth_ids.at<unsigned short>(v, u);
       const int units = a.depth.at<unsigned short>(v, u);
       if (id == 0 || units == 0) continue;
       const Vector3d x_b = T_ba * (units * frames.unit_m() * frames.Ray(u, v));
@@ -87,9 +87,15 @@ void CheckDepthTime(Folder& folder, const DeepFrames& frames) {
         frame.pose + 1 >= frames.truth().poses.size()) {
       continue;
     }
-    const double own = Misfit(frames, frame, frame.pose),
-                 last = Misfit(frames, frame, frame.pose - 1),
-                 next = Misfit(frames, frame, frame.pose + 1);
+    // As far in time as the poses before and after are.
+    const Trajectory& poses = frames.truth().poses;
+    const double late_s = frame.depth_stamp_s - poses[frame.pose].stamp_s;
+    const auto T_wc_last = PoseAt(poses, poses[frame.pose - 1].stamp_s + late_s);
+    const auto T_wc_next = PoseAt(poses, poses[frame.pose + 1].stamp_s + late_s);
+    if (!T_wc_last || !T_wc_next) continue;
+    const double own = Misfit(frames, frame, frame.T_wc_depth),
+                 last = Misfit(frames, frame, *T_wc_last),
+                 next = Misfit(frames, frame, *T_wc_next);
     if (!(own >= 0) || !(last >= 0) || !(next >= 0)) continue;
     ++judged;
     if (last < 0.97 * own && last <= next) ++before;
@@ -112,7 +118,7 @@ void CheckWarp(Folder& folder, const DeepFrames& frames) {
   for (std::size_t i = 0; i < list.size(); ++i) {
     for (std::size_t j = i + 1; j < list.size(); ++j) {
       if (list[i].depth.empty() || list[j].depth.empty()) continue;
-      const Pose T_ij = Inverse(frames.PoseOf(list[i])) * frames.PoseOf(list[j]);
+      const Pose T_ij = Inverse(list[i].T_wc_depth) * list[j].T_wc_depth;
       const double far_m = T_ij.t.norm();
       if (far_m < kMinBaseline_m) continue;
       if (far_m > kMaxBaseline_m || AngleOf(T_ij.R) > kMaxTurn_rad) {

@@ -24,9 +24,9 @@ std::optional<std::string> HashOf(const fs::path& file) {
 
 // Files that the format knows, of those in the folder; whatever else lies there is ignored.
 bool IsPartOfFormat(const std::string& file) {
-  for (const char* name :
-       {"rgb.txt", "depth.txt", "associations.txt", "groundtruth.txt", "camera.yaml",
-        "detections.jsonl", "gt/scene.json", "gt/frames.jsonl"}) {
+  for (const char* name : {"rgb.txt", "depth.txt", "associations.txt", "groundtruth.txt",
+                           "camera.yaml", "detections.jsonl", "gt/scene.json",
+                           "gt/frames.jsonl", "gt/camera.yaml", "gt/depth_warp.png"}) {
     if (file == name) return true;
   }
   for (const char* folder : {"rgb/", "depth/", "gt/plane_id/", "gt/object_id/"}) {

@@ -51,6 +51,7 @@ CheckReport CheckSequence(const std::filesystem::path& path, bool deep) {
   CheckDetections(folder, truth.rgb, truth.size);
   if (folder.Has("gt/scene.json")) truth.scene = ReadSceneTruth(folder);
   truth.sensor = CheckManifest(folder, static_cast<int>(truth.rgb.size()));
+  if (folder.Has(kTrueCamera)) truth.camera = ReadCamera(folder, kTrueCamera);
   CheckTruthFrames(folder, truth);
   if (deep) CheckDeep(folder, truth);
   return {"sequence", std::move(folder.faults()), static_cast<int>(folder.opened().size()),

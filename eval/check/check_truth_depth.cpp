@@ -7,10 +7,12 @@
 #include <functional>
 #include <map>
 #include <opencv2/calib3d.hpp>
+#include <opencv2/imgproc.hpp>
 
 #include "eval/formats/images.h"
 #include "eval/formats/stamps.h"
 #include "eval/trajectory/statistics.h"
+#include "eval/trajectory/true_pose.h"
 
 namespace eval {
 
@@ -29,21 +31,44 @@ std::vector<Vector3d> RaysOf(const Camera& camera, const std::vector<cv::Point2d
   return rays;
 }
 
+namespace {
+
+constexpr double kMaxTilt_rad = 1.4;  // beyond, sensors measure nothing to rely on
+constexpr double kBend = 0.0033;      // of depth; docs/sensors.md
+constexpr double kMisplaced_rad =
+    0.0035;                               // 0.2 deg, 1.9 px of 525: registration and intrinsics
+constexpr double kRimShare = 12.0 / 640;  // of the width: a turn of 70 deg/s in 20 ms, and 2 px
+
+}  // namespace
+
 double DepthSigma(const std::string& sensor, double z, double tilt_rad, double unit_m) {
   if (sensor == "ideal") return unit_m;
-  if (sensor != "kinect1") return 0.002 + 0.01 * z + unit_m;
+  const bool as_recorded = sensor == "kinect1";
+  if (!as_recorded && sensor != "kinect1-clean") return 0.002 + 0.01 * z + unit_m;
   const double axial = 0.0012 + 0.0019 * (z - 0.4) * (z - 0.4);
   const double tilted = tilt_rad > M_PI / 3 ? 0.0001 / std::sqrt(z) *
                                                   std::pow(tilt_rad / (M_PI / 2 - tilt_rad), 2)
                                             : 0.0;
-  return axial + tilted + unit_m;
+  const double noise = axial + tilted + unit_m;
+  if (!as_recorded) return noise;
+  const double beside = kMisplaced_rad * z * std::tan(std::min(tilt_rad, kMaxTilt_rad));
+  return std::hypot(noise, kBend * z, beside);
+}
+
+cv::Mat InnerIds(const cv::Mat& ids) {
+  const int side = 2 * static_cast<int>(std::ceil(kRimShare * ids.cols)) + 1;
+  const cv::Mat window = cv::Mat::ones(side, side, CV_8U);
+  cv::Mat lowest, highest, inner = ids.clone();
+  cv::erode(ids, lowest, window);
+  cv::dilate(ids, highest, window);
+  inner.setTo(0, lowest != highest);
+  return inner;
 }
 
 namespace {
 
 constexpr int kDepthStride_px = 4;            // every sixteenth pixel: 19,200 of a VGA image
 constexpr std::size_t kMinDepthPixels = 100;  // fewer say nothing about a median
-constexpr double kMaxTilt_rad = 1.4;          // beyond, sensors measure nothing to rely on
 
 /// A measured depth with the plane and the ray it belongs to.
 struct Sample {
@@ -127,31 +152,29 @@ std::string Explain(const std::vector<Sample>& samples, const Pose& T_wc,
 }  // namespace
 
 TruthDepthCheck::TruthDepthCheck(Folder& folder, const SequenceTruth& truth)
-    : folder_(folder), truth_(truth), pose_stamps_(StampsOf(truth.poses)) {}
+    : folder_(folder), truth_(truth) {}
 
 void TruthDepthCheck::Frame(double stamp_s, const cv::Mat& plane_ids) {
   if (!truth_.camera || !truth_.scene || plane_ids.empty()) return;
   const auto pair = std::find_if(
       truth_.pairs.begin(), truth_.pairs.end(),
       [&](const SequenceFrame& p) { return std::abs(p.stamp_s - stamp_s) <= kSameInstant_s; });
-  // A depth image of another instant shows another picture than the id image.
-  if (pair == truth_.pairs.end() || std::abs(pair->depth_stamp_s - stamp_s) > kSameInstant_s) {
-    return;
-  }
-  const auto pose = NearestStamp(pose_stamps_, stamp_s, kSameInstant_s);
+  if (pair == truth_.pairs.end()) return;
+  const auto T_wc = PoseAt(truth_.poses, pair->depth_stamp_s);
   Folder again(folder_.root(), OnFault::kCollect);  // its faults have been told
   const cv::Mat depth = ReadImage(again, pair->depth, {CV_16U, 1, plane_ids.size()});
-  if (!pose || depth.empty()) return;
+  if (!T_wc || depth.empty()) return;
 
-  const std::vector<Sample> samples = Samples(depth, plane_ids, *truth_.scene, *truth_.camera);
-  const Pose& T_wc = truth_.poses[*pose].T_wc;
+  const bool same_instant = std::abs(pair->depth_stamp_s - stamp_s) <= kSameInstant_s;
+  const std::vector<Sample> samples = Samples(
+      depth, same_instant ? plane_ids : InnerIds(plane_ids), *truth_.scene, *truth_.camera);
   const double unit_m = 1 / truth_.camera->depth_factor;
   const auto as_told = [](const Sample& s) { return s.depth_m; };
-  const Agreement found = Compare(samples, T_wc, as_told, truth_.sensor, unit_m);
+  const Agreement found = Compare(samples, *T_wc, as_told, truth_.sensor, unit_m);
   if (found.pixels == 0) return;
   Verdict verdict{pair->depth, found.error_m, !(found.ratio <= 1), ""};
   if (verdict.bad) {
-    verdict.explanation = Explain(samples, T_wc, found, truth_.sensor, unit_m);
+    verdict.explanation = Explain(samples, *T_wc, found, truth_.sensor, unit_m);
   }
   verdicts_.push_back(verdict);
 }

@@ -5,6 +5,7 @@
 #include "eval/check/check_truth_depth.h"
 #include "eval/formats/images.h"
 #include "eval/formats/stamps.h"
+#include "eval/trajectory/true_pose.h"
 
 namespace eval {
 
@@ -40,13 +41,23 @@ void DeepFrames::Load(const Folder& folder) {
     frame.pose = *pose;
     frame.ids = Read(folder, frame.plane_file);
     const auto pair =
-        std::find_if(truth_.pairs.begin(), truth_.pairs.end(), [&](const SequenceFrame& p) {
-          return p.stamp_s == image.stamp_s &&
-                 std::abs(p.depth_stamp_s - image.stamp_s) <= kSameInstant_s;
-        });
-    if (pair != truth_.pairs.end()) frame.depth = Read(folder, pair->depth);
-    if (!frame.ids.empty()) frames_.push_back(std::move(frame));
+        std::find_if(truth_.pairs.begin(), truth_.pairs.end(),
+                     [&](const SequenceFrame& p) { return p.stamp_s == image.stamp_s; });
+    if (frame.ids.empty()) continue;
+    if (pair != truth_.pairs.end()) AddDepth(folder, *pair, frame);
+    frames_.push_back(std::move(frame));
   }
+}
+
+void DeepFrames::AddDepth(const Folder& folder, const SequenceFrame& pair,
+                          DeepFrame& frame) const {
+  const auto T_wc = PoseAt(truth_.poses, pair.depth_stamp_s);
+  if (!T_wc) return;
+  frame.depth = Read(folder, pair.depth);
+  frame.depth_stamp_s = pair.depth_stamp_s;
+  frame.T_wc_depth = *T_wc;
+  const bool same_instant = std::abs(pair.depth_stamp_s - pair.stamp_s) <= kSameInstant_s;
+  frame.depth_ids = same_instant ? frame.ids : InnerIds(frame.ids);
 }
 
 cv::Mat DeepFrames::Read(const Folder& folder, const std::string& file) const {

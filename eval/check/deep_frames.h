@@ -13,7 +13,12 @@ struct DeepFrame {
   std::string name, plane_file;
   double stamp_s = 0;
   std::size_t pose = 0;  ///< index into SequenceTruth::poses
-  cv::Mat ids, depth;    ///< CV_16U; depth is empty when there is none of the same instant
+  cv::Mat ids;           ///< CV_16U
+  /// CV_16U; empty when there is none, or no pose of its time.
+  cv::Mat depth;
+  double depth_stamp_s = 0;
+  cv::Mat depth_ids;  ///< the planes that `depth` shows: all, or InnerIds
+  Pose T_wc_depth;    ///< when depth was taken
 };
 
 /// Up to 24 frames with truth, spread over the sequence, and the rays of their pixels.
@@ -37,6 +42,7 @@ class DeepFrames {
 
  private:
   void Load(const Folder& folder);
+  void AddDepth(const Folder& folder, const SequenceFrame& pair, DeepFrame& frame) const;
   cv::Mat Read(const Folder& folder, const std::string& file) const;
 
   const SequenceTruth& truth_;

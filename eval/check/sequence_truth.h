@@ -19,8 +19,8 @@ namespace eval {
 struct SequenceTruth {
   std::vector<ListedImage> rgb;
   std::vector<SequenceFrame> pairs;
-  Trajectory poses;  ///< groundtruth.txt
-  std::optional<Camera> camera;
+  Trajectory poses;              ///< groundtruth.txt
+  std::optional<Camera> camera;  ///< that truth is of
   std::optional<SceneTruth> scene;
   cv::Size size;
   std::string sensor;  ///< as manifest.json names it; empty when unknown

@@ -95,7 +95,7 @@ class BopScene {
     const std::string image = fmt::format("{:06}.png", im_id);
     folder_.Write(place_ / "rgb" / image, ReadColourBytes(sequence_, frame.rgb));
     folder_.Write(place_ / "depth" / image, ReadImageBytes(sequence_, frame.depth));
-    const Camera& camera = *sequence_.camera;
+    const Camera& camera = *sequence_.true_camera;
     const Pose T_cg = Inverse(T_gc);
     const std::string key = std::to_string(im_id);
     cameras_[key] = {
@@ -137,7 +137,7 @@ class BopScene {
       }
     }
     if (seen.count == 0) return;
-    Silhouette whole = BoxSilhouette(*sequence_.camera, T_co, object.size_m);
+    Silhouette whole = BoxSilhouette(*sequence_.true_camera, T_co, object.size_m);
     int valid = 0;
     for (int v = 0; v < ids.rows; ++v) {
       for (int u = 0; u < ids.cols; ++u) {
@@ -175,11 +175,11 @@ class BopScene {
 };
 
 void RefuseLens(const Sequence& sequence) {
-  if (!sequence.camera->distorted()) return;
+  if (!sequence.true_camera->distorted()) return;
   throw io::InputError(
       (sequence.folder / "camera.yaml").string(),
       "has lens distortion, which BOP's camera cannot say: poses would miss their "
-      "masks. Record without --lens, or export to COCO, which needs no camera");
+      "masks. Record with --lens 0 0 0 0 0, or export to COCO, which needs no camera");
 }
 
 void WriteCamera(const io::OutputFolder& folder, const Camera& camera) {
@@ -202,7 +202,7 @@ ExportSummary ExportBop(const std::vector<fs::path>& folders, const fs::path& ou
     total += sequences.back().frames.size();
   }
   io::OutputFolder folder(output, kExportMarker, options.force);
-  if (!sequences.empty()) WriteCamera(folder, *sequences.front().camera);
+  if (!sequences.empty()) WriteCamera(folder, *sequences.front().true_camera);
   ExportSummary summary;
   Models models;
   int done = 0;

@@ -26,6 +26,9 @@ struct Camera {
 /// outside the image the model may fold back.
 Eigen::Vector2d PixelOf(const Camera& camera, const Eigen::Vector3d& x_c);
 
+/// The camera that truth is of, where camera.yaml is told with a calibration's error.
+inline constexpr const char* kTrueCamera = "gt/camera.yaml";
+
 /// Reads a camera.yaml. Nothing is returned when a key is at fault.
 /// @param mend  what to do when the file cannot be read
 std::optional<Camera> ReadCamera(Folder& folder, const std::string& file = "camera.yaml",

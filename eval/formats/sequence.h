@@ -20,7 +20,9 @@ namespace eval {
 struct Sequence {
   std::filesystem::path folder;
   std::vector<SequenceFrame> frames;  ///< by rising stamp
-  std::optional<Camera> camera;
+  std::optional<Camera> camera;       ///< as camera.yaml tells it
+  /// The camera that truth is of: gt/camera.yaml where calibration errs, else `camera`.
+  std::optional<Camera> true_camera;
   std::optional<Trajectory> groundtruth;  ///< T_gc
   std::optional<SceneTruth> scene;
   std::vector<FrameTruth> frame_truth;  ///< by rising stamp; empty without gt/frames.jsonl

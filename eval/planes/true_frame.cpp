@@ -93,11 +93,11 @@ const SeenPlane* TrueFrame::Find(int id) const {
 }
 
 TrueFrame ReadTrueFrame(const Sequence& sequence, double stamp_s, const Pose& T_gc) {
-  if (!sequence.camera) {
+  if (!sequence.true_camera) {
     throw io::InputError((sequence.folder / "camera.yaml").string(),
                          "is missing; it is needed to know what the camera could see");
   }
-  const Camera& camera = *sequence.camera;
+  const Camera& camera = *sequence.true_camera;
   TrueFrame frame{stamp_s, T_gc, {}, ReadPlaneIds(sequence, stamp_s)};
   if (!frame.plane_ids && sequence.frame_truth.empty()) {
     throw io::InputError(

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <opencv2/calib3d.hpp>
 
-#include "eval/surfaces/true_pose.h"
+#include "eval/trajectory/true_pose.h"
 
 namespace eval {
 namespace {

@@ -68,7 +68,8 @@ RC_GTEST_PROP(MeasuredDepth, IsNeverInventedWhereNothingIsSeen, ()) {
 }
 
 DepthModel AnySensor() {
-  return Sensor(*rc::gen::element(SensorKind::kIdeal, SensorKind::kKinect1, SensorKind::kAzure,
+  return Sensor(*rc::gen::element(SensorKind::kIdeal, SensorKind::kKinect1,
+                                  SensorKind::kKinect1Clean, SensorKind::kAzure,
                                   SensorKind::kD435))
       .depth;
 }

@@ -41,6 +41,14 @@ double AnyIn(const io::Interval& domain) {
   return domain.Contains(number) ? number : min + 0.5 * (std::min(max, min + 2) - min);
 }
 
+/// Letters that a file has to quote; the key keeps the lists of classes apart.
+std::string AnyText(const std::string& key) {
+  const std::string letters = " \"#:,[]{}'\\\t\n-aZ\xc3\xa9";
+  return *rc::gen::container<std::string>(
+             rc::gen::elementOf(letters.substr(0, letters.size() - 2))) +
+         key;
+}
+
 /// Sets every field to a value of its domain, as a file could.
 class AnyValues : public FieldVisitor {
  public:
@@ -60,15 +68,12 @@ class AnyValues : public FieldVisitor {
               const char*) override {
     value = *rc::gen::inRange(0, static_cast<int>(names.size()));
   }
+  void Text(const char* key, std::string& value, const char*) override { value = AnyText(key); }
   void Texts(const char* key, std::vector<std::string>& value, const char*) override {
     value.clear();
     const int count = *rc::gen::inRange(1, 5);
     for (int i = 0; i < count; ++i) {
-      // The key keeps the lists of classes apart.
-      const std::string letters = " \"#:,[]{}'\\\t\n-aZ\xc3\xa9";
-      value.push_back(*rc::gen::container<std::string>(
-                          rc::gen::elementOf(letters.substr(0, letters.size() - 2))) +
-                      key);
+      value.push_back(AnyText(key));
     }
   }
 };
@@ -96,6 +101,9 @@ class AllBits : public FieldVisitor {
   void Choice(const char* key, int& value, const std::vector<std::string>&,
               const char*) override {
     fields.push_back(std::string(key) + " " + std::to_string(value));
+  }
+  void Text(const char* key, std::string& value, const char*) override {
+    fields.push_back(std::string(key) + " " + value);
   }
   void Texts(const char* key, std::vector<std::string>& value, const char*) override {
     for (const std::string& text : value) fields.push_back(std::string(key) + " " + text);

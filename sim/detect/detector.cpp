@@ -26,9 +26,6 @@ enum Stream : std::uint64_t {
 
 constexpr int kPhantomWindow = 4;  ///< frames
 
-double Normal(Random& random) {
-  return NormalQuantile((static_cast<double>(random.Bits() >> 11) + 0.5) * 0x1.0p-53);
-}
 double Rounded(double value, double per_unit) {
   return std::round(value * per_unit) / per_unit;
 }
@@ -121,7 +118,7 @@ PixelBox Detector::Jittered(const PixelBox& box, std::uint64_t key, int frame,
   const auto side = [&](double at, double length, std::uint64_t which, double last) {
     const double sigma = gain * (model_.jitter_ratio * length + model_.jitter_px * scale_);
     const double drift = SlowNoise(key + which, model_.miss_run_frames).Normal(frame);
-    return std::clamp(at + sigma * (slow * drift + fast * Normal(random)), 0.0, last);
+    return std::clamp(at + sigma * (slow * drift + fast * NormalDraw(random)), 0.0, last);
   };
   const double width = box.x1 - box.x0, height = box.y1 - box.y0;
   const double last_u = camera_.width - 1, last_v = camera_.height - 1;
@@ -137,7 +134,7 @@ Detection Detector::Report(const Target& target, int frame) const {
   const double size = std::sqrt(static_cast<double>(target.pixels)) / scale_;
   Random random{seed_, kScore, target.key, static_cast<std::uint64_t>(frame)};
   double score =
-      0.55 + 0.4 * target.VisibleFraction() * (size / (size + 20)) + 0.05 * Normal(random);
+      0.55 + 0.4 * target.VisibleFraction() * (size / (size + 20)) + 0.05 * NormalDraw(random);
   const SlowNoise doubt(Key(seed_, kConfuse, target.key), 2 * model_.miss_run_frames);
   if (doubt.Uniform(frame) < model_.confused) {
     const auto others = ConfusedWith(target.class_name);

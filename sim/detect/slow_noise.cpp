@@ -14,7 +14,7 @@ double SlowNoise::Normal(int frame) const {
   const double t = static_cast<double>(shifted % run_frames_) / run_frames_;
   const auto at = [&](int k) {
     Random random{key_, 0xC0FFEEull, static_cast<std::uint64_t>(k)};
-    return NormalQuantile((static_cast<double>(random.Bits() >> 11) + 0.5) * 0x1.0p-53);
+    return NormalDraw(random);
   };
   const double mixed = (1.0 - t) * at(knot) + t * at(knot + 1);
   return mixed / std::sqrt((1.0 - t) * (1.0 - t) + t * t);  // unit variance between knots too

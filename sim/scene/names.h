@@ -19,6 +19,7 @@ inline const std::vector<std::string> kLightNames{"lamp", "area"};
 inline const std::vector<std::string> kFaceNames{"-x", "+x", "-y", "+y", "-z", "+z"};
 inline const std::vector<std::string> kPresetNames{"slow", "office", "fast", "xyz",     "rpy",
                                                    "360",  "orbit",  "loop", "lookaway"};
-inline const std::vector<std::string> kSensorNames{"ideal", "kinect1", "azure", "d435"};
+inline const std::vector<std::string> kSensorNames{"ideal", "kinect1", "kinect1-clean", "azure",
+                                                   "d435"};
 
 }  // namespace sim

@@ -17,7 +17,8 @@ constexpr std::size_t kMaxObjects = 1000;
 constexpr std::size_t kMaxWaypoints = 10000, kMaxStations = 64;
 
 Material ReadMaterial(const io::YamlValue& value) {
-  const io::YamlMap map(value, {"print", "colour", "ink", "richness", "seed"});
+  const io::YamlMap map(value,
+                        {"print", "colour", "ink", "richness", "seed", "infrared", "gloss"});
   const auto colour = [&](const char* key, std::array<double, 3> otherwise) {
     if (!map.Has(key)) return otherwise;
     const Eigen::VectorXd rgb = map.At(key).Numbers(3, {0, 1}, "linear RGB");
@@ -29,6 +30,8 @@ Material ReadMaterial(const io::YamlValue& value) {
   material.ink = colour("ink", material.ink);
   if (map.Has("richness")) material.richness = map.At("richness").Number({0, 1});
   if (map.Has("seed")) material.seed = map.At("seed").Seed();
+  if (map.Has("infrared")) material.infrared = map.At("infrared").Number({0, 1});
+  if (map.Has("gloss")) material.gloss = map.At("gloss").Number({0, 1});
   return material;
 }
 

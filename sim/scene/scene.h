@@ -26,6 +26,9 @@ struct Material {
   std::array<double, 3> ink{0.1, 0.1, 0.1};     ///< linear RGB, of what is printed
   double richness = 1.0;                        ///< 0 no print .. 1 rich
   std::uint64_t seed = 0;
+  // For depth sensors and reflections; surface_light.h says what they are when left out.
+  std::optional<double> infrared = {};  ///< share of infrared light that is scattered all round
+  std::optional<double> gloss = {};     ///< share of the surface that mirrors as glass does
 };
 
 /// Six faces of a box; the truth planes. -x, +x, -y, +y, -z, +z of the object's own frame.

@@ -48,7 +48,9 @@ std::string MaterialText(const Material& material) {
   return "{print: " + kPrintNames[static_cast<std::size_t>(material.print)] +
          ", colour: " + ListText(material.colour) + ", ink: " + ListText(material.ink) +
          ", richness: " + io::NumberText(material.richness) +
-         ", seed: " + std::to_string(material.seed) + "}";
+         ", seed: " + std::to_string(material.seed) +
+         (material.infrared ? ", infrared: " + io::NumberText(*material.infrared) : "") +
+         (material.gloss ? ", gloss: " + io::NumberText(*material.gloss) : "") + "}";
 }
 
 std::string ObjectText(const Object& object) {

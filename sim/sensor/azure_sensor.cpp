@@ -29,6 +29,10 @@ class AzureSensor {
     if (model.multipath_m > 0 || model.multipath_loss > 0) {
       glow_ = CornerGlow(rendering, camera, model.multipath_reach_m);
     }
+    if (model.loss.min_return_per_m2 > 0 || model.loss.mirror_spot_rad > 0) {
+      lost_ = cv::Mat1b(rendering.depth_m.size(), uchar{0});
+      MarkReturnLoss(rendering, model.loss, noise, lost_);
+    }
     offset_m_ = model.session_offset_m * (2.0 * session.Uniform(0, 0, kSessionDraw) - 1.0);
   }
 
@@ -38,6 +42,7 @@ class AzureSensor {
     if (model_.hexagon && !InHexagon(camera_.Ray(u, v))) return 0;
     // The surface that is seen, and where two share the footprint, a depth between them.
     const cv::Point seen = Seen(u, v);
+    if (!lost_.empty() && lost_(seen) != 0) return 0;
     double z = model_.flying_pixels ? Mixed(seen) : rendering_.depth_m(seen);
     if (!(z >= model_.min_depth_m && z <= model_.max_depth_m)) return 0;
     const double true_z = z;
@@ -111,6 +116,7 @@ class AzureSensor {
   const Camera& camera_;
   const PixelNoise& noise_;
   cv::Mat1f glow_;
+  cv::Mat1b lost_;  ///< 255 = too little or too much light; empty = nowhere
   double offset_m_ = 0;
 };
 

@@ -3,7 +3,9 @@
 #include <opencv2/core/mat.hpp>
 
 #include "sim/camera/camera.h"
+#include "sim/sensor/depth_bend.h"
 #include "sim/sensor/noise.h"
+#include "sim/sensor/return_loss.h"
 #include "sim/trace/frame_renderer.h"
 
 namespace sim {
@@ -29,6 +31,10 @@ struct AzureModel {
   double session_offset_m = 0.005;  ///< drawn once a recording: uniform in +- this [C]
   bool hexagon = true;              ///< the field is 75 x 65 deg; nothing outside [S]
   double rounding_m = 0.001;        ///< step of the sensor's output [S]
+  /// Faces that give too little light or mirror too much have none; off unless asked for. [S] states
+  /// the range, 3.86 m, for reflectivities from 15 % on: min_return_per_m2 = 0.15 / 3.86^2 = 0.01.
+  ReturnLoss loss = {};
+  DepthBend bend = {};  ///< none unless asked for: no published figure
 };
 
 /// sigma_z, metres: (0.5 mm + 1.0 mm/m max(z - 0.5 m, 0)) sqrt(0.9 / (reflectivity cosine)), at

@@ -40,7 +40,8 @@ const GammaCodes& GammaTable(double gamma) {
 }  // namespace
 
 ColourModel CleanColour() {
-  return {.shot_variance = 0, .read_sigma = 0, .corner_loss = 0, .gamma = 2.2};
+  return {
+      .shot_variance = 0, .read_sigma = 0, .corner_loss = 0, .gamma = 2.2, .reflections = 0};
 }
 
 namespace {

@@ -12,6 +12,7 @@ struct ColourModel {
   double read_sigma = 1.0e-3;     ///< standard deviation of linear light
   double corner_loss = 0.12;      ///< share of light lost in the image's corners
   double gamma = 2.2;
+  double reflections = 0;  ///< as FrameRenderer's; 1 = in full
 };
 
 /// A camera without noise or vignetting; gamma only.

@@ -3,6 +3,7 @@
 #include <opencv2/core/mat.hpp>
 
 #include "sim/camera/camera.h"
+#include "sim/sensor/depth_bend.h"
 #include "sim/sensor/noise.h"
 #include "sim/trace/frame_renderer.h"
 
@@ -27,6 +28,7 @@ struct D435Model {
   double min_share = 0.6;     ///< ... unless one surface has more than this; 0 = never [C]
   double min_depth_m = 0.28, max_depth_m = 10.0;  ///< [D]
   double rounding_m = 0.001;                      ///< step of the sensor's output [D]
+  DepthBend bend = {};  ///< none unless asked for: no published figure
 };
 
 /// sigma_z = z^2 s / (f B), metres. Source: [I].

@@ -34,10 +34,6 @@ double SinOfTurns(double turns) {
 }
 double CosOfTurns(double turns) { return SinOfTurns(turns + 0.25); }
 
-double Normal(Random& random) {
-  return NormalQuantile((static_cast<double>(random.Bits() >> 11) + 0.5) * 0x1.0p-53);
-}
-
 struct Wave {
   double u = 0, v = 0;   ///< turns a pixel of the measured camera
   double phase = 0;      ///< turns
@@ -52,11 +48,12 @@ Wave DrawWave(Random& random) {
     const double half = 0.5 * (0.999 * random.Uniform() + 0.0005);
     const double cauchy = -CosOfTurns(half) / SinOfTurns(half);
     wave.u = 1 / kWaveX_px + cauchy / (kTurn * kReachX_px);
-    const double n = Normal(random), a = Normal(random), b = Normal(random), c = Normal(random);
+    const double n = NormalDraw(random), a = NormalDraw(random), b = NormalDraw(random),
+                 c = NormalDraw(random);
     wave.v = n / std::sqrt((a * a + b * b + c * c) / 3) / (kTurn * kReachY_px);
   } while (wave.u * wave.u + wave.v * wave.v > 1 / (kMinWave_px * kMinWave_px));
   wave.phase = random.Uniform();
-  wave.frequency = Normal(random) / kDrift_frames;
+  wave.frequency = NormalDraw(random) / kDrift_frames;
   return wave;
 }
 

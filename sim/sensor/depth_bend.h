@@ -22,6 +22,8 @@ struct DepthBend {
   int device = 0;             ///< which device; 0 = the recording's seed draws one
 };
 
+inline constexpr double kRecordedBend = 0.0033;  ///< rms of p, measured as above
+
 /// p over an image: a sum of plane waves, so that it is the same field at any size of the image.
 class BendField {
  public:

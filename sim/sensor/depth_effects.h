@@ -17,7 +17,10 @@ enum DepthDraw : std::uint32_t {
   kJitterVDraw = 2,
   kLossDraw = 3,
   kWhiteDraw = 4,
-  kSessionDraw = 5
+  kSessionDraw = 5,
+  kReturnDraw = 6,
+  kMirrorDraw = 7,
+  kWindowDraw = 4  ///< of a sensor that has no kWhiteDraw
 };
 
 /// White noise averaged over (2 radius + 1)^2 pixels, sd restored to 1. Defined beyond the

@@ -25,6 +25,7 @@ class KinectRow {
     du_.resize(width);
     dv_.resize(width);
     bent_.resize(bend == nullptr ? 0 : width);
+    MarkLost(noise);
   }
 
   /// Rows 0, 1, 2 and so on.
@@ -40,6 +41,10 @@ class KinectRow {
       for (int u = 0; u < width; ++u) z_[Index(u)] = lit[u] != 0 ? depth[u] : 0.0;
     }
     if (model_->lateral_scale > 0) LookBeside(v);
+    if (!lost_.empty()) {
+      const uchar* lost = lost_[v];
+      for (int u = 0; u < width; ++u) z_[Index(u)] = lost[u] != 0 ? 0.0 : z_[Index(u)];
+    }
     if (bend_ != nullptr) {
       bend_->Row(v, bent_);
       for (int u = 0; u < width; ++u)
@@ -51,8 +56,21 @@ class KinectRow {
  private:
   static std::size_t Index(int i) { return static_cast<std::size_t>(i); }
 
-  /// Depth there; 0 where the projector does not reach.
+  /// What is lost whoever looks there; nothing unless the model asks for it.
+  void MarkLost(const PixelNoise& noise) {
+    lost_.release();
+    const ReturnLoss& loss = model_->loss;
+    if (loss.min_return_per_m2 == 0 && loss.mirror_spot_rad == 0 && model_->window.side_px == 0)
+      return;
+    lost_ = Recycled(kept_lost_, rendering_->depth_m.size());
+    lost_.setTo(0);
+    MarkReturnLoss(*rendering_, loss, noise, lost_);
+    MarkMixedWindows(*rendering_, model_->window, model_->disparity_m_steps, noise, lost_);
+  }
+
+  /// Depth there; 0 where the projector does not reach, or it is lost.
   double Measurable(cv::Point at) const {
+    if (!lost_.empty() && lost_(at) != 0) return 0;
     const cv::Mat1b& lit = rendering_->projector_lit;
     return lit.empty() || lit(at) != 0 ? rendering_->depth_m(at) : 0.0;
   }
@@ -79,9 +97,18 @@ class KinectRow {
   std::vector<double> z_, theta_;
   std::vector<int> du_, dv_;
   std::vector<float> bent_;
+  cv::Mat1b lost_, kept_lost_;  ///< 255 = lost; empty = nothing is
 };
 
 }  // namespace
+
+KinectModel RecordedKinect() {
+  KinectModel model;
+  model.bend.rms = kRecordedBend;
+  model.loss = kRecordedReturn;
+  model.window = kRecordedWindow;
+  return model;
+}
 
 cv::Mat1d MeasureDepth(const Rendering& rendering, const KinectModel& model,
                        const PixelNoise& noise, const BendField* bend) {

@@ -4,16 +4,19 @@
 
 #include "sim/camera/camera.h"
 #include "sim/sensor/depth_bend.h"
+#include "sim/sensor/match_window.h"
 #include "sim/sensor/noise.h"
+#include "sim/sensor/return_loss.h"
 #include "sim/trace/frame_renderer.h"
 
 namespace sim {
 
 enum class SensorKind {
-  kIdeal,    ///< exact depth, clean colour
-  kKinect1,  ///< structured light as the first Kinect's
-  kAzure,    ///< time of flight as the Azure Kinect's
-  kD435,     ///< active stereo as the RealSense D435's
+  kIdeal,         ///< exact depth, clean colour
+  kKinect1,       ///< the first Kinect as its recordings are
+  kKinect1Clean,  ///< its noise alone: nothing bends, all is in step and well calibrated
+  kAzure,         ///< time of flight as the Azure Kinect's
+  kD435,          ///< active stereo as the RealSense D435's
 };
 
 /// Structured-light depth, Kinect v1. Each step can be switched off alone.
@@ -30,7 +33,12 @@ struct KinectModel {
   double lateral_scale = 1.0;                     ///< times sigma_L; 0 = sharp edges
   bool quantise = true;                           ///< to whole disparity steps
   DepthBend bend = {};                            ///< none unless asked for
+  ReturnLoss loss = {};                           ///< none unless asked for
+  MatchWindow window = {};                        ///< none unless asked for
 };
+
+/// As recordings of real ones are: bent, and with what they lack.
+KinectModel RecordedKinect();
 
 /// The numbers of sigma_z above, up to 60 degrees.
 inline constexpr double kAxialFloor_m = 0.0012;
@@ -42,7 +50,7 @@ double AxialSigma(double z_m, double theta_rad);
 
 /// Measured depth in metres, 0 = none, before rounding to file units. Order of effects: which
 /// surface the pixel sees (lateral jitter moves edges, it does not tilt a plane), projector
-/// shadow and limits there, disparity noise (white, averaged over 3x3 pixels and scaled back to
+/// shadow, lost light, mixed windows and limits there, disparity noise (white, averaged over 3x3 pixels and scaled back to
 /// its sd), rounding to steps. `bend` comes before the limits. The sd of the result, quantisation included, is sigma_z. The
 /// noise of a pixel depends on `noise` and the pixel alone; where depth_m is 0 so is the
 /// result.

@@ -55,6 +55,11 @@ class PixelNoise {
 /// library.
 double NormalQuantile(double p);
 
+/// The next draw of the stream, standard normal.
+inline double NormalDraw(Random& random) {
+  return NormalQuantile((static_cast<double>(random.Bits() >> 11) + 0.5) * 0x1.0p-53);
+}
+
 /// Distribution function of the standard normal (Abramowitz and Stegun 26.2.17, error < 1e-7).
 double NormalProbability(double x);
 

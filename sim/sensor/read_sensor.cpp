@@ -10,7 +10,8 @@
 namespace sim {
 namespace {
 
-constexpr SensorKind kKinds[] = {SensorKind::kIdeal, SensorKind::kKinect1, SensorKind::kAzure,
+constexpr SensorKind kKinds[] = {SensorKind::kIdeal, SensorKind::kKinect1,
+                                 SensorKind::kKinect1Clean, SensorKind::kAzure,
                                  SensorKind::kD435};
 
 /// Calls visit(key, low, high, unit, get, set) for each parameter; get and set use file units.
@@ -33,6 +34,16 @@ class Lister {
   }
 
   void List(IdealModel&) {}
+  void List(DepthBend& bend) {
+    Number("bend_rms", bend.rms, 0, 0.05, "of the depth");
+    Number("bend_drift_share", bend.drift_share, 0, 1, "");
+    Whole("device", bend.device, 0, 1000000000, "");
+  }
+  void List(ReturnLoss& loss) {
+    Number("min_return_per_m2", loss.min_return_per_m2, 0, 10, "1/m^2");
+    Number("return_spread_ln", loss.spread_ln, 0, 2, "");
+    Number("mirror_spot_deg", loss.mirror_spot_rad, 0, 45, "degrees", kDegree_rad);
+  }
   void List(KinectModel& m) {
     Number("disparity_m_steps", m.disparity_m_steps, 1, 1e6, "m");
     Number("projector_offset_m", m.projector_offset_m, -1, 1, "m");
@@ -42,9 +53,12 @@ class Lister {
     Number("noise_scale", m.noise_scale, 0, 100, "");
     Number("lateral_scale", m.lateral_scale, 0, 20, "");
     Switch("quantise", m.quantise);
-    Number("bend_rms", m.bend.rms, 0, 0.05, "of the depth");
-    Number("bend_drift_share", m.bend.drift_share, 0, 1, "");
-    Whole("device", m.bend.device, 0, 1000000000, "");
+    List(m.bend);
+    List(m.loss);
+    Whole("window_px", m.window.side_px, 0, 31, "pixels");
+    Number("window_min_share", m.window.min_share, 0, 1, "");
+    Number("window_dots", m.window.dots, 0, 1000, "");
+    Number("window_max_apart_steps", m.window.max_apart_steps, 0, 1e4, "steps");
   }
   void List(AzureModel& m) {
     Number("min_depth_m", m.min_depth_m, 0, 100, "m");
@@ -63,6 +77,8 @@ class Lister {
     Number("session_offset_m", m.session_offset_m, 0, 0.2, "m");
     Switch("hexagon", m.hexagon);
     Number("rounding_m", m.rounding_m, 0, 0.1, "m");
+    List(m.loss);
+    List(m.bend);
   }
   void List(D435Model& m) {
     Number("focal_baseline_px_m", m.focal_baseline_px_m, 0.1, 1e4, "px m");
@@ -78,6 +94,7 @@ class Lister {
     Number("min_depth_m", m.min_depth_m, 0, 100, "m");
     Number("max_depth_m", m.max_depth_m, 0, 100, "m");
     Number("rounding_m", m.rounding_m, 0, 0.1, "m");
+    List(m.bend);
   }
   void All(Sensor& sensor) {
     std::visit([this](auto& model) { this->List(model); }, sensor.depth);
@@ -85,6 +102,21 @@ class Lister {
     Number("colour_read_sigma", sensor.colour.read_sigma, 0, 1, "");
     Number("colour_corner_loss", sensor.colour.corner_loss, 0, 1, "");
     Number("colour_gamma", sensor.colour.gamma, 0.1, 10, "");
+    Number("shutter_ms", sensor.exposure.shutter_s, 0, 1000, "ms", 1e-3);
+    Number("rolling_ms", sensor.exposure.rolling_s, 0, 1000, "ms", 1e-3);
+    Number("exposure_drift_stops", sensor.exposure.drift_stops, 0, 4, "stops");
+    Number("drop_ratio", sensor.timing.drop_ratio, 0, 0.9, "");
+    Number("repeat_ratio", sensor.timing.repeat_ratio, 0, 0.9, "");
+    Number("depth_offset_ms", sensor.timing.depth_offset_s, 0, 20, "ms", 1e-3);
+    Number("stamp_jitter_ms", sensor.timing.stamp_jitter_s, 0, 1000, "ms", 1e-3);
+    Number("registration_px", sensor.calibration.registration_px, 0, 20, "pixels");
+    Number("intrinsics_error", sensor.calibration.intrinsics, 0, 0.05, "");
+    Number("lens_k1", sensor.lens.k1, -10, 10, "");
+    Number("lens_k2", sensor.lens.k2, -10, 10, "");
+    Number("lens_p1", sensor.lens.p1, -1, 1, "");
+    Number("lens_p2", sensor.lens.p2, -1, 1, "");
+    Number("lens_k3", sensor.lens.k3, -10, 10, "");
+    Number("colour_reflections", sensor.colour.reflections, 0, 10, "");
   }
 
  private:
@@ -95,6 +127,14 @@ std::vector<std::string> Keys(const Sensor& sensor) {
   std::vector<std::string> keys{"base", "name"};
   for (const SensorParameter& parameter : Parameters(sensor)) keys.push_back(parameter.key);
   return keys;
+}
+
+/// A window without a centre. A Kinect's may be 0: none.
+bool HasEvenWindow(const DepthModel& model) {
+  const auto* d435 = std::get_if<D435Model>(&model);
+  const auto* kinect = std::get_if<KinectModel>(&model);
+  return (d435 != nullptr && d435->window_px % 2 == 0) ||
+         (kinect != nullptr && kinect->window.side_px > 0 && kinect->window.side_px % 2 == 0);
 }
 
 Sensor SensorFrom(const io::YamlValue& file) {
@@ -109,8 +149,7 @@ Sensor SensorFrom(const io::YamlValue& file) {
     set(value);
     sensor.changed[key] = value;
   }).All(sensor);
-  const auto* d435 = std::get_if<D435Model>(&sensor.depth);
-  if (d435 != nullptr && d435->window_px % 2 == 0) {
+  if (HasEvenWindow(sensor.depth)) {
     map.At("window_px").Fail("expected an odd number of pixels, so that a window has a centre");
   }
   return sensor;
@@ -142,8 +181,9 @@ Sensor SensorByName(const std::string& text) {
   }
   const std::string suffix = std::filesystem::path(text).extension().string();
   if (suffix == ".yaml" || suffix == ".yml") return ReadSensor(text);
-  throw io::InputError("--sensor " + text,
-                       "expected ideal, kinect1, azure, d435, or a file that ends in .yaml");
+  throw io::InputError(
+      "--sensor " + text,
+      "expected ideal, kinect1, kinect1-clean, azure, d435, or a file that ends in .yaml");
 }
 
 }  // namespace sim

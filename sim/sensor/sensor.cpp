@@ -15,12 +15,30 @@ struct Overloaded : Cases... {
 template <typename... Cases>
 Overloaded(Cases...) -> Overloaded<Cases...>;
 
+// What a recording of the first Kinect has besides noise.
+/// Colour is read row by row over the whole frame: at 30 frames/s, its sensor (MT9M112) reads
+/// without a pause.
+constexpr double kRolling_s = 0.030;
+constexpr double kIndoorShutter_s = 0.015;    // our choice: half a frame, under lamps
+constexpr double kAutoExposure_stops = 0.25;  // our choice
+constexpr double kDropRatio = 0.04;           // gaps over 45 ms in TUM fr1/desk: 4.0 %
+constexpr double kRepeatRatio = 0.005;        // our choice
+/// In TUM fr1/desk depth and colour are 11.7 ms apart (median), 19.7 ms at most.
+constexpr double kDepthOffset_s = 0.015;
+constexpr double kRegistration_px = 1.5;    // our choice: usual calibrations leave 1 to 2 px
+constexpr double kIntrinsicsError = 0.003;  // our choice: between calibrations of one device
+/// As calibrated for TUM fr1 (Sturm et al., IROS 2012).
+constexpr Lens kCalibratedLens{
+    .k1 = 0.2624, .k2 = -0.9531, .p1 = -0.0054, .p2 = 0.0026, .k3 = 1.1633};
+
 /// The frame number of what is drawn once a recording.
 constexpr std::uint64_t kSession = std::numeric_limits<std::uint64_t>::max();
 
 DepthModel ModelOf(SensorKind kind) {
   switch (kind) {
     case SensorKind::kKinect1:
+      return RecordedKinect();
+    case SensorKind::kKinect1Clean:
       return KinectModel{};
     case SensorKind::kAzure:
       return AzureModel{};
@@ -36,6 +54,8 @@ const char* NameOf(SensorKind kind) {
   switch (kind) {
     case SensorKind::kKinect1:
       return "kinect1";
+    case SensorKind::kKinect1Clean:
+      return "kinect1-clean";
     case SensorKind::kAzure:
       return "azure";
     case SensorKind::kD435:
@@ -46,12 +66,56 @@ const char* NameOf(SensorKind kind) {
   return "ideal";
 }
 
+DepthBend BendOf(const DepthModel& model) {
+  return std::visit(Overloaded{[](const IdealModel&) { return DepthBend{}; },
+                               [](const auto& m) { return m.bend; }},
+                    model);
+}
+
+/// What a device that bends sees instead.
+Rendering Bent(const Rendering& rendering, const DepthBend& bend, const Camera& camera,
+               std::uint64_t seed, std::uint64_t frame) {
+  if (bend.rms == 0) return rendering;
+  const BendField field(bend, camera, seed, frame);
+  std::vector<float> p(static_cast<std::size_t>(rendering.depth_m.cols));
+  Rendering bent = rendering;  // images are shared
+  bent.depth_m = rendering.depth_m.clone();
+  for (int v = 0; v < bent.depth_m.rows; ++v) {
+    field.Row(v, p);
+    double* z = bent.depth_m[v];
+    for (std::size_t u = 0; u < p.size(); ++u) z[u] *= 1.0 + static_cast<double>(p[u]);
+  }
+  return bent;
+}
+
 }  // namespace
 
 Sensor::Sensor(SensorKind kind)
     : name(NameOf(kind)),
       depth(ModelOf(kind)),
-      colour(kind == SensorKind::kIdeal ? CleanColour() : ColourModel{}) {}
+      colour(kind == SensorKind::kIdeal ? CleanColour() : ColourModel{}) {
+  if (kind != SensorKind::kKinect1) return;
+  // As recorded: what the recordings of the first Kinect have (docs/sensors.md).
+  colour.reflections = 1;
+  exposure = {.shutter_s = kIndoorShutter_s,
+              .rolling_s = kRolling_s,
+              .drift_stops = kAutoExposure_stops};
+  timing = {
+      .drop_ratio = kDropRatio, .repeat_ratio = kRepeatRatio, .depth_offset_s = kDepthOffset_s};
+  calibration = {.registration_px = kRegistration_px, .intrinsics = kIntrinsicsError};
+  lens = kCalibratedLens;
+}
+
+std::uint64_t DeviceOf(const DepthModel& model, std::uint64_t seed) {
+  const DepthBend bend = BendOf(model);
+  return bend.device != 0 ? static_cast<std::uint64_t>(bend.device) : seed;
+}
+
+cv::Mat1f DevicePattern(const DepthModel& model, const Camera& camera, std::uint64_t seed) {
+  const DepthBend bend = BendOf(model);
+  if (bend.rms == 0) return {};
+  return DevicePattern(bend, camera, seed);
+}
 
 double SecondEyeOffset(const DepthModel& model) {
   return std::visit(Overloaded{[](const IdealModel&) { return 0.0; },
@@ -110,9 +174,13 @@ cv::Mat1d MeasureDepth(const Rendering& rendering, const DepthModel& model,
                    return MeasureDepth(rendering, m, noise, &bend);
                  },
                  [&](const AzureModel& m) {
-                   return MeasureDepth(rendering, m, camera, noise, PixelNoise(seed, kSession));
+                   return MeasureDepth(Bent(rendering, m.bend, camera, seed, frame), m, camera,
+                                       noise, PixelNoise(seed, kSession));
                  },
-                 [&](const D435Model& m) { return MeasureDepth(rendering, m, camera, noise); }},
+                 [&](const D435Model& m) {
+                   return MeasureDepth(Bent(rendering, m.bend, camera, seed, frame), m, camera,
+                                       noise);
+                 }},
       model);
 }
 

@@ -5,9 +5,12 @@
 #include <variant>
 
 #include "sim/sensor/azure_sensor.h"
+#include "sim/sensor/calibration_error.h"
 #include "sim/sensor/colour_sensor.h"
 #include "sim/sensor/d435_sensor.h"
 #include "sim/sensor/depth_sensor.h"
+#include "sim/sensor/exposure.h"
+#include "sim/sensor/timing_defects.h"
 
 namespace sim {
 
@@ -15,12 +18,17 @@ namespace sim {
 struct IdealModel {};
 using DepthModel = std::variant<IdealModel, KinectModel, AzureModel, D435Model>;
 
-/// A depth sensor with its colour camera: one of ours, or one of a user's file.
+/// A depth sensor with its colour camera, and how a recording of it goes: one of ours, or one of
+/// a user's file.
 struct Sensor {
   Sensor(SensorKind kind = SensorKind::kKinect1);  // NOLINT: a kind is a sensor
-  std::string name;  ///< ideal, kinect1, azure, d435; or a name of the user's
+  std::string name;  ///< as in kSensorNames, or a name of the user's
   DepthModel depth;
   ColourModel colour;
+  Exposure exposure;  ///< the colour camera's
+  TimingDefects timing;
+  CalibrationError calibration;
+  Lens lens;  ///< what its calibration found; cameras that name a lens of their own keep it
   /// Parameters that a file has set, by their keys in it; they go into the manifest.
   std::map<std::string, double> changed;
 };
@@ -38,6 +46,12 @@ double DepthStep(const DepthModel& model, double z_m);
 /// Error that the model's systematic effects give to a wall far from anything, metres, without
 /// the offset of the session.
 double DepthBias(const DepthModel& model, double z_m);
+
+/// What names the device that `seed` records with: the model's, else the seed.
+std::uint64_t DeviceOf(const DepthModel& model, std::uint64_t seed);
+
+/// What the device adds to depth, as a share of it, height x width; empty when nothing bends.
+cv::Mat1f DevicePattern(const DepthModel& model, const Camera& camera, std::uint64_t seed);
 
 /// Measured depth in metres, 0 = none. Depends on the rendering, the model, the seed and the
 /// frame alone.

@@ -42,8 +42,10 @@ Pose LookingAlongY() {
 /// The model without what a wall in a narrow view cannot show.
 DepthModel OnlyTheWall(const DepthModel& model) {
   DepthModel bare = model;
-  if (auto* azure = std::get_if<AzureModel>(&bare)) azure->session_offset_m = 0;
-  if (auto* d435 = std::get_if<D435Model>(&bare)) d435->baseline_m = 0;
+  if (auto* kinect = std::get_if<KinectModel>(&bare)) kinect->bend = {};
+  if (auto* azure = std::get_if<AzureModel>(&bare))
+    azure->session_offset_m = 0, azure->bend = {};
+  if (auto* d435 = std::get_if<D435Model>(&bare)) d435->baseline_m = 0, d435->bend = {};
   return bare;
 }
 

@@ -21,8 +21,8 @@ struct SensorReport {
 };
 
 /// Renders walls in a narrow view (rays within 2.2 deg of the axis) and measures them. The
-/// offset that a session draws, the blind band of a stereo pair and the field of view are
-/// left out.
+/// offset that a session draws, what the device bends (bend_report.h), the blind band of a stereo
+/// pair and the field of view are left out.
 SensorReport MeasureWalls(const Sensor& sensor);
 
 /// The report as a table for people, a line a wall.

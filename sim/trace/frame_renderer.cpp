@@ -41,8 +41,9 @@ int CastAlone(const RenderWorld& world, std::size_t object_index, const Pose& T_
 
 }  // namespace
 
-FrameRenderer::FrameRenderer(const Scene& scene, const Camera& camera, InstructionSet set)
-    : world_(std::make_unique<const RenderedScene>(scene, camera, set)) {}
+FrameRenderer::FrameRenderer(const Scene& scene, const Camera& camera, InstructionSet set,
+                             double reflections)
+    : world_(std::make_unique<const RenderedScene>(scene, camera, set, reflections)) {}
 FrameRenderer::~FrameRenderer() = default;
 FrameRenderer::FrameRenderer(FrameRenderer&&) noexcept = default;
 
@@ -109,6 +110,7 @@ std::vector<Triangle> FrameRenderer::TrianglesOf(std::size_t object_index) const
 }
 
 const Camera& FrameRenderer::camera() const { return world_->standing.camera; }
+const ImageRays& FrameRenderer::image_rays() const { return world_->standing.image_rays; }
 const Scene& FrameRenderer::scene() const { return world_->scene; }
 const SceneMesh& FrameRenderer::standing() const { return world_->standing.mesh; }
 

@@ -8,6 +8,7 @@
 #include "sim/camera/camera.h"
 #include "sim/scene/scene.h"
 #include "sim/shapes/mesh.h"
+#include "sim/trace/image_rays.h"
 #include "sim/trace/ray_scene.h"
 
 namespace sim {
@@ -20,7 +21,12 @@ struct Rendering {
   cv::Mat1w object_id;  ///< Object::id at the pixel centre; 0 = none
   cv::Mat1f incidence_cos;  ///< |cos| between the ray and the surface normal; 0 where no hit
   cv::Mat1b
-      projector_lit;  ///< 255 where the depth sensor's projector reaches; empty unless asked
+      projector_lit;   ///< 255 where the depth sensor's projector reaches; empty unless asked
+  cv::Mat1f infrared;  ///< InfraredOf the face at the pixel centre; 0 where no hit
+  cv::Mat1f gloss;     ///< GlossOf that face; 0 where no hit
+  /// Where gloss > 0: cos of the angle between the surface normal and the direction half way
+  /// between camera and projector; 1 is a mirror that throws the projector's light at the camera.
+  cv::Mat1f mirror_cos;
 };
 
 struct RenderOptions {
@@ -46,8 +52,9 @@ class FrameRenderer {
  public:
   /// @throws std::invalid_argument when ids of objects do not fit in 16 bits, InputError when
   ///   those of planes do not.
+  /// @param reflections  times what glossy faces mirror of lamps, sun and room in colour
   FrameRenderer(const Scene& scene, const Camera& camera,
-                InstructionSet set = InstructionSet::kPinned);
+                InstructionSet set = InstructionSet::kPinned, double reflections = 0);
   ~FrameRenderer();
   FrameRenderer(FrameRenderer&&) noexcept;
 
@@ -82,6 +89,7 @@ class FrameRenderer {
   std::vector<Triangle> TrianglesOf(std::size_t object_index) const;
 
   const Camera& camera() const;
+  const ImageRays& image_rays() const;
   const Scene& scene() const;
   /// Triangles and planes of what stands.
   const SceneMesh& standing() const;

@@ -50,6 +50,25 @@ SIM_LANES void MeetPlane(const PlaneSeen& plane, int first, int last, const Pixe
   }
 }
 
+SIM_LANES void MirrorCosines(const Eigen::Vector3d& n_c, const Eigen::Vector3d& projector_c,
+                             const double* __restrict x, const double* __restrict y,
+                             const double* __restrict depth_m, int first, int last,
+                             float* __restrict cosine) {
+  const double nx = n_c.data()[0], ny = n_c.data()[1], nz = n_c.data()[2];
+  const double px = projector_c.data()[0], py = projector_c.data()[1],
+               pz = projector_c.data()[2];
+  for (int i = first; i < last; ++i) {
+    // Unit vectors to the camera and to the projector; their sum is half way between them.
+    const double z = depth_m[i], cx = -z * x[i], cy = -z * y[i], cz = -z;
+    const double ex = px + cx, ey = py + cy, ez = pz + cz;
+    const double a = 1.0 / std::sqrt(cx * cx + cy * cy + cz * cz);
+    const double b = 1.0 / std::sqrt(ex * ex + ey * ey + ez * ez);
+    const double hx = a * cx + b * ex, hy = a * cy + b * ey, hz = a * cz + b * ez;
+    cosine[i] = static_cast<float>(std::abs(nx * hx + ny * hy + nz * hz) /
+                                   std::sqrt(hx * hx + hy * hy + hz * hz));
+  }
+}
+
 SIM_LANES void PlaceOnPrint(const Eigen::Matrix<float, 2, 3>& uv_over_depth,
                             const double* __restrict x, const double* __restrict y,
                             const double* __restrict depth_m, int first, int last,

@@ -31,6 +31,12 @@ struct PlaneSeen {
 
 void MeetPlane(const PlaneSeen& plane, int first, int last, const PixelRow& row);
 
+/// |cos| between a plane's normal and the direction half way between the camera and a projector, of
+/// the pixels from first to last.
+void MirrorCosines(const Eigen::Vector3d& n_c, const Eigen::Vector3d& projector_c,
+                   const double* x, const double* y, const double* depth_m, int first, int last,
+                   float* cosine);
+
 /// uv = z (uv_over_depth (x, y, 1)) of the pixels from first to last.
 void PlaceOnPrint(const Eigen::Matrix<float, 2, 3>& uv_over_depth, const double* x,
                   const double* y, const double* depth_m, int first, int last, float* u,

@@ -27,7 +27,8 @@ void CheckIds(const Scene& scene, const SceneMesh& mesh) {
 
 }  // namespace
 
-RenderWorld::RenderWorld(const Scene& scene_in, const Camera& camera_in, InstructionSet set_in)
+RenderWorld::RenderWorld(const Scene& scene_in, const Camera& camera_in, InstructionSet set_in,
+                         double reflections_in)
     : scene(scene_in),
       camera(camera_in),
       set(set_in),
@@ -37,7 +38,8 @@ RenderWorld::RenderWorld(const Scene& scene_in, const Camera& camera_in, Instruc
       edges(mesh.triangles),
       caster(mesh.triangles),
       surfaces(mesh, camera),
-      to_sun_w(-scene.sun.direction_w.normalized()) {
+      to_sun_w(-scene.sun.direction_w.normalized()),
+      reflections(reflections_in) {
   CheckIds(scene, mesh);
   for (std::size_t i = 0; i < scene.objects.size(); ++i) {
     alone_.push_back(std::make_unique<LoneObject>());

@@ -17,7 +17,8 @@ inline constexpr double kLeaveSurface_m = 1e-4;  ///< second rays start this far
 
 /// Everything about a scene that its views share. Const and thread-safe.
 struct RenderWorld {
-  RenderWorld(const Scene& scene_in, const Camera& camera_in, InstructionSet set_in);
+  RenderWorld(const Scene& scene_in, const Camera& camera_in, InstructionSet set_in,
+              double reflections_in);
   std::vector<Triangle> TrianglesOf(std::size_t object_index) const;
   /// The object with nothing else there, built when it is first asked for.
   const RayScene& Alone(std::size_t object_index) const;
@@ -32,6 +33,7 @@ struct RenderWorld {
   ExactCaster caster;
   SurfaceTable surfaces;
   Eigen::Vector3d to_sun_w;
+  double reflections;  ///< as FrameRenderer's
 
  private:
   struct LoneObject {

@@ -39,6 +39,9 @@ class Overlay {
       out_.plane_id(v, u) = 0;
       out_.object_id(v, u) = mover_.object_id(v, u);
       out_.incidence_cos(v, u) = mover_.incidence_cos(v, u);
+      out_.infrared(v, u) = mover_.infrared(v, u);
+      out_.gloss(v, u) = mover_.gloss(v, u);
+      out_.mirror_cos(v, u) = mover_.mirror_cos(v, u);
       if (!out_.projector_lit.empty()) out_.projector_lit(v, u) = mover_.projector_lit(v, u);
     }
   }
@@ -79,14 +82,16 @@ Pose MotionOf(const Object& object, double time_s) {
          Inverse(ObjectPoseAt(object, object.way.front().time_s));
 }
 
-Mover::Mover(const Object& object, const Scene& scene, const Camera& camera, InstructionSet set)
-    : given(object), world(Alone(object, scene), camera, set) {}
+Mover::Mover(const Object& object, const Scene& scene, const Camera& camera, InstructionSet set,
+             double reflections)
+    : given(object), world(Alone(object, scene), camera, set, reflections) {}
 
-RenderedScene::RenderedScene(const Scene& scene_in, const Camera& camera, InstructionSet set)
-    : scene(scene_in), standing(Standing(scene_in), camera, set) {
+RenderedScene::RenderedScene(const Scene& scene_in, const Camera& camera, InstructionSet set,
+                             double reflections)
+    : scene(scene_in), standing(Standing(scene_in), camera, set, reflections) {
   for (const Object& object : scene.objects) {
     if (object.way.empty()) continue;
-    movers.push_back(std::make_unique<const Mover>(object, scene, camera, set));
+    movers.push_back(std::make_unique<const Mover>(object, scene, camera, set, reflections));
   }
 }
 

@@ -14,14 +14,16 @@ Pose MotionOf(const Object& object, double time_s);
 
 /// One object that moves, in a world of its own where it stands at the first point of its way.
 struct Mover {
-  Mover(const Object& object, const Scene& scene, const Camera& camera, InstructionSet set);
+  Mover(const Object& object, const Scene& scene, const Camera& camera, InstructionSet set,
+        double reflections);
   Object given;  ///< with its way
   RenderWorld world;
 };
 
 /// A scene taken apart: what stands, and each thing that moves. Const and thread-safe.
 struct RenderedScene {
-  RenderedScene(const Scene& scene_in, const Camera& camera, InstructionSet set);
+  RenderedScene(const Scene& scene_in, const Camera& camera, InstructionSet set,
+                double reflections);
   /// The world an object is in, and its place there.
   std::pair<const RenderWorld*, std::size_t> Find(std::size_t object_index) const;
 

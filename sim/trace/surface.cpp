@@ -2,6 +2,8 @@
 
 #include <Eigen/Dense>
 
+#include "sim/scene/surface_light.h"
+
 namespace sim {
 namespace {
 
@@ -23,6 +25,9 @@ SurfaceTable::SurfaceTable(const SceneMesh& mesh, const Camera& camera)
     Facet facet;
     facet.material = triangle.material;
     facet.normals_w = triangle.normals_w;
+    const Material& material = mesh.materials.at(static_cast<std::size_t>(triangle.material));
+    facet.infrared = InfraredOf(material);
+    facet.gloss = GlossOf(material);
     if (triangle.plane > 0) {
       const ScenePlane& plane = mesh.planes.at(static_cast<std::size_t>(triangle.plane) - 1);
       facet.n_w = plane.n_w;

@@ -32,6 +32,9 @@ class SurfaceTable {
   const Eigen::Vector3d& Normal(int triangle) const { return At(triangle).n_w; }
   /// Offset of the triangle's plane, metres: Normal . x + Offset = 0.
   double Offset(int triangle) const { return At(triangle).d; }
+  /// InfraredOf and GlossOf its material.
+  double Infrared(int triangle) const { return At(triangle).infrared; }
+  double Gloss(int triangle) const { return At(triangle).gloss; }
   /// Shading normal at barycentric weights b1, b2 of corners 1 and 2.
   Eigen::Vector3d ShadingNormal(int triangle, double b1, double b2) const;
   /// The print of the triangle, baked when it is first seen. Safe to call from many threads.
@@ -45,6 +48,7 @@ class SurfaceTable {
     Eigen::Vector2d uv_at;
     std::array<Eigen::Vector3d, 3> normals_w;
     int material = 0;
+    double infrared = 0, gloss = 0;
   };
   const Facet& At(int triangle) const { return facets_[static_cast<std::size_t>(triangle)]; }
 

@@ -75,7 +75,10 @@ void View::Prepare() {
   out_->depth_m.create(size);
   out_->plane_id.create(size);
   out_->object_id.create(size);
-  out_->incidence_cos.create(size);
+  for (cv::Mat1f* image :
+       {&out_->incidence_cos, &out_->infrared, &out_->gloss, &out_->mirror_cos}) {
+    image->create(size);
+  }
   if (options_.projector_offset_m != 0) {
     out_->projector_lit.create(size);
   } else {
@@ -167,7 +170,10 @@ void View::RecordRow(int v) {
 void View::RecordSky(int v, int first, int last) {
   const auto fill = [&](auto* row, auto value) { std::fill(row + first, row + last, value); };
   fill(out_->depth_m[v], 0.0);
-  fill(out_->incidence_cos[v], 0.0F);
+  for (cv::Mat1f* image :
+       {&out_->incidence_cos, &out_->infrared, &out_->gloss, &out_->mirror_cos}) {
+    fill((*image)[v], 0.0F);
+  }
   fill(out_->plane_id[v], ushort{0});
   fill(out_->object_id[v], ushort{0});
   fill(Surfaces(v), std::uint32_t{0});
@@ -185,6 +191,15 @@ void View::RecordRun(int v, int first, int last, const SeenFacet& facet) {
   const auto fill = [&](auto* row, auto value) { std::fill(row + first, row + last, value); };
   fill(out_->plane_id[v], ushort{facet.plane});
   fill(out_->object_id[v], ushort{facet.object});
+  fill(out_->infrared[v], facet.infrared);
+  fill(out_->gloss[v], facet.gloss);
+  if (facet.gloss > 0) {
+    const Eigen::Vector3d projector_c(options_.projector_offset_m, 0, 0);
+    MirrorCosines(facet.n_c, projector_c, row_.x.data(), row_.y.data(), out_->depth_m[v], first,
+                  last, out_->mirror_cos[v]);
+  } else {
+    fill(out_->mirror_cos[v], 0.0F);
+  }
   fill(Surfaces(v), facet.surface);
   fill(row_.sun_far.data(), facet.faces_sun ? std::numeric_limits<float>::infinity() : -1.0F);
   fill(row_.eye_far.data(), facet.faces_eye ? 1.0F : -1.0F);

@@ -65,7 +65,8 @@ class View {
     int triangle = -1;
     double z = 0;
     bool sunlit = false;
-    cv::Vec3f lights;  ///< on it, beside the sun's
+    cv::Vec3f lights;               ///< on it, beside the sun's
+    std::uint32_t lights_seen = 0;  ///< as in surfaces_ of its pixel; the sun apart
   };
   /// Bits of surfaces_ from here on are those of the lights; below are surface and sun.
   static constexpr int kLightBit = 18;
@@ -92,6 +93,10 @@ class View {
   static std::array<float, 2> PrintAt(const SeenFacet& facet, double x, double y, float z);
   TextureFootprint Footprint(const SeenFacet& facet, const std::array<float, 2>& at, float z);
   float LightOn(const SeenFacet& facet, double x, double y, bool sunlit) const;
+  /// What a glossy face adds to the colour of the ray (x, y, 1) that meets it at depth z.
+  /// @param surface  as in surfaces_: sun and lights
+  cv::Vec3f Mirrored(const SeenFacet& facet, double x, double y, double z,
+                     std::uint32_t surface) const;
   Eigen::Vector3d NormalAt(const SeenFacet& facet, double x, double y) const;
   /// Makes what the ray (x, y, 1) meets at depth z one of the places.
   void SetSpot(int lane, const SeenFacet& facet, double x, double y, double z,

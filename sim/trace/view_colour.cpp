@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sim/trace/mirror_light.h"
 #include "sim/trace/pixel_rows.h"
 #include "sim/trace/view.h"
 
@@ -25,6 +26,21 @@ float View::LightOn(const SeenFacet& facet, double x, double y, bool sunlit) con
   if (facet.flat) return sunlit ? facet.lit : facet.unlit;
   return LightOnNormal(world_->scene.sun, world_->to_sun_w,
                        around_->T_sw.R * NormalAt(facet, x, y), sunlit);
+}
+
+cv::Vec3f View::Mirrored(const SeenFacet& facet, double x, double y, double z,
+                         std::uint32_t surface) const {
+  if (!(world_->reflections > 0 && facet.gloss > 0)) return {0, 0, 0};
+  const Eigen::Vector3d ray_w = T_wc_.R * Eigen::Vector3d(x, y, 1.0);
+  const Pose& T_sw = around_->T_sw;
+  MirrorSpot spot;
+  spot.x_w = T_sw * (T_wc_.t + z * ray_w);
+  spot.look_w = T_sw.R * ray_w.normalized();
+  spot.n_w = T_sw.R * NormalAt(facet, x, y);
+  spot.sunlit = (surface & 1u) != 0;
+  spot.lights_seen = surface >> kLightBit;
+  return static_cast<float>(world_->reflections) * facet.gloss *
+         MirrorLight(world_->scene, world_->to_sun_w, spot);
 }
 
 std::array<float, 2> View::PrintAt(const SeenFacet& facet, double x, double y, float z) {
@@ -79,6 +95,7 @@ void View::ShadeRun(int v, const Stretch& stretch) {
   const int first = stretch.first;
   stretch.print->Sample(row_.print_u.data() + first, row_.print_v.data() + first,
                         stretch.last - first, stretch.footprint, albedo.data());
+  const bool mirrors = world_->reflections > 0 && facet.gloss > 0;
   for (int u = first; u < stretch.last; ++u) {
     const std::array<float, 4>& a = albedo[Index(u - first)];
     const float light =
@@ -86,6 +103,10 @@ void View::ShadeRun(int v, const Stretch& stretch) {
     const cv::Vec3f lights = lights_.Empty() ? cv::Vec3f(0, 0, 0) : lights_row_[Index(u)];
     colour[u] = cv::Vec3f(a[0] * (light + lights[0]), a[1] * (light + lights[1]),
                           a[2] * (light + lights[2]));
+    if (mirrors) {
+      colour[u] +=
+          Mirrored(facet, row_.x[Index(u)], row_.y[Index(u)], out_->depth_m(v, u), surfaces[u]);
+    }
   }
 }
 

@@ -65,6 +65,7 @@ void View::CastLooks(int v, std::size_t first) {
     Look& look = looks_[first + Index(i)];
     look.triangle = found.triangle[Index(i)];
     look.lights = cv::Vec3f(0, 0, 0);
+    look.lights_seen = Surfaces(v)[on_edge_[(first + Index(i)) / kLooks]] & ~1u;
     if (look.triangle == PacketHits::kNothing) continue;
     const SeenFacet& facet = facets_.At(look.triangle);
     look.z = 1.0 / facet.inverse_depth.dot(look.ray);
@@ -155,6 +156,8 @@ cv::Vec3f View::MeanOf(std::span<const Look> looks) {
       const auto& a = albedo[Index(k)];
       sum += cv::Vec3f(a[0] * (light + look.lights[0]), a[1] * (light + look.lights[1]),
                        a[2] * (light + look.lights[2]));
+      sum += Mirrored(facet, look.ray.x(), look.ray.y(), look.z,
+                      look.lights_seen | (look.sunlit ? 1u : 0u));
     }
   }
   return (1.0F / kLooks) * sum;

@@ -40,6 +40,8 @@ const SeenFacet& ViewFacets::Meet(int index) {
   facet.faces_sun = n_s.dot(world_->to_sun_w) > 0;
   facet.faces_eye =
       facet.n_w.dot(eye_w_) + world_->surfaces.Offset(index) - kLeaveSurface_m > 0;
+  facet.infrared = static_cast<float>(world_->surfaces.Infrared(index));
+  facet.gloss = static_cast<float>(world_->surfaces.Gloss(index));
   facet.unlit = LightOnNormal(world_->scene.sun, world_->to_sun_w, n_s, false);
   facet.lit = LightOnNormal(world_->scene.sun, world_->to_sun_w, n_s, true);
   facet.print = nullptr;

@@ -21,6 +21,7 @@ struct SeenFacet : FacetInView {
   bool flat = true;  ///< one normal all over
   bool faces_sun = false;
   bool faces_eye = false;          ///< the second eye (projector)
+  float infrared = 0, gloss = 0;   ///< InfraredOf and GlossOf its material
   float unlit = 0, lit = 0;        ///< light on it, without and with the sun
   const Texture* print = nullptr;  ///< once asked for
 };

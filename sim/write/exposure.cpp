@@ -30,6 +30,10 @@ void AddBand(const FrameRenderer& renderer, const Pose& T_wc, double time_s,
 
 }  // namespace
 
+double RowTime_s(const Exposure& exposure, double v, int height) {
+  return exposure.rolling_s * (v / (height - 1) - 0.5);
+}
+
 cv::Mat3f ExposeMoving(const FrameRenderer& renderer, const Exposure& exposure,
                        const PoseAround& around, double time_s) {
   const cv::Size size(renderer.camera().width, renderer.camera().height);
@@ -38,8 +42,7 @@ cv::Mat3f ExposeMoving(const FrameRenderer& renderer, const Exposure& exposure,
   const int rows = exposure.rolling_s != 0 ? kBandRows : size.height;
   for (int first = 0; first < size.height; first += rows) {
     const cv::Range band(first, std::min(size.height, first + rows));
-    const double middle = 0.5 * (band.start + band.end - 1) / (size.height - 1);
-    const double row_s = exposure.rolling_s * (middle - 0.5);
+    const double row_s = RowTime_s(exposure, 0.5 * (band.start + band.end - 1), size.height);
     for (int i = 0; i < samples; ++i) {
       const double shutter_s = exposure.shutter_s * ((i + 0.5) / samples - 0.5);
       AddBand(renderer, around(row_s + shutter_s), time_s + row_s + shutter_s, band, sum);

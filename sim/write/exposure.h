@@ -4,25 +4,21 @@
 #include <functional>
 #include <opencv2/core/mat.hpp>
 
+#include "sim/sensor/exposure.h"
 #include "sim/trace/frame_renderer.h"
 
 namespace sim {
 
-/// How the colour camera exposes a frame. Nothing by default: an instant, all rows at once.
-struct Exposure {
-  double shutter_s = 0;     ///< open this long about the frame's time: motion blur
-  int shutter_samples = 8;  ///< poses that a blurred frame averages, evenly over the shutter
-  double rolling_s = 0;     ///< the last row is exposed this much after the first
-  double drift_stops = 0;   ///< auto-exposure: gain wanders within +- this, by powers of two
-
-  bool Moves() const { return shutter_s > 0 || rolling_s != 0; }
-  bool IsPlain() const { return !Moves() && drift_stops == 0; }
-};
-
 /// T_wc at a time relative to the frame's own, seconds.
 using PoseAround = std::function<Pose(double)>;
 
-/// Linear radiance of a frame that is exposed while the camera moves: row v is centred on
+/// When the middle of row v, which may lie between two, is exposed, after the frame's time:
+/// rolling_s (v / (height - 1) - 1/2).
+double RowTime_s(const Exposure& exposure, double v, int height);
+
+/// Linear radiance of a frame that is exposed while the camera moves, rendered again for each
+/// moment, so that it holds for scenes in which something moves by itself (for others
+/// carried_exposure.h is some 50 times faster): row v is centred on
 /// rolling_s (v / (height - 1) - 1/2), by bands of 8 rows; the shutter's samples lie evenly
 /// about that. So the pose of the frame's time is that of the middle of its exposure.
 cv::Mat3f ExposeMoving(const FrameRenderer& renderer, const Exposure& exposure,

@@ -26,34 +26,36 @@ void CheckTimes(const std::vector<TimedPose>& trajectory) {
 }  // namespace
 
 Recording PlanRecording(const std::vector<TimedPose>& trajectory, std::vector<TimedPose> path,
-                        const TimingDefects& timing, std::uint64_t seed) {
+                        const RigOptions& rig) {
   CheckTimes(trajectory);
   Recording recording;
-  recording.shots = MakeShots(trajectory, timing, seed);
+  recording.shots = MakeShots(trajectory, rig.sensor.timing, rig.seed);
   recording.path = std::move(path);
   if (recording.path.empty()) recording.path = trajectory;
   recording.lost = static_cast<int>(trajectory.size()) - recording.frames();
   return recording;
 }
 
-Recording PlanRecording(const Scene& scene, const RigOptions& rig, const TimingDefects& timing,
-                        int frames) {
+Recording PlanRecording(const Scene& scene, const RigOptions& rig, int frames) {
   const double fps = rig.camera.fps;
   std::vector<TimedPose> path;
-  if (rig.exposure.Moves() || timing.depth_offset_s != 0) {
+  const Sensor& sensor = rig.sensor;
+  if (sensor.exposure.Moves() || sensor.timing.depth_offset_s != 0) {
     const int times = std::max(1, static_cast<int>(std::ceil(kPathRate_Hz / fps)));
     path = MakeTrajectory(scene, frames * times + 1, fps * times, rig.seed);
   }
-  Recording recording = PlanRecording(MakeTrajectory(scene, frames, fps, rig.seed),
-                                      std::move(path), timing, rig.seed);
+  Recording recording =
+      PlanRecording(MakeTrajectory(scene, frames, fps, rig.seed), std::move(path), rig);
   recording.scenes_own = true;
   return recording;
 }
 
 SimulatedFrame Record(const Simulator& simulator, const Recording& recording, int i) {
-  const Shot& shot = recording.shots.at(static_cast<std::size_t>(i));
-  return simulator.Simulate(
-      i, shot, [&](double later_s) { return PoseAt(recording.path, shot.time_s + later_s); });
+  const int exposed = recording.shots.at(static_cast<std::size_t>(i)).exposed;
+  const Shot& shot = recording.shots.at(static_cast<std::size_t>(exposed));
+  return simulator.Simulate(exposed, shot, [&](double later_s) {
+    return PoseAt(recording.path, shot.time_s + later_s);
+  });
 }
 
 }  // namespace sim

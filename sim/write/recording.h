@@ -17,19 +17,18 @@ struct Recording {
   int frames() const { return static_cast<int>(shots.size()); }
 };
 
-/// The scene's own motion, `frames` of rig.camera.fps with the defects of time. Between frames
+/// The scene's own motion, `frames` of rig.camera.fps with the defects of time of rig.sensor. Between frames
 /// the camera follows the same motion at 240 Hz or more where something moves within a frame.
 /// @throws InputError for a scene without room for the camera; std::invalid_argument for
 ///   options out of range
-Recording PlanRecording(const Scene& scene, const RigOptions& rig, const TimingDefects& timing,
-                        int frames);
+Recording PlanRecording(const Scene& scene, const RigOptions& rig, int frames);
 
 /// The same along a given trajectory.
 /// @param path  poses closer in time than frames; empty: the trajectory, joined by straight
 ///   ways and steady turns
 /// @throws std::invalid_argument for a trajectory that is empty or whose times do not grow
 Recording PlanRecording(const std::vector<TimedPose>& trajectory, std::vector<TimedPose> path,
-                        const TimingDefects& timing, std::uint64_t seed);
+                        const RigOptions& rig);
 
 /// Frame i of [0, recording.frames()).
 SimulatedFrame Record(const Simulator& simulator, const Recording& recording, int i);

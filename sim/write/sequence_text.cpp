@@ -7,6 +7,7 @@
 
 #include "io/number_text.h"
 #include "sim/truth/truth_json.h"
+#include "sim/write/png.h"
 
 namespace sim {
 namespace {
@@ -20,6 +21,13 @@ std::string PoseLine(const Shot& shot) {
                      q.x(), q.y(), q.z(), q.w());
 }
 
+/// A share p of depth as 32768 + 1e6 p, 16 bits.
+cv::Mat1w DepthWarpImage(const cv::Mat1f& p) {
+  cv::Mat1w image;
+  p.convertTo(image, CV_16U, 1e6, 32768);
+  return image;
+}
+
 }  // namespace
 
 std::string TimeText(double timestamp_s) { return fmt::format("{:.6f}", timestamp_s); }
@@ -30,7 +38,7 @@ double PrintedTime(double timestamp_s) {
 
 std::map<std::string, std::string> FixedFiles(const Scene& scene,
                                               const std::vector<ScenePlane>& planes,
-                                              const Camera& camera,
+                                              const RigOptions& rig,
                                               const std::vector<Shot>& shots) {
   std::string rgb = "# colour images\n# timestamp filename\n";
   std::string depth = "# depth images\n# timestamp filename\n";
@@ -43,12 +51,16 @@ std::map<std::string, std::string> FixedFiles(const Scene& scene,
     pairs += fmt::format("{0} rgb/{0}.png {1} depth/{1}.png\n", t, d);
     truth += PoseLine(shot);
   }
-  return {{"associations.txt", pairs},
-          {"camera.yaml", CameraYaml(camera)},
-          {"depth.txt", depth},
-          {"groundtruth.txt", truth},
-          {"gt/scene.json", SceneTruthJson(scene, planes)},
-          {"rgb.txt", rgb}};
+  std::map<std::string, std::string> files{{"associations.txt", pairs},
+                                           {"camera.yaml", CameraYaml(rig.CameraAsTold())},
+                                           {"depth.txt", depth},
+                                           {"groundtruth.txt", truth},
+                                           {"gt/scene.json", SceneTruthJson(scene, planes)},
+                                           {"rgb.txt", rgb}};
+  if (rig.sensor.calibration.intrinsics != 0) files["gt/camera.yaml"] = CameraYaml(rig.camera);
+  const cv::Mat1f warp = DevicePattern(rig.sensor.depth, rig.camera, rig.seed);
+  if (!warp.empty()) files["gt/depth_warp.png"] = EncodePng(DepthWarpImage(warp));
+  return files;
 }
 
 }  // namespace sim

@@ -1,10 +1,20 @@
 #include "sim/write/simulator.h"
 
+#include "sim/write/carried_exposure.h"
+
 namespace sim {
+
+std::uint64_t RigOptions::device() const { return DeviceOf(sensor.depth, seed); }
+
+Camera RigOptions::CameraAsTold() const {
+  return ToldCamera(camera, sensor.calibration, device());
+}
 
 Simulator::Simulator(const Scene& scene, const RigOptions& options)
     : options_(options),
-      renderer_(scene, options.camera),
+      depth_error_(RegistrationError(options.sensor.calibration, options.device())),
+      renderer_(scene, options.camera, InstructionSet::kPinned,
+                options.sensor.colour.reflections),
       truth_(renderer_),
       detector_(scene, options.camera, options.detector, options.seed) {}
 
@@ -18,24 +28,31 @@ SimulatedFrame Simulator::Simulate(int frame, const Shot& shot,
                                    const PoseAround& around) const {
   const Sensor& sensor = options_.sensor;
   const double delay_s = shot.DepthDelay_s();
-  const bool moves = options_.exposure.Moves();
+  // Depth that is taken from where colour is, when it is, needs no view of its own.
+  const bool one_view = delay_s == 0 && sensor.calibration.registration_px == 0;
+  const bool moves = sensor.exposure.Moves();
   RenderOptions view;
-  view.colour = !moves;
+  const bool carried = moves && CanCarry(renderer_);
+  view.colour = !moves || carried;
   view.time_s = shot.time_s;
-  if (delay_s == 0) view.projector_offset_m = SecondEyeOffset(sensor.depth);
+  if (one_view) view.projector_offset_m = SecondEyeOffset(sensor.depth);
   thread_local Rendering rendering;  // memory only
   renderer_.Render(shot.T_wc, view, rendering);
-  if (moves)
-    rendering.radiance = ExposeMoving(renderer_, options_.exposure, around, shot.time_s);
-  const double gain = ExposureGain(options_.exposure, options_.seed, shot.time_s);
+  if (carried) {
+    CarryExposure(renderer_, sensor.exposure, around, shot.T_wc, rendering);
+  } else if (moves) {
+    rendering.radiance = ExposeMoving(renderer_, sensor.exposure, around, shot.time_s);
+  }
+  const double gain = ExposureGain(sensor.exposure, options_.seed, shot.time_s);
   if (gain != 1.0) rendering.radiance = rendering.radiance * gain;
 
   SimulatedFrame result;
   result.colour = MeasureColour(rendering.radiance, sensor.colour,
                                 PixelNoise(options_.seed, static_cast<std::uint64_t>(frame)));
-  result.depth = delay_s == 0
-                     ? Depth(frame, rendering)
-                     : Depth(frame, RenderForDepth(around(delay_s), shot.time_s + delay_s));
+  result.depth =
+      one_view
+          ? Depth(frame, rendering)
+          : Depth(frame, RenderForDepth(around(delay_s) * depth_error_, shot.time_s + delay_s));
   result.plane_id = rendering.plane_id.clone();
   result.object_id = rendering.object_id.clone();
   result.truth = truth_.Describe(rendering, shot.T_wc, shot.time_s);

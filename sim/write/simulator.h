@@ -11,11 +11,15 @@ namespace sim {
 
 /// What is in front of the scene.
 struct RigOptions {
-  Camera camera;
+  Camera camera;  ///< as it is; camera.yaml tells CameraAsTold
   Sensor sensor = SensorKind::kKinect1;
   DetectorKind detector = DetectorKind::kNoisy;
-  Exposure exposure;       ///< the colour camera's
   std::uint64_t seed = 1;  ///< for all noise
+
+  /// What names the sensor's device: what its parameters say, else the seed.
+  std::uint64_t device() const;
+  /// The camera as camera.yaml tells it.
+  Camera CameraAsTold() const;
 };
 
 /// One frame as it is recorded, with its truth; images are height x width.
@@ -47,6 +51,7 @@ class Simulator {
   cv::Mat1w Depth(int frame, const Rendering& rendering) const;
 
   RigOptions options_;
+  Pose depth_error_;  ///< RegistrationError
   FrameRenderer renderer_;
   TruthMaker truth_;
   Detector detector_;

@@ -10,7 +10,7 @@ namespace {
 
 /// Keeps these draws apart from the noise of frames.
 constexpr std::uint64_t kTimingFrame = 0xFFFFFFFFFFFFFFFEull;
-enum Draw : std::uint32_t { kDrop = 0, kJitter = 1 };
+enum Draw : std::uint32_t { kDrop = 0, kJitter = 1, kRepeat = 2 };
 
 /// The smaller gap to a neighbour, seconds; that of the path's begin where there is only one.
 double Gap(const std::vector<TimedPose>& path, std::size_t i) {
@@ -41,6 +41,12 @@ std::vector<Shot> MakeShots(const std::vector<TimedPose>& trajectory,
     }
     shot.depth_stamp_s = shot.colour_stamp_s + defects.depth_offset_s;
     shot.T_wc = trajectory[i].T_wc;
+    shot.exposed = static_cast<int>(shots.size());
+    if (i > 0 && defects.repeat_ratio > 0 &&
+        noise.Uniform(place, 0, kRepeat) < defects.repeat_ratio) {
+      shot.exposed = shots.back().exposed;
+      shot.T_wc = shots.back().T_wc;
+    }
     shots.push_back(shot);
   }
   return shots;

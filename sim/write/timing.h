@@ -4,23 +4,19 @@
 #include <vector>
 
 #include "sim/motion/trajectory.h"
+#include "sim/sensor/timing_defects.h"
 
 namespace sim {
 
-/// What goes wrong with time in a real recording; nothing by default.
-struct TimingDefects {
-  double drop_ratio = 0;      ///< share of frames lost, in [0, 1); never the first
-  double depth_offset_s = 0;  ///< depth is exposed, and stamped, this much after colour
-  double stamp_jitter_s = 0;  ///< sd of the stamps about the time of exposure
-  bool IsNone() const { return drop_ratio == 0 && depth_offset_s == 0 && stamp_jitter_s == 0; }
-};
-
-/// One frame to render. The colour stamp names it in all lists; truth is of its exposure.
+/// One frame. The colour stamp names it in all lists; truth is of its exposure.
 struct Shot {
   double time_s = 0;          ///< middle of the colour exposure
   double colour_stamp_s = 0;  ///< as recorded
   double depth_stamp_s = 0;   ///< as recorded
-  Pose T_wc;                  ///< at time_s
+  Pose T_wc;                  ///< at time_s; of a repeated frame, at the time that it repeats
+  /// The shot whose images this one shows, as a place in the list of shots; its own place
+  /// unless the frame is repeated.
+  int exposed = 0;
   /// Depth is exposed this much after colour.
   double DepthDelay_s() const { return depth_stamp_s - colour_stamp_s; }
 };

@@ -58,23 +58,30 @@ Json Plan(const Scene& scene, const SequenceOptions& options, std::size_t frames
   plan["scene"] = scene.name;
   plan["scene_hash"] = SceneHash(scene);
   plan["seed"] = options.rig.seed;
-  plan["camera"] = CameraJson(options.rig.camera);
+  plan["camera"] = CameraJson(options.rig.CameraAsTold());
   if (!options.motion.empty()) plan["motion"] = options.motion;
   plan["sensor"] = options.rig.sensor.name;
   if (!options.rig.sensor.changed.empty()) {
     plan["sensor_parameters"] = options.rig.sensor.changed;
   }
-  const Exposure& exposure = options.rig.exposure;
+  const Exposure& exposure = options.rig.sensor.exposure;
   if (!exposure.IsPlain()) {
     plan["exposure"] = {{"shutter_s", exposure.shutter_s},
                         {"shutter_samples", exposure.shutter_samples},
                         {"rolling_s", exposure.rolling_s},
                         {"drift_stops", exposure.drift_stops}};
   }
-  if (!options.timing.IsNone()) {
-    plan["timing"] = {{"drop_ratio", options.timing.drop_ratio},
-                      {"depth_offset_s", options.timing.depth_offset_s},
-                      {"stamp_jitter_s", options.timing.stamp_jitter_s}};
+  const TimingDefects& timing = options.rig.sensor.timing;
+  if (!timing.IsNone()) {
+    plan["timing"] = {{"drop_ratio", timing.drop_ratio},
+                      {"repeat_ratio", timing.repeat_ratio},
+                      {"depth_offset_s", timing.depth_offset_s},
+                      {"stamp_jitter_s", timing.stamp_jitter_s}};
+  }
+  const CalibrationError& calibration = options.rig.sensor.calibration;
+  if (calibration.registration_px != 0 || calibration.intrinsics != 0) {
+    plan["calibration_error"] = {{"registration_px", calibration.registration_px},
+                                 {"intrinsics", calibration.intrinsics}};
   }
   plan["detector"] = Name(options.rig.detector);
   plan["frame_count"] = frames;
@@ -190,7 +197,7 @@ Json PlannedManifest(const Scene& scene, const Recording& recording,
 int WriteSequence(const Scene& scene, const Recording& recording,
                   const SequenceOptions& options, const fs::path& folder) {
   const Simulator simulator(scene, options.rig);
-  const auto fixed = FixedFiles(scene, simulator.planes(), options.rig.camera, recording.shots);
+  const auto fixed = FixedFiles(scene, simulator.planes(), options.rig, recording.shots);
   const Json plan = PlannedManifest(scene, recording, options, fixed);
   const io::FolderLock lock(folder);
   if (PrepareFolder(folder, plan, options.existing)) return 0;
@@ -206,14 +213,13 @@ int WriteSequence(const Scene& scene, const Recording& recording,
 
 int WriteSequence(const Scene& scene, const std::vector<TimedPose>& trajectory,
                   const SequenceOptions& options, const fs::path& folder) {
-  return WriteSequence(
-      scene, PlanRecording(trajectory, options.path, options.timing, options.rig.seed), options,
-      folder);
+  return WriteSequence(scene, PlanRecording(trajectory, options.path, options.rig), options,
+                       folder);
 }
 
 int WriteSequence(const Scene& scene, const SequenceOptions& options, const fs::path& folder) {
-  return WriteSequence(scene, PlanRecording(scene, options.rig, options.timing, options.frames),
-                       options, folder);
+  return WriteSequence(scene, PlanRecording(scene, options.rig, options.frames), options,
+                       folder);
 }
 
 }  // namespace sim

@@ -15,7 +15,6 @@ namespace sim {
 
 struct SequenceOptions {
   RigOptions rig;
-  TimingDefects timing;  ///< dropped frames and wrong stamps
   /// Poses closer in time than frames, for what moves within a frame (exposure, depth offset);
   /// empty: the trajectory itself, which is then joined by straight ways and steady turns.
   std::vector<TimedPose> path;
@@ -44,7 +43,7 @@ nlohmann::ordered_json PlannedManifest(const Scene& scene, const Recording& reco
 int WriteSequence(const Scene& scene, const SequenceOptions& options,
                   const std::filesystem::path& folder);
 
-/// The same for a recording that is planned already; options.frames, .timing and .path are
+/// The same for a recording that is planned already; options.frames, .path are
 /// then only told to the manifest.
 int WriteSequence(const Scene& scene, const Recording& recording,
                   const SequenceOptions& options, const std::filesystem::path& folder);

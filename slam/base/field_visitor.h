@@ -25,6 +25,8 @@ class FieldVisitor {
   /// One of `names`; the value is its position.
   virtual void Choice(const char* key, int& value, const std::vector<std::string>& names,
                       const char* help) = 0;
+  /// Any text but an empty one.
+  virtual void Text(const char* key, std::string& value, const char* help) = 0;
   virtual void Texts(const char* key, std::vector<std::string>& value, const char* help) = 0;
 
   /// The settings of a part stand below `key`.

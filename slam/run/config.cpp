@@ -13,6 +13,8 @@ void VisitFields(Config& c, FieldVisitor& v) {
   const DepthSensor before = c.sensor.sensor;
   v.Section("sensor", "the depth camera", c.sensor);
   if (c.sensor.sensor != before) c.plane_extraction = ExtractionFor(c.sensor.sensor);
+  v.Section("depth_warp", "what the depth camera bends, and what is done about it",
+            c.depth_warp);
 
   v.Section("point_features", "ORB extraction", c.point_features);
   v.Section("point_depth", "depth of a feature", c.point_features.depth);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "slam/associate/association_config.h"
+#include "slam/calibrate/warp_config.h"
 #include "slam/detect/box_tracks.h"
 #include "slam/detect/class_table.h"
 #include "slam/detect/yolox_output.h"
@@ -20,6 +21,8 @@ namespace slam {
 /// stage's own header and nowhere else. As text: config_file.h.
 struct Config {
   SensorModel sensor;
+
+  DepthWarpConfig depth_warp;
 
   // (B) extraction
   PointFeatureConfig point_features;

@@ -37,6 +37,9 @@ class Reader : public FieldVisitor {
               const char*) override {
     if (const auto found = Find(key)) value = static_cast<int>(found->OneOf(names));
   }
+  void Text(const char* key, std::string& value, const char*) override {
+    if (const auto found = Find(key)) value = found->Text();
+  }
   void Texts(const char* key, std::vector<std::string>& value, const char*) override {
     const auto found = Find(key);
     if (!found) return;
@@ -90,6 +93,9 @@ class JsonWriter : public FieldVisitor {
               const char*) override {
     (*objects_.back())[key] = names.at(static_cast<std::size_t>(value));
   }
+  void Text(const char* key, std::string& value, const char*) override {
+    (*objects_.back())[key] = value;
+  }
   void Texts(const char* key, std::vector<std::string>& value, const char*) override {
     (*objects_.back())[key] = value;
   }
@@ -116,6 +122,9 @@ class ValueTexts : public FieldVisitor {
   void Choice(const char*, int& value, const std::vector<std::string>& names,
               const char*) override {
     texts.push_back(names.at(static_cast<std::size_t>(value)));
+  }
+  void Text(const char*, std::string& value, const char*) override {
+    texts.push_back(Quoted(value));
   }
   void Texts(const char*, std::vector<std::string>& value, const char*) override {
     std::string list;
@@ -191,6 +200,9 @@ class YamlWriter : public FieldVisitor {
     std::string domain;
     for (const std::string& name : names) domain += (domain.empty() ? "" : " | ") + name;
     Line(key, help, domain);
+  }
+  void Text(const char* key, std::string&, const char* help) override {
+    Line(key, help, "text");
   }
   void Texts(const char* key, std::vector<std::string>&, const char* help) override {
     Line(key, help, "texts");

@@ -55,6 +55,25 @@ nlohmann::ordered_json CameraJson(const Camera& c) {
           {"depth_factor", c.depth_factor}};
 }
 
+nlohmann::ordered_json StraighteningJson(const StraighteningReport& report) {
+  nlohmann::ordered_json json;
+  json["applied"] = report.from_frame != kNone;
+  if (report.from_frame != kNone) {
+    json["from_frame"] = report.from_frame;
+    json["rms"] = report.rms;
+  }
+  if (report.evidence) {
+    const WarpEvidence& evidence = *report.evidence;
+    json["learnt"] = {{"epochs", evidence.epochs},
+                      {"gain", evidence.gain},
+                      {"student_t", evidence.student_t},
+                      {"min_student_t", evidence.min_student_t},
+                      {"largest_surface", evidence.largest_surface}};
+    if (!evidence.worth_it) json["doubt"] = evidence.Doubt();
+  }
+  return json;
+}
+
 }  // namespace
 
 RunWriter::RunWriter(const std::filesystem::path& folder, RunInfo info, Options options)
@@ -127,6 +146,7 @@ nlohmann::ordered_json RunWriter::RunJson(std::size_t poses, const RunEnd& end) 
   json["lost"] = frames_ - static_cast<int>(poses);
   for (std::size_t k = 0; k < kPairRefusalNames.size(); ++k)
     json["refused_pairs"][kPairRefusalNames[k]] = refused_.count[k];
+  json["depth_warp"] = StraighteningJson(end.straightening);
   json["warnings"] = end.warnings;
   json["wall_time_s"] = wall.count();
   json["peak_memory_mb"] = PeakMemory_mb();

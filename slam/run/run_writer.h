@@ -10,6 +10,7 @@
 #include "io/atomic_file.h"
 #include "io/output_folder.h"
 #include "slam/associate/refusals.h"
+#include "slam/calibrate/straightener.h"
 #include "slam/geometry/camera.h"
 #include "slam/model/frame.h"
 #include "slam/model/map.h"
@@ -52,6 +53,7 @@ struct RunEnd {
   bool interrupted = false;  ///< before the last frame of the sequence
   std::vector<std::string>
       warnings;  ///< for who reads the run; no paths, no times of the clock
+  StraighteningReport straightening = {};
 };
 
 /// Writes a run folder (formats.md) that is there whole after Finish and not at all before.

@@ -10,6 +10,8 @@ TrackReport Tracker::TrackFrame(Frame& frame, const cv::Mat3b& bgr) {
   const Stopwatch whole(report.times[Module::kMt]);
 
   // (A) is the caller's: slam/input reads the frame.
+  const cv::Mat1f measured_m = frame.depth_m;
+  frame.depth_m = straightener_.Straighten(frame.index, measured_m);
   ExtractInformation(frame, bgr, report);  // (B) points, planes, edge points, boxes
   ProcessFramePlanes(frame, report);       // (C) re-fit, box link, lines, vertices, selection
   const TrackingHold map_is_ours(gate());  // mapping beside tracking gives it away in between
@@ -18,6 +20,7 @@ TrackReport Tracker::TrackFrame(Frame& frame, const cv::Mat3b& bgr) {
   AssociateFramePlanes(frame, report);  // (D) plane to plane with boxes, point to plane
   OptimiseWithPlanes(frame, report);    // (E) all six kinds of factor
   UpdateMap(frame, report);             // (F) planes; keyframe, points, bundle adjustment
+  straightener_.Learn(frame, measured_m);
   return report;
 }
 

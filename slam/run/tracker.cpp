@@ -43,6 +43,7 @@ Tracker::Tracker(const Camera& camera, const Config& config, Variant variant,
       variant_(variant),
       detector_(detector ? std::move(detector) : std::make_unique<NoDetector>()),
       threads_(threads),
+      straightener_(camera, config_.sensor.noise, config_.depth_warp),
       box_tracks_(config.box_tracks, camera.ImageBox()),
       points_(camera, config_.point_features.scale, config_.point_search, config_.tracking),
       before_mapping_(std::move(before_mapping)) {

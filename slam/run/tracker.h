@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "slam/associate/refusals.h"
+#include "slam/calibrate/straightener.h"
 #include "slam/detect/box_tracks.h"
 #include "slam/detect/detections.h"
 #include "slam/geometry/camera.h"
@@ -53,12 +54,13 @@ class Tracker {
   /// @param detector  may be null: no detections
   /// @param threads   1, or more: points, planes and boxes are then extracted side by side
   /// @param before_mapping  called before each keyframe is mapped, where it is mapped
+  /// @throws InputError when config.depth_warp names a file that is no warp of this camera
   Tracker(const Camera& camera, const Config& config, Variant variant,
           std::unique_ptr<Detector> detector, std::uint64_t seed, int threads,
           std::function<void(int keyframe)> before_mapping = {});
 
   /// Takes one frame, with index, timestamp, gray and depth set, through the paper's stages (A)
-  /// to (F); fills the rest of it. An untracked frame has no pose: T_cw is
+  /// to (F); fills the rest of it, and takes out of the depth what the device bends. An untracked frame has no pose: T_cw is
   /// the identity, nothing is matched, and the map is as before.
   /// @param bgr  for the detector; same size
   /// @throws what mapping beside tracking threw meanwhile
@@ -69,6 +71,8 @@ class Tracker {
   void Finish(MappingWorker::Waiting waiting);
 
   const Map& map() const { return map_; }
+  /// Whether depth was straightened, and why or why not.
+  const StraighteningReport& straightening() const { return straightener_.report(); }
   /// Number of loops closed.
   int loops() const { return loops_; }
   /// Keyframes that mapping beside tracking had no time for.
@@ -94,6 +98,7 @@ class Tracker {
   std::unique_ptr<Detector> detector_;
   int threads_;
 
+  DepthStraightener straightener_;
   std::optional<PlaneExtractor> plane_extractor_;  ///< none: no planes
   BoxTracks box_tracks_;
   PointTracking points_;

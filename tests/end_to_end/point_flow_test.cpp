@@ -25,6 +25,7 @@ Views LookTwice(std::uint64_t seed, int frames_apart) {
   const sim::Scene scene = sim::MakeScene("desk", seed);
   const auto path = sim::MakeTrajectory(scene, frames_apart + 1, 30, seed);
   sim::RigOptions rig;
+  rig.sensor = sim::SensorKind::kKinect1Clean;
   rig.detector = sim::DetectorKind::kNone;
   sim::RigOptions exact = rig;
   exact.sensor = sim::SensorKind::kIdeal;

@@ -57,12 +57,12 @@ void ExpectAgreement(const BothScores& both) {
 
 TEST(Surfaces, AgreeWithTheTrueWallsOfARoomSeenByAKinect) {
   ExpectAgreement(
-      ScoreBoth("room", 41, sim::SensorKind::kKinect1, eval::TruePixels::kWithDepth));
+      ScoreBoth("room", 41, sim::SensorKind::kKinect1Clean, eval::TruePixels::kWithDepth));
 }
 
 TEST(Surfaces, AgreeWithTheTruePlanesOfADeskSeenByAKinect) {
   ExpectAgreement(
-      ScoreBoth("desk", 43, sim::SensorKind::kKinect1, eval::TruePixels::kWithDepth));
+      ScoreBoth("desk", 43, sim::SensorKind::kKinect1Clean, eval::TruePixels::kWithDepth));
 }
 
 TEST(Surfaces, AgreeWithTheTrueWallsOfARoomWhereAD435MeasuredThem) {

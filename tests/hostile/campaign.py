@@ -71,7 +71,7 @@ def make_corpus(pas, folder):
         subprocess.run([pas, "-q", *arguments], cwd=folder, check=True)
 
     run("scene", "make", "--family", "desk", "--seed", "3", "-o", "scene.yaml")
-    run("sim", "scene.yaml", "-o", "seq", "--frames", "8", "--width", "320", "--height", "240")
+    run("sim", "--sensor", "kinect1-clean", "scene.yaml", "-o", "seq", "--frames", "8", "--width", "320", "--height", "240")
     run("slam", "seq", "-o", "run", "--save-segmentation", "--threads", "1")
     (folder / "sensor.yaml").write_text("base: kinect1\nmin_depth_m: 0.5\nmax_depth_m: 4\n")
     lines = (folder / "seq/groundtruth.txt").read_text().splitlines()

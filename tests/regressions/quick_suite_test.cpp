@@ -19,7 +19,7 @@ const std::filesystem::path kBaseline =
     std::filesystem::path(PAS_SOURCE_DIR) / "tests/regressions/quick_suite.json";
 
 constexpr std::uint64_t kSceneSeeds[] = {11, 12, 13};  // not those of any figure in the README
-constexpr pipeline::Recording kRecording{.frames = 90};
+constexpr pipeline::Recording kRecording{.frames = 90, .sensor = sim::SensorKind::kKinect1};
 
 /// scene -> watched figures.
 json RunSuite(slam::Variant variant) {

@@ -30,8 +30,9 @@ TemporaryFolder::~TemporaryFolder() {
 
 void Record(const sim::Scene& scene, const Recording& recording, const fs::path& folder) {
   sim::SequenceOptions options;
-  options.rig.camera = sim::Resize(sim::Camera{}, recording.width, recording.height);
   options.rig.sensor = recording.sensor;
+  options.rig.camera = sim::WithLens(
+      sim::Resize(sim::Camera{}, recording.width, recording.height), options.rig.sensor.lens);
   options.rig.detector = recording.detector;
   options.rig.seed = recording.seed;
   options.frames = recording.frames;
@@ -62,14 +63,13 @@ std::string Replay(const sim::Scene& scene, const Recording& recording,
                    const fs::path& scene_file) {
   fs::create_directories(scene_file.parent_path());
   sim::WriteScene(scene, scene_file);
-  const bool ideal = recording.sensor == sim::SensorKind::kIdeal;
   const char* detector = recording.detector == sim::DetectorKind::kPerfect ? "perfect"
                          : recording.detector == sim::DetectorKind::kNoisy ? "noisy"
                                                                            : "none";
   std::ostringstream text;
   text << "repeat with: pas sim " << scene_file.string() << " -o seq --frames "
        << recording.frames << " --width " << recording.width << " --height " << recording.height
-       << " --sensor " << (ideal ? "ideal" : "kinect1") << " --detector " << detector
+       << " --sensor " << sim::Sensor(recording.sensor).name << " --detector " << detector
        << " --seed " << recording.seed
        << " && pas slam seq -o run --save-segmentation && pas eval run";
   return text.str();

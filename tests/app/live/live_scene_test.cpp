@@ -28,10 +28,10 @@ sim::SequenceOptions Awkward() {
   options.rig.camera =
       sim::WithLens(sim::Resize(sim::Camera{}, 320, 240), {0.05, -0.02, 0.001, -0.001, 0});
   options.rig.seed = 5;
-  options.rig.exposure.drift_stops = 0.5;
-  options.timing.drop_ratio = 0.2;
-  options.timing.stamp_jitter_s = 0.001;
-  options.timing.depth_offset_s = 0.005;
+  options.rig.sensor.exposure.drift_stops = 0.5;
+  options.rig.sensor.timing.drop_ratio = 0.2;
+  options.rig.sensor.timing.stamp_jitter_s = 0.001;
+  options.rig.sensor.timing.depth_offset_s = 0.005;
   options.frames = 9;
   options.threads = 2;
   return options;
@@ -46,7 +46,7 @@ class LiveSceneTest : public testing::Test {
   void TearDown() override { fs::remove_all(root_); }
 
   sim::Recording Plan(const sim::SequenceOptions& o) const {
-    return sim::PlanRecording(scene_, o.rig, o.timing, o.frames);
+    return sim::PlanRecording(scene_, o.rig, o.frames);
   }
   void RunLive(const sim::SequenceOptions& o, const std::string& name, int ahead) {
     LiveScene live(scene_, o.rig, Plan(o), ahead);
@@ -67,8 +67,8 @@ TEST_F(LiveSceneTest, GivesTheRunThatTheFilesOfTheSameRecordingGive) {
     if (!awkward) {
       const sim::RigOptions plain;
       options.rig.camera = sim::Resize(plain.camera, 320, 240);
-      options.rig.exposure = plain.exposure;
-      options.timing = {};
+      options.rig.sensor.exposure = {};
+      options.rig.sensor.timing = {};
       options.frames = 6;
     }
     const std::string tag = awkward ? "awkward" : "plain";

@@ -26,8 +26,8 @@ class HostileUse : public testing::Test {
       ASSERT_EQ(outcome.exit_code, 0) << outcome.errors;
     };
     run({"scene", "make", "-o", *shared_ / "scene.yaml"});
-    run({"sim", *shared_ / "scene.yaml", "-o", *shared_ / "seq", "--frames", "5", "--width",
-         "160", "--height", "120"});
+    run({"sim", "--sensor", "kinect1-clean", *shared_ / "scene.yaml", "-o", *shared_ / "seq",
+         "--frames", "5", "--width", "160", "--height", "120"});
     run({"slam", *shared_ / "seq", "-o", *shared_ / "run"});
   }
   static void TearDownTestSuite() { delete shared_; }

@@ -24,10 +24,20 @@ const fs::path& Recorded() {
   static const TemporaryFolder folder;
   static const fs::path sequence = [] {
     const fs::path path = folder / "seq";
-    const std::vector<std::string> sim{
-        Pas(),     "-q",  "sim",      fs::path(PAS_SOURCE_DIR) / "scenes/ambiguous/desk.yaml",
-        "-o",      path,  "--frames", std::to_string(kFrames),
-        "--width", "320", "--height", "240"};
+    const std::vector<std::string> sim{Pas(),
+                                       "-q",
+                                       "sim",
+                                       "--sensor",
+                                       "kinect1-clean",
+                                       fs::path(PAS_SOURCE_DIR) / "scenes/ambiguous/desk.yaml",
+                                       "-o",
+                                       path,
+                                       "--frames",
+                                       std::to_string(kFrames),
+                                       "--width",
+                                       "320",
+                                       "--height",
+                                       "240"};
     EXPECT_EQ(Process(sim, {}, folder / "errors").Wait().exit_code, 0);
     return path;
   }();

@@ -3,7 +3,7 @@
 #include <unistd.h>
 
 #include "eval/surfaces/depth_registration.h"
-#include "eval/surfaces/true_pose.h"
+#include "eval/trajectory/true_pose.h"
 #include "io/atomic_file.h"
 #include "io/input_error.h"
 

@@ -181,6 +181,19 @@ TEST(SceneFile, IsWrittenWholeAndReadBackFromDisk) {
   EXPECT_THROW(WriteScene(made, "/nonexistent/folder/scene.yaml"), io::InputError);
 }
 
+TEST(SceneFile, KeepsWhatAMaterialIsToDepthSensors) {
+  Scene scene = MakeScene("plates", 1);
+  scene.objects[0].faces[2].infrared = 0.25;
+  scene.objects[0].faces[2].gloss = 0.5;
+  const Scene read = ParseScene(SceneText(scene), "text");
+  EXPECT_EQ(read.objects[0].faces[2].infrared, 0.25);
+  EXPECT_EQ(read.objects[0].faces[2].gloss, 0.5);
+  EXPECT_FALSE(read.objects[0].faces[3].gloss.has_value());
+  EXPECT_THAT(
+      ErrorOf(kHead + Box(1, "a", kPlaced + "    faces: {all: {print: text, gloss: 2}}\n")),
+      HasSubstr("gloss"));
+}
+
 TEST(SceneFile, ReadsEveryCommittedScene) {
   int count = 0;
   for (const auto& entry :

@@ -6,13 +6,13 @@
 #include <opencv2/core.hpp>
 #include <vector>
 
+#include "sim/sensor/bend_report.h"
 #include "sim/sensor/sensor.h"
 
 namespace sim {
 namespace {
 
 constexpr double kRms = 0.0033;
-constexpr int kBlock_px = 16;
 
 /// A frontal wall that fills the view; nothing of the renderer.
 Rendering BareWall(const Camera& camera, double z_m) {
@@ -23,31 +23,6 @@ Rendering BareWall(const Camera& camera, double z_m) {
   wall.object_id = cv::Mat1w(size, 1);
   wall.incidence_cos = cv::Mat1f(size, 1.0F);
   return wall;
-}
-
-/// Residuals of disparity (steps of 1/8 pixel) from its best plane over the image.
-cv::Mat1d Residuals(const cv::Mat1d& z, double disparity_m_steps) {
-  cv::Mat1d a(z.rows * z.cols, 3), b(z.rows * z.cols, 1), plane;
-  for (int v = 0, i = 0; v < z.rows; ++v) {
-    for (int u = 0; u < z.cols; ++u, ++i) {
-      a(i, 0) = u, a(i, 1) = v, a(i, 2) = 1;
-      b(i) = disparity_m_steps / z(v, u);
-    }
-  }
-  cv::solve(a, b, plane, cv::DECOMP_NORMAL);
-  const cv::Mat rest = b - a * plane;
-  return rest.reshape(1, z.rows).clone();
-}
-
-cv::Mat1d BlockMeans(const cv::Mat1d& residuals) {
-  cv::Mat1d means(residuals.rows / kBlock_px, residuals.cols / kBlock_px);
-  for (int j = 0; j < means.rows; ++j) {
-    for (int i = 0; i < means.cols; ++i) {
-      means(j, i) =
-          cv::mean(residuals(cv::Rect(i * kBlock_px, j * kBlock_px, kBlock_px, kBlock_px)))[0];
-    }
-  }
-  return means;
 }
 
 double Rms(const cv::Mat1d& values) {
@@ -62,8 +37,7 @@ KinectModel Bent(int device) {
 
 cv::Mat1d WallResiduals(double z_m, const KinectModel& model, std::uint64_t frame) {
   const Camera camera;
-  return Residuals(MeasureDepth(BareWall(camera, z_m), model, camera, 5, frame),
-                   model.disparity_m_steps);
+  return DisparityResiduals(MeasureDepth(BareWall(camera, z_m), model, camera, 5, frame));
 }
 
 struct Measured {
@@ -91,18 +65,12 @@ TEST(DepthBend, LeavesOfAWallWhatARealKinectLeaves) {
 TEST(DepthBend, IsMostlyThePatternOfTheDevice) {
   double share = 0;
   for (int device = 1; device <= kDevices; ++device) {
-    const cv::Mat1d a = BlockMeans(WallResiduals(1.5, Bent(device), 0));
-    const cv::Mat1d b = BlockMeans(WallResiduals(1.5, Bent(device), 100000));
-    share += a.dot(b) / std::sqrt(a.dot(a) * b.dot(b)) / kDevices;
+    share += CorrelationOf(BlockMeans(WallResiduals(1.5, Bent(device), 0)),
+                           BlockMeans(WallResiduals(1.5, Bent(device), 100000))) /
+             kDevices;
   }
   EXPECT_GT(share, 0.65);
   EXPECT_LT(share, 0.85);
-}
-
-double Correlation(const cv::Mat1d& p, int du, int dv) {
-  const cv::Rect all(0, 0, p.cols - du, p.rows - dv);
-  const cv::Mat1d a = p(all), b = p(all + cv::Point(du, dv));
-  return a.dot(b) / std::sqrt(a.dot(a) * b.dot(b));
 }
 
 /// Where the autocorrelation along x or y first falls below `level`, pixels; averaged over devices.
@@ -116,8 +84,7 @@ double FallsBelow(double level, cv::Point along) {
   double before = 1;
   for (int lag_px = kStep_px;; lag_px += kStep_px) {
     double here = 0;
-    for (const cv::Mat1d& p : patterns)
-      here += Correlation(p, lag_px * along.x, lag_px * along.y) / kDevices;
+    for (const cv::Mat1d& p : patterns) here += Autocorrelation(p, lag_px * along) / kDevices;
     if (here < level) return lag_px - kStep_px * (level - here) / (before - here);
     before = here;
   }
@@ -129,6 +96,43 @@ TEST(DepthBend, IsABandAcrossTheImageAsWideAsARealOne) {
   EXPECT_NEAR(FallsBelow(0.44, {1, 0}), 32, 0.3 * 32);
   EXPECT_NEAR(FallsBelow(0, {1, 0}), 56, 0.3 * 56);
   EXPECT_NEAR(FallsBelow(0.5, {0, 1}), 76, 0.3 * 76);
+}
+
+// A known image has known residuals: what is affine in the pixel goes, the rest stays.
+TEST(DisparityResiduals, AreWhatNoPlaneExplains) {
+  cv::Mat1d z(480, 640);
+  const auto wave = [](int u) { return 0.3 * std::cos(2 * M_PI * (u + 0.5) / 64); };
+  for (int v = 0; v < z.rows; ++v) {
+    for (int u = 0; u < z.cols; ++u) z(v, u) = 351.3 / (150 + 0.1 * u - 0.05 * v + wave(u));
+  }
+  z(100, 200) = 0;
+  const cv::Mat1d rest = DisparityResiduals(z);
+  EXPECT_TRUE(std::isnan(rest(100, 200)));
+  EXPECT_NEAR(rest(17, 330), wave(330), 1e-3);
+  // The mean of a wave over a quarter of it.
+  EXPECT_NEAR(BlockMeans(rest)(3, 20),
+              0.3 * std::sin(M_PI / 4) / (M_PI / 4) * std::cos(M_PI / 4), 2e-3);
+  EXPECT_NEAR(Autocorrelation(BlockMeans(rest), {2, 0}), -1, 1e-2);
+}
+
+TEST(BendReport, OfACleanSensorIsItsNoise) {
+  const BendReport report = MeasureBend(SensorKind::kKinect1Clean, 1);
+  EXPECT_LT(report.walls[0].blocks, 0.12);
+  EXPECT_LT(report.fixed_share, 0.2);
+  EXPECT_EQ(report.along_x_32, 0);
+}
+
+TEST(DepthBend, BendsWhatTheOthersMeasureToo) {
+  for (const SensorKind kind : {SensorKind::kAzure, SensorKind::kD435}) {
+    Sensor sensor(kind);
+    const double flat = MeasureBend(sensor, 2).walls[0].blocks;
+    if (auto* azure = std::get_if<AzureModel>(&sensor.depth)) azure->bend.rms = kRms;
+    if (auto* d435 = std::get_if<D435Model>(&sensor.depth)) d435->bend.rms = kRms;
+    const BendReport report = MeasureBend(sensor, 2);
+    EXPECT_GT(report.walls[0].blocks, 0.5) << sensor.name;
+    EXPECT_LT(flat, 0.35) << sensor.name;
+    EXPECT_GT(report.fixed_share, 0.55) << sensor.name;
+  }
 }
 
 TEST(DepthBend, IsTheSameOfADeviceWhateverTheSeedAndTheSizeOfTheImage) {

@@ -58,7 +58,7 @@ TEST_P(TwoPlanes, AreTwoPeaksOnceTheirGapIsFiveSds) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Sensors, TwoPlanes,
-                         testing::Values(SensorKind::kKinect1, SensorKind::kAzure,
+                         testing::Values(SensorKind::kKinect1Clean, SensorKind::kAzure,
                                          SensorKind::kD435));
 
 }  // namespace

@@ -76,8 +76,9 @@ TEST(FrameTruth, SumsPixelsOfPlanesToThoseOfTheirObject) {
 
 /// The front (-y) face of an object among the planes of a frame.
 const PlaneInFrame* FrontOf(const FrameTruth& truth, const Scene& scene, int object) {
+  const std::vector<ScenePlane> planes = ScenePlanes(scene);
   for (const PlaneInFrame& plane : truth.planes) {
-    const ScenePlane& of = ScenePlanes(scene).at(static_cast<std::size_t>(plane.id) - 1);
+    const ScenePlane& of = planes.at(static_cast<std::size_t>(plane.id) - 1);
     if (of.object == object && of.face == Face::kMinusY) return &plane;
   }
   return nullptr;

@@ -3,19 +3,24 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <functional>
 #include <opencv2/core.hpp>
 
+#include "sim/write/carried_exposure.h"
 #include "tests/sim/support/sim_worlds.h"
 
 namespace sim {
 namespace {
 
-constexpr double kBoard_m = 1.0;    ///< distance of the board
+constexpr double kBoard_m = 1.0;  ///< distance of the board
+constexpr double kFarWall_m = 3.0;
+/// Where nothing hides anything as the camera moves.
+constexpr double kNearWall_m = kBoard_m + 0.002;
 constexpr double kSpeed_mps = 0.8;  ///< of the camera, along its x
 
 /// A dark board on the left half before a light wall, without shadows: one vertical edge.
-Scene OneEdge() {
-  Scene scene = OneBoard(3.0, 20.0, Print::kPlain);
+Scene OneEdge(double wall_m) {
+  Scene scene = OneBoard(wall_m, 20.0, Print::kPlain);
   scene.objects.push_back(BoxObject(2, "box", Role::kRegular, {-1.0, kBoard_m + 0.0005, 0},
                                     {2.0, 0.001, 4.0}, Print::kPlain));
   for (Material& face : scene.objects[1].faces) face.colour = {0.1, 0.1, 0.1};
@@ -27,6 +32,18 @@ Pose MovingAlongX(double t) {
   Pose T_wc = LookAlongY();
   T_wc.t.x() = kSpeed_mps * t;
   return T_wc;
+}
+
+using Way = std::function<cv::Mat3f(const FrameRenderer&, const Exposure&)>;
+
+cv::Mat3f RenderedAgain(const FrameRenderer& renderer, const Exposure& exposure) {
+  return ExposeMoving(renderer, exposure, MovingAlongX);
+}
+
+cv::Mat3f RenderedOnce(const FrameRenderer& renderer, const Exposure& exposure) {
+  Rendering rendering = renderer.Render(MovingAlongX(0));
+  CarryExposure(renderer, exposure, MovingAlongX, MovingAlongX(0), rendering);
+  return rendering.radiance;
 }
 
 /// Light of a row scaled to 0 on the board, 1 on the wall.
@@ -61,33 +78,45 @@ TEST(StillCamera, SeesTheSameHoweverItExposes) {
 
 // An edge at z moves f v T / z pixels while the shutter is open: a ramp of that width about
 // where it is at the middle.
-TEST(MotionBlur, SmearsAnEdgeOverTheWayItMoves) {
+void ExpectSmear(const Way& expose, double wall_m, double tolerance) {
   const Camera camera;
-  const FrameRenderer renderer(OneEdge(), camera);
+  const FrameRenderer renderer(OneEdge(wall_m), camera);
   const double shutter_s = 0.04, way_px = camera.fx * kSpeed_mps * shutter_s / kBoard_m;
-  const cv::Mat3f blurred =
-      ExposeMoving(renderer, {.shutter_s = shutter_s, .shutter_samples = 16}, MovingAlongX);
+  const cv::Mat3f blurred = expose(renderer, {.shutter_s = shutter_s, .shutter_samples = 16});
   const std::vector<double> profile = Profile(blurred, 240);
   EXPECT_NEAR(EdgeAt(profile), camera.cx, 0.15);
   for (int u = 0; u < camera.width; ++u) {
     const double ramp = std::clamp((u - camera.cx) / way_px + 0.5, 0.0, 1.0);
-    EXPECT_NEAR(profile[static_cast<std::size_t>(u)], ramp, 1.5 / 16) << u;
+    EXPECT_NEAR(profile[static_cast<std::size_t>(u)], ramp, tolerance) << u;
   }
 }
 
+TEST(MotionBlur, SmearsAnEdgeOverTheWayItMoves) {
+  ExpectSmear(RenderedAgain, kFarWall_m, 1.5 / 16);
+  ExpectSmear(RenderedAgain, kNearWall_m, 1.5 / 16);
+  ExpectSmear(RenderedOnce, kNearWall_m, 0.06);  // one of 17 taps
+}
+
 // Row v is seen rolling (v / 479 - 1/2) later: its edge lies f V t / z further left.
-TEST(RollingShutter, SlantsAnEdgeAsTheRowsTimesSay) {
+void ExpectSlant(const Way& expose, double wall_m, double tolerance_px) {
   const Camera camera;
-  const FrameRenderer renderer(OneEdge(), camera);
+  const FrameRenderer renderer(OneEdge(wall_m), camera);
   const double rolling_s = 0.03;
-  const cv::Mat3f slanted = ExposeMoving(renderer, {.rolling_s = rolling_s}, MovingAlongX);
+  const cv::Mat3f slanted = expose(renderer, {.rolling_s = rolling_s});
   const double px_per_s = camera.fx * kSpeed_mps / kBoard_m;
-  // Half a band of eight rows, and a quarter of a pixel from four rays a pixel.
-  const double tolerance = px_per_s * rolling_s * 4 / 479 + 0.26;
   for (int v = 0; v < camera.height; v += 7) {
     const double expected = camera.cx - px_per_s * rolling_s * (v / 479.0 - 0.5);
-    EXPECT_NEAR(EdgeAt(Profile(slanted, v)), expected, tolerance) << v;
+    EXPECT_NEAR(EdgeAt(Profile(slanted, v)), expected, tolerance_px) << v;
   }
+}
+
+TEST(RollingShutter, SlantsAnEdgeAsTheRowsTimesSay) {
+  constexpr double kFourRays_px = 0.26;  // a quarter of a pixel
+  constexpr double kHalfBand_px = 4.0 / 479 * 0.03 * 525 * kSpeed_mps / kBoard_m;
+  constexpr double kWholePixels_px = 0.5;  // depth is looked up at whole pixels
+  ExpectSlant(RenderedAgain, kFarWall_m, kFourRays_px + kHalfBand_px);
+  ExpectSlant(RenderedOnce, kNearWall_m, kFourRays_px);
+  ExpectSlant(RenderedOnce, kFarWall_m, kFourRays_px + kWholePixels_px);
 }
 
 TEST(ExposureDrift, StaysWithinItsStopsAndMovesSmoothly) {

@@ -38,6 +38,25 @@ std::vector<TimedPose> SteadyPath(int frames) {
   return path;
 }
 
+TEST(Shots, RepeatTheFrameBeforeAndTellItsPose) {
+  const auto shots = MakeShots(SteadyPath(20000), {.drop_ratio = 0.1, .repeat_ratio = 0.02}, 7);
+  int repeated = 0;
+  EXPECT_EQ(shots[0].exposed, 0);
+  for (int i = 1; i < static_cast<int>(shots.size()); ++i) {
+    const Shot &shot = shots[static_cast<std::size_t>(i)],
+               &before = shots[static_cast<std::size_t>(i - 1)];
+    EXPECT_GT(shot.colour_stamp_s, before.colour_stamp_s);
+    if (shot.exposed == i) {
+      EXPECT_NE(shot.T_wc.t, before.T_wc.t);
+      continue;
+    }
+    ++repeated;
+    EXPECT_EQ(shot.exposed, before.exposed);
+    EXPECT_EQ(shot.T_wc.t, before.T_wc.t);
+  }
+  EXPECT_NEAR(repeated / static_cast<double>(shots.size()), 0.02, 0.004);
+}
+
 TEST(Shots, AreTheTrajectoryWhenNothingIsWrong) {
   const auto path = SteadyPath(50);
   const auto shots = MakeShots(path, {}, 7);

@@ -37,6 +37,7 @@ class WrittenSequence : public testing::Test {
   static SequenceOptions Options(int threads = 1) {
     SequenceOptions options;
     options.rig.camera = SmallCamera();
+    options.rig.sensor = SensorKind::kKinect1Clean;
     options.threads = threads;
     options.version = "test";
     return options;
@@ -251,7 +252,8 @@ TEST_F(WrittenSequence, SaysWhichFolderCannotBeMade) {
 TEST(GroundTruthText, ReadsBackAsTheVeryPose) {
   const auto trajectory = SmallArc(1);
   const std::string text =
-      FixedFiles(SmallDesk(), {}, Camera{}, MakeShots(trajectory, {}, 1)).at("groundtruth.txt");
+      FixedFiles(SmallDesk(), {}, RigOptions{}, MakeShots(trajectory, {}, 1))
+          .at("groundtruth.txt");
   std::istringstream line(text.substr(text.rfind("0.000000")));
   double t, x, y, z, qx, qy, qz, qw;
   line >> t >> x >> y >> z >> qx >> qy >> qz >> qw;
@@ -259,6 +261,29 @@ TEST(GroundTruthText, ReadsBackAsTheVeryPose) {
   EXPECT_EQ(Eigen::Vector3d(x, y, z), T_wc.t);
   const Eigen::Matrix3d R = Eigen::Quaterniond(qw, qx, qy, qz).toRotationMatrix();
   EXPECT_LT((R - T_wc.R).cwiseAbs().maxCoeff(), 1e-14);
+}
+
+TEST_F(WrittenSequence, TellsWhatTheKinectAsRecordedHides) {
+  SequenceOptions options = Options();
+  options.rig.sensor = SensorKind::kKinect1;
+  options.rig.sensor.timing = {};
+  options.rig.seed = 9;
+  WriteSequence(OneBoard(1.2), SmallArc(2), options, root_ / "seq");
+  EXPECT_EQ(io::ReadFile(root_ / "seq/gt/camera.yaml"), CameraYaml(options.rig.camera));
+  EXPECT_EQ(io::ReadFile(root_ / "seq/camera.yaml"), CameraYaml(options.rig.CameraAsTold()));
+  EXPECT_NE(io::ReadFile(root_ / "seq/camera.yaml"),
+            io::ReadFile(root_ / "seq/gt/camera.yaml"));
+
+  const cv::Mat1w warp =
+      cv::imread((root_ / "seq/gt/depth_warp.png").string(), cv::IMREAD_UNCHANGED);
+  const cv::Mat1f p = DevicePattern(options.rig.sensor.depth, options.rig.camera, 9);
+  ASSERT_EQ(warp.size(), p.size());
+  EXPECT_NEAR((warp(7, 11) - 32768) * 1e-6, p(7, 11), 1e-6);
+
+  options.rig.sensor = SensorKind::kKinect1Clean;
+  WriteSequence(OneBoard(1.2), SmallArc(2), options, root_ / "clean");
+  EXPECT_FALSE(std::filesystem::exists(root_ / "clean/gt/camera.yaml"));
+  EXPECT_FALSE(std::filesystem::exists(root_ / "clean/gt/depth_warp.png"));
 }
 
 }  // namespace

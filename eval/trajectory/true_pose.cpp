@@ -1,4 +1,4 @@
-#include "eval/surfaces/true_pose.h"
+#include "eval/trajectory/true_pose.h"
 
 #include <Eigen/Geometry>
 #include <algorithm>

@@ -1,0 +1,100 @@
+#include <fmt/core.h>
+
+#include <cstdio>
+#include <optional>
+
+#include "app/app.h"
+#include "app/console.h"
+#include "app/depth_sensor_option.h"
+#include "app/stop_signal.h"
+#include "app/surfaces_option.h"
+#include "app/warp_picture.h"
+#include "io/output_file.h"
+#include "slam/calibrate/warp_file.h"
+#include "slam/run/calibrate_sequence.h"
+#include "slam/run/config_file.h"
+
+namespace app {
+namespace {
+
+struct CalibrateArguments {
+  slam::CalibrateOptions options;
+  std::string sensor = slam::DepthSensorNames().front();
+  std::string config_file, output, picture;
+  bool force = false;
+};
+
+int RunCalibrate(CalibrateArguments& arguments, bool quiet) {
+  slam::CalibrateOptions& options = arguments.options;
+  const io::OutputRules rules{
+      .force = arguments.force,
+      .inputs = {options.sequence, options.camera, arguments.config_file}};
+  const io::OutputFile output(arguments.output, rules);
+  std::optional<io::OutputFile> picture;
+  if (!arguments.picture.empty()) picture.emplace(arguments.picture, rules);
+  options.config = ConfigFrom(arguments.sensor, arguments.config_file);
+  const StopSignal stop;
+  options.stop = [] { return StopSignal::Caught() != 0; };
+  std::optional<Progress> progress;
+  options.progress = [&](int done, int total) {
+    if (!progress) progress.emplace("calibrate", total, quiet);
+    progress->Update(done);
+  };
+  const slam::Calibration calibration = slam::CalibrateSequence(options);
+  progress.reset();
+  if (calibration.stopped) {
+    fmt::print(stderr, "pas: interrupted; nothing is written\n");
+    return ExitCodeOf(StopSignal::Caught());
+  }
+  const slam::WarpEvidence& evidence = calibration.evidence;
+  if (!evidence.worth_it) {
+    fmt::print(stderr, "pas: no warp is written, because {}\n", evidence.Doubt());
+    return kFailure;
+  }
+  const std::string summary = fmt::format(
+      "{:.2f} mm/m rms, from {} frames; what was learnt took out {:.0f} % of the variance of "
+      "what came later (Student's t {:.1f} of {} epochs)",
+      1e3 * calibration.warp.Rms(), calibration.tracked, 100 * evidence.gain,
+      evidence.student_t, evidence.epochs);
+  output.Write(slam::WarpText(calibration.warp, summary));
+  if (picture) picture->Write(PngBytes(DrawWarp(calibration.warp)));
+  if (!quiet) fmt::print("{}: {}\n", arguments.output, summary);
+  return kDone;
+}
+
+}  // namespace
+
+void AddCalibrateCommand(CLI::App& pas, const Globals& globals, int& exit_code) {
+  CLI::App* command = pas.add_subcommand(
+      "calibrate",
+      "Learns from the planes of a recording how its depth camera bends what is flat, for\n"
+      "`pas slam --depth-warp FILE` (docs/calibration.md). Writes nothing, with exit code 1, "
+      "when\n"
+      "the recording does not show that it does.");
+  auto arguments = std::make_shared<CalibrateArguments>();
+  slam::CalibrateOptions& options = arguments->options;
+  command->add_option("SEQ", options.sequence, "Sequence folder, or a TUM RGB-D folder")
+      ->required()
+      ->type_name("DIR");
+  command->add_option("-o,--output", arguments->output, "File to write (YAML)")
+      ->required()
+      ->type_name("FILE");
+  command
+      ->add_option("--picture", arguments->picture,
+                   "Also draw the pattern and its standard deviation (PNG)")
+      ->type_name("FILE");
+  command->add_option("--camera", options.camera,
+                      "As of pas slam: tum1 | tum2 | tum3 | a file; default: SEQ/camera.yaml");
+  AddSensorOption(*command, arguments->sensor);
+  command->add_option("--config", arguments->config_file,
+                      "Settings over the defaults, YAML; `pas config` prints them all");
+  command->add_option("--frames", options.frames, "Only the first so many; 0 = all")
+      ->check(CLI::Range(0, 1000000))
+      ->capture_default_str();
+  command->add_flag("--force", arguments->force, "Replace files that exist");
+  command->callback([arguments, &globals, &exit_code] {
+    exit_code = RunCalibrate(*arguments, globals.quiet);
+  });
+}
+
+}  // namespace app

@@ -1,0 +1,82 @@
+#include "slam/calibrate/depth_warp.h"
+
+#include <algorithm>
+#include <cmath>
+#include <opencv2/core.hpp>
+#include <vector>
+
+namespace slam {
+namespace {
+
+constexpr double kCell_px = 20.0;  // a cell is flat to 15 % of the bend of docs/sensors.md
+
+/// Where a pixel stands between the centres of cells.
+struct BetweenCells {
+  int first = 0;      ///< the cell before it; `next` is the one after
+  int next = 0;       ///< the same as `first` at the rim
+  double part = 0.0;  ///< [0, 1], from first to next
+};
+
+template <typename Centre>
+std::vector<BetweenCells> Between(int pixels, int cells, const Centre& centre) {
+  std::vector<BetweenCells> between;
+  int first = 0;
+  for (int u = 0; u < pixels; ++u) {
+    while (first + 1 < cells && centre(first + 1) <= u) ++first;
+    const int next = std::min(first + 1, cells - 1);
+    const double gap = centre(next) - centre(first);
+    const double part = gap > 0 ? std::clamp((u - centre(first)) / gap, 0.0, 1.0) : 0.0;
+    between.push_back({first, next, part});
+  }
+  return between;
+}
+
+}  // namespace
+
+WarpCells CellsOf(const Camera& camera) {
+  const auto count = [](int pixels, double focal_px) {
+    const double cells = pixels * kStatedFocal_px / (focal_px * kCell_px);
+    return std::clamp(static_cast<int>(std::lround(cells)), 1, pixels);
+  };
+  return {camera.width, camera.height, count(camera.width, camera.fx),
+          count(camera.height, camera.fy)};
+}
+
+double DepthWarp::Rms() const {
+  return pattern.size() > 0
+             ? std::sqrt(pattern.squaredNorm() / static_cast<double>(pattern.size()))
+             : 0.0;
+}
+
+cv::Mat1f StraighteningFactors(const DepthWarp& warp) {
+  const WarpCells& cells = warp.cells;
+  const auto across =
+      Between(cells.width, cells.cols, [&](int col) { return cells.CentreU(col); });
+  const auto down =
+      Between(cells.height, cells.rows, [&](int row) { return cells.CentreV(row); });
+  cv::Mat1f factors(cells.height, cells.width);
+  std::vector<double> row(static_cast<std::size_t>(cells.cols));
+  for (int v = 0; v < cells.height; ++v) {
+    const BetweenCells& y = down[static_cast<std::size_t>(v)];
+    for (int col = 0; col < cells.cols; ++col) {
+      const double above = warp.pattern[y.first * cells.cols + col];
+      const double below = warp.pattern[y.next * cells.cols + col];
+      row[static_cast<std::size_t>(col)] = above + y.part * (below - above);
+    }
+    for (int u = 0; u < cells.width; ++u) {
+      const BetweenCells& x = across[static_cast<std::size_t>(u)];
+      const double left = row[static_cast<std::size_t>(x.first)];
+      const double right = row[static_cast<std::size_t>(x.next)];
+      factors(v, u) = static_cast<float>(1.0 / (1.0 + left + x.part * (right - left)));
+    }
+  }
+  return factors;
+}
+
+cv::Mat1f Straightened(const cv::Mat1f& depth_m, const cv::Mat1f& factors) {
+  cv::Mat1f straight;
+  cv::multiply(depth_m, factors, straight);
+  return straight;
+}
+
+}  // namespace slam

@@ -1,0 +1,42 @@
+#include "slam/calibrate/straightener.h"
+
+#include "slam/calibrate/warp_file.h"
+
+namespace slam {
+namespace {
+
+constexpr const char* kOff = "off";
+constexpr const char* kAuto = "auto";
+
+}  // namespace
+
+DepthStraightener::DepthStraightener(const Camera& camera, const DepthNoise& noise,
+                                     const DepthWarpConfig& config)
+    : camera_(camera), noise_(noise), config_(config) {
+  if (config.source != kOff && config.source != kAuto) Apply(ReadWarp(config.source, camera));
+}
+
+void DepthStraightener::Apply(const DepthWarp& warp) {
+  factors_ = StraighteningFactors(warp);
+  report_.rms = warp.Rms();
+}
+
+cv::Mat1f DepthStraightener::Straighten(int frame, const cv::Mat1f& depth_m) {
+  if (factors_.empty()) return depth_m;
+  if (report_.from_frame == kNone) report_.from_frame = frame;
+  return Straightened(depth_m, factors_);
+}
+
+void DepthStraightener::Learn(const Frame& frame, const cv::Mat1f& measured_m) {
+  if (config_.source != kAuto || frame.plane_labels.empty()) return;
+  if (!learner_) learner_.emplace(camera_, noise_, config_);
+  if (!learner_->Observe(frame.timestamp_s, measured_m, frame.plane_labels, frame.T_cw)) return;
+  report_.evidence = learner_->evidence();
+  if (learner_->evidence().worth_it) {
+    Apply(learner_->Warp());
+  } else {
+    factors_.release();
+  }
+}
+
+}  // namespace slam

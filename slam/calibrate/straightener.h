@@ -1,0 +1,45 @@
+#pragma once
+
+#include <optional>
+
+#include "slam/calibrate/warp_learner.h"
+#include "slam/model/frame.h"
+
+namespace slam {
+
+/// What became of the depth of a run.
+struct StraighteningReport {
+  int from_frame = kNone;  ///< index of the first frame that was straightened
+  double rms = 0.0;        ///< of the pattern that is applied last, as a part of the depth
+  std::optional<WarpEvidence> evidence;  ///< of what was learnt, if anything was to be
+};
+
+/// Takes out of the depth of a run what its device bends: by a file, or by what the run itself
+/// teaches, from the moment on when that is worth it.
+class DepthStraightener {
+ public:
+  /// @throws InputError of ReadWarp
+  DepthStraightener(const Camera& camera, const DepthNoise& noise,
+                    const DepthWarpConfig& config);
+
+  /// The depth without the warp; the very image when there is none to be applied.
+  cv::Mat1f Straighten(int frame, const cv::Mat1f& depth_m);
+
+  /// Learns from a tracked frame with planes, for the frames after it.
+  /// @param measured_m  its depth as it was before Straighten
+  void Learn(const Frame& frame, const cv::Mat1f& measured_m);
+
+  const StraighteningReport& report() const { return report_; }
+
+ private:
+  void Apply(const DepthWarp& warp);
+
+  Camera camera_;
+  DepthNoise noise_;
+  DepthWarpConfig config_;
+  std::optional<WarpLearner> learner_;  ///< from the first frame on that it learns from
+  cv::Mat1f factors_;                   ///< empty: nothing is applied
+  StraighteningReport report_;
+};
+
+}  // namespace slam

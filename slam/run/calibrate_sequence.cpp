@@ -1,0 +1,109 @@
+#include "slam/run/calibrate_sequence.h"
+
+#include <algorithm>
+#include <map>
+#include <opencv2/core/utility.hpp>
+#include <optional>
+
+#include "io/folder_kind.h"
+#include "slam/input/camera_reader.h"
+#include "slam/input/frame_gate.h"
+#include "slam/input/sequence_reader.h"
+#include "slam/run/tracker.h"
+#include "slam/segment/plane_segments.h"
+
+namespace slam {
+namespace {
+
+constexpr int kPasses = 3;  // one for the poses, two for the planes
+
+using PosesByTime = std::map<double, Pose>;
+
+/// What the passes over a recording share.
+struct PassOverFrames {
+  const CalibrateOptions& options;
+  const Camera& camera;
+  int total = 0;   ///< frames
+  int before = 0;  ///< frames of the passes before
+  bool stopped = false;
+
+  template <typename Take>
+  void Run(const Take& take) {
+    SequenceReader reader(options.sequence, camera);
+    FrameGate gate(camera);
+    for (int i = 0; i < total && !stopped; ++i) {
+      RecordedFrame recorded = reader.Read(i);
+      if (gate.Takes(recorded)) take(recorded);
+      if (options.progress) options.progress(++before, kPasses * total);
+      stopped = options.stop && options.stop();
+    }
+  }
+};
+
+Frame FrameOfRecord(const RecordedFrame& recorded, int index) {
+  Frame frame;
+  frame.index = index;
+  frame.timestamp_s = recorded.timestamp_s;
+  frame.gray = recorded.gray;
+  frame.depth_m = recorded.depth_m;
+  return frame;
+}
+
+/// The camera by points alone: poses of the frames that are tracked.
+PosesByTime TrackAll(PassOverFrames& pass, const Config& config) {
+  Config points = config;
+  points.depth_warp.source = "off";
+  points.async_mapping = false;
+  Tracker tracker(pass.camera, points, Variant::kPoints, nullptr, 0, 1);
+  PosesByTime poses;
+  int index = 0;
+  pass.Run([&](const RecordedFrame& recorded) {
+    Frame frame = FrameOfRecord(recorded, index++);
+    if (tracker.TrackFrame(frame, recorded.bgr).tracked) poses[frame.timestamp_s] = frame.T_cw;
+  });
+  return poses;
+}
+
+/// Learns from the planes of all frames with a pose.
+WarpLearner LearnFrom(PassOverFrames& pass, const PosesByTime& poses, const Config& config,
+                      const std::optional<DepthWarp>& known) {
+  WarpLearner learner(pass.camera, config.sensor.noise, config.depth_warp);
+  PlaneExtractor extractor(pass.camera, PixelRays(pass.camera), config.sensor,
+                           config.plane_extraction);
+  cv::Mat1f factors;
+  if (known) factors = StraighteningFactors(*known);
+  pass.Run([&](const RecordedFrame& recorded) {
+    const auto pose = poses.find(recorded.timestamp_s);
+    if (pose == poses.end() || !learner.Wants(pose->second)) return;
+    Frame frame = FrameOfRecord(recorded, 0);
+    if (known) frame.depth_m = Straightened(recorded.depth_m, factors);
+    extractor.Extract(frame);
+    learner.Observe(frame.timestamp_s, recorded.depth_m, frame.plane_labels, pose->second);
+  });
+  learner.Finish();
+  return learner;
+}
+
+}  // namespace
+
+Calibration CalibrateSequence(const CalibrateOptions& options) {
+  cv::setNumThreads(1);
+  io::RequireSequence(options.sequence);
+  const Camera camera = ChooseCamera(options.camera, options.sequence).camera;
+  const int size = SequenceReader(options.sequence, camera, {.prefetch = false}).size();
+  PassOverFrames pass{options, camera};
+  pass.total = options.frames > 0 ? std::min(options.frames, size) : size;
+
+  Calibration calibration;
+  const PosesByTime poses = TrackAll(pass, options.config);
+  const WarpLearner first = LearnFrom(pass, poses, options.config, std::nullopt);
+  const WarpLearner second = LearnFrom(pass, poses, options.config, first.Warp());
+  calibration.warp = second.Warp();
+  calibration.evidence = second.evidence();
+  calibration.frames = pass.total;
+  calibration.tracked = static_cast<int>(poses.size());
+  calibration.stopped = pass.stopped;
+  return calibration;
+}
+
+}  // namespace slam

@@ -1,0 +1,81 @@
+#include "sim/trace/mirror_light.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <opencv2/core.hpp>
+
+#include "sim/trace/frame_renderer.h"
+#include "tests/sim/support/sim_worlds.h"
+
+namespace sim {
+namespace {
+
+const Pose kAbove = LookAt({0, -1, 1}, {0, 0, 0});  ///< at 45 degrees
+
+/// A glossy black floor, its top at z = 0, under a lamp.
+Scene Floor(const Eigen::Vector3d& lamp_w, double gloss) {
+  Scene scene;
+  scene.sun.intensity = 0;
+  scene.sun.direction_w = {0, 0, 1};
+  scene.sun.ambient = 0;
+  scene.objects = {
+      BoxObject(1, "floor", Role::kStructure, {0, 0, -0.05}, {8, 8, 0.1}, Print::kPlain)};
+  for (Material& face : scene.objects[0].faces) face.gloss = gloss;
+  Light lamp;
+  lamp.center_w = lamp_w;
+  lamp.intensity = 0.5;
+  scene.lights = {lamp};
+  return scene;
+}
+
+/// What the mirror adds to green.
+cv::Mat1f Added(const Scene& scene, const Pose& T_wc) {
+  const Camera camera = SmallCamera();
+  const FrameRenderer matt(scene, camera);
+  const FrameRenderer shiny(scene, camera, InstructionSet::kPinned, 1);
+  cv::Mat1f added;
+  cv::extractChannel(shiny.Render(T_wc).radiance - matt.Render(T_wc).radiance, added, 1);
+  return added;
+}
+
+TEST(MirrorLight, IsBrightestWhereTheLampsMirrorImageIs) {
+  // The lamp's mirror image in the floor is as deep below it: seen through (0, 0, 0).
+  const cv::Mat1f added = Added(Floor({0, 1, 1}, 1), kAbove);
+  cv::Point at;
+  double most = 0;
+  cv::minMaxLoc(added, nullptr, &most, nullptr, &at);
+  EXPECT_NEAR(at.x, SmallCamera().cx, 2);
+  EXPECT_NEAR(at.y, SmallCamera().cy, 2);
+  // Glass at 45 degrees, Schlick; a lamp of 0.5 at sqrt 2 m; a haze of 0.1 rad.
+  const double glass = 0.04 + 0.96 * std::pow(1 - std::sqrt(0.5), 5);
+  EXPECT_NEAR(most, glass * 0.5 / 2 / 0.01, 0.03 * most);
+}
+
+TEST(MirrorLight, GoesWithTheCamera) {
+  // Half way between a camera and a lamp at the same height.
+  const Pose aside = LookAt({0.6, -1, 1}, {0.3, 0, 0});
+  cv::Point at;
+  cv::minMaxLoc(Added(Floor({0, 1, 1}, 1), aside), nullptr, nullptr, nullptr, &at);
+  EXPECT_NEAR(at.x, SmallCamera().cx, 2);
+  EXPECT_NEAR(at.y, SmallCamera().cy, 2);
+}
+
+TEST(MirrorLight, IsNothingOnMattFacesNorUnlessAskedFor) {
+  EXPECT_EQ(cv::norm(Added(Floor({0, 1, 1}, 0), kAbove), cv::NORM_INF), 0.0);
+}
+
+TEST(MirrorLight, OfTheSunNeedsIt) {
+  Scene scene;
+  scene.sun.ambient = 0;
+  const Eigen::Vector3d to_sun = Eigen::Vector3d(0, 1, 1).normalized();
+  MirrorSpot spot{.x_w = {0, 0, 0},
+                  .look_w = Eigen::Vector3d(0, 1, -1).normalized(),
+                  .n_w = Eigen::Vector3d::UnitZ()};
+  EXPECT_EQ(MirrorLight(scene, to_sun, spot)[0], 0.0F);
+  spot.sunlit = true;
+  EXPECT_GT(MirrorLight(scene, to_sun, spot)[0], 1.0F);
+}
+
+}  // namespace
+}  // namespace sim

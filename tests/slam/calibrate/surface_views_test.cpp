@@ -1,0 +1,64 @@
+#include "slam/calibrate/surface_views.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace slam {
+namespace {
+
+/// A wall at 1.5 m in pieces: the left and the right half have labels of their own.
+struct TwoHalves {
+  TwoHalves() {
+    camera.width = 160, camera.height = 120;
+    camera.fx = camera.fy = 131.25, camera.cx = 79.5, camera.cy = 59.5;
+    depth_m = cv::Mat1f(120, 160, 1.5F);
+    labels = cv::Mat1b(120, 160, std::uint8_t{1});
+    labels.colRange(82, 160) = 2;
+  }
+  std::vector<SurfaceView> Views() const {
+    const WarpCells cells = CellsOf(camera);
+    return ViewSurfaces(depth_m, labels, PixelRays(camera), cells, DepthNoise{},
+                        Eigen::VectorXd::Zero(cells.count()),
+                        Eigen::VectorXd::Constant(cells.count(), 0.0033));
+  }
+  Camera camera;
+  cv::Mat1f depth_m;
+  cv::Mat1b labels;
+};
+
+TEST(SurfaceViews, PiecesThatTouchWithoutAStepAreOneSurface) {
+  const std::vector<SurfaceView> views = TwoHalves().Views();
+  ASSERT_EQ(views.size(), 1U);
+  EXPECT_EQ(views[0].cells.size(), 32U * 24U);
+  EXPECT_NEAR(1 / views[0].plane.InverseDepth(0, 0), 1.5, 1e-6);
+}
+
+TEST(SurfaceViews, AStepOfEightMillimetresKeepsPiecesApart) {
+  TwoHalves halves;
+  halves.depth_m.colRange(82, 160) = 1.492F;
+  EXPECT_EQ(halves.Views().size(), 2U);
+}
+
+TEST(SurfaceViews, ACreaseKeepsPiecesApart) {
+  TwoHalves halves;
+  for (int u = 82; u < 160; ++u) {
+    halves.depth_m.col(u) = 1.5F / (1.0F + 0.2F * static_cast<float>(u - 82) / 131.25F);
+  }
+  EXPECT_EQ(halves.Views().size(), 2U);
+}
+
+TEST(SurfaceViews, SmallThingsAndWhatIsNotMeasuredAreLeftOut) {
+  TwoHalves halves;
+  halves.labels.setTo(0);
+  halves.labels(cv::Rect(10, 10, 20, 20)) = 3;  // 2 % of the image
+  EXPECT_TRUE(halves.Views().empty());
+  halves.labels.setTo(1);
+  halves.depth_m(cv::Rect(0, 0, 80, 120)).setTo(0);
+  const std::vector<SurfaceView> views = halves.Views();
+  ASSERT_EQ(views.size(), 1U);
+  EXPECT_EQ(views[0].cells.size(), 16U * 24U);
+}
+
+}  // namespace
+}  // namespace slam

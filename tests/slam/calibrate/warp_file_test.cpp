@@ -1,0 +1,87 @@
+#include "slam/calibrate/warp_file.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include "io/input_error.h"
+
+namespace slam {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+
+Camera CameraOfFile() {
+  Camera camera;
+  camera.width = 8, camera.height = 6;
+  return camera;
+}
+
+/// Two by three cells of a small image.
+DepthWarp SmallWarp() {
+  DepthWarp warp;
+  warp.cells = {8, 6, 3, 2};
+  warp.pattern = Eigen::VectorXd(6);
+  warp.pattern << 0.001, -0.002, 0.003, -0.004, 0.005, -0.006;
+  warp.sigma = Eigen::VectorXd::Constant(6, 0.0005);
+  return warp;
+}
+
+class WarpFile : public testing::Test {
+ protected:
+  ~WarpFile() override { std::filesystem::remove(file_); }
+  DepthWarp Read(const std::string& text) const {
+    std::ofstream(file_) << text;
+    return ReadWarp(file_, CameraOfFile());
+  }
+  std::string FaultOf(const std::string& text) const {
+    try {
+      Read(text);
+    } catch (const io::InputError& error) {
+      return error.what();
+    }
+    return "";
+  }
+  static std::string With(const std::string& part, const std::string& instead) {
+    std::string text = WarpText(SmallWarp(), "made by hand");
+    return text.replace(text.find(part), part.size(), instead);
+  }
+  std::filesystem::path file_ = std::filesystem::temp_directory_path() /
+                                ("pas_warp_" + std::to_string(::getpid()) + ".yaml");
+};
+
+TEST_F(WarpFile, ReadsBackWhatIsWrittenToAMillionth) {
+  const DepthWarp written = SmallWarp(), read = Read(WarpText(written, "made by hand"));
+  EXPECT_EQ(read.cells.cols, 3);
+  EXPECT_EQ(read.cells.rows, 2);
+  EXPECT_LT((read.pattern - written.pattern).cwiseAbs().maxCoeff(), 1e-6);
+  EXPECT_LT((read.sigma - written.sigma).cwiseAbs().maxCoeff(), 1e-6);
+}
+
+TEST_F(WarpFile, RefusesAnImageOfAnotherSizeThanTheCameras) {
+  EXPECT_THAT(FaultOf(With("width: 8", "width: 16")),
+              AllOf(HasSubstr("16 x 6"), HasSubstr("8 x 6"), HasSubstr(".yaml:3")));
+}
+
+TEST_F(WarpFile, RefusesRowsThatAreNotAsManyAsCells) {
+  EXPECT_THAT(FaultOf(With("rows: 2", "rows: 3")), HasSubstr("pattern_ppm: has 2 rows"));
+  EXPECT_THAT(FaultOf(With("1000, -2000, 3000", "1000, -2000")), HasSubstr("pattern_ppm[0]"));
+}
+
+TEST_F(WarpFile, RefusesWhatNoSensorBends) {
+  EXPECT_THAT(FaultOf(With("-6000", "-600000")), HasSubstr("pattern_ppm[1]"));
+  EXPECT_THAT(FaultOf(With("-6000", ".nan")), HasSubstr("pattern_ppm[1]"));
+}
+
+TEST_F(WarpFile, RefusesUnknownAndMissingKeysAndOtherFormats) {
+  EXPECT_THAT(FaultOf(With("sigma_ppm", "sigmas_ppm")), HasSubstr("sigma_ppm"));
+  EXPECT_THAT(FaultOf(With("pas-depth-warp/1", "pas-depth-warp/2")), HasSubstr("format"));
+  EXPECT_THAT(FaultOf(""), HasSubstr("format"));
+}
+
+}  // namespace
+}  // namespace slam

@@ -1,0 +1,172 @@
+// A camera turns in a room of two planes, whose depth is computed in closed form and bent.
+#include "slam/calibrate/warp_learner.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <numbers>
+
+#include "slam/base/random.h"
+#include "slam/calibrate/straightener.h"
+
+namespace slam {
+namespace {
+
+constexpr int kFrames = 240;
+constexpr double kFps = 30.0;
+
+Camera SmallCamera() {
+  Camera camera;
+  camera.width = 160, camera.height = 120;
+  camera.fx = camera.fy = 131.25, camera.cx = 79.5, camera.cy = 59.5;
+  return camera;
+}
+
+/// p of a device of our own: waves that no prior of ours knows of, 0.33 % rms.
+double WavyPattern(double u, double v) {
+  const double turn = 2 * std::numbers::pi;
+  return 0.0033 * (std::sin(turn * u / 45 + 1) + std::cos(turn * (v / 60 - u / 160)));
+}
+double Flat(double, double) { return 0.0; }
+
+/// The camera sways to all sides and goes to and fro.
+Pose Swaying(int frame) {
+  const double t = frame / kFps;
+  const Eigen::Vector3d turn(0.15 * std::sin(1.1 * t), 0.3 * std::sin(0.7 * t), 0.05 * t / 8);
+  const Eigen::Vector3d place(0.3 * std::sin(0.5 * t), 0.1 * std::sin(0.9 * t), 0.2 * t / 8);
+  return Inverse({ExpSo3(turn), place});
+}
+Pose Still(int) { return {}; }
+
+struct Room {
+  bool floor = true;  ///< besides the wall
+  std::function<double(double, double)> pattern = WavyPattern;
+  std::function<Pose(int)> pose = Swaying;
+  /// Height of a bump of the wall itself, metres.
+  std::function<double(const Eigen::Vector3d& x_w)> bump = [](const Eigen::Vector3d&) {
+    return 0.0;
+  };
+};
+
+/// About normal: the sum of four uniform numbers, of unit variance.
+double RoughNormal(Random& random) {
+  const double sum =
+      random.Uniform() + random.Uniform() + random.Uniform() + random.Uniform() - 2;
+  return sum * std::sqrt(3.0);
+}
+
+/// Depth and labels of a frame: the wall z = 2 m (1) and the floor y = 0.45 m (2).
+Frame FrameOfRoom(const Room& room, int index, const cv::Mat2d& rays) {
+  Frame frame;
+  frame.index = index;
+  frame.timestamp_s = index / kFps;
+  frame.T_cw = room.pose(index);
+  frame.depth_m.create(rays.size());
+  frame.plane_labels.create(rays.size());
+  const Pose T_wc = Inverse(frame.T_cw);
+  const DepthNoise noise;
+  Random random{7, static_cast<std::uint64_t>(index)};
+  for (int v = 0; v < rays.rows; ++v) {
+    for (int u = 0; u < rays.cols; ++u) {
+      const Eigen::Vector3d way = T_wc.R * Eigen::Vector3d(rays(v, u)[0], rays(v, u)[1], 1);
+      double z = (2.0 - T_wc.t.z()) / way.z();
+      z += room.bump(T_wc.t + z * way);
+      std::uint8_t label = 1;
+      const double z_floor = (0.45 - T_wc.t.y()) / way.y();
+      if (room.floor && z_floor > 0 && z_floor < z) z = z_floor, label = 2;
+      z *= 1 + room.pattern(u, v);
+      frame.depth_m(v, u) = static_cast<float>(z + noise.Sigma(z) * RoughNormal(random));
+      frame.plane_labels(v, u) = label;
+    }
+  }
+  return frame;
+}
+
+WarpLearner LearntFrom(const Room& room) {
+  const Camera camera = SmallCamera();
+  const cv::Mat2d rays = PixelRays(camera);
+  WarpLearner learner(camera, DepthNoise{}, DepthWarpConfig{});
+  for (int i = 0; i < kFrames; ++i) {
+    const Frame frame = FrameOfRoom(room, i, rays);
+    learner.Observe(frame.timestamp_s, frame.depth_m, frame.plane_labels, frame.T_cw);
+  }
+  learner.Finish();
+  return learner;
+}
+
+TEST(WarpLearner, LearnsAPatternFromTwoPlanesToAThirdOfIt) {
+  const WarpLearner learner = LearntFrom({});
+  EXPECT_TRUE(learner.evidence().worth_it) << learner.evidence().Doubt();
+  EXPECT_EQ(learner.evidence().Doubt(), "");
+  const DepthWarp warp = learner.Warp();
+  Eigen::VectorXd truth(warp.cells.count());
+  for (int cell = 0; cell < warp.cells.count(); ++cell) {
+    truth[cell] = WavyPattern(warp.cells.CentreU(cell % warp.cells.cols),
+                              warp.cells.CentreV(cell / warp.cells.cols));
+  }
+  truth = WithoutLinearPart(warp.cells, truth);
+  EXPECT_LT((warp.pattern - truth).norm(), truth.norm() / 3);
+  // Its own idea of the error is no smaller: drift, which this device has none of, is in it.
+  const double error = std::sqrt((warp.pattern - truth).squaredNorm() / warp.cells.count());
+  const double sigma = std::sqrt(warp.sigma.squaredNorm() / warp.cells.count());
+  EXPECT_LT(error, sigma);
+}
+
+TEST(WarpLearner, HasNoLinearPartWhichViewsOfPlanesDoNotTell) {
+  const DepthWarp warp = LearntFrom({}).Warp();
+  EXPECT_NEAR(WithoutLinearPart(warp.cells, warp.pattern).norm(), warp.pattern.norm(), 1e-12);
+  EXPECT_NEAR(warp.pattern.mean(), 0.0, 1e-12);
+}
+
+TEST(WarpLearner, DoesNothingForAFlatSensor) {
+  const WarpLearner learner = LearntFrom({.pattern = Flat});
+  EXPECT_FALSE(learner.evidence().worth_it);
+  EXPECT_THAT(learner.evidence().Doubt(), testing::HasSubstr("flat"));
+  EXPECT_LT(learner.Warp().Rms(), 0.0002);
+}
+
+TEST(WarpLearner, DoesNothingForACameraThatRests) {
+  const WarpLearner learner = LearntFrom({.pose = Still});
+  EXPECT_FALSE(learner.evidence().worth_it);
+  EXPECT_THAT(learner.evidence().Doubt(), testing::HasSubstr("too few places"));
+}
+
+TEST(WarpLearner, DoesNothingForOneWallWhoseOwnBendItCouldBe) {
+  const WarpLearner learner = LearntFrom({.floor = false});
+  EXPECT_FALSE(learner.evidence().worth_it);
+  EXPECT_THAT(learner.evidence().Doubt(), testing::HasSubstr("one surface"));
+}
+
+TEST(WarpLearner, DoesNotTakeBumpsOfASceneForTheDevices) {
+  const WarpLearner learner =
+      LearntFrom({.pattern = Flat, .bump = [](const Eigen::Vector3d& x_w) {
+                    return 0.008 * std::sin(8 * x_w.x()) * std::cos(9 * x_w.y());
+                  }});
+  EXPECT_FALSE(learner.evidence().worth_it);
+}
+
+TEST(DepthStraightener, StraightensFromTheFrameOnThatItIsWorthIt) {
+  const Camera camera = SmallCamera();
+  const cv::Mat2d rays = PixelRays(camera);
+  DepthStraightener straightener(camera, DepthNoise{}, {.source = "auto"});
+  DepthStraightener off(camera, DepthNoise{}, {.source = "off"});
+  for (int i = 0; i < kFrames; ++i) {
+    const Frame frame = FrameOfRoom({}, i, rays);
+    const cv::Mat1f straight = straightener.Straighten(i, frame.depth_m);
+    const int from = straightener.report().from_frame;
+    EXPECT_EQ(straight.data == frame.depth_m.data, from == kNone) << i;
+    straightener.Learn(frame, frame.depth_m);
+    EXPECT_EQ(off.Straighten(i, frame.depth_m).data, frame.depth_m.data);
+    off.Learn(frame, frame.depth_m);
+  }
+  EXPECT_GT(straightener.report().from_frame, 60);
+  EXPECT_LT(straightener.report().from_frame, kFrames);
+  EXPECT_NEAR(straightener.report().rms, 0.0033, 0.001);
+  EXPECT_EQ(off.report().from_frame, kNone);
+  EXPECT_FALSE(off.report().evidence.has_value());
+}
+
+}  // namespace
+}  // namespace slam
