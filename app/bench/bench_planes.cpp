@@ -6,8 +6,10 @@
 #include <optional>
 
 #include "app/bench/bench_planes_score.h"
+#include "app/surfaces_option.h"
 #include "eval/formats/sequence.h"
 #include "eval/planes/united_faces.h"
+#include "eval/surfaces/label_surfaces.h"
 #include "eval/trajectory/score_trajectory.h"
 #include "slam/detect/box_tracks.h"
 #include "slam/detect/detections.h"
@@ -101,6 +103,31 @@ class PlaneFrontEnd {
   cv::Mat3f points_c_;
 };
 
+/// Scores segments on the large surfaces of a recording (docs/surfaces.md).
+class SurfaceBench {
+ public:
+  SurfaceBench(const std::string& file, const eval::Sequence& truth,
+               const std::string& camera_choice)
+      : views_(ViewsOf(truth, eval::Run{}, DepthCamera{camera_choice, ""})),
+        labeller_(eval::ReadSurfaces(file)) {
+    for (std::size_t k = 0; k < views_.size(); ++k) stamps_s_.push_back(views_.StampOf(k));
+  }
+  void Add(const slam::Frame& frame) {
+    const auto view = eval::FindStamp(stamps_s_, frame.timestamp_s);
+    if (!view) return;
+    cv::Mat1w segments;
+    frame.plane_labels.convertTo(segments, CV_16U);
+    scorer_.Add(*view, labeller_.Label(views_.Read(*view), views_.rays()), segments, {});
+  }
+  eval::SurfaceFigures Figures() const { return scorer_.Score().total; }
+
+ private:
+  eval::DepthViews views_;
+  eval::SurfaceLabeller labeller_;
+  eval::SurfaceScorer scorer_;
+  std::vector<double> stamps_s_;
+};
+
 template <typename T>
 void Append(const std::vector<T>& from, std::vector<T>& to) {
   to.insert(to.end(), from.begin(), from.end());
@@ -144,12 +171,15 @@ PlaneBench BenchPlanes(const std::filesystem::path& sequence, const std::string&
   if (truth.groundtruth) {
     poses = eval::TruePosesOfFrames(*truth.groundtruth, stamps_s, truth.synthetic);
   }
+  std::optional<SurfaceBench> surfaces;
+  if (!choice.surfaces.empty()) surfaces.emplace(choice.surfaces, truth, camera_choice);
   PlaneBench bench;
   for (int i = 0; i < count; i += choice.every) {
     const slam::RecordedFrame recorded = reader.Read(i);
     const slam::Frame frame = front_end.Run(recorded, bench.times);
     ++bench.frames;
     bench.segments += static_cast<int>(frame.planes.size());
+    if (surfaces) surfaces->Add(frame);
     const std::optional<eval::Pose>& pose = poses[static_cast<std::size_t>(i)];
     if (!pose) continue;
     if (truth.scene && !truth.plane_id_files.empty()) {
@@ -160,6 +190,7 @@ PlaneBench BenchPlanes(const std::filesystem::path& sequence, const std::string&
       ScoreLevelPlane(frame, *pose, bench);
     }
   }
+  if (surfaces) bench.surfaces = surfaces->Figures();
   return bench;
 }
 

@@ -2,11 +2,13 @@
 
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "eval/planes/corners.h"
 #include "eval/planes/segmentation_score.h"
+#include "eval/surfaces/surface_scorer.h"
 #include "slam/run/config.h"
 
 namespace app {
@@ -43,6 +45,7 @@ struct PlaneBench {
   /// not: its normal in the world, and its share of the measured pixels.
   std::vector<Eigen::Vector3d> level_normals_w;
   std::vector<double> level_shares;
+  std::optional<eval::SurfaceFigures> surfaces;  ///< of one sequence, with a surfaces file
 
   /// True planes that share a found one with others.
   int Merged() const { return hoover.truth - hoover.correct - hoover.over - hoover.missed; }
@@ -56,6 +59,7 @@ struct BenchChoice {
   bool unmeasured = false;  ///< count true pixels that have no depth as well
   /// Of a recording: by how much its depth is stamped later than its true poses.
   double depth_delay_ms = 0.0;
+  std::string surfaces;  ///< of a recording: file of `pas surfaces`; empty: none
 };
 
 /// Runs (B) and (C) on every frame of a sequence, on this thread, and scores them when the

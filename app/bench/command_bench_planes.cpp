@@ -17,7 +17,7 @@ namespace {
 
 struct PlaneBenchArguments {
   std::vector<std::string> sequences;
-  std::string camera, config_file;
+  std::string camera, config_file, surfaces;
   std::string sensor = slam::DepthSensorNames().front();
   int frames = 0, every = 1;
   bool steps = false, unmeasured = false;
@@ -111,18 +111,25 @@ void PrintSmallestSteps(const StepTable& steps) {
   }
 }
 
+void PrintSurfaces(const std::string& name, const eval::SurfaceFigures& f) {
+  fmt::print("{}: surfaces whole {:.3f}, covered {:.3f}, purity {:.3f}, {:.1f} segments\n",
+             name, f.whole, f.covered, f.purity, f.segments_per_frame);
+}
+
 PlaneBench BenchAll(const PlaneBenchArguments& arguments, const slam::Config& config, bool each,
                     bool quiet) {
   PlaneBench sum;
   Progress progress("bench planes", static_cast<int>(arguments.sequences.size()), quiet);
   int done = 0;
   for (const std::string& sequence : arguments.sequences) {
-    const PlaneBench bench = BenchPlanes(
-        sequence, arguments.camera, config,
-        {arguments.frames, arguments.every, arguments.unmeasured, arguments.depth_delay_ms});
+    const PlaneBench bench =
+        BenchPlanes(sequence, arguments.camera, config,
+                    {arguments.frames, arguments.every, arguments.unmeasured,
+                     arguments.depth_delay_ms, arguments.surfaces});
     const std::string name = std::filesystem::path(sequence).lexically_normal().filename();
     if (each && bench.scored_frames > 0) PrintScores(name, bench);
     if (each && !bench.level_normals_w.empty()) PrintLevelPlane(name, bench);
+    if (bench.surfaces) PrintSurfaces(name, *bench.surfaces);
     sum.Add(bench);
     progress.Update(++done);
   }
@@ -163,6 +170,11 @@ void AddBenchPlanes(CLI::App& bench, const Globals& globals, int& exit_code) {
                    "Of a recording: its depth is stamped so much later than its true poses")
       ->check(CLI::Range(-1000.0, 1000.0))
       ->capture_default_str();
+  command
+      ->add_option("--surfaces", arguments->surfaces,
+                   "Of a recording: score segments on the surfaces of this file of `pas "
+                   "surfaces`")
+      ->type_name("FILE");
   command->callback(
       [arguments, &globals, &exit_code] { exit_code = RunBench(*arguments, globals.quiet); });
 }

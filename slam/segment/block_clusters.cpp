@@ -31,21 +31,6 @@ const BlockClusters& BlockClustering::Cluster(const DepthGrid& grid,
   return out_;
 }
 
-const BlockClusters& BlockClustering::MergeAgain(const ClusterConfig& config) {
-  config_ = &config;
-  regions_.clear();
-  for (std::size_t block = 0; block < sums_.size(); ++block) {
-    if (region_at_[block] < 0) continue;
-    const PlaneFit fit = *Fit(sums_[block]);
-    AddRegion(sums_[block], fit, GrazingFactor(sums_[block], fit.plane, *noise_),
-              static_cast<int>(block));
-  }
-  std::iota(parent_.begin(), parent_.end(), 0);
-  Merge();
-  Number(out_.block_px);
-  return out_;
-}
-
 void BlockClustering::AddBlocks(const DepthGrid& grid, const std::vector<std::uint8_t>& taken,
                                 int block_px) {
   cols_ = (grid.width + block_px - 1) / block_px;

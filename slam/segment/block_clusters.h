@@ -40,10 +40,6 @@ class BlockClustering {
                                int block_px, const DepthNoise& noise,
                                const ClusterConfig& config);
 
-  /// Once more with other bounds on what merges, after a call in which nothing was taken: the
-  /// blocks are the same.
-  const BlockClusters& MergeAgain(const ClusterConfig& config);
-
   /// Sums of the measured pixels of each block in the last call in which nothing was taken.
   const std::vector<PlaneSums>& SumsOfBlocks() const { return sums_; }
 

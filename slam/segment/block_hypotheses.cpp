@@ -17,13 +17,13 @@ void BlockHypotheses::Clear() {
   std::fill(first_.begin(), first_.end(), kNoHypothesis);
 }
 
-void BlockHypotheses::Add(int block, int label) {
+void BlockHypotheses::Add(int block, int label, int plane) {
   const int added = static_cast<int>(list_.size());
   list_.push_back({});
   Provide(sets_, list_.size() * kSetCount * set_words_);
   int* link = &first_[static_cast<std::size_t>(block)];
   while (*link != kNoHypothesis && At(*link).label < label) link = &At(*link).next;
-  At(added).label = label;
+  At(added).label = label, At(added).plane = plane;
   At(added).next = *link;
   *link = added;
 }

@@ -14,6 +14,7 @@ inline constexpr int kNoHypothesis = -1;
 /// is near it nor its costs depend on the other planes there, so they are computed once.
 struct Hypothesis {
   int label = 0;
+  int plane = 0;             ///< place of its plane (PlanesOnBlocks::pixel_planes)
   int next = kNoHypothesis;  ///< the next one of the block, by label
   int near = 0;              ///< pixels within max_pixel_sigmas
   int pixels = 0;            ///< pixels that it has
@@ -38,7 +39,7 @@ class BlockHypotheses {
   void Clear();
 
   /// Adds one of a label that the block has none of yet.
-  void Add(int block, int label);
+  void Add(int block, int label, int plane);
   /// Takes out that of a label, which must be there.
   void Remove(int block, int label);
   /// That of a label, which must be there.

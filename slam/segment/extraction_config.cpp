@@ -8,11 +8,10 @@ PlaneExtractionConfig ExtractionFor(DepthSensor sensor) {
     case DepthSensor::kKinect1:
       break;
     case DepthSensor::kAzure:
-      config.max_bend_sigmas = 4.0;  // the wave bends a surface
-      config.max_bend_rad = 0.15;
-      config.max_warp_sigmas = 0.0;  // it is in the noise
+      config.joining.bend_ratio = 0.002;  // its wave: 2 mm at 1 m (ModelOf)
       break;
     case DepthSensor::kD435:
+      config.joining.bend_ratio = 0.0;  // not known; its noise hides it
       config.box_split.enabled = true;  // thin steps are hidden in its noise
       break;
   }

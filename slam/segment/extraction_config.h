@@ -5,6 +5,7 @@
 #include "slam/segment/cluster_config.h"
 #include "slam/segment/edge_config.h"
 #include "slam/segment/growth_config.h"
+#include "slam/segment/join_config.h"
 
 namespace slam {
 
@@ -50,17 +51,9 @@ struct PlaneExtractionConfig {
   ClusterConfig fine{.min_measured = 0.75, .max_block_error = 3.0, .min_blocks = 10};
 
   GrowthConfig growth;
+  JoinConfig joining;
   double max_block_bias_sigmas = 3.0;
-  double max_merge_gap_sigmas = 1.5;
-  double max_hidden_gap_sigmas = 1.5;
-  double max_bend_sigmas = 3.0;
-  double max_bend_rad = 0.12;
-  double max_bend_step_sigmas = 1.5;
-  double max_warp_sigmas = 1.0;
-  double warp_model_error = 1.5;
-  double warp_gap = 12.0;
   double max_island_behind = 0.35;  // more: what cuts it off is not in front
-  double unsure_side_sigmas = 0.0;
 
   int min_pixels = 300;  // at 1 m 33 x 33 mm seen frontally
   double max_angle_sigma_rad = 0.1;
@@ -83,30 +76,10 @@ inline void VisitFields(PlaneExtractionConfig& c, FieldVisitor& v) {
       "max_block_bias_sigmas", c.max_block_bias_sigmas, "(0, inf)",
       "largest mean residual of a block, in standard errors beyond the model error; others "
       "are offered to the second clustering");
-  v.Number("max_merge_gap_sigmas", c.max_merge_gap_sigmas, "(0, inf)",
-           "largest gap (root mean square, in standard deviations) between two touching "
-           "segments of one plane");
-  v.Number("max_hidden_gap_sigmas", c.max_hidden_gap_sigmas, "(0, inf)",
-           "the same for two parts that something in front separates");
-  v.Number("max_bend_sigmas", c.max_bend_sigmas, "(0, inf)",
-           "largest gap between parts of a flat surface that the sensor bends, in standard "
-           "deviations");
-  v.Number("max_bend_step_sigmas", c.max_bend_step_sigmas, "(0, inf)",
-           "largest step across the boundary of such parts, in standard deviations of a pixel");
-  v.Degrees("max_bend_deg", c.max_bend_rad, "(0, 90)", "largest angle between such parts");
-  v.Number(
-      "max_warp_sigmas", c.max_warp_sigmas, "[0, inf)",
-      "largest warp of the sensor, as measured in each frame, that is allowed for; 0: none");
-  v.Number("warp_model_error", c.warp_model_error, "[0, inf)",
-           "model error of the clusters that a standard deviation of warp adds");
-  v.Number("warp_gap", c.warp_gap, "[0, inf)",
-           "gap between bent or hidden parts that a standard deviation of warp adds");
+  v.Section("joining", "when parts are one surface", c.joining);
   v.Number("max_island_behind", c.max_island_behind, "[0, 1]",
            "largest part of the pixels around a cut-off piece of a segment that lie behind the "
            "plane, for the piece to stay with it");
-  v.Number("unsure_side_sigmas", c.unsure_side_sigmas, "[0, inf)",
-           "distance from a plane, in standard deviations, up to which a pixel is neither "
-           "behind nor in front of it");
   v.Integer("min_pixels", c.min_pixels, "[3, 1000000]", "smallest segment");
   v.Degrees("max_angle_sigma_deg", c.max_angle_sigma_rad, "(0, 90)",
             "largest standard deviation of a segment's normal");

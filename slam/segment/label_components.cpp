@@ -59,15 +59,14 @@ void ConnectRuns(LabelComponents& components) {
 }
 
 void CountSides(const DepthGrid& grid, const std::vector<LabelPlane>& planes,
-                LabelComponents& components) {
-  for (LabelComponent& c : components.list) c.behind = c.in_front = 0;
-  const auto unsure = static_cast<float>(components.unsure_side_sigmas);
+                const std::vector<double>& unsure_sigmas, LabelComponents& components) {
   // Counts `count` pixels of a row, from `to` on, that are neighbours of a run.
   const auto count_sides = [&](std::size_t run, std::size_t to, int count) {
     if (components.component[run] < 0) return;
     LabelComponent& c = components.list[static_cast<std::size_t>(components.component[run])];
     const LabelPlane& plane = planes[static_cast<std::size_t>(c.label)];
     const PixelPlane p(plane);
+    const auto unsure = static_cast<float>(unsure_sigmas[static_cast<std::size_t>(c.label)]);
     int in_front = 0, behind = 0;
     for (const std::size_t end = to + static_cast<std::size_t>(count); to < end; ++to) {
       if (!(grid.g[to] > 0)) continue;

@@ -22,7 +22,6 @@ struct LabelComponents {
   LabelRuns runs;              ///< those of the label image
   std::vector<int> component;  ///< one a run; -1 where there is no label
   std::vector<LabelComponent> list;
-  double unsure_side_sigmas = 0.0;  ///< so near to the plane is neither behind nor in front
 
   /// The component of a pixel.
   int At(int u, int v) const { return component[runs.At(u, v)]; }
@@ -34,7 +33,8 @@ struct LabelComponents {
 void ConnectRuns(LabelComponents& components);
 
 /// Counts `behind` and `in_front` of every component.
+/// @param unsure_sigmas  of each label: what is as near to its plane is neither
 void CountSides(const DepthGrid& grid, const std::vector<LabelPlane>& planes,
-                LabelComponents& components);
+                const std::vector<double>& unsure_sigmas, LabelComponents& components);
 
 }  // namespace slam

@@ -21,20 +21,22 @@ PlaneSums SumRun(const DepthGrid& grid, int row, const LabelRun& run) {
 }  // namespace
 
 /// Labels with pixels, largest first.
-void PartSegmentation::SortBySize(const PatchUnion& patches) {
+void PartSegmentation::SortBySize(const std::vector<Surface>& surfaces) {
   by_size_.clear();
   for (int k = 0; k < static_cast<int>(planes_.size()); ++k) {
-    if (patches.Root(k) == k && patches.At(k).sums.n >= kMinPlane_px) by_size_.push_back(k);
+    if (surfaces[static_cast<std::size_t>(k)].sums.n >= kMinPlane_px) by_size_.push_back(k);
   }
   std::sort(by_size_.begin(), by_size_.end(), [&](int a, int b) {
-    const double n_a = patches.At(a).sums.n, n_b = patches.At(b).sums.n;
+    const double n_a = surfaces[static_cast<std::size_t>(a)].sums.n,
+                 n_b = surfaces[static_cast<std::size_t>(b)].sums.n;
     return n_a != n_b ? n_a > n_b : a < b;
   });
 }
 
 /// Gives labels whose parts lie on the extension of a larger label's plane, hidden in between,
 /// the larger label.
-void PartSegmentation::JoinHiddenLabels(const DepthGrid& grid, const PatchUnion& patches,
+void PartSegmentation::JoinHiddenLabels(const DepthGrid& grid,
+                                        const std::vector<Surface>& surfaces,
                                         const DepthNoise& noise,
                                         const PlaneExtractionConfig& config) {
   // What surrounds the parts of each label, and the lines of sight between them.
@@ -43,40 +45,38 @@ void PartSegmentation::JoinHiddenLabels(const DepthGrid& grid, const PatchUnion&
     Surroundings& s = around_[static_cast<std::size_t>(c.label)];
     s.behind += c.behind, s.in_front += c.in_front;
   }
-  SortBySize(patches);
+  SortBySize(surfaces);
   label_of_run_.clear();
   for (const LabelRun& run : components_.runs.runs) label_of_run_.push_back(run.label);
-  between_.Begin(grid, components_.runs, label_of_run_, static_cast<int>(planes_.size()),
-                 config.unsure_side_sigmas);
+  between_.Begin(grid, components_.runs, label_of_run_, static_cast<int>(planes_.size()));
 
   // Each label, the larger first, joins the larger one that fits its pixels best.
   into_.resize(planes_.size());
   std::iota(into_.begin(), into_.end(), 0);
   for (std::size_t k = 1; k < by_size_.size(); ++k) {
     const auto small = static_cast<std::size_t>(by_size_[k]);
-    const bool may_hide = around_[small].MayHide(config.max_island_behind);
     double min_gap = 1.0;
     for (std::size_t j = 0; j < k; ++j) {
       const int large = by_size_[j];
       if (into_[static_cast<std::size_t>(large)] != large) continue;
-      const double gap = PatchGap(patches.At(by_size_[k]), patches.At(large),
-                                  config.max_hidden_gap_sigmas, noise, config);
-      if (!(gap < min_gap) || patches.Apart(by_size_[k], large)) continue;
-      const LabelPlane& plane = patches.At(large).plane;
-      // Where a part ends in sight, bounds that a warp has widened would let in what lies on
-      // the plane.
-      const auto equal = [&] {
-        return PatchGap(patches.At(by_size_[k]), patches.At(large), config.max_merge_gap_sigmas,
-                        noise, config) < 1.0;
-      };
-      const bool hidden =
-          (may_hide &&
-           between_.ShareBehind(by_size_[k], large, plane) <= config.max_island_behind) ||
-          (equal() && between_.AreSidesOfSomethingInFront(by_size_[k], large, plane));
+      const Surface& surface = surfaces[static_cast<std::size_t>(large)];
+      const double gap = SurfaceGap(surfaces[small], surface, noise, config.joining);
+      if (!(gap < min_gap)) continue;
+      const bool hidden = IsHiddenPart(by_size_[k], large, around_[small], large, config);
       if (hidden) min_gap = gap, into_[small] = large;
     }
   }
   for (LabelComponent& c : components_.list) c.label = into_[static_cast<std::size_t>(c.label)];
+}
+
+/// Whether the surface of a label can pass behind what separates two parts.
+bool PartSegmentation::IsHiddenPart(int part, int larger, const Surroundings& around, int label,
+                                    const PlaneExtractionConfig& config) {
+  const LabelPlane& plane = planes_[static_cast<std::size_t>(label)];
+  const double unsure = unsure_sigmas_[static_cast<std::size_t>(label)];
+  return (around.MayHide(config.max_island_behind) &&
+          between_.ShareBehind(part, larger, plane, unsure) <= config.max_island_behind) ||
+         between_.AreSidesOfSomethingInFront(part, larger, plane, unsure);
 }
 
 void PartSegmentation::FindMainComponents() {
@@ -97,7 +97,7 @@ void PartSegmentation::NumberSegments(const DepthGrid& grid,
   // One segment for the largest component of each label.
   FindMainComponents();
   between_.Begin(grid, components_.runs, components_.component,
-                 static_cast<int>(components_.list.size()), config.unsure_side_sigmas);
+                 static_cast<int>(components_.list.size()));
   segment_.assign(components_.list.size(), -1);
   segment_count_ = 0;
   for (const int k : main_) {
@@ -109,11 +109,7 @@ void PartSegmentation::NumberSegments(const DepthGrid& grid,
     const LabelComponent& c = components_.list[k];
     if (segment_[k] >= 0 || c.pixels < config.min_island_pixels) continue;
     const int largest = main_[static_cast<std::size_t>(c.label)];
-    const LabelPlane& plane = planes_[static_cast<std::size_t>(c.label)];
-    const auto part = static_cast<int>(k);
-    if ((Surroundings{c.behind, c.in_front}.MayHide(config.max_island_behind) &&
-         between_.ShareBehind(part, largest, plane) <= config.max_island_behind) ||
-        between_.AreSidesOfSomethingInFront(part, largest, plane)) {
+    if (IsHiddenPart(static_cast<int>(k), largest, {c.behind, c.in_front}, c.label, config)) {
       segment_[k] = segment_[static_cast<std::size_t>(largest)];
     } else if (c.pixels >= config.min_pixels) {
       segment_[k] = segment_count_++;
@@ -121,19 +117,22 @@ void PartSegmentation::NumberSegments(const DepthGrid& grid,
   }
 }
 
-const LabelRuns& PartSegmentation::Segment(const DepthGrid& grid, const PatchUnion& joined,
+const LabelRuns& PartSegmentation::Segment(const DepthGrid& grid,
+                                           const std::vector<Surface>& surfaces,
                                            const LabelRuns& labels, const DepthNoise& noise,
                                            const PlaneExtractionConfig& config) {
-  // Connected parts of the labels, cut at bridges.
-  joined.CopyPlanes(planes_);
-  MapRuns(labels, joined.into(), components_.runs);
-  components_.unsure_side_sigmas = config.unsure_side_sigmas;
+  // Connected parts of the labels, and what lies around them.
+  planes_.clear(), unsure_sigmas_.clear();
+  for (const Surface& surface : surfaces) {
+    planes_.push_back(surface.plane);
+    unsure_sigmas_.push_back(BendSigmas(surface, config.joining));
+  }
+  components_.runs = labels;
   ConnectRuns(components_);
-  CountSides(grid, planes_, components_);
-  bridges_.Cut(grid, planes_, config.max_island_behind, components_);
+  CountSides(grid, planes_, unsure_sigmas_, components_);
 
   // Which of them are one segment, and the runs drawn with its number.
-  JoinHiddenLabels(grid, joined, noise, config);
+  JoinHiddenLabels(grid, surfaces, noise, config);
   NumberSegments(grid, config);
   for (std::size_t k = 0; k < components_.component.size(); ++k) {
     const int component = components_.component[k];
@@ -143,7 +142,7 @@ const LabelRuns& PartSegmentation::Segment(const DepthGrid& grid, const PatchUni
   return components_.runs;
 }
 
-void PartSegmentation::SumSegments(const DepthGrid& grid, const PatchUnion& joined,
+void PartSegmentation::SumSegments(const DepthGrid& grid, const std::vector<Surface>& surfaces,
                                    std::vector<PlaneSums>& sums) const {
   sums.assign(static_cast<std::size_t>(segment_count_), PlaneSums{});
 
@@ -154,8 +153,8 @@ void PartSegmentation::SumSegments(const DepthGrid& grid, const PatchUnion& join
   };
   for (int k = 0; k < static_cast<int>(into_.size()); ++k) {
     const int segment = segment_of_label(into_[static_cast<std::size_t>(k)]);
-    if (joined.Root(k) == k && segment >= 0)
-      sums[static_cast<std::size_t>(segment)] += joined.At(k).sums;
+    if (segment >= 0)
+      sums[static_cast<std::size_t>(segment)] += surfaces[static_cast<std::size_t>(k)].sums;
   }
 
   // Then parts move that are not of their label's segment.

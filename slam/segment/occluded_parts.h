@@ -3,11 +3,10 @@
 #include <vector>
 
 #include "slam/geometry/plane_sums.h"
-#include "slam/segment/bridges.h"
 #include "slam/segment/extraction_config.h"
 #include "slam/segment/label_components.h"
-#include "slam/segment/patches.h"
 #include "slam/segment/sight_lines.h"
+#include "slam/segment/surfaces.h"
 
 namespace slam {
 
@@ -22,16 +21,16 @@ namespace slam {
 /// The memory of one image serves the next.
 class PartSegmentation {
  public:
-  /// @param labels  runs of the labels that `joined` knows
+  /// @param labels  runs of the labels of the surfaces
   /// @returns runs of segments 0, 1, ...; kNoLabel where a part is too small to be one. Two
   ///          beside each other may be of one segment. They stand until the next call.
-  const LabelRuns& Segment(const DepthGrid& grid, const PatchUnion& joined,
+  const LabelRuns& Segment(const DepthGrid& grid, const std::vector<Surface>& surfaces,
                            const LabelRuns& labels, const DepthNoise& noise,
                            const PlaneExtractionConfig& config);
 
   /// Sums of the pixels of each segment of the last call: those of the labels that `joined`
   /// knows, but for the parts that went elsewhere.
-  void SumSegments(const DepthGrid& grid, const PatchUnion& joined,
+  void SumSegments(const DepthGrid& grid, const std::vector<Surface>& surfaces,
                    std::vector<PlaneSums>& sums) const;
 
  private:
@@ -41,18 +40,20 @@ class PartSegmentation {
     /// Whether the plane can pass behind what surrounds it.
     bool MayHide(double max_behind) const { return behind <= max_behind * (behind + in_front); }
   };
-  void SortBySize(const PatchUnion& patches);
-  void JoinHiddenLabels(const DepthGrid& grid, const PatchUnion& patches,
+  void SortBySize(const std::vector<Surface>& surfaces);
+  void JoinHiddenLabels(const DepthGrid& grid, const std::vector<Surface>& surfaces,
                         const DepthNoise& noise, const PlaneExtractionConfig& config);
+  bool IsHiddenPart(int part, int larger, const Surroundings& around, int label,
+                    const PlaneExtractionConfig& config);
   void FindMainComponents();
   void NumberSegments(const DepthGrid& grid, const PlaneExtractionConfig& config);
 
   LabelComponents components_;
-  BridgeCutter bridges_;
   SightLines between_;
-  std::vector<LabelPlane> planes_;    ///< one a label
-  std::vector<Surroundings> around_;  ///< one a label
-  std::vector<int> by_size_;          ///< labels with pixels, largest first
+  std::vector<LabelPlane> planes_;     ///< one a label
+  std::vector<double> unsure_sigmas_;  ///< the same: what is as near is on no side of it
+  std::vector<Surroundings> around_;   ///< one a label
+  std::vector<int> by_size_;           ///< labels with pixels, largest first
   std::vector<int> label_of_run_;
   std::vector<int> into_;     ///< label that each label is part of
   std::vector<int> main_;     ///< largest component of each label; -1 = it has none

@@ -27,7 +27,7 @@ void PixelGrowth::Begin(const DepthGrid& grid, const GrowthConfig& config) {
   const int size = config.block_px;
   on_.cols = (grid.width + size - 1) / size, on_.rows = (grid.height + size - 1) / size;
   const auto blocks = static_cast<std::size_t>(on_.block_count());
-  on_.planes.clear(), on_.pixel_planes.clear();
+  on_.planes.clear(), on_.pixel_planes.clear(), on_.planes_of.clear();
   on_.hypotheses.Begin(blocks, size);
   on_.reached.Begin(on_.cols, on_.rows);
   active_.clear(), next_active_.clear(), is_active_.assign(blocks, 0);
@@ -48,15 +48,18 @@ void PixelGrowth::Begin(const DepthGrid& grid, const GrowthConfig& config) {
   }
 }
 
-int PixelGrowth::AddPlane(const LabelPlane& plane) {
-  on_.planes.push_back(plane), on_.pixel_planes.emplace_back(plane);
+int PixelGrowth::AddPlane(const LabelPlane& plane, const std::vector<LabelPlane>& local) {
+  on_.planes_of.push_back({static_cast<int>(on_.pixel_planes.size()), !local.empty()});
+  on_.planes.push_back(plane);
+  if (local.empty()) on_.pixel_planes.emplace_back(plane);
+  for (const LabelPlane& tile : local) on_.pixel_planes.emplace_back(tile);
   on_.reached.AddLabel();
   return static_cast<int>(on_.planes.size()) - 1;
 }
 
 bool PixelGrowth::Reach(int block, int label) {
   if (!on_.reached.Add(label, PlaceOf(block))) return false;
-  on_.hypotheses.Add(block, label);
+  on_.hypotheses.Add(block, label, on_.PlaneIndex(block, label));
   return true;
 }
 
@@ -190,7 +193,8 @@ void PixelGrowth::DropUseless() {
   Grow();
 }
 
-void PixelGrowth::Replace(const std::vector<LabelPlane>& planes, const std::vector<int>& into) {
+void PixelGrowth::Replace(const std::vector<LabelPlane>& planes, const std::vector<int>& into,
+                          const std::vector<std::vector<LabelPlane>>& local) {
   // Where the planes are now is where the new ones begin.
   BlockHypotheses& all = on_.hypotheses;
   seeds_.clear();
@@ -201,9 +205,10 @@ void PixelGrowth::Replace(const std::vector<LabelPlane>& planes, const std::vect
     }
   }
 
-  on_.planes.clear(), on_.pixel_planes.clear();
+  on_.planes.clear(), on_.pixel_planes.clear(), on_.planes_of.clear();
   all.Clear(), on_.reached.Clear();
-  for (const LabelPlane& plane : planes) AddPlane(plane);
+  for (std::size_t k = 0; k < planes.size(); ++k)
+    AddPlane(planes[k], local.empty() ? std::vector<LabelPlane>{} : local[k]);
   cost_count_ = 0;
   std::fill(is_stale_.begin(), is_stale_.end(), 1);
   for (const auto& [block, label] : seeds_) Seed(block, label);
@@ -246,21 +251,23 @@ void PixelGrowth::MarkExplained(double bias, double standard_errors,
   }
 }
 
-void PixelGrowth::SumLabels(const std::vector<PlaneSums>& whole,
-                            std::vector<PlaneSums>& sums) const {
+void PixelGrowth::SumParts(const std::vector<PlaneSums>& whole, PartsOnBlocks& out) const {
   const BlockHypotheses& all = on_.hypotheses;
-  sums.assign(on_.planes.size(), PlaneSums{});
+  out.Begin(on_.cols, on_.rows);
   for (int block = 0; block < on_.block_count(); ++block) {
+    out.first.push_back(out.parts.size());
     for (int k = all.First(block); k != kNoHypothesis; k = all.At(k).next) {
       const Hypothesis& at = all.At(k);
       if (at.pixels == 0) continue;
       const bool has_all = !whole.empty() && whole[static_cast<std::size_t>(block)].n ==
                                                  static_cast<double>(at.pixels);
-      sums[static_cast<std::size_t>(at.label)] +=
-          has_all ? whole[static_cast<std::size_t>(block)]
-                  : SumOfSet(on_.PixelsOf(block), all.SetOf(k, BlockHypotheses::kOwned));
+      out.parts.push_back(
+          {at.label,
+           has_all ? whole[static_cast<std::size_t>(block)]
+                   : SumOfSet(on_.PixelsOf(block), all.SetOf(k, BlockHypotheses::kOwned))});
     }
   }
+  out.first.push_back(out.parts.size());
 }
 
 }  // namespace slam

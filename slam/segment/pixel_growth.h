@@ -29,7 +29,8 @@ class PixelGrowth {
   void Begin(const DepthGrid& grid, const GrowthConfig& config);
 
   /// Adds a plane. @returns its label.
-  int AddPlane(const LabelPlane& plane);
+  /// @param local  its planes by tiles (FitLocally); empty: the plane itself everywhere
+  int AddPlane(const LabelPlane& plane, const std::vector<LabelPlane>& local = {});
   /// Lets a plane begin in a block.
   void Seed(int block, int label) {
     if (Reach(block, label)) Activate(block);
@@ -44,7 +45,10 @@ class PixelGrowth {
   void DropUseless();
   /// Goes on with other planes for the labels: `planes` in place of the old ones and the pixels
   /// of label k counted as those of into[k]; everything is grown anew from there.
-  void Replace(const std::vector<LabelPlane>& planes, const std::vector<int>& into);
+  /// @param local  of each label its planes by tiles, as for AddPlane; empty: none has any
+  void Replace(const std::vector<LabelPlane>& planes, const std::vector<int>& into,
+               const std::vector<std::vector<LabelPlane>>& local = {});
+  bool IsLocal(int label) const { return on_.planes_of[static_cast<std::size_t>(label)].local; }
 
   /// Marks the pixels that their planes explain: in their block the mean residual from the
   /// plane is less than `bias` + `standard_errors` / sqrt(the plane's pixels there), sigmas.
@@ -52,9 +56,9 @@ class PixelGrowth {
   void MarkExplained(double bias, double standard_errors,
                      std::vector<std::uint8_t>& explained) const;
 
-  /// Sums of the pixels of each label.
-  /// @param whole  those of the measured pixels of each block; empty: not known
-  void SumLabels(const std::vector<PlaneSums>& whole, std::vector<PlaneSums>& sums) const;
+  /// What labels have of each block.
+  /// @param whole  sums of the measured pixels of each block; empty: not known
+  void SumParts(const std::vector<PlaneSums>& whole, PartsOnBlocks& out) const;
 
   /// The label of every pixel.
   void DrawLabels(LabelImage& labels);

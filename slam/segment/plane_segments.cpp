@@ -3,32 +3,14 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
+#include "slam/segment/local_planes.h"
 #include "slam/segment/plane_workspace.h"
+#include "slam/segment/surface_joining.h"
 
 namespace slam {
 namespace {
-
-/// Grows the planes of clusters from the middles of their blocks, and drops the useless ones.
-void AddClusters(const DepthGrid& grid, const BlockClusters& clusters, const DepthNoise& noise,
-                 PixelGrowth& growth) {
-  const int first = static_cast<int>(growth.planes().size());
-  for (std::size_t r = 0; r < clusters.planes.size(); ++r) {
-    const InverseDepthPlane& plane = clusters.planes[r];
-    growth.AddPlane({plane, GrazingFactor(clusters.sums[r], plane, noise)});
-  }
-
-  const int half = clusters.block_px / 2;
-  for (int block = 0; block < clusters.cols * clusters.rows; ++block) {
-    const int region = clusters.region[static_cast<std::size_t>(block)];
-    if (region < 0) continue;
-    const int u = std::min(block % clusters.cols * clusters.block_px + half, grid.width - 1);
-    const int v = std::min(block / clusters.cols * clusters.block_px + half, grid.height - 1);
-    growth.Seed(growth.BlockAt(u, v), first + region);
-  }
-  growth.Grow();
-  growth.DropUseless();
-}
 
 /// Writes the label image (position in `kept` + 1) and the bounds of each segment.
 /// @param value  scratch
@@ -73,44 +55,129 @@ void PlaneExtractor::Use(const Camera& camera, const cv::Mat2d& rays) {
   SetRays(rays, work_->grid);
 }
 
+/// Grows the planes of clusters from the middles of their blocks, and drops the useless ones.
+/// @param joined  which of them are one surface, by block_parts; null: none
+void PlaneExtractor::Workspace::AddClusters(const BlockClusters& clusters,
+                                            const JoinedLabels* joined) {
+  const int first = static_cast<int>(growth.planes().size());
+  for (std::size_t r = 0; r < clusters.planes.size(); ++r) {
+    const bool is_part = joined != nullptr && joined->into[r] != static_cast<int>(r);
+    const PlaneSums& own = joined != nullptr && !is_part ? joined->sums[r] : clusters.sums[r];
+    const std::optional<PlaneFit> fit = Fit(own);
+    const InverseDepthPlane plane = fit ? fit->plane : clusters.planes[r];
+    const LabelPlane label_plane{plane, GrazingFactor(own, plane, sensor.noise)};
+    std::vector<LabelPlane> local;
+    if (joined != nullptr && !is_part && joined->bent[r] != 0)
+      local = FitLocally(block_parts, joined->into, static_cast<int>(r), label_plane,
+                         sensor.noise, config.joining);
+    growth.AddPlane(label_plane, local);
+  }
+
+  const int half = clusters.block_px / 2;
+  for (int block = 0; block < clusters.cols * clusters.rows; ++block) {
+    int region = clusters.region[static_cast<std::size_t>(block)];
+    if (region < 0) continue;
+    if (joined != nullptr) region = joined->into[static_cast<std::size_t>(region)];
+    const int u = std::min(block % clusters.cols * clusters.block_px + half, grid.width - 1);
+    const int v = std::min(block / clusters.cols * clusters.block_px + half, grid.height - 1);
+    growth.Seed(growth.BlockAt(u, v), first + region);
+  }
+  growth.Grow();
+  growth.DropUseless();
+}
+
+/// Which clusters of the whole image continue each other; block_parts are theirs.
+JoinedLabels PlaneExtractor::Workspace::JoinClusters(const BlockClusters& clusters) {
+  block_parts.Begin(clusters.cols, clusters.rows);
+  for (std::size_t block = 0; block < clusters.region.size(); ++block) {
+    block_parts.first.push_back(block_parts.parts.size());
+    const int region = clusters.region[block];
+    if (region >= 0) block_parts.parts.push_back({region, clustering.SumsOfBlocks()[block]});
+  }
+  block_parts.first.push_back(block_parts.parts.size());
+  return JoinSurfaces(block_parts, clusters.planes.size(), nullptr, {}, sensor.noise,
+                      config.joining);
+}
+
+/// How many pixels of one label touch another, for every two.
+ContactPixels PlaneExtractor::Workspace::CountContacts(std::size_t label_count) const {
+  ContactPixels contacts;
+  contacts.Clear(static_cast<int>(label_count));
+  VisitBoundaryPieces(runs, [&](std::size_t, std::size_t, int n, std::size_t a, std::size_t b) {
+    const auto [low, high] = std::minmax(runs.runs[a].label, runs.runs[b].label);
+    if (low != kNoLabel) contacts.Of(low, high) += 2 * n;
+  });
+  return contacts;
+}
+
+/// Joins labels that continue each other, and grows the planes of what has become one anew.
+void PlaneExtractor::Workspace::JoinTouching() {
+  const std::vector<PlaneSums> unknown;
+  const std::vector<PlaneSums>& blocks =
+      config.block_px == config.growth.block_px ? clustering.SumsOfBlocks() : unknown;
+  const std::size_t count = growth.planes().size();
+  growth.SumParts(blocks, block_parts);
+  growth.DrawLabels(labels);
+  FindRuns(labels, grid.width, grid.height, runs);
+  ContactPixels contacts = CountContacts(count);
+  std::vector<std::uint8_t> bent(count);
+  for (std::size_t k = 0; k < count; ++k) bent[k] = growth.IsLocal(static_cast<int>(k)) ? 1 : 0;
+  const JoinedLabels joined =
+      JoinSurfaces(block_parts, count, &contacts, bent, sensor.noise, config.joining);
+
+  std::vector<LabelPlane> planes = growth.planes();
+  std::vector<std::vector<LabelPlane>> local(count);
+  for (std::size_t k = 0; k < count; ++k) {
+    if (joined.into[k] != static_cast<int>(k)) continue;
+    if (const auto fit = Fit(joined.sums[k]))
+      planes[k] = {fit->plane, GrazingFactor(joined.sums[k], fit->plane, sensor.noise)};
+    if (joined.bent[k] != 0)
+      local[k] = FitLocally(block_parts, joined.into, static_cast<int>(k), planes[k],
+                            sensor.noise, config.joining);
+  }
+  growth.Replace(planes, joined.into, local);
+
+  growth.SumParts(blocks, block_parts);
+  const std::vector<PlaneSums> label_sums = SumParts(block_parts, count);
+  surfaces.clear();
+  for (std::size_t k = 0; k < count; ++k) {
+    Surface surface{label_sums[k], planes[k], joined.bent[k] != 0};
+    if (const auto fit = Fit(surface.sums))
+      surface.plane = {fit->plane, GrazingFactor(surface.sums, fit->plane, sensor.noise)};
+    surfaces.push_back(surface);
+  }
+  growth.DrawLabels(labels);
+  FindRuns(labels, grid.width, grid.height, runs);
+}
+
 void PlaneExtractor::Extract(Frame& frame) {
-  const PlaneExtractionConfig& settings = work_->config;
+  const PlaneExtractionConfig& config = work_->config;
   const DepthNoise& noise = work_->sensor.noise;
   DepthGrid& grid = work_->grid;
   PixelGrowth& growth = work_->growth;
   SetDepth(frame.depth_m, noise, work_->sensor.max_depth_m, grid);
 
-  // Planar blocks grouped into planes, again with wider bounds where the sensor bends them.
-  const BlockClusters& clusters =
-      work_->clustering.Cluster(grid, {}, settings.block_px, noise, settings.coarse);
-  const double warp =
-      work_->warp.Measure(clusters, work_->clustering.SumsOfBlocks(), noise, settings);
-  const PlaneExtractionConfig config = AllowWarp(settings, warp);
-  if (warp > 0.0) work_->clustering.MergeAgain(config.coarse);
-
-  // The planes grow over pixels; what they do not explain is clustered in finer blocks.
+  // The planes of clusters of blocks grow over pixels; what they do not explain is clustered in
+  // finer blocks.
   growth.Begin(grid, config.growth);
-  AddClusters(grid, clusters, noise, growth);
+  const BlockClusters& clusters =
+      work_->clustering.Cluster(grid, {}, config.block_px, noise, config.coarse);
+  const JoinedLabels joined = work_->JoinClusters(clusters);
+  work_->AddClusters(clusters, &joined);
   growth.MarkExplained(config.coarse.model_error_sigmas,
                        config.max_block_bias_sigmas * std::sqrt(noise.correlated_px),
                        work_->explained);
-  AddClusters(grid,
-              work_->clustering.Cluster(grid, work_->explained, config.fine_block_px, noise,
-                                        config.fine),
-              noise, growth);
+  work_->AddClusters(work_->clustering.Cluster(grid, work_->explained, config.fine_block_px,
+                                               noise, config.fine),
+                     nullptr);
 
-  // Parts of one plane are joined, where they touch and across what hides them.
-  const std::vector<PlaneSums> unknown;
-  const std::vector<PlaneSums>& blocks =
-      config.block_px == config.growth.block_px ? work_->clustering.SumsOfBlocks() : unknown;
-  PatchJoining& patches = work_->patches;
-  patches.MergeEqualNeighbours(grid, blocks, noise, config, growth);
-  const PatchUnion& joined =
-      patches.JoinBentParts(grid, blocks, noise, config, growth, warp > 0.0);
-  const LabelRuns& segments = work_->parts.Segment(grid, joined, patches.runs(), noise, config);
+  // Parts of one surface are joined, where they touch and across what hides them.
+  work_->JoinTouching();
+  const LabelRuns& segments =
+      work_->parts.Segment(grid, work_->surfaces, work_->runs, noise, config);
+  work_->parts.SumSegments(grid, work_->surfaces, work_->sums);
 
   // Segments that can be measured become planes of the frame.
-  work_->parts.SumSegments(grid, joined, work_->sums);
   KeepMeasured(work_->sums, noise, config, work_->kept);
   frame.plane_labels.create(grid.height, grid.width);
   DrawLabels(segments, static_cast<int>(work_->sums.size()), work_->kept, work_->drawn_value,

@@ -10,14 +10,13 @@ namespace slam {
 
 /// (B) of the paper for planes: segments the depth images of a camera into planes.
 ///
-/// Blocks are clustered (BlockClustering), again with wider bounds where the sensor bends what
-/// is flat (sensor_warp.h); planes grow over pixels (PixelGrowth), what is left or does not fit
-/// is clustered with finer blocks, touching parts of one plane are merged (patches.h), cut-off
-/// parts are reunited or separated (occluded_parts.h), and each segment is fitted to all its
-/// pixels.
+/// Blocks are clustered (BlockClustering), clusters that continue each other are joined
+/// (surface_joining.h), planes, or local ones where the sensor bends a surface
+/// (local_planes.h), grow over pixels (PixelGrowth), what is left or does not fit is clustered
+/// with finer blocks, touching labels that continue each other are joined, cut-off parts are
+/// reunited or separated (occluded_parts.h), and each segment is fitted to all its pixels.
 ///
-/// The memory of one frame serves the next; what comes out does not depend on what came before.
-/// After a few images no more is asked for, but for what a new Frame has to hold.
+/// What comes out does not depend on what came before.
 ///
 /// Source: PEAC (Feng, Taguchi, Kamat, ICRA 2014), with changes for thin steps
 /// (block_clusters.h).

@@ -11,10 +11,11 @@
 #include "slam/segment/measured_segments.h"
 #include "slam/segment/occluded_parts.h"
 #include "slam/segment/outer_contours.h"
-#include "slam/segment/patches.h"
+#include "slam/segment/parts_on_blocks.h"
 #include "slam/segment/pixel_growth.h"
 #include "slam/segment/plane_segments.h"
-#include "slam/segment/sensor_warp.h"
+#include "slam/segment/surface_joining.h"
+#include "slam/segment/surfaces.h"
 
 namespace slam {
 
@@ -25,10 +26,12 @@ struct PlaneExtractor::Workspace {
   PlaneExtractionConfig config;
   DepthGrid grid;
   BlockClustering clustering;
-  WarpMeasurement warp;
   PixelGrowth growth;
   std::vector<std::uint8_t> explained;  ///< pixels of the first clustering's planes
-  PatchJoining patches;
+  PartsOnBlocks block_parts;
+  LabelImage labels;
+  LabelRuns runs;
+  std::vector<Surface> surfaces;  ///< one a label
   PartSegmentation parts;
   std::vector<PlaneSums> sums;  ///< one a segment
   std::vector<Segment> kept;
@@ -45,6 +48,10 @@ struct PlaneExtractor::Workspace {
   /// Planes of the frame's last image, whose points' memory serves again.
   std::vector<FramePlane> old_planes;
 
+  void AddClusters(const BlockClusters& clusters, const JoinedLabels* joined);
+  JoinedLabels JoinClusters(const BlockClusters& clusters);
+  ContactPixels CountContacts(std::size_t label_count) const;
+  void JoinTouching();
   void TakeMemory(std::vector<FramePlane>& planes);
   void GiveMemory(FramePlane& plane);
   void SamplePoints(const cv::Mat1b& drawn, std::vector<FramePlane>& planes);

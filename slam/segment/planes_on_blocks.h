@@ -5,6 +5,7 @@
 #include "slam/segment/block_hypotheses.h"
 #include "slam/segment/block_pixels.h"
 #include "slam/segment/growth_config.h"
+#include "slam/segment/local_planes.h"
 #include "slam/segment/pixel_labels.h"
 #include "slam/segment/reached_blocks.h"
 
@@ -15,7 +16,12 @@ struct PlanesOnBlocks {
   int cols = 0, rows = 0;                ///< the image's, in blocks
   std::vector<BlockPixels> blocks;       ///< row by row
   std::vector<LabelPlane> planes;        ///< one a label
-  std::vector<PixelPlane> pixel_planes;  ///< the same in the numbers that pixels are in
+  std::vector<PixelPlane> pixel_planes;  ///< of all labels, in the numbers that pixels are in
+  struct Planes {
+    int first = 0;       ///< place in pixel_planes
+    bool local = false;  ///< one for each tile (FitLocally)
+  };
+  std::vector<Planes> planes_of;  ///< one a label
   ReachedBlocks reached;
   BlockHypotheses hypotheses;
 
@@ -23,8 +29,15 @@ struct PlanesOnBlocks {
   const BlockPixels& PixelsOf(int block) const {
     return blocks[static_cast<std::size_t>(block)];
   }
+  /// The place of a label's plane in a block.
+  int PlaneIndex(int block, int label) const {
+    const Planes& own = planes_of[static_cast<std::size_t>(label)];
+    if (!own.local) return own.first;
+    return own.first + block / cols / kTile_blocks * TileCount(cols) +
+           block % cols / kTile_blocks;
+  }
   const PixelPlane& PlaneOf(int hypothesis) const {
-    return pixel_planes[static_cast<std::size_t>(hypotheses.At(hypothesis).label)];
+    return pixel_planes[static_cast<std::size_t>(hypotheses.At(hypothesis).plane)];
   }
 };
 

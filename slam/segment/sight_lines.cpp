@@ -28,10 +28,8 @@ int DistanceFrom(int k, int low, int high) { return std::max({low - k, 0, k - hi
 }  // namespace
 
 void SightLines::Begin(const DepthGrid& grid, const LabelRuns& runs,
-                       const std::vector<int>& part, int part_count,
-                       double unsure_side_sigmas) {
+                       const std::vector<int>& part, int part_count) {
   grid_ = &grid, runs_ = &runs, part_ = &part;
-  behind_sigmas_ = std::max(kBehind_sigmas, static_cast<float>(unsure_side_sigmas));
 
   // Samples on the grid, and one of each part that it misses.
   samples_.clear();
@@ -151,7 +149,8 @@ int SightLines::PartAt(std::size_t i) const {
   return (*part_)[runs_->At(pixel % grid_->width, pixel / grid_->width)];
 }
 
-double SightLines::ShareBehind(int a, int b, const LabelPlane& plane) {
+double SightLines::ShareBehind(int a, int b, const LabelPlane& plane, double unsure_sigmas) {
+  const float clear = std::max(kBehind_sigmas, static_cast<float>(unsure_sigmas));
   FindNearestLines(a, b);
   const PixelPlane in_float(plane);
   int behind = 0, measured = 0;
@@ -161,16 +160,15 @@ double SightLines::ShareBehind(int a, int b, const LabelPlane& plane) {
       const int part = PartAt(i);
       if (part == a || part == b) return true;
       ++measured;
-      behind += ResidualSigmas(*grid_, i, in_float) < -behind_sigmas_ ? 1 : 0;
+      behind += ResidualSigmas(*grid_, i, in_float) < -clear ? 1 : 0;
       return true;
     });
   }
   return measured > 0 ? static_cast<double>(behind) / measured : 0.0;
 }
 
-SightLines::Sight SightLines::Look(const Line& line, int a, int b,
-                                   const PixelPlane& plane) const {
-  const float clear = std::max(kClear_sigmas, behind_sigmas_);
+SightLines::Sight SightLines::Look(const Line& line, int a, int b, const PixelPlane& plane,
+                                   float clear) const {
   int beyond = 0, in_front = 0;
   const DepthGrid& grid = *grid_;
   Walk(line, [&](std::size_t i) {
@@ -189,7 +187,9 @@ SightLines::Sight SightLines::Look(const Line& line, int a, int b,
   return in_front < kClear_px ? Sight::kPlaneOrNothing : Sight::kInFront;
 }
 
-bool SightLines::AreSidesOfSomethingInFront(int a, int b, const LabelPlane& plane) const {
+bool SightLines::AreSidesOfSomethingInFront(int a, int b, const LabelPlane& plane,
+                                            double unsure_sigmas) const {
+  const float clear = std::max(kClear_sigmas, static_cast<float>(unsure_sigmas));
   constexpr double kAll = kEnds * kEnds;
   const PixelPlane in_float(plane);
   const auto end = [&](int part, std::size_t k) {  // one of kEnds, in equal steps
@@ -200,7 +200,7 @@ bool SightLines::AreSidesOfSomethingInFront(int a, int b, const LabelPlane& plan
   for (std::size_t j = 0; j < kEnds; ++j) {
     const Pixel from = end(a, j);
     for (std::size_t k = 0; k < kEnds; ++k) {
-      const Sight sight = Look({0, from, end(b, k)}, a, b, in_float);
+      const Sight sight = Look({0, from, end(b, k)}, a, b, in_float, clear);
       not_in_front += sight == Sight::kInFront ? 0 : 1;
       beyond += sight == Sight::kBeyond ? 1 : 0;
       // What is left cannot change the answer.

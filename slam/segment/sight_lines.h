@@ -17,20 +17,21 @@ class SightLines {
   /// Samples every part on a grid of pixels. What is given must outlive what is asked; memory
   /// serves again.
   /// @param part  one a run, -1 = none
-  /// @param unsure_side_sigmas  at least so far behind is clearly behind
   void Begin(const DepthGrid& grid, const LabelRuns& runs, const std::vector<int>& part,
-             int part_count, double unsure_side_sigmas = 0.0);
+             int part_count);
 
   /// Share of the measured pixels on the lines between parts `a` and `b`, where they are
   /// nearest to each other, that lie clearly behind `plane`; 0 where nothing between them is
   /// measured.
-  double ShareBehind(int a, int b, const LabelPlane& plane);
+  /// @param unsure_sigmas  what is as near to the plane is not clearly off it
+  double ShareBehind(int a, int b, const LabelPlane& plane, double unsure_sigmas = 0.0);
 
   /// Whether `a` and `b` are what can be seen of one convex surface: of the lines between
   /// pixels all over both, most pass something clearly in front of `plane`, and hardly any sees
   /// past it. What else ends the parts, a table's own edge say, is not asked. Not for what
   /// noise cuts: then nothing is in front.
-  bool AreSidesOfSomethingInFront(int a, int b, const LabelPlane& plane) const;
+  bool AreSidesOfSomethingInFront(int a, int b, const LabelPlane& plane,
+                                  double unsure_sigmas = 0.0) const;
 
  private:
   struct Pixel {
@@ -56,13 +57,12 @@ class SightLines {
   template <typename Visit>
   void Walk(const Line& line, const Visit& visit) const;
   int PartAt(std::size_t i) const;
-  Sight Look(const Line& line, int a, int b, const PixelPlane& plane) const;
+  Sight Look(const Line& line, int a, int b, const PixelPlane& plane, float clear) const;
   void FindNearestLines(int a, int b);
 
   const DepthGrid* grid_ = nullptr;
   const LabelRuns* runs_ = nullptr;
   const std::vector<int>* part_ = nullptr;
-  float behind_sigmas_ = 0.0f;
   std::vector<Part> parts_;
   std::vector<Sample> samples_;
   std::vector<Pixel> pixels_;         ///< samples, part by part

@@ -62,8 +62,8 @@ bool PlaneExtractor::Workspace::TakeRegion(std::size_t host, const PixelRegion& 
   // It is part of the box's own segment whose plane is nearest, if one agrees within noise.
   double min_gap = 1.0;
   for (const std::size_t own : own_segments) {
-    const double gap = PatchGap({kept[own].sums, kept[own].plane}, {region, top->plane},
-                                config.max_merge_gap_sigmas, sensor.noise, config);
+    const double gap = SurfaceGap({kept[own].sums, kept[own].plane}, {region, top->plane},
+                                  sensor.noise, config.joining);
     if (gap < min_gap) min_gap = gap, into = own;
   }
 

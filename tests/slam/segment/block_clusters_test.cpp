@@ -55,28 +55,6 @@ TEST(BlockClusters, ByMeanErrorAreBoundedByTheBlockError) {
   EXPECT_TRUE(IsOneRegion(StepClusters(0.0, 320, MergeRule::kMeanError, 3.0)));
 }
 
-// A step that noise explains once it may be wider than the sensor's warp.
-TEST(BlockClusters, ThatMergeAgainAreThoseOfTheOtherBounds) {
-  const Camera camera;
-  cv::Mat1f depth_m(camera.height, camera.width, 1.0f);
-  depth_m(cv::Rect(320, 0, 320, camera.height)) -= 0.006f;
-  depth_m(cv::Rect(100, 100, 50, 30)) = 0.0f;
-  const DepthNoise noise;
-  const DepthGrid grid =
-      MakeDepthGrid(closed_form::AddKinectNoise(depth_m, 1), PixelRays(camera), noise, 10.0);
-  ClusterConfig strict, wide;
-  strict.model_error_sigmas = 0.5, wide.model_error_sigmas = 4.0;
-  BlockClustering clustering, other;
-  const std::size_t before = clustering.Cluster(grid, {}, 8, noise, strict).sums.size();
-  const BlockClusters& again = clustering.MergeAgain(wide);
-  const BlockClusters& expected = other.Cluster(grid, {}, 8, noise, wide);
-  EXPECT_LT(expected.sums.size(), before);
-  EXPECT_EQ(again.region, expected.region);
-  ASSERT_EQ(again.sums.size(), expected.sums.size());
-  for (std::size_t k = 0; k < expected.sums.size(); ++k)
-    EXPECT_EQ(again.sums[k].wqq, expected.sums[k].wqq);
-}
-
 /// The regions of blocks merged in the same order, with every pair kept and evaluated itself.
 class PlainMerge {
  public:

@@ -108,8 +108,9 @@ TEST(PixelGrowth, SumsLabelsAsIfTheirPixelsWereCountedOneByOne) {
   clustering.Cluster(grid, {}, GrowthConfig{}.block_px, {}, {});
   for (const std::vector<PlaneSums>& whole :
        {std::vector<PlaneSums>{}, clustering.SumsOfBlocks()}) {
-    std::vector<PlaneSums> sums;
-    growth.SumLabels(whole, sums);
+    PartsOnBlocks parts;
+    growth.SumParts(whole, parts);
+    const std::vector<PlaneSums> sums = SumParts(parts, 2);
     ASSERT_EQ(sums.size(), 2u);
     for (std::size_t k = 0; k < 2; ++k) {
       EXPECT_EQ(sums[k].n, plain[k].n) << k;

@@ -1,0 +1,50 @@
+#pragma once
+
+#include "slam/base/field_visitor.h"
+
+namespace slam {
+
+/// When parts are one surface, which the sensor may bend.
+struct JoinConfig {
+  /// Measured on large flat surfaces of a real kitchen (docs/sensors.md).
+  double bend_ratio = 0.0033;
+  double bend_length_rad = 0.048;  // the same: 25 of 640 columns, correlation exp(-1/2)
+  // In bends: of a normal variable, 3 are passed 1 time in 400. The bounds only keep curved
+  // things out: twice as much joined no two surfaces more on simulated desks.
+  double max_union_bends = 3.0;
+  double max_part_bends = 5.0;
+  double max_hidden_bends = 3.0;  // no border tells: with 4, tops 10 mm apart were joined
+  double max_turn_bends = 5.0;    // of slopes, between strips that are nearly a length apart
+  double max_gap_sigmas = 1.5;
+  // The sensor's own steps of depth are about one sigma high and do not keep one sign.
+  double max_step_sigmas = 1.75;
+  double max_uneven_sigmas = 3.0;  // so a step along a third of the border counts too
+  double min_local_sigmas = 1.0;   // below, one plane serves the whole surface
+};
+
+inline void VisitFields(JoinConfig& c, FieldVisitor& v) {
+  v.Number("bend_ratio", c.bend_ratio, "[0, 0.05]",
+           "root mean square of what the sensor bends flat things by, as a part of the depth; "
+           "0: nothing");
+  v.Degrees("bend_length_deg", c.bend_length_rad, "(0, 90)",
+            "angle of view over which the bend changes by its own size");
+  v.Number("max_union_bends", c.max_union_bends, "(0, inf)",
+           "largest deviation (root mean square) of a surface from its plane, in bends");
+  v.Number("max_part_bends", c.max_part_bends, "(0, inf)",
+           "the same of the smaller of two parts that touch");
+  v.Number("max_hidden_bends", c.max_hidden_bends, "(0, inf)",
+           "the same of two parts that something in front separates");
+  v.Number("max_turn_bends", c.max_turn_bends, "(0, inf)",
+           "largest change of slope where two parts meet, in bends over their length");
+  v.Number("max_gap_sigmas", c.max_gap_sigmas, "(0, inf)",
+           "deviation allowed beside the bend, in standard deviations of a pixel");
+  v.Number("max_step_sigmas", c.max_step_sigmas, "(0, inf)",
+           "largest mean step where two parts meet, in standard deviations of a pixel");
+  v.Number("max_uneven_sigmas", c.max_uneven_sigmas, "(0, inf)",
+           "the same of its root mean square, whichever side is nearer");
+  v.Number("min_local_sigmas", c.min_local_sigmas, "[0, inf)",
+           "deviation of parts from one plane, in standard deviations of a pixel, beyond which "
+           "a surface has planes of its places");
+}
+
+}  // namespace slam
