@@ -227,7 +227,8 @@ std::string CameraCheck::Warning() {
          Fixed(estimate.turn_rad * 180.0 / std::numbers::pi, 0) +
          " degrees apart. Poses and map are distorted by as much: calibrate the camera and "
          "give the right camera.yaml. Lens distortion left out, images scaled or cropped after "
-         "calibration, and depth not registered to colour or taken at another time look alike";
+         "calibration, depth not registered to colour or taken at another time, and a rolling "
+         "shutter look alike";
 }
 
 }  // namespace slam

@@ -39,7 +39,7 @@ const fs::path& Bent() {
   return path;
 }
 const fs::path& Clean() {
-  static const fs::path path = Recorded(Recordings(), "clean", "base: kinect1\n");
+  static const fs::path path = Recorded(Recordings(), "clean", "base: kinect1-clean\n");
   return path;
 }
 

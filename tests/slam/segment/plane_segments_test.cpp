@@ -56,8 +56,8 @@ struct StepView {
     T_cw = closed_form::LookAt({0.05, -0.7071 * distance_m, 0.7071 * distance_m}, {0, 0, 0});
     view = closed_form::Render(world, camera, T_cw);
   }
-  bool Separated(const cv::Mat1f& depth_m) const {
-    const Frame frame = Extract(depth_m, camera);
+  bool Separated(const cv::Mat1f& depth_m, const PlaneExtractionConfig& config = {}) const {
+    const Frame frame = Extract(depth_m, camera, config);
     return PlaneOfFace(frame, view.face, FaceId(1, kTop)) != nullptr &&
            PlaneOfFace(frame, view.face, FaceId(0, kTop)) != nullptr;
   }
@@ -97,27 +97,39 @@ TEST(PlaneSegments, KeepABookOfTenMillimetresApartFromTheDeskUnderNoise) {
   }
 }
 
-TEST(PlaneSegments, ReportTheSmallestStepSeparatedAtEachDistance) {
-  for (const double distance_m : {0.6, 0.8, 1.0, 1.2, 1.5}) {
-    int smallest_mm = 0;
-    for (const int height_mm : {20, 15, 12, 10, 8, 6, 5, 4, 3}) {
-      const StepView step(0.001 * height_mm, distance_m);
-      int separated = 0;
-      for (const std::uint64_t seed : {11u, 12u, 13u}) {
-        separated +=
-            step.Separated(closed_form::AddKinectNoise(step.view.depth_m, seed)) ? 1 : 0;
-      }
-      if (separated < 3) break;
-      smallest_mm = height_mm;
+/// The smallest of a row of ever lower steps that is separated under three draws of noise; 0: none.
+int SmallestStep_mm(double distance_m, const PlaneExtractionConfig& config) {
+  int smallest_mm = 0;
+  for (const int height_mm : {20, 15, 12, 10, 8, 6, 5, 4, 3}) {
+    const StepView step(0.001 * height_mm, distance_m);
+    for (const std::uint64_t seed : {11u, 12u, 13u}) {
+      const cv::Mat1f depth_m = closed_form::AddKinectNoise(step.view.depth_m, seed);
+      if (!step.Separated(depth_m, config)) return smallest_mm;
     }
-    RecordProperty(
-        "smallest_step_mm_at_" + std::to_string(static_cast<int>(100 * distance_m)) + "_cm",
-        smallest_mm);
-    std::printf("distance %.1f m: smallest step separated %d mm\n", distance_m, smallest_mm);
-    // A step of four standard deviations of a single pixel, at 45 degrees.
-    const double bound_mm = 4000.0 * DepthNoise{}.Sigma(distance_m) * 0.7071;
-    EXPECT_LE(smallest_mm, std::max(bound_mm, 6.0)) << distance_m;
-    EXPECT_GT(smallest_mm, 0) << distance_m;
+    smallest_mm = height_mm;
+  }
+  return smallest_mm;
+}
+
+// Where the sensor is said to be flat, four standard deviations of a single pixel at 45 degrees are a
+// step; where it is said to bend, that and the bend, which a step of its size may be.
+TEST(PlaneSegments, ReportTheSmallestStepSeparatedAtEachDistance) {
+  for (const double bend : {0.0, PlaneExtractionConfig{}.joining.bend_ratio}) {
+    PlaneExtractionConfig config;
+    config.joining.bend_ratio = bend;
+    for (const double distance_m : {0.6, 0.8, 1.0, 1.2, 1.5}) {
+      const int smallest_mm = SmallestStep_mm(distance_m, config);
+      RecordProperty("smallest_step_mm_at_" +
+                         std::to_string(static_cast<int>(100 * distance_m)) + "_cm" +
+                         (bend > 0 ? "_bent" : ""),
+                     smallest_mm);
+      std::printf("distance %.1f m, bend %.4f: smallest step separated %d mm\n", distance_m,
+                  bend, smallest_mm);
+      const double noise_mm = 4000.0 * DepthNoise{}.Sigma(distance_m) * 0.7071;
+      EXPECT_LE(smallest_mm, std::max(noise_mm, 6.0) + 1000.0 * bend * distance_m)
+          << distance_m;
+      EXPECT_GT(smallest_mm, 0) << distance_m;
+    }
   }
 }
 
@@ -331,7 +343,7 @@ TEST(PlaneSegments, AreTheDeskInEveryFrameOfARealRecordingWithASteadyNormal) {
   std::string line;
   std::vector<Eigen::Vector3d> normals_w;
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-  double pixels = 0;
+  double pixels = 0, min_pixels = 1e9;
   while (std::getline(list, line)) {
     if (line.empty() || line[0] == '#') continue;
     double stamp = 0;
@@ -344,16 +356,24 @@ TEST(PlaneSegments, AreTheDeskInEveryFrameOfARealRecordingWithASteadyNormal) {
     ExtractPlanes(frame, camera, rays, {});
     const FramePlane* desk = DeskOf(frame);
     ASSERT_NE(desk, nullptr) << file;
-    EXPECT_GT(desk->pixel_count, 28000) << file;
+    min_pixels = std::min<double>(min_pixels, desk->pixel_count);
     pixels += desk->pixel_count;
     normals_w.emplace_back(truth.At(stamp + kClock_s) * desk->pi_c.n);
     sum += normals_w.back();
   }
   ASSERT_EQ(normals_w.size(), 37u);
-  EXPECT_GT(pixels / 37.0, 45000);  // 15 % of the image; much of the desk is under things
-  for (std::size_t k = 0; k < normals_w.size(); ++k) {
-    EXPECT_LT(Angle(normals_w[k], sum.normalized()), 0.01745) << "frame " << k;
+  double squares = 0, max_rad = 0;
+  for (const Eigen::Vector3d& normal_w : normals_w) {
+    const double off_rad = Angle(normal_w, sum.normalized());
+    squares += off_rad * off_rad / 37.0;
+    max_rad = std::max(max_rad, off_rad);
   }
+  // A quarter of the image on average; much of the desk is under things. The device bends it, by
+  // more over the whole of it than over its middle, whose normal alone kept within one degree.
+  EXPECT_GT(min_pixels, 42000);
+  EXPECT_GT(pixels / 37.0, 75000);
+  EXPECT_LT(std::sqrt(squares), 0.01745);
+  EXPECT_LT(max_rad, 1.5 * 0.01745);
 }
 
 }  // namespace
