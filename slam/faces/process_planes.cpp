@@ -39,7 +39,7 @@ void OutlineFace(FramePlane& plane, const Frame& frame, const Camera& camera,
 
 void ProcessPlanes(Frame& frame, const Camera& camera, const SensorModel& sensor,
                    const PlaneProcessingConfig& config) {
-  for (FramePlane& plane : frame.planes) RefitPlane(plane, sensor.noise, config.refit);
+  for (FramePlane& plane : frame.planes) RefitPlane(plane, sensor, config.refit);
   const double usual_roughness = UsualRoughness(frame.planes);
   LinkBoxes(frame.planes, frame.detections, config.box_link);
   for (FramePlane& plane : frame.planes) {

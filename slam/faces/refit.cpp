@@ -135,7 +135,8 @@ Plane ChoosePlane(const FramePlane& plane, const DepthNoise& noise, const RefitC
 
 }  // namespace
 
-void RefitPlane(FramePlane& plane, const DepthNoise& noise, const RefitConfig& config) {
+void RefitPlane(FramePlane& plane, const SensorModel& sensor, const RefitConfig& config) {
+  const DepthNoise& noise = sensor.noise;
   if (plane.points_c.size() < kMinPoints) {
     plane.inlier_ratio = 0.0;
     return;
@@ -148,10 +149,17 @@ void RefitPlane(FramePlane& plane, const DepthNoise& noise, const RefitConfig& c
   const auto off = [&](const Eigen::Vector3d& x_c, double max_sigmas) {
     return !(DistanceSigmas(now.plane, now.grazing, x_c, noise) < max_sigmas);
   };
-  const double before = static_cast<double>(plane.points_c.size());
+  // How flat it is: a sensor that bends makes flat things uneven by as much.
+  const auto flat = [&](const Eigen::Vector3d& x_c) {
+    const double sigma_m = noise.Sigma(x_c.z()) * now.grazing;
+    const double allowed = std::hypot(1.0, sensor.bend_ratio * x_c.z() / sigma_m);
+    return !off(x_c, config.max_inlier_sigmas * allowed);
+  };
+  plane.inlier_ratio =
+      static_cast<double>(std::count_if(plane.points_c.begin(), plane.points_c.end(), flat)) /
+      static_cast<double>(plane.points_c.size());
   std::erase_if(plane.points_c,
                 [&](const Eigen::Vector3d& x_c) { return off(x_c, config.max_inlier_sigmas); });
-  plane.inlier_ratio = static_cast<double>(plane.points_c.size()) / before;
 
   // Edge points off the plane go too; the others move along their rays onto it.
   std::erase_if(plane.edge_points,

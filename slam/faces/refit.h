@@ -2,7 +2,7 @@
 
 #include "slam/base/chi_square.h"
 #include "slam/base/field_visitor.h"
-#include "slam/geometry/depth_noise.h"
+#include "slam/geometry/sensor_model.h"
 #include "slam/model/frame_plane.h"
 
 namespace slam {
@@ -44,11 +44,12 @@ inline void VisitFields(RefitConfig& c, FieldVisitor& v) {
 ///
 /// MSAC of PCL (fixed seed), then least squares on its inliers in inverse depth with the
 /// weights of the noise model (plane_sums.h). Sets pi_c (facing the camera), inlier_ratio
-/// (share of points_c within max_inlier_sigmas), drops outliers from points_c, drops edge
+/// (share of points_c within max_inlier_sigmas of noise and bend: what the sensor bends is flat),
+/// drops points off the plane by more than noise from points_c, drops edge
 /// points off the plane, moves the others along their rays onto it, and sets box_px to bound
 /// them. A plane with fewer than 3 points keeps its parameters and gets inlier ratio 0.
 ///
 /// Source: PAS-SLAM, Plane Re-fitting. Deterministic.
-void RefitPlane(FramePlane& plane, const DepthNoise& noise, const RefitConfig& config);
+void RefitPlane(FramePlane& plane, const SensorModel& sensor, const RefitConfig& config);
 
 }  // namespace slam

@@ -34,9 +34,11 @@ SensorModel ModelOf(DepthSensor sensor) {
       break;
     case DepthSensor::kAzure:
       model.noise = AzureNoise();
+      model.bend_ratio = 0.002;  // its wave: 2 mm at 1 m
       break;
     case DepthSensor::kD435:
       model.noise = D435Noise();
+      model.bend_ratio = 0.0;  // not known; its noise hides it
       break;
   }
   return model;

@@ -14,10 +14,15 @@ enum class DepthSensor { kKinect1, kAzure, kD435 };
 /// Names as in files and on the command line, in the order of the enumeration.
 const std::vector<std::string>& DepthSensorNames();
 
+/// What a first Kinect bends flat things by, root mean square, as a share of the depth. Measured on
+/// large flat surfaces of a real kitchen (docs/sensors.md).
+inline constexpr double kKinectBend = 0.0033;
+
 /// What is known of a depth sensor, whatever is done with its depth.
 struct SensorModel {
   DepthSensor sensor = DepthSensor::kKinect1;
   DepthNoise noise;
+  double bend_ratio = kKinectBend;  ///< as kKinectBend; 0: bends nothing that is known
   double max_depth_m = 10.0;
 };
 

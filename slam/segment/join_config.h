@@ -1,13 +1,13 @@
 #pragma once
 
 #include "slam/base/field_visitor.h"
+#include "slam/geometry/sensor_model.h"
 
 namespace slam {
 
 /// When parts are one surface, which the sensor may bend.
 struct JoinConfig {
-  /// Measured on large flat surfaces of a real kitchen (docs/sensors.md).
-  double bend_ratio = 0.0033;
+  double bend_ratio = kKinectBend;
   double bend_length_rad = 0.048;  // the same: 25 of 640 columns, correlation exp(-1/2)
   // In bends: of a normal variable, 3 are passed 1 time in 400. The bounds only keep curved
   // things out: twice as much joined no two surfaces more on simulated desks.

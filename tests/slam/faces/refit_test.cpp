@@ -51,6 +51,25 @@ TEST(Refit, IsNotPulledByOutliersAndCountsThem) {
   EXPECT_EQ(plane.points_c.size(), 270u);
 }
 
+// A wave of the bend's size is what a flat thing looks like; to a sensor that does not bend it is not
+// flat.
+TEST(Refit, CountsAsFlatWhatTheSensorBends) {
+  const auto bent = [] {
+    FramePlane plane = SlantedPlane(0);
+    for (std::size_t k = 0; k < plane.points_c.size(); ++k)
+      plane.points_c[k] *= 1.0 + 2.0 * kKinectBend * ((k / 5) % 2 == 0 ? 1.0 : -1.0);
+    return plane;
+  };
+  FramePlane by_kinect = bent(), by_flat = bent();
+  const RefitConfig own_fit{.min_improvement_chi2 = 1e9};
+  RefitPlane(by_kinect, {}, own_fit);
+  EXPECT_GT(by_kinect.inlier_ratio, 0.95);
+  SensorModel flat;
+  flat.bend_ratio = 0.0;
+  RefitPlane(by_flat, flat, own_fit);
+  EXPECT_LT(by_flat.inlier_ratio, 0.05);
+}
+
 TEST(Refit, DropsEdgePointsOffThePlaneAndPutsTheOthersOnIt) {
   FramePlane plane = SlantedPlane(0);
   const Eigen::Vector3d on = plane.points_c.front();
