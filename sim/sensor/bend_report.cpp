@@ -17,17 +17,6 @@ constexpr std::uint64_t kEarly = 0, kLate = 100000;  // frames: the drifting par
 constexpr BentWall kReal[] = {
     {1.4, 1.01, 0.83}, {1.8, 0.79, 0.57}, {2.25, 0.66, 0.45}, {3, 0.57, 0.36}};
 
-/// A frontal wall that fills the view, without the renderer and without shadows.
-Rendering BareWall(const Camera& camera, double z_m) {
-  Rendering wall;
-  const cv::Size size(camera.width, camera.height);
-  wall.depth_m = cv::Mat1d(size, z_m);
-  wall.plane_id = cv::Mat1w(size, 1);
-  wall.object_id = cv::Mat1w(size, 1);
-  wall.incidence_cos = cv::Mat1f(size, 1.0F);
-  return wall;
-}
-
 cv::Mat1d ResidualsOfWall(const DepthModel& model, double z_m, std::uint64_t seed,
                           std::uint64_t frame) {
   const Camera camera;
@@ -45,6 +34,16 @@ double Rms(const cv::Mat1d& values) {
 }
 
 }  // namespace
+
+Rendering BareWall(const Camera& camera, double z_m) {
+  Rendering wall;
+  const cv::Size size(camera.width, camera.height);
+  wall.depth_m = cv::Mat1d(size, z_m);
+  wall.plane_id = cv::Mat1w(size, 1);
+  wall.object_id = cv::Mat1w(size, 1);
+  wall.incidence_cos = cv::Mat1f(size, 1.0F);
+  return wall;
+}
 
 cv::Mat1d DisparityResiduals(const cv::Mat1d& z_m) {
   // Normal equations of 351.3 / z = a u + b v + c.

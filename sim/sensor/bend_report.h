@@ -25,6 +25,9 @@ struct BendReport {
   double along_x_32 = 0, along_x_56 = 0, along_x_110 = 0, along_y_32 = 0, along_y_112 = 0;
 };
 
+/// A frontal wall that fills the view, without the renderer and without shadows.
+Rendering BareWall(const Camera& camera, double z_m);
+
 /// @param devices  seeds 1, 2 ... each draw one, unless the sensor names its own
 BendReport MeasureBend(const Sensor& sensor, int devices = 12);
 

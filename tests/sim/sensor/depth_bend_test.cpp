@@ -14,17 +14,6 @@ namespace {
 
 constexpr double kRms = 0.0033;
 
-/// A frontal wall that fills the view; nothing of the renderer.
-Rendering BareWall(const Camera& camera, double z_m) {
-  Rendering wall;
-  const cv::Size size(camera.width, camera.height);
-  wall.depth_m = cv::Mat1d(size, z_m);
-  wall.plane_id = cv::Mat1w(size, 1);
-  wall.object_id = cv::Mat1w(size, 1);
-  wall.incidence_cos = cv::Mat1f(size, 1.0F);
-  return wall;
-}
-
 double Rms(const cv::Mat1d& values) {
   return std::sqrt(values.dot(values) / static_cast<double>(values.total()));
 }
