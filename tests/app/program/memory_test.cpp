@@ -33,7 +33,7 @@ TEST_F(MemoryOfSim, DoesNotGrowWithTheNumberOfFrames) {
   EXPECT_LT(many - few, kMostGrowth_mb) << few << " MB, " << many << " MB";
 }
 
-#ifdef NDEBUG  // without sanitizers, which take more
+#ifndef __SANITIZE_ADDRESS__  // which takes more
 TEST_F(MemoryOfSim, StaysBelowThreeHundredMegabytesAtFullSize) {
   EXPECT_LT(PeakOf(12, "640", "480"), 300);
 }

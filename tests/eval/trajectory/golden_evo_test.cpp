@@ -118,7 +118,8 @@ INSTANTIATE_TEST_SUITE_P(References, GoldenEvo, ::testing::Values("evo", "evo_sy
 TEST(GoldenUmeyama, AgreesWhereTheRotationIsDefinedAndRefusesWhereItIsNot) {
   const std::filesystem::path file = testing::SharedFolder() / "golden/umeyama.json";
   SKIP_WITHOUT(file);
-  for (const auto& example : io::ReadJson(file)["cases"]) {
+  const auto golden = io::ReadJson(file);
+  for (const auto& example : golden["cases"]) {
     SCOPED_TRACE(example["name"]);
     std::vector<Eigen::Vector3d> x, y;
     for (const auto& p : example["x_est"]) x.emplace_back(p[0], p[1], p[2]);
