@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <limits>
 #include <set>
 #include <utility>
@@ -13,6 +14,7 @@
 #include "slam/associate/plane_gates.h"
 #include "slam/base/index.h"
 #include "slam/model/class_belief.h"
+#include "slam/model/map_queries.h"
 
 namespace slam {
 namespace {
@@ -20,7 +22,8 @@ namespace {
 /// Two surfaces of the map that can be one surface found twice.
 bool AreDuplicates(const MapPlane& one, const MapPlane& other,
                    const AssociationConfig& config) {
-  return SameClassOdds(one.class_belief, other.class_belief) > config.min_class_odds &&
+  return !StepLiesBetween(one, other) &&
+         SameClassOdds(one.class_belief, other.class_belief) > config.min_class_odds &&
          ComparePlanes(one, other, config).chi2 < config.max_chi2 &&
          ComparePlanes(other, one, config).chi2 < config.max_chi2;
 }
@@ -72,6 +75,41 @@ std::vector<AdmissiblePair> AdmissiblePairs(const PairTable& pairs,
     }
   }
   return admissible;
+}
+
+/// The likeliest of the possible pairs of one frame plane, or null.
+const PairEvidence* BestPair(const std::vector<PairEvidence>& row) {
+  const PairEvidence* best = nullptr;
+  for (const PairEvidence& pair : row) {
+    if (pair.verdict != PairVerdict::kPossible) continue;
+    if (best == nullptr || pair.Cost() < best->Cost()) best = &pair;
+  }
+  return best;
+}
+
+/// Most of what is seen of a map plane lies on the frame plane that shows it. Where that one has
+/// nowhere better to go, fragments beside it that are no pieces of the same surface are refused,
+/// however well their parameters fit: the smaller a patch, the more its parameters fit.
+void RefuseFragments(const std::vector<std::vector<bool>>& one_surface,
+                     const AssociationConfig& config, PairTable& pairs) {
+  const double max_ratio = std::exp(0.5 * config.min_margin);  // of likelihoods
+  std::vector<const PairEvidence*> best;
+  for (const auto& row : pairs) best.push_back(BestPair(row));
+  std::vector<PairEvidence*> fragments;
+  for (std::size_t f = 0; f < pairs.size(); ++f) {
+    for (PairEvidence& pair : pairs[f]) {
+      if (pair.verdict != PairVerdict::kPossible || pair.extension) continue;
+      for (std::size_t g = 0; g < pairs.size(); ++g) {
+        if (g == f || one_surface[f][g] || best[g] == nullptr) continue;
+        if (best[g]->map_plane == pair.map_plane && best[g]->landed > max_ratio * pair.landed)
+          fragments.push_back(&pair);
+      }
+    }
+  }
+  for (PairEvidence* pair : fragments) {
+    pair->verdict = PairVerdict::kDoubtful;
+    pair->refusal = PairRefusal::kOverlap;
+  }
 }
 
 MatchReason ReasonOf(PairRefusal refusal) {
@@ -144,10 +182,13 @@ PlaneAssociation IntegratedRule(const Frame& frame, const Map& map, const Camera
   TestRanks(frame, map, pose.T_cw, camera, config, pairs);
 
   // All planes of the frame are assigned together; what refused a pair is counted.
+  FrameRelations relations = RelateFramePlanes(frame, camera, config);
+  out.steps = std::move(relations.steps);
+  RefuseFragments(relations.one_surface, config, pairs);
   const auto duplicates = DuplicatesAmong(pairs, map, config);
   const PlaneAssignment assignment = AssignPlanes(
       static_cast<int>(frame.planes.size()), AdmissiblePairs(pairs, duplicates, config),
-      {PiecesOfOneSurface(frame, camera, config), duplicates}, config.min_margin);
+      {relations.one_surface, duplicates}, config.min_margin);
   for (std::size_t f = 0; f < pairs.size(); ++f) {
     out.matches.push_back(Decide(pairs[f], assignment.map_plane[f], duplicates));
     for (const PairEvidence& pair : pairs[f]) {

@@ -13,7 +13,8 @@ namespace slam {
 struct PlaneAssociation {
   /// Parallel to frame.planes; kMatched, kTrial or kUnmatched.
   std::vector<PlaneMatch> matches;
-  PairRefusals refused;  ///< pairs by the cue that refused them
+  std::vector<FrameStep> steps;  ///< see Frame::plane_steps
+  PairRefusals refused;          ///< pairs by the cue that refused them
 };
 
 /// Decides which surface of the map each frame plane shows, at frame.T_cw: a landmark, a

@@ -35,10 +35,11 @@ bool OnTwoObjects(const FramePlane& one, const FramePlane& other,
   return Intersection(a, b).area() < kPart * std::min(a.area(), b.area());
 }
 
-std::vector<std::vector<bool>> PiecesOfOneSurface(const Frame& frame, const Camera& camera,
-                                                  const AssociationConfig& config) {
+FrameRelations RelateFramePlanes(const Frame& frame, const Camera& camera,
+                                 const AssociationConfig& config) {
   const std::size_t count = frame.planes.size();
-  std::vector<std::vector<bool>> out(count, std::vector<bool>(count, false));
+  FrameRelations out;
+  out.one_surface.assign(count, std::vector<bool>(count, false));
   std::optional<SideBySide> neighbours;
   for (std::size_t f = 0; f < count; ++f) {
     for (std::size_t g = f + 1; g < count; ++g) {
@@ -50,7 +51,11 @@ std::vector<std::vector<bool>> PiecesOfOneSurface(const Frame& frame, const Came
         continue;
       }
       if (!neighbours) neighbours.emplace(frame, camera);
-      out[f][g] = out[g][f] = !HaveStep(*neighbours, f, g, config);
+      if (HaveStep(*neighbours, f, g, config)) {
+        out.steps.push_back({static_cast<int>(f), static_cast<int>(g)});
+      } else {
+        out.one_surface[f][g] = out.one_surface[g][f] = true;
+      }
     }
   }
   return out;

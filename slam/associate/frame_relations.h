@@ -14,10 +14,16 @@ namespace slam {
 bool OnTwoObjects(const FramePlane& one, const FramePlane& other,
                   const std::vector<Detection>& detections);
 
-/// [f][g]: planes f and g of the frame can be pieces of one surface: each fits the other, they
-/// are not on two objects, and where they are neighbours there is no step. Symmetric; false on
-/// the diagonal.
-std::vector<std::vector<bool>> PiecesOfOneSurface(const Frame& frame, const Camera& camera,
-                                                  const AssociationConfig& config);
+/// What the planes of a frame are to each other.
+struct FrameRelations {
+  /// [f][g]: planes f and g can be pieces of one surface: each fits the other, they are not on
+  /// two objects, and where they are neighbours there is no step. Symmetric; false on the
+  /// diagonal.
+  std::vector<std::vector<bool>> one_surface;
+  std::vector<FrameStep> steps;  ///< between planes that but for the step could be one
+};
+
+FrameRelations RelateFramePlanes(const Frame& frame, const Camera& camera,
+                                 const AssociationConfig& config);
 
 }  // namespace slam

@@ -48,6 +48,7 @@ PairEvidence Weigh(const Frame& frame, const FramePlane& f, const MapPlane& m,
   pair.map_plane = m.id;
   pair.on_trial = m.status == LandmarkStatus::kCandidate;
   pair.overlap = Overlap(view.footprint, f);
+  if (!view.footprint.landed.empty()) pair.landed = view.footprint.landed[Index(f.index)];
   pair.parameter_cost = comparison.chi2;
   pair.overlap_cost = config.overlap_weight * (1 - pair.overlap);
   pair.class_cost = -2 * std::log(ClassLikelihood(m.class_belief, f.class_name));

@@ -27,6 +27,7 @@ struct PairEvidence {
   double parameter_cost = 0.0;               ///< chi-square of offset and slopes
   double overlap_cost = 0.0, class_cost = 0.0, box_cost = 0.0;
   double overlap = 0.0;    ///< share of the smaller footprint, [0, 1]
+  int landed = 0;          ///< points of the map plane that land on the frame plane's pixels
   bool extension = false;  ///< no overlap, but one surface may go on from the other
 
   double Cost() const { return parameter_cost + overlap_cost + class_cost + box_cost; }

@@ -29,6 +29,12 @@ Covariance3 PatchCovariance(double offset_sigma_m, double angle_sigma_rad,
   return L * Eigen::Vector3d(z2, s2, s2).asDiagonal() * L.transpose();
 }
 
+/// A frame plane's own, with what the sensor bends.
+Covariance3 PatchCovariance(const FramePlane& f, const Eigen::Vector2d& lever) {
+  return PatchCovariance(std::hypot(f.offset_sigma_m, f.bend_offset_sigma_m),
+                         std::hypot(f.angle_sigma_rad, f.bend_angle_sigma_rad), lever);
+}
+
 /// Same for a map plane at x_w, slopes along `axes_w`.
 Covariance3 MapCovariance(const MapPlane& m, const Eigen::Vector3d& x_w,
                           const Eigen::Matrix<double, 3, 2>& axes_w) {
@@ -71,7 +77,7 @@ PlaneComparison ComparePlanes(const FramePlane& f, const MapPlane& m, const Unce
   // Everybody's uncertainty: errors that do not average out, patch, map plane there, and pose.
   Covariance3 covariance = FloorOf(config);
   if (m.estimate.empty()) covariance += FloorOf(config);  // else its observations hold it
-  covariance += PatchCovariance(f.offset_sigma_m, f.angle_sigma_rad, Eigen::Vector2d::Zero());
+  covariance += PatchCovariance(f, Eigen::Vector2d::Zero());
   covariance += MapCovariance(m, x_w, pose.T_cw.R.transpose() * axes_c);
   // d (height, slopes) / d xi: the map plane moves in the camera frame by -n.rho and turns.
   Eigen::Matrix<double, 3, 6> J = Eigen::Matrix<double, 3, 6>::Zero();
@@ -87,10 +93,8 @@ PlaneComparison ComparePlanes(const FramePlane& one, const FramePlane& other,
                               const AssociationConfig& config) {
   const Eigen::Matrix<double, 3, 2> axes = TangentBasis(other.pi_c.n);
   Covariance3 covariance = 2 * FloorOf(config);
-  covariance +=
-      PatchCovariance(one.offset_sigma_m, one.angle_sigma_rad, Eigen::Vector2d::Zero());
-  covariance += PatchCovariance(other.offset_sigma_m, other.angle_sigma_rad,
-                                axes.transpose() * (one.centroid_c - other.centroid_c));
+  covariance += PatchCovariance(one, Eigen::Vector2d::Zero());
+  covariance += PatchCovariance(other, axes.transpose() * (one.centroid_c - other.centroid_c));
   return Compare(one.pi_c, one.centroid_c, other.pi_c, axes, covariance);
 }
 

@@ -17,6 +17,8 @@ const std::vector<std::string>& DepthSensorNames();
 /// What a first Kinect bends flat things by, root mean square, as a share of the depth. Measured on
 /// large flat surfaces of a real kitchen (docs/sensors.md).
 inline constexpr double kKinectBend = 0.0033;
+/// Angle of view over which it is alike: 25 of 640 columns, correlation exp(-1/2).
+inline constexpr double kBendLength_rad = 0.048;
 
 /// What is known of a depth sensor, whatever is done with its depth.
 struct SensorModel {

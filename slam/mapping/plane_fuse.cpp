@@ -22,6 +22,7 @@ bool OneSurface(const MapPlane& one, const MapPlane& other, const AssociationCon
       other.observations < config.min_fused_observations) {
     return false;
   }
+  if (StepLiesBetween(one, other)) return false;
   const PlaneComparison forth = ComparePlanes(one, other, a);
   if (!(forth.angle_rad < a.gates.max_normal_angle_rad)) return false;  // eq6
   // Two segments seen side by side again and again have shown any step there is.
@@ -94,19 +95,19 @@ void Fuse(MapPlane& into, MapPlane& from, const PlaneMapConfig& config) {
   from.map_points.clear();
 }
 
-/// Frames in which the fused plane was seen beside others count for the one it became.
-void MoveCovisibility(Map& map, int from, int into) {
+/// What was counted of the fused plane counts for the one that it became.
+void MoveCounts(Map& map, int from, int into, std::map<int, int> MapPlane::*counts) {
   for (MapPlane& m : map.planes) {
-    const auto found = m.covisible.find(from);
-    if (found == m.covisible.end()) continue;
-    if (m.id != into) m.covisible[into] += found->second;
-    m.covisible.erase(from);
+    const auto found = (m.*counts).find(from);
+    if (found == (m.*counts).end()) continue;
+    if (m.id != into) (m.*counts)[into] += found->second;
+    (m.*counts).erase(from);
   }
   MapPlane& gone = map.planes.At(from);
-  for (const auto& [other, frames] : gone.covisible) {
-    if (other != into) map.planes.At(into).covisible[other] += frames;
+  for (const auto& [other, frames] : gone.*counts) {
+    if (other != into) (map.planes.At(into).*counts)[other] += frames;
   }
-  gone.covisible.clear();
+  (gone.*counts).clear();
 }
 
 void DropCulledPoints(Map& map) {
@@ -133,7 +134,8 @@ int FusePlanes(Map& map, const AssociationConfig& association, const PlaneMapCon
       if (landmarks[k]->status == LandmarkStatus::kMerged) continue;
       if (!OneSurface(*landmarks[i], *landmarks[k], association, config)) continue;
       Fuse(*landmarks[i], *landmarks[k], config);
-      MoveCovisibility(map, landmarks[k]->id, landmarks[i]->id);
+      MoveCounts(map, landmarks[k]->id, landmarks[i]->id, &MapPlane::covisible);
+      MoveCounts(map, landmarks[k]->id, landmarks[i]->id, &MapPlane::stepped);
       ++fused;
       k = i;  // it has grown: look at the others again
     }

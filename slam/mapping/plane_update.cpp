@@ -5,6 +5,7 @@
 #include <map>
 #include <set>
 
+#include "slam/base/index.h"
 #include "slam/geometry/pixel_projection.h"
 #include "slam/mapping/plane_cloud.h"
 #include "slam/mapping/plane_face.h"
@@ -44,12 +45,19 @@ std::vector<Eigen::Vector3d> TrueEdges(const FramePlane& plane, const Pose& T_wc
   return points_w;
 }
 
+// Number of frames that see a surface through the same bends, at an ordinary speed: they know no
+// more than the first of them.
+constexpr double kFramesOfOneBend = 10.0;
+
 /// The observation's information, errors that do not average out included.
 void UpdateParameters(MapPlane& m, const FramePlane& plane, const Pose& T_wc,
                       const AssociationConfig& a, const PlaneMapConfig& config) {
-  AddObservation(m.estimate, Transform(T_wc, plane.pi_c), T_wc * plane.centroid_c,
-                 std::hypot(plane.angle_sigma_rad, a.angle_floor_rad),
-                 std::hypot(plane.offset_sigma_m, a.offset_floor_m), config.keep_information);
+  const double share = m.estimate.empty() ? 1.0 : std::sqrt(kFramesOfOneBend);
+  AddObservation(
+      m.estimate, Transform(T_wc, plane.pi_c), T_wc * plane.centroid_c,
+      std::hypot(plane.angle_sigma_rad, a.angle_floor_rad, share * plane.bend_angle_sigma_rad),
+      std::hypot(plane.offset_sigma_m, a.offset_floor_m, share * plane.bend_offset_sigma_m),
+      config.keep_information);
   if (!m.estimate.empty()) m.pi_w = m.estimate.Mean();
 }
 
@@ -109,6 +117,22 @@ void UpdateCovisibility(const std::vector<int>& landmark, Map& map) {
     for (const int other : seen) {
       if (other != id) ++map.planes.At(id).covisible[other];
     }
+  }
+}
+
+/// Notes the steps between surfaces that the frame shows side by side.
+void UpdateSteps(const Frame& frame, Map& map) {
+  std::set<std::pair<int, int>> between;  // several segments of a surface are one observation
+  for (const FrameStep& step : frame.plane_steps) {
+    const PlaneMatch& one = frame.plane_matches[Index(step.one)];
+    const PlaneMatch& other = frame.plane_matches[Index(step.other)];
+    if (one.map_plane == kNone || other.map_plane == kNone) continue;
+    if (one.map_plane != other.map_plane)
+      between.insert(std::minmax(one.map_plane, other.map_plane));
+  }
+  for (const auto& [one, other] : between) {
+    ++map.planes.At(one).stepped[other];
+    ++map.planes.At(other).stepped[one];
   }
 }
 
@@ -204,6 +228,7 @@ void UpdatePlanes(Frame& frame, Map& map, const Camera& camera,
     if (match.decision == PlaneDecision::kTrial && !IsGood(frame.planes[f], config)) continue;
     Observe(map.planes.At(match.map_plane), frame.planes[f], frame, T_wc, association, config);
   }
+  UpdateSteps(frame, map);
   PromoteProven(frame, config, map);
   EraseFailedCandidates(frame, camera, config, map);
 

@@ -57,6 +57,11 @@ struct PlaneMatch {
   }
 };
 
+/// Two planes of a frame that lie side by side with a step between them.
+struct FrameStep {
+  int one = 0, other = 0;  ///< indices
+};
+
 /// A matched map point that lies on a plane of the frame.
 struct PointPlaneMatch {
   int map_point = kNone;  ///< id
@@ -76,11 +81,13 @@ struct Frame {
   std::vector<PointFeature> features;
   std::vector<Detection> detections;
   std::vector<FramePlane> planes;
+  double bend_ratio = 0.0;  ///< root mean square of what the sensor bends, share of the depth
   cv::Mat1b plane_labels;  ///< index + 1 of the frame plane at each pixel; 0 = none
 
   // (D) association; parallel to `features` and `planes`
   std::vector<int> map_points;  ///< id of the matched map point, or kNone
   std::vector<PlaneMatch> plane_matches;
+  std::vector<FrameStep> plane_steps;  ///< between planes that but for it could be one surface
   std::vector<PointPlaneMatch> point_planes;  ///< in the order of the features
 
   // (E) optimisation

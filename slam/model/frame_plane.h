@@ -59,6 +59,8 @@ struct FramePlane {
   double roughness = 0.0;        ///< off the plane, in variances of the noise; 0 = unknown
   double offset_sigma_m = 0.0;   ///< standard deviation of the offset at the centroid
   double angle_sigma_rad = 0.0;  ///< standard deviation of the normal, worse of two directions
+  /// What the sensor bends adds to these two; frames from one place share it.
+  double bend_offset_sigma_m = 0.0, bend_angle_sigma_rad = 0.0;
   /// Covariance of g = -n / d, 1/m^2; the inverse depth of the plane along the ray (x, y, 1) is
   /// g . (x, y, 1). Like the two above that of the segment's fit. Zero: not known.
   Eigen::Matrix3d inverse_depth_covariance = Eigen::Matrix3d::Zero();

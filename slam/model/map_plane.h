@@ -40,6 +40,7 @@ struct MapPlane {
 
   std::set<int> map_points;      ///< ids of the map points that lie on it
   std::map<int, int> covisible;  ///< id of another landmark -> frames in which both were seen
+  std::map<int, int> stepped;    ///< the same -> frames that showed a step between the two
   int observations = 0;
   double seen_px = 0.0;  ///< summed size of the segments that showed it, pixels
   int first_frame = 0, last_frame = 0;

@@ -21,6 +21,14 @@ int CurrentPlane(const Map& map, int plane) {
   return plane;
 }
 
+bool StepLiesBetween(const MapPlane& one, const MapPlane& other) {
+  constexpr int kMinFrames = 2;  // one may be a fault of its frame
+  const auto steps = one.stepped.find(other.id);
+  if (steps == one.stepped.end() || steps->second < kMinFrames) return false;
+  const auto together = one.covisible.find(other.id);
+  return together == one.covisible.end() || 2 * steps->second > together->second;
+}
+
 Pose KeyframePose(const Map& map, int keyframe) {
   Pose T_ck;  // identity: from the keyframe walked to, back to the one asked for
   const Keyframe* k = &map.keyframes.at(Index(keyframe));

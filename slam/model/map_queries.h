@@ -14,6 +14,9 @@ int CurrentPoint(const Map& map, int point);
 /// The landmark that `plane` has become by fusion.
 int CurrentPlane(const Map& map, int plane);
 
+/// Frames that saw the two surfaces side by side mostly showed a step between them.
+bool StepLiesBetween(const MapPlane& one, const MapPlane& other);
+
 /// Pose of a keyframe, whether culled or not.
 Pose KeyframePose(const Map& map, int keyframe);
 

@@ -125,8 +125,10 @@ PlaneConstraint MakePlaneConstraint(const FramePlane& f, const MapPlane& m, cons
   c.pi_w = m.pi_w;
   c.pi_c = f.pi_c;
   c.centroid_c = f.centroid_c;
-  double offset2 = f.offset_sigma_m * f.offset_sigma_m + offset_floor_m * offset_floor_m;
-  double angle2 = f.angle_sigma_rad * f.angle_sigma_rad + angle_floor_rad * angle_floor_rad;
+  const double offset_m = std::hypot(f.offset_sigma_m, f.bend_offset_sigma_m, offset_floor_m);
+  const double angle_rad =
+      std::hypot(f.angle_sigma_rad, f.bend_angle_sigma_rad, angle_floor_rad);
+  double offset2 = offset_m * offset_m, angle2 = angle_rad * angle_rad;
   // The map plane's uncertainty where the patch is.
   if (!m.estimate.empty()) {
     const Eigen::Matrix3d covariance = m.estimate.Covariance();

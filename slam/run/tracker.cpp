@@ -44,6 +44,7 @@ Tracker::Tracker(const Camera& camera, const Config& config, Variant variant,
       detector_(detector ? std::move(detector) : std::make_unique<NoDetector>()),
       threads_(threads),
       straightener_(camera, config_.sensor.noise, config_.depth_warp),
+      bend_meter_(PixelRays(camera), config_.sensor),
       box_tracks_(config.box_tracks, camera.ImageBox()),
       points_(camera, config_.point_features.scale, config_.point_search, config_.tracking),
       before_mapping_(std::move(before_mapping)) {
@@ -98,6 +99,7 @@ void Tracker::ExtractInformation(Frame& frame, const cv::Mat3b& bgr, TrackReport
   }
   const Stopwatch watch(times[Module::kEpi]);
   plane_extractor_->SplitInBoxes(frame);
+  bend_meter_.Measure(frame);
 }
 
 void Tracker::ProcessFramePlanes(Frame& frame, TrackReport& report) const {
@@ -122,6 +124,7 @@ void Tracker::AssociateFramePlanes(Frame& frame, TrackReport& report) const {
   const Stopwatch watch(report.times[Module::kDa]);
   PlaneAssociation association = AssociatePlanes(frame, map_, camera_, config_.association);
   frame.plane_matches = std::move(association.matches);
+  frame.plane_steps = std::move(association.steps);
   report.refused = association.refused;
   frame.point_planes =
       AssociatePointsToPlanes(frame, map_, camera_, config_.association.max_point_plane_m);

@@ -10,6 +10,7 @@
 #include "slam/calibrate/straightener.h"
 #include "slam/detect/box_tracks.h"
 #include "slam/detect/detections.h"
+#include "slam/faces/bend_meter.h"
 #include "slam/geometry/camera.h"
 #include "slam/model/frame.h"
 #include "slam/model/map.h"
@@ -100,6 +101,7 @@ class Tracker {
 
   DepthStraightener straightener_;
   std::optional<PlaneExtractor> plane_extractor_;  ///< none: no planes
+  BendMeter bend_meter_;
   BoxTracks box_tracks_;
   PointTracking points_;
   Map map_;

@@ -175,6 +175,44 @@ TEST(PlaneAssociation, ACandidateThatIsALandmarkFoundTwiceTakesNothingFromIt) {
   ExpectAllRight(a);
 }
 
+TEST(PlaneAssociation, AFragmentDoesNotPutTheSurfaceInDoubtThatHoldsMostOfTheLandmark) {
+  // What a bent sensor tears off a desk is small, so that it may be anything; the desk is not.
+  Association a = TwoViews(DeskWithBook(0.03, ""), {}, {});
+  const int desk = a.first.frame.plane_matches[0].map_plane;
+  ASSERT_EQ(a.second.truth[0], 0);
+  Frame& frame = a.second.frame;
+  // A piece at the desk's left end, tilted by four degrees, of which next to nothing is known.
+  const Frame before = frame;
+  FramePlane piece = frame.planes[0];
+  piece.index = static_cast<int>(frame.planes.size());
+  piece.pixel_count = 0;
+  piece.points_c.clear(), piece.edge_points.clear();
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  for (int v = 50; v < 62; ++v) {
+    for (int u = 15; u < 27; ++u) {
+      if (frame.plane_labels(v, u) != 1) continue;
+      frame.plane_labels(v, u) = static_cast<std::uint8_t>(piece.index + 1);
+      piece.points_c.push_back(
+          SmallCamera().Backproject({u, v}, static_cast<double>(frame.depth_m(v, u))));
+      sum += piece.points_c.back();
+      ++piece.pixel_count;
+    }
+  }
+  ASSERT_GT(piece.pixel_count, 40);
+  piece.centroid_c = sum / piece.pixel_count;
+  piece.area_m2 *= static_cast<double>(piece.pixel_count) / frame.planes[0].pixel_count;
+  piece.pi_c.n = ExpSo3({0, 0.07, 0}) * piece.pi_c.n;
+  piece.pi_c.d = -piece.pi_c.n.dot(piece.centroid_c);
+  piece.bend_offset_sigma_m = 0.004, piece.bend_angle_sigma_rad = 0.02;
+  frame.planes.push_back(piece);
+
+  const auto matches = AssociatePlanes(frame, a.map, SmallCamera(), {}).matches;
+  EXPECT_EQ(matches[0].decision, PlaneDecision::kMatched);
+  EXPECT_EQ(matches[0].map_plane, desk);
+  EXPECT_EQ(matches.back().decision, PlaneDecision::kUnmatched);
+  EXPECT_EQ(matches.back().reason, MatchReason::kAmbiguous);
+}
+
 TEST(PlaneAssociation, LeavesATieUndecided) {
   // Two landmarks six millimetres apart, the measured plane half way, nothing else to tell.
   PlaneWorld world;

@@ -41,6 +41,17 @@ TEST(PlaneEvidence, WidensTheOffsetByTheLeverOfTheOtherPatchWhateverItsDirection
   }
 }
 
+TEST(PlaneEvidence, KnowsThatASensorWhichBendsMeasuresWorse) {
+  // Height and tilt that are three sigmas of the fit are one of fit and bend.
+  const FramePlane one = PatchAt({0, 0, 1.5}, {0, 0, -1}, 1e-5, 1e-5);
+  FramePlane other = PatchAt({0, 0, 1.503}, {0.02, 0, -1}, 0.001, 0.02 / 3);
+  const double unbent = ComparePlanes(other, one, TinyFloors()).chi2;
+  EXPECT_NEAR(unbent, 18.0, 0.2);
+  other.bend_offset_sigma_m = 0.001 * std::sqrt(8.0);
+  other.bend_angle_sigma_rad = 0.02 / 3 * std::sqrt(8.0);
+  EXPECT_NEAR(ComparePlanes(other, one, TinyFloors()).chi2, unbent / 9, 0.02);
+}
+
 TEST(PlaneEvidence, ExplainsByOneSlopeBothTheTiltAndTheHeightThatItMakes) {
   // The other patch is tilted about its own middle by one sigma of its slope: nothing else is
   // wrong, at its own place or half a metre from it.

@@ -97,7 +97,7 @@ TEST(StepBetweenPlanes, IsNotKnownWithoutDepthOrLabels) {
 TEST(PiecesOfOneSurface, HaveNoStepWhereTheyMeet) {
   const AssociationConfig config;
   const auto one = [&](const SeenWorld& seen) {
-    const auto pieces = PiecesOfOneSurface(seen.frame, HalfCamera(), config);
+    const auto pieces = RelateFramePlanes(seen.frame, HalfCamera(), config).one_surface;
     EXPECT_EQ(pieces[0][1], pieces[1][0]);
     EXPECT_FALSE(pieces[0][0]);
     return pieces[0][1];

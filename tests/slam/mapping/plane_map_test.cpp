@@ -162,6 +162,47 @@ TEST(PlaneMap, FusesASurfaceThatWasFoundTwiceAndKeepsStepsApart) {
   EXPECT_EQ(FusePlanes(map, {}, config), 0);
 }
 
+TEST(PlaneMap, DoesNotFuseSurfacesBetweenWhichAStepWasSeen) {
+  // Two landmarks that agree; of the frames that saw both, some or most showed a step.
+  for (const int steps : {1, 6, 12}) {
+    SCOPED_TRACE(steps);
+    const Camera camera = SmallCamera();
+    PlaneWorld world;
+    world.Add({0, 0, 0}, {0.4, 0, 0}, {0, 0.3, 0}, "");
+    Map single;
+    for (int k = 0; k < 8; ++k) {
+      SeenWorld seen = See(world, Walk(k), camera, {}, Random{1});
+      seen.frame.index = k;
+      seen.frame.plane_matches = AssociatePlanes(seen.frame, single, camera, {}).matches;
+      UpdatePlanes(seen.frame, single, camera, {}, SmallImages());
+    }
+    Map map;
+    for (int twice = 0; twice < 2; ++twice) AddLandmark(map, *single.planes.begin());
+    map.planes.At(0).covisible[1] = map.planes.At(1).covisible[0] = 12;
+    map.planes.At(0).stepped[1] = map.planes.At(1).stepped[0] = steps;
+    EXPECT_EQ(FusePlanes(map, {}, SmallImages()), steps > 6 ? 0 : 1);
+  }
+}
+
+TEST(PlaneMap, NotesTheStepsThatAFrameShowsBetweenItsLandmarks) {
+  // A desk and a board on it that touch in the image: their parameters alone could be one.
+  const Camera camera = SmallCamera();
+  PlaneWorld world;
+  world.Add({-0.2, 0, 0}, {0.2, 0, 0}, {0, 0.3, 0}, "");
+  world.Add({0.2, 0, 0.03}, {0.2, 0, 0}, {0, 0.3, 0}, "");
+  Map map;
+  for (int k = 0; k < 3; ++k) {
+    SeenWorld seen = See(world, Walk(k), camera, {}, Random{1});
+    seen.frame.index = k;
+    seen.frame.plane_matches = AssociatePlanes(seen.frame, map, camera, {}).matches;
+    if (k > 0) seen.frame.plane_steps = {{0, 1}};
+    UpdatePlanes(seen.frame, map, camera, {}, SmallImages());
+  }
+  ASSERT_EQ(map.planes.size(), 2u);
+  EXPECT_EQ(map.planes.At(0).stepped.at(1), 2);
+  EXPECT_EQ(map.planes.At(1).stepped.at(0), 2);
+}
+
 TEST(ClassBelief, IsNotTheFirstLabel) {
   MapPlane m;
   UpdateClassBelief(m, "keyboard", 0.9);

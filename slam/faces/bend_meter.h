@@ -1,0 +1,50 @@
+#pragma once
+
+#include <cmath>
+#include <opencv2/core/mat.hpp>
+
+#include "slam/geometry/camera.h"
+#include "slam/geometry/sensor_model.h"
+#include "slam/model/frame.h"
+
+namespace slam {
+
+/// Measures, frame by frame, by how much the depth of a run bends what is flat: the unevenness of
+/// large planes over distances at which noise averages out. What it says of a sensor that is not
+/// known, or whose depth has been straightened, is what the frames show.
+///
+/// It starts from what is known of the sensor, as if a few frames had shown it, and forgets
+/// frames that are long past.
+class BendMeter {
+ public:
+  /// @param rays  PixelRays(camera)
+  BendMeter(const cv::Mat2d& rays, const SensorModel& sensor);
+
+  /// Takes in a frame with depth, labels and planes, and writes the standard deviations that
+  /// bends give each of its planes (FramePlane::bend_...).
+  void Measure(Frame& frame);
+
+  /// Root mean square of the bend as a part of the depth, as far as it is known.
+  double ratio() const { return std::sqrt(squares_ / weight_); }
+
+ private:
+  cv::Mat2d rays_;
+  DepthNoise noise_;
+  double pixel_rad2_ = 0.0;  ///< solid angle of a pixel in the middle of the image
+  double weight_ = 0.0;      ///< frames that stand behind the estimate
+  double squares_ = 0.0;     ///< sum of their squared ratios
+};
+
+/// Standard deviations of a plane that is fitted to a patch of a bent depth image.
+struct BendSigmas {
+  double offset_m = 0.0;   ///< at its centroid
+  double angle_rad = 0.0;  ///< of its normal
+};
+
+/// The bend is a smooth random field of which a patch shows a part: one much wider than
+/// kBendLength_rad averages over many bends, one much smaller is lifted and tilted as a whole.
+/// @param ratio  root mean square of the bend, as a part of the depth
+/// @param solid_angle_rad2  of the patch
+BendSigmas SigmasOfBend(double ratio, double distance_m, double solid_angle_rad2);
+
+}  // namespace slam
