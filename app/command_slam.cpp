@@ -26,6 +26,7 @@ struct SlamArguments {
   bool print_config = false;
   bool loop_closing = false;
   std::string mapping, depth_warp;
+  std::optional<int> detect_every;
   std::string live_scene;
   ReadRecording recording;  ///< with live_scene
   bool no_truth = false;
@@ -109,6 +110,7 @@ int RunSlam(SlamArguments& arguments, bool quiet) {
   options.variant = slam::VariantOf(arguments.variant);
   options.config = ConfigFrom(arguments.sensor, arguments.config_file);
   if (arguments.loop_closing) options.config.loop_closing.enabled = true;
+  if (arguments.detect_every) options.config.detection.every = *arguments.detect_every;
   if (!arguments.depth_warp.empty()) options.config.depth_warp.source = arguments.depth_warp;
   if (!arguments.mapping.empty()) {
     options.config.async_mapping = arguments.mapping == "async";
@@ -160,6 +162,11 @@ void AddSlamCommand(CLI::App& pas, const Globals& globals, int& exit_code) {
       "--detector", options.detector,
       "replay (SEQ/detections.jsonl) | yolox:FILE.onnx (a YOLOX network, settings in "
       "--config, yolox:) | none; default: replay if the file is there");
+  command
+      ->add_option("--detect-every", arguments->detect_every,
+                   "Ask the detector in every Nth frame and carry its boxes over the others. "
+                   "Default: as --config says, else 1")
+      ->check(CLI::Range(1, 1000));
   CLI::Option* camera =
       command->add_option("--camera", options.camera,
                           "tum1 | tum2 | tum3 | a camera.yaml, or settings of ORB-SLAM2, "

@@ -66,12 +66,7 @@ BoxTracks::BoxTracks(const BoxTracksConfig& config, const Box& image_px)
 std::vector<Detection> BoxTracks::Update(double timestamp_s,
                                          const std::vector<Detection>& detections) {
   if (!config_.enabled) return detections;
-  Require(std::isfinite(timestamp_s) && (!started_ || timestamp_s > last_s_),
-          "BoxTracks::Update: timestamps must increase");
-  if (started_ && timestamp_s - last_s_ > kMaxPause_s) tracks_.clear();
-  Predict(started_ ? timestamp_s - last_s_ : 0.0);
-  started_ = true;
-  last_s_ = timestamp_s;
+  Advance(timestamp_s);
 
   // One canonical order, so that tracks and ties do not depend on the order given.
   const std::vector<std::size_t> kept = Deduplicated(detections);
@@ -89,13 +84,36 @@ std::vector<Detection> BoxTracks::Update(double timestamp_s,
   std::vector<Detection> answer;
   answer.reserve(given.size());
   for (auto& [position, detection] : given) answer.push_back(std::move(detection));
-  AddMissed(answer);
+  AddUnseen(answer);
 
   std::erase_if(tracks_, [&](const Track& t) {
     const bool tentative = t.hits < config_.min_hits && t.misses_in_row > config_.min_hits;
-    return tentative || t.misses_in_row > config_.max_coast_frames;
+    const bool missed = t.misses_in_row > 0;
+    return tentative || (missed && t.frames_since_hit > config_.max_coast_frames);
   });
   return answer;
+}
+
+std::vector<Detection> BoxTracks::Carry(double timestamp_s) {
+  if (!config_.enabled) return {};
+  Advance(timestamp_s);
+  std::erase_if(tracks_, [&](const Track& t) { return timestamp_s - t.seen_s > kMaxPause_s; });
+  for (Track& track : tracks_) track.existence *= config_.survival;
+  std::vector<Detection> answer;
+  AddUnseen(answer);
+  return answer;
+}
+
+/// Takes the tracks to the time of a frame.
+void BoxTracks::Advance(double timestamp_s) {
+  Require(std::isfinite(timestamp_s) && (!started_ || timestamp_s > last_s_),
+          "BoxTracks: timestamps must increase");
+  const double pause_s = started_ ? timestamp_s - last_s_ : 0.0;
+  started_ = true;
+  last_s_ = timestamp_s;
+  if (pause_s > kMaxPause_s) tracks_.clear();
+  Predict(pause_s);
+  for (Track& track : tracks_) ++track.frames_since_hit;
 }
 
 /// Brings the tracks up to date with the detections.
@@ -106,7 +124,7 @@ std::vector<std::size_t> BoxTracks::Follow(const std::vector<Detection>& detecti
   std::vector<std::size_t> track_of(detections.size(), kNoTrack);
   for (std::size_t t = 0; t < detection_of.size(); ++t) {
     Track& track = tracks_[t];
-    ++track.frames;
+    ++track.asked;
     for (auto& [name, evidence] : track.classes) evidence.weight *= config_.class_memory;
     if (detection_of[t] < 0) {
       Miss(track);
@@ -124,10 +142,14 @@ std::vector<std::size_t> BoxTracks::Follow(const std::vector<Detection>& detecti
   return track_of;
 }
 
-/// Adds the boxes of tracks that were missed, unless the answer has such a box already.
-void BoxTracks::AddMissed(std::vector<Detection>& answer) const {
+/// Adds the boxes of tracks without a detection in this frame, unless the answer has such a box
+/// already.
+void BoxTracks::AddUnseen(std::vector<Detection>& answer) const {
   for (const Track& track : tracks_) {
-    std::optional<Detection> filled = Filled(track);
+    if (track.frames_since_hit == 0) continue;
+    // What the detector found stands until it is asked again; what it missed must be believed.
+    if (track.misses_in_row > 0 && !IsBelieved(track)) continue;
+    std::optional<Detection> filled = Predicted(track);
     if (!filled) continue;
     const bool seen_already =
         std::any_of(answer.begin(), answer.end(), [&](const Detection& d) {
@@ -258,6 +280,8 @@ void BoxTracks::Correct(Track& track, const Detection& detection) const {
   }
   ++track.hits;
   track.misses_in_row = 0;
+  track.frames_since_hit = 0;
+  track.seen_s = last_s_;
   track.existence = 1.0;
   track.score = detection.score;
   ClassEvidence& evidence = track.classes[detection.class_name];
@@ -268,8 +292,8 @@ void BoxTracks::Correct(Track& track, const Detection& detection) const {
 /// Probability that the object is detected in a frame in which it is there.
 double BoxTracks::DetectionRate(const Track& track) const {
   // The present run of misses is what is being judged: it has no say in its own likelihood.
-  const double frames = track.frames - track.misses_in_row;
-  const double rate = (track.hits + kPriorHits) / (frames + kPriorFrames);
+  const double asked = track.asked - track.misses_in_row;
+  const double rate = (track.hits + kPriorHits) / (asked + kPriorFrames);
   return std::min(rate, config_.max_detection_rate);
 }
 
@@ -289,7 +313,8 @@ void BoxTracks::Start(const Detection& detection) {
     const double sigma = config_.jitter_px + config_.jitter_fraction * size;
     track.sides[i] = {z[i], 0.0, sigma * sigma, 0.0, kFirstSpeed_px_s * kFirstSpeed_px_s};
   }
-  track.hits = track.frames = 1;
+  track.hits = track.asked = 1;
+  track.seen_s = last_s_;
   track.score = detection.score;
   track.classes[detection.class_name] = {detection.score, detection.kind};
   tracks_.push_back(std::move(track));
@@ -309,12 +334,14 @@ Detection BoxTracks::Labelled(const Track& track, Detection detection) const {
   return detection;
 }
 
-/// The box of a missed object that is most likely still there and in view.
-std::optional<Detection> BoxTracks::Filled(const Track& track) const {
-  if (track.misses_in_row == 0 || track.hits < config_.min_hits ||
-      track.misses_in_row > config_.max_gap_frames ||
-      !(track.existence > config_.min_existence))
-    return std::nullopt;
+/// Whether a missed object is most likely still there, and its box not yet too old.
+bool BoxTracks::IsBelieved(const Track& track) const {
+  return track.hits >= config_.min_hits && track.frames_since_hit <= config_.max_gap_frames &&
+         track.existence > config_.min_existence;
+}
+
+/// The box of an object that was not seen in this frame, if it is in view.
+std::optional<Detection> BoxTracks::Predicted(const Track& track) const {
   const Box whole = track.box(), seen = Intersection(whole, image_px_);
   if (!(seen.area() > config_.min_visible_fraction * whole.area())) return std::nullopt;
   Detection filled;

@@ -30,7 +30,7 @@ struct BoxTracksConfig {
   double jitter_fraction = 0.03;
   double acceleration_px_s2 = 1500.0;
   double min_class_ratio = 2.0;
-  double class_memory = 0.97;  // half is forgotten in 23 frames
+  double class_memory = 0.97;  // half is forgotten over 23 answers of the detector
 };
 
 inline void VisitFields(BoxTracksConfig& c, FieldVisitor& v) {
@@ -44,9 +44,9 @@ inline void VisitFields(BoxTracksConfig& c, FieldVisitor& v) {
            "subtracted from the IoU of two boxes of different classes");
   v.Integer("min_hits", c.min_hits, "[1, 100]", "detections that confirm a track");
   v.Integer("max_gap_frames", c.max_gap_frames, "[0, 100]",
-            "misses in a row that are filled, at most");
+            "a missed object is filled for this many frames after it was detected, at most");
   v.Integer("max_coast_frames", c.max_coast_frames, "[1, 1000]",
-            "a track ends after more misses in a row than this");
+            "a track ends when it is missed more frames than this after it was detected");
   v.Number("min_existence", c.min_existence, "[0, 1]",
            "fill only while the object is in view with a higher probability than this");
   v.Number("survival", c.survival, "(0, 1]",
@@ -63,7 +63,8 @@ inline void VisitFields(BoxTracksConfig& c, FieldVisitor& v) {
   v.Number("min_class_ratio", c.min_class_ratio, "[1, inf)",
            "evidence for another class over that for the detected one that overrules it");
   v.Number("class_memory", c.class_memory, "(0, 1]",
-           "share of the evidence for a class that is kept from frame to frame");
+           "share of the evidence for a class that is kept from one time that the detector is "
+           "asked to the next");
 }
 
 /// Follows detection boxes over frames and fills the gaps.
@@ -73,7 +74,8 @@ inline void VisitFields(BoxTracksConfig& c, FieldVisitor& v) {
 /// together, unpaired tracks are moved with them and tried again. A track's existence is a
 /// probability that falls with each miss by the track's own detection rate, so that an object
 /// that is seen every second frame is filled for longer than one that is always seen and now is
-/// gone.
+/// gone. A frame in which the detector is not asked (Carry) is no miss: boxes move on and nothing
+/// is learnt, except that an object may leave.
 ///
 /// What Update returns:
 /// - Every detection given, in the order given, box and score untouched, except duplicates
@@ -94,6 +96,13 @@ class BoxTracks {
   /// @throws std::invalid_argument if the timestamp does not increase.
   std::vector<Detection> Update(double timestamp_s, const std::vector<Detection>& detections);
 
+  /// One frame in which the detector is not asked.
+  /// @returns by age of the track, a `compensated` box for each object that the detector found
+  ///   when it was last asked, and for those that are being filled: predicted, clipped to the
+  ///   image. None when tracks are not `enabled`, nor over a second after the object was seen.
+  /// @throws std::invalid_argument if the timestamp does not increase.
+  std::vector<Detection> Carry(double timestamp_s);
+
  private:
   /// Position and velocity of one side, pixels and pixels a second, with covariance.
   struct Side {
@@ -106,9 +115,12 @@ class BoxTracks {
   };
   struct Track {
     std::array<Side, 4> sides;  ///< min u, min v, max u, max v
-    int hits = 0, misses_in_row = 0, frames = 0;
-    double existence = 1.0;  ///< probability that the object is in view
-    double score = 0.0;      ///< the last detection's
+    int hits = 0, misses_in_row = 0;
+    int asked = 0;             ///< frames in which the detector was asked, since the first hit
+    int frames_since_hit = 0;  ///< asked or not
+    double seen_s = 0.0;       ///< time of the last hit
+    double existence = 1.0;    ///< probability that the object is in view
+    double score = 0.0;        ///< the last detection's
     std::map<std::string, ClassEvidence> classes;
 
     Box box() const;
@@ -116,6 +128,7 @@ class BoxTracks {
   };
 
   std::vector<std::size_t> Deduplicated(const std::vector<Detection>& detections) const;
+  void Advance(double timestamp_s);
   void Predict(double dt_s);
   std::vector<int> Assign(const std::vector<Detection>& detections);
   void MoveWithTheOthers(const std::vector<Detection>& detections,
@@ -130,8 +143,9 @@ class BoxTracks {
   void Miss(Track& track) const;
   void Start(const Detection& detection);
   Detection Labelled(const Track& track, Detection detection) const;
-  std::optional<Detection> Filled(const Track& track) const;
-  void AddMissed(std::vector<Detection>& answer) const;
+  bool IsBelieved(const Track& track) const;
+  std::optional<Detection> Predicted(const Track& track) const;
+  void AddUnseen(std::vector<Detection>& answer) const;
   double DetectionRate(const Track& track) const;
 
   BoxTracksConfig config_;

@@ -8,12 +8,24 @@
 #include <vector>
 
 #include "io/json_field.h"
+#include "slam/base/field_visitor.h"
 #include "slam/detect/class_table.h"
 #include "slam/detect/yolox_output.h"
 #include "slam/geometry/camera.h"
 #include "slam/model/detection.h"
 
 namespace slam {
+
+/// How often the detector is asked.
+struct DetectionConfig {
+  int every = 1;  ///< frames from one question to the next
+};
+
+inline void VisitFields(DetectionConfig& c, FieldVisitor& v) {
+  v.Integer("every", c.every, "[1, 1000]",
+            "the detector is asked in every Nth frame; box_tracks carry its boxes over the "
+            "others");
+}
 
 /// Finds objects in a colour image. Asked frame by frame, from one thread at a time.
 class Detector {

@@ -87,6 +87,8 @@ void UpdateShape(MapPlane& m, const FramePlane& plane, const Pose& T_wc,
 }
 
 void UpdateClass(MapPlane& m, const FramePlane& plane, const Frame& frame) {
+  if (!frame.detector_asked)
+    return;  // a box that is carried over was counted where it was found
   double score = 1.0;
   if (plane.detection && *plane.detection < static_cast<int>(frame.detections.size())) {
     const Detection& detection = frame.detections[static_cast<std::size_t>(*plane.detection)];

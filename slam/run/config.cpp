@@ -27,6 +27,7 @@ void VisitFields(Config& c, FieldVisitor& v) {
   v.Section("point_tracking", "tracking by points", c.tracking);
 
   v.Section("classes", "what objects of a class are good for", c.classes);
+  v.Section("detection", "how often the detector is asked", c.detection);
   v.Section("yolox", "the detector of --detector yolox:FILE", c.yolox);
   v.Section("box_tracks", "tracks of detection boxes, which stand in for missed detections",
             c.box_tracks);

@@ -4,6 +4,7 @@
 #include "slam/calibrate/warp_config.h"
 #include "slam/detect/box_tracks.h"
 #include "slam/detect/class_table.h"
+#include "slam/detect/detections.h"
 #include "slam/detect/yolox_output.h"
 #include "slam/faces/process_planes.h"
 #include "slam/features/point_features.h"
@@ -27,6 +28,7 @@ struct Config {
   // (B) extraction
   PointFeatureConfig point_features;
   ClassTable classes = CocoClassTable();
+  DetectionConfig detection;
   YoloxConfig yolox;
   BoxTracksConfig box_tracks;
   PlaneExtractionConfig plane_extraction;

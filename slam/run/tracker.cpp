@@ -78,10 +78,11 @@ void Tracker::ExtractInformation(Frame& frame, const cv::Mat3b& bgr, TrackReport
   };
   // Deferred work is done where its outcome is asked for.
   const auto where = threads_ > 1 ? std::launch::async : std::launch::deferred;
+  frame.detector_asked = frames_++ % config_.detection.every == 0;
   std::future<std::vector<Detection>> boxes;
   std::future<void> planes;
   if (plane_extractor_) {
-    boxes = std::async(where, detect);
+    if (frame.detector_asked) boxes = std::async(where, detect);
     planes = std::async(where, extract_planes);
   }
   {
@@ -92,10 +93,11 @@ void Tracker::ExtractInformation(Frame& frame, const cv::Mat3b& bgr, TrackReport
   frame.map_points.assign(frame.features.size(), kNone);
   if (!plane_extractor_) return;
   planes.get();
-  const std::vector<Detection> found = boxes.get();
+  const auto found = frame.detector_asked ? boxes.get() : std::vector<Detection>{};
   {
     const Stopwatch watch(times[Module::kMdc]);
-    frame.detections = box_tracks_.Update(frame.timestamp_s, found);
+    frame.detections = frame.detector_asked ? box_tracks_.Update(frame.timestamp_s, found)
+                                            : box_tracks_.Carry(frame.timestamp_s);
   }
   const Stopwatch watch(times[Module::kEpi]);
   plane_extractor_->SplitInBoxes(frame);

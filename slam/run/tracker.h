@@ -106,6 +106,7 @@ class Tracker {
   PointTracking points_;
   Map map_;
   int loops_ = 0;
+  int frames_ = 0;  ///< begun: every so many the detector is asked
 
   std::function<void(int)> before_mapping_;
   MapGate gate_;                           ///< to map_, points_ and loops_

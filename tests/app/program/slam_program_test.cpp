@@ -177,6 +177,45 @@ TEST_F(SlamProgram, TellsOfDoubtfulInputInWarningsAndInTheRun) {
   EXPECT_THAT(warnings[2], HasSubstr("78 of 90 lines of detections.jsonl"));
 }
 
+TEST_F(SlamProgram, AsksTheDetectorAsOftenAsTheOptionElseTheFileSays) {
+  const fs::path sequence = Copy(20);
+  const fs::path file = folder_ / "settings.yaml";
+  std::ofstream(file) << "detection: {every: 4}\n";
+  ASSERT_EQ(Run(Command(sequence, "file", {"-q", "--config", file})).exit_code, 0);
+  ASSERT_EQ(Run(Command(sequence, "option", {"-q", "--detect-every", "4"})).exit_code, 0);
+  ASSERT_EQ(
+      Run(Command(sequence, "both", {"-q", "--config", file, "--detect-every", "1"})).exit_code,
+      0);
+  ASSERT_EQ(Run(Command(sequence, "plain", {"-q"})).exit_code, 0);
+  for (const char* run : {"file", "option"}) {
+    EXPECT_EQ(RunJson(run)["options"]["detection"]["every"], 4) << run;
+    EXPECT_EQ(ReadText(folder_ / run / "frame_planes.jsonl"),
+              ReadText(folder_ / "file" / "frame_planes.jsonl"));
+    EXPECT_NE(ReadText(folder_ / run / "frame_planes.jsonl"),
+              ReadText(folder_ / "plain" / "frame_planes.jsonl"));
+    // Only every fourth frame has a time of detection.
+    std::istringstream lines(ReadText(folder_ / run / "timing.csv"));
+    std::string line;
+    std::getline(lines, line);
+    EXPECT_THAT(line, HasSubstr("timestamp,orb,od,")) << "the column that is read below";
+    for (int i = 0; std::getline(lines, line); ++i) {
+      const std::size_t od = line.find(',', line.find(',') + 1) + 1;
+      EXPECT_EQ(std::stod(line.substr(od)) > 0, i % 4 == 0) << run << " " << line;
+    }
+  }
+  EXPECT_EQ(ReadText(folder_ / "both" / "frame_planes.jsonl"),
+            ReadText(folder_ / "plain" / "frame_planes.jsonl"));
+}
+
+TEST_F(SlamProgram, RefusesANumberOfFramesThatIsNone) {
+  for (const char* every : {"0", "-1", "x", "1.5", "1001", ""}) {
+    const Outcome outcome = Run(Command(Recorded(), "run", {"-q", "--detect-every", every}));
+    EXPECT_EQ(outcome.exit_code, 2) << every;
+    EXPECT_THAT(outcome.errors, HasSubstr("--detect-every")) << every;
+    EXPECT_FALSE(fs::exists(folder_ / "run"));
+  }
+}
+
 TEST_F(SlamProgram, ReadsCamerasInSettingsOfOrbSlam) {
   const fs::path sequence = Copy(12);
   ASSERT_EQ(Run(Command(sequence, "own", {"-q"})).exit_code, 0);

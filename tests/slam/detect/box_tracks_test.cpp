@@ -245,6 +245,110 @@ TEST(BoxTracks, RefusesATimestampThatDoesNotIncrease) {
   BoxTracks tracks({}, kImage);
   tracks.Update(1.0, {});
   EXPECT_THROW(tracks.Update(1.0, {}), std::invalid_argument);
+  EXPECT_THROW(tracks.Carry(1.0), std::invalid_argument);
+}
+
+/// A detector that is asked in every Nth frame.
+struct SeldomAsked {
+  int every;
+  BoxTracks tracks{{}, kImage};
+  int frame = 0;
+
+  bool Asked() const { return frame % every == 0; }
+  /// The next frame, in which the detector would give these boxes.
+  std::vector<Detection> Next(const std::vector<Detection>& seen) {
+    const double t = frame * kFrame_s;
+    const bool asked = Asked();
+    ++frame;
+    return asked ? tracks.Update(t, seen) : tracks.Carry(t);
+  }
+};
+
+TEST(BoxTracks, CarriesBoxesToWhereTheyHaveMovedWhileTheDetectorIsNotAsked) {
+  for (const int every : {2, 5, 10}) {
+    SeldomAsked seldom{every};
+    for (int i = 0; i < 10 * every; ++i) {
+      const bool asked = seldom.Asked();
+      const Detection book = Seen("book", 50 + 4 * i, 200);
+      const auto answer = seldom.Next({book});
+      ASSERT_EQ(answer.size(), 1u) << every << " " << i;
+      EXPECT_EQ(answer[0].compensated, !asked);
+      EXPECT_EQ(answer[0].class_name, "book");
+      if (i >= 3 * every) {  // its speed is known
+        EXPECT_GT(Iou(answer[0].box_px, book.box_px), 0.9) << every << " " << i;
+      }
+    }
+  }
+}
+
+TEST(BoxTracks, TakesAFrameThatWasNotAskedForNoMiss) {
+  // Twenty frames without an answer are more than a track outlives when it is missed in each.
+  ASSERT_GT(20, BoxTracksConfig{}.max_coast_frames);
+  SeldomAsked seldom{20};
+  for (int i = 0; i < 61; ++i) ASSERT_EQ(seldom.Next({Seen("book", 100, 200)}).size(), 1u) << i;
+  // It is one track, confirmed by its four hits: a miss is filled at once.
+  const auto answer = seldom.tracks.Update(61 * kFrame_s, {});
+  ASSERT_EQ(answer.size(), 1u);
+  EXPECT_TRUE(answer[0].compensated);
+}
+
+TEST(BoxTracks, LearnsTheRateOfDetectionFromTheFramesThatWereAsked) {
+  // Always found, or found every second time that it is asked.
+  const auto filled_after = [](int period) {
+    SeldomAsked seldom{3};
+    for (int i = 0; i < 180; ++i) {
+      std::vector<Detection> seen;
+      if (i / 3 % period == 0) seen.push_back(Seen("book", 100, 200));
+      seldom.Next(seen);
+    }
+    BoxTracks& tracks = seldom.tracks;
+    tracks.Update(180 * kFrame_s, {Seen("book", 100, 200)});
+    int filled = 0;
+    for (int i = 181; i < 200; ++i)
+      filled += static_cast<int>(tracks.Update(i * kFrame_s, {}).size());
+    return filled;
+  };
+  EXPECT_GT(filled_after(2), filled_after(1));
+}
+
+TEST(BoxTracks, BelievesAMissThatComesAfterMoreFramesThanAreFilled) {
+  SeldomAsked seldom{BoxTracksConfig{}.max_gap_frames + 1};
+  for (int i = 0; i < 5 * seldom.every; ++i) {
+    ASSERT_EQ(seldom.Next({Seen("book", 100, 200)}).size(), 1u);
+  }
+  for (int i = 0; i < seldom.every; ++i) EXPECT_TRUE(seldom.Next({}).empty()) << i;
+  // Its track has not ended: when it is found again, a miss is filled at once.
+  ASSERT_EQ(seldom.tracks.Update(54 * kFrame_s, {Seen("book", 100, 200)}).size(), 1u);
+  EXPECT_EQ(seldom.tracks.Update(55 * kFrame_s, {}).size(), 1u);
+}
+
+TEST(BoxTracks, CarriesNoBoxForMoreThanASecond) {
+  SeldomAsked seldom{60};
+  for (int i = 0; i < 240; ++i) {
+    const bool within_a_second = i % 60 <= 30;
+    EXPECT_EQ(seldom.Next({Seen("book", 100, 200)}).size(), within_a_second ? 1u : 0u) << i;
+  }
+}
+
+TEST(BoxTracks, CarriesOneBoxForTwoTracksOfOneObject) {
+  SeldomAsked seldom{5};
+  for (int i = 0; i < 15; ++i) {
+    // The second moves onto the first: at frame 14 they are 4 px apart.
+    const auto answer =
+        seldom.Next({Seen("book", 100, 200), Seen("book", 100 + 60 - 4 * i, 200)});
+    if (i < 12) {
+      EXPECT_EQ(answer.size(), 2u) << i;
+    }
+    if (i == 14) {
+      EXPECT_EQ(answer.size(), 1u);
+    }
+  }
+}
+
+TEST(BoxTracks, CarriesNothingWhenDisabled) {
+  BoxTracks tracks({.enabled = false}, kImage);
+  for (int i = 0; i < 10; ++i) tracks.Update(i * kFrame_s, {Seen("book", 100, 200)});
+  EXPECT_TRUE(tracks.Carry(10 * kFrame_s).empty());
 }
 
 TEST(BoxTracks, PassesEverythingThroughWhenDisabled) {

@@ -96,6 +96,33 @@ TEST(PlaneMap, BelievesTheClassThatIsMissedEveryThirdTime) {
   EXPECT_GE(books, 3);
 }
 
+TEST(PlaneMap, LearnsNothingOfClassesFromAFrameInWhichTheDetectorWasNotAsked) {
+  const PlaneWorld world = CrowdedDesk();
+  const Camera camera = SmallCamera();
+  const AssociationConfig association;
+  Map map;
+  const auto show = [&](int k, bool asked) {
+    SeenWorld seen = See(world, Walk(k), camera, {}, Random{7, static_cast<std::uint64_t>(k)});
+    seen.frame.index = k;
+    seen.frame.detector_asked = asked;
+    seen.frame.plane_matches = AssociatePlanes(seen.frame, map, camera, association).matches;
+    UpdatePlanes(seen.frame, map, camera, association, SmallImages());
+    std::vector<std::map<std::string, double>> beliefs;
+    std::vector<int> observations;
+    for (const MapPlane& m : map.planes) {
+      beliefs.push_back(m.class_belief);
+      observations.push_back(m.observations);
+    }
+    return std::pair(beliefs, observations);
+  };
+  for (int k = 0; k < 4; ++k) show(k, true);
+  const auto before = show(4, true), carried = show(5, false), after = show(6, true);
+  ASSERT_EQ(before.first.size(), carried.first.size());
+  EXPECT_EQ(before.first, carried.first);
+  EXPECT_NE(carried.first, after.first);
+  EXPECT_NE(before.second, carried.second) << "the planes themselves are seen";
+}
+
 TEST(PlaneMap, KeepsPlanesWithinAMillimetreOfTruthOnExactViews) {
   const PlaneWorld world = CrowdedDesk();
   const WalkResult walk = MapAWalk(world, {}, 20, AssociationRule::kIntegrated);
