@@ -96,8 +96,6 @@ void Tracker::ExtractInformation(Frame& frame, const cv::Mat3b& bgr, TrackReport
     const Stopwatch watch(times[Module::kMdc]);
     frame.detections = box_tracks_.Update(frame.timestamp_s, found);
   }
-  const Stopwatch watch(times[Module::kEpi]);
-  plane_extractor_->SplitInBoxes(frame);
 }
 
 void Tracker::ProcessFramePlanes(Frame& frame, TrackReport& report) const {

@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 namespace slam {
+namespace {
 
 std::optional<Segment> Measure(const PlaneSums& sums, int id, const DepthNoise& noise,
                                const PlaneExtractionConfig& config) {
@@ -20,11 +22,7 @@ std::optional<Segment> Measure(const PlaneSums& sums, int id, const DepthNoise& 
   return Segment{id, sums, {fit->plane, grazing}, sigmas, {}, {}};
 }
 
-void SortBySize(std::vector<Segment>& segments) {
-  std::sort(segments.begin(), segments.end(), [](const Segment& a, const Segment& b) {
-    return a.sums.n != b.sums.n ? a.sums.n > b.sums.n : a.id < b.id;
-  });
-}
+}  // namespace
 
 void KeepMeasured(const std::vector<PlaneSums>& sums, const DepthNoise& noise,
                   const PlaneExtractionConfig& config, std::vector<Segment>& kept) {
@@ -34,7 +32,9 @@ void KeepMeasured(const std::vector<PlaneSums>& sums, const DepthNoise& noise,
             Measure(sums[k], static_cast<int>(k), noise, config))
       kept.push_back(*segment);
   }
-  SortBySize(kept);
+  std::sort(kept.begin(), kept.end(), [](const Segment& a, const Segment& b) {
+    return a.sums.n != b.sums.n ? a.sums.n > b.sums.n : a.id < b.id;
+  });
   if (kept.size() > static_cast<std::size_t>(kMaxSegments)) kept.resize(kMaxSegments);
 }
 
@@ -44,18 +44,6 @@ PlaneSums Without(PlaneSums all, const PlaneSums& part) {
   all.wyy -= part.wyy, all.wq -= part.wq, all.wqx -= part.wqx, all.wqy -= part.wqy,
       all.wqq -= part.wqq;
   return all;
-}
-
-void Extend(const PlaneSums& more, const cv::Point& low, const cv::Point& high,
-            const DepthNoise& noise, const PlaneExtractionConfig& config, Segment& segment) {
-  PlaneSums sums = segment.sums;
-  sums += more;
-  const std::optional<Segment> both = Measure(sums, segment.id, noise, config);
-  if (!both) return;
-  const cv::Point old_low = segment.low, old_high = segment.high;
-  segment = *both;
-  segment.low = {std::min(old_low.x, low.x), std::min(old_low.y, low.y)};
-  segment.high = {std::max(old_high.x, high.x), std::max(old_high.y, high.y)};
 }
 
 }  // namespace slam

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <opencv2/core/types.hpp>
-#include <optional>
 #include <vector>
 
 #include "slam/geometry/plane_sums.h"
@@ -21,23 +20,13 @@ struct Segment {
   cv::Point low, high;  ///< first and last row and column
 };
 
-/// A segment of these pixels, if they are enough (min_pixels) and say precisely enough where it
-/// is (max_angle_sigma_rad). Its bounds are the caller's to set.
-std::optional<Segment> Measure(const PlaneSums& sums, int id, const DepthNoise& noise,
-                               const PlaneExtractionConfig& config);
-
-/// The largest first; of equal ones that of the smaller id.
-void SortBySize(std::vector<Segment>& segments);
-
-/// The labels that are segments, the largest first, at most kMaxSegments.
+/// The labels whose pixels are enough (min_pixels) and say precisely enough where the plane is
+/// (max_angle_sigma_rad), the largest first, at most kMaxSegments. Their bounds are the caller's
+/// to set.
 void KeepMeasured(const std::vector<PlaneSums>& sums, const DepthNoise& noise,
                   const PlaneExtractionConfig& config, std::vector<Segment>& kept);
 
 /// Sums of the pixels of `all` that are not those of `part`, a part of them.
 PlaneSums Without(PlaneSums all, const PlaneSums& part);
-
-/// Adds pixels within the bounds [low, high] to a segment.
-void Extend(const PlaneSums& more, const cv::Point& low, const cv::Point& high,
-            const DepthNoise& noise, const PlaneExtractionConfig& config, Segment& segment);
 
 }  // namespace slam
