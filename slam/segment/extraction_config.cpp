@@ -2,6 +2,11 @@
 
 namespace slam {
 
+const std::vector<std::string>& SegmentationNames() {
+  static const std::vector<std::string> names{"ours", "ahc"};
+  return names;
+}
+
 PlaneExtractionConfig ExtractionFor(DepthSensor sensor) {
   PlaneExtractionConfig config;
   config.joining.bend_ratio = ModelOf(sensor).bend_ratio;

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <string>
+#include <vector>
+
 #include "slam/base/field_visitor.h"
 #include "slam/geometry/sensor_model.h"
 #include "slam/segment/cluster_config.h"
@@ -9,9 +12,19 @@
 
 namespace slam {
 
+/// What divides a depth image into planes.
+enum class Segmentation {
+  kOurs,  ///< PlaneExtractor's steps
+  kAhc    ///< PEAC as it was published (SegmentByAhc), to compare with
+};
+
+/// Names as in files and on the command line, in the order of the enumeration.
+const std::vector<std::string>& SegmentationNames();
+
 /// Settings of plane extraction. A length here is of the sensor or of the image, and every
 /// threshold on a surface is in units of the noise.
 struct PlaneExtractionConfig {
+  Segmentation segmentation = Segmentation::kOurs;
   int block_px = 8;
   int fine_block_px = 4;
   ClusterConfig coarse;
@@ -31,6 +44,9 @@ struct PlaneExtractionConfig {
 };
 
 inline void VisitFields(PlaneExtractionConfig& c, FieldVisitor& v) {
+  v.Named("segmentation", c.segmentation, SegmentationNames(),
+          "what divides a depth image into planes; ahc: PEAC as it was published, for which "
+          "no other key before min_pixels counts");
   v.Integer("block_px", c.block_px, "[4, 64]", "side of the blocks of the first clustering");
   v.Integer("fine_block_px", c.fine_block_px, "[2, 64]",
             "side of the blocks of the second clustering; at most block_px");

@@ -5,6 +5,7 @@
 #include <limits>
 #include <optional>
 
+#include "slam/segment/ahc.h"
 #include "slam/segment/local_planes.h"
 #include "slam/segment/plane_workspace.h"
 #include "slam/segment/surface_joining.h"
@@ -150,39 +151,57 @@ void PlaneExtractor::Workspace::JoinTouching() {
   FindRuns(labels, grid.width, grid.height, runs);
 }
 
-void PlaneExtractor::Extract(Frame& frame) {
-  const PlaneExtractionConfig& config = work_->config;
-  const DepthNoise& noise = work_->sensor.noise;
-  DepthGrid& grid = work_->grid;
-  PixelGrowth& growth = work_->growth;
-  SetDepth(frame.depth_m, noise, work_->sensor.max_depth_m, grid);
+/// Our segmentation: the runs of the segments, whose sums are set.
+const LabelRuns& PlaneExtractor::Workspace::SegmentBySteps() {
+  const DepthNoise& noise = sensor.noise;
 
   // The planes of clusters of blocks grow over pixels; what they do not explain is clustered in
   // finer blocks.
   growth.Begin(grid, config.growth);
   const BlockClusters& clusters =
-      work_->clustering.Cluster(grid, {}, config.block_px, noise, config.coarse);
-  const JoinedLabels joined = work_->JoinClusters(clusters);
-  work_->AddClusters(clusters, &joined);
+      clustering.Cluster(grid, {}, config.block_px, noise, config.coarse);
+  const JoinedLabels joined = JoinClusters(clusters);
+  AddClusters(clusters, &joined);
   growth.MarkExplained(config.coarse.model_error_sigmas,
                        config.max_block_bias_sigmas * std::sqrt(noise.correlated_px),
-                       work_->explained);
-  work_->AddClusters(work_->clustering.Cluster(grid, work_->explained, config.fine_block_px,
-                                               noise, config.fine),
-                     nullptr);
+                       explained);
+  AddClusters(clustering.Cluster(grid, explained, config.fine_block_px, noise, config.fine),
+              nullptr);
 
   // Parts of one surface are joined, where they touch and across what hides them.
-  work_->JoinTouching();
-  const LabelRuns& segments =
-      work_->parts.Segment(grid, work_->surfaces, work_->runs, noise, config);
-  work_->parts.SumSegments(grid, work_->surfaces, work_->sums);
+  JoinTouching();
+  const LabelRuns& segments = parts.Segment(grid, surfaces, runs, noise, config);
+  parts.SumSegments(grid, surfaces, sums);
+  return segments;
+}
+
+/// The same by PEAC.
+const LabelRuns& PlaneExtractor::Workspace::SegmentAsPeac() {
+  labels = SegmentByAhc(grid);
+  sums.clear();
+  for (std::size_t i = 0; i < labels.size(); ++i) {
+    if (labels[i] == kNoLabel) continue;
+    const auto label = static_cast<std::size_t>(labels[i]);
+    if (label >= sums.size()) sums.resize(label + 1);
+    AddPixel(grid, i, sums[label]);
+  }
+  FindRuns(labels, grid.width, grid.height, runs);
+  return runs;
+}
+
+void PlaneExtractor::Extract(Frame& frame) {
+  Workspace& work = *work_;
+  SetDepth(frame.depth_m, work.sensor.noise, work.sensor.max_depth_m, work.grid);
+  const LabelRuns& segments = work.config.segmentation == Segmentation::kAhc
+                                  ? work.SegmentAsPeac()
+                                  : work.SegmentBySteps();
 
   // Segments that can be measured become planes of the frame.
-  KeepMeasured(work_->sums, noise, config, work_->kept);
-  frame.plane_labels.create(grid.height, grid.width);
-  DrawLabels(segments, static_cast<int>(work_->sums.size()), work_->kept, work_->drawn_value,
+  KeepMeasured(work.sums, work.sensor.noise, work.config, work.kept);
+  frame.plane_labels.create(work.grid.height, work.grid.width);
+  DrawLabels(segments, static_cast<int>(work.sums.size()), work.kept, work.drawn_value,
              frame.plane_labels);
-  work_->Describe(frame);
+  work.Describe(frame);
 }
 
 }  // namespace slam

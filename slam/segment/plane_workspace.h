@@ -48,6 +48,8 @@ struct PlaneExtractor::Workspace {
   JoinedLabels JoinClusters(const BlockClusters& clusters);
   ContactPixels CountContacts(std::size_t label_count) const;
   void JoinTouching();
+  const LabelRuns& SegmentBySteps();
+  const LabelRuns& SegmentAsPeac();
   void TakeMemory(std::vector<FramePlane>& planes);
   void GiveMemory(FramePlane& plane);
   void SamplePoints(const cv::Mat1b& drawn, std::vector<FramePlane>& planes);
