@@ -25,8 +25,6 @@ const std::vector<std::string>& SegmentationNames();
 /// threshold on a surface is in units of the noise.
 struct PlaneExtractionConfig {
   Segmentation segmentation = Segmentation::kOurs;
-  int block_px = 8;
-  int fine_block_px = 4;
   ClusterConfig coarse;
   ClusterConfig fine{.min_measured = 0.75, .max_block_error = 3.0, .min_blocks = 10};
 
@@ -47,11 +45,9 @@ inline void VisitFields(PlaneExtractionConfig& c, FieldVisitor& v) {
   v.Named("segmentation", c.segmentation, SegmentationNames(),
           "what divides a depth image into planes; ahc: PEAC as it was published, for which "
           "no other key before min_pixels counts");
-  v.Integer("block_px", c.block_px, "[4, 64]", "side of the blocks of the first clustering");
-  v.Integer("fine_block_px", c.fine_block_px, "[2, 64]",
-            "side of the blocks of the second clustering; at most block_px");
-  v.Section("coarse", "first clustering", c.coarse);
-  v.Section("fine", "second clustering, of what the first one left", c.fine);
+  v.Section("coarse", "first clustering, of blocks of 8 x 8 pixels", c.coarse);
+  v.Section("fine", "second clustering, of what the first one left, in blocks of 4 x 4",
+            c.fine);
   v.Section("growth", "growth of regions from blocks to pixels", c.growth);
   v.Number(
       "max_block_bias_sigmas", c.max_block_bias_sigmas, "(0, inf)",

@@ -20,9 +20,9 @@ struct Segment {
   cv::Point low, high;  ///< first and last row and column
 };
 
-/// The labels whose pixels are enough (min_pixels) and say precisely enough where the plane is
-/// (max_angle_sigma_rad), the largest first, at most kMaxSegments. Their bounds are the caller's
-/// to set.
+/// The labels whose pixels are enough (min_pixels) and tell well enough where the plane is
+/// (max_angle_sigma_rad), the largest first, at most kMaxSegments. Their bounds are the
+/// caller's to set.
 void KeepMeasured(const std::vector<PlaneSums>& sums, const DepthNoise& noise,
                   const PlaneExtractionConfig& config, std::vector<Segment>& kept);
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <utility>
 
 #include "slam/segment/ahc.h"
 #include "slam/segment/local_planes.h"
@@ -93,7 +94,7 @@ JoinedLabels PlaneExtractor::Workspace::JoinClusters(const BlockClusters& cluste
   for (std::size_t block = 0; block < clusters.region.size(); ++block) {
     block_parts.first.push_back(block_parts.parts.size());
     const int region = clusters.region[block];
-    if (region >= 0) block_parts.parts.push_back({region, clustering.SumsOfBlocks()[block]});
+    if (region >= 0) block_parts.parts.push_back({region, clusters.block_sums[block]});
   }
   block_parts.first.push_back(block_parts.parts.size());
   return JoinSurfaces(block_parts, clusters.planes.size(), nullptr, {}, sensor.noise,
@@ -113,12 +114,9 @@ ContactPixels PlaneExtractor::Workspace::CountContacts(std::size_t label_count) 
 
 /// Joins labels that continue each other, and grows the planes of what has become one anew.
 void PlaneExtractor::Workspace::JoinTouching() {
-  const std::vector<PlaneSums> unknown;
-  const std::vector<PlaneSums>& blocks =
-      config.block_px == config.growth.block_px ? clustering.SumsOfBlocks() : unknown;
   const std::size_t count = growth.planes().size();
-  growth.SumParts(blocks, block_parts);
-  growth.DrawLabels(labels);
+  growth.SumParts(block_sums, block_parts);
+  growth.DrawLabels(grid.width, grid.height, labels);
   FindRuns(labels, grid.width, grid.height, runs);
   ContactPixels contacts = CountContacts(count);
   std::vector<std::uint8_t> bent(count);
@@ -138,7 +136,7 @@ void PlaneExtractor::Workspace::JoinTouching() {
   }
   growth.Replace(planes, joined.into, local);
 
-  growth.SumParts(blocks, block_parts);
+  growth.SumParts(block_sums, block_parts);
   const std::vector<PlaneSums> label_sums = SumParts(block_parts, count);
   surfaces.clear();
   for (std::size_t k = 0; k < count; ++k) {
@@ -147,59 +145,59 @@ void PlaneExtractor::Workspace::JoinTouching() {
       surface.plane = {fit->plane, GrazingFactor(surface.sums, fit->plane, sensor.noise)};
     surfaces.push_back(surface);
   }
-  growth.DrawLabels(labels);
+  growth.DrawLabels(grid.width, grid.height, labels);
   FindRuns(labels, grid.width, grid.height, runs);
 }
 
-/// Our segmentation: the runs of the segments, whose sums are set.
-const LabelRuns& PlaneExtractor::Workspace::SegmentBySteps() {
+/// Our segmentation.
+PartSegments PlaneExtractor::Workspace::SegmentBySteps() {
   const DepthNoise& noise = sensor.noise;
 
   // The planes of clusters of blocks grow over pixels; what they do not explain is clustered in
-  // finer blocks.
-  growth.Begin(grid, config.growth);
-  const BlockClusters& clusters =
-      clustering.Cluster(grid, {}, config.block_px, noise, config.coarse);
+  // quarters of blocks.
+  SetBlocks(grid, blocks);
+  growth.Begin(blocks, config.growth);
+  BlockClusters clusters =
+      clustering.Cluster(blocks, blocks.measured, kBlock_px, noise, config.coarse);
   const JoinedLabels joined = JoinClusters(clusters);
   AddClusters(clusters, &joined);
-  growth.MarkExplained(config.coarse.model_error_sigmas,
-                       config.max_block_bias_sigmas * std::sqrt(noise.correlated_px),
-                       explained);
-  AddClusters(clustering.Cluster(grid, explained, config.fine_block_px, noise, config.fine),
+  block_sums = std::move(clusters.block_sums);
+  const std::vector<PixelSet> unexplained =
+      growth.FindUnexplained(config.coarse.model_error_sigmas,
+                             config.max_block_bias_sigmas * std::sqrt(noise.correlated_px));
+  AddClusters(clustering.Cluster(blocks, unexplained, kQuarter_px, noise, config.fine),
               nullptr);
 
   // Parts of one surface are joined, where they touch and across what hides them.
   JoinTouching();
-  const LabelRuns& segments = parts.Segment(grid, surfaces, runs, noise, config);
-  parts.SumSegments(grid, surfaces, sums);
-  return segments;
+  return SegmentParts(grid, surfaces, runs, noise, config);
 }
 
 /// The same by PEAC.
-const LabelRuns& PlaneExtractor::Workspace::SegmentAsPeac() {
-  labels = SegmentByAhc(grid);
-  sums.clear();
-  for (std::size_t i = 0; i < labels.size(); ++i) {
-    if (labels[i] == kNoLabel) continue;
-    const auto label = static_cast<std::size_t>(labels[i]);
-    if (label >= sums.size()) sums.resize(label + 1);
-    AddPixel(grid, i, sums[label]);
+PartSegments PlaneExtractor::Workspace::SegmentAsPeac() const {
+  PartSegments out;
+  const LabelImage segments = SegmentByAhc(grid);
+  for (std::size_t i = 0; i < segments.size(); ++i) {
+    if (segments[i] == kNoLabel) continue;
+    const auto label = static_cast<std::size_t>(segments[i]);
+    if (label >= out.sums.size()) out.sums.resize(label + 1);
+    AddPixel(grid, i, out.sums[label]);
   }
-  FindRuns(labels, grid.width, grid.height, runs);
-  return runs;
+  FindRuns(segments, grid.width, grid.height, out.runs);
+  return out;
 }
 
 void PlaneExtractor::Extract(Frame& frame) {
   Workspace& work = *work_;
   SetDepth(frame.depth_m, work.sensor.noise, work.sensor.max_depth_m, work.grid);
-  const LabelRuns& segments = work.config.segmentation == Segmentation::kAhc
-                                  ? work.SegmentAsPeac()
-                                  : work.SegmentBySteps();
+  const PartSegments segments = work.config.segmentation == Segmentation::kAhc
+                                    ? work.SegmentAsPeac()
+                                    : work.SegmentBySteps();
 
   // Segments that can be measured become planes of the frame.
-  KeepMeasured(work.sums, work.sensor.noise, work.config, work.kept);
+  KeepMeasured(segments.sums, work.sensor.noise, work.config, work.kept);
   frame.plane_labels.create(work.grid.height, work.grid.width);
-  DrawLabels(segments, static_cast<int>(work.sums.size()), work.kept, work.drawn_value,
+  DrawLabels(segments.runs, static_cast<int>(segments.sums.size()), work.kept, work.drawn_value,
              frame.plane_labels);
   work.Describe(frame);
 }

@@ -24,14 +24,13 @@ struct PlaneExtractor::Workspace {
   PlaneExtractionConfig config;
   DepthGrid grid;
   BlockClustering clustering;
+  ImageBlocks blocks;
   PixelGrowth growth;
-  std::vector<std::uint8_t> explained;  ///< pixels of the first clustering's planes
+  std::vector<PlaneSums> block_sums;  ///< sums of the measured pixels of each block
   PartsOnBlocks block_parts;
   LabelImage labels;
   LabelRuns runs;
   std::vector<Surface> surfaces;  ///< one a label
-  PartSegmentation parts;
-  std::vector<PlaneSums> sums;  ///< one a segment
   std::vector<Segment> kept;
   std::vector<std::uint8_t> drawn_value;
   OuterContours contours;
@@ -48,8 +47,8 @@ struct PlaneExtractor::Workspace {
   JoinedLabels JoinClusters(const BlockClusters& clusters);
   ContactPixels CountContacts(std::size_t label_count) const;
   void JoinTouching();
-  const LabelRuns& SegmentBySteps();
-  const LabelRuns& SegmentAsPeac();
+  PartSegments SegmentBySteps();
+  PartSegments SegmentAsPeac() const;
   void TakeMemory(std::vector<FramePlane>& planes);
   void GiveMemory(FramePlane& plane);
   void SamplePoints(const cv::Mat1b& drawn, std::vector<FramePlane>& planes);
