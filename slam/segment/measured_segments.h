@@ -5,6 +5,7 @@
 
 #include "slam/geometry/plane_sums.h"
 #include "slam/segment/extraction_config.h"
+#include "slam/segment/occluded_parts.h"
 #include "slam/segment/pixel_labels.h"
 
 namespace slam {
@@ -20,11 +21,11 @@ struct Segment {
   cv::Point low, high;  ///< first and last row and column
 };
 
-/// The labels whose pixels are enough (min_pixels) and tell well enough where the plane is
-/// (max_angle_sigma_rad), the largest first, at most kMaxSegments. Their bounds are the
-/// caller's to set.
-void KeepMeasured(const std::vector<PlaneSums>& sums, const DepthNoise& noise,
-                  const PlaneExtractionConfig& config, std::vector<Segment>& kept);
+/// The segments that are enough pixels (min_pixels), tell well enough where their plane is
+/// (max_angle_sigma_rad), and are on average wider than the pixels that share an error; the
+/// largest first, at most kMaxSegments. Their bounds are the caller's to set.
+std::vector<Segment> KeepMeasured(const PartSegments& segments, const DepthNoise& noise,
+                                  const PlaneExtractionConfig& config);
 
 /// Sums of the pixels of `all` that are not those of `part`, a part of them.
 PlaneSums Without(PlaneSums all, const PlaneSums& part);
