@@ -8,6 +8,7 @@
 #include "app/depth_sensor_option.h"
 #include "app/live_scene.h"
 #include "app/recording_options.h"
+#include "app/segmentation_option.h"
 #include "app/stop_signal.h"
 #include "io/input_error.h"
 #include "io/output_file.h"
@@ -22,7 +23,7 @@ struct SlamArguments {
   slam::RunOptions options;
   std::string variant = "full";
   std::string sensor = slam::DepthSensorNames().front();
-  std::string config_file;
+  std::string config_file, segmentation;
   bool print_config = false;
   bool loop_closing = false;
   std::string mapping, depth_warp;
@@ -92,7 +93,9 @@ int Verdict(const slam::RunOutcome& outcome, const std::string& sequence) {
 
 int RunSlam(SlamArguments& arguments, bool quiet) {
   if (arguments.print_config) {
-    fmt::print("{}", slam::ConfigAsYaml(ConfigFrom(arguments.sensor, arguments.config_file)));
+    slam::Config config = ConfigFrom(arguments.sensor, arguments.config_file);
+    SetSegmentation(arguments.segmentation, config);
+    fmt::print("{}", slam::ConfigAsYaml(config));
     return kDone;
   }
   slam::RunOptions& options = arguments.options;
@@ -109,6 +112,7 @@ int RunSlam(SlamArguments& arguments, bool quiet) {
   }
   options.variant = slam::VariantOf(arguments.variant);
   options.config = ConfigFrom(arguments.sensor, arguments.config_file);
+  SetSegmentation(arguments.segmentation, options.config);
   if (arguments.loop_closing) options.config.loop_closing.enabled = true;
   if (arguments.detect_every) options.config.detection.every = *arguments.detect_every;
   if (!arguments.depth_warp.empty()) options.config.depth_warp.source = arguments.depth_warp;
@@ -172,6 +176,7 @@ void AddSlamCommand(CLI::App& pas, const Globals& globals, int& exit_code) {
                           "tum1 | tum2 | tum3 | a camera.yaml, or settings of ORB-SLAM2, "
                           "ORB-SLAM3, OpenCV or ROS; default: SEQ/camera.yaml");
   AddSensorOption(*command, arguments->sensor);
+  AddSegmentationOption(*command, arguments->segmentation);
   command->add_option("--config", arguments->config_file,
                       "Settings over the defaults, YAML; `pas config` prints them all");
   command->add_flag("--print-config", arguments->print_config,

@@ -84,10 +84,7 @@ class PlaneFrontEnd {
         boxes_.Update(frame.timestamp_s, detector_->Detect(frame.timestamp_s, recorded.bgr));
     times.plain_pass_ms.push_back(
         TimeOf([&] { BackProject(frame.depth_m, camera_, points_c_); }));
-    times.extraction_ms.push_back(TimeOf([&] {
-      extractor_.Extract(frame);
-      extractor_.SplitInBoxes(frame);
-    }));
+    times.extraction_ms.push_back(TimeOf([&] { extractor_.Extract(frame); }));
     times.processing_ms.push_back(TimeOf([&] {
       slam::ProcessPlanes(frame, camera_, config_.sensor, config_.plane_processing);
     }));

@@ -10,6 +10,7 @@
 #include "app/bench/quantile.h"
 #include "app/console.h"
 #include "app/depth_sensor_option.h"
+#include "app/segmentation_option.h"
 #include "slam/run/config_file.h"
 
 namespace app {
@@ -17,7 +18,7 @@ namespace {
 
 struct PlaneBenchArguments {
   std::vector<std::string> sequences;
-  std::string camera, config_file, surfaces;
+  std::string camera, config_file, surfaces, segmentation;
   std::string sensor = slam::DepthSensorNames().front();
   int frames = 0, every = 1;
   bool steps = false, unmeasured = false;
@@ -137,7 +138,8 @@ PlaneBench BenchAll(const PlaneBenchArguments& arguments, const slam::Config& co
 }
 
 int RunBench(const PlaneBenchArguments& arguments, bool quiet) {
-  const slam::Config config = ConfigFrom(arguments.sensor, arguments.config_file);
+  slam::Config config = ConfigFrom(arguments.sensor, arguments.config_file);
+  SetSegmentation(arguments.segmentation, config);
   PrintHeader();
   const PlaneBench sum = BenchAll(arguments, config, true, quiet);
   if (sum.scored_frames > 0) PrintScores("all", sum);
@@ -156,6 +158,7 @@ void AddBenchPlanes(CLI::App& bench, const Globals& globals, int& exit_code) {
   command->add_option("--camera", arguments->camera,
                       "tum1 | tum2 | tum3 | a camera.yaml; default: SEQ/camera.yaml");
   AddSensorOption(*command, arguments->sensor);
+  AddSegmentationOption(*command, arguments->segmentation);
   command->add_option("--config", arguments->config_file, "Settings over the defaults, YAML");
   command->add_option("--frames", arguments->frames, "At most so many of each; 0 = all")
       ->check(CLI::Range(0, 1000000));

@@ -139,7 +139,6 @@ Config AnyConfig() {
   PutInOrder(c.point_features.min_fast_threshold, c.point_features.fast_threshold);
   PutInOrder(c.point_features.depth.min_depth_m, c.point_features.depth.max_depth_m);
   c.point_features.depth.max_depth_m += 1;
-  PutInOrder(c.plane_extraction.fine_block_px, c.plane_extraction.block_px);
   PutInOrder(c.plane_processing.vertices.min_fill, c.plane_processing.vertices.max_fill);
   PutInOrder(c.association.max_chi2, c.association.new_chi2);
   return c;

@@ -12,7 +12,6 @@ namespace slam {
 struct BoxLinkConfig {
   double min_iou = 0.10;
   double min_edge_share = 0.8;
-  // Apart from those of BoxSplitConfig: here a box names a segment, there it makes one.
   double margin_px = 4.0;
   double min_score = 0.3;
 };

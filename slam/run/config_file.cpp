@@ -233,8 +233,6 @@ void CheckTogether(const Config& c, const std::string& file) {
   require(c.point_features.depth.min_depth_m < c.point_features.depth.max_depth_m,
           "point_depth: min_depth_m must be below max_depth_m");
   require(!c.yolox.classes.empty(), "yolox: classes must name at least one class");
-  require(c.plane_extraction.fine_block_px <= c.plane_extraction.block_px,
-          "plane_extraction: fine_block_px must not be above block_px");
   require(c.plane_processing.vertices.min_fill <= c.plane_processing.vertices.max_fill,
           "plane_processing: vertices: min_fill must not be above max_fill");
   require(c.association.max_chi2 <= c.association.new_chi2,

@@ -99,8 +99,7 @@ void Tracker::ExtractInformation(Frame& frame, const cv::Mat3b& bgr, TrackReport
     frame.detections = frame.detector_asked ? box_tracks_.Update(frame.timestamp_s, found)
                                             : box_tracks_.Carry(frame.timestamp_s);
   }
-  const Stopwatch watch(times[Module::kEpi]);
-  plane_extractor_->SplitInBoxes(frame);
+  const Stopwatch watch(times[Module::kPp]);
   bend_meter_.Measure(frame);
 }
 

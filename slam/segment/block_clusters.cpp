@@ -17,70 +17,51 @@ constexpr int kVersionBits = 32;
 
 }  // namespace
 
-const BlockClusters& BlockClustering::Cluster(const DepthGrid& grid,
-                                              const std::vector<std::uint8_t>& taken,
-                                              int block_px, const DepthNoise& noise,
-                                              const ClusterConfig& config) {
-  Require(block_px > 1, "BlockClustering: a block has at least 2 x 2 pixels");
-  Require(taken.empty() || taken.size() == grid.q.size(),
-          "BlockClustering: mask differs in size");
+BlockClusters BlockClustering::Cluster(const ImageBlocks& blocks,
+                                       const std::vector<PixelSet>& free, int block_px,
+                                       const DepthNoise& noise, const ClusterConfig& config) {
+  Require(block_px == kBlock_px || block_px == kQuarter_px,
+          "BlockClustering: blocks are 8 x 8 pixels, or quarters of such");
+  Require(free.size() == blocks.pixels.size(), "BlockClustering: a set for each block");
   noise_ = &noise, config_ = &config;
-  AddBlocks(grid, taken, block_px);
+  BlockClusters out;
+  out.block_px = block_px;
+  AddBlocks(blocks, free, out);
   Merge();
-  Number(block_px);
-  return out_;
+  Number(out);
+  return out;
 }
 
-void BlockClustering::AddBlocks(const DepthGrid& grid, const std::vector<std::uint8_t>& taken,
-                                int block_px) {
-  cols_ = (grid.width + block_px - 1) / block_px;
-  rows_ = (grid.height + block_px - 1) / block_px;
-  regions_.clear();
-  if (taken.empty()) sums_.clear();
-  measured_.resize(WordsOfSet(block_px));
-  region_at_.assign(static_cast<std::size_t>(cols_ * rows_), -1);
-  const double min_pixels = config_->min_measured * block_px * block_px;
-
-  // With a mask, most blocks have too few free pixels, which counting columns tells first.
+void BlockClustering::AddBlocks(const ImageBlocks& blocks, const std::vector<PixelSet>& free,
+                                BlockClusters& out) {
+  const int split = kBlock_px / out.block_px;  // of a side
+  cols_ = out.cols = split * blocks.cols, rows_ = out.rows = split * blocks.rows;
+  const auto count = static_cast<std::size_t>(cols_ * rows_);
+  regions_.clear(), region_at_.assign(count, -1), out.block_sums.resize(count);
   for (int r = 0; r < rows_; ++r) {
-    const int v = r * block_px;
-    const auto row = static_cast<std::size_t>(grid.Index(0, v));
-    const std::uint8_t* mask = taken.empty() ? nullptr : taken.data() + row;
-    if (mask != nullptr) {
-      free_.resize(static_cast<std::size_t>(grid.width));
-      CountFree(grid.g.data() + row, mask, grid.width, grid.width,
-                std::min(block_px, grid.height - v), free_.data());
-    }
     for (int c = 0; c < cols_; ++c) {
-      const int u = c * block_px;
-      if (mask == nullptr) {
-        AddBlock(grid, nullptr, u, v, block_px, r * cols_ + c);
-        continue;
-      }
-      const auto first = free_.begin() + u;
-      const int free = std::accumulate(first, first + std::min(block_px, grid.width - u), 0);
-      if (free >= min_pixels) AddBlock(grid, mask + u, u, v, block_px, r * cols_ + c);
+      const auto whole = static_cast<std::size_t>(r / split * blocks.cols + c / split);
+      const BlockWindow window{c % split * out.block_px, r % split * out.block_px,
+                               out.block_px};
+      AddBlock(blocks.pixels[whole], free[whole] & window.Pixels(), window, r * cols_ + c, out);
     }
   }
   parent_.resize(regions_.size());
   std::iota(parent_.begin(), parent_.end(), 0);
 }
 
-void BlockClustering::AddBlock(const DepthGrid& grid, const std::uint8_t* taken, int u, int v,
-                               int block_px, int block) {
-  const BlockPixels pixels = BlockAt(grid, u, v, block_px);
-  const double min_pixels = config_->min_measured * block_px * block_px;
-  if (taken == nullptr) FindMeasured(pixels, measured_.data());
-  const PlaneSums sums =
-      taken == nullptr ? SumBlock(pixels, measured_.data()) : SumFree(pixels, taken);
-  if (taken == nullptr) sums_.push_back(sums);
+void BlockClustering::AddBlock(const BlockPixels& pixels, PixelSet free,
+                               const BlockWindow& window, int block, BlockClusters& out) {
+  if (free == 0) return;
+  const PlaneSums& sums = out.block_sums[static_cast<std::size_t>(block)] =
+      SumOfSet(pixels, free, window);
 
   // A block is planar if enough of it is measured, nothing in it jumps, and noise explains how
   // it scatters about its plane.
-  if (!(sums.n >= min_pixels)) return;
+  if (!(sums.n >= config_->min_measured * window.side * window.side)) return;
   const std::optional<PlaneFit> fit = Fit(sums);
   if (!fit) return;
-  if (HasJump(pixels, static_cast<float>(config_->max_jump_sigmas))) return;
+  if (HasJump(pixels, static_cast<float>(config_->max_jump_sigmas), window)) return;
   const double grazing = GrazingFactor(sums, fit->plane, *noise_);
   if (!(fit->error < config_->max_block_error * grazing * grazing * sums.n)) return;
   region_at_[static_cast<std::size_t>(block)] = static_cast<int>(regions_.size());
@@ -179,21 +160,19 @@ void BlockClustering::Join(int a, int b) {
 }
 
 /// Numbers the regions that are large enough, in order of their first block.
-void BlockClustering::Number(int block_px) {
-  out_.block_px = block_px, out_.cols = cols_, out_.rows = rows_;
-  out_.sums.clear(), out_.planes.clear();
-  out_.region.assign(region_at_.size(), -1);
+void BlockClustering::Number(BlockClusters& out) {
+  out.region.assign(region_at_.size(), -1);
   number_.assign(regions_.size(), -1);
   for (int k = 0; k < static_cast<int>(regions_.size()); ++k) {
     const int root = Root(k);
     if (At(root).blocks < std::max(config_->min_blocks, 1)) continue;
     int& id = number_[static_cast<std::size_t>(root)];
     if (id < 0) {
-      id = static_cast<int>(out_.sums.size());
-      out_.sums.push_back(At(root).sums);
-      out_.planes.push_back(At(root).fit.plane);
+      id = static_cast<int>(out.sums.size());
+      out.sums.push_back(At(root).sums);
+      out.planes.push_back(At(root).fit.plane);
     }
-    out_.region[static_cast<std::size_t>(At(k).block)] = id;
+    out.region[static_cast<std::size_t>(At(k).block)] = id;
   }
 }
 

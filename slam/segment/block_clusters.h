@@ -6,7 +6,7 @@
 
 #include "slam/geometry/plane_sums.h"
 #include "slam/segment/cluster_config.h"
-#include "slam/segment/depth_grid.h"
+#include "slam/segment/image_blocks.h"
 #include "slam/segment/min_tree.h"
 
 namespace slam {
@@ -17,6 +17,7 @@ struct BlockClusters {
   std::vector<int> region;      ///< one a block, row-major; -1 = none
   std::vector<PlaneSums> sums;  ///< one a region
   std::vector<InverseDepthPlane> planes;
+  std::vector<PlaneSums> block_sums;  ///< sums of the pixels of each block
 };
 
 /// Agglomerative clustering of blocks into planes (PEAC's method: Feng, Taguchi, Kamat, ICRA
@@ -33,15 +34,11 @@ struct BlockClusters {
 /// block number. The memory of one image serves the next.
 class BlockClustering {
  public:
-  /// @param taken   one entry a pixel; pixels with a non-zero entry are left out. May be empty.
-  /// @param block_px  side of a block, pixels, > 1; the last row and column may be cut
-  /// @returns what stands until the next call, in memory that serves again then
-  const BlockClusters& Cluster(const DepthGrid& grid, const std::vector<std::uint8_t>& taken,
-                               int block_px, const DepthNoise& noise,
-                               const ClusterConfig& config);
-
-  /// Sums of the measured pixels of each block in the last call in which nothing was taken.
-  const std::vector<PlaneSums>& SumsOfBlocks() const { return sums_; }
+  /// @param free  the pixels of each of the image's blocks that are clustered, all of them
+  ///              measured
+  /// @param block_px  kBlock_px, or kQuarter_px: what is clustered are the quarters of blocks
+  BlockClusters Cluster(const ImageBlocks& blocks, const std::vector<PixelSet>& free,
+                        int block_px, const DepthNoise& noise, const ClusterConfig& config);
 
  private:
   struct Region {
@@ -67,9 +64,10 @@ class BlockClustering {
   static constexpr int kKnownBits = 12;  ///< 4096 costs in 64 KiB
 
   Region& At(int i) { return regions_[static_cast<std::size_t>(i)]; }
-  void AddBlocks(const DepthGrid& grid, const std::vector<std::uint8_t>& taken, int block_px);
-  void AddBlock(const DepthGrid& grid, const std::uint8_t* taken, int u, int v, int block_px,
-                int block);
+  void AddBlocks(const ImageBlocks& blocks, const std::vector<PixelSet>& free,
+                 BlockClusters& out);
+  void AddBlock(const BlockPixels& pixels, PixelSet free, const BlockWindow& window, int block,
+                BlockClusters& out);
   void AddRegion(const PlaneSums& sums, const PlaneFit& fit, double grazing, int block);
   void Merge();
   int Root(int i);
@@ -77,7 +75,7 @@ class BlockClustering {
   double Evaluate(const Region& a, const Region& b) const;
   void ProposeFirst();
   void Join(int a, int b);
-  void Number(int block_px);
+  void Number(BlockClusters& out);
 
   const DepthNoise* noise_ = nullptr;
   const ClusterConfig* config_ = nullptr;
@@ -91,10 +89,6 @@ class BlockClustering {
   int next_version_ = 0;
   std::vector<KnownCost> known_costs_;  ///< by a number made of both versions
   std::vector<int> number_;
-  std::vector<std::uint64_t> measured_;  ///< pixels of a block
-  std::vector<std::uint8_t> free_;       ///< pixels of each column of a row of blocks
-  std::vector<PlaneSums> sums_;
-  BlockClusters out_;
 };
 
 }  // namespace slam

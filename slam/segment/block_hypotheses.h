@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstddef>
-#include <cstdint>
 #include <vector>
 
 #include "slam/segment/pixel_set.h"
@@ -16,27 +15,19 @@ struct Hypothesis {
   int label = 0;
   int plane = 0;             ///< place of its plane (PlanesOnBlocks::pixel_planes)
   int next = kNoHypothesis;  ///< the next one of the block, by label
-  int near = 0;              ///< pixels within max_pixel_sigmas
-  int pixels = 0;            ///< pixels that it has
   int costs = -1;            ///< place of its costs; -1 = not computed yet
-  bool measured = false;     ///< its sets are known
+  bool measured = false;     ///< `near` and `wide` are known
   bool spread = false;       ///< it has spread to the neighbours
+  PixelSet near = 0;         ///< pixels within max_pixel_sigmas of the plane
+  PixelSet wide = 0;         ///< pixels within a sigma more
+  PixelSet owned = 0;        ///< pixels that the plane has
 };
 
-/// The competing hypotheses of every block of an image, each with sets of the block's pixels.
+/// The competing hypotheses of every block of an image.
 class BlockHypotheses {
  public:
-  enum Set {
-    kNear,   ///< pixels within max_pixel_sigmas of the plane
-    kWide,   ///< pixels within a sigma more
-    kOwned,  ///< pixels that the plane has
-    kSetCount
-  };
-
-  /// Forgets everything and begins with so many blocks of block_px x block_px pixels.
-  void Begin(std::size_t blocks, int block_px);
-  /// Forgets all hypotheses.
-  void Clear();
+  /// Forgets everything and begins with so many blocks.
+  void Begin(std::size_t blocks) { list_.clear(), first_.assign(blocks, kNoHypothesis); }
 
   /// Adds one of a label that the block has none of yet.
   void Add(int block, int label, int plane);
@@ -49,25 +40,14 @@ class BlockHypotheses {
   int First(int block) const { return first_[static_cast<std::size_t>(block)]; }
   Hypothesis& At(int k) { return list_[static_cast<std::size_t>(k)]; }
   const Hypothesis& At(int k) const { return list_[static_cast<std::size_t>(k)]; }
-
-  /// A view into the table; it moves when a hypothesis is added.
-  PixelSet SetOf(int k, Set set) { return sets_.data() + PlaceOf(k, set); }
-  ConstPixelSet SetOf(int k, Set set) const { return sets_.data() + PlaceOf(k, set); }
-  std::size_t set_words() const { return set_words_; }
   std::size_t size() const { return list_.size(); }
 
   /// The pixels of a block that more than one hypothesis has in that set.
-  void FindShared(int block, Set set, PixelSet shared) const;
+  PixelSet FindShared(int block, PixelSet Hypothesis::*set) const;
 
  private:
-  std::size_t PlaceOf(int k, Set set) const {
-    return (static_cast<std::size_t>(k) * kSetCount + set) * set_words_;
-  }
-
-  std::size_t set_words_ = 0;
   std::vector<Hypothesis> list_;
-  std::vector<std::uint64_t> sets_;  ///< kSetCount a hypothesis
-  std::vector<int> first_;           ///< one a block
+  std::vector<int> first_;  ///< one a block
 };
 
 }  // namespace slam

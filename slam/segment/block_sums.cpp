@@ -1,8 +1,6 @@
 #include "slam/segment/block_sums.h"
 
-#include <algorithm>
 #include <bit>
-#include <cmath>
 #include <cstddef>
 
 #include "slam/base/lane_math.h"
@@ -15,8 +13,6 @@ using FourFloats = float __attribute__((vector_size(16), aligned(4), may_alias))
 using FourInts = int __attribute__((vector_size(16), aligned(4), may_alias));
 constexpr int kFour = 4;
 
-using FourMarks = std::uint8_t __attribute__((vector_size(4), aligned(1), may_alias));
-
 SLAM_INLINE FourFloats Floats4(const float* p) {
   return *reinterpret_cast<const FourFloats*>(p);
 }
@@ -25,7 +21,6 @@ SLAM_INLINE DoubleLanes InDouble(FourFloats v) {
                      static_cast<double>(v[2]), static_cast<double>(v[3])};
 }
 SLAM_INLINE DoubleLanes Load4(const float* p) { return InDouble(Floats4(p)); }
-SLAM_INLINE DoubleLanes AllDoubles(float v) { return DoubleLanes{} + static_cast<double>(v); }
 
 using TwoDoubles = double __attribute__((vector_size(16)));
 /// SumOf each of two.
@@ -72,163 +67,72 @@ struct FourSums {
   }
 };
 
-/// Four columns of a block of 8 x 8, of pixels in a set or of all.
-template <bool kOneX, bool kAll>
-SLAM_INLINE FourSums SumFour(const BlockPixels& block, int u, FourInts columns) {
+/// Four columns of a window, of pixels in a set.
+/// @tparam kOneX  columns have one x
+template <bool kOneX>
+SLAM_INLINE FourSums SumFour(const BlockPixels& block, const BlockWindow& window, int u,
+                             FourInts columns) {
   FourSums four;
-  const float *x = block.x + u, *y = block.y + u, *q = block.q + u, *g = block.g + u;
-  FourInts set = columns << 31;
+  const std::ptrdiff_t v0 = window.v;
+  const float *x = block.x + (v0 * block.x_stride + u),
+              *y = block.y + (v0 * block.y_stride + u);
+  const float *q = block.q + (v0 * block.stride + u), *g = block.g + (v0 * block.stride + u);
+  columns >>= window.v;
 #pragma GCC unroll 1  // sums stay in registers
-  for (int v = 0; v < kLanes; ++v) {
-    FourFloats g_used = Floats4(g);
-    if (!kAll) g_used = (FourFloats)((FourInts)g_used & (set >> 31));
+  for (int v = 0; v < window.side; ++v) {
+    const FourInts used = columns << 31 >> 31;
+    const DoubleLanes g_used = InDouble((FourFloats)((FourInts)Floats4(g) & used));
     if (kOneX) {
-      four.AddColumn(Load4(y), Load4(q), InDouble(g_used));
+      four.AddColumn(Load4(y), Load4(q), g_used);
     } else {
-      four.Add(Load4(x), Load4(y), Load4(q), InDouble(g_used));
+      four.Add(Load4(x), Load4(y), Load4(q), g_used);
       x += block.x_stride;
     }
-    if (!kAll) columns >>= 1, set = columns << 31;
+    columns >>= 1;
     y += block.y_stride, q += block.stride, g += block.stride;
   }
   if (kOneX) four.SetX(Load4(block.x + u));
   return four;
 }
 
-template <bool kOneX, bool kAll>
-SLAM_INLINE PlaneSums Sum8(const BlockPixels& block, std::uint64_t set) {
+template <bool kOneX>
+SLAM_INLINE PlaneSums SumWindow(const BlockPixels& block, PixelSet set,
+                                const BlockWindow& window) {
   const IntLanes columns = ColumnsOf(set);
   const FourInts left = {columns[0], columns[1], columns[2], columns[3]},
                  right = {columns[4], columns[5], columns[6], columns[7]};
-  FourSums sums = SumFour<kOneX, kAll>(block, 0, left);
-  sums += SumFour<kOneX, kAll>(block, kFour, right);
+  FourSums sums;
+  if (window.u == 0) sums = SumFour<kOneX>(block, window, 0, left);
+  if (window.u + window.side == kBlock_px) sums += SumFour<kOneX>(block, window, kFour, right);
   return sums.Sum(std::popcount(set));
-}
-
-PlaneSums SumAny(const BlockPixels& block, ConstPixelSet set) {
-  PlaneSums out;
-  for (int v = 0; v < block.height; ++v) {
-    for (int u = 0; u < block.width; ++u) {
-      if (!IsInSet(set, block.size, u, v)) continue;
-      const std::ptrdiff_t i = static_cast<std::ptrdiff_t>(v) * block.stride + u;
-      const double g = static_cast<double>(block.g[i]);
-      out.Add(static_cast<double>(block.x[v * block.x_stride + u]),
-              static_cast<double>(block.y[v * block.y_stride + u]),
-              static_cast<double>(block.q[i]), g * g);
-    }
-  }
-  return out;
-}
-
-/// g of four pixels that are not taken, 0 for the others.
-SLAM_INLINE FourFloats Weights(const float* g, const std::uint8_t* taken) {
-  const auto four =
-      __builtin_convertvector(*reinterpret_cast<const FourMarks*>(taken), FourInts);
-  const FourInts used = four == 0;
-  return (FourFloats)((FourInts)Floats4(g) & used);
-}
-
-/// Sums of the measured pixels that are not taken; columns four at a time, then the rest.
-SLAM_INLINE PlaneSums SumNotTaken(const BlockPixels& block, const std::uint8_t* taken) {
-  FourSums fours;
-  FourInts n{};
-  const bool whole_columns = block.x_stride == 0;  // each of one x, and rows of one y
-  const int whole = block.width / kFour * kFour;
-  for (int u = 0; u < whole; u += kFour) {
-    FourSums four;
-    for (int v = 0; v < block.height; ++v) {
-      const std::ptrdiff_t i = static_cast<std::ptrdiff_t>(v) * block.stride + u;
-      const FourFloats used = Weights(block.g + i, taken + i);
-      n -= used > 0.0f;
-      const DoubleLanes g = InDouble(used), q = Load4(block.q + i);
-      if (whole_columns) {
-        four.AddColumn(AllDoubles(block.y[v * block.y_stride]), q, g);
-      } else {
-        four.Add(Load4(block.x + (v * block.x_stride + u)),
-                 Load4(block.y + (v * block.y_stride + u)), q, g);
-      }
-    }
-    if (whole_columns) four.SetX(Load4(block.x + u));
-    fours += four;
-  }
-  PlaneSums out = fours.Sum((n[0] + n[1]) + (n[2] + n[3]));
-  for (int v = 0; v < block.height; ++v) {
-    for (int u = whole; u < block.width; ++u) {
-      const std::ptrdiff_t i = static_cast<std::ptrdiff_t>(v) * block.stride + u;
-      const double g = static_cast<double>(block.g[i]);
-      if (!(g > 0.0) || taken[i] != 0) continue;
-      out.Add(static_cast<double>(block.x[v * block.x_stride + u]),
-              static_cast<double>(block.y[v * block.y_stride + u]),
-              static_cast<double>(block.q[i]), g * g);
-    }
-  }
-  return out;
-}
-
-SLAM_INLINE bool HasJump8(const BlockPixels& block, float max_sigmas) {
-  IntLanes jumps{};
-  for (int v = 0; v < kLanes; ++v) {
-    const std::ptrdiff_t i = static_cast<std::ptrdiff_t>(v) * block.stride;
-    const FloatLanes q = Lanes(block.q + i), g = Lanes(block.g + i);
-    // The last pixel beside itself: no jump.
-    const FloatLanes q_right = {q[1], q[2], q[3], q[4], q[5], q[6], q[7], q[7]};
-    const FloatLanes g_right = {g[1], g[2], g[3], g[4], g[5], g[6], g[7], g[7]};
-    jumps |= (Abs(q - q_right) * g > max_sigmas) & (g_right > 0.0f);
-    if (v + 1 == kLanes) break;
-    const FloatLanes q_below = Lanes(block.q + i + block.stride);
-    const FloatLanes g_below = Lanes(block.g + i + block.stride);
-    jumps |= (Abs(q - q_below) * g > max_sigmas) & (g_below > 0.0f);
-  }
-  return AnyOf(jumps);
-}
-
-bool HasJumpAny(const BlockPixels& block, float max_sigmas) {
-  const auto jump = [&](std::ptrdiff_t i, std::ptrdiff_t j) {
-    return block.g[j] > 0.0f && std::abs(block.q[i] - block.q[j]) * block.g[i] > max_sigmas;
-  };
-  for (int v = 0; v < block.height; ++v) {
-    for (int u = 0; u < block.width; ++u) {
-      const std::ptrdiff_t i = static_cast<std::ptrdiff_t>(v) * block.stride + u;
-      if (u + 1 < block.width && jump(i, i + 1)) return true;
-      if (v + 1 < block.height && jump(i, i + block.stride)) return true;
-    }
-  }
-  return false;
 }
 
 }  // namespace
 
-SLAM_LANES PlaneSums SumBlock(const BlockPixels& block, ConstPixelSet measured) {
-  if (!IsWhole8(block)) return SumAny(block, measured);
-  return block.x_stride == 0 ? Sum8<true, true>(block, *measured)
-                             : Sum8<false, true>(block, *measured);
+SLAM_LANES PlaneSums SumOfSet(const BlockPixels& block, PixelSet set,
+                              const BlockWindow& window) {
+  return block.x_stride == 0 ? SumWindow<true>(block, set, window)
+                             : SumWindow<false>(block, set, window);
 }
 
-SLAM_LANES PlaneSums SumOfSet(const BlockPixels& block, ConstPixelSet set) {
-  if (!IsWhole8(block)) return SumAny(block, set);
-  return block.x_stride == 0 ? Sum8<true, false>(block, *set) : Sum8<false, false>(block, *set);
-}
-
-SLAM_LANES PlaneSums SumFree(const BlockPixels& block, const std::uint8_t* taken) {
-  return SumNotTaken(block, taken);
-}
-
-SLAM_LANES void CountFree(const float* g, const std::uint8_t* taken, int stride, int width,
-                          int height, std::uint8_t* __restrict counts) {
-  std::fill(counts, counts + width, std::uint8_t{0});
-  for (int v = 0; v < height; ++v) {
-    const float* g_row = g + static_cast<std::ptrdiff_t>(v) * stride;
-    const std::uint8_t* taken_row = taken + static_cast<std::ptrdiff_t>(v) * stride;
-    for (int u = 0; u < width; ++u) {
-      const int free = (taken_row[u] == 0 ? 1 : 0) & (g_row[u] > 0.0f ? 1 : 0);
-      counts[u] = static_cast<std::uint8_t>(counts[u] + free);
-    }
+SLAM_LANES bool HasJump(const BlockPixels& block, float max_sigmas, const BlockWindow& window) {
+  const IntLanes column = {0, 1, 2, 3, 4, 5, 6, 7};
+  const int end_u = window.u + window.side, end_v = window.v + window.side;
+  const IntLanes inside = (column >= window.u) & (column < end_u);
+  const IntLanes has_right = inside & (column + 1 < end_u);
+  IntLanes jumps{};
+  for (int v = window.v; v < end_v; ++v) {
+    const std::ptrdiff_t i = static_cast<std::ptrdiff_t>(v) * block.stride;
+    const FloatLanes q = Lanes(block.q + i), g = Lanes(block.g + i);
+    const FloatLanes q_right = {q[1], q[2], q[3], q[4], q[5], q[6], q[7], q[7]};
+    const FloatLanes g_right = {g[1], g[2], g[3], g[4], g[5], g[6], g[7], g[7]};
+    jumps |= has_right & (Abs(q - q_right) * g > max_sigmas) & (g_right > 0.0f);
+    if (v + 1 == end_v) break;
+    const FloatLanes q_below = Lanes(block.q + i + block.stride);
+    const FloatLanes g_below = Lanes(block.g + i + block.stride);
+    jumps |= inside & (Abs(q - q_below) * g > max_sigmas) & (g_below > 0.0f);
   }
-}
-
-SLAM_LANES bool HasJump(const BlockPixels& block, float max_sigmas) {
-  return block.width == kLanes && block.height == kLanes ? HasJump8(block, max_sigmas)
-                                                         : HasJumpAny(block, max_sigmas);
+  return AnyOf(jumps);
 }
 
 }  // namespace slam

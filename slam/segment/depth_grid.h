@@ -5,9 +5,11 @@
 #include <vector>
 
 #include "slam/geometry/depth_noise.h"
-#include "slam/segment/growth_config.h"
+#include "slam/segment/pixel_set.h"
 
 namespace slam {
+
+inline constexpr int kVoteReach_px = 2;  ///< rows and columns around a pixel that vote on it
 
 /// A depth image in the form that planes are fitted in; row-major, one entry a pixel.
 struct DepthGrid {
@@ -20,10 +22,8 @@ struct DepthGrid {
   /// again over a window around a block. They stay in the processor's cache. Empty otherwise.
   std::vector<float> column_x, row_y;
 
-  /// Copies of a y: as many as the widest window around a block has columns; and how many of
-  /// them come before the block.
-  static constexpr int kCopiesBefore = kMaxCostReach_px;
-  static constexpr int kRowCopies = kMaxBlockSide_px + 2 * kMaxCostReach_px;
+  /// Copies of a y: as many as the window around a block has columns.
+  static constexpr int kRowCopies = kBlock_px + 2 * kVoteReach_px;
 
   int Index(int u, int v) const { return v * width + u; }
 };

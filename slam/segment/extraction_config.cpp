@@ -2,10 +2,14 @@
 
 namespace slam {
 
+const std::vector<std::string>& SegmentationNames() {
+  static const std::vector<std::string> names{"ours", "ahc"};
+  return names;
+}
+
 PlaneExtractionConfig ExtractionFor(DepthSensor sensor) {
   PlaneExtractionConfig config;
   config.joining.bend_ratio = ModelOf(sensor).bend_ratio;
-  config.box_split.enabled = sensor == DepthSensor::kD435;  // its noise hides thin steps
   return config;
 }
 

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <string>
+#include <vector>
+
 #include "slam/base/field_visitor.h"
 #include "slam/geometry/sensor_model.h"
 #include "slam/segment/cluster_config.h"
@@ -9,44 +12,19 @@
 
 namespace slam {
 
-/// What it takes to split a segment inside the box of a detected regular object (box_split.h).
-struct BoxSplitConfig {
-  bool enabled = false;  // where noise hides no thin step there is nothing to gain
-  // Apart from those of BoxLinkConfig: here a box makes a segment, there it names one.
-  double min_score = 0.3;
-  double margin_px = 4.0;
-  double margin_fraction = 0.05;
-  double vote_errors = 3.0;
-  double min_step_votes = 2.5;  // with less, noise makes regions of its own
-  double min_evidence_sigmas = 8.0;
-  double min_box_iou = 0.5;
-  double max_high_around = 0.1;
+/// What divides a depth image into planes.
+enum class Segmentation {
+  kOurs,  ///< PlaneExtractor's steps
+  kAhc    ///< PEAC as it was published (SegmentByAhc), to compare with
 };
 
-inline void VisitFields(BoxSplitConfig& c, FieldVisitor& v) {
-  v.Flag("enabled", c.enabled, "split segments inside the boxes of detected regular objects");
-  v.Number("min_score", c.min_score, "[0, 1)",
-           "score that a detection must exceed to split a segment");
-  v.Number("margin_px", c.margin_px, "[0, inf)", "inexactness of a box, and besides it");
-  v.Number("margin_fraction", c.margin_fraction, "[0, 1]",
-           "inexactness of a box, as a part of its size");
-  v.Number("vote_errors", c.vote_errors, "[1, 50]",
-           "number of independent errors in the window that votes on a pixel");
-  v.Number("min_step_votes", c.min_step_votes, "(0, inf)",
-           "smallest step, in standard deviations of a vote");
-  v.Number("min_evidence_sigmas", c.min_evidence_sigmas, "(0, inf)",
-           "smallest mean height of the region, in its standard errors");
-  v.Number("min_box_iou", c.min_box_iou, "[0, 1)",
-           "smallest intersection over union of the box and what was found in it");
-  v.Number("max_high_around", c.max_high_around, "[0, 1]",
-           "largest part of what is around the box that is as high as the region");
-}
+/// Names as in files and on the command line, in the order of the enumeration.
+const std::vector<std::string>& SegmentationNames();
 
 /// Settings of plane extraction. A length here is of the sensor or of the image, and every
 /// threshold on a surface is in units of the noise.
 struct PlaneExtractionConfig {
-  int block_px = 8;
-  int fine_block_px = 4;
+  Segmentation segmentation = Segmentation::kOurs;
   ClusterConfig coarse;
   ClusterConfig fine{.min_measured = 0.75, .max_block_error = 3.0, .min_blocks = 10};
 
@@ -59,18 +37,17 @@ struct PlaneExtractionConfig {
   double max_angle_sigma_rad = 0.1;
   int min_island_pixels = 40;
 
-  BoxSplitConfig box_split;  ///< once the frame's detections are known
-
   int point_grid_px = 6;
   EdgeConfig edges;  ///< for FramePlane::edge_points
 };
 
 inline void VisitFields(PlaneExtractionConfig& c, FieldVisitor& v) {
-  v.Integer("block_px", c.block_px, "[4, 64]", "side of the blocks of the first clustering");
-  v.Integer("fine_block_px", c.fine_block_px, "[2, 64]",
-            "side of the blocks of the second clustering; at most block_px");
-  v.Section("coarse", "first clustering", c.coarse);
-  v.Section("fine", "second clustering, of what the first one left", c.fine);
+  v.Named("segmentation", c.segmentation, SegmentationNames(),
+          "what divides a depth image into planes; ahc: PEAC as it was published, for which "
+          "no other key before min_pixels counts");
+  v.Section("coarse", "first clustering, of blocks of 8 x 8 pixels", c.coarse);
+  v.Section("fine", "second clustering, of what the first one left, in blocks of 4 x 4",
+            c.fine);
   v.Section("growth", "growth of regions from blocks to pixels", c.growth);
   v.Number(
       "max_block_bias_sigmas", c.max_block_bias_sigmas, "(0, inf)",
@@ -85,7 +62,6 @@ inline void VisitFields(PlaneExtractionConfig& c, FieldVisitor& v) {
             "largest standard deviation of a segment's normal");
   v.Integer("min_island_pixels", c.min_island_pixels, "[1, 1000000]",
             "smallest cut-off piece of a segment that is kept");
-  v.Section("box_split", "splitting of segments by detection boxes", c.box_split);
   v.Integer("point_grid_px", c.point_grid_px, "[1, 64]",
             "spacing of the grid of pixels that give a plane's points");
 }

@@ -22,7 +22,7 @@ class LabelPairs {
     first_.assign(static_cast<std::size_t>(label_count), kNone);
   }
 
-  /// The value of a pair; a new one is Value{}. It stands until the next call.
+  /// The value of a pair; a new one is Value{}. Another pair may move it.
   Value& Of(int a, int b) {
     const std::pair<int, int> labels = std::minmax(a, b);
     int& first = first_[static_cast<std::size_t>(labels.first)];

@@ -2,8 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <optional>
 
 namespace slam {
+namespace {
 
 std::optional<Segment> Measure(const PlaneSums& sums, int id, const DepthNoise& noise,
                                const PlaneExtractionConfig& config) {
@@ -20,22 +23,38 @@ std::optional<Segment> Measure(const PlaneSums& sums, int id, const DepthNoise& 
   return Segment{id, sums, {fit->plane, grazing}, sigmas, {}, {}};
 }
 
-void SortBySize(std::vector<Segment>& segments) {
-  std::sort(segments.begin(), segments.end(), [](const Segment& a, const Segment& b) {
-    return a.sums.n != b.sums.n ? a.sums.n > b.sums.n : a.id < b.id;
-  });
+/// How many sides of pixels each segment shares with what is beside it in the image.
+std::vector<int> FindPerimeters(const PartSegments& segments) {
+  std::vector<int> perimeters(segments.sums.size());
+  const std::vector<LabelRun>& runs = segments.runs.runs;
+  VisitBoundaryPieces(segments.runs,
+                      [&](std::size_t, std::size_t, int n, std::size_t a, std::size_t b) {
+                        for (const int label : {runs[a].label, runs[b].label})
+                          if (label != kNoLabel)
+                            perimeters[static_cast<std::size_t>(label)] += n;
+                      });
+  return perimeters;
 }
 
-void KeepMeasured(const std::vector<PlaneSums>& sums, const DepthNoise& noise,
-                  const PlaneExtractionConfig& config, std::vector<Segment>& kept) {
-  kept.clear();
-  for (std::size_t k = 0; k < sums.size(); ++k) {
-    if (const std::optional<Segment> segment =
-            Measure(sums[k], static_cast<int>(k), noise, config))
+}  // namespace
+
+std::vector<Segment> KeepMeasured(const PartSegments& segments, const DepthNoise& noise,
+                                  const PlaneExtractionConfig& config) {
+  const std::vector<int> perimeters = FindPerimeters(segments);
+  const double min_width_px =
+      std::sqrt(noise.correlated_px);  // across less, noise is one number
+  std::vector<Segment> kept;
+  for (std::size_t k = 0; k < perimeters.size(); ++k) {
+    const PlaneSums& sums = segments.sums[k];
+    if (2.0 * sums.n < min_width_px * perimeters[k]) continue;  // a strip has two long sides
+    if (const auto segment = Measure(sums, static_cast<int>(k), noise, config))
       kept.push_back(*segment);
   }
-  SortBySize(kept);
+  std::sort(kept.begin(), kept.end(), [](const Segment& a, const Segment& b) {
+    return a.sums.n != b.sums.n ? a.sums.n > b.sums.n : a.id < b.id;
+  });
   if (kept.size() > static_cast<std::size_t>(kMaxSegments)) kept.resize(kMaxSegments);
+  return kept;
 }
 
 PlaneSums Without(PlaneSums all, const PlaneSums& part) {
@@ -44,18 +63,6 @@ PlaneSums Without(PlaneSums all, const PlaneSums& part) {
   all.wyy -= part.wyy, all.wq -= part.wq, all.wqx -= part.wqx, all.wqy -= part.wqy,
       all.wqq -= part.wqq;
   return all;
-}
-
-void Extend(const PlaneSums& more, const cv::Point& low, const cv::Point& high,
-            const DepthNoise& noise, const PlaneExtractionConfig& config, Segment& segment) {
-  PlaneSums sums = segment.sums;
-  sums += more;
-  const std::optional<Segment> both = Measure(sums, segment.id, noise, config);
-  if (!both) return;
-  const cv::Point old_low = segment.low, old_high = segment.high;
-  segment = *both;
-  segment.low = {std::min(old_low.x, low.x), std::min(old_low.y, low.y)};
-  segment.high = {std::max(old_high.x, high.x), std::max(old_high.y, high.y)};
 }
 
 }  // namespace slam

@@ -3,8 +3,11 @@
 #include <algorithm>
 #include <cstddef>
 #include <numeric>
+#include <utility>
 
+#include "slam/segment/label_components.h"
 #include "slam/segment/measured_segments.h"
+#include "slam/segment/sight_lines.h"
 
 namespace slam {
 namespace {
@@ -18,51 +21,91 @@ PlaneSums SumRun(const DepthGrid& grid, int row, const LabelRun& run) {
   return sums;
 }
 
-}  // namespace
+/// Pixels across a boundary that lie behind or in front of the plane.
+struct Surroundings {
+  int behind = 0, in_front = 0;
+  /// Whether the plane can pass behind what surrounds it.
+  bool MayHide(double max_behind) const { return behind <= max_behind * (behind + in_front); }
+};
+
+class PartSegmentation {
+ public:
+  PartSegmentation(const DepthGrid& grid, const std::vector<Surface>& surfaces,
+                   const LabelRuns& labels, const PlaneExtractionConfig& config);
+  void JoinHiddenLabels(const DepthNoise& noise);
+  void NumberSegments();
+  PartSegments Segments() &&;
+
+ private:
+  std::vector<int> LabelsBySize() const;
+  bool IsHiddenPart(int part, int larger, const Surroundings& around, int label);
+  void FindMainComponents();
+  std::vector<PlaneSums> SumSegments() const;
+
+  const DepthGrid& grid_;
+  const std::vector<Surface>& surfaces_;
+  const PlaneExtractionConfig& config_;
+  LabelComponents components_;
+  SightLines between_;
+  std::vector<LabelPlane> planes_;     ///< one a label
+  std::vector<double> unsure_sigmas_;  ///< the same: what is as near is on no side of it
+  std::vector<int> into_;              ///< label that each label is part of
+  std::vector<int> main_;              ///< largest component of each label; -1 = it has none
+  std::vector<int> segment_;           ///< the segment of each component; -1 = none
+  int segment_count_ = 0;
+};
+
+PartSegmentation::PartSegmentation(const DepthGrid& grid, const std::vector<Surface>& surfaces,
+                                   const LabelRuns& labels, const PlaneExtractionConfig& config)
+    : grid_(grid), surfaces_(surfaces), config_(config) {
+  // Connected parts of the labels, and what lies around them.
+  for (const Surface& surface : surfaces) {
+    planes_.push_back(surface.plane);
+    unsure_sigmas_.push_back(BendSigmas(surface, config.joining));
+  }
+  components_.runs = labels;
+  ConnectRuns(components_);
+  CountSides(grid, planes_, unsure_sigmas_, components_);
+}
 
 /// Labels with pixels, largest first.
-void PartSegmentation::SortBySize(const std::vector<Surface>& surfaces) {
-  by_size_.clear();
-  for (int k = 0; k < static_cast<int>(planes_.size()); ++k) {
-    if (surfaces[static_cast<std::size_t>(k)].sums.n >= kMinPlane_px) by_size_.push_back(k);
-  }
-  std::sort(by_size_.begin(), by_size_.end(), [&](int a, int b) {
-    const double n_a = surfaces[static_cast<std::size_t>(a)].sums.n,
-                 n_b = surfaces[static_cast<std::size_t>(b)].sums.n;
-    return n_a != n_b ? n_a > n_b : a < b;
-  });
+std::vector<int> PartSegmentation::LabelsBySize() const {
+  const auto pixels = [&](int k) { return surfaces_[static_cast<std::size_t>(k)].sums.n; };
+  std::vector<int> labels;
+  for (int k = 0; k < static_cast<int>(surfaces_.size()); ++k)
+    if (pixels(k) >= kMinPlane_px) labels.push_back(k);
+  std::stable_sort(labels.begin(), labels.end(),
+                   [&](int a, int b) { return pixels(a) > pixels(b); });
+  return labels;
 }
 
 /// Gives labels whose parts lie on the extension of a larger label's plane, hidden in between,
 /// the larger label.
-void PartSegmentation::JoinHiddenLabels(const DepthGrid& grid,
-                                        const std::vector<Surface>& surfaces,
-                                        const DepthNoise& noise,
-                                        const PlaneExtractionConfig& config) {
+void PartSegmentation::JoinHiddenLabels(const DepthNoise& noise) {
   // What surrounds the parts of each label, and the lines of sight between them.
-  around_.assign(planes_.size(), {});
+  std::vector<Surroundings> around(planes_.size());
   for (const LabelComponent& c : components_.list) {
-    Surroundings& s = around_[static_cast<std::size_t>(c.label)];
+    Surroundings& s = around[static_cast<std::size_t>(c.label)];
     s.behind += c.behind, s.in_front += c.in_front;
   }
-  SortBySize(surfaces);
-  label_of_run_.clear();
-  for (const LabelRun& run : components_.runs.runs) label_of_run_.push_back(run.label);
-  between_.Begin(grid, components_.runs, label_of_run_, static_cast<int>(planes_.size()));
+  const std::vector<int> by_size = LabelsBySize();
+  std::vector<int> label_of_run;
+  for (const LabelRun& run : components_.runs.runs) label_of_run.push_back(run.label);
+  between_.Begin(grid_, components_.runs, label_of_run, static_cast<int>(planes_.size()));
 
   // Each label, the larger first, joins the larger one that fits its pixels best.
   into_.resize(planes_.size());
   std::iota(into_.begin(), into_.end(), 0);
-  for (std::size_t k = 1; k < by_size_.size(); ++k) {
-    const auto small = static_cast<std::size_t>(by_size_[k]);
+  for (std::size_t k = 1; k < by_size.size(); ++k) {
+    const auto small = static_cast<std::size_t>(by_size[k]);
     double min_gap = 1.0;
     for (std::size_t j = 0; j < k; ++j) {
-      const int large = by_size_[j];
+      const int large = by_size[j];
       if (into_[static_cast<std::size_t>(large)] != large) continue;
-      const Surface& surface = surfaces[static_cast<std::size_t>(large)];
-      const double gap = SurfaceGap(surfaces[small], surface, noise, config.joining);
+      const Surface& surface = surfaces_[static_cast<std::size_t>(large)];
+      const double gap = SurfaceGap(surfaces_[small], surface, noise, config_.joining);
       if (!(gap < min_gap)) continue;
-      const bool hidden = IsHiddenPart(by_size_[k], large, around_[small], large, config);
+      const bool hidden = IsHiddenPart(by_size[k], large, around[small], large);
       if (hidden) min_gap = gap, into_[small] = large;
     }
   }
@@ -70,12 +113,12 @@ void PartSegmentation::JoinHiddenLabels(const DepthGrid& grid,
 }
 
 /// Whether the surface of a label can pass behind what separates two parts.
-bool PartSegmentation::IsHiddenPart(int part, int larger, const Surroundings& around, int label,
-                                    const PlaneExtractionConfig& config) {
+bool PartSegmentation::IsHiddenPart(int part, int larger, const Surroundings& around,
+                                    int label) {
   const LabelPlane& plane = planes_[static_cast<std::size_t>(label)];
   const double unsure = unsure_sigmas_[static_cast<std::size_t>(label)];
-  return (around.MayHide(config.max_island_behind) &&
-          between_.ShareBehind(part, larger, plane, unsure) <= config.max_island_behind) ||
+  return (around.MayHide(config_.max_island_behind) &&
+          between_.ShareBehind(part, larger, plane, unsure) <= config_.max_island_behind) ||
          between_.AreSidesOfSomethingInFront(part, larger, plane, unsure);
 }
 
@@ -92,11 +135,10 @@ void PartSegmentation::FindMainComponents() {
 
 /// A label's largest component makes a segment; another one joins it if what separates them is
 /// in front, makes a segment of its own if it is large enough, or is dropped.
-void PartSegmentation::NumberSegments(const DepthGrid& grid,
-                                      const PlaneExtractionConfig& config) {
+void PartSegmentation::NumberSegments() {
   // One segment for the largest component of each label.
   FindMainComponents();
-  between_.Begin(grid, components_.runs, components_.component,
+  between_.Begin(grid_, components_.runs, components_.component,
                  static_cast<int>(components_.list.size()));
   segment_.assign(components_.list.size(), -1);
   segment_count_ = 0;
@@ -107,44 +149,18 @@ void PartSegmentation::NumberSegments(const DepthGrid& grid,
   // The other components.
   for (std::size_t k = 0; k < components_.list.size(); ++k) {
     const LabelComponent& c = components_.list[k];
-    if (segment_[k] >= 0 || c.pixels < config.min_island_pixels) continue;
+    if (segment_[k] >= 0 || c.pixels < config_.min_island_pixels) continue;
     const int largest = main_[static_cast<std::size_t>(c.label)];
-    if (IsHiddenPart(static_cast<int>(k), largest, {c.behind, c.in_front}, c.label, config)) {
+    if (IsHiddenPart(static_cast<int>(k), largest, {c.behind, c.in_front}, c.label)) {
       segment_[k] = segment_[static_cast<std::size_t>(largest)];
-    } else if (c.pixels >= config.min_pixels) {
+    } else if (c.pixels >= config_.min_pixels) {
       segment_[k] = segment_count_++;
     }
   }
 }
 
-const LabelRuns& PartSegmentation::Segment(const DepthGrid& grid,
-                                           const std::vector<Surface>& surfaces,
-                                           const LabelRuns& labels, const DepthNoise& noise,
-                                           const PlaneExtractionConfig& config) {
-  // Connected parts of the labels, and what lies around them.
-  planes_.clear(), unsure_sigmas_.clear();
-  for (const Surface& surface : surfaces) {
-    planes_.push_back(surface.plane);
-    unsure_sigmas_.push_back(BendSigmas(surface, config.joining));
-  }
-  components_.runs = labels;
-  ConnectRuns(components_);
-  CountSides(grid, planes_, unsure_sigmas_, components_);
-
-  // Which of them are one segment, and the runs drawn with its number.
-  JoinHiddenLabels(grid, surfaces, noise, config);
-  NumberSegments(grid, config);
-  for (std::size_t k = 0; k < components_.component.size(); ++k) {
-    const int component = components_.component[k];
-    components_.runs.runs[k].label =
-        component < 0 ? kNoLabel : segment_[static_cast<std::size_t>(component)];
-  }
-  return components_.runs;
-}
-
-void PartSegmentation::SumSegments(const DepthGrid& grid, const std::vector<Surface>& surfaces,
-                                   std::vector<PlaneSums>& sums) const {
-  sums.assign(static_cast<std::size_t>(segment_count_), PlaneSums{});
+std::vector<PlaneSums> PartSegmentation::SumSegments() const {
+  std::vector<PlaneSums> sums(static_cast<std::size_t>(segment_count_));
 
   // Whole labels first.
   const auto segment_of_label = [&](int label) {
@@ -154,7 +170,7 @@ void PartSegmentation::SumSegments(const DepthGrid& grid, const std::vector<Surf
   for (int k = 0; k < static_cast<int>(into_.size()); ++k) {
     const int segment = segment_of_label(into_[static_cast<std::size_t>(k)]);
     if (segment >= 0)
-      sums[static_cast<std::size_t>(segment)] += surfaces[static_cast<std::size_t>(k)].sums;
+      sums[static_cast<std::size_t>(segment)] += surfaces_[static_cast<std::size_t>(k)].sums;
   }
 
   // Then parts move that are not of their label's segment.
@@ -166,12 +182,35 @@ void PartSegmentation::SumSegments(const DepthGrid& grid, const std::vector<Surf
       const int from = segment_of_label(components_.list[component].label);
       const int to = segment_[component];
       if (to == from) continue;
-      const PlaneSums run = SumRun(grid, static_cast<int>(row), runs.runs[k]);
+      const PlaneSums run = SumRun(grid_, static_cast<int>(row), runs.runs[k]);
       PlaneSums& rest = sums[static_cast<std::size_t>(from)];
       rest = Without(rest, run);
       if (to >= 0) sums[static_cast<std::size_t>(to)] += run;
     }
   }
+  return sums;
+}
+
+PartSegments PartSegmentation::Segments() && {
+  PartSegments out{{}, SumSegments()};
+  out.runs = std::move(components_.runs);
+  for (std::size_t k = 0; k < components_.component.size(); ++k) {
+    const int component = components_.component[k];
+    out.runs.runs[k].label =
+        component < 0 ? kNoLabel : segment_[static_cast<std::size_t>(component)];
+  }
+  return out;
+}
+
+}  // namespace
+
+PartSegments SegmentParts(const DepthGrid& grid, const std::vector<Surface>& surfaces,
+                          const LabelRuns& labels, const DepthNoise& noise,
+                          const PlaneExtractionConfig& config) {
+  PartSegmentation parts(grid, surfaces, labels, config);
+  parts.JoinHiddenLabels(noise);
+  parts.NumberSegments();
+  return std::move(parts).Segments();
 }
 
 }  // namespace slam

@@ -8,7 +8,6 @@
 
 #include "slam/geometry/plane_sums.h"
 #include "slam/segment/block_assignment.h"
-#include "slam/segment/depth_grid.h"
 #include "slam/segment/growth_config.h"
 #include "slam/segment/pixel_labels.h"
 #include "slam/segment/plane_gains.h"
@@ -24,9 +23,8 @@ namespace slam {
 /// 8 neighbours, all planes a block further at a time. The memory of one image serves the next.
 class PixelGrowth {
  public:
-  /// Forgets everything and begins with an image. `grid` must outlive what is done with it.
-  /// @throws std::invalid_argument for a block or a reach outside its domain
-  void Begin(const DepthGrid& grid, const GrowthConfig& config);
+  /// Forgets everything and begins with an image, which must outlive what is done with it.
+  void Begin(const ImageBlocks& blocks, const GrowthConfig& config);
 
   /// Adds a plane. @returns its label.
   /// @param local  its planes by tiles (FitLocally); empty: the plane itself everywhere
@@ -35,9 +33,7 @@ class PixelGrowth {
   void Seed(int block, int label) {
     if (Reach(block, label)) Activate(block);
   }
-  int BlockAt(int u, int v) const {
-    return v / config_.block_px * on_.cols + u / config_.block_px;
-  }
+  int BlockAt(int u, int v) const { return v / kBlock_px * on_.blocks->cols + u / kBlock_px; }
   /// Spreads the planes added or changed since the last call.
   void Grow();
   /// Takes out the planes that gain less than min_gain, smallest first, and gives their pixels
@@ -50,18 +46,17 @@ class PixelGrowth {
                const std::vector<std::vector<LabelPlane>>& local = {});
   bool IsLocal(int label) const { return on_.planes_of[static_cast<std::size_t>(label)].local; }
 
-  /// Marks the pixels that their planes explain: in their block the mean residual from the
-  /// plane is less than `bias` + `standard_errors` / sqrt(the plane's pixels there), sigmas.
-  /// @param explained  1 or 0 for each pixel; 1 where nothing is measured
-  void MarkExplained(double bias, double standard_errors,
-                     std::vector<std::uint8_t>& explained) const;
+  /// The measured pixels of each block but for those that their planes explain: in the block
+  /// their mean residual from the plane is less than `bias` + `standard_errors` / sqrt(the
+  /// plane's pixels there), sigmas.
+  std::vector<PixelSet> FindUnexplained(double bias, double standard_errors) const;
 
   /// What labels have of each block.
-  /// @param whole  sums of the measured pixels of each block; empty: not known
+  /// @param whole  sums of the measured pixels of each block
   void SumParts(const std::vector<PlaneSums>& whole, PartsOnBlocks& out) const;
 
-  /// The label of every pixel.
-  void DrawLabels(LabelImage& labels);
+  /// The label of every pixel. @param width, height  the image's
+  void DrawLabels(int width, int height, LabelImage& labels);
 
   const std::vector<LabelPlane>& planes() const { return on_.planes; }
 
@@ -71,28 +66,18 @@ class PixelGrowth {
   bool Measure(int block, int hypothesis);
   void FindCostsOf(int block, int hypothesis);
   float* CostsOf(int hypothesis) {
-    return costs_.data() + static_cast<std::size_t>(on_.hypotheses.At(hypothesis).costs) *
-                               EntriesOfBlock(config_.block_px);
+    return costs_.data() +
+           static_cast<std::size_t>(on_.hypotheses.At(hypothesis).costs) * kBlockPixels;
   }
   void Assign(int block);
   bool LabelBlock(int block);
   void SpreadFrom(int block);
 
   cv::Point PlaceOf(int block) const { return place_[static_cast<std::size_t>(block)]; }
-  /// The first pixel of a block.
-  std::size_t IndexOf(int block) const {
-    const cv::Point first = PlaceOf(block) * config_.block_px;
-    return static_cast<std::size_t>(grid_->Index(first.x, first.y));
-  }
-  ConstPixelSet MeasuredOf(int block) const {
-    return measured_.data() + static_cast<std::size_t>(block) * on_.hypotheses.set_words();
-  }
 
-  const DepthGrid* grid_ = nullptr;
   GrowthConfig config_;
   PlanesOnBlocks on_;
   std::vector<cv::Point> place_;           ///< column and row of each block
-  std::vector<std::uint64_t> measured_;    ///< a set of pixels for each block
   std::vector<int> active_, next_active_;  ///< blocks that planes have reached
   std::vector<std::uint8_t> is_active_;
   /// Blocks whose pixels are not assigned to their hypotheses yet.
@@ -106,7 +91,6 @@ class PixelGrowth {
   std::vector<CompetingPlane> competing_;
   std::vector<int> competing_hypotheses_;
   std::vector<BlockOwner> owners_;
-  std::vector<std::uint64_t> shared_;
 };
 
 }  // namespace slam

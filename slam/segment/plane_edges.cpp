@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <limits>
 
-#include "slam/segment/pixel_residual.h"
+#include "slam/segment/block_pixels.h"
 
 namespace slam {
 namespace {

@@ -1,6 +1,8 @@
 #include "slam/segment/plane_gains.h"
 
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <numeric>
 
 namespace slam {
@@ -13,25 +15,21 @@ void PlaneGains::BoundGains(const PlanesOnBlocks& on) {
   bounds_there_.resize(hypotheses.size());
   const float near2 = near_sigmas_ * near_sigmas_, wide2 = wide_sigmas_ * wide_sigmas_;
   const auto alone = static_cast<double>(wide2 - near2), beside = static_cast<double>(near2);
-  for (int block = 0; block < on.block_count(); ++block) {
+  for (int block = 0; block < on.blocks->count(); ++block) {
     const int first = hypotheses.First(block);
     if (first == kNoHypothesis) continue;
     const bool is_only = hypotheses.At(first).next == kNoHypothesis;
-    if (!is_only) hypotheses.FindShared(block, BlockHypotheses::kWide, shared_.data());
+    const PixelSet wide_of_several =
+        is_only ? PixelSet{0} : hypotheses.FindShared(block, &Hypothesis::wide);
     for (int k = first; k != kNoHypothesis; k = hypotheses.At(k).next) {
       const Hypothesis& at = hypotheses.At(k);
-      double& bound = bounds_there_[static_cast<std::size_t>(k)];
-      if (is_only) {
-        bound = GainAlone(at.pixels);
-      } else if (at.pixels == 0) {
-        bound = 0.0;
-      } else {
-        const int shared = CountOfBoth(hypotheses.SetOf(k, BlockHypotheses::kOwned),
-                                       shared_.data(), hypotheses.set_words());
-        bound = alone * (at.pixels - shared) - beside * shared;
-      }
+      const int pixels = std::popcount(at.owned);
+      const int shared = std::popcount(at.owned & wide_of_several);
+      const double bound =
+          is_only ? GainAlone(pixels) : alone * (pixels - shared) - beside * shared;
+      bounds_there_[static_cast<std::size_t>(k)] = bound;
       const auto label = static_cast<std::size_t>(at.label);
-      pixels_[label] += at.pixels, bounds_[label] += bound;
+      pixels_[label] += pixels, bounds_[label] += bound;
     }
   }
 }
@@ -43,27 +41,24 @@ double PlaneGains::GainOf(const PlanesOnBlocks& on, int hypothesis, int block,
                           const std::vector<std::uint8_t>& useless) {
   const BlockHypotheses& hypotheses = on.hypotheses;
   const int first = hypotheses.First(block);
-  if (hypotheses.At(first).next == kNoHypothesis || hypotheses.At(hypothesis).pixels == 0)
+  if (hypotheses.At(first).next == kNoHypothesis || hypotheses.At(hypothesis).owned == 0)
     return bounds_there_[static_cast<std::size_t>(hypothesis)];
 
   // The nearest plane at each pixel, of those that stay and of those that go.
-  const BlockPixels& pixels = on.PixelsOf(block);
-  const ConstPixelSet owned = hypotheses.SetOf(hypothesis, BlockHypotheses::kOwned);
-  const std::size_t count = nearest_.size() / 2;
-  float *stays = nearest_.data(), *goes = stays + count;
-  std::fill(nearest_.begin(), nearest_.end(), wide_sigmas_);
+  const BlockPixels& pixels = on.blocks->PixelsOf(block);
+  const PixelSet owned = hypotheses.At(hypothesis).owned;
+  std::array<float, kBlockPixels> stays, goes;
+  stays.fill(wide_sigmas_), goes.fill(wide_sigmas_);
   bool any_goes = false;
   for (int other = first; other != kNoHypothesis; other = hypotheses.At(other).next) {
-    if (other == hypothesis ||
-        !Meet(hypotheses.SetOf(other, BlockHypotheses::kWide), owned, hypotheses.set_words()))
-      continue;
+    if (other == hypothesis || (hypotheses.At(other).wide & owned) == 0) continue;
     const bool is_useless = useless[static_cast<std::size_t>(hypotheses.At(other).label)] != 0;
-    LowerToDistance(pixels, on.PlaneOf(other), is_useless ? goes : stays);
+    LowerToDistance(pixels, on.PlaneOf(other), is_useless ? goes.data() : stays.data());
     any_goes |= is_useless;
   }
-  for (std::size_t k = 0; any_goes && k < count; ++k)
+  for (std::size_t k = 0; any_goes && k < stays.size(); ++k)
     stays[k] = goes[k] < stays[k] ? wide_sigmas_ : stays[k];
-  return SumGains(pixels, on.PlaneOf(hypothesis), owned, stays);
+  return SumGains(pixels, on.PlaneOf(hypothesis), owned, stays.data());
 }
 
 /// Whether a label gains enough. Looks no further once the bounds of the other blocks suffice.
@@ -90,8 +85,6 @@ void PlaneGains::FindUseless(const PlanesOnBlocks& on, const GrowthConfig& confi
                              std::vector<std::uint8_t>& useless) {
   near_sigmas_ = NearSigmas(config), wide_sigmas_ = WideSigmas(config);
   min_gain_ = config.min_gain;
-  nearest_.resize(2 * EntriesOfBlock(config.block_px));
-  shared_.resize(on.hypotheses.set_words());
   BoundGains(on);
 
   // Fewest pixels first: a small plane that only steals from its neighbours goes before these

@@ -37,8 +37,6 @@ class PlaneGains {
   std::vector<double> bounds_;             ///< lower bound on a label's gain
   std::vector<double> bounds_there_;       ///< the same of a hypothesis, in its block
   std::vector<std::size_t> fewest_first_;  ///< labels by pixels_
-  std::vector<float> nearest_;             ///< distances of a block's pixels, sigmas
-  std::vector<std::uint64_t> shared_;      ///< a set of a block's pixels
 };
 
 }  // namespace slam

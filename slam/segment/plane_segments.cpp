@@ -4,7 +4,9 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <utility>
 
+#include "slam/segment/ahc.h"
 #include "slam/segment/local_planes.h"
 #include "slam/segment/plane_workspace.h"
 #include "slam/segment/surface_joining.h"
@@ -92,7 +94,7 @@ JoinedLabels PlaneExtractor::Workspace::JoinClusters(const BlockClusters& cluste
   for (std::size_t block = 0; block < clusters.region.size(); ++block) {
     block_parts.first.push_back(block_parts.parts.size());
     const int region = clusters.region[block];
-    if (region >= 0) block_parts.parts.push_back({region, clustering.SumsOfBlocks()[block]});
+    if (region >= 0) block_parts.parts.push_back({region, clusters.block_sums[block]});
   }
   block_parts.first.push_back(block_parts.parts.size());
   return JoinSurfaces(block_parts, clusters.planes.size(), nullptr, {}, sensor.noise,
@@ -112,12 +114,9 @@ ContactPixels PlaneExtractor::Workspace::CountContacts(std::size_t label_count) 
 
 /// Joins labels that continue each other, and grows the planes of what has become one anew.
 void PlaneExtractor::Workspace::JoinTouching() {
-  const std::vector<PlaneSums> unknown;
-  const std::vector<PlaneSums>& blocks =
-      config.block_px == config.growth.block_px ? clustering.SumsOfBlocks() : unknown;
   const std::size_t count = growth.planes().size();
-  growth.SumParts(blocks, block_parts);
-  growth.DrawLabels(labels);
+  growth.SumParts(block_sums, block_parts);
+  growth.DrawLabels(grid.width, grid.height, labels);
   FindRuns(labels, grid.width, grid.height, runs);
   ContactPixels contacts = CountContacts(count);
   std::vector<std::uint8_t> bent(count);
@@ -137,7 +136,7 @@ void PlaneExtractor::Workspace::JoinTouching() {
   }
   growth.Replace(planes, joined.into, local);
 
-  growth.SumParts(blocks, block_parts);
+  growth.SumParts(block_sums, block_parts);
   const std::vector<PlaneSums> label_sums = SumParts(block_parts, count);
   surfaces.clear();
   for (std::size_t k = 0; k < count; ++k) {
@@ -146,43 +145,61 @@ void PlaneExtractor::Workspace::JoinTouching() {
       surface.plane = {fit->plane, GrazingFactor(surface.sums, fit->plane, sensor.noise)};
     surfaces.push_back(surface);
   }
-  growth.DrawLabels(labels);
+  growth.DrawLabels(grid.width, grid.height, labels);
   FindRuns(labels, grid.width, grid.height, runs);
 }
 
-void PlaneExtractor::Extract(Frame& frame) {
-  const PlaneExtractionConfig& config = work_->config;
-  const DepthNoise& noise = work_->sensor.noise;
-  DepthGrid& grid = work_->grid;
-  PixelGrowth& growth = work_->growth;
-  SetDepth(frame.depth_m, noise, work_->sensor.max_depth_m, grid);
+/// Our segmentation.
+PartSegments PlaneExtractor::Workspace::SegmentBySteps() {
+  const DepthNoise& noise = sensor.noise;
 
   // The planes of clusters of blocks grow over pixels; what they do not explain is clustered in
-  // finer blocks.
-  growth.Begin(grid, config.growth);
-  const BlockClusters& clusters =
-      work_->clustering.Cluster(grid, {}, config.block_px, noise, config.coarse);
-  const JoinedLabels joined = work_->JoinClusters(clusters);
-  work_->AddClusters(clusters, &joined);
-  growth.MarkExplained(config.coarse.model_error_sigmas,
-                       config.max_block_bias_sigmas * std::sqrt(noise.correlated_px),
-                       work_->explained);
-  work_->AddClusters(work_->clustering.Cluster(grid, work_->explained, config.fine_block_px,
-                                               noise, config.fine),
-                     nullptr);
+  // quarters of blocks.
+  SetBlocks(grid, blocks);
+  growth.Begin(blocks, config.growth);
+  BlockClusters clusters =
+      clustering.Cluster(blocks, blocks.measured, kBlock_px, noise, config.coarse);
+  const JoinedLabels joined = JoinClusters(clusters);
+  AddClusters(clusters, &joined);
+  block_sums = std::move(clusters.block_sums);
+  const std::vector<PixelSet> unexplained =
+      growth.FindUnexplained(config.coarse.model_error_sigmas,
+                             config.max_block_bias_sigmas * std::sqrt(noise.correlated_px));
+  AddClusters(clustering.Cluster(blocks, unexplained, kQuarter_px, noise, config.fine),
+              nullptr);
 
   // Parts of one surface are joined, where they touch and across what hides them.
-  work_->JoinTouching();
-  const LabelRuns& segments =
-      work_->parts.Segment(grid, work_->surfaces, work_->runs, noise, config);
-  work_->parts.SumSegments(grid, work_->surfaces, work_->sums);
+  JoinTouching();
+  return SegmentParts(grid, surfaces, runs, noise, config);
+}
+
+/// The same by PEAC.
+PartSegments PlaneExtractor::Workspace::SegmentAsPeac() const {
+  PartSegments out;
+  const LabelImage segments = SegmentByAhc(grid);
+  for (std::size_t i = 0; i < segments.size(); ++i) {
+    if (segments[i] == kNoLabel) continue;
+    const auto label = static_cast<std::size_t>(segments[i]);
+    if (label >= out.sums.size()) out.sums.resize(label + 1);
+    AddPixel(grid, i, out.sums[label]);
+  }
+  FindRuns(segments, grid.width, grid.height, out.runs);
+  return out;
+}
+
+void PlaneExtractor::Extract(Frame& frame) {
+  Workspace& work = *work_;
+  SetDepth(frame.depth_m, work.sensor.noise, work.sensor.max_depth_m, work.grid);
+  const PartSegments segments = work.config.segmentation == Segmentation::kAhc
+                                    ? work.SegmentAsPeac()
+                                    : work.SegmentBySteps();
 
   // Segments that can be measured become planes of the frame.
-  KeepMeasured(work_->sums, noise, config, work_->kept);
-  frame.plane_labels.create(grid.height, grid.width);
-  DrawLabels(segments, static_cast<int>(work_->sums.size()), work_->kept, work_->drawn_value,
+  work.kept = KeepMeasured(segments, work.sensor.noise, work.config);
+  frame.plane_labels.create(work.grid.height, work.grid.width);
+  DrawLabels(segments.runs, static_cast<int>(segments.sums.size()), work.kept, work.drawn_value,
              frame.plane_labels);
-  work_->Describe(frame);
+  work.Describe(frame);
 }
 
 }  // namespace slam

@@ -37,11 +37,6 @@ class PlaneExtractor {
   /// @throws std::invalid_argument if depth and rays differ in size.
   void Extract(Frame& frame);
 
-  /// A second look at the last image, once its detections are known: splits segments where a
-  /// box says that something thin lies on them (box_split.h).
-  /// @param frame  that of the last Extract, with its detections
-  void SplitInBoxes(Frame& frame);
-
  private:
   struct Workspace;
   std::unique_ptr<Workspace> work_;

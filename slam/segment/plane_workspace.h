@@ -5,9 +5,7 @@
 #include <opencv2/core/mat.hpp>
 #include <vector>
 
-#include "slam/geometry/box.h"
 #include "slam/segment/block_clusters.h"
-#include "slam/segment/box_split.h"
 #include "slam/segment/measured_segments.h"
 #include "slam/segment/occluded_parts.h"
 #include "slam/segment/outer_contours.h"
@@ -26,14 +24,13 @@ struct PlaneExtractor::Workspace {
   PlaneExtractionConfig config;
   DepthGrid grid;
   BlockClustering clustering;
+  ImageBlocks blocks;
   PixelGrowth growth;
-  std::vector<std::uint8_t> explained;  ///< pixels of the first clustering's planes
+  std::vector<PlaneSums> block_sums;  ///< sums of the measured pixels of each block
   PartsOnBlocks block_parts;
   LabelImage labels;
   LabelRuns runs;
   std::vector<Surface> surfaces;  ///< one a label
-  PartSegmentation parts;
-  std::vector<PlaneSums> sums;  ///< one a segment
   std::vector<Segment> kept;
   std::vector<std::uint8_t> drawn_value;
   OuterContours contours;
@@ -42,9 +39,7 @@ struct PlaneExtractor::Workspace {
     double norm = 0.0, area = 0.0;
   };
   std::vector<Sampled> sampled;
-  std::vector<double> areas_m2;           ///< visible area of each of the frame's planes
-  std::vector<Box> boxes_px;              ///< where detections may hold thin things
-  std::vector<std::size_t> own_segments;  ///< those that lie in a box
+  std::vector<double> areas_m2;  ///< visible area of each of the frame's planes
   /// Planes of the frame's last image, whose points' memory serves again.
   std::vector<FramePlane> old_planes;
 
@@ -52,13 +47,12 @@ struct PlaneExtractor::Workspace {
   JoinedLabels JoinClusters(const BlockClusters& clusters);
   ContactPixels CountContacts(std::size_t label_count) const;
   void JoinTouching();
+  PartSegments SegmentBySteps();
+  PartSegments SegmentAsPeac() const;
   void TakeMemory(std::vector<FramePlane>& planes);
   void GiveMemory(FramePlane& plane);
   void SamplePoints(const cv::Mat1b& drawn, std::vector<FramePlane>& planes);
   void Describe(Frame& frame);
-  bool SplitInBox(const Box& box_px, Frame& frame);
-  bool TakeRegion(std::size_t host, const PixelRegion& found, cv::Mat1b& drawn);
-  void Renumber(cv::Mat1b& drawn);
 };
 
 }  // namespace slam

@@ -3,8 +3,8 @@
 #include <vector>
 
 #include "slam/segment/block_hypotheses.h"
-#include "slam/segment/block_pixels.h"
 #include "slam/segment/growth_config.h"
+#include "slam/segment/image_blocks.h"
 #include "slam/segment/local_planes.h"
 #include "slam/segment/pixel_labels.h"
 #include "slam/segment/reached_blocks.h"
@@ -13,8 +13,7 @@ namespace slam {
 
 /// Planes that grow over the blocks of an image: where each has come, and which compete there.
 struct PlanesOnBlocks {
-  int cols = 0, rows = 0;                ///< the image's, in blocks
-  std::vector<BlockPixels> blocks;       ///< row by row
+  const ImageBlocks* blocks = nullptr;   ///< the image
   std::vector<LabelPlane> planes;        ///< one a label
   std::vector<PixelPlane> pixel_planes;  ///< of all labels, in the numbers that pixels are in
   struct Planes {
@@ -25,14 +24,11 @@ struct PlanesOnBlocks {
   ReachedBlocks reached;
   BlockHypotheses hypotheses;
 
-  int block_count() const { return cols * rows; }
-  const BlockPixels& PixelsOf(int block) const {
-    return blocks[static_cast<std::size_t>(block)];
-  }
   /// The place of a label's plane in a block.
   int PlaneIndex(int block, int label) const {
     const Planes& own = planes_of[static_cast<std::size_t>(label)];
     if (!own.local) return own.first;
+    const int cols = blocks->cols;
     return own.first + block / cols / kTile_blocks * TileCount(cols) +
            block % cols / kTile_blocks;
   }

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "slam/segment/pixel_residual.h"
+#include "slam/segment/block_pixels.h"
 
 namespace slam {
 namespace {

@@ -5,6 +5,7 @@
 
 #include "slam/geometry/plane_sums.h"
 #include "slam/segment/depth_grid.h"
+#include "slam/segment/image_blocks.h"
 #include "slam/segment/pixel_labels.h"
 #include "slam/segment/plane_segments.h"
 
@@ -17,6 +18,13 @@ inline DepthGrid MakeDepthGrid(const cv::Mat1f& depth_m, const cv::Mat2d& rays,
   SetRays(rays, grid);
   SetDepth(depth_m, noise, max_depth_m, grid);
   return grid;
+}
+
+/// SetBlocks of a grid, which must outlive them.
+inline ImageBlocks MakeBlocks(const DepthGrid& grid) {
+  ImageBlocks blocks;
+  SetBlocks(grid, blocks);
+  return blocks;
 }
 
 /// Sums of the pixels of each label, one pixel after the other.

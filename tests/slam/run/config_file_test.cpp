@@ -122,12 +122,12 @@ TEST_F(ConfigFile, RefusesAValueOutsideItsDomainOrOfAnotherType) {
 
 TEST_F(ConfigFile, TakesTheDefaultsOfTheSensorThatItNames) {
   Config d435 = ConfigFor(DepthSensor::kD435);
-  EXPECT_TRUE(d435.plane_extraction.box_split.enabled);
+  EXPECT_EQ(d435.plane_extraction.joining.bend_ratio, 0.0);
   EXPECT_EQ(ConfigAsJson(Read("sensor: {model: d435}")), ConfigAsJson(d435));
   // What is set goes over them, whatever stands first.
   d435.sensor.noise.floor_m = 0.001;
-  d435.plane_extraction.box_split.enabled = false;
-  EXPECT_EQ(ConfigAsJson(Read("plane_extraction: {box_split: {enabled: false}}\n"
+  d435.plane_extraction.joining.bend_ratio = 0.001;
+  EXPECT_EQ(ConfigAsJson(Read("plane_extraction: {joining: {bend_ratio: 0.001}}\n"
                               "sensor: {noise: {floor_m: 0.001}, model: d435}")),
             ConfigAsJson(d435));
   EXPECT_EQ(ConfigAsJson(Read(ConfigAsYaml(d435))), ConfigAsJson(d435));

@@ -15,7 +15,8 @@
 namespace slam {
 namespace {
 
-/// Regions of a wall at 1 m whose right part, from column `edge_px` on, is nearer by a step.
+/// Regions of a wall at 1 m whose right part, from column `edge_px` on, is
+/// nearer by a step.
 BlockClusters StepClusters(double step_m, int edge_px, MergeRule rule, double max_block_error) {
   const Camera camera;
   cv::Mat1f depth_m(camera.height, camera.width, 1.0f);
@@ -27,7 +28,8 @@ BlockClusters StepClusters(double step_m, int edge_px, MergeRule rule, double ma
   ClusterConfig config;
   config.merge_rule = rule;
   config.max_block_error = max_block_error;
-  return BlockClustering().Cluster(grid, {}, 8, noise, config);
+  const ImageBlocks blocks = MakeBlocks(grid);
+  return BlockClustering().Cluster(blocks, blocks.measured, kBlock_px, noise, config);
 }
 
 /// The regions left and right of the step.
@@ -35,9 +37,10 @@ bool IsOneRegion(const BlockClusters& clusters) {
   return std::set<int>(clusters.region.begin(), clusters.region.end()).size() == 1;
 }
 
-// 12 mm at 1 m are 6.4 sigmas. A plane through both sides of a step in the middle leaves a
-// quarter of its variance, 0.25 x 0.25 x 41 = 2.5 on top of 1 for noise, more than 3; of a step
-// at 16 of 640 columns it leaves 0.025 x 41 = 1.
+// 12 mm at 1 m are 6.4 sigmas. A plane through both sides of a step in the
+// middle leaves a quarter of its variance, 0.25 x 0.25 x 41 = 2.5 on top of 1
+// for noise, more than 3; of a step at 16 of 640 columns it leaves 0.025 x 41
+// = 1.
 TEST(BlockClusters, ByAddedErrorKeepANarrowStepApart) {
   EXPECT_FALSE(IsOneRegion(StepClusters(0.012, 624, MergeRule::kAddedError, 3.0)));
 }
@@ -55,7 +58,8 @@ TEST(BlockClusters, ByMeanErrorAreBoundedByTheBlockError) {
   EXPECT_TRUE(IsOneRegion(StepClusters(0.0, 320, MergeRule::kMeanError, 3.0)));
 }
 
-/// The regions of blocks merged in the same order, with every pair kept and evaluated itself.
+/// The regions of blocks merged in the same order, with every pair kept and
+/// evaluated itself.
 class PlainMerge {
  public:
   PlainMerge(const BlockClusters& blocks, const std::vector<PlaneSums>& sums,
@@ -137,10 +141,10 @@ TEST(BlockClusters, AreThoseOfEveryPairEvaluatedItself) {
     depth_m(cv::Rect(50, 40, 56, 48)) -= 0.01f * static_cast<float>(seed);
     const DepthGrid grid = MakeDepthGrid(closed_form::AddKinectNoise(depth_m, seed),
                                          PixelRays(camera), noise, 10.0);
-    BlockClustering clustering;
-    const BlockClusters& got = clustering.Cluster(grid, {}, 8, noise, config);
-    const std::vector<int> expected =
-        PlainMerge(got, clustering.SumsOfBlocks(), noise, config).Regions();
+    const ImageBlocks blocks = MakeBlocks(grid);
+    const BlockClusters got =
+        BlockClustering().Cluster(blocks, blocks.measured, kBlock_px, noise, config);
+    const std::vector<int> expected = PlainMerge(got, got.block_sums, noise, config).Regions();
     std::map<int, int> number;
     for (std::size_t k = 0; k < expected.size(); ++k) {
       if (got.region[k] < 0) continue;

@@ -10,8 +10,6 @@
 namespace slam {
 namespace {
 
-constexpr int kBlock_px = 8;
-
 /// The left half of a wall at 1 m that is bent along the columns.
 class BentWall : public ::testing::Test {
  protected:

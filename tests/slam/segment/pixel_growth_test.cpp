@@ -18,40 +18,23 @@
 namespace slam {
 namespace {
 
-LabelImage LabelsOf(PixelGrowth& growth) {
+LabelImage LabelsOf(PixelGrowth& growth, const DepthGrid& grid) {
   LabelImage labels;
-  growth.DrawLabels(labels);
+  growth.DrawLabels(grid.width, grid.height, labels);
   return labels;
-}
-
-TEST(PixelGrowth, RefusesBlocksAndReachesThatItHasNoRoomFor) {
-  const Camera camera;
-  const cv::Mat1f depth_m(camera.height, camera.width, 1.0f);
-  const DepthGrid grid = MakeDepthGrid(depth_m, PixelRays(camera), {}, 10.0);
-  PixelGrowth growth;
-  const auto begin = [&](int block_px, int vote_reach_px) {
-    GrowthConfig config;
-    config.block_px = block_px, config.vote_reach_px = vote_reach_px;
-    growth.Begin(grid, config);
-  };
-  EXPECT_NO_THROW(begin(64, 16));
-  EXPECT_NO_THROW(begin(2, 0));
-  EXPECT_THROW(begin(65, 2), std::invalid_argument);
-  EXPECT_THROW(begin(1, 2), std::invalid_argument);
-  EXPECT_THROW(begin(8, 17), std::invalid_argument);
-  EXPECT_THROW(begin(8, -1), std::invalid_argument);
 }
 
 TEST(PixelGrowth, TakesThePixelsBackFromAPlaneThatMovedAway) {
   const Camera camera;
   const cv::Mat1f depth_m(camera.height, camera.width, 1.0f);
   const DepthGrid grid = MakeDepthGrid(depth_m, PixelRays(camera), {}, 10.0);
-  const auto pixels_of = [](PixelGrowth& growth, int label) {
-    const LabelImage labels = LabelsOf(growth);
+  const auto pixels_of = [&](PixelGrowth& growth, int label) {
+    const LabelImage labels = LabelsOf(growth, grid);
     return std::count(labels.begin(), labels.end(), label);
   };
+  const ImageBlocks blocks = MakeBlocks(grid);
   PixelGrowth growth;
-  growth.Begin(grid, {});
+  growth.Begin(blocks, {});
   growth.Seed(0, growth.AddPlane({{0.0, 0.0, 1.0}, 1.0}));
   growth.Grow();
   EXPECT_EQ(pixels_of(growth, 0), camera.width * camera.height);
@@ -65,8 +48,8 @@ double Nearer(const DepthGrid& grid, double sigmas) {
   return 1.0 + sigmas / static_cast<double>(grid.g[0]);
 }
 
-// The left half of two blocks' width is of one plane, the right half 3.5 sigmas nearer, so that
-// each half's plane is the other's next best.
+// The left half of two blocks' width is of one plane, the right half 3.5 sigmas
+// nearer, so that each half's plane is the other's next best.
 TEST(PixelGrowth, DropsAPlaneOnceABetterOneHasComeToBlocksWhoseGainsWereKnown) {
   Camera camera;
   camera.width = 16, camera.height = 16;
@@ -74,8 +57,9 @@ TEST(PixelGrowth, DropsAPlaneOnceABetterOneHasComeToBlocksWhoseGainsWereKnown) {
   const DepthGrid flat = MakeDepthGrid(depth_m, PixelRays(camera), {}, 10.0);
   depth_m.colRange(8, 16) = static_cast<float>(1.0 / Nearer(flat, 3.5));
   const DepthGrid grid = MakeDepthGrid(depth_m, PixelRays(camera), {}, 10.0);
+  const ImageBlocks blocks = MakeBlocks(grid);
   PixelGrowth growth;
-  growth.Begin(grid, {});
+  growth.Begin(blocks, {});
   const auto add = [&](int block, double sigmas) {
     const int label = growth.AddPlane({{0.0, 0.0, Nearer(grid, sigmas)}, 1.0});
     growth.Seed(block, label);
@@ -84,11 +68,11 @@ TEST(PixelGrowth, DropsAPlaneOnceABetterOneHasComeToBlocksWhoseGainsWereKnown) {
     return label;
   };
   const int right = add(1, 3.5), near = add(0, 1.0);
-  EXPECT_EQ(LabelsOf(growth)[0], near);
-  EXPECT_EQ(LabelsOf(growth)[15], right);
+  EXPECT_EQ(LabelsOf(growth, grid)[0], near);
+  EXPECT_EQ(LabelsOf(growth, grid)[15], right);
   const int exact = add(0, 0.0);
-  EXPECT_EQ(LabelsOf(growth)[0], exact);
-  EXPECT_EQ(LabelsOf(growth)[15], right);
+  EXPECT_EQ(LabelsOf(growth, grid)[0], exact);
+  EXPECT_EQ(LabelsOf(growth, grid)[15], right);
 }
 
 TEST(PixelGrowth, SumsLabelsAsIfTheirPixelsWereCountedOneByOne) {
@@ -98,24 +82,22 @@ TEST(PixelGrowth, SumsLabelsAsIfTheirPixelsWereCountedOneByOne) {
   depth_m(cv::Rect(20, 10, 25, 25)) = 0.9f;
   depth_m(3, 3) = 0.0f;
   const DepthGrid grid = MakeDepthGrid(depth_m, PixelRays(camera), {}, 10.0);
+  const ImageBlocks blocks = MakeBlocks(grid);
   PixelGrowth growth;
-  growth.Begin(grid, {});
+  growth.Begin(blocks, {});
   growth.Seed(growth.BlockAt(0, 0), growth.AddPlane({{0.0, 0.0, 1.0}, 1.0}));
   growth.Seed(growth.BlockAt(30, 20), growth.AddPlane({{0.0, 0.0, 1.0 / 0.9}, 1.0}));
   growth.Grow();
-  const std::vector<PlaneSums> plain = SumLabels(grid, LabelsOf(growth), 2);
-  BlockClustering clustering;
-  clustering.Cluster(grid, {}, GrowthConfig{}.block_px, {}, {});
-  for (const std::vector<PlaneSums>& whole :
-       {std::vector<PlaneSums>{}, clustering.SumsOfBlocks()}) {
-    PartsOnBlocks parts;
-    growth.SumParts(whole, parts);
-    const std::vector<PlaneSums> sums = SumParts(parts, 2);
-    ASSERT_EQ(sums.size(), 2u);
-    for (std::size_t k = 0; k < 2; ++k) {
-      EXPECT_EQ(sums[k].n, plain[k].n) << k;
-      EXPECT_NEAR(sums[k].wqx, plain[k].wqx, 1e-12 * plain[k].w) << k;
-    }
+  const std::vector<PlaneSums> plain = SumLabels(grid, LabelsOf(growth, grid), 2);
+  const BlockClusters clusters =
+      BlockClustering().Cluster(blocks, blocks.measured, kBlock_px, {}, {});
+  PartsOnBlocks parts;
+  growth.SumParts(clusters.block_sums, parts);
+  const std::vector<PlaneSums> sums = SumParts(parts, 2);
+  ASSERT_EQ(sums.size(), 2u);
+  for (std::size_t k = 0; k < 2; ++k) {
+    EXPECT_EQ(sums[k].n, plain[k].n) << k;
+    EXPECT_NEAR(sums[k].wqx, plain[k].wqx, 1e-12 * plain[k].w) << k;
   }
 }
 
@@ -154,13 +136,12 @@ std::vector<LabelPlane> RandomPlanes(std::mt19937& random) {
 }
 
 /// Grown from every block.
-void GrowEverywhere(const DepthGrid& grid, const GrowthConfig& config,
+void GrowEverywhere(const ImageBlocks& blocks, const GrowthConfig& config,
                     const std::vector<LabelPlane>& planes, PixelGrowth& growth) {
-  growth.Begin(grid, config);
-  const int side = (grid.width + config.block_px - 1) / config.block_px;
+  growth.Begin(blocks, config);
   for (const LabelPlane& plane : planes) {
     const int label = growth.AddPlane(plane);
-    for (int block = 0; block < side * side; ++block) growth.Seed(block, label);
+    for (int block = 0; block < blocks.count(); ++block) growth.Seed(block, label);
   }
   growth.Grow();
 }
@@ -193,26 +174,25 @@ LabelImage PlainLabels(const DepthGrid& grid, const std::vector<LabelPlane>& pla
   return labels;
 }
 
-// Blocks of 8 pixels, whose sets are a word, and others.
+// Images of whole blocks and others.
 TEST(PixelGrowth, GivesEveryPixelToTheBestOfThePlanesNearItWhateverTheBlocks) {
   std::mt19937 random(3);
-  for (int turn = 0; turn < 10; ++turn) {
-    const DepthGrid grid = RandomGrid(32, random);
-    const std::vector<LabelPlane> planes = RandomPlanes(random);
-    const LabelImage expected = PlainLabels(grid, planes);
-    EXPECT_GT(std::set<int>(expected.begin(), expected.end()).size(), 4u);
-    for (const int block_px : {8, 16, 5}) {
-      GrowthConfig config;
-      config.block_px = block_px;
+  for (const int side : {32, 35, 29}) {
+    for (int turn = 0; turn < 10; ++turn) {
+      const DepthGrid grid = RandomGrid(side, random);
+      const ImageBlocks blocks = MakeBlocks(grid);
+      const std::vector<LabelPlane> planes = RandomPlanes(random);
+      const LabelImage expected = PlainLabels(grid, planes);
+      EXPECT_GT(std::set<int>(expected.begin(), expected.end()).size(), 4u);
       PixelGrowth growth;
-      GrowEverywhere(grid, config, planes, growth);
-      EXPECT_EQ(LabelsOf(growth), expected) << block_px;
+      GrowEverywhere(blocks, {}, planes, growth);
+      EXPECT_EQ(LabelsOf(growth, grid), expected) << side;
     }
   }
 }
 
-/// Without planes that gain too little, by definition: smallest first, over the next best, or
-/// as if there were none where that is dropped.
+/// Without planes that gain too little, by definition: smallest first, over the
+/// next best, or as if there were none where that is dropped.
 std::vector<LabelPlane> PlainlyUseful(const DepthGrid& grid, std::vector<LabelPlane> planes,
                                       double min_gain) {
   const LabelImage labels = PlainLabels(grid, planes);
@@ -248,19 +228,20 @@ TEST(PixelGrowth, DropsThePlanesWhoseGainIsTooLittleAlsoIfItIsOnlyBounded) {
   int turns_with_useless = 0, turns_with_useful = 0;
   for (int turn = 0; turn < 30; ++turn) {
     const DepthGrid grid = RandomGrid(32, random);
+    const ImageBlocks blocks = MakeBlocks(grid);
     const std::vector<LabelPlane> planes = RandomPlanes(random);
     for (const double min_gain : {0.5, 3.0, 6.0}) {
       GrowthConfig config;
       config.min_gain = min_gain;
-      PixelGrowth growth, without;
-      GrowEverywhere(grid, config, planes, growth);
+      PixelGrowth growth;
+      GrowEverywhere(blocks, config, planes, growth);
       growth.DropUseless();
       const std::vector<LabelPlane> useful = PlainlyUseful(grid, planes, min_gain);
       const LabelImage expected = PlainLabels(grid, useful);
       turns_with_useless += useful.size() < planes.size() ? 1 : 0;
       turns_with_useful += useful.size() > 1 ? 1 : 0;
       // Labels have other numbers without the others.
-      const LabelImage labels = LabelsOf(growth);
+      const LabelImage labels = LabelsOf(growth, grid);
       for (std::size_t i = 0; i < expected.size(); ++i) {
         const int label = labels[i];
         ASSERT_EQ(label == kNoLabel, expected[i] == kNoLabel);
@@ -286,16 +267,17 @@ TEST(PixelGrowth, DropsAPlaneThatGainsTooLittleThoughNoOtherIsNear) {
        std::vector<std::pair<double, bool>>{{6.9, true}, {11.9, true}, {12.1, false}}) {
     GrowthConfig config;
     config.min_gain = min_gain;
+    const ImageBlocks blocks = MakeBlocks(grid);
     PixelGrowth growth;
-    growth.Begin(grid, config);
+    growth.Begin(blocks, config);
     for (const double sigmas : {2.0, 20.0}) {
       const int label = growth.AddPlane({{0.0, 0.0, Nearer(grid, sigmas)}, 1.0});
       for (int block = 0; block < 3; ++block) growth.Seed(block, label);
     }
     growth.Grow();
-    EXPECT_EQ(LabelsOf(growth)[0], 0);
+    EXPECT_EQ(LabelsOf(growth, grid)[0], 0);
     growth.DropUseless();
-    EXPECT_EQ(LabelsOf(growth)[0] == 0, stays) << min_gain;
+    EXPECT_EQ(LabelsOf(growth, grid)[0] == 0, stays) << min_gain;
   }
 }
 
@@ -304,17 +286,18 @@ TEST(PixelGrowth, HasTheSameLabelsHoweverOftenItIsAskedAndWhateverItHeldBefore) 
   PixelGrowth again;
   for (int turn = 0; turn < 5; ++turn) {
     const DepthGrid grid = RandomGrid(40, random);
+    const ImageBlocks blocks = MakeBlocks(grid);
     const std::vector<LabelPlane> planes = RandomPlanes(random);
     PixelGrowth once;
     const auto run = [&](PixelGrowth& growth, bool ask) {
-      GrowEverywhere(grid, {}, planes, growth);
-      if (ask) LabelsOf(growth);
+      GrowEverywhere(blocks, {}, planes, growth);
+      if (ask) LabelsOf(growth, grid);
       growth.DropUseless();
-      if (ask) LabelsOf(growth);
+      if (ask) LabelsOf(growth, grid);
       std::vector<LabelPlane> moved = planes;
       for (LabelPlane& plane : moved) plane.plane.c += 0.01;
       growth.Replace(moved, {0, 1, 2, 3, 4, 0});
-      return LabelsOf(growth);
+      return LabelsOf(growth, grid);
     };
     EXPECT_EQ(run(again, true), run(once, false));
   }
@@ -329,17 +312,17 @@ TEST(PixelGrowth, LeavesUnexplainedWhatLiesOffItsPlaneAndWhatHasNone) {
   depth_m.colRange(16, 24) = 0.5f;
   depth_m(3, 20) = 0.0f;
   const DepthGrid grid = MakeDepthGrid(depth_m, PixelRays(camera), {}, 10.0);
+  const ImageBlocks blocks = MakeBlocks(grid);
   PixelGrowth growth;
-  growth.Begin(grid, {});
+  growth.Begin(blocks, {});
   growth.Seed(0, growth.AddPlane({{0.0, 0.0, 1.0}, 1.0}));
   growth.Grow();
-  std::vector<std::uint8_t> explained;
-  growth.MarkExplained(1.0, 1.0, explained);  // at most 1 + 1 / 8 sigmas
-  for (int v = 0; v < camera.height; ++v) {
-    for (int u = 0; u < camera.width; ++u)
-      EXPECT_EQ(explained[static_cast<std::size_t>(grid.Index(u, v))],
-                u < 8 || (u == 20 && v == 3) ? 1 : 0);
-  }
+  // At most 1 + 1 / 8 sigmas.
+  const std::vector<PixelSet> unexplained = growth.FindUnexplained(1.0, 1.0);
+  ASSERT_EQ(unexplained.size(), 3u);
+  EXPECT_EQ(unexplained[0], 0u);
+  EXPECT_EQ(unexplained[1], ~PixelSet{0});
+  EXPECT_EQ(unexplained[2], ~PixelOf(4, 3));
 }
 
 }  // namespace

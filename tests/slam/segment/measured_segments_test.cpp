@@ -1,0 +1,56 @@
+#include "slam/segment/measured_segments.h"
+
+#include <gtest/gtest.h>
+
+#include <vector>
+
+#include "slam/geometry/camera.h"
+#include "tests/support/depth_planes.h"
+
+namespace slam {
+namespace {
+
+/// The segments of a wall of which parts have labels 0, 1, ...
+std::vector<Segment> KeepParts(const std::vector<cv::Rect>& parts, const DepthNoise& noise) {
+  const Camera camera;
+  const DepthGrid grid = MakeDepthGrid(cv::Mat1f(camera.height, camera.width, 1.0f),
+                                       PixelRays(camera), noise, 10.0);
+  LabelImage labels(grid.q.size(), kNoLabel);
+  for (std::size_t k = 0; k < parts.size(); ++k) {
+    for (int v = parts[k].y; v < parts[k].br().y; ++v)
+      for (int u = parts[k].x; u < parts[k].br().x; ++u)
+        labels[static_cast<std::size_t>(grid.Index(u, v))] = static_cast<std::int16_t>(k);
+  }
+  PartSegments segments{{}, SumLabels(grid, labels, static_cast<int>(parts.size()))};
+  FindRuns(labels, grid.width, grid.height, segments.runs);
+  PlaneExtractionConfig config;
+  config.max_angle_sigma_rad = 1.0;
+  return KeepMeasured(segments, noise, config);
+}
+
+TEST(MeasuredSegments, AreWiderThanThePixelsThatShareAnError) {
+  // Errors of the first Kinect are shared by 4 x 4 pixels, those of a D435 by 6 x 6.
+  const std::vector<cv::Rect> strips = {{50, 50, 400, 3}, {50, 100, 400, 5}, {50, 150, 7, 300}};
+  const std::vector<Segment> kinect1 = KeepParts(strips, ModelOf(DepthSensor::kKinect1).noise);
+  ASSERT_EQ(kinect1.size(), 2u);
+  EXPECT_EQ(kinect1[0].id, 2);
+  EXPECT_EQ(kinect1[1].id, 1);
+  const std::vector<Segment> d435 = KeepParts(strips, ModelOf(DepthSensor::kD435).noise);
+  ASSERT_EQ(d435.size(), 1u);
+  EXPECT_EQ(d435[0].id, 2);
+}
+
+TEST(MeasuredSegments, AreCutByTheImageWithoutBecomingNarrow) {
+  EXPECT_EQ(KeepParts({{0, 0, 640, 3}}, {}).size(), 1u);
+}
+
+TEST(MeasuredSegments, AreTheLargestFirstAndNotTooSmall) {
+  const std::vector<Segment> kept =
+      KeepParts({{50, 50, 20, 20}, {100, 100, 10, 29}, {200, 200, 40, 40}}, {});
+  ASSERT_EQ(kept.size(), 2u);
+  EXPECT_EQ(kept[0].id, 2);
+  EXPECT_EQ(kept[1].id, 0);
+}
+
+}  // namespace
+}  // namespace slam
