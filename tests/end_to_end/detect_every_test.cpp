@@ -32,7 +32,7 @@ double BestIou(const slam::Detection& box, const std::vector<slam::Detection>& o
 
 /// A camera in a hand moves about a desk of which a perfect detector is asked in every Nth frame.
 void CarryOverDesk(std::uint64_t seed, int every, Carried& carried) {
-  constexpr int kFrames = 60;
+  constexpr int kDetectedFrames = 60;
   const sim::Scene scene = sim::MakeScene("desk", seed);
   sim::RigOptions rig;
   rig.camera = sim::Resize(sim::Camera{}, 320, 240);
@@ -45,8 +45,8 @@ void CarryOverDesk(std::uint64_t seed, int every, Carried& carried) {
   std::vector<slam::Detection> told;
   slam::Tracker tracker(camera, config, slam::Variant::kFull,
                         std::make_unique<live::ToldDetector>(told), 0, 1);
-  const auto path = sim::MakeTrajectory(scene, kFrames, 30, seed);
-  for (int i = 0; i < kFrames; ++i) {
+  const auto path = sim::MakeTrajectory(scene, kDetectedFrames, 30, seed);
+  for (int i = 0; i < kDetectedFrames; ++i) {
     const sim::TimedPose& at = path[static_cast<std::size_t>(i)];
     const sim::SimulatedFrame simulated = simulator.Simulate(i, at.T_wc);
     told = live::DetectionsOf(simulated);
