@@ -8,7 +8,8 @@ namespace slam {
 
 /// Fuses landmarks that are one surface: parameters agree within their uncertainty from both
 /// sides, their clouds share voxels, their classes do not contradict. Two planes often seen
-/// side by side with an offset between them that is beyond their uncertainty are two; so are
+/// side by side with an offset between them that is beyond their uncertainty are two, and those
+/// between which most of these frames showed a step; so are
 /// planes that are merely in line (tops of equal boxes), because their clouds do not meet. The
 /// older landmark stays, the younger gets `merged_into`; chains are resolved to their end, and
 /// covisibility and points follow. References to culled map points are dropped.
