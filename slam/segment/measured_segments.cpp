@@ -36,18 +36,24 @@ std::vector<int> FindPerimeters(const PartSegments& segments) {
   return perimeters;
 }
 
+/// Side of the square of pixels that share an error because the sensor measures them together.
+/// Triangulation matches windows. Time of flight measures each pixel by itself; what its pixels
+/// share is a wave over the distance.
+double SideOfSharedError_px(const SensorModel& sensor) {
+  return sensor.sensor == DepthSensor::kAzure ? 1.0 : std::sqrt(sensor.noise.correlated_px);
+}
+
 }  // namespace
 
-std::vector<Segment> KeepMeasured(const PartSegments& segments, const DepthNoise& noise,
+std::vector<Segment> KeepMeasured(const PartSegments& segments, const SensorModel& sensor,
                                   const PlaneExtractionConfig& config) {
   const std::vector<int> perimeters = FindPerimeters(segments);
-  const double min_width_px =
-      std::sqrt(noise.correlated_px);  // across less, noise is one number
+  const double min_width_px = SideOfSharedError_px(sensor);  // across less, noise is one number
   std::vector<Segment> kept;
   for (std::size_t k = 0; k < perimeters.size(); ++k) {
     const PlaneSums& sums = segments.sums[k];
     if (2.0 * sums.n < min_width_px * perimeters[k]) continue;  // a strip has two long sides
-    if (const auto segment = Measure(sums, static_cast<int>(k), noise, config))
+    if (const auto segment = Measure(sums, static_cast<int>(k), sensor.noise, config))
       kept.push_back(*segment);
   }
   std::sort(kept.begin(), kept.end(), [](const Segment& a, const Segment& b) {

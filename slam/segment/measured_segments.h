@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "slam/geometry/plane_sums.h"
+#include "slam/geometry/sensor_model.h"
 #include "slam/segment/extraction_config.h"
 #include "slam/segment/occluded_parts.h"
 #include "slam/segment/pixel_labels.h"
@@ -22,9 +23,10 @@ struct Segment {
 };
 
 /// The segments that are enough pixels (min_pixels), tell well enough where their plane is
-/// (max_angle_sigma_rad), and are on average wider than the pixels that share an error; the
+/// (max_angle_sigma_rad), and are on average wider than the pixels that the sensor measures
+/// together; the
 /// largest first, at most kMaxSegments. Their bounds are the caller's to set.
-std::vector<Segment> KeepMeasured(const PartSegments& segments, const DepthNoise& noise,
+std::vector<Segment> KeepMeasured(const PartSegments& segments, const SensorModel& sensor,
                                   const PlaneExtractionConfig& config);
 
 /// Sums of the pixels of `all` that are not those of `part`, a part of them.

@@ -195,7 +195,7 @@ void PlaneExtractor::Extract(Frame& frame) {
                                     : work.SegmentBySteps();
 
   // Segments that can be measured become planes of the frame.
-  work.kept = KeepMeasured(segments, work.sensor.noise, work.config);
+  work.kept = KeepMeasured(segments, work.sensor, work.config);
   frame.plane_labels.create(work.grid.height, work.grid.width);
   DrawLabels(segments.runs, static_cast<int>(segments.sums.size()), work.kept, work.drawn_value,
              frame.plane_labels);

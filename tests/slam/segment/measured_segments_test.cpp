@@ -11,10 +11,10 @@ namespace slam {
 namespace {
 
 /// The segments of a wall of which parts have labels 0, 1, ...
-std::vector<Segment> KeepParts(const std::vector<cv::Rect>& parts, const DepthNoise& noise) {
+std::vector<Segment> KeepParts(const std::vector<cv::Rect>& parts, const SensorModel& sensor) {
   const Camera camera;
   const DepthGrid grid = MakeDepthGrid(cv::Mat1f(camera.height, camera.width, 1.0f),
-                                       PixelRays(camera), noise, 10.0);
+                                       PixelRays(camera), sensor.noise, 10.0);
   LabelImage labels(grid.q.size(), kNoLabel);
   for (std::size_t k = 0; k < parts.size(); ++k) {
     for (int v = parts[k].y; v < parts[k].br().y; ++v)
@@ -25,19 +25,21 @@ std::vector<Segment> KeepParts(const std::vector<cv::Rect>& parts, const DepthNo
   FindRuns(labels, grid.width, grid.height, segments.runs);
   PlaneExtractionConfig config;
   config.max_angle_sigma_rad = 1.0;
-  return KeepMeasured(segments, noise, config);
+  return KeepMeasured(segments, sensor, config);
 }
 
-TEST(MeasuredSegments, AreWiderThanThePixelsThatShareAnError) {
+TEST(MeasuredSegments, AreWiderThanThePixelsThatAreMeasuredTogether) {
   // Errors of the first Kinect are shared by 4 x 4 pixels, those of a D435 by 6 x 6.
   const std::vector<cv::Rect> strips = {{50, 50, 400, 3}, {50, 100, 400, 5}, {50, 150, 7, 300}};
-  const std::vector<Segment> kinect1 = KeepParts(strips, ModelOf(DepthSensor::kKinect1).noise);
+  const std::vector<Segment> kinect1 = KeepParts(strips, ModelOf(DepthSensor::kKinect1));
   ASSERT_EQ(kinect1.size(), 2u);
   EXPECT_EQ(kinect1[0].id, 2);
   EXPECT_EQ(kinect1[1].id, 1);
-  const std::vector<Segment> d435 = KeepParts(strips, ModelOf(DepthSensor::kD435).noise);
+  const std::vector<Segment> d435 = KeepParts(strips, ModelOf(DepthSensor::kD435));
   ASSERT_EQ(d435.size(), 1u);
   EXPECT_EQ(d435[0].id, 2);
+  // Time of flight measures each pixel by itself: a narrow face is one.
+  EXPECT_EQ(KeepParts(strips, ModelOf(DepthSensor::kAzure)).size(), 3u);
 }
 
 TEST(MeasuredSegments, AreCutByTheImageWithoutBecomingNarrow) {
