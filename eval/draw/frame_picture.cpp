@@ -209,6 +209,7 @@ class FramePainter {
   void PaintLabels() {
     const std::vector<PlaneLabel> labels = LabelsOfFrame(scene_, view_.size().width);
     std::vector<LabelWish> wishes;
+    wishes.reserve(labels.size());
     for (const PlaneLabel& label : labels) wishes.push_back(label.wish);
     const std::vector<PlacedLabel> placed = PlaceLabels(wishes, view_.size());
     for (const PlacedLabel& label : placed) {

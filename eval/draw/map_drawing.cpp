@@ -103,7 +103,7 @@ Eigen::Vector3d OpenPoint(const MapScene& scene, const MapScene::Estimate& plane
   if (!(plane.pi_v.n.z() > kLevel_cos) || !covered(plane.centre_v)) return plane.centre_v;
   for (const double share : {0.2, 0.4, 0.6, 0.8}) {
     for (const Eigen::Vector3d& corner : plane.hull_v) {
-      const Eigen::Vector3d p_v = (1 - share) * plane.centre_v + share * corner;
+      Eigen::Vector3d p_v = (1 - share) * plane.centre_v + share * corner;
       if (scale.page.contains(scale.At(p_v)) && !covered(p_v)) return p_v;
     }
   }

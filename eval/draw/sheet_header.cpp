@@ -42,7 +42,7 @@ LegendItem VertexItem() {
           }};
 }
 
-LegendItem LineItem(const char* text, Colour colour, bool haloed, int width_px) {
+LegendItem LineItem(const char* text, const Colour& colour, bool haloed, int width_px) {
   return {30, text, [=](cv::Mat& page, cv::Point2d left) {
             const std::vector<cv::Point2d> line{left, left + cv::Point2d(30, 0)};
             if (haloed) {

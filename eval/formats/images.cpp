@@ -72,7 +72,7 @@ cv::Mat Decode(Folder& folder, const std::string& file, bool is_colour) {
                 "write the image again");
     return {};
   }
-  const cv::Mat image =
+  cv::Mat image =
       Decoded(bytes, IsWholePng(bytes) ? int{cv::IMREAD_UNCHANGED} : kColourAsStored);
   if (image.empty()) folder.Tell(file, 0, "cannot be decoded", "write the image again");
   return image;
@@ -132,7 +132,7 @@ cv::Mat ReadColour(const std::filesystem::path& file) {
                     size->width, size->height, kMaxImageSide_px));
   }
   const bool whole = IsWholePng(bytes) || IsWholeJpeg(bytes);
-  const cv::Mat image = whole ? Decoded(bytes, kColourAsStored) : cv::Mat();
+  cv::Mat image = whole ? Decoded(bytes, kColourAsStored) : cv::Mat();
   if (image.empty()) {
     throw io::InputError(file.string(), "is damaged and cannot be decoded; copy it again");
   }

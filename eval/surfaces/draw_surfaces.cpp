@@ -72,7 +72,8 @@ void PutList(cv::Mat& page, const SurfaceFile& file, cv::Point corner, int heigh
   const int rows = std::max(1, height_px / kLine_px);
   for (std::size_t i = 0; i < file.surfaces.size(); ++i) {
     const Surface& surface = file.surfaces[i];
-    const cv::Point2d base(corner.x + kColumn_px * (int(i) / rows),
+    const int column = int(i) / rows;
+    const cv::Point2d base(corner.x + kColumn_px * column,
                            corner.y + kLine_px * (int(i) % rows + 1));
     PutDot(page, base + cv::Point2d(8, -5), 7, ColourOfPlane(CountedAs(surface)));
     PutText(page,

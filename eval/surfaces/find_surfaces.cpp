@@ -68,6 +68,7 @@ SurfaceFile FindSurfaces(const DepthViews& views, double min_area_m2,
 
   // Pixels on the planes, and from them the surfaces.
   std::vector<Sheet> sheets;
+  sheets.reserve(patches.size());
   for (const PlanePatch& patch : patches) sheets.push_back(SheetOver(patch));
   for_each_view([&](const DepthView& view, const LocalNormals& local) {
     AddToSheets(view, views.rays(), local, kStride, file.noise_per_m, sheets);

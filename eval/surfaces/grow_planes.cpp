@@ -107,6 +107,7 @@ class PlaneGrower {
     }
     std::sort(scored.begin(), scored.end());
     std::vector<int> seeds;
+    seeds.reserve(scored.size());
     for (const auto& [score, i] : scored) seeds.push_back(i);
     return seeds;
   }

@@ -29,7 +29,7 @@ Eigen::Vector3d FitHeights(const Sheet& sheet, const CellMask& mask, double& rms
       ++cells;
     }
   }
-  const Eigen::Vector3d abc = A.ldlt().solve(y);
+  Eigen::Vector3d abc = A.ldlt().solve(y);
   rms_m = std::sqrt(std::max(0.0, squares - abc.dot(y)) / cells);
   return abc;
 }

@@ -161,6 +161,7 @@ std::vector<Contact> Contacts(const std::vector<CellPart>& parts,
     }
   }
   std::vector<Contact> contacts;
+  contacts.reserve(found.size());
   for (const auto& [labels, contact] : found) contacts.push_back(contact);
   std::stable_sort(contacts.begin(), contacts.end(),
                    [](const Contact& a, const Contact& b) { return a.cells > b.cells; });
@@ -206,6 +207,7 @@ std::vector<CellPart> UniteParts(const std::vector<CellPart>& parts,
     cell.n = n;
   }
   std::vector<CellPart> list;
+  list.reserve(united.size());
   for (const auto& [cell, part] : united) list.push_back(part);
   return list;
 }

@@ -28,10 +28,10 @@ struct Cell {
 
 BendSigmas SigmasOfBend(double ratio, double distance_m, double solid_angle_rad2) {
   constexpr double kVarianceOfLine = 12.0;  // a uniform line of width w has variance w^2 / 12
-  constexpr double L2 = kBendLength_rad * kBendLength_rad;
+  constexpr double kLength2 = kBendLength_rad * kBendLength_rad;
   // A Gaussian correlation of length L makes 2 pi L^2 one independent piece.
-  const double pieces = 1.0 + solid_angle_rad2 / (2.0 * std::numbers::pi * L2);
-  const double slope2 = L2 + solid_angle_rad2 * pieces / kVarianceOfLine;
+  const double pieces = 1.0 + solid_angle_rad2 / (2.0 * std::numbers::pi * kLength2);
+  const double slope2 = kLength2 + solid_angle_rad2 * pieces / kVarianceOfLine;
   return {ratio * distance_m / std::sqrt(pieces), ratio / std::sqrt(slope2)};
 }
 
@@ -62,7 +62,8 @@ void BendMeter::Measure(Frame& frame) {
   }
 
   // Cell by cell: the mean deviation of the plane that fills it, less what noise makes.
-  const double full = kMinFilled * (cell_px / kStride_px) * (cell_px / kStride_px);
+  const int side = cell_px / kStride_px;
+  const double full = kMinFilled * side * side;
   for (int row = 0; row < rows; ++row) {
     for (int column = 0; column < columns; ++column) {
       const std::uint8_t label =

@@ -10,6 +10,7 @@
 #include "io/folder_kind.h"
 #include "io/input_error.h"
 #include "io/path_type.h"
+#include "slam/base/index.h"
 #include "slam/diagnose/camera_check.h"
 #include "slam/diagnose/depth_clock.h"
 #include "slam/input/camera_reader.h"
@@ -256,6 +257,7 @@ RunOutcome RunSequence(const RunOptions& options) {
 
   // What is doubtful before the first frame is told with the run.
   std::vector<double> frames_s;
+  frames_s.reserve(Index(reader.size()));
   for (int i = 0; i < reader.size(); ++i) frames_s.push_back(reader.entry(i).timestamp_s);
   std::vector<std::string> doubts = std::move(camera_file.warnings);
   for (const auto& more : {reader.warnings(), detector->WarningsFor(frames_s)}) {
