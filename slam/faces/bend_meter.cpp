@@ -17,7 +17,7 @@ constexpr double kMinFilled = 0.8;  // of a cell: one at an edge holds the edge'
 // A plane takes up the bends of a few cells; of a dozen it leaves three quarters.
 constexpr int kMinCells = 12;
 constexpr double kPriorFrames = 5.0;   // balances what a sensor usually does against few frames
-constexpr double kKeptFrames = 100.0;  // seconds: straightening may begin at any time
+constexpr double kKeptFrames = 100.0;  // some seconds: straightening may begin at any time
 
 /// Residuals of one plane in one cell, as parts of the inverse depth.
 struct Cell {
@@ -103,10 +103,9 @@ void BendMeter::Measure(Frame& frame) {
     squares_ = kept * squares_ + std::max(0.0, sum / count);
     weight_ = kept * weight_ + 1.0;
   }
-  frame.bend_ratio = ratio();
   for (FramePlane& plane : frame.planes) {
     const BendSigmas sigmas =
-        SigmasOfBend(frame.bend_ratio, plane.centroid_c.z(), plane.pixel_count * pixel_rad2_);
+        SigmasOfBend(ratio(), plane.centroid_c.z(), plane.pixel_count * pixel_rad2_);
     plane.bend_offset_sigma_m = sigmas.offset_m;
     plane.bend_angle_sigma_rad = sigmas.angle_rad;
   }

@@ -82,8 +82,7 @@ struct Frame {
   std::vector<Detection> detections;
   bool detector_asked = true;  ///< false: all boxes are carried over from an earlier frame
   std::vector<FramePlane> planes;
-  double bend_ratio = 0.0;  ///< root mean square of what the sensor bends, share of the depth
-  cv::Mat1b plane_labels;   ///< index + 1 of the frame plane at each pixel; 0 = none
+  cv::Mat1b plane_labels;  ///< index + 1 of the frame plane at each pixel; 0 = none
 
   // (D) association; parallel to `features` and `planes`
   std::vector<int> map_points;  ///< id of the matched map point, or kNone

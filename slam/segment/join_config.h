@@ -8,7 +8,7 @@ namespace slam {
 /// When parts are one surface, which the sensor may bend.
 struct JoinConfig {
   double bend_ratio = kKinectBend;
-  double bend_length_rad = 0.048;  // the same: 25 of 640 columns, correlation exp(-1/2)
+  double bend_length_rad = kBendLength_rad;
   // In bends: of a normal variable, 3 are passed 1 time in 400. The bounds only keep curved
   // things out: twice as much joined no two surfaces more on simulated desks.
   double max_union_bends = 3.0;
