@@ -95,14 +95,14 @@ TEST_F(LiveRun, LeavesTheTruthOutWhenAsked) {
 TEST_F(LiveRun, NeedsNoMoreMemoryForTheTruthOfMoreFrames) {
   // The estimator itself grows with its map: what is compared is with and without truth. A sensor that
   // bends nothing: the image of a bend is packed once, at the end, in 2 MB, however long the run.
-  constexpr double kMaxGrowth_mb = 6;
-  const auto cost = [&](int frames) {
-    const std::string name = std::to_string(frames);
-    const std::vector<std::string> clean{"--sim-sensor", "kinect1-clean"};
-    return Live(name + "truth", frames, clean).peak_mb -
-           Live(name, frames, {clean[0], clean[1], "--no-truth"}).peak_mb;
-  };
-  EXPECT_LT(cost(120), kMaxGrowth_mb);
+  // The peak of one and the same run differs by 10 MB from time to time (threads, arenas of malloc),
+  // so the run is long enough for kept images to show: half of the smallest kind, labels, is allowed.
+  constexpr int kFrames = 300;
+  constexpr double kLabels_mb = 320 * 240 * sizeof(std::uint16_t) / 1e6;
+  const std::vector<std::string> clean{"--sim-sensor", "kinect1-clean"};
+  const double with_truth = Live("truth", kFrames, clean).peak_mb;
+  const double without = Live("none", kFrames, {clean[0], clean[1], "--no-truth"}).peak_mb;
+  EXPECT_LT(with_truth - without, 0.5 * kFrames * kLabels_mb);
 }
 
 }  // namespace
