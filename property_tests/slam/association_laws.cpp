@@ -28,14 +28,16 @@ Problem AnyProblem() {
   p.maps = AnyInt(1, 7);
   for (int f = 0; f < p.frames; ++f) {
     for (int m = 0; m < p.maps; ++m) {
-      if (AnyInt(0, 2) > 0) p.pairs.push_back({f, m, AnyReal(0, 12)});
+      if (AnyInt(0, 2) > 0) p.pairs.push_back({f, m, AnyReal(0, 12), false, AnyInt(0, 1) == 1});
     }
   }
   const auto n = static_cast<std::size_t>(p.frames);
-  p.relations.one_surface.assign(n, std::vector<bool>(n, false));
+  p.relations.pieces.assign(n, std::vector<Pieces>(n, Pieces::kOfTwo));
   for (std::size_t f = 0; f < n; ++f) {
     for (std::size_t g = f + 1; g < n; ++g) {
-      p.relations.one_surface[f][g] = p.relations.one_surface[g][f] = AnyInt(0, 5) == 0;
+      const int any = AnyInt(0, 5);
+      p.relations.pieces[f][g] = p.relations.pieces[g][f] =
+          any == 0 ? Pieces::kOfOne : (any == 1 ? Pieces::kUnsure : Pieces::kOfTwo);
     }
   }
   return p;
@@ -62,9 +64,8 @@ RC_GTEST_PROP(PlaneAssignment, PermutingPlanesPermutesTheAnswer, ()) {
   std::reverse(q.pairs.begin(), q.pairs.end());
   for (std::size_t f = 0; f < to.size(); ++f) {
     for (std::size_t g = 0; g < to.size(); ++g) {
-      q.relations
-          .one_surface[static_cast<std::size_t>(to[f])][static_cast<std::size_t>(to[g])] =
-          p.relations.one_surface[f][g];
+      q.relations.pieces[static_cast<std::size_t>(to[f])][static_cast<std::size_t>(to[g])] =
+          p.relations.pieces[f][g];
     }
   }
   const auto a = AssignPlanes(p.frames, p.pairs, p.relations, kMargin);
@@ -79,11 +80,18 @@ RC_GTEST_PROP(PlaneAssignment, PermutingPlanesPermutesTheAnswer, ()) {
 RC_GTEST_PROP(PlaneAssignment, OnlyPiecesOfOneSurfaceShareALandmark, ()) {
   const Problem p = AnyProblem();
   const auto a = AssignPlanes(p.frames, p.pairs, p.relations, kMargin);
+  const auto was_seen = [&](std::size_t f) {
+    return std::any_of(p.pairs.begin(), p.pairs.end(), [&](const AdmissiblePair& pair) {
+      return pair.was_seen && pair.frame_plane == static_cast<int>(f) &&
+             pair.map_plane == a.map_plane[f];
+    });
+  };
   for (std::size_t f = 0; f < a.map_plane.size(); ++f) {
     for (std::size_t g = f + 1; g < a.map_plane.size(); ++g) {
-      if (a.map_plane[f] >= 0 && a.map_plane[f] == a.map_plane[g]) {
-        RC_ASSERT(p.relations.one_surface[f][g]);
-      }
+      if (a.map_plane[f] < 0 || a.map_plane[f] != a.map_plane[g]) continue;
+      const Pieces pieces = p.relations.pieces[f][g];
+      RC_ASSERT(pieces != Pieces::kOfTwo);
+      RC_ASSERT(pieces == Pieces::kOfOne || (was_seen(f) && was_seen(g)));
     }
   }
 }
@@ -93,7 +101,7 @@ RC_GTEST_PROP(PlaneAssignment, TwoLandmarksThatFitAlikeGiveNoDecision, ()) {
   p.frames = 1;
   const double cost = AnyReal(0, 10);
   p.pairs = {{0, 0, cost}, {0, 1, cost + AnyReal(0, 0.99) * kMargin}};
-  p.relations.one_surface = {{false}};
+  p.relations.pieces = {{Pieces::kOfTwo}};
   if (AnyInt(0, 1)) std::swap(p.pairs[0], p.pairs[1]);
   const auto a = AssignPlanes(1, p.pairs, p.relations, kMargin);
   RC_ASSERT(a.map_plane[0] == PlaneAssignment::kAmbiguous);
@@ -105,7 +113,7 @@ RC_GTEST_PROP(PlaneAssignment, WhereNothingCompetesEveryPlaneGetsItsBest, ()) {
   Problem p;
   p.frames = AnyInt(1, 7);
   const auto n = static_cast<std::size_t>(p.frames);
-  p.relations.one_surface.assign(n, std::vector<bool>(n, false));
+  p.relations.pieces.assign(n, std::vector<Pieces>(n, Pieces::kOfTwo));
   const auto order = AnyPermutation(p.frames);
   for (int f = 0; f < p.frames; ++f) {
     p.pairs.push_back({f, order[static_cast<std::size_t>(f)], AnyReal(0, 5)});

@@ -70,8 +70,8 @@ std::vector<AdmissiblePair> AdmissiblePairs(const PairTable& pairs,
       if (pair.on_trial && IsExcluded(pair, pairs[f], duplicates)) continue;
       // To be believed before a landmark, a candidate must be clearly nearer.
       const double handicap = pair.on_trial ? config.min_margin : 0.0;
-      admissible.push_back(
-          {static_cast<int>(f), pair.map_plane, pair.Cost() + handicap, pair.on_trial});
+      admissible.push_back({static_cast<int>(f), pair.map_plane, pair.Cost() + handicap,
+                            pair.on_trial, pair.was_seen});
     }
   }
   return admissible;
@@ -90,9 +90,9 @@ const PairEvidence* BestPair(const std::vector<PairEvidence>& row) {
 /// Most of what is seen of a map plane lies on the frame plane that shows it. Where that one has
 /// nowhere better to go, fragments beside it that are no pieces of the same surface are refused,
 /// however well their parameters fit: the smaller a patch, the more its parameters fit.
-void RefuseFragments(const std::vector<std::vector<bool>>& one_surface,
-                     const AssociationConfig& config, PairTable& pairs) {
-  const double max_ratio = std::exp(0.5 * config.min_margin);  // of likelihoods
+void RefuseFragments(const PieceTable& pieces, const AssociationConfig& config,
+                     PairTable& pairs) {
+  const double max_ratio = FragmentRatio(config);
   std::vector<const PairEvidence*> best;
   for (const auto& row : pairs) best.push_back(BestPair(row));
   std::vector<PairEvidence*> fragments;
@@ -100,7 +100,7 @@ void RefuseFragments(const std::vector<std::vector<bool>>& one_surface,
     for (PairEvidence& pair : pairs[f]) {
       if (pair.verdict != PairVerdict::kPossible || pair.extension) continue;
       for (std::size_t g = 0; g < pairs.size(); ++g) {
-        if (g == f || one_surface[f][g] || best[g] == nullptr) continue;
+        if (g == f || pieces[f][g] == Pieces::kOfOne || best[g] == nullptr) continue;
         if (best[g]->map_plane == pair.map_plane && best[g]->landed > max_ratio * pair.landed)
           fragments.push_back(&pair);
       }
@@ -184,11 +184,11 @@ PlaneAssociation IntegratedRule(const Frame& frame, const Map& map, const Camera
   // All planes of the frame are assigned together; what refused a pair is counted.
   FrameRelations relations = RelateFramePlanes(frame, camera, config);
   out.steps = std::move(relations.steps);
-  RefuseFragments(relations.one_surface, config, pairs);
+  RefuseFragments(relations.pieces, config, pairs);
   const auto duplicates = DuplicatesAmong(pairs, map, config);
   const PlaneAssignment assignment = AssignPlanes(
       static_cast<int>(frame.planes.size()), AdmissiblePairs(pairs, duplicates, config),
-      {relations.one_surface, duplicates}, config.min_margin);
+      {relations.pieces, duplicates}, config.min_margin);
   for (std::size_t f = 0; f < pairs.size(); ++f) {
     out.matches.push_back(Decide(pairs[f], assignment.map_plane[f], duplicates));
     for (const PairEvidence& pair : pairs[f]) {

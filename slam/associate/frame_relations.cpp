@@ -39,23 +39,26 @@ FrameRelations RelateFramePlanes(const Frame& frame, const Camera& camera,
                                  const AssociationConfig& config) {
   const std::size_t count = frame.planes.size();
   FrameRelations out;
-  out.one_surface.assign(count, std::vector<bool>(count, false));
+  out.pieces.assign(count, std::vector<Pieces>(count, Pieces::kOfTwo));
   std::optional<SideBySide> neighbours;
   for (std::size_t f = 0; f < count; ++f) {
     for (std::size_t g = f + 1; g < count; ++g) {
       const FramePlane &one = frame.planes[f], &other = frame.planes[g];
       if (OnTwoObjects(one, other, frame.detections)) continue;
       // Measured from both sides: the answer must not depend on which comes first.
-      if (!(ComparePlanes(one, other, config).chi2 < config.max_chi2) ||
-          !(ComparePlanes(other, one, config).chi2 < config.max_chi2)) {
-        continue;
+      const double chi2 = std::max(ComparePlanes(one, other, config).chi2,
+                                   ComparePlanes(other, one, config).chi2);
+      if (!(chi2 < config.new_chi2)) continue;
+      Pieces pieces = Pieces::kUnsure;
+      if (chi2 < config.max_chi2) {
+        if (!neighbours) neighbours.emplace(frame, camera);
+        if (HaveStep(*neighbours, f, g, config)) {
+          out.steps.push_back({static_cast<int>(f), static_cast<int>(g)});
+        } else {
+          pieces = Pieces::kOfOne;
+        }
       }
-      if (!neighbours) neighbours.emplace(frame, camera);
-      if (HaveStep(*neighbours, f, g, config)) {
-        out.steps.push_back({static_cast<int>(f), static_cast<int>(g)});
-      } else {
-        out.one_surface[f][g] = out.one_surface[g][f] = true;
-      }
+      out.pieces[f][g] = out.pieces[g][f] = pieces;
     }
   }
   return out;

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "slam/associate/association_config.h"
+#include "slam/associate/plane_assignment.h"
 #include "slam/geometry/camera.h"
 #include "slam/model/frame.h"
 
@@ -16,10 +17,7 @@ bool OnTwoObjects(const FramePlane& one, const FramePlane& other,
 
 /// What the planes of a frame are to each other.
 struct FrameRelations {
-  /// [f][g]: planes f and g can be pieces of one surface: each fits the other, they are not on
-  /// two objects, and where they are neighbours there is no step. Symmetric; false on the
-  /// diagonal.
-  std::vector<std::vector<bool>> one_surface;
+  PieceTable pieces;
   std::vector<FrameStep> steps;  ///< between planes that but for the step could be one
 };
 

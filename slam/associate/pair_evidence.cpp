@@ -41,6 +41,15 @@ bool GoesOn(const FramePlane& f, const MapPlane& m, const Pose& T_cw,
          InPlaneGap(f, m, Inverse(T_cw)) < config.max_extension_gap_m;
 }
 
+/// Whether a frame plane has been seen as a map plane before: the map plane's points cover most
+/// of it. It must be a good part of the map plane, too: what once was taken for a piece of it by
+/// mistake, as a book on a desk, is small beside it.
+bool WasSeen(const PlaneView& view, const FramePlane& f, const AssociationConfig& config) {
+  constexpr double kMostOfIt = 0.8;  // of the area; measured: 0.5 costs 0.004 of precision
+  return Covered(view, f) > kMostOfIt &&
+         view.landed[Index(f.index)] * FragmentRatio(config) > view.expected;
+}
+
 PairEvidence Weigh(const Frame& frame, const FramePlane& f, const MapPlane& m,
                    const PlaneComparison& comparison, const MapPlaneView& view,
                    const Pose& T_cw, const AssociationConfig& config) {
@@ -48,6 +57,7 @@ PairEvidence Weigh(const Frame& frame, const FramePlane& f, const MapPlane& m,
   pair.map_plane = m.id;
   pair.on_trial = m.status == LandmarkStatus::kCandidate;
   pair.overlap = Overlap(view.footprint, f);
+  pair.was_seen = WasSeen(view.footprint, f, config);
   if (!view.footprint.landed.empty()) pair.landed = view.footprint.landed[Index(f.index)];
   pair.parameter_cost = comparison.chi2;
   pair.overlap_cost = config.overlap_weight * (1 - pair.overlap);
@@ -76,6 +86,10 @@ PairEvidence Weigh(const Frame& frame, const FramePlane& f, const MapPlane& m,
 }
 
 }  // namespace
+
+double FragmentRatio(const AssociationConfig& config) {
+  return std::exp(0.5 * config.min_margin);  // as likelihoods have that must not be confused
+}
 
 PairTable WeighPairs(const Frame& frame, const Map& map, const UncertainPose& pose,
                      const Camera& camera, const AssociationConfig& config,

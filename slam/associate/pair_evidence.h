@@ -28,10 +28,14 @@ struct PairEvidence {
   double overlap_cost = 0.0, class_cost = 0.0, box_cost = 0.0;
   double overlap = 0.0;    ///< share of the smaller footprint, [0, 1]
   int landed = 0;          ///< points of the map plane that land on the frame plane's pixels
+  bool was_seen = false;   ///< points of the map plane cover most of the frame plane
   bool extension = false;  ///< no overlap, but one surface may go on from the other
 
   double Cost() const { return parameter_cost + overlap_cost + class_cost + box_cost; }
 };
+
+/// A segment that holds so many times less of a landmark than can be seen of it is a fragment.
+double FragmentRatio(const AssociationConfig& config);
 
 /// By frame plane: the map planes that came into question, in the order of their ids.
 using PairTable = std::vector<std::vector<PairEvidence>>;

@@ -38,7 +38,10 @@ class Assigner {
   }
 
  private:
-  bool OneSurface(int f, int g) const { return relations_.one_surface[Index(f)][Index(g)]; }
+  bool OneSurface(const AdmissiblePair& pair, const AdmissiblePair& other) const {
+    const Pieces pieces = relations_.pieces[Index(pair.frame_plane)][Index(other.frame_plane)];
+    return MayShare(pieces, pair.was_seen, other.was_seen);
+  }
 
   bool Duplicates(int m, int n) const {
     return relations_.duplicates.contains(std::minmax(m, n));
@@ -48,9 +51,8 @@ class Assigner {
   bool Open(const AdmissiblePair& pair) const {
     const auto found = taken_.find(pair.map_plane);
     if (found == taken_.end()) return true;
-    return std::all_of(found->second.begin(), found->second.end(), [&](const auto& other) {
-      return OneSurface(pair.frame_plane, other.frame_plane);
-    });
+    return std::all_of(found->second.begin(), found->second.end(),
+                       [&](const auto& other) { return OneSurface(pair, other); });
   }
 
   /// Another landmark explains this frame plane nearly as well.
@@ -67,7 +69,7 @@ class Assigner {
     return std::any_of(pairs_.begin(), pairs_.end(), [&](const auto& other) {
       if (other.map_plane != pair.map_plane || other.frame_plane == pair.frame_plane)
         return false;
-      if (OneSurface(pair.frame_plane, other.frame_plane)) return false;
+      if (OneSurface(pair, other)) return false;
       if (other.cost - pair.cost >= min_margin_ || pair.cost - other.cost >= min_margin_)
         return false;
       // One that is at home elsewhere does not compete.

@@ -17,6 +17,20 @@ std::size_t Stride(std::size_t count, std::size_t wanted) {
   return std::max<std::size_t>(1, (count + wanted - 1) / wanted);
 }
 
+/// A frame plane's area, in points of the cloud.
+double PointsOn(const PlaneView& view, const FramePlane& frame_plane) {
+  return view.cell_m2 > 0 ? frame_plane.area_m2 / view.cell_m2
+                          : std::numeric_limits<double>::max();
+}
+
+/// The points that land on a frame plane, of as many as a footprint has.
+double ShareLanded(const PlaneView& view, const FramePlane& frame_plane, double footprint) {
+  const auto index = static_cast<std::size_t>(frame_plane.index);
+  if (index >= view.landed.size()) return 0.0;
+  constexpr double kMinPoints = 3.0;  // a single point of a coarse cloud is no overlap
+  return std::min(1.0, view.landed[index] / std::max(footprint, kMinPoints));
+}
+
 }  // namespace
 
 PlaneView ViewMapPlane(const MapPlane& map_plane, const Frame& frame, const Pose& T_cw,
@@ -46,15 +60,13 @@ PlaneView ViewMapPlane(const MapPlane& map_plane, const Frame& frame, const Pose
 }
 
 double Overlap(const PlaneView& view, const FramePlane& frame_plane) {
-  const auto index = static_cast<std::size_t>(frame_plane.index);
-  if (index >= view.landed.size() || view.landed[index] == 0) return 0.0;
-  // Both footprints in cloud points.
-  const double cells = view.cell_m2 > 0 ? frame_plane.area_m2 / view.cell_m2
-                                        : std::numeric_limits<double>::max();
-  const double smaller = std::min(static_cast<double>(view.expected), cells);
-  // A single point of a coarse cloud is no overlap.
-  constexpr double kMinPoints = 3.0;
-  return std::min(1.0, view.landed[index] / std::max(smaller, kMinPoints));
+  const double smaller =
+      std::min(static_cast<double>(view.expected), PointsOn(view, frame_plane));
+  return ShareLanded(view, frame_plane, smaller);
+}
+
+double Covered(const PlaneView& view, const FramePlane& frame_plane) {
+  return ShareLanded(view, frame_plane, PointsOn(view, frame_plane));
 }
 
 double InPlaneGap(const FramePlane& frame_plane, const MapPlane& map_plane, const Pose& T_wc) {

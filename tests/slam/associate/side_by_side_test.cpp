@@ -96,16 +96,16 @@ TEST(StepBetweenPlanes, IsNotKnownWithoutDepthOrLabels) {
 
 TEST(PiecesOfOneSurface, HaveNoStepWhereTheyMeet) {
   const AssociationConfig config;
-  const auto one = [&](const SeenWorld& seen) {
-    const auto pieces = RelateFramePlanes(seen.frame, HalfCamera(), config).one_surface;
-    EXPECT_EQ(pieces[0][1], pieces[1][0]);
-    EXPECT_FALSE(pieces[0][0]);
-    return pieces[0][1];
+  const auto pieces = [&](const SeenWorld& seen) {
+    const PieceTable table = RelateFramePlanes(seen.frame, HalfCamera(), config).pieces;
+    EXPECT_EQ(table[0][1], table[1][0]);
+    return table[0][1];
   };
-  EXPECT_TRUE(one(TwoBoards(0.0, 1.0)));
-  EXPECT_FALSE(one(TwoBoards(0.006, 1.0)));
+  EXPECT_EQ(pieces(TwoBoards(0.0, 1.0)), Pieces::kOfOne);
+  EXPECT_EQ(pieces(TwoBoards(0.006, 1.0)), Pieces::kUnsure);
+  EXPECT_EQ(pieces(TwoBoards(0.2, 1.0)), Pieces::kOfTwo);
   // Six millimetres that only planes extended to each other could tell.
-  EXPECT_TRUE(one(TwoBoards(0.006, 1.0, 0.6)));
+  EXPECT_EQ(pieces(TwoBoards(0.006, 1.0, 0.6)), Pieces::kOfOne);
 }
 
 /// Two planes, each linked to its own box.
