@@ -5,25 +5,18 @@
 
 #include "app/app.h"
 #include "app/console.h"
-#include "app/surfaces_option.h"
+#include "app/eval_modes.h"
 #include "eval/formats/run.h"
 #include "eval/formats/sequence.h"
 #include "eval/report/evaluate.h"
 #include "eval/report/metrics_json.h"
 #include "eval/report/table.h"
 #include "eval/surfaces/report_surfaces.h"
+#include "io/input_error.h"
 #include "io/output_file.h"
 
 namespace app {
 namespace {
-
-struct EvalOptions {
-  std::string run;
-  std::string truth;
-  std::string output;
-  bool force = false;
-  SurfacesOption surfaces;
-};
 
 /// One line for each kind of fault that the figures can live with.
 void PrintWarnings(const std::vector<eval::Fault>& faults,
@@ -33,7 +26,7 @@ void PrintWarnings(const std::vector<eval::Fault>& faults,
   }
 }
 
-int RunEval(const EvalOptions& options, const Globals& globals) {
+int EvalRun(const EvalOptions& options, const Globals& globals) {
   const eval::Run run = eval::ReadRun(options.run);
   const std::filesystem::path truth =
       options.truth.empty() ? eval::SequenceOf(run) : std::filesystem::path(options.truth);
@@ -64,6 +57,23 @@ int RunEval(const EvalOptions& options, const Globals& globals) {
   return kFailure;
 }
 
+int Eval(const EvalOptions& options, const Globals& globals) {
+  if (!options.trajectory.files.empty()) {
+    if (!options.run.empty()) {
+      throw io::InputError(options.run,
+                           "stands beside --trajectory; name either a run or files "
+                           "of poses");
+    }
+    return EvalTrajectories(options, globals);
+  }
+  if (options.run.empty()) {
+    throw io::InputError("pas eval",
+                         "needs a RUN folder, or --trajectory FILE; see pas eval "
+                         "--help");
+  }
+  return EvalRun(options, globals);
+}
+
 }  // namespace
 
 void AddEvalCommand(CLI::App& pas, const Globals& globals, int& exit_code) {
@@ -76,19 +86,20 @@ void AddEvalCommand(CLI::App& pas, const Globals& globals, int& exit_code) {
       "images (pas slam --save-segmentation) gives nothing that is counted by pixels.\n"
       "What cannot be scored is refused; what should be known beside the figures is a "
       "warning.\n"
+      "With --trajectory, bare files of poses are scored, as evo does it.\n"
       "Exit code 1 if the run tracked no frame.");
-  command->add_option("RUN", options->run, "Run folder, as pas slam writes it")->required();
+  command->add_option("RUN", options->run, "Run folder, as pas slam writes it");
   command->add_option(
       "--truth", options->truth,
       "Sequence folder with the truth (default: the one that RUN/run.json names, "
       "relative to RUN, to the folder above or to here, else where it was)");
   command->add_option("-o,--output", options->output,
                       "File to write, which must not exist (default: RUN/metrics.json, which "
-                      "replaces an older one)");
+                      "replaces an older one; with --trajectory none)");
   command->add_flag("--force", options->force, "Replace the file of -o when it exists");
   AddSurfacesOption(*command, options->surfaces);
-  command->callback(
-      [options, &globals, &exit_code] { exit_code = RunEval(*options, globals); });
+  AddTrajectoryOptions(*command, options->trajectory);
+  command->callback([options, &globals, &exit_code] { exit_code = Eval(*options, globals); });
 }
 
 }  // namespace app

@@ -25,7 +25,7 @@ Run ReadRun(Folder& folder) {
   run.folder = folder.root();
   run.info = ReadRunInfo(folder);
   if (folder.Require(poses, kRunAgain)) {
-    run.trajectory = ReadTrajectory(folder, poses, Severity::kFatal);
+    run.trajectory = ReadTrajectory(folder, poses, {Severity::kWarning, Severity::kFatal});
   }
   if (expects(keyframes.c_str())) run.keyframes = ReadTrajectory(folder, keyframes);
   if (expects("map.json")) {

@@ -5,10 +5,12 @@
 
 #include "eval/formats/run.h"
 #include "eval/planes/association.h"
+#include "eval/planes/clear_score.h"
 #include "eval/planes/corners.h"
+#include "eval/planes/hota_score.h"
+#include "eval/planes/identity_score.h"
 #include "eval/planes/map_score.h"
 #include "eval/planes/segmentation_score.h"
-#include "eval/planes/tracking.h"
 #include "eval/trajectory/score_trajectory.h"
 
 namespace eval {

@@ -1,77 +1,20 @@
 #include "eval/report/metrics_json.h"
 
-#include <optional>
 #include <string>
 #include <utility>
+
+#include "eval/report/figure_group.h"
 
 namespace eval {
 namespace {
 
 using Json = nlohmann::ordered_json;
 
-Json ToJson(const Statistics& s) {
-  return {{"rmse_m", s.rmse},
-          {"mean_m", s.mean},
-          {"median_m", s.median},
-          {"std_m", s.std_dev},
-          {"max_m", s.max}};
-}
-
-Json ToJson(const RelativeScore& s) {
-  return {
-      {"trans_rmse_m", s.trans_rmse_m}, {"rot_rmse_deg", s.rot_rmse_deg}, {"pairs", s.pairs}};
-}
-
-/// One group of figures. A figure that is not defined is null, and the reason stands in `reasons`
-/// under "group/figure".
-class Group {
- public:
-  Group(std::string name, Json& reasons) : name_(std::move(name)), reasons_(reasons) {}
-
-  /// @param key  of the group, or of an object in it ("decision/recall")
-  template <typename Value>
-  void Put(const std::string& key, const Value& value) {
-    json_[Json::json_pointer("/" + key)] = value;
-  }
-  template <typename Value>
-  void Put(const std::string& key, const std::optional<Value>& value,
-           const std::string& reason) {
-    if (!value) return Undefined(key, reason);
-    Put(key, ToJson(*value));
-  }
-  void Undefined(const std::string& key, const std::string& reason) {
-    Put(key, nullptr);
-    reasons_[name_ + "/" + key] = reason;
-  }
-  void PutShare(const std::string& key, double value, bool defined, const std::string& reason) {
-    if (!defined) return Undefined(key, reason);
-    Put(key, value);
-  }
-  /// Precision, recall and f1 of what was found among what is there.
-  void PutShares(const std::string& key, const PrecisionRecall& s, const std::string& no_found,
-                 const std::string& no_truth) {
-    PutShare(key + "/precision", s.precision, no_found.empty(), no_found);
-    PutShare(key + "/recall", s.recall, no_truth.empty(), no_truth);
-    PutShare(key + "/f1", s.f1, no_found.empty() || no_truth.empty(), no_found);
-  }
-  const Json& json() const { return json_; }
-
- private:
-  static Json ToJson(double value) { return value; }
-  static Json ToJson(const Spread& s) { return {{"median", s.median}, {"p95", s.p95}}; }
-  static Json ToJson(const Statistics& s) { return eval::ToJson(s); }
-  static Json ToJson(const RelativeScore& s) { return eval::ToJson(s); }
-
-  std::string name_;
-  Json json_ = Json::object();
-  Json& reasons_;
-};
-
 Json TrajectoryGroup(const TrajectoryScore& s, Json& reasons) {
   const auto why = [&](const char* otherwise) {
     return s.no_match.empty() ? std::string(otherwise) : s.no_match;
   };
-  Group group("trajectory", reasons);
+  FigureGroup group("trajectory", reasons);
   group.Put("frames", s.frames);
   group.Put("tracked", s.tracked);
   group.PutShare("tracked_fraction", double(s.tracked) / double(s.frames), s.frames > 0,
@@ -85,7 +28,7 @@ Json TrajectoryGroup(const TrajectoryScore& s, Json& reasons) {
   return group.json();
 }
 
-void PutRegions(const RegionScore& r, Group& group) {
+void PutRegions(const RegionScore& r, FigureGroup& group) {
   group.Put("truth", r.truth);
   group.Put("machine", r.machine);
   group.Put("correct", r.correct);
@@ -104,7 +47,7 @@ void PutRegions(const RegionScore& r, Group& group) {
 }
 
 Json ExtractionGroup(const PlaneScore& s, Json& reasons) {
-  Group group("extraction", reasons);
+  FigureGroup group("extraction", reasons);
   if (s.regions) {
     PutRegions(*s.regions, group);
   } else {
@@ -121,7 +64,7 @@ Json ExtractionGroup(const PlaneScore& s, Json& reasons) {
 }
 
 Json VertexGroup(const CornerCounts& c, Json& reasons) {
-  Group group("vertices", reasons);
+  FigureGroup group("vertices", reasons);
   group.PutShare("precision", double(c.matched) / c.claimed, c.claimed > 0,
                  "no trusted frame plane has a vertex");
   group.PutShare("recall", double(c.found_in_view) / c.true_in_view, c.true_in_view > 0,
@@ -138,7 +81,7 @@ Json AssociationGroup(const PlaneScore& s, Json& reasons) {
   const auto unless = [](bool defined, const char* reason) {
     return std::string(defined ? "" : reason);
   };
-  Group group("association", reasons);
+  FigureGroup group("association", reasons);
   group.PutShares("pair", a.pair,
                   unless(a.pair_predicted > 0, "no two decisions name one map plane"),
                   unless(a.pair_truth > 0, "no two decisions show one true plane"));
@@ -175,7 +118,7 @@ Json MapGroup(const MapScore& m, const TrajectoryScore& trajectory, Json& reason
                : trajectory.no_match;
   };
   const char* const none = "no map plane shows a true plane that counts";
-  Group group("map", reasons);
+  FigureGroup group("map", reasons);
   group.Put("planes", m.planes);
   group.Put("true_planes_seen", m.true_planes_seen);
   group.Put("matched", m.matched);
@@ -195,7 +138,7 @@ Json MapGroup(const MapScore& m, const TrajectoryScore& trajectory, Json& reason
 }
 
 Json TimingGroup(const TimingScore& t, Json& reasons) {
-  Group group("timing_ms", reasons);
+  FigureGroup group("timing_ms", reasons);
   for (const ModuleTime& m : t.modules) {
     group.Put(m.module, Json{{"mean", m.mean}, {"median", m.median}, {"p95", m.p95}});
   }

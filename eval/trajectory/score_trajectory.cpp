@@ -29,28 +29,6 @@ Trajectory ByRisingStamp(Trajectory trajectory) {
   return trajectory;
 }
 
-std::vector<Eigen::Vector3d> Positions(const std::vector<Pose>& poses) {
-  std::vector<Eigen::Vector3d> positions;
-  positions.reserve(poses.size());
-  for (const Pose& pose : poses) positions.push_back(pose.t);
-  return positions;
-}
-
-std::vector<Pose> Apply(const Alignment& alignment, const std::vector<Pose>& poses) {
-  std::vector<Pose> aligned;
-  aligned.reserve(poses.size());
-  for (const Pose& pose : poses) aligned.push_back(alignment * pose);
-  return aligned;
-}
-
-double MedianInterval(const std::vector<double>& stamps_s) {
-  std::vector<double> intervals_s;
-  for (std::size_t i = 1; i < stamps_s.size(); ++i) {
-    intervals_s.push_back(stamps_s[i] - stamps_s[i - 1]);
-  }
-  return intervals_s.empty() ? 0.0 : Quantile(intervals_s, 0.5);
-}
-
 double Diameter(const std::vector<Eigen::Vector3d>& points) {
   double largest = 0.0;
   for (std::size_t i = 0; i < points.size(); ++i) {
@@ -85,18 +63,6 @@ std::optional<RelativeScore> ScorePairs(const MatchedPoses& poses,
       Describe(RelativeErrors(poses.estimate, poses.truth, pairs, Relation::kAngleDeg));
   if (!translation) return std::nullopt;
   return RelativeScore{translation->rmse, angle->rmse, pairs.size()};
-}
-
-std::string TextOf(NoAlignment reason, const std::string& what, std::size_t count) {
-  switch (reason) {
-    case NoAlignment::kFewPoses:
-      return "only " + std::to_string(count) + " " + what + ", 3 are needed";
-    case NoAlignment::kStandsStill:
-      return "the " + what + " stand still";
-    case NoAlignment::kLine:
-      break;
-  }
-  return "the " + what + " lie on a line to working precision, about which any turn fits";
 }
 
 std::string WhyNoMatch(const Trajectory& estimate, const Trajectory& truth) {
@@ -155,12 +121,13 @@ TrajectoryScore ScoreTrajectory(const Trajectory& estimate, const Trajectory& un
     score.ate_origin = Describe(
         AbsoluteErrors(Apply(origin, poses.estimate), poses.truth, Relation::kTranslation));
   }
-  if (const auto se3 = AlignUmeyama(Positions(poses.estimate), Positions(poses.truth))) {
+  if (const auto se3 = AlignUmeyama(PositionsOf(poses.estimate), PositionsOf(poses.truth))) {
     score.ate_se3 = Describe(
         AbsoluteErrors(Apply(*se3, poses.estimate), poses.truth, Relation::kTranslation));
   }
   if (poses.truth.empty()) score.no_match = WhyNoMatch(estimate, truth);
-  if (const auto reason = WhyNotAligned(Positions(poses.estimate), Positions(poses.truth))) {
+  if (const auto reason =
+          WhyNotAligned(PositionsOf(poses.estimate), PositionsOf(poses.truth))) {
     score.no_ate_se3 = poses.truth.empty()
                            ? score.no_match
                            : TextOf(*reason, "matched positions", poses.truth.size());
@@ -178,7 +145,7 @@ TrajectoryScore ScoreTrajectory(const Trajectory& estimate, const Trajectory& un
                       : TextOf(*reason, "true positions of frames", true_positions.size());
   }
   score.ate_complete_rmse_m = CompleteRmse(true_positions, poses.truth.size(), score.ate_se3);
-  const double half_frame_s = 0.5 * MedianInterval(frame_stamps_s);
+  const double half_frame_s = 0.5 * MedianStep(frame_stamps_s);
   score.rpe_1s = ScorePairs(poses, PairsByTime(poses.stamps_s, kRpeTime_s, half_frame_s));
   score.rpe_1m = ScorePairs(
       poses, PairsByPath(poses.truth, kRpePath_m, kRpePathTolerance_m, PairMode::kAll));
