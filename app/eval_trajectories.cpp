@@ -2,7 +2,6 @@
 #include <filesystem>
 #include <optional>
 
-#include "app/console.h"
 #include "app/eval_modes.h"
 #include "eval/report/trajectory_report.h"
 #include "io/input_error.h"
@@ -13,9 +12,7 @@ namespace {
 
 eval::PoseFile ReadWithWarnings(const std::string& file) {
   eval::PoseFile poses = eval::ReadPoseFile(file);
-  for (const std::string& line : eval::Summaries(poses.warnings, poses.path.parent_path())) {
-    PrintWarning(line);
-  }
+  PrintWarnings(poses.warnings, poses.path.parent_path());
   return poses;
 }
 

@@ -32,6 +32,16 @@ void AddSurfaces(const SurfaceScore& score, const std::string& surfaces, Ordered
     each.push_back(one);
   }
   OrderedJson group = FiguresJson(score.total);
+  const std::size_t undecided = score.events.size();
+  group["no_decision_in_map"] = {
+      {"share", score.known_surfaces > 0 ? OrderedJson(double(undecided) / score.known_surfaces)
+                                         : OrderedJson(nullptr)},
+      {"events", undecided},
+      {"surfaces", score.known_surfaces}};
+  if (score.known_surfaces == 0) {
+    metrics["reasons"]["surfaces/no_decision_in_map/share"] =
+        "no frame shows a large surface that has a landmark, after the first second";
+  }
   group["each"] = each;
   metrics["surfaces"] = group;
   metrics["rules"]["surfaces"] =
@@ -42,7 +52,9 @@ void AddSurfaces(const SurfaceScore& score, const std::string& surfaces, Ordered
       "in planes with a landmark, merges followed; identity: of those, the share in the "
       "commonest; landmarks: that hold 2 % of a surface, mean over surfaces; no_decision: of "
       "surfaces over 5 % of a frame, the share whose largest segment has no landmark; "
-      "segments_per_frame: all of a frame, of a surface those that show it mostly";
+      "segments_per_frame: all of a frame, of a surface those that show it mostly; "
+      "no_decision_in_map: the same as no_decision of surfaces whose largest segment had a "
+      "landmark in an earlier frame, after the first second";
 }
 
 std::string SurfacesTable(const SurfaceScore& score) {
@@ -52,6 +64,13 @@ std::string SurfacesTable(const SurfaceScore& score) {
   text += FiguresRow("all", score.total);
   for (const auto& [id, figures] : score.surfaces)
     text += FiguresRow(std::to_string(id), figures);
+  if (score.known_surfaces > 0) {
+    text += fmt::format(
+        "  no decision on {} of {} large surfaces of frames that have a landmark "
+        "({:.3f})\n",
+        score.events.size(), score.known_surfaces,
+        double(score.events.size()) / score.known_surfaces);
+  }
   return text;
 }
 

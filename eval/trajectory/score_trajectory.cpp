@@ -49,6 +49,7 @@ void CountFrames(const Trajectory& estimate, const std::vector<double>& frame_st
         std::lower_bound(estimate.begin(), estimate.end(), stamp_s - tolerance_s,
                          [](const StampedPose& pose, double s) { return pose.stamp_s < s; });
     const bool tracked = next != estimate.end() && next->stamp_s <= stamp_s + tolerance_s;
+    score.tracked_frames.push_back(tracked);
     if (tracked) ++score.tracked;
     if (was_tracked && !tracked) ++score.lost_events;
     was_tracked = tracked;
@@ -94,6 +95,23 @@ MatchedPoses Collect(const Trajectory& estimate, const Trajectory& truth, bool e
   return poses;
 }
 
+std::vector<PoseError> ErrorsOfPoses(const MatchedPoses& poses,
+                                     const std::vector<double>& position_m,
+                                     const std::optional<Alignment>& gauge) {
+  std::vector<PoseError> errors;
+  errors.reserve(poses.stamps_s.size());
+  for (const double stamp_s : poses.stamps_s) {
+    errors.push_back({stamp_s, std::nullopt, std::nullopt});
+  }
+  for (std::size_t i = 0; i < position_m.size(); ++i) errors[i].position_m = position_m[i];
+  if (!gauge) return errors;
+  const std::vector<double> rotation_deg =
+      AbsoluteErrors(Apply(*gauge, poses.estimate), poses.truth, Relation::kAngleDeg);
+  for (std::size_t i = 0; i < rotation_deg.size(); ++i)
+    errors[i].rotation_deg = rotation_deg[i];
+  return errors;
+}
+
 }  // namespace
 
 std::vector<std::optional<Pose>> TruePosesOfFrames(const Trajectory& truth,
@@ -121,9 +139,12 @@ TrajectoryScore ScoreTrajectory(const Trajectory& estimate, const Trajectory& un
     score.ate_origin = Describe(
         AbsoluteErrors(Apply(origin, poses.estimate), poses.truth, Relation::kTranslation));
   }
-  if (const auto se3 = AlignUmeyama(PositionsOf(poses.estimate), PositionsOf(poses.truth))) {
-    score.ate_se3 = Describe(
-        AbsoluteErrors(Apply(*se3, poses.estimate), poses.truth, Relation::kTranslation));
+  const auto se3 = AlignUmeyama(PositionsOf(poses.estimate), PositionsOf(poses.truth));
+  std::vector<double> position_m;
+  if (se3) {
+    position_m =
+        AbsoluteErrors(Apply(*se3, poses.estimate), poses.truth, Relation::kTranslation);
+    score.ate_se3 = Describe(position_m);
   }
   if (poses.truth.empty()) score.no_match = WhyNoMatch(estimate, truth);
   if (const auto reason =
@@ -134,6 +155,7 @@ TrajectoryScore ScoreTrajectory(const Trajectory& estimate, const Trajectory& un
   }
 
   score.gauge = AlignByPoses(poses.estimate, poses.truth);
+  score.errors = ErrorsOfPoses(poses, position_m, score.gauge);
 
   std::vector<Eigen::Vector3d> true_positions;
   for (const auto& pose : TruePosesOfFrames(truth, frame_stamps_s, equal_stamps)) {
