@@ -14,23 +14,20 @@ namespace {
 void RequireKnownLabels(const Run& run, const FrameEvidence& e) {
   std::set<int> known{0};
   for (const RunFramePlane& plane : e.planes) known.insert(plane.index + 1);
-  int last = 0;
-  for (const std::uint16_t label : *e.segmentation) {
-    if (label == last || known.count(label) > 0) {
-      last = label;
-      continue;
-    }
-    throw io::InputError(
-        run.segmentation_files.Find(e.truth.stamp_s)->string(),
-        "shows the value " + std::to_string(label) + ", but the frame has no plane of index " +
-            std::to_string(label - 1) + "; write index + 1 of the plane, 0 for none");
+  for (const auto& [labels, pixels] : *e.pairs) {
+    if (known.count(labels.second) > 0) continue;
+    throw io::InputError(run.segmentation_files.Find(e.truth.stamp_s)->string(),
+                         "shows the value " + std::to_string(labels.second) +
+                             ", but the frame has no plane of index " +
+                             std::to_string(labels.second - 1) +
+                             "; write index + 1 of the plane, 0 for none");
   }
 }
 
 /// Labels of a system that says nothing else: each is a plane.
-std::vector<RunFramePlane> PlanesOfLabels(const cv::Mat1w& labels) {
+std::vector<RunFramePlane> PlanesOfLabels(const LabelPairs& pairs) {
   std::vector<RunFramePlane> planes;
-  for (const auto& [label, pixels] : CountOverlap(labels, labels).machine_pixels) {
+  for (const auto& [label, pixels] : OverlapOf(pairs).machine_pixels) {
     RunFramePlane plane;
     plane.index = label - 1;
     plane.pixels = static_cast<int>(pixels);
@@ -40,27 +37,28 @@ std::vector<RunFramePlane> PlanesOfLabels(const cv::Mat1w& labels) {
 }
 
 void ReadPixels(const Run& run, FrameEvidence& e) {
-  e.segmentation = ReadSegmentation(run, e.truth.stamp_s);
-  if (!e.segmentation) {
+  auto segmentation = ReadSegmentation(run, e.truth.stamp_s);
+  if (!segmentation) {
     if (!e.planes.empty()) {
       throw io::InputError((run.folder / "segmentation").string(),
                            "has no image for the frame at " + std::to_string(e.truth.stamp_s) +
                                " s, which has planes; save all of them or none");
     }
-    e.segmentation = cv::Mat1w::zeros(e.truth.plane_ids->size());
+    segmentation = cv::Mat1w::zeros(e.truth.plane_ids->size());
   }
-  if (e.segmentation->size() != e.truth.plane_ids->size()) {
+  if (segmentation->size() != e.truth.plane_ids->size()) {
     throw io::InputError(
         (run.folder / "segmentation").string(),
         "the image at " + std::to_string(e.truth.stamp_s) +
             " s differs in size from the truth's; is this the right sequence?");
   }
+  e.pairs = CountPairs(*e.truth.plane_ids, *segmentation);
   if (run.has_planes) {
     RequireKnownLabels(run, e);
   } else {
-    e.planes = PlanesOfLabels(*e.segmentation);
+    e.planes = PlanesOfLabels(*e.pairs);
   }
-  e.truth_of = TruthByPixels(e.truth, *e.segmentation);
+  e.truth_of = TruthByPixels(e.truth, *e.pairs);
 }
 
 }  // namespace
@@ -85,7 +83,7 @@ Overlap OverlapOf(const FrameEvidence& e,
   for (const RunFramePlane& plane : e.planes) {
     if (!e.Ignored(e.TruthOf(plane))) region_of[plane.index + 1] = label_of(plane);
   }
-  return CountedOverlap(e.truth, *e.segmentation, region_of);
+  return CountedOverlap(e.truth, *e.pairs, region_of);
 }
 
 bool DecidedByPixels(const Run& run, const Sequence& sequence) {

@@ -2,7 +2,6 @@
 
 #include <functional>
 #include <map>
-#include <opencv2/core.hpp>
 #include <optional>
 #include <vector>
 
@@ -19,7 +18,8 @@ struct FrameEvidence {
   std::vector<RunFramePlane>
       planes;                   ///< of a run of labels alone they have an index and pixels
   std::map<int, int> truth_of;  ///< by index of the frame plane
-  std::optional<cv::Mat1w> segmentation;  ///< only where it decides the truth
+  /// Ids of true planes with labels of the segmentation, where pixels decide the truth.
+  std::optional<LabelPairs> pairs;
 
   int TruthOf(const RunFramePlane& plane) const;
   /// A scored plane that is too small or too slanted to be asked for: found or not, it is no

@@ -2,7 +2,6 @@
 
 #include <cstdint>
 #include <stdexcept>
-#include <vector>
 
 namespace eval {
 
@@ -20,12 +19,12 @@ double Overlap::IoU(int truth, int machine) const {
   return both / (sum - both);
 }
 
-Overlap CountOverlap(const cv::Mat1w& truth, const cv::Mat1w& machine) {
+LabelPairs CountPairs(const cv::Mat1w& truth, const cv::Mat1w& machine) {
   if (truth.size() != machine.size()) {
-    throw std::invalid_argument("CountOverlap: the images differ in size");
+    throw std::invalid_argument("CountPairs: the images differ in size");
   }
   // Neighbours mostly repeat: count runs of equal pairs.
-  std::map<std::pair<int, int>, long long> pairs;
+  LabelPairs pairs;
   for (int y = 0; y < truth.rows; ++y) {
     const std::uint16_t* t = truth[y];
     const std::uint16_t* m = machine[y];
@@ -36,6 +35,10 @@ Overlap CountOverlap(const cv::Mat1w& truth, const cv::Mat1w& machine) {
       x = end;
     }
   }
+  return pairs;
+}
+
+Overlap OverlapOf(const LabelPairs& pairs) {
   Overlap overlap;
   for (const auto& [labels, count] : pairs) {
     const auto& [t, m] = labels;
@@ -44,6 +47,10 @@ Overlap CountOverlap(const cv::Mat1w& truth, const cv::Mat1w& machine) {
     if (t != 0 && m != 0) overlap.shared[t][m] += count;
   }
   return overlap;
+}
+
+Overlap CountOverlap(const cv::Mat1w& truth, const cv::Mat1w& machine) {
+  return OverlapOf(CountPairs(truth, machine));
 }
 
 }  // namespace eval

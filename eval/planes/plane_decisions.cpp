@@ -32,12 +32,12 @@ void DecisionHistory::Add(const FrameEvidence& e) {
                          e.truth.T_gc * plane.centroid_c});
   }
   for (const SeenPlane& seen : e.truth.planes) {
-    const bool is_large = seen.counted && seen.pixels > kLargeSurfaceShare * e.truth.image_px;
-    if (!is_large) continue;
+    if (!seen.counted) continue;
+    const bool is_large = seen.pixels > kLargeSurfaceShare * e.truth.image_px;
     const RunFramePlane* plane = LargestPlaneOn(e, seen.plane->id);
     const bool decided = plane != nullptr && Decided(*plane);
-    large.push_back({e.number, e.truth.stamp_s, seen.plane->id, seen.pixels, decided,
-                     decided ? "" : WhyUndecided(plane)});
+    surfaces.push_back({e.number, e.truth.stamp_s, seen.plane->id, seen.pixels, is_large,
+                        decided, decided ? "" : WhyUndecided(plane)});
   }
 }
 
@@ -53,14 +53,14 @@ UndecidedSurfaces FindUndecided(const DecisionHistory& history) {
   std::set<int> owned;       // truths that own a map plane, as of the frame before
   std::set<int> map_planes;  // that exist by then
   auto decision = history.decisions.begin();
-  for (const LargeSurface& surface : history.large) {
+  for (const SeenSurface& surface : history.surfaces) {
     for (; decision != history.decisions.end() && decision->record.frame < surface.frame;
          ++decision) {
       if (map_planes.insert(decision->record.map_plane).second)
         owned.insert(decision->record.truth);
     }
     const bool early = !(surface.stamp_s - *history.first_s > kFirstLandmarks_s);
-    if (early || owned.count(surface.truth) == 0) continue;
+    if (early || !surface.is_large || owned.count(surface.truth) == 0) continue;
     ++found.large;
     if (!surface.decided) found.undecided.push_back(surface);
   }

@@ -33,12 +33,13 @@ struct PlaneDecision {
   Eigen::Vector3d centroid_g;  ///< of the patch, by the true pose, metres
 };
 
-/// A surface that is large in a frame, and what of it was decided there.
-struct LargeSurface {
+/// A true plane that counts in a frame, and what of it was decided there.
+struct SeenSurface {
   int frame = 0;
   double stamp_s = 0.0;
   int truth = 0;
   int pixels = 0;  ///< of the surface
+  bool is_large = false;
   /// Its largest frame plane was put on a map plane.
   bool decided = false;
   std::string cue;  ///< why not, as the run says; "no frame plane" when nothing shows it mostly
@@ -47,7 +48,7 @@ struct LargeSurface {
 /// What a run decided about planes, frame by frame.
 struct DecisionHistory {
   std::vector<PlaneDecision> decisions;  ///< by rising frame
-  std::vector<LargeSurface> large;       ///< by rising frame; planes that count
+  std::vector<SeenSurface> surfaces;     ///< by rising frame
   std::optional<double> first_s;         ///< time of the first frame
 
   void Add(const FrameEvidence& e);
@@ -58,7 +59,7 @@ std::vector<AssociationRecord> RecordsOf(const std::vector<PlaneDecision>& decis
 /// Of large surfaces that have a landmark since an earlier frame, those without a decision.
 struct UndecidedSurfaces {
   int large = 0;  ///< surfaces in frames, after the first second, that have a landmark
-  std::vector<LargeSurface> undecided;
+  std::vector<SeenSurface> undecided;
 };
 UndecidedSurfaces FindUndecided(const DecisionHistory& history);
 

@@ -129,7 +129,7 @@ RunEvent EventOf(const PlaneDecision& decision, const JudgedDecision& judged,
   return event;
 }
 
-RunEvent EventOf(const LargeSurface& surface, const std::map<int, int>& first_of,
+RunEvent EventOf(const SeenSurface& surface, const std::map<int, int>& first_of,
                  const EventWorld& world) {
   RunEvent event;
   event.kind = EventKind::kNoDecision;
@@ -169,7 +169,7 @@ std::vector<RunEvent> FindPlaneEvents(const DecisionHistory& history,
     by_truth[truth][map_plane].Add(decision, distance_mm);
   }
   AddMixtures(by_map, by_truth, events);
-  for (const LargeSurface& surface : undecided.undecided) {
+  for (const SeenSurface& surface : undecided.undecided) {
     events.push_back(EventOf(surface, first_of, world));
   }
   SortByHarm(events);

@@ -17,7 +17,7 @@ struct RegionScore {
 /// Counts how the segments of frames cover the true planes that count.
 class RegionScorer {
  public:
-  /// @param e  with a segmentation
+  /// @param e  with pairs of labels
   /// @returns the counts of this frame
   HooverScore Add(const FrameEvidence& e);
   /// @returns nothing without a frame

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <map>
 #include <numbers>
+#include <utility>
 
 #include "eval/planes/united_faces.h"
 
@@ -20,15 +21,16 @@ class PlaneScorer {
     }
     FrameScore frame{e.number, e.truth.stamp_s, 0, std::nullopt};
     for (const SeenPlane& seen : e.truth.planes) frame.true_planes += seen.counted ? 1 : 0;
-    if (e.segmentation) frame.regions = regions_.Add(e);
+    if (e.pairs) frame.regions = regions_.Add(e);
     score_.by_frame.push_back(frame);
     if (!score_.from_frame_planes) return;
     score_.history.Add(e);
     AddParameters(e);
     AddCorners(e);
-    tracking_.push_back(e.segmentation ? TrackByPixels(e) : TrackByTruth(e));
+    tracking_.push_back(e.pairs ? TrackByPixels(e) : TrackByTruth(e));
   }
 
+  /// To be called once: the score leaves the scorer.
   PlaneScore Finish(const Run& run, const SceneTruth& scene, const TrajectoryScore& trajectory,
                     bool by_pixels) {
     score_.by_pixels = by_pixels;
@@ -41,13 +43,14 @@ class PlaneScorer {
     score_.clear = ScoreClear(tracking_);
     score_.identity = ScoreIdentity(tracking_);
     score_.hota = ScoreHota(tracking_);
+    score_.steps = ScoreSteps(score_.history, scene);
     score_.events =
         FindPlaneEvents(score_.history, score_.undecided, {run.map, scene, trajectory.gauge});
-    if (!run.has_map) return score_;
+    if (!run.has_map) return std::move(score_);
     score_.map = score_.from_frame_planes
                      ? ScoreMap(run.map, scene, trajectory.gauge, records, seen_)
                      : ScoreMap(run.map, scene, trajectory.gauge, seen_);
-    return score_;
+    return std::move(score_);
   }
 
  private:

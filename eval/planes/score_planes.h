@@ -12,6 +12,7 @@
 #include "eval/planes/map_score.h"
 #include "eval/planes/plane_events.h"
 #include "eval/planes/region_score.h"
+#include "eval/planes/step_scores.h"
 #include "eval/trajectory/score_trajectory.h"
 
 namespace eval {
@@ -42,6 +43,7 @@ struct PlaneScore {
   std::optional<MapScore> map;  ///< empty without map.json
   DecisionHistory history;
   std::vector<RunEvent> events;      ///< what went wrong, the most harmful first
+  std::vector<StepScore> steps;      ///< tops of regular objects by the height of their step
   std::vector<FrameScore> by_frame;  ///< frames with a true pose
 };
 

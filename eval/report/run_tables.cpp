@@ -77,7 +77,7 @@ class FrameTable {
     if (!evaluation.planes) return;
     for (const FrameScore& frame : evaluation.planes->by_frame) frames_[frame.frame] = &frame;
     outcomes_ = OutcomesByFrame(evaluation.planes->history);
-    for (const LargeSurface& surface : evaluation.planes->undecided.undecided) {
+    for (const SeenSurface& surface : evaluation.planes->undecided.undecided) {
       ++undecided_[surface.frame];
     }
   }

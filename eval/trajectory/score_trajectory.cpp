@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "eval/trajectory/pose_errors.h"
 #include "io/input_error.h"
@@ -95,20 +96,29 @@ MatchedPoses Collect(const Trajectory& estimate, const Trajectory& truth, bool e
   return poses;
 }
 
+/// @param se3    the alignment of positions, where one is defined
+/// @param gauge  by whole poses
 std::vector<PoseError> ErrorsOfPoses(const MatchedPoses& poses,
-                                     const std::vector<double>& position_m,
+                                     const std::optional<Alignment>& se3,
                                      const std::optional<Alignment>& gauge) {
   std::vector<PoseError> errors;
   errors.reserve(poses.stamps_s.size());
-  for (const double stamp_s : poses.stamps_s) {
-    errors.push_back({stamp_s, std::nullopt, std::nullopt});
+  for (std::size_t i = 0; i < poses.stamps_s.size(); ++i) {
+    const Pose &estimate = poses.estimate[i], &truth = poses.truth[i];
+    PoseError error;
+    error.stamp_s = poses.stamps_s[i];
+    error.true_position_g = truth.t;
+    if (gauge) {
+      const Pose T_gc = *gauge * estimate;
+      error.rotation_deg = AngleOf(T_gc.R.transpose() * truth.R) * 180.0 / std::numbers::pi;
+      error.position_g = T_gc.t;
+    }
+    if (se3) {
+      error.position_g = (*se3 * estimate).t;
+      error.position_m = (*error.position_g - truth.t).norm();
+    }
+    errors.push_back(error);
   }
-  for (std::size_t i = 0; i < position_m.size(); ++i) errors[i].position_m = position_m[i];
-  if (!gauge) return errors;
-  const std::vector<double> rotation_deg =
-      AbsoluteErrors(Apply(*gauge, poses.estimate), poses.truth, Relation::kAngleDeg);
-  for (std::size_t i = 0; i < rotation_deg.size(); ++i)
-    errors[i].rotation_deg = rotation_deg[i];
   return errors;
 }
 
@@ -140,11 +150,9 @@ TrajectoryScore ScoreTrajectory(const Trajectory& estimate, const Trajectory& un
         AbsoluteErrors(Apply(origin, poses.estimate), poses.truth, Relation::kTranslation));
   }
   const auto se3 = AlignUmeyama(PositionsOf(poses.estimate), PositionsOf(poses.truth));
-  std::vector<double> position_m;
   if (se3) {
-    position_m =
-        AbsoluteErrors(Apply(*se3, poses.estimate), poses.truth, Relation::kTranslation);
-    score.ate_se3 = Describe(position_m);
+    score.ate_se3 = Describe(
+        AbsoluteErrors(Apply(*se3, poses.estimate), poses.truth, Relation::kTranslation));
   }
   if (poses.truth.empty()) score.no_match = WhyNoMatch(estimate, truth);
   if (const auto reason =
@@ -155,7 +163,7 @@ TrajectoryScore ScoreTrajectory(const Trajectory& estimate, const Trajectory& un
   }
 
   score.gauge = AlignByPoses(poses.estimate, poses.truth);
-  score.errors = ErrorsOfPoses(poses, position_m, score.gauge);
+  score.errors = ErrorsOfPoses(poses, se3, score.gauge);
 
   std::vector<Eigen::Vector3d> true_positions;
   for (const auto& pose : TruePosesOfFrames(truth, frame_stamps_s, equal_stamps)) {

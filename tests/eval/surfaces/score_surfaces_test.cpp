@@ -81,6 +81,34 @@ TEST_F(SurfaceScoreTest, CallsASegmentOverTwoSurfacesImpure) {
   EXPECT_EQ(score.surfaces.at(8).segments_per_frame, 0.0);
 }
 
+TEST_F(SurfaceScoreTest, TellsALargeSurfaceThatHasALandmarkAndGetsNoDecision) {
+  const cv::Mat1w surfaces = Quarters(7, 7, 0, 0), segments = Quarters(1, 1, 2, 2);
+  const std::map<int, int> landmark = {{1, 10}};
+  SurfaceScorer scorer;
+  EXPECT_TRUE(scorer.Add(0, surfaces, segments, {}, true).empty()) << "it has no landmark yet";
+  EXPECT_TRUE(scorer.Add(1, surfaces, segments, landmark, true).empty());
+  EXPECT_TRUE(scorer.Add(2, surfaces, segments, {}, false).empty()) << "too early";
+  const std::vector<UndecidedSegment> undecided = scorer.Add(3, surfaces, segments, {}, true);
+  ASSERT_EQ(undecided.size(), 1u);
+  EXPECT_EQ(undecided[0].surface, 7);
+  EXPECT_EQ(undecided[0].segment, 1);
+  EXPECT_EQ(undecided[0].pixels, int(surfaces.total() / 2));
+  EXPECT_TRUE(scorer.Add(4, surfaces, segments, landmark, true).empty());
+  EXPECT_EQ(scorer.Score().known_surfaces, 2);
+}
+
+TEST_F(SurfaceScoreTest, AsksForNoDecisionInTheFirstSecond) {
+  Segment(Quarters(1, 1, 2, 2));
+  SetLandmark(0, 10);
+  run_.map.resize(1);
+  run_.map[0].id = 10;
+  run_.frames.back().planes[0].map_plane.reset();
+  const SurfaceScore score = Score(Quarters(7, 7, 0, 0));
+  EXPECT_EQ(score.known_surfaces, 0);
+  EXPECT_TRUE(score.events.empty());
+  EXPECT_GT(score.total.no_decision, 0.0);
+}
+
 TEST_F(SurfaceScoreTest, FollowsMergesOfLandmarks) {
   Segment(Quarters(1, 2, 3, 0));
   SetLandmark(0, 10);
