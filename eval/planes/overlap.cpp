@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <stdexcept>
+#include <unordered_map>
 
 namespace eval {
 
@@ -24,16 +25,21 @@ LabelPairs CountPairs(const cv::Mat1w& truth, const cv::Mat1w& machine) {
     throw std::invalid_argument("CountPairs: the images differ in size");
   }
   // Neighbours mostly repeat: count runs of equal pairs.
-  LabelPairs pairs;
+  constexpr int kLabelBits = 16;
+  std::unordered_map<std::uint32_t, long long> counts;
   for (int y = 0; y < truth.rows; ++y) {
     const std::uint16_t* t = truth[y];
     const std::uint16_t* m = machine[y];
     for (int x = 0; x < truth.cols;) {
       int end = x + 1;
       while (end < truth.cols && t[end] == t[x] && m[end] == m[x]) ++end;
-      pairs[{t[x], m[x]}] += end - x;
+      counts[std::uint32_t{t[x]} << kLabelBits | m[x]] += end - x;
       x = end;
     }
+  }
+  LabelPairs pairs;
+  for (const auto& [labels, count] : counts) {
+    pairs[{static_cast<int>(labels >> kLabelBits), static_cast<std::uint16_t>(labels)}] = count;
   }
   return pairs;
 }

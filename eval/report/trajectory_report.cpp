@@ -47,7 +47,8 @@ OrderedJson OneTrajectory(const ComparedTrajectory& one) {
   } else {
     json["longest_gap_s"] = s.max_gap_s;
   }
-  json["scale"] = s.scale;
+  json["scale"] = s.no_absolute.empty() ? OrderedJson(s.scale) : OrderedJson(nullptr);
+  if (!s.no_absolute.empty()) reasons["scale"] = s.no_absolute;
   json["ape"] = ape.json();
   json["rpe"] = rpe.json();
   if (!reasons.empty()) json["reasons"] = reasons;
@@ -74,7 +75,7 @@ std::vector<std::string> Row(const ComparedTrajectory& one) {
           Figure(moved, &Statistics::rmse, "{:.6f}"),
           Figure(s.relative.rotation_deg, &Statistics::rmse, "{:.4f}"),
           fmt::format("{}", s.pairs),
-          fmt::format("{:.4f}", s.scale)};
+          s.no_absolute.empty() ? fmt::format("{:.4f}", s.scale) : "-"};
 }
 
 /// The first column to the left, numbers to the right.

@@ -51,6 +51,9 @@ SurfaceFigures FiguresOf(const SurfaceCounts& c) {
   figures.no_decision = ShareOf(c.undecided_frames, c.large_frames);
   figures.frames = c.frames;
   figures.pixels = c.pixels;
+  figures.segment_pixels = c.segment_on_any;
+  figures.landmark_pixels = InLandmarks(c);
+  figures.large_frames = c.large_frames;
   return figures;
 }
 
@@ -129,6 +132,7 @@ SurfaceScore SurfaceScorer::Score() const {
   score.total = FiguresOf(all);
   score.total.coverage = ShareOf(in_landmarks, all.pixels);
   score.total.identity = ShareOf(in_commonest, in_landmarks);
+  score.total.landmark_pixels = in_landmarks;
   score.total.landmarks = counts_.empty() ? 0.0 : landmarks / double(counts_.size());
   score.total.segments_per_frame = ShareOf(segments_, score.frames);
   score.total.frames = score.frames;

@@ -24,6 +24,9 @@ struct SurfaceFigures {
       0.0;               ///< of frames where it is large, share whose largest segment has none
   int frames = 0;        ///< that show it
   long long pixels = 0;  ///< over all frames
+  /// What purity, identity and no_decision are shares of.
+  long long segment_pixels = 0, landmark_pixels = 0;
+  int large_frames = 0;
 };
 inline constexpr double kMinLandmarkShare = 0.02;  ///< of the surface's pixels
 

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "eval/surfaces/report_surfaces.h"
 #include "tests/eval/surfaces/boards.h"
 
 namespace eval {
@@ -129,6 +130,23 @@ TEST_F(SurfaceScoreTest, FollowsMergesOfLandmarks) {
 
   run_.map.pop_back();  // a candidate that never became a landmark
   EXPECT_NEAR(Score(Quarters(7, 7, 7, 7)).total.coverage, 0.5, 1e-9);
+}
+
+TEST_F(SurfaceScoreTest, WritesNullWithAReasonForAShareOfNothing) {
+  Segment(Quarters(0, 0, 0, 1));
+  nlohmann::ordered_json metrics;
+  AddSurfaces(Score(Quarters(7, 0, 0, 0)), "surfaces.yaml", metrics);
+  const auto& figures = metrics["surfaces"]["each"][0];
+  EXPECT_EQ(figures["whole"], 0.0);
+  EXPECT_EQ(figures["coverage"], 0.0);
+  for (const char* key : {"purity", "identity"}) {
+    EXPECT_TRUE(figures[key].is_null()) << key;
+    EXPECT_TRUE(metrics["reasons"].contains(std::string("surfaces/each/0/") + key)) << key;
+    EXPECT_TRUE(metrics["surfaces"][key].is_null()) << key;
+  }
+  EXPECT_TRUE(metrics["surfaces"]["no_decision_in_map"]["share"].is_null());
+  AddSurfaces(Score(Quarters(0, 0, 0, 0)), "surfaces.yaml", metrics);
+  EXPECT_TRUE(metrics["surfaces"]["whole"].is_null());
 }
 
 TEST_F(SurfaceScoreTest, RefusesARunWithoutSegmentation) {
