@@ -30,6 +30,7 @@ void AddSimCommand(CLI::App& pas, const Globals& globals, int& exit_code);
 void AddSlamCommand(CLI::App& pas, const Globals& globals, int& exit_code);
 void AddConfigCommand(CLI::App& pas, const Globals& globals, int& exit_code);
 void AddEvalCommand(CLI::App& pas, const Globals& globals, int& exit_code);
+void AddPlotCommand(CLI::App& pas, const Globals& globals, int& exit_code);
 void AddDrawCommand(CLI::App& pas, const Globals& globals, int& exit_code);
 void AddExportCommand(CLI::App& pas, const Globals& globals, int& exit_code);
 /// Its children are one per file command_bench_<part>.cpp.

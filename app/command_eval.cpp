@@ -1,39 +1,57 @@
 #include <cstdio>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
+#include <vector>
 
 #include "app/app.h"
 #include "app/console.h"
-#include "app/surfaces_option.h"
+#include "app/eval_modes.h"
 #include "eval/formats/run.h"
 #include "eval/formats/sequence.h"
 #include "eval/report/evaluate.h"
 #include "eval/report/metrics_json.h"
+#include "eval/report/run_tables.h"
 #include "eval/report/table.h"
 #include "eval/surfaces/report_surfaces.h"
+#include "io/input_error.h"
 #include "io/output_file.h"
 
 namespace app {
 namespace {
 
-struct EvalOptions {
-  std::string run;
-  std::string truth;
-  std::string output;
-  bool force = false;
-  SurfacesOption surfaces;
+/// Files beside the figures, refused before the work.
+class RunTables {
+ public:
+  RunTables(const EvalOptions& options, const std::vector<std::filesystem::path>& inputs)
+      : as_json_lines_(options.events.ends_with(".jsonl")) {
+    if (!options.frames.empty()) {
+      frames_.emplace(options.frames, io::OutputRules{options.force, inputs});
+    }
+    if (!options.events.empty()) {
+      events_.emplace(options.events, io::OutputRules{options.force, inputs});
+    }
+  }
+  void Write(const eval::Evaluation& evaluation, const eval::Run& run,
+             const eval::Sequence& sequence,
+             const std::optional<eval::SurfaceScore>& surfaces) const {
+    if (frames_) frames_->Write(eval::FramesCsv(evaluation, run, sequence));
+    if (!events_) return;
+    std::vector<eval::RunEvent> events = eval::EventsOf(evaluation, sequence);
+    if (surfaces) {
+      events.insert(events.end(), surfaces->events.begin(), surfaces->events.end());
+      eval::SortByHarm(events);
+    }
+    events_->Write(as_json_lines_ ? eval::EventsJsonLines(events) : eval::EventsCsv(events));
+  }
+
+ private:
+  bool as_json_lines_;
+  std::optional<io::OutputFile> frames_, events_;
 };
 
-/// One line for each kind of fault that the figures can live with.
-void PrintWarnings(const std::vector<eval::Fault>& faults,
-                   const std::filesystem::path& folder) {
-  for (const std::string& line : eval::Summaries(faults, folder)) {
-    PrintWarning(line);
-  }
-}
-
-int RunEval(const EvalOptions& options, const Globals& globals) {
+int EvalRun(const EvalOptions& options, const Globals& globals) {
   const eval::Run run = eval::ReadRun(options.run);
   const std::filesystem::path truth =
       options.truth.empty() ? eval::SequenceOf(run) : std::filesystem::path(options.truth);
@@ -44,6 +62,7 @@ int RunEval(const EvalOptions& options, const Globals& globals) {
       by_default ? run.folder / kMetrics : std::filesystem::path(options.output);
   const io::OutputFile file(output,
                             {options.force || by_default, {run.folder, truth}, kMetrics});
+  const RunTables tables(options, {run.folder, truth});
   const eval::Sequence sequence = eval::ReadSequence(truth);
   const eval::Evaluation evaluation = eval::Evaluate(run, sequence);
   PrintWarnings(evaluation.run_warnings, run.folder);
@@ -53,6 +72,7 @@ int RunEval(const EvalOptions& options, const Globals& globals) {
   nlohmann::ordered_json metrics = eval::MetricsJson(evaluation);
   if (surfaces) eval::AddSurfaces(*surfaces, options.surfaces.file, metrics);
   file.Write(metrics.dump(2) + "\n");
+  tables.Write(evaluation, run, sequence, surfaces);
   if (!globals.quiet) {
     std::fputs(eval::MetricsTable(evaluation).c_str(), stdout);
     if (surfaces) std::fputs(eval::SurfacesTable(*surfaces).c_str(), stdout);
@@ -64,7 +84,48 @@ int RunEval(const EvalOptions& options, const Globals& globals) {
   return kFailure;
 }
 
+int Eval(const EvalOptions& options, const Globals& globals) {
+  const bool files = !options.trajectory.files.empty(), labels = !options.segmentation.empty();
+  if (int{files} + int{labels} + int{!options.run.empty()} != 1) {
+    throw io::InputError("pas eval",
+                         "expected one of a RUN folder, --trajectory FILE... and "
+                         "--segmentation DIR; see pas eval --help");
+  }
+  if (files) return EvalTrajectories(options, globals);
+  return labels ? EvalLabels(options, globals) : EvalRun(options, globals);
+}
+
+void AddOtherInputs(CLI::App& command, EvalOptions& options) {
+  CLI::Option* segmentation =
+      command
+          .add_option(
+              "--segmentation", options.segmentation,
+              "Folder of label images instead of a RUN: TIMESTAMP.png of 8 or 16 bits, a "
+              "number for each plane of the frame, 0 for none; scored against gt/plane_id "
+              "of the sequence of --truth")
+          ->type_name("DIR");
+  command
+      .add_option("--per-frame", options.frames,
+                  "File for a line of each frame: tracking, errors of the pose, planes, "
+                  "decisions, time (docs/evaluation.md)")
+      ->excludes(segmentation)
+      ->type_name("FILE.csv");
+  command
+      .add_option(
+          "--events", options.events,
+          "File for all that went wrong, the most harmful first: wrong and missed "
+          "associations, large surfaces without a decision, merges, splits, lost frames; "
+          "JSON lines when it ends in .jsonl (docs/evaluation.md)")
+      ->excludes(segmentation)
+      ->type_name("FILE.csv");
+}
+
 }  // namespace
+
+void PrintWarnings(const std::vector<eval::Fault>& faults,
+                   const std::filesystem::path& folder) {
+  for (const std::string& line : eval::Summaries(faults, folder)) PrintWarning(line);
+}
 
 void AddEvalCommand(CLI::App& pas, const Globals& globals, int& exit_code) {
   const auto options = std::make_shared<EvalOptions>();
@@ -76,19 +137,23 @@ void AddEvalCommand(CLI::App& pas, const Globals& globals, int& exit_code) {
       "images (pas slam --save-segmentation) gives nothing that is counted by pixels.\n"
       "What cannot be scored is refused; what should be known beside the figures is a "
       "warning.\n"
+      "With --trajectory, bare files of poses are scored, as evo does it; with "
+      "--segmentation,\n"
+      "label images. A run of another program needs no more than trajectory.txt, and --truth.\n"
       "Exit code 1 if the run tracked no frame.");
-  command->add_option("RUN", options->run, "Run folder, as pas slam writes it")->required();
+  command->add_option("RUN", options->run, "Run folder, as pas slam writes it");
   command->add_option(
       "--truth", options->truth,
       "Sequence folder with the truth (default: the one that RUN/run.json names, "
       "relative to RUN, to the folder above or to here, else where it was)");
   command->add_option("-o,--output", options->output,
                       "File to write, which must not exist (default: RUN/metrics.json, which "
-                      "replaces an older one)");
-  command->add_flag("--force", options->force, "Replace the file of -o when it exists");
+                      "replaces an older one; with --trajectory or --segmentation none)");
+  command->add_flag("--force", options->force, "Replace files that exist");
   AddSurfacesOption(*command, options->surfaces);
-  command->callback(
-      [options, &globals, &exit_code] { exit_code = RunEval(*options, globals); });
+  AddOtherInputs(*command, *options);
+  AddTrajectoryOptions(*command, options->trajectory);
+  command->callback([options, &globals, &exit_code] { exit_code = Eval(*options, globals); });
 }
 
 }  // namespace app

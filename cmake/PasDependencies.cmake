@@ -14,6 +14,7 @@ find_package(GTest REQUIRED)
 find_package(rapidcheck QUIET)
 pkg_check_modules(DEFLATE REQUIRED IMPORTED_TARGET libdeflate)
 pkg_check_modules(PCL REQUIRED IMPORTED_TARGET pcl_common pcl_sample_consensus)
+pkg_check_modules(Cairo REQUIRED IMPORTED_TARGET cairo cairo-svg cairo-pdf cairo-png)
 pkg_check_modules(OSMesa REQUIRED IMPORTED_TARGET osmesa)
 
 # OpenCV's and yaml-cpp's configs export plain names; give them the form of the others.

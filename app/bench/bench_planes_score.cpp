@@ -6,6 +6,7 @@
 #include <limits>
 #include <numbers>
 
+#include "eval/planes/step_scores.h"
 #include "eval/planes/truth_of_planes.h"
 
 namespace app {
@@ -17,34 +18,6 @@ constexpr double kThinStep_m = 0.010 - 1e-6;  // the scene's numbers are rounded
 constexpr double kThinDistance_m = 1.2;
 constexpr std::array<int, 10> kStepBins_mm = {0, 3, 4, 5, 6, 8, 10, 15, 25, 50};
 
-/// Is the point inside the convex polygon, both seen from above?
-bool Below(const Eigen::Vector3d& point_g, const std::vector<Eigen::Vector3d>& polygon_g) {
-  bool left = false, right = false;
-  for (std::size_t k = 0; k < polygon_g.size(); ++k) {
-    const Eigen::Vector3d& a = polygon_g[k];
-    const Eigen::Vector3d& b = polygon_g[(k + 1) % polygon_g.size()];
-    const double turn =
-        (b.x() - a.x()) * (point_g.y() - a.y()) - (b.y() - a.y()) * (point_g.x() - a.x());
-    (turn > 0 ? left : right) = true;
-  }
-  return !(left && right);
-}
-
-/// Height of a top face above the highest other one right below its middle; 0 if there is none.
-double StepOf(const eval::TruthPlane& top, const eval::SceneTruth& scene) {
-  Eigen::Vector3d middle_g = Eigen::Vector3d::Zero();
-  for (const Eigen::Vector3d& corner : top.vertices_g) middle_g += corner;
-  middle_g /= static_cast<double>(top.vertices_g.size());
-  double step_m = std::numeric_limits<double>::infinity();
-  for (const eval::TruthPlane& other : scene.planes) {
-    if (other.id == top.id || !(other.pi_g.n.z() > kLevelNormalZ)) continue;
-    if (!Below(middle_g, other.vertices_g)) continue;
-    const double under_m = eval::SignedDistance(other.pi_g, middle_g);
-    if (under_m > 0) step_m = std::min(step_m, under_m);
-  }
-  return std::isfinite(step_m) ? step_m : 0.0;
-}
-
 int BinOf(double step_m) {
   const auto above =
       std::upper_bound(kStepBins_mm.begin(), kStepBins_mm.end(), 1e3 * step_m + 1e-3);
@@ -55,7 +28,7 @@ int BinOf(double step_m) {
 struct ScoredFrame {
   const slam::Frame& found;
   const eval::TrueFrame& truth;
-  cv::Mat1w labels;             ///< found.plane_labels, wider
+  eval::LabelPairs pairs;       ///< ids of true planes with found.plane_labels
   std::map<int, int> truth_of;  ///< by index of the frame plane
 };
 
@@ -73,7 +46,7 @@ eval::Overlap OverlapOf(const ScoredFrame& f) {
     if (truth == f.truth_of.end() || Ignored(f, truth->second) || plane.bad) continue;
     region_of[plane.index + 1] = plane.index + 1;
   }
-  return eval::CountedOverlap(f.truth, f.labels, region_of);
+  return eval::CountedOverlap(f.truth, f.pairs, region_of);
 }
 
 /// A found region holds 80 % of the true one, and the true one 80 % of it.
@@ -93,7 +66,7 @@ void AddRegions(const ScoredFrame& f, const eval::SceneTruth& scene, PlaneBench&
     const bool top =
         seen.object->role == eval::Role::kRegular && seen.plane->pi_g.n.z() > kLevelNormalZ;
     if (!seen.counted || !top) continue;
-    const double step_m = StepOf(*seen.plane, scene);
+    const double step_m = eval::StepOf(*seen.plane, scene);
     Eigen::Vector3d middle_c = Eigen::Vector3d::Zero();
     for (const Eigen::Vector3d& corner_c : seen.corners_c) middle_c += corner_c;
     const double distance_m = (middle_c / static_cast<double>(seen.corners_c.size())).norm();
@@ -180,8 +153,10 @@ void LeaveOutUnmeasured(const cv::Mat1f& depth_m, const slam::Camera& camera,
 void ScoreFrame(const slam::Frame& found, const eval::TrueFrame& truth,
                 const eval::SceneTruth& scene, PlaneBench& bench) {
   ScoredFrame f{found, truth, {}, {}};
-  found.plane_labels.convertTo(f.labels, CV_16U);
-  f.truth_of = eval::TruthByPixels(truth, f.labels);
+  cv::Mat1w labels;
+  found.plane_labels.convertTo(labels, CV_16U);
+  f.pairs = eval::CountPairs(*truth.plane_ids, labels);
+  f.truth_of = eval::TruthByPixels(truth, f.pairs);
   ++bench.scored_frames;
   AddRegions(f, scene, bench);
   AddParameters(f, bench);

@@ -47,7 +47,7 @@ std::vector<std::string> Names(const Folder& folder) {
 }  // namespace
 
 void CheckSegmentation(Folder& folder, const Run& run) {
-  if (!std::filesystem::is_directory(folder.root() / kFolder)) return;
+  if (!run.has_planes || !std::filesystem::is_directory(folder.root() / kFolder)) return;
   cv::Size size;
   std::set<std::size_t> seen;
   const std::vector<double> stamps_s = StampsOf(run.frames);

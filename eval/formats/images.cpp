@@ -17,7 +17,10 @@ constexpr int kColourAsStored = cv::IMREAD_COLOR | cv::IMREAD_IGNORE_ORIENTATION
 constexpr int kMaxImageSide_px = 8192;  // the largest camera that a camera.yaml may describe
 
 std::string TypeName(int depth, int channels) {
-  const char* bits = depth == CV_8U ? "8-bit" : depth == CV_16U ? "16-bit" : "other";
+  const char* bits = depth == CV_8U       ? "8-bit"
+                     : depth == CV_16U    ? "16-bit"
+                     : depth == kAnyDepth ? "8-bit or 16-bit"
+                                          : "other";
   return fmt::format("{} with {} channel{}", bits, channels, channels == 1 ? "" : "s");
 }
 
@@ -83,7 +86,10 @@ cv::Mat Decode(Folder& folder, const std::string& file, bool is_colour) {
 cv::Mat ReadImage(Folder& folder, const std::string& file, const ImageKind& kind) {
   cv::Mat image = Decode(folder, file, kind.depth == CV_8U && kind.channels == 3);
   if (image.empty()) return image;
-  if (image.depth() != kind.depth || image.channels() != kind.channels) {
+  const bool right_depth = kind.depth == kAnyDepth
+                               ? image.depth() == CV_8U || image.depth() == CV_16U
+                               : image.depth() == kind.depth;
+  if (!right_depth || image.channels() != kind.channels) {
     folder.Tell(file, 0,
                 fmt::format("is {}; expected {}", TypeName(image.depth(), image.channels()),
                             TypeName(kind.depth, kind.channels)),

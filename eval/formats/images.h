@@ -9,9 +9,12 @@
 
 namespace eval {
 
+/// Either of 8 and 16 bits.
+inline constexpr int kAnyDepth = -1;
+
 /// What an image of a folder must be.
 struct ImageKind {
-  int depth = CV_8U;  ///< CV_8U or CV_16U
+  int depth = CV_8U;  ///< CV_8U, CV_16U or kAnyDepth
   int channels = 1;
   cv::Size size;  ///< any when it is empty
 };

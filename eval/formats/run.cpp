@@ -8,6 +8,7 @@
 #include "eval/formats/run_agreement.h"
 #include "eval/formats/trajectory.h"
 #include "io/folder_kind.h"
+#include "io/path_type.h"
 
 namespace eval {
 namespace {
@@ -25,7 +26,7 @@ Run ReadRun(Folder& folder) {
   run.folder = folder.root();
   run.info = ReadRunInfo(folder);
   if (folder.Require(poses, kRunAgain)) {
-    run.trajectory = ReadTrajectory(folder, poses, Severity::kFatal);
+    run.trajectory = ReadTrajectory(folder, poses, {Severity::kWarning, Severity::kFatal});
   }
   if (expects(keyframes.c_str())) run.keyframes = ReadTrajectory(folder, keyframes);
   if (expects("map.json")) {
@@ -49,7 +50,30 @@ Run ReadRun(const fs::path& path) {
   return run;
 }
 
+Run RunOfLabels(const fs::path& folder) {
+  if (io::TypeAt(folder) != fs::file_type::directory) {
+    throw io::InputError(folder.string(),
+                         "is no folder, expected one of label images, "
+                         "TIMESTAMP.png");
+  }
+  Run run;
+  run.folder = folder;
+  run.segmentation_files = StampedFiles(folder);
+  if (run.segmentation_files.empty()) {
+    throw io::InputError(
+        folder.string(),
+        "has no label image; write TIMESTAMP.png for each frame, 8 or 16 bits, "
+        "a number for each plane and 0 for none");
+  }
+  return run;
+}
+
 fs::path SequenceOf(const Run& run) {
+  if (!io::Exists(run.folder / "run.json")) {
+    throw io::InputError(
+        run.folder.string(),
+        "has no run.json, which would name the sequence; name it with --truth");
+  }
   const fs::path written = run.info.sequence;
   const fs::path here = fs::absolute(run.folder).lexically_normal() / "";
   const fs::path above = here.parent_path().parent_path();
@@ -72,7 +96,7 @@ fs::path SequenceOf(const Run& run) {
 std::optional<cv::Mat1w> ReadSegmentation(const Run& run, double stamp_s) {
   const auto file = run.segmentation_files.Find(stamp_s);
   if (!file) return std::nullopt;
-  return ReadLabels(*file, {CV_8U, 1, {}});
+  return ReadLabels(*file, {run.has_planes ? CV_8U : kAnyDepth, 1, {}});
 }
 
 }  // namespace eval

@@ -22,19 +22,24 @@ struct Run {
   bool has_planes = false;       ///< there is a frame_planes.jsonl
   bool has_map = false;          ///< there is a map.json with a list of planes
   std::optional<Timing> timing;
-  StampedFiles segmentation_files;  ///< index of the frame plane + 1, 0 = none
-  std::vector<Fault> warnings;      ///< faults that figures and pictures can live with
+  /// Index of the frame plane + 1, 0 = none; without frame_planes.jsonl any labels.
+  StampedFiles segmentation_files;
+  std::vector<Fault> warnings;  ///< faults that figures and pictures can live with
 };
 
-/// Reads the folder. run.json and trajectory.txt are required; that one of the rest is missing
-/// is a flaw, so that other systems can be scored by what they give.
+/// Reads the folder. trajectory.txt is required; that one of the rest is missing is a flaw, so that
+/// other systems can be scored by what they give.
 Run ReadRun(Folder& folder);
 /// @throws InputError naming the file and line, or the required file that is missing.
 Run ReadRun(const std::filesystem::path& folder);
 
+/// A folder of label images alone, named after the times of their frames: a run that says nothing
+/// else. @throws InputError when it is no folder or has no such image
+Run RunOfLabels(const std::filesystem::path& folder);
+
 /// The sequence that run.json names: relative to the run folder, to the folder above, to the
 /// caller, else where it was when the run was made.
-/// @throws InputError naming all these places if none is a folder.
+/// @throws InputError naming all these places if none is a folder, or when there is no run.json
 std::filesystem::path SequenceOf(const Run& run);
 
 /// The segmentation of the frame, if the run saved it.

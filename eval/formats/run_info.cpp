@@ -70,9 +70,10 @@ RunInfo ReadInfo(const JsonRecord& root) {
 RunInfo ReadRunInfo(Folder& folder) {
   const std::string file = "run.json";
   RunInfo info;
-  if (!folder.Require(file,
-                      "every run has it, to tell what was run; run the SLAM system again"))
+  if (!folder.Require(file, "every run has it, to tell what was run; run the SLAM system again",
+                      Severity::kFlaw)) {
     return info;
+  }
   VisitJson(folder, file, [&](const JsonRecord& root) { info = ReadInfo(root); });
   return info;
 }

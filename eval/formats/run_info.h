@@ -24,7 +24,7 @@ struct RunInfo {
 /// How a fault of a run is mended, as a rule.
 inline constexpr const char* kRunAgain = "run the SLAM system again";
 
-/// Reads run.json, which every run has.
+/// Reads run.json; one that is missing tells nothing, which is a flaw.
 RunInfo ReadRunInfo(Folder& folder);
 
 }  // namespace eval

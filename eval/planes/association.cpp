@@ -22,14 +22,9 @@ int Sum(const std::map<int, int>& row) {
 
 /// Rows with at least two entries that carry weight.
 int CountMixed(const Table& rows) {
-  int mixed = 0;
-  for (const auto& [id, row] : rows) {
-    const double least = std::max(kMinRecords, kMinShare * Sum(row));
-    const auto strong = std::count_if(row.begin(), row.end(),
-                                      [&](const auto& entry) { return entry.second >= least; });
-    if (strong >= 2) ++mixed;
-  }
-  return mixed;
+  return static_cast<int>(std::count_if(rows.begin(), rows.end(), [](const auto& row) {
+    return StrongEntries(row.second).size() >= 2;
+  }));
 }
 
 double HarmonicMean(double a, double b) { return a + b > 0.0 ? 2.0 * a * b / (a + b) : 0.0; }
@@ -56,45 +51,79 @@ void ScorePairs(const Table& by_truth, const Table& by_map, AssociationScore& sc
   }
 }
 
-void Decide(const AssociationRecord& record, const std::map<int, int>& owner,
-            const std::set<int>& owned, DecisionCounts& counts) {
+JudgedDecision Judge(const AssociationRecord& record, const std::map<int, int>& owner,
+                     const std::set<int>& owned) {
+  JudgedDecision judged;
+  judged.truth_had_owner = owned.count(record.truth) > 0;
   const auto known = owner.find(record.map_plane);
-  const bool has_owner = owned.count(record.truth) > 0;
   if (known == owner.end()) {
-    if (record.truth == 0) {
-      ++counts.spurious;
-    } else {
-      ++(has_owner ? counts.fn : counts.tn);
-    }
-    return;
+    judged.outcome = record.truth == 0        ? DecisionOutcome::kSpurious
+                     : judged.truth_had_owner ? DecisionOutcome::kMissed
+                                              : DecisionOutcome::kFirst;
+    return judged;
   }
-  if (known->second == record.truth) {
-    ++(record.truth == 0 ? counts.spurious : counts.tp);
-    return;
-  }
-  ++counts.fp;
-  if (has_owner) ++counts.fn;
+  judged.owner = known->second;
+  judged.outcome = known->second != record.truth ? DecisionOutcome::kWrong
+                   : record.truth == 0           ? DecisionOutcome::kNoiseAgain
+                                                 : DecisionOutcome::kRight;
+  return judged;
 }
 
 DecisionCounts CountDecisions(const std::vector<AssociationRecord>& records) {
   DecisionCounts counts;
-  std::map<int, int> owner;  // of each map plane, as of the frame before
-  std::set<int> owned;       // truth planes that own a map plane
-  for (auto first = records.begin(); first != records.end();) {
-    const auto last = std::find_if(first, records.end(), [&](const AssociationRecord& r) {
-      return r.frame != first->frame;
-    });
-    for (auto r = first; r != last; ++r) Decide(*r, owner, owned, counts);
-    for (auto r = first; r != last; ++r) {
-      if (owner.emplace(r->map_plane, r->truth).second && r->truth != 0) owned.insert(r->truth);
+  for (const JudgedDecision& judged : JudgeDecisions(records)) {
+    switch (judged.outcome) {
+      case DecisionOutcome::kRight:
+        ++counts.tp;
+        break;
+      case DecisionOutcome::kWrong:
+        ++counts.fp;
+        if (judged.truth_had_owner) ++counts.fn;
+        break;
+      case DecisionOutcome::kMissed:
+        ++counts.fn;
+        break;
+      case DecisionOutcome::kFirst:
+        ++counts.tn;
+        break;
+      case DecisionOutcome::kSpurious:
+      case DecisionOutcome::kNoiseAgain:
+        ++counts.spurious;
+        break;
     }
-    first = last;
   }
   counts.scores = MakeScores(counts.tp, counts.tp + counts.fp, counts.tp + counts.fn);
   return counts;
 }
 
 }  // namespace
+
+std::vector<int> StrongEntries(const std::map<int, int>& row) {
+  const double min_records = std::max(kMinRecords, kMinShare * Sum(row));
+  std::vector<int> strong;
+  for (const auto& [id, n] : row) {
+    if (n >= min_records) strong.push_back(id);
+  }
+  return strong;
+}
+
+std::vector<JudgedDecision> JudgeDecisions(const std::vector<AssociationRecord>& records) {
+  std::vector<JudgedDecision> judged;
+  judged.reserve(records.size());
+  std::map<int, int> owner;  // of each map plane, as of the frame before
+  std::set<int> owned;       // truth planes that own a map plane
+  for (auto first = records.begin(); first != records.end();) {
+    const auto last = std::find_if(first, records.end(), [&](const AssociationRecord& r) {
+      return r.frame != first->frame;
+    });
+    for (auto r = first; r != last; ++r) judged.push_back(Judge(*r, owner, owned));
+    for (auto r = first; r != last; ++r) {
+      if (owner.emplace(r->map_plane, r->truth).second && r->truth != 0) owned.insert(r->truth);
+    }
+    first = last;
+  }
+  return judged;
+}
 
 PrecisionRecall MakeScores(double tp, double predicted, double truth) {
   PrecisionRecall scores;

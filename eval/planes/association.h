@@ -1,5 +1,6 @@
 #pragma once
 
+#include <map>
 #include <vector>
 
 namespace eval {
@@ -11,6 +12,28 @@ struct AssociationRecord {
   int truth = 0;
   int map_plane = 0;
 };
+
+/// What one decision was, given those of earlier frames; see DecisionCounts.
+enum class DecisionOutcome {
+  kRight,       ///< TP
+  kWrong,       ///< FP
+  kMissed,      ///< a new map plane for a truth that has one: FN
+  kFirst,       ///< the first map plane of its truth: TN
+  kSpurious,    ///< noise that makes a map plane
+  kNoiseAgain,  ///< noise on the map plane that noise created: counted as spurious too
+};
+struct JudgedDecision {
+  DecisionOutcome outcome = DecisionOutcome::kFirst;
+  bool truth_had_owner = false;  ///< its truth had a map plane
+  int owner = 0;  ///< truth of the record that created the map plane; 0: none, noise
+};
+
+/// @param records  by rising frame; of one frame in any order
+/// @returns one for each record
+std::vector<JudgedDecision> JudgeDecisions(const std::vector<AssociationRecord>& records);
+
+/// Which entries of a row carry weight: n >= max(3, 5 % of the row).
+std::vector<int> StrongEntries(const std::map<int, int>& row);
 
 /// A share with its parts; nothing to share is 0, so that it never looks like success.
 struct PrecisionRecall {

@@ -7,27 +7,12 @@
 
 #include "eval/planes/corners.h"
 #include "eval/planes/polygon.h"
+#include "eval/planes/truth_of_planes.h"
 
 namespace eval {
 namespace {
 
 using Counts = std::map<int, std::map<int, int>>;  // [final map plane][truth or 0]
-
-const RunMapPlane* FindMapPlane(const std::vector<RunMapPlane>& map, int id) {
-  const auto found = std::lower_bound(map.begin(), map.end(), id,
-                                      [](const RunMapPlane& p, int i) { return p.id < i; });
-  return found != map.end() && found->id == id ? &*found : nullptr;
-}
-
-/// The plane of the final map that `id` became; a broken chain ends where it breaks.
-int FinalId(const std::vector<RunMapPlane>& map, int id) {
-  for (std::size_t step = 0; step < map.size(); ++step) {
-    const RunMapPlane* plane = FindMapPlane(map, id);
-    if (plane == nullptr || !plane->merged_into) return id;
-    id = *plane->merged_into;
-  }
-  return id;
-}
 
 /// The truth with most records; ties go to the lower id, before 0.
 int Majority(const std::map<int, int>& row) {
@@ -50,8 +35,8 @@ int CountMerged(const Counts& counts) {
   return ScoreAssociation(records).merged_map_planes;
 }
 
-std::vector<Eigen::Vector3d> InTruthWorld(const Alignment& gauge,
-                                          const std::vector<Eigen::Vector3d>& points_w) {
+std::vector<Eigen::Vector3d> PointsInTruthWorld(const Alignment& gauge,
+                                                const std::vector<Eigen::Vector3d>& points_w) {
   std::vector<Eigen::Vector3d> points_g;
   points_g.reserve(points_w.size());
   for (const Eigen::Vector3d& p : points_w) points_g.push_back(gauge.T_gw * (gauge.scale * p));
@@ -65,24 +50,51 @@ struct Outline {
 Outline OutlinesOf(const RunMapPlane& plane, const TruthPlane& truth, const Alignment& gauge) {
   const PlaneChart chart = ChartOf(truth.pi_g, truth.vertices_g.front());
   const auto& outline_w = plane.hull_w.size() >= 3 ? plane.hull_w : plane.vertices_w;
-  return {ConvexHull(Project(chart, InTruthWorld(gauge, outline_w))),
+  return {ConvexHull(Project(chart, PointsInTruthWorld(gauge, outline_w))),
           ConvexHull(Project(chart, truth.vertices_g))};
 }
 
-double RmsDistance(const Plane& pi_g, const std::vector<Eigen::Vector3d>& points_g) {
-  double sum = 0.0;
-  for (const Eigen::Vector3d& p : points_g) sum += std::pow(SignedDistance(pi_g, p), 2);
-  return std::sqrt(sum / static_cast<double>(points_g.size()));
+/// The scored true plane that the map plane lies on, by the rule of frame planes without pixels:
+/// the nearest one that their outlines share, by area where offsets agree; 0 if there is none.
+int TruthByOutline(const RunMapPlane& plane, const SceneTruth& scene, const Alignment& gauge) {
+  struct Candidate {
+    int id;
+    double offset_m, shared_m2;
+  };
+  const auto& outline_w = plane.hull_w.size() >= 3 ? plane.hull_w : plane.vertices_w;
+  if (outline_w.size() < 3) return 0;
+  Eigen::Vector3d middle_g = Eigen::Vector3d::Zero();
+  for (const Eigen::Vector3d& p : PointsInTruthWorld(gauge, outline_w)) middle_g += p;
+  middle_g /= static_cast<double>(outline_w.size());
+  const Plane pi_g = InTruthWorld(gauge, plane.pi_w);
+  std::vector<Candidate> candidates;
+  double min_offset_m = kMaxTruthOffset_m;
+  for (const TruthPlane& truth : scene.planes) {
+    const double angle_deg = Angle(pi_g.n, truth.pi_g.n) * 180.0 / std::numbers::pi;
+    const double offset_m = std::abs(SignedDistance(truth.pi_g, middle_g));
+    if (!truth.scored || !(angle_deg <= kMaxTruthNormal_deg)) continue;
+    if (!(offset_m <= kMaxTruthOffset_m)) continue;
+    const Outline outline = OutlinesOf(plane, truth, gauge);
+    const double shared_m2 = IntersectionArea(outline.map, outline.truth);
+    if (!(shared_m2 > 0.0)) continue;
+    candidates.push_back({truth.id, offset_m, shared_m2});
+    min_offset_m = std::min(min_offset_m, offset_m);
+  }
+  Candidate best{0, 0.0, 0.0};
+  for (const Candidate& c : candidates) {
+    if (c.offset_m <= min_offset_m + kSameOffset_m && c.shared_m2 > best.shared_m2) best = c;
+  }
+  return best.id;
 }
 
 struct Errors {
   std::vector<double> normal_deg, offset_mm, vertex_mm, iou;
 
   void Add(const RunMapPlane& plane, const TruthPlane& truth, const Alignment& gauge) {
-    const Plane pi_g = Transform(gauge.T_gw, {plane.pi_w.n, gauge.scale * plane.pi_w.d});
+    const Plane pi_g = InTruthWorld(gauge, plane.pi_w);
     normal_deg.push_back(Angle(pi_g.n, truth.pi_g.n) * 180.0 / std::numbers::pi);
     offset_mm.push_back(RmsDistance(pi_g, truth.vertices_g) * 1e3);
-    const std::vector<Eigen::Vector3d> corners_g = InTruthWorld(gauge, plane.vertices_w);
+    const std::vector<Eigen::Vector3d> corners_g = PointsInTruthWorld(gauge, plane.vertices_w);
     const std::vector<int> match =
         MatchCorners(corners_g, truth.vertices_g, kMaxMapCornerError_m);
     for (std::size_t i = 0; i < match.size(); ++i) {
@@ -121,11 +133,48 @@ std::optional<double> AreaExplained(
 
 }  // namespace
 
+const RunMapPlane* FindMapPlane(const std::vector<RunMapPlane>& map, int id) {
+  const auto found = std::lower_bound(map.begin(), map.end(), id,
+                                      [](const RunMapPlane& p, int i) { return p.id < i; });
+  return found != map.end() && found->id == id ? &*found : nullptr;
+}
+
+int FinalMapPlane(const std::vector<RunMapPlane>& map, int id) {
+  for (std::size_t step = 0; step < map.size(); ++step) {
+    const RunMapPlane* plane = FindMapPlane(map, id);
+    if (plane == nullptr || !plane->merged_into) return id;
+    id = *plane->merged_into;
+  }
+  return id;
+}
+
+Plane InTruthWorld(const Alignment& gauge, const Plane& pi_w) {
+  return Transform(gauge.T_gw, {pi_w.n, gauge.scale * pi_w.d});
+}
+
+double RmsDistance(const Plane& pi_g, const std::vector<Eigen::Vector3d>& points_g) {
+  double sum = 0.0;
+  for (const Eigen::Vector3d& p : points_g) sum += std::pow(SignedDistance(pi_g, p), 2);
+  return std::sqrt(sum / static_cast<double>(points_g.size()));
+}
+
+MapScore ScoreMap(const std::vector<RunMapPlane>& map, const SceneTruth& scene,
+                  const std::optional<Alignment>& gauge, const std::set<int>& seen) {
+  std::vector<AssociationRecord> records;
+  for (const RunMapPlane& plane : map) {
+    if (plane.merged_into || !gauge) continue;
+    records.push_back({0, TruthByOutline(plane, scene, *gauge), plane.id});
+  }
+  MapScore score = ScoreMap(map, scene, gauge, records, seen);
+  score.merged.reset();
+  return score;
+}
+
 MapScore ScoreMap(const std::vector<RunMapPlane>& map, const SceneTruth& scene,
                   const std::optional<Alignment>& gauge,
                   const std::vector<AssociationRecord>& records, const std::set<int>& seen) {
   Counts counts;
-  for (const AssociationRecord& r : records) ++counts[FinalId(map, r.map_plane)][r.truth];
+  for (const AssociationRecord& r : records) ++counts[FinalMapPlane(map, r.map_plane)][r.truth];
   MapScore score;
   score.true_planes_seen = static_cast<int>(seen.size());
   score.merged = CountMerged(counts);

@@ -20,7 +20,8 @@ struct MapScore {
   int true_planes_seen = 0;  ///< that counted in at least one frame
   int matched = 0;           ///< those of them that are the majority of at least one map plane
   int duplicates = 0;        ///< map planes beyond the first with the same majority
-  int merged = 0;            ///< with >= 2 truths that have n_ij >= max(3, 5 % of n_.j)
+  /// With >= 2 truths that have n_ij >= max(3, 5 % of n_.j); nothing without decisions.
+  std::optional<int> merged;
   int spurious = 0;  ///< whose observations show mostly no scored plane, or that have none
   std::optional<Spread> normal_deg;  ///< oriented angle; of matched pairs, as all below
   std::optional<Spread> offset_mm;   ///< rms distance of the true vertices to the map plane
@@ -30,6 +31,16 @@ struct MapScore {
                                          ///< hulls of their map planes cover
 };
 
+/// The plane of the final map that `id` became; a broken chain ends where it breaks.
+int FinalMapPlane(const std::vector<RunMapPlane>& map, int id);
+/// The plane of the map with that id; null if there is none. @param map  by rising id
+const RunMapPlane* FindMapPlane(const std::vector<RunMapPlane>& map, int id);
+/// Parameters of a map plane in the world of the truth.
+Plane InTruthWorld(const Alignment& gauge, const Plane& pi_w);
+/// Root mean square of the points' distances to the plane, metres.
+double RmsDistance(const Plane& pi_g, const std::vector<Eigen::Vector3d>& points_g);
+
+/// By the decisions of the run: a map plane shows the truth of most of its observations.
 /// @param gauge    world of the run to world of the truth, the trajectory's; without one there are
 ///                 counts and no geometry
 /// @param records  decisions, with the map ids of their time
@@ -37,5 +48,12 @@ struct MapScore {
 MapScore ScoreMap(const std::vector<RunMapPlane>& map, const SceneTruth& scene,
                   const std::optional<Alignment>& gauge,
                   const std::vector<AssociationRecord>& records, const std::set<int>& seen);
+
+/// The same without decisions: a map plane shows the scored true plane whose outline it shares,
+/// within kMaxTruthNormal_deg, that is nearest to the middle of its own (at most kMaxTruthOffset_m;
+/// equal within kSameOffset_m), and of these the one it shares most area with. Without a gauge none
+/// shows any.
+MapScore ScoreMap(const std::vector<RunMapPlane>& map, const SceneTruth& scene,
+                  const std::optional<Alignment>& gauge, const std::set<int>& seen);
 
 }  // namespace eval

@@ -2,7 +2,7 @@
 
 #include <cstdint>
 #include <stdexcept>
-#include <vector>
+#include <unordered_map>
 
 namespace eval {
 
@@ -20,22 +20,31 @@ double Overlap::IoU(int truth, int machine) const {
   return both / (sum - both);
 }
 
-Overlap CountOverlap(const cv::Mat1w& truth, const cv::Mat1w& machine) {
+LabelPairs CountPairs(const cv::Mat1w& truth, const cv::Mat1w& machine) {
   if (truth.size() != machine.size()) {
-    throw std::invalid_argument("CountOverlap: the images differ in size");
+    throw std::invalid_argument("CountPairs: the images differ in size");
   }
   // Neighbours mostly repeat: count runs of equal pairs.
-  std::map<std::pair<int, int>, long long> pairs;
+  constexpr int kLabelBits = 16;
+  std::unordered_map<std::uint32_t, long long> counts;
   for (int y = 0; y < truth.rows; ++y) {
     const std::uint16_t* t = truth[y];
     const std::uint16_t* m = machine[y];
     for (int x = 0; x < truth.cols;) {
       int end = x + 1;
       while (end < truth.cols && t[end] == t[x] && m[end] == m[x]) ++end;
-      pairs[{t[x], m[x]}] += end - x;
+      counts[std::uint32_t{t[x]} << kLabelBits | m[x]] += end - x;
       x = end;
     }
   }
+  LabelPairs pairs;
+  for (const auto& [labels, count] : counts) {
+    pairs[{static_cast<int>(labels >> kLabelBits), static_cast<std::uint16_t>(labels)}] = count;
+  }
+  return pairs;
+}
+
+Overlap OverlapOf(const LabelPairs& pairs) {
   Overlap overlap;
   for (const auto& [labels, count] : pairs) {
     const auto& [t, m] = labels;
@@ -44,6 +53,10 @@ Overlap CountOverlap(const cv::Mat1w& truth, const cv::Mat1w& machine) {
     if (t != 0 && m != 0) overlap.shared[t][m] += count;
   }
   return overlap;
+}
+
+Overlap CountOverlap(const cv::Mat1w& truth, const cv::Mat1w& machine) {
+  return OverlapOf(CountPairs(truth, machine));
 }
 
 }  // namespace eval

@@ -2,6 +2,7 @@
 
 #include <map>
 #include <opencv2/core.hpp>
+#include <utility>
 
 namespace eval {
 
@@ -13,6 +14,12 @@ struct Overlap {
   long long Shared(int truth, int machine) const;
   double IoU(int truth, int machine) const;
 };
+
+/// Pixels of each pair (truth, machine) of labels, 0 among them.
+using LabelPairs = std::map<std::pair<int, int>, long long>;
+/// @throws std::invalid_argument if the images differ in size.
+LabelPairs CountPairs(const cv::Mat1w& truth, const cv::Mat1w& machine);
+Overlap OverlapOf(const LabelPairs& pairs);
 
 /// @throws std::invalid_argument if the images differ in size.
 Overlap CountOverlap(const cv::Mat1w& truth, const cv::Mat1w& machine);

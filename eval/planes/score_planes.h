@@ -5,41 +5,52 @@
 
 #include "eval/formats/run.h"
 #include "eval/planes/association.h"
+#include "eval/planes/clear_score.h"
 #include "eval/planes/corners.h"
+#include "eval/planes/hota_score.h"
+#include "eval/planes/identity_score.h"
 #include "eval/planes/map_score.h"
-#include "eval/planes/segmentation_score.h"
-#include "eval/planes/tracking.h"
+#include "eval/planes/plane_events.h"
+#include "eval/planes/region_score.h"
+#include "eval/planes/step_scores.h"
 #include "eval/trajectory/score_trajectory.h"
 
 namespace eval {
 
-/// Means per frame of Hoover's counts, panoptic quality and pixels over all frames.
-struct RegionScore {
-  double truth = 0.0, machine = 0.0;
-  double correct = 0.0, over = 0.0, under = 0.0, missed = 0.0, noise = 0.0;
-  PanopticCounts panoptic;
-  double pixel_precision = 0.0;  ///< pixels of trusted planes that show the plane's own truth
-  double pixel_recall = 0.0;     ///< pixels of true planes that count, so covered
+/// What one frame shows.
+struct FrameScore {
+  int frame = 0;  ///< in the sequence, from 0
+  double stamp_s = 0.0;
+  int true_planes = 0;                 ///< that count
+  std::optional<HooverScore> regions;  ///< only by pixels
 };
 
 /// The groups `extraction`, `vertices`, `association` and `map` of metrics.json.
 struct PlaneScore {
-  int frames = 0;          ///< frames with truth
+  int frames = 0;  ///< frames with truth
+  /// The run has frame planes; else there are regions and the map at most.
+  bool from_frame_planes = true;
   bool by_pixels = false;  ///< truth of a frame plane by its pixels (else by geometry)
   std::optional<RegionScore> regions;  ///< only by pixels
   std::optional<Spread> normal_deg;    ///< trusted frame planes against their truth
   std::optional<Spread> offset_mm;     ///< at the foot of the patch's centroid on its plane
   CornerCounts corners;
   AssociationScore association;
+  UndecidedSurfaces undecided;
   ClearScore clear;
   IdentityScore identity;
   HotaScore hota;
   std::optional<MapScore> map;  ///< empty without map.json
+  DecisionHistory history;
+  std::vector<RunEvent> events;      ///< what went wrong, the most harmful first
+  std::vector<StepScore> steps;      ///< tops of regular objects by the height of their step
+  std::vector<FrameScore> by_frame;  ///< frames with a true pose
 };
 
 /// Scores the planes of a run. Every frame of the sequence with a true pose counts; one that
 /// the run says nothing about shows no planes.
-/// @returns nothing if the sequence has no gt/scene.json or the run no frame_planes.jsonl
+/// @returns nothing if the sequence has no gt/scene.json, or the run neither frame_planes.jsonl nor
+///   map.json nor label images
 /// @throws InputError for images that cannot be read or differ in size
 std::optional<PlaneScore> ScorePlanes(const Run& run, const Sequence& sequence,
                                       const TrajectoryScore& trajectory);

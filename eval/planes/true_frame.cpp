@@ -38,10 +38,13 @@ std::map<int, VisiblePatch> PatchesOf(const cv::Mat1w& ids) {
 
 std::map<int, VisiblePatch> PatchesOf(const Sequence& sequence, double stamp_s) {
   std::map<int, VisiblePatch> patches;
-  for (const FrameTruth& frame : sequence.frame_truth) {
-    if (std::abs(frame.stamp_s - stamp_s) > kSameStamp_s) continue;
-    for (const VisiblePlane& plane : frame.planes) patches[plane.id].pixels = plane.pixels;
+  const auto rising = [](const FrameTruth& frame, double s) { return frame.stamp_s < s; };
+  const auto frame = std::lower_bound(sequence.frame_truth.begin(), sequence.frame_truth.end(),
+                                      stamp_s - kSameStamp_s, rising);
+  if (frame == sequence.frame_truth.end() || !(frame->stamp_s <= stamp_s + kSameStamp_s)) {
+    return patches;
   }
+  for (const VisiblePlane& plane : frame->planes) patches[plane.id].pixels = plane.pixels;
   return patches;
 }
 
@@ -98,7 +101,8 @@ TrueFrame ReadTrueFrame(const Sequence& sequence, double stamp_s, const Pose& T_
                          "is missing; it is needed to know what the camera could see");
   }
   const Camera& camera = *sequence.true_camera;
-  TrueFrame frame{stamp_s, T_gc, {}, ReadPlaneIds(sequence, stamp_s)};
+  const double image_px = double(camera.width) * camera.height;
+  TrueFrame frame{stamp_s, T_gc, image_px, {}, ReadPlaneIds(sequence, stamp_s)};
   if (!frame.plane_ids && sequence.frame_truth.empty()) {
     throw io::InputError(
         (sequence.folder / "gt").string(),
@@ -112,7 +116,7 @@ TrueFrame ReadTrueFrame(const Sequence& sequence, double stamp_s, const Pose& T_
   }
   const auto patches =
       frame.plane_ids ? PatchesOf(*frame.plane_ids) : PatchesOf(sequence, stamp_s);
-  const double min_pixels = kMinPixels * camera.width * camera.height / kReferenceArea_px;
+  const double min_pixels = kMinPixels * image_px / kReferenceArea_px;
   const Pose T_cg = Inverse(T_gc);
   for (const auto& [id, patch] : patches) {
     const TruthPlane* plane = sequence.scene->FindPlane(id);

@@ -28,6 +28,7 @@ struct SeenPlane {
 struct TrueFrame {
   double stamp_s = 0.0;
   Pose T_gc;
+  double image_px = 0.0;               ///< pixels of the image
   std::vector<SeenPlane> planes;       ///< scored planes with at least one pixel, by rising id
   std::optional<cv::Mat1w> plane_ids;  ///< ids of all planes; 0 = none
 

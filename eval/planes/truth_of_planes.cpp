@@ -2,21 +2,16 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
 #include <limits>
 #include <numbers>
-#include <stdexcept>
 #include <vector>
 
 #include "eval/planes/polygon.h"
 
 namespace eval {
 
-std::map<int, int> TruthByPixels(const TrueFrame& frame, const cv::Mat1w& segmentation) {
-  if (!frame.plane_ids) {
-    throw std::invalid_argument("TruthByPixels: the frame has no image of plane ids");
-  }
-  const Overlap overlap = CountOverlap(*frame.plane_ids, segmentation);
+std::map<int, int> TruthByPixels(const TrueFrame& frame, const LabelPairs& pairs) {
+  const Overlap overlap = OverlapOf(pairs);
   std::map<int, int> truth_of;
   for (const auto& [label, pixels] : overlap.machine_pixels) {
     long long most = 0, on_truth = 0;
@@ -62,28 +57,20 @@ int TruthByGeometry(const TrueFrame& frame, const RunFramePlane& plane) {
   return truth;
 }
 
-Overlap CountedOverlap(const TrueFrame& frame, const cv::Mat1w& segmentation,
+Overlap CountedOverlap(const TrueFrame& frame, const LabelPairs& pairs,
                        const std::map<int, int>& region_of) {
-  constexpr std::size_t kLabels = std::size_t{1} << 16;  // all that a pixel can hold
-  std::vector<std::uint16_t> machine_table(kLabels, 0), truth_table(kLabels, 0);
-  std::vector<bool> is_void(kLabels, false);
-  for (const auto& [label, region] : region_of) {
-    machine_table[static_cast<std::size_t>(label)] = static_cast<std::uint16_t>(region);
+  std::map<int, bool> counts;  // by id of a scored plane
+  for (const SeenPlane& seen : frame.planes) counts[seen.plane->id] = seen.counted;
+  LabelPairs counted;
+  for (const auto& [labels, pixels] : pairs) {
+    const auto plane = counts.find(labels.first);
+    const bool is_void = plane != counts.end() && !plane->second;
+    const bool is_truth = plane != counts.end() && plane->second;
+    const auto region = is_void ? region_of.end() : region_of.find(labels.second);
+    counted[{is_truth ? labels.first : 0, region == region_of.end() ? 0 : region->second}] +=
+        pixels;
   }
-  for (const SeenPlane& seen : frame.planes) {
-    const auto id = static_cast<std::uint16_t>(seen.plane->id);
-    is_void[id] = !seen.counted;
-    if (seen.counted) truth_table[id] = id;
-  }
-  cv::Mat1w truth(segmentation.size()), machine(segmentation.size());
-  for (int y = 0; y < truth.rows; ++y) {
-    for (int x = 0; x < truth.cols; ++x) {
-      const std::uint16_t id = (*frame.plane_ids)(y, x);
-      truth(y, x) = truth_table[id];
-      machine(y, x) = is_void[id] ? std::uint16_t{0} : machine_table[segmentation(y, x)];
-    }
-  }
-  return CountOverlap(truth, machine);
+  return OverlapOf(counted);
 }
 
 }  // namespace eval

@@ -16,9 +16,9 @@ inline constexpr double kMaxTruthGap_m = 0.05;  ///< from the polygon, in its pl
 
 /// Which scored true plane each plane of a segmentation shows: the one that holds most of its
 /// pixels, 0 if most show none of them. Ties go to the lower id, before 0.
-/// @param segmentation  index of the frame plane + 1
+/// @param pairs  ids of true planes with labels, index of the frame plane + 1
 /// @returns truth id by index of the frame plane; planes without a pixel are left out
-std::map<int, int> TruthByPixels(const TrueFrame& frame, const cv::Mat1w& segmentation);
+std::map<int, int> TruthByPixels(const TrueFrame& frame, const LabelPairs& pairs);
 
 /// The same without a segmentation, from the plane's parameters: of the scored planes that the
 /// frame shows, within kMaxTruthNormal_deg, those with the least offset at the plane's centroid
@@ -28,9 +28,9 @@ int TruthByGeometry(const TrueFrame& frame, const RunFramePlane& plane);
 
 /// Overlap of the true planes that count with regions of the machine; pixels of true planes that do
 /// not count belong to no region.
-/// @param segmentation  any labels, as large as the image of plane ids
-/// @param region_of     the region by label; a label that is not in it is none
-Overlap CountedOverlap(const TrueFrame& frame, const cv::Mat1w& segmentation,
+/// @param pairs      ids of true planes with any labels
+/// @param region_of  the region by label; a label that is not in it is none
+Overlap CountedOverlap(const TrueFrame& frame, const LabelPairs& pairs,
                        const std::map<int, int>& region_of);
 
 }  // namespace eval

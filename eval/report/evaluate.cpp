@@ -5,6 +5,8 @@
 #include <cmath>
 #include <utility>
 
+#include "io/input_error.h"
+
 namespace eval {
 namespace {
 
@@ -68,6 +70,34 @@ Evaluation Evaluate(const Run& run, const Sequence& sequence) {
   for (Fault& caveat : Caveats(run, sequence)) {
     evaluation.run_warnings.push_back(std::move(caveat));
   }
+  evaluation.sequence_warnings = sequence.warnings;
+  return evaluation;
+}
+
+LabelEvaluation EvaluateLabels(const Run& labels, const Sequence& sequence) {
+  if (!sequence.scene || !sequence.groundtruth || sequence.plane_id_files.empty()) {
+    throw io::InputError(sequence.folder.string(),
+                         "does not tell which planes its pixels show: gt/scene.json, "
+                         "gt/plane_id/ and groundtruth.txt are needed; name a sequence of "
+                         "`pas sim`");
+  }
+  std::size_t missing = 0;
+  for (const SequenceFrame& frame : sequence.frames) {
+    if (!labels.segmentation_files.Find(frame.stamp_s)) ++missing;
+  }
+  if (missing == sequence.frames.size()) {
+    throw io::InputError(labels.folder.string(),
+                         "has no image of any frame of " + sequence.folder.string() +
+                             "; name images by the times of rgb.txt, as 1.033333.png");
+  }
+  LabelEvaluation evaluation;
+  if (missing > 0) {
+    evaluation.label_warnings.push_back(
+        {".", 0, "",
+         fmt::format("has no image of {} of {} frames", missing, sequence.frames.size()),
+         "nothing counts as found in them"});
+  }
+  evaluation.planes = ScorePlanes(labels, sequence, {}).value();
   evaluation.sequence_warnings = sequence.warnings;
   return evaluation;
 }

@@ -36,4 +36,16 @@ struct Evaluation {
 /// Scores a run against a sequence. @throws InputError as the readers and scorers do.
 Evaluation Evaluate(const Run& run, const Sequence& sequence);
 
+/// Label images alone against the planes that the sequence shows.
+struct LabelEvaluation {
+  PlaneScore planes;                     ///< of which the regions are scored
+  std::vector<Fault> label_warnings;     ///< frames without an image
+  std::vector<Fault> sequence_warnings;  ///< as of a run
+};
+
+/// @param labels  as RunOfLabels reads them
+/// @throws InputError for a sequence without gt/scene.json, groundtruth.txt and gt/plane_id, when no
+///   image is named after a frame, and as the readers do
+LabelEvaluation EvaluateLabels(const Run& labels, const Sequence& sequence);
+
 }  // namespace eval

@@ -1,77 +1,20 @@
 #include "eval/report/metrics_json.h"
 
-#include <optional>
 #include <string>
 #include <utility>
+
+#include "eval/report/figure_group.h"
 
 namespace eval {
 namespace {
 
 using Json = nlohmann::ordered_json;
 
-Json ToJson(const Statistics& s) {
-  return {{"rmse_m", s.rmse},
-          {"mean_m", s.mean},
-          {"median_m", s.median},
-          {"std_m", s.std_dev},
-          {"max_m", s.max}};
-}
-
-Json ToJson(const RelativeScore& s) {
-  return {
-      {"trans_rmse_m", s.trans_rmse_m}, {"rot_rmse_deg", s.rot_rmse_deg}, {"pairs", s.pairs}};
-}
-
-/// One group of figures. A figure that is not defined is null, and the reason stands in `reasons`
-/// under "group/figure".
-class Group {
- public:
-  Group(std::string name, Json& reasons) : name_(std::move(name)), reasons_(reasons) {}
-
-  /// @param key  of the group, or of an object in it ("decision/recall")
-  template <typename Value>
-  void Put(const std::string& key, const Value& value) {
-    json_[Json::json_pointer("/" + key)] = value;
-  }
-  template <typename Value>
-  void Put(const std::string& key, const std::optional<Value>& value,
-           const std::string& reason) {
-    if (!value) return Undefined(key, reason);
-    Put(key, ToJson(*value));
-  }
-  void Undefined(const std::string& key, const std::string& reason) {
-    Put(key, nullptr);
-    reasons_[name_ + "/" + key] = reason;
-  }
-  void PutShare(const std::string& key, double value, bool defined, const std::string& reason) {
-    if (!defined) return Undefined(key, reason);
-    Put(key, value);
-  }
-  /// Precision, recall and f1 of what was found among what is there.
-  void PutShares(const std::string& key, const PrecisionRecall& s, const std::string& no_found,
-                 const std::string& no_truth) {
-    PutShare(key + "/precision", s.precision, no_found.empty(), no_found);
-    PutShare(key + "/recall", s.recall, no_truth.empty(), no_truth);
-    PutShare(key + "/f1", s.f1, no_found.empty() || no_truth.empty(), no_found);
-  }
-  const Json& json() const { return json_; }
-
- private:
-  static Json ToJson(double value) { return value; }
-  static Json ToJson(const Spread& s) { return {{"median", s.median}, {"p95", s.p95}}; }
-  static Json ToJson(const Statistics& s) { return eval::ToJson(s); }
-  static Json ToJson(const RelativeScore& s) { return eval::ToJson(s); }
-
-  std::string name_;
-  Json json_ = Json::object();
-  Json& reasons_;
-};
-
 Json TrajectoryGroup(const TrajectoryScore& s, Json& reasons) {
   const auto why = [&](const char* otherwise) {
     return s.no_match.empty() ? std::string(otherwise) : s.no_match;
   };
-  Group group("trajectory", reasons);
+  FigureGroup group("trajectory", reasons);
   group.Put("frames", s.frames);
   group.Put("tracked", s.tracked);
   group.PutShare("tracked_fraction", double(s.tracked) / double(s.frames), s.frames > 0,
@@ -85,7 +28,7 @@ Json TrajectoryGroup(const TrajectoryScore& s, Json& reasons) {
   return group.json();
 }
 
-void PutRegions(const RegionScore& r, Group& group) {
+void PutRegions(const RegionScore& r, FigureGroup& group) {
   group.Put("truth", r.truth);
   group.Put("machine", r.machine);
   group.Put("correct", r.correct);
@@ -104,7 +47,7 @@ void PutRegions(const RegionScore& r, Group& group) {
 }
 
 Json ExtractionGroup(const PlaneScore& s, Json& reasons) {
-  Group group("extraction", reasons);
+  FigureGroup group("extraction", reasons);
   if (s.regions) {
     PutRegions(*s.regions, group);
   } else {
@@ -114,14 +57,16 @@ Json ExtractionGroup(const PlaneScore& s, Json& reasons) {
                       "the run has no segmentation images, or the sequence no gt/plane_id");
     }
   }
-  const char* const none = "no trusted frame plane shows a true plane";
+  const char* const none = s.from_frame_planes
+                               ? "no trusted frame plane shows a true plane"
+                               : "the run has no frame_planes.jsonl: labels have no geometry";
   group.Put("normal_deg", s.normal_deg, none);
   group.Put("offset_mm", s.offset_mm, none);
   return group.json();
 }
 
 Json VertexGroup(const CornerCounts& c, Json& reasons) {
-  Group group("vertices", reasons);
+  FigureGroup group("vertices", reasons);
   group.PutShare("precision", double(c.matched) / c.claimed, c.claimed > 0,
                  "no trusted frame plane has a vertex");
   group.PutShare("recall", double(c.found_in_view) / c.true_in_view, c.true_in_view > 0,
@@ -138,7 +83,7 @@ Json AssociationGroup(const PlaneScore& s, Json& reasons) {
   const auto unless = [](bool defined, const char* reason) {
     return std::string(defined ? "" : reason);
   };
-  Group group("association", reasons);
+  FigureGroup group("association", reasons);
   group.PutShares("pair", a.pair,
                   unless(a.pair_predicted > 0, "no two decisions name one map plane"),
                   unless(a.pair_truth > 0, "no two decisions show one true plane"));
@@ -162,6 +107,12 @@ Json AssociationGroup(const PlaneScore& s, Json& reasons) {
   group.PutShare("mota", s.clear.mota, s.clear.tp + s.clear.fn > 0,
                  "no frame shows a plane that counts");
   group.Put("id_switches", s.clear.id_switches);
+  const int undecided = static_cast<int>(s.undecided.undecided.size());
+  group.PutShare("no_decision/share", double(undecided) / s.undecided.large,
+                 s.undecided.large > 0,
+                 "no frame shows a large surface that has a map plane, after the first second");
+  group.Put("no_decision/events", undecided);
+  group.Put("no_decision/surfaces", s.undecided.large);
   group.Put("merged_map_planes", a.merged_map_planes);
   group.Put("split_truth_planes", a.split_truth_planes);
   return group.json();
@@ -175,12 +126,16 @@ Json MapGroup(const MapScore& m, const TrajectoryScore& trajectory, Json& reason
                : trajectory.no_match;
   };
   const char* const none = "no map plane shows a true plane that counts";
-  Group group("map", reasons);
+  FigureGroup group("map", reasons);
   group.Put("planes", m.planes);
   group.Put("true_planes_seen", m.true_planes_seen);
   group.Put("matched", m.matched);
   group.Put("duplicates", m.duplicates);
-  group.Put("merged", m.merged);
+  if (m.merged) {
+    group.Put("merged", *m.merged);
+  } else {
+    group.Undefined("merged", "the run has no frame_planes.jsonl, which tells its decisions");
+  }
   group.Put("spurious", m.spurious);
   group.Put("normal_deg", m.normal_deg, why(none));
   group.Put("offset_mm", m.offset_mm, why(none));
@@ -195,7 +150,7 @@ Json MapGroup(const MapScore& m, const TrajectoryScore& trajectory, Json& reason
 }
 
 Json TimingGroup(const TimingScore& t, Json& reasons) {
-  Group group("timing_ms", reasons);
+  FigureGroup group("timing_ms", reasons);
   for (const ModuleTime& m : t.modules) {
     group.Put(m.module, Json{{"mean", m.mean}, {"median", m.median}, {"p95", m.p95}});
   }
@@ -204,11 +159,12 @@ Json TimingGroup(const TimingScore& t, Json& reasons) {
   return group.json();
 }
 
-Json Warnings(const Evaluation& e) {
+/// @param place  stands for the folder of the run, or of the labels
+Json Warnings(const std::vector<Fault>& of_run, const char* place,
+              const std::vector<Fault>& of_sequence) {
   Json warnings = Json::array();
-  for (std::string& line : Summaries(e.run_warnings, "RUN"))
-    warnings.push_back(std::move(line));
-  for (std::string& line : Summaries(e.sequence_warnings, "SEQ")) {
+  for (std::string& line : Summaries(of_run, place)) warnings.push_back(std::move(line));
+  for (std::string& line : Summaries(of_sequence, "SEQ")) {
     warnings.push_back(std::move(line));
   }
   return warnings;
@@ -228,18 +184,7 @@ Json TrajectoryRules() {
   return rules;
 }
 
-void AddPlaneRules(const PlaneScore& s, Json& rules) {
-  rules["truth"] =
-      "planes of structure and regular objects are scored, everything else is noise; a true "
-      "plane "
-      "counts in a frame if at least 1000 of its pixels show (at 640 x 480, scaled with the "
-      "area) "
-      "and it is seen at 75 deg of incidence or less at their middle; planes that show one "
-      "that "
-      "does not count are left out of extraction and tracking scores; faces of one object or "
-      "detection group that are one plane to 0.1 mm, with joints of at most 30 mm, are one "
-      "true "
-      "plane";
+void AddExtractionRules(const PlaneScore& s, Json& rules) {
   rules["truth_of_a_frame_plane"] =
       s.by_pixels ? "the scored plane that holds most of its pixels, none if most show none"
                   : "no segmentation images: of the scored planes in view within 20 deg, the "
@@ -251,6 +196,9 @@ void AddPlaneRules(const PlaneScore& s, Json& rules) {
                               "means per frame; pq over all frames; offset at the centroid"
                             : "frame planes that the run trusts (bad = null); offset at the "
                               "centroid; no segmentation images, so nothing by pixels";
+}
+
+void AddAssociationRules(const PlaneScore& s, Json& rules) {
   rules["vertices"] =
       "corners of trusted frame planes, one to one within 50 mm of the true corners of the "
       "plane "
@@ -263,12 +211,39 @@ void AddPlaneRules(const PlaneScore& s, Json& rules) {
       "from masks of map planes" +
       std::string(s.by_pixels ? ""
                               : ", here with similarity 1 for a plane that shows the truth");
+  rules["no_decision"] =
+      "of surfaces over 5 % of the image that count and have a map plane since an earlier "
+      "frame, "
+      "after the first second: those whose largest frame plane was put on none, or that have "
+      "none";
+}
+
+void AddPlaneRules(const PlaneScore& s, Json& rules) {
+  rules["truth"] =
+      "planes of structure and regular objects are scored, everything else is noise; a true "
+      "plane "
+      "counts in a frame if at least 1000 of its pixels show (at 640 x 480, scaled with the "
+      "area) "
+      "and it is seen at 75 deg of incidence or less at their middle; planes that show one "
+      "that "
+      "does not count are left out of extraction and tracking scores; faces of one object or "
+      "detection group that are one plane to 0.1 mm, with joints of at most 30 mm, are one "
+      "true "
+      "plane";
+  if (s.from_frame_planes || s.regions) AddExtractionRules(s, rules);
+  if (s.from_frame_planes) AddAssociationRules(s, rules);
   if (s.map) {
     rules["map"] =
-        "in the world of the truth by the mean rotation and the mean position of all matched "
-        "poses; a map plane belongs to the truth of most of its observations, that with "
-        "most of them is the match; offset is the rms distance of the true vertices to "
-        "the map plane; vertices one to one within 100 mm; normals are oriented";
+        std::string(
+            "in the world of the truth by the mean rotation and the mean position of all "
+            "matched poses; a map plane belongs to the truth ") +
+        (s.from_frame_planes
+             ? "of most of its observations, that with most of them is the match"
+             : "that is nearest to the middle of its outline (within 20 deg and 50 mm, their "
+               "outlines in common), by shared area where offsets agree to 5 mm") +
+        "; offset is the rms distance of the true vertices to the map plane; vertices one to "
+        "one "
+        "within 100 mm; normals are oriented";
   }
 }
 
@@ -278,18 +253,34 @@ Json MetricsJson(const Evaluation& e) {
   Json json, reasons = Json::object();
   json["format"] = "pas-metrics/1";
   if (e.interrupted) json["interrupted"] = true;
-  if (Json warnings = Warnings(e); !warnings.empty()) json["warnings"] = std::move(warnings);
+  if (Json warnings = Warnings(e.run_warnings, "RUN", e.sequence_warnings); !warnings.empty())
+    json["warnings"] = std::move(warnings);
   json["trajectory"] = TrajectoryGroup(e.trajectory, reasons);
   if (e.planes) {
-    json["extraction"] = ExtractionGroup(*e.planes, reasons);
-    json["vertices"] = VertexGroup(e.planes->corners, reasons);
-    json["association"] = AssociationGroup(*e.planes, reasons);
+    if (e.planes->from_frame_planes || e.planes->regions) {
+      json["extraction"] = ExtractionGroup(*e.planes, reasons);
+    }
+    if (e.planes->from_frame_planes) {
+      json["vertices"] = VertexGroup(e.planes->corners, reasons);
+      json["association"] = AssociationGroup(*e.planes, reasons);
+    }
     if (e.planes->map) json["map"] = MapGroup(*e.planes->map, e.trajectory, reasons);
   }
   if (e.timing) json["timing_ms"] = TimingGroup(*e.timing, reasons);
   if (!reasons.empty()) json["reasons"] = std::move(reasons);
   json["rules"] = TrajectoryRules();
   if (e.planes) AddPlaneRules(*e.planes, json["rules"]);
+  return json;
+}
+
+Json LabelsJson(const LabelEvaluation& e) {
+  Json json, reasons = Json::object();
+  json["format"] = "pas-metrics/1";
+  Json warnings = Warnings(e.label_warnings, "LABELS", e.sequence_warnings);
+  if (!warnings.empty()) json["warnings"] = std::move(warnings);
+  json["extraction"] = ExtractionGroup(e.planes, reasons);
+  json["reasons"] = std::move(reasons);
+  AddPlaneRules(e.planes, json["rules"]);
   return json;
 }
 

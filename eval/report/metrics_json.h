@@ -15,4 +15,7 @@ nlohmann::ordered_json MetricsJson(const Evaluation& evaluation);
 /// Its bytes: indented, numbers with the digits that give them back, a newline at the end.
 std::string MetricsText(const Evaluation& evaluation);
 
+/// The same document for label images alone: the group `extraction`.
+nlohmann::ordered_json LabelsJson(const LabelEvaluation& evaluation);
+
 }  // namespace eval

@@ -58,49 +58,78 @@ void AddTrajectory(const Evaluation& e, Table& table) {
   }
 }
 
-/// A share of metrics.json with four decimals, "-" when it is not defined.
-std::string Share(const nlohmann::ordered_json& metrics, const std::string& figure) {
-  const auto& value = metrics.at(nlohmann::ordered_json::json_pointer("/" + figure));
-  return value.is_null() ? "-" : fmt::format("{:.4f}", value.get<double>());
-}
+/// The figures as metrics.json says them; it knows what is defined, and why not.
+class MetricTexts {
+ public:
+  explicit MetricTexts(nlohmann::ordered_json metrics) : metrics_(std::move(metrics)) {}
+  /// A share of metrics.json with four decimals, "-" when it is not defined.
+  std::string Share(const std::string& figure) const {
+    const auto& value = metrics_.at(nlohmann::ordered_json::json_pointer("/" + figure));
+    return value.is_null() ? "-" : fmt::format("{:.4f}", value.get<double>());
+  }
+  std::string WhyNot(const char* figure) const {
+    return metrics_.contains("reasons") ? metrics_["reasons"].value(figure, "") : std::string();
+  }
 
-/// @param metrics  the same as metrics.json says it; it knows what is defined, and why not
-void AddPlanes(const PlaneScore& s, const nlohmann::ordered_json& metrics, Table& table) {
-  const auto share = [&](const char* figure) { return Share(metrics, figure); };
-  const auto why_not = [&](const char* figure) {
-    return metrics.contains("reasons") ? metrics["reasons"].value(figure, "") : std::string();
-  };
+ private:
+  nlohmann::ordered_json metrics_;
+};
+
+void AddAssociation(const PlaneScore& s, const MetricTexts& texts, Table& table) {
   table.Heading("Association");
   const DecisionCounts& d = s.association.decision;
   table.Row("decision precision", "%s (%d right, %d wrong)",
-            share("association/decision/precision").c_str(), d.tp, d.fp);
-  table.Row("decision recall", "%s (%d missed)", share("association/decision/recall").c_str(),
-            d.fn);
-  table.Row("pair precision, recall", "%s, %s", share("association/pair/precision").c_str(),
-            share("association/pair/recall").c_str());
-  table.Row("IDF1, HOTA", "%s, %s", share("association/idf1").c_str(),
-            share("association/hota").c_str());
+            texts.Share("association/decision/precision").c_str(), d.tp, d.fp);
+  table.Row("decision recall", "%s (%d missed)",
+            texts.Share("association/decision/recall").c_str(), d.fn);
+  table.Row("no decision", "%s (%zu of %d large surfaces of frames)",
+            texts.Share("association/no_decision/share").c_str(), s.undecided.undecided.size(),
+            s.undecided.large);
+  table.Row("pair precision, recall", "%s, %s",
+            texts.Share("association/pair/precision").c_str(),
+            texts.Share("association/pair/recall").c_str());
+  table.Row("IDF1, HOTA", "%s, %s", texts.Share("association/idf1").c_str(),
+            texts.Share("association/hota").c_str());
   table.Row("merged map planes", "%d", s.association.merged_map_planes);
+}
+
+void AddExtraction(const PlaneScore& s, const MetricTexts& texts, Table& table) {
   table.Heading("Planes of a frame");
   if (s.regions) {
     table.Row("correct, of truth", "%.2f of %.2f a frame (over %.2f, under %.2f, noise %.2f)",
               s.regions->correct, s.regions->truth, s.regions->over, s.regions->under,
               s.regions->noise);
   }
-  table.Spread("normal error", s.normal_deg, "deg", why_not("extraction/normal_deg"));
-  table.Spread("offset error", s.offset_mm, "mm", why_not("extraction/offset_mm"));
+  if (!s.from_frame_planes) {
+    table.Row("panoptic quality", "%s (segments %s, recognition %s)",
+              texts.Share("extraction/pq").c_str(), texts.Share("extraction/sq").c_str(),
+              texts.Share("extraction/rq").c_str());
+    table.Row("pixel precision, recall", "%s, %s",
+              texts.Share("extraction/pixel_precision").c_str(),
+              texts.Share("extraction/pixel_recall").c_str());
+    return;
+  }
+  table.Spread("normal error", s.normal_deg, "deg", texts.WhyNot("extraction/normal_deg"));
+  table.Spread("offset error", s.offset_mm, "mm", texts.WhyNot("extraction/offset_mm"));
   table.Spread("vertex error", SpreadOf(s.corners.errors_mm), "mm",
-               why_not("vertices/error_mm"));
-  table.Row("vertex precision, recall", "%s, %s", share("vertices/precision").c_str(),
-            share("vertices/recall").c_str());
-  if (!s.map) return;
+               texts.WhyNot("vertices/error_mm"));
+  table.Row("vertex precision, recall", "%s, %s", texts.Share("vertices/precision").c_str(),
+            texts.Share("vertices/recall").c_str());
+}
+
+void AddMap(const MapScore& map, const MetricTexts& texts, Table& table) {
   table.Heading("Map");
   table.Row("planes", "%d for %d true ones seen (%d matched, %d duplicates, %d spurious)",
-            s.map->planes, s.map->true_planes_seen, s.map->matched, s.map->duplicates,
-            s.map->spurious);
-  table.Spread("normal error", s.map->normal_deg, "deg", why_not("map/normal_deg"));
-  table.Spread("offset error", s.map->offset_mm, "mm", why_not("map/offset_mm"));
-  table.Spread("vertex error", s.map->vertex_mm, "mm", why_not("map/vertex_mm"));
+            map.planes, map.true_planes_seen, map.matched, map.duplicates, map.spurious);
+  table.Spread("normal error", map.normal_deg, "deg", texts.WhyNot("map/normal_deg"));
+  table.Spread("offset error", map.offset_mm, "mm", texts.WhyNot("map/offset_mm"));
+  table.Spread("vertex error", map.vertex_mm, "mm", texts.WhyNot("map/vertex_mm"));
+}
+
+void AddPlanes(const PlaneScore& s, const MetricTexts& texts, Table& table) {
+  if (s.from_frame_planes) AddAssociation(s, texts, table);
+  if (s.from_frame_planes || s.regions) AddExtraction(s, texts, table);
+  if (s.map) AddMap(*s.map, texts, table);
 }
 
 void AddTiming(const TimingScore& t, Table& table) {
@@ -118,8 +147,14 @@ void AddTiming(const TimingScore& t, Table& table) {
 std::string MetricsTable(const Evaluation& e) {
   Table table;
   AddTrajectory(e, table);
-  if (e.planes) AddPlanes(*e.planes, MetricsJson(e), table);
+  if (e.planes) AddPlanes(*e.planes, MetricTexts(MetricsJson(e)), table);
   if (e.timing) AddTiming(*e.timing, table);
+  return table.text();
+}
+
+std::string LabelsTable(const LabelEvaluation& e) {
+  Table table;
+  AddPlanes(e.planes, MetricTexts(LabelsJson(e)), table);
   return table.text();
 }
 

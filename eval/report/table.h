@@ -10,4 +10,7 @@ namespace eval {
 /// defined says so. Ends in a newline.
 std::string MetricsTable(const Evaluation& evaluation);
 
+/// The same for label images alone.
+std::string LabelsTable(const LabelEvaluation& evaluation);
+
 }  // namespace eval

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "eval/surfaces/surface_scorer.h"
 
 namespace eval {
@@ -14,6 +16,20 @@ std::map<int, int> LandmarksOf(const RunFrame& frame, const FinalLandmarks& fina
     if (const auto id = final_landmarks.Of(plane.map_plane)) landmarks[plane.index + 1] = *id;
   }
   return landmarks;
+}
+
+RunEvent EventOf(const UndecidedSegment& undecided, const RunFrame& frame, int number) {
+  RunEvent event;
+  event.kind = EventKind::kNoDecision;
+  event.frame = number;
+  event.stamp_s = frame.stamp_s;
+  event.truth = undecided.surface;
+  event.pixels = undecided.pixels;
+  const auto plane =
+      std::find_if(frame.planes.begin(), frame.planes.end(),
+                   [&](const RunFramePlane& p) { return p.index + 1 == undecided.segment; });
+  event.cue = WhyUndecided(plane == frame.planes.end() ? nullptr : &*plane);
+  return event;
 }
 
 }  // namespace
@@ -43,6 +59,8 @@ SurfaceScore ScoreSurfaces(const Run& run, const DepthViews& views, const LabelV
   const FinalLandmarks final_landmarks(run.map);
   const std::vector<double> stamps_s = StampsOf(run.frames);
   SurfaceScorer scorer;
+  std::optional<double> first_s;
+  std::vector<RunEvent> events;
   for (std::size_t i = 0; i < views.size(); ++i) {
     const auto at = FindStamp(stamps_s, views.StampOf(i));
     if (!at) continue;
@@ -61,9 +79,17 @@ SurfaceScore ScoreSurfaces(const Run& run, const DepthViews& views, const LabelV
                       "recording with --truth",
                       segments->cols, segments->rows, view.depth_m.cols, view.depth_m.rows));
     }
-    scorer.Add(i, label(view), *segments, LandmarksOf(run.frames[*at], final_landmarks));
+    const RunFrame& frame = run.frames[*at];
+    if (!first_s) first_s = frame.stamp_s;
+    const bool is_settled = frame.stamp_s - *first_s > kFirstLandmarks_s;
+    for (const UndecidedSegment& segment : scorer.Add(
+             i, label(view), *segments, LandmarksOf(frame, final_landmarks), is_settled)) {
+      events.push_back(EventOf(segment, frame, static_cast<int>(i)));
+    }
   }
-  return scorer.Score();
+  SurfaceScore score = scorer.Score();
+  score.events = std::move(events);
+  return score;
 }
 
 }  // namespace eval

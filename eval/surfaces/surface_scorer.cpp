@@ -51,57 +51,74 @@ SurfaceFigures FiguresOf(const SurfaceCounts& c) {
   figures.no_decision = ShareOf(c.undecided_frames, c.large_frames);
   figures.frames = c.frames;
   figures.pixels = c.pixels;
+  figures.segment_pixels = c.segment_on_any;
+  figures.landmark_pixels = InLandmarks(c);
+  figures.large_frames = c.large_frames;
   return figures;
 }
 
-/// @returns its pixels in its largest segment
-Pixels AddSurface(SurfaceCounts& counts, int id, Pixels pixels, const Overlap& overlap,
-                  const std::map<int, int>& landmarks, double image_pixels) {
+/// Its largest segment in a frame.
+struct LargestSegment {
+  int label = 0;  ///< 0: none
+  Pixels pixels = 0;
+};
+
+LargestSegment AddSurface(SurfaceCounts& counts, int id, Pixels pixels, const Overlap& overlap,
+                          const std::map<int, int>& landmarks, double image_pixels) {
   counts.pixels += pixels;
   ++counts.frames;
-  int largest = 0;
-  Pixels in_largest = 0;
+  LargestSegment largest;
   const auto shared = overlap.shared.find(id);
   if (shared != overlap.shared.end()) {
     for (const auto& [segment, common] : shared->second) {
       counts.in_any += common;
-      if (common > in_largest) {
-        largest = segment;
-        in_largest = common;
-      }
+      if (common > largest.pixels) largest = {segment, common};
       const auto landmark = landmarks.find(segment);
       if (landmark != landmarks.end()) counts.landmarks[landmark->second] += common;
     }
   }
-  counts.in_largest += in_largest;
-  if (double(pixels) > kLargeShare * image_pixels) {
+  counts.in_largest += largest.pixels;
+  if (double(pixels) > kLargeSurfaceShare * image_pixels) {
     ++counts.large_frames;
-    counts.undecided_frames += landmarks.count(largest) == 0 ? 1 : 0;
+    counts.undecided_frames += landmarks.count(largest.label) == 0 ? 1 : 0;
   }
-  return in_largest;
+  return largest;
 }
 
 }  // namespace
 
-void SurfaceScorer::Add(std::size_t view, const cv::Mat1w& surfaces, const cv::Mat1w& segments,
-                        const std::map<int, int>& landmarks) {
+std::vector<UndecidedSegment> SurfaceScorer::Add(std::size_t view, const cv::Mat1w& surfaces,
+                                                 const cv::Mat1w& segments,
+                                                 const std::map<int, int>& landmarks,
+                                                 bool is_settled) {
+  std::vector<UndecidedSegment> undecided;
   const Overlap overlap = CountOverlap(surfaces, segments);
   FrameWholeness wholeness{view, 0, 0};
   for (const auto& [id, pixels] : overlap.truth_pixels) {
-    const Pixels in_largest =
-        AddSurface(counts_[id], id, pixels, overlap, landmarks, double(surfaces.total()));
+    SurfaceCounts& counts = counts_[id];
+    const LargestSegment largest =
+        AddSurface(counts, id, pixels, overlap, landmarks, double(surfaces.total()));
     wholeness.pixels += pixels;
-    wholeness.in_largest += in_largest;
+    wholeness.in_largest += largest.pixels;
+    const bool is_large = double(pixels) > kLargeSurfaceShare * double(surfaces.total());
+    const bool decided = landmarks.count(largest.label) > 0;
+    if (is_large && is_settled && counts.has_landmark) {
+      ++known_surfaces_;
+      if (!decided) undecided.push_back({id, largest.label, int(pixels)});
+    }
+    counts.has_landmark = counts.has_landmark || decided;
   }
   AddSegments(overlap);
   segments_ += int(overlap.machine_pixels.size());
   by_frame_.push_back(wholeness);
+  return undecided;
 }
 
 SurfaceScore SurfaceScorer::Score() const {
   SurfaceScore score;
   score.frames = int(by_frame_.size());
   score.by_frame = by_frame_;
+  score.known_surfaces = known_surfaces_;
   SurfaceCounts all;
   Pixels in_landmarks = 0, in_commonest = 0;
   double landmarks = 0.0;
@@ -115,6 +132,7 @@ SurfaceScore SurfaceScorer::Score() const {
   score.total = FiguresOf(all);
   score.total.coverage = ShareOf(in_landmarks, all.pixels);
   score.total.identity = ShareOf(in_commonest, in_landmarks);
+  score.total.landmark_pixels = in_landmarks;
   score.total.landmarks = counts_.empty() ? 0.0 : landmarks / double(counts_.size());
   score.total.segments_per_frame = ShareOf(segments_, score.frames);
   score.total.frames = score.frames;

@@ -70,6 +70,32 @@ std::optional<NoAlignment> WhyNotAligned(const std::vector<Eigen::Vector3d>& x_w
   return reason != nullptr ? std::optional(*reason) : std::nullopt;
 }
 
+std::string TextOf(NoAlignment reason, const std::string& what, std::size_t count) {
+  switch (reason) {
+    case NoAlignment::kFewPoses:
+      return "only " + std::to_string(count) + " " + what + ", 3 are needed";
+    case NoAlignment::kStandsStill:
+      return "the " + what + " stand still";
+    case NoAlignment::kLine:
+      break;
+  }
+  return "the " + what + " lie on a line to working precision, about which any turn fits";
+}
+
+std::vector<Eigen::Vector3d> PositionsOf(const std::vector<Pose>& poses) {
+  std::vector<Eigen::Vector3d> positions;
+  positions.reserve(poses.size());
+  for (const Pose& pose : poses) positions.push_back(pose.t);
+  return positions;
+}
+
+std::vector<Pose> Apply(const Alignment& alignment, const std::vector<Pose>& poses) {
+  std::vector<Pose> aligned;
+  aligned.reserve(poses.size());
+  for (const Pose& pose : poses) aligned.push_back(alignment * pose);
+  return aligned;
+}
+
 std::optional<Alignment> AlignByPoses(const std::vector<Pose>& T_wc,
                                       const std::vector<Pose>& T_gc) {
   if (T_wc.size() != T_gc.size()) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "eval/formats/pose.h"
@@ -36,6 +37,9 @@ enum class NoAlignment { kFewPoses, kStandsStill, kLine };
 /// @returns nothing where AlignUmeyama gives one
 std::optional<NoAlignment> WhyNotAligned(const std::vector<Eigen::Vector3d>& x_w,
                                          const std::vector<Eigen::Vector3d>& y_g);
+/// The reason in words: "only 2 matched positions, 3 are needed".
+/// @param what  stands for the positions, of which there are `count`
+std::string TextOf(NoAlignment reason, const std::string& what, std::size_t count);
 
 /// The rigid motion that lays whole poses on the truth, from rotations and positions alike:
 ///   R = argmin sum |R_gc - R R_wc|^2 (the chordal mean of R_gc R_wc^T),  t = my - R mx.
@@ -46,6 +50,9 @@ std::optional<NoAlignment> WhyNotAligned(const std::vector<Eigen::Vector3d>& x_w
 ///          so that no mean is nearest
 std::optional<Alignment> AlignByPoses(const std::vector<Pose>& T_wc,
                                       const std::vector<Pose>& T_gc);
+
+std::vector<Eigen::Vector3d> PositionsOf(const std::vector<Pose>& poses);
+std::vector<Pose> Apply(const Alignment& alignment, const std::vector<Pose>& poses);
 
 /// The motion that lays the first pose of the estimate on that of the truth.
 Alignment AlignOrigin(const Pose& first_T_wc, const Pose& first_T_gc);

@@ -16,7 +16,7 @@ struct StampMatch {
 
 /// evo's rule, for recordings whose truth has its own clock: for each stamp of the shorter list
 /// (the estimate, on equal lengths) the nearest of the longer one, the first on ties, kept if
-/// |dt| <= max_difference_s. Not one-to-one.
+/// |dt| <= max_difference_s. Not one-to-one. Both by rising stamp.
 std::vector<StampMatch> MatchNearest(const Trajectory& truth, const Trajectory& estimate,
                                      double max_difference_s = kMaxStampDifference_s);
 

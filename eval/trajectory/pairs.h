@@ -26,9 +26,10 @@ std::vector<PosePair> PairsByPath(const std::vector<Pose>& poses, double delta_m
 std::vector<PosePair> PairsByAngle(const std::vector<Pose>& poses, double delta_rad,
                                    double tolerance_rad, PairMode mode);
 
-/// For each i the j > i whose stamp is nearest to stamp_i + delta_s, kept if it is at most
-/// tolerance_s away: a gap of the run closes no pair. `stamps_s` rise.
+/// All: for each i the j > i whose stamp is nearest to stamp_i + delta_s, kept if it is at most
+/// tolerance_s away: a gap of the run closes no pair. Consecutive: of these, each that begins where
+/// the one before ends, or later. `stamps_s` rise.
 std::vector<PosePair> PairsByTime(const std::vector<double>& stamps_s, double delta_s,
-                                  double tolerance_s);
+                                  double tolerance_s, PairMode mode = PairMode::kAll);
 
 }  // namespace eval

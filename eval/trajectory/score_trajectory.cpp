@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "eval/trajectory/pose_errors.h"
 #include "io/input_error.h"
@@ -29,28 +30,6 @@ Trajectory ByRisingStamp(Trajectory trajectory) {
   return trajectory;
 }
 
-std::vector<Eigen::Vector3d> Positions(const std::vector<Pose>& poses) {
-  std::vector<Eigen::Vector3d> positions;
-  positions.reserve(poses.size());
-  for (const Pose& pose : poses) positions.push_back(pose.t);
-  return positions;
-}
-
-std::vector<Pose> Apply(const Alignment& alignment, const std::vector<Pose>& poses) {
-  std::vector<Pose> aligned;
-  aligned.reserve(poses.size());
-  for (const Pose& pose : poses) aligned.push_back(alignment * pose);
-  return aligned;
-}
-
-double MedianInterval(const std::vector<double>& stamps_s) {
-  std::vector<double> intervals_s;
-  for (std::size_t i = 1; i < stamps_s.size(); ++i) {
-    intervals_s.push_back(stamps_s[i] - stamps_s[i - 1]);
-  }
-  return intervals_s.empty() ? 0.0 : Quantile(intervals_s, 0.5);
-}
-
 double Diameter(const std::vector<Eigen::Vector3d>& points) {
   double largest = 0.0;
   for (std::size_t i = 0; i < points.size(); ++i) {
@@ -71,6 +50,7 @@ void CountFrames(const Trajectory& estimate, const std::vector<double>& frame_st
         std::lower_bound(estimate.begin(), estimate.end(), stamp_s - tolerance_s,
                          [](const StampedPose& pose, double s) { return pose.stamp_s < s; });
     const bool tracked = next != estimate.end() && next->stamp_s <= stamp_s + tolerance_s;
+    score.tracked_frames.push_back(tracked);
     if (tracked) ++score.tracked;
     if (was_tracked && !tracked) ++score.lost_events;
     was_tracked = tracked;
@@ -85,18 +65,6 @@ std::optional<RelativeScore> ScorePairs(const MatchedPoses& poses,
       Describe(RelativeErrors(poses.estimate, poses.truth, pairs, Relation::kAngleDeg));
   if (!translation) return std::nullopt;
   return RelativeScore{translation->rmse, angle->rmse, pairs.size()};
-}
-
-std::string TextOf(NoAlignment reason, const std::string& what, std::size_t count) {
-  switch (reason) {
-    case NoAlignment::kFewPoses:
-      return "only " + std::to_string(count) + " " + what + ", 3 are needed";
-    case NoAlignment::kStandsStill:
-      return "the " + what + " stand still";
-    case NoAlignment::kLine:
-      break;
-  }
-  return "the " + what + " lie on a line to working precision, about which any turn fits";
 }
 
 std::string WhyNoMatch(const Trajectory& estimate, const Trajectory& truth) {
@@ -128,6 +96,32 @@ MatchedPoses Collect(const Trajectory& estimate, const Trajectory& truth, bool e
   return poses;
 }
 
+/// @param se3    the alignment of positions, where one is defined
+/// @param gauge  by whole poses
+std::vector<PoseError> ErrorsOfPoses(const MatchedPoses& poses,
+                                     const std::optional<Alignment>& se3,
+                                     const std::optional<Alignment>& gauge) {
+  std::vector<PoseError> errors;
+  errors.reserve(poses.stamps_s.size());
+  for (std::size_t i = 0; i < poses.stamps_s.size(); ++i) {
+    const Pose &estimate = poses.estimate[i], &truth = poses.truth[i];
+    PoseError error;
+    error.stamp_s = poses.stamps_s[i];
+    error.true_position_g = truth.t;
+    if (gauge) {
+      const Pose T_gc = *gauge * estimate;
+      error.rotation_deg = AngleOf(T_gc.R.transpose() * truth.R) * 180.0 / std::numbers::pi;
+      error.position_g = T_gc.t;
+    }
+    if (se3) {
+      error.position_g = (*se3 * estimate).t;
+      error.position_m = (*error.position_g - truth.t).norm();
+    }
+    errors.push_back(error);
+  }
+  return errors;
+}
+
 }  // namespace
 
 std::vector<std::optional<Pose>> TruePosesOfFrames(const Trajectory& truth,
@@ -155,18 +149,21 @@ TrajectoryScore ScoreTrajectory(const Trajectory& estimate, const Trajectory& un
     score.ate_origin = Describe(
         AbsoluteErrors(Apply(origin, poses.estimate), poses.truth, Relation::kTranslation));
   }
-  if (const auto se3 = AlignUmeyama(Positions(poses.estimate), Positions(poses.truth))) {
+  const auto se3 = AlignUmeyama(PositionsOf(poses.estimate), PositionsOf(poses.truth));
+  if (se3) {
     score.ate_se3 = Describe(
         AbsoluteErrors(Apply(*se3, poses.estimate), poses.truth, Relation::kTranslation));
   }
   if (poses.truth.empty()) score.no_match = WhyNoMatch(estimate, truth);
-  if (const auto reason = WhyNotAligned(Positions(poses.estimate), Positions(poses.truth))) {
+  if (const auto reason =
+          WhyNotAligned(PositionsOf(poses.estimate), PositionsOf(poses.truth))) {
     score.no_ate_se3 = poses.truth.empty()
                            ? score.no_match
                            : TextOf(*reason, "matched positions", poses.truth.size());
   }
 
   score.gauge = AlignByPoses(poses.estimate, poses.truth);
+  score.errors = ErrorsOfPoses(poses, se3, score.gauge);
 
   std::vector<Eigen::Vector3d> true_positions;
   for (const auto& pose : TruePosesOfFrames(truth, frame_stamps_s, equal_stamps)) {
@@ -178,7 +175,7 @@ TrajectoryScore ScoreTrajectory(const Trajectory& estimate, const Trajectory& un
                       : TextOf(*reason, "true positions of frames", true_positions.size());
   }
   score.ate_complete_rmse_m = CompleteRmse(true_positions, poses.truth.size(), score.ate_se3);
-  const double half_frame_s = 0.5 * MedianInterval(frame_stamps_s);
+  const double half_frame_s = 0.5 * MedianStep(frame_stamps_s);
   score.rpe_1s = ScorePairs(poses, PairsByTime(poses.stamps_s, kRpeTime_s, half_frame_s));
   score.rpe_1m = ScorePairs(
       poses, PairsByPath(poses.truth, kRpePath_m, kRpePathTolerance_m, PairMode::kAll));

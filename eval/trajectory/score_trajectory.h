@@ -18,6 +18,15 @@ struct RelativeScore {
   std::size_t pairs = 0;
 };
 
+/// How far a pose is off, after the alignments that the figures of all poses rest on.
+struct PoseError {
+  double stamp_s = 0.0;                ///< of the estimate
+  std::optional<double> position_m;    ///< as in ate_se3
+  std::optional<double> rotation_deg;  ///< in the world of the truth by whole poses (gauge)
+  Eigen::Vector3d true_position_g = Eigen::Vector3d::Zero();  ///< metres
+  std::optional<Eigen::Vector3d> position_g;  ///< that of position_m, else by whole poses
+};
+
 /// The group `trajectory` of metrics.json; what is not defined is empty, and the text beside it
 /// says why.
 struct TrajectoryScore {
@@ -30,9 +39,11 @@ struct TrajectoryScore {
   /// path, so that giving up frames cannot improve a run whose errors stay below that.
   std::optional<double> ate_complete_rmse_m;
   std::optional<RelativeScore> rpe_1s, rpe_1m;
-  std::string no_match;         ///< why no pose has a truth; empty when some have
-  std::string no_ate_se3;       ///< why ate_se3 is empty
-  std::string no_ate_complete;  ///< why ate_complete_rmse_m is empty
+  std::string no_match;              ///< why no pose has a truth; empty when some have
+  std::string no_ate_se3;            ///< why ate_se3 is empty
+  std::string no_ate_complete;       ///< why ate_complete_rmse_m is empty
+  std::vector<bool> tracked_frames;  ///< by frame of the sequence
+  std::vector<PoseError> errors;     ///< of the matched poses
   /// World of the run to world of the truth, by whole poses: what the map is scored in.
   std::optional<Alignment> gauge;
 };

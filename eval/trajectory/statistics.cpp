@@ -37,6 +37,12 @@ double Quantile(std::vector<double> values, double fraction) {
   return (1.0 - share) * values[below] + share * values[above];
 }
 
+double MedianStep(const std::vector<double>& rising) {
+  std::vector<double> steps;
+  for (std::size_t i = 1; i < rising.size(); ++i) steps.push_back(rising[i] - rising[i - 1]);
+  return steps.empty() ? 0.0 : Quantile(steps, 0.5);
+}
+
 std::optional<Spread> SpreadOf(const std::vector<double>& values) {
   if (values.empty()) return std::nullopt;
   return Spread{Quantile(values, 0.5), Quantile(values, 0.95)};

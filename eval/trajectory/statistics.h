@@ -21,6 +21,9 @@ std::optional<Statistics> Describe(const std::vector<double>& errors);
 /// @throws std::invalid_argument for an empty list.
 double Quantile(std::vector<double> values, double fraction);
 
+/// Median of the steps from one value to the next; 0 for fewer than two.
+double MedianStep(const std::vector<double>& rising);
+
 /// Median and 95th percentile, or nothing for an empty list.
 struct Spread {
   double median = 0.0, p95 = 0.0;

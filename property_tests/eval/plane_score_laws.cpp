@@ -7,11 +7,13 @@
 #include <set>
 
 #include "eval/planes/association.h"
+#include "eval/planes/clear_score.h"
 #include "eval/planes/corners.h"
+#include "eval/planes/hota_score.h"
 #include "eval/planes/hungarian.h"
+#include "eval/planes/identity_score.h"
 #include "eval/planes/polygon.h"
 #include "eval/planes/segmentation_score.h"
-#include "eval/planes/tracking.h"
 
 namespace eval {
 namespace {

@@ -38,7 +38,7 @@ SEQUENCE = {"rgb.txt": "list", "depth.txt": "list", "associations.txt": "list", 
 RUN = {"run.json": "json", "trajectory.txt": "list", "keyframes.txt": "list", "frame_planes.jsonl": "jsonl",
        "map.json": "json", "timing.csv": "csv", "segmentation/*.png": "ids", "map.ply": "text"}
 SCENES = {"scene.yaml": "yaml", "sensor.yaml": "yaml", "path.txt": "list", "config.yaml": "yaml",
-          "slam_camera.yaml": "yaml"}
+          "slam_camera.yaml": "yaml", "poses.csv": "csv"}
 
 Command = collections.namedtuple("Command", "name arguments reads")
 # What is run, below a folder of inputs, and the files that it reads. `out` is what it writes.
@@ -51,6 +51,12 @@ COMMANDS = (
     Command("slam", "slam seq -o out --camera slam_camera.yaml", ["slam_camera.yaml"]),
     Command("slam", "slam seq -o out", ["seq/" + f for f in SEQUENCE if not f.startswith("gt/")]),
     Command("eval", "eval run --truth seq -o out", ["seq/" + f for f in SEQUENCE] + ["run/" + f for f in RUN]),
+    Command("eval --trajectory", "eval --trajectory run/trajectory.txt --truth seq/groundtruth.txt -o out",
+            ["run/trajectory.txt", "seq/groundtruth.txt"]),
+    Command("eval --trajectory", "eval --trajectory poses.csv --truth seq/groundtruth.txt -o out", ["poses.csv"]),
+    Command("eval --segmentation", "eval --segmentation run/segmentation --truth seq -o out",
+            ["run/segmentation/*.png", "seq/gt/plane_id/*.png"]),
+    Command("plot", "plot run --truth seq -o out", ["run/trajectory.txt", "run/timing.csv"]),
     Command("draw", "draw run --truth seq -o out --frames 3", ["seq/" + f for f in SEQUENCE] +
             ["run/" + f for f in RUN]),
     Command("export", "export seq -o out --format coco", ["seq/" + f for f in SEQUENCE]),
@@ -77,7 +83,16 @@ def make_corpus(pas, folder):
     lines = (folder / "seq/groundtruth.txt").read_text().splitlines()
     (folder / "path.txt").write_text("\n".join(lines[:4]) + "\n")
     (folder / "config.yaml").write_text("sensor:\n  model: kinect1\n  max_depth_m: 3.5\n")
+    (folder / "poses.csv").write_text("".join(map(euroc_line, (folder / "run/trajectory.txt").read_text().splitlines())))
     (folder / "slam_camera.yaml").write_text((folder / "seq/camera.yaml").read_text())
+
+
+def euroc_line(line):
+    """A pose of TUM as EuRoC writes it."""
+    if line.startswith("#"):
+        return "#timestamp [ns],x,y,z,qw,qx,qy,qz\n"
+    t, x, y, z, qx, qy, qz, qw = line.split()
+    return f"{round(float(t) * 1e9)},{x},{y},{z},{qw},{qx},{qy},{qz}\n"
 
 
 def frame_file(folder, pattern):

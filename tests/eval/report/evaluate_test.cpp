@@ -99,11 +99,12 @@ TEST_F(EvaluateTinyWorld, ABookPutOnTheDesksMapPlaneMovesAssociationAndMapOnly) 
     return plane["id"] == TinyRun::MapId(TinyWorld::kThinTop);
   }));
   const nlohmann::json after = Metrics(run);
-  EXPECT_EQ(Moved(before, after),
-            (Keys{"association/pair", "association/b_cubed", "association/decision",
-                  "association/idf1", "association/hota", "association/ass_a",
-                  "association/mota", "association/merged_map_planes", "map/planes",
-                  "map/matched", "map/merged", "map/area_explained"}));
+  EXPECT_EQ(
+      Moved(before, after),
+      (Keys{"association/pair", "association/b_cubed", "association/decision",
+            "association/idf1", "association/hota", "association/ass_a", "association/mota",
+            "association/no_decision", "association/merged_map_planes", "map/planes",
+            "map/matched", "map/merged", "map/area_explained"}));
   EXPECT_EQ(after["association"]["merged_map_planes"], 1);
   EXPECT_EQ(after["map"]["merged"], 1);
   EXPECT_EQ(after["association"]["decision"]["fp"], moved_decisions);

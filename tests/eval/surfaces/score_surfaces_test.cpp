@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "eval/surfaces/report_surfaces.h"
 #include "tests/eval/surfaces/boards.h"
 
 namespace eval {
@@ -81,6 +82,34 @@ TEST_F(SurfaceScoreTest, CallsASegmentOverTwoSurfacesImpure) {
   EXPECT_EQ(score.surfaces.at(8).segments_per_frame, 0.0);
 }
 
+TEST_F(SurfaceScoreTest, TellsALargeSurfaceThatHasALandmarkAndGetsNoDecision) {
+  const cv::Mat1w surfaces = Quarters(7, 7, 0, 0), segments = Quarters(1, 1, 2, 2);
+  const std::map<int, int> landmark = {{1, 10}};
+  SurfaceScorer scorer;
+  EXPECT_TRUE(scorer.Add(0, surfaces, segments, {}, true).empty()) << "it has no landmark yet";
+  EXPECT_TRUE(scorer.Add(1, surfaces, segments, landmark, true).empty());
+  EXPECT_TRUE(scorer.Add(2, surfaces, segments, {}, false).empty()) << "too early";
+  const std::vector<UndecidedSegment> undecided = scorer.Add(3, surfaces, segments, {}, true);
+  ASSERT_EQ(undecided.size(), 1u);
+  EXPECT_EQ(undecided[0].surface, 7);
+  EXPECT_EQ(undecided[0].segment, 1);
+  EXPECT_EQ(undecided[0].pixels, int(surfaces.total() / 2));
+  EXPECT_TRUE(scorer.Add(4, surfaces, segments, landmark, true).empty());
+  EXPECT_EQ(scorer.Score().known_surfaces, 2);
+}
+
+TEST_F(SurfaceScoreTest, AsksForNoDecisionInTheFirstSecond) {
+  Segment(Quarters(1, 1, 2, 2));
+  SetLandmark(0, 10);
+  run_.map.resize(1);
+  run_.map[0].id = 10;
+  run_.frames.back().planes[0].map_plane.reset();
+  const SurfaceScore score = Score(Quarters(7, 7, 0, 0));
+  EXPECT_EQ(score.known_surfaces, 0);
+  EXPECT_TRUE(score.events.empty());
+  EXPECT_GT(score.total.no_decision, 0.0);
+}
+
 TEST_F(SurfaceScoreTest, FollowsMergesOfLandmarks) {
   Segment(Quarters(1, 2, 3, 0));
   SetLandmark(0, 10);
@@ -101,6 +130,23 @@ TEST_F(SurfaceScoreTest, FollowsMergesOfLandmarks) {
 
   run_.map.pop_back();  // a candidate that never became a landmark
   EXPECT_NEAR(Score(Quarters(7, 7, 7, 7)).total.coverage, 0.5, 1e-9);
+}
+
+TEST_F(SurfaceScoreTest, WritesNullWithAReasonForAShareOfNothing) {
+  Segment(Quarters(0, 0, 0, 1));
+  nlohmann::ordered_json metrics;
+  AddSurfaces(Score(Quarters(7, 0, 0, 0)), "surfaces.yaml", metrics);
+  const auto& figures = metrics["surfaces"]["each"][0];
+  EXPECT_EQ(figures["whole"], 0.0);
+  EXPECT_EQ(figures["coverage"], 0.0);
+  for (const char* key : {"purity", "identity"}) {
+    EXPECT_TRUE(figures[key].is_null()) << key;
+    EXPECT_TRUE(metrics["reasons"].contains(std::string("surfaces/each/0/") + key)) << key;
+    EXPECT_TRUE(metrics["surfaces"][key].is_null()) << key;
+  }
+  EXPECT_TRUE(metrics["surfaces"]["no_decision_in_map"]["share"].is_null());
+  AddSurfaces(Score(Quarters(0, 0, 0, 0)), "surfaces.yaml", metrics);
+  EXPECT_TRUE(metrics["surfaces"]["whole"].is_null());
 }
 
 TEST_F(SurfaceScoreTest, RefusesARunWithoutSegmentation) {

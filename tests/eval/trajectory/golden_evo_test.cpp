@@ -6,13 +6,8 @@
 
 #include <cmath>
 #include <map>
-#include <numbers>
 
-#include "eval/formats/trajectory.h"
-#include "eval/trajectory/alignment.h"
-#include "eval/trajectory/match_stamps.h"
-#include "eval/trajectory/pose_errors.h"
-#include "eval/trajectory/statistics.h"
+#include "eval/trajectory/compare_trajectories.h"
 #include "io/json_field.h"
 #include "tests/eval/shared_data.h"
 
@@ -26,50 +21,28 @@ constexpr double kRelative = 1e-9;
 constexpr double kFloor = 1e-11;
 constexpr double kAngleFloor_deg = 1e-6;
 
-struct Matched {
-  std::vector<Pose> estimate, truth;
-};
-
-Matched Match(const Trajectory& truth, const Trajectory& estimate) {
-  Matched matched;
-  for (const StampMatch& m : MatchNearest(truth, estimate)) {
-    matched.truth.push_back(truth[m.truth].T_wc);
-    matched.estimate.push_back(estimate[m.estimate].T_wc);
-  }
-  return matched;
+ComparisonRules RulesOf(const nlohmann::json& row) {
+  const std::map<std::string, AlignMode> modes = {{"none", AlignMode::kNone},
+                                                  {"origin", AlignMode::kOrigin},
+                                                  {"se3", AlignMode::kSe3},
+                                                  {"sim3", AlignMode::kSim3}};
+  const std::map<std::string, PoseDelta> deltas = {{"1f", {1.0, DeltaUnit::kFrames}},
+                                                   {"1m", {1.0, DeltaUnit::kMetres}},
+                                                   {"10deg", {10.0, DeltaUnit::kDegrees}}};
+  ComparisonRules rules;
+  rules.align = modes.at(row["align"]);
+  rules.delta = deltas.at(row.value("delta", "1f"));
+  rules.pairs = row.value("all_pairs", false) ? PairMode::kAll : PairMode::kConsecutive;
+  return rules;
 }
 
-std::vector<Pose> Align(const Matched& matched, const std::string& how) {
-  Alignment alignment;
-  if (how == "origin") {
-    alignment = AlignOrigin(matched.estimate.front(), matched.truth.front());
-  } else if (how != "none") {
-    std::vector<Eigen::Vector3d> x, y;
-    for (const Pose& p : matched.estimate) x.push_back(p.t);
-    for (const Pose& p : matched.truth) y.push_back(p.t);
-    alignment = AlignUmeyama(x, y, how == "sim3").value();
-  }
-  std::vector<Pose> aligned;
-  for (const Pose& p : matched.estimate) aligned.push_back(alignment * p);
-  return aligned;
-}
-
-Relation RelationOf(const std::string& name) {
-  if (name == "trans_part") return Relation::kTranslation;
-  return name == "angle_deg" ? Relation::kAngleDeg : Relation::kFull;
-}
-
-std::vector<PosePair> Pairs(const std::vector<Pose>& poses, const nlohmann::json& row) {
-  const PairMode mode = row["all_pairs"].get<bool>() ? PairMode::kAll : PairMode::kConsecutive;
-  const std::string delta = row["delta"];
-  if (delta == "1f") return PairsByFrames(poses.size(), 1, mode);
-  if (delta == "1m") return PairsByPath(poses, 1.0, 0.1, mode);
-  const double degree = std::numbers::pi / 180.0;
-  return PairsByAngle(poses, 10 * degree, degree, mode);
-}
-
-void ExpectFigures(const std::vector<double>& errors, const nlohmann::json& row) {
-  const Statistics s = Describe(errors).value();
+void ExpectFigures(const ErrorStatistics& errors, const nlohmann::json& row) {
+  const std::map<std::string, std::optional<Statistics>> relations = {
+      {"trans_part", errors.translation_m},
+      {"angle_deg", errors.rotation_deg},
+      {"full", errors.full}};
+  const Statistics s = relations.at(row["relation"]).value();
+  EXPECT_EQ(s.count, row["n_pairs"].get<std::size_t>()) << row;
   const double floor = row["relation"] == "angle_deg" ? kAngleFloor_deg : kFloor;
   const std::map<std::string, double> ours = {
       {"rmse", s.rmse}, {"mean", s.mean}, {"median", s.median}, {"std", s.std_dev},
@@ -81,34 +54,41 @@ void ExpectFigures(const std::vector<double>& errors, const nlohmann::json& row)
   }
 }
 
+void ExpectMatch(const TrajectoryComparison& ours, const nlohmann::json& files) {
+  EXPECT_EQ(ours.true_poses, files["ref_poses"].get<std::size_t>());
+  EXPECT_EQ(ours.poses, files["est_poses"].get<std::size_t>());
+  EXPECT_EQ(ours.matched, files["matched"].get<std::size_t>());
+  const std::map<std::string, double> figures = {
+      {"est_path_length_matched", ours.path_m},
+      {"ref_path_length_matched", ours.true_path_m},
+      {"max_gap_between_matched_est_poses_s", ours.max_gap_s}};
+  for (const auto& [key, value] : figures) {
+    const double expected = files[key];
+    EXPECT_NEAR(value, expected, kRelative * expected) << key;
+  }
+}
+
 class GoldenEvo : public ::testing::TestWithParam<const char*> {};
 
 TEST_P(GoldenEvo, AgreesOnEveryAbsoluteAndRelativeError) {
   const std::filesystem::path folder = testing::SharedFolder() / "golden" / GetParam();
   SKIP_WITHOUT(folder);
   const nlohmann::json golden = io::ReadJson(folder / "evo_golden.json");
-  std::map<std::string, Matched> cases;
+  std::map<std::string, std::pair<PoseFile, PoseFile>> cases;
   for (const auto& [name, files] : golden["matches"].items()) {
-    Folder data(folder / "data");
-    const Trajectory truth = ReadTrajectory(data, files["ref"]);
-    const Trajectory estimate = ReadTrajectory(data, files["est"]);
-    EXPECT_EQ(truth.size(), files["ref_poses"].get<std::size_t>());
-    cases[name] = Match(truth, estimate);
-    EXPECT_EQ(cases[name].truth.size(), files["matched"].get<std::size_t>()) << name;
+    SCOPED_TRACE(name);
+    const auto read = [&](const char* key) {
+      return ReadPoseFile(folder / "data" / files[key].get<std::string>());
+    };
+    cases[name] = {read("est"), read("ref")};
+    ExpectMatch(CompareTrajectories(cases[name].first, cases[name].second, {}), files);
   }
-  for (const auto& row : golden["ape"]) {
-    const Matched& matched = cases.at(row["case"]);
-    ExpectFigures(AbsoluteErrors(Align(matched, row["align"]), matched.truth,
-                                 RelationOf(row["relation"])),
-                  row);
-  }
-  for (const auto& row : golden["rpe"]) {
-    const Matched& matched = cases.at(row["case"]);
-    const std::vector<Pose> aligned = Align(matched, row["align"]);
-    const std::vector<PosePair> pairs = Pairs(aligned, row);
-    ASSERT_EQ(pairs.size(), row["n_pairs"].get<std::size_t>()) << row;
-    ExpectFigures(RelativeErrors(aligned, matched.truth, pairs, RelationOf(row["relation"])),
-                  row);
+  for (const char* metric : {"ape", "rpe"}) {
+    for (const auto& row : golden[metric]) {
+      const auto& [estimate, truth] = cases.at(row["case"]);
+      const TrajectoryComparison ours = CompareTrajectories(estimate, truth, RulesOf(row));
+      ExpectFigures(metric == std::string("ape") ? ours.absolute : ours.relative, row);
+    }
   }
 }
 

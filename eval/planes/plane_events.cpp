@@ -1,0 +1,187 @@
+#include "eval/planes/plane_events.h"
+
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+
+#include "eval/planes/map_score.h"
+
+namespace eval {
+namespace {
+
+/// Distance from the map plane that a decision gave to the plane that it should have given.
+std::optional<double> DistanceOf(const PlaneDecision& decision, const EventWorld& world) {
+  const RunMapPlane* given =
+      FindMapPlane(world.map, FinalMapPlane(world.map, decision.record.map_plane));
+  if (given == nullptr || !world.gauge) return std::nullopt;
+  const Plane pi_g = InTruthWorld(*world.gauge, given->pi_w);
+  const TruthPlane* truth = world.scene.FindPlane(decision.record.truth);
+  if (truth == nullptr) return std::abs(SignedDistance(pi_g, decision.centroid_g)) * 1e3;
+  return RmsDistance(pi_g, truth->vertices_g) * 1e3;
+}
+
+/// The first map plane that each true plane made.
+std::map<int, int> FirstMapPlanes(const DecisionHistory& history) {
+  std::map<int, int> first_of;
+  std::set<int> made;
+  for (const PlaneDecision& decision : history.decisions) {
+    const AssociationRecord& record = decision.record;
+    if (made.insert(record.map_plane).second) first_of.emplace(record.truth, record.map_plane);
+  }
+  return first_of;
+}
+
+/// Sums up decisions that put one true plane on one map plane.
+class Placement {
+ public:
+  void Add(const PlaneDecision& decision, const std::optional<double>& distance_mm) {
+    if (frames_ == 0) first_ = &decision;
+    ++frames_;
+    pixels_ += decision.pixels;
+    if (distance_mm) harm_px_mm_ = harm_px_mm_.value_or(0.0) + decision.pixels * *distance_mm;
+    distance_mm_ = distance_mm;
+    ++cues_[decision.cue];
+  }
+
+  RunEvent Event(EventKind kind) const {
+    RunEvent event;
+    event.kind = kind;
+    event.frame = first_->record.frame;
+    event.stamp_s = first_->stamp_s;
+    event.frames = frames_;
+    event.truth = first_->record.truth;
+    event.pixels = pixels_;
+    event.distance_mm = distance_mm_;
+    event.harm_px_mm = harm_px_mm_;
+    const auto fewer = [](const auto& a, const auto& b) { return a.second < b.second; };
+    event.cue = std::max_element(cues_.begin(), cues_.end(), fewer)->first;
+    return event;
+  }
+  int frames() const { return frames_; }
+
+ private:
+  const PlaneDecision* first_ = nullptr;
+  int frames_ = 0, pixels_ = 0;
+  std::optional<double> distance_mm_, harm_px_mm_;
+  std::map<std::string, int> cues_;
+};
+
+/// [one][other]: of map planes the true planes, or the other way round.
+using Placements = std::map<int, std::map<int, Placement>>;
+
+/// Entries of a row that carry weight, but the one with most frames.
+struct Mixture {
+  int main = 0;
+  std::vector<int> others;
+};
+Mixture MixtureOf(const std::map<int, Placement>& row) {
+  std::map<int, int> counts;
+  for (const auto& [id, placement] : row) counts[id] = placement.frames();
+  Mixture mixture;
+  mixture.others = StrongEntries(counts);
+  if (mixture.others.empty()) return mixture;
+  const auto main = std::max_element(mixture.others.begin(), mixture.others.end(),
+                                     [&](int a, int b) { return counts.at(a) < counts.at(b); });
+  mixture.main = *main;
+  mixture.others.erase(main);
+  return mixture;
+}
+
+void AddMixtures(const Placements& by_map, const Placements& by_truth,
+                 std::vector<RunEvent>& events) {
+  for (const auto& [map_plane, row] : by_map) {
+    const Mixture mixture = MixtureOf(row);
+    for (const int truth : mixture.others) {
+      RunEvent event = row.at(truth).Event(EventKind::kMerge);
+      event.other_truth = mixture.main;
+      event.map_plane = map_plane;
+      events.push_back(event);
+    }
+  }
+  for (const auto& [truth, row] : by_truth) {
+    const Mixture mixture = MixtureOf(row);
+    for (const int map_plane : mixture.others) {
+      RunEvent event = row.at(map_plane).Event(EventKind::kSplit);
+      event.map_plane = map_plane;
+      event.right_map_plane = mixture.main;
+      events.push_back(event);
+    }
+  }
+}
+
+RunEvent EventOf(const PlaneDecision& decision, const JudgedDecision& judged,
+                 const std::map<int, int>& first_of, const EventWorld& world) {
+  RunEvent event;
+  const bool wrong = judged.outcome == DecisionOutcome::kWrong;
+  event.kind = wrong ? EventKind::kWrong : EventKind::kMissed;
+  event.frame = decision.record.frame;
+  event.stamp_s = decision.stamp_s;
+  event.truth = decision.record.truth;
+  if (wrong) event.other_truth = judged.owner;
+  event.map_plane = FinalMapPlane(world.map, decision.record.map_plane);
+  if (judged.truth_had_owner) {
+    event.right_map_plane = FinalMapPlane(world.map, first_of.at(decision.record.truth));
+  }
+  event.cue = decision.cue;
+  event.pixels = decision.pixels;
+  event.distance_mm = DistanceOf(decision, world);
+  if (event.distance_mm) event.harm_px_mm = decision.pixels * *event.distance_mm;
+  return event;
+}
+
+RunEvent EventOf(const SeenSurface& surface, const std::map<int, int>& first_of,
+                 const EventWorld& world) {
+  RunEvent event;
+  event.kind = EventKind::kNoDecision;
+  event.frame = surface.frame;
+  event.stamp_s = surface.stamp_s;
+  event.truth = surface.truth;
+  event.right_map_plane = FinalMapPlane(world.map, first_of.at(surface.truth));
+  event.cue = surface.cue;
+  event.pixels = surface.pixels;
+  return event;
+}
+
+}  // namespace
+
+const char* NameOf(EventKind kind) {
+  constexpr const char* kNames[] = {"wrong", "missed", "no decision", "merge", "split", "lost"};
+  return kNames[static_cast<std::size_t>(kind)];
+}
+
+std::vector<RunEvent> FindPlaneEvents(const DecisionHistory& history,
+                                      const UndecidedSurfaces& undecided,
+                                      const EventWorld& world) {
+  const std::vector<JudgedDecision> judged = JudgeDecisions(RecordsOf(history.decisions));
+  const std::map<int, int> first_of = FirstMapPlanes(history);
+  std::vector<RunEvent> events;
+  Placements by_map, by_truth;
+  for (std::size_t i = 0; i < judged.size(); ++i) {
+    const PlaneDecision& decision = history.decisions[i];
+    const bool at_fault = judged[i].outcome == DecisionOutcome::kWrong ||
+                          judged[i].outcome == DecisionOutcome::kMissed;
+    if (at_fault) events.push_back(EventOf(decision, judged[i], first_of, world));
+    const int truth = decision.record.truth;
+    if (truth == 0) continue;
+    const int map_plane = FinalMapPlane(world.map, decision.record.map_plane);
+    const auto distance_mm = DistanceOf(decision, world);
+    by_map[map_plane][truth].Add(decision, distance_mm);
+    by_truth[truth][map_plane].Add(decision, distance_mm);
+  }
+  AddMixtures(by_map, by_truth, events);
+  for (const SeenSurface& surface : undecided.undecided) {
+    events.push_back(EventOf(surface, first_of, world));
+  }
+  SortByHarm(events);
+  return events;
+}
+
+void SortByHarm(std::vector<RunEvent>& events) {
+  const auto key = [](const RunEvent& e) {
+    return std::tuple(-e.harm_px_mm.value_or(-1.0), -e.pixels.value_or(-1), e.frame, e.kind);
+  };
+  std::stable_sort(events.begin(), events.end(),
+                   [&](const RunEvent& a, const RunEvent& b) { return key(a) < key(b); });
+}
+
+}  // namespace eval

@@ -1,0 +1,61 @@
+// `pas plot` as a process: a folder of plots, whole or not at all.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/eval/check/small_run.h"
+#include "tests/support/program.h"
+
+namespace program {
+namespace {
+
+using ::testing::HasSubstr;
+
+class PlotProgram : public ::testing::Test {
+ protected:
+  PlotProgram() {
+    namespace world = eval::small_world;
+    const world::World made = world::MakeWorld();
+    world::WriteSequence(folder_ / "seq", made);
+    world::RunOptions options;
+    options.sequence = (folder_ / "seq").string();
+    world::WriteRun(folder_ / "run", made, options);
+    world::WriteRun(folder_ / "run2", made, options);
+  }
+  Outcome Plot(std::vector<std::string> more) const {
+    std::vector<std::string> arguments = {Pas(), "plot", folder_ / "run", folder_ / "run2"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return Process(arguments, {}, folder_ / "errors").Wait();
+  }
+  TemporaryFolder folder_;
+};
+
+TEST_F(PlotProgram, WritesEachPlotInThreeFormsWithACaption) {
+  const Outcome outcome = Plot({"-o", folder_ / "plots", "--name", "ours", "--name", "theirs"});
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.errors;
+  const auto files = Contents(folder_ / "plots");
+  for (const char* name : {"trajectories", "position_error", "module_times"}) {
+    for (const char* form : {".svg", ".pdf", ".png"}) {
+      EXPECT_EQ(files.count(std::string(name) + form), 1u) << name << form;
+    }
+    EXPECT_THAT(files.at("captions.txt"), HasSubstr(std::string(name) + ": "));
+  }
+}
+
+TEST_F(PlotProgram, WantsANameForEachRunOrNone) {
+  const Outcome outcome = Plot({"-o", folder_ / "plots", "--name", "ours"});
+  EXPECT_EQ(outcome.exit_code, 2);
+  EXPECT_THAT(outcome.errors, HasSubstr("--name: is given 1 times for 2 runs"));
+  EXPECT_FALSE(fs::exists(folder_ / "plots"));
+}
+
+TEST_F(PlotProgram, ReplacesOnlyPlotsAndNeverARun) {
+  ASSERT_EQ(Plot({"-o", folder_ / "plots"}).exit_code, 0);
+  EXPECT_EQ(Plot({"-o", folder_ / "plots"}).exit_code, 2);
+  EXPECT_EQ(Plot({"-o", folder_ / "plots", "--force"}).exit_code, 0);
+  const auto before = Contents(folder_ / "run");
+  EXPECT_EQ(Plot({"-o", folder_ / "run", "--force"}).exit_code, 2);
+  EXPECT_EQ(Contents(folder_ / "run"), before);
+}
+
+}  // namespace
+}  // namespace program

@@ -1,0 +1,102 @@
+// Files of poses of other programs: the three kinds, told apart by what stands in them, and what is
+// said of one that is broken.
+#include "eval/formats/pose_file.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include "io/atomic_file.h"
+#include "io/input_error.h"
+
+namespace eval {
+namespace {
+
+using ::testing::HasSubstr;
+
+constexpr double kDigits = 1e-15;  // positions below 4 m
+
+class PoseFiles : public ::testing::Test {
+ protected:
+  ~PoseFiles() override { std::filesystem::remove(path_); }
+
+  PoseFile Read(const std::string& text) const {
+    io::WriteFile(path_, text);
+    return ReadPoseFile(path_);
+  }
+  std::string ErrorOf(const std::string& text) const {
+    try {
+      Read(text);
+    } catch (const io::InputError& error) {
+      return error.what();
+    }
+    return "no error";
+  }
+  std::filesystem::path path_ =
+      std::filesystem::path(::testing::TempDir()) / ("pas_poses_" + std::to_string(::getpid()));
+};
+
+TEST_F(PoseFiles, OfTumHaveSecondsAndTheQuaternionsScalarLast) {
+  const PoseFile file = Read("# t x y z q\n0.5 1 2 3 0 0 1 0\n0.6 1 2 4 0 0 0 1\n");
+  EXPECT_EQ(file.kind, PoseFileKind::kTum);
+  ASSERT_EQ(file.poses.size(), 2u);
+  EXPECT_EQ(file.poses[0].stamp_s, 0.5);
+  EXPECT_EQ(file.poses[0].line, 2);
+  EXPECT_TRUE(file.poses[0].T_wc.R.isApprox(
+      Eigen::Vector3d(-1, -1, 1).asDiagonal().toDenseMatrix(), kDigits));
+}
+
+TEST_F(PoseFiles, OfKittiHaveRowsOfAMatrixAndTheirPlaceForATime) {
+  const PoseFile file = Read("1 0 0 1 0 1 0 2 0 0 1 3\n0 -1 0 4 1 0 0 5 0 0 1 6\n");
+  EXPECT_EQ(file.kind, PoseFileKind::kKitti);
+  ASSERT_EQ(file.poses.size(), 2u);
+  EXPECT_EQ(file.poses[1].stamp_s, 1.0);
+  EXPECT_EQ(file.poses[1].T_wc.t, Eigen::Vector3d(4, 5, 6));
+  EXPECT_NEAR(file.poses[1].T_wc.R(0, 1), -1.0, kDigits);
+}
+
+TEST_F(PoseFiles, OfEurocHaveNanosecondsTheScalarFirstAndMoreColumns) {
+  const PoseFile file = Read(
+      "#timestamp [ns], p_RS_R_x [m], ...\n"
+      "1403636579763555584,1.5,2,3,0,0,0,1,0.1,0.2,0.3\n"
+      "1403636579813555456, 1.5, 2, 4, 1, 0, 0, 0, , ,\n");
+  EXPECT_EQ(file.kind, PoseFileKind::kEuroc);
+  ASSERT_EQ(file.poses.size(), 2u);
+  EXPECT_EQ(file.poses[0].stamp_s, 1403636579763555584.0 / 1e9);
+  EXPECT_EQ(file.poses[0].T_wc.t, Eigen::Vector3d(1.5, 2, 3));
+  EXPECT_NEAR(file.poses[0].T_wc.R(0, 0), -1.0, kDigits);  // half a turn about z
+  EXPECT_NEAR(file.poses[1].T_wc.R(0, 0), 1.0, kDigits);
+}
+
+TEST_F(PoseFiles, ThatAreBrokenAreNamedWithTheLine) {
+  const std::string good = "0 0 0 0 0 0 0 1\n", file = path_.filename().string();
+  EXPECT_THAT(ErrorOf(""), HasSubstr(file + ": holds no pose"));
+  EXPECT_THAT(ErrorOf("# nothing\n"), HasSubstr("holds no pose"));
+  EXPECT_THAT(ErrorOf(good), HasSubstr("holds a single pose"));
+  EXPECT_THAT(ErrorOf(good + "1 nan 0 0 0 0 0 1\n"), HasSubstr(file + ":2: expected `t tx"));
+  EXPECT_THAT(ErrorOf(good + "1 0 0 0 0 0 0 2\n"), HasSubstr(":2: expected a unit quaternion"));
+  EXPECT_THAT(ErrorOf(good + "1 0 0\n"), HasSubstr(":2: expected `t tx"));
+  EXPECT_THAT(ErrorOf("1 0 0\n" + good), HasSubstr(":1: expected eight numbers (TUM), twelve"));
+  EXPECT_THAT(ErrorOf("2 0 0 0 0 0 0 1\n1 0 0 0 0 0 0 1\n"),
+              HasSubstr(":2: time stamp 1.000000 does not follow 2.000000"));
+  EXPECT_THAT(ErrorOf("1 0 0 1 0 1 0 2 0 0 1 3\n1 0 0 1 0 1 0 2 0 0 inf 3\n"),
+              HasSubstr(":2: expected the first three rows"));
+  EXPECT_THAT(ErrorOf("2 0 0 1 0 1 0 2 0 0 1 3\n1 0 0 1 0 1 0 2 0 0 1 3\n"),
+              HasSubstr(":1: expected a rotation"));
+  EXPECT_THAT(ErrorOf("1 0 0 1 0 1 0 2 0 0 -1 3\n1 0 0 1 0 1 0 2 0 0 1 3\n"),
+              HasSubstr("determinant -1"));
+  EXPECT_THAT(ErrorOf("0.5,1,2,3,1,0,0,0\n"), HasSubstr(":1: expected whole nanoseconds"));
+  EXPECT_THAT(ErrorOf("timestamp,x,y,z,w,x,y,z\n"), HasSubstr(":1: expected `ns, x"));
+  EXPECT_THAT(ErrorOf("2000000000,1,2,3,1,0,0,0\n1000000000,1,2,3,1,0,0,0\n"),
+              HasSubstr(":2: time stamp"));
+}
+
+TEST_F(PoseFiles, KeepBothPosesOfAStampThatComesAgainAndSaySo) {
+  const PoseFile file = Read("1 0 0 0 0 0 0 1\n1 1 0 0 0 0 0 1\n");
+  EXPECT_EQ(file.poses.size(), 2u);
+  ASSERT_EQ(file.warnings.size(), 1u);
+  EXPECT_EQ(file.warnings[0].line, 2);
+}
+
+}  // namespace
+}  // namespace eval

@@ -1,0 +1,47 @@
+// Ticks, styles and legends of plots.
+#include "eval/plot/axes.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <set>
+#include <tuple>
+
+namespace eval {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::Pointwise;
+
+TEST(RoundTicks, AreMultiplesOfOneTwoOrFiveAndStayInside) {
+  EXPECT_THAT(RoundTicks(0, 10), ElementsAre(0, 2, 4, 6, 8, 10));
+  const std::vector<double> tenths = {0, 0.2, 0.4, 0.6, 0.8, 1.0};
+  EXPECT_THAT(RoundTicks(0, 1), Pointwise(::testing::DoubleEq(), tenths));
+  EXPECT_THAT(RoundTicks(-3, 4), ElementsAre(-2, 0, 2, 4));
+  for (const double size : {1e-9, 3e-5, 0.7, 42.0, 6e11}) {
+    const std::vector<double> ticks = RoundTicks(-0.3 * size, size);
+    EXPECT_GE(ticks.size(), 3u);
+    EXPECT_LE(ticks.size(), 8u);
+    EXPECT_GE(ticks.front(), -0.3001 * size);
+    EXPECT_LE(ticks.back(), 1.0001 * size);
+  }
+}
+
+TEST(StyleOfSeries, TellsFourteenSeriesApartAndNoneIsTheTruths) {
+  std::set<std::tuple<double, double, double, double>> styles;
+  const auto add = [&](const SeriesStyle& s) {
+    styles.emplace(s.red, s.green, s.blue, s.dash_pt);
+  };
+  for (std::size_t i = 0; i < 14; ++i) add(StyleOfSeries(i));
+  add(StyleOfTruth());
+  EXPECT_EQ(styles.size(), 15u);
+}
+
+TEST(Legend, WrapsWhatIsTooWide) {
+  const std::vector<LegendEntry> entries(6, {"a name of some length", {}});
+  EXPECT_GT(LegendHeight(200, entries), LegendHeight(2000, entries));
+}
+
+}  // namespace
+}  // namespace eval

@@ -1,0 +1,189 @@
+// The list of events and the table of frames: each fault that is planted is listed once, with its
+// frame, its planes and its harm, and nothing else is.
+#include "eval/report/run_tables.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <sstream>
+
+#include "tests/eval/report/evaluated_world.h"
+
+namespace eval {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::StartsWith;
+
+class EventsOfTinyWorld : public EvaluateTinyWorld {
+ protected:
+  static std::vector<RunEvent> Events(const TinyRun& run) {
+    return EventsOf(EvaluationOf(run), ReadSequence(SequenceFolder()));
+  }
+  static std::vector<RunEvent> Of(EventKind kind, const std::vector<RunEvent>& events) {
+    std::vector<RunEvent> found;
+    for (const RunEvent& event : events) {
+      if (event.kind == kind) found.push_back(event);
+    }
+    return found;
+  }
+  static constexpr std::size_t kFrame = 40;  // after the first second
+};
+
+TEST_F(EventsOfTinyWorld, AFaultlessRunHasNone) {
+  EXPECT_TRUE(Events(TinyRun(*world_)).empty());
+  EXPECT_EQ(EventsJsonLines({}), "");
+}
+
+TEST_F(EventsOfTinyWorld, ABookPutOnTheDeskIsWrongByItsHeightTimesItsPixels) {
+  TinyRun run(*world_);
+  nlohmann::json* plane = FramePlane(run, kFrame, TinyWorld::kThickTop);
+  ASSERT_NE(plane, nullptr);
+  (*plane)["map_plane"] = TinyRun::MapId(TinyWorld::kDeskTop);
+  (*plane)["by"] = "overlap";
+  const std::vector<RunEvent> events = Events(run);
+  ASSERT_EQ(events.size(), 1u);
+  const RunEvent& event = events[0];
+  EXPECT_EQ(event.kind, EventKind::kWrong);
+  EXPECT_EQ(event.frame, int(kFrame));
+  EXPECT_EQ(event.stamp_s, world_->frames[kFrame].stamp_s);
+  EXPECT_EQ(event.truth, TinyWorld::kThickTop);
+  EXPECT_EQ(event.other_truth, TinyWorld::kDeskTop);
+  EXPECT_EQ(event.map_plane, TinyRun::MapId(TinyWorld::kDeskTop));
+  EXPECT_EQ(event.right_map_plane, TinyRun::MapId(TinyWorld::kThickTop));
+  EXPECT_EQ(event.cue, "overlap");
+  EXPECT_EQ(event.pixels, (*plane)["pixels"].get<int>());
+  EXPECT_NEAR(event.distance_mm.value(), 60.0, kExact_mm);  // the book is 6 cm thick
+  EXPECT_NEAR(event.harm_px_mm.value(), 60.0 * *event.pixels, 1e3 * kExact_mm);
+}
+
+TEST_F(EventsOfTinyWorld, AnotherMapPlaneForAKnownBookIsMissedAndASplitOnceItHasThreeFrames) {
+  TinyRun run(*world_);
+  for (std::size_t i = kFrame; i < kFrame + 4; ++i) {
+    nlohmann::json* plane = FramePlane(run, i, TinyWorld::kThinTop);
+    ASSERT_NE(plane, nullptr);
+    (*plane)["map_plane"] = 900;
+    (*plane)["decision"] = i == kFrame ? "new" : "matched";
+  }
+  nlohmann::json copy = MapPlane(run, TinyWorld::kThinTop);
+  copy["id"] = 900;
+  run.map["planes"].push_back(copy);
+  const std::vector<RunEvent> events = Events(run);
+  ASSERT_EQ(events.size(), 2u);
+  const std::vector<RunEvent> missed = Of(EventKind::kMissed, events);
+  ASSERT_EQ(missed.size(), 1u);
+  EXPECT_EQ(missed[0].map_plane, 900);
+  EXPECT_EQ(missed[0].right_map_plane, TinyRun::MapId(TinyWorld::kThinTop));
+  EXPECT_NEAR(missed[0].harm_px_mm.value(), 0.0,
+              1e3 * kExact_mm);  // it lies in the right place
+  const std::vector<RunEvent> split = Of(EventKind::kSplit, events);
+  ASSERT_EQ(split.size(), 1u);
+  EXPECT_EQ(split[0].truth, TinyWorld::kThinTop);
+  EXPECT_EQ(split[0].frames, 4);
+  EXPECT_EQ(split[0].map_plane, 900);
+}
+
+TEST_F(EventsOfTinyWorld, AMergeSumsUpWhatItsWrongDecisionsDid) {
+  TinyRun run(*world_);
+  for (std::size_t i = kFrame; i < kFrame + 3; ++i) {
+    nlohmann::json* plane = FramePlane(run, i, TinyWorld::kThinTop);
+    (*plane)["map_plane"] = TinyRun::MapId(TinyWorld::kDeskTop);
+  }
+  const std::vector<RunEvent> events = Events(run);
+  const std::vector<RunEvent> wrong = Of(EventKind::kWrong, events);
+  const std::vector<RunEvent> merge = Of(EventKind::kMerge, events);
+  ASSERT_EQ(wrong.size(), 3u);
+  ASSERT_EQ(merge.size(), 1u);
+  EXPECT_EQ(events.front().kind, EventKind::kMerge);  // the most harmful first
+  EXPECT_EQ(merge[0].truth, TinyWorld::kThinTop);
+  EXPECT_EQ(merge[0].other_truth, TinyWorld::kDeskTop);
+  EXPECT_EQ(merge[0].frames, 3);
+  double harm = 0.0;
+  for (const RunEvent& event : wrong) harm += *event.harm_px_mm;
+  EXPECT_NEAR(merge[0].harm_px_mm.value(), harm, 1e4 * kExact_mm);
+}
+
+TEST_F(EventsOfTinyWorld, ALargeSurfaceWithoutADecisionIsListedAndCountedAfterTheFirstSecond) {
+  TinyRun run(*world_);
+  const nlohmann::json before = Metrics(run);
+  for (const std::size_t i : {std::size_t{5}, kFrame}) {  // the first one is too early to count
+    nlohmann::json* plane = FramePlane(run, i, TinyWorld::kDeskTop);
+    (*plane)["map_plane"] = nullptr;
+    (*plane)["decision"] = "none";
+    (*plane)["by"] = "ambiguous";
+  }
+  const std::vector<RunEvent> events = Events(run);
+  ASSERT_EQ(events.size(), 1u);
+  EXPECT_EQ(events[0].kind, EventKind::kNoDecision);
+  EXPECT_EQ(events[0].frame, int(kFrame));
+  EXPECT_EQ(events[0].truth, TinyWorld::kDeskTop);
+  EXPECT_EQ(events[0].cue, "ambiguous");
+  EXPECT_FALSE(events[0].harm_px_mm);
+  const nlohmann::json after = Metrics(run)["association"]["no_decision"];
+  EXPECT_EQ(before["association"]["no_decision"]["share"], 0.0);
+  EXPECT_EQ(after["events"], 1);
+  EXPECT_EQ(after["share"], 1.0 / after["surfaces"].get<double>());
+}
+
+TEST_F(EventsOfTinyWorld, ASurfaceThatNoFramePlaneShowsSaysSo) {
+  TinyRun run(*world_);
+  auto& planes = run.frames[kFrame]["planes"];
+  const nlohmann::json* desk = FramePlane(run, kFrame, TinyWorld::kDeskTop);
+  const int index = (*desk)["index"];
+  planes.erase(std::find(planes.begin(), planes.end(), *desk));
+  run.segmentation[kFrame].setTo(0, run.segmentation[kFrame] == index + 1);
+  const std::vector<RunEvent> events = Events(run);
+  ASSERT_EQ(events.size(), 1u);
+  EXPECT_EQ(events[0].cue, kNoFramePlane);
+}
+
+TEST_F(EventsOfTinyWorld, LostFramesAreOneEventForEachTimeTheWayWasLost) {
+  TinyRun run(*world_);
+  run.trajectory.erase(run.trajectory.begin() + 30, run.trajectory.begin() + 34);
+  run.trajectory.erase(run.trajectory.begin() + 10);
+  run.info["tracked"] = run.trajectory.size();
+  const std::vector<RunEvent> lost = Of(EventKind::kLost, Events(run));
+  ASSERT_EQ(lost.size(), 2u);
+  EXPECT_EQ(lost[0].frame, 10);
+  EXPECT_EQ(lost[0].frames, 1);
+  EXPECT_EQ(lost[1].frame, 30);
+  EXPECT_EQ(lost[1].frames, 4);
+}
+
+TEST_F(EventsOfTinyWorld, TablesHaveALineForEachAndQuoteWhatHoldsACommaOrAQuote) {
+  RunEvent event;
+  event.cue = "a,\"b\"";
+  event.truth = 3;
+  event.harm_px_mm = 1.5;
+  EXPECT_EQ(EventsCsv({event}),
+            "kind,frame,time_s,frames,truth,other_truth,map_plane,right_map_plane,cue,pixels,"
+            "distance_mm,harm_px_mm\nwrong,0,0,1,3,,,,\"a,\"\"b\"\"\",,,1.5\n");
+  const auto json = nlohmann::json::parse(EventsJsonLines({event}));
+  EXPECT_EQ(json["cue"], "a,\"b\"");
+  EXPECT_TRUE(json["map_plane"].is_null());
+}
+
+TEST_F(EventsOfTinyWorld, FramesHaveALineEachWithTheirErrorsAndDecisions) {
+  TinyRun run(*world_);
+  nlohmann::json* plane = FramePlane(run, kFrame, TinyWorld::kThickTop);
+  (*plane)["map_plane"] = TinyRun::MapId(TinyWorld::kDeskTop);
+  const Evaluation evaluation = EvaluationOf(run);
+  const std::string text =
+      FramesCsv(evaluation, ReadRun(RunFolder()), ReadSequence(SequenceFolder()));
+  std::vector<std::string> lines;
+  std::istringstream stream(text);
+  for (std::string line; std::getline(stream, line);) lines.push_back(line);
+  ASSERT_EQ(lines.size(), 46u);
+  EXPECT_THAT(lines[0], StartsWith("frame,time_s,tracked,position_error_mm"));
+  const auto columns = [](const std::string& line) {
+    return std::count(line.begin(), line.end(), ',');
+  };
+  for (const std::string& line : lines) EXPECT_EQ(columns(line), columns(lines[0])) << line;
+  EXPECT_THAT(lines[kFrame + 1], StartsWith("40,"));
+  // Six of seven planes right, one wrong, none missed, first, spurious or undecided; 10 ms.
+  EXPECT_THAT(lines[kFrame + 1], ::testing::EndsWith(",6,1,0,0,0,0,10"));
+}
+
+}  // namespace
+}  // namespace eval

@@ -1,0 +1,197 @@
+// Bare trajectories against each other: what may not change a figure, and what is refused.
+#include "eval/trajectory/compare_trajectories.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <cmath>
+#include <numbers>
+#include <random>
+
+#include "io/input_error.h"
+
+namespace eval {
+namespace {
+
+using ::testing::HasSubstr;
+
+// Positions below 20 m through two alignments: some hundred operations, 1e2 * 20 * 2^-53.
+constexpr double kRoundOff_m = 1e-12;
+constexpr double kRoundOff_deg = 1e-6;  // angles near 0 are roots of round-off
+
+Pose PoseOf(double x, double y, double z, double turn_rad) {
+  return {
+      Eigen::AngleAxisd(turn_rad, Eigen::Vector3d(1, 2, -1).normalized()).toRotationMatrix(),
+      {x, y, z}};
+}
+
+/// A walk with loops of 200 poses, 20 a second.
+PoseFile Walk() {
+  PoseFile file{"truth.txt", PoseFileKind::kTum, {}, {}};
+  for (int i = 0; i < 200; ++i) {
+    const double s = 0.05 * i;
+    file.poses.push_back(
+        {s, PoseOf(2 * std::cos(s), 3 * std::sin(1.3 * s), 0.2 * s, 0.4 * s), i + 1});
+  }
+  return file;
+}
+
+PoseFile Noisy(PoseFile file) {
+  std::mt19937 random(7);
+  std::normal_distribution<double> noise(0.0, 0.02);
+  for (StampedPose& pose : file.poses) {
+    pose.T_wc = pose.T_wc * PoseOf(noise(random), noise(random), noise(random), noise(random));
+  }
+  file.path = "estimate.txt";
+  return file;
+}
+
+PoseFile Moved(const Pose& T, PoseFile file) {
+  for (StampedPose& pose : file.poses) pose.T_wc = T * pose.T_wc;
+  return file;
+}
+
+PoseFile Scaled(double scale, PoseFile file) {
+  for (StampedPose& pose : file.poses) pose.T_wc.t *= scale;
+  return file;
+}
+
+void ExpectSame(const TrajectoryComparison& a, const TrajectoryComparison& b) {
+  EXPECT_EQ(a.pairs, b.pairs);
+  for (const auto& [one, other] :
+       {std::pair(a.absolute, b.absolute), std::pair(a.relative, b.relative)}) {
+    EXPECT_NEAR(one.translation_m->rmse, other.translation_m->rmse, kRoundOff_m);
+    EXPECT_NEAR(one.translation_m->max, other.translation_m->max, kRoundOff_m);
+    EXPECT_NEAR(one.rotation_deg->rmse, other.rotation_deg->rmse, kRoundOff_deg);
+  }
+}
+
+const Pose kElsewhere = PoseOf(3, -5, 1, 2.5);
+
+ComparisonRules With(AlignMode align, PoseDelta delta = {}) {
+  ComparisonRules rules;
+  rules.align = align;
+  rules.delta = delta;
+  rules.pairs = PairMode::kAll;
+  return rules;
+}
+
+TEST(CompareTrajectories, MovingEitherFileRigidlyChangesNothingUnderSe3) {
+  const PoseFile truth = Walk(), estimate = Noisy(truth);
+  for (const PoseDelta delta : {PoseDelta{1, DeltaUnit::kFrames},
+                                {1, DeltaUnit::kMetres},
+                                {1, DeltaUnit::kSeconds},
+                                {10, DeltaUnit::kDegrees}}) {
+    const ComparisonRules rules = With(AlignMode::kSe3, delta);
+    const auto as_it_is = CompareTrajectories(estimate, truth, rules);
+    ASSERT_GT(as_it_is.pairs, 100u);
+    ExpectSame(CompareTrajectories(Moved(kElsewhere, estimate), truth, rules), as_it_is);
+    ExpectSame(
+        CompareTrajectories(Moved(kElsewhere, estimate), Moved(kElsewhere, truth), rules),
+        as_it_is);
+  }
+}
+
+TEST(CompareTrajectories, MovingBothFilesRigidlyChangesNothingUnderNoneAndOrigin) {
+  const PoseFile truth = Walk(), estimate = Noisy(truth);
+  for (const AlignMode mode : {AlignMode::kNone, AlignMode::kOrigin}) {
+    ExpectSame(
+        CompareTrajectories(Moved(kElsewhere, estimate), Moved(kElsewhere, truth), With(mode)),
+        CompareTrajectories(estimate, truth, With(mode)));
+  }
+}
+
+TEST(CompareTrajectories, ScalingTheEstimateChangesNothingUnderSim3ButItsScale) {
+  const PoseFile truth = Walk(), estimate = Noisy(truth);
+  const auto one = CompareTrajectories(estimate, truth, With(AlignMode::kSim3));
+  const auto other = CompareTrajectories(Scaled(4.0, estimate), truth, With(AlignMode::kSim3));
+  ExpectSame(one, other);
+  EXPECT_NEAR(other.scale, one.scale / 4.0, 1e-14);
+  const auto unscaled =
+      CompareTrajectories(Scaled(4.0, estimate), truth, With(AlignMode::kSe3));
+  EXPECT_GT(unscaled.absolute.translation_m->rmse, 1.0);
+}
+
+TEST(CompareTrajectories, ProjectsToAPlaneAsEvoDoes) {
+  // R = Rz(0.3) Ry(-0.2) Rx(0.1): each plane keeps the one angle about its normal.
+  const Pose pose{(Eigen::AngleAxisd(0.3, Eigen::Vector3d::UnitZ()) *
+                   Eigen::AngleAxisd(-0.2, Eigen::Vector3d::UnitY()) *
+                   Eigen::AngleAxisd(0.1, Eigen::Vector3d::UnitX()))
+                      .toRotationMatrix(),
+                  {1, 2, 3}};
+  const auto angle_about = [](const Pose& flat, int axis) {
+    return Eigen::AngleAxisd(flat.R).axis()[axis] * Eigen::AngleAxisd(flat.R).angle();
+  };
+  const Pose xy = Project(pose, ProjectionPlane::kXy), xz = Project(pose, ProjectionPlane::kXz);
+  const Pose yz = Project(pose, ProjectionPlane::kYz);
+  EXPECT_EQ(xy.t, Eigen::Vector3d(1, 2, 0));
+  EXPECT_EQ(xz.t, Eigen::Vector3d(1, 0, 3));
+  EXPECT_EQ(yz.t, Eigen::Vector3d(0, 2, 3));
+  EXPECT_NEAR(angle_about(xy, 2), 0.3, 1e-14);
+  EXPECT_NEAR(angle_about(xz, 1), -0.2, 1e-14);
+  EXPECT_NEAR(angle_about(yz, 0), 0.1, 1e-14);
+}
+
+TEST(CompareTrajectories, ErrorsAcrossThePlaneDoNotCountInIt) {
+  const PoseFile truth = Walk();
+  PoseFile estimate = truth;
+  for (StampedPose& pose : estimate.poses) pose.T_wc.t.z() += std::sin(pose.stamp_s);
+  ComparisonRules rules = With(AlignMode::kNone);
+  EXPECT_GT(CompareTrajectories(estimate, truth, rules).absolute.translation_m->rmse, 0.5);
+  rules.plane = ProjectionPlane::kXy;
+  EXPECT_LT(CompareTrajectories(estimate, truth, rules).absolute.translation_m->rmse,
+            kRoundOff_m);
+}
+
+TEST(CompareTrajectories, SaysWhyAStraightPathHasNoAlignmentAndKeepsItsRelativeErrors) {
+  PoseFile truth = Walk();
+  for (StampedPose& pose : truth.poses) pose.T_wc.t = {pose.stamp_s, 0, 0};
+  const auto score = CompareTrajectories(truth, truth, With(AlignMode::kSe3));
+  EXPECT_FALSE(score.absolute.translation_m);
+  EXPECT_THAT(score.no_absolute, HasSubstr("line"));
+  ASSERT_TRUE(score.relative.translation_m);
+  EXPECT_LT(score.relative.translation_m->rmse, kRoundOff_m);
+  const auto scaled = CompareTrajectories(truth, truth, With(AlignMode::kSim3));
+  EXPECT_FALSE(scaled.relative.translation_m);
+  EXPECT_THAT(scaled.no_relative, HasSubstr("line"));
+}
+
+TEST(CompareTrajectories, SaysThatNoTwoPosesAreThatFarApart) {
+  const auto score =
+      CompareTrajectories(Walk(), Walk(), With(AlignMode::kSe3, {500, DeltaUnit::kMetres}));
+  EXPECT_EQ(score.pairs, 0u);
+  EXPECT_FALSE(score.relative.translation_m);
+  EXPECT_THAT(score.no_relative, HasSubstr("far apart"));
+}
+
+std::string RefusalOf(const PoseFile& estimate, const PoseFile& truth) {
+  try {
+    CompareTrajectories(estimate, truth, {});
+  } catch (const io::InputError& error) {
+    return error.what();
+  }
+  return "no refusal";
+}
+
+TEST(CompareTrajectories, RefusesFilesThatShareNoTime) {
+  PoseFile later = Walk();
+  for (StampedPose& pose : later.poses) pose.stamp_s += 1000.0;
+  EXPECT_THAT(
+      RefusalOf(later, Walk()),
+      HasSubstr("none of its 200 poses (1000.000 to 1009.950 s) have a true pose within "
+                "0.01 s in truth.txt (0.000 to 9.950 s)"));
+}
+
+TEST(CompareTrajectories, RefusesAClockBesideNoneAndKittiFilesOfOtherLengths) {
+  PoseFile counted = Walk();
+  counted.kind = PoseFileKind::kKitti;
+  EXPECT_THAT(RefusalOf(counted, Walk()), HasSubstr("KITTI's have no times"));
+  PoseFile shorter = counted;
+  shorter.poses.pop_back();
+  EXPECT_THAT(RefusalOf(shorter, counted),
+              HasSubstr("has 199 poses, the truth truth.txt has 200"));
+}
+
+}  // namespace
+}  // namespace eval
