@@ -25,8 +25,9 @@ CREATE TABLE IF NOT EXISTS times (
 )sql";
 
 CaseStatus StatusNamed(const std::string& name, const std::filesystem::path& file) {
-  for (const CaseStatus status : {CaseStatus::kFinished, CaseStatus::kFailed, CaseStatus::kCrashed,
-                                  CaseStatus::kTimedOut, CaseStatus::kOutOfMemory}) {
+  for (const CaseStatus status :
+       {CaseStatus::kFinished, CaseStatus::kFailed, CaseStatus::kCrashed, CaseStatus::kTimedOut,
+        CaseStatus::kOutOfMemory}) {
     if (name == NameOf(status)) return status;
   }
   throw io::InputError(file.string(), "has a case with the unknown status " + io::Quoted(name));

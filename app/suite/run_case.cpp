@@ -7,6 +7,8 @@
 #include <sstream>
 
 #include "app/suite/child_process.h"
+#include "eval/formats/timing.h"
+#include "eval/regression/time_ratios.h"
 #include "io/input_error.h"
 #include "io/json_field.h"
 #include "io/output_folder.h"
@@ -18,6 +20,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* kOutOfMemory = "out of memory";  // as app/failure.cpp says it
+constexpr const char* kTiming = "timing.csv";
 constexpr const char* kTimesGroup = "/timing_ms/";
 
 bool IsOutOfMemory(const ChildOutcome& outcome) {
@@ -82,6 +85,13 @@ void ReadMetrics(const fs::path& file, CaseResult& result) {
     const auto number = value.is_null() ? std::nullopt : std::optional(value.get<double>());
     (pointer.rfind(kTimesGroup, 0) == 0 ? result.times : result.figures)[pointer] = number;
   }
+}
+
+/// Times of the modules as the gate compares them; none without a timing.csv.
+eval::Figures TimeRatiosOf(const fs::path& run) {
+  if (!fs::exists(run / kTiming)) return {};
+  eval::Folder folder(run);
+  return eval::TimeRatios(eval::ReadTiming(folder, kTiming));
 }
 
 /// The work folder of a case, gone with the object.
@@ -168,6 +178,7 @@ CaseResult RunCase(const SuiteCase& one, const SuiteProgram& program, const Suit
   }
   if (result.status == CaseStatus::kFinished) {
     ReadMetrics(work.whole() / "run" / "metrics.json", result);
+    result.times.merge(TimeRatiosOf(work.whole() / "run"));
     result.times[kSlamTime] = SlamSeconds(result);
     result.times[kRenderingTime] = std::max(0.0, seconds.front() - SlamSeconds(result));
     result.times[kEvaluationTime] = seconds.back();

@@ -32,12 +32,10 @@ std::string ArmOfKey(const std::string& key) {
 }
 
 Figures FiguresForGate(const Figures& all) {
-  Figures with_ratios = all;
-  AddTimeRatios(with_ratios);
   Figures gated;
   const auto keep = [&](const std::string& name) {
-    const auto found = with_ratios.find(name);
-    gated[name] = found == with_ratios.end() ? std::nullopt : found->second;
+    const auto found = all.find(name);
+    gated[name] = found == all.end() ? std::nullopt : found->second;
   };
   for (const GatedMetric& metric : GatedMetrics()) keep(metric.figure);
   keep(kFramesFigure);

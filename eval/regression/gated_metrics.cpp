@@ -4,7 +4,6 @@
 
 #include <array>
 #include <cmath>
-#include <cstring>
 
 namespace eval {
 namespace {
@@ -34,9 +33,6 @@ constexpr std::array kGated = {
     GatedMetric{"/time_ratio/upm", MetricKind::kTime},
 };
 
-constexpr const char* kTimeRatio = "/time_ratio/";
-constexpr const char* kPlainPass = "orb";
-
 /// Below every figure's digits; keeps an error of exactly 0 comparable.
 constexpr double kMinError = 1e-9;
 /// Half a count, so that 0 has a ratio to 1 (Haldane and Anscombe's correction).
@@ -46,8 +42,6 @@ constexpr double kMaxErrorRatio = 1.05;  // metrics.md 5.3: 5 % of an error matt
 constexpr double kMaxScoreLoss = 0.01;   // likewise: 0.01 of a score
 /// Half of the smallest slow-down that the gate must find, 5 %.
 constexpr double kMaxTimeRatio = 1.025;
-
-std::string MedianOf(const std::string& module) { return "/timing_ms/" + module + "/median"; }
 
 }  // namespace
 
@@ -74,18 +68,6 @@ double MaxHarm(MetricKind kind) {
 std::string HarmText(MetricKind kind, double harm) {
   return kind == MetricKind::kScore ? fmt::format("{:+.4f}", -harm)
                                     : fmt::format("{:+.2f} %", 100 * std::expm1(harm));
-}
-
-void AddTimeRatios(Figures& figures) {
-  const auto plain = figures.find(MedianOf(kPlainPass));
-  for (const GatedMetric& metric : kGated) {
-    if (metric.kind != MetricKind::kTime) continue;
-    const auto time = figures.find(MedianOf(metric.figure + std::strlen(kTimeRatio)));
-    std::optional<double>& ratio = figures[metric.figure];
-    if (plain == figures.end() || time == figures.end()) continue;
-    if (!plain->second || !time->second || !(*plain->second > 0)) continue;
-    ratio = *time->second / *plain->second;
-  }
 }
 
 }  // namespace eval

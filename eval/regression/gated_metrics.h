@@ -17,7 +17,7 @@ enum class MetricKind {
 
 /// A figure that the gate compares.
 struct GatedMetric {
-  const char* figure;  ///< JSON pointer into metrics.json; of a time, see AddTimeRatios
+  const char* figure;  ///< JSON pointer into metrics.json; of a time, see TimeRatios
   MetricKind kind;
 };
 
@@ -39,10 +39,5 @@ double MaxHarm(MetricKind kind);
 
 /// A harm in words: "+7.2 %", "-0.013".
 std::string HarmText(MetricKind kind, double harm);
-
-/// Adds "/time_ratio/MODULE", the median time of each module that is gated over that of the plain pass,
-/// to figures that hold `/timing_ms/MODULE/median`. The plain pass is the search for ORB features:
-/// every frame does it once, on the colour image alone.
-void AddTimeRatios(Figures& figures);
 
 }  // namespace eval

@@ -33,18 +33,5 @@ TEST(GatedMetrics, HarmsAreToldAsChanges) {
   EXPECT_EQ(HarmText(MetricKind::kScore, 0.013), "-0.0130");
 }
 
-TEST(GatedMetrics, TimesAreRatiosToTheFeaturesOfTheSameRun) {
-  Figures figures{{"/timing_ms/orb/median", 4.0}, {"/timing_ms/da/median", 6.0}};
-  AddTimeRatios(figures);
-  EXPECT_EQ(figures.at("/time_ratio/da"), 1.5);
-  EXPECT_EQ(figures.at("/time_ratio/epi"), std::nullopt);
-}
-
-TEST(GatedMetrics, ATimeWithoutAPlainPassIsNotDefined) {
-  Figures figures{{"/timing_ms/orb/median", 0.0}, {"/timing_ms/da/median", 6.0}};
-  AddTimeRatios(figures);
-  EXPECT_EQ(figures.at("/time_ratio/da"), std::nullopt);
-}
-
 }  // namespace
 }  // namespace eval
