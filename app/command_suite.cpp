@@ -13,6 +13,7 @@
 #include "app/suite/replay_case.h"
 #include "app/suite/results.h"
 #include "app/suite/run_suite.h"
+#include "app/suite/shrink_case.h"
 #include "app/suite/suite_gate.h"
 #include "app/suite/summary.h"
 #include "io/folder_lock.h"
@@ -37,7 +38,7 @@ constexpr const char* kAboutSuite =
     "told; without a baseline, if a case failed.";
 
 struct SuiteArguments {
-  std::string suite, output, recordings, program, shard, baseline, accept, replay;
+  std::string suite, output, recordings, program, shard, baseline, accept, replay, shrink;
   int jobs = 0;
   std::vector<std::string> merged;
   std::string merge_output;
@@ -88,7 +89,10 @@ class SuiteCall {
     const bool accepting = !arguments_.accept.empty();
     int seeds = accepting ? suite_.seeds.max_count : suite_.seeds.count;
     std::vector<SuiteCase> cases = Plan(seeds);
-    if (!arguments_.replay.empty()) return Replay();
+    if (!arguments_.replay.empty()) {
+      return ReplayCase(Named(arguments_.replay), program_, folder_, quiet_);
+    }
+    if (!arguments_.shrink.empty()) return Shrink();
     if (!arguments_.shard.empty()) cases = ShardOf(cases, arguments_.shard);
     if (!RunAll(cases, results)) return Interrupted();
 
@@ -217,17 +221,31 @@ class SuiteCall {
     return suite_.gate.undecided_passes ? kDone : kFailure;
   }
 
-  int Replay() const {
+  /// The case of that key, of any seed of the suite.
+  SuiteCase Named(const std::string& key) const {
     const std::vector<SuiteCase> all = Plan(suite_.seeds.max_count);
-    const auto found = std::find_if(all.begin(), all.end(), [&](const SuiteCase& one) {
-      return one.key == arguments_.replay;
-    });
+    const auto found = std::find_if(all.begin(), all.end(),
+                                    [&](const SuiteCase& one) { return one.key == key; });
     if (found == all.end()) {
       throw io::InputError(
-          "--replay " + arguments_.replay,
-          "is no case of this suite; its cases are named as " + all.front().key);
+          key, "is no case of this suite; its cases are named as " + all.front().key);
     }
-    return ReplayCase(*found, program_, folder_, quiet_);
+    return *found;
+  }
+
+  int Shrink() const {
+    const SuiteCase one = Named(arguments_.shrink);
+    const StopSignal stop;
+    const ShrunkCase small =
+        ShrinkCase(one, suite_, program_, folder_, [] { return StopSignal::Caught() != 0; });
+    if (!quiet_) {
+      fmt::print(
+          "{} frames of {} x {}, {} objects, after {} runs\nscene {}\nrun it with `pas "
+          "suite {} -o DIR`, and copy both files into tests/regressions\n",
+          small.frames, small.width, small.height, small.objects, small.runs,
+          small.scene.string(), small.suite.string());
+    }
+    return kDone;
   }
 
   const SuiteArguments& arguments_;
@@ -284,6 +302,11 @@ void AddSuiteCommand(CLI::App& pas, const Globals& globals, int& exit_code) {
   CLI::Option* replay = command->add_option(
       "--replay", arguments->replay,
       "CASE: run this one again in DIR/replay, without limits, and say how");
+  CLI::Option* shrink = command->add_option("--shrink", arguments->shrink,
+                                            "CASE: look for a smaller case that fails as this "
+                                            "one does, with fewer frames and objects "
+                                            "and smaller images; written to DIR/shrunk");
+  shrink->excludes(baseline)->excludes(shard)->excludes(replay);
   shard->excludes(baseline)->excludes(replay);
   replay->excludes(baseline);
 

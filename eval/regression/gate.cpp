@@ -167,14 +167,9 @@ class Comparison {
   }
 
   void AddBounds(const std::string& key, const GateCase& now, GateReport& report) const {
-    for (const GatedMetric& metric : GatedMetrics()) {
-      const auto bound = rules_.worst.find(metric.figure);
-      const auto value = now.figures.find(metric.figure);
-      if (bound == rules_.worst.end() || value == now.figures.end() || !value->second) continue;
-      const double sign = metric.kind == MetricKind::kScore ? -1.0 : 1.0;
-      if (sign * *value->second <= sign * bound->second) continue;
-      report.counts.push_back({key, std::string(metric.figure) + " beyond its bound",
-                               bound->second, *value->second, true});
+    for (const std::string& figure : BeyondBounds(now.figures, rules_.worst)) {
+      report.counts.push_back({key, figure + " beyond its bound", rules_.worst.at(figure),
+                               now.figures.at(figure).value_or(0.0), true});
     }
   }
 
@@ -213,6 +208,7 @@ bool GateReport::AnyWorse() const {
 std::vector<std::string> GateReport::UndecidedArms() const {
   std::set<std::string> arms;
   for (const MetricVerdict& found : metrics) {
+    if (found.metric.kind == MetricKind::kTime) continue;
     if (found.verdict == Verdict::kUndecided) arms.insert(found.arm);
   }
   return {arms.begin(), arms.end()};
@@ -221,6 +217,19 @@ std::vector<std::string> GateReport::UndecidedArms() const {
 GateReport CompareWithBaseline(const Baseline& baseline, const GateCases& candidate,
                                const GateRules& rules) {
   return Comparison(baseline, candidate, rules).Report();
+}
+
+std::vector<std::string> BeyondBounds(const Figures& figures,
+                                      const std::map<std::string, double>& worst) {
+  std::vector<std::string> beyond;
+  for (const GatedMetric& metric : GatedMetrics()) {
+    const auto bound = worst.find(metric.figure);
+    const auto value = figures.find(metric.figure);
+    if (bound == worst.end() || value == figures.end() || !value->second) continue;
+    const double sign = metric.kind == MetricKind::kScore ? -1.0 : 1.0;
+    if (sign * *value->second > sign * bound->second) beyond.emplace_back(metric.figure);
+  }
+  return beyond;
 }
 
 std::string GateTable(const GateReport& report) {
@@ -242,6 +251,11 @@ std::string GateTable(const GateReport& report) {
       std::count_if(report.metrics.begin(), report.metrics.end(),
                     [](const MetricVerdict& m) { return m.verdict == Verdict::kSame; });
   table += fmt::format("{} of {} figures are the same\n", same, report.metrics.size());
+  if (std::any_of(report.metrics.begin(), report.metrics.end(), [](const MetricVerdict& m) {
+        return m.metric.kind == MetricKind::kTime && m.verdict == Verdict::kUndecided;
+      })) {
+    table += "undecided times pass; a machine with nothing else to do can tell\n";
+  }
   if (report.unknown_cases > 0) {
     table += fmt::format("{} cases are not in the baseline; --accept takes them in\n",
                          report.unknown_cases);

@@ -50,7 +50,8 @@ struct GateReport {
   std::size_t unknown_cases = 0;  ///< of the candidate, that the baseline does not have
 
   bool AnyWorse() const;
-  /// Arms with a figure that is undecided.
+  /// Arms with a figure that is undecided; times left out, which more seeds do not mend on a
+  /// machine that has other work.
   std::vector<std::string> UndecidedArms() const;
 };
 
@@ -59,6 +60,10 @@ struct GateReport {
 /// @param candidate  cases of the arms that are to be gated
 GateReport CompareWithBaseline(const Baseline& baseline, const GateCases& candidate,
                                const GateRules& rules);
+
+/// The figures of one case that are beyond their bounds. @param worst  by figure, see GateRules
+std::vector<std::string> BeyondBounds(const Figures& figures,
+                                      const std::map<std::string, double>& worst);
 
 /// A table of plain lines: what became worse, by how much, which cases to replay; then what is
 /// undecided, and how many figures are the same. Ends in a newline.

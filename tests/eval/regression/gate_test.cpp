@@ -192,6 +192,18 @@ TEST(Gate, TimesAreLeftOutWhenTheRulesSaySo) {
   EXPECT_FALSE(CompareWithBaseline(BaselineOf(cases), slower, rules).AnyWorse());
 }
 
+TEST(Gate, TimesThatVaryAreToldAndPass) {
+  GateCases cases = Cases(20);
+  for (auto& [key, one] : cases) one.figures["/time_ratio/da"] = 2.0;
+  const GateCases varied = Changed(cases, [](GateCase& one, int i) {
+    one.figures["/time_ratio/da"] = i % 2 == 0 ? 3.0 : 1.5;
+  });
+  const GateReport report = CompareWithBaseline(BaselineOf(cases), varied, {});
+  EXPECT_FALSE(report.AnyWorse());
+  EXPECT_THAT(report.UndecidedArms(), ::testing::IsEmpty());
+  EXPECT_THAT(GateTable(report), ::testing::HasSubstr("undecided times pass"));
+}
+
 TEST(Gate, CasesThatTheBaselineLacksAreTold) {
   GateCases cases = Cases(20);
   const Baseline baseline = BaselineOf(cases);
