@@ -65,6 +65,7 @@ void RequireKnownCommands(const CLI::App& app, const std::vector<std::string>& a
       at = command;
       continue;
     }
+    if (at->get_require_subcommand_min() == 0) return;  // it may be an argument
     std::vector<std::string> names;
     std::string known;
     for (const CLI::App* one : commands) {

@@ -10,7 +10,10 @@ namespace app {
 std::string RateText(int done, int total, double seconds) {
   constexpr double kTooSoon_s = 0.2;  // the first steps say nothing of the rate yet
   if (!(seconds > kTooSoon_s) || done <= 0) return "";
-  std::string text = ", " + std::to_string(std::lround(done / seconds)) + "/s";
+  constexpr double kMinute_s = 60.0;
+  const double rate = done / seconds;
+  std::string text = rate < 1.0 ? ", " + std::to_string(std::lround(kMinute_s * rate)) + "/min"
+                                : ", " + std::to_string(std::lround(rate)) + "/s";
   if (done >= total) return text;
   const long left_s = std::lround(seconds * (total - done) / done);
   const std::string part = std::to_string(left_s % 60);

@@ -6,7 +6,7 @@
 namespace app {
 
 /// How fast it goes and how long it still takes at that pace: ", 12/s, 1:05 left" (minutes and
-/// seconds); empty when it is too soon to tell, without an end when all is done.
+/// seconds; what is slower than 1/s, by the minute); empty when it is too soon to tell, without an end when all is done.
 std::string RateText(int done, int total, double seconds);
 
 /// Progress of a long job on stderr: a bar when stderr is a terminal, else a plain line about

@@ -27,7 +27,8 @@ constexpr const char* kFlow =
     "  pas calibrate  how a SEQ's depth camera bends what is flat         -> YAML\n"
     "  pas surfaces   large flat surfaces of a SEQ with camera truth      -> YAML\n"
     "  pas eval   score a run against the truth                           -> metrics.json\n"
-    "  pas plot   trajectories, errors, times of runs, for a paper         -> plots\n"
+    "  pas plot   trajectories, errors, times of runs, for a paper        -> plots\n"
+    "  pas suite  run and score many cases, and say what became worse     -> SQLite\n"
     "  pas draw   contact sheet and top view of a run                     -> pictures\n"
     "  pas export a SEQ with truth as COCO or BOP, to train detectors     -> data set\n"
     "  pas check  validate a SEQ or RUN folder, fault by fault\n"
@@ -48,6 +49,7 @@ constexpr app::AddCommand kCommands[] = {
     app::AddSurfacesCommand,    //
     app::AddEvalCommand,        //
     app::AddPlotCommand,        //
+    app::AddSuiteCommand,       //
     app::AddDrawCommand,        //
     app::AddExportCommand,      //
     app::AddCheckCommand,       //

@@ -138,6 +138,8 @@ Eigen::VectorXd YamlValue::Numbers(int count, const Interval& domain,
   return numbers;
 }
 
+bool YamlValue::IsScalar() const { return node_->kind == Kind::kScalar; }
+
 std::vector<YamlValue> YamlValue::List(std::size_t max_count) const {
   if (node_->kind != Kind::kList) Expected("a list, as in [a, b]");
   if (node_->entries.size() > max_count) {

@@ -40,6 +40,8 @@ class YamlValue {
   /// A list of exactly `count` numbers.
   Eigen::VectorXd Numbers(int count, const Interval& domain,
                           const std::string& unit = "") const;
+  /// Neither a list nor a mapping, for keys that allow a word or more.
+  bool IsScalar() const;
   /// A list with at most `max_count` entries.
   std::vector<YamlValue> List(std::size_t max_count = std::size_t{1} << 20) const;
 

@@ -1,84 +1,85 @@
 #include "eval/regression/baseline.h"
 
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <limits>
+#include <fmt/format.h>
+
 #include <nlohmann/json.hpp>
-#include <sstream>
-#include <stdexcept>
+
+#include "io/json_field.h"
 
 namespace eval {
 namespace {
 
-constexpr std::array kWatched = {
-    WatchedMetric{"/trajectory/tracked_fraction", true, 0.0, 0.0},
-    WatchedMetric{"/trajectory/ate_se3/rmse_m", false, 0.15, 0.0003},
-    WatchedMetric{"/association/decision/precision", true, 0.0, 0.02},
-    WatchedMetric{"/association/decision/recall", true, 0.0, 0.02},
-    WatchedMetric{"/association/pair/precision", true, 0.0, 0.02},
-    WatchedMetric{"/association/merged_map_planes", false, 0.0, 0.5},
-    WatchedMetric{"/extraction/pq", true, 0.0, 0.02},
-    WatchedMetric{"/extraction/normal_deg/median", false, 0.15, 0.02},
-    WatchedMetric{"/extraction/offset_mm/median", false, 0.15, 0.05},
-    WatchedMetric{"/vertices/precision", true, 0.0, 0.03},
-    WatchedMetric{"/vertices/recall", true, 0.0, 0.03},
-    WatchedMetric{"/vertices/error_mm/median", false, 0.15, 0.2},
-    WatchedMetric{"/map/offset_mm/median", false, 0.2, 0.3},
-};
+constexpr const char* kFormat = "pas-baseline/2";
 
-/// The worst value that still passes.
-double Limit(const WatchedMetric& metric, double baseline) {
-  const double margin =
-      std::max(metric.relative_margin * std::abs(baseline), metric.absolute_margin);
-  return metric.higher_is_better ? baseline - margin : baseline + margin;
-}
-
-double Number(const nlohmann::json& value, const std::string& where) {
-  if (!value.is_number())
-    throw std::invalid_argument("baseline: " + where + " is not a number");
-  return value.get<double>();
+GateCase CaseOf(const nlohmann::json& record, const std::string& where) {
+  const io::JsonField field(record, where);
+  GateCase one;
+  one.done = field["done"].Boolean();
+  for (const auto& [name, value] : record.at("figures").items()) {
+    one.figures[name] =
+        value.is_null() ? std::nullopt : std::optional(field["figures"][name].Number());
+  }
+  return one;
 }
 
 }  // namespace
 
-std::span<const WatchedMetric> WatchedMetrics() { return kWatched; }
+std::string SceneOfKey(const std::string& key) { return key.substr(0, key.find('/')); }
 
-nlohmann::json WatchedFigures(const nlohmann::json& metrics) {
-  nlohmann::json figures = nlohmann::json::object();
-  for (const WatchedMetric& metric : kWatched) {
-    const nlohmann::json::json_pointer pointer(metric.pointer);
-    if (metrics.contains(pointer) && metrics.at(pointer).is_number()) {
-      figures[metric.pointer] = metrics.at(pointer);
-    }
-  }
-  return figures;
+std::string ArmOfKey(const std::string& key) {
+  const std::size_t slash = key.find('/');
+  return slash == std::string::npos ? "" : key.substr(slash + 1);
 }
 
-std::vector<Regression> CompareWithBaseline(const nlohmann::json& baseline,
-                                            const nlohmann::json& now) {
-  std::vector<Regression> regressions;
-  for (const auto& [scene, figures] : baseline.items()) {
-    for (const WatchedMetric& metric : kWatched) {
-      if (!figures.contains(metric.pointer)) continue;
-      const double before = Number(figures.at(metric.pointer), scene + metric.pointer);
-      const double limit = Limit(metric, before);
-      double value = std::numeric_limits<double>::quiet_NaN();
-      if (now.contains(scene) && now.at(scene).contains(metric.pointer)) {
-        value = Number(now.at(scene).at(metric.pointer), scene + metric.pointer);
-      }
-      const bool passes = metric.higher_is_better ? value >= limit : value <= limit;
-      if (!passes) regressions.push_back({scene, metric.pointer, before, value, limit});
-    }
-  }
-  return regressions;
+Figures FiguresForGate(const Figures& all) {
+  Figures gated;
+  const auto keep = [&](const std::string& name) {
+    const auto found = all.find(name);
+    gated[name] = found == all.end() ? std::nullopt : found->second;
+  };
+  for (const GatedMetric& metric : GatedMetrics()) keep(metric.figure);
+  keep(kFramesFigure);
+  keep(kTrackedFigure);
+  return gated;
 }
 
-std::string Describe(const Regression& regression) {
-  std::ostringstream line;
-  line << regression.scene << " " << regression.metric << ": " << regression.now
-       << ", baseline " << regression.baseline << ", limit " << regression.limit;
-  return line.str();
+Baseline ReadBaseline(const std::filesystem::path& file) {
+  const nlohmann::json document =
+      io::ReadJson(file, "write one with --accept \"REASON\", or name the right file");
+  const io::JsonField root(document, file.string());
+  if (root["format"].Text() != kFormat) {
+    root["format"].Fail(std::string("a baseline of `pas suite`, ") + kFormat);
+  }
+  Baseline baseline{root["suite"].Text(),     root["plan"].Text(),   root["program"].Text(),
+                    root["processor"].Text(), root["reason"].Text(), {}};
+  const nlohmann::json& cases = document.value("cases", nlohmann::json());
+  if (!cases.is_object()) root["cases"].Fail("an object, a member a case");
+  for (const auto& [key, record] : cases.items()) {
+    const std::string where = file.string() + ": cases: " + key;
+    if (!record.is_object() || !record.value("figures", nlohmann::json()).is_object()) {
+      io::JsonField(record, where).Fail("an object with done and figures");
+    }
+    baseline.cases[key] = CaseOf(record, where);
+  }
+  return baseline;
+}
+
+std::string BaselineText(const Baseline& baseline) {
+  const auto quoted = [](const std::string& text) { return nlohmann::json(text).dump(); };
+  std::string cases;
+  for (const auto& [key, one] : baseline.cases) {
+    nlohmann::json figures = nlohmann::json::object();
+    for (const auto& [name, value] : one.figures) {
+      figures[name] = value ? nlohmann::json(*value) : nlohmann::json();
+    }
+    const nlohmann::json record{{"done", one.done}, {"figures", figures}};
+    cases += fmt::format("{}\n  {}: {}", cases.empty() ? "" : ",", quoted(key), record.dump());
+  }
+  return fmt::format(
+      "{{\n \"format\": {},\n \"suite\": {},\n \"plan\": {},\n \"program\": {},\n"
+      " \"processor\": {},\n \"reason\": {},\n \"cases\": {{{}\n }}\n}}\n",
+      quoted(kFormat), quoted(baseline.suite), quoted(baseline.plan), quoted(baseline.program),
+      quoted(baseline.processor), quoted(baseline.reason), cases);
 }
 
 }  // namespace eval

@@ -1,46 +1,44 @@
 #pragma once
 
-#include <nlohmann/json_fwd.hpp>
-#include <span>
+#include <filesystem>
+#include <map>
 #include <string>
-#include <vector>
+
+#include "eval/regression/gated_metrics.h"
 
 namespace eval {
 
-/// A figure of metrics.json that is watched over time, and how much worse it may become.
-///
-/// The suites are deterministic, so any change is a change of the program; the margin is what a
-/// harmless change (another processor, a reordered sum) may move, not statistical noise.
-struct WatchedMetric {
-  const char* pointer;  ///< JSON pointer into metrics.json, "/trajectory/ate_se3/rmse_m"
-  bool higher_is_better;
-  double relative_margin;  ///< share of the baseline
-  double absolute_margin;  ///< in the metric's own unit; the larger of the two margins counts
+/// What the gate knows of a case of a suite.
+struct GateCase {
+  bool done = false;  ///< false: it crashed, ran out of time or memory, or refused its input
+  Figures figures;    ///< those of GatedMetrics and of the coverage
 };
 
-/// The watched figures: coverage, trajectory, association, extraction, vertices, map.
-std::span<const WatchedMetric> WatchedMetrics();
+/// By key, "SCENE/ARM": cases of one arm differ in their scene and seed alone, and those of two
+/// programs are paired by key.
+using GateCases = std::map<std::string, GateCase>;
 
-/// One figure of one scene that became worse than its baseline allows.
-struct Regression {
-  std::string scene;
-  std::string metric;  ///< JSON pointer
-  double baseline = 0.0;
-  double now = 0.0;    ///< NaN when the figure is gone
-  double limit = 0.0;  ///< the worst value that would still pass
+/// The part of a key before its first '/', and the part after it.
+std::string SceneOfKey(const std::string& key);
+std::string ArmOfKey(const std::string& key);
+
+/// Figures that the gate looks at, out of all of a case.
+Figures FiguresForGate(const Figures& all);
+
+/// Cases that later ones are compared with, as a file that can be read and reviewed.
+struct Baseline {
+  std::string suite;
+  std::string plan;       ///< number and size of frames: what has to be equal
+  std::string program;    ///< version that made it
+  std::string processor;  ///< times are compared on the same one only
+  std::string reason;     ///< why it was accepted
+  GateCases cases;
 };
 
-/// The watched figures of one metrics.json, as the baseline file stores them: pointer -> value.
-/// Figures that the metrics lack are left out.
-nlohmann::json WatchedFigures(const nlohmann::json& metrics);
+/// @throws InputError for what is no baseline
+Baseline ReadBaseline(const std::filesystem::path& file);
 
-/// Every watched figure of `baseline` (scene -> figures) that `now` (same shape) lacks or has
-/// worse. Better figures are no regression. A figure that only `now` has is not compared.
-/// @throws std::invalid_argument if a value is not a number.
-std::vector<Regression> CompareWithBaseline(const nlohmann::json& baseline,
-                                            const nlohmann::json& now);
-
-/// One line: scene, figure, baseline, limit, now.
-std::string Describe(const Regression& regression);
+/// JSON, a line a case; ends in a newline.
+std::string BaselineText(const Baseline& baseline);
 
 }  // namespace eval

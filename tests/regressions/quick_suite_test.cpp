@@ -1,64 +1,57 @@
-// The quick regression suite: three scenes, their figures against a stored baseline. After a
-// change that is meant to move them: PAS_UPDATE_BASELINE=1
-// build/release/tests/regressions_test.
+// The suite tests/suites/quick.yaml against its stored baseline. After a change that is meant to move its
+// figures:
+//   build/release/pas suite tests/suites/quick.yaml -o /tmp/quick
+//       --baseline tests/suites/quick.baseline.json --accept "why"
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <cstdlib>
 #include <fstream>
 
-#include "eval/regression/baseline.h"
-#include "sim/families/families.h"
-#include "tests/support/pipeline.h"
+#include "tests/support/program.h"
 
 namespace {
 
-using nlohmann::json;
+using namespace program;
 
-const std::filesystem::path kBaseline =
-    std::filesystem::path(PAS_SOURCE_DIR) / "tests/regressions/quick_suite.json";
+const fs::path kSuites = fs::path(PAS_SOURCE_DIR) / "tests/suites";
 
-constexpr std::uint64_t kSceneSeeds[] = {11, 12, 13};  // not those of any figure in the README
-constexpr pipeline::Recording kRecording{.frames = 90, .sensor = sim::SensorKind::kKinect1};
-
-/// scene -> watched figures.
-json RunSuite(slam::Variant variant) {
-  json figures = json::object();
-  for (const std::uint64_t seed : kSceneSeeds) {
-    const std::string scene = "desk-" + std::to_string(seed);
-    const pipeline::TemporaryFolder folder("suite");
-    pipeline::Record(sim::MakeScene("desk", seed), kRecording, folder / "seq");
-    pipeline::Run(folder / "seq", folder / "run", variant);
-    figures[scene] = eval::WatchedFigures(pipeline::Score(folder / "run", folder / "seq"));
+class QuickSuite : public testing::Test {
+ protected:
+  /// @param program  runs the cases
+  Outcome Gate(const fs::path& program) const {
+    return Process({"/bin/sh", "-c",
+                    Pas().string() + " suite " + (kSuites / "quick.yaml").string() + " -o " +
+                        (folder_ / "results").string() + " --program " + program.string() +
+                        " --baseline " + (kSuites / "quick.baseline.json").string() + " >&2"},
+                   {}, folder_ / "errors")
+        .Wait();
   }
-  return figures;
-}
+  TemporaryFolder folder_;
+};
 
-json ReadBaseline() {
-  std::ifstream in(kBaseline);
-  return json::parse(in).at("scenes");
-}
-
-TEST(QuickSuite, HoldsItsBaseline) {
-  const json now = RunSuite(slam::Variant::kFull);
-  if (std::getenv("PAS_UPDATE_BASELINE") != nullptr) {
-    std::ofstream(kBaseline) << json{{"format", "pas-baseline/1"}, {"scenes", now}}.dump(1)
-                             << "\n";
-    GTEST_SKIP() << "wrote " << kBaseline;
-  }
-  for (const eval::Regression& regression : eval::CompareWithBaseline(ReadBaseline(), now)) {
-    ADD_FAILURE() << eval::Describe(regression);
-  }
+TEST_F(QuickSuite, HoldsItsBaseline) {
+  const Outcome outcome = Gate(Pas());
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.errors;
 }
 
 // The suite must be able to fail: the fault planted here, association by parameters alone, is
 // the very one that the project exists for.
-TEST(QuickSuite, TurnsRedWhenPlanesAreAssociatedByTheirParametersAlone) {
-  if (std::getenv("PAS_UPDATE_BASELINE") != nullptr) GTEST_SKIP() << "updating";
-  const auto found =
-      eval::CompareWithBaseline(ReadBaseline(), RunSuite(slam::Variant::kNoAssociation));
-  EXPECT_THAT(found, testing::Contains(testing::Field(&eval::Regression::metric,
-                                                      "/association/decision/precision")));
+TEST_F(QuickSuite, TurnsRedWhenPlanesAreAssociatedByTheirParametersAlone) {
+  const fs::path program = folder_ / "no-association";
+  std::ofstream(program) << "#!/bin/sh\nset -- \"$@\" \"\"\n"
+                            "while [ $# -gt 1 ]; do\n"
+                            "  word=$1; shift\n"
+                            "  [ \"$word\" != full ] || word=no-association\n"
+                            "  set -- \"$@\" \"$word\"\n"
+                            "  [ -n \"$1\" ] || { shift; break; }\n"
+                            "done\n"
+                            "exec \""
+                         << Pas().string() << "\" \"$@\"\n";
+  fs::permissions(program, fs::perms::owner_all);
+  const Outcome outcome = Gate(program);
+  EXPECT_EQ(outcome.exit_code, 1) << outcome.errors;
+  EXPECT_THAT(outcome.errors,
+              testing::ContainsRegex("WORSE +/association/decision/(precision|fp)"));
 }
 
 }  // namespace

@@ -8,6 +8,7 @@ namespace {
 TEST(Progress, SaysHowLongItStillTakes) {
   EXPECT_EQ(RateText(60, 125, 6.0), ", 10/s, 0:07 left");
   EXPECT_EQ(RateText(10, 110, 10.0), ", 1/s, 1:40 left");
+  EXPECT_EQ(RateText(10, 20, 120.0), ", 5/min, 2:00 left");
   EXPECT_EQ(RateText(125, 125, 12.5), ", 10/s");
 }
 

@@ -3,61 +3,60 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <nlohmann/json.hpp>
+#include <fstream>
+
+#include "io/input_error.h"
 
 namespace eval {
 namespace {
 
-using nlohmann::json;
+namespace fs = std::filesystem;
 
-json Metrics() {
-  return {{"trajectory", {{"tracked_fraction", 1.0}, {"ate_se3", {{"rmse_m", 0.004}}}}},
-          {"association", {{"decision", {{"precision", 0.97}, {"recall", 0.95}}}}}};
+class BaselineFile : public ::testing::Test {
+ protected:
+  void TearDown() override { fs::remove(file_); }
+  void Write(const std::string& text) const { std::ofstream(file_) << text; }
+  std::string Refusal() const {
+    try {
+      ReadBaseline(file_);
+    } catch (const io::InputError& error) {
+      return error.what();
+    }
+    return "";
+  }
+
+  const fs::path file_ =
+      fs::temp_directory_path() / ("pas_baseline_" + std::to_string(::getpid()) + ".json");
+};
+
+TEST_F(BaselineFile, ReadsWhatItWrote) {
+  Baseline baseline{"quick", "60 frames", "pas 1", "a \"fast\" one", "first", {}};
+  baseline.cases["desk-1/kinect1"] = {true, {{"/a", 0.1}, {"/b", std::nullopt}}};
+  baseline.cases["desk-2/kinect1"] = {false, {}};
+  Write(BaselineText(baseline));
+  const Baseline read = ReadBaseline(file_);
+  EXPECT_EQ(BaselineText(read), BaselineText(baseline));
+  EXPECT_EQ(read.cases.at("desk-1/kinect1").figures.at("/a"), 0.1);
+  EXPECT_FALSE(read.cases.at("desk-2/kinect1").done);
 }
 
-json Suite(const json& metrics) { return {{"desk", WatchedFigures(metrics)}}; }
-
-TEST(Baseline, ComparesEqualWithItself) {
-  EXPECT_TRUE(CompareWithBaseline(Suite(Metrics()), Suite(Metrics())).empty());
+TEST_F(BaselineFile, ThatIsNoneIsRefused) {
+  Write("{}");
+  EXPECT_THAT(Refusal(), ::testing::HasSubstr("format"));
+  Write(R"({"format": "pas-baseline/1"})");
+  EXPECT_THAT(Refusal(), ::testing::HasSubstr("pas-baseline/2"));
+  Write(R"({"format": "pas-baseline/2", "suite": "q", "plan": "p", "program": "p",
+            "processor": "c", "reason": "r", "cases": {"desk-1/x": {"done": 1}}})");
+  EXPECT_THAT(Refusal(), ::testing::HasSubstr("desk-1/x"));
 }
 
-TEST(Baseline, LeavesOutFiguresThatTheMetricsLack) {
-  EXPECT_FALSE(WatchedFigures(Metrics()).contains("/vertices/precision"));
+TEST_F(BaselineFile, ThatIsMissingSaysHowToMakeOne) {
+  EXPECT_THAT(Refusal(), ::testing::HasSubstr("--accept"));
 }
 
-TEST(Baseline, ReportsAnErrorThatGrewBeyondItsMarginAndNothingElse) {
-  json worse = Metrics();
-  worse["trajectory"]["ate_se3"]["rmse_m"] = 0.005;
-  const auto found = CompareWithBaseline(Suite(Metrics()), Suite(worse));
-  ASSERT_EQ(found.size(), 1u);
-  EXPECT_EQ(found[0].metric, "/trajectory/ate_se3/rmse_m");
-  EXPECT_THAT(Describe(found[0]), testing::HasSubstr("desk /trajectory/ate_se3/rmse_m: 0.005"));
-}
-
-TEST(Baseline, ReportsAScoreThatFellBeyondItsMargin) {
-  json worse = Metrics();
-  worse["association"]["decision"]["precision"] = 0.94;
-  EXPECT_EQ(CompareWithBaseline(Suite(Metrics()), Suite(worse)).size(), 1u);
-}
-
-TEST(Baseline, AcceptsEveryImprovement) {
-  json better = Metrics();
-  better["trajectory"]["ate_se3"]["rmse_m"] = 0.001;
-  better["association"]["decision"]["precision"] = 1.0;
-  EXPECT_TRUE(CompareWithBaseline(Suite(Metrics()), Suite(better)).empty());
-}
-
-TEST(Baseline, ReportsAFigureThatVanishedAndASceneThatVanished) {
-  json gone = Metrics();
-  gone.erase("association");
-  EXPECT_EQ(CompareWithBaseline(Suite(Metrics()), Suite(gone)).size(), 2u);
-  EXPECT_EQ(CompareWithBaseline(Suite(Metrics()), json::object()).size(), 4u);
-}
-
-TEST(Baseline, ReportsASingleLostFrame) {
-  json worse = Metrics();
-  worse["trajectory"]["tracked_fraction"] = 0.989;
-  EXPECT_EQ(CompareWithBaseline(Suite(Metrics()), Suite(worse)).size(), 1u);
+TEST(BaselineKeys, AreAsSceneAndArm) {
+  EXPECT_EQ(SceneOfKey("desk-1/kinect1/own/full/default"), "desk-1");
+  EXPECT_EQ(ArmOfKey("desk-1/kinect1/own/full/default"), "kinect1/own/full/default");
 }
 
 }  // namespace

@@ -1,0 +1,332 @@
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <memory>
+#include <set>
+#include <string>
+#include <thread>
+
+#include "app/app.h"
+#include "app/console.h"
+#include "app/stop_signal.h"
+#include "app/suite/replay_case.h"
+#include "app/suite/results.h"
+#include "app/suite/run_suite.h"
+#include "app/suite/shrink_case.h"
+#include "app/suite/suite_gate.h"
+#include "app/suite/summary.h"
+#include "io/folder_lock.h"
+#include "io/input_error.h"
+#include "io/number_text.h"
+#include "io/output_file.h"
+#include "io/output_folder.h"
+#include "version.h"
+
+namespace app {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kAboutSuite =
+    "Run every scene of a suite with every sensor, motion, seed, variant and config, each "
+    "case\n"
+    "in processes of its own with limits of time and memory, and put the figures into\n"
+    "DIR/results.sqlite. A crash, a time-out or want of memory is a row. Called again it runs\n"
+    "what is not there yet, or whose inputs or program have changed. With --baseline it says\n"
+    "what became worse (docs/suites.md). Exit code 1 if something became worse or cannot be\n"
+    "told; without a baseline, if a case failed.";
+
+struct SuiteArguments {
+  std::string suite, output, recordings, program, shard, baseline, accept, replay, shrink;
+  int jobs = 0;
+  std::vector<std::string> merged;
+  std::string merge_output;
+};
+
+/// A folder that is to hold results, or already does.
+void RequireResultsFolder(const fs::path& folder) {
+  if (!fs::exists(folder) || fs::exists(folder / kResultsFile)) return;
+  if (!fs::is_directory(folder) || !fs::is_empty(folder)) {
+    throw io::InputError(folder.string(),
+                         "is neither empty nor a folder of results; name "
+                         "another with -o");
+  }
+}
+
+/// The cases whose place in the order leaves the remainder i - 1 when divided by n, for "i/n".
+std::vector<SuiteCase> ShardOf(const std::vector<SuiteCase>& cases, const std::string& shard) {
+  const std::size_t slash = shard.find('/');
+  const auto i = io::ParseNumber(shard.substr(0, slash));
+  const auto n = io::ParseNumber(slash == std::string::npos ? "" : shard.substr(slash + 1));
+  if (!i || !n || *i != std::floor(*i) || *n != std::floor(*n) || *i < 1 || *i > *n) {
+    throw io::InputError("--shard " + shard, "expected I/N with I from 1 to N, such as 1/4");
+  }
+  std::vector<SuiteCase> part;
+  for (auto at = static_cast<std::size_t>(*i) - 1; at < cases.size();
+       at += static_cast<std::size_t>(*n)) {
+    part.push_back(cases[at]);
+  }
+  return part;
+}
+
+/// One call of `pas suite` on a suite file.
+class SuiteCall {
+ public:
+  SuiteCall(const SuiteArguments& arguments, bool quiet)
+      : arguments_(arguments),
+        quiet_(quiet),
+        suite_(ReadSuite(arguments.suite)),
+        program_(ProgramOf(arguments.program)),
+        folder_(fs::absolute(arguments.output)) {}
+
+  int Run() {
+    RequireResultsFolder(folder_);
+    std::optional<eval::Baseline> baseline;
+    if (!arguments_.baseline.empty() && arguments_.accept.empty()) baseline = ReadTheBaseline();
+    const io::FolderLock lock(folder_);
+    Results results(folder_);
+    const bool accepting = !arguments_.accept.empty();
+    int seeds = accepting ? suite_.seeds.max_count : suite_.seeds.count;
+    std::vector<SuiteCase> cases = Plan(seeds);
+    if (!arguments_.replay.empty()) {
+      return ReplayCase(Named(arguments_.replay), program_, folder_, quiet_);
+    }
+    if (!arguments_.shrink.empty()) return Shrink();
+    if (!arguments_.shard.empty()) cases = ShardOf(cases, arguments_.shard);
+    if (!RunAll(cases, results)) return Interrupted();
+
+    if (accepting) return Accept(cases, results);
+    if (!baseline) return Summarise(cases, results);
+    // As long as it cannot be told, more seeds of the arms in question.
+    eval::GateReport report = Compare(*baseline, cases, results);
+    while (!report.AnyWorse() && !report.UndecidedArms().empty() &&
+           seeds < suite_.seeds.max_count) {
+      seeds = std::min(2 * seeds, suite_.seeds.max_count);
+      if (!quiet_) fmt::print("not decided yet: {} seeds\n", seeds);
+      const std::vector<SuiteCase> more = CasesOf(Plan(seeds), report.UndecidedArms());
+      if (!RunAll(more, results)) return Interrupted();
+      Join(more, cases);
+      report = Compare(*baseline, cases, results);
+    }
+    Summarise(cases, results);
+    return Verdict(report);
+  }
+
+ private:
+  std::vector<SuiteCase> Plan(int seeds) const {
+    return PlanCases(suite_, seeds, arguments_.recordings, program_, folder_);
+  }
+
+  /// @returns false when it was interrupted
+  bool RunAll(const std::vector<SuiteCase>& cases, Results& results) const {
+    const StopSignal stop;
+    SuiteRunOptions options{folder_,         program_, PAS_VERSION, suite_.limits,
+                            arguments_.jobs, quiet_,   {}};
+    if (options.jobs == 0) {
+      options.jobs = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+    }
+    options.stop = [] { return StopSignal::Caught() != 0; };
+    caught_ = RunCases(cases, options, results) ? StopSignal::Caught() : 0;
+    return caught_ == 0;
+  }
+
+  int Interrupted() const {
+    fmt::print(stderr, "pas: interrupted; {} keeps what was done, and the same call goes on\n",
+               folder_.string());
+    return ExitCodeOf(caught_);
+  }
+
+  eval::Baseline ReadTheBaseline() const {
+    eval::Baseline baseline = eval::ReadBaseline(arguments_.baseline);
+    if (baseline.suite != suite_.name || baseline.plan != PlanText(suite_)) {
+      throw io::InputError(arguments_.baseline,
+                           "is of the suite " + baseline.suite + " with " + baseline.plan +
+                               ", but " + arguments_.suite + " is " + suite_.name + " with " +
+                               PlanText(suite_) + "; write a new one with --accept");
+    }
+    return baseline;
+  }
+
+  int Accept(const std::vector<SuiteCase>& cases, Results& results) const {
+    const eval::Baseline baseline{suite_.name,       PlanText(suite_),
+                                  PAS_VERSION,       ProcessorName(),
+                                  arguments_.accept, GatedCases(suite_, cases, results.Rows())};
+    const io::OutputFile file(arguments_.baseline,
+                              {.force = true, .inputs = {arguments_.suite}});
+    file.Write(eval::BaselineText(baseline));
+    Summarise(cases, results);
+    if (!quiet_) fmt::print("wrote {}\n", arguments_.baseline);
+    return kDone;
+  }
+
+  eval::GateReport Compare(const eval::Baseline& baseline, const std::vector<SuiteCase>& cases,
+                           Results& results) const {
+    eval::GateRules rules = suite_.gate;
+    rules.looks = LooksOf(suite_.seeds);
+    rules.times = rules.times && baseline.processor == ProcessorName();
+    if (suite_.gate.times && !rules.times && !quiet_) {
+      PrintWarning("times are not compared: the baseline is of another processor, " +
+                   baseline.processor);
+    }
+    return eval::CompareWithBaseline(baseline, GatedCases(suite_, cases, results.Rows()),
+                                     rules);
+  }
+
+  static std::vector<SuiteCase> CasesOf(const std::vector<SuiteCase>& cases,
+                                        const std::vector<std::string>& arms) {
+    const std::set<std::string> wanted(arms.begin(), arms.end());
+    std::vector<SuiteCase> found;
+    for (const SuiteCase& one : cases) {
+      if (wanted.count(eval::ArmOfKey(one.key)) > 0) found.push_back(one);
+    }
+    return found;
+  }
+
+  /// Adds those of `more` that are not among the cases yet.
+  static void Join(const std::vector<SuiteCase>& more, std::vector<SuiteCase>& cases) {
+    std::set<std::string> known;
+    for (const SuiteCase& one : cases) known.insert(one.key);
+    for (const SuiteCase& one : more) {
+      if (known.count(one.key) == 0) cases.push_back(one);
+    }
+  }
+
+  int Summarise(const std::vector<SuiteCase>& cases, Results& results) const {
+    const std::map<std::string, ResultRow> rows = results.Rows();
+    if (!quiet_) fmt::print("{}", SuiteSummary(cases, rows));
+    const bool all_done = std::all_of(cases.begin(), cases.end(), [&](const SuiteCase& one) {
+      return rows.at(one.key).result.status == CaseStatus::kFinished;
+    });
+    return all_done ? kDone : kFailure;
+  }
+
+  int Verdict(const eval::GateReport& report) const {
+    fmt::print("{}", eval::GateTable(report));
+    const bool undecided = !report.UndecidedArms().empty();
+    if (report.AnyWorse()) {
+      fmt::print(
+          "WORSE than {}; replay a case with `pas suite {} -o {} --replay CASE`, or accept "
+          "it with --accept \"REASON\"\n",
+          arguments_.baseline, arguments_.suite, arguments_.output);
+      return kFailure;
+    }
+    if (!undecided) {
+      fmt::print("the same as {}\n", arguments_.baseline);
+      return kDone;
+    }
+    fmt::print("undecided with all seeds of the suite: look at the figures above{}\n",
+               suite_.gate.undecided_passes ? "; the suite lets that pass"
+                                            : ", and accept them with --accept \"REASON\"");
+    return suite_.gate.undecided_passes ? kDone : kFailure;
+  }
+
+  /// The case of that key, of any seed of the suite.
+  SuiteCase Named(const std::string& key) const {
+    const std::vector<SuiteCase> all = Plan(suite_.seeds.max_count);
+    const auto found = std::find_if(all.begin(), all.end(),
+                                    [&](const SuiteCase& one) { return one.key == key; });
+    if (found == all.end()) {
+      throw io::InputError(
+          key, "is no case of this suite; its cases are named as " + all.front().key);
+    }
+    return *found;
+  }
+
+  int Shrink() const {
+    const SuiteCase one = Named(arguments_.shrink);
+    const StopSignal stop;
+    const ShrunkCase small =
+        ShrinkCase(one, suite_, program_, folder_, [] { return StopSignal::Caught() != 0; });
+    if (!quiet_) {
+      fmt::print(
+          "{} frames of {} x {}, {} objects, after {} runs\nscene {}\nrun it with `pas "
+          "suite {} -o DIR`, and copy both files into tests/regressions\n",
+          small.frames, small.width, small.height, small.objects, small.runs,
+          small.scene.string(), small.suite.string());
+    }
+    return kDone;
+  }
+
+  const SuiteArguments& arguments_;
+  bool quiet_;
+  SuiteFile suite_;
+  SuiteProgram program_;
+  fs::path folder_;
+  mutable int caught_ = 0;
+};
+
+int Merge(const SuiteArguments& arguments, bool quiet) {
+  const fs::path output = arguments.merge_output;
+  RequireResultsFolder(output);
+  const io::FolderLock lock(output);
+  Results results(output);
+  for (const std::string& folder : arguments.merged) {
+    if (fs::equivalent(folder, output)) {
+      throw io::InputError(folder, "is the output too; name another with -o");
+    }
+    results.Merge(folder);
+  }
+  if (!quiet) fmt::print("{}: {} cases\n", output.string(), results.Finished().size());
+  return kDone;
+}
+
+}  // namespace
+
+void AddSuiteCommand(CLI::App& pas, const Globals& globals, int& exit_code) {
+  CLI::App* command = pas.add_subcommand("suite", kAboutSuite);
+  const auto arguments = std::make_shared<SuiteArguments>();
+  command->add_option("SUITE", arguments->suite, "Suite file (YAML)");
+  command->add_option("-o,--output", arguments->output,
+                      "Folder of the results; new, empty, or of an earlier call");
+  command
+      ->add_option("-j,--jobs", arguments->jobs,
+                   "Cases at a time; 0: one a core. Rows do not "
+                   "depend on it, but for times")
+      ->check(CLI::Range(0, 1024))
+      ->capture_default_str();
+  command->add_option("--recordings", arguments->recordings,
+                      "Folder of recordings, for suites that run on them");
+  command->add_option("--program", arguments->program,
+                      "Program that runs the cases instead of this one: another build of pas");
+  CLI::Option* shard = command->add_option(
+      "--shard", arguments->shard, "I/N: only every Nth case from the Ith on; see merge");
+  CLI::Option* baseline =
+      command->add_option("--baseline", arguments->baseline,
+                          "File to compare with, seed by seed; more seeds are run up to the "
+                          "suite's most while it cannot be told whether something is worse");
+  command
+      ->add_option("--accept", arguments->accept,
+                   "REASON: run all seeds and write --baseline anew, with this reason in it")
+      ->needs(baseline);
+  CLI::Option* replay = command->add_option(
+      "--replay", arguments->replay,
+      "CASE: run this one again in DIR/replay, without limits, and say how");
+  CLI::Option* shrink = command->add_option("--shrink", arguments->shrink,
+                                            "CASE: look for a smaller case that fails as this "
+                                            "one does, with fewer frames and objects "
+                                            "and smaller images; written to DIR/shrunk");
+  shrink->excludes(baseline)->excludes(shard)->excludes(replay);
+  shard->excludes(baseline)->excludes(replay);
+  replay->excludes(baseline);
+
+  CLI::App* merge = command->add_subcommand(
+      "merge", "Put the results of several folders, shards of one suite, into one");
+  merge->add_option("DIR", arguments->merged, "Folders of results")->required();
+  merge->add_option("-o,--output", arguments->merge_output, "Folder to write or to add to")
+      ->required();
+  command->callback([command, merge, arguments, &globals, &exit_code] {
+    if (merge->parsed()) {
+      exit_code = Merge(*arguments, globals.quiet);
+      return;
+    }
+    if (arguments->suite.empty() || arguments->output.empty()) {
+      throw io::InputError(
+          "pas suite",
+          "needs SUITE.yaml and -o DIR, or merge DIR... -o DIR; see pas suite --help");
+    }
+    exit_code = SuiteCall(*arguments, globals.quiet).Run();
+  });
+}
+
+}  // namespace app

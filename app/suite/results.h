@@ -1,0 +1,48 @@
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "app/suite/database.h"
+#include "app/suite/run_case.h"
+
+namespace app {
+
+/// The file of all rows in a results folder.
+inline constexpr const char* kResultsFile = "results.sqlite";
+
+/// A case as it stands in the results.
+struct ResultRow {
+  std::string inputs_sha256;
+  std::string command;  ///< lines of a shell that run it again from the results folder
+  CaseResult result;
+};
+
+/// The results of a suite: tables `cases`, `figures` and `times` (docs/suites.md). Each case is
+/// there whole or not at all, whenever the process ends.
+class Results {
+ public:
+  /// @throws InputError when the file holds something else
+  explicit Results(const std::filesystem::path& folder);
+  ~Results();  ///< leaves one file
+
+  /// Key -> hash of the inputs, of all cases that are there.
+  std::map<std::string, std::string> Finished();
+  /// Puts the case in, over an older one.
+  void Put(const SuiteCase& one, const CaseResult& result, const std::string& program,
+           const std::string& command);
+  /// Key -> row.
+  std::map<std::string, ResultRow> Rows();
+  /// Takes in the cases of another folder's results.
+  /// @throws InputError when both have a case and its inputs differ
+  void Merge(const std::filesystem::path& folder);
+
+ private:
+  void ReadNumbers(const std::string& table, eval::Figures CaseResult::*into,
+                   std::map<std::string, ResultRow>& rows);
+  Database database_;
+};
+
+}  // namespace app

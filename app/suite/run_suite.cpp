@@ -1,0 +1,81 @@
+#include "app/suite/run_suite.h"
+
+#include <atomic>
+#include <exception>
+#include <mutex>
+#include <thread>
+
+#include "app/console.h"
+
+namespace app {
+namespace {
+
+/// What `--replay` and the command of a row call the program, whatever its path is here.
+constexpr const char* kAnyProgram = "pas";
+constexpr const char* kReplayRun = "replay";
+
+/// Cases that several threads take one by one.
+class CaseQueue {
+ public:
+  CaseQueue(const std::vector<SuiteCase>& cases, const SuiteRunOptions& options,
+            Results& results)
+      : options_(options), results_(results) {
+    const std::map<std::string, std::string> finished = results.Finished();
+    for (const SuiteCase& one : cases) {
+      const auto found = finished.find(one.key);
+      if (found == finished.end() || found->second != one.inputs_sha256)
+        pending_.push_back(&one);
+    }
+  }
+
+  bool Run() {
+    if (pending_.empty()) return false;
+    Progress progress("cases", static_cast<int>(pending_.size()), options_.quiet);
+    std::vector<std::thread> workers;
+    for (int i = 0; i < options_.jobs; ++i) workers.emplace_back([&] { Work(progress); });
+    for (std::thread& worker : workers) worker.join();
+    if (error_) std::rethrow_exception(error_);
+    return stopped_;
+  }
+
+ private:
+  bool Ending() const { return failed_ || options_.stop(); }
+
+  void Work(Progress& progress) {
+    try {
+      for (std::size_t i; !Ending() && (i = next_++) < pending_.size();) {
+        const SuiteCase& one = *pending_[i];
+        const CaseResult result = RunCase(one, options_.program, options_.limits,
+                                          options_.folder, [&] { return Ending(); });
+        const std::lock_guard lock(mutex_);
+        if (result.status == CaseStatus::kStopped) break;
+        results_.Put(one, result, options_.version,
+                     CommandLines(CommandsOf(one, kAnyProgram, kReplayRun)));
+        progress.Update(++done_);
+      }
+    } catch (...) {
+      const std::lock_guard lock(mutex_);
+      if (!error_) error_ = std::current_exception();
+      failed_ = true;
+    }
+    if (options_.stop()) stopped_ = true;
+  }
+
+  const SuiteRunOptions& options_;
+  Results& results_;
+  std::vector<const SuiteCase*> pending_;
+  std::atomic<std::size_t> next_ = 0;
+  std::atomic<bool> failed_ = false, stopped_ = false;
+  std::mutex mutex_;  ///< of what follows, of the results and of the progress
+  int done_ = 0;
+  std::exception_ptr error_;
+};
+
+}  // namespace
+
+bool RunCases(const std::vector<SuiteCase>& cases, const SuiteRunOptions& options,
+              Results& results) {
+  return CaseQueue(cases, options, results).Run();
+}
+
+}  // namespace app

@@ -1,0 +1,207 @@
+#include "app/suite/shrink_case.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+
+#include "eval/regression/gate.h"
+#include "io/atomic_file.h"
+#include "io/input_error.h"
+#include "io/output_folder.h"
+#include "sim/scene/check.h"
+#include "sim/scene/read_scene.h"
+#include "sim/scene/write_scene.h"
+
+namespace app {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr int kMinSide_px = 40;   // below, no cell of the extraction is left
+constexpr int kMostFrames = 900;  // of a scene that says how many by itself: 30 s
+constexpr int kOwnWidth_px = 640, kOwnHeight_px = 480;  // what `pas sim` takes without options
+constexpr const char* kFolder = "shrunk";
+
+class Shrinker {
+ public:
+  Shrinker(const SuiteCase& one, const SuiteFile& suite, const SuiteProgram& program,
+           const fs::path& folder, const std::function<bool()>& stop)
+      : one_(one), suite_(suite), program_(program), folder_(folder), stop_(stop) {
+    if (one.slam.empty() || one.slam.front() != "--live") {
+      throw io::InputError(one.key, "is of a recording; only rendered cases can be shrunk");
+    }
+    scene_ = sim::ReadScene(folder / one.slam[1]);
+    if (scene_.capture) {
+      best_.width = scene_.capture->width;
+      best_.height = scene_.capture->height;
+    } else {
+      best_.width = kOwnWidth_px;
+      best_.height = kOwnHeight_px;
+    }
+    best_.frames = Number("--frames", kMostFrames);
+    best_.width = Number("--width", best_.width);
+    best_.height = Number("--height", best_.height);
+    best_.scene = folder / kFolder / "scene.yaml";
+    best_.suite = folder / kFolder / "suite.yaml";
+    io::MakeFolder(folder / kFolder);
+  }
+
+  ShrunkCase Shrink() {
+    failure_ = Try(scene_, best_);
+    if (failure_.status == CaseStatus::kFinished && failure_.beyond.empty()) {
+      throw io::InputError(one_.key,
+                           "does not fail; bound its figures by `gate: worst:` in the suite");
+    }
+    for (bool smaller = true; smaller && !stop_();) {
+      smaller = Halve(&ShrunkCase::frames, 2);
+      smaller = HalveImage() || smaller;
+      smaller = DropObjects() || smaller;
+    }
+    Write();
+    return best_;
+  }
+
+ private:
+  int Number(const char* option, int otherwise) const {
+    const auto found = std::find(one_.slam.begin(), one_.slam.end(), option);
+    return found == one_.slam.end() ? otherwise : std::stoi(*std::next(found));
+  }
+
+  static void Set(std::vector<std::string>& arguments, const char* option, int value) {
+    const auto found = std::find(arguments.begin(), arguments.end(), option);
+    if (found == arguments.end()) {
+      arguments.insert(arguments.end(), {option, std::to_string(value)});
+    } else {
+      *std::next(found) = std::to_string(value);
+    }
+  }
+
+  CaseFailure Try(const sim::Scene& scene, const ShrunkCase& size) {
+    if (sim::FindFault(scene)) return {};
+    sim::WriteScene(scene, size.scene);
+    SuiteCase smaller = one_;
+    smaller.slam[1] = std::string(kFolder) + "/scene.yaml";
+    Set(smaller.slam, "--frames", size.frames);
+    Set(smaller.slam, "--width", size.width);
+    Set(smaller.slam, "--height", size.height);
+    ++best_.runs;
+    return FailureOf(RunCase(smaller, program_, suite_.limits, folder_, stop_),
+                     suite_.gate.worst);
+  }
+
+  /// Takes a smaller case over if it fails alike.
+  bool Take(sim::Scene scene, ShrunkCase size) {
+    if (stop_() || !FailsAlike(failure_, Try(scene, size))) return false;
+    size.runs = best_.runs;
+    best_ = size;
+    scene_ = std::move(scene);
+    return true;
+  }
+
+  bool Halve(int ShrunkCase::*number, int min) {
+    bool any = false;
+    for (;;) {
+      ShrunkCase size = best_;
+      size.*number /= 2;
+      if (size.*number < min || !Take(scene_, size)) return any;
+      any = true;
+    }
+  }
+
+  bool HalveImage() {
+    bool any = false;
+    for (;;) {
+      ShrunkCase size = best_;
+      size.width /= 2;
+      size.height /= 2;
+      if (std::min(size.width, size.height) < kMinSide_px || !Take(scene_, size)) return any;
+      any = true;
+    }
+  }
+
+  /// Leaves out halves of the objects, then quarters, down to single ones.
+  bool DropObjects() {
+    bool any = false;
+    for (std::size_t count = (scene_.objects.size() + 1) / 2; count > 0; count /= 2) {
+      for (std::size_t from = 0; from + count <= scene_.objects.size();) {
+        sim::Scene fewer = scene_;
+        const auto first = fewer.objects.begin() + static_cast<std::ptrdiff_t>(from);
+        fewer.objects.erase(first, first + static_cast<std::ptrdiff_t>(count));
+        if (!fewer.objects.empty() && Take(std::move(fewer), best_)) {
+          any = true;
+        } else {
+          from += count;
+        }
+      }
+    }
+    return any;
+  }
+
+  void Write() {
+    best_.objects = scene_.objects.size();
+    sim::WriteScene(scene_, best_.scene);
+    const auto after = [&](const char* option, const char* otherwise) {
+      const auto found = std::find(one_.slam.begin(), one_.slam.end(), option);
+      return found == one_.slam.end() ? std::string(otherwise) : *std::next(found);
+    };
+    const std::string sensor = after("--sim-sensor", "kinect1");
+    const bool own_sensor = sensor.find('/') != std::string::npos;
+    const std::string config = after("--config", "");
+    std::string text = fmt::format(
+        "# What is left of {}: {}\n"
+        "format: pas-suite/1\nname: shrunk\nframes: {}\nsize_px: [{}, {}]\n"
+        "limits: {{seconds: {}, memory_mb: {}}}\nseeds: {{first: {}}}\n"
+        "scenes: [{{file: scene.yaml}}]\nvariants: [{}]\nmotions: [{}]\n",
+        one_.key, NameOf(failure_.status), best_.frames, best_.width, best_.height,
+        suite_.limits.seconds, suite_.limits.memory_mb, one_.seed, one_.variant,
+        after("--motion", kOwnMotion));
+    text += own_sensor ? fmt::format("sensors: [{{name: own, file: ../{}, estimator: {}}}]\n",
+                                     sensor, after("--sensor", "kinect1"))
+                       : fmt::format("sensors: [{}]\n", sensor);
+    if (!config.empty()) text += fmt::format("configs: [{{name: own, file: ../{}}}]\n", config);
+    if (!suite_.gate.worst.empty()) {
+      text += "gate:\n  worst:\n";
+      for (const auto& [figure, bound] : suite_.gate.worst) {
+        text += fmt::format("    {}: {}\n", figure, bound);
+      }
+    }
+    io::WriteFile(best_.suite, text);
+  }
+
+  const SuiteCase& one_;
+  const SuiteFile& suite_;
+  const SuiteProgram& program_;
+  fs::path folder_;
+  std::function<bool()> stop_;
+  sim::Scene scene_;
+  ShrunkCase best_;
+  CaseFailure failure_;
+};
+
+}  // namespace
+
+CaseFailure FailureOf(const CaseResult& result, const std::map<std::string, double>& worst) {
+  CaseFailure failure{result.status, "", {}};
+  // Digits are lines, frames and sizes, which change when a case shrinks.
+  std::copy_if(result.message.begin(), result.message.end(),
+               std::back_inserter(failure.message),
+               [](unsigned char c) { return std::isdigit(c) == 0; });
+  failure.beyond = eval::BeyondBounds(result.figures, worst);
+  return failure;
+}
+
+bool FailsAlike(const CaseFailure& first, const CaseFailure& second) {
+  if (first.status != second.status) return false;
+  if (first.status != CaseStatus::kFinished) return first.message == second.message;
+  return std::any_of(first.beyond.begin(), first.beyond.end(), [&](const std::string& figure) {
+    return std::count(second.beyond.begin(), second.beyond.end(), figure) > 0;
+  });
+}
+
+ShrunkCase ShrinkCase(const SuiteCase& one, const SuiteFile& suite, const SuiteProgram& program,
+                      const fs::path& folder, const std::function<bool()>& stop) {
+  return Shrinker(one, suite, program, folder, stop).Shrink();
+}
+
+}  // namespace app

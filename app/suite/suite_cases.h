@@ -1,0 +1,45 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "app/suite/suite_file.h"
+
+namespace app {
+
+/// One run of `pas slam` and its evaluation.
+struct SuiteCase {
+  std::string key;    ///< SCENE-SEED/SENSOR/MOTION/VARIANT/CONFIG, unique in the suite
+  std::string scene;  ///< SCENE-SEED
+  std::uint64_t seed = 0;
+  std::string variant;
+  /// What `pas slam` is given but -o; paths are relative to the results folder where they can be.
+  std::vector<std::string> slam;
+  std::string
+      scene_sha256;  ///< of the scene's text; of a recording, of its lists and file sizes
+  std::string inputs_sha256;  ///< of all that decides the result, the program too
+};
+
+/// The program that runs the cases.
+struct SuiteProgram {
+  std::filesystem::path file;  ///< absolute
+  std::string sha256;
+};
+
+/// @param file  empty: this program
+/// @throws InputError when it cannot be run
+SuiteProgram ProgramOf(const std::filesystem::path& file);
+
+/// All cases with the first `seeds` seeds of the suite, in the order of their keys. Writes the
+/// scenes and the suite's files into `folder`, below scenes/ and inputs/, so that a case can be
+/// run again from there.
+/// @param recordings  folder of recordings; empty when the suite has none
+/// @throws InputError
+std::vector<SuiteCase> PlanCases(const SuiteFile& suite, int seeds,
+                                 const std::filesystem::path& recordings,
+                                 const SuiteProgram& program,
+                                 const std::filesystem::path& folder);
+
+}  // namespace app

@@ -1,0 +1,215 @@
+#include "eval/regression/gate.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <functional>
+#include <random>
+
+namespace eval {
+namespace {
+
+constexpr const char* kAte = "/trajectory/ate_se3/rmse_m";
+constexpr const char* kPrecision = "/association/decision/precision";
+constexpr const char* kFp = "/association/decision/fp";
+
+/// Cases of one arm whose figures differ from scene to scene by a factor of some 1.5.
+GateCases Cases(int count) {
+  GateCases cases;
+  std::mt19937 random(5);
+  for (int i = 0; i < count; ++i) {
+    const double share = static_cast<double>(random() % 1000) / 1000;
+    GateCase one{true, {}};
+    one.figures[kAte] = 0.002 * (1 + share);
+    one.figures[kPrecision] = 0.99 - 0.02 * share;
+    one.figures[kFp] = static_cast<double>(random() % 3);
+    one.figures[kFramesFigure] = 60.0;
+    one.figures[kTrackedFigure] = 60.0;
+    cases["desk-" + std::to_string(100 + i) + "/arm"] = one;
+  }
+  return cases;
+}
+
+Baseline BaselineOf(const GateCases& cases) { return {"s", "p", "v", "c", "r", cases}; }
+
+/// The cases after `change` was made to each, which is told its number.
+GateCases Changed(GateCases cases, const std::function<void(GateCase&, int)>& change) {
+  int i = 0;
+  for (auto& [key, one] : cases) change(one, i++);
+  return cases;
+}
+
+std::vector<std::string> Worse(const GateReport& report) {
+  std::vector<std::string> names;
+  for (const MetricVerdict& found : report.metrics) {
+    if (found.verdict == Verdict::kWorse) names.emplace_back(found.metric.figure);
+  }
+  for (const CountVerdict& found : report.counts) {
+    if (found.worse) names.push_back(found.what);
+  }
+  return names;
+}
+
+TEST(Gate, UnchangedCasesAreTheSameAtOnce) {
+  for (const int count : {1, 2, 20}) {
+    const GateCases cases = Cases(count);
+    const GateReport report = CompareWithBaseline(BaselineOf(cases), cases, {});
+    EXPECT_FALSE(report.AnyWorse());
+    EXPECT_THAT(report.UndecidedArms(), ::testing::IsEmpty());
+    EXPECT_THAT(GateTable(report), ::testing::StartsWith("3 of 3 figures are the same"));
+  }
+}
+
+TEST(Gate, AnErrorThatGrewByATenthIsWorse) {
+  const GateCases cases = Cases(20);
+  const GateCases worse =
+      Changed(cases, [](GateCase& one, int) { one.figures[kAte] = 1.1 * *one.figures[kAte]; });
+  const GateReport report = CompareWithBaseline(BaselineOf(cases), worse, {});
+  EXPECT_THAT(Worse(report), ::testing::ElementsAre(kAte));
+  EXPECT_THAT(GateTable(report), ::testing::HasSubstr("+10.00 %"));
+  EXPECT_THAT(GateTable(report), ::testing::HasSubstr("replay desk-"));
+}
+
+TEST(Gate, AnErrorThatGrewByAHundredthIsTheSame) {
+  const GateCases cases = Cases(20);
+  const GateCases little =
+      Changed(cases, [](GateCase& one, int) { one.figures[kAte] = 1.01 * *one.figures[kAte]; });
+  const GateReport report = CompareWithBaseline(BaselineOf(cases), little, {});
+  EXPECT_FALSE(report.AnyWorse());
+  EXPECT_THAT(report.UndecidedArms(), ::testing::IsEmpty());
+}
+
+TEST(Gate, WhatVariesTooMuchIsUndecided) {
+  const GateCases cases = Cases(20);
+  const GateCases noisy = Changed(cases, [](GateCase& one, int i) {
+    one.figures[kAte] = (i % 2 == 0 ? 1.5 : 0.7) * *one.figures[kAte];
+  });
+  const GateReport report = CompareWithBaseline(BaselineOf(cases), noisy, {});
+  EXPECT_FALSE(report.AnyWorse());
+  EXPECT_THAT(report.UndecidedArms(), ::testing::ElementsAre("arm"));
+}
+
+TEST(Gate, FewPairsThatDifferDecideNothing) {
+  const GateCases cases = Cases(3);
+  const GateCases worse =
+      Changed(cases, [](GateCase& one, int) { one.figures[kAte] = 2 * *one.figures[kAte]; });
+  const GateReport report = CompareWithBaseline(BaselineOf(cases), worse, {});
+  EXPECT_FALSE(report.AnyWorse());
+  EXPECT_THAT(report.UndecidedArms(), ::testing::SizeIs(1));
+}
+
+TEST(Gate, BetterIsTheSame) {
+  const GateCases cases = Cases(20);
+  const GateCases better = Changed(cases, [](GateCase& one, int) {
+    one.figures[kAte] = 0.5 * *one.figures[kAte];
+    one.figures[kPrecision] = 1.0;
+  });
+  const GateReport report = CompareWithBaseline(BaselineOf(cases), better, {});
+  EXPECT_FALSE(report.AnyWorse());
+  EXPECT_THAT(report.UndecidedArms(), ::testing::IsEmpty());
+}
+
+TEST(Gate, OneMoreWrongAssociationInEachRunIsWorse) {
+  const GateCases cases = Cases(20);
+  const GateCases worse =
+      Changed(cases, [](GateCase& one, int) { one.figures[kFp] = *one.figures[kFp] + 1; });
+  EXPECT_THAT(Worse(CompareWithBaseline(BaselineOf(cases), worse, {})),
+              ::testing::ElementsAre(kFp));
+}
+
+TEST(Gate, FailuresAreWorseAndNeverDropped) {
+  const GateCases cases = Cases(20);
+  const GateCases one_failed = Changed(cases, [](GateCase& one, int i) {
+    if (i == 3) one = {};
+  });
+  EXPECT_THAT(Worse(CompareWithBaseline(BaselineOf(cases), one_failed, {})),
+              ::testing::ElementsAre("failed cases"));
+  const GateCases half_failed = Changed(cases, [](GateCase& one, int i) {
+    if (i % 2 == 0) one = {};
+  });
+  const GateReport report = CompareWithBaseline(BaselineOf(cases), half_failed, {});
+  EXPECT_THAT(Worse(report), ::testing::Contains(kAte));
+  EXPECT_EQ(report.metrics.front().pairs, 20u);
+}
+
+TEST(Gate, WhatFailedBeforeIsNoHarm) {
+  const GateCases cases = Cases(20);
+  const GateCases failed = Changed(cases, [](GateCase& one, int i) {
+    if (i == 3) one = {};
+  });
+  for (const GateCases& now : {cases, failed}) {
+    EXPECT_FALSE(CompareWithBaseline(BaselineOf(failed), now, {}).AnyWorse());
+  }
+}
+
+TEST(Gate, LostFramesAreCounted) {
+  const GateCases cases = Cases(20);
+  const GateCases lost = Changed(cases, [](GateCase& one, int i) {
+    if (i < 2) one.figures[kTrackedFigure] = 50.0;  // 20 of 1200
+  });
+  EXPECT_THAT(Worse(CompareWithBaseline(BaselineOf(cases), lost, {})),
+              ::testing::ElementsAre("frames without a pose"));
+}
+
+TEST(Gate, AFigureThatIsGoneIsWorse) {
+  const GateCases cases = Cases(20);
+  const GateCases gone =
+      Changed(cases, [](GateCase& one, int) { one.figures[kAte] = std::nullopt; });
+  EXPECT_THAT(Worse(CompareWithBaseline(BaselineOf(cases), gone, {})),
+              ::testing::ElementsAre(kAte));
+}
+
+TEST(Gate, BoundsHoldForEachCaseByItself) {
+  GateCases cases = Cases(20);
+  cases.begin()->second.figures[kPrecision] = 0.5;
+  GateRules rules;
+  rules.worst[kPrecision] = 0.9;
+  const GateReport report = CompareWithBaseline(BaselineOf(cases), cases, rules);
+  EXPECT_THAT(Worse(report),
+              ::testing::ElementsAre(std::string(kPrecision) + " beyond its bound"));
+  EXPECT_THAT(GateTable(report), ::testing::HasSubstr("desk-100/arm"));
+}
+
+TEST(Gate, MoreLooksAskForMoreEvidence) {
+  const GateCases cases = Cases(9);  // 2^-9, times three figures by Holm, is 0.0059
+  const GateCases worse =
+      Changed(cases, [](GateCase& one, int) { one.figures[kAte] = 1.1 * *one.figures[kAte]; });
+  GateRules rules;
+  EXPECT_TRUE(CompareWithBaseline(BaselineOf(cases), worse, rules).AnyWorse());
+  rules.looks = 2;
+  EXPECT_FALSE(CompareWithBaseline(BaselineOf(cases), worse, rules).AnyWorse());
+}
+
+TEST(Gate, TimesAreLeftOutWhenTheRulesSaySo) {
+  GateCases cases = Cases(20);
+  for (auto& [key, one] : cases) one.figures["/time_ratio/da"] = 2.0;
+  const GateCases slower =
+      Changed(cases, [](GateCase& one, int) { one.figures["/time_ratio/da"] = 2.1; });
+  GateRules rules;
+  EXPECT_THAT(Worse(CompareWithBaseline(BaselineOf(cases), slower, rules)),
+              ::testing::ElementsAre("/time_ratio/da"));
+  rules.times = false;
+  EXPECT_FALSE(CompareWithBaseline(BaselineOf(cases), slower, rules).AnyWorse());
+}
+
+TEST(Gate, TimesThatVaryAreToldAndPass) {
+  GateCases cases = Cases(20);
+  for (auto& [key, one] : cases) one.figures["/time_ratio/da"] = 2.0;
+  const GateCases varied = Changed(cases, [](GateCase& one, int i) {
+    one.figures["/time_ratio/da"] = i % 2 == 0 ? 3.0 : 1.5;
+  });
+  const GateReport report = CompareWithBaseline(BaselineOf(cases), varied, {});
+  EXPECT_FALSE(report.AnyWorse());
+  EXPECT_THAT(report.UndecidedArms(), ::testing::IsEmpty());
+  EXPECT_THAT(GateTable(report), ::testing::HasSubstr("undecided times pass"));
+}
+
+TEST(Gate, CasesThatTheBaselineLacksAreTold) {
+  GateCases cases = Cases(20);
+  const Baseline baseline = BaselineOf(cases);
+  cases["new-1/arm"] = cases.begin()->second;
+  EXPECT_EQ(CompareWithBaseline(baseline, cases, {}).unknown_cases, 1u);
+}
+
+}  // namespace
+}  // namespace eval
