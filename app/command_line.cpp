@@ -30,6 +30,13 @@ const CLI::App* Find(const std::vector<const CLI::App*>& commands, const std::st
   return nullptr;
 }
 
+/// Whether a command that has commands of its own can do without them.
+bool TakesArguments(const CLI::App& app) {
+  const std::vector<const CLI::Option*> options = app.get_options();
+  return std::any_of(options.begin(), options.end(),
+                     [](const CLI::Option* option) { return option->get_positional(); });
+}
+
 }  // namespace
 
 std::vector<std::string> ArgumentsOf(int argc, const char* const* argv) {
@@ -65,7 +72,7 @@ void RequireKnownCommands(const CLI::App& app, const std::vector<std::string>& a
       at = command;
       continue;
     }
-    if (at->get_require_subcommand_min() == 0) return;  // it may be an argument
+    if (TakesArguments(*at)) return;
     std::vector<std::string> names;
     std::string known;
     for (const CLI::App* one : commands) {

@@ -33,7 +33,7 @@ eval::GateCases GatedCases(const SuiteFile& suite, const std::vector<SuiteCase>&
     if (!wanted || row == rows.end()) continue;
     const CaseResult& result = row->second.result;
     eval::Figures all = result.figures;
-    all.insert(result.times.begin(), result.times.end());
+    if (suite.gate.times) all.insert(result.times.begin(), result.times.end());
     gated[one.key] = {result.status == CaseStatus::kFinished, eval::FiguresForGate(all)};
   }
   return gated;

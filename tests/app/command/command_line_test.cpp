@@ -61,6 +61,14 @@ TEST_F(KnownCommands, AreSuggestedForOnesThatAreSpeltNearlySo) {
               ThrowsMessage<io::InputError>(HasSubstr("commands here: slam, scene")));
 }
 
+TEST_F(KnownCommands, AreNotAskedOfOneThatTakesArguments) {
+  CLI::App* suite = pas_.add_subcommand("suite");
+  std::string file;
+  suite->add_option("SUITE", file);
+  suite->add_subcommand("merge");
+  EXPECT_NO_THROW(Requiring({"suite", "merged.yaml"})());
+}
+
 TEST_F(KnownCommands, TakeWhateverFollowsThem) {
   EXPECT_NO_THROW(Requiring({"slam", "slams"})());
   EXPECT_NO_THROW(Requiring({"-q", "scene", "make", "x"})());
