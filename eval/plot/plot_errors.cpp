@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <limits>
 
 #include "eval/plot/axes.h"
 #include "eval/plot/plotted_run.h"
@@ -11,22 +10,13 @@ constexpr double kErrorWidth_pt = 280.0, kShareWidth_pt = 150.0, kErrorHeight_pt
 constexpr double kErrorLeft_pt = 44.0, kErrorBelow_pt = 34.0, kErrorEdge_pt = 10.0;
 constexpr double kHeadroom = 1.05;
 
-/// Times since the first pose, millimetres; a lost span is a gap.
+/// Times since the first pose, millimetres.
 std::vector<PlotPoint> ErrorsOver(const PlottedRun& run) {
-  const auto& poses = run.evaluation.trajectory.errors;
-  std::vector<double> stamps_s;
-  for (const PoseError& pose : poses) stamps_s.push_back(pose.stamp_s);
-  const double gap_s = 3.0 * MedianStep(stamps_s);  // two frames were left out
-  std::vector<PlotPoint> points;
-  for (std::size_t i = 0; i < poses.size(); ++i) {
-    if (!poses[i].position_m) continue;
-    const double time_s = stamps_s[i] - stamps_s.front();
-    if (i > 0 && stamps_s[i] - stamps_s[i - 1] > gap_s) {
-      points.push_back({time_s, std::numeric_limits<double>::quiet_NaN()});
-    }
-    points.push_back({time_s, 1e3 * *poses[i].position_m});
-  }
-  return points;
+  return WithGaps(run, [&](const PoseError& pose) -> std::optional<PlotPoint> {
+    if (!pose.position_m) return std::nullopt;
+    const double start_s = run.evaluation.trajectory.errors.front().stamp_s;
+    return PlotPoint{pose.stamp_s - start_s, 1e3 * *pose.position_m};
+  });
 }
 
 /// The share of poses whose error is at most so large, as a staircase.

@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <cmath>
 #include <limits>
 
 #include "eval/plot/axes.h"
@@ -50,20 +49,11 @@ std::vector<PlotPoint> TruePath(const PlottedRun& run) {
   return path;
 }
 
-/// A lost span is a gap.
 std::vector<PlotPoint> EstimatedPath(const PlottedRun& run) {
-  constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
-  const auto& poses = run.evaluation.trajectory.errors;
-  std::vector<double> stamps_s;
-  for (const PoseError& pose : poses) stamps_s.push_back(pose.stamp_s);
-  const double gap_s = 3.0 * MedianStep(stamps_s);  // two frames were left out
-  std::vector<PlotPoint> path;
-  for (std::size_t i = 0; i < poses.size(); ++i) {
-    if (!poses[i].position_g) continue;
-    if (i > 0 && stamps_s[i] - stamps_s[i - 1] > gap_s) path.push_back({kUnknown, kUnknown});
-    path.push_back({poses[i].position_g->x(), poses[i].position_g->y()});
-  }
-  return path;
+  return WithGaps(run, [](const PoseError& pose) -> std::optional<PlotPoint> {
+    if (!pose.position_g) return std::nullopt;
+    return PlotPoint{pose.position_g->x(), pose.position_g->y()};
+  });
 }
 
 }  // namespace

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -26,6 +28,11 @@ std::vector<PlotFile> PlotErrors(const std::vector<PlottedRun>& runs);
 std::vector<PlotFile> PlotSteps(const std::vector<PlottedRun>& runs);
 /// Mean time of each module, a whisker up to the 95th percentile.
 std::vector<PlotFile> PlotTimes(const std::vector<PlottedRun>& runs);
+
+/// A point for each pose of the run that `point_of` gives one, and a gap where the camera was lost.
+std::vector<PlotPoint> WithGaps(
+    const PlottedRun& run,
+    const std::function<std::optional<PlotPoint>(const PoseError&)>& point_of);
 
 /// Names and styles of the runs, for a legend.
 std::vector<LegendEntry> LegendOf(const std::vector<PlottedRun>& runs);

@@ -5,6 +5,7 @@
 #include <numeric>
 #include <random>
 #include <stdexcept>
+#include <utility>
 
 namespace eval {
 namespace {
@@ -130,16 +131,16 @@ double HodgesLehmannShift(std::span<const double> differences) {
 }
 
 std::vector<double> HolmAdjusted(std::span<const double> p_values) {
-  std::vector<std::size_t> order(p_values.size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  std::stable_sort(order.begin(), order.end(),
-                   [&](std::size_t a, std::size_t b) { return p_values[a] < p_values[b]; });
+  std::vector<std::pair<double, std::size_t>> rising;
+  for (std::size_t i = 0; i < p_values.size(); ++i) rising.emplace_back(p_values[i], i);
+  std::sort(rising.begin(), rising.end());
   std::vector<double> adjusted(p_values.size());
   double largest = 0.0;
-  for (std::size_t i = 0; i < order.size(); ++i) {
-    const auto hypotheses_left = static_cast<double>(order.size() - i);
-    largest = std::max(largest, std::min(1.0, hypotheses_left * p_values[order[i]]));
-    adjusted[order[i]] = largest;
+  auto hypotheses_left = static_cast<double>(rising.size());
+  for (const auto& [p, i] : rising) {
+    largest = std::max(largest, std::min(1.0, hypotheses_left * p));
+    adjusted[i] = largest;
+    hypotheses_left -= 1.0;
   }
   return adjusted;
 }
