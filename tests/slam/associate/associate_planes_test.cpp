@@ -243,7 +243,8 @@ TEST(PlaneAssociation, ASmallPieceBeyondAStepIsNotTheLandmarkAlthoughItWasOnceTa
   TearOff(a.second.frame, {100, 0, 60, 120});
   TearOff(a.second.frame, {0, 50, 40, 40});
   const int small = a.second.frame.planes.back().pixel_count;
-  ASSERT_GT(8 * small, a.second.frame.planes[0].pixel_count);  // but a good part of what is left
+  ASSERT_GT(8 * small,
+            a.second.frame.planes[0].pixel_count);  // but a good part of what is left
   const auto matches = AssociatePlanes(a.second.frame, a.map, SmallCamera(), {}).matches;
   EXPECT_NE(matches.back().decision, PlaneDecision::kMatched);
 }
