@@ -54,20 +54,16 @@ void RequireResultsFolder(const fs::path& folder) {
   }
 }
 
-/// The cases whose place in the order leaves the remainder i - 1 when divided by n, for "i/n".
-std::vector<SuiteCase> ShardOf(const std::vector<SuiteCase>& cases, const std::string& shard) {
-  const std::size_t slash = shard.find('/');
-  const auto i = io::ParseNumber(shard.substr(0, slash));
-  const auto n = io::ParseNumber(slash == std::string::npos ? "" : shard.substr(slash + 1));
+/// "I/N", or nothing for all cases.
+SuiteShard ShardOf(const std::string& text) {
+  if (text.empty()) return {};
+  const std::size_t slash = text.find('/');
+  const auto i = io::ParseNumber(text.substr(0, slash));
+  const auto n = io::ParseNumber(slash == std::string::npos ? "" : text.substr(slash + 1));
   if (!i || !n || *i != std::floor(*i) || *n != std::floor(*n) || *i < 1 || *i > *n) {
-    throw io::InputError("--shard " + shard, "expected I/N with I from 1 to N, such as 1/4");
+    throw io::InputError("--shard " + text, "expected I/N with I from 1 to N, such as 1/4");
   }
-  std::vector<SuiteCase> part;
-  for (auto at = static_cast<std::size_t>(*i) - 1; at < cases.size();
-       at += static_cast<std::size_t>(*n)) {
-    part.push_back(cases[at]);
-  }
-  return part;
+  return {static_cast<std::size_t>(*i) - 1, static_cast<std::size_t>(*n)};
 }
 
 /// One call of `pas suite` on a suite file.
@@ -78,6 +74,7 @@ class SuiteCall {
         quiet_(quiet),
         suite_(ReadSuite(arguments.suite)),
         program_(ProgramOf(arguments.program)),
+        shard_(ShardOf(arguments.shard)),
         folder_(fs::absolute(arguments.output)) {}
 
   int Run() {
@@ -88,12 +85,11 @@ class SuiteCall {
     Results results(folder_);
     const bool accepting = !arguments_.accept.empty();
     int seeds = accepting ? suite_.seeds.max_count : suite_.seeds.count;
-    std::vector<SuiteCase> cases = Plan(seeds);
+    std::vector<SuiteCase> cases = Plan(seeds, shard_);
     if (!arguments_.replay.empty()) {
       return ReplayCase(Named(arguments_.replay), program_, folder_, quiet_);
     }
     if (!arguments_.shrink.empty()) return Shrink();
-    if (!arguments_.shard.empty()) cases = ShardOf(cases, arguments_.shard);
     if (!RunAll(cases, results)) return Interrupted();
 
     if (accepting) return Accept(cases, results);
@@ -114,8 +110,8 @@ class SuiteCall {
   }
 
  private:
-  std::vector<SuiteCase> Plan(int seeds) const {
-    return PlanCases(suite_, seeds, arguments_.recordings, program_, folder_);
+  std::vector<SuiteCase> Plan(int seeds, const SuiteShard& shard = {}) const {
+    return PlanCases(suite_, seeds, arguments_.recordings, program_, folder_, shard);
   }
 
   /// @returns false when it was interrupted
@@ -252,6 +248,7 @@ class SuiteCall {
   bool quiet_;
   SuiteFile suite_;
   SuiteProgram program_;
+  SuiteShard shard_;
   fs::path folder_;
   mutable int caught_ = 0;
 };

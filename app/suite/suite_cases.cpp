@@ -3,6 +3,9 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <deque>
+#include <initializer_list>
+#include <map>
 
 #include "io/atomic_file.h"
 #include "io/folder_kind.h"
@@ -22,10 +25,16 @@ namespace fs = std::filesystem;
 
 /// Where the frames of a case come from, with its seed.
 struct Source {
-  std::string label;              ///< SCENE-SEED
+  const SuiteScene* scene = nullptr;
+  fs::path recording;  ///< of a scene of recordings
+  std::string label;   ///< SCENE-SEED
+  std::uint64_t seed = 0;
+};
+
+/// What a case needs of its source: a file in the results folder, for a rendered scene.
+struct Frames {
   std::vector<std::string> slam;  ///< arguments that name it
   std::string sha256;
-  std::uint64_t seed = 0;
 };
 
 /// A file of the suite as the cases find it.
@@ -58,6 +67,15 @@ std::string RecordingHash(const fs::path& folder) {
   return io::Sha256Hex(text);
 }
 
+/// A place in the plan, before anything is made for it.
+struct Place {
+  std::string key;
+  const Source* source;
+  const Input* sensor;  ///< none for a recording
+  std::string motion, variant;
+  const Input* config;
+};
+
 class Planner {
  public:
   Planner(const SuiteFile& suite, fs::path recordings, const SuiteProgram& program,
@@ -67,7 +85,7 @@ class Planner {
         program_(program),
         folder_(std::move(folder)) {}
 
-  std::vector<SuiteCase> Plan(int seeds) {
+  std::vector<SuiteCase> Plan(int seeds, const SuiteShard& shard) {
     for (const SuiteChoice& sensor : suite_.sensors)
       sensors_.push_back(InputOf("sensor", sensor));
     for (const SuiteChoice& config : suite_.configs)
@@ -82,9 +100,14 @@ class Planner {
         }
       }
     }
-    std::sort(cases_.begin(), cases_.end(),
-              [](const SuiteCase& a, const SuiteCase& b) { return a.key < b.key; });
-    return std::move(cases_);
+    std::sort(places_.begin(), places_.end(),
+              [](const Place& a, const Place& b) { return a.key < b.key; });
+    // Scenes are made for the cases of this shard alone: each of many shards makes few.
+    std::vector<SuiteCase> cases;
+    for (std::size_t at = shard.first; at < places_.size(); at += shard.count) {
+      cases.push_back(CaseAt(places_[at]));
+    }
+    return cases;
   }
 
  private:
@@ -96,42 +119,11 @@ class Planner {
     return {choice.name, place, io::Sha256Hex(text), choice.estimator};
   }
 
-  Source SourceOf(const SuiteScene& scene, std::uint64_t seed) const {
-    Source source;
-    source.label = scene.name + "-" + std::to_string(seed);
-    source.seed = seed;
-    std::string place = "scenes/" + source.label + ".yaml";
-    if (scene.source == SuiteScene::Source::kFile) {
-      place = scene.file.string();  // where its meshes are
-      source.sha256 = sim::SceneHash(sim::ReadScene(scene.file));
-    } else {
-      const std::string text =
-          sim::SceneText(scene.source == SuiteScene::Source::kTwin
-                             ? sim::MakeTwin(scene.of, seed)
-                             : sim::MakeScene(scene.of, seed, scene.parameters));
-      WriteOnce(folder_ / place, text);
-      source.sha256 = io::Sha256Hex(text);
-    }
-    source.slam = {"--live", place};
-    const auto add = [&](const char* option, const std::optional<int>& value) {
-      if (value) source.slam.insert(source.slam.end(), {option, std::to_string(*value)});
-    };
-    add("--frames", scene.frames ? scene.frames : suite_.frames);
-    add("--width", suite_.width);
-    add("--height", suite_.height);
-    return source;
-  }
-
   void AddRendered(const SuiteScene& scene, std::uint64_t seed) {
-    const Source source = SourceOf(scene, seed);
+    const Source& source = sources_.emplace_back(
+        Source{&scene, {}, scene.name + "-" + std::to_string(seed), seed});
     for (const Input& sensor : sensors_) {
-      for (const std::string& motion : suite_.motions) {
-        std::vector<std::string> slam = source.slam;
-        slam.insert(slam.end(),
-                    {"--sim-sensor", sensor.argument, "--sensor", sensor.estimator});
-        if (motion != kOwnMotion) slam.insert(slam.end(), {"--motion", motion});
-        AddEstimators(source, sensor.name + "/" + motion, slam, sensor.sha256);
-      }
+      for (const std::string& motion : suite_.motions) AddEstimators(source, &sensor, motion);
     }
   }
 
@@ -145,15 +137,10 @@ class Planner {
       if (!entry.is_directory() || io::KindOf(entry.path()) != io::FolderKind::kSequence)
         continue;
       any = true;
-      Source source;
-      source.label = entry.path().filename().string() + "-" + std::to_string(seed);
-      source.seed = seed;
-      source.sha256 = RecordingHash(entry.path());
-      source.slam = {fs::canonical(entry.path()).string(), "--sensor", scene.sensor};
-      if (!fs::exists(entry.path() / "camera.yaml")) {
-        source.slam.insert(source.slam.end(), {"--camera", scene.camera});
-      }
-      AddEstimators(source, "recorded/" + std::string(kOwnMotion), source.slam, "");
+      const std::string name = entry.path().filename().string();
+      const Source& source = sources_.emplace_back(
+          Source{&scene, entry.path(), name + "-" + std::to_string(seed), seed});
+      AddEstimators(source, nullptr, kOwnMotion);
     }
     if (!any) {
       throw io::InputError(recordings_.string(),
@@ -161,29 +148,83 @@ class Planner {
     }
   }
 
-  void AddEstimators(const Source& source, const std::string& recorded,
-                     const std::vector<std::string>& slam, const std::string& sensor_sha256) {
+  void AddEstimators(const Source& source, const Input* sensor, const std::string& motion) {
+    const std::string recorded = (sensor == nullptr ? "recorded" : sensor->name) + "/" + motion;
     for (const std::string& variant : suite_.variants) {
       for (const Input& config : configs_) {
-        SuiteCase one;
-        one.scene = source.label;
-        one.key = source.label + "/" + recorded + "/" + variant + "/" + config.name;
-        one.seed = source.seed;
-        one.variant = variant;
-        one.scene_sha256 = source.sha256;
-        one.slam = slam;
-        one.slam.insert(one.slam.end(), {"--seed", std::to_string(source.seed), "--variant",
-                                         variant, "--threads", "1", "--save-segmentation"});
-        if (!config.sha256.empty()) {
-          one.slam.insert(one.slam.end(), {"--config", config.argument});
-        }
-        std::string inputs = program_.sha256 + "\n" + source.sha256 + "\n" + sensor_sha256 +
-                             "\n" + config.sha256 + "\n";
-        for (const std::string& argument : one.slam) inputs += argument + "\n";
-        one.inputs_sha256 = io::Sha256Hex(inputs);
-        cases_.push_back(std::move(one));
+        places_.push_back({source.label + "/" + recorded + "/" + variant + "/" + config.name,
+                           &source, sensor, motion, variant, &config});
       }
     }
+  }
+
+  /// The scene of a source in the results folder, made once.
+  const Frames& FramesOf(const Source& source) {
+    const auto found = frames_.find(&source);
+    if (found != frames_.end()) return found->second;
+    return frames_[&source] = source.recording.empty() ? Rendered(source) : Recorded(source);
+  }
+
+  Frames Rendered(const Source& source) const {
+    const SuiteScene& scene = *source.scene;
+    Frames frames;
+    std::string place = "scenes/" + source.label + ".yaml";
+    if (scene.source == SuiteScene::Source::kFile) {
+      place = scene.file.string();  // where its meshes are
+      frames.sha256 = sim::SceneHash(sim::ReadScene(scene.file));
+    } else {
+      const std::string text =
+          sim::SceneText(scene.source == SuiteScene::Source::kTwin
+                             ? sim::MakeTwin(scene.of, source.seed)
+                             : sim::MakeScene(scene.of, source.seed, scene.parameters));
+      WriteOnce(folder_ / place, text);
+      frames.sha256 = io::Sha256Hex(text);
+    }
+    frames.slam = {"--live", place};
+    const auto add = [&](const char* option, const std::optional<int>& value) {
+      if (value) frames.slam.insert(frames.slam.end(), {option, std::to_string(*value)});
+    };
+    add("--frames", scene.frames ? scene.frames : suite_.frames);
+    add("--width", suite_.width);
+    add("--height", suite_.height);
+    return frames;
+  }
+
+  static Frames Recorded(const Source& source) {
+    Frames frames;
+    frames.sha256 = RecordingHash(source.recording);
+    frames.slam = {fs::canonical(source.recording).string(), "--sensor", source.scene->sensor};
+    if (!fs::exists(source.recording / "camera.yaml")) {
+      frames.slam.insert(frames.slam.end(), {"--camera", source.scene->camera});
+    }
+    return frames;
+  }
+
+  SuiteCase CaseAt(const Place& place) {
+    const Frames& frames = FramesOf(*place.source);
+    SuiteCase one;
+    one.scene = place.source->label;
+    one.key = place.key;
+    one.seed = place.source->seed;
+    one.variant = place.variant;
+    one.scene_sha256 = frames.sha256;
+    one.slam = frames.slam;
+    const auto add = [&](std::initializer_list<std::string> arguments) {
+      one.slam.insert(one.slam.end(), arguments);
+    };
+    if (place.sensor != nullptr) {
+      add({"--sim-sensor", place.sensor->argument, "--sensor", place.sensor->estimator});
+      if (place.motion != kOwnMotion) add({"--motion", place.motion});
+    }
+    add({"--seed", std::to_string(one.seed), "--variant", one.variant, "--threads", "1",
+         "--save-segmentation"});
+    if (!place.config->sha256.empty()) add({"--config", place.config->argument});
+    const std::string sensor_sha256 = place.sensor == nullptr ? "" : place.sensor->sha256;
+    std::string inputs = program_.sha256 + "\n" + frames.sha256 + "\n" + sensor_sha256 + "\n" +
+                         place.config->sha256 + "\n";
+    for (const std::string& argument : one.slam) inputs += argument + "\n";
+    one.inputs_sha256 = io::Sha256Hex(inputs);
+    return one;
   }
 
   const SuiteFile& suite_;
@@ -191,7 +232,9 @@ class Planner {
   const SuiteProgram& program_;
   fs::path folder_;
   std::vector<Input> sensors_, configs_;
-  std::vector<SuiteCase> cases_;
+  std::deque<Source> sources_;  ///< the places point to them
+  std::vector<Place> places_;
+  std::map<const Source*, Frames> frames_;
 };
 
 }  // namespace
@@ -207,8 +250,9 @@ SuiteProgram ProgramOf(const fs::path& file) {
 }
 
 std::vector<SuiteCase> PlanCases(const SuiteFile& suite, int seeds, const fs::path& recordings,
-                                 const SuiteProgram& program, const fs::path& folder) {
-  return Planner(suite, recordings, program, folder).Plan(seeds);
+                                 const SuiteProgram& program, const fs::path& folder,
+                                 const SuiteShard& shard) {
+  return Planner(suite, recordings, program, folder).Plan(seeds, shard);
 }
 
 }  // namespace app

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <string>
@@ -32,14 +33,20 @@ struct SuiteProgram {
 /// @throws InputError when it cannot be run
 SuiteProgram ProgramOf(const std::filesystem::path& file);
 
-/// All cases with the first `seeds` seeds of the suite, in the order of their keys. Writes the
-/// scenes and the suite's files into `folder`, below scenes/ and inputs/, so that a case can be
-/// run again from there.
+/// Every `count`th case from `first` on, which is 0 for the first case. By default all cases.
+struct SuiteShard {
+  std::size_t first = 0, count = 1;
+};
+
+/// The cases of a shard with the first `seeds` seeds of the suite, in the order of their keys.
+/// Writes their scenes and the suite's files into `folder`, below scenes/ and inputs/, so that a
+/// case can be run again from there.
 /// @param recordings  folder of recordings; empty when the suite has none
 /// @throws InputError
 std::vector<SuiteCase> PlanCases(const SuiteFile& suite, int seeds,
                                  const std::filesystem::path& recordings,
                                  const SuiteProgram& program,
-                                 const std::filesystem::path& folder);
+                                 const std::filesystem::path& folder,
+                                 const SuiteShard& shard = {});
 
 }  // namespace app

@@ -6,6 +6,7 @@
 
 #include <chrono>
 #include <fstream>
+#include <set>
 #include <thread>
 
 #include "tests/support/program.h"
@@ -209,6 +210,15 @@ TEST_F(SuiteProgram, ShardsMergeToWhatOneRunMakes) {
   EXPECT_EQ(Content("merged"), Content("whole"));
   EXPECT_EQ(Suite("merged").exit_code, 0);
   EXPECT_EQ(Runs("merged"), 0u);
+}
+
+TEST_F(SuiteProgram, AShardMakesTheScenesOfItsOwnCasesAlone) {
+  Suite("part", {"--shard", "2/3"});
+  std::set<std::string> made;
+  for (const fs::directory_entry& scene : fs::directory_iterator(folder_ / "part" / "scenes")) {
+    made.insert(scene.path().stem().string());
+  }
+  EXPECT_THAT(made, ElementsAre("plates-2", "plates-5", "wall-3"));
 }
 
 TEST_F(SuiteProgram, RefusesWhatCannotBe) {
