@@ -209,9 +209,12 @@ bool CameraCheck::See(const Frame& frame) {
 
 std::string CameraCheck::Warning() {
   if (!noticed_) return {};
-  // The latest figures, unless later views have blurred them.
-  const std::optional<CameraEstimate> latest = Estimate();
-  const CameraEstimate& estimate = latest && latest->AnyWrong() ? *latest : *noticed_;
+  // The latest figures. Few views can be wrong together, as when depth is late or bends.
+  const CameraEstimate estimate = Estimate().value_or(*noticed_);
+  if (!estimate.AnyWrong()) {
+    return "the camera file was doubted at frame " + std::to_string(noticed_frame_) +
+           "; views after that do not bear it out";
+  }
   std::string text = "the camera is not what the camera file says: ";
   bool first = true;
   for (std::size_t k = 0; k < 4; ++k) {

@@ -41,7 +41,8 @@ class CameraCheck {
   /// From all pairs kept, iterated; nullopt before there are enough.
   std::optional<CameraEstimate> Estimate();
 
-  /// What is wrong, how much and how to mend it; empty when nothing was found wrong.
+  /// What is wrong, how much and how to mend it, or that later views took it back; empty when
+  /// nothing was found wrong.
   std::string Warning();
 
  private:

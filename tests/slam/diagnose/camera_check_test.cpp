@@ -140,6 +140,24 @@ TEST(CameraCheck, ARollingShutterIsNoWrongCamera) {
   }
 }
 
+TEST(CameraCheck, TakesBackWhatLaterViewsDoNotBearOut) {
+  // First glances that look like another focal length, as depth of a moving camera may make them.
+  CameraCheck check(Camera{}, FeatureScale{});
+  const auto glance = [](double s) { return LookingAround(0.5 * s); };
+  int noticed = 0;
+  for (const Frame& frame : TrackedFrames(16, Wrong({40.0, 40.0, 0, 0}), glance, kNoise, 5)) {
+    noticed += check.See(frame);
+  }
+  EXPECT_EQ(noticed, 1);
+  EXPECT_THAT(check.Warning(), testing::HasSubstr("the camera is not what"));
+  for (Frame frame : TrackedFrames(240, Camera{}, LookingAround, kNoise, 6)) {
+    for (int& id : frame.map_points) id += 1000;  // of another place
+    frame.timestamp_s += 10.0;
+    EXPECT_FALSE(check.See(frame));
+  }
+  EXPECT_THAT(check.Warning(), testing::HasSubstr("do not bear it out"));
+}
+
 TEST(CameraCheck, SaysNothingOfAWrongCameraThatHardlyTurns) {
   const auto hardly = [](double s) {
     return Inverse(Pose{ExpSo3({0.012 * std::sin(2 * s), 0.015 * std::sin(3 * s), 0}),
