@@ -23,7 +23,7 @@ class SequenceImages {
   virtual cv::Mat1f Depth(int i) const = 0;
 };
 
-/// Opens a sequence folder (IndexSequence).
+/// Opens a sequence folder (IndexSequence) or a bag (BagImages).
 /// @throws InputError
 std::unique_ptr<SequenceImages> OpenImages(const std::filesystem::path& sequence,
                                            const Camera& camera);

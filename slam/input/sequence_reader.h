@@ -12,7 +12,7 @@
 
 namespace slam {
 
-/// Reads a sequence folder frame by frame. Truth (groundtruth.txt, gt/) is never
+/// Reads a sequence folder, or a bag, frame by frame. Truth (groundtruth.txt, gt/) is never
 /// opened.
 ///
 /// The next frame is decoded on one background thread while the caller works; what is returned

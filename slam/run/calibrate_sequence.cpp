@@ -88,7 +88,7 @@ WarpLearner LearnFrom(PassOverFrames& pass, const PosesByTime& poses, const Conf
 
 Calibration CalibrateSequence(const CalibrateOptions& options) {
   cv::setNumThreads(1);
-  io::RequireSequence(options.sequence);
+  io::RequireRecording(options.sequence);
   const Camera camera = ChooseCamera(options.camera, options.sequence).camera;
   SequenceReader reader(options.sequence, camera);
   PassOverFrames pass{options, camera, reader};
