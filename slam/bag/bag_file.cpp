@@ -14,8 +14,37 @@
 #include <map>
 #include <mutex>
 #include <optional>
+#include <utility>
 
 #include "io/input_error.h"
+
+namespace slam {
+
+/// A message whose checksum does not count: RealSense's library writes the unit of depth behind
+/// an image, which makes its messages others than ROS' own. What is behind is passed over.
+template <typename Message>
+struct BagMessage {
+  Message message;
+};
+
+}  // namespace slam
+
+namespace ros::message_traits {
+template <typename Message>
+struct MD5Sum<slam::BagMessage<Message>> {
+  static const char* value() { return "*"; }
+};
+}  // namespace ros::message_traits
+
+namespace ros::serialization {
+template <typename Message>
+struct Serializer<slam::BagMessage<Message>> {
+  template <typename Stream>
+  static void read(Stream& stream, slam::BagMessage<Message>& to) {
+    deserialize(stream, to.message);
+  }
+};
+}  // namespace ros::serialization
 
 namespace slam {
 namespace {
@@ -29,18 +58,9 @@ std::optional<BagTopic::Kind> KindOfType(const std::string& type) {
   return std::nullopt;
 }
 
-/// The message of a record. Bytes after it are passed over: RealSense's library writes the unit
-/// of depth behind an image, which makes its messages others than ROS' by their checksums.
 template <typename Message>
 Message Decoded(const rosbag::MessageInstance& record) {
-  std::vector<std::uint8_t> bytes(record.size());
-  const auto size = static_cast<std::uint32_t>(bytes.size());
-  ros::serialization::OStream out(bytes.data(), size);
-  record.write(out);
-  ros::serialization::IStream in(bytes.data(), size);
-  Message message;
-  ros::serialization::deserialize(in, message);
-  return message;
+  return std::move(record.instantiate<BagMessage<Message>>()->message);
 }
 
 /// As the decimal text of the time would be read; Time::toSec may be one unit off.
