@@ -27,6 +27,7 @@ using AddCommand = void (*)(CLI::App& pas, const Globals& globals, int& exit_cod
 /// One per file command_<name>.cpp, listed in main.cpp in the order of the data flow.
 void AddSceneCommand(CLI::App& pas, const Globals& globals, int& exit_code);
 void AddSimCommand(CLI::App& pas, const Globals& globals, int& exit_code);
+void AddImportCommand(CLI::App& pas, const Globals& globals, int& exit_code);
 void AddSlamCommand(CLI::App& pas, const Globals& globals, int& exit_code);
 void AddConfigCommand(CLI::App& pas, const Globals& globals, int& exit_code);
 void AddEvalCommand(CLI::App& pas, const Globals& globals, int& exit_code);

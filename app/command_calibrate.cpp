@@ -73,9 +73,11 @@ void AddCalibrateCommand(CLI::App& pas, const Globals& globals, int& exit_code) 
       "the recording does not show that it does.");
   auto arguments = std::make_shared<CalibrateArguments>();
   slam::CalibrateOptions& options = arguments->options;
-  command->add_option("SEQ", options.sequence, "Sequence folder, or a TUM RGB-D folder")
+  command
+      ->add_option("SEQ", options.sequence,
+                   "Sequence folder, a TUM RGB-D folder, or RECORDING.bag of ROS 1")
       ->required()
-      ->type_name("DIR");
+      ->type_name("DIR|BAG");
   command->add_option("-o,--output", arguments->output, "File to write (YAML)")
       ->required()
       ->type_name("FILE");

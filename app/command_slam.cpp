@@ -101,9 +101,9 @@ int RunSlam(SlamArguments& arguments, bool quiet) {
   slam::RunOptions& options = arguments.options;
   const bool live = !arguments.live_scene.empty();
   if ((options.sequence.empty() && !live) || options.run.empty()) {
-    throw io::InputError(
-        "pas slam",
-        "needs a sequence folder, or --live SCENE.yaml, and -o RUN; see pas slam --help");
+    throw io::InputError("pas slam",
+                         "needs a sequence folder or a bag, or --live SCENE.yaml, and -o RUN; "
+                         "see pas slam --help");
   }
   if (options.force) {
     io::RefuseInputsInside(options.run,
@@ -155,7 +155,8 @@ void AddSlamCommand(CLI::App& pas, const Globals& globals, int& exit_code) {
   auto arguments = std::make_shared<SlamArguments>();
   slam::RunOptions& options = arguments->options;
   CLI::Option* sequence =
-      command->add_option("SEQ", options.sequence, "Sequence folder, or a TUM RGB-D folder");
+      command->add_option("SEQ", options.sequence,
+                          "Sequence folder, a TUM RGB-D folder, or RECORDING.bag of ROS 1");
   command->add_option("-o,--output", options.run, "Run folder to write");
   command
       ->add_option("--variant", arguments->variant,
@@ -174,7 +175,8 @@ void AddSlamCommand(CLI::App& pas, const Globals& globals, int& exit_code) {
   CLI::Option* camera =
       command->add_option("--camera", options.camera,
                           "tum1 | tum2 | tum3 | a camera.yaml, or settings of ORB-SLAM2, "
-                          "ORB-SLAM3, OpenCV or ROS; default: SEQ/camera.yaml");
+                          "ORB-SLAM3, OpenCV or ROS; default: SEQ/camera.yaml, or "
+                          "the CameraInfo of a bag");
   AddSensorOption(*command, arguments->sensor);
   AddSegmentationOption(*command, arguments->segmentation);
   command->add_option("--config", arguments->config_file,

@@ -52,7 +52,7 @@ int TrainWords(const VocabularyArguments& arguments, bool quiet) {
                                             arguments.sequences.end());
   if (!arguments.camera.empty()) inputs.emplace_back(arguments.camera);
   const io::OutputFile output(arguments.output, {.force = arguments.force, .inputs = inputs});
-  for (const std::string& sequence : arguments.sequences) io::RequireSequence(sequence);
+  for (const std::string& sequence : arguments.sequences) io::RequireRecording(sequence);
   cv::setNumThreads(1);
   const auto images = Describe(arguments, quiet);
   std::size_t descriptors = 0;

@@ -22,6 +22,7 @@ constexpr const char* kFlow =
     "\n"
     "  pas scene  make, list or show a tabletop scene with known planes\n"
     "  pas sim    render it: RGB-D frames, detections, exact truth        -> SEQ\n"
+    "  pas import a bag of ROS 1 as a folder                              -> SEQ\n"
     "  pas slam   track the camera and map the planes; never reads truth  -> RUN\n"
     "  pas config print every setting of pas slam, as a file for --config\n"
     "  pas calibrate  how a SEQ's depth camera bends what is flat         -> YAML\n"
@@ -42,6 +43,7 @@ constexpr const char* kFlow =
 constexpr app::AddCommand kCommands[] = {
     app::AddSceneCommand,       //
     app::AddSimCommand,         //
+    app::AddImportCommand,      //
     app::AddSlamCommand,        //
     app::AddConfigCommand,      //
     app::AddVocabularyCommand,  //

@@ -90,6 +90,14 @@ std::string Said(FolderKind kind) {
   return "is a folder of another kind";
 }
 
+/// The first bag of ROS 1 in a folder; empty when there is none, as beside bags of ROS 2.
+std::string BagInside(const fs::path& folder) {
+  for (const std::string& name : NamesIn(folder)) {
+    if (IsBagFile(folder / name)) return (folder / name).string();
+  }
+  return "";
+}
+
 std::string Mend(const fs::path& folder, FolderKind found, FolderKind expected) {
   const std::string name = folder.string();
   switch (found) {
@@ -103,6 +111,13 @@ std::string Mend(const fs::path& folder, FolderKind found, FolderKind expected) 
     case FolderKind::kRun:
       return "`pas eval " + name + "` scores it, `pas draw " + name + " -o PICTURES` draws it";
     case FolderKind::kRosBag:
+      if (IsBagFile(folder)) {
+        return "make a folder of it with `pas import " + name + " -o SEQ`";
+      }
+      if (const std::string bag = BagInside(folder); !bag.empty()) {
+        return "did you mean " + bag + "?";
+      }
+      [[fallthrough]];
     case FolderKind::kScanNet:
     case FolderKind::kSevenScenes:
     case FolderKind::kIclNuim:
@@ -167,12 +182,20 @@ WrongFolder Unexpected(const fs::path& folder, FolderKind found, FolderKind expe
   return wrong;
 }
 
+bool IsBagFile(const fs::path& path) {
+  return path.extension() == ".bag" && TypeAt(path) == fs::file_type::regular;
+}
+
 void RequireSequence(const fs::path& folder) {
   Require(folder, FolderKind::kSequence, {"rgb.txt", "associations.txt"});
 }
 
 void RequireRun(const fs::path& folder) {
   Require(folder, FolderKind::kRun, {"trajectory.txt"});
+}
+
+void RequireRecording(const fs::path& recording) {
+  if (!IsBagFile(recording)) RequireSequence(recording);
 }
 
 }  // namespace io

@@ -33,8 +33,13 @@ struct WrongFolder {
 WrongFolder Unexpected(const std::filesystem::path& folder, FolderKind found,
                        FolderKind expected);
 
+/// Whether it is the file of a bag of ROS 1: FILE.bag.
+bool IsBagFile(const std::filesystem::path& path);
+
 /// @throws InputError that says what the folder is instead, see Unexpected
 void RequireSequence(const std::filesystem::path& folder);
 void RequireRun(const std::filesystem::path& folder);
+/// A sequence, or the file of a bag.
+void RequireRecording(const std::filesystem::path& recording);
 
 }  // namespace io

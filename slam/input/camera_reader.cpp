@@ -2,8 +2,10 @@
 
 #include <algorithm>
 
+#include "io/folder_kind.h"
 #include "io/input_error.h"
 #include "io/path_type.h"
+#include "slam/input/bag_camera.h"
 #include "slam/input/camera_keys.h"
 
 namespace slam {
@@ -72,6 +74,7 @@ CameraFile ReadCamera(const std::filesystem::path& file) {
 
 CameraFile ChooseCamera(const std::string& choice, const std::filesystem::path& sequence) {
   if (choice.empty()) {
+    if (io::IsBagFile(sequence)) return {CameraOfBag(sequence), {}};
     const auto file = sequence / "camera.yaml";
     if (!io::Exists(file))
       throw io::InputError(

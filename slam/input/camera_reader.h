@@ -25,8 +25,9 @@ struct CameraFile {
 ///   pinhole, and an unknown key of a camera.yaml.
 CameraFile ReadCamera(const std::filesystem::path& file);
 
-/// The camera of a run: `choice` is tum1, tum2, tum3, a file, or empty for SEQ/camera.yaml.
-/// @throws InputError; without camera.yaml it says to pass --camera.
+/// The camera of a run: `choice` is tum1, tum2, tum3, a file, or empty for SEQ/camera.yaml, or
+/// the CameraInfo of a bag.
+/// @throws InputError; without either it says to pass --camera.
 CameraFile ChooseCamera(const std::string& choice, const std::filesystem::path& sequence);
 
 }  // namespace slam

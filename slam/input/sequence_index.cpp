@@ -2,26 +2,20 @@
 
 #include <algorithm>
 #include <cmath>
-#include <tuple>
+#include <utility>
 
 #include "io/folder_kind.h"
 #include "io/input_error.h"
 #include "io/number_text.h"
 #include "io/path_type.h"
 #include "io/text_table.h"
+#include "slam/input/pair_images.h"
 
 namespace slam {
 namespace {
 
-constexpr double kMaxPairing_s = 0.02;     // TUM's associate.py
 constexpr double kStampRoundOff_s = 1e-6;  // lists print six decimals
 constexpr double kMaxStamp_s = 1e11;  // the year 5138; milliseconds since 1970 are above it
-
-/// One image of rgb.txt or depth.txt.
-struct Stamped {
-  double t = 0;
-  std::string file, source;
-};
 
 std::vector<io::TextRecord> ReadImages(const std::filesystem::path& file,
                                        const std::string& form) {
@@ -86,8 +80,8 @@ std::vector<SequenceEntry> ReadAssociations(const std::filesystem::path& file) {
   return entries;
 }
 
-std::vector<Stamped> ReadList(const std::filesystem::path& file) {
-  std::vector<Stamped> images;
+std::vector<StampedImage> ReadList(const std::filesystem::path& file) {
+  std::vector<StampedImage> images;
   StampOrder order;
   for (const io::TextRecord& r : ReadImages(file, "timestamp file")) {
     images.push_back({StampOf(r, 0), FileOf(r, 1), SourceOf(r)});
@@ -96,86 +90,17 @@ std::vector<Stamped> ReadList(const std::filesystem::path& file) {
   return images;
 }
 
-/// Warnings that are counted: what, how often, and where first.
-class Counted {
- public:
-  void Add(const std::string& source) {
-    if (count_++ == 0) first_ = source;
-  }
-  int count() const { return count_; }
-  const std::string& first() const { return first_; }
-
- private:
-  int count_ = 0;
-  std::string first_;
-};
-
 /// "12 of 300 lines of associations.txt (first associations.txt:7)".
 std::string LinesText(const Counted& lines, std::size_t all) {
   return std::to_string(lines.count()) + " of " + std::to_string(all) +
          " lines of associations.txt (first " + lines.first() + ")";
 }
 
-/// What the colour and depth images without a partner come to; empty when there are none.
-std::vector<std::string> LeftOut(const std::vector<Stamped>& images, const Counted& rgb,
-                                 const std::vector<Stamped>& depth_images,
-                                 const Counted& depth) {
-  if (rgb.count() + depth.count() == 0) return {};
-  const auto share = [](const Counted& some, std::size_t all, const char* what) {
-    return std::to_string(some.count()) + " of " + std::to_string(all) + what +
-           (some.count() > 0 ? " (first " + some.first() + ")" : "");
-  };
-  return {"left out, for nothing of the other kind is within 20 ms: " +
-          share(rgb, images.size(), " colour images") + " and " +
-          share(depth, depth_images.size(), " depth images")};
-}
-
-/// Pairs colour and depth as TUM's associate.py does: one to one, nearest pairs first.
-SequenceIndex Pair(const std::vector<Stamped>& rgb, const std::vector<Stamped>& depth) {
-  // All pairs within the limit: time between them, colour, depth.
-  std::vector<std::tuple<double, std::size_t, std::size_t>> candidates;
-  for (std::size_t i = 0; i < rgb.size(); ++i) {
-    auto it = std::lower_bound(depth.begin(), depth.end(), rgb[i].t - kMaxPairing_s,
-                               [](const Stamped& d, double t) { return d.t < t; });
-    for (; it != depth.end() && it->t < rgb[i].t + kMaxPairing_s; ++it) {
-      const double dt = std::abs(it->t - rgb[i].t);
-      if (!(dt < kMaxPairing_s)) continue;
-      candidates.emplace_back(dt, i, static_cast<std::size_t>(it - depth.begin()));
-    }
-  }
-  // The nearest pairs first, each image once.
-  std::sort(candidates.begin(), candidates.end());
-  constexpr std::size_t kFree = static_cast<std::size_t>(-1);
-  std::vector<std::size_t> depth_of(rgb.size(), kFree);
-  std::vector<bool> taken(depth.size(), false);
-  for (const auto& [dt, i, j] : candidates) {
-    if (depth_of[i] != kFree || taken[j]) continue;
-    depth_of[i] = j;
-    taken[j] = true;
-  }
-  // Frames in the order of the colour images; what is left over is counted.
-  SequenceIndex index;
-  Counted lone_rgb, lone_depth;
-  for (std::size_t i = 0; i < rgb.size(); ++i) {
-    if (depth_of[i] == kFree) {
-      lone_rgb.Add(rgb[i].source);
-      continue;
-    }
-    const Stamped& d = depth[depth_of[i]];
-    index.entries.push_back({rgb[i].t, d.t, rgb[i].file, d.file, rgb[i].source});
-  }
-  for (std::size_t j = 0; j < depth.size(); ++j) {
-    if (!taken[j]) lone_depth.Add(depth[j].source);
-  }
-  index.warnings = LeftOut(rgb, lone_rgb, depth, lone_depth);
-  return index;
-}
-
 /// Whether a list that is there has the image under that time.
-bool Lists(const std::vector<Stamped>& list, double t, const std::string& file) {
+bool Lists(const std::vector<StampedImage>& list, double t, const std::string& file) {
   if (list.empty()) return true;
   const auto it = std::lower_bound(list.begin(), list.end(), t - kStampRoundOff_s,
-                                   [](const Stamped& s, double x) { return s.t < x; });
+                                   [](const StampedImage& s, double x) { return s.t < x; });
   return it != list.end() && it->t <= t + kStampRoundOff_s && it->file == file;
 }
 
@@ -183,9 +108,10 @@ bool Lists(const std::vector<Stamped>& list, double t, const std::string& file) 
 std::vector<std::string> Oddities(const std::filesystem::path& sequence,
                                   const std::vector<SequenceEntry>& entries) {
   const auto list = [&](const char* name) {
-    return io::Exists(sequence / name) ? ReadList(sequence / name) : std::vector<Stamped>{};
+    return io::Exists(sequence / name) ? ReadList(sequence / name)
+                                       : std::vector<StampedImage>{};
   };
-  const std::vector<Stamped> rgb = list("rgb.txt"), depth = list("depth.txt");
+  const std::vector<StampedImage> rgb = list("rgb.txt"), depth = list("depth.txt");
   Counted apart, unlisted;
   double worst_s = 0;
   for (const SequenceEntry& e : entries) {
@@ -218,8 +144,13 @@ SequenceIndex IndexSequence(const std::filesystem::path& sequence) {
     index.warnings = Oddities(sequence, index.entries);
     return index;
   }
-  const std::vector<Stamped> rgb = ReadList(sequence / "rgb.txt");
-  SequenceIndex index = Pair(rgb, ReadList(sequence / "depth.txt"));
+  const std::vector<StampedImage> rgb = ReadList(sequence / "rgb.txt");
+  const std::vector<StampedImage> depth = ReadList(sequence / "depth.txt");
+  ImagePairs made = PairImages(rgb, depth);
+  SequenceIndex index{{}, std::move(made.warnings)};
+  for (const auto& [i, j] : made.pairs) {
+    index.entries.push_back({rgb[i].t, depth[j].t, rgb[i].file, depth[j].file, rgb[i].source});
+  }
   if (index.entries.empty())
     throw io::InputError(
         sequence.string(),

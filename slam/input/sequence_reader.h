@@ -2,15 +2,18 @@
 
 #include <filesystem>
 #include <future>
+#include <memory>
 #include <string>
+#include <vector>
 
 #include "slam/geometry/camera.h"
 #include "slam/input/frame_source.h"
-#include "slam/input/sequence_index.h"
+#include "slam/input/sequence_images.h"
 
 namespace slam {
 
-/// Reads a sequence folder frame by frame. Truth (groundtruth.txt, gt/) is never opened.
+/// Reads a sequence folder, or a bag, frame by frame. Truth (groundtruth.txt, gt/) is never
+/// opened.
 ///
 /// The next frame is decoded on one background thread while the caller works; what is returned
 /// does not depend on it. One caller at a time.
@@ -21,28 +24,25 @@ class SequenceReader : public FrameSource {
   };
 
   /// Lists the frames and checks that every image file is there and not empty.
-  /// @throws InputError, see IndexSequence.
-  SequenceReader(std::filesystem::path sequence, const Camera& camera, Options options);
-  SequenceReader(std::filesystem::path sequence, const Camera& camera)
-      : SequenceReader(std::move(sequence), camera, Options{}) {}
+  /// @throws InputError, see OpenImages.
+  SequenceReader(const std::filesystem::path& sequence, const Camera& camera, Options options);
+  SequenceReader(const std::filesystem::path& sequence, const Camera& camera)
+      : SequenceReader(sequence, camera, Options{}) {}
 
-  int size() const override { return static_cast<int>(index_.entries.size()); }
+  int size() const override { return static_cast<int>(images_->index().entries.size()); }
   const SequenceEntry& entry(int i) const;
-  /// What is not used or looks wrong: of IndexSequence and ManifestState.
-  const std::vector<std::string>& warnings() const { return index_.warnings; }
+  /// What is not used or looks wrong, known before the first frame.
+  const std::vector<std::string>& warnings() const { return images_->index().warnings; }
 
   /// Frame i of [0, size()).
-  /// @throws InputError naming file and frame for an image that is missing, damaged, or of
-  ///   another size or type.
+  /// @throws InputError, see SequenceImages
   RecordedFrame Read(int i) override;
 
  private:
   RecordedFrame Decode(int i) const;
 
-  std::filesystem::path sequence_;
-  Camera camera_;
   Options options_;
-  SequenceIndex index_;
+  std::unique_ptr<SequenceImages> images_;
   int ahead_index_ = -1;
   /// Last: its thread must end before the rest is destroyed.
   std::future<RecordedFrame> ahead_;

@@ -23,13 +23,13 @@ using PosesByTime = std::map<double, Pose>;
 struct PassOverFrames {
   const CalibrateOptions& options;
   const Camera& camera;
+  SequenceReader& reader;
   int total = 0;   ///< frames
   int before = 0;  ///< frames of the passes before
   bool stopped = false;
 
   template <typename Take>
   void Run(const Take& take) {
-    SequenceReader reader(options.sequence, camera);
     FrameGate gate(camera);
     for (int i = 0; i < total && !stopped; ++i) {
       RecordedFrame recorded = reader.Read(i);
@@ -88,11 +88,11 @@ WarpLearner LearnFrom(PassOverFrames& pass, const PosesByTime& poses, const Conf
 
 Calibration CalibrateSequence(const CalibrateOptions& options) {
   cv::setNumThreads(1);
-  io::RequireSequence(options.sequence);
+  io::RequireRecording(options.sequence);
   const Camera camera = ChooseCamera(options.camera, options.sequence).camera;
-  const int size = SequenceReader(options.sequence, camera, {.prefetch = false}).size();
-  PassOverFrames pass{options, camera};
-  pass.total = options.frames > 0 ? std::min(options.frames, size) : size;
+  SequenceReader reader(options.sequence, camera);
+  PassOverFrames pass{options, camera, reader};
+  pass.total = options.frames > 0 ? std::min(options.frames, reader.size()) : reader.size();
 
   Calibration calibration;
   const PosesByTime poses = TrackAll(pass, options.config);

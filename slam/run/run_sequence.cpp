@@ -247,7 +247,7 @@ Variant VariantOf(const std::string& name) {
 }
 
 RunOutcome RunSequence(const RunOptions& options) {
-  io::RequireSequence(options.sequence);
+  io::RequireRecording(options.sequence);
   CameraFile camera_file = ChooseCamera(options.camera, options.sequence);
   const Camera& camera = camera_file.camera;
   SequenceReader reader(options.sequence, camera, {.prefetch = ThreadsOf(options) > 1});

@@ -54,8 +54,18 @@ TEST_F(FolderKinds, ThatAreWrongAreNamedWithTheCommandThatTakesThem) {
               Refused("seq: is a sequence, expected a run folder", "pas slam " + seq.string()));
   EXPECT_THAT([&] { RequireSequence(run); },
               Refused("run: is a run of `pas slam`, expected a sequence folder", "pas eval"));
-  EXPECT_THAT([&] { RequireSequence(With("ros", {"a.bag"})); },
-              Refused("is a ROS bag", "convert it to TUM's format"));
+  EXPECT_THAT(
+      [&] {
+        RequireSequence(With("ros2", {"a_0.db3", "metadata.yaml"}));
+      },
+      Refused("is a ROS bag", "convert it to TUM's format"));
+  const fs::path bags = With("ros", {"a.bag"});
+  EXPECT_THAT([&] { RequireRecording(bags); },
+              Refused("ros: is a ROS bag", "did you mean " + (bags / "a.bag").string()));
+  EXPECT_THAT([&] { RequireSequence(bags / "a.bag"); },
+              Refused("a.bag: is a ROS bag", "pas import"));
+  EXPECT_NO_THROW(RequireRecording(bags / "a.bag"));
+  EXPECT_NO_THROW(RequireRecording(seq));
   EXPECT_THAT([&] { RequireSequence(folder_ / "none"); }, Refused("none: no such folder", ""));
   EXPECT_NO_THROW(RequireSequence(seq));
   EXPECT_NO_THROW(RequireRun(run));

@@ -1,0 +1,19 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "io/input_error.h"
+#include "slam/bag/bag_file.h"
+
+namespace slam {
+namespace {
+
+TEST(BagFile, IsRefusedWithThePackagesToInstallWhereItCannotBeRead) {
+  if (ReadsBags()) GTEST_SKIP() << "this program reads bags";
+  EXPECT_THAT([] { BagFile("desk.bag"); },
+              ::testing::ThrowsMessage<io::InputError>(
+                  ::testing::AllOf(::testing::HasSubstr("desk.bag: is a ROS bag"),
+                                   ::testing::HasSubstr("librosbag-storage-dev"))));
+}
+
+}  // namespace
+}  // namespace slam

@@ -1,0 +1,65 @@
+#include "slam/input/depth_registration.h"
+
+#include <gtest/gtest.h>
+
+namespace slam {
+namespace {
+
+Camera SmallView(int width, int height, double f) {
+  Camera camera;
+  camera.width = width, camera.height = height;
+  camera.fx = camera.fy = f;
+  camera.cx = (width - 1) / 2.0, camera.cy = (height - 1) / 2.0;
+  return camera;
+}
+
+TEST(DepthRegistration, OfTheSameViewChangesNothing) {
+  const Camera camera = SmallView(32, 24, 30);
+  cv::Mat1f depth_m(24, 32);
+  for (int i = 0; i < 24 * 32; ++i)
+    depth_m(i / 32, i % 32) = i % 5 == 0 ? 0 : 0.5f + 0.01f * float(i);
+  const cv::Mat1f laid = DepthRegistration(camera, camera, {}).Register(depth_m);
+  EXPECT_EQ(cv::norm(laid, depth_m, cv::NORM_INF), 0);
+}
+
+TEST(DepthRegistration, OfAWallIsThatWallWithoutHolesInAFinerImage) {
+  // A wall that both cameras see at a slant: n . x = 1 in the depth camera.
+  const Camera depth = SmallView(64, 48, 60), colour = SmallView(200, 150, 180);
+  const Eigen::Vector3d n(0.2, -0.1, 0.6);
+  Pose T_cd{ExpSo3({0.01, -0.02, 0.03}), {0.015, 0.002, -0.001}};
+  cv::Mat1f depth_m(depth.height, depth.width);
+  for (int v = 0; v < depth.height; ++v) {
+    for (int u = 0; u < depth.width; ++u) {
+      depth_m(v, u) =
+          static_cast<float>(1 / n.dot(depth.Backproject(Eigen::Vector2d(u, v), 1)));
+    }
+  }
+  const cv::Mat1f laid = DepthRegistration(depth, colour, T_cd).Register(depth_m);
+  const Eigen::Vector3d n_c = T_cd.R * n;
+  const double d_c = 1 + n_c.dot(T_cd.t);
+  for (int v = 20; v < 130; ++v) {
+    for (int u = 20; u < 180; ++u) {
+      const double z_m = d_c / n_c.dot(colour.Backproject(Eigen::Vector2d(u, v), 1));
+      // A step of depth is a pixel of the coarser camera.
+      EXPECT_NEAR(laid(v, u), z_m, 0.02 * z_m) << u << ' ' << v;
+    }
+  }
+}
+
+TEST(DepthRegistration, KeepsTheNearerOfTwoSurfaces) {
+  // A strip at 0.5 m before a wall at 2 m; the colour camera is 10 cm to the right.
+  const Camera camera = SmallView(64, 48, 60);
+  cv::Mat1f depth_m(48, 64, 2.0f);
+  depth_m.colRange(30, 40) = 0.5f;
+  Pose T_cd;
+  T_cd.t = {-0.1, 0, 0};
+  const cv::Mat1f laid = DepthRegistration(camera, camera, T_cd).Register(depth_m);
+  // The strip moves by 12 pixels, the wall by 3; where the strip hid the wall there is nothing.
+  for (int u = 0; u < 59; ++u) {
+    const float expected = u >= 18 && u < 28 ? 0.5f : u >= 28 && u < 37 ? 0.0f : 2.0f;
+    EXPECT_EQ(laid(24, u), expected) << u;
+  }
+}
+
+}  // namespace
+}  // namespace slam
