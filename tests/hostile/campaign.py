@@ -38,7 +38,7 @@ SEQUENCE = {"rgb.txt": "list", "depth.txt": "list", "associations.txt": "list", 
 RUN = {"run.json": "json", "trajectory.txt": "list", "keyframes.txt": "list", "frame_planes.jsonl": "jsonl",
        "map.json": "json", "timing.csv": "csv", "segmentation/*.png": "ids", "map.ply": "text"}
 SCENES = {"scene.yaml": "yaml", "sensor.yaml": "yaml", "path.txt": "list", "config.yaml": "yaml",
-          "slam_camera.yaml": "yaml", "poses.csv": "csv"}
+          "slam_camera.yaml": "yaml", "poses.csv": "csv", "warp.yaml": "yaml"}
 
 Command = collections.namedtuple("Command", "name arguments reads")
 # What is run, below a folder of inputs, and the files that it reads. `out` is what it writes.
@@ -49,6 +49,7 @@ COMMANDS = (
     Command("slam --live", "slam --live scene.yaml -o out --frames 2 --width 160 --height 120 --config config.yaml",
             ["scene.yaml", "config.yaml"]),
     Command("slam", "slam seq -o out --camera slam_camera.yaml", ["slam_camera.yaml"]),
+    Command("slam --depth-warp", "slam seq -o out --depth-warp warp.yaml", ["warp.yaml"]),
     Command("slam", "slam seq -o out", ["seq/" + f for f in SEQUENCE if not f.startswith("gt/")]),
     Command("eval", "eval run --truth seq -o out", ["seq/" + f for f in SEQUENCE] + ["run/" + f for f in RUN]),
     Command("eval --trajectory", "eval --trajectory run/trajectory.txt --truth seq/groundtruth.txt -o out",
@@ -84,7 +85,16 @@ def make_corpus(pas, folder):
     (folder / "path.txt").write_text("\n".join(lines[:4]) + "\n")
     (folder / "config.yaml").write_text("sensor:\n  model: kinect1\n  max_depth_m: 3.5\n")
     (folder / "poses.csv").write_text("".join(map(euroc_line, (folder / "run/trajectory.txt").read_text().splitlines())))
+    (folder / "warp.yaml").write_text(warp_text(16, 12))
     (folder / "slam_camera.yaml").write_text((folder / "seq/camera.yaml").read_text())
+
+
+def warp_text(cols, rows):
+    """A pattern of a depth camera of 320 x 240: a wave across the image."""
+    def table(value):
+        return "".join(f"  - [{', '.join(str(value(x)) for x in range(cols))}]\n" for _ in range(rows))
+    return (f"format: pas-depth-warp/1\nimage: {{width: 320, height: 240}}\ncells: {{cols: {cols}, rows: {rows}}}\n"
+            f"pattern_ppm:\n{table(lambda x: 300 * (x % 4))}sigma_ppm:\n{table(lambda x: 100)}")
 
 
 def euroc_line(line):
