@@ -7,7 +7,7 @@
 
 #include "app/app.h"
 #include "app/console.h"
-#include "app/eval_modes.h"
+#include "app/eval/eval_modes.h"
 #include "eval/formats/run.h"
 #include "eval/formats/sequence.h"
 #include "eval/report/evaluate.h"

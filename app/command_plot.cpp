@@ -5,7 +5,7 @@
 #include <memory>
 
 #include "app/app.h"
-#include "app/eval_modes.h"
+#include "app/eval/eval_modes.h"
 #include "eval/plot/plotted_run.h"
 #include "io/input_error.h"
 #include "io/output_file.h"

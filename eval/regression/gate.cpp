@@ -214,6 +214,15 @@ std::vector<std::string> GateReport::UndecidedArms() const {
   return {arms.begin(), arms.end()};
 }
 
+std::vector<std::string> GateReport::ArmsWithWorseTimes() const {
+  std::set<std::string> arms;
+  for (const MetricVerdict& found : metrics) {
+    const bool time = found.metric.kind == MetricKind::kTime;
+    if (time && found.verdict == Verdict::kWorse) arms.insert(found.arm);
+  }
+  return {arms.begin(), arms.end()};
+}
+
 GateReport CompareWithBaseline(const Baseline& baseline, const GateCases& candidate,
                                const GateRules& rules) {
   return Comparison(baseline, candidate, rules).Report();

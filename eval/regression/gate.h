@@ -53,6 +53,7 @@ struct GateReport {
   /// Arms with a figure that is undecided; times left out, which more seeds do not mend on a
   /// machine that has other work.
   std::vector<std::string> UndecidedArms() const;
+  std::vector<std::string> ArmsWithWorseTimes() const;
 };
 
 /// Compares cases with the baseline's, paired by key (docs/suites.md tells the rule). A case that

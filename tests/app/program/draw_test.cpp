@@ -2,8 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "tests/eval/check/small_run.h"
-#include "tests/support/program.h"
+#include "tests/app/program/small_run_test.h"
 
 namespace program {
 namespace {
@@ -11,22 +10,9 @@ namespace {
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-class DrawProgram : public ::testing::Test {
+class DrawProgram : public SmallRunTest {
  protected:
-  DrawProgram() {
-    namespace world = eval::small_world;
-    const world::World made = world::MakeWorld();
-    world::WriteSequence(folder_ / "seq", made);
-    world::RunOptions options;
-    options.sequence = (folder_ / "seq").string();
-    world::WriteRun(folder_ / "run", made, options);
-  }
-  Outcome Draw() const {
-    return Process({Pas().string(), "draw", (folder_ / "run").string(), "-o",
-                    (folder_ / "pictures").string()},
-                   {}, folder_ / "errors")
-        .Wait();
-  }
+  Outcome Draw() const { return Do({"draw", folder_ / "run", "-o", folder_ / "pictures"}); }
   void ExpectRefusedWith(const std::string& where) const {
     const Outcome outcome = Draw();
     EXPECT_EQ(outcome.exit_code, 2);
@@ -45,7 +31,6 @@ class DrawProgram : public ::testing::Test {
     }
     return *std::min_element(images.begin(), images.end());
   }
-  TemporaryFolder folder_;
 };
 
 TEST_F(DrawProgram, DrawsAWholeRun) {

@@ -3,8 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "tests/eval/check/small_run.h"
-#include "tests/support/program.h"
+#include "tests/app/program/small_run_test.h"
 
 namespace program {
 namespace {
@@ -12,21 +11,12 @@ namespace {
 using ::testing::HasSubstr;
 using ::testing::StartsWith;
 
-class EvalRunProgram : public ::testing::Test {
+class EvalRunProgram : public SmallRunTest {
  protected:
-  EvalRunProgram() {
-    namespace world = eval::small_world;
-    const world::World made = world::MakeWorld();
-    world::WriteSequence(folder_ / "seq", made);
-    world::RunOptions options;
-    options.sequence = (folder_ / "seq").string();
-    world::WriteRun(folder_ / "run", made, options);
-  }
   Outcome Eval(std::vector<std::string> arguments) const {
-    arguments.insert(arguments.begin(), {Pas(), "eval"});
-    return Process(arguments, {}, folder_ / "errors").Wait();
+    arguments.insert(arguments.begin(), "eval");
+    return Do(arguments);
   }
-  TemporaryFolder folder_;
 };
 
 TEST_F(EvalRunProgram, WritesEventsAndFramesBesideTheFigures) {

@@ -2,31 +2,20 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "tests/eval/check/small_run.h"
-#include "tests/support/program.h"
+#include "tests/app/program/small_run_test.h"
 
 namespace program {
 namespace {
 
 using ::testing::HasSubstr;
 
-class PlotProgram : public ::testing::Test {
+class PlotProgram : public SmallRunTest {
  protected:
-  PlotProgram() {
-    namespace world = eval::small_world;
-    const world::World made = world::MakeWorld();
-    world::WriteSequence(folder_ / "seq", made);
-    world::RunOptions options;
-    options.sequence = (folder_ / "seq").string();
-    world::WriteRun(folder_ / "run", made, options);
-    world::WriteRun(folder_ / "run2", made, options);
-  }
   Outcome Plot(std::vector<std::string> more) const {
-    std::vector<std::string> arguments = {Pas(), "plot", folder_ / "run", folder_ / "run2"};
+    std::vector<std::string> arguments = {"plot", folder_ / "run", folder_ / "run"};
     arguments.insert(arguments.end(), more.begin(), more.end());
-    return Process(arguments, {}, folder_ / "errors").Wait();
+    return Do(arguments);
   }
-  TemporaryFolder folder_;
 };
 
 TEST_F(PlotProgram, WritesEachPlotInThreeFormsWithACaption) {

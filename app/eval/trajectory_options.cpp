@@ -1,4 +1,4 @@
-#include "app/trajectory_options.h"
+#include "app/eval/trajectory_options.h"
 
 #include <cmath>
 #include <map>

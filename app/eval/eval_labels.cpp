@@ -1,7 +1,7 @@
 #include <cstdio>
 #include <optional>
 
-#include "app/eval_modes.h"
+#include "app/eval/eval_modes.h"
 #include "eval/report/metrics_json.h"
 #include "eval/report/table.h"
 #include "io/input_error.h"

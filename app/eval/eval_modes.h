@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "app/app.h"
+#include "app/eval/trajectory_options.h"
 #include "app/surfaces_option.h"
-#include "app/trajectory_options.h"
 #include "eval/formats/folder.h"
 
 namespace app {

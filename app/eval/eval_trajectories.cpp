@@ -2,7 +2,7 @@
 #include <filesystem>
 #include <optional>
 
-#include "app/eval_modes.h"
+#include "app/eval/eval_modes.h"
 #include "eval/report/trajectory_report.h"
 #include "io/input_error.h"
 #include "io/output_file.h"
