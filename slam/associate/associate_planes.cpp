@@ -175,7 +175,7 @@ PlaneAssociation IntegratedRule(const Frame& frame, const Map& map, const Camera
   // What fits beyond doubt corrects the predicted pose, and all pairs are weighed again there.
   PlaneAssociation out;
   PairRefusals before_correction;  // not counted: these pairs are asked again
-  UncertainPose pose = PredictedPose(frame.T_cw, config);
+  UncertainPose pose = PredictedPose(frame, config);
   PairTable pairs = WeighPairs(frame, map, pose, camera, config, before_correction);
   pose = CorrectPrediction(pose, frame, map, PairsBeyondDoubt(frame, pairs), config);
   pairs = WeighPairs(frame, map, pose, camera, config, out.refused);

@@ -10,12 +10,13 @@
 
 namespace slam {
 
-UncertainPose PredictedPose(const Pose& T_cw, const AssociationConfig& config) {
+UncertainPose PredictedPose(const Frame& frame, const AssociationConfig& config) {
+  if (frame.prediction && frame.pose_information.isZero()) return *frame.prediction;
   const double t2 = config.prior.sigma_m * config.prior.sigma_m;
   const double r2 = config.prior.sigma_rad * config.prior.sigma_rad;
   Vector6d variances;
   variances << t2, t2, t2, r2, r2, r2;
-  return {T_cw, variances.asDiagonal()};
+  return {frame.T_cw, variances.asDiagonal()};
 }
 
 UncertainPose CorrectPrediction(const UncertainPose& predicted, const Frame& frame,

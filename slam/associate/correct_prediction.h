@@ -9,8 +9,8 @@
 
 namespace slam {
 
-/// A predicted pose with what association may assume of its error.
-UncertainPose PredictedPose(const Pose& T_cw, const AssociationConfig& config);
+/// The frame's pose with what association may assume of its error.
+UncertainPose PredictedPose(const Frame& frame, const AssociationConfig& config);
 
 /// Corrects the predicted pose by pairs (frame plane index, id of a landmark) that are beyond
 /// doubt, with the prediction as prior and Huber weights; the covariance is that of the result.

@@ -1,17 +1,11 @@
 #pragma once
 
 #include "slam/associate/association_config.h"
-#include "slam/geometry/pose.h"
+#include "slam/geometry/uncertain_pose.h"
 #include "slam/model/frame_plane.h"
 #include "slam/model/map_plane.h"
 
 namespace slam {
-
-/// A pose and what is known of it: covariance of xi in T_cw <- Exp(xi) T_cw.
-struct UncertainPose {
-  Pose T_cw;
-  Matrix6d covariance = Matrix6d::Zero();
-};
 
 /// Parameters of a frame plane against those of a map plane, with everybody's uncertainty.
 struct PlaneComparison {

@@ -70,6 +70,28 @@ std::vector<cv::KeyPoint> CornersOfOctave(const cv::Mat1b& image, const cv::Rect
   return corners;
 }
 
+/// Whether an image patch tells its place in both directions: along a straight edge every patch
+/// looks like the next. The ratio of the structure tensor's eigenvalues is bounded as in SIFT
+/// (Lowe 2004, section 4.1).
+bool TellsItsPlace(const cv::Mat1b& padded, int x, int y) {
+  constexpr int kRadius_px = 3;       // that of FAST's ring
+  constexpr double kMaxRatio = 10.0;  // Lowe 2004
+  double xx = 0.0, xy = 0.0, yy = 0.0;
+  for (int v = y - kRadius_px; v <= y + kRadius_px; ++v) {
+    const std::uint8_t* above = padded[v - 1];
+    const std::uint8_t* here = padded[v];
+    const std::uint8_t* below = padded[v + 1];
+    int row_xx = 0, row_xy = 0, row_yy = 0;
+    for (int u = x - kRadius_px; u <= x + kRadius_px; ++u) {
+      const int dx = here[u + 1] - here[u - 1], dy = below[u] - above[u];
+      row_xx += dx * dx, row_xy += dx * dy, row_yy += dy * dy;
+    }
+    xx += row_xx, xy += row_xy, yy += row_yy;
+  }
+  const double trace = xx + yy, determinant = xx * yy - xy * xy;
+  return trace * trace * kMaxRatio < (kMaxRatio + 1) * (kMaxRatio + 1) * determinant;
+}
+
 /// Features wanted of each octave, in proportion to its side length.
 std::vector<int> Shares(const FeatureScale& scale, std::size_t octaves, int count) {
   double sum = 0.0;
@@ -92,6 +114,8 @@ PointFeature MakeFeature(const cv::KeyPoint& corner, const Descriptor& descripto
   feature.octave = octave;
   feature.angle_deg = corner.angle;
   feature.descriptor = descriptor;
+  feature.on_edge = !TellsItsPlace(image.padded, cvRound(corner.pt.x) + kPyramidPadding_px,
+                                   cvRound(corner.pt.y) + kPyramidPadding_px);
   if (!depth_m.empty()) feature.depth_m = DepthAt(depth_m, recorded_px, config.depth);
   if (feature.depth_m > 0) {
     feature.right_u_px = config.scale.RightU_px(feature.u_px.x(), feature.depth_m);

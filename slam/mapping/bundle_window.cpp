@@ -75,11 +75,13 @@ BundleWindow FullWindow(const Map& map, const Camera& camera, const FeatureScale
                         const LocalBundleConfig& config) {
   BundleWindow window;
   if (map.keyframes.empty()) return window;
+  std::vector<int> fixed{0};
   for (const Keyframe& keyframe : map.keyframes) {
-    if (!keyframe.culled && keyframe.id != 0) window.keyframes.push_back(keyframe.id);
+    if (keyframe.culled || keyframe.id == 0) continue;
+    (keyframe.by_points ? window.keyframes : fixed).push_back(keyframe.id);
   }
   window.free_count = window.keyframes.size();
-  window.keyframes.push_back(0);
+  window.keyframes.insert(window.keyframes.end(), fixed.begin(), fixed.end());
   window.points = PointsOf(map, window.keyframes);
   FillWindow(map, camera, scale, config, window);
   return window;
@@ -92,7 +94,12 @@ BundleWindow LocalWindow(const Map& map, int keyframe, const Camera& camera,
   inside.push_back(keyframe);
   std::sort(inside.begin(), inside.end());
 
+  // Where planes hold a keyframe, its few points must not move it.
+  inside.erase(std::remove_if(inside.begin(), inside.end(),
+                              [&](int id) { return !map.keyframes[Index(id)].by_points; }),
+               inside.end());
   BundleWindow window;
+  if (inside.empty()) return window;
   window.points = PointsOf(map, inside);
   std::vector<int> fixed = OutsideViewers(map, window.points, {inside.begin(), inside.end()},
                                           config.max_fixed_keyframes);

@@ -4,11 +4,12 @@
 #include <array>
 #include <cstdint>
 #include <opencv2/core/mat.hpp>
+#include <optional>
 #include <vector>
 
 #include "slam/base/index.h"
 #include "slam/geometry/camera.h"
-#include "slam/geometry/pose.h"
+#include "slam/geometry/uncertain_pose.h"
 #include "slam/model/detection.h"
 #include "slam/model/frame_plane.h"
 
@@ -23,6 +24,7 @@ struct PointFeature {
   float angle_deg = 0.0f;    ///< orientation, [0, 360)
   double depth_m = 0.0;      ///< planar z at the feature; 0 = no measurement
   double right_u_px = -1.0;  ///< virtual right coordinate u - b f / z; < 0 without depth
+  bool on_edge = false;      ///< of a straight edge: along it, every patch looks like the next
   Descriptor descriptor{};
 };
 
@@ -83,6 +85,7 @@ struct Frame {
   bool detector_asked = true;  ///< false: all boxes are carried over from an earlier frame
   std::vector<FramePlane> planes;
   cv::Mat1b plane_labels;  ///< index + 1 of the frame plane at each pixel; 0 = none
+  double depth_bend = 0.0;  ///< root mean square of what the sensor bends, as a part of the depth
 
   // (D) association; parallel to `features` and `planes`
   std::vector<int> map_points;  ///< id of the matched map point, or kNone
@@ -92,6 +95,13 @@ struct Frame {
 
   // (E) optimisation
   Pose T_cw;
+  /// Where motion leads from the frame before; none after the camera was lost.
+  std::optional<UncertainPose> prediction;
+  std::vector<MotionAxis> held_by_motion;  ///< directions that nothing in the frame observes
+  /// What the frame's own measurements say of T_cw: J^T W J for T_cw <- Exp(xi) T_cw ...
+  Matrix6d pose_information = Matrix6d::Zero();
+  /// ... and its covariance by these and the prediction; none where nothing is known of it.
+  std::optional<Matrix6d> pose_covariance;
 };
 
 }  // namespace slam

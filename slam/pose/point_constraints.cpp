@@ -39,9 +39,12 @@ int OptimiseByPoints(Frame& frame, const Map& map, const Camera& camera,
   PoseProblem problem;
   problem.T_cw = frame.T_cw;
   problem.points = points.constraints;
+  problem.prior = frame.prediction;
   const PoseSummary summary = OptimisePose(problem, camera, scale, config);
   if (!summary.usable) return 0;
   frame.T_cw = summary.T_cw;
+  frame.pose_information = summary.information;
+  frame.pose_covariance = summary.covariance;
   DropOutliers(frame, points, summary.point_inliers);
   return summary.inlier_count;
 }

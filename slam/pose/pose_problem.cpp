@@ -1,5 +1,6 @@
 #include "slam/pose/pose_problem.h"
 
+#include <Eigen/Cholesky>
 #include <cmath>
 
 #include "slam/base/chi_square.h"
@@ -80,12 +81,33 @@ class Evaluator {
     sane_.reserve(problem.points.size());
     for (const PointConstraint& c : problem.points) sane_.push_back(Sane(c));
     used = sane_;
+    if (problem.prior) {
+      prior_information_ = problem.prior->covariance.ldlt().solve(Matrix6d::Identity());
+      T_wc_prior_ = Inverse(problem.prior->T_cw);
+    }
   }
 
   std::vector<bool> used;     ///< points that take part
   bool robust_points = true;  ///< Huber on points
 
   NormalEquations operator()(const Pose& T_cw) const {
+    NormalEquations sum = Measured(T_cw);
+    AddPrior(T_cw, sum);
+    return sum;
+  }
+
+  /// The step away from the prior is small, so its Jacobian is taken as the identity.
+  void AddPrior(const Pose& T_cw, NormalEquations& sum) const {
+    if (!problem_.prior) return;
+    const Vector6d moved = Log(T_cw * T_wc_prior_);
+    const Vector6d g = prior_information_ * moved;
+    sum.H += prior_information_;
+    sum.g += g;
+    sum.cost += 0.5 * moved.dot(g);
+  }
+
+  /// The sum without the prior.
+  NormalEquations Measured(const Pose& T_cw) const {
     NormalEquations sum;
     AddPoints(T_cw, sum);                                         // eq14
     if (config_.use_planes) AddPlanes(T_cw, sum);                 // eq15, eq16
@@ -181,6 +203,8 @@ class Evaluator {
   const FeatureScale& scale_;
   const PoseProblemConfig& config_;
   std::vector<bool> sane_;
+  Matrix6d prior_information_ = Matrix6d::Zero();
+  Pose T_wc_prior_;
 };
 
 bool FinitePose(const Pose& T) { return T.R.allFinite() && T.t.allFinite(); }
@@ -208,11 +232,14 @@ PoseSummary OptimisePose(const PoseProblem& problem, const Camera& camera,
     if (!evaluate.robust_points && evaluate.used == before) break;
   }
   // What the solution is worth.
-  const NormalEquations last = evaluate(out.T_cw);
+  NormalEquations last = evaluate.Measured(out.T_cw);
   out.information = last.H.selfadjointView<Eigen::Upper>();
+  evaluate.AddPrior(out.T_cw, last);
+  const Matrix6d H = last.H.selfadjointView<Eigen::Upper>();
   out.point_inliers = evaluate.used;
-  out.nullity = Nullity(out.information);
+  out.nullity = Nullity(H);
   out.usable = out.nullity == 0 && std::isfinite(last.cost);
+  if (out.usable) out.covariance = H.ldlt().solve(Matrix6d::Identity());
   return out;
 }
 

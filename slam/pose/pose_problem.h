@@ -2,13 +2,14 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <optional>
 #include <vector>
 
 #include "slam/base/field_visitor.h"
 #include "slam/geometry/box.h"
 #include "slam/geometry/camera.h"
 #include "slam/geometry/plane.h"
-#include "slam/geometry/pose.h"
+#include "slam/geometry/uncertain_pose.h"
 #include "slam/model/feature_scale.h"
 
 namespace slam {
@@ -84,6 +85,9 @@ struct PoseProblem {
   std::vector<BoxConstraint> boxes;
   std::vector<PointPlaneConstraint> point_planes;
   std::vector<DirectionConstraint> parallels, perpendiculars;
+  /// What was known of the pose before the frame was looked at: it holds the directions that
+  /// nothing observes. None where points alone observe all six.
+  std::optional<UncertainPose> prior;
 };
 
 /// What OptimisePose came to.
@@ -94,8 +98,10 @@ struct PoseSummary {
   std::vector<bool> point_inliers;  ///< parallel to PoseProblem::points
   int inlier_count = 0;
   double initial_cost = 0.0;
-  /// J^T W J at the solution, for T <- Exp(xi) T.
+  /// J^T W J of what was measured at the solution, for T <- Exp(xi) T; the prior apart.
   Matrix6d information = Matrix6d::Zero();
+  /// Of the pose by all together; zero when not usable.
+  Matrix6d covariance = Matrix6d::Zero();
 };
 
 /// Minimises eq13 over the camera pose by Levenberg-Marquardt with Huber weights, in rounds:

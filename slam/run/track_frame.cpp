@@ -16,10 +16,10 @@ TrackReport Tracker::TrackFrame(Frame& frame, const cv::Mat3b& bgr) {
   ProcessFramePlanes(frame, report);       // (C) re-fit, box link, lines, vertices, selection
   const TrackingHold map_is_ours(gate());  // mapping beside tracking gives it away in between
   TrackByPoints(frame, report);            // (D) point to point, and a first pose
+  AssociateFramePlanes(frame, report);     // (D) plane to plane with boxes, point to plane
+  OptimiseWithPlanes(frame, report);       // (E) all six kinds of factor
   if (!report.tracked) return report;
-  AssociateFramePlanes(frame, report);  // (D) plane to plane with boxes, point to plane
-  OptimiseWithPlanes(frame, report);    // (E) all six kinds of factor
-  UpdateMap(frame, report);             // (F) planes; keyframe, points, bundle adjustment
+  UpdateMap(frame, report);  // (F) planes; keyframe, points, bundle adjustment
   straightener_.Learn(frame, measured_m);
   return report;
 }

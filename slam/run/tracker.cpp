@@ -14,6 +14,7 @@
 #include "slam/mapping/plane_fuse.h"
 #include "slam/mapping/plane_update.h"
 #include "slam/model/map_queries.h"
+#include "slam/pose/held_directions.h"
 #include "slam/pose/plane_constraints.h"
 #include "slam/run/stopwatch.h"
 #include "slam/segment/plane_segments.h"
@@ -119,9 +120,14 @@ void Tracker::TrackByPoints(Frame& frame, TrackReport& report) {
   }
   report.points = points_.TrackPoints(frame, map_);
   report.tracked = report.points.state == TrackState::kTracking;
+  // Where points fail, planes are asked at the pose that motion predicts.
+  if (variant_ == Variant::kPoints || report.tracked || !frame.prediction) return;
+  frame.T_cw = frame.prediction->T_cw;
+  frame.pose_covariance = frame.prediction->covariance;
 }
 
 void Tracker::AssociateFramePlanes(Frame& frame, TrackReport& report) const {
+  if (!frame.pose_covariance && !report.points.started) return;
   const Stopwatch watch(report.times[Module::kDa]);
   PlaneAssociation association = AssociatePlanes(frame, map_, camera_, config_.association);
   frame.plane_matches = std::move(association.matches);
@@ -131,22 +137,58 @@ void Tracker::AssociateFramePlanes(Frame& frame, TrackReport& report) const {
       AssociatePointsToPlanes(frame, map_, camera_, config_.association.max_point_plane_m);
 }
 
-void Tracker::OptimiseWithPlanes(Frame& frame, TrackReport& report) const {
+void Tracker::OptimiseWithPlanes(Frame& frame, TrackReport& report) {
+  if (!frame.pose_covariance) return;
   const Stopwatch watch(report.times[Module::kPo]);
   // eq13 from all points and planes of the frame.
   const FramePoints points = PointConstraints(frame, map_, scale());
   PoseProblem problem;
   problem.T_cw = frame.T_cw;
   problem.points = points.constraints;
+  problem.prior = frame.prediction;
   AddPlaneConstraints(frame, map_, camera_, config_.association.prior,
                       config_.plane_constraints, problem);
+  if (!report.tracked) return HoldByPlanes(frame, std::move(problem), report);
   if (problem.planes.empty()) return;  // the points alone were optimised before
 
   const PoseSummary summary =
       OptimisePose(problem, camera_, scale(), config_.point_search.pose);
   if (!summary.usable) return;
   frame.T_cw = summary.T_cw;
+  frame.pose_information = summary.information;
+  frame.pose_covariance = summary.covariance;
   DropOutliers(frame, points, summary.point_inliers);
+}
+
+/// Points failed: planes and the motion before hold the pose, while it is known well enough.
+void Tracker::HoldByPlanes(Frame& frame, PoseProblem problem, TrackReport& report) {
+  const auto solve = [&] {
+    const PoseSummary summary =
+        OptimisePose(problem, camera_, scale(), config_.point_search.pose);
+    frame.T_cw = problem.T_cw = summary.T_cw;
+    return summary;
+  };
+  PoseSummary summary = solve();
+  report.tracked = !problem.planes.empty() && summary.usable &&
+                   IsKnownWell(summary.covariance, config_.tracking.motion);
+  if (!report.tracked) {
+    frame.T_cw = Pose{};
+    frame.pose_covariance.reset();
+    frame.plane_matches.assign(frame.planes.size(), {});
+    frame.plane_steps.clear();
+    return;
+  }
+  // The few points that there are take part too, now that it is known where to look for them.
+  points_.FindPoints(frame, map_);
+  const FramePoints points = PointConstraints(frame, map_, scale());
+  problem.points = points.constraints;
+  summary = solve();
+  DropOutliers(frame, points, summary.point_inliers);
+  frame.pose_information = summary.information;
+  frame.pose_covariance = summary.covariance;
+  points_.HoldByPlanes();
+  report.points.state = TrackState::kHeldByPlanes;
+  frame.held_by_motion = HeldByPrediction(problem.prior->covariance, summary.covariance);
 }
 
 void Tracker::UpdateMap(Frame& frame, TrackReport& report) {
@@ -169,6 +211,7 @@ void Tracker::UpdateMap(Frame& frame, TrackReport& report) {
 /// Makes the frame a keyframe, and maps it now or has it mapped beside tracking.
 void Tracker::KeepFrame(Frame& frame) {
   const int keyframe = InsertKeyframe(frame, map_, camera_, scale(), config_.mapping.keyframes);
+  map_.keyframes.back().by_points = points_.state() != TrackState::kHeldByPlanes;
   if (worker_) {
     worker_->Submit(keyframe);
     return;

@@ -16,6 +16,7 @@
 #include "slam/model/map.h"
 #include "slam/model/module_times.h"
 #include "slam/places/close_loop.h"
+#include "slam/pose/pose_problem.h"
 #include "slam/run/config.h"
 #include "slam/run/map_gate.h"
 #include "slam/run/mapping_worker.h"
@@ -87,7 +88,8 @@ class Tracker {
   void ProcessFramePlanes(Frame& frame, TrackReport& report) const;
   void TrackByPoints(Frame& frame, TrackReport& report);
   void AssociateFramePlanes(Frame& frame, TrackReport& report) const;
-  void OptimiseWithPlanes(Frame& frame, TrackReport& report) const;
+  void OptimiseWithPlanes(Frame& frame, TrackReport& report);
+  void HoldByPlanes(Frame& frame, PoseProblem problem, TrackReport& report);
   void UpdateMap(Frame& frame, TrackReport& report);
   void KeepFrame(Frame& frame);
   void MapKeyframe(int keyframe, const MapTurn& turn);

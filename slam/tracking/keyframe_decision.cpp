@@ -49,6 +49,18 @@ int CountNewLooks(const Frame& frame, const Map& map, double max_view_rad) {
   return count;
 }
 
+/// The bounds on numbers of points are meant for an image with that many features.
+double ShareOfFeatures(const Frame& frame) {
+  return std::min(1.0, static_cast<double>(frame.features.size()) / kFullFeatures);
+}
+
+/// Mean distance of the planes' middles; 0 without planes.
+double PlaneDistance_m(const Frame& frame) {
+  double sum_m = 0.0;
+  for (const FramePlane& plane : frame.planes) sum_m += plane.centroid_c.norm();
+  return frame.planes.empty() ? 0.0 : sum_m / static_cast<double>(frame.planes.size());
+}
+
 }  // namespace
 
 KeyframeEvidence DecideKeyframe(const Frame& frame, const Map& map, int reference,
@@ -71,8 +83,7 @@ KeyframeEvidence DecideKeyframe(const Frame& frame, const Map& map, int referenc
   // Insert when the frame sees less, lacks close points, or looks at the map from a new side.
   const double ratio =
       map.keyframes.size() < 2 ? config.first_reference_ratio : config.min_reference_ratio;
-  const double share =
-      std::min(1.0, static_cast<double>(frame.features.size()) / kFullFeatures);
+  const double share = ShareOfFeatures(frame);
   const bool sees_less = evidence.tracked < ratio * evidence.reference_points;
   const bool close_to_be_had = evidence.close_tracked < share * config.min_close_tracked &&
                                evidence.close_untracked > share * config.min_close_untracked;
@@ -80,6 +91,15 @@ KeyframeEvidence DecideKeyframe(const Frame& frame, const Map& map, int referenc
   const bool looks_new = evidence.new_looks > config.max_new_ratio * evidence.tracked;
   evidence.wanted = sees_less || close_to_be_had || looks_new;
   return evidence;
+}
+
+bool KeepViewOfPlanes(const Frame& frame, const Keyframe& newest, int followed,
+                      const KeyframeDecisionConfig& config) {
+  if (frame.index - newest.frame_index < config.min_frames_between) return false;
+  if (followed > ShareOfFeatures(frame) * config.min_close_untracked) return true;
+  const double moved_m = (Inverse(frame.T_cw).t - Inverse(newest.T_cw).t).norm();
+  return RotationAngle(frame.T_cw, newest.T_cw) > config.max_view_rad ||
+         moved_m > config.max_view_rad * PlaneDistance_m(frame);
 }
 
 }  // namespace slam

@@ -50,4 +50,12 @@ KeyframeEvidence DecideKeyframe(const Frame& frame, const Map& map, int referenc
                                 int frames_since_last, double close_m,
                                 const KeyframeDecisionConfig& config);
 
+/// Whether a frame should be kept whose pose planes hold, because it tracks too few points: it
+/// follows many that the map does not know yet, or sees its planes from a new side or place.
+/// @param newest    the keyframe before
+/// @param followed  features that agree with those of the frame before on one motion; corners
+///                  of noise do not
+bool KeepViewOfPlanes(const Frame& frame, const Keyframe& newest, int followed,
+                      const KeyframeDecisionConfig& config);
+
 }  // namespace slam

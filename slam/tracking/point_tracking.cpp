@@ -11,12 +11,14 @@ namespace {
 
 void ForgetPose(Frame& frame) {
   frame.T_cw = Pose{};
+  frame.pose_information.setZero();
+  frame.pose_covariance.reset();
   frame.map_points.assign(frame.features.size(), kNone);
 }
 
-int CountMatches(const Frame& frame) {
-  return static_cast<int>(frame.map_points.size()) -
-         static_cast<int>(std::count(frame.map_points.begin(), frame.map_points.end(), kNone));
+int CountMatches(const std::vector<int>& map_points) {
+  return static_cast<int>(map_points.size()) -
+         static_cast<int>(std::count(map_points.begin(), map_points.end(), kNone));
 }
 
 /// A bound meant for `full` features, less in proportion for images that have fewer, but not
@@ -29,6 +31,21 @@ constexpr double kFullImage_px2 = 640.0 * 480.0;
 constexpr double kRichFeatures = 300.0;  // a frame with fewer cannot be asked for all inliers
 constexpr int kMinInliers = 15;      // balances images with few features against wrong poses
 constexpr int kMinStartPoints = 40;  // balances a bare start against none
+/// Whether planes alone can hold a camera: some two of them that are far from parallel leave at
+/// most one direction to its motion.
+bool PlanesCanStart(const std::vector<FramePlane>& planes) {
+  constexpr double kMaxCosine = 0.9;  // 26 degrees
+  for (const FramePlane& one : planes) {
+    for (const FramePlane& other : planes) {
+      if (!one.bad && !other.bad && std::abs(one.pi_c.n.dot(other.pi_c.n)) < kMaxCosine)
+        return true;
+    }
+  }
+  return false;
+}
+
+constexpr int kManySure = 50;      // balances rooms with little print against walls with none
+constexpr int kManyInliers = 100;  // ten times the matches that a pose takes at least
 constexpr double kLostRadiusFactor = 2.0;  // a pose without prediction is less exact
 
 }  // namespace
@@ -37,6 +54,8 @@ const char* StateName(const PointTrackReport& report) {
   switch (report.state) {
     case TrackState::kInitialising:
       return "initialising";
+    case TrackState::kHeldByPlanes:
+      return "planes";
     case TrackState::kLost:
       return "lost";
     case TrackState::kTracking:
@@ -48,7 +67,12 @@ const char* StateName(const PointTrackReport& report) {
 PointTracking::PointTracking(const Camera& camera, const FeatureScale& scale,
                              const PointSearchConfig& search, const PointTrackingConfig& config,
                              const Vocabulary& vocabulary)
-    : camera_(camera), scale_(scale), search_(search), config_(config), places_(vocabulary) {}
+    : camera_(camera),
+      scale_(scale),
+      search_(search),
+      config_(config),
+      motion_filter_(config.motion),
+      places_(vocabulary) {}
 
 PointTrackReport PointTracking::TrackPoints(Frame& frame, Map& map) {
   PointTrackReport report;
@@ -59,17 +83,24 @@ PointTrackReport PointTracking::TrackPoints(Frame& frame, Map& map) {
     report.state = state_;
     return report;
   }
+  if (state_ == TrackState::kLost) {
+    motion_.Forget();
+    motion_filter_.Forget();
+  }
+  const std::optional<UncertainPose> prediction = motion_filter_.Predict(frame.timestamp_s);
+  frame.prediction = prediction;
   const FeatureGrid grid(frame.features, camera_);
   const double features = static_cast<double>(frame.features.size());
   bool found = false;
   // From a prediction, by motion or by the reference keyframe; then with the local map.
-  if (state_ == TrackState::kTracking) {
+  if (state_ != TrackState::kLost) {
     const int min_inliers = Scaled(config_.min_inliers, features, kRichFeatures, kMinInliers);
     found = (TrackByMotion(frame, grid, map, report) || TrackByReference(frame, map)) &&
             TrackLocalMap(frame, grid, map, min_inliers, config_.local_radius_factor, report);
   }
   // Lost: from the places that look like the frame, unless the map looks so elsewhere too.
   if (!found) {
+    frame.prediction.reset();  // it did not help: the camera may be anywhere
     const int min_inliers =
         Scaled(config_.min_relocalised_inliers, features, kRichFeatures, kMinInliers);
     found = TrackByRelocalising(frame, map, report) &&
@@ -79,9 +110,11 @@ PointTrackReport PointTracking::TrackPoints(Frame& frame, Map& map) {
   }
   if (!found) {
     ForgetPose(frame);
-    motion_.Forget();
+    if (!report.contradicted) frame.prediction = prediction;
   }
   state_ = found ? TrackState::kTracking : TrackState::kLost;
+  last_inliers_ = found ? report.inliers : 0;
+  followed_ = report.followed;
   report.state = state_;
   return report;
 }
@@ -91,7 +124,9 @@ bool PointTracking::Start(Frame& frame) const {
       std::count_if(frame.features.begin(), frame.features.end(),
                     [](const PointFeature& feature) { return feature.depth_m > 0; });
   const double area = static_cast<double>(camera_.width) * camera_.height;
-  return with_depth >= Scaled(config_.min_start_points, area, kFullImage_px2, kMinStartPoints);
+  return with_depth >=
+             Scaled(config_.min_start_points, area, kFullImage_px2, kMinStartPoints) ||
+         PlanesCanStart(frame.planes);
 }
 
 bool PointTracking::TrackByMotion(Frame& frame, const FeatureGrid& grid, const Map& map,
@@ -113,6 +148,7 @@ bool PointTracking::TrackByMotion(Frame& frame, const FeatureGrid& grid, const M
   // Pose from these matches; only inliers that are in the map stay matched.
   PoseProblem problem;
   problem.T_cw = predicted_T_cw;
+  problem.prior = frame.prediction;
   std::vector<std::pair<int, int>> feature_and_point;
   for (std::size_t f = 0; f < matches.size(); ++f) {
     if (matches[f] == kNone) continue;
@@ -121,6 +157,10 @@ bool PointTracking::TrackByMotion(Frame& frame, const FeatureGrid& grid, const M
     feature_and_point.emplace_back(static_cast<int>(f), point.map_point);
   }
   const PoseSummary summary = OptimisePose(problem, camera_, scale_, search_.pose);
+  report.followed = summary.inlier_count;
+  report.contradicted =
+      std::min(last_inliers_, static_cast<int>(frame.features.size())) > kManyInliers &&
+      report.followed < config_.min_first_inliers;
   if (!summary.usable) return false;
   ForgetPose(frame);
   frame.T_cw = summary.T_cw;
@@ -128,7 +168,7 @@ bool PointTracking::TrackByMotion(Frame& frame, const FeatureGrid& grid, const M
     const auto& [feature, point] = feature_and_point[i];
     if (summary.point_inliers[i]) frame.map_points[Index(feature)] = point;
   }
-  report.by_motion = CountMatches(frame) >= config_.min_first_inliers;
+  report.by_motion = CountMatches(frame.map_points) >= config_.min_first_inliers;
   return report.by_motion;
 }
 
@@ -161,11 +201,12 @@ bool PointTracking::TrackByRelocalising(Frame& frame, const Map& map,
   return true;
 }
 
-bool PointTracking::TrackLocalMap(Frame& frame, const FeatureGrid& grid, Map& map,
-                                  int min_inliers, double radius_factor,
-                                  PointTrackReport& report) {
+/// @returns the points that should be in the image, those that were matched before first
+std::vector<int> PointTracking::MatchLocalMap(Frame& frame, const FeatureGrid& grid,
+                                              const Map& map, const LocalMap& local,
+                                              const PointMatchConfig& match,
+                                              double radius_factor) const {
   // Points matched so far; some may have been replaced in the map.
-  const LocalMap local = GatherLocalMap(frame, map, config_.max_local_keyframes);
   std::vector<bool> taken(frame.features.size());
   std::vector<int> sighted;  // points that should be in the image
   for (std::size_t f = 0; f < taken.size(); ++f) {
@@ -186,14 +227,51 @@ bool PointTracking::TrackLocalMap(Frame& frame, const FeatureGrid& grid, Map& ma
     queries.push_back(query);
     sighted.push_back(id);
   }
-  report.local_points = static_cast<int>(sighted.size());
-  const std::vector<int> matches =
-      MatchQueries(queries, frame.features, grid, taken, config_.match_local);
+  const std::vector<int> matches = MatchQueries(queries, frame.features, grid, taken, match);
   for (std::size_t f = 0; f < matches.size(); ++f) {
     if (matches[f] != kNone) frame.map_points[f] = queries[Index(matches[f])].point;
   }
+  return sighted;
+}
+
+void PointTracking::FindPoints(Frame& frame, const Map& map) const {
+  const LocalMap local = GatherAround(map, reference_, config_.max_local_keyframes);
+  MatchLocalMap(frame, FeatureGrid(frame.features, camera_), map, local, config_.match_few,
+                config_.local_radius_factor);
+  frame.map_points = SureMatches(frame, map);
+}
+
+/// The frame's matches whose place and descriptor leave no doubt; kNone for all others.
+std::vector<int> PointTracking::SureMatches(const Frame& frame, const Map& map) const {
+  std::vector<int> sure(frame.map_points.size(), kNone);
+  for (std::size_t f = 0; f < sure.size(); ++f) {
+    const int id = frame.map_points[f];
+    const PointFeature& feature = frame.features[f];
+    if (id == kNone || feature.on_edge) continue;
+    const int distance =
+        DescriptorDistance(feature.descriptor, map.points[Index(id)].descriptor);
+    if (distance <= config_.match_few.max_distance) sure[f] = id;
+  }
+  return sure;
+}
+
+bool PointTracking::TrackLocalMap(Frame& frame, const FeatureGrid& grid, Map& map,
+                                  int min_inliers, double radius_factor,
+                                  PointTrackReport& report) {
+  const LocalMap local = GatherLocalMap(frame, map, config_.max_local_keyframes);
+  const std::vector<int> sighted =
+      MatchLocalMap(frame, grid, map, local, config_.match_local, radius_factor);
+  report.local_points = static_cast<int>(sighted.size());
   report.inliers = Optimise(frame, map);
   if (report.inliers < min_inliers) return false;
+  // Where few points tell their place, those that slide along edges or were matched by chance
+  // would outvote them.
+  std::vector<int> sure = SureMatches(frame, map);
+  if (CountMatches(sure) < kManySure) {
+    frame.map_points = std::move(sure);
+    report.inliers = Optimise(frame, map);
+    if (report.inliers < min_inliers) return false;
+  }
 
   // Mapping culls points that are seldom found where they should be.
   for (const int id : sighted) ++map.points[Index(id)].visible_count;
@@ -209,20 +287,24 @@ int PointTracking::Optimise(Frame& frame, const Map& map) const {
 }
 
 void PointTracking::FollowMap(const Map& map) {
-  if (last_.reference != kNone) motion_.Correct(LastPose(last_, map));
+  if (last_.reference == kNone) return;
+  motion_.Correct(LastPose(last_, map));
+  motion_filter_.Correct(LastPose(last_, map));
 }
 
 bool PointTracking::NeedKeyframe(const Frame& frame, const Map& map) const {
-  if (state_ != TrackState::kTracking) return false;
+  if (state_ == TrackState::kInitialising || state_ == TrackState::kLost) return false;
   if (map.keyframes.empty()) return true;
-  const int since = frame.index - map.keyframes.back().frame_index;
-  return DecideKeyframe(frame, map, reference_, since, scale_.CloseDepth_m(camera_.fx),
-                        config_.decision)
-      .wanted;
+  const Keyframe& newest = map.keyframes.back();
+  const KeyframeEvidence evidence =
+      DecideKeyframe(frame, map, reference_, frame.index - newest.frame_index,
+                     scale_.CloseDepth_m(camera_.fx), config_.decision);
+  return evidence.wanted || (state_ == TrackState::kHeldByPlanes &&
+                             KeepViewOfPlanes(frame, newest, followed_, config_.decision));
 }
 
 void PointTracking::Accept(const Frame& frame, const Map& map) {
-  Require(state_ == TrackState::kTracking, "PointTracking::Accept: the frame was not tracked");
+  Require(state_ != TrackState::kLost, "PointTracking::Accept: the frame was not tracked");
   Require(!map.keyframes.empty(), "PointTracking::Accept: the first frame must be a keyframe");
   const Keyframe& newest = map.keyframes.back();
   Pose T_cw = frame.T_cw;
@@ -233,6 +315,7 @@ void PointTracking::Accept(const Frame& frame, const Map& map) {
   // The speed is that between two poses of one map: the last pose as the map has it by now.
   FollowMap(map);
   motion_.Observe(frame.index, T_cw);
+  motion_filter_.Observe(frame.timestamp_s, T_cw, frame.pose_information);
   last_ = {frame.index, frame.features, frame.map_points, reference_,
            T_cw * Inverse(KeyframePose(map, reference_))};
 }

@@ -1,0 +1,19 @@
+#pragma once
+
+#include "slam/geometry/pose.h"
+
+namespace slam {
+
+/// A pose and what is known of it: covariance of xi in T_cw <- Exp(xi) T_cw, metres and radians.
+struct UncertainPose {
+  Pose T_cw;
+  Matrix6d covariance = Matrix6d::Zero();
+};
+
+/// A direction of the camera's motion.
+struct MotionAxis {
+  bool turn = false;       ///< about the axis; else along it
+  Eigen::Vector3d axis_c;  ///< unit, camera frame; its sign says nothing
+};
+
+}  // namespace slam

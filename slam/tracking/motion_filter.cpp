@@ -1,0 +1,99 @@
+#include "slam/tracking/motion_filter.h"
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/LU>
+#include <cmath>
+
+namespace slam {
+namespace {
+
+double LargestSigma(const Eigen::Matrix3d& covariance) {
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(covariance, Eigen::EigenvaluesOnly);
+  return std::sqrt(axes.eigenvalues()[2]);
+}
+
+}  // namespace
+
+bool IsKnownWell(const Matrix6d& covariance, const MotionFilterConfig& config) {
+  return LargestSigma(covariance.topLeftCorner<3, 3>()) < config.max_sigma_m &&
+         LargestSigma(covariance.bottomRightCorner<3, 3>()) < config.max_sigma_rad;
+}
+
+Vector6d MotionFilter::SpeedVariance() const {
+  const double v2 = config_.speed_mps * config_.speed_mps;
+  const double w2 = config_.turn_rad_per_s * config_.turn_rad_per_s;
+  Vector6d variance;
+  variance << v2, v2, v2, w2, w2, w2;
+  return variance;
+}
+
+MotionFilter::State MotionFilter::At(double timestamp_s) const {
+  const double dt_s = timestamp_s - known_->timestamp_s;
+  const double tau_s = config_.memory_s;
+  const double kept = std::exp(-dt_s / tau_s);
+  const double way_s = tau_s * (1 - kept);  // for so long the speed would have to last
+
+  // The most likely pose: the speed carries on and dies away.
+  State now;
+  now.timestamp_s = timestamp_s;
+  now.T_cw = Normalised(Exp(way_s * known_->speed) * known_->T_cw);
+  now.speed = kept * known_->speed;
+
+  // Its covariance: what was known of pose and speed, moved on ...
+  Matrix12d F = Matrix12d::Identity();
+  F.topRightCorner<6, 6>() = way_s * Matrix6d::Identity();
+  F.bottomRightCorner<6, 6>() = kept * Matrix6d::Identity();
+  now.covariance = F * known_->covariance * F.transpose();
+  // ... and what the hand may have done since: the integrals of the process's noise.
+  const Matrix6d S = SpeedVariance().asDiagonal();
+  const double tau2 = tau_s * tau_s;
+  now.covariance.topLeftCorner<6, 6>() +=
+      tau2 * (2 * dt_s / tau_s - 3 + 4 * kept - kept * kept) * S;
+  now.covariance.topRightCorner<6, 6>() += tau_s * (1 - kept) * (1 - kept) * S;
+  now.covariance.bottomLeftCorner<6, 6>() += tau_s * (1 - kept) * (1 - kept) * S;
+  now.covariance.bottomRightCorner<6, 6>() += (1 - kept * kept) * S;
+  return now;
+}
+
+std::optional<UncertainPose> MotionFilter::Predict(double timestamp_s) const {
+  if (!known_ || !(timestamp_s > known_->timestamp_s)) return std::nullopt;
+  const State state = At(timestamp_s);
+  return UncertainPose{state.T_cw, state.covariance.topLeftCorner<6, 6>()};
+}
+
+void MotionFilter::Observe(double timestamp_s, const Pose& T_cw, const Matrix6d& information) {
+  if (!known_) {
+    // The first pose is the world; nothing is known of the speed but that a hand holds it.
+    State first;
+    first.timestamp_s = timestamp_s;
+    first.T_cw = T_cw;
+    first.covariance.bottomRightCorner<6, 6>() = SpeedVariance().asDiagonal();
+    known_ = first;
+    return;
+  }
+  // Kalman's update in the form that a singular information allows: the pose is found already,
+  // and the speed follows it by what the two have in common.
+  if (!(timestamp_s > known_->timestamp_s)) {
+    known_->T_cw = T_cw;
+    return;
+  }
+  State state = At(timestamp_s);
+  const Matrix6d P = state.covariance.topLeftCorner<6, 6>();
+  const Eigen::PartialPivLU<Matrix6d> spread(Matrix6d::Identity() + information * P);
+  const Matrix6d gain = spread.solve(information);
+  const Eigen::Matrix<double, 12, 6> with_pose = state.covariance.leftCols<6>();
+  const Vector6d moved = Log(T_cw * Inverse(state.T_cw));
+  const Matrix6d speed_by_pose =
+      P.ldlt().solve(state.covariance.topRightCorner<6, 6>()).transpose();
+  state.speed += speed_by_pose * moved;
+  state.T_cw = T_cw;
+  state.covariance -= with_pose * gain * with_pose.transpose();
+  state.covariance = 0.5 * (state.covariance + state.covariance.transpose().eval());
+  known_ = state;
+}
+
+void MotionFilter::Correct(const Pose& T_cw) {
+  if (known_) known_->T_cw = T_cw;
+}
+
+}  // namespace slam

@@ -1,0 +1,74 @@
+#pragma once
+
+#include <optional>
+
+#include "slam/base/field_visitor.h"
+#include "slam/geometry/uncertain_pose.h"
+
+namespace slam {
+
+/// How a camera is moved by hand.
+struct MotionFilterConfig {
+  // TUM's hand-held recordings: up to 0.7 m/s and 70 degrees/s in 95 % of the frames; most of the
+  // speed's power lies below 0.5 Hz.
+  double speed_mps = 0.5;
+  double turn_rad_per_s = 1.0;
+  double memory_s = 0.5;
+  // Balances short views of too few planes against wrong maps.
+  double max_sigma_m = 0.3;
+  double max_sigma_rad = 0.17;  // 10 degrees
+};
+
+inline void VisitFields(MotionFilterConfig& c, FieldVisitor& v) {
+  v.Number("speed_mps", c.speed_mps, "(0, inf)",
+           "standard deviation of the camera's speed, by axis, m/s");
+  v.Degrees("turn_deg_per_s", c.turn_rad_per_s, "(0, 3600)",
+            "standard deviation of the rate of turning, by axis, degrees/s");
+  v.Number("memory_s", c.memory_s, "(0, inf)",
+           "time after which the camera's speed is forgotten, seconds");
+  v.Number("max_sigma_m", c.max_sigma_m, "(0, inf)",
+           "standard deviation of a position by planes and motion beyond which the camera is "
+           "lost");
+  v.Degrees("max_sigma_deg", c.max_sigma_rad, "(0, 90)", "the same for its rotation");
+}
+
+/// Whether a pose with this covariance is known well enough to go on from.
+bool IsKnownWell(const Matrix6d& covariance, const MotionFilterConfig& config);
+
+/// Where a camera can be when nothing is seen of it: pose and speed with their covariance. The
+/// speed forgets itself (Ornstein and Uhlenbeck), so that a direction that nothing observes
+/// comes to rest and grows ever more uncertain, and does not run away.
+class MotionFilter {
+ public:
+  explicit MotionFilter(const MotionFilterConfig& config) : config_(config) {}
+
+  /// The pose at a later time, with its covariance; nullopt before the first Observe, and at no
+  /// later time.
+  std::optional<UncertainPose> Predict(double timestamp_s) const;
+
+  /// Takes over the pose of a frame that came after the ones before.
+  /// @param information  of the pose by what was measured in the frame, without the prediction:
+  ///                     J^T W J for T_cw <- Exp(xi) T_cw; singular where nothing was measured
+  void Observe(double timestamp_s, const Pose& T_cw, const Matrix6d& information);
+
+  /// The world was moved under the camera: pose and nothing else changes.
+  void Correct(const Pose& T_cw);
+  /// Nothing is known any more.
+  void Forget() { known_.reset(); }
+
+ private:
+  using Matrix12d = Eigen::Matrix<double, 12, 12>;
+  struct State {
+    double timestamp_s = 0.0;
+    Pose T_cw;
+    Vector6d speed = Vector6d::Zero();         ///< of xi, a second
+    Matrix12d covariance = Matrix12d::Zero();  ///< of pose and speed
+  };
+  State At(double timestamp_s) const;
+  Vector6d SpeedVariance() const;
+
+  MotionFilterConfig config_;
+  std::optional<State> known_;
+};
+
+}  // namespace slam

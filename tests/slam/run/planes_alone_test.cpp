@@ -1,0 +1,91 @@
+#include <gmock/gmock.h>
+
+#include <algorithm>
+
+#include "tests/support/stream_run.h"
+
+// Few or no points is a normal state: planes and the camera's own motion carry on.
+namespace slam {
+namespace {
+
+void Darken(RecordedFrame& frame) { SetColour(frame, cv::Mat1b(frame.gray.size(), 0)); }
+
+void Cover(RecordedFrame& frame) {
+  Darken(frame);
+  frame.depth_m.setTo(0);
+}
+
+/// Leaves of the depth what lies farther than 1.6 m: the wall in front.
+void LeaveTheWallInFront(RecordedFrame& frame) {
+  Darken(frame);
+  frame.depth_m.setTo(0, frame.depth_m < 1.8);
+}
+
+std::vector<std::string> StatesOf(const Ran& ran, int from, int count) {
+  return {ran.states.begin() + from, ran.states.begin() + from + count};
+}
+
+TEST(PlanesAlone, CarryACameraThroughTheDark) {
+  const Ran ran = RunOn(Changed(Clean(), 20, 20, Darken), Variant::kFull);
+  EXPECT_THAT(StatesOf(ran, 0, 20), testing::Each("tracking"));
+  EXPECT_THAT(StatesOf(ran, 20, 20), testing::Each("planes"));
+  EXPECT_THAT(StatesOf(ran, 41, 19), testing::Each("tracking"));
+  EXPECT_EQ(ran.outcome.tracked, kFrames);
+  ExpectNoWrongPose(ran);
+}
+
+TEST(PlanesAlone, StartAMapAndFollowIt) {
+  const Ran ran = RunOn(Changed(Clean(), 0, kFrames, Darken), Variant::kFull);
+  EXPECT_EQ(ran.outcome.tracked, kFrames);
+  EXPECT_THAT(StatesOf(ran, 1, kFrames - 1), testing::Each("planes"));
+  ExpectNoWrongPose(ran);
+}
+
+TEST(PlanesAlone, HandOverToPointsWhenThereIsLight) {
+  const Ran ran = RunOn(Changed(Clean(), 0, 20, Darken), Variant::kFull);
+  EXPECT_EQ(ran.outcome.tracked, kFrames);
+  EXPECT_THAT(StatesOf(ran, 25, kFrames - 25), testing::Each("tracking"));
+  ExpectNoWrongPose(ran);
+}
+
+TEST(PlanesAlone, SeenByNobodyTheCameraIsLostAtOnce) {
+  const Ran ran = RunOn(Changed(Clean(), 20, 10, Cover), Variant::kFull);
+  EXPECT_THAT(StatesOf(ran, 20, 10), testing::Each("lost"));
+  EXPECT_EQ(ran.states[30], "relocalised");
+  ExpectNoWrongPose(ran);
+}
+
+TEST(PlanesAlone, OfOneWallSayWhatTheyDoNotHoldAndGiveUp) {
+  const Ran ran = RunOn(Changed(Clean(), 20, 40, LeaveTheWallInFront), Variant::kFull);
+  ASSERT_EQ(ran.states[20], "planes");
+  // Along the wall, in both directions, and about its normal.
+  const auto held = nlohmann::json::parse(ran.planes[20]).at("held_by_motion");
+  ASSERT_EQ(held.size(), 3u);
+  EXPECT_NEAR(held[0].at("along").at(2), 0.0, 0.1);
+  EXPECT_NEAR(held[1].at("along").at(2), 0.0, 0.1);
+  EXPECT_NEAR(std::abs(held[2].at("about").at(2).get<double>()), 1.0, 0.01);
+  // A hand goes 10 cm in half a second: after that nobody knows.
+  EXPECT_EQ(ran.states[50], "lost");
+  ExpectNoWrongPose(ran, 0.1);
+}
+
+TEST(PlanesAlone, DoNotHoldWhatManyPointsContradict) {
+  auto stream = Clean();
+  const auto elsewhere = CleanStream(20, TexturedCorner(77));
+  for (std::size_t i = 0; i < 20; ++i) {
+    const double s = stream[25 + i].timestamp_s;
+    stream[25 + i] = elsewhere[i];
+    stream[25 + i].timestamp_s = s;
+  }
+  const Ran ran = RunOn(stream, Variant::kFull);
+  EXPECT_THAT(StatesOf(ran, 25, 20), testing::Each("lost"));
+  ExpectNoWrongPose(ran);
+}
+
+TEST(PlanesAlone, AreNotAskedWithoutThem) {
+  const Ran ran = RunOn(Changed(Clean(), 20, 10, Darken), Variant::kPoints);
+  EXPECT_THAT(StatesOf(ran, 20, 10), testing::Each("lost"));
+}
+
+}  // namespace
+}  // namespace slam

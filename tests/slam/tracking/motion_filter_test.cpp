@@ -1,0 +1,108 @@
+#include "slam/tracking/motion_filter.h"
+
+#include <gmock/gmock.h>
+
+#include <cmath>
+
+#include "slam/base/random.h"
+#include "tests/support/slam_matchers.h"
+
+namespace slam {
+namespace {
+
+constexpr double kFrame_s = 1.0 / 30;
+const Matrix6d kAll = 1e10 * Matrix6d::Identity();  // to 10 micrometres
+const Matrix6d kNothing = Matrix6d::Zero();
+
+TEST(MotionFilter, KnowsNothingBeforeTheFirstFrame) {
+  MotionFilter filter{{}};
+  EXPECT_FALSE(filter.Predict(0.0));
+  filter.Observe(0.0, Pose{}, kAll);
+  EXPECT_TRUE(filter.Predict(kFrame_s));
+  filter.Forget();
+  EXPECT_FALSE(filter.Predict(kFrame_s));
+}
+
+TEST(MotionFilter, GoesOnAtTheSpeedThatWasSeen) {
+  MotionFilter filter{{}};
+  const Pose step{ExpSo3({0.002, -0.004, 0.001}), {0.004, 0.0, -0.006}};
+  Pose T_cw;
+  for (int i = 0; i < 30; ++i, T_cw = step * T_cw) filter.Observe(i * kFrame_s, T_cw, kAll);
+  // In a frame the speed loses 7 %, of 7 mm.
+  EXPECT_THAT(filter.Predict(30 * kFrame_s)->T_cw, PoseNear(T_cw, 1e-3, 1e-3));
+}
+
+TEST(MotionFilter, SaysHowFarAHandCanHaveGone) {
+  // 4,000 hands, in steps of a millisecond, of which nothing is seen after the first frame.
+  const MotionFilterConfig config;
+  constexpr int kHands = 4000;
+  constexpr double kStep_s = 1e-3;
+  for (const double after_s : {0.1, 1.0}) {
+    double sum = 0.0;
+    for (int hand = 0; hand < kHands; ++hand) {
+      Random random{7, static_cast<std::uint64_t>(hand)};
+      double x = 0.0, speed = config.speed_mps * Normal(random);
+      for (int i = 0; i < std::lround(after_s / kStep_s); ++i) {
+        x += kStep_s * speed;
+        speed -= kStep_s / config.memory_s * speed;
+        speed += config.speed_mps * std::sqrt(2 * kStep_s / config.memory_s) * Normal(random);
+      }
+      sum += x * x;
+    }
+    MotionFilter filter{config};
+    filter.Observe(0.0, Pose{}, kAll);
+    const double said = filter.Predict(after_s)->covariance(0, 0);
+    EXPECT_NEAR(said * kHands / sum, 1.0, 0.1) << after_s;  // four standard deviations
+  }
+}
+
+TEST(MotionFilter, IsTheSameInOneStepAndInMany) {
+  MotionFilter once{{}}, often{{}};
+  const Pose start{ExpSo3({0.1, 0.2, 0.3}), {1, 2, 3}};
+  for (MotionFilter* filter : {&once, &often}) {
+    filter->Observe(0.0, start, kAll);
+    filter->Observe(kFrame_s, Pose{ExpSo3({0, 0.01, 0}), {0.01, 0, 0}} * start, kAll);
+  }
+  for (int i = 2; i < 12; ++i) {
+    often.Observe(i * kFrame_s, often.Predict(i * kFrame_s)->T_cw, kNothing);
+  }
+  const UncertainPose a = *once.Predict(12 * kFrame_s), b = *often.Predict(12 * kFrame_s);
+  EXPECT_THAT(a.T_cw, PoseNear(b.T_cw, 1e-4, 1e-4));  // turned by 2 degrees meanwhile
+  EXPECT_LT((a.covariance - b.covariance).norm(), 1e-9 * a.covariance.norm());
+}
+
+TEST(MotionFilter, GrowsUncertainOnlyWhereNothingIsSeen) {
+  MotionFilter filter{{}};
+  filter.Observe(0.0, Pose{}, kAll);
+  Matrix6d but_y = kAll;
+  but_y(1, 1) = 0.0;
+  double sigma_m = 0.0;
+  for (int i = 1; i < 30; ++i) {
+    filter.Observe(i * kFrame_s, Pose{}, but_y);
+    const Matrix6d covariance = filter.Predict(i * kFrame_s)->covariance;
+    EXPECT_GT(std::sqrt(covariance(1, 1)), sigma_m);
+    sigma_m = std::sqrt(covariance(1, 1));
+    EXPECT_LT(std::sqrt(covariance(0, 0)), 2e-5);
+    EXPECT_LT(std::sqrt(covariance(3, 3)), 2e-5);
+  }
+  EXPECT_GT(sigma_m, 0.1);
+}
+
+TEST(MotionFilter, ComesToRestWhereNothingIsSeen) {
+  MotionFilter filter{{}};
+  for (int i = 0; i < 10; ++i) {
+    filter.Observe(i * kFrame_s, Pose{Eigen::Matrix3d::Identity(), {0.01 * i, 0, 0}}, kAll);
+  }
+  // 0.3 m/s for half a second.
+  EXPECT_NEAR(filter.Predict(60.0)->T_cw.t.x(), 0.09 + 0.15, 0.015);
+}
+
+TEST(MotionFilter, PredictsNothingWhereNoTimeHasPassed) {
+  MotionFilter filter{{}};
+  filter.Observe(1.0, Pose{}, kAll);
+  EXPECT_FALSE(filter.Predict(1.0));
+  EXPECT_FALSE(filter.Predict(0.9));
+}
+
+}  // namespace
+}  // namespace slam
