@@ -40,9 +40,9 @@ struct AssociationConfig {
 inline void VisitFields(AssociationConfig& c, FieldVisitor& v) {
   v.Section("gates", "bounds on the parameters of a pair of planes", c.gates);
   v.Number("pose_sigma_m", c.prior.sigma_m, "(0, inf)",
-           "standard deviation of the predicted position, by axis");
+           "standard deviation of a position that comes without a covariance, by axis");
   v.Degrees("pose_sigma_deg", c.prior.sigma_rad, "(0, 90)",
-            "standard deviation of the predicted rotation, by axis");
+            "standard deviation of such a rotation, by axis");
   v.Number("offset_floor_m", c.offset_floor_m, "(0, inf)",
            "error of a plane's offset that does not average out (calibration, quantisation)");
   v.Degrees("angle_floor_deg", c.angle_floor_rad, "(0, 90)",

@@ -10,13 +10,37 @@
 
 namespace slam {
 
+namespace {
+
+Vector6d Variances(double sigma_m, double sigma_rad) {
+  const double t2 = sigma_m * sigma_m, r2 = sigma_rad * sigma_rad;
+  return (Vector6d() << t2, t2, t2, r2, r2, r2).finished();
+}
+
+/// Mean distance of the planes' middles along the optical axis; 0 without planes.
+double PlaneDepth_m(const Frame& frame) {
+  double sum_m = 0.0;
+  for (const FramePlane& plane : frame.planes) sum_m += plane.centroid_c.z();
+  return frame.planes.empty() ? 0.0 : sum_m / static_cast<double>(frame.planes.size());
+}
+
+// Points of a frame share the errors of those of the map. Measured on 16 scenes: 2 and 3 decide
+// alike.
+constexpr double kSharedErrors = 3.0;
+
+}  // namespace
+
 UncertainPose PredictedPose(const Frame& frame, const AssociationConfig& config) {
-  if (frame.prediction && frame.pose_information.isZero()) return *frame.prediction;
-  const double t2 = config.prior.sigma_m * config.prior.sigma_m;
-  const double r2 = config.prior.sigma_rad * config.prior.sigma_rad;
-  Vector6d variances;
-  variances << t2, t2, t2, r2, r2, r2;
-  return {frame.T_cw, variances.asDiagonal()};
+  if (!frame.pose_covariance) {
+    return {frame.T_cw, Variances(config.prior.sigma_m, config.prior.sigma_rad).asDiagonal()};
+  }
+  UncertainPose pose{frame.T_cw, *frame.pose_covariance};
+  if (frame.pose_information.isZero()) return pose;  // motion alone: no points, no bend
+  // What the sensor bends lifts and tilts all that the points are seen by.
+  pose.covariance *= kSharedErrors * kSharedErrors;
+  pose.covariance.diagonal() +=
+      Variances(frame.depth_bend * PlaneDepth_m(frame), frame.depth_bend);
+  return pose;
 }
 
 UncertainPose CorrectPrediction(const UncertainPose& predicted, const Frame& frame,

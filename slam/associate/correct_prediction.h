@@ -9,7 +9,8 @@
 
 namespace slam {
 
-/// The frame's pose with what association may assume of its error.
+/// The frame's pose with what association may assume of its error: its covariance, what its
+/// points share, and what the sensor bends. Config's prior for a pose without a covariance.
 UncertainPose PredictedPose(const Frame& frame, const AssociationConfig& config);
 
 /// Corrects the predicted pose by pairs (frame plane index, id of a landmark) that are beyond
