@@ -29,7 +29,10 @@ void TellOtherCount(Folder& folder, const std::string& file, std::size_t count,
 class DecisionCheck {
  public:
   DecisionCheck(Folder& folder, const Run& run) : folder_(folder), map_is_read_(run.has_map) {
-    for (const RunMapPlane& plane : run.map) ids_.insert(plane.id);
+    for (const RunMapPlane& plane : run.map) {
+      ids_.insert(plane.id);
+      if (plane.split_from) split_off_.insert(plane.id);
+    }
   }
 
   void Frame(const RunFrame& frame) {
@@ -73,7 +76,7 @@ class DecisionCheck {
         Tell("decision", fmt::format("is new, but map plane {} has been made before", id),
              "write each decision as it was made at that frame", Severity::kWarning);
       }
-    } else if (!known && unmade_.insert(id).second) {
+    } else if (!known && split_off_.count(id) == 0 && unmade_.insert(id).second) {
       Tell("decision", fmt::format("is matched, but no earlier frame made map plane {}", id),
            "write the frame that makes a map plane as new", Severity::kWarning);
     }
@@ -81,7 +84,8 @@ class DecisionCheck {
 
   Folder& folder_;
   bool map_is_read_;
-  std::set<int> ids_;  ///< in map.json
+  std::set<int> ids_;        ///< in map.json
+  std::set<int> split_off_;  ///< of these, made by splitting another
   std::set<int> made_, made_now_;
   std::set<int> unmade_;  ///< told already
   int line_ = 0;          ///< where the decision stands

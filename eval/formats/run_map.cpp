@@ -26,18 +26,23 @@ RunMapPlane ReadMapPlane(const JsonRecord& record) {
                   Severity::kFlaw);
   }
   plane.merged_into = optional.Integer("merged_into");
+  plane.split_from = optional.Integer("split_from");
+  plane.split_at = optional.Number("split_at", seconds);
   plane.vertices_w = ReadPointsOnPlane(record, "vertices", pi_w);
   plane.hull_w = ReadPointsOnPlane(record, "hull", pi_w);
   return plane;
 }
 
-/// Whether following the merges from a plane leads back to it.
-bool MergesIntoItself(int id, const std::map<int, int>& merged_into) {
-  auto next = merged_into.find(id);
-  for (std::size_t steps = 0; steps <= merged_into.size(); ++steps) {
-    if (next == merged_into.end()) return false;
+/// Planes that name another one: [id] its id.
+using Links = std::map<int, int>;
+
+/// Whether following the links from a plane leads back to it.
+bool LeadsBack(int id, const Links& links) {
+  auto next = links.find(id);
+  for (std::size_t steps = 0; steps <= links.size(); ++steps) {
+    if (next == links.end()) return false;
     if (next->second == id) return true;
-    next = merged_into.find(next->second);
+    next = links.find(next->second);
   }
   return false;
 }
@@ -46,7 +51,15 @@ class MapReader {
  public:
   std::vector<RunMapPlane> Read(const JsonRecord& root) {
     for (const JsonRecord& record : root.Items("planes")) Add(record);
-    for (const auto& [id, record] : records_) CheckMerge(id, record);
+    for (const auto& [id, record] : records_) {
+      // Merges lead to a plane that is left, splits to one that was there before.
+      CheckLink(id, record, "merged_into", merged_into_,
+                "name the plane that took this one in, and keep it in the map",
+                "merge into a plane that is left");
+      CheckLink(id, record, "split_from", split_from_,
+                "name the plane that this one was split from, and keep it in the map",
+                "name the plane that held both");
+    }
     std::sort(planes_.begin(), planes_.end(),
               [](const RunMapPlane& a, const RunMapPlane& b) { return a.id < b.id; });
     return std::move(planes_);
@@ -64,26 +77,26 @@ class MapReader {
     }
     plane.id = *id;
     if (plane.merged_into) merged_into_[*id] = *plane.merged_into;
+    if (plane.split_from) split_from_[*id] = *plane.split_from;
     planes_.push_back(std::move(plane));
   }
 
-  // Merges lead to a plane that is left; a circle leaves none.
-  void CheckMerge(int id, const JsonRecord& record) const {
-    const auto target = merged_into_.find(id);
-    if (target == merged_into_.end()) return;
+  // A link names a plane of the map; a circle of links has no first.
+  void CheckLink(int id, const JsonRecord& record, const char* key, const Links& links,
+                 const char* how_to_name, const char* how_to_lead) const {
+    const auto target = links.find(id);
+    if (target == links.end()) return;
     if (records_.count(target->second) == 0) {
-      record.TellAt("merged_into",
-                    fmt::format("is {}, which is no plane of the map", target->second),
-                    "name the plane that took this one in, and keep it in the map");
-    } else if (MergesIntoItself(id, merged_into_)) {
-      record.TellAt("merged_into", "leads back to the plane itself",
-                    "merge into a plane that is left");
+      record.TellAt(key, fmt::format("is {}, which is no plane of the map", target->second),
+                    how_to_name);
+    } else if (LeadsBack(id, links)) {
+      record.TellAt(key, "leads back to the plane itself", how_to_lead);
     }
   }
 
   std::vector<RunMapPlane> planes_;
   std::map<int, JsonRecord> records_;
-  std::map<int, int> merged_into_;
+  Links merged_into_, split_from_;
 };
 
 }  // namespace

@@ -109,6 +109,38 @@ void AddMixtures(const Placements& by_map, const Placements& by_truth,
   }
 }
 
+/// The true plane that a map plane was most often seen as; null where it was seen as none.
+const std::pair<const int, Placement>* MostShown(const std::map<int, Placement>& row) {
+  const auto most = std::max_element(row.begin(), row.end(), [](const auto& a, const auto& b) {
+    return a.second.frames() < b.second.frames();
+  });
+  return most == row.end() ? nullptr : &*most;
+}
+
+/// Map planes that the run itself made by splitting others: what they and the others show.
+void AddSplitOffs(const DecisionHistory& history, const Placements& by_map,
+                  const EventWorld& world, std::vector<RunEvent>& events) {
+  for (const RunMapPlane& plane : world.map) {
+    if (!plane.split_from) continue;
+    std::map<int, Placement> row;  // under its own id, whatever it was merged into later
+    for (const PlaneDecision& decision : history.decisions) {
+      const AssociationRecord& record = decision.record;
+      if (record.map_plane != plane.id || record.truth == 0) continue;
+      row[record.truth].Add(decision, DistanceOf(decision, world));
+    }
+    const auto* shown = MostShown(row);
+    if (shown == nullptr) continue;
+    RunEvent event = shown->second.Event(EventKind::kSplitOff);
+    event.map_plane = plane.id;
+    event.right_map_plane = FinalMapPlane(world.map, *plane.split_from);
+    const auto others = by_map.find(*event.right_map_plane);
+    if (others != by_map.end()) event.other_truth = MostShown(others->second)->first;
+    event.cue.clear();
+    event.harm_px_mm.reset();  // no fault by itself
+    events.push_back(event);
+  }
+}
+
 RunEvent EventOf(const PlaneDecision& decision, const JudgedDecision& judged,
                  const std::map<int, int>& first_of, const EventWorld& world) {
   RunEvent event;
@@ -145,7 +177,8 @@ RunEvent EventOf(const SeenSurface& surface, const std::map<int, int>& first_of,
 }  // namespace
 
 const char* NameOf(EventKind kind) {
-  constexpr const char* kNames[] = {"wrong", "missed", "no decision", "merge", "split", "lost"};
+  constexpr const char* kNames[] = {"wrong", "missed",    "no decision", "merge",
+                                    "split", "split off", "lost"};
   return kNames[static_cast<std::size_t>(kind)];
 }
 
@@ -169,6 +202,7 @@ std::vector<RunEvent> FindPlaneEvents(const DecisionHistory& history,
     by_truth[truth][map_plane].Add(decision, distance_mm);
   }
   AddMixtures(by_map, by_truth, events);
+  AddSplitOffs(history, by_map, world, events);
   for (const SeenSurface& surface : undecided.undecided) {
     events.push_back(EventOf(surface, first_of, world));
   }

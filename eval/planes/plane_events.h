@@ -18,6 +18,7 @@ enum class EventKind {
   kNoDecision,  ///< a large surface that has a map plane got no decision
   kMerge,       ///< a map plane holds two surfaces; sums up wrong decisions
   kSplit,       ///< a surface has two map planes; sums up the decisions for the lesser one
+  kSplitOff,    ///< the run itself split a map plane; sums up the decisions for the new one
   kLost,        ///< the camera lost its way
 };
 const char* NameOf(EventKind kind);
@@ -48,7 +49,8 @@ struct EventWorld {
   const std::optional<Alignment>& gauge;  ///< world of the run to world of the truth
 };
 
-/// Wrong and missed decisions, surfaces without a decision, merges and splits.
+/// Wrong and missed decisions, surfaces without a decision, merges and splits, and the map planes
+/// that the run split.
 std::vector<RunEvent> FindPlaneEvents(const DecisionHistory& history,
                                       const UndecidedSurfaces& undecided,
                                       const EventWorld& world);

@@ -39,7 +39,7 @@ UncertainPose PredictedPose(const Frame& frame, const AssociationConfig& config)
   // What the sensor bends lifts and tilts all that the points are seen by.
   pose.covariance *= kSharedErrors * kSharedErrors;
   pose.covariance.diagonal() +=
-      Variances(frame.depth_bend * PlaneDepth_m(frame), frame.depth_bend);
+      Variances(frame.bend_ratio * PlaneDepth_m(frame), frame.bend_ratio);
   return pose;
 }
 

@@ -11,13 +11,14 @@ namespace slam {
 namespace {
 
 /// A step where they meet that neither noise nor what neighbours have in common explains.
-bool HaveStep(const SideBySide& neighbours, std::size_t f, std::size_t g,
-              const AssociationConfig& config) {
-  constexpr double kCertain = 4.0;  // sigmas: 1 in 16,000
+std::optional<FrameStep> FindStep(const SideBySide& neighbours, std::size_t f, std::size_t g,
+                                  const AssociationConfig& config) {
   const double common_m = 0.5 * config.offset_floor_m;
   const auto between = neighbours.Between(f, g);
-  return between &&
-         std::abs(between->step_m) > kCertain * std::hypot(between->sigma_m, common_m);
+  if (!between) return std::nullopt;
+  const double sigma_m = std::hypot(between->sigma_m, common_m);
+  if (!(std::abs(between->step_m) > kCertainStep_sigmas * sigma_m)) return std::nullopt;
+  return FrameStep{static_cast<int>(f), static_cast<int>(g), between->step_m, sigma_m};
 }
 
 }  // namespace
@@ -52,8 +53,8 @@ FrameRelations RelateFramePlanes(const Frame& frame, const Camera& camera,
       Pieces pieces = Pieces::kUnsure;
       if (chi2 < config.max_chi2) {
         if (!neighbours) neighbours.emplace(frame, camera);
-        if (HaveStep(*neighbours, f, g, config)) {
-          out.steps.push_back({static_cast<int>(f), static_cast<int>(g)});
+        if (const auto step = FindStep(*neighbours, f, g, config)) {
+          out.steps.push_back(*step);
         } else {
           pieces = Pieces::kOfOne;
         }

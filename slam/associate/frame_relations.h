@@ -9,6 +9,8 @@
 
 namespace slam {
 
+inline constexpr double kCertainStep_sigmas = 4.0;  // 1 in 16,000
+
 /// The two planes are linked to boxes of two objects. A second box of one object agrees with
 /// the first (a double, maybe of another class) or lies in it (a part, of the same class); the
 /// box of a book before a laptop lies in the laptop's and is of another class.

@@ -103,7 +103,7 @@ void BendMeter::Measure(Frame& frame) {
     squares_ = kept * squares_ + std::max(0.0, sum / count);
     weight_ = kept * weight_ + 1.0;
   }
-  frame.depth_bend = ratio();
+  frame.bend_ratio = ratio();
   for (FramePlane& plane : frame.planes) {
     const BendSigmas sigmas =
         SigmasOfBend(ratio(), plane.centroid_c.z(), plane.pixel_count * pixel_rad2_);

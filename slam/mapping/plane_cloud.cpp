@@ -84,18 +84,18 @@ void MergeIntoCloud(std::vector<Eigen::Vector3d>& cloud_w,
 
 double CloudOverlap(const std::vector<Eigen::Vector3d>& one_w,
                     const std::vector<Eigen::Vector3d>& other_w, const Plane& pi_w,
-                    double voxel_m) {
+                    double voxel_m, int reach) {
   if (one_w.empty() || other_w.empty()) return 0.0;
   const Eigen::Matrix<double, 3, 2> axes = TangentBasis(pi_w.n);
   std::vector<Cell> few = Cells(one_w, axes, one_w.front(), voxel_m);
   std::vector<Cell> many = Cells(other_w, axes, one_w.front(), voxel_m);
   if (few.size() > many.size()) std::swap(few, many);
-  // A voxel is shared if the other cloud has one there or beside it.
+  // A voxel is shared if the other cloud has one there or within reach.
   int shared = 0;
   for (const auto& [x, y] : few) {
     bool found = false;
-    for (std::int64_t dx = -1; dx <= 1 && !found; ++dx) {
-      for (std::int64_t dy = -1; dy <= 1 && !found; ++dy) {
+    for (std::int64_t dx = -reach; dx <= reach && !found; ++dx) {
+      for (std::int64_t dy = -reach; dy <= reach && !found; ++dy) {
         found = std::binary_search(many.begin(), many.end(), Cell(x + dx, y + dy));
       }
     }

@@ -18,10 +18,11 @@ void MergeIntoCloud(std::vector<Eigen::Vector3d>& cloud_w,
                     const std::vector<Eigen::Vector3d>& points_w, const Plane& pi_w,
                     const Eigen::Vector3d& grid_origin_w, double voxel_m, int max_points);
 
-/// Share of the smaller cloud's voxels that the other cloud has a point in or beside, [0, 1].
+/// Share of the smaller cloud's voxels that the other cloud has a point in, or at most `reach`
+/// voxels beside, [0, 1].
 double CloudOverlap(const std::vector<Eigen::Vector3d>& one_w,
                     const std::vector<Eigen::Vector3d>& other_w, const Plane& pi_w,
-                    double voxel_m);
+                    double voxel_m, int reach = 1);
 
 /// Convex outline of points projected onto a plane, counter-clockwise seen from its front, and
 /// its area. Fewer than three points that span an area: empty and 0.

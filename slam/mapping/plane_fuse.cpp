@@ -15,14 +15,22 @@ int CovisibleFrames(const MapPlane& one, const MapPlane& other) {
   return found == one.covisible.end() ? 0 : found->second;
 }
 
+/// One of them was split from the other, or from what is now a part of it.
+bool WereSplit(const Map& map, const MapPlane& one, const MapPlane& other) {
+  const auto holds = [&](const MapPlane& m, int split_from) {
+    return split_from != kNone && CurrentPlane(map, split_from) == m.id;
+  };
+  return holds(one, other.split_from) || holds(other, one.split_from);
+}
+
 /// Parameters agree from both sides, classes do not contradict, clouds meet.
-bool OneSurface(const MapPlane& one, const MapPlane& other, const AssociationConfig& a,
-                const PlaneMapConfig& config) {
+bool OneSurface(const Map& map, const MapPlane& one, const MapPlane& other,
+                const AssociationConfig& a, const PlaneMapConfig& config) {
   if (one.observations < config.min_fused_observations ||
       other.observations < config.min_fused_observations) {
     return false;
   }
-  if (StepLiesBetween(one, other)) return false;
+  if (StepLiesBetween(one, other) || WereSplit(map, one, other)) return false;
   const PlaneComparison forth = ComparePlanes(one, other, a);
   if (!(forth.angle_rad < a.gates.max_normal_angle_rad)) return false;  // eq6
   // Two segments seen side by side again and again have shown any step there is.
@@ -93,6 +101,7 @@ void Fuse(MapPlane& into, MapPlane& from, const PlaneMapConfig& config) {
   from.points_w.clear();
   from.edge_points_w.clear();
   from.map_points.clear();
+  from.parts.clear();
 }
 
 /// What was counted of the fused plane counts for the one that it became.
@@ -132,7 +141,7 @@ int FusePlanes(Map& map, const AssociationConfig& association, const PlaneMapCon
     if (landmarks[i]->status == LandmarkStatus::kMerged) continue;
     for (std::size_t k = i + 1; k < landmarks.size(); ++k) {
       if (landmarks[k]->status == LandmarkStatus::kMerged) continue;
-      if (!OneSurface(*landmarks[i], *landmarks[k], association, config)) continue;
+      if (!OneSurface(map, *landmarks[i], *landmarks[k], association, config)) continue;
       Fuse(*landmarks[i], *landmarks[k], config);
       MoveCounts(map, landmarks[k]->id, landmarks[i]->id, &MapPlane::covisible);
       MoveCounts(map, landmarks[k]->id, landmarks[i]->id, &MapPlane::stepped);

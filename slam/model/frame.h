@@ -45,7 +45,8 @@ enum class MatchReason {
   kClass,       ///< the runner-up's class belief speaks against it
   kBox,         ///< the runner-up's projected box lies farther from the detection's
   kRankTest,    ///< the runner-up's points are distributed otherwise
-  kAmbiguous    ///< two answers are too close, or the only one is in doubt: none is given
+  kAmbiguous,   ///< two answers are too close, or the only one is in doubt: none is given
+  kSplit        ///< the landmark that it was matched with turned out to be two
 };
 
 /// The decision on one frame plane, as it was made in its frame.
@@ -62,6 +63,8 @@ struct PlaneMatch {
 /// Two planes of a frame that lie side by side with a step between them.
 struct FrameStep {
   int one = 0, other = 0;  ///< indices
+  double step_m = 0.0;     ///< height of the one over the other
+  double sigma_m = 0.0;    ///< its standard deviation, by the scatter of what was measured
 };
 
 /// A matched map point that lies on a plane of the frame.
@@ -84,8 +87,8 @@ struct Frame {
   std::vector<Detection> detections;
   bool detector_asked = true;  ///< false: all boxes are carried over from an earlier frame
   std::vector<FramePlane> planes;
-  cv::Mat1b plane_labels;  ///< index + 1 of the frame plane at each pixel; 0 = none
-  double depth_bend = 0.0;  ///< root mean square of what the sensor bends, as a part of the depth
+  cv::Mat1b plane_labels;   ///< index + 1 of the frame plane at each pixel; 0 = none
+  double bend_ratio = 0.0;  ///< what the sensor bends, root mean square, as a part of the depth
 
   // (D) association; parallel to `features` and `planes`
   std::vector<int> map_points;  ///< id of the matched map point, or kNone

@@ -19,11 +19,15 @@ enum class LandmarkStatus {
   kMerged  ///< found to be the same surface as another landmark, which stands for both
 };
 
+struct PlanePart;
+
 /// A surface of the map: a patch with a front, in the world frame.
 struct MapPlane {
   int id = kNone;  ///< given by MapPlanes, never reused
   LandmarkStatus status = LandmarkStatus::kCandidate;
   int merged_into = kNone;  ///< id of the landmark that stands for this one, when merged
+  int split_from = kNone;   ///< id of the landmark that turned out to hold this one as well
+  double split_at_s = 0.0;  ///< time of the frame in which it did
 
   Plane pi_w;  ///< keeps the orientation of its first observation
   Eigen::Vector3d centroid_w = Eigen::Vector3d::Zero();
@@ -45,6 +49,18 @@ struct MapPlane {
   double seen_px = 0.0;  ///< summed size of the segments that showed it, pixels
   int first_frame = 0, last_frame = 0;
   double first_seen_s = 0.0, last_seen_s = 0.0;
+
+  std::vector<PlanePart> parts;  ///< on trial as surfaces of their own
+};
+
+/// A part of a landmark that frames showed beyond a step.
+struct PlanePart {
+  MapPlane surface;               ///< the part alone, as those frames saw it
+  MapPlane rest;                  ///< what lay on the other side of the step
+  int seen = 0;                   ///< frames that showed the part and more of the landmark
+  int apart = 0;                  ///< those of them that showed the step
+  double step_information = 0.0;  ///< 1/m^2, of the part's height over the rest at the step
+  double step_weighted = 0.0;     ///< that information times the height
 };
 
 }  // namespace slam

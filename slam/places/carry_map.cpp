@@ -51,6 +51,10 @@ void MovePlane(MapPlane& plane, const Pose& T_new_old) {
   MoveAll(plane.edge_points_w, T_new_old);
   MoveAll(plane.vertices_w, T_new_old);
   MoveAll(plane.hull_w, T_new_old);
+  for (PlanePart& part : plane.parts) {
+    MovePlane(part.surface, T_new_old);
+    MovePlane(part.rest, T_new_old);
+  }
 }
 
 void CarryPoints(Map& map, const std::vector<Pose>& before) {

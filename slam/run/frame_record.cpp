@@ -15,7 +15,8 @@ Json NumberJson(double x) {
 /// What settled the decision, or null.
 const char* DecidedBy(const PlaneMatch& match) {
   if (match.decision == PlaneDecision::kTrial) return "candidate";
-  if (match.decision == PlaneDecision::kNew) return "unmatched";
+  const bool split = match.reason == MatchReason::kSplit;
+  if (match.decision == PlaneDecision::kNew && !split) return "unmatched";
   switch (match.reason) {
     case MatchReason::kNothing:
       return nullptr;
@@ -31,6 +32,8 @@ const char* DecidedBy(const PlaneMatch& match) {
       return "ranksum";
     case MatchReason::kAmbiguous:
       return "ambiguous";
+    case MatchReason::kSplit:
+      return "split";
   }
   throw std::invalid_argument("DecidedBy: unknown reason");
 }

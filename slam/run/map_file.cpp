@@ -35,6 +35,10 @@ Json PlaneJson(const MapPlane& plane) {
   json["first_seen"] = Finite(plane.first_seen_s);
   json["last_seen"] = Finite(plane.last_seen_s);
   json["merged_into"] = plane.merged_into != kNone ? Json(plane.merged_into) : Json(nullptr);
+  if (plane.split_from != kNone) {
+    json["split_from"] = plane.split_from;
+    json["split_at"] = Finite(plane.split_at_s);
+  }
   json["vertices"] = VectorsJson(plane.vertices_w);
   json["hull"] = VectorsJson(plane.hull_w);
   return json;

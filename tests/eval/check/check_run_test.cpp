@@ -169,6 +169,35 @@ TEST_F(CheckRunFolder, NamesAMergeThatLeadsBackToItself) {
   ExpectOnly("map.json", 0, "/planes/0/merged_into", "back to the plane itself");
 }
 
+TEST_F(CheckRunFolder, NamesASplitFromAPlaneThatIsNotThere) {
+  EditJson("map.json", [](json& map) { map["planes"][0]["split_from"] = 77; });
+  ExpectOnly("map.json", 0, "/planes/0/split_from", "no plane of the map");
+}
+
+TEST_F(CheckRunFolder, NamesASplitThatLeadsBackToItself) {
+  EditJson("map.json",
+           [](json& map) { map["planes"][0]["split_from"] = map["planes"][0]["id"]; });
+  ExpectOnly("map.json", 0, "/planes/0/split_from", "back to the plane itself");
+}
+
+TEST_F(CheckRunFolder, TakesASplitForWhatMadeThePlane) {
+  // Without the split this is a match with a plane that nobody made.
+  int id = 0;
+  EditLine(1, [&](json& frame) {
+    frame["planes"][0]["decision"] = "matched";
+    id = frame["planes"][0]["map_plane"];
+  });
+  EditJson("map.json", [&](json& map) {
+    for (json& plane : map["planes"]) {
+      if (plane["id"] != id) continue;
+      plane["split_from"] = map["planes"][plane == map["planes"][0] ? 1 : 0]["id"];
+      plane["split_at"] = 1.0;
+    }
+  });
+  const CheckReport report = CheckFolder(run());
+  EXPECT_TRUE(report.faults.empty()) << All(report);
+}
+
 TEST_F(CheckRunFolder, NamesAHullThatIsOffItsPlane) {
   EditJson("map.json", [](json& map) {
     map["planes"][1]["hull"][2][2] = map["planes"][1]["hull"][2][2].get<double>() + 0.5;

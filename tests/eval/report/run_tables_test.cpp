@@ -84,6 +84,21 @@ TEST_F(EventsOfTinyWorld, AnotherMapPlaneForAKnownBookIsMissedAndASplitOnceItHas
   EXPECT_EQ(split[0].map_plane, 900);
 }
 
+TEST_F(EventsOfTinyWorld, APlaneThatTheRunSplitOffIsListedWithWhatBothShow) {
+  TinyRun run(*world_);
+  nlohmann::json& top = MapPlane(run, TinyWorld::kThinTop);
+  top["split_from"] = TinyRun::MapId(TinyWorld::kDeskTop);
+  top["split_at"] = 1.0;
+  const std::vector<RunEvent> events = Events(run);
+  ASSERT_EQ(events.size(), 1u);
+  EXPECT_EQ(events[0].kind, EventKind::kSplitOff);
+  EXPECT_EQ(events[0].truth, TinyWorld::kThinTop);
+  EXPECT_EQ(events[0].other_truth, TinyWorld::kDeskTop);
+  EXPECT_EQ(events[0].map_plane, TinyRun::MapId(TinyWorld::kThinTop));
+  EXPECT_EQ(events[0].right_map_plane, TinyRun::MapId(TinyWorld::kDeskTop));
+  EXPECT_EQ(events[0].harm_px_mm, std::nullopt);
+}
+
 TEST_F(EventsOfTinyWorld, AMergeSumsUpWhatItsWrongDecisionsDid) {
   TinyRun run(*world_);
   for (std::size_t i = kFrame; i < kFrame + 3; ++i) {

@@ -227,6 +227,10 @@ TEST(PlaneAssociation, APieceBeyondAStepIsTheLandmarkOnlyWhereItHasBeenSeenAsIt)
   TearOff(a.second.frame, {100, 0, 60, 120});
   const auto seen = AssociatePlanes(a.second.frame, a.map, SmallCamera(), {});
   ASSERT_EQ(seen.steps.size(), 1u);
+  // The piece is nearer by 4 mm: the desk is lower than it.
+  EXPECT_EQ(seen.steps[0].one, 0);
+  EXPECT_NEAR(seen.steps[0].step_m, -0.004, 1e-4);
+  EXPECT_GT(seen.steps[0].sigma_m, 0.0);
   EXPECT_EQ(seen.matches[0].map_plane, desk);
   EXPECT_EQ(seen.matches.back().map_plane, desk);
 

@@ -88,5 +88,21 @@ TEST(CarryMap, APlaneMovesWithTheKeyframeOfItsFirstSightingAndOneOnTrialWithTheN
               VectorNear(Eigen::Vector3d(moved.T_new_old[2] * centroid_w), 1e-12));
 }
 
+TEST(CarryMap, APartOfAPlaneMovesWithIt) {
+  const Pose T_new_old{ExpSo3({0.1, 0.2, -0.3}), {0.5, 0, 0.1}};
+  MapPlane plane;
+  plane.pi_w = {Eigen::Vector3d::UnitZ(), -0.7};
+  plane.points_w = {{0.1, 0.2, 0.7}};
+  MapPlane moved = plane;
+  moved.parts.resize(1);
+  moved.parts[0].surface = moved.parts[0].rest = plane;
+  MovePlane(moved, T_new_old);
+  for (const MapPlane& side : {moved.parts[0].surface, moved.parts[0].rest}) {
+    EXPECT_EQ(side.pi_w.n, moved.pi_w.n);
+    EXPECT_EQ(side.pi_w.d, moved.pi_w.d);
+    EXPECT_EQ(side.points_w, moved.points_w);
+  }
+}
+
 }  // namespace
 }  // namespace slam

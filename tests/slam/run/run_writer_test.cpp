@@ -221,6 +221,19 @@ TEST_F(RunFolder, TakesALaterTrajectoryInPlaceOfTheOneAsTracked) {
   EXPECT_EQ(Lines(run_ / "trajectory.txt")[1], "1305031102.175304 0 0 0 0 0 0 1");
 }
 
+TEST_F(RunFolder, SaysWhatAPlaneWasSplitFromAndNothingOfSplitsElsewhere) {
+  Map map = SomeMap();
+  map.planes.At(1).split_from = 0;
+  map.planes.At(1).split_at_s = 2.25;
+  RunWriter writer(run_, Info(), {});
+  writer.Finish(map, {}, {});
+  const json planes = json::parse(Bytes(run_ / "map.json"))["planes"];
+  EXPECT_EQ(planes[1]["split_from"], 0);
+  EXPECT_EQ(planes[1]["split_at"], 2.25);
+  EXPECT_FALSE(planes[0].contains("split_from"));
+  EXPECT_FALSE(planes[0].contains("split_at"));
+}
+
 TEST_F(RunFolder, HoldsTheMapWithItsMergedPlanesAndItsPoints) {
   WriteRun(run_, {});
   const json map = json::parse(Bytes(run_ / "map.json"));

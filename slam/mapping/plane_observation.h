@@ -1,0 +1,28 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "slam/associate/association_config.h"
+#include "slam/mapping/plane_map_config.h"
+#include "slam/model/frame.h"
+#include "slam/model/map_plane.h"
+
+namespace slam {
+
+/// Number of frames that see a surface through the same bends, at an ordinary speed: they know no
+/// more than the first of them.
+inline constexpr double kFramesOfOneBend = 10.0;
+
+/// A candidate before its first observation.
+MapPlane StartPlane(const FramePlane& plane, const Frame& frame);
+
+/// Adds one frame plane to the map plane that it shows, at the final frame.T_cw: parameters,
+/// clouds, outline, class belief, corners and counts.
+void ObservePlane(MapPlane& map_plane, const FramePlane& plane, const Frame& frame,
+                  const AssociationConfig& association, const PlaneMapConfig& config);
+
+std::vector<Eigen::Vector3d> PointsInWorld(const std::vector<Eigen::Vector3d>& points_c,
+                                           const Pose& T_wc);
+
+}  // namespace slam
