@@ -88,5 +88,15 @@ TEST(CarryMap, APlaneMovesWithTheKeyframeOfItsFirstSightingAndOneOnTrialWithTheN
               VectorNear(Eigen::Vector3d(moved.T_new_old[2] * centroid_w), 1e-12));
 }
 
+TEST(CarryMap, APlaneThatAnAdjustmentHasPlacedStays) {
+  MovedMap moved;
+  MapPlane plane;
+  plane.centroid_w = {0.4, -0.7, 1.5};
+  for (int i = 0; i < 2; ++i) AddLandmark(moved.map, plane);
+  CarryPlanes(moved.map, moved.before, {1});
+  EXPECT_GT((moved.map.planes.At(0).centroid_w - plane.centroid_w).norm(), 0.1);
+  EXPECT_EQ(moved.map.planes.At(1).centroid_w, plane.centroid_w);
+}
+
 }  // namespace
 }  // namespace slam
