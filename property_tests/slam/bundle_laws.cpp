@@ -12,7 +12,7 @@
 namespace slam {
 namespace {
 
-/// Moves points and planes, and all keyframes but the first, by up to so much.
+/// Moves points, and all keyframes but the first, by up to so much, and planes as they are seen.
 void Disturb(Map& map, double max_m, double max_rad) {
   for (Keyframe& keyframe : map.keyframes) {
     if (keyframe.id > 0) keyframe.T_cw = AnyMotion(max_rad, max_m) * keyframe.T_cw;
@@ -22,7 +22,7 @@ void Disturb(Map& map, double max_m, double max_rad) {
   for (MapPoint& point : map.points) {
     for (int i = 0; i < 3; ++i) point.p_w[i] += max_m * (2 * random.Uniform() - 1);
   }
-  for (MapPlane& plane : map.planes) MovePlane(plane, AnyMotion(max_rad, max_m));
+  PlaceAsSeen(map);
 }
 
 /// Without planes, with one, with parallel ones, with any.

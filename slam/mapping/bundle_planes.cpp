@@ -31,8 +31,7 @@ std::map<int, std::vector<Sighting>> SightingsOfLandmarks(const Map& map) {
 
 /// Adds what a keyframe outside has seen, unless it contradicts the landmark as it is.
 /// @returns whether it was added
-bool AddOutside(const Keyframe& keyframe, const KeyframePlane& seen, const WindowPlane& plane,
-                PlaneEstimate& outside) {
+bool AddOutside(const Keyframe& keyframe, const KeyframePlane& seen, WindowPlane& plane) {
   const PoseBlock pose = BlockOf(keyframe.T_cw);
   const PlaneBlock block = BlockOf(plane.start_w, plane.reference_w);
   const double* blocks[] = {pose.data(), block.data()};
@@ -40,7 +39,7 @@ bool AddOutside(const Keyframe& keyframe, const KeyframePlane& seen, const Windo
   PlaneTerm(seen, plane.reference_w).Evaluate(blocks, residual.data(), nullptr);
   if (!(residual.squaredNorm() < kChi2Of3At999)) return false;
   const Pose T_wc = Inverse(keyframe.T_cw);
-  AddObservation(outside, Transform(T_wc, seen.pi_c), T_wc * seen.centroid_c,
+  AddObservation(plane.outside, Transform(T_wc, seen.pi_c), T_wc * seen.centroid_c,
                  seen.angle_sigma_rad, seen.offset_sigma_m, 1.0);
   return true;
 }
@@ -50,8 +49,7 @@ bool AddOutside(const Keyframe& keyframe, const KeyframePlane& seen, const Windo
 void AddLandmark(const Map& map, const MapPlane& landmark,
                  const std::vector<Sighting>& sightings,
                  const std::map<int, std::size_t>& pose_at, BundleWindow& window) {
-  WindowPlane plane{landmark.id, landmark.pi_w, landmark.centroid_w, nullptr};
-  PlaneEstimate outside;
+  WindowPlane plane{landmark.id, landmark.pi_w, landmark.centroid_w, {}, nullptr};
   std::vector<BundleWindow::PlaneObservation> inside;
   std::set<int> keyframes;
   bool moves = false;
@@ -60,7 +58,7 @@ void AddLandmark(const Map& map, const MapPlane& landmark,
     const KeyframePlane& seen = keyframe.planes[s.seen_at];
     const auto at = pose_at.find(s.keyframe);
     if (at == pose_at.end()) {
-      if (AddOutside(keyframe, seen, plane, outside)) keyframes.insert(s.keyframe);
+      if (AddOutside(keyframe, seen, plane)) keyframes.insert(s.keyframe);
       continue;
     }
     inside.push_back({s.keyframe, s.seen_at, at->second, window.planes.size(), true,
@@ -70,8 +68,8 @@ void AddLandmark(const Map& map, const MapPlane& landmark,
   }
   if (!moves || keyframes.size() < 2) return;
   std::move(inside.begin(), inside.end(), std::back_inserter(window.plane_observations));
-  if (!outside.empty())
-    plane.prior = std::make_unique<PlanePriorTerm>(outside, plane.reference_w);
+  if (!plane.outside.empty())
+    plane.prior = std::make_unique<PlanePriorTerm>(plane.outside, plane.reference_w);
   window.plane_blocks.push_back(BlockOf(plane.start_w, plane.reference_w));
   window.planes.push_back(std::move(plane));
 }
@@ -85,6 +83,21 @@ void AddPointsOn(const MapPlane& landmark, double sigma_m, BundleWindow& window)
         {static_cast<std::size_t>(at - window.points.begin()), window.planes.size() - 1, true,
          std::make_unique<PointOnPlaneTerm>(sigma_m, window.planes.back().reference_w)});
   }
+}
+
+/// What the keyframes that still count have seen of each landmark, from where they were or are.
+std::vector<PlaneEstimate> SeenFrom(const BundleWindow& window, const Map& map,
+                                    const std::vector<Pose>& poses_cw) {
+  std::vector<PlaneEstimate> seen_w;
+  for (const WindowPlane& plane : window.planes) seen_w.push_back(plane.outside);
+  for (const BundleWindow::PlaneObservation& o : window.plane_observations) {
+    if (!o.inlier) continue;
+    const KeyframePlane& seen = map.keyframes[Index(o.keyframe)].planes[o.seen_at];
+    const Pose T_wc = Inverse(poses_cw[o.pose_at]);
+    AddObservation(seen_w[o.plane_at], Transform(T_wc, seen.pi_c), T_wc * seen.centroid_c,
+                   seen.angle_sigma_rad, seen.offset_sigma_m, 1.0);
+  }
+  return seen_w;
 }
 
 }  // namespace
@@ -105,12 +118,19 @@ void AddPlanes(const Map& map, const std::map<int, std::size_t>& pose_at,
 }
 
 void MergePlanes(const BundleWindow& window, Map& map) {
+  std::vector<Pose> before_cw, now_cw;
+  for (std::size_t i = 0; i < window.keyframes.size(); ++i) {
+    before_cw.push_back(map.keyframes[Index(window.keyframes[i])].T_cw);
+    now_cw.push_back(PoseOf(window.poses[i].data()));
+  }
+  const std::vector<PlaneEstimate> before_w = SeenFrom(window, map, before_cw);
+  const std::vector<PlaneEstimate> now_w = SeenFrom(window, map, now_cw);
   for (std::size_t i = 0; i < window.planes.size(); ++i) {
-    const WindowPlane& plane = window.planes[i];
-    MapPlane& landmark = map.planes.At(plane.id);
+    MapPlane& landmark = map.planes.At(window.planes[i].id);
     if (landmark.status != LandmarkStatus::kLandmark) continue;  // merged meanwhile
-    const Plane end_w = PlaneOf(window.plane_blocks[i].data(), plane.reference_w);
-    MovePlane(landmark, MotionBetween(plane.start_w, end_w, plane.reference_w));
+    if (now_w[i].empty()) continue;                              // nobody counts any more
+    MovePlane(landmark,
+              MotionBetween(before_w[i].Mean(), now_w[i].Mean(), window.planes[i].reference_w));
   }
   for (const BundleWindow::PlaneObservation& o : window.plane_observations) {
     if (!o.inlier) map.keyframes[Index(o.keyframe)].planes[o.seen_at].map_plane = kNone;

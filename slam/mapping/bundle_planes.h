@@ -16,7 +16,9 @@ namespace slam {
 void AddPlanes(const Map& map, const std::map<int, std::size_t>& pose_at,
                const LocalBundleConfig& config, BundleWindow& window);
 
-/// Takes the planes of a solved window over into the map.
+/// Takes the planes of a solved window over into the map, which has its old poses still. A
+/// landmark moves, with all that it has, as what keyframes have seen of it has moved with them,
+/// so its plane goes on being what the latest frames measure best.
 void MergePlanes(const BundleWindow& window, Map& map);
 
 }  // namespace slam

@@ -136,6 +136,7 @@ void CarryTheNewer(const BundleWindow& window, Map& map) {
 
 void MergeWindow(const BundleWindow& window, const FeatureScale& scale, Map& map) {
   CarryTheNewer(window, map);
+  MergePlanes(window, map);
   for (std::size_t i = 0; i < window.free_count; ++i) {
     map.keyframes[Index(window.keyframes[i])].T_cw = PoseOf(window.poses[i].data());
   }
@@ -147,7 +148,6 @@ void MergeWindow(const BundleWindow& window, const FeatureScale& scale, Map& map
     if (!o.inlier) RemoveObservation(map, o.point, o.keyframe);
   }
   for (const int id : window.points) UpdatePoint(map, id, scale);
-  MergePlanes(window, map);
 }
 
 }  // namespace slam

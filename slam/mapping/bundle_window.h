@@ -18,7 +18,8 @@ struct WindowPlane {
   int id = kNone;
   Plane start_w;                          ///< where it was when the window was taken
   Eigen::Vector3d reference_w;            ///< of its block
-  std::unique_ptr<PlanePriorTerm> prior;  ///< what keyframes outside say; null: nothing
+  PlaneEstimate outside;                  ///< what keyframes outside say; may be empty
+  std::unique_ptr<PlanePriorTerm> prior;  ///< the same; null when it is empty
 };
 
 /// What takes part in an adjustment, copied from the map: the map may go on growing while the
@@ -75,7 +76,7 @@ LocalBundleReport SolveWindow(BundleWindow& window, const LocalBundleConfig& con
 
 /// Takes a usable solution over into the map. Keyframes that came meanwhile, and the points
 /// that they brought, move as the window's newest keyframe does; a landmark moves with all that
-/// it has as its plane does. Observations that are no inliers are taken back.
+/// it has as what its keyframes saw of it does (MergePlanes). Observations that are no inliers are taken back.
 /// @pre nothing else moved poses or fused, culled or removed keyframes meanwhile
 void MergeWindow(const BundleWindow& window, const FeatureScale& scale, Map& map);
 

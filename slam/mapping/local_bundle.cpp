@@ -56,8 +56,9 @@ class Solver {
       const double gate = o.stereo ? kChi2Of3At95 : kChi2Of2At95;
       o.inlier = Residual(o).squaredNorm() <= gate;
     }
+    // Planes are few, and have passed association by this bound already.
     for (auto& o : window_.plane_observations) {
-      o.inlier = Residual(o).squaredNorm() <= kChi2Of3At95;
+      o.inlier = Residual(o).squaredNorm() <= kChi2Of3At999;
     }
     for (auto& o : window_.points_on_planes) {
       o.inlier = Residual(o).squaredNorm() <= kChi2Of1At95;

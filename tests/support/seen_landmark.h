@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "slam/mapping/keyframe_planes.h"
+#include "slam/mapping/plane_motion.h"
 #include "slam/model/map.h"
 #include "tests/support/map_surfaces.h"
 
@@ -32,6 +34,23 @@ inline int AddSeenLandmark(Map& map, const Plane& pi_w, const Eigen::Vector3d& x
     keyframe.planes.push_back(ExactKeyframePlane(keyframe, id, pi_w, seen_w));
   }
   return id;
+}
+
+/// Moves the landmarks to where their keyframes, as these stand, have seen them.
+inline void PlaceAsSeen(Map& map) {
+  for (MapPlane& landmark : map.planes) {
+    PlaneEstimate seen_w;
+    for (const Keyframe& keyframe : map.keyframes) {
+      const Pose T_wc = Inverse(keyframe.T_cw);
+      for (const KeyframePlane& seen : keyframe.planes) {
+        if (LandmarkOf(map, seen) != &landmark) continue;
+        AddObservation(seen_w, Transform(T_wc, seen.pi_c), T_wc * seen.centroid_c,
+                       seen.angle_sigma_rad, seen.offset_sigma_m, 1.0);
+      }
+    }
+    if (seen_w.empty()) continue;
+    MovePlane(landmark, MotionBetween(landmark.pi_w, seen_w.Mean(), landmark.centroid_w));
+  }
 }
 
 /// A floor, a wall and another wall, none parallel to another.
