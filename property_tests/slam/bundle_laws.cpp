@@ -3,12 +3,16 @@
 
 #include "property_tests/generators/poses.h"
 #include "slam/mapping/local_bundle.h"
+#include "slam/mapping/plane_motion.h"
+#include "slam/mapping/plane_terms.h"
+#include "tests/support/numeric_jacobian.h"
 #include "tests/support/point_world.h"
+#include "tests/support/seen_landmark.h"
 
 namespace slam {
 namespace {
 
-/// Moves points, and all keyframes but the first, by up to so much.
+/// Moves points, and all keyframes but the first, by up to so much, and planes as they are seen.
 void Disturb(Map& map, double max_m, double max_rad) {
   for (Keyframe& keyframe : map.keyframes) {
     if (keyframe.id > 0) keyframe.T_cw = AnyMotion(max_rad, max_m) * keyframe.T_cw;
@@ -18,11 +22,32 @@ void Disturb(Map& map, double max_m, double max_rad) {
   for (MapPoint& point : map.points) {
     for (int i = 0; i < 3; ++i) point.p_w[i] += max_m * (2 * random.Uniform() - 1);
   }
+  PlaceAsSeen(map);
 }
 
+/// Without planes, with one, with parallel ones, with any.
 PointWorld AnyWorld() {
-  return MakePointWorld(AnyInt(2, 5), AnyInt(80, 160),
-                        static_cast<std::uint64_t>(AnyInt(0, 1 << 20)), AnyInt(1, 3));
+  PointWorld world =
+      MakePointWorld(AnyInt(2, 5), AnyInt(80, 160),
+                     static_cast<std::uint64_t>(AnyInt(0, 1 << 20)), AnyInt(1, 3));
+  const int planes = AnyInt(0, 4);
+  const bool parallel = AnyInt(0, 2) == 0;
+  Eigen::Vector3d n = AnyUnit();
+  for (int i = 0; i < planes; ++i) {
+    const Eigen::Vector3d x_w(AnyReal(-1, 1), AnyReal(-1, 1), AnyReal(1, 3));
+    AddSeenLandmark(world.map, {n, -n.dot(x_w)}, x_w);
+    if (!parallel) n = AnyUnit();
+  }
+  return world;
+}
+
+/// The planes are those of the other map, within these, where they were seen.
+void AssertPlanesNear(const Map& map, const Map& expected, double rad, double m) {
+  for (const MapPlane& plane : map.planes) {
+    const MapPlane& other = expected.planes.At(plane.id);
+    RC_ASSERT(Angle(plane.pi_w.n, other.pi_w.n) < rad);
+    RC_ASSERT(std::abs(SignedDistance(plane.pi_w, other.centroid_w)) < m);
+  }
 }
 
 RC_GTEST_PROP(LocalBundleLaws, FindsTheTrueMapAgainFromADisturbedOne, ()) {
@@ -38,6 +63,7 @@ RC_GTEST_PROP(LocalBundleLaws, FindsTheTrueMapAgainFromADisturbedOne, ()) {
     RC_ASSERT(RotationAngle(keyframe.T_cw, T_cw) < 1e-4);
     RC_ASSERT((keyframe.T_cw.t - T_cw.t).norm() < 1e-4);
   }
+  AssertPlanesNear(map, truth.map, 1e-4, 1e-4);
 }
 
 // The estimate may depend on where the world's origin lies by no more than the solver's
@@ -50,6 +76,7 @@ RC_GTEST_PROP(LocalBundleLaws, MovesTheMapTheSameWayWhereverTheWorldOriginLies, 
   const Pose T_vw = AnyPose(2), T_wv = Inverse(T_vw);
   for (Keyframe& keyframe : there.keyframes) keyframe.T_cw = keyframe.T_cw * T_wv;
   for (MapPoint& point : there.points) point.p_w = T_vw * point.p_w;
+  for (MapPlane& plane : there.planes) MovePlane(plane, T_vw);
   const int newest = static_cast<int>(here.keyframes.size()) - 1;
   LocalBundleConfig config;
   config.last_iterations = 30;
@@ -60,6 +87,81 @@ RC_GTEST_PROP(LocalBundleLaws, MovesTheMapTheSameWayWhereverTheWorldOriginLies, 
     RC_ASSERT(RotationAngle(expected, there.keyframes[k].T_cw) < 1e-4);
     RC_ASSERT((expected.t - there.keyframes[k].T_cw.t).norm() < 3e-4);
   }
+  for (MapPlane& plane : there.planes) MovePlane(plane, T_wv);
+  AssertPlanesNear(there, here, 1e-4, 3e-4);
+}
+
+/// Five-point derivative along the three steps of the plane's manifold.
+template <int kRows, typename Residual>
+Eigen::Matrix<double, kRows, 3> ByPlaneStep(const PlaneBlock& block, const Residual& residual) {
+  constexpr double h = 1e-3;
+  const PlaneManifold manifold;
+  Eigen::Matrix<double, kRows, 3> J;
+  for (int i = 0; i < 3; ++i) {
+    const auto at = [&](double step) -> Eigen::Matrix<double, kRows, 1> {
+      const Eigen::Vector3d delta = step * Eigen::Vector3d::Unit(i);
+      PlaneBlock moved;
+      manifold.Plus(block.data(), delta.data(), moved.data());
+      return residual(moved);
+    };
+    J.col(i) = (8 * (at(h) - at(-h)) - (at(2 * h) - at(-2 * h))) / (12 * h);
+  }
+  return J;
+}
+
+RC_GTEST_PROP(PlaneTermEq16, HasItsJacobiansAtEveryOrientation, ()) {
+  Keyframe keyframe;
+  keyframe.T_cw = AnyPose(3);
+  const Eigen::Vector3d n = AnyUnit(), x_w = AnyPoint(3);
+  KeyframePlane seen = ExactKeyframePlane(keyframe, 0, {n, -n.dot(x_w)}, x_w);
+  seen.angle_sigma_rad = seen.offset_sigma_m = 1.0;
+  const Eigen::Vector3d reference_w = x_w + AnyPoint(0.5);
+  const PlaneTerm term(seen, reference_w);
+  const Pose T_cw = AnyMotion(0.5, 0.3) * keyframe.T_cw;
+  const Eigen::Vector3d turned = ExpSo3(0.3 * AnyPoint(1)) * n;
+  const PlaneBlock plane = BlockOf({turned, -turned.dot(x_w) + 0.1}, reference_w);
+  const auto residual = [&](const Pose& at, const PlaneBlock& block) {
+    const PoseBlock pose = BlockOf(at);
+    const double* parameters[] = {pose.data(), block.data()};
+    Eigen::Vector4d r;
+    term.Evaluate(parameters, r.data(), nullptr);
+    return r;
+  };
+  const PoseBlock pose = BlockOf(T_cw);
+  Eigen::Matrix<double, 4, 7, Eigen::RowMajor> by_pose;
+  Eigen::Matrix<double, 4, 4, Eigen::RowMajor> by_plane;
+  Eigen::Matrix<double, 4, 3, Eigen::RowMajor> by_step;
+  double* jacobians[] = {by_pose.data(), by_plane.data()};
+  const double* parameters[] = {pose.data(), plane.data()};
+  Eigen::Vector4d r;
+  term.Evaluate(parameters, r.data(), jacobians);
+  PlaneManifold().PlusJacobian(plane.data(), by_step.data());
+  constexpr double kTolerance = 1e-6;  // the five-point difference reaches 1e-9
+  RC_ASSERT(JacobianError(by_pose.leftCols<6>(), NumericJacobian<4>(T_cw, [&](const Pose& T) {
+                            return residual(T, plane);
+                          })) < kTolerance);
+  RC_ASSERT(JacobianError(by_plane * by_step, ByPlaneStep<4>(plane, [&](const PlaneBlock& x) {
+                            return residual(T_cw, x);
+                          })) < kTolerance);
+}
+
+// P10, with steps of up to 3 rad: what is added is found again, and back.
+RC_GTEST_PROP(PlaneManifoldLaws, StepsForthAndBackFromEveryPole, ()) {
+  const PlaneManifold manifold;
+  const Eigen::Vector3d n = AnyUnit();
+  const PlaneBlock x{n.x(), n.y(), n.z(), AnyReal(-2, 2)};
+  const double a = AnyReal(-M_PI, M_PI), turn = AnyReal(0, 3.0);
+  const Eigen::Vector3d delta(turn * std::cos(a), turn * std::sin(a), AnyReal(-1, 1));
+  PlaneBlock y, y_again;
+  Eigen::Vector3d back;
+  manifold.Plus(x.data(), delta.data(), y.data());
+  manifold.Minus(y.data(), x.data(), back.data());
+  manifold.Plus(x.data(), back.data(), y_again.data());
+  const Eigen::Map<const Eigen::Vector4d> one(y.data()), two(y_again.data());
+  RC_ASSERT(std::abs(one.head<3>().norm() - 1) < 1e-12);
+  RC_ASSERT(std::abs(Angle(one.head<3>().normalized(), n) - turn) < 1e-9);
+  RC_ASSERT((back - delta).norm() < 1e-9);
+  RC_ASSERT((one - two).norm() < 1e-12);
 }
 
 }  // namespace

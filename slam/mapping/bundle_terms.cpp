@@ -87,4 +87,22 @@ bool BundleTerm::Evaluate(double const* const* parameters, double* residuals,
   return true;
 }
 
+bool StayTerm::Evaluate(double const* const* parameters, double* residuals,
+                        double** jacobians) const {
+  const Vector6d xi = Log(PoseOf(parameters[0]) * T_wc_before_);
+  Vector6d weight;
+  weight << Eigen::Vector3d::Constant(1.0 / kSigma_m),
+      Eigen::Vector3d::Constant(1.0 / kSigma_rad);
+  Eigen::Map<Vector6d>{residuals} = weight.cwiseProduct(xi);
+  if (jacobians == nullptr || jacobians[0] == nullptr) return true;
+  // The left Jacobian's inverse, to the second order in xi; the third order vanishes.
+  Matrix6d ad = Matrix6d::Zero();
+  ad.topLeftCorner<3, 3>() = ad.bottomRightCorner<3, 3>() = Hat(xi.tail<3>());
+  ad.topRightCorner<3, 3>() = Hat(xi.head<3>());
+  Eigen::Map<Eigen::Matrix<double, 6, 7, Eigen::RowMajor>> J(jacobians[0]);
+  J.leftCols<6>() = weight.asDiagonal() * (Matrix6d::Identity() - ad / 2 + ad * ad / 12);
+  J.col(6).setZero();
+  return true;
+}
+
 }  // namespace slam

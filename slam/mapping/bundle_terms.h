@@ -55,4 +55,20 @@ class BundleTerm : public ceres::SizedCostFunction<3, 7, 3> {
   double weight_, depth_weight_;  ///< 1 / sigma
 };
 
+/// Residual of a pose against where it was, Log(T_cw T_wc_before), in sigmas so wide that it
+/// counts in directions alone that no measurement knows: there the pose stays.
+class StayTerm : public ceres::SizedCostFunction<6, 7> {
+ public:
+  // Far beyond what an adjustment moves a keyframe by, and 1e-4 of what a hundred points know.
+  static constexpr double kSigma_m = 0.1, kSigma_rad = 0.1;
+
+  explicit StayTerm(const Pose& before_cw) : T_wc_before_(Inverse(before_cw)) {}
+  /// parameters: PoseBlock. Jacobian: by xi (see PoseManifold).
+  bool Evaluate(double const* const* parameters, double* residuals,
+                double** jacobians) const override;
+
+ private:
+  Pose T_wc_before_;
+};
+
 }  // namespace slam

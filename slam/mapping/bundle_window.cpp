@@ -4,6 +4,7 @@
 #include <set>
 
 #include "slam/base/index.h"
+#include "slam/mapping/bundle_planes.h"
 #include "slam/mapping/keyframes.h"
 #include "slam/mapping/map_points.h"
 #include "slam/model/map_queries.h"
@@ -65,6 +66,7 @@ void FillWindow(const Map& map, const Camera& camera, const FeatureScale& scale,
     }
     window.positions.push_back({point.p_w.x(), point.p_w.y(), point.p_w.z()});
   }
+  if (config.use_planes) AddPlanes(map, pose_at, config, window);
   window.map_keyframes = map.keyframes.size();
   window.map_points = map.points.size();
 }
@@ -141,6 +143,7 @@ void CarryTheNewer(const BundleWindow& window, Map& map) {
 
 void MergeWindow(const BundleWindow& window, const FeatureScale& scale, Map& map) {
   CarryTheNewer(window, map);
+  MergePlanes(window, map);
   for (std::size_t i = 0; i < window.free_count; ++i) {
     map.keyframes[Index(window.keyframes[i])].T_cw = PoseOf(window.poses[i].data());
   }

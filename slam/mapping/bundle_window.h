@@ -8,9 +8,19 @@
 #include "slam/geometry/camera.h"
 #include "slam/mapping/bundle_terms.h"
 #include "slam/mapping/local_bundle.h"
+#include "slam/mapping/plane_terms.h"
 #include "slam/model/map.h"
 
 namespace slam {
+
+/// A landmark that is adjusted.
+struct WindowPlane {
+  int id = kNone;
+  Plane start_w;                          ///< where it was when the window was taken
+  Eigen::Vector3d reference_w;            ///< of its block
+  PlaneEstimate outside;                  ///< what keyframes outside say; may be empty
+  std::unique_ptr<PlanePriorTerm> prior;  ///< the same; null when it is empty
+};
 
 /// What takes part in an adjustment, copied from the map: the map may go on growing while the
 /// window is solved. In the order of ids, which fixes the order of the solver's sums; blocks of
@@ -31,6 +41,24 @@ struct BundleWindow {
   };
   std::vector<Observation> observations;
 
+  std::vector<WindowPlane> planes;
+  std::vector<std::unique_ptr<StayTerm>> stays;  ///< of the free poses, when there are planes
+  std::vector<PlaneBlock> plane_blocks;          ///< parallel to planes
+  struct PlaneObservation {
+    int keyframe;         ///< id
+    std::size_t seen_at;  ///< into the keyframe's planes
+    std::size_t pose_at, plane_at;
+    bool inlier = true;
+    std::unique_ptr<PlaneTerm> term;
+  };
+  std::vector<PlaneObservation> plane_observations;
+  struct PointOnPlane {
+    std::size_t position_at, plane_at;
+    bool inlier = true;
+    std::unique_ptr<PointOnPlaneTerm> term;
+  };
+  std::vector<PointOnPlane> points_on_planes;
+
   std::size_t map_keyframes = 0, map_points = 0;  ///< sizes of the map when it was copied
 };
 
@@ -47,7 +75,8 @@ BundleWindow FullWindow(const Map& map, const Camera& camera, const FeatureScale
 LocalBundleReport SolveWindow(BundleWindow& window, const LocalBundleConfig& config);
 
 /// Takes a usable solution over into the map. Keyframes that came meanwhile, and the points
-/// that they brought, move as the window's newest keyframe does.
+/// that they brought, move as the window's newest keyframe does; a landmark moves with all that
+/// it has as what its keyframes saw of it does (MergePlanes). Observations that are no inliers are taken back.
 /// @pre nothing else moved poses or fused, culled or removed keyframes meanwhile
 void MergeWindow(const BundleWindow& window, const FeatureScale& scale, Map& map);
 

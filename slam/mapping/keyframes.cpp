@@ -83,6 +83,7 @@ void CullKeyframe(Map& map, int id) {
   // makes and culls keyframes without end.
   std::vector<PointFeature>().swap(keyframe.features);  // clear() would keep the memory
   std::vector<int>().swap(keyframe.map_points);
+  std::vector<KeyframePlane>().swap(keyframe.planes);
 }
 
 }  // namespace

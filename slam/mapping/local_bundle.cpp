@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 
 #include "slam/base/chi_square.h"
 #include "slam/mapping/bundle_window.h"
@@ -14,8 +15,7 @@ namespace {
 /// Ceres on one window.
 class Solver {
  public:
-  Solver(BundleWindow& window, const LocalBundleConfig& config)
-      : window_(window), config_(config) {}
+  explicit Solver(BundleWindow& window) : window_(window) {}
 
   ceres::Solver::Summary Solve(bool robust, int iterations) {
     ceres::Problem::Options ownership;
@@ -23,33 +23,16 @@ class Solver {
     ownership.loss_function_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
     ownership.manifold_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
     ceres::Problem problem(ownership);
-    ceres::HuberLoss stereo(std::sqrt(kChi2Of3At95)), mono(std::sqrt(kChi2Of2At95));
-    // Poses, the fixed ones constant.
-    PoseManifold manifold;
-    for (std::size_t i = 0; i < window_.poses.size(); ++i) {
-      problem.AddParameterBlock(window_.poses[i].data(), 7, &manifold);
-      if (i >= window_.free_count) problem.SetParameterBlockConstant(window_.poses[i].data());
-    }
-    // Points are eliminated first: the Schur complement leaves the poses.
-    ceres::ParameterBlockOrdering* order = new ceres::ParameterBlockOrdering;
-    for (auto& position : window_.positions) {
-      problem.AddParameterBlock(position.data(), 3);
-      order->AddElementToGroup(position.data(), 0);
-    }
-    for (PoseBlock& pose : window_.poses) order->AddElementToGroup(pose.data(), 1);
-    // Observations that are not outliers.
-    for (const BundleWindow::Observation& o : window_.observations) {
-      if (!o.inlier) continue;
-      ceres::LossFunction* loss = o.stereo ? &stereo : &mono;
-      problem.AddResidualBlock(o.term.get(), robust ? loss : nullptr,
-                               window_.poses[o.pose_at].data(),
-                               window_.positions[o.position_at].data());
-    }
+    // Points are eliminated first: the Schur complement leaves the poses, and the planes, which
+    // are few.
     ceres::Solver::Options options;
+    options.linear_solver_ordering = std::make_shared<ceres::ParameterBlockOrdering>();
+    AddUnknowns(problem, *options.linear_solver_ordering);
+    AddPointTerms(problem, robust);
+    AddPlaneTerms(problem, robust);
     constexpr std::size_t kMaxDense = 50;  // poses; with more, most pairs share no point
     options.linear_solver_type =
         window_.free_count > kMaxDense ? ceres::SPARSE_SCHUR : ceres::DENSE_SCHUR;
-    options.linear_solver_ordering.reset(order);
     options.num_threads = 1;
     options.max_num_iterations = iterations;
     options.logging_type = ceres::SILENT;
@@ -58,32 +41,108 @@ class Solver {
     return summary;
   }
 
-  /// Observations of points behind their camera have no derivative to follow.
+  /// Observations of points behind their camera, and of planes face to face with what was seen,
+  /// have no derivative to follow.
   void LeaveOutThoseBehind() {
-    for (BundleWindow::Observation& o : window_.observations) {
-      o.inlier = Residual(o).x() < BundleTerm::kBehind;
+    for (auto& o : window_.observations) o.inlier = Residual(o).x() < BundleTerm::kBehind;
+    for (auto& o : window_.plane_observations) {
+      o.inlier = Residual(o).x() < PlaneTerm::kRefused;
     }
   }
 
   /// Observations beyond the chi-square of their kind are no inliers any more.
   void Classify() {
-    for (BundleWindow::Observation& o : window_.observations) {
+    for (auto& o : window_.observations) {
       const double gate = o.stereo ? kChi2Of3At95 : kChi2Of2At95;
       o.inlier = Residual(o).squaredNorm() <= gate;
+    }
+    // Planes are few, and have passed association by this bound already.
+    for (auto& o : window_.plane_observations) {
+      o.inlier = Residual(o).squaredNorm() <= kChi2Of3At999;
+    }
+    for (auto& o : window_.points_on_planes) {
+      o.inlier = Residual(o).squaredNorm() <= kChi2Of1At95;
     }
   }
 
  private:
+  /// Poses, the fixed ones constant, points and planes.
+  void AddUnknowns(ceres::Problem& problem, ceres::ParameterBlockOrdering& order) {
+    for (std::size_t i = 0; i < window_.poses.size(); ++i) {
+      problem.AddParameterBlock(window_.poses[i].data(), 7, &pose_manifold_);
+      if (i >= window_.free_count) problem.SetParameterBlockConstant(window_.poses[i].data());
+      order.AddElementToGroup(window_.poses[i].data(), 1);
+    }
+    for (auto& position : window_.positions) {
+      problem.AddParameterBlock(position.data(), 3);
+      order.AddElementToGroup(position.data(), 0);
+    }
+    for (PlaneBlock& plane : window_.plane_blocks) {
+      problem.AddParameterBlock(plane.data(), 4, &plane_manifold_);
+      order.AddElementToGroup(plane.data(), 2);  // never sorted with poses by address
+    }
+  }
+
+  void AddPointTerms(ceres::Problem& problem, bool robust) {
+    for (const BundleWindow::Observation& o : window_.observations) {
+      if (!o.inlier) continue;
+      ceres::LossFunction* loss = o.stereo ? &three_ : &two_;
+      problem.AddResidualBlock(o.term.get(), robust ? loss : nullptr,
+                               window_.poses[o.pose_at].data(),
+                               window_.positions[o.position_at].data());
+    }
+  }
+
+  void AddPlaneTerms(ceres::Problem& problem, bool robust) {
+    for (const BundleWindow::PlaneObservation& o : window_.plane_observations) {
+      if (!o.inlier) continue;
+      problem.AddResidualBlock(o.term.get(), robust ? &three_ : nullptr,
+                               window_.poses[o.pose_at].data(),
+                               window_.plane_blocks[o.plane_at].data());
+    }
+    for (std::size_t i = 0; i < window_.stays.size(); ++i) {
+      problem.AddResidualBlock(window_.stays[i].get(), nullptr, window_.poses[i].data());
+    }
+    for (std::size_t i = 0; i < window_.planes.size(); ++i) {
+      PlanePriorTerm* prior = window_.planes[i].prior.get();
+      if (prior != nullptr)
+        problem.AddResidualBlock(prior, nullptr, window_.plane_blocks[i].data());
+    }
+    for (const BundleWindow::PointOnPlane& o : window_.points_on_planes) {
+      if (!o.inlier) continue;
+      problem.AddResidualBlock(o.term.get(), robust ? &one_ : nullptr,
+                               window_.positions[o.position_at].data(),
+                               window_.plane_blocks[o.plane_at].data());
+    }
+  }
+
   Eigen::Vector3d Residual(const BundleWindow::Observation& o) const {
-    const double* blocks[] = {window_.poses[o.pose_at].data(),
-                              window_.positions[o.position_at].data()};
-    Eigen::Vector3d residual;
-    o.term->Evaluate(blocks, residual.data(), nullptr);
+    return Evaluated<3>(*o.term, window_.poses[o.pose_at].data(),
+                        window_.positions[o.position_at].data());
+  }
+  Eigen::Vector4d Residual(const BundleWindow::PlaneObservation& o) const {
+    return Evaluated<4>(*o.term, window_.poses[o.pose_at].data(),
+                        window_.plane_blocks[o.plane_at].data());
+  }
+  Eigen::Matrix<double, 1, 1> Residual(const BundleWindow::PointOnPlane& o) const {
+    return Evaluated<1>(*o.term, window_.positions[o.position_at].data(),
+                        window_.plane_blocks[o.plane_at].data());
+  }
+  template <int kRows>
+  static Eigen::Matrix<double, kRows, 1> Evaluated(const ceres::CostFunction& term,
+                                                   const double* one, const double* other) {
+    const double* blocks[] = {one, other};
+    Eigen::Matrix<double, kRows, 1> residual;
+    term.Evaluate(blocks, residual.data(), nullptr);
     return residual;
   }
 
   BundleWindow& window_;
-  const LocalBundleConfig& config_;
+  PoseManifold pose_manifold_;
+  PlaneManifold plane_manifold_;
+  // By degrees of freedom.
+  ceres::HuberLoss one_{std::sqrt(kChi2Of1At95)}, two_{std::sqrt(kChi2Of2At95)},
+      three_{std::sqrt(kChi2Of3At95)};
 };
 
 bool AllFinite(const BundleWindow& window) {
@@ -91,7 +150,14 @@ bool AllFinite(const BundleWindow& window) {
     return std::all_of(block.begin(), block.end(), [](double x) { return std::isfinite(x); });
   };
   return std::all_of(window.poses.begin(), window.poses.end(), finite) &&
-         std::all_of(window.positions.begin(), window.positions.end(), finite);
+         std::all_of(window.positions.begin(), window.positions.end(), finite) &&
+         std::all_of(window.plane_blocks.begin(), window.plane_blocks.end(), finite);
+}
+
+template <typename Observations>
+int CountOutliers(const Observations& observations) {
+  return static_cast<int>(std::count_if(observations.begin(), observations.end(),
+                                        [](const auto& o) { return !o.inlier; }));
 }
 
 }  // namespace
@@ -100,9 +166,11 @@ LocalBundleReport SolveWindow(BundleWindow& window, const LocalBundleConfig& con
   LocalBundleReport report;
   report.keyframes = static_cast<int>(window.free_count);
   report.fixed_keyframes = static_cast<int>(window.keyframes.size() - window.free_count);
-  if (window.free_count == 0 || window.observations.empty()) return report;
+  report.planes = static_cast<int>(window.planes.size());
+  if (window.free_count == 0) return report;
+  if (window.observations.empty() && window.plane_observations.empty()) return report;
 
-  Solver solver(window, config);
+  Solver solver(window);
   solver.LeaveOutThoseBehind();
   const ceres::Solver::Summary first = solver.Solve(true, config.first_iterations);
   solver.Classify();
@@ -111,9 +179,8 @@ LocalBundleReport SolveWindow(BundleWindow& window, const LocalBundleConfig& con
   report.initial_cost = first.initial_cost;
   report.usable = first.IsSolutionUsable() && last.IsSolutionUsable() && AllFinite(window);
   if (!report.usable) return report;
-  report.outliers = static_cast<int>(
-      std::count_if(window.observations.begin(), window.observations.end(),
-                    [](const BundleWindow::Observation& o) { return !o.inlier; }));
+  report.outliers = CountOutliers(window.observations);
+  report.plane_outliers = CountOutliers(window.plane_observations);
   return report;
 }
 

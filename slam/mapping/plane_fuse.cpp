@@ -4,6 +4,7 @@
 
 #include "slam/associate/plane_comparison.h"
 #include "slam/mapping/plane_cloud.h"
+#include "slam/mapping/plane_evidence.h"
 #include "slam/model/class_belief.h"
 #include "slam/model/map_queries.h"
 
@@ -51,15 +52,9 @@ bool OneSurface(const Map& map, const MapPlane& one, const MapPlane& other,
 /// Adds what `from` knows of its parameters to `into`.
 void FuseEstimate(MapPlane& into, const MapPlane& from) {
   if (from.estimate.empty()) return;
-  // Express the other's knowledge as one observation at its own best-known place.
-  const Eigen::Matrix3d covariance = from.estimate.Covariance();
-  const Eigen::Vector2d best =
-      -covariance.bottomRightCorner<2, 2>().ldlt().solve(covariance.block<2, 1>(1, 0));
-  const Eigen::Vector3d x_w = from.estimate.origin_w + from.estimate.axes * best;
-  const Eigen::Vector3d lever = from.estimate.Lever(x_w);
-  AddObservation(into.estimate, from.pi_w, ProjectOnto(from.pi_w, x_w),
-                 std::sqrt(covariance.bottomRightCorner<2, 2>().diagonal().maxCoeff()),
-                 std::sqrt(lever.dot(covariance * lever)), 1.0);
+  const PlaneEvidence known = BestKnown(from.estimate);
+  AddObservation(into.estimate, known.pi, known.centroid, known.angle_sigma_rad,
+                 known.offset_sigma_m, 1.0);
   into.pi_w = into.estimate.Mean();
 }
 

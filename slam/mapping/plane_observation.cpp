@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "slam/mapping/plane_cloud.h"
+#include "slam/mapping/plane_evidence.h"
 #include "slam/mapping/plane_face.h"
 #include "slam/mapping/plane_vertices.h"
 #include "slam/model/class_belief.h"
@@ -22,12 +23,7 @@ std::vector<Eigen::Vector3d> TrueEdges(const FramePlane& plane, const Pose& T_wc
 /// The observation's information, errors that do not average out included.
 void UpdateParameters(MapPlane& m, const FramePlane& plane, const Pose& T_wc,
                       const AssociationConfig& a, const PlaneMapConfig& config) {
-  const double share = m.estimate.empty() ? 1.0 : std::sqrt(kFramesOfOneBend);
-  AddObservation(
-      m.estimate, Transform(T_wc, plane.pi_c), T_wc * plane.centroid_c,
-      std::hypot(plane.angle_sigma_rad, a.angle_floor_rad, share * plane.bend_angle_sigma_rad),
-      std::hypot(plane.offset_sigma_m, a.offset_floor_m, share * plane.bend_offset_sigma_m),
-      config.keep_information);
+  AddEvidence(m.estimate, plane, T_wc, a, config.keep_information);
   if (!m.estimate.empty()) m.pi_w = m.estimate.Mean();
 }
 

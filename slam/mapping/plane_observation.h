@@ -10,10 +10,6 @@
 
 namespace slam {
 
-/// Number of frames that see a surface through the same bends, at an ordinary speed: they know no
-/// more than the first of them.
-inline constexpr double kFramesOfOneBend = 10.0;
-
 /// A candidate before its first observation.
 MapPlane StartPlane(const FramePlane& plane, const Frame& frame);
 

@@ -12,6 +12,7 @@
 #include "slam/base/chi_square.h"
 #include "slam/base/index.h"
 #include "slam/mapping/plane_cloud.h"
+#include "slam/mapping/plane_evidence.h"
 #include "slam/mapping/plane_observation.h"
 #include "slam/mapping/plane_trial.h"
 

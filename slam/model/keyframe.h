@@ -4,8 +4,19 @@
 #include <vector>
 
 #include "slam/model/frame.h"
+#include "slam/model/plane_estimate.h"
 
 namespace slam {
+
+/// What a keyframe knows of a map plane: it has seen it, or frames that are tied to it have.
+struct KeyframePlane {
+  int map_plane = kNone;  ///< id, as it was associated; kNone: taken back as wrong
+  PlaneEstimate seen_c;   ///< in the keyframe's camera; what follows is what it comes to:
+  Plane pi_c;
+  Eigen::Vector3d centroid_c = Eigen::Vector3d::Zero();  ///< where the offset is known best
+  double angle_sigma_rad = 0.01;  ///< standard deviation of the normal, all errors included ...
+  double offset_sigma_m = 0.005;  ///< ... and of the offset there
+};
 
 /// A frame kept in the map. `id` is its index in Map::keyframes and is never reused.
 struct Keyframe {
@@ -15,9 +26,10 @@ struct Keyframe {
   Pose T_cw;
   bool by_points = true;  ///< points hold its pose; else planes do
   std::vector<PointFeature> features;
-  std::vector<int> map_points;   ///< parallel to features: map point id or kNone
+  std::vector<int> map_points;  ///< parallel to features: map point id or kNone
+  std::vector<KeyframePlane> planes;
   std::map<int, int> covisible;  ///< keyframe id -> shared map points
-  bool culled = false;           ///< then without features
+  bool culled = false;           ///< then without features and planes
   int parent = kNone;            ///< when culled: the keyframe that its pose now follows ...
   Pose T_cp;                     ///< ... and where it stands as seen from that one
 };

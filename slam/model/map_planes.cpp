@@ -12,10 +12,15 @@ MapPlane& MapPlanes::Add(MapPlane plane) {
   return planes_.emplace_back(std::move(plane));
 }
 
-const MapPlane& MapPlanes::At(int id) const {
+const MapPlane* MapPlanes::Find(int id) const {
   const auto found = std::lower_bound(planes_.begin(), planes_.end(), id,
                                       [](const MapPlane& p, int i) { return p.id < i; });
-  if (found == planes_.end() || found->id != id)
+  return found == planes_.end() || found->id != id ? nullptr : &*found;
+}
+
+const MapPlane& MapPlanes::At(int id) const {
+  const MapPlane* found = Find(id);
+  if (found == nullptr)
     throw std::out_of_range("MapPlanes::At: no plane " + std::to_string(id));
   return *found;
 }

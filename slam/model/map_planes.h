@@ -14,6 +14,8 @@ class MapPlanes {
   /// Takes a surface in and gives it the next id. @returns it, until another comes or goes
   MapPlane& Add(MapPlane plane);
 
+  /// @returns null for an id that is not there
+  const MapPlane* Find(int id) const;
   /// @throws std::out_of_range for an id that is not there.
   MapPlane& At(int id);
   const MapPlane& At(int id) const;

@@ -4,6 +4,7 @@
 #include <cstdlib>
 
 #include "slam/base/index.h"
+#include "slam/mapping/plane_motion.h"
 #include "slam/model/map_queries.h"
 
 namespace slam {
@@ -12,10 +13,6 @@ namespace {
 /// T_new_old of a keyframe: what was at x in the old world is at T x in the new one.
 Pose Carriage(const Map& map, const std::vector<Pose>& before, int keyframe) {
   return Normalised(Inverse(KeyframePose(map, keyframe)) * before[Index(keyframe)]);
-}
-
-void MoveAll(std::vector<Eigen::Vector3d>& points_w, const Pose& T_new_old) {
-  for (Eigen::Vector3d& p_w : points_w) p_w = T_new_old * p_w;
 }
 
 /// Id of the keyframe nearest in time to a frame; the first at a tie.
@@ -40,23 +37,6 @@ std::vector<Pose> KeyframePoses(const Map& map) {
   return poses;
 }
 
-void MovePlane(MapPlane& plane, const Pose& T_new_old) {
-  // Transform takes planes as T_cw does: from the world into the frame on its left.
-  plane.pi_w = Transform(T_new_old, plane.pi_w);
-  plane.centroid_w = T_new_old * plane.centroid_w;
-  plane.estimate.origin_w = T_new_old * plane.estimate.origin_w;
-  plane.estimate.normal_w = (T_new_old.R * plane.estimate.normal_w).normalized();
-  plane.estimate.axes = T_new_old.R * plane.estimate.axes;
-  MoveAll(plane.points_w, T_new_old);
-  MoveAll(plane.edge_points_w, T_new_old);
-  MoveAll(plane.vertices_w, T_new_old);
-  MoveAll(plane.hull_w, T_new_old);
-  for (PlanePart& part : plane.parts) {
-    MovePlane(part.surface, T_new_old);
-    MovePlane(part.rest, T_new_old);
-  }
-}
-
 void CarryPoints(Map& map, const std::vector<Pose>& before) {
   std::vector<Pose> carriages;
   for (const Keyframe& keyframe : map.keyframes) {
@@ -67,9 +47,10 @@ void CarryPoints(Map& map, const std::vector<Pose>& before) {
   }
 }
 
-void CarryPlanes(Map& map, const std::vector<Pose>& before) {
+void CarryPlanes(Map& map, const std::vector<Pose>& before, const std::set<int>& placed) {
   if (map.keyframes.empty()) return;
   for (MapPlane& plane : map.planes) {
+    if (placed.count(plane.id) != 0) continue;
     const bool candidate = plane.status == LandmarkStatus::kCandidate;
     MovePlane(plane, Carriage(map, before,
                               candidate ? map.keyframes.back().id

@@ -127,7 +127,7 @@ LoopReport DrawTogether(Map& map, const Loop& loop, const Camera& camera,
   return report;
 }
 
-/// Adjusts all keyframes and points.
+/// Adjusts all keyframes, points and planes; what stays outside is carried along.
 /// @returns whether that was usable
 bool AdjustAll(Map& map, const Camera& camera, const FeatureScale& scale,
                LocalBundleConfig config, int iterations, const MapTurn& turn) {
@@ -138,7 +138,9 @@ bool AdjustAll(Map& map, const Camera& camera, const FeatureScale& scale,
   turn([&] {
     const std::vector<Pose> before = KeyframePoses(map);
     MergeWindow(window, scale, map);
-    CarryPlanes(map, before);
+    std::set<int> placed;
+    for (const WindowPlane& plane : window.planes) placed.insert(plane.id);
+    CarryPlanes(map, before, placed);
   });
   return true;
 }

@@ -7,8 +7,10 @@
 
 #include "slam/associate/associate_planes.h"
 #include "slam/associate/point_plane.h"
+#include "slam/base/index.h"
 #include "slam/faces/process_planes.h"
 #include "slam/features/point_features.h"
+#include "slam/mapping/keyframe_planes.h"
 #include "slam/mapping/local_mapping.h"
 #include "slam/mapping/plane_face.h"
 #include "slam/mapping/plane_fuse.h"
@@ -206,12 +208,18 @@ void Tracker::UpdateMap(Frame& frame, TrackReport& report) {
   points_.Accept(frame, map_);
   report.reference = points_.reference_keyframe();
   report.T_cr = frame.T_cw * Inverse(KeyframePose(map_, report.reference));
+  if (!report.keyframe) {
+    KeepPlanes(frame, config_.association, config_.plane_map, config_.plane_constraints,
+               map_.keyframes[Index(report.reference)]);
+  }
 }
 
 /// Makes the frame a keyframe, and maps it now or has it mapped beside tracking.
 void Tracker::KeepFrame(Frame& frame) {
   const int keyframe = InsertKeyframe(frame, map_, camera_, scale(), config_.mapping.keyframes);
   map_.keyframes.back().by_points = points_.state() != TrackState::kHeldByPlanes;
+  KeepPlanes(frame, config_.association, config_.plane_map, config_.plane_constraints,
+             map_.keyframes[Index(keyframe)]);
   if (worker_) {
     worker_->Submit(keyframe);
     return;

@@ -201,5 +201,14 @@ TEST(Keyframes, MakePointsOfAllCloseDepthsAndOfTheNearestHundredOtherwise) {
   }
 }
 
+TEST(Keyframes, GiveTheirPlanesBackWhenTheyAreCulled) {
+  PointWorld world = MakePointWorld(6, 200, 6);
+  for (Keyframe& keyframe : world.map.keyframes) keyframe.planes.resize(2);
+  EXPECT_GE(CullKeyframes(world.map, 5, world.camera, FeatureScale{}, {}), 1);
+  for (const Keyframe& keyframe : world.map.keyframes) {
+    EXPECT_EQ(keyframe.planes.size(), keyframe.culled ? 0u : 2u);
+  }
+}
+
 }  // namespace
 }  // namespace slam

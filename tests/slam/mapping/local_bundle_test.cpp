@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 
 #include "slam/mapping/bundle_terms.h"
+#include "tests/support/numeric_jacobian.h"
 #include "tests/support/point_world.h"
 #include "tests/support/slam_matchers.h"
 
@@ -208,6 +209,30 @@ TEST(PoseManifold, StepsForthAndBack) {
   manifold.Plus(x.data(), xi.data(), y.data());
   manifold.Minus(y.data(), x.data(), back.data());
   EXPECT_LT((back - xi).norm(), 1e-12);
+}
+
+TEST(StayTerm, CountsSigmasFromWhereThePoseWasAndHasItsDerivatives) {
+  const Pose before{ExpSo3({0.4, -0.7, 1.1}), {1, -2, 3}};
+  Vector6d step;
+  step << 0.1, 0, 0, 0, 0, 0;
+  const StayTerm term(before);
+  const auto residual = [&](const Pose& T_cw) {
+    const PoseBlock block = BlockOf(T_cw);
+    const double* parameters[] = {block.data()};
+    Vector6d r;
+    term.Evaluate(parameters, r.data(), nullptr);
+    return r;
+  };
+  EXPECT_NEAR(residual(Exp(step) * before).norm(), 0.1 / StayTerm::kSigma_m, 1e-9);
+  step << 0.02, -0.01, 0.03, 0.02, 0.01, -0.04;
+  const Pose moved = Exp(step) * before;
+  const PoseBlock block = BlockOf(moved);
+  const double* parameters[] = {block.data()};
+  Vector6d r;
+  Eigen::Matrix<double, 6, 7, Eigen::RowMajor> J;
+  double* jacobians[] = {J.data()};
+  term.Evaluate(parameters, r.data(), jacobians);
+  EXPECT_LT(JacobianError(J.leftCols<6>(), NumericJacobian<6>(moved, residual)), 1e-6);
 }
 
 }  // namespace

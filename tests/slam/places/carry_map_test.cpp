@@ -1,4 +1,5 @@
 #include "slam/places/carry_map.h"
+#include "slam/mapping/plane_motion.h"
 #include "slam/model/map_queries.h"
 
 #include <gmock/gmock.h>
@@ -102,6 +103,16 @@ TEST(CarryMap, APartOfAPlaneMovesWithIt) {
     EXPECT_EQ(side.pi_w.d, moved.pi_w.d);
     EXPECT_EQ(side.points_w, moved.points_w);
   }
+}
+
+TEST(CarryMap, APlaneThatAnAdjustmentHasPlacedStays) {
+  MovedMap moved;
+  MapPlane plane;
+  plane.centroid_w = {0.4, -0.7, 1.5};
+  for (int i = 0; i < 2; ++i) AddLandmark(moved.map, plane);
+  CarryPlanes(moved.map, moved.before, {1});
+  EXPECT_GT((moved.map.planes.At(0).centroid_w - plane.centroid_w).norm(), 0.1);
+  EXPECT_EQ(moved.map.planes.At(1).centroid_w, plane.centroid_w);
 }
 
 }  // namespace

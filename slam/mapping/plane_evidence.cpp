@@ -1,0 +1,29 @@
+#include "slam/mapping/plane_evidence.h"
+
+#include <cmath>
+
+namespace slam {
+void AddEvidence(PlaneEstimate& estimate_a, const FramePlane& plane, const Pose& T_ac,
+                 const AssociationConfig& a, double keep) {
+  const double share = estimate_a.empty() ? 1.0 : std::sqrt(kFramesOfOneBend);
+  AddObservation(
+      estimate_a, Transform(T_ac, plane.pi_c), T_ac * plane.centroid_c,
+      std::hypot(plane.angle_sigma_rad, a.angle_floor_rad, share * plane.bend_angle_sigma_rad),
+      std::hypot(plane.offset_sigma_m, a.offset_floor_m, share * plane.bend_offset_sigma_m),
+      keep);
+}
+
+PlaneEvidence BestKnown(const PlaneEstimate& estimate) {
+  // Where the height does not depend on the slopes.
+  const Eigen::Matrix3d covariance = estimate.Covariance();
+  const Eigen::Vector2d best =
+      -covariance.bottomRightCorner<2, 2>().ldlt().solve(covariance.block<2, 1>(1, 0));
+  const Eigen::Vector3d x = estimate.origin_w + estimate.axes * best;
+  const Eigen::Vector3d lever = estimate.Lever(x);
+  const Plane pi = estimate.Mean();
+  return {pi, ProjectOnto(pi, x),
+          std::sqrt(covariance.bottomRightCorner<2, 2>().diagonal().maxCoeff()),
+          std::sqrt(lever.dot(covariance * lever))};
+}
+
+}  // namespace slam

@@ -1,0 +1,195 @@
+#include "slam/mapping/plane_terms.h"
+
+#include <ceres/manifold_test_utils.h>
+#include <gmock/gmock.h>
+
+#include "tests/support/seen_landmark.h"
+#include "tests/support/slam_matchers.h"
+
+namespace slam {
+namespace {
+
+const Pose kT_cw{ExpSo3({0.1, 0.2, -0.1}), {0.1, 0, 0.2}};
+const Eigen::Vector3d kReference_w(0.3, -0.2, 1.9);
+const Plane kPlane_w{Eigen::Vector3d(0.2, 0.3, -0.9).normalized(), 1.9};
+constexpr double kDifferenceStep = 1e-6;
+constexpr double kDerivativeTolerance = 1e-4;  // of derivatives up to 1e3
+
+/// A measurement that is off by a turn and an offset.
+KeyframePlane Measured() {
+  Keyframe keyframe;
+  keyframe.T_cw = Pose{ExpSo3({0.05, -0.1, 0.07}), {0.02, 0.03, -0.01}} * kT_cw;
+  KeyframePlane seen = ExactKeyframePlane(keyframe, 0, kPlane_w, {0.7, 0.1, 2});
+  seen.angle_sigma_rad = 0.02, seen.offset_sigma_m = 0.004;
+  return seen;
+}
+
+/// An estimate of a plane near the test's.
+PlaneEstimate KnownBesides() {
+  PlaneEstimate estimate;
+  for (const double shift : {-0.3, 0.1, 0.4}) {
+    Plane seen = kPlane_w;
+    seen.n = ExpSo3({0.02 + 0.1 * shift, -0.05, 0.03}) * seen.n;
+    AddObservation(estimate, seen, kReference_w + Eigen::Vector3d(shift, 0.2, 0), 0.01, 0.003,
+                   1.0);
+  }
+  return estimate;
+}
+
+/// Compares the derivatives by one block with difference quotients along its manifold's steps.
+template <int kRows, int kAmbient, int kTangent, typename Residual>
+void ExpectDerivatives(const double* block, const ceres::Manifold& manifold,
+                       const Eigen::Matrix<double, kRows, kAmbient, Eigen::RowMajor>& analytic,
+                       const Residual& residual) {
+  using Tangent = Eigen::Matrix<double, kTangent, 1>;
+  Eigen::Matrix<double, kAmbient, kTangent, Eigen::RowMajor> by_step;
+  manifold.PlusJacobian(block, by_step.data());
+  for (int i = 0; i < kTangent; ++i) {
+    Eigen::Matrix<double, kAmbient, 1> forth, back;
+    const Tangent plus = kDifferenceStep * Tangent::Unit(i), minus = -plus;
+    manifold.Plus(block, plus.data(), forth.data());
+    manifold.Plus(block, minus.data(), back.data());
+    const Eigen::Matrix<double, kRows, 1> slope =
+        (residual(forth.data()) - residual(back.data())) / (2 * kDifferenceStep);
+    EXPECT_LT((analytic * by_step.col(i) - slope).norm(), kDerivativeTolerance)
+        << "direction " << i;
+  }
+}
+
+TEST(PlaneTerm, IsZeroAtTheTruthAndCountsSigmas) {
+  Keyframe keyframe;
+  keyframe.T_cw = kT_cw;
+  KeyframePlane seen = ExactKeyframePlane(keyframe, 0, kPlane_w, {0.7, 0.1, 2});
+  seen.angle_sigma_rad = 0.02, seen.offset_sigma_m = 0.004;
+  const PoseBlock pose = BlockOf(kT_cw);
+  Plane off = kPlane_w;
+  const auto residual = [&] {
+    const PlaneBlock block = BlockOf(off, kReference_w);
+    const double* parameters[] = {pose.data(), block.data()};
+    Eigen::Vector4d r;
+    PlaneTerm(seen, kReference_w).Evaluate(parameters, r.data(), nullptr);
+    return r;
+  };
+  EXPECT_LT(residual().norm(), 1e-9);
+  off.d += 0.008;
+  EXPECT_NEAR(residual()[3], 2.0, 1e-9);
+  off.n = ExpSo3(0.06 * TangentBasis(off.n).col(0)) * off.n;
+  EXPECT_NEAR(residual().head<3>().norm(), 3.0, 1e-9);
+}
+
+TEST(PlaneTerm, HasTheDerivativesOfItsDifferenceQuotients) {
+  const PlaneTerm term(Measured(), kReference_w);
+  const PoseBlock pose = BlockOf(kT_cw);
+  const PlaneBlock plane = BlockOf(kPlane_w, kReference_w);
+  const auto residual = [&](const double* at_pose, const double* at_plane) {
+    const double* parameters[] = {at_pose, at_plane};
+    Eigen::Vector4d r;
+    term.Evaluate(parameters, r.data(), nullptr);
+    return r;
+  };
+  Eigen::Matrix<double, 4, 7, Eigen::RowMajor> by_pose;
+  Eigen::Matrix<double, 4, 4, Eigen::RowMajor> by_plane;
+  double* jacobians[] = {by_pose.data(), by_plane.data()};
+  const double* parameters[] = {pose.data(), plane.data()};
+  Eigen::Vector4d r;
+  term.Evaluate(parameters, r.data(), jacobians);
+  EXPECT_GT(r.norm(), 1.0);
+  ExpectDerivatives<4, 7, 6>(pose.data(), PoseManifold(), by_pose,
+                             [&](const double* x) { return residual(x, plane.data()); });
+  ExpectDerivatives<4, 4, 3>(plane.data(), PlaneManifold(), by_plane,
+                             [&](const double* x) { return residual(pose.data(), x); });
+}
+
+TEST(PlaneTerm, RefusesAPlaneFaceToFaceWithTheMeasuredOne) {
+  Keyframe keyframe;
+  keyframe.T_cw = kT_cw;
+  const PlaneTerm term(ExactKeyframePlane(keyframe, 0, kPlane_w, kReference_w), kReference_w);
+  const PoseBlock pose = BlockOf(kT_cw);
+  const PlaneBlock back = BlockOf({-kPlane_w.n, -kPlane_w.d}, kReference_w);
+  Eigen::Matrix<double, 4, 7, Eigen::RowMajor> by_pose;
+  Eigen::Matrix<double, 4, 4, Eigen::RowMajor> by_plane;
+  double* jacobians[] = {by_pose.data(), by_plane.data()};
+  const double* parameters[] = {pose.data(), back.data()};
+  Eigen::Vector4d r;
+  EXPECT_TRUE(term.Evaluate(parameters, r.data(), jacobians));
+  EXPECT_EQ(r[0], PlaneTerm::kRefused);
+  EXPECT_EQ(by_pose.norm() + by_plane.norm(), 0.0);
+}
+
+TEST(PlanePriorTerm, IsZeroAtItsMeanAndHasTheDerivativesOfItsDifferenceQuotients) {
+  const PlaneEstimate estimate = KnownBesides();
+  const PlanePriorTerm term(estimate, kReference_w);
+  const auto residual = [&](const double* x) {
+    Eigen::Vector3d r;
+    EXPECT_TRUE(term.Evaluate(&x, r.data(), nullptr));
+    return r;
+  };
+  EXPECT_LT(residual(BlockOf(estimate.Mean(), kReference_w).data()).norm(), 1e-9);
+  const PlaneBlock plane = BlockOf(kPlane_w, kReference_w);
+  const double* parameters[] = {plane.data()};
+  Eigen::Matrix<double, 3, 4, Eigen::RowMajor> by_plane;
+  double* jacobians[] = {by_plane.data()};
+  Eigen::Vector3d r;
+  term.Evaluate(parameters, r.data(), jacobians);
+  EXPECT_GT(r.norm(), 1.0);
+  ExpectDerivatives<3, 4, 3>(plane.data(), PlaneManifold(), by_plane, residual);
+}
+
+TEST(PlanePriorTerm, CountsSigmasWhereAndAsThePlaneWasSeen) {
+  PlaneEstimate estimate;
+  AddObservation(estimate, kPlane_w, kReference_w, 0.01, 0.003, 1.0);
+  Plane off = kPlane_w;
+  off.d += 0.006;
+  const PlaneBlock block = BlockOf(off, kReference_w);
+  const double* parameters[] = {block.data()};
+  Eigen::Vector3d r;
+  PlanePriorTerm(estimate, kReference_w).Evaluate(parameters, r.data(), nullptr);
+  EXPECT_NEAR(r.norm(), 2.0, 1e-9);
+}
+
+TEST(PointOnPlaneTerm, CountsSigmasAndHasTheDerivativesOfItsDifferenceQuotients) {
+  const PointOnPlaneTerm term(0.005, kReference_w);
+  const Eigen::Vector3d p_w = ProjectOnto(kPlane_w, {0.6, 0.4, 1.7}) + 0.01 * kPlane_w.n;
+  const PlaneBlock plane = BlockOf(kPlane_w, kReference_w);
+  const auto residual = [&](const double* at_point, const double* at_plane) {
+    const double* parameters[] = {at_point, at_plane};
+    Eigen::Matrix<double, 1, 1> r;
+    term.Evaluate(parameters, r.data(), nullptr);
+    return r;
+  };
+  EXPECT_NEAR(residual(p_w.data(), plane.data())[0], 2.0, 1e-9);
+  Eigen::Matrix<double, 1, 3, Eigen::RowMajor> by_point;
+  Eigen::Matrix<double, 1, 4, Eigen::RowMajor> by_plane;
+  double* jacobians[] = {by_point.data(), by_plane.data()};
+  const double* parameters[] = {p_w.data(), plane.data()};
+  double r = 0;
+  term.Evaluate(parameters, &r, jacobians);
+  ExpectDerivatives<1, 3, 3>(p_w.data(), ceres::EuclideanManifold<3>(), by_point,
+                             [&](const double* x) { return residual(x, plane.data()); });
+  ExpectDerivatives<1, 4, 3>(plane.data(), PlaneManifold(), by_plane,
+                             [&](const double* x) { return residual(p_w.data(), x); });
+}
+
+TEST(PlaneBlock, HoldsThePlane) {
+  const Plane again = PlaneOf(BlockOf(kPlane_w, kReference_w).data(), kReference_w);
+  EXPECT_THAT(again, PlaneNear(kPlane_w, 1e-12, 1e-12));
+}
+
+TEST(PlaneManifold, HoldsCeresInvariantsAtThePolesToo) {
+  using namespace ceres;  // the macro takes its names from there
+  const PlaneManifold manifold;
+  for (const Eigen::Vector3d& n :
+       {Eigen::Vector3d(0, 0, 1), Eigen::Vector3d(0, 0, -1), Eigen::Vector3d(1, 0, 0),
+        Eigen::Vector3d(0, -1, 0), Eigen::Vector3d(1e-12, 0, 1).normalized(),
+        Eigen::Vector3d(0, 1e-9, -1).normalized(),
+        Eigen::Vector3d(0.3, -0.5, 0.2).normalized()}) {
+    Vector x(4), y(4), delta(3);
+    x << n, 0.7;
+    y << ExpSo3({0.4, -0.8, 0.3}) * n, -0.2;
+    delta << 0.5, -0.9, 0.3;
+    EXPECT_THAT_MANIFOLD_INVARIANTS_HOLD(manifold, x, delta, y, 1e-9);
+  }
+}
+
+}  // namespace
+}  // namespace slam
