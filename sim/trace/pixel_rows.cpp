@@ -83,4 +83,13 @@ SIM_LANES void PlaceOnPrint(const Eigen::Matrix<float, 2, 3>& uv_over_depth,
   }
 }
 
+SIM_LANES void LowerToPlane(const Eigen::Vector3d& n, const double* __restrict x,
+                            const double* __restrict y, int count, double* __restrict height) {
+  const double nx = n.data()[0], ny = n.data()[1], nz = n.data()[2];
+  for (int i = 0; i < count; ++i) {
+    const double over = nx * x[i] + ny * y[i] + nz;
+    height[i] = over < height[i] ? over : height[i];
+  }
+}
+
 }  // namespace sim

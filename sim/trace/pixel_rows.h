@@ -42,4 +42,8 @@ void PlaceOnPrint(const Eigen::Matrix<float, 2, 3>& uv_over_depth, const double*
                   const double* y, const double* depth_m, int first, int last, float* u,
                   float* v);
 
+/// Lowers height[i] to n . (x, y, 1) of pixel i where that is less.
+void LowerToPlane(const Eigen::Vector3d& n, const double* x, const double* y, int count,
+                  double* height);
+
 }  // namespace sim
