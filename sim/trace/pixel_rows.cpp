@@ -92,4 +92,24 @@ SIM_LANES void LowerToPlane(const Eigen::Vector3d& n, const double* __restrict x
   }
 }
 
+SIM_LANES void RootBytes(const float* __restrict values, int count,
+                         std::uint8_t* __restrict roots) {
+  for (int i = 0; i < count; ++i) {
+    roots[i] = static_cast<std::uint8_t>(std::sqrt(values[i]) * 255.0F + 0.5F);
+  }
+}
+
+SIM_LANES void HalveTexels(const std::uint8_t* __restrict upper,
+                           const std::uint8_t* __restrict lower, int count,
+                           std::uint8_t* __restrict coarse) {
+  const auto square = [](std::uint8_t root) { return static_cast<int>(root) * root; };
+  for (int i = 0; i < count; ++i, upper += 8, lower += 8, coarse += 4) {
+    for (int k = 0; k < 4; ++k) {
+      const int sum =
+          square(upper[k]) + square(upper[k + 4]) + square(lower[k]) + square(lower[k + 4]);
+      coarse[k] = static_cast<std::uint8_t>(std::sqrt(0.25F * static_cast<float>(sum)) + 0.5F);
+    }
+  }
+}
+
 }  // namespace sim

@@ -1,8 +1,10 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstdint>
 
-// What a view does to every pixel, by rows of `count`. Same bits on every processor.
+// What a view does to every pixel and a print to every texel, by rows of `count`. Same bits on
+// every processor.
 namespace sim {
 
 /// (dx, dy, dz) = R (x, y, 1).
@@ -45,5 +47,13 @@ void PlaceOnPrint(const Eigen::Matrix<float, 2, 3>& uv_over_depth, const double*
 /// Lowers height[i] to n . (x, y, 1) of pixel i where that is less.
 void LowerToPlane(const Eigen::Vector3d& n, const double* x, const double* y, int count,
                   double* height);
+
+/// Square roots of values in [0, 1], as bytes.
+void RootBytes(const float* values, int count, std::uint8_t* roots);
+
+/// `count` texels of four such bytes from two rows of twice as many: of each four the root of the
+/// mean of what they stand for.
+void HalveTexels(const std::uint8_t* upper, const std::uint8_t* lower, int count,
+                 std::uint8_t* coarse);
 
 }  // namespace sim
