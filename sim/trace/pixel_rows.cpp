@@ -29,8 +29,8 @@ SIM_LANES void MeetPlane(const PlaneSeen& plane, int first, int last, const Pixe
   const double* __restrict y = row.y;
   double* __restrict depth = row.depth_m;
   float* __restrict cosine = row.cosine;
-  for (int i = first; i < last; ++i) {
-    depth[i] = 1.0 / (ax * x[i] + ay * y[i] + az);
+  for (int i = first; i < last; ++i) depth[i] = 1.0 / (ax * x[i] + ay * y[i] + az);
+  for (int i = first; cosine != nullptr && i < last; ++i) {
     cosine[i] = static_cast<float>(std::abs(nx * x[i] + ny * y[i] + nz) /
                                    std::sqrt(x[i] * x[i] + y[i] * y[i] + 1.0));
   }
@@ -42,6 +42,12 @@ SIM_LANES void MeetPlane(const PlaneSeen& plane, int first, int last, const Pixe
     const double* __restrict way = ways[axis];
     float* __restrict start = starts[axis];
     float* __restrict to_eye = to_eyes[axis];
+    if (to_eye == nullptr) {
+      for (int i = first; i < last; ++i) {
+        start[i] = static_cast<float>(from + depth[i] * way[i]);
+      }
+      continue;
+    }
     for (int i = first; i < last; ++i) {
       const double p = from + depth[i] * way[i];
       start[i] = static_cast<float>(p);

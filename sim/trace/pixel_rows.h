@@ -18,9 +18,9 @@ struct PixelRow {
   const double *x, *y;                    ///< ray (x, y, 1), camera frame
   const double *dx, *dy, *dz;             ///< the same, world frame
   double* depth_m;                        ///< planar z
-  float* cosine;                          ///< |cos| between ray and normal
+  float* cosine;                          ///< |cos| between ray and normal; null: not asked
   float *start_x, *start_y, *start_z;     ///< where second rays begin, world frame
-  float *to_eye_x, *to_eye_y, *to_eye_z;  ///< from there
+  float *to_eye_x, *to_eye_y, *to_eye_z;  ///< from there; null: not asked
 };
 
 /// A plane as one view sees it.

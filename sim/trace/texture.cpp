@@ -61,8 +61,8 @@ void Texture::BakeRows(int first, int last) {
   RootBytes(colours.data()->data(), static_cast<int>(roots.size()), roots.data());
   const std::uint8_t* root = roots.data();
   for (int y = first; y < last; ++y) {
-    for (int x = 0; x < level.width; ++x, root += 3)
-      std::copy_n(root, 3, level.At(x, y).data());
+    Texel* texels = &level.At(0, y);
+    for (int x = 0; x < level.width; ++x, root += 3) texels[x] = {root[0], root[1], root[2], 0};
   }
 }
 

@@ -82,7 +82,11 @@ void View::Prepare() {
   out_->object_id.create(size);
   for (cv::Mat1f* image :
        {&out_->incidence_cos, &out_->infrared, &out_->gloss, &out_->mirror_cos}) {
-    image->create(size);
+    if (options_.sensed) {
+      image->create(size);
+    } else {
+      image->release();
+    }
   }
   if (options_.projector_offset_m != 0) {
     out_->projector_lit.create(size);
@@ -177,7 +181,7 @@ void View::RecordSky(int v, int first, int last) {
   fill(out_->depth_m[v], 0.0);
   for (cv::Mat1f* image :
        {&out_->incidence_cos, &out_->infrared, &out_->gloss, &out_->mirror_cos}) {
-    fill((*image)[v], 0.0F);
+    if (options_.sensed) fill((*image)[v], 0.0F);
   }
   fill(out_->plane_id[v], ushort{0});
   fill(out_->object_id[v], ushort{0});
@@ -187,15 +191,26 @@ void View::RecordSky(int v, int first, int last) {
 }
 
 void View::RecordRun(int v, int first, int last, const SeenFacet& facet) {
+  const bool second_eye = options_.projector_offset_m != 0;
   MeetPlane(
       {facet.inverse_depth, facet.n_c, T_wc_.t + kLeaveSurface_m * facet.n_w, eye_w_}, first,
       last,
       {row_.x.data(), row_.y.data(), row_.dx.data(), row_.dy.data(), row_.dz.data(),
-       out_->depth_m[v], out_->incidence_cos[v], row_.start_x.data(), row_.start_y.data(),
-       row_.start_z.data(), row_.to_eye_x.data(), row_.to_eye_y.data(), row_.to_eye_z.data()});
+       out_->depth_m[v], options_.sensed ? out_->incidence_cos[v] : nullptr,
+       row_.start_x.data(), row_.start_y.data(), row_.start_z.data(),
+       second_eye ? row_.to_eye_x.data() : nullptr, second_eye ? row_.to_eye_y.data() : nullptr,
+       second_eye ? row_.to_eye_z.data() : nullptr});
   const auto fill = [&](auto* row, auto value) { std::fill(row + first, row + last, value); };
   fill(out_->plane_id[v], ushort{facet.plane});
   fill(out_->object_id[v], ushort{facet.object});
+  fill(Surfaces(v), facet.surface);
+  fill(row_.sun_far.data(), facet.faces_sun ? std::numeric_limits<float>::infinity() : -1.0F);
+  fill(row_.eye_far.data(), facet.faces_eye ? 1.0F : -1.0F);
+  if (options_.sensed) RecordSensed(v, first, last, facet);
+}
+
+void View::RecordSensed(int v, int first, int last, const SeenFacet& facet) {
+  const auto fill = [&](auto* row, auto value) { std::fill(row + first, row + last, value); };
   fill(out_->infrared[v], facet.infrared);
   fill(out_->gloss[v], facet.gloss);
   if (facet.gloss > 0) {
@@ -205,9 +220,6 @@ void View::RecordRun(int v, int first, int last, const SeenFacet& facet) {
   } else {
     fill(out_->mirror_cos[v], 0.0F);
   }
-  fill(Surfaces(v), facet.surface);
-  fill(row_.sun_far.data(), facet.faces_sun ? std::numeric_limits<float>::infinity() : -1.0F);
-  fill(row_.eye_far.data(), facet.faces_eye ? 1.0F : -1.0F);
 }
 
 void View::Block(const RayRow& rays, int count, std::uint8_t* blocked) const {

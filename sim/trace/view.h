@@ -89,6 +89,7 @@ class View {
   void RecordRow(int v);
   void RecordSky(int v, int first, int last);
   void RecordRun(int v, int first, int last, const SeenFacet& facet);
+  void RecordSensed(int v, int first, int last, const SeenFacet& facet);
   void CastToSun(int v);
   void CastToEye(int v);
   void CastToLights(int v);

@@ -35,6 +35,7 @@ SimulatedFrame Simulator::Simulate(int frame, const Shot& shot,
   const bool carried = moves && CanCarry(renderer_);
   view.colour = !moves || carried;
   view.time_s = shot.time_s;
+  view.sensed = one_view;
   if (one_view) view.projector_offset_m = SecondEyeOffset(sensor.depth);
   thread_local Rendering rendering;  // memory only
   renderer_.Render(shot.T_wc, view, rendering);
