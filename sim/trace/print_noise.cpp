@@ -1,8 +1,8 @@
 #include "sim/trace/print_noise.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
+#include <utility>
 
 #include "sim/trace/lanes.h"
 
@@ -15,10 +15,12 @@ constexpr float kFleckEdge_cells = 0.12F;  ///< width of a fleck's soft rim
 /// Further than this outside of a fleck's rim there is none of it: more than half of the soft rim.
 constexpr float kFleckReach_cells = 0.07F;
 
-/// Where places along one axis lie in a grid of cells.
+/// Where places along one axis, which grow, lie in a grid of cells.
 struct CellPlaces {
   std::vector<int> cell;
   std::vector<float> inside;  ///< from the cell's lower side, cells
+  /// The first place not before each cell, from that of the first place on; then their number.
+  std::vector<std::size_t> start;
 
   template <typename Scaled>
   CellPlaces(std::span<const float> places_m, const Scaled& scaled) {
@@ -26,7 +28,25 @@ struct CellPlaces {
       const float at = scaled(place_m);
       cell.push_back(FloorOf(at));
       inside.push_back(at - static_cast<float>(cell.back()));
+      const auto cells = static_cast<std::size_t>(cell.back() - cell.front() + 1);
+      if (start.size() < cells) start.resize(cells, cell.size() - 1);
     }
+    start.push_back(cell.size());
+  }
+  /// From `at` in a cell to place i, cells.
+  float Distance(int from_cell, float at, std::size_t i) const {
+    return inside[i] - static_cast<float>(from_cell - cell[i]) - at;
+  }
+  /// The places nearer than `reach`, at most a cell, to there: from the first to before the second.
+  std::pair<std::size_t, std::size_t> Near(int from_cell, float at, float reach) const {
+    const auto start_of = [&](int wanted) {
+      const int cells = static_cast<int>(start.size()) - 1;
+      return start[static_cast<std::size_t>(std::clamp(wanted - cell.front(), 0, cells))];
+    };
+    std::size_t first = start_of(from_cell - 1), last = start_of(from_cell + 2);
+    while (first < last && Distance(from_cell, at, first) <= -reach) ++first;
+    while (first < last && Distance(from_cell, at, last - 1) >= reach) --last;
+    return {first, last};
   }
 };
 
@@ -55,8 +75,8 @@ SIM_LANES void SmoothSteps(float edge, std::vector<float>& values) {
   }
 }
 
-/// Puts flecks one by one on the places that they may reach: those of their own cell and of its
-/// eight neighbours.
+/// Puts flecks one by one on the places that they reach; none is longer than to its cell's
+/// neighbours.
 class FleckStamp {
  public:
   FleckStamp(const CellPlaces& x, const CellPlaces& y, std::vector<float>& inside)
@@ -64,26 +84,15 @@ class FleckStamp {
 
   void Put(const Fleck& fleck) {
     const float reach = fleck.radius + kFleckReach_cells;
-    // Places go up along x, and so do their cells and distances from the fleck's middle.
-    const auto reached_cells = std::equal_range(x_.cell.begin(), x_.cell.end(), fleck.cell_x,
-                                                [](int a, int b) { return a + 1 < b; });
-    const auto place = [&](auto at) { return static_cast<std::size_t>(at - x_.cell.begin()); };
-    std::size_t first = place(reached_cells.first);
-    const std::size_t last = place(reached_cells.second);
-    const auto distance = [&](std::size_t u) {
-      return x_.inside[u] - static_cast<float>(fleck.cell_x - x_.cell[u]) - fleck.x;
-    };
-    while (first < last && distance(first) <= -reach) ++first;
-    dx_.clear();
-    for (std::size_t u = first; u < last && distance(u) < reach; ++u) {
-      dx_.push_back(distance(u));
+    const auto [first_row, last_row] = y_.Near(fleck.cell_y, fleck.y, reach);
+    if (first_row == last_row) return;
+    const auto [first, last] = x_.Near(fleck.cell_x, fleck.x, reach);
+    dx_.resize(last - first);
+    for (std::size_t u = first; u < last; ++u) {
+      dx_[u - first] = x_.Distance(fleck.cell_x, fleck.x, u);
     }
-    for (std::size_t v = 0; v < y_.cell.size(); ++v) {
-      const int row = fleck.cell_y - y_.cell[v];
-      if (row < -1 || row > 1) continue;
-      const float dy = y_.inside[v] - static_cast<float>(row) - fleck.y;
-      if (!(std::abs(dy) < reach)) continue;
-      RaiseToFleck(dx_.data(), dy, fleck.radius, dx_.size(),
+    for (std::size_t v = first_row; v < last_row; ++v) {
+      RaiseToFleck(dx_.data(), y_.Distance(fleck.cell_y, fleck.y, v), fleck.radius, dx_.size(),
                    inside_.data() + v * x_.cell.size() + first);
     }
   }
@@ -95,17 +104,12 @@ class FleckStamp {
   std::vector<float> dx_;
 };
 
-/// The values at the corners of one cell of value noise.
-struct ValueCell {
-  int x = 0, y = 0;
-  std::array<float, 4> corners{};  ///< low left and right, high left and right
-
-  void Draw(int x_in, int y_in, std::uint64_t seed) {
-    x = x_in, y = y_in;
-    const auto at = [&](int i, int j) { return CellDraw(x + i, y + j, seed)[0]; };
-    corners = {at(0, 0), at(1, 0), at(0, 1), at(1, 1)};
-  }
-};
+/// The values of value noise at the corners of a row of cells, from `first` to `last`.
+std::vector<float> CornersOfRow(int first, int last, int y, std::uint64_t seed) {
+  std::vector<float> values;
+  for (int x = first; x <= last; ++x) values.push_back(CellDraw(x, y, seed)[0]);
+  return values;
+}
 
 /// From 0 to 1 with level ends.
 float SmoothShare(float t) { return t * t * (3.0F - 2.0F * t); }
@@ -117,16 +121,22 @@ std::vector<float> ValueNoise(const PrintGrid& grid, const Vector2f& cells_per_m
   const CellPlaces x(grid.x_m, [&](float x_m) { return x_m * cells_per_m.x(); });
   const CellPlaces y(grid.y_m, [&](float y_m) { return y_m * cells_per_m.y(); });
   std::vector<float> noise;
+  if (grid.size() == 0) return noise;
   noise.reserve(grid.size());
+  const int first = x.cell.front(), last = x.cell.back() + 1;
+  std::vector<float> lower, upper;
   for (std::size_t v = 0; v < y.cell.size(); ++v) {
+    if (v == 0 || y.cell[v] != y.cell[v - 1]) {
+      lower = CornersOfRow(first, last, y.cell[v], seed);
+      upper = CornersOfRow(first, last, y.cell[v] + 1, seed);
+    }
     const float up = SmoothShare(y.inside[v]);
-    ValueCell cell;
     for (std::size_t u = 0; u < x.cell.size(); ++u) {
-      if (u == 0 || x.cell[u] != cell.x) cell.Draw(x.cell[u], y.cell[v], seed);
       const float along = SmoothShare(x.inside[u]);
-      const auto& [low_left, low_right, high_left, high_right] = cell.corners;
-      const float low = low_left + (low_right - low_left) * along;
-      const float high = high_left + (high_right - high_left) * along;
+      const float* left = lower.data() + (x.cell[u] - first);
+      const float* high_left = upper.data() + (x.cell[u] - first);
+      const float low = left[0] + (left[1] - left[0]) * along;
+      const float high = high_left[0] + (high_left[1] - high_left[0]) * along;
       noise.push_back(low + (high - low) * up);
     }
   }
