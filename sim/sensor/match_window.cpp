@@ -34,18 +34,15 @@ class WindowMatcher {
   }
 
   /// 255 where a window holds a border between surfaces that do not match as one.
-  cv::Mat1b NearBorders() {
+  cv::Mat1b NearBorders() const {
     cv::Mat1b border(size_, uchar{0});
-    apart_.resize(static_cast<std::size_t>(size_.width));
     for (int v = 0; v < size_.height; ++v) {
       const std::ptrdiff_t row = v * view_.stride;
-      MarkApart(view_, row, row + 1, size_.width - 1, apart_.data());
-      Raise(size_.width - 1, border[v]);
-      Raise(size_.width - 1, border[v] + 1);
-      if (v + 1 == size_.height) break;
-      MarkApart(view_, row, row + view_.stride, size_.width, apart_.data());
-      Raise(size_.width, border[v]);
-      Raise(size_.width, border[v + 1]);
+      for (const int side : {0, 1}) {
+        MarkApart(view_, row, row + 1, size_.width - 1, border[v] + side);
+        if (v + 1 == size_.height) continue;
+        MarkApart(view_, row, row + view_.stride, size_.width, border[v + side]);
+      }
     }
     cv::dilate(border, border, cv::Mat1b::ones(2 * reach_ + 1, 2 * reach_ + 1));
     return border;
@@ -91,17 +88,12 @@ class WindowMatcher {
     }
   }
 
-  void Raise(int count, uchar* border) const {
-    for (int i = 0; i < count; ++i) border[i] |= apart_[static_cast<std::size_t>(i)];
-  }
-
   MatchWindow model_;
   int reach_ = 0;
   cv::Size size_;
   MatchView view_;
   std::vector<float> steps_;
   std::vector<std::int32_t> surface_;
-  std::vector<uchar> apart_;
 };
 
 }  // namespace

@@ -46,13 +46,14 @@ SIM_LANES WindowCounts CountWindows(const MatchView& view, int u, int v, int rea
 }
 
 SIM_LANES void MarkApart(const MatchView& view, std::ptrdiff_t from, std::ptrdiff_t to,
-                         int count, std::uint8_t* __restrict apart) {
+                         int count, std::uint8_t* __restrict marks) {
   const float *a = view.steps + from, *b = view.steps + to;
   const std::int32_t *on = view.surface + from, *other = view.surface + to;
+  const float most = view.max_apart_steps;
   for (int i = 0; i < count; ++i) {
     const bool one_shown = (a[i] > 0.0F) != (b[i] > 0.0F);
-    const bool match = (on[i] == other[i]) | (std::abs(a[i] - b[i]) <= view.max_apart_steps);
-    apart[i] = one_shown | !match ? 255 : 0;
+    const bool match = (on[i] == other[i]) | (std::abs(a[i] - b[i]) <= most);
+    marks[i] = one_shown | !match ? 255 : marks[i];
   }
 }
 

@@ -26,10 +26,10 @@ struct WindowCounts {
 /// Of the windows of `reach` pixels about (u, v) and the seven pixels to the right of it.
 WindowCounts CountWindows(const MatchView& view, int u, int v, int reach);
 
-/// 255 where pixel i of one row and of another do not match as one, 0 elsewhere.
+/// Marks with 255 where pixel i of one row and of another do not match as one; leaves the rest.
 /// @param from, to  the first pixels' places in the view
 void MarkApart(const MatchView& view, std::ptrdiff_t from, std::ptrdiff_t to, int count,
-               std::uint8_t* apart);
+               std::uint8_t* marks);
 
 /// Disparity: steps_m / z where a surface is lit, 0 elsewhere.
 /// @param lit  null: all of it is

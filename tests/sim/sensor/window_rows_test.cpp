@@ -68,7 +68,7 @@ TEST(MarkApart, TellsBordersOfSurfacesAndOfHoles) {
   const float steps[] = {100, 116, 117, 0, 0, 300, 300};
   const std::int32_t surface[] = {1, 2, 3, 4, 5, 6, 6};
   const MatchView view{steps, surface, 0, 16};
-  std::uint8_t apart[6];
+  std::uint8_t apart[6] = {};
   MarkApart(view, 0, 1, 6, apart);
   EXPECT_EQ(apart[0], 0);  // 16 steps match as one
   EXPECT_EQ(apart[1], 0);
@@ -78,6 +78,8 @@ TEST(MarkApart, TellsBordersOfSurfacesAndOfHoles) {
   EXPECT_EQ(apart[5], 0);
   MarkApart(view, 0, 2, 1, apart);
   EXPECT_EQ(apart[0], 255);  // 17 steps do not
+  MarkApart(view, 0, 1, 1, apart);
+  EXPECT_EQ(apart[0], 255);  // what is marked stays so
 }
 
 }  // namespace
