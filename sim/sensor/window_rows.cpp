@@ -53,7 +53,7 @@ SIM_LANES void MarkApart(const MatchView& view, std::ptrdiff_t from, std::ptrdif
   for (int i = 0; i < count; ++i) {
     const bool one_shown = (a[i] > 0.0F) != (b[i] > 0.0F);
     const bool match = (on[i] == other[i]) | (std::abs(a[i] - b[i]) <= most);
-    marks[i] = one_shown | !match ? 255 : marks[i];
+    marks[i] = (one_shown | !match) ? 255 : marks[i];
   }
 }
 

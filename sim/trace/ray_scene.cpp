@@ -95,7 +95,7 @@ SIM_LANES void ReadHits(const RTCHit8& hits, const int* valid, int* triangle) {
 
 SIM_LANES void ReadBlocked(const RTCRay8& rays, const int* valid, std::uint8_t* blocked) {
   for (int i = 0; i < RayPacket::kLanes; ++i) {
-    blocked[i] = (valid[i] != 0) & (rays.tfar[i] < 0.0F) ? 1 : 0;  // Embree writes -inf
+    blocked[i] = ((valid[i] != 0) & (rays.tfar[i] < 0.0F)) ? 1 : 0;  // Embree writes -inf
   }
 }
 
