@@ -60,9 +60,8 @@ struct Samples {
   }
   void Draw(const PixelNoise& noise, int v) {
     noise.NormalBitsOfRow(0, v, kFirstDraw, bits);
-    float* out = normal.data();
-    for (const std::uint64_t four : bits) {
-      for (std::uint32_t k = 0; k < 3; ++k) *out++ = PixelNoise::NormalOf(four, kFirstDraw + k);
+    for (std::uint32_t k = 0; k < 3; ++k) {
+      PixelNoise::NormalsOf(bits, kFirstDraw + k, 3, normal.data() + k);
     }
   }
 };

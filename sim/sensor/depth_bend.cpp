@@ -3,6 +3,8 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <optional>
+#include <tuple>
 #include <vector>
 
 #include "sim/base/random.h"
@@ -97,12 +99,27 @@ std::array<Wave, kWaves> DeviceWaves(const DepthBend& bend, std::uint64_t seed) 
   return Waves(named ? static_cast<std::uint64_t>(bend.device) : seed, named ? 1 : 2);
 }
 
+/// The device's part of the knots. All frames of a recording share it: each thread keeps its last.
+const cv::Mat1f& DeviceKnots(const DepthBend& bend, const Camera& camera, std::uint64_t seed) {
+  using Key =
+      std::tuple<double, double, int, std::uint64_t, int, int, double, double, double, double>;
+  const Key key{bend.rms,      bend.drift_share, bend.device, seed,      camera.width,
+                camera.height, camera.fx,        camera.fy,   camera.cx, camera.cy};
+  thread_local std::optional<Key> made_for;
+  thread_local cv::Mat1f knots;
+  if (made_for != key) {
+    knots = cv::Mat1f(camera.height / kKnot_px + 2, camera.width / kKnot_px + 2, 0.0F);
+    AddWaves(DeviceWaves(bend, seed), DeviceRms(bend), 0, camera, kKnot_px, knots);
+    made_for = key;
+  }
+  return knots;
+}
+
 }  // namespace
 
 BendField::BendField(const DepthBend& bend, const Camera& camera, std::uint64_t seed,
                      std::uint64_t frame)
-    : knots_(camera.height / kKnot_px + 2, camera.width / kKnot_px + 2, 0.0F) {
-  AddWaves(DeviceWaves(bend, seed), DeviceRms(bend), 0, camera, kKnot_px, knots_);
+    : knots_(DeviceKnots(bend, camera, seed).clone()) {
   AddWaves(Waves(seed, 3), bend.rms * std::sqrt(bend.drift_share), static_cast<double>(frame),
            camera, kKnot_px, knots_);
 }

@@ -29,9 +29,7 @@ void SmoothNoiseRows::AddRow(int v) {
   for (std::size_t k = 0; k < draws_; ++k) {
     const std::uint32_t draw = first_draw_ + static_cast<std::uint32_t>(k);
     if (k == 0 || draw % 4 == 0) noise_.NormalBitsOfRow(-radius_, v, draw, bits_);
-    for (std::size_t u = 0; u < bits_.size(); ++u) {
-      white_[u] = PixelNoise::NormalOf(bits_[u], draw);
-    }
+    PixelNoise::NormalsOf(bits_, draw, 1, white_.data());
     float* sums = Across(v, k);
     std::copy_n(white_.data(), width_, sums);
     for (std::size_t i = 1; i < side_; ++i) {

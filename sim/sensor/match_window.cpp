@@ -4,91 +4,96 @@
 #include <cmath>
 #include <cstdint>
 #include <opencv2/imgproc.hpp>
+#include <vector>
 
 #include "sim/sensor/blob_noise.h"
 #include "sim/sensor/depth_effects.h"
+#include "sim/sensor/window_rows.h"
 
 namespace sim {
 namespace {
 
+/// The work of one frame. Its memory is kept from one frame to the next.
 class WindowMatcher {
  public:
-  WindowMatcher(const Rendering& rendering, const MatchWindow& model, double disparity_m_steps,
-                const PixelNoise& noise)
-      : model_(model),
-        dots_(rendering.depth_m.size(), noise, kWindowDraw),
-        reach_(model.side_px / 2),
-        apart_(static_cast<float>(model.max_apart_steps)),
-        surface_(rendering.depth_m.size()),
-        steps_(rendering.depth_m.size()) {
-    for (int v = 0; v < steps_.rows; ++v) Load(rendering, v, disparity_m_steps);
+  void Start(const Rendering& rendering, const MatchWindow& model, double disparity_m_steps) {
+    model_ = model;
+    reach_ = model.side_px / 2;
+    size_ = rendering.depth_m.size();
+    view_.stride = size_.width + 2 * reach_ + WindowCounts::kWindows;
+    view_.max_apart_steps = static_cast<float>(model.max_apart_steps);
+    const auto pixels = static_cast<std::size_t>(view_.stride * (size_.height + 2 * reach_));
+    steps_.assign(pixels, 0.0F);
+    surface_.assign(pixels, 0);
+    const std::ptrdiff_t first = reach_ * view_.stride + reach_;
+    view_.steps = steps_.data() + first;
+    view_.surface = surface_.data() + first;
+    for (int v = 0; v < size_.height; ++v) {
+      Load(rendering, v, disparity_m_steps, first + v * view_.stride);
+    }
   }
 
   /// 255 where a window holds a border between surfaces that do not match as one.
   cv::Mat1b NearBorders() const {
-    cv::Mat1b border(steps_.size(), uchar{0});
-    for (int v = 0; v < steps_.rows; ++v) {
-      const int below = std::min(v + 1, steps_.rows - 1);
-      for (int u = 0; u < steps_.cols; ++u) {
-        const int right = std::min(u + 1, steps_.cols - 1);
-        if (!Same(v, u, v, right)) border(v, u) = border(v, right) = 255;
-        if (!Same(v, u, below, u)) border(v, u) = border(below, u) = 255;
+    cv::Mat1b border(size_, uchar{0});
+    for (int v = 0; v < size_.height; ++v) {
+      const std::ptrdiff_t row = v * view_.stride;
+      for (const int side : {0, 1}) {
+        MarkApart(view_, row, row + 1, size_.width - 1, border[v] + side);
+        if (v + 1 == size_.height) continue;
+        MarkApart(view_, row, row + view_.stride, size_.width, border[v + side]);
       }
     }
     cv::dilate(border, border, cv::Mat1b::ones(2 * reach_ + 1, 2 * reach_ + 1));
     return border;
   }
 
-  bool Fails(int u, int v) const {
-    const cv::Rect window = cv::Rect(u - reach_, v - reach_, 2 * reach_ + 1, 2 * reach_ + 1) &
-                            cv::Rect({}, steps_.size());
-    const int own_surface = surface_(v, u);
-    const float own = steps_(v, u);
-    int same = 0, nearer = 0;
-    for (int y = window.y; y < window.br().y; ++y) {
-      const int* surface = surface_[y] + window.x;
-      const float* steps = steps_[y] + window.x;
-      for (int i = 0; i < window.width; ++i) {
-        same += static_cast<int>((steps[i] > 0) & ((surface[i] == own_surface) |
-                                                   (std::abs(steps[i] - own) <= apart_)));
-        nearer += static_cast<int>(steps[i] > own + apart_);
+  /// Marks (255) those of row v that fail, of the pixels that are asked about.
+  void MarkRow(int v, const uchar* ask, const BlobNoise& dots, uchar* lost) const {
+    for (int first = 0; first < size_.width; first += WindowCounts::kWindows) {
+      const int last = std::min(first + WindowCounts::kWindows, size_.width);
+      if (std::all_of(ask + first, ask + last, [](uchar asked) { return asked == 0; }))
+        continue;
+      const WindowCounts counts = CountWindows(view_, first, v, reach_);
+      for (int u = first; u < last; ++u) {
+        const auto i = static_cast<std::size_t>(u - first);
+        if (ask[u] != 0 && Fails(u, v, counts.same[i], counts.nearer[i], dots)) lost[u] = 255;
       }
     }
-    if (!(own > 0)) return false;
+  }
+
+ private:
+  bool Fails(int u, int v, int same, int nearer, const BlobNoise& dots) const {
+    const cv::Rect window =
+        cv::Rect(u - reach_, v - reach_, 2 * reach_ + 1, 2 * reach_ + 1) & cv::Rect({}, size_);
+    if (!(view_.steps[v * view_.stride + u] > 0)) return false;
     // The share of dots that fell on the own surface: of n at random its variance is p (1 - p) / n.
     const double share = same / static_cast<double>(window.area());
     const double sd = model_.dots > 0 ? std::sqrt(share * (1.0 - share) / model_.dots) : 0.0;
     // Dots that one surface has too many of, the other lacks: near and far are never lost at once.
     const bool far = 2 * nearer > window.area() - same;
-    return share + (far ? -sd : sd) * dots_.At(u, v) < model_.min_share;
+    return share + (far ? -sd : sd) * dots.At(u, v) < model_.min_share;
   }
 
- private:
   /// Where no light of the projector falls there is nothing to match: 0 steps.
-  void Load(const Rendering& rendering, int v, double disparity_m_steps) {
+  void Load(const Rendering& rendering, int v, double disparity_m_steps, std::ptrdiff_t first) {
     const uchar* lit = rendering.projector_lit.empty() ? nullptr : rendering.projector_lit[v];
-    for (int u = 0; u < steps_.cols; ++u) {
-      const double z = rendering.depth_m(v, u);
-      const bool shown = z > 0 && (lit == nullptr || lit[u] != 0);
-      steps_(v, u) = shown ? static_cast<float>(disparity_m_steps / z) : 0.0F;
-      surface_(v, u) =
-          static_cast<int>(static_cast<std::uint32_t>(rendering.plane_id(v, u)) << 16 |
-                           rendering.object_id(v, u));
+    DisparitySteps(rendering.depth_m[v], lit, disparity_m_steps, size_.width,
+                   steps_.data() + first);
+    const ushort *plane = rendering.plane_id[v], *object = rendering.object_id[v];
+    std::int32_t* surface = surface_.data() + first;
+    for (int u = 0; u < size_.width; ++u) {
+      surface[u] =
+          static_cast<std::int32_t>(static_cast<std::uint32_t>(plane[u]) << 16 | object[u]);
     }
   }
 
-  bool Same(int v, int u, int to_v, int to_u) const {
-    const float a = steps_(v, u), b = steps_(to_v, to_u);
-    if ((a > 0) != (b > 0)) return false;
-    return surface_(v, u) == surface_(to_v, to_u) || std::abs(a - b) <= apart_;
-  }
-
-  const MatchWindow& model_;
-  BlobNoise dots_;
-  int reach_;
-  float apart_;
-  cv::Mat1i surface_;
-  cv::Mat1f steps_;
+  MatchWindow model_;
+  int reach_ = 0;
+  cv::Size size_;
+  MatchView view_;
+  std::vector<float> steps_;
+  std::vector<std::int32_t> surface_;
 };
 
 }  // namespace
@@ -96,14 +101,11 @@ class WindowMatcher {
 void MarkMixedWindows(const Rendering& rendering, const MatchWindow& model,
                       double disparity_m_steps, const PixelNoise& noise, cv::Mat1b& lost) {
   if (model.side_px == 0) return;
-  const WindowMatcher matcher(rendering, model, disparity_m_steps, noise);
+  thread_local WindowMatcher matcher;  // memory only
+  matcher.Start(rendering, model, disparity_m_steps);
+  const BlobNoise dots(rendering.depth_m.size(), noise, kWindowDraw);
   const cv::Mat1b near = matcher.NearBorders();
-  for (int v = 0; v < lost.rows; ++v) {
-    const uchar* ask = near[v];
-    for (int u = 0; u < lost.cols; ++u) {
-      if (ask[u] != 0 && matcher.Fails(u, v)) lost(v, u) = 255;
-    }
-  }
+  for (int v = 0; v < lost.rows; ++v) matcher.MarkRow(v, near[v], dots, lost[v]);
 }
 
 }  // namespace sim

@@ -101,4 +101,14 @@ const float* PixelNoise::NormalTable() {
   return table.data();
 }
 
+void PixelNoise::NormalsOf(std::span<const std::uint64_t> bits, std::uint32_t draw,
+                           std::size_t step, float* normals) {
+  const float* const table = NormalTable();
+  const std::uint32_t shift = 16 * (draw % 4);
+  for (const std::uint64_t four : bits) {
+    *normals = table[four >> shift & 0xFFFFu];
+    normals += step;
+  }
+}
+
 }  // namespace sim

@@ -31,6 +31,9 @@ class PixelNoise {
   static float NormalOf(std::uint64_t bits, std::uint32_t draw) {
     return NormalTable()[bits >> (16 * (draw % 4)) & 0xFFFFu];
   }
+  /// The same of many: every `step`th of the normals is filled.
+  static void NormalsOf(std::span<const std::uint64_t> bits, std::uint32_t draw,
+                        std::size_t step, float* normals);
   /// Quantiles at (i + 1/2) / 65,536.
   static const float* NormalTable();
 

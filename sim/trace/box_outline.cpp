@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "sim/shapes/faces.h"
+#include "sim/trace/pixel_rows.h"
 
 namespace sim {
 
@@ -73,16 +74,31 @@ int BoxOutline::InStraightRow(const Camera& camera, const ImageRays& rays, const
   return last - first + 1;
 }
 
+/// Behind a lens rows are bent: each pixel is asked, all sides of the outline by rows.
+int BoxOutline::InBentRows(const ImageRays& rays, const cv::Rect& area) const {
+  const auto width = static_cast<std::size_t>(area.width);
+  std::vector<double> x(width), y(width), innermost(width);
+  int count = 0;
+  for (int v = area.y; v < area.y + area.height; ++v) {
+    rays.Stretch(v, area.x, area.x + area.width, x.data(), y.data());
+    // Of the heights over the sides the least tells; no side, no limit.
+    std::fill(innermost.begin(), innermost.end(), 0.0);
+    for (const Eigen::Vector3d& side : sides_c_) {
+      LowerToPlane(side, x.data(), y.data(), area.width, innermost.data());
+    }
+    count += static_cast<int>(
+        std::count_if(innermost.begin(), innermost.end(), [](double d) { return d >= 0; }));
+  }
+  return count;
+}
+
 int BoxOutline::PixelsInside(const Camera& camera, const ImageRays& rays,
                              const cv::Rect& area) const {
   if (area.empty()) return 0;
+  if (!camera.lens.IsNone()) return InBentRows(rays, area);
   int count = 0;
   for (int v = area.y; v < area.y + area.height; ++v) {
-    if (camera.lens.IsNone()) {
-      count += InStraightRow(camera, rays, area, v);
-      continue;
-    }
-    for (int u = area.x; u < area.x + area.width; ++u) count += Meets(rays.At(u, v)) ? 1 : 0;
+    count += InStraightRow(camera, rays, area, v);
   }
   return count;
 }

@@ -25,6 +25,7 @@ class BoxOutline {
  private:
   int InStraightRow(const Camera& camera, const ImageRays& rays, const cv::Rect& area,
                     int v) const;
+  int InBentRows(const ImageRays& rays, const cv::Rect& area) const;
 
   std::vector<Eigen::Vector3d> sides_c_;  ///< normals, inwards
 };

@@ -48,11 +48,16 @@ bool Clip(Eigen::Vector3d a, Eigen::Vector3d b, const RayWindow& window, Piece& 
   return true;
 }
 
-ImageEdge InImage(const Piece& piece, const Camera& camera) {
+/// A point of an edge in the image, and its inverse depth.
+struct ImagePoint {
+  Eigen::Vector2d pixel;
+  double inverse_depth = 0;
+};
+
+ImageEdge EdgeBetween(const ImagePoint& begin, const ImagePoint& end) {
   ImageEdge edge;
-  Eigen::Vector2d p = camera.Project({piece.p.x(), piece.p.y(), 1.0});
-  Eigen::Vector2d q = camera.Project({piece.q.x(), piece.q.y(), 1.0});
-  double zp = piece.wp, zq = piece.wq;
+  Eigen::Vector2d p = begin.pixel, q = end.pixel;
+  double zp = begin.inverse_depth, zq = end.inverse_depth;
   edge.steep = std::abs(q.y() - p.y()) > std::abs(q.x() - p.x());
   // Each step along the longer axis meets one pixel, or few, across.
   const int axis = edge.steep ? 1 : 0;
@@ -101,18 +106,24 @@ constexpr double kStraight_px = 4.0;
 
 void WalkPieces(const Piece& whole, const Camera& camera, double margin_px,
                 std::vector<EdgePixel>& pixels) {
-  if (camera.lens.IsNone()) return Walk(InImage(whole, camera), camera, margin_px, pixels);
+  const auto seen = [&](const Eigen::Vector2d& ray, double inverse_depth) -> ImagePoint {
+    return {camera.Project({ray.x(), ray.y(), 1.0}), inverse_depth};
+  };
+  if (camera.lens.IsNone()) {
+    return Walk(EdgeBetween(seen(whole.p, whole.wp), seen(whole.q, whole.wq)), camera,
+                margin_px, pixels);
+  }
   const double focal = std::max(camera.fx, camera.fy);
   const double count = std::ceil((whole.q - whole.p).norm() * focal / kStraight_px) + 1;
-  const auto at = [&](double i) -> Eigen::Vector2d {
-    return whole.p + i / count * (whole.q - whole.p);
+  const auto at = [&](double i) {
+    return seen(whole.p + i / count * (whole.q - whole.p),
+                whole.wp + i / count * (whole.wq - whole.wp));
   };
-  const auto inverse_depth = [&](double i) {
-    return whole.wp + i / count * (whole.wq - whole.wp);
-  };
+  ImagePoint begin = at(0);
   for (double i = 0; i < count; ++i) {
-    const Piece piece{at(i), at(i + 1), inverse_depth(i), inverse_depth(i + 1)};
-    Walk(InImage(piece, camera), camera, margin_px, pixels);
+    const ImagePoint end = at(i + 1);
+    Walk(EdgeBetween(begin, end), camera, margin_px, pixels);
+    begin = end;
   }
 }
 

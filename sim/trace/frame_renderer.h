@@ -19,11 +19,12 @@ struct Rendering {
   cv::Mat1d depth_m;    ///< exact planar z of the pixel centre's ray; 0 where nothing is hit
   cv::Mat1w plane_id;   ///< ScenePlane::id at the pixel centre; 0 = none
   cv::Mat1w object_id;  ///< Object::id at the pixel centre; 0 = none
-  cv::Mat1f incidence_cos;  ///< |cos| between the ray and the surface normal; 0 where no hit
   cv::Mat1b
-      projector_lit;   ///< 255 where the depth sensor's projector reaches; empty unless asked
-  cv::Mat1f infrared;  ///< InfraredOf the face at the pixel centre; 0 where no hit
-  cv::Mat1f gloss;     ///< GlossOf that face; 0 where no hit
+      projector_lit;  ///< 255 where the depth sensor's projector reaches; empty unless asked
+  // What a depth sensor's light meets; empty when RenderOptions::sensed is not set.
+  cv::Mat1f incidence_cos;  ///< |cos| between the ray and the surface normal; 0 where no hit
+  cv::Mat1f infrared;       ///< InfraredOf the face at the pixel centre; 0 where no hit
+  cv::Mat1f gloss;          ///< GlossOf that face; 0 where no hit
   /// Where gloss > 0: cos of the angle between the surface normal and the direction half way
   /// between camera and projector; 1 is a mirror that throws the projector's light at the camera.
   cv::Mat1f mirror_cos;
@@ -32,6 +33,7 @@ struct Rendering {
 struct RenderOptions {
   double time_s = 0;                  ///< where what moves is
   bool colour = true;                 ///< fill radiance
+  bool sensed = true;                 ///< fill incidence_cos, infrared, gloss and mirror_cos
   double projector_offset_m = 0.0;    ///< along camera +x; 0 leaves projector_lit empty
   cv::Range rows = cv::Range::all();  ///< only these are rendered; the rest is left alone
   /// Decide what a pixel beside an edge shows in double instead of by the ray tracer, whose

@@ -38,15 +38,16 @@ void ImageRays::Bound() {
   for (double v = -kRim_px; v <= bottom; v += 1) include(-kRim_px, v), include(right, v);
 }
 
-void ImageRays::Row(int v, double* x, double* y) const {
+void ImageRays::Stretch(int v, int first, int last, double* x, double* y) const {
+  const int count = last - first;
   if (camera_.lens.IsNone()) {
-    std::copy(x_.begin(), x_.end(), x);
-    std::fill_n(y, camera_.width, y_[Index(v)]);
+    std::copy_n(x_.data() + first, count, x);
+    std::fill_n(y, count, y_[Index(v)]);
     return;
   }
-  const std::size_t first = Index(v) * Index(camera_.width);
-  std::copy_n(x_.data() + first, camera_.width, x);
-  std::copy_n(y_.data() + first, camera_.width, y);
+  const std::size_t from = Index(v) * Index(camera_.width) + Index(first);
+  std::copy_n(x_.data() + from, count, x);
+  std::copy_n(y_.data() + from, count, y);
 }
 
 Eigen::Vector3d ImageRays::At(int u, int v) const {

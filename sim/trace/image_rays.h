@@ -19,7 +19,9 @@ class ImageRays {
   explicit ImageRays(const Camera& camera);
 
   /// x and y of the `width` pixels of row v.
-  void Row(int v, double* x, double* y) const;
+  void Row(int v, double* x, double* y) const { Stretch(v, 0, camera_.width, x, y); }
+  /// The same of its pixels from first to last, without that one.
+  void Stretch(int v, int first, int last, double* x, double* y) const;
   Eigen::Vector3d At(int u, int v) const;
   /// Ray of (u + du, v + dv), at most half a pixel from a pixel's centre; behind a lens to
   /// first order.

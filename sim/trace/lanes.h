@@ -2,8 +2,9 @@
 
 /// Before a function: built for AVX2 and for any x86-64; whichever the processor has is called.
 /// IEEE operations on the same numbers, never fused (-ffp-contract=off), so the bits are the
-/// same. For sources that CMake's pas_lanes names. Clang builds for any x86-64 alone, as it
-/// wants such functions declared so too; sanitizers cannot start with them.
+/// same. CMake's pas_lanes names the sources of loops that the compiler is to widen by itself.
+/// Clang builds for any x86-64 alone, as it wants such functions declared so too; sanitizers
+/// cannot start with them.
 #if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && \
     !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
 #define SIM_LANES __attribute__((target_clones("avx2", "default")))

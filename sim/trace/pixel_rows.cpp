@@ -29,8 +29,8 @@ SIM_LANES void MeetPlane(const PlaneSeen& plane, int first, int last, const Pixe
   const double* __restrict y = row.y;
   double* __restrict depth = row.depth_m;
   float* __restrict cosine = row.cosine;
-  for (int i = first; i < last; ++i) {
-    depth[i] = 1.0 / (ax * x[i] + ay * y[i] + az);
+  for (int i = first; i < last; ++i) depth[i] = 1.0 / (ax * x[i] + ay * y[i] + az);
+  for (int i = first; cosine != nullptr && i < last; ++i) {
     cosine[i] = static_cast<float>(std::abs(nx * x[i] + ny * y[i] + nz) /
                                    std::sqrt(x[i] * x[i] + y[i] * y[i] + 1.0));
   }
@@ -42,6 +42,12 @@ SIM_LANES void MeetPlane(const PlaneSeen& plane, int first, int last, const Pixe
     const double* __restrict way = ways[axis];
     float* __restrict start = starts[axis];
     float* __restrict to_eye = to_eyes[axis];
+    if (to_eye == nullptr) {
+      for (int i = first; i < last; ++i) {
+        start[i] = static_cast<float>(from + depth[i] * way[i]);
+      }
+      continue;
+    }
     for (int i = first; i < last; ++i) {
       const double p = from + depth[i] * way[i];
       start[i] = static_cast<float>(p);
@@ -80,6 +86,35 @@ SIM_LANES void PlaceOnPrint(const Eigen::Matrix<float, 2, 3>& uv_over_depth,
     const auto z = static_cast<float>(depth_m[i]);
     u[i] = z * (u0 * fx + u1 * fy + u2);
     v[i] = z * (v0 * fx + v1 * fy + v2);
+  }
+}
+
+SIM_LANES void LowerToPlane(const Eigen::Vector3d& n, const double* __restrict x,
+                            const double* __restrict y, int count, double* __restrict height) {
+  const double nx = n.data()[0], ny = n.data()[1], nz = n.data()[2];
+  for (int i = 0; i < count; ++i) {
+    const double over = nx * x[i] + ny * y[i] + nz;
+    height[i] = over < height[i] ? over : height[i];
+  }
+}
+
+SIM_LANES void RootBytes(const float* __restrict values, int count,
+                         std::uint8_t* __restrict roots) {
+  for (int i = 0; i < count; ++i) {
+    roots[i] = static_cast<std::uint8_t>(std::sqrt(values[i]) * 255.0F + 0.5F);
+  }
+}
+
+SIM_LANES void HalveTexels(const std::uint8_t* __restrict upper,
+                           const std::uint8_t* __restrict lower, int count,
+                           std::uint8_t* __restrict coarse) {
+  const auto square = [](std::uint8_t root) { return static_cast<int>(root) * root; };
+  for (int i = 0; i < count; ++i, upper += 8, lower += 8, coarse += 4) {
+    for (int k = 0; k < 4; ++k) {
+      const int sum =
+          square(upper[k]) + square(upper[k + 4]) + square(lower[k]) + square(lower[k + 4]);
+      coarse[k] = static_cast<std::uint8_t>(std::sqrt(0.25F * static_cast<float>(sum)) + 0.5F);
+    }
   }
 }
 

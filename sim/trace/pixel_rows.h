@@ -1,8 +1,10 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstdint>
 
-// What a view does to every pixel, by rows of `count`. Same bits on every processor.
+// What a view does to every pixel and a print to every texel, by rows of `count`. Same bits on
+// every processor.
 namespace sim {
 
 /// (dx, dy, dz) = R (x, y, 1).
@@ -16,9 +18,9 @@ struct PixelRow {
   const double *x, *y;                    ///< ray (x, y, 1), camera frame
   const double *dx, *dy, *dz;             ///< the same, world frame
   double* depth_m;                        ///< planar z
-  float* cosine;                          ///< |cos| between ray and normal
+  float* cosine;                          ///< |cos| between ray and normal; null: not asked
   float *start_x, *start_y, *start_z;     ///< where second rays begin, world frame
-  float *to_eye_x, *to_eye_y, *to_eye_z;  ///< from there
+  float *to_eye_x, *to_eye_y, *to_eye_z;  ///< from there; null: not asked
 };
 
 /// A plane as one view sees it.
@@ -41,5 +43,17 @@ void MirrorCosines(const Eigen::Vector3d& n_c, const Eigen::Vector3d& projector_
 void PlaceOnPrint(const Eigen::Matrix<float, 2, 3>& uv_over_depth, const double* x,
                   const double* y, const double* depth_m, int first, int last, float* u,
                   float* v);
+
+/// Lowers height[i] to n . (x, y, 1) of pixel i where that is less.
+void LowerToPlane(const Eigen::Vector3d& n, const double* x, const double* y, int count,
+                  double* height);
+
+/// Square roots of values in [0, 1], as bytes.
+void RootBytes(const float* values, int count, std::uint8_t* roots);
+
+/// `count` texels of four such bytes from two rows of twice as many: of each four the root of the
+/// mean of what they stand for.
+void HalveTexels(const std::uint8_t* upper, const std::uint8_t* lower, int count,
+                 std::uint8_t* coarse);
 
 }  // namespace sim

@@ -1,120 +1,166 @@
 #include "sim/trace/print_noise.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
+#include <utility>
+
+#include "sim/trace/lanes.h"
 
 namespace sim {
 namespace {
 
 using Eigen::Vector2f;
 
-/// A step of width `edge` about 0, from 0 to 1.
-float Smooth(float edge, float t) { return std::clamp(t / edge + 0.5F, 0.0F, 1.0F); }
+constexpr float kFleckEdge_cells = 0.12F;  ///< width of a fleck's soft rim
+/// Further than this outside of a fleck's rim there is none of it: more than half of the soft rim.
+constexpr float kFleckReach_cells = 0.07F;
 
-/// The values at the corners of one cell of value noise.
-struct ValueCell {
-  std::uint64_t seed = 0;
-  bool drawn = false;
-  int x = 0, y = 0;
-  std::array<float, 4> corners;  ///< low left and right, high left and right
+/// Where places along one axis, which grow, lie in a grid of cells.
+struct CellPlaces {
+  std::vector<int> cell;
+  std::vector<float> inside;  ///< from the cell's lower side, cells
+  /// The first place not before each cell, from that of the first place on; then their number.
+  std::vector<std::size_t> start;
 
-  bool Is(int x_in, int y_in, std::uint64_t seed_in) const {
-    return drawn && x == x_in && y == y_in && seed == seed_in;
+  template <typename Scaled>
+  CellPlaces(std::span<const float> places_m, const Scaled& scaled) {
+    for (const float place_m : places_m) {
+      const float at = scaled(place_m);
+      cell.push_back(FloorOf(at));
+      inside.push_back(at - static_cast<float>(cell.back()));
+      const auto cells = static_cast<std::size_t>(cell.back() - cell.front() + 1);
+      if (start.size() < cells) start.resize(cells, cell.size() - 1);
+    }
+    start.push_back(cell.size());
   }
-  void Draw(int x_in, int y_in, std::uint64_t seed_in) {
-    x = x_in, y = y_in, seed = seed_in, drawn = true;
-    const auto at = [&](int i, int j) { return CellDraw(x + i, y + j, seed)[0]; };
-    corners = {at(0, 0), at(1, 0), at(0, 1), at(1, 1)};
+  /// From `at` in a cell to place i, cells.
+  float Distance(int from_cell, float at, std::size_t i) const {
+    return inside[i] - static_cast<float>(from_cell - cell[i]) - at;
+  }
+  /// The places nearer than `reach`, at most a cell, to there: from the first to before the second.
+  std::pair<std::size_t, std::size_t> Near(int from_cell, float at, float reach) const {
+    const auto start_of = [&](int wanted) {
+      const int cells = static_cast<int>(start.size()) - 1;
+      return start[static_cast<std::size_t>(std::clamp(wanted - cell.front(), 0, cells))];
+    };
+    std::size_t first = start_of(from_cell - 1), last = start_of(from_cell + 2);
+    while (first < last && Distance(from_cell, at, first) <= -reach) ++first;
+    while (first < last && Distance(from_cell, at, last - 1) >= reach) --last;
+    return {first, last};
   }
 };
 
-/// A cell of the last ones that this thread looked at: neighbouring texels share it.
-template <typename Cell>
-Cell& LastCell(std::uint64_t seed) {
-  thread_local std::array<Cell, 16> last;  // memory only
-  return last[MixBits(seed) % last.size()];
+/// One fleck; x and y from the lower corner of its cell, cells.
+struct Fleck {
+  int cell_x, cell_y;
+  float x, y, radius;
+};
+
+/// Raises inside[i] to how far a place is inside of a fleck.
+SIM_LANES void RaiseToFleck(const float* __restrict dx, float dy, float radius,
+                            std::size_t count, float* __restrict inside) {
+  for (std::size_t i = 0; i < count; ++i) {
+    const float depth = radius - std::sqrt(dx[i] * dx[i] + dy * dy);
+    inside[i] = depth > inside[i] ? depth : inside[i];
+  }
 }
 
-/// The ellipses of random flecks that may reach into one cell of their grid: those of its own
-/// and of eight neighbours, by columns, two of which the next cell shares.
-struct FleckCell {
-  struct Fleck {
-    float row;   ///< row of its own cell, from this one
-    float x, y;  ///< its middle there, cells
-    float radius;
-  };
-  struct Column {
-    int count = 0;
-    std::array<Fleck, 3> flecks;
-  };
+/// A step of width `edge` about 0, from 0 to 1, of each value.
+SIM_LANES void SmoothSteps(float edge, std::vector<float>& values) {
+  float* __restrict value = values.data();
+  const std::size_t count = values.size();
+  for (std::size_t i = 0; i < count; ++i) {
+    const float step = value[i] / edge + 0.5F, above = step > 0.0F ? step : 0.0F;
+    value[i] = above < 1.0F ? above : 1.0F;
+  }
+}
 
-  std::uint64_t seed = 0;
-  float density = -1;
-  int x = 0, y = 0;
-  std::array<Column, 3> columns;
+/// Puts flecks one by one on the places that they reach; none is longer than to its cell's
+/// neighbours.
+class FleckStamp {
+ public:
+  FleckStamp(const CellPlaces& x, const CellPlaces& y, std::vector<float>& inside)
+      : x_(x), y_(y), inside_(inside) {}
 
-  void MoveTo(int x_in, int y_in, float density_in, std::uint64_t seed_in) {
-    const bool same_row = y == y_in && seed == seed_in && density == density_in;
-    if (same_row && x == x_in) return;
-    const bool next = same_row && x + 1 == x_in;
-    x = x_in, y = y_in, density = density_in, seed = seed_in;
-    if (next) {
-      columns[0] = columns[1];
-      columns[1] = columns[2];
-    } else {
-      Draw(-1);
-      Draw(0);
+  void Put(const Fleck& fleck) {
+    const float reach = fleck.radius + kFleckReach_cells;
+    const auto [first_row, last_row] = y_.Near(fleck.cell_y, fleck.y, reach);
+    if (first_row == last_row) return;
+    const auto [first, last] = x_.Near(fleck.cell_x, fleck.x, reach);
+    dx_.resize(last - first);
+    for (std::size_t u = first; u < last; ++u) {
+      dx_[u - first] = x_.Distance(fleck.cell_x, fleck.x, u);
     }
-    Draw(1);
+    for (std::size_t v = first_row; v < last_row; ++v) {
+      RaiseToFleck(dx_.data(), y_.Distance(fleck.cell_y, fleck.y, v), fleck.radius, dx_.size(),
+                   inside_.data() + v * x_.cell.size() + first);
+    }
   }
 
  private:
-  void Draw(int i) {
-    Column& column = columns[static_cast<std::size_t>(i + 1)];
-    column.count = 0;
-    for (int j = -1; j <= 1; ++j) {
-      const CellDraw draw(x + i, y + j, seed);
-      // Written in any case: no branch on what is as good as tossed.
-      column.flecks[static_cast<std::size_t>(column.count)] = {static_cast<float>(j), draw[1],
-                                                               draw[2], 0.16F + 0.3F * draw[3]};
-      column.count += draw[0] < density ? 1 : 0;
-    }
-  }
+  const CellPlaces& x_;
+  const CellPlaces& y_;
+  std::vector<float>& inside_;
+  std::vector<float> dx_;
 };
+
+/// The values of value noise at the corners of a row of cells, from `first` to `last`.
+std::vector<float> CornersOfRow(int first, int last, int y, std::uint64_t seed) {
+  std::vector<float> values;
+  for (int x = first; x <= last; ++x) values.push_back(CellDraw(x, y, seed)[0]);
+  return values;
+}
+
+/// From 0 to 1 with level ends.
+float SmoothShare(float t) { return t * t * (3.0F - 2.0F * t); }
 
 }  // namespace
 
-float ValueNoise(const Vector2f& p, std::uint64_t seed) {
-  const int x = FloorOf(p.x()), y = FloorOf(p.y());
-  Vector2f t(p.x() - static_cast<float>(x), p.y() - static_cast<float>(y));
-  t = t.array() * t.array() * (3.0F - 2.0F * t.array());
-  ValueCell& cell = LastCell<ValueCell>(seed);
-  if (!cell.Is(x, y, seed)) cell.Draw(x, y, seed);
-  const auto& [low_left, low_right, high_left, high_right] = cell.corners;
-  const float low = low_left + (low_right - low_left) * t.x();
-  const float high = high_left + (high_right - high_left) * t.x();
-  return low + (high - low) * t.y();
+std::vector<float> ValueNoise(const PrintGrid& grid, const Vector2f& cells_per_m,
+                              std::uint64_t seed) {
+  const CellPlaces x(grid.x_m, [&](float x_m) { return x_m * cells_per_m.x(); });
+  const CellPlaces y(grid.y_m, [&](float y_m) { return y_m * cells_per_m.y(); });
+  std::vector<float> noise;
+  if (grid.size() == 0) return noise;
+  noise.reserve(grid.size());
+  const int first = x.cell.front(), last = x.cell.back() + 1;
+  std::vector<float> lower, upper;
+  for (std::size_t v = 0; v < y.cell.size(); ++v) {
+    if (v == 0 || y.cell[v] != y.cell[v - 1]) {
+      lower = CornersOfRow(first, last, y.cell[v], seed);
+      upper = CornersOfRow(first, last, y.cell[v] + 1, seed);
+    }
+    const float up = SmoothShare(y.inside[v]);
+    for (std::size_t u = 0; u < x.cell.size(); ++u) {
+      const float along = SmoothShare(x.inside[u]);
+      const float* left = lower.data() + (x.cell[u] - first);
+      const float* high_left = upper.data() + (x.cell[u] - first);
+      const float low = left[0] + (left[1] - left[0]) * along;
+      const float high = high_left[0] + (high_left[1] - high_left[0]) * along;
+      noise.push_back(low + (high - low) * up);
+    }
+  }
+  return noise;
 }
 
-float Flecks(const Vector2f& p_m, float pitch_m, float density, float stretch,
-             std::uint64_t seed) {
-  const Vector2f q(p_m.x() / (pitch_m * stretch), p_m.y() / pitch_m);
-  const int x = FloorOf(q.x()), y = FloorOf(q.y());
-  const float fx = q.x() - static_cast<float>(x), fy = q.y() - static_cast<float>(y);
-  FleckCell& cell = LastCell<FleckCell>(seed);
-  cell.MoveTo(x, y, density, seed);
-  float inside = -1;  // the rim of an ellipse, at most
-  float left = -1;
-  for (const FleckCell::Column& column : cell.columns) {
-    for (int k = 0; k < column.count; ++k) {
-      const FleckCell::Fleck& fleck = column.flecks[static_cast<std::size_t>(k)];
-      const float dx = fx - left - fleck.x, dy = fy - fleck.row - fleck.y;
-      inside = std::max(inside, fleck.radius - std::sqrt(dx * dx + dy * dy));
+std::vector<float> Flecks(const PrintGrid& grid, const FleckPattern& pattern,
+                          std::uint64_t seed) {
+  std::vector<float> inside(grid.size(), -1.0F);  // no place is further outside
+  if (inside.empty()) return inside;
+  const CellPlaces x(grid.x_m,
+                     [&](float x_m) { return x_m / (pattern.pitch_m * pattern.stretch); });
+  const CellPlaces y(grid.y_m, [&](float y_m) { return y_m / pattern.pitch_m; });
+  FleckStamp stamp(x, y, inside);
+  for (int j = y.cell.front() - 1; j <= y.cell.back() + 1; ++j) {
+    for (int i = x.cell.front() - 1; i <= x.cell.back() + 1; ++i) {
+      const CellDraw draw(i, j, seed);
+      if (draw[0] < pattern.density) {
+        stamp.Put({i, j, draw[1], draw[2], 0.16F + 0.3F * draw[3]});
+      }
     }
-    left += 1;
   }
-  return Smooth(0.12F, inside);
+  SmoothSteps(kFleckEdge_cells, inside);
+  return inside;
 }
 
 bool Glyph(const Vector2f& q, std::uint64_t bits) {
@@ -124,19 +170,28 @@ bool Glyph(const Vector2f& q, std::uint64_t bits) {
   return (bits >> (5 * column + row) & 1) != 0;
 }
 
-/// Ink of running text: lines of words of letters, with ragged ends and paragraphs.
-float TextInk(const Vector2f& p_m, float line_m, float width_m, std::uint64_t seed) {
-  const int line = FloorOf(p_m.y() / line_m);
-  const CellDraw draw(line, 7, seed);
-  const float end = width_m * (draw[0] < 0.2F ? 0.35F + 0.4F * draw[1] : 0.97F);
-  if (draw[2] < 0.1F || p_m.x() > end || p_m.x() < 0.03F * width_m) return 0;
+std::vector<float> TextInk(const PrintGrid& grid, float line_m, float width_m,
+                           std::uint64_t seed) {
+  std::vector<float> ink(grid.size(), 0.0F);
   const float letter_m = 0.55F * line_m;
-  const int letter = FloorOf(p_m.x() / letter_m);
-  const CellDraw glyph(letter, line, seed + 1);
-  if (glyph[0] < 0.19F) return 0;  // between words
-  const Vector2f q(p_m.x() / letter_m - static_cast<float>(letter),
-                   (p_m.y() / line_m - static_cast<float>(line)) * 1.45F);
-  return Glyph(q, glyph.bits >> 16) ? 1.0F : 0.0F;
+  const CellPlaces x(grid.x_m, [&](float x_m) { return x_m / letter_m; });
+  const CellPlaces y(grid.y_m, [&](float y_m) { return y_m / line_m; });
+  for (std::size_t v = 0; v < grid.y_m.size(); ++v) {
+    const int line = y.cell[v];
+    const CellDraw draw(line, 7, seed);
+    if (draw[2] < 0.1F) continue;  // between paragraphs
+    const float end = width_m * (draw[0] < 0.2F ? 0.35F + 0.4F * draw[1] : 0.97F);
+    CellDraw glyph(0, line, seed + 1);
+    for (std::size_t u = 0; u < grid.x_m.size(); ++u) {
+      if (u == 0 || x.cell[u] != x.cell[u - 1]) glyph = CellDraw(x.cell[u], line, seed + 1);
+      if (grid.x_m[u] > end || grid.x_m[u] < 0.03F * width_m) continue;
+      if (glyph[0] < 0.19F) continue;  // between words
+      if (Glyph({x.inside[u], y.inside[v] * 1.45F}, glyph.bits >> 16)) {
+        ink[v * grid.x_m.size() + u] = 1.0F;
+      }
+    }
+  }
+  return ink;
 }
 
 }  // namespace sim

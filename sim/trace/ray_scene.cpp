@@ -10,6 +10,8 @@
 #include <stdexcept>
 #include <string>
 
+#include "sim/trace/lanes.h"
+
 namespace sim {
 namespace {
 
@@ -51,24 +53,57 @@ RTCDevice SharedDevice(InstructionSet set) {
   return device.handle;
 }
 
-/// Fills `out` and says which lanes are cast.
-void CopyRays(const RayPacket& rays, RTCRay8& out, int* valid) {
-  constexpr std::size_t kBytes = sizeof rays.x;
-  std::memcpy(out.org_x, rays.x.data(), kBytes);
-  std::memcpy(out.org_y, rays.y.data(), kBytes);
-  std::memcpy(out.org_z, rays.z.data(), kBytes);
-  std::memcpy(out.dir_x, rays.dx.data(), kBytes);
-  std::memcpy(out.dir_y, rays.dy.data(), kBytes);
-  std::memcpy(out.dir_z, rays.dz.data(), kBytes);
-  std::memcpy(out.tnear, rays.near.data(), kBytes);
-  std::memcpy(out.tfar, rays.far.data(), kBytes);
+/// What all rays have in common. The ray tracer leaves it alone.
+void FillConstants(RTCRay8& rays) {
   for (unsigned i = 0; i < RayPacket::kLanes; ++i) {
-    out.time[i] = 0.0F;
-    out.mask[i] = ~0U;
-    out.id[i] = i;
-    out.flags[i] = 0;
-    valid[i] = rays.far[i] > rays.near[i] ? -1 : 0;
+    rays.time[i] = 0.0F;
+    rays.mask[i] = ~0U;
+    rays.id[i] = i;
+    rays.flags[i] = 0;
   }
+}
+
+/// Fills the rest with the packet from `first` on. @returns whether any lane is cast
+SIM_LANES bool CopyRays(const RayRow& rays, int first, RTCRay8& out, int* valid) {
+  constexpr std::size_t kBytes = sizeof out.org_x;
+  std::memcpy(out.org_x, rays.x + first, kBytes);
+  std::memcpy(out.org_y, rays.y + first, kBytes);
+  std::memcpy(out.org_z, rays.z + first, kBytes);
+  std::memcpy(out.dir_x, rays.dx + first, kBytes);
+  std::memcpy(out.dir_y, rays.dy + first, kBytes);
+  std::memcpy(out.dir_z, rays.dz + first, kBytes);
+  std::memcpy(out.tnear, rays.near + first, kBytes);
+  std::memcpy(out.tfar, rays.far + first, kBytes);
+  int any = 0;
+  for (int i = 0; i < RayPacket::kLanes; ++i) {
+    valid[i] = rays.far[first + i] > rays.near[first + i] ? -1 : 0;
+    any |= valid[i];
+  }
+  return any != 0;
+}
+
+SIM_LANES void ForgetHits(RTCHit8& hits) {
+  for (auto& id : hits.geomID) id = RTC_INVALID_GEOMETRY_ID;
+}
+
+SIM_LANES void ReadHits(const RTCHit8& hits, const int* valid, int* triangle) {
+  for (int i = 0; i < RayPacket::kLanes; ++i) {
+    const bool hit = (valid[i] != 0) & (hits.geomID[i] != RTC_INVALID_GEOMETRY_ID);
+    triangle[i] = hit ? static_cast<int>(hits.primID[i]) : PacketHits::kNothing;
+  }
+}
+
+SIM_LANES void ReadBlocked(const RTCRay8& rays, const int* valid, std::uint8_t* blocked) {
+  for (int i = 0; i < RayPacket::kLanes; ++i) {
+    blocked[i] = ((valid[i] != 0) & (rays.tfar[i] < 0.0F)) ? 1 : 0;  // Embree writes -inf
+  }
+}
+
+RTCIntersectContext CoherentContext() {
+  RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+  return context;
 }
 
 }  // namespace
@@ -145,36 +180,60 @@ RayScene::~RayScene() = default;
 RayScene::RayScene(RayScene&&) noexcept = default;
 RayScene& RayScene::operator=(RayScene&&) noexcept = default;
 
-PacketHits RayScene::Nearest(const RayPacket& rays) const {
+void RayScene::Nearest(const RayRow& rays, int count, int* triangle) const {
   RTCRayHit8 query;
+  FillConstants(query.ray);
+  RTCIntersectContext context = CoherentContext();
   alignas(32) int valid[RayPacket::kLanes];
-  CopyRays(rays, query.ray, valid);
-  for (auto& id : query.hit.geomID) id = RTC_INVALID_GEOMETRY_ID;
-  RTCIntersectContext context;
-  rtcInitIntersectContext(&context);
-  context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
-  rtcIntersect8(valid, embree_->scene, &context, &query);
-  PacketHits hits;
-  for (std::size_t i = 0; i < RayPacket::kLanes; ++i) {
-    const bool hit = valid[i] != 0 && query.hit.geomID[i] != RTC_INVALID_GEOMETRY_ID;
-    hits.triangle[i] = hit ? static_cast<int>(query.hit.primID[i]) : PacketHits::kNothing;
+  for (int first = 0; first < count; first += RayPacket::kLanes) {
+    ForgetHits(query.hit);
+    if (CopyRays(rays, first, query.ray, valid)) {
+      rtcIntersect8(valid, embree_->scene, &context, &query);
+    }
+    ReadHits(query.hit, valid, triangle + first);
   }
+}
+
+PacketHits RayScene::Nearest(const RayPacket& rays) const {
+  PacketHits hits;
+  Nearest(rays.Row(), RayPacket::kLanes, hits.triangle.data());
   return hits;
 }
 
-std::array<bool, RayPacket::kLanes> RayScene::Blocked(const RayPacket& rays) const {
+void RayScene::Blocked(const RayRow& rays, int count, std::uint8_t* blocked) const {
   RTCRay8 query;
+  FillConstants(query);
+  RTCIntersectContext context = CoherentContext();
   alignas(32) int valid[RayPacket::kLanes];
-  CopyRays(rays, query, valid);
-  RTCIntersectContext context;
-  rtcInitIntersectContext(&context);
-  context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
-  rtcOccluded8(valid, embree_->scene, &context, &query);
-  std::array<bool, RayPacket::kLanes> blocked{};
-  for (std::size_t i = 0; i < RayPacket::kLanes; ++i) {
-    blocked[i] = valid[i] != 0 && query.tfar[i] < 0.0F;  // Embree writes -inf
+  for (int first = 0; first < count; first += RayPacket::kLanes) {
+    if (CopyRays(rays, first, query, valid)) {
+      rtcOccluded8(valid, embree_->scene, &context, &query);
+    }
+    ReadBlocked(query, valid, blocked + first);
   }
+}
+
+std::array<bool, RayPacket::kLanes> RayScene::Blocked(const RayPacket& rays) const {
+  std::array<std::uint8_t, RayPacket::kLanes> found;
+  Blocked(rays.Row(), RayPacket::kLanes, found.data());
+  std::array<bool, RayPacket::kLanes> blocked{};
+  std::copy(found.begin(), found.end(), blocked.begin());
   return blocked;
+}
+
+void RayLog::Add(const RayRow& rays, int count, std::vector<RayPacket>& packets) {
+  for (int first = 0; first < count; first += RayPacket::kLanes) {
+    RayPacket packet;
+    const auto copy = [&](const float* from, auto& to) {
+      std::copy_n(from + first, to.size(), to.begin());
+    };
+    copy(rays.x, packet.x), copy(rays.y, packet.y), copy(rays.z, packet.z);
+    copy(rays.dx, packet.dx), copy(rays.dy, packet.dy), copy(rays.dz, packet.dz);
+    copy(rays.near, packet.near), copy(rays.far, packet.far);
+    if (std::any_of(packet.far.begin(), packet.far.end(), [](float far) { return far >= 0; })) {
+      packets.push_back(packet);
+    }
+  }
 }
 
 namespace {
@@ -212,20 +271,22 @@ double TimeOf(const std::vector<RayPacket>& packets, const Fill& fill, const Cas
 }  // namespace
 
 double RayScene::TimeToCast(const RayLog& log) const {
-  RTCIntersectContext context;
-  rtcInitIntersectContext(&context);
-  context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+  RTCIntersectContext context = CoherentContext();
   const RTCScene scene = embree_->scene;
   const double nearest = TimeOf<RTCRayHit8>(
       log.nearest,
       [](const RayPacket& rays, Prepared<RTCRayHit8>& to) {
-        CopyRays(rays, to.query.ray, to.valid);
-        for (auto& id : to.query.hit.geomID) id = RTC_INVALID_GEOMETRY_ID;
+        FillConstants(to.query.ray);
+        CopyRays(rays.Row(), 0, to.query.ray, to.valid);
+        ForgetHits(to.query.hit);
       },
       [&](Prepared<RTCRayHit8>& to) { rtcIntersect8(to.valid, scene, &context, &to.query); });
   const double blocked = TimeOf<RTCRay8>(
       log.blocked,
-      [](const RayPacket& rays, Prepared<RTCRay8>& to) { CopyRays(rays, to.query, to.valid); },
+      [](const RayPacket& rays, Prepared<RTCRay8>& to) {
+        FillConstants(to.query);
+        CopyRays(rays.Row(), 0, to.query, to.valid);
+      },
       [&](Prepared<RTCRay8>& to) { rtcOccluded8(to.valid, scene, &context, &to.query); });
   return nearest + blocked;
 }

@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <cstdint>
 #include <limits>
 #include <memory>
 #include <span>
@@ -11,7 +12,14 @@
 
 namespace sim {
 
-/// Eight rays from points to directions, world frame. Lane i is cast when far[i] > near[i].
+/// Rays side by side, from points to directions, world frame. Ray i is cast when far[i] > near[i].
+struct RayRow {
+  const float *x, *y, *z;     ///< origins, metres
+  const float *dx, *dy, *dz;  ///< directions, any length
+  const float *near, *far;    ///< in units of the direction
+};
+
+/// Eight rays.
 struct RayPacket {
   static constexpr int kLanes = 8;
   alignas(32) std::array<float, kLanes> x{}, y{}, z{};     ///< origins, metres
@@ -22,6 +30,10 @@ struct RayPacket {
   void Set(int lane, const Eigen::Vector3d& origin, const Eigen::Vector3d& direction,
            float from, float to = std::numeric_limits<float>::infinity());
   void Disable(int lane) { far[static_cast<std::size_t>(lane)] = -1.0F; }
+  RayRow Row() const {
+    return {x.data(),  y.data(),  z.data(),    dx.data(),
+            dy.data(), dz.data(), near.data(), far.data()};
+  }
 };
 
 /// What the lanes hit: triangle index, or kNothing.
@@ -33,6 +45,8 @@ struct PacketHits {
 /// Rays that were cast, in order.
 struct RayLog {
   std::vector<RayPacket> nearest, blocked;
+  /// Takes down the packets of a row that hold a ray to cast.
+  static void Add(const RayRow& rays, int count, std::vector<RayPacket>& packets);
 };
 
 /// Which instructions the ray tracer may use. Its answers at edges differ with them.
@@ -61,8 +75,14 @@ class RayScene {
 
   /// Nearest hit of each lane.
   PacketHits Nearest(const RayPacket& rays) const;
+  /// The same of a row, a packet at a time.
+  /// @param count     a multiple of RayPacket::kLanes
+  /// @param triangle  as PacketHits::triangle
+  void Nearest(const RayRow& rays, int count, int* triangle) const;
   /// True where anything lies between near and far.
   std::array<bool, RayPacket::kLanes> Blocked(const RayPacket& rays) const;
+  /// The same of a row: 1 where anything does, else 0.
+  void Blocked(const RayRow& rays, int count, std::uint8_t* blocked) const;
   /// Seconds of processor time that the ray tracer alone takes to cast these rays again, from
   /// packets in its own form: what no renderer on top of it can be faster than.
   double TimeToCast(const RayLog& log) const;

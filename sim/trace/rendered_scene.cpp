@@ -38,10 +38,12 @@ class Overlay {
       out_.depth_m(v, u) = mover_.depth_m(v, u);
       out_.plane_id(v, u) = 0;
       out_.object_id(v, u) = mover_.object_id(v, u);
-      out_.incidence_cos(v, u) = mover_.incidence_cos(v, u);
-      out_.infrared(v, u) = mover_.infrared(v, u);
-      out_.gloss(v, u) = mover_.gloss(v, u);
-      out_.mirror_cos(v, u) = mover_.mirror_cos(v, u);
+      if (!out_.incidence_cos.empty()) {
+        out_.incidence_cos(v, u) = mover_.incidence_cos(v, u);
+        out_.infrared(v, u) = mover_.infrared(v, u);
+        out_.gloss(v, u) = mover_.gloss(v, u);
+        out_.mirror_cos(v, u) = mover_.mirror_cos(v, u);
+      }
       if (!out_.projector_lit.empty()) out_.projector_lit(v, u) = mover_.projector_lit(v, u);
     }
   }

@@ -4,6 +4,7 @@
 #include <bit>
 #include <cmath>
 
+#include "sim/trace/pixel_rows.h"
 #include "sim/trace/print.h"
 
 namespace sim {
@@ -47,16 +48,21 @@ Texture::Texture(const Material& material, const Eigen::Vector2d& low_m,
 
 void Texture::BakeRows(int first, int last) {
   Level& level = levels_.front();
+  const auto middles = [&](int from, int to) {
+    std::vector<float> places_m;
+    for (int i = from; i < to; ++i)
+      places_m.push_back((static_cast<float>(i) + 0.5F) * texel_m_);
+    return places_m;
+  };
+  const std::vector<float> x_m = middles(0, level.width), y_m = middles(first, last);
+  const std::vector<Eigen::Array3f> colours = Reflectance(material_, extent_m_, {x_m, y_m});
+  static_assert(sizeof(Eigen::Array3f) == 3 * sizeof(float));
+  std::vector<std::uint8_t> roots(3 * colours.size());
+  RootBytes(colours.data()->data(), static_cast<int>(roots.size()), roots.data());
+  const std::uint8_t* root = roots.data();
   for (int y = first; y < last; ++y) {
-    for (int x = 0; x < level.width; ++x) {
-      const Eigen::Vector2f p((static_cast<float>(x) + 0.5F) * texel_m_,
-                              (static_cast<float>(y) + 0.5F) * texel_m_);
-      const Eigen::Array3f colour = Reflectance(material_, {p, extent_m_});
-      for (int channel = 0; channel < 3; ++channel) {
-        level.At(x, y)[static_cast<std::size_t>(channel)] =
-            static_cast<std::uint8_t>(std::sqrt(colour[channel]) * 255.0F + 0.5F);
-      }
-    }
+    Texel* texels = &level.At(0, y);
+    for (int x = 0; x < level.width; ++x, root += 3) texels[x] = {root[0], root[1], root[2], 0};
   }
 }
 
@@ -66,20 +72,10 @@ void Texture::Finish() {
 }
 
 void Texture::Halve(const Level& fine, Level& coarse) {
-  const auto fine_at = [&](int x, int y) -> const Texel& {
-    return fine.At(std::min(x, fine.width - 1), std::min(y, fine.height - 1));
-  };
+  // Where the fine image has an odd side, its border stands for the texel that lacks.
   for (int y = 0; y < coarse.height; ++y) {
-    for (int x = 0; x < coarse.width; ++x) {
-      for (std::size_t channel = 0; channel < 3; ++channel) {
-        float sum = 0;
-        for (int k = 0; k < 4; ++k) {
-          const float root = fine_at(2 * x + (k & 1), 2 * y + (k >> 1))[channel];
-          sum += root * root;
-        }
-        coarse.At(x, y)[channel] = static_cast<std::uint8_t>(std::sqrt(0.25F * sum) + 0.5F);
-      }
-    }
+    HalveTexels(fine.At(0, 2 * y).data(), fine.At(0, 2 * y + 1).data(), coarse.width,
+                coarse.At(0, y).data());
   }
   coarse.CopyBorder();
 }

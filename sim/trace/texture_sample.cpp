@@ -1,6 +1,7 @@
 // Looking texels up: a packet of places at once, so that fetching one waits for no other.
 #include <emmintrin.h>
 
+#include "sim/trace/lanes.h"
 #include "sim/trace/texture.h"
 
 namespace sim {
@@ -120,15 +121,16 @@ template <int kQuads>
   }
 }
 
-void Texture::Sample(const float* u_m, const float* v_m, int count,
-                     const TextureFootprint& footprint, std::array<float, 4>* colours) const {
+SIM_LANES void Texture::Sample(const float* u_m, const float* v_m, int count,
+                               const TextureFootprint& footprint,
+                               std::array<float, 4>* colours) const {
   if (count == kLanes) return SampleQuads<2>(u_m, v_m, kLanes, footprint, colours);
   if (count > 4) return SampleQuads<2>(u_m, v_m, count, footprint, colours);
   SampleQuads<1>(u_m, v_m, count, footprint, colours);
 }
 
-void Texture::Prefetch(const float* u_m, const float* v_m, int count,
-                       const TextureFootprint& footprint) const {
+SIM_LANES void Texture::Prefetch(const float* u_m, const float* v_m, int count,
+                                 const TextureFootprint& footprint) const {
   const __m128 scale = _mm_set1_ps(1.0F / texel_m_);
   const __m128 low_u = _mm_set1_ps(low_m_.x()), low_v = _mm_set1_ps(low_m_.y());
   const int levels = footprint.blend > 0 ? 2 : 1;

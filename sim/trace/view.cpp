@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <limits>
 
 #include "sim/trace/pixel_rows.h"
@@ -16,16 +15,6 @@ constexpr double kEdgeMargin_px = 0.03;
 /// An edge this much behind what a pixel shows cannot be what it shows.
 constexpr double kEdgeDepthShare = 0.98;
 
-void Load(std::array<float, kLanes>& lanes, const std::vector<float>& row, int first) {
-  std::memcpy(lanes.data(), row.data() + first, sizeof lanes);
-}
-
-bool AnyRay(const RayPacket& packet) {
-  int any = 0;
-  for (const float far : packet.far) any |= far >= 0 ? 1 : 0;
-  return any != 0;
-}
-
 }  // namespace
 
 void View::RowArrays::Resize(std::size_t size) {
@@ -35,8 +24,24 @@ void View::RowArrays::Resize(std::size_t size) {
   }
   // Stretches start anywhere, and are read as whole packets.
   for (auto* row : {&print_u, &print_v}) row->resize(size + kLanes);
-  sun_far.assign(size, -1.0F);
-  eye_far.assign(size, -1.0F);
+  for (auto* row : {&sun_far, &eye_far, &view_far}) row->assign(size, -1.0F);
+  blocked.resize(size);
+}
+
+/// What the rays of all rows have in common.
+void View::RowArrays::FillConstants(std::size_t width, const Eigen::Vector3d& camera_w,
+                                    const Eigen::Vector3d& to_sun_w) {
+  const std::size_t size = view_far.size();
+  std::fill_n(view_far.begin(), width, std::numeric_limits<float>::infinity());
+  view_near.assign(size, kNearRay_m);
+  zero.assign(size, 0.0F);
+  const auto fill = [&](const Eigen::Vector3d& vector_w, auto& across, auto& along, auto& up) {
+    across.assign(size, static_cast<float>(vector_w.x()));
+    along.assign(size, static_cast<float>(vector_w.y()));
+    up.assign(size, static_cast<float>(vector_w.z()));
+  };
+  fill(camera_w, camera_x, camera_y, camera_z);
+  fill(to_sun_w, to_sun_x, to_sun_y, to_sun_z);
 }
 
 void View::Render(const RenderWorld& world, const Pose& T_wc, const RenderOptions& options,
@@ -77,7 +82,11 @@ void View::Prepare() {
   out_->object_id.create(size);
   for (cv::Mat1f* image :
        {&out_->incidence_cos, &out_->infrared, &out_->gloss, &out_->mirror_cos}) {
-    image->create(size);
+    if (options_.sensed) {
+      image->create(size);
+    } else {
+      image->release();
+    }
   }
   if (options_.projector_offset_m != 0) {
     out_->projector_lit.create(size);
@@ -96,6 +105,7 @@ void View::Prepare() {
   lights_row_.resize(lights_.Empty() ? 0 : Index(camera.width));
   stride_ = Index((camera.width + kLanes - 1) / kLanes * kLanes);
   row_.Resize(stride_);
+  row_.FillConstants(Index(camera.width), T_wc_.t, to_sun_w_);
   triangles_.resize(stride_ * Index(camera.height));
   surfaces_.resize(stride_ * Index(camera.height));
 }
@@ -108,23 +118,22 @@ void View::LoadRow(int v) {
 
 void View::TraceRow(int v) {
   LoadRow(v);
-  const int width = world_->camera.width, length = static_cast<int>(stride_);
+  const int length = static_cast<int>(stride_);
   // The arrays of second rays are free still.
   std::vector<float>&dx = row_.start_x, &dy = row_.start_y, &dz = row_.start_z;
   ToSingle(row_.dx.data(), length, dx.data());
   ToSingle(row_.dy.data(), length, dy.data());
   ToSingle(row_.dz.data(), length, dz.data());
-  RayPacket packet;
-  for (int i = 0; i < kLanes; ++i) packet.Set(i, T_wc_.t, Eigen::Vector3d::UnitZ(), kNearRay_m);
-  for (int u0 = 0; u0 < width; u0 += kLanes) {
-    Load(packet.dx, dx, u0);
-    Load(packet.dy, dy, u0);
-    Load(packet.dz, dz, u0);
-    for (int i = width - u0; i < kLanes; ++i) packet.Disable(i);
-    if (log_ != nullptr) log_->nearest.push_back(packet);
-    const PacketHits found = world_->rays.Nearest(packet);
-    std::memcpy(Triangles(v) + u0, found.triangle.data(), sizeof found.triangle);
-  }
+  const RayRow rays{row_.camera_x.data(),
+                    row_.camera_y.data(),
+                    row_.camera_z.data(),
+                    dx.data(),
+                    dy.data(),
+                    dz.data(),
+                    row_.view_near.data(),
+                    row_.view_far.data()};
+  if (log_ != nullptr) RayLog::Add(rays, length, log_->nearest);
+  world_->rays.Nearest(rays, length, Triangles(v));
 }
 
 /// Casts again in double where an edge is near that may be seen.
@@ -172,7 +181,7 @@ void View::RecordSky(int v, int first, int last) {
   fill(out_->depth_m[v], 0.0);
   for (cv::Mat1f* image :
        {&out_->incidence_cos, &out_->infrared, &out_->gloss, &out_->mirror_cos}) {
-    fill((*image)[v], 0.0F);
+    if (options_.sensed) fill((*image)[v], 0.0F);
   }
   fill(out_->plane_id[v], ushort{0});
   fill(out_->object_id[v], ushort{0});
@@ -182,15 +191,26 @@ void View::RecordSky(int v, int first, int last) {
 }
 
 void View::RecordRun(int v, int first, int last, const SeenFacet& facet) {
+  const bool second_eye = options_.projector_offset_m != 0;
   MeetPlane(
       {facet.inverse_depth, facet.n_c, T_wc_.t + kLeaveSurface_m * facet.n_w, eye_w_}, first,
       last,
       {row_.x.data(), row_.y.data(), row_.dx.data(), row_.dy.data(), row_.dz.data(),
-       out_->depth_m[v], out_->incidence_cos[v], row_.start_x.data(), row_.start_y.data(),
-       row_.start_z.data(), row_.to_eye_x.data(), row_.to_eye_y.data(), row_.to_eye_z.data()});
+       out_->depth_m[v], options_.sensed ? out_->incidence_cos[v] : nullptr,
+       row_.start_x.data(), row_.start_y.data(), row_.start_z.data(),
+       second_eye ? row_.to_eye_x.data() : nullptr, second_eye ? row_.to_eye_y.data() : nullptr,
+       second_eye ? row_.to_eye_z.data() : nullptr});
   const auto fill = [&](auto* row, auto value) { std::fill(row + first, row + last, value); };
   fill(out_->plane_id[v], ushort{facet.plane});
   fill(out_->object_id[v], ushort{facet.object});
+  fill(Surfaces(v), facet.surface);
+  fill(row_.sun_far.data(), facet.faces_sun ? std::numeric_limits<float>::infinity() : -1.0F);
+  fill(row_.eye_far.data(), facet.faces_eye ? 1.0F : -1.0F);
+  if (options_.sensed) RecordSensed(v, first, last, facet);
+}
+
+void View::RecordSensed(int v, int first, int last, const SeenFacet& facet) {
+  const auto fill = [&](auto* row, auto value) { std::fill(row + first, row + last, value); };
   fill(out_->infrared[v], facet.infrared);
   fill(out_->gloss[v], facet.gloss);
   if (facet.gloss > 0) {
@@ -200,69 +220,61 @@ void View::RecordRun(int v, int first, int last, const SeenFacet& facet) {
   } else {
     fill(out_->mirror_cos[v], 0.0F);
   }
-  fill(Surfaces(v), facet.surface);
-  fill(row_.sun_far.data(), facet.faces_sun ? std::numeric_limits<float>::infinity() : -1.0F);
-  fill(row_.eye_far.data(), facet.faces_eye ? 1.0F : -1.0F);
+}
+
+void View::Block(const RayRow& rays, int count, std::uint8_t* blocked) const {
+  world_->rays.Blocked(rays, count, blocked);
+  for (const Blocker& other : around_->others) {
+    for (int first = 0; first < count; first += kLanes) {
+      // The same rays in the other world's frame; those already blocked are not cast again.
+      RayPacket moved;
+      for (int i = 0; i < kLanes; ++i) {
+        const int k = first + i;
+        const Eigen::Vector3f start(rays.x[k], rays.y[k], rays.z[k]);
+        const Eigen::Vector3f way(rays.dx[k], rays.dy[k], rays.dz[k]);
+        moved.Set(i, other.T_bw * start.cast<double>(), other.T_bw.R * way.cast<double>(),
+                  rays.near[k], blocked[k] != 0 ? -1.0F : rays.far[k]);
+      }
+      const auto by_it = other.rays->Blocked(moved);
+      for (int i = 0; i < kLanes; ++i) {
+        if (by_it[Index(i)]) blocked[first + i] = 1;
+      }
+    }
+  }
 }
 
 std::array<bool, kLanes> View::Blocked(const RayPacket& packet) const {
-  auto blocked = world_->rays.Blocked(packet);
-  for (const Blocker& other : around_->others) {
-    // The same rays in the other world's frame; those already blocked are not cast again.
-    RayPacket moved;
-    for (int i = 0; i < kLanes; ++i) {
-      const std::size_t k = Index(i);
-      const Eigen::Vector3f start(packet.x[k], packet.y[k], packet.z[k]);
-      const Eigen::Vector3f way(packet.dx[k], packet.dy[k], packet.dz[k]);
-      moved.Set(i, other.T_bw * start.cast<double>(), other.T_bw.R * way.cast<double>(),
-                packet.near[k], blocked[k] ? -1.0F : packet.far[k]);
-    }
-    const auto by_it = other.rays->Blocked(moved);
-    for (std::size_t k = 0; k < by_it.size(); ++k) blocked[k] = blocked[k] || by_it[k];
-  }
+  std::array<std::uint8_t, kLanes> found;
+  Block(packet.Row(), kLanes, found.data());
+  std::array<bool, kLanes> blocked{};
+  std::copy(found.begin(), found.end(), blocked.begin());
   return blocked;
 }
 
 void View::CastToSun(int v) {
-  RayPacket packet;
-  for (int i = 0; i < kLanes; ++i) {
-    packet.Set(i, Eigen::Vector3d::Zero(), to_sun_w_, 0.0F);
-  }
+  const int length = static_cast<int>(stride_);
+  const RayRow rays{row_.start_x.data(),  row_.start_y.data(),  row_.start_z.data(),
+                    row_.to_sun_x.data(), row_.to_sun_y.data(), row_.to_sun_z.data(),
+                    row_.zero.data(),     row_.sun_far.data()};
+  if (log_ != nullptr) RayLog::Add(rays, length, log_->blocked);
+  Block(rays, length, row_.blocked.data());
   std::uint32_t* surfaces = Surfaces(v);
-  for (int u0 = 0; u0 < world_->camera.width; u0 += kLanes) {
-    Load(packet.far, row_.sun_far, u0);
-    if (!AnyRay(packet)) continue;
-    Load(packet.x, row_.start_x, u0);
-    Load(packet.y, row_.start_y, u0);
-    Load(packet.z, row_.start_z, u0);
-    if (log_ != nullptr) log_->blocked.push_back(packet);
-    const auto blocked = Blocked(packet);
-    for (int i = 0; i < kLanes; ++i) {
-      if (packet.far[Index(i)] > 0 && !blocked[Index(i)]) surfaces[u0 + i] |= 1u;
-    }
+  for (std::size_t u = 0; u < stride_; ++u) {
+    surfaces[u] |= ((row_.sun_far[u] > 0) & (row_.blocked[u] == 0)) ? 1u : 0u;
   }
 }
 
 void View::CastToEye(int v) {
-  RayPacket packet;
+  const int length = static_cast<int>(stride_);
+  const RayRow rays{row_.start_x.data(),  row_.start_y.data(),  row_.start_z.data(),
+                    row_.to_eye_x.data(), row_.to_eye_y.data(), row_.to_eye_z.data(),
+                    row_.zero.data(),     row_.eye_far.data()};
+  if (log_ != nullptr) RayLog::Add(rays, length, log_->blocked);
+  Block(rays, length, row_.blocked.data());
   uchar* lit = out_->projector_lit[v];
-  const int width = world_->camera.width;
-  for (int u0 = 0; u0 < width; u0 += kLanes) {
-    const int lanes = std::min(kLanes, width - u0);
-    std::fill_n(lit + u0, lanes, uchar{0});
-    Load(packet.far, row_.eye_far, u0);
-    if (!AnyRay(packet)) continue;
-    Load(packet.x, row_.start_x, u0);
-    Load(packet.y, row_.start_y, u0);
-    Load(packet.z, row_.start_z, u0);
-    Load(packet.dx, row_.to_eye_x, u0);
-    Load(packet.dy, row_.to_eye_y, u0);
-    Load(packet.dz, row_.to_eye_z, u0);
-    if (log_ != nullptr) log_->blocked.push_back(packet);
-    const auto blocked = Blocked(packet);
-    for (int i = 0; i < lanes; ++i) {
-      if (packet.far[Index(i)] > 0 && !blocked[Index(i)]) lit[u0 + i] = 255;
-    }
+  const std::size_t width = Index(world_->camera.width);
+  for (std::size_t u = 0; u < width; ++u) {
+    lit[u] = ((row_.eye_far[u] > 0) & (row_.blocked[u] == 0)) ? 255 : 0;
   }
 }
 

@@ -47,8 +47,14 @@ class View {
     std::vector<float> start_x, start_y, start_z;  ///< where second rays begin, world frame
     std::vector<float> to_eye_x, to_eye_y, to_eye_z;
     std::vector<float> sun_far, eye_far;  ///< how far second rays go; negative: none
+    std::vector<std::uint8_t> blocked;    ///< of second rays
     std::vector<float> print_u, print_v;  ///< places on the prints
+    /// The same in all rows of a view.
+    std::vector<float> camera_x, camera_y, camera_z, view_near, view_far;
+    std::vector<float> to_sun_x, to_sun_y, to_sun_z, zero;
     void Resize(std::size_t size);
+    void FillConstants(std::size_t width, const Eigen::Vector3d& camera_w,
+                       const Eigen::Vector3d& to_sun_w);
   };
   /// At most a packet of pixels of one triangle in a row. Their footprints hardly differ: that
   /// of the middle one serves all.
@@ -73,7 +79,8 @@ class View {
   static constexpr std::uint32_t kSurfaceBits = (1u << kLightBit) - 2;
 
   void Prepare();
-  /// Whether anything, of this world or another, is between near and far.
+  /// Whether anything, of this world or another, is between near and far: as RayScene's.
+  void Block(const RayRow& rays, int count, std::uint8_t* blocked) const;
   std::array<bool, RayPacket::kLanes> Blocked(const RayPacket& packet) const;
   void LoadRow(int v);
   void TraceRow(int v);
@@ -82,6 +89,7 @@ class View {
   void RecordRow(int v);
   void RecordSky(int v, int first, int last);
   void RecordRun(int v, int first, int last, const SeenFacet& facet);
+  void RecordSensed(int v, int first, int last, const SeenFacet& facet);
   void CastToSun(int v);
   void CastToEye(int v);
   void CastToLights(int v);

@@ -102,14 +102,23 @@ void View::SunOnLooks(int v) {
     for (int i = 0; i < count; ++i) asked[Index(i)]->sunlit = !blocked[Index(i)];
     count = 0;
   };
+  std::optional<bool> known;
+  int known_column = -1;
+  std::uint32_t known_surface = 0;
   for (std::size_t k = 0; k < looks_.size(); ++k) {
     Look& look = looks_[k];
     look.sunlit = false;
     if (look.triangle == PacketHits::kNothing) continue;
     const SeenFacet& facet = facets_.At(look.triangle);
     if (!facet.faces_sun) continue;
-    // Most looks are far from a shadow's edge, and need no ray of their own.
-    if (const auto known = SunAround(on_edge_[k / kLooks], v, facet.surface)) {
+    // Most looks are far from a shadow's edge, and need no ray of their own. Those at one pixel
+    // mostly meet the same surface.
+    const int column = on_edge_[k / kLooks];
+    if (column != known_column || facet.surface != known_surface) {
+      known = SunAround(column, v, facet.surface);
+      known_column = column, known_surface = facet.surface;
+    }
+    if (known) {
       look.sunlit = *known;
       continue;
     }

@@ -20,6 +20,7 @@ void AddBand(const FrameRenderer& renderer, const Pose& T_wc, double time_s,
   thread_local Rendering part;  // memory only
   RenderOptions options;
   options.exact_edges = false;  // edges are averaged over four rays
+  options.sensed = false;
   options.time_s = time_s;
   options.rows = cv::Range(std::max(0, band.start - 1), std::min(sum.rows, band.end + 1));
   renderer.Render(T_wc, options, part);

@@ -35,6 +35,7 @@ SimulatedFrame Simulator::Simulate(int frame, const Shot& shot,
   const bool carried = moves && CanCarry(renderer_);
   view.colour = !moves || carried;
   view.time_s = shot.time_s;
+  view.sensed = one_view;
   if (one_view) view.projector_offset_m = SecondEyeOffset(sensor.depth);
   thread_local Rendering rendering;  // memory only
   renderer_.Render(shot.T_wc, view, rendering);
@@ -49,10 +50,13 @@ SimulatedFrame Simulator::Simulate(int frame, const Shot& shot,
   SimulatedFrame result;
   result.colour = MeasureColour(rendering.radiance, sensor.colour,
                                 PixelNoise(options_.seed, static_cast<std::uint64_t>(frame)));
-  result.depth =
-      one_view
-          ? Depth(frame, rendering)
-          : Depth(frame, RenderForDepth(around(delay_s) * depth_error_, shot.time_s + delay_s));
+  if (one_view) {
+    result.depth = Depth(frame, rendering);
+  } else {
+    thread_local Rendering later;  // memory only
+    RenderForDepth(around(delay_s) * depth_error_, shot.time_s + delay_s, later);
+    result.depth = Depth(frame, later);
+  }
   result.plane_id = rendering.plane_id.clone();
   result.object_id = rendering.object_id.clone();
   result.truth = truth_.Describe(rendering, shot.T_wc, shot.time_s);
@@ -60,12 +64,12 @@ SimulatedFrame Simulator::Simulate(int frame, const Shot& shot,
   return result;
 }
 
-Rendering Simulator::RenderForDepth(const Pose& T_wc, double time_s) const {
+void Simulator::RenderForDepth(const Pose& T_wc, double time_s, Rendering& out) const {
   RenderOptions view;
   view.time_s = time_s;
   view.colour = false;
   view.projector_offset_m = SecondEyeOffset(options_.sensor.depth);
-  return renderer_.Render(T_wc, view);
+  renderer_.Render(T_wc, view, out);
 }
 
 cv::Mat1w Simulator::Depth(int frame, const Rendering& rendering) const {

@@ -46,7 +46,7 @@ class Simulator {
   const std::vector<ScenePlane>& planes() const { return renderer_.standing().planes; }
 
  private:
-  Rendering RenderForDepth(const Pose& T_wc, double time_s) const;
+  void RenderForDepth(const Pose& T_wc, double time_s, Rendering& out) const;
   /// In file units.
   cv::Mat1w Depth(int frame, const Rendering& rendering) const;
 

@@ -69,8 +69,8 @@ PartShown FindPart(const MapPlane& m, const FramePlane& plane, const Frame& fram
 }
 
 /// The plane on the part's side of a step: the one that shows a known part, or else the lesser.
-PartSighting Sighting(const FrameStep& step, const MapPlane& m, const Frame& frame,
-                      const PlaneMapConfig& config) {
+PartSighting SightingOf(const FrameStep& step, const MapPlane& m, const Frame& frame,
+                        const PlaneMapConfig& config) {
   PartSighting out{Index(step.one), Index(step.other), step.step_m, step.sigma_m};
   const FramePlane &one = frame.planes[out.part], &other = frame.planes[out.rest];
   const double ours = FindPart(m, one, frame, config).in_common;
@@ -91,7 +91,7 @@ std::vector<PartSighting> Sightings(const MapPlane& m, const Frame& frame,
       const PlaneMatch& match = frame.plane_matches[Index(f)];
       return match.decision == PlaneDecision::kMatched && match.map_plane == m.id;
     };
-    if (shows(step.one) && shows(step.other)) all.push_back(Sighting(step, m, frame, config));
+    if (shows(step.one) && shows(step.other)) all.push_back(SightingOf(step, m, frame, config));
   }
   std::sort(all.begin(), all.end(), [&](const PartSighting& a, const PartSighting& b) {
     if (a.part != b.part) return IsLarger(frame.planes[a.part], frame.planes[b.part]);

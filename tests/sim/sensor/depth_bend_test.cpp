@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <opencv2/core.hpp>
+#include <thread>
 #include <vector>
 
 #include "sim/sensor/bend_report.h"
@@ -152,6 +153,31 @@ TEST(DepthBend, BetweenItsKnotsIsTheFieldToTwoPerCent) {
   cv::Mat1f p(exact.size());
   for (int v = 0; v < p.rows; ++v) field.Row(v, {p[v], static_cast<std::size_t>(p.cols)});
   EXPECT_LT(cv::norm(p, exact, cv::NORM_L2) / cv::norm(exact, cv::NORM_L2), 0.02);
+}
+
+// Each thread keeps the device's part of the field it was last asked for.
+TEST(DepthBend, OfARecordingDoesNotHangOnThoseBefore) {
+  const DepthBend drawn{.rms = kRms}, named{.rms = kRms, .device = 3};
+  const Camera large, small = Resize(large, 320, 240);
+  const auto row = [](const DepthBend& bend, const Camera& camera, std::uint64_t seed) {
+    std::vector<float> p(static_cast<std::size_t>(camera.width));
+    BendField(bend, camera, seed, 5).Row(77, p);
+    return p;
+  };
+  const auto alone = [&](const DepthBend& bend, const Camera& camera, std::uint64_t seed) {
+    std::vector<float> p;
+    std::thread([&] { p = row(bend, camera, seed); }).join();
+    return p;
+  };
+  for (int round = 0; round < 2; ++round) {
+    for (const DepthBend& bend : {drawn, named}) {
+      for (const Camera& camera : {large, small}) {
+        for (const std::uint64_t seed : {1u, 2u}) {
+          EXPECT_EQ(row(bend, camera, seed), alone(bend, camera, seed));
+        }
+      }
+    }
+  }
 }
 
 }  // namespace

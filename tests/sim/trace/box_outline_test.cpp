@@ -53,5 +53,30 @@ TEST(BoxOutline, HoldsThePixelsWhoseRaysMeetTheBoxBehindALens) {
                            20);
 }
 
+// Pixels whose rays lie in a side's plane, as good as exactly: rounding must go the same way.
+TEST(BoxOutline, AsksPixelsBehindALensAsMeetsDoes) {
+  const Camera camera = WithLens(Resize(Camera{}, 64, 48), {0.26, -0.95, -0.005, 0.003, 1.1});
+  const ImageRays rays(camera);
+  Random random{78};
+  for (int i = 0; i < 300; ++i) {
+    Pose T_wc;  // at the world's origin
+    const int u = random.Below(camera.width), v = random.Below(camera.height);
+    const Eigen::Vector3d corner = random.Between(0.5, 2) * rays.At(u, v);
+    const Object box = BoxObject(1, "box", Role::kRegular,
+                                 corner + Eigen::Vector3d(0.1, 0.15, 0.2), {0.2, 0.3, 0.4});
+    const BoxOutline outline(box, T_wc);
+    const cv::Rect area(std::max(u - 9, 0), std::max(v - 7, 0),
+                        std::min(19, camera.width - std::max(u - 9, 0)),
+                        std::min(15, camera.height - std::max(v - 7, 0)));
+    int expected = 0;
+    for (int y = area.y; y < area.br().y; ++y) {
+      for (int x = area.x; x < area.br().x; ++x) {
+        expected += outline.Meets(rays.At(x, y)) ? 1 : 0;
+      }
+    }
+    EXPECT_EQ(outline.PixelsInside(camera, rays, area), expected) << "box " << i;
+  }
+}
+
 }  // namespace
 }  // namespace sim

@@ -59,13 +59,19 @@ double Flicker(const cv::Mat& here, const cv::Mat& moved) {
 cv::Mat UnfilteredBoard(Print print, double z_m, double shift_m) {
   const Camera camera;
   const Material material = OneBoard(z_m, 4.0, print).objects[0].faces[2];
+  std::vector<float> x_m, y_m;
+  for (int u = 0; u < camera.width; ++u) {
+    x_m.push_back(static_cast<float>(2.0 + z_m * camera.Ray(u, 0).x() + shift_m));
+  }
+  for (int v = camera.height - 1; v >= 0; --v) {
+    y_m.push_back(static_cast<float>(2.0 - z_m * camera.Ray(0, v).y()));
+  }
+  const auto colours = Reflectance(material, Eigen::Vector2f(4.0F, 4.0F), {x_m, y_m});
   cv::Mat1d board(camera.height, camera.width);
-  for (int v = 0; v < camera.height; ++v) {
+  std::size_t i = 0;
+  for (int v = camera.height - 1; v >= 0; --v) {
     for (int u = 0; u < camera.width; ++u) {
-      const Eigen::Vector3d x = z_m * camera.Ray(u, v);
-      const Eigen::Vector2d p(2.0 + x.x() + shift_m, 2.0 - x.y());
-      const PrintSpot spot{p.cast<float>(), Eigen::Vector2f(4.0F, 4.0F)};
-      board(v, u) = static_cast<double>(Reflectance(material, spot)[1]);
+      board(v, u) = static_cast<double>(colours[i++][1]);
     }
   }
   return board;
