@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "slam/pose/pose_problem.h"
 
 namespace slam {

@@ -15,10 +15,13 @@ void Cover(RecordedFrame& frame) {
   frame.depth_m.setTo(0);
 }
 
-/// Leaves of the depth what lies farther than 1.6 m: the wall in front.
+/// Leaves of the depth a part of the wall in front.
 void LeaveTheWallInFront(RecordedFrame& frame) {
   Darken(frame);
-  frame.depth_m.setTo(0, frame.depth_m < 1.8);
+  const cv::Rect wall(20, 20, 220, 140);
+  const cv::Mat1f seen = frame.depth_m(wall).clone();
+  frame.depth_m.setTo(0);
+  seen.copyTo(frame.depth_m(wall));
 }
 
 std::vector<std::string> StatesOf(const Ran& ran, int from, int count) {

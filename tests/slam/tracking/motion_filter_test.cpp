@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "slam/base/random.h"
+#include "tests/support/plane_world.h"
 #include "tests/support/slam_matchers.h"
 
 namespace slam {
@@ -79,13 +80,14 @@ TEST(MotionFilter, GrowsUncertainOnlyWhereNothingIsSeen) {
   double sigma_m = 0.0;
   for (int i = 1; i < 30; ++i) {
     filter.Observe(i * kFrame_s, Pose{}, but_y);
-    const Matrix6d covariance = filter.Predict(i * kFrame_s)->covariance;
+    const Matrix6d covariance = filter.Predict((i + 1) * kFrame_s)->covariance;
     EXPECT_GT(std::sqrt(covariance(1, 1)), sigma_m);
     sigma_m = std::sqrt(covariance(1, 1));
-    EXPECT_LT(std::sqrt(covariance(0, 0)), 2e-5);
-    EXPECT_LT(std::sqrt(covariance(3, 3)), 2e-5);
+    // What a hand does in one frame.
+    EXPECT_LT(std::sqrt(covariance(0, 0)), 0.02);
+    EXPECT_LT(std::sqrt(covariance(3, 3)), 0.04);
   }
-  EXPECT_GT(sigma_m, 0.1);
+  EXPECT_GT(sigma_m, 0.2);
 }
 
 TEST(MotionFilter, ComesToRestWhereNothingIsSeen) {
