@@ -186,6 +186,7 @@ bool PointTracking::TrackByReference(Frame& frame, const Map& map) const {
     frame.map_points[Index(pair.first)] = reference.map_points[Index(pair.second)];
   }
   frame.T_cw = LastPose(last_, map);
+  frame.prediction.reset();  // the camera may have jumped: points alone say where it is
   return Optimise(frame, map) >= config_.min_first_inliers;
 }
 
@@ -239,6 +240,9 @@ void PointTracking::FindPoints(Frame& frame, const Map& map) const {
   MatchLocalMap(frame, FeatureGrid(frame.features, camera_), map, local, config_.match_few,
                 config_.local_radius_factor);
   frame.map_points = SureMatches(frame, map);
+  // A handful may be chance, and would hold what nothing observes.
+  if (CountMatches(frame.map_points) < kMinInliers)
+    frame.map_points.assign(frame.features.size(), kNone);
 }
 
 /// The frame's matches whose place and descriptor leave no doubt; kNone for all others.
