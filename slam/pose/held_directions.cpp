@@ -1,6 +1,8 @@
 #include "slam/pose/held_directions.h"
 
 #include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
 
 namespace slam {
 namespace {
@@ -17,7 +19,50 @@ void AddAxes(const Eigen::Matrix3d& predicted, const Eigen::Matrix3d& estimated,
   }
 }
 
+/// Along one of the steps.
+Vector6d Along(const Eigen::Vector3d& step_c) {
+  Vector6d d = Vector6d::Zero();
+  d.head<3>() = step_c;
+  return d;
+}
+
 }  // namespace
+
+std::vector<Eigen::Vector3d> UnseenSteps(const std::vector<PlaneConstraint>& planes) {
+  constexpr double kMaxSine =
+      0.17;  // 10 degrees: several times what the normal of a patch errs by
+  Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
+  for (const PlaneConstraint& plane : planes) spread += plane.pi_c.n * plane.pi_c.n.transpose();
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(spread);
+  std::vector<Eigen::Vector3d> unseen;
+  for (int i = 0; i < 3; ++i) {
+    const Eigen::Vector3d step_c = axes.eigenvectors().col(i);
+    const auto tells = [&](const PlaneConstraint& plane) {
+      return std::abs(plane.pi_c.n.dot(step_c)) > kMaxSine;
+    };
+    if (std::none_of(planes.begin(), planes.end(), tells)) unseen.push_back(step_c);
+  }
+  return unseen;
+}
+
+UncertainPose HeldAlong(const UncertainPose& predicted,
+                        const std::vector<Eigen::Vector3d>& steps_c) {
+  constexpr double kTakenAway = 1 - 1e-6;  // of the variance: all, but for the inverse
+  UncertainPose held = predicted;
+  for (const Eigen::Vector3d& step_c : steps_c) {
+    const Vector6d Cd = held.covariance * Along(step_c);
+    held.covariance -= kTakenAway / Along(step_c).dot(Cd) * Cd * Cd.transpose();
+  }
+  return held;
+}
+
+Matrix6d WithoutSteps(const Matrix6d& information,
+                      const std::vector<Eigen::Vector3d>& steps_c) {
+  Matrix6d seen = Matrix6d::Identity();
+  for (const Eigen::Vector3d& step_c : steps_c)
+    seen -= Along(step_c) * Along(step_c).transpose();
+  return seen * information * seen;
+}
 
 std::vector<MotionAxis> HeldByPrediction(const Matrix6d& predicted, const Matrix6d& estimated) {
   std::vector<MotionAxis> axes;

@@ -1,5 +1,6 @@
 #include "slam/run/tracker.h"
 
+#include <Eigen/LU>
 #include <algorithm>
 #include <future>
 #include <optional>
@@ -30,6 +31,16 @@ Config ForVariant(Config config, Variant variant, std::uint64_t seed) {
   config.association.rule =
       variant == Variant::kFull ? AssociationRule::kIntegrated : AssociationRule::kParameters;
   return config;
+}
+
+/// Leaves the frame without a pose and without matches.
+void ForgetPose(Frame& frame) {
+  frame.T_cw = Pose{};
+  frame.pose_information.setZero();
+  frame.pose_covariance.reset();
+  frame.map_points.assign(frame.features.size(), kNone);
+  frame.plane_matches.assign(frame.planes.size(), {});
+  frame.plane_steps.clear();
 }
 
 /// Keyframes that may wait for mapping beside tracking: balances how many are dropped against
@@ -170,27 +181,35 @@ void Tracker::HoldByPlanes(Frame& frame, PoseProblem problem, TrackReport& repor
     frame.T_cw = problem.T_cw = summary.T_cw;
     return summary;
   };
-  PoseSummary summary = solve();
-  report.tracked = !problem.planes.empty() && summary.usable &&
-                   IsKnownWell(summary.covariance, config_.tracking.motion);
-  if (!report.tracked) {
-    frame.T_cw = Pose{};
-    frame.pose_covariance.reset();
-    frame.plane_matches.assign(frame.planes.size(), {});
-    frame.plane_steps.clear();
-    return;
-  }
-  // The few points that there are take part too, now that it is known where to look for them.
+  // By planes; and then, now that it is known where to look for them, by the few points too.
+  solve();
   points_.FindPoints(frame, map_);
   const FramePoints points = PointConstraints(frame, map_, scale());
   problem.points = points.constraints;
-  summary = solve();
+  PoseSummary summary = solve();
   DropOutliers(frame, points, summary.point_inliers);
-  frame.pose_information = summary.information;
-  frame.pose_covariance = summary.covariance;
+
+  // Along steps that nothing observes the camera is where motion leads (Zhang, Kaess and Singh
+  // 2016), and as uncertain.
+  const std::vector<Eigen::Vector3d> unseen =
+      problem.points.empty() ? UnseenSteps(problem.planes) : std::vector<Eigen::Vector3d>{};
+  problem.prior = HeldAlong(*frame.prediction, unseen);
+  problem.T_cw = frame.prediction->T_cw;
+  summary = solve();
+  frame.pose_information = WithoutSteps(summary.information, unseen);
+  const Matrix6d& predicted = frame.prediction->covariance;
+  frame.pose_covariance = (Matrix6d::Identity() + predicted * frame.pose_information)
+                              .partialPivLu()
+                              .solve(predicted);
+  report.tracked = !problem.planes.empty() && summary.usable &&
+                   IsKnownWell(*frame.pose_covariance, config_.tracking.motion);
+  if (!report.tracked) {
+    ForgetPose(frame);
+    return;
+  }
+  frame.held_by_motion = HeldByPrediction(predicted, *frame.pose_covariance);
   points_.HoldByPlanes();
   report.points.state = TrackState::kHeldByPlanes;
-  frame.held_by_motion = HeldByPrediction(problem.prior->covariance, summary.covariance);
 }
 
 void Tracker::UpdateMap(Frame& frame, TrackReport& report) {

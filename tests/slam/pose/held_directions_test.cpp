@@ -66,5 +66,32 @@ TEST(HeldByPrediction, OfACornerNothing) {
   EXPECT_TRUE(HeldByPrediction(Predicted().covariance, summary.covariance).empty());
 }
 
+PlaneConstraint Seen(const Eigen::Vector3d& n) {
+  PlaneConstraint plane;
+  plane.pi_w = plane.pi_c = {n.normalized(), 1.0};
+  return plane;
+}
+
+TEST(UnseenSteps, OfPanelsTheirHeightThoughTheirNormalsErr) {
+  const auto unseen = UnseenSteps({Seen({0.5, 0.02, -0.8}), Seen({-0.4, -0.03, -0.9})});
+  ASSERT_EQ(unseen.size(), 1u);
+  EXPECT_GT(std::abs(unseen[0].y()), 0.99);
+}
+
+TEST(UnseenSteps, OfPanelsOnAFloorNothing) {
+  EXPECT_TRUE(
+      UnseenSteps({Seen({0.5, 0, -0.8}), Seen({-0.4, 0, -0.9}), Seen({0, -1, 0.1})}).empty());
+}
+
+TEST(UnseenSteps, StayWherePredictedAndAsUncertain) {
+  const std::vector<Eigen::Vector3d> steps{Eigen::Vector3d::UnitY()};
+  const UncertainPose held = HeldAlong(Predicted(), steps);
+  EXPECT_LT(held.covariance(1, 1), 1e-5 * Predicted().covariance(1, 1));
+  EXPECT_NEAR(held.covariance(0, 0), Predicted().covariance(0, 0), 1e-12);
+  const Matrix6d information = WithoutSteps(1e6 * Matrix6d::Identity(), steps);
+  EXPECT_EQ(information(1, 1), 0.0);
+  EXPECT_EQ(information(2, 2), 1e6);
+}
+
 }  // namespace
 }  // namespace slam
