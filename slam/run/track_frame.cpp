@@ -20,7 +20,8 @@ TrackReport Tracker::TrackFrame(Frame& frame, const cv::Mat3b& bgr) {
   OptimiseWithPlanes(frame, report);       // (E) all six kinds of factor
   if (!report.tracked) return report;
   UpdateMap(frame, report);  // (F) planes; keyframe, points, bundle adjustment
-  straightener_.Learn(frame, measured_m);
+  // A pose that planes hold says nothing of how planes are bent.
+  if (report.points.state == TrackState::kTracking) straightener_.Learn(frame, measured_m);
   return report;
 }
 
