@@ -106,8 +106,8 @@ class SuiteCall {
       Join(more, cases);
       report = Compare(*baseline, cases, results.Rows());
     }
-    // A time that seems to be worse is measured again: the machine may have had other work.
-    if (const auto arms = report.ArmsWithWorseTimes(); !arms.empty()) {
+    // A time that may be worse is measured again: one run strays, or the machine had other work.
+    if (const auto arms = report.ArmsWithDoubtfulTimes(); !arms.empty()) {
       const auto rows = TimedAgain(CasesOf(cases, arms), results);
       if (!rows) return Interrupted();
       report = Compare(*baseline, cases, *rows);

@@ -214,11 +214,11 @@ std::vector<std::string> GateReport::UndecidedArms() const {
   return {arms.begin(), arms.end()};
 }
 
-std::vector<std::string> GateReport::ArmsWithWorseTimes() const {
+std::vector<std::string> GateReport::ArmsWithDoubtfulTimes() const {
   std::set<std::string> arms;
   for (const MetricVerdict& found : metrics) {
     const bool time = found.metric.kind == MetricKind::kTime;
-    if (time && found.verdict == Verdict::kWorse) arms.insert(found.arm);
+    if (time && found.shift > MaxHarm(MetricKind::kTime) / 2) arms.insert(found.arm);
   }
   return {arms.begin(), arms.end()};
 }

@@ -53,7 +53,9 @@ struct GateReport {
   /// Arms with a figure that is undecided; times left out, which more seeds do not mend on a
   /// machine that has other work.
   std::vector<std::string> UndecidedArms() const;
-  std::vector<std::string> ArmsWithWorseTimes() const;
+  /// Arms with a time that may be worse, judged by one run of each case: its shift is above half of
+  /// what matters.
+  std::vector<std::string> ArmsWithDoubtfulTimes() const;
 };
 
 /// Compares cases with the baseline's, paired by key (docs/suites.md tells the rule). A case that

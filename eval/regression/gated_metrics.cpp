@@ -42,7 +42,7 @@ constexpr double kMaxErrorRatio = 1.05;  // metrics.md 5.3: 5 % of an error matt
 constexpr double kMaxScoreLoss = 0.01;   // likewise: 0.01 of a score
 /// Between the smallest slow-down that the gate must find, 5 %, and what the ratio of equal runs wanders
 /// by: 1.1 % (standard deviation of 31 runs), 2.9 % at most in medians of five.
-constexpr double kMaxTimeRatio = 1.035;
+constexpr double kMaxTimeRatio = 1.03;
 
 }  // namespace
 

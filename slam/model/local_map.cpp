@@ -23,11 +23,13 @@ std::vector<int> Voted(const Frame& frame, const Map& map) {
   return MostCountedFirst(votes);
 }
 
-/// The local map of the keyframes that are wanted most.
-LocalMap Gather(const Map& map, std::vector<int> wanted, int max_keyframes) {
+}  // namespace
+
+LocalMap GatherLocalMap(const Frame& frame, const Map& map, int max_keyframes) {
   constexpr int kNeighbours = 5;  // balances what may come into view against work
   LocalMap local;
   // Keyframes that see the frame's points, and the nearest neighbours of each.
+  std::vector<int> wanted = Voted(frame, map);
   if (!wanted.empty()) local.reference = wanted.front();
   const std::size_t voted = wanted.size();
   for (std::size_t i = 0; i < voted && i < Index(max_keyframes); ++i) {
@@ -49,16 +51,6 @@ LocalMap Gather(const Map& map, std::vector<int> wanted, int max_keyframes) {
   std::sort(local.points.begin(), local.points.end());
   local.points.erase(std::unique(local.points.begin(), local.points.end()), local.points.end());
   return local;
-}
-
-}  // namespace
-
-LocalMap GatherLocalMap(const Frame& frame, const Map& map, int max_keyframes) {
-  return Gather(map, Voted(frame, map), max_keyframes);
-}
-
-LocalMap GatherAround(const Map& map, int keyframe, int max_keyframes) {
-  return Gather(map, {keyframe}, max_keyframes);
 }
 
 }  // namespace slam

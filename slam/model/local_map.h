@@ -18,7 +18,4 @@ struct LocalMap {
 /// @param max_keyframes bounds the work; at least 1
 LocalMap GatherLocalMap(const Frame& frame, const Map& map, int max_keyframes);
 
-/// The same around a keyframe, when the frame has no matched points.
-LocalMap GatherAround(const Map& map, int keyframe, int max_keyframes);
-
 }  // namespace slam

@@ -125,7 +125,7 @@ void Tracker::ProcessFramePlanes(Frame& frame, TrackReport& report) const {
   frame.plane_matches.assign(frame.planes.size(), {});
 }
 
-void Tracker::TrackByPoints(Frame& frame, TrackReport& report) {
+bool Tracker::TrackByPoints(Frame& frame, TrackReport& report) {
   const Stopwatch watch(report.times[Module::kDa]);
   if (worker_) {
     worker_->Check();
@@ -133,14 +133,15 @@ void Tracker::TrackByPoints(Frame& frame, TrackReport& report) {
   }
   report.points = points_.TrackPoints(frame, map_);
   report.tracked = report.points.state == TrackState::kTracking;
+  if (report.tracked || report.points.started) return true;
   // Where points fail, planes are asked at the pose that motion predicts.
-  if (variant_ == Variant::kPoints || report.tracked || !frame.prediction) return;
+  if (variant_ == Variant::kPoints || !frame.prediction) return false;
   frame.T_cw = frame.prediction->T_cw;
   frame.pose_covariance = frame.prediction->covariance;
+  return true;
 }
 
 void Tracker::AssociateFramePlanes(Frame& frame, TrackReport& report) const {
-  if (!frame.pose_covariance && !report.points.started) return;
   const Stopwatch watch(report.times[Module::kDa]);
   PlaneAssociation association = AssociatePlanes(frame, map_, camera_, config_.association);
   frame.plane_matches = std::move(association.matches);
@@ -151,7 +152,7 @@ void Tracker::AssociateFramePlanes(Frame& frame, TrackReport& report) const {
 }
 
 void Tracker::OptimiseWithPlanes(Frame& frame, TrackReport& report) {
-  if (!frame.pose_covariance) return;
+  if (report.points.started) return;  // it is the world's frame
   const Stopwatch watch(report.times[Module::kPo]);
   // eq13 from all points and planes of the frame.
   const FramePoints points = PointConstraints(frame, map_, scale());
@@ -175,27 +176,13 @@ void Tracker::OptimiseWithPlanes(Frame& frame, TrackReport& report) {
 
 /// Points failed: planes and the motion before hold the pose, while it is known well enough.
 void Tracker::HoldByPlanes(Frame& frame, PoseProblem problem, TrackReport& report) {
-  const auto solve = [&] {
-    const PoseSummary summary =
-        OptimisePose(problem, camera_, scale(), config_.point_search.pose);
-    frame.T_cw = problem.T_cw = summary.T_cw;
-    return summary;
-  };
-  // By planes; and then, now that it is known where to look for them, by the few points too.
-  solve();
-  points_.FindPoints(frame, map_);
-  const FramePoints points = PointConstraints(frame, map_, scale());
-  problem.points = points.constraints;
-  PoseSummary summary = solve();
-  DropOutliers(frame, points, summary.point_inliers);
-
   // Along steps that nothing observes the camera is where motion leads (Zhang, Kaess and Singh
   // 2016), and as uncertain.
-  const std::vector<Eigen::Vector3d> unseen =
-      problem.points.empty() ? UnseenSteps(problem.planes) : std::vector<Eigen::Vector3d>{};
+  const std::vector<Eigen::Vector3d> unseen = UnseenSteps(problem.planes);
   problem.prior = HeldAlong(*frame.prediction, unseen);
-  problem.T_cw = frame.prediction->T_cw;
-  summary = solve();
+  const PoseSummary summary =
+      OptimisePose(problem, camera_, scale(), config_.point_search.pose);
+  frame.T_cw = summary.T_cw;
   frame.pose_information = WithoutSteps(summary.information, unseen);
   const Matrix6d& predicted = frame.prediction->covariance;
   frame.pose_covariance = (Matrix6d::Identity() + predicted * frame.pose_information)

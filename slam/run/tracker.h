@@ -86,7 +86,8 @@ class Tracker {
   // The stages, in order. A frame without planes passes through all of them.
   void ExtractInformation(Frame& frame, const cv::Mat3b& bgr, TrackReport& report);
   void ProcessFramePlanes(Frame& frame, TrackReport& report) const;
-  void TrackByPoints(Frame& frame, TrackReport& report);
+  /// @returns whether there is a pose to go on from, found or predicted
+  bool TrackByPoints(Frame& frame, TrackReport& report);
   void AssociateFramePlanes(Frame& frame, TrackReport& report) const;
   void OptimiseWithPlanes(Frame& frame, TrackReport& report);
   void HoldByPlanes(Frame& frame, PoseProblem problem, TrackReport& report);

@@ -44,8 +44,7 @@ bool PlanesCanStart(const std::vector<FramePlane>& planes) {
   return false;
 }
 
-constexpr int kManySure = 50;      // balances rooms with little print against walls with none
-constexpr int kManyInliers = 100;  // ten times the matches that a pose takes at least
+constexpr int kManySure = 50;  // balances rooms with little print against walls with none
 constexpr double kLostRadiusFactor = 2.0;  // a pose without prediction is less exact
 
 }  // namespace
@@ -110,10 +109,9 @@ PointTrackReport PointTracking::TrackPoints(Frame& frame, Map& map) {
   }
   if (!found) {
     ForgetPose(frame);
-    if (!report.contradicted) frame.prediction = prediction;
+    frame.prediction = prediction;
   }
   state_ = found ? TrackState::kTracking : TrackState::kLost;
-  last_inliers_ = found ? report.inliers : 0;
   followed_ = report.followed;
   report.state = state_;
   return report;
@@ -158,9 +156,6 @@ bool PointTracking::TrackByMotion(Frame& frame, const FeatureGrid& grid, const M
   }
   const PoseSummary summary = OptimisePose(problem, camera_, scale_, search_.pose);
   report.followed = summary.inlier_count;
-  report.contradicted =
-      std::min(last_inliers_, static_cast<int>(frame.features.size())) > kManyInliers &&
-      report.followed < config_.min_first_inliers;
   if (!summary.usable) return false;
   ForgetPose(frame);
   frame.T_cw = summary.T_cw;
@@ -202,12 +197,25 @@ bool PointTracking::TrackByRelocalising(Frame& frame, const Map& map,
   return true;
 }
 
-/// @returns the points that should be in the image, those that were matched before first
-std::vector<int> PointTracking::MatchLocalMap(Frame& frame, const FeatureGrid& grid,
-                                              const Map& map, const LocalMap& local,
-                                              const PointMatchConfig& match,
-                                              double radius_factor) const {
+/// The frame's matches whose place and descriptor leave no doubt; kNone for all others.
+std::vector<int> PointTracking::SureMatches(const Frame& frame, const Map& map) const {
+  std::vector<int> sure(frame.map_points.size(), kNone);
+  for (std::size_t f = 0; f < sure.size(); ++f) {
+    const int id = frame.map_points[f];
+    const PointFeature& feature = frame.features[f];
+    if (id == kNone || feature.on_edge) continue;
+    const int distance =
+        DescriptorDistance(feature.descriptor, map.points[Index(id)].descriptor);
+    if (distance <= config_.match_reference.max_distance) sure[f] = id;
+  }
+  return sure;
+}
+
+bool PointTracking::TrackLocalMap(Frame& frame, const FeatureGrid& grid, Map& map,
+                                  int min_inliers, double radius_factor,
+                                  PointTrackReport& report) {
   // Points matched so far; some may have been replaced in the map.
+  const LocalMap local = GatherLocalMap(frame, map, config_.max_local_keyframes);
   std::vector<bool> taken(frame.features.size());
   std::vector<int> sighted;  // points that should be in the image
   for (std::size_t f = 0; f < taken.size(); ++f) {
@@ -228,46 +236,15 @@ std::vector<int> PointTracking::MatchLocalMap(Frame& frame, const FeatureGrid& g
     queries.push_back(query);
     sighted.push_back(id);
   }
-  const std::vector<int> matches = MatchQueries(queries, frame.features, grid, taken, match);
+  report.local_points = static_cast<int>(sighted.size());
+  const std::vector<int> matches =
+      MatchQueries(queries, frame.features, grid, taken, config_.match_local);
   for (std::size_t f = 0; f < matches.size(); ++f) {
     if (matches[f] != kNone) frame.map_points[f] = queries[Index(matches[f])].point;
   }
-  return sighted;
-}
-
-void PointTracking::FindPoints(Frame& frame, const Map& map) const {
-  const LocalMap local = GatherAround(map, reference_, config_.max_local_keyframes);
-  MatchLocalMap(frame, FeatureGrid(frame.features, camera_), map, local, config_.match_few,
-                config_.local_radius_factor);
-  frame.map_points = SureMatches(frame, map);
-  // A handful may be chance, and would hold what nothing observes.
-  if (CountMatches(frame.map_points) < kMinInliers)
-    frame.map_points.assign(frame.features.size(), kNone);
-}
-
-/// The frame's matches whose place and descriptor leave no doubt; kNone for all others.
-std::vector<int> PointTracking::SureMatches(const Frame& frame, const Map& map) const {
-  std::vector<int> sure(frame.map_points.size(), kNone);
-  for (std::size_t f = 0; f < sure.size(); ++f) {
-    const int id = frame.map_points[f];
-    const PointFeature& feature = frame.features[f];
-    if (id == kNone || feature.on_edge) continue;
-    const int distance =
-        DescriptorDistance(feature.descriptor, map.points[Index(id)].descriptor);
-    if (distance <= config_.match_few.max_distance) sure[f] = id;
-  }
-  return sure;
-}
-
-bool PointTracking::TrackLocalMap(Frame& frame, const FeatureGrid& grid, Map& map,
-                                  int min_inliers, double radius_factor,
-                                  PointTrackReport& report) {
-  const LocalMap local = GatherLocalMap(frame, map, config_.max_local_keyframes);
-  const std::vector<int> sighted =
-      MatchLocalMap(frame, grid, map, local, config_.match_local, radius_factor);
-  report.local_points = static_cast<int>(sighted.size());
   report.inliers = Optimise(frame, map);
   if (report.inliers < min_inliers) return false;
+
   // Where few points tell their place, those that slide along edges or were matched by chance
   // would outvote them.
   std::vector<int> sure = SureMatches(frame, map);

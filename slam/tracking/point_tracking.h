@@ -38,7 +38,6 @@ struct PointTrackingConfig {
   PointMatchConfig match_last{100, 0.9, true};
   PointMatchConfig match_local{100, 0.8, false};
   PointMatchConfig match_reference{50, 0.7, true};
-  PointMatchConfig match_few{50, 0.8, false};
   int min_start_points = 100;        // balances a bare start against a late one; ORB-SLAM2: 500
   double last_radius_px = 15.0;      // ORB-SLAM2
   int min_last_matches = 20;         // ORB-SLAM2
@@ -57,9 +56,6 @@ inline void VisitFields(PointTrackingConfig& c, FieldVisitor& v) {
   v.Section("match_local", "matching with the local map, by projection", c.match_local);
   v.Section("match_reference", "matching with the reference keyframe, by descriptors",
             c.match_reference);
-  v.Section("match_few",
-            "where points are few: noise has corners too, that look like any other",
-            c.match_few);
   v.Integer("min_start_points", c.min_start_points, "[1, 100000]",
             "features with depth that start the map, in an image of 640 x 480");
   v.Number("last_radius_px", c.last_radius_px, "(0, inf)",
@@ -91,9 +87,6 @@ struct PointTrackReport {
   int followed = 0;              ///< features that agree with the last frame's on one motion
   int local_points = 0;          ///< points of the local map in view
   int inliers = 0;               ///< matches with the map after the last optimisation
-  /// The frame before was tracked by many points, and of the many features of this one hardly
-  /// any agree: the camera is not where motion leads.
-  bool contradicted = false;
 };
 
 /// Tracks the camera by points, as ORB-SLAM2 does with RGB-D (Mur-Artal and Tardos 2017):
@@ -116,10 +109,6 @@ class PointTracking {
 
   /// Planes hold a pose in the frame in which points failed; to be called before NeedKeyframe.
   void HoldByPlanes() { state_ = TrackState::kHeldByPlanes; }
-
-  /// Matches points of the map around the last reference keyframe with the frame, at its pose:
-  /// some may be left where there are too few to track by.
-  void FindPoints(Frame& frame, const Map& map) const;
 
   /// The map was adjusted since the last frame: the last pose is what it has become. Not
   /// needed when mapping runs between TrackPoints and Accept.
@@ -150,9 +139,6 @@ class PointTracking {
   bool TrackByRelocalising(Frame& frame, const Map& map, PointTrackReport& report);
   bool TrackLocalMap(Frame& frame, const FeatureGrid& grid, Map& map, int min_inliers,
                      double radius_factor, PointTrackReport& report);
-  std::vector<int> MatchLocalMap(Frame& frame, const FeatureGrid& grid, const Map& map,
-                                 const LocalMap& local, const PointMatchConfig& match,
-                                 double radius_factor) const;
   std::vector<int> SureMatches(const Frame& frame, const Map& map) const;
   int Optimise(Frame& frame, const Map& map) const;
 
@@ -161,8 +147,7 @@ class PointTracking {
   PointSearchConfig search_;
   PointTrackingConfig config_;
   TrackState state_ = TrackState::kInitialising;
-  int last_inliers_ = 0;  ///< of the last frame; 0 when points failed
-  int followed_ = 0;      ///< see PointTrackReport
+  int followed_ = 0;  ///< see PointTrackReport
   MotionModel motion_;
   MotionFilter motion_filter_;  ///< the same with what is known of it, for when points fail
   LastFrame last_;

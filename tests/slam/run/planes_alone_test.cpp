@@ -72,9 +72,11 @@ TEST(PlanesAlone, OfOneWallSayWhatTheyDoNotHoldAndGiveUp) {
   ExpectNoWrongPose(ran, 0.1);
 }
 
-TEST(PlanesAlone, DoNotHoldWhatManyPointsContradict) {
+TEST(PlanesAlone, DoNotHoldACameraThatIsElsewhere) {
   auto stream = Clean();
-  const auto elsewhere = CleanStream(20, TexturedCorner(77));
+  const Pose T_elsewhere_c{ExpSo3({0, 0.3, 0.1}), {0.3, -0.1, 0.2}};
+  const auto elsewhere = SeenStream(20, TexturedCorner(77),
+                                    [&](int i) { return T_elsewhere_c * SwingingPose(i); });
   for (std::size_t i = 0; i < 20; ++i) {
     const double s = stream[25 + i].timestamp_s;
     stream[25 + i] = elsewhere[i];
