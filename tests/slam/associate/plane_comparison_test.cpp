@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/LU>
 #include <cmath>
 
 #include "slam/associate/correct_prediction.h"
@@ -159,6 +160,51 @@ TEST(CorrectedPrediction, IsPulledNoHarderThanTwoSigmasWhenItsPlaneIsFarOff) {
   const UncertainPose corrected = CorrectedByOnePlane(kOff_m, config);
   const double sigma_m = std::hypot(kMeasured_m, config.offset_floor_m);
   EXPECT_NEAR(corrected.T_cw.t.z(), kOff_m - 2 * kPrior_m * kPrior_m / sigma_m, 1e-4);
+}
+
+/// A pose by points, of a frame that sees planes 1 m and 3 m away.
+Frame TrackedByPoints() {
+  Frame frame;
+  frame.T_cw = {ExpSo3({0.1, 0.2, -0.1}), {0.3, 0.1, -0.2}};
+  frame.planes = {PatchAt({0.5, 0, 1.0}, {0, 0, -1}, 0.004, 0.01),
+                  PatchAt({0, 0.4, 3.0}, {0, 0, -1}, 0.004, 0.01)};
+  Matrix6d root = 1e-3 * Matrix6d::Identity();
+  root(0, 4) = 7e-4, root(2, 3) = -4e-4;
+  frame.pose_covariance = root * root.transpose();
+  frame.pose_information = frame.pose_covariance->inverse();
+  return frame;
+}
+
+TEST(PredictedPose, OfPointsErrsThreefoldAndByWhatTheSensorBends) {
+  Frame frame = TrackedByPoints();
+  EXPECT_LT((PredictedPose(frame, {}).covariance - 9 * *frame.pose_covariance).norm(), 1e-15);
+  frame.bend_ratio = 0.002;
+  const UncertainPose bent = PredictedPose(frame, {});
+  Matrix6d expected = 9 * *frame.pose_covariance;
+  expected.diagonal().head<3>().array() += 0.004 * 0.004;  // two metres away
+  expected.diagonal().tail<3>().array() += 0.002 * 0.002;
+  EXPECT_LT((bent.covariance - expected).norm(), 1e-15);
+  EXPECT_EQ(bent.T_cw.t, frame.T_cw.t);
+  EXPECT_EQ(bent.T_cw.R, frame.T_cw.R);
+}
+
+TEST(PredictedPose, OfMotionAloneIsAsUncertainAsMotionSays) {
+  Frame frame = TrackedByPoints();
+  frame.bend_ratio = 0.002;
+  frame.pose_information.setZero();
+  EXPECT_EQ(PredictedPose(frame, {}).covariance, *frame.pose_covariance);
+}
+
+TEST(PredictedPose, WithoutACovarianceHasThatOfTheSettings) {
+  Frame frame = TrackedByPoints();
+  frame.bend_ratio = 0.002;
+  frame.pose_covariance.reset();
+  AssociationConfig config;
+  config.prior.sigma_m = 0.03;
+  config.prior.sigma_rad = 0.02;
+  Matrix6d expected = Matrix6d::Zero();
+  expected.diagonal() << 9e-4, 9e-4, 9e-4, 4e-4, 4e-4, 4e-4;
+  EXPECT_LT((PredictedPose(frame, config).covariance - expected).norm(), 1e-15);
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 #include <tuple>
+#include <utility>
 
 #include "slam/features/match_features.h"
 #include "tests/support/textured_world.h"
@@ -200,6 +201,73 @@ TEST(PointFeatures, LieOnTheUndistortedImage) {
     const Eigen::Vector2d back =
         lens.ProjectDistorted(lens.Backproject(ideal[i].u_px, 1.0)) - recorded[i].u_px;
     EXPECT_LT(back.norm(), 1e-6);
+  }
+}
+
+/// Features within `radius_px` of a place.
+std::vector<PointFeature> Around(const std::vector<PointFeature>& features,
+                                 const Eigen::Vector2d& at_px, double radius_px) {
+  std::vector<PointFeature> near;
+  for (const PointFeature& f : features) {
+    if ((f.u_px - at_px).norm() < radius_px) near.push_back(f);
+  }
+  return near;
+}
+
+bool OnEdge(const PointFeature& f) { return f.on_edge; }
+
+TEST(PointFeatures, TellACornerThatSlidesAlongAStraightEdge) {
+  // A slanting edge, soft as a lens makes it, with noise; the corners of a box; a dot.
+  cv::Mat1b image(480, 640, std::uint8_t{70});
+  cv::fillConvexPoly(image, std::vector<cv::Point>{{40, 20}, {200, 20}, {280, 460}, {40, 460}},
+                     180);
+  cv::rectangle(image, {400, 100, 150, 120}, 180, cv::FILLED);
+  cv::circle(image, {450, 350}, 4, 180, cv::FILLED);
+  cv::GaussianBlur(image, image, cv::Size(5, 5), 1.0);
+  PointFeatureConfig config;
+  config.scale.octaves = 1;
+  std::size_t along = 0;
+  for (std::uint64_t seed = 1; seed <= 8; ++seed) {
+    const auto features = Extract(Noisy(image, 4.0, seed), config);
+    for (const PointFeature& f : features) {
+      const double edge_u_px = 200 + (f.u_px.y() - 20) * 80 / 440;
+      const bool here = f.u_px.y() > 60 && f.u_px.y() < 420;
+      if (!here || std::abs(f.u_px.x() - edge_u_px) > 1.5) continue;
+      EXPECT_TRUE(f.on_edge) << f.u_px.transpose();
+      ++along;
+    }
+    for (const Eigen::Vector2d& place_px :
+         {Eigen::Vector2d(400, 100), {549, 219}, {450, 350}}) {
+      const auto there = Around(features, place_px, 4.0);
+      EXPECT_FALSE(there.empty()) << place_px.transpose();
+      EXPECT_TRUE(std::none_of(there.begin(), there.end(), OnEdge)) << place_px.transpose();
+    }
+  }
+  EXPECT_GE(along, 20u);
+}
+
+// Waves as long as the window that is looked at: its sums do not depend on where it lies, and the
+// eigenvalues of its tensor are as the squares of the two waves.
+TEST(PointFeatures, LieOnAnEdgeFromTenTimesTheContrastAcrossItOn) {
+  for (const auto& [ratio, on_edge] : {std::pair{8.0, false}, {12.5, true}}) {
+    for (const bool upright : {false, true}) {
+      cv::Mat1b image(480, 640);
+      const double strong = 85.0, weak = strong / std::sqrt(ratio);
+      for (int v = 0; v < image.rows; ++v) {
+        for (int u = 0; u < image.cols; ++u) {
+          const double across = std::cos(2 * M_PI * (upright ? u : v) / 7);
+          const double along = std::cos(2 * M_PI * (upright ? v : u) / 7);
+          image(v, u) = cv::saturate_cast<std::uint8_t>(128 + strong * across + weak * along);
+        }
+      }
+      PointFeatureConfig config;
+      config.scale.octaves = 1;
+      const auto features = Extract(image, config);
+      ASSERT_GE(features.size(), 100u);
+      EXPECT_EQ(std::count_if(features.begin(), features.end(), OnEdge),
+                on_edge ? std::ssize(features) : 0)
+          << ratio;
+    }
   }
 }
 

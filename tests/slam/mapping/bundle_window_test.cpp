@@ -44,6 +44,14 @@ TEST(BundleWindow, IsHeldByTheFirstKeyframeAndThoseThatSeeMostOfItsPoints) {
   EXPECT_THAT(window.keyframes, ElementsAre(1, 3, 0));
 }
 
+TEST(BundleWindow, OfAllKeyframesIsHeldByThoseThatPlanesHold) {
+  PointWorld world = MakePointWorld(5, 80, 3);
+  world.map.keyframes[2].by_points = false;
+  const BundleWindow window = FullWindow(world.map, world.camera, FeatureScale{}, {});
+  EXPECT_EQ(window.free_count, 3u);
+  EXPECT_THAT(window.keyframes, ElementsAre(1, 3, 4, 0, 2));
+}
+
 /// The report on a map of which one observation is off by so much, nothing moved.
 LocalBundleReport ReportOnOneOff(bool stereo, double off_px, int octave) {
   PointWorld world = MakePointWorld(4, 80, 3, stereo ? 1 : 1000);

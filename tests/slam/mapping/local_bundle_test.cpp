@@ -107,6 +107,39 @@ TEST(LocalBundle, LeavesFixedKeyframesWhereTheyAre) {
   EXPECT_EQ(map.keyframes[0].T_cw.t, before.keyframes[0].T_cw.t);
 }
 
+/// A disturbed map of which planes hold keyframe 3.
+Map HeldByPlanesAt3(const PointWorld& truth) {
+  Map map = truth.map;
+  map.keyframes[3].by_points = false;
+  Disturb(map, 0.003, 0.002);
+  return map;
+}
+
+TEST(LocalBundle, LeavesAKeyframeThatPlanesHoldWhereItIs) {
+  const PointWorld truth = MakePointWorld(6, 200, 4);
+  Map map = HeldByPlanesAt3(truth);
+  const Map before = map;
+  const LocalBundleReport report = AdjustLocalBundle(map, 5, truth.camera, FeatureScale{}, {});
+  EXPECT_TRUE(report.usable);
+  EXPECT_EQ(report.keyframes, 4);  // 1, 2, 4 and 5
+  EXPECT_EQ(report.fixed_keyframes, 2);
+  for (const std::size_t k : {1u, 2u, 4u, 5u})
+    EXPECT_NE(map.keyframes[k].T_cw.t, before.keyframes[k].T_cw.t) << k;
+  EXPECT_EQ(map.keyframes[3].T_cw.t, before.keyframes[3].T_cw.t);
+  EXPECT_EQ(map.keyframes[3].T_cw.R, before.keyframes[3].T_cw.R);
+}
+
+TEST(LocalBundle, DoesNothingWhereOnlyAKeyframeOfPlanesWouldMove) {
+  const PointWorld truth = MakePointWorld(6, 200, 4);
+  Map map = HeldByPlanesAt3(truth);
+  const Map before = map;
+  LocalBundleConfig config;
+  config.max_keyframes = 1;
+  EXPECT_FALSE(AdjustLocalBundle(map, 3, truth.camera, FeatureScale{}, config).usable);
+  for (std::size_t k = 0; k < map.keyframes.size(); ++k)
+    EXPECT_EQ(map.keyframes[k].T_cw.t, before.keyframes[k].T_cw.t) << k;
+}
+
 TEST(LocalBundle, GivesTheSameBytesTwice) {
   const PointWorld truth = MakePointWorld(5, 150, 5);
   Map first = truth.map;

@@ -2,7 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/LU>
 #include <algorithm>
+#include <cmath>
 
 #include "slam/pose/pose_problem.h"
 
@@ -91,6 +93,73 @@ TEST(UnseenSteps, StayWherePredictedAndAsUncertain) {
   const Matrix6d information = WithoutSteps(1e6 * Matrix6d::Identity(), steps);
   EXPECT_EQ(information(1, 1), 0.0);
   EXPECT_EQ(information(2, 2), 1e6);
+}
+
+TEST(UnseenSteps, OfOneWallAreTwoAndWithoutPlanesAllThree) {
+  const auto unseen = UnseenSteps({Seen({0.6, 0, -0.8}), Seen({0.6, 0, -0.8})});
+  ASSERT_EQ(unseen.size(), 2u);
+  for (const Eigen::Vector3d& step_c : unseen)
+    EXPECT_NEAR(step_c.dot(Eigen::Vector3d(0.6, 0, -0.8)), 0.0, 1e-12);
+  EXPECT_NEAR(unseen[0].dot(unseen[1]), 0.0, 1e-12);
+  EXPECT_EQ(UnseenSteps({}).size(), 3u);
+}
+
+TEST(UnseenSteps, AreSeenByAPlaneThatLiesMoreThanTenDegreesAcrossThem) {
+  // A wide corridor, and a wall beside it that leans back: what the walls say of the height.
+  const auto unseen_below = [](double lean_deg) {
+    const double a = lean_deg * M_PI / 180;
+    return UnseenSteps({Seen({1, 0, 0}), Seen({-1, 0, 0}), Seen({0, 0, -1}), Seen({0, 0, -1}),
+                        Seen({0, 0, -1}), Seen({0, -std::sin(a), -std::cos(a)})})
+        .size();
+  };
+  EXPECT_EQ(unseen_below(8), 1u);
+  EXPECT_EQ(unseen_below(15), 0u);
+}
+
+TEST(HeldAlong, IsThePredictionOfACameraWhoseHeightIsKnown) {
+  // Height and pitch err together: who knows the one knows more of the other.
+  UncertainPose predicted = Predicted();
+  predicted.covariance(1, 3) = predicted.covariance(3, 1) = 8e-5;
+  const UncertainPose held = HeldAlong(predicted, {Eigen::Vector3d::UnitY()});
+  EXPECT_NEAR(held.covariance(3, 3), 1e-4 - 8e-5 * 8e-5 / 1e-4, 1e-9);
+  EXPECT_NEAR(held.covariance(1, 3), 0.0, 1e-9);
+  EXPECT_GT(held.covariance(1, 1), 0.0);
+  EXPECT_EQ(HeldAlong(predicted, {}).covariance, predicted.covariance);
+}
+
+TEST(WithoutSteps, TakesWhatWasSaidOfAStepTogetherWithTurnsToo) {
+  Matrix6d information = 1e4 * Matrix6d::Identity();
+  information(1, 3) = information(3, 1) = 5e3;
+  const Matrix6d left = WithoutSteps(information, {Eigen::Vector3d::UnitY()});
+  EXPECT_EQ(left.row(1).norm(), 0.0);
+  EXPECT_EQ(left.col(1).norm(), 0.0);
+  EXPECT_EQ(left(3, 3), 1e4);
+  EXPECT_EQ(WithoutSteps(information, {}), information);
+}
+
+// What the tracker makes of all this: panels that err by a degree say nothing of the height.
+TEST(WithoutSteps, LeaveTheHeightAsUncertainAsPredictedWhateverTheWallsSay) {
+  const std::vector<PlaneConstraint> walls{Seen({0.7, 0.02, -0.7}), Seen({-0.7, 0.02, -0.7}),
+                                           Seen({0, -0.03, -1})};
+  const auto unseen = UnseenSteps(walls);
+  ASSERT_EQ(unseen.size(), 1u);
+  PoseProblem problem;
+  problem.prior = HeldAlong(Predicted(), unseen);
+  problem.planes = walls;
+  for (PlaneConstraint& wall : problem.planes) {
+    wall.pi_w.d += 0.01;  // a centimetre off: seven higher, if they were believed
+    wall.centroid_c = -wall.pi_c.n;
+    wall.offset_sigma_m = wall.angle_sigma_rad = 1e-3;
+  }
+  const PoseSummary summary = OptimisePose(problem, Camera{}, FeatureScale{}, {});
+  EXPECT_LT(std::abs(summary.T_cw.t.dot(unseen[0])), 1e-3);
+  EXPECT_NEAR(std::abs(summary.T_cw.t.z()), 0.012, 0.003);
+  const Matrix6d information = WithoutSteps(summary.information, unseen);
+  const Matrix6d predicted = Predicted().covariance;
+  const Matrix6d known = (predicted.inverse() + information).inverse();
+  Vector6d height = Vector6d::Zero();
+  height.head<3>() = unseen[0];
+  EXPECT_NEAR(height.dot(known * height), 1e-4, 1e-7);
 }
 
 }  // namespace

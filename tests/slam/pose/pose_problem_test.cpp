@@ -87,6 +87,49 @@ TEST(PoseOptimiserEq13, LeavesTheOpenDirectionsOfASinglePlaneAlone) {
               PoseNear((Pose{Eigen::Matrix3d::Identity(), {0.5, 0.5, -0.02}}), 1e-6, 1e-6));
 }
 
+/// A wall 1 m in front, seen 2 cm nearer than predicted.
+PoseProblem WallNearerThanPredicted(double sigma_m) {
+  PoseProblem problem;
+  PlaneConstraint c;
+  c.pi_c = {-Eigen::Vector3d::UnitZ(), 1.0};
+  c.pi_w = {-Eigen::Vector3d::UnitZ(), 1.02};
+  c.centroid_c = {0, 0, 1};
+  c.angle_sigma_rad = c.offset_sigma_m = sigma_m;
+  problem.planes.push_back(c);
+  problem.prior.emplace();
+  problem.prior->T_cw.t = {0.5, 0.4, 0};
+  problem.prior->covariance.diagonal() << 4e-4, 9e-4, 1e-4, 1e-4, 2e-4, 16e-4;
+  problem.T_cw = problem.prior->T_cw;
+  return problem;
+}
+
+TEST(PoseOptimiserEq13, LeavesWhatNothingObservesWhereItWasPredictedAndAsUncertain) {
+  PoseProblem problem = WallNearerThanPredicted(1e-5);
+  problem.T_cw = Exp((Vector6d() << 0.02, -0.02, 0.02, 0, 0, 0.03).finished()) * problem.T_cw;
+  const PoseSummary summary = OptimisePose(problem, Camera{}, FeatureScale{}, {});
+  EXPECT_TRUE(summary.usable);
+  EXPECT_EQ(summary.nullity, 0);
+  EXPECT_THAT(summary.T_cw,
+              PoseNear((Pose{Eigen::Matrix3d::Identity(), {0.5, 0.4, -0.02}}), 1e-5, 1e-5));
+  const Matrix6d& predicted = problem.prior->covariance;
+  for (const int i : {0, 1, 5}) {  // two steps along the wall, and the turn about its normal
+    EXPECT_NEAR(summary.covariance(i, i), predicted(i, i), 1e-3 * predicted(i, i)) << i;
+    EXPECT_NEAR(summary.information(i, i), 0.0, 1e-3) << i;
+  }
+  for (const int i : {2, 3, 4})
+    EXPECT_LT(summary.covariance(i, i), 1e-3 * predicted(i, i)) << i;
+}
+
+TEST(PoseOptimiserEq13, WeighsWhatIsMeasuredAgainstThePredictionByTheVariances) {
+  const double measured_m = 0.02, predicted_m = 0.01;
+  const PoseSummary summary =
+      OptimisePose(WallNearerThanPredicted(measured_m), Camera{}, FeatureScale{}, {});
+  const double m2 = measured_m * measured_m, p2 = predicted_m * predicted_m;
+  EXPECT_NEAR(summary.T_cw.t.z(), -0.02 * p2 / (p2 + m2), 1e-6);
+  EXPECT_NEAR(summary.covariance(2, 2), p2 * m2 / (p2 + m2), 1e-9);
+  EXPECT_NEAR(summary.information(2, 2), 1 / m2, 1e-3 / m2);
+}
+
 TEST(PoseOptimiserEq13, RefusesAFirstGuessThatIsNotFinite) {
   PoseProblem problem = Seen(50, 0.0, 0.0, 4);
   problem.T_cw.t.x() = std::nan("");

@@ -148,5 +148,64 @@ TEST(KeyframeDecision, AsksForClosePointsInProportionToTheFeaturesOfTheImage) {
   EXPECT_FALSE(wanted(1000, config.min_close_tracked + 1, config.min_close_untracked + 1));
 }
 
+/// A frame of two walls, 1 m and 3 m away, ten frames after the newest keyframe and at its place.
+Frame OfPlanes() {
+  Frame frame;
+  frame.index = 10;
+  frame.features.resize(1000);
+  frame.planes.resize(2);
+  frame.planes[0].centroid_c = {0, 0, 1};
+  frame.planes[1].centroid_c = {3, 0, 0};
+  return frame;
+}
+
+TEST(KeepViewOfPlanes, KeepsAViewFromANewSideOrPlaceAndNoOther) {
+  const KeyframeDecisionConfig config;
+  const Keyframe newest;
+  Frame frame = OfPlanes();
+  EXPECT_FALSE(KeepViewOfPlanes(frame, newest, 0, config));
+  const double far_m = 2.0 * config.max_view_rad;  // from planes 2 m away
+  for (const Eigen::Vector3d& way : {Eigen::Vector3d(1, 0, 0), {0, 0, -1}, {-0.6, 0.8, 0}}) {
+    frame.T_cw = {Eigen::Matrix3d::Identity(), 0.95 * far_m * way};
+    EXPECT_FALSE(KeepViewOfPlanes(frame, newest, 0, config)) << way.transpose();
+    frame.T_cw.t = 1.05 * far_m * way;
+    EXPECT_TRUE(KeepViewOfPlanes(frame, newest, 0, config)) << way.transpose();
+    frame.T_cw = {ExpSo3(0.95 * config.max_view_rad * way), {0, 0, 0}};
+    EXPECT_FALSE(KeepViewOfPlanes(frame, newest, 0, config)) << way.transpose();
+    frame.T_cw.R = ExpSo3(1.05 * config.max_view_rad * way);
+    EXPECT_TRUE(KeepViewOfPlanes(frame, newest, 0, config)) << way.transpose();
+  }
+}
+
+TEST(KeepViewOfPlanes, ComparesWithTheNewestKeyframeWhereverItIs) {
+  Keyframe newest;
+  newest.T_cw = {ExpSo3({0.4, -1.2, 0.3}), {2, -1, 3}};
+  Frame frame = OfPlanes();
+  EXPECT_TRUE(KeepViewOfPlanes(frame, newest, 0, {}));
+  frame.T_cw = newest.T_cw;
+  EXPECT_FALSE(KeepViewOfPlanes(frame, newest, 0, {}));
+}
+
+TEST(KeepViewOfPlanes, KeepsAFrameThatFollowsManyFeaturesForTheSizeOfItsImage) {
+  const KeyframeDecisionConfig config;
+  Frame frame = OfPlanes();
+  EXPECT_FALSE(KeepViewOfPlanes(frame, {}, config.min_close_untracked, config));
+  EXPECT_TRUE(KeepViewOfPlanes(frame, {}, config.min_close_untracked + 1, config));
+  frame.features.resize(500);
+  EXPECT_FALSE(KeepViewOfPlanes(frame, {}, config.min_close_untracked / 2, config));
+  EXPECT_TRUE(KeepViewOfPlanes(frame, {}, config.min_close_untracked / 2 + 1, config));
+}
+
+TEST(KeepViewOfPlanes, KeepsNoneAtOnceAfterAnother) {
+  KeyframeDecisionConfig config;
+  config.min_frames_between = 5;
+  Keyframe newest;
+  newest.frame_index = 6;
+  newest.T_cw.t.x() = 5.0;
+  EXPECT_FALSE(KeepViewOfPlanes(OfPlanes(), newest, 1000, config));
+  newest.frame_index = 5;
+  EXPECT_TRUE(KeepViewOfPlanes(OfPlanes(), newest, 0, config));
+}
+
 }  // namespace
 }  // namespace slam
