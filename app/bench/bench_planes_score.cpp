@@ -46,7 +46,7 @@ eval::Overlap OverlapOf(const ScoredFrame& f) {
     if (truth == f.truth_of.end() || Ignored(f, truth->second) || plane.bad) continue;
     region_of[plane.index + 1] = plane.index + 1;
   }
-  return eval::CountedOverlap(f.truth, f.pairs, region_of);
+  return eval::OverlapOf(eval::CountedPairs(f.truth, f.pairs, region_of));
 }
 
 /// A found region holds 80 % of the true one, and the true one 80 % of it.

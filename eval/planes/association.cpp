@@ -7,9 +7,6 @@
 namespace eval {
 namespace {
 
-constexpr double kMinShare = 0.05;
-constexpr double kMinRecords = 3.0;
-
 using Table = std::map<int, std::map<int, int>>;
 
 long long PairsOf(long long n) { return n * (n - 1) / 2; }
@@ -21,9 +18,9 @@ int Sum(const std::map<int, int>& row) {
 }
 
 /// Rows with at least two entries that carry weight.
-int CountMixed(const Table& rows) {
-  return static_cast<int>(std::count_if(rows.begin(), rows.end(), [](const auto& row) {
-    return StrongEntries(row.second).size() >= 2;
+int CountMixed(const Table& rows, const EntryRule& rule) {
+  return static_cast<int>(std::count_if(rows.begin(), rows.end(), [&](const auto& row) {
+    return StrongEntries(row.second, rule).size() >= 2;
   }));
 }
 
@@ -98,8 +95,8 @@ DecisionCounts CountDecisions(const std::vector<AssociationRecord>& records) {
 
 }  // namespace
 
-std::vector<int> StrongEntries(const std::map<int, int>& row) {
-  const double min_records = std::max(kMinRecords, kMinShare * Sum(row));
+std::vector<int> StrongEntries(const std::map<int, int>& row, const EntryRule& rule) {
+  const double min_records = std::max(rule.min_records, rule.min_share * Sum(row));
   std::vector<int> strong;
   for (const auto& [id, n] : row) {
     if (n >= min_records) strong.push_back(id);
@@ -133,9 +130,11 @@ PrecisionRecall MakeScores(double tp, double predicted, double truth) {
   return scores;
 }
 
-AssociationScore ScoreAssociation(const std::vector<AssociationRecord>& records) {
+AssociationScore ScoreAssociation(const std::vector<AssociationRecord>& records,
+                                  const EntryRule& rule) {
   AssociationScore score;
   Table by_truth, by_map;
+  LabelPairs pairs;
   std::set<int> map_planes;
   for (const AssociationRecord& record : records) {
     ++score.records;
@@ -144,13 +143,15 @@ AssociationScore ScoreAssociation(const std::vector<AssociationRecord>& records)
     ++score.records_with_truth;
     ++by_truth[record.truth][record.map_plane];
     ++by_map[record.map_plane][record.truth];
+    ++pairs[{record.truth, record.map_plane}];
   }
   score.truth_planes = static_cast<int>(by_truth.size());
   score.map_planes = static_cast<int>(map_planes.size());
   score.spurious_map_planes = static_cast<int>(map_planes.size() - by_map.size());
-  score.merged_map_planes = CountMixed(by_map);
-  score.split_truth_planes = CountMixed(by_truth);
+  score.merged_map_planes = CountMixed(by_map, rule);
+  score.split_truth_planes = CountMixed(by_truth, rule);
   ScorePairs(by_truth, by_map, score);
+  score.partition = ScorePartition(pairs);
   score.decision = CountDecisions(records);
   return score;
 }

@@ -3,6 +3,8 @@
 #include <map>
 #include <vector>
 
+#include "eval/planes/partition_score.h"
+
 namespace eval {
 
 /// One decision: in this frame a frame plane that shows truth plane `truth` (0 = none of the
@@ -32,8 +34,12 @@ struct JudgedDecision {
 /// @returns one for each record
 std::vector<JudgedDecision> JudgeDecisions(const std::vector<AssociationRecord>& records);
 
-/// Which entries of a row carry weight: n >= max(3, 5 % of the row).
-std::vector<int> StrongEntries(const std::map<int, int>& row);
+/// What an entry of a row needs to carry weight.
+struct EntryRule {
+  double min_records = 3.0, min_share = 0.05;  ///< of the row; both
+};
+/// Which entries of a row carry weight.
+std::vector<int> StrongEntries(const std::map<int, int>& row, const EntryRule& rule = {});
 
 /// A share with its parts; nothing to share is 0, so that it never looks like success.
 struct PrecisionRecall {
@@ -56,16 +62,18 @@ struct AssociationScore {
   std::size_t records = 0, records_with_truth = 0;
   long long pair_tp = 0, pair_predicted = 0, pair_truth = 0;
   PrecisionRecall pair;  ///< over pairs of records with truth on one map plane / of one truth
-  PrecisionRecall b_cubed;  ///< the same per record
+  PrecisionRecall b_cubed;   ///< the same per record
+  PartitionScore partition;  ///< of records with truth: truths and map planes
   DecisionCounts decision;
   int truth_planes = 0, map_planes = 0;
-  int merged_map_planes = 0;    ///< with >= 2 truths that have n_ij >= max(3, 5 % of n_.j)
+  int merged_map_planes = 0;    ///< with at least two truths that carry weight
   int split_truth_planes = 0;   ///< likewise by truth
   int spurious_map_planes = 0;  ///< that never show a truth plane
 };
 
 /// @param records  by rising frame; of one frame in any order
-AssociationScore ScoreAssociation(const std::vector<AssociationRecord>& records);
+AssociationScore ScoreAssociation(const std::vector<AssociationRecord>& records,
+                                  const EntryRule& rule = {});
 
 /// Harmonic mean of both, 0 if both are 0.
 PrecisionRecall MakeScores(double tp, double predicted, double truth);

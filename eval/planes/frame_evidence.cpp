@@ -77,13 +77,13 @@ bool Decided(const RunFramePlane& plane) {
   return plane.map_plane.has_value() && plane.decision != "none";
 }
 
-Overlap OverlapOf(const FrameEvidence& e,
-                  const std::function<int(const RunFramePlane& plane)>& label_of) {
+LabelPairs PairsOf(const FrameEvidence& e,
+                   const std::function<int(const RunFramePlane& plane)>& label_of) {
   std::map<int, int> region_of;
   for (const RunFramePlane& plane : e.planes) {
     if (!e.Ignored(e.TruthOf(plane))) region_of[plane.index + 1] = label_of(plane);
   }
-  return CountedOverlap(e.truth, *e.pairs, region_of);
+  return CountedPairs(e.truth, *e.pairs, region_of);
 }
 
 bool DecidedByPixels(const Run& run, const Sequence& sequence) {

@@ -30,10 +30,10 @@ struct FrameEvidence {
 /// The run put the plane on a map plane, known or new.
 bool Decided(const RunFramePlane& plane);
 
-/// Truth and machine labels of the frame without what is ignored. `label_of` gives the machine
+/// Pixels by truth and machine label of the frame without what is ignored. `label_of` gives the machine
 /// label of a frame plane, 0 to leave it out.
-Overlap OverlapOf(const FrameEvidence& e,
-                  const std::function<int(const RunFramePlane& plane)>& label_of);
+LabelPairs PairsOf(const FrameEvidence& e,
+                   const std::function<int(const RunFramePlane& plane)>& label_of);
 
 /// Whether truth of frame planes is decided by their pixels (else by their geometry).
 bool DecidedByPixels(const Run& run, const Sequence& sequence);

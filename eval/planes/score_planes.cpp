@@ -91,9 +91,9 @@ class PlaneScorer {
 
   static TrackingFrame TrackByPixels(const FrameEvidence& e) {
     const std::map<int, int> labels = LabelsOfMapPlanes(e);
-    const Overlap overlap = OverlapOf(e, [&](const RunFramePlane& plane) {
+    const Overlap overlap = OverlapOf(PairsOf(e, [&](const RunFramePlane& plane) {
       return Decided(plane) ? labels.at(*plane.map_plane) : 0;
-    });
+    }));
     TrackingFrame frame;
     std::vector<int> machine;
     for (const auto& [truth, pixels] : overlap.truth_pixels) frame.truth_ids.push_back(truth);

@@ -79,6 +79,7 @@ HooverScore& HooverScore::operator+=(const HooverScore& other) {
   truth += other.truth, machine += other.machine;
   correct += other.correct, over += other.over, under += other.under;
   missed += other.missed, noise += other.noise;
+  truth_pixels += other.truth_pixels, correct_pixels += other.correct_pixels;
   return *this;
 }
 
@@ -98,6 +99,7 @@ HooverScore ScoreHoover(const Overlap& overlap, double min_share) {
   HooverScore score;
   score.truth = static_cast<int>(overlap.truth_pixels.size());
   score.machine = static_cast<int>(overlap.machine_pixels.size());
+  for (const auto& [truth, pixels] : overlap.truth_pixels) score.truth_pixels += pixels;
   std::set<int> used_truth, used_machine;
   for (const Instance& instance : FindInstances(overlap, min_share)) {
     const auto taken = [](const std::set<int>& used) {
@@ -109,7 +111,10 @@ HooverScore ScoreHoover(const Overlap& overlap, double min_share) {
     }
     used_truth.insert(instance.truth.begin(), instance.truth.end());
     used_machine.insert(instance.machine.begin(), instance.machine.end());
-    if (instance.kind == Kind::kCorrect) ++score.correct;
+    if (instance.kind == Kind::kCorrect) {
+      ++score.correct;
+      score.correct_pixels += overlap.truth_pixels.at(instance.truth.front());
+    }
     if (instance.kind == Kind::kOver) ++score.over;
     if (instance.kind == Kind::kUnder) ++score.under;
   }

@@ -9,6 +9,7 @@ namespace eval {
 struct HooverScore {
   int truth = 0, machine = 0;
   int correct = 0, over = 0, under = 0, missed = 0, noise = 0;
+  long long truth_pixels = 0, correct_pixels = 0;  ///< of true regions: all, found correctly
 
   HooverScore& operator+=(const HooverScore& other);
 };

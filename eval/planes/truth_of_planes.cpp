@@ -57,20 +57,19 @@ int TruthByGeometry(const TrueFrame& frame, const RunFramePlane& plane) {
   return truth;
 }
 
-Overlap CountedOverlap(const TrueFrame& frame, const LabelPairs& pairs,
-                       const std::map<int, int>& region_of) {
+LabelPairs CountedPairs(const TrueFrame& frame, const LabelPairs& pairs,
+                        const std::map<int, int>& region_of) {
   std::map<int, bool> counts;  // by id of a scored plane
   for (const SeenPlane& seen : frame.planes) counts[seen.plane->id] = seen.counted;
   LabelPairs counted;
   for (const auto& [labels, pixels] : pairs) {
     const auto plane = counts.find(labels.first);
-    const bool is_void = plane != counts.end() && !plane->second;
-    const bool is_truth = plane != counts.end() && plane->second;
-    const auto region = is_void ? region_of.end() : region_of.find(labels.second);
-    counted[{is_truth ? labels.first : 0, region == region_of.end() ? 0 : region->second}] +=
-        pixels;
+    if (plane != counts.end() && !plane->second) continue;
+    const int truth = plane != counts.end() ? labels.first : 0;
+    const auto region = region_of.find(labels.second);
+    counted[{truth, region == region_of.end() ? 0 : region->second}] += pixels;
   }
-  return OverlapOf(counted);
+  return counted;
 }
 
 }  // namespace eval

@@ -26,11 +26,11 @@ std::map<int, int> TruthByPixels(const TrueFrame& frame, const LabelPairs& pairs
 /// is nearest to the centroid (at most kMaxTruthGap_m). 0 if there is none.
 int TruthByGeometry(const TrueFrame& frame, const RunFramePlane& plane);
 
-/// Overlap of the true planes that count with regions of the machine; pixels of true planes that do
-/// not count belong to no region.
+/// Pixels of true planes that count, 0 for others, by region of the machine; those of true planes
+/// that do not count are left out.
 /// @param pairs      ids of true planes with any labels
 /// @param region_of  the region by label; a label that is not in it is none
-Overlap CountedOverlap(const TrueFrame& frame, const LabelPairs& pairs,
-                       const std::map<int, int>& region_of);
+LabelPairs CountedPairs(const TrueFrame& frame, const LabelPairs& pairs,
+                        const std::map<int, int>& region_of);
 
 }  // namespace eval

@@ -42,8 +42,25 @@ void PutRegions(const RegionScore& r, FigureGroup& group) {
   group.PutShare("sq", r.panoptic.Sq(), r.panoptic.tp > 0, "no plane was found");
   group.PutShare("rq", r.panoptic.Rq(), any, none);
   group.PutShare("pixel_precision", r.pixel_precision, r.machine > 0.0, "no plane was found");
-  group.PutShare("pixel_recall", r.pixel_recall, r.truth > 0.0,
-                 "no frame shows a plane that counts");
+  const char* const no_truth = "no frame shows a plane that counts";
+  group.PutShare("pixel_recall", r.pixel_recall, r.truth > 0.0, no_truth);
+  group.PutShare("correct_ratio", r.correct_ratio, r.truth > 0.0, no_truth);
+  group.PutShare("correct_pixel_ratio", r.correct_pixel_ratio, r.truth > 0.0, no_truth);
+  group.PutShare("ri", r.rand_index, any, none);
+  group.PutShare("voi_bits", r.voi_bits, any, none);
+  group.PutShare("sc", r.covering, any, none);
+  if (!any) return group.Undefined("evops", none);
+  const EvopsScore& e = r.evops;
+  group.Put("evops", Json{{"precision", e.precision},
+                          {"recall", e.recall},
+                          {"f1", e.f1},
+                          {"mean_iou", e.mean_iou},
+                          {"mean_dice", e.mean_dice},
+                          {"panoptic", e.panoptic},
+                          {"usr", e.under_ratio},
+                          {"osr", e.over_ratio},
+                          {"noise", e.noise_ratio},
+                          {"missed", e.missed_ratio}});
 }
 
 Json ExtractionGroup(const PlaneScore& s, Json& reasons) {
@@ -51,8 +68,10 @@ Json ExtractionGroup(const PlaneScore& s, Json& reasons) {
   if (s.regions) {
     PutRegions(*s.regions, group);
   } else {
-    for (const char* key : {"truth", "machine", "correct", "over", "under", "missed", "noise",
-                            "pq", "sq", "rq", "pixel_precision", "pixel_recall"}) {
+    for (const char* key :
+         {"truth", "machine", "correct", "over", "under", "missed", "noise", "pq", "sq", "rq",
+          "pixel_precision", "pixel_recall", "correct_ratio", "correct_pixel_ratio", "ri",
+          "voi_bits", "sc", "evops"}) {
       group.Undefined(key,
                       "the run has no segmentation images, or the sequence no gt/plane_id");
     }
@@ -90,6 +109,9 @@ Json AssociationGroup(const PlaneScore& s, Json& reasons) {
   const std::string no_truth =
       unless(a.records_with_truth > 0, "no decision was made on a frame plane with a truth");
   group.PutShares("b_cubed", a.b_cubed, no_truth, no_truth);
+  group.PutShare("purity", a.partition.purity, no_truth.empty(), no_truth);
+  group.PutShare("inverse_purity", a.partition.inverse_purity, no_truth.empty(), no_truth);
+  group.PutShare("voi_bits", a.partition.VoiBits(), no_truth.empty(), no_truth);
   group.PutShares(
       "decision", d.scores,
       unless(d.tp + d.fp > 0, "no frame plane was matched to a map plane"),
@@ -193,7 +215,9 @@ void AddExtractionRules(const PlaneScore& s, Json& rules) {
                     "agree to 5 mm";
   rules["extraction"] = s.by_pixels
                             ? "frame planes that the run trusts (bad = null); Hoover at 80 %, "
-                              "means per frame; pq over all frames; offset at the centroid"
+                              "means per frame; pq, pixels and ratios over all frames; ri, "
+                              "voi_bits and sc with what no plane holds as a region, evops at "
+                              "IoU 0.75 and 0.2: means per frame; offset at the centroid"
                             : "frame planes that the run trusts (bad = null); offset at the "
                               "centroid; no segmentation images, so nothing by pixels";
 }

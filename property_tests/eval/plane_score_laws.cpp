@@ -12,6 +12,7 @@
 #include "eval/planes/hota_score.h"
 #include "eval/planes/hungarian.h"
 #include "eval/planes/identity_score.h"
+#include "eval/planes/partition_score.h"
 #include "eval/planes/polygon.h"
 #include "eval/planes/segmentation_score.h"
 
@@ -152,6 +153,53 @@ RC_GTEST_PROP(SegmentationP39, BooksEveryRegionOnceAndStaysWithinItsBounds, ()) 
   const Overlap itself = CountOverlap(truth, truth);
   RC_ASSERT(CountPanoptic(itself).Pq() == 1.0);
   RC_ASSERT(ScoreHoover(itself).correct == hoover.truth);
+}
+
+RC_GTEST_PROP(PartitionP39, CountsThePairsThatTwoImagesKeepTogetherOrApart, ()) {
+  Random random = AnyRandom();
+  const cv::Mat1w whole = AnyLabels(random, 5), other = AnyLabels(random, 4);
+  const cv::Rect part(4, 4, 12, 10);
+  const cv::Mat1w truth = whole(part).clone(), machine = other(part).clone();
+  double agree = 0.0, pairs = 0.0;
+  for (auto a = truth.begin(); a != truth.end(); ++a) {
+    for (auto b = truth.begin(); b != a; ++b) {
+      const auto m_a = machine.begin() + (a - truth.begin());
+      const auto m_b = machine.begin() + (b - truth.begin());
+      agree += (*a == *b) == (*m_a == *m_b) ? 1.0 : 0.0;
+      pairs += 1.0;
+    }
+  }
+  const PartitionScore score = ScorePartition(CountPairs(truth, machine));
+  RC_ASSERT(std::abs(score.rand_index - agree / pairs) < 1e-12);
+}
+
+RC_GTEST_PROP(PartitionP39, IsSymmetricBoundedAndPerfectForItselfUnderOtherNames, ()) {
+  Random random = AnyRandom();
+  const cv::Mat1w truth = AnyLabels(random, 1 + Below(random, 6));
+  const cv::Mat1w machine = AnyLabels(random, 1 + Below(random, 6));
+  const PartitionScore one = ScorePartition(CountPairs(truth, machine));
+  const PartitionScore other = ScorePartition(CountPairs(machine, truth));
+  RC_ASSERT(std::abs(one.rand_index - other.rand_index) < 1e-12);
+  RC_ASSERT(std::abs(one.covering - other.covering) < 1e-12);
+  RC_ASSERT(std::abs(one.VoiBits() - other.VoiBits()) < 1e-12);
+  RC_ASSERT(one.purity == other.inverse_purity && one.inverse_purity == other.purity);
+  for (const double share : {one.rand_index, one.covering, one.purity, one.inverse_purity})
+    RC_ASSERT(share > 0.0 && share <= 1.0 + 1e-12);
+  cv::Mat1w renamed = truth.clone();
+  for (std::uint16_t& label : renamed) label = static_cast<std::uint16_t>(40 - 3 * label);
+  const PartitionScore same = ScorePartition(CountPairs(truth, renamed));
+  RC_ASSERT(same.rand_index == 1.0 && std::abs(same.covering - 1.0) < 1e-12);
+  RC_ASSERT(same.purity == 1.0 && same.inverse_purity == 1.0 && same.VoiBits() == 0.0);
+}
+
+// Unlike any index of pairs, the variation of information is a distance (Meila 2003).
+RC_GTEST_PROP(PartitionP39, VariationOfInformationKeepsTheTriangleInequality, ()) {
+  Random random = AnyRandom();
+  const cv::Mat1w a = AnyLabels(random, 4), b = AnyLabels(random, 3), c = AnyLabels(random, 5);
+  const auto voi = [](const cv::Mat1w& x, const cv::Mat1w& y) {
+    return ScorePartition(CountPairs(x, y)).VoiBits();
+  };
+  RC_ASSERT(voi(a, c) <= voi(a, b) + voi(b, c) + 1e-12);
 }
 
 RC_GTEST_PROP(PolygonOverlap, IsSymmetricAndBoundedByEitherArea, ()) {

@@ -7,8 +7,10 @@
 
 #include "eval/planes/association.h"
 #include "eval/planes/clear_score.h"
+#include "eval/planes/evops_score.h"
 #include "eval/planes/hota_score.h"
 #include "eval/planes/identity_score.h"
+#include "eval/planes/partition_score.h"
 #include "eval/planes/segmentation_score.h"
 #include "io/json_field.h"
 #include "io/text_table.h"
@@ -64,6 +66,18 @@ TEST(GoldenAssociation, AgreesOnPairsBCubedDecisionsAndMapPlanes) {
     const auto& mixed = expected["map_level_min3_5pct"];
     EXPECT_EQ(s.merged_map_planes, mixed["merged_map_planes"].get<int>());
     EXPECT_EQ(s.split_truth_planes, mixed["split_gt_planes"].get<int>());
+    const auto& any = expected["map_level_any"];
+    const AssociationScore lenient = ScoreAssociation(records, {1.0, 0.0});
+    EXPECT_EQ(lenient.merged_map_planes, any["merged_map_planes"].get<int>());
+    EXPECT_EQ(lenient.split_truth_planes, any["split_gt_planes"].get<int>());
+    const PartitionScore& p = s.partition;
+    EXPECT_NEAR(p.purity, expected["purity"].get<double>(), kRoundOff);
+    EXPECT_NEAR(p.inverse_purity, expected["inverse_purity"].get<double>(), kRoundOff);
+    EXPECT_NEAR(p.truth_given_machine_bits, expected["H_gt_given_map_bits"].get<double>(),
+                kRoundOff);
+    EXPECT_NEAR(p.machine_given_truth_bits, expected["H_map_given_gt_bits"].get<double>(),
+                kRoundOff);
+    EXPECT_NEAR(p.VoiBits(), expected["voi_bits"].get<double>(), kRoundOff);
   }
 }
 
@@ -127,6 +141,8 @@ void ExpectClear(const ClearScore& s, const nlohmann::json& golden) {
   ExpectNear(s.partly_tracked / truths, golden, "PTR");
   ExpectNear(s.mostly_lost / truths, golden, "MLR");
   ExpectNear(double(s.fp) / s.frames, golden, "FP_per_frame");
+  // TrackEval leaves before it counts where nothing was predicted at all.
+  if (s.tp + s.fp > 0) EXPECT_EQ(s.frames, golden["CLR_Frames"].get<int>());
 }
 
 /// @param value  picks a figure of the reference: of one threshold, or the mean
@@ -169,6 +185,12 @@ TEST(GoldenTrackEval, AgreesOnEveryFigureOfClearIdentityAndHota) {
       EXPECT_EQ(hota.at[a].fn, at("HOTA_FN"));
       EXPECT_EQ(hota.at[a].fp, at("HOTA_FP"));
     }
+    const HotaFigures& lowest = hota.at.front();
+    ExpectNear(lowest.hota, expected["HOTA"], "HOTA(0)");
+    ExpectNear(lowest.loc_a, expected["HOTA"], "LocA(0)");
+    ExpectNear(lowest.hota * lowest.loc_a, expected["HOTA"], "HOTALocA(0)");
+    EXPECT_EQ(lowest.tp + lowest.fn, expected["Count"]["GT_Dets"].get<double>());
+    EXPECT_EQ(lowest.tp + lowest.fp, expected["Count"]["Dets"].get<double>());
   }
 }
 
@@ -184,23 +206,61 @@ cv::Mat1w ReadLabelTable(const std::filesystem::path& file) {
   return labels;
 }
 
-TEST(GoldenSegmentation, AgreesOnHooverAndPanopticQuality) {
+void ExpectHoover(const HooverScore& hoover, const nlohmann::json& counts) {
+  EXPECT_EQ(hoover.truth, counts["n_gt"].get<int>());
+  EXPECT_EQ(hoover.machine, counts["n_ms"].get<int>());
+  EXPECT_EQ(hoover.correct, counts["n_correct"].get<int>());
+  EXPECT_EQ(hoover.over, counts["n_over"].get<int>());
+  EXPECT_EQ(hoover.under, counts["n_under"].get<int>());
+  EXPECT_EQ(hoover.missed, counts["n_missed"].get<int>());
+  EXPECT_EQ(hoover.noise, counts["n_noise"].get<int>());
+}
+
+/// A port of Hoover's compare.c, which asks for more than the share.
+void ExpectSegComp(const HooverScore& strict, const nlohmann::json& golden) {
+  ExpectNear(strict.truth, golden, "n_gt");
+  ExpectNear(strict.machine, golden, "n_ms_all");
+  ExpectNear(strict.correct, golden, "n_corr_seg");
+  ExpectNear(strict.over, golden, "n_over_seg");
+  ExpectNear(strict.under, golden, "n_under_seg");
+  ExpectNear(strict.missed, golden, "n_missed_seg");
+  ExpectNear(strict.noise, golden, "n_noise_seg");
+  ExpectNear(double(strict.correct) / strict.truth, golden, "f_corr_seg");
+  ExpectNear(double(strict.correct_pixels) / double(strict.truth_pixels), golden,
+             "f_weighted_corr_seg");
+}
+
+void ExpectEvops(const EvopsScore& s, const nlohmann::json& golden) {
+  for (const char* by : {"iou", "dice"}) {
+    const auto& g = golden[by];
+    ExpectNear(s.precision, g, "precision");
+    ExpectNear(s.recall, g, "recall");
+    ExpectNear(s.f1, g, "fScore");
+    ExpectNear(s.under_ratio, g, "usr");
+    ExpectNear(s.over_ratio, g, "osr");
+    ExpectNear(s.noise_ratio, g, "noise");
+    ExpectNear(s.missed_ratio, g, "missed");
+  }
+  ExpectNear(s.mean_iou, golden["iou"], "mean");
+  ExpectNear(s.panoptic, golden["iou"], "panoptic");
+  ExpectNear(s.mean_dice, golden["dice"], "mean");
+  ExpectNear(s.mean_dice * s.f1, golden["dice"], "panoptic");
+}
+
+TEST(GoldenSegmentation, AgreesOnEveryFigureThatIsAdopted) {
   const std::filesystem::path folder = testing::SharedFolder() / "golden/segmentation";
   SKIP_WITHOUT(folder);
   const nlohmann::json golden = io::ReadJson(folder / "segmentation_golden.json");
   for (const auto& [name, expected] : golden["cases"].items()) {
     SCOPED_TRACE(name);
-    const Overlap overlap = CountOverlap(ReadLabelTable(folder / (name + "_gt.csv")),
-                                         ReadLabelTable(folder / (name + "_pred.csv")));
-    const HooverScore hoover = ScoreHoover(overlap);
-    const auto& counts = expected["hoover_T80_ge"];
-    EXPECT_EQ(hoover.truth, counts["n_gt"].get<int>());
-    EXPECT_EQ(hoover.machine, counts["n_ms"].get<int>());
-    EXPECT_EQ(hoover.correct, counts["n_correct"].get<int>());
-    EXPECT_EQ(hoover.over, counts["n_over"].get<int>());
-    EXPECT_EQ(hoover.under, counts["n_under"].get<int>());
-    EXPECT_EQ(hoover.missed, counts["n_missed"].get<int>());
-    EXPECT_EQ(hoover.noise, counts["n_noise"].get<int>());
+    const LabelPairs pairs = CountPairs(ReadLabelTable(folder / (name + "_gt.csv")),
+                                        ReadLabelTable(folder / (name + "_pred.csv")));
+    const Overlap overlap = OverlapOf(pairs);
+    ExpectHoover(ScoreHoover(overlap), expected["hoover_T80_ge"]);
+    // More than the share: shares of some hundred pixels lie farther apart than this.
+    const HooverScore strict = ScoreHoover(overlap, kHooverShare + 1e-9);
+    ExpectHoover(strict, expected["hoover_T80_gt"]);
+    ExpectSegComp(strict, expected["polylidar_evaluate"]);
     const PanopticCounts panoptic = CountPanoptic(overlap);
     EXPECT_EQ(panoptic.tp, expected["PQ"]["TP"].get<int>());
     EXPECT_EQ(panoptic.fp, expected["PQ"]["FP"].get<int>());
@@ -208,6 +268,11 @@ TEST(GoldenSegmentation, AgreesOnHooverAndPanopticQuality) {
     EXPECT_NEAR(panoptic.Pq(), expected["PQ"]["PQ"].get<double>(), kRoundOff);
     EXPECT_NEAR(panoptic.Sq(), expected["PQ"]["SQ"].get<double>(), kRoundOff);
     EXPECT_NEAR(panoptic.Rq(), expected["PQ"]["RQ"].get<double>(), kRoundOff);
+    const PartitionScore partition = ScorePartition(pairs);
+    ExpectNear(partition.rand_index, expected["clustering_with_background"], "RI");
+    ExpectNear(partition.VoiBits(), expected["clustering_with_background"], "VOI_bits");
+    ExpectNear(partition.covering, expected["clustering_with_background"], "SC");
+    ExpectEvops(ScoreEvops(overlap), expected["evops_1.0_full_statistics_IoU0.75_part0.2"]);
   }
 }
 

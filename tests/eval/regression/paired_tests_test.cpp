@@ -66,6 +66,39 @@ TEST_F(GoldenPairs, SignedRanksAreThoseOfScipy) {
   }
 }
 
+// A test of both sides at once is twice the smaller of two tests of one side.
+TEST_F(GoldenPairs, TestsOfBothSidesAreTwiceTheSmallerOfTwo) {
+  const auto two_sided = [](const std::vector<double>& differences, const auto& test) {
+    std::vector<double> mirrored = differences;
+    for (double& d : mirrored) d = -d;
+    return std::min(1.0, 2.0 * std::min(test(differences), test(mirrored)));
+  };
+  const auto normal = [](bool continuity) {
+    return [=](const std::vector<double>& d) { return WilcoxonNormalP(d, continuity); };
+  };
+  const auto exact = [](const std::vector<double>& d) { return WilcoxonExactP(d); };
+  const auto flip = [](const std::vector<double>& d) { return SignFlipP(d); };
+  for (const nlohmann::json& one : golden_.at("paired")) {
+    const std::vector<double> d = Differences(one);
+    Expect(one, "wilcoxon_exact|two-sided", two_sided(d, exact));
+    Expect(one, "wilcoxon_approx|two-sided|cc", two_sided(d, normal(true)));
+    Expect(one, "wilcoxon_approx|two-sided|nocc", two_sided(d, normal(false)));
+    if (one.contains("signflip_exact_mean|two-sided"))
+      Expect(one, "signflip_exact_mean|two-sided", two_sided(d, flip));
+  }
+}
+
+// Of signs alone, flips are the sign test.
+TEST_F(GoldenPairs, FlippedSignsAloneAreTheSignTest) {
+  for (const nlohmann::json& one : golden_.at("paired")) {
+    std::vector<double> signs;
+    for (const double d : Differences(one)) {
+      if (d != 0.0) signs.push_back(d > 0.0 ? 1.0 : -1.0);
+    }
+    if (signs.size() <= kMaxSignFlipPairs) Expect(one, "sign_test|greater", SignFlipP(signs));
+  }
+}
+
 TEST_F(GoldenPairs, SignFlipsAreThoseOfTheReference) {
   for (const nlohmann::json& one : golden_.at("paired")) {
     if (!one.contains("signflip_exact_mean|greater")) continue;
@@ -98,6 +131,22 @@ TEST_F(GoldenPairs, BootstrapIntervalsAreThoseOfNumpy) {
     EXPECT_NEAR(ours.low, theirs[0], kGoldenTolerance) << name;
     EXPECT_NEAR(ours.high, theirs[1], kGoldenTolerance) << name;
   }
+}
+
+// The reference's table of indices, on pairs that its file has: the intervals are those of Python's
+// statistics.quantiles(method="inclusive").
+TEST_F(GoldenPairs, BootstrapIntervalsAreThoseOfPythonsQuantiles) {
+  const nlohmann::json* pairs = Named("lognormal_n15_s0.2");
+  ASSERT_NE(pairs, nullptr);
+  std::vector<double> ratios = LogRatios(*pairs);
+  ratios.resize(12);
+  const std::vector<std::vector<std::size_t>> indices = golden_.at("bootstrap").at("indices");
+  const ConfidenceInterval wide = BootstrapMeanInterval(ratios, indices, 0.95);
+  EXPECT_NEAR(wide.low, -0.01718688234451963, kGoldenTolerance);
+  EXPECT_NEAR(wide.high, 0.162301497621634, kGoldenTolerance);
+  const ConfidenceInterval narrow = BootstrapMeanInterval(ratios, indices, 0.90);
+  EXPECT_NEAR(narrow.low, -0.0021030718754649295, kGoldenTolerance);
+  EXPECT_NEAR(narrow.high, 0.14478648467790087, kGoldenTolerance);
 }
 
 TEST_F(GoldenPairs, HolmIsThatOfTheReference) {

@@ -88,7 +88,8 @@ TEST_F(EvaluateTinyWorld, APlaneOnTheToyIsNoiseUnlessTheRunDistrustsIt) {
   nlohmann::json after = Metrics(run);
   EXPECT_EQ(Moved(before, after),
             (Keys{"extraction/machine", "extraction/noise", "extraction/pq", "extraction/rq",
-                  "extraction/pixel_precision"}));
+                  "extraction/pixel_precision", "extraction/ri", "extraction/voi_bits",
+                  "extraction/sc", "extraction/evops"}));
   run.frames[20]["planes"].back()["bad"] = "unstructured";
   EXPECT_EQ(Moved(before, Metrics(run)), Keys{});
 }
@@ -102,7 +103,9 @@ TEST_F(EvaluateTinyWorld, WithoutMasksTheGeometryFindsTheSameTruthAndPixelFigure
             (Keys{"extraction/truth", "extraction/machine", "extraction/correct",
                   "extraction/over", "extraction/under", "extraction/missed",
                   "extraction/noise", "extraction/pq", "extraction/sq", "extraction/rq",
-                  "extraction/pixel_precision", "extraction/pixel_recall"}));
+                  "extraction/pixel_precision", "extraction/pixel_recall",
+                  "extraction/correct_ratio", "extraction/correct_pixel_ratio", "extraction/ri",
+                  "extraction/voi_bits", "extraction/sc", "extraction/evops"}));
   EXPECT_TRUE(after["extraction"].at("pq").is_null());
   EXPECT_TRUE(after["extraction"].contains("normal_deg"));
   EXPECT_THAT(after["rules"]["truth_of_a_frame_plane"].get<std::string>(),

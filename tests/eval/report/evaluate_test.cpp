@@ -43,9 +43,15 @@ TEST_F(EvaluateTinyWorld, ARunThatIsTheTruthScoresPerfectly) {
   EXPECT_EQ(x["truth"], x["machine"]);
   EXPECT_EQ(x["truth"], x["correct"]);
   for (const char* key : {"over", "under", "missed", "noise"}) EXPECT_EQ(x[key], 0.0) << key;
-  for (const char* key : {"pq", "sq", "rq", "pixel_precision", "pixel_recall"}) {
+  for (const char* key : {"pq", "sq", "rq", "pixel_precision", "pixel_recall", "correct_ratio",
+                          "correct_pixel_ratio", "ri", "sc"}) {
     EXPECT_EQ(x[key], 1.0) << key;
   }
+  EXPECT_EQ(x["voi_bits"], 0.0);
+  for (const char* key : {"precision", "recall", "f1", "mean_iou", "mean_dice", "panoptic"})
+    EXPECT_NEAR(x["evops"][key].get<double>(), 1.0, kExact) << key;
+  for (const char* key : {"usr", "osr", "noise", "missed"})
+    EXPECT_EQ(x["evops"][key], 0.0) << key;
   EXPECT_NEAR(x["normal_deg"]["p95"].get<double>(), 0.0, 1e-6);
   EXPECT_NEAR(x["offset_mm"]["p95"].get<double>(), 0.0, kExact_mm);
   for (const char* key : {"precision", "recall", "planes_with_4"}) {
@@ -59,6 +65,9 @@ TEST_F(EvaluateTinyWorld, ARunThatIsTheTruthScoresPerfectly) {
     }
   }
   for (const char* key : {"fp", "fn", "spurious"}) EXPECT_EQ(a["decision"][key], 0) << key;
+  for (const char* key : {"purity", "inverse_purity"})
+    EXPECT_NEAR(a[key].get<double>(), 1.0, kExact) << key;
+  EXPECT_NEAR(a["voi_bits"].get<double>(), 0.0, kExact);
   for (const char* key : {"idf1", "hota", "ass_a", "mota"}) {
     EXPECT_NEAR(a[key].get<double>(), 1.0, kExact) << key;
   }
@@ -99,12 +108,12 @@ TEST_F(EvaluateTinyWorld, ABookPutOnTheDesksMapPlaneMovesAssociationAndMapOnly) 
     return plane["id"] == TinyRun::MapId(TinyWorld::kThinTop);
   }));
   const nlohmann::json after = Metrics(run);
-  EXPECT_EQ(
-      Moved(before, after),
-      (Keys{"association/pair", "association/b_cubed", "association/decision",
-            "association/idf1", "association/hota", "association/ass_a", "association/mota",
-            "association/no_decision", "association/merged_map_planes", "map/planes",
-            "map/matched", "map/merged", "map/area_explained"}));
+  EXPECT_EQ(Moved(before, after),
+            (Keys{"association/pair", "association/b_cubed", "association/decision",
+                  "association/idf1", "association/hota", "association/ass_a",
+                  "association/mota", "association/purity", "association/voi_bits",
+                  "association/no_decision", "association/merged_map_planes", "map/planes",
+                  "map/matched", "map/merged", "map/area_explained"}));
   EXPECT_EQ(after["association"]["merged_map_planes"], 1);
   EXPECT_EQ(after["map"]["merged"], 1);
   EXPECT_EQ(after["association"]["decision"]["fp"], moved_decisions);
@@ -124,6 +133,7 @@ TEST_F(EvaluateTinyWorld, TwoBooksThatSwapIdsForOneFrameCountAsTwoWrongDecisions
   EXPECT_EQ(Moved(before, after),
             (Keys{"association/pair", "association/b_cubed", "association/decision",
                   "association/idf1", "association/hota", "association/ass_a",
+                  "association/purity", "association/inverse_purity", "association/voi_bits",
                   "association/mota", "association/id_switches"}));
   EXPECT_EQ(after["association"]["decision"]["fp"], 2);
   EXPECT_EQ(after["association"]["decision"]["fn"], 2);
@@ -145,11 +155,12 @@ TEST_F(EvaluateTinyWorld, ANewIdForAKnownBookIsMissedByTheGateAndDuplicatesTheMa
   copy["id"] = 777;
   run.map["planes"].push_back(copy);
   const nlohmann::json after = Metrics(run);
-  EXPECT_EQ(Moved(before, after),
-            (Keys{"association/pair", "association/b_cubed", "association/decision",
-                  "association/idf1", "association/hota", "association/ass_a",
-                  "association/mota", "association/id_switches",
-                  "association/split_truth_planes", "map/planes", "map/duplicates"}));
+  EXPECT_EQ(
+      Moved(before, after),
+      (Keys{"association/pair", "association/b_cubed", "association/decision",
+            "association/idf1", "association/hota", "association/ass_a", "association/mota",
+            "association/id_switches", "association/inverse_purity", "association/voi_bits",
+            "association/split_truth_planes", "map/planes", "map/duplicates"}));
   EXPECT_EQ(after["association"]["decision"]["precision"], 1.0);
   EXPECT_EQ(after["association"]["decision"]["fn"], 1);
   EXPECT_EQ(after["association"]["split_truth_planes"], 1);

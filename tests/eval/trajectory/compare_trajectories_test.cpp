@@ -144,6 +144,61 @@ TEST(CompareTrajectories, ErrorsAcrossThePlaneDoNotCountInIt) {
             kRoundOff_m);
 }
 
+/// R = Rz Ry Rx.
+Eigen::Matrix3d FromAngles(const Eigen::Vector3d& angles_rad) {
+  return (Eigen::AngleAxisd(angles_rad.z(), Eigen::Vector3d::UnitZ()) *
+          Eigen::AngleAxisd(angles_rad.y(), Eigen::Vector3d::UnitY()) *
+          Eigen::AngleAxisd(angles_rad.x(), Eigen::Vector3d::UnitX()))
+      .toRotationMatrix();
+}
+
+// A circle in each plane, and an estimate of it with errors that are known in closed form: a step
+// in the plane and a turn about its normal count, the step across and the tilts do not.
+TEST(CompareTrajectories, ErrorsInThePlaneAreThoseOfFlatPoses) {
+  const std::pair<ProjectionPlane, int> planes[] = {
+      {ProjectionPlane::kXy, 2}, {ProjectionPlane::kXz, 1}, {ProjectionPlane::kYz, 0}};
+  for (const auto& [plane, across] : planes) {
+    PoseFile truth, estimate;
+    const Eigen::Vector3d n = Eigen::Vector3d::Unit(across);
+    const Eigen::Vector3d u = Eigen::Vector3d::Unit((across + 1) % 3);
+    const Eigen::Vector3d v = Eigen::Vector3d::Unit((across + 2) % 3);
+    constexpr int kPoses = 100;
+    constexpr double kTurn_rad = 0.02;
+    for (int i = 0; i < kPoses; ++i) {
+      const double a = 2 * M_PI * i / kPoses;
+      StampedPose seen;
+      seen.stamp_s = i / 30.0;
+      seen.T_wc.t = std::cos(a) * u + std::sin(a) * v;
+      Eigen::Vector3d angles = 0.3 * std::sin(a) * n;
+      seen.T_wc.R = FromAngles(angles);
+      truth.poses.push_back(seen);
+      // 3 mm, 4 mm and a turn in the plane, 50 mm and tilts across it.
+      seen.T_wc.t += 0.003 * u - 0.004 * v + 0.05 * std::cos(3 * a) * n;
+      angles += kTurn_rad * n + 0.2 * std::sin(a) * u - 0.1 * std::cos(2 * a) * v;
+      seen.T_wc.R = FromAngles(angles);
+      estimate.poses.push_back(seen);
+    }
+    ComparisonRules rules = With(AlignMode::kNone);
+    rules.plane = plane;
+    const TrajectoryComparison flat = CompareTrajectories(estimate, truth, rules);
+    EXPECT_NEAR(flat.absolute.translation_m->rmse, 0.005, 1e-9 * 0.005);
+    EXPECT_NEAR(flat.absolute.translation_m->max, 0.005, 1e-9 * 0.005);
+    EXPECT_NEAR(flat.absolute.rotation_deg->mean, kTurn_rad * 180 / M_PI, 1e-9);
+    // |E - I| of a turn and a step: two entries each of cos - 1 and sin.
+    const double full = std::sqrt(4 - 4 * std::cos(kTurn_rad) + 0.005 * 0.005);
+    EXPECT_NEAR(flat.absolute.full->rmse, full, 1e-9 * full);
+    // From one pose to the next the constant step and turn cancel but for the turn of the step:
+    // the estimate's motion is the truth's, turned back by the constant turn.
+    const double chord = 2 * std::sin(M_PI / kPoses);
+    const double relative = 2 * std::sin(kTurn_rad / 2) * chord;
+    EXPECT_NEAR(flat.relative.translation_m->rmse, relative, 1e-9 * relative);
+    EXPECT_NEAR(flat.relative.rotation_deg->max, 0.0, 1e-6);
+    EXPECT_GT(CompareTrajectories(estimate, truth, With(AlignMode::kNone))
+                  .absolute.translation_m->rmse,
+              0.03);
+  }
+}
+
 TEST(CompareTrajectories, SaysWhyAStraightPathHasNoAlignmentAndKeepsItsRelativeErrors) {
   PoseFile truth = Walk();
   for (StampedPose& pose : truth.poses) pose.T_wc.t = {pose.stamp_s, 0, 0};

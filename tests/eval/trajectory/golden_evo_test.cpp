@@ -4,10 +4,12 @@
 
 #include <Eigen/LU>
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 
 #include "eval/trajectory/compare_trajectories.h"
+#include "eval/trajectory/match_stamps.h"
 #include "io/json_field.h"
 #include "tests/eval/shared_data.h"
 
@@ -68,6 +70,37 @@ void ExpectMatch(const TrajectoryComparison& ours, const nlohmann::json& files) 
   }
 }
 
+/// What is true of the matched stamps, pair by pair.
+void ExpectPairs(const PoseFile& estimate, const PoseFile& truth, const nlohmann::json& files) {
+  double sum_s = 0.0, max_s = 0.0;
+  std::map<std::size_t, int> truth_used, estimate_used;
+  const auto matches = MatchNearest(truth.poses, estimate.poses);
+  for (const StampMatch& match : matches) {
+    const double dt_s =
+        std::abs(truth.poses[match.truth].stamp_s - estimate.poses[match.estimate].stamp_s);
+    sum_s += dt_s;
+    max_s = std::max(max_s, dt_s);
+    ++truth_used[match.truth];
+    ++estimate_used[match.estimate];
+  }
+  const auto again = [](const std::map<std::size_t, int>& used) {
+    return std::count_if(used.begin(), used.end(), [](const auto& u) { return u.second > 1; });
+  };
+  EXPECT_EQ(again(truth_used), files["ref_indices_used_more_than_once"].get<int>());
+  EXPECT_EQ(again(estimate_used), files["est_indices_used_more_than_once"].get<int>());
+  const double max_expected = files["max_abs_dt"], mean_expected = files["mean_abs_dt"];
+  EXPECT_NEAR(max_s, max_expected, kRelative * max_expected + kFloor);
+  EXPECT_NEAR(sum_s / double(matches.size()), mean_expected,
+              kRelative * mean_expected + kFloor);
+  // A file matched with itself is matched whole.
+  for (const auto& [file, key] :
+       {std::pair{&estimate, "est_path_length_full"}, {&truth, "ref_path_length_full"}}) {
+    const double expected = files[key];
+    EXPECT_NEAR(CompareTrajectories(*file, *file, {}).path_m, expected, kRelative * expected)
+        << key;
+  }
+}
+
 class GoldenEvo : public ::testing::TestWithParam<const char*> {};
 
 TEST_P(GoldenEvo, AgreesOnEveryAbsoluteAndRelativeError) {
@@ -82,6 +115,7 @@ TEST_P(GoldenEvo, AgreesOnEveryAbsoluteAndRelativeError) {
     };
     cases[name] = {read("est"), read("ref")};
     ExpectMatch(CompareTrajectories(cases[name].first, cases[name].second, {}), files);
+    ExpectPairs(cases[name].first, cases[name].second, files);
   }
   for (const char* metric : {"ape", "rpe"}) {
     for (const auto& row : golden[metric]) {
@@ -114,6 +148,12 @@ TEST(GoldenUmeyama, AgreesWhereTheRotationIsDefinedAndRefusesWhereItIsNot) {
       const auto& expected = example[with_scale ? "sim3" : "se3"];
       EXPECT_NEAR(ours->scale, expected["c"].get<double>(), 1e-12);
       EXPECT_NEAR(ours->T_gw.R.determinant(), 1.0, 1e-12);
+      double sum2 = 0.0;
+      for (std::size_t i = 0; i < x.size(); ++i) {
+        const Eigen::Vector3d there = ours->T_gw.R * (ours->scale * x[i]) + ours->T_gw.t;
+        sum2 += (y[i] - there).squaredNorm();
+      }
+      EXPECT_NEAR(std::sqrt(sum2 / double(x.size())), expected["rmse"].get<double>(), 1e-12);
       for (std::size_t row = 0; row < 3; ++row) {
         EXPECT_NEAR(ours->T_gw.t[Eigen::Index(row)], expected["t"][row].get<double>(), 1e-11);
         for (std::size_t col = 0; col < 3; ++col) {
