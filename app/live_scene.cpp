@@ -43,8 +43,9 @@ LiveScene::Made LiveScene::Make(int i) const {
   sim::SimulatedFrame simulated = sim::Record(simulator_, recording_, i);
   Made made;
   made.frame.index = i;
-  made.frame.timestamp_s =
-      sim::PrintedTime(recording_.shots[static_cast<std::size_t>(i)].colour_stamp_s);
+  const sim::Shot& shot = recording_.shots[static_cast<std::size_t>(i)];
+  made.frame.timestamp_s = sim::PrintedTime(shot.colour_stamp_s);
+  made.frame.depth_late_s = sim::PrintedTime(shot.depth_stamp_s) - made.frame.timestamp_s;
   made.frame.bgr = std::move(simulated.colour);
   cv::cvtColor(made.frame.bgr, made.frame.gray, cv::COLOR_BGR2GRAY);
   made.frame.depth_m =

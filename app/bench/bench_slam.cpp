@@ -50,6 +50,7 @@ class PendulumCamera : public slam::FrameSource {
     slam::RecordedFrame frame = frames_.Read(lap % 2 == 0 ? at : frames_.size() - 1 - at);
     frame.index = i;
     frame.timestamp_s = i / fps_;
+    if (lap % 2 != 0) frame.depth_late_s = -frame.depth_late_s;
     return frame;
   }
 

@@ -144,16 +144,16 @@ void DepthClock::Add(const Change& change, Shifts& shifts) const {
   }
 }
 
-void DepthClock::Observe(double timestamp_s, const cv::Mat1f& depth_m,
-                         const std::optional<Pose>& T_cw) {
+void DepthClock::Observe(const Frame& frame, bool tracked) {
+  const double timestamp_s = frame.timestamp_s, depth_s = timestamp_s + frame.depth_late_s;
   // The change since the oldest frame that is near enough.
-  seen_.push_back({timestamp_s, Tiles(depth_m)});
-  while (seen_.front().s < timestamp_s - kMaxStep_s) seen_.pop_front();
+  seen_.push_back({depth_s, Tiles(frame.depth_m)});
+  while (seen_.front().s < depth_s - kMaxStep_s) seen_.pop_front();
   if (seen_.size() > 1) {
     const Change change = Between(seen_.front(), seen_.back());
     if (change.tiles > 0) changes_.push_back(change);
   }
-  if (T_cw) poses_.push_back({timestamp_s, *T_cw});
+  if (tracked) poses_.push_back({timestamp_s, frame.T_cw});
   // Changes to which no more poses will come are added up.
   while (!changes_.empty() && changes_.front().to_s + kMaxLate_s <= timestamp_s) {
     Add(changes_.front(), shifts_);

@@ -9,6 +9,7 @@
 
 #include "slam/geometry/camera.h"
 #include "slam/geometry/pose.h"
+#include "slam/model/frame.h"
 
 namespace slam {
 
@@ -25,12 +26,11 @@ class DepthClock {
  public:
   explicit DepthClock(const Camera& camera);
 
-  /// Takes in the next frame, in the order of time.
-  /// @param depth_m  planar z, metres; 0 = none
-  /// @param T_cw  none: the frame was not tracked
-  void Observe(double timestamp_s, const cv::Mat1f& depth_m, const std::optional<Pose>& T_cw);
+  /// Takes in the next frame, in the order of time: its depth at the time that its stamp says, and
+  /// its pose, if it was tracked, at the time of its colour.
+  void Observe(const Frame& frame, bool tracked);
 
-  /// By how much later than its colour depth was taken: seconds, negative: earlier, at most a
+  /// By how much later than its stamp says depth was taken: seconds, negative: earlier, at most a
   /// second. None when the motion does not say surely that it is not 0.
   std::optional<double> Late_s() const;
 

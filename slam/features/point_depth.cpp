@@ -31,4 +31,19 @@ double DepthAt(const cv::Mat1f& depth_m, const Eigen::Vector2d& u_px,
   return median;
 }
 
+double DepthFrom(const Pose& T_dc, const cv::Mat1f& depth_m, const Camera& camera,
+                 const Eigen::Vector2d& u_px, const PointDepthConfig& config) {
+  // At the same pixel the depth image shows the point or one near it: enough to say where in that
+  // image the point is.
+  const Eigen::Vector3d ray = camera.Backproject(u_px, 1.0);
+  const double about_m = DepthAt(depth_m, camera.ProjectDistorted(ray), config);
+  if (!(about_m > 0)) return 0.0;
+  const Eigen::Vector3d about_d = T_dc * (about_m * ray);
+  if (!(about_d.z() > kMinVisibleDepth_m)) return 0.0;
+  // Its depth there, and how far along the ray of now it has that depth.
+  const double there_m = DepthAt(depth_m, camera.ProjectDistorted(about_d), config);
+  if (!(there_m > 0)) return 0.0;
+  return (there_m - T_dc.t.z()) / T_dc.R.row(2).dot(ray);
+}
+
 }  // namespace slam

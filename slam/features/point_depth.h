@@ -4,6 +4,7 @@
 #include <opencv2/core/mat.hpp>
 
 #include "slam/base/field_visitor.h"
+#include "slam/geometry/camera.h"
 
 namespace slam {
 
@@ -32,5 +33,11 @@ inline void VisitFields(PointDepthConfig& c, FieldVisitor& v) {
 /// may belong to either.
 double DepthAt(const cv::Mat1f& depth_m, const Eigen::Vector2d& u_px,
                const PointDepthConfig& config);
+
+/// The same of a camera that was elsewhere when depth was measured: planar z, as seen now, of the
+/// point that shows now at the undistorted pixel `u_px`. 0 also where depth does not show it.
+/// @param T_dc  from the camera of now to that of the depth image; a small motion
+double DepthFrom(const Pose& T_dc, const cv::Mat1f& depth_m, const Camera& camera,
+                 const Eigen::Vector2d& u_px, const PointDepthConfig& config);
 
 }  // namespace slam

@@ -105,7 +105,8 @@ std::vector<int> Shares(const FeatureScale& scale, std::size_t octaves, int coun
 
 PointFeature MakeFeature(const cv::KeyPoint& corner, const Descriptor& descriptor, int octave,
                          const PyramidImage& image, const cv::Mat1f& depth_m,
-                         const Camera& camera, const PointFeatureConfig& config) {
+                         const Camera& camera, const PointFeatureConfig& config,
+                         const Pose& T_dc) {
   // Pixel centres are integers in every octave; the half pixel keeps them aligned.
   const Eigen::Vector2d recorded_px((corner.pt.x + 0.5) * image.scale_u - 0.5,
                                     (corner.pt.y + 0.5) * image.scale_v - 0.5);
@@ -116,7 +117,9 @@ PointFeature MakeFeature(const cv::KeyPoint& corner, const Descriptor& descripto
   feature.descriptor = descriptor;
   feature.on_edge = !TellsItsPlace(image.padded, cvRound(corner.pt.x) + kPyramidPadding_px,
                                    cvRound(corner.pt.y) + kPyramidPadding_px);
-  if (!depth_m.empty()) feature.depth_m = DepthAt(depth_m, recorded_px, config.depth);
+  if (!depth_m.empty()) {
+    feature.depth_m = DepthFrom(T_dc, depth_m, camera, feature.u_px, config.depth);
+  }
   if (feature.depth_m > 0) {
     feature.right_u_px = config.scale.RightU_px(feature.u_px.x(), feature.depth_m);
   }
@@ -127,7 +130,8 @@ PointFeature MakeFeature(const cv::KeyPoint& corner, const Descriptor& descripto
 
 std::vector<PointFeature> ExtractPointFeatures(const cv::Mat1b& gray, const cv::Mat1f& depth_m,
                                                const Camera& camera,
-                                               const PointFeatureConfig& config) {
+                                               const PointFeatureConfig& config,
+                                               const Pose& T_dc) {
   Require(gray.cols == camera.width && gray.rows == camera.height,
           "ExtractPointFeatures: the image has not the camera's size");
   Require(depth_m.empty() || depth_m.size() == gray.size(),
@@ -151,7 +155,7 @@ std::vector<PointFeature> ExtractPointFeatures(const cv::Mat1b& gray, const cv::
     const auto descriptors = DescribePoints(octaves[o], corners);
     for (std::size_t i = 0; i < corners.size(); ++i) {
       features.push_back(MakeFeature(corners[i], descriptors[i], static_cast<int>(o),
-                                     octaves[o], depth_m, camera, config));
+                                     octaves[o], depth_m, camera, config, T_dc));
     }
   }
   return features;

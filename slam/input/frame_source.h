@@ -7,10 +7,11 @@ namespace slam {
 /// One frame as recorded: what a camera gives, and no more.
 struct RecordedFrame {
   int index = 0;
-  double timestamp_s = 0.0;  ///< when the colour image was taken
-  cv::Mat3b bgr;             ///< 8-bit, OpenCV's order of channels
-  cv::Mat1b gray;            ///< 8-bit, Rec. 601 luma of bgr
-  cv::Mat1f depth_m;         ///< planar z, metres; 0 = no measurement
+  double timestamp_s = 0.0;   ///< when the colour image was taken
+  double depth_late_s = 0.0;  ///< depth was measured so much later; negative: earlier
+  cv::Mat3b bgr;              ///< 8-bit, OpenCV's order of channels
+  cv::Mat1b gray;             ///< 8-bit, Rec. 601 luma of bgr
+  cv::Mat1f depth_m;          ///< planar z, metres; 0 = no measurement
 };
 
 /// Where frames come from: a folder, or a camera in the same process.

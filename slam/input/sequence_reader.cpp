@@ -20,6 +20,7 @@ RecordedFrame SequenceReader::Decode(int i) const {
   RecordedFrame frame;
   frame.index = i;
   frame.timestamp_s = entry(i).timestamp_s;
+  frame.depth_late_s = entry(i).depth_timestamp_s - entry(i).timestamp_s;
   frame.bgr = images_->Bgr(i);
   cv::cvtColor(frame.bgr, frame.gray, cv::COLOR_BGR2GRAY);
   frame.depth_m = images_->Depth(i);

@@ -75,12 +75,18 @@ struct PointPlaneMatch {
 
 /// One RGB-D frame on its way through the stages (A) to (F).
 struct Frame {
-  int index = 0;  ///< count of frames, from 0
-  double timestamp_s = 0.0;
+  int index = 0;             ///< count of frames, from 0
+  double timestamp_s = 0.0;  ///< when the colour image was taken
 
   // (A) input
-  cv::Mat1b gray;     ///< 8-bit, as recorded (distorted)
-  cv::Mat1f depth_m;  ///< planar z, metres; 0 = no measurement, never NaN
+  cv::Mat1b gray;             ///< 8-bit, as recorded (distorted)
+  cv::Mat1f depth_m;          ///< planar z, metres; 0 = no measurement, never NaN
+  double depth_late_s = 0.0;  ///< depth was measured so much later; negative: earlier
+  /// The camera's speed as the frames before say: T_cw <- Exp(dt speed) T_cw in the next dt seconds.
+  Vector6d speed = Vector6d::Zero();
+
+  /// From the camera of T_cw to where it was when depth was measured.
+  Pose T_dc() const { return Exp(depth_late_s * speed); }
 
   // (B) extraction, (C) plane processing
   std::vector<PointFeature> features;

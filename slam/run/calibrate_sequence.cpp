@@ -44,6 +44,7 @@ Frame FrameOfRecord(const RecordedFrame& recorded, int index) {
   Frame frame;
   frame.index = index;
   frame.timestamp_s = recorded.timestamp_s;
+  frame.depth_late_s = recorded.depth_late_s;
   frame.gray = recorded.gray;
   frame.depth_m = recorded.depth_m;
   return frame;

@@ -140,11 +140,11 @@ class SequenceRun {
     frame_ = Frame{};
     frame_.index = recorded.index;
     frame_.timestamp_s = recorded.timestamp_s;
+    frame_.depth_late_s = recorded.depth_late_s;
     frame_.gray = recorded.gray;
     frame_.depth_m = recorded.depth_m;
     report_ = tracker_.TrackFrame(frame_, recorded.bgr);
-    depth_clock_.Observe(frame_.timestamp_s, frame_.depth_m,
-                         report_.tracked ? std::optional(frame_.T_cw) : std::nullopt);
+    depth_clock_.Observe(frame_, report_.tracked);
     if (report_.tracked && camera_check_.See(frame_) && options_.warn) {
       options_.warn(camera_check_.Warning());
     }

@@ -9,6 +9,7 @@
 #include "slam/associate/associate_planes.h"
 #include "slam/associate/point_plane.h"
 #include "slam/base/index.h"
+#include "slam/faces/move_planes.h"
 #include "slam/faces/process_planes.h"
 #include "slam/features/point_features.h"
 #include "slam/mapping/keyframe_planes.h"
@@ -81,6 +82,7 @@ void Tracker::Finish(MappingWorker::Waiting waiting) {
 
 void Tracker::ExtractInformation(Frame& frame, const cv::Mat3b& bgr, TrackReport& report) {
   ModuleTimes& times = report.times;
+  frame.speed = points_.Speed(frame.timestamp_s);
   // Boxes, planes and points side by side: none writes what another reads.
   const auto detect = [&] {
     const Stopwatch watch(times[Module::kOd]);
@@ -101,8 +103,8 @@ void Tracker::ExtractInformation(Frame& frame, const cv::Mat3b& bgr, TrackReport
   }
   {
     const Stopwatch watch(times[Module::kOrb]);
-    frame.features =
-        ExtractPointFeatures(frame.gray, frame.depth_m, camera_, config_.point_features);
+    frame.features = ExtractPointFeatures(frame.gray, frame.depth_m, camera_,
+                                          config_.point_features, frame.T_dc());
   }
   frame.map_points.assign(frame.features.size(), kNone);
   if (!plane_extractor_) return;
@@ -122,6 +124,7 @@ void Tracker::ProcessFramePlanes(Frame& frame, TrackReport& report) const {
   if (variant_ != Variant::kNoProcessingNoAssociation) {
     ProcessPlanes(frame, camera_, config_.sensor, config_.plane_processing);
   }
+  MovePlanes(Inverse(frame.T_dc()), frame.planes);
   frame.plane_matches.assign(frame.planes.size(), {});
 }
 

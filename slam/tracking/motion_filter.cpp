@@ -61,6 +61,11 @@ std::optional<UncertainPose> MotionFilter::Predict(double timestamp_s) const {
   return UncertainPose{state.T_cw, state.covariance.topLeftCorner<6, 6>()};
 }
 
+Vector6d MotionFilter::Speed(double timestamp_s) const {
+  if (!known_ || !(timestamp_s > known_->timestamp_s)) return Vector6d::Zero();
+  return At(timestamp_s).speed;
+}
+
 void MotionFilter::Observe(double timestamp_s, const Pose& T_cw, const Matrix6d& information) {
   if (!known_) {
     // The first pose is the world; nothing is known of the speed but that a hand holds it.

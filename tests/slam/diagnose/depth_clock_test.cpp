@@ -24,7 +24,7 @@ Pose HandAt(double s) {
 }
 
 /// Depth with noise of 1.4 mm at a metre.
-cv::Mat1f DepthFrom(const Pose& T_cw, int frame) {
+cv::Mat1f DepthSeen(const Pose& T_cw, int frame) {
   static const TexturedCorner corner;
   cv::Mat1f depth_m = corner.See(ClockCamera(), T_cw, frame).depth_m;
   Random random{7, static_cast<std::uint64_t>(frame)};
@@ -39,6 +39,7 @@ struct Watched {
   int frames = 90;
   double speed = 1.0;            ///< of the hand
   bool lost_in_between = false;  ///< for 20 frames
+  double stamped_s = 0.0;        ///< of the delay, what the stamps say
 };
 
 DepthClock Watch(const Watched& watched) {
@@ -46,8 +47,12 @@ DepthClock Watch(const Watched& watched) {
   for (int i = 0; i < watched.frames; ++i) {
     const double s = i / 30.0;
     const bool lost = watched.lost_in_between && i >= 30 && i < 50;
-    clock.Observe(100.0 + s, DepthFrom(HandAt(watched.speed * (s + watched.late_s)), i),
-                  lost ? std::nullopt : std::optional(HandAt(watched.speed * s)));
+    Frame frame;
+    frame.timestamp_s = 100.0 + s;
+    frame.depth_m = DepthSeen(HandAt(watched.speed * (s + watched.late_s)), i);
+    frame.depth_late_s = watched.stamped_s;
+    frame.T_cw = HandAt(watched.speed * s);
+    clock.Observe(frame, !lost);
   }
   return clock;
 }
@@ -72,6 +77,13 @@ TEST(DepthClock, IsSilentWhereTimeStampsCannotBePairedBetter) {
 }
 
 TEST(DepthClock, IsSilentAboutDepthInTime) { EXPECT_FALSE(Watch({}).Late_s()); }
+
+TEST(DepthClock, IsSilentAboutADelayThatTheStampsTell) {
+  EXPECT_FALSE(Watch({.late_s = 0.1, .stamped_s = 0.1}).Late_s());
+  const DepthClock clock = Watch({.late_s = 0.1, .stamped_s = -0.1});
+  ASSERT_TRUE(clock.Late_s());
+  EXPECT_NEAR(*clock.Late_s(), 0.2, 0.005);
+}
 
 TEST(DepthClock, KnowsNothingWhileTheCameraStands) {
   EXPECT_FALSE(Watch({.late_s = 0.5, .speed = 0.0}).Late_s());

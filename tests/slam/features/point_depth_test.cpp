@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include "slam/geometry/plane.h"
+
 namespace slam {
 namespace {
 
@@ -43,6 +45,48 @@ TEST(PointDepth, IsReadAtTheImageBorder) {
 TEST(PointDepth, IsNoneBeyondTheTrustedRange) {
   EXPECT_EQ(DepthAt(cv::Mat1f(5, 5, 0.1f), {2, 2}, {}), 0.0);
   EXPECT_EQ(DepthAt(cv::Mat1f(5, 5, 9.0f), {2, 2}, {}), 0.0);
+}
+
+/// Depth of a plane as a pinhole camera sees it.
+cv::Mat1f DepthOf(const Plane& pi_c, const Camera& camera) {
+  cv::Mat1f depth_m(camera.height, camera.width);
+  for (int v = 0; v < camera.height; ++v) {
+    for (int u = 0; u < camera.width; ++u) {
+      const Eigen::Vector3d ray = camera.Backproject(Eigen::Vector2d(u, v), 1.0);
+      depth_m(v, u) = static_cast<float>(-pi_c.d / pi_c.n.dot(ray));
+    }
+  }
+  return depth_m;
+}
+
+TEST(DepthFrom, IsWhatTheCameraOfNowSeesOfASlantedPlane) {
+  // Half a second's hand: 15 mm and 1.5 degrees between the colour image and the depth image.
+  const Camera camera = TumCamera("tum3");
+  const Pose T_dc{ExpSo3({0.01, -0.02, 0.015}), {0.004, -0.006, 0.013}};
+  const Plane pi_c{Eigen::Vector3d(0.3, -0.5, -0.8).normalized(), 1.2};
+  const cv::Mat1f here_m = DepthOf(pi_c, camera),
+                  there_m = DepthOf(Transform(T_dc, pi_c), camera);
+  for (const Eigen::Vector2d& u_px : {Eigen::Vector2d(100, 80), {320, 240}, {570, 400}}) {
+    const double seen_m = DepthFrom(T_dc, there_m, camera, u_px, {});
+    const double truth_m = DepthAt(here_m, u_px, {});
+    // The depth image is read at whole pixels: half of one, 0.5 mm, on this plane.
+    EXPECT_NEAR(seen_m, truth_m, 2e-3);
+    EXPECT_GT(std::abs(DepthAt(there_m, u_px, {}) - truth_m), 8e-3);
+  }
+}
+
+TEST(DepthFrom, IsThatOfThePixelWhereTheCameraStands) {
+  Camera camera = TumCamera("tum1");  // with a lens
+  const cv::Mat1f depth_m = DepthOf({-Eigen::Vector3d::UnitZ(), 1.5}, camera);
+  EXPECT_NEAR(DepthFrom({}, depth_m, camera, {200, 300}, {}), 1.5, 1e-6);
+}
+
+TEST(DepthFrom, IsNoneOutsideOfTheDepthImage) {
+  const Camera camera = TumCamera("tum3");
+  const cv::Mat1f depth_m = DepthOf({-Eigen::Vector3d::UnitZ(), 1.5}, camera);
+  const Pose T_dc{ExpSo3({0, 0.1, 0}), Eigen::Vector3d::Zero()};  // 52 px
+  EXPECT_EQ(DepthFrom(T_dc, depth_m, camera, {620, 240}, {}), 0.0);
+  EXPECT_GT(DepthFrom(T_dc, depth_m, camera, {20, 240}, {}), 0.0);
 }
 
 }  // namespace

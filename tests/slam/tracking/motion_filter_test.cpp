@@ -33,6 +33,17 @@ TEST(MotionFilter, GoesOnAtTheSpeedThatWasSeen) {
   EXPECT_THAT(filter.Predict(30 * kFrame_s)->T_cw, PoseNear(T_cw, 1e-3, 1e-3));
 }
 
+TEST(MotionFilter, SaysTheSpeed) {
+  MotionFilter filter{{}};
+  EXPECT_TRUE(filter.Speed(0.0).isZero());
+  const Vector6d speed = (Vector6d() << 0.1, 0, -0.3, 0, 0.2, 0).finished();
+  for (int i = 0; i < 30; ++i) filter.Observe(i * kFrame_s, Exp(i * kFrame_s * speed), kAll);
+  EXPECT_LT((filter.Speed(30 * kFrame_s) - speed).norm(), 0.1 * speed.norm());  // it loses 7 %
+  EXPECT_LT(filter.Speed(3.0).norm(), 0.1 * speed.norm());
+  filter.Forget();
+  EXPECT_TRUE(filter.Speed(3.0).isZero());
+}
+
 TEST(MotionFilter, SaysHowFarAHandCanHaveGone) {
   // 4,000 hands, in steps of a millisecond, of which nothing is seen after the first frame.
   const MotionFilterConfig config;
