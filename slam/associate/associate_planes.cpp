@@ -65,11 +65,17 @@ std::vector<AdmissiblePair> AdmissiblePairs(const PairTable& pairs,
                                             const AssociationConfig& config) {
   std::vector<AdmissiblePair> admissible;
   for (std::size_t f = 0; f < pairs.size(); ++f) {
+    // What drift costs a landmark that comes back is no advantage of a candidate.
+    double drift_cost = 0.0;
+    for (const PairEvidence& pair : pairs[f]) {
+      if (pair.verdict == PairVerdict::kPossible && !pair.on_trial)
+        drift_cost = std::max(drift_cost, pair.drift_cost);
+    }
     for (const PairEvidence& pair : pairs[f]) {
       if (pair.verdict != PairVerdict::kPossible) continue;
       if (pair.on_trial && IsExcluded(pair, pairs[f], duplicates)) continue;
       // To be believed before a landmark, a candidate must be clearly nearer.
-      const double handicap = pair.on_trial ? config.min_margin : 0.0;
+      const double handicap = pair.on_trial ? config.min_margin + drift_cost : 0.0;
       admissible.push_back({static_cast<int>(f), pair.map_plane, pair.Cost() + handicap,
                             pair.on_trial, pair.was_seen});
     }
@@ -175,10 +181,12 @@ PlaneAssociation IntegratedRule(const Frame& frame, const Map& map, const Camera
   // What fits beyond doubt corrects the predicted pose, and all pairs are weighed again there.
   PlaneAssociation out;
   PairRefusals before_correction;  // not counted: these pairs are asked again
-  UncertainPose pose = PredictedPose(frame, config);
-  PairTable pairs = WeighPairs(frame, map, pose, camera, config, before_correction);
-  pose = CorrectPrediction(pose, frame, map, PairsBeyondDoubt(frame, pairs), config);
-  pairs = WeighPairs(frame, map, pose, camera, config, out.refused);
+  const UncertainPose predicted = PredictedPose(frame, config);
+  PairTable pairs =
+      WeighPairs(frame, map, predicted, predicted, camera, config, before_correction);
+  const UncertainPose pose =
+      CorrectPrediction(predicted, frame, map, PairsBeyondDoubt(frame, pairs), config);
+  pairs = WeighPairs(frame, map, pose, predicted, camera, config, out.refused);
   TestRanks(frame, map, pose.T_cw, camera, config, pairs);
 
   // All planes of the frame are assigned together; what refused a pair is counted.

@@ -3,6 +3,7 @@
 #include <Eigen/Cholesky>
 
 #include "slam/base/index.h"
+#include "slam/model/map_queries.h"
 #include "slam/pose/factors/plane.h"
 #include "slam/pose/plane_constraints.h"
 #include "slam/pose/robust.h"
@@ -41,6 +42,14 @@ UncertainPose PredictedPose(const Frame& frame, const AssociationConfig& config)
   pose.covariance.diagonal() +=
       Variances(frame.bend_ratio * PlaneDepth_m(frame), frame.bend_ratio);
   return pose;
+}
+
+int LinksTo(const MapPlane& landmark, const Map& map) {
+  return KeyframesAfter(map, landmark.last_frame);
+}
+
+UncertainPose WithDrift(const UncertainPose& pose, const UncertainPose& predicted, int links) {
+  return {pose.T_cw, pose.covariance + links * predicted.covariance};
 }
 
 UncertainPose CorrectPrediction(const UncertainPose& predicted, const Frame& frame,

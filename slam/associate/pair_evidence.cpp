@@ -4,6 +4,7 @@
 #include <cmath>
 #include <optional>
 
+#include "slam/associate/correct_prediction.h"
 #include "slam/associate/plane_overlap.h"
 #include "slam/associate/plane_samples.h"
 #include "slam/associate/projected_box.h"
@@ -92,16 +93,18 @@ double FragmentRatio(const AssociationConfig& config) {
 }
 
 PairTable WeighPairs(const Frame& frame, const Map& map, const UncertainPose& pose,
-                     const Camera& camera, const AssociationConfig& config,
-                     PairRefusals& refused) {
+                     const UncertainPose& predicted, const Camera& camera,
+                     const AssociationConfig& config, PairRefusals& refused) {
   PairTable pairs(frame.planes.size());
   for (const MapPlane& m : map.planes) {
     if (m.status == LandmarkStatus::kMerged) continue;
+    const int links = LinksTo(m, map);
+    const UncertainPose drifted = WithDrift(pose, predicted, links);
     std::optional<MapPlaneView> view;  // costs more than the parameters: only where they agree
     for (std::size_t f = 0; f < frame.planes.size(); ++f) {
       const FramePlane& plane = frame.planes[f];
       if (!CanBeMatched(plane)) continue;
-      const PlaneComparison comparison = ComparePlanes(plane, m, pose, config);
+      const PlaneComparison comparison = ComparePlanes(plane, m, drifted, config);
       if (!(comparison.angle_rad < config.gates.max_normal_angle_rad)) {  // eq6
         refused.Add(PairRefusal::kNormalAngle);
         continue;
@@ -114,6 +117,10 @@ PairTable WeighPairs(const Frame& frame, const Map& map, const UncertainPose& po
         view = {ViewMapPlane(m, frame, pose.T_cw, camera), ProjectedBox(m, pose.T_cw, camera)};
       }
       pairs[f].push_back(Weigh(frame, plane, m, comparison, *view, pose.T_cw, config));
+      // What is known less well fits more: the likelihood is divided among all of that.
+      pairs[f].back().links = links;
+      pairs[f].back().drift_cost =
+          comparison.log_spread - ComparePlanes(plane, m, pose, config).log_spread;
     }
   }
   return pairs;
@@ -154,7 +161,7 @@ std::vector<std::pair<int, int>> PairsBeyondDoubt(const Frame& frame, const Pair
       ++competitors;
     }
     if (competitors != 1 || only->verdict != PairVerdict::kPossible) continue;
-    if (only->overlap > kMinOverlap) {
+    if (only->overlap > kMinOverlap && only->links == 0) {
       certain.emplace_back(static_cast<int>(f), only->map_plane);
     }
   }

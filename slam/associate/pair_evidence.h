@@ -22,16 +22,20 @@ enum class PairVerdict {
 struct PairEvidence {
   int map_plane = kNone;  ///< id
   bool on_trial = false;  ///< the map plane is a candidate
+  int links = 0;          ///< keyframes since the map plane was last seen
   PairVerdict verdict = PairVerdict::kRefused;
   PairRefusal refusal = PairRefusal::kCost;  ///< why the pair is not possible
   double parameter_cost = 0.0;               ///< chi-square of offset and slopes
+  double drift_cost = 0.0;  ///< log of how many times as much fits since it drifted
   double overlap_cost = 0.0, class_cost = 0.0, box_cost = 0.0;
   double overlap = 0.0;    ///< share of the smaller footprint, [0, 1]
   int landed = 0;          ///< points of the map plane that land on the frame plane's pixels
   bool was_seen = false;   ///< points of the map plane cover most of the frame plane
   bool extension = false;  ///< no overlap, but one surface may go on from the other
 
-  double Cost() const { return parameter_cost + overlap_cost + class_cost + box_cost; }
+  double Cost() const {
+    return parameter_cost + drift_cost + overlap_cost + class_cost + box_cost;
+  }
 };
 
 /// A segment that holds so many times less of a landmark than can be seen of it is a fragment.
@@ -42,9 +46,10 @@ using PairTable = std::vector<std::vector<PairEvidence>>;
 
 /// Weighs every frame plane that can be matched against every surface of the map that its
 /// parameters do not rule out at once; those are counted in `refused`.
+/// @param predicted  the pose before it was corrected: what a keyframe's drift is like
 PairTable WeighPairs(const Frame& frame, const Map& map, const UncertainPose& pose,
-                     const Camera& camera, const AssociationConfig& config,
-                     PairRefusals& refused);
+                     const UncertainPose& predicted, const Camera& camera,
+                     const AssociationConfig& config, PairRefusals& refused);
 
 /// The rank test (eq9 to eq12) puts in doubt the possible pairs of little overlap whose points
 /// are distributed otherwise. A pair with too few points is not tested.
@@ -52,7 +57,8 @@ void TestRanks(const Frame& frame, const Map& map, const Pose& T_cw, const Camer
                const AssociationConfig& config, PairTable& pairs);
 
 /// (frame plane, landmark) that fit, overlap by half, and have no competitor on the frame
-/// plane's side: the landmarks by which a predicted pose can be corrected.
+/// plane's side: the landmarks by which a predicted pose can be corrected. One that was last seen
+/// some keyframes ago shows the drift since then, and no error of the pose.
 std::vector<std::pair<int, int>> PairsBeyondDoubt(const Frame& frame, const PairTable& pairs);
 
 }  // namespace slam

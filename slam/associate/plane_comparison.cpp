@@ -1,6 +1,7 @@
 #include "slam/associate/plane_comparison.h"
 
 #include <Eigen/Cholesky>
+#include <Eigen/LU>
 #include <cmath>
 
 namespace slam {
@@ -62,6 +63,7 @@ PlaneComparison Compare(const Plane& pi, const Eigen::Vector3d& x, const Plane& 
   const Eigen::Vector2d slope = s > 0 ? Eigen::Vector2d(sine * (out.angle_rad / s)) : sine;
   const Eigen::Vector3d r(offset_m, slope.x(), slope.y());
   out.chi2 = r.dot(covariance.ldlt().solve(r));
+  out.log_spread = std::log(covariance.determinant());
   return out;
 }
 

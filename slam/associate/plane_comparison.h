@@ -11,7 +11,8 @@ namespace slam {
 struct PlaneComparison {
   double angle_rad = 0.0;  ///< between the oriented normals
   double offset_sigma_m = 0.0;
-  double chi2 = 0.0;  ///< chi-square of offset and two slopes: 3 degrees of freedom
+  double chi2 = 0.0;        ///< chi-square of offset and two slopes: 3 degrees of freedom
+  double log_spread = 0.0;  ///< logarithm of their covariance's determinant
 };
 
 /// Compares where the patch is: height and slopes of the measured plane over the map plane at

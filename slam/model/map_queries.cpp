@@ -39,6 +39,13 @@ Pose KeyframePose(const Map& map, int keyframe) {
   return T_ck * k->T_cw;
 }
 
+int KeyframesAfter(const Map& map, int frame_index) {
+  const auto first = std::upper_bound(
+      map.keyframes.begin(), map.keyframes.end(), frame_index,
+      [](int index, const Keyframe& keyframe) { return index < keyframe.frame_index; });
+  return static_cast<int>(map.keyframes.end() - first);
+}
+
 std::vector<MatchedPoint> MatchedPoints(const Frame& frame, const Map& map) {
   std::vector<MatchedPoint> matched;
   const std::size_t count = std::min(frame.features.size(), frame.map_points.size());

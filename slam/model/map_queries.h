@@ -20,6 +20,9 @@ bool StepLiesBetween(const MapPlane& one, const MapPlane& other);
 /// Pose of a keyframe, whether culled or not.
 Pose KeyframePose(const Map& map, int keyframe);
 
+/// Number of keyframes, culled ones among them, that were taken after the frame of this index.
+int KeyframesAfter(const Map& map, int frame_index);
+
 /// A feature of a frame and the map point that it was matched to.
 struct MatchedPoint {
   std::size_t feature;

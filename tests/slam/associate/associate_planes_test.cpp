@@ -2,8 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <numeric>
 
+#include "slam/associate/correct_prediction.h"
+#include "slam/associate/pair_evidence.h"
 #include "slam/mapping/plane_update.h"
 #include "tests/support/map_surfaces.h"
 #include "tests/support/plane_world.h"
@@ -81,6 +84,79 @@ TEST(PlaneAssociation, CorrectsAPoseThatIsOffByTheStepItself) {
   // Eight millimetres of error along the normal would turn the desk into the book's top.
   ExpectAllRight(TwoViews(DeskWithBook(0.008, "book"),
                           {.pose_sigma_m = 0.004, .pose_sigma_rad = 0.002}, {}));
+}
+
+/// The map's keyframes of so many frames, one each.
+void AddKeyframes(Map& map, int frames) {
+  for (int i = 0; i < frames; ++i) {
+    Keyframe keyframe;
+    keyframe.id = keyframe.frame_index = i;
+    map.keyframes.push_back(keyframe);
+  }
+}
+
+constexpr int kKeyframes = 20;
+
+struct Return {
+  Map map;
+  Frame frame;
+};
+
+/// A desk that was mapped 20 keyframes ago and last seen this many ago, and a view of it by a camera
+/// that is off along its normal.
+Return ReturnTo(int keyframes_since_seen, double off_m) {
+  PlaneWorld world;
+  world.Add({0, 0, 0}, {0.3, 0, 0}, {0, 0.2, 0}, "");
+  const Camera camera = SmallCamera();
+  Return out;
+  SeenWorld first = See(world, kFirst, camera, {}, Random{1});
+  UpdatePlanes(first.frame, out.map, camera, {}, SmallImages());
+  AddKeyframes(out.map, kKeyframes + 1);
+  Landmarks(out.map)[0]->last_frame = kKeyframes - keyframes_since_seen;
+  out.frame = See(world, kSecond, camera, {}, Random{2}).frame;
+  out.frame.index = kKeyframes + 1;
+  out.frame.T_cw.t += off_m * out.frame.planes[0].pi_c.n;
+  return out;
+}
+
+TEST(PlaneAssociation, RecognisesASurfaceThatComesBackAfterThePoseHasDrifted) {
+  const auto decision = [](int keyframes_since_seen) {
+    const Return r = ReturnTo(keyframes_since_seen, 0.045);
+    return AssociatePlanes(r.frame, r.map, SmallCamera(), {}).matches[0].decision;
+  };
+  EXPECT_EQ(decision(kKeyframes), PlaneDecision::kMatched);
+  // The same error is none of the pose where the landmark was seen just now.
+  EXPECT_EQ(decision(0), PlaneDecision::kUnmatched);
+  EXPECT_EQ(decision(1), PlaneDecision::kUnmatched);
+}
+
+TEST(PlaneAssociation, ChargesALandmarkForHowMuchMoreFitsItSinceItWasSeen) {
+  const auto cost = [](int keyframes_since_seen) {
+    const Return r = ReturnTo(keyframes_since_seen, 0.0);
+    const UncertainPose pose = PredictedPose(r.frame, {});
+    PairRefusals refused;
+    const PairTable pairs = WeighPairs(r.frame, r.map, pose, pose, SmallCamera(), {}, refused);
+    return pairs.at(0).at(0).Cost() - pairs.at(0).at(0).parameter_cost;
+  };
+  const double seen_now = cost(0), after_5 = cost(5) - seen_now, after_20 = cost(20) - seen_now;
+  // Of 3 degrees of freedom each fits sqrt(1 + links) as much, at most.
+  EXPECT_GT(after_5, 0.5 * 3 * std::log(6.0));
+  EXPECT_LT(after_5, 3 * std::log(6.0));
+  EXPECT_GT(after_20, after_5);
+  EXPECT_LT(after_20, 3 * std::log(21.0));
+}
+
+TEST(PlaneAssociation, CorrectsThePoseByLandmarksAloneThatNoDriftLiesBetween) {
+  Frame frame;
+  frame.planes.resize(1);
+  PairEvidence pair;
+  pair.map_plane = 7;
+  pair.verdict = PairVerdict::kPossible;
+  pair.overlap = 0.9;
+  using Pairs = std::vector<std::pair<int, int>>;
+  EXPECT_EQ(PairsBeyondDoubt(frame, {{pair}}), Pairs({{0, 7}}));
+  pair.links = 1;
+  EXPECT_EQ(PairsBeyondDoubt(frame, {{pair}}), Pairs{});
 }
 
 TEST(PlaneAssociation, ByParametersAloneTakesTheBookForTheDeskOrTheDeskForTheBook) {

@@ -7,6 +7,7 @@
 
 #include "slam/associate/correct_prediction.h"
 #include "tests/support/map_surfaces.h"
+#include "tests/support/plane_world.h"
 
 namespace slam {
 namespace {
@@ -85,6 +86,36 @@ TEST(PlaneEvidence, ExplainsWhatAPoseErrorOfOneSigmaDoesAlongEachOfItsSixDirecti
     pose.T_cw = Exp(kSigma * Vector6d::Unit(k)) * truth_cw;
     pose.covariance(k, k) = kSigma * kSigma;
     EXPECT_NEAR(ComparePlanes(f, m, pose, TinyFloors()).chi2, 1.0, 0.06) << k;
+  }
+}
+
+TEST(PlaneEvidence, ExplainsTheDriftOfAsManyLinksAsLieBetween) {
+  // Each link errs at random, as its covariance says. What the camera measures is exact.
+  constexpr int kDraws = 500;
+  MapPlane m;
+  m.pi_w.n = Eigen::Vector3d(0.3, -0.2, -0.9).normalized();
+  m.centroid_w = {0.4, 0.3, 2.0};
+  m.pi_w.d = -m.pi_w.n.dot(m.centroid_w);
+  AddObservation(m.estimate, m.pi_w, m.centroid_w, 1e-6, 1e-6, 1.0);
+  const Pose truth_cw{ExpSo3({0.1, 0.3, -0.2}), {0.2, -0.1, 0.1}};
+  const FramePlane f = PatchAt(truth_cw * m.centroid_w, truth_cw.R * m.pi_w.n, 1e-6, 1e-6);
+  const Vector6d sigmas = (Vector6d() << 4, 2, 3, 0.5, 1, 2).finished() * 1e-4;
+  UncertainPose predicted;
+  predicted.covariance = sigmas.cwiseAbs2().asDiagonal();
+  Random random{5};
+  for (const int links : {0, 3, 20}) {
+    double sum = 0.0;
+    for (int draw = 0; draw < kDraws; ++draw) {
+      predicted.T_cw = truth_cw;
+      for (int k = 0; k <= links; ++k) {
+        Vector6d error;
+        for (int i = 0; i < 6; ++i) error[i] = sigmas[i] * Normal(random);
+        predicted.T_cw = Exp(error) * predicted.T_cw;
+      }
+      sum += ComparePlanes(f, m, WithDrift(predicted, predicted, links), TinyFloors()).chi2;
+    }
+    // 3 degrees of freedom; the mean's standard deviation is sqrt(6 / draws).
+    EXPECT_NEAR(sum / kDraws, 3.0, 4 * std::sqrt(6.0 / kDraws)) << links;
   }
 }
 
