@@ -22,12 +22,14 @@ Run ReadRun(Folder& folder) {
     return folder.Require(file, kRunAgain, Severity::kFlaw);
   };
   const std::string poses = "trajectory.txt", keyframes = "keyframes.txt";
+  const std::string covariances = "trajectory_covariance.txt";
   Run run;
   run.folder = folder.root();
   run.info = ReadRunInfo(folder);
   if (folder.Require(poses, kRunAgain)) {
     run.trajectory = ReadTrajectory(folder, poses, {Severity::kWarning, Severity::kFatal});
   }
+  if (folder.Has(covariances)) run.covariances = ReadPoseCovariances(folder, covariances);
   if (expects(keyframes.c_str())) run.keyframes = ReadTrajectory(folder, keyframes);
   if (expects("map.json")) {
     auto map = ReadRunMap(folder);

@@ -4,6 +4,7 @@
 
 #include "eval/formats/frame_planes.h"
 #include "eval/formats/pose.h"
+#include "eval/formats/pose_covariance.h"
 #include "eval/formats/run_info.h"
 #include "eval/formats/run_map.h"
 #include "eval/formats/stamped_files.h"
@@ -16,6 +17,8 @@ struct Run {
   std::filesystem::path folder;
   RunInfo info;
   Trajectory trajectory;  ///< T_wc, tracked frames, by rising stamp
+  /// Of the poses, by rising stamp; nothing without trajectory_covariance.txt.
+  std::optional<std::vector<PoseCovariance>> covariances;
   std::optional<Trajectory> keyframes;
   std::vector<RunFrame> frames;  ///< empty without frame_planes.jsonl
   std::vector<RunMapPlane> map;  ///< empty without map.json

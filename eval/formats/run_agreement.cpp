@@ -8,12 +8,13 @@ namespace eval {
 namespace {
 
 // Poses exist only at times of frames, keyframes only at times of poses.
-void TellOtherTimes(Folder& folder, const std::string& file, const Trajectory& poses,
+template <typename Records>
+void TellOtherTimes(Folder& folder, const std::string& file, const Records& records,
                     const std::vector<double>& stamps_s, const std::string& of,
                     Severity severity) {
-  for (const StampedPose& pose : poses) {
-    if (NearestStamp(stamps_s, pose.stamp_s, kSameInstant_s)) continue;
-    folder.Tell(file, pose.line, fmt::format("{:.6f} is no time of {}", pose.stamp_s, of),
+  for (const auto& record : records) {
+    if (NearestStamp(stamps_s, record.stamp_s, kSameInstant_s)) continue;
+    folder.Tell(file, record.line, fmt::format("{:.6f} is no time of {}", record.stamp_s, of),
                 "write the time of the frame as the sequence gives it", severity);
   }
 }
@@ -102,6 +103,12 @@ void TellRunDisagreements(Folder& folder, const Run& run) {
   if (run.keyframes) {
     TellOtherTimes(folder, "keyframes.txt", *run.keyframes, StampsOf(run.trajectory),
                    "trajectory.txt", Severity::kFlaw);
+  }
+  if (run.covariances) {
+    TellOtherTimes(folder, "trajectory_covariance.txt", *run.covariances,
+                   StampsOf(run.trajectory), "trajectory.txt", Severity::kWarning);
+    TellOtherTimes(folder, "trajectory.txt", run.trajectory, StampsOf(*run.covariances),
+                   "trajectory_covariance.txt", Severity::kWarning);
   }
   if (!run.has_planes) return;
   TellOtherTimes(folder, "trajectory.txt", run.trajectory, StampsOf(run.frames),

@@ -4,6 +4,17 @@ namespace eval {
 
 using OrderedJson = nlohmann::ordered_json;
 
+namespace {
+
+OrderedJson NeesJson(const Nees& nees) {
+  return {{"mean", nees.mean},
+          {"median", nees.median},
+          {"inside", nees.inside},
+          {"above", nees.above}};
+}
+
+}  // namespace
+
 OrderedJson ToJson(double value) { return value; }
 
 OrderedJson ToJson(const Spread& spread) {
@@ -22,6 +33,14 @@ OrderedJson ToJson(const RelativeScore& errors) {
   return {{"trans_rmse_m", errors.trans_rmse_m},
           {"rot_rmse_deg", errors.rot_rmse_deg},
           {"pairs", errors.pairs}};
+}
+
+OrderedJson ToJson(const ClaimScore& claims) {
+  return {{"count", claims.count},
+          {"position_nees", NeesJson(claims.position)},
+          {"rotation_nees", NeesJson(claims.rotation)},
+          {"pose_nees", NeesJson(claims.pose)},
+          {"silent", claims.silent}};
 }
 
 void FigureGroup::Undefined(const std::string& key, const std::string& reason) {

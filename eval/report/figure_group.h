@@ -14,6 +14,7 @@ nlohmann::ordered_json ToJson(double value);
 nlohmann::ordered_json ToJson(const Spread& spread);
 nlohmann::ordered_json ToJson(const Statistics& errors_m);
 nlohmann::ordered_json ToJson(const RelativeScore& errors);
+nlohmann::ordered_json ToJson(const ClaimScore& claims);
 
 /// One group of figures. A figure that is not defined is null, and the reason stands in `reasons`
 /// under "group/figure".

@@ -28,6 +28,13 @@ Json TrajectoryGroup(const TrajectoryScore& s, Json& reasons) {
   return group.json();
 }
 
+Json ConsistencyGroup(const ConsistencyScore& s, Json& reasons) {
+  FigureGroup group("consistency", reasons);
+  group.Put("absolute", s.absolute, s.no_absolute);
+  group.Put("relative_1s", s.relative, s.no_relative);
+  return group.json();
+}
+
 void PutRegions(const RegionScore& r, FigureGroup& group) {
   group.Put("truth", r.truth);
   group.Put("machine", r.machine);
@@ -192,6 +199,14 @@ Json Warnings(const std::vector<Fault>& of_run, const char* place,
   return warnings;
 }
 
+constexpr const char* kConsistencyRule =
+    "squared errors by the covariance that the run tells of them, whose mean is 3 (position, "
+    "rotation) and 6 (pose) and of which 0.95 are inside where it is honest; absolute: in the "
+    "world of the truth by whole poses, drift and all; relative_1s: of the motion over 1 s, "
+    "the "
+    "covariances of both poses summed; silent: position or rotation is off by more than 5 of "
+    "its own standard deviations in some direction";
+
 Json TrajectoryRules() {
   Json rules;
   rules["trajectory"] =
@@ -280,6 +295,8 @@ Json MetricsJson(const Evaluation& e) {
   if (Json warnings = Warnings(e.run_warnings, "RUN", e.sequence_warnings); !warnings.empty())
     json["warnings"] = std::move(warnings);
   json["trajectory"] = TrajectoryGroup(e.trajectory, reasons);
+  if (e.trajectory.consistency)
+    json["consistency"] = ConsistencyGroup(*e.trajectory.consistency, reasons);
   if (e.planes) {
     if (e.planes->from_frame_planes || e.planes->regions) {
       json["extraction"] = ExtractionGroup(*e.planes, reasons);
@@ -293,6 +310,7 @@ Json MetricsJson(const Evaluation& e) {
   if (e.timing) json["timing_ms"] = TimingGroup(*e.timing, reasons);
   if (!reasons.empty()) json["reasons"] = std::move(reasons);
   json["rules"] = TrajectoryRules();
+  if (e.trajectory.consistency) json["rules"]["consistency"] = kConsistencyRule;
   if (e.planes) AddPlaneRules(*e.planes, json["rules"]);
   return json;
 }

@@ -38,6 +38,14 @@ class Table {
   std::string text_;
 };
 
+void AddClaims(const char* name, const std::optional<ClaimScore>& claims,
+               const std::string& no_claims, Table& table) {
+  if (!claims) return table.Undefined(name, no_claims);
+  table.Row(name, "NEES %.1f, %.1f of 3 (inside %.2f, %.2f), silent %zu of %zu",
+            claims->position.mean, claims->rotation.mean, claims->position.inside,
+            claims->rotation.inside, claims->silent, claims->count);
+}
+
 void AddTrajectory(const Evaluation& e, Table& table) {
   table.Heading("Trajectory");
   const TrajectoryScore& t = e.trajectory;
@@ -55,6 +63,11 @@ void AddTrajectory(const Evaluation& e, Table& table) {
   if (t.rpe_1s) {
     table.Row("RPE over 1 s", "%.2f mm, %.3f deg (%zu pairs)", 1e3 * t.rpe_1s->trans_rmse_m,
               t.rpe_1s->rot_rmse_deg, t.rpe_1s->pairs);
+  }
+  if (t.consistency) {
+    AddClaims("told error", t.consistency->absolute, t.consistency->no_absolute, table);
+    AddClaims("told error over 1 s", t.consistency->relative, t.consistency->no_relative,
+              table);
   }
 }
 

@@ -122,6 +122,20 @@ std::vector<PoseError> ErrorsOfPoses(const MatchedPoses& poses,
   return errors;
 }
 
+/// The matched poses of which the run says what they are worth.
+std::vector<ClaimedPose> ClaimedPoses(const MatchedPoses& poses,
+                                      const std::vector<PoseCovariance>& covariances) {
+  const std::vector<double> stamps_s = StampsOf(covariances);
+  std::vector<ClaimedPose> claimed;
+  for (std::size_t i = 0; i < poses.stamps_s.size(); ++i) {
+    const auto at = NearestStamp(stamps_s, poses.stamps_s[i], kSameInstant_s);
+    if (!at) continue;
+    claimed.push_back(
+        {poses.stamps_s[i], poses.estimate[i], poses.truth[i], covariances[*at].of_xi});
+  }
+  return claimed;
+}
+
 }  // namespace
 
 std::vector<std::optional<Pose>> TruePosesOfFrames(const Trajectory& truth,
@@ -138,7 +152,8 @@ std::vector<std::optional<Pose>> TruePosesOfFrames(const Trajectory& truth,
 }
 
 TrajectoryScore ScoreTrajectory(const Trajectory& estimate, const Trajectory& unsorted_truth,
-                                const std::vector<double>& frame_stamps_s, bool equal_stamps) {
+                                const std::vector<double>& frame_stamps_s, bool equal_stamps,
+                                const std::vector<PoseCovariance>* covariances) {
   TrajectoryScore score;
   CountFrames(estimate, frame_stamps_s, equal_stamps, score);
   const Trajectory truth = ByRisingStamp(unsorted_truth);
@@ -179,6 +194,10 @@ TrajectoryScore ScoreTrajectory(const Trajectory& estimate, const Trajectory& un
   score.rpe_1s = ScorePairs(poses, PairsByTime(poses.stamps_s, kRpeTime_s, half_frame_s));
   score.rpe_1m = ScorePairs(
       poses, PairsByPath(poses.truth, kRpePath_m, kRpePathTolerance_m, PairMode::kAll));
+  if (covariances != nullptr) {
+    score.consistency =
+        ScoreConsistency(ClaimedPoses(poses, *covariances), score.gauge, half_frame_s);
+  }
   return score;
 }
 
@@ -201,7 +220,7 @@ TrajectoryScore ScoreTrajectory(const Run& run, const Sequence& sequence) {
                              "; score a run against the sequence it was made from");
   }
   return ScoreTrajectory(run.trajectory, sequence.groundtruth.value_or(Trajectory{}),
-                         frame_stamps_s, equal);
+                         frame_stamps_s, equal, run.covariances ? &*run.covariances : nullptr);
 }
 
 }  // namespace eval

@@ -7,6 +7,7 @@
 #include "eval/formats/sequence.h"
 #include "eval/trajectory/alignment.h"
 #include "eval/trajectory/match_stamps.h"
+#include "eval/trajectory/score_consistency.h"
 #include "eval/trajectory/statistics.h"
 
 namespace eval {
@@ -46,6 +47,8 @@ struct TrajectoryScore {
   std::vector<PoseError> errors;     ///< of the matched poses
   /// World of the run to world of the truth, by whole poses: what the map is scored in.
   std::optional<Alignment> gauge;
+  /// What the run says of its own errors; nothing where it does not.
+  std::optional<ConsistencyScore> consistency;
 };
 
 /// @throws InputError if the sequence is synthetic and the run has a pose for no frame of it.
@@ -53,8 +56,10 @@ TrajectoryScore ScoreTrajectory(const Run& run, const Sequence& sequence);
 
 /// The same from bare lists. `frame_stamps_s` rise.
 /// @param equal_stamps  frame ids are stamps (synthetic data); else the nearest-time rule
+/// @param covariances   of the estimate's poses, by rising stamp; null: it tells none
 TrajectoryScore ScoreTrajectory(const Trajectory& estimate, const Trajectory& truth,
-                                const std::vector<double>& frame_stamps_s, bool equal_stamps);
+                                const std::vector<double>& frame_stamps_s, bool equal_stamps,
+                                const std::vector<PoseCovariance>* covariances = nullptr);
 
 /// True poses T_gc of the frames, by frame; empty where the truth has none.
 std::vector<std::optional<Pose>> TruePosesOfFrames(const Trajectory& truth,

@@ -23,6 +23,7 @@ struct AssociationConfig {
   double angle_floor_rad = 0.006;
 
   double max_chi2 = kChi2Of3At999;
+  bool recheck = true;
   double new_chi2 = 36.0;       // 99.99999 % of chi-square with 3 degrees of freedom
   double min_overlap = 0.25;    // balances matches of planes seen in part against false ones
   double min_margin = 4.0;      // the better answer is e^2, or 7 times, as likely as the next
@@ -49,6 +50,8 @@ inline void VisitFields(AssociationConfig& c, FieldVisitor& v) {
             "error of a plane's normal that does not average out (calibration, quantisation)");
   v.Number("max_chi2", c.max_chi2, "(0, inf)",
            "largest chi-square of offset and slopes (3 degrees of freedom) of a match");
+  v.Flag("recheck", c.recheck,
+         "matches are tested once more at the optimised pose, and taken back beyond max_chi2");
   v.Number("new_chi2", c.new_chi2, "(0, inf)",
            "chi-square from which two planes are certainly two; below it, and above max_chi2, "
            "there is no decision");

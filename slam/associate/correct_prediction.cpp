@@ -4,6 +4,7 @@
 
 #include "slam/base/index.h"
 #include "slam/model/map_queries.h"
+#include "slam/pose/bend_covariance.h"
 #include "slam/pose/factors/plane.h"
 #include "slam/pose/plane_constraints.h"
 #include "slam/pose/robust.h"
@@ -18,13 +19,6 @@ Vector6d Variances(double sigma_m, double sigma_rad) {
   return (Vector6d() << t2, t2, t2, r2, r2, r2).finished();
 }
 
-/// Mean distance of the planes' middles along the optical axis; 0 without planes.
-double PlaneDepth_m(const Frame& frame) {
-  double sum_m = 0.0;
-  for (const FramePlane& plane : frame.planes) sum_m += plane.centroid_c.z();
-  return frame.planes.empty() ? 0.0 : sum_m / static_cast<double>(frame.planes.size());
-}
-
 // Points of a frame share the errors of those of the map. Measured on 16 scenes: 2 and 3 decide
 // alike.
 constexpr double kSharedErrors = 3.0;
@@ -37,10 +31,8 @@ UncertainPose PredictedPose(const Frame& frame, const AssociationConfig& config)
   }
   UncertainPose pose{frame.T_cw, *frame.pose_covariance};
   if (frame.pose_information.isZero()) return pose;  // motion alone: no points, no bend
-  // What the sensor bends lifts and tilts all that the points are seen by.
   pose.covariance *= kSharedErrors * kSharedErrors;
-  pose.covariance.diagonal() +=
-      Variances(frame.bend_ratio * PlaneDepth_m(frame), frame.bend_ratio);
+  pose.covariance += BendCovariance(frame);
   return pose;
 }
 

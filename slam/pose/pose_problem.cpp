@@ -109,7 +109,7 @@ class Evaluator {
   /// The sum without the prior.
   NormalEquations Measured(const Pose& T_cw) const {
     NormalEquations sum;
-    AddPoints(T_cw, sum);                                         // eq14
+    if (config_.use_points) AddPoints(T_cw, sum);                 // eq14
     if (config_.use_planes) AddPlanes(T_cw, sum);                 // eq15, eq16
     if (config_.use_boxes) AddBoxes(T_cw, sum);                   // eq17
     if (config_.use_point_planes) AddPointPlanes(T_cw, sum);      // eq18

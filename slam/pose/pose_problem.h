@@ -58,6 +58,7 @@ struct PoseProblemConfig {
   int rounds = 4;  // Mur-Artal and Tardos 2017, with iterations
   int iterations = 10;
   double huber_planes = 2.0;
+  bool use_points = true;
   bool use_planes = true, use_boxes = true, use_point_planes = true;
   bool use_parallel = true, use_perpendicular = true;
 };
@@ -69,6 +70,7 @@ inline void VisitFields(PoseProblemConfig& c, FieldVisitor& v) {
             "largest number of Levenberg-Marquardt steps in a round");
   v.Number("huber_planes", c.huber_planes, "(0, inf)",
            "Huber's threshold for the plane factors, in standard deviations");
+  v.Flag("use_points", c.use_points, "f_p: a map point seen at a feature");
   v.Flag("use_planes", c.use_planes, "f_pi: a map plane seen as a frame plane");
   v.Flag("use_boxes", c.use_boxes, "f_b_pi: projected corners against a detection box");
   v.Flag("use_point_planes", c.use_point_planes, "f_p_pi: a map point on a frame plane");

@@ -96,7 +96,7 @@ class SequenceRun {
         truth_(input.truth),
         doubts_(std::move(doubts)),
         tracker_(input.camera, options.config, options.variant, std::move(input.detector),
-                 options.seed, ThreadsOf(options), options.before_mapping),
+                 options.seed, ThreadsOf(options), options.hooks),
         writer_(options.run, Describe(options, input.camera, detector, input.frames.size()),
                 {.force = options.force, .save_segmentation = options.save_segmentation}),
         gate_(input.camera),

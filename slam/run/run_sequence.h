@@ -32,8 +32,7 @@ struct RunOptions {
   std::function<void(const std::string&)> warn;
   /// Asked after each frame; when true the run ends there and is written. May be empty.
   std::function<bool()> stop;
-  /// Called before each keyframe is mapped, on the thread that maps it. May be empty.
-  std::function<void(int keyframe)> before_mapping;
+  TrackerHooks hooks;  ///< for tests and benches
 };
 
 struct RunOutcome {

@@ -8,6 +8,7 @@
 #include "io/input_error.h"
 #include "slam/base/require.h"
 #include "slam/model/map_queries.h"
+#include "slam/pose/bend_covariance.h"
 #include "slam/run/frame_record.h"
 #include "slam/run/map_file.h"
 #include "slam/run/text_number.h"
@@ -24,6 +25,11 @@ double PeakMemory_mb() {
   ::getrusage(RUSAGE_SELF, &usage);
   return static_cast<double>(usage.ru_maxrss) / 1024.0;
 }
+
+const std::string kCovarianceComment =
+    "# timestamp c11 c12 c13 c14 c15 c16 c22 ... c66: covariance of xi, T_wc Exp(xi) the true\n"
+    "# pose; xi = step along x, y, z (m), turn about x, y, z (rad), axes of the camera; the\n"
+    "# upper triangle row by row\n";
 
 std::string TrajectoryText(const std::vector<TimedPose>& poses) {
   std::string text = "# timestamp tx ty tz qx qy qz qw (T_wc, camera to world)\n";
@@ -99,6 +105,7 @@ void RunWriter::WriteFrame(const FrameRecord& record) {
     Require(frame.T_cw.R.allFinite() && frame.T_cw.t.allFinite(),
             "RunWriter::WriteFrame: a tracked pose is not finite");
     trajectory_.push_back({frame.timestamp_s, frame.T_cw});
+    covariances_ += CovarianceLine(frame.timestamp_s, PoseErrorCovariance(frame));
   }
   frame_planes_.Add(line + '\n');
   std::string times = StampText(frame.timestamp_s);
@@ -161,6 +168,7 @@ void RunWriter::Finish(const Map& map, const RunEnd& end,
   frame_planes_.Finish();
   timing_.Finish();
   output_.Write("trajectory.txt", TrajectoryText(poses));
+  output_.Write("trajectory_covariance.txt", kCovarianceComment + covariances_);
   output_.Write("keyframes.txt", TrajectoryText(KeyframePoses(map)));
   output_.Write("map.json", MapAsJson(map));
   output_.Write("map.ply", MapAsPly(map));

@@ -97,6 +97,7 @@ class RunWriter {
   Options options_;
   io::AtomicFile frame_planes_, timing_;
   std::vector<TimedPose> trajectory_;  ///< as given to WriteFrame, tracked frames alone
+  std::string covariances_;            ///< lines, of the same frames
   PairRefusals refused_;
   int frames_ = 0;
   double last_s_ = 0.0;

@@ -38,4 +38,12 @@ std::string TrajectoryLine(double timestamp_s, const Pose& T_cw) {
   return line + '\n';
 }
 
+std::string CovarianceLine(double timestamp_s, const Matrix6d& covariance) {
+  std::string line = StampText(timestamp_s);
+  for (int i = 0; i < 6; ++i) {
+    for (int j = i; j < 6; ++j) line.append(" ").append(FiniteNumberText(covariance(i, j)));
+  }
+  return line + '\n';
+}
+
 }  // namespace slam

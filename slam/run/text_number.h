@@ -17,4 +17,9 @@ std::string StampText(double timestamp_s);
 /// One line of a TUM trajectory, "t tx ty tz qx qy qz qw" with T_wc and qw >= 0, and a newline.
 std::string TrajectoryLine(double timestamp_s, const Pose& T_cw);
 
+/// One line of trajectory_covariance.txt, "t c11 c12 ... c16 c22 ... c66": the upper triangle, row
+/// by row, and a newline.
+/// @param covariance  symmetric
+std::string CovarianceLine(double timestamp_s, const Matrix6d& covariance);
+
 }  // namespace slam

@@ -8,6 +8,7 @@
 
 #include "slam/associate/associate_planes.h"
 #include "slam/associate/point_plane.h"
+#include "slam/associate/recheck.h"
 #include "slam/base/index.h"
 #include "slam/faces/move_planes.h"
 #include "slam/faces/process_planes.h"
@@ -52,7 +53,7 @@ constexpr std::size_t kMaxWaiting = 3;
 
 Tracker::Tracker(const Camera& camera, const Config& config, Variant variant,
                  std::unique_ptr<Detector> detector, std::uint64_t seed, int threads,
-                 std::function<void(int)> before_mapping)
+                 TrackerHooks hooks)
     : camera_(camera),
       config_(ForVariant(config, variant, seed)),
       variant_(variant),
@@ -62,7 +63,7 @@ Tracker::Tracker(const Camera& camera, const Config& config, Variant variant,
       bend_meter_(PixelRays(camera), config_.sensor),
       box_tracks_(config.box_tracks, camera.ImageBox()),
       points_(camera, config_.point_features.scale, config_.point_search, config_.tracking),
-      before_mapping_(std::move(before_mapping)) {
+      hooks_(std::move(hooks)) {
   if (variant_ != Variant::kPoints)
     plane_extractor_.emplace(camera_, PixelRays(camera_), config_.sensor,
                              config_.plane_extraction);
@@ -150,6 +151,7 @@ void Tracker::AssociateFramePlanes(Frame& frame, TrackReport& report) const {
   frame.plane_matches = std::move(association.matches);
   frame.plane_steps = std::move(association.steps);
   report.refused = association.refused;
+  if (hooks_.after_association) hooks_.after_association(frame, map_);
   frame.point_planes =
       AssociatePointsToPlanes(frame, map_, camera_, config_.association.max_point_plane_m);
 }
@@ -157,24 +159,41 @@ void Tracker::AssociateFramePlanes(Frame& frame, TrackReport& report) const {
 void Tracker::OptimiseWithPlanes(Frame& frame, TrackReport& report) {
   if (report.points.started) return;  // it is the world's frame
   const Stopwatch watch(report.times[Module::kPo]);
-  // eq13 from all points and planes of the frame.
-  const FramePoints points = PointConstraints(frame, map_, scale());
+  if (!report.tracked) {
+    HoldByPlanes(frame, ProblemOf(frame, PointConstraints(frame, map_, scale())), report);
+    if (report.tracked) TakeBackContradicted(frame, map_, config_.association);
+    return;
+  }
+  if (ProblemOf(frame, {}).planes.empty()) return;  // the points alone were optimised before
+  // Once more without the matches that the better-known pose contradicts.
+  if (OptimiseByAll(frame) && TakeBackContradicted(frame, map_, config_.association) > 0) {
+    OptimiseByAll(frame);
+  }
+}
+
+/// eq13 from all points and planes of the frame, from its pose.
+PoseProblem Tracker::ProblemOf(const Frame& frame, const FramePoints& points) const {
   PoseProblem problem;
   problem.T_cw = frame.T_cw;
   problem.points = points.constraints;
   problem.prior = frame.prediction;
   AddPlaneConstraints(frame, map_, camera_, config_.association.prior,
                       config_.plane_constraints, problem);
-  if (!report.tracked) return HoldByPlanes(frame, std::move(problem), report);
-  if (problem.planes.empty()) return;  // the points alone were optimised before
+  return problem;
+}
 
+/// @returns false, and nothing is changed, when the outcome is not usable
+bool Tracker::OptimiseByAll(Frame& frame) const {
+  const FramePoints points = PointConstraints(frame, map_, scale());
+  const PoseProblem problem = ProblemOf(frame, points);
   const PoseSummary summary =
       OptimisePose(problem, camera_, scale(), config_.point_search.pose);
-  if (!summary.usable) return;
+  if (!summary.usable) return false;
   frame.T_cw = summary.T_cw;
   frame.pose_information = summary.information;
   frame.pose_covariance = summary.covariance;
   DropOutliers(frame, points, summary.point_inliers);
+  return true;
 }
 
 /// Points failed: planes and the motion before hold the pose, while it is known well enough.
@@ -238,7 +257,7 @@ void Tracker::KeepFrame(Frame& frame) {
 }
 
 void Tracker::MapKeyframe(int keyframe, const MapTurn& turn) {
-  if (before_mapping_) before_mapping_(keyframe);
+  if (hooks_.before_mapping) hooks_.before_mapping(keyframe);
   MapLocally(map_, keyframe, camera_, scale(), config_.mapping, turn);
   if (!config_.loop_closing.enabled) return;
   std::optional<Loop> loop;

@@ -16,6 +16,7 @@
 #include "slam/model/map.h"
 #include "slam/model/module_times.h"
 #include "slam/places/close_loop.h"
+#include "slam/pose/point_constraints.h"
 #include "slam/pose/pose_problem.h"
 #include "slam/run/config.h"
 #include "slam/run/map_gate.h"
@@ -31,6 +32,15 @@ enum class Variant {
   kNoAssociation,              ///< w/o (D): planes are associated by their parameters alone
   kNoProcessingNoAssociation,  ///< w/o (C)(D): nor are planes re-fitted, labelled or selected
   kPoints                      ///< no planes at all
+};
+
+/// What is called while a frame is tracked; each may be empty.
+struct TrackerHooks {
+  /// Before each keyframe is mapped, where it is mapped.
+  std::function<void(int keyframe)> before_mapping;
+  /// When a frame's planes were associated. It may change Frame::plane_matches: so tests and
+  /// benches see what wrong matches do.
+  std::function<void(Frame& frame, const Map& map)> after_association;
 };
 
 /// What tracking one frame came to.
@@ -55,11 +65,10 @@ class Tracker {
  public:
   /// @param detector  may be null: no detections
   /// @param threads   1, or more: points, planes and boxes are then extracted side by side
-  /// @param before_mapping  called before each keyframe is mapped, where it is mapped
   /// @throws InputError when config.depth_warp names a file that is no warp of this camera
   Tracker(const Camera& camera, const Config& config, Variant variant,
           std::unique_ptr<Detector> detector, std::uint64_t seed, int threads,
-          std::function<void(int keyframe)> before_mapping = {});
+          TrackerHooks hooks = {});
 
   /// Takes one frame, with index, timestamp, gray and depth set, through the paper's stages (A)
   /// to (F); fills the rest of it, and takes out of the depth what the device bends. An untracked frame has no pose: T_cw is
@@ -91,6 +100,8 @@ class Tracker {
   void AssociateFramePlanes(Frame& frame, TrackReport& report) const;
   void OptimiseWithPlanes(Frame& frame, TrackReport& report);
   void HoldByPlanes(Frame& frame, PoseProblem problem, TrackReport& report);
+  bool OptimiseByAll(Frame& frame) const;
+  PoseProblem ProblemOf(const Frame& frame, const FramePoints& points) const;
   void UpdateMap(Frame& frame, TrackReport& report);
   void KeepFrame(Frame& frame);
   void MapKeyframe(int keyframe, const MapTurn& turn);
@@ -111,7 +122,7 @@ class Tracker {
   int loops_ = 0;
   int frames_ = 0;  ///< begun: every so many the detector is asked
 
-  std::function<void(int)> before_mapping_;
+  TrackerHooks hooks_;
   MapGate gate_;                           ///< to map_, points_ and loops_
   std::unique_ptr<MappingWorker> worker_;  ///< last: its thread uses the rest
 };

@@ -90,6 +90,22 @@ TEST_F(CheckRunFolder, NamesAKeyframeThatWasNeverTracked) {
   ExpectOnly("keyframes.txt", 2, "", "no time of trajectory.txt");
 }
 
+TEST_F(CheckRunFolder, NamesACovarianceWithoutAPoseAndAPoseWithoutACovariance) {
+  std::string lines;
+  std::vector<std::string> stamps;
+  std::istringstream poses(ReadText(run() / "trajectory.txt"));
+  for (std::string pose; std::getline(poses, pose);)
+    stamps.push_back(pose.substr(0, pose.find(' ')));
+  const std::string numbers = " 1 0 0 0 0 0 1 0 0 0 0 1 0 0 0 1 0 0 1 0 1\n";
+  for (const std::string& stamp : stamps) lines += stamp + numbers;
+  WriteText(run() / "trajectory_covariance.txt", lines);
+  EXPECT_EQ(CheckFolder(run()).faults.size(), 0u) << All(CheckFolder(run()));
+  WriteText(run() / "trajectory_covariance.txt", lines + "99" + numbers);
+  ExpectOnly("trajectory_covariance.txt", 5, "", "no time of trajectory.txt");
+  WriteText(run() / "trajectory_covariance.txt", lines.substr(lines.find('\n') + 1));
+  ExpectOnly("trajectory.txt", 1, "", "no time of trajectory_covariance.txt");
+}
+
 TEST_F(CheckRunFolder, NamesAFrameWithoutALineOfPlanes) {
   const std::string text = ReadText(run() / "frame_planes.jsonl");
   const auto cut = text.rfind('\n', text.size() - 2);

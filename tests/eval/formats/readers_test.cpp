@@ -58,6 +58,36 @@ class ReadFolders : public ::testing::Test {
   Folder in_{folder_};
 };
 
+TEST_F(ReadFolders, ReadTheUpperTriangleOfACovarianceRowByRow) {
+  Write("trajectory_covariance.txt",
+        "# t c11 ...\n2.5 1 0 0 0 0 .5 2 0 0 0 0 3 0 0 0 4 0 0 5 0 6\n"
+        "1.5 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0\n");
+  const auto covariances = ReadPoseCovariances(in_);
+  ASSERT_EQ(covariances.size(), 2u);
+  EXPECT_EQ(covariances[0].stamp_s, 1.5);
+  EXPECT_TRUE(covariances[0].of_xi.isZero(0.0));
+  Matrix6d expected = Eigen::DiagonalMatrix<double, 6>(
+      (Eigen::Matrix<double, 6, 1>() << 1, 2, 3, 4, 5, 6).finished());
+  expected(0, 5) = expected(5, 0) = 0.5;
+  EXPECT_EQ(covariances[1].of_xi, expected);
+}
+
+TEST_F(ReadFolders, RefuseWhatIsNoCovariance) {
+  for (const char* line :
+       {"1 1 0 0 0 0 0 1 0 0 0 0 1 0 0 0 1 0 0 1 0",           // a number too few
+        "1 1 0 0 0 0 0 1 0 0 0 0 1 0 0 0 1 0 0 1 0 nan",       // no number
+        "1 1 0 0 0 0 0 1 0 0 0 0 1 0 0 0 1 0 0 1 0 -1",        // negative
+        "1 1 1.01 0 0 0 0 1 0 0 0 0 1 0 0 0 1 0 0 1 0 1",      // correlated beyond one
+        "1 0 1 0 0 0 0 1 0 0 0 0 1 0 0 0 1 0 0 1 0 1",         // known, and yet not
+        "1 1e-8 0 0 0 0 1e-3 1 0 0 0 0 1 0 0 0 1 0 0 1 0 1"})  // small numbers too
+  {
+    Write("trajectory_covariance.txt", std::string(line) + "\n");
+    EXPECT_THAT(ErrorOf([&] { ReadPoseCovariances(in_); }),
+                HasSubstr("trajectory_covariance.txt:1"))
+        << line;
+  }
+}
+
 TEST_F(ReadFolders, TrajectoryNormalisesQuaternionsAndSkipsComments) {
   Write("t.txt", "# a comment\n\n1.5 1 2 3 0 0 0 1.0005\r\n2.5\t1 2 3 0 0 1 0\n");
   const Trajectory trajectory = ReadTrajectory(in_, "t.txt");

@@ -130,6 +130,23 @@ TEST(PoseOptimiserEq13, WeighsWhatIsMeasuredAgainstThePredictionByTheVariances) 
   EXPECT_NEAR(summary.information(2, 2), 1 / m2, 1e-3 / m2);
 }
 
+TEST(PoseOptimiserEq13, WithoutThePointFactorPlanesHoldThePoseAlone) {
+  PoseProblem problem = Seen(100, 0.0, 0.0, 6);
+  for (PointConstraint& point : problem.points) point.p_w.x() += 0.01;  // all say otherwise
+  for (const Eigen::Vector3d& n_c :
+       {Eigen::Vector3d(0, 0, -1), Eigen::Vector3d(1, 0, -1), Eigen::Vector3d(0, 1, -1)}) {
+    PlaneConstraint c;
+    c.pi_c = {n_c.normalized(), 2.0};
+    c.centroid_c = -2.0 * c.pi_c.n;
+    c.pi_w = Transform(Inverse(kTruth), c.pi_c);
+    problem.planes.push_back(c);
+  }
+  PoseProblemConfig config;
+  config.use_points = false;
+  EXPECT_THAT(OptimisePose(problem, Camera{}, FeatureScale{}, config).T_cw,
+              PoseNear(kTruth, 1e-6, 1e-6));
+}
+
 TEST(PoseOptimiserEq13, RefusesAFirstGuessThatIsNotFinite) {
   PoseProblem problem = Seen(50, 0.0, 0.0, 4);
   problem.T_cw.t.x() = std::nan("");

@@ -37,7 +37,7 @@ TEST(AsyncMapping, TracksEveryFrameAboutAsWellAsMappingBetweenFrames) {
 TEST(AsyncMapping, CarriesWhatMappingThrowsToTheCaller) {
   for (const bool async : {false, true}) {
     RunOptions options = Options(async);
-    options.before_mapping = [](int keyframe) {
+    options.hooks.before_mapping = [](int keyframe) {
       if (keyframe == 1) throw std::runtime_error("mapping failed");
     };
     EXPECT_THROW(RunStream(Clean(), options), std::runtime_error);
@@ -65,7 +65,7 @@ TEST(AsyncMapping, TrackingGoesOnWhileMappingStands) {
   options.progress = [&](int done, int total) {
     if (done == total) tracked.set_value();
   };
-  options.before_mapping = [&](int) {
+  options.hooks.before_mapping = [&](int) {
     in_time = in_time && all.wait_for(std::chrono::minutes(1)) == std::future_status::ready;
   };
   const Ran ran = RunStream(Clean(), options);

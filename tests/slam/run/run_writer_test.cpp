@@ -284,6 +284,27 @@ TEST_F(RunFolder, HasTheSameBytesEachTimeApartFromTimeAndMemory) {
   EXPECT_EQ(without_costs(run_ / "run.json"), without_costs(base_ / "again/run.json"));
 }
 
+TEST_F(RunFolder, SaysWhatEachTrackedPoseIsWorth) {
+  RunWriter writer(run_, Info(), {});
+  writer.WriteFrame({SomeFrame(0), true, {}, "", {}});  // starts the map: it is the world
+  writer.WriteFrame({SomeFrame(1), false, {}, "", {}});
+  Frame frame = SomeFrame(2);
+  frame.pose_covariance.emplace();
+  for (int i = 0; i < 6; ++i) {
+    for (int j = 0; j < 6; ++j)
+      (*frame.pose_covariance)(i, j) = 10 * std::min(i, j) + std::max(i, j);
+  }
+  writer.WriteFrame({frame, true, {}, "", {}});
+  writer.Finish(SomeMap(), {});
+  std::vector<std::string> lines = Lines(run_ / "trajectory_covariance.txt");
+  while (!lines.empty() && lines.front()[0] == '#') lines.erase(lines.begin());
+  ASSERT_EQ(lines.size(), 2u);
+  EXPECT_EQ(lines[0],
+            StampText(SomeFrame(0).timestamp_s) + " 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0");
+  EXPECT_EQ(lines[1], StampText(frame.timestamp_s) +
+                          " 0 1 2 3 4 5 11 12 13 14 15 22 23 24 25 33 34 35 44 45 55");
+}
+
 TEST_F(RunFolder, IsNeverOverwrittenWithoutForce) {
   WriteRun(run_, {});
   const std::string before = Bytes(run_ / "run.json");

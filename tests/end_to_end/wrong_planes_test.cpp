@@ -1,0 +1,71 @@
+#include "app/bench/wrong_planes.h"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cstdio>
+#include <functional>
+#include <vector>
+
+#include "app/bench/bench_sequences.h"
+#include "sim/families/families.h"
+#include "tests/support/pipeline.h"
+
+namespace {
+
+/// A stack of boards, 20 mm over each other: what is easily taken for one another.
+class StackOfBoards : public ::testing::Test {
+ protected:
+  StackOfBoards() {
+    pipeline::Recording recording;
+    recording.frames = 40;
+    recording.width = 640, recording.height = 480;
+    pipeline::Record(sim::MakeScene("stack", 661), recording, folder_ / "seq");
+  }
+  app::ScoredRun Run(app::WrongPlanes& wrong, bool recheck = true) const {
+    slam::TrackerHooks hooks;
+    hooks.after_association = std::ref(wrong);
+    slam::Config config;
+    config.association.recheck = recheck;
+    return app::RunAndScore({"stack", folder_ / "seq"}, config, hooks);
+  }
+  pipeline::TemporaryFolder folder_{"wrong_planes"};
+};
+
+TEST_F(StackOfBoards,
+       OfWhichATenthIsTakenForAnotherIsFollowedAsWellAndMappedBetterThanUnchecked) {
+  app::WrongPlanes none(0.0, 1), some(0.1, 1), unchecked(0.1, 1);
+  const app::ScoredRun right = Run(none), spoilt = Run(some), let_pass = Run(unchecked, false);
+  ASSERT_TRUE(none.made().empty());
+  const double share = static_cast<double>(some.made().size()) / some.matches();
+  EXPECT_NEAR(share, 0.1, 0.05);
+  const int taken_back = app::CountTakenBack(some.made(), spoilt.frames);
+  EXPECT_EQ(app::CountTakenBack(unchecked.made(), let_pass.frames), 0);
+  const app::BenchErrors a = app::ErrorsOf(spoilt), b = app::ErrorsOf(right),
+                         c = app::ErrorsOf(let_pass);
+  ASSERT_TRUE(a.ate_m && b.ate_m && a.plane_offset_mm && b.plane_offset_mm);
+  std::printf(
+      "%zu of %d made wrong, %d taken back; ATE %.2f -> %.2f mm, map offset %.2f -> "
+      "%.2f mm, %.2f unchecked\n",
+      some.made().size(), some.matches(), taken_back, 1e3 * *b.ate_m, 1e3 * *a.ate_m,
+      *b.plane_offset_mm, *a.plane_offset_mm, c.plane_offset_mm.value_or(0.0));
+  EXPECT_GE(taken_back, 0.9 * static_cast<double>(some.made().size()));
+  EXPECT_LT(*a.ate_m, 1.1 * *b.ate_m);
+  ASSERT_TRUE(c.plane_offset_mm);
+  EXPECT_LT(*a.plane_offset_mm, *c.plane_offset_mm);
+}
+
+TEST_F(StackOfBoards, IsSpoiltTheSameWayEveryTime) {
+  app::WrongPlanes one(0.2, 7), again(0.2, 7), other(0.2, 8);
+  Run(one), Run(again), Run(other);
+  const auto key = [](const app::WrongPlanes& wrong) {
+    std::vector<std::array<int, 3>> made;
+    for (const app::WrongPlane& w : wrong.made())
+      made.push_back({w.frame, w.plane, w.map_plane});
+    return made;
+  };
+  EXPECT_EQ(key(one), key(again));
+  EXPECT_NE(key(one), key(other));
+}
+
+}  // namespace
