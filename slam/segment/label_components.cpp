@@ -48,8 +48,7 @@ void ConnectRuns(LabelComponents& components) {
       if (run.label == kNoLabel) continue;
       if (root == k) {
         of_run[k] = static_cast<int>(components.list.size());
-        const int first = static_cast<int>(row) * runs.width + run.begin;
-        components.list.push_back({run.label, 0, first, 0, 0});
+        components.list.push_back({run.label, 0, 0, 0});
       } else {
         of_run[k] = of_run[root];
       }

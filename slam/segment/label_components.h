@@ -12,7 +12,6 @@ namespace slam {
 struct LabelComponent {
   int label = 0;
   int pixels = 0;
-  int first_pixel = 0;  ///< in row-major order
   /// Measured neighbours across its boundary that lie behind or in front of the label's plane.
   int behind = 0, in_front = 0;
 };
@@ -22,9 +21,6 @@ struct LabelComponents {
   LabelRuns runs;              ///< those of the label image
   std::vector<int> component;  ///< one a run; -1 where there is no label
   std::vector<LabelComponent> list;
-
-  /// The component of a pixel.
-  int At(int u, int v) const { return component[runs.At(u, v)]; }
 };
 
 /// Finds the components of components.runs, without sides. Our own because it joins runs

@@ -43,16 +43,6 @@ class LabelPairs {
     return entries_;
   }
 
-  /// After Sorted(): the value of a pair that there is.
-  Value& Known(int a, int b) {
-    const std::pair<int, int> labels = std::minmax(a, b);
-    return std::lower_bound(entries_.begin(), entries_.end(), labels,
-                            [](const Entry& entry, const std::pair<int, int>& pair) {
-                              return entry.labels < pair;
-                            })
-        ->value;
-  }
-
  private:
   static constexpr int kNone = -1;
 

@@ -26,16 +26,9 @@ struct LabelRuns {
   std::size_t At(int u, int v) const;
 };
 
-// Each writes over `out`, whose memory serves again.
-
+/// Writes over `out`, whose memory serves again.
 /// @param labels  width x height, row by row
 void FindRuns(const LabelImage& labels, int width, int height, LabelRuns& out);
-
-/// to[label] in place of each label.
-void MapRuns(const LabelRuns& runs, const std::vector<int>& to, LabelRuns& out);
-
-/// The pixels whose 8 neighbours have the same label keep it; the others have none.
-void FindInterior(const LabelRuns& runs, LabelRuns& out);
 
 /// Calls visit(a, b, begin, end, row) for every pair of runs, b below a in the next row, that
 /// share the columns [begin, end).
@@ -73,29 +66,6 @@ void VisitBoundaryPieces(const LabelRuns& runs, const Visit& visit) {
         static_cast<std::size_t>(row) * width + static_cast<std::size_t>(begin);
     visit(i, i + width, end - begin, a, b);
   });
-}
-
-/// Calls visit(u, v, du, dv) for every two neighbours (u, v) and (u + du, v + dv), to the right
-/// or below, that have different labels; row by row, and for a pixel to the right first.
-template <typename Visit>
-void VisitContacts(const LabelRuns& runs, const Visit& visit) {
-  const auto touch = [](const LabelRun& a, const LabelRun& b) {
-    return a.label != b.label && a.label != kNoLabel && b.label != kNoLabel;
-  };
-  const auto look_right = [&](std::size_t a, int row) {
-    if (runs.runs[a].end < runs.width && touch(runs.runs[a], runs.runs[a + 1]))
-      visit(runs.runs[a].end - 1, row, 1, 0);
-  };
-  VisitRunsBelow(runs, [&](std::size_t a, std::size_t b, int begin, int end, int row) {
-    const bool below = touch(runs.runs[a], runs.runs[b]);
-    for (int u = begin; below && u + 1 < end; ++u) visit(u, row, 0, 1);
-    if (runs.runs[a].end == end) look_right(a, row);
-    if (below) visit(end - 1, row, 0, 1);
-  });
-  if (runs.rows.size() < 2) return;
-  const std::size_t last = runs.rows.size() - 2;
-  for (std::size_t a = runs.rows[last]; a < runs.rows[last + 1]; ++a)
-    look_right(a, static_cast<int>(last));
 }
 
 }  // namespace slam

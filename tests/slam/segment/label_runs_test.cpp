@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <array>
 #include <set>
 #include <vector>
 
@@ -99,13 +98,11 @@ TEST(LabelRuns, MakeTheComponentsThatFloodingMakes) {
     std::vector<int> pixels(found.list.size(), 0);
     for (std::size_t i = 0; i < labels.size(); ++i) {
       const int u = static_cast<int>(i) % width, v = static_cast<int>(i) / width;
-      ASSERT_EQ(found.At(u, v), expected[i]) << width;
+      ASSERT_EQ(found.component[found.runs.At(u, v)], expected[i]) << width;
       if (expected[i] < 0) continue;
       const LabelComponent& c = found.list[static_cast<std::size_t>(expected[i])];
       EXPECT_EQ(c.label, labels[i]);
-      if (pixels[static_cast<std::size_t>(expected[i])]++ == 0) {
-        EXPECT_EQ(c.first_pixel, static_cast<int>(i));
-      }
+      ++pixels[static_cast<std::size_t>(expected[i])];
     }
     for (std::size_t k = 0; k < pixels.size(); ++k) EXPECT_EQ(found.list[k].pixels, pixels[k]);
   }
@@ -133,68 +130,14 @@ TEST(LabelRuns, MeetEveryBoundaryOnce) {
   EXPECT_EQ(met, expected);
 }
 
-TEST(LabelRuns, MeetContactsOfLabelsInTheOrderOfTheirPixels) {
-  for (const int width : {1, 2, 37}) {
-    const int height = 23;
-    const LabelImage labels = Blotches(width, height);
-    LabelRuns runs;
-    FindRuns(labels, width, height, runs);
-    std::vector<std::array<int, 4>> met, expected;
-    VisitContacts(runs, [&](int u, int v, int du, int dv) { met.push_back({u, v, du, dv}); });
-    const auto at = [&](int u, int v) {
-      return labels[static_cast<std::size_t>(v * width + u)];
-    };
-    const auto touch = [](int a, int b) { return a != b && a != kNoLabel && b != kNoLabel; };
-    for (int v = 0; v < height; ++v) {
-      for (int u = 0; u < width; ++u) {
-        if (u + 1 < width && touch(at(u, v), at(u + 1, v))) expected.push_back({u, v, 1, 0});
-        if (v + 1 < height && touch(at(u, v), at(u, v + 1))) expected.push_back({u, v, 0, 1});
-      }
-    }
-    EXPECT_EQ(met, expected) << width;
-  }
-}
-
-TEST(LabelRuns, AreDrawnAsTheyWereFoundAndWithOtherLabels) {
+TEST(LabelRuns, AreDrawnAsTheyWereFound) {
   const int width = 37, height = 23;
   const LabelImage labels = Blotches(width, height);
-  LabelRuns runs, mapped, found;
+  LabelRuns runs;
   FindRuns(labels, width, height, runs);
-  LabelImage drawn, expected = labels;
+  LabelImage drawn;
   DrawRuns(runs, drawn);
   EXPECT_EQ(drawn, labels);
-  for (std::int16_t& label : expected) label = label == 2 ? 0 : label;
-  MapRuns(runs, {0, 1, 0}, mapped);
-  DrawRuns(mapped, drawn);
-  EXPECT_EQ(drawn, expected);
-  FindRuns(expected, width, height, found);
-  EXPECT_EQ(mapped.runs.size(), found.runs.size()) << "neighbours of one label make one run";
-}
-
-TEST(LabelRuns, HaveTheInteriorThatNeighboursTell) {
-  const int width = 40, height = 30;
-  LabelImage labels(static_cast<std::size_t>(width * height), kNoLabel);
-  for (int v = 0; v < height; ++v) {
-    for (int u = 0; u < width; ++u) {
-      const int label = (u + v / 7) / 9 % 3 - (u * 5 + v * 11) % 97 / 95;
-      labels[static_cast<std::size_t>(v * width + u)] = static_cast<std::int16_t>(label);
-    }
-  }
-  const auto at = [&](int u, int v) { return labels[static_cast<std::size_t>(v * width + u)]; };
-  LabelImage expected(labels.size(), kNoLabel), interior;
-  for (int v = 1; v + 1 < height; ++v) {
-    for (int u = 1; u + 1 < width; ++u) {
-      bool inside = true;
-      for (int k = 0; k < 9; ++k) inside &= at(u + k % 3 - 1, v + k / 3 - 1) == at(u, v);
-      if (inside) expected[static_cast<std::size_t>(v * width + u)] = at(u, v);
-    }
-  }
-  LabelRuns runs, inner;
-  FindRuns(labels, width, height, runs);
-  FindInterior(runs, inner);
-  DrawRuns(inner, interior);
-  EXPECT_EQ(interior, expected);
-  EXPECT_GT(std::count(interior.begin(), interior.end(), 1), 50);
 }
 
 }  // namespace
