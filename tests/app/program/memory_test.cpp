@@ -27,7 +27,8 @@ class MemoryOfSim : public testing::Test {
 };
 
 TEST_F(MemoryOfSim, DoesNotGrowWithTheNumberOfFrames) {
-  constexpr double kMostGrowth_mb = 3;
+  // A leak of one depth image a frame, 38 kB, would be 6.9 MB; peaks scatter by 3 MB on a busy machine.
+  constexpr double kMostGrowth_mb = 5;
   const double few = PeakOf(20, "160", "120"), many = PeakOf(200, "160", "120");
   EXPECT_GT(few, 1);
   EXPECT_LT(many - few, kMostGrowth_mb) << few << " MB, " << many << " MB";

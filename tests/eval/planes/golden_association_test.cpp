@@ -142,7 +142,9 @@ void ExpectClear(const ClearScore& s, const nlohmann::json& golden) {
   ExpectNear(s.mostly_lost / truths, golden, "MLR");
   ExpectNear(double(s.fp) / s.frames, golden, "FP_per_frame");
   // TrackEval leaves before it counts where nothing was predicted at all.
-  if (s.tp + s.fp > 0) EXPECT_EQ(s.frames, golden["CLR_Frames"].get<int>());
+  if (s.tp + s.fp > 0) {
+    EXPECT_EQ(s.frames, golden["CLR_Frames"].get<int>());
+  }
 }
 
 /// @param value  picks a figure of the reference: of one threshold, or the mean
