@@ -5,6 +5,7 @@
 
 #include "slam/base/field_visitor.h"
 #include "slam/geometry/camera.h"
+#include "slam/geometry/pose.h"
 
 namespace slam {
 

@@ -5,6 +5,7 @@
 #include "slam/base/field_visitor.h"
 #include "slam/features/point_depth.h"
 #include "slam/geometry/camera.h"
+#include "slam/geometry/pose.h"
 #include "slam/model/feature_scale.h"
 #include "slam/model/frame.h"
 
