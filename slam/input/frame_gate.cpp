@@ -10,6 +10,10 @@ namespace {
 
 constexpr float kMaxDepth_m = 1000.0f;  // beyond any sensor
 
+// Stamps of colour and depth are paired to 20 ms. Farther apart they are of two moments or of two
+// clocks, and say nothing of how the camera moved in between.
+constexpr double kMaxLate_s = 0.05;
+
 bool CanBe(float z_m) { return z_m >= 0 && z_m < kMaxDepth_m; }  // false for NaN
 
 // What most of a scene can be away from a camera that measures depth (docs/sensors.md): nearer
@@ -68,6 +72,7 @@ bool FrameGate::Takes(RecordedFrame& frame) {
     ++not_later_;
     return false;
   }
+  if (!(std::abs(frame.depth_late_s) <= kMaxLate_s)) frame.depth_late_s = 0.0;
   // Counted over all frames: a wrong unit of depth shows in most of them.
   first_ = false;
   last_s_ = frame.timestamp_s;

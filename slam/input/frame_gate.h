@@ -14,7 +14,8 @@ class FrameGate {
   /// @throws InputError when the camera cannot be one.
   explicit FrameGate(const Camera& camera);
 
-  /// @param frame  depth that is not finite, negative or beyond any sensor becomes 0, on a copy
+  /// @param frame  depth that is not finite, negative or beyond any sensor becomes 0, on a copy; so
+  ///               does a delay of depth that no pair of images has
   /// @returns whether it is later than all before; otherwise it is counted and left out
   /// @throws InputError when an image is not of the camera's size, or the time is not finite.
   bool Takes(RecordedFrame& frame);
