@@ -37,5 +37,15 @@ TEST(MovePlanes, TellsWhatAnotherCameraWouldHaveMeasured) {
   EXPECT_FALSE(there.vertices_c[0].covariance_c.isDiagonal(1e-3));
 }
 
+TEST(MovePlanes, LeavesAPlaneThatTheOtherCameraWouldSeeFromBehind) {
+  FramePlane plane;
+  plane.pi_c = {Eigen::Vector3d::UnitY(), 0.001};
+  plane.centroid_c = {0, -0.001, 1};
+  std::vector<FramePlane> moved{plane};
+  MovePlanes({Eigen::Matrix3d::Identity(), {0, 0.003, 0}}, moved);
+  EXPECT_EQ(moved[0].pi_c.d, plane.pi_c.d);
+  EXPECT_EQ(moved[0].centroid_c, plane.centroid_c);
+}
+
 }  // namespace
 }  // namespace slam
