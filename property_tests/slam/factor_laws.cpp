@@ -44,10 +44,10 @@ RC_GTEST_PROP(PointFactorEq14, VanishesAtTruthAndHasItsJacobian, ()) {
   PointConstraint c;
   c.p_w = Inverse(T_cw) * camera.Backproject(u, z);
   c.u_px = u;
-  c.right_u_px = AnyInt(0, 1) ? std::max(0.0, u.x() - kBf / z) : -1.0;
-  const Linearised<3> truth = PointFactor(c, T_cw, camera, kBf);
-  if (c.right_u_px != 0.0) RC_ASSERT(truth.r.norm() < 1e-9);
-  CheckJacobian<3>(Nearby(T_cw), [&](const Pose& T) { return PointFactor(c, T, camera, kBf); });
+  c.sigma_px = AnyReal(0.5, 4);
+  if (AnyInt(0, 1)) c.depth_m = z, c.depth_sigma_m = AnyReal(0.001, 0.1);
+  RC_ASSERT(PointFactor(c, T_cw, camera).r.norm() < 1e-9);
+  CheckJacobian<3>(Nearby(T_cw), [&](const Pose& T) { return PointFactor(c, T, camera); });
 }
 
 RC_GTEST_PROP(PlaneFactorEq16, VanishesAtTruthAndHasItsJacobianAtEveryOrientation, ()) {

@@ -7,6 +7,7 @@
 #include "slam/mapping/bundle_terms.h"
 #include "slam/pose/factors/plane.h"
 #include "slam/pose/factors/point_plane.h"
+#include "slam/pose/point_constraints.h"
 #include "tests/support/point_world.h"
 
 // P36 for the full problem: poses, points and planes that all move. What no measurement tells
@@ -89,7 +90,7 @@ void AddPoints(const FullProblem& problem, Rows& rows) {
       const Keyframe& keyframe = map.keyframes[static_cast<std::size_t>(k)];
       PointFeature feature = keyframe.features[static_cast<std::size_t>(f)];
       if (!problem.depth) feature.depth_m = 0;
-      const BundleTerm term(feature, problem.world.camera, 40.0, 1.0, 0.3);
+      const BundleTerm term(ConstraintOf(feature, point.p_w, {}), problem.world.camera);
       const PoseBlock pose = BlockOf(keyframe.T_cw);
       const double* parameters[] = {pose.data(), point.p_w.data()};
       Eigen::Matrix<double, 3, 7, Eigen::RowMajor> by_pose;

@@ -20,7 +20,7 @@ PoseProblem ExactProblem(const Pose& T_cw, int points, int planes) {
     const double z = AnyReal(0.8, 4);
     c.u_px = {AnyReal(60, 600), AnyReal(20, 460)};
     c.p_w = T_wc * camera.Backproject(c.u_px, z);
-    c.right_u_px = c.u_px.x() - FeatureScale{}.Disparity_px(z);
+    c.depth_m = z, c.depth_sigma_m = AnyReal(0.001, 0.1);
     problem.points.push_back(c);
   }
   for (int i = 0; i < planes; ++i) {
@@ -36,7 +36,7 @@ PoseProblem ExactProblem(const Pose& T_cw, int points, int planes) {
 
 RC_GTEST_PROP(PoseOptimiserEq13, CostsNothingAtTruthAndStaysThere, ()) {
   const PoseProblem problem = ExactProblem(AnyPose(3), 30, 3);
-  const PoseSummary summary = OptimisePose(problem, Camera{}, FeatureScale{}, {});
+  const PoseSummary summary = OptimisePose(problem, Camera{}, {});
   // Rounding of a pixel coordinate (1e-12 px) and of a metre (1e-14) over a hundred residuals.
   RC_ASSERT(summary.initial_cost < 1e-15);
   RC_ASSERT(RotationAngle(summary.T_cw, problem.T_cw) < 1e-7);
@@ -47,7 +47,7 @@ RC_GTEST_PROP(PoseOptimiserEq13, ConvergesToTruthFromFiveDegreesAndFiveCentimetr
   PoseProblem problem = ExactProblem(AnyPose(3), 40, AnyInt(0, 3));
   const Pose truth = problem.T_cw;
   problem.T_cw = AnyMotion(0.087, 0.05) * truth;
-  const PoseSummary summary = OptimisePose(problem, Camera{}, FeatureScale{}, {});
+  const PoseSummary summary = OptimisePose(problem, Camera{}, {});
   RC_ASSERT(summary.usable);
   RC_ASSERT(summary.inlier_count == 40);
   // LogSo3 of a rotation matrix has a floor of sqrt(eps) = 1.5e-8 near zero.
@@ -64,8 +64,7 @@ RC_GTEST_PROP(PoseOptimiserEq13, FollowsTheWorldWhenItIsMoved, ()) {
   there.T_cw = here.T_cw * T_wv;
   for (PointConstraint& c : there.points) c.p_w = T_vw * c.p_w;
   for (PlaneConstraint& c : there.planes) c.pi_w = Transform(T_vw, c.pi_w);
-  const PoseSummary a = OptimisePose(here, Camera{}, FeatureScale{}, {}),
-                    b = OptimisePose(there, Camera{}, FeatureScale{}, {});
+  const PoseSummary a = OptimisePose(here, Camera{}, {}), b = OptimisePose(there, Camera{}, {});
   RC_ASSERT(std::abs(a.initial_cost - b.initial_cost) < 1e-9 * (1 + a.initial_cost));
   RC_ASSERT(a.point_inliers == b.point_inliers);
   RC_ASSERT((a.T_cw.t - (b.T_cw * T_vw).t).norm() < 1e-5);
@@ -83,7 +82,7 @@ int PlaneNullity(const std::vector<Eigen::Vector3d>& normals_w, const Pose& T_cw
     c.centroid_c = ProjectOnto(c.pi_c, AnyPoint(2));
     problem.planes.push_back(c);
   }
-  return OptimisePose(problem, Camera{}, FeatureScale{}, {}).nullity;
+  return OptimisePose(problem, Camera{}, {}).nullity;
 }
 
 RC_GTEST_PROP(PoseOptimiserEq13, ReportsTheDirectionsThatPlanesLeaveOpen, ()) {
@@ -113,7 +112,7 @@ RC_GTEST_PROP(PoseOptimiserEq13, NeverReturnsAPoseThatIsNotFinite, ()) {
     if (AnyInt(0, 1)) c.pi_c.n[AnyInt(0, 2)] = bad[AnyInt(0, 5)];
     if (AnyInt(0, 1)) c.offset_sigma_m = bad[AnyInt(0, 5)];
   }
-  const PoseSummary summary = OptimisePose(problem, Camera{}, FeatureScale{}, {});
+  const PoseSummary summary = OptimisePose(problem, Camera{}, {});
   RC_ASSERT(summary.T_cw.R.allFinite() && summary.T_cw.t.allFinite());
   RC_ASSERT((summary.T_cw.R * summary.T_cw.R.transpose()).isIdentity(1e-9));
 }

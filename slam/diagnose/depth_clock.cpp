@@ -144,7 +144,7 @@ void DepthClock::Add(const Change& change, Shifts& shifts) const {
   }
 }
 
-void DepthClock::Observe(const Frame& frame, bool tracked) {
+void DepthClock::Observe(const Frame& frame) {
   const double timestamp_s = frame.timestamp_s, depth_s = timestamp_s + frame.depth_late_s;
   // The change since the oldest frame that is near enough.
   seen_.push_back({depth_s, Tiles(frame.depth_m)});
@@ -153,7 +153,7 @@ void DepthClock::Observe(const Frame& frame, bool tracked) {
     const Change change = Between(seen_.front(), seen_.back());
     if (change.tiles > 0) changes_.push_back(change);
   }
-  if (tracked) poses_.push_back({timestamp_s, frame.T_cw});
+  if (frame.T_cw_by_pixels) poses_.push_back({timestamp_s, *frame.T_cw_by_pixels});
   // Changes to which no more poses will come are added up.
   while (!changes_.empty() && changes_.front().to_s + kMaxLate_s <= timestamp_s) {
     Add(changes_.front(), shifts_);

@@ -13,8 +13,8 @@
 
 namespace slam {
 
-/// Whether the depth of a frame was taken when its colour was. Poses are colour's, mostly; how
-/// depth changes between two frames says how the depth camera moved meanwhile. The two motions
+/// Whether the depth of a frame was taken when its colour was. Poses by pixels are colour's; how depth
+/// changes between two frames says how the depth camera moved meanwhile. The two motions
 /// are laid over each other with every shift up to a second. It says nothing of cameras with
 /// fewer than ten frames a second.
 ///
@@ -27,8 +27,8 @@ class DepthClock {
   explicit DepthClock(const Camera& camera);
 
   /// Takes in the next frame, in the order of time: its depth at the time that its stamp says, and
-  /// its pose, if it was tracked, at the time of its colour.
-  void Observe(const Frame& frame, bool tracked);
+  /// its pose by pixels, if it has one, at the time of its colour.
+  void Observe(const Frame& frame);
 
   /// By how much later than its stamp says depth was taken: seconds, negative: earlier, at most a
   /// second. None when the motion does not say surely that it is not 0.

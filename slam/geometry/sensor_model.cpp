@@ -34,11 +34,13 @@ SensorModel ModelOf(DepthSensor sensor) {
       break;
     case DepthSensor::kAzure:
       model.noise = AzureNoise();
-      model.bend_ratio = 0.002;  // its wave: 2 mm at 1 m
+      model.bend_ratio = 0.002;   // its wave: 2 mm at 1 m
+      model.stamp_sigma_s = 0.0;  // one trigger for both cameras
       break;
     case DepthSensor::kD435:
       model.noise = D435Noise();
-      model.bend_ratio = 0.0;  // not known; its noise hides it
+      model.bend_ratio = 0.0;     // not known; its noise hides it
+      model.stamp_sigma_s = 0.0;  // one clock for both cameras
       break;
   }
   return model;

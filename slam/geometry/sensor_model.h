@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <string>
 #include <vector>
 
@@ -25,7 +26,15 @@ struct SensorModel {
   DepthSensor sensor = DepthSensor::kKinect1;
   DepthNoise noise;
   double bend_ratio = kKinectBend;  ///< as kKinectBend; 0: bends nothing that is known
+  /// How well the stamps of a colour and a depth image say how long after each other they were
+  /// taken, seconds, standard deviation; 0: the device takes both at once.
+  double stamp_sigma_s = 0.001;
   double max_depth_m = 10.0;
+
+  /// Standard deviation of a depth by noise and bend.
+  double DepthSigma_m(double z_m) const {
+    return std::hypot(noise.Sigma(z_m), bend_ratio * z_m);
+  }
 };
 
 /// The model of a sensor:
@@ -49,6 +58,8 @@ inline void VisitFields(SensorModel& c, FieldVisitor& v) {
   if (c.sensor != before) c = ModelOf(c.sensor);
   v.Section("noise", "standard deviation of a depth as a function of depth and incidence",
             c.noise);
+  v.Number("stamp_sigma_s", c.stamp_sigma_s, "[0, 1]",
+           "standard deviation of the time between a colour and a depth image, as stamped");
   v.Number("max_depth_m", c.max_depth_m, "(0, inf)",
            "depth beyond which a pixel counts as not measured");
 }

@@ -10,6 +10,12 @@ struct UncertainPose {
   Matrix6d covariance = Matrix6d::Zero();
 };
 
+/// A camera's speed: T_cw <- Exp(dt speed) T_cw in the next dt seconds; m/s and rad/s.
+struct UncertainSpeed {
+  Vector6d mean = Vector6d::Zero();
+  Matrix6d covariance = Matrix6d::Zero();
+};
+
 /// A direction of the camera's motion.
 struct MotionAxis {
   bool turn = false;       ///< about the axis; else along it

@@ -3,6 +3,8 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 
+#include "slam/pose/factors/point.h"
+
 namespace slam {
 
 PoseBlock BlockOf(const Pose& T_cw) {
@@ -37,52 +39,23 @@ bool PoseManifold::MinusJacobian(const double* /*x*/, double* jacobian) const {
   return true;
 }
 
-BundleTerm::BundleTerm(const PointFeature& feature, const Camera& camera, double bf_px_m,
-                       double sigma_px, double depth_sigma)
-    : u_px_(feature.u_px),
-      disparity_px_(feature.depth_m > 0 ? bf_px_m / feature.depth_m : -1.0),
-      fx_(camera.fx),
-      fy_(camera.fy),
-      cx_(camera.cx),
-      cy_(camera.cy),
-      bf_px_m_(bf_px_m),
-      weight_(1.0 / sigma_px),
-      depth_weight_(1.0 / (sigma_px * depth_sigma)) {}
-
-bool BundleTerm::EvaluateBehind(double* residuals, double** jacobians) const {
-  residuals[0] = residuals[1] = kBehind;
-  residuals[2] = 0.0;
-  if (jacobians != nullptr && jacobians[0] != nullptr) std::fill_n(jacobians[0], 3 * 7, 0.0);
-  if (jacobians != nullptr && jacobians[1] != nullptr) std::fill_n(jacobians[1], 3 * 3, 0.0);
-  return true;
-}
-
 bool BundleTerm::Evaluate(double const* const* parameters, double* residuals,
                           double** jacobians) const {
   const Pose T_cw = PoseOf(parameters[0]);
-  const Eigen::Vector3d p_c = T_cw * Eigen::Map<const Eigen::Vector3d>(parameters[1]);
-  if (!(p_c.z() > kMinProjectedDepth_m)) return EvaluateBehind(residuals, jacobians);
-  const double inv_z = 1.0 / p_c.z();
-  const double x = p_c.x() * inv_z, y = p_c.y() * inv_z;
-  const bool depth = disparity_px_ >= 0;
-  residuals[0] = weight_ * (fx_ * x + cx_ - u_px_.x());  // eq14
-  residuals[1] = weight_ * (fy_ * y + cy_ - u_px_.y());
-  residuals[2] = depth ? depth_weight_ * (bf_px_m_ * inv_z - disparity_px_) : 0.0;
+  const Eigen::Vector3d x_c = T_cw * Eigen::Map<const Eigen::Vector3d>(parameters[1]);
+  const PointResidual residual = ResidualOf(seen_, x_c, camera_);
+  Eigen::Map<Eigen::Vector3d>{residuals} =
+      residual.valid ? residual.r : Eigen::Vector3d(kBehind, kBehind, 0.0);
   if (jacobians == nullptr) return true;
-
   // By the point in the camera, then by the chain rule by pose and point.
-  Eigen::Matrix3d by_p_c;
-  by_p_c << weight_ * fx_ * inv_z, 0, -weight_ * fx_ * x * inv_z,  //
-      0, weight_ * fy_ * inv_z, -weight_ * fy_ * y * inv_z,        //
-      0, 0, depth ? -depth_weight_ * bf_px_m_ * inv_z * inv_z : 0.0;
   if (jacobians[0] != nullptr) {
     Eigen::Map<Eigen::Matrix<double, 3, 7, Eigen::RowMajor>> by_pose(jacobians[0]);
-    by_pose.leftCols<3>() = by_p_c;
-    by_pose.middleCols<3>(3) = -by_p_c * Hat(p_c);
+    by_pose.leftCols<6>() = residual.by_x_c * PointJacobian(x_c);
     by_pose.col(6).setZero();
   }
   if (jacobians[1] != nullptr) {
-    Eigen::Map<Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>{jacobians[1]} = by_p_c * T_cw.R;
+    Eigen::Map<Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>{jacobians[1]} =
+        residual.by_x_c * T_cw.R;
   }
   return true;
 }

@@ -6,7 +6,7 @@
 #include <array>
 
 #include "slam/geometry/camera.h"
-#include "slam/model/frame.h"
+#include "slam/pose/pose_problem.h"
 
 namespace slam {
 
@@ -29,30 +29,23 @@ class PoseManifold : public ceres::Manifold {
   bool MinusJacobian(const double* x, double* jacobian) const override;
 };
 
-/// Residual of one observation, in sigmas:
-///   ( fx x/z + cx - u,  fy y/z + cy - v,  (b f / z - b f / z_measured) / depth_sigma ) / sigma
-/// with (x, y, z) = T_cw p_w; the third is 0 for a feature without depth (eq14). A point nearer
-/// than kMinProjectedDepth_m to the image plane, or behind it, has the residual kBehind and no
+/// Residual of one observation by pose and point, in sigmas (ResidualOf). A point nearer than
+/// kMinProjectedDepth_m to the image plane, or behind it, has the residual kBehind and no
 /// derivative.
 class BundleTerm : public ceres::SizedCostFunction<3, 7, 3> {
  public:
   static constexpr double kBehind = 1e3;  ///< sigmas; far beyond any gate
 
-  /// @param sigma_px     standard deviation of a position at the feature's octave
-  /// @param depth_sigma  that of the disparity, relative to sigma_px
-  BundleTerm(const PointFeature& feature, const Camera& camera, double bf_px_m, double sigma_px,
-             double depth_sigma);
+  /// @param camera  outlives the term
+  BundleTerm(const PointConstraint& seen, const Camera& camera)
+      : seen_(seen), camera_(camera) {}
   /// parameters: PoseBlock, p_w. Jacobians: by xi (see PoseManifold) and by p_w.
   bool Evaluate(double const* const* parameters, double* residuals,
                 double** jacobians) const override;
 
  private:
-  bool EvaluateBehind(double* residuals, double** jacobians) const;
-
-  Eigen::Vector2d u_px_;
-  double disparity_px_;  ///< b f / z as measured; < 0 without depth
-  double fx_, fy_, cx_, cy_, bf_px_m_;
-  double weight_, depth_weight_;  ///< 1 / sigma
+  PointConstraint seen_;
+  const Camera& camera_;
 };
 
 /// Residual of a pose against where it was, Log(T_cw T_wc_before), in sigmas so wide that it

@@ -8,6 +8,7 @@
 #include "slam/mapping/keyframes.h"
 #include "slam/mapping/map_points.h"
 #include "slam/model/map_queries.h"
+#include "slam/pose/point_constraints.h"
 
 namespace slam {
 namespace {
@@ -40,12 +41,6 @@ std::vector<int> OutsideViewers(const Map& map, const std::vector<int>& points,
   return outside;
 }
 
-std::unique_ptr<BundleTerm> TermOf(const PointFeature& feature, const Camera& camera,
-                                   const FeatureScale& scale, const LocalBundleConfig& config) {
-  return std::make_unique<BundleTerm>(feature, camera, scale.bf_px_m,
-                                      scale.Scale(feature.octave), config.depth_sigma_px);
-}
-
 /// Blocks and observations of the window's keyframes and points.
 void FillWindow(const Map& map, const Camera& camera, const FeatureScale& scale,
                 const LocalBundleConfig& config, BundleWindow& window) {
@@ -60,9 +55,9 @@ void FillWindow(const Map& map, const Camera& camera, const FeatureScale& scale,
       const auto at = pose_at.find(seen_by);
       if (at == pose_at.end()) continue;
       const PointFeature& seen_as = map.keyframes[Index(seen_by)].features[Index(feature)];
-      window.observations.push_back({seen_by, id, at->second, window.positions.size(),
-                                     seen_as.depth_m > 0, true,
-                                     TermOf(seen_as, camera, scale, config)});
+      window.observations.push_back(
+          {seen_by, id, at->second, window.positions.size(), seen_as.depth_m > 0, true,
+           std::make_unique<BundleTerm>(ConstraintOf(seen_as, point.p_w, scale), camera)});
     }
     window.positions.push_back({point.p_w.x(), point.p_w.y(), point.p_w.z()});
   }

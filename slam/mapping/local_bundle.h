@@ -10,7 +10,6 @@ namespace slam {
 
 /// Bounds and weights of the local bundle adjustment.
 struct LocalBundleConfig {
-  double depth_sigma_px = 0.3;
   int max_keyframes = 10;
   int max_fixed_keyframes = 20;
   int first_iterations = 5;
@@ -21,8 +20,6 @@ struct LocalBundleConfig {
 };
 
 inline void VisitFields(LocalBundleConfig& c, FieldVisitor& v) {
-  v.Number("depth_sigma_px", c.depth_sigma_px, "(0, inf)",
-           "standard deviation of the virtual disparity at octave 0");
   v.Integer("max_keyframes", c.max_keyframes, "[1, 1000]",
             "largest number of keyframes whose poses are adjusted");
   v.Integer("max_fixed_keyframes", c.max_fixed_keyframes, "[1, 1000]",
@@ -51,9 +48,7 @@ struct LocalBundleReport {
 
 /// Adjusts the poses of `keyframe` and of those that share the most points with it, and all
 /// points that they see; other keyframes that see these points stay fixed. The residual of an
-/// observation is, in sigmas of its octave,
-///   ( fx x/z + cx - u,  fy y/z + cy - v,  (b f / z - b f / z_measured) / depth_sigma_px ),
-/// (x, y, z) = T_cw p_w; the third with depth alone. Ceres, Schur complement, one thread,
+/// observation is that of tracking (ResidualOf). Ceres, Schur complement, one thread,
 /// bounded iterations: same map, same bytes. The gauge is held by the fixed keyframes; when
 /// there are none, by the oldest of the window.
 ///

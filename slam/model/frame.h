@@ -19,12 +19,13 @@ using Descriptor = std::array<std::uint8_t, 32>;  ///< rotated BRIEF, 256 bits
 
 /// An ORB feature. Position is of the ideal (undistorted) image.
 struct PointFeature {
-  Eigen::Vector2d u_px;      ///< undistorted
-  int octave = 0;            ///< pyramid level, 0 the finest
-  float angle_deg = 0.0f;    ///< orientation, [0, 360)
-  double depth_m = 0.0;      ///< planar z at the feature; 0 = no measurement
-  double right_u_px = -1.0;  ///< virtual right coordinate u - b f / z; < 0 without depth
-  bool on_edge = false;      ///< of a straight edge: along it, every patch looks like the next
+  Eigen::Vector2d u_px;        ///< undistorted
+  int octave = 0;              ///< pyramid level, 0 the finest
+  float angle_deg = 0.0f;      ///< orientation, [0, 360)
+  double depth_m = 0.0;        ///< planar z at the feature; 0 = no measurement
+  double depth_sigma_m = 0.0;  ///< its standard deviation, see WeighDepths
+  double right_u_px = -1.0;    ///< virtual right coordinate u - b f / z; < 0 without depth
+  bool on_edge = false;  ///< of a straight edge: along it, every patch looks like the next
   Descriptor descriptor{};
 };
 
@@ -82,11 +83,10 @@ struct Frame {
   cv::Mat1b gray;             ///< 8-bit, as recorded (distorted)
   cv::Mat1f depth_m;          ///< planar z, metres; 0 = no measurement, never NaN
   double depth_late_s = 0.0;  ///< depth was measured so much later; negative: earlier
-  /// The camera's speed as the frames before say: T_cw <- Exp(dt speed) T_cw in the next dt seconds.
-  Vector6d speed = Vector6d::Zero();
+  UncertainSpeed speed;       ///< as the frames before say
 
   /// From the camera of T_cw to where it was when depth was measured.
-  Pose T_dc() const { return Exp(depth_late_s * speed); }
+  Pose T_dc() const { return Exp(depth_late_s * speed.mean); }
 
   // (B) extraction, (C) plane processing
   std::vector<PointFeature> features;
@@ -104,6 +104,9 @@ struct Frame {
 
   // (E) optimisation
   Pose T_cw;
+  /// The same by the pixels of the points alone, whenever depth was measured; none where they do
+  /// not say it.
+  std::optional<Pose> T_cw_by_pixels;
   /// Where motion leads from the frame before; none after the camera was lost.
   std::optional<UncertainPose> prediction;
   std::vector<MotionAxis> held_by_motion;  ///< directions that nothing in the frame observes

@@ -89,7 +89,7 @@ std::vector<int> Inliers(const std::vector<PointConstraint>& constraints, const 
     const PointConstraint& c = constraints[i];
     const Eigen::Vector3d p_c = T_cw * c.p_w;
     if (!(p_c.z() > 0)) continue;
-    const double error2 = (camera.Project(p_c) - c.u_px).squaredNorm() * c.inv_sigma2_px;
+    const double error2 = ((camera.Project(p_c) - c.u_px) / c.sigma_px).squaredNorm();
     if (error2 <= error_px * error_px) inliers.push_back(static_cast<int>(i));
   }
   return inliers;
@@ -164,7 +164,7 @@ std::optional<PlacePose> FindPose(const Keyframe& keyframe, const Frame& frame, 
   PoseProblem problem;
   problem.T_cw = agreed->T_cw;
   for (const int i : agreed->inliers) problem.points.push_back(found.constraints[Index(i)]);
-  const PoseSummary summary = OptimisePose(problem, camera, scale, search.pose);
+  const PoseSummary summary = OptimisePose(problem, camera, search.pose);
   if (!summary.usable || summary.inlier_count < config.min_ransac_inliers) return std::nullopt;
   PlacePose out{keyframe.id, summary.T_cw, std::vector<int>(frame.features.size(), kNone),
                 summary.inlier_count};

@@ -7,8 +7,8 @@ namespace slam {
 
 PointConstraint ConstraintOf(const PointFeature& feature, const Eigen::Vector3d& p_w,
                              const FeatureScale& scale) {
-  return {p_w, feature.u_px, feature.depth_m > 0 ? feature.right_u_px : -1.0,
-          1.0 / scale.Variance(feature.octave)};
+  return {p_w, feature.u_px, scale.Scale(feature.octave), feature.depth_m,
+          feature.depth_sigma_m};
 }
 
 FramePoints PointConstraints(const Frame& frame, const Map& map, const FeatureScale& scale) {
@@ -40,13 +40,27 @@ int OptimiseByPoints(Frame& frame, const Map& map, const Camera& camera,
   problem.T_cw = frame.T_cw;
   problem.points = points.constraints;
   problem.prior = frame.prediction;
-  const PoseSummary summary = OptimisePose(problem, camera, scale, config);
+  const PoseSummary summary = OptimisePose(problem, camera, config);
   if (!summary.usable) return 0;
   frame.T_cw = summary.T_cw;
   frame.pose_information = summary.information;
   frame.pose_covariance = summary.covariance;
   DropOutliers(frame, points, summary.point_inliers);
   return summary.inlier_count;
+}
+
+std::optional<Pose> PoseByPixels(const Frame& frame, const Map& map, const Camera& camera,
+                                 const FeatureScale& scale) {
+  PoseProblem problem;
+  problem.T_cw = frame.T_cw;
+  problem.points = PointConstraints(frame, map, scale).constraints;
+  for (PointConstraint& point : problem.points) point.depth_m = 0.0;
+  PoseProblemConfig few;  // steps: a pose by all that was measured is near
+  few.rounds = 1;
+  few.iterations = 3;
+  const PoseSummary summary = OptimisePose(problem, camera, few);
+  if (!summary.usable) return std::nullopt;
+  return summary.T_cw;
 }
 
 }  // namespace slam

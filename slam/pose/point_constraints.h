@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "slam/geometry/camera.h"
@@ -31,5 +32,10 @@ void DropOutliers(Frame& frame, const FramePoints& points,
 /// @returns the inliers; 0, and nothing is changed, when the outcome is not usable
 int OptimiseByPoints(Frame& frame, const Map& map, const Camera& camera,
                      const FeatureScale& scale, const PoseProblemConfig& config);
+
+/// The pose by the pixels of the matched points alone, a few steps from frame.T_cw; none where they
+/// leave a direction open.
+std::optional<Pose> PoseByPixels(const Frame& frame, const Map& map, const Camera& camera,
+                                 const FeatureScale& scale);
 
 }  // namespace slam

@@ -18,13 +18,13 @@ namespace {
 
 constexpr double kNormalTolerance = 1e-6;  // a normal farther from unit length is not one
 
+bool Positive(double sigma) { return sigma > 0 && std::isfinite(sigma); }
+
 /// Whether a constraint is finite: others are left out of the sums.
 bool Sane(const PointConstraint& c) {
-  return c.p_w.allFinite() && c.u_px.allFinite() && std::isfinite(c.right_u_px) &&
-         c.inv_sigma2_px > 0 && std::isfinite(c.inv_sigma2_px);
+  return c.p_w.allFinite() && c.u_px.allFinite() && Positive(c.sigma_px) &&
+         (c.depth_m == 0 || (Positive(c.depth_m) && Positive(c.depth_sigma_m)));
 }
-
-bool Positive(double sigma) { return sigma > 0 && std::isfinite(sigma); }
 
 bool IsNormal(const Eigen::Vector3d& n) {
   return n.allFinite() && std::abs(n.norm() - 1) < kNormalTolerance;
@@ -75,9 +75,8 @@ Linearised<kRows> Whitened(Linearised<kRows> f, double inv_sigma) {
 /// Sums the factors of one problem at a pose, eq13.
 class Evaluator {
  public:
-  Evaluator(const PoseProblem& problem, const Camera& camera, const FeatureScale& scale,
-            const PoseProblemConfig& config)
-      : problem_(problem), camera_(camera), scale_(scale), config_(config) {
+  Evaluator(const PoseProblem& problem, const Camera& camera, const PoseProblemConfig& config)
+      : problem_(problem), camera_(camera), config_(config) {
     sane_.reserve(problem.points.size());
     for (const PointConstraint& c : problem.points) sane_.push_back(Sane(c));
     used = sane_;
@@ -125,8 +124,8 @@ class Evaluator {
       used[i] = false;
       if (!sane_[i]) continue;
       const PointConstraint& c = problem_.points[i];
-      const Linearised<3> f = PointFactor(c, T_cw, camera_, scale_.bf_px_m);
-      used[i] = f.valid && f.r.squaredNorm() * c.inv_sigma2_px < Chi2(c);
+      const Linearised<3> f = PointFactor(c, T_cw, camera_);
+      used[i] = f.valid && f.r.squaredNorm() < Chi2(c);
       inliers += used[i] ? 1 : 0;
     }
     return inliers;
@@ -134,7 +133,7 @@ class Evaluator {
 
  private:
   double Chi2(const PointConstraint& c) const {
-    return c.right_u_px >= 0 ? kChi2Of3At95 : kChi2Of2At95;
+    return c.depth_m > 0 ? kChi2Of3At95 : kChi2Of2At95;
   }
 
   void AddPoints(const Pose& T_cw, NormalEquations& sum) const {
@@ -142,14 +141,14 @@ class Evaluator {
       if (!used[i]) continue;
       const PointConstraint& c = problem_.points[i];
       const double huber = robust_points ? std::sqrt(Chi2(c)) : 0.0;
-      const Linearised<3> f = PointFactor(c, T_cw, camera_, scale_.bf_px_m);
+      const Linearised<3> f = PointFactor(c, T_cw, camera_);
       if (!f.valid) {
         // A point behind the camera costs as much as the worst that the loss lets pass: else
         // turning away would look like an improvement.
         sum.cost += Huber(kBehindSigmas * kBehindSigmas, huber).cost;
         continue;
       }
-      Add(Whitened(f, std::sqrt(c.inv_sigma2_px)), huber, sum);
+      Add(f, huber, sum);
     }
   }
 
@@ -200,7 +199,6 @@ class Evaluator {
 
   const PoseProblem& problem_;
   const Camera& camera_;
-  const FeatureScale& scale_;
   const PoseProblemConfig& config_;
   std::vector<bool> sane_;
   Matrix6d prior_information_ = Matrix6d::Zero();
@@ -212,13 +210,13 @@ bool FinitePose(const Pose& T) { return T.R.allFinite() && T.t.allFinite(); }
 }  // namespace
 
 PoseSummary OptimisePose(const PoseProblem& problem, const Camera& camera,
-                         const FeatureScale& scale, const PoseProblemConfig& config) {
+                         const PoseProblemConfig& config) {
   PoseSummary out;
   out.T_cw = problem.T_cw;
   out.point_inliers.assign(problem.points.size(), false);
   if (!FinitePose(problem.T_cw)) return out;
 
-  Evaluator evaluate(problem, camera, scale, config);
+  Evaluator evaluate(problem, camera, config);
   out.initial_cost = evaluate(problem.T_cw).cost;
   // Optimise, classify the points, and again without the outliers; the last round is plain.
   for (int round = 0; round < config.rounds; ++round) {

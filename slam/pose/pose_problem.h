@@ -10,17 +10,16 @@
 #include "slam/geometry/camera.h"
 #include "slam/geometry/plane.h"
 #include "slam/geometry/uncertain_pose.h"
-#include "slam/model/feature_scale.h"
 
 namespace slam {
 
-/// f_p: a map point seen at a feature. With depth the third component is the virtual right
-/// coordinate u - b f / z. Source: PAS-SLAM eq14.
+/// f_p: a map point seen at a feature. Source: PAS-SLAM eq14, its third component as measured depth.
 struct PointConstraint {
   Eigen::Vector3d p_w;
   Eigen::Vector2d u_px;        ///< undistorted
-  double right_u_px = -1.0;    ///< < 0: two residuals only
-  double inv_sigma2_px = 1.0;  ///< 1 / sigma^2 of the feature's pyramid level
+  double sigma_px = 1.0;       ///< standard deviation of u_px, each coordinate
+  double depth_m = 0.0;        ///< planar z; 0: none, two residuals only
+  double depth_sigma_m = 0.0;  ///< standard deviation of depth_m
 };
 
 /// f_pi: a map plane seen as a frame plane. Source: PAS-SLAM eq15, eq16 (corrected).
@@ -113,6 +112,6 @@ struct PoseSummary {
 /// guess was. Deterministic: sums run in the order of the vectors. Cost: about 1 ms for 500
 /// points.
 PoseSummary OptimisePose(const PoseProblem& problem, const Camera& camera,
-                         const FeatureScale& scale, const PoseProblemConfig& config);
+                         const PoseProblemConfig& config);
 
 }  // namespace slam

@@ -144,7 +144,7 @@ class SequenceRun {
     frame_.gray = recorded.gray;
     frame_.depth_m = recorded.depth_m;
     report_ = tracker_.TrackFrame(frame_, recorded.bgr);
-    depth_clock_.Observe(frame_, report_.tracked);
+    depth_clock_.Observe(frame_);
     if (report_.tracked && camera_check_.See(frame_) && options_.warn) {
       options_.warn(camera_check_.Warning());
     }
@@ -188,10 +188,13 @@ class SequenceRun {
                          " the images of the one before: taken for the same place, nothing "
                          "learned");
     }
-    for (const std::string& warning : {lost_.Warning(), camera_check_.Warning()}) {
-      if (!warning.empty()) warnings.push_back(warning);
+    if (!lost_.Warning().empty()) warnings.push_back(lost_.Warning());
+    // Depth of another time makes any camera look wrong: the one is said, not both.
+    const std::vector<std::string> late = depth_clock_.Warnings();
+    warnings.insert(warnings.end(), late.begin(), late.end());
+    if (late.empty() && !camera_check_.Warning().empty()) {
+      warnings.push_back(camera_check_.Warning());
     }
-    for (std::string& late : depth_clock_.Warnings()) warnings.push_back(std::move(late));
     if (const int unmapped = tracker_.unmapped_keyframes(); unmapped > 0 && !outcome_.stopped) {
       warnings.push_back(std::to_string(unmapped) +
                          " keyframes came too fast to be mapped on their own");

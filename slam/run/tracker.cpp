@@ -13,6 +13,7 @@
 #include "slam/faces/move_planes.h"
 #include "slam/faces/process_planes.h"
 #include "slam/features/point_features.h"
+#include "slam/features/weigh_depths.h"
 #include "slam/mapping/keyframe_planes.h"
 #include "slam/mapping/local_mapping.h"
 #include "slam/mapping/plane_face.h"
@@ -106,6 +107,7 @@ void Tracker::ExtractInformation(Frame& frame, const cv::Mat3b& bgr, TrackReport
     const Stopwatch watch(times[Module::kOrb]);
     frame.features = ExtractPointFeatures(frame.gray, frame.depth_m, camera_,
                                           config_.point_features, frame.T_dc());
+    WeighDepths(config_.sensor, camera_, frame.speed, frame.features);
   }
   frame.map_points.assign(frame.features.size(), kNone);
   if (!plane_extractor_) return;
@@ -137,6 +139,7 @@ bool Tracker::TrackByPoints(Frame& frame, TrackReport& report) {
   }
   report.points = points_.TrackPoints(frame, map_);
   report.tracked = report.points.state == TrackState::kTracking;
+  if (report.tracked) frame.T_cw_by_pixels = PoseByPixels(frame, map_, camera_, scale());
   if (report.tracked || report.points.started) return true;
   // Where points fail, planes are asked at the pose that motion predicts.
   if (variant_ == Variant::kPoints || !frame.prediction) return false;
@@ -186,8 +189,7 @@ PoseProblem Tracker::ProblemOf(const Frame& frame, const FramePoints& points) co
 bool Tracker::OptimiseByAll(Frame& frame) const {
   const FramePoints points = PointConstraints(frame, map_, scale());
   const PoseProblem problem = ProblemOf(frame, points);
-  const PoseSummary summary =
-      OptimisePose(problem, camera_, scale(), config_.point_search.pose);
+  const PoseSummary summary = OptimisePose(problem, camera_, config_.point_search.pose);
   if (!summary.usable) return false;
   frame.T_cw = summary.T_cw;
   frame.pose_information = summary.information;
@@ -202,8 +204,7 @@ void Tracker::HoldByPlanes(Frame& frame, PoseProblem problem, TrackReport& repor
   // 2016), and as uncertain.
   const std::vector<Eigen::Vector3d> unseen = UnseenSteps(problem.planes);
   problem.prior = HeldAlong(*frame.prediction, unseen);
-  const PoseSummary summary =
-      OptimisePose(problem, camera_, scale(), config_.point_search.pose);
+  const PoseSummary summary = OptimisePose(problem, camera_, config_.point_search.pose);
   frame.T_cw = summary.T_cw;
   frame.pose_information = WithoutSteps(summary.information, unseen);
   const Matrix6d& predicted = frame.prediction->covariance;

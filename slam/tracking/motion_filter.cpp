@@ -61,9 +61,12 @@ std::optional<UncertainPose> MotionFilter::Predict(double timestamp_s) const {
   return UncertainPose{state.T_cw, state.covariance.topLeftCorner<6, 6>()};
 }
 
-Vector6d MotionFilter::Speed(double timestamp_s) const {
-  if (!known_ || !(timestamp_s > known_->timestamp_s)) return Vector6d::Zero();
-  return At(timestamp_s).speed;
+UncertainSpeed MotionFilter::Speed(double timestamp_s) const {
+  if (!known_ || !(timestamp_s > known_->timestamp_s)) {
+    return {Vector6d::Zero(), SpeedVariance().asDiagonal()};
+  }
+  const State state = At(timestamp_s);
+  return {state.speed, state.covariance.bottomRightCorner<6, 6>()};
 }
 
 void MotionFilter::Observe(double timestamp_s, const Pose& T_cw, const Matrix6d& information) {

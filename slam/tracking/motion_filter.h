@@ -46,8 +46,8 @@ class MotionFilter {
   /// later time.
   std::optional<UncertainPose> Predict(double timestamp_s) const;
 
-  /// The most likely speed at a later time: T_cw <- Exp(dt speed) T_cw. Zero when nothing is known.
-  Vector6d Speed(double timestamp_s) const;
+  /// The speed at a later time; at rest, as steadily as a hand is, when nothing is known.
+  UncertainSpeed Speed(double timestamp_s) const;
 
   /// Takes over the pose of a frame that came after the ones before.
   /// @param information  of the pose by what was measured in the frame, without the prediction:

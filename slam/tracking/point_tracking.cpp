@@ -154,7 +154,7 @@ bool PointTracking::TrackByMotion(Frame& frame, const FeatureGrid& grid, const M
     problem.points.push_back(ConstraintOf(frame.features[f], point.p_w, scale_));
     feature_and_point.emplace_back(static_cast<int>(f), point.map_point);
   }
-  const PoseSummary summary = OptimisePose(problem, camera_, scale_, search_.pose);
+  const PoseSummary summary = OptimisePose(problem, camera_, search_.pose);
   report.followed = summary.inlier_count;
   if (!summary.usable) return false;
   ForgetPose(frame);

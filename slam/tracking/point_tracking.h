@@ -102,7 +102,7 @@ class PointTracking {
                 const Vocabulary& vocabulary = Vocabulary::Shipped());
 
   /// The camera's speed at the time of a frame that comes, as Frame::speed.
-  Vector6d Speed(double timestamp_s) const { return motion_filter_.Speed(timestamp_s); }
+  UncertainSpeed Speed(double timestamp_s) const { return motion_filter_.Speed(timestamp_s); }
 
   /// Sets frame.T_cw and frame.map_points (inliers alone). When the state is not kTracking
   /// afterwards, the frame has no pose: T_cw is the identity and nothing is matched; where the

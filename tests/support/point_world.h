@@ -4,6 +4,7 @@
 
 #include "slam/base/random.h"
 #include "slam/geometry/camera.h"
+#include "slam/geometry/sensor_model.h"
 #include "slam/mapping/keyframes.h"
 #include "slam/mapping/map_points.h"
 #include "slam/model/map.h"
@@ -26,6 +27,7 @@ inline PointFeature FeatureOfPoint(const Eigen::Vector3d& p_w, const Pose& T_cw,
   feature.descriptor = descriptor;
   if (with_depth) {
     feature.depth_m = p_c.z();
+    feature.depth_sigma_m = SensorModel{}.DepthSigma_m(p_c.z());
     feature.right_u_px = feature.u_px.x() - bf_px_m / p_c.z();
   }
   return feature;

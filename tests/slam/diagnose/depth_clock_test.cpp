@@ -51,8 +51,8 @@ DepthClock Watch(const Watched& watched) {
     frame.timestamp_s = 100.0 + s;
     frame.depth_m = DepthSeen(HandAt(watched.speed * (s + watched.late_s)), i);
     frame.depth_late_s = watched.stamped_s;
-    frame.T_cw = HandAt(watched.speed * s);
-    clock.Observe(frame, !lost);
+    if (!lost) frame.T_cw_by_pixels = HandAt(watched.speed * s);
+    clock.Observe(frame);
   }
   return clock;
 }

@@ -305,6 +305,7 @@ TEST(BundlePlanes, HoldThePointsThatLieOnThemWhenAsked) {
       PointFeature& seen = seen_by.features[static_cast<std::size_t>(feature)];
       seen = FeatureOfPoint(point.p_w, seen_by.T_cw, world.camera, seen.descriptor, true);
       seen.depth_m += 0.03 * (2 * random.Uniform() - 1);
+      seen.depth_sigma_m = 0.03 / std::sqrt(3.0);
     }
     landmark.map_points.insert(point.id);
   }

@@ -55,16 +55,26 @@ TEST(PointFactorEq14, IsNotValidBehindTheCamera) {
   PointConstraint c;
   c.p_w = {0, 0, -1};
   c.u_px = {320, 240};
-  EXPECT_FALSE(PointFactor(c, Pose{}, Camera{}, 40).valid);
+  EXPECT_FALSE(PointFactor(c, Pose{}, Camera{}).valid);
 }
 
 TEST(PointFactorEq14, HasTwoRowsWithoutDepth) {
   PointConstraint c;
   c.p_w = {0.1, 0.1, 1};
   c.u_px = {320, 240};
-  const Linearised<3> factor = PointFactor(c, Pose{}, Camera{}, 40);
+  const Linearised<3> factor = PointFactor(c, Pose{}, Camera{});
   EXPECT_EQ(factor.r[2], 0.0);
   EXPECT_TRUE(factor.J.row(2).isZero());
+}
+
+TEST(PointFactorEq14, CountsStandardDeviations) {
+  const Camera camera;
+  PointConstraint c;
+  c.p_w = {0.2, -0.1, 1.6};
+  c.u_px = camera.Project(c.p_w) - Eigen::Vector2d(2.4, -0.6);
+  c.sigma_px = 1.2;
+  c.depth_m = 1.6 + 1e-6, c.depth_sigma_m = 5e-7;
+  EXPECT_LT((PointFactor(c, Pose{}, camera).r - Eigen::Vector3d(2, -0.5, 2)).norm(), 1e-5);
 }
 
 TEST(BoxFactorEq17, LeavesOutTheSidesThatCarryNoInformation) {

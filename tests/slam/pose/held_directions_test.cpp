@@ -29,7 +29,7 @@ PoseSummary SeenByPlanes(const std::vector<Eigen::Vector3d>& normals_w) {
     c.angle_sigma_rad = 0.002;
     problem.planes.push_back(c);
   }
-  return OptimisePose(problem, Camera{}, FeatureScale{}, {});
+  return OptimisePose(problem, Camera{}, {});
 }
 
 /// Whether some of the axes is this one, either way round.
@@ -151,7 +151,7 @@ TEST(WithoutSteps, LeaveTheHeightAsUncertainAsPredictedWhateverTheWallsSay) {
     wall.centroid_c = -wall.pi_c.n;
     wall.offset_sigma_m = wall.angle_sigma_rad = 1e-3;
   }
-  const PoseSummary summary = OptimisePose(problem, Camera{}, FeatureScale{}, {});
+  const PoseSummary summary = OptimisePose(problem, Camera{}, {});
   EXPECT_LT(std::abs(summary.T_cw.t.dot(unseen[0])), 1e-3);
   EXPECT_NEAR(std::abs(summary.T_cw.t.z()), 0.012, 0.003);
   const Matrix6d information = WithoutSteps(summary.information, unseen);

@@ -27,7 +27,9 @@ PoseProblem Seen(int points, double sigma_px, double wrong_share, std::uint64_t 
       return wrong ? 80 * (random.Uniform() - 0.5) : sigma_px * Normal(random);
     };
     c.u_px = u + Eigen::Vector2d(noise(), noise());
-    c.right_u_px = u.x() - FeatureScale{}.Disparity_px(z) + noise();
+    // As sure as a pixel of a stereo camera of 40 px m: at 2 m 0.1 m.
+    c.depth_sigma_m = z * z / 40;
+    c.depth_m = z / (1 + noise() * c.depth_sigma_m / z);
     problem.points.push_back(c);
   }
   problem.T_cw = Exp((Vector6d() << 0.02, -0.02, 0.02, 0.02, 0.03, -0.02).finished()) * kTruth;
@@ -35,8 +37,7 @@ PoseProblem Seen(int points, double sigma_px, double wrong_share, std::uint64_t 
 }
 
 TEST(PoseOptimiserEq13, FindsThePoseAmongWrongMatches) {
-  const PoseSummary summary =
-      OptimisePose(Seen(400, 1.0, 0.3, 1), Camera{}, FeatureScale{}, {});
+  const PoseSummary summary = OptimisePose(Seen(400, 1.0, 0.3, 1), Camera{}, {});
   EXPECT_TRUE(summary.usable);
   // One pixel over 280 points at 525 px and about two metres: 0.3 mm and 0.2 mrad; tenfold.
   EXPECT_THAT(summary.T_cw, PoseNear(kTruth, 2e-3, 3e-3));
@@ -54,8 +55,7 @@ TEST(PoseOptimiserEq13, IsConsistentWithItsInformation) {
   double sum = 0.0;
   for (int run = 0; run < kRuns; ++run) {
     const PoseSummary summary =
-        OptimisePose(Seen(60, 1.0, 0.0, 100 + static_cast<std::uint64_t>(run)), Camera{},
-                     FeatureScale{}, {});
+        OptimisePose(Seen(60, 1.0, 0.0, 100 + static_cast<std::uint64_t>(run)), Camera{}, {});
     const Vector6d error = Log(summary.T_cw * Inverse(kTruth));
     sum += error.dot(summary.information * error);
   }
@@ -64,12 +64,11 @@ TEST(PoseOptimiserEq13, IsConsistentWithItsInformation) {
 
 TEST(PoseOptimiserEq13, RefusesAProblemThatConstrainsNothing) {
   PoseProblem problem;
-  const PoseSummary nothing = OptimisePose(problem, Camera{}, FeatureScale{}, {});
+  const PoseSummary nothing = OptimisePose(problem, Camera{}, {});
   EXPECT_FALSE(nothing.usable);
   EXPECT_EQ(nothing.nullity, 6);
   problem = Seen(2, 0.0, 0.0, 3);
-  EXPECT_FALSE(OptimisePose(problem, Camera{}, FeatureScale{}, {})
-                   .usable);  // free to turn about their line
+  EXPECT_FALSE(OptimisePose(problem, Camera{}, {}).usable);  // free to turn about their line
 }
 
 TEST(PoseOptimiserEq13, LeavesTheOpenDirectionsOfASinglePlaneAlone) {
@@ -80,7 +79,7 @@ TEST(PoseOptimiserEq13, LeavesTheOpenDirectionsOfASinglePlaneAlone) {
   c.pi_w = {-Eigen::Vector3d::UnitZ(), 1.02};
   c.centroid_c = {0, 0, 1};
   problem.planes.push_back(c);
-  const PoseSummary summary = OptimisePose(problem, Camera{}, FeatureScale{}, {});
+  const PoseSummary summary = OptimisePose(problem, Camera{}, {});
   EXPECT_EQ(summary.nullity, 3);
   EXPECT_FALSE(summary.usable);
   EXPECT_THAT(summary.T_cw,
@@ -106,7 +105,7 @@ PoseProblem WallNearerThanPredicted(double sigma_m) {
 TEST(PoseOptimiserEq13, LeavesWhatNothingObservesWhereItWasPredictedAndAsUncertain) {
   PoseProblem problem = WallNearerThanPredicted(1e-5);
   problem.T_cw = Exp((Vector6d() << 0.02, -0.02, 0.02, 0, 0, 0.03).finished()) * problem.T_cw;
-  const PoseSummary summary = OptimisePose(problem, Camera{}, FeatureScale{}, {});
+  const PoseSummary summary = OptimisePose(problem, Camera{}, {});
   EXPECT_TRUE(summary.usable);
   EXPECT_EQ(summary.nullity, 0);
   EXPECT_THAT(summary.T_cw,
@@ -122,8 +121,7 @@ TEST(PoseOptimiserEq13, LeavesWhatNothingObservesWhereItWasPredictedAndAsUncerta
 
 TEST(PoseOptimiserEq13, WeighsWhatIsMeasuredAgainstThePredictionByTheVariances) {
   const double measured_m = 0.02, predicted_m = 0.01;
-  const PoseSummary summary =
-      OptimisePose(WallNearerThanPredicted(measured_m), Camera{}, FeatureScale{}, {});
+  const PoseSummary summary = OptimisePose(WallNearerThanPredicted(measured_m), Camera{}, {});
   const double m2 = measured_m * measured_m, p2 = predicted_m * predicted_m;
   EXPECT_NEAR(summary.T_cw.t.z(), -0.02 * p2 / (p2 + m2), 1e-6);
   EXPECT_NEAR(summary.covariance(2, 2), p2 * m2 / (p2 + m2), 1e-9);
@@ -143,14 +141,13 @@ TEST(PoseOptimiserEq13, WithoutThePointFactorPlanesHoldThePoseAlone) {
   }
   PoseProblemConfig config;
   config.use_points = false;
-  EXPECT_THAT(OptimisePose(problem, Camera{}, FeatureScale{}, config).T_cw,
-              PoseNear(kTruth, 1e-6, 1e-6));
+  EXPECT_THAT(OptimisePose(problem, Camera{}, config).T_cw, PoseNear(kTruth, 1e-6, 1e-6));
 }
 
 TEST(PoseOptimiserEq13, RefusesAFirstGuessThatIsNotFinite) {
   PoseProblem problem = Seen(50, 0.0, 0.0, 4);
   problem.T_cw.t.x() = std::nan("");
-  const PoseSummary summary = OptimisePose(problem, Camera{}, FeatureScale{}, {});
+  const PoseSummary summary = OptimisePose(problem, Camera{}, {});
   EXPECT_FALSE(summary.usable);
   EXPECT_EQ(summary.inlier_count, 0);
   EXPECT_EQ(summary.point_inliers.size(), 50u);

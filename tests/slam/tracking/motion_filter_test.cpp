@@ -35,13 +35,14 @@ TEST(MotionFilter, GoesOnAtTheSpeedThatWasSeen) {
 
 TEST(MotionFilter, SaysTheSpeed) {
   MotionFilter filter{{}};
-  EXPECT_TRUE(filter.Speed(0.0).isZero());
+  EXPECT_TRUE(filter.Speed(0.0).mean.isZero());
   const Vector6d speed = (Vector6d() << 0.1, 0, -0.3, 0, 0.2, 0).finished();
   for (int i = 0; i < 30; ++i) filter.Observe(i * kFrame_s, Exp(i * kFrame_s * speed), kAll);
-  EXPECT_LT((filter.Speed(30 * kFrame_s) - speed).norm(), 0.1 * speed.norm());  // it loses 7 %
-  EXPECT_LT(filter.Speed(3.0).norm(), 0.1 * speed.norm());
+  EXPECT_LT((filter.Speed(30 * kFrame_s).mean - speed).norm(),
+            0.1 * speed.norm());  // it loses 7 %
+  EXPECT_LT(filter.Speed(3.0).mean.norm(), 0.1 * speed.norm());
   filter.Forget();
-  EXPECT_TRUE(filter.Speed(3.0).isZero());
+  EXPECT_TRUE(filter.Speed(3.0).mean.isZero());
 }
 
 TEST(MotionFilter, SaysHowFarAHandCanHaveGone) {

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "slam/features/point_features.h"
+#include "slam/features/weigh_depths.h"
 #include "slam/mapping/local_mapping.h"
 #include "slam/tracking/point_tracking.h"
 
@@ -18,9 +19,15 @@ struct PointOdometer {
   explicit PointOdometer(const Camera& c)
       : camera(c), tracking(c, FeatureScale{}, PointSearchConfig{}, PointTrackingConfig{}) {}
 
+  /// @param frame with gray and depth_m; gets features
+  void Extract(Frame& frame) const {
+    frame.features = ExtractPointFeatures(frame.gray, frame.depth_m, camera, {});
+    WeighDepths(SensorModel{}, camera, {}, frame.features);
+  }
+
   /// @param frame with gray and depth_m; gets features, matches and pose
   PointTrackReport Step(Frame& frame) {
-    frame.features = ExtractPointFeatures(frame.gray, frame.depth_m, camera, {});
+    Extract(frame);
     const PointTrackReport report = tracking.TrackPoints(frame, map);
     if (report.state != TrackState::kTracking) return report;
     if (tracking.NeedKeyframe(frame, map)) {

@@ -166,7 +166,7 @@ TEST(PointTracking, CountsOnItsPointsInWhichFramesTheyShouldBeSeenAndAre) {
   };
   for (int i = 0; i < 6; ++i) {
     Frame frame = SeeSwinging(world, odometer.camera, i);
-    frame.features = ExtractPointFeatures(frame.gray, frame.depth_m, odometer.camera, {});
+    odometer.Extract(frame);
     const auto [visible, found] = counts();
     const PointTrackReport report = odometer.tracking.TrackPoints(frame, odometer.map);
     if (i > 0) {
