@@ -113,6 +113,22 @@ RC_GTEST_PROP(PlaneExtraction, EveryFaceOfABoxIsItsOwnSegment, ()) {
   }
 }
 
+RC_GTEST_PROP(PlaneExtraction, OnlyWhatIsBehindAWallDividesIt, ()) {
+  const Camera camera = SmallCamera();
+  const auto wall_m = static_cast<float>(AnyReal(0.6, 1.5));
+  cv::Mat1f depth_m(camera.height, camera.width, wall_m);
+  enum Between { kBehind, kInFront, kUnmeasured };
+  const auto between = static_cast<Between>(AnyInt(kBehind, kUnmeasured));
+  const auto strip_m =
+      static_cast<float>(between == kBehind ? AnyReal(1.1, 1.4) : AnyReal(0.6, 0.9)) * wall_m;
+  depth_m.colRange(AnyInt(80, 150), AnyInt(170, 240))
+      .setTo(between == kUnmeasured ? 0.0f : strip_m);
+  const Frame frame = Extract(depth_m, camera);
+  const int left = frame.plane_labels(120, 40), right = frame.plane_labels(120, 280);
+  RC_ASSERT(left > 0 && right > 0);
+  RC_ASSERT((left == right) == (between != kBehind));
+}
+
 RC_GTEST_PROP(PlaneExtraction, HolesAddNoPlaneAndNanIsZero, ()) {
   const Camera camera = AnyCamera();
   Plane truth;

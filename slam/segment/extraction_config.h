@@ -31,7 +31,6 @@ struct PlaneExtractionConfig {
   GrowthConfig growth;
   JoinConfig joining;
   double max_block_bias_sigmas = 3.0;
-  double max_island_behind = 0.35;  // more: what cuts it off is not in front
 
   int min_pixels = 300;  // at 1 m 33 x 33 mm seen frontally
   double max_angle_sigma_rad = 0.1;
@@ -54,9 +53,6 @@ inline void VisitFields(PlaneExtractionConfig& c, FieldVisitor& v) {
       "largest mean residual of a block, in standard errors beyond the model error; others "
       "are offered to the second clustering");
   v.Section("joining", "when parts are one surface", c.joining);
-  v.Number("max_island_behind", c.max_island_behind, "[0, 1]",
-           "largest part of the pixels around a cut-off piece of a segment that lie behind the "
-           "plane, for the piece to stay with it");
   v.Integer("min_pixels", c.min_pixels, "[3, 1000000]", "smallest segment");
   v.Degrees("max_angle_sigma_deg", c.max_angle_sigma_rad, "(0, 90)",
             "largest standard deviation of a segment's normal");

@@ -4,8 +4,6 @@
 #include <cstddef>
 #include <numeric>
 
-#include "slam/segment/block_pixels.h"
-
 namespace slam {
 namespace {
 
@@ -48,38 +46,13 @@ void ConnectRuns(LabelComponents& components) {
       if (run.label == kNoLabel) continue;
       if (root == k) {
         of_run[k] = static_cast<int>(components.list.size());
-        components.list.push_back({run.label, 0, 0, 0});
+        components.list.push_back({run.label, 0});
       } else {
         of_run[k] = of_run[root];
       }
       components.list[static_cast<std::size_t>(of_run[k])].pixels += run.end - run.begin;
     }
   }
-}
-
-void CountSides(const DepthGrid& grid, const std::vector<LabelPlane>& planes,
-                const std::vector<double>& unsure_sigmas, LabelComponents& components) {
-  // Counts `count` pixels of a row, from `to` on, that are neighbours of a run.
-  const auto count_sides = [&](std::size_t run, std::size_t to, int count) {
-    if (components.component[run] < 0) return;
-    LabelComponent& c = components.list[static_cast<std::size_t>(components.component[run])];
-    const LabelPlane& plane = planes[static_cast<std::size_t>(c.label)];
-    const PixelPlane p(plane);
-    const auto unsure = static_cast<float>(unsure_sigmas[static_cast<std::size_t>(c.label)]);
-    int in_front = 0, behind = 0;
-    for (const std::size_t end = to + static_cast<std::size_t>(count); to < end; ++to) {
-      if (!(grid.g[to] > 0)) continue;
-      const float nearer = grid.q[to] - (p.a * grid.x[to] + p.b * grid.y[to] + p.c);
-      const float margin = unsure > 0 ? unsure * p.grazing / grid.g[to] : 0.0f;
-      in_front += nearer > margin ? 1 : 0;
-      behind += nearer <= -margin ? 1 : 0;
-    }
-    c.in_front += in_front, c.behind += behind;
-  };
-  VisitBoundaryPieces(components.runs, [&](std::size_t i, std::size_t j, int count,
-                                           std::size_t a, std::size_t b) {
-    count_sides(a, j, count), count_sides(b, i, count);
-  });
 }
 
 }  // namespace slam

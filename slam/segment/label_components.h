@@ -2,9 +2,7 @@
 
 #include <vector>
 
-#include "slam/segment/depth_grid.h"
 #include "slam/segment/label_runs.h"
-#include "slam/segment/pixel_labels.h"
 
 namespace slam {
 
@@ -12,8 +10,6 @@ namespace slam {
 struct LabelComponent {
   int label = 0;
   int pixels = 0;
-  /// Measured neighbours across its boundary that lie behind or in front of the label's plane.
-  int behind = 0, in_front = 0;
 };
 
 /// Connected components of a label image, in order of their first pixel.
@@ -23,14 +19,9 @@ struct LabelComponents {
   std::vector<LabelComponent> list;
 };
 
-/// Finds the components of components.runs, without sides. Our own because it joins runs
+/// Finds the components of components.runs. Our own because it joins runs
 /// instead of pixels: cv::connectedComponentsWithStats, called for each label within its
 /// bounds, took 21 times as long on label images of desks, a seventh of the whole extraction.
 void ConnectRuns(LabelComponents& components);
-
-/// Counts `behind` and `in_front` of every component.
-/// @param unsure_sigmas  of each label: what is as near to its plane is neither
-void CountSides(const DepthGrid& grid, const std::vector<LabelPlane>& planes,
-                const std::vector<double>& unsure_sigmas, LabelComponents& components);
 
 }  // namespace slam

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "slam/segment/label_components.h"
+#include "slam/segment/label_pairs.h"
 #include "slam/segment/measured_segments.h"
 #include "slam/segment/sight_lines.h"
 
@@ -13,6 +14,9 @@ namespace slam {
 namespace {
 
 constexpr double kMinPlane_px = 3.0;  // a plane has three parameters
+/// Of a label's border: what it shares with another has been asked for steps (JoinSurfaces), and
+/// they were kept apart.
+constexpr double kMaxContactShare = 0.2;
 
 PlaneSums SumRun(const DepthGrid& grid, int row, const LabelRun& run) {
   PlaneSums sums;
@@ -20,13 +24,6 @@ PlaneSums SumRun(const DepthGrid& grid, int row, const LabelRun& run) {
     AddPixel(grid, static_cast<std::size_t>(grid.Index(u, row)), sums);
   return sums;
 }
-
-/// Pixels across a boundary that lie behind or in front of the plane.
-struct Surroundings {
-  int behind = 0, in_front = 0;
-  /// Whether the plane can pass behind what surrounds it.
-  bool MayHide(double max_behind) const { return behind <= max_behind * (behind + in_front); }
-};
 
 class PartSegmentation {
  public:
@@ -37,8 +34,9 @@ class PartSegmentation {
   PartSegments Segments() &&;
 
  private:
+  void MeasureContacts();
   std::vector<int> LabelsBySize() const;
-  bool IsHiddenPart(int part, int larger, const Surroundings& around, int label);
+  bool PassBehind(const SightLines& lines, int a, int b, int label) const;
   void FindMainComponents();
   std::vector<PlaneSums> SumSegments() const;
 
@@ -46,7 +44,8 @@ class PartSegmentation {
   const std::vector<Surface>& surfaces_;
   const PlaneExtractionConfig& config_;
   LabelComponents components_;
-  SightLines between_;
+  LabelPairs<int> contacts_;           ///< sides of pixels that two labels share
+  std::vector<int> borders_;           ///< sides of pixels around each label
   std::vector<LabelPlane> planes_;     ///< one a label
   std::vector<double> unsure_sigmas_;  ///< the same: what is as near is on no side of it
   std::vector<int> into_;              ///< label that each label is part of
@@ -58,14 +57,26 @@ class PartSegmentation {
 PartSegmentation::PartSegmentation(const DepthGrid& grid, const std::vector<Surface>& surfaces,
                                    const LabelRuns& labels, const PlaneExtractionConfig& config)
     : grid_(grid), surfaces_(surfaces), config_(config) {
-  // Connected parts of the labels, and what lies around them.
   for (const Surface& surface : surfaces) {
     planes_.push_back(surface.plane);
     unsure_sigmas_.push_back(BendSigmas(surface, config.joining));
   }
   components_.runs = labels;
   ConnectRuns(components_);
-  CountSides(grid, planes_, unsure_sigmas_, components_);
+  MeasureContacts();
+}
+
+void PartSegmentation::MeasureContacts() {
+  contacts_.Clear(static_cast<int>(surfaces_.size()));
+  borders_.assign(surfaces_.size(), 0);
+  const std::vector<LabelRun>& runs = components_.runs.runs;
+  VisitBoundaryPieces(components_.runs,
+                      [&](std::size_t, std::size_t, int n, std::size_t i, std::size_t j) {
+                        const int a = runs[i].label, b = runs[j].label;
+                        for (const int label : {a, b})
+                          if (label != kNoLabel) borders_[static_cast<std::size_t>(label)] += n;
+                        if (a != kNoLabel && b != kNoLabel) contacts_.Of(a, b) += n;
+                      });
 }
 
 /// Labels with pixels, largest first.
@@ -79,19 +90,14 @@ std::vector<int> PartSegmentation::LabelsBySize() const {
   return labels;
 }
 
-/// Gives labels whose parts lie on the extension of a larger label's plane, hidden in between,
+/// Gives labels that lie on the extension of a larger label's plane, which may go on in between,
 /// the larger label.
 void PartSegmentation::JoinHiddenLabels(const DepthNoise& noise) {
-  // What surrounds the parts of each label, and the lines of sight between them.
-  std::vector<Surroundings> around(planes_.size());
-  for (const LabelComponent& c : components_.list) {
-    Surroundings& s = around[static_cast<std::size_t>(c.label)];
-    s.behind += c.behind, s.in_front += c.in_front;
-  }
   const std::vector<int> by_size = LabelsBySize();
   std::vector<int> label_of_run;
   for (const LabelRun& run : components_.runs.runs) label_of_run.push_back(run.label);
-  between_.Begin(grid_, components_.runs, label_of_run, static_cast<int>(planes_.size()));
+  const SightLines lines(grid_, components_.runs, std::move(label_of_run),
+                         static_cast<int>(planes_.size()));
 
   // Each label, the larger first, joins the larger one that fits its pixels best.
   into_.resize(planes_.size());
@@ -102,24 +108,20 @@ void PartSegmentation::JoinHiddenLabels(const DepthNoise& noise) {
     for (std::size_t j = 0; j < k; ++j) {
       const int large = by_size[j];
       if (into_[static_cast<std::size_t>(large)] != large) continue;
+      if (contacts_.Of(by_size[k], large) > kMaxContactShare * borders_[small]) continue;
       const Surface& surface = surfaces_[static_cast<std::size_t>(large)];
       const double gap = SurfaceGap(surfaces_[small], surface, noise, config_.joining);
-      if (!(gap < min_gap)) continue;
-      const bool hidden = IsHiddenPart(by_size[k], large, around[small], large);
-      if (hidden) min_gap = gap, into_[small] = large;
+      if (gap < min_gap && !PassBehind(lines, by_size[k], large, large))
+        min_gap = gap, into_[small] = large;
     }
   }
   for (LabelComponent& c : components_.list) c.label = into_[static_cast<std::size_t>(c.label)];
 }
 
-/// Whether the surface of a label can pass behind what separates two parts.
-bool PartSegmentation::IsHiddenPart(int part, int larger, const Surroundings& around,
-                                    int label) {
-  const LabelPlane& plane = planes_[static_cast<std::size_t>(label)];
-  const double unsure = unsure_sigmas_[static_cast<std::size_t>(label)];
-  return (around.MayHide(config_.max_island_behind) &&
-          between_.ShareBehind(part, larger, plane, unsure) <= config_.max_island_behind) ||
-         between_.AreSidesOfSomethingInFront(part, larger, plane, unsure);
+/// Whether the lines from one part to another pass something behind the surface of a label.
+bool PartSegmentation::PassBehind(const SightLines& lines, int a, int b, int label) const {
+  return lines.PassBehind(a, b, planes_[static_cast<std::size_t>(label)],
+                          unsure_sigmas_[static_cast<std::size_t>(label)]);
 }
 
 void PartSegmentation::FindMainComponents() {
@@ -133,13 +135,13 @@ void PartSegmentation::FindMainComponents() {
   }
 }
 
-/// A label's largest component makes a segment; another one joins it if what separates them is
-/// in front, makes a segment of its own if it is large enough, or is dropped.
+/// A label's largest component makes a segment; another one joins it if nothing behind is seen
+/// between them, makes a segment of its own if it is large enough, or is dropped.
 void PartSegmentation::NumberSegments() {
   // One segment for the largest component of each label.
   FindMainComponents();
-  between_.Begin(grid_, components_.runs, components_.component,
-                 static_cast<int>(components_.list.size()));
+  const SightLines lines(grid_, components_.runs, components_.component,
+                         static_cast<int>(components_.list.size()));
   segment_.assign(components_.list.size(), -1);
   segment_count_ = 0;
   for (const int k : main_) {
@@ -151,7 +153,7 @@ void PartSegmentation::NumberSegments() {
     const LabelComponent& c = components_.list[k];
     if (segment_[k] >= 0 || c.pixels < config_.min_island_pixels) continue;
     const int largest = main_[static_cast<std::size_t>(c.label)];
-    if (IsHiddenPart(static_cast<int>(k), largest, {c.behind, c.in_front}, c.label)) {
+    if (!PassBehind(lines, static_cast<int>(k), largest, c.label)) {
       segment_[k] = segment_[static_cast<std::size_t>(largest)];
     } else if (c.pixels >= config_.min_pixels) {
       segment_[k] = segment_count_++;

@@ -19,10 +19,10 @@ struct PartSegments {
 /// The segments that connected parts of labels make, across what hides parts of them.
 ///
 /// Two parts are one plane though nothing joins them in the image if the smaller lies on the
-/// larger's extension, and either both what surrounds the smaller and what lies between them is
-/// in front of it, so that the plane can pass behind, or from all over the one to all over the
-/// other something in front is seen and nothing behind, whatever else ends them. Two book tops
-/// of one height have the desk between them, which is behind, and stay apart.
+/// larger's extension, hardly touches it (what does was asked for steps, JoinSurfaces), and
+/// hardly anything behind the plane is seen between them: the plane can pass behind what is in
+/// front. Two book tops of one height have the desk between them, which is behind, and stay
+/// apart.
 ///
 /// @param labels  runs of the labels of the surfaces
 PartSegments SegmentParts(const DepthGrid& grid, const std::vector<Surface>& surfaces,

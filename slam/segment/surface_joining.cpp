@@ -38,12 +38,11 @@ struct NoisySquares {
 
 /// What lies along the common border of two labels.
 struct Border {
-  NoisySquares step;         ///< in sigmas of a pixel
-  double signed_step = 0.0;  ///< its weighted sum; positive: the lower label is nearer
-  NoisySquares turn;         ///< of the slope, in slopes of the bend
+  NoisySquares step;  ///< in sigmas of a pixel
+  NoisySquares turn;  ///< of the slope, in slopes of the bend
 
   Border& operator+=(const Border& o) {
-    step += o.step, signed_step += o.signed_step, turn += o.turn;
+    step += o.step, turn += o.turn;
     return *this;
   }
 };
@@ -84,9 +83,7 @@ void AddPlace(const PlaneSums& sums_a, const PlaneSums& sums_b, const DepthNoise
   const double information =
       1.0 / A.w + 1.0 / B.w + (yy * dx * dx - 2 * xy * dx * dy + xx * dy * dy) / det;
   const double noise2 = noise.correlated_px * grazing * grazing;
-  const double before = border.step.weight;
   border.step.Add(step * step / pixel2, noise2 * information / pixel2);
-  border.signed_step += (border.step.weight - before) * step / std::sqrt(pixel2);
 
   // The turn of the slope across the border, of two planes of their own.
   const double det_a = A.xx * A.yy - A.xy * A.xy, det_b = B.xx * B.yy - B.xy * B.xy;
@@ -142,7 +139,6 @@ class SurfaceJoining {
   void Look(const BlockPart& a, const BlockPart& b, int block, ContactPixels* contacts);
   bool MayBeOne(int a, int b) const;
   bool IsSmooth(const Border& border) const;
-  bool AreBent(const PlaneSums& a, const PlaneSums& b) const;
   void Join(std::size_t pair);
 
   const PartsOnBlocks& on_;
@@ -221,23 +217,9 @@ bool SurfaceJoining::MayBeOne(int a, int b) const {
          within(ErrorOf(smaller, fit->plane) - own->error, smaller, config_.max_part_bends);
 }
 
-/// Whether one plane explains them so ill that local ones are asked for.
-bool SurfaceJoining::AreBent(const PlaneSums& a, const PlaneSums& b) const {
-  if (!(config_.bend_ratio > 0.0)) return false;
-  PlaneSums both = a;
-  both += b;
-  const std::optional<PlaneFit> fit = Fit(both), fit_a = Fit(a), fit_b = Fit(b);
-  if (!fit || !fit_a || !fit_b) return false;
-  const double grazing = GrazingFactor(both, fit->plane, noise_);
-  const double added = fit->error - fit_a->error - fit_b->error;
-  return added > grazing * grazing * config_.min_local_sigmas * config_.min_local_sigmas *
-                     std::min(a.n, b.n);
-}
-
 bool SurfaceJoining::IsSmooth(const Border& border) const {
   const auto square = [](double x) { return x * x; };
-  return border.step.Mean() < square(config_.max_uneven_sigmas) &&
-         std::abs(border.signed_step) < config_.max_step_sigmas * border.step.weight &&
+  return border.step.Mean() < square(config_.max_step_sigmas) &&
          (border.turn.weight == 0.0 ||
           border.turn.Mean() - border.turn.Sigma() < square(config_.max_turn_bends));
 }
@@ -245,19 +227,16 @@ bool SurfaceJoining::IsSmooth(const Border& border) const {
 /// Joins the labels of a pair; their borders with a third become one.
 void SurfaceJoining::Join(std::size_t pair) {
   const int a = pairs_[pair].a, b = pairs_[pair].b;
-  PlaneSums &A = sums_[static_cast<std::size_t>(a)], &B = sums_[static_cast<std::size_t>(b)];
-  if (bent_[static_cast<std::size_t>(b)] != 0 || AreBent(A, B))
-    bent_[static_cast<std::size_t>(a)] = 1;
-  A += B, B = {};
+  PlaneSums& other_sums = sums_[static_cast<std::size_t>(b)];
+  sums_[static_cast<std::size_t>(a)] += other_sums;
+  other_sums = {};
+  bent_[static_cast<std::size_t>(a)] = config_.bend_ratio > 0.0 ? 1 : 0;
   for (int& target : into_) target = target == b ? a : target;
   pairs_.erase(pairs_.begin() + static_cast<std::ptrdiff_t>(pair));
   for (Pair& other : pairs_) {
     if (other.a == b) other.a = a;
     if (other.b == b) other.b = a;
-    if (other.a > other.b) {
-      std::swap(other.a, other.b);
-      other.border.signed_step = -other.border.signed_step;
-    }
+    if (other.a > other.b) std::swap(other.a, other.b);
   }
   std::stable_sort(pairs_.begin(), pairs_.end(), [](const Pair& p, const Pair& o) {
     return std::pair(p.a, p.b) < std::pair(o.a, o.b);

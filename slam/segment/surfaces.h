@@ -12,7 +12,7 @@ namespace slam {
 struct Surface {
   PlaneSums sums;
   LabelPlane plane;
-  bool bent = false;  ///< its parts are off the plane by as much as the sensor bends
+  bool bent = false;  ///< its parts may be off the plane by as much as the sensor bends
 };
 
 /// How far what belongs to a bent surface may be off its plane, sigmas; 0 for one that is not.
