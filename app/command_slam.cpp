@@ -26,7 +26,7 @@ struct SlamArguments {
   std::string config_file, segmentation;
   bool print_config = false;
   bool loop_closing = false;
-  std::string mapping, depth_warp;
+  std::string mapping, depth_warp, structure;
   std::optional<int> detect_every;
   std::string live_scene;
   ReadRecording recording;  ///< with live_scene
@@ -91,10 +91,18 @@ int Verdict(const slam::RunOutcome& outcome, const std::string& sequence) {
   return kDone;
 }
 
+void SetStructure(const std::string& structure, slam::Config& config) {
+  if (structure.empty()) return;
+  const std::vector<std::string>& names = slam::StructureModeNames();
+  const auto position = std::find(names.begin(), names.end(), structure) - names.begin();
+  config.structure.mode = static_cast<slam::StructureMode>(position);
+}
+
 int RunSlam(SlamArguments& arguments, bool quiet) {
   if (arguments.print_config) {
     slam::Config config = ConfigFrom(arguments.sensor, arguments.config_file);
     SetSegmentation(arguments.segmentation, config);
+    SetStructure(arguments.structure, config);
     fmt::print("{}", slam::ConfigAsYaml(config));
     return kDone;
   }
@@ -116,6 +124,7 @@ int RunSlam(SlamArguments& arguments, bool quiet) {
   if (arguments.loop_closing) options.config.loop_closing.enabled = true;
   if (arguments.detect_every) options.config.detection.every = *arguments.detect_every;
   if (!arguments.depth_warp.empty()) options.config.depth_warp.source = arguments.depth_warp;
+  SetStructure(arguments.structure, options.config);
   if (!arguments.mapping.empty()) {
     options.config.async_mapping = arguments.mapping == "async";
   }
@@ -205,6 +214,14 @@ void AddSlamCommand(CLI::App& pas, const Globals& globals, int& exit_code) {
       "auto: learn from the planes of the run how the depth camera bends what is flat, and "
       "take that out once it is worth it; off; or a file of pas calibrate. Default: as "
       "--config says, else auto");
+  command
+      ->add_option(
+          "--structure", arguments->structure,
+          "What is assumed of how planes stand to each other. none | parallel (parallel "
+          "and perpendicular planes) | manhattan (one Manhattan frame) | mixture (many) "
+          "| supposed (planes supposed at straight edges). Default: as --config says, "
+          "else parallel")
+      ->check(CLI::IsMember(slam::StructureModeNames()));
   command->add_flag("--loop-closing", arguments->loop_closing,
                     "Recognise known places and draw the map together there");
   command->add_flag("--save-segmentation", options.save_segmentation,

@@ -105,7 +105,7 @@ RC_GTEST_PROP(PoseOptimiserEq13, NeverReturnsAPoseThatIsNotFinite, ()) {
   for (PointConstraint& c : problem.points) {
     if (AnyInt(0, 1)) c.p_w[AnyInt(0, 2)] = bad[AnyInt(0, 5)];
     if (AnyInt(0, 1)) c.u_px[AnyInt(0, 1)] = bad[AnyInt(0, 5)];
-    if (AnyInt(0, 3) == 0) c.inv_sigma2_px = bad[AnyInt(0, 5)];
+    if (AnyInt(0, 3) == 0) c.sigma_px = bad[AnyInt(0, 5)];
   }
   for (PlaneConstraint& c : problem.planes) {
     if (AnyInt(0, 1)) c.pi_w.d = bad[AnyInt(0, 5)];

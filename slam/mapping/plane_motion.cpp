@@ -9,19 +9,28 @@ void MoveAll(std::vector<Eigen::Vector3d>& points_w, const Pose& T_new_old) {
   for (Eigen::Vector3d& p_w : points_w) p_w = T_new_old * p_w;
 }
 
+void MoveEstimate(PlaneEstimate& estimate, const Pose& T_new_old) {
+  estimate.origin_w = T_new_old * estimate.origin_w;
+  estimate.normal_w = (T_new_old.R * estimate.normal_w).normalized();
+  estimate.axes = T_new_old.R * estimate.axes;
+}
+
 }  // namespace
 
 void MovePlane(MapPlane& plane, const Pose& T_new_old) {
   // Transform takes planes as T_cw does: from the world into the frame on its left.
   plane.pi_w = Transform(T_new_old, plane.pi_w);
   plane.centroid_w = T_new_old * plane.centroid_w;
-  plane.estimate.origin_w = T_new_old * plane.estimate.origin_w;
-  plane.estimate.normal_w = (T_new_old.R * plane.estimate.normal_w).normalized();
-  plane.estimate.axes = T_new_old.R * plane.estimate.axes;
+  MoveEstimate(plane.estimate, T_new_old);
   MoveAll(plane.points_w, T_new_old);
   MoveAll(plane.edge_points_w, T_new_old);
   MoveAll(plane.vertices_w, T_new_old);
   MoveAll(plane.hull_w, T_new_old);
+  for (SupposedPlane& supposed : plane.supposed) {
+    supposed.pi_w = Transform(T_new_old, supposed.pi_w);
+    supposed.centroid_w = T_new_old * supposed.centroid_w;
+    MoveEstimate(supposed.estimate, T_new_old);
+  }
   for (PlanePart& part : plane.parts) {
     MovePlane(part.surface, T_new_old);
     MovePlane(part.rest, T_new_old);

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "slam/model/keyframe.h"
+#include "slam/model/manhattan_frame.h"
 #include "slam/model/map_planes.h"
 #include "slam/model/map_point.h"
 
@@ -13,6 +14,7 @@ struct Map {
   std::vector<Keyframe> keyframes;
   std::vector<MapPoint> points;
   MapPlanes planes;  ///< candidates, landmarks and those merged into others
+  std::vector<ManhattanFrame> manhattan;  ///< see slam/structure; empty without an assumption
 };
 
 }  // namespace slam

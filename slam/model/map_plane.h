@@ -9,6 +9,7 @@
 #include "slam/base/index.h"
 #include "slam/geometry/plane.h"
 #include "slam/model/plane_estimate.h"
+#include "slam/model/supposed_plane.h"
 
 namespace slam {
 
@@ -41,6 +42,8 @@ struct MapPlane {
   std::vector<double> vertex_weights;          ///< parallel to vertices_w: evidence for each
   std::vector<Eigen::Vector3d> hull_w;         ///< convex outline of the cloud, in order
   double area_m2 = 0.0;                        ///< inside the hull
+
+  std::vector<SupposedPlane> supposed;  ///< through its edges; see slam/structure
 
   std::set<int> map_points;      ///< ids of the map points that lie on it
   std::map<int, int> covisible;  ///< id of another landmark -> frames in which both were seen

@@ -8,14 +8,6 @@
 namespace slam {
 namespace {
 
-/// The landmark that the frame plane was matched with, or null.
-const MapPlane* MatchedPlane(const Frame& frame, const Map& map, std::size_t i) {
-  if (i >= frame.plane_matches.size()) return nullptr;
-  const PlaneMatch& match = frame.plane_matches[i];
-  if (match.decision != PlaneDecision::kMatched || match.map_plane < 0) return nullptr;
-  return &map.planes.At(match.map_plane);
-}
-
 /// A side tells where the top face ends only if the face's own pixels reach it, the image goes
 /// on behind it, and no other detected object meets it there.
 std::array<bool, 4> InformativeSides(const Frame& frame, const FramePlane& plane,
@@ -85,38 +77,6 @@ void AddPointPlanes(const Frame& frame, const Map& map, const PlaneConstraintCon
   }
 }
 
-/// The frame plane against every large landmark but the one it was matched with: parallel
-/// (eq19) or perpendicular (eq20) where the measured angle says that they can be.
-void AddDirections(const FramePlane& plane, const MapPlane& matched, const Map& map,
-                   const Pose& T_cw, const PosePrior& prior,
-                   const PlaneConstraintConfig& config, PoseProblem& problem) {
-  const double floor = config.plane_angle_floor_rad;
-  for (const MapPlane& other : map.planes) {
-    if (other.status != LandmarkStatus::kLandmark || other.id == matched.id) continue;
-    if (other.observations < config.min_direction_observations) continue;
-    if (!(other.area_m2 > config.min_direction_area_m2)) continue;
-    // Standard deviation of the angle: frame plane, map plane and pose.
-    double map_variance = floor * floor;
-    if (!other.estimate.empty()) {
-      map_variance +=
-          other.estimate.Covariance().bottomRightCorner<2, 2>().diagonal().maxCoeff();
-    }
-    const double sigma = std::sqrt(plane.angle_sigma_rad * plane.angle_sigma_rad +
-                                   map_variance + prior.sigma_rad * prior.sigma_rad);
-    // Close to the hypothesis, and consistent with it.
-    const double angle = Angle(plane.pi_c.n, T_cw.R * other.pi_w.n);
-    const double from_parallel = std::min(angle, M_PI - angle);
-    const double from_right = std::abs(angle - 0.5 * M_PI);
-    const double max_error =
-        std::min(config.max_direction_angle_rad, config.max_direction_sigmas * sigma);
-    const double factor_sigma = std::hypot(config.direction_sigma_rad, sigma);
-    if (from_parallel < max_error)
-      problem.parallels.push_back({other.pi_w.n, plane.pi_c.n, factor_sigma});
-    if (from_right < max_error)
-      problem.perpendiculars.push_back({other.pi_w.n, plane.pi_c.n, factor_sigma});
-  }
-}
-
 }  // namespace
 
 PlaneConstraint MakePlaneConstraint(const FramePlane& f, const MapPlane& m, const Pose& T_cw,
@@ -142,20 +102,23 @@ PlaneConstraint MakePlaneConstraint(const FramePlane& f, const MapPlane& m, cons
   return c;
 }
 
+const MapPlane* TrustedMatch(const Frame& frame, const Map& map, std::size_t plane) {
+  if (plane >= frame.plane_matches.size() || frame.planes[plane].bad) return nullptr;
+  const PlaneMatch& match = frame.plane_matches[plane];
+  if (match.decision != PlaneDecision::kMatched || match.map_plane < 0) return nullptr;
+  return &map.planes.At(match.map_plane);
+}
+
 void AddPlaneConstraints(const Frame& frame, const Map& map, const Camera& camera,
-                         const PosePrior& prior, const PlaneConstraintConfig& config,
-                         PoseProblem& problem) {
+                         const PlaneConstraintConfig& config, PoseProblem& problem) {
   for (std::size_t i = 0; i < frame.planes.size(); ++i) {
     const FramePlane& plane = frame.planes[i];
-    const MapPlane* matched = MatchedPlane(frame, map, i);
-    if (matched == nullptr || plane.bad) continue;
+    const MapPlane* matched = TrustedMatch(frame, map, i);
+    if (matched == nullptr) continue;
     problem.planes.push_back(MakePlaneConstraint(plane, *matched, frame.T_cw,
                                                  config.plane_offset_floor_m,
                                                  config.plane_angle_floor_rad));
     AddBox(frame, plane, *matched, camera, config, problem);
-    if (plane.area_m2 > config.min_direction_area_m2) {
-      AddDirections(plane, *matched, map, frame.T_cw, prior, config, problem);
-    }
   }
   AddPointPlanes(frame, map, config, problem);
 }

@@ -3,7 +3,6 @@
 #include "slam/base/field_visitor.h"
 #include "slam/model/frame.h"
 #include "slam/model/map.h"
-#include "slam/pose/pose_prior.h"
 #include "slam/pose/pose_problem.h"
 
 namespace slam {
@@ -18,11 +17,6 @@ struct PlaneConstraintConfig {
   double points_per_plane = 10.0;  // all points of a plane share its error
   double box_sigma_px = 8.0;
   double max_box_gap_px = 8.0;
-  double max_direction_angle_rad = 0.05;
-  double max_direction_sigmas = 2.0;  // passes 95 % of the pairs that are as supposed
-  double direction_sigma_rad = 0.03;  // structure is a hypothesis: weaker than f_pi
-  double min_direction_area_m2 = 0.05;
-  int min_direction_observations = 5;
 };
 
 inline void VisitFields(PlaneConstraintConfig& c, FieldVisitor& v) {
@@ -39,16 +33,6 @@ inline void VisitFields(PlaneConstraintConfig& c, FieldVisitor& v) {
   v.Number("max_box_gap_px", c.max_box_gap_px, "[0, inf)",
            "gap between a box side and the plane's own pixels beyond which the side is not "
            "the plane's edge");
-  v.Degrees("max_direction_angle_deg", c.max_direction_angle_rad, "(0, 28)",
-            "largest angle by which two planes miss being parallel or at a right angle");
-  v.Number("max_direction_sigmas", c.max_direction_sigmas, "(0, inf)",
-           "the same bound, in standard deviations of the measured angle");
-  v.Degrees("direction_sigma_deg", c.direction_sigma_rad, "(0, 90)",
-            "standard deviation of f_pi_p and f_pi_v (eq19, eq20), besides the measured one");
-  v.Number("min_direction_area_m2", c.min_direction_area_m2, "[0, inf)",
-           "smallest area of both planes of f_pi_p and f_pi_v");
-  v.Integer("min_direction_observations", c.min_direction_observations, "[1, 100000]",
-            "smallest number of observations of the map plane of f_pi_p and f_pi_v");
 }
 
 /// The constraint of one matched pair, with the uncertainty of both sides.
@@ -57,12 +41,12 @@ PlaneConstraint MakePlaneConstraint(const FramePlane& frame_plane, const MapPlan
                                     double angle_floor_rad);
 
 /// Adds to `problem` the constraints that frame.plane_matches and frame.point_planes give:
-/// planes (eq15, eq16), boxes (eq17), points on planes (eq18), and parallel and perpendicular
-/// planes (eq19, eq20). The last two are added only between large planes whose measured angle
-/// is close to the hypothesis and statistically consistent with it: nearly parallel is not
-/// parallel. In the order of the frame's planes, then of the map's.
+/// planes (eq15, eq16), boxes (eq17) and points on planes (eq18), in the order of the frame's
+/// planes. What is assumed of planes among each other is slam/structure's.
 void AddPlaneConstraints(const Frame& frame, const Map& map, const Camera& camera,
-                         const PosePrior& prior, const PlaneConstraintConfig& config,
-                         PoseProblem& problem);
+                         const PlaneConstraintConfig& config, PoseProblem& problem);
+
+/// The landmark that the frame plane was matched with. Null: with none, or it is not trusted.
+const MapPlane* TrustedMatch(const Frame& frame, const Map& map, std::size_t plane);
 
 }  // namespace slam

@@ -10,6 +10,7 @@
 #include "slam/pose/factors/plane.h"
 #include "slam/pose/factors/point.h"
 #include "slam/pose/factors/point_plane.h"
+#include "slam/pose/factors/rotation.h"
 #include "slam/pose/robust.h"
 #include "slam/pose/solve.h"
 
@@ -50,6 +51,11 @@ bool Sane(const PointPlaneConstraint& c) {
 
 bool Sane(const DirectionConstraint& c) {
   return IsNormal(c.n_w) && IsNormal(c.n_c) && Positive(c.sigma_rad);
+}
+
+bool Sane(const RotationConstraint& c) {
+  return (c.R_cw * c.R_cw.transpose()).isIdentity(kNormalTolerance) &&
+         c.sqrt_information.allFinite();
 }
 
 /// Adds a whitened block: H += w J^T J, g += w J^T r, upper triangle only.
@@ -108,12 +114,13 @@ class Evaluator {
   /// The sum without the prior.
   NormalEquations Measured(const Pose& T_cw) const {
     NormalEquations sum;
-    if (config_.use_points) AddPoints(T_cw, sum);                 // eq14
-    if (config_.use_planes) AddPlanes(T_cw, sum);                 // eq15, eq16
-    if (config_.use_boxes) AddBoxes(T_cw, sum);                   // eq17
-    if (config_.use_point_planes) AddPointPlanes(T_cw, sum);      // eq18
-    if (config_.use_parallel) AddParallels(T_cw, sum);            // eq19
-    if (config_.use_perpendicular) AddPerpendiculars(T_cw, sum);  // eq20
+    if (config_.use_points) AddPoints(T_cw, sum);             // eq14
+    if (config_.use_planes) AddPlanes(T_cw, sum);             // eq15, eq16
+    if (config_.use_boxes) AddBoxes(T_cw, sum);               // eq17
+    if (config_.use_point_planes) AddPointPlanes(T_cw, sum);  // eq18
+    AddParallels(T_cw, sum);                                  // eq19
+    AddPerpendiculars(T_cw, sum);                             // eq20
+    AddRotations(T_cw, sum);
     return sum;
   }
 
@@ -192,6 +199,14 @@ class Evaluator {
       if (!Sane(c)) continue;
       const Linearised<1> f = PerpendicularFactor(c, T_cw);
       if (f.valid) Add(Whitened(f, 1 / c.sigma_rad), config_.huber_planes, sum);
+    }
+  }
+
+  void AddRotations(const Pose& T_cw, NormalEquations& sum) const {
+    for (const RotationConstraint& c : problem_.rotations) {
+      if (!Sane(c)) continue;
+      const Linearised<3> f = RotationFactor(c, T_cw);
+      if (f.valid) Add(f, config_.huber_planes, sum);
     }
   }
 

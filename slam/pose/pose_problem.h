@@ -53,13 +53,20 @@ struct DirectionConstraint {
   double sigma_rad = 0.02;
 };
 
+/// f_R: a rotation of the camera that was measured by itself; free about what is not observed.
+/// Source: no equation of the paper's; the decoupled rotation of Manhattan frames.
+struct RotationConstraint {
+  Eigen::Matrix3d R_cw = Eigen::Matrix3d::Identity();
+  Eigen::Matrix3d sqrt_information = Eigen::Matrix3d::Zero();  ///< S, S^T S in 1/rad^2, of xi
+};
+
 struct PoseProblemConfig {
   int rounds = 4;  // Mur-Artal and Tardos 2017, with iterations
   int iterations = 10;
   double huber_planes = 2.0;
   bool use_points = true;
-  bool use_planes = true, use_boxes = true, use_point_planes = true;
-  bool use_parallel = true, use_perpendicular = true;
+  bool use_planes = true, use_point_planes = true;
+  bool use_boxes = false;  // buys nothing: docs/back_end.md
 };
 
 inline void VisitFields(PoseProblemConfig& c, FieldVisitor& v) {
@@ -73,9 +80,6 @@ inline void VisitFields(PoseProblemConfig& c, FieldVisitor& v) {
   v.Flag("use_planes", c.use_planes, "f_pi: a map plane seen as a frame plane");
   v.Flag("use_boxes", c.use_boxes, "f_b_pi: projected corners against a detection box");
   v.Flag("use_point_planes", c.use_point_planes, "f_p_pi: a map point on a frame plane");
-  v.Flag("use_parallel", c.use_parallel, "f_pi_p: a map plane parallel to a frame plane");
-  v.Flag("use_perpendicular", c.use_perpendicular,
-         "f_pi_v: a map plane perpendicular to a frame plane");
 }
 
 /// Everything that constrains one camera pose, eq13.
@@ -86,6 +90,7 @@ struct PoseProblem {
   std::vector<BoxConstraint> boxes;
   std::vector<PointPlaneConstraint> point_planes;
   std::vector<DirectionConstraint> parallels, perpendiculars;
+  std::vector<RotationConstraint> rotations;
   /// What was known of the pose before the frame was looked at: it holds the directions that
   /// nothing observes. None where points alone observe all six.
   std::optional<UncertainPose> prior;

@@ -38,6 +38,7 @@ void VisitFields(Config& c, FieldVisitor& v) {
 
   v.Section("association", "association of frame planes with map planes", c.association);
   v.Section("plane_constraints", "the plane factors of eq13", c.plane_constraints);
+  v.Section("structure", "what is assumed of how planes stand to each other", c.structure);
 
   v.Section("mapping", "how keyframes are mapped", std::function<void()>([&] {
               v.Flag("async", c.async_mapping,

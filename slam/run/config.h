@@ -14,6 +14,7 @@
 #include "slam/places/close_loop.h"
 #include "slam/pose/plane_constraints.h"
 #include "slam/segment/extraction_config.h"
+#include "slam/structure/structure.h"
 #include "slam/tracking/point_tracking.h"
 
 namespace slam {
@@ -43,6 +44,7 @@ struct Config {
   PointSearchConfig point_search;
   PointTrackingConfig tracking;
   PlaneConstraintConfig plane_constraints;
+  StructureConfig structure;
 
   // (F) the map
   bool async_mapping = false;  ///< on a thread beside tracking, instead of between frames

@@ -17,7 +17,7 @@ TrackReport Tracker::TrackFrame(Frame& frame, const cv::Mat3b& bgr) {
   const TrackingHold map_is_ours(gate());  // mapping beside tracking gives it away in between
   if (!TrackByPoints(frame, report)) return report;  // (D) point to point, and a first pose
   AssociateFramePlanes(frame, report);  // (D) plane to plane with boxes, point to plane
-  OptimiseWithPlanes(frame, report);    // (E) all six kinds of factor
+  OptimiseWithPlanes(frame, report);    // (E) all six kinds of factor, and structure
   if (!report.tracked) return report;
   UpdateMap(frame, report);  // (F) planes; keyframe, points, bundle adjustment
   // A pose that planes hold says nothing of how planes are bent.

@@ -24,6 +24,7 @@
 #include "slam/pose/plane_constraints.h"
 #include "slam/run/stopwatch.h"
 #include "slam/segment/plane_segments.h"
+#include "slam/structure/structure.h"
 
 namespace slam {
 namespace {
@@ -167,7 +168,9 @@ void Tracker::OptimiseWithPlanes(Frame& frame, TrackReport& report) {
     if (report.tracked) TakeBackContradicted(frame, map_, config_.association);
     return;
   }
-  if (ProblemOf(frame, {}).planes.empty()) return;  // the points alone were optimised before
+  const PoseProblem by_planes = ProblemOf(frame, {});
+  // The points alone were optimised before.
+  if (by_planes.planes.empty() && by_planes.rotations.empty()) return;
   // Once more without the matches that the better-known pose contradicts.
   if (OptimiseByAll(frame) && TakeBackContradicted(frame, map_, config_.association) > 0) {
     OptimiseByAll(frame);
@@ -180,8 +183,9 @@ PoseProblem Tracker::ProblemOf(const Frame& frame, const FramePoints& points) co
   problem.T_cw = frame.T_cw;
   problem.points = points.constraints;
   problem.prior = frame.prediction;
-  AddPlaneConstraints(frame, map_, camera_, config_.association.prior,
-                      config_.plane_constraints, problem);
+  AddPlaneConstraints(frame, map_, camera_, config_.plane_constraints, problem);
+  AddStructure(frame, map_, config_.association.prior, config_.plane_constraints,
+               config_.structure, problem);
   return problem;
 }
 
@@ -241,6 +245,9 @@ void Tracker::UpdateMap(Frame& frame, TrackReport& report) {
     KeepPlanes(frame, config_.association, config_.plane_map, config_.plane_constraints,
                map_.keyframes[Index(report.reference)]);
   }
+  LearnStructure(frame, report.keyframe ? std::optional(report.reference) : std::nullopt,
+                 config_.plane_map.keep_information, config_.plane_constraints,
+                 config_.structure, map_);
 }
 
 /// Makes the frame a keyframe, and maps it now or has it mapped beside tracking.

@@ -177,6 +177,30 @@ TEST_F(SlamProgram, TellsOfDoubtfulInputInWarningsAndInTheRun) {
   EXPECT_THAT(warnings[2], HasSubstr("78 of 90 lines of detections.jsonl"));
 }
 
+TEST_F(SlamProgram, TakesTheStructureOfTheOptionElseOfTheFileAndRefusesAnUnknownOne) {
+  const Outcome unknown = Run(Command(Recorded(), "unknown", {"--structure", "atlanta"}));
+  EXPECT_EQ(unknown.exit_code, 2);
+  EXPECT_THAT(unknown.errors, HasSubstr("none,parallel,manhattan,mixture,supposed"));
+  const fs::path file = folder_ / "settings.yaml", wrong = folder_ / "wrong.yaml";
+  std::ofstream(wrong) << "structure: {mode: atlanta}\n";
+  const Outcome in_file = Run(Command(Recorded(), "unknown", {"--config", wrong}));
+  EXPECT_EQ(in_file.exit_code, 2);
+  EXPECT_THAT(in_file.errors, HasSubstr("manhattan"));
+
+  const fs::path sequence = Copy(20);
+  std::ofstream(file) << "structure: {mode: none}\n";
+  const auto run = [&](const char* name, std::vector<std::string> options) {
+    options.insert(options.begin(), "-q");
+    EXPECT_EQ(Run(Command(sequence, name, options)).exit_code, 0) << name;
+    return ReadText(folder_ / name / "trajectory.txt");
+  };
+  const std::string parallel = run("plain", {}), none = run("file", {"--config", file});
+  EXPECT_EQ(run("option", {"--structure", "none"}), none);
+  EXPECT_EQ(run("over", {"--config", file, "--structure", "parallel"}), parallel);
+  EXPECT_NE(none, parallel);
+  EXPECT_EQ(RunJson("option")["options"]["structure"]["mode"], "none");
+}
+
 TEST_F(SlamProgram, AsksTheDetectorAsOftenAsTheOptionElseTheFileSays) {
   const fs::path sequence = Copy(20);
   const fs::path file = folder_ / "settings.yaml";

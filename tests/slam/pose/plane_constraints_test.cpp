@@ -54,7 +54,7 @@ struct SeenBook {
   }
   PoseProblem Problem() const {
     PoseProblem problem;
-    AddPlaneConstraints(frame, map, camera, PosePrior{}, config, problem);
+    AddPlaneConstraints(frame, map, camera, config, problem);
     return problem;
   }
   std::array<bool, 4> Sides() const {
@@ -94,21 +94,6 @@ TEST(BoxConstraints, SayLessTheLessTheFaceFillsTheBox) {
   EXPECT_NEAR(book.Problem().boxes.at(0).sigma_px, 2 * book.config.box_sigma_px, 1e-9);
   book.frame.detections[0].compensated = true;  // predicted, not seen
   EXPECT_TRUE(book.Problem().boxes.empty());
-}
-
-TEST(DirectionConstraints, TieAFacePlaneToThoseNearlyParallelOrAtARightAngleToIt) {
-  SeenBook book;
-  const double off = 0.01;
-  AddLandmark(book.map, book.Landmark({off, 0, -1}));
-  AddLandmark(book.map, book.Landmark({0, off, 1}));  // seen from its back
-  AddLandmark(book.map, book.Landmark({1, 0, off}));
-  AddLandmark(book.map, book.Landmark({1, 0, 1}));
-  const PoseProblem problem = book.Problem();
-  ASSERT_EQ(problem.parallels.size(), 2u);
-  EXPECT_THAT(problem.parallels[0].n_w, VectorNear(book.map.planes.At(1).pi_w.n, 1e-12));
-  EXPECT_THAT(problem.parallels[1].n_w, VectorNear(book.map.planes.At(2).pi_w.n, 1e-12));
-  ASSERT_EQ(problem.perpendiculars.size(), 1u);
-  EXPECT_THAT(problem.perpendiculars[0].n_w, VectorNear(book.map.planes.At(3).pi_w.n, 1e-12));
 }
 
 TEST(PointPlaneConstraints, OfManyPointsWeighTogetherAsMuchAsTen) {

@@ -1,0 +1,52 @@
+#include "slam/structure/parallel_planes.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "slam/pose/plane_constraints.h"
+
+namespace slam {
+namespace {
+
+void AddDirections(const FramePlane& plane, const MapPlane& matched, const Map& map,
+                   const Pose& T_cw, const PosePrior& prior, double floor_rad,
+                   const ParallelConfig& config, PoseProblem& problem) {
+  for (const MapPlane& other : map.planes) {
+    if (other.status != LandmarkStatus::kLandmark || other.id == matched.id) continue;
+    if (other.observations < config.min_observations) continue;
+    if (!(other.area_m2 > config.min_area_m2)) continue;
+    // Standard deviation of the angle: frame plane, map plane and pose.
+    double map_variance = floor_rad * floor_rad;
+    if (!other.estimate.empty()) {
+      map_variance +=
+          other.estimate.Covariance().bottomRightCorner<2, 2>().diagonal().maxCoeff();
+    }
+    const double sigma = std::sqrt(plane.angle_sigma_rad * plane.angle_sigma_rad +
+                                   map_variance + prior.sigma_rad * prior.sigma_rad);
+    // Close to the hypothesis, and consistent with it.
+    const double angle = Angle(plane.pi_c.n, T_cw.R * other.pi_w.n);
+    const double from_parallel = std::min(angle, M_PI - angle);
+    const double from_right = std::abs(angle - 0.5 * M_PI);
+    const double max_error = std::min(config.max_angle_rad, config.max_sigmas * sigma);
+    const double factor_sigma = std::hypot(config.sigma_rad, sigma);
+    if (from_parallel < max_error)
+      problem.parallels.push_back({other.pi_w.n, plane.pi_c.n, factor_sigma});
+    if (from_right < max_error)
+      problem.perpendiculars.push_back({other.pi_w.n, plane.pi_c.n, factor_sigma});
+  }
+}
+
+}  // namespace
+
+void AddParallelPlanes(const Frame& frame, const Map& map, const PosePrior& prior,
+                       double angle_floor_rad, const ParallelConfig& config,
+                       PoseProblem& problem) {
+  for (std::size_t i = 0; i < frame.planes.size(); ++i) {
+    const MapPlane* matched = TrustedMatch(frame, map, i);
+    if (matched == nullptr || !(frame.planes[i].area_m2 > config.min_area_m2)) continue;
+    AddDirections(frame.planes[i], *matched, map, frame.T_cw, prior, angle_floor_rad, config,
+                  problem);
+  }
+}
+
+}  // namespace slam

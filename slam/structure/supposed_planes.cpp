@@ -1,0 +1,106 @@
+#include "slam/structure/supposed_planes.h"
+
+#include <cmath>
+#include <optional>
+
+#include "slam/pose/plane_constraints.h"
+
+namespace slam {
+namespace {
+
+/// The supposed plane that lies nearest, or none within the bounds: its position.
+std::optional<std::size_t> NearestSupposed(const std::vector<SupposedPlane>& known,
+                                           const Plane& pi_w, const Eigen::Vector3d& edge_w,
+                                           const SupposedConfig& config) {
+  std::optional<std::size_t> nearest;
+  double least_m = config.max_offset_m;
+  for (std::size_t i = 0; i < known.size(); ++i) {
+    const double offset_m = std::abs(SignedDistance(known[i].pi_w, edge_w));
+    if (!(Angle(known[i].pi_w.n, pi_w.n) < config.max_angle_rad) || !(offset_m < least_m))
+      continue;
+    least_m = offset_m;
+    nearest = i;
+  }
+  return nearest;
+}
+
+PlaneConstraint ConstraintTo(const SupposedPlane& known, const SeenSupposed& seen,
+                             const Eigen::Vector3d& edge_w, const SupposedConfig& config) {
+  PlaneConstraint c;
+  c.pi_w = known.pi_w;
+  c.pi_c = seen.pi_c;
+  c.centroid_c = seen.centroid_c;
+  double offset2 = config.offset_sigma_m * config.offset_sigma_m;
+  double angle2 = config.angle_sigma_rad * config.angle_sigma_rad;
+  const Eigen::Matrix3d covariance = known.estimate.Covariance();
+  const Eigen::Vector3d lever = known.estimate.Lever(edge_w);
+  offset2 += lever.dot(covariance * lever);
+  angle2 += covariance.bottomRightCorner<2, 2>().diagonal().maxCoeff();
+  c.offset_sigma_m = std::sqrt(offset2);
+  c.angle_sigma_rad = std::sqrt(angle2);
+  return c;
+}
+
+void Observe(const Plane& pi_w, const Eigen::Vector3d& edge_w, double keep, int frame,
+             const SupposedConfig& config, SupposedPlane& known) {
+  AddObservation(known.estimate, pi_w, edge_w, config.angle_sigma_rad, config.offset_sigma_m,
+                 keep);
+  known.pi_w = known.estimate.Mean();
+  known.centroid_w = ProjectOnto(known.pi_w, edge_w);
+  ++known.observations;
+  known.last_frame = frame;
+}
+
+}  // namespace
+
+std::vector<SeenSupposed> SupposePlanes(const FramePlane& plane) {
+  std::vector<SeenSupposed> out;
+  for (const Line& line : plane.lines_c) {
+    const Eigen::Vector3d edge_c = line.P + line.V.dot(plane.centroid_c - line.P) * line.V;
+    Eigen::Vector3d n_c = line.V.cross(plane.pi_c.n);
+    if (!(n_c.norm() > 0)) continue;
+    n_c.normalize();
+    if (n_c.dot(plane.centroid_c - edge_c) > 0) n_c = -n_c;
+    out.push_back({{n_c, -n_c.dot(edge_c)}, edge_c});
+  }
+  return out;
+}
+
+void AddSupposedPlanes(const Frame& frame, const Map& map, const SupposedConfig& config,
+                       PoseProblem& problem) {
+  const Pose T_wc = Inverse(frame.T_cw);
+  for (std::size_t i = 0; i < frame.planes.size(); ++i) {
+    const MapPlane* matched = TrustedMatch(frame, map, i);
+    if (matched == nullptr) continue;
+    for (const SeenSupposed& seen : SupposePlanes(frame.planes[i])) {
+      const Plane pi_w = Transform(T_wc, seen.pi_c);
+      const Eigen::Vector3d edge_w = T_wc * seen.centroid_c;
+      const auto at = NearestSupposed(matched->supposed, pi_w, edge_w, config);
+      if (!at || matched->supposed[*at].observations < config.min_observations) continue;
+      problem.planes.push_back(ConstraintTo(matched->supposed[*at], seen, edge_w, config));
+    }
+  }
+}
+
+void LearnSupposedPlanes(const Frame& frame, double keep, const SupposedConfig& config,
+                         Map& map) {
+  const Pose T_wc = Inverse(frame.T_cw);
+  for (std::size_t i = 0; i < frame.planes.size(); ++i) {
+    const MapPlane* matched = TrustedMatch(frame, map, i);
+    if (matched == nullptr) continue;
+    std::vector<SupposedPlane>& known = map.planes.At(matched->id).supposed;
+    for (const SeenSupposed& seen : SupposePlanes(frame.planes[i])) {
+      const Plane pi_w = Transform(T_wc, seen.pi_c);
+      const Eigen::Vector3d edge_w = T_wc * seen.centroid_c;
+      const auto at = NearestSupposed(known, pi_w, edge_w, config);
+      if (!at) known.emplace_back();
+      Observe(pi_w, edge_w, keep, frame.index, config, at ? known[*at] : known.back());
+    }
+    std::erase_if(known, [&](const SupposedPlane& supposed) {
+      return supposed.observations < config.min_observations &&
+             frame.index - supposed.last_frame > config.max_misses;
+    });
+  }
+}
+
+}  // namespace slam

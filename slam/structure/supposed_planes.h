@@ -1,0 +1,59 @@
+#pragma once
+
+#include <vector>
+
+#include "slam/base/field_visitor.h"
+#include "slam/model/frame.h"
+#include "slam/model/map.h"
+#include "slam/pose/pose_problem.h"
+
+namespace slam {
+
+/// Structure "supposed": what supposed planes are worth, and when two are the same.
+struct SupposedConfig {
+  double angle_sigma_rad = 0.0175;  // 1 degree, 10 mm: SP-SLAM's weights of planes
+  double offset_sigma_m = 0.01;
+  double max_angle_rad = 0.17;
+  double max_offset_m = 0.03;
+  int min_observations = 3;
+  int max_misses = 30;
+};
+
+inline void VisitFields(SupposedConfig& c, FieldVisitor& v) {
+  v.Degrees("angle_sigma_deg", c.angle_sigma_rad, "(0, 90)",
+            "standard deviation of a supposed plane's normal");
+  v.Number("offset_sigma_m", c.offset_sigma_m, "(0, inf)",
+           "standard deviation of where a supposed plane's edge is seen");
+  v.Degrees("max_angle_deg", c.max_angle_rad, "(0, 90)",
+            "largest angle between a supposed plane and what it is matched with");
+  v.Number("max_offset_m", c.max_offset_m, "(0, inf)",
+           "largest distance of its edge from what it is matched with");
+  v.Integer("min_observations", c.min_observations, "[1, 100000]",
+            "number of frames that must have seen a supposed plane before it holds a pose");
+  v.Integer("max_misses", c.max_misses, "[0, 100000]",
+            "frames after which a supposed plane of fewer observations is dropped");
+}
+
+/// A plane at a right angle to a measured one, through one of its straight edges.
+struct SeenSupposed {
+  Plane pi_c;                  ///< faces away from the patch
+  Eigen::Vector3d centroid_c;  ///< on the edge, nearest to the patch's middle
+};
+
+/// One for each edge line of the plane: lines are only found where the surface itself ends, not
+/// where something hides it or the image ends. Source: SP-SLAM (Zhang, Wang, Qi, Liao, Wei 2019).
+std::vector<SeenSupposed> SupposePlanes(const FramePlane& plane);
+
+/// Adds to `problem` the supposed planes of the frame's trusted, matched planes that the map knows
+/// as supposed planes of the same landmark. Plane factors, eq16. Not matched, as in SP-SLAM, are
+/// landmarks that were measured at the edge: a face does not begin quite where the other ends, nor
+/// at quite a right angle.
+void AddSupposedPlanes(const Frame& frame, const Map& map, const SupposedConfig& config,
+                       PoseProblem& problem);
+
+/// Takes the frame's supposed planes into the map, at the frame's pose.
+/// @param keep  share of old information that is kept, as of AddObservation
+void LearnSupposedPlanes(const Frame& frame, double keep, const SupposedConfig& config,
+                         Map& map);
+
+}  // namespace slam

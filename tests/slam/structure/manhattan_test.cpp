@@ -1,0 +1,211 @@
+#include <gmock/gmock.h>
+
+#include "slam/base/random.h"
+#include "slam/structure/manhattan_mixture.h"
+#include "slam/structure/manhattan_world.h"
+#include "slam/structure/structure.h"
+#include "tests/support/map_surfaces.h"
+#include "tests/support/plane_world.h"
+
+namespace slam {
+namespace {
+
+const Eigen::Matrix3d kAxes_w = ExpSo3({0.4, -0.3, 0.6});
+const Pose kT_cw{ExpSo3({0.2, 0.5, -0.1}), {0.1, 0.2, 0.3}};
+constexpr double kDegree = M_PI / 180;
+
+/// Landmarks with these normals, and a keyframe and a frame that see all of them.
+struct SeenWorld {
+  Map map;
+  Frame frame;
+  ManhattanConfig config;
+
+  explicit SeenWorld(const std::vector<Eigen::Vector3d>& normals_w) {
+    map.keyframes.emplace_back();
+    map.keyframes[0].T_cw = kT_cw;
+    frame.T_cw = kT_cw;
+    for (const Eigen::Vector3d& n_w : normals_w) {
+      MapPlane m;
+      m.pi_w.n = n_w.normalized();
+      m.area_m2 = 1.0;
+      m.observations = 10;
+      FramePlane plane;
+      plane.pi_c.n = kT_cw.R * m.pi_w.n;
+      plane.angle_sigma_rad = 0.002;
+      plane.area_m2 = 0.5;
+      frame.planes.push_back(plane);
+      frame.plane_matches.push_back(
+          {PlaneDecision::kMatched, AddLandmark(map, m), MatchReason::kParameters});
+    }
+  }
+  PoseProblem Problem(StructureMode mode) const {
+    PoseProblem problem;
+    StructureConfig structure;
+    structure.mode = mode;
+    AddStructure(frame, map, {}, {}, structure, problem);
+    return problem;
+  }
+  void Learn(StructureMode mode) {
+    StructureConfig structure;
+    structure.mode = mode;
+    LearnStructure(frame, 0, 0.97, {}, structure, map);
+  }
+};
+
+/// The six sides of a room; those opposite are parallel.
+std::vector<Eigen::Vector3d> Room() {
+  return {kAxes_w.col(0), -kAxes_w.col(0), kAxes_w.col(1), kAxes_w.col(2), -kAxes_w.col(2)};
+}
+
+double AngleOf(const Eigen::Matrix3d& R) { return LogSo3(R).norm(); }
+
+TEST(ManhattanWorld, IsFoundFromNoisyNormalsToWhatTheyAverageTo) {
+  Random random{7};
+  SeenWorld world({});
+  constexpr double kNoise = 0.5 * kDegree;
+  for (int i = 0; i < 30; ++i) {
+    MapPlane m;
+    m.area_m2 = 1.0;
+    m.observations = 10;
+    const Eigen::Vector3d turn(Normal(random), Normal(random), Normal(random));
+    m.pi_w.n = ExpSo3(kNoise * turn) * (i % 2 ? -1.0 : 1.0) * kAxes_w.col(i % 3);
+    AddLandmark(world.map, m);
+  }
+  const auto found = FindManhattanAxes(world.map.planes, world.config);
+  ASSERT_TRUE(found);
+  // Axes come in the order of the first pair, either way: each is near one of the true.
+  for (int k = 0; k < 3; ++k) {
+    const double cosine = (kAxes_w.transpose() * found->col(k)).cwiseAbs().maxCoeff();
+    EXPECT_LT(std::acos(std::min(1.0, cosine)), 4 * kNoise / std::sqrt(10.0)) << k;
+  }
+}
+
+TEST(ManhattanWorld, IsNotThereWithOneOrTwoDirectionsOrWithoutRightAngles) {
+  const ManhattanConfig config;
+  const Eigen::Vector3d a = kAxes_w.col(0), b = kAxes_w.col(1);
+  for (const auto& normals :
+       std::vector<std::vector<Eigen::Vector3d>>{{},
+                                                 {a},
+                                                 {a, -a},
+                                                 {a, b},
+                                                 {a, -a, b},
+                                                 {a, a + b, a + 2 * b},
+                                                 {a, b, kAxes_w.col(2) + 0.2 * a}}) {
+    EXPECT_FALSE(FindManhattanAxes(SeenWorld(normals).map.planes, config)) << normals.size();
+  }
+  EXPECT_TRUE(FindManhattanAxes(SeenWorld(Room()).map.planes, config));
+}
+
+TEST(ManhattanWorld, WaitsForAreaAlongAllThreeAxesAndForLandmarksThatWereSeenOften) {
+  SeenWorld world(Room());
+  world.map.planes.At(2).area_m2 = 0.1;
+  EXPECT_FALSE(FindManhattanAxes(world.map.planes, world.config));
+  world.map.planes.At(2).area_m2 = 1.0;
+  world.map.planes.At(2).observations = 2;
+  EXPECT_FALSE(FindManhattanAxes(world.map.planes, world.config));
+}
+
+TEST(ManhattanWorld, PullsATurnedFrameBackOntoItsAxes) {
+  SeenWorld world(Room());
+  world.Learn(StructureMode::kManhattan);
+  ASSERT_EQ(world.map.manhattan.size(), 1u);
+  world.frame.T_cw.R = ExpSo3({0.01, -0.015, 0.01}) * kT_cw.R;
+  const PoseProblem problem = world.Problem(StructureMode::kManhattan);
+  ASSERT_EQ(problem.rotations.size(), 1u);
+  EXPECT_LT(AngleOf(problem.rotations[0].R_cw * kT_cw.R.transpose()), 1e-6);
+  // No axis is known better than how square things are; two axes tell each turn.
+  const Eigen::Matrix3d& S = problem.rotations[0].sqrt_information;
+  const double most = 2 / std::pow(world.config.axis_sigma_rad, 2);
+  EXPECT_LT((S.transpose() * S).trace(), 3 * most);
+  EXPECT_GT((S.transpose() * S).trace(), 0.5 * 3 * most);
+}
+
+TEST(ManhattanWorld, SaysNothingOfTurnsThatNoPlaneOfTheFrameShows) {
+  SeenWorld world(Room());
+  world.Learn(StructureMode::kManhattan);
+  // A frame of two opposite sides, and one of a plane off all axes.
+  world.frame.planes.resize(2);
+  const PoseProblem two = world.Problem(StructureMode::kManhattan);
+  ASSERT_EQ(two.rotations.size(), 1u);
+  EXPECT_LT((two.rotations[0].sqrt_information * kT_cw.R * kAxes_w.col(0)).norm(), 1e-3);
+  world.frame.planes.resize(1);
+  world.frame.planes[0].pi_c.n = ExpSo3({0.2, 0.2, 0.2}) * world.frame.planes[0].pi_c.n;
+  EXPECT_TRUE(world.Problem(StructureMode::kManhattan).rotations.empty());
+  world.frame.planes.clear();
+  EXPECT_TRUE(world.Problem(StructureMode::kManhattan).rotations.empty());
+}
+
+TEST(ManhattanWorld, IgnoresTiltedPlanes) {
+  SeenWorld world(Room());
+  world.Learn(StructureMode::kManhattan);
+  const PoseProblem before = world.Problem(StructureMode::kManhattan);
+  FramePlane tilted = world.frame.planes[0];
+  tilted.pi_c.n = kT_cw.R * ExpSo3(10 * kDegree * kAxes_w.col(1)) * kAxes_w.col(0);
+  world.frame.planes.push_back(tilted);
+  world.frame.plane_matches.emplace_back();
+  const PoseProblem after = world.Problem(StructureMode::kManhattan);
+  EXPECT_EQ(after.rotations.at(0).R_cw, before.rotations.at(0).R_cw);
+}
+
+TEST(ManhattanWorld, TurnsWithTheKeyframeThatHoldsIt) {
+  SeenWorld world(Room());
+  world.Learn(StructureMode::kManhattan);
+  const Eigen::Matrix3d moved = ExpSo3({0.0, 0.02, 0.0});
+  world.map.keyframes[0].T_cw.R = moved * kT_cw.R;
+  EXPECT_LT(AngleOf(world.Problem(StructureMode::kManhattan).rotations.at(0).R_cw *
+                    (moved.transpose() * kT_cw.R).transpose()),
+            0.05);
+  EXPECT_GT(AngleOf(world.Problem(StructureMode::kManhattan).rotations.at(0).R_cw *
+                    kT_cw.R.transpose()),
+            0.015);
+}
+
+TEST(ManhattanMixture, KnowsTwoPlanesAgainByTheirLandmarksAndGivesTheWholeRotation) {
+  const Eigen::Vector3d tilted = ExpSo3({0.3, 0.1, 0.2}) * kAxes_w.col(0);
+  SeenWorld world({kAxes_w.col(0), kAxes_w.col(1), tilted});
+  EXPECT_TRUE(world.Problem(StructureMode::kMixture).rotations.empty());
+  world.Learn(StructureMode::kMixture);
+  ASSERT_EQ(world.map.manhattan.size(), 1u);
+  EXPECT_THAT(world.map.manhattan[0].landmarks, testing::ElementsAre(0, 1, kNone));
+  world.frame.T_cw.R = ExpSo3({0.02, -0.03, 0.01}) * kT_cw.R;
+  const PoseProblem problem = world.Problem(StructureMode::kMixture);
+  ASSERT_EQ(problem.rotations.size(), 1u);
+  EXPECT_LT(AngleOf(problem.rotations[0].R_cw * kT_cw.R.transpose()), 1e-6);
+  // With one of the two alone it says nothing.
+  world.frame.plane_matches[1] = {};
+  EXPECT_TRUE(world.Problem(StructureMode::kMixture).rotations.empty());
+}
+
+TEST(ManhattanMixture, StoresTriplesOnceAndTakesTheOneOfMostLandmarks) {
+  SeenWorld world({kAxes_w.col(0), kAxes_w.col(1), kAxes_w.col(2)});
+  world.Learn(StructureMode::kMixture);
+  ASSERT_EQ(world.map.manhattan.size(), 4u);  // three pairs, a triple
+  world.Learn(StructureMode::kMixture);
+  EXPECT_EQ(world.map.manhattan.size(), 4u);
+  for (const ManhattanFrame& frame : world.map.manhattan) EXPECT_EQ(frame.seen, 2);
+  EXPECT_EQ(SeenManhattanFrame(world.frame, world.map, 0.0035, world.config).size(), 3u);
+  world.frame.planes[2].bad = BadReason::kFar;
+  EXPECT_EQ(SeenManhattanFrame(world.frame, world.map, 0.0035, world.config).size(), 2u);
+}
+
+TEST(ManhattanMixture, StoresNoParallelNorTiltedPlanes) {
+  const Eigen::Vector3d a = kAxes_w.col(0), b = kAxes_w.col(1);
+  for (const auto& normals :
+       std::vector<std::vector<Eigen::Vector3d>>{{a}, {a, -a}, {a, b + 0.03 * a}, {a, a + b}}) {
+    SeenWorld world(normals);
+    world.Learn(StructureMode::kMixture);
+    EXPECT_TRUE(world.map.manhattan.empty());
+  }
+}
+
+TEST(Structure, OfNoneAddsAndLearnsNothing) {
+  SeenWorld world(Room());
+  world.Learn(StructureMode::kFree);
+  EXPECT_TRUE(world.map.manhattan.empty());
+  const PoseProblem problem = world.Problem(StructureMode::kFree);
+  EXPECT_TRUE(problem.parallels.empty() && problem.perpendiculars.empty());
+  EXPECT_TRUE(problem.rotations.empty() && problem.planes.empty());
+}
+
+}  // namespace
+}  // namespace slam

@@ -1,0 +1,69 @@
+#include "slam/structure/parallel_planes.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/support/map_surfaces.h"
+#include "tests/support/slam_matchers.h"
+
+namespace slam {
+namespace {
+
+/// A plane that a turned camera sees facing it, matched with landmark 0.
+struct SeenPlaneWithOthers {
+  Frame frame;
+  Map map;
+  ParallelConfig config;
+
+  SeenPlaneWithOthers() {
+    frame.T_cw = {ExpSo3({0.3, -0.2, 0.4}), {0.2, 0.1, 0.3}};
+    FramePlane plane;
+    plane.pi_c = {Eigen::Vector3d(0, 0, -1), 2.0};
+    plane.angle_sigma_rad = 0.002;
+    plane.area_m2 = 0.1;
+    frame.planes = {plane};
+    frame.plane_matches = {{PlaneDecision::kMatched, 0, MatchReason::kParameters}};
+    Add({0, 0, -1});
+  }
+  /// @param n_c  the landmark's normal as it should be seen
+  int Add(const Eigen::Vector3d& n_c) {
+    MapPlane m;
+    m.pi_w.n = frame.T_cw.R.transpose() * n_c.normalized();
+    m.area_m2 = 1.0;
+    m.observations = 50;
+    return AddLandmark(map, m);
+  }
+  PoseProblem Problem() const {
+    PoseProblem problem;
+    AddParallelPlanes(frame, map, PosePrior{}, 0.0035, config, problem);
+    return problem;
+  }
+};
+
+TEST(ParallelPlanes, TieAPlaneToThoseNearlyParallelOrAtARightAngleToIt) {
+  SeenPlaneWithOthers seen;
+  const double off = 0.01;
+  const int parallel = seen.Add({off, 0, -1}), opposite = seen.Add({0, off, 1});
+  const int right = seen.Add({1, 0, off});
+  seen.Add({1, 0, 1});
+  const PoseProblem problem = seen.Problem();
+  ASSERT_EQ(problem.parallels.size(), 2u);
+  EXPECT_THAT(problem.parallels[0].n_w, VectorNear(seen.map.planes.At(parallel).pi_w.n, 1e-12));
+  EXPECT_THAT(problem.parallels[1].n_w, VectorNear(seen.map.planes.At(opposite).pi_w.n, 1e-12));
+  ASSERT_EQ(problem.perpendiculars.size(), 1u);
+  EXPECT_THAT(problem.perpendiculars[0].n_w,
+              VectorNear(seen.map.planes.At(right).pi_w.n, 1e-12));
+}
+
+TEST(ParallelPlanes, LeaveOutSmallOnesAndOnesThatWereRarelySeen) {
+  SeenPlaneWithOthers seen;
+  const int other = seen.Add({0, 0, -1});
+  ASSERT_EQ(seen.Problem().parallels.size(), 1u);
+  seen.map.planes.At(other).observations = seen.config.min_observations - 1;
+  EXPECT_TRUE(seen.Problem().parallels.empty());
+  seen.map.planes.At(other).observations = 50;
+  seen.frame.planes[0].area_m2 = seen.config.min_area_m2;
+  EXPECT_TRUE(seen.Problem().parallels.empty());
+}
+
+}  // namespace
+}  // namespace slam

@@ -1,0 +1,94 @@
+#include "slam/structure/supposed_planes.h"
+
+#include <gtest/gtest.h>
+
+#include "slam/mapping/plane_motion.h"
+#include "tests/support/map_surfaces.h"
+#include "tests/support/slam_matchers.h"
+
+namespace slam {
+namespace {
+
+/// A board 0.4 m wide, seen from above, whose right edge is a line.
+struct SeenBoard {
+  Pose T_cw{ExpSo3({0.3, -0.2, 0.4}), {0.2, 0.1, 0.3}};
+  Frame frame;
+  Map map;
+  SupposedConfig config;
+
+  SeenBoard() {
+    frame.T_cw = T_cw;
+    FramePlane plane;
+    plane.pi_c = {Eigen::Vector3d(0, 0, -1), 1.5};
+    plane.centroid_c = {0, 0, 1.5};
+    plane.lines_c = {{{0.2, -0.3, 1.5}, Eigen::Vector3d::UnitY()}};
+    frame.planes = {plane};
+    frame.plane_matches = {{PlaneDecision::kMatched, 0, MatchReason::kParameters}};
+    MapPlane landmark;
+    landmark.pi_w = Transform(Inverse(T_cw), plane.pi_c);
+    AddLandmark(map, landmark);
+  }
+  void Learn(int times) {
+    for (int i = 0; i < times; ++i, ++frame.index)
+      LearnSupposedPlanes(frame, 0.97, config, map);
+  }
+  std::vector<PlaneConstraint> Constraints() const {
+    PoseProblem problem;
+    AddSupposedPlanes(frame, map, config, problem);
+    return problem.planes;
+  }
+  std::vector<SupposedPlane>& Supposed() { return map.planes.At(0).supposed; }
+};
+
+TEST(SupposedPlanes, HoldThePoseOnceAFewFramesHaveSeenThem) {
+  SeenBoard board;
+  board.Learn(board.config.min_observations - 1);
+  ASSERT_EQ(board.Supposed().size(), 1u);
+  EXPECT_TRUE(board.Constraints().empty());
+  board.Learn(1);
+  const auto constraints = board.Constraints();
+  ASSERT_EQ(constraints.size(), 1u);
+  const Plane side_c{Eigen::Vector3d::UnitX(), -0.2};
+  EXPECT_THAT(constraints[0].pi_c, PlaneNear(side_c, 1e-9, 1e-9));
+  EXPECT_THAT(constraints[0].pi_w,
+              PlaneNear(Transform(Inverse(board.T_cw), side_c), 1e-9, 1e-9));
+  EXPECT_GT(constraints[0].offset_sigma_m, board.config.offset_sigma_m);
+}
+
+TEST(SupposedPlanes, AreLeftAloneByEdgesElsewhereAndByUntrustedPlanes) {
+  SeenBoard board;
+  board.Learn(5);
+  FramePlane& plane = board.frame.planes[0];
+  plane.lines_c[0].P.x() += 0.05;  // beyond the bound
+  EXPECT_TRUE(board.Constraints().empty());
+  board.Learn(1);
+  EXPECT_EQ(board.Supposed().size(), 2u);
+  plane.lines_c[0].P.x() -= 0.05;
+  plane.bad = BadReason::kFar;
+  EXPECT_TRUE(board.Constraints().empty());
+}
+
+TEST(SupposedPlanes, OfAFewFramesAreForgotten) {
+  SeenBoard board;
+  board.Learn(1);
+  board.frame.index += board.config.max_misses + 2;
+  board.frame.planes[0].lines_c.clear();
+  board.Learn(1);
+  EXPECT_TRUE(board.Supposed().empty());
+}
+
+TEST(SupposedPlanes, MoveWithTheirLandmark) {
+  SeenBoard board;
+  board.Learn(5);
+  const Pose T_new_old{ExpSo3({0.1, 0.2, -0.3}), {1, 2, 3}};
+  const std::vector<PlaneConstraint> before = board.Constraints();
+  MovePlane(board.map.planes.At(0), T_new_old);
+  board.frame.T_cw = board.T_cw * Inverse(T_new_old);
+  const auto after = board.Constraints();
+  ASSERT_EQ(after.size(), 1u);
+  EXPECT_THAT(after[0].pi_w, PlaneNear(Transform(T_new_old, before[0].pi_w), 1e-9, 1e-9));
+  EXPECT_NEAR(after[0].offset_sigma_m, before[0].offset_sigma_m, 1e-9);
+}
+
+}  // namespace
+}  // namespace slam
