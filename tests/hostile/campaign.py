@@ -36,7 +36,8 @@ SEQUENCE = {"rgb.txt": "list", "depth.txt": "list", "associations.txt": "list", 
             "gt/scene.json": "json", "gt/frames.jsonl": "jsonl", "rgb/*.png": "colour", "depth/*.png": "depth",
             "gt/plane_id/*.png": "ids", "gt/object_id/*.png": "ids"}
 RUN = {"run.json": "json", "trajectory.txt": "list", "keyframes.txt": "list", "frame_planes.jsonl": "jsonl",
-       "map.json": "json", "timing.csv": "csv", "segmentation/*.png": "ids", "map.ply": "text"}
+       "map.json": "json", "timing.csv": "csv", "segmentation/*.png": "ids", "map.ply": "text",
+       "trajectory_covariance.txt": "list"}
 SCENES = {"scene.yaml": "yaml", "sensor.yaml": "yaml", "path.txt": "list", "config.yaml": "yaml",
           "slam_camera.yaml": "yaml", "poses.csv": "csv", "warp.yaml": "yaml"}
 
