@@ -8,7 +8,7 @@
 
 namespace {
 
-app::BenchErrors Run(const std::filesystem::path& sequence, slam::StructureMode mode) {
+app::BenchErrors ErrorsOf(const std::filesystem::path& sequence, slam::StructureMode mode) {
   slam::Config config;
   config.structure.mode = mode;
   const app::ScoredRun run = app::RunAndScore({"structure", sequence}, config);
@@ -23,10 +23,11 @@ TEST(Structure, ThatTheWorldDoesNotHaveHarmsNoPathNorMap) {
   recording.frames = 30;
   recording.width = 640, recording.height = 480;
   pipeline::Record(sim::MakeScene("wall", 3, {{"structure", 1}}), recording, folder / "seq");
-  const app::BenchErrors none = Run(folder / "seq", slam::StructureMode::kFree);
+  const app::BenchErrors none = ErrorsOf(folder / "seq", slam::StructureMode::kFree);
   ASSERT_TRUE(none.ate_m && none.plane_normal_deg);
   for (std::size_t mode = 1; mode < slam::StructureModeNames().size(); ++mode) {
-    const app::BenchErrors with = Run(folder / "seq", static_cast<slam::StructureMode>(mode));
+    const app::BenchErrors with =
+        ErrorsOf(folder / "seq", static_cast<slam::StructureMode>(mode));
     EXPECT_LT(with.ate_m.value_or(1.0), 1.1 * *none.ate_m) << slam::StructureModeNames()[mode];
     EXPECT_LT(with.plane_normal_deg.value_or(90.0), 1.1 * *none.plane_normal_deg)
         << slam::StructureModeNames()[mode];
