@@ -9,8 +9,9 @@ namespace slam {
 /// map.
 ///
 /// Octave o of the image pyramid is smaller by factor^o. A feature with depth z has a virtual
-/// right coordinate u - b f / z, as if a second camera stood a baseline b beside the first: so
-/// depth is weighed by a disparity, whose error is the same at every distance.
+/// right coordinate u - b f / z, as if a second camera stood a baseline b beside the first:
+/// matching compares depths by it, because a disparity's error is the same at every distance.
+/// Pose and bundle weigh a depth by the sensor's own noise instead.
 struct FeatureScale {
   int octaves = 8;        ///< levels of the image pyramid
   double factor = 1.2;    ///< ratio of the scales of neighbouring octaves

@@ -158,7 +158,9 @@ std::string UnitOf(std::string_view key) {
       {"_pixels", "px"},
       {"_deg", "degrees"},
       {"_rad", "radians"},
-      {"_sigmas", "standard deviations"}};
+      {"_sigmas", "standard deviations"},
+      {"_deg_per_s", "degrees/s"},
+      {"_s", "s"}};
   for (const auto& [suffix, unit] : kUnits) {
     if (key.ends_with(suffix)) return unit;
   }
