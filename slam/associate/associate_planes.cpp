@@ -66,16 +66,18 @@ std::vector<AdmissiblePair> AdmissiblePairs(const PairTable& pairs,
   std::vector<AdmissiblePair> admissible;
   for (std::size_t f = 0; f < pairs.size(); ++f) {
     // What drift costs a landmark that comes back is no advantage of a candidate.
-    double drift_cost = 0.0;
+    double spread_cost = 0.0;
     for (const PairEvidence& pair : pairs[f]) {
       if (pair.verdict == PairVerdict::kPossible && !pair.on_trial)
-        drift_cost = std::max(drift_cost, pair.drift_cost);
+        spread_cost = std::max(spread_cost, pair.spread_cost);
     }
     for (const PairEvidence& pair : pairs[f]) {
       if (pair.verdict != PairVerdict::kPossible) continue;
       if (pair.on_trial && IsExcluded(pair, pairs[f], duplicates)) continue;
       // To be believed before a landmark, a candidate must be clearly nearer.
-      const double handicap = pair.on_trial ? config.min_margin + drift_cost : 0.0;
+      const double handicap =
+          pair.on_trial ? config.min_margin + std::max(0.0, spread_cost - pair.spread_cost)
+                        : 0.0;
       admissible.push_back({static_cast<int>(f), pair.map_plane, pair.Cost() + handicap,
                             pair.on_trial, pair.was_seen});
     }

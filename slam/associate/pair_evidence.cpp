@@ -117,10 +117,8 @@ PairTable WeighPairs(const Frame& frame, const Map& map, const UncertainPose& po
         view = {ViewMapPlane(m, frame, pose.T_cw, camera), ProjectedBox(m, pose.T_cw, camera)};
       }
       pairs[f].push_back(Weigh(frame, plane, m, comparison, *view, pose.T_cw, config));
-      // What is known less well fits more: the likelihood is divided among all of that.
       pairs[f].back().links = links;
-      pairs[f].back().drift_cost =
-          comparison.log_spread - ComparePlanes(plane, m, pose, config).log_spread;
+      pairs[f].back().spread_cost = comparison.log_spread;
     }
   }
   return pairs;

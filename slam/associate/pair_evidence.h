@@ -26,7 +26,9 @@ struct PairEvidence {
   PairVerdict verdict = PairVerdict::kRefused;
   PairRefusal refusal = PairRefusal::kCost;  ///< why the pair is not possible
   double parameter_cost = 0.0;               ///< chi-square of offset and slopes
-  double drift_cost = 0.0;  ///< log of how many times as much fits since it drifted
+  /// What is known less well fits more: the likelihood is divided among all of that. A new
+  /// landmark is known less well than an old one, and so is one that has drifted.
+  double spread_cost = 0.0;
   double overlap_cost = 0.0, class_cost = 0.0, box_cost = 0.0;
   double overlap = 0.0;    ///< share of the smaller footprint, [0, 1]
   int landed = 0;          ///< points of the map plane that land on the frame plane's pixels
@@ -34,7 +36,7 @@ struct PairEvidence {
   bool extension = false;  ///< no overlap, but one surface may go on from the other
 
   double Cost() const {
-    return parameter_cost + drift_cost + overlap_cost + class_cost + box_cost;
+    return parameter_cost + spread_cost + overlap_cost + class_cost + box_cost;
   }
 };
 

@@ -80,6 +80,7 @@ PlaneComparison ComparePlanes(const FramePlane& f, const MapPlane& m, const Unce
   Covariance3 covariance = FloorOf(config);
   if (m.estimate.empty()) covariance += FloorOf(config);  // else its observations hold it
   covariance += PatchCovariance(f, Eigen::Vector2d::Zero());
+  const double own_spread = std::log(covariance.determinant());
   covariance += MapCovariance(m, x_w, pose.T_cw.R.transpose() * axes_c);
   // d (height, slopes) / d xi: the map plane moves in the camera frame by -n.rho and turns.
   Eigen::Matrix<double, 3, 6> J = Eigen::Matrix<double, 3, 6>::Zero();
@@ -88,7 +89,9 @@ PlaneComparison ComparePlanes(const FramePlane& f, const MapPlane& m, const Unce
   J.block<1, 3>(1, 3) = map_pi_c.n.cross(axes_c.col(0)).transpose();
   J.block<1, 3>(2, 3) = map_pi_c.n.cross(axes_c.col(1)).transpose();
   covariance += J * pose.covariance * J.transpose();
-  return Compare(f.pi_c, x_c, map_pi_c, axes_c, covariance);
+  PlaneComparison out = Compare(f.pi_c, x_c, map_pi_c, axes_c, covariance);
+  out.log_spread -= own_spread;
+  return out;
 }
 
 PlaneComparison ComparePlanes(const FramePlane& one, const FramePlane& other,

@@ -11,8 +11,10 @@ namespace slam {
 struct PlaneComparison {
   double angle_rad = 0.0;  ///< between the oriented normals
   double offset_sigma_m = 0.0;
-  double chi2 = 0.0;        ///< chi-square of offset and two slopes: 3 degrees of freedom
-  double log_spread = 0.0;  ///< logarithm of their covariance's determinant
+  double chi2 = 0.0;  ///< chi-square of offset and two slopes: 3 degrees of freedom
+  /// Logarithm of their covariance's determinant; of a frame plane, over that of its own errors:
+  /// how many times as much fits because map plane and pose are not known exactly.
+  double log_spread = 0.0;
 };
 
 /// Compares where the patch is: height and slopes of the measured plane over the map plane at
