@@ -61,25 +61,14 @@ bool IsExcluded(const PairEvidence& candidate, const std::vector<PairEvidence>& 
 
 /// What the assignment may choose from.
 std::vector<AdmissiblePair> AdmissiblePairs(const PairTable& pairs,
-                                            const std::set<std::pair<int, int>>& duplicates,
-                                            const AssociationConfig& config) {
+                                            const std::set<std::pair<int, int>>& duplicates) {
   std::vector<AdmissiblePair> admissible;
   for (std::size_t f = 0; f < pairs.size(); ++f) {
-    // What drift costs a landmark that comes back is no advantage of a candidate.
-    double spread_cost = 0.0;
-    for (const PairEvidence& pair : pairs[f]) {
-      if (pair.verdict == PairVerdict::kPossible && !pair.on_trial)
-        spread_cost = std::max(spread_cost, pair.spread_cost);
-    }
     for (const PairEvidence& pair : pairs[f]) {
       if (pair.verdict != PairVerdict::kPossible) continue;
       if (pair.on_trial && IsExcluded(pair, pairs[f], duplicates)) continue;
-      // To be believed before a landmark, a candidate must be clearly nearer.
-      const double handicap =
-          pair.on_trial ? config.min_margin + std::max(0.0, spread_cost - pair.spread_cost)
-                        : 0.0;
-      admissible.push_back({static_cast<int>(f), pair.map_plane, pair.Cost() + handicap,
-                            pair.on_trial, pair.was_seen});
+      admissible.push_back(
+          {static_cast<int>(f), pair.map_plane, pair.Cost(), pair.on_trial, pair.was_seen});
     }
   }
   return admissible;
@@ -196,9 +185,9 @@ PlaneAssociation IntegratedRule(const Frame& frame, const Map& map, const Camera
   out.steps = std::move(relations.steps);
   RefuseFragments(relations.pieces, config, pairs);
   const auto duplicates = DuplicatesAmong(pairs, map, config);
-  const PlaneAssignment assignment = AssignPlanes(
-      static_cast<int>(frame.planes.size()), AdmissiblePairs(pairs, duplicates, config),
-      {relations.pieces, duplicates}, config.min_margin);
+  const PlaneAssignment assignment =
+      AssignPlanes(static_cast<int>(frame.planes.size()), AdmissiblePairs(pairs, duplicates),
+                   {relations.pieces, duplicates}, config.min_margin);
   for (std::size_t f = 0; f < pairs.size(); ++f) {
     out.matches.push_back(Decide(pairs[f], assignment.map_plane[f], duplicates));
     for (const PairEvidence& pair : pairs[f]) {
