@@ -253,6 +253,35 @@ TEST(PlaneAssociation, ACandidateThatIsALandmarkFoundTwiceTakesNothingFromIt) {
   ExpectAllRight(a);
 }
 
+TEST(PlaneAssociation, AStripThatIsKnownPoorlyDoesNotTakeTheSurfaceThatItIsAPartOf) {
+  // Both miss what is seen by the same 3 mm, and where little is known that says less: by the
+  // chi-square alone the strip would be nearer.
+  const Camera camera = SmallCamera();
+  AssociationConfig config;
+  config.prior = {.sigma_m = 0.0005, .sigma_rad = 0.0005};
+  Association a = TwoViews(DeskWithBook(0.02, ""), {}, config);
+  const int desk = a.first.frame.plane_matches[0].map_plane;
+  a.map.planes.At(desk).pi_w.d += 0.003;
+  MapPlane strip = a.map.planes.At(desk);
+  strip.estimate.information *= 0.02;
+  strip.estimate.weighted *= 0.02;
+  a.map.planes.Add(strip);
+  const UncertainPose pose = PredictedPose(a.second.frame, config);
+  PairRefusals refused;
+  const PairTable pairs =
+      WeighPairs(a.second.frame, a.map, pose, pose, camera, config, refused);
+  const PairEvidence *of_desk = nullptr, *of_strip = nullptr;
+  for (const PairEvidence& pair : pairs[0]) {
+    if (pair.verdict != PairVerdict::kPossible) continue;
+    (pair.map_plane == desk ? of_desk : of_strip) = &pair;
+  }
+  ASSERT_TRUE(of_desk != nullptr && of_strip != nullptr);
+  ASSERT_GT(of_desk->parameter_cost, of_strip->parameter_cost + 0.1);
+  const auto matches = AssociatePlanes(a.second.frame, a.map, camera, config).matches;
+  EXPECT_EQ(matches[0].map_plane, desk);
+  EXPECT_EQ(matches[0].decision, PlaneDecision::kMatched);
+}
+
 /// Part of a frame's first plane as a plane of its own, nearer by a step of 4 mm that bends may
 /// explain.
 void TearOff(Frame& frame, const cv::Rect& where) {
