@@ -60,6 +60,7 @@ PairEvidence Weigh(const Frame& frame, const FramePlane& f, const MapPlane& m,
   pair.overlap = Overlap(view.footprint, f);
   pair.was_seen = WasSeen(view.footprint, f, config);
   if (!view.footprint.landed.empty()) pair.landed = view.footprint.landed[Index(f.index)];
+  pair.landed_m2 = pair.landed * view.footprint.cell_m2;
   pair.parameter_cost = comparison.chi2;
   pair.overlap_cost = config.overlap_weight * (1 - pair.overlap);
   pair.class_cost = -2 * std::log(ClassLikelihood(m.class_belief, f.class_name));
@@ -92,6 +93,22 @@ double FragmentRatio(const AssociationConfig& config) {
   return std::exp(0.5 * config.min_margin);  // as likelihoods have that must not be confused
 }
 
+namespace {
+
+/// Of two landmarks that a frame plane could show, it rather shows the one of which more is seen
+/// on it: a desk's segment that took in a book is the desk.
+void WeighShares(std::vector<PairEvidence>& row, const AssociationConfig& config) {
+  double most_m2 = 0.0;
+  for (const PairEvidence& pair : row)
+    if (pair.verdict == PairVerdict::kPossible) most_m2 = std::max(most_m2, pair.landed_m2);
+  for (PairEvidence& pair : row) {
+    if (!(pair.landed_m2 > 0.0) || !(most_m2 > pair.landed_m2)) continue;
+    pair.share_cost = std::min(2.0 * std::log(most_m2 / pair.landed_m2), config.overlap_weight);
+  }
+}
+
+}  // namespace
+
 PairTable WeighPairs(const Frame& frame, const Map& map, const UncertainPose& pose,
                      const UncertainPose& predicted, const Camera& camera,
                      const AssociationConfig& config, PairRefusals& refused) {
@@ -121,6 +138,7 @@ PairTable WeighPairs(const Frame& frame, const Map& map, const UncertainPose& po
       pairs[f].back().spread_cost = comparison.log_spread;
     }
   }
+  for (auto& row : pairs) WeighShares(row, config);
   return pairs;
 }
 

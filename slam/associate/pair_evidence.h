@@ -30,13 +30,15 @@ struct PairEvidence {
   /// landmark is known less well than an old one, and so is one that has drifted.
   double spread_cost = 0.0;
   double overlap_cost = 0.0, class_cost = 0.0, box_cost = 0.0;
-  double overlap = 0.0;    ///< share of the smaller footprint, [0, 1]
-  int landed = 0;          ///< points of the map plane that land on the frame plane's pixels
-  bool was_seen = false;   ///< points of the map plane cover most of the frame plane
-  bool extension = false;  ///< no overlap, but one surface may go on from the other
+  double share_cost = 0.0;  ///< others of the map show more of themselves on the frame plane
+  double overlap = 0.0;     ///< share of the smaller footprint, [0, 1]
+  int landed = 0;           ///< points of the map plane that land on the frame plane's pixels
+  double landed_m2 = 0.0;   ///< the area that these stand for
+  bool was_seen = false;    ///< points of the map plane cover most of the frame plane
+  bool extension = false;   ///< no overlap, but one surface may go on from the other
 
   double Cost() const {
-    return parameter_cost + spread_cost + overlap_cost + class_cost + box_cost;
+    return parameter_cost + spread_cost + overlap_cost + class_cost + box_cost + share_cost;
   }
 };
 

@@ -2,8 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <utility>
 
 #include "slam/associate/correct_prediction.h"
 #include "slam/associate/pair_evidence.h"
@@ -280,6 +282,48 @@ TEST(PlaneAssociation, AStripThatIsKnownPoorlyDoesNotTakeTheSurfaceThatItIsAPart
   const auto matches = AssociatePlanes(a.second.frame, a.map, camera, config).matches;
   EXPECT_EQ(matches[0].map_plane, desk);
   EXPECT_EQ(matches[0].decision, PlaneDecision::kMatched);
+}
+
+/// The segment of a frame's first plane takes in that of another.
+void TakeIn(Frame& frame, std::size_t other) {
+  FramePlane &into = frame.planes[0], &from = frame.planes[other];
+  frame.plane_labels.setTo(1, frame.plane_labels == from.index + 1);
+  into.points_c.insert(into.points_c.end(), from.points_c.begin(), from.points_c.end());
+  into.pixel_count += from.pixel_count, into.area_m2 += from.area_m2;
+  from.bad = BadReason::kInliers;
+}
+
+TEST(PlaneAssociation, ASegmentThatTookInABookIsTheDeskWhoseShareOfItIsLarger) {
+  // The book's landmark fits as well, and a step was often seen between the two.
+  Association a = TwoViews(DeskWithBook(0.003, ""), {}, {});
+  const int desk = a.first.frame.plane_matches[0].map_plane;
+  const int book = a.first.frame.plane_matches[1].map_plane;
+  ASSERT_TRUE(a.second.truth[0] == 0 && a.second.truth[1] == 1 && desk != book);
+  constexpr int kFrames = 10;
+  for (const auto& [one, other] : {std::pair(desk, book), std::pair(book, desk)}) {
+    a.map.planes.At(one).covisible[other] = kFrames;
+    a.map.planes.At(one).stepped[other] = kFrames;
+  }
+  const double times = static_cast<double>(a.second.frame.planes[0].pixel_count) /
+                       a.second.frame.planes[1].pixel_count;
+  TakeIn(a.second.frame, 1);
+  const UncertainPose pose = PredictedPose(a.second.frame, {});
+  PairRefusals refused;
+  const PairTable pairs =
+      WeighPairs(a.second.frame, a.map, pose, pose, SmallCamera(), {}, refused);
+  const auto evidence = [&](int landmark) {
+    const auto found =
+        std::find_if(pairs[0].begin(), pairs[0].end(),
+                     [&](const PairEvidence& pair) { return pair.map_plane == landmark; });
+    return found == pairs[0].end() ? PairEvidence{} : *found;
+  };
+  ASSERT_EQ(evidence(desk).verdict, PairVerdict::kPossible);
+  ASSERT_EQ(evidence(book).verdict, PairVerdict::kPossible);
+  EXPECT_EQ(evidence(desk).share_cost, 0.0);
+  EXPECT_NEAR(evidence(book).share_cost, 2.0 * std::log(times), 0.5);
+  const auto matches = AssociatePlanes(a.second.frame, a.map, SmallCamera(), {}).matches;
+  EXPECT_EQ(matches[0].decision, PlaneDecision::kMatched);
+  EXPECT_EQ(matches[0].map_plane, desk);
 }
 
 /// Part of a frame's first plane as a plane of its own, nearer by a step of 4 mm that bends may
