@@ -9,13 +9,13 @@ namespace slam {
 struct JoinConfig {
   double bend_ratio = kKinectBend;
   double bend_length_rad = kBendLength_rad;
-  // In bends: of a normal variable, 3 are passed 1 time in 400. With a sensor that does not bend
-  // the bound on the smaller part counts most: without it d435 lost 0.036 of correct.
-  double max_union_bends = 3.0;
-  double max_part_bends = 5.0;
-  double max_hidden_bends = 3.0;  // no border tells: with 4, tops 10 mm apart were joined
-  double max_turn_bends = 7.0;    // of slopes, between strips that are nearly a length apart
-  double max_gap_sigmas = 1.5;
+  double max_seen_ratio = 1.2;
+  // What two parts of one surface are apart, root mean square: measured on simulated surfaces that
+  // something hides in part, with and without bends.
+  double union_bends = 0.55, union_gap_sigmas = 0.17;
+  double max_union_chi2 = 100.0;  // parts may be curved as a whole: their border tells more
+  double max_hidden_cost = 6.0;
+  double max_turn_bends = 7.0;  // of slopes, between strips that are nearly a length apart
   // The sensor's own steps of depth are about one sigma high. The mean square counts, so a step
   // along a part of the border does too.
   double max_step_sigmas = 3.0;
@@ -27,16 +27,19 @@ inline void VisitFields(JoinConfig& c, FieldVisitor& v) {
            "0: nothing");
   v.Degrees("bend_length_deg", c.bend_length_rad, "(0, 90)",
             "angle of view over which the bend changes by its own size");
-  v.Number("max_union_bends", c.max_union_bends, "(0, inf)",
-           "largest deviation (root mean square) of a surface from its plane, in bends");
-  v.Number("max_part_bends", c.max_part_bends, "(0, inf)",
-           "the same of the smaller of two parts that touch");
-  v.Number("max_hidden_bends", c.max_hidden_bends, "(0, inf)",
-           "the same of two parts that something in front separates");
+  v.Number("max_seen_ratio", c.max_seen_ratio, "(0, inf)",
+           "largest bend that is believed of a frame's large surfaces, in bends");
+  v.Number("union_bends", c.union_bends, "[0, inf)",
+           "what parts of one surface are apart by the bend (root mean square), in bends");
+  v.Number("union_gap_sigmas", c.union_gap_sigmas, "[0, inf)",
+           "the same by other errors, in standard deviations of a pixel");
+  v.Number("max_union_chi2", c.max_union_chi2, "(0, inf)",
+           "largest chi-square (3 degrees of freedom) of one plane for two parts that touch");
+  v.Number("max_hidden_cost", c.max_hidden_cost, "[-100, 100]",
+           "largest -2 log likelihood of one plane for two parts that something in front "
+           "separates");
   v.Number("max_turn_bends", c.max_turn_bends, "(0, inf)",
            "largest change of slope where two parts meet, in bends over their length");
-  v.Number("max_gap_sigmas", c.max_gap_sigmas, "(0, inf)",
-           "deviation allowed beside the bend, in standard deviations of a pixel");
   v.Number("max_step_sigmas", c.max_step_sigmas, "(0, inf)",
            "largest step (root mean square along the border) where two parts meet, in standard "
            "deviations of a pixel");

@@ -104,15 +104,16 @@ void PartSegmentation::JoinHiddenLabels(const DepthNoise& noise) {
   std::iota(into_.begin(), into_.end(), 0);
   for (std::size_t k = 1; k < by_size.size(); ++k) {
     const auto small = static_cast<std::size_t>(by_size[k]);
-    double min_gap = 1.0;
+    double min_cost = config_.joining.max_hidden_cost;
     for (std::size_t j = 0; j < k; ++j) {
       const int large = by_size[j];
       if (into_[static_cast<std::size_t>(large)] != large) continue;
       if (contacts_.Of(by_size[k], large) > kMaxContactShare * borders_[small]) continue;
-      const Surface& surface = surfaces_[static_cast<std::size_t>(large)];
-      const double gap = SurfaceGap(surfaces_[small], surface, noise, config_.joining);
-      if (gap < min_gap && !PassBehind(lines, by_size[k], large, large))
-        min_gap = gap, into_[small] = large;
+      const double cost = HiddenUnionCost(surfaces_[small].sums,
+                                          surfaces_[static_cast<std::size_t>(large)].sums,
+                                          noise, config_.joining);
+      if (cost < min_cost && !PassBehind(lines, by_size[k], large, large))
+        min_cost = cost, into_[small] = large;
     }
   }
   for (LabelComponent& c : components_.list) c.label = into_[static_cast<std::size_t>(c.label)];

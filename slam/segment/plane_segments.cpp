@@ -71,7 +71,7 @@ void PlaneExtractor::Workspace::AddClusters(const BlockClusters& clusters,
     std::vector<LabelPlane> local;
     if (joined != nullptr && !is_part && joined->bent[r] != 0)
       local = FitLocally(block_parts, joined->into, static_cast<int>(r), label_plane,
-                         sensor.noise, config.joining);
+                         sensor.noise, here.joining);
     growth.AddPlane(label_plane, local);
   }
 
@@ -88,7 +88,8 @@ void PlaneExtractor::Workspace::AddClusters(const BlockClusters& clusters,
   growth.DropUseless();
 }
 
-/// Which clusters of the whole image continue each other; block_parts are theirs.
+/// Which clusters of the whole image continue each other; block_parts are theirs. What is joined
+/// tells how much the sensor bends here, and with that it is joined once more.
 JoinedLabels PlaneExtractor::Workspace::JoinClusters(const BlockClusters& clusters) {
   block_parts.Begin(clusters.cols, clusters.rows);
   for (std::size_t block = 0; block < clusters.region.size(); ++block) {
@@ -97,8 +98,12 @@ JoinedLabels PlaneExtractor::Workspace::JoinClusters(const BlockClusters& cluste
     if (region >= 0) block_parts.parts.push_back({region, clusters.block_sums[block]});
   }
   block_parts.first.push_back(block_parts.parts.size());
-  return JoinSurfaces(block_parts, clusters.planes.size(), nullptr, {}, sensor.noise,
-                      config.joining);
+  const auto join = [&] {
+    return JoinSurfaces(block_parts, clusters.planes.size(), nullptr, {}, sensor.noise,
+                        here.joining);
+  };
+  here.joining.bend_ratio = SeenBend(join().sums, sensor.noise, here.joining);
+  return join();
 }
 
 /// How many pixels of one label touch another, for every two.
@@ -122,7 +127,7 @@ void PlaneExtractor::Workspace::JoinTouching() {
   std::vector<std::uint8_t> bent(count);
   for (std::size_t k = 0; k < count; ++k) bent[k] = growth.IsLocal(static_cast<int>(k)) ? 1 : 0;
   const JoinedLabels joined =
-      JoinSurfaces(block_parts, count, &contacts, bent, sensor.noise, config.joining);
+      JoinSurfaces(block_parts, count, &contacts, bent, sensor.noise, here.joining);
 
   std::vector<LabelPlane> planes = growth.planes();
   std::vector<std::vector<LabelPlane>> local(count);
@@ -132,7 +137,7 @@ void PlaneExtractor::Workspace::JoinTouching() {
       planes[k] = {fit->plane, GrazingFactor(joined.sums[k], fit->plane, sensor.noise)};
     if (joined.bent[k] != 0)
       local[k] = FitLocally(block_parts, joined.into, static_cast<int>(k), planes[k],
-                            sensor.noise, config.joining);
+                            sensor.noise, here.joining);
   }
   growth.Replace(planes, joined.into, local);
 
@@ -152,6 +157,7 @@ void PlaneExtractor::Workspace::JoinTouching() {
 /// Our segmentation.
 PartSegments PlaneExtractor::Workspace::SegmentBySteps() {
   const DepthNoise& noise = sensor.noise;
+  here = config;
 
   // The planes of clusters of blocks grow over pixels; what they do not explain is clustered in
   // quarters of blocks.
@@ -170,7 +176,7 @@ PartSegments PlaneExtractor::Workspace::SegmentBySteps() {
 
   // Parts of one surface are joined, where they touch and across what hides them.
   JoinTouching();
-  return SegmentParts(grid, surfaces, runs, noise, config);
+  return SegmentParts(grid, surfaces, runs, noise, here);
 }
 
 /// The same by PEAC.

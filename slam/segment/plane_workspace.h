@@ -22,6 +22,7 @@ struct PlaneExtractor::Workspace {
   Camera camera;
   SensorModel sensor;
   PlaneExtractionConfig config;
+  PlaneExtractionConfig here;  ///< the same, with what the sensor is seen to bend in the frame
   DepthGrid grid;
   BlockClustering clustering;
   ImageBlocks blocks;

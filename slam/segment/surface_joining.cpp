@@ -5,10 +5,9 @@
 #include <cstddef>
 #include <limits>
 #include <numeric>
-#include <optional>
 #include <utility>
 
-#include "slam/base/chi_square.h"
+#include "slam/segment/surfaces.h"
 
 namespace slam {
 namespace {
@@ -104,13 +103,6 @@ void AddPlace(const PlaneSums& sums_a, const PlaneSums& sums_b, const DepthNoise
   border.turn.Add(turn * turn / unit2, (variance(A, det_a) + variance(B, det_b)) / unit2);
 }
 
-/// Error sum of pixels about a plane.
-double ErrorOf(const PlaneSums& s, const InverseDepthPlane& p) {
-  return s.wqq - 2 * (p.a * s.wqx + p.b * s.wqy + p.c * s.wq) + p.a * p.a * s.wxx +
-         p.b * p.b * s.wyy + p.c * p.c * s.w +
-         2 * (p.a * p.b * s.wxy + p.a * p.c * s.wx + p.b * p.c * s.wy);
-}
-
 class SurfaceJoining {
  public:
   SurfaceJoining(const PartsOnBlocks& on, std::vector<std::uint8_t> bent,
@@ -195,26 +187,10 @@ void SurfaceJoining::MeasureBorders(ContactPixels* contacts) {
   }
 }
 
-/// Whether two labels as one plane keep within the bend, and the smaller as a part of it.
+/// Whether two labels as one plane keep within the bend.
 bool SurfaceJoining::MayBeOne(int a, int b) const {
-  const PlaneSums &A = sums_[static_cast<std::size_t>(a)],
-                  &B = sums_[static_cast<std::size_t>(b)];
-  PlaneSums both = A;
-  both += B;
-  const std::optional<PlaneFit> fit = Fit(both);
-  if (!fit) return false;
-  const double grazing = GrazingFactor(both, fit->plane, noise_);
-  const auto within = [&](double error, const PlaneSums& s, double max_bends) {
-    const double bend = max_bends * config_.bend_ratio;
-    const double gap2 = config_.max_gap_sigmas * config_.max_gap_sigmas;
-    return error < bend * bend * s.wqq +
-                       grazing * grazing * (gap2 * s.n + kChi2Of3At999 * noise_.correlated_px);
-  };
-  const PlaneSums& smaller = A.n < B.n ? A : B;
-  const std::optional<PlaneFit> own = Fit(smaller);
-  return own &&
-         within(fit->error - grazing * grazing * both.n, both, config_.max_union_bends) &&
-         within(ErrorOf(smaller, fit->plane) - own->error, smaller, config_.max_part_bends);
+  return UnionChi2(sums_[static_cast<std::size_t>(a)], sums_[static_cast<std::size_t>(b)],
+                   noise_, config_) < config_.max_union_chi2;
 }
 
 bool SurfaceJoining::IsSmooth(const Border& border) const {
