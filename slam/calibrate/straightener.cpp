@@ -27,10 +27,13 @@ cv::Mat1f DepthStraightener::Straighten(int frame, const cv::Mat1f& depth_m) {
   return Straightened(depth_m, factors_);
 }
 
-void DepthStraightener::Learn(const Frame& frame, const cv::Mat1f& measured_m) {
-  if (config_.source != kAuto || frame.plane_labels.empty()) return;
+void DepthStraightener::Learn(const Frame& frame) {
+  const DepthImage& measured = frame.measured;
+  if (config_.source != kAuto || measured.labels.empty()) return;
   if (!learner_) learner_.emplace(camera_, noise_, config_);
-  if (!learner_->Observe(frame.timestamp_s, measured_m, frame.plane_labels, frame.T_cw)) return;
+  if (!learner_->Observe(frame.timestamp_s, measured.depth_m, measured.labels,
+                         frame.T_dc() * frame.T_cw))
+    return;
   report_.evidence = learner_->evidence();
   if (learner_->evidence().worth_it) {
     Apply(learner_->Warp());

@@ -25,9 +25,8 @@ class DepthStraightener {
   /// The depth without the warp; the very image when there is none to be applied.
   cv::Mat1f Straighten(int frame, const cv::Mat1f& depth_m);
 
-  /// Learns from a tracked frame with planes, for the frames after it.
-  /// @param measured_m  its depth as it was before Straighten
-  void Learn(const Frame& frame, const cv::Mat1f& measured_m);
+  /// Learns from a tracked frame with planes (Frame::measured), for the frames after it.
+  void Learn(const Frame& frame);
 
   const StraighteningReport& report() const { return report_; }
 

@@ -147,7 +147,7 @@ void DepthClock::Add(const Change& change, Shifts& shifts) const {
 void DepthClock::Observe(const Frame& frame) {
   const double timestamp_s = frame.timestamp_s, depth_s = timestamp_s + frame.depth_late_s;
   // The change since the oldest frame that is near enough.
-  seen_.push_back({depth_s, Tiles(frame.depth_m)});
+  seen_.push_back({depth_s, Tiles(frame.measured.depth_m)});
   while (seen_.front().s < depth_s - kMaxStep_s) seen_.pop_front();
   if (seen_.size() > 1) {
     const Change change = Between(seen_.front(), seen_.back());

@@ -26,8 +26,8 @@ class DepthClock {
  public:
   explicit DepthClock(const Camera& camera);
 
-  /// Takes in the next frame, in the order of time: its depth at the time that its stamp says, and
-  /// its pose by pixels, if it has one, at the time of its colour.
+  /// Takes in the next frame, in the order of time: its depth as measured, at the time that its stamp
+  /// says, and its pose by pixels, if it has one, at the time of its colour.
   void Observe(const Frame& frame);
 
   /// By how much later than its stamp says depth was taken: seconds, negative: earlier, at most a

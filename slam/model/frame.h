@@ -74,26 +74,38 @@ struct PointPlaneMatch {
   int frame_plane = 0;    ///< index
 };
 
+/// What the depth sensor gave, before it was straightened and carried to where colour was taken.
+struct DepthImage {
+  cv::Mat1f depth_m;  ///< planar z, metres; 0 = no measurement
+  cv::Mat1b labels;   ///< index + 1 of the frame plane found at each pixel; 0 = none
+};
+
 /// One RGB-D frame on its way through the stages (A) to (F).
 struct Frame {
   int index = 0;             ///< count of frames, from 0
   double timestamp_s = 0.0;  ///< when the colour image was taken
 
   // (A) input
-  cv::Mat1b gray;             ///< 8-bit, as recorded (distorted)
-  cv::Mat1f depth_m;          ///< planar z, metres; 0 = no measurement, never NaN
+  cv::Mat1b gray;     ///< 8-bit, as recorded (distorted)
+  cv::Mat1f depth_m;  ///< planar z, metres; 0 = no measurement, never NaN
+  DepthImage measured;
   double depth_late_s = 0.0;  ///< depth was measured so much later; negative: earlier
   UncertainSpeed speed;       ///< as the frames before say
 
-  /// From the camera of T_cw to where it was when depth was measured.
-  Pose T_dc() const { return Exp(depth_late_s * speed.mean); }
+  /// Turn from the colour camera to the depth camera, beyond what the recording says.
+  Eigen::Matrix3d R_dc = Eigen::Matrix3d::Identity();
+
+  /// From the camera of T_cw to the depth camera when depth was measured.
+  Pose T_dc() const {
+    return Pose{R_dc, Eigen::Vector3d::Zero()} * Exp(depth_late_s * speed.mean);
+  }
 
   // (B) extraction, (C) plane processing
   std::vector<PointFeature> features;
   std::vector<Detection> detections;
   bool detector_asked = true;  ///< false: all boxes are carried over from an earlier frame
   std::vector<FramePlane> planes;
-  cv::Mat1b plane_labels;   ///< index + 1 of the frame plane at each pixel; 0 = none
+  cv::Mat1b plane_labels;   ///< index + 1 of the frame plane at each pixel of gray; 0 = none
   double bend_ratio = 0.0;  ///< what the sensor bends, root mean square, as a part of the depth
 
   // (D) association; parallel to `features` and `planes`

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "slam/associate/association_config.h"
+#include "slam/calibrate/registration_config.h"
 #include "slam/calibrate/warp_config.h"
 #include "slam/detect/box_tracks.h"
 #include "slam/detect/class_table.h"
@@ -25,6 +26,7 @@ struct Config {
   SensorModel sensor;
 
   DepthWarpConfig depth_warp;
+  RegistrationConfig depth_registration;
 
   // (B) extraction
   PointFeatureConfig point_features;

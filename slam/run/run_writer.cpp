@@ -2,6 +2,7 @@
 
 #include <sys/resource.h>
 
+#include <array>
 #include <opencv2/imgcodecs.hpp>
 #include <system_error>
 
@@ -80,6 +81,20 @@ nlohmann::ordered_json StraighteningJson(const StraighteningReport& report) {
   return json;
 }
 
+nlohmann::ordered_json RegistrationJson(const std::optional<RegistrationEstimate>& estimate) {
+  nlohmann::ordered_json json;
+  json["applied"] = estimate && !estimate->applied_px.isZero(0.0);
+  if (!estimate) return json;
+  const auto numbers = [](const Eigen::Vector2d& v) { return std::array{v.x(), v.y()}; };
+  json["applied_px"] = numbers(estimate->applied_px);
+  json["learnt"] = {{"epochs", estimate->epochs},
+                    {"shift_px", numbers(estimate->shift_px)},
+                    {"sigma_px", numbers(estimate->sigma_px)},
+                    {"grown_px", estimate->grown_px},
+                    {"clear", estimate->clear}};
+  return json;
+}
+
 }  // namespace
 
 RunWriter::RunWriter(const std::filesystem::path& folder, RunInfo info, Options options)
@@ -154,6 +169,7 @@ nlohmann::ordered_json RunWriter::RunJson(std::size_t poses, const RunEnd& end) 
   for (std::size_t k = 0; k < kPairRefusalNames.size(); ++k)
     json["refused_pairs"][kPairRefusalNames[k]] = refused_.count[k];
   json["depth_warp"] = StraighteningJson(end.straightening);
+  json["depth_registration"] = RegistrationJson(end.registration);
   json["warnings"] = end.warnings;
   json["wall_time_s"] = wall.count();
   json["peak_memory_mb"] = PeakMemory_mb();

@@ -4,12 +4,14 @@
 #include <cstdint>
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "io/atomic_file.h"
 #include "io/output_folder.h"
 #include "slam/associate/refusals.h"
+#include "slam/calibrate/registration_learner.h"
 #include "slam/calibrate/straightener.h"
 #include "slam/geometry/camera.h"
 #include "slam/model/frame.h"
@@ -54,6 +56,7 @@ struct RunEnd {
   std::vector<std::string>
       warnings;  ///< for who reads the run; no paths, no times of the clock
   StraighteningReport straightening = {};
+  std::optional<RegistrationEstimate> registration = {};  ///< nothing: not enough was seen
 };
 
 /// Writes a run folder (formats.md) that is there whole after Finish and not at all before.

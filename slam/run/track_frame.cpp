@@ -10,8 +10,8 @@ TrackReport Tracker::TrackFrame(Frame& frame, const cv::Mat3b& bgr) {
   const Stopwatch whole(report.times[Module::kMt]);
 
   // (A) is the caller's: slam/input reads the frame.
-  const cv::Mat1f measured_m = frame.depth_m;
-  frame.depth_m = straightener_.Straighten(frame.index, measured_m);
+  frame.measured.depth_m = frame.depth_m;
+  frame.depth_m = straightener_.Straighten(frame.index, frame.depth_m);
   ExtractInformation(frame, bgr, report);  // (B) points, planes, edge points, boxes
   ProcessFramePlanes(frame, report);       // (C) re-fit, box link, lines, vertices, selection
   const TrackingHold map_is_ours(gate());  // mapping beside tracking gives it away in between
@@ -20,8 +20,8 @@ TrackReport Tracker::TrackFrame(Frame& frame, const cv::Mat3b& bgr) {
   OptimiseWithPlanes(frame, report);    // (E) all six kinds of factor, and structure
   if (!report.tracked) return report;
   UpdateMap(frame, report);  // (F) planes; keyframe, points, bundle adjustment
-  // A pose that planes hold says nothing of how planes are bent.
-  if (report.points.state == TrackState::kTracking) straightener_.Learn(frame, measured_m);
+  // A pose that planes hold says nothing of the sensor that saw them.
+  if (report.points.state == TrackState::kTracking) LearnSensor(frame);
   return report;
 }
 

@@ -10,7 +10,7 @@
 #include "slam/associate/point_plane.h"
 #include "slam/associate/recheck.h"
 #include "slam/base/index.h"
-#include "slam/faces/move_planes.h"
+#include "slam/faces/carry_to_colour.h"
 #include "slam/faces/process_planes.h"
 #include "slam/features/point_features.h"
 #include "slam/features/weigh_depths.h"
@@ -61,14 +61,15 @@ Tracker::Tracker(const Camera& camera, const Config& config, Variant variant,
       variant_(variant),
       detector_(detector ? std::move(detector) : std::make_unique<NoDetector>()),
       threads_(threads),
+      rays_(PixelRays(camera)),
       straightener_(camera, config_.sensor.noise, config_.depth_warp),
-      bend_meter_(PixelRays(camera), config_.sensor),
+      registration_(camera, config_.depth_registration),
+      bend_meter_(rays_, config_.sensor),
       box_tracks_(config.box_tracks, camera.ImageBox()),
       points_(camera, config_.point_features.scale, config_.point_search, config_.tracking),
       hooks_(std::move(hooks)) {
   if (variant_ != Variant::kPoints)
-    plane_extractor_.emplace(camera_, PixelRays(camera_), config_.sensor,
-                             config_.plane_extraction);
+    plane_extractor_.emplace(camera_, rays_, config_.sensor, config_.plane_extraction);
   if (!config_.async_mapping) return;
   const MapTurn turn = [this](const std::function<void()>& work) {
     const MappingHold hold(gate_);
@@ -86,6 +87,7 @@ void Tracker::Finish(MappingWorker::Waiting waiting) {
 void Tracker::ExtractInformation(Frame& frame, const cv::Mat3b& bgr, TrackReport& report) {
   ModuleTimes& times = report.times;
   frame.speed = points_.Speed(frame.timestamp_s);
+  frame.R_dc = registration_.R_dc();
   // Boxes, planes and points side by side: none writes what another reads.
   const auto detect = [&] {
     const Stopwatch watch(times[Module::kOd]);
@@ -121,6 +123,8 @@ void Tracker::ExtractInformation(Frame& frame, const cv::Mat3b& bgr, TrackReport
   }
   const Stopwatch watch(times[Module::kPp]);
   bend_meter_.Measure(frame);
+  frame.measured.labels = frame.plane_labels;
+  CarryToColour(camera_, rays_, frame);
 }
 
 void Tracker::ProcessFramePlanes(Frame& frame, TrackReport& report) const {
@@ -128,7 +132,6 @@ void Tracker::ProcessFramePlanes(Frame& frame, TrackReport& report) const {
   if (variant_ != Variant::kNoProcessingNoAssociation) {
     ProcessPlanes(frame, camera_, config_.sensor, config_.plane_processing);
   }
-  MovePlanes(Inverse(frame.T_dc()), frame.planes);
   frame.plane_matches.assign(frame.planes.size(), {});
 }
 
@@ -262,6 +265,12 @@ void Tracker::KeepFrame(Frame& frame) {
   }
   MapKeyframe(keyframe, AtOnce);
   frame.T_cw = KeyframePose(map_, keyframe);
+}
+
+/// What the depth camera bends, and how far it lies beside colour, for the frames after this one.
+void Tracker::LearnSensor(const Frame& frame) {
+  straightener_.Learn(frame);
+  registration_.Learn(frame);
 }
 
 void Tracker::MapKeyframe(int keyframe, const MapTurn& turn) {

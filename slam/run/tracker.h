@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "slam/associate/refusals.h"
+#include "slam/calibrate/registration_learner.h"
 #include "slam/calibrate/straightener.h"
 #include "slam/detect/box_tracks.h"
 #include "slam/detect/detections.h"
@@ -84,6 +85,9 @@ class Tracker {
   const Map& map() const { return map_; }
   /// Whether depth was straightened, and why or why not.
   const StraighteningReport& straightening() const { return straightener_.report(); }
+  const std::optional<RegistrationEstimate>& registration() const {
+    return registration_.estimate();
+  }
   /// Number of loops closed.
   int loops() const { return loops_; }
   /// Keyframes that mapping beside tracking had no time for.
@@ -105,6 +109,7 @@ class Tracker {
   void UpdateMap(Frame& frame, TrackReport& report);
   void KeepFrame(Frame& frame);
   void MapKeyframe(int keyframe, const MapTurn& turn);
+  void LearnSensor(const Frame& frame);
   MapGate* gate() { return worker_ ? &gate_ : nullptr; }
 
   Camera camera_;
@@ -113,7 +118,9 @@ class Tracker {
   std::unique_ptr<Detector> detector_;
   int threads_;
 
+  cv::Mat2d rays_;  ///< PixelRays(camera_)
   DepthStraightener straightener_;
+  RegistrationLearner registration_;
   std::optional<PlaneExtractor> plane_extractor_;  ///< none: no planes
   BendMeter bend_meter_;
   BoxTracks box_tracks_;

@@ -153,13 +153,14 @@ TEST(DepthStraightener, StraightensFromTheFrameOnThatItIsWorthIt) {
   DepthStraightener straightener(camera, DepthNoise{}, {.source = "auto"});
   DepthStraightener off(camera, DepthNoise{}, {.source = "off"});
   for (int i = 0; i < kFrames; ++i) {
-    const Frame frame = FrameOfRoom({}, i, rays);
+    Frame frame = FrameOfRoom({}, i, rays);
     const cv::Mat1f straight = straightener.Straighten(i, frame.depth_m);
     const int from = straightener.report().from_frame;
     EXPECT_EQ(straight.data == frame.depth_m.data, from == kNone) << i;
-    straightener.Learn(frame, frame.depth_m);
+    frame.measured = {frame.depth_m, frame.plane_labels};
+    straightener.Learn(frame);
     EXPECT_EQ(off.Straighten(i, frame.depth_m).data, frame.depth_m.data);
-    off.Learn(frame, frame.depth_m);
+    off.Learn(frame);
   }
   EXPECT_GT(straightener.report().from_frame, 60);
   EXPECT_LT(straightener.report().from_frame, kFrames);

@@ -49,7 +49,7 @@ DepthClock Watch(const Watched& watched) {
     const bool lost = watched.lost_in_between && i >= 30 && i < 50;
     Frame frame;
     frame.timestamp_s = 100.0 + s;
-    frame.depth_m = DepthSeen(HandAt(watched.speed * (s + watched.late_s)), i);
+    frame.measured.depth_m = DepthSeen(HandAt(watched.speed * (s + watched.late_s)), i);
     frame.depth_late_s = watched.stamped_s;
     if (!lost) frame.T_cw_by_pixels = HandAt(watched.speed * s);
     clock.Observe(frame);

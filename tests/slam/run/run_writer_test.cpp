@@ -168,6 +168,29 @@ TEST_F(RunFolder, SaysWhenTheRunWasInterruptedAndWhatItWarnedOf) {
   EXPECT_EQ(run["warnings"], json({"one", "two"}));
 }
 
+TEST_F(RunFolder, SaysHowFarDepthLiesBesideItsColour) {
+  RegistrationEstimate estimate;
+  estimate.shift_px = {1.5, -0.25}, estimate.sigma_px = {0.2, 0.1},
+  estimate.applied_px = {1.4, 0};
+  estimate.clear = true, estimate.epochs = 7;
+  RunWriter writer(run_, Info(), {});
+  RunEnd end;
+  end.registration = estimate;
+  writer.Finish(SomeMap(), end);
+  const json said = json::parse(Bytes(run_ / "run.json"))["depth_registration"];
+  EXPECT_EQ(said["applied"], true);
+  EXPECT_EQ(said["applied_px"], json({1.4, 0.0}));
+  EXPECT_EQ(said["learnt"]["shift_px"], json({1.5, -0.25}));
+  EXPECT_EQ(said["learnt"]["epochs"], 7);
+}
+
+TEST_F(RunFolder, SaysThatItSawTooLittleOfDepthAndColour) {
+  RunWriter writer(run_, Info(), {});
+  writer.Finish(SomeMap(), {});
+  const json said = json::parse(Bytes(run_ / "run.json"))["depth_registration"];
+  EXPECT_EQ(said, json({{"applied", false}}));
+}
+
 TEST_F(RunFolder, NamesASequenceInsideItSoThatItMayBeMoved) {
   RunInfo info = Info();
   info.sequence = run_ / "truth";

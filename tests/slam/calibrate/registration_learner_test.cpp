@@ -1,0 +1,146 @@
+#include "slam/calibrate/registration_learner.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <opencv2/core.hpp>
+
+#include "slam/base/random.h"
+#include "tests/support/slam_matchers.h"
+
+namespace slam {
+namespace {
+
+/// How colour shows the boards that hang before a wall.
+enum class Print {
+  kBoards,   ///< each in a grey of its own
+  kNothing,  ///< none: noise
+  kBlinds,   ///< the whole image has stripes of one width
+};
+
+struct Recording {
+  cv::Point2d shift_px{0, 0};  ///< of colour over depth
+  double grown_px = 0.0;       ///< of the boards in depth, on each side
+  Print print = Print::kBoards;
+  int frames = 40;
+  double late_s = 0.0;
+  Vector6d speed = Vector6d::Zero();
+  bool moves = true;
+};
+
+/// Fills the part of each pixel that a rectangle covers.
+void FillExactly(cv::Mat1f& image, double u0, double v0, double u1, double v1, float value) {
+  for (int v = 0; v < image.rows; ++v) {
+    for (int u = 0; u < image.cols; ++u) {
+      const double across = std::min(u + 0.5, u1) - std::max(u - 0.5, u0);
+      const double down = std::min(v + 0.5, v1) - std::max(v - 0.5, v0);
+      if (across <= 0 || down <= 0) continue;
+      const auto part = static_cast<float>(across * down);
+      image(v, u) += part * (value - image(v, u));
+    }
+  }
+}
+
+RegistrationLearner Learn(const Recording& recording, const RegistrationConfig& config = {}) {
+  const Camera camera;
+  RegistrationLearner learner(camera, config);
+  for (int i = 0; i < recording.frames; ++i) {
+    Random random{5, static_cast<std::uint64_t>(i)};
+    cv::Mat1f depth_m(480, 640, 2.0f), gray(480, 640, 120.0f);
+    for (int k = 0; k < 6; ++k) {  // in two rows, 200 pixels for each
+      const double u0 = 40 + 200 * (k % 3) + 60 * random.Uniform(),
+                   v0 = 40 + 220 * (k / 3) + 60 * random.Uniform(),
+                   u1 = u0 + 40 + 60 * random.Uniform(), v1 = v0 + 40 + 60 * random.Uniform();
+      const double grown = recording.grown_px;
+      // Depth is of one thing or the other.
+      const cv::Point from(static_cast<int>(std::ceil(u0 - grown)),
+                           static_cast<int>(std::ceil(v0 - grown))),
+          to(static_cast<int>(std::floor(u1 + grown)) + 1,
+             static_cast<int>(std::floor(v1 + grown)) + 1);
+      depth_m(cv::Rect(from, to)) = 1.0f;
+      if (recording.print != Print::kBoards) continue;
+      const cv::Point2d by = recording.shift_px;
+      FillExactly(gray, u0 + by.x, v0 + by.y, u1 + by.x, v1 + by.y,
+                  static_cast<float>(40 + 160 * random.Uniform()));
+    }
+    if (recording.print == Print::kBlinds) {
+      for (int v = 0; v < 480; ++v) {
+        for (int u = 0; u < 640; ++u) gray(v, u) = (u / 3 + v / 3) % 2 ? 60.0f : 180.0f;
+      }
+    }
+    for (float& value : gray) value += 6.0f * (static_cast<float>(random.Uniform()) - 0.5f);
+    Frame frame;
+    gray.convertTo(frame.gray, CV_8U);
+    frame.measured.depth_m = depth_m;
+    frame.depth_late_s = recording.late_s, frame.speed.mean = recording.speed;
+    if (recording.moves) frame.T_cw = {ExpSo3({0, 0.03 * i, 0}), {0, 0, 0}};
+    learner.Learn(frame);
+  }
+  return learner;
+}
+
+TEST(RegistrationLearner, FindsHowFarColourLiesBesideDepth) {
+  for (const cv::Point2d shift : {cv::Point2d(2.0, -1.5), {-3.3, 1.0}, {1.2, 3.5}}) {
+    const RegistrationLearner learner = Learn({.shift_px = shift});
+    ASSERT_TRUE(learner.estimate());
+    const RegistrationEstimate& found = *learner.estimate();
+    EXPECT_TRUE(found.clear);
+    EXPECT_NEAR(found.shift_px.x(), shift.x, 0.2);
+    EXPECT_NEAR(found.shift_px.y(), shift.y, 0.2);
+    EXPECT_LT(found.sigma_px.maxCoeff(), 0.2);
+    // What the camera of colour sees at u the other sees at u - shift.
+    const Camera camera;
+    const Eigen::Vector2d u(camera.cx, camera.cy);
+    const Eigen::Vector2d there = camera.Project(learner.R_dc() * camera.Backproject(u, 1.0));
+    EXPECT_LT((u - there - Eigen::Vector2d(shift.x, shift.y)).norm(), 0.3);
+  }
+}
+
+TEST(RegistrationLearner, DoesNotTakeWhatDepthMakesWiderForAShift) {
+  const RegistrationLearner learner = Learn({.shift_px = {1.5, 0.0}, .grown_px = 2.0});
+  ASSERT_TRUE(learner.estimate());
+  EXPECT_NEAR(learner.estimate()->grown_px, 2.0, 0.25);
+  EXPECT_NEAR(learner.estimate()->shift_px.x(), 1.5, 0.2);
+  EXPECT_EQ(learner.estimate()->applied_px.y(), 0.0);
+}
+
+TEST(RegistrationLearner, LeavesWhatIsLessThanAPixel) {
+  const RegistrationLearner learner = Learn({.shift_px = {0.4, -0.4}});
+  ASSERT_TRUE(learner.estimate());
+  EXPECT_TRUE(learner.estimate()->applied_px.isZero(0.0));
+  EXPECT_TRUE(learner.R_dc().isIdentity(0.0));
+}
+
+TEST(RegistrationLearner, LeavesWhatTheMotionBetweenTheImagesExplains) {
+  // The board at 1 m moves by 3 pixels, 5.7 mm, from the colour image to the depth image.
+  Recording recording{.shift_px = {3.0, 0.0}, .late_s = 0.02};
+  recording.speed[0] = -3.0 / Camera{}.fx / recording.late_s;
+  const RegistrationLearner learner = Learn(recording);
+  ASSERT_TRUE(learner.estimate());
+  EXPECT_NEAR(learner.estimate()->shift_px.x(), 0.0, 0.2);
+  EXPECT_TRUE(learner.R_dc().isIdentity(0.0));
+}
+
+TEST(RegistrationLearner, LeavesWhatIsNotClear) {
+  for (const Print print : {Print::kNothing, Print::kBlinds}) {
+    const RegistrationLearner learner = Learn({.print = print});
+    ASSERT_TRUE(learner.estimate());
+    EXPECT_FALSE(learner.estimate()->clear);
+    EXPECT_TRUE(learner.R_dc().isIdentity(0.0));
+  }
+}
+
+TEST(RegistrationLearner, LearnsNothingWhileTheCameraStands) {
+  EXPECT_FALSE(Learn({.shift_px = {3.0, 0.0}, .moves = false}).estimate());
+}
+
+TEST(RegistrationLearner, LearnsNothingFromAFrameOrTwo) {
+  EXPECT_FALSE(Learn({.shift_px = {3.0, 0.0}, .frames = 2}).estimate());
+}
+
+TEST(RegistrationLearner, CanBeForbidden) {
+  EXPECT_FALSE(Learn({.shift_px = {3.0, 0.0}}, {.learn = false}).estimate());
+}
+
+}  // namespace
+}  // namespace slam
