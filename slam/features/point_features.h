@@ -43,12 +43,15 @@ inline void VisitFields(PointFeatureConfig& c, FieldVisitor& v) {
 /// @param gray     8-bit image as recorded (distorted), height x width of the camera
 /// @param depth_m  planar z, metres, 0 = none; same size, or empty for no depth at all
 /// @param T_dc     from the camera of the colour image to that of the depth image; a small motion
+/// @param readout  what is taken out of how the image was read: features and their depths are told as
+///                 the camera of the middle row would have seen them
 /// @returns features in the order octave, then row, then column; positions undistorted
 /// @throws std::invalid_argument when sizes differ.
 /// Cost: about 6 ms for 640 x 480 and 1000 features.
 std::vector<PointFeature> ExtractPointFeatures(const cv::Mat1b& gray, const cv::Mat1f& depth_m,
                                                const Camera& camera,
                                                const PointFeatureConfig& config,
-                                               const Pose& T_dc = {});
+                                               const Pose& T_dc = {},
+                                               const Readout& readout = {});
 
 }  // namespace slam

@@ -41,6 +41,8 @@ struct Camera {
   Eigen::Vector3d Backproject(const Eigen::Vector2d& u_px, double z_m) const {
     return {(u_px.x() - cx) / fx * z_m, (u_px.y() - cy) / fy * z_m, z_m};
   }
+  /// Where a row lies between the middle of the image (0) and its last row (0.5).
+  double RowShare(double v_px) const { return v_px / (height - 1) - 0.5; }
   /// The whole image as a box of pixel centres.
   Box ImageBox() const {
     return {Eigen::Vector2d(0, 0), Eigen::Vector2d(width - 1, height - 1)};

@@ -98,6 +98,7 @@ int InsertKeyframe(Frame& frame, Map& map, const Camera& camera, const FeatureSc
   keyframe.frame_index = frame.index;
   keyframe.timestamp_s = frame.timestamp_s;
   keyframe.T_cw = frame.T_cw;
+  keyframe.readout = frame.readout;
   keyframe.features = frame.features;
   keyframe.map_points.assign(frame.features.size(), kNone);
   map.keyframes.push_back(std::move(keyframe));

@@ -80,6 +80,17 @@ struct DepthImage {
   cv::Mat1b labels;   ///< index + 1 of the frame plane found at each pixel; 0 = none
 };
 
+/// How a colour image was read, row by row, while the camera moved. The time of an image is that
+/// of its middle row.
+struct Readout {
+  double taken_out_s = 0.0;  ///< from the first row to the last; as if it were none since
+  Vector6d speed = Vector6d::Zero();  ///< that this was done with: UncertainSpeed::mean
+
+  bool empty() const { return taken_out_s == 0.0; }
+  /// From the camera of the middle row to that of a row. @param share  Camera::RowShare
+  Pose T_rc(double share) const { return Exp(share * taken_out_s * speed); }
+};
+
 /// One RGB-D frame on its way through the stages (A) to (F).
 struct Frame {
   int index = 0;             ///< count of frames, from 0
@@ -91,6 +102,7 @@ struct Frame {
   DepthImage measured;
   double depth_late_s = 0.0;  ///< depth was measured so much later; negative: earlier
   UncertainSpeed speed;       ///< as the frames before say
+  Readout readout;
 
   /// Turn from the colour camera to the depth camera, beyond what the recording says.
   Eigen::Matrix3d R_dc = Eigen::Matrix3d::Identity();

@@ -24,6 +24,7 @@ struct Keyframe {
   int frame_index = 0;
   double timestamp_s = 0.0;
   Pose T_cw;
+  Readout readout;
   bool by_points = true;  ///< points hold its pose; else planes do
   std::vector<PointFeature> features;
   std::vector<int> map_points;  ///< parallel to features: map point id or kNone

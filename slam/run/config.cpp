@@ -16,6 +16,7 @@ void VisitFields(Config& c, FieldVisitor& v) {
   v.Section("depth_warp", "what the depth camera bends, and what is done about it",
             c.depth_warp);
   v.Section("depth_registration", "how far depth lies beside its colour", c.depth_registration);
+  v.Section("rolling_shutter", "how long the colour camera reads an image", c.rolling_shutter);
 
   v.Section("point_features", "ORB extraction", c.point_features);
   v.Section("point_depth", "depth of a feature", c.point_features.depth);

@@ -2,6 +2,7 @@
 
 #include "slam/associate/association_config.h"
 #include "slam/calibrate/registration_config.h"
+#include "slam/calibrate/rolling_config.h"
 #include "slam/calibrate/warp_config.h"
 #include "slam/detect/box_tracks.h"
 #include "slam/detect/class_table.h"
@@ -27,6 +28,7 @@ struct Config {
 
   DepthWarpConfig depth_warp;
   RegistrationConfig depth_registration;
+  RollingConfig rolling_shutter;
 
   // (B) extraction
   PointFeatureConfig point_features;

@@ -175,8 +175,8 @@ class SequenceRun {
     // A closed loop moves the past; without one the poses stay as they were found.
     writer_.Finish(
         tracker_.map(),
-        {outcome_.stopped, outcome_.warnings, tracker_.straightening(),
-         tracker_.registration()},
+        {outcome_.stopped, outcome_.warnings, tracker_.straightening(), tracker_.registration(),
+         tracker_.rolling_shutter()},
         outcome_.loops > 0 ? FollowKeyframes(tied_, tracker_.map()) : std::vector<TimedPose>{});
     CountMap(tracker_.map(), outcome_);
   }

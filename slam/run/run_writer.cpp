@@ -95,6 +95,16 @@ nlohmann::ordered_json RegistrationJson(const std::optional<RegistrationEstimate
   return json;
 }
 
+nlohmann::ordered_json RollingJson(const std::optional<RollingEstimate>& estimate) {
+  nlohmann::ordered_json json;
+  json["applied_s"] = estimate ? estimate->applied_s : 0.0;
+  if (!estimate) return json;
+  json["learnt"] = {{"epochs", estimate->epochs},
+                    {"read_s", estimate->read_s},
+                    {"sigma_s", estimate->sigma_s}};
+  return json;
+}
+
 }  // namespace
 
 RunWriter::RunWriter(const std::filesystem::path& folder, RunInfo info, Options options)
@@ -170,6 +180,7 @@ nlohmann::ordered_json RunWriter::RunJson(std::size_t poses, const RunEnd& end) 
     json["refused_pairs"][kPairRefusalNames[k]] = refused_.count[k];
   json["depth_warp"] = StraighteningJson(end.straightening);
   json["depth_registration"] = RegistrationJson(end.registration);
+  json["rolling_shutter"] = RollingJson(end.rolling_shutter);
   json["warnings"] = end.warnings;
   json["wall_time_s"] = wall.count();
   json["peak_memory_mb"] = PeakMemory_mb();

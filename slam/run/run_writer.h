@@ -12,6 +12,7 @@
 #include "io/output_folder.h"
 #include "slam/associate/refusals.h"
 #include "slam/calibrate/registration_learner.h"
+#include "slam/calibrate/rolling_learner.h"
 #include "slam/calibrate/straightener.h"
 #include "slam/geometry/camera.h"
 #include "slam/model/frame.h"
@@ -57,6 +58,7 @@ struct RunEnd {
       warnings;  ///< for who reads the run; no paths, no times of the clock
   StraighteningReport straightening = {};
   std::optional<RegistrationEstimate> registration = {};  ///< nothing: not enough was seen
+  std::optional<RollingEstimate> rolling_shutter = {};    ///< the same
 };
 
 /// Writes a run folder (formats.md) that is there whole after Finish and not at all before.

@@ -19,9 +19,11 @@ TrackReport Tracker::TrackFrame(Frame& frame, const cv::Mat3b& bgr) {
   AssociateFramePlanes(frame, report);  // (D) plane to plane with boxes, point to plane
   OptimiseWithPlanes(frame, report);    // (E) all six kinds of factor, and structure
   if (!report.tracked) return report;
-  UpdateMap(frame, report);  // (F) planes; keyframe, points, bundle adjustment
   // A pose that planes hold says nothing of the sensor that saw them.
-  if (report.points.state == TrackState::kTracking) LearnSensor(frame);
+  const bool by_points = report.points.state == TrackState::kTracking;
+  if (by_points) rolling_.Learn(frame, map_);
+  UpdateMap(frame, report);  // (F) planes; keyframe, points, bundle adjustment
+  if (by_points) LearnSensor(frame);
   return report;
 }
 

@@ -64,6 +64,7 @@ Tracker::Tracker(const Camera& camera, const Config& config, Variant variant,
       rays_(PixelRays(camera)),
       straightener_(camera, config_.sensor.noise, config_.depth_warp),
       registration_(camera, config_.depth_registration),
+      rolling_(camera, config_.point_features.scale, config_.rolling_shutter),
       bend_meter_(rays_, config_.sensor),
       box_tracks_(config.box_tracks, camera.ImageBox()),
       points_(camera, config_.point_features.scale, config_.point_search, config_.tracking),
@@ -88,6 +89,7 @@ void Tracker::ExtractInformation(Frame& frame, const cv::Mat3b& bgr, TrackReport
   ModuleTimes& times = report.times;
   frame.speed = points_.Speed(frame.timestamp_s);
   frame.R_dc = registration_.R_dc();
+  frame.readout = rolling_.ReadoutAt(frame.speed.mean);
   // Boxes, planes and points side by side: none writes what another reads.
   const auto detect = [&] {
     const Stopwatch watch(times[Module::kOd]);
@@ -109,7 +111,7 @@ void Tracker::ExtractInformation(Frame& frame, const cv::Mat3b& bgr, TrackReport
   {
     const Stopwatch watch(times[Module::kOrb]);
     frame.features = ExtractPointFeatures(frame.gray, frame.depth_m, camera_,
-                                          config_.point_features, frame.T_dc());
+                                          config_.point_features, frame.T_dc(), frame.readout);
     WeighDepths(config_.sensor, camera_, frame.speed, frame.features);
   }
   frame.map_points.assign(frame.features.size(), kNone);

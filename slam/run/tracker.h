@@ -8,6 +8,7 @@
 
 #include "slam/associate/refusals.h"
 #include "slam/calibrate/registration_learner.h"
+#include "slam/calibrate/rolling_learner.h"
 #include "slam/calibrate/straightener.h"
 #include "slam/detect/box_tracks.h"
 #include "slam/detect/detections.h"
@@ -88,6 +89,7 @@ class Tracker {
   const std::optional<RegistrationEstimate>& registration() const {
     return registration_.estimate();
   }
+  const std::optional<RollingEstimate>& rolling_shutter() const { return rolling_.estimate(); }
   /// Number of loops closed.
   int loops() const { return loops_; }
   /// Keyframes that mapping beside tracking had no time for.
@@ -121,6 +123,7 @@ class Tracker {
   cv::Mat2d rays_;  ///< PixelRays(camera_)
   DepthStraightener straightener_;
   RegistrationLearner registration_;
+  RollingLearner rolling_;
   std::optional<PlaneExtractor> plane_extractor_;  ///< none: no planes
   BendMeter bend_meter_;
   BoxTracks box_tracks_;

@@ -216,6 +216,33 @@ std::vector<PointFeature> Around(const std::vector<PointFeature>& features,
 
 bool OnEdge(const PointFeature& f) { return f.on_edge; }
 
+TEST(PointFeatures, AreWhereTheCameraOfTheMiddleRowSawThem) {
+  const cv::Mat1b image = PatternImage(640, 480);
+  Camera camera = CameraOf(image);
+  camera.k1 = 0.1;
+  Readout readout;
+  readout.taken_out_s = 0.03;
+  readout.speed << 0.4, -0.3, 0.2, 0.5, -0.8, 1.0;
+  const auto as_read = ExtractPointFeatures(image, cv::Mat1f(), camera, {});
+  // A wall before the camera of the middle row, and nothing measured at all.
+  const double wall_m = 1.5;
+  for (const cv::Mat1f& depth_m : {cv::Mat1f(image.size(), 1.5f), cv::Mat1f()}) {
+    const auto features = ExtractPointFeatures(image, depth_m, camera, {}, {}, readout);
+    ASSERT_EQ(features.size(), as_read.size());
+    double largest_px = 0.0;
+    for (std::size_t i = 0; i < features.size(); ++i) {
+      const double row = camera.ProjectDistorted(camera.Backproject(as_read[i].u_px, 1.0)).y();
+      const Pose T_rc = readout.T_rc(row / 479 - 0.5);
+      const bool measured = !depth_m.empty() && features[i].depth_m > 0;
+      const Eigen::Vector3d x_c = camera.Backproject(features[i].u_px, measured ? wall_m : 1e6);
+      EXPECT_LT((camera.Project(T_rc * x_c) - as_read[i].u_px).norm(), 1e-3);
+      if (measured) EXPECT_NEAR(features[i].depth_m, wall_m, 1e-5);
+      largest_px = std::max(largest_px, (features[i].u_px - as_read[i].u_px).norm());
+    }
+    EXPECT_GT(largest_px, 5.0);
+  }
+}
+
 TEST(PointFeatures, TellACornerThatSlidesAlongAStraightEdge) {
   // A slanting edge, soft as a lens makes it, with noise; the corners of a box; a dot.
   cv::Mat1b image(480, 640, std::uint8_t{70});

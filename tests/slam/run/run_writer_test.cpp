@@ -191,6 +191,17 @@ TEST_F(RunFolder, SaysThatItSawTooLittleOfDepthAndColour) {
   EXPECT_EQ(said, json({{"applied", false}}));
 }
 
+TEST_F(RunFolder, SaysHowLongTheColourCameraReads) {
+  RunWriter writer(run_, Info(), {});
+  RunEnd end;
+  end.rolling_shutter =
+      RollingEstimate{.read_s = 0.027, .sigma_s = 0.002, .applied_s = 0.026, .epochs = 9};
+  writer.Finish(SomeMap(), end);
+  const json said = json::parse(Bytes(run_ / "run.json"))["rolling_shutter"];
+  EXPECT_EQ(said, json::parse(R"({"applied_s": 0.026,
+      "learnt": {"epochs": 9, "read_s": 0.027, "sigma_s": 0.002}})"));
+}
+
 TEST_F(RunFolder, NamesASequenceInsideItSoThatItMayBeMoved) {
   RunInfo info = Info();
   info.sequence = run_ / "truth";
