@@ -101,7 +101,7 @@ struct Frame {
   cv::Mat1f depth_m;  ///< planar z, metres; 0 = no measurement, never NaN
   DepthImage measured;
   double depth_late_s = 0.0;  ///< depth was measured so much later; negative: earlier
-  UncertainSpeed speed;       ///< as the frames before say
+  UncertainSpeed speed;       ///< as the frames before say; once tracked, see TellAtSpeed
   Readout readout;
 
   /// Turn from the colour camera to the depth camera, beyond what the recording says.

@@ -69,6 +69,19 @@ UncertainSpeed MotionFilter::Speed(double timestamp_s) const {
   return {state.speed, state.covariance.bottomRightCorner<6, 6>()};
 }
 
+Vector6d MotionFilter::SpeedGiven(const State& predicted, const Pose& T_cw) {
+  // The speed follows the pose by what the two have in common.
+  const Matrix6d P = predicted.covariance.topLeftCorner<6, 6>();
+  const Matrix6d speed_by_pose =
+      P.ldlt().solve(predicted.covariance.topRightCorner<6, 6>()).transpose();
+  return predicted.speed + speed_by_pose * Log(T_cw * Inverse(predicted.T_cw));
+}
+
+Vector6d MotionFilter::SpeedWhere(double timestamp_s, const Pose& T_cw) const {
+  if (!known_ || !(timestamp_s > known_->timestamp_s)) return Vector6d::Zero();
+  return SpeedGiven(At(timestamp_s), T_cw);
+}
+
 void MotionFilter::Observe(double timestamp_s, const Pose& T_cw, const Matrix6d& information) {
   if (!known_) {
     // The first pose is the world; nothing is known of the speed but that a hand holds it.
@@ -79,8 +92,7 @@ void MotionFilter::Observe(double timestamp_s, const Pose& T_cw, const Matrix6d&
     known_ = first;
     return;
   }
-  // Kalman's update in the form that a singular information allows: the pose is found already,
-  // and the speed follows it by what the two have in common.
+  // Kalman's update in the form that a singular information allows: the pose is found already.
   if (!(timestamp_s > known_->timestamp_s)) {
     known_->T_cw = T_cw;
     return;
@@ -90,10 +102,7 @@ void MotionFilter::Observe(double timestamp_s, const Pose& T_cw, const Matrix6d&
   const Eigen::PartialPivLU<Matrix6d> spread(Matrix6d::Identity() + information * P);
   const Matrix6d gain = spread.solve(information);
   const Eigen::Matrix<double, 12, 6> with_pose = state.covariance.leftCols<6>();
-  const Vector6d moved = Log(T_cw * Inverse(state.T_cw));
-  const Matrix6d speed_by_pose =
-      P.ldlt().solve(state.covariance.topRightCorner<6, 6>()).transpose();
-  state.speed += speed_by_pose * moved;
+  state.speed = SpeedGiven(state, T_cw);
   state.T_cw = T_cw;
   state.covariance -= with_pose * gain * with_pose.transpose();
   state.covariance = 0.5 * (state.covariance + state.covariance.transpose().eval());

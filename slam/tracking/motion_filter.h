@@ -49,6 +49,10 @@ class MotionFilter {
   /// The speed at a later time; at rest, as steadily as a hand is, when nothing is known.
   UncertainSpeed Speed(double timestamp_s) const;
 
+  /// The speed at a later time at which the camera was found to be at T_cw; none when nothing is
+  /// known.
+  Vector6d SpeedWhere(double timestamp_s, const Pose& T_cw) const;
+
   /// Takes over the pose of a frame that came after the ones before.
   /// @param information  of the pose by what was measured in the frame, without the prediction:
   ///                     J^T W J for T_cw <- Exp(xi) T_cw; singular where nothing was measured
@@ -68,6 +72,8 @@ class MotionFilter {
     Matrix12d covariance = Matrix12d::Zero();  ///< of pose and speed
   };
   State At(double timestamp_s) const;
+  /// The speed of a predicted state whose pose turned out to be T_cw.
+  static Vector6d SpeedGiven(const State& predicted, const Pose& T_cw);
   Vector6d SpeedVariance() const;
 
   MotionFilterConfig config_;

@@ -4,6 +4,7 @@
 
 #include "slam/base/index.h"
 #include "slam/base/require.h"
+#include "slam/features/tell_at_speed.h"
 #include "slam/model/map_queries.h"
 
 namespace slam {
@@ -94,8 +95,12 @@ PointTrackReport PointTracking::TrackPoints(Frame& frame, Map& map) {
   // From a prediction, by motion or by the reference keyframe; then with the local map.
   if (state_ != TrackState::kLost) {
     const int min_inliers = Scaled(config_.min_inliers, features, kRichFeatures, kMinInliers);
-    found = (TrackByMotion(frame, grid, map, report) || TrackByReference(frame, map)) &&
-            TrackLocalMap(frame, grid, map, min_inliers, config_.local_radius_factor, report);
+    found = TrackByMotion(frame, grid, map, report) || TrackByReference(frame, map);
+    // The pose tells the speed, and that where the features are.
+    if (found)
+      TellAtSpeed(camera_, motion_filter_.SpeedWhere(frame.timestamp_s, frame.T_cw), frame);
+    found = found && TrackLocalMap(frame, FeatureGrid(frame.features, camera_), map,
+                                   min_inliers, config_.local_radius_factor, report);
   }
   // Lost: from the places that look like the frame, unless the map looks so elsewhere too.
   if (!found) {

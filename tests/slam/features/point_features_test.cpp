@@ -236,7 +236,7 @@ TEST(PointFeatures, AreWhereTheCameraOfTheMiddleRowSawThem) {
       const bool measured = !depth_m.empty() && features[i].depth_m > 0;
       const Eigen::Vector3d x_c = camera.Backproject(features[i].u_px, measured ? wall_m : 1e6);
       EXPECT_LT((camera.Project(T_rc * x_c) - as_read[i].u_px).norm(), 1e-3);
-      if (measured) EXPECT_NEAR(features[i].depth_m, wall_m, 1e-5);
+      EXPECT_NEAR(features[i].depth_m, measured ? wall_m : 0.0, 1e-5);
       largest_px = std::max(largest_px, (features[i].u_px - as_read[i].u_px).norm());
     }
     EXPECT_GT(largest_px, 5.0);

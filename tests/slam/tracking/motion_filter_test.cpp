@@ -45,6 +45,35 @@ TEST(MotionFilter, SaysTheSpeed) {
   EXPECT_TRUE(filter.Speed(3.0).mean.isZero());
 }
 
+TEST(MotionFilter, KnowsTheSpeedTwiceAsWellOnceThePoseIsFound) {
+  // Hands in steps of a millisecond, seen 30 times a second.
+  const MotionFilterConfig config;
+  constexpr double kStep_s = 1e-3;
+  double predicted2 = 0.0, found2 = 0.0;
+  for (int hand = 0; hand < 200; ++hand) {
+    Random random{11, static_cast<std::uint64_t>(hand)};
+    MotionFilter filter{config};
+    double x = 0.0, speed = config.speed_mps * Normal(random);
+    filter.Observe(0.0, Pose{}, kAll);
+    for (int i = 1; i <= 330; ++i) {
+      x += kStep_s * speed;
+      speed -= kStep_s / config.memory_s * speed;
+      speed += config.speed_mps * std::sqrt(2.0 * kStep_s / config.memory_s) * Normal(random);
+      if (i % 33 != 0) continue;
+      const Pose T_cw{Eigen::Matrix3d::Identity(), {x, 0, 0}};
+      const double now_s = i * kStep_s;
+      const Vector6d found = filter.SpeedWhere(now_s, T_cw);
+      if (i > 100) {
+        predicted2 += std::pow(filter.Speed(now_s).mean[0] - speed, 2);
+        found2 += std::pow(found[0] - speed, 2);
+      }
+      filter.Observe(now_s, T_cw, kAll);
+      EXPECT_NEAR(filter.Speed(now_s + 1e-9).mean[0], found[0], 1e-6);
+    }
+  }
+  EXPECT_LT(std::sqrt(found2), 0.6 * std::sqrt(predicted2));
+}
+
 TEST(MotionFilter, SaysHowFarAHandCanHaveGone) {
   // 4,000 hands, in steps of a millisecond, of which nothing is seen after the first frame.
   const MotionFilterConfig config;
