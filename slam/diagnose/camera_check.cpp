@@ -29,6 +29,8 @@ constexpr std::size_t kMinPairs = 3;          // before anything is said
 constexpr std::size_t kMaxPairs = 40;         // kept, those that turn most
 
 constexpr int kEstimateSteps = 3;
+// Views that more or less of the shutter was taken out of are not alike.
+constexpr double kMaxReadGap_s = 0.003;
 constexpr double kMaxSpeedGap_s = 0.2;  // a longer one says nothing of the speed at its ends
 constexpr std::array<const char*, 4> kNames = {"fx", "fy", "cx", "cy"};
 
@@ -62,7 +64,7 @@ void CameraCheck::NoteSpeed(const Frame& frame) {
 }
 
 CameraCheck::View CameraCheck::ViewOf(const Frame& frame) const {
-  View view{frame.T_cw, speed_per_s_.value_or(Vector6d::Zero()), {}};
+  View view{frame.T_cw, speed_per_s_.value_or(Vector6d::Zero()), frame.readout.taken_out_s, {}};
   for (std::size_t i = 0; i < frame.features.size(); ++i) {
     const PointFeature& feature = frame.features[i];
     if (frame.map_points[i] == kNone || !(feature.depth_m > 0)) continue;
@@ -87,6 +89,7 @@ std::vector<TwiceSeen> CameraCheck::Common(const View& first, const View& second
 }
 
 bool CameraCheck::Compare(const View& first, const View& second) {
+  if (std::abs(first.taken_out_s - second.taken_out_s) > kMaxReadGap_s) return false;
   const double turn_rad = RotationAngle(first.T_cw, second.T_cw);
   // Of too many pairs, the one that turns least gives way.
   const auto flattest =

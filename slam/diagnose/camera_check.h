@@ -55,6 +55,7 @@ class CameraCheck {
   struct View {
     Pose T_cw;
     Vector6d speed_per_s;           ///< d T_cw / dt = xi^ T_cw
+    double taken_out_s;             ///< Readout::taken_out_s
     std::vector<SeenPoint> points;  ///< with depth, by id
   };
   struct Pair {

@@ -140,6 +140,18 @@ TEST(CameraCheck, ARollingShutterIsNoWrongCamera) {
   }
 }
 
+TEST(CameraCheck, ComparesNoViewsThatTheShutterWasTakenOutOfByMoreOrLess) {
+  for (const double more_s : {0.0, 0.004}) {
+    CameraCheck check(Camera{}, FeatureScale{});
+    double taken_out_s = 0.0;
+    for (Frame& frame : TrackedFrames(60, Camera{}, LookingAround, kNoise, 44)) {
+      frame.readout.taken_out_s = taken_out_s += more_s;
+      check.See(frame);
+    }
+    EXPECT_EQ(check.Estimate().has_value(), more_s == 0.0);
+  }
+}
+
 TEST(CameraCheck, TakesBackWhatLaterViewsDoNotBearOut) {
   // First glances that look like another focal length, as depth of a moving camera may make them.
   CameraCheck check(Camera{}, FeatureScale{});
