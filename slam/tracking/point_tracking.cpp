@@ -96,8 +96,8 @@ PointTrackReport PointTracking::TrackPoints(Frame& frame, Map& map) {
   if (state_ != TrackState::kLost) {
     const int min_inliers = Scaled(config_.min_inliers, features, kRichFeatures, kMinInliers);
     found = TrackByMotion(frame, grid, map, report) || TrackByReference(frame, map);
-    // The pose tells the speed, and that where the features are.
-    if (found)
+    // The pose tells the speed, and that where the features are; but a jump is no speed.
+    if (report.by_motion)
       TellAtSpeed(camera_, motion_filter_.SpeedWhere(frame.timestamp_s, frame.T_cw), frame);
     found = found && TrackLocalMap(frame, FeatureGrid(frame.features, camera_), map,
                                    min_inliers, config_.local_radius_factor, report);
