@@ -75,15 +75,6 @@ inline std::optional<PlaneFit> Fit(const PlaneSums& s) {
   return PlaneFit{{a, b, mq - a * mx - b * my}, std::max(0.0, cqq - a * cxq - b * cyq)};
 }
 
-/// Mean over the pixels of `s` of the squared distance between two planes, in noise units.
-inline double MeanSquaredGap(const PlaneSums& s, const InverseDepthPlane& p,
-                             const InverseDepthPlane& r) {
-  const double a = p.a - r.a, b = p.b - r.b, c = p.c - r.c;
-  const double sum = a * a * s.wxx + b * b * s.wyy + c * c * s.w +
-                     2.0 * (a * b * s.wxy + a * c * s.wx + b * c * s.wy);
-  return std::max(0.0, sum) / s.n;
-}
-
 /// How many times the noise of `s` exceeds sigma(z) because its surface is seen at a slant;
 /// >= 1.
 inline double GrazingFactor(const PlaneSums& s, const InverseDepthPlane& p,
