@@ -9,19 +9,24 @@ namespace {
 
 constexpr int kBlock_px = 8;
 
-void MovePlane(const Pose& T_cd, const Camera& camera, FramePlane& plane) {
-  Plane moved = Transform(T_cd, plane.pi_c);
+void MovePlane(const Pose& T_oc, const Camera& camera, FramePlane& plane) {
+  Plane moved = Transform(T_oc, plane.pi_c);
   moved.n.normalize();
   if (!(moved.d > 0)) return;  // seen from its edge, and from there not at all
   plane.pi_c = moved;
-  plane.centroid_c = T_cd * plane.centroid_c;
-  plane.inverse_depth_covariance = T_cd.R * plane.inverse_depth_covariance * T_cd.R.transpose();
-  for (Eigen::Vector3d& p_c : plane.points_c) p_c = T_cd * p_c;
+  plane.centroid_c = T_oc * plane.centroid_c;
+  plane.inverse_depth_covariance = T_oc.R * plane.inverse_depth_covariance * T_oc.R.transpose();
+  for (Eigen::Vector3d& p_c : plane.points_c) p_c = T_oc * p_c;
   plane.box_px = {};
   for (EdgePoint& edge : plane.edge_points) {
-    edge.p_c = T_cd * edge.p_c;
+    edge.p_c = T_oc * edge.p_c;
     if (edge.p_c.z() > kMinVisibleDepth_m) edge.u_px = camera.ProjectDistorted(edge.p_c);
     plane.box_px.Include(edge.u_px);
+  }
+  for (Line& line : plane.lines_c) line = {T_oc * line.P, T_oc.R * line.V};
+  for (Vertex& vertex : plane.vertices_c) {
+    vertex.p_c = T_oc * vertex.p_c;
+    vertex.covariance_c = T_oc.R * vertex.covariance_c * T_oc.R.transpose();
   }
 }
 
@@ -48,12 +53,19 @@ void MoveRow(const float* from_m, int count, double scale, double offset_m, floa
   for (int k = 0; k < count; ++k) to_m[k] = from_m[k] > 0.0f ? by * from_m[k] + plus_m : 0.0f;
 }
 
+bool IsIdentity(const Pose& T) { return T.R.isIdentity(0.0) && T.t.isZero(0.0); }
+
 }  // namespace
+
+void MovePlanes(const Pose& T_oc, const Camera& camera, std::vector<FramePlane>& planes) {
+  if (IsIdentity(T_oc)) return;
+  for (FramePlane& plane : planes) MovePlane(T_oc, camera, plane);
+}
 
 void CarryToColour(const Camera& camera, const cv::Mat2d& rays, Frame& frame) {
   const Pose T_dc = frame.T_dc(), T_cd = Inverse(T_dc);
-  if (T_dc.R.isIdentity(0.0) && T_dc.t.isZero(0.0)) return;
-  for (FramePlane& plane : frame.planes) MovePlane(T_cd, camera, plane);
+  if (IsIdentity(T_dc)) return;
+  MovePlanes(T_cd, camera, frame.planes);
 
   // Each block of the colour image looks at the pixels of the depth image where it is seen.
   const cv::Mat1b& labels_d = frame.plane_labels;

@@ -1,11 +1,17 @@
 #pragma once
 
 #include <opencv2/core/mat.hpp>
+#include <vector>
 
 #include "slam/geometry/camera.h"
 #include "slam/model/frame.h"
 
 namespace slam {
+
+/// Tells planes as another camera close by sees them, with all that is known of them: points,
+/// edges, lines and vertices. One that it would see from behind stays as it is.
+/// @param T_oc  from the camera that they are of to the other
+void MovePlanes(const Pose& T_oc, const Camera& camera, std::vector<FramePlane>& planes);
 
 /// Tells what was found in the depth image as the camera of the colour image sees it, which was
 /// elsewhere (Frame::T_dc, a small motion): planes, their points and edges, the label and the

@@ -2,6 +2,7 @@
 
 #include <Eigen/LU>
 #include <algorithm>
+#include <cmath>
 #include <future>
 #include <optional>
 #include <utility>
@@ -13,6 +14,7 @@
 #include "slam/faces/carry_to_colour.h"
 #include "slam/faces/process_planes.h"
 #include "slam/features/point_features.h"
+#include "slam/features/tell_at_speed.h"
 #include "slam/features/weigh_depths.h"
 #include "slam/mapping/keyframe_planes.h"
 #include "slam/mapping/local_mapping.h"
@@ -143,7 +145,9 @@ bool Tracker::TrackByPoints(Frame& frame, TrackReport& report) {
     worker_->Check();
     points_.FollowMap(map_);
   }
+  const Pose T_dc = frame.T_dc();
   report.points = points_.TrackPoints(frame, map_);
+  MovePlanes(Inverse(frame.T_dc()) * T_dc, camera_, frame.planes);  // as the speed is now
   report.tracked = report.points.state == TrackState::kTracking;
   if (report.tracked) frame.T_cw_by_pixels = PoseByPixels(frame, map_, camera_, scale());
   if (report.tracked || report.points.started) return true;
@@ -169,7 +173,7 @@ void Tracker::OptimiseWithPlanes(Frame& frame, TrackReport& report) {
   if (report.points.started) return;  // it is the world's frame
   const Stopwatch watch(report.times[Module::kPo]);
   if (!report.tracked) {
-    HoldByPlanes(frame, ProblemOf(frame, PointConstraints(frame, map_, scale())), report);
+    HoldByPlanes(frame, report);
     if (report.tracked) TakeBackContradicted(frame, map_, config_.association);
     return;
   }
@@ -207,20 +211,45 @@ bool Tracker::OptimiseByAll(Frame& frame) const {
   return true;
 }
 
+/// Tells points and planes as they are where the camera moves so.
+void Tracker::TellAgain(const Vector6d& speed, Frame& frame) const {
+  const Pose T_dc = frame.T_dc();
+  TellAtSpeed(camera_, speed, frame);
+  MovePlanes(Inverse(frame.T_dc()) * T_dc, camera_, frame.planes);
+}
+
 /// Points failed: planes and the motion before hold the pose, while it is known well enough.
-void Tracker::HoldByPlanes(Frame& frame, PoseProblem problem, TrackReport& report) {
-  // Along steps that nothing observes the camera is where motion leads (Zhang, Kaess and Singh
-  // 2016), and as uncertain.
-  const std::vector<Eigen::Vector3d> unseen = UnseenSteps(problem.planes);
-  problem.prior = HeldAlong(*frame.prediction, unseen);
-  const PoseSummary summary = OptimisePose(problem, camera_, config_.point_search.pose);
+void Tracker::HoldByPlanes(Frame& frame, TrackReport& report) {
+  // Late depth is told at the speed that was predicted. The pose that it gives says another speed,
+  // at which it gives another pose. Taken as it is, an error of the speed would come back in the
+  // next frame with its sign turned, and grow. Half of the way at a time does not overshoot.
+  constexpr int kMaxRounds = 8;
+  constexpr double kSame = 1e-5;  // metres, radians: far below what a plane tells
+  const double share = frame.depth_late_s > 0 ? 0.5 : 1.0;
+  std::vector<Eigen::Vector3d> unseen;
+  PoseSummary summary;
+  bool has_planes = false;
+  for (int round = 0; round < kMaxRounds; ++round) {
+    PoseProblem problem = ProblemOf(frame, PointConstraints(frame, map_, scale()));
+    has_planes = !problem.planes.empty();
+    // Along steps that nothing observes the camera is where motion leads (Zhang, Kaess and Singh
+    // 2016), and as uncertain.
+    unseen = UnseenSteps(problem.planes);
+    problem.prior = HeldAlong(*frame.prediction, unseen);
+    summary = OptimisePose(problem, camera_, config_.point_search.pose);
+    if (!has_planes || !summary.usable) break;
+    const Vector6d more =
+        share * (points_.SpeedWhere(frame.timestamp_s, summary.T_cw) - frame.speed.mean);
+    TellAgain(frame.speed.mean + more, frame);
+    if (std::abs(frame.depth_late_s) * more.norm() < kSame) break;
+  }
   frame.T_cw = summary.T_cw;
   frame.pose_information = WithoutSteps(summary.information, unseen);
   const Matrix6d& predicted = frame.prediction->covariance;
   frame.pose_covariance = (Matrix6d::Identity() + predicted * frame.pose_information)
                               .partialPivLu()
                               .solve(predicted);
-  report.tracked = !problem.planes.empty() && summary.usable &&
+  report.tracked = has_planes && summary.usable &&
                    IsKnownWell(*frame.pose_covariance, config_.tracking.motion);
   if (!report.tracked) {
     ForgetPose(frame);

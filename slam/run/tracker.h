@@ -105,7 +105,8 @@ class Tracker {
   bool TrackByPoints(Frame& frame, TrackReport& report);
   void AssociateFramePlanes(Frame& frame, TrackReport& report) const;
   void OptimiseWithPlanes(Frame& frame, TrackReport& report);
-  void HoldByPlanes(Frame& frame, PoseProblem problem, TrackReport& report);
+  void TellAgain(const Vector6d& speed, Frame& frame) const;
+  void HoldByPlanes(Frame& frame, TrackReport& report);
   bool OptimiseByAll(Frame& frame) const;
   PoseProblem ProblemOf(const Frame& frame, const FramePoints& points) const;
   void UpdateMap(Frame& frame, TrackReport& report);

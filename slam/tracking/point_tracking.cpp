@@ -95,12 +95,14 @@ PointTrackReport PointTracking::TrackPoints(Frame& frame, Map& map) {
   // From a prediction, by motion or by the reference keyframe; then with the local map.
   if (state_ != TrackState::kLost) {
     const int min_inliers = Scaled(config_.min_inliers, features, kRichFeatures, kMinInliers);
+    const Vector6d predicted_speed = frame.speed.mean;
     found = TrackByMotion(frame, grid, map, report) || TrackByReference(frame, map);
     // The pose tells the speed, and that where the features are; but a jump is no speed.
     if (report.by_motion)
       TellAtSpeed(camera_, motion_filter_.SpeedWhere(frame.timestamp_s, frame.T_cw), frame);
     found = found && TrackLocalMap(frame, FeatureGrid(frame.features, camera_), map,
                                    min_inliers, config_.local_radius_factor, report);
+    if (!found && report.by_motion) TellAtSpeed(camera_, predicted_speed, frame);
   }
   // Lost: from the places that look like the frame, unless the map looks so elsewhere too.
   if (!found) {

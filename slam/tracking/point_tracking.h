@@ -103,6 +103,10 @@ class PointTracking {
 
   /// The camera's speed at the time of a frame that comes, as Frame::speed.
   UncertainSpeed Speed(double timestamp_s) const { return motion_filter_.Speed(timestamp_s); }
+  /// The speed at which the camera comes to T_cw then; see MotionFilter.
+  Vector6d SpeedWhere(double timestamp_s, const Pose& T_cw) const {
+    return motion_filter_.SpeedWhere(timestamp_s, T_cw);
+  }
 
   /// Sets frame.T_cw and frame.map_points (inliers alone). When the state is not kTracking
   /// afterwards, the frame has no pose: T_cw is the identity and nothing is matched; where the

@@ -147,6 +147,29 @@ TEST(CarryToColour, TellsPlanesAsTheColourCameraWouldHaveMeasuredThem) {
   EXPECT_NEAR(there.pi_c.n.dot(there.inverse_depth_covariance * there.pi_c.n), 1.0, 1e-12);
 }
 
+TEST(MovePlanes, TellsLinesAndVerticesToo) {
+  const Pose T_oc{ExpSo3({0.02, -0.01, 0.03}), {0.01, 0.02, -0.015}};
+  const Vector3d n(0, 0, -1), x(0.1, 0.2, 1.3), along = Vector3d::UnitX();
+  FramePlane plane;
+  plane.pi_c = {n, -n.dot(x)};
+  plane.lines_c = {{x, along}};
+  plane.vertices_c = {{.p_c = x, .covariance_c = along * along.transpose()}};
+  std::vector<FramePlane> planes = {plane};
+  MovePlanes(T_oc, Camera{}, planes);
+  const FramePlane& there = planes[0];
+  // The line lies on the plane as before, and the vertex on the line.
+  EXPECT_NEAR(SignedDistance(there.pi_c, there.lines_c[0].P), 0.0, 1e-12);
+  EXPECT_NEAR(there.lines_c[0].V.dot(there.pi_c.n), 0.0, 1e-12);
+  EXPECT_LT((there.vertices_c[0].p_c - T_oc * x).norm(), 1e-12);
+  EXPECT_LT((there.lines_c[0].P - there.vertices_c[0].p_c).norm(), 1e-12);
+  // The vertex is uncertain along the line.
+  EXPECT_NEAR(there.lines_c[0].V.dot(there.vertices_c[0].covariance_c * there.lines_c[0].V),
+              1.0, 1e-12);
+  // There and back again.
+  MovePlanes(Inverse(T_oc), Camera{}, planes);
+  EXPECT_LT((planes[0].pi_c.n - n).norm() + (planes[0].vertices_c[0].p_c - x).norm(), 1e-12);
+}
+
 TEST(CarryToColour, LeavesAPlaneThatTheColourCameraWouldSeeFromBehind) {
   FramePlane plane;
   plane.pi_c = {Vector3d::UnitY(), 0.001};

@@ -80,6 +80,23 @@ TEST(PointTracking, FindsItselfAfterAJumpThatNoPredictionBridges) {
               PoseNear(jumped * Inverse(SwingingPose(0)), kRotation_rad, kPosition_m));
 }
 
+TEST(PointTracking, TakesNoJumpForASpeed) {
+  // A speed says where late depth was measured. That of a hand is found with the pose.
+  const TexturedCorner world;
+  PointOdometer odometer(SmallCamera());
+  for (int i = 0; i < 10; ++i) {
+    Frame frame = SeeSwinging(world, odometer.camera, i);
+    frame.depth_late_s = 0.001;
+    ASSERT_EQ(odometer.Step(frame).state, TrackState::kTracking);
+    EXPECT_EQ(frame.speed.mean.isZero(), i < 1) << i;
+  }
+  const Pose jumped = Pose{ExpSo3({0.02, 0.2, 0.5}), {0.1, 0.05, 0.05}} * SwingingPose(0);
+  Frame frame = world.See(odometer.camera, jumped, 10);
+  frame.depth_late_s = 0.001;
+  ASSERT_EQ(odometer.Step(frame).state, TrackState::kTracking);
+  EXPECT_TRUE(frame.speed.mean.isZero());  // as it was predicted here
+}
+
 TEST(PointTracking, StaysLostInAWorldItHasNeverSeen) {
   const TexturedCorner world(1), other(99);
   PointOdometer odometer(SmallCamera());
