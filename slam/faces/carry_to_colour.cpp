@@ -9,6 +9,7 @@ namespace {
 
 constexpr int kBlock_px = 8;
 
+/// Tells a plane as another camera sees it, if not from behind. @param T_oc  to that camera
 void MovePlane(const Pose& T_oc, const Camera& camera, FramePlane& plane) {
   Plane moved = Transform(T_oc, plane.pi_c);
   moved.n.normalize();
@@ -53,19 +54,12 @@ void MoveRow(const float* from_m, int count, double scale, double offset_m, floa
   for (int k = 0; k < count; ++k) to_m[k] = from_m[k] > 0.0f ? by * from_m[k] + plus_m : 0.0f;
 }
 
-bool IsIdentity(const Pose& T) { return T.R.isIdentity(0.0) && T.t.isZero(0.0); }
-
 }  // namespace
-
-void MovePlanes(const Pose& T_oc, const Camera& camera, std::vector<FramePlane>& planes) {
-  if (IsIdentity(T_oc)) return;
-  for (FramePlane& plane : planes) MovePlane(T_oc, camera, plane);
-}
 
 void CarryToColour(const Camera& camera, const cv::Mat2d& rays, Frame& frame) {
   const Pose T_dc = frame.T_dc(), T_cd = Inverse(T_dc);
-  if (IsIdentity(T_dc)) return;
-  MovePlanes(T_cd, camera, frame.planes);
+  if (T_dc.R.isIdentity(0.0) && T_dc.t.isZero(0.0)) return;
+  for (FramePlane& plane : frame.planes) MovePlane(T_cd, camera, plane);
 
   // Each block of the colour image looks at the pixels of the depth image where it is seen.
   const cv::Mat1b& labels_d = frame.plane_labels;
@@ -98,6 +92,13 @@ void CarryToColour(const Camera& camera, const cv::Mat2d& rays, Frame& frame) {
   }
   if (!labels_d.empty()) frame.plane_labels = labels;
   frame.depth_m = depth_m;
+}
+
+void CarryPlanesAgain(const Pose& T_dc, const Camera& camera, Frame& frame) {
+  const Pose now = frame.T_dc();
+  if (now.R == T_dc.R && now.t == T_dc.t) return;
+  const Pose T_oc = Inverse(now) * T_dc;
+  for (FramePlane& plane : frame.planes) MovePlane(T_oc, camera, plane);
 }
 
 }  // namespace slam

@@ -1,17 +1,11 @@
 #pragma once
 
 #include <opencv2/core/mat.hpp>
-#include <vector>
 
 #include "slam/geometry/camera.h"
 #include "slam/model/frame.h"
 
 namespace slam {
-
-/// Tells planes as another camera close by sees them, with all that is known of them: points,
-/// edges, lines and vertices. One that it would see from behind stays as it is.
-/// @param T_oc  from the camera that they are of to the other
-void MovePlanes(const Pose& T_oc, const Camera& camera, std::vector<FramePlane>& planes);
 
 /// Tells what was found in the depth image as the camera of the colour image sees it, which was
 /// elsewhere (Frame::T_dc, a small motion): planes, their points and edges, the label and the
@@ -22,5 +16,9 @@ void MovePlanes(const Pose& T_oc, const Camera& camera, std::vector<FramePlane>&
 /// none. Images are replaced, not written to.
 /// @param rays  PixelRays of the camera
 void CarryToColour(const Camera& camera, const cv::Mat2d& rays, Frame& frame);
+
+/// Moves planes that were carried to colour with T_dc to where Frame::T_dc says now, with their
+/// lines and vertices. Labels and depth stay: they are off by less than the blocks they moved in.
+void CarryPlanesAgain(const Pose& T_dc, const Camera& camera, Frame& frame);
 
 }  // namespace slam

@@ -147,7 +147,7 @@ bool Tracker::TrackByPoints(Frame& frame, TrackReport& report) {
   }
   const Pose T_dc = frame.T_dc();
   report.points = points_.TrackPoints(frame, map_);
-  MovePlanes(Inverse(frame.T_dc()) * T_dc, camera_, frame.planes);  // as the speed is now
+  CarryPlanesAgain(T_dc, camera_, frame);  // the pose told the speed
   report.tracked = report.points.state == TrackState::kTracking;
   if (report.tracked) frame.T_cw_by_pixels = PoseByPixels(frame, map_, camera_, scale());
   if (report.tracked || report.points.started) return true;
@@ -215,7 +215,7 @@ bool Tracker::OptimiseByAll(Frame& frame) const {
 void Tracker::TellAgain(const Vector6d& speed, Frame& frame) const {
   const Pose T_dc = frame.T_dc();
   TellAtSpeed(camera_, speed, frame);
-  MovePlanes(Inverse(frame.T_dc()) * T_dc, camera_, frame.planes);
+  CarryPlanesAgain(T_dc, camera_, frame);
 }
 
 /// Points failed: planes and the motion before hold the pose, while it is known well enough.

@@ -147,16 +147,19 @@ TEST(CarryToColour, TellsPlanesAsTheColourCameraWouldHaveMeasuredThem) {
   EXPECT_NEAR(there.pi_c.n.dot(there.inverse_depth_covariance * there.pi_c.n), 1.0, 1e-12);
 }
 
-TEST(MovePlanes, TellsLinesAndVerticesToo) {
+TEST(CarryPlanesAgain, TellsLinesAndVerticesToo) {
   const Pose T_oc{ExpSo3({0.02, -0.01, 0.03}), {0.01, 0.02, -0.015}};
   const Vector3d n(0, 0, -1), x(0.1, 0.2, 1.3), along = Vector3d::UnitX();
   FramePlane plane;
   plane.pi_c = {n, -n.dot(x)};
   plane.lines_c = {{x, along}};
   plane.vertices_c = {{.p_c = x, .covariance_c = along * along.transpose()}};
-  std::vector<FramePlane> planes = {plane};
-  MovePlanes(T_oc, Camera{}, planes);
-  const FramePlane& there = planes[0];
+  Frame frame;
+  frame.planes = {plane};
+  // Carried as if the cameras were one; now it is known better.
+  TakeDepthFrom(Inverse(T_oc), frame);
+  CarryPlanesAgain({}, Camera{}, frame);
+  const FramePlane& there = frame.planes[0];
   // The line lies on the plane as before, and the vertex on the line.
   EXPECT_NEAR(SignedDistance(there.pi_c, there.lines_c[0].P), 0.0, 1e-12);
   EXPECT_NEAR(there.lines_c[0].V.dot(there.pi_c.n), 0.0, 1e-12);
@@ -166,8 +169,10 @@ TEST(MovePlanes, TellsLinesAndVerticesToo) {
   EXPECT_NEAR(there.lines_c[0].V.dot(there.vertices_c[0].covariance_c * there.lines_c[0].V),
               1.0, 1e-12);
   // There and back again.
-  MovePlanes(Inverse(T_oc), Camera{}, planes);
-  EXPECT_LT((planes[0].pi_c.n - n).norm() + (planes[0].vertices_c[0].p_c - x).norm(), 1e-12);
+  const Pose carried = frame.T_dc();
+  TakeDepthFrom({}, frame);
+  CarryPlanesAgain(carried, Camera{}, frame);
+  EXPECT_LT((there.pi_c.n - n).norm() + (there.vertices_c[0].p_c - x).norm(), 1e-12);
 }
 
 TEST(CarryToColour, LeavesAPlaneThatTheColourCameraWouldSeeFromBehind) {
