@@ -36,7 +36,7 @@ constexpr const char* kAboutSuite =
     "DIR/results.sqlite. A crash, a time-out or want of memory is a row. Called again it runs\n"
     "what is not there yet, or whose inputs or program have changed. With --baseline it says\n"
     "what became worse (docs/suites.md). Exit code 1 if something became worse or cannot be\n"
-    "told; without a baseline, if a case failed.";
+    "told; without a baseline, if a case failed or is beyond a bound of the suite.";
 
 struct SuiteArguments {
   std::string suite, output, recordings, program, shard, baseline, accept, replay, shrink;
@@ -94,7 +94,10 @@ class SuiteCall {
     if (!RunAll(cases, results)) return Interrupted();
 
     if (accepting) return Accept(cases, results);
-    if (!baseline) return Summarise(cases, results);
+    if (!baseline) {
+      const int done = Summarise(cases, results);
+      return WithinBounds(cases, results) ? done : kFailure;
+    }
     // As long as it cannot be told, more seeds of the arms in question.
     eval::GateReport report = Compare(*baseline, cases, results.Rows());
     while (!report.AnyWorse() && !report.UndecidedArms().empty() &&
@@ -217,6 +220,19 @@ class SuiteCall {
       return rows.at(one.key).result.status == CaseStatus::kFinished;
     });
     return all_done ? kDone : kFailure;
+  }
+
+  /// Prints each figure that is beyond its bound of the suite, whatever a baseline says.
+  bool WithinBounds(const std::vector<SuiteCase>& cases, Results& results) const {
+    bool within = true;
+    for (const auto& [key, found] : GatedCases(suite_, cases, results.Rows())) {
+      for (const std::string& figure : eval::BeyondBounds(found.figures, suite_.gate.worst)) {
+        fmt::print("BEYOND    {}: {}, bound {}  {}\n", figure, *found.figures.at(figure),
+                   suite_.gate.worst.at(figure), key);
+        within = false;
+      }
+    }
+    return within;
   }
 
   int Verdict(const eval::GateReport& report) const {

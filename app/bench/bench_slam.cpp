@@ -22,8 +22,11 @@ bool Covered(int frame, int every, int count) {
 /// A sequence whose lens is covered again and again, to see how the camera is found.
 class CoveredCamera : public slam::FrameSource {
  public:
-  CoveredCamera(slam::FrameSource& frames, int every, int count)
-      : frames_(frames), every_(every), count_(count) {}
+  CoveredCamera(slam::FrameSource& frames, const BenchOptions& bench)
+      : frames_(frames),
+        every_(bench.black_every),
+        count_(bench.black_frames),
+        blind_(bench.blind_frames) {}
   int size() const override { return frames_.size(); }
   slam::RecordedFrame Read(int i) override {
     slam::RecordedFrame frame = frames_.Read(i);
@@ -31,12 +34,13 @@ class CoveredCamera : public slam::FrameSource {
       frame.bgr = cv::Mat3b(frame.bgr.size(), cv::Vec3b(0, 0, 0));
       frame.gray = cv::Mat1b(frame.gray.size(), 0);
     }
+    if (Covered(i, every_, blind_)) frame.depth_m = cv::Mat1f(frame.depth_m.size(), 0.0f);
     return frame;
   }
 
  private:
   slam::FrameSource& frames_;
-  int every_, count_;
+  int every_, count_, blind_;
 };
 
 /// A sequence played to and fro, the clock going on.
@@ -60,11 +64,42 @@ class PendulumCamera : public slam::FrameSource {
   double fps_;
 };
 
+/// A sequence, and then another: the camera was carried elsewhere with the lens covered.
+class CarriedCamera : public slam::FrameSource {
+ public:
+  CarriedCamera(slam::FrameSource& first, slam::FrameSource& then, double fps)
+      : first_(first), then_(then), fps_(fps) {}
+  int size() const override { return first_.size() + kCovered + then_.size(); }
+  slam::RecordedFrame Read(int i) override {
+    if (i < first_.size()) return first_.Read(i);
+    const int at = i - first_.size() - kCovered;
+    slam::RecordedFrame frame = then_.Read(std::max(0, at));
+    frame.index = i;
+    frame.timestamp_s = first_.Read(first_.size() - 1).timestamp_s + (at + kCovered + 1) / fps_;
+    if (at >= 0) return frame;
+    frame.bgr = cv::Mat3b(frame.bgr.size(), cv::Vec3b(0, 0, 0));
+    frame.gray = cv::Mat1b(frame.gray.size(), 0);
+    frame.depth_m = cv::Mat1f(frame.depth_m.size(), 0.0f);
+    return frame;
+  }
+
+ private:
+  static constexpr int kCovered = 2;
+  slam::FrameSource &first_, &then_;
+  double fps_;
+};
+
 slam::RunOutcome RunOn(const slam::RunOptions& options, const BenchOptions& bench) {
-  if (bench.black_every == 0 && bench.laps == 1) return slam::RunSequence(options);
+  if (bench.black_every == 0 && bench.laps == 1 && bench.then.empty())
+    return slam::RunSequence(options);
   const slam::Camera camera = slam::ChooseCamera("", options.sequence).camera;
   slam::SequenceReader reader(options.sequence, camera);
-  CoveredCamera covered(reader, bench.black_every, bench.black_frames);
+  CoveredCamera covered(reader, bench);
+  if (!bench.then.empty()) {
+    slam::SequenceReader elsewhere(bench.then, camera);
+    CarriedCamera carried(covered, elsewhere, camera.fps);
+    return slam::RunLive({carried, camera, nullptr}, options);
+  }
   if (bench.laps == 1) return slam::RunLive({covered, camera, nullptr}, options);
   PendulumCamera pendulum(covered, bench.laps, camera.fps);
   return slam::RunLive({pendulum, camera, nullptr}, options);
@@ -148,8 +183,15 @@ BenchRow MeasureSlam(const std::string& folder, const BenchOptions& bench) {
   row.frames = outcome.frames, row.tracked = outcome.tracked;
   row.keyframes = outcome.keyframes, row.points = outcome.map_points;
   row.kib_a_frame = frames > half ? (end_kib - half_kib) / (frames - half) : 0.0;
-  const eval::Run result = eval::ReadRun(run);
+  eval::Run result = eval::ReadRun(run);
   const eval::Sequence sequence = eval::ReadSequence(folder);
+  if (!bench.then.empty()) {
+    // After the sequence every pose is wrong.
+    row.elsewhere = static_cast<int>(eval::ReadSequence(bench.then).frames.size());
+    row.taken = static_cast<int>(std::erase_if(result.trajectory, [&](const auto& pose) {
+      return pose.stamp_s > sequence.frames.back().stamp_s;
+    }));
+  }
   if (result.timing) row.modules_ms = result.timing->rows_ms;
   if (sequence.groundtruth && bench.laps == 1) {
     row.score = eval::ScoreTrajectory(result, sequence);
@@ -159,8 +201,10 @@ BenchRow MeasureSlam(const std::string& folder, const BenchOptions& bench) {
         eval::TruePosesOfFrames(*sequence.groundtruth, stamps_s, sequence.synthetic);
     const auto estimate = ByFrame(result.trajectory, stamps_s);
     row.comebacks = Comebacks(estimate, truth, row.score.gauge, [&](int i) {
-      return Covered(i, bench.black_every, bench.black_frames);
+      return Covered(i, bench.black_every,
+                     bench.blind_frames > 0 ? bench.blind_frames : bench.black_frames);
     });
+
     std::optional<std::size_t> first, last;
     for (std::size_t i = 0; i < truth.size(); ++i) {
       if (!truth[i] || !estimate[i]) continue;

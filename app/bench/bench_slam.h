@@ -15,7 +15,10 @@ struct BenchOptions {
   slam::Config config;
   int threads = 1;
   int black_every = 0, black_frames = 12;  ///< the lens is covered; 0: never
-  int laps = 1;  ///< to and fro over the sequence so often; odd laps run backwards
+  int blind_frames =
+      0;             ///< of these that have no depth either: it is planes that find the camera
+  std::string then;  ///< another sequence that is shown in the end; empty: none
+  int laps = 1;      ///< to and fro over the sequence so often; odd laps run backwards
 };
 
 /// A time without pose, from when the camera sees again what it saw while it was tracked.
@@ -32,7 +35,8 @@ struct BenchRow {
   int keyframes = 0, points = 0;
   double end_error_m = 0;  ///< error of the last pose, the first ones laid on the truth
   std::vector<std::vector<double>> modules_ms;
-  double kib_a_frame = 0;  ///< resident memory, over the second half
+  int elsewhere = 0, taken = 0;  ///< frames of another sequence, and those that got a pose
+  double kib_a_frame = 0;        ///< resident memory, over the second half
   std::vector<Comeback> comebacks;
 };
 

@@ -86,17 +86,25 @@ void PrintModules(const std::vector<BenchRow>& rows) {
 
 void PrintComebacks(const std::vector<BenchRow>& rows) {
   int all = 0, soon = 0, wrong = 0;
+  std::vector<double> error_mm;
   for (const BenchRow& row : rows) {
     for (const Comeback& comeback : row.comebacks) {
       ++all;
       soon += comeback.waited >= 0 && comeback.waited <= 10;
       wrong += comeback.error_m > kWrong_m;
+      if (comeback.waited >= 0) error_mm.push_back(1e3 * comeback.error_m);
     }
   }
   fmt::print(
       "lost {} times; found within 10 frames of seeing the map again: {}; "
-      "wrong by more than {:.0f} cm: {}\n",
-      all, soon, 100 * kWrong_m, wrong);
+      "first pose off by {:.1f} mm (median), {:.1f} mm (worst); wrong by more than {:.0f} cm: "
+      "{}\n",
+      all, soon, QuantileOrZero(error_mm, 0.5), QuantileOrZero(error_mm, 1.0), 100 * kWrong_m,
+      wrong);
+  int elsewhere = 0, taken = 0;
+  for (const BenchRow& row : rows) elsewhere += row.elsewhere, taken += row.taken;
+  if (elsewhere > 0)
+    fmt::print("elsewhere: {} of {} frames taken for the map's\n", taken, elsewhere);
 }
 
 int RunSlamBench(const SlamBenchArguments& arguments) {
@@ -155,6 +163,16 @@ void AddBenchSlam(CLI::App& bench, const Globals& /*globals*/, int& exit_code) {
   command->add_option("--black-frames", arguments->bench.black_frames, "For so many frames")
       ->check(CLI::Range(1, 1000000))
       ->capture_default_str();
+  command
+      ->add_option(
+          "--blind-frames", arguments->bench.blind_frames,
+          "Cover depth as well, for so many of these frames: then planes alone find the "
+          "camera until the lens is free")
+      ->check(CLI::Range(1, 1000000));
+  command->add_option(
+      "--then", arguments->bench.then,
+      "Show another sequence of the same camera in the end, to see whether it is "
+      "taken for the map");
   command
       ->add_option(
           "--laps", arguments->bench.laps,

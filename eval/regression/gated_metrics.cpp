@@ -12,6 +12,7 @@ constexpr std::array kGated = {
     GatedMetric{"/trajectory/ate_se3/rmse_m", MetricKind::kError},
     GatedMetric{"/trajectory/rpe_1s/trans_rmse_m", MetricKind::kError},
     GatedMetric{"/trajectory/rpe_1s/rot_rmse_deg", MetricKind::kError},
+    GatedMetric{"/consistency/absolute/silent", MetricKind::kCount},
     GatedMetric{"/association/decision/precision", MetricKind::kScore},
     GatedMetric{"/association/decision/recall", MetricKind::kScore},
     GatedMetric{"/association/decision/fp", MetricKind::kCount},

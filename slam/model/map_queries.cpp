@@ -1,6 +1,7 @@
 #include "slam/model/map_queries.h"
 
 #include <algorithm>
+#include <limits>
 #include <map>
 
 #include "slam/base/index.h"
@@ -37,6 +38,18 @@ Pose KeyframePose(const Map& map, int keyframe) {
     k = &map.keyframes.at(Index(k->parent));
   }
   return T_ck * k->T_cw;
+}
+
+int NearestKeyframe(const Map& map, const Pose& T_cw) {
+  int nearest = kNone;
+  double least = std::numeric_limits<double>::infinity();
+  for (const Keyframe& keyframe : map.keyframes) {
+    if (keyframe.culled) continue;
+    const double off = (Inverse(keyframe.T_cw).t - Inverse(T_cw).t).norm() +
+                       RotationAngle(keyframe.T_cw, T_cw);
+    if (off < least) nearest = keyframe.id, least = off;
+  }
+  return nearest;
 }
 
 int KeyframesAfter(const Map& map, int frame_index) {

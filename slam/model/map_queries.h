@@ -20,6 +20,10 @@ bool StepLiesBetween(const MapPlane& one, const MapPlane& other);
 /// Pose of a keyframe, whether culled or not.
 Pose KeyframePose(const Map& map, int keyframe);
 
+/// The keyframe, not culled, that a camera at T_cw is nearest to; a radian counts as a metre.
+/// @returns kNone when there is none
+int NearestKeyframe(const Map& map, const Pose& T_cw);
+
 /// Number of keyframes, culled ones among them, that were taken after the frame of this index.
 int KeyframesAfter(const Map& map, int frame_index);
 

@@ -22,6 +22,7 @@
 #include "slam/mapping/plane_fuse.h"
 #include "slam/mapping/plane_update.h"
 #include "slam/model/map_queries.h"
+#include "slam/places/plane_place.h"
 #include "slam/pose/held_directions.h"
 #include "slam/pose/plane_constraints.h"
 #include "slam/run/stopwatch.h"
@@ -151,11 +152,24 @@ bool Tracker::TrackByPoints(Frame& frame, TrackReport& report) {
   report.tracked = report.points.state == TrackState::kTracking;
   if (report.tracked) frame.T_cw_by_pixels = PoseByPixels(frame, map_, camera_, scale());
   if (report.tracked || report.points.started) return true;
-  // Where points fail, planes are asked at the pose that motion predicts.
-  if (variant_ == Variant::kPoints || !frame.prediction) return false;
+  // Where points fail, planes are asked at the pose that motion predicts, or where they are known
+  // from.
+  if (variant_ == Variant::kPoints) return false;
+  if (!frame.prediction && !map_.keyframes.empty()) FindByPlanes(frame, report);
+  if (!frame.prediction) return false;
   frame.T_cw = frame.prediction->T_cw;
   frame.pose_covariance = frame.prediction->covariance;
   return true;
+}
+
+/// The camera is lost: planes may know the place.
+void Tracker::FindByPlanes(Frame& frame, TrackReport& report) const {
+  const PlanePlace place = FindPlaceByPlanes(frame, map_, camera_, config_.tracking.plane_place,
+                                             config_.point_search.pose);
+  report.points.ambiguous = place.ambiguous;
+  if (!place.pose || points_.DeniedByPoints(frame, map_, place.pose->T_cw)) return;
+  frame.prediction = place.pose;
+  report.points.by_relocalising = true;
 }
 
 void Tracker::AssociateFramePlanes(Frame& frame, TrackReport& report) const {
@@ -255,8 +269,14 @@ void Tracker::HoldByPlanes(Frame& frame, TrackReport& report) {
     ForgetPose(frame);
     return;
   }
-  frame.held_by_motion = HeldByPrediction(predicted, *frame.pose_covariance);
-  points_.HoldByPlanes();
+  if (report.points.by_relocalising) {
+    // No motion led here: the prediction is what the frame's own planes say.
+    frame.pose_information = frame.pose_covariance->inverse();
+    points_.FoundByPlanes(frame, map_);
+  } else {
+    frame.held_by_motion = HeldByPrediction(predicted, *frame.pose_covariance);
+    points_.HoldByPlanes();
+  }
   report.points.state = TrackState::kHeldByPlanes;
 }
 

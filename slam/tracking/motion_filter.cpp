@@ -84,10 +84,13 @@ Vector6d MotionFilter::SpeedWhere(double timestamp_s, const Pose& T_cw) const {
 
 void MotionFilter::Observe(double timestamp_s, const Pose& T_cw, const Matrix6d& information) {
   if (!known_) {
-    // The first pose is the world; nothing is known of the speed but that a hand holds it.
+    // The first pose is the world, or was found by what is seen; nothing is known of the speed but
+    // that a hand holds it.
     State first;
     first.timestamp_s = timestamp_s;
     first.T_cw = T_cw;
+    if (const Eigen::FullPivLU<Matrix6d> seen(information); seen.isInvertible())
+      first.covariance.topLeftCorner<6, 6>() = seen.inverse();
     first.covariance.bottomRightCorner<6, 6>() = SpeedVariance().asDiagonal();
     known_ = first;
     return;

@@ -54,10 +54,10 @@ const char* StateName(const PointTrackReport& report) {
   switch (report.state) {
     case TrackState::kInitialising:
       return "initialising";
-    case TrackState::kHeldByPlanes:
-      return "planes";
     case TrackState::kLost:
-      return "lost";
+      return report.ambiguous ? "ambiguous" : "lost";
+    case TrackState::kHeldByPlanes:
+      return report.by_relocalising ? "relocalised" : "planes";
     case TrackState::kTracking:
       break;
   }
@@ -117,6 +117,7 @@ PointTrackReport PointTracking::TrackPoints(Frame& frame, Map& map) {
   if (!found) {
     ForgetPose(frame);
     frame.prediction = prediction;
+    report.by_relocalising = false;
   }
   state_ = found ? TrackState::kTracking : TrackState::kLost;
   followed_ = report.followed;

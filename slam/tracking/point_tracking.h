@@ -5,6 +5,8 @@
 #include "slam/base/field_visitor.h"
 #include "slam/model/local_map.h"
 #include "slam/model/map.h"
+#include "slam/model/map_queries.h"
+#include "slam/places/place_guesses.h"
 #include "slam/pose/point_constraints.h"
 #include "slam/pose/pose_problem.h"
 #include "slam/tracking/keyframe_decision.h"
@@ -12,6 +14,7 @@
 #include "slam/tracking/look_alike.h"
 #include "slam/tracking/motion_filter.h"
 #include "slam/tracking/motion_model.h"
+#include "slam/tracking/points_deny.h"
 #include "slam/tracking/relocalise.h"
 
 namespace slam {
@@ -26,7 +29,8 @@ enum class TrackState {
 
 struct PointTrackReport;
 
-/// "initialising", "tracking", "planes", "lost", or "relocalised" for the frame that was found again.
+/// "initialising", "tracking", "planes", "relocalised" for the frame that was found again, "lost", or
+/// "ambiguous" where the camera is lost because more than one place fits.
 const char* StateName(const PointTrackReport& report);
 
 /// Settings of tracking by points.
@@ -34,6 +38,7 @@ struct PointTrackingConfig {
   KeyframeDecisionConfig decision;
   LookAlikeConfig look_alike;
   MotionFilterConfig motion;
+  PlanePlaceConfig plane_place;
   // Distances and ratios: ORB-SLAM2's.
   PointMatchConfig match_last{100, 0.9, true};
   PointMatchConfig match_local{100, 0.8, false};
@@ -52,6 +57,7 @@ struct PointTrackingConfig {
 
 inline void VisitFields(PointTrackingConfig& c, FieldVisitor& v) {
   v.Section("motion", "where the camera can be while points fail", c.motion);
+  v.Section("plane_place", "finding a lost camera by the planes of its frame", c.plane_place);
   v.Section("match_last", "matching with the last frame, by projection", c.match_last);
   v.Section("match_local", "matching with the local map, by projection", c.match_local);
   v.Section("match_reference", "matching with the reference keyframe, by descriptors",
@@ -84,6 +90,7 @@ struct PointTrackReport {
   bool started = false;          ///< this frame becomes the map's first keyframe
   bool by_motion = false;        ///< found by the motion model
   bool by_relocalising = false;  ///< found without a prediction
+  bool ambiguous = false;        ///< not found: its planes fit more than one place
   int followed = 0;              ///< features that agree with the last frame's on one motion
   int local_points = 0;          ///< points of the local map in view
   int inliers = 0;               ///< matches with the map after the last optimisation
@@ -116,6 +123,16 @@ class PointTracking {
 
   /// Planes hold a pose in the frame in which points failed; to be called before NeedKeyframe.
   void HoldByPlanes() { state_ = TrackState::kHeldByPlanes; }
+  /// The same where planes found a lost camera: points are looked for there next.
+  void FoundByPlanes(const Frame& frame, const Map& map) {
+    HoldByPlanes();
+    reference_ = NearestKeyframe(map, frame.T_cw);
+  }
+  /// Whether the prints in sight are not those of the map at this pose; see PointsDeny.
+  bool DeniedByPoints(const Frame& frame, const Map& map, const Pose& T_cw) const {
+    return PointsDeny(frame, map, T_cw, NearestKeyframe(map, T_cw), camera_, scale_,
+                      search_.projection, config_.match_reference);
+  }
 
   /// The map was adjusted since the last frame: the last pose is what it has become. Not
   /// needed when mapping runs between TrackPoints and Accept.

@@ -107,6 +107,15 @@ class SuiteProgram : public testing::Test {
   TemporaryFolder folder_;
 };
 
+TEST_F(SuiteProgram, FailsWhereACaseIsBeyondABoundOfTheSuite) {
+  // ATE is a millimetre times the seed.
+  const std::string bound = "gate: {worst: {/trajectory/ate_se3/rmse_m: 0.0035}}\n";
+  WriteSuite("seeds: {first: 1, count: 3}\n" + bound);
+  EXPECT_EQ(Suite("out").exit_code, 0);
+  WriteSuite("seeds: {first: 1, count: 4}\n" + bound);
+  EXPECT_EQ(Suite("out").exit_code, 1);
+}
+
 TEST_F(SuiteProgram, PutsFiguresNullsAndTimesIntoRows) {
   EXPECT_EQ(Suite("out").exit_code, 0);
   EXPECT_THAT(Query(folder_ / "out", "SELECT key FROM cases"), SizeIs(10));

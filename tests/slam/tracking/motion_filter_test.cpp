@@ -33,6 +33,16 @@ TEST(MotionFilter, GoesOnAtTheSpeedThatWasSeen) {
   EXPECT_THAT(filter.Predict(30 * kFrame_s)->T_cw, PoseNear(T_cw, 1e-3, 1e-3));
 }
 
+TEST(MotionFilter, KnowsAFirstPoseAsWellAsItWasSeen) {
+  MotionFilter filter{{}};
+  filter.Observe(0.0, Pose{}, kNothing);  // the world's own
+  EXPECT_LT(filter.Predict(1e-6)->covariance.diagonal().maxCoeff(), 1e-9);
+  filter.Forget();
+  const double sigma = 0.02;
+  filter.Observe(0.0, Pose{}, Matrix6d::Identity() / (sigma * sigma));
+  EXPECT_NEAR(std::sqrt(filter.Predict(1e-6)->covariance(0, 0)), sigma, 1e-4);
+}
+
 TEST(MotionFilter, SaysTheSpeed) {
   MotionFilter filter{{}};
   EXPECT_TRUE(filter.Speed(0.0).mean.isZero());
