@@ -246,6 +246,7 @@ void Tracker::HoldByPlanes(Frame& frame, TrackReport& report) {
   for (int round = 0; round < kMaxRounds; ++round) {
     PoseProblem problem = ProblemOf(frame, PointConstraints(frame, map_, scale()));
     has_planes = !problem.planes.empty();
+    AddEdgesAlone(frame, map_, config_.structure, problem);
     // Along steps that nothing observes the camera is where motion leads (Zhang, Kaess and Singh
     // 2016), and as uncertain.
     unseen = UnseenSteps(problem.planes);

@@ -56,12 +56,21 @@ void AddStructure(const Frame& frame, const Map& map, const PosePrior& prior,
   }
 }
 
+void AddEdgesAlone(const Frame& frame, const Map& map, const StructureConfig& config,
+                   PoseProblem& problem) {
+  if (config.edges_alone && config.mode != StructureMode::kSupposed)
+    AddSupposedPlanes(frame, map, config.supposed, problem);
+}
+
 void LearnStructure(const Frame& frame, std::optional<int> keyframe, double keep,
                     const PlaneConstraintConfig& planes, const StructureConfig& config,
                     Map& map) {
+  if (config.edges_alone || config.mode == StructureMode::kSupposed)
+    LearnSupposedPlanes(frame, keep, config.supposed, map);
   switch (config.mode) {
     case StructureMode::kFree:
     case StructureMode::kParallel:
+    case StructureMode::kSupposed:
       return;
     case StructureMode::kManhattan:
       if (keyframe) LearnManhattanWorld(*keyframe, config.manhattan, map);
@@ -70,9 +79,6 @@ void LearnStructure(const Frame& frame, std::optional<int> keyframe, double keep
       if (keyframe)
         LearnManhattanFrames(frame, *keyframe, planes.plane_angle_floor_rad, config.manhattan,
                              map);
-      return;
-    case StructureMode::kSupposed:
-      LearnSupposedPlanes(frame, keep, config.supposed, map);
       return;
   }
 }

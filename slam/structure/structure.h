@@ -29,6 +29,7 @@ inline const std::vector<std::string>& StructureModeNames() {
 
 struct StructureConfig {
   StructureMode mode = StructureMode::kParallel;  // helps a little everywhere: docs/back_end.md
+  bool edges_alone = true;  // desks are lost in the dark without: docs/points.md
   ParallelConfig parallel;
   ManhattanConfig manhattan;
   SupposedConfig supposed;
@@ -39,6 +40,8 @@ inline void VisitFields(StructureConfig& c, FieldVisitor& v) {
       "mode", c.mode, StructureModeNames(),
       "nothing; parallel and perpendicular planes; one Manhattan frame; many; planes supposed "
       "at edges");
+  v.Flag("edges_alone", c.edges_alone,
+         "where points fail, planes supposed at edges hold the pose too, whatever the mode");
   v.Section("parallel", "planes parallel and perpendicular", c.parallel);
   v.Section("manhattan", "one or many Manhattan frames", c.manhattan);
   v.Section("supposed", "planes supposed at straight edges", c.supposed);
@@ -49,6 +52,11 @@ inline void VisitFields(StructureConfig& c, FieldVisitor& v) {
 void AddStructure(const Frame& frame, const Map& map, const PosePrior& prior,
                   const PlaneConstraintConfig& planes, const StructureConfig& config,
                   PoseProblem& problem);
+
+/// The same for a frame of which points say little: adds the planes supposed at its edges, unless
+/// AddStructure has. They hold what planes that all face one way do not.
+void AddEdgesAlone(const Frame& frame, const Map& map, const StructureConfig& config,
+                   PoseProblem& problem);
 
 /// Takes into the map what the assumption needs of the frame, at the pose that it has.
 /// @param keyframe  that was made of the frame, if one was
