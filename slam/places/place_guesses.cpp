@@ -265,6 +265,11 @@ std::vector<KnownPlane> KnownPlanes(const Map& map) {
   return known;
 }
 
+bool ClassesAllow(const FramePlane& plane, const KnownPlane& known) {
+  const std::string& class_name = known.landmark->class_name;
+  return plane.class_name.empty() || class_name.empty() || plane.class_name == class_name;
+}
+
 const KnownPlane* NearestLike(const FramePlane& plane, const std::vector<KnownPlane>& known,
                               const Pose& T_cw, const PlanePlaceConfig& config) {
   const Pose T_wc = Inverse(T_cw);
@@ -274,7 +279,7 @@ const KnownPlane* NearestLike(const FramePlane& plane, const std::vector<KnownPl
       3 * (config.max_offset_m + std::hypot(plane.offset_sigma_m, plane.bend_offset_sigma_m));
   const KnownPlane* nearest = nullptr;
   for (const KnownPlane& other : known) {
-    if (other.pi_w.n.dot(n_w) < min_cosine ||
+    if (other.pi_w.n.dot(n_w) < min_cosine || !ClassesAllow(plane, other) ||
         (centroid_w - other.centroid_w).norm() > other.reach_m + kGuess_m) {
       continue;
     }

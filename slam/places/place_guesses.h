@@ -54,8 +54,12 @@ struct KnownPlane {
 /// The landmarks of a map, which must outlive them; candidates tell no place.
 std::vector<KnownPlane> KnownPlanes(const Map& map);
 
+/// Whether their classes allow that a frame plane shows a known plane: both are of the same, or one
+/// has none.
+bool ClassesAllow(const FramePlane& plane, const KnownPlane& known);
+
 /// The known plane that is nearest to a frame plane among those that lie as it does and where it
-/// lies: within the angle, thrice the offset, and the known plane's own reach.
+/// lies, of a class that allows it: within the angle, thrice the offset, and the known plane's reach.
 /// @returns null when there is none
 const KnownPlane* NearestLike(const FramePlane& plane, const std::vector<KnownPlane>& known,
                               const Pose& T_cw, const PlanePlaceConfig& config);

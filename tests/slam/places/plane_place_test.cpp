@@ -20,6 +20,7 @@ Map MapOf(const PlaneWorld& world, const std::vector<Pose>& views_cw, const Came
     for (const FramePlane& plane : seen.frame.planes) {
       MapPlane& landmark = known[Index(seen.truth[Index(plane.index)])];
       landmark.pi_w = world.planes[Index(seen.truth[Index(plane.index)])].pi_w();
+      landmark.class_name = plane.class_name;
       std::vector<Eigen::Vector3d> points_w;
       for (const Eigen::Vector3d& p_c : plane.points_c) points_w.push_back(Inverse(T_cw) * p_c);
       MergeIntoCloud(landmark.points_w, points_w, landmark.pi_w, Eigen::Vector3d::Zero(), 0.02,
@@ -136,6 +137,27 @@ TEST(PlanePlace, IsAmbiguousWhereTheMapHoldsALookAlike) {
   const PlanePlace place = Find(Room(), MapOf(both, views, SmallCamera()), kSeenFrom);
   EXPECT_FALSE(place.pose);
   EXPECT_TRUE(place.ambiguous);
+}
+
+TEST(PlanePlace, OfLookAlikesIsToldByClasses) {
+  // The same rooms, but what is a suitcase here is a box there.
+  PlaneWorld here = Room();
+  for (WorldPlane& plane : here.planes)
+    if (plane.object >= 3) plane.class_name = "suitcase";
+  PlaneWorld both = here;
+  for (WorldPlane plane : here.planes) {
+    plane.center_w.x() += 10;
+    if (plane.object >= 3) plane.class_name = "box";
+    plane.object += here.objects;
+    both.planes.push_back(plane);
+  }
+  both.objects *= 2;
+  std::vector<Pose> views = RoomViews();
+  for (const Pose& T_cw : RoomViews())
+    views.push_back(T_cw * Pose{Eigen::Matrix3d::Identity(), {-10, 0, 0}});
+  const PlanePlace place = Find(here, MapOf(both, views, SmallCamera()), kSeenFrom);
+  ASSERT_TRUE(place.pose);
+  EXPECT_THAT(place.pose->T_cw, PoseNear(kSeenFrom, 0.003, 0.004));
 }
 
 /// Books on a desk: all that is seen faces up, and only corners tell a place.
