@@ -14,9 +14,10 @@ namespace {
 /// How well frame and map fit at a pose.
 struct Fit {
   UncertainPose pose;
-  int planes = 0;          ///< of the frame, that show landmarks
-  double explained = 0.0;  ///< share of the frame's planes that do, by weight
-  double met = 0.0;        ///< share of the landmarks in view that are where depth was measured
+  Matrix6d before = Matrix6d::Zero();  ///< see PlanePlace
+  int planes = 0;                      ///< of the frame, that show landmarks
+  double explained = 0.0;              ///< share of the frame's planes that do, by weight
+  double met = 0.0;  ///< share of the landmarks in view that are where depth was measured
 
   double Score() const { return explained * met; }
 };
@@ -133,9 +134,11 @@ PlanePlace FindPlaceByPlanes(const Frame& frame, const Map& map, const Camera& c
   if (trusted < config.min_planes) return out;
   std::vector<Fit> fits;
   const std::vector<KnownPlane> known = KnownPlanes(map);
-  for (UncertainPose pose : GuessPlaces(frame, known, config)) {
-    if (Refine(frame, known, camera, config, problem, pose))
-      fits.push_back(FitAt(pose, frame, known, camera, config));
+  for (const UncertainPose& guess : GuessPlaces(frame, known, config)) {
+    UncertainPose pose = guess;
+    if (!Refine(frame, known, camera, config, problem, pose)) continue;
+    fits.push_back(FitAt(pose, frame, known, camera, config));
+    fits.back().before = guess.covariance;
   }
   const auto best = std::max_element(fits.begin(), fits.end(), [](const Fit& a, const Fit& b) {
     return a.Score() < b.Score();
@@ -146,7 +149,9 @@ PlanePlace FindPlaceByPlanes(const Frame& frame, const Map& map, const Camera& c
            ((other.pose.T_cw * Inverse(best->pose.T_cw)).t.norm() > kSame_m ||
             RotationAngle(other.pose.T_cw, best->pose.T_cw) > kSame_rad);
   });
-  if (!out.ambiguous) out.pose = best->pose;
+  if (out.ambiguous) return out;
+  out.pose = best->pose;
+  out.before = best->before;
   return out;
 }
 

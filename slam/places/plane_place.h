@@ -11,6 +11,8 @@ namespace slam {
 struct PlanePlace {
   /// None where nothing fits, and where more than one place does.
   std::optional<UncertainPose> pose;
+  /// Covariance of the pose before the planes' parameters were counted: of a prior beside them.
+  Matrix6d before = Matrix6d::Zero();
   bool ambiguous = false;  ///< more than one place fits
 };
 

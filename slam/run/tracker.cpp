@@ -155,21 +155,25 @@ bool Tracker::TrackByPoints(Frame& frame, TrackReport& report) {
   // Where points fail, planes are asked at the pose that motion predicts, or where they are known
   // from.
   if (variant_ == Variant::kPoints) return false;
-  if (!frame.prediction && !map_.keyframes.empty()) FindByPlanes(frame, report);
-  if (!frame.prediction) return false;
+  if (!frame.prediction) return FindByPlanes(frame, report);
   frame.T_cw = frame.prediction->T_cw;
   frame.pose_covariance = frame.prediction->covariance;
   return true;
 }
 
 /// The camera is lost: planes may know the place.
-void Tracker::FindByPlanes(Frame& frame, TrackReport& report) const {
+bool Tracker::FindByPlanes(Frame& frame, TrackReport& report) const {
+  if (map_.keyframes.empty()) return false;
   const PlanePlace place = FindPlaceByPlanes(frame, map_, camera_, config_.tracking.plane_place,
                                              config_.point_search.pose);
   report.points.ambiguous = place.ambiguous;
-  if (!place.pose || points_.DeniedByPoints(frame, map_, place.pose->T_cw)) return;
-  frame.prediction = place.pose;
+  if (!place.pose || points_.DeniedByPoints(frame, map_, place.pose->T_cw)) return false;
+  frame.T_cw = place.pose->T_cw;
+  frame.pose_covariance = place.pose->covariance;
+  // The pose problem counts the planes once more.
+  frame.prediction = UncertainPose{place.pose->T_cw, place.before};
   report.points.by_relocalising = true;
+  return true;
 }
 
 void Tracker::AssociateFramePlanes(Frame& frame, TrackReport& report) const {

@@ -103,7 +103,8 @@ class Tracker {
   void ProcessFramePlanes(Frame& frame, TrackReport& report) const;
   /// @returns whether there is a pose to go on from, found or predicted
   bool TrackByPoints(Frame& frame, TrackReport& report);
-  void FindByPlanes(Frame& frame, TrackReport& report) const;
+  /// @returns whether planes alone found the lost camera
+  bool FindByPlanes(Frame& frame, TrackReport& report) const;
   void AssociateFramePlanes(Frame& frame, TrackReport& report) const;
   void OptimiseWithPlanes(Frame& frame, TrackReport& report);
   void TellAgain(const Vector6d& speed, Frame& frame) const;
