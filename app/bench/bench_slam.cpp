@@ -204,7 +204,6 @@ BenchRow MeasureSlam(const std::string& folder, const BenchOptions& bench) {
       return Covered(i, bench.black_every,
                      bench.blind_frames > 0 ? bench.blind_frames : bench.black_frames);
     });
-
     std::optional<std::size_t> first, last;
     for (std::size_t i = 0; i < truth.size(); ++i) {
       if (!truth[i] || !estimate[i]) continue;

@@ -15,8 +15,7 @@ struct BenchOptions {
   slam::Config config;
   int threads = 1;
   int black_every = 0, black_frames = 12;  ///< the lens is covered; 0: never
-  int blind_frames =
-      0;             ///< of these that have no depth either: it is planes that find the camera
+  int blind_frames = 0;                    ///< so many of these have no depth either
   std::string then;  ///< another sequence that is shown in the end; empty: none
   int laps = 1;      ///< to and fro over the sequence so often; odd laps run backwards
 };

@@ -155,11 +155,13 @@ void AddBenchSlam(CLI::App& bench, const Globals& /*globals*/, int& exit_code) {
   command->add_option("--threads", arguments->bench.threads, "Of tracking; 0: one a core")
       ->check(CLI::Range(0, 1024))
       ->capture_default_str();
-  command
-      ->add_option("--black-every", arguments->bench.black_every,
-                   "Cover the lens every so many frames, to see how the camera is found again; "
-                   "detections are not replayed then")
-      ->check(CLI::Range(2, 1000000));
+  CLI::Option* black =
+      command
+          ->add_option(
+              "--black-every", arguments->bench.black_every,
+              "Cover the lens every so many frames, to see how the camera is found again; "
+              "detections are not replayed then")
+          ->check(CLI::Range(2, 1000000));
   command->add_option("--black-frames", arguments->bench.black_frames, "For so many frames")
       ->check(CLI::Range(1, 1000000))
       ->capture_default_str();
@@ -168,8 +170,9 @@ void AddBenchSlam(CLI::App& bench, const Globals& /*globals*/, int& exit_code) {
           "--blind-frames", arguments->bench.blind_frames,
           "Cover depth as well, for so many of these frames: then planes alone find the "
           "camera until the lens is free")
-      ->check(CLI::Range(1, 1000000));
-  command->add_option(
+      ->check(CLI::Range(1, 1000000))
+      ->needs(black);
+  CLI::Option* then = command->add_option(
       "--then", arguments->bench.then,
       "Show another sequence of the same camera in the end, to see whether it is "
       "taken for the map");
@@ -179,7 +182,8 @@ void AddBenchSlam(CLI::App& bench, const Globals& /*globals*/, int& exit_code) {
           "Play each sequence to and fro so often, to see whether time and memory stay "
           "flat where everything is known; detections are not replayed then")
       ->check(CLI::Range(1, 1000000))
-      ->capture_default_str();
+      ->capture_default_str()
+      ->excludes(then);
   command->add_option("--mapping", arguments->mapping, "sync | async | both; as of pas slam")
       ->check(CLI::IsMember({"sync", "async", "both"}))
       ->capture_default_str();

@@ -126,8 +126,7 @@ bool Good(const Fit& fit, const PlanePlaceConfig& config) {
 }  // namespace
 
 PlanePlace FindPlaceByPlanes(const Frame& frame, const Map& map, const Camera& camera,
-                             const PlanePlaceConfig& config, const PoseProblemConfig& problem) {
-  constexpr double kSame_m = 0.1, kSame_rad = 0.1;  // two poses of one place
+                             const PlanePlaceConfig& config, const PointSearchConfig& search) {
   PlanePlace out;
   const auto trusted = std::count_if(frame.planes.begin(), frame.planes.end(),
                                      [](const FramePlane& plane) { return !plane.bad; });
@@ -136,7 +135,7 @@ PlanePlace FindPlaceByPlanes(const Frame& frame, const Map& map, const Camera& c
   const std::vector<KnownPlane> known = KnownPlanes(map);
   for (const UncertainPose& guess : GuessPlaces(frame, known, config)) {
     UncertainPose pose = guess;
-    if (!Refine(frame, known, camera, config, problem, pose)) continue;
+    if (!Refine(frame, known, camera, config, search.pose, pose)) continue;
     fits.push_back(FitAt(pose, frame, known, camera, config));
     fits.back().before = guess.covariance;
   }
@@ -146,8 +145,7 @@ PlanePlace FindPlaceByPlanes(const Frame& frame, const Map& map, const Camera& c
   if (best == fits.end() || !Good(*best, config)) return out;
   out.ambiguous = std::any_of(fits.begin(), fits.end(), [&](const Fit& other) {
     return other.Score() >= config.max_second_best_ratio * best->Score() &&
-           ((other.pose.T_cw * Inverse(best->pose.T_cw)).t.norm() > kSame_m ||
-            RotationAngle(other.pose.T_cw, best->pose.T_cw) > kSame_rad);
+           !SamePose(other.pose.T_cw, best->pose.T_cw, search.place);
   });
   if (out.ambiguous) return out;
   out.pose = best->pose;

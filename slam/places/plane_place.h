@@ -3,7 +3,7 @@
 #include <optional>
 
 #include "slam/places/place_guesses.h"
-#include "slam/pose/pose_problem.h"
+#include "slam/places/place_search.h"
 
 namespace slam {
 
@@ -23,6 +23,6 @@ struct PlanePlace {
 /// place fits nearly as well: rooms and desks look alike.
 /// @param frame  after plane processing; its pose is not looked at
 PlanePlace FindPlaceByPlanes(const Frame& frame, const Map& map, const Camera& camera,
-                             const PlanePlaceConfig& config, const PoseProblemConfig& problem);
+                             const PlanePlaceConfig& config, const PointSearchConfig& search);
 
 }  // namespace slam

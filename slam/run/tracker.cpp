@@ -165,7 +165,7 @@ bool Tracker::TrackByPoints(Frame& frame, TrackReport& report) {
 bool Tracker::FindByPlanes(Frame& frame, TrackReport& report) const {
   if (map_.keyframes.empty()) return false;
   const PlanePlace place = FindPlaceByPlanes(frame, map_, camera_, config_.tracking.plane_place,
-                                             config_.point_search.pose);
+                                             config_.point_search);
   report.points.ambiguous = place.ambiguous;
   if (!place.pose || points_.DeniedByPoints(frame, map_, place.pose->T_cw)) return false;
   frame.T_cw = place.pose->T_cw;

@@ -26,6 +26,21 @@ class FaultStream : public FrameSource {
   std::vector<RecordedFrame> frames_;
 };
 
+inline void SetColour(RecordedFrame& frame, const cv::Mat1b& gray) {
+  frame.gray = gray;
+  cv::cvtColor(gray, frame.bgr, cv::COLOR_GRAY2BGR);
+}
+
+/// A frame of a stream that begins at 100 s, 30 frames a second.
+inline RecordedFrame StreamFrame(int i, const cv::Mat1b& gray, const cv::Mat1f& depth_m) {
+  RecordedFrame frame;
+  frame.index = i;
+  frame.timestamp_s = 100.0 + i / 30.0;
+  frame.depth_m = depth_m;
+  SetColour(frame, gray);
+  return frame;
+}
+
 /// What a camera sees along a way through a printed corner of a room, 30 frames a second; no
 /// fault yet. @param T_cw_of of a frame's index
 inline std::vector<RecordedFrame> SeenStream(int frames, const TexturedCorner& world,
@@ -34,13 +49,7 @@ inline std::vector<RecordedFrame> SeenStream(int frames, const TexturedCorner& w
   std::vector<RecordedFrame> stream;
   for (int i = 0; i < frames; ++i) {
     const Frame seen = world.See(camera, T_cw_of(i), i);
-    RecordedFrame frame;
-    frame.index = i;
-    frame.timestamp_s = 100.0 + i / 30.0;
-    frame.gray = seen.gray;
-    frame.depth_m = seen.depth_m;
-    cv::cvtColor(seen.gray, frame.bgr, cv::COLOR_GRAY2BGR);
-    stream.push_back(frame);
+    stream.push_back(StreamFrame(i, seen.gray, seen.depth_m));
   }
   return stream;
 }
@@ -63,11 +72,6 @@ inline std::vector<RecordedFrame> Changed(std::vector<RecordedFrame> stream, int
     change(frame);
   }
   return stream;
-}
-
-inline void SetColour(RecordedFrame& frame, const cv::Mat1b& gray) {
-  frame.gray = gray;
-  cv::cvtColor(gray, frame.bgr, cv::COLOR_GRAY2BGR);
 }
 
 }  // namespace slam

@@ -3,8 +3,8 @@
 #include <gtest/gtest.h>
 
 #include "slam/mapping/plane_cloud.h"
+#include "tests/support/furnished_room.h"
 #include "tests/support/map_surfaces.h"
-#include "tests/support/plane_world.h"
 #include "tests/support/slam_matchers.h"
 
 namespace slam {
@@ -44,18 +44,6 @@ Map MapOf(const PlaneWorld& world, const std::vector<Pose>& views_cw, const Came
   return map;
 }
 
-/// Two walls and a floor, with boxes on it: by `moved_m` they stand elsewhere.
-PlaneWorld Room(double moved_m = 0.0) {
-  PlaneWorld world;
-  world.Add({0, 0, 0}, {2, 0, 0}, {0, 2, 0}, "");  // floor, z up
-  world.Add({0, 2, 1}, {2, 0, 0}, {0, 0, 1}, "");  // front is half_1 x half_2: -y
-  world.Add({2, 0, 1}, {0, 0, 1}, {0, 2, 0}, "");  // -x
-  world.AddBox({0.5 + moved_m, 1.2, 0}, {0.4, 0.3, 0.5}, 0.0, "");
-  world.AddBox({-0.4, 0.9 - moved_m, 0}, {0.3, 0.3, 0.25}, 0.0, "");
-  world.AddBox({1.2, 0.4 + moved_m, 0}, {0.5, 0.4, 0.7}, 0.0, "");
-  return world;
-}
-
 std::vector<Pose> RoomViews() {
   return {LookAt({-0.8, -0.8, 1.2}, {0.6, 1.2, 0.3}), LookAt({0.2, -1.0, 1.2}, {0.4, 1.2, 0.3}),
           LookAt({-0.9, 0.2, 1.2}, {0.9, 0.9, 0.3})};
@@ -70,10 +58,10 @@ PlanePlace Find(const PlaneWorld& world, const Map& map, const Pose& T_cw,
 }
 
 TEST(PlanePlace, OfARoomIsFoundByItsAnglesAndDistances) {
-  const Map map = MapOf(Room(), RoomViews(), SmallCamera());
+  const Map map = MapOf(FurnishedRoom(), RoomViews(), SmallCamera());
   for (const Pose& T_cw :
        {kSeenFrom, RoomViews()[0], LookAt({0, -0.9, 1.4}, {0.8, 0.9, 0.4})}) {
-    const PlanePlace place = Find(Room(), map, T_cw);
+    const PlanePlace place = Find(FurnishedRoom(), map, T_cw);
     ASSERT_TRUE(place.pose);
     EXPECT_THAT(place.pose->T_cw, PoseNear(T_cw, 0.003, 0.004));
     EXPECT_FALSE(place.ambiguous);
@@ -81,7 +69,7 @@ TEST(PlanePlace, OfARoomIsFoundByItsAnglesAndDistances) {
 }
 
 TEST(PlanePlace, IsTheSameWhereverTheWorldLies) {
-  const Map map = MapOf(Room(), RoomViews(), SmallCamera());
+  const Map map = MapOf(FurnishedRoom(), RoomViews(), SmallCamera());
   const Pose T_vw{ExpSo3({0.4, -1.1, 0.7}), {3, -2, 5}};
   Map moved;
   for (MapPlane plane : map.planes) {
@@ -92,31 +80,32 @@ TEST(PlanePlace, IsTheSameWhereverTheWorldLies) {
     }
     AddLandmark(moved, plane);
   }
-  const PlanePlace here = Find(Room(), map, kSeenFrom), there = Find(Room(), moved, kSeenFrom);
+  const PlanePlace here = Find(FurnishedRoom(), map, kSeenFrom),
+                   there = Find(FurnishedRoom(), moved, kSeenFrom);
   ASSERT_TRUE(here.pose && there.pose);
   EXPECT_THAT(there.pose->T_cw, PoseNear(here.pose->T_cw * Inverse(T_vw), 1e-3, 1e-3));
 }
 
 TEST(PlanePlace, IsNotThatOfARoomWhoseBoxesStandElsewhere) {
-  const Map map = MapOf(Room(), RoomViews(), SmallCamera());
+  const Map map = MapOf(FurnishedRoom(), RoomViews(), SmallCamera());
   for (const double moved_m : {0.15, 0.3, -0.2}) {
-    const PlanePlace place = Find(Room(moved_m), map, kSeenFrom);
+    const PlanePlace place = Find(FurnishedRoom(moved_m), map, kSeenFrom);
     EXPECT_FALSE(place.pose) << moved_m << " m";
   }
 }
 
 /// Nothing speaks against the place: the new boxes hide what the map knows.
 TEST(PlanePlace, IsNotBelievedWhereMostOfWhatIsSeenIsNew) {
-  PlaneWorld full = Room();
+  PlaneWorld full = FurnishedRoom();
   for (const double x : {-0.9, -0.3, 0.3, 0.9}) {
     full.AddBox({x, 0.3, 0}, {0.3, 0.2, 0.35}, 0.4, "");
     full.AddBox({x + 0.2, 0.75, 0}, {0.25, 0.2, 0.6}, -0.3, "");
   }
-  EXPECT_FALSE(Find(full, MapOf(Room(), RoomViews(), SmallCamera()), kSeenFrom).pose);
+  EXPECT_FALSE(Find(full, MapOf(FurnishedRoom(), RoomViews(), SmallCamera()), kSeenFrom).pose);
 }
 
 TEST(PlanePlace, OfABareCornerIsNotFound) {
-  PlaneWorld corner = Room();
+  PlaneWorld corner = FurnishedRoom();
   corner.planes.resize(3);
   EXPECT_FALSE(Find(corner, MapOf(corner, RoomViews(), SmallCamera()), kSeenFrom).pose)
       << "every corner of every room looks so";
@@ -124,7 +113,7 @@ TEST(PlanePlace, OfABareCornerIsNotFound) {
 
 /// Another room 10 m beside, of which the map holds as much.
 TEST(PlanePlace, IsAmbiguousWhereTheMapHoldsALookAlike) {
-  PlaneWorld both = Room();
+  PlaneWorld both = FurnishedRoom();
   const auto count = both.planes.size();
   for (std::size_t i = 0; i < count; ++i) {
     WorldPlane plane = both.planes[i];
@@ -134,14 +123,14 @@ TEST(PlanePlace, IsAmbiguousWhereTheMapHoldsALookAlike) {
   std::vector<Pose> views = RoomViews();
   for (const Pose& T_cw : RoomViews())
     views.push_back(T_cw * Pose{Eigen::Matrix3d::Identity(), {-10, 0, 0}});
-  const PlanePlace place = Find(Room(), MapOf(both, views, SmallCamera()), kSeenFrom);
+  const PlanePlace place = Find(FurnishedRoom(), MapOf(both, views, SmallCamera()), kSeenFrom);
   EXPECT_FALSE(place.pose);
   EXPECT_TRUE(place.ambiguous);
 }
 
 TEST(PlanePlace, OfLookAlikesIsToldByClasses) {
   // The same rooms, but what is a suitcase here is a box there.
-  PlaneWorld here = Room();
+  PlaneWorld here = FurnishedRoom();
   for (WorldPlane& plane : here.planes)
     if (plane.object >= 3) plane.class_name = "suitcase";
   PlaneWorld both = here;
@@ -201,9 +190,9 @@ TEST(PlanePlace, OfOneBookIsNotTold) {
 
 TEST(PlanePlace, OfNothingIsNotFound) {
   EXPECT_FALSE(FindPlaceByPlanes(Frame{}, Map{}, SmallCamera(), {}, {}).pose);
-  const Map map = MapOf(Room(), RoomViews(), SmallCamera());
+  const Map map = MapOf(FurnishedRoom(), RoomViews(), SmallCamera());
   EXPECT_FALSE(FindPlaceByPlanes(Frame{}, map, SmallCamera(), {}, {}).pose);
-  EXPECT_FALSE(Find(Room(), Map{}, kSeenFrom).pose);
+  EXPECT_FALSE(Find(FurnishedRoom(), Map{}, kSeenFrom).pose);
 }
 
 }  // namespace

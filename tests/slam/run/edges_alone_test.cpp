@@ -46,13 +46,10 @@ Ran RunIntoTheDark(bool edges_alone) {
   const Camera camera = SmallCamera(320, 240);
   std::vector<RecordedFrame> stream;
   for (int i = 0; i < kAll; ++i) {
-    RecordedFrame frame;
-    frame.index = i;
-    frame.timestamp_s = 100.0 + i / 30.0;
-    frame.depth_m = See(Desk(), HandAt(i), camera, {}, Random{1}).frame.depth_m;
-    SetColour(frame, i < kLight ? PrintOf(frame.depth_m, Inverse(HandAt(i)), camera)
-                                : cv::Mat1b(frame.depth_m.size(), 0));
-    stream.push_back(frame);
+    const cv::Mat1f depth_m = See(Desk(), HandAt(i), camera, {}, Random{1}).frame.depth_m;
+    const cv::Mat1b gray = i < kLight ? PrintOf(depth_m, Inverse(HandAt(i)), camera)
+                                      : cv::Mat1b(depth_m.size(), 0);
+    stream.push_back(StreamFrame(i, gray, depth_m));
   }
   RunOptions options;
   options.variant = Variant::kFull;

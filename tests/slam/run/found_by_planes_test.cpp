@@ -1,22 +1,11 @@
 #include <gmock/gmock.h>
 
-#include "tests/support/plane_world.h"
+#include "tests/support/furnished_room.h"
 #include "tests/support/stream_run.h"
 
 // A camera that was lost comes back in the dark: depth alone says where it is.
 namespace slam {
 namespace {
-
-PlaneWorld Room() {
-  PlaneWorld world;
-  world.Add({0, 0, 0}, {2, 0, 0}, {0, 2, 0}, "");
-  world.Add({0, 2, 1}, {2, 0, 0}, {0, 0, 1}, "");
-  world.Add({2, 0, 1}, {0, 0, 1}, {0, 2, 0}, "");
-  world.AddBox({0.5, 1.2, 0}, {0.4, 0.3, 0.5}, 0.0, "");
-  world.AddBox({-0.4, 0.9, 0}, {0.3, 0.3, 0.25}, 0.0, "");
-  world.AddBox({1.2, 0.4, 0}, {0.5, 0.4, 0.7}, 0.0, "");
-  return world;
-}
 
 Pose HandAt(int i) {
   const double s = i / 30.0;
@@ -29,20 +18,16 @@ std::vector<RecordedFrame> DarkStream(const PlaneWorld& world, int frames, int f
   const Camera camera = SmallCamera(320, 240);
   std::vector<RecordedFrame> stream;
   for (int i = 0; i < frames; ++i) {
-    RecordedFrame frame;
-    frame.index = i;
-    frame.timestamp_s = 100.0 + i / 30.0;
-    frame.depth_m = See(world, HandAt(i), camera, {}, Random{1}).frame.depth_m;
-    if (i >= from && i < from + count) frame.depth_m.setTo(0);
-    SetColour(frame, cv::Mat1b(frame.depth_m.size(), 0));
-    stream.push_back(frame);
+    cv::Mat1f depth_m = See(world, HandAt(i), camera, {}, Random{1}).frame.depth_m;
+    if (i >= from && i < from + count) depth_m.setTo(0);
+    stream.push_back(StreamFrame(i, cv::Mat1b(depth_m.size(), 0), depth_m));
   }
   return stream;
 }
 
 TEST(FoundByPlanes, ACameraThatWasCoveredKnowsItsPlaceAtOnce) {
   constexpr int kFrom = 20, kCovered = 10;
-  const Ran ran = RunOn(DarkStream(Room(), 50, kFrom, kCovered), Variant::kFull);
+  const Ran ran = RunOn(DarkStream(FurnishedRoom(), 50, kFrom, kCovered), Variant::kFull);
   ASSERT_EQ(ran.states[kFrom - 1], "planes");
   for (int i = kFrom; i < kFrom + kCovered; ++i) EXPECT_EQ(ran.states[Index(i)], "lost") << i;
   EXPECT_EQ(ran.states[kFrom + kCovered], "relocalised");
@@ -55,23 +40,18 @@ TEST(FoundByPlanes, ACameraThatWasCoveredKnowsItsPlaceAtOnce) {
 }
 
 TEST(FoundByPlanes, NotByPointsAlone) {
-  const Ran ran = RunOn(DarkStream(Room(), 25, 10, 5), Variant::kPoints);
+  const Ran ran = RunOn(DarkStream(FurnishedRoom(), 25, 10, 5), Variant::kPoints);
   EXPECT_EQ(ran.outcome.tracked, 0);
 }
 
 /// Carried into a room where the boxes stand otherwise: the map is not taken for that room, and
 /// stays as it was.
 TEST(FoundByPlanes, ACameraInAnotherRoomStaysLost) {
-  PlaneWorld other = Room();
-  for (std::size_t i = 3; i < other.planes.size(); ++i) {
-    Eigen::Vector3d& center_w = other.planes[i].center_w;
-    center_w.x() += i < 8 ? -0.25 : 0.2;
-  }
-  auto stream = DarkStream(Room(), 50, 20, 10);
-  const auto elsewhere = DarkStream(other, 50, 20, 10);
+  auto stream = DarkStream(FurnishedRoom(), 50, 20, 10);
+  const auto elsewhere = DarkStream(FurnishedRoom(-0.25), 50, 20, 10);
   std::copy(elsewhere.begin() + 30, elsewhere.end(), stream.begin() + 30);
   const Ran ran = RunOn(stream, Variant::kFull),
-            before = RunOn(DarkStream(Room(), 20, 20, 0), Variant::kFull);
+            before = RunOn(DarkStream(FurnishedRoom(), 20, 20, 0), Variant::kFull);
   for (int i = 20; i < 50; ++i)
     EXPECT_THAT(ran.states[Index(i)], testing::AnyOf("lost", "ambiguous")) << i;
   EXPECT_EQ(ran.map, before.map);
