@@ -11,6 +11,7 @@
 #include "io/input_error.h"
 #include "io/read_file.h"
 #include "slam/base/require.h"
+#include "slam/input/png_pixels.h"
 
 namespace slam {
 namespace {
@@ -131,12 +132,15 @@ cv::Mat ReadImage(const std::filesystem::path& file, ImageType type, const Camer
   std::string bytes = io::ReadFile(file, "expected the image of " + context, kMaxBytes);
   auto* const first = reinterpret_cast<std::uint8_t*>(bytes.data());
   CheckHeader({first, bytes.size()}, type, camera, where);
-  cv::Mat image;
+  cv::Mat image = PngPixels({first, bytes.size()});
   try {
-    image = cv::imdecode(cv::Mat1b(1, static_cast<int>(bytes.size()), first),
-                         type == ImageType::kColour
-                             ? cv::IMREAD_COLOR | cv::IMREAD_IGNORE_ORIENTATION  // as recorded
-                             : cv::IMREAD_UNCHANGED);
+    if (image.empty()) {
+      image =
+          cv::imdecode(cv::Mat1b(1, static_cast<int>(bytes.size()), first),
+                       type == ImageType::kColour
+                           ? cv::IMREAD_COLOR | cv::IMREAD_IGNORE_ORIENTATION  // as recorded
+                           : cv::IMREAD_UNCHANGED);
+    }
   } catch (const cv::Exception&) {
     image.release();
   }
