@@ -2,9 +2,13 @@
 
 #include <Eigen/Cholesky>
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdint>
+#include <cstring>
 #include <iterator>
 #include <opencv2/core.hpp>
+#include <utility>
 
 namespace slam {
 namespace {
@@ -17,6 +21,68 @@ constexpr std::size_t kMinTiles = 4;    // for each plane
 constexpr std::size_t kUnknowns = 4;    // two slopes, a height and the step
 constexpr std::size_t kMinFreedom = 6;  // to know the scatter of the tiles
 
+/// Sums over the measured pixels that a plane has in a tile, from the tile's corner.
+struct PixelSums {
+  double pixels = 0.0, z = 0.0, zu = 0.0, zv = 0.0;
+};
+
+/// The label of all pixels, if they share one. @param pixels  at most a tile
+std::optional<std::size_t> OnlyLabel(const cv::Mat1b& labels, const cv::Rect& pixels) {
+  if (pixels.width != kTile_px) return std::nullopt;
+  std::uint64_t first = 0, others = 0;
+  std::memcpy(&first, labels[pixels.y] + pixels.x, sizeof first);
+  const std::uint64_t one = first & 0xFF;
+  constexpr std::uint64_t kEach = 0x0101010101010101;
+  for (int v = pixels.y; v < pixels.y + pixels.height; ++v) {
+    std::uint64_t row = 0;
+    std::memcpy(&row, labels[v] + pixels.x, sizeof row);
+    others |= row ^ (one * kEach);
+  }
+  if (others != 0) return std::nullopt;
+  return static_cast<std::size_t>(one);
+}
+
+/// Of a tile that is one plane's, column by column: most tiles are. What is not measured is 0.
+PixelSums SumWholeTile(const cv::Mat1f& depth_m, const cv::Rect& pixels) {
+  std::array<double, kTile_px> n{}, z{}, zv{};
+  for (int v = 0; v < pixels.height; ++v) {
+    const float* row = depth_m[pixels.y + v] + pixels.x;
+    for (std::size_t k = 0; k < z.size(); ++k) {
+      const auto z_m = static_cast<double>(row[k]);
+      n[k] += z_m > 0 ? 1.0 : 0.0;
+      z[k] += z_m;
+      zv[k] += v * z_m;
+    }
+  }
+  PixelSums sum;
+  for (std::size_t k = 0; k < z.size(); ++k) {
+    sum.pixels += n[k];
+    sum.z += z[k];
+    sum.zu += static_cast<double>(k) * z[k];
+    sum.zv += zv[k];
+  }
+  return sum;
+}
+
+/// Of any tile. @param seen  gets the planes that are there
+void SumByLabel(const Frame& frame, const cv::Rect& pixels, std::vector<PixelSums>& sums,
+                std::vector<std::size_t>& seen) {
+  for (int v = 0; v < pixels.height; ++v) {
+    for (int u = 0; u < pixels.width; ++u) {
+      const cv::Point at(pixels.x + u, pixels.y + v);
+      const std::size_t label = frame.plane_labels(at);
+      const auto z_m = static_cast<double>(frame.depth_m(at));
+      if (label == 0 || label > sums.size() || !(z_m > 0)) continue;
+      PixelSums& sum = sums[label - 1];
+      if (sum.pixels == 0) seen.push_back(label - 1);
+      sum.pixels += 1;
+      sum.z += z_m;
+      sum.zu += u * z_m;
+      sum.zv += v * z_m;
+    }
+  }
+}
+
 }  // namespace
 
 SideBySide::SideBySide(const Frame& frame, const Camera& camera)
@@ -28,31 +94,26 @@ SideBySide::SideBySide(const Frame& frame, const Camera& camera)
   const cv::Size size(camera.width, camera.height);
   if (frame.depth_m.size() != size || frame.plane_labels.size() != size) return;
   // Tile by tile: the mean point of each plane that has enough pixels there.
-  std::vector<Tile> row_of_tiles(frame.planes.size());
+  std::vector<PixelSums> sums(frame.planes.size());
   std::vector<std::size_t> seen;
   for (int v0 = 0; v0 < size.height; v0 += kTile_px) {
     for (int u0 = 0; u0 < size.width; u0 += kTile_px) {
       seen.clear();
-      for (int v = v0; v < std::min(v0 + kTile_px, size.height); ++v) {
-        for (int u = u0; u < std::min(u0 + kTile_px, size.width); ++u) {
-          const std::size_t label = frame.plane_labels(v, u);
-          const auto z = static_cast<double>(frame.depth_m(v, u));
-          if (label == 0 || label > tiles_.size() || !(z > 0)) continue;
-          Tile& tile = row_of_tiles[label - 1];
-          if (tile.pixels == 0) seen.push_back(label - 1);
-          tile.pixels += 1;
-          tile.mean_c += z * Eigen::Vector3d(u, v, 1);
-        }
+      const cv::Rect pixels = cv::Rect(u0, v0, kTile_px, kTile_px) & cv::Rect({}, size);
+      if (const auto label = OnlyLabel(frame.plane_labels, pixels)) {
+        if (*label == 0 || *label > sums.size()) continue;
+        sums[*label - 1] = SumWholeTile(frame.depth_m, pixels);
+        seen.push_back(*label - 1);
+      } else {
+        SumByLabel(frame, pixels, sums, seen);
       }
       for (const std::size_t f : seen) {
-        Tile tile = row_of_tiles[f];
-        row_of_tiles[f] = {};
-        if (tile.pixels < kMinPixels) continue;
-        const double z = tile.mean_c.z();
-        const Eigen::Vector2d at_px = camera.Undistort(tile.mean_c.head<2>() / z);
-        tile.mean_c = camera.Backproject(at_px, z / tile.pixels);
-        tile.column = u0 / kTile_px, tile.row = v0 / kTile_px;
-        tiles_[f].push_back(tile);
+        const PixelSums sum = std::exchange(sums[f], {});
+        if (sum.pixels < kMinPixels) continue;
+        const Eigen::Vector2d at_px =
+            camera.Undistort({u0 + sum.zu / sum.z, v0 + sum.zv / sum.z});
+        tiles_[f].push_back({u0 / kTile_px, v0 / kTile_px, sum.pixels,
+                             camera.Backproject(at_px, sum.z / sum.pixels)});
       }
     }
   }

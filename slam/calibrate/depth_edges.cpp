@@ -16,11 +16,21 @@ constexpr int kSupport_px = 4;   // up and down the edge
 constexpr int kMaxSlant_px = 1;  // over these
 constexpr signed char kNoEdge = 0, kNearBefore = 1, kNearAfter = 2;
 
-/// For each pixel whether the next measured one in its row is an edge, of `lines` read along
-/// rows; where the near thing is on the side of the pixel with the lower index (kNearBefore),
-/// it is marked there, else at the last pixel before the near thing.
-cv::Mat1b MarkAlongRows(const cv::Mat1f& depth_m) {
-  cv::Mat1b marks(depth_m.size(), kNoEdge);
+/// Pixels after which the next measured one in their row is an edge, as an image and one after the
+/// other.
+struct Marks {
+  cv::Mat1b image;
+  std::vector<cv::Point> pixels;
+};
+
+/// Where the near thing is on the side of the pixel with the lower index (kNearBefore), the edge
+/// is marked there, else at the last pixel before the near thing.
+Marks MarkAlongRows(const cv::Mat1f& depth_m) {
+  Marks marks{cv::Mat1b(depth_m.size(), kNoEdge), {}};
+  const auto mark = [&](int v, int u, unsigned char as) {
+    marks.image(v, u) = as;
+    marks.pixels.emplace_back(u, v);
+  };
   for (int v = 0; v < depth_m.rows; v += kRowStep_px) {
     const float* z = depth_m[v];
     int last = -1;  // measured
@@ -28,8 +38,8 @@ cv::Mat1b MarkAlongRows(const cv::Mat1f& depth_m) {
       if (!(z[u] > 0.0f)) continue;
       if (last >= 0 && u - last <= kMaxGap_px + 1) {
         const float step = z[u] - z[last];
-        if (step > kMinStepRatio * z[last]) marks(v, last) = kNearBefore;
-        if (-step > kMinStepRatio * z[u]) marks(v, u - 1) = kNearAfter;
+        if (step > kMinStepRatio * z[last]) mark(v, last, kNearBefore);
+        if (-step > kMinStepRatio * z[u]) mark(v, u - 1, kNearAfter);
       }
       last = u;
     }
@@ -46,19 +56,19 @@ bool HasNear(const cv::Mat1b& marks, int v, int u, unsigned char mark) {
 /// Adds the marked edges that go on up and down. @param transposed  rows are the image's columns
 void AddEdges(const cv::Mat1f& depth_m, bool transposed, std::vector<DepthEdge>& before,
               std::vector<DepthEdge>& after) {
-  const cv::Mat1b marks = MarkAlongRows(depth_m);
-  for (int v = kSupport_px; v + kSupport_px < marks.rows; v += kRowStep_px) {
-    for (int u = kMaxSlant_px; u + kMaxSlant_px + 1 < marks.cols; ++u) {
-      const unsigned char mark = marks(v, u);
-      if (mark == kNoEdge || !HasNear(marks, v - kSupport_px, u, mark) ||
-          !HasNear(marks, v + kSupport_px, u, mark))
-        continue;
-      const auto along = static_cast<float>(u) + 0.5f, across = static_cast<float>(v);
-      const float z_m = depth_m(v, mark == kNearBefore ? u : u + 1);
-      DepthEdge edge{along, across, z_m};
-      if (transposed) std::swap(edge.u_px, edge.v_px);
-      (mark == kNearBefore ? before : after).push_back(edge);
-    }
+  const Marks marks = MarkAlongRows(depth_m);
+  const cv::Rect inner(kMaxSlant_px, kSupport_px, depth_m.cols - 2 * kMaxSlant_px - 1,
+                       depth_m.rows - 2 * kSupport_px);
+  for (const cv::Point& at : marks.pixels) {
+    const unsigned char mark = marks.image(at);
+    if (!inner.contains(at) || !HasNear(marks.image, at.y - kSupport_px, at.x, mark) ||
+        !HasNear(marks.image, at.y + kSupport_px, at.x, mark))
+      continue;
+    const auto along = static_cast<float>(at.x) + 0.5f, across = static_cast<float>(at.y);
+    const float z_m = depth_m(at.y, mark == kNearBefore ? at.x : at.x + 1);
+    DepthEdge edge{along, across, z_m};
+    if (transposed) std::swap(edge.u_px, edge.v_px);
+    (mark == kNearBefore ? before : after).push_back(edge);
   }
 }
 

@@ -1,5 +1,6 @@
 #include "slam/geometry/camera.h"
 
+#include <Eigen/LU>
 #include <string_view>
 
 #include "io/input_error.h"
@@ -15,6 +16,18 @@ Eigen::Vector2d Distort(const Camera& c, const Eigen::Vector2d& x) {
           x.y() * radial + c.p1 * (r2 + 2.0 * x.y() * x.y()) + 2.0 * c.p2 * x.x() * x.y()};
 }
 
+/// Its derivatives, which are symmetric.
+Eigen::Matrix2d DistortJacobian(const Camera& c, const Eigen::Vector2d& x) {
+  const double r2 = x.squaredNorm();
+  const double radial = 1.0 + r2 * (c.k1 + r2 * (c.k2 + r2 * c.k3));
+  const double by_r2 = 2.0 * (c.k1 + r2 * (2.0 * c.k2 + 3.0 * r2 * c.k3));
+  const double across = x.x() * x.y() * by_r2 + 2.0 * (c.p1 * x.x() + c.p2 * x.y());
+  Eigen::Matrix2d J;
+  J << radial + x.x() * x.x() * by_r2 + 2.0 * c.p1 * x.y() + 6.0 * c.p2 * x.x(), across,  //
+      across, radial + x.y() * x.y() * by_r2 + 6.0 * c.p1 * x.y() + 2.0 * c.p2 * x.x();
+  return J;
+}
+
 }  // namespace
 
 Eigen::Vector2d Camera::ProjectDistorted(const Eigen::Vector3d& x_c) const {
@@ -26,15 +39,17 @@ Eigen::Vector2d Camera::ProjectDistorted(const Eigen::Vector3d& x_c) const {
 Eigen::Vector2d Camera::Undistort(const Eigen::Vector2d& u_px) const {
   if (!distorted()) return u_px;
   const Eigen::Vector2d measured((u_px.x() - cx) / fx, (u_px.y() - cy) / fy);
-  // Fixed-point iteration x <- measured - (Distort(x) - x); it contracts for real lenses.
+  // Newton's method on Distort(x) = measured; where the lens folds the image over, by the step alone.
   constexpr int kMaxIterations = 50;
   constexpr double kMinStep2 = 1e-24;  // of the normalised plane: 1e-9 pixels
   Eigen::Vector2d x = measured;
   for (int i = 0; i < kMaxIterations; ++i) {
-    const Eigen::Vector2d next = measured - (Distort(*this, x) - x);
-    const bool done = (next - x).squaredNorm() < kMinStep2;
-    x = next;
-    if (done) break;
+    const Eigen::Vector2d off = measured - Distort(*this, x);
+    const Eigen::Matrix2d J = DistortJacobian(*this, x);
+    const double det = J.determinant();
+    const Eigen::Vector2d step = det > 0 ? Eigen::Vector2d(J.inverse() * off) : off;
+    x += step;
+    if (step.squaredNorm() < kMinStep2) break;
   }
   return {fx * x.x() + cx, fy * x.y() + cy};
 }

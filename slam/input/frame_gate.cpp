@@ -14,7 +14,7 @@ constexpr float kMaxDepth_m = 1000.0f;  // beyond any sensor
 // clocks, and say nothing of how the camera moved in between.
 constexpr double kMaxLate_s = 0.05;
 
-bool CanBe(float z_m) { return z_m >= 0 && z_m < kMaxDepth_m; }  // false for NaN
+bool CanBe(float z_m) { return (z_m >= 0) & (z_m < kMaxDepth_m); }  // false for NaN
 
 // What most of a scene can be away from a camera that measures depth (docs/sensors.md): nearer
 // it is blind, farther its depth is mostly noise.
@@ -33,6 +33,15 @@ float MedianDepth(const cv::Mat1f& depth_m) {
   const auto middle = measured.begin() + static_cast<long>(measured.size() / 2);
   std::nth_element(measured.begin(), middle, measured.end());
   return *middle;
+}
+
+bool AllCanBe(const cv::Mat1f& depth_m) {
+  int can = 0;  // counted without a branch, eight at a time
+  for (int v = 0; v < depth_m.rows; ++v) {
+    const float* row = depth_m[v];
+    for (int u = 0; u < depth_m.cols; ++u) can += CanBe(row[u]) ? 1 : 0;
+  }
+  return can == depth_m.rows * depth_m.cols;
 }
 
 std::string OfFrames(int some, int all) {
@@ -81,7 +90,7 @@ bool FrameGate::Takes(RecordedFrame& frame) {
   too_near_ += median_m > 0 && median_m < kNear_m;
   too_far_ += median_m > kFar_m;
   // The source may still hold the image: mend a copy.
-  if (!std::all_of(frame.depth_m.begin(), frame.depth_m.end(), CanBe)) {
+  if (!AllCanBe(frame.depth_m)) {
     frame.depth_m = frame.depth_m.clone();
     for (float& z_m : frame.depth_m) z_m = CanBe(z_m) ? z_m : 0.0f;
   }

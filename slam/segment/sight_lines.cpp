@@ -80,14 +80,18 @@ bool SightLines::PassBehind(int a, int b, const LabelPlane& plane, double unsure
   const auto end = [](const std::vector<Pixel>& all, std::size_t k) {  // kEnds in equal steps
     return all[all.size() * (2 * k + 1) / (2 * kEnds)];
   };
-  int behind = 0;
+  // Until what is left cannot change the answer.
+  constexpr int kLines = kEnds * kEnds;
+  constexpr int kMaxBehind = static_cast<int>(kMaxBehindShare * kLines);
+  int behind = 0, beside = 0;
   for (std::size_t j = 0; j < kEnds; ++j) {
-    for (std::size_t k = 0; k < kEnds; ++k) {
-      behind += PassesBehind(end(all_a, j), end(all_b, k), a, b, in_float, clear) ? 1 : 0;
-      if (behind > kMaxBehindShare * kEnds * kEnds) return true;
+    for (std::size_t k = 0; k < kEnds && behind <= kMaxBehind && beside < kLines - kMaxBehind;
+         ++k) {
+      const bool is = PassesBehind(end(all_a, j), end(all_b, k), a, b, in_float, clear);
+      ++(is ? behind : beside);
     }
   }
-  return false;
+  return behind > kMaxBehind;
 }
 
 }  // namespace slam
