@@ -37,8 +37,8 @@ std::vector<std::vector<slam::Descriptor>> Describe(const VocabularyArguments& a
     for (int i = 0; i < reader.size(); i += arguments.every) {
       const slam::RecordedFrame frame = reader.Read(i);
       images.emplace_back();
-      for (const slam::PointFeature& feature : slam::ExtractPointFeatures(
-               frame.gray, frame.depth_m, camera, config.point_features)) {
+      for (const slam::PointFeature& feature :
+           slam::ExtractPointFeatures(frame.gray, camera, config.point_features)) {
         images.back().push_back(feature.descriptor);
       }
     }

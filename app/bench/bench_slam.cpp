@@ -182,6 +182,7 @@ BenchRow MeasureSlam(const std::string& folder, const BenchOptions& bench) {
   if (row.name.empty()) row.name = std::filesystem::path(folder).parent_path().filename();
   row.frames = outcome.frames, row.tracked = outcome.tracked;
   row.keyframes = outcome.keyframes, row.points = outcome.map_points;
+  row.run_ms = 1e3 * outcome.wall_time_s / std::max(outcome.frames, 1);
   row.kib_a_frame = frames > half ? (end_kib - half_kib) / (frames - half) : 0.0;
   eval::Run result = eval::ReadRun(run);
   const eval::Sequence sequence = eval::ReadSequence(folder);

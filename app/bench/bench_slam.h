@@ -35,6 +35,7 @@ struct BenchRow {
   double end_error_m = 0;  ///< error of the last pose, the first ones laid on the truth
   std::vector<std::vector<double>> modules_ms;
   int elsewhere = 0, taken = 0;  ///< frames of another sequence, and those that got a pose
+  double run_ms = 0;             ///< of the whole run by the clock, a frame: files too
   double kib_a_frame = 0;        ///< resident memory, over the second half
   std::vector<Comeback> comebacks;
 };

@@ -74,6 +74,7 @@ cv::Mat1f StraighteningFactors(const DepthWarp& warp) {
 }
 
 cv::Mat1f Straightened(const cv::Mat1f& depth_m, const cv::Mat1f& factors) {
+  if (factors.empty()) return depth_m;
   cv::Mat1f straight;
   cv::multiply(depth_m, factors, straight);
   return straight;

@@ -46,7 +46,7 @@ struct DepthWarp {
 /// centres of cells and constant beyond the outermost.
 cv::Mat1f StraighteningFactors(const DepthWarp& warp);
 
-/// Each depth times its factor, as a new image; 0 stays 0.
+/// Each depth times its factor, as a new image; 0 stays 0. The very image when there are no factors.
 cv::Mat1f Straightened(const cv::Mat1f& depth_m, const cv::Mat1f& factors);
 
 }  // namespace slam

@@ -21,10 +21,9 @@ void DepthStraightener::Apply(const DepthWarp& warp) {
   report_.rms = warp.Rms();
 }
 
-cv::Mat1f DepthStraightener::Straighten(int frame, const cv::Mat1f& depth_m) {
-  if (factors_.empty()) return depth_m;
-  if (report_.from_frame == kNone) report_.from_frame = frame;
-  return Straightened(depth_m, factors_);
+void DepthStraightener::See(const Frame& frame) {
+  const bool straightened = frame.depth_m.data != frame.measured.depth_m.data;
+  if (straightened && report_.from_frame == kNone) report_.from_frame = frame.index;
 }
 
 void DepthStraightener::Learn(const Frame& frame) {

@@ -22,10 +22,13 @@ class DepthStraightener {
   DepthStraightener(const Camera& camera, const DepthNoise& noise,
                     const DepthWarpConfig& config);
 
-  /// The depth without the warp; the very image when there is none to be applied.
-  cv::Mat1f Straighten(int frame, const cv::Mat1f& depth_m);
+  /// What depths are to be multiplied with, pixel by pixel (Straightened); empty when there is no
+  /// warp to be applied. It stays as it is when more is learnt.
+  const cv::Mat1f& factors() const { return factors_; }
 
-  /// Learns from a tracked frame with planes (Frame::measured), for the frames after it.
+  /// Notes whether the frame, of each in order, was straightened.
+  void See(const Frame& frame);
+  /// Learns from a tracked frame with planes (Frame::measured), for frames after it.
   void Learn(const Frame& frame);
 
   const StraighteningReport& report() const { return report_; }

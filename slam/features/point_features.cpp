@@ -103,27 +103,8 @@ std::vector<int> Shares(const FeatureScale& scale, std::size_t octaves, int coun
   return shares;
 }
 
-/// Moves a feature, and reads its depth, to where the camera of the middle row would have seen it.
-void ToMiddleRow(const Readout& readout, double row_share, const Pose& T_dc,
-                 const cv::Mat1f& depth_m, const Camera& camera,
-                 const PointFeatureConfig& config, PointFeature& feature) {
-  const Pose T_cr = Inverse(readout.T_rc(row_share));
-  const Eigen::Vector3d ray_r = camera.Backproject(feature.u_px, 1.0);
-  double z_m = 0.0;
-  if (!depth_m.empty())
-    z_m = DepthFrom(T_dc * T_cr, depth_m, camera, feature.u_px, config.depth);
-  // Without depth it is taken to be far: only the turn moves it.
-  const Eigen::Vector3d x_c =
-      z_m > 0 ? Eigen::Vector3d(T_cr * (z_m * ray_r)) : Eigen::Vector3d(T_cr.R * ray_r);
-  if (!(x_c.z() > kMinVisibleDepth_m)) return;
-  feature.u_px = camera.Project(x_c);
-  if (z_m > 0) feature.depth_m = x_c.z();
-}
-
 PointFeature MakeFeature(const cv::KeyPoint& corner, const Descriptor& descriptor, int octave,
-                         const PyramidImage& image, const cv::Mat1f& depth_m,
-                         const Camera& camera, const PointFeatureConfig& config,
-                         const Pose& T_dc, const Readout& readout) {
+                         const PyramidImage& image, const Camera& camera) {
   // Pixel centres are integers in every octave; the half pixel keeps them aligned.
   const Eigen::Vector2d recorded_px((corner.pt.x + 0.5) * image.scale_u - 0.5,
                                     (corner.pt.y + 0.5) * image.scale_v - 0.5);
@@ -134,28 +115,15 @@ PointFeature MakeFeature(const cv::KeyPoint& corner, const Descriptor& descripto
   feature.descriptor = descriptor;
   feature.on_edge = !TellsItsPlace(image.padded, cvRound(corner.pt.x) + kPyramidPadding_px,
                                    cvRound(corner.pt.y) + kPyramidPadding_px);
-  if (!readout.empty()) {
-    ToMiddleRow(readout, camera.RowShare(recorded_px.y()), T_dc, depth_m, camera, config,
-                feature);
-  } else if (!depth_m.empty()) {
-    feature.depth_m = DepthFrom(T_dc, depth_m, camera, feature.u_px, config.depth);
-  }
-  if (feature.depth_m > 0) {
-    feature.right_u_px = config.scale.RightU_px(feature.u_px.x(), feature.depth_m);
-  }
   return feature;
 }
 
 }  // namespace
 
-std::vector<PointFeature> ExtractPointFeatures(const cv::Mat1b& gray, const cv::Mat1f& depth_m,
-                                               const Camera& camera,
-                                               const PointFeatureConfig& config,
-                                               const Pose& T_dc, const Readout& readout) {
+std::vector<PointFeature> ExtractPointFeatures(const cv::Mat1b& gray, const Camera& camera,
+                                               const PointFeatureConfig& config) {
   Require(gray.cols == camera.width && gray.rows == camera.height,
           "ExtractPointFeatures: the image has not the camera's size");
-  Require(depth_m.empty() || depth_m.size() == gray.size(),
-          "ExtractPointFeatures: the depth image has another size than the grey one");
   const std::vector<PyramidImage> octaves = BuildImagePyramid(gray, config.scale);
   const std::vector<int> shares = Shares(config.scale, octaves.size(), config.count);
 
@@ -174,8 +142,8 @@ std::vector<PointFeature> ExtractPointFeatures(const cv::Mat1b& gray, const cv::
     }
     const auto descriptors = DescribePoints(octaves[o], corners);
     for (std::size_t i = 0; i < corners.size(); ++i) {
-      features.push_back(MakeFeature(corners[i], descriptors[i], static_cast<int>(o),
-                                     octaves[o], depth_m, camera, config, T_dc, readout));
+      features.push_back(
+          MakeFeature(corners[i], descriptors[i], static_cast<int>(o), octaves[o], camera));
     }
   }
   return features;

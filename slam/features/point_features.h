@@ -5,7 +5,6 @@
 #include "slam/base/field_visitor.h"
 #include "slam/features/point_depth.h"
 #include "slam/geometry/camera.h"
-#include "slam/geometry/pose.h"
 #include "slam/model/feature_scale.h"
 #include "slam/model/frame.h"
 
@@ -38,20 +37,14 @@ inline void VisitFields(PointFeatureConfig& c, FieldVisitor& v) {
 
 /// ORB features: FAST corners over a pyramid with two thresholds, spread evenly by quartering,
 /// oriented by the intensity centroid, described by rotated BRIEF. Rublee et al. 2011; the
-/// spread and the virtual right coordinate as in Mur-Artal and Tardos 2017.
+/// spread as in Mur-Artal and Tardos 2017.
 ///
-/// @param gray     8-bit image as recorded (distorted), height x width of the camera
-/// @param depth_m  planar z, metres, 0 = none; same size, or empty for no depth at all
-/// @param T_dc     from the camera of the colour image to that of the depth image; a small motion
-/// @param readout  what is taken out of how the image was read: features and their depths are told as
-///                 the camera of the middle row would have seen them
-/// @returns features in the order octave, then row, then column; positions undistorted
+/// @param gray  8-bit image as recorded (distorted), height x width of the camera
+/// @returns features in the order octave, then row, then column; positions undistorted, without
+///          depth (ReadDepths)
 /// @throws std::invalid_argument when sizes differ.
 /// Cost: about 6 ms for 640 x 480 and 1000 features.
-std::vector<PointFeature> ExtractPointFeatures(const cv::Mat1b& gray, const cv::Mat1f& depth_m,
-                                               const Camera& camera,
-                                               const PointFeatureConfig& config,
-                                               const Pose& T_dc = {},
-                                               const Readout& readout = {});
+std::vector<PointFeature> ExtractPointFeatures(const cv::Mat1b& gray, const Camera& camera,
+                                               const PointFeatureConfig& config);
 
 }  // namespace slam

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <chrono>
+#include <future>
 #include <opencv2/core/utility.hpp>
 #include <thread>
 #include <utility>
@@ -92,11 +93,12 @@ class SequenceRun {
   SequenceRun(LiveCamera input, const RunOptions& options, const std::string& detector,
               std::vector<std::string> doubts)
       : options_(options),
+        threads_(ThreadsOf(options)),
         frames_(input.frames),
         truth_(input.truth),
         doubts_(std::move(doubts)),
         tracker_(input.camera, options.config, options.variant, std::move(input.detector),
-                 options.seed, ThreadsOf(options), options.hooks),
+                 options.seed, threads_, options.hooks),
         writer_(options.run, Describe(options, input.camera, detector, input.frames.size()),
                 {.force = options.force, .save_segmentation = options.save_segmentation}),
         gate_(input.camera),
@@ -110,23 +112,61 @@ class SequenceRun {
       truth_->Begin(writer_.Path(options_.sequence.lexically_relative(options_.run)));
     }
     tied_.reserve(static_cast<std::size_t>(total));
+    // While a frame is tracked the next is read and extracted.
+    std::future<FrameAhead> ahead;
+    if (total > 0) ahead = Begin(0);
     for (int i = 0; i < total && !outcome_.stopped; ++i) {
-      RecordedFrame recorded = frames_.Read(i);
-      if (gate_.Takes(recorded)) Take(recorded);
+      FrameAhead now = ahead.get();
+      if (i + 1 < total) ahead = Begin(i + 1);
+      if (now.taken) Take(std::move(now));
       if (options_.progress) options_.progress(i + 1, total);
       outcome_.stopped = i + 1 < total && options_.stop && options_.stop();
     }
+    if (ahead.valid()) ahead.wait();
     Finish();
     return std::move(outcome_);
   }
 
  private:
-  void Take(RecordedFrame& recorded) {
-    recorded.index = outcome_.frames++;
-    if (repeated_.Repeats(recorded)) {
-      StandForRepeat(recorded);
+  /// A frame before it is tracked.
+  struct FrameAhead {
+    bool taken = false;    ///< by the gate
+    bool repeats = false;  ///< the images of the one before; then nothing is extracted
+    Frame frame;
+    ModuleTimes times;
+  };
+
+  /// Begins a frame, before the one before it is tracked. On one thread it is done when it is
+  /// asked for, with what was known here, so that the number of threads changes nothing.
+  std::future<FrameAhead> Begin(int i) {
+    const auto where = threads_ > 1 ? std::launch::async : std::launch::deferred;
+    return std::async(where, [this, i, factors = tracker_.DepthFactors()] {
+      return ReadAndExtract(i, factors);
+    });
+  }
+
+  FrameAhead ReadAndExtract(int i, const cv::Mat1f& depth_factors) {
+    FrameAhead ahead;
+    RecordedFrame recorded = frames_.Read(i);
+    ahead.taken = gate_.Takes(recorded);
+    if (!ahead.taken) return ahead;
+    ahead.frame.index = taken_++;
+    ahead.frame.timestamp_s = recorded.timestamp_s;
+    ahead.repeats = repeated_.Repeats(recorded);
+    if (ahead.repeats) return ahead;
+    ahead.frame.depth_late_s = recorded.depth_late_s;
+    ahead.frame.gray = recorded.gray;
+    ahead.frame.depth_m = recorded.depth_m;
+    tracker_.Extract(depth_factors, recorded.bgr, ahead.frame, ahead.times);
+    return ahead;
+  }
+
+  void Take(FrameAhead ahead) {
+    ++outcome_.frames;
+    if (ahead.repeats) {
+      StandForRepeat(ahead.frame);
     } else {
-      Track(recorded);
+      Track(std::move(ahead));
     }
     writer_.WriteFrame(
         {frame_, report_.tracked, report_.times, StateName(report_.points), report_.refused});
@@ -136,14 +176,9 @@ class SequenceRun {
     tied_.push_back({frame_.timestamp_s, report_.reference, report_.T_cr});
   }
 
-  void Track(const RecordedFrame& recorded) {
-    frame_ = Frame{};
-    frame_.index = recorded.index;
-    frame_.timestamp_s = recorded.timestamp_s;
-    frame_.depth_late_s = recorded.depth_late_s;
-    frame_.gray = recorded.gray;
-    frame_.depth_m = recorded.depth_m;
-    report_ = tracker_.TrackFrame(frame_, recorded.bgr);
+  void Track(FrameAhead ahead) {
+    frame_ = std::move(ahead.frame);
+    report_ = tracker_.Track(frame_, ahead.times);
     depth_clock_.Observe(frame_);
     if (report_.tracked && camera_check_.See(frame_) && options_.warn) {
       options_.warn(camera_check_.Warning());
@@ -153,7 +188,7 @@ class SequenceRun {
   /// The frame before stands for one that repeats its images. The camera is where it was and
   /// sees what it saw; the map learns nothing, for the same noise twice is no second
   /// observation, and what was new then is known now.
-  void StandForRepeat(const RecordedFrame& repeat) {
+  void StandForRepeat(const Frame& repeat) {
     frame_.index = repeat.index;
     frame_.timestamp_s = repeat.timestamp_s;
     for (PlaneMatch& match : frame_.plane_matches) {
@@ -205,15 +240,19 @@ class SequenceRun {
   }
 
   const RunOptions& options_;
+  int threads_;
   FrameSource& frames_;
   LiveTruth* truth_;
   std::vector<std::string> doubts_;
   Tracker tracker_;
   RunWriter writer_;
 
+  // What frames pass before they are tracked, one after the other.
   FrameGate gate_;
-  LostFrames lost_;
   RepeatedImages repeated_;
+  int taken_ = 0;  ///< by the gate
+
+  LostFrames lost_;
   CameraCheck camera_check_;
   DepthClock depth_clock_;
 

@@ -6,13 +6,27 @@
 namespace slam {
 
 TrackReport Tracker::TrackFrame(Frame& frame, const cv::Mat3b& bgr) {
+  ModuleTimes times;
+  Extract(DepthFactors(), bgr, frame, times);
+  return Track(frame, times);
+}
+
+// What a frame shows by itself. (A) is the caller's: slam/input reads the frame.
+void Tracker::Extract(const cv::Mat1f& depth_factors, const cv::Mat3b& bgr, Frame& frame,
+                      ModuleTimes& times) {
+  const Stopwatch whole(times[Module::kMt]);
+  extractor_.Extract(depth_factors, bgr, frame,
+                     times);  // (B) points, planes, edge points, boxes
+}
+
+// What it says of the camera and of the map.
+TrackReport Tracker::Track(Frame& frame, const ModuleTimes& times) {
   TrackReport report;
+  report.times = times;
   const Stopwatch whole(report.times[Module::kMt]);
 
-  // (A) is the caller's: slam/input reads the frame.
-  frame.measured.depth_m = frame.depth_m;
-  frame.depth_m = straightener_.Straighten(frame.index, frame.depth_m);
-  ExtractInformation(frame, bgr, report);  // (B) points, planes, edge points, boxes
+  straightener_.See(frame);
+  BringTogether(frame, report);            // (B) depth is told where colour was taken
   ProcessFramePlanes(frame, report);       // (C) re-fit, box link, lines, vertices, selection
   const TrackingHold map_is_ours(gate());  // mapping beside tracking gives it away in between
   if (!TrackByPoints(frame, report)) return report;  // (D) point to point, and a first pose

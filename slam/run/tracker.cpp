@@ -3,7 +3,6 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
-#include <future>
 #include <optional>
 #include <utility>
 
@@ -13,7 +12,7 @@
 #include "slam/base/index.h"
 #include "slam/faces/carry_to_colour.h"
 #include "slam/faces/process_planes.h"
-#include "slam/features/point_features.h"
+#include "slam/features/read_depths.h"
 #include "slam/features/tell_at_speed.h"
 #include "slam/features/weigh_depths.h"
 #include "slam/mapping/keyframe_planes.h"
@@ -26,7 +25,6 @@
 #include "slam/pose/held_directions.h"
 #include "slam/pose/plane_constraints.h"
 #include "slam/run/stopwatch.h"
-#include "slam/segment/plane_segments.h"
 #include "slam/structure/structure.h"
 
 namespace slam {
@@ -62,18 +60,14 @@ Tracker::Tracker(const Camera& camera, const Config& config, Variant variant,
     : camera_(camera),
       config_(ForVariant(config, variant, seed)),
       variant_(variant),
-      detector_(detector ? std::move(detector) : std::make_unique<NoDetector>()),
-      threads_(threads),
       rays_(PixelRays(camera)),
+      extractor_(camera, rays_, config_, variant != Variant::kPoints, std::move(detector),
+                 threads),
       straightener_(camera, config_.sensor.noise, config_.depth_warp),
       registration_(camera, config_.depth_registration),
       rolling_(camera, config_.point_features.scale, config_.rolling_shutter),
-      bend_meter_(rays_, config_.sensor),
-      box_tracks_(config.box_tracks, camera.ImageBox()),
       points_(camera, config_.point_features.scale, config_.point_search, config_.tracking),
       hooks_(std::move(hooks)) {
-  if (variant_ != Variant::kPoints)
-    plane_extractor_.emplace(camera_, rays_, config_.sensor, config_.plane_extraction);
   if (!config_.async_mapping) return;
   const MapTurn turn = [this](const std::function<void()>& work) {
     const MappingHold hold(gate_);
@@ -88,47 +82,19 @@ void Tracker::Finish(MappingWorker::Waiting waiting) {
   for (MapPlane& plane : map_.planes) ForgetDoubtfulCorners(plane, config_.plane_map);
 }
 
-void Tracker::ExtractInformation(Frame& frame, const cv::Mat3b& bgr, TrackReport& report) {
-  ModuleTimes& times = report.times;
+/// What depth and colour show is told as one camera sees it, at the time of the colour image.
+void Tracker::BringTogether(Frame& frame, TrackReport& report) const {
   frame.speed = points_.Speed(frame.timestamp_s);
   frame.R_dc = registration_.R_dc();
   frame.readout = rolling_.ReadoutAt(frame.speed.mean);
-  // Boxes, planes and points side by side: none writes what another reads.
-  const auto detect = [&] {
-    const Stopwatch watch(times[Module::kOd]);
-    return detector_->Detect(frame.timestamp_s, bgr);
-  };
-  const auto extract_planes = [&] {
-    const Stopwatch watch(times[Module::kEpi]);
-    plane_extractor_->Extract(frame);
-  };
-  // Deferred work is done where its outcome is asked for.
-  const auto where = threads_ > 1 ? std::launch::async : std::launch::deferred;
-  frame.detector_asked = frames_++ % config_.detection.every == 0;
-  std::future<std::vector<Detection>> boxes;
-  std::future<void> planes;
-  if (plane_extractor_) {
-    if (frame.detector_asked) boxes = std::async(where, detect);
-    planes = std::async(where, extract_planes);
-  }
   {
-    const Stopwatch watch(times[Module::kOrb]);
-    frame.features = ExtractPointFeatures(frame.gray, frame.depth_m, camera_,
-                                          config_.point_features, frame.T_dc(), frame.readout);
+    const Stopwatch watch(report.times[Module::kOrb]);
+    ReadDepths(frame.depth_m, camera_, config_.point_features, frame.T_dc(), frame.readout,
+               frame.features);
     WeighDepths(config_.sensor, camera_, frame.speed, frame.features);
   }
-  frame.map_points.assign(frame.features.size(), kNone);
-  if (!plane_extractor_) return;
-  planes.get();
-  const auto found = frame.detector_asked ? boxes.get() : std::vector<Detection>{};
-  {
-    const Stopwatch watch(times[Module::kMdc]);
-    frame.detections = frame.detector_asked ? box_tracks_.Update(frame.timestamp_s, found)
-                                            : box_tracks_.Carry(frame.timestamp_s);
-  }
-  const Stopwatch watch(times[Module::kPp]);
-  bend_meter_.Measure(frame);
-  frame.measured.labels = frame.plane_labels;
+  if (variant_ == Variant::kPoints) return;
+  const Stopwatch watch(report.times[Module::kPp]);
   CarryToColour(camera_, rays_, frame);
 }
 

@@ -10,9 +10,7 @@
 #include "slam/calibrate/registration_learner.h"
 #include "slam/calibrate/rolling_learner.h"
 #include "slam/calibrate/straightener.h"
-#include "slam/detect/box_tracks.h"
 #include "slam/detect/detections.h"
-#include "slam/faces/bend_meter.h"
 #include "slam/geometry/camera.h"
 #include "slam/model/frame.h"
 #include "slam/model/map.h"
@@ -21,9 +19,9 @@
 #include "slam/pose/point_constraints.h"
 #include "slam/pose/pose_problem.h"
 #include "slam/run/config.h"
+#include "slam/run/frame_extractor.h"
 #include "slam/run/map_gate.h"
 #include "slam/run/mapping_worker.h"
-#include "slam/segment/plane_segments.h"
 #include "slam/tracking/point_tracking.h"
 
 namespace slam {
@@ -79,6 +77,16 @@ class Tracker {
   /// @throws what mapping beside tracking threw meanwhile
   TrackReport TrackFrame(Frame& frame, const cv::Mat3b& bgr);
 
+  /// The same in two steps: a frame may be extracted, on another thread, while the one before is
+  /// tracked. Each takes the frames in order.
+  /// @param depth_factors  DepthFactors(), from before either
+  void Extract(const cv::Mat1f& depth_factors, const cv::Mat3b& bgr, Frame& frame,
+               ModuleTimes& times);
+  /// @param times  of Extract
+  TrackReport Track(Frame& frame, const ModuleTimes& times);
+  /// What is known by now of how the device bends depth; see DepthStraightener.
+  const cv::Mat1f& DepthFactors() const { return straightener_.factors(); }
+
   /// Ends mapping beside tracking, after all or none of the keyframes that wait; last call
   /// before the map is looked at. @throws what mapping threw
   void Finish(MappingWorker::Waiting waiting);
@@ -99,7 +107,7 @@ class Tracker {
   const FeatureScale& scale() const { return config_.point_features.scale; }
 
   // The stages, in order. A frame without planes passes through all of them.
-  void ExtractInformation(Frame& frame, const cv::Mat3b& bgr, TrackReport& report);
+  void BringTogether(Frame& frame, TrackReport& report) const;
   void ProcessFramePlanes(Frame& frame, TrackReport& report) const;
   /// @returns whether there is a pose to go on from, found or predicted
   bool TrackByPoints(Frame& frame, TrackReport& report);
@@ -120,20 +128,14 @@ class Tracker {
   Camera camera_;
   Config config_;
   Variant variant_;
-  std::unique_ptr<Detector> detector_;
-  int threads_;
-
   cv::Mat2d rays_;  ///< PixelRays(camera_)
+  FrameExtractor extractor_;
   DepthStraightener straightener_;
   RegistrationLearner registration_;
   RollingLearner rolling_;
-  std::optional<PlaneExtractor> plane_extractor_;  ///< none: no planes
-  BendMeter bend_meter_;
-  BoxTracks box_tracks_;
   PointTracking points_;
   Map map_;
   int loops_ = 0;
-  int frames_ = 0;  ///< begun: every so many the detector is asked
 
   TrackerHooks hooks_;
   MapGate gate_;                           ///< to map_, points_ and loops_

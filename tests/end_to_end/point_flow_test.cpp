@@ -8,6 +8,7 @@
 #include "sim/motion/trajectory.h"
 #include "slam/features/match_features.h"
 #include "slam/features/point_features.h"
+#include "slam/features/read_depths.h"
 #include "slam/model/feature_scale.h"
 #include "tests/support/live.h"
 
@@ -40,7 +41,8 @@ Views LookTwice(std::uint64_t seed, int frames_apart) {
       live::FrameOf(sim::Simulator(scene, exact).Simulate(0, one), 0, 0, factor).depth_m;
   views.T_21 = live::PoseOf(two) * slam::Inverse(live::PoseOf(one));
   for (slam::Frame* frame : {&views.first, &views.second}) {
-    frame->features = slam::ExtractPointFeatures(frame->gray, frame->depth_m, views.camera, {});
+    frame->features = slam::ExtractPointFeatures(frame->gray, views.camera, {});
+    slam::ReadDepths(frame->depth_m, views.camera, {}, {}, {}, frame->features);
   }
   return views;
 }

@@ -154,12 +154,14 @@ TEST(DepthStraightener, StraightensFromTheFrameOnThatItIsWorthIt) {
   DepthStraightener off(camera, DepthNoise{}, {.source = "off"});
   for (int i = 0; i < kFrames; ++i) {
     Frame frame = FrameOfRoom({}, i, rays);
-    const cv::Mat1f straight = straightener.Straighten(i, frame.depth_m);
-    const int from = straightener.report().from_frame;
-    EXPECT_EQ(straight.data == frame.depth_m.data, from == kNone) << i;
     frame.measured = {frame.depth_m, frame.plane_labels};
+    frame.depth_m = Straightened(frame.measured.depth_m, straightener.factors());
+    straightener.See(frame);
+    EXPECT_EQ(straightener.factors().empty(), straightener.report().from_frame == kNone) << i;
     straightener.Learn(frame);
-    EXPECT_EQ(off.Straighten(i, frame.depth_m).data, frame.depth_m.data);
+    EXPECT_TRUE(off.factors().empty());
+    frame.depth_m = frame.measured.depth_m;
+    off.See(frame);
     off.Learn(frame);
   }
   EXPECT_GT(straightener.report().from_frame, 60);

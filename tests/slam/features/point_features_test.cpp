@@ -1,4 +1,5 @@
 #include "slam/features/point_features.h"
+#include "slam/features/read_depths.h"
 
 #include <gtest/gtest.h>
 
@@ -18,7 +19,7 @@ Camera CameraOf(const cv::Mat1b& image) { return SmallCamera(image.cols, image.r
 
 std::vector<PointFeature> Extract(const cv::Mat1b& image,
                                   const PointFeatureConfig& config = {}) {
-  return ExtractPointFeatures(image, cv::Mat1f(), CameraOf(image), config);
+  return ExtractPointFeatures(image, CameraOf(image), config);
 }
 
 cv::Mat1b PatternImage(int width, int height) {
@@ -181,7 +182,8 @@ TEST(PointFeatures, AreTheSameBytesTwice) {
 TEST(PointFeatures, CarryDepthAndItsVirtualRightCoordinate) {
   const cv::Mat1b image = PatternImage(320, 240);
   const cv::Mat1f depth_m(240, 320, 2.0f);
-  const auto features = ExtractPointFeatures(image, depth_m, CameraOf(image), {});
+  auto features = ExtractPointFeatures(image, CameraOf(image), {});
+  ReadDepths(depth_m, CameraOf(image), {}, {}, {}, features);
   ASSERT_FALSE(features.empty());
   for (const PointFeature& f : features) {
     EXPECT_DOUBLE_EQ(f.depth_m, 2.0);
@@ -194,8 +196,8 @@ TEST(PointFeatures, LieOnTheUndistortedImage) {
   const Camera lens = TumCamera("tum1");
   Camera pinhole = lens;
   pinhole.k1 = pinhole.k2 = pinhole.k3 = pinhole.p1 = pinhole.p2 = 0;
-  const auto ideal = ExtractPointFeatures(image, cv::Mat1f(), lens, {});
-  const auto recorded = ExtractPointFeatures(image, cv::Mat1f(), pinhole, {});
+  const auto ideal = ExtractPointFeatures(image, lens, {});
+  const auto recorded = ExtractPointFeatures(image, pinhole, {});
   ASSERT_EQ(ideal.size(), recorded.size());
   for (std::size_t i = 0; i < ideal.size(); ++i) {
     const Eigen::Vector2d back =
@@ -223,11 +225,12 @@ TEST(PointFeatures, AreWhereTheCameraOfTheMiddleRowSawThem) {
   Readout readout;
   readout.taken_out_s = 0.03;
   readout.speed << 0.4, -0.3, 0.2, 0.5, -0.8, 1.0;
-  const auto as_read = ExtractPointFeatures(image, cv::Mat1f(), camera, {});
+  const auto as_read = ExtractPointFeatures(image, camera, {});
   // A wall before the camera of the middle row, and nothing measured at all.
   const double wall_m = 1.5;
   for (const cv::Mat1f& depth_m : {cv::Mat1f(image.size(), 1.5f), cv::Mat1f()}) {
-    const auto features = ExtractPointFeatures(image, depth_m, camera, {}, {}, readout);
+    auto features = as_read;
+    ReadDepths(depth_m, camera, {}, {}, readout, features);
     ASSERT_EQ(features.size(), as_read.size());
     double largest_px = 0.0;
     for (std::size_t i = 0; i < features.size(); ++i) {
@@ -300,9 +303,9 @@ TEST(PointFeatures, LieOnAnEdgeFromTenTimesTheContrastAcrossItOn) {
 
 TEST(PointFeatures, RefuseImagesOfAnotherSize) {
   const cv::Mat1b image = PatternImage(320, 240);
-  EXPECT_THROW(ExtractPointFeatures(image, cv::Mat1f(), SmallCamera(640, 480), {}),
-               std::invalid_argument);
-  EXPECT_THROW(ExtractPointFeatures(image, cv::Mat1f(10, 10, 1.0f), CameraOf(image), {}),
+  EXPECT_THROW(ExtractPointFeatures(image, SmallCamera(640, 480), {}), std::invalid_argument);
+  std::vector<PointFeature> none;
+  EXPECT_THROW(ReadDepths(cv::Mat1f(10, 10, 1.0f), CameraOf(image), {}, {}, {}, none),
                std::invalid_argument);
 }
 

@@ -6,6 +6,7 @@
 #include <opencv2/core.hpp>
 
 #include "slam/features/point_features.h"
+#include "slam/features/read_depths.h"
 #include "tests/support/textured_world.h"
 
 namespace slam {
@@ -32,8 +33,8 @@ Frame ReadAt(const Vector6d& speed, const Camera& camera, bool has_depth) {
   frame.depth_late_s = 0.015;
   frame.readout.taken_out_s = 0.03;
   frame.readout.speed = speed;
-  frame.features =
-      ExtractPointFeatures(frame.gray, frame.depth_m, camera, {}, frame.T_dc(), frame.readout);
+  frame.features = ExtractPointFeatures(frame.gray, camera, {});
+  ReadDepths(frame.depth_m, camera, {}, frame.T_dc(), frame.readout, frame.features);
   return frame;
 }
 

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "slam/features/point_features.h"
+#include "slam/features/read_depths.h"
 #include "slam/features/weigh_depths.h"
 #include "slam/mapping/local_mapping.h"
 #include "slam/tracking/point_tracking.h"
@@ -21,7 +22,8 @@ struct PointOdometer {
 
   /// @param frame with gray and depth_m; gets features
   void Extract(Frame& frame) const {
-    frame.features = ExtractPointFeatures(frame.gray, frame.depth_m, camera, {});
+    frame.features = ExtractPointFeatures(frame.gray, camera, {});
+    ReadDepths(frame.depth_m, camera, {}, {}, {}, frame.features);
     WeighDepths(SensorModel{}, camera, {}, frame.features);
   }
 
