@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <utility>
 
 namespace slam {
@@ -33,26 +34,6 @@ SightLines::SightLines(const DepthGrid& grid, const LabelRuns& runs, std::vector
   }
 }
 
-/// Visits the pixels between the ends until told to stop, without a division: along the longer
-/// side one at a time, along the other what the division would have rounded towards `from`.
-template <typename Visit>
-void SightLines::Walk(const Pixel& from, const Pixel& to, const Visit& visit) const {
-  const int du = to.u - from.u, dv = to.v - from.v;
-  const int across = du < 0 ? -1 : 1, down = dv < 0 ? -grid_.width : grid_.width;
-  const bool is_level = std::abs(du) >= std::abs(dv);
-  const int steps = std::max(std::abs(du), std::abs(dv));
-  const int shorter = std::min(std::abs(du), std::abs(dv));
-  const int always = is_level ? across : down, sometimes = is_level ? down : across;
-  int i = grid_.Index(from.u, from.v);
-  for (int s = 1, rest = 0; s < steps; ++s) {
-    rest += shorter;
-    const bool over = rest >= steps;
-    rest -= over ? steps : 0;
-    i += always + (over ? sometimes : 0);
-    if (!visit(static_cast<std::size_t>(i))) return;
-  }
-}
-
 int SightLines::PartAt(std::size_t i) const {
   const int pixel = static_cast<int>(i);
   return part_[runs_.At(pixel % grid_.width, pixel / grid_.width)];
@@ -60,15 +41,33 @@ int SightLines::PartAt(std::size_t i) const {
 
 bool SightLines::PassesBehind(const Pixel& from, const Pixel& to, int a, int b,
                               const PixelPlane& plane, float clear) const {
-  int behind = 0;  // measured pixels in a row
-  Walk(from, to, [&](std::size_t i) {
-    if (!(grid_.g[i] > 0)) return true;
-    const bool is_behind = ResidualSigmas(grid_, i, plane) < -clear;
-    const int part = is_behind ? PartAt(i) : a;
-    behind = part != a && part != b ? behind + 1 : 0;
-    return behind < kClear_px;
-  });
-  return behind == kClear_px;
+  // Pixel s of the line: along the longer side s on, along the other what is rounded towards `from`.
+  const int du = to.u - from.u, dv = to.v - from.v;
+  const int across = du < 0 ? -1 : 1, down = dv < 0 ? -grid_.width : grid_.width;
+  const bool is_level = std::abs(du) >= std::abs(dv);
+  const int steps = std::max({std::abs(du), std::abs(dv), 1});
+  const int shorter = std::min(std::abs(du), std::abs(dv));
+  const int always = is_level ? across : down, sometimes = is_level ? down : across;
+  constexpr int kFraction = 22;  // bits
+  const std::int64_t slope = ((std::int64_t{shorter} << kFraction) + steps - 1) / steps;
+  const int first = grid_.Index(from.u, from.v);
+  const auto is_behind = [&](int s) {
+    const auto i = static_cast<std::size_t>(
+        first + s * always + static_cast<int>(s * slope >> kFraction) * sometimes);
+    if (!(grid_.g[i] > 0) || !(ResidualSigmas(grid_, i, plane) < -clear)) return false;
+    const int part = PartAt(i);
+    return part != a && part != b;
+  };
+  // So many in a row take in every so-manieth pixel.
+  for (int s = kClear_px; s < steps; s += kClear_px) {
+    if (!is_behind(s)) continue;
+    int row = 1;
+    for (int before = s - 1; before > s - kClear_px && is_behind(before); --before) ++row;
+    for (int after = s + 1; after < steps && row < kClear_px && is_behind(after); ++after)
+      ++row;
+    if (row >= kClear_px) return true;
+  }
+  return false;
 }
 
 bool SightLines::PassBehind(int a, int b, const LabelPlane& plane, double unsure_sigmas) const {

@@ -29,8 +29,6 @@ class SightLines {
     int u = 0, v = 0;
   };
 
-  template <typename Visit>
-  void Walk(const Pixel& from, const Pixel& to, const Visit& visit) const;
   int PartAt(std::size_t i) const;
   bool PassesBehind(const Pixel& from, const Pixel& to, int a, int b, const PixelPlane& plane,
                     float clear) const;
