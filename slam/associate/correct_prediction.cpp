@@ -1,6 +1,7 @@
 #include "slam/associate/correct_prediction.h"
 
 #include <Eigen/Cholesky>
+#include <cmath>
 
 #include "slam/base/index.h"
 #include "slam/model/map_queries.h"
@@ -54,9 +55,11 @@ UncertainPose CorrectPrediction(const UncertainPose& predicted, const Frame& fra
   std::vector<PlaneConstraint> constraints;
   constraints.reserve(certain.size());
   for (const auto& [f, m] : certain) {
-    constraints.push_back(MakePlaneConstraint(frame.planes[Index(f)], map.planes.At(m),
-                                              predicted.T_cw, config.offset_floor_m,
-                                              config.angle_floor_rad));
+    const FramePlane& plane = frame.planes[Index(f)];
+    constraints.push_back(MakePlaneConstraint(
+        plane, map.planes.At(m), predicted.T_cw,
+        std::hypot(plane.offset_sigma_m, plane.bend_offset_sigma_m, config.offset_floor_m),
+        std::hypot(plane.angle_sigma_rad, plane.bend_angle_sigma_rad, config.angle_floor_rad)));
   }
   // ... against the prediction: minus log likelihood of the pose, and its derivatives.
   const Matrix6d prior = predicted.covariance.ldlt().solve(Matrix6d::Identity());

@@ -1,7 +1,6 @@
 #include "slam/mapping/keyframe_planes.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "slam/mapping/plane_evidence.h"
 #include "slam/model/map_queries.h"
@@ -23,8 +22,7 @@ KeyframePlane& PlaneShowing(int map_plane, Keyframe& keyframe) {
 }  // namespace
 
 void KeepPlanes(const Frame& frame, const AssociationConfig& association,
-                const PlaneMapConfig& config, const PlaneConstraintConfig& constraints,
-                Keyframe& keyframe) {
+                const PlaneMapConfig& config, Keyframe& keyframe) {
   if (keyframe.culled) return;
   const bool own = frame.index == keyframe.frame_index;
   const Pose T_kc = keyframe.T_cw * Inverse(frame.T_cw);
@@ -39,8 +37,8 @@ void KeepPlanes(const Frame& frame, const AssociationConfig& association,
     const PlaneEvidence known = BestKnown(kept.seen_c);
     kept.pi_c = known.pi;
     kept.centroid_c = known.centroid;
-    kept.angle_sigma_rad = std::hypot(known.angle_sigma_rad, constraints.plane_angle_floor_rad);
-    kept.offset_sigma_m = std::hypot(known.offset_sigma_m, constraints.plane_offset_floor_m);
+    kept.angle_sigma_rad = known.angle_sigma_rad;
+    kept.offset_sigma_m = known.offset_sigma_m;
   }
 }
 

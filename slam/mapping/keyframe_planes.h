@@ -4,7 +4,6 @@
 #include "slam/mapping/plane_map_config.h"
 #include "slam/model/frame.h"
 #include "slam/model/map.h"
-#include "slam/pose/plane_constraints.h"
 
 namespace slam {
 
@@ -13,12 +12,8 @@ namespace slam {
 /// adjustment that moves the keyframe moves what the frame has seen. Kept are trusted planes that
 /// show a landmark; of the keyframe's own frame also those of candidates, which may become one.
 /// A culled keyframe keeps nothing.
-///
-/// The frames' errors average out down to the floors of `constraints`, which are those of a plane
-/// in the pose of one frame (MakePlaneConstraint).
 void KeepPlanes(const Frame& frame, const AssociationConfig& association,
-                const PlaneMapConfig& config, const PlaneConstraintConfig& constraints,
-                Keyframe& keyframe);
+                const PlaneMapConfig& config, Keyframe& keyframe);
 
 /// The landmark that the keyframe's plane shows by now, after fusions. Null: it was taken back,
 /// or the map plane is a candidate still or has failed its trial.

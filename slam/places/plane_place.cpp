@@ -36,9 +36,11 @@ bool Refine(const Frame& frame, const std::vector<KnownPlane>& known, const Came
       if (plane.bad) continue;
       const KnownPlane* shown = NearestLike(plane, known, pose.T_cw, config);
       if (!shown) continue;
-      problem.planes.push_back(MakePlaneConstraint(plane, *shown->landmark, pose.T_cw,
-                                                   config.max_offset_m / 4,
-                                                   config.max_angle_rad / 4));
+      problem.planes.push_back(MakePlaneConstraint(
+          plane, *shown->landmark, pose.T_cw,
+          std::hypot(plane.offset_sigma_m, plane.bend_offset_sigma_m, config.max_offset_m / 4),
+          std::hypot(plane.angle_sigma_rad, plane.bend_angle_sigma_rad,
+                     config.max_angle_rad / 4)));
     }
     const PoseSummary summary = OptimisePose(problem, camera, settings);
     if (!summary.usable) return false;

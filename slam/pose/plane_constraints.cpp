@@ -80,15 +80,12 @@ void AddPointPlanes(const Frame& frame, const Map& map, const PlaneConstraintCon
 }  // namespace
 
 PlaneConstraint MakePlaneConstraint(const FramePlane& f, const MapPlane& m, const Pose& T_cw,
-                                    double offset_floor_m, double angle_floor_rad) {
+                                    double offset_sigma_m, double angle_sigma_rad) {
   PlaneConstraint c;
   c.pi_w = m.pi_w;
   c.pi_c = f.pi_c;
   c.centroid_c = f.centroid_c;
-  const double offset_m = std::hypot(f.offset_sigma_m, f.bend_offset_sigma_m, offset_floor_m);
-  const double angle_rad =
-      std::hypot(f.angle_sigma_rad, f.bend_angle_sigma_rad, angle_floor_rad);
-  double offset2 = offset_m * offset_m, angle2 = angle_rad * angle_rad;
+  double offset2 = offset_sigma_m * offset_sigma_m, angle2 = angle_sigma_rad * angle_sigma_rad;
   // The map plane's uncertainty where the patch is.
   if (!m.estimate.empty()) {
     const Eigen::Matrix3d covariance = m.estimate.Covariance();
@@ -115,9 +112,10 @@ void AddPlaneConstraints(const Frame& frame, const Map& map, const Camera& camer
     const FramePlane& plane = frame.planes[i];
     const MapPlane* matched = TrustedMatch(frame, map, i);
     if (matched == nullptr) continue;
-    problem.planes.push_back(MakePlaneConstraint(plane, *matched, frame.T_cw,
-                                                 config.plane_offset_floor_m,
-                                                 config.plane_angle_floor_rad));
+    problem.planes.push_back(MakePlaneConstraint(
+        plane, *matched, frame.T_cw,
+        std::hypot(plane.offset_sigma_m, config.bend_share * plane.bend_offset_sigma_m),
+        std::hypot(plane.angle_sigma_rad, config.bend_share * plane.bend_angle_sigma_rad)));
     AddBox(frame, plane, *matched, camera, config, problem);
   }
   AddPointPlanes(frame, map, config, problem);

@@ -177,8 +177,7 @@ PoseProblem Tracker::ProblemOf(const Frame& frame, const FramePoints& points) co
   problem.points = points.constraints;
   problem.prior = frame.prediction;
   AddPlaneConstraints(frame, map_, camera_, config_.plane_constraints, problem);
-  AddStructure(frame, map_, config_.association.prior, config_.plane_constraints,
-               config_.structure, problem);
+  AddStructure(frame, map_, config_.association.prior, config_.structure, problem);
   return problem;
 }
 
@@ -267,20 +266,18 @@ void Tracker::UpdateMap(Frame& frame, TrackReport& report) {
   report.reference = points_.reference_keyframe();
   report.T_cr = frame.T_cw * Inverse(KeyframePose(map_, report.reference));
   if (!report.keyframe) {
-    KeepPlanes(frame, config_.association, config_.plane_map, config_.plane_constraints,
+    KeepPlanes(frame, config_.association, config_.plane_map,
                map_.keyframes[Index(report.reference)]);
   }
   LearnStructure(frame, report.keyframe ? std::optional(report.reference) : std::nullopt,
-                 config_.plane_map.keep_information, config_.plane_constraints,
-                 config_.structure, map_);
+                 config_.plane_map.keep_information, config_.structure, map_);
 }
 
 /// Makes the frame a keyframe, and maps it now or has it mapped beside tracking.
 void Tracker::KeepFrame(Frame& frame) {
   const int keyframe = InsertKeyframe(frame, map_, camera_, scale(), config_.mapping.keyframes);
   map_.keyframes.back().by_points = points_.state() != TrackState::kHeldByPlanes;
-  KeepPlanes(frame, config_.association, config_.plane_map, config_.plane_constraints,
-             map_.keyframes[Index(keyframe)]);
+  KeepPlanes(frame, config_.association, config_.plane_map, map_.keyframes[Index(keyframe)]);
   if (worker_) {
     worker_->Submit(keyframe);
     return;

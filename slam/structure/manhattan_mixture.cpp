@@ -41,8 +41,7 @@ std::vector<const FramePlane*> PlanesOf(const ManhattanFrame& stored, const Map&
 }
 
 /// Directions at right angles nearest to the normals; the third of two is their product.
-ManhattanFrame FrameOf(const std::vector<int>& ids, const SeenLandmarks& seen, int keyframe,
-                       double floor_rad) {
+ManhattanFrame FrameOf(const std::vector<int>& ids, const SeenLandmarks& seen, int keyframe) {
   ManhattanFrame made;
   made.keyframe = keyframe;
   made.seen = 1;
@@ -51,7 +50,7 @@ ManhattanFrame FrameOf(const std::vector<int>& ids, const SeenLandmarks& seen, i
     const FramePlane& plane = *seen.at(ids[k]);
     made.landmarks[k] = ids[k];
     normals.col(static_cast<int>(k)) = plane.pi_c.n;
-    made.sigma_rad[static_cast<int>(k)] = NormalSigma(plane, floor_rad);
+    made.sigma_rad[static_cast<int>(k)] = NormalSigma(plane);
   }
   if (ids.size() == 2) normals.col(2) = normals.col(0).cross(normals.col(1)).normalized();
   const Eigen::JacobiSVD<Eigen::Matrix3d> svd(normals,
@@ -62,9 +61,8 @@ ManhattanFrame FrameOf(const std::vector<int>& ids, const SeenLandmarks& seen, i
 
 class NewFrames {
  public:
-  NewFrames(const SeenLandmarks& seen, int keyframe, double floor_rad,
-            const ManhattanConfig& config, Map& map)
-      : seen_(seen), keyframe_(keyframe), floor_rad_(floor_rad), config_(config), map_(map) {}
+  NewFrames(const SeenLandmarks& seen, int keyframe, const ManhattanConfig& config, Map& map)
+      : seen_(seen), keyframe_(keyframe), config_(config), map_(map) {}
 
   bool AtRightAngles(int one, int other) const {
     const double angle = Angle(seen_.at(one)->pi_c.n, seen_.at(other)->pi_c.n);
@@ -82,13 +80,12 @@ class NewFrames {
       ++stored.seen;
       return;
     }
-    map_.manhattan.push_back(FrameOf(ids, seen_, keyframe_, floor_rad_));
+    map_.manhattan.push_back(FrameOf(ids, seen_, keyframe_));
   }
 
  private:
   const SeenLandmarks& seen_;
   int keyframe_;
-  double floor_rad_;
   const ManhattanConfig& config_;
   Map& map_;
 };
@@ -96,7 +93,6 @@ class NewFrames {
 }  // namespace
 
 std::vector<AxisObservation> SeenManhattanFrame(const Frame& frame, const Map& map,
-                                                double angle_floor_rad,
                                                 const ManhattanConfig& config) {
   const SeenLandmarks seen = LandmarksIn(frame, map, config);
   const ManhattanFrame* best = nullptr;
@@ -112,17 +108,17 @@ std::vector<AxisObservation> SeenManhattanFrame(const Frame& frame, const Map& m
   for (std::size_t k = 0; k < best_planes.size(); ++k) {
     const int column = static_cast<int>(k);
     const Eigen::Matrix3d R_wk = KeyframePose(map, best->keyframe).R.transpose();
-    const double now_rad = NormalSigma(*best_planes[k], angle_floor_rad);
+    const double now_rad = NormalSigma(*best_planes[k]);
     axes.push_back({R_wk * best->axes_k.col(column), best_planes[k]->pi_c.n,
                     std::hypot(now_rad, best->sigma_rad[column], config.axis_sigma_rad)});
   }
   return axes;
 }
 
-void LearnManhattanFrames(const Frame& frame, int keyframe, double angle_floor_rad,
-                          const ManhattanConfig& config, Map& map) {
+void LearnManhattanFrames(const Frame& frame, int keyframe, const ManhattanConfig& config,
+                          Map& map) {
   const SeenLandmarks seen = LandmarksIn(frame, map, config);
-  NewFrames frames(seen, keyframe, angle_floor_rad, config, map);
+  NewFrames frames(seen, keyframe, config, map);
   for (auto i = seen.begin(); i != seen.end(); ++i) {
     for (auto j = std::next(i); j != seen.end(); ++j) {
       if (!frames.AtRightAngles(i->first, j->first)) continue;

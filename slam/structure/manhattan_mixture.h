@@ -13,13 +13,12 @@ namespace slam {
 /// The directions of the best supported stored frame that this frame sees with all its landmarks:
 /// most landmarks, then most keyframes, then the oldest. Empty: it sees none.
 std::vector<AxisObservation> SeenManhattanFrame(const Frame& frame, const Map& map,
-                                                double angle_floor_rad,
                                                 const ManhattanConfig& config);
 
 /// Stores the pairs and triples of matched planes of a keyframe that the map has not stored, and
 /// counts it for those that it has.
 /// @param frame  that the keyframe was made of
-void LearnManhattanFrames(const Frame& frame, int keyframe, double angle_floor_rad,
-                          const ManhattanConfig& config, Map& map);
+void LearnManhattanFrames(const Frame& frame, int keyframe, const ManhattanConfig& config,
+                          Map& map);
 
 }  // namespace slam

@@ -83,7 +83,7 @@ std::optional<Eigen::Matrix3d> FindManhattanAxes(const MapPlanes& planes,
 }
 
 std::vector<AxisObservation> SeenAxes(const Frame& frame, const Eigen::Matrix3d& axes_w,
-                                      double angle_floor_rad, const ManhattanConfig& config) {
+                                      const ManhattanConfig& config) {
   std::vector<AxisObservation> seen;
   for (int k = 0; k < 3; ++k) {
     const Eigen::Vector3d axis_c = frame.T_cw.R * axes_w.col(k);
@@ -93,7 +93,7 @@ std::vector<AxisObservation> SeenAxes(const Frame& frame, const Eigen::Matrix3d&
       if (plane.bad || !(plane.area_m2 > config.min_area_m2)) continue;
       const auto n_c = Along(plane.pi_c.n, axis_c, config.max_axis_angle_rad);
       if (!n_c) continue;
-      const double sigma = NormalSigma(plane, angle_floor_rad);
+      const double sigma = NormalSigma(plane);
       sum_c += *n_c / (sigma * sigma);
       weights += 1 / (sigma * sigma);
     }

@@ -50,6 +50,6 @@ std::optional<Eigen::Matrix3d> FindManhattanAxes(const MapPlanes& planes,
 /// that no plane faces along are left out, and so are planes off all axes.
 /// @param axes_w  columns
 std::vector<AxisObservation> SeenAxes(const Frame& frame, const Eigen::Matrix3d& axes_w,
-                                      double angle_floor_rad, const ManhattanConfig& config);
+                                      const ManhattanConfig& config);
 
 }  // namespace slam

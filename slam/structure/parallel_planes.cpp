@@ -9,14 +9,14 @@ namespace slam {
 namespace {
 
 void AddDirections(const FramePlane& plane, const MapPlane& matched, const Map& map,
-                   const Pose& T_cw, const PosePrior& prior, double floor_rad,
-                   const ParallelConfig& config, PoseProblem& problem) {
+                   const Pose& T_cw, const PosePrior& prior, const ParallelConfig& config,
+                   PoseProblem& problem) {
   for (const MapPlane& other : map.planes) {
     if (other.status != LandmarkStatus::kLandmark || other.id == matched.id) continue;
     if (other.observations < config.min_observations) continue;
     if (!(other.area_m2 > config.min_area_m2)) continue;
     // Standard deviation of the angle: frame plane, map plane and pose.
-    double map_variance = floor_rad * floor_rad;
+    double map_variance = 0.0;
     if (!other.estimate.empty()) {
       map_variance +=
           other.estimate.Covariance().bottomRightCorner<2, 2>().diagonal().maxCoeff();
@@ -39,13 +39,11 @@ void AddDirections(const FramePlane& plane, const MapPlane& matched, const Map& 
 }  // namespace
 
 void AddParallelPlanes(const Frame& frame, const Map& map, const PosePrior& prior,
-                       double angle_floor_rad, const ParallelConfig& config,
-                       PoseProblem& problem) {
+                       const ParallelConfig& config, PoseProblem& problem) {
   for (std::size_t i = 0; i < frame.planes.size(); ++i) {
     const MapPlane* matched = TrustedMatch(frame, map, i);
     if (matched == nullptr || !(frame.planes[i].area_m2 > config.min_area_m2)) continue;
-    AddDirections(frame.planes[i], *matched, map, frame.T_cw, prior, angle_floor_rad, config,
-                  problem);
+    AddDirections(frame.planes[i], *matched, map, frame.T_cw, prior, config, problem);
   }
 }
 

@@ -34,9 +34,7 @@ inline void VisitFields(ParallelConfig& c, FieldVisitor& v) {
 /// angle is close to the hypothesis and consistent with it: nearly parallel is not parallel.
 /// Soft, as the weights of SP-SLAM (Zhang, Wang, Qi, Liao, Wei 2019) are. In the order of the
 /// frame's planes, then of the map's.
-/// @param angle_floor_rad  smallest standard deviation of a normal
 void AddParallelPlanes(const Frame& frame, const Map& map, const PosePrior& prior,
-                       double angle_floor_rad, const ParallelConfig& config,
-                       PoseProblem& problem);
+                       const ParallelConfig& config, PoseProblem& problem);
 
 }  // namespace slam

@@ -31,24 +31,21 @@ void LearnManhattanWorld(int keyframe, const ManhattanConfig& config, Map& map) 
 }  // namespace
 
 void AddStructure(const Frame& frame, const Map& map, const PosePrior& prior,
-                  const PlaneConstraintConfig& planes, const StructureConfig& config,
-                  PoseProblem& problem) {
-  const double floor_rad = planes.plane_angle_floor_rad;
+                  const StructureConfig& config, PoseProblem& problem) {
   switch (config.mode) {
     case StructureMode::kFree:
       return;
     case StructureMode::kParallel:
-      AddParallelPlanes(frame, map, prior, floor_rad, config.parallel, problem);
+      AddParallelPlanes(frame, map, prior, config.parallel, problem);
       return;
     case StructureMode::kManhattan:
       if (map.manhattan.empty()) return;
-      AddRotation(
-          frame,
-          SeenAxes(frame, AxesInWorld(map, map.manhattan.front()), floor_rad, config.manhattan),
-          problem);
+      AddRotation(frame,
+                  SeenAxes(frame, AxesInWorld(map, map.manhattan.front()), config.manhattan),
+                  problem);
       return;
     case StructureMode::kMixture:
-      AddRotation(frame, SeenManhattanFrame(frame, map, floor_rad, config.manhattan), problem);
+      AddRotation(frame, SeenManhattanFrame(frame, map, config.manhattan), problem);
       return;
     case StructureMode::kSupposed:
       AddSupposedPlanes(frame, map, config.supposed, problem);
@@ -63,8 +60,7 @@ void AddEdgesAlone(const Frame& frame, const Map& map, const StructureConfig& co
 }
 
 void LearnStructure(const Frame& frame, std::optional<int> keyframe, double keep,
-                    const PlaneConstraintConfig& planes, const StructureConfig& config,
-                    Map& map) {
+                    const StructureConfig& config, Map& map) {
   if (config.edges_alone || config.mode == StructureMode::kSupposed)
     LearnSupposedPlanes(frame, keep, config.supposed, map);
   switch (config.mode) {
@@ -76,9 +72,7 @@ void LearnStructure(const Frame& frame, std::optional<int> keyframe, double keep
       if (keyframe) LearnManhattanWorld(*keyframe, config.manhattan, map);
       return;
     case StructureMode::kMixture:
-      if (keyframe)
-        LearnManhattanFrames(frame, *keyframe, planes.plane_angle_floor_rad, config.manhattan,
-                             map);
+      if (keyframe) LearnManhattanFrames(frame, *keyframe, config.manhattan, map);
       return;
   }
 }

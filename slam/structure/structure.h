@@ -4,7 +4,6 @@
 #include <string>
 #include <vector>
 
-#include "slam/pose/plane_constraints.h"
 #include "slam/pose/pose_prior.h"
 #include "slam/structure/manhattan_world.h"
 #include "slam/structure/parallel_planes.h"
@@ -48,10 +47,8 @@ inline void VisitFields(StructureConfig& c, FieldVisitor& v) {
 }
 
 /// Adds to `problem` what the assumption says of the frame's pose, at the pose that it has.
-/// @param planes  for the smallest standard deviation of a normal
 void AddStructure(const Frame& frame, const Map& map, const PosePrior& prior,
-                  const PlaneConstraintConfig& planes, const StructureConfig& config,
-                  PoseProblem& problem);
+                  const StructureConfig& config, PoseProblem& problem);
 
 /// The same for a frame of which points say little: adds the planes supposed at its edges, unless
 /// AddStructure has. They hold what planes that all face one way do not.
@@ -62,7 +59,6 @@ void AddEdgesAlone(const Frame& frame, const Map& map, const StructureConfig& co
 /// @param keyframe  that was made of the frame, if one was
 /// @param keep      share of old information that is kept, as of AddObservation
 void LearnStructure(const Frame& frame, std::optional<int> keyframe, double keep,
-                    const PlaneConstraintConfig& planes, const StructureConfig& config,
-                    Map& map);
+                    const StructureConfig& config, Map& map);
 
 }  // namespace slam

@@ -28,7 +28,7 @@ Frame FrameOf(const std::vector<PlaneDecision>& decisions) {
 }
 
 void Keep(const Frame& frame, Keyframe& keyframe) {
-  KeepPlanes(frame, AssociationConfig{}, PlaneMapConfig{}, PlaneConstraintConfig{}, keyframe);
+  KeepPlanes(frame, AssociationConfig{}, PlaneMapConfig{}, keyframe);
 }
 
 std::vector<int> MapPlanesOf(const Keyframe& keyframe) {
@@ -73,9 +73,6 @@ TEST(KeyframePlanes, AreWhatItsFramesHaveSeenFromTheirPlacesAndBetterKnownForIt)
     EXPECT_LT(kept.angle_sigma_rad, before_rad);
     before_m = kept.offset_sigma_m, before_rad = kept.angle_sigma_rad;
   }
-  // Errors that frames share do not average out.
-  EXPECT_GT(before_m, PlaneConstraintConfig{}.plane_offset_floor_m);
-  EXPECT_GT(before_rad, PlaneConstraintConfig{}.plane_angle_floor_rad);
 }
 
 TEST(KeyframePlanes, ShowTheLandmarkThatTheirMapPlaneHasBecome) {

@@ -128,9 +128,19 @@ TEST(PlaneConstraints, KnowTheLandmarkAtThePlaceOfThePatchInTheWorld) {
   AddObservation(m.estimate, m.pi_w, seen_w, 0.02, 0.004, 1.0);
   const PlaneConstraint c = MakePlaneConstraint(patch, m, book.T_cw, 0.003, 0.005);
   // The landmark's offset there: its own, and its slope times the lever of 0.8 m.
-  EXPECT_NEAR(c.offset_sigma_m,
-              std::sqrt(0.001 * 0.001 + 0.003 * 0.003 + 0.004 * 0.004 + 0.016 * 0.016), 1e-9);
-  EXPECT_NEAR(c.angle_sigma_rad, std::sqrt(0.002 * 0.002 + 0.005 * 0.005 + 0.02 * 0.02), 1e-9);
+  EXPECT_NEAR(c.offset_sigma_m, std::sqrt(0.003 * 0.003 + 0.004 * 0.004 + 0.016 * 0.016), 1e-9);
+  EXPECT_NEAR(c.angle_sigma_rad, std::sqrt(0.005 * 0.005 + 0.02 * 0.02), 1e-9);
+}
+
+TEST(PlaneConstraints, WeighAPlaneByItsFitAndTheBendThatItsLandmarkDoesNotShare) {
+  SeenBook book;
+  book.config.bend_share = 0.25;
+  FramePlane& plane = book.frame.planes[0];
+  plane.bend_offset_sigma_m = 0.008, plane.bend_angle_sigma_rad = 0.012;
+  const PoseProblem problem = book.Problem();
+  ASSERT_EQ(problem.planes.size(), 1u);
+  EXPECT_NEAR(problem.planes[0].offset_sigma_m, std::hypot(0.001, 0.002), 1e-12);
+  EXPECT_NEAR(problem.planes[0].angle_sigma_rad, std::hypot(0.002, 0.003), 1e-12);
 }
 
 }  // namespace

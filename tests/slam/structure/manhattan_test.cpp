@@ -42,13 +42,13 @@ struct SeenWorld {
     PoseProblem problem;
     StructureConfig structure;
     structure.mode = mode;
-    AddStructure(frame, map, {}, {}, structure, problem);
+    AddStructure(frame, map, {}, structure, problem);
     return problem;
   }
   void Learn(StructureMode mode) {
     StructureConfig structure;
     structure.mode = mode;
-    LearnStructure(frame, 0, 0.97, {}, structure, map);
+    LearnStructure(frame, 0, 0.97, structure, map);
   }
 };
 
@@ -183,9 +183,9 @@ TEST(ManhattanMixture, StoresTriplesOnceAndTakesTheOneOfMostLandmarks) {
   world.Learn(StructureMode::kMixture);
   EXPECT_EQ(world.map.manhattan.size(), 4u);
   for (const ManhattanFrame& frame : world.map.manhattan) EXPECT_EQ(frame.seen, 2);
-  EXPECT_EQ(SeenManhattanFrame(world.frame, world.map, 0.0035, world.config).size(), 3u);
+  EXPECT_EQ(SeenManhattanFrame(world.frame, world.map, world.config).size(), 3u);
   world.frame.planes[2].bad = BadReason::kFar;
-  EXPECT_EQ(SeenManhattanFrame(world.frame, world.map, 0.0035, world.config).size(), 2u);
+  EXPECT_EQ(SeenManhattanFrame(world.frame, world.map, world.config).size(), 2u);
 }
 
 TEST(ManhattanMixture, StoresNoParallelNorTiltedPlanes) {

@@ -34,14 +34,14 @@ struct SeenPlaneWithOthers {
   }
   PoseProblem Problem() const {
     PoseProblem problem;
-    AddParallelPlanes(frame, map, PosePrior{}, 0.0035, config, problem);
+    AddParallelPlanes(frame, map, PosePrior{}, config, problem);
     return problem;
   }
 };
 
 TEST(ParallelPlanes, TieAPlaneToThoseNearlyParallelOrAtARightAngleToIt) {
   SeenPlaneWithOthers seen;
-  const double off = 0.01;
+  const double off = 0.008;
   const int parallel = seen.Add({off, 0, -1}), opposite = seen.Add({0, off, 1});
   const int right = seen.Add({1, 0, off});
   seen.Add({1, 0, 1});
