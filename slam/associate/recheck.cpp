@@ -1,7 +1,7 @@
 #include "slam/associate/recheck.h"
 
 #include "slam/associate/plane_comparison.h"
-#include "slam/pose/bend_covariance.h"
+#include "slam/pose/pose_error.h"
 
 namespace slam {
 

@@ -32,7 +32,9 @@ RollingLearner::RollingLearner(const Camera& camera, const FeatureScale& scale,
     : camera_(camera), scale_(scale), config_(config) {}
 
 Readout RollingLearner::ReadoutAt(const Vector6d& speed) const {
-  return {estimate_ ? estimate_->applied_s : 0.0, speed};
+  if (!config_.learn) return {0.0, speed};
+  return {estimate_ ? estimate_->applied_s : 0.0, speed,
+          estimate_ ? estimate_->sigma_s : config_.usual_s};
 }
 
 std::optional<RollingLearner::Evidence> RollingLearner::EvidenceOf(const Frame& frame,

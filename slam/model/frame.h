@@ -85,6 +85,7 @@ struct DepthImage {
 struct Readout {
   double taken_out_s = 0.0;  ///< from the first row to the last; as if it were none since
   Vector6d speed = Vector6d::Zero();  ///< that this was done with: UncertainSpeed::mean
+  double sigma_s = 0.0;  ///< standard deviation of what is left, from the first row to the last
 
   bool empty() const { return taken_out_s == 0.0; }
   /// From the camera of the middle row to that of a row. @param share  Camera::RowShare

@@ -9,7 +9,7 @@
 #include "io/input_error.h"
 #include "slam/base/require.h"
 #include "slam/model/map_queries.h"
-#include "slam/pose/bend_covariance.h"
+#include "slam/pose/pose_error.h"
 #include "slam/run/frame_record.h"
 #include "slam/run/map_file.h"
 #include "slam/run/text_number.h"

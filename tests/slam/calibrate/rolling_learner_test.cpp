@@ -127,6 +127,18 @@ TEST(RollingLearner, TellsARowByThePlaceBetweenFirstAndLast) {
   EXPECT_EQ(readout.T_rc(camera.RowShare((camera.height - 1) / 2.0)).t.x(), 0.0);
 }
 
+TEST(RollingLearner, SaysHowWellItIsKnown) {
+  const Camera camera;
+  const FeatureScale scale;
+  const RollingConfig config;
+  const Vector6d speed = Vector6d::Ones();
+  EXPECT_EQ(RollingLearner(camera, scale, config).ReadoutAt(speed).sigma_s, config.usual_s);
+  EXPECT_EQ(RollingLearner(camera, scale, {.learn = false}).ReadoutAt(speed).sigma_s, 0.0);
+  const RollingLearner learner = LearnShutter({.read_s = 0.03});
+  EXPECT_EQ(learner.ReadoutAt(speed).sigma_s, learner.estimate()->sigma_s);
+  EXPECT_LT(learner.estimate()->sigma_s, config.usual_s / 2);
+}
+
 TEST(RollingLearner, MayBeForbidden) {
   RollingConfig config;
   config.learn = false;

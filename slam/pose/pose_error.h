@@ -10,6 +10,10 @@ namespace slam {
 /// lift.
 Matrix6d BendCovariance(const Frame& frame);
 
+/// The same of a shutter of which is not known how long it takes to read an image: the rows of a
+/// camera that moves do not agree on one pose, and the map's are read like the frame's.
+Matrix6d ShutterCovariance(const Frame& frame);
+
 /// What is known of the error of a tracked frame's pose towards the map, all in all: zero for the
 /// frame that starts the map, which is the world.
 Matrix6d PoseErrorCovariance(const Frame& frame);
