@@ -5,9 +5,9 @@
 
 #include "slam/base/index.h"
 #include "slam/model/map_queries.h"
-#include "slam/pose/pose_error.h"
 #include "slam/pose/factors/plane.h"
 #include "slam/pose/plane_constraints.h"
+#include "slam/pose/pose_error.h"
 #include "slam/pose/robust.h"
 #include "slam/pose/solve.h"
 
