@@ -11,22 +11,16 @@
 #include "io/input_error.h"
 #include "io/read_file.h"
 #include "slam/base/require.h"
+#include "slam/input/png_bytes.h"
 #include "slam/input/png_pixels.h"
 
 namespace slam {
 namespace {
 
-constexpr std::array<std::uint8_t, 8> kPngSignature = {0x89, 'P',  'N', 'G',
-                                                       '\r', '\n', 26,  '\n'};
 constexpr std::array<std::uint8_t, 8> kPngEnd = {'I', 'E', 'N', 'D', 0xAE, 0x42, 0x60, 0x82};
 constexpr std::array<std::uint8_t, 3> kJpegSignature = {0xFF, 0xD8, 0xFF};
 constexpr std::size_t kHeaderBytes = 33;          // signature and IHDR
 constexpr std::uintmax_t kMaxBytes = 512u << 20;  // 8192^2 pixels of 16 bits, and some
-
-std::uint32_t BigEndian(const std::uint8_t* p) {
-  return (std::uint32_t{p[0]} << 24) | (std::uint32_t{p[1]} << 16) |
-         (std::uint32_t{p[2]} << 8) | std::uint32_t{p[3]};
-}
 
 /// What a PNG's header says of the pixels: "8-bit RGB" and so on.
 std::string PixelText(int bits, int colour) {
@@ -53,7 +47,7 @@ std::optional<Header> PngHeader(std::span<const std::uint8_t> bytes) {
   const bool whole =
       std::equal(kPngEnd.begin(), kPngEnd.end(), bytes.end() - kPngEnd.size()) ||
       std::search(bytes.begin(), bytes.end(), kPngEnd.begin(), kPngEnd.end()) != bytes.end();
-  return Header{BigEndian(&bytes[16]), BigEndian(&bytes[20]), PixelText(bytes[24], bytes[25]),
+  return Header{PngNumber(bytes, 16), PngNumber(bytes, 20), PixelText(bytes[24], bytes[25]),
                 whole};
 }
 

@@ -11,21 +11,17 @@
 #include <string_view>
 #include <vector>
 
+#include "slam/input/png_bytes.h"
+
 namespace slam {
 namespace {
 
-// PNG specification (ISO/IEC 15948): signature, then chunks of length, type, data, CRC-32.
+// PNG specification (ISO/IEC 15948): the signature, then chunks of length, type, data, CRC-32.
 using Bytes = std::span<const std::uint8_t>;
-constexpr std::array<std::uint8_t, 8> kSignature = {0x89, 'P', 'N', 'G', '\r', '\n', 26, '\n'};
 constexpr std::size_t kNumber = 4;  // bytes of a length, a type, a CRC
 constexpr std::size_t kHeader = 13;
 constexpr std::uint32_t kMaxSide_px = 1u << 15;
 enum Filter : std::uint8_t { kNone = 0, kLeft = 1, kAbove = 2, kMean = 3, kPaeth = 4 };
-
-std::uint32_t NumberAt(Bytes bytes, std::size_t at) {
-  return std::uint32_t{bytes[at]} << 24 | std::uint32_t{bytes[at + 1]} << 16 |
-         std::uint32_t{bytes[at + 2]} << 8 | std::uint32_t{bytes[at + 3]};
-}
 
 /// What a file holds: its header, and the compressed pixels.
 struct Png {
@@ -39,8 +35,8 @@ struct Png {
 
 bool ReadHeader(Bytes data, Png& png) {
   if (data.size() != kHeader) return false;
-  png.width = NumberAt(data, 0);
-  png.height = NumberAt(data, 4);
+  png.width = PngNumber(data, 0);
+  png.height = PngNumber(data, 4);
   // Bits and colours; deflate, the five filters, not interlaced.
   constexpr std::array<std::uint8_t, 5> kRgb8 = {8, 2, 0, 0, 0}, kGray16 = {16, 0, 0, 0, 0};
   const Bytes kind = data.subspan(8);
@@ -51,19 +47,19 @@ bool ReadHeader(Bytes data, Png& png) {
 
 /// The chunks of a whole file of a kind that is known here.
 std::optional<Png> ReadChunks(Bytes file) {
-  if (file.size() < kSignature.size() ||
-      !std::equal(kSignature.begin(), kSignature.end(), file.begin()))
+  if (file.size() < kPngSignature.size() ||
+      !std::equal(kPngSignature.begin(), kPngSignature.end(), file.begin()))
     return std::nullopt;
   Png png;
-  std::size_t at = kSignature.size();
+  std::size_t at = kPngSignature.size();
   for (bool first = true; at + 3 * kNumber <= file.size(); first = false) {
-    const std::size_t length = NumberAt(file, at);
+    const std::size_t length = PngNumber(file, at);
     if (length > file.size() - at - 3 * kNumber) return std::nullopt;
     const Bytes checked = file.subspan(at + kNumber, kNumber + length);
     const Bytes data = checked.subspan(kNumber);
     const std::string_view type(reinterpret_cast<const char*>(checked.data()), kNumber);
     at += 2 * kNumber + length;
-    if (libdeflate_crc32(0, checked.data(), checked.size()) != NumberAt(file, at))
+    if (libdeflate_crc32(0, checked.data(), checked.size()) != PngNumber(file, at))
       return std::nullopt;
     at += kNumber;
     if (first != (type == "IHDR")) return std::nullopt;
