@@ -138,12 +138,13 @@ int RunSlamBench(const SlamBenchArguments& arguments) {
     PrintComebacks(*rows);
   }
   fmt::print(
-      "\nrun ms: the whole run by the clock, a frame, with reading and writing; ms: what a "
-      "frame "
-      "takes from\nits images to its pose. late: mean time of the last third over that of the "
-      "middle third; end: error of "
-      "the last pose\nwhen the first is laid on the truth; KiB/fr: growth of memory over "
-      "the second half\n");
+      "\nrun ms: the whole run by the clock, a frame, with reading and writing; ms: a frame "
+      "from "
+      "its\nimages to its pose; late: mean time of the last third over that of the middle "
+      "third; "
+      "end: error\nof the last pose when the first is laid on the truth; KiB/fr: growth of "
+      "memory "
+      "over the second half\n");
   return kDone;
 }
 

@@ -115,14 +115,14 @@ class SequenceRun {
     // While a frame is tracked the next is read and extracted.
     std::future<FrameAhead> ahead;
     if (total > 0) ahead = Begin(0);
-    for (int i = 0; i < total && !outcome_.stopped; ++i) {
+    for (int i = 0; ahead.valid(); ++i) {
       FrameAhead now = ahead.get();
-      if (i + 1 < total) ahead = Begin(i + 1);
+      const bool more = i + 1 < total && !outcome_.stopped;
+      if (more) ahead = Begin(i + 1);
       if (now.taken) Take(std::move(now));
       if (options_.progress) options_.progress(i + 1, total);
-      outcome_.stopped = i + 1 < total && options_.stop && options_.stop();
+      if (more && i + 2 < total && options_.stop) outcome_.stopped = options_.stop();
     }
-    if (ahead.valid()) ahead.wait();
     Finish();
     return std::move(outcome_);
   }

@@ -30,7 +30,8 @@ struct RunOptions {
   /// Told at once what makes it useless to go on: the camera is not what the file says. The
   /// outcome's warnings say it again with the latest figures. May be empty.
   std::function<void(const std::string&)> warn;
-  /// Asked after each frame; when true the run ends there and is written. May be empty.
+  /// Asked after each frame. When true no other is begun: the run ends with the next one, which was
+  /// begun meanwhile, and is written. May be empty.
   std::function<bool()> stop;
   TrackerHooks hooks;  ///< for tests and benches
 };

@@ -15,8 +15,8 @@ TrackReport Tracker::TrackFrame(Frame& frame, const cv::Mat3b& bgr) {
 void Tracker::Extract(const cv::Mat1f& depth_factors, const cv::Mat3b& bgr, Frame& frame,
                       ModuleTimes& times) {
   const Stopwatch whole(times[Module::kMt]);
-  extractor_.Extract(depth_factors, bgr, frame,
-                     times);  // (B) points, planes, edge points, boxes
+  // (B) points, planes, edge points, boxes
+  extractor_.Extract(depth_factors, bgr, frame, times);
 }
 
 // What it says of the camera and of the map.

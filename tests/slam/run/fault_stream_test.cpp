@@ -293,10 +293,43 @@ TEST(RunLive, StopsWhereItIsAskedToAndKeepsWhatItHas) {
   options.stop = [&] { return done >= 7; };
   const Ran ran = RunStream(CleanStream(20), options);
   EXPECT_TRUE(ran.outcome.stopped);
-  EXPECT_EQ(ran.outcome.frames, 7);
-  EXPECT_EQ(ran.outcome.tracked, 7);
-  EXPECT_EQ(ran.poses_wc.size(), 7u);
+  // The eighth was begun while the seventh was tracked.
+  EXPECT_EQ(ran.outcome.frames, 8);
+  EXPECT_EQ(ran.outcome.tracked, 8);
+  EXPECT_EQ(ran.poses_wc.size(), 8u);
   EXPECT_FALSE(ran.map.empty());
+}
+
+/// Counts the frames that are read: the truth of a live run holds as many.
+class CountedStream : public FaultStream {
+ public:
+  using FaultStream::FaultStream;
+  RecordedFrame Read(int i) override {
+    ++read;
+    return FaultStream::Read(i);
+  }
+  int read = 0;
+};
+
+TEST(RunLive, RunsEveryFrameThatItReadsWhereverItStops) {
+  for (const int threads : {1, 2}) {
+    for (const int stop_at : {1, 4, 8, 9, 100}) {
+      RunOptions options;
+      options.run = testing::TempDir() + "/stopped_run";
+      options.sequence = "stream";
+      options.force = true;
+      options.threads = threads;
+      options.variant = Variant::kPoints;
+      int done = 0;
+      options.progress = [&](int frames, int) { done = frames; };
+      options.stop = [&] { return done >= stop_at; };
+      CountedStream stream(CleanStream(10));
+      const RunOutcome outcome = RunLive({stream, SmallCamera(320, 240), nullptr}, options);
+      EXPECT_EQ(outcome.frames, std::min(stop_at + 1, 10)) << threads;
+      EXPECT_EQ(stream.read, outcome.frames) << threads << ", " << stop_at;
+      EXPECT_EQ(outcome.stopped, outcome.frames < 10) << stop_at;
+    }
+  }
 }
 
 }  // namespace
