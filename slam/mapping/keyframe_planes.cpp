@@ -1,18 +1,12 @@
 #include "slam/mapping/keyframe_planes.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "slam/mapping/plane_evidence.h"
 #include "slam/model/map_queries.h"
 
 namespace slam {
 namespace {
-
-// What the frames of a keyframe share beside the bend. Without it the adjustment of desks of 300 frames
-// by `kinect1` trusts many frames of one view too far: ATE 1.88 instead of 1.86 mm.
-constexpr double kSharedOffset_m = 0.001;
-constexpr double kSharedAngle_rad = 0.0035;  // 0.2 degrees
 
 /// The keyframe's plane that shows the map plane; a new one when there is none.
 KeyframePlane& PlaneShowing(int map_plane, Keyframe& keyframe) {
@@ -43,8 +37,8 @@ void KeepPlanes(const Frame& frame, const AssociationConfig& association,
     const PlaneEvidence known = BestKnown(kept.seen_c);
     kept.pi_c = known.pi;
     kept.centroid_c = known.centroid;
-    kept.angle_sigma_rad = std::hypot(known.angle_sigma_rad, kSharedAngle_rad);
-    kept.offset_sigma_m = std::hypot(known.offset_sigma_m, kSharedOffset_m);
+    kept.angle_sigma_rad = known.angle_sigma_rad;
+    kept.offset_sigma_m = known.offset_sigma_m;
   }
 }
 

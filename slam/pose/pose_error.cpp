@@ -21,9 +21,8 @@ Matrix6d BendCovariance(const Frame& frame) {
 Matrix6d ShutterCovariance(const Frame& frame) {
   // The outermost rows are read half of the time before and after the middle one.
   const double half_s = 0.5 * frame.readout.sigma_s;
+  const double shift_m = half_s * frame.readout.speed.head<3>().norm();
   const double turn_rad = half_s * frame.readout.speed.tail<3>().norm();
-  const double shift_m =
-      half_s * frame.readout.speed.head<3>().norm() + turn_rad * PlaneDepth_m(frame);
   const double m2 = shift_m * shift_m, rad2 = turn_rad * turn_rad;
   return (Vector6d() << m2, m2, m2, rad2, rad2, rad2).finished().asDiagonal();
 }

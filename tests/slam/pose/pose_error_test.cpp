@@ -44,7 +44,9 @@ Pose FitWhileRead(const Readout& readout, Random& random) {
 
 TEST(ShutterCovariance, CoversWhatAShutterOfOneStandardDeviationDoesToAPose) {
   Random random({17});
-  for (int k = 0; k < 30; ++k) {
+  constexpr int kRuns = 30;
+  double turns = 0.0, shifts = 0.0;  // squares, in variances
+  for (int k = 0; k < kRuns; ++k) {
     Frame frame = FrameWithPlanesAt({1.5}, 0.0);
     frame.readout.sigma_s = 0.02;
     for (int i = 0; i < 6; ++i) frame.readout.speed[i] = random.Uniform() - 0.5;
@@ -54,9 +56,14 @@ TEST(ShutterCovariance, CoversWhatAShutterOfOneStandardDeviationDoesToAPose) {
     const Matrix6d C = ShutterCovariance(frame);
     EXPECT_LT(off.tail<3>().norm(), 2 * std::sqrt(C(5, 5))) << k;
     EXPECT_LT(off.head<3>().norm(), 2 * std::sqrt(C(0, 0))) << k;
+    turns += off.tail<3>().squaredNorm() / C(5, 5) / kRuns;
+    shifts += off.head<3>().squaredNorm() / C(0, 0) / kRuns;
     frame.readout.sigma_s = 0.0;
     EXPECT_TRUE(ShutterCovariance(frame).isZero(0.0));
   }
+  // As wide as that, and not much wider: the mean of three squares.
+  EXPECT_GT(turns / 3, 0.1);
+  EXPECT_GT(shifts / 3, 0.1);
 }
 
 TEST(PoseErrorCovariance, HoldsBothWhatIsIndependentAndWhatIsBent) {
