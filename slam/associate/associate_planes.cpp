@@ -24,8 +24,8 @@ bool AreDuplicates(const MapPlane& one, const MapPlane& other,
                    const AssociationConfig& config) {
   return !StepLiesBetween(one, other) &&
          SameClassOdds(one.class_belief, other.class_belief) > config.min_class_odds &&
-         ComparePlanes(one, other, config).chi2 < config.max_chi2 &&
-         ComparePlanes(other, one, config).chi2 < config.max_chi2;
+         ComparePlanes(one, other).chi2 < config.max_chi2 &&
+         ComparePlanes(other, one).chi2 < config.max_chi2;
 }
 
 /// Ids of map planes that one frame plane could show both of, and that can be duplicates.
@@ -95,7 +95,7 @@ void RefuseFragments(const PieceTable& pieces, const AssociationConfig& config,
   std::vector<PairEvidence*> fragments;
   for (std::size_t f = 0; f < pairs.size(); ++f) {
     for (PairEvidence& pair : pairs[f]) {
-      if (pair.verdict != PairVerdict::kPossible || pair.extension) continue;
+      if (pair.verdict != PairVerdict::kPossible) continue;
       for (std::size_t g = 0; g < pairs.size(); ++g) {
         if (g == f || pieces[f][g] == Pieces::kOfOne || best[g] == nullptr) continue;
         if (best[g]->map_plane == pair.map_plane && best[g]->landed > max_ratio * pair.landed)

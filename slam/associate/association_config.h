@@ -30,8 +30,6 @@ struct AssociationConfig {
   double overlap_weight = 8.0;  // no overlap makes a match e^4, or 55 times, less likely
   double iou_weight = 4.0;      // boxes that do not meet make it e^2 times less likely
   double min_class_odds = 0.1;
-  double max_extension_gap_m = 0.15;
-  double min_open_area_m2 = 0.05;
 
   double rank_alpha = 0.01;
   int min_rank_points = 6;
@@ -65,10 +63,6 @@ inline void VisitFields(AssociationConfig& c, FieldVisitor& v) {
            "cost, in -2 log likelihood, of boxes that do not meet");
   v.Number("min_class_odds", c.min_class_odds, "(0, 1]",
            "odds that two map planes share a class, below which they are two surfaces");
-  v.Number("max_extension_gap_m", c.max_extension_gap_m, "[0, inf)",
-           "gap over which a surface without class may go on from what was seen of it");
-  v.Number("min_open_area_m2", c.min_open_area_m2, "[0, inf)",
-           "smallest area of a map plane that may go on beyond what was seen of it");
   v.Number("rank_alpha", c.rank_alpha, "(0, 1)",
            "two-sided significance level of the rank test, eq9 to eq12");
   v.Integer("min_rank_points", c.min_rank_points, "[1, 100000]",

@@ -35,13 +35,6 @@ double BoxCost(const Frame& frame, const FramePlane& f, const MapPlane& m, const
   return config.iou_weight * (1 - Iou(box_px, frame.detections[d].box_px));
 }
 
-/// A surface that belongs to no object may go on where it has not been seen yet.
-bool GoesOn(const FramePlane& f, const MapPlane& m, const Pose& T_cw,
-            const AssociationConfig& config) {
-  return f.class_name.empty() && m.class_name.empty() && m.area_m2 > config.min_open_area_m2 &&
-         InPlaneGap(f, m, Inverse(T_cw)) < config.max_extension_gap_m;
-}
-
 /// Whether a frame plane has been seen as a map plane before: the map plane's points cover most
 /// of it. It must be a good part of the map plane, too: what once was taken for a piece of it by
 /// mistake, as a book on a desk, is small beside it.
@@ -53,7 +46,7 @@ bool WasSeen(const PlaneView& view, const FramePlane& f, const AssociationConfig
 
 PairEvidence Weigh(const Frame& frame, const FramePlane& f, const MapPlane& m,
                    const PlaneComparison& comparison, const MapPlaneView& view,
-                   const Pose& T_cw, const AssociationConfig& config) {
+                   const AssociationConfig& config) {
   PairEvidence pair;
   pair.map_plane = m.id;
   pair.on_trial = m.status == LandmarkStatus::kCandidate;
@@ -66,16 +59,9 @@ PairEvidence Weigh(const Frame& frame, const FramePlane& f, const MapPlane& m,
   pair.class_cost = -2 * std::log(ClassLikelihood(m.class_belief, f.class_name));
   pair.box_cost = BoxCost(frame, f, m, view.box_px, config);
 
-  // Either the two cover each other, or one goes on from the other.
-  const bool shared = pair.overlap > config.min_overlap;
-  pair.extension = !shared && GoesOn(f, m, T_cw, config);
-  if (!shared && !pair.extension) {
+  if (!(pair.overlap > config.min_overlap)) {
     pair.refusal = PairRefusal::kOverlap;
-    return pair;
-  }
-  // Beyond its known edge a surface must fit twice as well: no overlap speaks for it.
-  const double max_chi2 = shared ? config.max_chi2 : 0.5 * config.max_chi2;  // eq7, weighted
-  if (!(comparison.chi2 < max_chi2)) {
+  } else if (!(comparison.chi2 < config.max_chi2)) {  // eq7, weighted
     pair.verdict = PairVerdict::kDoubtful;
     pair.refusal = PairRefusal::kParameters;
   } else if (!(pair.Cost() < config.max_chi2 + config.overlap_weight)) {
@@ -133,7 +119,7 @@ PairTable WeighPairs(const Frame& frame, const Map& map, const UncertainPose& po
       if (!view) {
         view = {ViewMapPlane(m, frame, pose.T_cw, camera), ProjectedBox(m, pose.T_cw, camera)};
       }
-      pairs[f].push_back(Weigh(frame, plane, m, comparison, *view, pose.T_cw, config));
+      pairs[f].push_back(Weigh(frame, plane, m, comparison, *view, config));
       pairs[f].back().links = links;
       pairs[f].back().spread_cost = comparison.log_spread;
     }
@@ -172,7 +158,7 @@ std::vector<std::pair<int, int>> PairsBeyondDoubt(const Frame& frame, const Pair
     const PairEvidence* only = nullptr;
     int competitors = 0;
     for (const PairEvidence& pair : pairs[f]) {
-      if (pair.on_trial || pair.verdict == PairVerdict::kRefused || pair.extension) continue;
+      if (pair.on_trial || pair.verdict == PairVerdict::kRefused) continue;
       only = &pair;
       ++competitors;
     }

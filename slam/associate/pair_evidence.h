@@ -35,7 +35,6 @@ struct PairEvidence {
   int landed = 0;           ///< points of the map plane that land on the frame plane's pixels
   double landed_m2 = 0.0;   ///< the area that these stand for
   bool was_seen = false;    ///< points of the map plane cover most of the frame plane
-  bool extension = false;   ///< no overlap, but one surface may go on from the other
 
   double Cost() const {
     return parameter_cost + spread_cost + overlap_cost + class_cost + box_cost + share_cost;

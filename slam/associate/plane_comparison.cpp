@@ -78,7 +78,6 @@ PlaneComparison ComparePlanes(const FramePlane& f, const MapPlane& m, const Unce
   const Eigen::Vector3d x_w = pose.T_cw.R.transpose() * (x_c - pose.T_cw.t);
   // Everybody's uncertainty: errors that do not average out, patch, map plane there, and pose.
   Covariance3 covariance = FloorOf(config);
-  if (m.estimate.empty()) covariance += FloorOf(config);  // else its observations hold it
   covariance += PatchCovariance(f, Eigen::Vector2d::Zero());
   const double own_spread = std::log(covariance.determinant());
   covariance += MapCovariance(m, x_w, pose.T_cw.R.transpose() * axes_c);
@@ -103,15 +102,10 @@ PlaneComparison ComparePlanes(const FramePlane& one, const FramePlane& other,
   return Compare(one.pi_c, one.centroid_c, other.pi_c, axes, covariance);
 }
 
-PlaneComparison ComparePlanes(const MapPlane& one, const MapPlane& other,
-                              const AssociationConfig& config) {
+PlaneComparison ComparePlanes(const MapPlane& one, const MapPlane& other) {
   const Eigen::Matrix<double, 3, 2> axes = TangentBasis(other.pi_w.n);
-  // An estimate holds its observations' floors already.
-  Covariance3 covariance = Covariance3::Zero();
-  if (one.estimate.empty()) covariance += FloorOf(config);
-  if (other.estimate.empty()) covariance += FloorOf(config);
-  covariance += MapCovariance(one, one.centroid_w, axes);
-  covariance += MapCovariance(other, one.centroid_w, axes);
+  const Covariance3 covariance =
+      MapCovariance(one, one.centroid_w, axes) + MapCovariance(other, one.centroid_w, axes);
   return Compare(one.pi_w, one.centroid_w, other.pi_w, axes, covariance);
 }
 

@@ -29,8 +29,7 @@ PlaneComparison ComparePlanes(const FramePlane& frame_plane, const MapPlane& map
 PlaneComparison ComparePlanes(const FramePlane& one, const FramePlane& other,
                               const AssociationConfig& config);
 
-/// Two planes of the map, compared where `one` lies.
-PlaneComparison ComparePlanes(const MapPlane& one, const MapPlane& other,
-                              const AssociationConfig& config);
+/// Two planes of the map, compared where `one` lies, by their estimates alone.
+PlaneComparison ComparePlanes(const MapPlane& one, const MapPlane& other);
 
 }  // namespace slam

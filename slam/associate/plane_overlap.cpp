@@ -1,7 +1,6 @@
 #include "slam/associate/plane_overlap.h"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 
 #include "slam/associate/occlusion.h"
@@ -9,13 +8,6 @@
 
 namespace slam {
 namespace {
-
-// Thinned to this many: a gap of centimetres needs no more.
-constexpr std::size_t kGapPatchPoints = 60, kGapCloudPoints = 400;
-
-std::size_t Stride(std::size_t count, std::size_t wanted) {
-  return std::max<std::size_t>(1, (count + wanted - 1) / wanted);
-}
 
 /// A frame plane's area, in points of the cloud.
 double PointsOn(const PlaneView& view, const FramePlane& frame_plane) {
@@ -67,22 +59,6 @@ double Overlap(const PlaneView& view, const FramePlane& frame_plane) {
 
 double Covered(const PlaneView& view, const FramePlane& frame_plane) {
   return ShareLanded(view, frame_plane, PointsOn(view, frame_plane));
-}
-
-double InPlaneGap(const FramePlane& frame_plane, const MapPlane& map_plane, const Pose& T_wc) {
-  double nearest2 = std::numeric_limits<double>::infinity();
-  const std::size_t step_c = Stride(frame_plane.points_c.size(), kGapPatchPoints);
-  const std::size_t step_w = Stride(map_plane.points_w.size(), kGapCloudPoints);
-  const Eigen::Vector3d& n = map_plane.pi_w.n;
-  for (std::size_t i = 0; i < frame_plane.points_c.size(); i += step_c) {
-    const Eigen::Vector3d p_w = T_wc * frame_plane.points_c[i];
-    for (std::size_t k = 0; k < map_plane.points_w.size(); k += step_w) {
-      const Eigen::Vector3d delta = map_plane.points_w[k] - p_w;
-      const double along = n.dot(delta);
-      nearest2 = std::min(nearest2, delta.squaredNorm() - along * along);
-    }
-  }
-  return std::sqrt(std::max(0.0, nearest2));
 }
 
 }  // namespace slam

@@ -28,9 +28,4 @@ double Overlap(const PlaneView& view, const FramePlane& frame_plane);
 /// Share of a frame plane that the map plane's cloud covers, [0, 1].
 double Covered(const PlaneView& view, const FramePlane& frame_plane);
 
-/// Distance from a frame plane's patch to a map plane's cloud within the plane, metres;
-/// infinite without points. Cost: O(points_c x points_w) on thinned samples of at most
-/// 60 x 400.
-double InPlaneGap(const FramePlane& frame_plane, const MapPlane& map_plane, const Pose& T_wc);
-
 }  // namespace slam

@@ -21,8 +21,7 @@ KeyframePlane& PlaneShowing(int map_plane, Keyframe& keyframe) {
 
 }  // namespace
 
-void KeepPlanes(const Frame& frame, const AssociationConfig& association,
-                const PlaneMapConfig& config, Keyframe& keyframe) {
+void KeepPlanes(const Frame& frame, const PlaneMapConfig& config, Keyframe& keyframe) {
   if (keyframe.culled) return;
   const bool own = frame.index == keyframe.frame_index;
   const Pose T_kc = keyframe.T_cw * Inverse(frame.T_cw);
@@ -32,8 +31,7 @@ void KeepPlanes(const Frame& frame, const AssociationConfig& association,
     if (match.decision == PlaneDecision::kUnmatched || frame.planes[f].bad) continue;
     if (!own && !match.ShowsLandmark()) continue;
     KeyframePlane& kept = PlaneShowing(match.map_plane, keyframe);
-    AddEvidence(kept.seen_c, frame.planes[f], Normalised(T_kc), association,
-                config.keep_information);
+    AddEvidence(kept.seen_c, frame.planes[f], Normalised(T_kc), config.keep_information);
     const PlaneEvidence known = BestKnown(kept.seen_c);
     kept.pi_c = known.pi;
     kept.centroid_c = known.centroid;

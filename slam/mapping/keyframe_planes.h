@@ -1,6 +1,5 @@
 #pragma once
 
-#include "slam/associate/association_config.h"
 #include "slam/mapping/plane_map_config.h"
 #include "slam/model/frame.h"
 #include "slam/model/map.h"
@@ -12,8 +11,7 @@ namespace slam {
 /// adjustment that moves the keyframe moves what the frame has seen. Kept are trusted planes that
 /// show a landmark; of the keyframe's own frame also those of candidates, which may become one.
 /// A culled keyframe keeps nothing.
-void KeepPlanes(const Frame& frame, const AssociationConfig& association,
-                const PlaneMapConfig& config, Keyframe& keyframe);
+void KeepPlanes(const Frame& frame, const PlaneMapConfig& config, Keyframe& keyframe);
 
 /// The landmark that the keyframe's plane shows by now, after fusions. Null: it was taken back,
 /// or the map plane is a candidate still or has failed its trial.

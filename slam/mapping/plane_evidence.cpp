@@ -4,13 +4,11 @@
 
 namespace slam {
 void AddEvidence(PlaneEstimate& estimate_a, const FramePlane& plane, const Pose& T_ac,
-                 const AssociationConfig& a, double keep) {
+                 double keep) {
   const double share = estimate_a.empty() ? 1.0 : std::sqrt(kFramesOfOneBend);
-  AddObservation(
-      estimate_a, Transform(T_ac, plane.pi_c), T_ac * plane.centroid_c,
-      std::hypot(plane.angle_sigma_rad, a.angle_floor_rad, share * plane.bend_angle_sigma_rad),
-      std::hypot(plane.offset_sigma_m, a.offset_floor_m, share * plane.bend_offset_sigma_m),
-      keep);
+  AddObservation(estimate_a, Transform(T_ac, plane.pi_c), T_ac * plane.centroid_c,
+                 std::hypot(plane.angle_sigma_rad, share * plane.bend_angle_sigma_rad),
+                 std::hypot(plane.offset_sigma_m, share * plane.bend_offset_sigma_m), keep);
 }
 
 PlaneEvidence BestKnown(const PlaneEstimate& estimate) {

@@ -1,6 +1,5 @@
 #pragma once
 
-#include "slam/associate/association_config.h"
 #include "slam/model/frame_plane.h"
 #include "slam/model/plane_estimate.h"
 
@@ -10,11 +9,11 @@ namespace slam {
 /// more than the first of them.
 inline constexpr double kFramesOfOneBend = 10.0;
 
-/// Adds a frame's plane to what is known of a surface, with errors that do not average out.
+/// Adds a frame's plane to what is known of a surface, by its fit and what the sensor bends.
 /// @param T_ac  from the frame's camera into the frame of the estimate
 /// @param keep  as of AddObservation
 void AddEvidence(PlaneEstimate& estimate_a, const FramePlane& plane, const Pose& T_ac,
-                 const AssociationConfig& association, double keep);
+                 double keep);
 
 /// An estimate as one observation, at the place where its height is known best.
 struct PlaneEvidence {

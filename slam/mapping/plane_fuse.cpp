@@ -32,12 +32,12 @@ bool OneSurface(const Map& map, const MapPlane& one, const MapPlane& other,
     return false;
   }
   if (StepLiesBetween(one, other) || WereSplit(map, one, other)) return false;
-  const PlaneComparison forth = ComparePlanes(one, other, a);
+  const PlaneComparison forth = ComparePlanes(one, other);
   if (!(forth.angle_rad < a.gates.max_normal_angle_rad)) return false;  // eq6
   // Two segments seen side by side again and again have shown any step there is.
   const bool side_by_side = CovisibleFrames(one, other) >= config.min_fused_observations;
   const double max_chi2 = side_by_side ? 0.5 * a.max_chi2 : a.max_chi2;
-  if (!(forth.chi2 < max_chi2) || !(ComparePlanes(other, one, a).chi2 < max_chi2)) return false;
+  if (!(forth.chi2 < max_chi2) || !(ComparePlanes(other, one).chi2 < max_chi2)) return false;
   if (!(SameClassOdds(one.class_belief, other.class_belief) > a.min_class_odds)) return false;
   // A large plane's cloud is coarse: look in voxels that its points surely fill.
   double cell = config.voxel_m;

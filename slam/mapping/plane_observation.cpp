@@ -20,10 +20,10 @@ std::vector<Eigen::Vector3d> TrueEdges(const FramePlane& plane, const Pose& T_wc
   return points_w;
 }
 
-/// The observation's information, errors that do not average out included.
+/// The observation's information.
 void UpdateParameters(MapPlane& m, const FramePlane& plane, const Pose& T_wc,
-                      const AssociationConfig& a, const PlaneMapConfig& config) {
-  AddEvidence(m.estimate, plane, T_wc, a, config.keep_information);
+                      const PlaneMapConfig& config) {
+  AddEvidence(m.estimate, plane, T_wc, config.keep_information);
   if (!m.estimate.empty()) m.pi_w = m.estimate.Mean();
 }
 
@@ -92,9 +92,9 @@ MapPlane StartPlane(const FramePlane& plane, const Frame& frame) {
 }
 
 void ObservePlane(MapPlane& m, const FramePlane& plane, const Frame& frame,
-                  const AssociationConfig& association, const PlaneMapConfig& config) {
+                  const PlaneMapConfig& config) {
   const Pose T_wc = Inverse(frame.T_cw);
-  UpdateParameters(m, plane, T_wc, association, config);
+  UpdateParameters(m, plane, T_wc, config);
   UpdateShape(m, plane, T_wc, config);
   UpdateClass(m, plane, frame);
   if (HasCorners(plane, m)) FuseVertices(m, plane.vertices_c, T_wc, config);

@@ -3,7 +3,6 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "slam/associate/association_config.h"
 #include "slam/mapping/plane_map_config.h"
 #include "slam/model/frame.h"
 #include "slam/model/map_plane.h"
@@ -16,7 +15,7 @@ MapPlane StartPlane(const FramePlane& plane, const Frame& frame);
 /// Adds one frame plane to the map plane that it shows, at the final frame.T_cw: parameters,
 /// clouds, outline, class belief, corners and counts.
 void ObservePlane(MapPlane& map_plane, const FramePlane& plane, const Frame& frame,
-                  const AssociationConfig& association, const PlaneMapConfig& config);
+                  const PlaneMapConfig& config);
 
 std::vector<Eigen::Vector3d> PointsInWorld(const std::vector<Eigen::Vector3d>& points_c,
                                            const Pose& T_wc);

@@ -156,12 +156,11 @@ std::size_t PartFor(const PartSighting& sighting, const Frame& frame,
 }
 
 /// Both sides of a step, each by itself, and the step.
-void Learn(const PartSighting& sighting, const Frame& frame,
-           const AssociationConfig& association, const PlaneMapConfig& config,
+void Learn(const PartSighting& sighting, const Frame& frame, const PlaneMapConfig& config,
            PlanePart& part) {
   const FramePlane &plane = frame.planes[sighting.part], &rest = frame.planes[sighting.rest];
-  ObservePlane(part.surface, plane, frame, association, config);
-  ObservePlane(part.rest, rest, frame, association, config);
+  ObservePlane(part.surface, plane, frame, config);
+  ObservePlane(part.rest, rest, frame, config);
   // Frames from one place see the step through the same bends.
   const double share = part.apart == 0 ? 1.0 : std::sqrt(kFramesOfOneBend);
   const double bend_m = share * frame.bend_ratio * plane.centroid_c.z();
@@ -174,16 +173,14 @@ void Learn(const PartSighting& sighting, const Frame& frame,
 }
 
 /// Everything that a split needs (plane_split.h).
-bool IsOfItsOwn(const PlanePart& part, const AssociationConfig& association,
-                const PlaneMapConfig& config) {
+bool IsOfItsOwn(const PlanePart& part, const PlaneMapConfig& config) {
   if (!HasProvenItself(part.surface, config) || 2 * part.apart <= part.seen) return false;
   const double step_m = part.step_weighted / part.step_information;
   if (!(std::abs(step_m) * std::sqrt(part.step_information) > kCertainStep_sigmas))
     return false;
   const double height_m = SignedDistance(part.rest.pi_w, part.surface.centroid_w);
-  return height_m * step_m > 0 &&
-         ComparePlanes(part.surface, part.rest, association).chi2 > kChi2Of3At95 &&
-         ComparePlanes(part.rest, part.surface, association).chi2 > kChi2Of3At95;
+  return height_m * step_m > 0 && ComparePlanes(part.surface, part.rest).chi2 > kChi2Of3At95 &&
+         ComparePlanes(part.rest, part.surface).chi2 > kChi2Of3At95;
 }
 
 /// Squared distance within the plane to the nearest point of a cloud.
@@ -279,8 +276,8 @@ bool Judge(int id, const Camera& camera, const AssociationConfig& association,
     const std::size_t which = PartFor(sighting, frame, config, m);
     PlanePart& part = m.parts[which];
     if (part.surface.last_frame == frame.index) continue;  // several segments of one part
-    Learn(sighting, frame, association, config, part);
-    if (IsOfItsOwn(part, association, config) && Split(id, which, sighting, frame, map)) {
+    Learn(sighting, frame, config, part);
+    if (IsOfItsOwn(part, config) && Split(id, which, sighting, frame, map)) {
       return true;
     }
   }

@@ -124,7 +124,7 @@ void UpdatePlanes(Frame& frame, Map& map, const Camera& camera,
     const PlaneMatch& match = frame.plane_matches[f];
     if (match.decision == PlaneDecision::kUnmatched) continue;
     if (match.decision == PlaneDecision::kTrial && !IsGood(frame.planes[f], config)) continue;
-    ObservePlane(map.planes.At(match.map_plane), frame.planes[f], frame, association, config);
+    ObservePlane(map.planes.At(match.map_plane), frame.planes[f], frame, config);
   }
   SplitPlanes(frame, map, camera, association, config);
   UpdateSteps(frame, map);

@@ -119,15 +119,13 @@ TEST(PlaneEvidence, ExplainsTheDriftOfAsManyLinksAsLieBetween) {
   }
 }
 
-TEST(PlaneEvidence, TrustsMapPlanesWithoutAnEstimateByTheDefaultsAndFloorsOfBoth) {
-  const AssociationConfig config;
+TEST(PlaneEvidence, TrustsMapPlanesWithoutAnEstimateByTheDefaults) {
   MapPlane one, other;
   one.pi_w = other.pi_w = {Eigen::Vector3d::UnitZ(), 0.0};
   one.centroid_w = {0.5, 0.2, 0.0};
   other.centroid_w = {0.1, -0.1, 0.0};  // half a metre away
-  const double floor2 = config.offset_floor_m * config.offset_floor_m;
-  EXPECT_NEAR(ComparePlanes(one, other, config).offset_sigma_m,
-              std::sqrt(2 * floor2 + 2 * 0.003 * 0.003 + 0.01 * 0.01 * 0.25), 1e-12);
+  EXPECT_NEAR(ComparePlanes(one, other).offset_sigma_m,
+              std::sqrt(2 * 0.003 * 0.003 + 0.01 * 0.01 * 0.25), 1e-12);
 }
 
 TEST(PlaneEvidence, ComparesMapPlanesAlikeHoweverTheWorldIsTurned) {
@@ -145,8 +143,7 @@ TEST(PlaneEvidence, ComparesMapPlanesAlikeHoweverTheWorldIsTurned) {
     return m;
   };
   const auto chi2 = [&](const Pose& T) {
-    return ComparePlanes(plane_of(T, {0.01, 0.03, 1}, 0.004), plane_of(T, {0, 0, 1}, 0), {})
-        .chi2;
+    return ComparePlanes(plane_of(T, {0.01, 0.03, 1}, 0.004), plane_of(T, {0, 0, 1}, 0)).chi2;
   };
   const double at_home = chi2({});
   EXPECT_GT(at_home, 0.1);

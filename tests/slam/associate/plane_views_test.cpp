@@ -55,16 +55,6 @@ TEST(OverlapOfAView, IsTheShareOfTheSmallerFootprintOfThreePointsAtLeast) {
   EXPECT_DOUBLE_EQ(Overlap(view, patch), 1.0 / 3.0);
 }
 
-TEST(InPlaneGap, IsMeasuredAlongThePlaneAlone) {
-  MapPlane m;
-  m.pi_w = {Eigen::Vector3d(0, 0, -1), 2.0};
-  m.points_w = {{0.4, 0.7, 2.0}, {5, 5, 2.0}};
-  FramePlane patch;
-  patch.points_c = {Inverse(Pose{ExpSo3({0.1, 0.2, 0.3}), {1, 2, 3}}) *
-                    Eigen::Vector3d(0.1, 0.3, 1.9)};
-  EXPECT_NEAR(InPlaneGap(patch, m, Pose{ExpSo3({0.1, 0.2, 0.3}), {1, 2, 3}}), 0.5, 1e-12);
-}
-
 TEST(FeaturesOnPlanes, AreThoseOnItsPixelsAndLieInTheWorld) {
   const Camera camera;
   Frame frame = HalfAPlane(camera);

@@ -28,7 +28,7 @@ Frame FrameOf(const std::vector<PlaneDecision>& decisions) {
 }
 
 void Keep(const Frame& frame, Keyframe& keyframe) {
-  KeepPlanes(frame, AssociationConfig{}, PlaneMapConfig{}, keyframe);
+  KeepPlanes(frame, PlaneMapConfig{}, keyframe);
 }
 
 std::vector<int> MapPlanesOf(const Keyframe& keyframe) {

@@ -30,13 +30,11 @@ TEST(PlaneEvidence, ThatFollowsAnotherBearsTheBendTheyShare) {
   plane.centroid_c = ProjectOnto(kSurface_w, {0, 0, 1.7});
   plane.angle_sigma_rad = plane.offset_sigma_m = 1e-4;
   plane.bend_angle_sigma_rad = plane.bend_offset_sigma_m = 0.01;
-  AssociationConfig association;
-  association.angle_floor_rad = association.offset_floor_m = 1e-4;
   PlaneEstimate estimate;
-  AddEvidence(estimate, plane, Pose{}, association, 1.0);
+  AddEvidence(estimate, plane, Pose{}, 1.0);
   EXPECT_NEAR(BestKnown(estimate).offset_sigma_m, 0.01, 1e-4);
   // Ten more are worth as much as the first.
-  for (int i = 0; i < 10; ++i) AddEvidence(estimate, plane, Pose{}, association, 1.0);
+  for (int i = 0; i < 10; ++i) AddEvidence(estimate, plane, Pose{}, 1.0);
   EXPECT_NEAR(BestKnown(estimate).offset_sigma_m, 0.01 / std::sqrt(2.0), 1e-4);
 }
 
