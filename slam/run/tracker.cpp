@@ -234,7 +234,8 @@ void Tracker::HoldByPlanes(Frame& frame, TrackReport& report) {
                               .partialPivLu()
                               .solve(predicted);
   report.tracked = has_planes && summary.usable &&
-                   IsKnownWell(*frame.pose_covariance, config_.tracking.motion);
+                   IsKnownWell(*frame.pose_covariance, config_.tracking.motion) &&
+                   !points_.DeniedByPoints(frame, map_, frame.T_cw);
   if (!report.tracked) {
     ForgetPose(frame);
     return;

@@ -117,6 +117,21 @@ TEST(PlanesAlone, DoNotHoldACameraThatIsElsewhere) {
   ExpectNoWrongPose(ran);
 }
 
+TEST(PlanesAlone, DoNotHoldACameraThatSeesOtherPrintsWhereTheMapHasPoints) {
+  // The walls stand as those of the map do, at the pose that motion predicts.
+  auto stream = Clean();
+  const auto repainted =
+      SeenStream(20, TexturedCorner(77), [](int i) { return SwingingPose(25 + i); });
+  for (std::size_t i = 0; i < 20; ++i) {
+    const double s = stream[25 + i].timestamp_s;
+    stream[25 + i] = repainted[i];
+    stream[25 + i].timestamp_s = s;
+  }
+  const Ran ran = RunOn(stream, Variant::kFull);
+  EXPECT_THAT(StatesOf(ran, 25, 20), testing::Each("lost"));
+  ExpectNoWrongPose(ran);
+}
+
 TEST(PlanesAlone, AreNotAskedWithoutThem) {
   const Ran ran = RunOn(Changed(Clean(), 20, 10, Darken), Variant::kPoints);
   EXPECT_THAT(StatesOf(ran, 20, 10), testing::Each("lost"));
