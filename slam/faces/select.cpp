@@ -11,33 +11,21 @@ namespace {
 // Depth that is cleaner than half the modelled sigma is rough by rounding and small curves.
 constexpr double kMinUsualRoughness = 0.25;
 
-template <typename Predicate>
-double Share(const std::vector<EdgePoint>& edge, const Predicate& predicate) {
-  if (edge.empty()) return 0.0;
-  return static_cast<double>(std::count_if(edge.begin(), edge.end(), predicate)) /
-         static_cast<double>(edge.size());
-}
-
 std::optional<BadReason> StructureFault(const FramePlane& plane, const Camera& camera,
                                         const SelectConfig& config) {
   if (config.structure == StructureRule::kIgnored) return std::nullopt;
   const Box image = camera.ImageBox();
   const Eigen::Vector2d rim = Eigen::Vector2d::Constant(config.border_px);
   const Box inner{image.min + rim, image.max - rim};
-  const double at_border = Share(plane.edge_points, [&](const EdgePoint& e) {
-    return e.kind == EdgeKind::kBorder || !inner.Contains(e.u_px);
-  });
-  if (config.structure == StructureRule::kComplete) {
-    if (!(at_border < config.max_border_share)) return BadReason::kBorder;
-    if (plane.vertices_c.size() != 4) return BadReason::kStructure;
-    return std::nullopt;
-  }
-  if (!(at_border < config.max_partial_border_share)) return BadReason::kBorder;
-  const double own_end =
-      Share(plane.edge_points, [](const EdgePoint& e) { return e.kind == EdgeKind::kSurface; });
-  if (plane.lines_c.empty() && !(own_end < config.max_unexplained_share)) {
-    return BadReason::kStructure;
-  }
+  const auto at_border = std::count_if(
+      plane.edge_points.begin(), plane.edge_points.end(), [&](const EdgePoint& e) {
+        return e.kind == EdgeKind::kBorder || !inner.Contains(e.u_px);
+      });
+  const auto edge_points = static_cast<double>(plane.edge_points.size());
+  if (edge_points > 0 &&
+      !(static_cast<double>(at_border) < config.max_border_share * edge_points))
+    return BadReason::kBorder;
+  if (plane.vertices_c.size() != 4) return BadReason::kStructure;
   return std::nullopt;
 }
 

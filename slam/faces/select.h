@@ -12,11 +12,8 @@ namespace slam {
 
 /// How much a regular object's face must show.
 enum class StructureRule {
-  kIgnored,  ///< no demand
-  /// Default. A face cut by the image border or hidden in part is evidence, not a fault: it is
-  /// bad only if it shows no straight edge although most of its outline is the surface's own
-  /// end, or if most of its outline is the image's border.
-  kPartial,
+  /// Default: a face cut by the image border or hidden in part is evidence, not a fault.
+  kIgnored,
   /// As printed: bad near the image border, and without two pairs of parallel lines or four
   /// vertices.
   kComplete
@@ -28,11 +25,9 @@ struct SelectConfig {
   double min_inlier_ratio = 0.6;
   double max_roughness = 1.8;  // more are stairs
   double max_unstructured_share = 0.5;
-  StructureRule structure = StructureRule::kPartial;
+  StructureRule structure = StructureRule::kIgnored;
   double border_px = 3.0;
   double max_border_share = 0.05;
-  double max_partial_border_share = 0.5;
-  double max_unexplained_share = 0.6;
 };
 
 inline void VisitFields(SelectConfig& c, FieldVisitor& v) {
@@ -44,15 +39,11 @@ inline void VisitFields(SelectConfig& c, FieldVisitor& v) {
            "largest roughness, as a multiple of that of most of the frame's pixels");
   v.Number("max_unstructured_share", c.max_unstructured_share, "(0, 1]",
            "largest share of edge points in the box of an unstructured object");
-  v.Named("structure", c.structure, {"ignored", "partial", "complete"},
+  v.Named("structure", c.structure, {"ignored", "complete"},
           "how much the face of a regular object must show");
   v.Number("border_px", c.border_px, "[0, inf)", "width of the image border");
   v.Number("max_border_share", c.max_border_share, "(0, 1]",
            "with complete: largest share of edge points at the image border");
-  v.Number("max_partial_border_share", c.max_partial_border_share, "(0, 1]",
-           "with partial: largest share of edge points at the image border");
-  v.Number("max_unexplained_share", c.max_unexplained_share, "(0, 1]",
-           "with partial: largest share of the surface's own edge points without a line");
 }
 
 /// The roughness of most pixels of a frame, what its sensor's noise comes to in it (the median
