@@ -138,13 +138,11 @@ int RunSlamBench(const SlamBenchArguments& arguments) {
     PrintComebacks(*rows);
   }
   fmt::print(
-      "\nrun ms: the whole run by the clock, a frame, with reading and writing; ms: a frame "
-      "from "
-      "its\nimages to its pose; late: mean time of the last third over that of the middle "
-      "third; "
-      "end: error\nof the last pose when the first is laid on the truth; KiB/fr: growth of "
-      "memory "
-      "over the second half\n");
+      "\n"
+      "run ms: the whole run by the clock, a frame, with reading and writing; ms: a frame\n"
+      "from its images to its pose; late: mean time of the last third over that of the\n"
+      "middle third; end: error of the last pose when the first is laid on the truth;\n"
+      "KiB/fr: growth of memory over the second half\n");
   return kDone;
 }
 

@@ -133,7 +133,7 @@ bool Tracker::FindByPlanes(Frame& frame, TrackReport& report) const {
   const PlanePlace place = FindPlaceByPlanes(frame, map_, camera_, config_.tracking.plane_place,
                                              config_.point_search);
   report.points.ambiguous = place.ambiguous;
-  if (!place.pose || points_.DeniedByPoints(frame, map_, place.pose->T_cw)) return false;
+  if (!place.pose) return false;
   frame.T_cw = place.pose->T_cw;
   frame.pose_covariance = place.pose->covariance;
   // The pose problem counts the planes once more.
@@ -233,6 +233,7 @@ void Tracker::HoldByPlanes(Frame& frame, TrackReport& report) {
   frame.pose_covariance = (Matrix6d::Identity() + predicted * frame.pose_information)
                               .partialPivLu()
                               .solve(predicted);
+  // Planes of another place may lie as those of the map do: its prints do not.
   report.tracked = has_planes && summary.usable &&
                    IsKnownWell(*frame.pose_covariance, config_.tracking.motion) &&
                    !points_.DeniedByPoints(frame, map_, frame.T_cw);

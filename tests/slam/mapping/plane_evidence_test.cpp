@@ -24,6 +24,17 @@ TEST(PlaneEvidence, IsKnownBestBetweenThePlacesWhereItWasSeenAndSaysWhatWasSeen)
   EXPECT_NEAR(known.offset_sigma_m, 0.004 / std::sqrt(2.0), 1e-9);
 }
 
+TEST(PlaneEvidence, OfASensorThatBendsNothingIsWorthItsFit) {
+  FramePlane plane;
+  plane.pi_c = kSurface_w;
+  plane.centroid_c = ProjectOnto(kSurface_w, {0, 0, 1.7});
+  plane.angle_sigma_rad = 1e-3, plane.offset_sigma_m = 1e-4;
+  PlaneEstimate estimate;
+  for (int i = 0; i < 4; ++i) AddEvidence(estimate, plane, Pose{}, 1.0);
+  EXPECT_NEAR(BestKnown(estimate).angle_sigma_rad, 5e-4, 1e-9);
+  EXPECT_NEAR(BestKnown(estimate).offset_sigma_m, 5e-5, 1e-9);
+}
+
 TEST(PlaneEvidence, ThatFollowsAnotherBearsTheBendTheyShare) {
   FramePlane plane;
   plane.pi_c = kSurface_w;

@@ -25,6 +25,17 @@ void LeaveTheWallInFront(RecordedFrame& frame) {
   seen.copyTo(frame.depth_m(wall));
 }
 
+/// The frames from `from` on are those of another stream, at their own times.
+std::vector<RecordedFrame> Replaced(std::vector<RecordedFrame> stream, std::size_t from,
+                                    const std::vector<RecordedFrame>& other) {
+  for (std::size_t i = 0; i < other.size(); ++i) {
+    const double s = stream[from + i].timestamp_s;
+    stream[from + i] = other[i];
+    stream[from + i].timestamp_s = s;
+  }
+  return stream;
+}
+
 std::vector<std::string> StatesOf(const Ran& ran, int from, int count) {
   return {ran.states.begin() + from, ran.states.begin() + from + count};
 }
@@ -103,31 +114,19 @@ TEST(PlanesAlone, OfTwoWallsLeaveTheHeightToMotionAndGiveUp) {
 }
 
 TEST(PlanesAlone, DoNotHoldACameraThatIsElsewhere) {
-  auto stream = Clean();
   const Pose T_elsewhere_c{ExpSo3({0, 0.3, 0.1}), {0.3, -0.1, 0.2}};
   const auto elsewhere = SeenStream(20, TexturedCorner(77),
                                     [&](int i) { return T_elsewhere_c * SwingingPose(i); });
-  for (std::size_t i = 0; i < 20; ++i) {
-    const double s = stream[25 + i].timestamp_s;
-    stream[25 + i] = elsewhere[i];
-    stream[25 + i].timestamp_s = s;
-  }
-  const Ran ran = RunOn(stream, Variant::kFull);
+  const Ran ran = RunOn(Replaced(Clean(), 25, elsewhere), Variant::kFull);
   EXPECT_THAT(StatesOf(ran, 25, 20), testing::Each("lost"));
   ExpectNoWrongPose(ran);
 }
 
 TEST(PlanesAlone, DoNotHoldACameraThatSeesOtherPrintsWhereTheMapHasPoints) {
   // The walls stand as those of the map do, at the pose that motion predicts.
-  auto stream = Clean();
   const auto repainted =
       SeenStream(20, TexturedCorner(77), [](int i) { return SwingingPose(25 + i); });
-  for (std::size_t i = 0; i < 20; ++i) {
-    const double s = stream[25 + i].timestamp_s;
-    stream[25 + i] = repainted[i];
-    stream[25 + i].timestamp_s = s;
-  }
-  const Ran ran = RunOn(stream, Variant::kFull);
+  const Ran ran = RunOn(Replaced(Clean(), 25, repainted), Variant::kFull);
   EXPECT_THAT(StatesOf(ran, 25, 20), testing::Each("lost"));
   ExpectNoWrongPose(ran);
 }
