@@ -7,10 +7,7 @@ namespace slam {
 /// How map planes are made, updated, kept small and fused.
 struct PlaneMapConfig {
   int min_pixels = 400;
-  double min_inlier_ratio = 0.5;
   double max_distance_m = 4.0;
-  double max_offset_sigma_m = 0.02;
-  double max_angle_sigma_rad = 0.09;
 
   int trial_frames = 3;
   double trial_size = 12.0;
@@ -35,14 +32,8 @@ struct PlaneMapConfig {
 inline void VisitFields(PlaneMapConfig& c, FieldVisitor& v) {
   v.Integer("min_pixels", c.min_pixels, "[1, 10000000]",
             "smallest segment that starts a candidate, or speaks for one");
-  v.Number("min_inlier_ratio", c.min_inlier_ratio, "[0, 1]",
-           "smallest inlier ratio of such a segment after the re-fit");
   v.Number("max_distance_m", c.max_distance_m, "(0, inf)",
            "largest distance of such a segment's centroid from the camera");
-  v.Number("max_offset_sigma_m", c.max_offset_sigma_m, "(0, inf)",
-           "largest standard deviation of such a segment's offset");
-  v.Degrees("max_angle_sigma_deg", c.max_angle_sigma_rad, "(0, 90)",
-            "largest standard deviation of such a segment's normal");
   v.Integer("trial_frames", c.trial_frames, "[1, 1000]",
             "number of frames that must show a candidate before it is a landmark; 1: at once");
   v.Number("trial_size", c.trial_size, "[0, inf)",

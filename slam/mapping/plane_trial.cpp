@@ -31,10 +31,7 @@ bool LiesOnUnstructured(const MapPlane& candidate, const Frame& frame, const Cam
 
 bool IsGood(const FramePlane& plane, const PlaneMapConfig& config) {
   return !plane.bad && plane.pixel_count >= config.min_pixels &&
-         plane.inlier_ratio >= config.min_inlier_ratio &&
-         plane.centroid_c.norm() < config.max_distance_m &&
-         plane.offset_sigma_m < config.max_offset_sigma_m &&
-         plane.angle_sigma_rad < config.max_angle_sigma_rad && !plane.points_c.empty();
+         plane.centroid_c.norm() < config.max_distance_m && !plane.points_c.empty();
 }
 
 bool IsProofAlone(const FramePlane& plane, const PlaneMapConfig& config) {
