@@ -16,8 +16,8 @@ constexpr int kStride_px = 2;       // neighbours say the same of a bend
 constexpr double kMinFilled = 0.8;  // of a cell: one at an edge holds the edge's own errors
 // A plane takes up the bends of a few cells; of a dozen it leaves three quarters.
 constexpr int kMinCells = 12;
-constexpr double kPriorFrames = 5.0;   // balances what a sensor usually does against few frames
-constexpr double kKeptFrames = 100.0;  // some seconds: straightening may begin at any time
+constexpr double kPriorCells = 48.0;  // what a sensor usually does: a small part of one frame
+constexpr double kKept = 0.99;  // a frame: some seconds; straightening may begin at any time
 
 /// Residuals of one plane in one cell, as parts of the inverse depth.
 struct Cell {
@@ -38,8 +38,8 @@ BendSigmas SigmasOfBend(double ratio, double distance_m, double solid_angle_rad2
 BendMeter::BendMeter(const cv::Mat2d& rays, const SensorModel& sensor)
     : rays_(rays),
       noise_(sensor.noise),
-      weight_(kPriorFrames),
-      squares_(kPriorFrames * sensor.bend_ratio * sensor.bend_ratio) {
+      cells_(kPriorCells),
+      squares_(kPriorCells * sensor.bend_ratio * sensor.bend_ratio) {
   const int u = rays.cols / 2, v = rays.rows / 2;
   if (rays.cols < 2 || rays.rows < 2) return;
   pixel_rad2_ =
@@ -91,7 +91,6 @@ void BendMeter::Measure(Frame& frame) {
     }
   }
 
-  // The frame's large planes together are one observation.
   double sum = 0.0;
   int count = 0;
   for (std::size_t f = 0; f < planes.size(); ++f) {
@@ -99,9 +98,8 @@ void BendMeter::Measure(Frame& frame) {
     sum += squares[f], count += cells[f];
   }
   if (count > 0) {
-    const double kept = std::min(1.0, (kKeptFrames - 1.0) / weight_);
-    squares_ = kept * squares_ + std::max(0.0, sum / count);
-    weight_ = kept * weight_ + 1.0;
+    squares_ = kKept * squares_ + sum;
+    cells_ = kKept * cells_ + count;
   }
   frame.bend_ratio = ratio();
   for (FramePlane& plane : frame.planes) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <opencv2/core/mat.hpp>
 
@@ -13,8 +14,8 @@ namespace slam {
 /// large planes over distances at which noise averages out. What it says of a sensor that is not
 /// known, or whose depth has been straightened, is what the frames show.
 ///
-/// It starts from what is known of the sensor, as if a few frames had shown it, and forgets
-/// frames that are long past.
+/// It starts from what is known of the sensor, as if a few cells of a frame had shown it, and
+/// forgets frames that are long past.
 class BendMeter {
  public:
   /// @param rays  PixelRays(camera)
@@ -26,14 +27,14 @@ class BendMeter {
   void Measure(Frame& frame);
 
   /// Root mean square of the bend as a part of the depth, as far as it is known.
-  double ratio() const { return std::sqrt(squares_ / weight_); }
+  double ratio() const { return std::sqrt(std::max(0.0, squares_) / cells_); }
 
  private:
   cv::Mat2d rays_;
   DepthNoise noise_;
   double pixel_rad2_ = 0.0;  ///< solid angle of a pixel in the middle of the image
-  double weight_ = 0.0;      ///< frames that stand behind the estimate
-  double squares_ = 0.0;     ///< sum of their squared ratios
+  double cells_ = 0.0;       ///< cells of large planes that stand behind the estimate
+  double squares_ = 0.0;     ///< sum of their squared deviations, noise taken out
 };
 
 /// Standard deviations of a plane that is fitted to a patch of a bent depth image.

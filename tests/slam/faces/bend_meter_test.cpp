@@ -53,6 +53,16 @@ TEST(BendMeter, FindsThatAFlatSensorBendsNothing) {
   EXPECT_LT(meter.ratio(), 0.2 * sensor.bend_ratio);
 }
 
+TEST(BendMeter, BelievesTheFirstFrameMoreThanWhatSensorsUsuallyDo) {
+  const Camera camera = FullCamera();
+  const SensorModel sensor;
+  BendMeter meter(PixelRays(camera), sensor);
+  Frame frame = Wall(camera, sensor.noise, 0, [](int, int) { return 0.0; });
+  meter.Measure(frame);
+  EXPECT_LT(meter.ratio(), 0.5 * sensor.bend_ratio);
+  EXPECT_DOUBLE_EQ(frame.bend_ratio, meter.ratio());
+}
+
 TEST(BendMeter, FindsByHowMuchASensorBends) {
   // Waves of 220 columns, as of a first Kinect, of half and of twice its height.
   const Camera camera = FullCamera();
