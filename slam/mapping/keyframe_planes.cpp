@@ -31,7 +31,7 @@ void KeepPlanes(const Frame& frame, const PlaneMapConfig& config, Keyframe& keyf
     if (match.decision == PlaneDecision::kUnmatched || frame.planes[f].bad) continue;
     if (!own && !match.ShowsLandmark()) continue;
     KeyframePlane& kept = PlaneShowing(match.map_plane, keyframe);
-    AddEvidence(kept.seen_c, frame.planes[f], Normalised(T_kc), config.keep_information);
+    AddEvidence(kept.seen_c, frame.planes[f], frame, Normalised(T_kc), config.keep_information);
     const PlaneEvidence known = BestKnown(kept.seen_c);
     kept.pi_c = known.pi;
     kept.centroid_c = known.centroid;

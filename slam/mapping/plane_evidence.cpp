@@ -1,11 +1,22 @@
 #include "slam/mapping/plane_evidence.h"
 
+#include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 
 namespace slam {
-void AddEvidence(PlaneEstimate& estimate_a, const FramePlane& plane, const Pose& T_ac,
-                 double keep) {
-  const double share = estimate_a.empty() ? 1.0 : std::sqrt(kFramesOfOneBend);
+
+double SharedBend(const FramePlane& plane, const Frame& frame) {
+  if (!frame.T_lc) return 1.0;
+  constexpr double kStill_rad = 2e-4;  // what poses at rest are apart by noise
+  const double moved_rad =
+      Eigen::AngleAxisd(frame.T_lc->R).angle() + frame.T_lc->t.norm() / plane.centroid_c.norm();
+  return std::max(1.0, kViewOfOneBend_rad / std::max(moved_rad, kStill_rad));
+}
+
+void AddEvidence(PlaneEstimate& estimate_a, const FramePlane& plane, const Frame& frame,
+                 const Pose& T_ac, double keep) {
+  const double share = estimate_a.empty() ? 1.0 : std::sqrt(SharedBend(plane, frame));
   AddObservation(estimate_a, Transform(T_ac, plane.pi_c), T_ac * plane.centroid_c,
                  std::hypot(plane.angle_sigma_rad, share * plane.bend_angle_sigma_rad),
                  std::hypot(plane.offset_sigma_m, share * plane.bend_offset_sigma_m), keep);

@@ -1,19 +1,24 @@
 #pragma once
 
-#include "slam/model/frame_plane.h"
+#include "slam/model/frame.h"
 #include "slam/model/plane_estimate.h"
 
 namespace slam {
 
-/// Number of frames that see a surface through the same bends, at an ordinary speed: they know no
-/// more than the first of them.
-inline constexpr double kFramesOfOneBend = 10.0;
+/// How far a view moves (turn, and way over distance) until it sees a surface through other bends.
+/// Measured: docs/back_end.md, "What a plane is weighed by".
+inline constexpr double kViewOfOneBend_rad = 0.2;
+
+/// Frames from one place see a surface through the same bends: together they know no more than the
+/// first of them. The factor on the bend's variance with which a frame after the first adds what is
+/// new in it, by how far the camera moved since the frame before.
+double SharedBend(const FramePlane& plane, const Frame& frame);
 
 /// Adds a frame's plane to what is known of a surface, by its fit and what the sensor bends.
 /// @param T_ac  from the frame's camera into the frame of the estimate
 /// @param keep  as of AddObservation
-void AddEvidence(PlaneEstimate& estimate_a, const FramePlane& plane, const Pose& T_ac,
-                 double keep);
+void AddEvidence(PlaneEstimate& estimate_a, const FramePlane& plane, const Frame& frame,
+                 const Pose& T_ac, double keep);
 
 /// An estimate as one observation, at the place where its height is known best.
 struct PlaneEvidence {

@@ -21,9 +21,9 @@ std::vector<Eigen::Vector3d> TrueEdges(const FramePlane& plane, const Pose& T_wc
 }
 
 /// The observation's information.
-void UpdateParameters(MapPlane& m, const FramePlane& plane, const Pose& T_wc,
+void UpdateParameters(MapPlane& m, const FramePlane& plane, const Frame& frame,
                       const PlaneMapConfig& config) {
-  AddEvidence(m.estimate, plane, T_wc, config.keep_information);
+  AddEvidence(m.estimate, plane, frame, Inverse(frame.T_cw), config.keep_information);
   if (!m.estimate.empty()) m.pi_w = m.estimate.Mean();
 }
 
@@ -94,7 +94,7 @@ MapPlane StartPlane(const FramePlane& plane, const Frame& frame) {
 void ObservePlane(MapPlane& m, const FramePlane& plane, const Frame& frame,
                   const PlaneMapConfig& config) {
   const Pose T_wc = Inverse(frame.T_cw);
-  UpdateParameters(m, plane, T_wc, config);
+  UpdateParameters(m, plane, frame, config);
   UpdateShape(m, plane, T_wc, config);
   UpdateClass(m, plane, frame);
   if (HasCorners(plane, m)) FuseVertices(m, plane.vertices_c, T_wc, config);

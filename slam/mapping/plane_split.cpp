@@ -162,7 +162,7 @@ void Learn(const PartSighting& sighting, const Frame& frame, const PlaneMapConfi
   ObservePlane(part.surface, plane, frame, config);
   ObservePlane(part.rest, rest, frame, config);
   // Frames from one place see the step through the same bends.
-  const double share = part.apart == 0 ? 1.0 : std::sqrt(kFramesOfOneBend);
+  const double share = part.apart == 0 ? 1.0 : std::sqrt(SharedBend(plane, frame));
   const double bend_m = share * frame.bend_ratio * plane.centroid_c.z();
   const double sigma_m = std::hypot(sighting.sigma_m, bend_m);
   const double information = 1.0 / (sigma_m * sigma_m);

@@ -134,6 +134,8 @@ struct Frame {
   std::optional<Pose> T_cw_by_pixels;
   /// Where motion leads from the frame before; none after the camera was lost.
   std::optional<UncertainPose> prediction;
+  /// From this camera to that of the frame tracked before it; none at the first.
+  std::optional<Pose> T_lc;
   std::vector<MotionAxis> held_by_motion;  ///< directions that nothing in the frame observes
   /// What the frame's own measurements say of T_cw: J^T W J for T_cw <- Exp(xi) T_cw ...
   Matrix6d pose_information = Matrix6d::Zero();

@@ -253,6 +253,7 @@ void Tracker::HoldByPlanes(Frame& frame, TrackReport& report) {
 }
 
 void Tracker::UpdateMap(Frame& frame, TrackReport& report) {
+  frame.T_lc = points_.FromLast(frame.T_cw, map_);
   {
     const Stopwatch watch(report.times[Module::kUpm]);
     UpdatePlanes(frame, map_, camera_, config_.association, config_.plane_map);

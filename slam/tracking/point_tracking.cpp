@@ -281,6 +281,11 @@ void PointTracking::FollowMap(const Map& map) {
   motion_filter_.Correct(LastPose(last_, map));
 }
 
+std::optional<Pose> PointTracking::FromLast(const Pose& T_cw, const Map& map) const {
+  if (last_.reference == kNone) return std::nullopt;
+  return LastPose(last_, map) * Inverse(T_cw);
+}
+
 bool PointTracking::NeedKeyframe(const Frame& frame, const Map& map) const {
   if (state_ == TrackState::kInitialising || state_ == TrackState::kLost) return false;
   if (map.keyframes.empty()) return true;

@@ -141,6 +141,10 @@ class PointTracking {
   /// Whether the tracked frame should become a keyframe.
   bool NeedKeyframe(const Frame& frame, const Map& map) const;
 
+  /// From a camera at T_cw to that of the frame accepted last, in the map as it is now; none
+  /// before the first.
+  std::optional<Pose> FromLast(const Pose& T_cw, const Map& map) const;
+
   /// Takes over the frame as it is after all optimisation and mapping; last call of each frame.
   /// Frames without a pose must not be given.
   void Accept(const Frame& frame, const Map& map);

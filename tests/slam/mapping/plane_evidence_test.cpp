@@ -2,6 +2,8 @@
 
 #include <gmock/gmock.h>
 
+#include <cmath>
+
 #include "tests/support/slam_matchers.h"
 
 namespace slam {
@@ -30,23 +32,51 @@ TEST(PlaneEvidence, OfASensorThatBendsNothingIsWorthItsFit) {
   plane.centroid_c = ProjectOnto(kSurface_w, {0, 0, 1.7});
   plane.angle_sigma_rad = 1e-3, plane.offset_sigma_m = 1e-4;
   PlaneEstimate estimate;
-  for (int i = 0; i < 4; ++i) AddEvidence(estimate, plane, Pose{}, 1.0);
+  for (int i = 0; i < 4; ++i) AddEvidence(estimate, plane, Frame{}, Pose{}, 1.0);
   EXPECT_NEAR(BestKnown(estimate).angle_sigma_rad, 5e-4, 1e-9);
   EXPECT_NEAR(BestKnown(estimate).offset_sigma_m, 5e-5, 1e-9);
 }
 
-TEST(PlaneEvidence, ThatFollowsAnotherBearsTheBendTheyShare) {
+/// What is known after `frames` views by a sensor that bends, the camera moving by `step` (of its own
+/// frames) from each to the next.
+PlaneEvidence KnownFrom(int frames, const Pose& step) {
   FramePlane plane;
   plane.pi_c = kSurface_w;
   plane.centroid_c = ProjectOnto(kSurface_w, {0, 0, 1.7});
-  plane.angle_sigma_rad = plane.offset_sigma_m = 1e-4;
+  plane.angle_sigma_rad = plane.offset_sigma_m = 1e-5;
   plane.bend_angle_sigma_rad = plane.bend_offset_sigma_m = 0.01;
   PlaneEstimate estimate;
-  AddEvidence(estimate, plane, Pose{}, 1.0);
-  EXPECT_NEAR(BestKnown(estimate).offset_sigma_m, 0.01, 1e-4);
-  // Ten more are worth as much as the first.
-  for (int i = 0; i < 10; ++i) AddEvidence(estimate, plane, Pose{}, 1.0);
-  EXPECT_NEAR(BestKnown(estimate).offset_sigma_m, 0.01 / std::sqrt(2.0), 1e-4);
+  Frame frame;
+  for (int i = 0; i < frames; ++i) {
+    AddEvidence(estimate, plane, frame, Pose{}, 1.0);
+    frame.T_lc = Inverse(step);
+  }
+  return BestKnown(estimate);
+}
+
+Pose Turn(double angle_rad) { return {ExpSo3({0, angle_rad, 0}), Eigen::Vector3d::Zero()}; }
+
+TEST(PlaneEvidence, OfViewsThroughOtherBendsIsIndependent) {
+  for (const double turns : {1.0, 5.0}) {
+    const PlaneEvidence known = KnownFrom(16, Turn(turns * kViewOfOneBend_rad));
+    EXPECT_NEAR(known.offset_sigma_m, 0.01 / 4, 1e-6);
+    EXPECT_NEAR(known.angle_sigma_rad, 0.01 / 4, 1e-6);
+  }
+}
+
+TEST(PlaneEvidence, FromOnePlaceBearsTheBendThatItsViewsShare) {
+  EXPECT_NEAR(KnownFrom(1, Pose{}).offset_sigma_m, 0.01, 1e-6);
+  EXPECT_NEAR(KnownFrom(30, Pose{}).offset_sigma_m, 0.01, 2e-4);
+}
+
+TEST(PlaneEvidence, GrowsWithTheWayAndNotWithTheNumberOfFrames) {
+  // A view more on the way, in one step or in ten.
+  EXPECT_NEAR(KnownFrom(11, Turn(0.1 * kViewOfOneBend_rad)).offset_sigma_m,
+              KnownFrom(2, Turn(kViewOfOneBend_rad)).offset_sigma_m, 1e-6);
+  // A way moves the view by its angle as seen from the surface.
+  const double distance_m = ProjectOnto(kSurface_w, {0, 0, 1.7}).norm();
+  const Pose way{Eigen::Matrix3d::Identity(), {0.1 * kViewOfOneBend_rad * distance_m, 0, 0}};
+  EXPECT_NEAR(KnownFrom(11, way).offset_sigma_m, 0.01 / std::sqrt(2.0), 1e-6);
 }
 
 }  // namespace

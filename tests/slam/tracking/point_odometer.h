@@ -31,14 +31,18 @@ struct PointOdometer {
   PointTrackReport Step(Frame& frame) {
     Extract(frame);
     const PointTrackReport report = tracking.TrackPoints(frame, map);
-    if (report.state != TrackState::kTracking) return report;
+    if (report.state == TrackState::kTracking) Finish(frame);
+    return report;
+  }
+
+  /// Maps a tracked frame and goes on from it.
+  void Finish(Frame& frame) {
     if (tracking.NeedKeyframe(frame, map)) {
       const int keyframe =
           InsertKeyframe(frame, map, camera, FeatureScale{}, mapping.keyframes);
       MapLocally(map, keyframe, camera, FeatureScale{}, mapping);
     }
     tracking.Accept(frame, map);
-    return report;
   }
 };
 

@@ -160,9 +160,17 @@ TEST(PointTracking, GoesOnByMotionWhenTheMapIsMovedUnderIt) {
       odometer.tracking.FollowMap(odometer.map);
     }
     Frame frame = SeeSwinging(world, odometer.camera, i);
-    const PointTrackReport report = odometer.Step(frame);
+    odometer.Extract(frame);
+    const PointTrackReport report = odometer.tracking.TrackPoints(frame, odometer.map);
     ASSERT_EQ(report.state, TrackState::kTracking) << "frame " << i;
     EXPECT_EQ(report.by_motion, i > 0) << "frame " << i;
+    const auto T_lc = odometer.tracking.FromLast(frame.T_cw, odometer.map);
+    ASSERT_EQ(T_lc.has_value(), i > 0);
+    if (i > 0) {
+      EXPECT_THAT(*T_lc,
+                  PoseNear(TruthOf(i - 1) * Inverse(TruthOf(i)), kRotation_rad, kPosition_m));
+    }
+    odometer.Finish(frame);
     Pose back_cw = frame.T_cw;  // in the world as it was at first
     for (const int moved : {5, 8}) {
       if (i >= moved) back_cw = back_cw * T_new_old;
