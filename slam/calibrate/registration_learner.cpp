@@ -187,7 +187,7 @@ bool RegistrationLearner::HasMoved(const Frame& frame) const {
 }
 
 void RegistrationLearner::Learn(const Frame& frame) {
-  if (!config_.learn || shifts_px_.size() >= kMaxEpochs || !HasMoved(frame)) return;
+  if (!config_.learn || held_ || shifts_px_.size() >= kMaxEpochs || !HasMoved(frame)) return;
   last_T_cw_ = frame.T_cw;
   cv::Mat1f smooth;
   frame.gray.convertTo(smooth, CV_32F);

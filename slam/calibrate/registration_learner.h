@@ -41,6 +41,9 @@ class RegistrationLearner {
   /// Learns from a tracked frame, if the camera has moved since the last that it learnt from.
   void Learn(const Frame& frame);
 
+  /// What is known by now stays as it is, for a map that is made with it throughout.
+  void Hold() { held_ = estimate_.has_value(); }
+
   /// None before enough epochs.
   const std::optional<RegistrationEstimate>& estimate() const { return estimate_; }
   /// Turn from the colour camera to the depth camera, where it is known well enough; else the
@@ -75,6 +78,7 @@ class RegistrationLearner {
   std::vector<Eigen::Vector2d> shifts_px_;  ///< of each epoch
   std::optional<Pose> last_T_cw_;           ///< of the last frame that it learnt from
   std::optional<RegistrationEstimate> estimate_;
+  bool held_ = false;
   Eigen::Matrix3d R_dc_ = Eigen::Matrix3d::Identity();
 };
 

@@ -116,7 +116,7 @@ void RollingLearner::CloseEpoch() {
 }
 
 void RollingLearner::Learn(const Frame& frame, const Map& map) {
-  if (!config_.learn) return;
+  if (!config_.learn || held_) return;
   const auto evidence = EvidenceOf(frame, map);
   if (!evidence || !(evidence->information > 0.0)) return;
   epoch_.information += evidence->information;

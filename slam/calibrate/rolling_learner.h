@@ -37,6 +37,9 @@ class RollingLearner {
 
   /// What is to be taken out of an image that is read while the camera moves so.
   Readout ReadoutAt(const Vector6d& speed) const;
+  /// What is known by now stays as it is, for a map that is made with it throughout.
+  void Hold() { held_ = estimate_.has_value(); }
+
   /// None before enough epochs.
   const std::optional<RollingEstimate>& estimate() const { return estimate_; }
 
@@ -55,6 +58,7 @@ class RollingLearner {
   Evidence epoch_;
   std::vector<Evidence> epochs_;
   std::optional<RollingEstimate> estimate_;
+  bool held_ = false;
 };
 
 }  // namespace slam

@@ -38,6 +38,9 @@ BendSigmas SigmasOfBend(double ratio, double distance_m, double solid_angle_rad2
 BendMeter::BendMeter(const cv::Mat2d& rays, const SensorModel& sensor)
     : rays_(rays),
       noise_(sensor.noise),
+      // A time of flight errs with the distance, which is one over a plane that is seen frontally: the
+      // pose errs by it, unseen.
+      unseen_(sensor.sensor == DepthSensor::kAzure ? sensor.bend_ratio : 0.0),
       cells_(kPriorCells),
       squares_(kPriorCells * sensor.bend_ratio * sensor.bend_ratio) {
   const int u = rays.cols / 2, v = rays.rows / 2;
@@ -101,7 +104,7 @@ void BendMeter::Measure(Frame& frame) {
     squares_ = kKept * squares_ + sum;
     cells_ = kKept * cells_ + count;
   }
-  frame.bend_ratio = ratio();
+  frame.bend_ratio = std::max(unseen_, ratio());
   for (FramePlane& plane : frame.planes) {
     const BendSigmas sigmas =
         SigmasOfBend(ratio(), plane.centroid_c.z(), plane.pixel_count * pixel_rad2_);

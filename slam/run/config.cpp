@@ -17,6 +17,8 @@ void VisitFields(Config& c, FieldVisitor& v) {
             c.depth_warp);
   v.Section("depth_registration", "how far depth lies beside its colour", c.depth_registration);
   v.Section("rolling_shutter", "how long the colour camera reads an image", c.rolling_shutter);
+  v.Section("first_look", "what is learnt of the device before a recording is run",
+            c.first_look);
 
   v.Section("point_features", "ORB extraction", c.point_features);
   v.Section("point_depth", "depth of a feature", c.point_features.depth);

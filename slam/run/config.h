@@ -1,6 +1,7 @@
 #pragma once
 
 #include "slam/associate/association_config.h"
+#include "slam/calibrate/first_look_config.h"
 #include "slam/calibrate/registration_config.h"
 #include "slam/calibrate/rolling_config.h"
 #include "slam/calibrate/warp_config.h"
@@ -29,6 +30,7 @@ struct Config {
   DepthWarpConfig depth_warp;
   RegistrationConfig depth_registration;
   RollingConfig rolling_shutter;
+  FirstLookConfig first_look;
 
   // (B) extraction
   PointFeatureConfig point_features;

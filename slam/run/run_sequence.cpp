@@ -95,6 +95,8 @@ class SequenceRun {
       : options_(options),
         threads_(ThreadsOf(options)),
         frames_(input.frames),
+        before_(input.before),
+        camera_(input.camera),
         truth_(input.truth),
         doubts_(std::move(doubts)),
         tracker_(input.camera, options.config, options.variant, std::move(input.detector),
@@ -108,6 +110,7 @@ class SequenceRun {
   RunOutcome Run() {
     const int total = frames_.size();
     outcome_.sequence_frames = total;
+    const int looked_at = LookFirst();
     if (truth_ != nullptr) {
       truth_->Begin(writer_.Path(options_.sequence.lexically_relative(options_.run)));
     }
@@ -120,7 +123,7 @@ class SequenceRun {
       const bool more = i + 1 < total && !outcome_.stopped;
       if (more) ahead = Begin(i + 1);
       if (now.taken) Take(std::move(now));
-      if (options_.progress) options_.progress(i + 1, total);
+      if (options_.progress) options_.progress(looked_at + i + 1, looked_at + total);
       if (more && i + 2 < total && options_.stop) outcome_.stopped = options_.stop();
     }
     Finish();
@@ -136,6 +139,44 @@ class SequenceRun {
     ModuleTimes times;
   };
 
+  /// Learns of the device from the first frames, so that the map is not begun with a depth that
+  /// lies beside its colour and rows that are told at the wrong time.
+  /// @returns how many frames that were
+  int LookFirst() {
+    const Config& config = options_.config;
+    if (before_ == nullptr ||
+        (!config.depth_registration.learn && !config.rolling_shutter.learn))
+      return 0;
+    const int count = std::min(config.first_look.frames, before_->size());
+    if (count == 0) return 0;
+    Config points = config;
+    points.async_mapping = false;
+    Tracker tracker(camera_, points, Variant::kPoints, nullptr, options_.seed, threads_);
+    FrameGate gate(camera_);
+    RepeatedImages repeated;
+    int index = 0;
+    for (int i = 0; i < count && !(options_.stop && options_.stop()); ++i) {
+      RecordedFrame recorded = before_->Read(i);
+      if (gate.Takes(recorded) && !repeated.Repeats(recorded)) {
+        Frame frame = FrameOf(recorded, index++);
+        tracker.TrackFrame(frame, recorded.bgr);
+      }
+      if (options_.progress) options_.progress(i + 1, count + frames_.size());
+    }
+    tracker_.StartFrom(tracker);
+    return count;
+  }
+
+  static Frame FrameOf(const RecordedFrame& recorded, int index) {
+    Frame frame;
+    frame.index = index;
+    frame.timestamp_s = recorded.timestamp_s;
+    frame.depth_late_s = recorded.depth_late_s;
+    frame.gray = recorded.gray;
+    frame.depth_m = recorded.depth_m;
+    return frame;
+  }
+
   /// Begins a frame, before the one before it is tracked. On one thread it is done when it is
   /// asked for, with what was known here, so that the number of threads changes nothing.
   std::future<FrameAhead> Begin(int i) {
@@ -150,13 +191,9 @@ class SequenceRun {
     RecordedFrame recorded = frames_.Read(i);
     ahead.taken = gate_.Takes(recorded);
     if (!ahead.taken) return ahead;
-    ahead.frame.index = taken_++;
-    ahead.frame.timestamp_s = recorded.timestamp_s;
+    ahead.frame = FrameOf(recorded, taken_++);
     ahead.repeats = repeated_.Repeats(recorded);
     if (ahead.repeats) return ahead;
-    ahead.frame.depth_late_s = recorded.depth_late_s;
-    ahead.frame.gray = recorded.gray;
-    ahead.frame.depth_m = recorded.depth_m;
     tracker_.Extract(depth_factors, recorded.bgr, ahead.frame, ahead.times);
     return ahead;
   }
@@ -242,6 +279,8 @@ class SequenceRun {
   const RunOptions& options_;
   int threads_;
   FrameSource& frames_;
+  FrameSource* before_;
+  Camera camera_;
   LiveTruth* truth_;
   std::vector<std::string> doubts_;
   Tracker tracker_;
@@ -307,7 +346,9 @@ RunOutcome RunSequence(const RunOptions& options) {
   for (const auto& more : {reader.warnings(), detector->WarningsFor(frames_s)}) {
     doubts.insert(doubts.end(), more.begin(), more.end());
   }
-  return Run({reader, camera, std::move(detector)}, options, choice, std::move(doubts));
+  SequenceReader before(options.sequence, camera, {.prefetch = ThreadsOf(options) > 1});
+  return Run({reader, camera, std::move(detector), nullptr, &before}, options, choice,
+             std::move(doubts));
 }
 
 RunOutcome RunLive(LiveCamera live, const RunOptions& options) {

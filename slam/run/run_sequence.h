@@ -68,6 +68,8 @@ struct LiveCamera {
   Camera camera;
   std::unique_ptr<Detector> detector;  ///< null: no detections
   LiveTruth* truth = nullptr;          ///< null: none is written
+  /// The same frames once more, for a first look at them; null: they come once.
+  FrameSource* before = nullptr;
 };
 
 /// Runs PAS-SLAM over the sequence and writes the run folder (formats.md), whole or not at all.

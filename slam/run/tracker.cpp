@@ -77,6 +77,13 @@ Tracker::Tracker(const Camera& camera, const Config& config, Variant variant,
       [this, turn](int keyframe) { MapKeyframe(keyframe, turn); }, kMaxWaiting);
 }
 
+void Tracker::StartFrom(const Tracker& other) {
+  registration_ = other.registration_;
+  rolling_ = other.rolling_;
+  registration_.Hold();
+  rolling_.Hold();
+}
+
 void Tracker::Finish(MappingWorker::Waiting waiting) {
   if (worker_) worker_->Finish(waiting);
   for (MapPlane& plane : map_.planes) ForgetDoubtfulCorners(plane, config_.plane_map);

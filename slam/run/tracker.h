@@ -87,6 +87,11 @@ class Tracker {
   /// What is known by now of how the device bends depth; see DepthStraightener.
   const cv::Mat1f& DepthFactors() const { return straightener_.factors(); }
 
+  /// Starts from what another tracker has learnt of the same device: how far its depth lies beside
+  /// its colour and how long it reads an image. What that one knows of these is not learnt any
+  /// further: the map is made with it throughout. Before the first frame.
+  void StartFrom(const Tracker& other);
+
   /// Ends mapping beside tracking, after all or none of the keyframes that wait; last call
   /// before the map is looked at. @throws what mapping threw
   void Finish(MappingWorker::Waiting waiting);

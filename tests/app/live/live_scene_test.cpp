@@ -76,6 +76,7 @@ TEST_F(LiveSceneTest, GivesTheRunThatTheFilesOfTheSameRecordingGive) {
     slam::RunOptions run;
     run.sequence = root_ / tag;
     run.run = root_ / (tag + "_files");
+    run.config.first_look.frames = 0;  // frames that are rendered come once
     const slam::RunOutcome outcome = slam::RunSequence(run);
     ASSERT_GT(outcome.tracked, 3);
     ASSERT_GT(outcome.map_planes + outcome.keyframes, 0);

@@ -63,6 +63,18 @@ TEST(BendMeter, BelievesTheFirstFrameMoreThanWhatSensorsUsuallyDo) {
   EXPECT_DOUBLE_EQ(frame.bend_ratio, meter.ratio());
 }
 
+TEST(BendMeter, KeepsWhatPlanesDoNotShowOfATimeOfFlight) {
+  const Camera camera = FullCamera();
+  const SensorModel sensor = ModelOf(DepthSensor::kAzure);
+  BendMeter meter(PixelRays(camera), sensor);
+  for (int k = 0; k < 3; ++k) {
+    Frame frame = Wall(camera, sensor.noise, k, [](int, int) { return 0.0; });
+    meter.Measure(frame);
+    EXPECT_DOUBLE_EQ(frame.bend_ratio, sensor.bend_ratio);
+  }
+  EXPECT_LT(meter.ratio(), 0.5 * sensor.bend_ratio);
+}
+
 TEST(BendMeter, FindsByHowMuchASensorBends) {
   // Waves of 220 columns, as of a first Kinect, of half and of twice its height.
   const Camera camera = FullCamera();

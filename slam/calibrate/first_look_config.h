@@ -1,0 +1,19 @@
+#pragma once
+
+#include "slam/base/field_visitor.h"
+
+namespace slam {
+
+/// What is learnt of the device before a recording is run.
+struct FirstLookConfig {
+  int frames = 300;  // 10 s: ten times what the first estimates take
+};
+
+inline void VisitFields(FirstLookConfig& c, FieldVisitor& v) {
+  v.Integer("frames", c.frames, "[0, 10000000]",
+            "frames of a recording that are looked at before it is run, by points alone, to "
+            "learn its depth_registration and rolling_shutter; 0: these are learnt on the way "
+            "alone, as with a live camera");
+}
+
+}  // namespace slam

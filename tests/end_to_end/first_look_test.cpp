@@ -1,0 +1,70 @@
+#include <gtest/gtest.h>
+
+#include "sim/families/families.h"
+#include "tests/support/pipeline.h"
+
+namespace {
+
+/// A recording by a camera that reads its rows one after the other.
+void RecordByRows(const std::filesystem::path& folder) {
+  sim::SequenceOptions options;
+  options.rig.sensor = sim::SensorKind::kKinect1Clean;
+  options.rig.sensor.exposure.rolling_s = 0.03;
+  options.rig.camera = sim::Resize(sim::Camera{}, 320, 240);
+  options.rig.seed = 1;
+  options.frames = 60;
+  options.threads = 2;
+  sim::WriteSequence(sim::MakeScene("revisit", 32), options, folder);
+}
+
+struct Looked {
+  slam::RunOutcome outcome;
+  double ate_m = 0.0;
+  int last_done = 0, last_total = 0;  ///< as the last progress said
+};
+
+Looked RunWith(int first_look, const std::filesystem::path& sequence,
+               const std::filesystem::path& run) {
+  Looked looked;
+  slam::RunOptions options;
+  options.sequence = sequence;
+  options.run = run;
+  options.threads = 2;
+  options.config.first_look.frames = first_look;
+  options.progress = [&](int done, int total) {
+    EXPECT_EQ(done, looked.last_done + 1);
+    looked.last_done = done, looked.last_total = total;
+  };
+  looked.outcome = slam::RunSequence(options);
+  looked.ate_m = pipeline::Score(run, sequence)["trajectory"]["ate_se3"]["rmse_m"];
+  return looked;
+}
+
+TEST(FirstLook, BeginsTheMapWithWhatTheDeviceTurnsOutToBe) {
+  const pipeline::TemporaryFolder folder("first_look");
+  RecordByRows(folder / "seq");
+  const Looked without = RunWith(0, folder / "seq", folder / "without");
+  const Looked with = RunWith(300, folder / "seq", folder / "with");
+  EXPECT_LT(with.ate_m, 0.7 * without.ate_m);
+  // Frames that are looked at are no frames of the run.
+  EXPECT_EQ(with.outcome.frames, without.outcome.frames);
+  EXPECT_EQ(with.outcome.tracked, without.outcome.tracked);
+  EXPECT_EQ(without.last_total, without.outcome.frames);
+  EXPECT_EQ(with.last_total, 2 * with.outcome.frames);
+  EXPECT_EQ(with.last_done, with.last_total);
+}
+
+TEST(FirstLook, EndsWhereTheRunIsStopped) {
+  const pipeline::TemporaryFolder folder("first_look_stopped");
+  RecordByRows(folder / "seq");
+  slam::RunOptions options;
+  options.sequence = folder / "seq";
+  options.run = folder / "run";
+  int asked = 0;
+  options.stop = [&] { return ++asked > 5; };
+  const slam::RunOutcome outcome = slam::RunSequence(options);
+  EXPECT_TRUE(outcome.stopped);
+  EXPECT_EQ(outcome.frames, 2);
+}
+
+}  // namespace
