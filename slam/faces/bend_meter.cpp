@@ -16,7 +16,7 @@ constexpr int kStride_px = 2;       // neighbours say the same of a bend
 constexpr double kMinFilled = 0.8;  // of a cell: one at an edge holds the edge's own errors
 // A plane takes up the bends of a few cells; of a dozen it leaves three quarters.
 constexpr int kMinCells = 12;
-constexpr double kPriorCells = 48.0;  // what a sensor usually does: a small part of one frame
+constexpr double kPriorCells = 48.0;  // what a sensor usually does: a tenth of one frame
 constexpr double kKept = 0.99;  // a frame: some seconds; straightening may begin at any time
 
 /// Residuals of one plane in one cell, as parts of the inverse depth.
@@ -38,9 +38,7 @@ BendSigmas SigmasOfBend(double ratio, double distance_m, double solid_angle_rad2
 BendMeter::BendMeter(const cv::Mat2d& rays, const SensorModel& sensor)
     : rays_(rays),
       noise_(sensor.noise),
-      // A time of flight errs with the distance, which is one over a plane that is seen frontally: the
-      // pose errs by it, unseen.
-      unseen_(sensor.sensor == DepthSensor::kAzure ? sensor.bend_ratio : 0.0),
+      unseen_(sensor.unseen_ratio),
       cells_(kPriorCells),
       squares_(kPriorCells * sensor.bend_ratio * sensor.bend_ratio) {
   const int u = rays.cols / 2, v = rays.rows / 2;

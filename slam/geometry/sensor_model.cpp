@@ -34,7 +34,8 @@ SensorModel ModelOf(DepthSensor sensor) {
       break;
     case DepthSensor::kAzure:
       model.noise = AzureNoise();
-      model.bend_ratio = 0.002;   // its wave: 2 mm at 1 m
+      model.bend_ratio = 0.002;  // its wave: 2 mm at 1 m
+      model.unseen_ratio = model.bend_ratio;
       model.stamp_sigma_s = 0.0;  // one trigger for both cameras
       break;
     case DepthSensor::kD435:

@@ -26,6 +26,9 @@ struct SensorModel {
   DepthSensor sensor = DepthSensor::kKinect1;
   DepthNoise noise;
   double bend_ratio = kKinectBend;  ///< as kKinectBend; 0: bends nothing that is known
+  /// An error that goes with the distance alone, root mean square, as a share of it: a plane that is
+  /// seen frontally does not show it.
+  double unseen_ratio = 0.0;
   /// How well the stamps of a colour and a depth image say how long after each other they were
   /// taken, seconds, standard deviation; 0: the device takes both at once.
   double stamp_sigma_s = 0.001;
