@@ -171,10 +171,10 @@ void Tracker::OptimiseWithPlanes(Frame& frame, TrackReport& report) {
   const PoseProblem by_planes = ProblemOf(frame, {});
   // The points alone were optimised before.
   if (by_planes.planes.empty() && by_planes.rotations.empty()) return;
-  // Once more without the matches that the better-known pose contradicts.
-  if (OptimiseByAll(frame) && TakeBackContradicted(frame, map_, config_.association) > 0) {
-    OptimiseByAll(frame);
-  }
+  // Once more without the matches that the pose contradicts: the better-known one, or that by points
+  // where planes would have it against them.
+  OptimiseByAll(frame);
+  if (TakeBackContradicted(frame, map_, config_.association) > 0) OptimiseByAll(frame);
 }
 
 /// eq13 from all points and planes of the frame, from its pose.
@@ -188,17 +188,18 @@ PoseProblem Tracker::ProblemOf(const Frame& frame, const FramePoints& points) co
   return problem;
 }
 
-/// @returns false, and nothing is changed, when the outcome is not usable
-bool Tracker::OptimiseByAll(Frame& frame) const {
+/// Changes nothing when the outcome is not usable, or most of the points that agreed on a pose before
+/// do not agree with this one: planes on wrong landmarks outweigh them.
+void Tracker::OptimiseByAll(Frame& frame) const {
   const FramePoints points = PointConstraints(frame, map_, scale());
   const PoseProblem problem = ProblemOf(frame, points);
   const PoseSummary summary = OptimisePose(problem, camera_, config_.point_search.pose);
-  if (!summary.usable) return false;
+  const auto agreed = static_cast<int>(points.constraints.size());
+  if (!summary.usable || 2 * summary.inlier_count < agreed) return;
   frame.T_cw = summary.T_cw;
   frame.pose_information = summary.information;
   frame.pose_covariance = summary.covariance;
   DropOutliers(frame, points, summary.point_inliers);
-  return true;
 }
 
 /// Tells points and planes as they are where the camera moves so.

@@ -122,7 +122,7 @@ class Tracker {
   void OptimiseWithPlanes(Frame& frame, TrackReport& report);
   void TellAgain(const Vector6d& speed, Frame& frame) const;
   void HoldByPlanes(Frame& frame, TrackReport& report);
-  bool OptimiseByAll(Frame& frame) const;
+  void OptimiseByAll(Frame& frame) const;
   PoseProblem ProblemOf(const Frame& frame, const FramePoints& points) const;
   void UpdateMap(Frame& frame, TrackReport& report);
   void KeepFrame(Frame& frame);
