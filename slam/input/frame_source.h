@@ -19,7 +19,7 @@ class FrameSource {
  public:
   virtual ~FrameSource() = default;
   virtual int size() const = 0;
-  /// Frame i of [0, size()); the caller asks for each once, in order. Timestamps strictly
+  /// Frame i of [0, size()); the caller asks for each once, in order, of a recording perhaps twice. Timestamps strictly
   /// increase, all images have the camera's size.
   virtual RecordedFrame Read(int i) = 0;
 };

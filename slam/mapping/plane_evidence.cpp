@@ -8,7 +8,7 @@ namespace slam {
 
 double SharedBend(const FramePlane& plane, const Frame& frame) {
   if (!frame.T_lc) return 1.0;
-  constexpr double kStill_rad = 2e-4;  // what poses at rest are apart by noise
+  constexpr double kStill_rad = 2e-4;  // a thousandth of that: the factor stays finite at rest
   const double moved_rad =
       Eigen::AngleAxisd(frame.T_lc->R).angle() + frame.T_lc->t.norm() / plane.centroid_c.norm();
   return std::max(1.0, kViewOfOneBend_rad / std::max(moved_rad, kStill_rad));

@@ -8,6 +8,7 @@
 #include "io/folder_kind.h"
 #include "slam/input/camera_reader.h"
 #include "slam/input/frame_gate.h"
+#include "slam/input/frame_of.h"
 #include "slam/input/sequence_reader.h"
 #include "slam/run/tracker.h"
 #include "slam/segment/plane_segments.h"
@@ -40,16 +41,6 @@ struct PassOverFrames {
   }
 };
 
-Frame FrameOfRecord(const RecordedFrame& recorded, int index) {
-  Frame frame;
-  frame.index = index;
-  frame.timestamp_s = recorded.timestamp_s;
-  frame.depth_late_s = recorded.depth_late_s;
-  frame.gray = recorded.gray;
-  frame.depth_m = recorded.depth_m;
-  return frame;
-}
-
 /// The camera by points alone: poses of the frames that are tracked.
 PosesByTime TrackAll(PassOverFrames& pass, const Config& config) {
   Config points = config;
@@ -59,7 +50,7 @@ PosesByTime TrackAll(PassOverFrames& pass, const Config& config) {
   PosesByTime poses;
   int index = 0;
   pass.Run([&](const RecordedFrame& recorded) {
-    Frame frame = FrameOfRecord(recorded, index++);
+    Frame frame = FrameOf(recorded, index++);
     if (tracker.TrackFrame(frame, recorded.bgr).tracked) poses[frame.timestamp_s] = frame.T_cw;
   });
   return poses;
@@ -76,7 +67,7 @@ WarpLearner LearnFrom(PassOverFrames& pass, const PosesByTime& poses, const Conf
   pass.Run([&](const RecordedFrame& recorded) {
     const auto pose = poses.find(recorded.timestamp_s);
     if (pose == poses.end() || !learner.Wants(pose->second)) return;
-    Frame frame = FrameOfRecord(recorded, 0);
+    Frame frame = FrameOf(recorded, 0);
     if (known) frame.depth_m = Straightened(recorded.depth_m, factors);
     extractor.Extract(frame);
     learner.Observe(frame.timestamp_s, recorded.depth_m, frame.plane_labels, pose->second);

@@ -16,10 +16,12 @@
 #include "slam/diagnose/depth_clock.h"
 #include "slam/input/camera_reader.h"
 #include "slam/input/frame_gate.h"
+#include "slam/input/frame_of.h"
 #include "slam/input/repeated_images.h"
 #include "slam/input/sequence_reader.h"
 #include "slam/model/map_queries.h"
 #include "slam/run/config_file.h"
+#include "slam/run/first_look.h"
 #include "slam/run/lost_frames.h"
 #include "slam/run/run_writer.h"
 
@@ -95,7 +97,7 @@ class SequenceRun {
       : options_(options),
         threads_(ThreadsOf(options)),
         frames_(input.frames),
-        before_(input.before),
+        comes_again_(input.comes_again),
         camera_(input.camera),
         truth_(input.truth),
         doubts_(std::move(doubts)),
@@ -110,7 +112,7 @@ class SequenceRun {
   RunOutcome Run() {
     const int total = frames_.size();
     outcome_.sequence_frames = total;
-    const int looked_at = LookFirst();
+    const int looked_at = LearnDevice();
     if (truth_ != nullptr) {
       truth_->Begin(writer_.Path(options_.sequence.lexically_relative(options_.run)));
     }
@@ -139,42 +141,18 @@ class SequenceRun {
     ModuleTimes times;
   };
 
-  /// Learns of the device from the first frames, so that the map is not begun with a depth that
-  /// lies beside its colour and rows that are told at the wrong time.
-  /// @returns how many frames that were
-  int LookFirst() {
+  /// Learns of the device before the run. @returns how many frames were looked at, or were to be
+  int LearnDevice() {
     const Config& config = options_.config;
-    if (before_ == nullptr ||
-        (!config.depth_registration.learn && !config.rolling_shutter.learn))
-      return 0;
-    const int count = std::min(config.first_look.frames, before_->size());
+    const bool wanted = config.depth_registration.learn || config.rolling_shutter.learn;
+    const int count =
+        wanted && comes_again_ ? std::min(config.first_look.frames, frames_.size()) : 0;
     if (count == 0) return 0;
-    Config points = config;
-    points.async_mapping = false;
-    Tracker tracker(camera_, points, Variant::kPoints, nullptr, options_.seed, threads_);
-    FrameGate gate(camera_);
-    RepeatedImages repeated;
-    int index = 0;
-    for (int i = 0; i < count && !(options_.stop && options_.stop()); ++i) {
-      RecordedFrame recorded = before_->Read(i);
-      if (gate.Takes(recorded) && !repeated.Repeats(recorded)) {
-        Frame frame = FrameOf(recorded, index++);
-        tracker.TrackFrame(frame, recorded.bgr);
-      }
-      if (options_.progress) options_.progress(i + 1, count + frames_.size());
-    }
-    tracker_.StartFrom(tracker);
+    tracker_.StartFrom(*LookFirst(frames_, count, camera_, config, threads_, [&](int done) {
+      if (options_.progress) options_.progress(done, count + frames_.size());
+      return !options_.stop || !options_.stop();
+    }));
     return count;
-  }
-
-  static Frame FrameOf(const RecordedFrame& recorded, int index) {
-    Frame frame;
-    frame.index = index;
-    frame.timestamp_s = recorded.timestamp_s;
-    frame.depth_late_s = recorded.depth_late_s;
-    frame.gray = recorded.gray;
-    frame.depth_m = recorded.depth_m;
-    return frame;
   }
 
   /// Begins a frame, before the one before it is tracked. On one thread it is done when it is
@@ -279,7 +257,7 @@ class SequenceRun {
   const RunOptions& options_;
   int threads_;
   FrameSource& frames_;
-  FrameSource* before_;
+  bool comes_again_;
   Camera camera_;
   LiveTruth* truth_;
   std::vector<std::string> doubts_;
@@ -346,8 +324,7 @@ RunOutcome RunSequence(const RunOptions& options) {
   for (const auto& more : {reader.warnings(), detector->WarningsFor(frames_s)}) {
     doubts.insert(doubts.end(), more.begin(), more.end());
   }
-  SequenceReader before(options.sequence, camera, {.prefetch = ThreadsOf(options) > 1});
-  return Run({reader, camera, std::move(detector), nullptr, &before}, options, choice,
+  return Run({reader, camera, std::move(detector), nullptr, true}, options, choice,
              std::move(doubts));
 }
 

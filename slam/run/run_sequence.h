@@ -68,8 +68,7 @@ struct LiveCamera {
   Camera camera;
   std::unique_ptr<Detector> detector;  ///< null: no detections
   LiveTruth* truth = nullptr;          ///< null: none is written
-  /// The same frames once more, for a first look at them; null: they come once.
-  FrameSource* before = nullptr;
+  bool comes_again = false;  ///< the frames may be read twice: once for a first look at them
 };
 
 /// Runs PAS-SLAM over the sequence and writes the run folder (formats.md), whole or not at all.
