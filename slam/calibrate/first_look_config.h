@@ -6,7 +6,7 @@ namespace slam {
 
 /// What is learnt of the device before a recording is run.
 struct FirstLookConfig {
-  int frames = 300;  // 10 s: ten times what the first estimates take
+  int frames = 300;  // 10 s: shorter looks are worse by a tenth (docs/calibration.md)
 };
 
 inline void VisitFields(FirstLookConfig& c, FieldVisitor& v) {
