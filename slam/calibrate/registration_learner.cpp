@@ -46,8 +46,12 @@ double SigmaOfMean(const std::vector<double>& values) {
 
 }  // namespace
 
-RegistrationLearner::RegistrationLearner(const Camera& camera, const RegistrationConfig& config)
-    : camera_(camera), rays_(PixelRays(camera)), config_(config) {}
+RegistrationLearner::RegistrationLearner(const Camera& camera, double edge_growth_px,
+                                         const RegistrationConfig& config)
+    : camera_(camera),
+      rays_(PixelRays(camera)),
+      max_grown_(std::min(static_cast<int>(std::lround(edge_growth_px * kSteps)), kMaxGrown)),
+      config_(config) {}
 
 /// Adds the gradients of brightness across an edge, around where colour should show it.
 void RegistrationLearner::AddEdge(const cv::Mat1f& gray, const DepthEdge& edge, NearSide side,
@@ -89,7 +93,7 @@ void RegistrationLearner::AddEdge(const cv::Mat1f& gray, const DepthEdge& edge, 
 }
 
 /// The shifts along both axes and the growth, one for all sides, that explain the most.
-RegistrationLearner::Peak RegistrationLearner::FindPeak(const Profiles& profiles) {
+RegistrationLearner::Peak RegistrationLearner::FindPeak(const Profiles& profiles) const {
   // Mean gradients around each distance from the edges, in steps.
   constexpr int kMost = kMaxShift + kMaxGrown;
   std::array<std::array<double, 2 * kMost + 1>, kNearSides> around{};
@@ -116,7 +120,7 @@ RegistrationLearner::Peak RegistrationLearner::FindPeak(const Profiles& profiles
   std::array<int, 2> best_shift{};
   int best_grown = 0;
   double most = -std::numeric_limits<double>::infinity();
-  for (int grown = kMinGrown; grown <= kMaxGrown; ++grown) {
+  for (int grown = kMinGrown; grown <= max_grown_; ++grown) {
     std::array<int, 2> shift{};
     double sum = 0.0;
     for (int axis = 0; axis < 2; ++axis) {
@@ -135,7 +139,7 @@ RegistrationLearner::Peak RegistrationLearner::FindPeak(const Profiles& profiles
     const int at = best_shift[static_cast<std::size_t>(axis)];
     double mean = 0.0, other = 0.0;
     int count = 0;
-    for (int grown = kMinGrown; grown <= kMaxGrown; ++grown) {
+    for (int grown = kMinGrown; grown <= max_grown_; ++grown) {
       for (int s = -kMaxShift; s <= kMaxShift; ++s, ++count) {
         mean += explained(axis, s, grown);
         if (std::abs(s - at) >= kBeside || std::abs(grown - best_grown) >= kBeside)

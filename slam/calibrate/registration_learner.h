@@ -36,7 +36,10 @@ struct RegistrationEstimate {
 /// Deterministic. The idea is Levinson and Thrun's (RSS 2013), for laser scanners.
 class RegistrationLearner {
  public:
-  RegistrationLearner(const Camera& camera, const RegistrationConfig& config);
+  /// @param edge_growth_px  SensorModel::edge_growth_px, [0, 4]. Without a bound the near edge of one
+  ///                        side and a rim inside the other would do for a shift
+  RegistrationLearner(const Camera& camera, double edge_growth_px,
+                      const RegistrationConfig& config);
 
   /// Learns from a tracked frame, if the camera has moved since the last that it learnt from.
   void Learn(const Frame& frame);
@@ -68,11 +71,12 @@ class RegistrationLearner {
 
   bool HasMoved(const Frame& frame) const;
   void AddEdge(const cv::Mat1f& gray, const DepthEdge& edge, NearSide side, const Pose& T_cd);
-  static Peak FindPeak(const Profiles& profiles);
+  Peak FindPeak(const Profiles& profiles) const;
   void CloseEpoch();
 
   Camera camera_;
   cv::Mat2d rays_;
+  int max_grown_;  ///< steps
   RegistrationConfig config_;
   Profiles epoch_, all_;
   std::vector<Eigen::Vector2d> shifts_px_;  ///< of each epoch

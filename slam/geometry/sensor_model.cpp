@@ -40,8 +40,9 @@ SensorModel ModelOf(DepthSensor sensor) {
       break;
     case DepthSensor::kD435:
       model.noise = D435Noise();
-      model.bend_ratio = 0.0;     // not known; its noise hides it
-      model.stamp_sigma_s = 0.0;  // one clock for both cameras
+      model.edge_growth_px = 4.0;  // half of its 7 x 7 window, and what a pixel is wide
+      model.bend_ratio = 0.0;      // not known; its noise hides it
+      model.stamp_sigma_s = 0.0;   // one clock for both cameras
       break;
   }
   return model;

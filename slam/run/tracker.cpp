@@ -64,7 +64,7 @@ Tracker::Tracker(const Camera& camera, const Config& config, Variant variant,
       extractor_(camera, rays_, config_, variant != Variant::kPoints, std::move(detector),
                  threads),
       straightener_(camera, config_.sensor.noise, config_.depth_warp),
-      registration_(camera, config_.depth_registration),
+      registration_(camera, config_.sensor.edge_growth_px, config_.depth_registration),
       rolling_(camera, config_.point_features.scale, config_.rolling_shutter),
       points_(camera, config_.point_features.scale, config_.point_search, config_.tracking),
       hooks_(std::move(hooks)) {

@@ -13,7 +13,8 @@ namespace {
 
 /// How colour shows the boards that hang before a wall.
 enum class Print {
-  kBoards,   ///< each in a grey of its own
+  kBoards,  ///< each in a grey of its own
+  kRims,    ///< boards whose left and lower rims, 7 pixels wide, stand out more than their ends
   kNothing,  ///< none: noise
   kBlinds,   ///< the whole image has stripes of one width
 };
@@ -41,9 +42,10 @@ void FillExactly(cv::Mat1f& image, double u0, double v0, double u1, double v1, f
   }
 }
 
-RegistrationLearner Learn(const Recording& recording, const RegistrationConfig& config = {}) {
+RegistrationLearner Learn(const Recording& recording, double edge_growth_px = 4.0,
+                          const RegistrationConfig& config = {}) {
   const Camera camera;
-  RegistrationLearner learner(camera, config);
+  RegistrationLearner learner(camera, edge_growth_px, config);
   for (int i = 0; i < recording.frames; ++i) {
     Random random{5, static_cast<std::uint64_t>(i)};
     cv::Mat1f depth_m(480, 640, 2.0f), gray(480, 640, 120.0f);
@@ -58,8 +60,13 @@ RegistrationLearner Learn(const Recording& recording, const RegistrationConfig& 
           to(static_cast<int>(std::floor(u1 + grown)) + 1,
              static_cast<int>(std::floor(v1 + grown)) + 1);
       depth_m(cv::Rect(from, to)) = 1.0f;
-      if (recording.print != Print::kBoards) continue;
       const cv::Point2d by = recording.shift_px;
+      if (recording.print == Print::kRims) {
+        constexpr double kRim_px = 7.0;
+        FillExactly(gray, u0, v0, u1, v1, 140.0f);
+        FillExactly(gray, u0 + kRim_px, v0, u1, v1 - kRim_px, 90.0f);
+      }
+      if (recording.print != Print::kBoards) continue;
       FillExactly(gray, u0 + by.x, v0 + by.y, u1 + by.x, v1 + by.y,
                   static_cast<float>(40 + 160 * random.Uniform()));
     }
@@ -130,6 +137,17 @@ TEST(RegistrationLearner, LeavesWhatIsNotClear) {
   }
 }
 
+// The ends of two sides and the rims inside of the two others lie as if depth were 3.5 pixels wider, and
+// as far aside. No structured light makes things so much wider.
+TEST(RegistrationLearner, TakesNoRimsForAShiftOfASensorThatMakesNothingMuchWider) {
+  const RegistrationLearner any = Learn({.print = Print::kRims}),
+                            kinect1 = Learn({.print = Print::kRims}, 1.5);
+  ASSERT_TRUE(any.estimate() && kinect1.estimate());
+  EXPECT_GT(any.estimate()->shift_px.norm(), 4.0);
+  EXPECT_LT(kinect1.estimate()->shift_px.norm(), 0.5);
+  EXPECT_TRUE(kinect1.R_dc().isIdentity(0.0));
+}
+
 TEST(RegistrationLearner, LearnsNothingWhileTheCameraStands) {
   EXPECT_FALSE(Learn({.shift_px = {3.0, 0.0}, .moves = false}).estimate());
 }
@@ -139,7 +157,7 @@ TEST(RegistrationLearner, LearnsNothingFromAFrameOrTwo) {
 }
 
 TEST(RegistrationLearner, CanBeForbidden) {
-  EXPECT_FALSE(Learn({.shift_px = {3.0, 0.0}}, {.learn = false}).estimate());
+  EXPECT_FALSE(Learn({.shift_px = {3.0, 0.0}}, 4.0, {.learn = false}).estimate());
 }
 
 }  // namespace
