@@ -132,14 +132,15 @@ RegistrationLearner::Peak RegistrationLearner::FindPeak(const Profiles& profiles
     if (sum > most) most = sum, best_shift = shift, best_grown = grown;
   }
 
-  // What leads beside the best of all others, over what all explain on average.
+  // What leads beside the best of all others, over what all explain on average. Those that no such
+  // sensor grows by count, too: where they explain as much, edges tell too little.
   Peak peak;
   peak.grown_px = best_grown / kSteps;
   for (int axis = 0; axis < 2; ++axis) {
     const int at = best_shift[static_cast<std::size_t>(axis)];
     double mean = 0.0, other = 0.0;
     int count = 0;
-    for (int grown = kMinGrown; grown <= max_grown_; ++grown) {
+    for (int grown = kMinGrown; grown <= kMaxGrown; ++grown) {
       for (int s = -kMaxShift; s <= kMaxShift; ++s, ++count) {
         mean += explained(axis, s, grown);
         if (std::abs(s - at) >= kBeside || std::abs(grown - best_grown) >= kBeside)

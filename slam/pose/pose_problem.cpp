@@ -94,6 +94,7 @@ class Evaluator {
 
   std::vector<bool> used;     ///< points that take part
   bool robust_points = true;  ///< Huber on points
+  double plane_sigmas = 1.0;  ///< factor on the standard deviations of all planes
 
   NormalEquations operator()(const Pose& T_cw) const {
     NormalEquations sum = Measured(T_cw);
@@ -122,6 +123,18 @@ class Evaluator {
     AddPerpendiculars(T_cw, sum);                             // eq20
     AddRotations(T_cw, sum);
     return sum;
+  }
+
+  /// How many of their standard deviations the planes are off by, root mean square; 1 at least.
+  double PlaneDisagreement(const Pose& T_cw) const {
+    constexpr int kDof = 3;  // a normal and an offset
+    double chi2 = 0.0;
+    int dof = 0;
+    for (const PlaneConstraint& c : problem_.planes) {
+      const Linearised<4> f = WhitenedPlane(c, T_cw);
+      if (f.valid) chi2 += f.r.squaredNorm(), dof += kDof;
+    }
+    return std::sqrt(std::max(1.0, chi2 / std::max(dof, 1)));
   }
 
   /// Takes as inliers the points whose chi-square passes at T_cw.
@@ -159,15 +172,20 @@ class Evaluator {
     }
   }
 
+  static Linearised<4> WhitenedPlane(const PlaneConstraint& c, const Pose& T_cw) {
+    if (!Sane(c)) return {};
+    Linearised<4> f = PlaneFactor(c, T_cw);
+    f.r.head<3>() /= c.angle_sigma_rad;
+    f.J.topRows<3>() /= c.angle_sigma_rad;
+    f.r[3] /= c.offset_sigma_m;
+    f.J.row(3) /= c.offset_sigma_m;
+    return f;
+  }
+
   void AddPlanes(const Pose& T_cw, NormalEquations& sum) const {
     for (const PlaneConstraint& c : problem_.planes) {
-      if (!Sane(c)) continue;
-      Linearised<4> f = PlaneFactor(c, T_cw);
-      f.r.head<3>() /= c.angle_sigma_rad;
-      f.J.topRows<3>() /= c.angle_sigma_rad;
-      f.r[3] /= c.offset_sigma_m;
-      f.J.row(3) /= c.offset_sigma_m;
-      if (f.valid) Add(f, config_.huber_planes, sum);
+      const Linearised<4> f = WhitenedPlane(c, T_cw);
+      if (f.valid) Add(Whitened(f, 1 / plane_sigmas), config_.huber_planes, sum);
     }
   }
 
@@ -244,7 +262,9 @@ PoseSummary OptimisePose(const PoseProblem& problem, const Camera& camera,
     // The last round has nothing new to say once the inliers stand still under plain squares.
     if (!evaluate.robust_points && evaluate.used == before) break;
   }
-  // What the solution is worth.
+  // What the solution is worth. Planes that disagree with each other or with the points by more than
+  // they say are worth less than they say.
+  evaluate.plane_sigmas = evaluate.PlaneDisagreement(out.T_cw);
   NormalEquations last = evaluate.Measured(out.T_cw);
   out.information = last.H.selfadjointView<Eigen::Upper>();
   evaluate.AddPrior(out.T_cw, last);

@@ -104,7 +104,8 @@ struct PoseSummary {
   std::vector<bool> point_inliers;  ///< parallel to PoseProblem::points
   int inlier_count = 0;
   double initial_cost = 0.0;
-  /// J^T W J of what was measured at the solution, for T <- Exp(xi) T; the prior apart.
+  /// J^T W J of what was measured at the solution, for T <- Exp(xi) T; the prior apart. Where planes
+  /// are off by more than they say, root mean square, all count as so much less certain.
   Matrix6d information = Matrix6d::Zero();
   /// Of the pose by all together; zero when not usable.
   Matrix6d covariance = Matrix6d::Zero();

@@ -128,6 +128,21 @@ TEST(PoseOptimiserEq13, WeighsWhatIsMeasuredAgainstThePredictionByTheVariances) 
   EXPECT_NEAR(summary.information(2, 2), 1 / m2, 1e-3 / m2);
 }
 
+// Two walls would have the camera d before and d behind its place: chi-square is 2 d^2 / sigma^2 of six
+// degrees of freedom, so the variance of each is d^2 / 3, however sure it says it is.
+TEST(PoseOptimiserEq13, TellsNoMoreThanPlanesThatDisagreeCanKnow) {
+  constexpr double kSigma_m = 0.0005;
+  const auto apart = [&](double d_m) {
+    PoseProblem problem = WallNearerThanPredicted(kSigma_m);
+    problem.planes.push_back(problem.planes.front());
+    problem.planes[0].pi_w.d = 1.0 + d_m, problem.planes[1].pi_w.d = 1.0 - d_m;
+    return OptimisePose(problem, Camera{}, {}).information(2, 2);
+  };
+  const double alike = 2 / (kSigma_m * kSigma_m), wide = 6 / (0.01 * 0.01);
+  EXPECT_NEAR(apart(0.5 * kSigma_m), alike, 1e-3 * alike);
+  EXPECT_NEAR(apart(0.01), wide, 1e-3 * wide);
+}
+
 TEST(PoseOptimiserEq13, WithoutThePointFactorPlanesHoldThePoseAlone) {
   PoseProblem problem = Seen(100, 0.0, 0.0, 6);
   for (PointConstraint& point : problem.points) point.p_w.x() += 0.01;  // all say otherwise
