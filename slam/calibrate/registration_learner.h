@@ -36,8 +36,8 @@ struct RegistrationEstimate {
 /// Deterministic. The idea is Levinson and Thrun's (RSS 2013), for laser scanners.
 class RegistrationLearner {
  public:
-  /// @param edge_growth_px  SensorModel::edge_growth_px, [0, 4]. Without a bound the near edge of one
-  ///                        side and a rim inside the other would do for a shift
+  /// @param edge_growth_px  SensorModel::edge_growth_px, [0, 4]. Without a bound the end of one side
+  ///                        and a rim inside the other would do for a shift
   RegistrationLearner(const Camera& camera, double edge_growth_px,
                       const RegistrationConfig& config);
 

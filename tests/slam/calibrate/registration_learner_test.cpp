@@ -145,6 +145,8 @@ TEST(RegistrationLearner, TakesNoRimsForAShiftOfASensorThatMakesNothingMuchWider
   ASSERT_TRUE(any.estimate() && kinect1.estimate());
   EXPECT_GT(any.estimate()->shift_px.norm(), 4.0);
   EXPECT_LT(kinect1.estimate()->shift_px.norm(), 0.5);
+  // The rims explain as much as the ends do: edges tell too little here, whatever the sensor.
+  EXPECT_FALSE(kinect1.estimate()->clear);
   EXPECT_TRUE(kinect1.R_dc().isIdentity(0.0));
 }
 
