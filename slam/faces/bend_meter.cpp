@@ -50,7 +50,8 @@ BendMeter::BendMeter(const cv::Mat2d& rays, const SensorModel& sensor)
 void BendMeter::Measure(Frame& frame) {
   const cv::Size size = rays_.size();
   const int cell_px = std::max(4 * kStride_px, kCell_px * size.width / kFullWidth_px);
-  const int columns = size.width / cell_px, rows = size.height / cell_px;
+  const int columns = size.width / cell_px;
+  const int rows = frame.planes.empty() ? 0 : size.height / cell_px;
   // The planes as the rays see them.
   std::vector<InverseDepthPlane> planes;
   std::vector<double> grazing, squares(frame.planes.size(), 0.0);

@@ -21,7 +21,7 @@ class BendMeter {
   /// @param rays  PixelRays(camera)
   BendMeter(const cv::Mat2d& rays, const SensorModel& sensor);
 
-  /// Takes in a frame with depth, labels and planes, and writes what is known of
+  /// Takes in a frame with depth, labels and planes, or one without planes, and writes what is known of
   /// bends (Frame::bend_ratio) and the standard deviations that they give each of its planes
   /// (FramePlane::bend_...).
   void Measure(Frame& frame);

@@ -1,19 +1,28 @@
 #include "slam/pose/pose_error.h"
 
+#include <numeric>
+#include <vector>
+
 namespace slam {
 namespace {
 
-/// Mean distance of the planes' middles along the optical axis; 0 without planes.
-double PlaneDepth_m(const Frame& frame) {
-  double sum_m = 0.0;
-  for (const FramePlane& plane : frame.planes) sum_m += plane.centroid_c.z();
-  return frame.planes.empty() ? 0.0 : sum_m / static_cast<double>(frame.planes.size());
+/// Mean distance along the optical axis of the planes' middles, of the points in a frame without
+/// planes; 0 without either.
+double MeanDepth_m(const Frame& frame) {
+  std::vector<double> depths_m;
+  for (const FramePlane& plane : frame.planes) depths_m.push_back(plane.centroid_c.z());
+  if (depths_m.empty()) {
+    for (const PointFeature& feature : frame.features)
+      if (feature.depth_m > 0) depths_m.push_back(feature.depth_m);
+  }
+  const double sum_m = std::accumulate(depths_m.begin(), depths_m.end(), 0.0);
+  return depths_m.empty() ? 0.0 : sum_m / static_cast<double>(depths_m.size());
 }
 
 }  // namespace
 
 Matrix6d BendCovariance(const Frame& frame) {
-  const double lift_m = frame.bend_ratio * PlaneDepth_m(frame), tilt_rad = frame.bend_ratio;
+  const double lift_m = frame.bend_ratio * MeanDepth_m(frame), tilt_rad = frame.bend_ratio;
   const double m2 = lift_m * lift_m, rad2 = tilt_rad * tilt_rad;
   return (Vector6d() << m2, m2, m2, rad2, rad2, rad2).finished().asDiagonal();
 }

@@ -50,7 +50,10 @@ void FrameExtractor::Extract(const cv::Mat1f& straightening, const cv::Mat3b& bg
     frame.features = ExtractPointFeatures(frame.gray, camera_, points_);
   }
   frame.map_points.assign(frame.features.size(), kNone);
-  if (!planes_) return;
+  if (!planes_) {
+    bend_meter_.Measure(frame);  // what is known of the sensor beforehand
+    return;
+  }
   planes.get();
   const auto found = frame.detector_asked ? boxes.get() : std::vector<Detection>{};
   {

@@ -105,6 +105,15 @@ TEST(BendMeter, StaysWithWhatIsKnownOfTheSensorUntilALargePlaneIsSeen) {
   EXPECT_GT(frame.planes[0].bend_offset_sigma_m, 0.5 * sensor.bend_ratio * kWall_m);
 }
 
+TEST(BendMeter, StaysWithWhatIsKnownOfTheSensorInFramesWithoutPlanes) {
+  const Camera camera = FullCamera();
+  const SensorModel sensor;
+  BendMeter meter(PixelRays(camera), sensor);
+  Frame frame;
+  meter.Measure(frame);
+  EXPECT_DOUBLE_EQ(frame.bend_ratio, sensor.bend_ratio);
+}
+
 /// What a plane takes up of random bends: standard deviations of its height and one slope, over
 /// many draws of a Gaussian field with correlation exp(-r^2 / 2 L^2), by least squares.
 BendSigmas Drawn(double width_rad, double ratio) {

@@ -28,6 +28,15 @@ TEST(BendCovariance, LiftsByTheShareOfTheDepthAndTiltsByTheShare) {
   EXPECT_TRUE(C.isApprox(Matrix6d(expected.asDiagonal()), 1e-12)) << C;
 }
 
+TEST(BendCovariance, LiftsAFrameWithoutPlanesByWhereItsPointsLie) {
+  Frame frame = FrameWithPlanesAt({}, 0.005);
+  EXPECT_EQ(BendCovariance(frame)(2, 2), 0.0) << "nothing is measured";
+  for (const double z_m : {0.0, 2.0, 4.0}) frame.features.emplace_back().depth_m = z_m;
+  EXPECT_NEAR(BendCovariance(frame)(2, 2), 0.015 * 0.015, 1e-12) << "one has no depth";
+  frame.planes = FrameWithPlanesAt({1.0}, 0.005).planes;
+  EXPECT_NEAR(BendCovariance(frame)(2, 2), 0.005 * 0.005, 1e-12) << "planes go before points";
+}
+
 /// A camera that moves so sees points row by row; the pose that fits them, as if it had not.
 Pose FitWhileRead(const Readout& readout, Random& random) {
   const Camera camera;

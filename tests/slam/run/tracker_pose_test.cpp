@@ -34,6 +34,18 @@ TEST(Tracker, GivesEachFrameItsPoseInTheMapAndTheStepFromTheFrameBefore) {
   EXPECT_GT(keyframes, 2);
 }
 
+// Points see the same bent depth, whatever finds no planes to measure it by.
+TEST(Tracker, TellsOfWhatASensorBendsWhereThereAreNoPlanes) {
+  const Camera camera = SmallCamera();
+  const TexturedCorner corner;
+  Tracker tracker(camera, {}, Variant::kPoints, nullptr, 0, 1);
+  for (int i = 0; i < 2; ++i) {
+    Frame frame = corner.See(camera, SwingingPose(4 * i), i);
+    ASSERT_TRUE(tracker.TrackFrame(frame, cv::Mat3b(camera.height, camera.width)).tracked);
+    EXPECT_EQ(frame.bend_ratio, SensorModel{}.bend_ratio);
+  }
+}
+
 // What stands 50 mm beside its landmark is seen of another surface. Here it is told so well, and by
 // so few points, that it outweighs them all.
 TEST(Tracker, BelievesThePointsOfAFrameWhosePlanesAreAllOnWrongLandmarks) {
