@@ -97,6 +97,31 @@ TEST(MotionBlur, SmearsAnEdgeOverTheWayItMoves) {
   ExpectSmear(RenderedOnce, kNearWall_m, 0.06);  // one of 17 taps
 }
 
+// The board goes as the camera does: beside it nothing moves, row by row and while the shutter is open.
+TEST(MotionBlur, LeavesSharpWhatMovesAlongWithTheCamera) {
+  const Camera camera;
+  Scene scene = OneEdge(kNearWall_m);
+  constexpr double kMiddle_s = 1.0;
+  const Eigen::Vector3d middle_w = scene.objects[1].center_w;
+  for (const double t : {-1.0, 1.0}) {
+    scene.objects[1].way.push_back(
+        {kMiddle_s + t, middle_w + Eigen::Vector3d(kSpeed_mps * t, 0, 0), 0.0});
+  }
+  scene.objects[1].center_w = scene.objects[1].way[0].center_w;
+  const FrameRenderer renderer(scene, camera);
+  const cv::Mat3f seen =
+      ExposeMoving(renderer, {.shutter_s = 0.04, .shutter_samples = 8, .rolling_s = 0.03},
+                   MovingAlongX, kMiddle_s);
+  for (int v = 0; v < camera.height; v += 40) {
+    const std::vector<double> profile = Profile(seen, v);
+    EXPECT_NEAR(EdgeAt(profile), camera.cx, 0.3) << v;
+    for (int u = 0; u < camera.width; ++u) {
+      if (std::abs(u - camera.cx) < 2.0) continue;
+      EXPECT_NEAR(profile[static_cast<std::size_t>(u)], u < camera.cx ? 0.0 : 1.0, 0.05) << u;
+    }
+  }
+}
+
 // Row v is seen rolling (v / 479 - 1/2) later: its edge lies f V t / z further left.
 void ExpectSlant(const Way& expose, double wall_m, double tolerance_px) {
   const Camera camera;

@@ -158,6 +158,20 @@ TEST_F(WrittenSequence, NeverReplacesAFolderThatIsNotASequence) {
   EXPECT_EQ(io::ReadFile(root_ / "mine/thesis.tex"), "years of work");
 }
 
+TEST_F(WrittenSequence, BeginsWhereARunWasKilledBeforeItsManifest) {
+  fs::create_directories(root_ / "seq/gt/plane_id");
+  io::WriteFile(root_ / "seq" / (std::string("manifest.json") + io::kUnfinishedSuffix), "{");
+  Write(root_ / "fresh", Options(), 1);
+  for (const Existing existing : {Existing::kResume, Existing::kReplace}) {
+    const fs::path folder = root_ / ("seq" + std::to_string(static_cast<int>(existing)));
+    fs::copy(root_ / "seq", folder, fs::copy_options::recursive);
+    SequenceOptions options = Options();
+    options.existing = existing;
+    Write(folder, options, 1);
+    EXPECT_EQ(Content(folder), Content(root_ / "fresh"));
+  }
+}
+
 /// Death tests run in a process of their own, started anew: a fork alone would lack the ray
 /// tracer's threads. The child repeats SetUp, so it is told the folder of its parent.
 class InterruptedSequence : public WrittenSequence {
