@@ -54,12 +54,13 @@ TEST(KeyframeDecision, WantsAFrameThatSeesWhatItKnowsFromANewSide) {
   const PointWorld world = MakePointWorld(2, 200, 1);
   Frame frame = Again(world, static_cast<int>(world.map.keyframes[0].features.size()));
   const double around_m = 2.0;  // the points are 1 to 3 m away
+  const double new_side_m = KeyframeDecisionConfig{}.max_view_rad * around_m;
   for (const int side : {-1, 1}) {
     frame.T_cw = world.map.keyframes[0].T_cw;
-    frame.T_cw.t.x() += side * 0.12 * around_m;
-    EXPECT_FALSE(Wanted(world, frame)) << "7 degrees";
-    frame.T_cw.t.x() += side * 0.32 * around_m;
-    EXPECT_TRUE(Wanted(world, frame)) << "24 degrees";
+    frame.T_cw.t.x() += side * 0.5 * new_side_m;
+    EXPECT_FALSE(Wanted(world, frame));
+    frame.T_cw.t.x() += side * 1.5 * new_side_m;
+    EXPECT_TRUE(Wanted(world, frame));
   }
   // Turning on the spot shows no point from another side.
   frame.T_cw =
