@@ -350,7 +350,7 @@ void AddSuiteCommand(CLI::App& pas, const Globals& globals, int& exit_code) {
   merge->add_option("DIR", arguments->merged, "Folders of results")->required();
   merge->add_option("-o,--output", arguments->merge_output, "Folder to write or to add to")
       ->required();
-  command->callback([command, merge, arguments, &globals, &exit_code] {
+  command->callback([merge, arguments, &globals, &exit_code] {
     if (merge->parsed()) {
       exit_code = Merge(*arguments, globals.quiet);
       return;

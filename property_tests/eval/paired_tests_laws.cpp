@@ -44,7 +44,7 @@ RC_GTEST_PROP(PairedTestsLaws, WilcoxonIsSymmetric, ()) {
 RC_GTEST_PROP(PairedTestsLaws, OrderOfPairsChangesNothing, ()) {
   const std::vector<double> differences = AnyDifferences();
   std::vector<double> shuffled = differences;
-  std::shuffle(shuffled.begin(), shuffled.end(), std::mt19937(*rc::gen::inRange(0, 1000)));
+  std::shuffle(shuffled.begin(), shuffled.end(), std::mt19937(*rc::gen::inRange(0u, 1000u)));
   RC_ASSERT(std::abs(SignFlipP(shuffled) - SignFlipP(differences)) < 1e-12);
   RC_ASSERT(std::abs(WilcoxonExactP(shuffled) - WilcoxonExactP(differences)) < 1e-12);
   RC_ASSERT(HodgesLehmannShift(shuffled) == HodgesLehmannShift(differences));

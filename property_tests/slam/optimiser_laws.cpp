@@ -12,7 +12,6 @@ namespace {
 PoseProblem ExactProblem(const Pose& T_cw, int points, int planes) {
   const Camera camera;
   const Pose T_wc = Inverse(T_cw);
-  const PoseProblemConfig config;
   PoseProblem problem;
   problem.T_cw = T_cw;
   for (int i = 0; i < points; ++i) {

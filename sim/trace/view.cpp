@@ -260,7 +260,7 @@ void View::CastToSun(int v) {
   Block(rays, length, row_.blocked.data());
   std::uint32_t* surfaces = Surfaces(v);
   for (std::size_t u = 0; u < stride_; ++u) {
-    surfaces[u] |= ((row_.sun_far[u] > 0) & (row_.blocked[u] == 0)) ? 1u : 0u;
+    surfaces[u] |= row_.sun_far[u] > 0 && row_.blocked[u] == 0 ? 1u : 0u;
   }
 }
 
@@ -274,7 +274,7 @@ void View::CastToEye(int v) {
   uchar* lit = out_->projector_lit[v];
   const std::size_t width = Index(world_->camera.width);
   for (std::size_t u = 0; u < width; ++u) {
-    lit[u] = ((row_.eye_far[u] > 0) & (row_.blocked[u] == 0)) ? 255 : 0;
+    lit[u] = row_.eye_far[u] > 0 && row_.blocked[u] == 0 ? 255 : 0;
   }
 }
 

@@ -68,7 +68,7 @@ void CarryOverDesk(std::uint64_t seed, int every, Carried& carried) {
 
 TEST(DetectEvery, CarriesTheBoxesOfASimulatedDeskToWhereTheObjectsAre) {
   Carried carried;
-  for (const std::uint64_t seed : {101, 102, 103}) CarryOverDesk(seed, 5, carried);
+  for (const std::uint64_t seed : {101u, 102u, 103u}) CarryOverDesk(seed, 5, carried);
   const double mean_iou = carried.sum_iou / carried.found;
   std::printf("%d true boxes, %d carried, mean IoU %.3f, %d where nothing is\n",
               carried.true_boxes, carried.found, mean_iou, carried.invented);

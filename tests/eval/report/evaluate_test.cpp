@@ -236,7 +236,7 @@ TEST_F(EvaluateTinyWorld, ATrajectoryShiftedHalfWayMovesItsErrorsAndTheMapsGauge
 }
 
 TEST_F(EvaluateTinyWorld, AFewNoisyPositionsDoNotTiltTheMap) {
-  for (const std::size_t count : {6, 12, 30}) {
+  for (const std::size_t count : {6u, 12u, 30u}) {
     TinyRun run(*world_);
     run.trajectory.resize(count);
     for (std::size_t i = 0; i < count; ++i) {

@@ -38,7 +38,8 @@ void ExpectEveryNearPixelListed(const Camera& camera) {
   const Pose T_wc = LookAlongY();
   std::set<std::uint32_t> expected, listed;
   for (const Triangle& triangle : triangles) {
-    const auto& [a, b, c] = triangle.corners_w;
+    const Eigen::Vector3d &a = triangle.corners_w[0], &b = triangle.corners_w[1],
+                          &c = triangle.corners_w[2];
     // The diagonal, which gets a fifth of the margin, is the longest side.
     const auto margin = [&](double side) {
       const double longest = std::max({(b - a).norm(), (c - b).norm(), (a - c).norm()});

@@ -74,7 +74,6 @@ struct NearMiss {
 };
 
 TEST(PointFusion, AllowsAPointOffItsFeatureByTheChiSquareOfItsKindAndOctave) {
-  const PointFusionConfig config;
   for (const int octave : {0, 3}) {
     for (const bool with_depth : {false, true}) {
       NearMiss miss(octave, with_depth);

@@ -77,7 +77,6 @@ struct TwoViews {
 };
 
 TEST(TriangulatePoints, AllowTheSecondFeatureOffItsLineBySoManyPixelsOfItsOctave) {
-  const TriangulationConfig config;
   const double bound_px = std::sqrt(kChi2Of1At95);
   for (const int octave : {0, 3}) {
     const double at_octave_px = bound_px * std::pow(1.2, octave);
@@ -110,7 +109,6 @@ TEST(TriangulatePoints, RefuseAFeatureWithARivalOfTheSameLookOnItsLine) {
 }
 
 TEST(TriangulatePoints, RefuseADepthThatIsNotThatOfTheRays) {
-  const TriangulationConfig config;
   for (const int octave : {0, 4}) {
     const double bound_px = std::sqrt(kChi2Of3At95) * std::pow(1.2, octave);
     TwoViews views;

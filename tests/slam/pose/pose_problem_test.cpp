@@ -15,7 +15,6 @@ const Pose kTruth{ExpSo3({0.3, -0.2, 0.1}), {0.4, -0.3, 0.2}};
 PoseProblem Seen(int points, double sigma_px, double wrong_share, std::uint64_t seed) {
   Random random{seed};
   const Camera camera;
-  const PoseProblemConfig config;
   PoseProblem problem;
   for (int i = 0; i < points; ++i) {
     PointConstraint c;

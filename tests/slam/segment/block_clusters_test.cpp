@@ -139,8 +139,9 @@ TEST(BlockClusters, AreThoseOfEveryPairEvaluatedItself) {
         depth_m(v, u) += 0.0003f * static_cast<float>(std::max(0, u - 40 * seed));
     }
     depth_m(cv::Rect(50, 40, 56, 48)) -= 0.01f * static_cast<float>(seed);
-    const DepthGrid grid = MakeDepthGrid(closed_form::AddKinectNoise(depth_m, seed),
-                                         PixelRays(camera), noise, 10.0);
+    const DepthGrid grid =
+        MakeDepthGrid(closed_form::AddKinectNoise(depth_m, static_cast<std::uint64_t>(seed)),
+                      PixelRays(camera), noise, 10.0);
     const ImageBlocks blocks = MakeBlocks(grid);
     const BlockClusters got =
         BlockClustering().Cluster(blocks, blocks.measured, kBlock_px, noise, config);
