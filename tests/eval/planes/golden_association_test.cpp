@@ -174,13 +174,13 @@ TEST(GoldenTrackEval, AgreesOnEveryFigureOfClearIdentityAndHota) {
     ExpectNear(identity.idp, expected["Identity"], "IDP");
     ExpectNear(identity.idr, expected["Identity"], "IDR");
     const HotaScore hota = ScoreHota(frames);
-    ExpectHota(hota, [&](const std::string& key) {
-      return expected["HOTA_mean_over_alpha"][key].get<double>();
+    ExpectHota(hota, [&, &figures = expected](const std::string& key) {
+      return figures["HOTA_mean_over_alpha"][key].get<double>();
     });
     for (std::size_t a = 0; a < hota.at.size(); ++a) {
       SCOPED_TRACE(golden["meta"]["alphas"][a]);
-      const auto at = [&](const std::string& key) {
-        return expected["HOTA"][key][a].get<double>();
+      const auto at = [&, &figures = expected](const std::string& key) {
+        return figures["HOTA"][key][a].get<double>();
       };
       ExpectHota(hota.at[a], at);
       EXPECT_EQ(hota.at[a].tp, at("HOTA_TP"));

@@ -110,8 +110,8 @@ TEST_P(GoldenEvo, AgreesOnEveryAbsoluteAndRelativeError) {
   std::map<std::string, std::pair<PoseFile, PoseFile>> cases;
   for (const auto& [name, files] : golden["matches"].items()) {
     SCOPED_TRACE(name);
-    const auto read = [&](const char* key) {
-      return ReadPoseFile(folder / "data" / files[key].get<std::string>());
+    const auto read = [&, &match = files](const char* key) {
+      return ReadPoseFile(folder / "data" / match[key].get<std::string>());
     };
     cases[name] = {read("est"), read("ref")};
     ExpectMatch(CompareTrajectories(cases[name].first, cases[name].second, {}), files);
