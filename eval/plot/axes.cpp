@@ -112,7 +112,8 @@ SeriesStyle StyleOfSeries(std::size_t number) {
                                                            {240, 228, 66}}};
   const auto& colour = kColours[number % kColours.size()];
   SeriesStyle style{colour[0] / 255.0, colour[1] / 255.0, colour[2] / 255.0};
-  style.dash_pt = 2.0 * static_cast<double>(number / kColours.size());
+  const std::size_t times_through = number / kColours.size();
+  style.dash_pt = 2.0 * static_cast<double>(times_through);
   return style;
 }
 

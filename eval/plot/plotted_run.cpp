@@ -12,6 +12,7 @@ std::vector<PlotPoint> WithGaps(
   constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
   const auto& poses = run.evaluation.trajectory.errors;
   std::vector<double> stamps_s;
+  stamps_s.reserve(poses.size());
   for (const PoseError& pose : poses) stamps_s.push_back(pose.stamp_s);
   const double gap_s = 3.0 * MedianStep(stamps_s);  // two frames were left out
   std::vector<PlotPoint> points;

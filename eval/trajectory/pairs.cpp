@@ -100,7 +100,7 @@ std::vector<PosePair> PairsByAngle(const std::vector<Pose>& poses, double delta_
 
 std::vector<PosePair> PairsByTime(const std::vector<double>& stamps_s, double delta_s,
                                   double tolerance_s, PairMode mode) {
-  const std::vector<PosePair> all = PairsAlong(stamps_s, delta_s, tolerance_s);
+  std::vector<PosePair> all = PairsAlong(stamps_s, delta_s, tolerance_s);
   if (mode == PairMode::kAll) return all;
   std::vector<PosePair> chain;
   for (const PosePair& pair : all) {

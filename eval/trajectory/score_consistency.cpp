@@ -28,14 +28,14 @@ Vector6d ErrorOf(const Pose& E) {
   return xi;
 }
 
-/// Takes xi of the frame b to that of the frame a: T_ab Exp(xi_b) = Exp(Ad xi_b) T_ab.
+/// Takes xi of the frame b to that of the frame a: T_ab Exp(xi_b) = Exp(adjoint xi_b) T_ab.
 Matrix6d Adjoint(const Pose& T_ab) {
   Eigen::Matrix3d hat;
   hat << 0, -T_ab.t.z(), T_ab.t.y(), T_ab.t.z(), 0, -T_ab.t.x(), -T_ab.t.y(), T_ab.t.x(), 0;
-  Matrix6d Ad = Matrix6d::Zero();
-  Ad.topLeftCorner<3, 3>() = Ad.bottomRightCorner<3, 3>() = T_ab.R;
-  Ad.topRightCorner<3, 3>() = hat * T_ab.R;
-  return Ad;
+  Matrix6d adjoint = Matrix6d::Zero();
+  adjoint.topLeftCorner<3, 3>() = adjoint.bottomRightCorner<3, 3>() = T_ab.R;
+  adjoint.topRightCorner<3, 3>() = hat * T_ab.R;
+  return adjoint;
 }
 
 /// e^T C^-1 e; nothing where the covariance is singular.
@@ -96,14 +96,15 @@ std::optional<ClaimScore> ScoreAbsolute(const std::vector<ClaimedPose>& poses,
 std::optional<ClaimScore> ScoreRelative(const std::vector<ClaimedPose>& poses,
                                         double half_frame_s) {
   std::vector<double> stamps_s;
+  stamps_s.reserve(poses.size());
   for (const ClaimedPose& pose : poses) stamps_s.push_back(pose.stamp_s);
   Claims claims;
   for (const auto& [i, j] : PairsByTime(stamps_s, kClaimTime_s, half_frame_s)) {
     const ClaimedPose &a = poses[i], &b = poses[j];
     const Pose T_ba = Inverse(b.T_wc) * a.T_wc;
-    const Matrix6d Ad = Adjoint(T_ba);
+    const Matrix6d adjoint = Adjoint(T_ba);
     claims.Add(ErrorOf(T_ba * (Inverse(a.T_gc) * b.T_gc)),
-               b.covariance + Ad * a.covariance * Ad.transpose());
+               b.covariance + adjoint * a.covariance * adjoint.transpose());
   }
   return claims.Score();
 }

@@ -39,6 +39,7 @@ double SigmaOfMean(const std::vector<double>& values) {
   constexpr double kLossOfMedian = 1.2533;  // its efficiency is 2 / pi
   const double median = Median(values);
   std::vector<double> off;
+  off.reserve(values.size());
   for (const double value : values) off.push_back(std::abs(value - median));
   return kLossOfMedian * std::max(kSigmaByMad * Median(off), 2.0 / kSteps) /
          std::sqrt(static_cast<double>(values.size()));

@@ -37,14 +37,15 @@ Lens BrownOfInverse(const Lens& inverse, const BagCameraInfo& info, const std::s
   Eigen::Matrix<double, Eigen::Dynamic, 5> terms(2 * kPoints, 5);
   Eigen::VectorXd moved(2 * kPoints);
   for (int at = 0; at < kPoints; ++at) {
-    const double u = (info.width - 1.0) * (at % (kFitSteps + 1)) / kFitSteps;
-    const double v = (info.height - 1.0) * (at / (kFitSteps + 1)) / kFitSteps;
+    const int column = at % (kFitSteps + 1), row = at / (kFitSteps + 1);
+    const double u = (info.width - 1.0) * column / kFitSteps;
+    const double v = (info.height - 1.0) * row / kFitSteps;
     const Eigen::Vector2d recorded((u - info.k[2]) / info.k[0], (v - info.k[5]) / info.k[4]);
     const Eigen::Vector2d ideal = recorded + BrownTerms(recorded) * inverse;
     terms.middleRows<2>(2 * at) = BrownTerms(ideal);
     moved.segment<2>(2 * at) = recorded - ideal;
   }
-  const Lens lens = terms.colPivHouseholderQr().solve(moved);
+  Lens lens = terms.colPivHouseholderQr().solve(moved);
   const double error_px =
       std::max(info.k[0], info.k[4]) * (terms * lens - moved).lpNorm<Eigen::Infinity>();
   if (!(error_px < kFitTolerance_px)) {

@@ -70,7 +70,7 @@ std::string Choose(const BagFile& bag, const std::vector<ImageTopic>& images, co
   }
   std::stable_sort(some.begin(), some.end(),
                    [&](const ImageTopic& a, const ImageTopic& b) { return rank(a) < rank(b); });
-  const std::string taken = some.front().name;
+  std::string taken = some.front().name;
   some.erase(some.begin());
   if (!some.empty()) {
     warnings.push_back("the bag has several topics of " + std::string(what) + "; " + taken +

@@ -50,8 +50,8 @@ UncertainPose HeldAlong(const UncertainPose& predicted,
   constexpr double kTakenAway = 1 - 1e-6;  // of the variance: all, but for the inverse
   UncertainPose held = predicted;
   for (const Eigen::Vector3d& step_c : steps_c) {
-    const Vector6d Cd = held.covariance * Along(step_c);
-    held.covariance -= kTakenAway / Along(step_c).dot(Cd) * Cd * Cd.transpose();
+    const Vector6d shared = held.covariance * Along(step_c);
+    held.covariance -= kTakenAway / Along(step_c).dot(shared) * shared * shared.transpose();
   }
   return held;
 }
