@@ -72,6 +72,7 @@ ChildOutcome RunChild(const std::vector<std::string>& command,
                       const std::filesystem::path& folder, const std::filesystem::path& errors,
                       const SuiteLimits& limits, const std::function<bool()>& stop) {
   std::vector<char*> arguments;
+  arguments.reserve(command.size() + 1);
   for (const std::string& text : command) arguments.push_back(const_cast<char*>(text.c_str()));
   arguments.push_back(nullptr);
   const rlim_t data_bytes = static_cast<rlim_t>(limits.memory_mb) << 20;

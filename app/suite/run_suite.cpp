@@ -32,6 +32,7 @@ class CaseQueue {
     if (pending_.empty()) return false;
     Progress progress("cases", static_cast<int>(pending_.size()), options_.quiet);
     std::vector<std::thread> workers;
+    workers.reserve(static_cast<std::size_t>(options_.jobs));
     for (int i = 0; i < options_.jobs; ++i) workers.emplace_back([&] { Work(progress); });
     for (std::thread& worker : workers) worker.join();
     if (error_) std::rethrow_exception(error_);

@@ -165,7 +165,7 @@ class SuiteReader {
 
   /// A name that is part of a key.
   static std::string Name(const io::YamlValue& value) {
-    const std::string name = value.Word();
+    std::string name = value.Word();
     if (name.find_first_of("/ ") != std::string::npos) {
       value.Fail("names have no '/' and no blank, because keys of cases are made of them");
     }

@@ -47,6 +47,7 @@ std::vector<double> FiniteHarms(const std::vector<Pair>& pairs) {
   double sum = 1.0;
   for (const Pair& pair : pairs) sum += std::isfinite(pair.harm) ? std::abs(pair.harm) : 0.0;
   std::vector<double> harms;
+  harms.reserve(pairs.size());
   for (const Pair& pair : pairs) {
     harms.push_back(std::isfinite(pair.harm) ? pair.harm : std::copysign(sum, pair.harm));
   }
