@@ -51,6 +51,7 @@ void BendMeter::Measure(Frame& frame) {
   const cv::Size size = rays_.size();
   const int cell_px = std::max(4 * kStride_px, kCell_px * size.width / kFullWidth_px);
   const int columns = size.width / cell_px;
+  // Where there are no planes, labels were not made either.
   const int rows = frame.planes.empty() ? 0 : size.height / cell_px;
   // The planes as the rays see them.
   std::vector<InverseDepthPlane> planes;

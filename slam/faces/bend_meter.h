@@ -21,9 +21,9 @@ class BendMeter {
   /// @param rays  PixelRays(camera)
   BendMeter(const cv::Mat2d& rays, const SensorModel& sensor);
 
-  /// Takes in a frame with depth, labels and planes, or one without planes, and writes what is known of
-  /// bends (Frame::bend_ratio) and the standard deviations that they give each of its planes
-  /// (FramePlane::bend_...).
+  /// Takes in a frame with depth, labels and planes, or one without planes, and writes what is
+  /// known of bends (Frame::bend_ratio) and the standard deviations that they give each of its
+  /// planes (FramePlane::bend_...).
   void Measure(Frame& frame);
 
   /// Root mean square of the bend as a part of the depth, as far as it is known.

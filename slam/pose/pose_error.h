@@ -6,8 +6,8 @@ namespace slam {
 
 /// What the depth camera bends (Frame::bend_ratio) lifts and tilts all that a pose is found by, map
 /// and frame, whatever their number: a covariance of xi in T_cw <- Exp(xi) T_cw, to be added to
-/// what independent errors come to. Where the planes of the frame lie, on the mean, or its points if
-/// it has no planes.
+/// what independent errors come to. Where the planes of the frame lie, on the mean, or its points
+/// if it has no planes.
 Matrix6d BendCovariance(const Frame& frame);
 
 /// The same of a shutter of which is not known how long it takes to read an image: the rows of a

@@ -97,7 +97,8 @@ TEST(MotionBlur, SmearsAnEdgeOverTheWayItMoves) {
   ExpectSmear(RenderedOnce, kNearWall_m, 0.06);  // one of 17 taps
 }
 
-// The board goes as the camera does: beside it nothing moves, row by row and while the shutter is open.
+// The board goes as the camera does: beside it nothing moves, row by row and while the shutter is
+// open.
 TEST(MotionBlur, LeavesSharpWhatMovesAlongWithTheCamera) {
   const Camera camera;
   Scene scene = OneEdge(kNearWall_m);
