@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdio>
 #include <numbers>
+#include <set>
 #include <utility>
 
 namespace slam {
@@ -12,7 +13,7 @@ namespace {
 
 // Intrinsics are called wrong when they are off by so many sigmas and by so much that poses and
 // map suffer.
-constexpr double kWrong_sigmas = 6.0;  // 1 in 5e8 of noise; its spread is estimated from little
+constexpr double kWrong_sigmas = 5.0;  // 1 in 2e6 of noise; its spread is estimated from little
 constexpr double kMinFocalError_ratio = 0.025;    // share of the focal length
 constexpr double kMinCentreError_ratio = 0.0125;  // share of the image's width
 
@@ -64,7 +65,11 @@ void CameraCheck::NoteSpeed(const Frame& frame) {
 }
 
 CameraCheck::View CameraCheck::ViewOf(const Frame& frame) const {
-  View view{frame.T_cw, speed_per_s_.value_or(Vector6d::Zero()), frame.readout.taken_out_s, {}};
+  View view{frame.index,
+            frame.T_cw,
+            speed_per_s_.value_or(Vector6d::Zero()),
+            frame.readout.taken_out_s,
+            {}};
   for (std::size_t i = 0; i < frame.features.size(); ++i) {
     const PointFeature& feature = frame.features[i];
     if (frame.map_points[i] == kNone || !(feature.depth_m > 0)) continue;
@@ -107,14 +112,23 @@ bool CameraCheck::Compare(const View& first, const View& second) {
   }
   const ViewMotion motion{first.speed_per_s, second.speed_per_s,
                           static_cast<double>(height_px_)};
-  Pair pair{
-      turn_rad, ViewPair(std::move(common), second.T_cw * Inverse(first.T_cw), motion), {}};
+  Pair pair{first.frame,
+            turn_rad,
+            ViewPair(std::move(common), second.T_cw * Inverse(first.T_cw), motion),
+            {}};
   pair.at_given = pair.views.Evidence(given_);
   if (!pair.at_given.usable) return false;
   if (full) pairs_.erase(flattest);
   pairs_.push_back(std::move(pair));
   ++compared_;
   return true;
+}
+
+/// How many pairs share their earlier view, on the mean.
+double CameraCheck::PairsAView() const {
+  std::set<int> views;
+  for (const Pair& pair : pairs_) views.insert(pair.first_frame);
+  return static_cast<double>(pairs_.size()) / static_cast<double>(views.size());
 }
 
 CameraEstimate CameraCheck::Combine(const std::vector<IntrinsicsEvidence>& evidence,
@@ -138,11 +152,15 @@ CameraEstimate CameraCheck::Combine(const std::vector<IntrinsicsEvidence>& evide
   }
   const double apart = chi2 / (4.0 * static_cast<double>(evidence.size() - 1));
 
+  // Pairs that share a view share what is wrong with it, as where depth bends: they all say the
+  // same, so their scatter does not show it. They count as one.
+  const double variance_ratio = std::max(apart, 1.0) * PairsAView();
+
   // An intrinsic is wrong when that is sure, and matters.
   CameraEstimate estimate;
   estimate.found = at + move;
   const Eigen::Matrix4d covariance = factor.solve(Eigen::Matrix4d::Identity());
-  estimate.sigma = (std::max(apart, 1.0) * covariance.diagonal()).cwiseSqrt();
+  estimate.sigma = (variance_ratio * covariance.diagonal()).cwiseSqrt();
   for (int k = 0; k < 4; ++k) {
     const double off = std::abs(estimate.found[k] - given_[k]);
     estimate.wrong[static_cast<std::size_t>(k)] =

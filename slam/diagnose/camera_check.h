@@ -16,7 +16,7 @@ namespace slam {
 /// What the views say of the intrinsics.
 struct CameraEstimate {
   Intrinsics found = Intrinsics::Zero();
-  Intrinsics sigma = Intrinsics::Zero();  ///< larger when the pairs disagree
+  Intrinsics sigma = Intrinsics::Zero();  ///< larger when pairs disagree or share views
   std::array<bool, 4> wrong{};            ///< significantly and relevantly off; fx, fy, cx, cy
   std::size_t pairs = 0;
   double turn_rad = 0.0;  ///< rotation between the two views that are most apart
@@ -53,12 +53,14 @@ class CameraCheck {
     int octave;
   };
   struct View {
+    int frame;  ///< index
     Pose T_cw;
     Vector6d speed_per_s;           ///< d T_cw / dt = xi^ T_cw
     double taken_out_s;             ///< Readout::taken_out_s
     std::vector<SeenPoint> points;  ///< with depth, by id
   };
   struct Pair {
+    int first_frame;  ///< of the earlier view
     double turn_rad;
     ViewPair views;
     IntrinsicsEvidence at_given;
@@ -68,6 +70,7 @@ class CameraCheck {
   View ViewOf(const Frame& frame) const;
   std::vector<TwiceSeen> Common(const View& first, const View& second) const;
   bool Compare(const View& first, const View& second);
+  double PairsAView() const;
   CameraEstimate Combine(const std::vector<IntrinsicsEvidence>& evidence,
                          const Intrinsics& at) const;
   bool FindsWrong(int frame_index);
