@@ -46,13 +46,14 @@ void TellAgain(const Camera& camera, const Cameras& before, const Cameras& now,
 
 }  // namespace
 
-void TellAtSpeed(const Camera& camera, const Vector6d& speed, Frame& frame) {
-  if (frame.readout.empty() && frame.depth_late_s == 0.0) return;
+bool TellAtSpeed(const Camera& camera, const Vector6d& speed, Frame& frame) {
+  if (frame.readout.empty() && frame.depth_late_s == 0.0) return false;
   const Cameras before{frame.readout, frame.T_dc()};
   frame.speed.mean = speed;
   frame.readout.speed = speed;
   const Cameras now{frame.readout, frame.T_dc()};
   for (PointFeature& feature : frame.features) TellAgain(camera, before, now, feature);
+  return true;
 }
 
 }  // namespace slam

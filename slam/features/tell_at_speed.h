@@ -12,6 +12,7 @@ namespace slam {
 /// Speed and readout become the new ones; the speed's covariance and planes stay. Each depth stays
 /// what its pixel of the depth image said. A frame whose colour and depth are of one moment stays
 /// as it is.
-void TellAtSpeed(const Camera& camera, const Vector6d& speed, Frame& frame);
+/// @returns whether anything was told anew
+bool TellAtSpeed(const Camera& camera, const Vector6d& speed, Frame& frame);
 
 }  // namespace slam

@@ -82,6 +82,7 @@ void Tracker::StartFrom(const Tracker& other) {
   rolling_ = other.rolling_;
   registration_.Hold();
   rolling_.Hold();
+  if (other.points_.at_start()) points_.StartAt(*other.points_.at_start());
 }
 
 void Tracker::Finish(MappingWorker::Waiting waiting) {

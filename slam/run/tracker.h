@@ -87,9 +87,10 @@ class Tracker {
   /// What is known by now of how the device bends depth; see DepthStraightener.
   const cv::Mat1f& DepthFactors() const { return straightener_.factors(); }
 
-  /// Starts from what another tracker has learnt of the same device: how far its depth lies beside
-  /// its colour and how long it reads an image. What that one knows of these is not learnt any
-  /// further: the map is made with it throughout. Before the first frame.
+  /// Starts from what another tracker has learnt of the same recording: how far depth lies beside
+  /// colour, how long an image is read, and how the camera moved in the frame that the map begins
+  /// with. What that one knows of the device is not learnt any further: the map is made with it
+  /// throughout. Before the first frame.
   void StartFrom(const Tracker& other);
 
   /// Ends mapping beside tracking, after all or none of the keyframes that wait; last call

@@ -62,6 +62,7 @@ std::optional<UncertainPose> MotionFilter::Predict(double timestamp_s) const {
 }
 
 UncertainSpeed MotionFilter::Speed(double timestamp_s) const {
+  if (!known_ && start_ && start_->timestamp_s == timestamp_s) return start_->speed;
   if (!known_ || !(timestamp_s > known_->timestamp_s)) {
     return {Vector6d::Zero(), SpeedVariance().asDiagonal()};
   }
@@ -85,13 +86,16 @@ Vector6d MotionFilter::SpeedWhere(double timestamp_s, const Pose& T_cw) const {
 void MotionFilter::Observe(double timestamp_s, const Pose& T_cw, const Matrix6d& information) {
   if (!known_) {
     // The first pose is the world, or was found by what is seen; nothing is known of the speed but
-    // that a hand holds it.
+    // that a hand holds it, or what was said before.
+    const UncertainSpeed speed = Speed(timestamp_s);
+    if (!first_s_) first_s_ = timestamp_s;
     State first;
     first.timestamp_s = timestamp_s;
     first.T_cw = T_cw;
     if (const Eigen::FullPivLU<Matrix6d> seen(information); seen.isInvertible())
       first.covariance.topLeftCorner<6, 6>() = seen.inverse();
-    first.covariance.bottomRightCorner<6, 6>() = SpeedVariance().asDiagonal();
+    first.speed = speed.mean;
+    first.covariance.bottomRightCorner<6, 6>() = speed.covariance;
     known_ = first;
     return;
   }
@@ -100,6 +104,7 @@ void MotionFilter::Observe(double timestamp_s, const Pose& T_cw, const Matrix6d&
     known_->T_cw = T_cw;
     return;
   }
+  const bool second = known_->timestamp_s == first_s_;
   State state = At(timestamp_s);
   const Matrix6d P = state.covariance.topLeftCorner<6, 6>();
   const Eigen::PartialPivLU<Matrix6d> spread(Matrix6d::Identity() + information * P);
@@ -110,6 +115,10 @@ void MotionFilter::Observe(double timestamp_s, const Pose& T_cw, const Matrix6d&
   state.covariance -= with_pose * gain * with_pose.transpose();
   state.covariance = 0.5 * (state.covariance + state.covariance.transpose().eval());
   known_ = state;
+  // A way tells as much of the speed at its beginning as of that at its end.
+  if (second) {
+    at_start_ = {*first_s_, {state.speed, state.covariance.bottomRightCorner<6, 6>()}};
+  }
 }
 
 void MotionFilter::Correct(const Pose& T_cw) {

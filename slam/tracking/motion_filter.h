@@ -35,6 +35,12 @@ inline void VisitFields(MotionFilterConfig& c, FieldVisitor& v) {
 /// Whether a pose with this covariance is known well enough to go on from.
 bool IsKnownWell(const Matrix6d& covariance, const MotionFilterConfig& config);
 
+/// How a camera moved in the frame that its path begins with.
+struct StartSpeed {
+  double timestamp_s = 0.0;
+  UncertainSpeed speed;
+};
+
 /// Where a camera can be when nothing is seen of it: pose and speed with their covariance. The
 /// speed forgets itself (Ornstein and Uhlenbeck), so that a direction that nothing observes
 /// comes to rest and grows ever more uncertain, and does not run away.
@@ -45,6 +51,13 @@ class MotionFilter {
   /// The pose at a later time, with its covariance; nullopt before the first Observe, and at no
   /// later time.
   std::optional<UncertainPose> Predict(double timestamp_s) const;
+
+  /// The path begins so: nothing before its first frame tells how that one moves, but another who
+  /// followed the same path may know. Before the first Observe.
+  void StartAt(const StartSpeed& start) { start_ = start; }
+  /// The speed in the first frame observed, as the second one told it; none before that, or where
+  /// the camera was lost in between.
+  const std::optional<StartSpeed>& at_start() const { return at_start_; }
 
   /// The speed at a later time; at rest, as steadily as a hand is, when nothing is known.
   UncertainSpeed Speed(double timestamp_s) const;
@@ -78,6 +91,9 @@ class MotionFilter {
 
   MotionFilterConfig config_;
   std::optional<State> known_;
+  std::optional<StartSpeed> start_;     ///< given
+  std::optional<double> first_s_;       ///< time of the first frame observed
+  std::optional<StartSpeed> at_start_;  ///< found
 };
 
 }  // namespace slam

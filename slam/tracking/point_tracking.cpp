@@ -98,10 +98,12 @@ PointTrackReport PointTracking::TrackPoints(Frame& frame, Map& map) {
     const Vector6d predicted_speed = frame.speed.mean;
     found = TrackByMotion(frame, grid, map, report) || TrackByReference(frame, map);
     // The pose tells the speed, and that where the features are; but a jump is no speed.
-    if (report.by_motion)
-      TellAtSpeed(camera_, motion_filter_.SpeedWhere(frame.timestamp_s, frame.T_cw), frame);
+    if (report.by_motion) TellAtPose(frame);
     found = found && TrackLocalMap(frame, FeatureGrid(frame.features, camera_), map,
                                    min_inliers, config_.local_radius_factor, report);
+    if (found && report.by_motion && TellAtPose(frame)) {
+      report.inliers = Optimise(frame, map);  // the local map's pose tells it better
+    }
     if (!found && report.by_motion) TellAtSpeed(camera_, predicted_speed, frame);
   }
   // Lost: from the places that look like the frame, unless the map looks so elsewhere too.
@@ -269,6 +271,12 @@ bool PointTracking::TrackLocalMap(Frame& frame, const FeatureGrid& grid, Map& ma
   }
   if (local.reference != kNone) reference_ = local.reference;
   return true;
+}
+
+/// Tells the features as they are where the camera came to the frame's pose.
+/// @returns whether that moved any
+bool PointTracking::TellAtPose(Frame& frame) const {
+  return TellAtSpeed(camera_, motion_filter_.SpeedWhere(frame.timestamp_s, frame.T_cw), frame);
 }
 
 int PointTracking::Optimise(Frame& frame, const Map& map) const {

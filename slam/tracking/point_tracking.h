@@ -108,6 +108,9 @@ class PointTracking {
                 const PointSearchConfig& search, const PointTrackingConfig& config,
                 const Vocabulary& vocabulary = Vocabulary::Shipped());
 
+  /// How the camera moves in the frame that the map begins with; see MotionFilter.
+  void StartAt(const StartSpeed& start) { motion_filter_.StartAt(start); }
+  const std::optional<StartSpeed>& at_start() const { return motion_filter_.at_start(); }
   /// The camera's speed at the time of a frame that comes, as Frame::speed.
   UncertainSpeed Speed(double timestamp_s) const { return motion_filter_.Speed(timestamp_s); }
   /// The speed at which the camera comes to T_cw then; see MotionFilter.
@@ -168,6 +171,7 @@ class PointTracking {
   bool TrackLocalMap(Frame& frame, const FeatureGrid& grid, Map& map, int min_inliers,
                      double radius_factor, PointTrackReport& report);
   std::vector<int> SureMatches(const Frame& frame, const Map& map) const;
+  bool TellAtPose(Frame& frame) const;
   int Optimise(Frame& frame, const Map& map) const;
 
   Camera camera_;

@@ -52,7 +52,7 @@ TEST(TellAtSpeed, IsWhatExtractionAtThatSpeedWouldHaveTold) {
   for (const bool has_depth : {true, false}) {
     Frame frame = ReadAt(kPredicted, camera, has_depth);
     const std::vector<PointFeature> before = frame.features;
-    TellAtSpeed(camera, kFound, frame);
+    EXPECT_TRUE(TellAtSpeed(camera, kFound, frame));
     const std::vector<PointFeature> expected = ReadAt(kFound, camera, has_depth).features;
     ASSERT_EQ(frame.features.size(), expected.size());
     double moved_px = 0.0;
@@ -94,7 +94,7 @@ TEST(TellAtSpeed, LeavesAFrameOfOneMomentAsItIs) {
   Frame frame = ReadAt(kPredicted, camera, true);
   frame.readout.taken_out_s = 0.0, frame.depth_late_s = 0.0;
   const std::vector<PointFeature> before = frame.features;
-  TellAtSpeed(camera, kFound, frame);
+  EXPECT_FALSE(TellAtSpeed(camera, kFound, frame));
   for (std::size_t i = 0; i < before.size(); ++i)
     EXPECT_EQ(frame.features[i].u_px, before[i].u_px);
 }

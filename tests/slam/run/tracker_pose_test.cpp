@@ -34,6 +34,27 @@ TEST(Tracker, GivesEachFrameItsPoseInTheMapAndTheStepFromTheFrameBefore) {
   EXPECT_GT(keyframes, 2);
 }
 
+TEST(Tracker, TellsItsFirstFrameAtTheSpeedThatAnotherFound) {
+  const Camera camera = SmallCamera();
+  const TexturedCorner corner;
+  const auto track = [&](Tracker& tracker, int i) {
+    Frame frame = corner.See(camera, SwingingPose(4 * (i + 5)), i);
+    EXPECT_TRUE(tracker.TrackFrame(frame, cv::Mat3b(camera.height, camera.width)).tracked);
+    return frame;
+  };
+  Tracker first(camera, {}, Variant::kPoints, nullptr, 0, 1);
+  std::vector<Frame> seen;
+  for (int i = 0; i < 3; ++i) seen.push_back(track(first, i));
+  EXPECT_TRUE(seen[0].speed.mean.isZero());
+
+  Tracker second(camera, {}, Variant::kFull, nullptr, 0, 1);
+  second.StartFrom(first);
+  const Vector6d speed =
+      Log(seen[1].T_cw) / (seen[1].timestamp_s - seen[0].timestamp_s);  // seen[0] is the world
+  ASSERT_GT(speed.norm(), 0.1);
+  EXPECT_LT((track(second, 0).speed.mean - speed).norm(), 0.1 * speed.norm());
+}
+
 // Points see the same bent depth, whatever finds no planes to measure it by.
 TEST(Tracker, TellsOfWhatASensorBendsWhereThereAreNoPlanes) {
   const Camera camera = SmallCamera();

@@ -55,6 +55,68 @@ TEST(MotionFilter, SaysTheSpeed) {
   EXPECT_TRUE(filter.Speed(3.0).mean.isZero());
 }
 
+TEST(MotionFilter, BeginsAsAnotherFoundThatThePathDoes) {
+  const Vector6d speed = (Vector6d() << 0.1, 0, -0.3, 0, 0.2, 0).finished();
+  MotionFilter first{{}};
+  first.Observe(5.0, Pose{}, kAll);
+  EXPECT_FALSE(first.at_start());
+  first.Observe(5.0 + kFrame_s, Exp(kFrame_s * speed), kAll);
+  ASSERT_TRUE(first.at_start());
+  const StartSpeed found = *first.at_start();
+  EXPECT_EQ(found.timestamp_s, 5.0);
+  EXPECT_LT((found.speed.mean - speed).norm(), 0.1 * speed.norm());
+  // What comes later says nothing of it any more.
+  first.Observe(5.0 + 2 * kFrame_s, Pose{}, kAll);
+  EXPECT_EQ(first.at_start()->speed.mean, found.speed.mean);
+
+  MotionFilter second{{}};
+  second.StartAt(found);
+  EXPECT_TRUE(second.Speed(4.9).mean.isZero());  // of another frame nothing is known
+  EXPECT_EQ(second.Speed(5.0).mean, found.speed.mean);
+  EXPECT_EQ(second.Speed(5.0).covariance, found.speed.covariance);
+  second.Observe(5.0, Pose{}, kAll);
+  EXPECT_THAT(second.Predict(5.0 + kFrame_s)->T_cw,
+              PoseNear(Exp(kFrame_s * speed), 1.5e-3, 1.5e-3));
+  // A camera that was lost begins at rest.
+  second.Forget();
+  second.Observe(6.0, Pose{}, kAll);
+  EXPECT_THAT(second.Predict(6.0 + kFrame_s)->T_cw, PoseNear(Pose{}, 1e-9, 1e-9));
+}
+
+TEST(MotionFilter, SaysNothingOfHowAPathBeganThatWasLostAtOnce) {
+  MotionFilter filter{{}};
+  filter.Observe(0.0, Pose{}, kAll);
+  filter.Forget();
+  for (int i = 1; i < 5; ++i) filter.Observe(i * kFrame_s, Pose{}, kAll);
+  EXPECT_FALSE(filter.at_start());
+}
+
+TEST(MotionFilter, KnowsHowWellItKnowsHowAPathBegan) {
+  // Hands in steps of a millisecond; after a short way and after a long one.
+  const MotionFilterConfig config;
+  for (const int way_ms : {33, 200}) {
+    constexpr int kHands = 1000;
+    constexpr double kStep_s = 1e-3;
+    double nees = 0.0;
+    for (int hand = 0; hand < kHands; ++hand) {
+      Random random{12, static_cast<std::uint64_t>(hand)};
+      const double began = config.speed_mps * Normal(random);
+      double x = 0.0, speed = began;
+      for (int i = 0; i < way_ms; ++i) {
+        x += kStep_s * speed;
+        speed -= kStep_s / config.memory_s * speed;
+        speed += config.speed_mps * std::sqrt(2.0 * kStep_s / config.memory_s) * Normal(random);
+      }
+      MotionFilter filter{config};
+      filter.Observe(0.0, Pose{}, kAll);
+      filter.Observe(way_ms * kStep_s, Pose{Eigen::Matrix3d::Identity(), {x, 0, 0}}, kAll);
+      const UncertainSpeed& found = filter.at_start()->speed;
+      nees += std::pow(found.mean[0] - began, 2) / found.covariance(0, 0) / kHands;
+    }
+    EXPECT_NEAR(nees, 1.0, 0.15) << way_ms;  // three standard errors
+  }
+}
+
 TEST(MotionFilter, KnowsTheSpeedTwiceAsWellOnceThePoseIsFound) {
   // Hands in steps of a millisecond, seen 30 times a second.
   const MotionFilterConfig config;

@@ -97,6 +97,23 @@ TEST(PointTracking, TakesNoJumpForASpeed) {
   EXPECT_TRUE(frame.speed.mean.isZero());  // as it was predicted here
 }
 
+TEST(PointTracking, TellsFeaturesAtTheSpeedOfThePoseThatItFound) {
+  const TexturedCorner world;
+  PointOdometer odometer(SmallCamera());
+  double apart = 0.0, speed = 0.0;
+  for (int i = 0; i < 40; ++i) {
+    Frame frame = SeeSwinging(world, odometer.camera, i);
+    frame.depth_late_s = 0.015;
+    odometer.Extract(frame);
+    ASSERT_EQ(odometer.tracking.TrackPoints(frame, odometer.map).state, TrackState::kTracking);
+    const Vector6d found = odometer.tracking.SpeedWhere(frame.timestamp_s, frame.T_cw);
+    apart += (frame.speed.mean - found).norm();
+    speed += found.norm();
+    odometer.Finish(frame);
+  }
+  EXPECT_LT(apart, 0.2 * speed);  // half of it when told once
+}
+
 TEST(PointTracking, StaysLostInAWorldItHasNeverSeen) {
   const TexturedCorner world(1), other(99);
   PointOdometer odometer(SmallCamera());
