@@ -57,8 +57,9 @@ void AddLiveOptions(CLI::App& command, SlamArguments& arguments,
   CLI::Option* live = command.add_option(
       "--live", arguments.live_scene,
       "SCENE.yaml: render its frames in memory instead of reading SEQ; the estimator gets "
-      "what `pas sim` would write and the run is the same. The truth is written to RUN/truth, "
-      "so that `pas eval RUN` scores it");
+      "what `pas sim` would write, and the run is that of these files without a first look "
+      "(first_look: frames: 0 of a --config). The truth is written to RUN/truth, so that `pas "
+      "eval RUN` scores it");
   for (CLI::Option* option : of_folders) live->excludes(option);
   const std::vector<CLI::Option*> before = command.get_options();
   command.add_flag("--no-truth", arguments.no_truth,

@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "tests/support/program.h"
@@ -43,8 +44,10 @@ class LiveRun : public testing::Test {
 TEST_F(LiveRun, IsScoredAsTheRunOnTheFilesOfTheSameSeed) {
   constexpr int kFrames = 12;
   Pass({"sim", Scene(), "-o", folder_ / "seq", "--seed", "5"}, kFrames);
-  Pass(
-      {"slam", folder_ / "seq", "-o", folder_ / "files", "--seed", "5", "--save-segmentation"});
+  // Frames that are rendered come once.
+  std::ofstream(folder_ / "once.yaml") << "first_look: {frames: 0}\n";
+  Pass({"slam", folder_ / "seq", "-o", folder_ / "files", "--seed", "5", "--save-segmentation",
+        "--config", folder_ / "once.yaml"});
   Live("live", kFrames, {"--seed", "5", "--save-segmentation"});
   EXPECT_EQ(ReadText(folder_ / "live" / "map.json"), ReadText(folder_ / "files" / "map.json"));
   EXPECT_EQ(Metrics("live"), Metrics("files"));
