@@ -101,8 +101,10 @@ PointTrackReport PointTracking::TrackPoints(Frame& frame, Map& map) {
     if (report.by_motion) TellAtPose(frame);
     found = found && TrackLocalMap(frame, FeatureGrid(frame.features, camera_), map,
                                    min_inliers, config_.local_radius_factor, report);
+    // The local map's pose tells it better.
     if (found && report.by_motion && TellAtPose(frame)) {
-      report.inliers = Optimise(frame, map);  // the local map's pose tells it better
+      report.inliers = Optimise(frame, map);
+      found = report.inliers >= min_inliers;
     }
     if (!found && report.by_motion) TellAtSpeed(camera_, predicted_speed, frame);
   }
