@@ -31,7 +31,7 @@ UncertainPose PredictedPose(const Frame& frame, const AssociationConfig& config)
     return {frame.T_cw, Variances(config.prior.sigma_m, config.prior.sigma_rad).asDiagonal()};
   }
   UncertainPose pose{frame.T_cw, *frame.pose_covariance};
-  if (frame.pose_information.isZero()) return pose;  // motion alone: no points, no bend
+  if (frame.evidence.of_pose.isZero()) return pose;  // motion alone: no points, no bend
   pose.covariance *= kSharedErrors * kSharedErrors;
   pose.covariance += BendCovariance(frame);
   return pose;

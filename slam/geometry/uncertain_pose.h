@@ -1,5 +1,7 @@
 #pragma once
 
+#include <optional>
+
 #include "slam/geometry/pose.h"
 
 namespace slam {
@@ -14,6 +16,28 @@ struct UncertainPose {
 struct UncertainSpeed {
   Vector6d mean = Vector6d::Zero();
   Matrix6d covariance = Matrix6d::Zero();
+};
+
+/// What a camera's pose says of its speed, by how it moved before: where it came farther than it was
+/// predicted to, it is faster.
+struct SpeedByPose {
+  Pose predicted_cw;
+  Vector6d speed = Vector6d::Zero();       ///< at the predicted pose
+  Matrix6d gain = Matrix6d::Zero();        ///< 1/s, by xi in T_cw <- Exp(xi) T_cw
+  Matrix6d covariance = Matrix6d::Zero();  ///< of the speed at a pose that is known
+
+  Vector6d At(const Pose& T_cw) const {
+    return speed + gain * Log(T_cw * Inverse(predicted_cw));
+  }
+};
+
+/// What a frame says of how its camera moves: J^T W J for T <- Exp(xi) T.
+struct MotionEvidence {
+  Matrix6d of_pose = Matrix6d::Zero();  ///< by what was measured at the pose's time
+  Matrix6d of_late_pose =
+      Matrix6d::Zero();  ///< of the pose late_s later, by planes of that time
+  double late_s = 0.0;
+  std::optional<Vector6d> speed = {};  ///< found with these; none: as the pose says
 };
 
 /// A direction of the camera's motion.

@@ -137,8 +137,8 @@ struct Frame {
   /// From this camera to that of the frame tracked before it; none at the first.
   std::optional<Pose> T_lc;
   std::vector<MotionAxis> held_by_motion;  ///< directions that nothing in the frame observes
-  /// What the frame's own measurements say of T_cw: J^T W J for T_cw <- Exp(xi) T_cw ...
-  Matrix6d pose_information = Matrix6d::Zero();
+  /// What the frame's own measurements say of T_cw ...
+  MotionEvidence evidence;
   /// ... and its covariance by these and the prediction; none where nothing is known of it.
   std::optional<Matrix6d> pose_covariance;
 };

@@ -43,7 +43,7 @@ int OptimiseByPoints(Frame& frame, const Map& map, const Camera& camera,
   const PoseSummary summary = OptimisePose(problem, camera, config);
   if (!summary.usable) return 0;
   frame.T_cw = summary.T_cw;
-  frame.pose_information = summary.information;
+  frame.evidence = summary.evidence;
   frame.pose_covariance = summary.covariance;
   DropOutliers(frame, points, summary.point_inliers);
   return summary.inlier_count;

@@ -114,24 +114,39 @@ class Evaluator {
 
   /// The sum without the prior.
   NormalEquations Measured(const Pose& T_cw) const {
+    NormalEquations sum = AtItsTime(T_cw);
+    if (!problem_.late) return sum;
+    const NormalEquations late = problem_.late->OfPose(Late(T_cw));
+    sum.H += late.H;
+    sum.g += late.g;
+    sum.cost += late.cost;
+    return sum;
+  }
+
+  /// What was measured at the time of the pose.
+  NormalEquations AtItsTime(const Pose& T_cw) const {
     NormalEquations sum;
-    if (config_.use_points) AddPoints(T_cw, sum);             // eq14
-    if (config_.use_planes) AddPlanes(T_cw, sum);             // eq15, eq16
-    if (config_.use_boxes) AddBoxes(T_cw, sum);               // eq17
-    if (config_.use_point_planes) AddPointPlanes(T_cw, sum);  // eq18
-    AddParallels(T_cw, sum);                                  // eq19
-    AddPerpendiculars(T_cw, sum);                             // eq20
-    AddRotations(T_cw, sum);
+    if (config_.use_points) AddPoints(T_cw, sum);  // eq14
+    if (config_.use_boxes) AddBoxes(T_cw, sum);    // eq17
+    if (!problem_.late) AddSeenPlanes(T_cw, sum);
+    return sum;
+  }
+
+  /// What late planes say of where they were seen from.
+  NormalEquations Late(const Pose& T_cw) const {
+    NormalEquations sum;
+    AddSeenPlanes(problem_.late->SeenFrom(T_cw), sum);
     return sum;
   }
 
   /// How many of their standard deviations the planes are off by, root mean square; 1 at least.
   double PlaneDisagreement(const Pose& T_cw) const {
     constexpr int kDof = 3;  // a normal and an offset
+    const Pose seen_from = problem_.late ? problem_.late->SeenFrom(T_cw) : T_cw;
     double chi2 = 0.0;
     int dof = 0;
     for (const PlaneConstraint& c : problem_.planes) {
-      const Linearised<4> f = WhitenedPlane(c, T_cw);
+      const Linearised<4> f = WhitenedPlane(c, seen_from);
       if (f.valid) chi2 += f.r.squaredNorm(), dof += kDof;
     }
     return std::sqrt(std::max(1.0, chi2 / std::max(dof, 1)));
@@ -195,6 +210,15 @@ class Evaluator {
       const Linearised<4> f = BoxFactor(c, T_cw, camera_);
       if (f.valid) Add(Whitened(f, 1 / c.sigma_px), config_.huber_planes, sum);
     }
+  }
+
+  /// All that planes of the frame say of where they are seen from.
+  void AddSeenPlanes(const Pose& T_cw, NormalEquations& sum) const {
+    if (config_.use_planes) AddPlanes(T_cw, sum);             // eq15, eq16
+    if (config_.use_point_planes) AddPointPlanes(T_cw, sum);  // eq18
+    AddParallels(T_cw, sum);                                  // eq19
+    AddPerpendiculars(T_cw, sum);                             // eq20
+    AddRotations(T_cw, sum);
   }
 
   void AddPointPlanes(const Pose& T_cw, NormalEquations& sum) const {
@@ -265,9 +289,14 @@ PoseSummary OptimisePose(const PoseProblem& problem, const Camera& camera,
   // What the solution is worth. Planes that disagree with each other or with the points by more than
   // they say are worth less than they say.
   evaluate.plane_sigmas = evaluate.PlaneDisagreement(out.T_cw);
-  NormalEquations last = evaluate.Measured(out.T_cw);
-  out.information = last.H.selfadjointView<Eigen::Upper>();
-  evaluate.AddPrior(out.T_cw, last);
+  out.evidence.of_pose = evaluate.AtItsTime(out.T_cw).H.selfadjointView<Eigen::Upper>();
+  if (problem.late) {
+    const NormalEquations seen = evaluate.Late(out.T_cw);
+    out.evidence.of_late_pose = seen.H.selfadjointView<Eigen::Upper>();
+    out.evidence.late_s = problem.late->late_s;
+    out.evidence.speed = problem.late->SpeedAt(out.T_cw, seen);
+  }
+  const NormalEquations last = evaluate(out.T_cw);
   const Matrix6d H = last.H.selfadjointView<Eigen::Upper>();
   out.point_inliers = evaluate.used;
   out.nullity = Nullity(H);

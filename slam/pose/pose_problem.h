@@ -10,6 +10,7 @@
 #include "slam/geometry/camera.h"
 #include "slam/geometry/plane.h"
 #include "slam/geometry/uncertain_pose.h"
+#include "slam/pose/late_planes.h"
 
 namespace slam {
 
@@ -91,6 +92,8 @@ struct PoseProblem {
   std::vector<PointPlaneConstraint> point_planes;
   std::vector<DirectionConstraint> parallels, perpendiculars;
   std::vector<RotationConstraint> rotations;
+  /// Planes, whatever is made of them, were measured at another time.
+  std::optional<LatePlanes> late;
   /// What was known of the pose before the frame was looked at: it holds the directions that
   /// nothing observes. None where points alone observe all six.
   std::optional<UncertainPose> prior;
@@ -104,9 +107,9 @@ struct PoseSummary {
   std::vector<bool> point_inliers;  ///< parallel to PoseProblem::points
   int inlier_count = 0;
   double initial_cost = 0.0;
-  /// J^T W J of what was measured at the solution, for T <- Exp(xi) T; the prior apart. Where planes
-  /// are off by more than they say, root mean square, all count as so much less certain.
-  Matrix6d information = Matrix6d::Zero();
+  /// What was measured says so at the solution; the prior apart. Where planes are off by more than
+  /// they say, root mean square, all count as so much less certain.
+  MotionEvidence evidence;
   /// Of the pose by all together; zero when not usable.
   Matrix6d covariance = Matrix6d::Zero();
 };

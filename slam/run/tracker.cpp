@@ -41,7 +41,7 @@ Config ForVariant(Config config, Variant variant, std::uint64_t seed) {
 /// Leaves the frame without a pose and without matches.
 void ForgetPose(Frame& frame) {
   frame.T_cw = Pose{};
-  frame.pose_information.setZero();
+  frame.evidence = {};
   frame.pose_covariance.reset();
   frame.map_points.assign(frame.features.size(), kNone);
   frame.plane_matches.assign(frame.planes.size(), {});
@@ -175,6 +175,7 @@ void Tracker::OptimiseWithPlanes(Frame& frame, TrackReport& report) {
   // Once more without the matches that the pose contradicts: the better-known one, or that by points
   // where planes would have it against them.
   OptimiseByAll(frame);
+  if (TellAtPose(frame)) OptimiseByAll(frame);  // rows, too, were read from elsewhere
   if (TakeBackContradicted(frame, map_, config_.association) > 0) OptimiseByAll(frame);
 }
 
@@ -184,6 +185,9 @@ PoseProblem Tracker::ProblemOf(const Frame& frame, const FramePoints& points) co
   problem.T_cw = frame.T_cw;
   problem.points = points.constraints;
   problem.prior = frame.prediction;
+  if (const auto speed = points_.SpeedByPoseIn(frame); speed && frame.depth_late_s != 0.0) {
+    problem.late = LatePlanes{frame.depth_late_s, frame.speed.mean, *speed};
+  }
   AddPlaneConstraints(frame, map_, camera_, config_.plane_constraints, problem);
   AddStructure(frame, map_, config_.association.prior, config_.structure, problem);
   return problem;
@@ -198,50 +202,41 @@ void Tracker::OptimiseByAll(Frame& frame) const {
   const auto agreed = static_cast<int>(points.constraints.size());
   if (!summary.usable || 2 * summary.inlier_count < agreed) return;
   frame.T_cw = summary.T_cw;
-  frame.pose_information = summary.information;
+  frame.evidence = summary.evidence;
   frame.pose_covariance = summary.covariance;
   DropOutliers(frame, points, summary.point_inliers);
 }
 
-/// Tells points and planes as they are where the camera moves so.
-void Tracker::TellAgain(const Vector6d& speed, Frame& frame) const {
+/// Tells points and planes as they are where the camera came to the frame's pose.
+/// @returns whether that moved any
+bool Tracker::TellAtPose(Frame& frame) const {
+  const std::optional<Vector6d> speed = points_.SpeedIn(frame);
   const Pose T_dc = frame.T_dc();
-  TellAtSpeed(camera_, speed, frame);
+  if (!speed || !TellAtSpeed(camera_, *speed, frame)) return false;
   CarryPlanesAgain(T_dc, camera_, frame);
+  return true;
 }
 
 /// Points failed: planes and the motion before hold the pose, while it is known well enough.
 void Tracker::HoldByPlanes(Frame& frame, TrackReport& report) {
-  // Late depth is told at the speed that was predicted. The pose that it gives says another speed,
-  // at which it gives another pose. Taken as it is, an error of the speed would come back in the
-  // next frame with its sign turned, and grow. Half of the way at a time does not overshoot.
-  constexpr int kMaxRounds = 8;
-  constexpr double kSame = 1e-5;  // metres, radians: far below what a plane tells
-  const double share = frame.depth_late_s > 0 ? 0.5 : 1.0;
-  std::vector<Eigen::Vector3d> unseen;
-  PoseSummary summary;
-  bool has_planes = false;
-  for (int round = 0; round < kMaxRounds; ++round) {
-    PoseProblem problem = ProblemOf(frame, PointConstraints(frame, map_, scale()));
-    has_planes = !problem.planes.empty();
-    AddEdgesAlone(frame, map_, config_.structure, problem);
-    // Along steps that nothing observes the camera is where motion leads (Zhang, Kaess and Singh
-    // 2016), and as uncertain.
-    unseen = UnseenSteps(problem.planes);
-    problem.prior = HeldAlong(*frame.prediction, unseen);
-    summary = OptimisePose(problem, camera_, config_.point_search.pose);
-    if (!has_planes || !summary.usable) break;
-    const Vector6d more =
-        share * (points_.SpeedWhere(frame.timestamp_s, summary.T_cw) - frame.speed.mean);
-    TellAgain(frame.speed.mean + more, frame);
-    if (std::abs(frame.depth_late_s) * more.norm() < kSame) break;
-  }
+  PoseProblem problem = ProblemOf(frame, PointConstraints(frame, map_, scale()));
+  const bool has_planes = !problem.planes.empty();
+  AddEdgesAlone(frame, map_, config_.structure, problem);
+  // Along steps that nothing observes the camera is where motion leads (Zhang, Kaess and Singh
+  // 2016), and as uncertain.
+  const std::vector<Eigen::Vector3d> unseen = UnseenSteps(problem.planes);
+  problem.prior = HeldAlong(*frame.prediction, unseen);
+  const PoseSummary summary = OptimisePose(problem, camera_, config_.point_search.pose);
   frame.T_cw = summary.T_cw;
-  frame.pose_information = WithoutSteps(summary.information, unseen);
+  frame.evidence = summary.evidence;
+  if (summary.usable) TellAtPose(frame);
+  NormalEquations at, late;
+  at.H = frame.evidence.of_pose = WithoutSteps(summary.evidence.of_pose, unseen);
+  late.H = frame.evidence.of_late_pose = WithoutSteps(summary.evidence.of_late_pose, unseen);
+  if (problem.late) at.H += problem.late->OfPose(late).H;
   const Matrix6d& predicted = frame.prediction->covariance;
-  frame.pose_covariance = (Matrix6d::Identity() + predicted * frame.pose_information)
-                              .partialPivLu()
-                              .solve(predicted);
+  frame.pose_covariance =
+      (Matrix6d::Identity() + predicted * at.H).partialPivLu().solve(predicted);
   // Planes of another place may lie as those of the map do: its prints do not.
   report.tracked = has_planes && summary.usable &&
                    IsKnownWell(*frame.pose_covariance, config_.tracking.motion) &&
@@ -252,7 +247,7 @@ void Tracker::HoldByPlanes(Frame& frame, TrackReport& report) {
   }
   if (report.points.by_relocalising) {
     // No motion led here: the prediction is what the frame's own planes say.
-    frame.pose_information = frame.pose_covariance->inverse();
+    frame.evidence.of_pose = frame.pose_covariance->inverse();
     points_.FoundByPlanes(frame, map_);
   } else {
     frame.held_by_motion = HeldByPrediction(predicted, *frame.pose_covariance);

@@ -121,7 +121,7 @@ class Tracker {
   bool FindByPlanes(Frame& frame, TrackReport& report) const;
   void AssociateFramePlanes(Frame& frame, TrackReport& report) const;
   void OptimiseWithPlanes(Frame& frame, TrackReport& report);
-  void TellAgain(const Vector6d& speed, Frame& frame) const;
+  bool TellAtPose(Frame& frame) const;
   void HoldByPlanes(Frame& frame, TrackReport& report);
   void OptimiseByAll(Frame& frame) const;
   PoseProblem ProblemOf(const Frame& frame, const FramePoints& points) const;

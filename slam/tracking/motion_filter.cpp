@@ -70,20 +70,22 @@ UncertainSpeed MotionFilter::Speed(double timestamp_s) const {
   return {state.speed, state.covariance.bottomRightCorner<6, 6>()};
 }
 
-Vector6d MotionFilter::SpeedGiven(const State& predicted, const Pose& T_cw) {
+SpeedByPose MotionFilter::SpeedOf(const State& predicted) {
   // The speed follows the pose by what the two have in common.
   const Matrix6d P = predicted.covariance.topLeftCorner<6, 6>();
-  const Matrix6d speed_by_pose =
-      P.ldlt().solve(predicted.covariance.topRightCorner<6, 6>()).transpose();
-  return predicted.speed + speed_by_pose * Log(T_cw * Inverse(predicted.T_cw));
+  const Matrix6d in_common = predicted.covariance.topRightCorner<6, 6>();
+  const Matrix6d gain = P.ldlt().solve(in_common).transpose();
+  return {predicted.T_cw, predicted.speed, gain,
+          predicted.covariance.bottomRightCorner<6, 6>() - gain * in_common};
 }
 
-Vector6d MotionFilter::SpeedWhere(double timestamp_s, const Pose& T_cw) const {
-  if (!known_ || !(timestamp_s > known_->timestamp_s)) return Vector6d::Zero();
-  return SpeedGiven(At(timestamp_s), T_cw);
+std::optional<SpeedByPose> MotionFilter::SpeedAt(double timestamp_s) const {
+  if (!known_ || !(timestamp_s > known_->timestamp_s)) return std::nullopt;
+  return SpeedOf(At(timestamp_s));
 }
 
-void MotionFilter::Observe(double timestamp_s, const Pose& T_cw, const Matrix6d& information) {
+void MotionFilter::Observe(double timestamp_s, const Pose& T_cw,
+                           const MotionEvidence& evidence) {
   if (!known_) {
     // The first pose is the world, or was found by what is seen; nothing is known of the speed but
     // that a hand holds it, or what was said before.
@@ -92,7 +94,7 @@ void MotionFilter::Observe(double timestamp_s, const Pose& T_cw, const Matrix6d&
     State first;
     first.timestamp_s = timestamp_s;
     first.T_cw = T_cw;
-    if (const Eigen::FullPivLU<Matrix6d> seen(information); seen.isInvertible())
+    if (const Eigen::FullPivLU<Matrix6d> seen(evidence.of_pose); seen.isInvertible())
       first.covariance.topLeftCorner<6, 6>() = seen.inverse();
     first.speed = speed.mean;
     first.covariance.bottomRightCorner<6, 6>() = speed.covariance;
@@ -106,13 +108,15 @@ void MotionFilter::Observe(double timestamp_s, const Pose& T_cw, const Matrix6d&
   }
   const bool second = known_->timestamp_s == first_s_;
   State state = At(timestamp_s);
-  const Matrix6d P = state.covariance.topLeftCorner<6, 6>();
-  const Eigen::PartialPivLU<Matrix6d> spread(Matrix6d::Identity() + information * P);
-  const Matrix6d gain = spread.solve(information);
-  const Eigen::Matrix<double, 12, 6> with_pose = state.covariance.leftCols<6>();
-  state.speed = SpeedGiven(state, T_cw);
+  state.speed = evidence.speed ? *evidence.speed : SpeedOf(state).At(T_cw);
   state.T_cw = T_cw;
-  state.covariance -= with_pose * gain * with_pose.transpose();
+  const double late_s = evidence.late_s;
+  Matrix12d information;
+  information << evidence.of_pose + evidence.of_late_pose, late_s * evidence.of_late_pose,
+      late_s * evidence.of_late_pose, late_s * late_s * evidence.of_late_pose;
+  state.covariance = (Matrix12d::Identity() + state.covariance * information)
+                         .partialPivLu()
+                         .solve(state.covariance);
   state.covariance = 0.5 * (state.covariance + state.covariance.transpose().eval());
   known_ = state;
   // A way tells as much of the speed at its beginning as of that at its end.

@@ -12,7 +12,7 @@ namespace {
 
 void ForgetPose(Frame& frame) {
   frame.T_cw = Pose{};
-  frame.pose_information.setZero();
+  frame.evidence = {};
   frame.pose_covariance.reset();
   frame.map_points.assign(frame.features.size(), kNone);
 }
@@ -278,7 +278,14 @@ bool PointTracking::TrackLocalMap(Frame& frame, const FeatureGrid& grid, Map& ma
 /// Tells the features as they are where the camera came to the frame's pose.
 /// @returns whether that moved any
 bool PointTracking::TellAtPose(Frame& frame) const {
-  return TellAtSpeed(camera_, motion_filter_.SpeedWhere(frame.timestamp_s, frame.T_cw), frame);
+  const std::optional<Vector6d> speed = SpeedIn(frame);
+  return speed && TellAtSpeed(camera_, *speed, frame);
+}
+
+std::optional<Vector6d> PointTracking::SpeedIn(const Frame& frame) const {
+  const std::optional<SpeedByPose> by_pose = SpeedByPoseIn(frame);
+  if (!by_pose) return std::nullopt;
+  return frame.evidence.speed ? *frame.evidence.speed : by_pose->At(frame.T_cw);
 }
 
 int PointTracking::Optimise(Frame& frame, const Map& map) const {
@@ -319,7 +326,7 @@ void PointTracking::Accept(const Frame& frame, const Map& map) {
   // The speed is that between two poses of one map: the last pose as the map has it by now.
   FollowMap(map);
   motion_.Observe(frame.index, T_cw);
-  motion_filter_.Observe(frame.timestamp_s, T_cw, frame.pose_information);
+  motion_filter_.Observe(frame.timestamp_s, T_cw, frame.evidence);
   last_ = {frame.index, frame.features, frame.map_points, reference_,
            T_cw * Inverse(KeyframePose(map, reference_))};
 }

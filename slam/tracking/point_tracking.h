@@ -113,10 +113,12 @@ class PointTracking {
   const std::optional<StartSpeed>& at_start() const { return motion_filter_.at_start(); }
   /// The camera's speed at the time of a frame that comes, as Frame::speed.
   UncertainSpeed Speed(double timestamp_s) const { return motion_filter_.Speed(timestamp_s); }
-  /// The speed at which the camera comes to T_cw then; see MotionFilter.
-  Vector6d SpeedWhere(double timestamp_s, const Pose& T_cw) const {
-    return motion_filter_.SpeedWhere(timestamp_s, T_cw);
+  /// The speed in a frame by where it is found to be; none where no motion led to it.
+  std::optional<SpeedByPose> SpeedByPoseIn(const Frame& frame) const {
+    return frame.prediction ? motion_filter_.SpeedAt(frame.timestamp_s) : std::nullopt;
   }
+  /// The same at the frame's pose.
+  std::optional<Vector6d> SpeedIn(const Frame& frame) const;
 
   /// Sets frame.T_cw and frame.map_points (inliers alone). When the state is not kTracking
   /// afterwards, the frame has no pose: T_cw is the identity and nothing is matched; where the

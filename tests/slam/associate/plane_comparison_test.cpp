@@ -199,7 +199,7 @@ Frame TrackedByPoints() {
   Matrix6d root = 1e-3 * Matrix6d::Identity();
   root(0, 4) = 7e-4, root(2, 3) = -4e-4;
   frame.pose_covariance = root * root.transpose();
-  frame.pose_information = frame.pose_covariance->inverse();
+  frame.evidence.of_pose = frame.pose_covariance->inverse();
   return frame;
 }
 
@@ -219,7 +219,7 @@ TEST(PredictedPose, OfPointsErrsThreefoldAndByWhatTheSensorBends) {
 TEST(PredictedPose, OfMotionAloneIsAsUncertainAsMotionSays) {
   Frame frame = TrackedByPoints();
   frame.bend_ratio = 0.002;
-  frame.pose_information.setZero();
+  frame.evidence = {};
   EXPECT_EQ(PredictedPose(frame, {}).covariance, *frame.pose_covariance);
 }
 

@@ -154,7 +154,7 @@ TEST(WithoutSteps, LeaveTheHeightAsUncertainAsPredictedWhateverTheWallsSay) {
   const PoseSummary summary = OptimisePose(problem, Camera{}, {});
   EXPECT_LT(std::abs(summary.T_cw.t.dot(unseen[0])), 1e-3);
   EXPECT_NEAR(std::abs(summary.T_cw.t.z()), 0.012, 0.003);
-  const Matrix6d information = WithoutSteps(summary.information, unseen);
+  const Matrix6d information = WithoutSteps(summary.evidence.of_pose, unseen);
   const Matrix6d predicted = Predicted().covariance;
   const Matrix6d known = (predicted.inverse() + information).inverse();
   Vector6d height = Vector6d::Zero();

@@ -56,7 +56,7 @@ TEST(PoseOptimiserEq13, IsConsistentWithItsInformation) {
     const PoseSummary summary =
         OptimisePose(Seen(60, 1.0, 0.0, 100 + static_cast<std::uint64_t>(run)), Camera{}, {});
     const Vector6d error = Log(summary.T_cw * Inverse(kTruth));
-    sum += error.dot(summary.information * error);
+    sum += error.dot(summary.evidence.of_pose * error);
   }
   EXPECT_NEAR(sum / kRuns, 6.0 * kScatter, 5 * std::sqrt(12.0 / kRuns));
 }
@@ -112,7 +112,7 @@ TEST(PoseOptimiserEq13, LeavesWhatNothingObservesWhereItWasPredictedAndAsUncerta
   const Matrix6d& predicted = problem.prior->covariance;
   for (const int i : {0, 1, 5}) {  // two steps along the wall, and the turn about its normal
     EXPECT_NEAR(summary.covariance(i, i), predicted(i, i), 1e-3 * predicted(i, i)) << i;
-    EXPECT_NEAR(summary.information(i, i), 0.0, 1e-3) << i;
+    EXPECT_NEAR(summary.evidence.of_pose(i, i), 0.0, 1e-3) << i;
   }
   for (const int i : {2, 3, 4})
     EXPECT_LT(summary.covariance(i, i), 1e-3 * predicted(i, i)) << i;
@@ -124,7 +124,7 @@ TEST(PoseOptimiserEq13, WeighsWhatIsMeasuredAgainstThePredictionByTheVariances) 
   const double m2 = measured_m * measured_m, p2 = predicted_m * predicted_m;
   EXPECT_NEAR(summary.T_cw.t.z(), -0.02 * p2 / (p2 + m2), 1e-6);
   EXPECT_NEAR(summary.covariance(2, 2), p2 * m2 / (p2 + m2), 1e-9);
-  EXPECT_NEAR(summary.information(2, 2), 1 / m2, 1e-3 / m2);
+  EXPECT_NEAR(summary.evidence.of_pose(2, 2), 1 / m2, 1e-3 / m2);
 }
 
 // Two walls would have the camera d before and d behind its place: chi-square is 2 d^2 / sigma^2 of six
@@ -135,7 +135,7 @@ TEST(PoseOptimiserEq13, TellsNoMoreThanPlanesThatDisagreeCanKnow) {
     PoseProblem problem = WallNearerThanPredicted(kSigma_m);
     problem.planes.push_back(problem.planes.front());
     problem.planes[0].pi_w.d = 1.0 + d_m, problem.planes[1].pi_w.d = 1.0 - d_m;
-    return OptimisePose(problem, Camera{}, {}).information(2, 2);
+    return OptimisePose(problem, Camera{}, {}).evidence.of_pose(2, 2);
   };
   const double alike = 2 / (kSigma_m * kSigma_m), wide = 6 / (0.01 * 0.01);
   EXPECT_NEAR(apart(0.5 * kSigma_m), alike, 1e-3 * alike);

@@ -106,7 +106,7 @@ TEST(PointTracking, TellsFeaturesAtTheSpeedOfThePoseThatItFound) {
     frame.depth_late_s = 0.015;
     odometer.Extract(frame);
     ASSERT_EQ(odometer.tracking.TrackPoints(frame, odometer.map).state, TrackState::kTracking);
-    const Vector6d found = odometer.tracking.SpeedWhere(frame.timestamp_s, frame.T_cw);
+    const Vector6d found = odometer.tracking.SpeedIn(frame).value_or(Vector6d::Zero());
     apart += (frame.speed.mean - found).norm();
     speed += found.norm();
     odometer.Finish(frame);
