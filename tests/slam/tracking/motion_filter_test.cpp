@@ -6,6 +6,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <iostream>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -270,6 +271,30 @@ TEST(MotionFilter, KnowsARealHand) {
   nees /= frames;
   EXPECT_GT(nees.minCoeff(), 0.1);
   EXPECT_LT(nees.maxCoeff(), 5.0);
+}
+
+TEST(MotionFilter, KnowsHowFarARealHandGoesUnseen) {
+  const std::vector<TimedTruth> truth = RealHand();
+  if (truth.empty()) GTEST_SKIP() << "no reference data; set PAS_SHARED_DIR";
+  for (const double ahead_s : {0.1, 0.33, 1.0}) {
+    const auto ahead = static_cast<std::size_t>(std::lround(100 * ahead_s));
+    MotionFilter filter{{}};
+    Vector6d squares = Vector6d::Zero(), nees = squares;
+    int frames = 0;
+    for (std::size_t i = 0; i + ahead < truth.size(); i += 3) {
+      filter.Observe(truth[i].timestamp_s, truth[i].T_cw, kAll);
+      if (i <= 30) continue;
+      const UncertainPose predicted = *filter.Predict(truth[i + ahead].timestamp_s);
+      const Vector6d off = Log(truth[i + ahead].T_cw * Inverse(predicted.T_cw));
+      squares += off.cwiseAbs2();
+      nees += off.cwiseAbs2().cwiseQuotient(predicted.covariance.diagonal());
+      ++frames;
+    }
+    std::cout << ahead_s << " s: off " << (squares / frames).cwiseSqrt().transpose() << '\n';
+    nees /= frames;
+    EXPECT_GT(nees.minCoeff(), 0.1) << ahead_s;
+    EXPECT_LT(nees.maxCoeff(), 4.0) << ahead_s;
+  }
 }
 
 TEST(MotionFilter, PredictsNothingWhereNoTimeHasPassed) {
