@@ -25,7 +25,7 @@ std::vector<PlaneConstraint> AnyPlanes() {
     Eigen::Vector3d n = AnyUnit();
     n -= (1 - lean) * n.dot(up) * up;
     RC_PRE(n.norm() > 1e-3);
-    plane.pi_c.n = n.normalized();
+    plane.pi_w.n = plane.pi_c.n = n.normalized();
   }
   return planes;
 }
@@ -60,7 +60,7 @@ Vector6d Along(const Eigen::Vector3d& step_c) {
 
 RC_GTEST_PROP(UnseenSteps, LieAlongAllPlanesAndAcrossEachOther, ()) {
   const auto planes = AnyPlanes();
-  const auto steps = UnseenSteps(planes);
+  const auto steps = UnseenSteps(planes, Eigen::Matrix3d::Identity());
   for (std::size_t i = 0; i < steps.size(); ++i) {
     RC_ASSERT(std::abs(steps[i].norm() - 1) < 1e-12);
     RC_ASSERT(MostTold(planes, steps[i]) <= kMaxSine);
@@ -79,7 +79,8 @@ RC_GTEST_PROP(UnseenSteps, TurnWithTheCamera, ()) {
   const Eigen::Matrix3d R = AnyPose(1).R;
   auto turned = planes;
   for (PlaneConstraint& plane : turned) plane.pi_c.n = (R * plane.pi_c.n).normalized();
-  const auto steps = UnseenSteps(planes), there = UnseenSteps(turned);
+  const auto steps = UnseenSteps(planes, Eigen::Matrix3d::Identity());
+  const auto there = UnseenSteps(planes, R);
   // Neither side may hang on round-off.
   for (const Eigen::Vector3d& s : steps) RC_PRE(MostTold(planes, s) < kMaxSine - 1e-6);
   for (const Eigen::Vector3d& s : there) RC_PRE(MostTold(turned, s) < kMaxSine - 1e-6);

@@ -28,17 +28,22 @@ Vector6d Along(const Eigen::Vector3d& step_c) {
 
 }  // namespace
 
-std::vector<Eigen::Vector3d> UnseenSteps(const std::vector<PlaneConstraint>& planes) {
+std::vector<Eigen::Vector3d> UnseenSteps(const std::vector<PlaneConstraint>& planes,
+                                         const Eigen::Matrix3d& R_cw) {
   constexpr double kMaxSine =
       0.17;  // 10 degrees: several times what the normal of a patch errs by
   Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
-  for (const PlaneConstraint& plane : planes) spread += plane.pi_c.n * plane.pi_c.n.transpose();
+  const auto normal_c = [&](const PlaneConstraint& plane) -> Eigen::Vector3d {
+    return R_cw * plane.pi_w.n;
+  };
+  for (const PlaneConstraint& plane : planes)
+    spread += normal_c(plane) * normal_c(plane).transpose();
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(spread);
   std::vector<Eigen::Vector3d> unseen;
   for (int i = 0; i < 3; ++i) {
     const Eigen::Vector3d step_c = axes.eigenvectors().col(i);
     const auto tells = [&](const PlaneConstraint& plane) {
-      return std::abs(plane.pi_c.n.dot(step_c)) > kMaxSine;
+      return std::abs(normal_c(plane).dot(step_c)) > kMaxSine;
     };
     if (std::none_of(planes.begin(), planes.end(), tells)) unseen.push_back(step_c);
   }

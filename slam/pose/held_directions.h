@@ -15,8 +15,10 @@ std::vector<MotionAxis> HeldByPrediction(const Matrix6d& predicted, const Matrix
 
 /// Steps of the camera that no plane tells: along them each lies, within ten degrees. What planes
 /// say of such a step comes from errors of their normals, which stay from frame to frame and would
-/// add up. Unit, camera frame.
-std::vector<Eigen::Vector3d> UnseenSteps(const std::vector<PlaneConstraint>& planes);
+/// add up. By the landmarks' normals, which stay, so that the same step is unseen in the next frame.
+/// @param R_cw  of the camera. @returns unit vectors, camera frame
+std::vector<Eigen::Vector3d> UnseenSteps(const std::vector<PlaneConstraint>& planes,
+                                         const Eigen::Matrix3d& R_cw);
 
 /// A prediction that is certain of the camera's place along these steps.
 UncertainPose HeldAlong(const UncertainPose& predicted,

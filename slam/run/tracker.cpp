@@ -219,17 +219,24 @@ bool Tracker::TellAtPose(Frame& frame) const {
 
 /// Points failed: planes and the motion before hold the pose, while it is known well enough.
 void Tracker::HoldByPlanes(Frame& frame, TrackReport& report) {
-  PoseProblem problem = ProblemOf(frame, PointConstraints(frame, map_, scale()));
-  const bool has_planes = !problem.planes.empty();
-  AddEdgesAlone(frame, map_, config_.structure, problem);
-  // Along steps that nothing observes the camera is where motion leads (Zhang, Kaess and Singh
-  // 2016), and as uncertain.
-  const std::vector<Eigen::Vector3d> unseen = UnseenSteps(problem.planes);
-  problem.prior = HeldAlong(*frame.prediction, unseen);
-  const PoseSummary summary = OptimisePose(problem, camera_, config_.point_search.pose);
-  frame.T_cw = summary.T_cw;
-  frame.evidence = summary.evidence;
-  if (summary.usable) TellAtPose(frame);
+  PoseProblem problem;
+  PoseSummary summary;
+  bool has_planes = false;
+  // Twice: the second time planes are told for the speed that the first pose said.
+  for (const bool again : {true, false}) {
+    problem = ProblemOf(frame, PointConstraints(frame, map_, scale()));
+    has_planes = !problem.planes.empty();
+    AddEdgesAlone(frame, map_, config_.structure, problem);
+    // Along steps that nothing observes the camera is where motion leads (Zhang, Kaess and Singh
+    // 2016), and as uncertain.
+    problem.prior =
+        HeldAlong(*frame.prediction, UnseenSteps(problem.planes, frame.prediction->T_cw.R));
+    summary = OptimisePose(problem, camera_, config_.point_search.pose);
+    frame.T_cw = summary.T_cw;
+    frame.evidence = summary.evidence;
+    if (!summary.usable || !again || !TellAtPose(frame)) break;
+  }
+  const std::vector<Eigen::Vector3d> unseen = UnseenSteps(problem.planes, frame.T_cw.R);
   NormalEquations at, late;
   at.H = frame.evidence.of_pose = WithoutSteps(summary.evidence.of_pose, unseen);
   late.H = frame.evidence.of_late_pose = WithoutSteps(summary.evidence.of_late_pose, unseen);

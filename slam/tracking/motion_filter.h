@@ -15,8 +15,8 @@ struct MotionFilterConfig {
   double speed_mps = 0.25;
   double turn_rad_per_s = 0.7;  // 40 degrees/s
   double memory_s = 2.0;
-  // Balances short views of too few planes against wrong maps.
-  double max_sigma_m = 0.3;
+  // Balances short views of too few planes against wrong maps: four seconds of one open step.
+  double max_sigma_m = 0.6;
   double max_sigma_rad = 0.17;  // 10 degrees
 };
 
@@ -45,6 +45,10 @@ struct StartSpeed {
 /// Where a camera can be when nothing is seen of it: pose and speed with their covariance. The
 /// speed forgets itself (Ornstein and Uhlenbeck), so that a direction that nothing observes
 /// comes to rest and grows ever more uncertain, and does not run away.
+///
+/// What goes in and comes out is in the camera's axes; within, speeds and covariances are in the
+/// world's. There a step that nothing observes stays the same one while the camera turns; carried along
+/// with the camera it would seem to be observed.
 class MotionFilter {
  public:
   explicit MotionFilter(const MotionFilterConfig& config) : config_(config) {}
@@ -82,8 +86,12 @@ class MotionFilter {
   struct State {
     double timestamp_s = 0.0;
     Pose T_cw;
-    Vector6d speed = Vector6d::Zero();         ///< of xi, a second
-    Matrix12d covariance = Matrix12d::Zero();  ///< of pose and speed
+    Vector6d speed_w = Vector6d::Zero();         ///< of xi, a second, in the world's axes
+    Matrix12d covariance_w = Matrix12d::Zero();  ///< of pose and speed, likewise
+
+    Vector6d Speed() const;        ///< in the camera's axes
+    Matrix12d Covariance() const;  ///< likewise
+    void SetSpeed(const Vector6d& speed);
   };
   State At(double timestamp_s) const;
   static SpeedByPose SpeedOf(const State& predicted);

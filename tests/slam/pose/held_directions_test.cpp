@@ -68,6 +68,11 @@ TEST(HeldByPrediction, OfACornerNothing) {
   EXPECT_TRUE(HeldByPrediction(Predicted().covariance, summary.covariance).empty());
 }
 
+/// Steps that no plane tells a camera that stands as the world does.
+std::vector<Eigen::Vector3d> Unseen(const std::vector<PlaneConstraint>& planes) {
+  return UnseenSteps(planes, Eigen::Matrix3d::Identity());
+}
+
 PlaneConstraint Seen(const Eigen::Vector3d& n) {
   PlaneConstraint plane;
   plane.pi_w = plane.pi_c = {n.normalized(), 1.0};
@@ -75,14 +80,14 @@ PlaneConstraint Seen(const Eigen::Vector3d& n) {
 }
 
 TEST(UnseenSteps, OfPanelsTheirHeightThoughTheirNormalsErr) {
-  const auto unseen = UnseenSteps({Seen({0.5, 0.02, -0.8}), Seen({-0.4, -0.03, -0.9})});
+  const auto unseen = Unseen({Seen({0.5, 0.02, -0.8}), Seen({-0.4, -0.03, -0.9})});
   ASSERT_EQ(unseen.size(), 1u);
   EXPECT_GT(std::abs(unseen[0].y()), 0.99);
 }
 
 TEST(UnseenSteps, OfPanelsOnAFloorNothing) {
   EXPECT_TRUE(
-      UnseenSteps({Seen({0.5, 0, -0.8}), Seen({-0.4, 0, -0.9}), Seen({0, -1, 0.1})}).empty());
+      Unseen({Seen({0.5, 0, -0.8}), Seen({-0.4, 0, -0.9}), Seen({0, -1, 0.1})}).empty());
 }
 
 TEST(UnseenSteps, StayWherePredictedAndAsUncertain) {
@@ -96,20 +101,20 @@ TEST(UnseenSteps, StayWherePredictedAndAsUncertain) {
 }
 
 TEST(UnseenSteps, OfOneWallAreTwoAndWithoutPlanesAllThree) {
-  const auto unseen = UnseenSteps({Seen({0.6, 0, -0.8}), Seen({0.6, 0, -0.8})});
+  const auto unseen = Unseen({Seen({0.6, 0, -0.8}), Seen({0.6, 0, -0.8})});
   ASSERT_EQ(unseen.size(), 2u);
   for (const Eigen::Vector3d& step_c : unseen)
     EXPECT_NEAR(step_c.dot(Eigen::Vector3d(0.6, 0, -0.8)), 0.0, 1e-12);
   EXPECT_NEAR(unseen[0].dot(unseen[1]), 0.0, 1e-12);
-  EXPECT_EQ(UnseenSteps({}).size(), 3u);
+  EXPECT_EQ(Unseen({}).size(), 3u);
 }
 
 TEST(UnseenSteps, AreSeenByAPlaneThatLiesMoreThanTenDegreesAcrossThem) {
   // A wide corridor, and a wall beside it that leans back: what the walls say of the height.
   const auto unseen_below = [](double lean_deg) {
     const double a = lean_deg * M_PI / 180;
-    return UnseenSteps({Seen({1, 0, 0}), Seen({-1, 0, 0}), Seen({0, 0, -1}), Seen({0, 0, -1}),
-                        Seen({0, 0, -1}), Seen({0, -std::sin(a), -std::cos(a)})})
+    return Unseen({Seen({1, 0, 0}), Seen({-1, 0, 0}), Seen({0, 0, -1}), Seen({0, 0, -1}),
+                   Seen({0, 0, -1}), Seen({0, -std::sin(a), -std::cos(a)})})
         .size();
   };
   EXPECT_EQ(unseen_below(8), 1u);
@@ -141,7 +146,7 @@ TEST(WithoutSteps, TakesWhatWasSaidOfAStepTogetherWithTurnsToo) {
 TEST(WithoutSteps, LeaveTheHeightAsUncertainAsPredictedWhateverTheWallsSay) {
   const std::vector<PlaneConstraint> walls{Seen({0.7, 0.02, -0.7}), Seen({-0.7, 0.02, -0.7}),
                                            Seen({0, -0.03, -1})};
-  const auto unseen = UnseenSteps(walls);
+  const auto unseen = Unseen(walls);
   ASSERT_EQ(unseen.size(), 1u);
   PoseProblem problem;
   problem.prior = HeldAlong(Predicted(), unseen);

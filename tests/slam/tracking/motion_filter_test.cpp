@@ -210,6 +210,31 @@ TEST(MotionFilter, GrowsUncertainOnlyWhereNothingIsSeen) {
   EXPECT_GT(sigma_m, 0.2);
 }
 
+TEST(MotionFilter, KnowsNoMoreOfAnUnseenHeightForACameraThatTurns) {
+  const auto height_sigma_m = [](double turn_rad_per_s) {
+    MotionFilter filter{{}};
+    double sigma_m = 0.0;
+    for (int i = 0; i < 60; ++i) {
+      const double turn = turn_rad_per_s * i * kFrame_s;
+      const Pose T_cw{ExpSo3({0.5 * turn, 0.2 * turn, turn}), {0, 0, 0}};
+      const Eigen::Vector3d up_c = T_cw.R * Eigen::Vector3d::UnitY();
+      if (i > 1) {
+        const Matrix6d covariance = filter.Predict(i * kFrame_s)->covariance;
+        sigma_m = std::sqrt(up_c.dot(covariance.topLeftCorner<3, 3>() * up_c));
+      }
+      MotionEvidence but_height = kAll;
+      if (i > 0) {
+        but_height.of_pose.topLeftCorner<3, 3>() =
+            1e10 * (Eigen::Matrix3d::Identity() - up_c * up_c.transpose());
+      }
+      filter.Observe(i * kFrame_s, T_cw, but_height);
+    }
+    return sigma_m;
+  };
+  EXPECT_GT(height_sigma_m(0.0), 0.2);
+  EXPECT_NEAR(height_sigma_m(0.5), height_sigma_m(0.0), 0.02 * height_sigma_m(0.0));
+}
+
 TEST(MotionFilter, ComesToRestWhereNothingIsSeen) {
   MotionFilter filter{{}};
   for (int i = 0; i < 10; ++i) {
