@@ -5,10 +5,10 @@
 namespace slam {
 namespace {
 
-/// By how much the unknown part of the speed blunts what is said of the later pose.
-Matrix6d Blunted(const LatePlanes& late, const Matrix6d& H, const Matrix6d& right) {
+/// By how much the unknown part of the speed blunts what is said of the later pose: a factor.
+Matrix6d Blunt(const LatePlanes& late, const Matrix6d& H) {
   const Matrix6d unknown = late.late_s * late.late_s * late.speed.covariance;
-  return (Matrix6d::Identity() + H * unknown).partialPivLu().solve(right);
+  return (Matrix6d::Identity() + H * unknown).inverse();
 }
 
 Matrix6d Full(const Matrix6d& upper) { return upper.selfadjointView<Eigen::Upper>(); }
@@ -21,7 +21,7 @@ Pose LatePlanes::SeenFrom(const Pose& T_cw) const {
 
 NormalEquations LatePlanes::OfPose(const NormalEquations& seen) const {
   const Matrix6d H = Full(seen.H);
-  const Matrix6d blunt = Blunted(*this, H, Matrix6d::Identity());
+  const Matrix6d blunt = Blunt(*this, H);
   // A step of T_cw on the left moves the later pose by so much, to the first order in late_s.
   const Matrix6d J = Matrix6d::Identity() + late_s * speed.gain;
   NormalEquations out;
@@ -33,8 +33,8 @@ NormalEquations LatePlanes::OfPose(const NormalEquations& seen) const {
 }
 
 Vector6d LatePlanes::SpeedAt(const Pose& T_cw, const NormalEquations& seen) const {
-  const Matrix6d blunt = Blunted(*this, Full(seen.H), Matrix6d::Identity());
-  return speed.At(T_cw) - late_s * (speed.covariance * (blunt * seen.g));
+  return speed.At(T_cw) -
+         late_s * (speed.covariance * (Blunt(*this, Full(seen.H)) * seen.g));
 }
 
 }  // namespace slam

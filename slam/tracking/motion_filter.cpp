@@ -131,10 +131,7 @@ void MotionFilter::Observe(double timestamp_s, const Pose& T_cw,
     return;
   }
   // Kalman's update in the form that a singular information allows: the pose is found already.
-  if (!(timestamp_s > known_->timestamp_s)) {
-    known_->T_cw = T_cw;
-    return;
-  }
+  if (!(timestamp_s > known_->timestamp_s)) return Correct(T_cw);
   const bool second = known_->timestamp_s == first_s_;
   State state = At(timestamp_s);
   const Vector6d speed = evidence.speed ? *evidence.speed : SpeedOf(state).At(T_cw);

@@ -7,14 +7,9 @@ namespace {
 
 /// A recording by a camera that reads its rows one after the other.
 void RecordByRows(const std::filesystem::path& folder) {
-  sim::SequenceOptions options;
-  options.rig.sensor = sim::SensorKind::kKinect1Clean;
-  options.rig.sensor.exposure.rolling_s = 0.03;
-  options.rig.camera = sim::Resize(sim::Camera{}, 320, 240);
-  options.rig.seed = 1;
-  options.frames = 60;
-  options.threads = 2;
-  sim::WriteSequence(sim::MakeScene("revisit", 32), options, folder);
+  pipeline::Recording recording;
+  recording.sensor.exposure.rolling_s = 0.03;
+  pipeline::Record(sim::MakeScene("revisit", 32), recording, folder);
 }
 
 struct Looked {

@@ -12,7 +12,7 @@ namespace fs = std::filesystem;
 using pipeline::Contents;
 using pipeline::TemporaryFolder;
 
-constexpr pipeline::Recording kShort{.frames = 20};
+const pipeline::Recording kShort{.frames = 20};
 
 /// run.json without what may differ: times, memory, and where the sequence lies.
 nlohmann::json ComparableRunJson(const std::string& text) {

@@ -69,9 +69,8 @@ std::string Replay(const sim::Scene& scene, const Recording& recording,
   std::ostringstream text;
   text << "repeat with: pas sim " << scene_file.string() << " -o seq --frames "
        << recording.frames << " --width " << recording.width << " --height " << recording.height
-       << " --sensor " << sim::Sensor(recording.sensor).name << " --detector " << detector
-       << " --seed " << recording.seed
-       << " && pas slam seq -o run --save-segmentation && pas eval run";
+       << " --sensor " << recording.sensor.name << " --detector " << detector << " --seed "
+       << recording.seed << " && pas slam seq -o run --save-segmentation && pas eval run";
   return text.str();
 }
 

@@ -28,7 +28,7 @@ class TemporaryFolder {
 struct Recording {
   int frames = 60;
   int width = 320, height = 240;
-  sim::SensorKind sensor = sim::SensorKind::kKinect1Clean;
+  sim::Sensor sensor = sim::SensorKind::kKinect1Clean;
   sim::DetectorKind detector = sim::DetectorKind::kNoisy;
   std::uint64_t seed = 1;
   int threads = 2;
