@@ -33,8 +33,7 @@ NormalEquations LatePlanes::OfPose(const NormalEquations& seen) const {
 }
 
 Vector6d LatePlanes::SpeedAt(const Pose& T_cw, const NormalEquations& seen) const {
-  return speed.At(T_cw) -
-         late_s * (speed.covariance * (Blunt(*this, Full(seen.H)) * seen.g));
+  return speed.At(T_cw) - late_s * (speed.covariance * (Blunt(*this, Full(seen.H)) * seen.g));
 }
 
 }  // namespace slam
