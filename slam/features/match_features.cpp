@@ -139,6 +139,20 @@ std::vector<int> MatchQueries(const std::vector<PointQuery>& queries,
   return matches;
 }
 
+bool HasDouble(const PointFeature& feature, const std::vector<PointFeature>& features,
+               const FeatureGrid& grid, const FeatureScale& scale, double reach_px,
+               int max_distance) {
+  constexpr double kSameCorner_px = 3.0;  // FAST's ring: nearer than that it is one corner
+  const double size = scale.Scale(feature.octave);
+  const auto near =
+      grid.Near(feature.u_px, reach_px * size, feature.octave - 1, feature.octave + 1);
+  return std::any_of(near.begin(), near.end(), [&](int index) {
+    const PointFeature& other = features[Index(index)];
+    return (other.u_px - feature.u_px).norm() > kSameCorner_px * size &&
+           DescriptorDistance(other.descriptor, feature.descriptor) <= max_distance;
+  });
+}
+
 std::vector<FeaturePair> MatchDescriptors(const std::vector<PointFeature>& first,
                                           const std::vector<bool>& use_first,
                                           const std::vector<PointFeature>& second,

@@ -5,6 +5,7 @@
 
 #include "slam/base/field_visitor.h"
 #include "slam/geometry/camera.h"
+#include "slam/model/feature_scale.h"
 #include "slam/model/frame.h"
 
 namespace slam {
@@ -66,6 +67,15 @@ std::vector<int> MatchQueries(const std::vector<PointQuery>& queries,
                               const std::vector<PointFeature>& features,
                               const FeatureGrid& grid, const std::vector<bool>& taken,
                               const PointMatchConfig& config);
+
+/// Whether another corner nearby looks like this one, so that a match with either may be meant for
+/// the other: the steps of a slanting edge's pixels, which stay where they are in the image while the
+/// camera slides along the edge; prints in a row.
+/// @param reach_px  half width of the square that is looked through, at octave 0
+/// @param max_distance  differing bits of descriptors that look alike
+bool HasDouble(const PointFeature& feature, const std::vector<PointFeature>& features,
+               const FeatureGrid& grid, const FeatureScale& scale, double reach_px,
+               int max_distance);
 
 struct FeaturePair {
   int first, second;  ///< indices into the features of the two images

@@ -46,6 +46,7 @@ bool PlanesCanStart(const std::vector<FramePlane>& planes) {
 }
 
 constexpr int kManySure = 50;  // balances rooms with little print against walls with none
+constexpr double kWiderSearch = 2.0;       // where few points are found; ORB-SLAM2
 constexpr double kLostRadiusFactor = 2.0;  // a pose without prediction is less exact
 
 }  // namespace
@@ -147,7 +148,7 @@ bool PointTracking::TrackByMotion(Frame& frame, const FeatureGrid& grid, const M
   // Match with what the last frame saw, in a wider square when few are found.
   std::vector<int> matches;
   std::vector<PointQuery> queries;
-  for (const double factor : {1.0, 2.0}) {
+  for (const double factor : {1.0, kWiderSearch}) {
     queries = QueriesOf(seen, last_, predicted_T_cw, camera_, scale_,
                         factor * config_.last_radius_px);
     matches = MatchQueries(queries, frame.features, grid, {}, config_.match_last);
@@ -210,7 +211,10 @@ bool PointTracking::TrackByRelocalising(Frame& frame, const Map& map,
 }
 
 /// The frame's matches whose place and descriptor leave no doubt; kNone for all others.
-std::vector<int> PointTracking::SureMatches(const Frame& frame, const Map& map) const {
+std::vector<int> PointTracking::SureMatches(const Frame& frame, const FeatureGrid& grid,
+                                            const Map& map) const {
+  const int alike = config_.match_reference.max_distance;
+  const double reach_px = kWiderSearch * config_.last_radius_px;
   std::vector<int> sure(frame.map_points.size(), kNone);
   for (std::size_t f = 0; f < sure.size(); ++f) {
     const int id = frame.map_points[f];
@@ -218,7 +222,8 @@ std::vector<int> PointTracking::SureMatches(const Frame& frame, const Map& map) 
     if (id == kNone || feature.on_edge) continue;
     const int distance =
         DescriptorDistance(feature.descriptor, map.points[Index(id)].descriptor);
-    if (distance <= config_.match_reference.max_distance) sure[f] = id;
+    if (distance > alike) continue;
+    if (!HasDouble(feature, frame.features, grid, scale_, reach_px, alike)) sure[f] = id;
   }
   return sure;
 }
@@ -259,7 +264,7 @@ bool PointTracking::TrackLocalMap(Frame& frame, const FeatureGrid& grid, Map& ma
 
   // Where few points tell their place, those that slide along edges or were matched by chance
   // would outvote them.
-  std::vector<int> sure = SureMatches(frame, map);
+  std::vector<int> sure = SureMatches(frame, grid, map);
   if (CountMatches(sure) < kManySure) {
     frame.map_points = std::move(sure);
     report.inliers = Optimise(frame, map);

@@ -172,7 +172,8 @@ class PointTracking {
   bool TrackByRelocalising(Frame& frame, const Map& map, PointTrackReport& report);
   bool TrackLocalMap(Frame& frame, const FeatureGrid& grid, Map& map, int min_inliers,
                      double radius_factor, PointTrackReport& report);
-  std::vector<int> SureMatches(const Frame& frame, const Map& map) const;
+  std::vector<int> SureMatches(const Frame& frame, const FeatureGrid& grid,
+                               const Map& map) const;
   bool TellAtPose(Frame& frame) const;
   int Optimise(Frame& frame, const Map& map) const;
 

@@ -48,6 +48,42 @@ TEST(DescriptorDistance, CountsTheDifferingBits) {
   }
 }
 
+/// Whether the first of the features has a double within 30 pixels that differs by 50 bits at most.
+bool FirstHasDouble(const std::vector<PointFeature>& features) {
+  return HasDouble(features[0], features, FeatureGrid(features, Camera{}), FeatureScale{}, 30,
+                   50);
+}
+
+TEST(HasDouble, IsAnotherCornerNearbyThatLooksAlike) {
+  Random random{7};
+  const Descriptor d = AnyDescriptor(random);
+  const auto first_and = [&](const PointFeature& other) {
+    return FirstHasDouble({FeatureAt(200, 200, d), other});
+  };
+  EXPECT_TRUE(first_and(FeatureAt(206, 200, d)));
+  EXPECT_TRUE(first_and(FeatureAt(200, 171, d)));
+  EXPECT_FALSE(first_and(FeatureAt(200, 169, d))) << "out of reach";
+  EXPECT_FALSE(first_and(FeatureAt(202, 198, d))) << "the same corner";
+  EXPECT_TRUE(first_and(FeatureAt(206, 200, Flip(d, 50))));
+  EXPECT_FALSE(first_and(FeatureAt(206, 200, Flip(d, 51)))) << "looks otherwise";
+  EXPECT_TRUE(first_and(FeatureAt(206, 200, d, 1)));
+  EXPECT_FALSE(first_and(FeatureAt(206, 200, d, 2))) << "of another size";
+  EXPECT_FALSE(FirstHasDouble({FeatureAt(200, 200, d)})) << "itself";
+}
+
+TEST(HasDouble, ReachesFartherWhereCornersAreLarge) {
+  Random random{8};
+  const Descriptor d = AnyDescriptor(random);
+  const double scale = FeatureScale{}.Scale(4);
+  const auto at_octave_4 = [&](double away_px) {
+    return FirstHasDouble({FeatureAt(300, 200, d, 4), FeatureAt(300 + away_px, 200, d, 3)});
+  };
+  EXPECT_FALSE(at_octave_4(2.9 * scale));
+  EXPECT_TRUE(at_octave_4(3.1 * scale));
+  EXPECT_TRUE(at_octave_4(29.9 * scale));
+  EXPECT_FALSE(at_octave_4(30.1 * scale));
+}
+
 TEST(MatchQueries, TakesTheNearestDescriptorNearThePrediction) {
   Random random{2};
   const Descriptor d = AnyDescriptor(random), other = AnyDescriptor(random);

@@ -276,6 +276,35 @@ TEST(PointFeatures, TellACornerThatSlidesAlongAStraightEdge) {
   EXPECT_GE(along, 20u);
 }
 
+TEST(PointFeatures, HaveDoublesOnTheStepsOfAThinSlantingLine) {
+  // A thin line is a staircase of pixels, whose steps are corners; the corners of a box are alone.
+  cv::Mat1b image(480, 640, std::uint8_t{70});
+  cv::line(image, {200, 20}, {280, 460}, 180);
+  cv::rectangle(image, {400, 100, 150, 120}, 180, cv::FILLED);
+  const auto features = Extract(Noisy(image, 2.0, 1), {});
+  const FeatureGrid grid(features, CameraOf(image));
+  const auto has_double = [&](const PointFeature& f) {
+    return HasDouble(f, features, grid, {}, 30, 50);
+  };
+  int along = 0, by_patch = 0, by_both = 0;
+  for (const PointFeature& f : features) {
+    const double edge_u_px = 200 + (f.u_px.y() - 20) * 80 / 440;
+    const bool here = f.u_px.y() > 60 && f.u_px.y() < 420;
+    if (!here || std::abs(f.u_px.x() - edge_u_px) > 3) continue;
+    ++along;
+    if (f.on_edge) ++by_patch;
+    if (f.on_edge || has_double(f)) ++by_both;
+  }
+  EXPECT_GE(along, 50);
+  EXPECT_LE(by_patch, along / 2) << "the patch tells by itself";
+  EXPECT_GE(by_both, along * 4 / 5);
+  for (const Eigen::Vector2d& place_px : {Eigen::Vector2d(400, 100), {549, 219}}) {
+    const auto there = Around(features, place_px, 4.0);
+    EXPECT_FALSE(there.empty());
+    EXPECT_TRUE(std::none_of(there.begin(), there.end(), has_double)) << place_px.transpose();
+  }
+}
+
 // Waves as long as the window that is looked at: its sums do not depend on where it lies, and the
 // eigenvalues of its tensor are as the squares of the two waves.
 TEST(PointFeatures, LieOnAnEdgeFromTenTimesTheContrastAcrossItOn) {
