@@ -134,15 +134,6 @@ Eigen::MatrixXd JacobianOf(const FullProblem& problem) {
   return rows.Stacked();
 }
 
-/// T Exp(xi) T^-1 = Exp(Adjoint(T) xi).
-Matrix6d Adjoint(const Pose& T) {
-  Matrix6d A = Matrix6d::Zero();
-  A.topLeftCorner<3, 3>() = T.R;
-  A.topRightCorner<3, 3>() = Hat(T.t) * T.R;
-  A.bottomRightCorner<3, 3>() = T.R;
-  return A;
-}
-
 /// The world moved by Exp(xi) for each of six xi: what it does to every pose, point and plane.
 Eigen::MatrixXd Gauge(const FullProblem& problem) {
   Eigen::MatrixXd G = Eigen::MatrixXd::Zero(problem.Columns(), 6);

@@ -46,6 +46,13 @@ RC_GTEST_PROP(PoseExponential, ExpUndoesLog, ()) {
   RC_ASSERT(Difference(Exp(Log(T)), T) < 1e-12 * (1 + T.t.norm()));
 }
 
+RC_GTEST_PROP(PoseExponential, AdjointCarriesAStepToTheOtherSide, ()) {
+  const Pose T = AnyPose(3);
+  Vector6d xi;
+  for (int i = 0; i < 6; ++i) xi[i] = AnyReal(-1, 1);
+  RC_ASSERT(Difference(T * Exp(xi), Exp(Adjoint(T) * xi) * T) < 1e-12);
+}
+
 RC_GTEST_PROP(PoseExponential, PointJacobianAgreesWithDifferences, ()) {
   const Pose T = AnyPose(5);
   const Eigen::Vector3d x = AnyPoint(5);

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "slam/associate/correct_prediction.h"
+#include "slam/associate/occlusion.h"
 #include "slam/associate/plane_overlap.h"
 #include "slam/associate/plane_samples.h"
 #include "slam/associate/projected_box.h"
@@ -20,11 +21,16 @@ bool CanBeMatched(const FramePlane& plane) {
   return !plane.bad || *plane.bad == BadReason::kBorder || *plane.bad == BadReason::kStructure;
 }
 
-/// What one map plane looks like from the predicted pose.
+/// What one map plane looks like from a pose.
 struct MapPlaneView {
   PlaneView footprint;
   Box box_px;
 };
+
+MapPlaneView ViewFrom(const Pose& T_cw, const MapPlane& m, const Frame& frame,
+                      const Camera& camera) {
+  return {ViewMapPlane(m, frame, T_cw, camera), ProjectedBox(m, T_cw, camera)};
+}
 
 /// Cost of boxes that do not agree, where both sides have one.
 double BoxCost(const Frame& frame, const FramePlane& f, const MapPlane& m, const Box& box_px,
@@ -116,10 +122,17 @@ PairTable WeighPairs(const Frame& frame, const Map& map, const UncertainPose& po
         refused.Add(PairRefusal::kParameters);
         continue;
       }
-      if (!view) {
-        view = {ViewMapPlane(m, frame, pose.T_cw, camera), ProjectedBox(m, pose.T_cw, camera)};
+      // If the two are one, the camera is where they meet: where the pose is hardly known, that is
+      // far from here, and from here the one would hide the other.
+      if (std::abs(comparison.offset_m) > HidingMargin_m(plane.centroid_c.z())) {
+        const UncertainPose there =
+            CorrectPrediction(drifted, frame, map, {{static_cast<int>(f), m.id}}, config);
+        pairs[f].push_back(
+            Weigh(frame, plane, m, comparison, ViewFrom(there.T_cw, m, frame, camera), config));
+      } else {
+        if (!view) view = ViewFrom(pose.T_cw, m, frame, camera);
+        pairs[f].push_back(Weigh(frame, plane, m, comparison, *view, config));
       }
-      pairs[f].push_back(Weigh(frame, plane, m, comparison, *view, config));
       pairs[f].back().links = links;
       pairs[f].back().spread_cost = comparison.log_spread;
     }

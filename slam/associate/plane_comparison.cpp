@@ -54,14 +54,14 @@ PlaneComparison Compare(const Plane& pi, const Eigen::Vector3d& x, const Plane& 
                         const Eigen::Matrix<double, 3, 2>& axes,
                         const Covariance3& covariance) {
   PlaneComparison out;
-  out.angle_rad = Angle(pi.n, base.n);                               // eq6
-  const double offset_m = SignedDistance(base, ProjectOnto(pi, x));  // eq7
+  out.angle_rad = Angle(pi.n, base.n);                      // eq6
+  out.offset_m = SignedDistance(base, ProjectOnto(pi, x));  // eq7
   out.offset_sigma_m = std::sqrt(covariance(0, 0));
   // Slopes as the sine-direction times the angle: finite for every pair of normals.
   const Eigen::Vector2d sine = -(axes.transpose() * pi.n);
   const double s = sine.norm();
   const Eigen::Vector2d slope = s > 0 ? Eigen::Vector2d(sine * (out.angle_rad / s)) : sine;
-  const Eigen::Vector3d r(offset_m, slope.x(), slope.y());
+  const Eigen::Vector3d r(out.offset_m, slope.x(), slope.y());
   out.chi2 = r.dot(covariance.ldlt().solve(r));
   out.log_spread = std::log(covariance.determinant());
   return out;

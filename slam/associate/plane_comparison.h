@@ -10,6 +10,7 @@ namespace slam {
 /// Parameters of a frame plane against those of a map plane, with everybody's uncertainty.
 struct PlaneComparison {
   double angle_rad = 0.0;  ///< between the oriented normals
+  double offset_m = 0.0;   ///< height of the one over the other
   double offset_sigma_m = 0.0;
   double chi2 = 0.0;  ///< chi-square of offset and two slopes: 3 degrees of freedom
   /// Logarithm of their covariance's determinant; of a frame plane, over that of its own errors:

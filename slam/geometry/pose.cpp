@@ -71,6 +71,13 @@ Vector6d Log(const Pose& T) {
   return xi;
 }
 
+Matrix6d Adjoint(const Pose& T) {
+  Matrix6d adjoint = Matrix6d::Zero();
+  adjoint.topLeftCorner<3, 3>() = adjoint.bottomRightCorner<3, 3>() = T.R;
+  adjoint.topRightCorner<3, 3>() = Hat(T.t) * T.R;
+  return adjoint;
+}
+
 double RotationAngle(const Pose& T_1, const Pose& T_2) {
   return LogSo3(T_1.R.transpose() * T_2.R).norm();
 }

@@ -39,6 +39,9 @@ Pose Exp(const Vector6d& xi);
 /// Inverse of Exp for rotations below pi.
 Vector6d Log(const Pose& T);
 
+/// Carries a step to the other side of a pose: T Exp(xi) = Exp(Adjoint(T) xi) T.
+Matrix6d Adjoint(const Pose& T);
+
 /// Angle of the rotation between two poses, radians in [0, pi].
 double RotationAngle(const Pose& T_1, const Pose& T_2);
 

@@ -141,6 +141,8 @@ struct Frame {
   MotionEvidence evidence;
   /// ... and its covariance by these and the prediction; none where nothing is known of it.
   std::optional<Matrix6d> pose_covariance;
+  /// The same towards the world, and not only towards what is seen of the map; see CovarianceInWorld.
+  std::optional<Matrix6d> world_covariance;
 };
 
 }  // namespace slam

@@ -25,6 +25,9 @@ struct Keyframe {
   double timestamp_s = 0.0;
   Pose T_cw;
   Readout readout;
+  /// What was known of its pose in the world when it was made, and what was mapped from it with it;
+  /// as Frame::world_covariance.
+  Matrix6d covariance = Matrix6d::Zero();
   bool by_points = true;  ///< points hold its pose; else planes do
   std::vector<PointFeature> features;
   std::vector<int> map_points;  ///< parallel to features: map point id or kNone

@@ -1,7 +1,11 @@
 #include "slam/pose/pose_error.h"
 
+#include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
 #include <numeric>
 #include <vector>
+
+#include "slam/base/require.h"
 
 namespace slam {
 namespace {
@@ -39,6 +43,22 @@ Matrix6d ShutterCovariance(const Frame& frame) {
 Matrix6d PoseErrorCovariance(const Frame& frame) {
   if (!frame.pose_covariance) return Matrix6d::Zero();
   return *frame.pose_covariance + BendCovariance(frame) + ShutterCovariance(frame);
+}
+
+Matrix6d WorldErrorCovariance(const Frame& frame) {
+  if (!frame.world_covariance) return Matrix6d::Zero();
+  return *frame.world_covariance + BendCovariance(frame) + ShutterCovariance(frame);
+}
+
+Matrix6d AtLeast(const Matrix6d& covariance, const Matrix6d& bound) {
+  const Eigen::LLT<Matrix6d> root(covariance);
+  Require(root.info() == Eigen::Success, "AtLeast: the covariance is not positive definite");
+  // In the axes in which the one is a sphere of radius 1, the other's are its own.
+  const Matrix6d half = root.matrixL().solve(bound);
+  const Matrix6d rounded = root.matrixL().solve(half.transpose());
+  const Eigen::SelfAdjointEigenSolver<Matrix6d> axes(rounded);
+  const Matrix6d back = root.matrixL() * axes.eigenvectors();
+  return back * axes.eigenvalues().cwiseMax(1.0).asDiagonal() * back.transpose();
 }
 
 }  // namespace slam

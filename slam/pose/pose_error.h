@@ -18,4 +18,12 @@ Matrix6d ShutterCovariance(const Frame& frame);
 /// frame that starts the map, which is the world.
 Matrix6d PoseErrorCovariance(const Frame& frame);
 
+/// The same towards the world.
+Matrix6d WorldErrorCovariance(const Frame& frame);
+
+/// A covariance that is nowhere smaller than either: where `bound` is larger, along the axes that both
+/// have in common, it is that.
+/// @param covariance  positive definite
+Matrix6d AtLeast(const Matrix6d& covariance, const Matrix6d& bound);
+
 }  // namespace slam

@@ -130,7 +130,7 @@ void RunWriter::WriteFrame(const FrameRecord& record) {
     Require(frame.T_cw.R.allFinite() && frame.T_cw.t.allFinite(),
             "RunWriter::WriteFrame: a tracked pose is not finite");
     trajectory_.push_back({frame.timestamp_s, frame.T_cw});
-    covariances_ += CovarianceLine(frame.timestamp_s, PoseErrorCovariance(frame));
+    covariances_ += CovarianceLine(frame.timestamp_s, WorldErrorCovariance(frame));
   }
   frame_planes_.Add(line + '\n');
   std::string times = StampText(frame.timestamp_s);

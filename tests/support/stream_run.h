@@ -27,7 +27,7 @@ inline const std::vector<RecordedFrame>& Clean() {
 /// What a run over a stream came to.
 struct Ran {
   RunOutcome outcome;
-  std::string trajectory, map;
+  std::string trajectory, covariance, map;        ///< the files' text
   std::vector<std::string> planes;                ///< lines of frame_planes.jsonl
   std::vector<std::string> states;                ///< by line of it
   std::vector<std::pair<double, Pose>> poses_wc;  ///< (time, pose)
@@ -69,6 +69,7 @@ inline Ran RunStream(std::vector<RecordedFrame> frames, RunOptions options,
   Ran ran;
   ran.outcome = RunLive({stream, camera, nullptr}, options);
   ran.trajectory = TextOf(options.run / "trajectory.txt");
+  ran.covariance = TextOf(options.run / "trajectory_covariance.txt");
   ran.map = TextOf(options.run / "map.json");
   std::istringstream lines(TextOf(options.run / "frame_planes.jsonl"));
   for (std::string line; std::getline(lines, line);) {

@@ -115,6 +115,46 @@ TEST(PlanesAlone, OfTwoWallsLeaveTheHeightToMotionAndGiveUp) {
   }
 }
 
+/// Standard deviation of the camera's step down in each frame that has a pose, as it was told.
+std::vector<double> HeightSigmas_m(const Ran& ran) {
+  std::vector<double> sigmas_m;
+  std::istringstream lines(ran.covariance);
+  for (std::string line; std::getline(lines, line);) {
+    if (line.empty() || line[0] == '#') continue;
+    std::istringstream words(line);
+    double stamp = 0, xx = 0, xy = 0, xz = 0, x = 0, yy = 0;
+    words >> stamp >> xx >> xy >> xz >> x >> x >> x >> yy;
+    sigmas_m.push_back(std::sqrt(yy));
+  }
+  return sigmas_m;
+}
+
+TEST(PlanesAlone, MapAFloorNoBetterThanTheHeightWasKnown) {
+  // Two walls alone for a second and a half, from the first frame on; then a floor comes into view.
+  const auto T_cw_of = [](int i) {
+    return Inverse(Pose{ExpSo3({0, 0.6, 0}), Eigen::Vector3d::Zero()}) * SwingingPose(i);
+  };
+  const auto dark = Changed(SeenStream(80, TexturedCorner(), T_cw_of), 0, 80, Darken);
+  const Ran ran = RunOn(Changed(dark, 0, 45, LeaveTwoWalls), Variant::kFull);
+  ASSERT_EQ(ran.outcome.tracked, 80);
+  const auto sigmas_m = HeightSigmas_m(ran);
+  ASSERT_GT(sigmas_m[44], 0.15);
+  // Nothing is seen from now on that tells more; a floor is as well known as the keyframe it is tied to.
+  for (std::size_t i = 45; i < 80; ++i) EXPECT_GT(sigmas_m[i], 0.3 * sigmas_m[44]) << i;
+}
+
+TEST(PlanesAlone, KnowTheHeightAgainByAFloorThatWasSeenBeforeItWasLost) {
+  const auto T_cw_of = [](int i) {
+    return Inverse(Pose{ExpSo3({0, 0.6, 0}), Eigen::Vector3d::Zero()}) * SwingingPose(i);
+  };
+  const auto dark = Changed(SeenStream(80, TexturedCorner(), T_cw_of), 0, 80, Darken);
+  const Ran ran = RunOn(Changed(dark, 10, 45, LeaveTwoWalls), Variant::kFull);
+  ASSERT_EQ(ran.outcome.tracked, 80);
+  const auto sigmas_m = HeightSigmas_m(ran);
+  ASSERT_GT(sigmas_m[54], 0.15);
+  for (std::size_t i = 56; i < 80; ++i) EXPECT_LT(sigmas_m[i], 0.03) << i;
+}
+
 TEST(PlanesAlone, DoNotHoldACameraThatIsElsewhere) {
   const Pose T_elsewhere_c{ExpSo3({0, 0.3, 0.1}), {0.3, -0.1, 0.2}};
   const auto elsewhere = SeenStream(20, TexturedCorner(77),
