@@ -133,6 +133,17 @@ TEST(PlaneAssociation, RecognisesASurfaceThatComesBackAfterThePoseHasDrifted) {
   EXPECT_EQ(decision(1), PlaneDecision::kUnmatched);
 }
 
+TEST(PlaneAssociation, CountsWhatRefusedAPairAndNoPairThatWasPossible) {
+  const auto refused = [](double off_m) {
+    const Return r = ReturnTo(0, off_m);
+    return AssociatePlanes(r.frame, r.map, SmallCamera(), {}).refused.count;
+  };
+  PairRefusals expected;
+  EXPECT_EQ(refused(0.0), expected.count);
+  expected.Add(PairRefusal::kParameters);
+  EXPECT_EQ(refused(0.1), expected.count);
+}
+
 TEST(PlaneAssociation, ChargesALandmarkForHowMuchMoreFitsItSinceItWasSeen) {
   const auto cost = [](int keyframes_since_seen) {
     const Return r = ReturnTo(keyframes_since_seen, 0.0);

@@ -43,6 +43,22 @@ TEST(PlaneEvidence, WidensTheOffsetByTheLeverOfTheOtherPatchWhateverItsDirection
   }
 }
 
+TEST(PlaneEvidence, IsSpreadByWhatMapPlaneAndPoseAreNotKnownByAlone) {
+  // Height and two slopes, each k times as uncertain as by the patch's own errors: 3 ln k^2.
+  const FramePlane seen = PatchAt({0, 0, 1.5}, {0, 0, -1}, 0.002, 0.01);
+  MapPlane m;
+  m.pi_w = seen.pi_c;
+  m.centroid_w = seen.centroid_c;
+  const auto spread = [&](double sigma) {
+    UncertainPose pose;
+    pose.covariance = sigma * sigma * Matrix6d::Identity();
+    return ComparePlanes(seen, m, pose, TinyFloors()).log_spread;
+  };
+  // 3 mm and 10 mrad of a map plane without an estimate, by the side of 2 mm and 10 mrad.
+  EXPECT_NEAR(spread(0.0), std::log(13.0 / 4.0) + 2 * std::log(2.0), 1e-6);
+  EXPECT_GT(spread(0.01), spread(0.0) + 0.5);
+}
+
 TEST(PlaneEvidence, KnowsThatASensorWhichBendsMeasuresWorse) {
   // Height and tilt that are three sigmas of the fit are one of fit and bend.
   const FramePlane one = PatchAt({0, 0, 1.5}, {0, 0, -1}, 1e-5, 1e-5);

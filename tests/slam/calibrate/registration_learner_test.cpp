@@ -42,10 +42,7 @@ void FillExactly(cv::Mat1f& image, double u0, double v0, double u1, double v1, f
   }
 }
 
-RegistrationLearner Learn(const Recording& recording, double edge_growth_px = 4.0,
-                          const RegistrationConfig& config = {}) {
-  const Camera camera;
-  RegistrationLearner learner(camera, edge_growth_px, config);
+void LearnMore(const Recording& recording, RegistrationLearner& learner) {
   for (int i = 0; i < recording.frames; ++i) {
     Random random{5, static_cast<std::uint64_t>(i)};
     cv::Mat1f depth_m(480, 640, 2.0f), gray(480, 640, 120.0f);
@@ -83,6 +80,12 @@ RegistrationLearner Learn(const Recording& recording, double edge_growth_px = 4.
     if (recording.moves) frame.T_cw = {ExpSo3({0, 0.03 * i, 0}), {0, 0, 0}};
     learner.Learn(frame);
   }
+}
+
+RegistrationLearner Learn(const Recording& recording, double edge_growth_px = 4.0,
+                          const RegistrationConfig& config = {}) {
+  RegistrationLearner learner(Camera{}, edge_growth_px, config);
+  LearnMore(recording, learner);
   return learner;
 }
 
@@ -156,6 +159,16 @@ TEST(RegistrationLearner, LearnsNothingWhileTheCameraStands) {
 
 TEST(RegistrationLearner, LearnsNothingFromAFrameOrTwo) {
   EXPECT_FALSE(Learn({.shift_px = {3.0, 0.0}, .frames = 2}).estimate());
+}
+
+TEST(RegistrationLearner, StaysAsItIsOnceItIsHeld) {
+  RegistrationLearner held = Learn({.shift_px = {3.0, 0.0}}), free = held;
+  held.Hold();
+  const Eigen::Vector2d before_px = held.estimate()->shift_px;
+  for (RegistrationLearner* learner : {&held, &free})
+    LearnMore({.shift_px = {-2.0, 2.0}}, *learner);
+  EXPECT_EQ(held.estimate()->shift_px, before_px);
+  EXPECT_NE(free.estimate()->shift_px, before_px);
 }
 
 TEST(RegistrationLearner, CanBeForbidden) {

@@ -48,6 +48,15 @@ TEST(SurfaceViews, ACreaseKeepsPiecesApart) {
   EXPECT_EQ(halves.Views().size(), 2U);
 }
 
+TEST(SurfaceViews, PiecesTouchInCellsOfWhichOneHasAFifth) {
+  TwoHalves halves;  // of a large image, whose cells are 20 pixels wide: the edge is 4 into one
+  halves.camera = Camera{};
+  halves.depth_m = cv::Mat1f(480, 640, 1.5F);
+  halves.labels = cv::Mat1b(480, 640, std::uint8_t{1});
+  halves.labels.colRange(324, 640) = 2;
+  EXPECT_EQ(halves.Views().size(), 1U);
+}
+
 TEST(SurfaceViews, SmallThingsAndWhatIsNotMeasuredAreLeftOut) {
   TwoHalves halves;
   halves.labels.setTo(0);

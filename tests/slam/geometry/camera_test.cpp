@@ -28,6 +28,13 @@ TEST(Camera, PutsThePrincipalPointOnTheOpticalAxis) {
               VectorNear(Eigen::Vector2d(camera.cx, camera.cy), 0.0));
 }
 
+TEST(Camera, HasAnImageFromTheFirstPixelsMiddleToTheLasts) {
+  const Camera camera;
+  const Box image = camera.ImageBox();
+  EXPECT_EQ(image.min, Eigen::Vector2d(0, 0));
+  EXPECT_EQ(image.max, Eigen::Vector2d(camera.width - 1, camera.height - 1));
+}
+
 TEST(Camera, RefusesAnUnknownCalibration) {
   EXPECT_THROW(static_cast<void>(TumCamera("tum4")), io::InputError);
 }

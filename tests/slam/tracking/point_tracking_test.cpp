@@ -75,7 +75,9 @@ TEST(PointTracking, FindsItselfAfterAJumpThatNoPredictionBridges) {
   }
   const Pose jumped = Pose{ExpSo3({0.02, 0.2, 0.5}), {0.1, 0.05, 0.05}} * SwingingPose(0);
   Frame frame = world.See(odometer.camera, jumped, 10);
-  ASSERT_EQ(odometer.Step(frame).state, TrackState::kTracking);
+  const PointTrackReport report = odometer.Step(frame);
+  ASSERT_EQ(report.state, TrackState::kTracking);
+  EXPECT_FALSE(report.by_motion || report.by_relocalising) << "by its reference keyframe";
   EXPECT_THAT(frame.T_cw,
               PoseNear(jumped * Inverse(SwingingPose(0)), kRotation_rad, kPosition_m));
 }
