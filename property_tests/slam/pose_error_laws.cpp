@@ -37,6 +37,13 @@ RC_GTEST_PROP(CovarianceAtLeast, IsNowhereSmallerThanEither, ()) {
   RC_ASSERT(LeastVarianceOver(both, other) > 1 - 1e-8);
 }
 
+TEST(CovarianceAtLeast, IsTheSumWhereOneKnowsAnAxisExactly) {
+  Vector6d exact = Vector6d::Ones();
+  exact[2] = 0;
+  const Matrix6d one = exact.asDiagonal(), other = 4 * Matrix6d::Identity();
+  EXPECT_EQ(AtLeast(one, other), Matrix6d(one + other));
+}
+
 RC_GTEST_PROP(CovarianceAtLeast, IsTheLargerOneWhereItIsSoEverywhere, ()) {
   const Matrix6d one = AnyCovariance();
   RC_ASSERT(Difference(AtLeast(one, Matrix6d::Zero()), one) < 1e-9);

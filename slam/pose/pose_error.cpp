@@ -5,8 +5,6 @@
 #include <numeric>
 #include <vector>
 
-#include "slam/base/require.h"
-
 namespace slam {
 namespace {
 
@@ -52,7 +50,7 @@ Matrix6d WorldErrorCovariance(const Frame& frame) {
 
 Matrix6d AtLeast(const Matrix6d& covariance, const Matrix6d& bound) {
   const Eigen::LLT<Matrix6d> root(covariance);
-  Require(root.info() == Eigen::Success, "AtLeast: the covariance is not positive definite");
+  if (root.info() != Eigen::Success) return covariance + bound;
   // In the axes in which the one is a sphere of radius 1, the other's are its own.
   const Matrix6d half = root.matrixL().solve(bound);
   const Matrix6d rounded = root.matrixL().solve(half.transpose());

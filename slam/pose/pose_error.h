@@ -22,8 +22,7 @@ Matrix6d PoseErrorCovariance(const Frame& frame);
 Matrix6d WorldErrorCovariance(const Frame& frame);
 
 /// A covariance that is nowhere smaller than either: where `bound` is larger, along the axes that both
-/// have in common, it is that.
-/// @param covariance  positive definite
+/// have in common, it is that. Their sum where the first is singular, and so has no such axes.
 Matrix6d AtLeast(const Matrix6d& covariance, const Matrix6d& bound);
 
 }  // namespace slam
