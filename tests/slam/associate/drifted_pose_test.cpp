@@ -1,0 +1,151 @@
+// A camera that has drifted, or whose pose motion alone tells: planes are associated centimetres to tens of
+// centimetres beside the truth.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <utility>
+#include <vector>
+
+#include "slam/associate/associate_planes.h"
+#include "slam/associate/correct_prediction.h"
+#include "slam/associate/pair_evidence.h"
+#include "slam/mapping/plane_update.h"
+#include "tests/support/map_surfaces.h"
+#include "tests/support/plane_world.h"
+
+namespace slam {
+namespace {
+
+PlaneMapConfig OneViewIsTheMap() {
+  PlaneMapConfig config;
+  config.min_pixels = 40, config.trial_frames = 1;
+  return config;
+}
+
+/// The map's keyframes of so many frames, one each.
+void AddKeyframes(Map& map, int frames) {
+  for (int i = 0; i < frames; ++i) {
+    Keyframe keyframe;
+    keyframe.id = keyframe.frame_index = i;
+    map.keyframes.push_back(keyframe);
+  }
+}
+
+constexpr int kKeyframes = 20;
+
+struct Return {
+  Map map;
+  Frame frame;
+};
+
+/// A desk that was mapped 20 keyframes ago and last seen this many ago, and a view of it by a camera
+/// that is off along its normal.
+Return ReturnTo(int keyframes_since_seen, double off_m) {
+  PlaneWorld world;
+  world.Add({0, 0, 0}, {0.3, 0, 0}, {0, 0.2, 0}, "");
+  const Camera camera = SmallCamera();
+  Return out;
+  SeenWorld first = See(world, LookAt({0, -0.8, 0.7}, {0, 0, 0}), camera, {}, Random{1});
+  UpdatePlanes(first.frame, out.map, camera, {}, OneViewIsTheMap());
+  AddKeyframes(out.map, kKeyframes + 1);
+  Landmarks(out.map)[0]->last_frame = kKeyframes - keyframes_since_seen;
+  out.frame =
+      See(world, LookAt({0.15, -0.75, 0.65}, {0.02, 0, 0}), camera, {}, Random{2}).frame;
+  out.frame.index = kKeyframes + 1;
+  out.frame.T_cw.t += off_m * out.frame.planes[0].pi_c.n;
+  return out;
+}
+
+TEST(DriftedPose, RecognisesASurfaceThatComesBackAfterThePoseHasDrifted) {
+  const auto decision = [](int keyframes_since_seen) {
+    const Return r = ReturnTo(keyframes_since_seen, 0.045);
+    return AssociatePlanes(r.frame, r.map, SmallCamera(), {}).matches[0].decision;
+  };
+  EXPECT_EQ(decision(kKeyframes), PlaneDecision::kMatched);
+  // The same error is none of the pose where the landmark was seen just now.
+  EXPECT_EQ(decision(0), PlaneDecision::kUnmatched);
+  EXPECT_EQ(decision(1), PlaneDecision::kUnmatched);
+}
+
+TEST(DriftedPose, CountsWhatRefusedAPairAndNoPairThatWasPossible) {
+  const auto refused = [](double off_m) {
+    const Return r = ReturnTo(0, off_m);
+    return AssociatePlanes(r.frame, r.map, SmallCamera(), {}).refused.count;
+  };
+  PairRefusals expected;
+  EXPECT_EQ(refused(0.0), expected.count);
+  expected.Add(PairRefusal::kParameters);
+  EXPECT_EQ(refused(0.1), expected.count);
+}
+
+TEST(DriftedPose, ChargesALandmarkForHowMuchMoreFitsItSinceItWasSeen) {
+  const auto cost = [](int keyframes_since_seen) {
+    const Return r = ReturnTo(keyframes_since_seen, 0.0);
+    const UncertainPose pose = PredictedPose(r.frame, {});
+    PairRefusals refused;
+    const PairTable pairs = WeighPairs(r.frame, r.map, pose, pose, SmallCamera(), {}, refused);
+    return pairs.at(0).at(0).Cost() - pairs.at(0).at(0).parameter_cost;
+  };
+  const double seen_now = cost(0), after_5 = cost(5) - seen_now, after_20 = cost(20) - seen_now;
+  // Of 3 degrees of freedom each fits sqrt(1 + links) as much, at most.
+  EXPECT_GT(after_5, 0.5 * 3 * std::log(6.0));
+  EXPECT_LT(after_5, 3 * std::log(6.0));
+  EXPECT_GT(after_20, after_5);
+  EXPECT_LT(after_20, 3 * std::log(21.0));
+}
+
+TEST(DriftedPose, CorrectsThePoseByLandmarksAloneThatNoDriftLiesBetween) {
+  Frame frame;
+  frame.planes.resize(1);
+  PairEvidence pair;
+  pair.map_plane = 7;
+  pair.verdict = PairVerdict::kPossible;
+  pair.overlap = 0.9;
+  using Pairs = std::vector<std::pair<int, int>>;
+  EXPECT_EQ(PairsBeyondDoubt(frame, {{pair}}), Pairs({{0, 7}}));
+  pair.links = 1;
+  EXPECT_EQ(PairsBeyondDoubt(frame, {{pair}}), Pairs{});
+}
+
+PlaneWorld Desk(const Eigen::Vector3d& center_w) {
+  PlaneWorld world;
+  world.Add(center_w, {0.4, 0, 0}, {0, 0.3, 0}, "");
+  return world;
+}
+
+/// The decision on a desk seen by a camera that thinks itself higher than it is, by so much; the map has
+/// a desk at the origin.
+PlaneDecision DecisionOn(const Eigen::Vector3d& center_w, double higher_m, double sigma_m) {
+  const Camera camera = SmallCamera();
+  const Pose first = LookAt({0, -0.9, 0.8}, {0, 0, 0}),
+             second = LookAt({0.1, -0.9, 0.8}, {0, 0, 0});
+  Map map;
+  SeenWorld mapped = See(Desk({0, 0, 0}), first, camera, {}, Random{1});
+  UpdatePlanes(mapped.frame, map, camera, {}, OneViewIsTheMap());
+  Frame frame = See(Desk(center_w), second, camera, {}, Random{2}).frame;
+  const Eigen::Vector3d up_c = frame.T_cw.R * Eigen::Vector3d::UnitZ();
+  frame.T_cw.t -= higher_m * up_c;
+  Matrix6d covariance = 1e-5 * Matrix6d::Identity();
+  covariance.topLeftCorner<3, 3>() += sigma_m * sigma_m * up_c * up_c.transpose();
+  frame.pose_covariance = covariance;
+  return AssociatePlanes(frame, map, camera, {}).matches.at(0).decision;
+}
+
+TEST(UncertainPose, IsNoReasonNotToRecogniseADesk) {
+  for (const double higher_m : {-0.2, -0.1, 0.0, 0.1, 0.2}) {
+    SCOPED_TRACE(higher_m);
+    EXPECT_EQ(DecisionOn({0, 0, 0}, higher_m, 0.15), PlaneDecision::kMatched);
+  }
+  for (const double higher_m : {-0.2, 0.2}) {
+    EXPECT_EQ(DecisionOn({0, 0, 0}, higher_m, 0.01), PlaneDecision::kUnmatched) << higher_m;
+  }
+}
+
+TEST(UncertainPose, TakesNoDeskForOneBesideIt) {
+  for (const double higher_m : {-0.2, 0.0, 0.2}) {
+    EXPECT_EQ(DecisionOn({0.9, 0, 0}, higher_m, 0.15), PlaneDecision::kUnmatched) << higher_m;
+  }
+}
+
+}  // namespace
+}  // namespace slam
