@@ -141,8 +141,8 @@ struct Frame {
   MotionEvidence evidence;
   /// ... and its covariance by these and the prediction; none where nothing is known of it.
   std::optional<Matrix6d> pose_covariance;
-  /// The same towards the world, and not only towards what is seen of the map; see CovarianceInWorld.
-  std::optional<Matrix6d> world_covariance;
+  /// That of the map which is seen, in the world, as if the camera went with it; see MapCovarianceAt.
+  Matrix6d map_covariance = Matrix6d::Zero();
 };
 
 }  // namespace slam

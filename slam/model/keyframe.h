@@ -25,8 +25,8 @@ struct Keyframe {
   double timestamp_s = 0.0;
   Pose T_cw;
   Readout readout;
-  /// What was known of its pose in the world when it was made, and what was mapped from it with it;
-  /// as Frame::world_covariance.
+  /// What was known of its pose in the world when it was made (CovarianceInWorld): so far off may lie what
+  /// was mapped from here. Of xi in T_cw <- Exp(xi) T_cw.
   Matrix6d covariance = Matrix6d::Zero();
   bool by_points = true;  ///< points hold its pose; else planes do
   std::vector<PointFeature> features;

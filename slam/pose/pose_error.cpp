@@ -43,9 +43,15 @@ Matrix6d PoseErrorCovariance(const Frame& frame) {
   return *frame.pose_covariance + BendCovariance(frame) + ShutterCovariance(frame);
 }
 
+Matrix6d CovarianceInWorld(const Frame& frame) {
+  if (!frame.pose_covariance) return Matrix6d::Zero();
+  if (frame.map_covariance.isZero(0.0)) return *frame.pose_covariance;
+  return AtLeast(*frame.pose_covariance, frame.map_covariance);
+}
+
 Matrix6d WorldErrorCovariance(const Frame& frame) {
-  if (!frame.world_covariance) return Matrix6d::Zero();
-  return *frame.world_covariance + BendCovariance(frame) + ShutterCovariance(frame);
+  if (!frame.pose_covariance) return Matrix6d::Zero();
+  return CovarianceInWorld(frame) + BendCovariance(frame) + ShutterCovariance(frame);
 }
 
 Matrix6d AtLeast(const Matrix6d& covariance, const Matrix6d& bound) {

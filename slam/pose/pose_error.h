@@ -18,7 +18,12 @@ Matrix6d ShutterCovariance(const Frame& frame);
 /// frame that starts the map, which is the world.
 Matrix6d PoseErrorCovariance(const Frame& frame);
 
-/// The same towards the world.
+/// Covariance of the frame's pose in the world by what it was found by, without what the sensor does. The
+/// pose is found towards the map, but is no better known than the map is there: after a way along a
+/// blank wall all that is mapped next lies as far off as the camera may have gone.
+Matrix6d CovarianceInWorld(const Frame& frame);
+
+/// Likewise, all in all.
 Matrix6d WorldErrorCovariance(const Frame& frame);
 
 /// A covariance that is nowhere smaller than either: where `bound` is larger, along the axes that both

@@ -20,13 +20,14 @@
 #include "slam/mapping/plane_face.h"
 #include "slam/mapping/plane_fuse.h"
 #include "slam/mapping/plane_update.h"
-#include "slam/mapping/world_error.h"
 #include "slam/model/map_queries.h"
 #include "slam/places/plane_place.h"
 #include "slam/pose/held_directions.h"
 #include "slam/pose/plane_constraints.h"
+#include "slam/pose/pose_error.h"
 #include "slam/run/stopwatch.h"
 #include "slam/structure/structure.h"
+#include "slam/tracking/map_covariance.h"
 
 namespace slam {
 namespace {
@@ -269,8 +270,8 @@ void Tracker::TellWorldCovariance(Frame& frame) const {
   if (!frame.pose_covariance) return;
   const int by_planes =
       points_.state() == TrackState::kHeldByPlanes ? KeyframeByPlanes(frame, map_) : kNone;
-  frame.world_covariance = CovarianceInWorld(
-      frame, map_, by_planes == kNone ? points_.reference_keyframe() : by_planes);
+  frame.map_covariance = MapCovarianceAt(
+      frame.T_cw, map_, by_planes == kNone ? points_.reference_keyframe() : by_planes);
 }
 
 void Tracker::UpdateMap(Frame& frame, TrackReport& report) {
@@ -300,7 +301,7 @@ void Tracker::UpdateMap(Frame& frame, TrackReport& report) {
 /// Makes the frame a keyframe, and maps it now or has it mapped beside tracking.
 void Tracker::KeepFrame(Frame& frame) {
   const int keyframe = InsertKeyframe(frame, map_, camera_, scale(), config_.mapping.keyframes);
-  map_.keyframes.back().covariance = frame.world_covariance.value_or(Matrix6d::Zero());
+  map_.keyframes.back().covariance = CovarianceInWorld(frame);
   map_.keyframes.back().by_points = points_.state() != TrackState::kHeldByPlanes;
   KeepPlanes(frame, config_.plane_map, map_.keyframes[Index(keyframe)]);
   if (worker_) {

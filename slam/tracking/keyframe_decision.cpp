@@ -97,6 +97,11 @@ bool KeepViewOfPlanes(const Frame& frame, const Keyframe& newest, int followed,
                       const KeyframeDecisionConfig& config) {
   if (frame.index - newest.frame_index < config.min_frames_between) return false;
   if (followed > ShareOfFeatures(frame) * config.min_close_untracked) return true;
+  // A landmark is tied to a keyframe that knows as little of where it is as the frame that made it.
+  const auto is_new = [](const PlaneMatch& match) {
+    return match.decision == PlaneDecision::kNew;
+  };
+  if (std::any_of(frame.plane_matches.begin(), frame.plane_matches.end(), is_new)) return true;
   const double moved_m = (Inverse(frame.T_cw).t - Inverse(newest.T_cw).t).norm();
   return RotationAngle(frame.T_cw, newest.T_cw) > config.max_view_rad ||
          moved_m > config.max_view_rad * PlaneDistance_m(frame);

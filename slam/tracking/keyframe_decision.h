@@ -53,7 +53,8 @@ KeyframeEvidence DecideKeyframe(const Frame& frame, const Map& map, int referenc
                                 const KeyframeDecisionConfig& config);
 
 /// Whether a frame should be kept whose pose planes hold, because it tracks too few points: it
-/// follows many that the map does not know yet, or sees its planes from a new side or place.
+/// follows many that the map does not know yet, made a landmark, or sees its planes from a new side or
+/// place.
 /// @param newest    the keyframe before
 /// @param followed  features that agree with those of the frame before on one motion; corners
 ///                  of noise do not

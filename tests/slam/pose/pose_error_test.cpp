@@ -85,5 +85,17 @@ TEST(PoseErrorCovariance, HoldsBothWhatIsIndependentAndWhatIsBent) {
   EXPECT_NEAR(C(0, 5), 1e-4, 1e-15);
 }
 
+TEST(WorldErrorCovariance, IsThatTowardsTheMapButNoSmallerThanTheMapsOwn) {
+  Frame frame = FrameWithPlanesAt({2.0}, 0.005);
+  frame.map_covariance(1, 1) = 0.04;
+  EXPECT_TRUE(WorldErrorCovariance(frame).isZero(0.0)) << "it is the world";
+  frame.pose_covariance = 1e-4 * Matrix6d::Identity();
+  const Matrix6d C = WorldErrorCovariance(frame);
+  EXPECT_NEAR(C(0, 0), 1e-4 + 1e-4, 1e-12);
+  EXPECT_NEAR(C(1, 1), 0.04 + 1e-4, 1e-12);
+  frame.map_covariance.setZero();
+  EXPECT_EQ(WorldErrorCovariance(frame), PoseErrorCovariance(frame));
+}
+
 }  // namespace
 }  // namespace slam

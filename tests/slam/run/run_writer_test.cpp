@@ -323,10 +323,10 @@ TEST_F(RunFolder, SaysWhatEachTrackedPoseIsWorth) {
   writer.WriteFrame({SomeFrame(0), true, {}, "", {}});  // starts the map: it is the world
   writer.WriteFrame({SomeFrame(1), false, {}, "", {}});
   Frame frame = SomeFrame(2);
-  frame.world_covariance.emplace();
+  frame.pose_covariance.emplace();
   for (int i = 0; i < 6; ++i) {
     for (int j = 0; j < 6; ++j)
-      (*frame.world_covariance)(i, j) = 10 * std::min(i, j) + std::max(i, j);
+      (*frame.pose_covariance)(i, j) = 10 * std::min(i, j) + std::max(i, j);
   }
   writer.WriteFrame({frame, true, {}, "", {}});
   writer.Finish(SomeMap(), {});

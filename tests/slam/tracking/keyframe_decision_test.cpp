@@ -197,6 +197,16 @@ TEST(KeepViewOfPlanes, KeepsAFrameThatFollowsManyFeaturesForTheSizeOfItsImage) {
   EXPECT_TRUE(KeepViewOfPlanes(frame, {}, config.min_close_untracked / 2 + 1, config));
 }
 
+TEST(KeepViewOfPlanes, KeepsTheFrameThatMadeALandmark) {
+  Frame frame = OfPlanes();
+  for (const PlaneDecision decision :
+       {PlaneDecision::kMatched, PlaneDecision::kTrial, PlaneDecision::kUnmatched})
+    frame.plane_matches.push_back({decision, 0});
+  EXPECT_FALSE(KeepViewOfPlanes(frame, {}, 0, {}));
+  frame.plane_matches.push_back({PlaneDecision::kNew, 3});
+  EXPECT_TRUE(KeepViewOfPlanes(frame, {}, 0, {}));
+}
+
 TEST(KeepViewOfPlanes, KeepsNoneAtOnceAfterAnother) {
   KeyframeDecisionConfig config;
   config.min_frames_between = 5;

@@ -1,4 +1,4 @@
-#include "slam/mapping/world_error.h"
+#include "slam/tracking/map_covariance.h"
 
 #include <algorithm>
 #include <vector>
@@ -6,7 +6,6 @@
 #include "slam/base/index.h"
 #include "slam/mapping/keyframe_planes.h"
 #include "slam/model/map_queries.h"
-#include "slam/pose/pose_error.h"
 
 namespace slam {
 
@@ -31,10 +30,9 @@ int KeyframeByPlanes(const Frame& frame, const Map& map) {
   return best;
 }
 
-Matrix6d CovarianceInWorld(const Frame& frame, const Map& map, int keyframe) {
-  const Matrix6d carry = Adjoint(frame.T_cw * Inverse(KeyframePose(map, keyframe)));
-  const Matrix6d there = carry * map.keyframes[Index(keyframe)].covariance * carry.transpose();
-  return AtLeast(*frame.pose_covariance, there);
+Matrix6d MapCovarianceAt(const Pose& T_cw, const Map& map, int keyframe) {
+  const Matrix6d carry = Adjoint(T_cw * Inverse(KeyframePose(map, keyframe)));
+  return carry * map.keyframes[Index(keyframe)].covariance * carry.transpose();
 }
 
 }  // namespace slam
