@@ -54,8 +54,8 @@ Outline OutlinesOf(const RunMapPlane& plane, const TruthPlane& truth, const Alig
           ConvexHull(Project(chart, truth.vertices_g))};
 }
 
-/// The scored true plane that the map plane lies on, by the rule of frame planes without pixels:
-/// the nearest one that their outlines share, by area where offsets agree; 0 if there is none.
+/// The scored true plane that the map plane lies on: the nearest one that their outlines share, by area
+/// where offsets agree; 0 if there is none.
 int TruthByOutline(const RunMapPlane& plane, const SceneTruth& scene, const Alignment& gauge) {
   struct Candidate {
     int id;

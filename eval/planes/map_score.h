@@ -12,6 +12,9 @@
 
 namespace eval {
 
+/// Nearer than this to a map plane without observations, true planes are told by place.
+inline constexpr double kSameOffset_m = 0.005;
+
 inline constexpr double kMaxMapCornerError_m = 0.10;
 
 /// The final map against the truth. Planes that were merged into others stand for these.

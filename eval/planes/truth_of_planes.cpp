@@ -30,29 +30,24 @@ std::map<int, int> TruthByPixels(const TrueFrame& frame, const LabelPairs& pairs
 }
 
 int TruthByGeometry(const TrueFrame& frame, const RunFramePlane& plane) {
-  struct Candidate {
-    int id;
-    double offset_m, gap_m;
-  };
-  std::vector<Candidate> candidates;
-  double least_offset_m = std::numeric_limits<double>::infinity();
+  int truth = 0;
+  double least = std::numeric_limits<double>::infinity();
   for (const SeenPlane& seen : frame.planes) {
     const double angle_deg = Angle(seen.pi_c.n, plane.pi_c.n) * 180.0 / std::numbers::pi;
-    const double offset_m = std::abs(SignedDistance(seen.pi_c, plane.centroid_c));
-    if (!(angle_deg <= kMaxTruthNormal_deg) || !(offset_m <= kMaxTruthOffset_m)) continue;
+    const double offset_m = SignedDistance(seen.pi_c, plane.centroid_c);
+    if (!(angle_deg <= kMaxTruthNormal_deg) || !(std::abs(offset_m) <= kMaxTruthOffset_m)) {
+      continue;
+    }
     const PlaneChart chart = ChartOf(seen.pi_c, seen.corners_c.front());
     const double gap_m =
         Distance(chart(plane.centroid_c), ConvexHull(Project(chart, seen.corners_c)));
     if (!(gap_m <= kMaxTruthGap_m)) continue;
-    candidates.push_back({seen.plane->id, offset_m, gap_m});
-    least_offset_m = std::min(least_offset_m, offset_m);
-  }
-  int truth = 0;
-  double least_gap_m = std::numeric_limits<double>::infinity();
-  for (const Candidate& c : candidates) {
-    if (c.offset_m > least_offset_m + kSameOffset_m || !(c.gap_m < least_gap_m)) continue;
-    truth = c.id;
-    least_gap_m = c.gap_m;
+    const double times = plane.pixels > 0 ? double(plane.pixels) / seen.pixels : 1.0;
+    const double unlike =
+        std::pow(offset_m / kTruthOffsetScale_m, 2) + std::pow(std::log(times), 2);
+    if (!(unlike < least)) continue;
+    truth = seen.plane->id;
+    least = unlike;
   }
   return truth;
 }

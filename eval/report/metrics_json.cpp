@@ -224,10 +224,9 @@ Json TrajectoryRules() {
 void AddExtractionRules(const PlaneScore& s, Json& rules) {
   rules["truth_of_a_frame_plane"] =
       s.by_pixels ? "the scored plane that holds most of its pixels, none if most show none"
-                  : "no segmentation images: of the scored planes in view within 20 deg, the "
-                    "one with the "
-                    "least offset at the centroid (at most 50 mm), by place where offsets "
-                    "agree to 5 mm";
+                  : "no segmentation images: of the scored planes in view within 30 deg, 50 mm "
+                    "of the centroid and 50 mm of its outline, the likest by offset (10 mm) "
+                    "and pixels shown (a factor e)";
   rules["extraction"] = s.by_pixels
                             ? "frame planes that the run trusts (bad = null); Hoover at 80 %, "
                               "means per frame; pq, pixels and ratios over all frames; ri, "
