@@ -48,8 +48,10 @@ inline void VisitFields(AssociationConfig& c, FieldVisitor& v) {
             "error of a plane's normal that does not average out (calibration, quantisation)");
   v.Number("max_chi2", c.max_chi2, "(0, inf)",
            "largest chi-square of offset and slopes (3 degrees of freedom) of a match");
-  v.Flag("recheck", c.recheck,
-         "matches are tested once more at the optimised pose, and taken back beyond max_chi2");
+  v.Flag(
+      "recheck", c.recheck,
+      "matches are tested once more at the optimised pose, and taken back beyond max_chi2 or "
+      "below min_overlap");
   v.Number("new_chi2", c.new_chi2, "(0, inf)",
            "chi-square from which two planes are certainly two; below it, and above max_chi2, "
            "there is no decision");

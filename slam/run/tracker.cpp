@@ -168,7 +168,7 @@ void Tracker::OptimiseWithPlanes(Frame& frame, TrackReport& report) {
   const Stopwatch watch(report.times[Module::kPo]);
   if (!report.tracked) {
     HoldByPlanes(frame, report);
-    if (report.tracked) TakeBackContradicted(frame, map_, config_.association);
+    if (report.tracked) TakeBackContradicted(frame, map_, camera_, config_.association);
     return;
   }
   const PoseProblem by_planes = ProblemOf(frame, {});
@@ -178,7 +178,7 @@ void Tracker::OptimiseWithPlanes(Frame& frame, TrackReport& report) {
   // where planes would have it against them.
   OptimiseByAll(frame);
   if (TellAtPose(frame)) OptimiseByAll(frame);  // rows, too, were read from elsewhere
-  if (TakeBackContradicted(frame, map_, config_.association) > 0) OptimiseByAll(frame);
+  if (TakeBackContradicted(frame, map_, camera_, config_.association) > 0) OptimiseByAll(frame);
 }
 
 /// eq13 from all points and planes of the frame, from its pose.
