@@ -36,6 +36,15 @@ Eigen::Vector2d Camera::ProjectDistorted(const Eigen::Vector3d& x_c) const {
   return {fx * x.x() + cx, fy * x.y() + cy};
 }
 
+Eigen::Matrix<double, 2, 3> Camera::ProjectDistortedJacobian(const Eigen::Vector3d& x_c) const {
+  const double iz = 1.0 / x_c.z(), x = x_c.x() * iz, y = x_c.y() * iz;
+  Eigen::Matrix<double, 2, 3> J;
+  J << iz, 0, -x * iz,  //
+      0, iz, -y * iz;
+  if (distorted()) J = DistortJacobian(*this, {x, y}) * J;
+  return Eigen::Vector2d(fx, fy).asDiagonal() * J;
+}
+
 Eigen::Vector2d Camera::Undistort(const Eigen::Vector2d& u_px) const {
   if (!distorted()) return u_px;
   const Eigen::Vector2d measured((u_px.x() - cx) / fx, (u_px.y() - cy) / fy);

@@ -35,6 +35,8 @@ struct Camera {
   }
   /// Pixel in the image as recorded, distortion applied; for detection boxes and drawing.
   Eigen::Vector2d ProjectDistorted(const Eigen::Vector3d& x_c) const;
+  /// Its derivative by x_c, pixels per metre.
+  Eigen::Matrix<double, 2, 3> ProjectDistortedJacobian(const Eigen::Vector3d& x_c) const;
   /// Ideal pixel of a recorded pixel (iterative inverse of the distortion).
   Eigen::Vector2d Undistort(const Eigen::Vector2d& u_px) const;
   /// Point at depth z_m on the ray of an ideal pixel.

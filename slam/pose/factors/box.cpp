@@ -6,23 +6,6 @@ namespace {
 // Corners farther from the image than its own size are beyond the calibrated part of the lens.
 constexpr double kMaxOutside = 1.0;  // image sizes
 
-/// d (recorded pixel) / d x_c, Brown's distortion included.
-Eigen::Matrix<double, 2, 3> ProjectionJacobian(const Camera& k, const Eigen::Vector3d& x_c) {
-  const double iz = 1.0 / x_c.z(), x = x_c.x() * iz, y = x_c.y() * iz;
-  Eigen::Matrix2d D = Eigen::Matrix2d::Identity();
-  if (k.distorted()) {
-    const double r2 = x * x + y * y;
-    const double radial = 1 + r2 * (k.k1 + r2 * (k.k2 + r2 * k.k3));
-    const double slope = 2 * (k.k1 + r2 * (2 * k.k2 + r2 * 3 * k.k3));
-    D(0, 0) = radial + slope * x * x + 2 * k.p1 * y + 6 * k.p2 * x;
-    D(0, 1) = D(1, 0) = slope * x * y + 2 * k.p1 * x + 2 * k.p2 * y;
-    D(1, 1) = radial + slope * y * y + 6 * k.p1 * y + 2 * k.p2 * x;
-  }
-  Eigen::Matrix<double, 2, 3> N;
-  N << iz, 0, -x * iz, 0, iz, -y * iz;
-  return Eigen::Vector2d(k.fx, k.fy).asDiagonal() * D * N;
-}
-
 }  // namespace
 
 Linearised<4> BoxFactor(const BoxConstraint& constraint, const Pose& T_cw,
@@ -57,8 +40,8 @@ Linearised<4> BoxFactor(const BoxConstraint& constraint, const Pose& T_cw,
     const auto i = static_cast<std::size_t>(side);
     if (!constraint.use[i]) continue;
     out.r[side] = eta[side] - observed[side];  // eq17
-    out.J.row(side) =
-        ProjectionJacobian(camera, extreme_c[i]).row(side % 2) * PointJacobian(extreme_c[i]);
+    out.J.row(side) = camera.ProjectDistortedJacobian(extreme_c[i]).row(side % 2) *
+                      PointJacobian(extreme_c[i]);
   }
   out.valid = true;
   return out;

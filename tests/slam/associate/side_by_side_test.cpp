@@ -21,11 +21,12 @@ Camera HalfCamera() {
 const Pose kOver = LookAt({0.1, -0.9, 0.8}, {0, 0, 0});
 
 /// Two boards on one level side by side, the right one `step_m` higher.
-SeenWorld TwoBoards(double step_m, double depth_noise, double gap_m = 0.01) {
+SeenWorld TwoBoards(double step_m, double depth_noise, double gap_m = 0.01,
+                    const Pose& T_cw = kOver) {
   PlaneWorld world;
   world.Add({-0.2 - gap_m / 2, 0, 0}, {0.2, 0, 0}, {0, 0.2, 0}, "");
   world.Add({0.2 + gap_m / 2, 0, step_m}, {0.2, 0, 0}, {0, 0.2, 0}, "");
-  return See(world, kOver, HalfCamera(), {.depth_noise = depth_noise}, Random{7});
+  return See(world, T_cw, HalfCamera(), {.depth_noise = depth_noise}, Random{7});
 }
 
 /// The step onto the right board, measured.
@@ -46,10 +47,14 @@ void Bend(Frame& frame, float most_m) {
 }
 
 TEST(StepBetweenPlanes, IsExactOnExactDepth) {
-  for (const double step_m : {-0.03, -0.004, 0.0, 0.004, 0.03}) {
-    const auto step = Measured(TwoBoards(step_m, 0.0));
-    ASSERT_TRUE(step) << step_m;
-    EXPECT_NEAR(step->step_m, step_m, 1e-6);
+  // A camera that is rolled sees depth change along a row, too.
+  for (const double roll_rad : {0.0, 0.4, -0.9}) {
+    const Pose rolled{ExpSo3(roll_rad * Eigen::Vector3d::UnitZ()), Eigen::Vector3d::Zero()};
+    for (const double step_m : {-0.03, -0.004, 0.0, 0.004, 0.03}) {
+      const auto step = Measured(TwoBoards(step_m, 0.0, 0.01, rolled * kOver));
+      ASSERT_TRUE(step) << roll_rad << " " << step_m;
+      EXPECT_NEAR(step->step_m, step_m, 1e-6) << roll_rad;
+    }
   }
 }
 

@@ -22,6 +22,26 @@ TEST(Camera, UndistortUndoesTheDistortionOverTheWholePicture) {
   }
 }
 
+TEST(Camera, HasTheDerivativeOfItsProjection) {
+  // With tangential terms as large as the radial ones, which no published calibration has.
+  Camera strong = TumCamera("tum1");
+  strong.p1 = 0.05, strong.p2 = -0.08;
+  for (const Camera& camera : {Camera{}, TumCamera("tum1"), strong}) {
+    for (const Eigen::Vector3d& x_c :
+         {Eigen::Vector3d(0.3, -0.2, 1.5), Eigen::Vector3d(-0.7, 0.5, 1.2)}) {
+      const Eigen::Matrix<double, 2, 3> J = camera.ProjectDistortedJacobian(x_c);
+      for (int i = 0; i < 3; ++i) {
+        constexpr double kStep_m = 1e-6;
+        const Eigen::Vector3d step = kStep_m * Eigen::Vector3d::Unit(i);
+        const Eigen::Vector2d moved =
+            camera.ProjectDistorted(x_c + step) - camera.ProjectDistorted(x_c - step);
+        EXPECT_THAT(Eigen::Vector2d(J.col(i)),
+                    VectorNear(Eigen::Vector2d(moved / (2 * kStep_m)), 1e-5));
+      }
+    }
+  }
+}
+
 TEST(Camera, PutsThePrincipalPointOnTheOpticalAxis) {
   const Camera camera;
   EXPECT_THAT(camera.Project({0, 0, 3}),
