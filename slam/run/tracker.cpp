@@ -168,7 +168,6 @@ void Tracker::OptimiseWithPlanes(Frame& frame, TrackReport& report) {
   const Stopwatch watch(report.times[Module::kPo]);
   if (!report.tracked) {
     HoldByPlanes(frame, report);
-    if (report.tracked) TakeBackContradicted(frame, map_, camera_, config_.association);
     return;
   }
   const PoseProblem by_planes = ProblemOf(frame, {});
@@ -219,8 +218,8 @@ bool Tracker::TellAtPose(Frame& frame) const {
   return true;
 }
 
-/// Points failed: planes and the motion before hold the pose, while it is known well enough.
-void Tracker::HoldByPlanes(Frame& frame, TrackReport& report) {
+/// The pose by planes and the motion before, with its covariance. @returns whether planes say anything of it
+bool Tracker::PoseByPlanes(Frame& frame) const {
   PoseProblem problem;
   PoseSummary summary;
   bool has_planes = false;
@@ -246,9 +245,18 @@ void Tracker::HoldByPlanes(Frame& frame, TrackReport& report) {
   const Matrix6d& predicted = frame.prediction->covariance;
   frame.pose_covariance =
       (Matrix6d::Identity() + predicted * at.H).partialPivLu().solve(predicted);
+  return has_planes && summary.usable;
+}
+
+/// Points failed: planes and the motion before hold the pose, while it is known well enough; once
+/// more without the matches that it contradicts.
+void Tracker::HoldByPlanes(Frame& frame, TrackReport& report) {
+  bool held = PoseByPlanes(frame);
+  if (held && TakeBackContradicted(frame, map_, camera_, config_.association) > 0) {
+    held = PoseByPlanes(frame);
+  }
   // Planes of another place may lie as those of the map do: its prints do not.
-  report.tracked = has_planes && summary.usable &&
-                   IsKnownWell(*frame.pose_covariance, config_.tracking.motion) &&
+  report.tracked = held && IsKnownWell(*frame.pose_covariance, config_.tracking.motion) &&
                    !points_.DeniedByPoints(frame, map_, frame.T_cw);
   if (!report.tracked) {
     ForgetPose(frame);
@@ -259,7 +267,8 @@ void Tracker::HoldByPlanes(Frame& frame, TrackReport& report) {
     frame.evidence.of_pose = frame.pose_covariance->inverse();
     points_.FoundByPlanes(frame, map_);
   } else {
-    frame.held_by_motion = HeldByPrediction(predicted, *frame.pose_covariance);
+    frame.held_by_motion =
+        HeldByPrediction(frame.prediction->covariance, *frame.pose_covariance);
     points_.HoldByPlanes();
   }
   report.points.state = TrackState::kHeldByPlanes;

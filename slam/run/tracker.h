@@ -122,6 +122,7 @@ class Tracker {
   void AssociateFramePlanes(Frame& frame, TrackReport& report) const;
   void OptimiseWithPlanes(Frame& frame, TrackReport& report);
   bool TellAtPose(Frame& frame) const;
+  bool PoseByPlanes(Frame& frame) const;
   void HoldByPlanes(Frame& frame, TrackReport& report);
   void OptimiseByAll(Frame& frame) const;
   PoseProblem ProblemOf(const Frame& frame, const FramePoints& points) const;
