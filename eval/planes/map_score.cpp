@@ -72,7 +72,7 @@ int TruthByOutline(const RunMapPlane& plane, const SceneTruth& scene, const Alig
   for (const TruthPlane& truth : scene.planes) {
     const double angle_deg = Angle(pi_g.n, truth.pi_g.n) * 180.0 / std::numbers::pi;
     const double offset_m = std::abs(SignedDistance(truth.pi_g, middle_g));
-    if (!truth.scored || !(angle_deg <= kMaxTruthNormal_deg)) continue;
+    if (!truth.scored || !(angle_deg <= kMaxMapNormal_deg)) continue;
     if (!(offset_m <= kMaxTruthOffset_m)) continue;
     const Outline outline = OutlinesOf(plane, truth, gauge);
     const double shared_m2 = IntersectionArea(outline.map, outline.truth);

@@ -12,8 +12,10 @@
 
 namespace eval {
 
-/// Nearer than this to a map plane without observations, true planes are told by place.
-inline constexpr double kSameOffset_m = 0.005;
+/// Of map planes without observations. Their normals are those of many frames.
+inline constexpr double kMaxMapNormal_deg = 20.0;
+inline constexpr double kSameOffset_m =
+    0.005;  ///< nearer than this, true planes are told by place
 
 inline constexpr double kMaxMapCornerError_m = 0.10;
 
@@ -53,7 +55,7 @@ MapScore ScoreMap(const std::vector<RunMapPlane>& map, const SceneTruth& scene,
                   const std::vector<AssociationRecord>& records, const std::set<int>& seen);
 
 /// The same without decisions: a map plane shows the scored true plane whose outline it shares,
-/// within kMaxTruthNormal_deg, that is nearest to the middle of its own (at most kMaxTruthOffset_m;
+/// within kMaxMapNormal_deg, that is nearest to the middle of its own (at most kMaxTruthOffset_m;
 /// equal within kSameOffset_m), and of these the one it shares most area with. Without a gauge none
 /// shows any.
 MapScore ScoreMap(const std::vector<RunMapPlane>& map, const SceneTruth& scene,

@@ -1,10 +1,8 @@
 #include "eval/planes/truth_of_planes.h"
 
-#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
-#include <vector>
 
 #include "eval/planes/polygon.h"
 
