@@ -4,7 +4,7 @@
 #include <optional>
 #include <string>
 
-#include "eval/formats/run.h"
+#include "eval/formats/run/run.h"
 #include "eval/report/evaluate.h"
 #include "eval/surfaces/score_surfaces.h"
 

@@ -7,7 +7,7 @@
 
 #include "app/bench/bench_planes_score.h"
 #include "app/surfaces_option.h"
-#include "eval/formats/sequence.h"
+#include "eval/formats/sequence/sequence.h"
 #include "eval/planes/united_faces.h"
 #include "eval/surfaces/label_surfaces.h"
 #include "eval/trajectory/score_trajectory.h"

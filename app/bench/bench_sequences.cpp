@@ -10,8 +10,8 @@
 
 #include "app/depth_sensor_option.h"
 #include "app/sim_arguments.h"
-#include "eval/formats/run.h"
-#include "eval/formats/sequence.h"
+#include "eval/formats/run/run.h"
+#include "eval/formats/sequence/sequence.h"
 #include "eval/regression/paired_tests.h"
 #include "sim/families/families.h"
 #include "sim/write/write_sequence.h"

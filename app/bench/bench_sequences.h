@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "eval/formats/frame_planes.h"
+#include "eval/formats/run/frame_planes.h"
 #include "eval/report/evaluate.h"
 #include "slam/run/tracker.h"
 

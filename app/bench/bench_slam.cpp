@@ -7,7 +7,7 @@
 #include <fstream>
 #include <functional>
 
-#include "eval/formats/run.h"
+#include "eval/formats/run/run.h"
 #include "slam/input/camera_reader.h"
 #include "slam/input/sequence_reader.h"
 #include "slam/run/run_sequence.h"

@@ -8,7 +8,7 @@
 #include "app/app.h"
 #include "app/bench/unevenness.h"
 #include "app/surfaces_option.h"
-#include "sim/sensor/depth_bend.h"
+#include "sim/sensor/depth/depth_bend.h"
 #include "sim/sensor/read_sensor.h"
 #include "slam/calibrate/warp_estimate.h"
 #include "slam/calibrate/warp_file.h"

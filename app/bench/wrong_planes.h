@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "eval/formats/frame_planes.h"
+#include "eval/formats/run/frame_planes.h"
 #include "slam/model/frame.h"
 #include "slam/model/map.h"
 

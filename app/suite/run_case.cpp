@@ -7,7 +7,7 @@
 #include <sstream>
 
 #include "app/suite/child_process.h"
-#include "eval/formats/timing.h"
+#include "eval/formats/run/timing.h"
 #include "eval/regression/time_ratios.h"
 #include "io/input_error.h"
 #include "io/json_field.h"

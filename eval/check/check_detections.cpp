@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "eval/formats/box.h"
+#include "eval/formats/sequence/box.h"
 #include "eval/formats/stamps.h"
 
 namespace eval {

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "eval/formats/folder.h"
-#include "eval/formats/image_lists.h"
+#include "eval/formats/sequence/image_lists.h"
 
 namespace eval {
 

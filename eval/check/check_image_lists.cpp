@@ -6,7 +6,7 @@
 #include <cmath>
 #include <set>
 
-#include "eval/formats/images.h"
+#include "eval/formats/sequence/images.h"
 
 namespace eval {
 namespace {

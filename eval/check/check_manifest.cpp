@@ -4,7 +4,7 @@
 #include <optional>
 #include <set>
 
-#include "eval/formats/manifest.h"
+#include "eval/formats/sequence/manifest.h"
 #include "io/input_error.h"
 #include "io/sha256.h"
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "eval/formats/run.h"
+#include "eval/formats/run/run.h"
 
 namespace eval {
 

@@ -2,7 +2,7 @@
 
 #include "eval/check/check_ply.h"
 #include "eval/check/check_segmentation.h"
-#include "eval/formats/run.h"
+#include "eval/formats/run/run.h"
 
 namespace eval {
 CheckReport CheckRun(const std::filesystem::path& path) {

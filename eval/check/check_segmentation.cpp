@@ -6,7 +6,7 @@
 #include <array>
 #include <set>
 
-#include "eval/formats/images.h"
+#include "eval/formats/sequence/images.h"
 #include "io/number_text.h"
 
 namespace eval {

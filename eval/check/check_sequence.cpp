@@ -5,10 +5,10 @@
 #include "eval/check/check_image_lists.h"
 #include "eval/check/check_manifest.h"
 #include "eval/check/check_truth_frames.h"
-#include "eval/formats/manifest.h"
-#include "eval/formats/sequence_agreement.h"
+#include "eval/formats/pose/trajectory.h"
+#include "eval/formats/sequence/manifest.h"
+#include "eval/formats/sequence/sequence_agreement.h"
 #include "eval/formats/stamps.h"
-#include "eval/formats/trajectory.h"
 
 namespace eval {
 namespace {

@@ -9,7 +9,7 @@
 #include <opencv2/calib3d.hpp>
 #include <opencv2/imgproc.hpp>
 
-#include "eval/formats/images.h"
+#include "eval/formats/sequence/images.h"
 #include "eval/formats/stamps.h"
 #include "eval/trajectory/statistics.h"
 #include "eval/trajectory/true_pose.h"

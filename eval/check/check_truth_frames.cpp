@@ -9,9 +9,9 @@
 #include <set>
 
 #include "eval/check/check_truth_depth.h"
-#include "eval/formats/frame_truth.h"
-#include "eval/formats/images.h"
-#include "eval/formats/sequence_agreement.h"
+#include "eval/formats/sequence/frame_truth.h"
+#include "eval/formats/sequence/images.h"
+#include "eval/formats/sequence/sequence_agreement.h"
 
 namespace eval {
 namespace {

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "eval/check/check_truth_depth.h"
-#include "eval/formats/images.h"
+#include "eval/formats/sequence/images.h"
 #include "eval/formats/stamps.h"
 #include "eval/trajectory/true_pose.h"
 

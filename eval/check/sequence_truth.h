@@ -6,11 +6,11 @@
 #include <string>
 #include <vector>
 
-#include "eval/formats/camera.h"
 #include "eval/formats/folder.h"
-#include "eval/formats/image_lists.h"
-#include "eval/formats/pose.h"
-#include "eval/formats/scene_truth.h"
+#include "eval/formats/pose/pose.h"
+#include "eval/formats/sequence/camera.h"
+#include "eval/formats/sequence/image_lists.h"
+#include "eval/formats/sequence/scene_truth.h"
 #include "eval/formats/stamps.h"
 
 namespace eval {

@@ -10,7 +10,7 @@
 #include "eval/draw/plane_name.h"
 #include "eval/draw/run_title.h"
 #include "eval/draw/sheet_header.h"
-#include "eval/formats/images.h"
+#include "eval/formats/sequence/images.h"
 #include "io/input_error.h"
 
 namespace eval {

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "eval/draw/draw_camera.h"
-#include "eval/formats/run.h"
-#include "eval/formats/sequence.h"
+#include "eval/formats/run/run.h"
+#include "eval/formats/sequence/sequence.h"
 
 namespace eval {
 

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "eval/formats/run.h"
-#include "eval/formats/sequence.h"
+#include "eval/formats/run/run.h"
+#include "eval/formats/sequence/sequence.h"
 
 namespace eval {
 

@@ -6,7 +6,7 @@
 
 #include "eval/draw/draw_camera.h"
 #include "eval/draw/frame_labels.h"
-#include "eval/formats/run.h"
+#include "eval/formats/run/run.h"
 
 namespace eval {
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "eval/draw/paint.h"
-#include "eval/formats/run.h"
+#include "eval/formats/run/run.h"
 
 namespace eval {
 

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "eval/formats/run.h"
-#include "eval/formats/sequence.h"
+#include "eval/formats/run/run.h"
+#include "eval/formats/sequence/sequence.h"
 
 namespace eval {
 

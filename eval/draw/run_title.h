@@ -2,8 +2,8 @@
 
 #include <string>
 
-#include "eval/formats/run.h"
-#include "eval/formats/sequence.h"
+#include "eval/formats/run/run.h"
+#include "eval/formats/sequence/sequence.h"
 
 namespace eval {
 

@@ -6,7 +6,7 @@
 
 #include "eval/draw/legend.h"
 #include "eval/draw/run_title.h"
-#include "eval/formats/run.h"
+#include "eval/formats/run/run.h"
 
 namespace eval {
 

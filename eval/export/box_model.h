@@ -3,7 +3,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "eval/formats/scene_truth.h"
+#include "eval/formats/sequence/scene_truth.h"
 
 namespace eval {
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "eval/formats/sequence.h"
+#include "eval/formats/sequence/sequence.h"
 #include "io/output_folder.h"
 
 namespace eval {

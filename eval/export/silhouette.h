@@ -3,7 +3,7 @@
 #include <opencv2/core.hpp>
 
 #include "eval/export/exportable.h"
-#include "eval/formats/pose.h"
+#include "eval/formats/pose/pose.h"
 
 namespace eval {
 

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "eval/formats/pose.h"
+#include "eval/formats/pose/pose.h"
 #include "io/json_field.h"
 #include "io/text_lines.h"
 

@@ -3,7 +3,7 @@
 #include <Eigen/Geometry>
 #include <cmath>
 
-#include "eval/formats/pose.h"
+#include "eval/formats/pose/pose.h"
 
 namespace eval {
 

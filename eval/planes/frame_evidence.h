@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "eval/formats/run.h"
+#include "eval/formats/run/run.h"
 #include "eval/planes/overlap.h"
 #include "eval/planes/true_frame.h"
 

@@ -4,8 +4,8 @@
 #include <set>
 #include <vector>
 
-#include "eval/formats/run_map.h"
-#include "eval/formats/scene_truth.h"
+#include "eval/formats/run/run_map.h"
+#include "eval/formats/sequence/scene_truth.h"
 #include "eval/planes/association.h"
 #include "eval/trajectory/alignment.h"
 #include "eval/trajectory/statistics.h"

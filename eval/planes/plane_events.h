@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "eval/formats/run_map.h"
-#include "eval/formats/scene_truth.h"
+#include "eval/formats/run/run_map.h"
+#include "eval/formats/sequence/scene_truth.h"
 #include "eval/planes/plane_decisions.h"
 #include "eval/trajectory/alignment.h"
 

@@ -3,7 +3,7 @@
 #include <optional>
 #include <set>
 
-#include "eval/formats/run.h"
+#include "eval/formats/run/run.h"
 #include "eval/planes/association.h"
 #include "eval/planes/clear_score.h"
 #include "eval/planes/corners.h"

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "eval/formats/scene_truth.h"
+#include "eval/formats/sequence/scene_truth.h"
 #include "eval/planes/plane_decisions.h"
 
 namespace eval {

@@ -2,7 +2,7 @@
 
 #include <map>
 
-#include "eval/formats/frame_planes.h"
+#include "eval/formats/run/frame_planes.h"
 #include "eval/planes/overlap.h"
 #include "eval/planes/true_frame.h"
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "eval/formats/sequence.h"
+#include "eval/formats/sequence/sequence.h"
 
 namespace eval {
 

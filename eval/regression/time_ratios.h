@@ -1,6 +1,6 @@
 #pragma once
 
-#include "eval/formats/timing.h"
+#include "eval/formats/run/timing.h"
 #include "eval/regression/gated_metrics.h"
 
 namespace eval {

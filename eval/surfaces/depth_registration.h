@@ -3,8 +3,8 @@
 #include <filesystem>
 #include <opencv2/core.hpp>
 
-#include "eval/formats/camera.h"
-#include "eval/formats/pose.h"
+#include "eval/formats/pose/pose.h"
+#include "eval/formats/sequence/camera.h"
 
 namespace eval {
 

@@ -4,7 +4,7 @@
 #include <optional>
 #include <vector>
 
-#include "eval/formats/sequence.h"
+#include "eval/formats/sequence/sequence.h"
 #include "eval/surfaces/depth_registration.h"
 
 namespace eval {

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "eval/formats/run.h"
+#include "eval/formats/run/run.h"
 #include "eval/surfaces/label_surfaces.h"
 #include "eval/surfaces/score_surfaces.h"
 

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "eval/formats/sequence.h"
+#include "eval/formats/sequence/sequence.h"
 #include "eval/surfaces/depth_views.h"
 #include "eval/surfaces/outline.h"
 #include "eval/surfaces/surface.h"

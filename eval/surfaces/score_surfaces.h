@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "eval/formats/run.h"
+#include "eval/formats/run/run.h"
 #include "eval/surfaces/depth_views.h"
 #include "eval/surfaces/surface_scorer.h"
 

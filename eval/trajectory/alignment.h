@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "eval/formats/pose.h"
+#include "eval/formats/pose/pose.h"
 
 namespace eval {
 

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "eval/formats/pose_file.h"
-#include "eval/formats/sequence_agreement.h"
+#include "eval/formats/pose/pose_file.h"
+#include "eval/formats/sequence/sequence_agreement.h"
 #include "eval/trajectory/alignment.h"
 #include "eval/trajectory/pairs.h"
 #include "eval/trajectory/statistics.h"

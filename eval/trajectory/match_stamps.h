@@ -3,8 +3,8 @@
 #include <cstddef>
 #include <vector>
 
-#include "eval/formats/pose.h"
-#include "eval/formats/sequence_agreement.h"
+#include "eval/formats/pose/pose.h"
+#include "eval/formats/sequence/sequence_agreement.h"
 
 namespace eval {
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "eval/formats/pose_covariance.h"
+#include "eval/formats/run/pose_covariance.h"
 #include "eval/trajectory/alignment.h"
 
 namespace eval {

@@ -3,8 +3,8 @@
 #include <optional>
 #include <string>
 
-#include "eval/formats/run.h"
-#include "eval/formats/sequence.h"
+#include "eval/formats/run/run.h"
+#include "eval/formats/sequence/sequence.h"
 #include "eval/trajectory/alignment.h"
 #include "eval/trajectory/match_stamps.h"
 #include "eval/trajectory/score_consistency.h"

@@ -2,7 +2,7 @@
 
 #include <optional>
 
-#include "eval/formats/pose.h"
+#include "eval/formats/pose/pose.h"
 
 namespace eval {
 

@@ -4,7 +4,7 @@
 #include <opencv2/core.hpp>
 
 #include "property_tests/sim/render_worlds.h"
-#include "sim/sensor/depth_sensor.h"
+#include "sim/sensor/depth/depth_sensor.h"
 #include "sim/trace/frame_renderer.h"
 
 namespace sim {

@@ -4,11 +4,11 @@
 #include <string>
 #include <variant>
 
-#include "sim/sensor/azure_sensor.h"
 #include "sim/sensor/calibration_error.h"
 #include "sim/sensor/colour_sensor.h"
-#include "sim/sensor/d435_sensor.h"
-#include "sim/sensor/depth_sensor.h"
+#include "sim/sensor/depth/azure_sensor.h"
+#include "sim/sensor/depth/d435_sensor.h"
+#include "sim/sensor/depth/depth_sensor.h"
 #include "sim/sensor/exposure.h"
 #include "sim/sensor/timing_defects.h"
 

@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "sim/scene/scene.h"
-#include "sim/sensor/depth_sensor.h"
+#include "sim/sensor/depth/depth_sensor.h"
 #include "sim/shapes/planes.h"
 
 namespace sim {

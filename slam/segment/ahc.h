@@ -1,7 +1,7 @@
 #pragma once
 
-#include "slam/segment/depth_grid.h"
-#include "slam/segment/label_runs.h"
+#include "slam/segment/pixels/depth_grid.h"
+#include "slam/segment/pixels/label_runs.h"
 
 namespace slam {
 

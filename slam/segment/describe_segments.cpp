@@ -2,7 +2,7 @@
 #include <cmath>
 #include <utility>
 
-#include "slam/segment/plane_edges.h"
+#include "slam/segment/edges/plane_edges.h"
 #include "slam/segment/plane_workspace.h"
 #include "slam/segment/roughness.h"
 

@@ -5,10 +5,10 @@
 
 #include "slam/base/field_visitor.h"
 #include "slam/geometry/sensor_model.h"
-#include "slam/segment/cluster_config.h"
-#include "slam/segment/edge_config.h"
-#include "slam/segment/growth_config.h"
-#include "slam/segment/join_config.h"
+#include "slam/segment/clusters/cluster_config.h"
+#include "slam/segment/edges/edge_config.h"
+#include "slam/segment/growth/growth_config.h"
+#include "slam/segment/joining/join_config.h"
 
 namespace slam {
 

@@ -7,7 +7,7 @@
 #include "slam/geometry/sensor_model.h"
 #include "slam/segment/extraction_config.h"
 #include "slam/segment/occluded_parts.h"
-#include "slam/segment/pixel_labels.h"
+#include "slam/segment/pixels/pixel_labels.h"
 
 namespace slam {
 

@@ -5,9 +5,9 @@
 #include <numeric>
 #include <utility>
 
-#include "slam/segment/label_components.h"
-#include "slam/segment/label_pairs.h"
 #include "slam/segment/measured_segments.h"
+#include "slam/segment/pixels/label_components.h"
+#include "slam/segment/pixels/label_pairs.h"
 #include "slam/segment/sight_lines.h"
 
 namespace slam {

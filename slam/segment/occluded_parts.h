@@ -3,10 +3,10 @@
 #include <vector>
 
 #include "slam/geometry/plane_sums.h"
-#include "slam/segment/depth_grid.h"
 #include "slam/segment/extraction_config.h"
-#include "slam/segment/label_runs.h"
-#include "slam/segment/surfaces.h"
+#include "slam/segment/joining/surfaces.h"
+#include "slam/segment/pixels/depth_grid.h"
+#include "slam/segment/pixels/label_runs.h"
 
 namespace slam {
 

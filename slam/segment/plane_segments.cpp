@@ -7,9 +7,9 @@
 #include <utility>
 
 #include "slam/segment/ahc.h"
-#include "slam/segment/local_planes.h"
+#include "slam/segment/joining/local_planes.h"
+#include "slam/segment/joining/surface_joining.h"
 #include "slam/segment/plane_workspace.h"
-#include "slam/segment/surface_joining.h"
 
 namespace slam {
 namespace {

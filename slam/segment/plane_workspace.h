@@ -5,15 +5,15 @@
 #include <opencv2/core/mat.hpp>
 #include <vector>
 
-#include "slam/segment/block_clusters.h"
+#include "slam/segment/clusters/block_clusters.h"
+#include "slam/segment/edges/outer_contours.h"
+#include "slam/segment/growth/pixel_growth.h"
+#include "slam/segment/joining/parts_on_blocks.h"
+#include "slam/segment/joining/surface_joining.h"
+#include "slam/segment/joining/surfaces.h"
 #include "slam/segment/measured_segments.h"
 #include "slam/segment/occluded_parts.h"
-#include "slam/segment/outer_contours.h"
-#include "slam/segment/parts_on_blocks.h"
-#include "slam/segment/pixel_growth.h"
 #include "slam/segment/plane_segments.h"
-#include "slam/segment/surface_joining.h"
-#include "slam/segment/surfaces.h"
 
 namespace slam {
 

@@ -6,7 +6,7 @@
 
 #include "slam/base/lane_math.h"
 #include "slam/base/require.h"
-#include "slam/segment/block_pixels.h"
+#include "slam/segment/pixels/block_pixels.h"
 
 namespace slam {
 namespace {

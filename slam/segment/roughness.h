@@ -4,7 +4,7 @@
 #include <opencv2/core/mat.hpp>
 
 #include "slam/geometry/plane_sums.h"
-#include "slam/segment/depth_grid.h"
+#include "slam/segment/pixels/depth_grid.h"
 
 namespace slam {
 

@@ -3,10 +3,10 @@
 #include <cstddef>
 #include <vector>
 
-#include "slam/segment/block_pixels.h"
-#include "slam/segment/depth_grid.h"
-#include "slam/segment/label_runs.h"
-#include "slam/segment/pixel_labels.h"
+#include "slam/segment/pixels/block_pixels.h"
+#include "slam/segment/pixels/depth_grid.h"
+#include "slam/segment/pixels/label_runs.h"
+#include "slam/segment/pixels/pixel_labels.h"
 
 namespace slam {
 

@@ -3,7 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "eval/formats/run.h"
+#include "eval/formats/run/run.h"
 #include "eval/surfaces/find_surfaces.h"
 #include "eval/surfaces/label_surfaces.h"
 #include "eval/surfaces/score_surfaces.h"

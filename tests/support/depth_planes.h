@@ -4,9 +4,9 @@
 #include <vector>
 
 #include "slam/geometry/plane_sums.h"
-#include "slam/segment/depth_grid.h"
-#include "slam/segment/image_blocks.h"
-#include "slam/segment/pixel_labels.h"
+#include "slam/segment/pixels/depth_grid.h"
+#include "slam/segment/pixels/image_blocks.h"
+#include "slam/segment/pixels/pixel_labels.h"
 #include "slam/segment/plane_segments.h"
 
 namespace slam {

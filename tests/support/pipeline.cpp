@@ -6,8 +6,8 @@
 #include <fstream>
 #include <sstream>
 
-#include "eval/formats/run.h"
-#include "eval/formats/sequence.h"
+#include "eval/formats/run/run.h"
+#include "eval/formats/sequence/sequence.h"
 #include "eval/report/evaluate.h"
 #include "eval/report/metrics_json.h"
 #include "sim/scene/write_scene.h"

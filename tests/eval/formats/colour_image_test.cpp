@@ -1,4 +1,4 @@
-#include "eval/formats/images.h"
+#include "eval/formats/sequence/images.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

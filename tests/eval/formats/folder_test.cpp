@@ -3,10 +3,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "eval/formats/camera.h"
-#include "eval/formats/manifest.h"
+#include "eval/formats/pose/trajectory.h"
+#include "eval/formats/sequence/camera.h"
+#include "eval/formats/sequence/manifest.h"
 #include "eval/formats/stamps.h"
-#include "eval/formats/trajectory.h"
 #include "tests/eval/check/small_world.h"
 
 namespace eval {

@@ -1,6 +1,6 @@
 // Files of poses of other programs: the three kinds, told apart by what stands in them, and what is
 // said of one that is broken.
-#include "eval/formats/pose_file.h"
+#include "eval/formats/pose/pose_file.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -5,9 +5,9 @@
 #include <cmath>
 #include <fstream>
 
-#include "eval/formats/run.h"
-#include "eval/formats/sequence.h"
-#include "eval/formats/trajectory.h"
+#include "eval/formats/pose/trajectory.h"
+#include "eval/formats/run/run.h"
+#include "eval/formats/sequence/sequence.h"
 #include "io/atomic_file.h"
 #include "io/input_error.h"
 #include "io/read_file.h"

@@ -3,8 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "eval/formats/run.h"
-#include "eval/formats/sequence.h"
+#include "eval/formats/run/run.h"
+#include "eval/formats/sequence/sequence.h"
 #include "eval/report/evaluate.h"
 #include "eval/report/metrics_json.h"
 #include "eval/report/table.h"

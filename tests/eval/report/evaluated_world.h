@@ -9,8 +9,8 @@
 #include <stdexcept>
 #include <string>
 
-#include "eval/formats/run.h"
-#include "eval/formats/sequence.h"
+#include "eval/formats/run/run.h"
+#include "eval/formats/sequence/sequence.h"
 #include "eval/report/evaluate.h"
 #include "eval/report/metrics_json.h"
 #include "tests/eval/tiny_world.h"

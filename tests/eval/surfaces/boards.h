@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "eval/formats/sequence.h"
+#include "eval/formats/sequence/sequence.h"
 #include "io/atomic_file.h"
 #include "io/number_text.h"
 

@@ -6,7 +6,7 @@
 #include <numbers>
 #include <random>
 
-#include "eval/formats/sequence.h"
+#include "eval/formats/sequence/sequence.h"
 #include "eval/trajectory/pairs.h"
 #include "eval/trajectory/score_trajectory.h"
 #include "tests/eval/shared_data.h"

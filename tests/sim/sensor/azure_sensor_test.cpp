@@ -1,10 +1,10 @@
-#include "sim/sensor/azure_sensor.h"
+#include "sim/sensor/depth/azure_sensor.h"
 
 #include <gtest/gtest.h>
 
 #include <opencv2/core.hpp>
 
-#include "sim/sensor/corner_glow.h"
+#include "sim/sensor/depth/corner_glow.h"
 #include "tests/sim/sensor/sensor_measurements.h"
 
 namespace sim {

@@ -1,4 +1,4 @@
-#include "sim/sensor/d435_sensor.h"
+#include "sim/sensor/depth/d435_sensor.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "sim/sensor/depth_bend.h"
+#include "sim/sensor/depth/depth_bend.h"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include <thread>
 #include <vector>
 
-#include "sim/sensor/bend_report.h"
+#include "sim/sensor/report/bend_report.h"
 #include "sim/sensor/sensor.h"
 
 namespace sim {

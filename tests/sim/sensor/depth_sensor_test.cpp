@@ -1,4 +1,4 @@
-#include "sim/sensor/depth_sensor.h"
+#include "sim/sensor/depth/depth_sensor.h"
 
 #include <gtest/gtest.h>
 

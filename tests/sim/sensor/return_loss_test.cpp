@@ -1,4 +1,4 @@
-#include "sim/sensor/return_loss.h"
+#include "sim/sensor/depth/return_loss.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "sim/sensor/window_rows.h"
+#include "sim/sensor/depth/window_rows.h"
 
 #include <gtest/gtest.h>
 

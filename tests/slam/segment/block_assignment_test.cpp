@@ -1,4 +1,4 @@
-#include "slam/segment/block_assignment.h"
+#include "slam/segment/growth/block_assignment.h"
 
 #include <gtest/gtest.h>
 

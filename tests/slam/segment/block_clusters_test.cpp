@@ -1,4 +1,4 @@
-#include "slam/segment/block_clusters.h"
+#include "slam/segment/clusters/block_clusters.h"
 
 #include <gtest/gtest.h>
 

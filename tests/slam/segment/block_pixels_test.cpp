@@ -1,4 +1,4 @@
-#include "slam/segment/block_pixels.h"
+#include "slam/segment/pixels/block_pixels.h"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "slam/geometry/camera.h"
-#include "slam/segment/block_sums.h"
+#include "slam/segment/pixels/block_sums.h"
 #include "tests/support/depth_planes.h"
 
 namespace slam {

@@ -1,4 +1,4 @@
-#include "slam/segment/label_runs.h"
+#include "slam/segment/pixels/label_runs.h"
 
 #include <gtest/gtest.h>
 
@@ -6,8 +6,8 @@
 #include <set>
 #include <vector>
 
-#include "slam/segment/label_changes.h"
-#include "slam/segment/label_components.h"
+#include "slam/segment/pixels/label_changes.h"
+#include "slam/segment/pixels/label_components.h"
 
 namespace slam {
 namespace {

@@ -1,4 +1,4 @@
-#include "slam/segment/local_planes.h"
+#include "slam/segment/joining/local_planes.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "slam/segment/min_tree.h"
+#include "slam/segment/clusters/min_tree.h"
 
 #include <gtest/gtest.h>
 

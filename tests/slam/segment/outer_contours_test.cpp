@@ -1,4 +1,4 @@
-#include "slam/segment/outer_contours.h"
+#include "slam/segment/edges/outer_contours.h"
 
 #include <gtest/gtest.h>
 

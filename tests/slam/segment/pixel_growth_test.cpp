@@ -1,4 +1,4 @@
-#include "slam/segment/pixel_growth.h"
+#include "slam/segment/growth/pixel_growth.h"
 
 #include <gtest/gtest.h>
 
@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-#include "slam/segment/block_clusters.h"
+#include "slam/segment/clusters/block_clusters.h"
 #include "tests/support/closed_form_depth.h"
 #include "tests/support/depth_planes.h"
 

@@ -1,4 +1,4 @@
-#include "slam/segment/plane_edges.h"
+#include "slam/segment/edges/plane_edges.h"
 
 #include <gtest/gtest.h>
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <vector>
 
-#include "slam/segment/pixel_labels.h"
+#include "slam/segment/pixels/pixel_labels.h"
 #include "slam/segment/plane_segments.h"
 #include "tests/support/closed_form_depth.h"
 #include "tests/support/depth_planes.h"

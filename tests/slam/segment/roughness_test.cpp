@@ -6,7 +6,7 @@
 
 #include "slam/base/random.h"
 #include "slam/geometry/camera.h"
-#include "slam/segment/pixel_labels.h"
+#include "slam/segment/pixels/pixel_labels.h"
 #include "tests/support/depth_planes.h"
 
 namespace slam {

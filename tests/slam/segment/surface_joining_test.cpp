@@ -1,4 +1,4 @@
-#include "slam/segment/surface_joining.h"
+#include "slam/segment/joining/surface_joining.h"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,7 @@
 #include <functional>
 
 #include "slam/geometry/camera.h"
-#include "slam/segment/pixel_labels.h"
+#include "slam/segment/pixels/pixel_labels.h"
 #include "tests/support/closed_form_depth.h"
 #include "tests/support/depth_planes.h"
 

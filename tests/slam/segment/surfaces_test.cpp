@@ -1,4 +1,4 @@
-#include "slam/segment/surfaces.h"
+#include "slam/segment/joining/surfaces.h"
 
 #include <gtest/gtest.h>
 

@@ -1,0 +1,73 @@
+#include "eval/formats/run/pose_covariance.h"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "eval/formats/pose/pose_record.h"
+#include "eval/formats/stamps.h"
+#include "eval/formats/text_records.h"
+
+namespace eval {
+namespace {
+
+constexpr std::size_t kFields = 1 + 21;
+
+/// Whether every direction has a variance that is not negative. Metres against radians must not
+/// decide, so it is asked of the correlations; those of a file are off by its last digits.
+bool IsCovariance(const Matrix6d& C) {
+  constexpr double kRoundOff = 1e-6;
+  Eigen::Matrix<double, 6, 1> inverse_sigma;
+  for (int i = 0; i < 6; ++i) {
+    if (C(i, i) < 0.0) return false;
+    if (C(i, i) == 0.0 && !C.row(i).isZero(0.0)) return false;
+    inverse_sigma[i] = C(i, i) > 0.0 ? 1.0 / std::sqrt(C(i, i)) : 0.0;
+  }
+  const Matrix6d correlations = inverse_sigma.asDiagonal() * C * inverse_sigma.asDiagonal();
+  const Eigen::SelfAdjointEigenSolver<Matrix6d> axes(correlations, Eigen::EigenvaluesOnly);
+  return axes.eigenvalues()[0] >= -kRoundOff;  // not so either where a number is too large
+}
+
+/// Nothing when the line is at fault, which is told.
+std::optional<PoseCovariance> ReadLine(Folder& folder, const std::string& file,
+                                       const io::TextRecord& record) {
+  const auto v = NumbersOf(record);
+  if (!v || v->size() != kFields) {
+    folder.Tell(file, record.line,
+                "expected a stamp and 21 finite numbers, found " + TextOf(record),
+                "write the upper triangle of the covariance row by row, or drop the line");
+    return std::nullopt;
+  }
+  PoseCovariance read{v->front(), Matrix6d::Zero(), record.line};
+  std::size_t next = 1;
+  for (int i = 0; i < 6; ++i) {
+    for (int j = i; j < 6; ++j) read.of_xi(i, j) = read.of_xi(j, i) = (*v)[next++];
+  }
+  if (!IsCovariance(read.of_xi)) {
+    folder.Tell(file, record.line, "is no covariance: some direction has a negative variance",
+                "write the upper triangle row by row, metres and radians");
+    return std::nullopt;
+  }
+  return read;
+}
+
+}  // namespace
+
+std::vector<PoseCovariance> ReadPoseCovariances(Folder& folder, const std::string& file) {
+  std::vector<PoseCovariance> covariances;
+  StampOrder order(folder, file);
+  for (const io::TextRecord& record : ReadTextRecords(folder, file)) {
+    const auto read = ReadLine(folder, file, record);
+    if (!read) continue;
+    order.Next(read->stamp_s, read->line);
+    covariances.push_back(*read);
+  }
+  order.Finish();
+  std::stable_sort(
+      covariances.begin(), covariances.end(),
+      [](const PoseCovariance& a, const PoseCovariance& b) { return a.stamp_s < b.stamp_s; });
+  return covariances;
+}
+
+}  // namespace eval

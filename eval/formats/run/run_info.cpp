@@ -1,0 +1,81 @@
+#include "eval/formats/run/run_info.h"
+
+#include <fmt/format.h>
+
+#include "eval/formats/json_record.h"
+
+namespace eval {
+namespace {
+
+/// A figure that other systems write under other names; `key` is what all of them begin with.
+std::optional<double> Figure(const JsonRecord& root, const std::string& key,
+                             const std::string& meaning,
+                             std::initializer_list<const char*> names) {
+  for (const char* name : names) {
+    if (root.Has(name)) return root.Number(name, io::Interval("[0, inf)"));
+  }
+  root.TellAt(key, "is missing; expected " + meaning, kRunAgain, Severity::kFlaw);
+  return std::nullopt;
+}
+
+std::string OptionalText(const JsonRecord& record, const char* key) {
+  return record.Text(key).value_or("");
+}
+
+/// `pas slam` tells its camera among the options, others may do so beside them.
+std::string CameraNameOf(const nlohmann::json& root) {
+  const nlohmann::json options = root.value("options", nlohmann::json());
+  for (const nlohmann::json& place : {root, options}) {
+    if (!place.is_object() || !place.contains("camera")) continue;
+    if (place["camera"].is_string()) return place["camera"].get<std::string>();
+  }
+  return "";
+}
+
+RunInfo ReadInfo(const JsonRecord& root) {
+  root.Format("pas-run/1");
+  const JsonRecord expected = root.Expected();
+  RunInfo info;
+  info.sequence = OptionalText(root, "sequence");
+  info.sequence_absolute = OptionalText(root.Optional(), "sequence_absolute");
+  info.variant = OptionalText(expected, "variant");
+  OptionalText(expected, "association");
+  info.detector = OptionalText(expected, "detector");
+  info.version = OptionalText(expected, "version");
+  expected.Whole("seed");
+  info.camera_name = CameraNameOf(root.value());
+  const bool has_numbers = root.Has("camera") && !root.value()["camera"].is_string();
+  if (has_numbers) info.camera = ReadCamera(root.Object("camera")->Optional());
+  if (!root.Has("options")) {
+    root.TellAt("options", "is missing; expected the options of the run", kRunAgain,
+                Severity::kFlaw);
+  }
+  info.frames = expected.Integer("frames", 0);
+  info.tracked = expected.Integer("tracked");
+  info.interrupted = root.Optional().Flag("interrupted").value_or(false);
+  info.sequence_frames = root.Optional().Integer("sequence_frames", 0);
+  expected.Integer("lost", 0);
+  if (info.frames && info.tracked && !(*info.tracked >= 0 && *info.tracked <= *info.frames)) {
+    root.TellAt("tracked", fmt::format("is {} of {} frames", *info.tracked, *info.frames),
+                kRunAgain, Severity::kWarning);
+  }
+  info.wall_time_s = Figure(root, "wall", "the wall time", {"wall_time_s", "wall_s"});
+  info.peak_memory_mb = Figure(root, "peak", "the peak memory",
+                               {"peak_memory_mb", "peak_rss_mb", "peak_memory_mib"});
+  return info;
+}
+
+}  // namespace
+
+RunInfo ReadRunInfo(Folder& folder) {
+  const std::string file = "run.json";
+  RunInfo info;
+  if (!folder.Require(file, "every run has it, to tell what was run; run the SLAM system again",
+                      Severity::kFlaw)) {
+    return info;
+  }
+  VisitJson(folder, file, [&](const JsonRecord& root) { info = ReadInfo(root); });
+  return info;
+}
+
+}  // namespace eval

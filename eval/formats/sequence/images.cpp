@@ -1,0 +1,155 @@
+#include "eval/formats/sequence/images.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <opencv2/imgcodecs.hpp>
+#include <string_view>
+
+#include "io/image_header.h"
+#include "io/input_error.h"
+#include "io/read_file.h"
+
+namespace eval {
+namespace {
+
+constexpr int kColourAsStored = cv::IMREAD_COLOR | cv::IMREAD_IGNORE_ORIENTATION;
+constexpr int kMaxImageSide_px = 8192;  // the largest camera that a camera.yaml may describe
+
+std::string TypeName(int depth, int channels) {
+  const char* bits = depth == CV_8U       ? "8-bit"
+                     : depth == CV_16U    ? "16-bit"
+                     : depth == kAnyDepth ? "8-bit or 16-bit"
+                                          : "other";
+  return fmt::format("{} with {} channel{}", bits, channels, channels == 1 ? "" : "s");
+}
+
+constexpr std::string_view kPngSignature = "\x89PNG\r\n\x1a\n";
+
+// A PNG ends with an empty IEND chunk; decoders fill up what is missing before it.
+bool IsWholePng(std::string_view bytes) {
+  using namespace std::string_view_literals;
+  constexpr std::string_view kEnd = "\0\0\0\0IEND\xae\x42\x60\x82"sv;
+  return bytes.size() > kPngSignature.size() + kEnd.size() &&
+         bytes.starts_with(kPngSignature) && bytes.ends_with(kEnd);
+}
+
+bool IsWholeJpeg(std::string_view bytes) {
+  if (!bytes.starts_with("\xFF\xD8")) return false;
+  const auto size = io::ImageSizeOf(bytes);
+  return size && size->whole;
+}
+
+/// What OpenCV makes of the bytes; empty when it fails.
+cv::Mat Decoded(std::string& bytes, int mode) {
+  try {
+    return cv::imdecode(cv::Mat1b(1, static_cast<int>(bytes.size()),
+                                  reinterpret_cast<unsigned char*>(bytes.data())),
+                        mode);
+  } catch (const cv::Exception&) {
+    return {};
+  }
+}
+
+/// Whether the header asks for no more pixels than an image may have: a few bytes could ask for
+/// gigabytes.
+bool IsOfSensibleSize(const std::string& bytes) {
+  const auto size = io::ImageSizeOf(bytes);
+  return size && size->width > 0 && size->height > 0 && size->width <= kMaxImageSide_px &&
+         size->height <= kMaxImageSide_px;
+}
+
+cv::Mat Decode(Folder& folder, const std::string& file, bool is_colour) {
+  std::string bytes;
+  if (!folder.Try(file, [&] { bytes = io::ReadFile(folder.Open(file)); })) return {};
+  if (!IsWholePng(bytes) && !(is_colour && IsWholeJpeg(bytes))) {
+    folder.Tell(file, 0,
+                is_colour ? "is not a whole PNG or JPEG file" : "is not a whole PNG file",
+                "write the image again");
+    return {};
+  }
+  if (!IsOfSensibleSize(bytes)) {
+    folder.Tell(file, 0,
+                fmt::format("its header asks for more than {0} x {0} pixels, or for none",
+                            kMaxImageSide_px),
+                "write the image again");
+    return {};
+  }
+  cv::Mat image =
+      Decoded(bytes, IsWholePng(bytes) ? int{cv::IMREAD_UNCHANGED} : kColourAsStored);
+  if (image.empty()) folder.Tell(file, 0, "cannot be decoded", "write the image again");
+  return image;
+}
+
+}  // namespace
+
+cv::Mat ReadImage(Folder& folder, const std::string& file, const ImageKind& kind) {
+  cv::Mat image = Decode(folder, file, kind.depth == CV_8U && kind.channels == 3);
+  if (image.empty()) return image;
+  const bool right_depth = kind.depth == kAnyDepth
+                               ? image.depth() == CV_8U || image.depth() == CV_16U
+                               : image.depth() == kind.depth;
+  if (!right_depth || image.channels() != kind.channels) {
+    folder.Tell(file, 0,
+                fmt::format("is {}; expected {}", TypeName(image.depth(), image.channels()),
+                            TypeName(kind.depth, kind.channels)),
+                "convert the image");
+    return {};
+  }
+  if (!kind.size.empty() && image.size() != kind.size) {
+    folder.Tell(file, 0,
+                fmt::format("is {} x {}; expected {} x {}", image.cols, image.rows,
+                            kind.size.width, kind.size.height),
+                "use images of one size, the one in camera.yaml when there is one");
+    return {};
+  }
+  return image;
+}
+
+void PixelSet::Add(int u, int v) {
+  if (count == 0) {
+    x0 = x1 = u;
+    y0 = y1 = v;
+  }
+  ++count;
+  x0 = std::min(x0, u), x1 = std::max(x1, u);
+  y0 = std::min(y0, v), y1 = std::max(y1, v);
+}
+
+std::map<int, PixelSet> PixelsOfIds(const cv::Mat1w& ids) {
+  std::map<int, PixelSet> pixels;
+  for (int v = 0; v < ids.rows; ++v) {
+    for (int u = 0; u < ids.cols; ++u) {
+      if (ids(v, u) != 0) pixels[ids(v, u)].Add(u, v);
+    }
+  }
+  return pixels;
+}
+
+cv::Mat ReadColour(const std::filesystem::path& file) {
+  std::string bytes = io::ReadFile(file, "expected a colour image");
+  const auto size = io::ImageSizeOf(bytes);
+  if (!size) throw io::InputError(file.string(), "is no PNG or JPEG image; copy it again");
+  if (!IsOfSensibleSize(bytes)) {
+    throw io::InputError(
+        file.string(),
+        fmt::format("says that it is {} x {} pixels; expected at most {} a side: "
+                    "copy it again",
+                    size->width, size->height, kMaxImageSide_px));
+  }
+  const bool whole = IsWholePng(bytes) || IsWholeJpeg(bytes);
+  cv::Mat image = whole ? Decoded(bytes, kColourAsStored) : cv::Mat();
+  if (image.empty()) {
+    throw io::InputError(file.string(), "is damaged and cannot be decoded; copy it again");
+  }
+  return image;
+}
+
+cv::Mat1w ReadLabels(const std::filesystem::path& file, const ImageKind& kind) {
+  Folder folder(file.parent_path());
+  cv::Mat1w labels;
+  ReadImage(folder, file.filename().string(), kind).convertTo(labels, CV_16U);
+  return labels;
+}
+
+}  // namespace eval

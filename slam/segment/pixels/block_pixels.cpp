@@ -1,0 +1,144 @@
+#include "slam/segment/pixels/block_pixels.h"
+
+#include <limits>
+
+#include "slam/base/lane_math.h"
+#include "slam/segment/pixels/pixel_set_lanes.h"
+
+namespace slam {
+namespace {
+
+constexpr float kNotNear = std::numeric_limits<float>::infinity();
+constexpr int kSide_px = kBlock_px + 2 * kVoteReach_px;  // what the costs of a block look at
+static_assert(kBlock_px == kLanes && kSide_px == kLanes + 4, "two overlapping reads a row");
+
+/// How far 8 pixels of a row at a time are from a plane, in sigmas of a surface that is seen
+/// frontally: what is compared with it is scaled by the grazing factor instead.
+class RowErrors {
+ public:
+  /// From column u on.
+  SLAM_INLINE RowErrors(const BlockPixels& block, int u, const PixelPlane& p)
+      : x_(block.x + u),
+        y_(block.y + u),
+        q_(block.q + u),
+        g_(block.g + u),
+        stride_(block.stride),
+        x_stride_(block.x_stride),
+        y_stride_(block.y_stride),
+        a_(AllLanes(p.a)),
+        b_(AllLanes(p.b)),
+        c_(AllLanes(p.c)) {}
+  SLAM_INLINE FloatLanes At(std::ptrdiff_t v) const {
+    const FloatLanes predicted =
+        a_ * Lanes(x_ + v * x_stride_) + b_ * Lanes(y_ + v * y_stride_) + c_;
+    return (Lanes(q_ + v * stride_) - predicted) * Lanes(g_ + v * stride_);
+  }
+
+ private:
+  const float *x_, *y_, *q_, *g_;
+  std::ptrdiff_t stride_, x_stride_, y_stride_;
+  FloatLanes a_, b_, c_;
+};
+
+/// Adds eight floats to four sums.
+SLAM_INLINE void AddTo(DoubleLanes& sum, FloatLanes v) {
+  sum += DoubleLanes{static_cast<double>(v[0]), static_cast<double>(v[1]),
+                     static_cast<double>(v[2]), static_cast<double>(v[3])};
+  sum += DoubleLanes{static_cast<double>(v[4]), static_cast<double>(v[5]),
+                     static_cast<double>(v[6]), static_cast<double>(v[7])};
+}
+
+}  // namespace
+
+SLAM_LANES PixelSet FindMeasured(const BlockPixels& block) {
+  RowsOfSet rows;
+#pragma GCC unroll 8
+  for (int v = kLanes - 1; v >= 0; --v)
+    rows.Add(Lanes(block.g + static_cast<std::ptrdiff_t>(v) * block.stride) > 0.0f);
+  return rows.Set();
+}
+
+SLAM_LANES NearPixels FindNear(const BlockPixels& block, const PixelPlane& plane,
+                               PixelSet measured, float near_sigmas, float wide_sigmas) {
+  const RowErrors errors(block, 0, plane);
+  const FloatLanes near = AllLanes(near_sigmas * plane.grazing),
+                   wide = AllLanes(wide_sigmas * plane.grazing);
+  RowsOfSet near_rows, wide_rows;
+#pragma GCC unroll 8
+  for (int v = kLanes - 1; v >= 0; --v) {
+    const FloatLanes distance = Abs(errors.At(v));
+    near_rows.Add(distance < near);
+    wide_rows.Add(distance < wide);
+  }
+  return {near_rows.Set() & measured, wide_rows.Set() & measured};
+}
+
+SLAM_LANES double SumResiduals(const BlockPixels& block, const PixelPlane& plane,
+                               PixelSet set) {
+  const RowErrors errors(block, 0, plane);
+  const IntLanes columns = ColumnsOf(set);
+  DoubleLanes sum{};
+#pragma GCC unroll 8
+  for (int v = 0; v < kLanes; ++v)
+    AddTo(sum, (FloatLanes)((IntLanes)errors.At(v) & RowOf(columns, v)));
+  return SumOf(sum) / static_cast<double>(plane.grazing);
+}
+
+SLAM_LANES void LowerToDistance(const BlockPixels& block, const PixelPlane& plane,
+                                float* nearest) {
+  const RowErrors errors(block, 0, plane);
+  const FloatLanes scale = AllLanes(1.0f / plane.grazing);
+#pragma GCC unroll 8
+  for (int v = 0; v < kLanes; ++v) {
+    const FloatLanes distance = Abs(errors.At(v)) * scale;
+    FloatLanes& entry = Lanes(nearest + kLanes * v);
+    entry = distance < entry ? distance : entry;
+  }
+}
+
+SLAM_LANES double SumGains(const BlockPixels& block, const PixelPlane& plane, PixelSet set,
+                           const float* nearest) {
+  const RowErrors errors(block, 0, plane);
+  const IntLanes columns = ColumnsOf(set);
+  const FloatLanes scale = AllLanes(1.0f / plane.grazing);
+  DoubleLanes sum{};
+#pragma GCC unroll 8
+  for (int v = 0; v < kLanes; ++v) {
+    const FloatLanes own = errors.At(v) * scale, next = Lanes(nearest + kLanes * v);
+    AddTo(sum, (FloatLanes)((IntLanes)(next * next - own * own) & RowOf(columns, v)));
+  }
+  return SumOf(sum);
+}
+
+SLAM_LANES void FindCosts(const BlockPixels& block, const PixelPlane& plane, float max_sigmas,
+                          PixelSet near, float* costs) {
+  // Squared errors of the block and of what lies around it.
+  const RowErrors lefts(block, -kVoteReach_px, plane), rights(block, 4 - kVoteReach_px, plane);
+  const float max_error = max_sigmas * plane.grazing;
+  const FloatLanes max_square = AllLanes(max_error * max_error);
+  float squares[kSide_px * kSide_px + kLanes], sums[kSide_px * kLanes];
+  for (int v = 0; v < kSide_px; ++v) {
+    const FloatLanes left = lefts.At(v - kVoteReach_px), right = rights.At(v - kVoteReach_px);
+    const FloatLanes left2 = left * left, right2 = right * right;
+    Lanes(squares + kSide_px * v) = max_square < left2 ? max_square : left2;
+    Lanes(squares + kSide_px * v + 4) = max_square < right2 ? max_square : right2;
+  }
+
+  // Their sums over five columns, then over five rows.
+  for (int v = 0; v < kSide_px; ++v) {
+    const float* s = squares + kSide_px * v;
+    Lanes(sums + kLanes * v) =
+        (((Lanes(s) + Lanes(s + 1)) + Lanes(s + 2)) + Lanes(s + 3)) + Lanes(s + 4);
+  }
+  const IntLanes columns = ColumnsOf(near);
+  const FloatLanes scale = AllLanes(1.0f / (plane.grazing * plane.grazing));
+#pragma GCC unroll 8
+  for (int v = 0; v < kLanes; ++v) {
+    const float* s = sums + kLanes * v;
+    const FloatLanes sum =
+        (((Lanes(s) + Lanes(s + 8)) + Lanes(s + 16)) + Lanes(s + 24)) + Lanes(s + 32);
+    Lanes(costs + kLanes * v) = RowOf(columns, v) ? sum * scale : AllLanes(kNotNear);
+  }
+}
+
+}  // namespace slam

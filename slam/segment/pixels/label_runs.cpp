@@ -1,0 +1,35 @@
+#include "slam/segment/pixels/label_runs.h"
+
+#include "slam/segment/pixels/label_changes.h"
+
+namespace slam {
+std::size_t LabelRuns::At(int u, int v) const {
+  const auto first =
+      runs.begin() + static_cast<std::ptrdiff_t>(rows[static_cast<std::size_t>(v)]);
+  const auto last =
+      runs.begin() + static_cast<std::ptrdiff_t>(rows[static_cast<std::size_t>(v) + 1]);
+  const auto after = std::upper_bound(
+      first, last, u, [](int column, const LabelRun& run) { return column < run.begin; });
+  return static_cast<std::size_t>(after - runs.begin()) - 1;
+}
+
+void FindRuns(const LabelImage& labels, int width, int height, LabelRuns& out) {
+  out.width = width;
+  out.runs.clear(), out.rows.clear();
+  for (int v = 0; v < height; ++v) {
+    out.rows.push_back(out.runs.size());
+    if (width == 0) continue;
+    const std::int16_t* row =
+        labels.data() + static_cast<std::size_t>(v) * static_cast<std::size_t>(width);
+    int begin = 0;
+    const auto end_run = [&](int u) {
+      out.runs.push_back({begin, u, row[begin]});
+      begin = u;
+    };
+    VisitChanges(row, 1, width, end_run);
+    out.runs.push_back({begin, width, row[begin]});
+  }
+  out.rows.push_back(out.runs.size());
+}
+
+}  // namespace slam
