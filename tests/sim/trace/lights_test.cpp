@@ -213,6 +213,24 @@ TEST(AnAreaLight, MayHangOnACeiling) {
   for (std::size_t i = 0; i < hung.size(); ++i) ASSERT_EQ(hung[i].light, free[i].light);
 }
 
+TEST(LampsAndAreaLights, AddUp) {
+  Scene scene = Floor();
+  const std::vector<Light> all = {Lamp({0.1, 0.2, 0.8}, 0.5), Panel(3),
+                                  Lamp({-0.6, 0, 1}, 0.7)};
+  const Pose T_wc = LookAt({0, -1, 1.5}, {0, 0, 0});
+  scene.lights = all;
+  const auto together = LightOnFloor(scene, T_wc, SmallCamera());
+  std::vector<double> sum(together.size(), 0.0);
+  for (const Light& light : all) {
+    scene.lights = {light};
+    const auto alone = LightOnFloor(scene, T_wc, SmallCamera());
+    ASSERT_EQ(alone.size(), sum.size());
+    for (std::size_t i = 0; i < sum.size(); ++i) sum[i] += alone[i].light;
+  }
+  for (std::size_t i = 0; i < sum.size(); ++i)
+    ASSERT_NEAR(together[i].light, sum[i], 4 * kFloatRoundOff);
+}
+
 TEST(LightPoints, GiveNothingToASurfaceThatTurnsItsBack) {
   LightPoints lights;
   lights.Start({Lamp({0, 0, 1}, 1), Panel(4)}, Pose{});
