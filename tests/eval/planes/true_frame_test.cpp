@@ -1,0 +1,104 @@
+// What the truth says of a frame, against pixels counted one by one.
+#include "eval/planes/true_frame.h"
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "io/input_error.h"
+#include "tests/eval/tiny_world.h"
+
+namespace eval {
+namespace {
+
+using testing::TinyFrame;
+using testing::TinyWorld;
+
+class TrueFrameOfTinyWorld : public ::testing::Test {
+ protected:
+  TrueFrameOfTinyWorld()
+      : folder_(std::filesystem::path(::testing::TempDir()) /
+                ("pas_true_frame_" + std::to_string(::getpid()))) {
+    world_.WriteSequence(folder_);
+    sequence_ = ReadSequence(folder_);
+  }
+  ~TrueFrameOfTinyWorld() override { std::filesystem::remove_all(folder_); }
+
+  TrueFrame Read(const TinyFrame& frame) const {
+    return ReadTrueFrame(sequence_, frame.stamp_s, frame.T_gc);
+  }
+
+  TinyWorld world_;
+  std::filesystem::path folder_;
+  Sequence sequence_;
+};
+
+struct Counted {
+  int pixels = 0;
+  double incidence_deg = 0.0;  ///< at the mean of the pixels
+};
+
+Counted CountPixels(const TinyFrame& frame, const testing::TinyPlane& plane) {
+  Counted counted;
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  for (int y = 0; y < frame.plane_ids.rows; ++y) {
+    for (int x = 0; x < frame.plane_ids.cols; ++x) {
+      if (frame.plane_ids(y, x) != plane.id) continue;
+      ++counted.pixels;
+      sum += TinyWorld::Ray(x, y);
+    }
+  }
+  const Eigen::Vector3d sight_g = frame.T_gc.R * sum.normalized();
+  counted.incidence_deg = std::acos(-plane.pi_g.n.dot(sight_g)) * 180.0 / std::numbers::pi;
+  return counted;
+}
+
+TEST_F(TrueFrameOfTinyWorld, HasThePixelsAndTheIncidenceOfEachPlane) {
+  int compared = 0;
+  for (std::size_t i = 0; i < world_.frames.size(); i += 11) {
+    const TinyFrame& frame = world_.frames[i];
+    const TrueFrame truth = Read(frame);
+    for (const testing::TinyPlane& plane : world_.planes) {
+      const Counted counted = CountPixels(frame, plane);
+      const SeenPlane* seen = truth.Find(plane.id);
+      ASSERT_EQ(seen != nullptr, counted.pixels > 0) << plane.id;
+      if (seen == nullptr) continue;
+      EXPECT_EQ(seen->plane->id, plane.id);
+      EXPECT_EQ(seen->object->id, plane.object);
+      EXPECT_EQ(seen->pixels, counted.pixels);
+      EXPECT_NEAR(seen->incidence_deg, counted.incidence_deg, 1e-6);
+      // 1,000 pixels at 640 x 480 are 62.5 here.
+      EXPECT_EQ(seen->counted, counted.pixels >= 63 && counted.incidence_deg <= 75.0);
+      ++compared;
+    }
+  }
+  EXPECT_GT(compared, 20);
+}
+
+TEST_F(TrueFrameOfTinyWorld, HasTheCornersThatAreInViewAndNotHidden) {
+  const TinyFrame& frame = world_.frames[20];
+  const TrueFrame truth = Read(frame);
+  for (const testing::TinyPlane& plane : world_.planes) {
+    const SeenPlane* seen = truth.Find(plane.id);
+    if (seen == nullptr || plane.id == TinyWorld::kDeskTop)
+      continue;  // others hide parts of the desk
+    ASSERT_EQ(seen->corners_c.size(), plane.corners_g.size());
+    for (std::size_t k = 0; k < plane.corners_g.size(); ++k) {
+      EXPECT_NEAR((frame.T_gc * seen->corners_c[k] - plane.corners_g[k]).norm(), 0.0, 1e-9);
+      if (plane.id == TinyWorld::kThickTop || plane.id == TinyWorld::kThinTop) {
+        EXPECT_EQ(seen->corner_in_view[k], TinyWorld::InImage(frame.T_gc, plane.corners_g[k]));
+      }
+    }
+  }
+}
+
+TEST_F(TrueFrameOfTinyWorld, NeedsTheCameraOfTheSequence) {
+  std::filesystem::remove(folder_ / "camera.yaml");
+  sequence_ = ReadSequence(folder_);
+  EXPECT_THROW(Read(world_.frames[0]), io::InputError);
+}
+
+}  // namespace
+}  // namespace eval
