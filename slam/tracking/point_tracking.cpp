@@ -32,14 +32,19 @@ constexpr double kFullImage_px2 = 640.0 * 480.0;
 constexpr double kRichFeatures = 300.0;  // a frame with fewer cannot be asked for all inliers
 constexpr int kMinInliers = 15;      // balances images with few features against wrong poses
 constexpr int kMinStartPoints = 40;  // balances a bare start against none
-/// Whether planes alone can hold a camera: some two of them that are far from parallel leave at
-/// most one direction to its motion.
-bool PlanesCanStart(const std::vector<FramePlane>& planes) {
-  constexpr double kMaxCosine = 0.9;  // 26 degrees
+/// Whether planes alone can hold a camera: some two of them that are large enough to be landmarks
+/// at first sight and far from parallel leave at most one direction to its motion.
+bool PlanesCanStart(const std::vector<FramePlane>& planes, double image_px) {
+  constexpr double kMinShare = 1.0 / 64;  // of the image: what proves a landmark alone
+  constexpr double kMaxCosine = 0.9;      // 26 degrees
+  const auto counts = [&](const FramePlane& plane) {
+    return !plane.bad && plane.pixel_count >= kMinShare * image_px;
+  };
   for (const FramePlane& one : planes) {
     for (const FramePlane& other : planes) {
-      if (!one.bad && !other.bad && std::abs(one.pi_c.n.dot(other.pi_c.n)) < kMaxCosine)
+      if (counts(one) && counts(other) && std::abs(one.pi_c.n.dot(other.pi_c.n)) < kMaxCosine) {
         return true;
+      }
     }
   }
   return false;
@@ -137,7 +142,7 @@ bool PointTracking::Start(Frame& frame) const {
   const double area = static_cast<double>(camera_.width) * camera_.height;
   return with_depth >=
              Scaled(config_.min_start_points, area, kFullImage_px2, kMinStartPoints) ||
-         PlanesCanStart(frame.planes);
+         PlanesCanStart(frame.planes, area);
 }
 
 bool PointTracking::TrackByMotion(Frame& frame, const FeatureGrid& grid, const Map& map,
