@@ -117,10 +117,12 @@ RegistrationLearner::Peak RegistrationLearner::FindPeak(const Profiles& profiles
     return sum;
   };
 
-  // The best growth for the best shifts of both axes.
-  std::array<int, 2> best_shift{};
+  // The best growth for the best shifts of both axes, and for each of them alone.
+  constexpr double kNothing = -std::numeric_limits<double>::infinity();
+  std::array<int, 2> best_shift{}, own_grown{};
   int best_grown = 0;
-  double most = -std::numeric_limits<double>::infinity();
+  double most = kNothing;
+  std::array<double, 2> own_most{kNothing, kNothing};
   for (int grown = kMinGrown; grown <= max_grown_; ++grown) {
     std::array<int, 2> shift{};
     double sum = 0.0;
@@ -128,7 +130,10 @@ RegistrationLearner::Peak RegistrationLearner::FindPeak(const Profiles& profiles
       int& best = shift[static_cast<std::size_t>(axis)];
       for (int s = best = -kMaxShift; s <= kMaxShift; ++s)
         if (explained(axis, s, grown) > explained(axis, best, grown)) best = s;
-      sum += explained(axis, best, grown);
+      const double own = explained(axis, best, grown);
+      const auto at = static_cast<std::size_t>(axis);
+      if (own > own_most[at]) own_most[at] = own, own_grown[at] = grown;
+      sum += own;
     }
     if (sum > most) most = sum, best_shift = shift, best_grown = grown;
   }
@@ -137,6 +142,7 @@ RegistrationLearner::Peak RegistrationLearner::FindPeak(const Profiles& profiles
   // sensor grows by count, too: where they explain as much, edges tell too little.
   Peak peak;
   peak.grown_px = best_grown / kSteps;
+  peak.torn_px = (own_grown[0] - own_grown[1]) / kSteps;
   for (int axis = 0; axis < 2; ++axis) {
     const int at = best_shift[static_cast<std::size_t>(axis)];
     double mean = 0.0, other = 0.0;
@@ -166,7 +172,7 @@ void RegistrationLearner::CloseEpoch() {
   for (int axis = 0; axis < 2; ++axis) {
     std::vector<double> shifts;
     for (const Eigen::Vector2d& shift : shifts_px_) shifts.push_back(shift[axis]);
-    now.sigma_px[axis] = SigmaOfMean(shifts);
+    now.sigma_px[axis] = std::hypot(SigmaOfMean(shifts), peak.torn_px);
   }
   now.clear = peak.lead.minCoeff() > kMinLead;
 

@@ -31,7 +31,9 @@ struct RegistrationEstimate {
 /// windows make near things wider, which moves left and right edges apart and not aside, so
 /// that is looked for, too. What the scene does (a frame around a screen, a shadow) is random
 /// from edge to edge and from epoch to epoch; how much epochs scatter tells how well the shift
-/// is known.
+/// is known. What one side of things does in all of a scene (a rim along the tops of screens) tells of
+/// a shift and of as much growth, along one axis alone: by how much the axes grow apart, the shift
+/// may be off.
 ///
 /// Deterministic. The idea is Levinson and Thrun's (RSS 2013), for laser scanners.
 class RegistrationLearner {
@@ -65,6 +67,7 @@ class RegistrationLearner {
   struct Peak {
     Eigen::Vector2d shift_px = Eigen::Vector2d::Zero();
     double grown_px = 0.0;
+    double torn_px = 0.0;  ///< the growth that one axis alone would have, less the other's
     /// How many times more of the gradients it explains than any shift that is not beside it.
     Eigen::Vector2d lead = Eigen::Vector2d::Zero();
   };

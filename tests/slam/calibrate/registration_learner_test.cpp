@@ -15,6 +15,7 @@ namespace {
 enum class Print {
   kBoards,  ///< each in a grey of its own
   kRims,    ///< boards whose left and lower rims, 7 pixels wide, stand out more than their ends
+  kTopRims,  ///< boards with a rim along their upper ends alone, 3 pixels wide, which stand out less
   kNothing,  ///< none: noise
   kBlinds,   ///< the whole image has stripes of one width
 };
@@ -62,6 +63,10 @@ void LearnMore(const Recording& recording, RegistrationLearner& learner) {
         constexpr double kRim_px = 7.0;
         FillExactly(gray, u0, v0, u1, v1, 140.0f);
         FillExactly(gray, u0 + kRim_px, v0, u1, v1 - kRim_px, 90.0f);
+      }
+      if (recording.print == Print::kTopRims) {
+        FillExactly(gray, u0, v0, u1, v1, 130.0f);
+        FillExactly(gray, u0, v0 + 3.0, u1, v1, 40.0f);
       }
       if (recording.print != Print::kBoards) continue;
       FillExactly(gray, u0 + by.x, v0 + by.y, u1 + by.x, v1 + by.y,
@@ -151,6 +156,17 @@ TEST(RegistrationLearner, TakesNoRimsForAShiftOfASensorThatMakesNothingMuchWider
   // The rims explain as much as the ends do: edges tell too little here, whatever the sensor.
   EXPECT_FALSE(kinect1.estimate()->clear);
   EXPECT_TRUE(kinect1.R_dc().isIdentity(0.0));
+}
+
+TEST(RegistrationLearner, TakesNoRimOfOneSideForAShift) {
+  // Upper ends seem 3 pixels lower: half of that is a shift, half a growth that left and right ends
+  // do not show. All epochs agree.
+  const RegistrationLearner learner = Learn({.print = Print::kTopRims});
+  ASSERT_TRUE(learner.estimate());
+  EXPECT_TRUE(learner.estimate()->clear);
+  EXPECT_GT(learner.estimate()->shift_px.y(), 1.0);
+  EXPECT_GT(learner.estimate()->sigma_px.y(), 1.0);
+  EXPECT_TRUE(learner.R_dc().isIdentity(0.0));
 }
 
 TEST(RegistrationLearner, LearnsNothingWhileTheCameraStands) {
