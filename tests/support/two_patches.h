@@ -23,6 +23,7 @@ struct TwoPatches {
   double told_step_m = 0.0;               ///< that they tell of; 0: the true one
   double bend_ratio = 0.0;                ///< of the sensor
   bool reverse = false;                   ///< the order of the frame's planes
+  bool told_of_larger = false;            ///< the step is the larger patch's height
 
   Map map;
   Frame frame;  ///< the last one
@@ -73,6 +74,7 @@ struct TwoPatches {
     const double step_m = told_step_m != 0 ? told_step_m : height_m;
     const int lesser = static_cast<int>(IndexOf(kLesser));
     frame.plane_steps = {{lesser, 1 - lesser, step_m, 0.0005}};
+    if (told_of_larger) frame.plane_steps = {{1 - lesser, lesser, -step_m, 0.0005}};
   }
 
   static void Reverse(SeenWorld& seen) {

@@ -168,6 +168,26 @@ TEST(PlaneEvidence, ComparesMapPlanesAlikeHoweverTheWorldIsTurned) {
   }
 }
 
+TEST(PlaneEvidence, OfAFramePlaneIsAlikeHoweverTheWorldIsTurned) {
+  // Seen at two places in a row: known well along the row, badly across.
+  const FramePlane f = PatchAt({0.3, 0.2, 1.5}, {0.05, 0.02, -1}, 1e-3, 1e-3);
+  const auto chi2 = [&](const Pose& T_cw) {
+    const Pose T_wc = Inverse(T_cw);
+    const Plane pi_w = Transform(T_wc, Plane{Eigen::Vector3d(0, 0, -1), 1.505});
+    MapPlane m;
+    for (const double x : {-0.6, 0.6})
+      AddObservation(m.estimate, pi_w, T_wc * Eigen::Vector3d(x, 0, 1.505), 0.05, 0.003, 1.0);
+    m.pi_w = m.estimate.Mean();
+    m.centroid_w = T_wc * Eigen::Vector3d(0, 0, 1.505);
+    return ComparePlanes(f, m, {T_cw, Matrix6d::Zero()}, TinyFloors()).chi2;
+  };
+  const double at_home = chi2({});
+  EXPECT_GT(at_home, 0.1);
+  for (const double turn : {0.3, 1.2, 2.0}) {
+    EXPECT_NEAR(chi2({ExpSo3({0.5 * turn, -0.3, turn}), {1, 2, -1}}), at_home, 1e-6 * at_home);
+  }
+}
+
 constexpr double kPrior_m = 0.006, kMeasured_m = 0.004;
 
 /// The camera, predicted `off_m` too far along the normal of the one plane that it sees.

@@ -55,6 +55,22 @@ TEST(OverlapOfAView, IsTheShareOfTheSmallerFootprintOfThreePointsAtLeast) {
   EXPECT_DOUBLE_EQ(Overlap(view, patch), 1.0 / 3.0);
 }
 
+// What stands in front of a desk takes nothing from its overlap.
+TEST(ViewOfAMapPlane, ExpectsThePointsThatNothingNearerHides) {
+  const Camera camera;
+  Frame frame = HalfAPlane(camera);
+  frame.depth_m(cv::Rect(0, 0, 150, camera.height)).setTo(1.5f);
+  frame.depth_m(cv::Rect(250, 0, 20, camera.height)).setTo(0.0f);  // nothing measured
+  MapPlane m;
+  for (const double u : {50, 100, 200, 220, 260, 300, 400, 700})
+    m.points_w.push_back(PointSeenAt(0, camera, {u, 200}, 2.0).p_w);
+  m.area_m2 = 0.08;
+  const PlaneView view = ViewMapPlane(m, frame, kView_cw, camera);
+  EXPECT_EQ(view.expected, 4);  // at 200, 220, 300 and 400
+  EXPECT_THAT(view.landed, ElementsAre(3));
+  EXPECT_DOUBLE_EQ(view.cell_m2, 0.01);
+}
+
 TEST(FeaturesOnPlanes, AreThoseOnItsPixelsAndLieInTheWorld) {
   const Camera camera;
   Frame frame = HalfAPlane(camera);

@@ -35,6 +35,16 @@ TEST(PlaneSplit, MakesTwoLandmarksOfTwoSurfacesThatThreeFramesShowedBesideAStep)
   }
 }
 
+TEST(PlaneSplit, IsMadeWhicheverSideTheStepIsToldFrom) {
+  for (const double height_m : {0.008, -0.008}) {
+    TwoPatches show;
+    show.height_m = height_m;
+    show.told_of_larger = true;
+    for (int k = 0; k < 4; ++k) show.Next();
+    EXPECT_EQ(Landmarks(show.map).size(), 2u) << height_m;
+  }
+}
+
 TEST(PlaneSplit, IsTheDecisionOnThePlaneThatShowsTheNewLandmark) {
   TwoPatches show;
   for (int k = 0; k < 4; ++k) show.Next();

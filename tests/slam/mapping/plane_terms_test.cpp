@@ -147,6 +147,22 @@ TEST(PlanePriorTerm, CountsSigmasWhereAndAsThePlaneWasSeen) {
   EXPECT_NEAR(r.norm(), 2.0, 1e-9);
 }
 
+TEST(PlanePriorTerm, CountsTheSigmasOfAllPlacesWhereThePlaneWasSeen) {
+  PlaneEstimate estimate;
+  const Plane desk_w{Eigen::Vector3d::UnitZ(), 0.0};
+  constexpr double kLoose_rad = 1e3;
+  AddObservation(estimate, desk_w, {0, 0, 0}, kLoose_rad, 0.003, 1.0);
+  AddObservation(estimate, desk_w, {0.6, 0.8, 0}, kLoose_rad, 0.004, 1.0);
+  // Two sigmas too high at the first place, three at the second, a metre from it.
+  const double slope = 3 * 0.004 - 2 * 0.003;
+  const Eigen::Vector3d n = Eigen::Vector3d(-0.6 * slope, -0.8 * slope, 1).normalized();
+  const PlaneBlock block = BlockOf({n, -n.z() * 0.006}, kReference_w);
+  const double* parameters[] = {block.data()};
+  Eigen::Vector3d r;
+  PlanePriorTerm(estimate, kReference_w).Evaluate(parameters, r.data(), nullptr);
+  EXPECT_NEAR(r.squaredNorm(), 4 + 9, 1e-6);
+}
+
 TEST(PointOnPlaneTerm, CountsSigmasAndHasTheDerivativesOfItsDifferenceQuotients) {
   const PointOnPlaneTerm term(0.005, kReference_w);
   const Eigen::Vector3d p_w = ProjectOnto(kPlane_w, {0.6, 0.4, 1.7}) + 0.01 * kPlane_w.n;

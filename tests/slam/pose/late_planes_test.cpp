@@ -62,7 +62,8 @@ TEST(LatePlanes, SayOfThePoseWhatPoseAndSpeedTogetherDo) {
     const auto seen_at = [&](const Pose& T_cw) {
       NormalEquations at;
       const Vector6d r = Log(late.SeenFrom(T_cw)) - measured;
-      at.H = seen, at.g = seen * r, at.cost = 0.5 * r.dot(seen * r);
+      at.H = seen.triangularView<Eigen::Upper>();  // as it is summed
+      at.g = seen * r, at.cost = 0.5 * r.dot(seen * r);
       return at;
     };
     const NormalEquations by_pose = late.OfPose(seen_at(Pose{}));

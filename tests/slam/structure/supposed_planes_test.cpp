@@ -68,6 +68,21 @@ TEST(SupposedPlanes, AreLeftAloneByEdgesElsewhereAndByUntrustedPlanes) {
   EXPECT_TRUE(board.Constraints().empty());
 }
 
+TEST(SupposedPlanes, OfTwoNearAnEdgeHoldItByTheNearer) {
+  SeenBoard board;
+  board.config.max_offset_m = 0.005;
+  FramePlane& plane = board.frame.planes[0];
+  plane.lines_c.push_back(plane.lines_c[0]);
+  plane.lines_c[1].P.x() += 0.02;
+  board.Learn(5);
+  ASSERT_EQ(board.Supposed().size(), 2u);
+  board.config.max_offset_m = 0.03;
+  const auto constraints = board.Constraints();
+  ASSERT_EQ(constraints.size(), 2u);
+  for (const PlaneConstraint& c : constraints)
+    EXPECT_THAT(c.pi_w, PlaneNear(Transform(Inverse(board.T_cw), c.pi_c), 1e-9, 1e-9));
+}
+
 TEST(SupposedPlanes, OfAFewFramesAreForgotten) {
   SeenBoard board;
   board.Learn(1);
