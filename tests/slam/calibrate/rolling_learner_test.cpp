@@ -19,6 +19,8 @@ struct Shutter {
   int frames = 120;
   double speed = 1.0;     ///< 0: the camera stands
   bool same_way = false;  ///< each frame moves as the keyframe did that made the points
+  bool keyframe_moves = false;
+  Pose T_wk = {};  ///< of that keyframe
 };
 
 Vector6d SpeedOf(Random& random) {
@@ -49,6 +51,7 @@ PlacedPoints Place(const Camera& camera, const Shutter& shutter, const Vector6d&
   map.keyframes.resize(1);
   Keyframe& keyframe = map.keyframes[0];
   keyframe.id = 0;
+  keyframe.T_cw = Inverse(shutter.T_wk);
   keyframe.readout.speed = speed;
   Random random{3};
   for (int i = 0; i < kPoints; ++i) {
@@ -56,7 +59,7 @@ PlacedPoints Place(const Camera& camera, const Shutter& shutter, const Vector6d&
     const Eigen::Vector3d x_c =
         camera.Backproject({40 + 560 * random.Uniform(), 40 + 400 * random.Uniform()}, z_m);
     MapPoint point;
-    point.p_w = camera.Backproject(Seen(camera, shutter.read_s, speed, x_c), z_m);
+    point.p_w = shutter.T_wk * camera.Backproject(Seen(camera, shutter.read_s, speed, x_c), z_m);
     point.observations[0] = i;
     map.points.push_back(point);
     points.true_c.push_back(x_c);
@@ -70,7 +73,8 @@ RollingLearner LearnShutter(const Shutter& shutter, const RollingConfig& config 
   Random random{7};
   const Vector6d first = SpeedOf(random);
   const Vector6d keyframe_speed =
-      shutter.same_way ? Vector6d(shutter.speed * first) : Vector6d(Vector6d::Zero());
+      shutter.same_way || shutter.keyframe_moves ? Vector6d(shutter.speed * first)
+                                                 : Vector6d(Vector6d::Zero());
   const PlacedPoints points = Place(camera, shutter, keyframe_speed);
   RollingLearner learner(camera, scale, config);
   for (int i = 0; i < shutter.frames; ++i) {
@@ -79,7 +83,7 @@ RollingLearner LearnShutter(const Shutter& shutter, const RollingConfig& config 
     frame.speed.mean = shutter.speed * (shutter.same_way ? first : any);
     frame.readout = learner.ReadoutAt(frame.speed.mean);
     // Where the camera is is known but for what tracking makes of a wrong shutter.
-    frame.T_cw = Exp(0.001 * Vector6d(SpeedOf(random)));
+    frame.T_cw = Exp(0.001 * Vector6d(SpeedOf(random))) * Inverse(shutter.T_wk);
     const double left_s = shutter.read_s - frame.readout.taken_out_s;
     for (int k = 0; k < kPoints; ++k) {
       PointFeature feature;
@@ -101,6 +105,19 @@ TEST(RollingLearner, TellsTheTimeFromTheFirstRowToTheLast) {
     EXPECT_LT(estimate->sigma_s, 0.004);
     EXPECT_NEAR(estimate->applied_s, read_s, 0.1 * std::abs(read_s) + 0.001);
   }
+}
+
+TEST(RollingLearner, TellsItHoweverTheWorldIsTurned) {
+  const auto read_s = [](const Eigen::Vector3d& turn) {
+    const Pose T_wk{ExpSo3(turn), {1, -2, 0.5}};
+    const auto estimate =
+        LearnShutter({.read_s = 0.026, .keyframe_moves = true, .T_wk = T_wk}).estimate();
+    return estimate ? estimate->read_s : 0.0;
+  };
+  const double at_home_s = read_s({0, 0, 0});
+  EXPECT_NEAR(at_home_s, 0.026, 0.002);
+  for (const Eigen::Vector3d& turn : {Eigen::Vector3d(0.5, 1.2, -0.4), Eigen::Vector3d(0, 3, 0)})
+    EXPECT_NEAR(read_s(turn), at_home_s, 1e-6) << turn.transpose();
 }
 
 TEST(RollingLearner, LeavesAGlobalShutterAlone) {

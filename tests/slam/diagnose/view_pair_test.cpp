@@ -48,6 +48,43 @@ TEST(ViewPair, OneStepFromEachSmallErrorLeadsToTheTrueIntrinsics) {
   }
 }
 
+Eigen::Vector2d PixelOf(const Eigen::Vector3d& p) {
+  return {kTrue[0] * p.x() / p.z() + kTrue[2], kTrue[1] * p.y() / p.z() + kTrue[3]};
+}
+
+/// Where the row that sees it finds a point that is at p when the middle row is read.
+Eigen::Vector3d AtItsRow(const Eigen::Vector3d& p, double read_s, const Vector6d& speed) {
+  Eigen::Vector3d at = p;
+  for (int k = 0; k < 6; ++k) {
+    const double row = PixelOf(at).y() / 480.0 - 0.5;
+    at = Exp(row * read_s * speed) * p;
+  }
+  return at;
+}
+
+TEST(ViewPair, ARollingShutterIsNoWrongCameraHoweverTheViewsAreTurned) {
+  constexpr double kRead_s = 0.005;
+  const ViewMotion motion{(Vector6d() << 0.1, 0.2, -0.1, 0.6, -0.8, 0.4).finished(),
+                          (Vector6d() << -0.2, 0.1, 0.1, -0.2, 0.3, 0.3).finished(), 480.0};
+  for (const double roll : {0.06, 0.8, 1.5}) {
+    const Pose T_21{ExpSo3({0.08, -0.16, 0.0}) * ExpSo3({0, 0, roll}), {0.05, -0.02, 0.03}};
+    std::vector<TwiceSeen> points = SeenExactly(200, T_21);
+    for (TwiceSeen& point : points) {
+      const Eigen::Vector3d ray((point.first_u_px.x() - kTrue[2]) / kTrue[0],
+                                (point.first_u_px.y() - kTrue[3]) / kTrue[1], 1.0);
+      const Eigen::Vector3d p_1 = point.first_z_m * ray;
+      const Eigen::Vector3d at_1 = AtItsRow(p_1, kRead_s, motion.first_per_s);
+      const Eigen::Vector3d at_2 = AtItsRow(T_21 * p_1, kRead_s, motion.second_per_s);
+      point = {PixelOf(at_1), PixelOf(at_2), at_1.z(), at_2.z(), 1.0};
+    }
+    ViewPair pair(points, T_21, motion);
+    const IntrinsicsEvidence evidence = pair.Evidence(kTrue);
+    ASSERT_TRUE(evidence.usable);
+    const Intrinsics step = -evidence.information.ldlt().solve(evidence.gradient);
+    EXPECT_LT(std::sqrt(step.dot(evidence.information * step)), 1.0) << roll;  // sigmas
+  }
+}
+
 TEST(ViewPair, FindsTheMotionFromAPoorGuess) {
   const Pose guess =
       Exp((Vector6d() << 0.03, -0.02, 0.02, 0.02, -0.03, 0.02).finished()) * kT21;

@@ -46,6 +46,17 @@ TEST(DepthRegistration, OfAWallIsThatWallWithoutHolesInAFinerImage) {
   }
 }
 
+TEST(DepthRegistration, TellsTheDepthThatTheColourCameraSees) {
+  // The colour camera stands a quarter of a metre behind the depth camera.
+  const Camera camera = SmallView(64, 48, 60);
+  Pose T_cd;
+  T_cd.t = {0, 0, 0.25};
+  const cv::Mat1f laid =
+      DepthRegistration(camera, camera, T_cd).Register(cv::Mat1f(48, 64, 2.0f));
+  EXPECT_EQ(laid(24, 32), 2.25f);
+  EXPECT_EQ(laid(10, 50), 2.25f);
+}
+
 TEST(DepthRegistration, KeepsTheNearerOfTwoSurfaces) {
   // A strip at 0.5 m before a wall at 2 m; the colour camera is 10 cm to the right.
   const Camera camera = SmallView(64, 48, 60);

@@ -89,6 +89,16 @@ TEST_F(Sequences, GiveColourGrayAndDepthInMetresOfEachFrame) {
   EXPECT_THROW(reader.Read(3), std::invalid_argument);
 }
 
+TEST_F(Sequences, TellHowMuchLaterThanColourDepthIs) {
+  WriteImages(0), WriteImages(1);
+  WriteText("associations.txt",
+            "1.0 rgb/0.png 1.015 depth/0.png\n1.1 rgb/1.png 1.09 depth/1.png\n");
+  SequenceReader reader(folder_, camera_);
+  ASSERT_EQ(reader.size(), 2);
+  EXPECT_NEAR(reader.Read(0).depth_late_s, 0.015, 1e-9);
+  EXPECT_NEAR(reader.Read(1).depth_late_s, -0.01, 1e-9);
+}
+
 TEST_F(Sequences, ReadTheSameWithAndWithoutPrefetchAndInAnyOrder) {
   WriteFrames({"1", "2", "3", "4"});
   SequenceReader ahead(folder_, camera_), plain(folder_, camera_, {.prefetch = false});

@@ -72,6 +72,9 @@ TEST(LookAlike, MayEndWithTheMapButNeedsSomeLikeness) {
   const auto found = FindLookAlike(half.frame, half.map, config);
   ASSERT_TRUE(found);
   EXPECT_EQ(found->alike, 20);
+  // Of the little that stands there everything is alike.
+  const RepeatingWall quarter(config.min_alike, 0);
+  EXPECT_TRUE(FindLookAlike(quarter.frame, quarter.map, config));
   EXPECT_FALSE(FindLookAlike(few.frame, few.map, config));
   EXPECT_FALSE(FindLookAlike(RepeatingWall(0, 0).frame, RepeatingWall(0, 0).map, config));
 }
