@@ -191,6 +191,30 @@ TEST_F(OwnMesh, KeepsTheHoleOfAFrameOutOfItsTop) {
   EXPECT_EQ(frame.planes.size(), 10u);
 }
 
+TEST_F(OwnMesh, TakesItsHolesAlongWhereItStands) {
+  Object object;
+  object.shape = ShapeKind::kMesh;
+  object.model = std::make_shared<Model>(Read(Frame()));
+  object.center_w = {1, 2, 3};
+  object.q_wo = Eigen::AngleAxisd(0.7, Vector3d(1, 2, 3).normalized());
+  Scene scene;
+  scene.objects = {object};
+  int holes = 0;
+  for (const ScenePlane& plane : ScenePlanes(scene)) {
+    for (const auto& hole : plane.holes_w) {
+      ++holes;
+      Vector3d middle = Vector3d::Zero(), hole_middle = Vector3d::Zero();
+      for (const Vector3d& x_w : plane.vertices_w) middle += x_w / 4;
+      for (const Vector3d& x_w : hole) {
+        EXPECT_NEAR(plane.n_w.dot(x_w) + plane.d, 0.0, kSingle_m);
+        hole_middle += x_w / 4;
+      }
+      EXPECT_LT((middle - hole_middle).norm(), kSingle_m);  // a frame is as wide all round
+    }
+  }
+  EXPECT_EQ(holes, 2);
+}
+
 // Pulled up by h, the fourth corner of a quad stands h / 4 or less off the plane that fits
 // best.
 TEST_F(OwnMesh, TakesANearlyFlatQuadForOnePlaneUpToTheTolerance) {

@@ -90,6 +90,21 @@ TEST(Replay, GoesHalfWayBetweenTwoPoses) {
   EXPECT_NEAR(at_20[2].T_wc.t.x(), 0.2, 1e-12);
 }
 
+// A quaternion and its negative are one rotation: cameras that look down pass from one to the other.
+TEST(Replay, GoesHalfWayWhereTheQuaternionsSignChanges) {
+  for (const Eigen::Vector3d& axis :
+       {Eigen::Vector3d(-1, 0, 0), Eigen::Vector3d(0, -1, 0), Eigen::Vector3d(0, 0, -1)}) {
+    const auto turned = [&](double deg) {
+      return Eigen::AngleAxisd(DegToRad(deg), axis).toRotationMatrix();
+    };
+    std::vector<TimedPose> poses(2);
+    poses[0].T_wc.R = turned(118);
+    poses[1].T_wc.R = turned(122);
+    poses[1].timestamp_s = 0.1;
+    EXPECT_LT((Replay(poses, 3, 20)[1].T_wc.R - turned(120)).norm(), 1e-9);
+  }
+}
+
 TEST(Replay, RefusesMoreThanWasRecorded) {
   std::vector<TimedPose> poses(3);
   poses[1].timestamp_s = 0.1;

@@ -31,6 +31,23 @@ TEST(NoisyColour, VariesAsShotAndReadNoiseSay) {
   }
 }
 
+TEST(NoisyColour, IsDrawnForEachChannelByItself) {
+  const cv::Mat3f radiance(200, 200, cv::Vec3f(0.2F, 0.2F, 0.2F));
+  const cv::Mat3b image =
+      MeasureColour(radiance, ColourModel{.corner_loss = 0}, PixelNoise(5, 0));
+  cv::Mat pixels, covariance, mean;
+  image.reshape(1, static_cast<int>(image.total())).convertTo(pixels, CV_64F);
+  cv::calcCovarMatrix(pixels, covariance, mean, cv::COVAR_NORMAL | cv::COVAR_ROWS);
+  for (int i = 0; i < 3; ++i) {
+    for (int j = 0; j < i; ++j) {
+      const double correlation =
+          covariance.at<double>(i, j) /
+          std::sqrt(covariance.at<double>(i, i) * covariance.at<double>(j, j));
+      EXPECT_NEAR(correlation, 0.0, 5 / std::sqrt(40000.0));
+    }
+  }
+}
+
 /// Variance of linear light where the mean is `light`: of many pixels, through a gamma of 1 and
 /// without the 1/12 of 8 bits.
 double LinearVariance(const ColourModel& model, float light) {

@@ -70,6 +70,17 @@ double ShareLost(double z_m, double theta_rad, double infrared, double gloss = 0
 
 double Phi(double x) { return 0.5 * std::erfc(-x / std::sqrt(2.0)); }
 
+TEST(ReturnAtOneMetre, PassesTheGlassOnTheWayInAndOut) {
+  for (const double cosine : {1.0, 0.5, 0.2}) {
+    for (const double gloss : {0.3, 1.0}) {
+      const double below =
+          ReturnAtOneMetre(0.4, gloss, cosine) - ReturnAtOneMetre(0.0, gloss, cosine);
+      const double through = 1 - gloss * GlassReflection(cosine);
+      EXPECT_NEAR(below, 0.4 * cosine * through * through, 1e-12);
+    }
+  }
+}
+
 TEST(ReturnLoss, LosesWhatTheLawSaysByAlbedoDistanceAndAngle) {
   struct Case {
     double z_m, theta_rad, infrared;

@@ -53,6 +53,16 @@ TEST(PlanePairs, SignTheStepFromTheFirstToTheSecond) {
   EXPECT_NEAR(Tops(TwoBoards(0.03, -0.005, 0), 1, 2)->step_mm, -5, kRoundOff);
 }
 
+TEST(PlanePairs, MeasureTheStepAlongTheFirstNormal) {
+  // The second top, tilted by ten degrees, comes nearest with the lower end of its slope.
+  const double tilt = 10 * M_PI / 180;
+  const auto pair = Tops(TwoBoards(0.03, 0.005, tilt), 1, 2);
+  ASSERT_TRUE(pair.has_value());
+  // Corner (-0.1, 0.01) of the turned box, from its middle at the height of 5 mm.
+  const double up_m = 0.005 + 0.1 * std::sin(tilt) + 0.01 * std::cos(tilt);
+  EXPECT_NEAR(pair->step_mm, 1000 * (up_m - 0.01), kRoundOff);
+}
+
 TEST(PlanePairs, SayThatABookOnADeskOverlapsIt) {
   const auto pair = Tops(SmallDesk(), 3, 4);
   ASSERT_TRUE(pair.has_value());

@@ -59,7 +59,8 @@ PlacedPoints Place(const Camera& camera, const Shutter& shutter, const Vector6d&
     const Eigen::Vector3d x_c =
         camera.Backproject({40 + 560 * random.Uniform(), 40 + 400 * random.Uniform()}, z_m);
     MapPoint point;
-    point.p_w = shutter.T_wk * camera.Backproject(Seen(camera, shutter.read_s, speed, x_c), z_m);
+    point.p_w =
+        shutter.T_wk * camera.Backproject(Seen(camera, shutter.read_s, speed, x_c), z_m);
     point.observations[0] = i;
     map.points.push_back(point);
     points.true_c.push_back(x_c);
@@ -72,9 +73,9 @@ RollingLearner LearnShutter(const Shutter& shutter, const RollingConfig& config 
   const FeatureScale scale;
   Random random{7};
   const Vector6d first = SpeedOf(random);
-  const Vector6d keyframe_speed =
-      shutter.same_way || shutter.keyframe_moves ? Vector6d(shutter.speed * first)
-                                                 : Vector6d(Vector6d::Zero());
+  const Vector6d keyframe_speed = shutter.same_way || shutter.keyframe_moves
+                                      ? Vector6d(shutter.speed * first)
+                                      : Vector6d(Vector6d::Zero());
   const PlacedPoints points = Place(camera, shutter, keyframe_speed);
   RollingLearner learner(camera, scale, config);
   for (int i = 0; i < shutter.frames; ++i) {
@@ -116,7 +117,8 @@ TEST(RollingLearner, TellsItHoweverTheWorldIsTurned) {
   };
   const double at_home_s = read_s({0, 0, 0});
   EXPECT_NEAR(at_home_s, 0.026, 0.002);
-  for (const Eigen::Vector3d& turn : {Eigen::Vector3d(0.5, 1.2, -0.4), Eigen::Vector3d(0, 3, 0)})
+  for (const Eigen::Vector3d& turn :
+       {Eigen::Vector3d(0.5, 1.2, -0.4), Eigen::Vector3d(0, 3, 0)})
     EXPECT_NEAR(read_s(turn), at_home_s, 1e-6) << turn.transpose();
 }
 

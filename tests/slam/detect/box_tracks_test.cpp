@@ -145,8 +145,8 @@ TEST(BoxTracks, FillsABoxAtRestWhereItRestsThoughTheDetectorJitters) {
     BoxTracks tracks({}, kImage);
     for (int i = 0; i < kSeen; ++i) {
       Detection seen = rest[0];
-      for (double* side :
-           {&seen.box_px.min.x(), &seen.box_px.min.y(), &seen.box_px.max.x(), &seen.box_px.max.y()})
+      for (double* side : {&seen.box_px.min.x(), &seen.box_px.min.y(), &seen.box_px.max.x(),
+                           &seen.box_px.max.y()})
         *side += 4 * (random.Uniform() + random.Uniform() - 1);
       tracks.Update(i * kFrame_s, {seen});
     }
