@@ -7,6 +7,7 @@
 
 #include "eval/formats/pose/trajectory.h"
 #include "eval/formats/run/run.h"
+#include "eval/formats/sequence/image_lists.h"
 #include "eval/formats/sequence/sequence.h"
 #include "io/atomic_file.h"
 #include "io/input_error.h"
@@ -57,6 +58,17 @@ class ReadFolders : public ::testing::Test {
       fs::path(::testing::TempDir()) / ("pas_read_" + std::to_string(::getpid()));
   Folder in_{folder_};
 };
+
+TEST_F(ReadFolders, PairsTheNearestImagesFirst) {
+  Folder folder(folder_);
+  const auto frames =
+      AssociateByTime(folder, {{1.0, "rgb/a", 1}, {1.018, "rgb/b", 2}, {1.05, "rgb/c", 3}},
+                      {{1.015, "depth/a", 1}, {1.049, "depth/b", 2}, {1.06, "depth/c", 3}});
+  ASSERT_EQ(frames.size(), 2u);
+  EXPECT_EQ(frames[0].rgb + " " + frames[0].depth, "rgb/b depth/a");
+  EXPECT_EQ(frames[1].rgb + " " + frames[1].depth, "rgb/c depth/b");
+  EXPECT_EQ(frames[1].depth_stamp_s, 1.049);
+}
 
 TEST_F(ReadFolders, ReadTheUpperTriangleOfACovarianceRowByRow) {
   Write("trajectory_covariance.txt",

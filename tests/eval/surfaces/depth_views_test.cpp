@@ -3,6 +3,7 @@
 #include <unistd.h>
 
 #include "eval/surfaces/depth_registration.h"
+#include "eval/surfaces/depth_views.h"
 #include "eval/trajectory/true_pose.h"
 #include "io/atomic_file.h"
 #include "io/input_error.h"
@@ -33,6 +34,20 @@ DepthRegistration Kitchen() {
   registration.colour = {640, 480, 525.93, 525.93, 322.43, 236.17, 30, 1000, {}};
   registration.T_colour_depth.t = {-0.0313, 0.0065, 0};
   return registration;
+}
+
+TEST(DepthViews, AreSeenFromWhereTheCameraWasWhenDepthWasTaken) {
+  Sequence sequence;
+  sequence.groundtruth.emplace(2);
+  (*sequence.groundtruth)[0].stamp_s = 1.0;
+  (*sequence.groundtruth)[1] = {1.1, {Eigen::Matrix3d::Identity(), {1, 0, 0}}};
+  sequence.frames = {
+      {1.0, "", 1.015, "", 0}, {1.05, "", 1.04, "", 0}, {1.09, "", 1.105, "", 0}};
+  const DepthViews views(sequence, Kitchen().colour, std::nullopt);
+  ASSERT_EQ(views.size(), 2u) << "the last one's depth was taken after the last pose";
+  EXPECT_NEAR(views.PoseOf(0).t.x(), 0.15, 1e-9);
+  EXPECT_NEAR(views.PoseOf(1).t.x(), 0.4, 1e-9);
+  EXPECT_EQ(views.StampOf(0), 1.0);
 }
 
 TEST(LayOnColour, PutsADepthWhereTheColourCameraSeesItWithoutHoles) {

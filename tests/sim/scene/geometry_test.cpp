@@ -51,5 +51,15 @@ TEST(Corners, AreTheEightOfTheTurnedBox) {
   EXPECT_LT((Corners(box)[0] - Eigen::Vector3d(2, -1, -3)).norm(), kRoundOff_m);
 }
 
+TEST(ObjectAt, TurnsAboutTheWorldsUprightWhateverTheObjectsOwnRotation) {
+  Object leaning = UnitBox({0, 0, 0}, {30, 0, 0});
+  leaning.way = {{0, {0, 0, 0}, 0}, {2, {1, 0, 0}, 180}};
+  const Pose half_way = ObjectPoseAt(leaning, 1.0);
+  EXPECT_NEAR(half_way.t.x(), 0.5, kRoundOff_m);
+  // Its own z leans back, towards -y; a quarter turn later towards +x.
+  const Eigen::Vector3d up_w = half_way.R.col(2);
+  EXPECT_LT((up_w - Eigen::Vector3d(0.5, 0, std::cos(DegToRad(30)))).norm(), kRoundOff_m);
+}
+
 }  // namespace
 }  // namespace sim

@@ -108,6 +108,24 @@ TEST(WhatMoves, LooksAsIfItStoodThere) {
   }
 }
 
+TEST(WhatMoves, HidesWhatItWouldHideIfItStoodThere) {
+  const Camera camera = SmallCamera();
+  const Pose T_wc = LookAt({0.2, -1.1, 1.5}, {0, 0, 0.8});
+  for (const double time_s : {0.5, 0.8, 1.3}) {
+    const TwoDesks desks(time_s);
+    const FrameRenderer moving(desks.moving, camera), frozen(desks.frozen, camera);
+    int hidden = 0;
+    for (double x = -0.7; x < 0.7; x += 0.05) {
+      for (double y = -0.4; y < 0.6; y += 0.05) {
+        const bool seen = frozen.Sees(T_wc, {x, y, 0.751}, 0.0);
+        EXPECT_EQ(moving.Sees(T_wc, {x, y, 0.751}, time_s), seen) << x << " " << y;
+        hidden += !seen;
+      }
+    }
+    EXPECT_GT(hidden, 10);
+  }
+}
+
 TEST(WhatMoves, HasTheTruthOfItsMoment) {
   const Camera camera = SmallCamera();
   const Pose T_wc = LookAt({0.2, -1.1, 1.5}, {0, 0, 0.8});
