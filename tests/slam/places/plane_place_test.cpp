@@ -65,6 +65,9 @@ TEST(PlanePlace, OfARoomIsFoundByItsAnglesAndDistances) {
     ASSERT_TRUE(place.pose);
     EXPECT_THAT(place.pose->T_cw, PoseNear(T_cw, 0.003, 0.004));
     EXPECT_FALSE(place.ambiguous);
+    // With the planes it is known better than before they were counted.
+    for (int k = 0; k < 6; ++k)
+      EXPECT_LT(2 * place.pose->covariance(k, k), place.before(k, k)) << k;
   }
 }
 
@@ -102,6 +105,23 @@ TEST(PlanePlace, IsNotBelievedWhereMostOfWhatIsSeenIsNew) {
     full.AddBox({x + 0.2, 0.75, 0}, {0.25, 0.2, 0.6}, -0.3, "");
   }
   EXPECT_FALSE(Find(full, MapOf(FurnishedRoom(), RoomViews(), SmallCamera()), kSeenFrom).pose);
+}
+
+TEST(GuessedPlaces, HoldTheTrueOneBetweenWallsThatAreNotSquare) {
+  PlaneWorld world;
+  const double skew = 0.6;
+  world.Add({0, 0, 0}, {2, 0, 0}, {0, 2, 0}, "");
+  world.Add({0, 2, 1}, {2, 0, 0}, {0, 0, 1}, "");
+  world.Add({2, 0, 1}, {0, 0, 1}, {2 * std::sin(skew), 2 * std::cos(skew), 0}, "");
+  const Map map = MapOf(world, RoomViews(), SmallCamera());
+  const Frame frame = See(world, kSeenFrom, SmallCamera(), {}, Random{7}).frame;
+  ASSERT_EQ(frame.planes.size(), 3u);
+  double nearest_m = 1.0;
+  for (const UncertainPose& guess : GuessPlaces(frame, KnownPlanes(map), {})) {
+    const Pose off = guess.T_cw * Inverse(kSeenFrom);
+    if (Log(off).tail<3>().norm() < 0.01) nearest_m = std::min(nearest_m, off.t.norm());
+  }
+  EXPECT_LT(nearest_m, 0.01);
 }
 
 TEST(PlanePlace, OfABareCornerIsNotFound) {
