@@ -72,5 +72,38 @@ TEST(LateDepth, DoesNotMakeAPushSwingOn) {
   }
 }
 
+/// To and fro before the front wall, 0.3 m/s either way, turning every sixth of a second.
+Pose ShakenAt(double s) {
+  const double there = std::fmod(std::max(s, 0.0), 1.0 / 3);
+  return {Eigen::Matrix3d::Identity(), {0, 0, -0.3 * std::min(there, 1.0 / 3 - there)}};
+}
+
+TEST(LateDepth, TellsPlanesByTheSpeedThatPointsHaveFound) {
+  // Where the hand turns, what the last frames say of its speed is 20 ms of 0.6 m/s off: 12 mm, in
+  // the frame that turns and, were the speed not asked for again, in the next.
+  const TexturedCorner corner;
+  auto frames = SeenStream(kFrames, corner, [](int i) { return ShakenAt(i / 30.0); });
+  const auto later =
+      SeenStream(kFrames, corner, [](int i) { return ShakenAt(i / 30.0 + 0.02); });
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    frames[i].depth_m = later[i].depth_m;
+    frames[i].depth_late_s = 0.02;
+  }
+  const Ran ran = RunOn(std::move(frames), Variant::kFull);
+  double sum2 = 0.0;
+  int seen = 0;
+  for (std::size_t i = 10; i < ran.planes.size(); ++i) {
+    const auto line = nlohmann::json::parse(ran.planes[i]);
+    for (const auto& plane : line.at("planes")) {
+      if (plane.at("normal")[2].get<double>() > -0.99) continue;  // not the front wall
+      const double true_m = 2.0 + ShakenAt(static_cast<double>(i) / 30.0).t.z();
+      sum2 += std::pow(plane.at("d").get<double>() - true_m, 2);
+      ++seen;
+    }
+  }
+  ASSERT_GT(seen, 40);
+  EXPECT_LT(std::sqrt(sum2 / seen), 0.0038);
+}
+
 }  // namespace
 }  // namespace slam
