@@ -11,7 +11,6 @@
 #include <sstream>
 
 #include "io/input_error.h"
-#include "slam/run/map_file.h"
 #include "slam/run/text_number.h"
 #include "tests/support/map_surfaces.h"
 
@@ -255,19 +254,6 @@ TEST_F(RunFolder, TakesALaterTrajectoryInPlaceOfTheOneAsTracked) {
   EXPECT_EQ(Lines(run_ / "trajectory.txt")[1], "1305031102.175304 0 0 0 0 0 0 1");
 }
 
-TEST_F(RunFolder, SaysWhatAPlaneWasSplitFromAndNothingOfSplitsElsewhere) {
-  Map map = SomeMap();
-  map.planes.At(1).split_from = 0;
-  map.planes.At(1).split_at_s = 2.25;
-  RunWriter writer(run_, Info(), {});
-  writer.Finish(map, {}, {});
-  const json planes = json::parse(Bytes(run_ / "map.json"))["planes"];
-  EXPECT_EQ(planes[1]["split_from"], 0);
-  EXPECT_EQ(planes[1]["split_at"], 2.25);
-  EXPECT_FALSE(planes[0].contains("split_from"));
-  EXPECT_FALSE(planes[0].contains("split_at"));
-}
-
 TEST_F(RunFolder, HoldsTheMapWithItsMergedPlanesAndItsPoints) {
   WriteRun(run_, {});
   const json map = json::parse(Bytes(run_ / "map.json"));
@@ -400,15 +386,6 @@ TEST_F(RunFolder, RefusesWhatMustNotBeWritten) {
   frame = SomeFrame(1);
   frame.plane_matches.pop_back();
   EXPECT_THROW(writer.WriteFrame({frame, true, {}, "", {}}), std::invalid_argument);
-}
-
-TEST(PlaneColour, TellsNeighbouringIdsApart) {
-  for (int id = 0; id < 100; ++id) {
-    const auto a = PlaneColour(id), b = PlaneColour(id + 1);
-    int difference = 0;
-    for (std::size_t i = 0; i < 3; ++i) difference += std::abs(int{a[i]} - int{b[i]});
-    EXPECT_GT(difference, 100) << id;
-  }
 }
 
 }  // namespace
