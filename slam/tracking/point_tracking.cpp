@@ -35,8 +35,8 @@ constexpr int kMinStartPoints = 40;  // balances a bare start against none
 /// Whether planes alone can hold a camera: some two of them that are large enough to be landmarks
 /// at first sight and far from parallel leave at most one direction to its motion.
 bool PlanesCanStart(const std::vector<FramePlane>& planes, double image_px) {
-  constexpr double kMinShare =
-      1.0 / 64;                       // of the image: at 640 x 480 what proves a landmark alone
+  // Of the image: at 640 x 480 what proves a landmark alone.
+  constexpr double kMinShare = 1.0 / 64;
   constexpr double kMaxCosine = 0.9;  // 26 degrees
   const auto counts = [&](const FramePlane& plane) {
     return !plane.bad && plane.pixel_count >= kMinShare * image_px;

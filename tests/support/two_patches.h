@@ -73,8 +73,9 @@ struct TwoPatches {
     if (!shows_step || frame.planes.size() != 2) return;
     const double step_m = told_step_m != 0 ? told_step_m : height_m;
     const int lesser = static_cast<int>(IndexOf(kLesser));
-    frame.plane_steps = {{lesser, 1 - lesser, step_m, 0.0005}};
-    if (told_of_larger) frame.plane_steps = {{1 - lesser, lesser, -step_m, 0.0005}};
+    const FrameStep of_lesser{lesser, 1 - lesser, step_m, 0.0005};
+    const FrameStep of_larger{1 - lesser, lesser, -step_m, 0.0005};
+    frame.plane_steps = {told_of_larger ? of_larger : of_lesser};
   }
 
   static void Reverse(SeenWorld& seen) {

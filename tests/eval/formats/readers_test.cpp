@@ -59,17 +59,6 @@ class ReadFolders : public ::testing::Test {
   Folder in_{folder_};
 };
 
-TEST_F(ReadFolders, PairsTheNearestImagesFirst) {
-  Folder folder(folder_);
-  const auto frames =
-      AssociateByTime(folder, {{1.0, "rgb/a", 1}, {1.018, "rgb/b", 2}, {1.05, "rgb/c", 3}},
-                      {{1.015, "depth/a", 1}, {1.049, "depth/b", 2}, {1.06, "depth/c", 3}});
-  ASSERT_EQ(frames.size(), 2u);
-  EXPECT_EQ(frames[0].rgb + " " + frames[0].depth, "rgb/b depth/a");
-  EXPECT_EQ(frames[1].rgb + " " + frames[1].depth, "rgb/c depth/b");
-  EXPECT_EQ(frames[1].depth_stamp_s, 1.049);
-}
-
 TEST_F(ReadFolders, ReadTheUpperTriangleOfACovarianceRowByRow) {
   Write("trajectory_covariance.txt",
         "# t c11 ...\n2.5 1 0 0 0 0 .5 2 0 0 0 0 3 0 0 0 4 0 0 5 0 6\n"
@@ -140,6 +129,17 @@ TEST_F(ReadFolders, FramesAreAssociatedByNearestTimeWithinTwentyMilliseconds) {
   EXPECT_EQ(sequence.frames[1].depth, "d.png");
   EXPECT_FALSE(sequence.synthetic);
   EXPECT_FALSE(sequence.camera || sequence.groundtruth || sequence.scene);
+}
+
+TEST_F(ReadFolders, PairsTheNearestImagesFirst) {
+  Folder folder(folder_);
+  const auto frames =
+      AssociateByTime(folder, {{1.0, "rgb/a", 1}, {1.018, "rgb/b", 2}, {1.05, "rgb/c", 3}},
+                      {{1.015, "depth/a", 1}, {1.049, "depth/b", 2}, {1.06, "depth/c", 3}});
+  ASSERT_EQ(frames.size(), 2u);
+  EXPECT_EQ(frames[0].rgb + " " + frames[0].depth, "rgb/b depth/a");
+  EXPECT_EQ(frames[1].rgb + " " + frames[1].depth, "rgb/c depth/b");
+  EXPECT_EQ(frames[1].depth_stamp_s, 1.049);
 }
 
 TEST_F(ReadFolders, ADepthImageBelongsToOneFrameAlone) {

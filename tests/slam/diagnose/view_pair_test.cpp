@@ -13,6 +13,16 @@ namespace {
 const Intrinsics kTrue(525.0, 520.0, 319.5, 239.5);
 const Pose kT21{ExpSo3({0.08, -0.16, 0.06}), {0.05, -0.02, 0.03}};
 
+Eigen::Vector2d PixelOf(const Eigen::Vector3d& p) {
+  return {kTrue[0] * p.x() / p.z() + kTrue[2], kTrue[1] * p.y() / p.z() + kTrue[3]};
+}
+
+/// What shows at a pixel, z metres away.
+Eigen::Vector3d PointAt(const Eigen::Vector2d& u_px, double z_m) {
+  return z_m * Eigen::Vector3d((u_px.x() - kTrue[2]) / kTrue[0],
+                               (u_px.y() - kTrue[3]) / kTrue[1], 1.0);
+}
+
 /// Points that a camera of these intrinsics sees from two places, exactly.
 std::vector<TwiceSeen> SeenExactly(int count, const Pose& T_21) {
   Random random{5};
@@ -20,15 +30,8 @@ std::vector<TwiceSeen> SeenExactly(int count, const Pose& T_21) {
   while (static_cast<int>(points.size()) < count) {
     const Eigen::Vector2d u(640 * random.Uniform(), 480 * random.Uniform());
     const double z = 0.8 + 2.0 * random.Uniform();
-    const Eigen::Vector3d p_1((u.x() - kTrue[2]) / kTrue[0] * z,
-                              (u.y() - kTrue[3]) / kTrue[1] * z, z);
-    const Eigen::Vector3d p_2 = T_21 * p_1;
-    points.push_back(
-        {u,
-         {kTrue[0] * p_2.x() / p_2.z() + kTrue[2], kTrue[1] * p_2.y() / p_2.z() + kTrue[3]},
-         z,
-         p_2.z(),
-         1.0});
+    const Eigen::Vector3d p_1 = PointAt(u, z), p_2 = T_21 * p_1;
+    points.push_back({u, PixelOf(p_2), z, p_2.z(), 1.0});
   }
   return points;
 }
@@ -46,10 +49,6 @@ TEST(ViewPair, OneStepFromEachSmallErrorLeadsToTheTrueIntrinsics) {
     // A pixel among 500: what is of second order is a few parts in a thousand.
     EXPECT_LT((step + error).norm(), 0.02) << k;
   }
-}
-
-Eigen::Vector2d PixelOf(const Eigen::Vector3d& p) {
-  return {kTrue[0] * p.x() / p.z() + kTrue[2], kTrue[1] * p.y() / p.z() + kTrue[3]};
 }
 
 /// Where the row that sees it finds a point that is at p when the middle row is read.
@@ -70,9 +69,7 @@ TEST(ViewPair, ARollingShutterIsNoWrongCameraHoweverTheViewsAreTurned) {
     const Pose T_21{ExpSo3({0.08, -0.16, 0.0}) * ExpSo3({0, 0, roll}), {0.05, -0.02, 0.03}};
     std::vector<TwiceSeen> points = SeenExactly(200, T_21);
     for (TwiceSeen& point : points) {
-      const Eigen::Vector3d ray((point.first_u_px.x() - kTrue[2]) / kTrue[0],
-                                (point.first_u_px.y() - kTrue[3]) / kTrue[1], 1.0);
-      const Eigen::Vector3d p_1 = point.first_z_m * ray;
+      const Eigen::Vector3d p_1 = PointAt(point.first_u_px, point.first_z_m);
       const Eigen::Vector3d at_1 = AtItsRow(p_1, kRead_s, motion.first_per_s);
       const Eigen::Vector3d at_2 = AtItsRow(T_21 * p_1, kRead_s, motion.second_per_s);
       point = {PixelOf(at_1), PixelOf(at_2), at_1.z(), at_2.z(), 1.0};
