@@ -1,6 +1,6 @@
 #include "slam/faces/line_support.h"
 
-#include "slam/base/lanes.h"
+#include "slam/base/lane_math.h"
 
 namespace slam {
 namespace {

@@ -18,7 +18,7 @@ constexpr double kSpacing_m = 2e-5;  ///< a twentieth of the steps where it matt
 constexpr double kMaxStepRatio = 4.0;
 /// Depth range that has a table: coarse steps of a user's own model would need no end of it.
 constexpr double kMaxRange_m = 3.0;
-constexpr double kTail = 5.0;  ///< sds of noise that are summed
+constexpr double kSummedTail = 5.0;  ///< sds of noise that are summed
 constexpr int kRounds = 2;  ///< rounds of the fixed point; the second changes less than 0.3 %
 
 double Simple(double z, const D435Model& m) {
@@ -31,8 +31,8 @@ double VarianceOut(double z, double sigma_px, const D435Model& m) {
   double disparity = m.focal_baseline_px_m / z;
   disparity += m.ripple_px * std::sin(2.0 * std::numbers::pi * disparity);
   const auto tick = [&](double d) { return static_cast<long>(std::lround(d / m.grid_px)); };
-  const long first = std::max(1L, tick(disparity - kTail * sigma_px));
-  const long last = tick(disparity + kTail * sigma_px);
+  const long first = std::max(1L, tick(disparity - kSummedTail * sigma_px));
+  const long last = tick(disparity + kSummedTail * sigma_px);
   // Each step of disparity comes out as one depth; the normal law says how often.
   double below = 0, sum = 0, mean = 0, square = 0;
   for (long k = first; k <= last; ++k) {

@@ -10,7 +10,7 @@
 namespace slam {
 namespace {
 
-using EightShorts = std::int16_t __attribute__((vector_size(16), aligned(2), may_alias));
+using EightShorts = std::int16_t __attribute__((vector_size(16)));
 
 }  // namespace
 
@@ -59,7 +59,7 @@ SLAM_LANES void DrawOwners(const BlockPixels& block, const BlockOwner* owners, i
     if (v == block.height) break;
     std::int16_t* row = labels + static_cast<std::ptrdiff_t>(v) * stride;
     if (block.width == kLanes) {
-      *reinterpret_cast<EightShorts*>(row) = rows[v];
+      Store(rows[v], row);
     } else {
       for (int u = 0; u < block.width; ++u) row[u] = rows[v][u];
     }

@@ -91,8 +91,8 @@ SLAM_LANES void LowerToDistance(const BlockPixels& block, const PixelPlane& plan
 #pragma GCC unroll 8
   for (int v = 0; v < kLanes; ++v) {
     const FloatLanes distance = Abs(errors.At(v)) * scale;
-    FloatLanes& entry = Lanes(nearest + kLanes * v);
-    entry = distance < entry ? distance : entry;
+    const FloatLanes entry = Lanes(nearest + kLanes * v);
+    Store(distance < entry ? distance : entry, nearest + kLanes * v);
   }
 }
 
@@ -120,15 +120,16 @@ SLAM_LANES void FindCosts(const BlockPixels& block, const PixelPlane& plane, flo
   for (int v = 0; v < kSide_px; ++v) {
     const FloatLanes left = lefts.At(v - kVoteReach_px), right = rights.At(v - kVoteReach_px);
     const FloatLanes left2 = left * left, right2 = right * right;
-    Lanes(squares + kSide_px * v) = max_square < left2 ? max_square : left2;
-    Lanes(squares + kSide_px * v + 4) = max_square < right2 ? max_square : right2;
+    Store(max_square < left2 ? max_square : left2, squares + kSide_px * v);
+    Store(max_square < right2 ? max_square : right2, squares + kSide_px * v + 4);
   }
 
   // Their sums over five columns, then over five rows.
   for (int v = 0; v < kSide_px; ++v) {
     const float* s = squares + kSide_px * v;
-    Lanes(sums + kLanes * v) =
+    const FloatLanes sum =
         (((Lanes(s) + Lanes(s + 1)) + Lanes(s + 2)) + Lanes(s + 3)) + Lanes(s + 4);
+    Store(sum, sums + kLanes * v);
   }
   const IntLanes columns = ColumnsOf(near);
   const FloatLanes scale = AllLanes(1.0f / (plane.grazing * plane.grazing));
@@ -137,7 +138,7 @@ SLAM_LANES void FindCosts(const BlockPixels& block, const PixelPlane& plane, flo
     const float* s = sums + kLanes * v;
     const FloatLanes sum =
         (((Lanes(s) + Lanes(s + 8)) + Lanes(s + 16)) + Lanes(s + 24)) + Lanes(s + 32);
-    Lanes(costs + kLanes * v) = RowOf(columns, v) ? sum * scale : AllLanes(kNotNear);
+    Store(RowOf(columns, v) ? sum * scale : AllLanes(kNotNear), costs + kLanes * v);
   }
 }
 

@@ -2,7 +2,6 @@
 
 #include <cstddef>
 
-#include "slam/base/lanes.h"
 #include "slam/segment/pixels/depth_grid.h"
 #include "slam/segment/pixels/pixel_labels.h"
 #include "slam/segment/pixels/pixel_set.h"

@@ -9,18 +9,15 @@
 namespace slam {
 namespace {
 
-using FourFloats = float __attribute__((vector_size(16), aligned(4), may_alias));
-using FourInts = int __attribute__((vector_size(16), aligned(4), may_alias));
+using FourFloats = float __attribute__((vector_size(16)));
+using FourInts = int __attribute__((vector_size(16)));
 constexpr int kFour = 4;
 
-SLAM_INLINE FourFloats Floats4(const float* p) {
-  return *reinterpret_cast<const FourFloats*>(p);
-}
 SLAM_INLINE DoubleLanes InDouble(FourFloats v) {
   return DoubleLanes{static_cast<double>(v[0]), static_cast<double>(v[1]),
                      static_cast<double>(v[2]), static_cast<double>(v[3])};
 }
-SLAM_INLINE DoubleLanes Load4(const float* p) { return InDouble(Floats4(p)); }
+SLAM_INLINE DoubleLanes Load4(const float* p) { return InDouble(Load<FourFloats>(p)); }
 
 using TwoDoubles = double __attribute__((vector_size(16)));
 /// SumOf each of two.
@@ -81,7 +78,7 @@ SLAM_INLINE FourSums SumFour(const BlockPixels& block, const BlockWindow& window
 #pragma GCC unroll 1  // sums stay in registers
   for (int v = 0; v < window.side; ++v) {
     const FourInts used = columns << 31 >> 31;
-    const DoubleLanes g_used = InDouble((FourFloats)((FourInts)Floats4(g) & used));
+    const DoubleLanes g_used = InDouble((FourFloats)((FourInts)Load<FourFloats>(g) & used));
     if (kOneX) {
       four.AddColumn(Load4(y), Load4(q), g_used);
     } else {

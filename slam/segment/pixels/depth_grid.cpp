@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "slam/base/lanes.h"
+#include "slam/base/lane_math.h"
 #include "slam/base/require.h"
 
 namespace slam {
@@ -14,15 +14,14 @@ struct FloatNoise {
 
 /// Eight pixels of a row, or one.
 template <typename Number>
-[[gnu::always_inline]] inline void SetDepthAt(Number z, const FloatNoise& noise, Number& q,
-                                              Number& g) {
+SLAM_INLINE void SetDepthAt(Number z, const FloatNoise& noise, float* q, float* g) {
   const Number zero{};
   const auto measured = (z > zero) & (z < zero + noise.farthest);  // false for NaN
   const Number above = z - noise.nearest;
   const Number beyond = above > zero ? above : zero;
   const Number sigma = noise.floor + (noise.slope + noise.growth * beyond) * beyond;
-  q = measured ? 1.0f / z : zero;
-  g = measured ? z * z / sigma : zero;
+  Store(measured ? 1.0f / z : zero, q);
+  Store(measured ? z * z / sigma : zero, g);
 }
 
 }  // namespace
@@ -31,9 +30,8 @@ SLAM_LANES static void SetDepthRow(const float* z, int count, const FloatNoise& 
                                    float* g) {
   const FloatNoise in_float = noise;  // what is written cannot change it
   int u = 0;
-  for (; u + kLanes <= count; u += kLanes)
-    SetDepthAt<FloatLanes>(Lanes(z + u), in_float, Lanes(q + u), Lanes(g + u));
-  for (; u < count; ++u) SetDepthAt<float>(z[u], in_float, q[u], g[u]);
+  for (; u + kLanes <= count; u += kLanes) SetDepthAt(Lanes(z + u), in_float, q + u, g + u);
+  for (; u < count; ++u) SetDepthAt(z[u], in_float, q + u, g + u);
 }
 
 /// Sets column_x and row_y if that is all there is in x and y.

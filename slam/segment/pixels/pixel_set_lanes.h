@@ -2,7 +2,7 @@
 
 #include <cstdint>
 
-#include "slam/base/lanes.h"
+#include "slam/base/lane_math.h"
 
 // Sets of the pixels of a block of 8 x 8 and rows of it, one lane a column. For sources that
 // CMake's pas_lanes names.
