@@ -36,8 +36,9 @@ void PutMoving(const std::string& name, const std::string& class_name, ShapeKind
 
 /// To and fro behind the desk, with the bob of steps.
 void PutWalker(const Table& table, int times, double speed_m_s, Random& random, Scene& scene) {
-  const Eigen::Vector3d size(DrawLength(random, .54, .62), DrawLength(random, .42, .50),
-                             DrawLength(random, 1.58, 1.90));
+  const double height = DrawLength(random, 1.58, 1.90), depth = DrawLength(random, .42, .50),
+               width = DrawLength(random, .54, .62);
+  const Eigen::Vector3d size(width, depth, height);
   const double from = 2.0, y = table.depth / 2 + DrawLength(random, .40, .70);
   const double pace_s = 2 * from / speed_m_s;
   std::vector<Waypoint> way;
@@ -85,8 +86,9 @@ std::vector<Waypoint> Reaches(const Table& table, int times, double speed_m_s, d
 /// A hand, or one that carries a toy. @returns false when something is in its way
 bool PutHand(const Table& table, int times, double speed_m_s, bool toy, double height_m,
              Random& random, Scene& scene) {
-  const Eigen::Vector3d size(DrawLength(random, .12, .14), DrawLength(random, .50, .58),
-                             DrawLength(random, .11, .13));
+  const double height = DrawLength(random, .11, .13), length = DrawLength(random, .50, .58),
+               width = DrawLength(random, .12, .14);
+  const Eigen::Vector3d size(width, length, height);
   const double side = random.Chance(0.5) ? 1 : -1;
   Scene filled = scene;
   std::vector<Waypoint> way =
@@ -95,8 +97,10 @@ bool PutHand(const Table& table, int times, double speed_m_s, bool toy, double h
       Print::kSpeckle, {.62, .42, .32}, {.45, .28, .20}, 0.35, random.Bits() >> 32};
   PutMoving("passer", "person", ShapeKind::kHand, size, skin, way, filled);
   if (toy) {
-    const Eigen::Vector3d toy_size(DrawLength(random, .11, .15), DrawLength(random, .11, .15),
-                                   DrawLength(random, .13, .18));
+    const double toy_height = DrawLength(random, .13, .18),
+                 toy_depth = DrawLength(random, .11, .15),
+                 toy_width = DrawLength(random, .11, .15);
+    const Eigen::Vector3d toy_size(toy_width, toy_depth, toy_height);
     for (Waypoint& point : way) {  // it hangs from the fingers
       point.center_w.x() = Rounded(point.center_w.x() - side * size.y() * 0.42);
       point.center_w.z() = Rounded(point.center_w.z() - toy_size.z() / 2);

@@ -114,7 +114,8 @@ Scene MakeCabinetFamily(std::uint64_t seed, const ParameterValues& values) {
   Scene scene;
   PutRoom({-3.5, -3.5}, {3.5, 3.5}, Print::kSpeckle, random, scene);
   const Eigen::Vector3d size(values.at("width_m"), values.at("depth_m"), values.at("height_m"));
-  Put(MakeCabinet(size, random), {0, 0, 0, Rounded(0.1 * (random.Below(201) - 100))}, scene);
+  const double yaw_deg = Rounded(0.1 * (random.Below(201) - 100));
+  Put(MakeCabinet(size, random), {0, 0, 0, yaw_deg}, scene);
   Motion& motion = scene.motion;
   motion.preset = "orbit";
   motion.target_w = RoundedPoint(0, -size.y() / 4, 0.6 * size.z());
