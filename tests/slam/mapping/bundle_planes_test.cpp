@@ -28,8 +28,9 @@ void DisturbAll(Map& map, double half_m, double half_rad) {
   PlaceAsSeen(map);
 }
 
-PointWorld WorldWithPlanes(int keyframes, int points, const std::vector<Plane>& planes_w) {
-  PointWorld world = MakePointWorld(keyframes, points, 1);
+PointWorld WorldWithPlanes(int keyframes, int points, const std::vector<Plane>& planes_w,
+                           std::uint64_t seed = 1) {
+  PointWorld world = MakePointWorld(keyframes, points, seed);
   AddSeenLandmarks(world.map, planes_w);
   return world;
 }
@@ -79,9 +80,9 @@ TEST(BundlePlanes, AreFoundAgainWithPosesAndPointsFromADisturbedMap) {
 }
 
 TEST(BundlePlanes, CarryKeyframesThatSeeFewPoints) {
-  const PointWorld truth = WorldWithPlanes(5, 7, ThreePlanes());
   double error[2] = {0, 0};
-  for (std::uint64_t seed = 0; seed < 10; ++seed) {
+  for (std::uint64_t seed = 0; seed < 40; ++seed) {
+    const PointWorld truth = WorldWithPlanes(5, 7, ThreePlanes(), seed);
     PointWorld noisy = truth;
     Random random{seed, 5};
     for (Keyframe& keyframe : noisy.map.keyframes) {
@@ -103,7 +104,7 @@ TEST(BundlePlanes, CarryKeyframesThatSeeFewPoints) {
       error[use_planes] += MeanPositionError(map, truth.map);
     }
   }
-  EXPECT_LT(error[true], 0.6 * error[false]);
+  EXPECT_LT(error[true], 0.8 * error[false]);  // 0.65 over a thousand worlds
 }
 
 Plane FoundPlane(const BundleWindow& window, std::size_t i) {
