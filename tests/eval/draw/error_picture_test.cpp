@@ -5,6 +5,7 @@
 
 #include <Eigen/Geometry>
 #include <numbers>
+#include <opencv2/imgproc.hpp>
 
 namespace eval {
 namespace {
@@ -70,6 +71,24 @@ TEST(ErrorsOverTime, ShowATurnOfOneFrameInTheRotationErrorAlone) {
   EXPECT_NEAR(curve->samples[7].rotation_deg, kTurn_deg * 19 / 20, 0.01);
   EXPECT_NEAR(curve->samples[6].rotation_deg, kTurn_deg / 20, 0.01);
   EXPECT_LT(curve->samples[7].position_mm, 1e-6);
+}
+
+/// Errors of three metres and of three millimetres make the same numbers and curves.
+TEST(ErrorPicture, SaysWhetherItsNumbersAreMillimetresOrMetres) {
+  const Path path = MakePath();
+  const auto curve_of = [&](double scale) {
+    auto curve = ErrorsOverTime(path.run, path.sequence);
+    for (std::size_t i = 0; i < curve->samples.size(); ++i)
+      curve->samples[i].position_mm = scale * (1 + static_cast<double>(i % 3));
+    return *curve;
+  };
+  const cv::Mat in_mm = DrawErrors(curve_of(1), {}), in_m = DrawErrors(curve_of(1000), {});
+  ASSERT_EQ(in_mm.size(), in_m.size());
+  cv::Mat changed;
+  cv::cvtColor(cv::Mat(in_mm != in_m), changed, cv::COLOR_BGR2GRAY);
+  const cv::Rect where = cv::boundingRect(changed);
+  EXPECT_GT(where.area(), 0) << "the unit";
+  EXPECT_LT(where.height, 30) << "and nothing else";
 }
 
 TEST(ErrorsOverTime, ShadeSpansInWhichTheRunIsLost) {

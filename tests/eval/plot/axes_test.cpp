@@ -38,6 +38,33 @@ TEST(StyleOfSeries, TellsFourteenSeriesApartAndNoneIsTheTruths) {
   EXPECT_EQ(styles.size(), 15u);
 }
 
+/// Pixels of a panel, 0 to 2 by 0 to 2, in which a line is.
+int PixelsOfLine(const std::vector<PlotPoint>& points) {
+  cairo_surface_t* const surface = cairo_image_surface_create(CAIRO_FORMAT_RGB24, 300, 300);
+  cairo_t* const context = cairo_create(surface);
+  SeriesStyle red;
+  red.red = 1, red.width_pt = 3;
+  Axes(context, {50, 50, 200, 200}, {"x", 0, 2}, {"y", 0, 2}).Line(points, red);
+  cairo_surface_flush(surface);
+  int count = 0;
+  for (int v = 0; v < 300; ++v) {
+    const auto* row = reinterpret_cast<const std::uint32_t*>(
+        cairo_image_surface_get_data(surface) + v * cairo_image_surface_get_stride(surface));
+    for (int u = 0; u < 300; ++u) count += (row[u] & 0xffffff) == 0xff0000 ? 1 : 0;
+  }
+  cairo_destroy(context);
+  cairo_surface_destroy(surface);
+  return count;
+}
+
+TEST(Axes, LeaveAGapWhereALineIsNotKnown) {
+  const double unknown = std::nan("");
+  const int all = PixelsOfLine({{0, 1}, {0.5, 1}, {1, 1}, {1.5, 1}, {2, 1}});
+  const int half = PixelsOfLine({{0, 1}, {0.5, 1}, {1, unknown}, {1.5, 1}, {2, 1}});
+  EXPECT_GT(all, 190);
+  EXPECT_NEAR(half, all / 2, 12);
+}
+
 TEST(Legend, WrapsWhatIsTooWide) {
   const std::vector<LegendEntry> entries(6, {"a name of some length", {}});
   EXPECT_GT(LegendHeight(200, entries), LegendHeight(2000, entries));

@@ -62,6 +62,7 @@ TEST_F(PlotsOfTinyWorld, ShowEveryRunInItsColour) {
   EXPECT_GT(PixelsOf(StyleOfTruth(), PlotTrajectories(runs)[2].bytes), kLegend);
   for (const Plot plot : {PlotTrajectories, PlotErrors}) {
     EXPECT_GT(PixelsOf(StyleOfSeries(1), plot(runs)[2].bytes), kLegend);
+    EXPECT_EQ(PixelsOf(StyleOfSeries(2), plot(runs)[2].bytes), 0) << "there are two runs";
   }
 }
 

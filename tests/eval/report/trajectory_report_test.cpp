@@ -1,0 +1,59 @@
+#include "eval/report/trajectory_report.h"
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <numbers>
+#include <sstream>
+
+namespace eval {
+namespace {
+
+using ::testing::ElementsAre;
+
+/// A path, and one that has turned by a degree a second more.
+ComparedTrajectory Drifting() {
+  PoseFile truth, estimate;
+  for (int i = 0; i < 30; ++i) {
+    const double t = i;
+    Pose T_wc;
+    T_wc.t = {0.1 * t, 0.02 * t * t, 0.3 * std::sin(t)};
+    truth.poses.push_back({t, T_wc});
+    T_wc.R = Eigen::AngleAxisd(t * std::numbers::pi / 180, Eigen::Vector3d::UnitY())
+                 .toRotationMatrix();
+    T_wc.t += Eigen::Vector3d(0.01 * std::cos(3 * t), 0, 0.002 * t);
+    estimate.poses.push_back({t, T_wc});
+  }
+  return {"a.txt", PoseFileKind::kTum, CompareTrajectories(estimate, truth, {})};
+}
+
+TEST(TrajectoriesTable, HasTheFiguresOfTheJsonUnderTheirNames) {
+  const ComparedTrajectory one = Drifting();
+  const auto json = TrajectoriesJson({one}, "truth.txt", {})["trajectories"][0];
+  std::istringstream table(TrajectoriesTable({one}, "truth.txt", {}));
+  std::string rules, header, row, word;
+  std::getline(table, rules), std::getline(table, header), std::getline(table, row);
+  EXPECT_THAT(header, ::testing::MatchesRegex(
+                          "file +matched +ATE rmse m +mean +median +std +max +rot deg +"
+                          "RPE rmse m +rot deg +pairs +scale"));
+  std::vector<std::string> columns;
+  for (std::istringstream words(row); words >> word;) columns.push_back(word);
+  const auto figure = [&](const char* of, const char* what, const char* which, int digits) {
+    return fmt::format("{:.{}f}", json[of][what][which].get<double>(), digits);
+  };
+  EXPECT_THAT(
+      columns,
+      ElementsAre("a.txt", "30/30", figure("ape", "trans_m", "rmse", 6),
+                  figure("ape", "trans_m", "mean", 6), figure("ape", "trans_m", "median", 6),
+                  figure("ape", "trans_m", "std", 6), figure("ape", "trans_m", "max", 6),
+                  figure("ape", "rot_deg", "rmse", 4), figure("rpe", "trans_m", "rmse", 6),
+                  figure("rpe", "rot_deg", "rmse", 4), "29",
+                  fmt::format("{:.4f}", json["scale"].get<double>())));
+  EXPECT_NEAR(json["rpe"]["rot_deg"]["rmse"].get<double>(), 1, 1e-9);  // a degree a frame
+  EXPECT_GT(json["ape"]["rot_deg"]["rmse"].get<double>(), 5);
+}
+
+}  // namespace
+}  // namespace eval
