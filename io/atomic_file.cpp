@@ -1,6 +1,8 @@
 #include "io/atomic_file.h"
 
 #include <fcntl.h>
+#include <sys/file.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -26,12 +28,45 @@ bool MayBeReplaced(const std::filesystem::path& path) {
          type == Type::none;
 }
 
+bool IsFileOfName(int file, const std::filesystem::path& path) {
+  struct stat opened, named;
+  return ::fstat(file, &opened) == 0 && ::stat(path.c_str(), &named) == 0 &&
+         opened.st_dev == named.st_dev && opened.st_ino == named.st_ino;
+}
+
+/// Opens the unfinished file and locks it: what a killed process left has no lock, what another
+/// one is at has. (Of a file system without locks none can be had, and none is asked.)
+int OpenAlone(const std::filesystem::path& path) {
+  const std::filesystem::path unfinished = Unfinished(path);
+  for (;;) {
+    const int file =
+        ::open(unfinished.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC | O_NOFOLLOW, 0666);
+    if (file < 0) FailToWrite(path, {errno, std::generic_category()});
+    if (::flock(file, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
+      ::close(file);
+      throw InputError(path.string(),
+                       "is being written by another process; wait for its end or choose "
+                       "another name");
+    }
+    // Another process may have put this file in its place before it was locked here.
+    if (IsFileOfName(file, unfinished)) {
+      if (::ftruncate(file, 0) == 0) return file;
+      const int error = errno;
+      ::close(file);
+      FailToWrite(path, {error, std::generic_category()});
+    }
+    ::close(file);
+  }
+}
+
 /// Closes it, and puts it in its place unless something went wrong before. @returns 0 or errno
 int PutInPlace(int file, int error, const std::filesystem::path& path) {
   const std::filesystem::path unfinished = Unfinished(path);
+  const int lock = ::dup(file);  // lasts until the file is in its place
   if (::close(file) != 0 && error == 0) error = errno;
   if (error == 0 && std::rename(unfinished.c_str(), path.c_str()) != 0) error = errno;
   if (error != 0) ::unlink(unfinished.c_str());
+  if (lock >= 0) ::close(lock);
   return error;
 }
 
@@ -58,9 +93,7 @@ AtomicFile::AtomicFile(std::filesystem::path path) : path_(std::move(path)) {
                      "is a link or a device, which is never replaced; remove it or choose "
                      "another name");
   }
-  file_ = ::open(Unfinished(path_).c_str(),
-                 O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC | O_NOFOLLOW, 0666);
-  if (file_ < 0) FailToWrite(path_, {errno, std::generic_category()});
+  file_ = OpenAlone(path_);
 }
 
 AtomicFile::~AtomicFile() {

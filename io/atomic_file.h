@@ -11,8 +11,8 @@ namespace io {
 inline constexpr const char* kUnfinishedSuffix = ".part";
 
 /// A file that is there whole after Finish and not at all before, made piece by piece under a
-/// temporary name beside its place. It replaces no link and no device. All calls throw InputError naming the file and the reason
-/// (no space, no permission ...).
+/// temporary name beside its place, by one process at a time. It replaces no link and no device.
+/// All calls throw InputError naming the file and the reason (no space, no permission ...).
 class AtomicFile {
  public:
   explicit AtomicFile(std::filesystem::path path);

@@ -2,6 +2,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <atomic>
+#include <sstream>
+#include <thread>
+
 #include "io/atomic_file.h"
 #include "io/input_error.h"
 #include "io/read_file.h"
@@ -60,6 +64,52 @@ TEST_F(Files, ThatAreGivenUpLeaveTheOldOne) {
   WriteFile(folder_ / "a", "old");
   { AtomicFile(folder_ / "a").Add("new"); }
   EXPECT_THAT(Contents(folder_ / ""), ElementsAre(Pair("a", "old")));
+}
+
+TEST_F(Files, AreWrittenByOneAtATime) {
+  AtomicFile first(folder_ / "a");
+  first.Add(std::string(1 << 19, 'x'));
+  EXPECT_THAT([&] { WriteFile(folder_ / "a", "second"); },
+              ThrowsMessage<InputError>(HasSubstr("a: is being written by another process")));
+  first.Add(" end");
+  first.Finish();
+  EXPECT_EQ(ReadFile(folder_ / "a"), std::string(1 << 19, 'x') + " end");
+  WriteFile(folder_ / "a", "third");
+  EXPECT_EQ(ReadFile(folder_ / "a"), "third");
+}
+
+TEST_F(Files, LeaveNothingOfWhatAKilledProcessHadWritten) {
+  std::ofstream(folder_ / ("a" + std::string(kUnfinishedSuffix))) << "a long and useless text";
+  WriteFile(folder_ / "a", "new");
+  EXPECT_THAT(Contents(folder_ / ""), ElementsAre(Pair("a", "new")));
+}
+
+/// Of eight that write the same file at once each is refused or writes all of it.
+TEST_F(Files, AreWholeWhoeverWritesThemAtOnce) {
+  std::vector<std::thread> writers;
+  std::atomic<int> written = 0;
+  for (int i = 0; i < 8; ++i) {
+    writers.emplace_back([&, i] {
+      for (int n = 0; n < 200; ++n) {
+        try {
+          WriteFile(folder_ / "a", std::string(1000, static_cast<char>('a' + i)));
+          ++written;
+        } catch (const InputError&) {
+        }
+      }
+    });
+  }
+  bool whole = true;
+  for (int n = 0; n < 2000; ++n) {
+    std::ifstream stream(folder_ / "a");
+    std::stringstream text;
+    text << stream.rdbuf();
+    if (stream) whole = whole && text.str() == std::string(1000, text.str()[0]);
+  }
+  for (std::thread& writer : writers) writer.join();
+  EXPECT_TRUE(whole);
+  EXPECT_GT(written, 100);
+  EXPECT_EQ(Contents(folder_ / "").size(), 1u) << "an unfinished file stays";
 }
 
 TEST_F(Files, ThatCannotBeWrittenAreNamedWithTheReason) {
