@@ -145,6 +145,9 @@ TEST_F(OutputFiles, AFolderWithAnInputInItIsNotReplaced) {
   };
   EXPECT_THAT(replacing(folder_ / ""), Refused("scene.yaml is in it"));
   EXPECT_NO_THROW(replacing(folder_ / "seq")());
+  const program::TemporaryFolder elsewhere;
+  fs::create_directory_symlink(folder_ / "", elsewhere / "link");
+  EXPECT_THAT(replacing(elsewhere / "link"), Refused("scene.yaml is in it"));
 }
 
 }  // namespace

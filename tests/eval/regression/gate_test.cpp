@@ -142,6 +142,15 @@ TEST(Gate, WhatFailedBeforeIsNoHarm) {
   }
 }
 
+TEST(Gate, ManyThatFailedBeforeAndAreDoneNowAreNoHarm) {
+  const GateCases cases = Cases(20);
+  const GateCases failed = Changed(cases, [](GateCase& one, int i) {
+    if (i < 15) one = {};
+  });
+  EXPECT_FALSE(CompareWithBaseline(BaselineOf(failed), cases, {}).AnyWorse());
+  EXPECT_TRUE(CompareWithBaseline(BaselineOf(cases), failed, {}).AnyWorse());
+}
+
 TEST(Gate, LostFramesAreCounted) {
   const GateCases cases = Cases(20);
   const GateCases lost = Changed(cases, [](GateCase& one, int i) {

@@ -68,6 +68,16 @@ TEST(PlaneAssignment, LetsPiecesOfOneSurfaceShareTheirLandmark) {
               ElementsAre(kAmbiguous, kAmbiguous));
 }
 
+TEST(PlaneAssignment, LetsAPieceInOnlyIfItMayBeOneWithAllOfThem) {
+  PlaneRelations relations = Apart(3);
+  Relate(relations, 0, 1, Pieces::kOfOne);
+  Relate(relations, 0, 2, Pieces::kOfOne);  // but there is a step between 1 and 2
+  const std::vector<AdmissiblePair> pairs{{0, 10, 1.0}, {1, 10, 2.0}, {2, 10, 2.1 + kMargin}};
+  EXPECT_THAT(Assigned(pairs, relations), ElementsAre(10, 10, kNothing));
+  Relate(relations, 1, 2, Pieces::kOfOne);
+  EXPECT_THAT(Assigned(pairs, relations), ElementsAre(10, 10, 10));
+}
+
 TEST(PlaneAssignment, DoesNotCountACompetitorThatIsAtHomeElsewhere) {
   EXPECT_THAT(Assigned({{0, 10, 5.0}, {1, 10, 6.0}, {1, 11, 1.0}}, Apart(2)),
               ElementsAre(10, 11));

@@ -211,6 +211,33 @@ TEST(PlaneMap, DoesNotFuseSurfacesBetweenWhichAStepWasSeen) {
   }
 }
 
+TEST(PlaneMap, CountsForAFusedSurfaceWhatWasCountedOfBoth) {
+  const Camera camera = SmallCamera();
+  PlaneWorld world;
+  world.Add({0, 0, 0}, {0.4, 0, 0}, {0, 0.3, 0}, "");
+  Map single;
+  for (int k = 0; k < 8; ++k) {
+    SeenWorld seen = See(world, Walk(k), camera, {}, Random{1});
+    seen.frame.index = k;
+    seen.frame.plane_matches = AssociatePlanes(seen.frame, single, camera, {}).matches;
+    UpdatePlanes(seen.frame, single, camera, {}, SmallImages());
+  }
+  Map map;
+  for (int k = 0; k < 3; ++k) AddLandmark(map, *single.planes.begin());
+  MapPlane &first = map.planes.At(0), &second = map.planes.At(1), &board = map.planes.At(2);
+  board.pi_w.d -= 0.5;
+  board.centroid_w.z() += 0.5;
+  first.covisible = {{2, 3}}, first.stepped = {{2, 1}};
+  second.covisible = {{2, 4}}, second.stepped = {{2, 2}};
+  board.covisible = {{0, 3}, {1, 4}}, board.stepped = {{0, 1}, {1, 2}};
+  ASSERT_EQ(FusePlanes(map, {}, SmallImages()), 1);
+  ASSERT_EQ(second.merged_into, 0);
+  EXPECT_EQ(first.covisible, (std::map<int, int>{{2, 7}}));
+  EXPECT_EQ(first.stepped, (std::map<int, int>{{2, 3}}));
+  EXPECT_EQ(board.covisible, (std::map<int, int>{{0, 7}}));
+  EXPECT_EQ(board.stepped, (std::map<int, int>{{0, 3}}));
+}
+
 TEST(PlaneMap, NotesTheStepsThatAFrameShowsBetweenItsLandmarks) {
   // A desk and a board on it that touch in the image: their parameters alone could be one.
   const Camera camera = SmallCamera();
@@ -348,7 +375,10 @@ TEST(PlaneVertices, LeaveAWrongStartOnceTheEvidenceIsAgainstIt) {
   std::vector<Vertex> cut{{{0, 0, 0}}, {{0.1, 0, 0}}, {{0.1, 0.1, 0}}, {{0, 0.1, 0}}};
   std::vector<Vertex> whole{{{0, 0, 0}}, {{0.3, 0, 0}}, {{0.3, 0.1, 0}}, {{0, 0.1, 0}}};
   for (int i = 0; i < 2; ++i) FuseVertices(m, cut, Pose{}, {});
-  for (int i = 0; i < 5; ++i) FuseVertices(m, whole, Pose{}, {});
+  std::vector<Vertex> from_another_side = whole;  // seen corners start anywhere
+  std::rotate(from_another_side.begin(), from_another_side.begin() + 1,
+              from_another_side.end());
+  for (int i = 0; i < 5; ++i) FuseVertices(m, from_another_side, Pose{}, {});
   EXPECT_THAT(m.vertices_w[1], VectorNear(whole[1].p_c, 1e-9));
   EXPECT_THAT(m.vertices_w[2], VectorNear(whole[2].p_c, 1e-9));
 }

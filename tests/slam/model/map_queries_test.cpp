@@ -1,6 +1,8 @@
 #include "slam/model/map_queries.h"
 
-#include <gtest/gtest.h>
+#include <gmock/gmock.h>
+
+#include "tests/support/slam_matchers.h"
 
 namespace slam {
 namespace {
@@ -20,6 +22,23 @@ TEST(KeyframesAfter, CountsThoseOfLaterFramesCulledOrNot) {
   EXPECT_EQ(KeyframesAfter(map, 5), 2);
   EXPECT_EQ(KeyframesAfter(map, 9), 1);
   EXPECT_EQ(KeyframesAfter(map, 10), 0);
+}
+
+TEST(KeyframePose, FollowsAChainOfCulledKeyframes) {
+  const Pose T_0w{ExpSo3({0.3, -0.2, 0.5}), {0.4, 0.1, -0.3}};
+  const Pose T_10{ExpSo3({-0.1, 0.6, 0.2}), {0.2, -0.5, 0.1}};
+  const Pose T_21{ExpSo3({0.4, 0.3, -0.7}), {-0.3, 0.2, 0.6}};
+  Map map;
+  map.keyframes.resize(3);
+  for (int id = 0; id < 3; ++id) map.keyframes[static_cast<std::size_t>(id)].id = id;
+  map.keyframes[0].T_cw = T_0w;
+  map.keyframes[1].culled = map.keyframes[2].culled = true;
+  map.keyframes[1].parent = 0, map.keyframes[1].T_cp = T_10;
+  map.keyframes[2].parent = 1, map.keyframes[2].T_cp = T_21;
+  const Eigen::Vector3d x_w(0.7, -0.4, 1.9);
+  EXPECT_THAT(KeyframePose(map, 0) * x_w, VectorNear(T_0w * x_w, 1e-12));
+  EXPECT_THAT(KeyframePose(map, 1) * x_w, VectorNear(T_10 * (T_0w * x_w), 1e-12));
+  EXPECT_THAT(KeyframePose(map, 2) * x_w, VectorNear(T_21 * (T_10 * (T_0w * x_w)), 1e-12));
 }
 
 }  // namespace

@@ -2,9 +2,11 @@
 
 #include <gmock/gmock.h>
 
+#include "slam/mapping/plane_terms.h"
 #include "slam/places/carry_map.h"
 #include "tests/support/map_surfaces.h"
 #include "tests/support/ring_world.h"
+#include "tests/support/seen_landmark.h"
 #include "tests/support/slam_matchers.h"
 
 namespace slam {
@@ -99,6 +101,55 @@ TEST(CloseLoop, DrawsTheMapTogether) {
   const Pose carried = Inverse(map.keyframes[kLast].T_cw) * world.map.keyframes[kLast].T_cw;
   EXPECT_THAT(map.planes.At(0).centroid_w, VectorNear(carried * wall.centroid_w, 1e-9));
   EXPECT_NEAR(SignedDistance(map.planes.At(0).pi_w, map.planes.At(0).centroid_w), 0, 1e-9);
+}
+
+/// Squared errors, in sigmas, of what keyframes have seen of a landmark that stands there.
+double ErrorOf(const Map& map, int landmark, const Plane& pi_w, const Eigen::Vector3d& x_w) {
+  double sum = 0;
+  for (const Keyframe& keyframe : map.keyframes) {
+    for (const KeyframePlane& seen : keyframe.planes) {
+      if (seen.map_plane != landmark) continue;
+      const PoseBlock pose = BlockOf(keyframe.T_cw);
+      const PlaneBlock plane = BlockOf(pi_w, x_w);
+      const double* const blocks[] = {pose.data(), plane.data()};
+      Eigen::Vector4d residual;
+      PlaneTerm(seen, x_w).Evaluate(blocks, residual.data(), nullptr);
+      sum += residual.squaredNorm();
+    }
+  }
+  return sum;
+}
+
+/// The adjustment of the whole map places landmarks: turned or shifted, they would not fit better.
+TEST(CloseLoop, LeavesPlanesWhereTheirKeyframesSeeThem) {
+  constexpr double kThirdOfASigma = 0.1;  // its square: they also weigh what was known before
+  const RingWorld world = MakeRingWorld();
+  const auto loop = Detect(world, kLast);
+  ASSERT_TRUE(loop);
+  Map map = world.map;
+  const Eigen::Vector3d x_w = Inverse(map.keyframes[kLast].T_cw) * Eigen::Vector3d(0, 0, 2);
+  for (const Plane& pi_w : ThreePlanes()) {
+    const int id = AddSeenLandmark(map, {pi_w.n, -pi_w.n.dot(x_w)}, x_w);
+    map.planes.At(id).first_frame = map.keyframes[kLast - 1].frame_index;
+  }
+  for (Keyframe& keyframe : map.keyframes)
+    if (keyframe.id < kLast - 1) keyframe.planes.clear();
+  ASSERT_TRUE(CloseLoop(map, *loop, world.camera, FeatureScale{}, {}, Closing(50)).adjusted);
+  for (const MapPlane& landmark : map.planes) {
+    const Eigen::Vector3d at_w = ProjectOnto(landmark.pi_w, landmark.centroid_w);
+    const double least = ErrorOf(map, landmark.id, landmark.pi_w, at_w);
+    for (int axis = 0; axis < 3; ++axis) {
+      for (const double step : {-3e-4, 3e-4}) {
+        Plane moved = landmark.pi_w;
+        moved.n = ExpSo3(step * Eigen::Vector3d::Unit(axis)) * moved.n;
+        moved.d = -moved.n.dot(at_w);
+        EXPECT_GE(ErrorOf(map, landmark.id, moved, at_w), least - kThirdOfASigma);
+        moved = landmark.pi_w;
+        moved.d += step;
+        EXPECT_GE(ErrorOf(map, landmark.id, moved, at_w), least - kThirdOfASigma);
+      }
+    }
+  }
 }
 
 // Fails when nothing but the full adjustment holds the map together.

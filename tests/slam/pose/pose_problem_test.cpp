@@ -43,6 +43,18 @@ TEST(PoseOptimiserEq13, FindsThePoseAmongWrongMatches) {
   EXPECT_NEAR(summary.inlier_count, 0.95 * 0.7 * 400, 35);
 }
 
+/// What seems wrong from a bad guess is asked again from the pose that it led to.
+TEST(PoseOptimiserEq13, TakesTheSamePointsFromABadGuessAsFromAGoodOne) {
+  PoseProblem problem = Seen(400, 1.0, 0.2, 2);
+  problem.T_cw = kTruth;
+  const PoseSummary from_truth = OptimisePose(problem, Camera{}, {});
+  problem.T_cw = Exp((Vector6d() << 0.1, -0.1, 0.1, 0.1, 0.15, -0.1).finished()) * kTruth;
+  const PoseSummary from_afar = OptimisePose(problem, Camera{}, {});
+  EXPECT_GT(from_truth.inlier_count, 280);
+  EXPECT_EQ(from_afar.point_inliers, from_truth.point_inliers);
+  EXPECT_THAT(from_afar.T_cw, PoseNear(from_truth.T_cw, 1e-6, 1e-6));
+}
+
 TEST(PoseOptimiserEq13, IsConsistentWithItsInformation) {
   // 200 noisy runs: the squared error in units of the covariance is chi-square with 6 degrees
   // of freedom; five standard deviations of the mean are 5 sqrt(12 / 200). Points beyond the

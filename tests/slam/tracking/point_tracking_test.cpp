@@ -116,6 +116,34 @@ TEST(PointTracking, TellsFeaturesAtTheSpeedOfThePoseThatItFound) {
   EXPECT_LT(apart, 0.2 * speed);  // half of it when told once
 }
 
+/// An adjustment that moves the whole map while a frame is tracked is no motion of the camera.
+TEST(PointTracking, TakesNoMoveOfTheMapForASpeed) {
+  const TexturedCorner world;
+  const Pose moved{ExpSo3({0.01, -0.02, 0.03}), {0.05, -0.04, 0.03}};
+  Vector6d speed[2];
+  for (const bool moves : {false, true}) {
+    PointOdometer odometer(SmallCamera());
+    double stamp_s = 0;
+    for (int i = 0; i <= 10; ++i) {
+      Frame frame = SeeSwinging(world, odometer.camera, i);
+      odometer.Extract(frame);
+      ASSERT_EQ(odometer.tracking.TrackPoints(frame, odometer.map).state,
+                TrackState::kTracking);
+      if (moves && i == 10) {
+        for (Keyframe& k : odometer.map.keyframes) k.T_cw = k.T_cw * Inverse(moved);
+        for (MapPoint& point : odometer.map.points) point.p_w = moved * point.p_w;
+        frame.T_cw = frame.T_cw * Inverse(moved);
+      }
+      if (i == 0) odometer.Finish(frame);
+      if (i > 0) odometer.tracking.Accept(frame, odometer.map);
+      stamp_s = frame.timestamp_s;
+    }
+    speed[moves] = odometer.tracking.Speed(stamp_s + 0.03).mean;
+  }
+  EXPECT_GT(speed[0].norm(), 0.1);
+  EXPECT_LT((speed[1] - speed[0]).norm(), 1e-6);
+}
+
 TEST(PointTracking, StaysLostInAWorldItHasNeverSeen) {
   const TexturedCorner world(1), other(99);
   PointOdometer odometer(SmallCamera());
