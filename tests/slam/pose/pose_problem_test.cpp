@@ -43,16 +43,21 @@ TEST(PoseOptimiserEq13, FindsThePoseAmongWrongMatches) {
   EXPECT_NEAR(summary.inlier_count, 0.95 * 0.7 * 400, 35);
 }
 
-/// What seems wrong from a bad guess is asked again from the pose that it led to.
-TEST(PoseOptimiserEq13, TakesTheSamePointsFromABadGuessAsFromAGoodOne) {
-  PoseProblem problem = Seen(400, 1.0, 0.2, 2);
-  problem.T_cw = kTruth;
-  const PoseSummary from_truth = OptimisePose(problem, Camera{}, {});
-  problem.T_cw = Exp((Vector6d() << 0.1, -0.1, 0.1, 0.1, 0.15, -0.1).finished()) * kTruth;
-  const PoseSummary from_afar = OptimisePose(problem, Camera{}, {});
-  EXPECT_GT(from_truth.inlier_count, 280);
-  EXPECT_EQ(from_afar.point_inliers, from_truth.point_inliers);
-  EXPECT_THAT(from_afar.T_cw, PoseNear(from_truth.T_cw, 1e-6, 1e-6));
+/// Wrong matches that agree with each other pull the pose at first. What then seems wrong is asked
+/// again from the pose without them: nineteen in twenty of the right ones are in the end.
+TEST(PoseOptimiserEq13, AsksAgainWhatSeemedWrongAtFirst) {
+  PoseProblem problem = Seen(1000, 1.0, 0.0, 2);
+  const auto is_wrong = [](std::size_t i) { return i % 10 < 3; };
+  for (std::size_t i = 0; i < problem.points.size(); ++i)
+    if (is_wrong(i)) problem.points[i].u_px.x() += 15;
+  const PoseSummary summary = OptimisePose(problem, Camera{}, {});
+  int right = 0, found = 0;
+  for (std::size_t i = 0; i < problem.points.size(); ++i) {
+    if (is_wrong(i)) continue;
+    ++right, found += summary.point_inliers[i] ? 1 : 0;
+  }
+  EXPECT_NEAR(found, 0.95 * right, 4 * std::sqrt(0.95 * 0.05 * right));
+  EXPECT_EQ(summary.inlier_count, found);
 }
 
 TEST(PoseOptimiserEq13, IsConsistentWithItsInformation) {
