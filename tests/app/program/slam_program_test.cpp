@@ -180,6 +180,18 @@ TEST_F(SlamProgram, TellsOfDoubtfulInputInWarningsAndInTheRun) {
   EXPECT_THAT(warnings[2], HasSubstr("78 of 90 lines of detections.jsonl"));
 }
 
+TEST_F(SlamProgram, TakesTheSegmentationOfTheOptionOverThatOfTheFile) {
+  const fs::path sequence = Copy(3), file = folder_ / "settings.yaml";
+  std::ofstream(file) << "plane_extraction: {segmentation: ours}\n";
+  const auto taken = [&](const char* name, std::vector<std::string> options) {
+    options.insert(options.begin(), {"-q", "--config", file});
+    EXPECT_EQ(Run(Command(sequence, name, options)).exit_code, 0) << name;
+    return RunJson(name)["options"]["plane_extraction"]["segmentation"];
+  };
+  EXPECT_EQ(taken("file", {}), "ours");
+  EXPECT_EQ(taken("option", {"--segmentation", "ahc"}), "ahc");
+}
+
 TEST_F(SlamProgram, TakesTheStructureOfTheOptionElseOfTheFileAndRefusesAnUnknownOne) {
   const Outcome unknown = Run(Command(Recorded(), "unknown", {"--structure", "atlanta"}));
   EXPECT_EQ(unknown.exit_code, 2);

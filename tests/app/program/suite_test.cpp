@@ -300,6 +300,20 @@ TEST_F(SuiteProgram, ShrinksACaseWhileItFailsAlike) {
   EXPECT_THAT(Statuses("again"), ElementsAre(HasSubstr("crashed")));
 }
 
+TEST_F(SuiteProgram, LeavesTheLastSceneThatFailedWhereSmallerOnesDoNot) {
+  WriteSuite("seeds: {first: 1, count: 1}\n");
+  WriteProgram(
+      "case \"$*\" in *slam*)\n"
+      "  if grep -q 'name: book_1' $4 && grep -q 'name: book_2' $4; then kill -SEGV $$; fi;;\n"
+      "esac");
+  const Outcome outcome = Suite("out", {"--shrink", "plates-1/kinect1/own/full/default"});
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.errors;
+  const std::string scene = ReadText(folder_ / "out/shrunk/scene.yaml");
+  EXPECT_THAT(scene, HasSubstr("name: book_1"));
+  EXPECT_THAT(scene, HasSubstr("name: book_2"));
+  EXPECT_THAT(scene, Not(HasSubstr("name: desk")));
+}
+
 TEST_F(SuiteProgram, ShrinksNothingThatDoesNotFail) {
   const Outcome outcome = Suite("out", {"--shrink", "plates-1/kinect1/own/full/default"});
   EXPECT_EQ(outcome.exit_code, 2);
