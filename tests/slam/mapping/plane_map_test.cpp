@@ -162,24 +162,26 @@ TEST(PlaneMap, StartsNoLandmarkFromAnUndecidedOrSmallOrBadPlane) {
   EXPECT_TRUE(map.planes.empty());
 }
 
-TEST(PlaneMap, FusesASurfaceThatWasFoundTwiceAndKeepsStepsApart) {
+/// The landmark that eight frames make of a board at a height.
+MapPlane BoardAt(double height_m) {
   const Camera camera = SmallCamera();
+  PlaneWorld world;
+  world.Add({0, 0, height_m}, {0.4, 0, 0}, {0, 0.3, 0}, "");
+  Map single;
+  for (int k = 0; k < 8; ++k) {
+    SeenWorld seen = See(world, Walk(k), camera, {}, Random{1});
+    seen.frame.index = k;
+    seen.frame.plane_matches = AssociatePlanes(seen.frame, single, camera, {}).matches;
+    UpdatePlanes(seen.frame, single, camera, {}, SmallImages());
+  }
+  EXPECT_EQ(single.planes.size(), 1u);
+  return *single.planes.begin();
+}
+
+TEST(PlaneMap, FusesASurfaceThatWasFoundTwiceAndKeepsStepsApart) {
   const PlaneMapConfig config = SmallImages();
   Map map;
-  // The same desk twice, and a board nine millimetres above it.
-  for (const double height : {0.0, 0.0, 0.009}) {
-    PlaneWorld world;
-    world.Add({0, 0, height}, {0.4, 0, 0}, {0, 0.3, 0}, "");
-    Map single;
-    for (int k = 0; k < 8; ++k) {
-      SeenWorld seen = See(world, Walk(k), camera, {}, Random{1});
-      seen.frame.index = k;
-      seen.frame.plane_matches = AssociatePlanes(seen.frame, single, camera, {}).matches;
-      UpdatePlanes(seen.frame, single, camera, {}, config);
-    }
-    ASSERT_EQ(single.planes.size(), 1u);
-    AddLandmark(map, *single.planes.begin());
-  }
+  for (const double height_m : {0.0, 0.0, 0.009}) AddLandmark(map, BoardAt(height_m));
   EXPECT_EQ(FusePlanes(map, {}, config), 1);
   EXPECT_EQ(map.planes.At(1).merged_into, 0);
   EXPECT_EQ(map.planes.At(1).status, LandmarkStatus::kMerged);
@@ -193,18 +195,8 @@ TEST(PlaneMap, DoesNotFuseSurfacesBetweenWhichAStepWasSeen) {
   // Two landmarks that agree; of the frames that saw both, some or most showed a step.
   for (const int steps : {1, 6, 12}) {
     SCOPED_TRACE(steps);
-    const Camera camera = SmallCamera();
-    PlaneWorld world;
-    world.Add({0, 0, 0}, {0.4, 0, 0}, {0, 0.3, 0}, "");
-    Map single;
-    for (int k = 0; k < 8; ++k) {
-      SeenWorld seen = See(world, Walk(k), camera, {}, Random{1});
-      seen.frame.index = k;
-      seen.frame.plane_matches = AssociatePlanes(seen.frame, single, camera, {}).matches;
-      UpdatePlanes(seen.frame, single, camera, {}, SmallImages());
-    }
     Map map;
-    for (int twice = 0; twice < 2; ++twice) AddLandmark(map, *single.planes.begin());
+    for (int twice = 0; twice < 2; ++twice) AddLandmark(map, BoardAt(0));
     map.planes.At(0).covisible[1] = map.planes.At(1).covisible[0] = 12;
     map.planes.At(0).stepped[1] = map.planes.At(1).stepped[0] = steps;
     EXPECT_EQ(FusePlanes(map, {}, SmallImages()), steps > 6 ? 0 : 1);
@@ -212,21 +204,9 @@ TEST(PlaneMap, DoesNotFuseSurfacesBetweenWhichAStepWasSeen) {
 }
 
 TEST(PlaneMap, CountsForAFusedSurfaceWhatWasCountedOfBoth) {
-  const Camera camera = SmallCamera();
-  PlaneWorld world;
-  world.Add({0, 0, 0}, {0.4, 0, 0}, {0, 0.3, 0}, "");
-  Map single;
-  for (int k = 0; k < 8; ++k) {
-    SeenWorld seen = See(world, Walk(k), camera, {}, Random{1});
-    seen.frame.index = k;
-    seen.frame.plane_matches = AssociatePlanes(seen.frame, single, camera, {}).matches;
-    UpdatePlanes(seen.frame, single, camera, {}, SmallImages());
-  }
   Map map;
-  for (int k = 0; k < 3; ++k) AddLandmark(map, *single.planes.begin());
+  for (const double height_m : {0.0, 0.0, 0.1}) AddLandmark(map, BoardAt(height_m));
   MapPlane &first = map.planes.At(0), &second = map.planes.At(1), &board = map.planes.At(2);
-  board.pi_w.d -= 0.5;
-  board.centroid_w.z() += 0.5;
   first.covisible = {{2, 3}}, first.stepped = {{2, 1}};
   second.covisible = {{2, 4}}, second.stepped = {{2, 2}};
   board.covisible = {{0, 3}, {1, 4}}, board.stepped = {{0, 1}, {1, 2}};

@@ -1,0 +1,95 @@
+// What the gate of `pas suite` says, and how often it measures before it does.
+#include "tests/app/program/fake_suite.h"
+
+namespace {
+
+using namespace program;
+using testing::HasSubstr;
+
+class SuiteGate : public SuiteProgram {
+ protected:
+  void SetUp() override {
+    SuiteProgram::SetUp();
+    EXPECT_EQ(Gate("before", {"--accept", "first"}).exit_code, 0);
+  }
+  Outcome Gate(const std::string& results, std::vector<std::string> more = {}) const {
+    more.insert(more.end(), {"--baseline", folder_ / "baseline.json"});
+    return Suite(results, more);
+  }
+  std::size_t Cases(const std::string& results) const {
+    return Query(folder_ / results, "SELECT key FROM cases").size();
+  }
+};
+
+TEST_F(SuiteGate, AnUnchangedProgramIsGreenWithTheFirstSeeds) {
+  for (int i = 0; i < 5; ++i) {
+    EXPECT_EQ(Gate("now" + std::to_string(i)).exit_code, 0);
+    EXPECT_EQ(Cases("now" + std::to_string(i)), 10u);
+  }
+}
+
+TEST_F(SuiteGate, AnErrorThatGrewByATenthIsRed) {
+  WriteProgram("factor=1.10");
+  EXPECT_EQ(Gate("now").exit_code, 1);
+}
+
+TEST_F(SuiteGate, AddsSeedsUntilItCanTell) {
+  // Worse by a tenth in the mean, by anything between -20 % and +40 % in each case.
+  WriteProgram("factor=$(awk \"BEGIN { print 1.1 + 0.3 * ((${seed:-0} % 2) * 2 - 1) }\")");
+  Gate("now");
+  EXPECT_EQ(Cases("now"), 36u);  // 5, 10 and, as no more are wanted, 18 seeds
+}
+
+TEST_F(SuiteGate, WhatIsAcceptedIsGreen) {
+  WriteProgram("factor=1.10");
+  EXPECT_EQ(Gate("now", {"--accept", "a better reason"}).exit_code, 0);
+  EXPECT_THAT(ReadText(folder_ / "baseline.json"),
+              HasSubstr("\"reason\": \"a better reason\""));
+  EXPECT_EQ(Gate("now").exit_code, 0);
+}
+
+/// A module that takes `da_ms`, a word of the shell, beside one millisecond of ORB features.
+std::string WithTimes(const std::string& da_ms) {
+  return "if [ \"$2\" = slam ]; then\n"
+         "  run=${*##*-o }; run=${run%% *}; mkdir -p $run\n"
+         "  echo timestamp,orb,od,mdc,epi,pp,da,po,upm,mt > $run/timing.csv\n"
+         "  echo 1.0,1,1,1,1,1," +
+         da_ms + ",1,1,9 >> $run/timing.csv\nfi\n";
+}
+
+TEST_F(SuiteGate, ATimeIsWorseOnlyIfItIsSoAgain) {
+  WriteSuite("seeds: {first: 1, count: 8}\n");
+  WriteProgram(WithTimes("1.0"));
+  EXPECT_EQ(Gate("before-times", {"--accept", "with times"}).exit_code, 0);
+  // Slow in the first run of the sixteen cases, as where the machine has other work for a minute.
+  WriteProgram(
+      WithTimes("$([ $(cat log 2>/dev/null | wc -l) -lt 16 ] && echo 1.1 || echo 1.0)"));
+  EXPECT_EQ(Gate("held-up").exit_code, 0);
+  EXPECT_EQ(Runs("held-up"), 16u * 5u);
+  WriteProgram(WithTimes("1.1"));
+  EXPECT_EQ(Gate("slow").exit_code, 1);
+}
+
+TEST_F(SuiteGate, ASlowDownIsFoundThatTheFirstRunHalfHides) {
+  WriteSuite("seeds: {first: 1, count: 8}\n");
+  WriteProgram(WithTimes("1.0"));
+  EXPECT_EQ(Gate("before-times", {"--accept", "with times"}).exit_code, 0);
+  WriteProgram(
+      WithTimes("$([ $(cat log 2>/dev/null | wc -l) -lt 16 ] && echo 1.02 || echo 1.05)"));
+  EXPECT_EQ(Gate("half-hidden").exit_code, 1);
+  EXPECT_EQ(Runs("half-hidden"), 16u * 5u);
+}
+
+TEST_F(SuiteGate, MoreFailuresAreRed) {
+  WriteProgram("case \"$*\" in *wall-2*) exit 1;; esac");
+  EXPECT_EQ(Gate("now").exit_code, 1);
+}
+
+TEST_F(SuiteGate, ABaselineOfAnotherSuiteIsRefused) {
+  WriteSuite("size_px: [160, 120]\n");
+  const Outcome outcome = Gate("now");
+  EXPECT_EQ(outcome.exit_code, 2);
+  EXPECT_THAT(outcome.errors, HasSubstr("10 frames, own x own"));
+}
+
+}  // namespace
