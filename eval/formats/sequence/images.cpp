@@ -127,7 +127,9 @@ std::map<int, PixelSet> PixelsOfIds(const cv::Mat1w& ids) {
 }
 
 cv::Mat ReadColour(const std::filesystem::path& file) {
-  std::string bytes = io::ReadFile(file, "expected a colour image");
+  std::string bytes = io::ReadFile(
+      file,
+      "expected a colour image (a run of pas slam --live keeps none: pas sim renders them)");
   const auto size = io::ImageSizeOf(bytes);
   if (!size) throw io::InputError(file.string(), "is no PNG or JPEG image; copy it again");
   if (!IsOfSensibleSize(bytes)) {
