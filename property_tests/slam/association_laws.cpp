@@ -139,7 +139,7 @@ Views AnyViews() {
                  AnyReal(-0.5, 0.5), AnyInt(0, 1) ? "book" : "");
   }
   PlaneMapConfig config;
-  config.min_pixels = 40;
+  config.trial_pixels = 480;
   config.trial_frames = 1;  // one view is the map
   Views v;
   const auto seed = static_cast<std::uint64_t>(AnyInt(0, 1 << 30));

@@ -6,11 +6,10 @@ namespace slam {
 
 /// How map planes are made, updated, kept small and fused.
 struct PlaneMapConfig {
-  int min_pixels = 400;
   double max_distance_m = 4.0;
 
   int trial_frames = 3;
-  double trial_size = 12.0;
+  int trial_pixels = 4800;
   int max_trial_misses = 2;
 
   /// Errors of neighbouring frames are alike: a thousand frames do not know a thousand times as
@@ -30,14 +29,13 @@ struct PlaneMapConfig {
 };
 
 inline void VisitFields(PlaneMapConfig& c, FieldVisitor& v) {
-  v.Integer("min_pixels", c.min_pixels, "[1, 10000000]",
-            "smallest segment that starts a candidate, or speaks for one");
   v.Number("max_distance_m", c.max_distance_m, "(0, inf)",
-           "largest distance of such a segment's centroid from the camera");
+           "largest distance from the camera of the centroid of a segment that starts a candidate, "
+           "or speaks for one");
   v.Integer("trial_frames", c.trial_frames, "[1, 1000]",
             "number of frames that must show a candidate before it is a landmark; 1: at once");
-  v.Number("trial_size", c.trial_size, "[0, inf)",
-           "size of a candidate in all these frames together, times min_pixels");
+  v.Integer("trial_pixels", c.trial_pixels, "[0, 100000000]",
+            "size of a candidate in all these frames together");
   v.Integer("max_trial_misses", c.max_trial_misses, "[0, 1000]",
             "frames without a candidate, beyond which, and beyond half of its observations, it "
             "is dropped");

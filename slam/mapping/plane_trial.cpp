@@ -7,11 +7,6 @@
 namespace slam {
 namespace {
 
-/// Size from which a candidate is proven, pixels.
-double TrialPixels(const PlaneMapConfig& config) {
-  return config.trial_size * config.min_pixels;
-}
-
 bool MissedTooOften(const MapPlane& candidate, int frame_index, const PlaneMapConfig& config) {
   const int missed = frame_index - candidate.first_frame + 1 - candidate.observations;
   return missed > std::max(config.max_trial_misses, candidate.observations / 2);
@@ -30,17 +25,17 @@ bool LiesOnUnstructured(const MapPlane& candidate, const Frame& frame, const Cam
 }  // namespace
 
 bool IsGood(const FramePlane& plane, const PlaneMapConfig& config) {
-  return !plane.bad && plane.pixel_count >= config.min_pixels &&
-         plane.centroid_c.norm() < config.max_distance_m && !plane.points_c.empty();
+  return !plane.bad && plane.centroid_c.norm() < config.max_distance_m &&
+         !plane.points_c.empty();
 }
 
 bool IsProofAlone(const FramePlane& plane, const PlaneMapConfig& config) {
-  return plane.pixel_count >= TrialPixels(config);
+  return plane.pixel_count >= config.trial_pixels;
 }
 
 bool HasProvenItself(const MapPlane& candidate, const PlaneMapConfig& config) {
   return candidate.observations >= config.trial_frames &&
-         candidate.seen_px >= TrialPixels(config);
+         candidate.seen_px >= config.trial_pixels;
 }
 
 void EraseFailedCandidates(const Frame& frame, const Camera& camera,

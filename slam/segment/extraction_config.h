@@ -32,7 +32,7 @@ struct PlaneExtractionConfig {
   JoinConfig joining;
   double max_block_bias_sigmas = 3.0;
 
-  int min_pixels = 300;  // at 1 m 33 x 33 mm seen frontally
+  double min_share = 1.0 / 512;  // of 640 x 480 600 pixels: at 1 m 47 x 47 mm seen frontally
   double max_angle_sigma_rad = 0.1;
   int min_island_pixels = 40;
 
@@ -43,7 +43,7 @@ struct PlaneExtractionConfig {
 inline void VisitFields(PlaneExtractionConfig& c, FieldVisitor& v) {
   v.Named("segmentation", c.segmentation, SegmentationNames(),
           "what divides a depth image into planes; ahc: PEAC as it was published, for which "
-          "no other key before min_pixels counts");
+          "no other key before min_share counts");
   v.Section("coarse", "first clustering, of blocks of 8 x 8 pixels", c.coarse);
   v.Section("fine", "second clustering, of what the first one left, in blocks of 4 x 4",
             c.fine);
@@ -53,7 +53,7 @@ inline void VisitFields(PlaneExtractionConfig& c, FieldVisitor& v) {
       "largest mean residual of a block, in standard errors beyond the model error; others "
       "are offered to the second clustering");
   v.Section("joining", "when parts are one surface", c.joining);
-  v.Integer("min_pixels", c.min_pixels, "[3, 1000000]", "smallest segment");
+  v.Number("min_share", c.min_share, "[0, 1]", "smallest segment, as a share of the image");
   v.Degrees("max_angle_sigma_deg", c.max_angle_sigma_rad, "(0, 90)",
             "largest standard deviation of a segment's normal");
   v.Integer("min_island_pixels", c.min_island_pixels, "[1, 1000000]",

@@ -10,7 +10,6 @@ namespace {
 
 std::optional<Segment> Measure(const PlaneSums& sums, int id, const DepthNoise& noise,
                                const PlaneExtractionConfig& config) {
-  if (!(sums.n >= config.min_pixels)) return std::nullopt;
   const std::optional<PlaneFit> fit = Fit(sums);
   if (!fit) return std::nullopt;
   const double grazing = GrazingFactor(sums, fit->plane, noise);
@@ -48,10 +47,13 @@ double SideOfSharedError_px(const SensorModel& sensor) {
 std::vector<Segment> KeepMeasured(const PartSegments& segments, const SensorModel& sensor,
                                   const PlaneExtractionConfig& config) {
   const std::vector<int> perimeters = FindPerimeters(segments);
+  const auto height = static_cast<double>(segments.runs.rows.size() - 1);
+  const double min_pixels = config.min_share * segments.runs.width * height;
   const double min_width_px = SideOfSharedError_px(sensor);  // across less, noise is one number
   std::vector<Segment> kept;
   for (std::size_t k = 0; k < perimeters.size(); ++k) {
     const PlaneSums& sums = segments.sums[k];
+    if (sums.n < min_pixels) continue;
     if (2.0 * sums.n < min_width_px * perimeters[k]) continue;  // a strip has two long sides
     if (const auto segment = Measure(sums, static_cast<int>(k), sensor.noise, config))
       kept.push_back(*segment);

@@ -22,10 +22,9 @@ struct Segment {
   cv::Point low, high;  ///< first and last row and column
 };
 
-/// The segments that are enough pixels (min_pixels), tell well enough where their plane is
+/// The segments that are enough of the image (min_share), tell well enough where their plane is
 /// (max_angle_sigma_rad), and are on average wider than the pixels that the sensor measures
-/// together; the
-/// largest first, at most kMaxSegments. Their bounds are the caller's to set.
+/// together; the largest first, at most kMaxSegments. Their bounds are the caller's to set.
 std::vector<Segment> KeepMeasured(const PartSegments& segments, const SensorModel& sensor,
                                   const PlaneExtractionConfig& config);
 

@@ -137,7 +137,7 @@ void PartSegmentation::FindMainComponents() {
 }
 
 /// A label's largest component makes a segment; another one joins it if nothing behind is seen
-/// between them, makes a segment of its own if it is large enough, or is dropped.
+/// between them, or makes a segment of its own.
 void PartSegmentation::NumberSegments() {
   // One segment for the largest component of each label.
   FindMainComponents();
@@ -156,7 +156,7 @@ void PartSegmentation::NumberSegments() {
     const int largest = main_[static_cast<std::size_t>(c.label)];
     if (!PassBehind(lines, static_cast<int>(k), largest, c.label)) {
       segment_[k] = segment_[static_cast<std::size_t>(largest)];
-    } else if (c.pixels >= config_.min_pixels) {
+    } else {
       segment_[k] = segment_count_++;
     }
   }

@@ -7,7 +7,7 @@ namespace slam {
 /// Planes of small images hold few pixels.
 inline PlaneMapConfig SmallImages() {
   PlaneMapConfig config;
-  config.min_pixels = 40;
+  config.trial_pixels = 480;
   return config;
 }
 

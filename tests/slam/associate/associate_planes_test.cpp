@@ -21,7 +21,7 @@ constexpr double kDesk = 0.8;
 
 PlaneMapConfig SmallImages() {
   PlaneMapConfig config;
-  config.min_pixels = 40;
+  config.trial_pixels = 480;
   config.trial_frames = 1;  // one view is the map
   return config;
 }

@@ -18,7 +18,7 @@ namespace {
 
 PlaneMapConfig OneViewIsTheMap() {
   PlaneMapConfig config;
-  config.min_pixels = 40, config.trial_frames = 1;
+  config.trial_pixels = 480, config.trial_frames = 1;
   return config;
 }
 

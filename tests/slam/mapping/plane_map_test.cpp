@@ -147,14 +147,14 @@ TEST(PlaneMap, StaysBoundedHoweverOftenAPlaneIsSeen) {
   }
 }
 
-TEST(PlaneMap, StartsNoLandmarkFromAnUndecidedOrSmallOrBadPlane) {
+TEST(PlaneMap, StartsNoLandmarkFromAnUndecidedOrFarOrBadPlane) {
   const Camera camera = SmallCamera();
   SeenWorld seen = See(CrowdedDesk(), Walk(0), camera, {}, Random{1});
   ASSERT_GE(seen.frame.planes.size(), 3u);
   seen.frame.plane_matches.assign(seen.frame.planes.size(), {});
   for (PlaneMatch& match : seen.frame.plane_matches) match.reason = MatchReason::kAmbiguous;
   seen.frame.plane_matches[0].reason = MatchReason::kNothing;
-  seen.frame.planes[0].pixel_count = 10;
+  seen.frame.planes[0].centroid_c *= 10.0;
   seen.frame.plane_matches[1].reason = MatchReason::kNothing;
   seen.frame.planes[1].bad = BadReason::kBorder;
   Map map;

@@ -109,7 +109,7 @@ TEST(PlaneTrial, ASmallSurfaceMustBeSeenMoreOften) {
   }
   ASSERT_EQ(Landmarks(show.map).size(), 2u);
   EXPECT_GT(frames, show.config.trial_frames);
-  EXPECT_GE(Landmarks(show.map)[1]->seen_px, show.config.trial_size * show.config.min_pixels);
+  EXPECT_GE(Landmarks(show.map)[1]->seen_px, show.config.trial_pixels);
 }
 
 // Fails when a toy whose box was missed for a frame keeps its trial.

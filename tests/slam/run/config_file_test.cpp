@@ -136,9 +136,9 @@ TEST_F(ConfigFile, TakesTheDefaultsOfTheSensorThatItNames) {
 
 TEST_F(ConfigFile, GoesOverTheSettingsThatItIsGiven) {
   const Config d435 = ConfigFor(DepthSensor::kD435);
-  std::ofstream(file_) << "plane_extraction: {min_pixels: 500}\n";
+  std::ofstream(file_) << "plane_extraction: {min_share: 0.01}\n";
   const Config config = ReadConfig(file_, d435);
-  EXPECT_EQ(config.plane_extraction.min_pixels, 500);
+  EXPECT_EQ(config.plane_extraction.min_share, 0.01);
   EXPECT_EQ(config.sensor.noise.correlated_px, d435.sensor.noise.correlated_px);
 }
 

@@ -11,8 +11,8 @@ namespace slam {
 namespace {
 
 /// The segments of a wall of which parts have labels 0, 1, ...
-std::vector<Segment> KeepParts(const std::vector<cv::Rect>& parts, const SensorModel& sensor) {
-  const Camera camera;
+std::vector<Segment> KeepParts(const std::vector<cv::Rect>& parts, const SensorModel& sensor,
+                               const Camera& camera = {}) {
   const DepthGrid grid = MakeDepthGrid(cv::Mat1f(camera.height, camera.width, 1.0f),
                                        PixelRays(camera), sensor.noise, 10.0);
   LabelImage labels(grid.q.size(), kNoLabel);
@@ -48,10 +48,18 @@ TEST(MeasuredSegments, AreCutByTheImageWithoutBecomingNarrow) {
 
 TEST(MeasuredSegments, AreTheLargestFirstAndNotTooSmall) {
   const std::vector<Segment> kept =
-      KeepParts({{50, 50, 20, 20}, {100, 100, 10, 29}, {200, 200, 40, 40}}, {});
+      KeepParts({{50, 50, 20, 30}, {100, 100, 20, 29}, {200, 200, 40, 40}}, {});
   ASSERT_EQ(kept.size(), 2u);
   EXPECT_EQ(kept[0].id, 2);
   EXPECT_EQ(kept[1].id, 0);
+}
+
+TEST(MeasuredSegments, AreTheSameShareOfASmallImage) {
+  Camera half;
+  half.fx /= 2, half.fy /= 2, half.cx /= 2, half.cy /= 2, half.width /= 2, half.height /= 2;
+  const std::vector<Segment> kept = KeepParts({{50, 50, 10, 14}, {100, 100, 10, 15}}, {}, half);
+  ASSERT_EQ(kept.size(), 1u);
+  EXPECT_EQ(kept[0].id, 1);
 }
 
 }  // namespace
