@@ -19,7 +19,7 @@ namespace {
 
 struct CalibrateArguments {
   slam::CalibrateOptions options;
-  std::string sensor = slam::DepthSensorNames().front();
+  std::string sensor = kAutoSensor;
   std::string config_file, output, picture;
   bool force = false;
 };
@@ -32,7 +32,8 @@ int RunCalibrate(CalibrateArguments& arguments, bool quiet) {
   const io::OutputFile output(arguments.output, rules);
   std::optional<io::OutputFile> picture;
   if (!arguments.picture.empty()) picture.emplace(arguments.picture, rules);
-  options.config = ConfigFrom(arguments.sensor, arguments.config_file);
+  options.config = ConfigForRecording(arguments.sensor, arguments.config_file, options.sequence,
+                                      options.camera, quiet);
   const StopSignal stop;
   options.stop = [] { return StopSignal::Caught() != 0; };
   std::optional<Progress> progress;

@@ -22,7 +22,7 @@ namespace {
 struct SlamArguments {
   slam::RunOptions options;
   std::string variant = "full";
-  std::string sensor = slam::DepthSensorNames().front();
+  std::string sensor = kAutoSensor;
   std::string config_file, segmentation;
   bool print_config = false;
   bool loop_closing = false;
@@ -38,9 +38,22 @@ struct SlamArguments {
 constexpr int kFramesAhead = 2;
 
 /// One --seed seeds both, as `pas sim --seed N` and `pas slam --seed N` would.
-slam::RunOutcome RunOnScene(const SlamArguments& arguments, slam::RunOptions options) {
-  SceneRecording recorded = arguments.recording(
-      arguments.live_scene, arguments.seeded ? std::optional(options.seed) : std::nullopt);
+SceneRecording ReadScene(const SlamArguments& arguments) {
+  return arguments.recording(arguments.live_scene, arguments.seeded
+                                                       ? std::optional(arguments.options.seed)
+                                                       : std::nullopt);
+}
+
+/// What measures the depth of a scene, as the estimator names it.
+std::string SensorOf(const SceneRecording& recorded) {
+  const sim::DepthModel& depth = recorded.options.rig.sensor.depth;
+  if (std::holds_alternative<sim::AzureModel>(depth)) return "azure";
+  if (std::holds_alternative<sim::D435Model>(depth)) return "d435";
+  return slam::DepthSensorNames().front();
+}
+
+slam::RunOutcome RunOnScene(const SlamArguments& arguments, slam::RunOptions options,
+                            SceneRecording recorded) {
   LiveScene live(recorded.scene, recorded.options.rig, std::move(recorded.recording),
                  options.threads == 1 ? 0 : kFramesAhead);
   options.sequence = arguments.live_scene;
@@ -120,7 +133,13 @@ int RunSlam(SlamArguments& arguments, bool quiet) {
                             options.camera, arguments.depth_warp});
   }
   options.variant = slam::VariantOf(arguments.variant);
-  options.config = ConfigFrom(arguments.sensor, arguments.config_file);
+  std::optional<SceneRecording> scene;
+  if (live) scene = ReadScene(arguments);
+  options.config =
+      live ? ConfigFrom(arguments.sensor == kAutoSensor ? SensorOf(*scene) : arguments.sensor,
+                        arguments.config_file)
+           : ConfigForRecording(arguments.sensor, arguments.config_file, options.sequence,
+                                options.camera, quiet);
   SetSegmentation(arguments.segmentation, options.config);
   if (arguments.loop_closing) options.config.loop_closing.enabled = true;
   if (arguments.detect_every) options.config.detection.every = *arguments.detect_every;
@@ -142,7 +161,7 @@ int RunSlam(SlamArguments& arguments, bool quiet) {
   };
 
   const slam::RunOutcome outcome =
-      live ? RunOnScene(arguments, options) : slam::RunSequence(options);
+      live ? RunOnScene(arguments, options, std::move(*scene)) : slam::RunSequence(options);
   progress.reset();
   for (const std::string& warning : outcome.warnings) {
     fmt::print(stderr, "pas: warning: {}\n", warning);

@@ -19,7 +19,7 @@ namespace {
 struct PlaneBenchArguments {
   std::vector<std::string> sequences;
   std::string camera, config_file, surfaces, segmentation;
-  std::string sensor = slam::DepthSensorNames().front();
+  std::string sensor = kAutoSensor;
   int frames = 0, every = 1;
   bool steps = false, unmeasured = false;
   double depth_delay_ms = 0.0;
@@ -117,19 +117,21 @@ void PrintSurfaces(const std::string& name, const eval::SurfaceFigures& f) {
              name, f.whole, f.covered, f.purity, f.segments_per_frame);
 }
 
-PlaneBench BenchAll(const PlaneBenchArguments& arguments, const slam::Config& config, bool each,
-                    bool quiet) {
+PlaneBench BenchAll(const PlaneBenchArguments& arguments, bool quiet) {
   PlaneBench sum;
   Progress progress("bench planes", static_cast<int>(arguments.sequences.size()), quiet);
   int done = 0;
   for (const std::string& sequence : arguments.sequences) {
+    slam::Config config = ConfigForRecording(arguments.sensor, arguments.config_file, sequence,
+                                             arguments.camera, quiet);
+    SetSegmentation(arguments.segmentation, config);
     const PlaneBench bench =
         BenchPlanes(sequence, arguments.camera, config,
                     {arguments.frames, arguments.every, arguments.unmeasured,
                      arguments.depth_delay_ms, arguments.surfaces});
     const std::string name = std::filesystem::path(sequence).lexically_normal().filename();
-    if (each && bench.scored_frames > 0) PrintScores(name, bench);
-    if (each && !bench.level_normals_w.empty()) PrintLevelPlane(name, bench);
+    if (bench.scored_frames > 0) PrintScores(name, bench);
+    if (!bench.level_normals_w.empty()) PrintLevelPlane(name, bench);
     if (bench.surfaces) PrintSurfaces(name, *bench.surfaces);
     sum.Add(bench);
     progress.Update(++done);
@@ -138,10 +140,8 @@ PlaneBench BenchAll(const PlaneBenchArguments& arguments, const slam::Config& co
 }
 
 int RunBench(const PlaneBenchArguments& arguments, bool quiet) {
-  slam::Config config = ConfigFrom(arguments.sensor, arguments.config_file);
-  SetSegmentation(arguments.segmentation, config);
   PrintHeader();
-  const PlaneBench sum = BenchAll(arguments, config, true, quiet);
+  const PlaneBench sum = BenchAll(arguments, quiet);
   if (sum.scored_frames > 0) PrintScores("all", sum);
   PrintTimes(sum.times);
   if (arguments.steps) PrintSteps(sum.steps), PrintSmallestSteps(sum.steps);

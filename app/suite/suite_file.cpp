@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <set>
 
+#include "app/depth_sensor_option.h"
 #include "eval/regression/gated_metrics.h"
 #include "io/yaml_value.h"
 #include "sim/families/families.h"
@@ -18,7 +19,8 @@ namespace fs = std::filesystem;
 constexpr const char* kFormat = "pas-suite/1";
 const std::vector<std::string> kVariants{"full", "no-association",
                                          "no-processing-no-association", "points"};
-constexpr const char* kRecordedBy = "kinect1";  // what the sensor of a recording is taken for
+constexpr const char* kDefaultSensor =
+    "kinect1";  // and what a sensor of the user's is taken for
 
 /// Reads one suite file; its folder is where relative paths begin.
 class SuiteReader {
@@ -38,7 +40,7 @@ class SuiteReader {
     if (map.Has("seeds")) suite.seeds = Seeds(map.At("seeds"));
     for (const io::YamlValue& scene : map.At("scenes").List()) AddScene(scene, suite.scenes);
     if (suite.scenes.empty()) map.At("scenes").Fail("names no scene; add one");
-    suite.sensors = {{kRecordedBy, "", kRecordedBy}};
+    suite.sensors = {{kDefaultSensor, "", kDefaultSensor}};
     if (map.Has("sensors")) suite.sensors = Sensors(map.At("sensors"));
     suite.motions = {kOwnMotion};
     if (map.Has("motions")) suite.motions = Motions(map.At("motions"));
@@ -160,7 +162,7 @@ class SuiteReader {
     scene.camera = "tum1";
     if (map.Has("camera")) scene.camera = map.At("camera").Word();
     const std::vector<std::string>& sensors = slam::DepthSensorNames();
-    scene.sensor = map.Has("sensor") ? sensors[map.At("sensor").OneOf(sensors)] : kRecordedBy;
+    scene.sensor = map.Has("sensor") ? sensors[map.At("sensor").OneOf(sensors)] : kAutoSensor;
   }
 
   /// A name that is part of a key.
@@ -220,7 +222,7 @@ class SuiteReader {
       }
       if (sensor.estimator.empty()) {
         const bool known = std::count(estimators.begin(), estimators.end(), sensor.name) > 0;
-        sensor.estimator = known ? sensor.name : kRecordedBy;
+        sensor.estimator = known ? sensor.name : kDefaultSensor;
       }
       RefuseTwice(entry, seen, sensor.name);
       seen.insert(sensor.name);

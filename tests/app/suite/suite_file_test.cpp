@@ -42,6 +42,11 @@ TEST_F(SuiteFileTest, HasDefaults) {
   EXPECT_EQ(suite.seeds.max_count, 1);
 }
 
+TEST_F(SuiteFileTest, LetsRecordingsTellTheirSensorUnlessItSays) {
+  EXPECT_EQ(Read("scenes: [{recordings: all}]\n").scenes[0].sensor, "auto");
+  EXPECT_EQ(Read("scenes: [{recordings: all, sensor: d435}]\n").scenes[0].sensor, "d435");
+}
+
 TEST_F(SuiteFileTest, TakesWhatItSays) {
   std::ofstream(folder_ / "noisy.yaml") << "base: azure\n";
   const SuiteFile suite = Read(
