@@ -43,20 +43,21 @@ slam::Config ConfigFrom(const std::string& sensor, const std::string& config_fil
 slam::Config ConfigForRecording(const std::string& sensor, const std::string& config_file,
                                 const std::filesystem::path& sequence,
                                 const std::string& camera, bool quiet) {
-  if (sensor != kAutoSensor) return ConfigFrom(sensor, config_file);
+  if (sensor != kAutoSensor && quiet) return ConfigFrom(sensor, config_file);
   const slam::DepthScatter scatter = slam::ScatterOf(sequence, camera);
   const std::optional<slam::DepthSensor> told = scatter.TellSensor();
-  slam::Config config =
-      ConfigFrom(NameOf(told.value_or(slam::DepthSensor::kKinect1)), config_file);
+  const bool asked = sensor == kAutoSensor && told;
+  slam::Config config = ConfigFrom(asked ? NameOf(*told) : sensor, config_file);
   if (!quiet) {
+    const slam::DepthSensor used = config.sensor.sensor;
     const slam::DepthScatter::Figures seen = scatter.Measure();
-    fmt::print(
-        stderr,
-        "{}: {} sensor, {} (noise {:.2f} of kinect1's, {:.2f} shared by neighbours, {} "
-        "windows)\n",
-        sequence.string(), NameOf(config.sensor.sensor),
-        config.sensor.sensor == told ? "as its depth tells" : "which its depth does not tell",
-        seen.level, seen.alike, seen.windows);
+    fmt::print(stderr,
+               "{}: taken for {}{} ({:.2f} of kinect1's, {:.2f} shared by neighbours)\n",
+               sequence.string(), NameOf(used),
+               !told           ? "; its noise tells no sensor"
+               : *told == used ? ", as its noise tells"
+                               : "; its noise is that of " + NameOf(*told),
+               seen.level, seen.alike);
   }
   return config;
 }

@@ -20,8 +20,8 @@ CLI::Option* AddSensorOption(CLI::App& command, std::string& sensor);
 /// @throws io::InputError of slam::ReadConfig.
 slam::Config ConfigFrom(const std::string& sensor, const std::string& config_file);
 
-/// The same for a recording, whose depth tells the sensor (slam::DepthScatter) where it is kAutoSensor.
-/// Unless quiet, stderr says then what it is.
+/// The same for a recording, whose depth tells the sensor (slam::DepthScatter) where it is
+/// kAutoSensor. Unless quiet, stderr says what it is taken for, and what its noise tells.
 /// @param sequence, camera  as of slam::RunOptions
 slam::Config ConfigForRecording(const std::string& sensor, const std::string& config_file,
                                 const std::filesystem::path& sequence,

@@ -29,9 +29,10 @@ struct PlaneMapConfig {
 };
 
 inline void VisitFields(PlaneMapConfig& c, FieldVisitor& v) {
-  v.Number("max_distance_m", c.max_distance_m, "(0, inf)",
-           "largest distance from the camera of the centroid of a segment that starts a candidate, "
-           "or speaks for one");
+  v.Number(
+      "max_distance_m", c.max_distance_m, "(0, inf)",
+      "largest distance from the camera of the centroid of a segment that starts a candidate, "
+      "or speaks for one");
   v.Integer("trial_frames", c.trial_frames, "[1, 1000]",
             "number of frames that must show a candidate before it is a landmark; 1: at once");
   v.Integer("trial_pixels", c.trial_pixels, "[0, 100000000]",

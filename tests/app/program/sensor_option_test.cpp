@@ -11,7 +11,6 @@ namespace {
 
 using namespace program;
 using testing::HasSubstr;
-using testing::Not;
 
 class SensorOption : public testing::Test {
  protected:
@@ -38,30 +37,30 @@ class SensorOption : public testing::Test {
 };
 
 TEST_F(SensorOption, IsToldByTheRecordingUnlessItIsNamed) {
+  std::ofstream(folder_ / "config.yaml") << "sensor: {model: kinect1}\n";
   for (const std::string sensor : {"azure", "d435"}) {
     const fs::path sequence = Record(sensor);
     EXPECT_THAT(Pas({"slam", sequence, "-o", folder_ / sensor}).errors,
-                HasSubstr(sensor + " sensor, as its depth tells"));
+                HasSubstr("taken for " + sensor + ", as its noise tells ("));
     EXPECT_EQ(Used(sensor), sensor);
 
+    const std::string doubt = "taken for kinect1; its noise is that of " + sensor + " (";
     EXPECT_THAT(
-        Pas({"slam", sequence, "-o", folder_ / (sensor + "-named"), "--sensor", "kinect1"})
+        Pas({"slam", sequence, "-o", folder_ / "named", "--force", "--sensor", "kinect1"})
             .errors,
-        Not(HasSubstr("sensor")));
-    EXPECT_EQ(Used(sensor + "-named"), "kinect1");
-
-    std::ofstream(folder_ / "config.yaml") << "sensor: {model: kinect1}\n";
-    EXPECT_THAT(Pas({"slam", sequence, "-o", folder_ / (sensor + "-config"), "--config",
+        HasSubstr(doubt));
+    EXPECT_EQ(Used("named"), "kinect1");
+    EXPECT_THAT(Pas({"slam", sequence, "-o", folder_ / "named", "--force", "--config",
                      folder_ / "config.yaml"})
                     .errors,
-                HasSubstr("kinect1 sensor, which its depth does not tell"));
-    EXPECT_EQ(Used(sensor + "-config"), "kinect1");
+                HasSubstr(doubt));
+    EXPECT_EQ(Used("named"), "kinect1");
   }
 }
 
 TEST_F(SensorOption, IsTheFirstKinectWhereDepthDoesNotTell) {
   EXPECT_THAT(Pas({"slam", Record("ideal"), "-o", folder_ / "run"}).errors,
-              HasSubstr("kinect1 sensor, which its depth does not tell"));
+              HasSubstr("taken for kinect1; its noise tells no sensor ("));
   EXPECT_EQ(Used("run"), "kinect1");
   EXPECT_EQ(Pas({"-q", "slam", Record("kinect1-clean"), "-o", folder_ / "quiet"}).errors, "");
   EXPECT_EQ(Used("quiet"), "kinect1");
