@@ -2,8 +2,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <chrono>
+#include <csignal>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <thread>
 
 #include "tests/support/program.h"
 
@@ -93,6 +97,27 @@ TEST_F(LiveRun, LeavesTheTruthOutWhenAsked) {
   EXPECT_FALSE(fs::exists(folder_ / "run/truth"));
   const auto info = nlohmann::json::parse(ReadText(folder_ / "run/run.json"));
   EXPECT_TRUE(fs::equivalent(folder_ / "run" / info["sequence"].get<std::string>(), Scene()));
+}
+
+TEST_F(LiveRun, KeepsTheTruthOfTheFramesItRanWhenASignalStopsIt) {
+  constexpr int kFrames = 300;
+  const fs::path run = folder_ / "run";
+  const Process process({Pas().string(), "slam", "--live", Scene(), "-o", run, "--frames",
+                         std::to_string(kFrames), "--width", "320", "--height", "240"},
+                        {}, folder_ / "errors");
+  while (ReadText(folder_ / "errors").find("slam ") == std::string::npos) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(2));
+  }
+  process.Send(SIGINT);
+  ASSERT_EQ(process.Wait().exit_code, 128 + SIGINT);
+  const int frames = nlohmann::json::parse(ReadText(run / "run.json"))["frames"];
+  EXPECT_LT(frames, kFrames);
+  for (const char* list : {"truth/associations.txt", "truth/gt/frames.jsonl"}) {
+    const std::string text = ReadText(run / list);
+    EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), frames) << list;
+  }
+  Pass({"check", run / "truth"});
+  Pass({"eval", run});
 }
 
 TEST_F(LiveRun, NeedsNoMoreMemoryForTheTruthOfMoreFrames) {
