@@ -1,5 +1,6 @@
 #include <gmock/gmock.h>
 
+#include "slam/mapping/plane_evidence.h"
 #include "slam/model/map_queries.h"
 #include "slam/run/tracker.h"
 #include "tests/support/slam_matchers.h"
@@ -65,6 +66,30 @@ TEST(Tracker, TellsOfWhatASensorBendsWhereThereAreNoPlanes) {
     ASSERT_TRUE(tracker.TrackFrame(frame, cv::Mat3b(camera.height, camera.width)).tracked);
     EXPECT_EQ(frame.bend_ratio, SensorModel{}.bend_ratio);
   }
+}
+
+// What a sensor bends is the same in all frames of a camera at rest: they are one view.
+TEST(Tracker, KnowsALandmarkNoBetterForSeeingItLongerFromOnePlace) {
+  constexpr double kBend_m = 0.01;
+  const Camera camera = SmallCamera();
+  const TexturedCorner corner;
+  TrackerHooks hooks;
+  hooks.after_association = [&](Frame& frame, const Map&) {
+    for (FramePlane& plane : frame.planes) plane.bend_offset_sigma_m = kBend_m;
+  };
+  Tracker tracker(camera, {}, Variant::kFull, nullptr, 0, 1, hooks);
+  for (int i = 0; i < 20; ++i) {
+    Frame frame = corner.See(camera, SwingingPose(0), i);
+    ASSERT_TRUE(tracker.TrackFrame(frame, cv::Mat3b(camera.height, camera.width)).tracked);
+  }
+  int landmarks = 0;
+  for (const MapPlane& plane : tracker.map().planes) {
+    if (plane.status != LandmarkStatus::kLandmark) continue;
+    ++landmarks;
+    EXPECT_GE(plane.observations, 15);
+    EXPECT_GT(BestKnown(plane.estimate).offset_sigma_m, 0.9 * kBend_m);
+  }
+  EXPECT_GE(landmarks, 2);
 }
 
 // What stands 50 mm beside its landmark is seen of another surface. Here it is told so well, and by
