@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <functional>
+#include <vector>
 
 #include "slam/geometry/camera.h"
 #include "slam/segment/pixels/pixel_labels.h"
@@ -16,8 +17,8 @@ namespace {
 constexpr int kBlock_px = 8;
 using DepthOf = std::function<double(int u, int v)>;
 
-/// Parts of the blocks of an image under noise, whose left and right half are labels 0 and 1.
-PartsOnBlocks Halves(const DepthOf& depth_of) {
+/// Parts of the blocks of an image under noise, whose upright strips of equal width have these labels.
+PartsOnBlocks Strips(const DepthOf& depth_of, const std::vector<int>& labels) {
   const Camera camera;
   cv::Mat1f depth_m(camera.height, camera.width);
   for (int v = 0; v < depth_m.rows; ++v)
@@ -29,7 +30,9 @@ PartsOnBlocks Halves(const DepthOf& depth_of) {
   for (int r = 0; r < on.rows; ++r) {
     for (int c = 0; c < on.cols; ++c) {
       on.first.push_back(on.parts.size());
-      BlockPart part{2 * c < on.cols ? 0 : 1, {}};
+      const auto strip =
+          static_cast<std::size_t>(c) * labels.size() / static_cast<std::size_t>(on.cols);
+      BlockPart part{labels[strip], {}};
       for (int v = 0; v < kBlock_px; ++v)
         for (int u = 0; u < kBlock_px; ++u)
           AddPixel(grid,
@@ -41,6 +44,8 @@ PartsOnBlocks Halves(const DepthOf& depth_of) {
   on.first.push_back(on.parts.size());
   return on;
 }
+
+PartsOnBlocks Halves(const DepthOf& depth_of) { return Strips(depth_of, {0, 1}); }
 
 JoinedLabels Join(const DepthOf& depth_of) {
   return JoinSurfaces(Halves(depth_of), 2, nullptr, {}, {}, {});
@@ -98,6 +103,18 @@ TEST(JoinSurfaces, KeepsTheWallsOfACornerApart) {
 TEST(JoinSurfaces, KeepsTheHalvesOfARoundThingApart) {
   EXPECT_FALSE(
       AreJoined([](int u, int) { return 1.0 + 0.08 * std::cos(M_PI * (u - 320.0) / 320.0); }));
+}
+
+// Each two neighbours may be one; the left third with both others is too round to be.
+TEST(JoinSurfaces, AsksAgainWhatIsOneWithASurfaceThatHasGrown) {
+  const auto round = [](int u, int) { return 1.0 + 0.045 * std::pow((u - 450.0) / 320.0, 2); };
+  const auto joined = [&](const std::vector<int>& labels) {
+    return JoinSurfaces(Strips(round, labels), 3, nullptr, {}, {}, {}).into;
+  };
+  EXPECT_EQ(joined({0, 1, 2}), (std::vector<int>{0, 1, 1}));
+  EXPECT_EQ(joined({0, 2, 1}), (std::vector<int>{0, 1, 1}));
+  EXPECT_EQ(joined({1, 2, 0}), (std::vector<int>{0, 1, 0}));
+  EXPECT_EQ(joined({2, 1, 0}), (std::vector<int>{0, 0, 2}));
 }
 
 TEST(JoinSurfaces, AsksForEightPixelsThatTouch) {
