@@ -8,9 +8,9 @@
 
 namespace slam {
 
-/// How depth scatters within windows of a few pixels, by which a recording tells what measured it. Where
-/// nothing but a plane is seen, that is the sensor's noise. It is looked at in inverse depth, of
-/// which a plane is a linear function of the pixel.
+/// How depth scatters within windows of a few pixels, by which a recording tells what measured
+/// it. Where nothing but a plane is seen, that is the sensor's noise. It is looked at in inverse
+/// depth, which on a plane is a linear function of the pixel.
 class DepthScatter {
  public:
   /// @param depth_m  planar z, metres; what is not a positive number is no measurement
