@@ -19,8 +19,8 @@ namespace fs = std::filesystem;
 constexpr const char* kFormat = "pas-suite/1";
 const std::vector<std::string> kVariants{"full", "no-association",
                                          "no-processing-no-association", "points"};
-constexpr const char* kDefaultSensor =
-    "kinect1";  // and what a sensor of the user's is taken for
+// What scenes are recorded with, and what a sensor of the user's is taken for.
+constexpr const char* kDefaultSensor = "kinect1";
 
 /// Reads one suite file; its folder is where relative paths begin.
 class SuiteReader {

@@ -4,8 +4,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "slam/base/index.h"
-
 namespace slam {
 namespace {
 
@@ -20,7 +18,7 @@ constexpr std::size_t kMinWindows = 500;  // a quarter of one image of 640 x 480
 // Bounds are between what recordings show (docs/planes.md#sensors). Levels: 0.18 to 0.85 by Azure,
 // 0.77 to 1.02 by first Kinects, two of them real, 1.48 to 1.85 by D435, 0.02 without noise.
 constexpr double kNoNoise = 0.06;
-constexpr double kTimeOfFlightLevel = 0.9;  // white noise of 1.0 is in simulated Kinects
+constexpr double kTimeOfFlightLevel = 0.9;  // a Kinect simulated with white noise has 1.0
 constexpr double kStereoLevel = 1.25;
 // Triangulation matches windows, so that neighbours err alike: 0.29 to 0.53. Time of flight
 // measures each pixel by itself: -0.03 to -0.01.
