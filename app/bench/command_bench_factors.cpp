@@ -23,7 +23,7 @@ struct FactorSwitch {
   bool& (*in)(slam::Config& config);
 };
 
-constexpr std::array<FactorSwitch, 6> kFactors = {{
+constexpr std::array<FactorSwitch, 7> kFactors = {{
     {"pose: point (eq14)",
      [](slam::Config& c) -> bool& { return c.point_search.pose.use_points; }},
     {"pose: plane-plane (eq15, eq16)",
@@ -32,6 +32,7 @@ constexpr std::array<FactorSwitch, 6> kFactors = {{
      [](slam::Config& c) -> bool& { return c.point_search.pose.use_boxes; }},
     {"pose: point-plane (eq18)",
      [](slam::Config& c) -> bool& { return c.point_search.pose.use_point_planes; }},
+    {"pose: vertex", [](slam::Config& c) -> bool& { return c.point_search.pose.use_vertices; }},
     {"bundle: plane-plane (eq16)",
      [](slam::Config& c) -> bool& { return c.mapping.bundle.use_planes; }},
     {"bundle: point-plane (eq18)",

@@ -8,6 +8,7 @@
 #include "slam/pose/factors/plane.h"
 #include "slam/pose/factors/point.h"
 #include "slam/pose/factors/point_plane.h"
+#include "slam/pose/factors/vertex.h"
 #include "tests/support/numeric_jacobian.h"
 
 namespace slam {
@@ -117,6 +118,25 @@ RC_GTEST_PROP(PointPlaneFactorEq18, VanishesAtTruthAndHasItsJacobian, ()) {
   RC_ASSERT(std::abs(PointPlaneFactor(c, T_cw).r[0]) < 1e-12 * (1 + T_cw.t.norm() * 10));
   CheckJacobian<1>(AnyMotion(1, 1) * T_cw,
                    [&](const Pose& T) { return PointPlaneFactor(c, T); });
+}
+
+RC_GTEST_PROP(VertexFactor, VanishesAtTruthAndHasItsJacobian, ()) {
+  const Pose T_cw = AnyPose(3);
+  const SeenPlane seen = AnySeenPlane();
+  const VertexConstraint c{Inverse(T_cw) * seen.point_c, seen.point_c,
+                           100 * TangentBasis(seen.pi_c.n).transpose()};
+  RC_ASSERT(VertexFactor(c, T_cw).r.norm() < 1e-10 * (1 + T_cw.t.norm() * 10));
+  CheckJacobian<2>(AnyMotion(1, 1) * T_cw, [&](const Pose& T) { return VertexFactor(c, T); });
+}
+
+// What lies across the plane is the plane's to tell.
+RC_GTEST_PROP(VertexFactor, SaysNothingAboutStepsAcrossItsPlane, ()) {
+  const Pose T_cw = AnyPose(1);
+  const SeenPlane seen = AnySeenPlane();
+  const VertexConstraint c{Inverse(T_cw) * seen.point_c, seen.point_c,
+                           100 * TangentBasis(seen.pi_c.n).transpose()};
+  const Pose stepped{T_cw.R, T_cw.t + AnyReal(-1, 1) * seen.pi_c.n};
+  RC_ASSERT(VertexFactor(c, stepped).r.norm() < 1e-9);
 }
 
 RC_GTEST_PROP(ParallelFactorEq19, VanishesAtTruthAndHasItsJacobian, ()) {

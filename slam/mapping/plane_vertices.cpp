@@ -9,10 +9,7 @@ namespace {
 
 // An extrapolated corner has twice the standard deviation of one that was seen.
 constexpr double kSeenWeight = 1.0, kExtrapolatedWeight = 0.25;
-// Errors that a corner's covariance does not hold: pose, calibration, depth that is late or lies
-// beside its colour, bends. Measured by axis: 1.3 mm for noise alone, 4 mm for a first Kinect as
-// recorded (docs/planes.md, corners).
-constexpr double kOtherVariance_m2 = 0.003 * 0.003;
+constexpr double kOtherVariance_m2 = kOtherVertexSigma_m * kOtherVertexSigma_m;
 constexpr double kMaxWeight = 40.0;  // so that a wrong start can still be left
 
 /// The order around the face that moves the corners least: observed[order[i]] belongs to

@@ -11,6 +11,7 @@
 #include "slam/pose/factors/point.h"
 #include "slam/pose/factors/point_plane.h"
 #include "slam/pose/factors/rotation.h"
+#include "slam/pose/factors/vertex.h"
 #include "slam/pose/robust.h"
 #include "slam/pose/solve.h"
 
@@ -47,6 +48,10 @@ bool Sane(const BoxConstraint& c) {
 
 bool Sane(const PointPlaneConstraint& c) {
   return c.p_w.allFinite() && Sane(c.pi_c) && Positive(c.sigma_m);
+}
+
+bool Sane(const VertexConstraint& c) {
+  return c.p_w.allFinite() && c.p_c.allFinite() && c.sqrt_information.allFinite();
 }
 
 bool Sane(const DirectionConstraint& c) {
@@ -216,8 +221,9 @@ class Evaluator {
   void AddSeenPlanes(const Pose& T_cw, NormalEquations& sum) const {
     if (config_.use_planes) AddPlanes(T_cw, sum);             // eq15, eq16
     if (config_.use_point_planes) AddPointPlanes(T_cw, sum);  // eq18
-    AddParallels(T_cw, sum);                                  // eq19
-    AddPerpendiculars(T_cw, sum);                             // eq20
+    if (config_.use_vertices) AddVertices(T_cw, sum);
+    AddParallels(T_cw, sum);       // eq19
+    AddPerpendiculars(T_cw, sum);  // eq20
     AddRotations(T_cw, sum);
   }
 
@@ -225,6 +231,12 @@ class Evaluator {
     for (const PointPlaneConstraint& c : problem_.point_planes) {
       if (!Sane(c)) continue;
       Add(Whitened(PointPlaneFactor(c, T_cw), 1 / c.sigma_m), config_.huber_planes, sum);
+    }
+  }
+
+  void AddVertices(const Pose& T_cw, NormalEquations& sum) const {
+    for (const VertexConstraint& c : problem_.vertices) {
+      if (Sane(c)) Add(VertexFactor(c, T_cw), config_.huber_planes, sum);
     }
   }
 

@@ -47,6 +47,14 @@ struct PointPlaneConstraint {
   double sigma_m = 0.01;
 };
 
+/// f_v: a corner of a map plane seen as a corner of the frame plane. Source: PAS-SLAM names the
+/// vertices of a plane; the factor is no equation of the paper's.
+struct VertexConstraint {
+  Eigen::Vector3d p_w, p_c;
+  /// S, S^T S in 1/m^2, of what lies along the frame plane.
+  Eigen::Matrix<double, 2, 3> sqrt_information = Eigen::Matrix<double, 2, 3>::Zero();
+};
+
 /// f_pi_p and f_pi_v: a map plane parallel or perpendicular to a frame plane.
 /// Source: PAS-SLAM eq19, eq20 (corrected).
 struct DirectionConstraint {
@@ -67,6 +75,7 @@ struct PoseProblemConfig {
   double huber_planes = 2.0;
   bool use_points = true;
   bool use_planes = true, use_point_planes = true;
+  bool use_vertices = true;
   bool use_boxes = false;  // buys nothing: docs/back_end.md
 };
 
@@ -80,6 +89,7 @@ inline void VisitFields(PoseProblemConfig& c, FieldVisitor& v) {
   v.Flag("use_points", c.use_points, "f_p: a map point seen at a feature");
   v.Flag("use_planes", c.use_planes, "f_pi: a map plane seen as a frame plane");
   v.Flag("use_boxes", c.use_boxes, "f_b_pi: projected corners against a detection box");
+  v.Flag("use_vertices", c.use_vertices, "f_v: a map plane's corner seen as a frame plane's");
   v.Flag("use_point_planes", c.use_point_planes, "f_p_pi: a map point on a frame plane");
 }
 
@@ -90,6 +100,7 @@ struct PoseProblem {
   std::vector<PlaneConstraint> planes;
   std::vector<BoxConstraint> boxes;
   std::vector<PointPlaneConstraint> point_planes;
+  std::vector<VertexConstraint> vertices;
   std::vector<DirectionConstraint> parallels, perpendiculars;
   std::vector<RotationConstraint> rotations;
   /// Planes, whatever is made of them, were measured at another time.

@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "tests/support/map_surfaces.h"
@@ -141,6 +142,56 @@ TEST(PlaneConstraints, WeighAPlaneByItsFitAndTheBendThatItsLandmarkDoesNotShare)
   ASSERT_EQ(problem.planes.size(), 1u);
   EXPECT_NEAR(problem.planes[0].offset_sigma_m, std::hypot(0.001, 0.002), 1e-12);
   EXPECT_NEAR(problem.planes[0].angle_sigma_rad, std::hypot(0.002, 0.003), 1e-12);
+}
+
+/// The book with four corners in the map, 0.2 m by 0.3 m, each seen with no error of its own.
+struct SeenCorners : SeenBook {
+  SeenCorners() {
+    MapPlane& m = map.planes.At(0);
+    m.vertices_w.clear();
+    for (const Eigen::Vector3d& p_c :
+         {Eigen::Vector3d(0, 0, 2), Eigen::Vector3d(0.2, 0, 2), Eigen::Vector3d(0.2, 0.3, 2),
+          Eigen::Vector3d(0, 0.3, 2)}) {
+      m.vertices_w.push_back(Inverse(T_cw) * p_c);
+      frame.planes[0].vertices_c.push_back({p_c});
+    }
+    m.vertex_weights.assign(4, 1.0);
+  }
+  Vertex& Seen(std::size_t i) { return frame.planes[0].vertices_c[i]; }
+};
+
+TEST(VertexConstraints, PairEachCornerThatWasSeenWithTheLandmarksNearest) {
+  SeenCorners book;
+  std::reverse(book.frame.planes[0].vertices_c.begin(), book.frame.planes[0].vertices_c.end());
+  book.Seen(3).p_c.x() += 0.02;
+  const PoseProblem problem = book.Problem();
+  ASSERT_EQ(problem.vertices.size(), 4u);
+  for (std::size_t i = 0; i < 4; ++i) {
+    EXPECT_EQ(problem.vertices[i].p_w, book.map.planes.At(0).vertices_w[3 - i]) << i;
+    EXPECT_EQ(problem.vertices[i].p_c, book.Seen(i).p_c) << i;
+  }
+}
+
+TEST(VertexConstraints, LeaveOutCornersThatNobodySawOrThatLieElsewhere) {
+  SeenCorners book;
+  book.Seen(0).extrapolated = true;
+  book.Seen(1).p_c.y() -= 1.01 * book.config.max_vertex_gap_m;
+  book.Seen(2).p_c.z() = std::nan("");
+  EXPECT_EQ(book.Problem().vertices.size(), 1u);
+  book.frame.planes[0].bad = BadReason::kFar;
+  EXPECT_TRUE(book.Problem().vertices.empty());
+}
+
+TEST(VertexConstraints, WeighTheFramesErrorAlongThePlaneAndTheViewsOfTheLandmark) {
+  SeenCorners book;
+  book.Seen(0).covariance_c = Eigen::Vector3d(4e-6, 16e-6, 1.0).asDiagonal();  // z: the plane's
+  book.map.planes.At(0).vertex_weights[0] = 0.5;
+  const VertexConstraint c = book.Problem().vertices.at(0);
+  const Eigen::Matrix3d information = c.sqrt_information.transpose() * c.sqrt_information;
+  const double other2 = 0.003 * 0.003 * (1 + 2);
+  const Eigen::Vector3d expected(1 / (4e-6 + other2), 1 / (16e-6 + other2), 0);
+  EXPECT_TRUE(information.isApprox(Eigen::Matrix3d(expected.asDiagonal()), 1e-9))
+      << information;
 }
 
 }  // namespace
