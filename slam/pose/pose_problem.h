@@ -75,8 +75,8 @@ struct PoseProblemConfig {
   double huber_planes = 2.0;
   bool use_points = true;
   bool use_planes = true, use_point_planes = true;
-  bool use_vertices = true;
-  bool use_boxes = false;  // buys nothing: docs/back_end.md
+  // The one buys nothing, the other pays only where there are next to no prints: docs/back_end.md
+  bool use_boxes = false, use_vertices = false;
 };
 
 inline void VisitFields(PoseProblemConfig& c, FieldVisitor& v) {

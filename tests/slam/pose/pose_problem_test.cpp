@@ -182,16 +182,17 @@ TEST(PoseOptimiserEq13, APlaneAndTwoOfItsCornersHoldThePoseAlone) {
   plane.centroid_c = -2.0 * plane.pi_c.n;
   plane.pi_w = Transform(Inverse(kTruth), plane.pi_c);
   problem.planes.push_back(plane);
+  PoseProblemConfig config;
+  config.use_vertices = true;
   for (const double along_m : {-0.2, 0.3}) {
     const Eigen::Vector3d p_c = plane.centroid_c + along_m * TangentBasis(plane.pi_c.n).col(0);
     problem.vertices.push_back(
         {Inverse(kTruth) * p_c, p_c, 300 * TangentBasis(plane.pi_c.n).transpose()});
-    EXPECT_EQ(OptimisePose(problem, Camera{}, {}).nullity, along_m < 0 ? 1 : 0);
+    EXPECT_EQ(OptimisePose(problem, Camera{}, config).nullity, along_m < 0 ? 1 : 0);
   }
-  EXPECT_THAT(OptimisePose(problem, Camera{}, {}).T_cw, PoseNear(kTruth, 1e-6, 1e-6));
-  PoseProblemConfig without;
-  without.use_vertices = false;
-  EXPECT_EQ(OptimisePose(problem, Camera{}, without).nullity, 3);
+  EXPECT_THAT(OptimisePose(problem, Camera{}, config).T_cw, PoseNear(kTruth, 1e-6, 1e-6));
+  config.use_vertices = false;
+  EXPECT_EQ(OptimisePose(problem, Camera{}, config).nullity, 3);
 }
 
 TEST(PoseOptimiserEq13, RefusesAFirstGuessThatIsNotFinite) {
