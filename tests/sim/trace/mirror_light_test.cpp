@@ -77,5 +77,21 @@ TEST(MirrorLight, OfTheSunNeedsIt) {
   EXPECT_GT(MirrorLight(scene, to_sun, spot)[0], 1.0F);
 }
 
+TEST(MirrorLight, OfALampIsNothingWhereSomethingStandsBeforeIt) {
+  Scene scene = Floor({0, 1, 1}, 1);
+  scene.lights.push_back(scene.lights[0]);
+  const auto seen = [&](unsigned lights) {
+    const MirrorSpot spot{.x_w = {0, 0, 0},
+                          .look_w = Eigen::Vector3d(0, 1, -1).normalized(),
+                          .n_w = Eigen::Vector3d::UnitZ(),
+                          .lights_seen = lights};
+    return MirrorLight(scene, Eigen::Vector3d::UnitZ(), spot)[1];
+  };
+  EXPECT_EQ(seen(0b00), 0.0F);
+  EXPECT_GT(seen(0b10), 0.0F);
+  EXPECT_FLOAT_EQ(seen(0b10), seen(0b01));
+  EXPECT_FLOAT_EQ(seen(0b11), 2 * seen(0b01));
+}
+
 }  // namespace
 }  // namespace sim

@@ -61,6 +61,18 @@ TEST(PlaceSearch, FindsNothingWhereEveryMatchIsWrong) {
   }
 }
 
+// Two answers are one place by where the camera is and looks, wherever the world begins.
+TEST(SamePose, GoesByTheCamerasPlaceFarFromTheWorldsOrigin) {
+  const PlaceSearchConfig config;
+  const auto at = [](double x_m, double turn_rad) {
+    return Inverse(Pose{ExpSo3({0, turn_rad, 0}), {x_m, 20.0, 0}});
+  };
+  EXPECT_TRUE(SamePose(at(30, 0), at(30 + 0.9 * config.same_pose_m, 0.05), config));
+  EXPECT_FALSE(SamePose(at(30, 0), at(30 + 1.1 * config.same_pose_m, 0.05), config));
+  EXPECT_TRUE(SamePose(at(30, 0.3), at(30, 0.3 + 0.9 * config.same_pose_rad), config));
+  EXPECT_FALSE(SamePose(at(30, 0.3), at(30, 0.3 + 1.1 * config.same_pose_rad), config));
+}
+
 TEST(PlaceSearch, NeedsNoDepth) {
   const PointWorld world = MakePointWorld(1, 90, 3);
   const int all = static_cast<int>(world.map.keyframes[0].features.size());
