@@ -86,6 +86,19 @@ TEST(ScoreTrajectory, ChargesAMissingFrameTheDiameterOfTheTruePath) {
   EXPECT_NEAR(*score.ate_complete_rmse_m, diameter_m / std::sqrt(64.0), kExact_m);
 }
 
+TEST(ScoreTrajectory, PairsAMetreApartAlongTheTruthWhateverTheRunMakesOfIt) {
+  constexpr std::size_t kSteps = 5;  // of 0.2 m each
+  Trajectory truth = Helix(60, 30.0);
+  for (StampedPose& pose : truth) pose.T_wc.t *= 2;
+  Trajectory estimate = truth;
+  for (StampedPose& pose : estimate) pose.T_wc.t *= 2;
+  const TrajectoryScore score = ScoreTrajectory(estimate, truth, Stamps(truth), true);
+  ASSERT_TRUE(score.rpe_1m.has_value());
+  EXPECT_EQ(score.rpe_1m->pairs, truth.size() - kSteps);
+  EXPECT_NEAR(score.rpe_1m->trans_rmse_m, (truth[kSteps].T_wc.t - truth[0].T_wc.t).norm(),
+              kExact_m);
+}
+
 TEST(ScoreTrajectory, SaysNotDefinedForACameraOnARail) {
   Trajectory rail;
   for (int i = 0; i < 40; ++i)
