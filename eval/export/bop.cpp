@@ -176,8 +176,9 @@ class BopScene {
 
 void RefuseLens(const Sequence& sequence) {
   if (!sequence.true_camera->distorted()) return;
+  const bool told_otherwise = fs::exists(sequence.folder / kTrueCamera);
   throw io::InputError(
-      (sequence.folder / "camera.yaml").string(),
+      (sequence.folder / (told_otherwise ? kTrueCamera : "camera.yaml")).string(),
       "has lens distortion, which BOP's camera cannot say: poses would miss their "
       "masks. Record with --lens 0 0 0 0 0, or export to COCO, which needs no camera");
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "slam/base/field_visitor.h"
+#include "slam/model/map_plane.h"
 
 namespace slam {
 
@@ -18,7 +19,7 @@ struct PlaneMapConfig {
   double voxel_m = 0.02;
   int max_cloud_points = 2000;
   int max_edge_points = 1000;
-  double max_vertex_jump_m = 0.05;
+  double max_vertex_jump_m = kMaxVertexJump_m;
   double min_face_weight = 5.0;
   double min_corner_weight = 1.0;
   double face_margin_m = 0.02;

@@ -4,6 +4,8 @@
 #include <array>
 #include <limits>
 
+#include "slam/model/map_queries.h"
+
 namespace slam {
 namespace {
 
@@ -65,15 +67,8 @@ void ConfirmCorners(MapPlane& m, const std::vector<Vertex>& vertices_c, const Po
   for (const Vertex& vertex : vertices_c) {
     if (vertex.extrapolated || !vertex.p_c.allFinite()) continue;
     const Eigen::Vector3d observed_w = ProjectOnto(m.pi_w, T_wc * vertex.p_c);
-    std::size_t nearest = 0;
-    for (std::size_t i = 1; i < kFaceCorners; ++i) {
-      if ((m.vertices_w[i] - observed_w).norm() < (m.vertices_w[nearest] - observed_w).norm()) {
-        nearest = i;
-      }
-    }
-    if ((m.vertices_w[nearest] - observed_w).norm() < config.max_vertex_jump_m) {
-      Average(m, nearest, observed_w, Weight(vertex, n_c));
-    }
+    const auto at = NearestVertex(m, observed_w, config.max_vertex_jump_m);
+    if (at) Average(m, *at, observed_w, Weight(vertex, n_c));
   }
 }
 

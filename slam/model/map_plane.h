@@ -20,6 +20,10 @@ enum class LandmarkStatus {
   kMerged  ///< found to be the same surface as another landmark, which stands for both
 };
 
+/// How far apart a corner that is seen and a known one may be to be one, metres: beyond what edge lines
+/// and pose err by, and less than the sides of what lies on a desk.
+inline constexpr double kMaxVertexJump_m = 0.05;
+
 struct PlanePart;
 
 /// A surface of the map: a patch with a front, in the world frame.

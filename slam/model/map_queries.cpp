@@ -30,6 +30,19 @@ bool StepLiesBetween(const MapPlane& one, const MapPlane& other) {
   return together == one.covisible.end() || 2 * steps->second > together->second;
 }
 
+std::optional<std::size_t> NearestVertex(const MapPlane& map_plane, const Eigen::Vector3d& p_w,
+                                         double max_gap_m) {
+  std::optional<std::size_t> nearest;
+  double least_m = max_gap_m;
+  for (std::size_t i = 0; i < map_plane.vertices_w.size(); ++i) {
+    const double gap_m = (map_plane.vertices_w[i] - p_w).norm();
+    if (!(gap_m < least_m)) continue;
+    least_m = gap_m;
+    nearest = i;
+  }
+  return nearest;
+}
+
 Pose KeyframePose(const Map& map, int keyframe) {
   Pose T_ck;  // identity: from the keyframe walked to, back to the one asked for
   const Keyframe* k = &map.keyframes.at(Index(keyframe));

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <map>
+#include <optional>
 #include <vector>
 
 #include "slam/model/frame.h"
@@ -16,6 +17,10 @@ int CurrentPlane(const Map& map, int plane);
 
 /// Frames that saw the two surfaces side by side mostly showed a step between them.
 bool StepLiesBetween(const MapPlane& one, const MapPlane& other);
+
+/// Position in vertices_w of the corner nearest to p_w. Nothing: none is nearer than max_gap_m.
+std::optional<std::size_t> NearestVertex(const MapPlane& map_plane, const Eigen::Vector3d& p_w,
+                                         double max_gap_m);
 
 /// Pose of a keyframe, whether culled or not.
 Pose KeyframePose(const Map& map, int keyframe);

@@ -3,9 +3,9 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
-#include <optional>
 
 #include "slam/base/index.h"
+#include "slam/model/map_queries.h"
 
 namespace slam {
 namespace {
@@ -65,29 +65,15 @@ void AddBox(const Frame& frame, const FramePlane& plane, const MapPlane& map_pla
   problem.boxes.push_back(std::move(c));
 }
 
-/// The landmark's corner that lies nearest to p_w, or none within the bound: its position.
-std::optional<std::size_t> NearestVertex(const MapPlane& map_plane, const Eigen::Vector3d& p_w,
-                                         double max_gap_m) {
-  std::optional<std::size_t> nearest;
-  double least_m = max_gap_m;
-  for (std::size_t i = 0; i < map_plane.vertices_w.size(); ++i) {
-    const double gap_m = (map_plane.vertices_w[i] - p_w).norm();
-    if (!(gap_m < least_m)) continue;
-    least_m = gap_m;
-    nearest = i;
-  }
-  return nearest;
-}
-
 /// Corners that the frame saw, each against the landmark's nearest.
 void AddVertices(const Pose& T_cw, const FramePlane& plane, const MapPlane& map_plane,
-                 const PlaneConstraintConfig& config, PoseProblem& problem) {
+                 PoseProblem& problem) {
   const Pose T_wc = Inverse(T_cw);
   const Eigen::Matrix<double, 2, 3> along = TangentBasis(plane.pi_c.n).transpose();
   constexpr double kOther_m2 = kOtherVertexSigma_m * kOtherVertexSigma_m;
   for (const Vertex& vertex : plane.vertices_c) {
     if (vertex.extrapolated || !vertex.p_c.allFinite()) continue;
-    const auto at = NearestVertex(map_plane, T_wc * vertex.p_c, config.max_vertex_gap_m);
+    const auto at = NearestVertex(map_plane, T_wc * vertex.p_c, kMaxVertexJump_m);
     if (!at || *at >= map_plane.vertex_weights.size()) continue;
     const double weight = map_plane.vertex_weights[*at];  // 1: one view, exact but for the rest
     if (!(weight > 0)) continue;
@@ -152,7 +138,7 @@ void AddPlaneConstraints(const Frame& frame, const Map& map, const Camera& camer
         plane, *matched, frame.T_cw,
         std::hypot(plane.offset_sigma_m, config.bend_share * plane.bend_offset_sigma_m),
         std::hypot(plane.angle_sigma_rad, config.bend_share * plane.bend_angle_sigma_rad)));
-    AddVertices(frame.T_cw, plane, *matched, config, problem);
+    AddVertices(frame.T_cw, plane, *matched, problem);
     AddBox(frame, plane, *matched, camera, config, problem);
   }
   AddPointPlanes(frame, map, config, problem);

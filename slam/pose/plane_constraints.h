@@ -14,7 +14,6 @@ struct PlaneConstraintConfig {
   double bend_share = 0.5;
   double point_plane_sigma_m = 0.01;
   double points_per_plane = 10.0;  // all points of a plane share its error
-  double max_vertex_gap_m = 0.05;
   double box_sigma_px = 8.0;
   double max_box_gap_px = 8.0;
 };
@@ -28,9 +27,6 @@ inline void VisitFields(PlaneConstraintConfig& c, FieldVisitor& v) {
            "standard deviation of a point's distance from its plane in f_p_pi (eq18)");
   v.Number("points_per_plane", c.points_per_plane, "(0, inf)",
            "number of points that all points of a plane together weigh at most");
-  v.Number(
-      "max_vertex_gap_m", c.max_vertex_gap_m, "(0, inf)",
-      "gap between a corner seen and the landmark's nearest up to which they are one in f_v");
   v.Number("box_sigma_px", c.box_sigma_px, "(0, inf)",
            "standard deviation of a box side in f_b_pi (eq17)");
   v.Number("max_box_gap_px", c.max_box_gap_px, "[0, inf)",
@@ -45,8 +41,8 @@ PlaneConstraint MakePlaneConstraint(const FramePlane& frame_plane, const MapPlan
                                     double angle_sigma_rad);
 
 /// Adds to `problem` the constraints that frame.plane_matches and frame.point_planes give:
-/// planes (eq15, eq16), corners (f_v), boxes (eq17) and points on planes (eq18), in the order of the frame's
-/// planes. What is assumed of planes among each other is slam/structure's.
+/// planes (eq15, eq16), corners (f_v), boxes (eq17) and points on planes (eq18), in the order of
+/// the frame's planes. What is assumed of planes among each other is slam/structure's.
 void AddPlaneConstraints(const Frame& frame, const Map& map, const Camera& camera,
                          const PlaneConstraintConfig& config, PoseProblem& problem);
 

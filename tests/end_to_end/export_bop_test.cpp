@@ -219,7 +219,19 @@ class BopExport : public testing::Test {
     pipeline::Recording other = exact;
     other.seed = 9;
     pipeline::Record(sim::MakeScene("desk", 3), other, *folder_ / "b");
+    TellAWrongFocalLength(*folder_ / "b");
     summary_ = eval::ExportBop({*folder_ / "a", *folder_ / "b"}, *folder_ / "out", {});
+  }
+  /// What the estimator is told of the camera errs by 3 %; the truth has the camera as it is.
+  static void TellAWrongFocalLength(const fs::path& sequence) {
+    fs::copy_file(sequence / "camera.yaml", sequence / "gt/camera.yaml");
+    std::ifstream is(sequence / "gt/camera.yaml");
+    std::ofstream told(sequence / "camera.yaml");
+    for (std::string line; std::getline(is, line);) {
+      if (line.rfind("fx: ", 0) == 0)
+        line = "fx: " + std::to_string(1.03 * std::stod(line.substr(4)));
+      told << line << "\n";
+    }
   }
   static void TearDownTestSuite() { delete folder_; }
   static inline TemporaryFolder* folder_ = nullptr;
@@ -286,7 +298,7 @@ TEST_F(BopExport, GivesTheSameSceneTheSameModels) {
 }
 
 TEST_F(BopExport, RefusesALens) {
-  std::ofstream(*folder_ / "b/camera.yaml", std::ios::app) << "k1: 0.1\n";
+  std::ofstream(*folder_ / "b/gt/camera.yaml", std::ios::app) << "k1: 0.1\n";
   try {
     eval::ExportBop({*folder_ / "b"}, *folder_ / "bent", {});
     FAIL() << "exported a distorted camera";

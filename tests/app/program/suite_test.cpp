@@ -57,6 +57,24 @@ TEST_F(SuiteProgram, RunsNothingTwiceUnlessItsInputsChanged) {
   EXPECT_EQ(Runs("out"), 12u);
 }
 
+TEST_F(SuiteProgram, RunsAgainWhatAFileOfTheUsersChanged) {
+  std::ofstream(folder_ / "sensor.yaml") << "base: azure\n";
+  std::ofstream(folder_ / "config.yaml") << "pose: {rounds: 4}\n";
+  WriteSuite(
+      "seeds: {first: 1, count: 2}\nsensors: [kinect1, {name: mine, file: sensor.yaml}]\n"
+      "configs: [default, {name: mine, file: config.yaml}]\n");
+  Suite("out");
+  const std::size_t all = Runs("out");
+  Suite("out");
+  EXPECT_EQ(Runs("out"), 0u);
+  std::ofstream(folder_ / "sensor.yaml") << "base: d435 \n";  // as long as before
+  Suite("out");
+  EXPECT_EQ(Runs("out"), all / 2);
+  std::ofstream(folder_ / "config.yaml") << "pose: {rounds: 5}\n";
+  Suite("out");
+  EXPECT_EQ(Runs("out"), all / 2);
+}
+
 TEST_F(SuiteProgram, RunsARecordingAgainWhoseListsOrCameraChanged) {
   std::ofstream(folder_ / "suite.yaml")
       << "format: pas-suite/1\nname: real\nscenes: [{recordings: all}]\n";

@@ -175,7 +175,7 @@ TEST(VertexConstraints, PairEachCornerThatWasSeenWithTheLandmarksNearest) {
 TEST(VertexConstraints, LeaveOutCornersThatNobodySawOrThatLieElsewhere) {
   SeenCorners book;
   book.Seen(0).extrapolated = true;
-  book.Seen(1).p_c.y() -= 1.01 * book.config.max_vertex_gap_m;
+  book.Seen(1).p_c.y() -= 1.01 * kMaxVertexJump_m;
   book.Seen(2).p_c.z() = std::nan("");
   EXPECT_EQ(book.Problem().vertices.size(), 1u);
   book.frame.planes[0].bad = BadReason::kFar;
