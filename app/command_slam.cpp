@@ -94,7 +94,8 @@ int Verdict(const slam::RunOutcome& outcome, const std::string& sequence) {
   }
   if (outcome.tracked == 0) {
     fmt::print(stderr,
-               "pas: tracking never started: no frame of {} has enough features with depth\n",
+               "pas: tracking never started: no frame of {} has enough features with depth, "
+               "nor planes or edges that could hold the camera\n",
                sequence);
     return kFailure;
   }

@@ -26,6 +26,7 @@
 #include "slam/pose/plane_constraints.h"
 #include "slam/pose/pose_error.h"
 #include "slam/run/stopwatch.h"
+#include "slam/structure/plane_start.h"
 #include "slam/structure/structure.h"
 #include "slam/tracking/map_covariance.h"
 
@@ -125,6 +126,11 @@ bool Tracker::TrackByPoints(Frame& frame, TrackReport& report) {
   const Pose T_dc = frame.T_dc();
   report.points = points_.TrackPoints(frame, map_);
   CarryPlanesAgain(T_dc, camera_, frame);  // the pose told the speed
+  const double image_px = static_cast<double>(camera_.width) * camera_.height;
+  if (report.points.state == TrackState::kInitialising &&
+      PlanesCanStart(frame.planes, image_px, config_.structure)) {
+    points_.Start(report.points);
+  }
   report.tracked = report.points.state == TrackState::kTracking;
   if (report.tracked) frame.T_cw_by_pixels = PoseByPixels(frame, map_, camera_, scale());
   if (report.tracked || report.points.started) return true;

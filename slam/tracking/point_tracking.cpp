@@ -32,26 +32,7 @@ constexpr double kFullImage_px2 = 640.0 * 480.0;
 constexpr double kRichFeatures = 300.0;  // a frame with fewer cannot be asked for all inliers
 constexpr int kMinInliers = 15;      // balances images with few features against wrong poses
 constexpr int kMinStartPoints = 40;  // balances a bare start against none
-/// Whether planes alone can hold a camera: some two of them that are large enough to be landmarks
-/// at first sight and far from parallel leave at most one direction to its motion.
-bool PlanesCanStart(const std::vector<FramePlane>& planes, double image_px) {
-  // Of the image: at 640 x 480 what proves a landmark alone.
-  constexpr double kMinShare = 1.0 / 64;
-  constexpr double kMaxCosine = 0.9;  // 26 degrees
-  const auto counts = [&](const FramePlane& plane) {
-    return !plane.bad && plane.pixel_count >= kMinShare * image_px;
-  };
-  for (const FramePlane& one : planes) {
-    for (const FramePlane& other : planes) {
-      if (counts(one) && counts(other) && std::abs(one.pi_c.n.dot(other.pi_c.n)) < kMaxCosine) {
-        return true;
-      }
-    }
-  }
-  return false;
-}
-
-constexpr int kManySure = 50;  // balances rooms with little print against walls with none
+constexpr int kManySure = 50;        // balances rooms with little print against walls with none
 constexpr double kWiderSearch = 2.0;       // where few points are found; ORB-SLAM2
 constexpr double kLostRadiusFactor = 2.0;  // a pose without prediction is less exact
 
@@ -85,8 +66,7 @@ PointTrackReport PointTracking::TrackPoints(Frame& frame, Map& map) {
   PointTrackReport report;
   ForgetPose(frame);
   if (map.keyframes.empty()) {
-    report.started = Start(frame);
-    if (report.started) state_ = TrackState::kTracking;
+    if (PointsCanStart(frame)) Start(report);
     report.state = state_;
     return report;
   }
@@ -136,14 +116,17 @@ PointTrackReport PointTracking::TrackPoints(Frame& frame, Map& map) {
   return report;
 }
 
-bool PointTracking::Start(Frame& frame) const {
+void PointTracking::Start(PointTrackReport& report) {
+  report.started = true;
+  report.state = state_ = TrackState::kTracking;
+}
+
+bool PointTracking::PointsCanStart(const Frame& frame) const {
   const auto with_depth =
       std::count_if(frame.features.begin(), frame.features.end(),
                     [](const PointFeature& feature) { return feature.depth_m > 0; });
   const double area = static_cast<double>(camera_.width) * camera_.height;
-  return with_depth >=
-             Scaled(config_.min_start_points, area, kFullImage_px2, kMinStartPoints) ||
-         PlanesCanStart(frame.planes, area);
+  return with_depth >= Scaled(config_.min_start_points, area, kFullImage_px2, kMinStartPoints);
 }
 
 bool PointTracking::TrackByMotion(Frame& frame, const FeatureGrid& grid, const Map& map,

@@ -126,6 +126,8 @@ class PointTracking {
   /// Counts sightings in the map's points; changes nothing else of the map.
   PointTrackReport TrackPoints(Frame& frame, Map& map);
 
+  /// The frame has too few points to start a map, but something else can hold the camera from it on.
+  void Start(PointTrackReport& report);
   /// Planes hold a pose in the frame in which points failed; to be called before NeedKeyframe.
   void HoldByPlanes() { state_ = TrackState::kHeldByPlanes; }
   /// The same where planes found a lost camera: points are looked for there next.
@@ -165,7 +167,7 @@ class PointTracking {
   int reference_keyframe() const { return reference_; }
 
  private:
-  bool Start(Frame& frame) const;
+  bool PointsCanStart(const Frame& frame) const;
   bool TrackByMotion(Frame& frame, const FeatureGrid& grid, const Map& map,
                      PointTrackReport& report) const;
   bool TrackByReference(Frame& frame, const Map& map) const;

@@ -18,9 +18,10 @@ PlaneWorld Desk() {
   return world;
 }
 
+/// Starts at rest.
 Pose HandAt(int i) {
   const double s = i / 30.0;
-  return LookAt({-0.1 + 0.15 * std::sin(2 * s), -0.7 + 0.1 * std::sin(s), 0.9}, {0, 0, 0});
+  return LookAt({-0.1 + 0.15 * std::cos(2 * s), -0.7 + 0.1 * std::cos(s), 0.9}, {0, 0, 0});
 }
 
 /// Everything is printed with one pattern, seen from above.
@@ -41,14 +42,14 @@ cv::Mat1b PrintOf(const cv::Mat1f& depth_m, const Pose& T_wc, const Camera& came
   return print;
 }
 
-/// A desk whose lamp goes out.
-Ran RunIntoTheDark(bool edges_alone) {
+/// A desk whose lamp goes out after `light` frames.
+Ran RunIntoTheDark(int light, bool edges_alone) {
   const Camera camera = SmallCamera(320, 240);
   std::vector<RecordedFrame> stream;
   for (int i = 0; i < kAll; ++i) {
     const cv::Mat1f depth_m = See(Desk(), HandAt(i), camera, {}, Random{1}).frame.depth_m;
-    const cv::Mat1b gray = i < kLight ? PrintOf(depth_m, Inverse(HandAt(i)), camera)
-                                      : cv::Mat1b(depth_m.size(), 0);
+    const cv::Mat1b gray =
+        i < light ? PrintOf(depth_m, Inverse(HandAt(i)), camera) : cv::Mat1b(depth_m.size(), 0);
     stream.push_back(StreamFrame(i, gray, depth_m));
   }
   RunOptions options;
@@ -67,14 +68,26 @@ double LargestError_m(const Ran& ran) {
 }
 
 TEST(EdgesAlone, HoldACameraOverADeskInTheDark) {
-  const Ran ran = RunIntoTheDark(true);
+  const Ran ran = RunIntoTheDark(kLight, true);
   ASSERT_EQ(ran.states[kLight - 1], "tracking");
   ASSERT_EQ(ran.states[kLight], "planes");
   EXPECT_EQ(ran.outcome.tracked, kAll);
   EXPECT_LT(LargestError_m(ran), 0.02);
 }
 
-TEST(EdgesAlone, AreWhatHoldsIt) { EXPECT_EQ(RunIntoTheDark(false).states.back(), "lost"); }
+TEST(EdgesAlone, AreWhatHoldsIt) {
+  EXPECT_EQ(RunIntoTheDark(kLight, false).states.back(), "lost");
+}
+
+TEST(EdgesAlone, StartAMapInTheDark) {
+  const Ran ran = RunIntoTheDark(0, true);
+  EXPECT_EQ(ran.outcome.tracked, kAll);
+  EXPECT_LT(LargestError_m(ran), 0.02);
+}
+
+TEST(EdgesAlone, AreWhatStartsIt) {
+  EXPECT_EQ(RunIntoTheDark(0, false).states.back(), "initialising");
+}
 
 }  // namespace
 }  // namespace slam

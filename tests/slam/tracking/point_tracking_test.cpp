@@ -169,31 +169,6 @@ TEST(PointTracking, WaitsForAFrameWithDepthBeforeItStarts) {
   }
 }
 
-/// Whether a map starts on a dark frame with these planes, given by normal and share of the image.
-bool StartsOn(const std::vector<std::pair<Eigen::Vector3d, double>>& planes) {
-  const Camera camera = SmallCamera();
-  PointOdometer odometer(camera);
-  Frame frame = SeeSwinging(TexturedCorner(), camera, 0);
-  frame.gray.setTo(0);
-  for (const auto& [n, share] : planes) {
-    FramePlane plane;
-    plane.pi_c = {n.normalized(), 1.5};
-    plane.pixel_count = static_cast<int>(share * camera.width * camera.height);
-    frame.planes.push_back(plane);
-  }
-  odometer.Extract(frame);
-  return odometer.tracking.TrackPoints(frame, odometer.map).started;
-}
-
-TEST(PointTracking, StartsWithoutPointsOnTwoLargePlanesThatAreNotParallel) {
-  const Eigen::Vector3d floor(0, -1, -0.5), wall(0.2, 0, -1), tilted(0.3, -1, -0.5);
-  EXPECT_TRUE(StartsOn({{floor, 0.3}, {wall, 0.02}}));
-  EXPECT_FALSE(StartsOn({{floor, 0.3}, {wall, 0.01}})) << "a sliver holds nothing";
-  EXPECT_FALSE(StartsOn({{floor, 0.3}, {tilted, 0.3}})) << "15 degrees leave the slide open";
-  EXPECT_FALSE(StartsOn({{floor, 0.3}}));
-  EXPECT_FALSE(StartsOn({}));
-}
-
 TEST(PointTracking, GoesOnWithoutDepthOnceItHasAMap) {
   const TexturedCorner world;
   PointOdometer odometer(SmallCamera());

@@ -1,0 +1,37 @@
+#include "slam/structure/plane_start.h"
+
+#include <cmath>
+
+#include "slam/structure/supposed_planes.h"
+
+namespace slam {
+namespace {
+
+constexpr double kMinShare =
+    1.0 / 64;                       // of the image: what proves a landmark alone at 640 x 480
+constexpr double kMaxCosine = 0.9;  // 26 degrees
+
+bool SomeTwoStandApart(const std::vector<Eigen::Vector3d>& normals) {
+  for (const Eigen::Vector3d& one : normals) {
+    for (const Eigen::Vector3d& other : normals) {
+      if (std::abs(one.dot(other)) < kMaxCosine) return true;
+    }
+  }
+  return false;
+}
+
+}  // namespace
+
+bool PlanesCanStart(const std::vector<FramePlane>& planes, double image_px,
+                    const StructureConfig& config) {
+  std::vector<Eigen::Vector3d> faces, edges;
+  for (const FramePlane& plane : planes) {
+    if (plane.bad || plane.pixel_count < kMinShare * image_px) continue;
+    faces.push_back(plane.pi_c.n);
+    if (!config.edges_alone) continue;
+    for (const SeenSupposed& edge : SupposePlanes(plane)) edges.push_back(edge.pi_c.n);
+  }
+  return SomeTwoStandApart(faces) || SomeTwoStandApart(edges);
+}
+
+}  // namespace slam
