@@ -1,7 +1,5 @@
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
-#include <unistd.h>
-
 #include <algorithm>
 #include <charconv>
 #include <cmath>
@@ -15,6 +13,7 @@
 #include "io/interval.h"
 #include "slam/base/degrees.h"
 #include "slam/run/config_file.h"
+#include "tests/support/temporary_folder.h"
 
 namespace slam {
 namespace {
@@ -118,8 +117,8 @@ std::vector<std::string> BitsOf(Config config) {
 
 /// What `pas config > FILE` and `--config FILE` do, over the defaults of another sensor.
 Config PrintedAndRead(const Config& config) {
-  const auto file = std::filesystem::temp_directory_path() /
-                    ("pas_settings_" + std::to_string(::getpid()) + ".yaml");
+  const test_support::TemporaryFolder folder;
+  const std::filesystem::path file = folder / "settings.yaml";
   std::ofstream(file) << ConfigAsYaml(config);
   const Config read = ReadConfig(file, ConfigFor(DepthSensor::kAzure));
   std::filesystem::remove(file);

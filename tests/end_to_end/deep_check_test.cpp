@@ -67,7 +67,7 @@ TEST(CheckDeep, IsSilentAboutCleanSequencesOfEveryFamily) {
                                      sim::SensorKind::kAzure, sim::SensorKind::kD435};
   std::size_t i = 0;
   for (const sim::Family& family : sim::Families()) {
-    const TemporaryFolder folder("clean");
+    const TemporaryFolder folder;
     Record(family.name, sensors[i % 4], i % 2 == 0 ? kBarrel : sim::Lens{}, folder / "seq");
     EXPECT_EQ(Faults(folder / "seq"), "") << family.name << " with sensor " << i % 4;
     ++i;
@@ -142,7 +142,7 @@ void MovePrincipalPoint(const fs::path& folder) {
 // Depth that bends, comes late and lies beside its colour is not a fault of the truth.
 TEST(CheckDeep, IsSilentAboutTheFirstKinectAsRecorded) {
   for (const char* family : {"desk", "room", "stack"}) {
-    const TemporaryFolder folder("recorded");
+    const TemporaryFolder folder;
     pipeline::Record(sim::MakeScene(family, 4, {{"texture", 0}}),
                      {.frames = 24, .sensor = sim::SensorKind::kKinect1}, folder / "seq");
     EXPECT_EQ(Faults(folder / "seq"), "") << family;
@@ -155,7 +155,7 @@ TEST(CheckDeep, IsSilentAboutTheFirstKinectAsRecorded) {
 class PlantedFaults : public testing::TestWithParam<Recorded> {};
 
 TEST_P(PlantedFaults, AreFoundAndNamed) {
-  const TemporaryFolder folder("planted");
+  const TemporaryFolder folder;
   Record(GetParam().family, GetParam().sensor, GetParam().lens ? kBarrel : sim::Lens{},
          folder / "seq");
   const auto faults_after = [&](const std::string& name, const auto& plant) {

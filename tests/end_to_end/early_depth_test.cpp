@@ -46,7 +46,7 @@ double AteOf(const fs::path& sequence, const fs::path& run, slam::Variant varian
 
 TEST(DepthOfAnotherTime, LetsPlanesMakeThePoseBetter) {
   // Half a frame late or early, as in TUM's recordings.
-  const pipeline::TemporaryFolder folder("early_depth");
+  const pipeline::TemporaryFolder folder;
   RecordLate(folder / "late");
   PairWithTheDepthBefore(folder / "late", folder / "early");
   // Where the speed was taken as known: 0.6 and 3.2.

@@ -213,7 +213,7 @@ class BopRules {
 class BopExport : public testing::Test {
  protected:
   static void SetUpTestSuite() {
-    folder_ = new TemporaryFolder("bop");
+    folder_ = new TemporaryFolder;
     const pipeline::Recording exact{.frames = 2, .sensor = sim::SensorKind::kIdeal};
     pipeline::Record(sim::MakeScene("desk", 3), exact, *folder_ / "a");
     pipeline::Recording other = exact;

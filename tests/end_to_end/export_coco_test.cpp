@@ -117,7 +117,7 @@ std::vector<std::string> Complaints(const fs::path& folder, const json& root) {
 class CocoExport : public testing::Test {
  protected:
   static void SetUpTestSuite() {
-    folder_ = new TemporaryFolder("coco");
+    folder_ = new TemporaryFolder;
     scene_ = new sim::Scene(sim::MakeScene("desk", 3));
     pipeline::Record(*scene_, {.frames = 3}, *folder_ / "a");
     pipeline::Record(*scene_, {.frames = 2, .seed = 9}, *folder_ / "b");

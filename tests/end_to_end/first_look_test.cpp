@@ -36,7 +36,7 @@ Looked RunWith(int first_look, const std::filesystem::path& sequence,
 }
 
 TEST(FirstLook, BeginsTheMapWithWhatTheDeviceTurnsOutToBe) {
-  const pipeline::TemporaryFolder folder("first_look");
+  const pipeline::TemporaryFolder folder;
   RecordByRows(folder / "seq");
   const Looked without = RunWith(0, folder / "seq", folder / "without");
   const Looked with = RunWith(300, folder / "seq", folder / "with");
@@ -50,7 +50,7 @@ TEST(FirstLook, BeginsTheMapWithWhatTheDeviceTurnsOutToBe) {
 }
 
 TEST(FirstLook, EndsWhereTheRunIsStopped) {
-  const pipeline::TemporaryFolder folder("first_look_stopped");
+  const pipeline::TemporaryFolder folder;
   RecordByRows(folder / "seq");
   slam::RunOptions options;
   options.sequence = folder / "seq";

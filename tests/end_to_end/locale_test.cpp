@@ -18,8 +18,8 @@ class Commas : public std::numpunct<char> {
 };
 
 /// Sequence, run and scores by relative path, without what holds times and places.
-std::map<std::string, std::string> MakeAll(const std::string& name) {
-  const pipeline::TemporaryFolder folder(name);
+std::map<std::string, std::string> MakeAll() {
+  const pipeline::TemporaryFolder folder;
   pipeline::Record(sim::MakeScene("desk", 3, {{"texture", 0.5}}),
                    {.frames = 4, .width = 160, .height = 120}, folder / "seq");
   pipeline::Run(folder / "seq", folder / "run");
@@ -34,11 +34,11 @@ std::map<std::string, std::string> MakeAll(const std::string& name) {
 }
 
 TEST(GlobalLocale, WithADecimalCommaChangesNoByte) {
-  const auto plain = MakeAll("plain");
+  const auto plain = MakeAll();
   const std::locale before = std::locale::global(std::locale(std::locale(), new Commas));
   std::ostringstream control;
   control << 1234.5;
-  const auto commas = MakeAll("commas");
+  const auto commas = MakeAll();
   std::locale::global(before);
   ASSERT_EQ(control.str(), "1.234,5");
   ASSERT_EQ(plain.size(), commas.size());

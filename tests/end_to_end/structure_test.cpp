@@ -18,7 +18,7 @@ app::BenchErrors ErrorsOf(const std::filesystem::path& sequence, slam::Structure
 
 /// Panels in zigzag: whatever is assumed of them, hardly any two stand at right angles.
 TEST(Structure, ThatTheWorldDoesNotHaveHarmsNoPathNorMap) {
-  const pipeline::TemporaryFolder folder{"structure"};
+  const pipeline::TemporaryFolder folder;
   pipeline::Recording recording;
   recording.frames = 30;
   recording.width = 640, recording.height = 480;

@@ -22,7 +22,7 @@ struct BothScores {
 BothScores ScoreBoth(const std::string& family, std::uint64_t seed, sim::SensorKind sensor,
                      eval::TruePixels pixels) {
   const bool is_stereo = sensor == sim::SensorKind::kD435;
-  const pipeline::TemporaryFolder folder("surfaces");
+  const pipeline::TemporaryFolder folder;
   pipeline::Record(sim::MakeScene(family, seed),
                    {.frames = 24, .width = 640, .height = 480, .sensor = sensor, .seed = seed},
                    folder / "seq");

@@ -8,7 +8,7 @@
 namespace {
 
 TEST(WhitePanels, GiveNoHeightThatNoPlaneTells) {
-  const pipeline::TemporaryFolder folder("panels");
+  const pipeline::TemporaryFolder folder;
   pipeline::Record(
       sim::MakeTwin("fr3-snn", 3),
       {.frames = 90, .sensor = sim::SensorKind::kKinect1, .detector = sim::DetectorKind::kNone},
@@ -25,7 +25,7 @@ TEST(WhitePanels, LetNoCornersOfThinLinesTellTheHeight) {
   // The pixels of the thin lines between panels are steps that stay where they are in the image while
   // the camera moves along: for corners they said that it stood still, 40 mm beside the truth and 5
   // by their own word.
-  const pipeline::TemporaryFolder folder("panels");
+  const pipeline::TemporaryFolder folder;
   pipeline::Record(sim::MakeTwin("fr3-snn", 7),
                    {.frames = 40,
                     .width = 640,

@@ -40,7 +40,7 @@ std::vector<std::string> Differences(const fs::path& run_1, const fs::path& run_
 }
 
 TEST(WholeRun, ChangesNoByteWhenTheTruthIsDeleted) {
-  const TemporaryFolder folder("truth");
+  const TemporaryFolder folder;
   pipeline::Record(sim::MakeScene("desk", 3), kShort, folder / "seq");
   pipeline::Run(folder / "seq", folder / "with");
 
@@ -53,7 +53,7 @@ TEST(WholeRun, ChangesNoByteWhenTheTruthIsDeleted) {
 }
 
 TEST(WholeRun, GivesTheSameBytesWithOneThreadAndTwoAndASecondTime) {
-  const TemporaryFolder folder("threads");
+  const TemporaryFolder folder;
   pipeline::Record(sim::MakeScene("desk", 4), kShort, folder / "seq");
   pipeline::Run(folder / "seq", folder / "one", slam::Variant::kFull, 1);
   pipeline::Run(folder / "seq", folder / "two", slam::Variant::kFull, 2);
@@ -64,7 +64,7 @@ TEST(WholeRun, GivesTheSameBytesWithOneThreadAndTwoAndASecondTime) {
 }
 
 TEST(WholeRun, SequencesHaveTheSameBytesWithOneThreadAndTwo) {
-  const TemporaryFolder folder("sequence");
+  const TemporaryFolder folder;
   pipeline::Recording one = kShort, two = kShort;
   one.threads = 1;
   two.threads = 2;
@@ -75,7 +75,7 @@ TEST(WholeRun, SequencesHaveTheSameBytesWithOneThreadAndTwo) {
 
 TEST(WholeRun, TheSeedOfTheEstimatorIsNotTheSensors) {
   // Positive control of the comparison above: another sensor seed must be seen.
-  const TemporaryFolder folder("control");
+  const TemporaryFolder folder;
   pipeline::Recording other = kShort;
   other.seed = 2;
   pipeline::Record(sim::MakeScene("desk", 4), kShort, folder / "seq");
@@ -87,7 +87,7 @@ TEST(WholeRun, TheSeedOfTheEstimatorIsNotTheSensors) {
 }
 
 TEST(WholeRun, EveryVariantRunsAndSaysWhatItIs) {
-  const TemporaryFolder folder("variants");
+  const TemporaryFolder folder;
   pipeline::Record(sim::MakeScene("desk", 6), kShort, folder / "seq");
   for (const char* name :
        {"full", "no-association", "no-processing-no-association", "points"}) {

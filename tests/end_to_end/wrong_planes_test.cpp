@@ -42,7 +42,7 @@ class RecordedScene : public ::testing::Test {
 
  private:
   std::string family_;
-  pipeline::TemporaryFolder folder_{"wrong_planes"};
+  pipeline::TemporaryFolder folder_;
 };
 
 /// Boards 20 mm over each other: what is easily taken for one another.

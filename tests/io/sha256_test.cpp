@@ -6,6 +6,7 @@
 #include <fstream>
 
 #include "io/input_error.h"
+#include "tests/support/temporary_folder.h"
 
 namespace io {
 namespace {
@@ -20,7 +21,8 @@ TEST(Sha256, AgreesWithThePublishedExamples) {
 }
 
 TEST(Sha256, OfAFileIsThatOfItsBytes) {
-  const auto path = std::filesystem::temp_directory_path() / "pas_sha256.bin";
+  const test_support::TemporaryFolder folder;
+  const std::filesystem::path path = folder / "bytes.bin";
   const std::string bytes(200001, 'x');
   std::ofstream(path, std::ios::binary) << bytes;
   EXPECT_EQ(Sha256OfFile(path), Sha256Hex(bytes));

@@ -1,8 +1,5 @@
 #include "tests/support/pipeline.h"
 
-#include <unistd.h>
-
-#include <atomic>
 #include <fstream>
 #include <sstream>
 
@@ -14,19 +11,6 @@
 
 namespace pipeline {
 namespace fs = std::filesystem;
-
-TemporaryFolder::TemporaryFolder(const std::string& name) {
-  static std::atomic<int> count{0};
-  path_ = fs::temp_directory_path() /
-          ("pas-" + name + "-" + std::to_string(getpid()) + "-" + std::to_string(++count));
-  fs::remove_all(path_);
-  fs::create_directories(path_);
-}
-
-TemporaryFolder::~TemporaryFolder() {
-  std::error_code ignored;
-  fs::remove_all(path_, ignored);
-}
 
 void Record(const sim::Scene& scene, const Recording& recording, const fs::path& folder) {
   sim::SequenceOptions options;

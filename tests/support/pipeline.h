@@ -6,23 +6,12 @@
 
 #include "sim/write/write_sequence.h"
 #include "slam/run/run_sequence.h"
+#include "tests/support/temporary_folder.h"
 
 /// The whole way in one process: scene -> sequence -> run -> metrics.
 namespace pipeline {
 
-/// A folder of its own below the system's temporary folder, gone with the object.
-class TemporaryFolder {
- public:
-  explicit TemporaryFolder(const std::string& name);
-  ~TemporaryFolder();
-  TemporaryFolder(const TemporaryFolder&) = delete;
-  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-  std::filesystem::path operator/(const std::string& name) const { return path_ / name; }
-  const std::filesystem::path& path() const { return path_; }
-
- private:
-  std::filesystem::path path_;
-};
+using test_support::TemporaryFolder;
 
 /// What is simulated.
 struct Recording {

@@ -16,6 +16,8 @@
 #include <string>
 #include <vector>
 
+#include "tests/support/temporary_folder.h"
+
 /// Runs the project's own program and other executables as processes.
 namespace program {
 
@@ -24,25 +26,7 @@ using Environment = std::map<std::string, std::string>;
 
 inline fs::path Pas() { return fs::path(PAS_BINARY_DIR) / "pas"; }
 
-/// A folder of its own, gone with the object.
-class TemporaryFolder {
- public:
-  TemporaryFolder() {
-    std::string name = (fs::temp_directory_path() / "pas_program_XXXXXX").string();
-    if (mkdtemp(name.data()) == nullptr) throw std::runtime_error("no temporary folder");
-    path_ = name;
-  }
-  ~TemporaryFolder() {
-    std::error_code ignored;
-    fs::remove_all(path_, ignored);
-  }
-  TemporaryFolder(const TemporaryFolder&) = delete;
-  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-  fs::path operator/(const std::string& name) const { return path_ / name; }
-
- private:
-  fs::path path_;
-};
+using test_support::TemporaryFolder;
 
 inline std::string ReadText(const fs::path& path) {
   std::ifstream file(path, std::ios::binary);

@@ -1,8 +1,6 @@
 #pragma once
 
 #include <gtest/gtest.h>
-#include <unistd.h>
-
 #include <Eigen/Geometry>
 #include <filesystem>
 #include <fstream>
@@ -14,6 +12,7 @@
 
 #include "slam/run/run_sequence.h"
 #include "tests/support/fault_stream.h"
+#include "tests/support/temporary_folder.h"
 
 namespace slam {
 
@@ -61,8 +60,8 @@ inline std::vector<std::pair<double, Pose>> PosesOf(const std::string& trajector
 inline Ran RunStream(std::vector<RecordedFrame> frames, RunOptions options,
                      const Camera& camera = SmallCamera(320, 240)) {
   options.sequence = "stream";
-  options.run =
-      std::filesystem::temp_directory_path() / ("pas_stream_run_" + std::to_string(::getpid()));
+  const test_support::TemporaryFolder folder;
+  options.run = folder / "run";
   options.threads = 1;
   options.force = true;
   FaultStream stream(std::move(frames));
@@ -77,7 +76,6 @@ inline Ran RunStream(std::vector<RecordedFrame> frames, RunOptions options,
     ran.planes.push_back(line);
   }
   ran.poses_wc = PosesOf(ran.trajectory);
-  std::filesystem::remove_all(options.run);
   return ran;
 }
 

@@ -9,6 +9,7 @@
 #include "sim/families/families.h"
 #include "sim/write/write_sequence.h"
 #include "slam/run/run_sequence.h"
+#include "tests/support/temporary_folder.h"
 
 namespace app {
 namespace {
@@ -39,12 +40,6 @@ sim::SequenceOptions Awkward() {
 
 class LiveSceneTest : public testing::Test {
  protected:
-  void SetUp() override {
-    fs::remove_all(root_);
-    fs::create_directories(root_);
-  }
-  void TearDown() override { fs::remove_all(root_); }
-
   sim::Recording Plan(const sim::SequenceOptions& o) const {
     return sim::PlanRecording(scene_, o.rig, o.frames);
   }
@@ -57,8 +52,8 @@ class LiveSceneTest : public testing::Test {
   }
 
   const sim::Scene scene_ = sim::MakeScene("desk", 3);
-  const fs::path root_ = fs::path(testing::TempDir()) /
-                         testing::UnitTest::GetInstance()->current_test_info()->name();
+  test_support::TemporaryFolder temporary_;
+  const fs::path root_ = temporary_.path();
 };
 
 TEST_F(LiveSceneTest, GivesTheRunThatTheFilesOfTheSameRecordingGive) {

@@ -16,12 +16,7 @@ using ::testing::HasSubstr;
 
 class CheckDeep : public ::testing::Test {
  protected:
-  CheckDeep()
-      : folder_("deep_" +
-                std::string(::testing::UnitTest::GetInstance()->current_test_info()->name())),
-        world_(MakeWorld(160, 120, 10)) {
-    WriteSequence(seq(), world_);
-  }
+  CheckDeep() : world_(MakeWorld(160, 120, 10)) { WriteSequence(seq(), world_); }
   fs::path seq() const { return folder_.path() / "seq"; }
   fs::path Image(const std::string& where, int frame) const {
     return seq() / where /

@@ -17,11 +17,7 @@ using ::testing::HasSubstr;
 
 class CheckRunFolder : public ::testing::Test {
  protected:
-  CheckRunFolder()
-      : folder_("check_run_" +
-                std::string(::testing::UnitTest::GetInstance()->current_test_info()->name())) {
-    WriteRun(run(), MakeWorld());
-  }
+  CheckRunFolder() { WriteRun(run(), MakeWorld()); }
   fs::path run() const { return folder_.path() / "run"; }
   void EditJson(const std::string& file, const std::function<void(json&)>& edit) {
     json document = json::parse(ReadText(run() / file));

@@ -199,7 +199,7 @@ TEST_F(CheckSequenceFolder, NamesAFormatOfAnotherVersion) {
 }
 
 TEST(CheckFolderKind, TellsAFolderThatIsNeitherSequenceNorRun) {
-  const TemporaryFolder folder("neither");
+  const TemporaryFolder folder;
   const CheckReport report = CheckFolder(folder.path());
   ASSERT_EQ(report.faults.size(), 1u);
   EXPECT_THAT(report.faults[0].what, HasSubstr("neither a sequence"));

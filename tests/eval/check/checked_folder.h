@@ -16,11 +16,7 @@ namespace eval::small_world {
 /// A faultless sequence on disk, for a test to spoil in one place.
 class CheckSequenceFolder : public ::testing::Test {
  protected:
-  CheckSequenceFolder()
-      : folder_("check_" +
-                std::string(::testing::UnitTest::GetInstance()->current_test_info()->name())) {
-    WriteSequence(seq(), world_);
-  }
+  CheckSequenceFolder() { WriteSequence(seq(), world_); }
   fs::path seq() const { return folder_.path() / "seq"; }
   std::string Stamp(int frame) const {
     return StampText(world_.views[static_cast<std::size_t>(frame)].stamp_s);

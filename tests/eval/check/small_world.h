@@ -1,8 +1,6 @@
 #pragma once
 
 #include <openssl/sha.h>
-#include <unistd.h>
-
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
@@ -19,6 +17,8 @@
 #include <sstream>
 #include <string>
 #include <vector>
+
+#include "tests/support/temporary_folder.h"
 
 /// A few boxes seen by a pinhole camera, written as a faultless sequence and a faultless run.
 /// The answer to everything in them is known, so tests plant one fault and look for exactly
@@ -318,22 +318,7 @@ inline void WriteSequence(const fs::path& folder, const World& world) {
   WriteManifest(folder, static_cast<int>(world.views.size()));
 }
 
-/// A folder of its own for a test, removed at the end.
-class TemporaryFolder {
- public:
-  explicit TemporaryFolder(const std::string& name)
-      : path_(fs::temp_directory_path() / ("pas_" + name + "_" + std::to_string(getpid()))) {
-    fs::remove_all(path_);
-    fs::create_directories(path_);
-  }
-  ~TemporaryFolder() { fs::remove_all(path_); }
-  TemporaryFolder(const TemporaryFolder&) = delete;
-  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-  const fs::path& path() const { return path_; }
-
- private:
-  fs::path path_;
-};
+using test_support::TemporaryFolder;
 
 /// Replaces the first `from` of a file by `to`; throws when there is none.
 inline void Edit(const fs::path& file, const std::string& from, const std::string& to) {

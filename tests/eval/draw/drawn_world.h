@@ -11,11 +11,7 @@ namespace eval {
 /// The small world as a sequence on disk, and runs on it that make no mistake.
 class DrawnWorld : public ::testing::Test {
  protected:
-  DrawnWorld()
-      : folder_("draw_" +
-                std::string(::testing::UnitTest::GetInstance()->current_test_info()->name())) {
-    small_world::WriteSequence(seq(), world_);
-  }
+  DrawnWorld() { small_world::WriteSequence(seq(), world_); }
   std::filesystem::path seq() const { return folder_.path() / "seq"; }
   std::filesystem::path MakeRun(const std::string& name, const Eigen::Isometry3d& T_wg,
                                 bool segmentation = true) {

@@ -32,7 +32,7 @@ class ColourImageFile : public ::testing::Test {
     cv::imencode(extension, image_, bytes);
     return {bytes.begin(), bytes.end()};
   }
-  small_world::TemporaryFolder folder_{"colour_image"};
+  small_world::TemporaryFolder folder_;
   cv::Mat image_{cv::Size(32, 24), CV_8UC3, cv::Scalar(40, 120, 200)};
 };
 

@@ -22,7 +22,7 @@ constexpr const char* kPoses =
     "2 0 0 0 0 0 0 1\n3 0 0 0 0 0 0\n1 0 0 0 0 0 0 1\n4 0 0 0 0 0 0 0\n5 0 0 0 0 0 0 1\n";
 
 TEST(FolderFaults, AreAllToldToACheckWhichReadsTheRest) {
-  const TemporaryFolder place("folder_collects");
+  const TemporaryFolder place;
   WriteText(place.path() / "t.txt", kPoses);
   Folder folder(place.path(), OnFault::kCollect);
   EXPECT_EQ(ReadTrajectory(folder, "t.txt").size(), 3u);
@@ -33,7 +33,7 @@ TEST(FolderFaults, AreAllToldToACheckWhichReadsTheRest) {
 }
 
 TEST(FolderFaults, StopAScoreAtTheFirstThatIsFatal) {
-  const TemporaryFolder place("folder_throws");
+  const TemporaryFolder place;
   WriteText(place.path() / "t.txt", kPoses);
   Folder folder(place.path());
   EXPECT_THAT([&] { ReadTrajectory(folder, "t.txt"); },
@@ -41,7 +41,7 @@ TEST(FolderFaults, StopAScoreAtTheFirstThatIsFatal) {
 }
 
 TEST(FolderFaults, ThatAreWarningsAreKeptForAScoreWhichReadsOn) {
-  const TemporaryFolder place("folder_warnings");
+  const TemporaryFolder place;
   WriteText(place.path() / "t.txt",
             "2 0 0 0 0 0 0 1\n1 0 0 0 0 0 0 1\n4 0 0 0 0 0 0 1\n3 0 0 0 0 0 0 1\n");
   Folder folder(place.path());
@@ -55,7 +55,7 @@ TEST(FolderFaults, ThatAreWarningsAreKeptForAScoreWhichReadsOn) {
 }
 
 TEST(FolderFaults, ThatAreFlawsArePassedOverByAScore) {
-  const TemporaryFolder place("folder_flaws");
+  const TemporaryFolder place;
   WriteText(place.path() / "manifest.json", "{\"format\": \"pas-sequence/1\"}");
   Folder scored(place.path()), checked(place.path(), OnFault::kCollect);
   EXPECT_TRUE(ReadManifest(scored).synthetic);
@@ -65,7 +65,7 @@ TEST(FolderFaults, ThatAreFlawsArePassedOverByAScore) {
 }
 
 TEST(FolderFaults, OfIoComeWithTheirLine) {
-  const TemporaryFolder place("folder_io");
+  const TemporaryFolder place;
   WriteText(place.path() / "camera.yaml",
             "model: pinhole\nwidth: 640\nheight: 480\nfx: 500\nfy: wide\ncx: -9\ncy: 2\n"
             "fps: 30\ndepth_factor: 5000\n");

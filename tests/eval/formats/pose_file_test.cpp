@@ -4,10 +4,9 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <unistd.h>
-
 #include "io/atomic_file.h"
 #include "io/input_error.h"
+#include "tests/support/temporary_folder.h"
 
 namespace eval {
 namespace {
@@ -18,8 +17,6 @@ constexpr double kDigits = 1e-15;  // positions below 4 m
 
 class PoseFiles : public ::testing::Test {
  protected:
-  ~PoseFiles() override { std::filesystem::remove(path_); }
-
   PoseFile Read(const std::string& text) const {
     io::WriteFile(path_, text);
     return ReadPoseFile(path_);
@@ -32,8 +29,8 @@ class PoseFiles : public ::testing::Test {
     }
     return "no error";
   }
-  std::filesystem::path path_ =
-      std::filesystem::path(::testing::TempDir()) / ("pas_poses_" + std::to_string(::getpid()));
+  test_support::TemporaryFolder temporary_;
+  const std::filesystem::path path_ = temporary_ / "poses.txt";
 };
 
 TEST_F(PoseFiles, OfTumHaveSecondsAndTheQuaternionsScalarLast) {

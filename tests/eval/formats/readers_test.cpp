@@ -1,6 +1,5 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <cmath>
 #include <fstream>
@@ -14,6 +13,7 @@
 #include "io/read_file.h"
 #include "tests/eval/shared_data.h"
 #include "tests/eval/tiny_world.h"
+#include "tests/support/temporary_folder.h"
 
 namespace eval {
 namespace {
@@ -24,12 +24,6 @@ namespace fs = std::filesystem;
 
 class ReadFolders : public ::testing::Test {
  protected:
-  void SetUp() override {
-    fs::remove_all(folder_);
-    fs::create_directories(folder_);
-  }
-  void TearDown() override { fs::remove_all(folder_); }
-
   fs::path Write(const std::string& name, const std::string& text) const {
     fs::create_directories((folder_ / name).parent_path());
     io::WriteFile(folder_ / name, text);
@@ -54,8 +48,8 @@ class ReadFolders : public ::testing::Test {
     Write(name, text.replace(at, what.size(), by));
   }
 
-  fs::path folder_ =
-      fs::path(::testing::TempDir()) / ("pas_read_" + std::to_string(::getpid()));
+  test_support::TemporaryFolder temporary_;
+  const fs::path folder_ = temporary_.path();
   Folder in_{folder_};
 };
 

@@ -2,13 +2,12 @@
 #include "eval/planes/true_frame.h"
 
 #include <gtest/gtest.h>
-#include <unistd.h>
-
 #include <cmath>
 #include <numbers>
 
 #include "io/input_error.h"
 #include "tests/eval/tiny_world.h"
+#include "tests/support/temporary_folder.h"
 
 namespace eval {
 namespace {
@@ -18,20 +17,18 @@ using testing::TinyWorld;
 
 class TrueFrameOfTinyWorld : public ::testing::Test {
  protected:
-  TrueFrameOfTinyWorld()
-      : folder_(std::filesystem::path(::testing::TempDir()) /
-                ("pas_true_frame_" + std::to_string(::getpid()))) {
+  TrueFrameOfTinyWorld() {
     world_.WriteSequence(folder_);
     sequence_ = ReadSequence(folder_);
   }
-  ~TrueFrameOfTinyWorld() override { std::filesystem::remove_all(folder_); }
 
   TrueFrame Read(const TinyFrame& frame) const {
     return ReadTrueFrame(sequence_, frame.stamp_s, frame.T_gc);
   }
 
   TinyWorld world_;
-  std::filesystem::path folder_;
+  test_support::TemporaryFolder temporary_;
+  const std::filesystem::path folder_ = temporary_.path();
   Sequence sequence_;
 };
 

@@ -9,6 +9,7 @@
 #include <opencv2/imgcodecs.hpp>
 
 #include "eval/planes/polygon.h"
+#include "tests/support/temporary_folder.h"
 
 namespace eval {
 namespace {
@@ -129,14 +130,12 @@ TEST_F(UnitedFaces, GoByOneIdInImagesAndCountsToo) {
   AddFace(4, 0, 0.4, 7);
   AddFace(9, 0.4, 0.8, 7);
   AddFace(11, 3, 4, 0);
-  const std::filesystem::path folder =
-      std::filesystem::path(::testing::TempDir()) / "united_faces_images";
-  std::filesystem::create_directories(folder);
+  const test_support::TemporaryFolder folder;
   cv::Mat1w ids(1, 4);
   ids << 4, 9, 11, 0;
   ASSERT_TRUE(cv::imwrite((folder / "1.000000.png").string(), ids));
   Sequence sequence = AsRead();
-  sequence.plane_id_files = StampedFiles(folder);
+  sequence.plane_id_files = StampedFiles(folder.path());
   sequence.frame_truth = {{1.0, {}, {{4, 100}, {9, 40}, {11, 5}}}};
   const Sequence united = WithUnitedFaces(sequence);
   const auto shown = ReadPlaneIds(united, 1.0);
@@ -147,7 +146,6 @@ TEST_F(UnitedFaces, GoByOneIdInImagesAndCountsToo) {
   EXPECT_EQ(seen[0].id, 4);
   EXPECT_EQ(seen[0].pixels, 140);
   EXPECT_EQ(seen[1].pixels, 5);
-  std::filesystem::remove_all(folder);
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include <fstream>
 
 #include "io/input_error.h"
+#include "tests/support/temporary_folder.h"
 
 namespace eval {
 namespace {
@@ -14,7 +15,6 @@ namespace fs = std::filesystem;
 
 class BaselineFile : public ::testing::Test {
  protected:
-  void TearDown() override { fs::remove(file_); }
   void Write(const std::string& text) const { std::ofstream(file_) << text; }
   std::string Refusal() const {
     try {
@@ -25,8 +25,8 @@ class BaselineFile : public ::testing::Test {
     return "";
   }
 
-  const fs::path file_ =
-      fs::temp_directory_path() / ("pas_baseline_" + std::to_string(::getpid()) + ".json");
+  test_support::TemporaryFolder temporary_;
+  const fs::path file_ = temporary_ / "baseline.json";
 };
 
 TEST_F(BaselineFile, ReadsWhatItWrote) {

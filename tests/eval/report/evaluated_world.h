@@ -1,8 +1,6 @@
 #pragma once
 
 #include <gtest/gtest.h>
-#include <unistd.h>
-
 #include <cmath>
 #include <filesystem>
 #include <set>
@@ -14,6 +12,7 @@
 #include "eval/report/evaluate.h"
 #include "eval/report/metrics_json.h"
 #include "tests/eval/tiny_world.h"
+#include "tests/support/temporary_folder.h"
 
 namespace eval {
 
@@ -31,12 +30,10 @@ class EvaluateTinyWorld : public ::testing::Test {
 
   static void SetUpTestSuite() {
     world_ = new TinyWorld;
-    folder_ = new std::filesystem::path(std::filesystem::path(::testing::TempDir()) /
-                                        ("pas_eval_" + std::to_string(::getpid())));
+    folder_ = new test_support::TemporaryFolder;
     world_->WriteSequence(*folder_ / "SEQ");
   }
   static void TearDownTestSuite() {
-    std::filesystem::remove_all(*folder_);
     delete folder_;
     delete world_;
   }
@@ -100,7 +97,7 @@ class EvaluateTinyWorld : public ::testing::Test {
   }
 
   inline static TinyWorld* world_ = nullptr;
-  inline static std::filesystem::path* folder_ = nullptr;
+  inline static test_support::TemporaryFolder* folder_ = nullptr;
 };
 
 }  // namespace eval

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <unistd.h>
-
 #include <Eigen/Geometry>
 #include <cmath>
 #include <filesystem>
@@ -59,7 +57,6 @@ class BoardWorld {
 
   /// Writes the folder and reads it again.
   Sequence Write(const std::filesystem::path& folder) const {
-    std::filesystem::remove_all(folder);
     std::filesystem::create_directories(folder / "depth");
     std::string truth, list;
     for (int i = 0; i < kFrames; ++i) {
@@ -80,11 +77,6 @@ class BoardWorld {
                   "model: pinhole\nwidth: 320\nheight: 240\nfx: 280\nfy: 280\ncx: 159.5\n"
                   "cy: 119.5\nfps: 30\ndepth_factor: 10000\n");
     return ReadSequence(folder);
-  }
-
-  static std::filesystem::path Folder(const std::string& name) {
-    return std::filesystem::temp_directory_path() /
-           ("pas_boards_" + name + "_" + std::to_string(::getpid()));
   }
 
  private:

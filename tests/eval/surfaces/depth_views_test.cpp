@@ -1,12 +1,11 @@
+#include "eval/surfaces/depth_views.h"
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <unistd.h>
-
 #include "eval/surfaces/depth_registration.h"
-#include "eval/surfaces/depth_views.h"
 #include "eval/trajectory/true_pose.h"
 #include "io/atomic_file.h"
 #include "io/input_error.h"
+#include "tests/support/temporary_folder.h"
 
 namespace eval {
 namespace {
@@ -65,8 +64,8 @@ TEST(LayOnColour, PutsADepthWhereTheColourCameraSeesItWithoutHoles) {
 }
 
 TEST(ReadDepthRegistration, ReadsTwoCamerasAndTheWayBetweenThem) {
-  const auto path = std::filesystem::temp_directory_path() /
-                    ("pas_registration_" + std::to_string(::getpid()) + ".yaml");
+  const test_support::TemporaryFolder folder;
+  const std::filesystem::path path = folder / "registration.yaml";
   const std::string cameras =
       "depth: {width: 640, height: 480, fx: 585, fy: 585, cx: 320, cy: 240}\n"
       "colour: {width: 640, height: 480, fx: 525.93, fy: 525.93, cx: 322.43, cy: 236.17}\n";
@@ -83,7 +82,6 @@ TEST(ReadDepthRegistration, ReadsTwoCamerasAndTheWayBetweenThem) {
   } catch (const io::InputError& error) {
     EXPECT_THAT(error.what(), ::testing::HasSubstr(".yaml:3: translation"));
   }
-  std::filesystem::remove(path);
 }
 
 }  // namespace

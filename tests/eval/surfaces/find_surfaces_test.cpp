@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/eval/surfaces/boards.h"
+#include "tests/support/temporary_folder.h"
 
 namespace eval {
 namespace {
@@ -12,14 +13,11 @@ using testing::Board;
 using testing::BoardWorld;
 
 /// Surfaces of a world that is written to a folder of its own.
-SurfaceFile SurfacesOf(const BoardWorld& world, const std::string& name,
-                       double min_area_m2 = 0.15) {
-  const std::filesystem::path folder = BoardWorld::Folder(name);
-  const Sequence sequence = world.Write(folder);
+SurfaceFile SurfacesOf(const BoardWorld& world, double min_area_m2 = 0.15) {
+  const test_support::TemporaryFolder folder;
+  const Sequence sequence = world.Write(folder.path());
   const DepthViews views(sequence, *sequence.camera, std::nullopt);
-  const SurfaceFile file = FindSurfaces(views, min_area_m2);
-  std::filesystem::remove_all(folder);
-  return file;
+  return FindSurfaces(views, min_area_m2);
 }
 
 /// A wall of 1.2 x 0.8 m that faces the camera from 2 m.
@@ -30,7 +28,7 @@ Board Wall(double x = 0.0, double z = 2.0, double half_width = 0.6) {
 TEST(FindSurfaces, GivesAnExactWallItsAreaAndItsPlane) {
   BoardWorld world;
   world.boards = {Wall()};
-  const SurfaceFile file = SurfacesOf(world, "wall");
+  const SurfaceFile file = SurfacesOf(world);
   ASSERT_EQ(file.surfaces.size(), 1u);
   EXPECT_NEAR(AreaOf(file.surfaces[0]), 1.2 * 0.8, 0.03 * 1.2 * 0.8);
   EXPECT_GT(file.surfaces[0].pi_g.n.dot(Eigen::Vector3d(0, 0, -1)), std::cos(1e-3));
@@ -45,7 +43,7 @@ TEST(FindSurfaces, TakesABentWallForOneSurface) {
   world.measured = [](double z, int u, int v) {
     return z * (1 + 2 * 0.0033 * std::sin(u / 17.0) * std::cos(v / 25.0));
   };
-  const SurfaceFile file = SurfacesOf(world, "bent");
+  const SurfaceFile file = SurfacesOf(world);
   ASSERT_EQ(file.surfaces.size(), 1u);
   EXPECT_NEAR(AreaOf(file.surfaces[0]), 2.0 * 0.8, 0.05 * 2.0 * 0.8);
 }
@@ -54,29 +52,29 @@ TEST(FindSurfaces, KeepsADeskAndAShelfOverItApart) {
   // Side by side and 25 mm apart, and one before the other.
   BoardWorld world;
   world.boards = {Wall(-0.4, 1.2, 0.3), Wall(0.3, 1.225, 0.4)};
-  EXPECT_EQ(SurfacesOf(world, "step").surfaces.size(), 2u);
+  EXPECT_EQ(SurfacesOf(world).surfaces.size(), 2u);
   world.boards = {Wall(0.0, 1.5, 0.7), Wall(0.1, 1.4, 0.25)};
-  EXPECT_EQ(SurfacesOf(world, "before").surfaces.size(), 2u);
+  EXPECT_EQ(SurfacesOf(world).surfaces.size(), 2u);
 }
 
 TEST(FindSurfaces, PartsWhatRaysPassBetweenAndJoinsWhatSomethingHides) {
   BoardWorld world;
   world.boards = {Wall(-0.5, 2.0, 0.3), Wall(0.5, 2.0, 0.3), Wall(0.0, 3.0, 1.5)};
-  const SurfaceFile gap = SurfacesOf(world, "gap");
+  const SurfaceFile gap = SurfacesOf(world);
   EXPECT_EQ(gap.surfaces.size(), 3u) << SurfacesText(gap);
   // A narrow pillar before the wall; its own front is too small.
   world.boards = {Wall(0.0, 2.0, 0.8), {{0, 0, 1.6}, {-0.05, 0, 0}, {0, 1.0, 0}}};
-  EXPECT_EQ(SurfacesOf(world, "pillar", 0.25).surfaces.size(), 1u);
+  EXPECT_EQ(SurfacesOf(world, 0.25).surfaces.size(), 1u);
 }
 
 TEST(FindSurfaces, DoesNotDependOnWhereTheWorldIs) {
   BoardWorld world;
   world.boards = {Wall(-0.4, 1.2, 0.3), Wall(0.4, 1.6, 0.4)};
-  const SurfaceFile here = SurfacesOf(world, "here");
+  const SurfaceFile here = SurfacesOf(world);
   world.T_wg = {
       Eigen::AngleAxisd(0.8, Eigen::Vector3d(1, 2, 3).normalized()).toRotationMatrix(),
       {3.0, -1.0, 0.5}};
-  const SurfaceFile there = SurfacesOf(world, "there");
+  const SurfaceFile there = SurfacesOf(world);
   ASSERT_EQ(here.surfaces.size(), 2u);
   ASSERT_EQ(there.surfaces.size(), 2u);
   for (std::size_t i = 0; i < 2; ++i) {

@@ -5,6 +5,7 @@
 
 #include "eval/surfaces/report_surfaces.h"
 #include "tests/eval/surfaces/boards.h"
+#include "tests/support/temporary_folder.h"
 
 namespace eval {
 namespace {
@@ -28,7 +29,6 @@ class SurfaceScoreTest : public ::testing::Test {
       run_.frames.push_back(planes);
     }
   }
-  void TearDown() override { std::filesystem::remove_all(folder_); }
 
   /// The image in four quarters, from left to right.
   static cv::Mat1w Quarters(int a, int b, int c, int d) {
@@ -56,7 +56,7 @@ class SurfaceScoreTest : public ::testing::Test {
     return ScoreSurfaces(run_, views, [&](const DepthView&) { return surfaces; });
   }
 
-  std::filesystem::path folder_ = BoardWorld::Folder("score");
+  test_support::TemporaryFolder folder_;
   Sequence sequence_;
   eval::Run run_;
 };

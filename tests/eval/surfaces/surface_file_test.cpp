@@ -1,10 +1,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <unistd.h>
-
 #include "eval/surfaces/surface.h"
 #include "io/atomic_file.h"
 #include "io/input_error.h"
+#include "tests/support/temporary_folder.h"
 
 namespace eval {
 namespace {
@@ -29,7 +28,6 @@ SurfaceFile TwoSurfaces() {
 
 class SurfaceFileOnDisk : public ::testing::Test {
  protected:
-  ~SurfaceFileOnDisk() override { std::filesystem::remove(path_); }
   /// What reading the text throws; empty when it does not.
   std::string ErrorOf(const std::string& text) {
     io::WriteFile(path_, text);
@@ -47,8 +45,8 @@ class SurfaceFileOnDisk : public ::testing::Test {
     if (at == std::string::npos) throw std::runtime_error("no " + from + " in " + text);
     return text.replace(at, from.size(), to);
   }
-  std::filesystem::path path_ = std::filesystem::temp_directory_path() /
-                                ("pas_surfaces_" + std::to_string(::getpid()) + ".yaml");
+  test_support::TemporaryFolder temporary_;
+  const std::filesystem::path path_ = temporary_ / "surfaces.yaml";
 };
 
 TEST_F(SurfaceFileOnDisk, GivesBackWhatWasWritten) {

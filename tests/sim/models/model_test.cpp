@@ -3,8 +3,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sys/stat.h>
-#include <unistd.h>
-
 #include <Eigen/Geometry>
 #include <cmath>
 #include <filesystem>
@@ -17,6 +15,7 @@
 #include "sim/shapes/mesh.h"
 #include "sim/shapes/planes.h"
 #include "sim/shapes/steps.h"
+#include "tests/support/temporary_folder.h"
 
 namespace sim {
 namespace {
@@ -96,12 +95,6 @@ std::string Drum(int corners) {
 
 class OwnMesh : public testing::Test {
  protected:
-  void SetUp() override {
-    std::string name = (std::filesystem::temp_directory_path() / "pas_model_XXXXXX").string();
-    ASSERT_NE(mkdtemp(name.data()), nullptr);
-    folder_ = name;
-  }
-  void TearDown() override { std::filesystem::remove_all(folder_); }
   void Write(const std::string& text, const std::string& name = "it.obj") const {
     std::ofstream(folder_ / name) << text;
   }
@@ -135,7 +128,8 @@ class OwnMesh : public testing::Test {
     }
     return "no error";
   }
-  std::filesystem::path folder_;
+  test_support::TemporaryFolder temporary_;
+  const std::filesystem::path folder_ = temporary_.path();
 };
 
 TEST_F(OwnMesh, GivesACubeItsSixPlanes) {

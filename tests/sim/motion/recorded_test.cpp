@@ -12,6 +12,7 @@
 #include "sim/families/families.h"
 #include "sim/motion/clearance.h"
 #include "sim/motion/trajectory.h"
+#include "tests/support/temporary_folder.h"
 
 namespace sim {
 namespace {
@@ -30,11 +31,8 @@ class ReadTrajectoryTest : public testing::Test {
     }
     return "";
   }
-  void TearDown() override { std::filesystem::remove(path_); }
-  std::filesystem::path path_ =
-      std::filesystem::temp_directory_path() /
-      ("pas_recorded_" +
-       std::string(testing::UnitTest::GetInstance()->current_test_info()->name()) + ".txt");
+  test_support::TemporaryFolder temporary_;
+  const std::filesystem::path path_ = temporary_ / "trajectory.txt";
 };
 
 TEST_F(ReadTrajectoryTest, StartsTheClockAtTheFirstPose) {

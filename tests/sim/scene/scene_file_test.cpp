@@ -12,6 +12,7 @@
 #include "io/input_error.h"
 #include "sim/base/angle.h"
 #include "sim/families/families.h"
+#include "tests/support/temporary_folder.h"
 
 namespace sim {
 namespace {
@@ -129,11 +130,11 @@ TEST(SceneFile, RefusesARotationGivenTwiceOrNotUnit) {
 
 TEST(SceneFile, RefusesFilesThatAreTooLargeOrNotThere) {
   EXPECT_THROW(ReadScene("/nonexistent/scene.yaml"), io::InputError);
-  EXPECT_THROW(ReadScene(std::filesystem::temp_directory_path()), io::InputError);
-  const auto path = std::filesystem::temp_directory_path() / "pas_scene_too_large.yaml";
+  const test_support::TemporaryFolder folder;
+  EXPECT_THROW(ReadScene(folder.path()), io::InputError);
+  const std::filesystem::path path = folder / "too_large.yaml";
   std::ofstream(path) << std::string((1 << 20) + 1, '#');
   EXPECT_THROW(ReadScene(path), io::InputError);
-  std::filesystem::remove(path);
 }
 
 TEST(SceneFile, ReadsAnglesInDegreesAndLengthsInMetres) {
@@ -172,12 +173,12 @@ TEST(SceneFile, GivesBackARotationThatNoRoundAngleMakes) {
 }
 
 TEST(SceneFile, IsWrittenWholeAndReadBackFromDisk) {
-  const auto path = std::filesystem::temp_directory_path() / "pas_scene_round_trip.yaml";
+  const test_support::TemporaryFolder folder;
+  const std::filesystem::path path = folder / "round_trip.yaml";
   const Scene made = MakeScene("stack", 3);
   WriteScene(made, path);
   EXPECT_EQ(SceneHash(ReadScene(path)), SceneHash(made));
   EXPECT_FALSE(std::filesystem::exists(path.string() + ".part"));
-  std::filesystem::remove(path);
   EXPECT_THROW(WriteScene(made, "/nonexistent/folder/scene.yaml"), io::InputError);
 }
 

@@ -2,12 +2,11 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <unistd.h>
-
 #include <filesystem>
 #include <fstream>
 
 #include "io/input_error.h"
+#include "tests/support/temporary_folder.h"
 
 namespace slam {
 namespace {
@@ -33,7 +32,6 @@ DepthWarp SmallWarp() {
 
 class WarpFile : public testing::Test {
  protected:
-  ~WarpFile() override { std::filesystem::remove(file_); }
   DepthWarp Read(const std::string& text) const {
     std::ofstream(file_) << text;
     return ReadWarp(file_, CameraOfFile());
@@ -50,8 +48,8 @@ class WarpFile : public testing::Test {
     std::string text = WarpText(SmallWarp(), "made by hand");
     return text.replace(text.find(part), part.size(), instead);
   }
-  std::filesystem::path file_ = std::filesystem::temp_directory_path() /
-                                ("pas_warp_" + std::to_string(::getpid()) + ".yaml");
+  test_support::TemporaryFolder temporary_;
+  const std::filesystem::path file_ = temporary_ / "warp.yaml";
 };
 
 TEST_F(WarpFile, ReadsBackWhatIsWrittenToAMillionth) {

@@ -7,6 +7,7 @@
 #include <fstream>
 
 #include "io/input_error.h"
+#include "tests/support/temporary_folder.h"
 
 namespace slam {
 namespace {
@@ -19,14 +20,6 @@ using ::testing::ThrowsMessage;
 /// A folder of this test alone, with a detections.jsonl.
 class Detections : public ::testing::Test {
  protected:
-  void SetUp() override {
-    const auto* info = ::testing::UnitTest::GetInstance()->current_test_info();
-    folder_ = std::filesystem::temp_directory_path() /
-              (std::string("pas_detections_") + info->name() + std::to_string(::getpid()));
-    std::filesystem::create_directories(folder_);
-  }
-  void TearDown() override { std::filesystem::remove_all(folder_); }
-
   std::unique_ptr<Detector> Replay(const std::string& text) {
     std::ofstream(folder_ / "detections.jsonl") << text;
     return MakeDetector("replay", folder_, Camera{}, CocoClassTable());
@@ -35,7 +28,8 @@ class Detections : public ::testing::Test {
     EXPECT_THAT([&] { Replay(text); }, ThrowsMessage<io::InputError>(ContainsRegex(regex)))
         << text;
   }
-  std::filesystem::path folder_;
+  test_support::TemporaryFolder temporary_;
+  const std::filesystem::path folder_ = temporary_.path();
 };
 
 TEST_F(Detections, ReplaysTheBoxesOfTheFrameWithTheSameTimestamp) {

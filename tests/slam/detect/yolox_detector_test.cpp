@@ -1,13 +1,12 @@
 #include "slam/detect/yolox_detector.h"
 
 #include <gmock/gmock.h>
-#include <unistd.h>
-
 #include <cmath>
 #include <fstream>
 
 #include "io/input_error.h"
 #include "tests/support/onnx_writer.h"
+#include "tests/support/temporary_folder.h"
 
 namespace slam {
 namespace {
@@ -74,13 +73,7 @@ struct BlockNetwork {
 /// input of 96 x 64, with 16 rows of padding.
 class YoloxModel : public ::testing::Test {
  protected:
-  void SetUp() override {
-    const auto* info = ::testing::UnitTest::GetInstance()->current_test_info();
-    file_ = std::filesystem::temp_directory_path() /
-            (std::string("pas_yolox_") + info->name() + std::to_string(::getpid()) + ".onnx");
-    camera_.width = 192, camera_.height = 96;
-  }
-  void TearDown() override { std::filesystem::remove(file_); }
+  void SetUp() override { camera_.width = 192, camera_.height = 96; }
 
   void Write(const std::string& model) { std::ofstream(file_, std::ios::binary) << model; }
   std::unique_ptr<Detector> Load(const YoloxConfig& config = {}) {
@@ -89,7 +82,8 @@ class YoloxModel : public ::testing::Test {
   auto FailsWith(const std::string& what) {
     return ThrowsMessage<io::InputError>(AllOf(HasSubstr(file_.string()), HasSubstr(what)));
   }
-  std::filesystem::path file_;
+  test_support::TemporaryFolder temporary_;
+  const std::filesystem::path file_ = temporary_ / "model.onnx";
   Camera camera_;
 };
 

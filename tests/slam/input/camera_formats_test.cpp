@@ -1,13 +1,12 @@
 // Cameras in the settings files of other systems.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <unistd.h>
-
 #include <fstream>
 #include <opencv2/core/persistence.hpp>
 
 #include "io/input_error.h"
 #include "slam/input/camera_reader.h"
+#include "tests/support/temporary_folder.h"
 
 namespace slam {
 namespace {
@@ -83,8 +82,6 @@ fps: 25
 
 class CameraFormats : public ::testing::Test {
  protected:
-  void TearDown() override { std::filesystem::remove(file_); }
-
   CameraFile Read(const std::string& text) {
     std::ofstream(file_) << text;
     return ReadCamera(file_);
@@ -115,8 +112,8 @@ class CameraFormats : public ::testing::Test {
         << text;
   }
 
-  const std::filesystem::path file_ = std::filesystem::temp_directory_path() /
-                                      ("pas_settings_" + std::to_string(::getpid()) + ".yaml");
+  test_support::TemporaryFolder temporary_;
+  const std::filesystem::path file_ = temporary_ / "settings.yaml";
 };
 
 TEST_F(CameraFormats, AreThoseOfOrbSlam2) { ExpectTum1(Read(kOrbSlam2)); }

@@ -2,11 +2,10 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <unistd.h>
-
 #include <fstream>
 
 #include "io/input_error.h"
+#include "tests/support/temporary_folder.h"
 
 namespace slam {
 namespace {
@@ -22,14 +21,6 @@ const std::string kGood =
 
 class CameraReader : public ::testing::Test {
  protected:
-  void SetUp() override {
-    const auto* info = ::testing::UnitTest::GetInstance()->current_test_info();
-    folder_ = std::filesystem::temp_directory_path() /
-              (std::string("pas_camera_") + info->name() + std::to_string(::getpid()));
-    std::filesystem::create_directories(folder_);
-  }
-  void TearDown() override { std::filesystem::remove_all(folder_); }
-
   CameraFile ReadFile(const std::string& text) {
     std::ofstream(folder_ / "camera.yaml") << text;
     return ReadCamera(folder_ / "camera.yaml");
@@ -39,7 +30,8 @@ class CameraReader : public ::testing::Test {
     EXPECT_THAT([&] { Read(text); }, ThrowsMessage<io::InputError>(ContainsRegex(regex)))
         << text;
   }
-  std::filesystem::path folder_;
+  test_support::TemporaryFolder temporary_;
+  const std::filesystem::path folder_ = temporary_.path();
 };
 
 TEST_F(CameraReader, ReadsEveryKey) {

@@ -3,7 +3,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sys/stat.h>
-#include <unistd.h>
 
 #include <cstdlib>
 #include <fstream>
@@ -11,6 +10,7 @@
 #include <sstream>
 
 #include "io/input_error.h"
+#include "tests/support/temporary_folder.h"
 
 namespace slam {
 namespace {
@@ -25,14 +25,10 @@ using ::testing::ThrowsMessage;
 class Sequences : public ::testing::Test {
  protected:
   void SetUp() override {
-    const auto* info = ::testing::UnitTest::GetInstance()->current_test_info();
-    folder_ = fs::temp_directory_path() /
-              (std::string("pas_sequence_") + info->name() + std::to_string(::getpid()));
     fs::create_directories(folder_ / "rgb");
     fs::create_directories(folder_ / "depth");
     camera_.width = 32, camera_.height = 24, camera_.cx = 15.5, camera_.cy = 11.5;
   }
-  void TearDown() override { fs::remove_all(folder_); }
 
   void WriteText(const std::string& name, const std::string& text) {
     std::ofstream(folder_ / name) << text;
@@ -66,7 +62,8 @@ class Sequences : public ::testing::Test {
         ThrowsMessage<io::InputError>(ContainsRegex(regex)));
   }
 
-  fs::path folder_;
+  test_support::TemporaryFolder temporary_;
+  const fs::path folder_ = temporary_.path();
   Camera camera_;
 };
 

@@ -2,12 +2,11 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <unistd.h>
-
 #include <fstream>
 #include <numbers>
 
 #include "io/input_error.h"
+#include "tests/support/temporary_folder.h"
 
 namespace slam {
 namespace {
@@ -19,13 +18,6 @@ using ::testing::ThrowsMessage;
 
 class ConfigFile : public ::testing::Test {
  protected:
-  void SetUp() override {
-    const auto* info = ::testing::UnitTest::GetInstance()->current_test_info();
-    file_ = std::filesystem::temp_directory_path() /
-            (std::string("pas_config_") + info->name() + std::to_string(::getpid()) + ".yaml");
-  }
-  void TearDown() override { std::filesystem::remove(file_); }
-
   Config Read(const std::string& text) {
     std::ofstream(file_) << text;
     return ReadConfig(file_);
@@ -34,7 +26,8 @@ class ConfigFile : public ::testing::Test {
     EXPECT_THAT([&] { Read(text); }, ThrowsMessage<io::InputError>(ContainsRegex(regex)))
         << text;
   }
-  std::filesystem::path file_;
+  test_support::TemporaryFolder temporary_;
+  const std::filesystem::path file_ = temporary_ / "settings.yaml";
 };
 
 TEST_F(ConfigFile, OfNothingGivesTheDefaults) {

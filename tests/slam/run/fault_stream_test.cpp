@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "tests/support/stream_run.h"
+#include "tests/support/temporary_folder.h"
 
 // The fault matrix F1 to F16: what a stream does wrong must not crash the system, put a number
 // that is not finite into a result, or give a wrong pose for a right one.
@@ -246,12 +247,12 @@ class BrokenStream : public FaultStream {
 
 // Which files cannot be read, and what is said of them: sequence_reader_test.cpp.
 TEST(FaultStreamF14, AFileThatCannotBeReadEndsTheRunWithItsPathAndLeavesNoRun) {
+  const test_support::TemporaryFolder folder;
   for (const bool async : {false, true}) {
     RunOptions options = PointsAlone();
     options.config.async_mapping = async;
     options.sequence = "stream";
-    options.run = std::filesystem::temp_directory_path() /
-                  ("pas_broken_stream_" + std::to_string(::getpid()));
+    options.run = folder / "run";
     BrokenStream stream(CleanStream(10), 7);
     try {
       RunLive({stream, SmallCamera(320, 240), nullptr}, options);
@@ -312,10 +313,11 @@ class CountedStream : public FaultStream {
 };
 
 TEST(RunLive, RunsEveryFrameThatItReadsWhereverItStops) {
+  const test_support::TemporaryFolder folder;
   for (const int threads : {1, 2}) {
     for (const int stop_at : {1, 4, 8, 9, 100}) {
       RunOptions options;
-      options.run = testing::TempDir() + "/stopped_run";
+      options.run = folder / "run";
       options.sequence = "stream";
       options.force = true;
       options.threads = threads;

@@ -13,6 +13,7 @@
 #include "io/input_error.h"
 #include "slam/run/text_number.h"
 #include "tests/support/map_surfaces.h"
+#include "tests/support/temporary_folder.h"
 
 namespace slam {
 namespace {
@@ -88,15 +89,6 @@ Map SomeMap() {
 
 class RunFolder : public ::testing::Test {
  protected:
-  void SetUp() override {
-    const auto* info = ::testing::UnitTest::GetInstance()->current_test_info();
-    base_ = fs::temp_directory_path() /
-            (std::string("pas_run_") + info->name() + std::to_string(::getpid()));
-    fs::create_directories(base_);
-    run_ = base_ / "run";
-  }
-  void TearDown() override { fs::remove_all(base_); }
-
   RunInfo Info() {
     return {base_ / "seq",        5, "full",        "integrated",         "replay",
             Camera{.fx = 517.25}, 7, "0.1.0 (abc)", {{"a", {{"b", 0.1}}}}};
@@ -122,7 +114,8 @@ class RunFolder : public ::testing::Test {
     std::sort(names.begin(), names.end());
     return names;
   }
-  fs::path base_, run_;
+  test_support::TemporaryFolder temporary_;
+  const fs::path base_ = temporary_.path(), run_ = base_ / "run";
 };
 
 TEST_F(RunFolder, NamesTheSequenceRelativeToARunThatIsGivenRelativeToTheCaller) {
