@@ -7,8 +7,8 @@
 namespace slam {
 namespace {
 
-constexpr double kMinShare =
-    1.0 / 64;                       // of the image: what proves a landmark alone at 640 x 480
+// Of the image: what proves a landmark alone at 640 x 480.
+constexpr double kMinShare = 1.0 / 64;
 constexpr double kMaxCosine = 0.9;  // 26 degrees
 
 bool SomeTwoStandApart(const std::vector<Eigen::Vector3d>& normals) {

@@ -126,7 +126,8 @@ class PointTracking {
   /// Counts sightings in the map's points; changes nothing else of the map.
   PointTrackReport TrackPoints(Frame& frame, Map& map);
 
-  /// The frame has too few points to start a map, but something else can hold the camera from it on.
+  /// The frame has too few points to start a map, but planes can hold the camera from it on: to be
+  /// called right after TrackPoints, with its report.
   void Start(PointTrackReport& report);
   /// Planes hold a pose in the frame in which points failed; to be called before NeedKeyframe.
   void HoldByPlanes() { state_ = TrackState::kHeldByPlanes; }

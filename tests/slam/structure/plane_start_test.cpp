@@ -21,11 +21,12 @@ FramePlane Top(int pixels) {
   return plane;
 }
 
-/// An edge of it that runs at this angle, to the right of its middle.
+/// An edge that runs at this angle and has the middle to its left; half a turn more is the one opposite.
 FramePlane WithEdge(FramePlane plane, double angle_deg) {
   const double angle_rad = RadiansOf(angle_deg);
-  plane.lines_c.push_back(
-      {{0.1, 0.0, 1.0}, Eigen::Vector3d(std::cos(angle_rad), std::sin(angle_rad), 0.0)});
+  const Eigen::Vector3d along(std::cos(angle_rad), std::sin(angle_rad), 0.0);
+  const Eigen::Vector3d outwards(along.y(), -along.x(), 0.0);
+  plane.lines_c.push_back({plane.centroid_c + 0.1 * outwards, along});
   return plane;
 }
 
