@@ -51,6 +51,14 @@ void Observe(const Plane& pi_w, const Eigen::Vector3d& edge_w, double keep, int 
   known.last_frame = frame;
 }
 
+/// The landmark that a trusted plane of the frame shows or has become, or none.
+MapPlane* LandmarkOf(const Frame& frame, Map& map, std::size_t plane) {
+  const PlaneMatch& match = frame.plane_matches.at(plane);
+  const bool shows =
+      match.decision == PlaneDecision::kMatched || match.decision == PlaneDecision::kNew;
+  return shows && !frame.planes[plane].bad ? &map.planes.At(match.map_plane) : nullptr;
+}
+
 }  // namespace
 
 std::vector<SeenSupposed> SupposePlanes(const FramePlane& plane) {
@@ -85,16 +93,20 @@ void AddSupposedPlanes(const Frame& frame, const Map& map, const SupposedConfig&
 void LearnSupposedPlanes(const Frame& frame, double keep, const SupposedConfig& config,
                          Map& map) {
   const Pose T_wc = Inverse(frame.T_cw);
+  // Where the map begins nothing else may hold the next frame, so that edges need not prove themselves.
+  const bool map_begins =
+      !map.keyframes.empty() && map.keyframes.front().frame_index == frame.index;
   for (std::size_t i = 0; i < frame.planes.size(); ++i) {
-    const MapPlane* matched = TrustedMatch(frame, map, i);
-    if (matched == nullptr) continue;
-    std::vector<SupposedPlane>& known = map.planes.At(matched->id).supposed;
+    MapPlane* landmark = LandmarkOf(frame, map, i);
+    if (landmark == nullptr) continue;
+    std::vector<SupposedPlane>& known = landmark->supposed;
     for (const SeenSupposed& seen : SupposePlanes(frame.planes[i])) {
       const Plane pi_w = Transform(T_wc, seen.pi_c);
       const Eigen::Vector3d edge_w = T_wc * seen.centroid_c;
       const auto at = NearestSupposed(known, pi_w, edge_w, config);
-      if (!at) known.emplace_back();
-      Observe(pi_w, edge_w, keep, frame.index, config, at ? known[*at] : known.back());
+      SupposedPlane& supposed = at ? known[*at] : known.emplace_back();
+      Observe(pi_w, edge_w, keep, frame.index, config, supposed);
+      if (map_begins) supposed.observations = config.min_observations;
     }
     std::erase_if(known, [&](const SupposedPlane& supposed) {
       return supposed.observations < config.min_observations &&

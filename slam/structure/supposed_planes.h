@@ -53,7 +53,8 @@ std::vector<SeenSupposed> SupposePlanes(const FramePlane& plane);
 void AddSupposedPlanes(const Frame& frame, const Map& map, const SupposedConfig& config,
                        PoseProblem& problem);
 
-/// Takes the frame's supposed planes into the map, at the frame's pose.
+/// Takes the frame's supposed planes into the map, at the frame's pose. Those of the frame that the
+/// map begins with hold poses at once, others after config.min_observations.
 /// @param keep  share of old information that is kept, as of AddObservation
 void LearnSupposedPlanes(const Frame& frame, double keep, const SupposedConfig& config,
                          Map& map);

@@ -55,6 +55,20 @@ TEST(SupposedPlanes, HoldThePoseOnceAFewFramesHaveSeenThem) {
   EXPECT_GT(constraints[0].offset_sigma_m, board.config.offset_sigma_m);
 }
 
+TEST(SupposedPlanes, HoldThePoseAtOnceWhereTheMapBegan) {
+  for (const bool began : {true, false}) {
+    SeenBoard board;
+    Keyframe first;
+    first.frame_index = began ? board.frame.index : board.frame.index - 1;
+    board.map.keyframes = {first};
+    board.frame.plane_matches[0].decision = PlaneDecision::kNew;
+    board.Learn(1);
+    ASSERT_EQ(board.Supposed().size(), 1u);
+    board.frame.plane_matches[0].decision = PlaneDecision::kMatched;
+    EXPECT_EQ(board.Constraints().size(), began ? 1u : 0u);
+  }
+}
+
 TEST(SupposedPlanes, AreLeftAloneByEdgesElsewhereAndByUntrustedPlanes) {
   SeenBoard board;
   board.Learn(5);
