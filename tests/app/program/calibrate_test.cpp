@@ -13,17 +13,17 @@ using namespace program;
 using testing::AllOf;
 using testing::HasSubstr;
 
-/// A desk by a Kinect with the sensor file's text, made once for all cases.
+/// A desk by a Kinect with the sensor file's text.
 fs::path Recorded(const TemporaryFolder& folder, const std::string& name,
-                  const std::string& sensor) {
+                  const std::string& sensor, int frames = 190) {
   const fs::path sequence = folder / name;
   std::ofstream(folder / "sensor.yaml") << sensor;
   const std::vector<std::vector<std::string>> commands{
       {Pas(), "-q", "scene", "make", "--family", "desk", "--seed", "503", "-o",
        folder / "desk.yaml", "--force"},
       {Pas(), "-q", "sim", folder / "desk.yaml", "-o", sequence, "--sensor",
-       folder / "sensor.yaml", "--seed", "503", "--frames", "190", "--width", "320", "--height",
-       "240", "--detector", "none"}};
+       folder / "sensor.yaml", "--seed", "503", "--frames", std::to_string(frames), "--width",
+       "320", "--height", "240", "--detector", "none"}};
   for (const auto& command : commands) {
     EXPECT_EQ(Process(command, {}, folder / "errors").Wait().exit_code, 0);
   }
@@ -109,12 +109,13 @@ TEST_F(CalibrateProgram, AFileThatIsNoWarpOfThisCameraIsRefusedByName) {
   std::ofstream(folder_ / "warp.yaml")
       << "format: pas-depth-warp/1\nimage: {width: 640, height: 480}\n"
          "cells: {cols: 1, rows: 1}\npattern_ppm: [[0]]\nsigma_ppm: [[0]]\n";
+  const fs::path sequence = Recorded(folder_, "short", "base: kinect1\n", 2);
   const Outcome other =
-      Run({"slam", Bent(), "-o", folder_ / "run", "--depth-warp", folder_ / "warp.yaml"});
+      Run({"slam", sequence, "-o", folder_ / "run", "--depth-warp", folder_ / "warp.yaml"});
   EXPECT_EQ(other.exit_code, 2);
   EXPECT_THAT(other.errors, AllOf(HasSubstr("warp.yaml:2"), HasSubstr("320 x 240")));
   const Outcome missing =
-      Run({"slam", Bent(), "-o", folder_ / "run", "--depth-warp", folder_ / "none.yaml"});
+      Run({"slam", sequence, "-o", folder_ / "run", "--depth-warp", folder_ / "none.yaml"});
   EXPECT_EQ(missing.exit_code, 2);
   EXPECT_THAT(missing.errors, AllOf(HasSubstr("none.yaml"), HasSubstr("pas calibrate")));
   EXPECT_FALSE(fs::exists(folder_ / "run"));
