@@ -110,6 +110,8 @@ TEST_F(EvaluateTinyWorld, WithoutMasksTheGeometryFindsTheSameTruthAndPixelFigure
   EXPECT_TRUE(after["extraction"].contains("normal_deg"));
   EXPECT_THAT(after["rules"]["truth_of_a_frame_plane"].get<std::string>(),
               HasSubstr("no segmentation images"));
+  EXPECT_FALSE(before.contains("warnings"));
+  EXPECT_THAT(after.at("warnings"), ElementsAre(HasSubstr("run pas slam --save-segmentation")));
 }
 
 }  // namespace
