@@ -134,11 +134,31 @@ TEST_F(EventsOfTinyWorld, ALargeSurfaceWithoutADecisionIsListedAndCountedAfterTh
   EXPECT_EQ(events[0].frame, int(kFrame));
   EXPECT_EQ(events[0].truth, TinyWorld::kDeskTop);
   EXPECT_EQ(events[0].cue, "ambiguous");
+  EXPECT_EQ(events[0].right_map_plane, TinyRun::MapId(TinyWorld::kDeskTop));
   EXPECT_FALSE(events[0].harm_px_mm);
   const nlohmann::json after = Metrics(run)["association"]["no_decision"];
   EXPECT_EQ(before["association"]["no_decision"]["share"], 0.0);
   EXPECT_EQ(after["events"], 1);
   EXPECT_EQ(after["share"], 1.0 / after["surfaces"].get<double>());
+}
+
+TEST_F(EventsOfTinyWorld, TheRightMapPlaneIsTheOneThatItWasMergedInto) {
+  TinyRun run(*world_);
+  constexpr int kMerged = 900;
+  for (nlohmann::json& plane : run.map["planes"]) {
+    if (plane["id"] != TinyRun::MapId(TinyWorld::kDeskTop)) continue;
+    nlohmann::json merged = plane;
+    merged["id"] = kMerged;
+    plane["merged_into"] = kMerged;
+    run.map["planes"].push_back(merged);
+    break;
+  }
+  nlohmann::json* plane = FramePlane(run, kFrame, TinyWorld::kDeskTop);
+  (*plane)["map_plane"] = nullptr;
+  (*plane)["decision"] = "none";
+  const std::vector<RunEvent> events = Events(run);
+  ASSERT_EQ(events.size(), 1u);
+  EXPECT_EQ(events[0].right_map_plane, kMerged);
 }
 
 TEST_F(EventsOfTinyWorld, ASurfaceThatNoFramePlaneShowsSaysSo) {

@@ -58,6 +58,15 @@ TEST(StepBetweenPlanes, IsExactOnExactDepth) {
   }
 }
 
+TEST(StepBetweenPlanes, IsAsExactWherePixelsAreNotMeasured) {
+  SeenWorld seen = TwoBoards(0.004, 0.0);
+  for (int v = 0; v < seen.frame.depth_m.rows; ++v)
+    for (int u = v % 3; u < seen.frame.depth_m.cols; u += 3) seen.frame.depth_m(v, u) = 0.0f;
+  const auto step = Measured(seen);
+  ASSERT_TRUE(step);
+  EXPECT_NEAR(step->step_m, 0.004, 1e-6);
+}
+
 TEST(StepBetweenPlanes, LiesWithinItsSigmaUnderNoise) {
   double sum_chi2 = 0.0;
   constexpr int kDraws = 40;

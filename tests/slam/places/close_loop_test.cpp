@@ -50,6 +50,18 @@ TEST(LoopDetection, KnowsThePlaceItStartedFromAndWhereItIs) {
             0.1);
 }
 
+TEST(LoopDetection, DoesNotDependOnWhereTheWorldsOriginIs) {
+  RingWorld world = MakeRingWorld();
+  const Eigen::Vector3d shift(300, 0, -400);
+  for (Keyframe& k : world.map.keyframes) k.T_cw.t -= k.T_cw.R * shift;
+  for (MapPoint& point : world.map.points) point.p_w += shift;
+  const auto loop = Detect(world, kLast), near = Detect(MakeRingWorld(), kLast);
+  ASSERT_TRUE(loop);
+  ASSERT_TRUE(near);
+  EXPECT_EQ(loop->place, near->place);
+  EXPECT_EQ(loop->map_points, near->map_points);
+}
+
 TEST(LoopDetection, SeesNoLoopOnTheWay) {
   const RingWorld world = MakeRingWorld();
   for (const int keyframe : {3, 12, 20, 28}) {
