@@ -53,10 +53,9 @@ void Observe(const Plane& pi_w, const Eigen::Vector3d& edge_w, double keep, int 
 
 /// The landmark that a trusted plane of the frame shows or has become, or none.
 MapPlane* LandmarkOf(const Frame& frame, Map& map, std::size_t plane) {
-  const PlaneMatch& match = frame.plane_matches.at(plane);
-  const bool shows =
-      match.decision == PlaneDecision::kMatched || match.decision == PlaneDecision::kNew;
-  return shows && !frame.planes[plane].bad ? &map.planes.At(match.map_plane) : nullptr;
+  if (plane >= frame.plane_matches.size() || frame.planes[plane].bad) return nullptr;
+  const PlaneMatch& match = frame.plane_matches[plane];
+  return match.ShowsLandmark() ? &map.planes.At(match.map_plane) : nullptr;
 }
 
 }  // namespace
