@@ -34,11 +34,12 @@ std::vector<Fault> Caveats(const Run& run, const Sequence& sequence,
                            const std::optional<PlaneScore>& planes) {
   const std::size_t frames = sequence.frames.size();
   std::vector<Fault> caveats;
-  if (planes && planes->from_frame_planes && !planes->by_pixels) {
-    caveats.push_back({"frame_planes.jsonl", 0, "",
-                       "without label images the true plane that a plane shows is told by its "
-                       "parameters, which are right in 95 of 100",
-                       "run pas slam --save-segmentation for exact figures of association"});
+  if (planes && planes->from_frame_planes && run.segmentation_files.empty() &&
+      !sequence.plane_id_files.empty()) {
+    caveats.push_back({"segmentation", 0, "",
+                       "is not there: which true plane a frame's plane shows is told by its "
+                       "parameters, which errs now and then, and precision with it",
+                       "write label images (pas slam --save-segmentation) for exact figures"});
   }
   if (run.info.interrupted) {
     const std::string given = run.info.frames ? fmt::format("{}", *run.info.frames) : "some";

@@ -111,7 +111,7 @@ TEST_F(EvaluateTinyWorld, WithoutMasksTheGeometryFindsTheSameTruthAndPixelFigure
   EXPECT_THAT(after["rules"]["truth_of_a_frame_plane"].get<std::string>(),
               HasSubstr("no segmentation images"));
   EXPECT_FALSE(before.contains("warnings"));
-  EXPECT_THAT(after.at("warnings"), ElementsAre(HasSubstr("run pas slam --save-segmentation")));
+  EXPECT_THAT(after.at("warnings"), ElementsAre(HasSubstr("pas slam --save-segmentation")));
 }
 
 }  // namespace
