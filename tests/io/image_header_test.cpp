@@ -28,6 +28,15 @@ TEST(ImageHeader, OfAJpegTellsTheSizeBehindItsOtherSegments) {
   EXPECT_FALSE(ImageSizeOf("\xFF\xD8\xFF\xE0\0\0"s));
 }
 
+TEST(ImageHeader, OfAJpegIsNotDeceivedByTheEndOfAThumbnail) {
+  const std::string cut =
+      "\xFF\xD8\xFF\xE1\0\6ab\xFF\xD9\xFF\xC2\0\x11\x08\x01\xE0\x02\x80\3"
+      "abcdefghi\xFF\xDA\0\3x0123456789"s;
+  ASSERT_TRUE(ImageSizeOf(cut));
+  EXPECT_FALSE(ImageSizeOf(cut)->whole);
+  EXPECT_TRUE(ImageSizeOf(cut + "\xFF\xD9"s)->whole);
+}
+
 TEST(ImageHeader, OfAnythingElseTellsNothing) {
   EXPECT_FALSE(ImageSizeOf(""));
   EXPECT_FALSE(ImageSizeOf("GIF89a"));

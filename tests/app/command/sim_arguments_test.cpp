@@ -56,5 +56,16 @@ TEST_F(SceneOfArguments, HasThePaceThatIsNamedWhateverTheMotion) {
   }
 }
 
+TEST(OptionsOfArguments, HaveTheSensorsLensUnlessOneIsTold) {
+  SimArguments arguments;
+  arguments.sensor = "kinect1";
+  const auto lens = [&] { return OptionsOf(arguments, sim::Scene{}).rig.camera.lens; };
+  EXPECT_FALSE(lens().IsNone());
+  arguments.lens = {0, 0, 0, 0, 0};
+  EXPECT_TRUE(lens().IsNone());
+  arguments.lens = {0.01, 0, 0, 0, 0};
+  EXPECT_EQ(lens().k1, 0.01);
+}
+
 }  // namespace
 }  // namespace app

@@ -151,6 +151,16 @@ TEST(Gate, ManyThatFailedBeforeAndAreDoneNowAreNoHarm) {
   EXPECT_TRUE(CompareWithBaseline(BaselineOf(cases), failed, {}).AnyWorse());
 }
 
+TEST(Gate, LostFramesOfWhatFailedBeforeAreNoHarm) {
+  const GateCases lost = Changed(Cases(20), [](GateCase& one, int i) {
+    if (i < 2) one.figures[kTrackedFigure] = 30.0;
+  });
+  const GateCases failed = Changed(Cases(20), [](GateCase& one, int i) {
+    if (i < 2) one = {};
+  });
+  EXPECT_FALSE(CompareWithBaseline(BaselineOf(failed), lost, {}).AnyWorse());
+}
+
 TEST(Gate, LostFramesAreCounted) {
   const GateCases cases = Cases(20);
   const GateCases lost = Changed(cases, [](GateCase& one, int i) {

@@ -65,6 +65,16 @@ TEST(PerfectDetector, LeavesOutWhatIsTooSmallToSee) {
   EXPECT_TRUE(detector.Detect(0, truth).empty());
 }
 
+TEST(PerfectDetector, SeesAsSmallThingsInAnImageOfAnotherSize) {
+  const Camera quarter = Resize(Camera{}, 160, 120);  // of 60 pixels 3.75 are left
+  const Detector detector(LaptopOnDesk(), quarter, DetectorKind::kPerfect, 1);
+  for (const int pixels : {3, 4}) {
+    FrameTruth truth;
+    truth.objects = {Seen(4, pixels, 4, {100, 25, 109, 34})};
+    EXPECT_EQ(detector.Detect(0, truth).size(), pixels == 4 ? 1u : 0u) << pixels;
+  }
+}
+
 TEST(NoDetector, ReportsNothing) {
   const Detector detector(LaptopOnDesk(), Camera{}, DetectorKind::kNone, 1);
   EXPECT_TRUE(detector.Detect(0, AllSeen()).empty());

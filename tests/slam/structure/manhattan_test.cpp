@@ -105,6 +105,22 @@ TEST(ManhattanWorld, WaitsForAreaAlongAllThreeAxesAndForLandmarksThatWereSeenOft
   EXPECT_FALSE(FindManhattanAxes(world.map.planes, world.config));
 }
 
+TEST(ManhattanWorld, GoesByLargePlanesMoreThanBySmallOnes) {
+  SeenWorld world(Room());
+  for (MapPlane& plane : world.map.planes) plane.area_m2 = 10.0;
+  MapPlane small;
+  small.pi_w.n = ExpSo3(2 * kDegree * kAxes_w.col(2)) * kAxes_w.col(0);
+  small.area_m2 = 0.1;
+  small.observations = 10;
+  AddLandmark(world.map, small);
+  const auto found = FindManhattanAxes(world.map.planes, world.config);
+  ASSERT_TRUE(found);
+  for (int k = 0; k < 3; ++k) {
+    const double cosine = (kAxes_w.transpose() * found->col(k)).cwiseAbs().maxCoeff();
+    EXPECT_LT(std::acos(std::min(1.0, cosine)), 0.05 * kDegree) << k;
+  }
+}
+
 TEST(ManhattanWorld, PullsATurnedFrameBackOntoItsAxes) {
   SeenWorld world(Room());
   world.Learn(StructureMode::kManhattan);

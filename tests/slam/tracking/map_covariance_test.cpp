@@ -62,7 +62,19 @@ TEST(MapCovariance, IsThatOfItsKeyframeSeenFromWhereTheFrameIs) {
   expected(1, 1) = 4e-4, expected(5, 5) = 1e-4;
   expected(1, 5) = expected(5, 1) = 2e-4;
   const Matrix6d told = MapCovarianceAt(T_cw, map, 0);
-  EXPECT_LT((told.cwiseAbs() - expected).cwiseAbs().maxCoeff(), 1e-12) << told;
+  EXPECT_LT((told - expected).cwiseAbs().maxCoeff(), 1e-12) << told;
+}
+
+TEST(MapCovariance, TurnsWithTheCamera) {
+  // What the keyframe does not know lies along its x; a camera rolled by 30 degrees has x_k there.
+  Map map = MapWith({{}});
+  map.keyframes[0].T_cw = Pose{ExpSo3({0.4, 0.2, -0.7}), {1, 2, 3}};
+  map.keyframes[0].covariance(0, 0) = 1e-4;
+  const Pose T_ck{ExpSo3({0, 0, 0.5236}), Eigen::Vector3d::Zero()};
+  const Eigen::Vector3d x_k = T_ck.R * Eigen::Vector3d::UnitX();
+  const Matrix6d told = MapCovarianceAt(T_ck * map.keyframes[0].T_cw, map, 0);
+  const Eigen::Matrix3d place = told.topLeftCorner<3, 3>();
+  EXPECT_LT((place - 1e-4 * x_k * x_k.transpose()).cwiseAbs().maxCoeff(), 1e-12) << told;
 }
 
 }  // namespace
