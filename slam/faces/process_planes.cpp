@@ -40,11 +40,11 @@ void OutlineFace(FramePlane& plane, const Frame& frame, const Camera& camera,
 void ProcessPlanes(Frame& frame, const Camera& camera, const SensorModel& sensor,
                    const PlaneProcessingConfig& config) {
   for (FramePlane& plane : frame.planes) RefitPlane(plane, sensor, config.refit);
-  const double usual_roughness = UsualRoughness(frame.planes);
+  const UsualRoughness usual = FindUsualRoughness(frame.planes);
   LinkBoxes(frame.planes, frame.detections, config.box_link);
   for (FramePlane& plane : frame.planes) {
     OutlineFace(plane, frame, camera, config);
-    plane.bad = FindFault(plane, frame.detections, usual_roughness, camera, config.select);
+    plane.bad = FindFault(plane, frame.detections, usual, camera, config.select);
   }
 }
 

@@ -11,6 +11,25 @@ namespace {
 // Depth that is cleaner than half the modelled sigma is rough by rounding and small curves.
 constexpr double kMinUsualRoughness = 0.25;
 
+double MedianOverPixels(std::vector<std::pair<double, long>> values) {
+  std::sort(values.begin(), values.end());
+  long pixels = 0, below = 0;
+  for (const auto& [value, count] : values) pixels += count;
+  for (const auto& [value, count] : values) {
+    below += count;
+    if (2 * below >= pixels) return value;
+  }
+  return 0.0;
+}
+
+/// Coarsely rougher than the frame's surfaces, and by more than its own noise explains.
+bool IsStairs(const Roughness& roughness, const UsualRoughness& usual,
+              const SelectConfig& config) {
+  const double expected =
+      std::max({usual.coarse, kMinUsualRoughness, usual.growth * roughness.fine});
+  return !(roughness.coarse < config.max_roughness * expected);
+}
+
 std::optional<BadReason> StructureFault(const FramePlane& plane, const Camera& camera,
                                         const SelectConfig& config) {
   if (config.structure == StructureRule::kIgnored) return std::nullopt;
@@ -31,32 +50,25 @@ std::optional<BadReason> StructureFault(const FramePlane& plane, const Camera& c
 
 }  // namespace
 
-double UsualRoughness(const std::vector<FramePlane>& planes) {
-  std::vector<std::pair<double, long>> known;  // roughness, pixels
-  long pixels = 0;
+UsualRoughness FindUsualRoughness(const std::vector<FramePlane>& planes) {
+  std::vector<std::pair<double, long>> coarse, growth;  // and the pixels that have it
   for (const FramePlane& plane : planes) {
-    if (!(plane.roughness > 0)) continue;
-    known.emplace_back(plane.roughness, plane.pixel_count);
-    pixels += plane.pixel_count;
+    const Roughness& r = plane.roughness;
+    if (!(r.coarse > 0)) continue;
+    coarse.emplace_back(r.coarse, plane.pixel_count);
+    if (r.fine > 0) growth.emplace_back(r.coarse / r.fine, plane.pixel_count);
   }
-  std::sort(known.begin(), known.end());
-  long below = 0;
-  for (const auto& [roughness, count] : known) {
-    below += count;
-    if (2 * below >= pixels) return roughness;
-  }
-  return 0.0;
+  return {MedianOverPixels(std::move(coarse)), MedianOverPixels(std::move(growth))};
 }
 
 std::optional<BadReason> FindFault(const FramePlane& plane,
                                    const std::vector<Detection>& detections,
-                                   double usual_roughness, const Camera& camera,
+                                   const UsualRoughness& usual, const Camera& camera,
                                    const SelectConfig& config) {
   // Too far away, or no plane.
   if (!(plane.centroid_c.norm() < config.max_distance_m)) return BadReason::kFar;
   if (!(plane.inlier_ratio > config.min_inlier_ratio)) return BadReason::kInliers;
-  const double usual = std::max(usual_roughness, kMinUsualRoughness);
-  if (!(plane.roughness < config.max_roughness * usual)) return BadReason::kInliers;
+  if (IsStairs(plane.roughness, usual, config)) return BadReason::kInliers;
 
   // The face of a regular object must show its structure.
   double regular_fit = 0.0;

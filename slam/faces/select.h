@@ -23,7 +23,7 @@ enum class StructureRule {
 struct SelectConfig {
   double max_distance_m = 5.0;
   double min_inlier_ratio = 0.6;
-  double max_roughness = 1.8;  // more are stairs
+  double max_roughness = 1.3;  // more are stairs
   double max_unstructured_share = 0.5;
   StructureRule structure = StructureRule::kIgnored;
   double border_px = 3.0;
@@ -36,7 +36,7 @@ inline void VisitFields(SelectConfig& c, FieldVisitor& v) {
   v.Number("min_inlier_ratio", c.min_inlier_ratio, "[0, 1)",
            "smallest inlier ratio after the re-fit");
   v.Number("max_roughness", c.max_roughness, "[1, inf)",
-           "largest roughness, as a multiple of that of most of the frame's pixels");
+           "largest roughness over 8 pixels, as a multiple of what noise makes it");
   v.Number("max_unstructured_share", c.max_unstructured_share, "(0, 1]",
            "largest share of edge points in the box of an unstructured object");
   v.Named("structure", c.structure, {"ignored", "complete"},
@@ -46,14 +46,19 @@ inline void VisitFields(SelectConfig& c, FieldVisitor& v) {
            "with complete: largest share of edge points at the image border");
 }
 
-/// The roughness of most pixels of a frame, what its sensor's noise comes to in it (the median
-/// over pixels of FramePlane::roughness); 0 when none is known.
-double UsualRoughness(const std::vector<FramePlane>& planes);
+/// What a sensor's noise comes to in a frame, medians over the pixels of its planes; 0 when none
+/// is known. Noise may be several times as large on one surface as on another, where it reflects
+/// badly or is near, but it spreads alike over pixels.
+struct UsualRoughness {
+  double coarse = 0.0;  ///< Roughness::coarse
+  double growth = 0.0;  ///< Roughness::coarse over fine
+};
+UsualRoughness FindUsualRoughness(const std::vector<FramePlane>& planes);
 
 /// The first reason why a plane is not to be trusted, or nothing. In the paper's order:
 ///   1. too far from the camera                                          kFar
 ///   2. small inlier ratio after the re-fit, or stairs: rougher than the
-///      frame's other surfaces (UsualRoughness)                          kInliers
+///      frame's other surfaces and than its own noise makes it           kInliers
 ///   3. tied to a regular object's box, but at the border, or without
 ///      the structure of a rectangle (StructureRule)                     kBorder, kStructure
 ///   4. most edge points in the box of an unstructured object, unless a
@@ -62,7 +67,7 @@ double UsualRoughness(const std::vector<FramePlane>& planes);
 /// Source: PAS-SLAM, Plane Selection.
 std::optional<BadReason> FindFault(const FramePlane& plane,
                                    const std::vector<Detection>& detections,
-                                   double usual_roughness, const Camera& camera,
+                                   const UsualRoughness& usual, const Camera& camera,
                                    const SelectConfig& config);
 
 }  // namespace slam

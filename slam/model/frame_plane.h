@@ -52,6 +52,13 @@ struct Vertex {
   Eigen::Matrix3d covariance_c = Eigen::Matrix3d::Zero();
 };
 
+/// How much depth differs, off a plane, between pixels of it that are some pixels apart: half the
+/// mean square, in variances of the noise; 0 where too few pixels are there to say.
+struct Roughness {
+  double fine = 0.0;    ///< neighbours: what noise does here
+  double coarse = 0.0;  ///< 8 px apart: noise and shape
+};
+
 /// A plane seen in one frame: a segment of the depth image and all that is known of it.
 /// Everything is in the camera frame, metres.
 struct FramePlane {
@@ -61,7 +68,7 @@ struct FramePlane {
   int pixel_count = 0;
   double area_m2 = 0.0;          ///< the visible patch's
   double inlier_ratio = 1.0;     ///< after the re-fit, [0, 1]; 1 before
-  double roughness = 0.0;        ///< off the plane, in variances of the noise; 0 = unknown
+  Roughness roughness;           ///< off the plane
   double offset_sigma_m = 0.0;   ///< standard deviation of the offset at the centroid
   double angle_sigma_rad = 0.0;  ///< standard deviation of the normal, worse of two directions
   /// What the sensor bends adds to these two; frames from one place share it.

@@ -11,7 +11,7 @@
 namespace slam {
 namespace {
 
-constexpr int kApart_px = kLanes;  // so the right pixels of eight are the next eight
+constexpr int kApart_px = 8;
 constexpr int kMinPairs = 30;  // the mean square is then known to about a quarter: sqrt(2 / 30)
 constexpr int kMaxStep_px = 64;  // pixels; bounds the table of columns
 
@@ -30,8 +30,16 @@ SLAM_INLINE bool AnyOf(EightMarks marks) {
   return bits != 0;
 }
 
-/// Squared differences, of a row: few enough to be added in float.
+/// Squared differences of pixels so far apart.
 struct Pairs {
+  double squares = 0.0;
+  int count = 0;
+
+  double HalfMean() const { return count < kMinPairs ? 0.0 : squares / (2.0 * count); }
+};
+
+/// The same of a row, few enough to be added in float.
+struct RowPairs {
   FloatLanes squares{};
   IntLanes count{};
 
@@ -39,6 +47,10 @@ struct Pairs {
     const IntLanes used = __builtin_convertvector(marks, IntLanes);
     squares += (FloatLanes)((IntLanes)(by * by) & used);
     count -= used;
+  }
+  SLAM_INLINE void AddTo(Pairs& pairs) const {
+    for (int k = 0; k < kLanes; ++k) pairs.squares += static_cast<double>(squares[k]);
+    pairs.count += SumOf(count);
   }
 };
 
@@ -62,78 +74,84 @@ SLAM_INLINE FloatLanes Residuals(const DepthGrid& grid, std::size_t i, const Pix
   return (Lanes(grid.q.data() + i) - (p.a * x + p.b * y + p.c)) * Lanes(grid.g.data() + i);
 }
 
+/// Adds the pairs of eight pixels with the eight from (u, v) on, which the image may not have.
+SLAM_INLINE void AddEight(const DepthGrid& grid, const PixelPlane& plane, const Looked& looked,
+                          FloatLanes residuals, EightMarks here, int u, int v,
+                          RowPairs& pairs) {
+  if (v >= looked.labels.rows) return;
+  const auto i = static_cast<std::size_t>(grid.Index(u, v));
+  pairs.Add(residuals - Residuals(grid, i, plane),
+            here & Equal(looked.labels[v] + u, looked.label));
+}
+
 }  // namespace
 
-/// Sums the pairs of the pixels of a row, eight at a time as far as the image has two times
+/// Adds the pairs of the pixels of a row, eight at a time as far as the image has two times
 /// eight more. @returns the first column that is left
 SLAM_LANES static int AddRow(const DepthGrid& grid, const PixelPlane& of, const Looked& looked,
-                             int v, double& squares, int& count) {
+                             int v, Pairs& fine, Pairs& coarse) {
   const PixelPlane plane = of;
-  Pairs pairs;
-  const std::uint8_t* row = looked.labels[v];
-  const bool has_below = v + kApart_px < looked.labels.rows;
-  const std::uint8_t* below = has_below ? looked.labels[v + kApart_px] : nullptr;
+  RowPairs row_fine, row_coarse;
+  const cv::Mat1b& labels = looked.labels;
   const int end = looked.bounds.x + looked.bounds.width;
-  FloatLanes next{};
-  int next_u = -1;  // where `next` was taken
   int u = looked.bounds.x, offset = 0;
-  for (; u < end && u + 2 * kLanes <= looked.labels.cols; u += kLanes) {
+  for (; u < end && u + 2 * kLanes <= labels.cols; u += kLanes) {
     EightMarks here;
     std::memcpy(&here, looked.columns.data() + offset, sizeof here);
-    here &= Equal(row + u, looked.label);
+    here &= Equal(labels[v] + u, looked.label);
     offset += kLanes % looked.step_px;
     if (offset >= looked.step_px) offset -= looked.step_px;
     if (!AnyOf(here)) continue;
-    const auto i = static_cast<std::size_t>(grid.Index(u, v));
-    const FloatLanes residuals = next_u == u ? next : Residuals(grid, i, plane);
-    next = Residuals(grid, i + kApart_px, plane), next_u = u + kLanes;
-    pairs.Add(residuals - next, here & Equal(row + u + kApart_px, looked.label));
-    if (!has_below) continue;
-    const std::size_t under = i + static_cast<std::size_t>(grid.Index(0, kApart_px));
-    pairs.Add(residuals - Residuals(grid, under, plane), here & Equal(below + u, looked.label));
+    const FloatLanes residuals =
+        Residuals(grid, static_cast<std::size_t>(grid.Index(u, v)), plane);
+    AddEight(grid, plane, looked, residuals, here, u + 1, v, row_fine);
+    AddEight(grid, plane, looked, residuals, here, u, v + 1, row_fine);
+    AddEight(grid, plane, looked, residuals, here, u + kApart_px, v, row_coarse);
+    AddEight(grid, plane, looked, residuals, here, u, v + kApart_px, row_coarse);
   }
-  for (int k = 0; k < kLanes; ++k) squares += static_cast<double>(pairs.squares[k]);
-  count += SumOf(pairs.count);
+  row_fine.AddTo(fine);
+  row_coarse.AddTo(coarse);
   return u;
 }
 
-double MeasureRoughness(const DepthGrid& grid, const cv::Mat1b& labels, const cv::Rect& bounds,
-                        std::uint8_t label, const InverseDepthPlane& plane,
-                        const DepthNoise& noise, int step_px) {
+Roughness MeasureRoughness(const DepthGrid& grid, const cv::Mat1b& labels,
+                           const cv::Rect& bounds, std::uint8_t label,
+                           const InverseDepthPlane& plane, const DepthNoise& noise,
+                           int step_px) {
   Require(step_px >= 1 && step_px <= kMaxStep_px, "MeasureRoughness: step_px outside [1, 64]");
   const PixelPlane unslanted(LabelPlane{plane, 1.0});
   const Looked looked(labels, bounds, label, step_px);
-  double squares = 0.0;
-  int count = 0;
+  Pairs fine, coarse;
 
   // Adds the difference from a pixel's residual to that of another, if the segment has it.
-  const auto add = [&](float here, int u, int v) {
+  const auto add = [&](Pairs& pairs, float here, int u, int v) {
     if (u >= labels.cols || v >= labels.rows || labels(v, u) != label) return;
     const auto i = static_cast<std::size_t>(grid.Index(u, v));
     const float by = here - ResidualSigmas(grid, i, unslanted);
-    squares += static_cast<double>(by * by), ++count;
+    pairs.squares += static_cast<double>(by * by), ++pairs.count;
   };
 
-  // Each pixel that is looked at, with the one to its right and the one below.
+  // Each pixel that is looked at, with those to its right and those below.
   for (int v = bounds.y; v < bounds.y + bounds.height; v += step_px) {
-    for (int u = AddRow(grid, unslanted, looked, v, squares, count);
-         u < bounds.x + bounds.width; ++u) {
+    for (int u = AddRow(grid, unslanted, looked, v, fine, coarse); u < bounds.x + bounds.width;
+         ++u) {
       if ((u - bounds.x) % step_px != 0 || labels(v, u) != label) continue;
       const auto i = static_cast<std::size_t>(grid.Index(u, v));
       const float here = ResidualSigmas(grid, i, unslanted);
-      add(here, u + kApart_px, v);
-      add(here, u, v + kApart_px);
+      add(fine, here, u + 1, v);
+      add(fine, here, u, v + 1);
+      add(coarse, here, u + kApart_px, v);
+      add(coarse, here, u, v + kApart_px);
     }
   }
 
   // A difference has the noise of two pixels, as seen at the slant in the segment's middle.
-  if (count < kMinPairs) return 0.0;
   const int u = bounds.x + bounds.width / 2, v = bounds.y + bounds.height / 2;
   const auto i = static_cast<std::size_t>(grid.Index(u, v));
   const auto x = static_cast<double>(grid.x[i]), y = static_cast<double>(grid.y[i]);
   const double q = plane.InverseDepth(x, y);
   const double grazing = q > 0 ? noise.GrazingFactor(1.0 / q, plane.Cosine(x, y)) : 1.0;
-  return squares / (2.0 * count * grazing * grazing);
+  return {fine.HalfMean() / (grazing * grazing), coarse.HalfMean() / (grazing * grazing)};
 }
 
 }  // namespace slam

@@ -33,10 +33,10 @@ struct GoodBook {
     plane.box_px.Include({110, 190});
   }
   std::optional<BadReason> Fault() const {
-    return FindFault(plane, detections, usual_roughness, camera, config);
+    return FindFault(plane, detections, usual, camera, config);
   }
   FramePlane plane;
-  double usual_roughness = 0.9;
+  UsualRoughness usual{.coarse = 0.9, .growth = 2.0};
   std::vector<Detection> detections;
   Camera camera;
   SelectConfig config;
@@ -69,29 +69,46 @@ TEST(Select, RefusesASmallInlierRatioAndKeepsALargerOne) {
 
 TEST(Select, RefusesWhatIsRougherThanMostOfTheFrame) {
   GoodBook book;
-  book.plane.roughness = 0.9 * book.config.max_roughness + 0.01;
+  book.plane.roughness = {.fine = 0.45, .coarse = 0.9 * book.config.max_roughness + 0.01};
   EXPECT_EQ(book.Fault(), BadReason::kInliers);
-  book.usual_roughness = 1.0;  // a noisier frame
+  book.usual.coarse = 1.0;  // a noisier frame
   EXPECT_EQ(book.Fault(), std::nullopt);
+}
+
+TEST(Select, TrustsASurfaceAsNoisyOverEightPixelsAsItsNeighboursAre) {
+  GoodBook book;  // it reflects badly, say: five times the variance of the others
+  book.plane.roughness = {.fine = 2.25, .coarse = 4.5 * book.config.max_roughness - 0.01};
+  EXPECT_EQ(book.Fault(), std::nullopt);
+  book.plane.roughness.coarse += 0.02;
+  EXPECT_EQ(book.Fault(), BadReason::kInliers);
 }
 
 TEST(Select, CallsNothingRoughThatIsCleanerThanTheModel) {
   GoodBook book;
-  book.usual_roughness = 1e-6;
-  book.plane.roughness = 1e-3;
+  book.usual = {.coarse = 1e-6, .growth = 1.0};
+  book.plane.roughness = {.fine = 1e-6, .coarse = 1e-3};
   EXPECT_EQ(book.Fault(), std::nullopt);
 }
 
 TEST(Select, FindsTheRoughnessOfMostPixels) {
-  const auto face = [](int pixels, double roughness) {
+  const auto face = [](int pixels, double fine, double coarse) {
     FramePlane plane;
-    plane.pixel_count = pixels, plane.roughness = roughness;
+    plane.pixel_count = pixels, plane.roughness = {fine, coarse};
     return plane;
   };
-  EXPECT_EQ(UsualRoughness({}), 0.0);
-  EXPECT_EQ(UsualRoughness({face(500, 0.0)}), 0.0);  // unknown
-  EXPECT_EQ(UsualRoughness({face(100, 3.0), face(100, 2.5), face(1000, 0.9), face(500, 0.8)}),
-            0.9);
+  const auto usual = [](const std::vector<FramePlane>& planes) {
+    const UsualRoughness found = FindUsualRoughness(planes);
+    return std::pair(found.coarse, found.growth);
+  };
+  EXPECT_EQ(usual({}), std::pair(0.0, 0.0));
+  EXPECT_EQ(usual({face(500, 1.0, 0.0)}), std::pair(0.0, 0.0));  // narrow: unknown
+  EXPECT_EQ(usual({face(500, 0.0, 0.7)}), std::pair(0.7, 0.0));
+  // Half of the pixels are on the third, but its neighbours differ as much as any.
+  EXPECT_EQ(usual({face(100, 1.0, 3.0), face(100, 0.5, 2.5), face(1000, 0.9, 0.9),
+                   face(500, 0.2, 0.8), face(300, 0.3, 0.6), face(9000, 1.0, 0.0)}),
+            std::pair(0.9, 1.0));
+  EXPECT_EQ(usual({face(400, 1.0, 2.0), face(300, 0.5, 1.5), face(500, 4.0, 4.0)}),
+            std::pair(2.0, 2.0));
 }
 
 TEST(Select, AsPrintedRefusesAFaceAtTheBorder) {

@@ -17,7 +17,7 @@ const InverseDepthPlane kSlant{0.1, 0.5, 1.0};
 
 /// Depth of that plane with independent noise of the model, and `raised_m` nearer.
 template <typename Raised>
-double RoughnessOf(const Raised& raised_m, double noise_factor = 1.0) {
+Roughness RoughnessOf(const Raised& raised_m, double noise_factor = 1.0) {
   const Camera camera;
   const DepthNoise noise;
   cv::Mat1f depth_m(camera.height, camera.width);
@@ -42,32 +42,38 @@ double RoughnessOf(const Raised& raised_m, double noise_factor = 1.0) {
 
 TEST(Roughness, OfAPlaneIsThatOfItsNoise) {
   const auto flat = [](int, int) { return 0.0; };
-  EXPECT_NEAR(RoughnessOf(flat), 1.0, 0.05);
-  EXPECT_NEAR(RoughnessOf(flat, 1.5), 2.25, 0.1);
+  EXPECT_NEAR(RoughnessOf(flat).fine, 1.0, 0.05);
+  EXPECT_NEAR(RoughnessOf(flat).coarse, 1.0, 0.05);
+  EXPECT_NEAR(RoughnessOf(flat, 1.5).fine, 2.25, 0.1);
+  EXPECT_NEAR(RoughnessOf(flat, 1.5).coarse, 2.25, 0.1);
 }
 
 TEST(Roughness, IsNotRaisedByAGentleBend) {
   const auto bowl = [](int u, int v) {
     return 1e-7 * ((u - 250.0) * (u - 250.0) + (v - 180.0) * (v - 180.0));  // 3 mm at the rim
   };
-  EXPECT_NEAR(RoughnessOf(bowl), 1.0, 0.05);
+  EXPECT_NEAR(RoughnessOf(bowl).fine, 1.0, 0.05);
+  EXPECT_NEAR(RoughnessOf(bowl).coarse, 1.0, 0.05);
 }
 
 TEST(Roughness, OfStairsIsMoreWhicheverWayTheyRun) {
   const auto stairs = [](int along) { return along / 8 % 2 == 0 ? 0.004 : -0.004; };
-  EXPECT_GT(RoughnessOf([&](int u, int) { return stairs(u); }), 2.0);
-  EXPECT_GT(RoughnessOf([&](int, int v) { return stairs(v); }), 2.0);
+  for (const Roughness& r : {RoughnessOf([&](int u, int) { return stairs(u); }),
+                             RoughnessOf([&](int, int v) { return stairs(v); })}) {
+    EXPECT_GT(r.coarse, 2.0);
+    EXPECT_GT(r.coarse, 1.5 * r.fine);  // one of eight neighbours is on the next step
+  }
 }
 
 /// The same pair by pair.
 double PairByPair(const DepthGrid& grid, const cv::Mat1b& labels, const cv::Rect& bounds,
-                  int step_px) {
+                  int step_px, int apart_px) {
   const LabelPlane plane{kSlant, 1.0};
   double sum = 0.0;
   int pairs = 0;
   for (int v = bounds.y; v < bounds.br().y; v += step_px) {
     for (int u = bounds.x; u < bounds.br().x; u += step_px) {
-      for (const cv::Point& other : {cv::Point(u + 8, v), cv::Point(u, v + 8)}) {
+      for (const cv::Point& other : {cv::Point(u + apart_px, v), cv::Point(u, v + apart_px)}) {
         if (other.x >= labels.cols || other.y >= labels.rows) continue;
         if (labels(v, u) != 3 || labels(other) != 3) continue;
         const double by =
@@ -106,20 +112,30 @@ TEST(Roughness, CountsEveryPairOnceToTheImagesBorders) {
     cv::Mat1b own(height, width, static_cast<unsigned char>(0));
     labels(bounds).copyTo(own(bounds));
     for (const int step_px : {1, 2, 3, 5, 8, 13}) {
-      const double expected = PairByPair(grid, own, bounds, step_px);
-      EXPECT_NEAR(MeasureRoughness(grid, own, bounds, 3, kSlant, {}, step_px), expected,
-                  1e-5 * expected)
-          << bounds << ", every " << step_px;
+      const Roughness found = MeasureRoughness(grid, own, bounds, 3, kSlant, {}, step_px);
+      const double fine = PairByPair(grid, own, bounds, step_px, 1);
+      const double coarse = PairByPair(grid, own, bounds, step_px, 8);
+      EXPECT_NEAR(found.fine, fine, 1e-5 * fine) << bounds << ", every " << step_px;
+      EXPECT_NEAR(found.coarse, coarse, 1e-5 * coarse) << bounds << ", every " << step_px;
     }
   }
 }
 
 TEST(Roughness, OfAHandfulOfPixelsIsUnknown) {
-  const DepthGrid grid =
-      MakeDepthGrid(cv::Mat1f(480, 640, 1.0f), PixelRays(Camera{}), {}, 10.0);
-  cv::Mat1b labels(480, 640, static_cast<unsigned char>(0));
-  labels(cv::Rect(0, 0, 9, 9)) = 1;
-  EXPECT_EQ(MeasureRoughness(grid, labels, {0, 0, 9, 9}, 1, {0, 0, 1}, {}, 2), 0.0);
+  cv::Mat1f depth_m(480, 640);
+  Random random{6};
+  for (float& z : depth_m) z = static_cast<float>(1.0 + 0.02 * random.Uniform());
+  const DepthGrid grid = MakeDepthGrid(depth_m, PixelRays(Camera{}), {}, 10.0);
+  const auto of = [&](int side_px) {
+    cv::Mat1b labels(480, 640, static_cast<unsigned char>(0));
+    const cv::Rect bounds(0, 0, side_px, side_px);
+    labels(bounds) = 1;
+    return MeasureRoughness(grid, labels, bounds, 1, {0, 0, 1}, {}, 2);
+  };
+  EXPECT_EQ(of(7).fine, 0.0);     // 4 x 3 pairs either way
+  EXPECT_GT(of(9).fine, 0.0);     // 5 x 4
+  EXPECT_EQ(of(9).coarse, 0.0);   // 5 either way
+  EXPECT_GT(of(14).coarse, 0.0);  // 7 x 3
 }
 
 }  // namespace
