@@ -47,6 +47,29 @@ class TruthWithoutLabels : public ::testing::Test {
   TrueFrame frame_;
 };
 
+TEST(TruthByPixels, IsThePlaneWithMostOfThemUnlessMostShowNone) {
+  TruthPlane desk, book;
+  desk.id = kDesk, book.id = kBook;
+  TrueFrame frame;
+  frame.planes = {Level(desk, 0.0, 0.6, 1.4, 40000), Level(book, 0.2, 0.1, 1.385, 5000)};
+  constexpr int kUnscored = 9, kNothing = 0;
+  const std::map<int, int> truths =
+      TruthByPixels(frame, {// Less than half, but more than any other and than what shows none.
+                            {{kBook, 1}, 45},
+                            {{kDesk, 1}, 20},
+                            {{kUnscored, 1}, 35},
+                            // Of what shows none all counts together.
+                            {{kDesk, 2}, 40},
+                            {{kUnscored, 2}, 25},
+                            {{kNothing, 2}, 25},
+                            // Ties go to the lower id, before none.
+                            {{kDesk, 3}, 10},
+                            {{kBook, 3}, 10},
+                            {{kNothing, 3}, 10},
+                            {{kNothing, 4}, 5}});
+  EXPECT_EQ(truths, (std::map<int, int>{{0, kBook}, {1, 0}, {2, kDesk}, {3, 0}}));
+}
+
 TEST_F(TruthWithoutLabels, ABookThatIsBentOntoTheDeskIsTheBookByItsPixels) {
   EXPECT_EQ(TruthOf({0.2, 0, 1.386}, 4800), kBook);
   EXPECT_EQ(TruthOf({0.2, 0, 1.395}, 4800), kBook);

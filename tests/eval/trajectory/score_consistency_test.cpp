@@ -45,8 +45,9 @@ const Alignment kGauge{
     {Eigen::AngleAxisd(1.1, Eigen::Vector3d(0, 1, 3).normalized()).toRotationMatrix(),
      {5, -2, 7}}};
 
-/// Poses whose errors are drawn from a covariance of which `claimed` times is told.
-std::vector<ClaimedPose> Drawn(int count, double claimed) {
+/// Poses whose errors are drawn from a covariance of which `claimed` times is told; in every other
+/// second both are `wide` times as large.
+std::vector<ClaimedPose> Drawn(int count, double claimed, double wide = 1.0) {
   std::mt19937 random(7);
   std::normal_distribution<double> normal;
   const Matrix6d C = SomeCovariance(), root = Eigen::LLT<Matrix6d>(C).matrixL();
@@ -54,8 +55,10 @@ std::vector<ClaimedPose> Drawn(int count, double claimed) {
   for (int i = 0; i < count; ++i) {
     Vector6d z;
     for (double& x : z) x = normal(random);
+    const double times = i / 10 % 2 == 0 ? 1.0 : wide;
     const Pose T_gc = TrueAt(i);
-    poses.push_back({i / kFps, Inverse(kGauge.T_gw) * Off(T_gc, root * z), T_gc, claimed * C});
+    poses.push_back({i / kFps, Inverse(kGauge.T_gw) * Off(T_gc, std::sqrt(times) * root * z),
+                     T_gc, times * claimed * C});
   }
   return poses;
 }
@@ -76,6 +79,15 @@ TEST(ScoreConsistency, FindsAnHonestCovarianceHonest) {
     EXPECT_NEAR(claims.pose.above, 0.025, 0.014);
     EXPECT_EQ(claims.silent, 0u);
   }
+}
+
+TEST(ScoreConsistency, CarriesTheCovarianceOfTheEarlierPoseToTheLaterOne) {
+  // Of two poses a second apart one is known badly: whose it is tells where its axes point.
+  const ConsistencyScore score =
+      ScoreConsistency(Drawn(4000, 1.0, 100.0), kGauge, kHalfFrame_s);
+  EXPECT_NEAR(score.absolute->pose.mean, 6.0, 5 * 0.055);
+  EXPECT_NEAR(score.relative->pose.mean, 6.0, 5 * 0.055);
+  EXPECT_NEAR(score.relative->pose.inside, 0.95, 0.02);
 }
 
 TEST(ScoreConsistency, TellsClaimsThatAreTooBoldAndTooTimid) {
