@@ -74,6 +74,24 @@ TEST_F(EvaluateTinyWorld, ASegmentThatSwallowsABookIsUnderSegmentedAndNotMissedO
   EXPECT_EQ(after["association"]["decision"]["precision"], 1.0);
 }
 
+TEST_F(EvaluateTinyWorld, APlaneInTwoPiecesIsOverSegmentedAndNotUnder) {
+  TinyRun run(*world_);
+  for (std::size_t i = 0; i < run.frames.size(); ++i) {
+    const auto* desk = FramePlane(run, i, TinyWorld::kDeskTop);
+    ASSERT_NE(desk, nullptr);
+    auto& planes = run.frames[i]["planes"];
+    nlohmann::json piece = *desk;
+    piece["index"] = planes.size();
+    const int half = piece["index"].get<int>() + 1, whole = (*desk)["index"].get<int>() + 1;
+    auto left = run.segmentation[i].colRange(0, run.segmentation[i].cols / 2);
+    left.setTo(half, left == whole);
+    planes.push_back(piece);
+  }
+  const nlohmann::json after = Metrics(run);
+  EXPECT_GT(after["extraction"]["evops"]["osr"].get<double>(), 0.0);
+  EXPECT_EQ(after["extraction"]["evops"]["usr"], 0.0);
+}
+
 TEST_F(EvaluateTinyWorld, APlaneOnTheToyIsNoiseUnlessTheRunDistrustsIt) {
   TinyRun run(*world_);
   const nlohmann::json before = Metrics(run);
