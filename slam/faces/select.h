@@ -47,8 +47,8 @@ inline void VisitFields(SelectConfig& c, FieldVisitor& v) {
 }
 
 /// What a sensor's noise comes to in a frame, medians over the pixels of its planes; 0 when none
-/// is known. Noise may be several times as large on one surface as on another, where it reflects
-/// badly or is near, but it spreads alike over pixels.
+/// is known. Noise may be several times as large on one surface as on another, by distance and
+/// slant or by what it is made of, but it spreads alike over pixels.
 struct UsualRoughness {
   double coarse = 0.0;  ///< Roughness::coarse
   double growth = 0.0;  ///< Roughness::coarse over fine

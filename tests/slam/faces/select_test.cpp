@@ -76,7 +76,7 @@ TEST(Select, RefusesWhatIsRougherThanMostOfTheFrame) {
 }
 
 TEST(Select, TrustsASurfaceAsNoisyOverEightPixelsAsItsNeighboursAre) {
-  GoodBook book;  // it reflects badly, say: five times the variance of the others
+  GoodBook book;  // five times the variance of the others
   book.plane.roughness = {.fine = 2.25, .coarse = 4.5 * book.config.max_roughness - 0.01};
   EXPECT_EQ(book.Fault(), std::nullopt);
   book.plane.roughness.coarse += 0.02;
@@ -103,7 +103,7 @@ TEST(Select, FindsTheRoughnessOfMostPixels) {
   EXPECT_EQ(usual({}), std::pair(0.0, 0.0));
   EXPECT_EQ(usual({face(500, 1.0, 0.0)}), std::pair(0.0, 0.0));  // narrow: unknown
   EXPECT_EQ(usual({face(500, 0.0, 0.7)}), std::pair(0.7, 0.0));
-  // Half of the pixels are on the third, but its neighbours differ as much as any.
+  // Medians over pixels, each of its own order; what is narrow counts in neither.
   EXPECT_EQ(usual({face(100, 1.0, 3.0), face(100, 0.5, 2.5), face(1000, 0.9, 0.9),
                    face(500, 0.2, 0.8), face(300, 0.3, 0.6), face(9000, 1.0, 0.0)}),
             std::pair(0.9, 1.0));
