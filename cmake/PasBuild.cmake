@@ -120,7 +120,7 @@ function(pas_test name)
   target_compile_definitions(${target} PRIVATE
     PAS_SOURCE_DIR="${PROJECT_SOURCE_DIR}" PAS_BINARY_DIR="${PROJECT_BINARY_DIR}")
   pas_reuse_precompiled(${target} pas_precompiled_tests)
-  pas_unity(${target} 6)
+  pas_unity(${target} 12)
   # What is tested is built as released; the tests themselves need not be.
   target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>)
   if(NOT ARG_TIMEOUT)

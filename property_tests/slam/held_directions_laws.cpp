@@ -39,7 +39,7 @@ double MostTold(const std::vector<PlaneConstraint>& planes, const Eigen::Vector3
 }
 
 /// Of a pose, all of it correlated: metres and radians of some centimetres and degrees.
-Matrix6d AnyCovariance() {
+Matrix6d AnyPoseCovariance() {
   Matrix6d root;
   for (int i = 0; i < 36; ++i) root(i) = 0.03 * AnyReal(-1, 1);
   return root * root.transpose() + 1e-6 * Matrix6d::Identity();
@@ -92,7 +92,7 @@ RC_GTEST_PROP(UnseenSteps, TurnWithTheCamera, ()) {
 }
 
 RC_GTEST_PROP(HeldAlong, KnowsTheStepsAndNothingElseLess, ()) {
-  const UncertainPose predicted{AnyPose(3), AnyCovariance()};
+  const UncertainPose predicted{AnyPose(3), AnyPoseCovariance()};
   const auto steps = AnySteps();
   const UncertainPose held = HeldAlong(predicted, steps);
   const double size = predicted.covariance.norm();
@@ -113,7 +113,7 @@ RC_GTEST_PROP(HeldAlong, KnowsTheStepsAndNothingElseLess, ()) {
 }
 
 RC_GTEST_PROP(WithoutSteps, SaysNothingOfTheStepsAndTheSameOfAllOtherMotion, ()) {
-  const Matrix6d information = AnyCovariance().inverse();
+  const Matrix6d information = AnyPoseCovariance().inverse();
   const auto steps = AnySteps();
   const Matrix6d left = WithoutSteps(information, steps);
   const double size = information.norm();
@@ -133,11 +133,11 @@ RC_GTEST_PROP(WithoutSteps, LeaveThemAsUncertainAsPredicted, ()) {
   Matrix6d apart = Matrix6d::Identity();
   for (const Eigen::Vector3d& step_c : steps)
     apart -= Along(step_c) * Along(step_c).transpose();
-  Matrix6d predicted = apart * AnyCovariance() * apart;
+  Matrix6d predicted = apart * AnyPoseCovariance() * apart;
   const double variance = AnyReal(1e-6, 1e-2);
   for (const Eigen::Vector3d& step_c : steps)
     predicted += variance * Along(step_c) * Along(step_c).transpose();
-  const Matrix6d seen = WithoutSteps(AnyCovariance().inverse(), steps);
+  const Matrix6d seen = WithoutSteps(AnyPoseCovariance().inverse(), steps);
   const Matrix6d known =
       (Matrix6d::Identity() + predicted * seen).partialPivLu().solve(predicted);
   for (const Eigen::Vector3d& step_c : steps)

@@ -17,7 +17,7 @@ using ::testing::ThrowsMessage;
 
 /// What reading says of a text; empty when it says nothing.
 template <typename Read>
-std::string ErrorOf(const std::string& text, const Read& read) {
+std::string ErrorInYaml(const std::string& text, const Read& read) {
   try {
     read(ParseYaml(text, "a.yaml"));
   } catch (const InputError& error) {
@@ -29,39 +29,41 @@ std::string ErrorOf(const std::string& text, const Read& read) {
 /// The same for the value of `key`.
 template <typename Read>
 std::string ErrorAt(const std::string& key, const std::string& text, const Read& read) {
-  return ErrorOf(text, [&](const YamlValue& root) { read(YamlMap(root).At(key)); });
+  return ErrorInYaml(text, [&](const YamlValue& root) { read(YamlMap(root).At(key)); });
 }
 
 void Nothing(const YamlValue&) {}
 void Share(const YamlValue& value) { value.Number(Interval("(0, 1]"), "of all"); }
 
 TEST(YamlText, MustBeOnePlainShallowDocument) {
-  EXPECT_THAT(ErrorOf("a: [1, 2\nb: }", Nothing), StartsWith("a.yaml:2: not valid YAML"));
-  EXPECT_THAT(ErrorOf("a: 1\n---\nb: 2\n", Nothing), HasSubstr("more than one YAML document"));
-  EXPECT_THAT(ErrorOf("b: 1\na: &x 1\n", Nothing), StartsWith("a.yaml:2: anchors"));
-  EXPECT_THAT(ErrorOf("a: *x\n", Nothing), StartsWith("a.yaml:1: "));
-  EXPECT_THAT(ErrorOf(std::string(100000, '['), Nothing), HasSubstr("nested deeper than 8"));
-  EXPECT_EQ(ErrorOf("[[[[[[[[1]]]]]]]]", Nothing), "");
-  EXPECT_THAT(ErrorOf("[[[[[[[[[1]]]]]]]]]", Nothing), HasSubstr("nested deeper than 8"));
+  EXPECT_THAT(ErrorInYaml("a: [1, 2\nb: }", Nothing), StartsWith("a.yaml:2: not valid YAML"));
+  EXPECT_THAT(ErrorInYaml("a: 1\n---\nb: 2\n", Nothing),
+              HasSubstr("more than one YAML document"));
+  EXPECT_THAT(ErrorInYaml("b: 1\na: &x 1\n", Nothing), StartsWith("a.yaml:2: anchors"));
+  EXPECT_THAT(ErrorInYaml("a: *x\n", Nothing), StartsWith("a.yaml:1: "));
+  EXPECT_THAT(ErrorInYaml(std::string(100000, '['), Nothing),
+              HasSubstr("nested deeper than 8"));
+  EXPECT_EQ(ErrorInYaml("[[[[[[[[1]]]]]]]]", Nothing), "");
+  EXPECT_THAT(ErrorInYaml("[[[[[[[[[1]]]]]]]]]", Nothing), HasSubstr("nested deeper than 8"));
 }
 
 TEST(YamlText, MustGiveEachKeyOnceAndInPlainText) {
-  EXPECT_EQ(ErrorOf("a: 1\nb: {c: 1,\n  c: 2}\n", Nothing),
+  EXPECT_EQ(ErrorInYaml("a: 1\nb: {c: 1,\n  c: 2}\n", Nothing),
             "a.yaml:3: key `c` is given twice; keep one");
-  EXPECT_EQ(ErrorOf("a: {c: 1}\nb: {c: 2}\n", Nothing), "");
-  EXPECT_THAT(ErrorOf("? [a, b]\n: 1\n", Nothing), HasSubstr("a key must be a plain text"));
+  EXPECT_EQ(ErrorInYaml("a: {c: 1}\nb: {c: 2}\n", Nothing), "");
+  EXPECT_THAT(ErrorInYaml("? [a, b]\n: 1\n", Nothing), HasSubstr("a key must be a plain text"));
 }
 
 TEST(YamlMap, NamesAnUnknownKeyItsLineAndTheOneThatIsMeant) {
   const auto read = [](const YamlValue& root) { YamlMap(root, {"size_m", "name"}); };
-  EXPECT_EQ(ErrorOf("name: a\nsize_mm: 1\n", read),
+  EXPECT_EQ(ErrorInYaml("name: a\nsize_mm: 1\n", read),
             "a.yaml:2: unknown key `size_mm`; did you mean `size_m`? keys here: size_m, name");
-  EXPECT_EQ(ErrorOf("colour: 1\n", read),
+  EXPECT_EQ(ErrorInYaml("colour: 1\n", read),
             "a.yaml:1: unknown key `colour`; keys here: size_m, name");
   EXPECT_EQ(
-      ErrorOf("", read),
+      ErrorInYaml("", read),
       "a.yaml:1: the file is empty; expected `key: value` lines with keys of: size_m, name");
-  EXPECT_EQ(ErrorOf("- 1\n", read), "a.yaml:1: expected `key: value` lines, found a list");
+  EXPECT_EQ(ErrorInYaml("- 1\n", read), "a.yaml:1: expected `key: value` lines, found a list");
 }
 
 TEST(YamlMap, MayLearnItsKeysWhileItIsRead) {
@@ -70,12 +72,12 @@ TEST(YamlMap, MayLearnItsKeysWhileItIsRead) {
     section.RefuseOtherKeys({"a"});
     map.RefuseOtherKeys({"section"});
   };
-  EXPECT_EQ(ErrorOf("", read), "");
-  EXPECT_EQ(ErrorOf("section:\n", read), "");
-  EXPECT_EQ(ErrorOf("section: {a: 1}\n", read), "");
-  EXPECT_EQ(ErrorOf("section:\n  a: 1\n  b: 2\n", read),
+  EXPECT_EQ(ErrorInYaml("", read), "");
+  EXPECT_EQ(ErrorInYaml("section:\n", read), "");
+  EXPECT_EQ(ErrorInYaml("section: {a: 1}\n", read), "");
+  EXPECT_EQ(ErrorInYaml("section:\n  a: 1\n  b: 2\n", read),
             "a.yaml:3: section: unknown key `b`; did you mean `a`? keys here: a");
-  EXPECT_EQ(ErrorOf("section: 3\n", read),
+  EXPECT_EQ(ErrorInYaml("section: 3\n", read),
             "a.yaml:1: section: expected `key: value` lines, found `3`");
 }
 

@@ -45,7 +45,7 @@ inline RecordedFrame StreamFrame(int i, const cv::Mat1b& gray, const cv::Mat1f& 
 /// fault yet. @param T_cw_of of a frame's index
 inline std::vector<RecordedFrame> SeenStream(int frames, const TexturedCorner& world,
                                              const std::function<Pose(int)>& T_cw_of,
-                                             const Camera& camera = SmallCamera(320, 240)) {
+                                             const Camera& camera = CameraOfSize(320, 240)) {
   std::vector<RecordedFrame> stream;
   for (int i = 0; i < frames; ++i) {
     const Frame seen = world.See(camera, T_cw_of(i), i);

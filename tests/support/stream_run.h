@@ -58,7 +58,7 @@ inline std::vector<std::pair<double, Pose>> PosesOf(const std::string& trajector
 /// Runs on a stream without detections, on one thread. options.run is
 /// chosen here, and removed again.
 inline Ran RunStream(std::vector<RecordedFrame> frames, RunOptions options,
-                     const Camera& camera = SmallCamera(320, 240)) {
+                     const Camera& camera = CameraOfSize(320, 240)) {
   options.sequence = "stream";
   const test_support::TemporaryFolder folder;
   options.run = folder / "run";

@@ -97,8 +97,8 @@ class TexturedCorner {
   std::vector<cv::Mat1b> patterns_;
 };
 
-/// A small camera for tests.
-inline Camera SmallCamera(int width = 320, int height = 240) {
+/// A camera with about the field of view of a Kinect.
+inline Camera CameraOfSize(int width = 320, int height = 240) {
   Camera camera;
   camera.width = width;
   camera.height = height;

@@ -10,7 +10,7 @@ namespace slam {
 namespace {
 
 const Camera& ClockCamera() {
-  static const Camera camera = SmallCamera(160, 120);
+  static const Camera camera = CameraOfSize(160, 120);
   return camera;
 }
 

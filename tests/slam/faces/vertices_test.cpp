@@ -117,13 +117,13 @@ TEST(Vertices, DoNotMakeARectangleThatTheRegionDoesNotFill) {
   EXPECT_LT(face.Find().size(), 4u);
 }
 
-const Line kAlongX{{0, 0, 1}, {1, 0, 0}};
+const Line kOneAbove{{0, 0, 1}, {1, 0, 0}};
 
 TEST(VerticesConditionOne, RefusesLinesThatPassEachOther) {
   VertexConfig config;
   config.max_plane_distance_m = 1.0;  // so that condition 1 alone can refuse
   const auto apart = [&](double gap) {
-    return MeetingPoint(kAlongX, {{0, 0, 1 + gap}, {0, 1, 0}}, kFacing, kCamera, {}, config);
+    return MeetingPoint(kOneAbove, {{0, 0, 1 + gap}, {0, 1, 0}}, kFacing, kCamera, {}, config);
   };
   EXPECT_TRUE(apart(0.9 * config.max_feet_distance_m).has_value());
   EXPECT_FALSE(apart(1.1 * config.max_feet_distance_m).has_value());
@@ -144,7 +144,7 @@ TEST(VerticesConditionThree, RefusesAPointOutsideTheBox) {
   const Eigen::Vector2d u = kCamera.Project({0, 0, 1});
   const auto with_box_right_of = [&](double distance_px) {
     const Box box{u + Eigen::Vector2d(distance_px, -50), u + Eigen::Vector2d(200, 50)};
-    return MeetingPoint(kAlongX, {{0, 0, 1}, {0, 1, 0}}, kFacing, kCamera, box, config);
+    return MeetingPoint(kOneAbove, {{0, 0, 1}, {0, 1, 0}}, kFacing, kCamera, box, config);
   };
   EXPECT_TRUE(with_box_right_of(config.box_margin_px - 1).has_value());
   EXPECT_FALSE(with_box_right_of(config.box_margin_px + 1).has_value());

@@ -15,7 +15,7 @@
 namespace slam {
 namespace {
 
-Camera CameraOf(const cv::Mat1b& image) { return SmallCamera(image.cols, image.rows); }
+Camera CameraOf(const cv::Mat1b& image) { return CameraOfSize(image.cols, image.rows); }
 
 std::vector<PointFeature> Extract(const cv::Mat1b& image,
                                   const PointFeatureConfig& config = {}) {
@@ -332,7 +332,7 @@ TEST(PointFeatures, LieOnAnEdgeFromTenTimesTheContrastAcrossItOn) {
 
 TEST(PointFeatures, RefuseImagesOfAnotherSize) {
   const cv::Mat1b image = PatternImage(320, 240);
-  EXPECT_THROW(ExtractPointFeatures(image, SmallCamera(640, 480), {}), std::invalid_argument);
+  EXPECT_THROW(ExtractPointFeatures(image, CameraOfSize(640, 480), {}), std::invalid_argument);
   std::vector<PointFeature> none;
   EXPECT_THROW(ReadDepths(cv::Mat1f(10, 10, 1.0f), CameraOf(image), {}, {}, {}, none),
                std::invalid_argument);

@@ -39,7 +39,7 @@ Frame ReadAt(const Vector6d& speed, const Camera& camera, bool has_depth) {
 }
 
 Camera Lens() {
-  Camera camera = SmallCamera(640, 480);
+  Camera camera = CameraOfSize(640, 480);
   camera.k1 = 0.1, camera.k2 = -0.05;
   return camera;
 }

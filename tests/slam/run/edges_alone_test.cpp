@@ -44,7 +44,7 @@ cv::Mat1b PrintOf(const cv::Mat1f& depth_m, const Pose& T_wc, const Camera& came
 
 /// A desk whose lamp goes out after `light` frames.
 Ran RunIntoTheDark(int light, bool edges_alone) {
-  const Camera camera = SmallCamera(320, 240);
+  const Camera camera = CameraOfSize(320, 240);
   std::vector<RecordedFrame> stream;
   for (int i = 0; i < kAll; ++i) {
     const cv::Mat1f depth_m = See(Desk(), HandAt(i), camera, {}, Random{1}).frame.depth_m;

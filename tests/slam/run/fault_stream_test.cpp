@@ -213,7 +213,7 @@ TEST(FaultStreamF13, SetDownInALookAlikePlaceBehindACoveredLensItSaysLost) {
     for (int i = 20; i < kUntil; ++i) {
       RecordedFrame& frame = moved[static_cast<std::size_t>(i)];
       const Frame seen =
-          world.See(SmallCamera(320, 240), SwingingPose(i) * Inverse(T_moved), i);
+          world.See(CameraOfSize(320, 240), SwingingPose(i) * Inverse(T_moved), i);
       frame.depth_m = seen.depth_m;
       SetColour(frame, i < 25 ? cv::Mat1b(seen.gray.size(), 0) : seen.gray);
     }
@@ -255,7 +255,7 @@ TEST(FaultStreamF14, AFileThatCannotBeReadEndsTheRunWithItsPathAndLeavesNoRun) {
     options.run = folder / "run";
     BrokenStream stream(CleanStream(10), 7);
     try {
-      RunLive({stream, SmallCamera(320, 240), nullptr}, options);
+      RunLive({stream, CameraOfSize(320, 240), nullptr}, options);
       FAIL() << "it was read";
     } catch (const io::InputError& error) {
       EXPECT_THAT(error.what(), testing::HasSubstr("rgb/7.png"));
@@ -326,7 +326,7 @@ TEST(RunLive, RunsEveryFrameThatItReadsWhereverItStops) {
       options.progress = [&](int frames, int) { done = frames; };
       options.stop = [&] { return done >= stop_at; };
       CountedStream stream(CleanStream(10));
-      const RunOutcome outcome = RunLive({stream, SmallCamera(320, 240), nullptr}, options);
+      const RunOutcome outcome = RunLive({stream, CameraOfSize(320, 240), nullptr}, options);
       EXPECT_EQ(outcome.frames, std::min(stop_at + 1, 10)) << threads;
       EXPECT_EQ(stream.read, outcome.frames) << threads << ", " << stop_at;
       EXPECT_EQ(outcome.stopped, outcome.frames < 10) << stop_at;

@@ -7,7 +7,7 @@
 namespace slam {
 namespace {
 
-Pose HandAt(int i) {
+Pose SlidingHandAt(int i) {
   const double s = i / 30.0;
   return LookAt({-0.5 + 0.1 * std::sin(3 * s), -0.6 + 0.1 * s, 1.3}, {0.5, 1.1, 0.3});
 }
@@ -15,10 +15,10 @@ Pose HandAt(int i) {
 /// A dark room, without depth as well from frame `from` for `count` frames.
 std::vector<RecordedFrame> DarkStream(const PlaneWorld& world, int frames, int from,
                                       int count) {
-  const Camera camera = SmallCamera(320, 240);
+  const Camera camera = CameraOfSize(320, 240);
   std::vector<RecordedFrame> stream;
   for (int i = 0; i < frames; ++i) {
-    cv::Mat1f depth_m = See(world, HandAt(i), camera, {}, Random{1}).frame.depth_m;
+    cv::Mat1f depth_m = See(world, SlidingHandAt(i), camera, {}, Random{1}).frame.depth_m;
     if (i >= from && i < from + count) depth_m.setTo(0);
     stream.push_back(StreamFrame(i, cv::Mat1b(depth_m.size(), 0), depth_m));
   }
@@ -35,7 +35,7 @@ TEST(FoundByPlanes, ACameraThatWasCoveredKnowsItsPlaceAtOnce) {
   ASSERT_EQ(ran.outcome.tracked, 50 - kCovered);
   for (const auto& [s, T_wc] : ran.poses_wc) {
     const int i = static_cast<int>(std::lround((s - 100.0) * 30));
-    EXPECT_LT((T_wc.t - (HandAt(0) * Inverse(HandAt(i))).t).norm(), 0.02) << i;
+    EXPECT_LT((T_wc.t - (SlidingHandAt(0) * Inverse(SlidingHandAt(i))).t).norm(), 0.02) << i;
   }
 }
 

@@ -10,7 +10,7 @@ namespace slam {
 namespace {
 
 TEST(Tracker, GivesEachFrameItsPoseInTheMapAndTheStepFromTheFrameBefore) {
-  const Camera camera = SmallCamera();
+  const Camera camera = CameraOfSize();
   const TexturedCorner corner;
   Tracker tracker(camera, {}, Variant::kFull, nullptr, 0, 1);
   Pose last_cw;
@@ -36,7 +36,7 @@ TEST(Tracker, GivesEachFrameItsPoseInTheMapAndTheStepFromTheFrameBefore) {
 }
 
 TEST(Tracker, TellsItsFirstFrameAtTheSpeedThatAnotherFound) {
-  const Camera camera = SmallCamera();
+  const Camera camera = CameraOfSize();
   const TexturedCorner corner;
   const auto track = [&](Tracker& tracker, int i) {
     Frame frame = corner.See(camera, SwingingPose(4 * (i + 5)), i);
@@ -58,7 +58,7 @@ TEST(Tracker, TellsItsFirstFrameAtTheSpeedThatAnotherFound) {
 
 // Points see the same bent depth, whatever finds no planes to measure it by.
 TEST(Tracker, TellsOfWhatASensorBendsWhereThereAreNoPlanes) {
-  const Camera camera = SmallCamera();
+  const Camera camera = CameraOfSize();
   const TexturedCorner corner;
   Tracker tracker(camera, {}, Variant::kPoints, nullptr, 0, 1);
   for (int i = 0; i < 2; ++i) {
@@ -71,7 +71,7 @@ TEST(Tracker, TellsOfWhatASensorBendsWhereThereAreNoPlanes) {
 // What a sensor bends is the same in all frames of a camera at rest: they are one view.
 TEST(Tracker, KnowsALandmarkNoBetterForSeeingItLongerFromOnePlace) {
   constexpr double kBend_m = 0.01;
-  const Camera camera = SmallCamera();
+  const Camera camera = CameraOfSize();
   const TexturedCorner corner;
   TrackerHooks hooks;
   hooks.after_association = [&](Frame& frame, const Map&) {
@@ -96,7 +96,7 @@ TEST(Tracker, KnowsALandmarkNoBetterForSeeingItLongerFromOnePlace) {
 // so few points, that it outweighs them all.
 TEST(Tracker, BelievesThePointsOfAFrameWhosePlanesAreAllOnWrongLandmarks) {
   constexpr int kWrong = 20;
-  const Camera camera = SmallCamera();
+  const Camera camera = CameraOfSize();
   const TexturedCorner corner;
   int moved = 0;
   TrackerHooks hooks;

@@ -19,7 +19,7 @@ RunOptions TrackPointsAlone() {
 TEST(FaultStreamF8, ACameraThatCannotBeIsRefused) {
   const double kNan = std::numeric_limits<double>::quiet_NaN();
   for (const double fx : {0.0, -300.0, kNan}) {
-    Camera camera = SmallCamera(320, 240);
+    Camera camera = CameraOfSize(320, 240);
     camera.fx = fx;
     EXPECT_THROW(RunStream(CleanStream(3), TrackPointsAlone(), camera), io::InputError);
   }
@@ -32,7 +32,7 @@ struct Said {
 };
 
 Camera SaidCamera(const Said& said) {
-  Camera camera = SmallCamera(640, 480);
+  Camera camera = CameraOfSize(640, 480);
   camera.fx *= said.fx_factor;
   camera.fy *= said.fy_factor;
   camera.cx += said.cx_shift_px;
@@ -48,13 +48,13 @@ std::vector<RecordedFrame> PannedStream(int frames) {
         const Eigen::Matrix3d R_wc = ExpSo3({-0.016 * i, 0.03 * i, 0.01 * i});
         return Inverse(Pose{R_wc, {0.008 * i, 0.0, 0.004 * i}});
       },
-      SmallCamera(640, 480));
+      CameraOfSize(640, 480));
 }
 
 TEST(FaultStreamF8, AWrongCameraIsNoticedWithinTenFramesOfTurning) {
   const auto stream = PannedStream(10);
   EXPECT_TRUE(
-      RunStream(stream, TrackPointsAlone(), SmallCamera(640, 480)).outcome.warnings.empty());
+      RunStream(stream, TrackPointsAlone(), CameraOfSize(640, 480)).outcome.warnings.empty());
   for (const Said& said : {Said{1.05, 1.0, 0, 0, {"fx"}}, Said{1.3, 1.0, 0, 0, {"fx"}},
                            Said{0.9, 0.9, 0, 0, {"fx", "fy"}}, Said{1, 1, 20, 0, {"cx"}}}) {
     SCOPED_TRACE(testing::Message() << said.fx_factor << " " << said.cx_shift_px);

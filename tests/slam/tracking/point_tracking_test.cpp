@@ -23,7 +23,7 @@ Frame SeeSwinging(const TexturedCorner& world, const Camera& camera, int index) 
 
 TEST(PointTracking, FollowsAHandThroughATexturedCorner) {
   const TexturedCorner world;
-  PointOdometer odometer(SmallCamera());
+  PointOdometer odometer(CameraOfSize());
   for (int i = 0; i < 60; ++i) {
     Frame frame = SeeSwinging(world, odometer.camera, i);
     const PointTrackReport report = odometer.Step(frame);
@@ -36,7 +36,7 @@ TEST(PointTracking, FollowsAHandThroughATexturedCorner) {
 
 TEST(PointTracking, WorksWithImagesOf160By120) {
   const TexturedCorner world(2);
-  PointOdometer odometer(SmallCamera(160, 120));
+  PointOdometer odometer(CameraOfSize(160, 120));
   for (int i = 0; i < 30; ++i) {
     Frame frame = SeeSwinging(world, odometer.camera, i);
     ASSERT_EQ(odometer.Step(frame).state, TrackState::kTracking) << "frame " << i;
@@ -48,7 +48,7 @@ TEST(PointTracking, WorksWithImagesOf160By120) {
 
 TEST(PointTracking, SaysLostOnABlackFrameAndFindsItselfAgainLater) {
   const TexturedCorner world;
-  PointOdometer odometer(SmallCamera());
+  PointOdometer odometer(CameraOfSize());
   for (int i = 0; i < 40; ++i) {
     Frame frame = SeeSwinging(world, odometer.camera, i);
     const bool black = i >= 20 && i < 28;
@@ -68,7 +68,7 @@ TEST(PointTracking, SaysLostOnABlackFrameAndFindsItselfAgainLater) {
 
 TEST(PointTracking, FindsItselfAfterAJumpThatNoPredictionBridges) {
   const TexturedCorner world;
-  PointOdometer odometer(SmallCamera());
+  PointOdometer odometer(CameraOfSize());
   for (int i = 0; i < 10; ++i) {
     Frame frame = SeeSwinging(world, odometer.camera, i);
     odometer.Step(frame);
@@ -85,7 +85,7 @@ TEST(PointTracking, FindsItselfAfterAJumpThatNoPredictionBridges) {
 TEST(PointTracking, TakesNoJumpForASpeed) {
   // A speed says where late depth was measured. That of a hand is found with the pose.
   const TexturedCorner world;
-  PointOdometer odometer(SmallCamera());
+  PointOdometer odometer(CameraOfSize());
   for (int i = 0; i < 10; ++i) {
     Frame frame = SeeSwinging(world, odometer.camera, i);
     frame.depth_late_s = 0.001;
@@ -101,7 +101,7 @@ TEST(PointTracking, TakesNoJumpForASpeed) {
 
 TEST(PointTracking, TellsFeaturesAtTheSpeedOfThePoseThatItFound) {
   const TexturedCorner world;
-  PointOdometer odometer(SmallCamera());
+  PointOdometer odometer(CameraOfSize());
   double apart = 0.0, speed = 0.0;
   for (int i = 0; i < 40; ++i) {
     Frame frame = SeeSwinging(world, odometer.camera, i);
@@ -122,7 +122,7 @@ TEST(PointTracking, TakesNoMoveOfTheMapForASpeed) {
   const Pose moved{ExpSo3({0.01, -0.02, 0.03}), {0.05, -0.04, 0.03}};
   Vector6d speed[2];
   for (const bool moves : {false, true}) {
-    PointOdometer odometer(SmallCamera());
+    PointOdometer odometer(CameraOfSize());
     double stamp_s = 0;
     for (int i = 0; i <= 10; ++i) {
       Frame frame = SeeSwinging(world, odometer.camera, i);
@@ -146,7 +146,7 @@ TEST(PointTracking, TakesNoMoveOfTheMapForASpeed) {
 
 TEST(PointTracking, StaysLostInAWorldItHasNeverSeen) {
   const TexturedCorner world(1), other(99);
-  PointOdometer odometer(SmallCamera());
+  PointOdometer odometer(CameraOfSize());
   for (int i = 0; i < 25; ++i) {
     const bool elsewhere = i >= 10;
     Frame frame = SeeSwinging(elsewhere ? other : world, odometer.camera, i);
@@ -158,7 +158,7 @@ TEST(PointTracking, StaysLostInAWorldItHasNeverSeen) {
 
 TEST(PointTracking, WaitsForAFrameWithDepthBeforeItStarts) {
   const TexturedCorner world;
-  PointOdometer odometer(SmallCamera());
+  PointOdometer odometer(CameraOfSize());
   for (int i = 0; i < 6; ++i) {
     Frame frame = SeeSwinging(world, odometer.camera, i);
     if (i < 2) frame.depth_m.setTo(0);
@@ -171,7 +171,7 @@ TEST(PointTracking, WaitsForAFrameWithDepthBeforeItStarts) {
 
 TEST(PointTracking, GoesOnWithoutDepthOnceItHasAMap) {
   const TexturedCorner world;
-  PointOdometer odometer(SmallCamera());
+  PointOdometer odometer(CameraOfSize());
   for (int i = 0; i < 12; ++i) {
     Frame frame = SeeSwinging(world, odometer.camera, i);
     if (i >= 5) frame.depth_m.setTo(0);
@@ -182,7 +182,7 @@ TEST(PointTracking, GoesOnWithoutDepthOnceItHasAMap) {
 
 TEST(PointTracking, StandsStillWhenTheFrameRepeats) {
   const TexturedCorner world;
-  PointOdometer odometer(SmallCamera());
+  PointOdometer odometer(CameraOfSize());
   for (int i = 0; i < 10; ++i) {
     Frame frame = world.See(odometer.camera, Pose{}, i);
     ASSERT_EQ(odometer.Step(frame).state, TrackState::kTracking);
@@ -193,7 +193,7 @@ TEST(PointTracking, StandsStillWhenTheFrameRepeats) {
 
 TEST(PointTracking, GoesOnByMotionWhenTheMapIsMovedUnderIt) {
   const TexturedCorner world;
-  PointOdometer odometer(SmallCamera());
+  PointOdometer odometer(CameraOfSize());
   const Pose T_new_old{ExpSo3({0.3, -0.5, 0.2}), {1.0, -2.0, 0.5}};
   for (int i = 0; i < 12; ++i) {
     if (i == 5 || i == 8) {  // as closing a loop does
@@ -228,7 +228,7 @@ TEST(PointTracking, GoesOnByMotionWhenTheMapIsMovedUnderIt) {
 
 TEST(PointTracking, CountsOnItsPointsInWhichFramesTheyShouldBeSeenAndAre) {
   const TexturedCorner world;
-  PointOdometer odometer(SmallCamera());
+  PointOdometer odometer(CameraOfSize());
   const auto counts = [&] {
     std::pair<int, int> sums{0, 0};
     for (const MapPoint& point : odometer.map.points) {
@@ -255,7 +255,7 @@ TEST(PointTracking, CountsOnItsPointsInWhichFramesTheyShouldBeSeenAndAre) {
 
 TEST(PointTracking, GivesTheSameBytesTwice) {
   const TexturedCorner world;
-  PointOdometer first(SmallCamera()), second(SmallCamera());
+  PointOdometer first(CameraOfSize()), second(CameraOfSize());
   for (int i = 0; i < 25; ++i) {
     Frame a = SeeSwinging(world, first.camera, i), b = SeeSwinging(world, second.camera, i);
     if (i == 12) a.gray.setTo(0), b.gray.setTo(0);  // through relocalisation as well
