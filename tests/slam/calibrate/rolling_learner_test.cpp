@@ -103,7 +103,8 @@ TEST(RollingLearner, TellsTheTimeFromTheFirstRowToTheLast) {
     const auto estimate = LearnShutter({.read_s = read_s}).estimate();
     ASSERT_TRUE(estimate) << read_s;
     EXPECT_NEAR(estimate->read_s, read_s, 0.001);
-    EXPECT_LT(estimate->sigma_s, 0.004);
+    // As of a mean: epochs that scatter by 3 ms, of which there are twenty at most.
+    EXPECT_LT(estimate->sigma_s, 0.0015);
     EXPECT_NEAR(estimate->applied_s, read_s, 0.1 * std::abs(read_s) + 0.001);
   }
 }

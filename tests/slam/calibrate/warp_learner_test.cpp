@@ -171,5 +171,25 @@ TEST(DepthStraightener, StraightensFromTheFrameOnThatItIsWorthIt) {
   EXPECT_FALSE(off.report().evidence.has_value());
 }
 
+TEST(DepthStraightener, LetsGoOfAWarpThatForetellsNoLonger) {
+  const Camera camera = SmallCamera();
+  const cv::Mat2d rays = PixelRays(camera);
+  DepthStraightener straightener(camera, DepthNoise{}, {.source = "auto"});
+  bool applied = false;
+  for (int i = 0; i < 2 * kFrames; ++i) {
+    // A device that bends, and then one that bends the other way.
+    const Room room{.pattern = [&](double u, double v) {
+      return (i < kFrames ? 1 : -1) * WavyPattern(u, v);
+    }};
+    Frame frame = FrameOfRoom(room, i, rays);
+    frame.measured = {frame.depth_m, frame.plane_labels};
+    straightener.Learn(frame);
+    applied = applied || !straightener.factors().empty();
+  }
+  EXPECT_TRUE(applied);
+  EXPECT_FALSE(straightener.report().evidence->worth_it);
+  EXPECT_TRUE(straightener.factors().empty());
+}
+
 }  // namespace
 }  // namespace slam
