@@ -54,11 +54,12 @@ void BagWriter::Image(const std::string& topic, double stamp_s, const std::strin
 
 void BagWriter::CameraInfo(const std::string& topic, cv::Size size,
                            const std::array<double, 4>& k, const std::string& lens,
-                           const std::vector<double>& d) {
+                           const std::vector<double>& d, const std::array<double, 4>& p) {
   sensor_msgs::CameraInfo info;
   info.width = static_cast<std::uint32_t>(size.width);
   info.height = static_cast<std::uint32_t>(size.height);
   info.K = {k[0], 0, k[2], 0, k[1], k[3], 0, 0, 1};
+  info.P = {p[0], 0, p[2], 0, 0, p[1], p[3], 0, 0, 0, 1, 0};
   info.distortion_model = lens;
   info.D = d;
   bag_->bag.write(topic, bag_->last, info);

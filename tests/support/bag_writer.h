@@ -18,9 +18,10 @@ class BagWriter {
 
   void Image(const std::string& topic, double stamp_s, const std::string& frame,
              const std::string& encoding, const cv::Mat& pixels);
-  /// @param k  fx fy cx cy
+  /// @param k, p  fx fy cx cy, of the images as taken and as rectified
   void CameraInfo(const std::string& topic, cv::Size size, const std::array<double, 4>& k,
-                  const std::string& lens, const std::vector<double>& d);
+                  const std::string& lens, const std::vector<double>& d,
+                  const std::array<double, 4>& p = {});
   void Number(const std::string& topic, float number);
   /// @param q_xyzw  quaternion
   void Transform(const std::string& topic, const std::array<double, 3>& t,

@@ -64,6 +64,20 @@ TEST(ChooseMapGauge, TurnsATruthWhoseZAxisIsNotUpUntilTheDeskIsLevel) {
   EXPECT_LT((gauge.T_vw * p - gauge.T_vg * p).norm(), kTurnRoundOff);
 }
 
+TEST(ChooseMapGauge, TurnsRunAndTruthAlikeWhereTheRunBeginsElsewhere) {
+  CameraWorld world = MakeCameraWorld();
+  const Pose T_gw{Eigen::AngleAxisd(0.4, Eigen::Vector3d(1, 2, -1).normalized()).matrix(),
+                  {1, -2, 3}};
+  for (StampedPose& pose : *world.sequence.groundtruth) pose.T_wc = T_gw * pose.T_wc;
+  const MapGauge gauge = ChooseMapGauge(world.run, world.sequence);
+  EXPECT_TRUE(gauge.levelled);
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Eigen::Vector3d drawn = gauge.T_vw * world.run.trajectory[i].T_wc.t;
+    EXPECT_LT((drawn - gauge.T_vg * (*world.sequence.groundtruth)[i].T_wc.t).norm(), 1e-9) << i;
+  }
+  EXPECT_LT((gauge.T_vw.R * world.up_w - Eigen::Vector3d::UnitZ()).norm(), kTurnRoundOff);
+}
+
 TEST(ChooseMapGauge, KeepsATruthInWhichTheDeskIsLevel) {
   CameraWorld world = MakeCameraWorld();
   Pose T_gw;

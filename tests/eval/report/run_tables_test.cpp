@@ -220,5 +220,27 @@ TEST_F(EventsOfTinyWorld, FramesHaveALineEachWithTheirErrorsAndDecisions) {
   EXPECT_THAT(lines[kFrame + 1], ::testing::EndsWith(",6,1,0,0,0,0,10"));
 }
 
+TEST_F(EventsOfTinyWorld, NoiseIsSpuriousInItsFirstFrameAndInThoseAfterIt) {
+  TinyRun run(*world_);
+  nlohmann::json on_toy = run.map["planes"][0];
+  on_toy["id"] = 990;
+  run.map["planes"].push_back(on_toy);
+  for (const std::size_t frame : {kFrame - 1, kFrame}) {  // a plane on the toy, which has none
+    nlohmann::json& planes = run.frames[frame]["planes"];
+    nlohmann::json plane = planes[0];
+    plane["index"] = planes.size(), plane["map_plane"] = 990;
+    plane["decision"] = frame < kFrame ? "new" : "matched";
+    planes.push_back(plane);
+    run.segmentation[frame].setTo(static_cast<double>(planes.size()),
+                                  world_->frames[frame].object_ids == TinyWorld::kToy);
+  }
+  std::istringstream stream(
+      FramesCsv(EvaluationOf(run), ReadRun(RunFolder()), ReadSequence(SequenceFolder())));
+  std::vector<std::string> lines;
+  for (std::string line; std::getline(stream, line);) lines.push_back(line);
+  EXPECT_THAT(lines.at(kFrame), ::testing::EndsWith(",0,0,0,1,0,10"));
+  EXPECT_THAT(lines.at(kFrame + 1), ::testing::EndsWith(",0,0,0,1,0,10"));
+}
+
 }  // namespace
 }  // namespace eval

@@ -63,6 +63,13 @@ TEST(LayOnColour, PutsADepthWhereTheColourCameraSeesItWithoutHoles) {
       << "all but the pixel that the near point hid from the depth camera";
 }
 
+TEST(LayOnColour, TellsHowFarItIsFromTheColourCamera) {
+  DepthRegistration registration = Kitchen();
+  registration.T_colour_depth.t.z() = 0.05;
+  const cv::Mat1f laid_m = LayOnColour(cv::Mat1f(480, 640, 2.0F), registration);
+  EXPECT_FLOAT_EQ(laid_m(236, 322), 2.05F);
+}
+
 TEST(ReadDepthRegistration, ReadsTwoCamerasAndTheWayBetweenThem) {
   const test_support::TemporaryFolder folder;
   const std::filesystem::path path = folder / "registration.yaml";

@@ -159,6 +159,24 @@ TEST(NoisyDetector, DoublesConfusesAndInventsAtTheStatedRates) {
   EXPECT_LT(extra, kFrames / 12);
 }
 
+TEST(NoisyDetector, PlacesADoubleByItselfAndThreeTimesAsBadly) {
+  DetectorModel model;
+  model.phantom = model.confused = model.base_miss = model.small_miss = 0;
+  model.duplicate = 1;
+  const Detector detector(LaptopOnDesk(), Camera{}, DetectorKind::kNoisy, 3, model);
+  FrameTruth truth;
+  truth.objects = {Seen(4, 20000, 20000, {200, 100, 400, 200})};
+  double first2 = 0, second2 = 0, both = 0;
+  for (int frame = 0; frame < kFrames; ++frame) {
+    const auto detections = detector.Detect(frame, truth);  // the double has the lesser score
+    ASSERT_EQ(detections.size(), 2u);
+    const double first = detections[0].box.x0 - 200, second = detections[1].box.x0 - 200;
+    first2 += first * first, second2 += second * second, both += first * second;
+  }
+  EXPECT_NEAR(std::sqrt(second2 / first2), 3.0, 0.4);
+  EXPECT_NEAR(both / std::sqrt(first2 * second2), 0.0, 0.2);  // 750 independent draws
+}
+
 TEST(NoisyDetector, GivesAFrameTheSameAnswerInAnyOrder) {
   const Detector a(LaptopOnDesk(), Camera{}, DetectorKind::kNoisy, 4);
   const Detector b(LaptopOnDesk(), Camera{}, DetectorKind::kNoisy, 4);

@@ -341,6 +341,18 @@ TEST_F(OwnMesh, TakesItsColourFromTheFileOrThePrintOfTheScene) {
   EXPECT_NE(SceneHash(Parse(lines)), hash);
 }
 
+TEST_F(OwnMesh, LeavesEachTriangleItsColourWhereOneWithoutAreaIsLeftOut) {
+  Write("newmtl red\nKd 0.8 0.1 0.05\nnewmtl blue\nKd 0.05 0.1 0.8\n", "it.mtl");
+  // A ninth corner in an edge of two faces, of which one knows it: between them no area is left.
+  std::string blue = kCube + "v 0.05 0 0\n";
+  const std::string side = "f 1 2 6 5\n";
+  blue.replace(blue.find(side), side.size(), "f 9 2 6 5 1\n");
+  const Model cube = Read("mtllib it.mtl\nusemtl red\nf 1 2 9\nusemtl blue\n" + blue);
+  ASSERT_EQ(cube.triangles.size(), 13u);
+  for (const int colour : cube.colour_of)
+    EXPECT_NEAR(cube.colours[static_cast<std::size_t>(colour)][2], 0.8, 1e-6);
+}
+
 TEST_F(OwnMesh, WaitsForNoPipeThatItNames) {
   ASSERT_EQ(mkfifo((folder_ / "it.mtl").c_str(), 0600), 0);
   Write("mtllib it.mtl\nusemtl red\n" + kCube);

@@ -95,11 +95,13 @@ TEST(Replay, GoesHalfWayWhereTheQuaternionsSignChanges) {
     const auto turned = [&](double deg) {
       return Eigen::AngleAxisd(DegToRad(deg), axis).toRotationMatrix();
     };
-    std::vector<TimedPose> poses(2);
-    poses[0].T_wc.R = turned(118);
-    poses[1].T_wc.R = turned(122);
-    poses[1].timestamp_s = 0.1;
-    EXPECT_LT((Replay(poses, 3, 20)[1].T_wc.R - turned(120)).norm(), 1e-9);
+    for (const double deg : {120, 180, 240}) {  // at 180 the quaternion's w changes its sign
+      std::vector<TimedPose> poses(2);
+      poses[0].T_wc.R = turned(deg - 2);
+      poses[1].T_wc.R = turned(deg + 2);
+      poses[1].timestamp_s = 0.1;
+      EXPECT_LT((Replay(poses, 3, 20)[1].T_wc.R - turned(deg)).norm(), 1e-9) << deg;
+    }
   }
 }
 

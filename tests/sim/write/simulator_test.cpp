@@ -29,5 +29,24 @@ TEST(Simulator, TakesDepthFromBesideTheColourCameraInTheCamerasOwnAxes) {
   }
 }
 
+// A board comes nearer while the camera rests: depth that is taken later shows it nearer.
+TEST(Simulator, TakesDepthOfWhatMovesWhenItIsTaken) {
+  RigOptions exact;
+  exact.camera = SmallCamera();
+  exact.sensor = SensorKind::kIdeal;
+  Scene scene = OneBoard(2.0);
+  Object& board = scene.objects[0];
+  board.way = {{0.0, board.center_w, 0}, {1.0, board.center_w - Eigen::Vector3d::UnitY(), 0}};
+  Shot shot;
+  shot.T_wc = LookAlongY();
+  shot.time_s = shot.colour_stamp_s = 0.5;
+  for (const double delay_s : {-0.02, 0.0, 0.015}) {
+    shot.depth_stamp_s = shot.colour_stamp_s + delay_s;
+    const cv::Mat1w depth =
+        Simulator(scene, exact).Simulate(0, shot, [&](double) { return shot.T_wc; }).depth;
+    EXPECT_NEAR(depth(60, 80) / exact.camera.depth_factor, 1.5 - delay_s, 0.0002) << delay_s;
+  }
+}
+
 }  // namespace
 }  // namespace sim

@@ -116,6 +116,24 @@ TEST_F(Bags, TurnRealSensesInverseLensIntoBrowns) {
   }
 }
 
+TEST_F(Bags, OfRectifiedImagesHaveTheirCameraWithoutTheLensThatWasTakenOut) {
+  for (const char* name : {"image_raw", "image_rect_color"}) {
+    const bool rectified = name != std::string("image_raw");
+    {
+      BagWriter bag(File(), Compression::kNone);
+      bag.Image(std::string("/rgb/") + name, 1, "c", "rgb8", Colour());
+      bag.Image("/depth/image_raw", 1, "c", "16UC1", Depth());
+      bag.CameraInfo("/rgb/camera_info", {64, 48}, {60, 61, 31.5, 23.5}, "plumb_bob",
+                     {-0.05, 0, 0, 0, 0}, {58, 59, 32, 24});
+    }
+    const Camera camera = CameraOfBag(File());
+    const Eigen::Vector4d k(camera.fx, camera.fy, camera.cx, camera.cy);
+    EXPECT_EQ(
+        k, rectified ? Eigen::Vector4d(58, 59, 32, 24) : Eigen::Vector4d(60, 61, 31.5, 23.5));
+    EXPECT_EQ(camera.k1, rectified ? 0.0 : -0.05);
+  }
+}
+
 TEST_F(Bags, RefuseOtherLensesAndImpossibleCameras) {
   for (const auto& [lens, expected] :
        {std::pair("equidistant", "the lens is `equidistant`"),

@@ -98,6 +98,15 @@ TEST(PlaneSplit, LeavesWhatTheSensorBends) {
   EXPECT_EQ(Landmarks(show.map).size(), 1u);
 }
 
+TEST(PlaneSplit, IsNoSurerOfASmallStepForHavingSeenItForLong) {
+  // As much of the past as counts does not make one step of a bend's size certain.
+  TwoPatches show;
+  show.bend_ratio = 0.0033;
+  show.told_step_m = 0.0012;  // where the sides stand apart by more
+  for (int k = 0; k < 150; ++k) show.Next();
+  EXPECT_EQ(Landmarks(show.map).size(), 1u);
+}
+
 TEST(PlaneSplit, SeesAStepBeyondWhatTheSensorBends) {
   TwoPatches show;
   show.bend_ratio = 0.0033;

@@ -116,6 +116,19 @@ TEST(CloseLoop, DrawsTheMapTogether) {
   EXPECT_NEAR(SignedDistance(map.planes.At(0).pi_w, map.planes.At(0).centroid_w), 0, 1e-9);
 }
 
+TEST(CloseLoop, LeavesNoStepOfTheWayMoreThanItsShare) {
+  const RingWorld world = MakeRingWorld();
+  const auto loop = Detect(world, kLast);
+  ASSERT_TRUE(loop);
+  Map map = world.map;
+  CloseLoop(map, *loop, world.camera, FeatureScale{}, {}, Closing(0));
+  for (std::size_t k = 1; k < map.keyframes.size(); ++k) {
+    const Pose step = map.keyframes[k].T_cw * Inverse(map.keyframes[k - 1].T_cw);
+    EXPECT_THAT(step, PoseNear(world.truth[k] * Inverse(world.truth[k - 1]), 0.0025, 0.003))
+        << k;
+  }
+}
+
 /// Squared errors, in sigmas, of what keyframes have seen of a landmark that stands there.
 double ErrorOf(const Map& map, int landmark, const Plane& pi_w, const Eigen::Vector3d& x_w) {
   double sum = 0;

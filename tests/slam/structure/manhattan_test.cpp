@@ -204,6 +204,18 @@ TEST(ManhattanMixture, StoresTriplesOnceAndTakesTheOneOfMostLandmarks) {
   EXPECT_EQ(SeenManhattanFrame(world.frame, world.map, world.config).size(), 2u);
 }
 
+TEST(ManhattanMixture, KnowsAFrameAgainWhoseLandmarkWasFusedIntoAnother) {
+  SeenWorld world({kAxes_w.col(0), kAxes_w.col(1), kAxes_w.col(0)});
+  world.frame.planes[2].bad = BadReason::kFar;  // the same wall as the first, taken for another
+  world.Learn(StructureMode::kMixture);
+  ASSERT_EQ(world.map.manhattan.size(), 1u);
+  world.map.planes.At(0).merged_into = 2;
+  world.frame.plane_matches[0].map_plane = 2;
+  world.Learn(StructureMode::kMixture);
+  ASSERT_EQ(world.map.manhattan.size(), 1u);
+  EXPECT_EQ(world.map.manhattan[0].seen, 2);
+}
+
 TEST(ManhattanMixture, StoresNoParallelNorTiltedPlanes) {
   const Eigen::Vector3d a = kAxes_w.col(0), b = kAxes_w.col(1);
   for (const auto& normals :
