@@ -5,6 +5,8 @@
 #include <cmath>
 #include <utility>
 
+#include "slam/geometry/camera.h"
+
 namespace slam {
 namespace {
 
