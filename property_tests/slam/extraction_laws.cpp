@@ -63,7 +63,7 @@ RC_GTEST_PROP(PlaneExtraction, OnePlaneInViewIsOneSegment, ()) {
 }
 
 /// Half the usual size: the laws hold at any, and a hundred draws are many.
-Camera SmallCamera() {
+Camera HalfCamera() {
   Camera camera;
   camera.width = 320, camera.height = 240;
   camera.fx = camera.fy = 262.5, camera.cx = 159.5, camera.cy = 119.5;
@@ -89,7 +89,7 @@ closed_form::View ViewOf(const closed_form::World& world, const Camera& camera) 
 }
 
 RC_GTEST_PROP(PlaneExtraction, EveryFaceOfABoxIsItsOwnSegment, ()) {
-  const Camera camera = SmallCamera();
+  const Camera camera = HalfCamera();
   const closed_form::View view = ViewOf(AnyBoxes(), camera);
   const Frame frame = Extract(view.depth_m, camera);
   std::map<int, int> truth, segments, inside;
@@ -121,7 +121,7 @@ RC_GTEST_PROP(PlaneExtraction, EveryFaceOfABoxIsItsOwnSegment, ()) {
 }
 
 RC_GTEST_PROP(PlaneExtraction, OnlyWhatIsBehindAWallDividesIt, ()) {
-  const Camera camera = SmallCamera();
+  const Camera camera = HalfCamera();
   const auto wall_m = static_cast<float>(AnyReal(0.6, 1.5));
   cv::Mat1f depth_m(camera.height, camera.width, wall_m);
   enum Between { kBehind, kInFront, kUnmeasured };
@@ -160,7 +160,7 @@ RC_GTEST_PROP(PlaneExtraction, HolesAddNoPlaneAndNanIsZero, ()) {
 }
 
 RC_GTEST_PROP(PlaneExtraction, AMirroredImageHasMirroredPlanes, ()) {
-  const Camera camera = SmallCamera();
+  const Camera camera = HalfCamera();
   const closed_form::View view = ViewOf(AnyBoxes(), camera);
   Camera mirrored = camera;
   mirrored.cx = camera.width - 1 - camera.cx;
@@ -185,7 +185,7 @@ RC_GTEST_PROP(PlaneExtraction, AMirroredImageHasMirroredPlanes, ()) {
 }
 
 RC_GTEST_PROP(PlaneExtraction, ScalingDepthAndNoiseByAPowerOfTwoChangesNoLabel, ()) {
-  const Camera camera = SmallCamera();
+  const Camera camera = HalfCamera();
   const closed_form::View view = ViewOf(AnyBoxes(), camera);
   const float s = AnyInt(0, 1) == 0 ? 0.5f : 2.0f;
   SensorModel scaled;

@@ -11,7 +11,7 @@ namespace slam {
 namespace {
 
 /// A camera that swings by 0.1 m and 3 degrees, once in a second and a half.
-Pose SwingingPose(double t_s) {
+Pose SwayingPose(double t_s) {
   const double phase = 2 * M_PI * t_s / 1.5;
   const Vector6d swing = (Vector6d() << 0.1, 0.02, 0.03, 0.01, 0.05, 0.02).finished();
   return Exp(std::sin(phase) * swing);
@@ -26,14 +26,14 @@ double FarthestOff_m(double late_s) {
     const double now_s = i / 30.0;
     const auto by_pose = filter.SpeedAt(now_s);
     if (!by_pose) {
-      filter.Observe(now_s, SwingingPose(now_s), {.of_pose = 1e8 * Matrix6d::Identity()});
+      filter.Observe(now_s, SwayingPose(now_s), {.of_pose = 1e8 * Matrix6d::Identity()});
       continue;
     }
     PoseProblem problem;
     problem.prior = filter.Predict(now_s);
     problem.T_cw = problem.prior->T_cw;
     problem.late = LatePlanes{late_s, filter.Speed(now_s).mean, *by_pose};
-    const Pose seen_from = Exp(-late_s * problem.late->told) * SwingingPose(now_s + late_s);
+    const Pose seen_from = Exp(-late_s * problem.late->told) * SwayingPose(now_s + late_s);
     for (int axis = 0; axis < 3; ++axis) {
       PlaneConstraint c;
       c.pi_w = {Eigen::Vector3d::Unit(axis), 1.0};
@@ -44,7 +44,7 @@ double FarthestOff_m(double late_s) {
     }
     const PoseSummary found = OptimisePose(problem, Camera{}, {});
     EXPECT_TRUE(found.usable);
-    const Pose off = found.T_cw * Inverse(SwingingPose(now_s));
+    const Pose off = found.T_cw * Inverse(SwayingPose(now_s));
     if (i > 10) farthest_m = std::max(farthest_m, off.t.norm());
     filter.Observe(now_s, found.T_cw, found.evidence);
   }
