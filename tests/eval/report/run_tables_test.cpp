@@ -161,6 +161,26 @@ TEST_F(EventsOfTinyWorld, TheRightMapPlaneIsTheOneThatItWasMergedInto) {
   EXPECT_EQ(events[0].right_map_plane, kMerged);
 }
 
+TEST_F(EventsOfTinyWorld, TheRightMapPlaneOfAWrongDecisionIsThatOfTheFinalMap) {
+  TinyRun run(*world_);
+  constexpr int kMerged = 900;
+  nlohmann::json& planes = run.map["planes"];
+  for (std::size_t k = 0; k < planes.size(); ++k) {
+    if (planes[k]["id"] != TinyRun::MapId(TinyWorld::kThickTop)) continue;
+    nlohmann::json merged = planes[k];
+    merged["id"] = kMerged;
+    planes[k]["merged_into"] = kMerged;
+    planes.push_back(merged);
+    break;
+  }
+  nlohmann::json* plane = FramePlane(run, kFrame, TinyWorld::kThickTop);
+  (*plane)["map_plane"] = TinyRun::MapId(TinyWorld::kDeskTop);
+  const std::vector<RunEvent> wrong = Of(EventKind::kWrong, Events(run));
+  ASSERT_EQ(wrong.size(), 1u);
+  EXPECT_EQ(wrong[0].map_plane, TinyRun::MapId(TinyWorld::kDeskTop));
+  EXPECT_EQ(wrong[0].right_map_plane, kMerged);
+}
+
 TEST_F(EventsOfTinyWorld, ASurfaceThatNoFramePlaneShowsSaysSo) {
   TinyRun run(*world_);
   auto& planes = run.frames[kFrame]["planes"];
@@ -234,8 +254,9 @@ TEST_F(EventsOfTinyWorld, NoiseIsSpuriousInItsFirstFrameAndInThoseAfterIt) {
     run.segmentation[frame].setTo(static_cast<double>(planes.size()),
                                   world_->frames[frame].object_ids == TinyWorld::kToy);
   }
+  const Evaluation evaluation = EvaluationOf(run);
   std::istringstream stream(
-      FramesCsv(EvaluationOf(run), ReadRun(RunFolder()), ReadSequence(SequenceFolder())));
+      FramesCsv(evaluation, ReadRun(RunFolder()), ReadSequence(SequenceFolder())));
   std::vector<std::string> lines;
   for (std::string line; std::getline(stream, line);) lines.push_back(line);
   EXPECT_THAT(lines.at(kFrame), ::testing::EndsWith(",0,0,0,1,0,10"));

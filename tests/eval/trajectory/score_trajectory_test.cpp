@@ -172,6 +172,21 @@ TEST(ScoreTrajectory, ChargesEveryFrameOfARunThatNeverStarted) {
   EXPECT_GT(*score.ate_complete_rmse_m, 2.0);
 }
 
+TEST(ScoreTrajectory, HoldsAPoseAgainstTheCovarianceOfItsOwnTime) {
+  const Trajectory truth = Helix(60, 10.0);
+  Trajectory estimate = truth;
+  std::vector<PoseCovariance> told;  // of every third pose, each of another size
+  for (std::size_t i = 1; i < truth.size(); i += 3) {
+    const double sigma_m = i / 3 % 2 == 0 ? 0.001 : 0.01;
+    estimate[i].T_wc.t.x() += i / 6 % 2 == 0 ? sigma_m : -sigma_m;
+    told.push_back({truth[i].stamp_s, sigma_m * sigma_m * Matrix6d::Identity()});
+  }
+  const TrajectoryScore score = ScoreTrajectory(estimate, truth, Stamps(truth), true, &told);
+  ASSERT_TRUE(score.consistency && score.consistency->absolute);
+  EXPECT_EQ(score.consistency->absolute->count, 20u);
+  EXPECT_NEAR(score.consistency->absolute->position.mean, 1.0, 0.1);
+}
+
 TEST(ScoreTrajectory, ScoresARecordingWhoseTruthHasItsOwnClock) {
   const std::filesystem::path folder = testing::SharedFolder() / "data/tum_fr1_xyz_first37";
   SKIP_WITHOUT(folder);

@@ -99,5 +99,17 @@ TEST(Loops, KeepsSquaresApartThatMeetInAVertex) {
   }
 }
 
+// How far the way turns at a vertex goes by the edge that led to it, not by where it began.
+TEST(Loops, TurnsLeftOfTheEdgeThatLedToTheVertex) {
+  const Polygon vertices{{0, 3, 0},   {0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0.5, 1, 0},
+                         {0.5, 3, 0}, {2, 1, 0}, {2, 2, 0}, {1, 2, 0}};
+  const auto loops =
+      Loops({{0, 1}, {1, 2}, {2, 3}, {3, 4}, {4, 5}, {5, 0}, {3, 6}, {6, 7}, {7, 8}, {8, 3}},
+            vertices, Vector3d::UnitZ());
+  ASSERT_EQ(loops.size(), 2u);
+  EXPECT_EQ(loops[0].size(), 6u);
+  EXPECT_EQ(loops[1].size(), 4u);
+}
+
 }  // namespace
 }  // namespace sim

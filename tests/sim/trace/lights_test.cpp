@@ -147,6 +147,32 @@ TEST(AnAreaLight, GivesWhatTheFormFactorOfItsRectangleSays) {
   }
 }
 
+// A world that moves is traced in a frame of its own, turned against that of the lights.
+TEST(AnAreaLight, GivesTheSameInAFrameThatIsTurned) {
+  const Pose T_sw{Eigen::AngleAxisd(2.5, Eigen::Vector3d(1, 2, 0.5).normalized()).matrix(),
+                  {0.3, -1, 2}};
+  Spots there, here;
+  for (std::size_t i = 0; i < RayPacket::kLanes; ++i) {
+    there.used[i] = true;
+    there.x_w[i] = {0.2 * static_cast<double>(i) - 0.7, 0.3, 0.1};
+    there.n_w[i] = there.shading_n_w[i] = Eigen::Vector3d::UnitZ();
+  }
+  here = there;
+  for (std::size_t i = 0; i < RayPacket::kLanes; ++i) {
+    here.x_w[i] = Inverse(T_sw) * there.x_w[i];
+    here.n_w[i] = here.shading_n_w[i] = T_sw.R.transpose() * there.n_w[i];
+  }
+  const auto open = [](const RayPacket&) { return std::array<bool, RayPacket::kLanes>{}; };
+  LightPoints level, turned;
+  level.Start({Panel(2)}, Pose{});
+  turned.Start({Panel(2)}, T_sw);
+  const LightAtSpots expected = level.At(there, open), found = turned.At(here, open);
+  for (std::size_t i = 0; i < RayPacket::kLanes; ++i) {
+    EXPECT_GT(expected.light[i][1], 0.1f);
+    EXPECT_NEAR(found.light[i][1], expected.light[i][1], kFloatRoundOff);
+  }
+}
+
 TEST(AnAreaLight, ThrowsAPenumbraAsWideAsSimilarTrianglesSay) {
   // A blade half way up hides the light from x < 0: the penumbra is as wide as the light.
   Scene scene = Floor();

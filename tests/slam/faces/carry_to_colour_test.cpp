@@ -123,6 +123,7 @@ TEST(CarryToColour, TellsPlanesAsTheColourCameraWouldHaveMeasuredThem) {
   plane.centroid_c = x;
   plane.points_c = {x, x + 0.1 * n.unitOrthogonal()};
   plane.edge_points = {{x, camera.Project(x)}, {plane.points_c[1], {300, 200}}};
+  for (const EdgePoint& edge : plane.edge_points) plane.box_px.Include(edge.u_px);
   plane.inverse_depth_covariance = n * n.transpose();
   Frame frame;
   frame.depth_m = cv::Mat1f(480, 640, 1.3f);

@@ -66,6 +66,10 @@ TEST(TellAtSpeed, IsWhatExtractionAtThatSpeedWouldHaveTold) {
       moved_px = std::max(moved_px, (f.u_px - before[i].u_px).norm());
       if (f.depth_m > 0) {
         EXPECT_NEAR(f.right_u_px, e.right_u_px, 0.1);
+        const auto baseline_px_m = [](const PointFeature& p) {
+          return (p.u_px.x() - p.right_u_px) * p.depth_m;  // one number for all features
+        };
+        EXPECT_NEAR(baseline_px_m(f) / baseline_px_m(e), 1.0, 1e-9);
         ++measured;
       }
     }

@@ -19,7 +19,22 @@ TEST(PlaneMotion, APlaneMovesWithAllThatItHas) {
   }
   plane.hull_w = plane.vertices_w = plane.edge_points_w = plane.points_w;
   const MapPlane before = plane;
+  plane.parts.emplace_back();
+  plane.parts[0].surface = plane.parts[0].rest = before;
+  plane.supposed.emplace_back();
+  plane.supposed[0].pi_w = before.pi_w;
+  plane.supposed[0].centroid_w = before.points_w[0];
+  plane.supposed[0].estimate = before.estimate;
   MovePlane(plane, T);
+  for (const MapPlane* moved : {&plane.parts[0].surface, &plane.parts[0].rest}) {
+    EXPECT_THAT(moved->pi_w.n, VectorNear(plane.pi_w.n, 1e-12));
+    EXPECT_NEAR(moved->pi_w.d, plane.pi_w.d, 1e-12);
+    EXPECT_THAT(moved->points_w[1], VectorNear(plane.points_w[1], 1e-12));
+    EXPECT_THAT(moved->estimate.Mean().n, VectorNear(plane.pi_w.n, 1e-12));
+  }
+  EXPECT_THAT(plane.supposed[0].centroid_w, VectorNear(plane.points_w[0], 1e-12));
+  EXPECT_NEAR(plane.supposed[0].estimate.Mean().d, plane.pi_w.d, 1e-12);
+  EXPECT_NEAR(plane.supposed[0].pi_w.d, plane.pi_w.d, 1e-12);
   EXPECT_THAT(plane.estimate.Mean().n, VectorNear(plane.pi_w.n, 1e-12));
   EXPECT_NEAR(plane.estimate.Mean().d, plane.pi_w.d, 1e-12);
   EXPECT_THAT(plane.pi_w.n, VectorNear(T.R * before.pi_w.n, 1e-12));

@@ -1,0 +1,36 @@
+#include "eval/surfaces/outline.h"
+
+#include <gtest/gtest.h>
+
+namespace eval {
+namespace {
+
+TEST(OutlinedSurface, RunsAroundItsCellsInBothDirectionsAlike) {
+  Sheet sheet;
+  sheet.pi_g = {Eigen::Vector3d::UnitZ(), -3.0};
+  sheet.chart_g = {{1, 2, 3}, Eigen::Vector3d::UnitX(), Eigen::Vector3d::UnitY()};
+  sheet.height_m = cv::Mat1d(80, 60, 0.0);
+  CellMask mask(80, 60, std::uint8_t(0));
+  mask(cv::Rect(10, 20, 20, 30)) =
+      255;  // cells of a centimetre, the middle of (0, 0) at (1, 2)
+  mask(cv::Rect(15, 30, 6, 6)) = 0;
+  sheet.hits = mask / 255;
+  const Surface surface = OutlinedSurface(sheet, mask);
+  ASSERT_EQ(surface.outlines.size(), 1u);
+  ASSERT_EQ(surface.holes.size(), 1u);
+  Eigen::AlignedBox2d box;
+  for (const Eigen::Vector2d& corner_m : surface.outlines[0]) box.extend(corner_m);
+  constexpr double kQuarter_m = Sheet::kCell_m / 4;
+  EXPECT_LT((box.min() - Eigen::Vector2d(0.095, 0.195)).cwiseAbs().maxCoeff(), kQuarter_m);
+  EXPECT_LT((box.max() - Eigen::Vector2d(0.295, 0.495)).cwiseAbs().maxCoeff(), kQuarter_m);
+  const SurfaceArea area(surface);
+  EXPECT_TRUE(area.Holds({1.10, 2.20, 3}));
+  EXPECT_TRUE(area.Holds({1.29, 2.49, 3}));
+  EXPECT_FALSE(area.Holds({1.08, 2.30, 3}));
+  EXPECT_FALSE(area.Holds({1.20, 2.18, 3}));
+  EXPECT_FALSE(area.Holds({1.20, 2.51, 3}));
+  EXPECT_FALSE(area.Holds({1.175, 2.325, 3})) << "in the hole";
+}
+
+}  // namespace
+}  // namespace eval
