@@ -1,6 +1,7 @@
 #include "slam/associate/projected_box.h"
 
 #include "slam/geometry/pixel_projection.h"
+#include "slam/model/frame_plane.h"
 
 namespace slam {
 namespace {

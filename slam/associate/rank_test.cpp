@@ -5,6 +5,8 @@
 #include <cmath>
 #include <cstdint>
 
+#include "slam/base/require.h"
+
 namespace slam {
 namespace {
 

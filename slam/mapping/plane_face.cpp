@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "slam/model/frame_plane.h"
+
 namespace slam {
 
 bool KnowsItsFace(const MapPlane& m, const PlaneMapConfig& config) {
