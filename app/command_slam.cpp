@@ -171,7 +171,9 @@ int RunSlam(SlamArguments& arguments, bool quiet) {
     fmt::print("{}: {} of {} frames tracked, {} keyframes, {} map planes{}, {:.1f} frames/s\n",
                options.run.string(), outcome.tracked, outcome.frames, outcome.keyframes,
                outcome.map_planes,
-               outcome.loops > 0 ? fmt::format(", {} loops closed", outcome.loops) : "",
+               outcome.loops > 0 ? fmt::format(", {} loop{} closed", outcome.loops,
+                                               outcome.loops > 1 ? "s" : "")
+                                 : "",
                outcome.frames / outcome.wall_time_s);
   }
   return Verdict(outcome, live ? arguments.live_scene : options.sequence.string());
