@@ -82,6 +82,26 @@ TEST(ViewPair, ARollingShutterIsNoWrongCameraHoweverTheViewsAreTurned) {
   }
 }
 
+TEST(ViewPair, DepthOfALaterTimeIsNoWrongCameraHoweverTheViewsAreTurned) {
+  constexpr double kLate_s = 0.01;
+  const ViewMotion motion{(Vector6d() << 0.1, 0.2, -0.5, 0.6, -0.8, 0.4).finished(),
+                          (Vector6d() << -0.2, 0.1, 0.6, -0.2, 0.3, 0.3).finished(), 480.0};
+  for (const double roll : {0.06, 0.8, 1.5}) {
+    const Pose T_21{ExpSo3({0.08, -0.16, 0.0}) * ExpSo3({0, 0, roll}), {0.05, -0.02, 0.03}};
+    std::vector<TwiceSeen> points = SeenExactly(200, T_21);
+    for (TwiceSeen& point : points) {
+      const Eigen::Vector3d p_1 = PointAt(point.first_u_px, point.first_z_m);
+      point.first_z_m = (Exp(kLate_s * motion.first_per_s) * p_1).z();
+      point.second_z_m = (Exp(kLate_s * motion.second_per_s) * (T_21 * p_1)).z();
+    }
+    ViewPair pair(points, T_21, motion);
+    const IntrinsicsEvidence evidence = pair.Evidence(kTrue);
+    ASSERT_TRUE(evidence.usable);
+    const Intrinsics step = -evidence.information.ldlt().solve(evidence.gradient);
+    EXPECT_LT(std::sqrt(step.dot(evidence.information * step)), 1.0) << roll;  // sigmas
+  }
+}
+
 TEST(ViewPair, FindsTheMotionFromAPoorGuess) {
   const Pose guess =
       Exp((Vector6d() << 0.03, -0.02, 0.02, 0.02, -0.03, 0.02).finished()) * kT21;

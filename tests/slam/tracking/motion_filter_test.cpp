@@ -62,6 +62,21 @@ TEST(MotionFilter, SaysTheSpeed) {
   EXPECT_TRUE(filter.Speed(3.0).mean.isZero());
 }
 
+TEST(MotionFilter, GoesOnAsTheCameraSeesItselfWhereTheMapIsTurnedUnderIt) {
+  const Pose step{ExpSo3({0.002, -0.004, 0.001}), {0.004, 0.0, -0.006}};
+  MotionEvidence uneven = kAll;
+  uneven.of_pose.diagonal() << 1e4, 1e6, 1e8, 1e6, 1e7, 1e8;
+  MotionFilter filter{{}};
+  Pose T_cw{ExpSo3({0.3, -0.2, 0.4}), {1, 2, 3}};
+  for (int i = 0; i < 30; ++i) filter.Observe(i * kFrame_s, T_cw = step * T_cw, uneven);
+  const auto before = filter.Predict(30 * kFrame_s);
+  const Pose moved{ExpSo3({0.5, 1.0, -0.7}), {-1, 0.5, 2}};  // of the map
+  filter.Correct(T_cw * moved);
+  const auto after = filter.Predict(30 * kFrame_s);
+  EXPECT_THAT(after->T_cw, PoseNear(before->T_cw * moved, 1e-9, 1e-9));
+  EXPECT_LT((after->covariance - before->covariance).norm(), 1e-9 * before->covariance.norm());
+}
+
 TEST(MotionFilter, BeginsAsAnotherFoundThatThePathDoes) {
   const Vector6d speed = (Vector6d() << 0.1, 0, -0.3, 0, 0.2, 0).finished();
   MotionFilter first{{}};
