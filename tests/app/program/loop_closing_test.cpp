@@ -28,7 +28,8 @@ TEST(LoopClosing, TakesTheFramesBetweenKeyframesAlong) {
     ASSERT_EQ(outcome.exit_code, 0) << outcome.errors;
     told += outcome.errors;
   }
-  ASSERT_THAT(told, testing::HasSubstr("1 loop closed"));  // else poses stay as they were found
+  ASSERT_THAT(told, testing::ContainsRegex(
+                        "[1-9] loops? closed"));  // else poses stay as they were found
   const auto metrics = nlohmann::json::parse(ReadText(run / "metrics.json"));
   // 3 mm were measured, and 13 where keyframes alone were where they belong.
   EXPECT_LT(metrics.at("trajectory").at("ate_se3").at("rmse_m").get<double>(), 0.007);

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
+
 namespace eval {
 namespace {
 
@@ -10,9 +12,9 @@ TEST(OutlinedSurface, RunsAroundItsCellsInBothDirectionsAlike) {
   sheet.pi_g = {Eigen::Vector3d::UnitZ(), -3.0};
   sheet.chart_g = {{1, 2, 3}, Eigen::Vector3d::UnitX(), Eigen::Vector3d::UnitY()};
   sheet.height_m = cv::Mat1d(80, 60, 0.0);
+  // Cells of a centimetre, the middle of (0, 0) at (1, 2).
   CellMask mask(80, 60, std::uint8_t(0));
-  mask(cv::Rect(10, 20, 20, 30)) =
-      255;  // cells of a centimetre, the middle of (0, 0) at (1, 2)
+  mask(cv::Rect(10, 20, 20, 30)) = 255;
   mask(cv::Rect(15, 30, 6, 6)) = 0;
   sheet.hits = mask / 255;
   const Surface surface = OutlinedSurface(sheet, mask);
