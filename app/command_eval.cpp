@@ -38,11 +38,8 @@ class RunTables {
              const std::optional<eval::SurfaceScore>& surfaces) const {
     if (frames_) frames_->Write(eval::FramesCsv(evaluation, run, sequence));
     if (!events_) return;
-    std::vector<eval::RunEvent> events = eval::EventsOf(evaluation, sequence);
-    if (surfaces) {
-      events.insert(events.end(), surfaces->events.begin(), surfaces->events.end());
-      eval::SortByHarm(events);
-    }
+    const std::vector<eval::RunEvent> events = eval::EventsOf(
+        evaluation, sequence, surfaces ? surfaces->events : std::vector<eval::RunEvent>());
     events_->Write(as_json_lines_ ? eval::EventsJsonLines(events) : eval::EventsCsv(events));
   }
 

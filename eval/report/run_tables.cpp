@@ -167,12 +167,14 @@ std::vector<RunEvent> LostEvents(const TrajectoryScore& trajectory, const Sequen
 
 }  // namespace
 
-std::vector<RunEvent> EventsOf(const Evaluation& evaluation, const Sequence& sequence) {
+std::vector<RunEvent> EventsOf(const Evaluation& evaluation, const Sequence& sequence,
+                               const std::vector<RunEvent>& of_surfaces) {
   std::vector<RunEvent> events = LostEvents(evaluation.trajectory, sequence);
   if (evaluation.planes) {
     events.insert(events.end(), evaluation.planes->events.begin(),
                   evaluation.planes->events.end());
   }
+  events.insert(events.end(), of_surfaces.begin(), of_surfaces.end());
   SortByHarm(events);
   return events;
 }

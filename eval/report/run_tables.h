@@ -7,7 +7,9 @@
 namespace eval {
 
 /// Everything that went wrong, planes and lost frames, the most harmful first.
-std::vector<RunEvent> EventsOf(const Evaluation& evaluation, const Sequence& sequence);
+/// @param of_surfaces  events of the surfaces that a recording was scored on
+std::vector<RunEvent> EventsOf(const Evaluation& evaluation, const Sequence& sequence,
+                               const std::vector<RunEvent>& of_surfaces = {});
 
 /// A line for each event, under a header; what is not known is empty.
 std::string EventsCsv(const std::vector<RunEvent>& events);

@@ -193,6 +193,27 @@ TEST_F(BagProgram, ImportedBagIsTheFolder) {
   EXPECT_EQ(Run({"import", Bag(), "-o", folder_ / "seq"}).exit_code, 2);
 }
 
+TEST_F(BagProgram, ImportedDepthKeepsItsOwnTime) {
+  {
+    BagWriter bag(Bag(), Compression::kNone);
+    for (const BagFrame& frame : Desk().frames()) {
+      bag.Image(kColour, frame.stamp_s, "/openni_rgb_optical_frame", "rgb8", Rgb(frame.bgr));
+      WriteInfo(bag, "/camera/rgb/camera_info");
+      bag.Image(kDepth, frame.stamp_s + 0.012, "/openni_rgb_optical_frame", "16UC1",
+                frame.depth_mm);
+    }
+  }
+  ASSERT_EQ(Run({"import", Bag(), "-o", folder_ / "seq"}).exit_code, 0);
+  std::istringstream pairs(ReadText(folder_ / "seq/associations.txt"));
+  std::string rgb, depth;
+  double stamp_s = 0, depth_stamp_s = 0;
+  int count = 0;
+  for (; pairs >> stamp_s >> rgb >> depth_stamp_s >> depth; ++count) {
+    EXPECT_NEAR(depth_stamp_s - stamp_s, 0.012, 2e-6);
+  }
+  EXPECT_EQ(count, static_cast<int>(Desk().frames().size()));
+}
+
 TEST_F(BagProgram, CalibrateReadsBags) {
   WriteTum(Compression::kNone);
   const Outcome outcome = Run({"calibrate", Bag(), "-o", folder_ / "warp.yaml"});

@@ -100,6 +100,16 @@ TEST_F(CheckSequenceFolder, NamesAFrameWithoutTruth) {
   ExpectOnly("gt/frames.jsonl", 0, "", "lacks the frame 1.000000");
 }
 
+TEST_F(CheckSequenceFolder, ComparesFramesByTheirTimeInAnyOrderOfTheList) {
+  std::istringstream in(ReadText(seq() / "rgb.txt"));
+  std::string backwards;
+  for (std::string line; std::getline(in, line);) backwards.insert(0, line + "\n");
+  WriteText(seq() / "rgb.txt", backwards);
+  Renew();
+  const CheckReport report = CheckFolder(seq());
+  for (const Fault& fault : report.faults) EXPECT_EQ(fault.file, "rgb.txt") << All(report);
+}
+
 TEST_F(CheckSequenceFolder, NamesPixelsWhoseObjectDoesNotOwnTheirPlane) {
   EditJson("gt/scene.json", [](json& scene) {
     // The hidden underside of the desk keeps its owner; the seen top of the book gets the

@@ -108,6 +108,15 @@ TEST(ErrorsOverTime, ShadeSpansInWhichTheRunIsLost) {
   EXPECT_GT(DrawErrors(*curve, {}).rows, whole.rows) << "the legend says what the shade means";
 }
 
+TEST(ErrorsOverTime, CountFromTheFirstFrameAlsoOfARunThatWasLostThen) {
+  Path path = MakePath();
+  Lose(path.run, 0, 4);
+  const auto curve = ErrorsOverTime(path.run, path.sequence);
+  ASSERT_TRUE(curve.has_value());
+  EXPECT_NEAR(curve->samples.front().time_s, 0.5, 1e-9);
+  EXPECT_NEAR(curve->samples.back().time_s, curve->duration_s, 1e-9);
+}
+
 TEST(ErrorsOverTime, TellWhatWasNotRunFromWhatWasLost) {
   Path path = MakePath();
   Lose(path.run, 10, 19);

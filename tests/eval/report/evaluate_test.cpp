@@ -87,6 +87,15 @@ TEST_F(EvaluateTinyWorld, ARunThatIsTheTruthScoresPerfectly) {
   EXPECT_EQ(m["timing_ms"]["peak_rss_mb"], 128.5);
 }
 
+TEST_F(EvaluateTinyWorld, FramesASecondAreThoseOfTheWholeRunSlowFramesToo) {
+  TinyRun run(*world_);
+  const std::string slow = ",100\n", usual = ",10\n";
+  run.timing.replace(run.timing.find(usual), usual.size(), slow);
+  const nlohmann::json times = Metrics(run)["timing_ms"];
+  EXPECT_EQ(times["mt"]["median"], 10.0);
+  EXPECT_NEAR(times["fps"].get<double>(), 45 / (44 * 0.010 + 0.100), kExact);
+}
+
 TEST_F(EvaluateTinyWorld, TheSameFilesGiveTheSameBytes) {
   const TinyRun run(*world_);
   EXPECT_EQ(MetricsText(EvaluationOf(run)), MetricsText(EvaluationOf(run)));

@@ -88,6 +88,29 @@ TEST_F(EvaluateOtherSystems, AMapPlaneFarFromEveryTrueOneIsSpurious) {
   EXPECT_EQ(ours["map"]["matched"], whole_["map"]["matched"].get<int>() - 1);
 }
 
+TEST_F(EvaluateOtherSystems, AMapPlaneIsOfTheFaceThatItSharesNotOfANearerOneBesideIt) {
+  // The thick book's top is mapped 26 mm too low: 4 mm above the thin one's beside it, and 34 mm
+  // above the desk's below it.
+  MetricsOf({"trajectory.txt", "map.json"});
+  nlohmann::json map = nlohmann::json::parse(std::ifstream(RunFolder() / "map.json"));
+  for (auto& plane : map["planes"]) {
+    if (plane["id"] != TinyRun::MapId(TinyWorld::kThickTop)) continue;
+    plane["d"] = plane["d"].get<double>() + 0.026;
+    for (const char* outline : {"vertices", "hull"}) {
+      for (auto& point : plane[outline]) {
+        for (std::size_t i = 0; i < 3; ++i) {
+          point[i] = point[i].get<double>() - 0.026 * plane["normal"][i].get<double>();
+        }
+      }
+    }
+  }
+  io::WriteFile(RunFolder() / "map.json", map.dump());
+  const nlohmann::json ours = MetricsOf({"trajectory.txt", "map.json"});
+  EXPECT_EQ(ours["map"]["spurious"], 0);
+  EXPECT_EQ(ours["map"]["matched"], whole_["map"]["matched"]);
+  EXPECT_GT(ours["map"]["offset_mm"]["p95"].get<double>(), 10.0);
+}
+
 TEST_F(EvaluateOtherSystems, LabelImagesBesideItAreScoredAsASegmentation) {
   const nlohmann::json ours = MetricsOf({"trajectory.txt", "segmentation"});
   ExpectSameBut(ours["extraction"], whole_["extraction"], {"normal_deg", "offset_mm"});

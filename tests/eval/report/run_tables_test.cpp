@@ -142,6 +142,21 @@ TEST_F(EventsOfTinyWorld, ALargeSurfaceWithoutADecisionIsListedAndCountedAfterTh
   EXPECT_EQ(after["share"], 1.0 / after["surfaces"].get<double>());
 }
 
+TEST_F(EventsOfTinyWorld, OfSurfacesStandAmongTheOthersByTheirHarm) {
+  TinyRun run(*world_);
+  nlohmann::json* plane = FramePlane(run, kFrame, TinyWorld::kThinTop);
+  (*plane)["map_plane"] = TinyRun::MapId(TinyWorld::kDeskTop);
+  RunEvent small, large;
+  small.kind = large.kind = EventKind::kSplit;
+  small.harm_px_mm = 1e-3, large.harm_px_mm = 1e12;
+  const std::vector<RunEvent> events =
+      EventsOf(EvaluationOf(run), ReadSequence(SequenceFolder()), {small, large});
+  ASSERT_EQ(events.size(), 3u);
+  EXPECT_EQ(events[0].harm_px_mm, large.harm_px_mm);
+  EXPECT_EQ(events[1].kind, EventKind::kWrong);
+  EXPECT_EQ(events[2].harm_px_mm, small.harm_px_mm);
+}
+
 TEST_F(EventsOfTinyWorld, TheRightMapPlaneIsTheOneThatItWasMergedInto) {
   TinyRun run(*world_);
   constexpr int kMerged = 900;

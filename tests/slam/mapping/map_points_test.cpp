@@ -92,6 +92,16 @@ TEST(MapPoints, AreYoungUpToTheLastKeyframeOfTheirTrial) {
   }
 }
 
+TEST(MapPoints, AreCulledBesideNewerOnesThatWentBefore) {
+  Map map = MakePointWorld(3, 40, 4).map;
+  CullPoint(map, map.points.back().id);  // as a fusion does
+  const int a = PointAt(map, 0, 0);
+  PointOf(map, a).visible_count = 10;
+  PointOf(map, a).found_count = 2;
+  EXPECT_EQ(CullYoungPoints(map, 2, {}), 1);
+  EXPECT_TRUE(PointOf(map, a).culled);
+}
+
 TEST(MapPoints, AreKeptWhenOld) {
   Map map = MakePointWorld(3, 40, 5).map;
   for (MapPoint& point : map.points) point.visible_count = 100;

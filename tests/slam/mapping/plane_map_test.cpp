@@ -332,6 +332,20 @@ TEST(PlaneVertices, CountAnExtrapolatedCornerAsAQuarterOfASeenOne) {
   EXPECT_DOUBLE_EQ(m.vertex_weights[0], 1.25);
 }
 
+TEST(PlaneVertices, WeighEachCornerByItsOwnObservationWhereverThatStands) {
+  MapPlane m;
+  m.pi_w = {Eigen::Vector3d::UnitZ(), 0};
+  std::vector<Vertex> seen{{{0, 0, 0}}, {{0.2, 0, 0}}, {{0.2, 0.1, 0}}, {{0, 0.1, 0}}};
+  FuseVertices(m, seen, Pose{}, {});
+  seen[1].extrapolated = true;
+  for (Vertex& vertex : seen) vertex.p_c.x() += 0.01;
+  std::reverse(seen.begin(), seen.end());
+  FuseVertices(m, seen, Pose{}, {});
+  EXPECT_EQ(m.vertex_weights, std::vector<double>({2, 1.25, 2, 2}));
+  EXPECT_NEAR(m.vertices_w[1].x(), 0.2 + 0.01 * 0.25 / 1.25, 1e-12);
+  EXPECT_NEAR(m.vertices_w[2].x(), 0.2 + 0.01 / 2, 1e-12);
+}
+
 TEST(PlaneVertices, AreBorneOutByCornersOfAFaceSeenInPart) {
   MapPlane m;
   m.pi_w = {Eigen::Vector3d::UnitZ(), 0};
@@ -347,6 +361,27 @@ TEST(PlaneVertices, AreBorneOutByCornersOfAFaceSeenInPart) {
   guessed[0].extrapolated = true;
   FuseVertices(m, guessed, Pose{}, {});
   EXPECT_EQ(m.vertex_weights, std::vector<double>({1, 1, 2, 1}));
+}
+
+TEST(PlaneVertices, ArePoorlyBorneOutByWhatATurnedCameraKnowsPoorlyWithinThePlane) {
+  // The plane's normal is the camera's x; depth, which lies in the plane, is what it errs in.
+  Pose T_wc;
+  T_wc.R << 0, 1, 0, 0, 0, 1, 1, 0, 0;
+  const std::vector<Eigen::Vector3d> corners_w{
+      {0, 0, 0}, {0.3, 0, 0}, {0.3, 0.1, 0}, {0, 0.1, 0}};
+  MapPlane m;
+  m.pi_w = {Eigen::Vector3d::UnitZ(), 0};
+  std::vector<Vertex> seen(4);
+  for (std::size_t i = 0; i < 4; ++i) seen[i].p_c = Inverse(T_wc) * corners_w[i];
+  FuseVertices(m, seen, T_wc, {});
+  seen.resize(2);
+  for (Vertex& vertex : seen) {
+    vertex.covariance_c(0, 0) = 1e-4;  // which the plane takes away
+    vertex.covariance_c(2, 2) = 2e-4;  // 10 mm, as the mean of two directions
+  }
+  FuseVertices(m, seen, T_wc, {});
+  EXPECT_NEAR(m.vertex_weights[0], 1 + 9.0 / 109.0, 1e-12);
+  EXPECT_NEAR(m.vertex_weights[2], 1, 1e-12);
 }
 
 TEST(PlaneVertices, LeaveAWrongStartOnceTheEvidenceIsAgainstIt) {

@@ -1,7 +1,5 @@
 #include "slam/model/local_map.h"
 
-#include "slam/features/point_projection.h"
-
 #include <gmock/gmock.h>
 
 #include "tests/support/point_world.h"
@@ -10,67 +8,6 @@ namespace slam {
 namespace {
 
 using ::testing::ElementsAre;
-
-/// A camera that stands beside the world's origin and is turned against it.
-const Pose kTurned_cw{ExpSo3({0.3, -0.8, 0.5}), {0.4, -0.2, 0.7}};
-
-/// A point 3 m down the ray of a pixel that was last seen along a view 20 degrees away.
-MapPoint PointOnRay(const Camera& camera, const Eigen::Vector2d& u_px, double view_off_rad) {
-  const Eigen::Vector3d p_c = 3.0 * camera.Backproject(u_px, 1.0).normalized();
-  const Eigen::Vector3d axis = p_c.cross(Eigen::Vector3d::UnitY()).normalized();
-  MapPoint point;
-  point.id = 7;
-  point.p_w = Inverse(kTurned_cw) * p_c;
-  point.view_w = kTurned_cw.R.transpose() * (ExpSo3(view_off_rad * axis) * p_c / 3.0);
-  point.max_distance_m = 3.0 * 1.2 * 1.2;  // octave 2 from 3 m
-  point.min_distance_m = 1.0;
-  return point;
-}
-
-TEST(QueryOfAPoint, SaysWhereInWhichOctavesAndHowFarAroundToLook) {
-  const Camera camera;
-  const Eigen::Vector2d u_px(500, 90);
-  PointProjectionConfig config;
-  const MapPoint aside = PointOnRay(camera, u_px, 0.35);
-  const PointQuery query = QueryOf(aside, kTurned_cw, camera, FeatureScale{}, 3.0, config);
-  ASSERT_EQ(query.point, 7);
-  EXPECT_LT((query.u_px - u_px).norm(), 1e-9);
-  const double z_m = (kTurned_cw * aside.p_w).z();
-  EXPECT_NEAR(query.right_u_px, 500 - FeatureScale{}.bf_px_m / z_m, 1e-9);
-  EXPECT_EQ(query.min_octave, 1);
-  EXPECT_EQ(query.max_octave, 3);
-  EXPECT_NEAR(query.radius_px, config.radius_px * 3.0 * 1.44, 1e-9);
-
-  const PointQuery straight =
-      QueryOf(PointOnRay(camera, u_px, 0.01), kTurned_cw, camera, FeatureScale{}, 3.0, config);
-  EXPECT_NEAR(straight.radius_px, config.straight_radius_px * 3.0 * 1.44, 1e-9);
-}
-
-TEST(QueryOfAPoint, IsNoneOutOfTheRangeOfItsScalesByMoreThanTheMargin) {
-  const Camera camera;
-  const auto found = [&](double min_m, double max_m) {
-    MapPoint point = PointOnRay(camera, {200, 300}, 0.1);
-    point.min_distance_m = min_m, point.max_distance_m = max_m;
-    return QueryOf(point, kTurned_cw, camera, FeatureScale{}, 1.0, {}).point != kNone;
-  };
-  EXPECT_TRUE(found(3.0 * 1.19, 20.0));  // nearer than its nearest, within the margin
-  EXPECT_FALSE(found(3.0 * 1.21, 20.0));
-  EXPECT_TRUE(found(1.0, 3.0 / 1.19));
-  EXPECT_FALSE(found(1.0, 3.0 / 1.21));
-}
-
-TEST(QueryOfAPoint, IsNoneFromBeyondSixtyDegreesOfItsMeanViewAndBehindTheCamera) {
-  const Camera camera;
-  const auto found = [&](double off_rad) {
-    const MapPoint point = PointOnRay(camera, {400, 200}, off_rad);
-    return QueryOf(point, kTurned_cw, camera, FeatureScale{}, 1.0, {}).point != kNone;
-  };
-  EXPECT_TRUE(found(M_PI / 3 - 0.01));
-  EXPECT_FALSE(found(M_PI / 3 + 0.01));
-  MapPoint behind = PointOnRay(camera, {400, 200}, 0.0);
-  behind.p_w = Inverse(kTurned_cw) * Eigen::Vector3d(0, 0, -3);
-  EXPECT_EQ(QueryOf(behind, kTurned_cw, camera, FeatureScale{}, 1.0, {}).point, kNone);
-}
 
 /// Keyframes that see points: [keyframe] -> ids.
 Map MapOfViews(const std::vector<std::vector<int>>& views, int points) {
