@@ -20,6 +20,17 @@ TEST(SinCosDeg, AgreesWithTheLibraryEverywhere) {
   }
 }
 
+TEST(SinCosDeg, IsTheSameAfterManyTurnsEitherWay) {
+  for (const double angle_deg : {-135.0, -90.0, -30.0, 0.0, 45.0, 100.0, 180.0}) {
+    const SinCos once = SinCosDeg(angle_deg);
+    for (const int turns : {-50, -3, -2, -1, 1, 2, 50}) {
+      const SinCos again = SinCosDeg(angle_deg + 360.0 * turns);
+      EXPECT_EQ(again.sin, once.sin) << angle_deg << " " << turns;
+      EXPECT_EQ(again.cos, once.cos) << angle_deg << " " << turns;
+    }
+  }
+}
+
 TEST(SinCosDeg, IsExactAtRightAngles) {
   EXPECT_EQ(SinCosDeg(90).cos, 0);
   EXPECT_EQ(SinCosDeg(90).sin, 1);

@@ -13,10 +13,13 @@ namespace {
 constexpr double kRoundOff_px = 1e-9;
 
 TEST(ResizedCamera, KeepsTheRaysOfTheImageBorders) {
-  const Camera large, small = Resize(large, 160, 120);
-  const Eigen::Vector3d low = large.Ray(-0.5, -0.5), high = large.Ray(639.5, 479.5);
-  EXPECT_NEAR((small.Ray(-0.5, -0.5) - low).norm(), 0, kRoundOff_px);
-  EXPECT_NEAR((small.Ray(159.5, 119.5) - high).norm(), 0, kRoundOff_px);
+  const Camera camera;
+  const Eigen::Vector3d low = camera.Ray(-0.5, -0.5), high = camera.Ray(639.5, 479.5);
+  for (const auto& [width, height] : {std::pair(160, 120), {640, 360}, {320, 640}}) {
+    const Camera resized = Resize(camera, width, height);
+    EXPECT_NEAR((resized.Ray(-0.5, -0.5) - low).norm(), 0, kRoundOff_px);
+    EXPECT_NEAR((resized.Ray(width - 0.5, height - 0.5) - high).norm(), 0, kRoundOff_px);
+  }
 }
 
 TEST(ResizedCamera, ProjectsItsOwnRaysBack) {

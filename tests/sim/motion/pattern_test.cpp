@@ -9,6 +9,7 @@
 #include "sim/base/angle.h"
 #include "sim/families/families.h"
 #include "sim/families/twin.h"
+#include "sim/motion/pattern.h"
 #include "sim/motion/trajectory.h"
 #include "sim/scene/geometry.h"
 #include "tests/support/trajectory_means.h"
@@ -108,6 +109,29 @@ TEST(PatternMotion, MovesAsItsNameSays) {
   EXPECT_EQ(round.all_round, 360);
   EXPECT_LT(away.least_facing, std::cos(DegToRad(80)));
   EXPECT_GT(orbit.least_facing, std::cos(DegToRad(30)));
+}
+
+TEST(PatternMotion, OfAnOrbitLeavesAMarginToItsLimitsForTheHand) {
+  Motion motion;
+  motion.preset = "orbit";
+  motion.target_spread_m = 0;
+  // A tenth of each range lies beyond the way on either side, of the azimuth 0.06.
+  const auto inside = [](double low, double high, double margin, double value) {
+    return value > low + margin * (high - low) && value < high - margin * (high - low);
+  };
+  for (std::uint64_t seed = 1; seed <= 5; ++seed) {
+    Random random({seed});
+    const auto orbit = MakePattern(motion, 1.0, random);
+    for (double place = 0; place < 1; place += 0.01) {
+      const Eigen::Vector3d ahead = motion.target_w - orbit->At(place, 0.3).camera_w;
+      const double distance_m = ahead.norm();
+      EXPECT_TRUE(inside(motion.distance_min_m, motion.distance_max_m, 0.099, distance_m));
+      const double pitch_rad = std::asin(-ahead.z() / distance_m);
+      EXPECT_TRUE(inside(motion.pitch_min_rad, motion.pitch_max_rad, 0.099, pitch_rad));
+      const double azimuth_rad = std::atan2(-ahead.x(), ahead.y());
+      EXPECT_TRUE(inside(motion.azimuth_min_rad, motion.azimuth_max_rad, 0.059, azimuth_rad));
+    }
+  }
 }
 
 TEST(MakeTrajectory, FollowsTheSpeedsThatASceneAsksFor) {

@@ -5,6 +5,7 @@
 #include <map>
 #include <opencv2/core.hpp>
 
+#include "sim/sensor/depth/rounded_sigma.h"
 #include "tests/sim/sensor/sensor_measurements.h"
 
 namespace sim {
@@ -23,6 +24,20 @@ D435Model D435AllOff() {
           .min_depth_m = 0,
           .max_depth_m = 1e9,
           .rounding_m = 0};
+}
+
+TEST(RoundedSigma, IsThatOfTheModelItIsAskedForWhateverWasAskedBefore) {
+  const D435Model usual;
+  const double z_m = 1.3;
+  const double before = RoundedSigma::Of(usual)->At(z_m);
+  EXPECT_EQ(before, RoundedSigma(usual).At(z_m));
+  for (double D435Model::*const field :
+       {&D435Model::subpixel_px, &D435Model::grid_px, &D435Model::ripple_px}) {
+    D435Model other = usual;
+    other.*field *= 1.3;
+    EXPECT_EQ(RoundedSigma::Of(other)->At(z_m), RoundedSigma(other).At(z_m));
+    EXPECT_NE(RoundedSigma(other).At(z_m), before);
+  }
 }
 
 class D435NoiseAt : public testing::TestWithParam<double> {

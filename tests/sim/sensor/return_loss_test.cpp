@@ -207,6 +207,20 @@ TEST(MatchWindow, LosesAsManyAsDotsAtRandomDo) {
   }
 }
 
+TEST(MatchWindow, LosesAsMuchOfAnEdgeAtTheImagesBorderAsWithin) {
+  // The board reaches beyond the image above and below. A window that the border cuts holds fewer
+  // pixels, of which as large a share is the own surface's.
+  Scene scene = BoardBeforeWall(1, 2);
+  scene.objects[1].size.z() = 4;
+  const KinectModel model =
+      LossyKinect({}, {.side_px = 9, .min_share = 0.6, .dots = 0, .max_apart_steps = 16});
+  const Camera camera;
+  const cv::Mat1b missing = Missing(SensorView(scene, camera, model), model);
+  for (const int v : {0, 1, 3, camera.height / 2, camera.height - 1}) {
+    EXPECT_EQ(cv::countNonZero(missing.row(v)), 4) << v;
+  }
+}
+
 TEST(MatchWindow, SparesSurfacesThatMatchAsOne) {
   // Disparity at 1 m is 351.3 steps; 16 less is 1.0477 m.
   const KinectModel model = LossyKinect({}, kSharp);

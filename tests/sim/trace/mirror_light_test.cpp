@@ -30,12 +30,15 @@ Scene Floor(const Eigen::Vector3d& lamp_w, double gloss) {
 }
 
 /// What the mirror adds to green.
-cv::Mat1f Added(const Scene& scene, const Pose& T_wc) {
+cv::Mat1f Added(const Scene& scene, const Pose& T_wc, double time_s = 0) {
+  RenderOptions options;
+  options.time_s = time_s;
   const Camera camera = SmallCamera();
   const FrameRenderer matt(scene, camera);
   const FrameRenderer shiny(scene, camera, InstructionSet::kPinned, 1);
   cv::Mat1f added;
-  cv::extractChannel(shiny.Render(T_wc).radiance - matt.Render(T_wc).radiance, added, 1);
+  cv::extractChannel(shiny.Render(T_wc, options).radiance - matt.Render(T_wc, options).radiance,
+                     added, 1);
   return added;
 }
 
@@ -59,6 +62,24 @@ TEST(MirrorLight, GoesWithTheCamera) {
   cv::minMaxLoc(Added(Floor({0, 1, 1}, 1), aside), nullptr, nullptr, nullptr, &at);
   EXPECT_NEAR(at.x, SmallCamera().cx, 2);
   EXPECT_NEAR(at.y, SmallCamera().cy, 2);
+}
+
+TEST(MirrorLight, OnAThingThatMovesIsThatOnOneThatStandsThere) {
+  Scene moving = Floor({0.2, 1, 1}, 0);
+  Object tray =
+      BoxObject(2, "box", Role::kUnstructured, {-2, 0, 0.1}, {1, 1, 0.1}, Print::kPlain);
+  for (Material& face : tray.faces) face.gloss = 1;
+  tray.way = {{0, {-2, 0, 0.1}, 0}, {1, {2, 0, 0.1}, 90}};
+  moving.objects.push_back(tray);
+  Scene standing = moving;
+  standing.objects[1].way.clear();
+  standing.objects[1].center_w = {0, 0, 0.1};
+  standing.objects[1].q_wo = Eigen::AngleAxisd(std::atan(1.0), Eigen::Vector3d::UnitZ());
+  const cv::Mat1f expected = Added(standing, kAbove), added = Added(moving, kAbove, 0.5);
+  double most = 0;
+  cv::minMaxLoc(expected, nullptr, &most);
+  ASSERT_GT(most, 0.1);
+  EXPECT_LT(cv::norm(added, expected, cv::NORM_INF), 0.01 * most);
 }
 
 TEST(MirrorLight, IsNothingOnMattFacesNorUnlessAskedFor) {

@@ -53,6 +53,7 @@ struct TwoDesks {
     toy.way = {
         {0, {0.5, 0.2, 0.95}, 20}, {1, {-0.1, -0.3, 1.0}, 130}, {2, {-0.6, 0, 0.9}, 260}};
     toy.center_w = toy.way[0].center_w;
+    for (Material& face : toy.faces) face.infrared = 0.05;  // no other thing has so little
     frozen.objects[6] = ObjectAt(toy, time_s);
   }
 };
@@ -67,7 +68,7 @@ TEST(WhatMoves, LooksAsIfItStoodThere) {
     const Rendering frozen = FrameRenderer(desks.frozen, camera).Render(T_wc, options);
     options.time_s = time_s;
     const Rendering moving = FrameRenderer(desks.moving, camera).Render(T_wc, options);
-    int ids = 0, own = 0, lit = 0, dark = 0, colour = 0;
+    int ids = 0, own = 0, lit = 0, dark = 0, infrared = 0, colour = 0;
     double depth_m = 0, on_outline = 0;
     const auto outline = [&](int v, int u) {
       for (const auto& [dv, du] : {std::pair(0, 1), {0, -1}, {1, 0}, {-1, 0}}) {
@@ -81,6 +82,7 @@ TEST(WhatMoves, LooksAsIfItStoodThere) {
       for (int u = 0; u < camera.width; ++u) {
         own += frozen.object_id(v, u) == 7;
         dark += frozen.projector_lit(v, u) == 0;
+        infrared += frozen.infrared(v, u) != moving.infrared(v, u);
         lit += frozen.projector_lit(v, u) != moving.projector_lit(v, u);
         const double off = cv::norm(frozen.radiance(v, u) - moving.radiance(v, u));
         if (outline(v, u)) {
@@ -99,6 +101,7 @@ TEST(WhatMoves, LooksAsIfItStoodThere) {
     EXPECT_GT(own, 300);
     EXPECT_GT(dark, 100);
     EXPECT_LE(ids, 2) << "of pixels on its outline";
+    EXPECT_LE(infrared, ids);
     EXPECT_LT(depth_m, 1e-9);
     // Shadows, of it and on it, are cast in single precision from another frame.
     EXPECT_LE(lit, 12);

@@ -93,6 +93,11 @@ TEST(Closest, OfSquaresApartIsTheGapBetweenTheirCornersAndNothingWhereTheyOverla
   EXPECT_NEAR((apart.on_b - Eigen::Vector2d(13, 14)).norm(), 0.0, 1e-12);
   const ClosestPoints across = Closest(Square(0, 0, 10), Square(12, 3, 4));  // corner to side
   EXPECT_NEAR(across.distance, 2.0, 1e-12);
+  EXPECT_NEAR(across.on_a.x(), 10.0, 1e-12);  // its side, the other's corners
+  EXPECT_NEAR(across.on_b.x(), 12.0, 1e-12);
+  const ClosestPoints back = Closest(Square(12, 3, 4), Square(0, 0, 10));
+  EXPECT_NEAR(back.on_a.x(), 12.0, 1e-12);
+  EXPECT_NEAR(back.on_b.x(), 10.0, 1e-12);
   EXPECT_EQ(Closest(Square(0, 0, 10), Square(5, 5, 10)).distance, 0.0);
 }
 

@@ -141,6 +141,50 @@ TEST(UncertainPose, IsNoReasonNotToRecogniseADesk) {
   }
 }
 
+/// The same frame with its two planes in the other order.
+Frame TurnedRound(const Frame& frame) {
+  Frame turned = frame;
+  std::swap(turned.planes[0], turned.planes[1]);
+  turned.planes[0].index = 0, turned.planes[1].index = 1;
+  for (std::uint8_t& label : turned.plane_labels) {
+    if (label > 0) label = static_cast<std::uint8_t>(3 - label);
+  }
+  return turned;
+}
+
+// Of a desk the front half has become a board 10 cm lower, and the camera thinks itself as much higher.
+// What is left of the desk moves the view for its own pair alone: the board, which is where the
+// camera thinks that the desk is, is weighed from where the camera thinks it stands.
+TEST(UncertainPose, IsCorrectedForEachPairAloneWhateverTheOrderOfThePlanes) {
+  const Camera camera = SmallCamera();
+  Map map;
+  SeenWorld mapped =
+      See(Desk({0, 0, 0}), LookAt({0, -0.9, 0.8}, {0, 0, 0}), camera, {}, Random{1});
+  UpdatePlanes(mapped.frame, map, camera, {}, OneViewIsTheMap());
+  PlaneWorld world;
+  world.Add({0, 0.15, 0}, {0.4, 0, 0}, {0, 0.15, 0}, "");
+  world.Add({0, -0.15, -0.1}, {0.4, 0, 0}, {0, 0.15, 0}, "");
+  Frame frame = See(world, LookAt({0.1, -0.9, 0.8}, {0, 0, 0}), camera, {}, Random{2}).frame;
+  ASSERT_EQ(frame.planes.size(), 2u);
+  const Eigen::Vector3d up_c = frame.T_cw.R * Eigen::Vector3d::UnitZ();
+  frame.T_cw.t -= 0.1 * up_c;
+  UncertainPose pose = PredictedPose(frame, {});
+  pose.covariance = 1e-5 * Matrix6d::Identity();
+  pose.covariance.topLeftCorner<3, 3>() += 0.15 * 0.15 * up_c * up_c.transpose();
+  const auto pairs_of = [&](const Frame& seen) {
+    PairRefusals refused;
+    return WeighPairs(seen, map, pose, pose, camera, {}, refused);
+  };
+  const PairTable pairs = pairs_of(frame), turned = pairs_of(TurnedRound(frame));
+  for (std::size_t f = 0; f < 2; ++f) {
+    ASSERT_EQ(pairs[f].size(), 1u);
+    ASSERT_EQ(turned[1 - f].size(), 1u);
+    EXPECT_GT(pairs[f][0].landed, 0) << f;
+    EXPECT_EQ(pairs[f][0].landed, turned[1 - f][0].landed) << f;
+    EXPECT_EQ(pairs[f][0].overlap, turned[1 - f][0].overlap) << f;
+  }
+}
+
 TEST(UncertainPose, TakesNoDeskForOneBesideIt) {
   for (const double higher_m : {-0.2, 0.0, 0.2}) {
     EXPECT_EQ(DecisionOn({0.9, 0, 0}, higher_m, 0.15), PlaneDecision::kUnmatched) << higher_m;

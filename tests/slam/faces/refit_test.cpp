@@ -14,15 +14,15 @@ namespace {
 const Plane kTruth{Eigen::Vector3d(0, -0.6, -0.8), 0.8};
 
 /// Points of a slanted plane on a grid; the first `outliers` of them 5 cm nearer.
-FramePlane SlantedPlane(int outliers) {
+FramePlane SlantedPlane(int outliers, double times_as_far = 1.0) {
   FramePlane plane;
-  plane.pi_c = kTruth;
+  plane.pi_c = {kTruth.n, kTruth.d * times_as_far};
   const Camera camera;
   int k = 0;
   for (int v = 150; v < 330; v += 10) {
     for (int u = 220; u < 420; u += 10, ++k) {
       const Eigen::Vector3d ray = camera.Backproject({u, v}, 1.0);
-      const double z = -kTruth.d / kTruth.n.dot(ray) - (k < outliers ? 0.05 : 0.0);
+      const double z = -plane.pi_c.d / kTruth.n.dot(ray) - (k < outliers ? 0.05 : 0.0);
       plane.points_c.push_back(ray * z);
       plane.centroid_c += ray * z;
     }
@@ -54,20 +54,25 @@ TEST(Refit, IsNotPulledByOutliersAndCountsThem) {
 // A wave of the bend's size is what a flat thing looks like; to a sensor that does not bend it is not
 // flat.
 TEST(Refit, CountsAsFlatWhatTheSensorBends) {
-  const auto bent = [] {
-    FramePlane plane = SlantedPlane(0);
-    for (std::size_t k = 0; k < plane.points_c.size(); ++k)
-      plane.points_c[k] *= 1.0 + 2.0 * kKinectBend * ((k / 5) % 2 == 0 ? 1.0 : -1.0);
-    return plane;
-  };
-  FramePlane by_kinect = bent(), by_flat = bent();
-  const RefitConfig own_fit{.min_improvement_chi2 = 1e9};
-  RefitPlane(by_kinect, {}, own_fit);
-  EXPECT_GT(by_kinect.inlier_ratio, 0.95);
-  SensorModel flat;
-  flat.bend_ratio = 0.0;
-  RefitPlane(by_flat, flat, own_fit);
-  EXPECT_LT(by_flat.inlier_ratio, 0.05);
+  for (const double times_as_far : {0.5, 1.0, 4.0}) {
+    const auto bent = [&](double bends) {
+      FramePlane plane = SlantedPlane(0, times_as_far);
+      for (std::size_t k = 0; k < plane.points_c.size(); ++k)
+        plane.points_c[k] *= 1.0 + bends * kKinectBend * ((k / 5) % 2 == 0 ? 1.0 : -1.0);
+      return plane;
+    };
+    const RefitConfig own_fit{.min_improvement_chi2 = 1e9};
+    SensorModel exact;  // but for the bend
+    exact.noise = {.floor_m = 1e-5, .quadratic_per_m = 0.0, .grazing_m = 0.0};
+    FramePlane by_kinect = bent(2.0), too_much = bent(4.0), by_flat = bent(2.0);
+    RefitPlane(by_kinect, exact, own_fit);
+    EXPECT_GT(by_kinect.inlier_ratio, 0.95) << times_as_far;
+    RefitPlane(too_much, exact, own_fit);
+    EXPECT_LT(too_much.inlier_ratio, 0.05) << times_as_far;
+    exact.bend_ratio = 0.0;
+    RefitPlane(by_flat, exact, own_fit);
+    EXPECT_LT(by_flat.inlier_ratio, 0.05) << times_as_far;
+  }
 }
 
 TEST(Refit, DropsEdgePointsOffThePlaneAndPutsTheOthersOnIt) {

@@ -107,6 +107,30 @@ TEST(HiddenUnionCost, RisesWithTheDistanceOverWhichAPlaneIsContinued) {
   }
 }
 
+// A strip's plane is known along it far better than across.
+TEST(HiddenUnionCost, RisesMoreAcrossALongPartThanAlongItHoweverItLies) {
+  std::mt19937 random(7);
+  for (const bool upright : {false, true}) {
+    const auto part = [&](double along, double across, int length) {
+      PlaneSums sums;
+      std::normal_distribution<double> noise;
+      for (int i = 0; i < length; ++i) {
+        for (int j = 0; j < 10; ++j) {
+          const double a = along + (i - 0.5 * length) / 525.0, b = across + (j - 5.0) / 525.0;
+          const double x = upright ? b : a, y = upright ? a : b;
+          sums.Add(x, y, Slanted(x, y) + 1e-4 * noise(random), 1e8);
+        }
+      }
+      return sums;
+    };
+    const PlaneSums strip = part(0.0, 0.0, 200);
+    const double along = HiddenUnionCost(strip, part(0.4, 0.0, 20), UnsharedNoise(), {});
+    const double across = HiddenUnionCost(strip, part(0.0, 0.4, 20), UnsharedNoise(), {});
+    // By the standard deviations there, of which the strip's width makes 20 times as much.
+    EXPECT_GT(across, along + 3 * std::log(10.0)) << upright;
+  }
+}
+
 // The standard deviation at a distance d from the middle of a square of n rays, side s, is
 // sigma sqrt((1 + 12 d^2 / s^2) / n), by the moment of inertia of a square.
 TEST(HiddenUnionCost, CountsTheSpreadOfTheLargerPlaneAtTheMiddleOfTheSmaller) {

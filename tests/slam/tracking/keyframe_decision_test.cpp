@@ -180,10 +180,14 @@ TEST(KeepViewOfPlanes, KeepsAViewFromANewSideOrPlaceAndNoOther) {
 
 TEST(KeepViewOfPlanes, ComparesWithTheNewestKeyframeWhereverItIs) {
   Keyframe newest;
-  newest.T_cw = {ExpSo3({0.4, -1.2, 0.3}), {2, -1, 3}};
+  newest.T_cw = {ExpSo3({0.4, -1.2, 0.3}), {4, -2, 6}};
   Frame frame = OfPlanes();
   EXPECT_TRUE(KeepViewOfPlanes(frame, newest, 0, {}));
   frame.T_cw = newest.T_cw;
+  EXPECT_FALSE(KeepViewOfPlanes(frame, newest, 0, {}));
+  // A small turn on the spot, metres from the world's origin, is no way.
+  frame.T_cw = Pose{ExpSo3({0, 0.5 * KeyframeDecisionConfig{}.max_view_rad, 0}), {0, 0, 0}} *
+               newest.T_cw;
   EXPECT_FALSE(KeepViewOfPlanes(frame, newest, 0, {}));
 }
 

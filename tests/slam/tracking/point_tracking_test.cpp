@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 
 #include "tests/slam/tracking/point_odometer.h"
+#include "tests/support/point_world.h"
 #include "tests/support/slam_matchers.h"
 #include "tests/support/textured_world.h"
 
@@ -251,6 +252,31 @@ TEST(PointTracking, CountsOnItsPointsInWhichFramesTheyShouldBeSeenAndAre) {
     }
     odometer.tracking.Accept(frame, odometer.map);
   }
+}
+
+// What lies on edges agrees that the camera has moved along them; few points know better.
+TEST(PointTracking, LeavesOutWhatLiesOnEdgesWhereFewPointsTellTheirPlace) {
+  const PointWorld world = MakePointWorld(1, 260, 3);
+  const std::vector<PointFeature>& features = world.map.keyframes[0].features;
+  ASSERT_GT(features.size(), 150u);
+  PointOdometer odometer(world.camera);
+  Frame first, second;
+  first.features = features;
+  ASSERT_EQ(odometer.tracking.TrackPoints(first, odometer.map).state, TrackState::kTracking);
+  odometer.Finish(first);
+  second.index = 1;
+  second.timestamp_s = 1.0 / 30;
+  constexpr std::size_t kSure = 40;
+  second.features = features;
+  for (std::size_t f = kSure; f < features.size(); ++f) {
+    second.features[f].on_edge = true;
+    second.features[f].u_px.x() += 1.2, second.features[f].right_u_px += 1.2;
+  }
+  const PointTrackReport report = odometer.tracking.TrackPoints(second, odometer.map);
+  ASSERT_EQ(report.state, TrackState::kTracking);
+  EXPECT_LE(report.inliers, static_cast<int>(kSure));
+  // 1.2 px are 4.6 mm at 2 m.
+  EXPECT_THAT(second.T_cw, PoseNear(Pose{}, 5e-4, 5e-4));
 }
 
 TEST(PointTracking, GivesTheSameBytesTwice) {
