@@ -11,6 +11,8 @@ TEST(NearestWord, IsTheOneWithFewestOtherLetters) {
   EXPECT_EQ(NearestWord("scnee", known), "scene");
   EXPECT_EQ(NearestWord("telephone", known), "");
   EXPECT_EQ(NearestWord("slam", {}), "");
+  EXPECT_EQ(NearestWord("depth_facto", {"depth_offset", "depth_factor", "depth_actor"}),
+            "depth_factor");
 }
 
 }  // namespace

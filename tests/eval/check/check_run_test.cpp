@@ -147,6 +147,17 @@ TEST_F(CheckRunFolder, NamesAMatchWithAPlaneThatNobodyMade) {
   ExpectOnly("frame_planes.jsonl", 1, "/planes/0/decision", "no earlier frame made");
 }
 
+TEST_F(CheckRunFolder, NamesAMatchWithAPlaneThatTheVeryFrameMade) {
+  EditLine(1, [](json& frame) {
+    frame["planes"][1]["map_plane"] = frame["planes"][0]["map_plane"];
+    frame["planes"][1]["decision"] = "matched";
+  });
+  const CheckReport report = CheckFolder(run());
+  ASSERT_EQ(report.faults.size(), 2u) << All(report);  // and what frame 2 then matches
+  EXPECT_EQ(report.faults[0].line, 1);
+  EXPECT_EQ(report.faults[0].pointer, "/planes/1/decision");
+}
+
 TEST_F(CheckRunFolder, NamesAPlaneThatIsMadeTwice) {
   EditLine(3, [](json& frame) { frame["planes"][0]["decision"] = "new"; });
   ExpectOnly("frame_planes.jsonl", 3, "/planes/0/decision", "made before");

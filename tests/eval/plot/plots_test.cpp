@@ -66,6 +66,17 @@ TEST_F(PlotsOfTinyWorld, ShowEveryRunInItsColour) {
   }
 }
 
+TEST_F(PlotsOfTinyWorld, ShowTheShareOfThePosesThatHaveAnError) {
+  std::vector<PlottedRun> runs = Runs();
+  const std::vector<PlotFile> known = PlotErrors(runs);
+  for (PlottedRun& run : runs) {
+    PoseError unknown;  // later poses, of which there is no truth
+    unknown.stamp_s = run.evaluation.trajectory.errors.back().stamp_s;
+    for (int i = 0; i < 30; ++i) run.evaluation.trajectory.errors.push_back(unknown);
+  }
+  EXPECT_TRUE(PlotErrors(runs)[0].bytes == known[0].bytes);
+}
+
 TEST_F(PlotsOfTinyWorld, ThatNoRunCanFillAreNotMade) {
   TinyRun bare(*world_);
   bare.trajectory.clear();

@@ -134,6 +134,19 @@ TEST(PatternMotion, OfAnOrbitLeavesAMarginToItsLimitsForTheHand) {
   }
 }
 
+TEST(PatternMotion, ShakesByTheSeedOfTheRecordingAlone) {
+  for (const char* preset : {"xyz", "orbit", "office"}) {
+    Scene scene = DeskWith(preset, 1);
+    const auto path = MakeTrajectory(scene, 60, kPatternFps, 5);
+    scene.seed += 1;
+    const auto same = MakeTrajectory(scene, 60, kPatternFps, 5);
+    for (std::size_t i = 0; i < path.size(); ++i) {
+      ASSERT_EQ(path[i].T_wc.t, same[i].T_wc.t) << preset << " " << i;
+      ASSERT_EQ(path[i].T_wc.R, same[i].T_wc.R) << preset << " " << i;
+    }
+  }
+}
+
 TEST(MakeTrajectory, FollowsTheSpeedsThatASceneAsksFor) {
   for (const char* preset : {"office", "xyz", "orbit"}) {
     Scene scene = DeskWith(preset, 2);

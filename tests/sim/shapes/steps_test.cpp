@@ -48,6 +48,18 @@ TEST(TopSteps, TakeTheHighestSurfaceUnderAnOverhang) {
   EXPECT_NEAR(steps[1].step_mm, 12, 1e-9);
 }
 
+TEST(TopSteps, AreToTheNearestSurfaceBelowWhereverItStandsInTheList) {
+  Scene scene = TableAnd(
+      {Box(2, {0.2, 0.2, 0.030}, 0, 0, 0.73), Box(3, {0.2, 0.2, 0.012}, 0.1, 0, 0.76)});
+  std::swap(scene.objects[0], scene.objects[1]);  // the table after the book that lies on it
+  const auto steps = StepsOf(scene);
+  ASSERT_EQ(steps.size(), 2u);
+  for (const TopStep& step : steps) {
+    EXPECT_EQ(step.below_object, step.object - 1);
+    EXPECT_NEAR(step.step_mm, step.object == 2 ? 30 : 12, 1e-9);
+  }
+}
+
 TEST(TopSteps, IgnoreNeighboursThatOnlyTouch) {
   const auto steps = StepsOf(
       TableAnd({Box(2, {0.2, 0.2, 0.03}, 0, 0, 0.73), Box(3, {0.2, 0.2, 0.05}, 0.2, 0, 0.73)}));

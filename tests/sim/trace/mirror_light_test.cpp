@@ -86,6 +86,19 @@ TEST(MirrorLight, IsNothingOnMattFacesNorUnlessAskedFor) {
   EXPECT_EQ(cv::norm(Added(Floor({0, 1, 1}, 0), kAbove), cv::NORM_INF), 0.0);
 }
 
+TEST(MirrorLight, OfTheRoomIsThatOfWhereTheMirrorLooks) {
+  // Seen from above at 45 degrees: a face that lies looks at the ceiling, one that stands goes on
+  // looking down, at the floor.
+  Scene scene;
+  scene.sun.ambient = 0.5;
+  const double s = std::sqrt(0.5), glass = 0.04 + 0.96 * std::pow(1 - s, 5);
+  MirrorSpot spot{.x_w = {0, 0, 0}, .look_w = {0, s, -s}, .n_w = {0, 0, 1}};
+  const Eigen::Vector3d to_sun(0, 0, 1);
+  EXPECT_NEAR(MirrorLight(scene, to_sun, spot)[1], glass * 0.5 * (1 + s), 1e-6);
+  spot.n_w = {0, -1, 0};
+  EXPECT_NEAR(MirrorLight(scene, to_sun, spot)[1], glass * 0.5 * (1 - s), 1e-6);
+}
+
 TEST(MirrorLight, OfTheSunNeedsIt) {
   Scene scene;
   scene.sun.ambient = 0;

@@ -9,6 +9,7 @@
 #include "slam/associate/associate_planes.h"
 #include "slam/associate/correct_prediction.h"
 #include "slam/associate/pair_evidence.h"
+#include "slam/mapping/plane_motion.h"
 #include "slam/mapping/plane_update.h"
 #include "tests/support/map_surfaces.h"
 #include "tests/support/plane_world.h"
@@ -105,6 +106,53 @@ TEST(DriftedPose, CorrectsThePoseByLandmarksAloneThatNoDriftLiesBetween) {
   EXPECT_EQ(PairsBeyondDoubt(frame, {{pair}}), Pairs({{0, 7}}));
   pair.links = 1;
   EXPECT_EQ(PairsBeyondDoubt(frame, {{pair}}), Pairs{});
+}
+
+// A board beside the desk, seen all the time, tells where the camera is to a millimetre now. The map
+// between the desk and here has drifted all the same.
+TEST(DriftedPose, IsOfTheMapHoweverWellALandmarkOfNowTellsThePose) {
+  const Camera camera = SmallCamera();
+  PlaneWorld world;
+  world.Add({-0.3, 0, 0}, {0.25, 0, 0}, {0, 0.2, 0}, "");
+  world.Add({0.3, 0, 0.1}, {0.2, 0, 0}, {0, 0.2, 0}, "");
+  Map map;
+  SeenWorld first = See(world, LookAt({0, -1.1, 1.0}, {0, 0, 0}), camera, {}, Random{1});
+  UpdatePlanes(first.frame, map, camera, {}, OneViewIsTheMap());
+  ASSERT_EQ(Landmarks(map).size(), 2u);
+  AddKeyframes(map, kKeyframes + 1);
+  MapPlane &desk = *Landmarks(map)[0], &board = *Landmarks(map)[1];
+  desk.last_frame = 0;
+  board.last_frame = kKeyframes;
+  MovePlane(desk, {Eigen::Matrix3d::Identity(), {0, 0, 0.045}});
+  Frame frame = See(world, LookAt({0.05, -1.1, 1.0}, {0, 0, 0}), camera, {}, Random{2}).frame;
+  frame.index = kKeyframes + 1;
+  for (const PlaneMatch& match : AssociatePlanes(frame, map, camera, {}).matches) {
+    EXPECT_EQ(match.decision, PlaneDecision::kMatched);
+  }
+}
+
+TEST(DriftedPose, IsCorrectedAsWellAsNoiseAndBendLetAFarPlaneTell) {
+  FramePlane wall;
+  wall.pi_c = {Eigen::Vector3d(0, 0, -1), 4.0};
+  wall.centroid_c = {0, 0, 4};
+  wall.offset_sigma_m = 0.001, wall.angle_sigma_rad = 1e-4;
+  wall.bend_offset_sigma_m = 0.013, wall.bend_angle_sigma_rad = 0.002;
+  Frame frame;
+  frame.planes = {wall};
+  MapPlane m;
+  m.pi_w = wall.pi_c;
+  m.centroid_w = wall.centroid_c;
+  Map map;
+  const int id = AddLandmark(map, m);
+  UncertainPose predicted;
+  predicted.covariance = 1e-12 * Matrix6d::Identity();
+  predicted.covariance(2, 2) = 0.05 * 0.05;
+  AssociationConfig config;
+  config.offset_floor_m = 0.0;
+  const UncertainPose corrected = CorrectPrediction(predicted, frame, map, {{0, id}}, config);
+  const double by_wall = 0.001 * 0.001 + 0.013 * 0.013;
+  EXPECT_NEAR(corrected.covariance(2, 2), 1 / (1 / (0.05 * 0.05) + 1 / by_wall),
+              0.05 * by_wall);
 }
 
 PlaneWorld Desk(const Eigen::Vector3d& center_w) {

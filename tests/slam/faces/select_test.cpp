@@ -156,6 +156,20 @@ TEST(Select, RefusesAPlaneInThePersonsBox) {
   EXPECT_EQ(book.Fault(), std::nullopt);
 }
 
+TEST(Select, RefusesAPlaneOfAThingThatFitsBetterWhateverOtherThingsFitWorse) {
+  GoodBook book;
+  Detection person, plant;
+  person.class_name = "person", person.kind = ClassKind::kUnstructured;
+  person.box_px = {Eigen::Vector2d(0, 0), Eigen::Vector2d(400, 479)};
+  plant.class_name = "potted plant", plant.kind = ClassKind::kUnstructured;
+  plant.box_px = book.plane.box_px;
+  const Detection own = book.detections[0];
+  book.detections = {own, person, plant};
+  EXPECT_EQ(book.Fault(), BadReason::kUnstructured);
+  book.detections = {own, plant, person};
+  EXPECT_EQ(book.Fault(), BadReason::kUnstructured);
+}
+
 TEST(Select, KeepsABookInFrontOfAPersonWhenItsOwnBoxFitsBetter) {
   GoodBook book;
   Detection person;

@@ -98,6 +98,22 @@ TEST(Keyframes, AreCulledWhenOthersSeeTheSameExceptTheFirstAndTheNewestTwo) {
   }
 }
 
+TEST(Keyframes, AreCulledForViewsAtTheirScaleOrFinerOnes) {
+  const auto culled = [](int own_octave, int others_octave) {
+    PointWorld world = MakePointWorld(6, 200, 5);
+    for (Keyframe& keyframe : world.map.keyframes) {
+      const int octave = keyframe.id == 2 ? own_octave : others_octave;
+      for (PointFeature& feature : keyframe.features) feature.octave = octave;
+    }
+    CullKeyframes(world.map, 5, world.camera, FeatureScale{}, {});
+    return world.map.keyframes[2].culled;
+  };
+  EXPECT_TRUE(culled(1, 1));
+  EXPECT_TRUE(culled(1, 2));  // an octave is how well a scale is known
+  EXPECT_TRUE(culled(4, 0));
+  EXPECT_FALSE(culled(0, 2));  // the others saw the points from afar
+}
+
 TEST(Keyframes, FollowTheOneThatReplacedThemWhenItMoves) {
   PointWorld world = MakePointWorld(6, 200, 6);
   std::vector<Pose> before;

@@ -5,6 +5,9 @@
 
 #include <algorithm>
 
+#include "slam/mapping/plane_observation.h"
+#include "tests/support/plane_world.h"
+
 namespace slam {
 namespace {
 
@@ -47,6 +50,27 @@ TEST(FaceOfAMapPlane, KeepsWhatLiesOnItAndNothingBeyond) {
     EXPECT_DOUBLE_EQ(m.points_w[2].x(), 0.19);
     EXPECT_EQ(m.edge_points_w.size(), 1u);
   }
+}
+
+TEST(FaceOfAMapPlane, EndsTheOutlineOnceItIsKnown) {
+  PlaneWorld world;
+  world.Add({0, 0, 0}, {0.2, 0, 0}, {0, 0.15, 0}, "book");
+  const Frame frame =
+      See(world, LookAt({0.1, -0.5, 0.6}, {0, 0, 0}), SmallCamera(), {}, Random{4}).frame;
+  ASSERT_EQ(frame.planes.size(), 1u);
+  const PlaneMapConfig config;
+  const auto observed = [&](double corner_weight) {
+    MapPlane m = StartPlane(frame.planes[0], frame);
+    m.vertices_w = FaceWithCorners(0).vertices_w;
+    m.vertex_weights.assign(4, corner_weight);
+    m.hull_w = {{-0.2, -0.15, 0}, {0.5, 0.1, 0}, {-0.2, 0.15, 0}};  // of a stray segment, once
+    ObservePlane(m, frame.planes[0], frame, config);
+    return m;
+  };
+  const MapPlane known = observed(config.min_face_weight), unknown = observed(0.0);
+  EXPECT_NEAR(known.area_m2, 0.4 * 0.3, 0.012);
+  for (const Eigen::Vector3d& p_w : known.hull_w) EXPECT_LT(p_w.x(), 0.23);
+  EXPECT_GT(unknown.area_m2, 0.4 * 0.3 + 0.03);
 }
 
 TEST(FaceOfAMapPlane, IsToldOfInTheEndByCornersThatWereBorneOut) {

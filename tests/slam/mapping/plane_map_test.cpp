@@ -398,6 +398,25 @@ TEST(PlaneVertices, LeaveAWrongStartOnceTheEvidenceIsAgainstIt) {
   EXPECT_THAT(m.vertices_w[2], VectorNear(whole[2].p_c, 1e-9));
 }
 
+TEST(PlaneCloud, OverlapsWhereItLiesAndNotWhereItIsOfOneShape) {
+  const Plane pi_w{Eigen::Vector3d(0.6, 0, 0.8), 0.0};
+  const auto patch = [&](double along_m, int cells) {
+    std::vector<Eigen::Vector3d> points;
+    for (int x = 0; x < cells; ++x) {
+      for (int y = 0; y < 10; ++y) {
+        points.push_back(Eigen::Vector3d(0.8, 0, -0.6) * (along_m + 0.05 * x) +
+                         Eigen::Vector3d(0, 0.05 * y, 0));
+      }
+    }
+    return points;
+  };
+  EXPECT_EQ(CloudOverlap(patch(0, 10), patch(0, 10), pi_w, 0.05, 0), 1.0);
+  EXPECT_EQ(CloudOverlap(patch(0, 10), patch(2, 10), pi_w, 0.05, 0), 0.0);
+  // The last five rows of the one are the first of the other, or the whole of it.
+  EXPECT_EQ(CloudOverlap(patch(0, 10), patch(0.25, 10), pi_w, 0.05, 0), 0.5);
+  EXPECT_EQ(CloudOverlap(patch(0.25, 5), patch(0, 10), pi_w, 0.05, 0), 1.0);
+}
+
 TEST(PlaneCloud, OutlineOfASquareHasItsArea) {
   std::vector<Eigen::Vector3d> points;
   for (int x = 0; x <= 10; ++x) {

@@ -2,6 +2,8 @@
 
 #include <gmock/gmock.h>
 
+#include <algorithm>
+
 #include "tests/support/point_world.h"
 #include "tests/support/slam_matchers.h"
 
@@ -52,6 +54,24 @@ TEST(PlaceSearch, FindsThePoseThatAFifthOfTheMatchesAgreeOn) {
       EXPECT_EQ(found->map_points[static_cast<std::size_t>(f)], kNone) << "a wrong match";
     }
   }
+}
+
+TEST(PlaceSearch, NamesTheMapPointsOfTheMatchesThatAgreeAlsoAfterWrongOnes) {
+  const PointWorld world = MakePointWorld(1, 90, 4);
+  const Keyframe& keyframe = world.map.keyframes[0];
+  const int all = static_cast<int>(keyframe.features.size()), right = all / 2;
+  Frame frame = Mistaken(world, right, 4);
+  std::reverse(frame.features.begin(), frame.features.end());  // the wrong ones come first
+  const auto found = Find(world, frame);
+  ASSERT_TRUE(found);
+  int named = 0;
+  for (int f = 0; f < all; ++f) {
+    const int point = found->map_points[static_cast<std::size_t>(all - 1 - f)];
+    if (point == kNone) continue;
+    EXPECT_EQ(point, keyframe.map_points[static_cast<std::size_t>(f)]) << f;
+    ++named;
+  }
+  EXPECT_GE(named, right - 2);
 }
 
 TEST(PlaceSearch, FindsNothingWhereEveryMatchIsWrong) {

@@ -11,10 +11,15 @@ namespace slam {
 namespace {
 
 /// The segments of a wall of which parts have labels 0, 1, ...
+/// @param scatter_sigmas  of the wall's pixels, alternately before and behind it
 std::vector<Segment> KeepParts(const std::vector<cv::Rect>& parts, const SensorModel& sensor,
-                               const Camera& camera = {}) {
-  const DepthGrid grid = MakeDepthGrid(cv::Mat1f(camera.height, camera.width, 1.0f),
-                                       PixelRays(camera), sensor.noise, 10.0);
+                               const Camera& camera = {}, double scatter_sigmas = 0.0) {
+  cv::Mat1f depth_m(camera.height, camera.width, 1.0f);
+  const double off_m = scatter_sigmas * sensor.noise.Sigma(1.0);
+  for (int v = 0; v < depth_m.rows; ++v)
+    for (int u = 0; u < depth_m.cols; ++u)
+      depth_m(v, u) += static_cast<float>((u + v) % 2 == 0 ? off_m : -off_m);
+  const DepthGrid grid = MakeDepthGrid(depth_m, PixelRays(camera), sensor.noise, 10.0);
   LabelImage labels(grid.q.size(), kNoLabel);
   for (std::size_t k = 0; k < parts.size(); ++k) {
     for (int v = parts[k].y; v < parts[k].br().y; ++v)
@@ -52,6 +57,15 @@ TEST(MeasuredSegments, AreTheLargestFirstAndNotTooSmall) {
   ASSERT_EQ(kept.size(), 2u);
   EXPECT_EQ(kept[0].id, 2);
   EXPECT_EQ(kept[1].id, 0);
+}
+
+TEST(MeasuredSegments, AreLessSureByTheFactorByWhichTheyScatterMoreThanNoise) {
+  const auto sigmas = [](double scatter_sigmas) {
+    return KeepParts({{200, 200, 100, 100}}, {}, {}, scatter_sigmas).at(0).sigmas;
+  };
+  const PlaneSigmas usual = sigmas(0.5), rough = sigmas(3.0);
+  EXPECT_NEAR(rough.offset_m / usual.offset_m, 3.0, 0.05);
+  EXPECT_NEAR(rough.angle_rad / usual.angle_rad, 3.0, 0.05);
 }
 
 TEST(MeasuredSegments, AreTheSameShareOfASmallImage) {
