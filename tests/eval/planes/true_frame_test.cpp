@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "eval/formats/stamps.h"
 #include "io/input_error.h"
 #include "tests/eval/tiny_world.h"
 #include "tests/support/temporary_folder.h"
@@ -95,6 +96,17 @@ TEST_F(TrueFrameOfTinyWorld, NeedsTheCameraOfTheSequence) {
   std::filesystem::remove(folder_ / "camera.yaml");
   sequence_ = ReadSequence(folder_);
   EXPECT_THROW(Read(world_.frames[0]), io::InputError);
+}
+
+TEST_F(TrueFrameOfTinyWorld, WithoutImagesIsThatOfItsStampAlsoWhenItIsARoundingOff) {
+  sequence_.plane_id_files = {};
+  const TinyFrame& frame = world_.frames[7];
+  const std::size_t seen = Read(frame).planes.size();
+  ASSERT_GT(seen, 0u);
+  for (const double rounding_s : {-0.5 * kSameStamp_s, 0.5 * kSameStamp_s}) {
+    EXPECT_EQ(ReadTrueFrame(sequence_, frame.stamp_s + rounding_s, frame.T_gc).planes.size(),
+              seen);
+  }
 }
 
 }  // namespace

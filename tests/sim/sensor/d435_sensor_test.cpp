@@ -210,5 +210,25 @@ TEST(WindowsOnAnEdge, AreRefusedOnePixelEitherSide) {
   }
 }
 
+// A window sees two surfaces where the fattened edge is, on either side of it alike.
+TEST(WindowsOnAnEdge, AreRefusedAboutItsFattenedPlace) {
+  const Camera camera;
+  D435Model model = D435AllOff();
+  model.fattening_px = 3;
+  model.window_px = 7;
+  model.min_share = 0.8;
+  const Rendering rendering = SensorView(BoardBeforeWall(1, 2), camera, model);
+  const int v = camera.height / 2;
+  int edge = 0;  // the board's first column
+  while (rendering.object_id(v, edge) != 2) ++edge;
+  const cv::Mat1d z = MeasureDepth(rendering, model, camera, 3, 0);
+  for (int u = edge - 10; u < edge + 10; ++u) {
+    // Of a window k pixels from the edge, (4 + k) of 7 columns show the own surface.
+    const int fattened = edge - model.fattening_px;
+    const bool lost = u >= fattened - 2 && u < fattened + 2;
+    EXPECT_NEAR(z(v, u), lost ? 0.0 : u < fattened ? 2.0 : 1.0, 1e-9) << u - edge;
+  }
+}
+
 }  // namespace
 }  // namespace sim
