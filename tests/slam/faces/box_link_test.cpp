@@ -61,6 +61,16 @@ TEST(BoxLink, PrefersTheBoxThatFits) {
   EXPECT_EQ(planes[0].class_name, "cell phone");
 }
 
+TEST(BoxLink, LooksOnAfterABoxThatHoldsTooLittleOfThePlane) {
+  std::vector<FramePlane> planes{PlaneOver(MakeBox(100, 100, 200, 180))};
+  const Detection beside = Detected("cup", MakeBox(150, 100, 260, 180)),
+                  own = Detected("book", MakeBox(99, 98, 202, 183));
+  for (const auto& detections : {std::vector{beside, own}, {own, beside}}) {
+    LinkBoxes(planes, detections, {});
+    EXPECT_EQ(planes[0].class_name, "book");
+  }
+}
+
 TEST(BoxLink, DoesNotDependOnTheOrderOfDetections) {
   const std::vector<FramePlane> planes{PlaneOver(MakeBox(100, 100, 200, 200))};
   // Two boxes with the same overlap, left and right of the plane, and one twice with two names.

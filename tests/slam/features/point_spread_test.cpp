@@ -32,6 +32,23 @@ TEST(PointSpread, GivesTheNumberWantedOrTwoMore) {
   }
 }
 
+TEST(PointSpread, IsTheSameWhereverTheAreaLies) {
+  const auto kept = [](float x, float y) {
+    std::vector<cv::KeyPoint> points = Scattered(1500, 600, 400);
+    for (std::size_t k = 0; k < 300; ++k) points[k].pt.x *= 0.2f;  // a crowd on the left
+    for (cv::KeyPoint& point : points) point.pt += cv::Point2f(x, y);
+    auto spread =
+        SpreadEvenly(points, {static_cast<int>(x), static_cast<int>(y), 600, 400}, 100);
+    for (cv::KeyPoint& point : spread) point.pt -= cv::Point2f(x, y);
+    return spread;
+  };
+  const auto here = kept(0, 0), there = kept(512, 256);
+  ASSERT_EQ(here.size(), there.size());
+  for (std::size_t k = 0; k < here.size(); ++k) {
+    EXPECT_LT(cv::norm(here[k].pt - there[k].pt), 1e-3) << k;
+  }
+}
+
 TEST(PointSpread, ThinsOutACrowdAndLeavesTheLonelyOnes) {
   std::vector<cv::KeyPoint> points = Scattered(500, 50, 50);  // a crowd in one corner
   points.emplace_back(390.0f, 390.0f, 7.0f, -1.0f, 1.0f);

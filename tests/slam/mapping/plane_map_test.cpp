@@ -210,8 +210,12 @@ TEST(PlaneMap, CountsForAFusedSurfaceWhatWasCountedOfBoth) {
   first.covisible = {{2, 3}}, first.stepped = {{2, 1}};
   second.covisible = {{2, 4}}, second.stepped = {{2, 2}};
   board.covisible = {{0, 3}, {1, 4}}, board.stepped = {{0, 1}, {1, 2}};
+  first.class_belief = {{"", 1.0}, {"book", 2.0}}, second.class_belief = {{"book", 3.0}};
   ASSERT_EQ(FusePlanes(map, {}, SmallImages()), 1);
   ASSERT_EQ(second.merged_into, 0);
+  EXPECT_DOUBLE_EQ(first.class_belief.at("book"), 5.0);
+  EXPECT_DOUBLE_EQ(first.class_belief.at(""), 1.0);
+  EXPECT_EQ(first.class_name, "book");
   EXPECT_EQ(first.covisible, (std::map<int, int>{{2, 7}}));
   EXPECT_EQ(first.stepped, (std::map<int, int>{{2, 3}}));
   EXPECT_EQ(board.covisible, (std::map<int, int>{{0, 7}}));

@@ -42,6 +42,16 @@ TEST(LocalMap, TakesKeyframesByTheirShareOfTheFramesPointsThenTheirNeighbours) {
   EXPECT_THAT(GatherLocalMap(frame, map, 1).keyframes, ElementsAre(2));
 }
 
+TEST(LocalMap, TakesTheNeighboursOfEachKeyframeThatSeesThePoints) {
+  // Keyframe 1 is tied to 0 alone, keyframe 3 to 2 alone; the frame shares points with 0 and 2.
+  const Map map = MapOfViews({{0, 1, 4}, {4}, {2, 5}, {5, 6}}, 7);
+  Frame frame;
+  frame.map_points = {0, 1, 2};
+  const LocalMap local = GatherLocalMap(frame, map, 10);
+  EXPECT_THAT(local.keyframes, ElementsAre(0, 2, 1, 3));
+  EXPECT_THAT(local.points, ElementsAre(0, 1, 2, 4, 5, 6));
+}
+
 TEST(LocalMap, FollowsPointsThatWereFusedAndForgetsCulledOnes) {
   Map map = MapOfViews({{0}, {1, 2}}, 4);
   map.points[3].culled = true, map.points[3].replaced_by = 1;

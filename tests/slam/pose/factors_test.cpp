@@ -91,6 +91,22 @@ TEST(BoxFactorEq17, LeavesOutTheSidesThatCarryNoInformation) {
   EXPECT_TRUE(factor.J.row(0).isZero() && factor.J.row(3).isZero());
 }
 
+TEST(BoxFactorEq17, IsOfPixelsAsTheLensShowsThem) {
+  Camera camera;
+  camera.k1 = 0.25, camera.k2 = -0.9, camera.k3 = 1.1, camera.p1 = -0.005, camera.p2 = 0.003;
+  BoxConstraint c;
+  c.corners_w = {{-.5, -.35, 1}, {-.2, -.35, 1}, {-.2, -.1, 1}, {-.5, -.1, 1}};
+  Box seen;
+  for (const Eigen::Vector3d& p_w : c.corners_w) seen.Include(camera.ProjectDistorted(p_w));
+  ASSERT_GT((camera.ProjectDistorted(c.corners_w[0]) - camera.Project(c.corners_w[0])).norm(),
+            1.0);
+  c.box_obs_px = seen;
+  c.use = {true, true, true, true};
+  const Linearised<4> factor = BoxFactor(c, Pose{}, camera);
+  ASSERT_TRUE(factor.valid);
+  EXPECT_LT(factor.r.norm(), 1e-9);
+}
+
 TEST(BoxFactorEq17, IsNotValidWhenACornerIsBehindTheCamera) {
   BoxConstraint c;
   c.corners_w = {{-.1, -.1, 1}, {.1, -.1, 1}, {.1, .1, 1}, {-.1, .1, -1}};

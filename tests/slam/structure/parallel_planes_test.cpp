@@ -54,6 +54,17 @@ TEST(ParallelPlanes, TieAPlaneToThoseNearlyParallelOrAtARightAngleToIt) {
               VectorNear(seen.map.planes.At(right).pi_w.n, 1e-12));
 }
 
+TEST(ParallelPlanes, LeaveOutWhatIsFarFromParallelOrMoreThanItsErrorsExplain) {
+  SeenPlaneWithOthers seen;
+  seen.Add({0.03, 0, -1});  // near enough, but known to be no parallel
+  EXPECT_TRUE(seen.Problem().parallels.empty());
+  seen.frame.planes[0].angle_sigma_rad = 0.02;
+  EXPECT_EQ(seen.Problem().parallels.size(), 1u);
+  seen.Add({0.1, 0, -1});  // too far, however little is known
+  seen.frame.planes[0].angle_sigma_rad = 0.2;
+  EXPECT_EQ(seen.Problem().parallels.size(), 1u);
+}
+
 TEST(ParallelPlanes, LeaveOutSmallOnesAndOnesThatWereRarelySeen) {
   SeenPlaneWithOthers seen;
   const int other = seen.Add({0, 0, -1});
