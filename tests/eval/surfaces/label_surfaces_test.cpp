@@ -56,6 +56,30 @@ TEST(SurfaceLabeller, TakesTheNearestOfThePlanesThatReachThere) {
   }
 }
 
+// Near views weigh more, and a surfel is as far away as what it is the mean of.
+TEST(SurfelCloud, IsAtTheMeanPlaceAndDepthOfItsPointsNearOnesFirst) {
+  const cv::Mat2d rays = Rays();
+  const auto depth_of = [&](const std::vector<DepthView>& views) {
+    SurfelCloud cloud;
+    for (const DepthView& view : views)
+      cloud.Add(view, rays, FitLocalNormals(view.depth_m, rays, 2), 0.002);
+    const std::vector<Surfel> surfels = cloud.Surfels();
+    EXPECT_FALSE(surfels.empty());
+    double sum_m = 0.0;
+    for (const Surfel& surfel : surfels) {
+      EXPECT_NEAR(surfel.p_g.z(), 0.5, 1e-5);
+      sum_m += surfel.depth_m / static_cast<double>(surfels.size());
+    }
+    return sum_m;
+  };
+  DepthView near = WallAt(0.25);  // the same wall from half as far
+  near.T_gc.t = {0, 0, 0.25};
+  EXPECT_NEAR(depth_of({WallAt(0.5)}), 0.5, 1e-4);
+  const double both_m = depth_of({WallAt(0.5), near});
+  EXPECT_GT(both_m, 0.25);
+  EXPECT_LT(both_m, 0.5);
+}
+
 // Rays that pass are counted for a few pixels alone, and stand for all.
 TEST(Sheet, CountsAsManyPassesAsPixelsThatLookThrough) {
   PlanePatch patch;
