@@ -46,6 +46,14 @@ TEST_F(LinesOfText, ThatHaveNoEndCostNoMemory) {
               ThrowsMessage<InputError>(HasSubstr("a:1: too long a line")));
 }
 
+TEST_F(LinesOfText, OfAFileThatCannotBeReadToItsEndAreRefused) {
+  // A regular file whose first bytes cannot be read: nothing is mapped at address 0.
+  const std::filesystem::path memory = "/proc/self/mem";
+  if (!std::ifstream(memory)) GTEST_SKIP() << "this system does not show a process its memory";
+  EXPECT_THAT([&] { LinesOf(memory); },
+              ThrowsMessage<InputError>(HasSubstr("cannot be read to its end")));
+}
+
 TEST_F(LinesOfText, MayBeginWithAByteOrderMarkInEveryFormat) {
   EXPECT_THAT(LinesOf(File(kMark + std::string("a\nb"))), ElementsAre("a", "b"));
   EXPECT_THAT(ReadRecords(File(kMark + std::string("1 a.png\n")), "timestamp file")[0].fields,
