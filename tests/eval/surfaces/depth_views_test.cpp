@@ -2,30 +2,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include "eval/surfaces/depth_registration.h"
-#include "eval/trajectory/true_pose.h"
 #include "io/atomic_file.h"
 #include "io/input_error.h"
 #include "tests/support/temporary_folder.h"
 
 namespace eval {
 namespace {
-
-TEST(PoseAt, LiesBetweenItsNeighboursAndNowhereElse) {
-  Trajectory poses(3);
-  poses[0].stamp_s = 1.0;
-  poses[1] = {1.1,
-              {Eigen::AngleAxisd(0.2, Eigen::Vector3d::UnitZ()).toRotationMatrix(), {1, 0, 0}}};
-  poses[2].stamp_s = 1.5;
-  const auto pose = PoseAt(poses, 1.025);
-  ASSERT_TRUE(pose);
-  EXPECT_NEAR(pose->t.x(), 0.25, 1e-9);
-  EXPECT_NEAR(AngleOf(pose->R), 0.05, 1e-9);
-  EXPECT_EQ(PoseAt(poses, 1.1)->t.x(), 1.0);
-  EXPECT_FALSE(PoseAt(poses, 0.99));
-  EXPECT_FALSE(PoseAt(poses, 1.3)) << "a gap of 0.4 s";
-  EXPECT_FALSE(PoseAt(poses, 1.51));
-  EXPECT_TRUE(PoseAt(poses, 1.5));
-}
 
 DepthRegistration Kitchen() {
   DepthRegistration registration;

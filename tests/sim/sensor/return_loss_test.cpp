@@ -212,8 +212,7 @@ TEST(MatchWindow, LosesAsMuchOfAnEdgeAtTheImagesBorderAsWithin) {
   // pixels, of which as large a share is the own surface's.
   Scene scene = BoardBeforeWall(1, 2);
   scene.objects[1].size.z() = 4;
-  const KinectModel model =
-      LossyKinect({}, {.side_px = 9, .min_share = 0.6, .dots = 0, .max_apart_steps = 16});
+  const KinectModel model = LossyKinect({}, kSharp);
   const Camera camera;
   const cv::Mat1b missing = Missing(SensorView(scene, camera, model), model);
   for (const int v : {0, 1, 3, camera.height / 2, camera.height - 1}) {

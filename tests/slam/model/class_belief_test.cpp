@@ -31,5 +31,35 @@ TEST(SameClassOdds, AreOneWithoutEvidenceOfBothAndSayWhatTheyShare) {
   EXPECT_LT(SameClassOdds({{"book", 3.0}}, {{"cup", 3.0}}), 0.1);
 }
 
+TEST(ClassBelief, IsNotTheFirstLabel) {
+  MapPlane m;
+  UpdateClassBelief(m, "keyboard", 0.9);
+  for (int i = 0; i < 6; ++i) UpdateClassBelief(m, "book", 0.9);
+  EXPECT_EQ(m.class_name, "book");
+}
+
+TEST(ClassBelief, SurvivesMissesButNotAMajorityOfThem) {
+  MapPlane m;
+  for (int i = 0; i < 4; ++i) UpdateClassBelief(m, "book", 0.9);
+  for (int i = 0; i < 4; ++i) UpdateClassBelief(m, "", 1);
+  EXPECT_EQ(m.class_name, "book");
+  MapPlane desk;
+  for (int i = 0; i < 12; ++i) UpdateClassBelief(desk, "", 1);
+  UpdateClassBelief(desk, "book", 0.9);
+  EXPECT_EQ(desk.class_name, "");
+}
+
+TEST(ClassBelief, CountsADetectionByItsScoreAndAMissAsAFullFrame) {
+  MapPlane plane;
+  for (int i = 0; i < 2; ++i) {
+    UpdateClassBelief(plane, "", 0.3);
+    UpdateClassBelief(plane, "book", 0.7);
+    UpdateClassBelief(plane, "cup", 0.01);
+  }
+  EXPECT_DOUBLE_EQ(plane.class_belief.at(""), 2.0);
+  EXPECT_DOUBLE_EQ(plane.class_belief.at("book"), 1.4);
+  EXPECT_DOUBLE_EQ(plane.class_belief.at("cup"), 0.2);  // what was reported is some evidence
+}
+
 }  // namespace
 }  // namespace slam

@@ -1,0 +1,40 @@
+#include "slam/mapping/plane_cloud.h"
+
+#include <gtest/gtest.h>
+
+namespace slam {
+namespace {
+
+TEST(PlaneCloud, OverlapsWhereItLiesAndNotWhereItIsOfOneShape) {
+  const Plane pi_w{Eigen::Vector3d(0.6, 0, 0.8), 0.0};
+  const auto patch = [&](double along_m, int cells) {
+    std::vector<Eigen::Vector3d> points;
+    for (int x = 0; x < cells; ++x) {
+      for (int y = 0; y < 10; ++y) {
+        points.push_back(Eigen::Vector3d(0.8, 0, -0.6) * (along_m + 0.05 * x) +
+                         Eigen::Vector3d(0, 0.05 * y, 0));
+      }
+    }
+    return points;
+  };
+  EXPECT_EQ(CloudOverlap(patch(0, 10), patch(0, 10), pi_w, 0.05, 0), 1.0);
+  EXPECT_EQ(CloudOverlap(patch(0, 10), patch(2, 10), pi_w, 0.05, 0), 0.0);
+  // The last five rows of the one are the first of the other, or the whole of it.
+  EXPECT_EQ(CloudOverlap(patch(0, 10), patch(0.25, 10), pi_w, 0.05, 0), 0.5);
+  EXPECT_EQ(CloudOverlap(patch(0.25, 5), patch(0, 10), pi_w, 0.05, 0), 1.0);
+}
+
+TEST(PlaneCloud, OutlineOfASquareHasItsArea) {
+  std::vector<Eigen::Vector3d> points;
+  for (int x = 0; x <= 10; ++x) {
+    for (int y = 0; y <= 10; ++y) points.emplace_back(0.1 * x, 0.1 * y, 2.0);
+  }
+  const Outline outline = ConvexOutline(points, {Eigen::Vector3d::UnitZ(), -2.0});
+  EXPECT_EQ(outline.hull_w.size(), 4u);
+  EXPECT_NEAR(outline.area_m2, 1.0, 1e-12);
+  EXPECT_TRUE(ConvexOutline({{0, 0, 0}, {1, 1, 0}, {2, 2, 0}}, {Eigen::Vector3d::UnitZ(), 0})
+                  .hull_w.empty());
+}
+
+}  // namespace
+}  // namespace slam
