@@ -18,6 +18,17 @@ class CheckDeep : public ::testing::Test {
  protected:
   CheckDeep() : world_(MakeWorld(160, 120, 10)) { WriteSequence(seq(), world_); }
   fs::path seq() const { return folder_.path() / "seq"; }
+  /// Cuts a hole into the table top: `wide_m` from left to right, before the things on it.
+  void CutTable(double wide_m) {
+    json scene = json::parse(ReadText(seq() / "gt/scene.json"));
+    for (json& plane : scene["planes"]) {
+      if (plane["object"] != 1 || plane["normal"][2] != 1) continue;
+      const double z = plane["vertices"][0][2], h = wide_m / 2;
+      plane["holes"] = {{{-h, -0.35, z}, {h, -0.35, z}, {h, -0.20, z}, {-h, -0.20, z}}};
+      plane["area"] = plane["area"].get<double>() - wide_m * 0.15;
+    }
+    WriteText(seq() / "gt/scene.json", scene.dump(1));
+  }
   fs::path Image(const std::string& where, int frame) const {
     return seq() / where /
            (StampText(world_.views[static_cast<std::size_t>(frame)].stamp_s) + ".png");
@@ -84,6 +95,17 @@ TEST_F(CheckDeep, FindsIdsShiftedByAPixelAndTellsWhere) {
   }
   EXPECT_THAT(Faults(), HasSubstr("outside the face"));
   EXPECT_THAT(Faults(), HasSubstr("shifted by (1, 0) px"));
+}
+
+TEST_F(CheckDeep, FindsPixelsThatNameAFaceInsideItsHole) {
+  CutTable(0.1);
+  EXPECT_THAT(Faults(), HasSubstr("outside the face"));
+}
+
+// As at its outline: a centre ray may lie a fifth of a pixel beside the rim.
+TEST_F(CheckDeep, LeavesPixelsBesideTheRimOfAHoleAlone) {
+  CutTable(0.003);  // a third of a pixel, along a column of some thirty
+  EXPECT_EQ(Faults(), "");
 }
 
 TEST_F(CheckDeep, FindsPosesThatAreInvertedEvenWithoutPlanes) {

@@ -72,6 +72,24 @@ TEST(DrawMap, SaysThatNoPlaneWasMapped) {
   EXPECT_FALSE(page.empty());
 }
 
+// A face is a ring: the side from its last corner to its first is drawn like the others.
+TEST(DrawMap, OutlinesATrueFaceWhicheverCornerComesFirst) {
+  MapScene scene;
+  scene.on_truth = true;
+  scene.planes = {Top(1, 0, 0.9, Eigen::Vector3d::UnitZ())};
+  MapScene::Truth face{"book", scene.planes[0].pi_v, Top(2, 0, 0.6, {0, 0, 1}).hull_v};
+  scene.truth = {face};
+  const RunTitle title{"run", "seq", "", ""};
+  const cv::Mat page = DrawMap(scene, title);
+  for (int first = 1; first < 4; ++first) {
+    std::rotate(face.vertices_v.begin(), face.vertices_v.begin() + 1, face.vertices_v.end());
+    scene.truth = {face};
+    EXPECT_LT(cv::norm(page, DrawMap(scene, title), cv::NORM_INF), 8) << first;
+  }
+  scene.truth = {};
+  EXPECT_GT(cv::norm(page, DrawMap(scene, title), cv::NORM_INF), 50);
+}
+
 TEST(BasePlane, IsTheOneThatOthersStandOnAndNotALowerOneBeside) {
   MapScene scene;
   scene.planes = {Top(1, -0.5, 0.3, Eigen::Vector3d::UnitZ()),

@@ -55,5 +55,25 @@ TEST(TrajectoriesTable, HasTheFiguresOfTheJsonUnderTheirNames) {
   EXPECT_GT(json["ape"]["rot_deg"]["rmse"].get<double>(), 5);
 }
 
+// Each of the two errors has its own reason: one that is short for pairs may well be aligned.
+TEST(TrajectoriesJson, SaysWhyThereIsNoRelativeErrorWhereThereIsAnAbsoluteOne) {
+  ComparedTrajectory one = Drifting();
+  PoseFile truth, estimate;
+  for (int i = 0; i < 5; ++i) {
+    Pose T_wc;
+    T_wc.t = {0.1 * i, 0.02 * i * i, 0};
+    truth.poses.push_back({static_cast<double>(i), T_wc});
+    estimate.poses.push_back({static_cast<double>(i), T_wc});
+  }
+  ComparisonRules rules;
+  rules.delta = {100, DeltaUnit::kMetres};
+  one.score = CompareTrajectories(estimate, truth, rules);
+  const auto json = TrajectoriesJson({one}, "truth.txt", rules)["trajectories"][0];
+  EXPECT_TRUE(json["ape"]["trans_m"].is_object());
+  EXPECT_TRUE(json["rpe"]["trans_m"].is_null());
+  EXPECT_EQ(json["reasons"]["rpe/trans_m"], one.score.no_relative);
+  EXPECT_NE(one.score.no_relative, "");
+}
+
 }  // namespace
 }  // namespace eval

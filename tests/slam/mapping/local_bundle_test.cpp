@@ -91,6 +91,19 @@ TEST(LocalBundle, TakesFalseObservationsBackAndIsNotBentByThem) {
   ExpectPosesNear(map, truth.map, 1e-4, 1e-4);
 }
 
+TEST(LocalBundle, TakesBackWhatFitsAgainOnceThePosesAreRight) {
+  const PointWorld truth = MakePointWorld(5, 200, 1);
+  Map map = truth.map;
+  Disturb(map, 0.06, 0.03);
+  LocalBundleConfig config;
+  config.first_iterations = 1;  // too few: some of what is right does not fit yet
+  config.last_iterations = 30;
+  const LocalBundleReport report =
+      AdjustLocalBundle(map, 4, truth.camera, FeatureScale{}, config);
+  EXPECT_TRUE(report.usable);
+  EXPECT_EQ(report.outliers, 0);
+}
+
 TEST(LocalBundle, LeavesFixedKeyframesWhereTheyAre) {
   const PointWorld truth = MakePointWorld(6, 200, 4);
   Map map = truth.map;
