@@ -78,6 +78,7 @@ class PlaneGraph {
     into_.push_back(static_cast<int>(planes_.size()));
     planes_.push_back(plane);
     neighbours_.emplace_back();
+    complete_.push_back(false);
   }
   void Connect(int a, int b) {
     Neighbours(a).push_back(b);
@@ -91,7 +92,7 @@ class PlaneGraph {
     return up == k ? k : up = Root(up);
   }
   /// The plane of least error merges with the neighbour with which it has least, as long as
-  /// that is within the bound.
+  /// that is within the bound. A plane for which it is not is complete: nothing takes it in later.
   void Merge();
 
  private:
@@ -101,15 +102,18 @@ class PlaneGraph {
   std::vector<PointPlane> planes_;
   std::vector<std::vector<int>> neighbours_;
   std::vector<int> into_;
+  std::vector<bool> complete_;
 };
 
-/// The neighbours as they are now, each once, in order.
+/// The neighbours as they are now that may still merge, each once, in order.
 void PlaneGraph::TidyNeighbours(int k) {
   std::vector<int>& list = Neighbours(k);
   for (int& other : list) other = Root(other);
   std::sort(list.begin(), list.end());
   list.erase(std::unique(list.begin(), list.end()), list.end());
-  list.erase(std::remove(list.begin(), list.end(), k), list.end());
+  std::erase_if(list, [&](int other) {
+    return other == k || complete_[static_cast<std::size_t>(other)];
+  });
 }
 
 void PlaneGraph::Merge() {
@@ -129,7 +133,10 @@ void PlaneGraph::Merge() {
       const PointPlane both = Union(At(k), At(other));
       if (partner < 0 || both.error < best.error) best = both, partner = other;
     }
-    if (partner < 0 || best.error > MaxError(best.center.z(), kMergeTolerance_m)) continue;
+    if (partner < 0 || best.error > MaxError(best.center.z(), kMergeTolerance_m)) {
+      complete_[static_cast<std::size_t>(k)] = true;
+      continue;
+    }
     planes_[static_cast<std::size_t>(k)] = best;
     into_[static_cast<std::size_t>(partner)] = k;
     std::vector<int>& theirs = Neighbours(partner);

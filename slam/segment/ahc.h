@@ -11,7 +11,7 @@ namespace slam {
 /// the planes that meet then clustered again. Its bounds are lengths and angles that grow with
 /// the distance, whatever the sensor.
 ///
-/// @returns a label for each pixel, 0, 1, ... by the plane's first block; kNoLabel: none
+/// @returns a label for each pixel, 0, 1, ... in no particular order; kNoLabel: none
 /// Source: Feng, Taguchi, Kamat, "Fast plane extraction in organized point clouds using
 /// agglomerative hierarchical clustering", ICRA 2014; bounds: the authors' program's defaults.
 LabelImage SegmentByAhc(const DepthGrid& grid);
