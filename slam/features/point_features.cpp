@@ -44,11 +44,14 @@ std::vector<cv::KeyPoint> CornersOfOctave(const cv::Mat1b& image, const cv::Rect
   const auto left = [&](int c) { return area.x + c * area.width / columns; };
   const auto top = [&](int r) { return area.y + r * area.height / rows; };
 
-  // Which cells have a corner already.
+  // Which cells have a corner already: the last that begins at or before the corner's pixel.
+  const auto cell_at = [](int pixel, int cells, int length) {
+    return ((pixel + 1) * cells - 1) / length;
+  };
   cv::Mat1b occupied(rows, columns, std::uint8_t{0});
   for (const cv::KeyPoint& corner : corners) {
-    const int c = (static_cast<int>(corner.pt.x) - area.x) * columns / area.width;
-    const int r = (static_cast<int>(corner.pt.y) - area.y) * rows / area.height;
+    const int c = cell_at(static_cast<int>(corner.pt.x) - area.x, columns, area.width);
+    const int r = cell_at(static_cast<int>(corner.pt.y) - area.y, rows, area.height);
     occupied(std::clamp(r, 0, rows - 1), std::clamp(c, 0, columns - 1)) = 1;
   }
   // The empty cells are asked again with the low threshold.

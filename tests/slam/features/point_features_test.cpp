@@ -40,6 +40,28 @@ TEST(PointFeatures, AreSpreadOverTheWholeImageEvenWhenOneSideHasTheStrongerPrint
   EXPECT_GE(*std::min_element(counts.begin(), counts.end()), 20);
 }
 
+// A cell that has a corner is not searched again, wherever in it the corner lies. Cells are 30.4
+// px wide here: their borders fall between pixels.
+TEST(PointFeatures, NameNoCornerTwice) {
+  for (int shift = 0; shift < 31; ++shift) {
+    cv::Mat1b image(480, 640, std::uint8_t{100});
+    for (int x = 20 + shift; x < 600; x += 61) {
+      for (int y = 20 + shift; y < 440; y += 64) image(cv::Rect(x, y, 4, 4)) = 200;
+    }
+    std::vector<PointFeature> features = Extract(image);
+    ASSERT_GT(features.size(), 30u);
+    const auto place = [](const PointFeature& f) {
+      return std::tuple(f.octave, f.u_px.x(), f.u_px.y());
+    };
+    std::sort(features.begin(), features.end(),
+              [&](const auto& a, const auto& b) { return place(a) < place(b); });
+    const auto twice =
+        std::adjacent_find(features.begin(), features.end(),
+                           [&](const auto& a, const auto& b) { return place(a) == place(b); });
+    EXPECT_EQ(twice, features.end()) << shift;
+  }
+}
+
 TEST(PointFeatures, ComeInTheNumberAskedFor) {
   const cv::Mat1b image = PatternImage(640, 480);
   for (const int count : {200, 1000}) {
