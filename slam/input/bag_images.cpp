@@ -33,7 +33,8 @@ std::optional<Pose> FromReference(const BagFile& bag, const std::string& image_t
 
 bool SameView(const Camera& a, const Camera& b) {
   return a.width == b.width && a.height == b.height && a.fx == b.fx && a.fy == b.fy &&
-         a.cx == b.cx && a.cy == b.cy;
+         a.cx == b.cx && a.cy == b.cy && a.k1 == b.k1 && a.k2 == b.k2 && a.k3 == b.k3 &&
+         a.p1 == b.p1 && a.p2 == b.p2;
 }
 
 /// How depth of RealSense's library comes to lie on colour; nothing when it does.

@@ -19,14 +19,21 @@ bool IsAmong(const std::string& text, std::initializer_list<const char*> some) {
   return std::find(some.begin(), some.end(), text) != some.end();
 }
 
-bool HasPart(const std::string& topic, std::initializer_list<const char*> parts) {
-  std::string lower = topic + '/';
-  for (char& c : lower) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  return std::any_of(parts.begin(), parts.end(),
-                     [&](const char* part) { return lower.find(part) != std::string::npos; });
+/// Whether the words of a topic ("/camera/left_ir": camera, left, ir) hold one of `some`; each
+/// begins and, if it is not the beginning of a word alone, ends with a slash.
+bool HasWords(const std::string& topic, std::initializer_list<const char*> some) {
+  std::string words = '/' + topic + '/';
+  for (char& c : words) {
+    c = c == '_' || c == '-' ? '/'
+                             : static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  }
+  return std::any_of(some.begin(), some.end(),
+                     [&](const char* one) { return words.find(one) != std::string::npos; });
 }
 
-bool IsInfrared(const std::string& topic) { return HasPart(topic, {"/ir/", "infra"}); }
+bool IsInfrared(const std::string& topic) {
+  return HasWords(topic, {"/ir/", "/ir1/", "/ir2/", "/infra"});
+}
 
 bool IsColour(const ImageTopic& image) {
   return IsAmong(image.encoding, {"rgb8", "bgr8", "rgba8", "bgra8", "mono8", "8UC1", "8UC3"}) &&
@@ -89,7 +96,7 @@ std::string InfoBeside(const BagFile& bag, const std::string& image_topic) {
 }  // namespace
 
 bool SaysRegistered(const std::string& topic) {
-  return HasPart(topic, {"registered", "aligned", "to_color", "to_rgb"});
+  return HasWords(topic, {"/registered/", "/aligned/", "/to/color/", "/to/rgb/"});
 }
 
 bool IsOfRealSense(const std::string& topic) {

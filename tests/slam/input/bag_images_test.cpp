@@ -95,6 +95,47 @@ TEST_F(Bags, WithSeveralTopicsReadTheRegisteredDepthOfTheColourCameraAndSaySo) {
               ElementsAre(HasSubstr("and not /camera/depth/image_rect_raw (16UC1)")));
 }
 
+TEST_F(Bags, TakeWordsOfANameForWhatTheySay) {
+  {
+    BagWriter bag(File(), Compression::kNone);
+    bag.Image("/camera/color/image_raw", 1, "colour", "rgb8", Colour());
+    bag.Image("/camera/depth_unregistered/image", 1, "depth", "16UC1", Depth());
+    bag.Image("/camera/depth/registered/image", 1, "colour", "16UC1", 2 * Depth());
+    for (double stamp_s : {1.0, 2.0}) {
+      bag.Image("/camera/left_ir/image_raw", stamp_s, "colour", "mono16", 3 * Depth());
+      bag.Image("/Camera/IR1/image_raw", stamp_s, "colour", "mono16", 3 * Depth());
+    }
+    bag.Image("/souvenir/air/image_raw", 1, "other", "16UC1", Depth());  // no infrared
+    WriteInfo(bag, "/camera/color/camera_info");
+  }
+  const BagImages images(File(), CameraOfBag(File()));
+  EXPECT_EQ(images.Depth(0)(0, 0), 2.0f);
+  EXPECT_THAT(images.index().warnings,
+              ElementsAre(::testing::AllOf(
+                  HasSubstr("/camera/depth_unregistered/image (16UC1)"),
+                  HasSubstr("/souvenir/air/image_raw (16UC1)"),
+                  ::testing::Not(HasSubstr("left_ir")), ::testing::Not(HasSubstr("IR1")))));
+}
+
+// The same pinhole, but colour goes through a lens: depth has to be laid on it all the same.
+TEST_F(Bags, OfRealSenseWhoseLensesDifferHaveDepthLaidOnColour) {
+  {
+    BagWriter bag(File(), Compression::kNone);
+    WriteInfo(bag, kDepthStream + "info/camera_info");
+    WriteInfo(bag, kColourStream + "info/camera_info", "plumb_bob", {0.3, 0, 0, 0, 0});
+    for (const std::string& stream : {kDepthStream, kColourStream})
+      bag.Transform(stream + "tf/0", {0, 0, 0}, {0, 0, 0, 1});
+    cv::Mat1w depth = Depth();
+    depth.col(60) = 2000;
+    bag.Image(kDepthStream + "image/data", 1, "0", "mono16", depth);
+    bag.Image(kColourStream + "image/data", 1, "0", "rgb8", Colour());
+  }
+  // x = 28.5 / 60 ahead; the lens moves it outwards by 0.3 x^3 of 60 px, by 1.9 px.
+  const cv::Mat1f laid = BagImages(File(), CameraOfBag(File())).Depth(0);
+  EXPECT_EQ(laid(24, 60), 1.0f);
+  EXPECT_EQ(laid(24, 62), 2.0f);
+}
+
 TEST_F(Bags, TurnRealSensesInverseLensIntoBrowns) {
   // As of a D455's colour camera; the inverse polynomial takes recorded to ideal.
   const std::vector<double> d{-0.055, 0.066, 0.0007, -0.0004, -0.021};
