@@ -61,9 +61,13 @@ void RequireSamePlan(const fs::path& folder, const Json& old, const Json& plan) 
   const auto value = [](const Json& json, const std::string& key) {
     return json.contains(key) ? json.at(key) : Json();
   };
-  for (const auto& [key, wanted] : plan.items()) {
+  // What is plain in one of the two has no key there.
+  Json all = old;
+  all.update(plan);
+  for (const auto& entry : all.items()) {
+    const std::string& key = entry.key();
     if (key == "complete" || key == "sha256") continue;
-    if (value(old, key) != wanted) refuse(key, value(old, key), wanted);
+    if (value(old, key) != value(plan, key)) refuse(key, value(old, key), value(plan, key));
   }
   for (const auto& [file, sum] : plan.at("sha256").items()) {
     const Json was = value(value(old, "sha256"), file);

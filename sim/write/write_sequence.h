@@ -43,8 +43,7 @@ nlohmann::ordered_json PlannedManifest(const Scene& scene, const Recording& reco
 int WriteSequence(const Scene& scene, const SequenceOptions& options,
                   const std::filesystem::path& folder);
 
-/// The same for a recording that is planned already; options.frames, .path are
-/// then only told to the manifest.
+/// The same for a recording that is planned already; options.frames, .path are not used.
 int WriteSequence(const Scene& scene, const Recording& recording,
                   const SequenceOptions& options, const std::filesystem::path& folder);
 

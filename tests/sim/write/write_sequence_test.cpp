@@ -249,6 +249,19 @@ TEST_F(WrittenSequence, IsNotResumedWithOtherOptions) {
   EXPECT_THAT(ErrorOf([&] { Write(root_ / "seq", resume); }), HasSubstr("camera was"));
 }
 
+// The manifest names only what is not plain, so a key may be gone instead of changed.
+TEST_F(WrittenSequence, IsNotResumedWithoutAnOptionItWasBegunWith) {
+  SequenceOptions blurred = Options();
+  blurred.rig.sensor.exposure.shutter_s = 0.02;
+  Write(root_ / "seq", blurred);
+  SequenceOptions resume = Options();
+  resume.existing = Existing::kResume;
+  EXPECT_THAT(ErrorOf([&] { Write(root_ / "seq", resume); }),
+              ::testing::AllOf(HasSubstr("exposure was"), HasSubstr("now it is null")));
+  blurred.existing = Existing::kResume;
+  EXPECT_EQ(Write(root_ / "seq", blurred), 0);
+}
+
 TEST_F(InterruptedSequence, SaysWhichFileDoesNotFitOnTheDisk) {
   const fs::path folder = root_ / "seq";
   EXPECT_EXIT(WriteToAFullDisk(folder), testing::ExitedWithCode(0), "");
