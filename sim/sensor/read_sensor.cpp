@@ -14,7 +14,10 @@ constexpr SensorKind kKinds[] = {SensorKind::kIdeal, SensorKind::kKinect1,
                                  SensorKind::kKinect1Clean, SensorKind::kAzure,
                                  SensorKind::kD435};
 
-/// Calls visit(key, low, high, unit, get, set) for each parameter; get and set use file units.
+bool IsWhole(double x) { return x == std::round(x); }
+
+/// Calls visit(key, low, high, unit, value, set) for each parameter; value and set use file units.
+/// set says whether it takes the number: fractions are none of a whole one's.
 template <typename Visit>
 class Lister {
  public:
@@ -22,15 +25,22 @@ class Lister {
 
   void Number(const char* key, double& field, double low, double high, const char* unit,
               double scale = 1.0) {
-    visit_(key, low, high, unit, field / scale,
-           [&field, scale](double x) { field = x * scale; });
+    visit_(key, low, high, unit, field / scale, [&field, scale](double x) {
+      field = x * scale;
+      return true;
+    });
   }
   void Switch(const char* key, bool& field) {
-    visit_(key, 0.0, 1.0, "0 or 1", field ? 1.0 : 0.0, [&field](double x) { field = x != 0; });
+    visit_(key, 0.0, 1.0, "0 or 1", field ? 1.0 : 0.0, [&field](double x) {
+      field = x != 0;
+      return IsWhole(x);
+    });
   }
   void Whole(const char* key, int& field, int low, int high, const char* unit) {
-    visit_(key, low, high, unit, field,
-           [&field](double x) { field = static_cast<int>(std::lround(x)); });
+    visit_(key, low, high, unit, field, [&field](double x) {
+      field = static_cast<int>(std::lround(x));
+      return IsWhole(x);
+    });
   }
 
   void List(IdealModel&) {}
@@ -146,7 +156,7 @@ Sensor SensorFrom(const io::YamlValue& file) {
              const auto& set) {
     if (!map.Has(key)) return;
     const double value = map.At(key).Number({low, high}, unit);
-    set(value);
+    if (!set(value)) map.At(key).Fail("expected a whole number");
     sensor.changed[key] = value;
   }).All(sensor);
   if (HasEvenWindow(sensor.depth)) {

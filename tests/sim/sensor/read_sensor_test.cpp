@@ -54,6 +54,14 @@ TEST(SensorFile, RefusesValuesOutOfRange) {
   EXPECT_THAT(ErrorOf("base: d435\nwindow_px: 6\n"), HasSubstr("odd"));
 }
 
+TEST(SensorFile, RefusesFractionsOfWhatIsCountedOrSwitched) {
+  for (const char* line : {"base: d435\nwindow_px: 4.6\n", "base: kinect1\nwindow_px: 0.4\n",
+                           "base: kinect1\ndevice: 1.5\n", "base: kinect1\nquantise: 0.5\n"}) {
+    EXPECT_THAT(ErrorOf(line),
+                testing::AllOf(HasSubstr("mine.yaml:2"), HasSubstr("whole number")));
+  }
+}
+
 TEST(SensorFile, RefusesAMissingOrUnknownBase) {
   EXPECT_THAT(ErrorOf("noise_scale: 1\n"), HasSubstr("base"));
   EXPECT_THAT(ErrorOf("base: kinect3\n"), HasSubstr("mine.yaml:1"));
