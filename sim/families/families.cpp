@@ -31,7 +31,7 @@ std::vector<Recipe> DeskRecipes() {
   return {
       {{"desk",
         "an office desk: many small near-parallel tops 6 to 50 mm over the desk and each other",
-        {{"objects", 0, 0, 40, "things on the desk, 5 to 40; 0 draws 8 to 14", true},
+        {{"objects", 0, 0, 40, "things on the desk, 5 to 40; 0 draws 8 to 14", true, 5},
          kLamps,
          kKeycaps,
          kTexture}},
@@ -62,7 +62,8 @@ std::vector<Recipe> DeskRecipes() {
       {{"tilted",
         "books that lean on what lies under them: tops that are nearly level",
         {{"count", 3, 1, 4, "leaning books", true},
-         {"lift_mm", 0, 0, 50, "height of what lies under them; 0 draws 7 to 45"},
+         {"lift_mm", 0, 0, 50, "height of what lies under them, 0.1 to 50; 0 draws 7 to 45",
+          false, 0.1},
          kTexture}},
        &MakeTilted},
       {{"board",
@@ -79,7 +80,7 @@ std::vector<Recipe> DeskRecipes() {
        &MakeTwins},
       {{"revisit",
         "the camera leaves the desk, looks at a shelf, and comes back",
-        {{"objects", 0, 0, 14, "things on the desk, 8 to 14; 0 draws the number", true},
+        {{"objects", 0, 0, 14, "things on the desk, 8 to 14; 0 draws the number", true, 8},
          kTexture}},
        &MakeRevisit}};
 }
@@ -115,7 +116,8 @@ std::vector<Recipe> RoomRecipes() {
             {{"kind", 0, 0, 3, "1 a walker, 2 a hand, 3 a hand with a toy; 0 draws", true},
              {"objects", 10, 2, 14, "things on the desk, fewer when they do not fit", true},
              {"times", 4, 1, 20, "how often it comes", true},
-             {"speed_m_s", 0, 0, 2, "of its way; 0 is 0.9 for a walker, 0.5 for a hand"},
+             {"speed_m_s", 0, 0, 2,
+              "of its way, 0.05 to 2; 0 is 0.9 for a walker, 0.5 for a hand", false, 0.05},
              kTexture}},
            &MakePasser}};
 }
@@ -149,6 +151,11 @@ ParameterValues Complete(const Family& family, const std::map<std::string, doubl
       throw io::InputError("family " + family.name,
                            "expected " + name + " from " + io::NumberText(at->low) + " to " +
                                io::NumberText(at->high) + ", found " + io::NumberText(value));
+    }
+    if (value != 0 && value < at->least) {
+      throw io::InputError("family " + family.name, "expected " + name + " of 0 or from " +
+                                                        io::NumberText(at->least) +
+                                                        " on, found " + io::NumberText(value));
     }
     values[name] = Rounded(value);
   }

@@ -16,6 +16,7 @@ struct FamilyParameter {
   double low = 0, high = 0;
   std::string meaning;
   bool whole = false;  ///< a whole number
+  double least = 0;    ///< 0, which draws the value, or at least this much
 };
 
 /// A recipe for scenes.

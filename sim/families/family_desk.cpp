@@ -13,7 +13,6 @@ namespace {
 constexpr std::uint64_t kDeskKey = 0x6465736b;
 constexpr double kHalfView_m = 0.66;   // things stay where the camera looks
 constexpr double kClearSide_m = 1.40;  // the side wall leaves the camera its room
-constexpr int kMinAskedObjects = 5;    // when asked for
 constexpr int kMinObjects = 8, kMaxObjects = 14;
 constexpr int kDeskLayouts = 400;  // tried before the seed is given up
 
@@ -121,17 +120,12 @@ bool PutWishes(const std::vector<Wish>& wishes, const Desk& desk, Random& random
 }  // namespace
 
 Scene MakeDesk(std::uint64_t seed, const ParameterValues& values) {
-  const int asked = static_cast<int>(values.at("objects"));
-  if (asked > kMaxObjects) return MakeCrowdedDesk(seed, asked);
+  const int wanted = static_cast<int>(values.at("objects"));
+  if (wanted > kMaxObjects) return MakeCrowdedDesk(seed, wanted);
   Scene scene;
   Random room({kDeskKey, seed, 0});
   const Desk desk = PutDeskRoom(room, scene);
   scene.motion.target_w = {0, Rounded(-0.05 * desk.depth), desk.top_z};
-  const int wanted = asked;
-  if (wanted != 0 && wanted < kMinAskedObjects) {
-    throw io::InputError("family desk",
-                         "expected objects from 5 to 40, or 0 to draw the number");
-  }
   const int count = wanted > 0 ? wanted : 8 + room.Below(7);
   for (std::uint64_t attempt = 0; attempt < kDeskLayouts; ++attempt) {
     // Where a full desk has no room at all, the things are drawn anew, then fewer of them.

@@ -164,7 +164,38 @@ TEST(MakeScene, RefusesWhatNoFamilyOffers) {
   EXPECT_THROW(MakeScene("plates", 1, {{"step_mm", -1}}), io::InputError);
   EXPECT_THROW(MakeScene("plates", 1, {{"step_mm", std::nan("")}}), io::InputError);
   EXPECT_THROW(MakeScene("stack", 1, {{"count", 2.5}}), io::InputError);
-  EXPECT_THROW(MakeScene("desk", 1, {{"objects", 3}}), io::InputError);
+}
+
+// What draws a value when it is 0 has a least value of its own besides.
+TEST(MakeScene, RefusesLessThanTheLeastButTakesNothingForADraw) {
+  using Given = std::map<std::string, double>;
+  const std::tuple<std::string, std::string, Given, Given> cases[] = {
+      {"desk", "of 0 or from 5 on", {{"objects", 3}}, {{"objects", 5}}},
+      {"revisit", "of 0 or from 8 on", {{"objects", 7}}, {{"objects", 8}}},
+      {"tilted", "of 0 or from 0.1 on", {{"lift_mm", 0.004}}, {{"lift_mm", 0.1}}},
+      {"passer", "of 0 or from 0.05 on", {{"speed_m_s", 0.03}}, {{"speed_m_s", 0.05}}}};
+  for (const auto& [family, expected, low, least] : cases) {
+    try {
+      MakeScene(family, 1, low);
+      ADD_FAILURE() << family;
+    } catch (const io::InputError& error) {
+      const std::string text = error.what();
+      EXPECT_NE(text.find("family " + family), std::string::npos) << text;
+      EXPECT_NE(text.find(expected), std::string::npos) << text;
+    }
+    const Scene scene = MakeScene(family, 1, least);
+    EXPECT_EQ(SceneText(ParseScene(SceneText(scene), "scene.yaml")), SceneText(scene));
+    EXPECT_NO_THROW(MakeScene(family, 1, {{low.begin()->first, 0}}));
+  }
+}
+
+// The slowest way that comes most often is still one that a scene file may hold.
+TEST(PasserFamily, WritesTheLongestWayAsAFileThatCanBeRead) {
+  for (const double kind : {1, 2, 3}) {
+    const Scene scene = MakeScene(
+        "passer", 2, {{"kind", kind}, {"times", 20}, {"speed_m_s", 0.05}, {"objects", 2}});
+    EXPECT_NO_THROW(ParseScene(SceneText(scene), "scene.yaml")) << kind;
+  }
 }
 
 TEST(MakeScene, TiltsThePlateAsAsked) {
