@@ -99,7 +99,7 @@ Colours Text(const Palette& c, const PrintGrid& grid, const Vector2f& extent) {
   const auto fine = TextInk(grid, 0.0075F, extent.x(), c.seed);
   Colours colours(grid.size());
   for (std::size_t i = 0; i < colours.size(); ++i) colours[i] = c.Mixed(0.92F * fine[i]);
-  // Headings and figures, one band in five: what is left to see from afar.
+  // Headings and figures, two bands in five: what is left to see from afar.
   for (std::size_t row = 0; row < grid.y_m.size(); ++row) {
     PutHeading(c, grid, extent.x(), row, colours.data() + row * grid.x_m.size());
   }
@@ -153,7 +153,9 @@ Array3f Key(const Palette& c, const Vector2f& p) {
                    p.y() / kPitch_m - static_cast<float>(row));
   const float rim = std::min({q.x(), 1 - q.x(), q.y(), 1 - q.y()});
   if (rim < 0.07F) return c.base * (1.0F - 0.75F * c.richness);
-  const Array3f cap = key[3] < 0.18F ? Array3f(c.base * 0.6F + 0.12F) : c.base;
+  // Some caps are of another colour.
+  const Array3f cap =
+      key[3] < 0.18F ? Array3f(c.base + (0.12F - 0.4F * c.base) * c.richness) : c.base;
   const Vector2f legend((q.x() - 0.2F) / 0.45F, (q.y() - 0.18F) / 0.6F);
   const bool inked = Glyph(legend, key.bits >> 7);
   return inked ? Array3f(cap + (c.ink - cap) * c.richness) : cap;
@@ -161,7 +163,7 @@ Array3f Key(const Palette& c, const Vector2f& p) {
 
 Colours Keys(const Palette& c, const PrintGrid& grid, const Vector2f& extent) {
   const float margin = 0.006F;
-  const Array3f frame = c.base * 0.55F;
+  const Array3f frame = c.base * (1.0F - 0.45F * c.richness);
   const auto dust = Flecks(grid, {0.011F, 0.2F, 2.0F}, c.seed);
   Colours colours;
   colours.reserve(grid.size());
@@ -193,7 +195,7 @@ std::vector<float> WindowInk(const PrintBlock& window) {
 Colours Screen(const Palette& c, const PrintGrid& grid, const Vector2f& extent) {
   const float bezel = 0.012F;
   const Vector2f inner = extent - Vector2f(2 * bezel, 2 * bezel);
-  Colours colours(grid.size(), c.base * 0.25F);
+  Colours colours(grid.size(), c.base * (1.0F - 0.75F * c.richness));
   if (inner.minCoeff() <= 0) return colours;
   for (const PrintBlock& window : BlocksInside(grid, extent, bezel, 0.06F, c.seed)) {
     const Array3f ground = Tint(c.base, c.ink, window.draw, 0.8F * c.richness);
@@ -202,11 +204,8 @@ Colours Screen(const Palette& c, const PrintGrid& grid, const Vector2f& extent) 
     const auto cover = WindowInk(window);
     window.ForEachPlace(grid, [&](std::size_t own, std::size_t place) {
       const float y_m = window.y_m[own / window.x_m.size()];
-      if (y_m > window.size_m.y() - 0.008F) {  // title bar
-        colours[place] = mark * 0.7F + ground * 0.3F;
-        return;
-      }
-      const Array3f shown = ground + (mark - ground) * cover[own];
+      const bool title_bar = y_m > window.size_m.y() - 0.008F;
+      const Array3f shown = ground + (mark - ground) * (title_bar ? 0.7F : cover[own]);
       colours[place] = c.base + (shown - c.base) * c.richness;
     });
   }

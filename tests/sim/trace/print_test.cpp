@@ -98,6 +98,27 @@ INSTANTIATE_TEST_SUITE_P(Prints, EveryPrint,
                                          Print::kCover, Print::kKeys, Print::kScreen,
                                          Print::kSpeckle));
 
+/// A face of 0.4 x 0.2 m at every second millimetre.
+std::vector<Eigen::Array3f> FaceOf(Print print, double richness) {
+  Material material{print, {.5, .4, .3}, {.1, .1, .12}, richness, 7};
+  std::vector<float> x_m, y_m;
+  for (int i = 0; i < 200; ++i) x_m.push_back(0.002F * static_cast<float>(i) + 0.001F);
+  for (int i = 0; i < 100; ++i) y_m.push_back(0.002F * static_cast<float>(i) + 0.001F);
+  return Reflectance(material, {0.4F, 0.2F}, {x_m, y_m});
+}
+
+TEST_P(EveryPrint, IsTheBaseColourWithoutRichnessAndNearlySoWithLittle) {
+  const Eigen::Array3f base(.5F, .4F, .3F);
+  for (const auto& [richness, most] : {std::pair(0.0, 1e-6F), std::pair(0.03, 0.05F)}) {
+    for (const Eigen::Array3f& colour : FaceOf(GetParam(), richness))
+      ASSERT_LE((colour - base).abs().maxCoeff(), most) << richness;
+  }
+  float farthest = 0;
+  for (const Eigen::Array3f& colour : FaceOf(GetParam(), 1))
+    farthest = std::max(farthest, (colour - base).abs().maxCoeff());
+  EXPECT_GT(farthest, 0.1F);
+}
+
 TEST(PlainPrint, HasNoCornerAtAll) {
   std::vector<cv::KeyPoint> corners;
   cv::FAST(GreyBoard(Print::kPlain, 1.0), corners, 20);
