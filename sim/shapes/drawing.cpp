@@ -66,7 +66,10 @@ struct Sheet {
 
 std::string Colour(const Object& object) {
   std::string colour = "rgb(";
-  for (const double part : object.faces[static_cast<std::size_t>(Face::kPlusZ)].colour) {
+  // All of what is no box has the material of the first face.
+  const auto face =
+      object.shape == ShapeKind::kBox ? static_cast<std::size_t>(Face::kPlusZ) : std::size_t{0};
+  for (const double part : object.faces[face].colour) {
     const double display = std::sqrt(std::clamp(part, 0.0, 1.0));  // near enough to sRGB
     colour += std::to_string(static_cast<int>(std::lround(255 * display))) + ",";
   }
@@ -76,14 +79,17 @@ std::string Colour(const Object& object) {
 
 std::string Outline(const Object& object, const Sheet& sheet) {
   std::vector<Eigen::Vector2d> points;
-  if (object.shape == ShapeKind::kBox || sheet.up == 2) {
+  const bool round = object.shape != ShapeKind::kBox && object.shape != ShapeKind::kMesh;
+  if (!round || sheet.up == 2) {
     for (const Eigen::Vector3d& corner : Corners(object)) points.push_back(sheet(corner));
   } else {
+    // Its lower and its upper rim: a standing one is as round as they are, a lying one as long.
     for (int i = 0; i < 48; ++i) {
       const double angle = 2 * M_PI * i / 48;
-      const Eigen::Vector3d rim(std::cos(angle) * object.size.x() / 2,
-                                std::sin(angle) * object.size.y() / 2, 0);
-      points.push_back(sheet(ObjectPose(object) * rim));
+      for (const double end : {-0.5, 0.5}) {
+        const Eigen::Vector3d rim(std::cos(angle) / 2, std::sin(angle) / 2, end);
+        points.push_back(sheet(ObjectPose(object) * rim.cwiseProduct(object.size)));
+      }
     }
   }
   std::string text = "  <polygon points=\"";

@@ -359,6 +359,32 @@ TEST(SceneSvg, DrawsEveryThingTwiceAndNamesTheSteps) {
   EXPECT_EQ(svg, SceneSvg(scene));
 }
 
+/// The first outline of a thing in the drawing, which is that in the plan: its extent, pixels.
+Eigen::Vector2d ExtentInPlan(const std::string& svg, const std::string& name) {
+  const std::size_t title = svg.find("<title>" + name);
+  const std::size_t at = svg.rfind("points=\"", title) + 8;
+  std::string points = svg.substr(at, svg.find('"', at) - at);
+  std::replace(points.begin(), points.end(), ',', ' ');
+  std::istringstream numbers(points);
+  Eigen::AlignedBox2d box;
+  for (double x, y; numbers >> x >> y;) box.extend(Eigen::Vector2d(x, y));
+  return box.sizes();
+}
+
+TEST(SceneSvg, DrawsALyingCylinderAsLongAsItIs) {
+  Scene scene = MakeScene("stack", 1);
+  Object can = scene.objects.back();
+  can.name = "can", can.shape = ShapeKind::kCylinder, can.size = {0.1, 0.1, 0.4};
+  can.q_wo = Eigen::AngleAxisd(M_PI / 2, Eigen::Vector3d::UnitX());
+  scene.objects.push_back(can);
+  can.name = "standing", can.q_wo.setIdentity();
+  scene.objects.push_back(can);
+  const std::string svg = SceneSvg(scene);
+  const double px = 500;  // a metre
+  EXPECT_TRUE(ExtentInPlan(svg, "can").isApprox(px * Eigen::Vector2d(0.1, 0.4), 1e-2));
+  EXPECT_TRUE(ExtentInPlan(svg, "standing").isApprox(px * Eigen::Vector2d(0.1, 0.1), 1e-2));
+}
+
 TEST(DeskFamily, TakesFortyThingsOnALargeDesk) {
   for (std::uint64_t seed = 1; seed <= 4; ++seed) {
     std::set<std::string> things, classes;
