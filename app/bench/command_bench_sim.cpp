@@ -208,7 +208,7 @@ sim::Scene Field(int boxes) {
   return scene;
 }
 
-/// From 1.6 m above the edge of the field, down at its middle.
+/// From beside the field and 1.4 m above it, down at its middle.
 sim::Pose AboveField() {
   const Eigen::Vector3d from(0, -1.0, 1.4);
   sim::Pose T_wc;

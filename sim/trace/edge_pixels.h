@@ -29,7 +29,7 @@ class SceneEdges {
 
   /// Appends the pixels within `margin_px` of a projected edge, hidden ones too, in no order; a
   /// pixel may come more than once. Edges inside a face get a fifth of the margin. Nothing of a
-  /// pixel further than 1.5 margins from every edge.
+  /// pixel further than two margins from every edge.
   /// @param window  of the camera's rays
   void Near(const Pose& T_wc, const Camera& camera, const RayWindow& window, double margin_px,
             std::vector<EdgePixel>& pixels) const;

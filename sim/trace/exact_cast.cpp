@@ -21,7 +21,7 @@ double Enter(const Eigen::Array3d& low, const Eigen::Array3d& high,
   const Eigen::Array3d a = (low - origin) * inverse, b = (high - origin) * inverse;
   double enter = 0, leave = far;
   for (int axis = 0; axis < 3; ++axis) {
-    // A ray in the plane of a side gives NaN, which neither comparison lets through.
+    // A ray in the plane of a side gives NaN; boxes are padded, so that nothing lies there.
     const double in = a[axis] < b[axis] ? a[axis] : b[axis];
     const double out = a[axis] < b[axis] ? b[axis] : a[axis];
     if (in > enter) enter = in;

@@ -160,7 +160,8 @@ std::string UnitOf(std::string_view key) {
       {"_rad", "radians"},
       {"_sigmas", "standard deviations"},
       {"_deg_per_s", "degrees/s"},
-      {"_s", "s"}};
+      {"_s", "s"},
+      {"_mps", "m/s"}};
   for (const auto& [suffix, unit] : kUnits) {
     if (key.ends_with(suffix)) return unit;
   }
