@@ -41,8 +41,11 @@ DepthViews::DepthViews(const Sequence& sequence, const Camera& camera,
   std::stable_sort(poses.begin(), poses.end(), [](const StampedPose& a, const StampedPose& b) {
     return a.stamp_s < b.stamp_s;
   });
+  int number = 0;
   for (const SequenceFrame& frame : sequence.frames) {
-    if (const auto T_gc = PoseAt(poses, frame.depth_stamp_s)) frames_.push_back({frame, *T_gc});
+    if (const auto T_gc = PoseAt(poses, frame.depth_stamp_s))
+      frames_.push_back({frame, number, *T_gc});
+    ++number;
   }
   if (frames_.empty()) {
     throw io::InputError((folder_ / "groundtruth.txt").string(),

@@ -30,6 +30,8 @@ class DepthViews {
   std::size_t size() const { return frames_.size(); }
   double StampOf(std::size_t i) const { return frames_[i].frame.stamp_s; }
   const SequenceFrame& FrameOf(std::size_t i) const { return frames_[i].frame; }
+  /// Its place in the sequence, from 0; frames without a pose count there.
+  int NumberOf(std::size_t i) const { return frames_[i].number; }
   const Pose& PoseOf(std::size_t i) const { return frames_[i].T_gc; }
   /// @throws InputError when the depth image cannot be read or has another size
   DepthView Read(std::size_t i) const;
@@ -42,6 +44,7 @@ class DepthViews {
  private:
   struct PosedFrame {
     SequenceFrame frame;
+    int number;
     Pose T_gc;
   };
   std::filesystem::path folder_;

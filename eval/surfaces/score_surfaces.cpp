@@ -84,7 +84,7 @@ SurfaceScore ScoreSurfaces(const Run& run, const DepthViews& views, const LabelV
     const bool is_settled = frame.stamp_s - *first_s > kFirstLandmarks_s;
     for (const UndecidedSegment& segment : scorer.Add(
              i, label(view), *segments, LandmarksOf(frame, final_landmarks), is_settled)) {
-      events.push_back(EventOf(segment, frame, static_cast<int>(i)));
+      events.push_back(EventOf(segment, frame, views.NumberOf(i)));
     }
   }
   SurfaceScore score = scorer.Score();

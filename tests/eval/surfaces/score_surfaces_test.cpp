@@ -110,6 +110,35 @@ TEST_F(SurfaceScoreTest, AsksForNoDecisionInTheFirstSecond) {
   EXPECT_GT(score.total.no_decision, 0.0);
 }
 
+// Frames are numbered as in the sequence, also where some have no true pose.
+TEST_F(SurfaceScoreTest, NumbersEventsByFramesOfTheSequence) {
+  Segment(Quarters(1, 1, 2, 2));
+  SetLandmark(0, 10);
+  run_.map.resize(1);
+  run_.map[0].id = 10;
+  ASSERT_GT(sequence_.frames.size(), 4u);
+  run_.frames.back().planes[0].map_plane.reset();
+  // The first two frames lose their poses; the recording is two seconds long.
+  const double first_s = sequence_.frames.front().stamp_s;
+  const double stretch = 2 / (sequence_.frames.back().stamp_s - first_s);
+  const auto later = [&](double& stamp_s) {
+    stamp_s = first_s + stretch * (stamp_s - first_s);
+  };
+  for (SequenceFrame& frame : sequence_.frames)
+    later(frame.stamp_s), later(frame.depth_stamp_s);
+  for (RunFrame& frame : run_.frames) later(frame.stamp_s);
+  for (StampedPose& pose : *sequence_.groundtruth) later(pose.stamp_s);
+  Segment(Quarters(1, 1, 2, 2));
+  const double third_s = sequence_.frames[2].depth_stamp_s;
+  std::erase_if(*sequence_.groundtruth,
+                [&](const StampedPose& pose) { return pose.stamp_s < third_s - 1e-6; });
+  const SurfaceScore score = Score(Quarters(7, 7, 0, 0));
+  ASSERT_EQ(score.frames, static_cast<int>(sequence_.frames.size()) - 2);
+  ASSERT_EQ(score.events.size(), 1u);
+  EXPECT_EQ(score.events[0].stamp_s, sequence_.frames.back().stamp_s);
+  EXPECT_EQ(score.events[0].frame, static_cast<int>(sequence_.frames.size()) - 1);
+}
+
 TEST_F(SurfaceScoreTest, FollowsMergesOfLandmarks) {
   Segment(Quarters(1, 2, 3, 0));
   SetLandmark(0, 10);
