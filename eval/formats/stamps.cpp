@@ -38,7 +38,9 @@ std::optional<std::size_t> NearestStamp(const std::vector<double>& stamps_s, dou
 
 void StampOrder::Next(double stamp_s, int line) {
   const auto from = seen_s_.lower_bound(stamp_s - kSameStamp_s);
-  const bool repeats = from != seen_s_.end() && *from <= stamp_s + kSameStamp_s;
+  // A time that came before others is out of order, whether it is a new one or not.
+  const bool goes_back = !stamps_s_.empty() && stamp_s < stamps_s_.back() - kSameStamp_s;
+  const bool repeats = !goes_back && from != seen_s_.end() && *from <= stamp_s + kSameStamp_s;
   if (repeats || (!stamps_s_.empty() && !(stamp_s > stamps_s_.back()))) {
     folder_.Tell(file_, line,
                  fmt::format("time stamp {:.6f} {}; stamps must increase strictly", stamp_s,

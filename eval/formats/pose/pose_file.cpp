@@ -20,11 +20,15 @@ constexpr StampFaults kAsTheyStand{Severity::kFatal, Severity::kWarning};
 /// Fields of a record that was split at blanks, split at commas.
 io::TextRecord AtCommas(const io::TextRecord& record) {
   io::TextRecord split{record.where, record.line, {}};
-  std::string text;
-  for (const std::string& field : record.fields) text += field;
+  const std::string text = fmt::format("{}", fmt::join(record.fields, " "));
+  const auto trimmed = [](std::string field) {
+    field.erase(0, std::min(field.find_first_not_of(' '), field.size()));
+    field.erase(field.find_last_not_of(' ') + 1);
+    return field;
+  };
   for (std::size_t from = 0; from <= text.size();) {
     const std::size_t comma = std::min(text.find(',', from), text.size());
-    split.fields.push_back(text.substr(from, comma - from));
+    split.fields.push_back(trimmed(text.substr(from, comma - from)));
     from = comma + 1;
   }
   return split;

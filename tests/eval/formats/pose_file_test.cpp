@@ -95,5 +95,22 @@ TEST_F(PoseFiles, KeepBothPosesOfAStampThatComesAgainAndSaySo) {
   EXPECT_EQ(file.warnings[0].line, 2);
 }
 
+TEST_F(PoseFiles, AreRefusedWhereTheirTimesStartAgain) {
+  std::string euroc, tum;
+  for (const int second : {1, 2, 3, 1, 2, 3}) {
+    euroc += std::to_string(second) + "000000000,1,2,3,1,0,0,0\n";
+    tum += std::to_string(second) + " 1 2 3 0 0 0 1\n";
+  }
+  for (const std::string& text : {euroc, tum})
+    EXPECT_THAT(ErrorOf(text), HasSubstr("time stamp 1.000000 does not follow 3.000000"));
+  // One that stands twice in a row is a repetition, of which the first counts.
+  EXPECT_EQ(ErrorOf("1 1 2 3 0 0 0 1\n2 1 2 3 0 0 0 1\n2 1 2 3 0 0 0 1\n"), "no error");
+}
+
+TEST_F(PoseFiles, OfEurocHaveNoBlanksInsideANumber) {
+  EXPECT_THAT(ErrorOf("1000000000,1 2,0,0,1,0,0,0\n2000000000,1,0,0,1,0,0,0\n"),
+              HasSubstr("eight finite numbers"));
+}
+
 }  // namespace
 }  // namespace eval
