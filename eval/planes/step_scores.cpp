@@ -13,17 +13,24 @@ constexpr double kLevelNormalZ = 0.95;  // looks up, 18 degrees
 constexpr std::array<double, 9> kStepClasses_mm = {0.5, 3, 5, 8, 12, 20, 35, 60, 100};
 constexpr double kMaxStep_mm = 200.0;  // nominal end of the last class, for drawing
 
-/// Is the point inside the convex polygon, both seen from above?
-bool Below(const Eigen::Vector3d& point_g, const std::vector<Eigen::Vector3d>& polygon_g) {
-  bool left = false, right = false;
-  for (std::size_t k = 0; k < polygon_g.size(); ++k) {
-    const Eigen::Vector3d& a = polygon_g[k];
-    const Eigen::Vector3d& b = polygon_g[(k + 1) % polygon_g.size()];
-    const double turn =
-        (b.x() - a.x()) * (point_g.y() - a.y()) - (b.y() - a.y()) * (point_g.x() - a.x());
-    (turn > 0 ? left : right) = true;
+/// Whether a ray from the point along +x crosses the loop an odd number of times, seen from above.
+bool GoesRound(const std::vector<Eigen::Vector3d>& loop_g, const Eigen::Vector3d& point_g) {
+  bool inside = false;
+  for (std::size_t k = 0; k < loop_g.size(); ++k) {
+    const Eigen::Vector3d& a = loop_g[k];
+    const Eigen::Vector3d& b = loop_g[(k + 1) % loop_g.size()];
+    if ((a.y() > point_g.y()) == (b.y() > point_g.y())) continue;
+    const double share = (point_g.y() - a.y()) / (b.y() - a.y());
+    inside ^= point_g.x() < a.x() + share * (b.x() - a.x());
   }
-  return !(left && right);
+  return inside;
+}
+
+/// Is the face above or below the point? Outlines may turn inwards, and have holes.
+bool IsOver(const TruthPlane& face, const Eigen::Vector3d& point_g) {
+  return GoesRound(face.vertices_g, point_g) &&
+         std::none_of(face.holes_g.begin(), face.holes_g.end(),
+                      [&](const auto& hole) { return GoesRound(hole, point_g); });
 }
 
 /// Class of heights by id of a regular top.
@@ -50,7 +57,7 @@ double StepOf(const TruthPlane& top, const SceneTruth& scene) {
   double step_m = std::numeric_limits<double>::infinity();
   for (const TruthPlane& other : scene.planes) {
     if (other.id == top.id || !LooksUp(other)) continue;
-    if (!Below(middle_g, other.vertices_g)) continue;
+    if (!IsOver(other, middle_g)) continue;
     const double under_m = SignedDistance(other.pi_g, middle_g);
     if (under_m > 0) step_m = std::min(step_m, under_m);
   }

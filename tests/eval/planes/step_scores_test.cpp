@@ -1,0 +1,57 @@
+#include "eval/planes/step_scores.h"
+
+#include <gtest/gtest.h>
+
+namespace eval {
+namespace {
+
+using Eigen::Vector3d;
+
+/// A level face at a height, counter-clockwise seen from above.
+TruthPlane Level(int id, double z, std::vector<Vector3d> outline_g) {
+  TruthPlane plane;
+  plane.id = id;
+  plane.pi_g.n = Vector3d::UnitZ();
+  plane.pi_g.d = -z;
+  for (Vector3d& corner : outline_g) corner.z() = z;
+  plane.vertices_g = std::move(outline_g);
+  return plane;
+}
+
+std::vector<Vector3d> Square(double x, double y, double half) {
+  return {{x - half, y - half, 0},
+          {x + half, y - half, 0},
+          {x + half, y + half, 0},
+          {x - half, y + half, 0}};
+}
+
+/// A floor, an L-shaped desk 0.7 m over it, with a hole in its long arm.
+SceneTruth CornerDesk() {
+  SceneTruth scene;
+  scene.planes = {
+      Level(1, 0, Square(0, 0, 5)),
+      Level(2, 0.7,
+            {{0, 0, 0}, {2, 0, 0}, {2, 0.8, 0}, {0.8, 0.8, 0}, {0.8, 2, 0}, {0, 2, 0}})};
+  std::vector<Vector3d> hole = Square(1.5, 0.4, 0.2);
+  for (Vector3d& corner : hole) corner.z() = 0.7;
+  scene.planes[1].holes_g = {hole};
+  return scene;
+}
+
+TEST(StepOf, IsOverTheFaceBelowThoughItsOutlineTurnsInwardsOrHasHoles) {
+  const SceneTruth scene = CornerDesk();
+  const double over_desk_m = 0.02, over_floor_m = 0.72;
+  for (const auto& [x, y, step_m] : {std::tuple(0.4, 1.5, over_desk_m),
+                                     {1.1, 0.4, over_desk_m},
+                                     {0.4, 0.4, over_desk_m},
+                                     {1.5, 1.5, over_floor_m},
+                                     {1.5, 0.4, over_floor_m},
+                                     {-1.0, 1.0, over_floor_m}}) {
+    const TruthPlane book = Level(3, 0.72, Square(x, y, 0.1));
+    EXPECT_NEAR(StepOf(book, scene), step_m, 1e-12) << x << ", " << y;
+  }
+  EXPECT_EQ(StepOf(Level(3, 0.72, Square(9, 9, 0.1)), scene), 0.0) << "over nothing";
+}
+
+}  // namespace
+}  // namespace eval
