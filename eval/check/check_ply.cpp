@@ -38,6 +38,15 @@ std::size_t SizeOf(const std::string& type) {
              : 0;
 }
 
+/// A whole number from 0 on; -1 for anything else.
+long CountIn(const std::string& text) {
+  constexpr double kMost = 1e15;
+  const double number = io::ParseNumber(text).value_or(-1);
+  return number >= 0 && number <= kMost && number == std::floor(number)
+             ? static_cast<long>(number)
+             : -1;
+}
+
 std::optional<Header> ReadHeader(Folder& folder, const std::string& bytes) {
   Header header;
   std::istringstream in(bytes);
@@ -58,13 +67,14 @@ std::optional<Header> ReadHeader(Folder& folder, const std::string& bytes) {
     }
     if (first == "element") {
       element = second;
-      if (second == "vertex") header.vertices = std::atol(third.c_str());
+      if (second == "vertex") header.vertices = CountIn(third);
     } else if (first == "property" && element == "vertex") {
       header.properties.push_back({second, third});
     }
     ended = first == "end_header";
   }
-  if (!ended || header.vertices < 0 || !header.has_format) {
+  // The points begin behind the line's end.
+  if (!ended || in.eof() || header.vertices < 0 || !header.has_format) {
     folder.Tell(kPly, 0, "has no complete PLY header (ply, format, element vertex, end_header)",
                 kRunAgain);
     return std::nullopt;

@@ -111,7 +111,7 @@ std::optional<int> JsonRecord::Integer(const std::string& key, int min, int max)
   const auto number = Whole(key);
   if (!number) return std::nullopt;
   if (*number >= min && *number <= max) return static_cast<int>(*number);
-  const bool open = max == std::numeric_limits<int>::max();
+  const bool open = max == std::numeric_limits<int>::max() && *number < min;
   TellAt(key,
          fmt::format(
              "is {}; expected a whole number {}", *number,

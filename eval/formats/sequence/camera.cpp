@@ -85,21 +85,16 @@ std::optional<Camera> ReadCamera(Folder& folder, const std::string& file,
 }
 
 std::optional<Camera> ReadCamera(const JsonRecord& record) {
-  const io::Interval size(kSize), positive(kPositive), any(kAny);
-  const auto width = record.Number("width", size), height = record.Number("height", size);
+  const io::Interval positive(kPositive), any(kAny);
+  constexpr int kMaxSize = 99999;  // as kSize
+  const auto width = record.Integer("width", 1, kMaxSize);
+  const auto height = record.Integer("height", 1, kMaxSize);
   const auto fx = record.Number("fx", positive), fy = record.Number("fy", positive);
   const auto cx = record.Number("cx", any), cy = record.Number("cy", any);
   const auto fps = record.Number("fps", positive);
   const auto depth_factor = record.Number("depth_factor", positive);
   if (!width || !height || !fx || !fy || !cx || !cy || !fps || !depth_factor) return {};
-  Camera camera{static_cast<int>(*width),
-                static_cast<int>(*height),
-                *fx,
-                *fy,
-                *cx,
-                *cy,
-                *fps,
-                *depth_factor};
+  Camera camera{*width, *height, *fx, *fy, *cx, *cy, *fps, *depth_factor};
   for (std::size_t i = 0; i < camera.distortion.size(); ++i) {
     camera.distortion[i] = record.Number(kDistortion[i], any).value_or(0);
   }

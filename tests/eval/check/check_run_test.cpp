@@ -252,6 +252,41 @@ TEST_F(CheckRunFolder, NamesAPlyThatIsCutOff) {
   EXPECT_THAT(report.faults[0].what, HasSubstr("ends or breaks at point"));
 }
 
+TEST_F(CheckRunFolder, NamesAPlyThatEndsWithItsHeader) {
+  std::string header = ReadText(run() / "map.ply");
+  header = header.substr(0, header.find("end_header") + 10);
+  const auto format = header.find("ascii");
+  for (const std::string& text : {header, header.substr(0, format) + "binary_little_endian" +
+                                              header.substr(format + 5)}) {
+    WriteText(run() / "map.ply", text);  // no end of the line
+    ExpectOnly("map.ply", 0, "", "no complete PLY header");
+  }
+}
+
+TEST_F(CheckRunFolder, NamesAPlyThatDoesNotCountItsPoints) {
+  const std::string text = ReadText(run() / "map.ply");
+  const auto at = text.find("element vertex ") + 15;
+  for (const char* count : {"abc", "", "12x", "-1", "1.5"}) {
+    WriteText(run() / "map.ply", text.substr(0, at) + count + text.substr(text.find('\n', at)));
+    ExpectOnly("map.ply", 0, "", "no complete PLY header");
+  }
+}
+
+TEST_F(CheckRunFolder, SaysThatANumberIsTooLarge) {
+  Edit(run() / "frame_planes.jsonl", "\"pixels\":", "\"pixels\":3000000000,\"was\":");
+  const CheckReport report = CheckFolder(run());
+  ASSERT_GE(report.faults.size(), 1u);
+  EXPECT_THAT(report.faults[0].what,
+              ::testing::AllOf(HasSubstr("is 3000000000"), HasSubstr("to 2147483647")));
+}
+
+TEST_F(CheckRunFolder, NamesACameraOfHalfAPixel) {
+  EditJson("run.json", [](json& run) { run["camera"]["width"] = 64.5; });
+  const CheckReport report = CheckFolder(run());
+  ASSERT_GE(report.faults.size(), 1u);
+  EXPECT_THAT(report.faults[0].what, HasSubstr("whole number"));
+}
+
 TEST_F(CheckRunFolder, NamesPointsOfAPlaneThatTheMapDoesNotHave) {
   std::string text = ReadText(run() / "map.ply");
   const auto last = text.rfind(' ');
