@@ -1,8 +1,8 @@
 #include "eval/draw/frame_picture.h"
 
 #include <algorithm>
+#include <map>
 #include <opencv2/imgproc.hpp>
-#include <set>
 
 #include "eval/draw/paint.h"
 #include "eval/draw/plane_name.h"
@@ -150,16 +150,24 @@ class FramePainter {
     }
   }
 
-  // Outlines of map planes, each once, small ones over large ones.
+  // Outlines of map planes, each once, by a face if there is one; small ones over large ones.
   void PaintOutlines(const std::vector<const RunFramePlane*>& planes) {
-    std::set<int> painted;
+    const auto is_face = [](const RunFramePlane& plane) {
+      return plane.vertices_c.size() == 4;
+    };
+    std::map<int, const RunFramePlane*> shown;  // by map plane
     for (const RunFramePlane* plane : planes) {
       if (!plane->map_plane || plane->bad) continue;
       const RunMapPlane* last =
           scene_.map == nullptr ? nullptr : FinalPlane(*scene_.map, *plane->map_plane);
-      const bool has_face = plane->vertices_c.size() == 4;
-      const bool first = painted.insert(last == nullptr ? *plane->map_plane : last->id).second;
-      if (!first && !has_face) continue;
+      const RunFramePlane*& best = shown[last == nullptr ? *plane->map_plane : last->id];
+      if (best == nullptr || (is_face(*plane) && !is_face(*best))) best = plane;
+    }
+    for (const RunFramePlane* plane : planes) {
+      if (std::none_of(shown.begin(), shown.end(),
+                       [&](const auto& entry) { return entry.second == plane; }))
+        continue;
+      const bool has_face = is_face(*plane);
       const auto outline = has_face ? view_.Outline(plane->vertices_c) : view_.HullOf(*plane);
       const Colour colour = view_.ColourOf(*plane);
       if (has_face || ShareOf(*plane) >= kLargeShare) {

@@ -172,7 +172,8 @@ MapScale FitMap(const MapScene& scene, cv::Rect2d page) {
   const double height = bounds.y1 - bounds.y0 + 2 * margin;
   MapScale scale;
   scale.pixels_per_m = std::min(page.width / width, page.height / height);
-  page.height = std::ceil(height * scale.pixels_per_m);
+  // Whole pixels; round-off must not make one more of a height that fits exactly.
+  page.height = std::min(page.height, std::ceil(height * scale.pixels_per_m));
   scale.page = page;
   const double spare = page.width / scale.pixels_per_m - width;
   scale.x0_m = bounds.x0 - margin - spare / 2;

@@ -65,8 +65,8 @@ bool Contains(const std::vector<Eigen::Vector3d>& convex_v, const Eigen::Vector3
 Eigen::Vector3d OpenPoint(const MapScene& scene, const MapScene::Estimate& plane,
                           const MapScale& scale);
 
-/// The level plane that most others stand on, over it and up to 0.4 m above (the desk, usually); the
-/// most observed one on ties. Nothing without a level plane.
+/// The level plane that most smaller ones stand on, over it and up to 0.4 m above (the desk,
+/// usually); on ties that of most area times observations. Nothing without a level plane.
 std::optional<std::size_t> BasePlane(const MapScene& scene);
 
 /// The true level plane under the centre of an estimated one: nearest in height, within 50 mm.

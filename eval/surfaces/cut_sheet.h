@@ -17,7 +17,7 @@ using CellMask = cv::Mat1b;
 /// between them are one surface, parts with cells between them that rays passed through, or ended
 /// on something lower, are not.
 /// @param noise_per_m  of one pixel's inverse depth
-/// @returns masks of at least min_area_m2, largest first
+/// @returns masks of at least min_area_m2
 std::vector<CellMask> CutSheet(const Sheet& sheet, double min_area_m2, double noise_per_m);
 
 }  // namespace eval

@@ -28,8 +28,7 @@ cv::Mat ReadColour(const DepthViews& views, std::size_t i) {
   return image;
 }
 
-/// Tints the labelled pixels, draws their borders, and names each label at its largest part's
-/// thickest place.
+/// Tints the labelled pixels, draws their borders, and names each label at its thickest place.
 template <typename ColourOf, typename NameOf>
 void TintLabels(cv::Mat& image, const cv::Mat1w& labels, const ColourOf& colour_of,
                 const NameOf& name_of) {
@@ -66,11 +65,21 @@ cv::Mat TintedFrame(const cv::Mat1w& labels, const DepthViews& views, std::size_
   return image;
 }
 
-/// Lines "id, area, flatness", in two columns.
+/// Lines "id, area, flatness" in the columns that there is room for, the largest surfaces first;
+/// the last line says how many more there are.
 void PutList(cv::Mat& page, const SurfaceFile& file, cv::Point corner, int height_px) {
   constexpr int kLine_px = 24, kColumn_px = 290;
   const int rows = std::max(1, height_px / kLine_px);
-  for (std::size_t i = 0; i < file.surfaces.size(); ++i) {
+  const auto room = static_cast<std::size_t>(rows * (kPlanWidth_px / kColumn_px));
+  const std::size_t all = file.surfaces.size(), listed = all <= room ? all : room - 1;
+  for (std::size_t i = 0; i < std::min(all, room); ++i) {
+    if (i == listed) {
+      const cv::Point2d base(corner.x + kColumn_px * (int(i) / rows) + 24,
+                             corner.y + kLine_px * (int(i) % rows + 1));
+      PutText(page, fmt::format("and {} more", all - listed), base,
+              {9.5, kPaleText, false, Align::kLeft});
+      break;
+    }
     const Surface& surface = file.surfaces[i];
     const int column = int(i) / rows;
     const cv::Point2d base(corner.x + kColumn_px * column,

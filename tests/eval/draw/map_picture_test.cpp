@@ -90,6 +90,17 @@ TEST(DrawMap, OutlinesATrueFaceWhicheverCornerComesFirst) {
   EXPECT_GT(cv::norm(page, DrawMap(scene, title), cv::NORM_INF), 50);
 }
 
+TEST(FitMap, TakesNoMoreOfThePageThanThereIs) {
+  for (int i = 0; i < 400; ++i) {
+    MapScene scene;
+    scene.planes = {Top(1, 0, 0.2 + 0.0017 * i, Eigen::Vector3d::UnitZ())};
+    for (Eigen::Vector3d& corner : scene.planes[0].hull_v) corner.x() *= 0.3;
+    const MapScale scale = FitMap(scene, {0, 0, 1600, 700});
+    EXPECT_LE(scale.page.height, 700);
+    EXPECT_GE(scale.page.height, 699);
+  }
+}
+
 TEST(BasePlane, IsTheOneThatOthersStandOnAndNotALowerOneBeside) {
   MapScene scene;
   scene.planes = {Top(1, -0.5, 0.3, Eigen::Vector3d::UnitZ()),
