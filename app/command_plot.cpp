@@ -67,6 +67,7 @@ std::vector<eval::PlottedRun> Evaluated(const PlotOptions& options) {
     const eval::Run run = eval::ReadRun(options.runs[i]);
     const fs::path truth =
         options.truth.empty() ? eval::SequenceOf(run) : fs::path(options.truth);
+    io::RefuseInputsInside(options.output, {truth});
     const eval::Sequence sequence = eval::ReadSequence(truth);
     runs.push_back({NameOf(options, i), eval::Evaluate(run, sequence)});
     PrintWarnings(runs.back().evaluation.run_warnings, run.folder);

@@ -62,10 +62,16 @@ std::map<std::string, double> Parameters(const MakeOptions& options) {
 }
 
 void Make(const MakeOptions& options, const Globals& globals) {
+  const std::map<std::string, double> parameters = Parameters(options);
+  if (!options.twin.empty() && !parameters.empty()) {
+    throw io::InputError("--twin " + options.twin, "has no parameters, found " +
+                                                       parameters.begin()->first +
+                                                       "; leave it out, or name a --family");
+  }
   const io::OutputFile output(options.out, {.force = options.force});
-  const sim::Scene scene =
-      options.twin.empty() ? sim::MakeScene(options.family, options.seed, Parameters(options))
-                           : sim::MakeTwin(options.twin, options.seed);
+  const sim::Scene scene = options.twin.empty()
+                               ? sim::MakeScene(options.family, options.seed, parameters)
+                               : sim::MakeTwin(options.twin, options.seed);
   output.Write(sim::SceneText(scene));
   if (!globals.quiet) {
     fmt::print("{}: {} objects, {} planes, sha256 {}\n", options.out, scene.objects.size(),

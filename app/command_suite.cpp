@@ -55,13 +55,16 @@ void RequireResultsFolder(const fs::path& folder) {
   }
 }
 
+constexpr double kMostShards = 1e9;
+
 /// "I/N", or nothing for all cases.
 SuiteShard ShardOf(const std::string& text) {
   if (text.empty()) return {};
   const std::size_t slash = text.find('/');
   const auto i = io::ParseNumber(text.substr(0, slash));
   const auto n = io::ParseNumber(slash == std::string::npos ? "" : text.substr(slash + 1));
-  if (!i || !n || *i != std::floor(*i) || *n != std::floor(*n) || *i < 1 || *i > *n) {
+  if (!i || !n || *i != std::floor(*i) || *n != std::floor(*n) || *i < 1 || *i > *n ||
+      *n > kMostShards) {
     throw io::InputError("--shard " + text, "expected I/N with I from 1 to N, such as 1/4");
   }
   return {static_cast<std::size_t>(*i) - 1, static_cast<std::size_t>(*n)};
@@ -272,13 +275,14 @@ class SuiteCall {
     const StopSignal stop;
     const ShrunkCase small =
         ShrinkCase(one, suite_, program_, folder_, [] { return StopSignal::Caught() != 0; });
-    if (!quiet_) {
+    if (!quiet_ && !small.suite.empty()) {
       fmt::print(
           "{} frames of {} x {}, {} objects, after {} runs\nscene {}\nrun it with `pas "
           "suite {} -o DIR`, and copy both files into tests/regressions\n",
           small.frames, small.width, small.height, small.objects, small.runs,
           small.scene.string(), small.suite.string());
     }
+    if (StopSignal::Caught() != 0) return ExitCodeOf(StopSignal::Caught());
     return kDone;
   }
 

@@ -36,11 +36,15 @@ const std::vector<DrawnKind>& DrawnKinds() {
   return kinds;
 }
 
-fs::path TemporaryFolder(const char* name) {
-  return fs::temp_directory_path() / fmt::format("pas_bench_{}_{}", name, ::getpid());
-}
-
 }  // namespace
+
+ScratchFolder::ScratchFolder(const char* name)
+    : path_(fs::temp_directory_path() / fmt::format("pas_bench_{}_{}", name, ::getpid())) {}
+
+ScratchFolder::~ScratchFolder() {
+  std::error_code ignored;
+  fs::remove_all(path_, ignored);
+}
 
 void AddBenchSequenceOptions(CLI::App& command, BenchSequenceArguments& a) {
   command.add_option("SEQ", a.folders,
@@ -64,7 +68,7 @@ BenchSequences::BenchSequences(const BenchSequenceArguments& arguments) {
     all_.push_back({(path.has_filename() ? path : path.parent_path()).filename(), path});
   }
   if (!all_.empty()) return;
-  drawn_ = TemporaryFolder("scenes");
+  drawn_.emplace("scenes");
   for (const DrawnKind& kind : DrawnKinds()) {
     for (int i = 0; i < arguments.seeds; ++i) {
       SimArguments sim;
@@ -73,22 +77,18 @@ BenchSequences::BenchSequences(const BenchSequenceArguments& arguments) {
       sim.sensor = arguments.sim_sensor;
       sim.force = true;
       const sim::Scene scene = sim::MakeScene(kind.family, sim.seed, kind.parameters);
-      const fs::path folder = drawn_ / fmt::format("{}-{}", kind.kind, sim.seed);
-      fs::create_directories(drawn_);
+      const fs::path folder = drawn_->path() / fmt::format("{}-{}", kind.kind, sim.seed);
+      fs::create_directories(drawn_->path());
       sim::WriteSequence(scene, OptionsOf(sim, scene), folder);
       all_.push_back({kind.kind, folder});
     }
   }
 }
 
-BenchSequences::~BenchSequences() {
-  std::error_code ignored;
-  if (!drawn_.empty()) fs::remove_all(drawn_, ignored);
-}
-
 ScoredRun RunAndScore(const BenchSequence& sequence, const slam::Config& config,
                       const slam::TrackerHooks& hooks) {
-  const fs::path folder = TemporaryFolder("run");
+  const ScratchFolder scratch("run");
+  const fs::path& folder = scratch.path();
   slam::RunOptions options;
   options.sequence = sequence.folder;
   options.run = folder;
@@ -104,7 +104,6 @@ ScoredRun RunAndScore(const BenchSequence& sequence, const slam::Config& config,
   eval::Run run = eval::ReadRun(folder);
   scored.evaluation = eval::Evaluate(run, eval::ReadSequence(sequence.folder));
   scored.frames = std::move(run.frames);
-  fs::remove_all(folder);
   return scored;
 }
 

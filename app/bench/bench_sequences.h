@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -21,6 +22,19 @@ struct BenchSequenceArguments {
 };
 void AddBenchSequenceOptions(CLI::App& command, BenchSequenceArguments& arguments);
 
+/// A folder for what is drawn or run meanwhile; gone with the object, also by an error.
+class ScratchFolder {
+ public:
+  explicit ScratchFolder(const char* name);
+  ~ScratchFolder();
+  ScratchFolder(const ScratchFolder&) = delete;
+  ScratchFolder& operator=(const ScratchFolder&) = delete;
+  const std::filesystem::path& path() const { return path_; }
+
+ private:
+  std::filesystem::path path_;
+};
+
 /// A sequence of a bench.
 struct BenchSequence {
   std::string kind;  ///< what it stands for; rows of a table
@@ -32,14 +46,11 @@ struct BenchSequence {
 class BenchSequences {
  public:
   explicit BenchSequences(const BenchSequenceArguments& arguments);
-  ~BenchSequences();
-  BenchSequences(const BenchSequences&) = delete;
-  BenchSequences& operator=(const BenchSequences&) = delete;
 
   const std::vector<BenchSequence>& all() const { return all_; }
 
  private:
-  std::filesystem::path drawn_;
+  std::optional<ScratchFolder> drawn_;
   std::vector<BenchSequence> all_;
 };
 

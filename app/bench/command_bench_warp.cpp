@@ -8,6 +8,7 @@
 #include "app/app.h"
 #include "app/bench/unevenness.h"
 #include "app/surfaces_option.h"
+#include "io/input_error.h"
 #include "sim/sensor/depth/depth_bend.h"
 #include "sim/sensor/read_sensor.h"
 #include "slam/calibrate/warp_estimate.h"
@@ -109,6 +110,10 @@ int RunWarpBench(const WarpBenchArguments& arguments) {
   const cv::Mat1f factors = slam::StraighteningFactors(warp);
   const int end =
       arguments.last > 0 ? std::min<int>(arguments.last, int(views.size())) : int(views.size());
+  if (arguments.first >= end) {
+    throw io::InputError(fmt::format("--from {}", arguments.first),
+                         fmt::format("leaves no frame of {} before the end, {}", name, end));
+  }
   BlocksByDistance blocks;
   for (int i = arguments.first; i < end; ++i) {
     const eval::DepthView view = views.Read(static_cast<std::size_t>(i));

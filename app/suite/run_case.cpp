@@ -1,6 +1,8 @@
 #include "app/suite/run_case.h"
 
+#include <algorithm>
 #include <array>
+#include <cctype>
 #include <csignal>
 #include <cstring>
 #include <nlohmann/json.hpp>
@@ -128,6 +130,22 @@ double SlamSeconds(const CaseResult& result) {
          value(result.figures, eval::kFramesFigure);
 }
 
+/// As a shell reads it back: in quotes unless every character stands for itself.
+std::string ShellWord(const std::string& text) {
+  const bool plain =
+      !text.empty() && std::all_of(text.begin(), text.end(), [](unsigned char c) {
+        return std::isalnum(c) != 0 || std::strchr("_-+./,:=@%", c) != nullptr;
+      });
+  if (plain) return text;
+  std::string word(1, '\'');
+  for (const char c : text) {
+    word.push_back(c);
+    if (c == '\'') word.append("\\''");  // out of the quotes, one by itself, and in again
+  }
+  word.push_back('\'');
+  return word;
+}
+
 }  // namespace
 
 const char* NameOf(CaseStatus status) {
@@ -149,8 +167,8 @@ std::string CommandLines(const std::vector<std::vector<std::string>>& commands) 
   for (const std::vector<std::string>& command : commands) {
     if (!lines.empty()) lines += " && ";
     for (std::size_t i = 0; i < command.size(); ++i) {
-      const bool plain = command[i].find_first_of(" '\"$&;()*?") == std::string::npos;
-      lines += (i > 0 ? " " : "") + (plain ? command[i] : "'" + command[i] + "'");
+      if (i > 0) lines += ' ';
+      lines += ShellWord(command[i]);
     }
   }
   return lines;

@@ -18,8 +18,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int kMinSide_px = 40;   // below, no cell of the extraction is left
-constexpr int kMostFrames = 900;  // of a scene that says how many by itself: 30 s
+constexpr int kMinSide_px = 40;  // below, no cell of the extraction is left
 constexpr int kOwnWidth_px = 640, kOwnHeight_px = 480;  // what `pas sim` takes without options
 constexpr const char* kFolder = "shrunk";
 
@@ -32,6 +31,7 @@ class Shrinker {
       throw io::InputError(one.key, "is of a recording; only rendered cases can be shrunk");
     }
     scene_ = sim::ReadScene(folder / one.slam[1]);
+    NameMeshesFrom(fs::absolute(folder / one.slam[1]).parent_path());
     if (scene_.capture) {
       best_.width = scene_.capture->width;
       best_.height = scene_.capture->height;
@@ -39,7 +39,7 @@ class Shrinker {
       best_.width = kOwnWidth_px;
       best_.height = kOwnHeight_px;
     }
-    best_.frames = Number("--frames", kMostFrames);
+    best_.frames = Number("--frames", scene_.capture.value_or(sim::Capture{}).frames);
     best_.width = Number("--width", best_.width);
     best_.height = Number("--height", best_.height);
     best_.scene = folder / kFolder / "scene.yaml";
@@ -47,8 +47,10 @@ class Shrinker {
     io::MakeFolder(folder / kFolder);
   }
 
+  /// Nothing is written, and no suite named, when it is stopped before the case has failed once.
   ShrunkCase Shrink() {
     failure_ = Try(scene_, best_);
+    if (failure_.status == CaseStatus::kStopped) return {};
     if (failure_.status == CaseStatus::kFinished && failure_.beyond.empty()) {
       throw io::InputError(one_.key,
                            "does not fail; bound its figures by `gate: worst:` in the suite");
@@ -63,6 +65,16 @@ class Shrinker {
   }
 
  private:
+  /// The smaller scene stands in another folder; its meshes are found by their whole paths.
+  void NameMeshesFrom(const fs::path& scene_folder) {
+    for (sim::Object& object : scene_.objects) {
+      if (!object.model) continue;
+      auto model = std::make_shared<sim::Model>(*object.model);
+      model->options.file = (scene_folder / model->options.file).lexically_normal().string();
+      object.model = std::move(model);
+    }
+  }
+
   int Number(const char* option, int otherwise) const {
     const auto found = std::find(one_.slam.begin(), one_.slam.end(), option);
     return found == one_.slam.end() ? otherwise : std::stoi(*std::next(found));

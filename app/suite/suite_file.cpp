@@ -127,6 +127,8 @@ class SuiteReader {
         scene.source == SuiteScene::Source::kFile ? scene.file.stem().string() : scene.of;
     if (map.Has("name")) scene.name = Name(map.At("name"));
     for (const SuiteScene& other : scenes) {
+      if (other.source == SuiteScene::Source::kRecordings && other.source == scene.source)
+        value.Fail("the recordings are named already; their cases would have the same keys");
       if (other.name == scene.name) {
         value.Fail("there is a scene called " + scene.name + " already; give this one a name:");
       }

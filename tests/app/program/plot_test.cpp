@@ -46,5 +46,14 @@ TEST_F(PlotProgram, ReplacesOnlyPlotsAndNeverARun) {
   EXPECT_EQ(Contents(folder_ / "run"), before);
 }
 
+TEST_F(PlotProgram, ReplacesNoFolderThatHoldsTheTruth) {
+  ASSERT_EQ(Plot({"-o", folder_ / "plots"}).exit_code, 0);
+  fs::copy(folder_ / "seq", folder_ / "plots/seq", fs::copy_options::recursive);
+  const Outcome outcome =
+      Plot({"-o", folder_ / "plots", "--force", "--truth", folder_ / "plots/seq"});
+  EXPECT_EQ(outcome.exit_code, 2);
+  EXPECT_TRUE(fs::exists(folder_ / "plots/seq/gt/scene.json"));
+}
+
 }  // namespace
 }  // namespace program

@@ -48,6 +48,38 @@ TEST_F(SuiteProgram, LeavesTheLastSceneThatFailedWhereSmallerOnesDoNot) {
   EXPECT_THAT(scene, Not(HasSubstr("name: desk")));
 }
 
+// The smaller scene stands elsewhere; its meshes are where they were.
+TEST_F(SuiteProgram, ShrinksASceneWithAMeshOfItsFolder) {
+  fs::create_directories(folder_ / "own");
+  std::ofstream(folder_ / "own/box.obj")
+      << "v 0 0 0\nv 0.2 0 0\nv 0.2 0.2 0\nv 0 0.2 0\nv 0 0 0.2\nv 0.2 0 0.2\nv 0.2 0.2 0.2\nv "
+         "0 0.2 0.2\n"
+         "f 4 3 2 1\nf 5 6 7 8\nf 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\n";
+  std::ofstream(folder_ / "own/scene.yaml")
+      << "format: pas-scene/1\nname: own\nobjects:\n"
+         "  - {id: 1, name: floor, class: floor, role: structure, size_m: [4, 4, 0.1],"
+         " center_m: [0, 0, -0.05]}\n"
+         "  - {id: 2, name: thing, class: box, role: regular, mesh: box.obj, center_m: [0, 0, "
+         "0.1]}\n";
+  std::ofstream(folder_ / "suite.yaml")
+      << "format: pas-suite/1\nname: fake\nscenes: [{file: own/scene.yaml}]\n"
+         "seeds: {first: 1, count: 1}\n";
+  WriteProgram(
+      "case \"$*\" in *slam*) frames=${*##*--frames }; echo ${frames%% *} >> frames_tried\n"
+      "  if grep -q 'name: thing' $4; then kill -SEGV $$; fi;; esac");
+  const Outcome outcome = Suite("out", {"--shrink", "scene-1/kinect1/own/full/default"});
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.errors;
+  const std::string scene = ReadText(folder_ / "out/shrunk/scene.yaml");
+  EXPECT_THAT(scene, HasSubstr("name: thing"));
+  EXPECT_THAT(scene, Not(HasSubstr("name: floor")));
+  const Outcome shown = Process({Pas(), "scene", "show", folder_ / "out/shrunk/scene.yaml"}, {},
+                                folder_ / "errors")
+                            .Wait();
+  EXPECT_EQ(shown.exit_code, 0) << shown.errors;
+  // The first try has as many frames as the case itself.
+  EXPECT_EQ(ReadText(folder_ / "out/frames_tried").substr(0, 4), "300\n");
+}
+
 TEST_F(SuiteProgram, ShrinksNothingThatDoesNotFail) {
   const Outcome outcome = Suite("out", {"--shrink", "plates-1/kinect1/own/full/default"});
   EXPECT_EQ(outcome.exit_code, 2);

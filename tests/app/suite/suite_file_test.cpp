@@ -84,6 +84,8 @@ TEST_F(SuiteFileTest, SaysWhereWhatAndHowToMendIt) {
               HasSubstr("expected one of family"));
   EXPECT_THAT(Refusal("scenes: [{family: desk}, {family: desk}]\n"),
               HasSubstr("give this one a name"));
+  EXPECT_THAT(Refusal("scenes: [{recordings: all}, {recordings: all, name: again}]\n"),
+              HasSubstr("the recordings are named already"));
   EXPECT_THAT(Refusal("scenes: [{family: desk, set: {stepp: 1}}]\n"),
               HasSubstr("unknown key `stepp`"));
   EXPECT_THAT(Refusal("scenes: [{family: plates, set: {step_mm: 999}}]\n"),
