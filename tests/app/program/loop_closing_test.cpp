@@ -1,4 +1,4 @@
-// `pas slam --loop-closing` on a camera that comes back to where it began.
+// `pas slam` that closes loops, as its settings say, on a camera that comes back to where it began.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -12,15 +12,17 @@ using namespace program;
 
 TEST(LoopClosing, TakesTheFramesBetweenKeyframesAlong) {
   const TemporaryFolder folder;
-  const fs::path scene = folder / "room.yaml", sequence = folder / "seq", run = folder / "run";
+  const fs::path scene = folder / "room.yaml", sequence = folder / "seq", run = folder / "run",
+                 settings = folder / "settings.yaml";
+  std::ofstream(settings) << "loop_closing: {enabled: true}\n";
   const std::vector<std::vector<std::string>> commands{
       {Pas(), "-q", "scene", "make", "--family", "room", "--seed", "77", "-o", scene},
       {Pas(),      "-q",       "sim",        scene,   "-o",     sequence,  "--motion",
        "loop",     "--frames", "120",        "--fps", "5",      "--width", "320",
        "--height", "240",      "--detector", "none",  "--seed", "77"},
       {"/bin/sh", "-c",
-       Pas().string() + " slam " + sequence.string() + " --loop-closing -o " + run.string() +
-           " >&2"},
+       Pas().string() + " slam " + sequence.string() + " --config " + settings.string() +
+           " -o " + run.string() + " >&2"},
       {Pas(), "-q", "eval", run}};
   std::string told;
   for (const auto& command : commands) {

@@ -34,6 +34,9 @@ TEST_F(PlotProgram, WantsANameForEachRunOrNone) {
   const Outcome outcome = Plot({"-o", folder_ / "plots", "--name", "ours"});
   EXPECT_EQ(outcome.exit_code, 2);
   EXPECT_THAT(outcome.errors, HasSubstr("--name: is given 1 times for 2 runs"));
+  EXPECT_EQ(
+      Plot({"-o", folder_ / "plots", "--name", "a", "--name", "b", "--name", "c"}).exit_code,
+      2);
   EXPECT_FALSE(fs::exists(folder_ / "plots"));
 }
 

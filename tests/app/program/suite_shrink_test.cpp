@@ -35,17 +35,19 @@ TEST_F(SuiteProgram, ShrinksACaseWhileItFailsAlike) {
 }
 
 TEST_F(SuiteProgram, LeavesTheLastSceneThatFailedWhereSmallerOnesDoNot) {
-  WriteSuite("seeds: {first: 1, count: 1}\n");
+  WriteSuite("seeds: {first: 21, count: 3}\n");
   WriteProgram(
       "case \"$*\" in *slam*)\n"
       "  if grep -q 'name: book_1' $4 && grep -q 'name: book_2' $4; then kill -SEGV $$; fi;;\n"
       "esac");
-  const Outcome outcome = Suite("out", {"--shrink", "plates-1/kinect1/own/full/default"});
+  const Outcome outcome = Suite("out", {"--shrink", "plates-22/kinect1/own/full/default"});
   EXPECT_EQ(outcome.exit_code, 0) << outcome.errors;
   const std::string scene = ReadText(folder_ / "out/shrunk/scene.yaml");
   EXPECT_THAT(scene, HasSubstr("name: book_1"));
   EXPECT_THAT(scene, HasSubstr("name: book_2"));
   EXPECT_THAT(scene, Not(HasSubstr("name: desk")));
+  // The camera's motion and the noise are those of the case.
+  EXPECT_THAT(ReadText(folder_ / "out/shrunk/suite.yaml"), HasSubstr("seeds: {first: 22}"));
 }
 
 // The smaller scene stands elsewhere; its meshes are where they were.

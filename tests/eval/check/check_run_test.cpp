@@ -252,6 +252,13 @@ TEST_F(CheckRunFolder, NamesAPlyThatIsCutOff) {
   EXPECT_THAT(report.faults[0].what, HasSubstr("ends or breaks at point"));
 }
 
+TEST_F(CheckRunFolder, TakesAPlyThatNamesOtherElementsBesidePoints) {
+  Edit(run() / "map.ply", "end_header",
+       "element face 0\nproperty list uchar int vertex_indices\nend_header");
+  const CheckReport report = CheckFolder(run());
+  EXPECT_EQ(report.faults.size(), 0u) << All(report);
+}
+
 TEST_F(CheckRunFolder, NamesAPlyThatEndsWithItsHeader) {
   std::string header = ReadText(run() / "map.ply");
   header = header.substr(0, header.find("end_header") + 10);

@@ -120,6 +120,9 @@ TEST_F(CheckSequenceFolder, NamesAnImageOfAnotherSizeThanTheCameraTells) {
   WriteImage(seq() / name, cv::Mat::zeros(20, 30, CV_8UC3));
   Renew();
   ExpectOnly(name, 0, "", "is 30 x 20; expected 64 x 48");
+  WriteImage(seq() / name, cv::Mat::zeros(64, 48, CV_8UC3));  // as many pixels, upright
+  Renew();
+  ExpectOnly(name, 0, "", "is 48 x 64; expected 64 x 48");
 }
 
 TEST_F(CheckSequenceFolder, NamesACameraKeyOutOfRange) {

@@ -67,6 +67,20 @@ TEST_F(CheckSequenceFolder, NamesAPlaneOfAnObjectThatDoesNotExist) {
   ExpectOnly("gt/scene.json", 0, "/planes/4/object", "no id of an object");
 }
 
+TEST_F(CheckSequenceFolder, NamesALengthThatIsNoneAndAPlaceThatIsFarOff) {
+  const auto pointers = [&] {
+    std::set<std::string> all;
+    for (const Fault& fault : CheckFolder(seq()).faults) all.insert(fault.pointer);
+    return all;
+  };
+  EditJson("gt/scene.json", [](json& scene) { scene["objects"][3]["size"][2] = 0; });
+  EXPECT_EQ(pointers().count("/objects/3/size"), 1u);
+  for (const double x : {-1e9, 1e9}) {
+    EditJson("gt/scene.json", [&](json& scene) { scene["objects"][2]["center"][0] = x; });
+    EXPECT_EQ(pointers().count("/objects/2/center"), 1u) << x;
+  }
+}
+
 TEST_F(CheckSequenceFolder, NamesHalfLengthsGivenAsSize) {
   EditJson("gt/scene.json", [](json& scene) {
     for (json& length : scene["objects"][3]["size"]) length = length.get<double>() / 2;

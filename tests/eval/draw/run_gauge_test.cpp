@@ -1,5 +1,7 @@
 #include "eval/draw/run_gauge.h"
 
+#include "eval/draw/map_drawing.h"
+
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
@@ -62,6 +64,14 @@ TEST(ChooseMapGauge, TurnsATruthWhoseZAxisIsNotUpUntilTheDeskIsLevel) {
   // Run and truth are turned alike.
   const Eigen::Vector3d p = world.run.trajectory[2].T_wc.t;
   EXPECT_LT((gauge.T_vw * p - gauge.T_vg * p).norm(), kTurnRoundOff);
+}
+
+TEST(CollectMap, DrawsThePathOfTheTruthTurnedAsTheRunIs) {
+  const CameraWorld world = MakeCameraWorld();
+  const MapScene scene = CollectMap(world.run, world.sequence);
+  ASSERT_EQ(scene.truth_path_v.size(), 3u);
+  for (std::size_t i = 0; i < 3; ++i)
+    EXPECT_LT((scene.truth_path_v[i] - scene.run_path_v[i]).norm(), 1e-9) << i;
 }
 
 TEST(ChooseMapGauge, TurnsRunAndTruthAlikeWhereTheRunBeginsElsewhere) {

@@ -53,5 +53,11 @@ TEST(StepOf, IsOverTheFaceBelowThoughItsOutlineTurnsInwardsOrHasHoles) {
   EXPECT_EQ(StepOf(Level(3, 0.72, Square(9, 9, 0.1)), scene), 0.0) << "over nothing";
 }
 
+TEST(StepOf, IsThatToWhatLiesBelowAndNotAbove) {
+  SceneTruth scene = CornerDesk();
+  scene.planes.push_back(Level(4, 0.742, Square(0.4, 0.4, 0.1)));  // another book on the first
+  EXPECT_NEAR(StepOf(Level(3, 0.73, Square(0.4, 0.4, 0.1)), scene), 0.03, 1e-12);
+}
+
 }  // namespace
 }  // namespace eval

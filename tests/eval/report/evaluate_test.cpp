@@ -1,10 +1,12 @@
 // A run that says the truth, and runs that are wrong in one known way each: the figures that
 // ought to move do, and no others.
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "eval/formats/run/run.h"
 #include "eval/formats/sequence/sequence.h"
+#include "eval/planes/frame_evidence.h"
 #include "eval/report/evaluate.h"
 #include "eval/report/metrics_json.h"
 #include "eval/report/table.h"
@@ -242,6 +244,31 @@ TEST_F(EvaluateTinyWorld, ATrajectoryShiftedHalfWayMovesItsErrorsAndTheMapsGauge
                   "map/offset_mm", "map/vertex_mm", "map/polygon_iou", "map/area_explained"}));
   EXPECT_NEAR(after["trajectory"]["ate_origin"]["max_m"].get<double>(), std::hypot(0.02, 0.01),
               kExact);
+}
+
+TEST_F(EvaluateTinyWorld, TheTableOfARunHasItsErrorsUnderTheirNames) {
+  TinyRun run(*world_);
+  for (std::size_t i = 0; i < run.trajectory.size(); i += 3)
+    run.trajectory[i].second.t.z() += 0.02 + 0.001 * static_cast<double>(i);
+  const Evaluation evaluation = EvaluationOf(run);
+  const Statistics& errors = *evaluation.trajectory.ate_se3;
+  ASSERT_GT(std::abs(errors.median - errors.mean), 1e-3);
+  const std::string expected =
+      fmt::format("{:.2f} mm (median {:.2f}, max {:.2f})", 1e3 * errors.rmse,
+                  1e3 * errors.median, 1e3 * errors.max);
+  EXPECT_NE(MetricsTable(evaluation).find(expected), std::string::npos) << expected;
+}
+
+// The number of a frame is its place in the sequence, also where earlier ones have no true pose.
+TEST_F(EvaluateTinyWorld, FramesAreNumberedAsInTheSequence) {
+  Sequence sequence = ReadSequence(*folder_ / "SEQ");
+  ASSERT_GT(sequence.groundtruth->size(), 6u);
+  sequence.groundtruth->erase(sequence.groundtruth->begin(), sequence.groundtruth->begin() + 3);
+  std::vector<int> numbers;
+  VisitEvidence({}, sequence, [&](const FrameEvidence& e) { numbers.push_back(e.number); });
+  ASSERT_EQ(numbers.size(), sequence.frames.size() - 3);
+  EXPECT_EQ(numbers.front(), 3);
+  EXPECT_EQ(numbers.back(), static_cast<int>(sequence.frames.size()) - 1);
 }
 
 TEST_F(EvaluateTinyWorld, AFewNoisyPositionsDoNotTiltTheMap) {

@@ -67,6 +67,12 @@ TEST(FindSurfaces, PartsWhatRaysPassBetweenAndJoinsWhatSomethingHides) {
   EXPECT_EQ(SurfacesOf(world, 0.25).surfaces.size(), 1u);
 }
 
+TEST(FindSurfaces, FindsASurfaceWhosePiecesAreSmallerThanWhatIsAskedFor) {
+  BoardWorld world;  // 0.4 m2 behind a pillar: two pieces of some 0.15 m2
+  world.boards = {Wall(0.0, 2.0, 0.25), {{0, 0, 1.6}, {-0.05, 0, 0}, {0, 1.0, 0}}};
+  EXPECT_EQ(SurfacesOf(world, 0.25).surfaces.size(), 1u);
+}
+
 TEST(FindSurfaces, DoesNotDependOnWhereTheWorldIs) {
   BoardWorld world;
   world.boards = {Wall(-0.4, 1.2, 0.3), Wall(0.4, 1.6, 0.4)};

@@ -118,6 +118,8 @@ TEST_F(SurfaceScoreTest, NumbersEventsByFramesOfTheSequence) {
   run_.map[0].id = 10;
   ASSERT_GT(sequence_.frames.size(), 4u);
   run_.frames.back().planes[0].map_plane.reset();
+  run_.frames.back().planes[0].by = "chi2";
+  run_.frames.back().planes[1].by = "margin";
   // The first two frames lose their poses; the recording is two seconds long.
   const double first_s = sequence_.frames.front().stamp_s;
   const double stretch = 2 / (sequence_.frames.back().stamp_s - first_s);
@@ -137,6 +139,7 @@ TEST_F(SurfaceScoreTest, NumbersEventsByFramesOfTheSequence) {
   ASSERT_EQ(score.events.size(), 1u);
   EXPECT_EQ(score.events[0].stamp_s, sequence_.frames.back().stamp_s);
   EXPECT_EQ(score.events[0].frame, static_cast<int>(sequence_.frames.size()) - 1);
+  EXPECT_EQ(score.events[0].cue, "chi2");
 }
 
 TEST_F(SurfaceScoreTest, FollowsMergesOfLandmarks) {

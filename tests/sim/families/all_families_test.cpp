@@ -385,6 +385,33 @@ TEST(SceneSvg, DrawsALyingCylinderAsLongAsItIs) {
   EXPECT_TRUE(ExtentInPlan(svg, "standing").isApprox(px * Eigen::Vector2d(0.1, 0.1), 1e-2));
 }
 
+TEST(SceneSvg, DrawsWhatIsNearInTheElevationOverWhatIsFar) {
+  Scene scene = MakeScene("stack", 1);
+  Object near = scene.objects.back();
+  near.name = "near", near.center_w.y() -= 1;
+  Object far = near;
+  far.name = "far", far.center_w.y() += 2;
+  for (const bool near_first : {true, false}) {
+    scene.objects = {near_first ? near : far, near_first ? far : near};
+    const std::string svg = SceneSvg(scene);  // the last outline of each is in the elevation
+    EXPECT_GT(svg.rfind("<title>near"), svg.rfind("<title>far")) << near_first;
+  }
+}
+
+TEST(OfficeFamily, PutsAsManyThingsOnTheDesksAsAsked) {
+  const auto things = [](int objects) {
+    std::set<std::string> names;
+    for (const Object& object : MakeScene("office", 1, {{"objects", objects}}).objects) {
+      if (object.role == Role::kStructure) continue;
+      const int group = object.detection_group;
+      names.insert(group != 0 ? "group " + std::to_string(group) : object.name);
+    }
+    return names.size();
+  };
+  EXPECT_EQ(things(3), things(2) + 1);
+  EXPECT_EQ(things(4), things(2) + 2);
+}
+
 TEST(DeskFamily, TakesFortyThingsOnALargeDesk) {
   for (std::uint64_t seed = 1; seed <= 4; ++seed) {
     std::set<std::string> things, classes;

@@ -335,6 +335,11 @@ TEST_F(OwnMesh, TakesItsColourFromTheFileOrThePrintOfTheScene) {
       BuildMesh(Parse(lines + "    faces: {all: {print: text, seed: 5}}\n"));
   EXPECT_EQ(printed.materials.back().print, Print::kText);
   EXPECT_EQ(printed.materials.size(), 6u + 6u) << "a print for each plane";
+  // The print is written with the scene, and is part of what the hash sees.
+  const std::string text = lines + "    faces: {all: {print: text, seed: 5}}\n";
+  EXPECT_NE(SceneText(Parse(text)).find("print: text"), std::string::npos);
+  EXPECT_NE(SceneHash(Parse(text)),
+            SceneHash(Parse(lines + "    faces: {all: {print: cover, seed: 5}}\n")));
   // The colours are part of what the hash sees.
   const std::string hash = SceneHash(Parse(lines));
   Write("newmtl red\nKd 0.1 0.1 0.8\n", "it.mtl");

@@ -119,6 +119,19 @@ TEST(SceneFile, RefusesAMotionThatContradictsItself) {
               AllOf(HasSubstr("s.yaml:4"), HasSubstr("slow, office, fast")));
 }
 
+TEST(SceneFile, RefusesAWayThatIsInTwoPlacesAtOnce) {
+  const auto way = [](const std::string& second_s) {
+    return kHead + Box(1, "a",
+                       "    size_m: [1, 1, 1]\n    way:\n"
+                       "      - {time_s: 1, center_m: [0, 0, 0.5]}\n"
+                       "      - {time_s: " +
+                           second_s + ", center_m: [0, 1, 0.5]}\n");
+  };
+  EXPECT_EQ(ErrorOf(way("1.5")), "no error");
+  for (const char* second_s : {"1", "0.5"})
+    EXPECT_THAT(ErrorOf(way(second_s)), HasSubstr("is not after the one before"));
+}
+
 TEST(SceneFile, RefusesARotationGivenTwiceOrNotUnit) {
   EXPECT_THAT(
       ErrorOf(kHead +

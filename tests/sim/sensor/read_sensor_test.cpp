@@ -71,15 +71,18 @@ TEST(SensorFile, RefusesAMissingOrUnknownBase) {
 
 TEST(SensorFile, CanSetEveryParameterThatIsListed) {
   for (const char* base : {"kinect1", "azure", "d435"}) {
-    for (const SensorParameter& parameter : Parameters(SensorByName(base))) {
+    const std::vector<SensorParameter> usual = Parameters(SensorByName(base));
+    for (const SensorParameter& parameter : usual) {
       const std::string value =
           parameter.key == "window_px" ? "5" : std::to_string(parameter.high);
       const Sensor sensor =
           ParseSensor(std::string("base: ") + base + "\n" + parameter.key + ": " + value + "\n",
                       "mine.yaml");
-      for (const SensorParameter& now : Parameters(sensor)) {
-        if (now.key != parameter.key) continue;
-        EXPECT_NEAR(now.value, std::stod(value), 1e-9) << now.key;
+      const std::vector<SensorParameter> now = Parameters(sensor);
+      ASSERT_EQ(now.size(), usual.size());
+      for (std::size_t i = 0; i < now.size(); ++i) {
+        const double expected = now[i].key == parameter.key ? std::stod(value) : usual[i].value;
+        EXPECT_NEAR(now[i].value, expected, 1e-9) << now[i].key << " with " << parameter.key;
       }
     }
   }

@@ -110,6 +110,23 @@ TEST(FrameTruth, TellsVisibleHiddenAndOutsideCorners) {
   }
 }
 
+// The image reaches half a pixel beyond the centres of its outer pixels.
+TEST(FrameTruth, CallsCornersOnTheOuterHalfOfAPixelInside) {
+  const Camera camera;
+  for (const auto& [u, state] :
+       {std::pair(-0.3, VertexState::kVisible), {-0.7, VertexState::kOutside}}) {
+    const double half = 2 * (camera.cx - u) / camera.fx;  // 2 m away
+    Scene scene;
+    scene.objects = {
+        BoxObject(1, "board", Role::kStructure, {0, 2.05, 0}, {2 * half, 0.1, 0.6})};
+    const FrameTruth truth = TruthOf(scene, camera, LookAlongY());
+    for (const VertexInFrame& vertex : FrontOf(truth, scene, 1)->vertices) {
+      EXPECT_NEAR(std::abs(vertex.pixel.x() - camera.cx), camera.cx - u, 1e-9);
+      EXPECT_EQ(vertex.state, state) << vertex.pixel.transpose();
+    }
+  }
+}
+
 // A book lies on the near half of a desk, its back edge in the desk's middle; the camera looks
 // from the front, above, over the book's middle. Depth breaks off at the book's four upper
 // corners; at the two lower ones that are seen, book and desk meet.
@@ -172,6 +189,17 @@ TEST(ProjectedBox, IsEmptyForWhatLiesBehind) {
   const SceneMesh mesh = BuildMesh(HalfHidden());
   EXPECT_FALSE(
       ProjectedBox(mesh.triangles, LookAt({0, 3, 0}, {0, 4, 0}), Camera{}).has_value());
+}
+
+TEST(SceneTruth, ListsEveryHoleOfAFace) {
+  const Scene scene = HalfHidden();
+  std::vector<ScenePlane> planes = ScenePlanes(scene);
+  planes[0].holes_w = {{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{2, 0, 0}, {3, 0, 0}, {2, 1, 0}}};
+  const auto truth = nlohmann::json::parse(SceneTruthJson(scene, planes));
+  ASSERT_EQ(truth["planes"][0]["holes"].size(), 2u);
+  EXPECT_EQ(truth["planes"][0]["holes"][0][1], nlohmann::json({1.0, 0.0, 0.0}));
+  EXPECT_EQ(truth["planes"][0]["holes"][1][0], nlohmann::json({2.0, 0.0, 0.0}));
+  EXPECT_FALSE(truth["planes"][1].contains("holes"));
 }
 
 TEST(SceneTruth, ListsEveryFaceWithItsOwnerEvenIfItIsNeverSeen) {

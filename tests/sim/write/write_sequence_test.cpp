@@ -13,6 +13,7 @@
 
 #include "io/atomic_file.h"
 #include "io/input_error.h"
+#include "io/number_text.h"
 #include "io/read_file.h"
 #include "io/sha256.h"
 #include "sim/write/sequence_text.h"
@@ -131,6 +132,16 @@ TEST_F(WrittenSequence, LeavesNoDetectionsFileWithoutADetector) {
   options.rig.detector = DetectorKind::kNone;
   Write(root_ / "seq", options, 1);
   EXPECT_FALSE(fs::exists(root_ / "seq/detections.jsonl"));
+}
+
+TEST_F(WrittenSequence, TellsTheCameraInItsManifestAsInCameraYaml) {
+  SequenceOptions options = Options();
+  options.rig.sensor.calibration.intrinsics = 0.02;
+  Write(root_ / "seq", options, 1);
+  const double fx = (*ReadManifest(root_ / "seq"))["camera"]["fx"];
+  EXPECT_NE(fx, options.rig.camera.fx);
+  EXPECT_THAT(io::ReadFile(root_ / "seq/camera.yaml"),
+              HasSubstr("fx: " + io::NumberText(fx) + "\n"));
 }
 
 TEST_F(WrittenSequence, IsRefusedWhereAFolderExists) {

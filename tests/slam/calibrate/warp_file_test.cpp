@@ -73,6 +73,7 @@ TEST_F(WarpFile, RefusesRowsThatAreNotAsManyAsCells) {
 TEST_F(WarpFile, RefusesWhatNoSensorBends) {
   EXPECT_THAT(FaultOf(With("-6000", "-600000")), HasSubstr("pattern_ppm[1]"));
   EXPECT_THAT(FaultOf(With("-6000", ".nan")), HasSubstr("pattern_ppm[1]"));
+  EXPECT_THAT(FaultOf(With("500, 500, 500", "-500, 500, 500")), HasSubstr("sigma_ppm[0]"));
 }
 
 TEST_F(WarpFile, RefusesUnknownAndMissingKeysAndOtherFormats) {

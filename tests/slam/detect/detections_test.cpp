@@ -44,6 +44,9 @@ TEST_F(Detections, ReplaysTheBoxesOfTheFrameWithTheSameTimestamp) {
   EXPECT_EQ(at[0].score, 0.91);
   EXPECT_EQ(at[0].box_px.max, Eigen::Vector2d(30, 40));
   EXPECT_EQ(detector->Detect(1.60004, {}).at(0).kind, ClassKind::kUnstructured);
+  // Stamps of fewer digits, rounded up and down.
+  EXPECT_EQ(detector->Detect(1.50004, {}).size(), 1u);
+  EXPECT_EQ(detector->Detect(1.49996, {}).size(), 1u);
   EXPECT_TRUE(detector->Detect(1.55, {}).empty());
   EXPECT_TRUE(detector->Detect(9.0, {}).empty());
 }

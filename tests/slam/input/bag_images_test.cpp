@@ -95,6 +95,48 @@ TEST_F(Bags, WithSeveralTopicsReadTheRegisteredDepthOfTheColourCameraAndSaySo) {
               ElementsAre(HasSubstr("and not /camera/depth/image_rect_raw (16UC1)")));
 }
 
+TEST_F(Bags, ShowTheImageOfItsStampWhereMessagesCameOutOfOrder) {
+  {
+    BagWriter bag(File(), Compression::kNone);
+    for (const double stamp_s : {1.0, 3.0, 2.0}) {
+      bag.Image("/color/image_raw", stamp_s, "colour", "rgb8", Colour());
+      bag.Image("/depth/registered/image", stamp_s, "colour", "16UC1", stamp_s * Depth());
+    }
+    WriteInfo(bag, "/color/camera_info");
+  }
+  const BagImages images(File(), CameraOfBag(File()));
+  for (int frame = 0; frame < 3; ++frame)
+    EXPECT_EQ(images.Depth(static_cast<std::size_t>(frame))(0, 0),
+              1.0f + static_cast<float>(frame));
+}
+
+TEST_F(Bags, ReadTheDepthOfColoursCameraOfTwo) {
+  {
+    BagWriter bag(File(), Compression::kNone);
+    bag.Image("/cam1/color/image_raw", 1, "one", "rgb8", Colour());
+    bag.Image("/cam2/depth/image_raw", 1, "one", "16UC1", Depth());
+    bag.Image("/cam1/depth/image_raw", 1, "one", "16UC1", 2 * Depth());
+    WriteInfo(bag, "/cam1/color/camera_info");
+  }
+  EXPECT_EQ(BagImages(File(), CameraOfBag(File())).Depth(0)(0, 0), 2.0f);
+}
+
+// A driver's first message may lack its stamp; the others have theirs.
+TEST_F(Bags, TakeTheTimeOfRecordingOnlyWhereNoHeaderHasOne) {
+  for (const double first_s : {0.0, 1.0}) {
+    {
+      BagWriter bag(File(), Compression::kNone);
+      for (const double stamp_s : {first_s, 2.0, 3.0}) {
+        bag.Image("/color/image_raw", stamp_s, "colour", "rgb8", Colour());
+        bag.Image("/depth/registered/image", stamp_s, "colour", "16UC1", Depth());
+      }
+      WriteInfo(bag, "/color/camera_info");
+    }
+    const BagImages images(File(), CameraOfBag(File()));
+    EXPECT_EQ(images.index().entries.back().timestamp_s, 3.0) << first_s;
+  }
+}
+
 TEST_F(Bags, TakeWordsOfANameForWhatTheySay) {
   {
     BagWriter bag(File(), Compression::kNone);

@@ -230,6 +230,8 @@ TEST_F(Sequences, NameFileAndLineOfAListThatCannotBeUnderstood) {
       "associations.txt:2: expected `t_rgb rgb_file t_depth depth_file`, found 3 words");
   WriteText("associations.txt", "1.0 ../secret.png 1.0 depth/0.png\n");
   ExpectIndexError("associations.txt:1: file `../secret.png` must lie inside");
+  WriteText("associations.txt", "1.0 rgb/../../secret.png 1.0 depth/0.png\n");
+  ExpectIndexError("associations.txt:1: file `rgb/../../secret.png` must lie inside");
   WriteText("associations.txt", "1.0 /etc/passwd 1.0 depth/0.png\n");
   ExpectIndexError("must lie inside");
   WriteText("associations.txt", std::string(10000, 'x'));
@@ -290,6 +292,16 @@ TEST_F(Sequences, TakeColourAsJpegWhateverItIsCalled) {
 
   write("rgb/0.png", jpeg.size() - 40);
   ExpectReadError("rgb/0.png .*the image is truncated");
+  // So is one that has a whole image inside: cameras put a small one into a segment of its own.
+  std::vector<unsigned char> with_small{0xFF, 0xD8, 0xFF, 0xE1, 0x00,
+                                        0x06, 0xFF, 0xD9, 0xFF, 0xD9};
+  with_small.insert(with_small.end(), jpeg.begin() + 2, jpeg.end());
+  std::swap(jpeg, with_small);
+  write("rgb/0.png", jpeg.size());
+  EXPECT_NO_THROW(SequenceReader(folder_, camera_).Read(0));
+  write("rgb/0.png", jpeg.size() - 40);
+  ExpectReadError("rgb/0.png .*the image is truncated");
+  std::swap(jpeg, with_small);
   write("rgb/0.png", 12);
   ExpectReadError("rgb/0.png .*not a PNG or JPEG image");
   cv::imencode(".jpg", cv::Mat1b(24, 32, uchar{90}), jpeg);

@@ -137,6 +137,8 @@ TEST_F(ConfigFile, GoesOverTheSettingsThatItIsGiven) {
 
 TEST_F(ConfigFile, RefusesSettingsThatContradictEachOther) {
   ExpectError("point_features: {fast_threshold: 5}\n", "min_fast_threshold must not be above");
+  ExpectError("point_depth: {min_depth_m: 0.2, max_depth_m: 0.2}\n",
+              "must be below max_depth_m");
 }
 
 }  // namespace

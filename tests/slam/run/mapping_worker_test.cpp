@@ -74,6 +74,17 @@ TEST(MappingWorker, GivesTheGiverWhatTheWorkThrewOnce) {
   EXPECT_NO_THROW(worker.Finish(MappingWorker::Waiting::kDo));
 }
 
+TEST(MappingWorker, GivesTheGiverWhatTheLastWorkThrewAtItsEnd) {
+  MappingWorker worker(
+      [](int) {
+        std::this_thread::sleep_for(std::chrono::milliseconds(50));
+        throw std::runtime_error("no memory");
+      },
+      10);
+  worker.Submit(0);
+  EXPECT_THROW(worker.Finish(MappingWorker::Waiting::kDo), std::runtime_error);
+}
+
 TEST(MappingWorker, EndsWithItsThreadWhenNobodyFinishesIt) {
   std::atomic<int> done = 0;
   {

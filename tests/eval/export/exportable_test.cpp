@@ -1,0 +1,46 @@
+#include "eval/export/exportable.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "io/input_error.h"
+#include "tests/eval/check/small_world.h"
+
+namespace eval {
+namespace {
+
+using namespace small_world;
+
+TEST(ReadCheckedObjectIds, RefusesAnUnknownIdWhereverItStands) {
+  const TemporaryFolder folder;
+  const World world = MakeWorld();
+  WriteSequence(folder.path() / "seq", world);
+  const double stamp_s = world.views[0].stamp_s;
+  const fs::path file = folder.path() / "seq/gt/object_id" / (StampText(stamp_s) + ".png");
+  cv::Mat whole = cv::imread(file.string(), cv::IMREAD_UNCHANGED);
+  EXPECT_NO_THROW(ReadCheckedObjectIds(ReadSequence(folder.path() / "seq"), stamp_s));
+  // The last of objects 1 to 4 becomes 40: unknown ids lie between known ones and above them.
+  json scene = json::parse(ReadText(folder.path() / "seq/gt/scene.json"));
+  scene["objects"][3]["id"] = 40;
+  for (json& plane : scene["planes"])
+    if (plane["object"] == 4) plane["object"] = 40;
+  WriteText(folder.path() / "seq/gt/scene.json", scene.dump());
+  fs::remove(folder.path() / "seq/gt/frames.jsonl");
+  whole.setTo(40, whole == 4);
+  ASSERT_GT(cv::countNonZero(whole == 40), 0);
+  WriteImage(file, whole);
+  EXPECT_NO_THROW(ReadCheckedObjectIds(ReadSequence(folder.path() / "seq"), stamp_s));
+  for (const int unknown : {5, 60000}) {
+    for (const int v : {0, whole.rows / 2, whole.rows - 1}) {
+      cv::Mat ids = whole.clone();
+      ids.at<ushort>(v, whole.cols / 2) = static_cast<ushort>(unknown);
+      WriteImage(file, ids);
+      EXPECT_THROW(ReadCheckedObjectIds(ReadSequence(folder.path() / "seq"), stamp_s),
+                   io::InputError)
+          << unknown << " in row " << v;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace eval
