@@ -68,9 +68,10 @@ TEST(FindSurfaces, PartsWhatRaysPassBetweenAndJoinsWhatSomethingHides) {
 }
 
 TEST(FindSurfaces, FindsASurfaceWhosePiecesAreSmallerThanWhatIsAskedFor) {
-  BoardWorld world;  // 0.4 m2 behind a pillar: two pieces of some 0.15 m2
-  world.boards = {Wall(0.0, 2.0, 0.25), {{0, 0, 1.6}, {-0.05, 0, 0}, {0, 1.0, 0}}};
-  EXPECT_EQ(SurfacesOf(world, 0.25).surfaces.size(), 1u);
+  BoardWorld world;  // the pillar hides the wall's middle from everywhere: twice 0.3 m2
+  world.boards = {Wall(0.0, 2.0, 0.6), {{0, 0, 1.6}, {-0.25, 0, 0}, {0, 1.0, 0}}};
+  const SurfaceFile found = SurfacesOf(world, 0.5);
+  EXPECT_EQ(found.surfaces.size(), 2u) << SurfacesText(found);
 }
 
 TEST(FindSurfaces, DoesNotDependOnWhereTheWorldIs) {

@@ -184,6 +184,20 @@ TEST(LocalBundle, DoesNothingForTheFirstKeyframeAlone) {
   EXPECT_FALSE(AdjustLocalBundle(world.map, 0, world.camera, FeatureScale{}, {}).usable);
 }
 
+// Else the adjustment could make an error vanish by putting its point behind the camera.
+TEST(BundleTerm, IsFarFromAnyObservationWhereThePointIsBehindTheCamera) {
+  const Camera camera;
+  const BundleTerm term({{0, 0, 2}, {camera.cx, camera.cy}, 1.0, 2.0, 0.01}, camera);
+  const PoseBlock here = BlockOf(Pose{});
+  for (const auto& [z_m, behind] : {std::pair(2.0, false), {-2.0, true}, {0.0, true}}) {
+    const Eigen::Vector3d p_w(0, 0, z_m);
+    const double* blocks[] = {here.data(), p_w.data()};
+    Eigen::Vector3d residual;
+    ASSERT_TRUE(term.Evaluate(blocks, residual.data(), nullptr));
+    EXPECT_EQ(residual.norm() >= BundleTerm::kBehind, behind) << z_m;
+  }
+}
+
 TEST(BundleTerm, HasTheDerivativesOfItsDifferenceQuotients) {
   const Camera camera;
   const Eigen::Vector3d p_w(0.2, -0.1, 1.6);
