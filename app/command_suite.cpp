@@ -55,7 +55,7 @@ void RequireResultsFolder(const fs::path& folder) {
   }
 }
 
-constexpr double kMostShards = 1e9;
+constexpr double kMostShards = 1e9;  // more than any suite has cases; a count holds it
 
 /// "I/N", or nothing for all cases.
 SuiteShard ShardOf(const std::string& text) {
@@ -65,7 +65,8 @@ SuiteShard ShardOf(const std::string& text) {
   const auto n = io::ParseNumber(slash == std::string::npos ? "" : text.substr(slash + 1));
   if (!i || !n || *i != std::floor(*i) || *n != std::floor(*n) || *i < 1 || *i > *n ||
       *n > kMostShards) {
-    throw io::InputError("--shard " + text, "expected I/N with I from 1 to N, such as 1/4");
+    throw io::InputError("--shard " + text,
+                         "expected I/N with I from 1 to N and N up to 1e9, such as 1/4");
   }
   return {static_cast<std::size_t>(*i) - 1, static_cast<std::size_t>(*n)};
 }

@@ -47,7 +47,7 @@ class Shrinker {
     io::MakeFolder(folder / kFolder);
   }
 
-  /// Nothing is written, and no suite named, when it is stopped before the case has failed once.
+  /// No suite is written or named when it is stopped before the case has failed once.
   ShrunkCase Shrink() {
     failure_ = Try(scene_, best_);
     if (failure_.status == CaseStatus::kStopped) return {};

@@ -128,7 +128,9 @@ class SuiteReader {
     if (map.Has("name")) scene.name = Name(map.At("name"));
     for (const SuiteScene& other : scenes) {
       if (other.source == SuiteScene::Source::kRecordings && other.source == scene.source)
-        value.Fail("the recordings are named already; their cases would have the same keys");
+        value.Fail(
+            "the recordings are named already, and their cases would have the same keys; keep "
+            "one");
       if (other.name == scene.name) {
         value.Fail("there is a scene called " + scene.name + " already; give this one a name:");
       }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <map>
 #include <opencv2/imgproc.hpp>
+#include <optional>
 
 #include "eval/draw/paint.h"
 #include "eval/draw/plane_name.h"
@@ -155,18 +156,22 @@ class FramePainter {
     const auto is_face = [](const RunFramePlane& plane) {
       return plane.vertices_c.size() == 4;
     };
-    std::map<int, const RunFramePlane*> shown;  // by map plane
-    for (const RunFramePlane* plane : planes) {
-      if (!plane->map_plane || plane->bad) continue;
+    const auto map_plane_of = [&](const RunFramePlane& plane) -> std::optional<int> {
+      if (!plane.map_plane || plane.bad) return std::nullopt;
       const RunMapPlane* last =
-          scene_.map == nullptr ? nullptr : FinalPlane(*scene_.map, *plane->map_plane);
-      const RunFramePlane*& best = shown[last == nullptr ? *plane->map_plane : last->id];
+          scene_.map == nullptr ? nullptr : FinalPlane(*scene_.map, *plane.map_plane);
+      return last == nullptr ? *plane.map_plane : last->id;
+    };
+    std::map<int, const RunFramePlane*> shown;
+    for (const RunFramePlane* plane : planes) {
+      const auto id = map_plane_of(*plane);
+      if (!id) continue;
+      const RunFramePlane*& best = shown[*id];
       if (best == nullptr || (is_face(*plane) && !is_face(*best))) best = plane;
     }
     for (const RunFramePlane* plane : planes) {
-      if (std::none_of(shown.begin(), shown.end(),
-                       [&](const auto& entry) { return entry.second == plane; }))
-        continue;
+      const auto id = map_plane_of(*plane);
+      if (!id || shown.at(*id) != plane) continue;
       const bool has_face = is_face(*plane);
       const auto outline = has_face ? view_.Outline(plane->vertices_c) : view_.HullOf(*plane);
       const Colour colour = view_.ColourOf(*plane);

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "eval/draw/run_gauge.h"
+#include "eval/planes/polygon.h"
 
 namespace eval {
 namespace {
@@ -210,7 +211,8 @@ const MapScene::Truth* TrueLevelPlane(const MapScene& scene, const MapScene::Est
   const MapScene::Truth* nearest = nullptr;
   double nearest_m = kSameHeight_m;
   for (const MapScene::Truth& truth : scene.truth) {
-    if (!(truth.pi_v.n.z() > kLevel_cos) || !Contains(truth.vertices_v, plane.centre_v))
+    if (!(truth.pi_v.n.z() > kLevel_cos) ||
+        !GoesRoundFromAbove(truth.vertices_v, plane.centre_v))
       continue;
     const double apart =
         std::abs(HeightAt(truth.pi_v, plane.centre_v) - HeightAt(plane.pi_v, plane.centre_v));

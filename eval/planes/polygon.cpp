@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <opencv2/imgproc.hpp>
 
 namespace eval {
 namespace {
@@ -68,6 +69,16 @@ Polygon2 ConvexHull(Polygon2 points) {
   const Polygon2 upper = chain(points.rbegin(), points.rend());
   hull.insert(hull.end(), upper.begin(), upper.end());
   return hull;
+}
+
+bool GoesRoundFromAbove(const std::vector<Eigen::Vector3d>& loop,
+                        const Eigen::Vector3d& point) {
+  std::vector<cv::Point2f> about_point;  // so that single precision is enough
+  for (const Eigen::Vector3d& corner : loop) {
+    about_point.emplace_back(static_cast<float>(corner.x() - point.x()),
+                             static_cast<float>(corner.y() - point.y()));
+  }
+  return cv::pointPolygonTest(about_point, {0.0f, 0.0f}, false) > 0;
 }
 
 double Area(const Polygon2& polygon) {

@@ -27,6 +27,9 @@ Polygon2 Project(const PlaneChart& chart, const std::vector<Eigen::Vector3d>& po
 /// Counter-clockwise hull without collinear points; fewer than 3 points if there is no area.
 Polygon2 ConvexHull(Polygon2 points);
 
+/// Whether a simple loop, which may turn inwards, goes round a point; both seen along z.
+bool GoesRoundFromAbove(const std::vector<Eigen::Vector3d>& loop, const Eigen::Vector3d& point);
+
 /// Area of a simple polygon, not signed.
 double Area(const Polygon2& polygon);
 

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "eval/planes/polygon.h"
+
 namespace eval {
 namespace {
 
@@ -13,24 +15,11 @@ constexpr double kLevelNormalZ = 0.95;  // looks up, 18 degrees
 constexpr std::array<double, 9> kStepClasses_mm = {0.5, 3, 5, 8, 12, 20, 35, 60, 100};
 constexpr double kMaxStep_mm = 200.0;  // nominal end of the last class, for drawing
 
-/// Whether a ray from the point along +x crosses the loop an odd number of times, seen from above.
-bool GoesRound(const std::vector<Eigen::Vector3d>& loop_g, const Eigen::Vector3d& point_g) {
-  bool inside = false;
-  for (std::size_t k = 0; k < loop_g.size(); ++k) {
-    const Eigen::Vector3d& a = loop_g[k];
-    const Eigen::Vector3d& b = loop_g[(k + 1) % loop_g.size()];
-    if ((a.y() > point_g.y()) == (b.y() > point_g.y())) continue;
-    const double share = (point_g.y() - a.y()) / (b.y() - a.y());
-    inside ^= point_g.x() < a.x() + share * (b.x() - a.x());
-  }
-  return inside;
-}
-
 /// Is the face above or below the point? Outlines may turn inwards, and have holes.
 bool IsOver(const TruthPlane& face, const Eigen::Vector3d& point_g) {
-  return GoesRound(face.vertices_g, point_g) &&
+  return GoesRoundFromAbove(face.vertices_g, point_g) &&
          std::none_of(face.holes_g.begin(), face.holes_g.end(),
-                      [&](const auto& hole) { return GoesRound(hole, point_g); });
+                      [&](const auto& hole) { return GoesRoundFromAbove(hole, point_g); });
 }
 
 /// Class of heights by id of a regular top.

@@ -70,27 +70,25 @@ cv::Mat TintedFrame(const cv::Mat1w& labels, const DepthViews& views, std::size_
 void PutList(cv::Mat& page, const SurfaceFile& file, cv::Point corner, int height_px) {
   constexpr int kLine_px = 24, kColumn_px = 290;
   const int rows = std::max(1, height_px / kLine_px);
+  const auto base_of = [&](std::size_t i) {
+    return cv::Point2d(corner.x + kColumn_px * (int(i) / rows),
+                       corner.y + kLine_px * (int(i) % rows + 1));
+  };
+  const TextStyle style{9.5, kPaleText, false, Align::kLeft};
   const auto room = static_cast<std::size_t>(rows * (kPlanWidth_px / kColumn_px));
   const std::size_t all = file.surfaces.size(), listed = all <= room ? all : room - 1;
-  for (std::size_t i = 0; i < std::min(all, room); ++i) {
-    if (i == listed) {
-      const cv::Point2d base(corner.x + kColumn_px * (int(i) / rows) + 24,
-                             corner.y + kLine_px * (int(i) % rows + 1));
-      PutText(page, fmt::format("and {} more", all - listed), base,
-              {9.5, kPaleText, false, Align::kLeft});
-      break;
-    }
+  for (std::size_t i = 0; i < listed; ++i) {
     const Surface& surface = file.surfaces[i];
-    const int column = int(i) / rows;
-    const cv::Point2d base(corner.x + kColumn_px * column,
-                           corner.y + kLine_px * (int(i) % rows + 1));
-    PutDot(page, base + cv::Point2d(8, -5), 7, ColourOfPlane(CountedAs(surface)));
+    PutDot(page, base_of(i) + cv::Point2d(8, -5), 7, ColourOfPlane(CountedAs(surface)));
     PutText(page,
             fmt::format("{}{}: {:.2f} m2, flat to {:.1f} mm", surface.id,
                         surface.same_as != 0 ? fmt::format(" (in {})", surface.same_as) : "",
                         AreaOf(surface), 1e3 * surface.flatness_m),
-            base + cv::Point2d(24, 0), {9.5, kPaleText, false, Align::kLeft});
+            base_of(i) + cv::Point2d(24, 0), style);
   }
+  if (listed < all)
+    PutText(page, fmt::format("and {} more", all - listed),
+            base_of(listed) + cv::Point2d(24, 0), style);
 }
 
 }  // namespace

@@ -19,8 +19,8 @@ bool IsAmong(const std::string& text, std::initializer_list<const char*> some) {
   return std::find(some.begin(), some.end(), text) != some.end();
 }
 
-/// Whether the words of a topic ("/camera/left_ir": camera, left, ir) hold one of `some`; each
-/// begins and, if it is not the beginning of a word alone, ends with a slash.
+/// Whether one of `some` stands among the words of a topic, which are put between slashes
+/// ("/camera/left_ir": "/camera/left/ir/"). "/ir/" is a word, "/infra" how one begins.
 bool HasWords(const std::string& topic, std::initializer_list<const char*> some) {
   std::string words = '/' + topic + '/';
   for (char& c : words) {

@@ -8,6 +8,7 @@ namespace {
 
 // Wider than any lens, sensor and file of one, and far from where squares overflow.
 constexpr const char* kSize = "(0, 100000)";
+constexpr int kMaxSize = 99999;  // the same of whole numbers
 constexpr const char* kPositive = "(0, 1e9)";
 constexpr const char* kAny = "(-1e9, 1e9)";
 constexpr const char* kDistortion[] = {"k1", "k2", "p1", "p2", "k3"};
@@ -86,7 +87,6 @@ std::optional<Camera> ReadCamera(Folder& folder, const std::string& file,
 
 std::optional<Camera> ReadCamera(const JsonRecord& record) {
   const io::Interval positive(kPositive), any(kAny);
-  constexpr int kMaxSize = 99999;  // as kSize
   const auto width = record.Integer("width", 1, kMaxSize);
   const auto height = record.Integer("height", 1, kMaxSize);
   const auto fx = record.Number("fx", positive), fy = record.Number("fy", positive);

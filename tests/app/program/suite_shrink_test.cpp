@@ -1,4 +1,7 @@
 // What `pas suite --shrink` leaves of a case that fails.
+#include <chrono>
+#include <thread>
+
 #include "tests/app/program/fake_suite.h"
 
 namespace {
@@ -80,6 +83,17 @@ TEST_F(SuiteProgram, ShrinksASceneWithAMeshOfItsFolder) {
   EXPECT_EQ(shown.exit_code, 0) << shown.errors;
   // The first try has as many frames as the case itself.
   EXPECT_EQ(ReadText(folder_ / "out/frames_tried").substr(0, 4), "300\n");
+}
+
+TEST_F(SuiteProgram, ShrinksNothingWhenItIsStoppedInTheFirstTry) {
+  WriteProgram("echo > started; sleep 5; kill -SEGV $$");
+  const Process process(Command("out", {"--shrink", "plates-1/kinect1/own/full/default"}), {},
+                        folder_ / "errors");
+  for (int i = 0; i < 500 && !fs::exists(folder_ / "out/started"); ++i)
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  process.Send(SIGINT);
+  EXPECT_EQ(process.Wait().exit_code, 128 + SIGINT);
+  EXPECT_FALSE(fs::exists(folder_ / "out/shrunk/suite.yaml"));
 }
 
 TEST_F(SuiteProgram, ShrinksNothingThatDoesNotFail) {

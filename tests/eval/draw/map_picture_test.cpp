@@ -90,6 +90,20 @@ TEST(DrawMap, OutlinesATrueFaceWhicheverCornerComesFirst) {
   EXPECT_GT(cv::norm(page, DrawMap(scene, title), cv::NORM_INF), 50);
 }
 
+TEST(TrueLevelPlane, LiesUnderAPlaneThoughItsOutlineTurnsInwards) {
+  MapScene scene;
+  MapScene::Truth desk{
+      "desk",
+      Top(1, 0, 1, {0, 0, 1}).pi_v,
+      {{0, 0, 0}, {2, 0, 0}, {2, 0.8, 0}, {0.8, 0.8, 0}, {0.8, 2, 0}, {0, 2, 0}}};
+  scene.truth = {desk};
+  MapScene::Estimate plane = Top(1, 0, 0.2, {0, 0, 1});
+  plane.centre_v = {0.4, 1.5, 0};
+  EXPECT_NE(TrueLevelPlane(scene, plane), nullptr);
+  plane.centre_v = {1.5, 1.5, 0};
+  EXPECT_EQ(TrueLevelPlane(scene, plane), nullptr);
+}
+
 TEST(FitMap, TakesNoMoreOfThePageThanThereIs) {
   for (int i = 0; i < 400; ++i) {
     MapScene scene;
