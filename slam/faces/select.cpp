@@ -67,7 +67,7 @@ std::optional<BadReason> FindFault(const FramePlane& plane,
                                    const SelectConfig& config) {
   // Too far away, or no plane.
   if (!(plane.centroid_c.norm() < config.max_distance_m)) return BadReason::kFar;
-  if (!(plane.inlier_ratio > config.min_inlier_ratio)) return BadReason::kInliers;
+  if (plane.inlier_ratio == 0) return BadReason::kInliers;
   if (IsStairs(plane.roughness, usual, config)) return BadReason::kInliers;
 
   // The face of a regular object must show its structure.

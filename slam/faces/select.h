@@ -22,7 +22,6 @@ enum class StructureRule {
 /// A `max_` bound is passed strictly below it, a `min_` bound strictly above it.
 struct SelectConfig {
   double max_distance_m = 5.0;
-  double min_inlier_ratio = 0.6;
   double max_roughness = 1.3;  // more are stairs
   double max_unstructured_share = 0.5;
   StructureRule structure = StructureRule::kIgnored;
@@ -33,8 +32,6 @@ struct SelectConfig {
 inline void VisitFields(SelectConfig& c, FieldVisitor& v) {
   v.Number("max_distance_m", c.max_distance_m, "(0, inf)",
            "largest distance of a plane's centroid from the camera");
-  v.Number("min_inlier_ratio", c.min_inlier_ratio, "[0, 1)",
-           "smallest inlier ratio after the re-fit");
   v.Number("max_roughness", c.max_roughness, "[1, inf)",
            "largest roughness over 8 pixels, as a multiple of what noise makes it");
   v.Number("max_unstructured_share", c.max_unstructured_share, "(0, 1]",
@@ -57,7 +54,7 @@ UsualRoughness FindUsualRoughness(const std::vector<FramePlane>& planes);
 
 /// The first reason why a plane is not to be trusted, or nothing. In the paper's order:
 ///   1. too far from the camera                                          kFar
-///   2. small inlier ratio after the re-fit, or stairs: rougher than the
+///   2. no point on it after the re-fit, or stairs: rougher than the
 ///      frame's other surfaces and than its own noise makes it           kInliers
 ///   3. tied to a regular object's box, but at the border, or without
 ///      the structure of a rectangle (StructureRule)                     kBorder, kStructure

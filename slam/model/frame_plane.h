@@ -14,7 +14,7 @@ namespace slam {
 /// Why a plane is not to be trusted (PAS-SLAM, Plane Selection). Written as in formats.md.
 enum class BadReason {
   kFar,        ///< "far": too far from the camera
-  kInliers,    ///< "inliers": small inlier ratio after the re-fit, or stairs
+  kInliers,    ///< "inliers": no point on it after the re-fit, or stairs
   kBorder,     ///< "border": tied to a regular object's box, but at the image border
   kStructure,  ///< "structure": same, but without two pairs of parallel lines or four vertices
   kUnstructured  ///< "unstructured": most edge points in an unstructured object's box

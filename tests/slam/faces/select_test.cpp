@@ -59,11 +59,11 @@ TEST(Select, RefusesAPlaneBeyondTheDistanceAndKeepsOneWithin) {
   EXPECT_EQ(book.Fault(), BadReason::kFar);
 }
 
-TEST(Select, RefusesASmallInlierRatioAndKeepsALargerOne) {
+TEST(Select, RefusesAPlaneThatNoPointLiesOn) {
   GoodBook book;
-  book.plane.inlier_ratio = book.config.min_inlier_ratio;
+  book.plane.inlier_ratio = 0;
   EXPECT_EQ(book.Fault(), BadReason::kInliers);
-  book.plane.inlier_ratio = book.config.min_inlier_ratio + 0.01;
+  book.plane.inlier_ratio = 0.01;
   EXPECT_EQ(book.Fault(), std::nullopt);
 }
 
