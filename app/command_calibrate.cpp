@@ -9,6 +9,7 @@
 #include "app/stop_signal.h"
 #include "app/surfaces_option.h"
 #include "app/warp_picture.h"
+#include "io/image/encode_png.h"
 #include "io/output_file.h"
 #include "slam/calibrate/warp_file.h"
 #include "slam/run/calibrate_sequence.h"
@@ -58,7 +59,7 @@ int RunCalibrate(CalibrateArguments& arguments, bool quiet) {
       1e3 * calibration.warp.Rms(), calibration.tracked, 100 * evidence.gain,
       evidence.student_t, evidence.epochs);
   output.Write(slam::WarpText(calibration.warp, summary));
-  if (picture) picture->Write(PngBytes(DrawWarp(calibration.warp)));
+  if (picture) picture->Write(io::EncodePng(DrawWarp(calibration.warp)));
   if (!quiet) fmt::print("{}: {}\n", arguments.output, summary);
   return kDone;
 }

@@ -81,6 +81,24 @@ int EvalRun(const EvalOptions& options, const Globals& globals) {
   return kFailure;
 }
 
+/// Options of figures that need a RUN of planes, with what has none.
+void RefuseWithoutRun(const EvalOptions& options) {
+  if (options.surfaces.file.empty() && !options.surfaces.camera.registration.empty()) {
+    throw io::InputError("--depth-registration",
+                         "is of --surfaces; name its file, or leave the option out");
+  }
+  if (!options.run.empty()) return;
+  const std::pair<const char*, bool> of_runs[] = {
+      {"--per-frame", !options.frames.empty()},
+      {"--events", !options.events.empty()},
+      {"--surfaces", !options.surfaces.file.empty()},
+      {"--surface-pictures", !options.surfaces.pictures.empty()},
+      {"--camera", !options.surfaces.camera.camera.empty()}};
+  for (const auto& [name, given] : of_runs) {
+    if (given) throw io::InputError(name, "is of a RUN folder; leave it out, or name the RUN");
+  }
+}
+
 int Eval(const EvalOptions& options, const Globals& globals) {
   const bool files = !options.trajectory.files.empty(), labels = !options.segmentation.empty();
   if (int{files} + int{labels} + int{!options.run.empty()} != 1) {
@@ -88,6 +106,7 @@ int Eval(const EvalOptions& options, const Globals& globals) {
                          "expected one of a RUN folder, --trajectory FILE... and "
                          "--segmentation DIR; see pas eval --help");
   }
+  RefuseWithoutRun(options);
   if (files) return EvalTrajectories(options, globals);
   return labels ? EvalLabels(options, globals) : EvalRun(options, globals);
 }

@@ -3,12 +3,12 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
-#include <opencv2/imgcodecs.hpp>
 
 #include "app/app.h"
 #include "app/console.h"
 #include "app/surfaces_option.h"
 #include "io/folder_kind.h"
+#include "io/image/encode_png.h"
 #include "io/input_error.h"
 #include "io/number_text.h"
 #include "io/output_file.h"
@@ -19,7 +19,8 @@
 namespace app {
 namespace {
 
-constexpr const char* kFrameList = "associations.txt";  // marks a folder of this command
+constexpr const char* kFrameList = "associations.txt";
+constexpr const char* kOrigin = "imported_from.txt";  // marks a folder of this command
 
 struct ImportArguments {
   std::string bag, output, camera;
@@ -63,7 +64,7 @@ int RunImport(const ImportArguments& arguments, bool quiet) {
   if (arguments.force) {
     io::RefuseInputsInside(arguments.output, {arguments.bag, arguments.camera});
   }
-  io::OutputFolder folder(arguments.output, kFrameList, arguments.force);
+  io::OutputFolder folder(arguments.output, kOrigin, arguments.force);
   const slam::Camera camera = slam::ChooseCamera(arguments.camera, arguments.bag).camera;
   slam::SequenceReader reader(arguments.bag, camera);
   std::string list, colour_list, depth_list;
@@ -74,9 +75,9 @@ int RunImport(const ImportArguments& arguments, bool quiet) {
     const slam::RecordedFrame frame = reader.Read(i);
     const std::string colour = fmt::format("{0:.6f} rgb/{0:.6f}.png", entry.timestamp_s);
     const std::string depth = fmt::format("{0:.6f} depth/{0:.6f}.png", entry.depth_timestamp_s);
-    folder.Write(colour.substr(colour.find(' ') + 1), PngBytes(frame.bgr));
+    folder.Write(colour.substr(colour.find(' ') + 1), io::EncodePng(frame.bgr));
     folder.Write(depth.substr(depth.find(' ') + 1),
-                 PngBytes(RawDepth(frame.depth_m, camera.depth_factor, too_far)));
+                 io::EncodePng(RawDepth(frame.depth_m, camera.depth_factor, too_far)));
     list += colour + " " + depth + "\n";
     colour_list += colour + "\n";
     depth_list += depth + "\n";
@@ -86,6 +87,7 @@ int RunImport(const ImportArguments& arguments, bool quiet) {
   folder.Write("depth.txt", depth_list);
   folder.Write("camera.yaml", CameraText(camera));
   folder.Write(kFrameList, list);
+  folder.Write(kOrigin, std::filesystem::path(arguments.bag).filename().string() + "\n");
   folder.Commit();
   for (const std::string& warning : reader.warnings()) PrintWarning(warning);
   if (too_far > 0) {

@@ -8,6 +8,7 @@
 #include "app/detector_figures.h"
 #include "app/recording_options.h"
 #include "app/sim_arguments.h"
+#include "io/image/encode_png.h"
 #include "io/input_error.h"
 #include "io/output_file.h"
 #include "io/output_folder.h"
@@ -17,7 +18,6 @@
 #include "sim/sensor/report/bend_report.h"
 #include "sim/sensor/report/sensor_figure.h"
 #include "sim/sensor/report/sensor_report.h"
-#include "sim/write/png.h"
 #include "sim/write/preview.h"
 #include "sim/write/write_sequence.h"
 
@@ -44,7 +44,7 @@ int Report(const SimArguments& arguments, bool quiet) {
   const sim::SensorReport report = sim::MeasureWalls(sensor);
   const std::string table = sim::ReportTable(report) + sim::BendTable(sim::MeasureBend(sensor));
   text.Write(table);
-  figure.Write(sim::EncodePng(sim::DrawReport(sensor, report)));
+  figure.Write(io::EncodePng(sim::DrawReport(sensor, report)));
   if (!quiet) std::printf("%s\n%s", sensor.name.c_str(), table.c_str());
   return kDone;
 }
@@ -70,29 +70,27 @@ int Preview(const SimArguments& arguments, bool quiet) {
   const sim::Scene scene = SceneOf(arguments);
   sim::SequenceOptions options = OptionsOf(arguments, scene);
   const int frame = arguments.preview_frame;
-  std::vector<sim::TimedPose> trajectory;
-  if (arguments.trajectory.empty()) {
-    trajectory =
-        sim::MakeTrajectory(scene, frame + 1, options.rig.camera.fps, options.rig.seed);
-  } else {
-    trajectory = ReplayOf(arguments, options);
-    Warn(sim::ClearanceWarning(scene, trajectory));
+  const bool own_motion = arguments.trajectory.empty();
+  if (own_motion) options.frames = frame + 1;
+  sim::Recording recording = RecordingOf(arguments, scene, options);
+  // Where frames are lost, a longer recording begins with those of a shorter one.
+  while (own_motion && recording.frames() <= frame) {
+    options.frames *= 2;
+    recording = RecordingOf(arguments, scene, options);
   }
-  if (frame >= static_cast<int>(trajectory.size())) {
+  if (!own_motion) WarnOfContact(scene, recording);
+  if (frame >= recording.frames()) {
     throw io::InputError(
         "--frame " + std::to_string(frame),
-        "the trajectory has frames 0 to " + std::to_string(trajectory.size() - 1));
+        "the trajectory has frames 0 to " + std::to_string(recording.frames() - 1));
   }
   const sim::Simulator simulator(scene, options.rig);
-  sim::Shot shot;
-  shot.time_s = trajectory[static_cast<std::size_t>(frame)].timestamp_s;
-  shot.T_wc = trajectory[static_cast<std::size_t>(frame)].T_wc;
-  const sim::SimulatedFrame made =
-      simulator.Simulate(frame, shot, [&](double) { return shot.T_wc; });
-  output.Write(sim::EncodePng(sim::PreviewPicture(made)));
+  const sim::SimulatedFrame made = sim::Record(simulator, recording, frame);
+  output.Write(io::EncodePng(sim::PreviewPicture(made)));
   if (!quiet) {
     std::printf("%s: frame %d, %.3f s: colour, depth; planes, objects\n",
-                arguments.preview.c_str(), frame, shot.time_s);
+                arguments.preview.c_str(), frame,
+                recording.shots[static_cast<std::size_t>(frame)].time_s);
   }
   return kDone;
 }

@@ -129,9 +129,9 @@ int RunSlam(SlamArguments& arguments, bool quiet) {
                          "see pas slam --help");
   }
   if (options.force) {
-    io::RefuseInputsInside(options.run,
-                           {options.sequence, arguments.live_scene, arguments.config_file,
-                            options.camera, arguments.depth_warp});
+    io::RefuseInputsInside(
+        options.run, {options.sequence, arguments.live_scene, arguments.config_file,
+                      options.camera, arguments.depth_warp, slam::ModelFile(options.detector)});
   }
   options.variant = slam::VariantOf(arguments.variant);
   std::optional<SceneRecording> scene;

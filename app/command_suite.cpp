@@ -241,6 +241,12 @@ class SuiteCall {
 
   int Verdict(const eval::GateReport& report) const {
     fmt::print("{}", eval::GateTable(report));
+    if (report.metrics.empty()) {
+      throw io::InputError(
+          arguments_.baseline,
+          "has no case of this suite, so nothing was compared; write one of it "
+          "with --accept \"REASON\"");
+    }
     const bool undecided = !report.UndecidedArms().empty();
     if (report.AnyWorse()) {
       fmt::print(

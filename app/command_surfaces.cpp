@@ -1,12 +1,12 @@
 #include <cstdio>
 #include <filesystem>
-#include <opencv2/imgcodecs.hpp>
 
 #include "app/app.h"
 #include "app/console.h"
 #include "app/surfaces_option.h"
 #include "eval/surfaces/draw_surfaces.h"
 #include "eval/surfaces/find_surfaces.h"
+#include "io/image/encode_png.h"
 #include "io/output_file.h"
 
 namespace app {
@@ -34,7 +34,7 @@ int RunSurfaces(const SurfacesArguments& arguments, bool quiet) {
       [&](int done, int total) { progress.Update(2 * int(views.size()) * done / total); });
   file.sequence = arguments.sequence;
   output.Write(eval::SurfacesText(file));
-  if (picture) picture->Write(PngBytes(eval::DrawSurfaces(file, views)));
+  if (picture) picture->Write(io::EncodePng(eval::DrawSurfaces(file, views)));
   if (quiet) return kDone;
   double area_m2 = 0.0;
   for (const eval::Surface& surface : file.surfaces) area_m2 += eval::AreaOf(surface);

@@ -74,8 +74,7 @@ std::vector<sim::TimedPose> ReplayOf(const SimArguments& arguments,
       {"trajectory", std::filesystem::path(arguments.trajectory).filename().string()},
       {"sha256", io::Sha256OfFile(arguments.trajectory)}};
   const double fps = options.rig.camera.fps;
-  const double length_s = options.path.back().timestamp_s;
-  if (!arguments.frames) options.frames = static_cast<int>(std::floor(length_s * fps)) + 1;
+  if (!arguments.frames) options.frames = sim::FramesOf(options.path, fps);
   return sim::Replay(options.path, options.frames, fps, arguments.trajectory);
 }
 

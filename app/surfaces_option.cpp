@@ -3,11 +3,11 @@
 #include <fmt/format.h>
 
 #include <filesystem>
-#include <opencv2/imgcodecs.hpp>
 
 #include "eval/draw/draw_camera.h"
 #include "eval/surfaces/draw_surfaces.h"
 #include "eval/surfaces/label_surfaces.h"
+#include "io/image/encode_png.h"
 #include "io/output_folder.h"
 
 namespace app {
@@ -24,8 +24,8 @@ void WriteWorstFrames(io::OutputFolder& folder, const eval::SurfaceScore& score,
   int rank = 0;
   for (const eval::FrameWholeness& frame : eval::WorstFrames(score, kWorstFrames)) {
     const std::string name = fmt::format("worst_{:02}.png", ++rank);
-    folder.Write(name, PngBytes(eval::DrawCutSurfaces(label(views.Read(frame.view)), run, views,
-                                                      frame)));
+    folder.Write(name, io::EncodePng(eval::DrawCutSurfaces(label(views.Read(frame.view)), run,
+                                                           views, frame)));
   }
   folder.Commit();
 }
@@ -108,12 +108,6 @@ std::optional<eval::SurfaceScore> ScoreOnSurfaces(const eval::Run& run,
   eval::SurfaceScore score = eval::ScoreSurfaces(run, views, label);
   if (pictures) WriteWorstFrames(*pictures, score, run, views, label);
   return score;
-}
-
-std::string PngBytes(const cv::Mat& image) {
-  std::vector<unsigned char> bytes;
-  cv::imencode(".png", image, bytes);
-  return {bytes.begin(), bytes.end()};
 }
 
 }  // namespace app

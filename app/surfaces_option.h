@@ -46,7 +46,4 @@ std::optional<eval::SurfaceScore> ScoreOnSurfaces(const eval::Run& run,
                                                   const eval::Sequence& sequence,
                                                   const SurfacesOption& option, bool force);
 
-/// An image as the bytes of a PNG file.
-std::string PngBytes(const cv::Mat& image);
-
 }  // namespace app

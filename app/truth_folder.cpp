@@ -3,16 +3,16 @@
 #include <filesystem>
 #include <utility>
 
+#include "io/image/encode_png.h"
 #include "io/sha256.h"
 #include "sim/truth/truth_json.h"
-#include "sim/write/png.h"
 #include "sim/write/sequence_text.h"
 
 namespace app {
 
 TruthRecord EncodeTruth(double timestamp_s, const sim::SimulatedFrame& frame) {
-  return {sim::FrameTruthJson(timestamp_s, frame.truth), sim::EncodePng(frame.plane_id),
-          sim::EncodePng(frame.object_id)};
+  return {sim::FrameTruthJson(timestamp_s, frame.truth), io::EncodePng(frame.plane_id),
+          io::EncodePng(frame.object_id)};
 }
 
 TruthFolder::TruthFolder(sim::Scene scene, std::vector<sim::ScenePlane> planes,

@@ -79,7 +79,7 @@ void OutputFile::RefuseInput() const {
     std::error_code ignored;
     const bool folder = fs::is_directory(input, ignored);
     const bool own = folder && path_.filename() == rules_.own_name &&
-                     fs::equivalent(path_.parent_path() / "", input, ignored);
+                     fs::equivalent(fs::absolute(path_).parent_path(), input, ignored);
     if (own || !(folder ? LiesIn(path_, input) : fs::equivalent(path_, input, ignored))) {
       continue;
     }

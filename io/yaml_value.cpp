@@ -33,6 +33,11 @@ bool IsPlain(const std::string& text) {
   });
 }
 
+/// What YAML takes for nothing unless it stands in quotes, which nothing here is written in.
+bool IsNull(const std::string& text) {
+  return text == "null" || text == "Null" || text == "NULL";
+}
+
 template <typename Whole>
 std::optional<Whole> ParseWhole(const std::string& text) {
   Whole number = 0;
@@ -107,7 +112,7 @@ std::string YamlValue::Word() const {
       "1 to 64 letters, digits, spaces or _-./ with a letter or digit at both ends";
   const std::string& text = Scalar(expected);
   if (text.empty() || text.size() > kMaxWord || !IsPlain(text) ||
-      !IsLetterOrDigit(text.front()) || !IsLetterOrDigit(text.back())) {
+      !IsLetterOrDigit(text.front()) || !IsLetterOrDigit(text.back()) || IsNull(text)) {
     Expected(expected);
   }
   return text;
@@ -119,7 +124,7 @@ std::string YamlValue::Path() const {
       "a path of letters, digits, spaces and _-./, at most 256 characters";
   const std::string& text = Scalar(expected);
   if (text.empty() || text.size() > kMaxPath || !IsPlain(text) || text.front() == ' ' ||
-      text.back() == ' ') {
+      text.back() == ' ' || IsNull(text)) {
     Expected(expected);
   }
   return text;

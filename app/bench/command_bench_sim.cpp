@@ -8,13 +8,13 @@
 #include <filesystem>
 
 #include "app/app.h"
+#include "io/image/encode_png.h"
 #include "sim/families/families.h"
 #include "sim/scene/read_scene.h"
 #include "sim/trace/frame_renderer.h"
 #include "sim/truth/truth_json.h"
 #include "sim/write/carried_exposure.h"
 #include "sim/write/parallel_frames.h"
-#include "sim/write/png.h"
 #include "sim/write/timing.h"
 #include "sim/write/write_sequence.h"
 
@@ -134,7 +134,7 @@ Stages MeasureStages(const sim::Scene& scene, const std::vector<sim::TimedPose>&
     sum.png += Cost([&] {
       for (const cv::Mat& image :
            {colour, depth, cv::Mat(seen.plane_id), cv::Mat(seen.object_id)})
-        sim::EncodePng(image);
+        io::EncodePng(image);
     });
     sum.bare += renderer.BareTraversal_s(T_wc, all);
   }

@@ -6,6 +6,7 @@
 #include "app/app.h"
 #include "app/bench/bench_slam.h"
 #include "app/bench/quantile.h"
+#include "app/depth_sensor_option.h"
 #include "slam/model/module_times.h"
 #include "slam/run/config_file.h"
 #include "slam/run/run_sequence.h"
@@ -22,7 +23,7 @@ constexpr double kWrong_m = 0.05;
 
 struct SlamBenchArguments {
   std::vector<std::string> sequences;
-  std::string config_file, mapping = "both";
+  std::string config_file, mapping = "both", sensor = kAutoSensor;
   BenchOptions bench;
   bool loop_closing = false;
 };
@@ -107,19 +108,18 @@ void PrintComebacks(const std::vector<BenchRow>& rows) {
     fmt::print("elsewhere: {} of {} frames taken for the map's\n", taken, elsewhere);
 }
 
-int RunSlamBench(const SlamBenchArguments& arguments) {
+int RunSlamBench(const SlamBenchArguments& arguments, bool quiet) {
   BenchOptions bench = arguments.bench;
   slam::VariantOf(bench.variant);  // refused before anything runs
-  if (!arguments.config_file.empty()) {
-    bench.config = slam::ReadConfig(arguments.config_file, bench.config);
-  }
-  bench.config.loop_closing.enabled |= arguments.loop_closing;
   fmt::print(
       "{:<14} {:<5} {:>6} {:>7} {:>4} {:>7} {:>7} {:>4} {:>6} {:>6} {:>6} {:>6} {:>5} {:>7}\n",
       "sequence", "map", "frames", "tracked", "lost", "ate mm", "end mm", "kf", "points",
       "run ms", "ms", "p99 ms", "late", "KiB/fr");
   std::vector<BenchRow> sync, async;
   for (const std::string& sequence : arguments.sequences) {
+    bench.config =
+        ConfigForRecording(arguments.sensor, arguments.config_file, sequence, "", quiet);
+    bench.config.loop_closing.enabled |= arguments.loop_closing;
     for (const bool beside : {false, true}) {
       if (arguments.mapping == (beside ? "sync" : "async")) continue;
       bench.config.async_mapping = beside;
@@ -148,13 +148,14 @@ int RunSlamBench(const SlamBenchArguments& arguments) {
 
 }  // namespace
 
-void AddBenchSlam(CLI::App& bench, const Globals& /*globals*/, int& exit_code) {
+void AddBenchSlam(CLI::App& bench, const Globals& globals, int& exit_code) {
   CLI::App* command = bench.add_subcommand("slam", kAboutBenchSlam);
   const auto arguments = std::make_shared<SlamBenchArguments>();
   command->add_option("SEQ", arguments->sequences, "Sequences to run on")->required();
   command->add_option("--variant", arguments->bench.variant, "As of pas slam")
       ->capture_default_str();
   command->add_option("--config", arguments->config_file, "As of pas slam");
+  AddSensorOption(*command, arguments->sensor);
   command->add_option("--threads", arguments->bench.threads, "Of tracking; 0: one a core")
       ->check(CLI::Range(0, 1024))
       ->capture_default_str();
@@ -191,7 +192,9 @@ void AddBenchSlam(CLI::App& bench, const Globals& /*globals*/, int& exit_code) {
       ->check(CLI::IsMember({"sync", "async", "both"}))
       ->capture_default_str();
   command->add_flag("--loop-closing", arguments->loop_closing, "As of pas slam");
-  command->callback([arguments, &exit_code] { exit_code = RunSlamBench(*arguments); });
+  command->callback([arguments, &globals, &exit_code] {
+    exit_code = RunSlamBench(*arguments, globals.quiet);
+  });
 }
 
 }  // namespace app

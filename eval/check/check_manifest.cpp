@@ -63,7 +63,7 @@ std::string CheckManifest(Folder& folder, int frames) {
   const Manifest manifest = ReadManifest(folder);
   TellFrameCount(folder, manifest, static_cast<std::size_t>(frames));
   if (manifest.sha256) CheckHashes(folder, *manifest.sha256);
-  return manifest.sensor;
+  return manifest.sensor_as_named ? manifest.sensor : "";
 }
 
 }  // namespace eval

@@ -12,6 +12,7 @@
 #include "eval/formats/sequence/frame_truth.h"
 #include "eval/formats/sequence/images.h"
 #include "eval/formats/sequence/sequence_agreement.h"
+#include "eval/formats/stamped_files.h"
 
 namespace eval {
 namespace {
@@ -115,11 +116,24 @@ cv::Mat IdImage(Folder& folder, const std::string& file, int line, cv::Size size
   return {};
 }
 
+/// The image of ids of a frame, by its time; where there is none, what it should be called.
+std::string IdFile(const StampedFiles& files, const std::string& folder,
+                   const ListedImage& frame) {
+  const auto found = files.Find(frame.stamp_s);
+  const std::filesystem::path name =
+      found ? found->filename() : std::filesystem::path(frame.file).filename();
+  return folder + "/" + name.string();
+}
+
 /// The lists and id images of the frames, one after the other.
 class FramesCheck {
  public:
   FramesCheck(Folder& folder, const SequenceTruth& truth)
-      : folder_(folder), truth_(truth), depth_(folder, truth) {
+      : folder_(folder),
+        truth_(truth),
+        depth_(folder, truth),
+        plane_files_(folder.root() / "gt/plane_id"),
+        object_files_(folder.root() / "gt/object_id") {
     for (const ListedImage& image : truth.rgb) images_[image.stamp_s] = image;
     for (const auto& [stamp, image] : images_) stamps_.push_back(stamp);
   }
@@ -128,8 +142,8 @@ class FramesCheck {
     const auto near = NearestStamp(stamps_, frame.stamp_s, kSameInstant_s);
     if (!near) return;  // which has been told
     const ListedImage& image = images_.at(stamps_[*near]);
-    const std::string name = std::filesystem::path(image.file).filename().string();
-    const std::string plane_file = "gt/plane_id/" + name, object_file = "gt/object_id/" + name;
+    const std::string plane_file = IdFile(plane_files_, "gt/plane_id", image);
+    const std::string object_file = IdFile(object_files_, "gt/object_id", image);
     const cv::Mat plane_ids = IdImage(folder_, plane_file, frame.line, truth_.size);
     const cv::Mat object_ids = IdImage(folder_, object_file, frame.line, truth_.size);
     const auto& scene = truth_.scene;
@@ -149,6 +163,7 @@ class FramesCheck {
   Folder& folder_;
   const SequenceTruth& truth_;
   TruthDepthCheck depth_;
+  StampedFiles plane_files_, object_files_;
   std::map<double, ListedImage> images_;
   std::vector<double> stamps_;
 };

@@ -4,6 +4,7 @@
 
 #include "eval/check/check_truth_depth.h"
 #include "eval/formats/sequence/images.h"
+#include "eval/formats/stamped_files.h"
 #include "eval/formats/stamps.h"
 #include "eval/trajectory/true_pose.h"
 
@@ -28,6 +29,7 @@ DeepFrames::DeepFrames(const Folder& folder, const SequenceTruth& truth)
 
 void DeepFrames::Load(const Folder& folder) {
   const std::vector<double> stamps = StampsOf(truth_.poses);
+  const StampedFiles plane_files(folder.root() / "gt/plane_id");
   const std::size_t count = truth_.rgb.size();
   const std::size_t step = std::max<std::size_t>(1, (count + kMaxFrames - 1) / kMaxFrames);
   for (std::size_t i = 0; i < count; i += step) {
@@ -35,9 +37,10 @@ void DeepFrames::Load(const Folder& folder) {
     const auto pose = NearestStamp(stamps, image.stamp_s, kSameInstant_s);
     DeepFrame frame;
     frame.name = std::filesystem::path(image.file).filename().string();
-    frame.plane_file = "gt/plane_id/" + frame.name;
     frame.stamp_s = image.stamp_s;
-    if (!pose || !folder.Has(frame.plane_file)) continue;
+    const auto ids = plane_files.Find(image.stamp_s);
+    if (!pose || !ids) continue;
+    frame.plane_file = "gt/plane_id/" + ids->filename().string();
     frame.pose = *pose;
     frame.ids = Read(folder, frame.plane_file);
     const auto pair =

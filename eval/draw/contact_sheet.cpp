@@ -20,13 +20,11 @@ const Colour kPage{40, 34, 31}, kPale{215, 208, 202}, kWarning{90, 110, 255};
 constexpr int kTile_px = 600, kGap_px = 14, kCaption_px = 30;
 constexpr int kMaxTileHeight_px = 1500;  // an image that is a mere column fills no wall
 
-template <typename Items, typename Stamp>
-const typename Items::value_type* FindByStamp(const Items& items, double stamp_s,
-                                              Stamp stamp_of) {
-  const auto found = std::find_if(items.begin(), items.end(), [&](const auto& item) {
-    return std::abs(stamp_of(item) - stamp_s) < kSameStamp_s;
-  });
-  return found == items.end() ? nullptr : &*found;
+template <typename Records>
+const typename Records::value_type* OfFrame(const Records& records, double frame_s,
+                                            bool synthetic) {
+  const auto found = FindFrame(StampsOf(records), frame_s, synthetic);
+  return found ? &records[*found] : nullptr;
 }
 
 FrameScene Collect(const Run& run, const Sequence& sequence, const SequenceFrame& frame,
@@ -50,9 +48,8 @@ FrameScene Collect(const Run& run, const Sequence& sequence, const SequenceFrame
                     frame.stamp_s, scene.labels->cols, scene.labels->rows, scene.rgb.cols,
                     scene.rgb.rows));
   }
-  scene.frame = FindByStamp(run.frames, frame.stamp_s, [](const auto& f) { return f.stamp_s; });
-  const StampedPose* pose =
-      FindByStamp(run.trajectory, frame.stamp_s, [](const auto& p) { return p.stamp_s; });
+  scene.frame = OfFrame(run.frames, frame.stamp_s, sequence.synthetic);
+  const StampedPose* pose = OfFrame(run.trajectory, frame.stamp_s, sequence.synthetic);
   if (pose != nullptr) scene.T_wc = pose->T_wc;
   scene.map = &run.map;
   scene.camera = camera;

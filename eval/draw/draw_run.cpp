@@ -4,13 +4,13 @@
 
 #include <algorithm>
 #include <memory>
-#include <opencv2/imgcodecs.hpp>
 
 #include "eval/draw/contact_sheet.h"
 #include "eval/draw/error_picture.h"
 #include "eval/draw/map_picture.h"
 #include "eval/draw/sheet_header.h"
 #include "io/atomic_file.h"
+#include "io/image/encode_png.h"
 #include "io/input_error.h"
 #include "io/output_folder.h"
 
@@ -34,11 +34,7 @@ bool IsEmptyFolder(const fs::path& path) {
 
 std::vector<std::string> Encoded(const std::vector<Picture>& pictures) {
   std::vector<std::string> files;
-  for (const Picture& picture : pictures) {
-    std::vector<unsigned char> bytes;
-    cv::imencode(".png", picture.image, bytes);
-    files.emplace_back(bytes.begin(), bytes.end());
-  }
+  for (const Picture& picture : pictures) files.push_back(io::EncodePng(picture.image));
   return files;
 }
 

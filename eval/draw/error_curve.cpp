@@ -72,9 +72,9 @@ std::vector<std::optional<Gap>> GapOfFrames(const Run& run, const Sequence& sequ
     const double stamp_s = sequence.frames[i].stamp_s;
     if (i >= seen) {
       gaps.emplace_back(Gap::kNotRun);
-    } else if (!FindStamp(tracked_s, stamp_s)) {
+    } else if (!FindFrame(tracked_s, stamp_s, sequence.synthetic)) {
       gaps.emplace_back(Gap::kLost);
-    } else if (!FindStamp(compared_s, stamp_s)) {
+    } else if (!FindFrame(compared_s, stamp_s, sequence.synthetic)) {
       gaps.emplace_back(Gap::kNoTruth);
     } else {
       gaps.emplace_back();

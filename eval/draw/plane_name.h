@@ -16,7 +16,7 @@ const RunMapPlane* FinalPlane(const std::vector<RunMapPlane>& map, int id);
 /// and colour of the plane it ended up in, so that one surface has one of each.
 struct PlaneName {
   std::optional<Colour> colour;  ///< nothing: it belongs to no map plane
-  std::string text;  ///< "12 book", "inliers", or empty where there is nothing to say
+  std::string text;  ///< "12 book", "not flat enough", or empty where there is nothing to say
 };
 PlaneName NameOfPlane(const RunFramePlane& plane, const std::vector<RunMapPlane>& map);
 

@@ -21,7 +21,7 @@ struct MapGauge {
 
 /// v is the world of the truth where that has its z axis up: a simulator's has, and a
 /// recording's if the map has a plane that is level in it. Else v is turned until the most
-/// seen large plane below the camera (its normal nearer to the camera's up than to level) lies
+/// seen large plane below the camera (its normal within 72 degrees of the camera's up) lies
 /// level; without one, until the camera stands upright in the mean.
 MapGauge ChooseMapGauge(const Run& run, const Sequence& sequence);
 

@@ -4,11 +4,11 @@
 
 #include <map>
 #include <nlohmann/json.hpp>
-#include <opencv2/imgcodecs.hpp>
 #include <tuple>
 
 #include "eval/export/box_model.h"
 #include "eval/export/silhouette.h"
+#include "io/image/encode_png.h"
 #include "io/input_error.h"
 #include "io/output_folder.h"
 
@@ -64,13 +64,6 @@ Json Millimetres(const Eigen::Vector3d& t_m) {
 }
 Json BoxOf(const PixelSet& pixels) {
   return {pixels.x0, pixels.y0, pixels.x1 - pixels.x0, pixels.y1 - pixels.y0};
-}
-
-void WriteMask(const io::OutputFolder& folder, const fs::path& relative,
-               const cv::Mat1b& mask) {
-  if (!cv::imwrite(folder.Path(relative).string(), mask)) {
-    throw io::InputError(relative.string(), "cannot be written; is the disk full?");
-  }
 }
 
 class BopScene {
@@ -151,8 +144,8 @@ class BopScene {
     }
     const std::string key = std::to_string(im_id);
     const std::string mask = fmt::format("{:06}_{:06}.png", im_id, poses_[key].size());
-    WriteMask(folder_, place_ / "mask" / mask, whole.mask);
-    WriteMask(folder_, place_ / "mask_visib" / mask, visible);
+    folder_.Write(place_ / "mask" / mask, io::EncodePng(whole.mask));
+    folder_.Write(place_ / "mask_visib" / mask, io::EncodePng(visible));
     poses_[key].push_back({{"cam_R_m2c", RowMajor(T_co.R)},
                            {"cam_t_m2c", Millimetres(T_co.t)},
                            {"obj_id", models_.IdOf(object)}});

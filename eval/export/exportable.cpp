@@ -1,6 +1,6 @@
 #include "eval/export/exportable.h"
 
-#include "io/image_header.h"
+#include "io/image/image_header.h"
 #include "io/input_error.h"
 #include "io/read_file.h"
 
@@ -40,9 +40,9 @@ Sequence ReadExportable(const std::filesystem::path& folder, const ExportOptions
 std::string ReadImageBytes(const Sequence& sequence, const std::filesystem::path& image) {
   const std::filesystem::path file = sequence.folder / image;
   std::string bytes = io::ReadFile(file);
-  const auto size = io::ImageSizeOf(bytes);
-  if (!size || size->width != sequence.camera->width ||
-      size->height != sequence.camera->height) {
+  const auto header = io::ReadImageHeader(bytes);
+  if (!header || header->width != sequence.camera->width ||
+      header->height != sequence.camera->height) {
     throw io::InputError(file.string(),
                          "is no image of the size that camera.yaml says; restore it");
   }

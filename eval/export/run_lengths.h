@@ -12,7 +12,7 @@ namespace eval {
 /// to the number of pixels.
 std::vector<std::uint32_t> RunLengths(const cv::Mat1b& mask);
 
-/// The text of COCO's compressed `counts`: from the third run on the difference to the run two
+/// The text of COCO's compressed `counts`: from the fourth run on the difference to the run two
 /// before is kept; each number in groups of 5 bits, lowest first, as character 48 + group + 32
 /// when more follow; the last group's bit 4 is the sign.
 std::string CompressRunLengths(const std::vector<std::uint32_t>& runs);

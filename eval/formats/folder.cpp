@@ -55,6 +55,7 @@ std::filesystem::path Folder::Open(const std::string& file) {
 }
 
 void Folder::Tell(Fault fault, Severity severity) {
+  fault.severity = severity;
   if (on_fault_ == OnFault::kCollect || severity == Severity::kWarning) {
     faults_.push_back(std::move(fault));
   } else if (severity == Severity::kFatal) {

@@ -11,6 +11,14 @@
 /// is wrong with it.
 namespace eval {
 
+/// What a fault does to figures and pictures that rest on the file. docs/faults.md lists which
+/// fault is which.
+enum class Severity {
+  kFatal,    ///< they would be wrong, or there are none
+  kWarning,  ///< they can be made, but who looks at them should know
+  kFlaw,     ///< nothing: the format asks for something else, and only a check tells so
+};
+
 /// One thing that is wrong in a folder. To a check it is a value: a folder that is all wrong is
 /// still a normal result.
 struct Fault {
@@ -19,18 +27,11 @@ struct Fault {
   std::string pointer;  ///< JSON pointer within the line or the document; may be empty
   std::string what;     ///< what is there and what was expected
   std::string mend;     ///< what to do about it
+  Severity severity = Severity::kFatal;
 };
 
 /// "rgb.txt:12: what; mend", with the JSON pointer behind the line where there is one.
 std::string Describe(const Fault& fault);
-
-/// What a fault does to figures and pictures that rest on the file. docs/faults.md lists which
-/// fault is which.
-enum class Severity {
-  kFatal,    ///< they would be wrong, or there are none
-  kWarning,  ///< they can be made, but who looks at them should know
-  kFlaw,     ///< nothing: the format asks for something else, and only a check tells so
-};
 
 /// What becomes of faults.
 enum class OnFault {

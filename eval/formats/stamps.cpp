@@ -36,11 +36,19 @@ std::optional<std::size_t> NearestStamp(const std::vector<double>& stamps_s, dou
   return static_cast<std::size_t>(nearest - stamps_s.begin());
 }
 
+std::optional<std::size_t> FindFrame(const std::vector<double>& stamps_s, double frame_s,
+                                     bool synthetic) {
+  return synthetic ? FindStamp(stamps_s, frame_s)
+                   : NearestStamp(stamps_s, frame_s, kMaxStampDifference_s);
+}
+
 void StampOrder::Next(double stamp_s, int line) {
   const auto from = seen_s_.lower_bound(stamp_s - kSameStamp_s);
   // A time that came before others is out of order, whether it is a new one or not.
   const bool goes_back = !stamps_s_.empty() && stamp_s < stamps_s_.back() - kSameStamp_s;
-  const bool repeats = !goes_back && from != seen_s_.end() && *from <= stamp_s + kSameStamp_s;
+  const bool seen = from != seen_s_.end() && *from <= stamp_s + kSameStamp_s;
+  // Of a time that is both, the graver is told.
+  const bool repeats = seen && (!goes_back || repetition_ < disorder_);
   if (repeats || (!stamps_s_.empty() && !(stamp_s > stamps_s_.back()))) {
     folder_.Tell(file_, line,
                  fmt::format("time stamp {:.6f} {}; stamps must increase strictly", stamp_s,

@@ -17,6 +17,10 @@ inline constexpr double kSameStamp_s = 1e-5;
 /// four decimals, and half a unit of the last of them is lost on either side.
 inline constexpr double kSameInstant_s = 1e-4;
 
+/// Truth and estimate of one moment are at most this far apart where they have clocks of their own
+/// (evo's default).
+inline constexpr double kMaxStampDifference_s = 0.01;
+
 /// Index of the entry of rising `stamps_s` that is the frame at `stamp_s`, if any.
 std::optional<std::size_t> FindStamp(const std::vector<double>& stamps_s, double stamp_s);
 
@@ -24,6 +28,11 @@ std::optional<std::size_t> FindStamp(const std::vector<double>& stamps_s, double
 /// max_difference_s away; the earlier one on ties.
 std::optional<std::size_t> NearestStamp(const std::vector<double>& stamps_s, double t_s,
                                         double max_difference_s);
+
+/// The record of a frame: the same stamp where stamps are ids of frames, as on synthetic data, else
+/// the nearest within kMaxStampDifference_s. `stamps_s` rise.
+std::optional<std::size_t> FindFrame(const std::vector<double>& stamps_s, double frame_s,
+                                     bool synthetic);
 
 /// The stamps of a list of records.
 template <typename Records>

@@ -61,7 +61,8 @@ class Placement {
 
  private:
   const PlaneDecision* first_ = nullptr;
-  int frames_ = 0, pixels_ = 0;
+  int frames_ = 0;
+  long long pixels_ = 0;
   std::optional<double> distance_mm_, harm_px_mm_;
   std::map<std::string, int> cues_;
 };

@@ -33,7 +33,7 @@ struct RunEvent {
   std::optional<int> map_plane;        ///< that was given
   std::optional<int> right_map_plane;  ///< that the truth has
   std::string cue;                     ///< what settled it, as the run says; may be empty
-  std::optional<int> pixels;           ///< of the frame plane, or of the surface
+  std::optional<long long> pixels;  ///< of the frame plane, or of the surface; sums of frames
   /// From the map plane that was given to the true plane: root mean square over the true plane's
   /// corners; for what shows no scored plane from the middle of the patch.
   std::optional<double> distance_mm;

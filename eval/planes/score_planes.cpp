@@ -57,7 +57,7 @@ class PlaneScorer {
   void AddParameters(const FrameEvidence& e) {
     for (const RunFramePlane& plane : e.planes) {
       const SeenPlane* seen = e.truth.Find(e.TruthOf(plane));
-      if (plane.bad || seen == nullptr) continue;
+      if (plane.bad || seen == nullptr || !seen->counted) continue;
       const Eigen::Vector3d foot_c =
           plane.centroid_c - SignedDistance(plane.pi_c, plane.centroid_c) * plane.pi_c.n;
       normal_deg_.push_back(Angle(plane.pi_c.n, seen->pi_c.n) * 180.0 / std::numbers::pi);

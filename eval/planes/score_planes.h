@@ -32,8 +32,9 @@ struct PlaneScore {
   bool from_frame_planes = true;
   bool by_pixels = false;  ///< truth of a frame plane by its pixels (else by geometry)
   std::optional<RegionScore> regions;  ///< only by pixels
-  std::optional<Spread> normal_deg;    ///< trusted frame planes against their truth
-  std::optional<Spread> offset_mm;     ///< at the foot of the patch's centroid on its plane
+  std::optional<Spread>
+      normal_deg;  ///< trusted frame planes against their truth, where that counts
+  std::optional<Spread> offset_mm;  ///< at the foot of the patch's centroid on its plane
   CornerCounts corners;
   AssociationScore association;
   UndecidedSurfaces undecided;

@@ -69,8 +69,9 @@ std::vector<StepScore> ScoreSteps(const DecisionHistory& history, const SceneTru
     const auto step = class_of.find(record.truth);
     if (step == class_of.end()) continue;
     if (judged[i].outcome == DecisionOutcome::kWrong) {
-      ++scores[step->second].wrong;
+      ++scores[step->second].wrong_planes;
     } else {
+      ++scores[step->second].right_planes;
       right.emplace(record.frame, record.truth);
     }
   }

@@ -19,7 +19,9 @@ struct StepScore {
   double min_mm = 0.0, max_mm = 0.0;  ///< of the class; the last one has no end
   int seen = 0;                       ///< tops in frames in which they count
   int right = 0;  ///< those of them with a frame plane that was put on a map plane of their own
-  int wrong = 0;  ///< frame planes on them that were put on a map plane of another surface
+  /// Frame planes on the tops, in all frames, that were put on a map plane: of their own, or of
+  /// another surface.
+  int right_planes = 0, wrong_planes = 0;
 };
 
 /// By rising height, classes without a top left out.

@@ -5,6 +5,7 @@
 #include <map>
 #include <numbers>
 
+#include "eval/check/check_truth_depth.h"
 #include "io/input_error.h"
 
 namespace eval {
@@ -48,22 +49,25 @@ std::map<int, VisiblePatch> PatchesOf(const Sequence& sequence, double stamp_s) 
   return patches;
 }
 
-std::optional<Eigen::Vector2d> Pixel(const Camera& camera, const Eigen::Vector3d& x_c) {
-  if (!(x_c.z() > 0.0)) return std::nullopt;
-  return Eigen::Vector2d(camera.fx * x_c.x() / x_c.z() + camera.cx,
-                         camera.fy * x_c.y() / x_c.z() + camera.cy);
+/// Whether a pixel looks at the point: far outside the image the lens's model folds back into it.
+bool LooksAt(const Camera& camera, const Eigen::Vector2d& pixel, const Eigen::Vector3d& x_c) {
+  constexpr double kSameWay = 0.01;  // of a depth: 6 px, more than undistorting leaves
+  const Eigen::Vector3d ray_c = RaysOf(camera, {{pixel.x(), pixel.y()}}).front();
+  return (ray_c - x_c / x_c.z()).norm() < kSameWay;
 }
 
 bool CornerInView(const Camera& camera, const Eigen::Vector3d& corner_c, int id,
                   const std::optional<cv::Mat1w>& ids) {
-  const auto pixel = Pixel(camera, corner_c);
-  if (!pixel || !(pixel->x() >= 0.0 && pixel->x() <= camera.width - 1.0) ||
-      !(pixel->y() >= 0.0 && pixel->y() <= camera.height - 1.0)) {
+  if (!(corner_c.z() > 0.0)) return false;
+  const Eigen::Vector2d pixel = PixelOf(camera, corner_c);
+  if (!(pixel.x() >= 0.0 && pixel.x() <= camera.width - 1.0) ||
+      !(pixel.y() >= 0.0 && pixel.y() <= camera.height - 1.0) ||
+      !LooksAt(camera, pixel, corner_c)) {
     return false;
   }
   if (!ids) return true;
-  const int x = static_cast<int>(std::lround(pixel->x()));
-  const int y = static_cast<int>(std::lround(pixel->y()));
+  const int x = static_cast<int>(std::lround(pixel.x()));
+  const int y = static_cast<int>(std::lround(pixel.y()));
   const int radius = std::max(1, int(std::lround(kCornerSearch_px * camera.width / 640.0)));
   for (int v = std::max(0, y - radius); v <= std::min(ids->rows - 1, y + radius); ++v) {
     for (int u = std::max(0, x - radius); u <= std::min(ids->cols - 1, x + radius); ++u) {
@@ -78,9 +82,7 @@ Eigen::Vector3d SightTo(const SeenPlane& seen, const VisiblePatch& patch, const 
                         bool has_image) {
   if (has_image) {
     const Eigen::Vector2d middle = patch.sum_px / patch.pixels;
-    return Eigen::Vector3d((middle.x() - camera.cx) / camera.fx,
-                           (middle.y() - camera.cy) / camera.fy, 1.0)
-        .normalized();
+    return RaysOf(camera, {{middle.x(), middle.y()}}).front().normalized();
   }
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
   for (const Eigen::Vector3d& corner_c : seen.corners_c) sum += corner_c;

@@ -57,7 +57,7 @@ std::vector<PlotFile> PlotErrors(const std::vector<PlottedRun>& runs) {
   const std::vector<LegendEntry> legend = LegendOf(runs);
   const double width =
       2.0 * kErrorLeft_pt + kErrorWidth_pt + kShareWidth_pt + 2.0 * kErrorEdge_pt;
-  const double top = LegendHeight(width, legend) + kErrorEdge_pt;
+  const double top = LegendHeight(width - kErrorLeft_pt, legend) + kErrorEdge_pt;
   const FigureSize size{width, top + kErrorHeight_pt + kErrorBelow_pt};
   return RenderFigure("position_error", size, [&](cairo_t* context) {
     DrawLegend(context, kErrorLeft_pt, 0.0, width - kErrorLeft_pt, legend);

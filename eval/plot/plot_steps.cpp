@@ -22,8 +22,9 @@ void DrawShares(Axes& axes, const std::vector<StepScore>& steps, const SeriesSty
                 bool precision) {
   std::vector<PlotPoint> points;
   for (const StepScore& step : steps) {
-    const int whole = precision ? step.right + step.wrong : step.seen;
-    if (whole > 0) points.push_back({HeightOf(step), double(step.right) / whole});
+    const int right = precision ? step.right_planes : step.right;
+    const int whole = precision ? step.right_planes + step.wrong_planes : step.seen;
+    if (whole > 0) points.push_back({HeightOf(step), double(right) / whole});
   }
   axes.Line(points, style);
   axes.Markers(points, style);
@@ -42,7 +43,7 @@ std::vector<PlotFile> PlotSteps(const std::vector<PlottedRun>& runs) {
   if (!(max_mm > min_mm)) return {};
   const std::vector<LegendEntry> legend = LegendOf(runs);
   const double width = 2.0 * (kStepLeft_pt + kStepWidth_pt + kStepEdge_pt);
-  const double top = LegendHeight(width, legend) + kStepEdge_pt;
+  const double top = LegendHeight(width - kStepLeft_pt, legend) + kStepEdge_pt;
   const FigureSize size{width, top + kStepHeight_pt + kStepBelow_pt};
   return RenderFigure("step_height", size, [&](cairo_t* context) {
     DrawLegend(context, kStepLeft_pt, 0.0, width - kStepLeft_pt, legend);

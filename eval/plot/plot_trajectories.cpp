@@ -43,8 +43,8 @@ Panel PanelOf(Extent e) {
 
 std::vector<PlotPoint> TruePath(const PlottedRun& run) {
   std::vector<PlotPoint> path;
-  for (const PoseError& pose : run.evaluation.trajectory.errors) {
-    path.push_back({pose.true_position_g.x(), pose.true_position_g.y()});
+  for (const Eigen::Vector3d& position_g : run.evaluation.trajectory.true_positions_g) {
+    path.push_back({position_g.x(), position_g.y()});
   }
   return path;
 }
@@ -61,8 +61,10 @@ std::vector<PlotPoint> EstimatedPath(const PlottedRun& run) {
 std::vector<PlotFile> PlotTrajectories(const std::vector<PlottedRun>& runs) {
   Extent extent;
   for (const PlottedRun& run : runs) {
+    if (run.evaluation.trajectory.errors.empty()) continue;
+    for (const Eigen::Vector3d& x_g : run.evaluation.trajectory.true_positions_g)
+      extent.Add(x_g);
     for (const PoseError& pose : run.evaluation.trajectory.errors) {
-      extent.Add(pose.true_position_g);
       if (pose.position_g) extent.Add(*pose.position_g);
     }
   }

@@ -14,7 +14,7 @@ std::vector<PlotPoint> WithGaps(
   std::vector<double> stamps_s;
   stamps_s.reserve(poses.size());
   for (const PoseError& pose : poses) stamps_s.push_back(pose.stamp_s);
-  const double gap_s = 3.0 * MedianStep(stamps_s);  // two frames were left out
+  const double gap_s = 2.5 * MedianStep(stamps_s);  // two frames were left out
   std::vector<PlotPoint> points;
   for (std::size_t i = 0; i < poses.size(); ++i) {
     const std::optional<PlotPoint> point = point_of(poses[i]);

@@ -41,6 +41,17 @@ std::vector<Fault> Caveats(const Run& run, const Sequence& sequence,
                        "parameters, which errs now and then, and precision with it",
                        "write label images (pas slam --save-segmentation) for exact figures"});
   }
+  if (!run.has_planes && !run.segmentation_files.empty()) {
+    const auto without = std::count_if(
+        sequence.frames.begin(), sequence.frames.end(), [&](const SequenceFrame& frame) {
+          return !run.segmentation_files.Find(frame.stamp_s).has_value();
+        });
+    if (without > 0) {
+      caveats.push_back({"segmentation", 0, "",
+                         fmt::format("has no image for {} of {} frames", without, frames),
+                         "they count as frames in which nothing was found"});
+    }
+  }
   if (run.info.interrupted) {
     const std::string given = run.info.frames ? fmt::format("{}", *run.info.frames) : "some";
     const auto whole = run.info.sequence_frames.value_or(static_cast<int>(frames));

@@ -10,7 +10,7 @@
 
 namespace eval {
 
-/// Time of one module, milliseconds per frame in which it ran.
+/// Time of one module, milliseconds per frame; an empty cell of timing.csv does not count, a 0 does.
 struct ModuleTime {
   std::string module;
   double mean = 0.0, median = 0.0, p95 = 0.0;

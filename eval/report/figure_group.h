@@ -29,6 +29,8 @@ class FigureGroup {
   void Put(const std::string& key, const Value& value) {
     json_[Json::json_pointer("/" + key)] = value;
   }
+  /// By a name that may hold anything, of the group itself.
+  void PutNamed(const std::string& name, Json value) { json_[name] = std::move(value); }
   template <typename Value>
   void Put(const std::string& key, const std::optional<Value>& value,
            const std::string& reason) {

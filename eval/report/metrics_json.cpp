@@ -46,7 +46,8 @@ void PutRegions(const RegionScore& r, FigureGroup& group) {
   const bool any = r.truth > 0.0 || r.machine > 0.0;
   const char* const none = "no frame shows a plane that counts, nor was one found";
   group.PutShare("pq", r.panoptic.Pq(), any, none);
-  group.PutShare("sq", r.panoptic.Sq(), r.panoptic.tp > 0, "no plane was found");
+  group.PutShare("sq", r.panoptic.Sq(), r.panoptic.tp > 0,
+                 "no found plane has an IoU above 0.5 with a true one");
   group.PutShare("rq", r.panoptic.Rq(), any, none);
   group.PutShare("pixel_precision", r.pixel_precision, r.machine > 0.0, "no plane was found");
   const char* const no_truth = "no frame shows a plane that counts";
@@ -181,7 +182,7 @@ Json MapGroup(const MapScore& m, const TrajectoryScore& trajectory, Json& reason
 Json TimingGroup(const TimingScore& t, Json& reasons) {
   FigureGroup group("timing_ms", reasons);
   for (const ModuleTime& m : t.modules) {
-    group.Put(m.module, Json{{"mean", m.mean}, {"median", m.median}, {"p95", m.p95}});
+    group.PutNamed(m.module, Json{{"mean", m.mean}, {"median", m.median}, {"p95", m.p95}});
   }
   group.Put("fps", t.fps, "timing.csv has no times of mt, the whole tracking");
   group.Put("peak_rss_mb", t.peak_rss_mb, "run.json does not tell");

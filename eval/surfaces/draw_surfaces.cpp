@@ -3,11 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 #include <set>
 
 #include "eval/draw/paint.h"
+#include "eval/formats/sequence/images.h"
 #include "eval/surfaces/surface_plan.h"
 
 namespace eval {
@@ -17,12 +17,8 @@ const Colour kPaper{40, 34, 31}, kPaleText{215, 208, 202}, kNoLandmark{150, 150,
 constexpr int kFrames = 9, kColumns = 3, kTileWidth_px = 480, kGap_px = 10, kPlanWidth_px = 900;
 constexpr double kTint = 0.5;
 
-cv::Mat ReadColour(const DepthViews& views, std::size_t i) {
-  const auto file = views.folder() / views.FrameOf(i).rgb;
-  cv::Mat image = cv::imread(file.string(), cv::IMREAD_COLOR);
-  if (image.empty()) {
-    throw io::InputError(file.string(), "cannot be read as an image; restore it");
-  }
+cv::Mat ColourOf(const DepthViews& views, std::size_t i) {
+  cv::Mat image = ReadColour(views.folder() / views.FrameOf(i).rgb);
   const cv::Size size(views.camera().width, views.camera().height);
   if (image.size() != size) cv::resize(image, image, size);
   return image;
@@ -58,7 +54,7 @@ void TintLabels(cv::Mat& image, const cv::Mat1w& labels, const ColourOf& colour_
 }
 
 cv::Mat TintedFrame(const cv::Mat1w& labels, const DepthViews& views, std::size_t i) {
-  cv::Mat image = ReadColour(views, i);
+  cv::Mat image = ColourOf(views, i);
   TintLabels(
       image, labels, [](int id) { return ColourOfPlane(id); },
       [](int id) { return std::to_string(id); });
@@ -126,9 +122,9 @@ cv::Mat DrawSurfaces(const SurfaceFile& file, const DepthViews& views) {
 cv::Mat DrawCutSurfaces(const cv::Mat1w& surfaces, const Run& run, const DepthViews& views,
                         const FrameWholeness& frame) {
   cv::Mat left = TintedFrame(surfaces, views, frame.view);
-  cv::Mat right = ReadColour(views, frame.view);
+  cv::Mat right = ColourOf(views, frame.view);
   const double stamp_s = views.StampOf(frame.view);
-  const FinalLandmarks final_landmarks(run.map);
+  const FinalLandmarks final_landmarks(run);
   std::map<int, int> landmarks;
   if (const auto at = FindStamp(StampsOf(run.frames), stamp_s)) {
     for (const RunFramePlane& plane : run.frames[*at].planes) {

@@ -34,12 +34,12 @@ RunEvent EventOf(const UndecidedSegment& undecided, const RunFrame& frame, int n
 
 }  // namespace
 
-FinalLandmarks::FinalLandmarks(const std::vector<RunMapPlane>& map) {
-  for (const RunMapPlane& plane : map) merged_into_[plane.id] = plane.merged_into;
+FinalLandmarks::FinalLandmarks(const Run& run) : has_map_(run.has_map) {
+  for (const RunMapPlane& plane : run.map) merged_into_[plane.id] = plane.merged_into;
 }
 
 std::optional<int> FinalLandmarks::Of(const std::optional<int>& map_plane) const {
-  if (!map_plane) return std::nullopt;
+  if (!map_plane || !has_map_) return map_plane;
   auto found = merged_into_.find(*map_plane);
   // The reader has told of merges in a circle; the count only makes an end of them.
   for (std::size_t steps = 0; steps <= merged_into_.size(); ++steps) {
@@ -56,7 +56,7 @@ SurfaceScore ScoreSurfaces(const Run& run, const DepthViews& views, const LabelV
                          "has no images; surfaces are counted by pixels: run `pas slam` with "
                          "--save-segmentation");
   }
-  const FinalLandmarks final_landmarks(run.map);
+  const FinalLandmarks final_landmarks(run);
   const std::vector<double> stamps_s = StampsOf(run.frames);
   SurfaceScorer scorer;
   std::optional<double> first_s;

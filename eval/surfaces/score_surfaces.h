@@ -24,10 +24,12 @@ SurfaceScore ScoreSurfaces(const Run& run, const DepthViews& views, const LabelV
 /// map.
 class FinalLandmarks {
  public:
-  explicit FinalLandmarks(const std::vector<RunMapPlane>& map);
+  /// Without a map, as another system may leave it out, the ids are final.
+  explicit FinalLandmarks(const Run& run);
   std::optional<int> Of(const std::optional<int>& map_plane) const;
 
  private:
+  bool has_map_;
   std::map<int, std::optional<int>> merged_into_;
 };
 

@@ -39,6 +39,13 @@ void RequireSameClock(const PoseFile& estimate, const PoseFile& truth) {
   }
 }
 
+void RequireTimes(const PoseFile& estimate, const ComparisonRules& rules) {
+  if (estimate.kind != PoseFileKind::kKitti || rules.delta.unit != DeltaUnit::kSeconds) return;
+  throw io::InputError("--delta",
+                       "is in seconds, and KITTI files have no times; ask for frames "
+                       "(1f), metres (1m) or degrees (10deg)");
+}
+
 MatchedFiles MatchFiles(const PoseFile& estimate, const PoseFile& truth,
                         double max_difference_s) {
   RequireSameClock(estimate, truth);
@@ -134,6 +141,7 @@ void ScoreAligned(const MatchedFiles& matched, const Alignment& alignment,
 
 TrajectoryComparison CompareTrajectories(const PoseFile& estimate, const PoseFile& truth,
                                          const ComparisonRules& rules) {
+  RequireTimes(estimate, rules);
   const MatchedFiles matched = MatchFiles(estimate, truth, rules.max_difference_s);
   TrajectoryComparison score;
   score.poses = estimate.poses.size();

@@ -190,6 +190,7 @@ TrajectoryScore ScoreTrajectory(const Trajectory& estimate, const Trajectory& un
                       : TextOf(*reason, "true positions of frames", true_positions.size());
   }
   score.ate_complete_rmse_m = CompleteRmse(true_positions, poses.truth.size(), score.ate_se3);
+  score.true_positions_g = std::move(true_positions);
   const double half_frame_s = 0.5 * MedianStep(frame_stamps_s);
   score.rpe_1s = ScorePairs(poses, PairsByTime(poses.stamps_s, kRpeTime_s, half_frame_s));
   score.rpe_1m = ScorePairs(

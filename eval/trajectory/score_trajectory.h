@@ -45,13 +45,15 @@ struct TrajectoryScore {
   std::string no_ate_complete;       ///< why ate_complete_rmse_m is empty
   std::vector<bool> tracked_frames;  ///< by frame of the sequence
   std::vector<PoseError> errors;     ///< of the matched poses
+  std::vector<Eigen::Vector3d> true_positions_g;  ///< of the frames that have a truth, metres
   /// World of the run to world of the truth, by whole poses: what the map is scored in.
   std::optional<Alignment> gauge;
   /// What the run says of its own errors; nothing where it does not.
   std::optional<ConsistencyScore> consistency;
 };
 
-/// @throws InputError if the sequence is synthetic and the run has a pose for no frame of it.
+/// @throws InputError if a pose of the run belongs to no frame of a synthetic sequence, or none to
+///   any frame of a recording.
 TrajectoryScore ScoreTrajectory(const Run& run, const Sequence& sequence);
 
 /// The same from bare lists. `frame_stamps_s` rise.

@@ -170,7 +170,7 @@ RC_GTEST_PROP(PlaneAssociation, DoesNotDependOnWhereTheWorldLies, ()) {
     m.estimate.origin_w = T_vw * m.estimate.origin_w;
     m.estimate.normal_w = T_vw.R * m.estimate.normal_w;
     m.estimate.axes = (T_vw.R * m.estimate.axes).eval();
-    for (auto* cloud : {&m.points_w, &m.edge_points_w, &m.vertices_w, &m.hull_w}) {
+    for (auto* cloud : {&m.points_w, &m.vertices_w, &m.hull_w}) {
       for (Eigen::Vector3d& p_w : *cloud) p_w = T_vw * p_w;
     }
   }

@@ -7,7 +7,7 @@ namespace sim {
 
 std::span<const char* const> ConfusedWith(const std::string& class_name) {
   using List = std::array<const char*, 2>;
-  static constexpr std::array<std::pair<const char*, List>, 9> kTable{{
+  static constexpr std::array<std::pair<const char*, List>, 10> kTable{{
       {"book", {"cell phone", "laptop"}},
       {"keyboard", {"remote", "laptop"}},
       {"tv", {"laptop", "microwave"}},
@@ -17,6 +17,7 @@ std::span<const char* const> ConfusedWith(const std::string& class_name) {
       {"mouse", {"remote", "cell phone"}},
       {"teddy bear", {"dog", "person"}},
       {"potted plant", {"vase", "broccoli"}},
+      {"suitcase", {"backpack", "handbag"}},
   }};
   static constexpr List kAnyOther{"book", "suitcase"};
   for (const auto& [name, confused] : kTable) {

@@ -56,6 +56,9 @@ void TakeShape(const ModelFile& file, Model& model, const std::string& path) {
       if (fresh) model.vertices_o.push_back(x);
       triangle[k] = at->second;
     }
+    // One that repeats a corner covers nothing: an exporter's sliver.
+    if (triangle[0] == triangle[1] || triangle[1] == triangle[2] || triangle[2] == triangle[0])
+      continue;
     if (model.options.flip) std::swap(triangle[1], triangle[2]);
     model.triangles.push_back(triangle);
     model.colour_of.push_back(file.colour_of[t]);

@@ -15,6 +15,7 @@ constexpr double kChecksPerSegment = 16;
 constexpr double kBetweenChecks_m = 0.02;  // more than the way between two checks
 constexpr std::size_t kPathKnotsPerPace = 8;
 constexpr double kPaceSpread = 0.5;
+constexpr double kRounding = 1e-9;  // metres, radians
 constexpr int kStartTries = 20000, kCandidates = 240, kRetreats = 4;
 
 /// Half the room that a limit leaves, but no more than `margin`.
@@ -24,6 +25,17 @@ double Margin(double low, double high, double margin) {
 
 double PitchBelowHorizon_rad(const Eigen::Vector3d& forward_w) {
   return AsinRad(-forward_w.z() / forward_w.norm());
+}
+
+double Azimuth_rad(const Eigen::Vector3d& forward_w) {
+  return Atan2Rad(-forward_w.x(), forward_w.y());
+}
+
+/// From what is looked at to the camera.
+Eigen::Vector3d Backward(double azimuth_rad, double pitch_rad) {
+  const SinCos azimuth = SinCosDeg(RadToDeg(azimuth_rad)),
+               pitch = SinCosDeg(RadToDeg(pitch_rad));
+  return {azimuth.sin * pitch.cos, -azimuth.cos * pitch.cos, pitch.sin};
 }
 
 /// Hands turn in bursts: mostly slower than the mean, at times more than twice as fast.
@@ -77,9 +89,9 @@ bool CameraPath::KnotFits(const View& view) const {
   const Eigen::Vector3d way = view.gaze_w - view.camera_w;
   const auto within = [](double x, double low, double high, double margin) {
     const double m = Margin(low, high, margin);
-    return x >= low + m && x <= high - m;
+    return x >= low + m - kRounding && x <= high - m + kRounding;
   };
-  const double azimuth_rad = Atan2Rad(-way.x(), way.y());
+  const double azimuth_rad = Azimuth_rad(way);
   return within(way.norm(), motion_.distance_min_m, motion_.distance_max_m, 0.03) &&
          within(azimuth_rad, motion_.azimuth_min_rad, motion_.azimuth_max_rad, 0.02) &&
          within(PitchBelowHorizon_rad(way), motion_.pitch_min_rad, motion_.pitch_max_rad,
@@ -111,20 +123,23 @@ bool CameraPath::IsSafe(const View& next) const {
 }
 
 void CameraPath::FindStart() {
+  if (motion_.target_spread_m == 0 && motion_.distance_min_m == motion_.distance_max_m &&
+      motion_.azimuth_min_rad == motion_.azimuth_max_rad &&
+      motion_.pitch_min_rad == motion_.pitch_max_rad) {
+    throw io::InputError("motion",
+                         "leaves the camera no way: every limit has no width; widen "
+                         "distance_*_m, azimuth_*_deg, pitch_*_deg or target_spread_m");
+  }
   Random random({0x7374617274, seed_});
   for (int i = 0; i < kStartTries; ++i) {
-    const SinCos azimuth =
-        SinCosDeg(RadToDeg(random.Between(motion_.azimuth_min_rad, motion_.azimuth_max_rad)));
-    const SinCos pitch =
-        SinCosDeg(RadToDeg(random.Between(motion_.pitch_min_rad, motion_.pitch_max_rad)));
+    const double azimuth_rad = random.Between(motion_.azimuth_min_rad, motion_.azimuth_max_rad);
+    const double pitch_rad = random.Between(motion_.pitch_min_rad, motion_.pitch_max_rad);
     const double distance = random.Between(motion_.distance_min_m, motion_.distance_max_m);
     View view;
     view.gaze_w =
         motion_.target_w + 0.5 * motion_.target_spread_m *
                                InUnitBall(random).cwiseProduct(Eigen::Vector3d(1, 1, 0));
-    view.camera_w =
-        view.gaze_w + distance * Eigen::Vector3d(azimuth.sin * pitch.cos,
-                                                 -azimuth.cos * pitch.cos, pitch.sin);
+    view.camera_w = view.gaze_w + distance * Backward(azimuth_rad, pitch_rad);
     if (!SegmentIsSafe({view, view, view, view})) continue;
     if (!space_.InSight(view.camera_w, view.gaze_w)) continue;
     knots_.assign(4, view);
@@ -154,6 +169,21 @@ View CameraPath::Nearby(double step_m, double turn_deg, double swerve, Random& r
   view.gaze_w += reach_m * random.Uniform() * gaze.cwiseProduct(Eigen::Vector3d(1, 1, 0));
   const double roll_step = random.Between(-1, 1) * turn_deg * 0.8;
   view.roll_deg += 0.7 * (last.roll_deg - before.roll_deg) + roll_step;
+  return Held(view);
+}
+
+View CameraPath::Held(View view) const {
+  const Motion& m = motion_;
+  if (m.target_spread_m == 0) view.gaze_w = m.target_w;
+  const bool distance = m.distance_min_m == m.distance_max_m;
+  const bool azimuth = m.azimuth_min_rad == m.azimuth_max_rad;
+  const bool pitch = m.pitch_min_rad == m.pitch_max_rad;
+  if (!distance && !azimuth && !pitch) return view;
+  const Eigen::Vector3d way = view.gaze_w - view.camera_w;
+  view.camera_w =
+      view.gaze_w + (distance ? m.distance_min_m : way.norm()) *
+                        Backward(azimuth ? m.azimuth_min_rad : Azimuth_rad(way),
+                                 pitch ? m.pitch_min_rad : PitchBelowHorizon_rad(way));
   return view;
 }
 

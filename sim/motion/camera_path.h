@@ -38,6 +38,8 @@ class CameraPath {
   /// A knot that goes on from the last one; `swerve` 0 goes straight, 3 anywhere. May turn by
   /// about `turn_deg`.
   View Nearby(double step_m, double turn_deg, double swerve, Random& random) const;
+  /// Moved onto the limits that have no width, which no draw would meet.
+  View Held(View view) const;
   /// Comes near and goes away again in about half a minute.
   double WantedDistance_m() const;
   bool KnotFits(const View& view) const;

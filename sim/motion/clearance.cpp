@@ -10,28 +10,32 @@
 
 namespace sim {
 
-NearestPass NearestPassOf(const Scene& scene, const std::vector<TimedPose>& trajectory) {
+NearestPass NearestPassOf(const Scene& scene, const std::vector<TimedPose>& trajectory,
+                          PassKind kind) {
   NearestPass nearest;
   nearest.distance_m = std::numeric_limits<double>::infinity();
   for (const TimedPose& pose : trajectory) {
     for (const Object& object : scene.objects) {
+      if ((object.shape == ShapeKind::kBox) != (kind == PassKind::kBox)) continue;
       const double distance_m = DistanceToBox(ObjectAt(object, pose.timestamp_s), pose.T_wc.t);
       if (!(distance_m < nearest.distance_m)) continue;
-      nearest = {pose.timestamp_s, object.name, distance_m, object.shape == ShapeKind::kBox};
+      nearest = {pose.timestamp_s, object.name, distance_m};
     }
   }
   return nearest;
 }
 
 std::string ClearanceWarning(const Scene& scene, const std::vector<TimedPose>& trajectory) {
-  const NearestPass pass = NearestPassOf(scene, trajectory);
+  const NearestPass box = NearestPassOf(scene, trajectory, PassKind::kBox);
+  const NearestPass body = NearestPassOf(scene, trajectory, PassKind::kBody);
+  const NearestPass& pass = box.distance_m < kCameraClearance_m ? box : body;
   if (pass.distance_m >= kCameraClearance_m) return "";
   const auto millimetres = [](double length_m) {
     return io::NumberText(std::round(std::abs(length_m) * 1e3)) + " mm";
   };
   const std::string when =
       "at " + io::NumberText(std::round(pass.timestamp_s * 1e3) / 1e3) + " s";
-  if (pass.distance_m < 0 && pass.box) {
+  if (box.distance_m < 0) {
     throw io::InputError("trajectory", when + " the camera is " + millimetres(pass.distance_m) +
                                            " inside '" + pass.object +
                                            "'; move the object or the trajectory");

@@ -13,11 +13,16 @@ struct NearestPass {
   double timestamp_s = 0;
   std::string object;     ///< its name
   double distance_m = 0;  ///< negative inside; bodies other than boxes count as their boxes
-  bool box = true;        ///< whether it is a box, so that the distance is exact
 };
 
-/// @pre neither is empty
-NearestPass NearestPassOf(const Scene& scene, const std::vector<TimedPose>& trajectory);
+/// Boxes are what their distance is exact of; a body other than a box may be hollow, and the camera
+/// within it.
+enum class PassKind { kBox, kBody };
+
+/// Infinitely far where the scene has nothing of the kind.
+/// @pre the trajectory is not empty
+NearestPass NearestPassOf(const Scene& scene, const std::vector<TimedPose>& trajectory,
+                          PassKind kind);
 
 /// What a user should know of a trajectory that comes too near; empty when none does.
 /// @throws InputError when the camera is inside a box, where it would see nothing true

@@ -36,7 +36,8 @@ Turn3 ThreeBursts(double round) {
 struct Direction {
   double azimuth_deg = 0, pitch_deg = 0;
   Eigen::Vector3d Vector() const {
-    const SinCos a = SinCosDeg(azimuth_deg), p = SinCosDeg(std::clamp(pitch_deg, -65.0, 65.0));
+    const SinCos a = SinCosDeg(azimuth_deg),
+                 p = SinCosDeg(std::clamp(pitch_deg, -kSteepest_deg, kSteepest_deg));
     return {-a.sin * p.cos, a.cos * p.cos, -p.sin};
   }
 };

@@ -15,6 +15,7 @@ constexpr std::size_t kPatternKnotsPerPace = 4;
 constexpr double kSpread = 0.7, kLittleSpread = 0.1;
 constexpr double kMaxStride = 1.1;  // along the way, against the mean
 constexpr int kSamples = 400, kTries = 3000;
+constexpr double kShortestRound_m = 1e-3;
 
 }  // namespace
 
@@ -62,6 +63,11 @@ void PatternPath::FindWay(const Scene& scene) {
       const double at = static_cast<double>(k) / kSamples;
       round_m_ +=
           (pattern->At(at + 1.0 / kSamples, 0).camera_w - pattern->At(at, 0).camera_w).norm();
+    }
+    if (!(round_m_ > kShortestRound_m)) {
+      throw io::InputError("motion", "the way of preset '" + scene.motion.preset +
+                                         "' has no length; widen azimuth_*_deg, pitch_*_deg or "
+                                         "distance_*_m, or move the stations apart");
     }
     for (int k = 0; k < 4; ++k) AddKnot();
     return;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 #include <string>
 
@@ -59,17 +60,22 @@ std::vector<TimedPose> ReadTrajectory(const std::filesystem::path& path) {
   return poses;
 }
 
+int FramesOf(const std::vector<TimedPose>& recorded, double fps) {
+  constexpr double kRounding_s = 1e-6;  // of times that are written with six digits
+  const double last = std::floor((recorded.back().timestamp_s + kRounding_s) * fps);
+  return static_cast<int>(std::min(last, std::numeric_limits<int>::max() - 1.0)) + 1;
+}
+
 std::vector<TimedPose> Replay(const std::vector<TimedPose>& recorded, int frames, double fps,
                               const std::string& name) {
-  constexpr double kHole_s = 0.5, kRounding_s = 1e-6;
+  constexpr double kHole_s = 0.5;
   if (!(frames >= 1)) throw std::invalid_argument("a trajectory has at least one frame");
   if (!(fps > 0 && std::isfinite(fps))) throw std::invalid_argument("fps must be positive");
   if (recorded.size() < 2) throw std::invalid_argument("a recording has two poses or more");
   const double end_s = recorded.back().timestamp_s;
-  if ((frames - 1) / fps > end_s + kRounding_s) {
+  if (frames > FramesOf(recorded, fps)) {
     throw io::InputError(name, "is " + io::NumberText(end_s) + " s long; ask for at most " +
-                                   std::to_string(static_cast<int>(end_s * fps) + 1) +
-                                   " frames");
+                                   std::to_string(FramesOf(recorded, fps)) + " frames");
   }
   std::vector<TimedPose> trajectory;
   std::size_t next = 1;

@@ -14,6 +14,9 @@ namespace sim {
 ///   increase, and for fewer than two poses.
 std::vector<TimedPose> ReadTrajectory(const std::filesystem::path& path);
 
+/// As many frames as the recording is long, times of six digits allowed for.
+int FramesOf(const std::vector<TimedPose>& recorded, double fps);
+
 /// The recording sampled like MakeTrajectory: frame i at i / fps, positions and rotations
 /// interpolated between the two poses around it.
 /// @param name  of the recording, for messages

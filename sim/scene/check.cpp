@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <optional>
 #include <set>
 
 #include "io/number_text.h"
@@ -95,10 +96,12 @@ std::optional<std::string> FaultOfWay(const Scene& scene, std::size_t i, double 
 }  // namespace
 
 std::optional<SceneFault> FindFault(const Scene& scene) {
-  double floor_z = 0;
+  std::optional<double> lowest_floor;
   for (const Object& object : scene.objects) {
-    if (object.class_name == "floor") floor_z = Highest(object);
+    if (object.class_name != "floor") continue;
+    lowest_floor = std::min(Highest(object), lowest_floor.value_or(Highest(object)));
   }
+  const double floor_z = lowest_floor.value_or(0);
   for (std::size_t i = 0; i < scene.objects.size(); ++i) {
     const Object& object = scene.objects[i];
     if (const auto repeated = RepeatedName(scene, i)) return SceneFault{i, *repeated};

@@ -35,14 +35,18 @@ Material ReadMaterial(const io::YamlValue& value) {
   return material;
 }
 
-std::array<Material, 6> ReadFaces(const io::YamlValue& value) {
+std::array<Material, 6> ReadFaces(const io::YamlValue& value, ShapeKind shape) {
   std::vector<std::string> keys{"all"};
   keys.insert(keys.end(), kFaceNames.begin(), kFaceNames.end());
   const io::YamlMap map(value, keys);
   std::array<Material, 6> faces;
   if (map.Has("all")) faces.fill(ReadMaterial(map.At("all")));
   for (std::size_t i = 0; i < faces.size(); ++i) {
-    if (map.Has(kFaceNames[i])) faces[i] = ReadMaterial(map.At(kFaceNames[i]));
+    if (!map.Has(kFaceNames[i])) continue;
+    if (shape != ShapeKind::kBox) {
+      map.At(kFaceNames[i]).Fail("is a face of a box; this shape has one material, `all`");
+    }
+    faces[i] = ReadMaterial(map.At(kFaceNames[i]));
   }
   return faces;
 }
@@ -129,7 +133,7 @@ Object ReadObject(const io::YamlValue& value, const std::filesystem::path& folde
     object.detection_group = map.At("detection_group").Whole({0, kMaxId});
   }
   if (map.Has("seed")) object.seed = map.At("seed").Seed();
-  if (map.Has("faces")) object.faces = ReadFaces(map.At("faces"));
+  if (map.Has("faces")) object.faces = ReadFaces(map.At("faces"), object.shape);
   return object;
 }
 
@@ -169,8 +173,10 @@ std::vector<Station> ReadStations(const io::YamlValue& value) {
     };
     stations.push_back({point("camera_m"), point("gaze_m")});
     const Eigen::Vector3d way = stations.back().gaze_w - stations.back().camera_w;
-    if (!(way.head<2>().norm() > 0.05)) {
-      map.At("gaze_m").Fail("is straight above or below the camera; move it 5 cm aside");
+    const double steepest = SinCosDeg(kSteepest_deg).sin;
+    if (!(way.head<2>().norm() > 0.05 && std::abs(way.z()) < steepest * way.norm())) {
+      map.At("gaze_m").Fail(
+          "is straight above or below the camera; move it aside, by 5 cm and 9 cm a metre");
     }
   }
   if (stations.size() < 4) value.Fail("expected 4 stations or more");

@@ -147,6 +147,17 @@ bool HasEvenWindow(const DepthModel& model) {
          (kinect != nullptr && kinect->window.side_px > 0 && kinect->window.side_px % 2 == 0);
 }
 
+bool MeasuresNothing(const DepthModel& model) {
+  return std::visit(
+      [](const auto& depth) {
+        if constexpr (requires { depth.min_depth_m; }) {
+          return !(depth.min_depth_m < depth.max_depth_m);
+        }
+        return false;
+      },
+      model);
+}
+
 Sensor SensorFrom(const io::YamlValue& file) {
   const io::YamlMap map(file);
   Sensor sensor(kKinds[map.At("base").OneOf(kSensorNames)]);
@@ -159,6 +170,10 @@ Sensor SensorFrom(const io::YamlValue& file) {
     if (!set(value)) map.At(key).Fail("expected a whole number");
     sensor.changed[key] = value;
   }).All(sensor);
+  if (MeasuresNothing(sensor.depth)) {
+    map.At(map.Has("min_depth_m") ? "min_depth_m" : "max_depth_m")
+        .Fail("leaves no depth to measure: min_depth_m is not below max_depth_m");
+  }
   if (HasEvenWindow(sensor.depth)) {
     map.At("window_px").Fail("expected an odd number of pixels, so that a window has a centre");
   }

@@ -20,7 +20,7 @@ struct SensorParameter {
 /// in which docs list them.
 std::vector<SensorParameter> Parameters(const Sensor& sensor);
 
-/// A sensor from a YAML file: `base: kinect1|azure|d435|ideal`, optionally `name:`, and any of
+/// A sensor from a YAML file: `base:` one of kSensorNames, optionally `name:`, and any of
 /// the base's parameters.
 /// @throws InputError with file:line for a missing base, an unknown key (names the known ones),
 ///   or a value out of range (says which)

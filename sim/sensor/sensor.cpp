@@ -91,7 +91,8 @@ Rendering Bent(const Rendering& rendering, const DepthBend& bend, const Camera& 
 }  // namespace
 
 Sensor::Sensor(SensorKind kind)
-    : name(NameOf(kind)),
+    : base(NameOf(kind)),
+      name(base),
       depth(ModelOf(kind)),
       colour(kind == SensorKind::kIdeal ? CleanColour() : ColourModel{}) {
   if (kind != SensorKind::kKinect1) return;

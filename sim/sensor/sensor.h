@@ -22,7 +22,8 @@ using DepthModel = std::variant<IdealModel, KinectModel, AzureModel, D435Model>;
 /// a user's file.
 struct Sensor {
   Sensor(SensorKind kind = SensorKind::kKinect1);  // NOLINT: a kind is a sensor
-  std::string name;  ///< as in kSensorNames, or a name of the user's
+  std::string base;                                ///< as in kSensorNames
+  std::string name;                                ///< the same, or a name of the user's
   DepthModel depth;
   ColourModel colour;
   Exposure exposure;  ///< the colour camera's

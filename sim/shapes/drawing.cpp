@@ -161,7 +161,12 @@ std::string Way(const Scene& scene, const Sheet& sheet) {
 
 }  // namespace
 
-std::string SceneSvg(const Scene& scene) {
+std::string SceneSvg(const Scene& given) {
+  const auto labels = StepLabels(given);
+  Scene scene = given;  // what moves, as it stands at the first point of its way
+  for (Object& object : scene.objects) {
+    if (!object.way.empty()) object = ObjectAt(object, object.way.front().time_s);
+  }
   Eigen::AlignedBox3d extent;
   for (const Object& object : scene.objects) {
     if (!IsDrawn(object)) continue;
@@ -177,7 +182,6 @@ std::string SceneSvg(const Scene& scene) {
   elevation.top_px = plan.top_px + plan.Height_px() + kBetween_m * kPixelsPerMetre;
   const double width = (high.x() - low.x()) * kPixelsPerMetre;
   const double height = elevation.top_px + elevation.Height_px() + 40;
-  const auto labels = StepLabels(scene);
 
   std::string text = "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 " +
                      Number(width) + " " + Number(height) +

@@ -13,7 +13,9 @@ using Json = nlohmann::ordered_json;
 Json Vector(const Eigen::Vector3d& x) { return {x.x(), x.y(), x.z()}; }
 Json Box(const PixelBox& box) { return {box.x0, box.y0, box.x1, box.y1}; }
 
-Json ObjectJson(const Object& object) {
+/// What moves is told as it stands at the first point of its way.
+Json ObjectJson(const Object& given) {
+  const Object object = given.way.empty() ? given : ObjectAt(given, given.way.front().time_s);
   const Eigen::Quaterniond& q = object.q_wo;
   Json json;
   json["id"] = object.id;

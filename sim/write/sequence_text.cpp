@@ -5,20 +5,21 @@
 #include <Eigen/Geometry>
 #include <cmath>
 
+#include "io/image/encode_png.h"
 #include "io/number_text.h"
 #include "sim/truth/truth_json.h"
-#include "sim/write/png.h"
 
 namespace sim {
 namespace {
 
+/// Under the stamp of its frame, which jitter may have moved away from when it was.
 std::string PoseLine(const Shot& shot) {
   Eigen::Quaterniond q(shot.T_wc.R);
   q.normalize();
   if (q.w() < 0) q.coeffs() = -q.coeffs();
   const Eigen::Vector3d& t = shot.T_wc.t;
-  return fmt::format("{} {} {} {} {} {} {} {}\n", TimeText(shot.time_s), t.x(), t.y(), t.z(),
-                     q.x(), q.y(), q.z(), q.w());
+  return fmt::format("{} {} {} {} {} {} {} {}\n", TimeText(shot.colour_stamp_s), t.x(), t.y(),
+                     t.z(), q.x(), q.y(), q.z(), q.w());
 }
 
 /// A share p of depth as 32768 + 1e6 p, 16 bits.
@@ -59,7 +60,7 @@ std::map<std::string, std::string> FixedFiles(const Scene& scene,
                                            {"rgb.txt", rgb}};
   if (rig.sensor.calibration.intrinsics != 0) files["gt/camera.yaml"] = CameraYaml(rig.camera);
   const cv::Mat1f warp = DevicePattern(rig.sensor.depth, rig.camera, rig.seed);
-  if (!warp.empty()) files["gt/depth_warp.png"] = EncodePng(DepthWarpImage(warp));
+  if (!warp.empty()) files["gt/depth_warp.png"] = io::EncodePng(DepthWarpImage(warp));
   return files;
 }
 

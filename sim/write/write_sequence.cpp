@@ -6,6 +6,7 @@
 
 #include "io/atomic_file.h"
 #include "io/folder_lock.h"
+#include "io/image/encode_png.h"
 #include "io/json_field.h"
 #include "io/read_file.h"
 #include "io/sha256.h"
@@ -13,7 +14,6 @@
 #include "sim/scene/write_scene.h"
 #include "sim/truth/truth_json.h"
 #include "sim/write/parallel_frames.h"
-#include "sim/write/png.h"
 #include "sim/write/sequence_text.h"
 
 namespace sim {
@@ -61,6 +61,9 @@ Json Plan(const Scene& scene, const SequenceOptions& options, std::size_t frames
   plan["camera"] = CameraJson(options.rig.CameraAsTold());
   if (!options.motion.empty()) plan["motion"] = options.motion;
   plan["sensor"] = options.rig.sensor.name;
+  if (options.rig.sensor.name != options.rig.sensor.base) {
+    plan["sensor_base"] = options.rig.sensor.base;
+  }
   if (!options.rig.sensor.changed.empty()) {
     plan["sensor_parameters"] = options.rig.sensor.changed;
   }
@@ -114,7 +117,7 @@ class FrameStore {
         {"gt/plane_id/" + name, &made.plane_id},
         {"gt/object_id/" + name, &made.object_id}};
     for (const auto& [file, image] : images) {
-      const std::string bytes = EncodePng(*image);
+      const std::string bytes = io::EncodePng(*image);
       io::WriteFile(folder_ / file, bytes);
       record["sha256"][file] = io::Sha256Hex(bytes);
     }

@@ -13,6 +13,8 @@
 namespace slam {
 namespace {
 
+constexpr std::string_view kYolox = "yolox:";
+
 constexpr std::size_t kMaxClassName = 100;  // bytes; keeps a run's files readable
 
 Box ReadBox(const io::JsonField& field) {
@@ -120,14 +122,17 @@ std::vector<std::string> ReplayDetector::WarningsFor(
   return warnings;
 }
 
+std::string ModelFile(const std::string& choice) {
+  return choice.starts_with(kYolox) ? choice.substr(kYolox.size()) : "";
+}
+
 std::unique_ptr<Detector> MakeDetector(const std::string& choice,
                                        const std::filesystem::path& sequence,
                                        const Camera& camera, const ClassTable& classes,
                                        const YoloxConfig& yolox) {
-  static constexpr std::string_view kYolox = "yolox:";
   if (choice == "none") return std::make_unique<NoDetector>();
   if (choice.starts_with(kYolox)) {
-    const std::string model = choice.substr(kYolox.size());
+    const std::string model = ModelFile(choice);
     if (model.empty())
       throw io::InputError("--detector yolox:", "names no file; expected yolox:FILE.onnx");
     return std::make_unique<YoloxDetector>(model, camera, classes, yolox);

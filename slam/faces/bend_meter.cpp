@@ -65,7 +65,7 @@ void BendMeter::Measure(Frame& frame) {
   }
 
   // Cell by cell: the mean deviation of the plane that fills it, less what noise makes.
-  const int side = cell_px / kStride_px;
+  const int side = (cell_px + kStride_px - 1) / kStride_px;
   const double full = kMinFilled * side * side;
   for (int row = 0; row < rows; ++row) {
     for (int column = 0; column < columns; ++column) {

@@ -83,9 +83,10 @@ void CarryToColour(const Camera& camera, const cv::Mat2d& rays, Frame& frame) {
       const cv::Rect from = (block + by) & cv::Rect({}, depth_d.size());
       if (from.empty()) continue;
       // Over a block the ray hardly turns.
-      const double scale = T_cd.R.row(2).dot(Eigen::Vector3d(ray[0], ray[1], 1.0));
+      const double scale = 1 / T_dc.R.row(2).dot(Eigen::Vector3d(ray[0], ray[1], 1.0));
+      const double offset_m = -T_dc.t.z() * scale;
       for (int v = from.y; v < from.y + from.height; ++v)
-        MoveRow(depth_d[v] + from.x, from.width, scale, T_cd.t.z(),
+        MoveRow(depth_d[v] + from.x, from.width, scale, offset_m,
                 depth_m[v - by.y] + from.x - by.x);
       if (!labels_d.empty()) labels_d(from).copyTo(labels(from - by));
     }

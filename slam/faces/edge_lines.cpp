@@ -188,6 +188,8 @@ std::vector<ImageLine> FindImageLines(Points points_px, int min_support,
     ImageLine line = search.BestHypothesis(random);
     if (line.support < min_support || !search.Refine(line)) break;
     const Points& piece = search.piece();
+    // The last fit may look the other way than the one that put the piece in order.
+    if (Along(line, piece.back()) < Along(line, piece.front())) line.v = -line.v;
     line.from = line.p + Along(line, piece.front()) * line.v;
     line.to = line.p + Along(line, piece.back()) * line.v;
     line.support = static_cast<int>(piece.size());

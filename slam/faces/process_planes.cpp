@@ -19,10 +19,11 @@ void OutlineFace(FramePlane& plane, const Frame& frame, const Camera& camera,
                  const PlaneProcessingConfig& config) {
   plane.lines_c.clear();
   plane.vertices_c.clear();
-  const Detection* linked = nullptr;
+  const Detection* linked = nullptr;  // only to what has rectangular faces
   if (plane.detection) {
-    linked = &frame.detections.at(static_cast<std::size_t>(*plane.detection));
-    if (linked->kind != ClassKind::kRegular) return;
+    const Detection& found = frame.detections.at(static_cast<std::size_t>(*plane.detection));
+    if (found.kind == ClassKind::kUnstructured) return;
+    if (found.kind == ClassKind::kRegular) linked = &found;
   }
   const Random random{config.seed, static_cast<std::uint64_t>(frame.index),
                       static_cast<std::uint64_t>(plane.index)};

@@ -43,8 +43,8 @@ Nearest Search(const PointQuery& query, const std::vector<PointFeature>& feature
        grid.Near(query.u_px, query.radius_px, query.min_octave, query.max_octave)) {
     if (!taken.empty() && taken[Index(f)]) continue;
     const PointFeature& feature = features[Index(f)];
-    if (query.right_u_px >= 0 && feature.right_u_px >= 0 &&
-        !(std::abs(query.right_u_px - feature.right_u_px) <= query.radius_px)) {
+    // False where either is not a number.
+    if (std::abs(query.right_u_px - feature.right_u_px) > query.radius_px) {
       continue;
     }
     nearest.Offer(f, DescriptorDistance(query.descriptor, feature.descriptor), feature.octave);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <limits>
 #include <vector>
 
 #include "slam/base/field_visitor.h"
@@ -50,10 +51,11 @@ inline void VisitFields(PointMatchConfig& c, FieldVisitor& v) {
 
 /// Something looked for in an image: a map point where it is expected.
 struct PointQuery {
-  int point = kNone;         ///< id that the match will carry
-  Eigen::Vector2d u_px;      ///< expected position, undistorted
-  double right_u_px = -1.0;  ///< expected virtual right coordinate; < 0: not compared
-  double radius_px = 7.0;    ///< half width of the search square
+  int point = kNone;     ///< id that the match will carry
+  Eigen::Vector2d u_px;  ///< expected position, undistorted
+  /// Expected virtual right coordinate; NaN: not compared.
+  double right_u_px = std::numeric_limits<double>::quiet_NaN();
+  double radius_px = 7.0;  ///< half width of the search square
   int min_octave = 0, max_octave = 7;
   Descriptor descriptor{};
   float angle_deg = -1.0f;  ///< orientation of the feature it was seen at; < 0: not compared

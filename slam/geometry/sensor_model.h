@@ -67,7 +67,7 @@ inline void VisitFields(SensorModel& c, FieldVisitor& v) {
   v.Number("stamp_sigma_s", c.stamp_sigma_s, "[0, 1]",
            "standard deviation of the time between a colour and a depth image, as stamped");
   v.Number("max_depth_m", c.max_depth_m, "(0, inf)",
-           "depth beyond which a pixel counts as not measured");
+           "depth from which on no plane is looked for");
 }
 
 }  // namespace slam

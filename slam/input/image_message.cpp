@@ -38,6 +38,11 @@ cv::Mat PixelsOf(const BagImage& image, int type, cv::Size size, const std::stri
                                     SizeText(image.width, image.height) + " pixels of " +
                                     image.encoding + "; copy the bag again");
   }
+  if (image.step % CV_ELEM_SIZE1(type) != 0) {
+    throw io::InputError(where, "its rows are " + std::to_string(image.step) +
+                                    " bytes apart, which is no whole number of samples of " +
+                                    image.encoding + "; record the bag again");
+  }
   return {size, type, const_cast<std::uint8_t*>(image.data.data()), image.step};
 }
 

@@ -41,7 +41,6 @@ void KeepWhatLiesOnFace(MapPlane& m, const PlaneMapConfig& config) {
     return false;
   };
   std::erase_if(m.points_w, beyond);
-  std::erase_if(m.edge_points_w, beyond);
 }
 
 }  // namespace slam

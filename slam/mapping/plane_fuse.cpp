@@ -73,8 +73,6 @@ void Fuse(MapPlane& into, MapPlane& from, const PlaneMapConfig& config) {
   // The shape: clouds, outline, and the corners that are better known.
   MergeIntoCloud(into.points_w, from.points_w, {into.estimate.normal_w, 0.0},
                  into.estimate.origin_w, config.voxel_m, config.max_cloud_points);
-  MergeIntoCloud(into.edge_points_w, from.edge_points_w, {into.estimate.normal_w, 0.0},
-                 into.estimate.origin_w, config.voxel_m, config.max_edge_points);
   std::vector<Eigen::Vector3d> extent_w = into.hull_w;
   extent_w.insert(extent_w.end(), from.hull_w.begin(), from.hull_w.end());
   Outline outline = ConvexOutline(extent_w, into.pi_w);
@@ -94,7 +92,6 @@ void Fuse(MapPlane& into, MapPlane& from, const PlaneMapConfig& config) {
   from.merged_into = into.id;
   // What a fused plane held is held by the other now.
   from.points_w.clear();
-  from.edge_points_w.clear();
   from.map_points.clear();
   from.parts.clear();
 }

@@ -18,7 +18,6 @@ struct PlaneMapConfig {
   double keep_information = 0.97;
   double voxel_m = 0.02;
   int max_cloud_points = 2000;
-  int max_edge_points = 1000;
   double max_vertex_jump_m = kMaxVertexJump_m;
   double min_face_weight = 5.0;
   double min_corner_weight = 1.0;
@@ -47,8 +46,6 @@ inline void VisitFields(PlaneMapConfig& c, FieldVisitor& v) {
            "side of the voxels of clouds; it grows when a plane is large");
   v.Integer("max_cloud_points", c.max_cloud_points, "[1, 10000000]",
             "largest number of cloud points of one plane; where it is reached voxels double");
-  v.Integer("max_edge_points", c.max_edge_points, "[1, 10000000]",
-            "largest number of edge points of one plane");
   v.Number("max_vertex_jump_m", c.max_vertex_jump_m, "(0, inf)",
            "distance from a known corner beyond which an observed corner is another one");
   v.Number("min_face_weight", c.min_face_weight, "[0.25, 40]",

@@ -23,7 +23,6 @@ void MovePlane(MapPlane& plane, const Pose& T_new_old) {
   plane.centroid_w = T_new_old * plane.centroid_w;
   MoveEstimate(plane.estimate, T_new_old);
   MoveAll(plane.points_w, T_new_old);
-  MoveAll(plane.edge_points_w, T_new_old);
   MoveAll(plane.vertices_w, T_new_old);
   MoveAll(plane.hull_w, T_new_old);
   for (SupposedPlane& supposed : plane.supposed) {

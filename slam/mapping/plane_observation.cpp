@@ -11,15 +11,6 @@
 namespace slam {
 namespace {
 
-/// Boundary points where the surface itself ends.
-std::vector<Eigen::Vector3d> TrueEdges(const FramePlane& plane, const Pose& T_wc) {
-  std::vector<Eigen::Vector3d> points_w;
-  for (const EdgePoint& edge : plane.edge_points) {
-    if (edge.kind == EdgeKind::kSurface) points_w.push_back(T_wc * edge.p_c);
-  }
-  return points_w;
-}
-
 /// The observation's information.
 void UpdateParameters(MapPlane& m, const FramePlane& plane, const Frame& frame,
                       const PlaneMapConfig& config) {
@@ -35,8 +26,6 @@ void UpdateShape(MapPlane& m, const FramePlane& plane, const Pose& T_wc,
   const Eigen::Vector3d& grid_origin_w = m.estimate.origin_w;
   MergeIntoCloud(m.points_w, PointsInWorld(plane.points_c, T_wc), grid, grid_origin_w,
                  config.voxel_m, config.max_cloud_points);
-  MergeIntoCloud(m.edge_points_w, TrueEdges(plane, T_wc), grid, grid_origin_w, config.voxel_m,
-                 config.max_edge_points);
   // What once lay on the plane stays in its outline, until its corners are known.
   const bool face_known = KnowsItsFace(m, config);
   if (face_known) KeepWhatLiesOnFace(m, config);

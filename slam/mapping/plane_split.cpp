@@ -203,7 +203,6 @@ MapPlane RestOf(const MapPlane& m, const PlanePart& part, const Map& map) {
            NearestSquared(part.rest.points_w, p_w, m.pi_w.n);
   };
   std::erase_if(rest.points_w, is_of_part);
-  std::erase_if(rest.edge_points_w, is_of_part);
   std::erase_if(rest.map_points,
                 [&](int point) { return is_of_part(map.points[Index(point)].p_w); });
   // The shape of what is left.

@@ -3,9 +3,9 @@
 #include <sys/resource.h>
 
 #include <array>
-#include <opencv2/imgcodecs.hpp>
 #include <system_error>
 
+#include "io/image/encode_png.h"
 #include "io/input_error.h"
 #include "slam/base/require.h"
 #include "slam/model/map_queries.h"
@@ -17,8 +17,7 @@
 namespace slam {
 namespace {
 
-constexpr int kMaxLabel = 255;      // an 8-bit segmentation holds no more
-constexpr int kPngCompression = 1;  // fast; labels compress well at any level
+constexpr int kMaxLabel = 255;  // an 8-bit segmentation holds no more
 
 /// Greatest memory that the process has held, MiB.
 double PeakMemory_mb() {
@@ -148,9 +147,7 @@ void RunWriter::WriteSegmentation(const Frame& frame) const {
   cv::Mat1b labels = frame.plane_labels;
   if (labels.empty()) labels = cv::Mat1b::zeros(frame.gray.size());
   Require(!labels.empty(), "RunWriter: a frame without an image has no segmentation");
-  const auto file = output_.Path("segmentation/" + StampText(frame.timestamp_s) + ".png");
-  if (!cv::imwrite(file.string(), labels, {cv::IMWRITE_PNG_COMPRESSION, kPngCompression}))
-    throw io::InputError(file.string(), "cannot be written; is the disk full?");
+  output_.Write("segmentation/" + StampText(frame.timestamp_s) + ".png", io::EncodePng(labels));
 }
 
 nlohmann::ordered_json RunWriter::RunJson(std::size_t poses, const RunEnd& end) const {

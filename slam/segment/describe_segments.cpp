@@ -30,25 +30,20 @@ FramePlane MakeFramePlane(const Segment& segment, int index) {
   return out;
 }
 
+/// What a pixel covers on the plane z = 1, lens and all.
+double RayArea(const DepthGrid& grid, int u, int v) {
+  const int u0 = std::max(u - 1, 0), u1 = std::min(u + 1, grid.width - 1);
+  const int v0 = std::max(v - 1, 0), v1 = std::min(v + 1, grid.height - 1);
+  const auto at = [&](int x, int y) {
+    const auto i = static_cast<std::size_t>(grid.Index(x, y));
+    return Eigen::Vector2d(static_cast<double>(grid.x[i]), static_cast<double>(grid.y[i]));
+  };
+  const Eigen::Vector2d along = (at(u1, v) - at(u0, v)) / std::max(u1 - u0, 1);
+  const Eigen::Vector2d down = (at(u, v1) - at(u, v0)) / std::max(v1 - v0, 1);
+  return std::abs(along.x() * down.y() - along.y() * down.x());
+}
+
 }  // namespace
-
-/// Empties a frame's planes, but keeps the memory of their points.
-void PlaneExtractor::Workspace::TakeMemory(std::vector<FramePlane>& planes) {
-  if (old_planes.size() < planes.size()) old_planes.resize(planes.size());
-  for (std::size_t k = 0; k < planes.size(); ++k) {
-    old_planes[k].points_c.swap(planes[k].points_c);
-    old_planes[k].edge_points.swap(planes[k].edge_points);
-  }
-  planes.clear();
-}
-
-void PlaneExtractor::Workspace::GiveMemory(FramePlane& plane) {
-  const auto k = static_cast<std::size_t>(plane.index);
-  if (k >= old_planes.size()) return;
-  plane.points_c.swap(old_planes[k].points_c);
-  plane.edge_points.swap(old_planes[k].edge_points);
-  plane.points_c.clear(), plane.edge_points.clear();
-}
 
 /// Thinned points and the visible area of each plane. A pixel of dx dy on the ray plane covers
 /// |(a, b, c)| / q^3 dx dy of the surface.
@@ -69,7 +64,7 @@ void PlaneExtractor::Workspace::SamplePoints(const cv::Mat1b& drawn,
       const double z = 1.0 / static_cast<double>(grid.q[i]);
       planes[k].points_c.emplace_back(x * z, y * z, z);
       const double q = kept[k].plane.plane.InverseDepth(x, y);
-      sampled[k].area += sampled[k].norm / (q * q * q * camera.fx * camera.fy);
+      sampled[k].area += sampled[k].norm / (q * q * q) * RayArea(grid, u, v);
     }
   }
   for (std::size_t k = 0; k < planes.size(); ++k) {
@@ -82,10 +77,9 @@ void PlaneExtractor::Workspace::SamplePoints(const cv::Mat1b& drawn,
 void PlaneExtractor::Workspace::Describe(Frame& frame) {
   // Parameters, precision and roughness of each segment.
   contours.Trace(frame.plane_labels);
-  TakeMemory(frame.planes);
+  frame.planes.clear();
   for (std::size_t k = 0; k < kept.size(); ++k) {
     FramePlane plane = MakeFramePlane(kept[k], static_cast<int>(k));
-    GiveMemory(plane);
     plane.roughness = MeasureRoughness(
         grid, frame.plane_labels, cv::Rect(kept[k].low, kept[k].high + cv::Point(1, 1)),
         static_cast<std::uint8_t>(plane.index + 1), kept[k].plane.plane, sensor.noise,

@@ -42,7 +42,6 @@ struct PlaneExtractor::Workspace {
   std::vector<Sampled> sampled;
   std::vector<double> areas_m2;  ///< visible area of each of the frame's planes
   /// Planes of the frame's last image, whose points' memory serves again.
-  std::vector<FramePlane> old_planes;
 
   void AddClusters(const BlockClusters& clusters, const JoinedLabels* joined);
   JoinedLabels JoinClusters(const BlockClusters& clusters);
@@ -50,8 +49,6 @@ struct PlaneExtractor::Workspace {
   void JoinTouching();
   PartSegments SegmentBySteps();
   PartSegments SegmentAsPeac() const;
-  void TakeMemory(std::vector<FramePlane>& planes);
-  void GiveMemory(FramePlane& plane);
   void SamplePoints(const cv::Mat1b& drawn, std::vector<FramePlane>& planes);
   void Describe(Frame& frame);
 };

@@ -1,6 +1,7 @@
 #include "slam/tracking/points_deny.h"
 
 #include <algorithm>
+#include <limits>
 #include <set>
 
 #include "slam/base/index.h"
@@ -29,7 +30,7 @@ bool PointsDeny(const Frame& frame, const Map& map, const Pose& T_cw, int keyfra
   for (const int id : points) {
     PointQuery query =
         QueryOf(map.points[Index(id)], T_cw, camera, scale, kRadiusFactor, projection);
-    query.right_u_px = -1.0;
+    query.right_u_px = std::numeric_limits<double>::quiet_NaN();
     if (query.point == kNone ||
         grid.Near(query.u_px, query.radius_px, query.min_octave, query.max_octave).empty()) {
       continue;

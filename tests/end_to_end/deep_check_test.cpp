@@ -4,11 +4,11 @@
 #include <gtest/gtest.h>
 
 #include <fstream>
-#include <opencv2/imgcodecs.hpp>
 
 #include "eval/check/check_folder.h"
 #include "io/sha256.h"
 #include "sim/families/families.h"
+#include "tests/support/image_files.h"
 #include "tests/support/pipeline.h"
 
 namespace {
@@ -57,8 +57,8 @@ void Rehash(const fs::path& folder) {
 void ChangeImages(const fs::path& folder,
                   const std::function<cv::Mat1w(const cv::Mat1w&)>& change) {
   for (const auto& entry : fs::directory_iterator(folder)) {
-    const cv::Mat1w image = cv::imread(entry.path().string(), cv::IMREAD_UNCHANGED);
-    cv::imwrite(entry.path().string(), change(image));
+    const cv::Mat1w image = test_support::ReadImageFile(entry.path());
+    test_support::WriteImageFile(entry.path(), change(image));
   }
 }
 

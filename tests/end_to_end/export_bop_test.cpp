@@ -4,11 +4,11 @@
 
 #include <Eigen/LU>
 #include <fstream>
-#include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
 #include "eval/export/bop.h"
 #include "sim/families/families.h"
+#include "tests/support/image_files.h"
 #include "tests/support/pipeline.h"
 
 namespace export_bop {
@@ -57,7 +57,7 @@ std::string Number(int n) {
   return std::string(6 - text.size(), '0') + text;
 }
 
-cv::Mat Read(const fs::path& file) { return cv::imread(file.string(), cv::IMREAD_UNCHANGED); }
+cv::Mat Read(const fs::path& file) { return test_support::ReadImageFile(file); }
 
 /// [x, y, last x - x, last y - y] of what is on.
 json BoxOf(const cv::Mat& mask) {

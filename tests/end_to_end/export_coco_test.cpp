@@ -3,12 +3,12 @@
 #include <gtest/gtest.h>
 
 #include <fstream>
-#include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 #include <set>
 
 #include "eval/export/coco.h"
 #include "sim/families/families.h"
+#include "tests/support/image_files.h"
 #include "tests/support/pipeline.h"
 
 namespace export_coco {
@@ -79,7 +79,7 @@ std::vector<std::string> Complaints(const fs::path& folder, const json& root) {
     require(image, {"id", "width", "height", "file_name"});
     if (!images.emplace(image["id"].get<int>(), image).second) bad.push_back("image twice");
     const cv::Mat pixels =
-        cv::imread((folder / "images" / image["file_name"].get<std::string>()).string());
+        test_support::ReadImageFile(folder / "images" / image["file_name"].get<std::string>());
     if (pixels.cols != image["width"] || pixels.rows != image["height"]) {
       bad.push_back(Say("size of ", image["file_name"]));
     }
@@ -156,8 +156,7 @@ TEST_F(CocoExport, MasksAreThePixelsOfTheObjectsAndNothingElse) {
   for (const json& image : (*root_)["images"]) {
     const std::string file = image["file_name"];
     const fs::path seq = *folder_ / (file.substr(0, 6) == "000000" ? "a" : "b");
-    const cv::Mat ids =
-        cv::imread((seq / "gt/object_id" / file.substr(7)).string(), cv::IMREAD_UNCHANGED);
+    const cv::Mat ids = test_support::ReadImageFile(seq / "gt/object_id" / file.substr(7));
     cv::Mat1i expected(ids.size(), 0);
     std::set<int> groups;
     for (int v = 0; v < ids.rows; ++v) {

@@ -6,12 +6,12 @@
 #include <cstdio>
 #include <filesystem>
 #include <functional>
-#include <opencv2/imgcodecs.hpp>
 #include <string>
 #include <vector>
 
 #include "app/bench/bench_sequences.h"
 #include "sim/families/families.h"
+#include "tests/support/image_files.h"
 #include "tests/support/pipeline.h"
 
 namespace {
@@ -35,8 +35,8 @@ class RecordedScene : public ::testing::Test {
   /// The lens is covered, depth goes on.
   void Darken() const {
     for (const auto& image : std::filesystem::directory_iterator(folder_ / "seq" / "rgb")) {
-      const cv::Mat colour = cv::imread(image.path().string());
-      cv::imwrite(image.path().string(), cv::Mat::zeros(colour.size(), colour.type()));
+      const cv::Mat colour = test_support::ReadImageFile(image.path());
+      test_support::WriteImageFile(image.path(), cv::Mat::zeros(colour.size(), colour.type()));
     }
   }
 

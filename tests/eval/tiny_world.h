@@ -8,13 +8,13 @@
 #include <map>
 #include <nlohmann/json.hpp>
 #include <opencv2/core.hpp>
-#include <opencv2/imgcodecs.hpp>
 #include <set>
 #include <string>
 #include <vector>
 
 #include "eval/formats/plane.h"
 #include "io/atomic_file.h"
+#include "tests/support/image_files.h"
 
 /// A desk with two books and a toy, its truth as a sequence folder, and the run that says
 /// exactly the truth. Written with nothing but the file formats, so that readers and scores are
@@ -88,8 +88,8 @@ class TinyWorld {
       const std::string t = ToText(frame.stamp_s);
       truth += TumLine(frame.stamp_s, frame.T_gc);
       associations += t + " rgb/" + t + ".png " + t + " depth/" + t + ".png\n";
-      cv::imwrite((folder / "gt/plane_id" / (t + ".png")).string(), frame.plane_ids);
-      cv::imwrite((folder / "gt/object_id" / (t + ".png")).string(), frame.object_ids);
+      test_support::WriteImageFile(folder / "gt/plane_id" / (t + ".png"), frame.plane_ids);
+      test_support::WriteImageFile(folder / "gt/object_id" / (t + ".png"), frame.object_ids);
       frame_lines += FrameTruthLine(frame).dump() + "\n";
     }
     io::WriteFile(folder / "groundtruth.txt", truth);
@@ -309,7 +309,7 @@ struct TinyRun {
     std::filesystem::create_directories(folder / "segmentation");
     for (std::size_t i = 0; i < frames.size(); ++i) {
       const std::string t = ToText(frames[i]["timestamp"].get<double>());
-      cv::imwrite((folder / "segmentation" / (t + ".png")).string(), segmentation[i]);
+      test_support::WriteImageFile(folder / "segmentation" / (t + ".png"), segmentation[i]);
     }
   }
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <numeric>
 
 #include "eval/formats/stamps.h"
 #include "eval/formats/text_records.h"
@@ -21,6 +22,13 @@ void CheckHeader(Folder& folder, const std::string& file, const io::TextRecord& 
     if (std::count(header.fields.begin(), header.fields.end(), name) == 1) continue;
     folder.Tell(file, header.line, fmt::format("has not exactly one column `{}`", name),
                 "write the header timestamp,orb,od,mdc,epi,pp,da,po,upm,mt", Severity::kFlaw);
+  }
+  for (const char* name :
+       {"fps", "peak_rss_mb"}) {  // figures of metrics.json beside the modules
+    if (std::count(header.fields.begin(), header.fields.end(), name) == 0) continue;
+    folder.Tell(file, header.line,
+                fmt::format("`{}` is the name of a figure, not of a module", name),
+                "rename the column");
   }
 }
 
@@ -72,7 +80,17 @@ Timing ReadTiming(Folder& folder, const std::string& file) {
     timing.rows_ms.emplace_back(row->begin() + 1, row->end());
   }
   order.Finish();
-  return timing;
+  std::vector<std::size_t> by_time(timing.stamps_s.size());
+  std::iota(by_time.begin(), by_time.end(), 0);
+  std::stable_sort(by_time.begin(), by_time.end(), [&](std::size_t a, std::size_t b) {
+    return timing.stamps_s[a] < timing.stamps_s[b];
+  });
+  Timing sorted{timing.modules, {}, {}};
+  for (const std::size_t i : by_time) {
+    sorted.stamps_s.push_back(timing.stamps_s[i]);
+    sorted.rows_ms.push_back(std::move(timing.rows_ms[i]));
+  }
+  return sorted;
 }
 
 }  // namespace eval

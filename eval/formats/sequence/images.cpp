@@ -3,17 +3,15 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <opencv2/imgcodecs.hpp>
-#include <string_view>
 
-#include "io/image_header.h"
+#include "io/image/decode_image.h"
+#include "io/image/image_header.h"
 #include "io/input_error.h"
 #include "io/read_file.h"
 
 namespace eval {
 namespace {
 
-constexpr int kColourAsStored = cv::IMREAD_COLOR | cv::IMREAD_IGNORE_ORIENTATION;
 constexpr int kMaxImageSide_px = 8192;  // the largest camera that a camera.yaml may describe
 
 std::string TypeName(int depth, int channels) {
@@ -24,59 +22,31 @@ std::string TypeName(int depth, int channels) {
   return fmt::format("{} with {} channel{}", bits, channels, channels == 1 ? "" : "s");
 }
 
-constexpr std::string_view kPngSignature = "\x89PNG\r\n\x1a\n";
-
-// A PNG ends with an empty IEND chunk; decoders fill up what is missing before it.
-bool IsWholePng(std::string_view bytes) {
-  using namespace std::string_view_literals;
-  constexpr std::string_view kEnd = "\0\0\0\0IEND\xae\x42\x60\x82"sv;
-  return bytes.size() > kPngSignature.size() + kEnd.size() &&
-         bytes.starts_with(kPngSignature) && bytes.ends_with(kEnd);
-}
-
-bool IsWholeJpeg(std::string_view bytes) {
-  if (!bytes.starts_with("\xFF\xD8")) return false;
-  const auto size = io::ImageSizeOf(bytes);
-  return size && size->whole;
-}
-
-/// What OpenCV makes of the bytes; empty when it fails.
-cv::Mat Decoded(std::string& bytes, int mode) {
-  try {
-    return cv::imdecode(cv::Mat1b(1, static_cast<int>(bytes.size()),
-                                  reinterpret_cast<unsigned char*>(bytes.data())),
-                        mode);
-  } catch (const cv::Exception&) {
-    return {};
-  }
-}
-
 /// Whether the header asks for no more pixels than an image may have: a few bytes could ask for
 /// gigabytes.
-bool IsOfSensibleSize(const std::string& bytes) {
-  const auto size = io::ImageSizeOf(bytes);
-  return size && size->width > 0 && size->height > 0 && size->width <= kMaxImageSide_px &&
-         size->height <= kMaxImageSide_px;
+bool IsOfSensibleSize(const io::ImageHeader& header) {
+  return header.width > 0 && header.height > 0 && header.width <= kMaxImageSide_px &&
+         header.height <= kMaxImageSide_px;
 }
 
 cv::Mat Decode(Folder& folder, const std::string& file, bool is_colour) {
   std::string bytes;
   if (!folder.Try(file, [&] { bytes = io::ReadFile(folder.Open(file)); })) return {};
-  if (!IsWholePng(bytes) && !(is_colour && IsWholeJpeg(bytes))) {
+  const auto header = io::ReadImageHeader(bytes);
+  if (!header || !header->whole || (header->format == io::ImageFormat::kJpeg && !is_colour)) {
     folder.Tell(file, 0,
                 is_colour ? "is not a whole PNG or JPEG file" : "is not a whole PNG file",
                 "write the image again");
     return {};
   }
-  if (!IsOfSensibleSize(bytes)) {
+  if (!IsOfSensibleSize(*header)) {
     folder.Tell(file, 0,
                 fmt::format("its header asks for more than {0} x {0} pixels, or for none",
                             kMaxImageSide_px),
                 "write the image again");
     return {};
   }
-  cv::Mat image =
-      Decoded(bytes, IsWholePng(bytes) ? int{cv::IMREAD_UNCHANGED} : kColourAsStored);
+  cv::Mat image = io::DecodeImage(bytes);
   if (image.empty()) folder.Tell(file, 0, "cannot be decoded", "write the image again");
   return image;
 }
@@ -127,22 +97,25 @@ std::map<int, PixelSet> PixelsOfIds(const cv::Mat1w& ids) {
 }
 
 cv::Mat ReadColour(const std::filesystem::path& file) {
-  std::string bytes = io::ReadFile(
+  const std::string bytes = io::ReadFile(
       file,
       "expected a colour image (a run of pas slam --live keeps none: pas sim renders them)");
-  const auto size = io::ImageSizeOf(bytes);
-  if (!size) throw io::InputError(file.string(), "is no PNG or JPEG image; copy it again");
-  if (!IsOfSensibleSize(bytes)) {
+  const auto header = io::ReadImageHeader(bytes);
+  if (!header) throw io::InputError(file.string(), "is no PNG or JPEG image; copy it again");
+  if (!IsOfSensibleSize(*header)) {
     throw io::InputError(
         file.string(),
         fmt::format("says that it is {} x {} pixels; expected at most {} a side: "
                     "copy it again",
-                    size->width, size->height, kMaxImageSide_px));
+                    header->width, header->height, kMaxImageSide_px));
   }
-  const bool whole = IsWholePng(bytes) || IsWholeJpeg(bytes);
-  cv::Mat image = whole ? Decoded(bytes, kColourAsStored) : cv::Mat();
+  const cv::Mat image = header->whole ? io::DecodeImage(bytes) : cv::Mat();
   if (image.empty()) {
     throw io::InputError(file.string(), "is damaged and cannot be decoded; copy it again");
+  }
+  if (image.type() != CV_8UC3) {
+    throw io::InputError(file.string(),
+                         "is " + header->pixels + "; expected 8-bit RGB: convert the image");
   }
   return image;
 }

@@ -39,7 +39,7 @@ cv::Mat1w ReadLabels(const std::filesystem::path& file, const ImageKind& kind);
 
 /// A colour image, PNG or JPEG, as CV_8UC3 in BGR order, its pixels as they are stored whatever the
 /// file says of the camera's orientation.
-/// @throws InputError when it cannot be read, is no image or is too large
+/// @throws InputError when it cannot be read, is no colour image or is too large
 cv::Mat ReadColour(const std::filesystem::path& file);
 
 }  // namespace eval

@@ -70,6 +70,9 @@ Manifest Read(const JsonRecord& root) {
   manifest.frame_count = expected.Integer(manifest.frame_count_key);
   manifest.images = !root.Contains("images") || root.value().at("images") != false;
   manifest.sensor = ReadSensor(root);
+  // As recorded, a `kinect1` has errors of its calibration by itself.
+  manifest.sensor_as_named = !root.Has("sensor_parameters") &&
+                             (!root.Has("calibration_error") || manifest.sensor == "kinect1");
   manifest.sha256 = ReadHashes(root);
   return manifest;
 }

@@ -14,6 +14,7 @@ struct Manifest {
   bool complete = true;            ///< false: it says that it was not finished
   bool images = true;              ///< false: of a live run, whose images never were files
   std::string sensor;              ///< empty when it does not tell
+  bool sensor_as_named = true;     ///< no parameter of it was set to something else
   std::optional<int> frame_count;  ///< colour images
   std::string frame_count_key;     ///< the key it stands under
   std::optional<std::map<std::string, std::string>> sha256;  ///< by file

@@ -13,8 +13,9 @@ const std::string kFrameTruth = "gt/frames.jsonl";
 const std::string kPoses = "groundtruth.txt";
 
 bool IsFaultless(Folder& folder, const std::string& file) {
-  return std::none_of(folder.faults().begin(), folder.faults().end(),
-                      [&](const Fault& fault) { return fault.file == file; });
+  return std::none_of(folder.faults().begin(), folder.faults().end(), [&](const Fault& fault) {
+    return fault.file == file && fault.severity != Severity::kWarning;
+  });
 }
 
 void TellUnknownIds(Folder& folder, const FrameTruth& frame, const SceneTruth& scene) {

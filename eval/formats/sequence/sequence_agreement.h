@@ -4,12 +4,9 @@
 
 #include "eval/formats/sequence/frame_truth.h"
 #include "eval/formats/sequence/sequence.h"
+#include "eval/formats/stamps.h"
 
 namespace eval {
-
-/// Truth and estimate of one moment are at most this far apart where the truth has a clock of its
-/// own (evo's default).
-inline constexpr double kMaxStampDifference_s = 0.01;
 
 /// Tells frames that have no pose in groundtruth.txt.
 /// @param exact  every frame has its pose (a simulator's); else one frame with a pose will do

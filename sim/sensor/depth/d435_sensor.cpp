@@ -106,7 +106,7 @@ class D435Sensor {
     const Eigen::Vector3d p_c = rendering_.depth_m(seen) * camera_.Ray(u, v);
     const Eigen::Vector2d right =
         camera_.Project(p_c - Eigen::Vector3d(model_.baseline_m, 0, 0));
-    return right.x() >= -0.5;
+    return right.x() >= -0.5 && right.x() <= camera_.width - 0.5;
   }
 
   /// The matching window sees two surfaces and neither prevails.

@@ -21,7 +21,13 @@ constexpr double kWaveX_px = 212, kReachX_px = 158, kReachY_px = 68;
 constexpr double kMinWave_px = 24;  // our choice: shorter ones are lost in noise
 constexpr int kWaves = 96;  // the field of a device is Gaussian to a per cent in its moments
 constexpr double kDrift_frames = 60;  // our choice: the drifting part is new after some 2 s
-constexpr int kKnot_px = 4;  // a sixth of the shortest wave: linear between, to 2 % of the rms
+
+/// Between knots p is linear: a sixth of the shortest wave, to 2 % of the rms.
+int KnotOf(const Camera& camera) {
+  constexpr double kKnot_px = 4;  // of the measured camera
+  const double scale = std::min(camera.fx, camera.fy) / kMeasuredFocal_px;
+  return std::clamp(static_cast<int>(std::lround(kKnot_px * scale)), 1, 4);
+}
 
 constexpr double kTurn = 2 * std::numbers::pi;
 
@@ -108,8 +114,9 @@ const cv::Mat1f& DeviceKnots(const DepthBend& bend, const Camera& camera, std::u
   thread_local std::optional<Key> made_for;
   thread_local cv::Mat1f knots;
   if (made_for != key) {
-    knots = cv::Mat1f(camera.height / kKnot_px + 2, camera.width / kKnot_px + 2, 0.0F);
-    AddWaves(DeviceWaves(bend, seed), DeviceRms(bend), 0, camera, kKnot_px, knots);
+    const int knot_px = KnotOf(camera);
+    knots = cv::Mat1f(camera.height / knot_px + 2, camera.width / knot_px + 2, 0.0F);
+    AddWaves(DeviceWaves(bend, seed), DeviceRms(bend), 0, camera, knot_px, knots);
     made_for = key;
   }
   return knots;
@@ -119,20 +126,22 @@ const cv::Mat1f& DeviceKnots(const DepthBend& bend, const Camera& camera, std::u
 
 BendField::BendField(const DepthBend& bend, const Camera& camera, std::uint64_t seed,
                      std::uint64_t frame)
-    : knots_(DeviceKnots(bend, camera, seed).clone()) {
+    : knot_px_(KnotOf(camera)), knots_(DeviceKnots(bend, camera, seed).clone()) {
   AddWaves(Waves(seed, 3), bend.rms * std::sqrt(bend.drift_share), static_cast<double>(frame),
-           camera, kKnot_px, knots_);
+           camera, knot_px_, knots_);
 }
 
 void BendField::Row(int v, std::span<float> p) const {
-  const auto part_v = static_cast<float>(v % kKnot_px) / kKnot_px;
-  const float* above = knots_[v / kKnot_px];
-  const float* below = knots_[v / kKnot_px + 1];
+  const auto knot = static_cast<float>(knot_px_);
+  const auto part_v = static_cast<float>(v % knot_px_) / knot;
+  const float* above = knots_[v / knot_px_];
+  const float* below = knots_[v / knot_px_ + 1];
   for (std::size_t u = 0; u < p.size(); ++u) {
-    const std::size_t i = u / kKnot_px;
+    const std::size_t i = u / static_cast<std::size_t>(knot_px_);
     const float left = above[i] + part_v * (below[i] - above[i]);
     const float right = above[i + 1] + part_v * (below[i + 1] - above[i + 1]);
-    p[u] = left + static_cast<float>(u % kKnot_px) / kKnot_px * (right - left);
+    p[u] = left +
+           static_cast<float>(u % static_cast<std::size_t>(knot_px_)) / knot * (right - left);
   }
 }
 

@@ -36,6 +36,7 @@ class BendField {
   void Row(int v, std::span<float> p) const;
 
  private:
+  int knot_px_;
   cv::Mat1f knots_;
 };
 

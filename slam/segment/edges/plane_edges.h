@@ -11,7 +11,7 @@
 
 namespace slam {
 
-/// The outer boundary of a segment, ordered along each of its contours (clockwise in the image,
+/// The outer boundary of a segment, ordered along each of its contours (counter-clockwise in the image,
 /// the longest contour first), with what lies beyond each point (EdgeKind):
 ///   nothing measured, nor a step beyond it   kMissing
 ///   the image's border                      kBorder

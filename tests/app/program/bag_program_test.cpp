@@ -6,12 +6,12 @@
 #include <fstream>
 #include <limits>
 #include <nlohmann/json.hpp>
-#include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 #include <sstream>
 
 #include "slam/input/camera_reader.h"
 #include "tests/support/bag_writer.h"
+#include "tests/support/image_files.h"
 #include "tests/support/program.h"
 
 namespace {
@@ -48,10 +48,10 @@ class DeskForBags {
       std::istringstream text(line);
       std::string stamp, rgb, depth_stamp, depth;
       text >> stamp >> rgb >> depth_stamp >> depth;
-      BagFrame frame{std::stod(stamp), cv::imread(sequence() / rgb), {}};
-      const cv::Mat raw = cv::imread(sequence() / depth, cv::IMREAD_UNCHANGED);
+      BagFrame frame{std::stod(stamp), test_support::ReadImageFile(sequence() / rgb), {}};
+      const cv::Mat raw = test_support::ReadImageFile(sequence() / depth);
       raw.convertTo(frame.depth_mm, CV_16U, 1000 / camera_.depth_factor);
-      cv::imwrite(sequence() / depth, frame.depth_mm);
+      test_support::WriteImageFile(sequence() / depth, frame.depth_mm);
       frames_.push_back(frame);
     }
     std::string camera = ReadText(sequence() / "camera.yaml");

@@ -7,9 +7,9 @@
 #include <cerrno>
 #include <chrono>
 #include <nlohmann/json.hpp>
-#include <opencv2/imgcodecs.hpp>
 #include <thread>
 
+#include "io/image/decode_image.h"
 #include "tests/support/program.h"
 
 namespace {
@@ -102,8 +102,7 @@ class KilledRun : public testing::Test {
 TEST_F(KilledRun, LeavesOnlyWholeFilesAndResumesToTheSameBytesAtEveryMoment) {
   for (const auto& [file, bytes] : whole_) {
     if (fs::path(file).extension() != ".png") continue;
-    const std::vector<unsigned char> png(bytes.begin(), bytes.end());
-    ASSERT_FALSE(cv::imdecode(png, cv::IMREAD_UNCHANGED).empty()) << file;
+    ASSERT_FALSE(io::DecodeImage(bytes).empty()) << file;
   }
   for (long i = 0; i < kMoments; ++i) {
     const std::string name = "killed" + std::to_string(i);

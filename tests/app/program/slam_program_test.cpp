@@ -4,9 +4,9 @@
 
 #include <chrono>
 #include <nlohmann/json.hpp>
-#include <opencv2/imgcodecs.hpp>
 #include <thread>
 
+#include "tests/support/image_files.h"
 #include "tests/support/program.h"
 
 namespace {
@@ -57,8 +57,8 @@ class SlamProgram : public testing::Test {
     std::string t, rgb, t_depth, depth;
     for (int i = 0; lines >> t >> rgb >> t_depth >> depth; ++i) {
       if (i < first) continue;
-      cv::imwrite((sequence / rgb).string(), cv::Mat3b(240, 320, cv::Vec3b()));
-      cv::imwrite((sequence / depth).string(), cv::Mat1w(240, 320, ushort{0}));
+      test_support::WriteImageFile(sequence / rgb, cv::Mat3b(240, 320, cv::Vec3b()));
+      test_support::WriteImageFile(sequence / depth, cv::Mat1w(240, 320, ushort{0}));
     }
   }
 

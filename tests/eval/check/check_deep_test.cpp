@@ -6,6 +6,7 @@
 
 #include "eval/check/check_folder.h"
 #include "tests/eval/check/small_world.h"
+#include "tests/support/image_files.h"
 
 // Each test plants one of the mistakes that truth is most often written with.
 namespace eval {
@@ -42,7 +43,7 @@ class CheckDeep : public ::testing::Test {
   /// Replaces every depth by what `change` makes of it.
   void ChangeDepth(const std::function<double(int x, int y, double units)>& change) {
     for (int i = 0; i < 10; ++i) {
-      cv::Mat depth = cv::imread(Image("depth", i).string(), cv::IMREAD_UNCHANGED);
+      cv::Mat depth = test_support::ReadImageFile(Image("depth", i));
       for (int y = 0; y < depth.rows; ++y) {
         for (int x = 0; x < depth.cols; ++x) {
           ushort& units = depth.at<ushort>(y, x);
@@ -87,7 +88,7 @@ TEST_F(CheckDeep, FindsDepthAlongTheRay) {
 TEST_F(CheckDeep, FindsIdsShiftedByAPixelAndTellsWhere) {
   for (int i = 0; i < 10; ++i) {
     for (const char* where : {"gt/plane_id", "gt/object_id"}) {
-      const cv::Mat ids = cv::imread(Image(where, i).string(), cv::IMREAD_UNCHANGED);
+      const cv::Mat ids = test_support::ReadImageFile(Image(where, i));
       cv::Mat shifted = ids.clone();
       ids.colRange(0, ids.cols - 1).copyTo(shifted.colRange(1, ids.cols));
       WriteImage(Image(where, i), shifted);

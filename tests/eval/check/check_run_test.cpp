@@ -8,6 +8,7 @@
 #include "eval/check/check_folder.h"
 #include "tests/eval/check/small_run.h"
 #include "tests/support/fault_text.h"
+#include "tests/support/image_files.h"
 
 namespace eval {
 namespace {
@@ -175,7 +176,7 @@ TEST_F(CheckRunFolder, NamesANumberThatIsNull) {
 
 TEST_F(CheckRunFolder, NamesASegmentationValueWithoutAPlane) {
   const std::string name = "segmentation/" + StampText(1.0) + ".png";
-  cv::Mat labels = cv::imread((run() / name).string(), cv::IMREAD_UNCHANGED);
+  cv::Mat labels = test_support::ReadImageFile(run() / name);
   labels.at<uchar>(3, 4) = 200;
   WriteImage(run() / name, labels);
   ExpectOnly(name, 0, "", "the value 200 in 1 pixels");

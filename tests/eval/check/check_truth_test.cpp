@@ -6,6 +6,7 @@
 #include "tests/eval/check/checked_folder.h"
 #include "tests/eval/check/small_world.h"
 #include "tests/support/fault_text.h"
+#include "tests/support/image_files.h"
 
 namespace eval {
 namespace {
@@ -152,7 +153,7 @@ class CheckDepthAgainstTruth : public CheckSequenceFolder {
 TEST_F(CheckDepthAgainstTruth, NamesDepthAlongTheRay) {
   for (int i = 0; i < 4; ++i) {
     const fs::path file = seq() / ("depth/" + Stamp(i) + ".png");
-    cv::Mat depth = cv::imread(file.string(), cv::IMREAD_UNCHANGED);
+    cv::Mat depth = test_support::ReadImageFile(file);
     for (int y = 0; y < depth.rows; ++y) {
       for (int x = 0; x < depth.cols; ++x) {
         const double u = (x - world_.cx()) / world_.focal_px,

@@ -12,12 +12,12 @@
 #include <map>
 #include <nlohmann/json.hpp>
 #include <opencv2/core.hpp>
-#include <opencv2/imgcodecs.hpp>
 #include <set>
 #include <sstream>
 #include <string>
 #include <vector>
 
+#include "tests/support/image_files.h"
 #include "tests/support/temporary_folder.h"
 
 /// A few boxes seen by a pinhole camera, written as a faultless sequence and a faultless run.
@@ -178,7 +178,7 @@ inline std::string ReadText(const fs::path& file) {
 
 inline void WriteImage(const fs::path& file, const cv::Mat& image) {
   fs::create_directories(file.parent_path());
-  cv::imwrite(file.string(), image);
+  test_support::WriteImageFile(file, image);
 }
 
 inline json AsJson(const Vector3d& v) { return json::array({v.x(), v.y(), v.z()}); }

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
 #include "eval/draw/contact_sheet.h"
@@ -11,6 +12,7 @@
 #include "eval/draw/run_title.h"
 #include "io/input_error.h"
 #include "tests/eval/draw/drawn_world.h"
+#include "tests/support/image_files.h"
 
 namespace eval {
 namespace {
@@ -309,7 +311,7 @@ TEST_F(DrawRunFolder, DrawsColourThatIsJpeg) {
   const fs::path run = MakeRun("run", Moved());
   const auto before = Named(DrawRun(run, {}).pictures, "contact_sheet.png");
   for (const fs::directory_entry& image : fs::directory_iterator(seq() / "rgb")) {
-    const cv::Mat pixels = cv::imread(image.path().string());
+    const cv::Mat pixels = test_support::ReadImageFile(image.path());
     const fs::path jpeg = fs::path(image.path()).replace_extension(".jpg");
     cv::imwrite(jpeg.string(), pixels, {cv::IMWRITE_JPEG_QUALITY, 100});
     fs::remove(image.path());

@@ -5,6 +5,7 @@
 
 #include "io/input_error.h"
 #include "tests/eval/check/small_world.h"
+#include "tests/support/image_files.h"
 
 namespace eval {
 namespace {
@@ -17,7 +18,7 @@ TEST(ReadCheckedObjectIds, RefusesAnUnknownIdWhereverItStands) {
   WriteSequence(folder.path() / "seq", world);
   const double stamp_s = world.views[0].stamp_s;
   const fs::path file = folder.path() / "seq/gt/object_id" / (StampText(stamp_s) + ".png");
-  cv::Mat whole = cv::imread(file.string(), cv::IMREAD_UNCHANGED);
+  cv::Mat whole = test_support::ReadImageFile(file);
   EXPECT_NO_THROW(ReadCheckedObjectIds(ReadSequence(folder.path() / "seq"), stamp_s));
   // The last of objects 1 to 4 becomes 40: unknown ids lie between known ones and above them.
   json scene = json::parse(ReadText(folder.path() / "seq/gt/scene.json"));

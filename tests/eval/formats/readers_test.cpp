@@ -253,6 +253,20 @@ TEST_F(ReadFolders, TimingKeepsTheFramesInWhichAModuleDidNotRun) {
   EXPECT_THAT(ErrorOf([&] { ReadTiming(in_, "t.csv"); }), HasSubstr("t.csv:2"));
 }
 
+TEST_F(ReadFolders, TimingIsByTimeWhateverItsRowsOrder) {
+  Write("timing.csv", "timestamp,orb\n2.0,3\n1.0,4.5\n");
+  const Timing timing = ReadTiming(in_);
+  EXPECT_EQ(timing.stamps_s, (std::vector<double>{1, 2}));
+  EXPECT_EQ(timing.rows_ms, (std::vector<std::vector<double>>{{4.5}, {3}}));
+}
+
+TEST_F(ReadFolders, APoseThatComesAgainIsRefusedAlsoBehindLaterOnes) {
+  Write("run.json", "{\"format\": \"pas-run/1\", \"sequence\": \"SEQ\"}");
+  Write("trajectory.txt", "1 0 0 0 0 0 0 1\n2 0 0 1 0 0 0 1\n1 0 0 1 0 0 0 1\n");
+  EXPECT_THAT(ErrorOf([&] { ReadRun(folder_); }),
+              AllOf(HasSubstr("trajectory.txt:3"), HasSubstr("comes a second time")));
+}
+
 TEST_F(ReadFolders, TwoPosesForOneFrameAreRefused) {
   Write("run.json", "{\"format\": \"pas-run/1\", \"sequence\": \"SEQ\"}");
   Write("trajectory.txt", "1 0 0 0 0 0 0 1\n1 0 0 1 0 0 0 1\n");

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 #include <cmath>
 #include <numbers>
+#include <opencv2/calib3d.hpp>
 
 #include "eval/formats/stamps.h"
 #include "io/input_error.h"
@@ -90,6 +91,30 @@ TEST_F(TrueFrameOfTinyWorld, HasTheCornersThatAreInViewAndNotHidden) {
       }
     }
   }
+}
+
+TEST_F(TrueFrameOfTinyWorld, SeesCornersThroughTheLens) {
+  sequence_.plane_id_files = {};
+  Camera& camera = *sequence_.true_camera;
+  camera.distortion = {-0.35, 0.1, 0.004, -0.003, 0.0};  // a wide one draws the border in
+  const cv::Matx33d K(camera.fx, 0, camera.cx, 0, camera.fy, camera.cy, 0, 0, 1);
+  int beside_the_pinhole = 0;
+  for (const TinyFrame& frame : world_.frames) {
+    for (const SeenPlane& seen : Read(frame).planes) {
+      for (std::size_t k = 0; k < seen.corners_c.size(); ++k) {
+        const Eigen::Vector3d& x_c = seen.corners_c[k];
+        if (!(x_c.z() > 0) || (x_c.head<2>() / x_c.z()).norm() > 0.8) continue;  // may fold
+        std::vector<cv::Point2d> pixel;
+        cv::projectPoints(std::vector<cv::Point3d>{{x_c.x(), x_c.y(), x_c.z()}},
+                          cv::Vec3d::all(0), cv::Vec3d::all(0), K, camera.distortion, pixel);
+        const bool in_view = pixel[0].x >= 0 && pixel[0].x <= camera.width - 1 &&
+                             pixel[0].y >= 0 && pixel[0].y <= camera.height - 1;
+        EXPECT_EQ(seen.corner_in_view[k], in_view) << pixel[0];
+        beside_the_pinhole += in_view != TinyWorld::InImage(frame.T_gc, frame.T_gc * x_c);
+      }
+    }
+  }
+  EXPECT_GT(beside_the_pinhole, 0);
 }
 
 TEST_F(TrueFrameOfTinyWorld, NeedsTheCameraOfTheSequence) {

@@ -6,9 +6,9 @@
 
 #include <filesystem>
 #include <fstream>
-#include <opencv2/imgcodecs.hpp>
 
 #include "eval/planes/polygon.h"
+#include "tests/support/image_files.h"
 #include "tests/support/temporary_folder.h"
 
 namespace eval {
@@ -133,7 +133,7 @@ TEST_F(UnitedFaces, GoByOneIdInImagesAndCountsToo) {
   const test_support::TemporaryFolder folder;
   cv::Mat1w ids(1, 4);
   ids << 4, 9, 11, 0;
-  ASSERT_TRUE(cv::imwrite((folder / "1.000000.png").string(), ids));
+  test_support::WriteImageFile(folder / "1.000000.png", ids);
   Sequence sequence = AsRead();
   sequence.plane_id_files = StampedFiles(folder.path());
   sequence.frame_truth = {{1.0, {}, {{4, 100}, {9, 40}, {11, 5}}}};

@@ -10,6 +10,7 @@
 #include "io/input_error.h"
 #include "io/read_file.h"
 #include "tests/eval/report/evaluated_world.h"
+#include "tests/support/image_files.h"
 
 namespace eval {
 namespace {
@@ -79,17 +80,17 @@ TEST_F(EvaluateBrokenInput, TruthOfAnotherTimeIsRefused) {
 
 TEST_F(EvaluateBrokenInput, IdImagesOfEightBitsAreRefused) {
   const std::string file = FirstFile("gt/plane_id", seq());
-  cv::Mat ids = cv::imread(file, cv::IMREAD_UNCHANGED);
+  cv::Mat ids = test_support::ReadImageFile(file);
   ids.convertTo(ids, CV_8U);
-  cv::imwrite(file, ids);
+  test_support::WriteImageFile(file, ids);
   EXPECT_THAT(Refusal(), AllOf(HasSubstr(file), HasSubstr("expected 16-bit")));
 }
 
 TEST_F(EvaluateBrokenInput, AnIdThatTheSceneDoesNotHaveIsRefused) {
   const std::string file = FirstFile("gt/plane_id", seq());
-  cv::Mat1w ids = cv::imread(file, cv::IMREAD_UNCHANGED);
+  cv::Mat1w ids = test_support::ReadImageFile(file);
   ids(3, 4) = 777;
-  cv::imwrite(file, ids);
+  test_support::WriteImageFile(file, ids);
   EXPECT_THAT(Refusal(), AllOf(HasSubstr(file), HasSubstr("plane 777")));
 }
 
@@ -101,9 +102,9 @@ TEST_F(EvaluateBrokenInput, AnIdImageThatIsMissingIsRefused) {
 TEST_F(EvaluateBrokenInput, ASegmentationOfSixteenBitsIsRefused) {
   const auto widen = [] {
     const std::string file = FirstFile("segmentation", RunFolder());
-    cv::Mat labels = cv::imread(file, cv::IMREAD_UNCHANGED);
+    cv::Mat labels = test_support::ReadImageFile(file);
     labels.convertTo(labels, CV_16U);
-    cv::imwrite(file, labels);
+    test_support::WriteImageFile(file, labels);
   };
   EXPECT_THAT(Refusal(widen), AllOf(HasSubstr("segmentation"), HasSubstr("expected 8-bit")));
 }

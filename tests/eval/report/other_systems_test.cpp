@@ -9,6 +9,7 @@
 #include "eval/report/table.h"
 #include "io/input_error.h"
 #include "tests/eval/report/evaluated_world.h"
+#include "tests/support/image_files.h"
 
 namespace eval {
 namespace {
@@ -131,9 +132,9 @@ TEST_F(EvaluateOtherSystems, LabelImagesAloneGiveTheSameFiguresOfAnyLabelsAndEit
   ExpectSameBut(ours["extraction"], whole_["extraction"], {"normal_deg", "offset_mm"});
   EXPECT_FALSE(ours.contains("trajectory"));
   for (const auto& entry : fs::directory_iterator(RunFolder() / "segmentation")) {
-    cv::Mat labels = cv::imread(entry.path().string(), cv::IMREAD_UNCHANGED);
+    cv::Mat labels = test_support::ReadImageFile(entry.path());
     labels.convertTo(labels, CV_16U, 1000.0);
-    cv::imwrite(entry.path().string(), labels);
+    test_support::WriteImageFile(entry.path(), labels);
   }
   EXPECT_EQ(figures(), ours);
   EXPECT_THAT(LabelsTable(EvaluateLabels(RunOfLabels(RunFolder() / "segmentation"), sequence)),

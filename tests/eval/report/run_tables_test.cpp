@@ -55,7 +55,7 @@ TEST_F(EventsOfTinyWorld, ABookPutOnTheDeskIsWrongByItsHeightTimesItsPixels) {
   EXPECT_EQ(event.cue, "overlap");
   EXPECT_EQ(event.pixels, (*plane)["pixels"].get<int>());
   EXPECT_NEAR(event.distance_mm.value(), 60.0, kExact_mm);  // the book is 6 cm thick
-  EXPECT_NEAR(event.harm_px_mm.value(), 60.0 * *event.pixels, 1e3 * kExact_mm);
+  EXPECT_NEAR(event.harm_px_mm.value(), 60.0 * double(*event.pixels), 1e3 * kExact_mm);
 }
 
 TEST_F(EventsOfTinyWorld, AnotherMapPlaneForAKnownBookIsMissedAndASplitOnceItHasThreeFrames) {

@@ -5,13 +5,13 @@
 #include <filesystem>
 #include <functional>
 #include <limits>
-#include <opencv2/imgcodecs.hpp>
 #include <string>
 #include <vector>
 
 #include "eval/formats/sequence/sequence.h"
 #include "io/atomic_file.h"
 #include "io/number_text.h"
+#include "tests/support/image_files.h"
 
 /// Rectangular boards before a moving camera, as a sequence folder with exact depth: written by
 /// ray casting, so that surfaces are tested against geometry and not against themselves.
@@ -69,7 +69,7 @@ class BoardWorld {
       }
       truth += "\n";
       list += t + " rgb/" + t + ".png " + t + " depth/" + t + ".png\n";
-      cv::imwrite((folder / "depth" / (t + ".png")).string(), Depth(i));
+      test_support::WriteImageFile(folder / "depth" / (t + ".png"), Depth(i));
     }
     io::WriteFile(folder / "groundtruth.txt", truth);
     io::WriteFile(folder / "associations.txt", list);

@@ -346,6 +346,10 @@ TEST_F(OwnMesh, TakesItsColourFromTheFileOrThePrintOfTheScene) {
   EXPECT_NE(SceneHash(Parse(lines)), hash);
 }
 
+TEST_F(OwnMesh, LeavesOutATriangleThatRepeatsACorner) {
+  EXPECT_EQ(Read(kCube + "f 1 2 2\n").triangles.size(), Read(kCube).triangles.size());
+}
+
 TEST_F(OwnMesh, LeavesEachTriangleItsColourWhereOneWithoutAreaIsLeftOut) {
   Write("newmtl red\nKd 0.8 0.1 0.05\nnewmtl blue\nKd 0.05 0.1 0.8\n", "it.mtl");
   // A ninth corner in an edge of two faces, of which one knows it: between them no area is left.

@@ -136,11 +136,31 @@ TEST(ClearanceWarning, TellsHowNearTheCameraComesAndWhen) {
   const Scene scene = OneCarton();
   EXPECT_EQ(ClearanceWarning(scene, Through({-1, 0.36, 0}, {1, 0.36, 0})), "");
   const auto near = Through({-1, 0.24, 0}, {1, 0.24, 0});
-  const NearestPass pass = NearestPassOf(scene, near);
+  const NearestPass pass = NearestPassOf(scene, near, PassKind::kBox);
   EXPECT_NEAR(pass.distance_m, 0.04, 1e-12);
   EXPECT_NEAR(pass.timestamp_s, 0.4, 1e-12) << "first of those as near";
   EXPECT_NE(ClearanceWarning(scene, near).find("40 mm from 'carton'"), std::string::npos);
   EXPECT_THROW(ClearanceWarning(scene, Through({-1, 0, 0}, {1, 0, 0})), io::InputError);
+}
+
+TEST(ClearanceWarning, RefusesACameraInABoxAlsoWhereABodySurroundsIt) {
+  Scene scene = OneCarton();
+  scene.objects.push_back(scene.objects[0]);
+  scene.objects[1].name = "bush";
+  scene.objects[1].shape = ShapeKind::kBush;
+  scene.objects[1].size = {3, 3, 3};
+  EXPECT_THROW(ClearanceWarning(scene, Through({-1, 0, 0}, {1, 0, 0})), io::InputError);
+  EXPECT_NE(ClearanceWarning(scene, Through({-1, 0.24, 0}, {1, 0.24, 0})).find("'carton'"),
+            std::string::npos);
+  EXPECT_NE(ClearanceWarning(scene, Through({-1, 0.9, 0}, {1, 0.9, 0})).find("'bush'"),
+            std::string::npos);
+}
+
+TEST(FramesOf, ARecordingThatWasWrittenAreAsManyAsItHas) {
+  for (int frames = 2; frames < 200; ++frames) {
+    const double last_s = std::round((frames - 1) / 30.0 * 1e6) / 1e6;  // six digits
+    EXPECT_EQ(FramesOf({{0, {}}, {last_s, {}}}, 30), frames);
+  }
 }
 
 TEST(ClearanceWarning, FollowsWhatMoves) {

@@ -122,6 +122,35 @@ TEST(MakeTrajectory, MovesInEverySceneOfTheCatalogue) {
   }
 }
 
+TEST(MakeTrajectory, MovesAlongLimitsWithoutWidth) {
+  for (const int fixed : {0, 1, 2, 3}) {
+    Scene scene = MakeScene("desk", 1);
+    Motion& m = scene.motion;
+    m.preset = "slow";
+    if (fixed == 0) m.target_spread_m = 0;
+    if (fixed == 1) m.distance_min_m = m.distance_max_m = 1.1;
+    if (fixed == 2) m.azimuth_min_rad = m.azimuth_max_rad = 0.2;
+    if (fixed == 3) m.pitch_min_rad = m.pitch_max_rad = 0.6;
+    Eigen::AlignedBox3d extent;
+    for (const TimedPose& pose : MakeTrajectory(scene, 300, kFps, 1))
+      extent.extend(pose.T_wc.t);
+    EXPECT_GT(extent.sizes().norm(), 0.2) << fixed;
+  }
+}
+
+TEST(MakeTrajectory, SaysWhenNoLimitHasAnyWidth) {
+  for (const char* preset : {"slow", "orbit"}) {
+    Scene scene = MakeScene("desk", 1);
+    Motion& m = scene.motion;
+    m.preset = preset;
+    m.target_spread_m = 0;
+    m.distance_min_m = m.distance_max_m = 1.1;
+    m.azimuth_min_rad = m.azimuth_max_rad = 0.2;
+    m.pitch_min_rad = m.pitch_max_rad = 0.6;
+    EXPECT_THROW(MakeTrajectory(scene, 10, kFps, 1), io::InputError) << preset;
+  }
+}
+
 TEST(MakeTrajectory, SaysWhenThereIsNoPlaceForTheCamera) {
   Scene scene = MakeScene("desk", 1);
   scene.motion.distance_min_m = scene.motion.distance_max_m = 0.1;  // inside the desk's margin

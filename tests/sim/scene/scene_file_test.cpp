@@ -50,6 +50,17 @@ TEST(SceneFile, NamesTheLineOfAnUnknownKeyAndTheUnitThatIsMeant) {
               AllOf(HasSubstr("s.yaml:3"), HasSubstr("unknown key `colour`")));
 }
 
+TEST(SceneFile, RefusesASingleFaceOfWhatHasOneMaterial) {
+  const std::string face = "    faces: {+z: {print: cover}}\n";
+  EXPECT_THAT(ErrorOf(kHead + Box(1, "a", kPlaced + face)), HasSubstr("no error"));
+  EXPECT_THAT(ErrorOf(kHead + Box(1, "a", kPlaced + "    shape: cylinder\n" + face)),
+              AllOf(HasSubstr("s.yaml:11"), HasSubstr("one material, `all`")));
+}
+
+TEST(SceneFile, RefusesANameThatYamlTakesForNothing) {
+  EXPECT_THAT(ErrorOf(kHead + Box(1, "\"null\"", kPlaced)), HasSubstr("s.yaml:5"));
+}
+
 TEST(SceneFile, RefusesAKeyThatStandsTwice) {
   EXPECT_THAT(ErrorOf(kHead + Box(1, "a", kPlaced + "    role: regular\n")),
               AllOf(HasSubstr("s.yaml:10"), HasSubstr("key `role` is given twice")));

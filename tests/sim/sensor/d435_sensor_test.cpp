@@ -150,6 +150,14 @@ TEST(LeftBand, IsBlindAsFarAsTheRightImagerDoesNotReach) {
       MeasureDepth(SensorView(OneBoard(0.8), camera, model), model, camera, 1, 0);
   const double blind = camera.fx * 0.05015 / 0.8 - 0.5;
   for (int u = 0; u < 80; ++u) EXPECT_EQ(z(240, u) > 0, u >= blind) << u;
+  // An imager on the other side is blind on the other side.
+  model.baseline_m = -0.05015;
+  const cv::Mat1d other =
+      MeasureDepth(SensorView(OneBoard(0.8), camera, model), model, camera, 1, 0);
+  for (int u = 0; u < 80; ++u) {
+    EXPECT_GT(other(240, u), 0) << u;
+    EXPECT_EQ(other(240, camera.width - 1 - u) > 0, u >= blind) << u;
+  }
 }
 
 // As with a projector: f B (1/z_near - 1/z_far) pixels left of the near thing.

@@ -54,6 +54,12 @@ TEST(SensorFile, RefusesValuesOutOfRange) {
   EXPECT_THAT(ErrorOf("base: d435\nwindow_px: 6\n"), HasSubstr("odd"));
 }
 
+TEST(SensorFile, RefusesARangeThatLeavesNoDepth) {
+  EXPECT_THAT(ErrorOf("base: kinect1-clean\nmin_depth_m: 5\n"),
+              testing::AllOf(HasSubstr("mine.yaml:2"), HasSubstr("not below max_depth_m")));
+  EXPECT_THAT(ErrorOf("base: d435\nmax_depth_m: 0.2\n"), HasSubstr("mine.yaml:2"));
+}
+
 TEST(SensorFile, RefusesFractionsOfWhatIsCountedOrSwitched) {
   for (const char* line : {"base: d435\nwindow_px: 4.6\n", "base: kinect1\nwindow_px: 0.4\n",
                            "base: kinect1\ndevice: 1.5\n", "base: kinect1\nquantise: 0.5\n"}) {
@@ -73,8 +79,11 @@ TEST(SensorFile, CanSetEveryParameterThatIsListed) {
   for (const char* base : {"kinect1", "azure", "d435"}) {
     const std::vector<SensorParameter> usual = Parameters(SensorByName(base));
     for (const SensorParameter& parameter : usual) {
-      const std::string value =
-          parameter.key == "window_px" ? "5" : std::to_string(parameter.high);
+      const std::string value = parameter.key == "window_px"     ? "5"
+                                : parameter.key == "min_depth_m" ? "0.3"  // below the largest
+                                : parameter.key == "max_depth_m"
+                                    ? "9"
+                                    : std::to_string(parameter.high);
       const Sensor sensor =
           ParseSensor(std::string("base: ") + base + "\n" + parameter.key + ": " + value + "\n",
                       "mine.yaml");

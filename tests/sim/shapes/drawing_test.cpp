@@ -54,6 +54,16 @@ TEST(SceneSvg, DrawsALyingCylinderAsLongAsItIs) {
   EXPECT_TRUE(ExtentInPlan(svg, "standing").isApprox(px * Eigen::Vector2d(0.1, 0.1), 1e-2));
 }
 
+TEST(SceneSvg, DrawsWhatMovesAsItStandsAtFirst) {
+  Scene scene = MakeScene("stack", 1);
+  Object arm = scene.objects.back();
+  arm.name = "arm", arm.size = {0.1, 0.4, 0.1}, arm.q_wo.setIdentity();
+  arm.way = {{0, {0, 0, 2}, 90}, {1, {1, 0, 2}, 90}};
+  scene.objects.push_back(arm);
+  EXPECT_TRUE(
+      ExtentInPlan(SceneSvg(scene), "arm").isApprox(500 * Eigen::Vector2d(0.4, 0.1), 1e-2));
+}
+
 TEST(SceneSvg, DrawsWhatIsNearInTheElevationOverWhatIsFar) {
   Scene scene = MakeScene("stack", 1);
   Object near = scene.objects.back();

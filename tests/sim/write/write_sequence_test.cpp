@@ -8,7 +8,6 @@
 
 #include <cstdlib>
 #include <fstream>
-#include <opencv2/imgcodecs.hpp>
 #include <set>
 
 #include "io/atomic_file.h"
@@ -18,6 +17,7 @@
 #include "io/sha256.h"
 #include "sim/write/sequence_text.h"
 #include "tests/sim/support/sim_worlds.h"
+#include "tests/support/image_files.h"
 
 namespace sim {
 namespace {
@@ -101,7 +101,7 @@ TEST_F(WrittenSequence, StoresImagesInTheFormatsDepthAndSize) {
   options.rig.sensor = SensorKind::kIdeal;
   WriteSequence(OneBoard(1.2), {{0.0, LookAlongY()}}, options, root_ / "seq");
   const auto read = [&](const std::string& where) {
-    return cv::imread((root_ / "seq" / where / "0.000000.png").string(), cv::IMREAD_UNCHANGED);
+    return test_support::ReadImageFile(root_ / "seq" / where / "0.000000.png");
   };
   EXPECT_EQ(read("rgb").type(), CV_8UC3);
   EXPECT_EQ(read("gt/plane_id").type(), CV_16UC1);
@@ -312,8 +312,7 @@ TEST_F(WrittenSequence, TellsWhatTheKinectAsRecordedHides) {
   EXPECT_NE(io::ReadFile(root_ / "seq/camera.yaml"),
             io::ReadFile(root_ / "seq/gt/camera.yaml"));
 
-  const cv::Mat1w warp =
-      cv::imread((root_ / "seq/gt/depth_warp.png").string(), cv::IMREAD_UNCHANGED);
+  const cv::Mat1w warp = test_support::ReadImageFile(root_ / "seq/gt/depth_warp.png");
   const cv::Mat1f p = DevicePattern(options.rig.sensor.depth, options.rig.camera, 9);
   ASSERT_EQ(warp.size(), p.size());
   EXPECT_NEAR((warp(7, 11) - 32768) * 1e-6, p(7, 11), 1e-6);

@@ -77,6 +77,27 @@ TEST(EdgeLines, LieOnThePlaneAndUseOnlyTheSurfacesOwnEdges) {
   EXPECT_NEAR(lines[0].from_px.y(), 199.5, 1e-9);
 }
 
+TEST(EdgeLines, AreDoubtfulWhicheverWayTheyRun) {
+  const Camera camera;
+  for (double angle_deg = 0; angle_deg < 360; angle_deg += 0.5) {
+    const double a = angle_deg * M_PI / 180;
+    const Eigen::Vector2d along(std::cos(a), std::sin(a));
+    FramePlane plane;
+    plane.pi_c = {Eigen::Vector3d(0, 0, -1), 1.0};
+    plane.centroid_c = {0, 0, 1};
+    for (int k = 0; k < 60; ++k) {
+      const Eigen::Vector2d u =
+          Eigen::Vector2d(320, 240) + (2 * k - 60) * along +
+          std::sin(7.0 * k) * 0.4 * Eigen::Vector2d(-along.y(), along.x());
+      plane.edge_points.push_back({camera.Backproject(u, 1.0), u, EdgeKind::kSurface, 3});
+    }
+    for (const EdgeLine& line : FindEdgeLines(plane, camera, {}, Random{1})) {
+      const Eigen::Vector2d middle = (line.from_px + line.to_px) / 2;
+      EXPECT_GT(std::sqrt(line.error.Variance(middle)), 1) << angle_deg;
+    }
+  }
+}
+
 TEST(EdgeLines, AreDoubtfulAsAWholeWhereDepthHardlyChangesAcrossThem) {
   const Camera camera;
   const auto sigma_px = [&](float step_sigmas) {

@@ -75,6 +75,24 @@ TEST(ProcessPlanes, TieTheBookAndNotTheDesk) {
   EXPECT_GE(books, 1);
 }
 
+TEST(ProcessPlanes, TakeAThingOfAnUnknownKindForOneThatNoDetectionSpeaksFor) {
+  BookOnDesk known(false), unknown(false);
+  known.frame.detections.clear();
+  unknown.frame.detections[0].class_name = "atlas";
+  unknown.frame.detections[0].kind = ClassKind::kOther;
+  ProcessPlanes(known.frame, known.camera, {}, {});
+  ProcessPlanes(unknown.frame, unknown.camera, {}, {});
+  ASSERT_EQ(known.frame.planes.size(), unknown.frame.planes.size());
+  std::size_t corners = 0;
+  for (std::size_t k = 0; k < known.frame.planes.size(); ++k) {
+    EXPECT_EQ(unknown.frame.planes[k].lines_c.size(), known.frame.planes[k].lines_c.size());
+    EXPECT_EQ(unknown.frame.planes[k].vertices_c.size(),
+              known.frame.planes[k].vertices_c.size());
+    corners += unknown.frame.planes[k].vertices_c.size();
+  }
+  EXPECT_GE(corners, 4u);
+}
+
 TEST(ProcessPlanes, DrawNoLinesOnAnUnstructuredObject) {
   BookOnDesk scene(false);
   scene.frame.detections[0].class_name = "teddy bear";

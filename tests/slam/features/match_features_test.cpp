@@ -155,6 +155,22 @@ TEST(MatchQueries, ComparesTheDepthThroughTheRightCoordinate) {
   EXPECT_THAT(MatchQueries({query}, features, grid, {}, {}), testing::ElementsAre(kNone));
 }
 
+TEST(MatchQueries, ComparesTheDepthAtTheLeftBorderWhereTheRightCoordinateIsNegative) {
+  Random random{6};
+  const Descriptor d = AnyDescriptor(random);
+  std::vector<PointFeature> features{FeatureAt(20, 100, d)};
+  features[0].depth_m = 0.5;
+  features[0].right_u_px = -60.0;
+  const FeatureGrid grid(features, Camera{});
+  PointQuery query = QueryAt(20, 100, d, 1);
+  query.right_u_px = -59.0;
+  EXPECT_THAT(MatchQueries({query}, features, grid, {}, {}), testing::ElementsAre(0));
+  query.right_u_px = -20.0;  // the point should be twice as far
+  EXPECT_THAT(MatchQueries({query}, features, grid, {}, {}), testing::ElementsAre(kNone));
+  query.right_u_px = std::nan("");
+  EXPECT_THAT(MatchQueries({query}, features, grid, {}, {}), testing::ElementsAre(0));
+}
+
 TEST(MatchQueries, IsNotUpsetByAPositionThatIsNotFinite) {
   const std::vector<PointFeature> features{FeatureAt(100, 100, {})};
   const FeatureGrid grid(features, Camera{});

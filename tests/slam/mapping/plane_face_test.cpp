@@ -43,12 +43,10 @@ TEST(FaceOfAMapPlane, KeepsWhatLiesOnItAndNothingBeyond) {
     const double outside = 0.2 + 1.1 * config.face_margin_m;
     m.points_w = {{0, 0, 0},        {inside, 0.1, 0.003}, {outside, 0.1, 0},
                   {-outside, 0, 0}, {0, 0.6, 0},          {0.19, -0.14, 0}};
-    m.edge_points_w = {{-0.2, 0, 0}, {0.5, 0, 0}};
     KeepWhatLiesOnFace(m, config);
     ASSERT_EQ(m.points_w.size(), 3u) << reversed;
     EXPECT_DOUBLE_EQ(m.points_w[1].x(), inside);
     EXPECT_DOUBLE_EQ(m.points_w[2].x(), 0.19);
-    EXPECT_EQ(m.edge_points_w.size(), 1u);
   }
 }
 

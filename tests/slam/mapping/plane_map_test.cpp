@@ -139,7 +139,6 @@ TEST(PlaneMap, StaysBoundedHoweverOftenAPlaneIsSeen) {
   const PlaneMapConfig config;
   for (const MapPlane& m : walk.map.planes) {
     EXPECT_LE(m.points_w.size(), static_cast<std::size_t>(config.max_cloud_points));
-    EXPECT_LE(m.edge_points_w.size(), static_cast<std::size_t>(config.max_edge_points));
     EXPECT_LE(m.hull_w.size(), 200u);
   }
 }

@@ -17,7 +17,7 @@ TEST(PlaneMotion, APlaneMovesWithAllThatItHas) {
   for (const Eigen::Vector3d& x : {Eigen::Vector3d{0.1, 0.2, 0.3}, Eigen::Vector3d{1, 0, 0}}) {
     plane.points_w.push_back(ProjectOnto(plane.pi_w, x));
   }
-  plane.hull_w = plane.vertices_w = plane.edge_points_w = plane.points_w;
+  plane.hull_w = plane.vertices_w = plane.points_w;
   const MapPlane before = plane;
   plane.parts.emplace_back();
   plane.parts[0].surface = plane.parts[0].rest = before;
@@ -38,8 +38,7 @@ TEST(PlaneMotion, APlaneMovesWithAllThatItHas) {
   EXPECT_THAT(plane.estimate.Mean().n, VectorNear(plane.pi_w.n, 1e-12));
   EXPECT_NEAR(plane.estimate.Mean().d, plane.pi_w.d, 1e-12);
   EXPECT_THAT(plane.pi_w.n, VectorNear(T.R * before.pi_w.n, 1e-12));
-  for (const auto* points :
-       {&plane.points_w, &plane.hull_w, &plane.vertices_w, &plane.edge_points_w}) {
+  for (const auto* points : {&plane.points_w, &plane.hull_w, &plane.vertices_w}) {
     for (std::size_t i = 0; i < points->size(); ++i) {
       EXPECT_THAT((*points)[i], VectorNear(T * before.points_w[i], 1e-12));
       EXPECT_NEAR(SignedDistance(plane.pi_w, (*points)[i]), 0, 1e-12);

@@ -97,7 +97,8 @@ TEST(PlaceSearch, NeedsNoDepth) {
   const PointWorld world = MakePointWorld(1, 90, 3);
   const int all = static_cast<int>(world.map.keyframes[0].features.size());
   Frame frame = Mistaken(world, all - all / 4, 3);
-  for (PointFeature& feature : frame.features) feature.depth_m = 0, feature.right_u_px = -1;
+  for (PointFeature& feature : frame.features)
+    feature.depth_m = 0, feature.right_u_px = std::nan("");
   const auto found = Find(world, frame);
   ASSERT_TRUE(found);
   EXPECT_THAT(found->T_cw, PoseNear(kMoved_cw, 0.005, 0.02));

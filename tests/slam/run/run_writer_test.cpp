@@ -7,11 +7,11 @@
 #include <unistd.h>
 
 #include <fstream>
-#include <opencv2/imgcodecs.hpp>
 #include <sstream>
 
 #include "io/input_error.h"
 #include "slam/run/text_number.h"
+#include "tests/support/image_files.h"
 #include "tests/support/map_surfaces.h"
 #include "tests/support/temporary_folder.h"
 
@@ -276,8 +276,8 @@ TEST_F(RunFolder, SavesTheSegmentationWhenAsked) {
   WriteRun(run_, {});
   EXPECT_FALSE(fs::exists(run_ / "segmentation"));
   WriteRun(base_ / "other", {.save_segmentation = true});
-  const cv::Mat labels = cv::imread(
-      (base_ / "other/segmentation/1305031102.175304.png").string(), cv::IMREAD_UNCHANGED);
+  const cv::Mat labels =
+      test_support::ReadImageFile(base_ / "other/segmentation/1305031102.175304.png");
   ASSERT_EQ(labels.type(), CV_8UC1);
   EXPECT_EQ(cv::norm(labels, SomeFrame(0).plane_labels, cv::NORM_INF), 0);
 }

@@ -8,12 +8,12 @@
 #include <fstream>
 #include <iterator>
 #include <map>
-#include <opencv2/imgcodecs.hpp>
 #include <sstream>
 
 #include "slam/geometry/plane.h"
 #include "tests/support/closed_form_depth.h"
 #include "tests/support/depth_planes.h"
+#include "tests/support/image_files.h"
 #include "tests/support/slam_matchers.h"
 
 namespace slam {
@@ -349,7 +349,7 @@ TEST(PlaneSegments, AreTheDeskInEveryFrameOfARealRecordingWithASteadyNormal) {
     double stamp = 0;
     std::string file;
     std::istringstream(line) >> stamp >> file;
-    const cv::Mat raw = cv::imread(folder + "/" + file, cv::IMREAD_UNCHANGED);
+    const cv::Mat raw = test_support::ReadImageFile(folder + "/" + file);
     ASSERT_FALSE(raw.empty()) << file;
     Frame frame;
     raw.convertTo(frame.depth_m, CV_32F, 1.0 / camera.depth_factor);

@@ -7,12 +7,12 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
-#include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 #include <sstream>
 #include <string>
 
 #include "tests/slam/tracking/point_odometer.h"
+#include "tests/support/image_files.h"
 
 namespace slam {
 namespace {
@@ -82,8 +82,8 @@ TEST(PointTrackingOfARecording, StaysWithin7MillimetresOfTheMotionCapture) {
     const auto& row = rows[static_cast<std::size_t>(i)];
     Frame frame;
     frame.index = i;
-    cv::cvtColor(cv::imread((folder / row[1]).string()), frame.gray, cv::COLOR_BGR2GRAY);
-    cv::imread((folder / row[3]).string(), cv::IMREAD_UNCHANGED)
+    cv::cvtColor(test_support::ReadImageFile(folder / row[1]), frame.gray, cv::COLOR_BGR2GRAY);
+    test_support::ReadImageFile(folder / row[3])
         .convertTo(frame.depth_m, CV_32F, 1.0 / odometer.camera.depth_factor);
     ASSERT_EQ(odometer.Step(frame).state, TrackState::kTracking) << "frame " << i;
     estimated.col(i) = Inverse(frame.T_cw).t;

@@ -1,23 +1,21 @@
-#include "sim/write/png.h"
+#include "io/image/encode_png.h"
 
 #include <libdeflate.h>
 
-#include <cstring>
 #include <memory>
 #include <new>
 #include <stdexcept>
 #include <string_view>
 #include <vector>
 
-namespace sim {
+#include "io/image/png_bytes.h"
+#include "io/image/png_row.h"
+
+namespace io {
 namespace {
 
 // PNG specification (ISO/IEC 15948): signature, then chunks of length, type, data, CRC-32.
-constexpr std::string_view kSignature("\x89PNG\r\n\x1a\n", 8);
 constexpr int kFastest = 1;
-/// A row is stored as differences from the row above (2), which suits flat id images, or from
-/// the pixel to the left (1), which suits everything noisy.
-enum Filter : unsigned char { kLeft = 1, kAbove = 2 };
 
 void AppendNumber(std::uint32_t value, std::string& out) {
   for (int shift = 24; shift >= 0; shift -= 8) out += static_cast<char>(value >> shift & 0xFFu);
@@ -31,36 +29,19 @@ void AppendChunk(std::string_view type, std::string_view data, std::string& out)
   AppendNumber(libdeflate_crc32(0, out.data() + start, out.size() - start), out);
 }
 
-/// The row's samples in the file's order: red first, high byte first.
-void StoreRow(const cv::Mat& image, int v, unsigned char* out) {
-  const unsigned char* in = image.ptr(v);
-  const std::size_t size = image.elemSize(), count = static_cast<std::size_t>(image.cols);
-  if (size == 1) std::copy_n(in, count, out);
-  for (std::size_t i = 0; size == 2 && i < count; ++i) {
-    std::uint16_t sample;
-    std::memcpy(&sample, in + 2 * i, sizeof sample);
-    sample = static_cast<std::uint16_t>(sample << 8 | sample >> 8);
-    std::memcpy(out + 2 * i, &sample, sizeof sample);
-  }
-  for (std::size_t i = 0; size == 3 && i < count; ++i) {
-    out[3 * i] = in[3 * i + 2];
-    out[3 * i + 1] = in[3 * i + 1];
-    out[3 * i + 2] = in[3 * i];
-  }
-}
-
 /// All rows, each after the byte that names its filter.
 void FilterRows(const cv::Mat& image, std::vector<unsigned char>& out) {
   const std::size_t pixel = image.elemSize();
   const std::size_t length = pixel * static_cast<std::size_t>(image.cols);
-  const Filter filter = image.depth() == CV_16U ? kAbove : kLeft;
+  // The row above suits flat id images, the pixel to the left everything noisy.
+  const PngFilter filter = image.depth() == CV_16U ? PngFilter::kAbove : PngFilter::kLeft;
   std::vector<unsigned char> above(length, 0), row(length);
   out.resize((length + 1) * static_cast<std::size_t>(image.rows));
   unsigned char* to = out.data();
   for (int v = 0; v < image.rows; ++v, to += length + 1) {
-    StoreRow(image, v, row.data());
-    to[0] = filter;
-    if (filter == kAbove) {
+    ReorderRow(image.ptr(v), pixel, static_cast<std::size_t>(image.cols), row.data());
+    to[0] = static_cast<unsigned char>(filter);
+    if (filter == PngFilter::kAbove) {
       for (std::size_t i = 0; i < length; ++i) {
         to[1 + i] = static_cast<unsigned char>(row[i] - above[i]);
       }
@@ -104,11 +85,11 @@ std::string EncodePng(const cv::Mat& image) {
   header += static_cast<char>(image.depth() == CV_16U ? 16 : 8);
   header += static_cast<char>(image.channels() == 3 ? 2 : 0);  // RGB or grey
   header.append(3, '\0');  // deflate, the five filters, not interlaced
-  std::string file(kSignature);
+  std::string file(kPngSignature);
   AppendChunk("IHDR", header, file);
   AppendChunk("IDAT", Compress(filtered), file);
   AppendChunk("IEND", "", file);
   return file;
 }
 
-}  // namespace sim
+}  // namespace io
