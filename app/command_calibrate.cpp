@@ -7,7 +7,6 @@
 #include "app/console.h"
 #include "app/depth_sensor_option.h"
 #include "app/stop_signal.h"
-#include "app/surfaces_option.h"
 #include "app/warp_picture.h"
 #include "io/image/encode_png.h"
 #include "io/output_file.h"

@@ -6,7 +6,6 @@
 
 #include "app/app.h"
 #include "app/console.h"
-#include "app/surfaces_option.h"
 #include "io/folder_kind.h"
 #include "io/image/encode_png.h"
 #include "io/input_error.h"

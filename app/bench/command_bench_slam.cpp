@@ -8,7 +8,6 @@
 #include "app/bench/quantile.h"
 #include "app/depth_sensor_option.h"
 #include "slam/model/module_times.h"
-#include "slam/run/config_file.h"
 #include "slam/run/run_sequence.h"
 
 namespace app {

@@ -13,9 +13,6 @@ class LabelLayout {
  public:
   explicit LabelLayout(cv::Rect2d page) : page_(page) {}
 
-  /// Keeps an area free of labels.
-  void Block(const cv::Rect2d& area) { taken_.push_back(area); }
-
   /// A free place for a label centred near `at`, at most `reach` label heights away.
   std::optional<cv::Rect2d> Place(cv::Point2d at, cv::Size2d size, int reach = 4) {
     // To eighths of a pixel, so that round-off does not tip a label over to the next pixel.

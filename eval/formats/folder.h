@@ -11,8 +11,8 @@
 /// is wrong with it.
 namespace eval {
 
-/// What a fault does to figures and pictures that rest on the file. docs/faults.md lists which
-/// fault is which.
+/// What a fault does to figures and pictures that rest on the file, the gravest first. docs/faults.md
+/// lists which fault is which.
 enum class Severity {
   kFatal,    ///< they would be wrong, or there are none
   kWarning,  ///< they can be made, but who looks at them should know

@@ -15,8 +15,7 @@ struct NearestPass {
   double distance_m = 0;  ///< negative inside; bodies other than boxes count as their boxes
 };
 
-/// Boxes are what their distance is exact of; a body other than a box may be hollow, and the camera
-/// within it.
+/// The distance to a box is exact. A body of another shape may be hollow, with the camera within it.
 enum class PassKind { kBox, kBody };
 
 /// Infinitely far where the scene has nothing of the kind.

@@ -140,8 +140,8 @@ struct Capture {
 inline constexpr std::size_t kMaxLights = 8;
 inline constexpr int kMaxId = 65535;  ///< ids of objects and planes fit images of 16 bits
 inline constexpr double kMaxCoordinate_m = 100;  ///< the farthest a scene may reach
-inline constexpr double kSteepest_deg =
-    85;  ///< presets that follow a pattern look no steeper up or down
+/// Presets that follow a pattern look no steeper up or down.
+inline constexpr double kSteepest_deg = 85;
 
 struct Scene {
   std::string name;

@@ -41,7 +41,6 @@ struct PlaneExtractor::Workspace {
   };
   std::vector<Sampled> sampled;
   std::vector<double> areas_m2;  ///< visible area of each of the frame's planes
-  /// Planes of the frame's last image, whose points' memory serves again.
 
   void AddClusters(const BlockClusters& clusters, const JoinedLabels* joined);
   JoinedLabels JoinClusters(const BlockClusters& clusters);

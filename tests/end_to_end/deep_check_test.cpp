@@ -8,6 +8,7 @@
 #include "eval/check/check_folder.h"
 #include "io/sha256.h"
 #include "sim/families/families.h"
+#include "sim/sensor/read_sensor.h"
 #include "tests/support/image_files.h"
 #include "tests/support/pipeline.h"
 
@@ -23,7 +24,7 @@ const sim::Lens kBarrel{.k1 = -0.15, .k2 = 0.05, .p1 = 0.002, .p2 = -0.001};
 
 /// Three frames a second, or the camera would hardly move in so few; no prints, which take
 /// time.
-void Record(const std::string& family, sim::SensorKind sensor, const sim::Lens& lens,
+void Record(const std::string& family, const sim::Sensor& sensor, const sim::Lens& lens,
             const fs::path& folder) {
   sim::SequenceOptions options;
   options.rig.camera = sim::WithLens(sim::Resize(sim::Camera{}, kWidth, kHeight), lens);
@@ -71,6 +72,19 @@ TEST(CheckDeep, IsSilentAboutCleanSequencesOfEveryFamily) {
     Record(family.name, sensors[i % 4], i % 2 == 0 ? kBarrel : sim::Lens{}, folder / "seq");
     EXPECT_EQ(Faults(folder / "seq"), "") << family.name << " with sensor " << i % 4;
     ++i;
+  }
+}
+
+TEST(CheckDeep, IsSilentAboutSensorsOfTheUsersOwnAndAboutClocksThatErr) {
+  sim::Sensor beside = sim::SensorKind::kIdeal, late = sim::SensorKind::kKinect1Clean;
+  beside.calibration.registration_px = 1;
+  late.timing.stamp_jitter_s = 0.008;
+  const sim::Sensor noisy =
+      sim::ParseSensor("base: kinect1-clean\nnoise_scale: 2\n", "noisy.yaml");
+  for (const sim::Sensor& sensor : {beside, late, noisy}) {
+    const TemporaryFolder folder;
+    Record("desk", sensor, {}, folder / "seq");
+    EXPECT_EQ(Faults(folder / "seq"), "") << sensor.name;
   }
 }
 

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "eval/planes/true_frame.h"
 #include "tests/eval/report/evaluated_world.h"
 
 namespace eval {
@@ -23,6 +24,25 @@ TEST_F(EvaluateTinyWorld, AFramePlaneThatLooksTheWrongWayIsHalfATurnOff) {
   const nlohmann::json after = Metrics(run);
   EXPECT_EQ(Moved(before, after), Keys{"extraction/normal_deg"});
   EXPECT_NEAR(after["extraction"]["normal_deg"]["median"].get<double>(), 180.0, 1e-6);
+}
+
+TEST_F(EvaluateTinyWorld, AFramePlaneOnATruthThatDoesNotCountHasNoSayInTheParameters) {
+  TinyRun run(*world_);
+  const nlohmann::json before = Metrics(run);
+  const Sequence sequence = ReadSequence(SequenceFolder());
+  int turned = 0;
+  for (std::size_t i = 0; i < world_->frames.size(); ++i) {
+    const testing::TinyFrame& frame = world_->frames[i];
+    for (const SeenPlane& seen : ReadTrueFrame(sequence, frame.stamp_s, frame.T_gc).planes) {
+      nlohmann::json* plane = seen.counted ? nullptr : FramePlane(run, i, seen.plane->id);
+      if (plane == nullptr) continue;
+      for (auto& component : (*plane)["normal"]) component = -component.get<double>();
+      (*plane)["d"] = -(*plane)["d"].get<double>();
+      ++turned;
+    }
+  }
+  ASSERT_GT(turned, 0);
+  EXPECT_EQ(Moved(before, Metrics(run)), Keys{});
 }
 
 TEST_F(EvaluateTinyWorld, AMapPlaneWithTheWrongSignOfItsDistanceIsFarFromItsTruth) {

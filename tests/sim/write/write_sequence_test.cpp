@@ -15,6 +15,7 @@
 #include "io/number_text.h"
 #include "io/read_file.h"
 #include "io/sha256.h"
+#include "sim/sensor/read_sensor.h"
 #include "sim/write/sequence_text.h"
 #include "tests/sim/support/sim_worlds.h"
 #include "tests/support/image_files.h"
@@ -258,6 +259,16 @@ TEST_F(WrittenSequence, IsNotResumedWithOtherOptions) {
   resume.existing = Existing::kResume;
   resume.rig.camera = Resize(Camera{}, 320, 240);
   EXPECT_THAT(ErrorOf([&] { Write(root_ / "seq", resume); }), HasSubstr("camera was"));
+}
+
+TEST_F(WrittenSequence, IsNotResumedWithAnotherSensorOfTheSameName) {
+  SequenceOptions mine = Options();
+  mine.rig.sensor = ParseSensor("base: d435\nname: mine\nrounding_m: 0.002\n", "mine.yaml");
+  Write(root_ / "seq", mine);
+  mine.existing = Existing::kResume;
+  EXPECT_EQ(Write(root_ / "seq", mine), 0);
+  mine.rig.sensor = ParseSensor("base: azure\nname: mine\nrounding_m: 0.002\n", "mine.yaml");
+  EXPECT_THAT(ErrorOf([&] { Write(root_ / "seq", mine); }), HasSubstr("sensor_base was"));
 }
 
 // The manifest names only what is not plain, so a key may be gone instead of changed.

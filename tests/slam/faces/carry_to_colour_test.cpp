@@ -176,6 +176,30 @@ TEST(CarryPlanesAgain, TellsLinesAndVerticesToo) {
   EXPECT_LT((there.pi_c.n - n).norm() + (there.vertices_c[0].p_c - x).norm(), 1e-12);
 }
 
+TEST(CarryToColour, KeepsTheDepthOfAWallWhileTheCameraTurns) {
+  const Camera camera;
+  for (const double turn_rad : {-0.04, 0.04}) {
+    Frame frame;
+    frame.depth_m = cv::Mat1f(480, 640, 1.0f);  // a wall across the depth camera's axis
+    frame.plane_labels = cv::Mat1b(480, 640, std::uint8_t{1});
+    TakeDepthFrom(
+        {Eigen::AngleAxisd(turn_rad, Vector3d::UnitY()).toRotationMatrix(), {0, 0, 0}}, frame);
+    const Vector3d axis_c = frame.T_dc().R.row(2);
+    CarryToColour(camera, PixelRays(camera), frame);
+    double sum_m = 0;
+    int count = 0;
+    for (int v = 100; v < 380; ++v) {
+      for (int u = 100; u < 540; ++u) {
+        if (!(frame.depth_m(v, u) > 0)) continue;
+        const double exact_m = 1 / axis_c.dot(camera.Backproject({u, v}, 1.0));
+        sum_m += static_cast<double>(frame.depth_m(v, u)) - exact_m, ++count;
+      }
+    }
+    ASSERT_GT(count, 100000);
+    EXPECT_NEAR(sum_m / count, 0, 1e-4) << turn_rad;
+  }
+}
+
 TEST(CarryToColour, LeavesAPlaneThatTheColourCameraWouldSeeFromBehind) {
   FramePlane plane;
   plane.pi_c = {Vector3d::UnitY(), 0.001};

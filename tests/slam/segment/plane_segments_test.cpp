@@ -48,6 +48,31 @@ const FramePlane* PlaneOfFace(const Frame& frame, const cv::Mat1i& faces, int fa
   return nullptr;
 }
 
+// By the outline of what the image's border sees of a wall, 1 m away.
+TEST(ExtractPlanes, MeasuresTheAreaOfAWallThroughTheLens) {
+  for (const double k1 : {-0.2, 0.0, 0.2}) {
+    Camera camera;
+    camera.k1 = k1;
+    const Frame frame = Extract(cv::Mat1f(camera.height, camera.width, 1.0f), camera);
+    ASSERT_EQ(frame.planes.size(), 1u);
+    const int right = camera.width - 1, below = camera.height - 1;
+    std::vector<Eigen::Vector2d> border;
+    for (int u = 0; u < right; ++u) border.emplace_back(u, 0);
+    for (int v = 0; v < below; ++v) border.emplace_back(right, v);
+    for (int u = right; u > 0; --u) border.emplace_back(u, below);
+    for (int v = below; v > 0; --v) border.emplace_back(0, v);
+    double twice_px2 = 0;
+    for (std::size_t i = 0; i < border.size(); ++i) {
+      const Eigen::Vector2d a = camera.Undistort(border[i]),
+                            b = camera.Undistort(border[(i + 1) % border.size()]);
+      twice_px2 += a.x() * b.y() - a.y() * b.x();
+    }
+    const double seen_m2 = twice_px2 / 2 / (camera.fx * camera.fy);
+    EXPECT_GT(frame.planes[0].pixel_count, 0.95 * right * below);
+    EXPECT_NEAR(frame.planes[0].area_m2 / seen_m2, 1, 0.02) << k1;
+  }
+}
+
 /// A box of height h in the middle of a desk, seen from `distance` at 45 degrees.
 struct StepView {
   StepView(double height_m, double distance_m) {
