@@ -35,7 +35,7 @@ struct Nearest {
   }
 };
 
-/// Compares the query with the free features near it that agree with its depth.
+/// Compares the query with the free features near it.
 Nearest Search(const PointQuery& query, const std::vector<PointFeature>& features,
                const FeatureGrid& grid, const std::vector<bool>& taken) {
   Nearest nearest;
@@ -43,10 +43,6 @@ Nearest Search(const PointQuery& query, const std::vector<PointFeature>& feature
        grid.Near(query.u_px, query.radius_px, query.min_octave, query.max_octave)) {
     if (!taken.empty() && taken[Index(f)]) continue;
     const PointFeature& feature = features[Index(f)];
-    // False where either is not a number.
-    if (std::abs(query.right_u_px - feature.right_u_px) > query.radius_px) {
-      continue;
-    }
     nearest.Offer(f, DescriptorDistance(query.descriptor, feature.descriptor), feature.octave);
   }
   return nearest;

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <limits>
 #include <vector>
 
 #include "slam/base/field_visitor.h"
@@ -51,10 +50,8 @@ inline void VisitFields(PointMatchConfig& c, FieldVisitor& v) {
 
 /// Something looked for in an image: a map point where it is expected.
 struct PointQuery {
-  int point = kNone;     ///< id that the match will carry
-  Eigen::Vector2d u_px;  ///< expected position, undistorted
-  /// Expected virtual right coordinate; NaN: not compared.
-  double right_u_px = std::numeric_limits<double>::quiet_NaN();
+  int point = kNone;       ///< id that the match will carry
+  Eigen::Vector2d u_px;    ///< expected position, undistorted
   double radius_px = 7.0;  ///< half width of the search square
   int min_octave = 0, max_octave = 7;
   Descriptor descriptor{};

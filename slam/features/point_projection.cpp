@@ -34,7 +34,6 @@ PointQuery QueryOf(const MapPoint& point, const Pose& T_cw, const Camera& camera
                                                                     : config.radius_px;
   query.point = point.id;
   query.u_px = view->u_px;
-  query.right_u_px = scale.RightU_px(view->u_px.x(), view->depth_m);
   query.radius_px = radius * radius_factor * scale.Scale(view->octave);
   query.min_octave = view->octave - 1;
   query.max_octave = view->octave + 1;

@@ -35,9 +35,6 @@ void ReadDepths(const cv::Mat1f& depth_m, const Camera& camera,
     } else if (!depth_m.empty()) {
       feature.depth_m = DepthFrom(T_dc, depth_m, camera, feature.u_px, config.depth);
     }
-    if (feature.depth_m > 0) {
-      feature.right_u_px = config.scale.RightU_px(feature.u_px.x(), feature.depth_m);
-    }
   }
 }
 

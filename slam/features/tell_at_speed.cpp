@@ -37,11 +37,8 @@ void TellAgain(const Camera& camera, const Cameras& before, const Cameras& now,
   }
   const Eigen::Vector3d told_c = moved(T_cr, x_r);
   if (!(told_c.z() > kMinVisibleDepth_m)) return;
-  const double disparity_px = feature.u_px.x() - feature.right_u_px;
   feature.u_px = camera.Project(told_c);
-  if (!has_depth) return;
-  feature.right_u_px = feature.u_px.x() - disparity_px * feature.depth_m / told_c.z();
-  feature.depth_m = told_c.z();
+  if (has_depth) feature.depth_m = told_c.z();
 }
 
 }  // namespace

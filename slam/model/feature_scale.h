@@ -8,10 +8,9 @@ namespace slam {
 /// In what scale points are found and measured: one value for extraction, matching, pose and
 /// map.
 ///
-/// Octave o of the image pyramid is smaller by factor^o. A feature with depth z has a virtual
-/// right coordinate u - b f / z, as if a second camera stood a baseline b beside the first:
-/// matching compares depths by it, because a disparity's error is the same at every distance.
-/// Pose and bundle weigh a depth by the sensor's own noise instead.
+/// Octave o of the image pyramid is smaller by factor^o. How near a depth is to be trusted goes by the
+/// baseline b of a virtual second camera beside the first; pose and bundle weigh it by the sensor's own
+/// noise.
 struct FeatureScale {
   int octaves = 8;        ///< levels of the image pyramid
   double factor = 1.2;    ///< ratio of the scales of neighbouring octaves
@@ -32,9 +31,8 @@ struct FeatureScale {
     return static_cast<int>(std::clamp(octave, 0.0, octaves - 1.0));
   }
 
-  /// Virtual right coordinate of a point at u_px, z_m; and its disparity.
+  /// Disparity of a point at z_m between the two cameras.
   double Disparity_px(double z_m) const { return bf_px_m / z_m; }
-  double RightU_px(double u_px, double z_m) const { return u_px - Disparity_px(z_m); }
   /// Depth up to which measured points are trusted, metres.
   double CloseDepth_m(double fx_px) const { return close_baselines * bf_px_m / fx_px; }
 };

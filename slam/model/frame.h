@@ -3,7 +3,6 @@
 #include <Eigen/Core>
 #include <array>
 #include <cstdint>
-#include <limits>
 #include <opencv2/core/mat.hpp>
 #include <optional>
 #include <vector>
@@ -25,8 +24,6 @@ struct PointFeature {
   float angle_deg = 0.0f;      ///< orientation, [0, 360)
   double depth_m = 0.0;        ///< planar z at the feature; 0 = no measurement
   double depth_sigma_m = 0.0;  ///< its standard deviation, see WeighDepths
-  /// Virtual right coordinate u - b f / z; NaN without depth.
-  double right_u_px = std::numeric_limits<double>::quiet_NaN();
   bool on_edge = false;  ///< of a straight edge: along it, every patch looks like the next
   Descriptor descriptor{};
 };

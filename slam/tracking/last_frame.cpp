@@ -50,7 +50,6 @@ std::vector<PointQuery> QueriesOf(const std::vector<SeenPoint>& seen, const Last
     query.point = i;
     query.u_px = camera.Project(p_c);
     if (!camera.ImageBox().Contains(query.u_px)) continue;
-    query.right_u_px = scale.RightU_px(query.u_px.x(), p_c.z());
     query.radius_px = radius_px * scale.Scale(feature.octave);
     query.min_octave = feature.octave - 1;
     query.max_octave = feature.octave + 1;

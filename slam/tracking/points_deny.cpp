@@ -1,7 +1,6 @@
 #include "slam/tracking/points_deny.h"
 
 #include <algorithm>
-#include <limits>
 #include <set>
 
 #include "slam/base/index.h"
@@ -30,7 +29,6 @@ bool PointsDeny(const Frame& frame, const Map& map, const Pose& T_cw, int keyfra
   for (const int id : points) {
     PointQuery query =
         QueryOf(map.points[Index(id)], T_cw, camera, scale, kRadiusFactor, projection);
-    query.right_u_px = std::numeric_limits<double>::quiet_NaN();
     if (query.point == kNone ||
         grid.Near(query.u_px, query.radius_px, query.min_octave, query.max_octave).empty()) {
       continue;

@@ -20,7 +20,7 @@ inline Descriptor AnyDescriptor(Random& random) {
 /// Exact feature of a world point; octave 0, angle 0.
 inline PointFeature FeatureOfPoint(const Eigen::Vector3d& p_w, const Pose& T_cw,
                                    const Camera& camera, const Descriptor& descriptor,
-                                   bool with_depth, double bf_px_m = 40.0) {
+                                   bool with_depth) {
   const Eigen::Vector3d p_c = T_cw * p_w;
   PointFeature feature;
   feature.u_px = camera.Project(p_c);
@@ -28,7 +28,6 @@ inline PointFeature FeatureOfPoint(const Eigen::Vector3d& p_w, const Pose& T_cw,
   if (with_depth) {
     feature.depth_m = p_c.z();
     feature.depth_sigma_m = SensorModel{}.DepthSigma_m(p_c.z());
-    feature.right_u_px = feature.u_px.x() - bf_px_m / p_c.z();
   }
   return feature;
 }

@@ -141,36 +141,6 @@ TEST(MatchQueries, RefusesAnAmbiguousPairWhateverItsOrderButOnlyInOneOctave) {
               testing::ElementsAre(kNone, 0));
 }
 
-TEST(MatchQueries, ComparesTheDepthThroughTheRightCoordinate) {
-  Random random{6};
-  const Descriptor d = AnyDescriptor(random);
-  std::vector<PointFeature> features{FeatureAt(100, 100, d)};
-  features[0].depth_m = 1.0;
-  features[0].right_u_px = 60.0;
-  const FeatureGrid grid(features, Camera{});
-  PointQuery query = QueryAt(100, 100, d, 1);
-  query.right_u_px = 61.0;
-  EXPECT_THAT(MatchQueries({query}, features, grid, {}, {}), testing::ElementsAre(0));
-  query.right_u_px = 80.0;  // the point should be twice as far
-  EXPECT_THAT(MatchQueries({query}, features, grid, {}, {}), testing::ElementsAre(kNone));
-}
-
-TEST(MatchQueries, ComparesTheDepthAtTheLeftBorderWhereTheRightCoordinateIsNegative) {
-  Random random{6};
-  const Descriptor d = AnyDescriptor(random);
-  std::vector<PointFeature> features{FeatureAt(20, 100, d)};
-  features[0].depth_m = 0.5;
-  features[0].right_u_px = -60.0;
-  const FeatureGrid grid(features, Camera{});
-  PointQuery query = QueryAt(20, 100, d, 1);
-  query.right_u_px = -59.0;
-  EXPECT_THAT(MatchQueries({query}, features, grid, {}, {}), testing::ElementsAre(0));
-  query.right_u_px = -20.0;  // the point should be twice as far
-  EXPECT_THAT(MatchQueries({query}, features, grid, {}, {}), testing::ElementsAre(kNone));
-  query.right_u_px = std::nan("");
-  EXPECT_THAT(MatchQueries({query}, features, grid, {}, {}), testing::ElementsAre(0));
-}
-
 TEST(MatchQueries, IsNotUpsetByAPositionThatIsNotFinite) {
   const std::vector<PointFeature> features{FeatureAt(100, 100, {})};
   const FeatureGrid grid(features, Camera{});

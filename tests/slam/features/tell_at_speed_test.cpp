@@ -64,14 +64,7 @@ TEST(TellAtSpeed, IsWhatExtractionAtThatSpeedWouldHaveTold) {
       // Depth is read at another pixel of the wall, which changes by half a millimetre a pixel.
       EXPECT_NEAR(f.depth_m, e.depth_m, 0.003);
       moved_px = std::max(moved_px, (f.u_px - before[i].u_px).norm());
-      if (f.depth_m > 0) {
-        EXPECT_NEAR(f.right_u_px, e.right_u_px, 0.1);
-        const auto baseline_px_m = [](const PointFeature& p) {
-          return (p.u_px.x() - p.right_u_px) * p.depth_m;  // one number for all features
-        };
-        EXPECT_NEAR(baseline_px_m(f) / baseline_px_m(e), 1.0, 1e-9);
-        ++measured;
-      }
+      measured += f.depth_m > 0;
     }
     EXPECT_GT(moved_px, 2.0);
     EXPECT_GT(measured, has_depth ? 500 : -1);
@@ -89,7 +82,6 @@ TEST(TellAtSpeed, LeadsBackToWhereItBegan) {
   for (std::size_t i = 0; i < before.size(); ++i) {
     EXPECT_LT((frame.features[i].u_px - before[i].u_px).norm(), 1e-3);
     EXPECT_NEAR(frame.features[i].depth_m, before[i].depth_m, 1e-5);
-    EXPECT_NEAR(frame.features[i].right_u_px, before[i].right_u_px, 1e-2);
   }
 }
 

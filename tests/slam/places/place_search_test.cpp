@@ -25,9 +25,7 @@ Frame Mistaken(const PointWorld& world, int right, std::uint64_t seed) {
     PointFeature feature = FeatureOfPoint(
         world.map.points[static_cast<std::size_t>(point)].p_w, kMoved_cw, world.camera,
         keyframe.features[static_cast<std::size_t>(looks_like)].descriptor, true);
-    const Eigen::Vector2d noise_px(random.Uniform() - 0.5, random.Uniform() - 0.5);
-    feature.u_px += noise_px;
-    feature.right_u_px += noise_px.x();
+    feature.u_px += Eigen::Vector2d(random.Uniform() - 0.5, random.Uniform() - 0.5);
     frame.features.push_back(feature);
   }
   return frame;
@@ -97,8 +95,7 @@ TEST(PlaceSearch, NeedsNoDepth) {
   const PointWorld world = MakePointWorld(1, 90, 3);
   const int all = static_cast<int>(world.map.keyframes[0].features.size());
   Frame frame = Mistaken(world, all - all / 4, 3);
-  for (PointFeature& feature : frame.features)
-    feature.depth_m = 0, feature.right_u_px = std::nan("");
+  for (PointFeature& feature : frame.features) feature.depth_m = 0;
   const auto found = Find(world, frame);
   ASSERT_TRUE(found);
   EXPECT_THAT(found->T_cw, PoseNear(kMoved_cw, 0.005, 0.02));

@@ -76,7 +76,6 @@ TEST(LastFrame, LooksForItsPointsAroundWhereAPredictionPutsThem) {
       r.camera.Backproject({250, 150}, 1.0) - Eigen::Vector3d(0, 0, 0.5);
   const Eigen::Vector2d u_px = r.camera.Project(p_c);
   EXPECT_LT((queries[0].u_px - u_px).norm(), 1e-9);
-  EXPECT_NEAR(queries[0].right_u_px, u_px.x() - 40.0 / 0.5, 1e-9);
   EXPECT_NEAR(queries[0].radius_px, 7.0 * 1.2 * 1.2 * 1.2, 1e-9);
   EXPECT_EQ(queries[0].min_octave, 2);
   EXPECT_EQ(queries[0].max_octave, 4);

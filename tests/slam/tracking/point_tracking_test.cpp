@@ -270,7 +270,7 @@ TEST(PointTracking, LeavesOutWhatLiesOnEdgesWhereFewPointsTellTheirPlace) {
   second.features = features;
   for (std::size_t f = kSure; f < features.size(); ++f) {
     second.features[f].on_edge = true;
-    second.features[f].u_px.x() += 1.2, second.features[f].right_u_px += 1.2;
+    second.features[f].u_px.x() += 1.2;
   }
   const PointTrackReport report = odometer.tracking.TrackPoints(second, odometer.map);
   ASSERT_EQ(report.state, TrackState::kTracking);
