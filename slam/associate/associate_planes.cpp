@@ -138,8 +138,11 @@ MatchReason WhatDecided(const std::vector<PairEvidence>& row, const PairEvidence
   }
   // It was possible: the cue that made it dearest.
   const std::array<std::pair<double, MatchReason>, 4> dearer = {
-      {{runner_up->parameter_cost - match.parameter_cost, MatchReason::kParameters},
-       {runner_up->overlap_cost - match.overlap_cost, MatchReason::kOverlap},
+      {{runner_up->parameter_cost + runner_up->spread_cost - match.parameter_cost -
+            match.spread_cost,
+        MatchReason::kParameters},
+       {runner_up->overlap_cost + runner_up->share_cost - match.overlap_cost - match.share_cost,
+        MatchReason::kOverlap},
        {runner_up->class_cost - match.class_cost, MatchReason::kClass},
        {runner_up->box_cost - match.box_cost, MatchReason::kBox}}};
   return std::max_element(dearer.begin(), dearer.end(),
@@ -172,7 +175,7 @@ PlaneAssociation IntegratedRule(const Frame& frame, const Map& map, const Camera
   // What fits beyond doubt corrects the predicted pose, and all pairs are weighed again there.
   PlaneAssociation out;
   PairRefusals before_correction;  // not counted: these pairs are asked again
-  const UncertainPose predicted = PredictedPose(frame, config);
+  const UncertainPose predicted = PredictedPose(frame);
   PairTable pairs =
       WeighPairs(frame, map, predicted, predicted, camera, config, before_correction);
   const UncertainPose pose =

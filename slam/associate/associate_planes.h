@@ -28,12 +28,13 @@ struct PlaneAssociation {
 /// the pose moves all planes alike: what is left are the millimetres between them. The rank
 /// test refuses pairs that hardly overlap and whose points are distributed otherwise. Two
 /// nearly equal answers give none. A candidate takes a plane from a landmark only if it is
-/// clearly nearer and not the same surface.
+/// likelier and not the same surface.
 ///
 /// The parameter rule takes the nearest landmark that passes eq6 and (eq7 or eq8), or else the
 /// nearest such candidate.
 ///
-/// Planes that are far, badly fitted or on an unstructured object stay kUnmatched. The outcome
+/// Planes that are far, badly fitted or on an unstructured object stay kUnmatched; by the parameter
+/// rule so do those that lack a corner. The outcome
 /// depends neither on the order of frame and map planes nor on where the world lies. Source:
 /// PAS-SLAM eq6 to eq12 and its class rule (corrected as said in the headers of the parts).
 /// Cost: about 2 ms for 20 frame planes and 50 map planes of 1,000 cloud points.

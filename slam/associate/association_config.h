@@ -3,7 +3,6 @@
 #include "slam/associate/plane_gates.h"
 #include "slam/base/chi_square.h"
 #include "slam/base/field_visitor.h"
-#include "slam/pose/pose_prior.h"
 
 namespace slam {
 
@@ -18,7 +17,6 @@ struct AssociationConfig {
   AssociationRule rule = AssociationRule::kIntegrated;
   PlaneGateConfig gates;  ///< the parameter rule's; its angle also bounds the integrated rule
 
-  PosePrior prior;
   double offset_floor_m = 0.0012;
   double angle_floor_rad = 0.006;
 
@@ -38,10 +36,6 @@ struct AssociationConfig {
 
 inline void VisitFields(AssociationConfig& c, FieldVisitor& v) {
   v.Section("gates", "bounds on the parameters of a pair of planes", c.gates);
-  v.Number("pose_sigma_m", c.prior.sigma_m, "(0, inf)",
-           "standard deviation of a position that comes without a covariance, by axis");
-  v.Degrees("pose_sigma_deg", c.prior.sigma_rad, "(0, 90)",
-            "standard deviation of such a rotation, by axis");
   v.Number("offset_floor_m", c.offset_floor_m, "(0, inf)",
            "error of a plane's offset that does not average out (calibration, quantisation)");
   v.Degrees("angle_floor_deg", c.angle_floor_rad, "(0, 90)",

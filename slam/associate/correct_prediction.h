@@ -10,8 +10,8 @@
 namespace slam {
 
 /// The frame's pose with what association may assume of its error: its covariance, what its
-/// points share, and what the sensor bends. Config's prior for a pose without a covariance.
-UncertainPose PredictedPose(const Frame& frame, const AssociationConfig& config);
+/// points share, and what the sensor bends.
+UncertainPose PredictedPose(const Frame& frame);
 
 /// Keyframes since a landmark was last seen: so many links lie between it and the map around the
 /// camera, which is what the pose is known against.

@@ -73,17 +73,8 @@ class Assigner {
       if (other.cost - pair.cost >= min_margin_ || pair.cost - other.cost >= min_margin_)
         return false;
       // One that is at home elsewhere does not compete.
-      const int home = out_.map_plane[Index(other.frame_plane)];
-      return !settled_[Index(other.frame_plane)] ? !HasBetterHome(other)
-                                                 : home == PlaneAssignment::kAmbiguous;
-    });
-  }
-
-  /// The frame plane has another landmark that it fits clearly better than this one.
-  bool HasBetterHome(const AdmissiblePair& pair) const {
-    return std::any_of(pairs_.begin(), pairs_.end(), [&](const auto& other) {
-      return other.frame_plane == pair.frame_plane && other.map_plane != pair.map_plane &&
-             pair.cost - other.cost >= min_margin_;
+      return !settled_[Index(other.frame_plane)] ||
+             out_.map_plane[Index(other.frame_plane)] == PlaneAssignment::kAmbiguous;
     });
   }
 

@@ -38,7 +38,7 @@ void AddPointsFromDepth(Map& map, int id, const Camera& camera, const FeatureSca
   }
 }
 
-/// Whether enough other keyframes see the point at the same scale or a finer one.
+/// Whether enough other keyframes see the point at most an octave coarser.
 bool SeenByOthers(const Map& map, const MapPoint& point, int keyframe, int octave,
                   const KeyframeConfig& config) {
   int others = 0;

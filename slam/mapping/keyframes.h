@@ -38,7 +38,7 @@ int InsertKeyframe(Frame& frame, Map& map, const Camera& camera, const FeatureSc
 /// Recounts the points that `keyframe` shares with others, in both directions.
 void UpdateCovisibility(Map& map, int keyframe, const KeyframeConfig& config);
 
-/// Culls keyframes around `keyframe` whose points others see as well and at least as finely;
+/// Culls keyframes around `keyframe` whose points others see as well and no more than an octave coarser;
 /// never the first, the newest or the one before it. @returns how many.
 int CullKeyframes(Map& map, int keyframe, const Camera& camera, const FeatureScale& scale,
                   const KeyframeConfig& config);

@@ -137,12 +137,14 @@ void UpdatePoint(Map& map, int point, const FeatureScale& scale) {
 
 int CullYoungPoints(Map& map, int keyframe, const PointCullingConfig& config) {
   int culled = 0;
-  // Ids grow with the keyframes that made them: the young ones are at the end.
+  // Ids grow with the keyframes that made them, but for those that mapping made while tracking went on
+  // to the next few: the young ones are near the end.
+  constexpr int kMaxDisorder = 8;  // keyframes: more than ever wait for mapping
   for (int id = static_cast<int>(map.points.size()) - 1; id >= 0; --id) {
     const MapPoint& point = PointOf(map, id);
     const int age = keyframe - point.first_keyframe;
-    if (age > config.trial_keyframes) break;
-    if (point.culled) continue;
+    if (age > config.trial_keyframes + kMaxDisorder) break;
+    if (age > config.trial_keyframes || point.culled) continue;
     const bool seldom_found = point.found_count < config.min_found_ratio * point.visible_count;
     const bool unsupported = age >= 2 && ObservationWeight(map, id) < config.min_weight;
     if (!seldom_found && !unsupported) continue;

@@ -18,10 +18,10 @@ Cell CellOf(const Eigen::Vector2d& q, double voxel_m) {
           static_cast<std::int64_t>(std::floor(q.y() / voxel_m))};
 }
 
-/// Keeps the first point of each voxel, in the order of arrival.
-void Thin(std::vector<Eigen::Vector3d>& cloud_w, const Eigen::Matrix<double, 3, 2>& axes,
-          const Eigen::Vector3d& grid_origin_w, double voxel_m) {
-  if (cloud_w.empty()) return;
+/// Keeps the first point of each voxel, in the order of arrival. @returns the voxel's side
+double Thin(std::vector<Eigen::Vector3d>& cloud_w, const Eigen::Matrix<double, 3, 2>& axes,
+            const Eigen::Vector3d& grid_origin_w, double voxel_m) {
+  if (cloud_w.empty()) return voxel_m;
   std::vector<Cell> cells;
   cells.reserve(cloud_w.size());
   for (const Eigen::Vector3d& p_w : cloud_w) {
@@ -47,6 +47,7 @@ void Thin(std::vector<Eigen::Vector3d>& cloud_w, const Eigen::Matrix<double, 3, 
     cloud_w[kept++] = cloud_w[i];
   }
   cloud_w.resize(kept);
+  return voxel_m;
 }
 
 /// The voxels that hold a point, ascending.
@@ -70,16 +71,21 @@ double Cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
 
 }  // namespace
 
-void MergeIntoCloud(std::vector<Eigen::Vector3d>& cloud_w,
-                    const std::vector<Eigen::Vector3d>& points_w, const Plane& pi_w,
-                    const Eigen::Vector3d& grid_origin_w, double voxel_m, int max_points) {
+double MergeIntoCloud(std::vector<Eigen::Vector3d>& cloud_w,
+                      const std::vector<Eigen::Vector3d>& points_w, const Plane& pi_w,
+                      const Eigen::Vector3d& grid_origin_w, double voxel_m, int max_points) {
   const Eigen::Matrix<double, 3, 2> axes = TangentBasis(pi_w.n);
   cloud_w.insert(cloud_w.end(), points_w.begin(), points_w.end());
-  Thin(cloud_w, axes, grid_origin_w, voxel_m);
-  while (cloud_w.size() > static_cast<std::size_t>(std::max(1, max_points))) {
-    voxel_m *= 2;
-    Thin(cloud_w, axes, grid_origin_w, voxel_m);
-  }
+  voxel_m = Thin(cloud_w, axes, grid_origin_w, voxel_m);
+  while (cloud_w.size() > static_cast<std::size_t>(std::max(1, max_points)))
+    voxel_m = Thin(cloud_w, axes, grid_origin_w, 2 * voxel_m);
+  return voxel_m;
+}
+
+Eigen::Vector3d CloudCentroid(const std::vector<Eigen::Vector3d>& cloud_w, const Plane& pi_w) {
+  Eigen::Vector3d sum_w = Eigen::Vector3d::Zero();
+  for (const Eigen::Vector3d& p_w : cloud_w) sum_w += p_w;
+  return ProjectOnto(pi_w, sum_w / static_cast<double>(cloud_w.size()));
 }
 
 double CloudOverlap(const std::vector<Eigen::Vector3d>& one_w,

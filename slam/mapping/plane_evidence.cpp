@@ -30,8 +30,7 @@ PlaneEvidence BestKnown(const PlaneEstimate& estimate) {
   const Eigen::Vector3d x = estimate.origin_w + estimate.axes * best;
   const Eigen::Vector3d lever = estimate.Lever(x);
   const Plane pi = estimate.Mean();
-  return {pi, ProjectOnto(pi, x),
-          std::sqrt(covariance.bottomRightCorner<2, 2>().diagonal().maxCoeff()),
+  return {pi, ProjectOnto(pi, x), std::sqrt(PlaneEstimate::WorstSlopeVariance(covariance)),
           std::sqrt(lever.dot(covariance * lever))};
 }
 

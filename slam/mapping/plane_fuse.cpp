@@ -16,12 +16,13 @@ int CovisibleFrames(const MapPlane& one, const MapPlane& other) {
   return found == one.covisible.end() ? 0 : found->second;
 }
 
-/// One of them was split from the other, or from what is now a part of it.
+/// Something that is now a part of one of them was split from what is now a part of the other.
 bool WereSplit(const Map& map, const MapPlane& one, const MapPlane& other) {
-  const auto holds = [&](const MapPlane& m, int split_from) {
-    return split_from != kNone && CurrentPlane(map, split_from) == m.id;
-  };
-  return holds(one, other.split_from) || holds(other, one.split_from);
+  return std::any_of(map.planes.begin(), map.planes.end(), [&](const MapPlane& m) {
+    return m.split_from != kNone &&
+           std::minmax(CurrentPlane(map, m.id), CurrentPlane(map, m.split_from)) ==
+               std::minmax(one.id, other.id);
+  });
 }
 
 /// Parameters agree from both sides, classes do not contradict, clouds meet.
@@ -39,14 +40,10 @@ bool OneSurface(const Map& map, const MapPlane& one, const MapPlane& other,
   const double max_chi2 = side_by_side ? 0.5 * a.max_chi2 : a.max_chi2;
   if (!(forth.chi2 < max_chi2) || !(ComparePlanes(other, one).chi2 < max_chi2)) return false;
   if (!(SameClassOdds(one.class_belief, other.class_belief) > a.min_class_odds)) return false;
-  // A large plane's cloud is coarse: look in voxels that its points surely fill.
-  double cell = config.voxel_m;
-  for (const MapPlane* m : {&one, &other}) {
-    if (!m->points_w.empty()) {
-      cell = std::max(cell, std::sqrt(m->area_m2 / static_cast<double>(m->points_w.size())));
-    }
-  }
-  return CloudOverlap(one.points_w, other.points_w, one.pi_w, cell) > config.min_fused_overlap;
+  // A large plane's cloud is coarse: look in voxels that its points fill.
+  const double voxel_m = std::max({config.voxel_m, one.voxel_m, other.voxel_m});
+  return CloudOverlap(one.points_w, other.points_w, one.pi_w, voxel_m) >
+         config.min_fused_overlap;
 }
 
 /// Adds what `from` knows of its parameters to `into`.
@@ -71,17 +68,21 @@ void Fuse(MapPlane& into, MapPlane& from, const PlaneMapConfig& config) {
   for (const auto& [name, evidence] : from.class_belief) into.class_belief[name] += evidence;
   into.class_name = BelievedClass(into.class_belief);
   // The shape: clouds, outline, and the corners that are better known.
-  MergeIntoCloud(into.points_w, from.points_w, {into.estimate.normal_w, 0.0},
-                 into.estimate.origin_w, config.voxel_m, config.max_cloud_points);
+  into.voxel_m = MergeIntoCloud(
+      into.points_w, from.points_w, {into.estimate.normal_w, 0.0}, into.estimate.origin_w,
+      std::max({config.voxel_m, into.voxel_m, from.voxel_m}), config.max_cloud_points);
   std::vector<Eigen::Vector3d> extent_w = into.hull_w;
   extent_w.insert(extent_w.end(), from.hull_w.begin(), from.hull_w.end());
   Outline outline = ConvexOutline(extent_w, into.pi_w);
   into.hull_w = std::move(outline.hull_w);
   into.area_m2 = outline.area_m2;
+  if (!into.points_w.empty()) into.centroid_w = CloudCentroid(into.points_w, into.pi_w);
   if (Evidence(from) > Evidence(into)) {
     into.vertices_w = from.vertices_w;
     into.vertex_weights = from.vertex_weights;
   }
+  for (Eigen::Vector3d& vertex_w : into.vertices_w) vertex_w = ProjectOnto(into.pi_w, vertex_w);
+  into.supposed.insert(into.supposed.end(), from.supposed.begin(), from.supposed.end());
   into.map_points.insert(from.map_points.begin(), from.map_points.end());
   into.observations += from.observations;
   into.first_frame = std::min(into.first_frame, from.first_frame);
@@ -92,6 +93,7 @@ void Fuse(MapPlane& into, MapPlane& from, const PlaneMapConfig& config) {
   from.merged_into = into.id;
   // What a fused plane held is held by the other now.
   from.points_w.clear();
+  from.supposed.clear();
   from.map_points.clear();
   from.parts.clear();
 }

@@ -24,8 +24,9 @@ void UpdateShape(MapPlane& m, const FramePlane& plane, const Pose& T_wc,
   // The grid starts at the first observation, so that voxels do not move with the estimate.
   const Plane grid{m.estimate.normal_w, 0.0};
   const Eigen::Vector3d& grid_origin_w = m.estimate.origin_w;
-  MergeIntoCloud(m.points_w, PointsInWorld(plane.points_c, T_wc), grid, grid_origin_w,
-                 config.voxel_m, config.max_cloud_points);
+  m.voxel_m =
+      MergeIntoCloud(m.points_w, PointsInWorld(plane.points_c, T_wc), grid, grid_origin_w,
+                     std::max(config.voxel_m, m.voxel_m), config.max_cloud_points);
   // What once lay on the plane stays in its outline, until its corners are known.
   const bool face_known = KnowsItsFace(m, config);
   if (face_known) KeepWhatLiesOnFace(m, config);
@@ -34,11 +35,8 @@ void UpdateShape(MapPlane& m, const FramePlane& plane, const Pose& T_wc,
   Outline outline = ConvexOutline(extent_w, m.pi_w);
   m.hull_w = std::move(outline.hull_w);
   m.area_m2 = outline.area_m2;
-  // The centroid of the cloud, on the plane.
-  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-  for (const Eigen::Vector3d& p_w : m.points_w) sum += p_w;
-  if (!m.points_w.empty()) m.centroid_w = sum / static_cast<double>(m.points_w.size());
-  m.centroid_w = ProjectOnto(m.pi_w, m.centroid_w);
+  m.centroid_w = m.points_w.empty() ? ProjectOnto(m.pi_w, m.centroid_w)
+                                    : CloudCentroid(m.points_w, m.pi_w);
 }
 
 void UpdateClass(MapPlane& m, const FramePlane& plane, const Frame& frame) {

@@ -61,8 +61,9 @@ PartShown FindPart(const MapPlane& m, const FramePlane& plane, const Frame& fram
   if (m.parts.empty()) return found;
   const auto points_w = PointsInWorld(plane.points_c, Inverse(frame.T_cw));
   for (std::size_t i = 0; i < m.parts.size(); ++i) {
+    const MapPlane& surface = m.parts[i].surface;
     const double in_common =
-        InCommon(m.parts[i].surface.points_w, points_w, m.pi_w, config.voxel_m);
+        InCommon(surface.points_w, points_w, m.pi_w, std::max(config.voxel_m, surface.voxel_m));
     if (in_common > found.in_common) found = {i, in_common};
   }
   return found;
@@ -210,10 +211,7 @@ MapPlane RestOf(const MapPlane& m, const PlanePart& part, const Map& map) {
   rest.hull_w = std::move(outline.hull_w);
   rest.area_m2 = outline.area_m2;
   for (Eigen::Vector3d& corner_w : rest.vertices_w) corner_w = ProjectOnto(rest.pi_w, corner_w);
-  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-  for (const Eigen::Vector3d& p_w : rest.points_w) sum += p_w;
-  const double count = std::max<double>(1.0, static_cast<double>(rest.points_w.size()));
-  rest.centroid_w = ProjectOnto(rest.pi_w, sum / count);
+  if (!rest.points_w.empty()) rest.centroid_w = CloudCentroid(rest.points_w, rest.pi_w);
   return rest;
 }
 

@@ -29,10 +29,6 @@ bool IsGood(const FramePlane& plane, const PlaneMapConfig& config) {
          !plane.points_c.empty();
 }
 
-bool IsProofAlone(const FramePlane& plane, const PlaneMapConfig& config) {
-  return plane.pixel_count >= config.trial_pixels;
-}
-
 bool HasProvenItself(const MapPlane& candidate, const PlaneMapConfig& config) {
   return candidate.observations >= config.trial_frames &&
          candidate.seen_px >= config.trial_pixels;

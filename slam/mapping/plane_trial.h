@@ -9,9 +9,6 @@ namespace slam {
 /// A frame plane that is measured well enough to start a candidate, or to speak for one.
 bool IsGood(const FramePlane& plane, const PlaneMapConfig& config);
 
-/// A segment that alone is evidence enough for a landmark, while the map has none.
-bool IsProofAlone(const FramePlane& plane, const PlaneMapConfig& config);
-
 /// A candidate has shown itself in enough frames, and large enough in all of them together.
 bool HasProvenItself(const MapPlane& candidate, const PlaneMapConfig& config);
 

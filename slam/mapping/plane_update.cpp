@@ -38,15 +38,12 @@ void UpdateCovisibility(const std::vector<int>& landmark, Map& map) {
   }
 }
 
-/// Notes the steps between surfaces that the frame shows side by side.
-void UpdateSteps(const Frame& frame, Map& map) {
+/// Notes the steps between landmarks that the frame shows side by side.
+void UpdateSteps(const Frame& frame, const std::vector<int>& landmark, Map& map) {
   std::set<std::pair<int, int>> between;  // several segments of a surface are one observation
   for (const FrameStep& step : frame.plane_steps) {
-    const PlaneMatch& one = frame.plane_matches[Index(step.one)];
-    const PlaneMatch& other = frame.plane_matches[Index(step.other)];
-    if (one.map_plane == kNone || other.map_plane == kNone) continue;
-    if (one.map_plane != other.map_plane)
-      between.insert(std::minmax(one.map_plane, other.map_plane));
+    const int one = landmark[Index(step.one)], other = landmark[Index(step.other)];
+    if (one != kNone && other != kNone && one != other) between.insert(std::minmax(one, other));
   }
   for (const auto& [one, other] : between) {
     ++map.planes.At(one).stepped[other];
@@ -72,7 +69,7 @@ void UpdateMapPoints(const Frame& frame, const std::vector<int>& landmark, const
 
 /// Good planes that show nothing of the map start a candidate; or landmarks, where the map has
 /// none yet and the segment is proof enough.
-void StartCandidates(Frame& frame, const PlaneMapConfig& config, Map& map) {
+void StartCandidates(Frame& frame, double image_px, const PlaneMapConfig& config, Map& map) {
   const bool any_landmark =
       std::any_of(map.planes.begin(), map.planes.end(),
                   [](const MapPlane& m) { return m.status != LandmarkStatus::kCandidate; });
@@ -85,7 +82,7 @@ void StartCandidates(Frame& frame, const PlaneMapConfig& config, Map& map) {
     }
     MapPlane& m = map.planes.Add(StartPlane(plane, frame));
     const bool at_once =
-        config.trial_frames <= 1 || (!any_landmark && IsProofAlone(plane, config));
+        config.trial_frames <= 1 || (!any_landmark && IsProofAlone(plane, image_px));
     if (at_once) m.status = LandmarkStatus::kLandmark;
     match = {at_once ? PlaneDecision::kNew : PlaneDecision::kTrial, m.id,
              MatchReason::kNothing};
@@ -117,7 +114,7 @@ void PromoteProven(Frame& frame, const PlaneMapConfig& config, Map& map) {
 void UpdatePlanes(Frame& frame, Map& map, const Camera& camera,
                   const AssociationConfig& association, const PlaneMapConfig& config) {
   frame.plane_matches.resize(frame.planes.size());
-  StartCandidates(frame, config, map);
+  StartCandidates(frame, static_cast<double>(camera.width) * camera.height, config, map);
 
   // Landmarks learn from whatever was matched with them, candidates from good planes alone.
   for (std::size_t f = 0; f < frame.planes.size(); ++f) {
@@ -127,12 +124,12 @@ void UpdatePlanes(Frame& frame, Map& map, const Camera& camera,
     ObservePlane(map.planes.At(match.map_plane), frame.planes[f], frame, config);
   }
   SplitPlanes(frame, map, camera, association, config);
-  UpdateSteps(frame, map);
   PromoteProven(frame, config, map);
   EraseFailedCandidates(frame, camera, config, map);
 
   const std::vector<int> landmark = LandmarkOfPlane(frame);
   UpdateCovisibility(landmark, map);
+  UpdateSteps(frame, landmark, map);
   UpdateMapPoints(frame, landmark, camera, config.max_point_distance_m, map);
 }
 

@@ -90,4 +90,11 @@ struct FramePlane {
   std::optional<BadReason> bad;  ///< nothing: the plane is trusted
 };
 
+/// A segment that is evidence enough by itself: for a landmark, while the map has none, and for a map
+/// to start on. 4,800 pixels at 640 x 480.
+/// @param image_px  pixels of the depth image
+inline bool IsProofAlone(const FramePlane& plane, double image_px) {
+  return plane.pixel_count >= image_px / 64;
+}
+
 }  // namespace slam

@@ -40,7 +40,8 @@ struct MapPlane {
   std::map<std::string, double> class_belief;  ///< summed evidence; "" stands for class -1
   std::string class_name;                      ///< the class believed in; empty is class -1
 
-  std::vector<Eigen::Vector3d> points_w;    ///< thinned cloud of all observations
+  std::vector<Eigen::Vector3d> points_w;  ///< thinned cloud of all observations
+  double voxel_m = 0.0;  ///< side of its voxels, one point each; 0: no cloud yet
   std::vector<Eigen::Vector3d> vertices_w;  ///< corners in order; 4 when known, else fewer
   std::vector<double> vertex_weights;       ///< parallel to vertices_w: evidence for each
   std::vector<Eigen::Vector3d> hull_w;      ///< convex outline of the cloud, in order

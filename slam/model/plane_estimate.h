@@ -2,6 +2,7 @@
 
 #include <Eigen/Cholesky>
 #include <Eigen/Core>
+#include <cmath>
 
 #include "slam/geometry/plane.h"
 
@@ -28,6 +29,12 @@ struct PlaneEstimate {
   }
   Eigen::Matrix3d Covariance() const {
     return information.ldlt().solve(Eigen::Matrix3d::Identity());
+  }
+  /// Variance of the slope in the direction in which it is known least, radians^2: the larger
+  /// eigenvalue, which does not depend on how the axes lie.
+  static double WorstSlopeVariance(const Eigen::Matrix3d& covariance) {
+    const double b = covariance(1, 1), c = covariance(2, 2);
+    return 0.5 * (b + c) + std::hypot(0.5 * (b - c), covariance(1, 2));
   }
   /// The most likely plane, front as the reference. @pre not empty.
   Plane Mean() const {

@@ -127,6 +127,7 @@ std::optional<Agreement> Ransac(const std::vector<PointConstraint>& constraints,
   const int count = static_cast<int>(constraints.size());
   int solved = 0;
   for (int i = 0; i < config.ransac_samples && solved < config.ransac_iterations; ++i) {
+    if (2 * most > constraints.size() && solved >= kMinSolved) break;
     const std::array<int, kSampleSize> sample = Sample(count, random);
     if (!SameShape(constraints, measured_c, sample, config.shape_tolerance)) continue;
     ++solved;
@@ -136,7 +137,6 @@ std::optional<Agreement> Ransac(const std::vector<PointConstraint>& constraints,
     if (inliers.size() <= most) continue;
     most = inliers.size();
     best = {*T_cw, std::move(inliers)};
-    if (2 * most > constraints.size() && solved >= kMinSolved) break;
   }
   return best;
 }

@@ -114,7 +114,7 @@ PlaneConstraint MakePlaneConstraint(const FramePlane& f, const MapPlane& m, cons
     const Eigen::Vector3d x_w = T_cw.R.transpose() * (f.centroid_c - T_cw.t);
     const Eigen::Vector3d lever = m.estimate.Lever(x_w);
     offset2 += lever.dot(covariance * lever);
-    angle2 += covariance.bottomRightCorner<2, 2>().diagonal().maxCoeff();
+    angle2 += PlaneEstimate::WorstSlopeVariance(covariance);
   }
   c.offset_sigma_m = std::sqrt(offset2);
   c.angle_sigma_rad = std::sqrt(angle2);

@@ -196,7 +196,7 @@ PoseProblem Tracker::ProblemOf(const Frame& frame, const FramePoints& points) co
     problem.late = LatePlanes{frame.depth_late_s, frame.speed.mean, *speed};
   }
   AddPlaneConstraints(frame, map_, camera_, config_.plane_constraints, problem);
-  AddStructure(frame, map_, config_.association.prior, config_.structure, problem);
+  AddStructure(frame, map_, config_.structure, problem);
   return problem;
 }
 

@@ -4,25 +4,23 @@
 #include <cmath>
 
 #include "slam/pose/plane_constraints.h"
+#include "slam/structure/direction_sigma.h"
 
 namespace slam {
 namespace {
 
 void AddDirections(const FramePlane& plane, const MapPlane& matched, const Map& map,
-                   const Pose& T_cw, const PosePrior& prior, const ParallelConfig& config,
-                   PoseProblem& problem) {
+                   const Pose& T_cw, const ParallelConfig& config, PoseProblem& problem) {
   for (const MapPlane& other : map.planes) {
     if (other.status != LandmarkStatus::kLandmark || other.id == matched.id) continue;
     if (other.observations < config.min_observations) continue;
     if (!(other.area_m2 > config.min_area_m2)) continue;
     // Standard deviation of the angle: frame plane, map plane and pose.
     double map_variance = 0.0;
-    if (!other.estimate.empty()) {
-      map_variance +=
-          other.estimate.Covariance().bottomRightCorner<2, 2>().diagonal().maxCoeff();
-    }
-    const double sigma = std::sqrt(plane.angle_sigma_rad * plane.angle_sigma_rad +
-                                   map_variance + prior.sigma_rad * prior.sigma_rad);
+    if (!other.estimate.empty())
+      map_variance = PlaneEstimate::WorstSlopeVariance(other.estimate.Covariance());
+    const double sigma =
+        std::hypot(NormalSigma(plane), std::sqrt(map_variance), config.pose_sigma_rad);
     // Close to the hypothesis, and consistent with it.
     const double angle = Angle(plane.pi_c.n, T_cw.R * other.pi_w.n);
     const double from_parallel = std::min(angle, M_PI - angle);
@@ -38,12 +36,12 @@ void AddDirections(const FramePlane& plane, const MapPlane& matched, const Map& 
 
 }  // namespace
 
-void AddParallelPlanes(const Frame& frame, const Map& map, const PosePrior& prior,
-                       const ParallelConfig& config, PoseProblem& problem) {
+void AddParallelPlanes(const Frame& frame, const Map& map, const ParallelConfig& config,
+                       PoseProblem& problem) {
   for (std::size_t i = 0; i < frame.planes.size(); ++i) {
     const MapPlane* matched = TrustedMatch(frame, map, i);
     if (matched == nullptr || !(frame.planes[i].area_m2 > config.min_area_m2)) continue;
-    AddDirections(frame.planes[i], *matched, map, frame.T_cw, prior, config, problem);
+    AddDirections(frame.planes[i], *matched, map, frame.T_cw, config, problem);
   }
 }
 

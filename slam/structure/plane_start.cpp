@@ -7,8 +7,6 @@
 namespace slam {
 namespace {
 
-// Of the image: what proves a landmark alone at 640 x 480.
-constexpr double kMinShare = 1.0 / 64;
 constexpr double kMaxCosine = 0.9;  // 26 degrees
 
 bool SomeTwoStandApart(const std::vector<Eigen::Vector3d>& normals) {
@@ -26,7 +24,7 @@ bool PlanesCanStart(const std::vector<FramePlane>& planes, double image_px,
                     const StructureConfig& config) {
   std::vector<Eigen::Vector3d> faces, edges;
   for (const FramePlane& plane : planes) {
-    if (plane.bad || plane.pixel_count < kMinShare * image_px) continue;
+    if (plane.bad || !IsProofAlone(plane, image_px)) continue;
     faces.push_back(plane.pi_c.n);
     if (!config.edges_alone) continue;
     for (const SeenSupposed& edge : SupposePlanes(plane)) edges.push_back(edge.pi_c.n);

@@ -30,13 +30,13 @@ void LearnManhattanWorld(int keyframe, const ManhattanConfig& config, Map& map) 
 
 }  // namespace
 
-void AddStructure(const Frame& frame, const Map& map, const PosePrior& prior,
-                  const StructureConfig& config, PoseProblem& problem) {
+void AddStructure(const Frame& frame, const Map& map, const StructureConfig& config,
+                  PoseProblem& problem) {
   switch (config.mode) {
     case StructureMode::kFree:
       return;
     case StructureMode::kParallel:
-      AddParallelPlanes(frame, map, prior, config.parallel, problem);
+      AddParallelPlanes(frame, map, config.parallel, problem);
       return;
     case StructureMode::kManhattan:
       if (map.manhattan.empty()) return;

@@ -4,7 +4,6 @@
 #include <string>
 #include <vector>
 
-#include "slam/pose/pose_prior.h"
 #include "slam/structure/manhattan_world.h"
 #include "slam/structure/parallel_planes.h"
 #include "slam/structure/supposed_planes.h"
@@ -47,8 +46,8 @@ inline void VisitFields(StructureConfig& c, FieldVisitor& v) {
 }
 
 /// Adds to `problem` what the assumption says of the frame's pose, at the pose that it has.
-void AddStructure(const Frame& frame, const Map& map, const PosePrior& prior,
-                  const StructureConfig& config, PoseProblem& problem);
+void AddStructure(const Frame& frame, const Map& map, const StructureConfig& config,
+                  PoseProblem& problem);
 
 /// The same for a frame of which points say little: adds the planes supposed at its edges, unless
 /// AddStructure has. They hold what planes that all face one way do not.

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <optional>
 
+#include "slam/model/map_queries.h"
 #include "slam/pose/plane_constraints.h"
 
 namespace slam {
@@ -35,7 +36,7 @@ PlaneConstraint ConstraintTo(const SupposedPlane& known, const SeenSupposed& see
   const Eigen::Matrix3d covariance = known.estimate.Covariance();
   const Eigen::Vector3d lever = known.estimate.Lever(edge_w);
   offset2 += lever.dot(covariance * lever);
-  angle2 += covariance.bottomRightCorner<2, 2>().diagonal().maxCoeff();
+  angle2 += PlaneEstimate::WorstSlopeVariance(covariance);
   c.offset_sigma_m = std::sqrt(offset2);
   c.angle_sigma_rad = std::sqrt(angle2);
   return c;
@@ -47,7 +48,8 @@ void Observe(const Plane& pi_w, const Eigen::Vector3d& edge_w, double keep, int 
                  keep);
   known.pi_w = known.estimate.Mean();
   known.centroid_w = ProjectOnto(known.pi_w, edge_w);
-  ++known.observations;
+  // Several lines along one edge are one observation.
+  if (known.observations == 0 || known.last_frame != frame) ++known.observations;
   known.last_frame = frame;
 }
 
@@ -55,7 +57,7 @@ void Observe(const Plane& pi_w, const Eigen::Vector3d& edge_w, double keep, int 
 MapPlane* LandmarkOf(const Frame& frame, Map& map, std::size_t plane) {
   if (plane >= frame.plane_matches.size() || frame.planes[plane].bad) return nullptr;
   const PlaneMatch& match = frame.plane_matches[plane];
-  return match.ShowsLandmark() ? &map.planes.At(match.map_plane) : nullptr;
+  return match.ShowsLandmark() ? &map.planes.At(CurrentPlane(map, match.map_plane)) : nullptr;
 }
 
 }  // namespace

@@ -180,9 +180,9 @@ TEST(PlaneAssociation, ACandidateThatIsALandmarkFoundTwiceTakesNothingFromIt) {
   // The copy on trial explains the frame clearly better, by 5 mm under a pose that is known well:
   // it is still the landmark's surface.
   const Camera camera = SmallCamera();
-  AssociationConfig config;
-  config.prior = {.sigma_m = 0.0005, .sigma_rad = 0.0005};
+  const AssociationConfig config;
   Association a = TwoViews(DeskWithBook(0.02, ""), {}, config);
+  a.second.frame.pose_covariance = 0.0005 * 0.0005 * Matrix6d::Identity();
   const int desk = a.first.frame.plane_matches[0].map_plane;
   KnowTo(a.map.planes.At(desk), 0.0012, 0.006);
   MapPlane copy = a.map.planes.At(desk);
@@ -197,15 +197,15 @@ TEST(PlaneAssociation, AStripThatIsKnownPoorlyDoesNotTakeTheSurfaceThatItIsAPart
   // Both miss what is seen by the same 3 mm, and where little is known that says less: by the
   // chi-square alone the strip would be nearer.
   const Camera camera = SmallCamera();
-  AssociationConfig config;
-  config.prior = {.sigma_m = 0.0005, .sigma_rad = 0.0005};
+  const AssociationConfig config;
   Association a = TwoViews(DeskWithBook(0.02, ""), {}, config);
+  a.second.frame.pose_covariance = 0.0005 * 0.0005 * Matrix6d::Identity();
   const int desk = a.first.frame.plane_matches[0].map_plane;
   a.map.planes.At(desk).pi_w.d += 0.003;
   MapPlane strip = a.map.planes.At(desk);
   KnowTo(strip, 0.008, 0.04);
   a.map.planes.Add(strip);
-  const UncertainPose pose = PredictedPose(a.second.frame, config);
+  const UncertainPose pose = PredictedPose(a.second.frame);
   PairRefusals refused;
   const PairTable pairs =
       WeighPairs(a.second.frame, a.map, pose, pose, camera, config, refused);
@@ -244,7 +244,7 @@ TEST(PlaneAssociation, ASegmentThatTookInABookIsTheDeskWhoseShareOfItIsLarger) {
   const double times = static_cast<double>(a.second.frame.planes[0].pixel_count) /
                        a.second.frame.planes[1].pixel_count;
   TakeIn(a.second.frame, 1);
-  const UncertainPose pose = PredictedPose(a.second.frame, {});
+  const UncertainPose pose = PredictedPose(a.second.frame);
   PairRefusals refused;
   const PairTable pairs =
       WeighPairs(a.second.frame, a.map, pose, pose, SmallCamera(), {}, refused);
@@ -261,6 +261,7 @@ TEST(PlaneAssociation, ASegmentThatTookInABookIsTheDeskWhoseShareOfItIsLarger) {
   const auto matches = AssociatePlanes(a.second.frame, a.map, SmallCamera(), {}).matches;
   EXPECT_EQ(matches[0].decision, PlaneDecision::kMatched);
   EXPECT_EQ(matches[0].map_plane, desk);
+  EXPECT_EQ(matches[0].reason, MatchReason::kOverlap);
 }
 
 /// Part of a frame's first plane as a plane of its own, nearer by a step of 4 mm that bends may

@@ -82,7 +82,7 @@ TEST(DriftedPose, CountsWhatRefusedAPairAndNoPairThatWasPossible) {
 TEST(DriftedPose, ChargesALandmarkForHowMuchMoreFitsItSinceItWasSeen) {
   const auto cost = [](int keyframes_since_seen) {
     const Return r = ReturnTo(keyframes_since_seen, 0.0);
-    const UncertainPose pose = PredictedPose(r.frame, {});
+    const UncertainPose pose = PredictedPose(r.frame);
     PairRefusals refused;
     const PairTable pairs = WeighPairs(r.frame, r.map, pose, pose, SmallCamera(), {}, refused);
     return pairs.at(0).at(0).Cost() - pairs.at(0).at(0).parameter_cost;
@@ -216,7 +216,7 @@ TEST(UncertainPose, IsCorrectedForEachPairAloneWhateverTheOrderOfThePlanes) {
   ASSERT_EQ(frame.planes.size(), 2u);
   const Eigen::Vector3d up_c = frame.T_cw.R * Eigen::Vector3d::UnitZ();
   frame.T_cw.t -= 0.1 * up_c;
-  UncertainPose pose = PredictedPose(frame, {});
+  UncertainPose pose = PredictedPose(frame);
   pose.covariance = 1e-5 * Matrix6d::Identity();
   pose.covariance.topLeftCorner<3, 3>() += 0.15 * 0.15 * up_c * up_c.transpose();
   const auto pairs_of = [&](const Frame& seen) {

@@ -85,5 +85,11 @@ TEST(PlaneAssignment, DoesNotCountACompetitorThatIsAtHomeElsewhere) {
               ElementsAre(10, 11));
 }
 
+TEST(PlaneAssignment, IsInDoubtBetweenTwoPlanesOfWhichOneHasLostABetterPlace) {
+  // Plane 1 fits 10 clearly better than 11, but 10 is plane 0: it has as much claim on 11 as plane 2.
+  EXPECT_THAT(Assigned({{0, 10, 0.0}, {1, 10, 4.5}, {1, 11, 9.0}, {2, 11, 8.0}}, Apart(3)),
+              ElementsAre(10, kAmbiguous, kAmbiguous));
+}
+
 }  // namespace
 }  // namespace slam

@@ -241,9 +241,9 @@ Frame TrackedByPoints() {
 
 TEST(PredictedPose, OfPointsErrsThreefoldAndByWhatTheSensorBends) {
   Frame frame = TrackedByPoints();
-  EXPECT_LT((PredictedPose(frame, {}).covariance - 9 * *frame.pose_covariance).norm(), 1e-15);
+  EXPECT_LT((PredictedPose(frame).covariance - 9 * *frame.pose_covariance).norm(), 1e-15);
   frame.bend_ratio = 0.002;
-  const UncertainPose bent = PredictedPose(frame, {});
+  const UncertainPose bent = PredictedPose(frame);
   Matrix6d expected = 9 * *frame.pose_covariance;
   expected.diagonal().head<3>().array() += 0.004 * 0.004;  // two metres away
   expected.diagonal().tail<3>().array() += 0.002 * 0.002;
@@ -256,19 +256,16 @@ TEST(PredictedPose, OfMotionAloneIsAsUncertainAsMotionSays) {
   Frame frame = TrackedByPoints();
   frame.bend_ratio = 0.002;
   frame.evidence = {};
-  EXPECT_EQ(PredictedPose(frame, {}).covariance, *frame.pose_covariance);
+  EXPECT_EQ(PredictedPose(frame).covariance, *frame.pose_covariance);
 }
 
-TEST(PredictedPose, WithoutACovarianceHasThatOfTheSettings) {
+TEST(PredictedPose, WithoutACovarianceErrsByMillimetres) {
   Frame frame = TrackedByPoints();
   frame.bend_ratio = 0.002;
   frame.pose_covariance.reset();
-  AssociationConfig config;
-  config.prior.sigma_m = 0.03;
-  config.prior.sigma_rad = 0.02;
   Matrix6d expected = Matrix6d::Zero();
-  expected.diagonal() << 9e-4, 9e-4, 9e-4, 4e-4, 4e-4, 4e-4;
-  EXPECT_LT((PredictedPose(frame, config).covariance - expected).norm(), 1e-15);
+  expected.diagonal() << 36e-6, 36e-6, 36e-6, 16e-6, 16e-6, 16e-6;
+  EXPECT_LT((PredictedPose(frame).covariance - expected).norm(), 1e-15);
 }
 
 }  // namespace

@@ -30,13 +30,14 @@ class Bags : public ::testing::Test {
                  const std::vector<double>& d = {}) const {
     bag.CameraInfo(topic, {64, 48}, {60, 60, 31.5, 23.5}, lens, d);
   }
-  void WriteRealSense(const std::array<double, 3>& t_colour) const {
+  void WriteRealSense(const std::array<double, 3>& t_colour,
+                      const std::string& tf_colour = "tf/0") const {
     BagWriter bag(File(), Compression::kNone);
     for (const std::string& stream : {kDepthStream, kColourStream}) {
       WriteInfo(bag, stream + "info/camera_info", "Inverse Brown Conrady", {0, 0, 0, 0, 0});
     }
     bag.Transform(kDepthStream + "tf/0", {0, 0, 0}, {0, 0, 0, 1});
-    bag.Transform(kColourStream + "tf/0", t_colour, {0, 0, 0, 1});
+    bag.Transform(kColourStream + tf_colour, t_colour, {0, 0, 0, 1});
     cv::Mat1w depth = Depth();
     depth.col(40) = 0;
     bag.Image(kDepthStream + "image/data", 1, "0", "mono16", depth);
@@ -54,6 +55,13 @@ TEST_F(Bags, OfRealSenseHaveDepthLaidOnColour) {
   EXPECT_EQ(laid(10, 62), 0.0f);
   WriteRealSense({0, 0, 0});
   EXPECT_EQ(BagImages(File(), CameraOfBag(File())).Depth(0)(10, 40), 0.0f);
+}
+
+// Ways from two cameras of the device say nothing of how depth and colour lie to each other.
+TEST_F(Bags, OfRealSenseAreRefusedWhoseStreamsKnowNoReferenceInCommon) {
+  WriteRealSense({-0.05, 0, 0}, "tf/1");
+  EXPECT_THAT([&] { BagImages(File(), CameraOfBag(File())); },
+              ThrowsMessage<io::InputError>(HasSubstr("tf/N of both, with one N")));
 }
 
 TEST_F(Bags, PairByTheStampsOfTheHeadersInTheirOrder) {
@@ -215,6 +223,19 @@ TEST_F(Bags, OfRectifiedImagesHaveTheirCameraWithoutTheLensThatWasTakenOut) {
         k, rectified ? Eigen::Vector4d(58, 59, 32, 24) : Eigen::Vector4d(60, 61, 31.5, 23.5));
     EXPECT_EQ(camera.k1, rectified ? 0.0 : -0.05);
   }
+}
+
+// The camera is checked as a file's is, but there is no file whose line could be mended.
+TEST_F(Bags, NameTheTopicAndNoLineOfACameraThatIsNone) {
+  {
+    BagWriter bag(File(), Compression::kNone);
+    bag.Image("/rgb/image_raw", 1, "c", "rgb8", Colour());
+    bag.Image("/depth/image_raw", 1, "c", "16UC1", Depth());
+    bag.CameraInfo("/rgb/camera_info", {64, 48}, {0, 60, 31.5, 23.5}, "plumb_bob", {});
+  }
+  EXPECT_THAT(
+      [&] { CameraOfBag(File()); },
+      ThrowsMessage<io::InputError>(HasSubstr("a.bag (/rgb/camera_info): fx: expected")));
 }
 
 TEST_F(Bags, RefuseOtherLensesAndImpossibleCameras) {

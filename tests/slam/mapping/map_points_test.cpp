@@ -92,6 +92,20 @@ TEST(MapPoints, AreYoungUpToTheLastKeyframeOfTheirTrial) {
   }
 }
 
+TEST(MapPoints, AreYoungWhicheverOrderMappingMadeThemIn) {
+  // Mapping in a thread of its own makes points of a keyframe after tracking made those of the next.
+  Map map = MakePointWorld(3, 40, 4).map;
+  const PointCullingConfig config;
+  const int a = PointAt(map, 0, 0), last = map.points.back().id;
+  ASSERT_LT(a, last);
+  PointOf(map, last).first_keyframe = 0;
+  PointOf(map, a).first_keyframe = 1;
+  PointOf(map, a).visible_count = 10;
+  PointOf(map, a).found_count = 2;
+  CullYoungPoints(map, 1 + config.trial_keyframes, config);
+  EXPECT_TRUE(PointOf(map, a).culled);
+}
+
 TEST(MapPoints, AreCulledBesideNewerOnesThatWentBefore) {
   Map map = MakePointWorld(3, 40, 4).map;
   CullPoint(map, map.points.back().id);  // as a fusion does

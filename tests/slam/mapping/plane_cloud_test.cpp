@@ -36,5 +36,23 @@ TEST(PlaneCloud, OutlineOfASquareHasItsArea) {
                   .hull_w.empty());
 }
 
+TEST(PlaneCloud, SaysHowCoarseItBecameAndIsAsDenseAllOver) {
+  const Plane pi_w{Eigen::Vector3d::UnitZ(), 0.0};
+  std::vector<Eigen::Vector3d> cloud_w;
+  double voxel_m = 0.02;
+  // Strips 0.2 m wide, one after another: each makes the cloud coarser or comes to a coarser one.
+  for (int strip = 0; strip < 5; ++strip) {
+    std::vector<Eigen::Vector3d> points_w;
+    for (int x = 0; x < 40; ++x) {
+      for (int y = 0; y < 200; ++y)
+        points_w.emplace_back(0.2 * strip + 0.005 * x + 0.0025, 0.005 * y + 0.0025, 0.0);
+    }
+    voxel_m = MergeIntoCloud(cloud_w, points_w, pi_w, Eigen::Vector3d(0, 0, 0), voxel_m, 1000);
+  }
+  EXPECT_EQ(voxel_m, 0.04);
+  EXPECT_EQ(cloud_w.size(), 625u);
+  EXPECT_LT((CloudCentroid(cloud_w, pi_w) - Eigen::Vector3d(0.5, 0.5, 0)).norm(), 0.03);
+}
+
 }  // namespace
 }  // namespace slam

@@ -79,5 +79,22 @@ TEST(PlaneEvidence, GrowsWithTheWayAndNotWithTheNumberOfFrames) {
   EXPECT_NEAR(KnownFrom(11, way).offset_sigma_m, 0.01 / std::sqrt(2.0), 1e-6);
 }
 
+TEST(PlaneEvidence, SaysTheSameOfANormalHoweverTheWorldIsTurned) {
+  // A strip that was seen at both ends is known better along it than across.
+  std::vector<double> sigmas;
+  for (const double turned_rad : {0.0, 0.5, 0.8}) {
+    const Pose T_new_old{ExpSo3({0, 0, turned_rad}), {0, 0, 0}};
+    PlaneEstimate estimate;
+    for (const double x : {0.0, 3.0}) {
+      AddObservation(estimate, {Eigen::Vector3d::UnitZ(), 0.0},
+                     T_new_old * Eigen::Vector3d(x, 0, 0), 0.01, 0.005, 1.0);
+    }
+    sigmas.push_back(BestKnown(estimate).angle_sigma_rad);
+  }
+  EXPECT_NEAR(sigmas[0], 0.01 / std::sqrt(2.0), 1e-9);
+  EXPECT_NEAR(sigmas[1], sigmas[0], 1e-9);
+  EXPECT_NEAR(sigmas[2], sigmas[0], 1e-9);
+}
+
 }  // namespace
 }  // namespace slam

@@ -218,6 +218,24 @@ TEST(PlaneMap, CountsForAFusedSurfaceWhatWasCountedOfBoth) {
   EXPECT_EQ(board.stepped, (std::map<int, int>{{0, 3}}));
 }
 
+TEST(PlaneMap, KnowsWhereAFusedSurfaceLiesAndWhatWasSupposedAtItsEdges) {
+  // Two ends of a board, of which the second has corners that are better known, 2 mm beside the plane.
+  Map map;
+  MapPlane left = BoardAt(0.0), right = left;
+  std::erase_if(left.points_w, [](const Eigen::Vector3d& p_w) { return p_w.x() > 0.1; });
+  std::erase_if(right.points_w, [](const Eigen::Vector3d& p_w) { return p_w.x() < -0.1; });
+  left.centroid_w = {-0.1, 0, 0}, right.centroid_w = {0.1, 0, 0};
+  right.vertices_w = {{0.2, 0.15, 0.002}}, right.vertex_weights = {5.0};
+  right.supposed = {SupposedPlane{}};
+  AddLandmark(map, left), AddLandmark(map, right);
+  ASSERT_EQ(FusePlanes(map, {}, SmallImages()), 1);
+  const MapPlane &whole = map.planes.At(0), &gone = map.planes.At(1);
+  EXPECT_NEAR(whole.centroid_w.x(), 0.0, 0.02);
+  EXPECT_NEAR(SignedDistance(whole.pi_w, whole.vertices_w.at(0)), 0.0, 1e-9);
+  EXPECT_EQ(whole.supposed.size(), 1u);
+  EXPECT_TRUE(gone.supposed.empty());
+}
+
 TEST(PlaneMap, NotesTheStepsThatAFrameShowsBetweenItsLandmarks) {
   // A desk and a board on it that touch in the image: their parameters alone could be one.
   const Camera camera = SmallCamera();
@@ -235,6 +253,27 @@ TEST(PlaneMap, NotesTheStepsThatAFrameShowsBetweenItsLandmarks) {
   ASSERT_EQ(map.planes.size(), 2u);
   EXPECT_EQ(map.planes.At(0).stepped.at(1), 2);
   EXPECT_EQ(map.planes.At(1).stepped.at(0), 2);
+}
+
+TEST(PlaneMap, CountsStepsOfFramesInWhichBothAreLandmarks) {
+  // The board comes later and is on trial first: what frames show of a candidate is no step between
+  // landmarks, of which as many frames with both must be counted.
+  const Camera camera = SmallCamera();
+  PlaneWorld alone, both;
+  alone.Add({-0.2, 0, 0}, {0.2, 0, 0}, {0, 0.3, 0}, "");
+  both = alone;
+  both.Add({0.2, 0, 0.03}, {0.2, 0, 0}, {0, 0.3, 0}, "");
+  Map map;
+  for (int k = 0; k < 6; ++k) {
+    SeenWorld seen = See(k == 0 ? alone : both, Walk(k), camera, {}, Random{1});
+    seen.frame.index = k;
+    seen.frame.plane_matches = AssociatePlanes(seen.frame, map, camera, {}).matches;
+    if (k > 0) seen.frame.plane_steps = {{0, 1}};
+    UpdatePlanes(seen.frame, map, camera, {}, SmallImages());
+  }
+  ASSERT_EQ(Landmarks(map).size(), 2u);
+  EXPECT_LT(map.planes.At(0).covisible.at(1), 5);
+  EXPECT_EQ(map.planes.At(0).stepped, map.planes.At(0).covisible);
 }
 
 }  // namespace

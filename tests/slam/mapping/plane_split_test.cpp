@@ -152,5 +152,17 @@ TEST(PlaneSplit, MayFollowAFusionThatWasWrong) {
   EXPECT_EQ(FusePlanes(show.map, {}, SmallImages()), 0);
 }
 
+TEST(PlaneSplit, IsNotUndoneByFusionByWayOfAnOlderLandmark) {
+  // Both sides of a split agree with one that is older; only one of them can be it.
+  Map map;
+  TwoPatches show;
+  show.shows_step = false;
+  for (int k = 0; k < 12; ++k) show.Next();
+  for (int id = 0; id < 3; ++id) AddLandmark(map, *Landmarks(show.map)[0]);
+  map.planes.At(2).split_from = 1;
+  EXPECT_EQ(FusePlanes(map, {}, SmallImages()), 1);
+  EXPECT_EQ(Landmarks(map).size(), 2u);
+}
+
 }  // namespace
 }  // namespace slam

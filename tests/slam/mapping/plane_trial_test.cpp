@@ -127,6 +127,7 @@ TEST(PlaneTrial, EndsWhereTheSurfaceTurnsOutToBeUnstructured) {
 // Fails when the first frame starts nothing, or everything.
 TEST(PlaneTrial, AnEmptyMapTakesLargeSurfacesAtOnceAndOthersOnTrial) {
   Show large, small;
+  large.config.trial_pixels = PlaneMapConfig{}.trial_pixels;  // large is a share of the image
   EXPECT_EQ(large.Next(DeskWithSheet(kLarge_m)).decision, PlaneDecision::kNew);
   EXPECT_EQ(small.Next(DeskWithSheet(kSmall_m)).decision, PlaneDecision::kTrial);
   EXPECT_EQ(Landmarks(small.map).size(), 1u);

@@ -42,7 +42,7 @@ struct SeenWorld {
     PoseProblem problem;
     StructureConfig structure;
     structure.mode = mode;
-    AddStructure(frame, map, {}, structure, problem);
+    AddStructure(frame, map, structure, problem);
     return problem;
   }
   void Learn(StructureMode mode) {

@@ -34,7 +34,7 @@ struct SeenPlaneWithOthers {
   }
   PoseProblem Problem() const {
     PoseProblem problem;
-    AddParallelPlanes(frame, map, PosePrior{}, config, problem);
+    AddParallelPlanes(frame, map, config, problem);
     return problem;
   }
 };
@@ -59,6 +59,9 @@ TEST(ParallelPlanes, LeaveOutWhatIsFarFromParallelOrMoreThanItsErrorsExplain) {
   seen.Add({0.03, 0, -1});  // near enough, but known to be no parallel
   EXPECT_TRUE(seen.Problem().parallels.empty());
   seen.frame.planes[0].angle_sigma_rad = 0.02;
+  EXPECT_EQ(seen.Problem().parallels.size(), 1u);
+  seen.frame.planes[0].angle_sigma_rad = 0.002;
+  seen.frame.planes[0].bend_angle_sigma_rad = 0.02;  // as the sensor may have bent it
   EXPECT_EQ(seen.Problem().parallels.size(), 1u);
   seen.Add({0.1, 0, -1});  // too far, however little is known
   seen.frame.planes[0].angle_sigma_rad = 0.2;

@@ -106,6 +106,26 @@ TEST(SupposedPlanes, OfAFewFramesAreForgotten) {
   EXPECT_TRUE(board.Supposed().empty());
 }
 
+TEST(SupposedPlanes, CountAFrameOnceHoweverManyLinesRunAlongTheEdge) {
+  SeenBoard board;
+  const Line line = board.frame.planes[0].lines_c[0];
+  board.frame.planes[0].lines_c = {line, line};
+  board.Learn(2);
+  ASSERT_EQ(board.Supposed().size(), 1u);
+  EXPECT_EQ(board.Supposed()[0].observations, 2);
+}
+
+TEST(SupposedPlanes, AreLearntByTheLandmarkThatItsOwnBecame) {
+  SeenBoard board;
+  MapPlane other = board.map.planes.At(0);
+  const int id = AddLandmark(board.map, other);
+  board.map.planes.At(0).status = LandmarkStatus::kMerged;
+  board.map.planes.At(0).merged_into = id;
+  board.Learn(1);
+  EXPECT_TRUE(board.Supposed().empty());
+  EXPECT_EQ(board.map.planes.At(id).supposed.size(), 1u);
+}
+
 TEST(SupposedPlanes, MoveWithTheirLandmark) {
   SeenBoard board;
   board.Learn(5);
