@@ -110,12 +110,6 @@ void CheckOwners(Folder& folder, const SceneTruth& scene, const cv::Mat& plane_i
   }
 }
 
-cv::Mat IdImage(Folder& folder, const std::string& file, int line, cv::Size size) {
-  if (folder.Has(file)) return ReadImage(folder, file, {CV_16U, 1, size});
-  folder.Tell(kFrames, line, "has no " + file, "write the id image of every frame");
-  return {};
-}
-
 /// The image of ids of a frame, by its time; where there is none, what it should be called.
 std::string IdFile(const StampedFiles& files, const std::string& folder,
                    const ListedImage& frame) {
@@ -138,28 +132,46 @@ class FramesCheck {
     for (const auto& [stamp, image] : images_) stamps_.push_back(stamp);
   }
 
-  void Frame(const FrameTruth& frame) {
-    const auto near = NearestStamp(stamps_, frame.stamp_s, kSameInstant_s);
-    if (!near) return;  // which has been told
-    const ListedImage& image = images_.at(stamps_[*near]);
-    const std::string plane_file = IdFile(plane_files_, "gt/plane_id", image);
-    const std::string object_file = IdFile(object_files_, "gt/object_id", image);
-    const cv::Mat plane_ids = IdImage(folder_, plane_file, frame.line, truth_.size);
-    const cv::Mat object_ids = IdImage(folder_, object_file, frame.line, truth_.size);
-    const auto& scene = truth_.scene;
-    if (!object_ids.empty()) {
-      ListCheck(folder_, frame.line, "objects", object_file).Run(frame.objects, object_ids);
-    }
-    if (!plane_ids.empty()) {
-      ListCheck(folder_, frame.line, "planes", plane_file).Run(frame.planes, plane_ids);
-    }
-    if (scene) CheckOwners(folder_, *scene, plane_ids, object_ids, plane_file);
-    depth_.Frame(image.stamp_s, plane_ids);
+  void Frame(const FrameTruth& told) {
+    const auto near = NearestStamp(stamps_, told.stamp_s, kSameInstant_s);
+    if (near) Check(images_.at(stamps_[*near]), &told);  // else it has been told
+  }
+
+  /// The id images alone, where gt/frames.jsonl is missing.
+  void IdImages() {
+    for (const auto& [stamp, image] : images_) Check(image, nullptr);
   }
 
   void Finish() { depth_.Finish(); }
 
  private:
+  void Check(const ListedImage& image, const FrameTruth* told) {
+    const std::string plane_file = IdFile(plane_files_, "gt/plane_id", image);
+    const std::string object_file = IdFile(object_files_, "gt/object_id", image);
+    const cv::Mat plane_ids = IdImage(plane_files_, plane_file, told);
+    const cv::Mat object_ids = IdImage(object_files_, object_file, told);
+    const auto& scene = truth_.scene;
+    if (told != nullptr && !object_ids.empty()) {
+      ListCheck(folder_, told->line, "objects", object_file).Run(told->objects, object_ids);
+    }
+    if (told != nullptr && !plane_ids.empty()) {
+      ListCheck(folder_, told->line, "planes", plane_file).Run(told->planes, plane_ids);
+    }
+    if (scene) CheckOwners(folder_, *scene, plane_ids, object_ids, plane_file);
+    depth_.Frame(image.stamp_s, plane_ids);
+  }
+
+  cv::Mat IdImage(const StampedFiles& others, const std::string& file, const FrameTruth* told) {
+    const char* const mend = "write the id image of every frame";
+    if (folder_.Has(file)) return ReadImage(folder_, file, {CV_16U, 1, truth_.size});
+    if (told != nullptr) {
+      folder_.Tell(kFrames, told->line, "has no " + file, mend);
+    } else if (!others.empty()) {
+      folder_.Tell(file, 0, "is missing, though other frames have theirs", mend);
+    }
+    return {};
+  }
+
   Folder& folder_;
   const SequenceTruth& truth_;
   TruthDepthCheck depth_;
@@ -171,11 +183,14 @@ class FramesCheck {
 }  // namespace
 
 void CheckTruthFrames(Folder& folder, const SequenceTruth& truth) {
-  if (!folder.Has(kFrames)) return;
-  const std::vector<FrameTruth> told = ReadFrameTruth(folder);
-  TellFrameTruth(folder, truth.frames_s(), told, truth.scene ? &*truth.scene : nullptr);
   FramesCheck frames(folder, truth);
-  for (const FrameTruth& frame : told) frames.Frame(frame);
+  if (folder.Has(kFrames)) {
+    const std::vector<FrameTruth> told = ReadFrameTruth(folder);
+    TellFrameTruth(folder, truth.frames_s(), told, truth.scene ? &*truth.scene : nullptr);
+    for (const FrameTruth& frame : told) frames.Frame(frame);
+  } else {
+    frames.IdImages();
+  }
   frames.Finish();
 }
 

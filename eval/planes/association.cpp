@@ -135,19 +135,14 @@ AssociationScore ScoreAssociation(const std::vector<AssociationRecord>& records,
   AssociationScore score;
   Table by_truth, by_map;
   LabelPairs pairs;
-  std::set<int> map_planes;
   for (const AssociationRecord& record : records) {
     ++score.records;
-    map_planes.insert(record.map_plane);
     if (record.truth == 0) continue;
     ++score.records_with_truth;
     ++by_truth[record.truth][record.map_plane];
     ++by_map[record.map_plane][record.truth];
     ++pairs[{record.truth, record.map_plane}];
   }
-  score.truth_planes = static_cast<int>(by_truth.size());
-  score.map_planes = static_cast<int>(map_planes.size());
-  score.spurious_map_planes = static_cast<int>(map_planes.size() - by_map.size());
   score.merged_map_planes = CountMixed(by_map, rule);
   score.split_truth_planes = CountMixed(by_truth, rule);
   ScorePairs(by_truth, by_map, score);

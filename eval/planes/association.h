@@ -65,10 +65,8 @@ struct AssociationScore {
   PrecisionRecall b_cubed;   ///< the same per record
   PartitionScore partition;  ///< of records with truth: truths and map planes
   DecisionCounts decision;
-  int truth_planes = 0, map_planes = 0;
-  int merged_map_planes = 0;    ///< with at least two truths that carry weight
-  int split_truth_planes = 0;   ///< likewise by truth
-  int spurious_map_planes = 0;  ///< that never show a truth plane
+  int merged_map_planes = 0;   ///< with at least two truths that carry weight
+  int split_truth_planes = 0;  ///< likewise by truth
 };
 
 /// @param records  by rising frame; of one frame in any order

@@ -35,8 +35,11 @@ std::map<int, int> FirstMapPlanes(const DecisionHistory& history) {
 class Placement {
  public:
   void Add(const PlaneDecision& decision, const std::optional<double>& distance_mm) {
-    if (frames_ == 0) first_ = &decision;
-    ++frames_;
+    if (decisions_ == 0) first_ = &decision;
+    ++decisions_;
+    // Decisions come frame by frame; pieces of one surface are several.
+    if (decision.record.frame != last_frame_) ++frames_;
+    last_frame_ = decision.record.frame;
     pixels_ += decision.pixels;
     if (distance_mm) harm_px_mm_ = harm_px_mm_.value_or(0.0) + decision.pixels * *distance_mm;
     distance_mm_ = distance_mm;
@@ -57,11 +60,11 @@ class Placement {
     event.cue = std::max_element(cues_.begin(), cues_.end(), fewer)->first;
     return event;
   }
-  int frames() const { return frames_; }
+  int decisions() const { return decisions_; }
 
  private:
   const PlaneDecision* first_ = nullptr;
-  int frames_ = 0;
+  int decisions_ = 0, frames_ = 0, last_frame_ = -1;
   long long pixels_ = 0;
   std::optional<double> distance_mm_, harm_px_mm_;
   std::map<std::string, int> cues_;
@@ -70,14 +73,14 @@ class Placement {
 /// [one][other]: of map planes the true planes, or the other way round.
 using Placements = std::map<int, std::map<int, Placement>>;
 
-/// Entries of a row that carry weight, but the one with most frames.
+/// Entries of a row that carry weight, but the one with most decisions.
 struct Mixture {
   int main = 0;
   std::vector<int> others;
 };
 Mixture MixtureOf(const std::map<int, Placement>& row) {
   std::map<int, int> counts;
-  for (const auto& [id, placement] : row) counts[id] = placement.frames();
+  for (const auto& [id, placement] : row) counts[id] = placement.decisions();
   Mixture mixture;
   mixture.others = StrongEntries(counts);
   if (mixture.others.empty()) return mixture;
@@ -113,7 +116,7 @@ void AddMixtures(const Placements& by_map, const Placements& by_truth,
 /// The true plane that a map plane was most often seen as; null where it was seen as none.
 const std::pair<const int, Placement>* MostShown(const std::map<int, Placement>& row) {
   const auto most = std::max_element(row.begin(), row.end(), [](const auto& a, const auto& b) {
-    return a.second.frames() < b.second.frames();
+    return a.second.decisions() < b.second.decisions();
   });
   return most == row.end() ? nullptr : &*most;
 }

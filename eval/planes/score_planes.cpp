@@ -19,7 +19,7 @@ class PlaneScorer {
     for (const SeenPlane& seen : e.truth.planes) {
       if (seen.counted) seen_.insert(seen.plane->id);
     }
-    FrameScore frame{e.number, e.truth.stamp_s, 0, std::nullopt};
+    FrameScore frame{e.number, 0, std::nullopt};
     for (const SeenPlane& seen : e.truth.planes) frame.true_planes += seen.counted ? 1 : 0;
     if (e.pairs) frame.regions = regions_.Add(e);
     score_.by_frame.push_back(frame);

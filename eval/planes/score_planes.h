@@ -19,8 +19,7 @@ namespace eval {
 
 /// What one frame shows.
 struct FrameScore {
-  int frame = 0;  ///< in the sequence, from 0
-  double stamp_s = 0.0;
+  int frame = 0;                       ///< in the sequence, from 0
   int true_planes = 0;                 ///< that count
   std::optional<HooverScore> regions;  ///< only by pixels
 };

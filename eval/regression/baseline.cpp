@@ -24,8 +24,6 @@ GateCase CaseOf(const nlohmann::json& record, const std::string& where) {
 
 }  // namespace
 
-std::string SceneOfKey(const std::string& key) { return key.substr(0, key.find('/')); }
-
 std::string ArmOfKey(const std::string& key) {
   const std::size_t slash = key.find('/');
   return slash == std::string::npos ? "" : key.substr(slash + 1);

@@ -18,8 +18,7 @@ struct GateCase {
 /// programs are paired by key.
 using GateCases = std::map<std::string, GateCase>;
 
-/// The part of a key before its first '/', and the part after it.
-std::string SceneOfKey(const std::string& key);
+/// The part of a key after its first '/'.
 std::string ArmOfKey(const std::string& key);
 
 /// Figures that the gate looks at, out of all of a case.

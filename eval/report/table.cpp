@@ -46,31 +46,6 @@ void AddClaims(const char* name, const std::optional<ClaimScore>& claims,
             claims->rotation.inside, claims->silent, claims->count);
 }
 
-void AddTrajectory(const Evaluation& e, Table& table) {
-  table.Heading("Trajectory");
-  const TrajectoryScore& t = e.trajectory;
-  const double percent = t.frames > 0 ? 100.0 * double(t.tracked) / double(t.frames) : 0.0;
-  table.Row("tracked", "%zu of %zu frames (%.1f %%)", t.tracked, t.frames, percent);
-  if (t.ate_se3) {
-    table.Row("ATE rmse (SE3)", "%.2f mm (median %.2f, max %.2f)", 1e3 * t.ate_se3->rmse,
-              1e3 * t.ate_se3->median, 1e3 * t.ate_se3->max);
-  } else {
-    table.Undefined("ATE rmse (SE3)", t.no_ate_se3);
-  }
-  if (t.ate_complete_rmse_m) {
-    table.Row("ATE, missing charged", "%.2f mm", 1e3 * *t.ate_complete_rmse_m);
-  }
-  if (t.rpe_1s) {
-    table.Row("RPE over 1 s", "%.2f mm, %.3f deg (%zu pairs)", 1e3 * t.rpe_1s->trans_rmse_m,
-              t.rpe_1s->rot_rmse_deg, t.rpe_1s->pairs);
-  }
-  if (t.consistency) {
-    AddClaims("told error", t.consistency->absolute, t.consistency->no_absolute, table);
-    AddClaims("told error over 1 s", t.consistency->relative, t.consistency->no_relative,
-              table);
-  }
-}
-
 /// The figures as metrics.json says them; it knows what is defined, and why not.
 class MetricTexts {
  public:
@@ -87,6 +62,35 @@ class MetricTexts {
  private:
   nlohmann::ordered_json metrics_;
 };
+
+void AddTrajectory(const Evaluation& e, const MetricTexts& texts, Table& table) {
+  table.Heading("Trajectory");
+  const TrajectoryScore& t = e.trajectory;
+  const double percent = t.frames > 0 ? 100.0 * double(t.tracked) / double(t.frames) : 0.0;
+  table.Row("tracked", "%zu of %zu frames (%.1f %%)", t.tracked, t.frames, percent);
+  if (t.ate_se3) {
+    table.Row("ATE rmse (SE3)", "%.2f mm (median %.2f, max %.2f)", 1e3 * t.ate_se3->rmse,
+              1e3 * t.ate_se3->median, 1e3 * t.ate_se3->max);
+  } else {
+    table.Undefined("ATE rmse (SE3)", t.no_ate_se3);
+  }
+  if (t.ate_complete_rmse_m) {
+    table.Row("ATE, missing charged", "%.2f mm", 1e3 * *t.ate_complete_rmse_m);
+  } else {
+    table.Undefined("ATE, missing charged", t.no_ate_complete);
+  }
+  if (t.rpe_1s) {
+    table.Row("RPE over 1 s", "%.2f mm, %.3f deg (%zu pairs)", 1e3 * t.rpe_1s->trans_rmse_m,
+              t.rpe_1s->rot_rmse_deg, t.rpe_1s->pairs);
+  } else {
+    table.Undefined("RPE over 1 s", texts.WhyNot("trajectory/rpe_1s"));
+  }
+  if (t.consistency) {
+    AddClaims("told error", t.consistency->absolute, t.consistency->no_absolute, table);
+    AddClaims("told error over 1 s", t.consistency->relative, t.consistency->no_relative,
+              table);
+  }
+}
 
 void AddAssociation(const PlaneScore& s, const MetricTexts& texts, Table& table) {
   table.Heading("Association");
@@ -159,8 +163,9 @@ void AddTiming(const TimingScore& t, Table& table) {
 
 std::string MetricsTable(const Evaluation& e) {
   Table table;
-  AddTrajectory(e, table);
-  if (e.planes) AddPlanes(*e.planes, MetricTexts(MetricsJson(e)), table);
+  const MetricTexts texts(MetricsJson(e));
+  AddTrajectory(e, texts, table);
+  if (e.planes) AddPlanes(*e.planes, texts, table);
   if (e.timing) AddTiming(*e.timing, table);
   return table.text();
 }

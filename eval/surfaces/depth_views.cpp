@@ -29,7 +29,6 @@ DepthViews::DepthViews(const Sequence& sequence, const Camera& camera,
   if (registration_) {
     camera_ = registration_->colour;
     camera_.depth_factor = camera.depth_factor;
-    camera_.fps = camera.fps;
   }
   rays_ = RaysOf(camera_);
   if (!sequence.groundtruth) {

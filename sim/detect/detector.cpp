@@ -4,6 +4,7 @@
 #include <cmath>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <utility>
 
 #include "sim/base/random.h"
 #include "sim/detect/confusions.h"
@@ -31,6 +32,11 @@ double Rounded(double value, double per_unit) {
 }
 std::uint64_t Key(std::uint64_t seed, std::uint64_t stream, std::uint64_t target) {
   return Random({seed, 0xDE7EC7ull, stream, target}).Bits();
+}
+/// Objects of one group are one thing, others one each.
+std::pair<bool, int> ThingOf(const Object& object) {
+  const bool grouped = object.detection_group > 0;
+  return {grouped, grouped ? object.detection_group : object.id};
 }
 bool LargeEnough(const PixelBox& box) { return box.x1 - box.x0 >= 2 && box.y1 - box.y0 >= 2; }
 
@@ -71,19 +77,19 @@ std::vector<DetectionTarget> Detector::VisibleTargets(const FrameTruth& truth) c
   std::map<int, const ObjectInFrame*> seen;
   for (const ObjectInFrame& object : truth.objects) seen[object.id] = &object;
   std::vector<Target> targets;
-  std::map<int, std::size_t> target_of_group;
+  std::map<std::pair<bool, int>, std::size_t> target_of;  // by ThingOf
   for (const Object& object : scene_.objects) {
     if (object.role != Role::kRegular && object.role != Role::kUnstructured) continue;
+    if (!target_of.try_emplace(ThingOf(object), targets.size()).second) continue;
+    targets.push_back({static_cast<std::uint64_t>(object.id), object.class_name, 0, 0, {}});
+  }
+  // What is not detected by itself may be a part of what is, as the keys of a keyboard.
+  for (const Object& object : scene_.objects) {
+    const auto thing = target_of.find(ThingOf(object));
     const auto found = seen.find(object.id);
-    const bool grouped = object.detection_group > 0;
-    std::size_t index = targets.size();
-    if (grouped)
-      index = target_of_group.try_emplace(object.detection_group, index).first->second;
-    if (index == targets.size()) {
-      targets.push_back({static_cast<std::uint64_t>(object.id), object.class_name, 0, 0, {}});
-    }
-    if (found == seen.end()) continue;
-    Target& target = targets[index];
+    if (thing == target_of.end() || found == seen.end()) continue;
+    if (object.role == Role::kStructure) continue;
+    Target& target = targets[thing->second];
     const PixelBox& box = found->second->visible_box;
     target.box =
         target.pixels == 0
@@ -91,7 +97,10 @@ std::vector<DetectionTarget> Detector::VisibleTargets(const FrameTruth& truth) c
             : PixelBox{std::min(target.box.x0, box.x0), std::min(target.box.y0, box.y0),
                        std::max(target.box.x1, box.x1), std::max(target.box.y1, box.y1)};
     target.pixels += found->second->pixels;
-    target.unoccluded += found->second->unoccluded_pixels;
+    // What one part hides of another does not hide the thing.
+    target.unoccluded = object.detection_group > 0
+                            ? truth.unoccluded_pixels_of_group.at(object.detection_group)
+                            : found->second->unoccluded_pixels;
   }
   const double min_pixels = model_.min_pixels * scale_ * scale_;
   std::erase_if(targets, [&](const Target& target) {

@@ -21,10 +21,10 @@ struct Detection {
 
 /// What there is to detect in a frame: an object, or objects that are detected as one.
 struct DetectionTarget {
-  std::uint64_t key = 0;  ///< id of the first object
+  std::uint64_t key = 0;  ///< id of the first object that is not `other`
   std::string class_name;
-  int pixels = 0, unoccluded = 0;
-  PixelBox box;  ///< round the visible part
+  int pixels = 0, unoccluded = 0;  ///< of all its objects together
+  PixelBox box;                    ///< round the visible part
   double VisibleFraction() const;
 };
 
@@ -55,7 +55,8 @@ DetectorModel PoorDetector();
 DetectorModel ModelOf(DetectorKind kind);
 
 /// Replays a detector from truth: one box per regular or unstructured object (objects of one
-/// detection_group are one) round its visible part. Structure and `other` are never reported.
+/// detection_group are one, those of role `other` with them) round its visible part. Structure,
+/// and `other` by itself, is never reported.
 /// `perfect` gives exactly those boxes, score 1; `noisy` and `poor` follow the model. Frame f
 /// depends on (seed, f, truth of f) alone.
 class Detector {

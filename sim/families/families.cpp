@@ -30,7 +30,8 @@ const FamilyParameter kKeycaps{
 std::vector<Recipe> DeskRecipes() {
   return {
       {{"desk",
-        "an office desk: many small near-parallel tops 6 to 50 mm over the desk and each other",
+        "an office desk: many small near-parallel tops 6 to 50 mm over the desk and each "
+        "other, from 15 objects on sheets too",
         {{"objects", 0, 0, 40, "things on the desk, 5 to 40; 0 draws 8 to 14", true, 5},
          kLamps,
          kKeycaps,

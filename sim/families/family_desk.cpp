@@ -136,9 +136,10 @@ Scene MakeDesk(std::uint64_t seed, const ParameterValues& values) {
                             : DrawWishes(std::max(kMinObjects, count - fewer), random);
     if (PutWishes(wishes, desk, random, scene)) return scene;
   }
-  throw io::InputError("family desk", "no room for " + std::to_string(count) +
-                                          " objects on the desk of seed " +
-                                          std::to_string(seed) + "; ask for fewer");
+  // Not only the family `desk` has one.
+  throw io::InputError("objects", "no room for " + std::to_string(count) +
+                                      " on the desk of seed " + std::to_string(seed) +
+                                      "; ask for fewer");
 }
 
 }  // namespace sim

@@ -12,12 +12,12 @@ MotionPreset PresetOf(const std::string& name) {
   if (name == "office") return {0.254, 14.1, 5, 0.5, 4.5, 0.25, 0.40, 0.06};
   if (name == "fast") return {0.453, 35.0, 22, 0.4, 13.0, 0.5, 0.80, 0.10};
   // Hardly any turning; hardly any way; both; and what follows a path (pattern_path.h).
-  if (name == "xyz") return {0.304, 17.2, 10, 0.25, 2.0, 0.25, 0.50, 0.08};
-  if (name == "rpy") return {0.06, 50, 30, 0.25, 1.5, 0.2, 0.60, 0.08};
-  if (name == "360") return {0.21, 42, 10, 0.25, 3.0, 0.3, 0.60, 0.08};
-  if (name == "orbit") return {0.25, 16, 8, 0.25, 2.5, 0.25, 0.40, 0.06};
-  if (name == "loop") return {0.254, 14.1, 8, 0.25, 5.0, 0.25, 0.30, 0.06};
-  if (name == "lookaway") return {0.20, 25, 8, 0.25, 2.5, 0.25, 0.40, 0.06};
+  if (name == "xyz") return {0.304, 17.2, 0, 0.25, 2.0, 0.25, 0.50, 0.08};
+  if (name == "rpy") return {0.06, 50, 0, 0.25, 1.5, 0.2, 0.60, 0.08};
+  if (name == "360") return {0.21, 42, 0, 0.25, 3.0, 0.3, 0.60, 0.08};
+  if (name == "orbit") return {0.25, 16, 0, 0.25, 2.5, 0.25, 0.40, 0.06};
+  if (name == "loop") return {0.254, 14.1, 0, 0.25, 5.0, 0.25, 0.30, 0.06};
+  if (name == "lookaway") return {0.20, 25, 0, 0.25, 2.5, 0.25, 0.40, 0.06};
   std::string known;
   for (const std::string& one : kPresetNames) known += (known.empty() ? "" : ", ") + one;
   throw io::InputError("motion.preset '" + name + "'", "expected one of: " + known);

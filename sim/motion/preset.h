@@ -14,7 +14,7 @@ inline constexpr double kPresetSample_s = 1.0 / 30;
 struct MotionPreset {
   double speed_m_s;
   double turn_deg_s;
-  double max_roll_deg;  ///< about the optical axis, either way
+  double max_roll_deg;  ///< about the optical axis, either way; 0: a pattern has its own
   double knot_s;  ///< between two knots of the path: hands have nearly no power above 1 Hz
   double slow_tremor_mm, fast_tremor_mm;    ///< standard deviation in space, 1-4 Hz and 4-12 Hz
   double slow_tremor_deg, fast_tremor_deg;  ///< the same of the rotation vector

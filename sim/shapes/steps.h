@@ -16,8 +16,8 @@ struct TopStep {
   double step_mm = 0;  ///< along the top's normal to the nearest point of that surface; >= 0
 };
 
-/// One entry for each upward face (within 10 degrees) of a regular box that has an upward face
-/// of another box under any part of it. In the order of the planes.
+/// One entry for each upward face (within 10 degrees) of a regular box or mesh that has an upward
+/// face of another object under any part of it. In the order of the planes.
 /// @param planes  all of the scene
 std::vector<TopStep> TopSteps(const Scene& scene, const std::vector<ScenePlane>& planes);
 

@@ -46,22 +46,22 @@ bool BoxOutline::Meets(const Eigen::Vector3d& ray) const {
 }
 
 /// Without a lens the box covers one stretch of a row.
-int BoxOutline::InStraightRow(const Camera& camera, const ImageRays& rays, const cv::Rect& area,
-                              int v) const {
+cv::Range BoxOutline::InStraightRow(const Camera& camera, const ImageRays& rays,
+                                    const cv::Rect& area, int v) const {
   double from = area.x, to = area.x + area.width - 1;  // pixels, as good as the division
   const double y = rays.At(area.x, v).y();
   // Each side of the outline leaves a half of the row; what all leave is the stretch.
   for (const Eigen::Vector3d& side : sides_c_) {
     const double rest = side.y() * y + side.z();
     if (side.x() == 0) {
-      if (rest < 0) return 0;
+      if (rest < 0) return {};
       continue;
     }
     const double u = camera.cx - camera.fx * rest / side.x();
     if (side.x() > 0) from = std::max(from, u);
     if (side.x() < 0) to = std::min(to, u);
   }
-  if (!(from <= to + 2)) return 0;
+  if (!(from <= to + 2)) return {};
   // Who is in at the ends, the planes decide.
   int first = static_cast<int>(std::ceil(from)), last = static_cast<int>(std::floor(to));
   const auto meets = [&](int u) {
@@ -71,11 +71,12 @@ int BoxOutline::InStraightRow(const Camera& camera, const ImageRays& rays, const
   last = std::min(last + 1, area.x + area.width - 1);
   while (first <= last && !meets(first)) ++first;
   while (last >= first && !meets(last)) --last;
-  return last - first + 1;
+  return {first, last + 1};
 }
 
 /// Behind a lens rows are bent: each pixel is asked, all sides of the outline by rows.
-int BoxOutline::InBentRows(const ImageRays& rays, const cv::Rect& area) const {
+int BoxOutline::InBentRows(const ImageRays& rays, const cv::Rect& area,
+                           cv::Mat1b* covered) const {
   const auto width = static_cast<std::size_t>(area.width);
   std::vector<double> x(width), y(width), innermost(width);
   int count = 0;
@@ -86,19 +87,25 @@ int BoxOutline::InBentRows(const ImageRays& rays, const cv::Rect& area) const {
     for (const Eigen::Vector3d& side : sides_c_) {
       LowerToPlane(side, x.data(), y.data(), area.width, innermost.data());
     }
-    count += static_cast<int>(
-        std::count_if(innermost.begin(), innermost.end(), [](double d) { return d >= 0; }));
+    const auto inside = [](double height) { return height >= 0; };
+    count += static_cast<int>(std::count_if(innermost.begin(), innermost.end(), inside));
+    for (std::size_t i = 0; covered != nullptr && i < width; ++i) {
+      if (inside(innermost[i])) (*covered)(v, area.x + static_cast<int>(i)) = 255;
+    }
   }
   return count;
 }
 
-int BoxOutline::PixelsInside(const Camera& camera, const ImageRays& rays,
-                             const cv::Rect& area) const {
+int BoxOutline::PixelsInside(const Camera& camera, const ImageRays& rays, const cv::Rect& area,
+                             cv::Mat1b* covered) const {
   if (area.empty()) return 0;
-  if (!camera.lens.IsNone()) return InBentRows(rays, area);
+  if (!camera.lens.IsNone()) return InBentRows(rays, area, covered);
   int count = 0;
   for (int v = area.y; v < area.y + area.height; ++v) {
-    count += InStraightRow(camera, rays, area, v);
+    const cv::Range inside = InStraightRow(camera, rays, area, v);
+    if (inside.empty()) continue;
+    count += inside.size();
+    if (covered != nullptr) covered->row(v).colRange(inside).setTo(255);
   }
   return count;
 }

@@ -1,7 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <opencv2/core/types.hpp>
+#include <opencv2/core/mat.hpp>
 #include <vector>
 
 #include "sim/base/pose.h"
@@ -19,13 +19,14 @@ class BoxOutline {
   BoxOutline(const Object& box, const Pose& T_wc);
 
   bool Meets(const Eigen::Vector3d& ray) const;
-  /// Pixels of the area whose centre's ray meets the box.
-  int PixelsInside(const Camera& camera, const ImageRays& rays, const cv::Rect& area) const;
+  /// Pixels of the area whose centre's ray meets the box; 255 in `covered`, if given.
+  int PixelsInside(const Camera& camera, const ImageRays& rays, const cv::Rect& area,
+                   cv::Mat1b* covered = nullptr) const;
 
  private:
-  int InStraightRow(const Camera& camera, const ImageRays& rays, const cv::Rect& area,
-                    int v) const;
-  int InBentRows(const ImageRays& rays, const cv::Rect& area) const;
+  cv::Range InStraightRow(const Camera& camera, const ImageRays& rays, const cv::Rect& area,
+                          int v) const;
+  int InBentRows(const ImageRays& rays, const cv::Rect& area, cv::Mat1b* covered) const;
 
   std::vector<Eigen::Vector3d> sides_c_;  ///< normals, inwards
 };

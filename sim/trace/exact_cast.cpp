@@ -97,7 +97,7 @@ void ExactCaster::Try(int triangle, const Eigen::Vector3d& origin_w,
   const Eigen::Vector3d n = (t.b - t.a).cross(t.c - t.a);
   const double slope = n.dot(direction_w), distance = n.dot(a) / slope;
   if (!(distance > near)) return;
-  const ExactHit hit{triangle, distance, ca / sum, ab / sum, slope < 0};
+  const ExactHit hit{triangle, distance, slope < 0};
   // Of triangles at one distance, that seen from its front wins, then the first in the scene.
   if (best.triangle < 0 || distance < best.distance * (1 - kSame)) {
     best = hit;

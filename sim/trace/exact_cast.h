@@ -11,8 +11,7 @@ namespace sim {
 /// What a ray meets; triangle -1 is nothing.
 struct ExactHit {
   int triangle = -1;
-  double distance = 0;    ///< in units of the direction
-  double b1 = 0, b2 = 0;  ///< barycentric weights of corners 1 and 2
+  double distance = 0;  ///< in units of the direction
   bool from_front = false;
 };
 

@@ -1,6 +1,7 @@
 #include "sim/trace/frame_renderer.h"
 
 #include <algorithm>
+#include <array>
 
 #include "sim/scene/geometry.h"
 #include "sim/trace/box_outline.h"
@@ -13,24 +14,32 @@ namespace {
 
 /// As the header's UnoccludedPixels, by rays at the object alone.
 int CastAlone(const RenderWorld& world, std::size_t object_index, const Pose& T_wc,
-              const cv::Rect& area, const cv::Mat1w& object_id) {
+              const cv::Rect& area, const cv::Mat1w& object_id, cv::Mat1b* covered) {
   const auto own = static_cast<ushort>(world.scene.objects[object_index].id);
   const RayScene& alone = world.Alone(object_index);
   int count = 0;
   for (int v = area.y; v < area.y + area.height; ++v) {
     RayPacket packet;
+    std::array<int, RayPacket::kLanes> column{};
     int lane = 0;
+    const auto add = [&](int u) {
+      ++count;
+      if (covered != nullptr) (*covered)(v, u) = 255;
+    };
     const auto cast = [&] {
       for (int i = lane; i < RayPacket::kLanes; ++i) packet.Disable(i);
       const auto blocked = alone.Blocked(packet);
-      count += static_cast<int>(std::count(blocked.begin(), blocked.end(), true));
+      for (std::size_t i = 0; i < static_cast<std::size_t>(lane); ++i) {
+        if (blocked[i]) add(column[i]);
+      }
       lane = 0;
     };
     for (int u = area.x; u < area.x + area.width; ++u) {
       if (object_id(v, u) == own) {
-        ++count;
+        add(u);
         continue;
       }
+      column[static_cast<std::size_t>(lane)] = u;
       packet.Set(lane++, T_wc.t, T_wc.R * world.image_rays.At(u, v), kNearRay_m);
       if (lane == RayPacket::kLanes) cast();
     }
@@ -72,16 +81,16 @@ double FrameRenderer::BareTraversal_s(const Pose& T_wc, const RenderOptions& opt
 
 int FrameRenderer::UnoccludedPixels(std::size_t object_index, const Pose& T_wc,
                                     const cv::Rect& where, const cv::Mat1w& object_id,
-                                    double time_s) const {
+                                    double time_s, cv::Mat1b* covered) const {
   const Camera& camera = world_->standing.camera;
   const cv::Rect area = where & cv::Rect(0, 0, camera.width, camera.height);
   const auto [world, place] = world_->Find(object_index);
   const Pose T_mc = Inverse(Moved(object_index, time_s)) * T_wc;
   const Object& object = world->scene.objects.at(place);
   if (object.shape != ShapeKind::kBox) {
-    return CastAlone(*world, place, T_mc, area, object_id);
+    return CastAlone(*world, place, T_mc, area, object_id, covered);
   }
-  return BoxOutline(object, T_mc).PixelsInside(camera, world->image_rays, area);
+  return BoxOutline(object, T_mc).PixelsInside(camera, world->image_rays, area, covered);
 }
 
 Pose FrameRenderer::Moved(std::size_t object_index, double time_s) const {

@@ -77,8 +77,10 @@ class FrameRenderer {
   /// @param object_index  index into scene.objects
   /// @param where         pixels to look at; must hold the whole silhouette in the image
   /// @param object_id     of the same view
+  /// @param covered       of the image's size; if given, those pixels become 255 in it
   int UnoccludedPixels(std::size_t object_index, const Pose& T_wc, const cv::Rect& where,
-                       const cv::Mat1w& object_id, double time_s = 0) const;
+                       const cv::Mat1w& object_id, double time_s = 0,
+                       cv::Mat1b* covered = nullptr) const;
 
   /// From the place where an object stands in the mesh of the scene to where it is at a moment.
   Pose Moved(std::size_t object_index, double time_s) const;

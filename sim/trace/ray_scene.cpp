@@ -177,8 +177,6 @@ RayScene::RayScene(std::span<const Triangle> triangles, InstructionSet set)
 }
 
 RayScene::~RayScene() = default;
-RayScene::RayScene(RayScene&&) noexcept = default;
-RayScene& RayScene::operator=(RayScene&&) noexcept = default;
 
 void RayScene::Nearest(const RayRow& rays, int count, int* triangle) const {
   RTCRayHit8 query;

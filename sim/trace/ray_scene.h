@@ -70,8 +70,6 @@ class RayScene {
   explicit RayScene(std::span<const Triangle> triangles,
                     InstructionSet set = InstructionSet::kPinned);
   ~RayScene();
-  RayScene(RayScene&&) noexcept;
-  RayScene& operator=(RayScene&&) noexcept;
 
   /// Nearest hit of each lane.
   PacketHits Nearest(const RayPacket& rays) const;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <opencv2/core.hpp>
 
 #include "sim/scene/geometry.h"
 
@@ -38,6 +39,11 @@ std::map<int, Extent> Extents(const cv::Mat1w& ids) {
     if (by_id[id].pixels > 0) seen.emplace(static_cast<int>(id), by_id[id]);
   }
   return seen;
+}
+
+/// The group that an object is detected with; 0 = none.
+int GroupOf(const Object& object) {
+  return object.role == Role::kStructure ? 0 : object.detection_group;
 }
 
 /// Pixels whose centre may lie in the box, cut at the image.
@@ -98,25 +104,42 @@ FrameTruth TruthMaker::Describe(const Rendering& rendering, const Pose& T_wc,
   FrameTruth truth;
   const std::map<int, Extent> seen = Extents(rendering.object_id);
   const std::vector<Object>& objects = renderer_.scene().objects;
+  std::map<int, cv::Mat1b> covered;  // by group, of those that are seen
+  for (const Object& object : objects) {
+    if (GroupOf(object) == 0 || !seen.contains(object.id)) continue;
+    covered.try_emplace(GroupOf(object), rendering.object_id.size(), uchar{0});
+  }
   for (std::size_t i = 0; i < objects.size(); ++i) {
     const auto found = seen.find(objects[i].id);
-    if (found == seen.end()) continue;
+    const auto group = covered.find(GroupOf(objects[i]));
+    if (found == seen.end() && group == covered.end()) continue;
+    // What moved is seen as if it stood and the camera had moved round it.
+    const std::optional<PixelBox> whole = ProjectedBox(
+        triangles_[i], Inverse(renderer_.Moved(i, time_s)) * T_wc, renderer_.camera());
+    const auto unoccluded_pixels = [&](const PixelBox& box) {
+      return renderer_.UnoccludedPixels(i, T_wc, PixelsOf(box, renderer_.camera()),
+                                        rendering.object_id, time_s,
+                                        group == covered.end() ? nullptr : &group->second);
+    };
+    if (found == seen.end()) {  // hidden, a part of its group all the same
+      if (whole) unoccluded_pixels(*whole);
+      continue;
+    }
     const Extent& extent = found->second;
     ObjectInFrame object;
     object.id = objects[i].id;
     object.pixels = extent.pixels;
     object.visible_box = {static_cast<double>(extent.u0), static_cast<double>(extent.v0),
                           static_cast<double>(extent.u1), static_cast<double>(extent.v1)};
-    // What moved is seen as if it stood and the camera had moved round it.
-    object.amodal_box = ProjectedBox(triangles_[i], Inverse(renderer_.Moved(i, time_s)) * T_wc,
-                                     renderer_.camera())
-                            .value_or(object.visible_box);
-    object.unoccluded_pixels = renderer_.UnoccludedPixels(
-        i, T_wc, PixelsOf(object.amodal_box, renderer_.camera()), rendering.object_id, time_s);
+    object.amodal_box = whole.value_or(object.visible_box);
+    object.unoccluded_pixels = unoccluded_pixels(object.amodal_box);
     if (!objects[i].way.empty()) object.T_wo = ObjectPoseAt(objects[i], time_s);
     object.visible_fraction =
         static_cast<double>(object.pixels) / std::max(object.unoccluded_pixels, object.pixels);
     truth.objects.push_back(object);
+  }
+  for (const auto& [group, pixels] : covered) {
+    truth.unoccluded_pixels_of_group[group] = cv::countNonZero(pixels);
   }
   std::sort(truth.objects.begin(), truth.objects.end(),
             [](const auto& a, const auto& b) { return a.id < b.id; });

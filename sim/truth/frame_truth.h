@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <map>
 #include <optional>
 #include <vector>
 
@@ -50,10 +51,13 @@ struct PlaneInFrame {
 struct FrameTruth {
   std::vector<ObjectInFrame> objects;
   std::vector<PlaneInFrame> planes;
+  /// By detection_group, of those with pixels: what its objects would show together, were nothing
+  /// else there. Structure is no part of a group.
+  std::map<int, int> unoccluded_pixels_of_group = {};
 };
 
-/// What is visible where, from the id images; how much of each object the others hide, by
-/// casting each object's rays alone. Const and thread-safe.
+/// What is visible where, from the id images; how much of each object and group the others hide,
+/// by casting each object's rays alone. Const and thread-safe.
 class TruthMaker {
  public:
   explicit TruthMaker(const FrameRenderer& renderer);  ///< kept by reference

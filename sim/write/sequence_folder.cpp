@@ -92,12 +92,8 @@ void WriteManifest(const fs::path& folder, const Json& manifest) {
 }
 
 bool PrepareFolder(const fs::path& folder, const Json& plan, Existing existing) {
-  const bool there = fs::exists(folder);
-  if (there && !fs::is_directory(folder)) {
-    throw io::InputError(folder.string(), "is a file; name a folder for the sequence");
-  }
   const bool empty =
-      !there || (existing == Existing::kRefuse ? fs::is_empty(folder) : HoldsNothing(folder));
+      existing == Existing::kRefuse ? fs::is_empty(folder) : HoldsNothing(folder);
   const std::optional<Json> old = empty ? std::nullopt : ReadManifest(folder);
   if (!empty && existing == Existing::kRefuse) {
     throw io::InputError(folder.string(),

@@ -10,7 +10,7 @@ namespace sim {
 /// What to do when the output folder is there already.
 enum class Existing { kRefuse, kResume, kReplace };
 
-/// Makes the folder ready for a sequence whose unfinished manifest is `plan` (formats.md, with
+/// Makes a folder that is there ready for a sequence whose unfinished manifest is `plan` (formats.md, with
 /// complete: false). Afterwards the folder and rgb/, depth/, gt/plane_id/, gt/object_id/ exist
 /// and manifest.json says complete: false, unless the result tells that all is done.
 /// kReplace deletes only an empty folder or one with a sequence's manifest.

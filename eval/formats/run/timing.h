@@ -7,7 +7,7 @@
 
 namespace eval {
 
-/// timing.csv: milliseconds per module and frame; NaN where a module did not run.
+/// timing.csv: milliseconds per module and frame; NaN where a cell is empty.
 struct Timing {
   std::vector<std::string> modules;  ///< column names after `timestamp`
   std::vector<double> stamps_s;

@@ -83,7 +83,7 @@ void TellFrameCount(Folder& folder, const Manifest& manifest, std::size_t frames
   if (!manifest.frame_count || *manifest.frame_count == static_cast<int>(frames)) return;
   folder.Tell(
       {"manifest.json", 0, "/" + manifest.frame_count_key,
-       fmt::format("is {}, but rgb.txt lists {}", *manifest.frame_count, frames), kMakeAgain},
+       fmt::format("is {}, but the lists give {}", *manifest.frame_count, frames), kMakeAgain},
       Severity::kWarning);
 }
 

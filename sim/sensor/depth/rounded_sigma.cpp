@@ -19,6 +19,8 @@ constexpr double kMaxStepRatio = 4.0;
 /// Depth range that has a table: coarse steps of a user's own model would need no end of it.
 constexpr double kMaxRange_m = 3.0;
 constexpr double kSummedTail = 5.0;  ///< sds of noise that are summed
+/// A finer grid of disparity, in sds of the noise, is as good as none: Simple's sum is right.
+constexpr double kMinGridRatio = 0.1;
 constexpr int kRounds = 2;  ///< rounds of the fixed point; the second changes less than 0.3 %
 
 double Simple(double z, const D435Model& m) {
@@ -55,6 +57,7 @@ double VarianceOut(double z, double sigma_px, const D435Model& m) {
 
 RoundedSigma::RoundedSigma(const D435Model& model) : model_(model) {
   if (!(model.grid_px > 0 && model.rounding_m > 0 && model.subpixel_px > 0)) return;
+  if (model.grid_px < kMinGridRatio * model.subpixel_px) return;
   const double last_m = std::min({model.max_depth_m, model.min_depth_m + kMaxRange_m,
                                   std::sqrt(kMaxStepRatio * model.rounding_m *
                                             model.focal_baseline_px_m / model.grid_px)});
@@ -71,8 +74,8 @@ RoundedSigma::RoundedSigma(const D435Model& model) : model_(model) {
     double sigma = Simple(z, model);
     for (int round = 0; round < kRounds; ++round) {
       const double lacks = (wanted * wanted - VarianceOut(z, sigma, model)) * per_m * per_m;
-      sigma = std::sqrt(std::clamp(sigma * sigma + lacks, least * least,
-                                   2 * model.subpixel_px * model.subpixel_px));
+      const double most = 2 * model.subpixel_px * model.subpixel_px;
+      sigma = std::sqrt(std::max(std::min(sigma * sigma + lacks, most), least * least));
     }
     sigma_px_.push_back(sigma);
   }

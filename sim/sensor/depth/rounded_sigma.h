@@ -22,7 +22,7 @@ class RoundedSigma {
 
  private:
   double first_m_ = 0, step_m_ = 0;
-  std::vector<double> sigma_px_;  ///< empty: one rounding or none, nothing to correct
+  std::vector<double> sigma_px_;  ///< empty: nothing to correct, one rounding or none matters
   D435Model model_;
 };
 

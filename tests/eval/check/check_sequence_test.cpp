@@ -193,7 +193,7 @@ TEST_F(CheckSequenceFolder, NamesAManifestThatIsNotComplete) {
 
 TEST_F(CheckSequenceFolder, NamesAFrameCountThatTheListsDoNotHave) {
   Edit(seq() / "manifest.json", "\"frames\": 4", "\"frames\": 5");
-  ExpectOnly("manifest.json", 0, "/frames", "rgb.txt lists 4");
+  ExpectOnly("manifest.json", 0, "/frames", "the lists give 4");
 }
 
 TEST_F(CheckSequenceFolder, NamesAFormatOfAnotherVersion) {

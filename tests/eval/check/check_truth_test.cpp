@@ -139,6 +139,22 @@ TEST_F(CheckSequenceFolder, NamesPixelsWhoseObjectDoesNotOwnTheirPlane) {
   EXPECT_THAT(report.faults[2].what, HasSubstr("whose object is not"));
 }
 
+TEST_F(CheckSequenceFolder, ChecksIdImagesWithoutTheListsOfFramesToo) {
+  fs::remove(seq() / "gt/frames.jsonl");
+  Renew();
+  EXPECT_TRUE(CheckFolder(seq()).faults.empty()) << All(CheckFolder(seq()));
+  const std::string planes = "gt/plane_id/" + Stamp(0) + ".png";
+  WriteText(seq() / planes, "junk");
+  Renew();
+  ExpectOnly(planes, 0, "", "PNG");
+  fs::remove(seq() / planes);
+  Renew();
+  ExpectOnly(planes, 0, "", "is missing");
+  fs::remove_all(seq() / "gt/plane_id");
+  Renew();
+  EXPECT_TRUE(CheckFolder(seq()).faults.empty()) << All(CheckFolder(seq()));
+}
+
 // The mistakes that cost users of such data most time.
 
 class CheckDepthAgainstTruth : public CheckSequenceFolder {

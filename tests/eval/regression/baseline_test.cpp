@@ -55,7 +55,6 @@ TEST_F(BaselineFile, ThatIsMissingSaysHowToMakeOne) {
 }
 
 TEST(BaselineKeys, AreAsSceneAndArm) {
-  EXPECT_EQ(SceneOfKey("desk-1/kinect1/own/full/default"), "desk-1");
   EXPECT_EQ(ArmOfKey("desk-1/kinect1/own/full/default"), "kinect1/own/full/default");
 }
 

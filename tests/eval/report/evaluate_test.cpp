@@ -303,6 +303,17 @@ TEST_F(EvaluateTinyWorld, ARunWithoutPosesHasNoErrorOfZero) {
   EXPECT_THAT(MetricsTable(evaluation), HasSubstr("-  (the run has no pose)"));
 }
 
+TEST_F(EvaluateTinyWorld, TheTableSaysWhyAFigureOfTheTrajectoryIsMissing) {
+  Evaluation evaluation = EvaluationOf(TinyRun(*world_));
+  evaluation.trajectory.rpe_1s.reset();
+  evaluation.trajectory.ate_complete_rmse_m.reset();
+  evaluation.trajectory.no_ate_complete = "no frame has a true pose";
+  const std::string table = MetricsTable(evaluation);
+  EXPECT_THAT(table, HasSubstr("ATE, missing charged       -  (no frame has a true pose)"));
+  EXPECT_THAT(table,
+              HasSubstr("RPE over 1 s               -  (no two matched poses are 1 s apart)"));
+}
+
 TEST_F(EvaluateTinyWorld, APoseForAFrameThatDoesNotExistIsRefused) {
   TinyRun run(*world_);
   run.trajectory.emplace_back(99.5, Pose{});

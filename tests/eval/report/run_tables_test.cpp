@@ -119,6 +119,25 @@ TEST_F(EventsOfTinyWorld, AMergeSumsUpWhatItsWrongDecisionsDid) {
   EXPECT_NEAR(merge[0].harm_px_mm.value(), harm, 1e4 * kExact_mm);
 }
 
+// Three decisions, so a merge; two of them on pieces of the book in one frame.
+TEST(PlaneEvents, CountFramesNotDecisions) {
+  DecisionHistory history;
+  for (const auto& [frame, truth] : {std::pair{0, 1}, {1, 1}, {2, 1}, {2, 2}, {2, 2}, {3, 2}}) {
+    history.decisions.push_back({{frame, truth, 7}, 0.0, 10, "", Eigen::Vector3d::Zero()});
+  }
+  const std::vector<RunMapPlane> map;
+  const SceneTruth scene;
+  const std::optional<Alignment> gauge;
+  const std::vector<RunEvent> events = FindPlaneEvents(history, {}, {map, scene, gauge});
+  const auto merge = std::find_if(events.begin(), events.end(), [](const RunEvent& event) {
+    return event.kind == EventKind::kMerge;
+  });
+  ASSERT_NE(merge, events.end());
+  EXPECT_EQ(merge->truth, 2);
+  EXPECT_EQ(merge->frames, 2);
+  EXPECT_EQ(merge->pixels, 30);
+}
+
 TEST_F(EventsOfTinyWorld, ALargeSurfaceWithoutADecisionIsListedAndCountedAfterTheFirstSecond) {
   TinyRun run(*world_);
   const nlohmann::json before = Metrics(run);

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
@@ -37,7 +38,8 @@ FrameTruth AllSeen() {
   return {{Seen(1, 90000, 90000, {0, 0, 639, 479}), Seen(2, 9000, 9000, {100, 100, 200, 190}),
            Seen(3, 9000, 9000, {90, 40, 210, 100}), Seen(4, 2500, 2500, {400, 100, 450, 150}),
            Seen(5, 2500, 2500, {500, 100, 550, 150})},
-          {}};
+          {},
+          {{1, 18000}}};
 }
 
 TEST(PerfectDetector, BoxesWhatIsVisibleOfGroupsAndToysAlone) {
@@ -56,6 +58,39 @@ TEST(PerfectDetector, BoxesTheLidAloneWhenTheBaseIsHidden) {
   truth.objects.erase(truth.objects.begin() + 1);
   const Detector detector(LaptopOnDesk(), Camera{}, DetectorKind::kPerfect, 1);
   EXPECT_EQ(detector.Detect(0, truth)[0].box, (PixelBox{90, 40, 210, 100}));
+}
+
+TEST(PerfectDetector, TakesPartsOfRoleOtherForTheThingThatTheyAreGroupedWith) {
+  Scene scene = LaptopOnDesk();
+  scene.objects[4].detection_group = 1;
+  std::rotate(scene.objects.begin(), scene.objects.end() - 1, scene.objects.end());
+  FrameTruth truth = AllSeen();
+  truth.unoccluded_pixels_of_group[1] = 20500;
+  const Detector detector(scene, Camera{}, DetectorKind::kPerfect, 1);
+  const auto targets = detector.VisibleTargets(truth);
+  ASSERT_EQ(targets.size(), 2u);
+  EXPECT_EQ(targets[0].key, 2u);  // begun by what can be detected by itself
+  EXPECT_EQ(targets[0].class_name, "laptop");
+  EXPECT_EQ(targets[0].pixels, 20500);
+  EXPECT_EQ(targets[0].box, (PixelBox{90, 40, 550, 190}));
+}
+
+TEST(PerfectDetector, LeavesAGroupOfRoleOtherAlone) {
+  Scene scene = LaptopOnDesk();
+  scene.objects[4].detection_group = 2;
+  FrameTruth truth = AllSeen();
+  truth.unoccluded_pixels_of_group[2] = 2500;
+  const Detector detector(scene, Camera{}, DetectorKind::kPerfect, 1);
+  EXPECT_EQ(detector.VisibleTargets(truth).size(), 2u);
+}
+
+// The lid stands before 3000 pixels of the base: together they would show 15000.
+TEST(PerfectDetector, CountsWhatOnePartHidesOfAnotherAsNoneHidden) {
+  FrameTruth truth = AllSeen();
+  truth.objects[1].pixels = 6000;
+  truth.unoccluded_pixels_of_group[1] = 15000;
+  const Detector detector(LaptopOnDesk(), Camera{}, DetectorKind::kPerfect, 1);
+  EXPECT_EQ(detector.VisibleTargets(truth)[0].VisibleFraction(), 1.0);
 }
 
 TEST(PerfectDetector, LeavesOutWhatIsTooSmallToSee) {

@@ -166,6 +166,17 @@ TEST(MakeScene, RefusesWhatNoFamilyOffers) {
   EXPECT_THROW(MakeScene("stack", 1, {{"count", 2.5}}), io::InputError);
 }
 
+TEST(MakeScene, DoesNotBlameTheFamilyDeskForTheDeskOfAnother) {
+  try {
+    MakeScene("revisit", 14597, {{"objects", 14}});
+    ADD_FAILURE() << "no error";
+  } catch (const io::InputError& error) {
+    const std::string text = error.what();
+    EXPECT_EQ(text.find("family desk"), std::string::npos) << text;
+    EXPECT_EQ(text.find("objects: no room for 14"), 0u) << text;
+  }
+}
+
 // What draws a value when it is 0 has a least value of its own besides.
 TEST(MakeScene, RefusesLessThanTheLeastButTakesNothingForADraw) {
   using Given = std::map<std::string, double>;

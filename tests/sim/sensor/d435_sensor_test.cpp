@@ -40,6 +40,25 @@ TEST(RoundedSigma, IsThatOfTheModelItIsAskedForWhateverWasAskedBefore) {
   }
 }
 
+// It would take hours to sum over its steps.
+TEST(RoundedSigma, TakesAGridThatIsFineBesideTheNoiseForNone) {
+  const RoundedSigma none(D435Model{.grid_px = 0});
+  for (const double grid_px : {0.005, 1e-9}) {
+    const RoundedSigma fine(D435Model{.grid_px = grid_px});
+    for (const double z_m : {0.3, 0.59, 1.3}) {
+      EXPECT_NEAR(fine.At(z_m), none.At(z_m), 1e-3 * none.At(z_m)) << grid_px << ", " << z_m;
+    }
+  }
+}
+
+TEST(RoundedSigma, LeavesASixthOfTheGridWhereTheNoiseIsLess) {
+  const D435Model quiet{.subpixel_px = 0.003};
+  const RoundedSigma sigma(quiet);
+  for (double z_m = 0.3; z_m < 1.5; z_m += 0.01) {
+    EXPECT_GE(sigma.At(z_m), 0.999 * quiet.grid_px / 6) << z_m;
+  }
+}
+
 class D435NoiseAt : public testing::TestWithParam<double> {
  protected:
   /// Noise alone. No blind band: the narrow view would be all blind.

@@ -52,6 +52,8 @@ TEST(SensorFile, RefusesValuesOutOfRange) {
   EXPECT_THAT(ErrorOf("base: azure\nreflectivity: 1.5\n"), HasSubstr("mine.yaml:2"));
   EXPECT_THAT(ErrorOf("base: azure\nreflectivity: .nan\n"), HasSubstr("mine.yaml:2"));
   EXPECT_THAT(ErrorOf("base: d435\nwindow_px: 6\n"), HasSubstr("odd"));
+  // gt/depth_warp.png would be cut off.
+  EXPECT_THAT(ErrorOf("base: azure\nbend_rms: 0.009\n"), HasSubstr("mine.yaml:2"));
 }
 
 TEST(SensorFile, RefusesARangeThatLeavesNoDepth) {

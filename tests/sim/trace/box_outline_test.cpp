@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <opencv2/core.hpp>
+
 #include "sim/base/random.h"
 #include "sim/trace/exact_cast.h"
 #include "tests/sim/support/sim_worlds.h"
@@ -39,7 +41,10 @@ void ExpectTheSameAsByCasting(const Camera& camera, int views) {
     const Pose T_wc = LookAt(draw(0.8), draw(0.3));
     const int expected = PixelsByCasting(box, T_wc, camera);
     seen += expected > 0 ? 1 : 0;
-    EXPECT_EQ(BoxOutline(box, T_wc).PixelsInside(camera, rays, all), expected) << "view " << i;
+    cv::Mat1b covered(all.size(), uchar{0});
+    EXPECT_EQ(BoxOutline(box, T_wc).PixelsInside(camera, rays, all, &covered), expected)
+        << "view " << i;
+    EXPECT_EQ(cv::countNonZero(covered), expected) << "view " << i;
   }
   EXPECT_GT(seen, views / 4);
 }

@@ -34,6 +34,28 @@ TEST(FrameTruth, CountsHalfABoardAsHalfVisible) {
   EXPECT_EQ(truth.objects[1].visible_fraction, 1.0);
 }
 
+// A board, one before it and a toy are one thing; a book stands before them and hides the toy.
+TEST(FrameTruth, CountsWhatAGroupWouldShowTogetherAndAlone) {
+  Scene scene = HalfHidden();
+  scene.objects.push_back(
+      BoxObject(3, "teddy bear", Role::kOther, {0.6, 1.5, 0}, {0.1, 0.1, 0.1}));
+  scene.objects[2].shape = ShapeKind::kToy;
+  for (Object& object : scene.objects) object.detection_group = 7;
+  for (const Camera& camera : {SmallCamera(), WithLens(SmallCamera(), {0.1, 0, 0, 0, 0})}) {
+    const Rendering alone = FrameRenderer(scene, camera).Render(LookAlongY());
+    Scene hidden = scene;
+    hidden.objects.push_back(
+        BoxObject(4, "book", Role::kRegular, {0.3, 0.75, 0}, {0.3, 0.1, 0.3}));
+    const FrameTruth truth = TruthOf(hidden, camera, LookAlongY());
+    EXPECT_EQ(std::count_if(truth.objects.begin(), truth.objects.end(),
+                            [](const ObjectInFrame& object) { return object.id == 3; }),
+              0);
+    ASSERT_EQ(truth.unoccluded_pixels_of_group.size(), 1u);
+    EXPECT_NEAR(truth.unoccluded_pixels_of_group.at(7), cv::countNonZero(alone.object_id), 1);
+    EXPECT_GT(cv::countNonZero(alone.object_id == 3), 20);
+  }
+}
+
 TEST(FrameTruth, BoxesTheVisiblePartAndTheWhole) {
   const Camera camera;
   const ObjectInFrame far = TruthOf(HalfHidden(), camera, LookAlongY()).objects[0];
