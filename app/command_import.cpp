@@ -54,6 +54,13 @@ cv::Mat1w RawDepth(const cv::Mat1f& depth_m, double depth_factor, long& too_far)
   return raw;
 }
 
+/// Frames a second, by the first and the last stamp; `otherwise` where these are of one frame.
+double RateOf(const slam::SequenceReader& reader, double otherwise) {
+  const int last = reader.size() - 1;
+  return last > 0 ? last / (reader.entry(last).timestamp_s - reader.entry(0).timestamp_s)
+                  : otherwise;
+}
+
 int RunImport(const ImportArguments& arguments, bool quiet) {
   io::RequireRecording(arguments.bag);
   if (!io::IsBagFile(arguments.bag)) {
@@ -61,11 +68,14 @@ int RunImport(const ImportArguments& arguments, bool quiet) {
                          "is a sequence already; give it to `pas slam` as it is");
   }
   if (arguments.force) {
-    io::RefuseInputsInside(arguments.output, {arguments.bag, arguments.camera});
+    std::error_code ignored;  // tum1 is a word, and a folder may be called so
+    const bool file = std::filesystem::is_regular_file(arguments.camera, ignored);
+    io::RefuseInputsInside(arguments.output, {arguments.bag, file ? arguments.camera : ""});
   }
   io::OutputFolder folder(arguments.output, kOrigin, arguments.force);
-  const slam::Camera camera = slam::ChooseCamera(arguments.camera, arguments.bag).camera;
+  slam::Camera camera = slam::ChooseCamera(arguments.camera, arguments.bag).camera;
   slam::SequenceReader reader(arguments.bag, camera);
+  camera.fps = RateOf(reader, camera.fps);
   std::string list, colour_list, depth_list;
   long too_far = 0;
   Progress progress("import", reader.size(), quiet);

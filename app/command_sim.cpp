@@ -259,6 +259,7 @@ ReadRecording AddRecordingOptions(CLI::App& command, const std::string& prefix) 
     arguments->scene = scene_file;
     if (seed && seed_option->count() == 0) arguments->seed = *seed;
     SceneRecording result;
+    result.inputs = InputsOf(*arguments);
     result.scene = SceneOf(*arguments);
     result.options = OptionsOf(*arguments, result.scene);
     result.recording = RecordingOf(*arguments, result.scene, result.options);
@@ -271,18 +272,21 @@ void AddSimCommand(CLI::App& pas, const Globals& globals, int& exit_code) {
   const auto arguments = std::make_shared<SimArguments>();
   SimArguments& a = *arguments;
   command->add_option("SCENE", a.scene, "Scene file (YAML); see `pas scene`");
-  command->add_option("--sensor-report", a.sensor_report,
-                      "Instead of rendering a scene: measure this sensor on walls against its "
-                      "published curve; writes a table and a figure to the output folder");
-  command->add_flag("--detector-report", a.detector_report,
-                    "Instead of rendering a scene: score the presets of --detector on desks of "
-                    "known truth; writes detectors.txt to the output folder");
-  command->add_option("-o,--output", a.output,
-                      "Folder to write the sequence to; must not exist, or be empty");
+  CLI::Option* sensor_report = command->add_option(
+      "--sensor-report", a.sensor_report,
+      "Instead of rendering a scene: measure this sensor on walls against its "
+      "published curve; writes a table and a figure to the output folder");
+  CLI::Option* detector_report = command->add_flag(
+      "--detector-report", a.detector_report,
+      "Instead of rendering a scene: score the presets of --detector on desks of "
+      "known truth; writes detectors.txt to the output folder");
+  CLI::Option* output = command->add_option(
+      "-o,--output", a.output, "Folder to write the sequence to; must not exist, or be empty");
   CLI::Option* preview = command->add_option(
       "--preview", a.preview,
       "Instead of a sequence: one picture (PNG) of one frame: colour, depth, plane ids, "
       "object ids");
+  preview->excludes(output)->excludes(sensor_report)->excludes(detector_report);
   command->add_option("--frame", a.preview_frame, "Which frame --preview shows")
       ->check(CLI::Range(0, 999999))
       ->needs(preview)

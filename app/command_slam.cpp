@@ -1,7 +1,9 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <optional>
+#include <vector>
 
 #include "app/app.h"
 #include "app/console.h"
@@ -113,11 +115,38 @@ void SetStructure(const std::string& structure, slam::Config& config) {
   config.structure.mode = static_cast<slam::StructureMode>(position);
 }
 
+/// Takes into the settings what the options say over them.
+void SetOptions(const SlamArguments& arguments, slam::Config& config) {
+  SetSegmentation(arguments.segmentation, config);
+  SetStructure(arguments.structure, config);
+  if (arguments.loop_closing) config.loop_closing.enabled = true;
+  if (arguments.detect_every) config.detection.every = *arguments.detect_every;
+  if (!arguments.depth_warp.empty()) config.depth_warp.source = arguments.depth_warp;
+  if (!arguments.mapping.empty()) config.async_mapping = arguments.mapping == "async";
+}
+
+/// What a run reads: --force replaces no folder that holds any of it.
+std::vector<std::filesystem::path> InputsOf(const SlamArguments& arguments,
+                                            const slam::Config& config,
+                                            const std::optional<SceneRecording>& scene) {
+  std::vector<std::filesystem::path> inputs =
+      scene ? scene->inputs : std::vector<std::filesystem::path>{};
+  inputs.insert(inputs.end(),
+                {arguments.config_file, arguments.options.camera, config.depth_warp.source,
+                 slam::ModelFile(arguments.options.detector)});
+  // Words, such as tum1 and auto, are no files, and a run may be called so.
+  std::error_code ignored;
+  std::erase_if(inputs, [&](const auto& file) {
+    return !std::filesystem::is_regular_file(file, ignored);
+  });
+  inputs.push_back(arguments.options.sequence);
+  return inputs;
+}
+
 int RunSlam(SlamArguments& arguments, bool quiet) {
   if (arguments.print_config) {
     slam::Config config = ConfigFrom(arguments.sensor, arguments.config_file);
-    SetSegmentation(arguments.segmentation, config);
-    SetStructure(arguments.structure, config);
+    SetOptions(arguments, config);
     fmt::print("{}", slam::ConfigAsYaml(config));
     return kDone;
   }
@@ -128,11 +157,6 @@ int RunSlam(SlamArguments& arguments, bool quiet) {
                          "needs a sequence folder or a bag, or --live SCENE.yaml, and -o RUN; "
                          "see pas slam --help");
   }
-  if (options.force) {
-    io::RefuseInputsInside(
-        options.run, {options.sequence, arguments.live_scene, arguments.config_file,
-                      options.camera, arguments.depth_warp, slam::ModelFile(options.detector)});
-  }
   options.variant = slam::VariantOf(arguments.variant);
   std::optional<SceneRecording> scene;
   if (live) scene = ReadScene(arguments);
@@ -141,13 +165,9 @@ int RunSlam(SlamArguments& arguments, bool quiet) {
                         arguments.config_file)
            : ConfigForRecording(arguments.sensor, arguments.config_file, options.sequence,
                                 options.camera, quiet);
-  SetSegmentation(arguments.segmentation, options.config);
-  if (arguments.loop_closing) options.config.loop_closing.enabled = true;
-  if (arguments.detect_every) options.config.detection.every = *arguments.detect_every;
-  if (!arguments.depth_warp.empty()) options.config.depth_warp.source = arguments.depth_warp;
-  SetStructure(arguments.structure, options.config);
-  if (!arguments.mapping.empty()) {
-    options.config.async_mapping = arguments.mapping == "async";
+  SetOptions(arguments, options.config);
+  if (options.force) {
+    io::RefuseInputsInside(options.run, InputsOf(arguments, options.config, scene));
   }
   options.version = PAS_VERSION;
   const StopSignal stop;
@@ -218,7 +238,7 @@ void AddSlamCommand(CLI::App& pas, const Globals& globals, int& exit_code) {
   CLI::Option* seed =
       command
           ->add_option("--seed", options.seed,
-                       "Seed of every random choice of the estimator; with --live of the "
+                       "Seed of RANSAC for the edge lines of planes; with --live of the "
                        "simulator too, unless --sim-seed says another")
           ->capture_default_str();
   command

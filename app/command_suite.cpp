@@ -95,9 +95,14 @@ class SuiteCall {
       return ReplayCase(Named(arguments_.replay), program_, folder_, quiet_);
     }
     if (!arguments_.shrink.empty()) return Shrink();
+    std::optional<io::OutputFile> accepted;  // refused before the work
+    if (accepting) {
+      accepted.emplace(arguments_.baseline,
+                       io::OutputRules{.force = true, .inputs = {arguments_.suite}});
+    }
     if (!RunAll(cases, results)) return Interrupted();
 
-    if (accepting) return Accept(cases, results);
+    if (accepting) return Accept(cases, results, *accepted);
     if (!baseline) {
       const int done = Summarise(cases, results);
       return WithinBounds(cases, results) ? done : kFailure;
@@ -172,14 +177,13 @@ class SuiteCall {
     return baseline;
   }
 
-  int Accept(const std::vector<SuiteCase>& cases, Results& results) const {
+  int Accept(const std::vector<SuiteCase>& cases, Results& results,
+             const io::OutputFile& file) const {
     const auto rows = suite_.gate.times ? TimedAgain(cases, results) : results.Rows();
     if (!rows) return Interrupted();
     const eval::Baseline baseline{suite_.name,       PlanText(suite_),
                                   PAS_VERSION,       ProcessorName(),
                                   arguments_.accept, GatedCases(suite_, cases, *rows)};
-    const io::OutputFile file(arguments_.baseline,
-                              {.force = true, .inputs = {arguments_.suite}});
     file.Write(eval::BaselineText(baseline));
     Summarise(cases, results);
     if (!quiet_) fmt::print("wrote {}\n", arguments_.baseline);
@@ -190,10 +194,10 @@ class SuiteCall {
                            const std::map<std::string, ResultRow>& rows) const {
     eval::GateRules rules = suite_.gate;
     rules.looks = LooksOf(suite_.seeds);
-    rules.times = rules.times && baseline.processor == ProcessorName();
+    rules.times = rules.times && IsSameProcessor(baseline.processor, ProcessorName());
     if (suite_.gate.times && !rules.times && !quiet_) {
-      PrintWarning("times are not compared: the baseline is of another processor, " +
-                   baseline.processor);
+      PrintWarning("times are not compared: the baseline's processor is " + baseline.processor +
+                   ", this one is " + ProcessorName());
     }
     return eval::CompareWithBaseline(baseline, GatedCases(suite_, cases, rows), rules);
   }
@@ -285,7 +289,7 @@ class SuiteCall {
     if (!quiet_ && !small.suite.empty()) {
       fmt::print(
           "{} frames of {} x {}, {} objects, after {} runs\nscene {}\nrun it with `pas "
-          "suite {} -o DIR`, and copy both files into tests/regressions\n",
+          "suite {} -o DIR`, and copy the files beside it into tests/regressions\n",
           small.frames, small.width, small.height, small.objects, small.runs,
           small.scene.string(), small.suite.string());
     }
@@ -305,15 +309,17 @@ class SuiteCall {
 int Merge(const SuiteArguments& arguments, bool quiet) {
   const fs::path output = arguments.merge_output;
   RequireResultsFolder(output);
-  const io::FolderLock lock(output);
-  Results results(output);
   for (const std::string& folder : arguments.merged) {
-    if (fs::equivalent(folder, output)) {
+    RequireResults(folder);
+    std::error_code ignored;
+    if (fs::equivalent(folder, output, ignored)) {
       throw io::InputError(folder, "is the output too; name another with -o");
     }
-    results.Merge(folder);
   }
-  if (!quiet) fmt::print("{}: {} cases\n", output.string(), results.Finished().size());
+  const io::FolderLock lock(output);
+  Results results(output);
+  for (const std::string& folder : arguments.merged) results.Merge(folder);
+  if (!quiet) fmt::print("{}: {} cases\n", output.string(), results.Rows().size());
   return kDone;
 }
 

@@ -37,7 +37,8 @@ constexpr const char* kFlow =
     "  pas bench  measure one part by itself\n"
     "  pas help COMMAND  the options of a command\n"
     "\n"
-    "Exit codes: 0 done, 1 the result is a failure, 2 bad input or usage.";
+    "Exit codes: 0 done, 1 the result is a failure, 2 bad input or usage, 128 + signal when\n"
+    "one stopped it.";
 
 // A line a command, in the order of the data flow.
 constexpr app::AddCommand kCommands[] = {

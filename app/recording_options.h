@@ -2,9 +2,11 @@
 
 #include <CLI/CLI.hpp>
 #include <cstdint>
+#include <filesystem>
 #include <functional>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "sim/write/write_sequence.h"
 
@@ -15,6 +17,7 @@ struct SceneRecording {
   sim::Scene scene;
   sim::SequenceOptions options;
   sim::Recording recording;
+  std::vector<std::filesystem::path> inputs;  ///< the files that this was read from
 };
 
 /// Adds the options of `pas sim` that say how a scene is recorded (frames, sensor, motion,

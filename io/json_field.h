@@ -35,7 +35,6 @@ class JsonField {
   std::vector<double> Numbers() const;          ///< array of finite numbers
   std::vector<Eigen::Vector3d> Points() const;  ///< array of arrays of 3
 
-  bool IsNull() const { return value_->is_null(); }
   /// @throws InputError "where: path: expected ..., found ..."
   [[noreturn]] void Fail(const std::string& expected) const;
 

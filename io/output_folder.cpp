@@ -113,7 +113,12 @@ void OutputFolder::RefuseWhatIsThere() const {
   if (!force_) {
     throw InputError(final_.string(), "exists already; choose another name or pass --force");
   }
-  if (!folder || !fs::exists(final_ / marker_, ignored)) {
+  if (!folder) {
+    throw InputError(final_.string(), std::string("is ") + NameOf(type) +
+                                          ", which even --force does not replace; choose "
+                                          "another name or remove it yourself");
+  }
+  if (!fs::exists(final_ / marker_, ignored)) {
     throw InputError(final_.string(),
                      "exists and holds no " + marker_ +
                          ", so even --force does not replace it; choose another name or "

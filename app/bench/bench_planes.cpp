@@ -184,7 +184,7 @@ PlaneBench BenchPlanes(const std::filesystem::path& sequence, const std::string&
       if (!choice.unmeasured) LeaveOutUnmeasured(frame.depth_m, camera, seen);
       ScoreFrame(frame, seen, *truth.scene, bench);
     } else {
-      ScoreLevelPlane(frame, *pose, bench);
+      AddLevelPlane(frame, *pose, bench);
     }
   }
   if (surfaces) bench.surfaces = surfaces->Figures();

@@ -106,21 +106,6 @@ void AddTopCorners(const ScoredFrame& f, PlaneBench& bench) {
   }
 }
 
-void AddLevelPlane(const slam::Frame& frame, const eval::Pose& T_gc, PlaneBench& bench) {
-  const slam::FramePlane* largest = nullptr;
-  Eigen::Vector3d normal_w = Eigen::Vector3d::Zero();
-  for (const slam::FramePlane& plane : frame.planes) {
-    const Eigen::Vector3d n_w = T_gc.R * plane.pi_c.n;
-    if (!(n_w.z() > kLevelNormalZ)) continue;
-    if (largest != nullptr && plane.pixel_count <= largest->pixel_count) continue;
-    largest = &plane, normal_w = n_w;
-  }
-  if (largest == nullptr) return;
-  bench.level_normals_w.push_back(normal_w);
-  bench.level_shares.push_back(static_cast<double>(largest->pixel_count) /
-                               std::max(1, cv::countNonZero(frame.depth_m)));
-}
-
 bool SeesNear(const cv::Mat1b& mask, const slam::Camera& camera, const Eigen::Vector3d& x_c) {
   const Eigen::Vector2d u = camera.Project(x_c);
   const int reach = std::max(1, static_cast<int>(std::lround(3.0 * mask.cols / 640.0)));
@@ -163,8 +148,19 @@ void ScoreFrame(const slam::Frame& found, const eval::TrueFrame& truth,
   AddTopCorners(f, bench);
 }
 
-void ScoreLevelPlane(const slam::Frame& found, const eval::Pose& T_gc, PlaneBench& bench) {
-  AddLevelPlane(found, T_gc, bench);
+void AddLevelPlane(const slam::Frame& found, const eval::Pose& T_gc, PlaneBench& bench) {
+  const slam::FramePlane* largest = nullptr;
+  Eigen::Vector3d normal_w = Eigen::Vector3d::Zero();
+  for (const slam::FramePlane& plane : found.planes) {
+    const Eigen::Vector3d n_w = T_gc.R * plane.pi_c.n;
+    if (!(n_w.z() > kLevelNormalZ)) continue;
+    if (largest != nullptr && plane.pixel_count <= largest->pixel_count) continue;
+    largest = &plane, normal_w = n_w;
+  }
+  if (largest == nullptr) return;
+  bench.level_normals_w.push_back(normal_w);
+  bench.level_shares.push_back(static_cast<double>(largest->pixel_count) /
+                               std::max(1, cv::countNonZero(found.depth_m)));
 }
 
 }  // namespace app

@@ -19,6 +19,6 @@ void ScoreFrame(const slam::Frame& found, const eval::TrueFrame& truth,
                 const eval::SceneTruth& scene, PlaneBench& bench);
 
 /// Adds the largest plane of the frame that is level in the world.
-void ScoreLevelPlane(const slam::Frame& found, const eval::Pose& T_gc, PlaneBench& bench);
+void AddLevelPlane(const slam::Frame& found, const eval::Pose& T_gc, PlaneBench& bench);
 
 }  // namespace app

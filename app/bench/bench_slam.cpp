@@ -7,6 +7,7 @@
 #include <fstream>
 #include <functional>
 
+#include "app/bench/bench_sequences.h"
 #include "eval/formats/run/run.h"
 #include "slam/input/camera_reader.h"
 #include "slam/input/sequence_reader.h"
@@ -160,8 +161,8 @@ std::vector<std::optional<eval::Pose>> ByFrame(const eval::Trajectory& trajector
 }  // namespace
 
 BenchRow MeasureSlam(const std::string& folder, const BenchOptions& bench) {
-  const auto run =
-      std::filesystem::temp_directory_path() / ("pas_bench_slam_" + std::to_string(::getpid()));
+  const ScratchFolder scratch("slam");
+  const std::filesystem::path& run = scratch.path();
   slam::RunOptions options;
   options.sequence = folder;
   options.run = run;
@@ -221,7 +222,6 @@ BenchRow MeasureSlam(const std::string& folder, const BenchOptions& bench) {
       row.end_error_m = (moved - truth[*last]->t).norm();
     }
   }
-  std::filesystem::remove_all(run);
   return row;
 }
 

@@ -1,13 +1,12 @@
 #include <sys/resource.h>
 #include <time.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
-#include <filesystem>
 
 #include "app/app.h"
+#include "app/bench/bench_sequences.h"
 #include "io/image/encode_png.h"
 #include "sim/families/families.h"
 #include "sim/scene/read_scene.h"
@@ -44,7 +43,7 @@ double ProcessorSeconds(clockid_t clock) {
   return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
 
-double PeakMegabytes() {
+double PeakMebibytes() {
   rusage usage{};
   ::getrusage(RUSAGE_SELF, &usage);
   return static_cast<double>(usage.ru_maxrss) / 1024.0;
@@ -91,15 +90,12 @@ Rate InMemory(const sim::Simulator& simulator, const std::vector<sim::TimedPose>
 }
 
 Rate WithFiles(const sim::Scene& scene, const std::vector<sim::TimedPose>& path, int threads) {
-  const auto folder =
-      std::filesystem::temp_directory_path() / ("pas_bench_sim_" + std::to_string(::getpid()));
+  const ScratchFolder scratch("sim");
   sim::SequenceOptions options;
   options.threads = threads;
   options.existing = sim::Existing::kReplace;
-  const Rate rate = RateOf(static_cast<int>(path.size()),
-                           [&] { sim::WriteSequence(scene, path, options, folder); });
-  std::filesystem::remove_all(folder);
-  return rate;
+  return RateOf(static_cast<int>(path.size()),
+                [&] { sim::WriteSequence(scene, path, options, scratch.path()); });
 }
 
 /// Processor seconds a frame, on one thread.
@@ -219,7 +215,7 @@ sim::Pose AboveField() {
 }
 
 void PrintScaling(int most) {
-  std::printf("\nboxes in view     ms of a core a frame    MB in all\n");
+  std::printf("\nboxes in view     ms of a core a frame   MiB in all\n");
   for (int boxes = 10; boxes <= most; boxes *= 10) {
     const sim::Simulator simulator(Field(boxes), sim::RigOptions{});
     simulator.Simulate(0, AboveField());
@@ -227,7 +223,7 @@ void PrintScaling(int most) {
     const double seconds = Cost([&] {
       for (int i = 0; i < kFrames; ++i) simulator.Simulate(i, AboveField());
     });
-    std::printf("%8d %24.1f %16.0f\n", boxes, 1e3 * seconds / kFrames, PeakMegabytes());
+    std::printf("%8d %24.1f %16.0f\n", boxes, 1e3 * seconds / kFrames, PeakMebibytes());
   }
 }
 
@@ -243,12 +239,12 @@ int RunSimBench(const SimBenchArguments& arguments) {
     Print("prints baked, 2 threads", InMemory(simulator, path, 2));
     Print("in memory, 1 thread", InMemory(simulator, path, 1));
     Print("in memory, 2 threads", InMemory(simulator, path, 2));
-    std::printf("%-28s %7.0f MB\n", "peak memory", PeakMegabytes());
+    std::printf("%-28s %7.0f MiB\n", "peak memory", PeakMebibytes());
   }
   if (arguments.files) {
     Print("with files, 1 thread", WithFiles(scene, path, 1));
     Print("with files, 2 threads", WithFiles(scene, path, 2));
-    std::printf("%-28s %7.0f MB\n", "peak memory", PeakMegabytes());
+    std::printf("%-28s %7.0f MiB\n", "peak memory", PeakMebibytes());
   }
   const std::size_t few = std::min<std::size_t>(path.size(), 20);
   PrintStages(MeasureStages(scene, {path.begin(), path.begin() + static_cast<long>(few)}), few);

@@ -7,6 +7,7 @@
 #include "app/bench/bench_slam.h"
 #include "app/bench/quantile.h"
 #include "app/depth_sensor_option.h"
+#include "io/folder_kind.h"
 #include "slam/model/module_times.h"
 #include "slam/run/run_sequence.h"
 
@@ -109,7 +110,10 @@ void PrintComebacks(const std::vector<BenchRow>& rows) {
 
 int RunSlamBench(const SlamBenchArguments& arguments, bool quiet) {
   BenchOptions bench = arguments.bench;
-  slam::VariantOf(bench.variant);  // refused before anything runs
+  // Refused before anything runs: the truth of a bag is beside it.
+  slam::VariantOf(bench.variant);
+  for (const std::string& sequence : arguments.sequences) io::RequireSequence(sequence);
+  if (!bench.then.empty()) io::RequireSequence(bench.then);
   fmt::print(
       "{:<14} {:<5} {:>6} {:>7} {:>4} {:>7} {:>7} {:>4} {:>6} {:>6} {:>6} {:>6} {:>5} {:>7}\n",
       "sequence", "map", "frames", "tracked", "lost", "ate mm", "end mm", "kf", "points",

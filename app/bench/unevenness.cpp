@@ -82,7 +82,7 @@ std::vector<BlockResidual> BlockResiduals(const cv::Mat1f& depth_m, const cv::Ma
       continue;
     }
     std::vector<BlockResidual> residuals;
-    for (const BlockMean& block : blocks) residuals.push_back({label, true, block.depth_m});
+    for (const BlockMean& block : blocks) residuals.push_back({true, block.depth_m});
     for (int fit = 0; fit < kFits; ++fit) FitPlane(blocks, residuals);
     all.insert(all.end(), residuals.begin(), residuals.end());
   }

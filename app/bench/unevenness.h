@@ -7,7 +7,6 @@ namespace app {
 
 /// A block of 16 x 16 pixels that a surface fills to a half.
 struct BlockResidual {
-  int label = 0;         ///< the surface
   bool on_plane = true;  ///< false: something else is there
   double depth_m = 0.0;  ///< mean
   /// Mean residual from the surface's best plane in inverse depth, in disparity steps of a first

@@ -65,6 +65,12 @@ class Transaction {
 
 }  // namespace
 
+void RequireResults(const std::filesystem::path& folder) {
+  if (std::filesystem::is_regular_file(folder / kResultsFile)) return;
+  throw io::InputError(folder.string(), "holds no " + std::string(kResultsFile) +
+                                            "; name folders that `pas suite` wrote");
+}
+
 Results::Results(const std::filesystem::path& folder) : database_(folder / kResultsFile) {
   // A write-ahead log outlives the process; a loss of power may cost the last cases, no more.
   database_.Execute("PRAGMA journal_mode = WAL; PRAGMA synchronous = NORMAL");
@@ -85,13 +91,6 @@ Results::~Results() {
     database_.Execute("PRAGMA wal_checkpoint(TRUNCATE); PRAGMA journal_mode = DELETE");
   } catch (const io::InputError&) {  // somebody reads; the log stays beside the file
   }
-}
-
-std::map<std::string, std::string> Results::Finished() {
-  std::map<std::string, std::string> finished;
-  Statement rows(database_, "SELECT key, inputs_sha256 FROM cases");
-  while (rows.Step()) finished[rows.Text(0)] = rows.Text(1);
-  return finished;
 }
 
 void Results::Put(const SuiteCase& one, const CaseResult& result, const std::string& program,
@@ -148,11 +147,8 @@ void Results::ReadNumbers(const std::string& table, eval::Figures CaseResult::*i
 }
 
 void Results::Merge(const std::filesystem::path& folder) {
+  RequireResults(folder);
   const std::filesystem::path file = folder / kResultsFile;
-  if (!std::filesystem::is_regular_file(file)) {
-    throw io::InputError(folder.string(), "holds no " + std::string(kResultsFile) +
-                                              "; name folders that `pas suite` wrote");
-  }
   Statement(database_, "ATTACH ? AS other").Bind(file.string()).Run();
   if (VersionOf(database_, "other") != kVersion) {
     throw io::InputError(file.string(), "is not of this version of pas suite; run it again");

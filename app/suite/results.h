@@ -13,10 +13,13 @@ namespace app {
 /// The file of all rows in a results folder.
 inline constexpr const char* kResultsFile = "results.sqlite";
 
+/// @throws InputError for a folder without results
+void RequireResults(const std::filesystem::path& folder);
+
 /// A case as it stands in the results.
 struct ResultRow {
   std::string inputs_sha256;
-  std::string command;  ///< lines of a shell that run it again from the results folder
+  std::string command;  ///< line of a shell that runs it again from the results folder
   CaseResult result;
 };
 
@@ -28,8 +31,6 @@ class Results {
   explicit Results(const std::filesystem::path& folder);
   ~Results();  ///< leaves one file
 
-  /// Key -> hash of the inputs, of all cases that are there.
-  std::map<std::string, std::string> Finished();
   /// Puts the case in, over an older one.
   void Put(const SuiteCase& one, const CaseResult& result, const std::string& program,
            const std::string& command);

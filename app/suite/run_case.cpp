@@ -57,17 +57,14 @@ CaseStatus StatusOf(const ChildOutcome& outcome) {
 }
 
 std::string MessageOf(const ChildOutcome& outcome, const SuiteLimits& limits) {
-  switch (StatusOf(outcome)) {
+  const CaseStatus status = StatusOf(outcome);
+  switch (status) {
     case CaseStatus::kFinished:
     case CaseStatus::kStopped:
       return "";
-    case CaseStatus::kTimedOut: {
-      std::ostringstream text;
-      text << "not done after " << limits.seconds << " s";
-      return text.str();
-    }
+    case CaseStatus::kTimedOut:
     case CaseStatus::kOutOfMemory:
-      return "needs more than " + std::to_string(limits.memory_mb) + " MB";
+      return LimitMessage(status, limits);
     case CaseStatus::kCrashed:
       return std::string("ended by ") + ::strsignal(outcome.code);
     case CaseStatus::kFailed:
@@ -151,6 +148,16 @@ std::string ShellWord(const std::string& text) {
 const char* NameOf(CaseStatus status) {
   constexpr std::array kNames{"done", "failed", "crashed", "timeout", "memory", "stopped"};
   return kNames[static_cast<std::size_t>(status)];
+}
+
+std::string LimitMessage(CaseStatus status, const SuiteLimits& limits) {
+  std::ostringstream text;
+  if (status == CaseStatus::kTimedOut) {
+    text << "not done after " << limits.seconds << " s";
+  } else {
+    text << "needs more than " << limits.memory_mb << " MiB";
+  }
+  return text.str();
 }
 
 std::vector<std::vector<std::string>> CommandsOf(const SuiteCase& one,

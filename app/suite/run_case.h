@@ -36,8 +36,11 @@ std::vector<std::vector<std::string>> CommandsOf(const SuiteCase& one,
                                                  const std::string& program,
                                                  const std::string& run);
 
-/// They as lines of a shell.
+/// They as one line of a shell, joined by &&.
 std::string CommandLines(const std::vector<std::vector<std::string>>& commands);
+
+/// The message of a case that was ended at a limit (kTimedOut, kOutOfMemory).
+std::string LimitMessage(CaseStatus status, const SuiteLimits& limits);
 
 /// Runs a case in processes of its own. Its run folder is gone afterwards.
 /// @param folder  results folder

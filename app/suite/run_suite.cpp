@@ -14,17 +14,26 @@ namespace {
 constexpr const char* kAnyProgram = "pas";
 constexpr const char* kReplayRun = "replay";
 
+/// Whether a row is what the case would be now. Other limits may let it go on to its end.
+bool IsOf(const ResultRow& row, const SuiteCase& one, const SuiteLimits& limits) {
+  const CaseStatus status = row.result.status;
+  const bool limited = status == CaseStatus::kTimedOut || status == CaseStatus::kOutOfMemory;
+  return row.inputs_sha256 == one.inputs_sha256 &&
+         (!limited || row.result.message == LimitMessage(status, limits));
+}
+
 /// Cases that several threads take one by one.
 class CaseQueue {
  public:
   CaseQueue(const std::vector<SuiteCase>& cases, const SuiteRunOptions& options,
             Results& results)
       : options_(options), results_(results) {
-    const std::map<std::string, std::string> finished = results.Finished();
+    const std::map<std::string, ResultRow> rows = results.Rows();
     for (const SuiteCase& one : cases) {
-      const auto found = finished.find(one.key);
-      if (found == finished.end() || found->second != one.inputs_sha256)
+      const auto row = rows.find(one.key);
+      if (row == rows.end() || !IsOf(row->second, one, options.limits)) {
         pending_.push_back(&one);
+      }
     }
   }
 

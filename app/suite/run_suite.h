@@ -19,8 +19,9 @@ struct SuiteRunOptions {
   std::function<bool()> stop;
 };
 
-/// Runs the cases whose results are not there yet, or are of other inputs, `jobs` at a time, and
-/// puts each into the results when it ends. Rows do not depend on `jobs`, but for times.
+/// Runs the cases whose results are not there yet, are of other inputs, or were ended at other
+/// limits, `jobs` at a time, and puts each into the results when it ends. Rows do not depend on
+/// `jobs`, but for times.
 /// @returns whether it was stopped before the end; what was done is kept
 /// @throws InputError
 bool RunCases(const std::vector<SuiteCase>& cases, const SuiteRunOptions& options,

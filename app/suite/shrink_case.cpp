@@ -9,6 +9,7 @@
 #include "io/atomic_file.h"
 #include "io/input_error.h"
 #include "io/output_folder.h"
+#include "io/read_file.h"
 #include "sim/scene/check.h"
 #include "sim/scene/read_scene.h"
 #include "sim/scene/write_scene.h"
@@ -150,6 +151,13 @@ class Shrinker {
     return any;
   }
 
+  /// Copies a file of the case beside the suite, which may be taken elsewhere. @returns its name
+  std::string Beside(const fs::path& input) const {
+    const fs::path name = input.filename();
+    io::WriteFile(best_.suite.parent_path() / name, io::ReadFile(folder_ / input));
+    return name.string();
+  }
+
   void Write() {
     best_.objects = scene_.objects.size();
     sim::WriteScene(scene_, best_.scene);
@@ -168,10 +176,12 @@ class Shrinker {
         one_.key, NameOf(failure_.status), best_.frames, best_.width, best_.height,
         suite_.limits.seconds, suite_.limits.memory_mb, one_.seed, one_.variant,
         after("--motion", kOwnMotion));
-    text += own_sensor ? fmt::format("sensors: [{{name: own, file: ../{}, estimator: {}}}]\n",
-                                     sensor, after("--sensor", "kinect1"))
+    text += own_sensor ? fmt::format("sensors: [{{name: own, file: {}, estimator: {}}}]\n",
+                                     Beside(sensor), after("--sensor", "kinect1"))
                        : fmt::format("sensors: [{}]\n", sensor);
-    if (!config.empty()) text += fmt::format("configs: [{{name: own, file: ../{}}}]\n", config);
+    if (!config.empty()) {
+      text += fmt::format("configs: [{{name: own, file: {}}}]\n", Beside(config));
+    }
     if (!suite_.gate.worst.empty()) {
       text += "gate:\n  worst:\n";
       for (const auto& [figure, bound] : suite_.gate.worst) {

@@ -190,12 +190,14 @@ class Planner {
     return frames;
   }
 
-  static Frames Recorded(const Source& source) {
+  Frames Recorded(const Source& source) const {
     Frames frames;
     frames.sha256 = RecordingHash(source.recording);
     frames.slam = {fs::canonical(source.recording).string(), "--sensor", source.scene->sensor};
     if (!fs::exists(source.recording / "camera.yaml")) {
-      frames.slam.insert(frames.slam.end(), {"--camera", source.scene->camera});
+      const Input camera = InputOf("camera", source.scene->camera);
+      frames.slam.insert(frames.slam.end(), {"--camera", camera.argument});
+      if (!camera.sha256.empty()) frames.sha256 = io::Sha256Hex(frames.sha256 + camera.sha256);
     }
     return frames;
   }

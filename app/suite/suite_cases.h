@@ -19,7 +19,7 @@ struct SuiteCase {
   /// What `pas slam` is given but -o; paths are relative to the results folder where they can be.
   std::vector<std::string> slam;
   std::string
-      scene_sha256;  ///< of the scene's text; of a recording, of its lists and file sizes
+      scene_sha256;  ///< of the scene's text; of a recording, of its lists, sizes and camera
   std::string inputs_sha256;  ///< of all that decides the result, the program too
 };
 

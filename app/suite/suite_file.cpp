@@ -19,6 +19,7 @@ namespace fs = std::filesystem;
 constexpr const char* kFormat = "pas-suite/1";
 const std::vector<std::string> kVariants{"full", "no-association",
                                          "no-processing-no-association", "points"};
+const std::vector<std::string> kTumCameras{"tum1", "tum2", "tum3"};
 // What scenes are recorded with, and what a sensor of the user's is taken for.
 constexpr const char* kDefaultSensor = "kinect1";
 
@@ -89,9 +90,14 @@ class SuiteReader {
     return seeds;
   }
 
-  /// A path relative to the suite, of a file that is there.
+  /// A path relative to the suite.
+  fs::path PathOf(const io::YamlValue& value) const {
+    return fs::absolute(file_).parent_path() / value.Path();
+  }
+
+  /// The same, of a file that is there.
   fs::path ExistingFile(const io::YamlValue& value) const {
-    const fs::path file = fs::absolute(file_).parent_path() / value.Path();
+    const fs::path file = PathOf(value);
     if (!fs::is_regular_file(file)) value.Fail(file.string() + " is no file; mend the path");
     return fs::canonical(file);
   }
@@ -158,13 +164,24 @@ class SuiteReader {
     }
   }
 
-  static void ReadRecordings(const io::YamlMap& map, SuiteScene& scene) {
+  /// A calibration of TUM's, or a camera file of the user's.
+  SuiteChoice Camera(const io::YamlValue& value) const {
+    const std::string name = value.Path();
+    if (std::count(kTumCameras.begin(), kTumCameras.end(), name) > 0) return {name, ""};
+    const fs::path file = PathOf(value);
+    if (!fs::is_regular_file(file)) {
+      value.Fail("expected tum1, tum2, tum3 or a file; there is no " + file.string());
+    }
+    return {file.stem().string(), fs::canonical(file)};
+  }
+
+  void ReadRecordings(const io::YamlMap& map, SuiteScene& scene) const {
     scene.source = SuiteScene::Source::kRecordings;
     map.At("recordings").OneOf({"all"});
     scene.of = "recordings";
     if (map.Has("frames")) map.At("frames").Fail("cannot shorten recordings; leave it out");
-    scene.camera = "tum1";
-    if (map.Has("camera")) scene.camera = map.At("camera").Word();
+    scene.camera = {kTumCameras.front(), ""};
+    if (map.Has("camera")) scene.camera = Camera(map.At("camera"));
     const std::vector<std::string>& sensors = slam::DepthSensorNames();
     scene.sensor = map.Has("sensor") ? sensors[map.At("sensor").OneOf(sensors)] : kAutoSensor;
   }

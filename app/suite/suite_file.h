@@ -11,6 +11,13 @@
 
 namespace app {
 
+/// One value of a dimension of the suite: a built-in, or a file of the user's.
+struct SuiteChoice {
+  std::string name;
+  std::filesystem::path file;  ///< empty: the built-in of that name
+  std::string estimator = {};  ///< of a sensor: what `pas slam --sensor` takes it for
+};
+
 /// Where the frames of some cases come from.
 struct SuiteScene {
   enum class Source {
@@ -25,15 +32,8 @@ struct SuiteScene {
   std::map<std::string, double> parameters;  ///< of the family
   std::filesystem::path file;
   std::optional<int> frames;  ///< instead of the suite's
-  std::string camera;         ///< of recordings without camera.yaml
+  SuiteChoice camera;         ///< of recordings without camera.yaml
   std::string sensor;         ///< of recordings, as `pas slam --sensor` takes it
-};
-
-/// One value of a dimension of the suite: a built-in, or a file of the user's.
-struct SuiteChoice {
-  std::string name;
-  std::filesystem::path file;  ///< empty: the built-in of that name
-  std::string estimator = {};  ///< of a sensor: what `pas slam --sensor` takes it for
 };
 
 struct SuiteLimits {

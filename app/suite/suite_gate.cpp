@@ -4,6 +4,11 @@
 #include <fstream>
 
 namespace app {
+namespace {
+
+constexpr const char* kUnknown = "unknown";
+
+}  // namespace
 
 std::string ProcessorName() {
   std::ifstream file("/proc/cpuinfo");
@@ -12,7 +17,11 @@ std::string ProcessorName() {
     if (line.rfind("model name", 0) == 0 && colon != std::string::npos)
       return line.substr(colon + 2);
   }
-  return "unknown";
+  return kUnknown;
+}
+
+bool IsSameProcessor(const std::string& one, const std::string& other) {
+  return one == other && one != kUnknown;
 }
 
 std::string PlanText(const SuiteFile& suite) {

@@ -9,8 +9,11 @@
 
 namespace app {
 
-/// The name of this machine's processor, as /proc/cpuinfo gives it.
+/// The name of this machine's processor, as /proc/cpuinfo gives it; "unknown" without one.
 std::string ProcessorName();
+
+/// Whether times of two processors of these names can be compared; "unknown" is like no other.
+bool IsSameProcessor(const std::string& one, const std::string& other);
 
 /// Number and size of the frames, which a baseline must share.
 std::string PlanText(const SuiteFile& suite);

@@ -23,6 +23,7 @@ std::optional<ImageHeader> PngHeader(std::string_view bytes) {
   constexpr std::size_t kWidth = 16, kHeight = 20, kBits = 24, kColour = 25, kEnd = 29;
   constexpr std::array kKinds = {"gray",   "kind 1",        "RGB", "palette", "gray with alpha",
                                  "kind 5", "RGB with alpha"};
+  constexpr std::size_t kPalette = 3;
   constexpr std::string_view kEndChunk = "IEND\xAE\x42\x60\x82"sv;
   constexpr std::uint32_t kMax = std::numeric_limits<int>::max();
   if (bytes.size() < kEnd) return std::nullopt;
@@ -30,7 +31,9 @@ std::optional<ImageHeader> PngHeader(std::string_view bytes) {
   const std::size_t colour = ByteAt(bytes, kColour);
   if (width > kMax || height > kMax || colour >= kKinds.size()) return std::nullopt;
   return ImageHeader{ImageFormat::kPng, static_cast<int>(width), static_cast<int>(height),
-                     std::to_string(ByteAt(bytes, kBits)) + "-bit " + kKinds[colour],
+                     colour == kPalette
+                         ? "8-bit RGB"  // of each entry, however many there are
+                         : std::to_string(ByteAt(bytes, kBits)) + "-bit " + kKinds[colour],
                      bytes.find(kEndChunk) != std::string_view::npos};
 }
 

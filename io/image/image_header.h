@@ -13,7 +13,7 @@ enum class ImageFormat { kPng, kJpeg };
 struct ImageHeader {
   ImageFormat format = ImageFormat::kPng;
   int width = 0, height = 0;  ///< pixels
-  std::string pixels;         ///< "8-bit RGB", "16-bit gray" and so on
+  std::string pixels;         ///< "8-bit RGB" (palettes too), "16-bit gray" and so on
   bool whole = false;         ///< the mark of its end is there
 };
 

@@ -96,8 +96,6 @@ struct BagFile::Messages {
   }
 };
 
-bool ReadsBags() { return true; }
-
 BagFile::BagFile(const std::filesystem::path& file)
     : file_(file), messages_(std::make_unique<Messages>()) {
   console_bridge::noOutputHandler();  // what is wrong is in the exceptions

@@ -10,9 +10,6 @@
 
 namespace slam {
 
-/// Whether the program was built with Debian's rosbag library. Without it no bag can be opened.
-bool ReadsBags();
-
 /// What a topic of a bag holds.
 struct BagTopic {
   enum class Kind { kImage, kCameraInfo, kNumber, kTransform, kCompressedImage };

@@ -6,8 +6,6 @@ namespace slam {
 
 struct BagFile::Messages {};
 
-bool ReadsBags() { return false; }
-
 BagFile::BagFile(const std::filesystem::path& file) : file_(file) {
   throw io::InputError(file.string(),
                        "is a ROS bag, and this program was built without reading them; install "

@@ -121,9 +121,15 @@ Camera CameraOfInfo(const BagFile& bag, const std::string& info_topic,
   for (std::size_t i = 0; i < keys.size(); ++i) {
     add(keys[i], lens[static_cast<Eigen::Index>(i)]);
   }
-  return CameraUnder(io::YamlMap(io::ParseYaml(text, where)),
-                     {"width", "height", "fx", "fy", "cx", "cy", "fps", "depth_factor", "k1",
-                      "k2", "p1", "p2", "k3"});
+  try {
+    return CameraUnder(io::YamlMap(io::ParseYaml(text, where)),
+                       {"width", "height", "fx", "fy", "cx", "cy", "fps", "depth_factor", "k1",
+                        "k2", "p1", "p2", "k3"});
+  } catch (const io::InputError& error) {
+    // The line is one of the text above, which nobody has.
+    const std::string message = error.what();
+    throw io::InputError(where, message.substr(message.find(": ", where.size()) + 2));
+  }
 }
 
 Camera CameraOfBag(const std::filesystem::path& file) {

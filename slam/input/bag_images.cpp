@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numeric>
 
 #include "io/input_error.h"
@@ -13,10 +14,11 @@
 namespace slam {
 namespace {
 
-/// From the reference camera of the device to the camera of a stream; nothing when the bag does
-/// not say.
-std::optional<Pose> FromReference(const BagFile& bag, const std::string& image_topic) {
+/// From each reference camera of the device that the bag knows, by its name, to the camera of a
+/// stream.
+std::map<std::string, Pose> FromReferences(const BagFile& bag, const std::string& image_topic) {
   const std::string begin = OfStream(image_topic, "tf/");
+  std::map<std::string, Pose> poses;
   for (const BagTopic& topic : bag.topics()) {
     if (topic.kind != BagTopic::Kind::kTransform || topic.name.rfind(begin, 0) != 0) continue;
     const BagTransform tf = bag.Transform(topic.name);
@@ -26,7 +28,17 @@ std::optional<Pose> FromReference(const BagFile& bag, const std::string& image_t
       throw io::InputError(bag.file().string() + " (" + topic.name + ")",
                            "is no rigid motion: the quaternion's length must be 1");
     }
-    return Pose{q.normalized().toRotationMatrix(), t};
+    poses[topic.name.substr(begin.size())] = {q.normalized().toRotationMatrix(), t};
+  }
+  return poses;
+}
+
+/// From the depth camera to colour's, by a reference that both know; nothing without one.
+std::optional<Pose> FromDepthToColour(const BagFile& bag, const BagTopics& topics) {
+  const auto to_colour = FromReferences(bag, topics.colour);
+  for (const auto& [reference, to_depth] : FromReferences(bag, topics.depth)) {
+    const auto found = to_colour.find(reference);
+    if (found != to_colour.end()) return found->second * Inverse(to_depth);
   }
   return std::nullopt;
 }
@@ -40,22 +52,20 @@ bool SameView(const Camera& a, const Camera& b) {
 /// How depth of RealSense's library comes to lie on colour; nothing when it does.
 std::optional<DepthRegistration> RegistrationOf(const BagFile& bag, const BagTopics& topics,
                                                 const Camera& colour) {
-  const auto from_depth = FromReference(bag, topics.depth);
-  const auto from_colour = FromReference(bag, topics.colour);
-  if (!from_depth || !from_colour || topics.depth_info.empty()) {
+  const std::optional<Pose> T_cd = FromDepthToColour(bag, topics);
+  if (!T_cd || topics.depth_info.empty()) {
     throw io::InputError(bag.file().string(),
                          "does not say how " + topics.depth + " lies to " + topics.colour +
-                             " (info/camera_info and tf/0 of both); record it anew with "
-                             "realsense-viewer");
+                             " (info/camera_info and tf/N of both, with one N); record it anew "
+                             "with realsense-viewer");
   }
   const Camera depth = CameraOfInfo(bag, topics.depth_info, topics.depth);
-  const Pose T_cd = *from_colour * Inverse(*from_depth);
   constexpr double kMaxApart_m = 1e-6, kMaxTurn_rad = 1e-6;  // round-off of single precision
-  if (SameView(depth, colour) && T_cd.t.norm() < kMaxApart_m &&
-      LogSo3(T_cd.R).norm() < kMaxTurn_rad) {
+  if (SameView(depth, colour) && T_cd->t.norm() < kMaxApart_m &&
+      LogSo3(T_cd->R).norm() < kMaxTurn_rad) {
     return std::nullopt;
   }
-  return DepthRegistration(depth, colour, T_cd);
+  return DepthRegistration(depth, colour, *T_cd);
 }
 
 /// Without the slash that older drivers begin it with.

@@ -99,10 +99,11 @@ TEST_F(OutputFolders, ReplaceNoFolderOrFileOfAnotherKindEvenWithForce) {
   EXPECT_EQ(Contents(place()).at("thesis.tex"), "years of work");
   fs::remove_all(place());
   WriteFile(place(), "a file");
-  EXPECT_THAT(Making(true), refused);
+  EXPECT_THAT(Making(true), ThrowsMessage<InputError>(HasSubstr(
+                                "out: is a file, which even --force does not replace")));
   fs::remove(place());
   fs::create_symlink("nowhere", place());
-  EXPECT_THAT(Making(true), refused);
+  EXPECT_THAT(Making(true), ThrowsMessage<InputError>(HasSubstr("out: is a link, which even")));
   fs::remove(place());
   fs::create_directory(place());
   EXPECT_NO_THROW(Make(true)) << "an empty one is nobody's work";

@@ -214,6 +214,32 @@ TEST_F(BagProgram, ImportedDepthKeepsItsOwnTime) {
   EXPECT_EQ(count, static_cast<int>(Desk().frames().size()));
 }
 
+TEST_F(BagProgram, ImportedBagHasTheRateOfItsStamps) {
+  {
+    BagWriter bag(Bag(), Compression::kNone);
+    const BagFrame& frame = Desk().frames().front();
+    for (int i = 0; i < 4; ++i) {
+      bag.Image(kColour, 1 + i / 90.0, "rgb", "rgb8", Rgb(frame.bgr));
+      bag.Image(kDepth, 1 + i / 90.0, "rgb", "16UC1", frame.depth_mm);
+    }
+    WriteInfo(bag, "/camera/rgb/camera_info");
+  }
+  ASSERT_EQ(Run({"import", Bag(), "-o", folder_ / "seq"}).exit_code, 0);
+  EXPECT_NEAR(slam::ReadCamera(folder_ / "seq/camera.yaml").camera.fps, 90, 1e-3);
+}
+
+TEST_F(BagProgram, BenchRefusesABagAtOnceAndLeavesNothing) {
+  WriteTum(Compression::kNone);
+  const fs::path scratch = folder_ / "scratch";
+  fs::create_directory(scratch);
+  const Outcome outcome =
+      Process({Pas(), "bench", "slam", Bag()}, {{"TMPDIR", scratch}}, folder_ / "errors")
+          .Wait();
+  EXPECT_EQ(outcome.exit_code, 2);
+  EXPECT_THAT(outcome.errors, AllOf(HasSubstr("is a ROS bag"), HasSubstr("pas import")));
+  EXPECT_TRUE(fs::is_empty(scratch));
+}
+
 TEST_F(BagProgram, CalibrateReadsBags) {
   WriteTum(Compression::kNone);
   const Outcome outcome = Run({"calibrate", Bag(), "-o", folder_ / "warp.yaml"});

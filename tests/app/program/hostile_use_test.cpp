@@ -100,6 +100,37 @@ TEST_F(HostileUse, SlamReplacesNoRunThatHoldsItsSequence) {
   EXPECT_TRUE(fs::exists(folder_ / "run/seq/rgb.txt"));
 }
 
+TEST_F(HostileUse, SlamReplacesNoRunThatHoldsAFileOfItsScenesRecordingOrSettings) {
+  const fs::path own = folder_ / "run";
+  fs::copy(run(), own, fs::copy_options::recursive);
+  fs::copy(seq() / "groundtruth.txt", own / "path.txt");
+  std::ofstream(own / "sensor.yaml") << "base: d435\n";
+  std::ofstream(own / "warp.yaml") << "of an earlier run\n";
+  std::ofstream(folder_ / "config.yaml")
+      << "depth_warp: {source: " << (own / "warp.yaml").string() << "}\n";
+  const std::vector<std::string> live{"slam", "--live",  scene(), "--force",  "-o",
+                                      own,    "--width", "160",   "--height", "120"};
+  const auto refused = [&](const std::string& option, const fs::path& file,
+                           const std::string& holds) {
+    std::vector<std::string> arguments = live;
+    arguments.insert(arguments.end(), {option, file});
+    ExpectRefusal(arguments, holds + " is in it, which is read by this command");
+  };
+  refused("--trajectory", own / "path.txt", "path.txt");
+  refused("--sim-sensor", own / "sensor.yaml", "sensor.yaml");
+  refused("--config", folder_ / "config.yaml", "warp.yaml");
+  EXPECT_TRUE(fs::exists(own / "warp.yaml"));
+}
+
+TEST_F(HostileUse, ARunMayBeCalledAsAWordOfAnOption) {
+  const std::string slam = "cd " + folder_.path().string() +
+                           " && mkdir -p tum1 && pas -q slam " + seq().string() +
+                           " -o tum1 --force --depth-warp off --camera ";
+  EXPECT_EQ(Shell(slam + (seq() / "camera.yaml").string()).exit_code, 0);
+  const Outcome outcome = Shell(slam + "tum1");
+  EXPECT_THAT(outcome.errors, HasSubstr("the camera says 640 x 480"));
+}
+
 TEST_F(HostileUse, EvalReplacesItsOwnMetricsAlone) {
   EXPECT_EQ(Do({"eval", run()}).exit_code, 0);
   EXPECT_EQ(Do({"eval", run()}).exit_code, 0);
@@ -196,6 +227,10 @@ TEST_F(HostileUse, NumbersThatAreNoneAreRefused) {
   ExpectRefusal({"sim", scene(), "-o", folder_ / "x", "--seed", "-1"},
                 "--seed: expected a whole number of 0 or more");
   ExpectRefusal({"slam", seq(), "-o", folder_ / "x", "--seed", "-1"}, "--seed: expected");
+  ExpectRefusal({"sim", "--sensor-report", "ideal", "--preview", folder_ / "p.png"},
+                "--sensor-report excludes --preview");
+  ExpectRefusal({"sim", scene(), "--preview", folder_ / "p.png", "-o", folder_ / "x"},
+                "--output excludes --preview");
   ExpectRefusal({"slams"}, "did you mean `slam`?");
   ExpectRefusal({"slam",
                  "b\xFC"

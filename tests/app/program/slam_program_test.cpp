@@ -111,6 +111,23 @@ TEST_F(SlamProgram, GivesTheSameBytesWithItsOwnSettingsPrintedAndRead) {
   }
 }
 
+TEST_F(SlamProgram, PrintsTheSettingsWithWhatTheOptionsSay) {
+  const auto printed = [&](const std::string& options) {
+    const fs::path file = folder_ / "settings.yaml";
+    EXPECT_EQ(Run({"/bin/sh", "-c", Pas().string() + " " + options + " > " + file.string()})
+                  .exit_code,
+              0);
+    return ReadText(file);
+  };
+  std::ofstream(folder_ / "same.yaml")
+      << "loop_closing: {enabled: true}\ndetection: {every: 5}\nmapping: {async: true}\n"
+         "depth_warp: {source: \"off\"}\nstructure: {mode: manhattan}\n"
+         "plane_extraction: {segmentation: ahc}\n";
+  EXPECT_EQ(printed("slam --print-config --loop-closing --detect-every 5 --mapping async "
+                    "--depth-warp off --structure manhattan --segmentation ahc"),
+            printed("config --config " + (folder_ / "same.yaml").string()));
+}
+
 TEST_F(SlamProgram, FailsWhenTheCameraEndsLostForMoreThanHalf) {
   const fs::path sequence = Record(30);
   Blacken(sequence, 10);

@@ -85,6 +85,14 @@ TEST_F(SuiteGate, MoreFailuresAreRed) {
   EXPECT_EQ(Gate("now").exit_code, 1);
 }
 
+TEST_F(SuiteGate, ABaselineThatCannotBeWrittenIsRefusedBeforeAnythingRuns) {
+  const Outcome outcome =
+      Suite("now", {"--accept", "why", "--baseline", folder_ / "nodir/baseline.json"});
+  EXPECT_EQ(outcome.exit_code, 2);
+  EXPECT_THAT(outcome.errors, HasSubstr("there is no folder"));
+  EXPECT_EQ(Cases("now"), 0u);
+}
+
 TEST_F(SuiteGate, ABaselineOfAnotherSuiteIsRefused) {
   WriteSuite("size_px: [160, 120]\n");
   const Outcome outcome = Gate("now");

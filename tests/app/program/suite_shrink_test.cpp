@@ -85,6 +85,25 @@ TEST_F(SuiteProgram, ShrinksASceneWithAMeshOfItsFolder) {
   EXPECT_EQ(ReadText(folder_ / "out/frames_tried").substr(0, 4), "300\n");
 }
 
+TEST_F(SuiteProgram, LeavesASmallerCaseThatCanBeTakenElsewhere) {
+  std::ofstream(folder_ / "sensor.yaml") << "base: azure\n";
+  std::ofstream(folder_ / "config.yaml") << "pose: {rounds: 4}\n";
+  WriteSuite(
+      "seeds: {first: 1, count: 1}\nsensors: [{name: mine, file: sensor.yaml}]\n"
+      "configs: [{name: mine, file: config.yaml}]\n");
+  WriteProgram("case \"$*\" in *slam*) kill -SEGV $$;; esac");
+  const Outcome outcome = Suite("out", {"--shrink", "plates-1/mine/own/full/mine"});
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.errors;
+  fs::rename(folder_ / "out/shrunk", folder_ / "elsewhere");
+  fs::remove_all(folder_ / "out");
+  const Outcome again = Process({Pas(), "-q", "suite", folder_ / "elsewhere/suite.yaml", "-o",
+                                 folder_ / "again", "--program", folder_ / "fake"},
+                                {}, folder_ / "errors")
+                            .Wait();
+  EXPECT_EQ(again.exit_code, 1) << again.errors;
+  EXPECT_THAT(Statuses("again"), ElementsAre(HasSubstr("crashed")));
+}
+
 TEST_F(SuiteProgram, ShrinksNothingWhenItIsStoppedInTheFirstTry) {
   WriteProgram("echo > started; sleep 5; kill -SEGV $$");
   const Process process(Command("out", {"--shrink", "plates-1/kinect1/own/full/default"}), {},

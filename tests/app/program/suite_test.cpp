@@ -98,6 +98,23 @@ TEST_F(SuiteProgram, RunsARecordingAgainWhoseListsOrCameraChanged) {
   EXPECT_EQ(runs(), 1u);
 }
 
+TEST_F(SuiteProgram, RunsARecordingAgainWhoseCameraBesideTheSuiteChanged) {
+  std::ofstream(folder_ / "suite.yaml")
+      << "format: pas-suite/1\nname: real\nscenes: [{recordings: all, camera: cam.yaml}]\n";
+  fs::create_directories(folder_ / "all/one");
+  std::ofstream(folder_ / "all/one/rgb.txt") << "1.0 rgb/1.png\n";
+  std::ofstream(folder_ / "all/one/depth.txt") << "1.0 depth/1.png\n";
+  // The program finds the file where the command says.
+  WriteProgram(
+      "case \"$*\" in *--camera*) file=${*##*--camera }; cat ${file%% *} >> seen;; esac");
+  for (const char* text : {"fx: 525\n", "fx: 525\n", "fx: 517\n"}) {
+    std::ofstream(folder_ / "cam.yaml") << text;
+    const Outcome outcome = Suite("out", {"--recordings", folder_ / "all"});
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.errors;
+  }
+  EXPECT_EQ(ReadText(folder_ / "out/seen"), "fx: 525\nfx: 517\n");
+}
+
 TEST_F(SuiteProgram, ACrashAHangHungerAndARefusalAreRows) {
   WriteSuite("seeds: {first: 1, count: 5}\nlimits: {seconds: 3, memory_mb: 200}\n");
   WriteProgram(
@@ -112,13 +129,33 @@ TEST_F(SuiteProgram, ACrashAHangHungerAndARefusalAreRows) {
   EXPECT_THAT(
       Statuses("out"),
       ElementsAre("wall-2|crashed|ended by Segmentation fault",
-                  "wall-3|timeout|not done after 3 s", "wall-4|memory|needs more than 200 MB",
+                  "wall-3|timeout|not done after 3 s", "wall-4|memory|needs more than 200 MiB",
                   "wall-5|failed|exit code 1: pas: the camera was lost"));
   EXPECT_THAT(Query(folder_ / "out", "SELECT key FROM cases WHERE status = 'done'"), SizeIs(6));
   // A failure is a result: it is not tried again.
   Runs("out");
   EXPECT_EQ(Suite("out").exit_code, 1);
   EXPECT_EQ(Runs("out"), 0u);
+}
+
+TEST_F(SuiteProgram, RunsAgainAtOtherLimitsWhatWasEndedAtALimitAlone) {
+  WriteProgram(
+      "case \"$*\" in *slam*wall-1*) sleep 3;; *slam*wall-2*) echo 'pas: lost' >&2; exit 1;; "
+      "esac");
+  const auto suite = [&](const char* seconds) {
+    WriteSuite(std::string("seeds: {first: 1, count: 2}\nlimits: {seconds: ") + seconds +
+               "}\n");
+    Suite("out");
+  };
+  suite("1");
+  EXPECT_EQ(Runs("out"), 2u);  // of the plates: the others end before they say so
+  suite("1");
+  EXPECT_THAT(Statuses("out"), ElementsAre("wall-1|timeout|not done after 1 s",
+                                           "wall-2|failed|exit code 1: pas: lost"));
+  EXPECT_FALSE(fs::exists(folder_ / "out/log"));
+  suite("60");
+  EXPECT_THAT(Statuses("out"), ElementsAre("wall-2|failed|exit code 1: pas: lost"));
+  EXPECT_EQ(Runs("out"), 1u);
 }
 
 TEST_F(SuiteProgram, KilledInTheMiddleItGoesOnWhereItWas) {
@@ -168,6 +205,17 @@ TEST_F(SuiteProgram, ShardsMergeToWhatOneRunMakes) {
   EXPECT_EQ(Content("merged"), Content("whole"));
   EXPECT_EQ(Suite("merged").exit_code, 0);
   EXPECT_EQ(Runs("merged"), 0u);
+}
+
+TEST_F(SuiteProgram, MergesNothingWhereAFolderHasNoResults) {
+  Suite("part", {"--shard", "1/3"});
+  const Outcome refused = Process({Pas(), "-q", "suite", "merge", folder_ / "part",
+                                   folder_ / "nosuch", "-o", folder_ / "merged"},
+                                  {}, folder_ / "errors")
+                              .Wait();
+  EXPECT_EQ(refused.exit_code, 2);
+  EXPECT_THAT(refused.errors, HasSubstr("nosuch: holds no results.sqlite"));
+  EXPECT_FALSE(fs::exists(folder_ / "merged"));
 }
 
 TEST_F(SuiteProgram, AShardMakesTheScenesOfItsOwnCasesAlone) {

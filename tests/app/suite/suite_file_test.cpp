@@ -47,6 +47,20 @@ TEST_F(SuiteFileTest, LetsRecordingsTellTheirSensorUnlessItSays) {
   EXPECT_EQ(Read("scenes: [{recordings: all, sensor: d435}]\n").scenes[0].sensor, "d435");
 }
 
+TEST_F(SuiteFileTest, TakesTheCameraOfRecordingsByNameOrAsAFileBesideIt) {
+  EXPECT_EQ(Read("scenes: [{recordings: all}]\n").scenes[0].camera.name, "tum1");
+  const SuiteChoice named =
+      Read("scenes: [{recordings: all, camera: tum3}]\n").scenes[0].camera;
+  EXPECT_EQ(named.name, "tum3");
+  EXPECT_EQ(named.file, "");
+  std::ofstream(folder_ / "cam.yaml") << "fx: 525\n";
+  EXPECT_TRUE(program::fs::equivalent(
+      Read("scenes: [{recordings: all, camera: cam.yaml}]\n").scenes[0].camera.file,
+      folder_ / "cam.yaml"));
+  EXPECT_THAT(Refusal("scenes: [{recordings: all, camera: tum9}]\n"),
+              HasSubstr("camera: expected tum1, tum2, tum3 or a file"));
+}
+
 TEST_F(SuiteFileTest, TakesWhatItSays) {
   std::ofstream(folder_ / "noisy.yaml") << "base: azure\n";
   const SuiteFile suite = Read(

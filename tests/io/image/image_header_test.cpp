@@ -4,6 +4,9 @@
 
 #include <string>
 
+#include "io/image/decode_image.h"
+#include "tests/io/image/made_png.h"
+
 namespace io {
 namespace {
 
@@ -19,6 +22,15 @@ TEST(ImageHeader, OfAPngTellsTheSize) {
   EXPECT_FALSE(header->whole);
   EXPECT_TRUE(ReadImageHeader(png + "IEND\xAE\x42\x60\x82"s)->whole);
   EXPECT_FALSE(ReadImageHeader(png.substr(0, 20)));
+}
+
+// It is unfolded when it is decoded, so whoever wants colour can take it.
+TEST(ImageHeader, OfAPaletteTellsItsColours) {
+  for (const PngKind& kind : {kPalette, kPalette2}) {
+    const std::string png = MadePng(kind, {});
+    EXPECT_EQ(ReadImageHeader(png)->pixels, "8-bit RGB") << kind.bits;
+    EXPECT_EQ(DecodeImage(png).type(), CV_8UC3) << kind.bits;
+  }
 }
 
 TEST(ImageHeader, OfAJpegTellsTheSizeBehindItsOtherSegments) {
