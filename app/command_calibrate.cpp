@@ -47,6 +47,12 @@ int RunCalibrate(CalibrateArguments& arguments, bool quiet) {
     fmt::print(stderr, "pas: interrupted; nothing is written\n");
     return ExitCodeOf(StopSignal::Caught());
   }
+  for (const std::string& warning : calibration.warnings)
+    fmt::print(stderr, "pas: warning: {}\n", warning);
+  if (calibration.tracked == 0) {
+    fmt::print(stderr, "pas: no warp is written, because no frame was tracked\n");
+    return kFailure;
+  }
   const slam::WarpEvidence& evidence = calibration.evidence;
   if (!evidence.worth_it) {
     fmt::print(stderr, "pas: no warp is written, because {}\n", evidence.Doubt());

@@ -33,11 +33,9 @@ PoseProblem ExactProblem(const Pose& T_cw, int points, int planes) {
   return problem;
 }
 
-RC_GTEST_PROP(PoseOptimiserEq13, CostsNothingAtTruthAndStaysThere, ()) {
+RC_GTEST_PROP(PoseOptimiserEq13, StaysAtTruth, ()) {
   const PoseProblem problem = ExactProblem(AnyPose(3), 30, 3);
   const PoseSummary summary = OptimisePose(problem, Camera{}, {});
-  // Rounding of a pixel coordinate (1e-12 px) and of a metre (1e-14) over a hundred residuals.
-  RC_ASSERT(summary.initial_cost < 1e-15);
   RC_ASSERT(RotationAngle(summary.T_cw, problem.T_cw) < 1e-7);
   RC_ASSERT((summary.T_cw.t - problem.T_cw.t).norm() < 1e-9);
 }
@@ -64,7 +62,6 @@ RC_GTEST_PROP(PoseOptimiserEq13, FollowsTheWorldWhenItIsMoved, ()) {
   for (PointConstraint& c : there.points) c.p_w = T_vw * c.p_w;
   for (PlaneConstraint& c : there.planes) c.pi_w = Transform(T_vw, c.pi_w);
   const PoseSummary a = OptimisePose(here, Camera{}, {}), b = OptimisePose(there, Camera{}, {});
-  RC_ASSERT(std::abs(a.initial_cost - b.initial_cost) < 1e-9 * (1 + a.initial_cost));
   RC_ASSERT(a.point_inliers == b.point_inliers);
   RC_ASSERT((a.T_cw.t - (b.T_cw * T_vw).t).norm() < 1e-5);
   RC_ASSERT(RotationAngle(a.T_cw, b.T_cw * T_vw) < 1e-5);

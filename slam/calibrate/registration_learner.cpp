@@ -11,7 +11,7 @@ namespace slam {
 namespace {
 
 constexpr int kMinEdges = 80;                            // of each side: an epoch
-constexpr std::size_t kMinEpochs = 5, kMaxEpochs = 100;  // then it is known
+constexpr std::size_t kMinEpochs = 3, kMaxEpochs = 100;  // then it is known
 constexpr double kMinMoved_px = 8.0;                     // between frames that are learnt from
 constexpr double kBlur_px = 1.0;                         // brightness changes over some pixels
 

@@ -47,7 +47,8 @@ class RegistrationLearner {
   void Learn(const Frame& frame);
 
   /// What is known by now stays as it is, for a map that is made with it throughout.
-  void Hold() { held_ = estimate_.has_value(); }
+  /// @pre there is an estimate
+  void Hold() { held_ = true; }
 
   /// None before enough epochs.
   const std::optional<RegistrationEstimate>& estimate() const { return estimate_; }

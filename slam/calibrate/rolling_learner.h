@@ -38,7 +38,8 @@ class RollingLearner {
   /// What is to be taken out of an image that is read while the camera moves so.
   Readout ReadoutAt(const Vector6d& speed) const;
   /// What is known by now stays as it is, for a map that is made with it throughout.
-  void Hold() { held_ = estimate_.has_value(); }
+  /// @pre there is an estimate
+  void Hold() { held_ = true; }
 
   /// None before enough epochs.
   const std::optional<RollingEstimate>& estimate() const { return estimate_; }

@@ -103,7 +103,6 @@ void WarpEstimate::Add(const SurfaceView& view) {
   }
   const Eigen::MatrixXd away = N.llt().matrixL().solve(U);
   for (Eigen::Index k = 0; k < away.rows(); ++k) eliminated_.push_back(away.row(k));
-  observations_ += static_cast<int>(view.cells.size());
 }
 
 double WarpEstimate::CloseEpoch() {
@@ -132,7 +131,7 @@ double WarpEstimate::CloseEpoch() {
   ++epochs_;
   Solve();
   weight_.setZero(), weighted_.setZero(), eliminated_.clear();
-  squares_ = 0.0, observations_ = 0;
+  squares_ = 0.0;
   return share;
 }
 

@@ -30,7 +30,6 @@ class WarpEstimate {
 
   int epochs() const { return epochs_; }
   /// Cells seen in the open epoch, each counted as often as it was seen.
-  int observations() const { return observations_; }
   /// p of each cell, and its standard deviation; zero and the expected bend before any epoch.
   const Eigen::VectorXd& pattern() const { return pattern_; }
   const Eigen::VectorXd& sigma() const { return sigma_; }
@@ -56,7 +55,6 @@ class WarpEstimate {
   Eigen::VectorXd weight_, weighted_;           ///< sums over its views at each cell
   std::vector<Eigen::RowVectorXd> eliminated_;  ///< what the planes of views take away
   double squares_ = 0.0;                        ///< weighted sum of squared residuals
-  int observations_ = 0;
 };
 
 /// Takes out of a pattern its best fit that is linear in the pixel.

@@ -211,6 +211,7 @@ bool CameraCheck::See(const Frame& frame) {
     return false;
   }
   View view = ViewOf(frame);
+  if (view.points.size() < kMinCommonPoints) return false;  // dark or blurred: says nothing
   // Views that share too little with this one will not share more later.
   std::vector<View> kept;
   for (View& earlier : views_) {

@@ -37,9 +37,10 @@ struct ViewMotion {
 /// if the camera has turned: from translation alone any intrinsics fit, with a scene that is
 /// stretched or sheared. The residual of a point, with (x, y, z) = T_21 K^-1(first),
 ///   ( fx x/z + cx - u,  fy y/z + cy - v,  1/z - 1/z_measured ),
-/// is weighed by its own spread (median, Huber). To the pose are added five errors that are
-/// smooth over the image, each expected as large as the noise: skew of u and v with the row, as
-/// of a rolling shutter, and inverse depth that is off by a factor affine in the image.
+/// is weighed by its own spread (median, Huber). To the pose are added errors that are
+/// smooth over the image, each expected as large as the noise or as its own cause is: skew of u and v
+/// with the row, as of a rolling shutter, inverse depth that is off by a factor affine in the image,
+/// and, where the camera's speed is known, the time that rows are read in and by which depth is late.
 class ViewPair {
  public:
   static constexpr std::size_t kMinPoints = 30;  ///< 90 residuals for 17 unknowns

@@ -1,6 +1,7 @@
 #include "slam/features/point_projection.h"
 
 #include "slam/base/chi_square.h"
+#include "slam/geometry/pixel_projection.h"
 
 namespace slam {
 
@@ -9,19 +10,17 @@ std::optional<ExpectedView> ExpectView(const MapPoint& point, const Pose& T_cw,
   constexpr double kRangeMargin = 1.2;    // one octave on the range of distances; ORB-SLAM2
   constexpr double kMinViewCosine = 0.5;  // 60 degrees: beyond, a corner looks otherwise
   const Eigen::Vector3d p_c = T_cw * point.p_w;
-  if (!(p_c.z() > 0)) return std::nullopt;
+  if (RecordedPixel(camera, p_c).x() < 0) return std::nullopt;
   // From too near or too far the point shows in an octave that the pyramid does not have.
   const double distance = p_c.norm();
   if (!(distance * kRangeMargin >= point.min_distance_m &&
         distance <= kRangeMargin * point.max_distance_m)) {
     return std::nullopt;
   }
-  const Eigen::Vector2d u_px = camera.Project(p_c);
-  if (!camera.ImageBox().Contains(u_px)) return std::nullopt;
   const double cosine = (T_cw.R * point.view_w).dot(p_c) / distance;
   if (!(cosine >= kMinViewCosine)) return std::nullopt;
-  return ExpectedView{u_px, p_c.z(), scale.PredictOctave(distance, point.max_distance_m),
-                      cosine};
+  return ExpectedView{camera.Project(p_c), p_c.z(),
+                      scale.PredictOctave(distance, point.max_distance_m), cosine};
 }
 
 PointQuery QueryOf(const MapPoint& point, const Pose& T_cw, const Camera& camera,

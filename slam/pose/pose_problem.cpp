@@ -286,17 +286,13 @@ PoseSummary OptimisePose(const PoseProblem& problem, const Camera& camera,
   if (!FinitePose(problem.T_cw)) return out;
 
   Evaluator evaluate(problem, camera, config);
-  out.initial_cost = evaluate(problem.T_cw).cost;
   // Optimise, classify the points, and again without the outliers; the last round is plain.
   for (int round = 0; round < config.rounds; ++round) {
     evaluate.robust_points = config.rounds == 1 || round + 1 < config.rounds;
     const SolveSummary solved = SolvePose(out.T_cw, config.iterations, evaluate);
     if (!solved.finite || !FinitePose(solved.T_cw)) return out;
     out.T_cw = solved.T_cw;
-    const std::vector<bool> before = evaluate.used;
     out.inlier_count = evaluate.Classify(out.T_cw);
-    // The last round has nothing new to say once the inliers stand still under plain squares.
-    if (!evaluate.robust_points && evaluate.used == before) break;
   }
   // What the solution is worth. Planes that disagree with each other or with the points by more than
   // they say are worth less than they say.

@@ -117,7 +117,6 @@ struct PoseSummary {
   int nullity = 6;                  ///< directions of the pose that nothing constrains, 0 to 6
   std::vector<bool> point_inliers;  ///< parallel to PoseProblem::points
   int inlier_count = 0;
-  double initial_cost = 0.0;
   /// What was measured says so at the solution; the prior apart. Where planes are off by more than
   /// they say, root mean square, all count as so much less certain.
   MotionEvidence evidence;

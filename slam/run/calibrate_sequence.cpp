@@ -28,6 +28,7 @@ struct PassOverFrames {
   int total = 0;   ///< frames
   int before = 0;  ///< frames of the passes before
   bool stopped = false;
+  std::vector<std::string> warnings{};  ///< of the last pass's images
 
   template <typename Take>
   void Run(const Take& take) {
@@ -38,6 +39,7 @@ struct PassOverFrames {
       if (options.progress) options.progress(++before, kPasses * total);
       stopped = options.stop && options.stop();
     }
+    warnings = gate.Warnings();
   }
 };
 
@@ -81,7 +83,8 @@ WarpLearner LearnFrom(PassOverFrames& pass, const PosesByTime& poses, const Conf
 Calibration CalibrateSequence(const CalibrateOptions& options) {
   cv::setNumThreads(1);
   io::RequireRecording(options.sequence);
-  const Camera camera = ChooseCamera(options.camera, options.sequence).camera;
+  const CameraFile chosen = ChooseCamera(options.camera, options.sequence);
+  const Camera& camera = chosen.camera;
   SequenceReader reader(options.sequence, camera);
   PassOverFrames pass{options, camera, reader};
   pass.total = options.frames > 0 ? std::min(options.frames, reader.size()) : reader.size();
@@ -92,9 +95,11 @@ Calibration CalibrateSequence(const CalibrateOptions& options) {
   const WarpLearner second = LearnFrom(pass, poses, options.config, first.Warp());
   calibration.warp = second.Warp();
   calibration.evidence = second.evidence();
-  calibration.frames = pass.total;
   calibration.tracked = static_cast<int>(poses.size());
   calibration.stopped = pass.stopped;
+  calibration.warnings = chosen.warnings;
+  for (const auto& more : {reader.warnings(), pass.warnings})
+    calibration.warnings.insert(calibration.warnings.end(), more.begin(), more.end());
   return calibration;
 }
 

@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <functional>
 #include <string>
+#include <vector>
 
 #include "slam/calibrate/warp_learner.h"
 #include "slam/run/config.h"
@@ -23,8 +24,9 @@ struct CalibrateOptions {
 struct Calibration {
   DepthWarp warp;
   WarpEvidence evidence;
-  int frames = 0, tracked = 0;
+  int tracked = 0;  ///< frames
   bool stopped = false;
+  std::vector<std::string> warnings;  ///< of the camera file, the recording and its images
 };
 
 /// Learns the warp of a device from a recording, in three passes: the camera is tracked by

@@ -19,9 +19,9 @@ std::unique_ptr<Tracker> LookFirst(FrameSource& frames, int count, const Camera&
   int index = 0;
   for (int i = 0; i < std::min(count, frames.size()); ++i) {
     RecordedFrame recorded = frames.Read(i);
-    if (gate.Takes(recorded) && !repeated.Repeats(recorded)) {
+    if (gate.Takes(recorded)) {
       Frame frame = FrameOf(recorded, index++);
-      tracker->TrackFrame(frame, recorded.bgr);
+      if (!repeated.Repeats(recorded)) tracker->TrackFrame(frame, recorded.bgr);
     }
     if (!go_on(i + 1)) break;
   }

@@ -21,7 +21,7 @@ struct RunOptions {
   std::string detector;  ///< see MakeDetector; empty: replay when the sequence has boxes
   std::string camera;    ///< tum1, tum2, tum3, a file; empty: the sequence's camera.yaml
   Config config;
-  std::uint64_t seed = 0;  ///< seeds every random choice of the estimator
+  std::uint64_t seed = 0;  ///< of RANSAC for the edge lines of planes
   int threads = 0;         ///< 0: one a core; never changes a byte of the result
   bool save_segmentation = false;
   bool force = false;                                 ///< replace an older run

@@ -81,10 +81,15 @@ Tracker::Tracker(const Camera& camera, const Config& config, Variant variant,
 }
 
 void Tracker::StartFrom(const Tracker& other) {
-  registration_ = other.registration_;
-  rolling_ = other.rolling_;
-  registration_.Hold();
-  rolling_.Hold();
+  // What the look does not know is learnt anew: the run meets the same frames once more.
+  if (other.registration_.estimate()) {
+    registration_ = other.registration_;
+    registration_.Hold();
+  }
+  if (other.rolling_.estimate()) {
+    rolling_ = other.rolling_;
+    rolling_.Hold();
+  }
   if (other.points_.at_start()) points_.StartAt(*other.points_.at_start());
 }
 

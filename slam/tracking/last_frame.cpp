@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "slam/base/index.h"
+#include "slam/geometry/pixel_projection.h"
 #include "slam/model/map_queries.h"
 
 namespace slam {
@@ -44,12 +45,11 @@ std::vector<PointQuery> QueriesOf(const std::vector<SeenPoint>& seen, const Last
   std::vector<PointQuery> queries;
   for (int i = 0; i < static_cast<int>(seen.size()); ++i) {
     const Eigen::Vector3d p_c = T_cw * seen[Index(i)].p_w;
-    if (!(p_c.z() > 0)) continue;
+    if (RecordedPixel(camera, p_c).x() < 0) continue;
     const PointFeature& feature = last.features[Index(seen[Index(i)].feature)];
     PointQuery query;
     query.point = i;
     query.u_px = camera.Project(p_c);
-    if (!camera.ImageBox().Contains(query.u_px)) continue;
     query.radius_px = radius_px * scale.Scale(feature.octave);
     query.min_octave = feature.octave - 1;
     query.max_octave = feature.octave + 1;

@@ -11,7 +11,6 @@ namespace slam {
 
 /// What is remembered of the frame before, for tracking the next one.
 struct LastFrame {
-  int index = 0;
   std::vector<PointFeature> features;
   std::vector<int> map_points;  ///< parallel to features
   int reference = kNone;        ///< keyframe against which the pose is kept

@@ -76,6 +76,7 @@ PointTrackReport PointTracking::TrackPoints(Frame& frame, Map& map) {
   }
   const std::optional<UncertainPose> prediction = motion_filter_.Predict(frame.timestamp_s);
   frame.prediction = prediction;
+  const int reference = reference_;
   const FeatureGrid grid(frame.features, camera_);
   const double features = static_cast<double>(frame.features.size());
   bool found = false;
@@ -109,6 +110,11 @@ PointTrackReport PointTracking::TrackPoints(Frame& frame, Map& map) {
     ForgetPose(frame);
     frame.prediction = prediction;
     report.by_relocalising = false;
+    reference_ = reference;
+  } else if (!report.by_motion) {
+    // Found elsewhere than motion led: a jump is no speed.
+    motion_.Forget();
+    motion_filter_.Forget();
   }
   state_ = found ? TrackState::kTracking : TrackState::kLost;
   followed_ = report.followed;
@@ -242,7 +248,6 @@ bool PointTracking::TrackLocalMap(Frame& frame, const FeatureGrid& grid, Map& ma
     queries.push_back(query);
     sighted.push_back(id);
   }
-  report.local_points = static_cast<int>(sighted.size());
   const std::vector<int> matches =
       MatchQueries(queries, frame.features, grid, taken, config_.match_local);
   for (std::size_t f = 0; f < matches.size(); ++f) {
@@ -321,7 +326,7 @@ void PointTracking::Accept(const Frame& frame, const Map& map) {
   FollowMap(map);
   motion_.Observe(frame.index, T_cw);
   motion_filter_.Observe(frame.timestamp_s, T_cw, frame.evidence);
-  last_ = {frame.index, frame.features, frame.map_points, reference_,
+  last_ = {frame.features, frame.map_points, reference_,
            T_cw * Inverse(KeyframePose(map, reference_))};
 }
 

@@ -92,7 +92,6 @@ struct PointTrackReport {
   bool by_relocalising = false;  ///< found without a prediction
   bool ambiguous = false;        ///< not found: its planes fit more than one place
   int followed = 0;              ///< features that agree with the last frame's on one motion
-  int local_points = 0;          ///< points of the local map in view
   int inliers = 0;               ///< matches with the map after the last optimisation
 };
 

@@ -105,6 +105,19 @@ TEST_F(CalibrateProgram, AFlatSensorIsLeftAlone) {
   EXPECT_EQ(learnt, off);
 }
 
+TEST_F(CalibrateProgram, SaysThatNothingWasTrackedAndWhy) {
+  const fs::path sequence = Recorded(folder_, "unit", "base: kinect1\n", 3);
+  std::string camera = ReadText(sequence / "camera.yaml");
+  const auto at = camera.find("depth_factor: 5000");
+  ASSERT_NE(at, std::string::npos) << camera;
+  camera.replace(at, 18, "depth_factor: 500000");
+  std::ofstream(sequence / "camera.yaml") << camera;
+  const Outcome outcome = Run({"calibrate", sequence, "-o", folder_ / "warp.yaml"});
+  EXPECT_EQ(outcome.exit_code, 1);
+  EXPECT_THAT(outcome.errors,
+              AllOf(HasSubstr("depth_factor"), HasSubstr("no frame was tracked")));
+}
+
 TEST_F(CalibrateProgram, AFileThatIsNoWarpOfThisCameraIsRefusedByName) {
   std::ofstream(folder_ / "warp.yaml")
       << "format: pas-depth-warp/1\nimage: {width: 640, height: 480}\n"

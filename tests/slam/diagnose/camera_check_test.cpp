@@ -206,5 +206,21 @@ TEST(CameraCheck, SaysNothingOfAWrongCameraThatHardlyTurns) {
   EXPECT_EQ(noticed, 1);
 }
 
+TEST(CameraCheck, KeepsItsViewsOverADarkFrame) {
+  std::size_t pairs[2];
+  for (const bool dark : {false, true}) {
+    CameraCheck check(Camera{}, FeatureScale{});
+    for (Frame& frame : TrackedFrames(60, Camera{}, LookingAround, kNoise, 5)) {
+      if (frame.index % 20 == 15) {
+        if (!dark) continue;
+        frame.features.clear(), frame.map_points.clear();  // held by its planes
+      }
+      check.See(frame);
+    }
+    pairs[dark] = check.Estimate()->pairs;
+  }
+  EXPECT_EQ(pairs[true], pairs[false]);
+}
+
 }  // namespace
 }  // namespace slam

@@ -64,5 +64,20 @@ TEST(QueryOfAPoint, IsNoneFromBeyondSixtyDegreesOfItsMeanViewAndBehindTheCamera)
   EXPECT_EQ(QueryOf(behind, kTurned_cw, camera, FeatureScale{}, 1.0, {}).point, kNone);
 }
 
+TEST(QueryOfAPoint, IsThereForAllThatTheRecordedImageShows) {
+  Camera barrel;
+  barrel.k1 = -0.2, barrel.k2 = 0.04;
+  // Where the lens is undone, what is near the border lies beyond it.
+  const auto found = [&](double ideal_u_px) {
+    return QueryOf(PointOnRay(barrel, {ideal_u_px, 240}, 0.1), kTurned_cw, barrel,
+                   FeatureScale{}, 1.0, {})
+               .point != kNone;
+  };
+  EXPECT_LT(barrel.ProjectDistorted(barrel.Backproject({655, 240}, 1.0)).x(), 631);
+  EXPECT_TRUE(found(655));
+  EXPECT_FALSE(found(690));
+  EXPECT_FALSE(found(2000));
+}
+
 }  // namespace
 }  // namespace slam

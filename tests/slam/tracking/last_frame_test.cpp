@@ -81,5 +81,19 @@ TEST(LastFrame, LooksForItsPointsAroundWhereAPredictionPutsThem) {
   EXPECT_EQ(queries[0].max_octave, 4);
 }
 
+TEST(LastFrame, LooksForWhatTheRecordedImageShowsThroughABarrelLens) {
+  Remembered r;
+  r.camera.k1 = -0.2, r.camera.k2 = 0.04;
+  for (const double ideal_u_px : {655.0, 690.0}) {
+    r.last.features = {FeatureAtDepth(ideal_u_px, 1.0)};
+    r.last.map_points = {kNone};
+    const auto seen = r.Seen(1.5, 100);
+    ASSERT_EQ(seen.size(), 1u);
+    EXPECT_EQ(
+        QueriesOf(seen, r.last, kStep_cr * kReference_cw, r.camera, FeatureScale{}, 7.0).size(),
+        ideal_u_px < 660 ? 1u : 0u);
+  }
+}
+
 }  // namespace
 }  // namespace slam

@@ -98,6 +98,7 @@ TEST(PointTracking, TakesNoJumpForASpeed) {
   frame.depth_late_s = 0.001;
   ASSERT_EQ(odometer.Step(frame).state, TrackState::kTracking);
   EXPECT_TRUE(frame.speed.mean.isZero());  // as it was predicted here
+  EXPECT_TRUE(odometer.tracking.Speed(frame.timestamp_s + 0.033).mean.isZero());
 }
 
 TEST(PointTracking, TellsFeaturesAtTheSpeedOfThePoseThatItFound) {
@@ -243,9 +244,8 @@ TEST(PointTracking, CountsOnItsPointsInWhichFramesTheyShouldBeSeenAndAre) {
     const auto [visible, found] = counts();
     const PointTrackReport report = odometer.tracking.TrackPoints(frame, odometer.map);
     if (i > 0) {
-      EXPECT_EQ(counts().first - visible, report.local_points);
       EXPECT_EQ(counts().second - found, report.inliers);
-      EXPECT_GT(report.local_points, report.inliers);
+      EXPECT_GT(counts().first - visible, report.inliers);
     } else {
       InsertKeyframe(frame, odometer.map, odometer.camera, FeatureScale{},
                      odometer.mapping.keyframes);
