@@ -43,8 +43,8 @@ inline void VisitFields(VertexConfig& c, FieldVisitor& v) {
   v.Number("max_support_distance_px", c.max_support_distance_px, "(0, inf)",
            "distance from every true edge point beyond which a corner is extrapolated");
   v.Number("max_extension", c.max_extension, "[0, inf)",
-           "largest distance of the only corner of two sides beyond their ends, as a part of "
-           "their length");
+           "largest distance of a corner beyond the ends of its sides, as a part of their "
+           "length, besides max_support_distance_px");
   v.Number("min_side_m", c.min_side_m, "(0, inf)", "shortest side of a rectangle");
   v.Number("min_fill", c.min_fill, "[0, inf)",
            "smallest visible area, as a part of the rectangle's; at most max_fill");

@@ -119,7 +119,6 @@ std::vector<int> MatchQueries(const std::vector<PointQuery>& queries,
     matches[Index(nearest.index)] = q;
     distances[Index(nearest.index)] = nearest.distance;
   }
-  if (!config.check_orientation) return matches;
 
   // Wrong matches turn at random: keep those that turn as most do.
   std::vector<double> turns_deg(features.size(), std::numeric_limits<double>::quiet_NaN());
@@ -182,7 +181,6 @@ std::vector<FeaturePair> MatchDescriptors(const std::vector<PointFeature>& first
     turns_deg.push_back(static_cast<double>(second[Index(nearest.index)].angle_deg -
                                             first[Index(i)].angle_deg));
   }
-  if (!config.check_orientation) return pairs;
   const std::vector<bool> consistent = ConsistentTurns(turns_deg);
   std::vector<FeaturePair> kept;
   for (std::size_t k = 0; k < pairs.size(); ++k) {

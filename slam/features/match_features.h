@@ -36,7 +36,6 @@ class FeatureGrid {
 struct PointMatchConfig {
   int max_distance = 100;  // TH_HIGH of ORB-SLAM2
   double max_ratio = 0.9;
-  bool check_orientation = true;
 };
 
 inline void VisitFields(PointMatchConfig& c, FieldVisitor& v) {
@@ -44,8 +43,6 @@ inline void VisitFields(PointMatchConfig& c, FieldVisitor& v) {
             "largest number of differing bits of two matched descriptors");
   v.Number("max_ratio", c.max_ratio, "(0, 1]",
            "largest distance to the best candidate over that to the second best of its octave");
-  v.Flag("check_orientation", c.check_orientation,
-         "keep only matches that turn as most matches of the image do");
 }
 
 /// Something looked for in an image: a map point where it is expected.

@@ -27,7 +27,6 @@ void MovePlane(MapPlane& plane, const Pose& T_new_old) {
   MoveAll(plane.hull_w, T_new_old);
   for (SupposedPlane& supposed : plane.supposed) {
     supposed.pi_w = Transform(T_new_old, supposed.pi_w);
-    supposed.centroid_w = T_new_old * supposed.centroid_w;
     MoveEstimate(supposed.estimate, T_new_old);
   }
   for (PlanePart& part : plane.parts) {

@@ -10,7 +10,6 @@ namespace slam {
 /// A plane that nobody measured: at a right angle to a landmark, through a straight edge of it.
 struct SupposedPlane {
   Plane pi_w;  ///< faces away from the landmark's patch
-  Eigen::Vector3d centroid_w = Eigen::Vector3d::Zero();  ///< on the edge
   PlaneEstimate estimate;
   int observations = 0;
   int last_frame = 0;

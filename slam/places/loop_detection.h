@@ -12,7 +12,7 @@ namespace slam {
 
 /// When a keyframe shows a place that the map holds already.
 struct LoopDetectionConfig {
-  PointMatchConfig match{50, 0.9, false};
+  PointMatchConfig match{50, 0.9};
   double radius_factor = 3.0;
   double min_likeness_ratio = 0.8;  // ORB-SLAM2: 1
   int min_inliers = 40;             // ORB-SLAM2

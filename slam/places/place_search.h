@@ -22,9 +22,9 @@ struct PlaceSearchConfig {
   int ransac_samples = 5000;    // costs little: SameShape refuses most before they are solved
   double shape_tolerance = 0.05;
   double ransac_error_px = 4.0;
-  int min_ransac_inliers = 10;            // ORB-SLAM2
-  PointMatchConfig match{70, 0.9, true};  // between TH_LOW and TH_HIGH of ORB-SLAM2
-  double max_second_best_ratio = 0.7;     // balances a wrong place against none
+  int min_ransac_inliers = 10;         // ORB-SLAM2
+  PointMatchConfig match{70, 0.9};     // between TH_LOW and TH_HIGH of ORB-SLAM2
+  double max_second_best_ratio = 0.7;  // balances a wrong place against none
   double same_pose_m = 0.1;
   double same_pose_rad = 0.1;
 };

@@ -46,16 +46,12 @@ PlaneExtractor::PlaneExtractor(const Camera& camera, const cv::Mat2d& rays,
     : work_(std::make_unique<Workspace>()) {
   work_->sensor = sensor;
   work_->config = config;
-  Use(camera, rays);
+  work_->camera = camera;
+  SetRays(rays, work_->grid);
 }
 PlaneExtractor::PlaneExtractor(PlaneExtractor&&) noexcept = default;
 PlaneExtractor& PlaneExtractor::operator=(PlaneExtractor&&) noexcept = default;
 PlaneExtractor::~PlaneExtractor() = default;
-
-void PlaneExtractor::Use(const Camera& camera, const cv::Mat2d& rays) {
-  work_->camera = camera;
-  SetRays(rays, work_->grid);
-}
 
 /// Grows the planes of clusters from the middles of their blocks, and drops the useless ones.
 /// @param joined  which of them are one surface, by block_parts; null: none

@@ -29,10 +29,7 @@ class PlaneExtractor {
   PlaneExtractor& operator=(PlaneExtractor&&) noexcept;
   ~PlaneExtractor();
 
-  /// Goes on with another camera.
-  void Use(const Camera& camera, const cv::Mat2d& rays);
-
-  /// Reads frame.depth_m; fills frame.planes (largest first, at most 254, without what planes/
+  /// Reads frame.depth_m; fills frame.planes (largest first, at most 254, without what faces/
   /// adds) and frame.plane_labels (index + 1, 0 = none). Never labels an unmeasured pixel.
   /// @throws std::invalid_argument if depth and rays differ in size.
   void Extract(Frame& frame);

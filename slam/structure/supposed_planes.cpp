@@ -47,7 +47,6 @@ void Observe(const Plane& pi_w, const Eigen::Vector3d& edge_w, double keep, int 
   AddObservation(known.estimate, pi_w, edge_w, config.angle_sigma_rad, config.offset_sigma_m,
                  keep);
   known.pi_w = known.estimate.Mean();
-  known.centroid_w = ProjectOnto(known.pi_w, edge_w);
   // Several lines along one edge are one observation.
   if (known.observations == 0 || known.last_frame != frame) ++known.observations;
   known.last_frame = frame;

@@ -40,9 +40,9 @@ struct PointTrackingConfig {
   MotionFilterConfig motion;
   PlanePlaceConfig plane_place;
   // Distances and ratios: ORB-SLAM2's.
-  PointMatchConfig match_last{100, 0.9, true};
-  PointMatchConfig match_local{100, 0.8, false};
-  PointMatchConfig match_reference{50, 0.7, true};
+  PointMatchConfig match_last{100, 0.9};
+  PointMatchConfig match_local{100, 0.8};
+  PointMatchConfig match_reference{50, 0.7};
   int min_start_points = 100;        // balances a bare start against a late one; ORB-SLAM2: 500
   double last_radius_px = 15.0;      // ORB-SLAM2
   int min_last_matches = 20;         // ORB-SLAM2

@@ -59,8 +59,8 @@ TEST(PointMatching, FindsTheTrueFlowBetweenTwoViewsOfADesk) {
   for (const auto& [frames_apart, least_pairs, least_share] :
        {std::tuple{5, 150, 0.97}, {30, 50, 0.9}}) {
     const Views views = LookTwice(11, frames_apart);
-    const auto pairs = slam::MatchDescriptors(views.first.features, {}, views.second.features,
-                                              {}, {50, 0.75, true});
+    const auto pairs =
+        slam::MatchDescriptors(views.first.features, {}, views.second.features, {}, {50, 0.75});
     int right = 0;
     double moved_px = 0;
     for (const slam::FeaturePair& pair : pairs) {

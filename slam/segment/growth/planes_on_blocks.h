@@ -37,11 +37,11 @@ struct PlanesOnBlocks {
   }
 };
 
-/// Within this distance of a plane a pixel is near it (BlockHypotheses::kNear).
+/// Within this distance of a plane a pixel is near it (Hypothesis::near).
 inline float NearSigmas(const GrowthConfig& config) {
   return static_cast<float>(config.max_pixel_sigmas);
 }
-/// One sigma more (BlockHypotheses::kWide): noise may have taken the pixel out of reach.
+/// One sigma more (Hypothesis::wide): noise may have taken the pixel out of reach.
 inline float WideSigmas(const GrowthConfig& config) {
   return static_cast<float>(config.max_pixel_sigmas + 1.0);
 }

@@ -37,7 +37,7 @@ inline void VisitFields(JoinConfig& c, FieldVisitor& v) {
            "largest chi-square (3 degrees of freedom) of one plane for two parts that touch");
   v.Number("max_hidden_cost", c.max_hidden_cost, "[-100, 100]",
            "largest -2 log likelihood of one plane for two parts that something in front "
-           "separates");
+           "separates, and whose chi-square 99.9 % of such parts stay below");
   v.Number("max_turn_bends", c.max_turn_bends, "(0, inf)",
            "largest change of slope where two parts meet, in bends over their length");
   v.Number("max_step_sigmas", c.max_step_sigmas, "(0, inf)",

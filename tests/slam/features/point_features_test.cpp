@@ -150,7 +150,7 @@ TEST(PointFeatures, AreFoundAgainAndLookAlikeUnderTheNoiseOfASensor) {
     EXPECT_GE(repeated, found * count) << sigma;
 
     int right = 0;
-    const auto pairs = MatchDescriptors(first, {}, second, {}, {50, 0.8, true});
+    const auto pairs = MatchDescriptors(first, {}, second, {}, {50, 0.8});
     for (const FeaturePair& pair : pairs) {
       right += same_place(first[static_cast<std::size_t>(pair.first)],
                           second[static_cast<std::size_t>(pair.second)]);

@@ -17,7 +17,7 @@ Frame FrameOf(const PointWorld& world) {
 
 bool Deny(const Frame& frame, const Map& map) {
   return PointsDeny(frame, map, frame.T_cw, 0, Camera{}, FeatureScale{}, {},
-                    PointMatchConfig{50, 0.7, true});
+                    PointMatchConfig{50, 0.7});
 }
 
 TEST(PointsDeny, APlaceWhosePrintsAreOthers) {
