@@ -104,7 +104,7 @@ TEST(PointFeatures, AreFoundAgainAndLookAlikeUnderAKnownHomography) {
   EXPECT_GE(repeated, 0.6 * visible);
 
   int right = 0;
-  const auto pairs = MatchDescriptors(first, {}, second, {}, {64, 0.8, true});
+  const auto pairs = MatchDescriptors(first, {}, second, {}, {64, 0.8});
   for (const FeaturePair& pair : pairs) {
     const PointFeature& f = first[static_cast<std::size_t>(pair.first)];
     const PointFeature& g = second[static_cast<std::size_t>(pair.second)];
