@@ -1,5 +1,9 @@
 #include <gtest/gtest.h>
 
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <vector>
+
 #include "sim/families/families.h"
 #include "tests/support/pipeline.h"
 
@@ -47,6 +51,20 @@ TEST(FirstLook, BeginsTheMapWithWhatTheDeviceTurnsOutToBe) {
   EXPECT_EQ(without.last_total, without.outcome.frames);
   EXPECT_EQ(with.last_total, 2 * with.outcome.frames);
   EXPECT_EQ(with.last_done, with.last_total);
+}
+
+TEST(FirstLook, CountsNoFrameTwiceForWhatItDoesNotKnowInTheEnd) {
+  // So short looks are not sure of the shutter: the run learns it from its own frames alone.
+  const pipeline::TemporaryFolder folder;
+  RecordByRows(folder / "seq");
+  std::vector<double> learnt_s;
+  for (const int look : {4, 12}) {
+    const auto run = folder / std::to_string(look);
+    RunWith(look, folder / "seq", run);
+    const auto json = nlohmann::json::parse(std::ifstream(run / "run.json"));
+    learnt_s.push_back(json.at("rolling_shutter").at("learnt").at("read_s"));
+  }
+  EXPECT_EQ(learnt_s[0], learnt_s[1]);
 }
 
 TEST(FirstLook, EndsWhereTheRunIsStopped) {
