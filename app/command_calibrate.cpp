@@ -47,8 +47,7 @@ int RunCalibrate(CalibrateArguments& arguments, bool quiet) {
     fmt::print(stderr, "pas: interrupted; nothing is written\n");
     return ExitCodeOf(StopSignal::Caught());
   }
-  for (const std::string& warning : calibration.warnings)
-    fmt::print(stderr, "pas: warning: {}\n", warning);
+  for (const std::string& warning : calibration.warnings) PrintWarning(warning);
   if (calibration.tracked == 0) {
     fmt::print(stderr, "pas: no warp is written, because no frame was tracked\n");
     return kFailure;

@@ -29,7 +29,6 @@ class WarpEstimate {
   double CloseEpoch();
 
   int epochs() const { return epochs_; }
-  /// Cells seen in the open epoch, each counted as often as it was seen.
   /// p of each cell, and its standard deviation; zero and the expected bend before any epoch.
   const Eigen::VectorXd& pattern() const { return pattern_; }
   const Eigen::VectorXd& sigma() const { return sigma_; }

@@ -25,14 +25,14 @@ bool WereSplit(const Map& map, const MapPlane& one, const MapPlane& other) {
   });
 }
 
-/// Parameters agree from both sides, classes do not contradict, clouds meet.
+/// Parameters agree from both sides, classes do not contradict, clouds meet; and nobody has seen two.
 bool OneSurface(const Map& map, const MapPlane& one, const MapPlane& other,
                 const AssociationConfig& a, const PlaneMapConfig& config) {
   if (one.observations < config.min_fused_observations ||
       other.observations < config.min_fused_observations) {
     return false;
   }
-  if (StepLiesBetween(one, other) || WereSplit(map, one, other)) return false;
+  if (StepLiesBetween(one, other)) return false;
   const PlaneComparison forth = ComparePlanes(one, other);
   if (!(forth.angle_rad < a.gates.max_normal_angle_rad)) return false;  // eq6
   // Two segments seen side by side again and again have shown any step there is.
@@ -42,8 +42,9 @@ bool OneSurface(const Map& map, const MapPlane& one, const MapPlane& other,
   if (!(SameClassOdds(one.class_belief, other.class_belief) > a.min_class_odds)) return false;
   // A large plane's cloud is coarse: look in voxels that its points fill.
   const double voxel_m = std::max({config.voxel_m, one.voxel_m, other.voxel_m});
-  return CloudOverlap(one.points_w, other.points_w, one.pi_w, voxel_m) >
-         config.min_fused_overlap;
+  const double overlap = CloudOverlap(one.points_w, other.points_w, one.pi_w, voxel_m);
+  // All landmarks are asked what they were split from: of few pairs alone.
+  return overlap > config.min_fused_overlap && !WereSplit(map, one, other);
 }
 
 /// Adds what `from` knows of its parameters to `into`.
