@@ -9,15 +9,6 @@
 namespace slam {
 namespace {
 
-/// The area that one point of the cloud stands for. Along its rim voxels are filled in part; and an
-/// L, or what was seen in parts, does not fill its convex outline.
-double CellArea(const MapPlane& map_plane) {
-  const double of_outline_m2 =
-      map_plane.area_m2 / static_cast<double>(map_plane.points_w.size());
-  const double of_voxel_m2 = map_plane.voxel_m * map_plane.voxel_m;
-  return of_voxel_m2 > 0 ? std::min(of_outline_m2, of_voxel_m2) : of_outline_m2;
-}
-
 /// A frame plane's area, in points of the cloud.
 double PointsOn(const PlaneView& view, const FramePlane& frame_plane) {
   return view.cell_m2 > 0 ? frame_plane.area_m2 / view.cell_m2
@@ -39,7 +30,7 @@ PlaneView ViewMapPlane(const MapPlane& map_plane, const Frame& frame, const Pose
   PlaneView view;
   view.landed.assign(frame.planes.size(), 0);
   if (map_plane.points_w.empty()) return view;
-  view.cell_m2 = CellArea(map_plane);
+  view.cell_m2 = map_plane.area_m2 / static_cast<double>(map_plane.points_w.size());
   const bool has_depth =
       frame.depth_m.rows == camera.height && frame.depth_m.cols == camera.width;
   const bool has_labels =

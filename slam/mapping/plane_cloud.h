@@ -16,9 +16,10 @@ namespace slam {
 /// @param pi_w           the plane, for the directions of the grid
 /// @param grid_origin_w  a corner of the grid
 /// Cost: O(n) of both clouds.
-double MergeIntoCloud(std::vector<Eigen::Vector3d>& cloud_w,
-                      const std::vector<Eigen::Vector3d>& points_w, const Plane& pi_w,
-                      const Eigen::Vector3d& grid_origin_w, double voxel_m, int max_points);
+[[nodiscard]] double MergeIntoCloud(std::vector<Eigen::Vector3d>& cloud_w,
+                                    const std::vector<Eigen::Vector3d>& points_w,
+                                    const Plane& pi_w, const Eigen::Vector3d& grid_origin_w,
+                                    double voxel_m, int max_points);
 
 /// The middle of the cloud, on the plane. @pre the cloud is not empty
 Eigen::Vector3d CloudCentroid(const std::vector<Eigen::Vector3d>& cloud_w, const Plane& pi_w);

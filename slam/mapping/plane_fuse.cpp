@@ -40,9 +40,14 @@ bool OneSurface(const Map& map, const MapPlane& one, const MapPlane& other,
   const double max_chi2 = side_by_side ? 0.5 * a.max_chi2 : a.max_chi2;
   if (!(forth.chi2 < max_chi2) || !(ComparePlanes(other, one).chi2 < max_chi2)) return false;
   if (!(SameClassOdds(one.class_belief, other.class_belief) > a.min_class_odds)) return false;
-  // A large plane's cloud is coarse: look in voxels that its points fill.
-  const double voxel_m = std::max({config.voxel_m, one.voxel_m, other.voxel_m});
-  const double overlap = CloudOverlap(one.points_w, other.points_w, one.pi_w, voxel_m);
+  // A large or far plane's cloud is coarse: look in voxels that its points surely fill.
+  double cell = config.voxel_m;
+  for (const MapPlane* m : {&one, &other}) {
+    if (!m->points_w.empty()) {
+      cell = std::max(cell, std::sqrt(m->area_m2 / static_cast<double>(m->points_w.size())));
+    }
+  }
+  const double overlap = CloudOverlap(one.points_w, other.points_w, one.pi_w, cell);
   // All landmarks are asked what they were split from: of few pairs alone.
   return overlap > config.min_fused_overlap && !WereSplit(map, one, other);
 }

@@ -71,16 +71,6 @@ TEST(ViewOfAMapPlane, ExpectsThePointsThatNothingNearerHides) {
   EXPECT_DOUBLE_EQ(view.cell_m2, 0.01);
 }
 
-TEST(ViewOfAMapPlane, CountsAPointForItsVoxelWhereTheSurfaceDoesNotFillItsOutline) {
-  MapPlane m;
-  m.points_w.assign(100, Eigen::Vector3d(0, 0, 2));
-  m.area_m2 = 0.08, m.voxel_m = 0.02;  // an L: half of what its corners span
-  const Camera camera;
-  EXPECT_DOUBLE_EQ(ViewMapPlane(m, HalfAPlane(camera), kView_cw, camera).cell_m2, 0.0004);
-  m.area_m2 = 0.03;  // a strip, whose voxels hold only a part of it
-  EXPECT_DOUBLE_EQ(ViewMapPlane(m, HalfAPlane(camera), kView_cw, camera).cell_m2, 0.0003);
-}
-
 TEST(FeaturesOnPlanes, AreThoseOnItsPixelsAndLieInTheWorld) {
   const Camera camera;
   Frame frame = HalfAPlane(camera);

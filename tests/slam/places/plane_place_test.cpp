@@ -23,8 +23,8 @@ Map MapOf(const PlaneWorld& world, const std::vector<Pose>& views_cw, const Came
       landmark.class_name = plane.class_name;
       std::vector<Eigen::Vector3d> points_w;
       for (const Eigen::Vector3d& p_c : plane.points_c) points_w.push_back(Inverse(T_cw) * p_c);
-      MergeIntoCloud(landmark.points_w, points_w, landmark.pi_w, Eigen::Vector3d::Zero(), 0.02,
-                     2000);
+      landmark.voxel_m = MergeIntoCloud(landmark.points_w, points_w, landmark.pi_w,
+                                        Eigen::Vector3d::Zero(), 0.02, 2000);
       if (plane.vertices_c.size() != kFaceCorners) continue;
       landmark.vertices_w.clear();
       for (const Vertex& vertex : plane.vertices_c)
