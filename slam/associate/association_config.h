@@ -40,15 +40,18 @@ inline void VisitFields(AssociationConfig& c, FieldVisitor& v) {
            "error of a plane's offset that does not average out (calibration, quantisation)");
   v.Degrees("angle_floor_deg", c.angle_floor_rad, "(0, 90)",
             "error of a plane's normal that does not average out (calibration, quantisation)");
-  v.Number("max_chi2", c.max_chi2, "(0, inf)",
-           "largest chi-square of offset and slopes (3 degrees of freedom) of a match");
+  v.Number(
+      "max_chi2", c.max_chi2, "(0, inf)",
+      "largest chi-square of offset and slopes (3 degrees of freedom) of one surface; a match "
+      "may cost so much and overlap_weight in all");
   v.Flag(
       "recheck", c.recheck,
       "matches are tested once more at the optimised pose, and taken back beyond max_chi2 or "
       "below min_overlap");
-  v.Number("new_chi2", c.new_chi2, "(0, inf)",
-           "chi-square from which two planes are certainly two; below it, and above max_chi2, "
-           "there is no decision");
+  v.Number(
+      "new_chi2", c.new_chi2, "(0, inf)",
+      "chi-square from which two planes are certainly two; below it, where they are no match, "
+      "there is no decision");
   v.Number("min_overlap", c.min_overlap, "(0, 1)",
            "share of the smaller footprint that both planes must cover");
   v.Number("min_margin", c.min_margin, "[0, inf)",

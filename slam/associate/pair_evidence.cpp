@@ -67,9 +67,6 @@ PairEvidence Weigh(const Frame& frame, const FramePlane& f, const MapPlane& m,
 
   if (!(pair.overlap > config.min_overlap)) {
     pair.refusal = PairRefusal::kOverlap;
-  } else if (!(comparison.chi2 < config.max_chi2)) {  // eq7, weighted
-    pair.verdict = PairVerdict::kDoubtful;
-    pair.refusal = PairRefusal::kParameters;
   } else if (!(pair.Cost() < config.max_chi2 + config.overlap_weight)) {
     pair.verdict = PairVerdict::kDoubtful;
     pair.refusal = PairRefusal::kCost;

@@ -1,6 +1,7 @@
 #include "slam/mapping/plane_fuse.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "slam/associate/plane_comparison.h"
 #include "slam/mapping/plane_cloud.h"
@@ -25,7 +26,50 @@ bool WereSplit(const Map& map, const MapPlane& one, const MapPlane& other) {
   });
 }
 
-/// Parameters agree from both sides, classes do not contradict, clouds meet; and nobody has seen two.
+/// Hardly any frame that showed the one showed the other.
+bool SeenInTurn(const MapPlane& one, const MapPlane& other) {
+  constexpr double kMaxTogether = 0.25;  // of the frames that showed the one that was seen less
+  return CovisibleFrames(one, other) <
+         kMaxTogether * std::min(one.observations, other.observations);
+}
+
+/// Side of voxels that the points of both clouds surely fill: that of a large or far plane is coarse.
+double FilledVoxel_m(const MapPlane& one, const MapPlane& other, double voxel_m) {
+  for (const MapPlane* m : {&one, &other}) {
+    if (m->points_w.empty()) continue;
+    voxel_m =
+        std::max(voxel_m, std::sqrt(m->area_m2 / static_cast<double>(m->points_w.size())));
+  }
+  return voxel_m;
+}
+
+/// Parameters agree from both sides, and clouds meet.
+bool AgreeAndMeet(const MapPlane& one, const MapPlane& other, double max_chi2,
+                  const PlaneMapConfig& config) {
+  if (!(ComparePlanes(one, other).chi2 < max_chi2)) return false;
+  if (!(ComparePlanes(other, one).chi2 < max_chi2)) return false;
+  return CloudOverlap(one.points_w, other.points_w, one.pi_w,
+                      FilledVoxel_m(one, other, config.voxel_m)) > config.min_fused_overlap;
+}
+
+/// A pose that jumped farther than it knew found the surface a second time. Two surfaces that lie at
+/// one place and face the same way, as a desk and a book on it, are mostly seen both in a frame: these
+/// are seen in turn.
+bool IsFoundAgain(const MapPlane& one, const MapPlane& other, const AssociationConfig& a,
+                  const PlaneMapConfig& config) {
+  constexpr double kMostOfIt = 0.8;  // of the smaller cloud's voxels
+  constexpr int kNoReach = 0;        // strips one above the other come within a voxel
+  if (!SeenInTurn(one, other)) return false;
+  for (const double offset_m :
+       {ComparePlanes(one, other).offset_m, ComparePlanes(other, one).offset_m}) {
+    if (!(std::abs(offset_m) < a.gates.max_patch_offset_m)) return false;  // eq7
+  }
+  return CloudOverlap(one.points_w, other.points_w, one.pi_w,
+                      FilledVoxel_m(one, other, config.voxel_m), kNoReach) > kMostOfIt;
+}
+
+/// The same surface twice: classes do not contradict, nobody has seen two, and either parameters or
+/// the place say so.
 bool OneSurface(const Map& map, const MapPlane& one, const MapPlane& other,
                 const AssociationConfig& a, const PlaneMapConfig& config) {
   if (one.observations < config.min_fused_observations ||
@@ -33,23 +77,16 @@ bool OneSurface(const Map& map, const MapPlane& one, const MapPlane& other,
     return false;
   }
   if (StepLiesBetween(one, other)) return false;
-  const PlaneComparison forth = ComparePlanes(one, other);
-  if (!(forth.angle_rad < a.gates.max_normal_angle_rad)) return false;  // eq6
+  if (!(Angle(one.pi_w.n, other.pi_w.n) < a.gates.max_normal_angle_rad)) return false;  // eq6
+  if (!(SameClassOdds(one.class_belief, other.class_belief) > a.min_class_odds)) return false;
   // Two segments seen side by side again and again have shown any step there is.
   const bool side_by_side = CovisibleFrames(one, other) >= config.min_fused_observations;
   const double max_chi2 = side_by_side ? 0.5 * a.max_chi2 : a.max_chi2;
-  if (!(forth.chi2 < max_chi2) || !(ComparePlanes(other, one).chi2 < max_chi2)) return false;
-  if (!(SameClassOdds(one.class_belief, other.class_belief) > a.min_class_odds)) return false;
-  // A large or far plane's cloud is coarse: look in voxels that its points surely fill.
-  double cell = config.voxel_m;
-  for (const MapPlane* m : {&one, &other}) {
-    if (!m->points_w.empty()) {
-      cell = std::max(cell, std::sqrt(m->area_m2 / static_cast<double>(m->points_w.size())));
-    }
+  if (!AgreeAndMeet(one, other, max_chi2, config) && !IsFoundAgain(one, other, a, config)) {
+    return false;
   }
-  const double overlap = CloudOverlap(one.points_w, other.points_w, one.pi_w, cell);
   // All landmarks are asked what they were split from: of few pairs alone.
-  return overlap > config.min_fused_overlap && !WereSplit(map, one, other);
+  return !WereSplit(map, one, other);
 }
 
 /// Adds what `from` knows of its parameters to `into`.

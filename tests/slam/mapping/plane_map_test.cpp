@@ -178,6 +178,7 @@ TEST(PlaneMap, FusesASurfaceThatWasFoundTwiceAndKeepsStepsApart) {
   const PlaneMapConfig config = SmallImages();
   Map map;
   for (const double height_m : {0.0, 0.0, 0.009}) AddLandmark(map, BoardAt(height_m));
+  map.planes.At(0).covisible[2] = map.planes.At(2).covisible[0] = 8;
   EXPECT_EQ(FusePlanes(map, {}, config), 1);
   EXPECT_EQ(map.planes.At(1).merged_into, 0);
   EXPECT_EQ(map.planes.At(1).status, LandmarkStatus::kMerged);
@@ -185,6 +186,39 @@ TEST(PlaneMap, FusesASurfaceThatWasFoundTwiceAndKeepsStepsApart) {
   EXPECT_EQ(CurrentPlane(map, 1), 0);
   EXPECT_EQ(map.planes.At(0).observations, 16);
   EXPECT_EQ(FusePlanes(map, {}, config), 0);
+}
+
+TEST(PlaneMap, FusesWhatAJumpOfThePoseFoundAgainElsewhere) {
+  // Many times farther apart than they know; of eight frames that saw each, some saw both.
+  struct Case {
+    double height_m;
+    int together;
+    bool fused;
+  };
+  for (const Case& c : {Case{0.018, 0, true}, Case{0.018, 1, true}, Case{0.018, 2, false},
+                        Case{0.018, 8, false}, Case{-0.018, 0, true}, Case{0.06, 0, false}}) {
+    SCOPED_TRACE(testing::Message() << c.height_m << " " << c.together);
+    Map map;
+    for (const double height_m : {0.0, c.height_m}) AddLandmark(map, BoardAt(height_m));
+    map.planes.At(0).covisible[1] = map.planes.At(1).covisible[0] = c.together;
+    EXPECT_EQ(FusePlanes(map, {}, SmallImages()), c.fused ? 1 : 0);
+  }
+}
+
+TEST(PlaneMap, KeepsFrontsApartThatLieOneAboveTheOther) {
+  // As two books of a stack: strips that come within a voxel of each other, never seen both.
+  Map map;
+  for (const double height_m : {0.0, 0.018}) AddLandmark(map, BoardAt(height_m));
+  MapPlane &lower = map.planes.At(0), &upper = map.planes.At(1);
+  const double density = static_cast<double>(lower.points_w.size()) / lower.area_m2;
+  std::erase_if(lower.points_w, [](const auto& p_w) { return p_w.y() > 0.0; });
+  std::erase_if(upper.points_w,
+                [](const auto& p_w) { return p_w.y() < 0.0 || p_w.y() > 0.03; });
+  for (MapPlane* strip : {&lower, &upper}) {
+    ASSERT_FALSE(strip->points_w.empty());
+    strip->area_m2 = static_cast<double>(strip->points_w.size()) / density;
+  }
+  EXPECT_EQ(FusePlanes(map, {}, SmallImages()), 0);
 }
 
 TEST(PlaneMap, DoesNotFuseSurfacesBetweenWhichAStepWasSeen) {
