@@ -362,35 +362,6 @@ TEST(PlaneAssociation, LeavesATieUndecided) {
   EXPECT_EQ(between.frame.plane_matches[0].reason, MatchReason::kAmbiguous);
 }
 
-TEST(PlaneAssociation, PlaceAndParametersAreWeighedTogether) {
-  // The desk alone, at the place of its landmark, farther off than one surface is as a rule.
-  PlaneWorld desk;
-  desk.Add({0, 0, 0}, {kDesk, 0, 0}, {0, 0.5, 0}, "");
-  Association a = TwoViews(desk, {}, {});
-  MapPlane& landmark = *Landmarks(a.map).at(0);
-  const UncertainPose pose = {a.second.frame.T_cw, 1e-7 * Matrix6d::Identity()};
-  const AssociationConfig config;
-  const double known_d = landmark.pi_w.d;
-  int between = 0, beyond = 0;
-  for (double off_m = 0.0; off_m < 0.03; off_m += 0.0005) {
-    landmark.pi_w.d = known_d - off_m;
-    PairRefusals refused;
-    const PairTable pairs =
-        WeighPairs(a.second.frame, a.map, pose, pose, SmallCamera(), config, refused);
-    if (pairs.at(0).empty()) break;  // certainly two
-    const PairEvidence& pair = pairs[0][0];
-    ASSERT_GT(pair.overlap, 0.9);
-    between += pair.verdict == PairVerdict::kPossible && pair.parameter_cost > config.max_chi2;
-    beyond += pair.verdict == PairVerdict::kDoubtful;
-    const double cost =
-        pair.parameter_cost + pair.overlap_cost + pair.class_cost + pair.box_cost;
-    const bool dear = !(cost < config.max_chi2 + config.overlap_weight);
-    EXPECT_EQ(pair.verdict, dear ? PairVerdict::kDoubtful : PairVerdict::kPossible);
-  }
-  EXPECT_GT(between, 0);
-  EXPECT_GT(beyond, 0);
-}
-
 TEST(PlaneAssociation, NeverMatchesAPlaneOnAnUnstructuredObject) {
   const Camera camera = SmallCamera();
   const PlaneWorld world = DeskWithBook(0.02, "book");
