@@ -17,6 +17,12 @@ struct BetweenCells {
   double part = 0.0;  ///< [0, 1], from first to next
 };
 
+double RootMeanSquare(const Eigen::VectorXd& values) {
+  return values.size() > 0
+             ? std::sqrt(values.squaredNorm() / static_cast<double>(values.size()))
+             : 0.0;
+}
+
 template <typename Centre>
 std::vector<BetweenCells> Between(int pixels, int cells, const Centre& centre) {
   std::vector<BetweenCells> between;
@@ -42,11 +48,8 @@ WarpCells CellsOf(const Camera& camera) {
           count(camera.height, camera.fy)};
 }
 
-double DepthWarp::Rms() const {
-  return pattern.size() > 0
-             ? std::sqrt(pattern.squaredNorm() / static_cast<double>(pattern.size()))
-             : 0.0;
-}
+double DepthWarp::Rms() const { return RootMeanSquare(pattern); }
+double DepthWarp::SigmaRms() const { return RootMeanSquare(sigma); }
 
 cv::Mat1f StraighteningFactors(const DepthWarp& warp) {
   const WarpCells& cells = warp.cells;

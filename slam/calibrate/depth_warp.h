@@ -40,6 +40,15 @@ struct DepthWarp {
 
   /// Root mean square of p over the image.
   double Rms() const;
+  /// The same of its standard deviation.
+  double SigmaRms() const;
+};
+
+/// What is done with the depth of a frame.
+struct Straightening {
+  cv::Mat1f factors;  ///< that depths are multiplied with; empty: nothing is done
+  double left_ratio =
+      0.0;  ///< bend that is left for all that is known, rms, as a part of the depth
 };
 
 /// What a depth has to be multiplied with at each pixel, 1 / (1 + p); p is bilinear between the

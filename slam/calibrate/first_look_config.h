@@ -10,10 +10,11 @@ struct FirstLookConfig {
 };
 
 inline void VisitFields(FirstLookConfig& c, FieldVisitor& v) {
-  v.Integer("frames", c.frames, "[0, 10000000]",
-            "frames of a recording that are looked at before it is run, by points alone, to "
-            "learn its depth_registration and rolling_shutter; 0: these are learnt on the way "
-            "alone, as with a live camera");
+  v.Integer(
+      "frames", c.frames, "[0, 10000000]",
+      "frames of a recording that are looked at before it is run to learn its depth_warp, "
+      "depth_registration and rolling_shutter; 0: these are learnt on the way alone, as "
+      "with a live camera");
 }
 
 }  // namespace slam

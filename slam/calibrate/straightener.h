@@ -22,9 +22,11 @@ class DepthStraightener {
   DepthStraightener(const Camera& camera, const DepthNoise& noise,
                     const DepthWarpConfig& config);
 
-  /// What depths are to be multiplied with, pixel by pixel (Straightened); empty when there is no
-  /// warp to be applied. It stays as it is when more is learnt.
-  const cv::Mat1f& factors() const { return factors_; }
+  /// Goes on from what was learnt of the recording before it is run. Before the first frame.
+  void StartFrom(WarpLearner learner);
+
+  /// What is to be done with depth. Its image stays as it is when more is learnt.
+  const Straightening& straightening() const { return straightening_; }
 
   /// Notes whether the frame, of each in order, was straightened.
   void See(const Frame& frame);
@@ -35,12 +37,13 @@ class DepthStraightener {
 
  private:
   void Apply(const DepthWarp& warp);
+  void ApplyIfWorthIt();
 
   Camera camera_;
   DepthNoise noise_;
   DepthWarpConfig config_;
   std::optional<WarpLearner> learner_;  ///< from the first frame on that it learns from
-  cv::Mat1f factors_;                   ///< empty: nothing is applied
+  Straightening straightening_;
   StraighteningReport report_;
 };
 

@@ -10,6 +10,7 @@ namespace slam {
 /// where its warp comes from.
 struct DepthWarpConfig {
   std::string source = "auto";  ///< "off", "auto", or the path of a warp file
+  bool Learns() const { return source == "auto"; }
 
   // Those of a first Kinect, measured on a recording (docs/sensors.md).
   double bend_rms = 0.0033;

@@ -64,22 +64,24 @@ double WarpLearner::Shift(const Place& from, const Pose& T_cw) const {
   return RotationAngle(from.T_cw, T_cw) + way.norm() / depth_m_;
 }
 
-bool WarpLearner::Wants(const Pose& T_cw) const {
-  return !last_ || Shift(*last_, T_cw) >= kMinViewShift_rad;
+bool WarpLearner::EndsEpoch(double timestamp_s, const Pose& T_cw) const {
+  const double min_epoch_s = std::max(kMinEpoch_s, kMinEpochShare * (timestamp_s - first_s_));
+  return views_ > 0 && timestamp_s - epoch_start_.timestamp_s >= min_epoch_s &&
+         Shift(epoch_start_, T_cw) >= kMinEpochShift_rad;
+}
+
+bool WarpLearner::Wants(double timestamp_s, const Pose& T_cw) const {
+  if (!last_) return true;
+  return timestamp_s > last_->timestamp_s && Shift(*last_, T_cw) >= kMinViewShift_rad &&
+         (views_ < kMaxViews || EndsEpoch(timestamp_s, T_cw));
 }
 
 bool WarpLearner::Observe(double timestamp_s, const cv::Mat1f& depth_m, const cv::Mat1b& labels,
                           const Pose& T_cw) {
-  if (!Wants(T_cw)) return false;
-  bool learnt = false;
+  if (!Wants(timestamp_s, T_cw)) return false;
   if (!last_) first_s_ = timestamp_s;
-  const double min_epoch_s = std::max(kMinEpoch_s, kMinEpochShare * (timestamp_s - first_s_));
-  if (views_ > 0 && timestamp_s - epoch_start_.timestamp_s >= min_epoch_s &&
-      Shift(epoch_start_, T_cw) >= kMinEpochShift_rad) {
-    CloseEpoch();
-    learnt = true;
-  }
-  if (views_ >= kMaxViews) return learnt;
+  const bool learnt = EndsEpoch(timestamp_s, T_cw);
+  if (learnt) CloseEpoch();
 
   const std::vector<SurfaceView> views = ViewSurfaces(depth_m, labels, rays_, cells_, noise_,
                                                       estimate_.pattern(), estimate_.spread());

@@ -32,8 +32,9 @@ class WarpLearner {
  public:
   WarpLearner(const Camera& camera, const DepthNoise& noise, const DepthWarpConfig& config);
 
-  /// Whether the image has moved since the last view that was used; Observe does nothing else.
-  bool Wants(const Pose& T_cw) const;
+  /// Whether a frame is later than the last that was used and shows something new; Observe does
+  /// nothing otherwise.
+  bool Wants(double timestamp_s, const Pose& T_cw) const;
 
   /// @param depth_m  as measured, not straightened; labels: see Frame::plane_labels
   /// @returns whether Warp() has changed
@@ -57,6 +58,7 @@ class WarpLearner {
   };
 
   double Shift(const Place& from, const Pose& T_cw) const;
+  bool EndsEpoch(double timestamp_s, const Pose& T_cw) const;
   void CountSurface(const SurfaceView& view, const Pose& T_cw);
   void CloseEpoch();
 

@@ -47,7 +47,7 @@ BendMeter::BendMeter(const cv::Mat2d& rays, const SensorModel& sensor)
       std::abs((rays(v, u)[0] - rays(v, u - 1)[0]) * (rays(v, u)[1] - rays(v - 1, u)[1]));
 }
 
-void BendMeter::Measure(Frame& frame) {
+void BendMeter::Measure(double left_ratio, Frame& frame) {
   const cv::Size size = rays_.size();
   const int cell_px = std::max(4 * kStride_px, kCell_px * size.width / kFullWidth_px);
   const int columns = size.width / cell_px;
@@ -104,10 +104,11 @@ void BendMeter::Measure(Frame& frame) {
     squares_ = kKept * squares_ + sum;
     cells_ = kKept * cells_ + count;
   }
-  frame.bend_ratio = std::max(unseen_, ratio());
+  const double known_ratio = std::max(left_ratio, ratio());
+  frame.bend_ratio = std::max(unseen_, known_ratio);
   for (FramePlane& plane : frame.planes) {
     const BendSigmas sigmas =
-        SigmasOfBend(ratio(), plane.centroid_c.z(), plane.pixel_count * pixel_rad2_);
+        SigmasOfBend(known_ratio, plane.centroid_c.z(), plane.pixel_count * pixel_rad2_);
     plane.bend_offset_sigma_m = sigmas.offset_m;
     plane.bend_angle_sigma_rad = sigmas.angle_rad;
   }

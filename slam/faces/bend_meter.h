@@ -24,7 +24,9 @@ class BendMeter {
   /// Takes in a frame with depth, labels and planes, or one without planes, and writes what is
   /// known of bends (Frame::bend_ratio) and the standard deviations that they give each of its
   /// planes (FramePlane::bend_...).
-  void Measure(Frame& frame);
+  /// @param left_ratio  Straightening::left_ratio: planes take up, and so do not show, a part of it,
+  ///                    and a warp that was learnt from the same planes takes out more of theirs
+  void Measure(double left_ratio, Frame& frame);
 
   /// Root mean square of the bend as a part of the depth, as far as it is known.
   double ratio() const { return std::sqrt(std::max(0.0, squares_) / cells_); }

@@ -68,7 +68,7 @@ WarpLearner LearnFrom(PassOverFrames& pass, const PosesByTime& poses, const Conf
   if (known) factors = StraighteningFactors(*known);
   pass.Run([&](const RecordedFrame& recorded) {
     const auto pose = poses.find(recorded.timestamp_s);
-    if (pose == poses.end() || !learner.Wants(pose->second)) return;
+    if (pose == poses.end() || !learner.Wants(recorded.timestamp_s, pose->second)) return;
     Frame frame = FrameOf(recorded, 0);
     if (known) frame.depth_m = Straightened(recorded.depth_m, factors);
     extractor.Extract(frame);

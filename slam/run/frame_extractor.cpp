@@ -4,7 +4,6 @@
 #include <utility>
 #include <vector>
 
-#include "slam/calibrate/straightener.h"
 #include "slam/features/point_features.h"
 #include "slam/run/stopwatch.h"
 
@@ -23,10 +22,10 @@ FrameExtractor::FrameExtractor(const Camera& camera, const cv::Mat2d& rays,
   if (with_planes) planes_.emplace(camera, rays, config.sensor, config.plane_extraction);
 }
 
-void FrameExtractor::Extract(const cv::Mat1f& straightening, const cv::Mat3b& bgr, Frame& frame,
-                             ModuleTimes& times) {
+void FrameExtractor::Extract(const Straightening& straightening, const cv::Mat3b& bgr,
+                             Frame& frame, ModuleTimes& times) {
   frame.measured.depth_m = frame.depth_m;
-  frame.depth_m = Straightened(frame.depth_m, straightening);
+  frame.depth_m = Straightened(frame.depth_m, straightening.factors);
   frame.detector_asked = frames_++ % detector_every_ == 0;
   // Boxes, planes and points side by side: none writes what another reads.
   const auto detect = [&] {
@@ -51,7 +50,8 @@ void FrameExtractor::Extract(const cv::Mat1f& straightening, const cv::Mat3b& bg
   }
   frame.map_points.assign(frame.features.size(), kNone);
   if (!planes_) {
-    bend_meter_.Measure(frame);  // what is known of the sensor beforehand
+    bend_meter_.Measure(straightening.left_ratio,
+                        frame);  // what is known of the sensor beforehand
     return;
   }
   planes.get();
@@ -62,7 +62,7 @@ void FrameExtractor::Extract(const cv::Mat1f& straightening, const cv::Mat3b& bg
                                             : box_tracks_.Carry(frame.timestamp_s);
   }
   const Stopwatch watch(times[Module::kPp]);
-  bend_meter_.Measure(frame);
+  bend_meter_.Measure(straightening.left_ratio, frame);
   frame.measured.labels = frame.plane_labels;
 }
 

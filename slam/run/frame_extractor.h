@@ -4,6 +4,7 @@
 #include <opencv2/core/mat.hpp>
 #include <optional>
 
+#include "slam/calibrate/depth_warp.h"
 #include "slam/detect/box_tracks.h"
 #include "slam/detect/detections.h"
 #include "slam/faces/bend_meter.h"
@@ -28,9 +29,8 @@ class FrameExtractor {
   /// Takes the frames in order, each with timestamp, gray and depth set. Depth is straightened;
   /// features are as they were read, without depth (ReadDepths); planes, labels and depth are as
   /// the depth camera saw them (CarryToColour).
-  /// @param straightening  see DepthStraightener::factors
   /// @param bgr            for the detector; same size
-  void Extract(const cv::Mat1f& straightening, const cv::Mat3b& bgr, Frame& frame,
+  void Extract(const Straightening& straightening, const cv::Mat3b& bgr, Frame& frame,
                ModuleTimes& times);
 
  private:

@@ -144,14 +144,18 @@ class SequenceRun {
   /// Learns of the device before the run. @returns how many frames were looked at, or were to be
   int LearnDevice() {
     const Config& config = options_.config;
-    const bool wanted = config.depth_registration.learn || config.rolling_shutter.learn;
+    const bool with_planes = options_.variant != Variant::kPoints;
+    const bool wanted = config.depth_registration.learn || config.rolling_shutter.learn ||
+                        (with_planes && config.depth_warp.Learns());
     const int count =
         wanted && comes_again_ ? std::min(config.first_look.frames, frames_.size()) : 0;
     if (count == 0) return 0;
-    tracker_.StartFrom(*LookFirst(frames_, count, camera_, config, threads_, [&](int done) {
-      if (options_.progress) options_.progress(done, count + frames_.size());
-      return !options_.stop || !options_.stop();
-    }));
+    FirstLook look =
+        LookFirst(frames_, count, camera_, config, with_planes, threads_, [&](int done) {
+          if (options_.progress) options_.progress(done, count + frames_.size());
+          return !options_.stop || !options_.stop();
+        });
+    tracker_.StartFrom(*look.tracker, std::move(look.bend));
     return count;
   }
 
@@ -159,12 +163,12 @@ class SequenceRun {
   /// asked for, with what was known here, so that the number of threads changes nothing.
   std::future<FrameAhead> Begin(int i) {
     const auto where = threads_ > 1 ? std::launch::async : std::launch::deferred;
-    return std::async(where, [this, i, factors = tracker_.DepthFactors()] {
-      return ReadAndExtract(i, factors);
+    return std::async(where, [this, i, straightening = tracker_.Straightens()] {
+      return ReadAndExtract(i, straightening);
     });
   }
 
-  FrameAhead ReadAndExtract(int i, const cv::Mat1f& depth_factors) {
+  FrameAhead ReadAndExtract(int i, const Straightening& straightening) {
     FrameAhead ahead;
     RecordedFrame recorded = frames_.Read(i);
     ahead.taken = gate_.Takes(recorded);
@@ -172,7 +176,7 @@ class SequenceRun {
     ahead.frame = FrameOf(recorded, taken_++);
     ahead.repeats = repeated_.Repeats(recorded);
     if (ahead.repeats) return ahead;
-    tracker_.Extract(depth_factors, recorded.bgr, ahead.frame, ahead.times);
+    tracker_.Extract(straightening, recorded.bgr, ahead.frame, ahead.times);
     return ahead;
   }
 

@@ -7,16 +7,16 @@ namespace slam {
 
 TrackReport Tracker::TrackFrame(Frame& frame, const cv::Mat3b& bgr) {
   ModuleTimes times;
-  Extract(DepthFactors(), bgr, frame, times);
+  Extract(Straightens(), bgr, frame, times);
   return Track(frame, times);
 }
 
 // What a frame shows by itself. (A) is the caller's: slam/input reads the frame.
-void Tracker::Extract(const cv::Mat1f& depth_factors, const cv::Mat3b& bgr, Frame& frame,
+void Tracker::Extract(const Straightening& straightening, const cv::Mat3b& bgr, Frame& frame,
                       ModuleTimes& times) {
   const Stopwatch whole(times[Module::kMt]);
   // (B) points, planes, edge points, boxes
-  extractor_.Extract(depth_factors, bgr, frame, times);
+  extractor_.Extract(straightening, bgr, frame, times);
 }
 
 // What it says of the camera and of the map.

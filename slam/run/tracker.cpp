@@ -80,7 +80,7 @@ Tracker::Tracker(const Camera& camera, const Config& config, Variant variant,
       [this, turn](int keyframe) { MapKeyframe(keyframe, turn); }, kMaxWaiting);
 }
 
-void Tracker::StartFrom(const Tracker& other) {
+void Tracker::StartFrom(const Tracker& other, std::optional<WarpLearner> bend) {
   // What the look does not know is learnt anew: the run meets the same frames once more.
   if (other.registration_.estimate()) {
     registration_ = other.registration_;
@@ -91,6 +91,7 @@ void Tracker::StartFrom(const Tracker& other) {
     rolling_.Hold();
   }
   if (other.points_.at_start()) points_.StartAt(*other.points_.at_start());
+  if (bend) straightener_.StartFrom(std::move(*bend));
 }
 
 void Tracker::Finish(MappingWorker::Waiting waiting) {

@@ -79,19 +79,21 @@ class Tracker {
 
   /// The same in two steps: a frame may be extracted, on another thread, while the one before is
   /// tracked. Each takes the frames in order.
-  /// @param depth_factors  DepthFactors(), from before either
-  void Extract(const cv::Mat1f& depth_factors, const cv::Mat3b& bgr, Frame& frame,
+  /// @param straightening  Straightens(), from before either
+  void Extract(const Straightening& straightening, const cv::Mat3b& bgr, Frame& frame,
                ModuleTimes& times);
   /// @param times  of Extract
   TrackReport Track(Frame& frame, const ModuleTimes& times);
   /// What is known by now of how the device bends depth; see DepthStraightener.
-  const cv::Mat1f& DepthFactors() const { return straightener_.factors(); }
+  const Straightening& Straightens() const { return straightener_.straightening(); }
 
   /// Starts from what another tracker has learnt of the same recording: how far depth lies beside
   /// colour, how long an image is read, and how the camera moved in the frame that the map begins
   /// with. What that one knows of the device is not learnt any further: the map is made with it
   /// throughout. Before the first frame.
-  void StartFrom(const Tracker& other);
+  /// @param bend  what was learnt of the bend of depth from the same frames; it is gone on with by
+  ///              frames after them. None: it is learnt from the first frame on
+  void StartFrom(const Tracker& other, std::optional<WarpLearner> bend = std::nullopt);
 
   /// Ends mapping beside tracking, after all or none of the keyframes that wait; last call
   /// before the map is looked at. @throws what mapping threw

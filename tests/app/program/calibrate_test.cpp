@@ -78,12 +78,24 @@ TEST_F(CalibrateProgram, WritesAWarpThatSlamAppliesFromTheFirstFrameOn) {
   EXPECT_NEAR(Straightening("run").at("rms").get<double>(), 0.0027, 0.0008);
 }
 
+TEST_F(CalibrateProgram, SlamLearnsBeforehandAndAppliesFromTheFirstFrameOn) {
+  ASSERT_EQ(Run({"slam", Bent(), "-o", folder_ / "run", "--depth-warp", "auto"}).exit_code, 0);
+  EXPECT_EQ(Straightening("run").at("from_frame"), 0);
+  EXPECT_GT(Straightening("run").at("learnt").at("gain"), 0.3);
+  // Points alone teach nothing of planes.
+  ASSERT_EQ(Run({"slam", Bent(), "-o", folder_ / "points", "--variant", "points"}).exit_code,
+            0);
+  EXPECT_EQ(Straightening("points").at("applied"), false);
+}
+
 TEST_F(CalibrateProgram, SlamLearnsOnTheWayWithTheSameBytesForAnyNumberOfThreads) {
+  std::ofstream(folder_ / "once.yaml") << "first_look: {frames: 0}\n";
   for (const char* threads : {"1", "2"}) {
-    ASSERT_EQ(Run({"slam", Bent(), "-o", folder_ / threads, "--threads", threads,
-                   "--depth-warp", "auto", "--save-segmentation"})
-                  .exit_code,
-              0);
+    ASSERT_EQ(
+        Run({"slam", Bent(), "-o", folder_ / threads, "--threads", threads, "--depth-warp",
+             "auto", "--save-segmentation", "--config", folder_ / "once.yaml"})
+            .exit_code,
+        0);
   }
   EXPECT_EQ(BytesOf("1"), BytesOf("2"));
   EXPECT_EQ(Straightening("1").at("applied"), true);

@@ -114,6 +114,42 @@ TEST(WarpLearner, LearnsAPatternFromTwoPlanesToAThirdOfIt) {
   EXPECT_LT(error, sigma);
 }
 
+TEST(WarpLearner, CountsNoFrameTwice) {
+  // As when a run meets the frames of its first look once more.
+  const cv::Mat2d rays = PixelRays(SmallCamera());
+  WarpLearner learner = LearntFrom({});
+  const WarpEvidence before = learner.evidence();
+  const Eigen::VectorXd pattern = learner.Warp().pattern;
+  for (int i = 0; i < kFrames; ++i) {
+    const Frame frame = FrameOfRoom({}, i, rays);
+    EXPECT_FALSE(learner.Wants(frame.timestamp_s, frame.T_cw));
+    learner.Observe(frame.timestamp_s, frame.depth_m, frame.plane_labels, frame.T_cw);
+  }
+  learner.Finish();
+  EXPECT_EQ(learner.evidence().epochs, before.epochs);
+  EXPECT_EQ(learner.Warp().pattern, pattern);
+}
+
+TEST(WarpLearner, WantsNoMoreFramesOfOneEpochThanItUses) {
+  constexpr int kMaxViews = 16;
+  const Camera camera = SmallCamera();
+  const cv::Mat2d rays = PixelRays(camera);
+  // Twice as fast, so that the image has moved in nearly every frame.
+  const Room room{.pose = [](int frame) { return Swaying(2 * frame); }};
+  WarpLearner learner(camera, DepthNoise{}, DepthWarpConfig{});
+  int wanted = 0;
+  for (int i = 0; i < kFrames; ++i) {
+    const Frame frame = FrameOfRoom(room, i, rays);
+    if (!learner.Wants(frame.timestamp_s, frame.T_cw)) continue;
+    ++wanted;
+    learner.Observe(frame.timestamp_s, frame.depth_m, frame.plane_labels, frame.T_cw);
+  }
+  const int closed = learner.evidence().epochs + 1;  // the first is foretold by none
+  EXPECT_GT(closed, 4);
+  EXPECT_LE(wanted, kMaxViews * (closed + 1));
+  EXPECT_GT(wanted, kMaxViews * (closed - 1) / 2);
+}
+
 TEST(WarpLearner, HasNoLinearPartWhichViewsOfPlanesDoNotTell) {
   const DepthWarp warp = LearntFrom({}).Warp();
   EXPECT_NEAR(WithoutLinearPart(warp.cells, warp.pattern).norm(), warp.pattern.norm(), 1e-12);
@@ -155,11 +191,13 @@ TEST(DepthStraightener, StraightensFromTheFrameOnThatItIsWorthIt) {
   for (int i = 0; i < kFrames; ++i) {
     Frame frame = FrameOfRoom({}, i, rays);
     frame.measured = {frame.depth_m, frame.plane_labels};
-    frame.depth_m = Straightened(frame.measured.depth_m, straightener.factors());
+    frame.depth_m = Straightened(frame.measured.depth_m, straightener.straightening().factors);
     straightener.See(frame);
-    EXPECT_EQ(straightener.factors().empty(), straightener.report().from_frame == kNone) << i;
+    EXPECT_EQ(straightener.straightening().factors.empty(),
+              straightener.report().from_frame == kNone)
+        << i;
     straightener.Learn(frame);
-    EXPECT_TRUE(off.factors().empty());
+    EXPECT_TRUE(off.straightening().factors.empty());
     frame.depth_m = frame.measured.depth_m;
     off.See(frame);
     off.Learn(frame);
@@ -169,6 +207,46 @@ TEST(DepthStraightener, StraightensFromTheFrameOnThatItIsWorthIt) {
   EXPECT_NEAR(straightener.report().rms, 0.0033, 0.001);
   EXPECT_EQ(off.report().from_frame, kNone);
   EXPECT_FALSE(off.report().evidence.has_value());
+}
+
+TEST(DepthStraightener, GoesOnFromWhatIsKnownBefore) {
+  const Camera camera = SmallCamera();
+  const cv::Mat2d rays = PixelRays(camera);
+  const WarpLearner known = LearntFrom({});
+  DepthStraightener straightener(camera, DepthNoise{}, {.source = "auto"});
+  straightener.StartFrom(known);
+  EXPECT_FALSE(straightener.straightening().factors.empty());
+  EXPECT_EQ(straightener.report().evidence->epochs, known.evidence().epochs);
+  // What comes later it learns.
+  for (int i = 0; i < 2 * kFrames; ++i) {
+    Frame frame = FrameOfRoom({}, i, rays);
+    frame.measured = {frame.depth_m, frame.plane_labels};
+    straightener.Learn(frame);
+    if (i < kFrames) {
+      EXPECT_EQ(straightener.report().evidence->epochs, known.evidence().epochs);
+    }
+  }
+  EXPECT_GT(straightener.report().evidence->epochs, known.evidence().epochs);
+}
+
+TEST(DepthStraightener, KnowsAtLeastWhatItLeaves) {
+  const Camera camera = SmallCamera();
+  const WarpLearner known = LearntFrom({});
+  DepthStraightener straightener(camera, DepthNoise{}, {.source = "auto"});
+  EXPECT_EQ(straightener.straightening().left_ratio, 0.0);  // of depth that is left alone
+  straightener.StartFrom(known);
+  const DepthWarp warp = known.Warp();
+  double squares = 0.0;
+  for (int cell = 0; cell < warp.cells.count(); ++cell) {
+    const double truth = WavyPattern(warp.cells.CentreU(cell % warp.cells.cols),
+                                     warp.cells.CentreV(cell / warp.cells.cols));
+    squares += (warp.pattern[cell] - truth) * (warp.pattern[cell] - truth);
+  }
+  const double left = straightener.straightening().left_ratio;
+  EXPECT_GT(left, std::sqrt(squares / warp.cells.count()));
+  // No less than what changes over time (a quarter of the power), no more than all there was.
+  EXPECT_GT(left, 0.5 * 0.0033);
+  EXPECT_LT(left, 0.0033);
 }
 
 TEST(DepthStraightener, LetsGoOfAWarpThatForetellsNoLonger) {
@@ -184,11 +262,11 @@ TEST(DepthStraightener, LetsGoOfAWarpThatForetellsNoLonger) {
     Frame frame = FrameOfRoom(room, i, rays);
     frame.measured = {frame.depth_m, frame.plane_labels};
     straightener.Learn(frame);
-    applied = applied || !straightener.factors().empty();
+    applied = applied || !straightener.straightening().factors.empty();
   }
   EXPECT_TRUE(applied);
   EXPECT_FALSE(straightener.report().evidence->worth_it);
-  EXPECT_TRUE(straightener.factors().empty());
+  EXPECT_TRUE(straightener.straightening().factors.empty());
 }
 
 }  // namespace

@@ -48,7 +48,7 @@ TEST(BendMeter, FindsThatAFlatSensorBendsNothing) {
   EXPECT_DOUBLE_EQ(meter.ratio(), sensor.bend_ratio);
   for (int k = 0; k < 150; ++k) {
     Frame frame = Wall(camera, sensor.noise, k % 3, [](int, int) { return 0.0; });
-    meter.Measure(frame);
+    meter.Measure(0.0, frame);
   }
   EXPECT_LT(meter.ratio(), 0.2 * sensor.bend_ratio);
 }
@@ -58,7 +58,7 @@ TEST(BendMeter, BelievesTheFirstFrameMoreThanWhatSensorsUsuallyDo) {
   const SensorModel sensor;
   BendMeter meter(PixelRays(camera), sensor);
   Frame frame = Wall(camera, sensor.noise, 0, [](int, int) { return 0.0; });
-  meter.Measure(frame);
+  meter.Measure(0.0, frame);
   EXPECT_LT(meter.ratio(), 0.5 * sensor.bend_ratio);
   EXPECT_DOUBLE_EQ(frame.bend_ratio, meter.ratio());
 }
@@ -69,10 +69,29 @@ TEST(BendMeter, KeepsWhatPlanesDoNotShowOfATimeOfFlight) {
   BendMeter meter(PixelRays(camera), sensor);
   for (int k = 0; k < 3; ++k) {
     Frame frame = Wall(camera, sensor.noise, k, [](int, int) { return 0.0; });
-    meter.Measure(frame);
+    meter.Measure(0.0, frame);
     EXPECT_DOUBLE_EQ(frame.bend_ratio, sensor.bend_ratio);
   }
   EXPECT_LT(meter.ratio(), 0.5 * sensor.bend_ratio);
+}
+
+TEST(BendMeter, CountsWhatAWarpLeavesThoughPlanesDoNotShowIt) {
+  const Camera camera = FullCamera();
+  const SensorModel sensor;
+  BendMeter meter(PixelRays(camera), sensor), without(PixelRays(camera), sensor);
+  constexpr double kLeft = 0.002;
+  for (int k = 0; k < 3; ++k) {
+    Frame frame = Wall(camera, sensor.noise, k, [](int, int) { return 0.0; });
+    Frame same = frame;
+    meter.Measure(kLeft, frame);
+    without.Measure(0.0, same);
+    ASSERT_LT(meter.ratio(), kLeft);
+    EXPECT_DOUBLE_EQ(frame.bend_ratio, kLeft);
+    const FramePlane &plane = frame.planes[0], &sharper = same.planes[0];
+    const double times = kLeft / meter.ratio();
+    EXPECT_NEAR(plane.bend_offset_sigma_m, times * sharper.bend_offset_sigma_m, 1e-12);
+    EXPECT_NEAR(plane.bend_angle_sigma_rad, times * sharper.bend_angle_sigma_rad, 1e-12);
+  }
 }
 
 TEST(BendMeter, FindsByHowMuchASensorBends) {
@@ -85,7 +104,7 @@ TEST(BendMeter, FindsByHowMuchASensorBends) {
       Frame frame = Wall(camera, sensor.noise, k % 3, [&](int u, int v) {
         return rms * std::sqrt(2.0) * std::cos(2 * M_PI * (u + 0.2 * v) / 220.0);
       });
-      meter.Measure(frame);
+      meter.Measure(0.0, frame);
     }
     EXPECT_NEAR(meter.ratio(), rms, 0.15 * rms);
   }
@@ -100,7 +119,7 @@ TEST(BendMeter, StaysWithWhatIsKnownOfTheSensorUntilALargePlaneIsSeen) {
   small(cv::Rect(200, 200, 80, 60)) = 1;
   frame.plane_labels = small;
   frame.planes[0].pixel_count = 80 * 60;
-  meter.Measure(frame);
+  meter.Measure(0.0, frame);
   EXPECT_DOUBLE_EQ(meter.ratio(), sensor.bend_ratio);
   EXPECT_GT(frame.planes[0].bend_offset_sigma_m, 0.5 * sensor.bend_ratio * kWall_m);
 }
@@ -110,7 +129,7 @@ TEST(BendMeter, StaysWithWhatIsKnownOfTheSensorInFramesWithoutPlanes) {
   const SensorModel sensor;
   BendMeter meter(PixelRays(camera), sensor);
   Frame frame;
-  meter.Measure(frame);
+  meter.Measure(0.0, frame);
   EXPECT_DOUBLE_EQ(frame.bend_ratio, sensor.bend_ratio);
 }
 

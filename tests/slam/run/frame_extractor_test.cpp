@@ -16,11 +16,14 @@ TEST(FrameExtractor, KeepsDepthAsMeasuredBesideTheStraightened) {
   frame.depth_m = raw_m.clone();
   frame.gray = cv::Mat1b(raw_m.size(), std::uint8_t{100});
   ModuleTimes times;
-  extractor.Extract(cv::Mat1f(raw_m.size(), 1.02f), cv::Mat3b(raw_m.size()), frame, times);
+  const Straightening straightening{cv::Mat1f(raw_m.size(), 1.02f), 0.002};
+  extractor.Extract(straightening, cv::Mat3b(raw_m.size()), frame, times);
   EXPECT_EQ(cv::norm(frame.measured.depth_m, raw_m, cv::NORM_INF), 0.0);
   EXPECT_LT(cv::norm(frame.depth_m, 1.02 * raw_m, cv::NORM_INF), 1e-6);
   ASSERT_EQ(frame.planes.size(), 1u);
   EXPECT_NEAR(frame.planes[0].pi_c.d, 1.02 * 1.25, 1e-4);
+  // The plane is flat; what a warp leaves counts all the same.
+  EXPECT_EQ(frame.bend_ratio, 0.002);
 }
 
 }  // namespace
