@@ -107,7 +107,7 @@ int RunWarpBench(const WarpBenchArguments& arguments) {
   const eval::DepthViews views = ViewsOf(sequence, {}, arguments.camera);
   const eval::LabelView label =
       LabelsOf(arguments.surfaces, arguments.min_area_m2, sequence, views);
-  const cv::Mat1f factors = slam::StraighteningFactors(warp);
+  const slam::Straightening straightening = slam::StraighteningBy(warp);
   const int end =
       arguments.last > 0 ? std::min<int>(arguments.last, int(views.size())) : int(views.size());
   if (arguments.first >= end) {
@@ -118,8 +118,9 @@ int RunWarpBench(const WarpBenchArguments& arguments) {
   for (int i = arguments.first; i < end; ++i) {
     const eval::DepthView view = views.Read(static_cast<std::size_t>(i));
     const cv::Mat1w labels = label(view);
-    blocks.Add(BlockResiduals(view.depth_m, labels, views.rays()),
-               BlockResiduals(slam::Straightened(view.depth_m, factors), labels, views.rays()));
+    blocks.Add(
+        BlockResiduals(view.depth_m, labels, views.rays()),
+        BlockResiduals(slam::Straightened(view.depth_m, straightening), labels, views.rays()));
   }
   fmt::print("\nframes {} to {}; rms of blocks in steps\n", arguments.first, end);
   blocks.Print();

@@ -51,13 +51,18 @@ WarpCells CellsOf(const Camera& camera) {
 double DepthWarp::Rms() const { return RootMeanSquare(pattern); }
 double DepthWarp::SigmaRms() const { return RootMeanSquare(sigma); }
 
-cv::Mat1f StraighteningFactors(const DepthWarp& warp) {
+const std::vector<std::string>& BendLawNames() {
+  static const std::vector<std::string> names = {"depth", "disparity"};
+  return names;
+}
+
+Straightening StraighteningBy(const DepthWarp& warp) {
   const WarpCells& cells = warp.cells;
   const auto across =
       Between(cells.width, cells.cols, [&](int col) { return cells.CentreU(col); });
   const auto down =
       Between(cells.height, cells.rows, [&](int row) { return cells.CentreV(row); });
-  cv::Mat1f factors(cells.height, cells.width);
+  cv::Mat1f pattern(cells.height, cells.width);
   std::vector<double> row(static_cast<std::size_t>(cells.cols));
   for (int v = 0; v < cells.height; ++v) {
     const BetweenCells& y = down[static_cast<std::size_t>(v)];
@@ -70,16 +75,24 @@ cv::Mat1f StraighteningFactors(const DepthWarp& warp) {
       const BetweenCells& x = across[static_cast<std::size_t>(u)];
       const double left = row[static_cast<std::size_t>(x.first)];
       const double right = row[static_cast<std::size_t>(x.next)];
-      factors(v, u) = static_cast<float>(1.0 / (1.0 + left + x.part * (right - left)));
+      pattern(v, u) = static_cast<float>(left + x.part * (right - left));
     }
   }
-  return factors;
+  return {pattern, warp.law};
 }
 
-cv::Mat1f Straightened(const cv::Mat1f& depth_m, const cv::Mat1f& factors) {
-  if (factors.empty()) return depth_m;
-  cv::Mat1f straight;
-  cv::multiply(depth_m, factors, straight);
+cv::Mat1f Straightened(const cv::Mat1f& depth_m, const Straightening& straightening) {
+  if (straightening.pattern.empty()) return depth_m;
+  const bool grows = straightening.law == BendLaw::kDisparity;
+  constexpr float kPerMetre = 1.0F / static_cast<float>(kBendDistance_m);
+  cv::Mat1f straight(depth_m.size());
+  for (int v = 0; v < depth_m.rows; ++v) {
+    const float *z = depth_m[v], *p = straightening.pattern[v];
+    float* out = straight[v];
+    for (int u = 0; u < depth_m.cols; ++u) {
+      out[u] = z[u] / (1.0F + p[u] * (grows ? kPerMetre * z[u] : 1.0F));
+    }
+  }
   return straight;
 }
 

@@ -2,6 +2,8 @@
 
 #include <Eigen/Core>
 #include <opencv2/core/mat.hpp>
+#include <string>
+#include <vector>
 
 #include "slam/geometry/camera.h"
 
@@ -28,13 +30,30 @@ struct WarpCells {
 /// of a device's view in an image of any size.
 WarpCells CellsOf(const Camera& camera);
 
-/// How a device bends what is flat: where z is true it measures z (1 + p), p a smooth pattern
-/// over the image.
+/// How the bend of a device goes with the distance.
+enum class BendLaw {
+  kDepth,     ///< it is the same share of the depth everywhere
+  kDisparity  ///< disparity is off by the same everywhere: the share grows with the depth
+};
+/// In this order, as in files.
+const std::vector<std::string>& BendLawNames();
+
+/// Where p is stated for a bend that grows with the depth: about where kKinectBend was measured.
+inline constexpr double kBendDistance_m = 2.4;
+
+/// Share of the depth that is bent at a measured depth over p.
+inline double BendGrowth(BendLaw law, double z_m) {
+  return law == BendLaw::kDisparity ? z_m / kBendDistance_m : 1.0;
+}
+
+/// How a device bends what is flat: where it measures z the true depth is z / (1 + p g), p a smooth
+/// pattern over the image and g as BendGrowth says of z.
 ///
-/// p has no part that is linear in the pixel: what all views of planes leave in doubt (the scale
-/// of depth wholly, a tilt nearly) is 0.
+/// p has no part that is linear in the pixel: what all views of planes leave in doubt (of disparity
+/// exactly this; of depth its scale wholly, a tilt nearly) is 0.
 struct DepthWarp {
   WarpCells cells;
+  BendLaw law = BendLaw::kDepth;
   Eigen::VectorXd pattern;  ///< p at the centre of each cell
   Eigen::VectorXd sigma;    ///< its standard deviation
 
@@ -46,16 +65,15 @@ struct DepthWarp {
 
 /// What is done with the depth of a frame.
 struct Straightening {
-  cv::Mat1f factors;  ///< that depths are multiplied with; empty: nothing is done
-  double left_ratio =
-      0.0;  ///< bend that is left for all that is known, rms, as a part of the depth
+  cv::Mat1f pattern;  ///< p at each pixel; empty: nothing is done
+  BendLaw law = BendLaw::kDepth;
+  double left_ratio = 0.0;  ///< bend that is left, rms, as a part of the depth
 };
 
-/// What a depth has to be multiplied with at each pixel, 1 / (1 + p); p is bilinear between the
-/// centres of cells and constant beyond the outermost.
-cv::Mat1f StraighteningFactors(const DepthWarp& warp);
+/// p is bilinear between the centres of cells and constant beyond the outermost.
+Straightening StraighteningBy(const DepthWarp& warp);
 
-/// Each depth times its factor, as a new image; 0 stays 0. The very image when there are no factors.
-cv::Mat1f Straightened(const cv::Mat1f& depth_m, const cv::Mat1f& factors);
+/// The true depths, as a new image; 0 stays 0. The very image when nothing is to be done.
+cv::Mat1f Straightened(const cv::Mat1f& depth_m, const Straightening& straightening);
 
 }  // namespace slam

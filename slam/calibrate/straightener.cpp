@@ -21,7 +21,8 @@ DepthStraightener::DepthStraightener(const Camera& camera, const DepthNoise& noi
 void DepthStraightener::Apply(const DepthWarp& warp) {
   // What changes over time no warp takes out.
   const double drift_rms = config_.bend_rms * std::sqrt(config_.drift_share);
-  straightening_ = {StraighteningFactors(warp), std::hypot(drift_rms, warp.SigmaRms())};
+  straightening_ = StraighteningBy(warp);
+  straightening_.left_ratio = std::hypot(drift_rms, warp.SigmaRms());
   report_.rms = warp.Rms();
 }
 

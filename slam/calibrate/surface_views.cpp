@@ -85,10 +85,12 @@ std::vector<CellPart> PartsOfCells(const cv::Mat1f& depth_m, const cv::Mat1b& la
 class PartPoints {
  public:
   PartPoints(const std::vector<CellPart>& parts, const DepthNoise& noise,
-             const Eigen::VectorXd& known, const Eigen::VectorXd& spread)
-      : parts_(parts), noise_(noise), known_(known), spread_(spread) {}
+             const Eigen::VectorXd& known, const Eigen::VectorXd& spread, BendLaw law)
+      : parts_(parts), noise_(noise), known_(known), spread_(spread), law_(law) {}
 
-  double InverseDepth(const CellPart& part) const { return part.q * (1 + known_[part.cell]); }
+  double InverseDepth(const CellPart& part) const {
+    return part.q * (1 + known_[part.cell] * BendGrowth(law_, 1 / part.q));
+  }
   /// Of the mean inverse depth, as a part of it, for a surface that is seen frontally.
   double Sigma(const CellPart& part) const {
     const double z = 1 / part.q;
@@ -105,7 +107,7 @@ class PartPoints {
   }
   /// How far a part of a flat surface is expected off its plane, in the same unit.
   double Spread(const CellPart& part) const {
-    return std::hypot(Sigma(part), spread_[part.cell]);
+    return std::hypot(Sigma(part), spread_[part.cell] * BendGrowth(law_, 1 / part.q));
   }
   /// Whether the parts of a group keep to a plane as far as a bend goes.
   bool Keeps(const SurfaceGroup& group, const InverseDepthPlane& plane) const {
@@ -123,6 +125,7 @@ class PartPoints {
   const std::vector<CellPart>& parts_;
   const DepthNoise& noise_;
   const Eigen::VectorXd &known_, &spread_;
+  BendLaw law_;
 };
 
 /// A group for each label that has a plane.
@@ -250,9 +253,9 @@ std::optional<SurfaceView> ViewOf(std::vector<CellPart> parts, const PartPoints&
 std::vector<SurfaceView> ViewSurfaces(const cv::Mat1f& depth_m, const cv::Mat1b& labels,
                                       const cv::Mat2d& rays, const WarpCells& cells,
                                       const DepthNoise& noise, const Eigen::VectorXd& known,
-                                      const Eigen::VectorXd& spread) {
+                                      const Eigen::VectorXd& spread, BendLaw law) {
   const std::vector<CellPart> parts = PartsOfCells(depth_m, labels, rays, cells);
-  const PartPoints points(parts, noise, known, spread);
+  const PartPoints points(parts, noise, known, spread, law);
   std::map<int, SurfaceGroup> groups = GroupsOfSegments(parts, points);
   JoinGroups(Contacts(parts, groups, points), points, groups);
   std::vector<SurfaceView> views;

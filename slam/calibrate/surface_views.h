@@ -30,9 +30,10 @@ struct SurfaceView {
 /// @param rays      PixelRays(camera)
 /// @param known     p of each cell as far as it is known; zeros at first
 /// @param spread    standard deviation of what the device shows in each cell beyond that
+/// @param law       how both go with the depth
 std::vector<SurfaceView> ViewSurfaces(const cv::Mat1f& depth_m, const cv::Mat1b& labels,
                                       const cv::Mat2d& rays, const WarpCells& cells,
                                       const DepthNoise& noise, const Eigen::VectorXd& known,
-                                      const Eigen::VectorXd& spread);
+                                      const Eigen::VectorXd& spread, BendLaw law);
 
 }  // namespace slam

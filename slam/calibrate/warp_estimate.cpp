@@ -67,8 +67,9 @@ Eigen::MatrixXd ModesOfField(const WarpCells& cells, const Camera& camera,
 }  // namespace
 
 WarpEstimate::WarpEstimate(const WarpCells& cells, const Camera& camera,
-                           const DepthWarpConfig& config)
-    : drift_rms_(config.bend_rms * std::sqrt(config.drift_share)),
+                           const DepthWarpConfig& config, BendLaw law)
+    : law_(law),
+      drift_rms_(config.bend_rms * std::sqrt(config.drift_share)),
       drift_(config.drift_share / (1 - config.drift_share)) {
   const double variance = config.bend_rms * config.bend_rms * (1 - config.drift_share);
   modes_ = std::sqrt(variance) * ModesOfField(cells, camera, config);
@@ -80,7 +81,7 @@ WarpEstimate::WarpEstimate(const WarpCells& cells, const Camera& camera,
 }
 
 void WarpEstimate::Add(const SurfaceView& view) {
-  // The view's plane through what was measured, and each cell's residual from it: r = p + noise.
+  // The view's plane through what was measured, and each cell's residual from it: r = p g + noise.
   PlaneSums sums;
   for (const CellMean& cell : view.cells) {
     const double sigma = cell.sigma * cell.q;
@@ -94,11 +95,12 @@ void WarpEstimate::Add(const SurfaceView& view) {
   for (const CellMean& cell : view.cells) {
     const double w = 1 / (cell.sigma * cell.sigma);
     const double r = fit->plane.InverseDepth(cell.x, cell.y) / cell.q - 1;
+    const double g = BendGrowth(law_, 1 / cell.q);
     const Eigen::Vector3d ray = Eigen::Vector3d(cell.x, cell.y, 1) / cell.q;
     N += w * ray * ray.transpose();
-    U += w * ray * modes_.row(cell.cell);
-    weight_[cell.cell] += w;
-    weighted_[cell.cell] += w * r;
+    U += w * g * ray * modes_.row(cell.cell);
+    weight_[cell.cell] += w * g * g;
+    weighted_[cell.cell] += w * g * r;
     squares_ += w * r * r;
   }
   const Eigen::MatrixXd away = N.llt().matrixL().solve(U);

@@ -11,14 +11,16 @@ namespace slam {
 /// The pattern of a device as it follows from views of flat surfaces: a recursive linear
 /// least-squares estimate in information form.
 ///
-/// A cell i of a view obeys q_i (1 + p_i) = a x_i + b y_i + c, with a plane (a, b, c) of its own
-/// for every surface of every view, which is eliminated. p is a sum of smooth modes whose
+/// A cell i of a view obeys q_i (1 + p_i g_i) = a x_i + b y_i + c, g_i the growth of the bend with the
+/// depth 1 / q_i (BendGrowth), with a plane (a, b, c) of its own for every surface of every view,
+/// which is eliminated. p is a sum of smooth modes whose
 /// coefficients are independent with variance 1 beforehand. What changes over time is held as
 /// noise: in each epoch (a second or more) the device shows p + d, with a d of its own that has
 /// p's modes and drift_share of their power. (docs/calibration.md)
 class WarpEstimate {
  public:
-  WarpEstimate(const WarpCells& cells, const Camera& camera, const DepthWarpConfig& config);
+  WarpEstimate(const WarpCells& cells, const Camera& camera, const DepthWarpConfig& config,
+               BendLaw law);
 
   /// Adds a surface of a view to the open epoch.
   void Add(const SurfaceView& view);
@@ -28,6 +30,7 @@ class WarpEstimate {
   ///   took out: a prediction that owes nothing to this epoch; 0 for the first
   double CloseEpoch();
 
+  BendLaw law() const { return law_; }
   int epochs() const { return epochs_; }
   /// p of each cell, and its standard deviation; zero and the expected bend before any epoch.
   const Eigen::VectorXd& pattern() const { return pattern_; }
@@ -40,6 +43,7 @@ class WarpEstimate {
  private:
   void Solve();
 
+  BendLaw law_;
   double drift_rms_;        ///< of what changes over time
   double drift_;            ///< power of drift over that of the fixed pattern
   Eigen::MatrixXd modes_;   ///< a column a mode: its value at each cell, one standard deviation

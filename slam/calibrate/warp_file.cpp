@@ -48,7 +48,7 @@ std::string CellRows(const char* key, const WarpCells& cells, const Eigen::Vecto
 
 DepthWarp ReadWarp(const std::filesystem::path& file, const Camera& camera) {
   const io::YamlMap map(io::ReadYaml(file, "make it with `pas calibrate SEQ -o FILE`"),
-                        {"format", "image", "cells", "pattern_ppm", "sigma_ppm"});
+                        {"format", "image", "cells", "law", "pattern_ppm", "sigma_ppm"});
   map.At("format").OneOf({kWarpFormat});
   const io::YamlMap image(map.At("image"), {"width", "height"});
   const io::YamlMap grid(map.At("cells"), {"cols", "rows"});
@@ -64,6 +64,8 @@ DepthWarp ReadWarp(const std::filesystem::path& file, const Camera& camera) {
   }
   cells.cols = grid.At("cols").Whole(io::Interval(1, cells.width));
   cells.rows = grid.At("rows").Whole(io::Interval(1, cells.height));
+  // Files of before it was asked have none.
+  if (map.Has("law")) warp.law = static_cast<BendLaw>(map.At("law").OneOf(BendLawNames()));
   warp.pattern =
       ReadCells(map.At("pattern_ppm"), cells, io::Interval(-kMaxPattern_ppm, kMaxPattern_ppm));
   warp.sigma = ReadCells(map.At("sigma_ppm"), cells, io::Interval(0, kMaxPattern_ppm));
@@ -75,9 +77,14 @@ std::string WarpText(const DepthWarp& warp, const std::string& comment) {
   return fmt::format(
              "# {}\nformat: {}\nimage: {{width: {}, height: {}}}\n"
              "cells: {{cols: {}, rows: {}}}\n"
-             "# Millionths by which depth is measured too far, at the middle of each cell, row "
+             "law: {}  # depth: p is the same at all distances; disparity: that of {} m, and "
+             "goes "
+             "with the distance\n"
+             "# Millionths p by which depth is measured too far, at the middle of each cell, "
+             "row "
              "by row.\n",
-             comment, kWarpFormat, cells.width, cells.height, cells.cols, cells.rows) +
+             comment, kWarpFormat, cells.width, cells.height, cells.cols, cells.rows,
+             BendLawNames()[static_cast<std::size_t>(warp.law)], kBendDistance_m) +
          CellRows("pattern_ppm", cells, warp.pattern) + "# Their standard deviations.\n" +
          CellRows("sigma_ppm", cells, warp.sigma);
 }

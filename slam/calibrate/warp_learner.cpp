@@ -57,7 +57,8 @@ WarpLearner::WarpLearner(const Camera& camera, const DepthNoise& noise,
     : cells_(CellsOf(camera)),
       rays_(PixelRays(camera)),
       noise_(noise),
-      estimate_(cells_, camera, config) {}
+      estimates_{WarpEstimate(cells_, camera, config, BendLaw::kDepth),
+                 WarpEstimate(cells_, camera, config, BendLaw::kDisparity)} {}
 
 double WarpLearner::Shift(const Place& from, const Pose& T_cw) const {
   const Eigen::Vector3d way = Inverse(T_cw).t - Inverse(from.T_cw).t;
@@ -83,15 +84,21 @@ bool WarpLearner::Observe(double timestamp_s, const cv::Mat1f& depth_m, const cv
   const bool learnt = EndsEpoch(timestamp_s, T_cw);
   if (learnt) CloseEpoch();
 
-  const std::vector<SurfaceView> views = ViewSurfaces(depth_m, labels, rays_, cells_, noise_,
-                                                      estimate_.pattern(), estimate_.spread());
+  // Each law sees surfaces by what it knows itself: else the one that is believed would keep the lead.
+  std::vector<SurfaceView> views;
+  for (WarpEstimate& estimate : estimates_) {
+    std::vector<SurfaceView> seen =
+        ViewSurfaces(depth_m, labels, rays_, cells_, noise_, estimate.pattern(),
+                     estimate.spread(), estimate.law());
+    for (const SurfaceView& view : seen) estimate.Add(view);
+    if (estimate.law() == evidence_.law) views = std::move(seen);
+  }
   last_ = Place{timestamp_s, T_cw};
   if (views.empty()) return learnt;
   if (views_++ == 0) epoch_start_ = *last_;
   double sum_m = 0.0;
   std::size_t count = 0;
   for (const SurfaceView& view : views) {
-    estimate_.Add(view);
     CountSurface(view, T_cw);
     for (const CellMean& cell : view.cells) sum_m += 1 / cell.q;
     count += view.cells.size();
@@ -126,37 +133,46 @@ void WarpLearner::CountSurface(const SurfaceView& view, const Pose& T_cw) {
 }
 
 void WarpLearner::CloseEpoch() {
-  const bool foretold = estimate_.epochs() > 0;
-  const double gain = estimate_.CloseEpoch();
   views_ = 0;
-  if (foretold) gains_.push_back(gain);
+  for (std::size_t law = 0; law < estimates_.size(); ++law) {
+    const bool foretold = estimates_[law].epochs() > 0;
+    const double gain = estimates_[law].CloseEpoch();
+    if (foretold) gains_[law].push_back(gain);
+  }
+  const WarpEvidence by_depth = EvidenceOf(BendLaw::kDepth);
+  const WarpEvidence by_disparity = EvidenceOf(BendLaw::kDisparity);
+  evidence_ = by_disparity.gain > by_depth.gain ? by_disparity : by_depth;
+}
 
+WarpEvidence WarpLearner::EvidenceOf(BendLaw law) const {
+  const std::vector<double>& gains = gains_[static_cast<std::size_t>(law)];
   double largest = 0.0, all = 0.0;
   for (const SeenSurface& seen : surfaces_) {
     largest = std::max(largest, seen.cells);
     all += seen.cells;
   }
   WarpEvidence evidence;
-  evidence.epochs = static_cast<int>(gains_.size());
+  evidence.law = law;
+  evidence.epochs = static_cast<int>(gains.size());
   evidence.largest_surface = all > 0 ? largest / all : 1.0;
-  const auto n = static_cast<double>(gains_.size());
-  if (gains_.size() >= 2) {
-    evidence.gain = std::accumulate(gains_.begin(), gains_.end(), 0.0) / n;
+  const auto n = static_cast<double>(gains.size());
+  if (gains.size() >= 2) {
+    evidence.gain = std::accumulate(gains.begin(), gains.end(), 0.0) / n;
     double squares = 0.0;
-    for (const double g : gains_) squares += (g - evidence.gain) * (g - evidence.gain);
+    for (const double g : gains) squares += (g - evidence.gain) * (g - evidence.gain);
     evidence.student_t = evidence.gain / std::sqrt(std::max(squares, 1e-12) / (n - 1) / n);
-    evidence.min_student_t = CriticalT(gains_.size() - 1);
+    evidence.min_student_t = CriticalT(gains.size() - 1);
   }
   // Once it is, it stays so while it foretells: depth that changes to and fro helps nobody.
-  const bool foretells = gains_.size() >= kMinGains && evidence.gain >= kMinGain;
+  const bool foretells = gains.size() >= kMinGains && evidence.gain >= kMinGain;
   evidence.worth_it =
       foretells && (evidence_.worth_it || (evidence.student_t > evidence.min_student_t &&
                                            evidence.largest_surface <= kMaxSurfaceShare));
-  evidence_ = evidence;
+  return evidence;
 }
 
 DepthWarp WarpLearner::Warp() const {
-  return {cells_, WithoutLinearPart(cells_, estimate_.pattern()), estimate_.sigma()};
+  return {cells_, best().law(), WithoutLinearPart(cells_, best().pattern()), best().sigma()};
 }
 
 }  // namespace slam

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <optional>
 #include <string>
 #include <vector>
@@ -12,11 +13,12 @@ namespace slam {
 
 /// What speaks for and against a learnt warp.
 struct WarpEvidence {
-  int epochs = 0;                ///< that were foretold by those before
-  double gain = 0.0;             ///< mean over them of the share of variance that was foretold
-  double student_t = 0.0;        ///< of that mean
-  double min_student_t = 0.0;    ///< that it has to exceed
-  double largest_surface = 0.0;  ///< share of all observations that one surface has
+  BendLaw law = BendLaw::kDepth;  ///< the one by which more was foretold
+  int epochs = 0;                 ///< that were foretold by those before
+  double gain = 0.0;              ///< mean over them of the share of variance that was foretold
+  double student_t = 0.0;         ///< of that mean
+  double min_student_t = 0.0;     ///< that it has to exceed
+  double largest_surface = 0.0;   ///< share of all observations that one surface has
   bool worth_it = false;
 
   /// Why it is not worth it, in words; empty when it is.
@@ -25,7 +27,8 @@ struct WarpEvidence {
 
 /// Learns from the frames of a run how its device bends what is flat, and says when that is
 /// worth being applied: when what was learnt before foretells, at a level of 0.001, what is seen
-/// from other places later, on more than one surface.
+/// from other places later, on more than one surface. It learns by each law how the bend goes with
+/// the distance, and goes by the one that foretells more.
 ///
 /// Deterministic; a frame that is not used costs nothing.
 class WarpLearner {
@@ -61,18 +64,22 @@ class WarpLearner {
   bool EndsEpoch(double timestamp_s, const Pose& T_cw) const;
   void CountSurface(const SurfaceView& view, const Pose& T_cw);
   void CloseEpoch();
+  WarpEvidence EvidenceOf(BendLaw law) const;
+  const WarpEstimate& best() const {
+    return estimates_[static_cast<std::size_t>(evidence_.law)];
+  }
 
   WarpCells cells_;
   cv::Mat2d rays_;
   DepthNoise noise_;
-  WarpEstimate estimate_;
+  std::array<WarpEstimate, 2> estimates_;  ///< by BendLaw
 
   double depth_m_ = 1.0;       ///< of what was seen last
   double first_s_ = 0.0;       ///< time of the first view
   std::optional<Place> last_;  ///< of the last view that was used
   Place epoch_start_;
-  int views_ = 0;  ///< in the open epoch
-  std::vector<double> gains_;
+  int views_ = 0;                             ///< in the open epoch
+  std::array<std::vector<double>, 2> gains_;  ///< by BendLaw
   std::vector<SeenSurface> surfaces_;
   WarpEvidence evidence_;
 };

@@ -64,13 +64,12 @@ WarpLearner LearnFrom(PassOverFrames& pass, const PosesByTime& poses, const Conf
   WarpLearner learner(pass.camera, config.sensor.noise, config.depth_warp);
   PlaneExtractor extractor(pass.camera, PixelRays(pass.camera), config.sensor,
                            config.plane_extraction);
-  cv::Mat1f factors;
-  if (known) factors = StraighteningFactors(*known);
+  const Straightening straightening = known ? StraighteningBy(*known) : Straightening{};
   pass.Run([&](const RecordedFrame& recorded) {
     const auto pose = poses.find(recorded.timestamp_s);
     if (pose == poses.end() || !learner.Wants(recorded.timestamp_s, pose->second)) return;
     Frame frame = FrameOf(recorded, 0);
-    if (known) frame.depth_m = Straightened(recorded.depth_m, factors);
+    frame.depth_m = Straightened(recorded.depth_m, straightening);
     extractor.Extract(frame);
     learner.Observe(frame.timestamp_s, recorded.depth_m, frame.plane_labels, pose->second);
   });

@@ -25,7 +25,7 @@ FrameExtractor::FrameExtractor(const Camera& camera, const cv::Mat2d& rays,
 void FrameExtractor::Extract(const Straightening& straightening, const cv::Mat3b& bgr,
                              Frame& frame, ModuleTimes& times) {
   frame.measured.depth_m = frame.depth_m;
-  frame.depth_m = Straightened(frame.depth_m, straightening.factors);
+  frame.depth_m = Straightened(frame.depth_m, straightening);
   frame.detector_asked = frames_++ % detector_every_ == 0;
   // Boxes, planes and points side by side: none writes what another reads.
   const auto detect = [&] {

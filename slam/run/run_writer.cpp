@@ -70,7 +70,8 @@ nlohmann::ordered_json StraighteningJson(const StraighteningReport& report) {
   }
   if (report.evidence) {
     const WarpEvidence& evidence = *report.evidence;
-    json["learnt"] = {{"epochs", evidence.epochs},
+    json["learnt"] = {{"law", BendLawNames()[static_cast<std::size_t>(evidence.law)]},
+                      {"epochs", evidence.epochs},
                       {"gain", evidence.gain},
                       {"student_t", evidence.student_t},
                       {"min_student_t", evidence.min_student_t},

@@ -20,7 +20,7 @@ struct TwoHalves {
     const WarpCells cells = CellsOf(camera);
     return ViewSurfaces(depth_m, labels, PixelRays(camera), cells, DepthNoise{},
                         Eigen::VectorXd::Zero(cells.count()),
-                        Eigen::VectorXd::Constant(cells.count(), 0.0033));
+                        Eigen::VectorXd::Constant(cells.count(), 0.0033), BendLaw::kDepth);
   }
   Camera camera;
   cv::Mat1f depth_m;

@@ -97,7 +97,7 @@ TEST(WarpEstimate, IsTheLeastSquaresEstimateOfAPatternAndOfAPlaneForEachView) {
       Eigen::VectorXd::NullaryExpr(cells.count(), [&] { return normal(random); });
 
   std::vector<SurfaceView> views(3);
-  WarpEstimate estimate(cells, camera, config);
+  WarpEstimate estimate(cells, camera, config, BendLaw::kDepth);
   for (int k = 0; k < 3; ++k) {
     for (int cell = 0; cell < cells.count(); ++cell) {
       if ((cell + k) % 4 == 0) continue;  // hidden by something

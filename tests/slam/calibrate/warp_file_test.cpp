@@ -24,6 +24,7 @@ Camera CameraOfFile() {
 DepthWarp SmallWarp() {
   DepthWarp warp;
   warp.cells = {8, 6, 3, 2};
+  warp.law = BendLaw::kDisparity;
   warp.pattern = Eigen::VectorXd(6);
   warp.pattern << 0.001, -0.002, 0.003, -0.004, 0.005, -0.006;
   warp.sigma = Eigen::VectorXd::Constant(6, 0.0005);
@@ -54,10 +55,16 @@ class WarpFile : public testing::Test {
 
 TEST_F(WarpFile, ReadsBackWhatIsWrittenToAMillionth) {
   const DepthWarp written = SmallWarp(), read = Read(WarpText(written, "made by hand"));
+  EXPECT_EQ(read.law, written.law);
   EXPECT_EQ(read.cells.cols, 3);
   EXPECT_EQ(read.cells.rows, 2);
   EXPECT_LT((read.pattern - written.pattern).cwiseAbs().maxCoeff(), 1e-6);
   EXPECT_LT((read.sigma - written.sigma).cwiseAbs().maxCoeff(), 1e-6);
+}
+
+TEST_F(WarpFile, GoesWithTheDepthWhereItDoesNotSay) {
+  EXPECT_EQ(Read(With("law: disparity", "# ")).law, BendLaw::kDepth);
+  EXPECT_THAT(FaultOf(With("law: disparity", "law: both")), HasSubstr("law"));
 }
 
 TEST_F(WarpFile, RefusesAnImageOfAnotherSizeThanTheCameras) {

@@ -43,6 +43,7 @@ Pose Still(int) { return {}; }
 struct Room {
   bool floor = true;  ///< besides the wall
   std::function<double(double, double)> pattern = WavyPattern;
+  BendLaw law = BendLaw::kDepth;
   std::function<Pose(int)> pose = Swaying;
   /// Height of a bump of the wall itself, metres.
   std::function<double(const Eigen::Vector3d& x_w)> bump = [](const Eigen::Vector3d&) {
@@ -76,7 +77,8 @@ Frame FrameOfRoom(const Room& room, int index, const cv::Mat2d& rays) {
       std::uint8_t label = 1;
       const double z_floor = (0.45 - T_wc.t.y()) / way.y();
       if (room.floor && z_floor > 0 && z_floor < z) z = z_floor, label = 2;
-      z *= 1 + room.pattern(u, v);
+      const double p = room.pattern(u, v);
+      z = room.law == BendLaw::kDepth ? z * (1 + p) : 1 / (1 / z - p / kBendDistance_m);
       frame.depth_m(v, u) = static_cast<float>(z + noise.Sigma(z) * RoughNormal(random));
       frame.plane_labels(v, u) = label;
     }
@@ -112,6 +114,15 @@ TEST(WarpLearner, LearnsAPatternFromTwoPlanesToAThirdOfIt) {
   const double error = std::sqrt((warp.pattern - truth).squaredNorm() / warp.cells.count());
   const double sigma = std::sqrt(warp.sigma.squaredNorm() / warp.cells.count());
   EXPECT_LT(error, sigma);
+}
+
+TEST(WarpLearner, FindsHowTheBendGoesWithTheDistance) {
+  for (const BendLaw law : {BendLaw::kDepth, BendLaw::kDisparity}) {
+    const WarpLearner learner = LearntFrom({.law = law});
+    EXPECT_TRUE(learner.evidence().worth_it);
+    EXPECT_EQ(learner.evidence().law, law);
+    EXPECT_EQ(learner.Warp().law, law);
+  }
 }
 
 TEST(WarpLearner, CountsNoFrameTwice) {
@@ -191,13 +202,13 @@ TEST(DepthStraightener, StraightensFromTheFrameOnThatItIsWorthIt) {
   for (int i = 0; i < kFrames; ++i) {
     Frame frame = FrameOfRoom({}, i, rays);
     frame.measured = {frame.depth_m, frame.plane_labels};
-    frame.depth_m = Straightened(frame.measured.depth_m, straightener.straightening().factors);
+    frame.depth_m = Straightened(frame.measured.depth_m, straightener.straightening());
     straightener.See(frame);
-    EXPECT_EQ(straightener.straightening().factors.empty(),
+    EXPECT_EQ(straightener.straightening().pattern.empty(),
               straightener.report().from_frame == kNone)
         << i;
     straightener.Learn(frame);
-    EXPECT_TRUE(off.straightening().factors.empty());
+    EXPECT_TRUE(off.straightening().pattern.empty());
     frame.depth_m = frame.measured.depth_m;
     off.See(frame);
     off.Learn(frame);
@@ -215,7 +226,7 @@ TEST(DepthStraightener, GoesOnFromWhatIsKnownBefore) {
   const WarpLearner known = LearntFrom({});
   DepthStraightener straightener(camera, DepthNoise{}, {.source = "auto"});
   straightener.StartFrom(known);
-  EXPECT_FALSE(straightener.straightening().factors.empty());
+  EXPECT_FALSE(straightener.straightening().pattern.empty());
   EXPECT_EQ(straightener.report().evidence->epochs, known.evidence().epochs);
   // What comes later it learns.
   for (int i = 0; i < 2 * kFrames; ++i) {
@@ -262,11 +273,11 @@ TEST(DepthStraightener, LetsGoOfAWarpThatForetellsNoLonger) {
     Frame frame = FrameOfRoom(room, i, rays);
     frame.measured = {frame.depth_m, frame.plane_labels};
     straightener.Learn(frame);
-    applied = applied || !straightener.straightening().factors.empty();
+    applied = applied || !straightener.straightening().pattern.empty();
   }
   EXPECT_TRUE(applied);
   EXPECT_FALSE(straightener.report().evidence->worth_it);
-  EXPECT_TRUE(straightener.straightening().factors.empty());
+  EXPECT_TRUE(straightener.straightening().pattern.empty());
 }
 
 }  // namespace

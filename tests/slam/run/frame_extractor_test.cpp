@@ -16,7 +16,8 @@ TEST(FrameExtractor, KeepsDepthAsMeasuredBesideTheStraightened) {
   frame.depth_m = raw_m.clone();
   frame.gray = cv::Mat1b(raw_m.size(), std::uint8_t{100});
   ModuleTimes times;
-  const Straightening straightening{cv::Mat1f(raw_m.size(), 1.02f), 0.002};
+  const Straightening straightening{cv::Mat1f(raw_m.size(), 1.0f / 1.02f - 1.0f),
+                                    BendLaw::kDepth, 0.002};
   extractor.Extract(straightening, cv::Mat3b(raw_m.size()), frame, times);
   EXPECT_EQ(cv::norm(frame.measured.depth_m, raw_m, cv::NORM_INF), 0.0);
   EXPECT_LT(cv::norm(frame.depth_m, 1.02 * raw_m, cv::NORM_INF), 1e-6);
