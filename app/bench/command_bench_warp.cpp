@@ -98,7 +98,9 @@ int RunWarpBench(const WarpBenchArguments& arguments) {
   if (!arguments.device.empty()) {
     const sim::Sensor sensor = sim::SensorByName(arguments.device);
     const auto* kinect = std::get_if<sim::KinectModel>(&sensor.depth);
-    if (kinect != nullptr && kinect->bend.rms > 0) {
+    if (kinect != nullptr && kinect->bend.rms > 0 && warp.law != slam::BendLaw::kDepth) {
+      fmt::print(", goes with disparity: no pattern of a simulated device does");
+    } else if (kinect != nullptr && kinect->bend.rms > 0) {
       fmt::print(", leaves {:.3f} of the device's pattern",
                  PatternLeft(warp, camera, kinect->bend, arguments.seed));
     }

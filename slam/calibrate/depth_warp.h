@@ -37,6 +37,9 @@ enum class BendLaw {
 };
 /// In this order, as in files.
 const std::vector<std::string>& BendLawNames();
+inline const std::string& NameOf(BendLaw law) {
+  return BendLawNames()[static_cast<std::size_t>(law)];
+}
 
 /// Where p is stated for a bend that grows with the depth: about where kKinectBend was measured.
 inline constexpr double kBendDistance_m = 2.4;

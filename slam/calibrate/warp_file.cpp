@@ -84,7 +84,7 @@ std::string WarpText(const DepthWarp& warp, const std::string& comment) {
              "row "
              "by row.\n",
              comment, kWarpFormat, cells.width, cells.height, cells.cols, cells.rows,
-             BendLawNames()[static_cast<std::size_t>(warp.law)], kBendDistance_m) +
+             NameOf(warp.law), kBendDistance_m) +
          CellRows("pattern_ppm", cells, warp.pattern) + "# Their standard deviations.\n" +
          CellRows("sigma_ppm", cells, warp.sigma);
 }

@@ -50,8 +50,8 @@ void FrameExtractor::Extract(const Straightening& straightening, const cv::Mat3b
   }
   frame.map_points.assign(frame.features.size(), kNone);
   if (!planes_) {
-    bend_meter_.Measure(straightening.left_ratio,
-                        frame);  // what is known of the sensor beforehand
+    // What is known of the sensor beforehand.
+    bend_meter_.Measure(straightening.left_ratio, frame);
     return;
   }
   planes.get();

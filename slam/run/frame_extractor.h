@@ -29,7 +29,7 @@ class FrameExtractor {
   /// Takes the frames in order, each with timestamp, gray and depth set. Depth is straightened;
   /// features are as they were read, without depth (ReadDepths); planes, labels and depth are as
   /// the depth camera saw them (CarryToColour).
-  /// @param bgr            for the detector; same size
+  /// @param bgr  for the detector; same size
   void Extract(const Straightening& straightening, const cv::Mat3b& bgr, Frame& frame,
                ModuleTimes& times);
 

@@ -163,7 +163,7 @@ class SequenceRun {
   /// asked for, with what was known here, so that the number of threads changes nothing.
   std::future<FrameAhead> Begin(int i) {
     const auto where = threads_ > 1 ? std::launch::async : std::launch::deferred;
-    return std::async(where, [this, i, straightening = tracker_.Straightens()] {
+    return std::async(where, [this, i, straightening = tracker_.HowToStraighten()] {
       return ReadAndExtract(i, straightening);
     });
   }

@@ -70,7 +70,7 @@ nlohmann::ordered_json StraighteningJson(const StraighteningReport& report) {
   }
   if (report.evidence) {
     const WarpEvidence& evidence = *report.evidence;
-    json["learnt"] = {{"law", BendLawNames()[static_cast<std::size_t>(evidence.law)]},
+    json["learnt"] = {{"law", NameOf(evidence.law)},
                       {"epochs", evidence.epochs},
                       {"gain", evidence.gain},
                       {"student_t", evidence.student_t},

@@ -7,7 +7,7 @@ namespace slam {
 
 TrackReport Tracker::TrackFrame(Frame& frame, const cv::Mat3b& bgr) {
   ModuleTimes times;
-  Extract(Straightens(), bgr, frame, times);
+  Extract(HowToStraighten(), bgr, frame, times);
   return Track(frame, times);
 }
 

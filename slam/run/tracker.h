@@ -79,13 +79,13 @@ class Tracker {
 
   /// The same in two steps: a frame may be extracted, on another thread, while the one before is
   /// tracked. Each takes the frames in order.
-  /// @param straightening  Straightens(), from before either
+  /// @param straightening  HowToStraighten(), from before either
   void Extract(const Straightening& straightening, const cv::Mat3b& bgr, Frame& frame,
                ModuleTimes& times);
   /// @param times  of Extract
   TrackReport Track(Frame& frame, const ModuleTimes& times);
   /// What is known by now of how the device bends depth; see DepthStraightener.
-  const Straightening& Straightens() const { return straightener_.straightening(); }
+  const Straightening& HowToStraighten() const { return straightener_.straightening(); }
 
   /// Starts from what another tracker has learnt of the same recording: how far depth lies beside
   /// colour, how long an image is read, and how the camera moved in the frame that the map begins

@@ -27,6 +27,20 @@ struct TwoHalves {
   cv::Mat1b labels;
 };
 
+TEST(SurfaceViews, ThePlaneIsFreedOfTheKnownPatternAsItGoesWithTheDepth) {
+  const TwoHalves scene;
+  const WarpCells cells = CellsOf(scene.camera);
+  for (const BendLaw law : {BendLaw::kDepth, BendLaw::kDisparity}) {
+    const double share = law == BendLaw::kDepth ? 0.008 : 0.008 * 1.5 / kBendDistance_m;
+    const std::vector<SurfaceView> views =
+        ViewSurfaces(scene.depth_m, scene.labels, PixelRays(scene.camera), cells, DepthNoise{},
+                     Eigen::VectorXd::Constant(cells.count(), 0.008),
+                     Eigen::VectorXd::Constant(cells.count(), 0.0033), law);
+    ASSERT_FALSE(views.empty());
+    EXPECT_NEAR(views[0].plane.InverseDepth(0, 0), (1 + share) / 1.5, 1e-6);
+  }
+}
+
 TEST(SurfaceViews, PiecesThatTouchWithoutAStepAreOneSurface) {
   const std::vector<SurfaceView> views = TwoHalves().Views();
   ASSERT_EQ(views.size(), 1U);

@@ -85,6 +85,36 @@ Dense Solve(const std::vector<SurfaceView>& views, const WarpCells& cells,
   return {fixed - gain * cross.transpose(), gain * r};
 }
 
+// Where all depths are the same the two laws differ by a factor alone: that by which p is stated.
+TEST(WarpEstimate, ByDisparityIsThatByDepthWhereAllIsAtOneDistance) {
+  const Camera camera = FewCells();
+  const WarpCells cells = CellsOf(camera);
+  constexpr double kDepth_m = 0.25 * kBendDistance_m, kGrowth = 0.25;
+  DepthWarpConfig by_disparity = Smooth(), by_depth = by_disparity;
+  by_depth.bend_rms = kGrowth * by_disparity.bend_rms;
+  WarpEstimate disparity(cells, camera, by_disparity, BendLaw::kDisparity);
+  WarpEstimate depth(cells, camera, by_depth, BendLaw::kDepth);
+  std::mt19937 random(9);
+  std::normal_distribution<double> normal(0.0, 0.001);
+  for (int epoch = 0; epoch < 2; ++epoch) {
+    SurfaceView view;
+    for (int cell = 0; cell < cells.count(); ++cell) {
+      const double x = (cells.CentreU(cell % cells.cols) - camera.cx) / camera.fx;
+      const double y = (cells.CentreV(cell / cells.cols) - camera.cy) / camera.fy;
+      // Seen at one distance to a part in a thousand.
+      view.cells.push_back({cell, x, y, (1 + normal(random)) / kDepth_m, 0.0005});
+    }
+    disparity.Add(view), depth.Add(view);
+    EXPECT_NEAR(disparity.CloseEpoch(), depth.CloseEpoch(), 0.01);
+  }
+  // What is linear in the pixel no view tells, and it is not applied.
+  const Eigen::VectorXd expected = WithoutLinearPart(cells, depth.pattern());
+  const Eigen::VectorXd found = WithoutLinearPart(cells, disparity.pattern());
+  ASSERT_GT(expected.norm(), 0.0);
+  EXPECT_LT((kGrowth * found - expected).norm(), 0.01 * expected.norm());
+  EXPECT_LT((kGrowth * disparity.sigma() - depth.sigma()).norm(), 0.01 * depth.sigma().norm());
+}
+
 // What a plane explains must not be taken for seen.
 TEST(WarpEstimate, IsTheLeastSquaresEstimateOfAPatternAndOfAPlaneForEachView) {
   const Camera camera = FewCells();

@@ -145,8 +145,8 @@ TEST(WarpLearner, WantsNoMoreFramesOfOneEpochThanItUses) {
   constexpr int kMaxViews = 16;
   const Camera camera = SmallCamera();
   const cv::Mat2d rays = PixelRays(camera);
-  // Twice as fast, so that the image has moved in nearly every frame.
-  const Room room{.pose = [](int frame) { return Swaying(2 * frame); }};
+  // So fast that the image has moved in nearly every frame, of which an epoch has 24 and more.
+  const Room room{.pose = [](int frame) { return Swaying(6 * frame); }};
   WarpLearner learner(camera, DepthNoise{}, DepthWarpConfig{});
   int wanted = 0;
   for (int i = 0; i < kFrames; ++i) {
