@@ -158,6 +158,10 @@ class YoloxDetector::Network {
 YoloxDetector::YoloxDetector(const std::filesystem::path& model, const Camera& camera,
                              const ClassTable& table, const YoloxConfig& config)
     : file_(model.string()), camera_(camera), table_(table) {
+  if (config.classes.empty()) {
+    throw io::InputError(
+        "yolox: classes in --config is empty; expected the names of the model's columns");
+  }
   const std::string bytes =
       io::ReadFile(model, "expected a YOLOX model: --detector yolox:FILE.onnx");
   const QuietOpenCv quiet;

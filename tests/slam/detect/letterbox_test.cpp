@@ -36,6 +36,11 @@ TEST(Letterbox, KeepsColoursAndPadsWithGrey) {
   }
 }
 
+// Its coordinates would lead back to other places.
+TEST(Letterbox, RefusesAnImageOfAnotherSize) {
+  EXPECT_THROW(Letterbox({64, 48}, {32, 32}).Apply(cv::Mat3b(24, 32)), std::invalid_argument);
+}
+
 TEST(Letterbox, PutsAPixelWhereItsCoordinatesSay) {
   // A square of 40 pixels, a whole number of input pixels: its edges must fall on theirs.
   cv::Mat3b image(480, 640, cv::Vec3b(0, 0, 0));

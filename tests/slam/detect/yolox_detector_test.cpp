@@ -152,13 +152,45 @@ TEST_F(YoloxModel, BelievesWhatTheConfigurationSays) {
   }));
 }
 
+// Halved, the image fills the network's input: 96 + 24 + 6 cells.
+TEST_F(YoloxModel, FindsNoMoreThanTheHundredBest) {
+  Write(BlockNetwork().Model());
+  camera_.height = 128;
+  YoloxConfig config;
+  config.max_nms_iou = 1.0;
+  cv::Mat3b bgr(128, 192, cv::Vec3b(255, 204, 0));
+  // In the last rows of each grid: four cells of stride 8 and one of stride 16.
+  bgr(cv::Rect(160, 96, 32, 32)).setTo(cv::Vec3b(255, 255, 0));
+  const auto found = Load(config)->Detect(0, bgr);
+  ASSERT_EQ(found.size(), 100u);
+  constexpr double kFloat = 1e-4;  // sums of 1024 floats
+  for (std::size_t i = 0; i < 5; ++i) EXPECT_NEAR(found[i].score, 1.0, kFloat);
+  EXPECT_NEAR(found.back().score, 0.8, kFloat);
+}
+
+TEST_F(YoloxModel, FindsNothingThatLiesInThePaddingAlone) {
+  Write(BlockNetwork().Model());
+  YoloxConfig config;
+  config.min_score = 0.15;  // the grey of the padding scores 0.2
+  config.max_nms_iou = 1.0;
+  const auto found = Load(config)->Detect(0, cv::Mat3b(96, 192, cv::Vec3b(0, 0, 0)));
+  // The padding is rows 6 and 7 of stride 8 and row 3 of stride 16. Boxes are twice as high as
+  // their cells: those of row 7 begin at 52 of the input, four below the image.
+  EXPECT_EQ(found.size(), 12u + 6u);
+  for (const Detection& d : found) EXPECT_GT(d.box_px.area(), 0);
+}
+
 TEST_F(YoloxModel, AsksForTheInputSizeThatAModelLeavesOpen) {
   BlockNetwork open;
   open.input = {1, 3, 0, 0};
   Write(open.Model());
   EXPECT_THAT([&] { Load(); }, FailsWith("set yolox: input_width and input_height"));
   YoloxConfig config;
-  config.input_width = 96, config.input_height = 64;
+  config.input_width = 96;
+  EXPECT_THAT([&] { Load(config); }, FailsWith("set yolox: input_width and input_height"));
+  config.input_width = 0, config.input_height = 64;
+  EXPECT_THAT([&] { Load(config); }, FailsWith("set yolox: input_width and input_height"));
+  config.input_width = 96;
   cv::Mat3b bgr(96, 192, cv::Vec3b(0, 0, 0));
   bgr(cv::Rect(48, 32, 16, 16)).setTo(cv::Vec3b(255, 204, 0));
   EXPECT_EQ(Load(config)->Detect(0, bgr).size(), 1u);
@@ -181,6 +213,31 @@ TEST_F(YoloxModel, RefusesAnInputOfAnotherShape) {
   odd.input = {1, 1, 64, 96};
   Write(odd.Model());
   EXPECT_THAT([&] { Load(); }, FailsWith("input is 1 x 1 x 64 x 96; expected"));
+  odd.input = {2, 3, 64, 96};  // a batch of two images
+  Write(odd.Model());
+  EXPECT_THAT([&] { Load(); }, FailsWith("input is 2 x 3 x 64 x 96; expected"));
+  onnx::Graph scalar;
+  scalar.inputs = {onnx::Value("images", {})};
+  Write(onnx::Model(scalar));
+  EXPECT_THAT([&] { Load(); }, FailsWith("input is no shape; expected 1 x 3 x height"));
+}
+
+TEST_F(YoloxModel, RefusesAnEmptyListOfClasses) {
+  Write(BlockNetwork().Model());
+  YoloxConfig config;
+  config.classes.clear();
+  EXPECT_THAT([&] { Load(config); },
+              ThrowsMessage<io::InputError>(HasSubstr("yolox: classes in --config is empty")));
+}
+
+TEST_F(YoloxModel, RefusesAModelThatAsksForMoreThanAnImage) {
+  onnx::Graph graph;
+  graph.inputs = {onnx::Value("images", {1, 3, 64, 96}), onnx::Value("sizes", {1, 2})};
+  Write(onnx::Model(graph));
+  EXPECT_THAT([&] { Load(); }, FailsWith("the model has 2 inputs; expected one image"));
+  graph.inputs.clear();
+  Write(onnx::Model(graph));
+  EXPECT_THAT([&] { Load(); }, FailsWith("the model has 0 inputs; expected one image"));
 }
 
 TEST_F(YoloxModel, RefusesAnOutputOfAnotherShape) {

@@ -83,6 +83,26 @@ TEST(YoloxOutput, TellsDecodedBoxesFromOffsetsByWhereTheirCentresLie) {
   EXPECT_FALSE(LooksDecoded(Silence(), kInput));
 }
 
+// Each row is held against its own cell: a centre that lies nearer to it than to the corner of
+// the image was decoded.
+TEST(YoloxOutput, TellsDecodedBoxesEvenWhereTheyAreFarFromTheirCells) {
+  const auto looks_decoded = [](float part) {
+    cv::Mat1f output = Silence();
+    int i = 0;
+    for (const int stride : {8, 16, 32}) {
+      for (int row = 0; row < kInput.height / stride; ++row) {
+        for (int column = 0; column < kInput.width / stride; ++column, ++i) {
+          output(i, 0) = part * static_cast<float>(stride * column);
+          output(i, 1) = part * static_cast<float>(stride * row);
+        }
+      }
+    }
+    return LooksDecoded(output, kInput);
+  };
+  EXPECT_TRUE(looks_decoded(0.55f));
+  EXPECT_FALSE(looks_decoded(0.45f));
+}
+
 TEST(YoloxOutput, ScoresByObjectnessTimesClassAndKeepsTheThresholdItself) {
   cv::Mat1f output = Silence();
   Say(output, 0, {0, 0, 0, 0, 0.5f, 0.5f, 0.25f, 0});  // 0.25: kept
@@ -99,7 +119,7 @@ TEST(YoloxOutput, ScoresByObjectnessTimesClassAndKeepsTheThresholdItself) {
 
 TEST(YoloxOutput, RefusesWhatNoSigmoidGives) {
   for (const float bad : {1.5f, -0.25f, std::nanf("")}) {
-    for (const int column : {4, 7}) {
+    for (const int column : {4, 5, 7}) {
       cv::Mat1f output = Silence();
       output(kCells - 1, column) = bad;
       EXPECT_THAT([&] { DecodeYolox(output, kInput, ThreeClasses()); },
@@ -115,6 +135,23 @@ TEST(YoloxOutput, RefusesWhatNoSigmoidGives) {
   }
   EXPECT_THROW(DecodeYolox(cv::Mat1f(kCells, 9, 0.0f), kInput, ThreeClasses()),
                std::invalid_argument);
+  YoloxConfig no_classes;
+  no_classes.classes.clear();
+  EXPECT_THROW(DecodeYolox(cv::Mat1f(kCells, 5, 0.0f), kInput, no_classes),
+               std::invalid_argument);
+}
+
+// A size of exp(h) is never negative; one that a model computes itself can be.
+TEST(YoloxOutput, RefusesADecodedBoxOfNegativeSize) {
+  YoloxConfig config = ThreeClasses();
+  config.decoded = true;
+  for (const int column : {2, 3}) {
+    cv::Mat1f output = Silence();
+    Say(output, 113, {40, 30, 20, 10, 1, 1, 0, 0});
+    output(113, column) = -8;
+    EXPECT_THAT([&] { DecodeYolox(output, kInput, config); },
+                ThrowsMessage<io::InputError>(HasSubstr("no finite rectangle")));
+  }
 }
 
 TEST(YoloxOutput, SuppressesOverlapsWithinAClassOnly) {

@@ -104,12 +104,16 @@ class CameraFormats : public ::testing::Test {
     EXPECT_EQ(c.depth_factor, tum.depth_factor);
     EXPECT_EQ(c.fps, 25.0);
   }
+  /// `text` with the first `from` replaced.
+  static std::string With(std::string text, const std::string& from, const std::string& to) {
+    return text.replace(text.find(from), from.size(), to);
+  }
   /// `text` with the first `from` replaced must be refused so.
-  void ExpectError(std::string text, const std::string& from, const std::string& to,
+  void ExpectError(const std::string& text, const std::string& from, const std::string& to,
                    const std::string& regex) {
-    text.replace(text.find(from), from.size(), to);
-    EXPECT_THAT([&] { Read(text); }, ThrowsMessage<io::InputError>(ContainsRegex(regex)))
-        << text;
+    EXPECT_THAT([&] { Read(With(text, from, to)); },
+                ThrowsMessage<io::InputError>(ContainsRegex(regex)))
+        << text << to;
   }
 
   test_support::TemporaryFolder temporary_;
@@ -136,6 +140,19 @@ TEST_F(CameraFormats, AreThoseThatOpenCvWrites) {
     out << "avg_reprojection_error" << 0.25 << "depth_factor" << 5000 << "fps" << 25;
   }
   ExpectTum1(ReadCamera(file_));
+}
+
+// Tools write the coefficients of larger models too; at 0 they change nothing.
+TEST_F(CameraFormats, TakeALargerModelWhoseFurtherCoefficientsAreZero) {
+  ExpectTum1(Read(With(kRos, "1.163314]", "1.163314, 0, 0, 0]")));
+  ExpectTum1(Read(With(kOrbSlam2, "Camera.RGB: 1", "Camera.k4: 0.0")));
+}
+
+TEST_F(CameraFormats, OfRosGiveTheSizeOfTheImage) {
+  const Camera camera =
+      Read(With(With(kRos, "width: 640", "width: 656"), "height: 480", "height: 496")).camera;
+  EXPECT_EQ(camera.width, 656);
+  EXPECT_EQ(camera.height, 496);
 }
 
 TEST_F(CameraFormats, NameTheKeyThatIsMissing) {
@@ -165,6 +182,19 @@ TEST_F(CameraFormats, RefuseNumbersThatNoCameraHas) {
   ExpectError(kOrbSlam2, "Camera.fx: 517.306408", "Camera.fx: -517",
               "yaml:7: Camera.fx: expected a number in .1, 100000., found `-517`");
   ExpectError(kOrbSlam2, "Camera.cx: 318", "Camera.cx: 918", "Camera.cx: the principal point");
+}
+
+// The last column of 640 ends at 639.5, the last row of 480 at 479.5.
+TEST_F(CameraFormats, NameTheCoordinateOfAPrincipalPointJustOutsideTheImage) {
+  ExpectError(kOrbSlam2, "Camera.cx: 318.643040", "Camera.cx: 639.6",
+              "yaml:9: Camera.cx: the principal point");
+  ExpectError(kOrbSlam2, "Camera.cy: 255.313989", "Camera.cy: 479.6",
+              "yaml:10: Camera.cy: the principal point");
+}
+
+TEST_F(CameraFormats, OfRosAreHeldToTheSameLaws) {
+  ExpectError(kRos, "318.643040", "918", "yaml:4: camera_matrix: the principal point");
+  ExpectError(kRos, "[0.262383", "[-5", "yaml:6: distortion_coefficients: .* be inverted");
 }
 
 }  // namespace

@@ -131,6 +131,17 @@ TEST_F(CameraReader, TakesTheCameraOfTheSequenceUnlessToldOtherwise) {
       ThrowsMessage<io::InputError>(ContainsRegex("--camera tum9: .*expected tum1, tum2")));
 }
 
+TEST_F(CameraReader, KnowsEachOfTumsCamerasByItsName) {
+  for (const char* name : {"tum1", "tum2", "tum3"})
+    EXPECT_EQ(ChooseCamera(name, folder_).camera.fx, TumCamera(name).fx) << name;
+}
+
+TEST_F(CameraReader, SaysThatAFolderIsNoCamera) {
+  EXPECT_THAT([&] { ChooseCamera(folder_.string(), folder_); },
+              ThrowsMessage<io::InputError>(
+                  ContainsRegex("--camera .*: is a folder; expected tum1, tum2")));
+}
+
 TEST_F(CameraReader, ReadsTheCalibrationsOfTum) {
   for (const char* name : {"tum1", "tum2", "tum3"}) EXPECT_EQ(TumCamera(name).width, 640);
 }

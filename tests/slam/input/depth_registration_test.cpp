@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <opencv2/core.hpp>
+
 namespace slam {
 namespace {
 
@@ -23,10 +26,10 @@ TEST(DepthRegistration, OfTheSameViewChangesNothing) {
 }
 
 TEST(DepthRegistration, OfAWallIsThatWallWithoutHolesInAFinerImage) {
-  // A wall that both cameras see at a slant: n . x = 1 in the depth camera.
+  // A wall that both cameras see at a slant: n . x = 1 in the depth camera. Turned about the line
+  // of sight, one way the columns of depth part in the colour image, the other way the rows.
   const Camera depth = SmallView(64, 48, 60), colour = SmallView(200, 150, 180);
   const Eigen::Vector3d n(0.2, -0.1, 0.6);
-  Pose T_cd{ExpSo3({0.01, -0.02, 0.03}), {0.015, 0.002, -0.001}};
   cv::Mat1f depth_m(depth.height, depth.width);
   for (int v = 0; v < depth.height; ++v) {
     for (int u = 0; u < depth.width; ++u) {
@@ -34,14 +37,17 @@ TEST(DepthRegistration, OfAWallIsThatWallWithoutHolesInAFinerImage) {
           static_cast<float>(1 / n.dot(depth.Backproject(Eigen::Vector2d(u, v), 1)));
     }
   }
-  const cv::Mat1f laid = DepthRegistration(depth, colour, T_cd).Register(depth_m);
-  const Eigen::Vector3d n_c = T_cd.R * n;
-  const double d_c = 1 + n_c.dot(T_cd.t);
-  for (int v = 20; v < 130; ++v) {
-    for (int u = 20; u < 180; ++u) {
-      const double z_m = d_c / n_c.dot(colour.Backproject(Eigen::Vector2d(u, v), 1));
-      // A step of depth is a pixel of the coarser camera.
-      EXPECT_NEAR(laid(v, u), z_m, 0.02 * z_m) << u << ' ' << v;
+  for (const double turn : {0.03, -0.03}) {
+    const Pose T_cd{ExpSo3({0.01, -0.02, turn}), {0.015, 0.002, -0.001}};
+    const cv::Mat1f laid = DepthRegistration(depth, colour, T_cd).Register(depth_m);
+    const Eigen::Vector3d n_c = T_cd.R * n;
+    const double d_c = 1 + n_c.dot(T_cd.t);
+    for (int v = 20; v < 130; ++v) {
+      for (int u = 20; u < 180; ++u) {
+        const double z_m = d_c / n_c.dot(colour.Backproject(Eigen::Vector2d(u, v), 1));
+        // A step of depth is a pixel of the coarser camera.
+        EXPECT_NEAR(laid(v, u), z_m, 0.02 * z_m) << turn << ' ' << u << ' ' << v;
+      }
     }
   }
 }
@@ -70,6 +76,44 @@ TEST(DepthRegistration, KeepsTheNearerOfTwoSurfaces) {
     const float expected = u >= 18 && u < 28 ? 0.5f : u >= 28 && u < 37 ? 0.0f : 2.0f;
     EXPECT_EQ(laid(24, u), expected) << u;
   }
+}
+
+TEST(DepthRegistration, LaysNothingOfWhatIsBehindOrBesideTheColourCamera) {
+  // A wall at half a metre, over 27 degrees to each side.
+  const Camera camera = SmallView(65, 49, 60);
+  const cv::Mat1f depth_m(49, 65, 0.5f);
+  Pose beyond, turned_back, turned_aside;
+  beyond.t = {0, 0, -1};
+  turned_back.R = ExpSo3({0, M_PI, 0});
+  turned_aside.R = ExpSo3({0, M_PI / 2, 0});
+  for (const Pose& T_cd : {beyond, turned_back, turned_aside}) {
+    const cv::Mat1f laid = DepthRegistration(camera, camera, T_cd).Register(depth_m);
+    EXPECT_EQ(cv::countNonZero(laid), 0) << T_cd.R;
+  }
+}
+
+TEST(DepthRegistration, LaysNothingWhereNothingWasMeasured) {
+  // No depth is no point at the depth camera itself, a quarter of a metre before the other one.
+  const Camera camera = SmallView(65, 49, 60);
+  Pose T_cd;
+  T_cd.t = {0, 0, 0.25};
+  const cv::Mat1f laid =
+      DepthRegistration(camera, camera, T_cd).Register(cv::Mat1f(49, 65, 0.0f));
+  EXPECT_EQ(cv::countNonZero(laid), 0);
+}
+
+TEST(DepthRegistration, LetsNoSpeckAtTheLensHideTheWall) {
+  // One pixel at 0.5 m before a wall at 2 m; the colour camera is 0.47 m ahead. At 3 cm from it
+  // that pixel would cover (0.5 / 0.03) = 17 pixels each way.
+  const Camera camera = SmallView(64, 48, 60);
+  cv::Mat1f depth_m(48, 64, 2.0f);
+  depth_m(24, 32) = 0.5f;
+  Pose T_cd;
+  T_cd.t = {0, 0, -0.47};
+  const cv::Mat1f laid = DepthRegistration(camera, camera, T_cd).Register(depth_m);
+  // From its corner, the middle of the image, to the right and down; the wall's gap is 2 pixels.
+  for (int step = 3; step < 16; ++step)
+    EXPECT_FLOAT_EQ(laid(23 + step, 31 + step), 1.53f) << step;
 }
 
 }  // namespace

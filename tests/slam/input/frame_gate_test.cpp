@@ -1,22 +1,37 @@
 #include "slam/input/frame_gate.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <limits>
+#include <opencv2/core.hpp>
 
 namespace slam {
 namespace {
 
-double DelayTaken(double late_s) {
+using ::testing::ElementsAre;
+using ::testing::StartsWith;
+
+Camera GateCamera() {
   Camera camera;
   camera.width = 32, camera.height = 24;
+  return camera;
+}
+
+RecordedFrame FrameAt(double t_s) {
   RecordedFrame frame;
+  frame.timestamp_s = t_s;
   frame.bgr = cv::Mat3b(24, 32, cv::Vec3b(1, 2, 3));
   frame.gray = cv::Mat1b(24, 32, 2);
   frame.depth_m = cv::Mat1f(24, 32, 1.0f);
+  return frame;
+}
+
+double DelayTaken(double late_s) {
+  RecordedFrame frame = FrameAt(0);
   frame.depth_late_s = late_s;
-  FrameGate gate(camera);
+  FrameGate gate(GateCamera());
   EXPECT_TRUE(gate.Takes(frame));
   return frame.depth_late_s;
 }
@@ -31,6 +46,36 @@ TEST(FrameGate, DoesNotBelieveStampsOfTwoClocks) {
        {1.0, -0.2, 1.3e9, std::nan(""), std::numeric_limits<double>::infinity()}) {
     EXPECT_EQ(DelayTaken(late_s), 0.0) << late_s;
   }
+}
+
+TEST(FrameGate, CountsTheFramesThatAreNotLaterThanAllBefore) {
+  FrameGate gate(GateCamera());
+  std::vector<bool> taken;
+  for (const double t_s : {1.0, 3.0, 3.0, 2.0, 4.0}) {
+    RecordedFrame frame = FrameAt(t_s);
+    taken.push_back(gate.Takes(frame));
+  }
+  EXPECT_THAT(taken, ElementsAre(true, true, false, false, true));
+  EXPECT_THAT(gate.Warnings(), ElementsAre(StartsWith("2 frames were left out")));
+}
+
+// A recorder or a window may hold the same image.
+TEST(FrameGate, MendsImpossibleDepthOnACopy) {
+  const cv::Mat1f source(24, 32, 1.0f);
+  const float nan = std::nanf("");
+  cv::Mat1f held = source.clone();
+  held(3, 4) = -2.0f, held(5, 6) = nan, held(7, 8) = 1e6f;
+  RecordedFrame frame = FrameAt(0);
+  frame.depth_m = held;
+  FrameGate gate(GateCamera());
+  ASSERT_TRUE(gate.Takes(frame));
+  EXPECT_EQ(frame.depth_m(3, 4), 0.0f);
+  EXPECT_EQ(frame.depth_m(5, 6), 0.0f);
+  EXPECT_EQ(frame.depth_m(7, 8), 0.0f);
+  EXPECT_EQ(cv::countNonZero(frame.depth_m == source), 24 * 32 - 3);
+  EXPECT_EQ(held(3, 4), -2.0f);
+  EXPECT_TRUE(std::isnan(held(5, 6)));
+  EXPECT_EQ(held(7, 8), 1e6f);
 }
 
 }  // namespace

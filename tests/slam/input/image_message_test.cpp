@@ -34,6 +34,8 @@ TEST(ImageMessage, OfEachColourEncodingIsBgr) {
   EXPECT_EQ(first("rgba8", {0, 0, 0, 0, 1, 2, 3, 9}), cv::Vec3b(3, 2, 1));
   EXPECT_EQ(first("bgra8", {0, 0, 0, 0, 1, 2, 3, 9}), cv::Vec3b(1, 2, 3));
   EXPECT_EQ(first("mono8", {0, 7}), cv::Vec3b(7, 7, 7));
+  EXPECT_EQ(first("8UC3", {0, 0, 0, 1, 2, 3}), cv::Vec3b(1, 2, 3));
+  EXPECT_EQ(first("8UC1", {0, 7}), cv::Vec3b(7, 7, 7));
 }
 
 TEST(ImageMessage, OfDepthIsInMetresAndZeroWhereNothingWasMeasured) {
@@ -48,6 +50,9 @@ TEST(ImageMessage, OfDepthIsInMetresAndZeroWhereNothingWasMeasured) {
       DepthOf(ImageMessage<std::uint16_t>("16UC1", {1500, 65535}), {2, 1}, 1000, "here");
   EXPECT_EQ(units(0, 0), 1.5f);
   EXPECT_EQ(units(0, 1), 0.0f);
+  const cv::Mat1f mono =
+      DepthOf(ImageMessage<std::uint16_t>("mono16", {0, 2500}), {2, 1}, 1000, "here");
+  EXPECT_EQ(mono(0, 1), 2.5f);
 }
 
 TEST(ImageMessage, RowsMayBePadded) {
@@ -69,12 +74,33 @@ TEST(ImageMessage, WithTooFewBytesOrOfAnotherSizeOrKindIsRefused) {
         BgrOf(cut, {3, 1}, "here");
       },
       refused("the image is 2 x 1, the camera says 3 x 1"));
+  EXPECT_THAT(
+      [&] {
+        BgrOf(ImageMessage<std::uint8_t>("mono8", {1, 2}), {2, 2}, "here");
+      },
+      refused("the image is 2 x 1, the camera says 2 x 2"));
   cut.encoding = "yuv422";
   EXPECT_THAT([&] { BgrOf(cut, {2, 1}, "here"); }, refused("the encoding is `yuv422`"));
   EXPECT_THAT([&] { DepthOf(cut, {2, 1}, 1000, "here"); }, refused("expected 32FC1"));
   BagImage swapped = ImageMessage<std::uint16_t>("16UC1", {1, 2});
   swapped.big_endian = true;
   EXPECT_THAT([&] { DepthOf(swapped, {2, 1}, 1000, "here"); }, refused("big-endian"));
+}
+
+TEST(ImageMessage, OfSingleBytesHasNoOrderOfBytes) {
+  BagImage image = ImageMessage<std::uint8_t>("mono8", {5, 6});
+  image.big_endian = true;
+  EXPECT_EQ(BgrOf(image, {2, 1}, "here")(0, 1), cv::Vec3b(6, 6, 6));
+}
+
+TEST(ImageMessage, WhoseRowsBeginWithinASampleIsRefused) {
+  BagImage image = ImageMessage<std::uint16_t>("16UC1", {1, 2, 3, 4, 5});
+  image.height = 2, image.step = 5;  // two samples and half a one
+  EXPECT_THAT(
+      [&] {
+        DepthOf(image, {2, 2}, 1000, "here");
+      },
+      ThrowsMessage<io::InputError>(HasSubstr("no whole number of samples of 16UC1")));
 }
 
 }  // namespace
