@@ -149,7 +149,6 @@ bool HasDouble(const PointFeature& feature, const std::vector<PointFeature>& fea
 }
 
 std::vector<FeaturePair> MatchDescriptors(const std::vector<PointFeature>& first,
-                                          const std::vector<bool>& use_first,
                                           const std::vector<PointFeature>& second,
                                           const std::vector<bool>& use_second,
                                           const PointMatchConfig& config) {
@@ -158,7 +157,6 @@ std::vector<FeaturePair> MatchDescriptors(const std::vector<PointFeature>& first
   std::vector<int> of_second(second.size(), kNone);
   std::vector<int> distance_of_second(second.size(), kTooFar);
   for (int i = 0; i < static_cast<int>(first.size()); ++i) {
-    if (!use_first.empty() && !use_first[Index(i)]) continue;
     for (int j = 0; j < static_cast<int>(second.size()); ++j) {
       if (!use_second.empty() && !use_second[Index(j)]) continue;
       const int d = DescriptorDistance(first[Index(i)].descriptor, second[Index(j)].descriptor);

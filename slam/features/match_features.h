@@ -78,9 +78,8 @@ struct FeaturePair {
 };
 
 /// Pairs of features of two images by descriptors alone: each is the other's nearest.
-/// @param use_first, use_second  parallel to the features: which take part; empty for all
+/// @param use_second  parallel to the second image's: which take part; empty for all
 std::vector<FeaturePair> MatchDescriptors(const std::vector<PointFeature>& first,
-                                          const std::vector<bool>& use_first,
                                           const std::vector<PointFeature>& second,
                                           const std::vector<bool>& use_second,
                                           const PointMatchConfig& config);

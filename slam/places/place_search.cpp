@@ -29,7 +29,7 @@ Correspondences Correspond(const Frame& frame, const Keyframe& keyframe, const M
   }
   Correspondences found;
   for (const FeaturePair& pair :
-       MatchDescriptors(frame.features, {}, keyframe.features, has_point, match)) {
+       MatchDescriptors(frame.features, keyframe.features, has_point, match)) {
     const int point = keyframe.map_points[Index(pair.second)];
     found.features.push_back(pair.first);
     found.points.push_back(point);

@@ -182,8 +182,8 @@ bool PointTracking::TrackByReference(Frame& frame, const Map& map) const {
   for (std::size_t f = 0; f < has_point.size(); ++f) {
     has_point[f] = reference.map_points[f] != kNone;
   }
-  const auto pairs = MatchDescriptors(frame.features, {}, reference.features, has_point,
-                                      config_.match_reference);
+  const auto pairs =
+      MatchDescriptors(frame.features, reference.features, has_point, config_.match_reference);
   if (static_cast<int>(pairs.size()) < config_.min_reference_matches) return false;
   for (const FeaturePair& pair : pairs) {
     frame.map_points[Index(pair.first)] = reference.map_points[Index(pair.second)];

@@ -60,7 +60,7 @@ TEST(PointMatching, FindsTheTrueFlowBetweenTwoViewsOfADesk) {
        {std::tuple{5, 150, 0.97}, {30, 50, 0.9}}) {
     const Views views = LookTwice(11, frames_apart);
     const auto pairs =
-        slam::MatchDescriptors(views.first.features, {}, views.second.features, {}, {50, 0.75});
+        slam::MatchDescriptors(views.first.features, views.second.features, {}, {50, 0.75});
     int right = 0;
     double moved_px = 0;
     for (const slam::FeaturePair& pair : pairs) {

@@ -157,7 +157,7 @@ TEST(MatchDescriptors, PairsEachFeatureWithItsMutualNearest) {
     first.push_back(FeatureAt(i, 0, d));
     second.insert(second.begin(), FeatureAt(0, i, Flip(d, 10)));
   }
-  const auto pairs = MatchDescriptors(first, {}, second, {}, {50, 0.8});
+  const auto pairs = MatchDescriptors(first, second, {}, {50, 0.8});
   ASSERT_EQ(pairs.size(), 40u);
   for (const FeaturePair& pair : pairs) EXPECT_EQ(pair.second, 39 - pair.first);
 }
@@ -166,7 +166,7 @@ TEST(MatchDescriptors, LeavesOutThoseThatTakeNoPart) {
   Random random{8};
   const Descriptor d = AnyDescriptor(random), e = AnyDescriptor(random);
   const std::vector<PointFeature> features{FeatureAt(0, 0, d), FeatureAt(5, 5, e)};
-  const auto pairs = MatchDescriptors(features, {}, features, {false, true}, {50, 0.8});
+  const auto pairs = MatchDescriptors(features, features, {false, true}, {50, 0.8});
   ASSERT_EQ(pairs.size(), 1u);
   EXPECT_EQ(pairs[0].first, 1);
   EXPECT_EQ(pairs[0].second, 1);

@@ -104,7 +104,7 @@ TEST(PointFeatures, AreFoundAgainAndLookAlikeUnderAKnownHomography) {
   EXPECT_GE(repeated, 0.6 * visible);
 
   int right = 0;
-  const auto pairs = MatchDescriptors(first, {}, second, {}, {64, 0.8});
+  const auto pairs = MatchDescriptors(first, second, {}, {64, 0.8});
   for (const FeaturePair& pair : pairs) {
     const PointFeature& f = first[static_cast<std::size_t>(pair.first)];
     const PointFeature& g = second[static_cast<std::size_t>(pair.second)];
@@ -150,7 +150,7 @@ TEST(PointFeatures, AreFoundAgainAndLookAlikeUnderTheNoiseOfASensor) {
     EXPECT_GE(repeated, found * count) << sigma;
 
     int right = 0;
-    const auto pairs = MatchDescriptors(first, {}, second, {}, {50, 0.8});
+    const auto pairs = MatchDescriptors(first, second, {}, {50, 0.8});
     for (const FeaturePair& pair : pairs) {
       right += same_place(first[static_cast<std::size_t>(pair.first)],
                           second[static_cast<std::size_t>(pair.second)]);
