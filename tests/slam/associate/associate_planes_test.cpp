@@ -117,6 +117,28 @@ TEST(PlaneAssociation, ByParametersAloneTakesTheBookForTheDeskOrTheDeskForTheBoo
   EXPECT_EQ(wrong_integrated, 0);
 }
 
+TEST(PlaneAssociation, ByParametersAloneFindsEachSurfaceAgainAndLeavesOutWhatIsBad) {
+  const Camera camera = SmallCamera();
+  Association a;
+  a.first = See(DeskWithBook(0.05, "book"), kFirst, camera, {}, Random{1});
+  UpdatePlanes(a.first.frame, a.map, camera, {}, SmallImages());
+  a.second = See(DeskWithBook(0.05, "book"), kSecond, camera, {}, Random{2});
+  AssociationConfig parameters;
+  parameters.rule = AssociationRule::kParameters;
+  const auto associate = [&] {
+    a.second.frame.plane_matches =
+        AssociatePlanes(a.second.frame, a.map, camera, parameters).matches;
+  };
+  associate();
+  ExpectAllRight(a);
+  for (std::size_t bad = 0; bad < a.second.frame.planes.size(); ++bad) {
+    a.second.frame.planes[bad].bad = BadReason::kFar;
+    associate();
+    EXPECT_EQ(a.second.frame.plane_matches[bad].decision, PlaneDecision::kUnmatched);
+    a.second.frame.planes[bad].bad.reset();
+  }
+}
+
 TEST(PlaneAssociation, DoesNotTakeOneTopForAnotherOfTheSameHeight) {
   PlaneWorld world;
   world.AddBox({-0.25, 0, 0}, {0.2, 0.25, 0.03}, 0, "book");

@@ -9,25 +9,69 @@
 namespace slam {
 namespace {
 
-TEST(PairEvidence, WeighsPlaceAndParametersTogether) {
-  // A desk alone, at the place of its landmark, and farther off than one surface is as a rule.
-  PlaneWorld desk;
-  desk.Add({0, 0, 0}, {0.8, 0, 0}, {0, 0.5, 0}, "");
+/// A top alone, and a map that knows it.
+struct KnownTop {
   const Camera camera = SmallCamera();
-  SeenWorld seen = See(desk, LookAt({0, -0.8, 0.7}, {0, 0, 0}), camera, {}, Random{1});
-  PlaneMapConfig one_view;
-  one_view.trial_pixels = 480, one_view.trial_frames = 1;
-  Map map;
-  UpdatePlanes(seen.frame, map, camera, {}, one_view);
-  MapPlane& landmark = *Landmarks(map).at(0);
-  const UncertainPose pose = {seen.frame.T_cw, 1e-7 * Matrix6d::Identity()};
   const AssociationConfig config;
+  SeenWorld seen;
+  Map map;
+
+  explicit KnownTop(const std::string& class_name) {
+    PlaneWorld world;
+    world.Add({0, 0, 0}, {0.8, 0, 0}, {0, 0.5, 0}, class_name);
+    seen = See(world, LookAt({0, -0.8, 0.7}, {0, 0, 0}), camera, {}, Random{1});
+    PlaneMapConfig one_view;
+    one_view.trial_pixels = 480, one_view.trial_frames = 1;
+    UpdatePlanes(seen.frame, map, camera, {}, one_view);
+  }
+  MapPlane& landmark() { return *Landmarks(map).at(0); }
+  PairTable Weigh() const {
+    const UncertainPose pose = {seen.frame.T_cw, 1e-7 * Matrix6d::Identity()};
+    PairRefusals refused;
+    return WeighPairs(seen.frame, map, pose, pose, camera, config, refused);
+  }
+};
+
+TEST(PairEvidence, CountsTheKeyframesSinceTheLandmarkWasSeen) {
+  KnownTop top("");
+  EXPECT_EQ(top.Weigh().at(0).at(0).links, 0);
+  for (int k = 1; k <= 3; ++k) {
+    top.map.keyframes.emplace_back();
+    top.map.keyframes.back().id = k - 1;
+    top.map.keyframes.back().frame_index = top.landmark().last_frame + k;
+  }
+  const PairTable pairs = top.Weigh();
+  EXPECT_EQ(pairs.at(0).at(0).links, 3);
+  EXPECT_TRUE(PairsBeyondDoubt(top.seen.frame, pairs).empty());  // by now the pose has drifted
+}
+
+TEST(PairEvidence, ABoxCostsWhatItDoesNotShareWithThatOfTheLandmark) {
+  KnownTop top("book");
+  ASSERT_TRUE(top.seen.frame.planes.at(0).detection);
+  Box& box_px = top.seen.frame.detections.at(0).box_px;
+  EXPECT_LT(top.Weigh().at(0).at(0).box_cost, 0.2 * top.config.iou_weight);
+  box_px.max.x() = 0.5 * (box_px.min.x() + box_px.max.x());  // half of it: so is what is shared
+  EXPECT_NEAR(top.Weigh().at(0).at(0).box_cost, 0.5 * top.config.iou_weight,
+              0.1 * top.config.iou_weight);
+  // It says nothing of what either side has no class of.
+  const std::string known = top.landmark().class_name;
+  top.landmark().class_name.clear();
+  EXPECT_EQ(top.Weigh().at(0).at(0).box_cost, 0);
+  top.landmark().class_name = known;
+  top.seen.frame.planes[0].class_name.clear();
+  EXPECT_EQ(top.Weigh().at(0).at(0).box_cost, 0);
+}
+
+TEST(PairEvidence, WeighsPlaceAndParametersTogether) {
+  // At the place of its landmark, and farther off than one surface is as a rule.
+  KnownTop desk("");
+  MapPlane& landmark = desk.landmark();
+  const AssociationConfig& config = desk.config;
   const double known_d = landmark.pi_w.d;
   int between = 0, beyond = 0;
   for (double off_m = 0.0; off_m < 0.03; off_m += 0.0005) {
     landmark.pi_w.d = known_d - off_m;
-    PairRefusals refused;
-    const PairTable pairs = WeighPairs(seen.frame, map, pose, pose, camera, config, refused);
+    const PairTable pairs = desk.Weigh();
     if (pairs.at(0).empty()) break;  // certainly two
     const PairEvidence& pair = pairs[0][0];
     ASSERT_GT(pair.overlap, 0.9);

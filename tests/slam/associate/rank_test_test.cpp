@@ -113,6 +113,16 @@ TEST(PlaneRankTest, PassesOneSurfaceAndRefusesOneBesideOrAbove) {
   EXPECT_LT(TestPlaneRanks(Cloud(0, 0.01, 4), here, axes, 6).value(), 1e-6);
 }
 
+TEST(PlaneAxes, GoAlongTheLongSideTheShortSideAndTheNormal) {
+  const Eigen::Matrix3d R = ExpSo3({0.4, -0.2, 0.7});
+  std::vector<Eigen::Vector3d> grid;  // 0.6 by 0.2 m, two metres off the origin
+  for (int i = 0; i < 13; ++i) {
+    for (int k = 0; k < 5; ++k) grid.emplace_back(R * Eigen::Vector3d(0.05 * i, 0.05 * k, 2.0));
+  }
+  const Eigen::Matrix3d axes = PlaneAxes({R.col(2), -2.0}, grid);
+  for (int k = 0; k < 3; ++k) EXPECT_NEAR(std::abs(axes.col(k).dot(R.col(k))), 1, 1e-9) << k;
+}
+
 TEST(PlaneRankTest, RefusesSamplesThatAreTooSmall) {
   const auto cloud = Cloud(0, 0, 1);
   const std::vector<Eigen::Vector3d> three(cloud.begin(), cloud.begin() + 3);

@@ -95,10 +95,11 @@ TEST(CameraCheck, FindsTheTrueIntrinsicsFromWrongOnes) {
   // The tracker's first guess is no part of the answer: exact points leave what the prior
   // pulls.
   EXPECT_LT((estimate.found - Intrinsics(525, 525, 319.5, 239.5)).cwiseAbs().maxCoeff(), 0.05);
-  EXPECT_THAT(check.Warning(),
-              testing::AllOf(testing::HasSubstr("fx is about 525 px"),
-                             testing::HasSubstr("not 585"), testing::HasSubstr("cx is about"),
-                             testing::HasSubstr("not 228"), testing::HasSubstr("camera.yaml")));
+  EXPECT_THAT(
+      check.Warning(),
+      testing::AllOf(testing::ContainsRegex("fx is about 525 px .*, not 585, fy is about"),
+                     testing::HasSubstr("not 585"), testing::HasSubstr("cx is about"),
+                     testing::HasSubstr("not 228"), testing::HasSubstr("camera.yaml")));
 }
 
 TEST(CameraCheck, NamesOnlyWhatIsWrong) {

@@ -120,6 +120,17 @@ TEST(Select, AsPrintedRefusesAFaceAtTheBorder) {
   EXPECT_EQ(book.Fault(), std::nullopt);
 }
 
+TEST(Select, AsPrintedTakesForTheBorderWhatIsAtItAndWhatTheContourCallsSo) {
+  GoodBook book;
+  book.config.structure = StructureRule::kComplete;
+  book.SetEdge(0.10, EdgeKind::kSurface);
+  for (EdgePoint& edge : book.plane.edge_points) edge.kind = EdgeKind::kSurface;
+  EXPECT_EQ(book.Fault(), BadReason::kBorder);  // by their place
+  book.SetEdge(0.10, EdgeKind::kSurface);
+  for (EdgePoint& edge : book.plane.edge_points) edge.u_px.x() = 150;
+  EXPECT_EQ(book.Fault(), BadReason::kBorder);  // by their kind
+}
+
 TEST(Select, AsPrintedRefusesAFaceWithoutFourVertices) {
   GoodBook book;
   book.config.structure = StructureRule::kComplete;

@@ -9,6 +9,8 @@
 namespace slam {
 namespace {
 
+using Vector5d = Eigen::Vector<double, 5>;
+
 TEST(Camera, UndistortUndoesTheDistortionOverTheWholePicture) {
   const Camera camera = TumCamera("tum1");
   for (int v = 0; v < camera.height; v += 40) {
@@ -53,6 +55,29 @@ TEST(Camera, HasAnImageFromTheFirstPixelsMiddleToTheLasts) {
   const Box image = camera.ImageBox();
   EXPECT_EQ(image.min, Eigen::Vector2d(0, 0));
   EXPECT_EQ(image.max, Eigen::Vector2d(camera.width - 1, camera.height - 1));
+}
+
+// The numbers that the benchmark's page prints (Sturm et al., IROS 2012), to their last digit.
+TEST(Camera, KnowsTheCalibrationsOfTheTumBenchmark) {
+  struct Printed {
+    const char* name;
+    double fx, fy, cx, cy, k1, k2, p1, p2, k3;
+  };
+  for (const Printed& printed :
+       {Printed{"tum1", 517.3, 516.5, 318.6, 255.3, 0.2624, -0.9531, -0.0054, 0.0026, 1.1633},
+        Printed{"tum2", 520.9, 521.0, 325.1, 249.7, 0.2312, -0.7849, -0.0033, -0.0001, 0.9172},
+        Printed{"tum3", 535.4, 539.2, 320.1, 247.6, 0, 0, 0, 0, 0}}) {
+    SCOPED_TRACE(printed.name);
+    const Camera c = TumCamera(printed.name);
+    const Eigen::Vector4d pixels(c.fx, c.fy, c.cx, c.cy);
+    EXPECT_THAT(
+        pixels,
+        VectorNear(Eigen::Vector4d(printed.fx, printed.fy, printed.cx, printed.cy), 0.08));
+    const Vector5d lens(c.k1, c.k2, c.p1, c.p2, c.k3);
+    EXPECT_THAT(
+        lens,
+        VectorNear(Vector5d(printed.k1, printed.k2, printed.p1, printed.p2, printed.k3), 1e-4));
+  }
 }
 
 TEST(Camera, RefusesAnUnknownCalibration) {

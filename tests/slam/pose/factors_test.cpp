@@ -117,6 +117,14 @@ TEST(BoxFactorEq17, IsNotValidWhenACornerIsBehindTheCamera) {
 TEST(ParallelFactorEq19, AcceptsFacesThatLookAtEachOther) {
   const Eigen::Vector3d n = Eigen::Vector3d(0.1, 0.2, 1).normalized();
   EXPECT_NEAR(ParallelFactor({-n, n, 0.02}, Pose{}).r.norm(), 0.0, 1e-15);
+  // Turned a little, they are as far from parallel as faces that look the same way.
+  const Eigen::Vector3d turned = ExpSo3({0.05, -0.02, 0.01}) * n;
+  const Linearised<3> same = ParallelFactor({turned, n, 0.02}, Pose{});
+  const Linearised<3> facing = ParallelFactor({-turned, n, 0.02}, Pose{});
+  EXPECT_TRUE(facing.valid);
+  EXPECT_NEAR(facing.r.norm(), std::acos(turned.dot(n)), 1e-6);
+  EXPECT_EQ(facing.r, same.r);
+  EXPECT_EQ(facing.J, same.J);
 }
 
 TEST(PerpendicularFactorEq20, HasNoGradientWhereThePlanesAreParallel) {

@@ -97,6 +97,17 @@ TEST(BoxConstraints, SayLessTheLessTheFaceFillsTheBox) {
   EXPECT_TRUE(book.Problem().boxes.empty());
 }
 
+TEST(BoxConstraints, LeaveOutABoxOfWhichTheFaceIsASmallPart) {
+  for (const double share : {0.3, 0.2}) {  // a quarter is the least
+    SeenBook book;
+    Box& box_px = book.frame.detections[0].box_px;
+    const Eigen::Vector2d size = box_px.max - box_px.min;
+    // Deeper on the side that is not asked: the others are where the face ends.
+    box_px.max.y() = box_px.min.y() + size.y() / share;
+    EXPECT_EQ(book.Problem().boxes.size(), share > 0.25 ? 1u : 0u);
+  }
+}
+
 TEST(PointPlaneConstraints, OfManyPointsWeighTogetherAsMuchAsTen) {
   for (const int count : {5, 40}) {
     SeenBook book;

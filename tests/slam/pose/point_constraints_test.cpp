@@ -16,12 +16,12 @@ TEST(PointConstraints, AreOfTheMatchedFeaturesAndOutliersLoseTheirOwnMatch) {
   }
   Frame frame;
   frame.features.resize(5);
-  frame.map_points = {kNone, 2, kNone, 0, 1};
+  frame.map_points = {2, kNone, kNone, 0, 1};
   const FramePoints points = PointConstraints(frame, map, FeatureScale{});
-  EXPECT_THAT(points.features, ElementsAre(1, 3, 4));
+  EXPECT_THAT(points.features, ElementsAre(0, 3, 4));
   EXPECT_EQ(points.constraints[0].p_w, map.points[2].p_w);
-  DropOutliers(frame, points, {true, false, true});
-  EXPECT_THAT(frame.map_points, ElementsAre(kNone, 2, kNone, kNone, 1));
+  DropOutliers(frame, points, {false, true, false});
+  EXPECT_THAT(frame.map_points, ElementsAre(kNone, kNone, kNone, 0, kNone));
 }
 
 }  // namespace

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <functional>
+
 #include "slam/base/random.h"
 #include "tests/support/plane_world.h"
 #include "tests/support/slam_matchers.h"
@@ -193,6 +195,119 @@ TEST(PoseOptimiserEq13, APlaneAndTwoOfItsCornersHoldThePoseAlone) {
   EXPECT_THAT(OptimisePose(problem, Camera{}, config).T_cw, PoseNear(kTruth, 1e-6, 1e-6));
   config.use_vertices = false;
   EXPECT_EQ(OptimisePose(problem, Camera{}, config).nullity, 3);
+}
+
+/// One constraint of each kind that says otherwise than the points, and the same as no sensor tells it.
+struct OtherFactor {
+  const char* name;
+  bool PoseProblemConfig::*use;  ///< null: it has no switch
+  std::function<void(PoseProblem&)> add;
+  std::vector<std::function<void(PoseProblem&)>> spoil;
+};
+
+std::vector<OtherFactor> OtherFactors() {
+  using Problem = PoseProblem;
+  const Pose T_wc = Inverse(kTruth);
+  const Plane wall_c{Eigen::Vector3d(0, 0, -1), 2.0}, nearer_c{wall_c.n, 1.9};
+  const Eigen::Vector3d on_wall_w = T_wc * Eigen::Vector3d(0, 0, 2);
+  const Eigen::Matrix3d turn = ExpSo3({0.05, 0, 0});
+  const double nan = std::nan("");
+  return {
+      {"plane",
+       &PoseProblemConfig::use_planes,
+       [=](Problem& p) {
+         p.planes.emplace_back();
+         p.planes[0].pi_c = nearer_c, p.planes[0].centroid_c = {0, 0, 1.9};
+         p.planes[0].pi_w = Transform(T_wc, wall_c);
+       },
+       {[=](Problem& p) { p.planes[0].pi_w.d = nan; },
+        [](Problem& p) { p.planes[0].pi_c.n *= 2; },
+        [=](Problem& p) { p.planes[0].centroid_c.x() = nan; },
+        [](Problem& p) { p.planes[0].angle_sigma_rad = 0; },
+        [](Problem& p) { p.planes[0].offset_sigma_m = -1; }}},
+      {"point on a plane",
+       &PoseProblemConfig::use_point_planes,
+       [=](Problem& p) {
+         p.point_planes = {{on_wall_w, nearer_c, 0.01}};
+       },
+       {[](Problem& p) { p.point_planes[0].sigma_m = 0; },
+        [=](Problem& p) { p.point_planes[0].p_w.y() = nan; },
+        [](Problem& p) { p.point_planes[0].pi_c.n *= 2; }}},
+      {"vertex",
+       &PoseProblemConfig::use_vertices,
+       [=](Problem& p) {
+         p.vertices.emplace_back();
+         p.vertices[0].p_w = on_wall_w, p.vertices[0].p_c = {0.05, 0, 2};
+         p.vertices[0].sqrt_information.leftCols<2>() = 100 * Eigen::Matrix2d::Identity();
+       },
+       {[=](Problem& p) { p.vertices[0].p_w.x() = nan; },
+        [=](Problem& p) { p.vertices[0].p_c.x() = nan; },
+        [=](Problem& p) { p.vertices[0].sqrt_information(0, 0) = nan; }}},
+      {"box",
+       &PoseProblemConfig::use_boxes,
+       [=](Problem& p) {
+         BoxConstraint box;
+         for (const double x : {-0.2, 0.2}) {
+           for (const double y : {-0.2, 0.2}) {
+             const Eigen::Vector3d corner_c(x, y, 2);
+             box.corners_w.push_back(T_wc * corner_c);
+             box.box_obs_px.Include(Camera{}.Project(corner_c) + Eigen::Vector2d(20, 0));
+           }
+         }
+         p.boxes = {box};
+       },
+       {[=](Problem& p) { p.boxes[0].sigma_px = nan; },
+        [](Problem& p) { p.boxes[0].box_obs_px = {}; },
+        [=](Problem& p) { p.boxes[0].corners_w[2].z() = nan; }}},
+      {"parallel",
+       nullptr,
+       [=](Problem& p) {
+         p.parallels = {{kTruth.R.transpose() * wall_c.n, turn * wall_c.n, 0.01}};
+       },
+       {[](Problem& p) { p.parallels[0].n_c *= 2; },
+        [](Problem& p) { p.parallels[0].n_w *= 2; },
+        [](Problem& p) { p.parallels[0].sigma_rad = 0; }}},
+      {"perpendicular",
+       nullptr,
+       [=](Problem& p) {
+         const Eigen::Vector3d floor_c(0, -1, 0);
+         p.perpendiculars = {{kTruth.R.transpose() * floor_c, turn * wall_c.n, 0.01}};
+       },
+       {[](Problem& p) { p.perpendiculars[0].sigma_rad = 0; }}},
+      {"rotation",
+       nullptr,
+       [=](Problem& p) {
+         p.rotations.emplace_back();
+         p.rotations[0].R_cw = turn * kTruth.R;
+         p.rotations[0].sqrt_information = 100 * Eigen::Matrix3d::Identity();
+       },
+       {[](Problem& p) { p.rotations[0].R_cw *= 1.1; },
+        [=](Problem& p) { p.rotations[0].sqrt_information(0, 0) = nan; }}},
+  };
+}
+
+TEST(PoseOptimiserEq13, WeighsEveryFactorThatIsOnAndNoneThatIsOffOrNoMeasurement) {
+  const auto off = [](const PoseProblem& problem, const PoseProblemConfig& config) {
+    const PoseSummary summary = OptimisePose(problem, Camera{}, config);
+    EXPECT_TRUE(summary.usable);
+    return Log(summary.T_cw * Inverse(kTruth)).norm();
+  };
+  for (const OtherFactor& other : OtherFactors()) {
+    SCOPED_TRACE(other.name);
+    PoseProblem problem = Seen(100, 0.0, 0.0, 9);
+    other.add(problem);
+    PoseProblemConfig config;
+    if (other.use != nullptr) config.*other.use = true;
+    EXPECT_GT(off(problem, config), 1e-6);
+    for (std::size_t i = 0; i < other.spoil.size(); ++i) {
+      PoseProblem spoilt = problem;
+      other.spoil[i](spoilt);
+      EXPECT_LT(off(spoilt, config), 1e-7) << i;
+    }
+    if (other.use == nullptr) continue;
+    config.*other.use = false;
+    EXPECT_LT(off(problem, config), 1e-7);
+  }
 }
 
 TEST(PoseOptimiserEq13, RefusesAFirstGuessThatIsNotFinite) {

@@ -34,6 +34,13 @@ TEST(AsyncMapping, TracksEveryFrameAboutAsWellAsMappingBetweenFrames) {
   EXPECT_LT(Rmse(async), 1.5 * Rmse(sync) + 1e-3);
 }
 
+/// Points seen by one keyframe alone are culled, and duplicates fused, whoever does it.
+TEST(AsyncMapping, LeavesAMapLikeThatOfMappingBetweenFrames) {
+  const int sync = RunStream(Clean(), Options(false)).outcome.map_points;
+  const int async = RunStream(Clean(), Options(true)).outcome.map_points;
+  EXPECT_NEAR(async, sync, 0.1 * sync);
+}
+
 TEST(AsyncMapping, CarriesWhatMappingThrowsToTheCaller) {
   for (const bool async : {false, true}) {
     RunOptions options = Options(async);

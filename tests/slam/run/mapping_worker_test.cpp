@@ -44,6 +44,26 @@ TEST(MappingWorker, DropsTheOldestThatWaitAndNeverTheGiver) {
   EXPECT_THAT(held.done, testing::ElementsAre(0, 5, 6));
 }
 
+TEST(MappingWorker, TellsWhoeverGivesTheNextThatMappingFailed) {
+  std::promise<void> failing;
+  MappingWorker worker(
+      [&](int) {
+        failing.set_value();
+        throw std::runtime_error("mapping failed");
+      },
+      10);
+  worker.Submit(0);
+  failing.get_future().wait();
+  const auto give_until_told = [&] {
+    for (int k = 1; k < 100000; ++k) {
+      worker.Submit(k);
+      std::this_thread::yield();
+    }
+  };
+  EXPECT_THROW(give_until_told(), std::runtime_error);
+  worker.Finish(MappingWorker::Waiting::kDrop);
+}
+
 TEST(MappingWorker, FinishesTheWorkInHandWhenItIsToldToDropTheRest) {
   Held held;
   MappingWorker worker(std::ref(held), 10);

@@ -6,6 +6,7 @@
 #include "slam/structure/structure.h"
 #include "tests/support/map_surfaces.h"
 #include "tests/support/plane_world.h"
+#include "tests/support/slam_matchers.h"
 
 namespace slam {
 namespace {
@@ -214,6 +215,56 @@ TEST(ManhattanMixture, KnowsAFrameAgainWhoseLandmarkWasFusedIntoAnother) {
   world.Learn(StructureMode::kMixture);
   ASSERT_EQ(world.map.manhattan.size(), 1u);
   EXPECT_EQ(world.map.manhattan[0].seen, 2);
+}
+
+TEST(ManhattanMixture, GoesByTheLargestSegmentOfALandmarkInWhateverOrder) {
+  for (const bool large_first : {true, false}) {
+    SeenWorld world({kAxes_w.col(0), kAxes_w.col(1)});
+    // A second segment of the first landmark, off by more than a right angle may be.
+    FramePlane piece = world.frame.planes[0];
+    piece.pi_c.n = ExpSo3({0.1, 0.1, 0.1}) * piece.pi_c.n;
+    world.frame.planes[0].pixel_count = large_first ? 5000 : 1000;
+    piece.pixel_count = large_first ? 1000 : 5000;
+    if (!large_first) std::swap(world.frame.planes[0].pi_c, piece.pi_c);
+    world.frame.planes.push_back(piece);
+    world.frame.plane_matches.push_back(world.frame.plane_matches[0]);
+    world.Learn(StructureMode::kMixture);
+    EXPECT_EQ(world.map.manhattan.size(), 1u) << large_first;
+  }
+}
+
+TEST(ManhattanMixture, OfTwoAsLargeBelievesTheOneThatMoreKeyframesSaw) {
+  SeenWorld world({kAxes_w.col(0), kAxes_w.col(1)});
+  world.Learn(StructureMode::kMixture);
+  ASSERT_EQ(world.map.manhattan.size(), 1u);
+  const ManhattanFrame& stored = world.map.manhattan[0];
+  for (const int more : {0, 1}) {
+    SeenWorld other = world;
+    other.map.manhattan.assign(2, stored);
+    other.map.manhattan[more].seen = 5;
+    other.map.manhattan[1 - more].axes_k = ExpSo3({0, 0, 0.02}) * stored.axes_k;
+    const auto axes = SeenManhattanFrame(other.frame, other.map, other.config);
+    ASSERT_EQ(axes.size(), 2u);
+    EXPECT_THAT(axes[0].axis_w, VectorNear(kAxes_w.col(0), 1e-9)) << more;
+  }
+}
+
+TEST(ManhattanMixture, KeepsTheKeyframeThatSawItFirstAndHowWellThatWasKnown) {
+  SeenWorld world({kAxes_w.col(0), kAxes_w.col(1)});
+  world.map.keyframes.push_back(world.map.keyframes[0]);
+  StructureConfig structure;
+  structure.mode = StructureMode::kMixture;
+  LearnStructure(world.frame, 1, 0.97, structure, world.map);
+  ASSERT_EQ(world.map.manhattan.size(), 1u);
+  EXPECT_EQ(world.map.manhattan[0].keyframe, 1);
+  const auto sigma = [&](double first_rad) {
+    SeenWorld seen({kAxes_w.col(0), kAxes_w.col(1)});
+    for (FramePlane& plane : seen.frame.planes) plane.angle_sigma_rad = first_rad;
+    seen.Learn(StructureMode::kMixture);
+    for (FramePlane& plane : seen.frame.planes) plane.angle_sigma_rad = 0.002;
+    return SeenManhattanFrame(seen.frame, seen.map, seen.config).at(0).sigma_rad;
+  };
+  EXPECT_GT(sigma(0.03), 1.5 * sigma(0.002));
 }
 
 TEST(ManhattanMixture, StoresNoParallelNorTiltedPlanes) {

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "slam/mapping/plane_motion.h"
+#include "slam/structure/structure.h"
 #include "tests/support/map_surfaces.h"
 #include "tests/support/slam_matchers.h"
 
@@ -124,6 +125,29 @@ TEST(SupposedPlanes, AreLearntByTheLandmarkThatItsOwnBecame) {
   board.Learn(1);
   EXPECT_TRUE(board.Supposed().empty());
   EXPECT_EQ(board.map.planes.At(id).supposed.size(), 1u);
+}
+
+TEST(SupposedPlanes, AreLearntWhereTheyHoldThePoseAlwaysOrWhenPointsFail) {
+  for (const bool always : {true, false}) {
+    for (const bool edges_alone : {true, false}) {
+      SeenBoard board;
+      StructureConfig structure;
+      structure.mode = always ? StructureMode::kSupposed : StructureMode::kFree;
+      structure.edges_alone = edges_alone;
+      LearnStructure(board.frame, std::nullopt, 0.97, structure, board.map);
+      EXPECT_EQ(board.Supposed().size(), always || edges_alone ? 1u : 0u);
+    }
+  }
+}
+
+TEST(SupposedPlanes, KnowTheirDirectionNoBetterThanAnEdgeTellsIt) {
+  SeenBoard board;
+  board.config.angle_sigma_rad = 0.05;
+  board.Learn(100);
+  const auto constraints = board.Constraints();
+  ASSERT_EQ(constraints.size(), 1u);
+  EXPECT_GT(constraints[0].angle_sigma_rad, 0.05);
+  EXPECT_LT(constraints[0].angle_sigma_rad, 0.06);  // of 100 frames the map knows more
 }
 
 TEST(SupposedPlanes, MoveWithTheirLandmark) {

@@ -60,6 +60,27 @@ TEST(LookAlike, IsARepeatOfThePatternAway) {
   EXPECT_THAT(found->shift_w, VectorNear(Eigen::Vector3d(0.5005, 0, 0), 1e-9));
 }
 
+TEST(LookAlike, IsTheBestOfSeveral) {
+  const LookAlikeConfig config;
+  for (const bool best_is_left : {false, true}) {
+    RepeatingWall wall(best_is_left ? 20 : 40, 0);
+    const int more = best_is_left ? 40 : 20;
+    for (int i = 0; i < more; ++i) {
+      MapPoint point = wall.map.points[static_cast<std::size_t>(i)];
+      point.id = static_cast<int>(wall.map.points.size());
+      point.p_w.x() -= 1.3;
+      point.observations = {{0, point.id}};
+      wall.map.points.push_back(point);
+      wall.map.keyframes[0].map_points.push_back(point.id);
+      wall.map.keyframes[0].features.emplace_back();
+    }
+    const auto found = FindLookAlike(wall.frame, wall.map, config);
+    ASSERT_TRUE(found);
+    EXPECT_EQ(found->alike, 40);
+    EXPECT_NEAR(found->shift_w.x(), best_is_left ? -1.3 : 0.5005, 1e-3);
+  }
+}
+
 TEST(LookAlike, IsNoneWhereMostOfWhatStandsThereLooksDifferent) {
   const LookAlikeConfig config;
   EXPECT_TRUE(FindLookAlike(RepeatingWall(15, 15).frame, RepeatingWall(15, 15).map, config));
