@@ -247,8 +247,9 @@ bool Split(int id, std::size_t which, const PartSighting& sighting, Frame& frame
   lesser.status = LandmarkStatus::kLandmark;
   lesser.split_from = id;
   lesser.split_at_s = frame.timestamp_s;
-  lesser.observations = part.surface.observations;
-  lesser.seen_px = part.surface.seen_px;
+  const MapPlane& seen_apart = part_is_larger ? part.rest : part.surface;
+  lesser.observations = seen_apart.observations;
+  lesser.seen_px = seen_apart.seen_px;
   // Frames with both; this one is counted with those of all landmarks.
   const int seen = part.seen - 1, apart = part.apart - 1;
   lesser.covisible = {{id, seen}};

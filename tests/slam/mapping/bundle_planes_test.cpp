@@ -2,6 +2,10 @@
 
 #include <gmock/gmock.h>
 
+#include <algorithm>
+#include <cmath>
+
+#include "slam/base/index.h"
 #include "tests/support/point_world.h"
 #include "tests/support/seen_landmark.h"
 #include "tests/support/slam_matchers.h"
@@ -194,6 +198,32 @@ TEST(BundlePlanes, AreHeldByKeyframesOutsideAsByFixedOnes) {
     const Plane expected = FoundPlane(fixed, i);
     EXPECT_THAT(FoundPlane(outside, i), PlaneNear(expected, 1e-4, 1e-4));
     EXPECT_THAT(FoundPlane(unheld, i), ::testing::Not(PlaneNear(expected, 5e-4, 5e-4)));
+  }
+}
+
+TEST(BundlePlanes, AreNotHeldByAKeyframeOutsideThatContradictsThem) {
+  // The chi-square bound of three degrees of freedom at 99.9 % is 16.27: 4.03 sigmas.
+  for (const double off_sigmas : {3.9, 4.2}) {
+    PointWorld world = WorldWithPlanes(5, 80, {ThreePlanes().front()});
+    LocalBundleConfig config;
+    config.max_keyframes = 2, config.max_fixed_keyframes = 1;
+    const auto window = [&] {
+      return LocalWindow(world.map, 4, world.camera, FeatureScale{}, config);
+    };
+    const Plane truth = world.map.planes.At(0).pi_w;
+    const BundleWindow exact = window();
+    ASSERT_EQ(exact.planes.size(), 1u);
+    EXPECT_THAT(exact.planes[0].outside.Mean(), PlaneNear(truth, 1e-9, 1e-9));
+    int outside = 0;
+    while (std::count(exact.keyframes.begin(), exact.keyframes.end(), outside) > 0) ++outside;
+    KeyframePlane& seen = world.map.keyframes.at(Index(outside)).planes.at(0);
+    seen.pi_c.d += off_sigmas * seen.offset_sigma_m;
+    const double moved_m = std::abs(window().planes.at(0).outside.Mean().d - truth.d);
+    if (off_sigmas < 4) {
+      EXPECT_GT(moved_m, seen.offset_sigma_m);  // a mean of two
+    } else {
+      EXPECT_LT(moved_m, 1e-9);
+    }
   }
 }
 

@@ -52,6 +52,16 @@ TEST(BundleWindow, OfAllKeyframesIsHeldByThoseThatPlanesHold) {
   EXPECT_THAT(window.keyframes, ElementsAre(1, 3, 4, 0, 2));
 }
 
+TEST(BundleWindow, OfAllKeyframesLeavesOutTheCulledAndIsEmptyWhereThereAreNone) {
+  PointWorld world = MakePointWorld(5, 80, 3);
+  world.map.keyframes[2].culled = true;
+  const BundleWindow window = FullWindow(world.map, world.camera, FeatureScale{}, {});
+  EXPECT_EQ(window.free_count, 3u);
+  EXPECT_THAT(window.keyframes, ElementsAre(1, 3, 4, 0));
+  const BundleWindow none = FullWindow(Map{}, world.camera, FeatureScale{}, {});
+  EXPECT_THAT(none.keyframes, testing::IsEmpty());
+}
+
 /// The report on a map of which one observation is off by so much, nothing moved.
 LocalBundleReport ReportOnOneOff(bool stereo, double off_px, int octave) {
   PointWorld world = MakePointWorld(4, 80, 3, stereo ? 1 : 1000);

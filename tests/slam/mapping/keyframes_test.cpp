@@ -217,6 +217,21 @@ TEST(Keyframes, MakePointsOfAllCloseDepthsAndOfTheNearestHundredOtherwise) {
   }
 }
 
+TEST(Keyframes, AreForgottenByTheirNeighboursWhenTheyAreCulled) {
+  PointWorld world = MakePointWorld(6, 200, 5);
+  for (Keyframe& keyframe : world.map.keyframes) {  // each has seen something nobody knows
+    keyframe.features.emplace_back();
+    keyframe.map_points.push_back(kNone);
+  }
+  EXPECT_GE(CullKeyframes(world.map, 5, world.camera, FeatureScale{}, {}), 1);
+  for (const Keyframe& keyframe : world.map.keyframes) {
+    EXPECT_EQ(keyframe.covisible.empty(), keyframe.culled) << keyframe.id;
+    for (const auto& [other, shared] : keyframe.covisible) {
+      EXPECT_FALSE(world.map.keyframes[static_cast<std::size_t>(other)].culled) << keyframe.id;
+    }
+  }
+}
+
 TEST(Keyframes, GiveTheirPlanesBackWhenTheyAreCulled) {
   PointWorld world = MakePointWorld(6, 200, 6);
   for (Keyframe& keyframe : world.map.keyframes) keyframe.planes.resize(2);

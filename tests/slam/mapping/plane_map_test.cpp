@@ -266,6 +266,7 @@ TEST(PlaneMap, KnowsWhereAFusedSurfaceLiesAndWhatWasSupposedAtItsEdges) {
   const MapPlane &whole = map.planes.At(0), &gone = map.planes.At(1);
   EXPECT_NEAR(whole.centroid_w.x(), 0.0, 0.02);
   EXPECT_NEAR(SignedDistance(whole.pi_w, whole.vertices_w.at(0)), 0.0, 1e-9);
+  EXPECT_EQ(whole.vertex_weights, right.vertex_weights);
   EXPECT_EQ(whole.supposed.size(), 1u);
   EXPECT_TRUE(gone.supposed.empty());
 }

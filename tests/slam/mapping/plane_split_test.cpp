@@ -1,10 +1,13 @@
 #include "slam/mapping/plane_split.h"
 
-#include <gtest/gtest.h>
+#include <gmock/gmock.h>
+
+#include <algorithm>
 
 #include "slam/mapping/plane_fuse.h"
 #include "slam/mapping/plane_update.h"
 #include "tests/support/map_surfaces.h"
+#include "tests/support/slam_matchers.h"
 #include "tests/support/small_images.h"
 #include "tests/support/two_patches.h"
 
@@ -33,6 +36,155 @@ TEST(PlaneSplit, MakesTwoLandmarksOfTwoSurfacesThatThreeFramesShowedBesideAStep)
     for (const Eigen::Vector3d& p_w : m->hull_w)
       EXPECT_NEAR(SignedDistance(m->pi_w, p_w), 0.0, 1e-9);
   }
+}
+
+TEST(PlaneSplit, LeavesEachSideItsOwnShapeAndParameters) {
+  TwoPatches show;
+  for (int k = 0; k < 4; ++k) show.Next();
+  const auto landmarks = Landmarks(show.map);
+  ASSERT_EQ(landmarks.size(), 2u);
+  const MapPlane &larger = *landmarks[0], &lesser = *landmarks[1];
+  // The patches measure 0.4 m and 0.2 m by 0.6 m; pixels are 7 mm.
+  EXPECT_NEAR(larger.area_m2, 0.24, 0.02);
+  EXPECT_NEAR(lesser.area_m2, 0.12, 0.02);
+  EXPECT_THAT(larger.centroid_w, VectorNear(Eigen::Vector3d(-0.2, 0, 0), 0.02));
+  EXPECT_THAT(lesser.centroid_w, VectorNear(Eigen::Vector3d(0.1, 0, 0.008), 0.02));
+  for (const MapPlane* m : landmarks) {
+    EXPECT_THAT(m->estimate.Mean(), PlaneNear(m->pi_w, 1e-9, 1e-9));
+    EXPECT_TRUE(m->parts.empty());
+  }
+}
+
+TEST(PlaneSplit, SharesTheMapPointsOutByWhereTheyLie) {
+  TwoPatches show;
+  for (int k = 0; k < 3; ++k) show.Next();
+  ASSERT_EQ(Landmarks(show.map).size(), 1u);
+  for (const Eigen::Vector3d& p_w :
+       {Eigen::Vector3d(-0.2, 0, 0), Eigen::Vector3d(0.1, 0, 0.008)}) {
+    MapPoint point;
+    point.id = static_cast<int>(show.map.points.size());
+    point.p_w = p_w;
+    show.map.points.push_back(point);
+    Landmarks(show.map)[0]->map_points.insert(point.id);
+  }
+  show.Next();
+  ASSERT_EQ(Landmarks(show.map).size(), 2u);
+  EXPECT_EQ(Landmarks(show.map)[0]->map_points, std::set<int>{0});
+  EXPECT_EQ(Landmarks(show.map)[1]->map_points, std::set<int>{1});
+}
+
+TEST(PlaneSplit, CountsTheFramesThatShowedBothAndTheStep) {
+  TwoPatches show;
+  show.height_m = 0.005;
+  for (int k = 0; k < 5; ++k) {
+    show.shows_step = k != 2;
+    show.Next();
+  }
+  ASSERT_EQ(Landmarks(show.map).size(), 2u);
+  const MapPlane &larger = *Landmarks(show.map)[0], &lesser = *Landmarks(show.map)[1];
+  const auto counts = [](const MapPlane& other, int frames) {
+    return std::map<int, int>{{other.id, frames}};
+  };
+  EXPECT_EQ(larger.covisible, counts(lesser, 4));  // all but the first, which made the landmark
+  EXPECT_EQ(lesser.covisible, counts(larger, 4));
+  EXPECT_EQ(larger.stepped, counts(lesser, 3));
+  EXPECT_EQ(lesser.stepped, counts(larger, 3));
+  EXPECT_EQ(larger.observations, 5);
+  EXPECT_EQ(lesser.observations, 3);
+}
+
+TEST(PlaneSplit, LeavesTheIdAndTheHistoryWithTheLargerSideThoughItFillsFewerPixels) {
+  TwoPatches show;
+  show.height_m = 0.1;  // nearer to the camera
+  show.lesser_m = 0.36;
+  for (int k = 0; k < 3; ++k) show.Next();
+  ASSERT_EQ(Landmarks(show.map).size(), 1u);
+  MapPlane& whole = *Landmarks(show.map)[0];
+  whole.split_from = 7, whole.split_at_s = -1.5;
+  whole.covisible = {{9, 5}}, whole.stepped = {{9, 2}};
+  const MapPlane before = whole;
+  show.Next();
+  const auto landmarks = Landmarks(show.map);
+  ASSERT_EQ(landmarks.size(), 2u);
+  const std::size_t one = show.IndexOf(TwoPatches::kLarger);
+  const std::size_t other = show.IndexOf(TwoPatches::kLesser);
+  const int one_px = show.frame.planes[one].pixel_count;
+  const int other_px = show.frame.planes[other].pixel_count;
+  ASSERT_LT(one_px, other_px);
+
+  const MapPlane &larger = *landmarks[0], &lesser = *landmarks[1];
+  EXPECT_EQ(larger.id, before.id);
+  EXPECT_NEAR(larger.centroid_w.x(), -0.2, 0.02);
+  EXPECT_GT(larger.area_m2, lesser.area_m2);
+  EXPECT_EQ(larger.split_from, 7);
+  EXPECT_EQ(larger.split_at_s, -1.5);
+  EXPECT_EQ(larger.covisible, (std::map<int, int>{{9, 5}, {lesser.id, 3}}));
+  EXPECT_EQ(larger.stepped, (std::map<int, int>{{9, 2}, {lesser.id, 3}}));
+  EXPECT_EQ(larger.observations, 4);
+  EXPECT_EQ(larger.seen_px, before.seen_px + one_px + other_px);
+  EXPECT_EQ(larger.first_frame, 0);
+  EXPECT_EQ(larger.first_seen_s, 0.0);
+  EXPECT_EQ(larger.last_frame, 3);
+  EXPECT_EQ(larger.last_seen_s, show.frame.timestamp_s);
+
+  EXPECT_EQ(lesser.split_from, larger.id);
+  EXPECT_EQ(lesser.observations, 3);  // beside a step
+  EXPECT_NEAR(lesser.seen_px, 3 * other_px, 0.05 * other_px);
+  EXPECT_EQ(lesser.covisible, (std::map<int, int>{{larger.id, 3}}));
+  EXPECT_EQ(show.frame.plane_matches[one].decision, PlaneDecision::kMatched);
+  EXPECT_EQ(show.frame.plane_matches[other].decision, PlaneDecision::kNew);
+  EXPECT_EQ(show.frame.plane_matches[other].map_plane, lesser.id);
+}
+
+TEST(PlaneSplit, ForgetsThePartThatWasSeenLeastForANewOneWhereThereAreFour) {
+  TwoPatches show;
+  show.Next();
+  ASSERT_EQ(Landmarks(show.map).size(), 1u);
+  MapPlane& whole = *Landmarks(show.map)[0];
+  for (const int apart : {5, 1, 3, 4}) {
+    PlanePart& part = whole.parts.emplace_back();
+    part.surface.pi_w = whole.pi_w;
+    part.surface.points_w = {{10.0 * apart, 0, 0}};
+    part.apart = part.seen = apart;
+  }
+  show.Next();
+  std::vector<int> apart;
+  for (const PlanePart& part : Landmarks(show.map)[0]->parts) apart.push_back(part.apart);
+  EXPECT_EQ(apart, (std::vector<int>{5, 3, 4, 1}));
+}
+
+TEST(PlaneSplit, LearnsAPartBesideTheLargestOfItsNeighbours) {
+  // A narrow strip between two sheets of one height, of which the right one is wider.
+  PlaneWorld world;
+  world.Add({-0.15, 0, 0}, {0.1, 0, 0}, {0, 0.3, 0}, "");
+  world.Add({0, 0, 0.008}, {0.05, 0, 0}, {0, 0.3, 0}, "");
+  world.Add({0.25, 0, 0}, {0.2, 0, 0}, {0, 0.3, 0}, "");
+  Map map;
+  for (int k = 0; k < 2; ++k) {
+    SeenWorld seen =
+        See(world, LookAt({0, -0.7, 0.7}, {0, 0, 0}), SmallCamera(), {}, Random{1});
+    Frame& frame = seen.frame;
+    ASSERT_EQ(frame.planes.size(), 3u);
+    const auto at = [&](int surface) {
+      return static_cast<int>(std::find(seen.truth.begin(), seen.truth.end(), surface) -
+                              seen.truth.begin());
+    };
+    frame.index = k;
+    for (int f = 0; f < 3; ++f) {
+      PlaneMatch& match = frame.plane_matches.emplace_back();
+      if (k > 0) match = {PlaneDecision::kMatched, 0, MatchReason::kParameters};
+      if (k == 0 && f != at(2)) match.reason = MatchReason::kAmbiguous;
+    }
+    if (k > 0) {
+      frame.plane_steps = {{at(1), at(0), 0.008, 0.0005}, {at(1), at(2), 0.008, 0.0005}};
+    }
+    UpdatePlanes(frame, map, SmallCamera(), {}, SmallImages());
+  }
+  ASSERT_EQ(Landmarks(map).size(), 1u);
+  const auto& parts = Landmarks(map)[0]->parts;
+  ASSERT_EQ(parts.size(), 1u);
+  EXPECT_NEAR(parts[0].surface.centroid_w.x(), 0.0, 0.02);
+  EXPECT_NEAR(parts[0].rest.centroid_w.x(), 0.25, 0.02);
 }
 
 TEST(PlaneSplit, IsMadeWhicheverSideTheStepIsToldFrom) {

@@ -163,6 +163,34 @@ TEST(PlanePriorTerm, CountsTheSigmasOfAllPlacesWhereThePlaneWasSeen) {
   EXPECT_NEAR(r.squaredNorm(), 4 + 9, 1e-6);
 }
 
+TEST(PlanePriorTerm, SaysNothingOfAPlaneTurnedBySixtyDegrees) {
+  PlaneEstimate estimate;
+  AddObservation(estimate, kPlane_w, kReference_w, 0.01, 0.003, 1.0);
+  const PlanePriorTerm term(estimate, kReference_w);
+  const auto can_say = [&](double turn_rad) {
+    Plane turned = kPlane_w;
+    turned.n = ExpSo3(turn_rad * TangentBasis(kPlane_w.n).col(0)) * kPlane_w.n;
+    const PlaneBlock block = BlockOf(turned, kReference_w);
+    const double* parameters[] = {block.data()};
+    Eigen::Vector3d r;
+    return term.Evaluate(parameters, r.data(), nullptr);
+  };
+  EXPECT_TRUE(can_say(0.98 * M_PI / 3));
+  EXPECT_FALSE(can_say(1.02 * M_PI / 3));
+  EXPECT_FALSE(can_say(M_PI));
+}
+
+TEST(PlanePriorTerm, GivesNoDerivativesByABlockThatIsHeld) {
+  const PlanePriorTerm term(KnownBesides(), kReference_w);
+  const PlaneBlock block = BlockOf(kPlane_w, kReference_w);
+  const double* parameters[] = {block.data()};
+  double* jacobians[] = {nullptr};  // so Ceres asks for it
+  Eigen::Vector3d r, alone;
+  EXPECT_TRUE(term.Evaluate(parameters, r.data(), jacobians));
+  EXPECT_TRUE(term.Evaluate(parameters, alone.data(), nullptr));
+  EXPECT_EQ(r, alone);
+}
+
 TEST(PointOnPlaneTerm, CountsSigmasAndHasTheDerivativesOfItsDifferenceQuotients) {
   const PointOnPlaneTerm term(0.005, kReference_w);
   const Eigen::Vector3d p_w = ProjectOnto(kPlane_w, {0.6, 0.4, 1.7}) + 0.01 * kPlane_w.n;

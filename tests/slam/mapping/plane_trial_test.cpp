@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "slam/associate/associate_planes.h"
+#include "slam/mapping/plane_observation.h"
 #include "slam/mapping/plane_update.h"
 #include "tests/support/map_surfaces.h"
 #include "tests/support/plane_world.h"
@@ -89,6 +90,28 @@ TEST(PlaneTrial, WhatStaysIsNewOnceAndMatchedFromThenOn) {
 }
 
 // Fails when a candidate must be seen without a gap.
+TEST(PlaneTrial, TheLargestOfItsSegmentsIsTheOneThatIsNew) {
+  // A sheet that something hides the middle of: its smaller piece comes first.
+  PlaneWorld world;
+  world.Add({-0.25, 0, 0}, {0.1, 0, 0}, {0, 0.3, 0}, "");
+  world.Add({0.1, 0, 0}, {0.2, 0, 0}, {0, 0.3, 0}, "");
+  SeenWorld seen = See(world, kView, SmallCamera(), {}, Random{1});
+  Frame& frame = seen.frame;
+  ASSERT_EQ(frame.planes.size(), 2u);
+  ASSERT_LT(frame.planes[0].pixel_count, frame.planes[1].pixel_count);
+  Map map;
+  MapPlane trial = StartPlane(frame.planes[0], frame);
+  trial.observations = SmallImages().trial_frames - 1;
+  trial.seen_px = SmallImages().trial_pixels;
+  const int id = map.planes.Add(trial).id;
+  frame.index = trial.observations;
+  frame.plane_matches.assign(2, {PlaneDecision::kTrial, id, MatchReason::kParameters});
+  UpdatePlanes(frame, map, SmallCamera(), {}, SmallImages());
+  EXPECT_EQ(map.planes.At(id).status, LandmarkStatus::kLandmark);
+  EXPECT_EQ(frame.plane_matches[0].decision, PlaneDecision::kTrial);
+  EXPECT_EQ(frame.plane_matches[1].decision, PlaneDecision::kNew);
+}
+
 TEST(PlaneTrial, TwoMissesAreForgiven) {
   Show show;
   show.Next(DeskWithSheet(0));

@@ -115,5 +115,14 @@ TEST(CarryMap, APlaneThatAnAdjustmentHasPlacedStays) {
   EXPECT_EQ(moved.map.planes.At(1).centroid_w, plane.centroid_w);
 }
 
+TEST(CarryMap, PlanesStayWhereThereIsNoKeyframeToCarryThem) {
+  Map map;
+  MapPlane plane;
+  plane.centroid_w = {0.4, -0.7, 1.5};
+  AddLandmark(map, plane);
+  CarryPlanes(map, {});
+  EXPECT_EQ(map.planes.At(0).centroid_w, plane.centroid_w);
+}
+
 }  // namespace
 }  // namespace slam

@@ -2,7 +2,11 @@
 
 #include <gmock/gmock.h>
 
+#include <algorithm>
+#include <cmath>
+
 #include "slam/mapping/plane_terms.h"
+#include "slam/model/map_queries.h"
 #include "slam/places/carry_map.h"
 #include "tests/support/map_surfaces.h"
 #include "tests/support/ring_world.h"
@@ -22,11 +26,11 @@ LoopClosingConfig Closing(int full_iterations = 10) {
 }
 
 std::optional<Loop> Detect(const RingWorld& world, int keyframe,
-                           const LoopDetectionConfig& config = {}) {
+                           const LoopDetectionConfig& config = {},
+                           const PointSearchConfig& search = {}) {
   KeyframeIndex index(world.vocabulary);
   index.Update(world.map);
-  return DetectLoop(world.map, index, keyframe, world.camera, FeatureScale{},
-                    PointSearchConfig{}, config);
+  return DetectLoop(world.map, index, keyframe, world.camera, FeatureScale{}, search, config);
 }
 
 double WorstError(const Map& map, const std::vector<Pose>& truth) {
@@ -90,6 +94,153 @@ TEST(LoopDetection, RefusesAPlaceThatOnlyLooksTheSame) {
   LoopDetectionConfig credulous;
   credulous.base_drift_m = credulous.base_drift_rad = 100;
   EXPECT_TRUE(Detect(then, 20, credulous)) << "the two places are not alike enough to tell";
+}
+
+TEST(LoopDetection, DoubtsTwoPlacesThatFitAlikeUnlessItMayAskOneAlone) {
+  RingShape shape;
+  shape.alike = 4;  // keyframes 0, 10, 20 and 30 see the same
+  const RingWorld world = MakeRingWorld(shape);
+  LoopDetectionConfig credulous;
+  credulous.base_drift_m = credulous.base_drift_rad = 100;
+  PointSearchConfig search;
+  EXPECT_FALSE(Detect(world, 30, credulous, search));
+  search.place.max_keyframes = 1;
+  EXPECT_TRUE(Detect(world, 30, credulous, search));
+}
+
+TEST(LoopDetection, LooksForOlderPlacesAlone) {
+  const RingWorld world = MakeRingWorld();
+  LoopDetectionConfig credulous;
+  credulous.base_drift_m = credulous.base_drift_rad = 100;
+  EXPECT_TRUE(Detect(world, kLast, credulous));
+  for (const int early : {0, 1, 2}) EXPECT_FALSE(Detect(world, early, credulous)) << early;
+}
+
+TEST(LoopDetection, RefusesAPlaceThatLooksMuchLessLikeItThanItsNeighboursDo) {
+  LoopDetectionConfig strict;
+  strict.min_likeness_ratio = 1e3;
+  EXPECT_FALSE(Detect(MakeRingWorld(), kLast, strict));
+}
+
+TEST(LoopDetection, NeedsAsManyInliersAsAsked) {
+  const RingWorld world = MakeRingWorld();
+  LoopDetectionConfig config;
+  const auto loop = Detect(world, kLast, config);
+  ASSERT_TRUE(loop);
+  config.min_inliers = loop->inliers;
+  EXPECT_TRUE(Detect(world, kLast, config));
+  config.min_inliers = loop->inliers + 1;
+  EXPECT_FALSE(Detect(world, kLast, config));
+}
+
+TEST(LoopDetection, AllowsForDriftByTheLengthOfTheWay) {
+  const RingWorld world = MakeRingWorld();
+  LoopDetectionConfig config;
+  config.base_drift_rad = 1.0;
+  const auto loop = Detect(world, kLast, config);
+  ASSERT_TRUE(loop);
+  const double moved_m =
+      (Inverse(loop->T_cw).t - Inverse(world.map.keyframes[kLast].T_cw).t).norm();
+  // Steps on a circle of 1 m, which the drift changes by a fortieth.
+  const double way_m = (kLast - loop->place) * 2 * std::sin(M_PI / (kLast + 1));
+  config.base_drift_m = 0.0;
+  config.drift_per_m = 1.1 * moved_m / way_m;
+  EXPECT_TRUE(Detect(world, kLast, config));
+  config.drift_per_m = 0.9 * moved_m / way_m;
+  EXPECT_FALSE(Detect(world, kLast, config));
+}
+
+TEST(LoopDetection, FindsPointsThatTheNeighboursOfThePlaceKnowAndItDoesNot) {
+  RingWorld world = MakeRingWorld();
+  const auto first = Detect(world, kLast);
+  ASSERT_TRUE(first);
+  // The place loses every other point of those.
+  for (std::size_t f = 0; f < first->map_points.size(); f += 2) {
+    if (first->map_points[f] == kNone) continue;
+    RemoveObservation(world.map, first->map_points[f], first->place);
+  }
+  const auto loop = Detect(world, kLast);
+  ASSERT_TRUE(loop);
+  int besides = 0;
+  for (std::size_t f = 0; f < first->map_points.size(); ++f) {
+    if (CurrentPoint(world.map, first->map_points[f]) == kNone) continue;
+    EXPECT_EQ(loop->map_points[f], first->map_points[f]) << f;
+    besides += f % 2 == 0 ? 1 : 0;
+  }
+  EXPECT_GT(besides, 20);
+}
+
+TEST(LoopDetection, NamesEachPointOnceThoughAnotherFeatureLooksLikeIt) {
+  RingWorld world = MakeRingWorld();
+  Keyframe& newest = world.map.keyframes[kLast];
+  const std::vector<PointFeature> features = newest.features;
+  for (PointFeature feature : features) {  // a double of each, a pixel and a half beside
+    feature.u_px.x() += 1.5;
+    for (std::size_t byte = 0; byte < 5; ++byte) {
+      feature.descriptor[byte] = static_cast<std::uint8_t>(~feature.descriptor[byte]);
+    }
+    newest.features.push_back(feature);
+    newest.map_points.push_back(kNone);
+  }
+  const auto loop = Detect(world, kLast);
+  ASSERT_TRUE(loop);
+  std::vector<int> named = loop->map_points;
+  std::erase(named, kNone);
+  std::sort(named.begin(), named.end());
+  EXPECT_EQ(std::adjacent_find(named.begin(), named.end()), named.end());
+}
+
+TEST(LoopDetection, KeepsWhatItKnewThePlaceByThoughATwinFromBesideLooksMoreAlike) {
+  RingWorld world = MakeRingWorld();
+  const auto first = Detect(world, kLast);
+  ASSERT_TRUE(first);
+  ASSERT_NE(first->map_points[0], kNone);
+  Map& map = world.map;
+  PointFeature& seen = map.keyframes[kLast].features[0];
+  seen.descriptor[0] = static_cast<std::uint8_t>(~seen.descriptor[0]);
+  const int neighbour = first->place == 2 ? 3 : 2;
+  Keyframe& there = map.keyframes[static_cast<std::size_t>(neighbour)];
+  there.features.push_back(seen);
+  there.map_points.push_back(kNone);
+  const Eigen::Vector3d p_w = map.points[static_cast<std::size_t>(first->map_points[0])].p_w;
+  AddPoint(map, p_w, neighbour, static_cast<int>(there.features.size()) - 1, {});
+  const auto loop = Detect(world, kLast);
+  ASSERT_TRUE(loop);
+  EXPECT_NE(loop->place, neighbour);
+  EXPECT_EQ(loop->map_points[0], first->map_points[0]);
+}
+
+TEST(LoopDetection, NamesNoPointThatTheKeyframeSeesAlready) {
+  RingWorld world = MakeRingWorld();
+  const auto first = Detect(world, kLast);
+  ASSERT_TRUE(first);
+  // A thing that both ends of the way have mapped. The place knows it by the newer point alone,
+  // from a neighbour.
+  Map& map = world.map;
+  Keyframe& newest = map.keyframes[kLast];
+  std::size_t f = 0;
+  const auto seen_by_others_too = [&](int id) {
+    return id != kNone && map.points[static_cast<std::size_t>(id)].observations.size() > 2;
+  };
+  while (first->map_points[f] == kNone || !seen_by_others_too(newest.map_points[f])) ++f;
+  const int own = newest.map_points[f], neighbour = first->place == 2 ? 3 : 2;
+  CullPoint(map, first->map_points[f]);
+  Keyframe& there = map.keyframes[static_cast<std::size_t>(neighbour)];
+  there.features.push_back(newest.features[f]);
+  there.map_points.push_back(kNone);
+  AddObservation(map, own, neighbour, static_cast<int>(there.features.size()) - 1);
+  map.points[static_cast<std::size_t>(own)].p_w =
+      Inverse(first->T_cw) *
+      world.camera.Backproject(newest.features[f].u_px, newest.features[f].depth_m);
+  UpdatePoint(map, own, {});
+  const auto names_it = [&] {
+    const auto loop = Detect(world, kLast);
+    EXPECT_TRUE(loop && loop->place != neighbour);
+    return loop && loop->map_points[f] == own;
+  };
+  EXPECT_FALSE(names_it());
+  RemoveObservation(map, own, kLast);
+  EXPECT_TRUE(names_it());
 }
 
 TEST(CloseLoop, DrawsTheMapTogether) {
@@ -187,6 +338,30 @@ TEST(CloseLoop, ThePoseGraphAloneTakesMostOfTheDrift) {
   const LoopReport report = CloseLoop(map, *loop, world.camera, FeatureScale{}, {}, Closing(0));
   EXPECT_FALSE(report.adjusted);
   EXPECT_LT(WorstError(map, world.truth), 0.5 * WorstError(world.map, world.truth));
+}
+
+TEST(CloseLoop, TheAdjustmentOfAllTakesMostOfWhatThePoseGraphLeaves) {
+  const RingWorld world = MakeRingWorld();
+  const auto loop = Detect(world, kLast);
+  ASSERT_TRUE(loop);
+  Map spread = world.map, adjusted = world.map;
+  CloseLoop(spread, *loop, world.camera, FeatureScale{}, {}, Closing(0));
+  CloseLoop(adjusted, *loop, world.camera, FeatureScale{}, {}, Closing());
+  EXPECT_LT(WorstError(adjusted, world.truth), 0.5 * WorstError(spread, world.truth));
+}
+
+TEST(CloseLoop, AdjustsForItsOwnNumberOfIterationsWhateverLocalMappingTakes) {
+  const RingWorld world = MakeRingWorld();
+  const auto loop = Detect(world, kLast);
+  ASSERT_TRUE(loop);
+  LocalMappingConfig idle;
+  idle.bundle.first_iterations = idle.bundle.last_iterations = 0;
+  Map one = world.map, two = world.map;
+  CloseLoop(one, *loop, world.camera, FeatureScale{}, {}, Closing());
+  CloseLoop(two, *loop, world.camera, FeatureScale{}, idle, Closing());
+  for (std::size_t k = 0; k < one.keyframes.size(); ++k) {
+    EXPECT_EQ(one.keyframes[k].T_cw.t, two.keyframes[k].T_cw.t) << k;
+  }
 }
 
 TEST(CloseLoop, IsTheSameTwice) {

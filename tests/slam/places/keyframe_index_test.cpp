@@ -93,6 +93,28 @@ TEST(KeyframeIndex, LeavesOutTheCulledAndTheExcepted) {
   for (const LikeKeyframe& k : like) EXPECT_NE(k.keyframe / kViews, 2);
 }
 
+TEST(KeyframeIndex, ForgetsACulledKeyframeOnceAndNoOther) {
+  const WordBag bag = Words().Bag(ImageOf(2, 999));
+  const auto seen_after = [&](int updates) {
+    Map map = MapOfPlaces();
+    KeyframeIndex index(Words());
+    index.Update(map);
+    map.keyframes[8].culled = true;
+    for (int i = 0; i < updates; ++i) index.Update(map);
+    EXPECT_TRUE(index.Bag(8).empty());
+    EXPECT_FALSE(index.Bag(9).empty());
+    return index.Like(bag, map, {}, {});
+  };
+  const auto once = seen_after(1), often = seen_after(4);
+  ASSERT_FALSE(once.empty());
+  EXPECT_EQ(once.front().keyframe / kViews, 2);
+  ASSERT_EQ(once.size(), often.size());
+  for (std::size_t i = 0; i < once.size(); ++i) {
+    EXPECT_EQ(once[i].keyframe, often[i].keyframe);
+    EXPECT_EQ(once[i].support, often[i].support);
+  }
+}
+
 TEST(KeyframeIndex, GrowsWithTheMapAsIfMadeAtOnce) {
   const Map map = MapOfPlaces();
   KeyframeIndex whole(Words()), grown(Words());

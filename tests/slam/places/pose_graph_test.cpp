@@ -2,6 +2,8 @@
 
 #include <gmock/gmock.h>
 
+#include <cmath>
+
 #include "slam/base/random.h"
 #include "tests/support/slam_matchers.h"
 
@@ -74,6 +76,25 @@ TEST(PoseGraph, TheFirstPoseStaysAndTheLooseOnesToo) {
   ASSERT_TRUE(OptimisePoseGraph(poses, walk.edges));
   EXPECT_EQ(poses[0].t, walk.truth[0].t);
   EXPECT_THAT(poses.back(), PoseNear(loose, 1e-12, 1e-12));
+}
+
+TEST(PoseGraph, OfNothingIsSolved) {
+  std::vector<Pose> none;
+  EXPECT_TRUE(OptimisePoseGraph(none, {}));
+  EXPECT_TRUE(none.empty());
+}
+
+TEST(PoseGraph, LeavesThePosesAsTheyAreWhenAnEdgeIsNoNumber) {
+  Walk walk = AnyWalk(6);
+  std::vector<Pose> poses = walk.truth;
+  poses[3].t.x() += 0.2;
+  const std::vector<Pose> before = poses;
+  walk.edges[2].T_ij.t.y() = std::nan("");
+  EXPECT_FALSE(OptimisePoseGraph(poses, walk.edges));
+  for (std::size_t i = 0; i < poses.size(); ++i) {
+    EXPECT_EQ(poses[i].t, before[i].t) << i;
+    EXPECT_EQ(poses[i].R, before[i].R) << i;
+  }
 }
 
 TEST(PoseGraph, AnEdgeToNowhereIsRefused) {
