@@ -26,5 +26,27 @@ TEST(ProjectOutline, OfAFloorThatReachesBehindTheCameraDoesNotCrossItself) {
   }
 }
 
+// The numbers that the benchmark's page prints (Sturm et al., IROS 2012), to their last digit.
+TEST(DrawCamera, KnowsTheCalibrationsOfTheTumBenchmark) {
+  struct Printed {
+    const char* name;
+    std::array<double, 4> pixels;  // fx fy cx cy
+    std::array<double, 5> lens;
+  };
+  for (const Printed& printed :
+       {Printed{
+            "tum1", {517.3, 516.5, 318.6, 255.3}, {0.2624, -0.9531, -0.0054, 0.0026, 1.1633}},
+        Printed{
+            "tum2", {520.9, 521.0, 325.1, 249.7}, {0.2312, -0.7849, -0.0033, -0.0001, 0.9172}},
+        Printed{"tum3", {535.4, 539.2, 320.1, 247.6}, {}}}) {
+    const Camera c = ReadNamedCamera(printed.name);
+    const std::array<double, 4> pixels = {c.fx, c.fy, c.cx, c.cy};
+    for (std::size_t i = 0; i < 4; ++i)
+      EXPECT_NEAR(pixels[i], printed.pixels[i], 0.06) << printed.name;
+    for (std::size_t i = 0; i < 5; ++i)
+      EXPECT_NEAR(c.distortion[i], printed.lens[i], 6e-5) << printed.name;
+  }
+}
+
 }  // namespace
 }  // namespace eval

@@ -87,6 +87,8 @@ TEST(Gate, WhatVariesTooMuchIsUndecided) {
   const GateReport report = CompareWithBaseline(BaselineOf(cases), noisy, {});
   EXPECT_FALSE(report.AnyWorse());
   EXPECT_THAT(report.UndecidedArms(), ::testing::ElementsAre("arm"));
+  EXPECT_THAT(GateTable(report), ::testing::HasSubstr(kAte));
+  EXPECT_THAT(GateTable(report), ::testing::Not(::testing::HasSubstr("undecided times")));
 }
 
 TEST(Gate, FewPairsThatDifferDecideNothing) {
@@ -227,7 +229,12 @@ TEST(Gate, CasesThatTheBaselineLacksAreTold) {
   GateCases cases = Cases(20);
   const Baseline baseline = BaselineOf(cases);
   cases["new-1/arm"] = cases.begin()->second;
-  EXPECT_EQ(CompareWithBaseline(baseline, cases, {}).unknown_cases, 1u);
+  const GateReport report = CompareWithBaseline(baseline, cases, {});
+  EXPECT_EQ(report.unknown_cases, 1u);
+  const auto told = ::testing::HasSubstr("1 cases are not in the baseline");
+  EXPECT_THAT(GateTable(report), told);
+  const GateReport known = CompareWithBaseline(BaselineOf(cases), cases, {});
+  EXPECT_THAT(GateTable(known), ::testing::Not(::testing::HasSubstr("not in the baseline")));
 }
 
 }  // namespace

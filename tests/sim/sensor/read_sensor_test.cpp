@@ -3,6 +3,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <iterator>
+#include <map>
+#include <sstream>
+
 #include "io/input_error.h"
 
 namespace sim {
@@ -96,6 +100,41 @@ TEST(SensorFile, CanSetEveryParameterThatIsListed) {
         EXPECT_NEAR(now[i].value, expected, 1e-9) << now[i].key << " with " << parameter.key;
       }
     }
+  }
+}
+
+/// Files of users name these keys: none may go, or change its meaning from base to base.
+TEST(SensorFile, KnowsTheKeysThatItHasAlwaysKnown) {
+  const std::string any =
+      "colour_shot_variance colour_read_sigma colour_corner_loss colour_gamma "
+      "colour_reflections "
+      "shutter_ms rolling_ms exposure_drift_stops drop_ratio repeat_ratio depth_offset_ms "
+      "stamp_jitter_ms registration_px intrinsics_error lens_k1 lens_k2 lens_p1 lens_p2 "
+      "lens_k3 ";
+  const std::string bend = "bend_rms bend_drift_share device ";
+  const std::string loss = "min_return_per_m2 return_spread_ln mirror_spot_deg ";
+  const std::map<std::string, std::string> keys = {
+      {"kinect1", any + bend + loss +
+                      "disparity_m_steps projector_offset_m min_depth_m max_depth_m "
+                      "max_incidence_deg noise_scale lateral_scale quantise window_px "
+                      "window_min_share window_dots window_max_apart_steps"},
+      {"azure", any + bend + loss +
+                    "min_depth_m max_depth_m noise_scale reflectivity lateral_px flying_pixels "
+                    "max_mixed_m min_mixed_share multipath_m multipath_reach_m multipath_loss "
+                    "wiggle_m wiggle_period_m session_offset_m hexagon rounding_m"},
+      {"d435",
+       any + bend +
+           "focal_baseline_px_m baseline_m subpixel_px correlated_share window_px grid_px "
+           "ripple_px fattening_px max_mixed_px min_share min_depth_m max_depth_m "
+           "rounding_m"},
+      {"ideal", any}};
+  for (const auto& [base, words] : keys) {
+    std::istringstream in(words);
+    const std::vector<std::string> expected(std::istream_iterator<std::string>(in), {});
+    std::vector<std::string> known;
+    for (const SensorParameter& parameter : Parameters(SensorByName(base)))
+      known.push_back(parameter.key);
+    EXPECT_THAT(known, testing::UnorderedElementsAreArray(expected)) << base;
   }
 }
 
