@@ -238,7 +238,7 @@ TEST(ManhattanMixture, OfTwoAsLargeBelievesTheOneThatMoreKeyframesSaw) {
   world.Learn(StructureMode::kMixture);
   ASSERT_EQ(world.map.manhattan.size(), 1u);
   const ManhattanFrame& stored = world.map.manhattan[0];
-  for (const int more : {0, 1}) {
+  for (const std::size_t more : {0u, 1u}) {
     SeenWorld other = world;
     other.map.manhattan.assign(2, stored);
     other.map.manhattan[more].seen = 5;
