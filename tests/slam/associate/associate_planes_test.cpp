@@ -118,25 +118,14 @@ TEST(PlaneAssociation, ByParametersAloneTakesTheBookForTheDeskOrTheDeskForTheBoo
 }
 
 TEST(PlaneAssociation, ByParametersAloneFindsEachSurfaceAgainAndLeavesOutWhatIsBad) {
-  const Camera camera = SmallCamera();
-  Association a;
-  a.first = See(DeskWithBook(0.05, "book"), kFirst, camera, {}, Random{1});
-  UpdatePlanes(a.first.frame, a.map, camera, {}, SmallImages());
-  a.second = See(DeskWithBook(0.05, "book"), kSecond, camera, {}, Random{2});
   AssociationConfig parameters;
   parameters.rule = AssociationRule::kParameters;
-  const auto associate = [&] {
-    a.second.frame.plane_matches =
-        AssociatePlanes(a.second.frame, a.map, camera, parameters).matches;
-  };
-  associate();
+  Association a = TwoViews(DeskWithBook(0.05, "book"), {}, parameters);
   ExpectAllRight(a);
-  for (std::size_t bad = 0; bad < a.second.frame.planes.size(); ++bad) {
-    a.second.frame.planes[bad].bad = BadReason::kFar;
-    associate();
-    EXPECT_EQ(a.second.frame.plane_matches[bad].decision, PlaneDecision::kUnmatched);
-    a.second.frame.planes[bad].bad.reset();
-  }
+  for (FramePlane& plane : a.second.frame.planes) plane.bad = BadReason::kFar;
+  for (const PlaneMatch& match :
+       AssociatePlanes(a.second.frame, a.map, SmallCamera(), parameters).matches)
+    EXPECT_EQ(match.decision, PlaneDecision::kUnmatched);
 }
 
 TEST(PlaneAssociation, DoesNotTakeOneTopForAnotherOfTheSameHeight) {

@@ -36,9 +36,10 @@ TEST(AsyncMapping, TracksEveryFrameAboutAsWellAsMappingBetweenFrames) {
 
 /// Points seen by one keyframe alone are culled, and duplicates fused, whoever does it.
 TEST(AsyncMapping, LeavesAMapLikeThatOfMappingBetweenFrames) {
-  const int sync = RunStream(Clean(), Options(false)).outcome.map_points;
-  const int async = RunStream(Clean(), Options(true)).outcome.map_points;
-  EXPECT_NEAR(async, sync, 0.1 * sync);
+  const RunOutcome sync = RunStream(Clean(), Options(false)).outcome,
+                   async = RunStream(Clean(), Options(true)).outcome;
+  EXPECT_LE(async.keyframes, 4);  // so few can wait: none is dropped, however slow mapping is
+  EXPECT_NEAR(async.map_points, sync.map_points, 0.1 * sync.map_points);
 }
 
 TEST(AsyncMapping, CarriesWhatMappingThrowsToTheCaller) {
