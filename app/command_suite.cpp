@@ -1,6 +1,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <csignal>
 #include <filesystem>
 #include <memory>
 #include <set>
@@ -41,6 +42,7 @@ constexpr const char* kAboutSuite =
 struct SuiteArguments {
   std::string suite, output, recordings, program, shard, baseline, accept, replay, shrink;
   int jobs = 0;
+  bool retry_failed = false;
   std::vector<std::string> merged;
   std::string merge_output;
 };
@@ -100,7 +102,8 @@ class SuiteCall {
       accepted.emplace(arguments_.baseline,
                        io::OutputRules{.force = true, .inputs = {arguments_.suite}});
     }
-    if (!RunAll(cases, results)) return Interrupted();
+    if (baseline) RequireSameInputs(*baseline, cases);
+    if (!RunAll(cases, results, arguments_.retry_failed)) return Interrupted();
 
     if (accepting) return Accept(cases, results, *accepted);
     if (!baseline) {
@@ -109,7 +112,7 @@ class SuiteCall {
     }
     // As long as it cannot be told, more seeds of the arms in question.
     eval::GateReport report = Compare(*baseline, cases, results.Rows());
-    while (!report.AnyWorse() && !report.UndecidedArms().empty() &&
+    while (!report.AnyWorseButTimes() && !report.UndecidedArms().empty() &&
            seeds < suite_.seeds.max_count) {
       seeds = std::min(2 * seeds, suite_.seeds.max_count);
       if (!quiet_) fmt::print("not decided yet: {} seeds\n", seeds);
@@ -125,7 +128,7 @@ class SuiteCall {
       report = Compare(*baseline, cases, *rows);
     }
     Summarise(cases, results);
-    return Verdict(report);
+    return Verdict(report, OthersFailed(cases, results.Rows()));
   }
 
  private:
@@ -134,8 +137,14 @@ class SuiteCall {
   }
 
   SuiteRunOptions RunOptions() const {
-    SuiteRunOptions options{folder_,         program_, PAS_VERSION, suite_.limits,
-                            arguments_.jobs, quiet_,   {}};
+    SuiteRunOptions options{.folder = folder_,
+                            .program = program_,
+                            .version = PAS_VERSION,
+                            .limits = suite_.limits,
+                            .jobs = arguments_.jobs,
+                            .quiet = quiet_,
+                            .retry_failed = false,
+                            .stop = {}};
     if (options.jobs == 0) {
       options.jobs = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
     }
@@ -144,9 +153,11 @@ class SuiteCall {
   }
 
   /// @returns false when it was interrupted
-  bool RunAll(const std::vector<SuiteCase>& cases, Results& results) const {
+  bool RunAll(const std::vector<SuiteCase>& cases, Results& results, bool retry = false) const {
     const StopSignal stop;
-    caught_ = RunCases(cases, RunOptions(), results) ? StopSignal::Caught() : 0;
+    SuiteRunOptions options = RunOptions();
+    options.retry_failed = retry;
+    caught_ = RunCases(cases, options, results) ? Caught() : 0;
     return caught_ == 0;
   }
 
@@ -156,9 +167,12 @@ class SuiteCall {
     const StopSignal stop;
     if (!quiet_) fmt::print("times are measured again\n");
     auto rows = MeasureTimesAgain(cases, RunOptions(), results.Rows());
-    caught_ = rows ? 0 : StopSignal::Caught();
+    caught_ = rows ? 0 : Caught();
     return rows;
   }
+
+  /// The signal that ended the cases; that of a case which was ended by itself is not known here.
+  static int Caught() { return StopSignal::Caught() != 0 ? StopSignal::Caught() : SIGTERM; }
 
   int Interrupted() const {
     fmt::print(stderr, "pas: interrupted; {} keeps what was done, and the same call goes on\n",
@@ -177,6 +191,36 @@ class SuiteCall {
     return baseline;
   }
 
+  /// What was accepted is compared with cases of the same scenes, sensors and settings alone; cases that
+  /// the suite has lost are told.
+  void RequireSameInputs(const eval::Baseline& baseline,
+                         const std::vector<SuiteCase>& cases) const {
+    std::vector<std::string> other, lost;
+    for (const SuiteCase& one : cases) {
+      const auto before = baseline.cases.find(one.key);
+      if (before != baseline.cases.end() && before->second.inputs != one.setup_sha256)
+        other.push_back(one.key);
+    }
+    if (!other.empty()) {
+      throw io::InputError(
+          arguments_.baseline,
+          fmt::format(
+              "{} of its {} cases are of other scenes, sensors or settings than those of {}, "
+              "such as {}; write a new one with --accept",
+              other.size(), baseline.cases.size(), arguments_.suite, other.front()));
+    }
+    const std::vector<std::string> keys =
+        CaseKeys(suite_, suite_.seeds.max_count, arguments_.recordings, folder_);
+    for (const auto& [key, one] : baseline.cases) {
+      if (!std::binary_search(keys.begin(), keys.end(), key)) lost.push_back(key);
+    }
+    if (lost.empty()) return;
+    PrintWarning(fmt::format(
+        "{} of {} cases of {} are none of {}, such as {}: nothing says how they are",
+        lost.size(), baseline.cases.size(), arguments_.baseline, arguments_.suite,
+        lost.front()));
+  }
+
   int Accept(const std::vector<SuiteCase>& cases, Results& results,
              const io::OutputFile& file) const {
     const auto rows = suite_.gate.times ? TimedAgain(cases, results) : results.Rows();
@@ -185,9 +229,10 @@ class SuiteCall {
                                   PAS_VERSION,       ProcessorName(),
                                   arguments_.accept, GatedCases(suite_, cases, *rows)};
     file.Write(eval::BaselineText(baseline));
-    Summarise(cases, results);
+    const int done = Summarise(cases, results);
     if (!quiet_) fmt::print("wrote {}\n", arguments_.baseline);
-    return kDone;
+    if (done != kDone) PrintWarning(arguments_.baseline + " holds cases that failed as failed");
+    return done;
   }
 
   eval::GateReport Compare(const eval::Baseline& baseline, const std::vector<SuiteCase>& cases,
@@ -243,20 +288,42 @@ class SuiteCall {
     return within;
   }
 
-  int Verdict(const eval::GateReport& report) const {
+  /// Cases of variants that the gate does not look at, and which are not done.
+  std::size_t OthersFailed(const std::vector<SuiteCase>& cases,
+                           const std::map<std::string, ResultRow>& rows) const {
+    const eval::GateCases gated = GatedCases(suite_, cases, rows);
+    return static_cast<std::size_t>(
+        std::count_if(cases.begin(), cases.end(), [&](const SuiteCase& one) {
+          return gated.count(one.key) == 0 &&
+                 rows.at(one.key).result.status != CaseStatus::kFinished;
+        }));
+  }
+
+  /// The call that runs a case of this suite again, but for its key.
+  std::string ReplayCall() const {
+    std::vector<std::string> call{"pas", "suite", arguments_.suite, "-o", arguments_.output};
+    if (!arguments_.program.empty()) call.insert(call.end(), {"--program", arguments_.program});
+    if (!arguments_.recordings.empty())
+      call.insert(call.end(), {"--recordings", arguments_.recordings});
+    call.emplace_back("--replay");
+    return CommandLines({call}) + " CASE";
+  }
+
+  int Verdict(const eval::GateReport& report, std::size_t others_failed) const {
     fmt::print("{}", eval::GateTable(report));
-    if (report.metrics.empty()) {
+    if (others_failed > 0)
+      fmt::print("WORSE     {} cases failed of variants that are not gated\n", others_failed);
+    if (report.counts.empty()) {
       throw io::InputError(
           arguments_.baseline,
           "has no case of this suite, so nothing was compared; write one of it "
           "with --accept \"REASON\"");
     }
     const bool undecided = !report.UndecidedArms().empty();
-    if (report.AnyWorse()) {
+    if (report.AnyWorse() || others_failed > 0) {
       fmt::print(
-          "WORSE than {}; replay a case with `pas suite {} -o {} --replay CASE`, or accept "
-          "it with --accept \"REASON\"\n",
-          arguments_.baseline, arguments_.suite, arguments_.output);
+          "WORSE than {}; replay a case with `{}`, or accept it with --accept \"REASON\"\n",
+          arguments_.baseline, ReplayCall());
       return kFailure;
     }
     if (!undecided) {
@@ -337,6 +404,10 @@ void AddSuiteCommand(CLI::App& pas, const Globals& globals, int& exit_code) {
                    "depend on it, but for times")
       ->check(CLI::Range(0, 1024))
       ->capture_default_str();
+  command->add_flag(
+      "--retry-failed", arguments->retry_failed,
+      "Run cases again that failed, crashed or ran into a limit: a full disk, say, or a "
+      "machine without memory");
   command->add_option("--recordings", arguments->recordings,
                       "Folder of recordings, for suites that run on them");
   command->add_option("--program", arguments->program,

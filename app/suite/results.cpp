@@ -164,6 +164,15 @@ void Results::Merge(const std::filesystem::path& folder) {
     }
   }
   Transaction whole(database_);
+  // A case that one folder could not finish and another did is done.
+  database_.Execute(
+      "CREATE TEMP TABLE mended AS SELECT key FROM main.cases JOIN other.cases USING (key) "
+      "WHERE "
+      "main.cases.status <> 'done' AND other.cases.status = 'done'");
+  for (const std::string table : {"figures", "times", "cases"}) {
+    database_.Execute("DELETE FROM main." + table + " WHERE key IN (SELECT key FROM mended)");
+  }
+  database_.Execute("DROP TABLE mended");
   for (const std::string table : {"figures", "times", "cases"}) {
     database_.Execute("INSERT INTO main." + table + " SELECT * FROM other." + table +
                       " WHERE key NOT IN (SELECT key FROM main.cases) ORDER BY 1, 2");

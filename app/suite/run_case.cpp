@@ -47,9 +47,20 @@ std::string LastLine(const std::string& errors) {
   return last;
 }
 
+/// Whoever ends it by such a signal, a scheduler or a person, means the suite, which may be told a moment later.
+bool WasAskedToEnd(const ChildOutcome& outcome) {
+  constexpr int kBySignal = 128;  // as shells and `pas slam` say it
+  using End = ChildOutcome::End;
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
+    if (outcome.end == End::kSignalled && outcome.code == signal) return true;
+    if (outcome.end == End::kExited && outcome.code == kBySignal + signal) return true;
+  }
+  return false;
+}
+
 CaseStatus StatusOf(const ChildOutcome& outcome) {
   using End = ChildOutcome::End;
-  if (outcome.end == End::kStopped) return CaseStatus::kStopped;
+  if (outcome.end == End::kStopped || WasAskedToEnd(outcome)) return CaseStatus::kStopped;
   if (outcome.end == End::kTimedOut) return CaseStatus::kTimedOut;
   if (outcome.end == End::kExited && outcome.code == 0) return CaseStatus::kFinished;
   if (IsOutOfMemory(outcome)) return CaseStatus::kOutOfMemory;
@@ -188,7 +199,7 @@ CaseResult RunCase(const SuiteCase& one, const SuiteProgram& program, const Suit
   CaseResult result;
   std::vector<double> seconds;
   double peak_mb = 0.0;
-  for (const std::vector<std::string>& command : CommandsOf(one, program.file.string(), run)) {
+  for (const std::vector<std::string>& command : CommandsOf(one, program.run.string(), run)) {
     const ChildOutcome outcome =
         RunChild(command, folder, work.whole() / "errors", limits, stop);
     seconds.push_back(outcome.seconds);

@@ -15,8 +15,10 @@ constexpr const char* kAnyProgram = "pas";
 constexpr const char* kReplayRun = "replay";
 
 /// Whether a row is what the case would be now. Other limits may let it go on to its end.
-bool IsOf(const ResultRow& row, const SuiteCase& one, const SuiteLimits& limits) {
+bool IsOf(const ResultRow& row, const SuiteCase& one, const SuiteLimits& limits,
+          bool retry_failed) {
   const CaseStatus status = row.result.status;
+  if (retry_failed && status != CaseStatus::kFinished) return false;
   const bool limited = status == CaseStatus::kTimedOut || status == CaseStatus::kOutOfMemory;
   return row.inputs_sha256 == one.inputs_sha256 &&
          (!limited || row.result.message == LimitMessage(status, limits));
@@ -31,7 +33,7 @@ class CaseQueue {
     const std::map<std::string, ResultRow> rows = results.Rows();
     for (const SuiteCase& one : cases) {
       const auto row = rows.find(one.key);
-      if (row == rows.end() || !IsOf(row->second, one, options.limits)) {
+      if (row == rows.end() || !IsOf(row->second, one, options.limits, options.retry_failed)) {
         pending_.push_back(&one);
       }
     }
@@ -49,7 +51,7 @@ class CaseQueue {
   }
 
  private:
-  bool Ending() const { return failed_ || options_.stop(); }
+  bool Ending() const { return failed_ || stopped_ || options_.stop(); }
 
   void Work(Progress& progress) {
     try {
@@ -58,7 +60,9 @@ class CaseQueue {
         const CaseResult result = RunCase(one, options_.program, options_.limits,
                                           options_.folder, [&] { return Ending(); });
         const std::lock_guard lock(mutex_);
-        if (result.status == CaseStatus::kStopped) break;
+        if (result.status == CaseStatus::kStopped) stopped_ = true;
+        if (stopped_) break;
+        options_.program.RequireUnchanged();
         results_.Put(one, result, options_.version,
                      CommandLines(CommandsOf(one, kAnyProgram, kReplayRun)));
         progress.Update(++done_);

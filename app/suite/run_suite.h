@@ -16,6 +16,7 @@ struct SuiteRunOptions {
   SuiteLimits limits;
   int jobs = 1;
   bool quiet = false;
+  bool retry_failed = false;  ///< run cases again that are not done, whatever the reason
   std::function<bool()> stop;
 };
 
@@ -23,7 +24,7 @@ struct SuiteRunOptions {
 /// limits, `jobs` at a time, and puts each into the results when it ends. Rows do not depend on
 /// `jobs`, but for times.
 /// @returns whether it was stopped before the end; what was done is kept
-/// @throws InputError
+/// @throws InputError, also when the program was replaced meanwhile
 bool RunCases(const std::vector<SuiteCase>& cases, const SuiteRunOptions& options,
               Results& results);
 

@@ -1,6 +1,8 @@
 #include "app/suite/suite_cases.h"
 
+#include <sys/stat.h>
 #include <unistd.h>
+#include <yaml-cpp/yaml.h>
 
 #include <algorithm>
 #include <deque>
@@ -35,6 +37,7 @@ struct Source {
 struct Frames {
   std::vector<std::string> slam;  ///< arguments that name it
   std::string sha256;
+  std::string setup;  ///< what the suite says of it, without paths
 };
 
 /// A file of the suite as the cases find it.
@@ -50,10 +53,33 @@ void WriteOnce(const fs::path& file, const std::string& text) {
   io::WriteFile(file, text);
 }
 
+/// Settings, and the files that they name by whole paths, such as a depth warp.
+std::string SettingsHash(const std::string& text) {
+  std::string hashes = io::Sha256Hex(text);
+  const auto visit = [&](const auto& self, const YAML::Node& node) -> void {
+    if (node.IsScalar()) {
+      const fs::path file = node.Scalar();
+      std::error_code ignored;
+      if (file.is_absolute() && fs::is_regular_file(file, ignored))
+        hashes += io::Sha256OfFile(file);
+    } else if (node.IsMap()) {
+      for (const auto& member : node) self(self, member.second);
+    } else {
+      for (const auto& member : node) self(self, member);
+    }
+  };
+  try {
+    visit(visit, YAML::Load(text));
+  } catch (const YAML::Exception&) {  // the program that reads them says what is wrong
+  }
+  return io::Sha256Hex(hashes);
+}
+
 /// Names, sizes and the text of its lists: reading every image would take longer than a case.
 std::string RecordingHash(const fs::path& folder) {
   std::vector<fs::path> files;
-  for (const fs::directory_entry& entry : fs::recursive_directory_iterator(folder)) {
+  const auto options = fs::directory_options::follow_directory_symlink;
+  for (const fs::directory_entry& entry : fs::recursive_directory_iterator(folder, options)) {
     if (entry.is_regular_file()) files.push_back(entry.path());
   }
   std::sort(files.begin(), files.end());
@@ -86,6 +112,24 @@ class Planner {
         folder_(std::move(folder)) {}
 
   std::vector<SuiteCase> Plan(int seeds, const SuiteShard& shard) {
+    FindPlaces(seeds);
+    // Scenes are made for the cases of this shard alone: each of many shards makes few.
+    std::vector<SuiteCase> cases;
+    for (std::size_t at = shard.first; at < places_.size(); at += shard.count) {
+      cases.push_back(CaseAt(places_[at]));
+    }
+    return cases;
+  }
+
+  std::vector<std::string> Keys(int seeds) {
+    FindPlaces(seeds);
+    std::vector<std::string> keys;
+    for (const Place& place : places_) keys.push_back(place.key);
+    return keys;
+  }
+
+ private:
+  void FindPlaces(int seeds) {
     for (const SuiteChoice& sensor : suite_.sensors)
       sensors_.push_back(InputOf("sensor", sensor));
     for (const SuiteChoice& config : suite_.configs)
@@ -102,21 +146,14 @@ class Planner {
     }
     std::sort(places_.begin(), places_.end(),
               [](const Place& a, const Place& b) { return a.key < b.key; });
-    // Scenes are made for the cases of this shard alone: each of many shards makes few.
-    std::vector<SuiteCase> cases;
-    for (std::size_t at = shard.first; at < places_.size(); at += shard.count) {
-      cases.push_back(CaseAt(places_[at]));
-    }
-    return cases;
   }
 
- private:
   Input InputOf(const std::string& kind, const SuiteChoice& choice) const {
     if (choice.file.empty()) return {choice.name, choice.name, "", choice.estimator};
     const std::string text = io::ReadFile(choice.file);
     const std::string place = "inputs/" + kind + "-" + choice.name + ".yaml";
     WriteOnce(folder_ / place, text);
-    return {choice.name, place, io::Sha256Hex(text), choice.estimator};
+    return {choice.name, place, SettingsHash(text), choice.estimator};
   }
 
   void AddRendered(const SuiteScene& scene, std::uint64_t seed) {
@@ -172,7 +209,11 @@ class Planner {
     if (scene.source == SuiteScene::Source::kFile) {
       place = scene.file.string();  // where its meshes are
       frames.sha256 = sim::SceneHash(sim::ReadScene(scene.file));
+      frames.setup = frames.sha256;
     } else {
+      frames.setup = scene.of;
+      for (const auto& [name, value] : scene.parameters)
+        frames.setup += " " + name + "=" + std::to_string(value);
       const std::string text =
           sim::SceneText(scene.source == SuiteScene::Source::kTwin
                              ? sim::MakeTwin(scene.of, source.seed)
@@ -182,7 +223,9 @@ class Planner {
     }
     frames.slam = {"--live", place};
     const auto add = [&](const char* option, const std::optional<int>& value) {
-      if (value) frames.slam.insert(frames.slam.end(), {option, std::to_string(*value)});
+      if (!value) return;
+      frames.slam.insert(frames.slam.end(), {option, std::to_string(*value)});
+      frames.setup += std::string(" ") + option + " " + std::to_string(*value);
     };
     add("--frames", scene.frames ? scene.frames : suite_.frames);
     add("--width", suite_.width);
@@ -199,6 +242,7 @@ class Planner {
       frames.slam.insert(frames.slam.end(), {"--camera", camera.argument});
       if (!camera.sha256.empty()) frames.sha256 = io::Sha256Hex(frames.sha256 + camera.sha256);
     }
+    frames.setup = frames.sha256 + " " + source.scene->sensor;
     return frames;
   }
 
@@ -226,6 +270,11 @@ class Planner {
                          place.config->sha256 + "\n";
     for (const std::string& argument : one.slam) inputs += argument + "\n";
     one.inputs_sha256 = io::Sha256Hex(inputs);
+    // Names of sensor, motion, variant, settings and the seed are in the key.
+    std::string setup = one.key + "\n" + frames.setup + "\n" + sensor_sha256 + "\n" +
+                        place.config->sha256 + "\n";
+    if (place.sensor != nullptr) setup += place.sensor->estimator;
+    one.setup_sha256 = io::Sha256Hex(setup);
     return one;
   }
 
@@ -241,6 +290,26 @@ class Planner {
 
 }  // namespace
 
+namespace {
+
+std::string StampOf(const fs::path& file) {
+  struct stat is {};
+  if (::stat(file.c_str(), &is) != 0) return "gone";
+  return std::to_string(is.st_dev) + " " + std::to_string(is.st_ino) + " " +
+         std::to_string(is.st_size) + " " + std::to_string(is.st_mtim.tv_sec) + " " +
+         std::to_string(is.st_mtim.tv_nsec);
+}
+
+}  // namespace
+
+void SuiteProgram::RequireUnchanged() const {
+  if (StampOf(run) == stamp) return;
+  throw io::InputError(
+      file.string(),
+      "has changed while the suite ran; what was done before is kept. Call it again "
+      "when the program is done, or name a copy with --program");
+}
+
 SuiteProgram ProgramOf(const fs::path& file) {
   const fs::path program = file.empty() ? fs::path("/proc/self/exe") : file;
   std::error_code error;
@@ -248,7 +317,16 @@ SuiteProgram ProgramOf(const fs::path& file) {
   if (error || !fs::is_regular_file(absolute) || ::access(absolute.c_str(), X_OK) != 0) {
     throw io::InputError(program.string(), "is no program that can be run; name a built pas");
   }
-  return {absolute, io::Sha256OfFile(absolute)};
+  // What this process runs is there for as long as it runs, even when it is built anew beside it.
+  const fs::path run =
+      file.empty() ? fs::path("/proc") / std::to_string(::getpid()) / "exe" : absolute;
+  const std::string stamp = StampOf(run);
+  return {absolute, run, io::Sha256OfFile(run), stamp};
+}
+
+std::vector<std::string> CaseKeys(const SuiteFile& suite, int seeds, const fs::path& recordings,
+                                  const fs::path& folder) {
+  return Planner(suite, recordings, {}, folder).Keys(seeds);
 }
 
 std::vector<SuiteCase> PlanCases(const SuiteFile& suite, int seeds, const fs::path& recordings,

@@ -21,17 +21,31 @@ struct SuiteCase {
   std::string
       scene_sha256;  ///< of the scene's text; of a recording, of its lists, sizes and camera
   std::string inputs_sha256;  ///< of all that decides the result, the program too
+  /// Of what the suite says of it, without the program: of a family its name and parameters, not what
+  /// the program makes of them, and no path. A baseline holds it.
+  std::string setup_sha256 = {};
 };
 
 /// The program that runs the cases.
 struct SuiteProgram {
   std::filesystem::path file;  ///< absolute
+  std::filesystem::path
+      run;  ///< starts it: `file`, or what this process runs, whatever its file is now
   std::string sha256;
+  std::string stamp;  ///< of `run` when it was hashed: device, inode, size, time
+
+  /// @throws InputError when another program is there now
+  void RequireUnchanged() const;
 };
 
 /// @param file  empty: this program
 /// @throws InputError when it cannot be run
 SuiteProgram ProgramOf(const std::filesystem::path& file);
+
+/// Keys of the cases of these many seeds, of which nothing is made; sorted.
+std::vector<std::string> CaseKeys(const SuiteFile& suite, int seeds,
+                                  const std::filesystem::path& recordings,
+                                  const std::filesystem::path& folder);
 
 /// Every `count`th case from `first` on, which is 0 for the first case. By default all cases.
 struct SuiteShard {

@@ -43,7 +43,8 @@ eval::GateCases GatedCases(const SuiteFile& suite, const std::vector<SuiteCase>&
     const CaseResult& result = row->second.result;
     eval::Figures all = result.figures;
     if (suite.gate.times) all.insert(result.times.begin(), result.times.end());
-    gated[one.key] = {result.status == CaseStatus::kFinished, eval::FiguresForGate(all)};
+    gated[one.key] = {result.status == CaseStatus::kFinished, eval::FiguresForGate(all),
+                      one.setup_sha256};
   }
   return gated;
 }

@@ -9,12 +9,13 @@
 namespace eval {
 namespace {
 
-constexpr const char* kFormat = "pas-baseline/2";
+constexpr const char* kFormat = "pas-baseline/3";
 
 GateCase CaseOf(const nlohmann::json& record, const std::string& where) {
   const io::JsonField field(record, where);
   GateCase one;
   one.done = field["done"].Boolean();
+  one.inputs = field["inputs"].Text();
   for (const auto& [name, value] : record.at("figures").items()) {
     one.figures[name] =
         value.is_null() ? std::nullopt : std::optional(field["figures"][name].Number());
@@ -70,7 +71,8 @@ std::string BaselineText(const Baseline& baseline) {
     for (const auto& [name, value] : one.figures) {
       figures[name] = value ? nlohmann::json(*value) : nlohmann::json();
     }
-    const nlohmann::json record{{"done", one.done}, {"figures", figures}};
+    const nlohmann::json record{
+        {"done", one.done}, {"inputs", one.inputs}, {"figures", figures}};
     cases += fmt::format("{}\n  {}: {}", cases.empty() ? "" : ",", quoted(key), record.dump());
   }
   return fmt::format(

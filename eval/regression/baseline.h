@@ -12,6 +12,7 @@ namespace eval {
 struct GateCase {
   bool done = false;  ///< false: it crashed, ran out of time or memory, or refused its input
   Figures figures;    ///< those of GatedMetrics and of the coverage
+  std::string inputs = {};  ///< hash of what the suite says of it: scene, sensor, settings
 };
 
 /// By key, "SCENE/ARM": cases of one arm differ in their scene and seed alone, and those of two

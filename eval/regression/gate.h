@@ -1,6 +1,7 @@
 #pragma once
 
 #include <map>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -36,6 +37,17 @@ struct MetricVerdict {
   std::vector<std::string> replays;  ///< keys of the cases with most harm, at most three
 };
 
+/// A figure that became much worse in every seed of one scene: the mean over many scenes hides that, and few
+/// seeds prove nothing by the tests.
+struct SceneVerdict {
+  std::string arm, scene;
+  GatedMetric metric;
+  Verdict verdict = Verdict::kUndecided;  ///< kWorse from kMinScenePairs seeds on
+  std::size_t pairs = 0;
+  double least = 0.0;  ///< the smallest harm of its seeds
+  std::vector<std::string> replays;
+};
+
 /// Something that is counted, or has a bound of its own.
 struct CountVerdict {
   std::string where;  ///< an arm, or a case
@@ -46,10 +58,15 @@ struct CountVerdict {
 
 struct GateReport {
   std::vector<MetricVerdict> metrics;
+  std::vector<SceneVerdict> scenes;  ///< those with something to say
   std::vector<CountVerdict> counts;
   std::size_t unknown_cases = 0;  ///< of the candidate, that the baseline does not have
+  std::set<std::string>
+      unknown_figures;  ///< that no case of the baseline has: an older program's
 
   bool AnyWorse() const;
+  /// Whether something is worse that measuring times again cannot mend.
+  bool AnyWorseButTimes() const;
   /// Arms with a figure that is undecided; times left out, which more seeds do not mend on a
   /// machine that has other work.
   std::vector<std::string> UndecidedArms() const;
@@ -59,7 +76,7 @@ struct GateReport {
 };
 
 /// Compares cases with the baseline's, paired by key (docs/suites.md tells the rule). A case that
-/// failed has the worst rank of its figures, and one that failed in both is equal.
+/// failed now alone has the worst rank of its figures; one that failed before says nothing of them.
 /// @param candidate  cases of the arms that are to be gated
 GateReport CompareWithBaseline(const Baseline& baseline, const GateCases& candidate,
                                const GateRules& rules);

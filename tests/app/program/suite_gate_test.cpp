@@ -85,6 +85,50 @@ TEST_F(SuiteGate, MoreFailuresAreRed) {
   EXPECT_EQ(Gate("now").exit_code, 1);
 }
 
+TEST_F(SuiteGate, CasesThatFailAreAcceptedAsSuch) {
+  WriteProgram("case \"$*\" in *wall-2*) exit 1;; esac");
+  const Outcome outcome = Gate("now", {"--accept", "why"});
+  EXPECT_EQ(outcome.exit_code, 1);
+  EXPECT_THAT(outcome.errors, HasSubstr("failed"));
+  EXPECT_EQ(Gate("now").exit_code, 0);
+}
+
+TEST_F(SuiteGate, FailuresOfVariantsThatAreNotGatedAreRed) {
+  WriteSuite(
+      "seeds: {first: 1, count: 5}\nvariants: [full, points]\ngate: {variants: [full]}\n");
+  EXPECT_EQ(Gate("before-two", {"--accept", "two variants"}).exit_code, 0);
+  EXPECT_EQ(Gate("same").exit_code, 0);
+  WriteProgram("case \"$*\" in *points*) exit 1;; esac");
+  EXPECT_EQ(Gate("now").exit_code, 1);
+}
+
+TEST_F(SuiteGate, ABaselineOfOtherScenesOrSettingsIsRefused) {
+  bool lost = false;
+  const auto refused = [&](const char* results, const std::string& suite) {
+    std::ofstream(folder_ / "suite.yaml")
+        << "format: pas-suite/1\nname: fake\nframes: 10\nseeds: {first: 1, count: 5, "
+           "max_count: 18}\n"
+        << suite;
+    const Outcome outcome = Gate(results);
+    EXPECT_THAT(outcome.errors, HasSubstr(outcome.exit_code == 0 ? "" : "other scenes"));
+    lost = outcome.errors.find("18 of 36 cases") != std::string::npos;
+    return outcome.exit_code;
+  };
+  const std::string wall = "{family: wall}";
+  EXPECT_EQ(refused("as before", "scenes: [{family: plates}, " + wall + "]\n"), 0);
+  EXPECT_FALSE(lost);
+  EXPECT_EQ(refused("fewer scenes", "scenes: [" + wall + "]\n"), 0);
+  EXPECT_TRUE(lost);
+  EXPECT_EQ(refused("frames", "scenes: [{family: plates, frames: 3}, " + wall + "]\n"), 2);
+  EXPECT_EQ(refused("another", "scenes: [{family: board, name: plates}, " + wall + "]\n"), 2);
+  std::ofstream(folder_ / "kinect1.yaml") << "base: d435\n";
+  EXPECT_EQ(
+      refused("sensor",
+              "scenes: [{family: plates}, " + wall +
+                  "]\nsensors: [{name: kinect1, file: kinect1.yaml, estimator: kinect1}]\n"),
+      2);
+}
+
 TEST_F(SuiteGate, ABaselineThatCannotBeWrittenIsRefusedBeforeAnythingRuns) {
   const Outcome outcome =
       Suite("now", {"--accept", "why", "--baseline", folder_ / "nodir/baseline.json"});

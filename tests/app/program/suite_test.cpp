@@ -73,6 +73,14 @@ TEST_F(SuiteProgram, RunsAgainWhatAFileOfTheUsersChanged) {
   std::ofstream(folder_ / "config.yaml") << "pose: {rounds: 5}\n";
   Suite("out");
   EXPECT_EQ(Runs("out"), all / 2);
+  std::ofstream(folder_ / "warp.yaml") << "1\n";
+  std::ofstream(folder_ / "config.yaml")
+      << "depth_warp: {source: " << (folder_ / "warp.yaml").string() << "}\n";
+  Suite("out");
+  EXPECT_EQ(Runs("out"), all / 2);
+  std::ofstream(folder_ / "warp.yaml") << "2\n";
+  Suite("out");
+  EXPECT_EQ(Runs("out"), all / 2);
 }
 
 TEST_F(SuiteProgram, RunsARecordingAgainWhoseListsOrCameraChanged) {
@@ -95,6 +103,12 @@ TEST_F(SuiteProgram, RunsARecordingAgainWhoseListsOrCameraChanged) {
   put("camera.yaml", "fx: 517\n");  // as long as before
   EXPECT_EQ(runs(), 1u);
   put("depth.txt", "1.5 depth/1.png\n");
+  EXPECT_EQ(runs(), 1u);
+  fs::create_directories(folder_ / "elsewhere");  // images may lie on another disk
+  std::ofstream(folder_ / "elsewhere/1.png") << "an image";
+  fs::create_directory_symlink(folder_ / "elsewhere", folder_ / "all/one/depth");
+  EXPECT_EQ(runs(), 1u);
+  std::ofstream(folder_ / "elsewhere/1.png") << "another image";
   EXPECT_EQ(runs(), 1u);
 }
 
@@ -189,6 +203,62 @@ TEST_F(SuiteProgram, InterruptedItKeepsWhatIsDoneAndSaysSo) {
   EXPECT_THAT(Query(folder_ / "out", "SELECT key FROM cases"), Not(IsEmpty()));
   EXPECT_THAT(Query(folder_ / "out", "SELECT key FROM cases WHERE status <> 'done'"),
               IsEmpty());
+}
+
+// A scheduler ends all processes at once, and the suite may see that of a case before its own.
+TEST_F(SuiteProgram, ACaseThatIsEndedFromOutsideIsNoResult) {
+  for (const char* end : {"kill -TERM $$; sleep 9", "exit 143"}) {
+    WriteProgram(std::string("[ -e ../again ] || case \"$*\" in *slam*wall-2*) ") + end +
+                 ";; esac");
+    const Outcome outcome = Suite("out", {"-j", "1"});
+    EXPECT_EQ(outcome.exit_code, 128 + SIGTERM);
+    EXPECT_THAT(outcome.errors, HasSubstr("keeps what was done"));
+    EXPECT_THAT(Query(folder_ / "out", "SELECT scene FROM cases WHERE scene LIKE 'wall%'"),
+                ElementsAre("wall-1"));
+    std::ofstream(folder_ / "again") << "\n";
+    EXPECT_EQ(Suite("out").exit_code, 0);
+    EXPECT_THAT(Query(folder_ / "out", "SELECT key FROM cases"), SizeIs(10));
+    fs::remove(folder_ / "again");
+    fs::remove_all(folder_ / "out");
+  }
+}
+
+TEST_F(SuiteProgram, AProgramThatIsReplacedMeanwhileMakesNoRows) {
+  WriteProgram("case \"$*\" in *slam*wall-2*) cp \"$0\" copy; mv copy \"$0\";; esac");
+  const Outcome outcome = Suite("out", {"-j", "1"});
+  EXPECT_EQ(outcome.exit_code, 2);
+  EXPECT_THAT(outcome.errors, HasSubstr("fake: has changed while the suite ran"));
+  EXPECT_THAT(Query(folder_ / "out", "SELECT scene FROM cases WHERE scene LIKE 'wall%'"),
+              ElementsAre("wall-1"));
+}
+
+TEST_F(SuiteProgram, RunsFailuresAgainWhenAsked) {
+  WriteProgram("[ -e ../space ] || case \"$*\" in *slam*wall-2*) exit 1;; esac");
+  EXPECT_EQ(Suite("out").exit_code, 1);
+  std::ofstream(folder_ / "space") << "\n";
+  Runs("out");
+  EXPECT_EQ(Suite("out").exit_code, 1);
+  EXPECT_EQ(Runs("out"), 0u);
+  EXPECT_EQ(Suite("out", {"--retry-failed"}).exit_code, 0);
+  EXPECT_EQ(Runs("out"), 1u);
+}
+
+TEST_F(SuiteProgram, MergingTakesWhatIsDoneForWhatIsNot) {
+  const auto merge = [&](const char* from) {
+    return Process({Pas(), "-q", "suite", "merge", folder_ / from, "-o", folder_ / "merged"},
+                   {}, folder_ / "errors")
+        .Wait()
+        .exit_code;
+  };
+  WriteProgram("[ -e ../space ] || case \"$*\" in *slam*wall-2*) exit 1;; esac");
+  Suite("failed");
+  std::ofstream(folder_ / "space") << "\n";
+  Suite("done");
+  EXPECT_EQ(merge("failed"), 0);
+  EXPECT_THAT(Statuses("merged"), SizeIs(1));
+  EXPECT_EQ(merge("done"), 0);
+  EXPECT_EQ(merge("failed"), 0);
+  EXPECT_EQ(Content("merged"), Content("done"));
 }
 
 TEST_F(SuiteProgram, ShardsMergeToWhatOneRunMakes) {

@@ -31,12 +31,13 @@ class BaselineFile : public ::testing::Test {
 
 TEST_F(BaselineFile, ReadsWhatItWrote) {
   Baseline baseline{"quick", "60 frames", "pas 1", "a \"fast\" one", "first", {}};
-  baseline.cases["desk-1/kinect1"] = {true, {{"/a", 0.1}, {"/b", std::nullopt}}};
+  baseline.cases["desk-1/kinect1"] = {true, {{"/a", 0.1}, {"/b", std::nullopt}}, "5ce"};
   baseline.cases["desk-2/kinect1"] = {false, {}};
   Write(BaselineText(baseline));
   const Baseline read = ReadBaseline(file_);
   EXPECT_EQ(BaselineText(read), BaselineText(baseline));
   EXPECT_EQ(read.cases.at("desk-1/kinect1").figures.at("/a"), 0.1);
+  EXPECT_EQ(read.cases.at("desk-1/kinect1").inputs, "5ce");
   EXPECT_FALSE(read.cases.at("desk-2/kinect1").done);
 }
 
@@ -44,8 +45,8 @@ TEST_F(BaselineFile, ThatIsNoneIsRefused) {
   Write("{}");
   EXPECT_THAT(Refusal(), ::testing::HasSubstr("format"));
   Write(R"({"format": "pas-baseline/1"})");
-  EXPECT_THAT(Refusal(), ::testing::HasSubstr("pas-baseline/2"));
-  Write(R"({"format": "pas-baseline/2", "suite": "q", "plan": "p", "program": "p",
+  EXPECT_THAT(Refusal(), ::testing::HasSubstr("pas-baseline/3"));
+  Write(R"({"format": "pas-baseline/3", "suite": "q", "plan": "p", "program": "p",
             "processor": "c", "reason": "r", "cases": {"desk-1/x": {"done": 1}}})");
   EXPECT_THAT(Refusal(), ::testing::HasSubstr("desk-1/x"));
 }

@@ -153,6 +153,87 @@ TEST(Gate, ManyThatFailedBeforeAndAreDoneNowAreNoHarm) {
   EXPECT_TRUE(CompareWithBaseline(BaselineOf(cases), failed, {}).AnyWorse());
 }
 
+TEST(Gate, FailuresThatAreMendedHideNothing) {
+  const GateCases cases = Cases(26);
+  const GateCases failed = Changed(cases, [](GateCase& one, int i) {
+    if (i < 4) one = {};
+  });
+  const GateCases worse =
+      Changed(cases, [](GateCase& one, int) { one.figures[kAte] = 1.5 * *one.figures[kAte]; });
+  EXPECT_THAT(Worse(CompareWithBaseline(BaselineOf(failed), worse, {})),
+              ::testing::ElementsAre(kAte));
+}
+
+TEST(Gate, AnArmOfWhichNothingIsDoneIsNotTheSame) {
+  const GateCases failed = Changed(Cases(20), [](GateCase& one, int) { one = {}; });
+  EXPECT_TRUE(CompareWithBaseline(BaselineOf(failed), failed, {}).AnyWorse());
+}
+
+TEST(Gate, AFailureThatTheBaselineLacksIsWorse) {
+  GateCases cases = Cases(20);
+  const Baseline baseline = BaselineOf(cases);
+  cases["new-1/arm"] = {};
+  EXPECT_THAT(Worse(CompareWithBaseline(baseline, cases, {})),
+              ::testing::ElementsAre("failed, and not in the baseline"));
+}
+
+TEST(Gate, FiguresThatTheBaselineLacksAreTold) {
+  const GateCases cases = Cases(20);
+  GateCases more = cases;
+  for (auto& [key, one] : more) one.figures["/extraction/pq"] = 0.5;
+  EXPECT_THAT(GateTable(CompareWithBaseline(BaselineOf(cases), more, {})),
+              ::testing::HasSubstr("not compared: /extraction/pq;"));
+  EXPECT_THAT(GateTable(CompareWithBaseline(BaselineOf(more), more, {})),
+              ::testing::Not(::testing::HasSubstr("/extraction/pq")));
+}
+
+/// Thirteen scenes of these many seeds; the figure of those of "s3" changed.
+GateReport OneSceneChanged(int seeds, const char* figure,
+                           const std::function<double(double, int)>& change) {
+  GateCases cases, now;
+  for (int scene = 0; scene < 13; ++scene) {
+    for (int seed = 0; seed < seeds; ++seed) {
+      const std::string key = "s" + std::to_string(scene) + "-" + std::to_string(seed) + "/arm";
+      cases[key] = now[key] = Cases(1).begin()->second;
+      double& value = *now[key].figures[figure];
+      if (scene == 3) value = change(value, seed);
+    }
+  }
+  return CompareWithBaseline(BaselineOf(cases), now, {});
+}
+
+// A thirteenth of the cases moves the mean by little, whatever becomes of them.
+TEST(Gate, ASceneThatIsMuchWorseInEverySeedIsWorse) {
+  const auto doubled = [](double value, int) { return 2.01 * value; };
+  const GateReport report = OneSceneChanged(3, kAte, doubled);
+  ASSERT_EQ(report.scenes.size(), 1u);
+  EXPECT_EQ(report.scenes.front().scene, "s3");
+  EXPECT_TRUE(report.AnyWorse());
+  EXPECT_THAT(GateTable(report), ::testing::HasSubstr("s3 of arm, in every seed"));
+  EXPECT_THAT(GateTable(report), ::testing::HasSubstr("replay s3-0/arm"));
+  EXPECT_TRUE(OneSceneChanged(3, kPrecision, [](double value, int) {
+                return value - 0.11;
+              }).AnyWorse());
+}
+
+TEST(Gate, TwoSeedsOfASceneAskForMore) {
+  const auto doubled = [](double value, int) { return 2.01 * value; };
+  const GateReport report = OneSceneChanged(2, kAte, doubled);
+  EXPECT_FALSE(report.AnyWorse());
+  EXPECT_THAT(report.UndecidedArms(), ::testing::ElementsAre("arm"));
+}
+
+TEST(Gate, ASceneThatIsWorseByLessOrNotInEverySeedIsLeftToTheTests) {
+  for (const GateReport& report :
+       {OneSceneChanged(3, kAte, [](double value, int) { return 1.9 * value; }),
+        OneSceneChanged(3, kPrecision, [](double value, int) { return value - 0.09; }),
+        OneSceneChanged(3, kAte,
+                        [](double value, int seed) { return seed == 1 ? value : 9 * value; }),
+        OneSceneChanged(3, kFp, [](double value, int) { return value + 9; })}) {
+    EXPECT_THAT(report.scenes, ::testing::IsEmpty());
+  }
+}
+
 TEST(Gate, LostFramesOfWhatFailedBeforeAreNoHarm) {
   const GateCases lost = Changed(Cases(20), [](GateCase& one, int i) {
     if (i < 2) one.figures[kTrackedFigure] = 30.0;
