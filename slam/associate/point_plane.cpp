@@ -49,7 +49,7 @@ std::vector<PointPlaneMatch> AssociatePointsToPlanes(const Frame& frame, const M
         RecordedPixel(camera, camera.Backproject(frame.features[feature].u_px, 1.0));
     if (pixel.x() < 0) continue;
     const int plane = PlaneAt(frame, pixel, x_c, max_distance_m);
-    if (plane != kNone) matches.push_back({id, plane});
+    if (plane != kNone) matches.push_back({static_cast<int>(feature), plane});
   }
   return matches;
 }

@@ -117,7 +117,7 @@ void AddPlanes(const Map& map, const std::map<int, std::size_t>& pose_at,
   }
 }
 
-void MergePlanes(const BundleWindow& window, Map& map) {
+std::set<int> MergePlanes(const BundleWindow& window, Map& map) {
   std::vector<Pose> before_cw, now_cw;
   for (std::size_t i = 0; i < window.keyframes.size(); ++i) {
     before_cw.push_back(map.keyframes[Index(window.keyframes[i])].T_cw);
@@ -125,12 +125,14 @@ void MergePlanes(const BundleWindow& window, Map& map) {
   }
   const std::vector<PlaneEstimate> before_w = SeenFrom(window, map, before_cw);
   const std::vector<PlaneEstimate> now_w = SeenFrom(window, map, now_cw);
+  std::set<int> placed;
   for (std::size_t i = 0; i < window.planes.size(); ++i) {
     MapPlane& landmark = map.planes.At(window.planes[i].id);
     if (landmark.status != LandmarkStatus::kLandmark) continue;  // merged meanwhile
     if (now_w[i].empty()) continue;                              // nobody counts any more
     MovePlane(landmark,
               MotionBetween(before_w[i].Mean(), now_w[i].Mean(), window.planes[i].reference_w));
+    placed.insert(landmark.id);
   }
   for (const BundleWindow::PlaneObservation& o : window.plane_observations) {
     if (!o.inlier) map.keyframes[Index(o.keyframe)].planes[o.seen_at].map_plane = kNone;
@@ -140,6 +142,7 @@ void MergePlanes(const BundleWindow& window, Map& map) {
       map.planes.At(window.planes[o.plane_at].id)
           .map_points.erase(window.points[o.position_at]);
   }
+  return placed;
 }
 
 }  // namespace slam

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <map>
+#include <set>
 
 #include "slam/mapping/bundle_window.h"
 
@@ -19,6 +20,7 @@ void AddPlanes(const Map& map, const std::map<int, std::size_t>& pose_at,
 /// Takes the planes of a solved window over into the map, which has its old poses still. A
 /// landmark moves, with all that it has, as what keyframes have seen of it has moved with them,
 /// so its plane goes on being what the latest frames measure best.
-void MergePlanes(const BundleWindow& window, Map& map);
+/// @returns ids of the landmarks that were placed; of others no keyframe counts any more
+std::set<int> MergePlanes(const BundleWindow& window, Map& map);
 
 }  // namespace slam

@@ -136,9 +136,9 @@ void CarryTheNewer(const BundleWindow& window, Map& map) {
 
 }  // namespace
 
-void MergeWindow(const BundleWindow& window, const FeatureScale& scale, Map& map) {
+std::set<int> MergeWindow(const BundleWindow& window, const FeatureScale& scale, Map& map) {
   CarryTheNewer(window, map);
-  MergePlanes(window, map);
+  const std::set<int> placed = MergePlanes(window, map);
   for (std::size_t i = 0; i < window.free_count; ++i) {
     map.keyframes[Index(window.keyframes[i])].T_cw = PoseOf(window.poses[i].data());
   }
@@ -150,6 +150,7 @@ void MergeWindow(const BundleWindow& window, const FeatureScale& scale, Map& map
     if (!o.inlier) RemoveObservation(map, o.point, o.keyframe);
   }
   for (const int id : window.points) UpdatePoint(map, id, scale);
+  return placed;
 }
 
 }  // namespace slam

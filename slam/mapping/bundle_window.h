@@ -3,6 +3,7 @@
 #include <array>
 #include <cstddef>
 #include <memory>
+#include <set>
 #include <vector>
 
 #include "slam/geometry/camera.h"
@@ -78,6 +79,7 @@ LocalBundleReport SolveWindow(BundleWindow& window, const LocalBundleConfig& con
 /// that they brought, move as the window's newest keyframe does; a landmark moves with all that
 /// it has as what its keyframes saw of it does (MergePlanes). Observations that are no inliers are taken back.
 /// @pre nothing else moved poses or fused, culled or removed keyframes meanwhile
-void MergeWindow(const BundleWindow& window, const FeatureScale& scale, Map& map);
+/// @returns ids of the landmarks that were placed
+std::set<int> MergeWindow(const BundleWindow& window, const FeatureScale& scale, Map& map);
 
 }  // namespace slam

@@ -67,10 +67,10 @@ struct FrameStep {
   double sigma_m = 0.0;    ///< its standard deviation, by the scatter of what was measured
 };
 
-/// A matched map point that lies on a plane of the frame.
+/// A feature whose map point lies on a plane of the frame. It counts for as long as the feature has a map point.
 struct PointPlaneMatch {
-  int map_point = kNone;  ///< id
-  int frame_plane = 0;    ///< index
+  int feature = 0;      ///< index
+  int frame_plane = 0;  ///< index
 };
 
 /// What the depth sensor gave, before it was straightened and carried to where colour was taken.

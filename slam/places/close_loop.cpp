@@ -137,10 +137,7 @@ bool AdjustAll(Map& map, const Camera& camera, const FeatureScale& scale,
   if (!SolveWindow(window, config).usable) return false;
   turn([&] {
     const std::vector<Pose> before = KeyframePoses(map);
-    MergeWindow(window, scale, map);
-    std::set<int> placed;
-    for (const WindowPlane& plane : window.planes) placed.insert(plane.id);
-    CarryPlanes(map, before, placed);
+    CarryPlanes(map, before, MergeWindow(window, scale, map));
   });
   return true;
 }

@@ -85,16 +85,23 @@ void AddVertices(const Pose& T_cw, const FramePlane& plane, const MapPlane& map_
   }
 }
 
-/// Matched points on the frame's planes, eq18.
+/// Matched points on the frame's planes, eq18; those that a pose threw out have no map point any more.
 void AddPointPlanes(const Frame& frame, const Map& map, const PlaneConstraintConfig& config,
                     PoseProblem& problem) {
+  const auto point_of = [&](const PointPlaneMatch& m) {
+    return CurrentPoint(map, frame.map_points[Index(m.feature)]);
+  };
   std::vector<double> count(frame.planes.size(), 0.0);
-  for (const PointPlaneMatch& m : frame.point_planes) count[Index(m.frame_plane)] += 1;
   for (const PointPlaneMatch& m : frame.point_planes) {
+    if (point_of(m) != kNone) count[Index(m.frame_plane)] += 1;
+  }
+  for (const PointPlaneMatch& m : frame.point_planes) {
+    const int id = point_of(m);
+    if (id == kNone) continue;
     const std::size_t f = Index(m.frame_plane);
     // All points of a plane share its error: together they weigh no more than a few.
     const double share = std::max(1.0, count[f] / config.points_per_plane);
-    problem.point_planes.push_back({map.points[Index(m.map_point)].p_w, frame.planes[f].pi_c,
+    problem.point_planes.push_back({map.points[Index(id)].p_w, frame.planes[f].pi_c,
                                     config.point_plane_sigma_m * std::sqrt(share)});
   }
 }

@@ -173,9 +173,10 @@ class SequenceRun {
     RecordedFrame recorded = frames_.Read(i);
     ahead.taken = gate_.Takes(recorded);
     if (!ahead.taken) return ahead;
-    ahead.frame = FrameOf(recorded, taken_++);
+    ahead.frame = FrameOf(recorded, tracked_);
     ahead.repeats = repeated_.Repeats(recorded);
     if (ahead.repeats) return ahead;
+    ++tracked_;
     tracker_.Extract(straightening, recorded.bgr, ahead.frame, ahead.times);
     return ahead;
   }
@@ -208,7 +209,6 @@ class SequenceRun {
   /// sees what it saw; the map learns nothing, for the same noise twice is no second
   /// observation, and what was new then is known now.
   void StandForRepeat(const Frame& repeat) {
-    frame_.index = repeat.index;
     frame_.timestamp_s = repeat.timestamp_s;
     for (PlaneMatch& match : frame_.plane_matches) {
       if (match.decision == PlaneDecision::kNew) match.decision = PlaneDecision::kMatched;
@@ -271,7 +271,7 @@ class SequenceRun {
   // What frames pass before they are tracked, one after the other.
   FrameGate gate_;
   RepeatedImages repeated_;
-  int taken_ = 0;  ///< by the gate
+  int tracked_ = 0;  ///< frames that the tracker is given: taken by the gate, and no repeats
 
   LostFrames lost_;
   CameraCheck camera_check_;

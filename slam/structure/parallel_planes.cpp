@@ -11,6 +11,8 @@ namespace {
 
 void AddDirections(const FramePlane& plane, const MapPlane& matched, const Map& map,
                    const Pose& T_cw, const ParallelConfig& config, PoseProblem& problem) {
+  const std::size_t parallels = problem.parallels.size();
+  const std::size_t perpendiculars = problem.perpendiculars.size();
   for (const MapPlane& other : map.planes) {
     if (other.status != LandmarkStatus::kLandmark || other.id == matched.id) continue;
     if (other.observations < config.min_observations) continue;
@@ -32,6 +34,13 @@ void AddDirections(const FramePlane& plane, const MapPlane& matched, const Map& 
     if (from_right < max_error)
       problem.perpendiculars.push_back({other.pi_w.n, plane.pi_c.n, factor_sigma});
   }
+  // All of them share the error of the one normal that the frame measured: together they weigh as one.
+  const auto share = [](auto& factors, std::size_t first) {
+    const double widened = std::sqrt(static_cast<double>(factors.size() - first));
+    for (std::size_t i = first; i < factors.size(); ++i) factors[i].sigma_rad *= widened;
+  };
+  share(problem.parallels, parallels);
+  share(problem.perpendiculars, perpendiculars);
 }
 
 }  // namespace

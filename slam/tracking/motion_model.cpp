@@ -4,13 +4,13 @@
 
 namespace slam {
 
-void MotionModel::Observe(int frame_index, const Pose& T_cw) {
+void MotionModel::Observe(double timestamp_s, const Pose& T_cw) {
   if (last_) {
-    const int frames = frame_index - last_->frame_index;
-    Require(frames > 0, "MotionModel::Observe: frames must come in order");
-    speed_ = Log(T_cw * Inverse(last_->T_cw)) / frames;
+    const double passed_s = timestamp_s - last_->timestamp_s;
+    Require(passed_s > 0, "MotionModel::Observe: frames must come in order");
+    speed_ = Log(T_cw * Inverse(last_->T_cw)) / passed_s;
   }
-  last_ = Known{frame_index, T_cw};
+  last_ = Known{timestamp_s, T_cw};
 }
 
 void MotionModel::Forget() {
@@ -22,10 +22,9 @@ void MotionModel::Correct(const Pose& T_cw) {
   if (last_) last_->T_cw = T_cw;
 }
 
-std::optional<Pose> MotionModel::Predict(int frame_index) const {
+std::optional<Pose> MotionModel::Predict(double timestamp_s) const {
   if (!speed_) return std::nullopt;
-  const int frames = frame_index - last_->frame_index;
-  return Normalised(Exp(frames * *speed_) * last_->T_cw);
+  return Normalised(Exp((timestamp_s - last_->timestamp_s) * *speed_) * last_->T_cw);
 }
 
 }  // namespace slam

@@ -137,7 +137,7 @@ bool PointTracking::PointsCanStart(const Frame& frame) const {
 
 bool PointTracking::TrackByMotion(Frame& frame, const FeatureGrid& grid, const Map& map,
                                   PointTrackReport& report) const {
-  const Pose predicted_T_cw = motion_.Predict(frame.index).value_or(LastPose(last_, map));
+  const Pose predicted_T_cw = motion_.Predict(frame.timestamp_s).value_or(LastPose(last_, map));
   const std::vector<SeenPoint> seen = SeenPoints(
       last_, map, camera_, scale_.CloseDepth_m(camera_.fx), config_.max_temporary_points);
   // Match with what the last frame saw, in a wider square when few are found.
@@ -324,7 +324,7 @@ void PointTracking::Accept(const Frame& frame, const Map& map) {
   }
   // The speed is that between two poses of one map: the last pose as the map has it by now.
   FollowMap(map);
-  motion_.Observe(frame.index, T_cw);
+  motion_.Observe(frame.timestamp_s, T_cw);
   motion_filter_.Observe(frame.timestamp_s, T_cw, frame.evidence);
   last_ = {frame.features, frame.map_points, reference_,
            T_cw * Inverse(KeyframePose(map, reference_))};

@@ -4,6 +4,7 @@
 #include "slam/associate/plane_samples.h"
 #include "slam/associate/point_plane.h"
 #include "slam/associate/projected_box.h"
+#include "slam/base/index.h"
 #include "tests/support/slam_matchers.h"
 
 namespace slam {
@@ -115,7 +116,7 @@ TEST(PointsOnPlanes, LieOnBothSidesOfItNearEnough) {
   for (const PointPlaneMatch& match :
        AssociatePointsToPlanes(frame, map, camera, config.max_point_plane_m)) {
     EXPECT_EQ(match.frame_plane, 0);
-    on_it.push_back(match.map_point);
+    on_it.push_back(frame.map_points[Index(match.feature)]);
   }
   EXPECT_THAT(on_it, ElementsAre(0, 1, 2));
 }

@@ -258,6 +258,24 @@ TEST(BundlePlanes, AreFoundFromAnyStartAndMoveTheLandmarkByWhatTheyMoved) {
   }
 }
 
+// Who carries the rest of the map along has to know which landmarks are placed.
+TEST(BundlePlanes, OnWhichNoKeyframeCountsAnyMoreAreNotPlaced) {
+  const PointWorld truth = WorldWithPlanes(5, 80, ThreePlanes());
+  for (const bool denied : {false, true}) {
+    Map map = truth.map;
+    DisturbAll(map, 0.005, 0.003);
+    BundleWindow window = FullWindow(map, truth.camera, FeatureScale{}, {});
+    SolveWindow(window, ManyIterations());
+    for (BundleWindow::PlaneObservation& o : window.plane_observations) {
+      if (denied && window.planes[o.plane_at].id == 1) o.inlier = false;
+    }
+    const Plane before = map.planes.At(1).pi_w;
+    const std::set<int> placed = MergeWindow(window, FeatureScale{}, map);
+    EXPECT_EQ(placed, denied ? std::set<int>({0, 2}) : std::set<int>({0, 1, 2}));
+    EXPECT_EQ(map.planes.At(1).pi_w.d == before.d, denied);
+  }
+}
+
 TEST(BundlePlanes, OfOneKeyframeAloneStayWhereTheyAre) {
   PointWorld world = WorldWithPlanes(5, 80, {ThreePlanes().front()});
   for (Keyframe& keyframe : world.map.keyframes) {

@@ -108,6 +108,23 @@ TEST(BoxConstraints, LeaveOutABoxOfWhichTheFaceIsASmallPart) {
   }
 }
 
+TEST(PointPlaneConstraints, OfPointsThatAPoseThrewOutAreGone) {
+  SeenBook book;
+  for (int i = 0; i < 3; ++i) {
+    MapPoint point;
+    point.id = i;
+    point.p_w.x() = i;
+    book.map.points.push_back(point);
+    book.frame.map_points.push_back(i);
+    book.frame.point_planes.push_back({i, 0});
+  }
+  book.frame.map_points[1] = kNone;
+  const PoseProblem problem = book.Problem();
+  ASSERT_EQ(problem.point_planes.size(), 2u);
+  EXPECT_EQ(problem.point_planes[0].p_w.x(), 0);
+  EXPECT_EQ(problem.point_planes[1].p_w.x(), 2);
+}
+
 TEST(PointPlaneConstraints, OfManyPointsWeighTogetherAsMuchAsTen) {
   for (const int count : {5, 40}) {
     SeenBook book;
@@ -116,6 +133,7 @@ TEST(PointPlaneConstraints, OfManyPointsWeighTogetherAsMuchAsTen) {
       point.id = i;
       point.p_w = Inverse(book.T_cw) * book.camera.Backproject({120.0 + 4 * i, 200.0}, 2.0);
       book.map.points.push_back(point);
+      book.frame.map_points.push_back(i);
       book.frame.point_planes.push_back({i, 0});
     }
     const PoseProblem problem = book.Problem();

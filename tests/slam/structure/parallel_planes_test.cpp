@@ -68,6 +68,27 @@ TEST(ParallelPlanes, LeaveOutWhatIsFarFromParallelOrMoreThanItsErrorsExplain) {
   EXPECT_EQ(seen.Problem().parallels.size(), 1u);
 }
 
+// Their errors have the frame plane's normal in common, so more of them say no more.
+TEST(ParallelPlanes, ManyWeighTogetherAsMuchAsOne) {
+  SeenPlaneWithOthers seen;
+  seen.Add({0, 0, -1});
+  seen.Add({1, 0, 0});
+  const PoseProblem one = seen.Problem();
+  for (int i = 0; i < 3; ++i) seen.Add({0, 0, 1});
+  for (int i = 0; i < 8; ++i) seen.Add({0, 1, 0});
+  const PoseProblem many = seen.Problem();
+  const auto information = [](const std::vector<DirectionConstraint>& factors) {
+    double sum = 0.0;
+    for (const DirectionConstraint& c : factors) sum += 1 / (c.sigma_rad * c.sigma_rad);
+    return sum;
+  };
+  ASSERT_EQ(many.parallels.size(), 4u);
+  ASSERT_EQ(many.perpendiculars.size(), 9u);
+  const double before = information(one.parallels);
+  EXPECT_NEAR(information(many.parallels), before, 1e-9 * before);
+  EXPECT_NEAR(information(many.perpendiculars), before, 1e-9 * before);
+}
+
 TEST(ParallelPlanes, LeaveOutSmallOnesAndOnesThatWereRarelySeen) {
   SeenPlaneWithOthers seen;
   const int other = seen.Add({0, 0, -1});

@@ -25,11 +25,13 @@ TEST(MotionModel, RepeatsTheLastStep) {
   EXPECT_THAT(*model.Predict(2), PoseNear(kStep * kStep * kStart, kRoundOff, kRoundOff));
 }
 
-TEST(MotionModel, CountsTheFramesInBetween) {
+TEST(MotionModel, CountsTheTimeInBetween) {
   MotionModel model;
   model.Observe(0, kStart);
   model.Observe(2, kStep * kStep * kStart);
   EXPECT_THAT(*model.Predict(3), PoseNear(kStep * kStep * kStep * kStart, 1e-9, 1e-9));
+  EXPECT_THAT(*model.Predict(2.5),
+              PoseNear(Exp(0.5 * Log(kStep)) * kStep * kStep * kStart, 1e-9, 1e-9));
 }
 
 TEST(MotionModel, KeepsTheStepWhenTheMapMovesUnderTheLastPose) {
@@ -53,6 +55,7 @@ TEST(MotionModel, RefusesFramesOutOfOrder) {
   MotionModel model;
   model.Observe(3, kStart);
   EXPECT_THROW(model.Observe(3, kStart), std::invalid_argument);
+  EXPECT_THROW(model.Observe(2.9, kStart), std::invalid_argument);
 }
 
 }  // namespace

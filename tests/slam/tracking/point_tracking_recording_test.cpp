@@ -82,6 +82,7 @@ TEST(PointTrackingOfARecording, StaysWithin7MillimetresOfTheMotionCapture) {
     const auto& row = rows[static_cast<std::size_t>(i)];
     Frame frame;
     frame.index = i;
+    frame.timestamp_s = std::stod(row[0]);
     cv::cvtColor(test_support::ReadImageFile(folder / row[1]), frame.gray, cv::COLOR_BGR2GRAY);
     test_support::ReadImageFile(folder / row[3])
         .convertTo(frame.depth_m, CV_32F, 1.0 / odometer.camera.depth_factor);
