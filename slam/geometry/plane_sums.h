@@ -53,6 +53,12 @@ struct PlaneSums {
     wq += o.wq, wqx += o.wqx, wqy += o.wqy, wqq += o.wqq;
     return *this;
   }
+  /// Takes out pixels that are among these.
+  PlaneSums& operator-=(const PlaneSums& o) {
+    n -= o.n, w -= o.w, wx -= o.wx, wy -= o.wy, wxx -= o.wxx, wxy -= o.wxy, wyy -= o.wyy;
+    wq -= o.wq, wqx -= o.wqx, wqy -= o.wqy, wqq -= o.wqq;
+    return *this;
+  }
 };
 
 /// The fitted plane and its error sum_i w_i (q_i - q(x_i, y_i))^2: a sum of squares in units of

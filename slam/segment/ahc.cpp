@@ -13,6 +13,8 @@
 #include <utility>
 #include <vector>
 
+#include "slam/base/index.h"
+
 namespace slam {
 namespace {
 
@@ -85,10 +87,10 @@ class PlaneGraph {
     Neighbours(b).push_back(a);
   }
   int size() const { return static_cast<int>(planes_.size()); }
-  const PointPlane& At(int k) const { return planes_[static_cast<std::size_t>(k)]; }
+  const PointPlane& At(int k) const { return planes_[Index(k)]; }
   /// What a plane has become part of, or itself.
   int Root(int k) {
-    int& up = into_[static_cast<std::size_t>(k)];
+    int& up = into_[Index(k)];
     return up == k ? k : up = Root(up);
   }
   /// The plane of least error merges with the neighbour with which it has least, as long as
@@ -96,7 +98,7 @@ class PlaneGraph {
   void Merge();
 
  private:
-  std::vector<int>& Neighbours(int k) { return neighbours_[static_cast<std::size_t>(k)]; }
+  std::vector<int>& Neighbours(int k) { return neighbours_[Index(k)]; }
   void TidyNeighbours(int k);
 
   std::vector<PointPlane> planes_;
@@ -111,9 +113,7 @@ void PlaneGraph::TidyNeighbours(int k) {
   for (int& other : list) other = Root(other);
   std::sort(list.begin(), list.end());
   list.erase(std::unique(list.begin(), list.end()), list.end());
-  std::erase_if(list, [&](int other) {
-    return other == k || complete_[static_cast<std::size_t>(other)];
-  });
+  std::erase_if(list, [&](int other) { return other == k || complete_[Index(other)]; });
 }
 
 void PlaneGraph::Merge() {
@@ -134,11 +134,11 @@ void PlaneGraph::Merge() {
       if (partner < 0 || both.error < best.error) best = both, partner = other;
     }
     if (partner < 0 || best.error > MaxError(best.center.z(), kMergeTolerance_m)) {
-      complete_[static_cast<std::size_t>(k)] = true;
+      complete_[Index(k)] = true;
       continue;
     }
-    planes_[static_cast<std::size_t>(k)] = best;
-    into_[static_cast<std::size_t>(partner)] = k;
+    planes_[Index(k)] = best;
+    into_[Index(partner)] = k;
     std::vector<int>& theirs = Neighbours(partner);
     Neighbours(k).insert(Neighbours(k).end(), theirs.begin(), theirs.end());
     theirs.clear();
@@ -158,7 +158,7 @@ class AhcSegmentation {
     const double z = 1.0 / static_cast<double>(grid_.q[i]);
     return {static_cast<double>(grid_.x[i]) * z, static_cast<double>(grid_.y[i]) * z, z};
   }
-  int NodeAt(int c, int r) const { return node_[static_cast<std::size_t>(r * cols_ + c)]; }
+  int NodeAt(int c, int r) const { return node_[Index(r * cols_ + c)]; }
   bool IsSmooth(int u0, int v0) const;
   void AddBlocks();
   void ConnectLine(int a, int middle, int b);
@@ -209,7 +209,7 @@ void AhcSegmentation::AddBlocks() {
     }
     plane.Fit();
     if (plane.error > MaxError(plane.center.z(), kFirstTolerance_m)) continue;
-    node_[static_cast<std::size_t>(block)] = graph_.size();
+    node_[Index(block)] = graph_.size();
     graph_.Add(plane);
   }
 }
@@ -238,7 +238,7 @@ void AhcSegmentation::KeepInteriors() {
   const auto label_at = [&](int c, int r) {
     if (c < 0 || r < 0 || c >= cols_ || r >= rows_ || NodeAt(c, r) < 0) return -1;
     const int root = graph_.Root(NodeAt(c, r));
-    int& label = label_of[static_cast<std::size_t>(root)];
+    int& label = label_of[Index(root)];
     if (label < 0 && graph_.At(root).n >= kMinSupport_px) {
       label = static_cast<int>(planes_.size());
       planes_.push_back(graph_.At(root));
@@ -266,10 +266,8 @@ void AhcSegmentation::KeepInteriors() {
 /// Lets a plane have a pixel beside one of its own, if it is near and no other plane is nearer.
 void AhcSegmentation::Spread(int from, int to, int label) {
   const auto i = static_cast<std::size_t>(to);
-  if (labels_[static_cast<std::size_t>(from)] != label || labels_[i] == label ||
-      !(grid_.q[i] > 0.0f))
-    return;
-  const PointPlane& plane = planes_[static_cast<std::size_t>(label)];
+  if (labels_[Index(from)] != label || labels_[i] == label || !(grid_.q[i] > 0.0f)) return;
+  const PointPlane& plane = planes_[Index(label)];
   const double offset_m = plane.normal.dot(PointAt(i) - plane.center);
   if (!(offset_m * offset_m < kGrowthSigmas * kGrowthSigmas * plane.error + kRounding_m2))
     return;
@@ -298,7 +296,7 @@ void AhcSegmentation::GrowPixels() {
 LabelImage AhcSegmentation::MergeGrown() {
   std::vector<PointPlane> grown(planes_.size());
   for (std::size_t i = 0; i < labels_.size(); ++i)
-    if (labels_[i] != kNoLabel) grown[static_cast<std::size_t>(labels_[i])].Add(PointAt(i));
+    if (labels_[i] != kNoLabel) grown[Index(labels_[i])].Add(PointAt(i));
   PlaneGraph merged;
   for (std::size_t k = 0; k < grown.size(); ++k) {
     if (grown[k].n > 0) grown[k].Fit();
@@ -313,10 +311,9 @@ LabelImage AhcSegmentation::MergeGrown() {
   std::vector<std::int16_t> number(planes_.size(), kNoLabel);
   std::int16_t count = 0;
   for (int k = 0; k < merged.size(); ++k)
-    if (merged.Root(k) == k && merged.At(k).n >= kMinSupport_px)
-      number[static_cast<std::size_t>(k)] = count++;
+    if (merged.Root(k) == k && merged.At(k).n >= kMinSupport_px) number[Index(k)] = count++;
   for (std::int16_t& label : labels_)
-    if (label != kNoLabel) label = number[static_cast<std::size_t>(merged.Root(label))];
+    if (label != kNoLabel) label = number[Index(merged.Root(label))];
   return std::move(labels_);
 }
 

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <utility>
 
+#include "slam/base/index.h"
 #include "slam/segment/edges/plane_edges.h"
 #include "slam/segment/plane_workspace.h"
 #include "slam/segment/roughness.h"
@@ -49,11 +50,6 @@ double RayArea(const DepthGrid& grid, int u, int v) {
 /// |(a, b, c)| / q^3 dx dy of the surface.
 void PlaneExtractor::Workspace::SamplePoints(const cv::Mat1b& drawn,
                                              std::vector<FramePlane>& planes) {
-  sampled.assign(planes.size(), Sampled{});
-  for (std::size_t k = 0; k < planes.size(); ++k) {
-    const InverseDepthPlane& p = kept[k].plane.plane;
-    sampled[k].norm = std::sqrt(p.a * p.a + p.b * p.b + p.c * p.c);
-  }
   for (int v = 0; v < drawn.rows; v += config.point_grid_px) {
     const std::uint8_t* row = drawn[v];
     for (int u = 0; u < drawn.cols; u += config.point_grid_px) {
@@ -63,13 +59,15 @@ void PlaneExtractor::Workspace::SamplePoints(const cv::Mat1b& drawn,
       const double x = static_cast<double>(grid.x[i]), y = static_cast<double>(grid.y[i]);
       const double z = 1.0 / static_cast<double>(grid.q[i]);
       planes[k].points_c.emplace_back(x * z, y * z, z);
-      const double q = kept[k].plane.plane.InverseDepth(x, y);
-      sampled[k].area += sampled[k].norm / (q * q * q) * RayArea(grid, u, v);
+      const InverseDepthPlane& p = kept[k].plane.plane;
+      const double q = p.InverseDepth(x, y),
+                   norm = std::sqrt(p.a * p.a + p.b * p.b + p.c * p.c);
+      planes[k].area_m2 += norm / (q * q * q) * RayArea(grid, u, v);
     }
   }
-  for (std::size_t k = 0; k < planes.size(); ++k) {
-    const auto count = static_cast<double>(planes[k].points_c.size());
-    if (count > 0) planes[k].area_m2 = sampled[k].area / count * planes[k].pixel_count;
+  for (FramePlane& plane : planes) {
+    const auto count = static_cast<double>(plane.points_c.size());
+    if (count > 0) plane.area_m2 = plane.area_m2 / count * plane.pixel_count;
   }
 }
 
@@ -92,9 +90,8 @@ void PlaneExtractor::Workspace::Describe(Frame& frame) {
   areas_m2.clear();
   for (const FramePlane& plane : frame.planes) areas_m2.push_back(plane.area_m2);
   for (FramePlane& plane : frame.planes) {
-    FindEdgePoints(grid, contours, plane.index + 1,
-                   kept[static_cast<std::size_t>(plane.index)].plane, areas_m2, config.edges,
-                   plane.edge_points);
+    FindEdgePoints(grid, contours, plane.index + 1, kept[Index(plane.index)].plane, areas_m2,
+                   config.edges, plane.edge_points);
     for (const EdgePoint& point : plane.edge_points) plane.box_px.Include(point.u_px);
   }
 }

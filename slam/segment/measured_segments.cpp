@@ -5,6 +5,8 @@
 #include <cstddef>
 #include <optional>
 
+#include "slam/segment/pixels/label_contacts.h"
+
 namespace slam {
 namespace {
 
@@ -22,19 +24,6 @@ std::optional<Segment> Measure(const PlaneSums& sums, int id, const DepthNoise& 
   return Segment{id, sums, {fit->plane, grazing}, sigmas, {}, {}};
 }
 
-/// How many sides of pixels each segment shares with what is beside it in the image.
-std::vector<int> FindPerimeters(const PartSegments& segments) {
-  std::vector<int> perimeters(segments.sums.size());
-  const std::vector<LabelRun>& runs = segments.runs.runs;
-  VisitBoundaryPieces(segments.runs,
-                      [&](std::size_t, std::size_t, int n, std::size_t a, std::size_t b) {
-                        for (const int label : {runs[a].label, runs[b].label})
-                          if (label != kNoLabel)
-                            perimeters[static_cast<std::size_t>(label)] += n;
-                      });
-  return perimeters;
-}
-
 /// Side of the square of pixels that share an error because the sensor measures them together.
 /// Triangulation matches windows. Time of flight measures each pixel by itself; what its pixels
 /// share is a wave over the distance.
@@ -46,7 +35,7 @@ double SideOfSharedError_px(const SensorModel& sensor) {
 
 std::vector<Segment> KeepMeasured(const PartSegments& segments, const SensorModel& sensor,
                                   const PlaneExtractionConfig& config) {
-  const std::vector<int> perimeters = FindPerimeters(segments);
+  const std::vector<int> perimeters = CountContacts(segments.runs, segments.sums.size()).around;
   const auto height = static_cast<double>(segments.runs.rows.size() - 1);
   const double min_pixels = config.min_share * segments.runs.width * height;
   const double min_width_px = SideOfSharedError_px(sensor);  // across less, noise is one number
@@ -63,14 +52,6 @@ std::vector<Segment> KeepMeasured(const PartSegments& segments, const SensorMode
   });
   if (kept.size() > static_cast<std::size_t>(kMaxSegments)) kept.resize(kMaxSegments);
   return kept;
-}
-
-PlaneSums Without(PlaneSums all, const PlaneSums& part) {
-  all.n -= part.n, all.w -= part.w, all.wx -= part.wx, all.wy -= part.wy, all.wxx -= part.wxx,
-      all.wxy -= part.wxy;
-  all.wyy -= part.wyy, all.wq -= part.wq, all.wqx -= part.wqx, all.wqy -= part.wqy,
-      all.wqq -= part.wqq;
-  return all;
 }
 
 }  // namespace slam

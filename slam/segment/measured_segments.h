@@ -28,7 +28,4 @@ struct Segment {
 std::vector<Segment> KeepMeasured(const PartSegments& segments, const SensorModel& sensor,
                                   const PlaneExtractionConfig& config);
 
-/// Sums of the pixels of `all` that are not those of `part`, a part of them.
-PlaneSums Without(PlaneSums all, const PlaneSums& part);
-
 }  // namespace slam

@@ -5,9 +5,9 @@
 #include <numeric>
 #include <utility>
 
-#include "slam/segment/measured_segments.h"
+#include "slam/base/index.h"
 #include "slam/segment/pixels/label_components.h"
-#include "slam/segment/pixels/label_pairs.h"
+#include "slam/segment/pixels/label_contacts.h"
 #include "slam/segment/sight_lines.h"
 
 namespace slam {
@@ -34,7 +34,6 @@ class PartSegmentation {
   PartSegments Segments() &&;
 
  private:
-  void MeasureContacts();
   std::vector<int> LabelsBySize() const;
   bool PassBehind(const SightLines& lines, int a, int b, int label) const;
   void FindMainComponents();
@@ -44,8 +43,7 @@ class PartSegmentation {
   const std::vector<Surface>& surfaces_;
   const PlaneExtractionConfig& config_;
   LabelComponents components_;
-  LabelPairs<int> contacts_;           ///< sides of pixels that two labels share
-  std::vector<int> borders_;           ///< sides of pixels around each label
+  LabelContacts contacts_;
   std::vector<LabelPlane> planes_;     ///< one a label
   std::vector<double> unsure_sigmas_;  ///< the same: what is as near is on no side of it
   std::vector<int> into_;              ///< label that each label is part of
@@ -63,25 +61,12 @@ PartSegmentation::PartSegmentation(const DepthGrid& grid, const std::vector<Surf
   }
   components_.runs = labels;
   ConnectRuns(components_);
-  MeasureContacts();
-}
-
-void PartSegmentation::MeasureContacts() {
-  contacts_.Clear(static_cast<int>(surfaces_.size()));
-  borders_.assign(surfaces_.size(), 0);
-  const std::vector<LabelRun>& runs = components_.runs.runs;
-  VisitBoundaryPieces(components_.runs,
-                      [&](std::size_t, std::size_t, int n, std::size_t i, std::size_t j) {
-                        const int a = runs[i].label, b = runs[j].label;
-                        for (const int label : {a, b})
-                          if (label != kNoLabel) borders_[static_cast<std::size_t>(label)] += n;
-                        if (a != kNoLabel && b != kNoLabel) contacts_.Of(a, b) += n;
-                      });
+  contacts_ = CountContacts(components_.runs, surfaces.size());
 }
 
 /// Labels with pixels, largest first.
 std::vector<int> PartSegmentation::LabelsBySize() const {
-  const auto pixels = [&](int k) { return surfaces_[static_cast<std::size_t>(k)].sums.n; };
+  const auto pixels = [&](int k) { return surfaces_[Index(k)].sums.n; };
   std::vector<int> labels;
   for (int k = 0; k < static_cast<int>(surfaces_.size()); ++k)
     if (pixels(k) >= kMinPlane_px) labels.push_back(k);
@@ -107,30 +92,28 @@ void PartSegmentation::JoinHiddenLabels(const DepthNoise& noise) {
     double min_cost = config_.joining.max_hidden_cost;
     for (std::size_t j = 0; j < k; ++j) {
       const int large = by_size[j];
-      if (into_[static_cast<std::size_t>(large)] != large) continue;
-      if (contacts_.Of(by_size[k], large) > kMaxContactShare * borders_[small]) continue;
-      const double cost = HiddenUnionCost(surfaces_[small].sums,
-                                          surfaces_[static_cast<std::size_t>(large)].sums,
+      if (into_[Index(large)] != large) continue;
+      if (contacts_.shared.Of(by_size[k], large) > kMaxContactShare * contacts_.around[small])
+        continue;
+      const double cost = HiddenUnionCost(surfaces_[small].sums, surfaces_[Index(large)].sums,
                                           noise, config_.joining);
       if (cost < min_cost && !PassBehind(lines, by_size[k], large, large))
         min_cost = cost, into_[small] = large;
     }
   }
-  for (LabelComponent& c : components_.list) c.label = into_[static_cast<std::size_t>(c.label)];
+  for (LabelComponent& c : components_.list) c.label = into_[Index(c.label)];
 }
 
 /// Whether the lines from one part to another pass something behind the surface of a label.
 bool PartSegmentation::PassBehind(const SightLines& lines, int a, int b, int label) const {
-  return lines.PassBehind(a, b, planes_[static_cast<std::size_t>(label)],
-                          unsure_sigmas_[static_cast<std::size_t>(label)]);
+  return lines.PassBehind(a, b, planes_[Index(label)], unsure_sigmas_[Index(label)]);
 }
 
 void PartSegmentation::FindMainComponents() {
   main_.assign(planes_.size(), -1);
   for (std::size_t k = 0; k < components_.list.size(); ++k) {
-    int& largest = main_[static_cast<std::size_t>(components_.list[k].label)];
-    if (largest < 0 || components_.list[k].pixels >
-                           components_.list[static_cast<std::size_t>(largest)].pixels) {
+    int& largest = main_[Index(components_.list[k].label)];
+    if (largest < 0 || components_.list[k].pixels > components_.list[Index(largest)].pixels) {
       largest = static_cast<int>(k);
     }
   }
@@ -146,16 +129,16 @@ void PartSegmentation::NumberSegments() {
   segment_.assign(components_.list.size(), -1);
   segment_count_ = 0;
   for (const int k : main_) {
-    if (k >= 0) segment_[static_cast<std::size_t>(k)] = segment_count_++;
+    if (k >= 0) segment_[Index(k)] = segment_count_++;
   }
 
   // The other components.
   for (std::size_t k = 0; k < components_.list.size(); ++k) {
     const LabelComponent& c = components_.list[k];
     if (segment_[k] >= 0 || c.pixels < config_.min_island_pixels) continue;
-    const int largest = main_[static_cast<std::size_t>(c.label)];
+    const int largest = main_[Index(c.label)];
     if (!PassBehind(lines, static_cast<int>(k), largest, c.label)) {
-      segment_[k] = segment_[static_cast<std::size_t>(largest)];
+      segment_[k] = segment_[Index(largest)];
     } else {
       segment_[k] = segment_count_++;
     }
@@ -167,13 +150,12 @@ std::vector<PlaneSums> PartSegmentation::SumSegments() const {
 
   // Whole labels first.
   const auto segment_of_label = [&](int label) {
-    const int largest = main_[static_cast<std::size_t>(label)];
-    return largest < 0 ? -1 : segment_[static_cast<std::size_t>(largest)];
+    const int largest = main_[Index(label)];
+    return largest < 0 ? -1 : segment_[Index(largest)];
   };
   for (int k = 0; k < static_cast<int>(into_.size()); ++k) {
-    const int segment = segment_of_label(into_[static_cast<std::size_t>(k)]);
-    if (segment >= 0)
-      sums[static_cast<std::size_t>(segment)] += surfaces_[static_cast<std::size_t>(k)].sums;
+    const int segment = segment_of_label(into_[Index(k)]);
+    if (segment >= 0) sums[Index(segment)] += surfaces_[Index(k)].sums;
   }
 
   // Then parts move that are not of their label's segment.
@@ -186,9 +168,8 @@ std::vector<PlaneSums> PartSegmentation::SumSegments() const {
       const int to = segment_[component];
       if (to == from) continue;
       const PlaneSums run = SumRun(grid_, static_cast<int>(row), runs.runs[k]);
-      PlaneSums& rest = sums[static_cast<std::size_t>(from)];
-      rest = Without(rest, run);
-      if (to >= 0) sums[static_cast<std::size_t>(to)] += run;
+      sums[Index(from)] -= run;
+      if (to >= 0) sums[Index(to)] += run;
     }
   }
   return sums;
@@ -199,8 +180,7 @@ PartSegments PartSegmentation::Segments() && {
   out.runs = std::move(components_.runs);
   for (std::size_t k = 0; k < components_.component.size(); ++k) {
     const int component = components_.component[k];
-    out.runs.runs[k].label =
-        component < 0 ? kNoLabel : segment_[static_cast<std::size_t>(component)];
+    out.runs.runs[k].label = component < 0 ? kNoLabel : segment_[Index(component)];
   }
   return out;
 }

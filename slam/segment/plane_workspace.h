@@ -35,16 +35,10 @@ struct PlaneExtractor::Workspace {
   std::vector<Segment> kept;
   std::vector<std::uint8_t> drawn_value;
   OuterContours contours;
-  /// A plane's |(a, b, c)|, and the area that stands for each of its points, summed.
-  struct Sampled {
-    double norm = 0.0, area = 0.0;
-  };
-  std::vector<Sampled> sampled;
   std::vector<double> areas_m2;  ///< visible area of each of the frame's planes
 
-  void AddClusters(const BlockClusters& clusters, const JoinedLabels* joined);
+  void AddClusters(const BlockClusters& clusters, const JoinedLabels& joined);
   JoinedLabels JoinClusters(const BlockClusters& clusters);
-  ContactPixels CountContacts(std::size_t label_count) const;
   void JoinTouching();
   PartSegments SegmentBySteps();
   PartSegments SegmentAsPeac() const;

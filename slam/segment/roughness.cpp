@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstring>
 
+#include "slam/base/index.h"
 #include "slam/base/lane_math.h"
 #include "slam/base/require.h"
 #include "slam/segment/pixels/block_pixels.h"
@@ -65,7 +66,7 @@ struct Looked {
 
   Looked(const cv::Mat1b& labels_in, const cv::Rect& bounds_in, std::uint8_t label_in, int step)
       : labels(labels_in), bounds(bounds_in), label(label_in), step_px(step) {
-    for (int k = 0; k < step + kLanes; k += step) columns[static_cast<std::size_t>(k)] = -1;
+    for (int k = 0; k < step + kLanes; k += step) columns[Index(k)] = -1;
   }
 };
 

@@ -5,6 +5,8 @@
 #include <cstdint>
 #include <utility>
 
+#include "slam/base/index.h"
+
 namespace slam {
 namespace {
 
@@ -29,7 +31,7 @@ SightLines::SightLines(const DepthGrid& grid, const LabelRuns& runs, std::vector
       if (part_[k] < 0) continue;
       const LabelRun& run = runs.runs[k];
       for (int u = (run.begin + kGrid_px - 1) / kGrid_px * kGrid_px; u < run.end; u += kGrid_px)
-        samples_[static_cast<std::size_t>(part_[k])].push_back({u, v});
+        samples_[Index(part_[k])].push_back({u, v});
     }
   }
 }
@@ -58,7 +60,7 @@ bool SightLines::PassesBehind(const Pixel& from, const Pixel& to, int a, int b,
     const int part = PartAt(i);
     return part != a && part != b;
   };
-  // So many in a row take in every so-manieth pixel.
+  // Any run of kClear_px pixels contains one of every kClear_px-th.
   for (int s = kClear_px; s < steps; s += kClear_px) {
     if (!is_behind(s)) continue;
     int row = 1;
@@ -71,8 +73,7 @@ bool SightLines::PassesBehind(const Pixel& from, const Pixel& to, int a, int b,
 }
 
 bool SightLines::PassBehind(int a, int b, const LabelPlane& plane, double unsure_sigmas) const {
-  const std::vector<Pixel>&all_a = samples_[static_cast<std::size_t>(a)],
-        &all_b = samples_[static_cast<std::size_t>(b)];
+  const std::vector<Pixel>&all_a = samples_[Index(a)], &all_b = samples_[Index(b)];
   if (all_a.empty() || all_b.empty()) return true;
   const float clear = std::max(kClear_sigmas, static_cast<float>(unsure_sigmas));
   const PixelPlane in_float(plane);

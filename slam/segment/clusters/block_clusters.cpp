@@ -4,18 +4,11 @@
 #include <numeric>
 #include <optional>
 
+#include "slam/base/index.h"
 #include "slam/base/require.h"
 #include "slam/segment/pixels/block_sums.h"
 
 namespace slam {
-namespace {
-
-// Odd factors that spread versions over the table: 2^32 over the golden ratio (Knuth), and one
-// of MurmurHash3 (Appleby).
-constexpr std::uint32_t kSpreadI = 0x9e3779b1u, kSpreadJ = 0x85ebca6bu;
-constexpr int kVersionBits = 32;
-
-}  // namespace
 
 BlockClusters BlockClustering::Cluster(const ImageBlocks& blocks,
                                        const std::vector<PixelSet>& free, int block_px,
@@ -53,8 +46,7 @@ void BlockClustering::AddBlocks(const ImageBlocks& blocks, const std::vector<Pix
 void BlockClustering::AddBlock(const BlockPixels& pixels, PixelSet free,
                                const BlockWindow& window, int block, BlockClusters& out) {
   if (free == 0) return;
-  const PlaneSums& sums = out.block_sums[static_cast<std::size_t>(block)] =
-      SumOfSet(pixels, free, window);
+  const PlaneSums& sums = out.block_sums[Index(block)] = SumOfSet(pixels, free, window);
 
   // A block is planar if enough of it is measured, nothing in it jumps, and noise explains how
   // it scatters about its plane.
@@ -64,13 +56,9 @@ void BlockClustering::AddBlock(const BlockPixels& pixels, PixelSet free,
   if (HasJump(pixels, static_cast<float>(config_->max_jump_sigmas), window)) return;
   const double grazing = GrazingFactor(sums, fit->plane, *noise_);
   if (!(fit->error < config_->max_block_error * grazing * grazing * sums.n)) return;
-  region_at_[static_cast<std::size_t>(block)] = static_cast<int>(regions_.size());
-  AddRegion(sums, *fit, grazing, block);
-}
-
-void BlockClustering::AddRegion(const PlaneSums& sums, const PlaneFit& fit, double grazing,
-                                int block) {
-  regions_.push_back({sums, fit, grazing, static_cast<int>(regions_.size()), 1, block});
+  const int region = static_cast<int>(regions_.size());
+  region_at_[Index(block)] = region;
+  regions_.push_back({sums, *fit, grazing, region, 1, block});
 }
 
 void BlockClustering::ProposeFirst() {
@@ -78,7 +66,7 @@ void BlockClustering::ProposeFirst() {
   for (int k = 0; k < static_cast<int>(regions_.size()); ++k) {
     const int block = At(k).block;
     const auto beside = [&](int other) {
-      const int j = region_at_[static_cast<std::size_t>(other)];
+      const int j = region_at_[Index(other)];
       if (j < 0) return;
       pairs_.push_back({k, j, k, j});
       first_costs_.push_back(Evaluate(At(k), At(j)));
@@ -91,14 +79,13 @@ void BlockClustering::ProposeFirst() {
 
 void BlockClustering::Merge() {
   next_version_ = static_cast<int>(regions_.size());
-  known_costs_.assign(std::size_t{1} << kKnownBits, {});
   ProposeFirst();
 
   // The cheapest pair merges, unless one of its regions has grown since it was evaluated: then
   // it is put back with what it costs now.
-  while (merges_.min() < MinTree::kNone) {
+  while (!merges_.empty()) {
     const int next = merges_.first();
-    Pair& pair = pairs_[static_cast<std::size_t>(next)];
+    Pair& pair = pairs_[Index(next)];
     pair.i = Root(pair.i), pair.j = Root(pair.j);
     if (pair.i == pair.j) {
       merges_.Change(next, MinTree::kNone);
@@ -113,23 +100,17 @@ void BlockClustering::Merge() {
 
 int BlockClustering::Root(int i) {
   while (true) {
-    int& parent = parent_[static_cast<std::size_t>(i)];
+    int& parent = parent_[Index(i)];
     if (parent == i) return i;
-    i = parent = parent_[static_cast<std::size_t>(parent)];
+    i = parent = parent_[Index(parent)];
   }
 }
 
-/// What the merge of the regions of a pair costs now. Regions that have grown along each other
-/// meet in many pairs, which ask for the same one after the other.
+/// What the merge of the regions of a pair costs now.
 double BlockClustering::Renew(Pair& pair) {
   const Region &a = At(pair.i), &b = At(pair.j);
   pair.version_i = a.version, pair.version_j = b.version;
-  const auto i = static_cast<std::uint32_t>(a.version);
-  const auto j = static_cast<std::uint32_t>(b.version);
-  KnownCost& known = known_costs_[(i * kSpreadI ^ j * kSpreadJ) >> (kVersionBits - kKnownBits)];
-  if (known.version_i != a.version || known.version_j != b.version)
-    known = {a.version, b.version, Evaluate(a, b)};
-  return known.cost;
+  return Evaluate(a, b);
 }
 
 /// What a merge costs, if noise explains it. Flat: of the fit only the error is needed.
@@ -156,7 +137,7 @@ void BlockClustering::Join(int a, int b) {
   into.grazing = GrazingFactor(into.sums, into.fit.plane, *noise_);
   into.blocks += At(b).blocks;
   into.version = next_version_++;
-  parent_[static_cast<std::size_t>(b)] = a;
+  parent_[Index(b)] = a;
 }
 
 /// Numbers the regions that are large enough, in order of their first block.
@@ -166,13 +147,13 @@ void BlockClustering::Number(BlockClusters& out) {
   for (int k = 0; k < static_cast<int>(regions_.size()); ++k) {
     const int root = Root(k);
     if (At(root).blocks < std::max(config_->min_blocks, 1)) continue;
-    int& id = number_[static_cast<std::size_t>(root)];
+    int& id = number_[Index(root)];
     if (id < 0) {
       id = static_cast<int>(out.sums.size());
       out.sums.push_back(At(root).sums);
       out.planes.push_back(At(root).fit.plane);
     }
-    out.region[static_cast<std::size_t>(At(k).block)] = id;
+    out.region[Index(At(k).block)] = id;
   }
 }
 

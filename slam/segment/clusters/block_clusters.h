@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "slam/base/index.h"
 #include "slam/geometry/plane_sums.h"
 #include "slam/segment/clusters/cluster_config.h"
 #include "slam/segment/clusters/min_tree.h"
@@ -56,19 +57,11 @@ class BlockClustering {
     int version_i, version_j;  ///< those of what they are part of, when last evaluated
   };
 
-  /// What the merge of two regions costs.
-  struct KnownCost {
-    int version_i = -1, version_j = -1;
-    double cost = 0.0;
-  };
-  static constexpr int kKnownBits = 12;  ///< 4096 costs in 64 KiB
-
-  Region& At(int i) { return regions_[static_cast<std::size_t>(i)]; }
+  Region& At(int i) { return regions_[Index(i)]; }
   void AddBlocks(const ImageBlocks& blocks, const std::vector<PixelSet>& free,
                  BlockClusters& out);
   void AddBlock(const BlockPixels& pixels, PixelSet free, const BlockWindow& window, int block,
                 BlockClusters& out);
-  void AddRegion(const PlaneSums& sums, const PlaneFit& fit, double grazing, int block);
   void Merge();
   int Root(int i);
   double Renew(Pair& pair);
@@ -87,7 +80,6 @@ class BlockClustering {
   std::vector<double> first_costs_;  ///< one a pair
   MinTree merges_;                   ///< what each pair costs: error added or mean error
   int next_version_ = 0;
-  std::vector<KnownCost> known_costs_;  ///< by a number made of both versions
   std::vector<int> number_;
 };
 

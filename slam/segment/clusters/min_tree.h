@@ -26,7 +26,6 @@ class MinTree {
   /// @param costs  not NaN; kNone: does not take part
   void Begin(const std::vector<double>& costs) {
     leaves_ = std::bit_ceil(costs.size() + 1);
-    costs_ = costs;
     keys_.resize(2 * leaves_);
     for (std::size_t k = 0; k < leaves_; ++k)
       keys_[leaves_ + k] = k < costs.size() ? KeyOf(k, costs[k]) : kLast;
@@ -34,14 +33,13 @@ class MinTree {
       keys_[node] = std::min(keys_[2 * node], keys_[2 * node + 1]);
   }
 
-  /// The number of the smallest cost; 0 if none takes part.
-  int first() const { return keys_[1] == kLast ? 0 : static_cast<int>(NumberOf(keys_[1])); }
-  /// The smallest cost; kNone if none takes part.
-  double min() const { return keys_[1] == kLast ? kNone : costs_[NumberOf(keys_[1])]; }
+  /// Whether none takes part.
+  bool empty() const { return keys_[1] == kLast; }
+  /// The number of the smallest cost; requires one.
+  int first() const { return static_cast<int>(keys_[1] & Numbers()); }
 
   void Change(int k, double cost) {
     const auto number = static_cast<std::size_t>(k);
-    costs_[number] = cost;
     std::int64_t key = KeyOf(number, cost);
     for (std::size_t node = leaves_ + number; node > 0; node /= 2) {
       keys_[node] = key;
@@ -59,13 +57,9 @@ class MinTree {
     const std::int64_t ordered = bits < 0 ? bits ^ kLast : bits;
     return (ordered & ~Numbers()) | static_cast<std::int64_t>(k);
   }
-  std::size_t NumberOf(std::int64_t key) const {
-    return static_cast<std::size_t>(key & Numbers());
-  }
   std::int64_t Numbers() const { return static_cast<std::int64_t>(leaves_) - 1; }
 
-  std::size_t leaves_ = 1;  ///< a power of two
-  std::vector<double> costs_;
+  std::size_t leaves_ = 1;          ///< a power of two
   std::vector<std::int64_t> keys_;  ///< node k is above 2 k and 2 k + 1; the last half are all
 };
 

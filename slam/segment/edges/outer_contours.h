@@ -5,6 +5,8 @@
 #include <opencv2/core/mat.hpp>
 #include <vector>
 
+#include "slam/base/index.h"
+
 namespace slam {
 
 /// The outer contours of the segments of a label image, each in the order in which one walks
@@ -29,9 +31,7 @@ class OuterContours {
   const std::vector<cv::Point>& points() const { return points_; }
 
   /// The label image's value at a pixel of it.
-  int LabelAt(const cv::Point& at) const {
-    return cells_[static_cast<std::size_t>(CellAt(at))];
-  }
+  int LabelAt(const cv::Point& at) const { return cells_[Index(CellAt(at))]; }
 
   /// Direction from a pixel to the outside of its segment: the sum of its outside neighbours,
   /// two to each side.

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <limits>
 
+#include "slam/base/index.h"
 #include "slam/segment/pixels/block_pixels.h"
 
 namespace slam {
@@ -47,9 +48,7 @@ bool EndsAtCrease(const Outside& outside, const cv::Point& at, const Eigen::Vect
     if (!outside.Contains(beyond)) continue;
     const int label = outside.contours.LabelAt(beyond);
     if (label == 0 || label == outside.value) continue;
-    const auto area_m2 = [&](int value) {
-      return outside.areas_m2[static_cast<std::size_t>(value - 1)];
-    };
+    const auto area_m2 = [&](int value) { return outside.areas_m2[Index(value - 1)]; };
     return area_m2(label) >= outside.config.min_rising_area * area_m2(outside.value);
   }
   return false;
@@ -75,21 +74,21 @@ EdgeKind KindBeyondGap(const Outside& outside, const cv::Point& at, const Eigen:
 /// @param step_sigmas  set to the residual of what lies beyond
 EdgeKind KindBeyond(const Outside& outside, const cv::Point& at, const Eigen::Vector2d& outward,
                     float& step_sigmas) {
-  constexpr std::size_t kNone = std::numeric_limits<std::size_t>::max();
+  constexpr std::size_t kUnmeasured = std::numeric_limits<std::size_t>::max();
   const EdgeConfig& config = outside.config;
   const Eigen::Vector2d step = outward / outward.cwiseAbs().maxCoeff();
 
   // The nearest and the farthest that is measured within reach; what lies between does not
   // count.
-  std::size_t nearest = kNone, farthest = kNone;
+  std::size_t nearest = kUnmeasured, farthest = kUnmeasured;
   int k = 1;
-  for (; k <= config.reach_px && nearest == kNone; ++k) {
+  for (; k <= config.reach_px && nearest == kUnmeasured; ++k) {
     const cv::Point beyond = Along(at, step, k);
     if (!outside.Contains(beyond)) return EdgeKind::kBorder;
     const std::size_t i = outside.Index(beyond);
     if (outside.grid.g[i] > 0) nearest = farthest = i;
   }
-  if (nearest == kNone) return KindBeyondGap(outside, at, step, step_sigmas);
+  if (nearest == kUnmeasured) return KindBeyondGap(outside, at, step, step_sigmas);
   for (int far = config.reach_px; far >= k; --far) {
     const cv::Point beyond = Along(at, step, far);
     if (!outside.Contains(beyond) || !(outside.grid.g[outside.Index(beyond)] > 0)) continue;

@@ -1,11 +1,13 @@
 #include "slam/segment/growth/block_hypotheses.h"
 
+#include "slam/base/index.h"
+
 namespace slam {
 
 void BlockHypotheses::Add(int block, int label, int plane) {
   const int added = static_cast<int>(list_.size());
   list_.push_back({});
-  int* link = &first_[static_cast<std::size_t>(block)];
+  int* link = &first_[Index(block)];
   while (*link != kNoHypothesis && At(*link).label < label) link = &At(*link).next;
   At(added).label = label, At(added).plane = plane;
   At(added).next = *link;
@@ -13,7 +15,7 @@ void BlockHypotheses::Add(int block, int label, int plane) {
 }
 
 void BlockHypotheses::Remove(int block, int label) {
-  int* link = &first_[static_cast<std::size_t>(block)];
+  int* link = &first_[Index(block)];
   while (At(*link).label != label) link = &At(*link).next;
   *link = At(*link).next;
 }

@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "slam/base/index.h"
 #include "slam/segment/pixels/pixel_set.h"
 
 namespace slam {
@@ -37,9 +38,9 @@ class BlockHypotheses {
   int Find(int block, int label) const;
 
   /// The first hypothesis of a block; kNoHypothesis if it has none.
-  int First(int block) const { return first_[static_cast<std::size_t>(block)]; }
-  Hypothesis& At(int k) { return list_[static_cast<std::size_t>(k)]; }
-  const Hypothesis& At(int k) const { return list_[static_cast<std::size_t>(k)]; }
+  int First(int block) const { return first_[Index(block)]; }
+  Hypothesis& At(int k) { return list_[Index(k)]; }
+  const Hypothesis& At(int k) const { return list_[Index(k)]; }
   std::size_t size() const { return list_.size(); }
 
   /// The pixels of a block that more than one hypothesis has in that set.

@@ -4,7 +4,7 @@
 #include <bit>
 #include <cmath>
 
-#include "slam/segment/growth/room.h"
+#include "slam/base/index.h"
 #include "slam/segment/pixels/block_sums.h"
 
 namespace slam {
@@ -25,9 +25,6 @@ void PixelGrowth::Begin(const ImageBlocks& blocks, const GrowthConfig& config) {
   active_.clear(), next_active_.clear(), is_active_.assign(count, 0);
   is_stale_.assign(count, 0);
   cost_count_ = 0;
-  place_.clear();
-  for (int r = 0; r < blocks.rows; ++r)
-    for (int c = 0; c < blocks.cols; ++c) place_.emplace_back(c, r);
 }
 
 int PixelGrowth::AddPlane(const LabelPlane& plane, const std::vector<LabelPlane>& local) {
@@ -46,7 +43,7 @@ bool PixelGrowth::Reach(int block, int label) {
 }
 
 void PixelGrowth::Activate(int block) {
-  std::uint8_t& is_active = is_active_[static_cast<std::size_t>(block)];
+  std::uint8_t& is_active = is_active_[Index(block)];
   if (is_active == 0) active_.push_back(block), is_active = 1;
 }
 
@@ -63,7 +60,7 @@ bool PixelGrowth::Measure(int block, int hypothesis) {
 
 void PixelGrowth::FindCostsOf(int block, int hypothesis) {
   on_.hypotheses.At(hypothesis).costs = static_cast<int>(cost_count_++);
-  Provide(costs_, cost_count_ * kBlockPixels);
+  if (costs_.size() < cost_count_ * kBlockPixels) costs_.resize(cost_count_ * kBlockPixels);
   FindCosts(on_.blocks->PixelsOf(block), on_.PlaneOf(hypothesis), NearSigmas(config_),
             on_.hypotheses.At(hypothesis).near, CostsOf(hypothesis));
 }
@@ -93,7 +90,7 @@ void PixelGrowth::Assign(int block) {
 /// @returns whether anything has changed.
 bool PixelGrowth::LabelBlock(int block) {
   BlockHypotheses& all = on_.hypotheses;
-  std::uint8_t& is_stale = is_stale_[static_cast<std::size_t>(block)];
+  std::uint8_t& is_stale = is_stale_[Index(block)];
   const int first = all.First(block);
   for (int k = first; k != kNoHypothesis; k = all.At(k).next) {
     if (!all.At(k).measured && Measure(block, k)) is_stale = 1;
@@ -124,7 +121,7 @@ void PixelGrowth::Grow() {
     std::swap(active_, next_active_);
     active_.clear();
     const auto unchanged = [&](int block) {
-      is_active_[static_cast<std::size_t>(block)] = 0;
+      is_active_[Index(block)] = 0;
       return !LabelBlock(block);
     };
     next_active_.erase(std::remove_if(next_active_.begin(), next_active_.end(), unchanged),
@@ -136,11 +133,11 @@ void PixelGrowth::Grow() {
 void PixelGrowth::DropUseless() {
   gains_.FindUseless(on_, config_, useless_);
   for (int label = 0; label < static_cast<int>(useless_.size()); ++label) {
-    if (useless_[static_cast<std::size_t>(label)] == 0) continue;
+    if (useless_[Index(label)] == 0) continue;
     on_.reached.VisitBlocks(label, [&](int block) {
       on_.hypotheses.Remove(block, label);
       Activate(block);
-      is_stale_[static_cast<std::size_t>(block)] = 1;
+      is_stale_[Index(block)] = 1;
       return false;
     });
     on_.reached.Forget(label);
@@ -155,15 +152,13 @@ void PixelGrowth::Replace(const std::vector<LabelPlane>& planes, const std::vect
   seeds_.clear();
   for (int block = 0; block < on_.blocks->count(); ++block) {
     for (int k = all.First(block); k != kNoHypothesis; k = all.At(k).next) {
-      if (all.At(k).owned != 0)
-        seeds_.emplace_back(block, into[static_cast<std::size_t>(all.At(k).label)]);
+      if (all.At(k).owned != 0) seeds_.emplace_back(block, into[Index(all.At(k).label)]);
     }
   }
 
   on_.planes.clear(), on_.pixel_planes.clear(), on_.planes_of.clear();
   all.Begin(static_cast<std::size_t>(on_.blocks->count())), on_.reached.Clear();
-  for (std::size_t k = 0; k < planes.size(); ++k)
-    AddPlane(planes[k], local.empty() ? std::vector<LabelPlane>{} : local[k]);
+  for (std::size_t k = 0; k < planes.size(); ++k) AddPlane(planes[k], local[k]);
   cost_count_ = 0;
   std::fill(is_stale_.begin(), is_stale_.end(), 1);
   for (const auto& [block, label] : seeds_) Seed(block, label);
@@ -194,7 +189,7 @@ std::vector<PixelSet> PixelGrowth::FindUnexplained(double bias, double standard_
       const int n = std::popcount(owned);
       const double sum = SumResiduals(on_.blocks->PixelsOf(block), on_.PlaneOf(k), owned);
       const double bound = bias + standard_errors / std::sqrt(static_cast<double>(n));
-      if (std::abs(sum) < bound * n) unexplained[static_cast<std::size_t>(block)] &= ~owned;
+      if (std::abs(sum) < bound * n) unexplained[Index(block)] &= ~owned;
     }
   }
   return unexplained;
@@ -210,7 +205,7 @@ void PixelGrowth::SumParts(const std::vector<PlaneSums>& whole, PartsOnBlocks& o
       if (at.owned == 0) continue;
       const bool has_all = at.owned == on_.blocks->MeasuredOf(block);
       out.parts.push_back({at.label, has_all
-                                         ? whole[static_cast<std::size_t>(block)]
+                                         ? whole[Index(block)]
                                          : SumOfSet(on_.blocks->PixelsOf(block), at.owned)});
     }
   }

@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "slam/base/index.h"
 #include "slam/geometry/plane_sums.h"
 #include "slam/segment/growth/block_assignment.h"
 #include "slam/segment/growth/growth_config.h"
@@ -28,7 +29,7 @@ class PixelGrowth {
 
   /// Adds a plane. @returns its label.
   /// @param local  its planes by tiles (FitLocally); empty: the plane itself everywhere
-  int AddPlane(const LabelPlane& plane, const std::vector<LabelPlane>& local = {});
+  int AddPlane(const LabelPlane& plane, const std::vector<LabelPlane>& local);
   /// Lets a plane begin in a block.
   void Seed(int block, int label) {
     if (Reach(block, label)) Activate(block);
@@ -41,10 +42,10 @@ class PixelGrowth {
   void DropUseless();
   /// Goes on with other planes for the labels: `planes` in place of the old ones and the pixels
   /// of label k counted as those of into[k]; everything is grown anew from there.
-  /// @param local  of each label its planes by tiles, as for AddPlane; empty: none has any
+  /// @param local  of each label its planes by tiles, as for AddPlane
   void Replace(const std::vector<LabelPlane>& planes, const std::vector<int>& into,
-               const std::vector<std::vector<LabelPlane>>& local = {});
-  bool IsLocal(int label) const { return on_.planes_of[static_cast<std::size_t>(label)].local; }
+               const std::vector<std::vector<LabelPlane>>& local);
+  bool IsLocal(int label) const { return on_.planes_of[Index(label)].local; }
 
   /// The measured pixels of each block but for those that their planes explain: in the block
   /// their mean residual from the plane is less than `bias` + `standard_errors` / sqrt(the
@@ -73,11 +74,12 @@ class PixelGrowth {
   bool LabelBlock(int block);
   void SpreadFrom(int block);
 
-  cv::Point PlaceOf(int block) const { return place_[static_cast<std::size_t>(block)]; }
+  cv::Point PlaceOf(int block) const {
+    return {block % on_.blocks->cols, block / on_.blocks->cols};
+  }
 
   GrowthConfig config_;
   PlanesOnBlocks on_;
-  std::vector<cv::Point> place_;           ///< column and row of each block
   std::vector<int> active_, next_active_;  ///< blocks that planes have reached
   std::vector<std::uint8_t> is_active_;
   /// Blocks whose pixels are not assigned to their hypotheses yet.

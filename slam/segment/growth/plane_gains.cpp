@@ -5,6 +5,8 @@
 #include <bit>
 #include <numeric>
 
+#include "slam/base/index.h"
+
 namespace slam {
 
 /// Counts the pixels of every label and bounds what they gain from below. Where no other plane
@@ -27,7 +29,7 @@ void PlaneGains::BoundGains(const PlanesOnBlocks& on) {
       const int shared = std::popcount(at.owned & wide_of_several);
       const double bound =
           is_only ? GainAlone(pixels) : alone * (pixels - shared) - beside * shared;
-      bounds_there_[static_cast<std::size_t>(k)] = bound;
+      bounds_there_[Index(k)] = bound;
       const auto label = static_cast<std::size_t>(at.label);
       pixels_[label] += pixels, bounds_[label] += bound;
     }
@@ -42,7 +44,7 @@ double PlaneGains::GainOf(const PlanesOnBlocks& on, int hypothesis, int block,
   const BlockHypotheses& hypotheses = on.hypotheses;
   const int first = hypotheses.First(block);
   if (hypotheses.At(first).next == kNoHypothesis || hypotheses.At(hypothesis).owned == 0)
-    return bounds_there_[static_cast<std::size_t>(hypothesis)];
+    return bounds_there_[Index(hypothesis)];
 
   // The nearest plane at each pixel, of those that stay and of those that go.
   const BlockPixels& pixels = on.blocks->PixelsOf(block);
@@ -52,7 +54,7 @@ double PlaneGains::GainOf(const PlanesOnBlocks& on, int hypothesis, int block,
   bool any_goes = false;
   for (int other = first; other != kNoHypothesis; other = hypotheses.At(other).next) {
     if (other == hypothesis || (hypotheses.At(other).wide & owned) == 0) continue;
-    const bool is_useless = useless[static_cast<std::size_t>(hypotheses.At(other).label)] != 0;
+    const bool is_useless = useless[Index(hypotheses.At(other).label)] != 0;
     LowerToDistance(pixels, on.PlaneOf(other), is_useless ? goes.data() : stays.data());
     any_goes |= is_useless;
   }
@@ -66,15 +68,15 @@ bool PlaneGains::IsUseful(const PlanesOnBlocks& on, int label,
                           const std::vector<std::uint8_t>& useless) {
   // sigmas^2 a pixel: more than the rounding of a sum takes away.
   constexpr double kSpare = 1e-6;
-  const int pixels = std::max(pixels_[static_cast<std::size_t>(label)], 1);
+  const int pixels = std::max(pixels_[Index(label)], 1);
   const double enough = min_gain_ * pixels, surely = enough + kSpare * pixels;
-  double gain = 0.0, others = bounds_[static_cast<std::size_t>(label)];
+  double gain = 0.0, others = bounds_[Index(label)];
   if (others >= surely) return true;
   bool is_sure = false;
   on.reached.VisitBlocks(label, [&](int block) {
     const int k = on.hypotheses.Find(block, label);
     gain += GainOf(on, k, block, useless);
-    others -= bounds_there_[static_cast<std::size_t>(k)];
+    others -= bounds_there_[Index(k)];
     is_sure = gain + others >= surely;
     return is_sure;
   });

@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "slam/base/index.h"
 #include "slam/segment/growth/block_hypotheses.h"
 #include "slam/segment/growth/growth_config.h"
 #include "slam/segment/growth/reached_blocks.h"
@@ -26,14 +27,14 @@ struct PlanesOnBlocks {
 
   /// The place of a label's plane in a block.
   int PlaneIndex(int block, int label) const {
-    const Planes& own = planes_of[static_cast<std::size_t>(label)];
+    const Planes& own = planes_of[Index(label)];
     if (!own.local) return own.first;
     const int cols = blocks->cols;
     return own.first + block / cols / kTile_blocks * TileCount(cols) +
            block % cols / kTile_blocks;
   }
   const PixelPlane& PlaneOf(int hypothesis) const {
-    return pixel_planes[static_cast<std::size_t>(hypotheses.At(hypothesis).plane)];
+    return pixel_planes[Index(hypotheses.At(hypothesis).plane)];
   }
 };
 

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "slam/base/index.h"
+
 namespace slam {
 
 void ReachedBlocks::Begin(int cols, int rows) {
@@ -26,7 +28,7 @@ void ReachedBlocks::AddLabel() {
 void ReachedBlocks::Forget(int label) {
   std::copy(none_.begin(), none_.end(),
             bits_.begin() + static_cast<std::ptrdiff_t>(Row(-1, label)));
-  rows_of_[static_cast<std::size_t>(label)] = {row_count_, -1};
+  rows_of_[Index(label)] = {row_count_, -1};
 }
 
 }  // namespace slam

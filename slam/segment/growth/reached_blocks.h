@@ -7,6 +7,8 @@
 #include <opencv2/core/types.hpp>
 #include <vector>
 
+#include "slam/base/index.h"
+
 namespace slam {
 
 /// Which blocks of an image each label has reached: a bit for each block, row by row. Around
@@ -31,7 +33,7 @@ class ReachedBlocks {
     const unsigned bit = 1u << c % 8;
     if ((bits & bit) != 0) return false;
     bits = static_cast<std::uint8_t>(bits | bit);
-    Rows& rows = rows_of_[static_cast<std::size_t>(label)];
+    Rows& rows = rows_of_[Index(label)];
     rows = {std::min(rows.first, place.y), std::max(rows.last, place.y)};
     return true;
   }
@@ -54,7 +56,7 @@ class ReachedBlocks {
   /// that this is enough.
   template <typename Visit>
   void VisitBlocks(int label, const Visit& visit) const {
-    const Rows rows = rows_of_[static_cast<std::size_t>(label)];
+    const Rows rows = rows_of_[Index(label)];
     for (int r = rows.first; r <= rows.last; ++r) {
       const std::size_t row = Row(r, label), margin = Row(r, 0);
       for (std::size_t byte = 0; byte < row_bytes_; ++byte) {

@@ -4,6 +4,8 @@
 #include <cstddef>
 #include <opencv2/core/types.hpp>
 
+#include "slam/base/index.h"
+
 namespace slam {
 namespace {
 
@@ -34,7 +36,7 @@ cv::Rect TilesOf(const PartsOnBlocks& on, const std::vector<int>& into, int labe
   for (int block = 0; block < on.cols * on.rows; ++block) {
     const auto b = static_cast<std::size_t>(block);
     for (std::size_t k = on.first[b]; k < on.first[b + 1]; ++k)
-      if (into[static_cast<std::size_t>(on.parts[k].label)] == label)
+      if (into[Index(on.parts[k].label)] == label)
         blocks |= cv::Rect(block % on.cols, block / on.cols, 1, 1);
   }
   const int left = std::max(blocks.x - kAround_blocks, 0) / kTile_blocks,
@@ -48,8 +50,7 @@ cv::Rect TilesOf(const PartsOnBlocks& on, const std::vector<int>& into, int labe
 
 std::vector<PlaneSums> SumParts(const PartsOnBlocks& on, std::size_t label_count) {
   std::vector<PlaneSums> sums(label_count);
-  for (const BlockPart& part : on.parts)
-    sums[static_cast<std::size_t>(part.label)] += part.sums;
+  for (const BlockPart& part : on.parts) sums[Index(part.label)] += part.sums;
   return sums;
 }
 
@@ -66,12 +67,10 @@ std::vector<LabelPlane> FitLocally(const PartsOnBlocks& on, const std::vector<in
       on.VisitWindow(kTile_blocks * c - kAround_blocks, kTile_blocks * r - kAround_blocks,
                      kTile_blocks * (c + 1) - 1 + kAround_blocks,
                      kTile_blocks * (r + 1) - 1 + kAround_blocks, [&](const BlockPart& part) {
-                       if (into[static_cast<std::size_t>(part.label)] == label)
-                         sums += part.sums;
+                       if (into[Index(part.label)] == label) sums += part.sums;
                      });
       if (!(sums.w > 0)) continue;
-      planes[static_cast<std::size_t>(r * cols + c)].plane =
-          FitNear(sums, plane.plane, correlated, config);
+      planes[Index(r * cols + c)].plane = FitNear(sums, plane.plane, correlated, config);
     }
   }
   return planes;

@@ -7,13 +7,14 @@
 #include <numeric>
 #include <utility>
 
+#include "slam/base/index.h"
 #include "slam/segment/joining/surfaces.h"
 
 namespace slam {
 namespace {
 
 constexpr int kReach_blocks = 2;       // around a place: a strip is short against the bend
-constexpr int kMinContact_px = 8;      // what touches in fewer may do so by stray pixels
+constexpr int kMinContact_sides = 4;   // of pixels; fewer may touch by stray pixels
 constexpr double kMinStrip_px = 24.0;  // pixels; with fewer a strip is noise
 constexpr double kOverlap = 2.0 * kReach_blocks + 1;  // places that share a strip
 
@@ -112,7 +113,7 @@ class SurfaceJoining {
     into_.resize(bent_.size());
     std::iota(into_.begin(), into_.end(), 0);
   }
-  void MeasureBorders(ContactPixels* contacts);
+  void MeasureBorders(LabelPairs<int>* contacts);
   void JoinBest();
   JoinedLabels Joined() && { return {std::move(into_), std::move(sums_), std::move(bent_)}; }
 
@@ -128,7 +129,7 @@ class SurfaceJoining {
     Border border;
   };
 
-  void Look(const BlockPart& a, const BlockPart& b, int block, ContactPixels* contacts);
+  void Look(const BlockPart& a, const BlockPart& b, int block, LabelPairs<int>* contacts);
   bool MayBeOne(int a, int b) const;
   bool IsSmooth(const Border& border) const;
   void Join(std::size_t pair);
@@ -145,14 +146,15 @@ class SurfaceJoining {
 
 /// Measures how two labels meet around a block.
 void SurfaceJoining::Look(const BlockPart& a, const BlockPart& b, int block,
-                          ContactPixels* contacts) {
+                          LabelPairs<int>* contacts) {
   if (a.label == b.label) return;
   const auto [low, high] = std::minmax(a.label, b.label);
   Candidate& candidate = candidates_.Of(low, high);
   if (!candidate.asked) {
     candidate.asked = true;
-    candidate.possible = (contacts == nullptr || contacts->Of(low, high) >= kMinContact_px) &&
-                         MayBeOne(low, high);
+    candidate.possible =
+        (contacts == nullptr || contacts->Of(low, high) >= kMinContact_sides) &&
+        MayBeOne(low, high);
   }
   if (!candidate.possible || candidate.last_block == block) return;
   candidate.last_block = block;
@@ -167,10 +169,10 @@ void SurfaceJoining::Look(const BlockPart& a, const BlockPart& b, int block,
   AddPlace(strip_a, strip_b, noise_, config_, candidate.border);
 }
 
-void SurfaceJoining::MeasureBorders(ContactPixels* contacts) {
+void SurfaceJoining::MeasureBorders(LabelPairs<int>* contacts) {
   candidates_.Clear(static_cast<int>(into_.size()));
   for (int block = 0; block < on_.cols * on_.rows; ++block) {
-    const auto first = on_.first[static_cast<std::size_t>(block)],
+    const auto first = on_.first[Index(block)],
                end = on_.first[static_cast<std::size_t>(block) + 1];
     const int c = block % on_.cols, r = block / on_.cols;
     for (std::size_t k = first; k < end; ++k) {
@@ -189,8 +191,7 @@ void SurfaceJoining::MeasureBorders(ContactPixels* contacts) {
 
 /// Whether two labels as one plane keep within the bend.
 bool SurfaceJoining::MayBeOne(int a, int b) const {
-  return UnionChi2(sums_[static_cast<std::size_t>(a)], sums_[static_cast<std::size_t>(b)],
-                   noise_, config_) < config_.max_union_chi2;
+  return UnionChi2(sums_[Index(a)], sums_[Index(b)], noise_, config_) < config_.max_union_chi2;
 }
 
 bool SurfaceJoining::IsSmooth(const Border& border) const {
@@ -203,10 +204,10 @@ bool SurfaceJoining::IsSmooth(const Border& border) const {
 /// Joins the labels of a pair; their borders with a third become one.
 void SurfaceJoining::Join(std::size_t pair) {
   const int a = pairs_[pair].a, b = pairs_[pair].b;
-  PlaneSums& other_sums = sums_[static_cast<std::size_t>(b)];
-  sums_[static_cast<std::size_t>(a)] += other_sums;
+  PlaneSums& other_sums = sums_[Index(b)];
+  sums_[Index(a)] += other_sums;
   other_sums = {};
-  bent_[static_cast<std::size_t>(a)] = config_.bend_ratio > 0.0 ? 1 : 0;
+  bent_[Index(a)] = config_.bend_ratio > 0.0 ? 1 : 0;
   for (int& target : into_) target = target == b ? a : target;
   pairs_.erase(pairs_.begin() + static_cast<std::ptrdiff_t>(pair));
   for (Pair& other : pairs_) {
@@ -253,7 +254,7 @@ void SurfaceJoining::JoinBest() {
 }  // namespace
 
 JoinedLabels JoinSurfaces(const PartsOnBlocks& on, std::size_t label_count,
-                          ContactPixels* contacts, std::vector<std::uint8_t> bent,
+                          LabelPairs<int>* contacts, std::vector<std::uint8_t> bent,
                           const DepthNoise& noise, const JoinConfig& config) {
   bent.resize(label_count);
   SurfaceJoining joining(on, std::move(bent), noise, config);

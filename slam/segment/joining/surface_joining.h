@@ -9,9 +9,6 @@
 
 namespace slam {
 
-/// Pixels of either of two labels that touch one of the other.
-using ContactPixels = LabelPairs<int>;
-
 /// Which labels are one surface.
 struct JoinedLabels {
   std::vector<int> into;           ///< label that each label has become part of, or itself
@@ -26,10 +23,10 @@ struct JoinedLabels {
 /// bend does over so few pixels, and the union as one plane keeps within the bend, there is one
 /// surface. Of what has been joined the whole border counts, so a step along a part of it holds.
 ///
-/// @param contacts  labels that touch; null: those of neighbouring blocks
+/// @param contacts  sides of pixels that labels share; null: all of neighbouring blocks touch
 /// @param bent      labels that are bent already; empty: none
 JoinedLabels JoinSurfaces(const PartsOnBlocks& on, std::size_t label_count,
-                          ContactPixels* contacts, std::vector<std::uint8_t> bent,
+                          LabelPairs<int>* contacts, std::vector<std::uint8_t> bent,
                           const DepthNoise& noise, const JoinConfig& config);
 
 }  // namespace slam

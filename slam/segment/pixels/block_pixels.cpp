@@ -24,19 +24,18 @@ class RowErrors {
         g_(block.g + u),
         stride_(block.stride),
         x_stride_(block.x_stride),
-        y_stride_(block.y_stride),
         a_(AllLanes(p.a)),
         b_(AllLanes(p.b)),
         c_(AllLanes(p.c)) {}
   SLAM_INLINE FloatLanes At(std::ptrdiff_t v) const {
     const FloatLanes predicted =
-        a_ * Lanes(x_ + v * x_stride_) + b_ * Lanes(y_ + v * y_stride_) + c_;
+        a_ * Lanes(x_ + v * x_stride_) + b_ * Lanes(y_ + v * stride_) + c_;
     return (Lanes(q_ + v * stride_) - predicted) * Lanes(g_ + v * stride_);
   }
 
  private:
   const float *x_, *y_, *q_, *g_;
-  std::ptrdiff_t stride_, x_stride_, y_stride_;
+  std::ptrdiff_t stride_, x_stride_;
   FloatLanes a_, b_, c_;
 };
 

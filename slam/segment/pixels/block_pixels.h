@@ -11,9 +11,9 @@ namespace slam {
 /// A block of 8 x 8 pixels of a depth image that may be read kVoteReach_px beyond each side:
 /// where the image ends it goes on with pixels that are not measured (ImageBlocks).
 struct BlockPixels {
-  const float *x, *y, *q, *g;      ///< where the first pixel's are (DepthGrid)
-  int stride, x_stride, y_stride;  ///< from row to row of q and g, of x and of y
-  int width, height;               ///< what of it is in the image
+  const float *x, *y, *q, *g;  ///< where the first pixel's are (DepthGrid)
+  int stride, x_stride;        ///< from row to row; of x: 0 where columns have one
+  int width, height;           ///< what of it is in the image
 };
 
 /// A plane in the numbers that pixels are in.
@@ -26,7 +26,7 @@ struct PixelPlane {
   float a, b, c, grazing;
 };
 
-/// The same as of the LabelPlane, for many pixels.
+/// Residual of a pixel from a plane in sigmas; positive: the pixel is nearer than the plane.
 inline float ResidualSigmas(const DepthGrid& grid, std::size_t i, const PixelPlane& p) {
   const float predicted = p.a * grid.x[i] + p.b * grid.y[i] + p.c;
   return (grid.q[i] - predicted) * grid.g[i] / p.grazing;

@@ -71,8 +71,7 @@ SLAM_INLINE FourSums SumFour(const BlockPixels& block, const BlockWindow& window
                              FourInts columns) {
   FourSums four;
   const std::ptrdiff_t v0 = window.v;
-  const float *x = block.x + (v0 * block.x_stride + u),
-              *y = block.y + (v0 * block.y_stride + u);
+  const float *x = block.x + (v0 * block.x_stride + u), *y = block.y + (v0 * block.stride + u);
   const float *q = block.q + (v0 * block.stride + u), *g = block.g + (v0 * block.stride + u);
   columns >>= window.v;
 #pragma GCC unroll 1  // sums stay in registers
@@ -86,7 +85,7 @@ SLAM_INLINE FourSums SumFour(const BlockPixels& block, const BlockWindow& window
       x += block.x_stride;
     }
     columns >>= 1;
-    y += block.y_stride, q += block.stride, g += block.stride;
+    y += block.stride, q += block.stride, g += block.stride;
   }
   if (kOneX) four.SetX(Load4(block.x + u));
   return four;

@@ -34,9 +34,9 @@ SLAM_LANES static void SetDepthRow(const float* z, int count, const FloatNoise& 
   for (; u < count; ++u) SetDepthAt(z[u], in_float, q + u, g + u);
 }
 
-/// Sets column_x and row_y if that is all there is in x and y.
+/// Sets column_x if that is all there is in x.
 static void FindSharedRays(DepthGrid& grid) {
-  grid.column_x.clear(), grid.row_y.clear();
+  grid.column_x.clear();
   const auto width = static_cast<std::ptrdiff_t>(grid.width);
   for (std::ptrdiff_t v = 0; v < grid.height; ++v) {
     const auto x = grid.x.begin() + v * width, y = grid.y.begin() + v * width;
@@ -44,9 +44,6 @@ static void FindSharedRays(DepthGrid& grid) {
     if (std::any_of(y, y + width, [y](float other) { return other != *y; })) return;
   }
   grid.column_x.assign(grid.x.begin(), grid.x.begin() + width);
-  for (std::ptrdiff_t v = 0; v < grid.height; ++v)
-    grid.row_y.insert(grid.row_y.end(), DepthGrid::kRowCopies,
-                      grid.y[static_cast<std::size_t>(v * width)]);
 }
 
 void SetRays(const cv::Mat2d& rays, DepthGrid& grid) {

@@ -18,12 +18,8 @@ struct DepthGrid {
   std::vector<float> q;     ///< inverse depth, 1/metres; 0 = no measurement
   std::vector<float> g;     ///< 1 / sigma_q = z^2 / sigma(z); 0 = no measurement
 
-  /// The same for cameras without distortion: x of each column, and y of each row, again and
-  /// again over a window around a block. They stay in the processor's cache. Empty otherwise.
-  std::vector<float> column_x, row_y;
-
-  /// Copies of a y: as many as the window around a block has columns.
-  static constexpr int kRowCopies = kBlock_px + 2 * kVoteReach_px;
+  /// For cameras without distortion x of each column; empty otherwise.
+  std::vector<float> column_x;
 
   int Index(int u, int v) const { return v * width + u; }
 };
@@ -33,8 +29,7 @@ void SetRays(const cv::Mat2d& rays, DepthGrid& grid);
 
 /// Sets q and g.
 /// @param depth_m  planar z, metres; anything not finite, not positive or not below max_depth_m
-/// is
-///                 no measurement
+///                 is no measurement
 /// @throws std::invalid_argument if depth and rays differ in size.
 void SetDepth(const cv::Mat1f& depth_m, const DepthNoise& noise, double max_depth_m,
               DepthGrid& grid);

@@ -20,14 +20,12 @@ bool IsInside(const DepthGrid& grid, int u, int v) {
 BlockPixels BlockInGrid(const DepthGrid& grid, int u, int v) {
   const auto i = static_cast<std::ptrdiff_t>(v) * grid.width + u;
   const bool one_x = !grid.column_x.empty();
-  const std::ptrdiff_t row = static_cast<std::ptrdiff_t>(v) * DepthGrid::kRowCopies;
   return {one_x ? grid.column_x.data() + u : grid.x.data() + i,
-          one_x ? grid.row_y.data() + (row + kVoteReach_px) : grid.y.data() + i,
+          grid.y.data() + i,
           grid.q.data() + i,
           grid.g.data() + i,
           grid.width,
           one_x ? 0 : grid.width,
-          one_x ? DepthGrid::kRowCopies : grid.width,
           std::min(kBlock_px, grid.width - u),
           std::min(kBlock_px, grid.height - v)};
 }
@@ -48,7 +46,7 @@ BlockPixels CopyOfBlock(const DepthGrid& grid, int u, int v, float* copy) {
   };
   block.x = copy_of(grid.x), block.y = copy_of(grid.y);
   block.q = copy_of(grid.q), block.g = copy_of(grid.g);
-  block.stride = block.x_stride = block.y_stride = kCopySide_px;
+  block.stride = block.x_stride = kCopySide_px;
   return block;
 }
 

@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "slam/base/index.h"
 #include "slam/segment/pixels/block_pixels.h"
 
 namespace slam {
@@ -16,10 +17,8 @@ struct ImageBlocks {
   std::vector<float> copies;
 
   int count() const { return cols * rows; }
-  const BlockPixels& PixelsOf(int block) const {
-    return pixels[static_cast<std::size_t>(block)];
-  }
-  PixelSet MeasuredOf(int block) const { return measured[static_cast<std::size_t>(block)]; }
+  const BlockPixels& PixelsOf(int block) const { return pixels[Index(block)]; }
+  PixelSet MeasuredOf(int block) const { return measured[Index(block)]; }
 };
 
 /// @param blocks  what is in it is forgotten; reads from the grid as long as it is used

@@ -4,13 +4,15 @@
 #include <cstddef>
 #include <numeric>
 
+#include "slam/base/index.h"
+
 namespace slam {
 namespace {
 
 int Root(std::vector<int>& parent, int i) {
-  while (parent[static_cast<std::size_t>(i)] != i) {
-    int& up = parent[static_cast<std::size_t>(i)];
-    up = parent[static_cast<std::size_t>(up)];
+  while (parent[Index(i)] != i) {
+    int& up = parent[Index(i)];
+    up = parent[Index(up)];
     i = up;
   }
   return i;
@@ -19,7 +21,7 @@ int Root(std::vector<int>& parent, int i) {
 /// The lower number becomes the root, so that a root is its component's first run.
 void Unite(std::vector<int>& parent, int i, int j) {
   i = Root(parent, i), j = Root(parent, j);
-  parent[static_cast<std::size_t>(std::max(i, j))] = std::min(i, j);
+  parent[Index(std::max(i, j))] = std::min(i, j);
 }
 
 }  // namespace
@@ -29,14 +31,14 @@ void ConnectRuns(LabelComponents& components) {
   std::vector<int>& of_run = components.component;  // at first a run of the same component
   of_run.resize(runs.runs.size());
   std::iota(of_run.begin(), of_run.end(), 0);
-  VisitRunsBelow(runs, [&](std::size_t a, std::size_t b, int, int, int) {
+  VisitRunsBelow(runs, [&](std::size_t a, std::size_t b, int, int) {
     if (runs.runs[a].label == runs.runs[b].label && runs.runs[a].label != kNoLabel)
       Unite(of_run, static_cast<int>(a), static_cast<int>(b));
   });
 
   // Components are numbered by their first run, which is the root.
   for (std::size_t k = 0; k < of_run.size(); ++k)
-    of_run[k] = of_run[static_cast<std::size_t>(of_run[k])];  // lower ones are roots' already
+    of_run[k] = of_run[Index(of_run[k])];  // lower ones are roots' already
   components.list.clear();
   for (std::size_t row = 0; row + 1 < runs.rows.size(); ++row) {
     for (std::size_t k = runs.rows[row]; k < runs.rows[row + 1]; ++k) {
@@ -50,7 +52,7 @@ void ConnectRuns(LabelComponents& components) {
       } else {
         of_run[k] = of_run[root];
       }
-      components.list[static_cast<std::size_t>(of_run[k])].pixels += run.end - run.begin;
+      components.list[Index(of_run[k])].pixels += run.end - run.begin;
     }
   }
 }

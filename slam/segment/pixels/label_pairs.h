@@ -5,6 +5,8 @@
 #include <utility>
 #include <vector>
 
+#include "slam/base/index.h"
+
 namespace slam {
 
 /// A value for each pair of labels that touch. Its memory serves again.
@@ -25,9 +27,9 @@ class LabelPairs {
   /// The value of a pair; a new one is Value{}. Another pair may move it.
   Value& Of(int a, int b) {
     const std::pair<int, int> labels = std::minmax(a, b);
-    int& first = first_[static_cast<std::size_t>(labels.first)];
-    for (int k = first; k != kNone; k = next_[static_cast<std::size_t>(k)]) {
-      Entry& entry = entries_[static_cast<std::size_t>(k)];
+    int& first = first_[Index(labels.first)];
+    for (int k = first; k != kNone; k = next_[Index(k)]) {
+      Entry& entry = entries_[Index(k)];
       if (entry.labels.second == labels.second) return entry.value;
     }
     next_.push_back(first);

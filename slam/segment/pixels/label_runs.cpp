@@ -1,11 +1,11 @@
 #include "slam/segment/pixels/label_runs.h"
 
+#include "slam/base/index.h"
 #include "slam/segment/pixels/label_changes.h"
 
 namespace slam {
 std::size_t LabelRuns::At(int u, int v) const {
-  const auto first =
-      runs.begin() + static_cast<std::ptrdiff_t>(rows[static_cast<std::size_t>(v)]);
+  const auto first = runs.begin() + static_cast<std::ptrdiff_t>(rows[Index(v)]);
   const auto last =
       runs.begin() + static_cast<std::ptrdiff_t>(rows[static_cast<std::size_t>(v) + 1]);
   const auto after = std::upper_bound(

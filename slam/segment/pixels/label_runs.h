@@ -30,8 +30,8 @@ struct LabelRuns {
 /// @param labels  width x height, row by row
 void FindRuns(const LabelImage& labels, int width, int height, LabelRuns& out);
 
-/// Calls visit(a, b, begin, end, row) for every pair of runs, b below a in the next row, that
-/// share the columns [begin, end).
+/// Calls visit(a, b, begin, end) for every pair of runs, b below a in the next row, that share
+/// the columns [begin, end).
 template <typename Visit>
 void VisitRunsBelow(const LabelRuns& runs, const Visit& visit) {
   for (std::size_t row = 0; row + 2 < runs.rows.size(); ++row) {
@@ -40,32 +40,11 @@ void VisitRunsBelow(const LabelRuns& runs, const Visit& visit) {
     while (a < a_end && b < b_end) {
       const int begin = std::max(runs.runs[a].begin, runs.runs[b].begin);
       const int end = std::min(runs.runs[a].end, runs.runs[b].end);
-      visit(a, b, begin, end, static_cast<int>(row));
+      visit(a, b, begin, end);
       if (runs.runs[a].end == end) ++a;
       if (runs.runs[b].end == end) ++b;
     }
   }
-}
-
-/// Calls visit(i, j, count, a, b) for every two runs a and b that differ in label, where pixels
-/// i, i + 1, ... of the one, `count` of them, have j, j + 1, ... of the other beside or below
-/// them; i < j.
-template <typename Visit>
-void VisitBoundaryPieces(const LabelRuns& runs, const Visit& visit) {
-  const auto width = static_cast<std::size_t>(runs.width);
-  for (std::size_t row = 0; row + 1 < runs.rows.size(); ++row) {
-    for (std::size_t a = runs.rows[row]; a + 1 < runs.rows[row + 1]; ++a) {
-      if (runs.runs[a].label == runs.runs[a + 1].label) continue;
-      const std::size_t i = row * width + static_cast<std::size_t>(runs.runs[a].end);
-      visit(i - 1, i, 1, a, a + 1);
-    }
-  }
-  VisitRunsBelow(runs, [&](std::size_t a, std::size_t b, int begin, int end, int row) {
-    if (runs.runs[a].label == runs.runs[b].label) return;
-    const std::size_t i =
-        static_cast<std::size_t>(row) * width + static_cast<std::size_t>(begin);
-    visit(i, i + width, end - begin, a, b);
-  });
 }
 
 }  // namespace slam

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <bit>
 #include <cstdint>
 
 namespace slam {
@@ -8,12 +7,8 @@ namespace slam {
 /// A set of the pixels of a block of 8 x 8: a column in each byte.
 using PixelSet = std::uint64_t;
 
-inline constexpr int kBlock_px =
-    8;  ///< side of a block: a row is a lane's width, a set one word
+inline constexpr int kBlock_px = 8;  ///< side of a block: a row has a lane's width
 inline constexpr int kQuarter_px = kBlock_px / 2;  ///< side of the blocks of the second look
-
-constexpr PixelSet PixelOf(int u, int v) { return PixelSet{1} << (kBlock_px * u + v); }
-constexpr bool IsInSet(PixelSet set, int u, int v) { return (set & PixelOf(u, v)) != 0; }
 
 /// A square within a block: the block itself or a quarter of it.
 struct BlockWindow {

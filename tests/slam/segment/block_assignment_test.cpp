@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "slam/geometry/camera.h"
+#include "tests/slam/segment/pixel_sets.h"
 #include "tests/support/depth_planes.h"
 
 namespace slam {

@@ -9,6 +9,7 @@
 
 #include "slam/geometry/camera.h"
 #include "slam/segment/pixels/block_sums.h"
+#include "tests/slam/segment/pixel_sets.h"
 #include "tests/support/depth_planes.h"
 
 namespace slam {
@@ -37,7 +38,7 @@ DepthGrid RoughGrid(int width, int height, double k1 = 0.0) {
 const LabelPlane kPlane{{-0.9, 0.02, 0.97}, 1.3};
 
 float ResidualAt(const DepthGrid& grid, int u, int v) {
-  return ResidualSigmas(grid, static_cast<std::size_t>(grid.Index(u, v)), kPlane);
+  return ResidualSigmas(grid, static_cast<std::size_t>(grid.Index(u, v)), PixelPlane(kPlane));
 }
 bool IsMeasured(const DepthGrid& grid, int u, int v) {
   return grid.g[static_cast<std::size_t>(grid.Index(u, v))] > 0;

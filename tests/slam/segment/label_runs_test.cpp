@@ -3,11 +3,13 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <set>
+#include <map>
+#include <utility>
 #include <vector>
 
 #include "slam/segment/pixels/label_changes.h"
 #include "slam/segment/pixels/label_components.h"
+#include "slam/segment/pixels/label_contacts.h"
 
 namespace slam {
 namespace {
@@ -108,26 +110,28 @@ TEST(LabelRuns, MakeTheComponentsThatFloodingMakes) {
   }
 }
 
-TEST(LabelRuns, MeetEveryBoundaryOnce) {
+TEST(LabelContacts, CountEverySideOfAPixelOnce) {
   const int width = 37, height = 23;
   const LabelImage labels = Blotches(width, height);
   LabelRuns runs;
   FindRuns(labels, width, height, runs);
-  std::multiset<std::pair<std::size_t, std::size_t>> met, expected;
-  VisitBoundaryPieces(
-      runs, [&](std::size_t i, std::size_t j, int count, std::size_t a, std::size_t b) {
-        for (int k = 0; k < count; ++k, ++i, ++j) {
-          met.emplace(i, j);
-          EXPECT_EQ(runs.runs[a].label, labels[i]);
-          EXPECT_EQ(runs.runs[b].label, labels[j]);
-        }
-      });
+  LabelContacts found = CountContacts(runs, 3);
+  std::map<std::pair<int, int>, int> shared, expected;
+  std::vector<int> around(3, 0);
+  const auto meet = [&](int a, int b) {
+    if (a == b) return;
+    for (const int label : {a, b})
+      if (label != kNoLabel) ++around[static_cast<std::size_t>(label)];
+    if (a != kNoLabel && b != kNoLabel) ++expected[std::minmax(a, b)];
+  };
   for (std::size_t i = 0; i < labels.size(); ++i) {
     const auto w = static_cast<std::size_t>(width);
-    if (i % w + 1 < w && labels[i] != labels[i + 1]) expected.emplace(i, i + 1);
-    if (i + w < labels.size() && labels[i] != labels[i + w]) expected.emplace(i, i + w);
+    if (i % w + 1 < w) meet(labels[i], labels[i + 1]);
+    if (i + w < labels.size()) meet(labels[i], labels[i + w]);
   }
-  EXPECT_EQ(met, expected);
+  for (const auto& [pair, sides] : found.shared.Sorted()) shared[pair] = sides;
+  EXPECT_EQ(shared, expected);
+  EXPECT_EQ(found.around, around);
 }
 
 TEST(LabelRuns, AreDrawnAsTheyWereFound) {

@@ -50,7 +50,8 @@ class BentWall : public ::testing::Test {
 
 TEST_F(BentWall, IsWithinHalfASigmaOfItsLocalPlanes) {
   for (int u = 4; u < 310; u += 3)
-    EXPECT_LT(std::abs(ResidualSigmas(grid_, Pixel(u, 200), At(u, 200))), 0.5f) << u;
+    EXPECT_LT(std::abs(ResidualSigmas(grid_, Pixel(u, 200), PixelPlane(At(u, 200)))), 0.5f)
+        << u;
 }
 
 TEST_F(BentWall, HasItsOwnPlaneWhereNothingOfItIsNear) {

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "slam/segment/clusters/block_clusters.h"
+#include "tests/slam/segment/pixel_sets.h"
 #include "tests/support/closed_form_depth.h"
 #include "tests/support/depth_planes.h"
 
@@ -35,10 +36,10 @@ TEST(PixelGrowth, TakesThePixelsBackFromAPlaneThatMovedAway) {
   const ImageBlocks blocks = MakeBlocks(grid);
   PixelGrowth growth;
   growth.Begin(blocks, {});
-  growth.Seed(0, growth.AddPlane({{0.0, 0.0, 1.0}, 1.0}));
+  growth.Seed(0, growth.AddPlane({{0.0, 0.0, 1.0}, 1.0}, {}));
   growth.Grow();
   EXPECT_EQ(pixels_of(growth, 0), camera.width * camera.height);
-  growth.Replace({{{0.0, 0.0, 1.02}, 1.0}}, {0});  // 2 cm nearer
+  growth.Replace({{{0.0, 0.0, 1.02}, 1.0}}, {0}, {{}});  // 2 cm nearer
   EXPECT_EQ(pixels_of(growth, 0), 0);
   EXPECT_EQ(pixels_of(growth, kNoLabel), camera.width * camera.height);
 }
@@ -61,7 +62,7 @@ TEST(PixelGrowth, DropsAPlaneOnceABetterOneHasComeToBlocksWhoseGainsWereKnown) {
   PixelGrowth growth;
   growth.Begin(blocks, {});
   const auto add = [&](int block, double sigmas) {
-    const int label = growth.AddPlane({{0.0, 0.0, Nearer(grid, sigmas)}, 1.0});
+    const int label = growth.AddPlane({{0.0, 0.0, Nearer(grid, sigmas)}, 1.0}, {});
     growth.Seed(block, label);
     growth.Grow();
     growth.DropUseless();
@@ -85,8 +86,8 @@ TEST(PixelGrowth, SumsLabelsAsIfTheirPixelsWereCountedOneByOne) {
   const ImageBlocks blocks = MakeBlocks(grid);
   PixelGrowth growth;
   growth.Begin(blocks, {});
-  growth.Seed(growth.BlockAt(0, 0), growth.AddPlane({{0.0, 0.0, 1.0}, 1.0}));
-  growth.Seed(growth.BlockAt(30, 20), growth.AddPlane({{0.0, 0.0, 1.0 / 0.9}, 1.0}));
+  growth.Seed(growth.BlockAt(0, 0), growth.AddPlane({{0.0, 0.0, 1.0}, 1.0}, {}));
+  growth.Seed(growth.BlockAt(30, 20), growth.AddPlane({{0.0, 0.0, 1.0 / 0.9}, 1.0}, {}));
   growth.Grow();
   const std::vector<PlaneSums> plain = SumLabels(grid, LabelsOf(growth, grid), 2);
   const BlockClusters clusters =
@@ -140,14 +141,14 @@ void GrowEverywhere(const ImageBlocks& blocks, const GrowthConfig& config,
                     const std::vector<LabelPlane>& planes, PixelGrowth& growth) {
   growth.Begin(blocks, config);
   for (const LabelPlane& plane : planes) {
-    const int label = growth.AddPlane(plane);
+    const int label = growth.AddPlane(plane, {});
     for (int block = 0; block < blocks.count(); ++block) growth.Seed(block, label);
   }
   growth.Grow();
 }
 
 double Residual(const DepthGrid& grid, std::size_t i, const LabelPlane& plane) {
-  return std::abs(static_cast<double>(ResidualSigmas(grid, i, plane)));
+  return std::abs(static_cast<double>(ResidualSigmas(grid, i, PixelPlane(plane))));
 }
 
 /// What the vote says of every pixel.
@@ -271,7 +272,7 @@ TEST(PixelGrowth, DropsAPlaneThatGainsTooLittleThoughNoOtherIsNear) {
     PixelGrowth growth;
     growth.Begin(blocks, config);
     for (const double sigmas : {2.0, 20.0}) {
-      const int label = growth.AddPlane({{0.0, 0.0, Nearer(grid, sigmas)}, 1.0});
+      const int label = growth.AddPlane({{0.0, 0.0, Nearer(grid, sigmas)}, 1.0}, {});
       for (int block = 0; block < 3; ++block) growth.Seed(block, label);
     }
     growth.Grow();
@@ -296,7 +297,7 @@ TEST(PixelGrowth, HasTheSameLabelsHoweverOftenItIsAskedAndWhateverItHeldBefore) 
       if (ask) LabelsOf(growth, grid);
       std::vector<LabelPlane> moved = planes;
       for (LabelPlane& plane : moved) plane.plane.c += 0.01;
-      growth.Replace(moved, {0, 1, 2, 3, 4, 0});
+      growth.Replace(moved, {0, 1, 2, 3, 4, 0}, std::vector<std::vector<LabelPlane>>(6));
       return LabelsOf(growth, grid);
     };
     EXPECT_EQ(run(again, true), run(once, false));
@@ -315,7 +316,7 @@ TEST(PixelGrowth, LeavesUnexplainedWhatLiesOffItsPlaneAndWhatHasNone) {
   const ImageBlocks blocks = MakeBlocks(grid);
   PixelGrowth growth;
   growth.Begin(blocks, {});
-  growth.Seed(0, growth.AddPlane({{0.0, 0.0, 1.0}, 1.0}));
+  growth.Seed(0, growth.AddPlane({{0.0, 0.0, 1.0}, 1.0}, {}));
   growth.Grow();
   // At most 1 + 1 / 8 sigmas.
   const std::vector<PixelSet> unexplained = growth.FindUnexplained(1.0, 1.0);

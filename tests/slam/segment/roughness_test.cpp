@@ -6,7 +6,7 @@
 
 #include "slam/base/random.h"
 #include "slam/geometry/camera.h"
-#include "slam/segment/pixels/pixel_labels.h"
+#include "slam/segment/pixels/block_pixels.h"
 #include "tests/support/depth_planes.h"
 
 namespace slam {
@@ -68,7 +68,7 @@ TEST(Roughness, OfStairsIsMoreWhicheverWayTheyRun) {
 /// The same pair by pair.
 double PairByPair(const DepthGrid& grid, const cv::Mat1b& labels, const cv::Rect& bounds,
                   int step_px, int apart_px) {
-  const LabelPlane plane{kSlant, 1.0};
+  const PixelPlane plane(LabelPlane{kSlant, 1.0});
   double sum = 0.0;
   int pairs = 0;
   for (int v = bounds.y; v < bounds.br().y; v += step_px) {

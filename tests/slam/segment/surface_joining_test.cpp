@@ -117,14 +117,14 @@ TEST(JoinSurfaces, AsksAgainWhatIsOneWithASurfaceThatHasGrown) {
   EXPECT_EQ(joined({2, 1, 0}), (std::vector<int>{0, 0, 2}));
 }
 
-TEST(JoinSurfaces, AsksForEightPixelsThatTouch) {
+TEST(JoinSurfaces, AsksForFourSidesThatTouch) {
   const PartsOnBlocks wall = Halves([](int, int) { return 1.0; });
-  for (const int pixels : {0, 7, 8}) {
-    ContactPixels contacts;
+  for (const int sides : {0, 3, 4}) {
+    LabelPairs<int> contacts;
     contacts.Clear(2);
-    contacts.Of(0, 1) = pixels;
+    contacts.Of(0, 1) = sides;
     const JoinedLabels joined = JoinSurfaces(wall, 2, &contacts, {}, {}, {});
-    EXPECT_EQ(joined.into[1] == 0, pixels == 8) << pixels;
+    EXPECT_EQ(joined.into[1] == 0, sides == 4) << sides;
   }
 }
 
