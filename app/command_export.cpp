@@ -1,7 +1,9 @@
 #include <cstdio>
 
 #include "app/app.h"
+#include "app/choice_option.h"
 #include "app/console.h"
+#include "app/export_warning.h"
 #include "eval/export/bop.h"
 #include "eval/export/coco.h"
 #include "io/output_file.h"
@@ -15,7 +17,9 @@ constexpr const char* kAboutExport =
     "on.\n"
     "  coco  instances of all objects with exact masks (annotations/instances.json, images/)\n"
     "  bop   poses, silhouettes and visible masks of the boxes, one scene a sequence\n"
-    "Several sequences become one data set. docs/export.md says what each file holds.";
+    "Several sequences become one data set. docs/export.md says what each file holds.\n"
+    "Masks, boxes and poses are of one instant: record what is to be trained on with "
+    "--rolling-ms 0.";
 
 enum class Format { kCoco, kBop };
 
@@ -37,6 +41,11 @@ int RunExport(ExportArguments arguments, bool quiet) {
   const std::vector<std::filesystem::path> folders(arguments.sequences.begin(),
                                                    arguments.sequences.end());
   if (arguments.options.force) io::RefuseInputsInside(arguments.output, folders);
+  for (const std::filesystem::path& folder : folders) {
+    if (const std::string warning = RollingWarning(folder); !warning.empty()) {
+      PrintWarning(warning);
+    }
+  }
   const bool coco = arguments.format == Format::kCoco;
   const eval::ExportSummary summary =
       coco ? eval::ExportCoco(folders, arguments.output, arguments.options)
@@ -62,10 +71,9 @@ void AddExportCommand(CLI::App& pas, const Globals& globals, int& exit_code) {
   CLI::App* command = pas.add_subcommand("export", kAboutExport);
   const auto arguments = std::make_shared<ExportArguments>();
   command->add_option("SEQ", arguments->sequences, "Sequence folders with truth")->required();
-  const std::map<std::string, Format> formats{{"coco", Format::kCoco}, {"bop", Format::kBop}};
   command->add_option("--format", arguments->format, "coco | bop")
       ->required()
-      ->transform(CLI::CheckedTransformer(formats).description("coco or bop"));
+      ->transform(ChoiceOf<Format>({{"coco", Format::kCoco}, {"bop", Format::kBop}}));
   command
       ->add_option("-o,--output", arguments->output,
                    "Folder to write; it is there whole or not at all")

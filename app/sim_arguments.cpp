@@ -55,8 +55,8 @@ sim::SequenceOptions OptionsOf(const SimArguments& arguments, const sim::Scene& 
                            arguments.height.value_or(capture.height));
   rig.sensor = sim::SensorByName(arguments.sensor.value_or(capture.sensor));
   SetRecordingOf(arguments, rig.sensor);
-  const bool own_lens = !k.empty() || !rig.camera.lens.IsNone();
-  if (!own_lens) rig.camera = sim::WithLens(rig.camera, rig.sensor.lens);
+  // Zeros that are told are a lens too: none.
+  if (!capture.distortion) rig.camera = sim::WithLens(rig.camera, rig.sensor.lens);
   rig.detector = arguments.detector;
   rig.seed = arguments.seed;
   options.frames = arguments.frames.value_or(capture.frames);

@@ -1,6 +1,7 @@
 #include "sim/camera/camera.h"
 
 #include <algorithm>
+#include <array>
 #include <limits>
 #include <stdexcept>
 
@@ -46,7 +47,7 @@ Camera CameraOf(const Capture& capture) {
   camera.cx = capture.cx;
   camera.cy = capture.cy;
   camera.fps = capture.fps;
-  const auto& [k1, k2, p1, p2, k3] = capture.distortion;
+  const auto& [k1, k2, p1, p2, k3] = capture.distortion.value_or(std::array<double, 5>{});
   return WithLens(Resize(camera, capture.width, capture.height), {k1, k2, p1, p2, k3});
 }
 

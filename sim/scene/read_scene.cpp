@@ -203,7 +203,7 @@ Capture ReadCapture(const io::YamlValue& value) {
   pair("centre_px", 0, capture.cx, capture.cy);
   if (map.Has("distortion")) {
     const Eigen::VectorXd k = map.At("distortion").Numbers(5, {-10, 10});
-    std::copy(k.begin(), k.end(), capture.distortion.begin());
+    capture.distortion = {k[0], k[1], k[2], k[3], k[4]};
   }
   if (map.Has("sensor")) capture.sensor = kSensorNames[map.At("sensor").OneOf(kSensorNames)];
   if (map.Has("fps")) capture.fps = map.At("fps").Number({0.1, 1000}, "frames a second");

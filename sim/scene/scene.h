@@ -131,7 +131,8 @@ struct Motion {
 struct Capture {
   int width = 640, height = 480;
   double fx = 525, fy = 525, cx = 319.5, cy = 239.5;  ///< pixels
-  std::array<double, 5> distortion{};                 ///< k1 k2 p1 p2 k3
+  /// k1 k2 p1 p2 k3, zeros: a straight image; not set: the lens of the sensor.
+  std::optional<std::array<double, 5>> distortion;
   std::string sensor = "kinect1";
   double fps = 30;
   int frames = 300;

@@ -102,12 +102,13 @@ std::string PaceText(const Motion& motion) {
 }
 
 std::string CaptureText(const Capture& capture) {
+  const std::string distortion =
+      capture.distortion ? "\n  distortion: " + ListText(*capture.distortion) : "";
   return "capture:\n  width_px: " + std::to_string(capture.width) +
          "\n  height_px: " + std::to_string(capture.height) +
          "\n  focal_px: " + ListText(std::array{capture.fx, capture.fy}) +
-         "\n  centre_px: " + ListText(std::array{capture.cx, capture.cy}) +
-         "\n  distortion: " + ListText(capture.distortion) + "\n  sensor: " + capture.sensor +
-         "\n  fps: " + io::NumberText(capture.fps) +
+         "\n  centre_px: " + ListText(std::array{capture.cx, capture.cy}) + distortion +
+         "\n  sensor: " + capture.sensor + "\n  fps: " + io::NumberText(capture.fps) +
          "\n  frames: " + std::to_string(capture.frames) + "\n";
 }
 

@@ -100,7 +100,7 @@ std::vector<TopStep> TopSteps(const Scene& scene, const std::vector<ScenePlane>&
       if (below.object == top.object) continue;
       const std::optional<double> step = StepOver(top, below);
       if (!step || (nearest && *step * 1000 >= nearest->step_mm)) continue;
-      nearest = TopStep{top.id, top.object, below.object, below.id, *step * 1000};
+      nearest = TopStep{top.id, top.object, below.object, *step * 1000};
     }
     if (nearest) steps.push_back(*nearest);
   }

@@ -12,8 +12,7 @@ struct TopStep {
   int plane = 0;         ///< ScenePlane::id of the top face
   int object = 0;        ///< its owner
   int below_object = 0;  ///< owner of the highest surface under it
-  int below_plane = 0;
-  double step_mm = 0;  ///< along the top's normal to the nearest point of that surface; >= 0
+  double step_mm = 0;    ///< along the top's normal to the nearest point of that surface; >= 0
 };
 
 /// One entry for each upward face (within 10 degrees) of a regular box or mesh that has an upward

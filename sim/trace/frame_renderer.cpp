@@ -99,17 +99,28 @@ Pose FrameRenderer::Moved(std::size_t object_index, double time_s) const {
   return MotionOf(object, time_s);
 }
 
-bool FrameRenderer::Sees(const Pose& T_wc, const Eigen::Vector3d& x_w, double time_s) const {
+bool FrameRenderer::Sees(const Pose& T_wc, const Eigen::Vector3d& x_w, double time_s,
+                         std::span<const int> own_planes) const {
   const Eigen::Vector3d ray_w = x_w - T_wc.t;
-  const auto sees_past = [&](const ExactCaster& caster, const Eigen::Vector3d& from,
-                             const Eigen::Vector3d& ray) {
-    const ExactHit hit = caster.Nearest(from, ray, 0.0);
-    return hit.triangle < 0 || (1 - hit.distance) * ray_w.norm() <= kLeaveSurface_m;
+  const auto owned = [&](const RenderWorld& world, int triangle) {
+    const int plane = world.mesh.triangles[static_cast<std::size_t>(triangle)].plane;
+    return plane > 0 &&
+           std::find(own_planes.begin(), own_planes.end(), plane) != own_planes.end();
   };
-  if (!sees_past(world_->standing.caster, T_wc.t, ray_w)) return false;
+  const auto sees_past = [&](const RenderWorld& world, const Eigen::Vector3d& from,
+                             const Eigen::Vector3d& ray) {
+    ExactHit hit = world.caster.Nearest(from, ray, 0.0);
+    while (hit.triangle >= 0 && (1 - hit.distance) * ray_w.norm() > kLeaveSurface_m) {
+      if (!owned(world, hit.triangle)) return false;
+      hit = world.caster.Nearest(from, ray, hit.distance);
+    }
+    return true;
+  };
+  if (!sees_past(world_->standing, T_wc.t, ray_w)) return false;
+  // What moves has no planes, so it never owns the point.
   return std::all_of(world_->movers.begin(), world_->movers.end(), [&](const auto& mover) {
     const Pose T_mw = Inverse(MotionOf(mover->given, time_s));
-    return sees_past(mover->world.caster, T_mw * T_wc.t, T_mw.R * ray_w);
+    return sees_past(mover->world, T_mw * T_wc.t, T_mw.R * ray_w);
   });
 }
 

@@ -2,6 +2,7 @@
 
 #include <memory>
 #include <opencv2/core/mat.hpp>
+#include <span>
 #include <vector>
 
 #include "sim/base/pose.h"
@@ -87,7 +88,10 @@ class FrameRenderer {
 
   /// Whether nothing lies between the camera's centre and the point, up to 0.1 mm before it.
   /// Decided in double.
-  bool Sees(const Pose& T_wc, const Eigen::Vector3d& x_w, double time_s = 0) const;
+  /// @param own_planes  ids of planes that hold the point: their triangles, uneven within what
+  ///   is rendered as flat, do not hide it
+  bool Sees(const Pose& T_wc, const Eigen::Vector3d& x_w, double time_s = 0,
+            std::span<const int> own_planes = {}) const;
 
   /// Triangles of an object; of what moves, where it is at the first point of its way.
   std::vector<Triangle> TrianglesOf(std::size_t object_index) const;

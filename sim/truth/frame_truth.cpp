@@ -70,18 +70,20 @@ TruthMaker::TruthMaker(const FrameRenderer& renderer)
     triangles_.push_back(renderer.TrianglesOf(i));
   }
   std::map<std::array<double, 3>, std::size_t> numbers;
-  for (const ScenePlane& plane : planes_) {
+  const std::vector<std::vector<MeshCorner>> on_mesh = MeshCorners(renderer.standing());
+  for (std::size_t i = 0; i < planes_.size(); ++i) {
     corners_.emplace_back();
-    for (const Eigen::Vector3d& x : plane.vertices_w) {
-      corners_.back().push_back(
-          numbers.emplace(std::array{x.x(), x.y(), x.z()}, numbers.size()).first->second);
+    for (std::size_t k = 0; k < on_mesh[i].size(); ++k) {
+      const Eigen::Vector3d& x = planes_[i].vertices_w[k];
+      const auto [at, fresh] = numbers.emplace(std::array{x.x(), x.y(), x.z()}, numbers.size());
+      corners_.back().push_back(at->second);
+      if (fresh) mesh_corners_.push_back(on_mesh[i][k]);
     }
   }
-  corner_count_ = numbers.size();
 }
 
-VertexInFrame TruthMaker::DescribeCorner(const Eigen::Vector3d& x_w, const Pose& T_wc,
-                                         double time_s) const {
+VertexInFrame TruthMaker::DescribeCorner(const Eigen::Vector3d& x_w, const MeshCorner& on_mesh,
+                                         const Pose& T_wc, double time_s) const {
   const Camera& camera = renderer_.camera();
   VertexInFrame vertex;
   vertex.x_w = x_w;
@@ -93,9 +95,10 @@ VertexInFrame TruthMaker::DescribeCorner(const Eigen::Vector3d& x_w, const Pose&
       !within(vertex.pixel.y(), camera.height)) {
     return vertex;
   }
-  vertex.state =
-      renderer_.Sees(T_wc, x_w, time_s) ? VertexState::kVisible : VertexState::kOccluded;
-  vertex.surface_ends = vertex.state == VertexState::kVisible && ends_.At(T_wc, x_w);
+  vertex.state = renderer_.Sees(T_wc, on_mesh.x_w, time_s, on_mesh.planes)
+                     ? VertexState::kVisible
+                     : VertexState::kOccluded;
+  vertex.surface_ends = vertex.state == VertexState::kVisible && ends_.At(T_wc, on_mesh.x_w);
   return vertex;
 }
 
@@ -144,15 +147,18 @@ FrameTruth TruthMaker::Describe(const Rendering& rendering, const Pose& T_wc,
   std::sort(truth.objects.begin(), truth.objects.end(),
             [](const auto& a, const auto& b) { return a.id < b.id; });
   // Faces that meet share their corners: each is described once.
-  std::vector<std::optional<VertexInFrame>> corners(corner_count_);
+  std::vector<std::optional<VertexInFrame>> corners(mesh_corners_.size());
   for (const auto& [id, extent] : Extents(rendering.plane_id)) {
     const auto i = static_cast<std::size_t>(id) - 1;
     const ScenePlane& plane = planes_.at(i);
     truth.planes.push_back(
         {id, extent.pixels, ProjectedFace(plane, T_wc, renderer_.camera()), {}});
     for (std::size_t k = 0; k < plane.vertices_w.size(); ++k) {
-      std::optional<VertexInFrame>& corner = corners[corners_[i][k]];
-      if (!corner) corner = DescribeCorner(plane.vertices_w[k], T_wc, time_s);
+      const std::size_t number = corners_[i][k];
+      std::optional<VertexInFrame>& corner = corners[number];
+      if (!corner) {
+        corner = DescribeCorner(plane.vertices_w[k], mesh_corners_[number], T_wc, time_s);
+      }
       truth.planes.back().vertices.push_back(*corner);
       truth.planes.back().vertices.back().x_w = plane.vertices_w[k];  // to the sign of zero
     }

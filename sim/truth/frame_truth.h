@@ -7,6 +7,7 @@
 
 #include "sim/shapes/planes.h"
 #include "sim/trace/frame_renderer.h"
+#include "sim/truth/mesh_corner.h"
 #include "sim/truth/polygon.h"
 #include "sim/truth/silhouette.h"
 #include "sim/truth/surface_end.h"
@@ -27,7 +28,8 @@ struct ObjectInFrame {
 /// Where a corner of a face is.
 enum class VertexState {
   kVisible,
-  kOccluded,  ///< inside the image, but something is 0.1 mm or more before it
+  kOccluded,  ///< inside the image, but something is 0.1 mm or more before it (of a mesh: before
+              ///< the mesh's own corner, and no face that meets in it)
   kOutside    ///< outside the image, or nearer than kSilhouetteNear_m
 };
 
@@ -66,14 +68,14 @@ class TruthMaker {
 
  private:
   const FrameRenderer& renderer_;
-  VertexInFrame DescribeCorner(const Eigen::Vector3d& x_w, const Pose& T_wc,
-                               double time_s) const;
+  VertexInFrame DescribeCorner(const Eigen::Vector3d& x_w, const MeshCorner& on_mesh,
+                               const Pose& T_wc, double time_s) const;
 
   std::vector<std::vector<Triangle>> triangles_;  ///< by object
   const std::vector<ScenePlane>& planes_;         ///< by id - 1
   /// By id - 1 and vertex: the same number where faces meet in the very same point.
   std::vector<std::vector<std::size_t>> corners_;
-  std::size_t corner_count_ = 0;
+  std::vector<MeshCorner> mesh_corners_;  ///< by that number
   SurfaceEnds ends_;
 };
 

@@ -23,6 +23,13 @@ void CheckTimes(const std::vector<TimedPose>& trajectory) {
   }
 }
 
+/// How long after a frame's time the last of its images is exposed.
+double Latest_s(const Sensor& sensor) {
+  const Exposure& exposure = sensor.exposure;
+  return std::max((std::abs(exposure.rolling_s) + exposure.shutter_s) / 2,
+                  sensor.timing.depth_offset_s);
+}
+
 }  // namespace
 
 Recording PlanRecording(const std::vector<TimedPose>& trajectory, std::vector<TimedPose> path,
@@ -42,7 +49,11 @@ Recording PlanRecording(const Scene& scene, const RigOptions& rig, int frames) {
   const Sensor& sensor = rig.sensor;
   if (sensor.exposure.Moves() || sensor.timing.depth_offset_s != 0) {
     const int times = std::max(1, static_cast<int>(std::ceil(kPathRate_Hz / fps)));
-    path = MakeTrajectory(scene, frames * times + 1, fps * times, rig.seed);
+    const double rate = fps * times;
+    // Beyond all that the last frame asks for, so that it is what it is in a longer recording.
+    const int after =
+        std::max(times, static_cast<int>(std::floor(Latest_s(sensor) * rate)) + 1);
+    path = MakeTrajectory(scene, (frames - 1) * times + after + 1, rate, rig.seed);
   }
   Recording recording =
       PlanRecording(MakeTrajectory(scene, frames, fps, rig.seed), std::move(path), rig);

@@ -17,8 +17,9 @@ struct Recording {
   int frames() const { return static_cast<int>(shots.size()); }
 };
 
-/// The scene's own motion, `frames` of rig.camera.fps with the defects of time of rig.sensor. Between frames
-/// the camera follows the same motion at 240 Hz or more where something moves within a frame.
+/// The scene's own motion, `frames` of rig.camera.fps with the defects of time of rig.sensor.
+/// Between frames the camera follows the same motion at 240 Hz or more where something moves
+/// within a frame. A longer recording begins with the frames of a shorter one.
 /// @throws InputError for a scene without room for the camera; std::invalid_argument for
 ///   options out of range
 Recording PlanRecording(const Scene& scene, const RigOptions& rig, int frames);

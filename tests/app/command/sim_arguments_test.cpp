@@ -4,6 +4,7 @@
 
 #include "sim/families/twin.h"
 #include "sim/scene/write_scene.h"
+#include "sim/sensor/read_sensor.h"
 #include "tests/support/program.h"
 
 namespace app {
@@ -65,6 +66,25 @@ TEST(OptionsOfArguments, HaveTheSensorsLensUnlessOneIsTold) {
   EXPECT_TRUE(lens().IsNone());
   arguments.lens = {0.01, 0, 0, 0, 0};
   EXPECT_EQ(lens().k1, 0.01);
+}
+
+TEST_F(SceneOfArguments, KeepsTheLensThatItsFileTellsZerosToo) {
+  const auto lens_of = [&](const sim::Scene& scene) {
+    sim::WriteScene(scene, arguments_.scene);
+    return OptionsOf(arguments_, SceneOf(arguments_)).rig.camera.lens;
+  };
+  arguments_.sensor = "kinect1";
+  EXPECT_TRUE(lens_of(sim::MakeTwin("fr3-loh", 3)).IsNone());
+  EXPECT_EQ(lens_of(sim::MakeTwin("fr2-xyz", 3)).k1, 0.2312);
+  const sim::Lens of_fr1 = lens_of(sim::MakeTwin("fr1-xyz", 3));
+  EXPECT_EQ(of_fr1.k1, 0.2624);
+  EXPECT_EQ(of_fr1.k3, 1.1633);
+  // Left out: the sensor's, with a `capture` that is silent about it and without one.
+  sim::Scene silent = sim::MakeTwin("fr3-loh", 3);
+  silent.capture->distortion.reset();
+  EXPECT_EQ(lens_of(silent).k1, sim::SensorByName("kinect1").lens.k1);
+  silent.capture.reset();
+  EXPECT_EQ(lens_of(silent).k1, sim::SensorByName("kinect1").lens.k1);
 }
 
 }  // namespace

@@ -196,6 +196,17 @@ TEST(SceneFile, GivesBackARotationThatNoRoundAngleMakes) {
   EXPECT_EQ(read.objects[2].q_wo.coeffs(), scene.objects[2].q_wo.coeffs());
 }
 
+TEST(SceneFile, TellsALensOfZerosFromOneThatIsLeftOut) {
+  Scene scene = MakeScene("plates", 1);
+  scene.capture.emplace();
+  EXPECT_FALSE(ParseScene(SceneText(scene), "text").capture->distortion.has_value());
+  for (const double k1 : {0.0, 0.2}) {
+    scene.capture->distortion = {k1, 0, 0, 0, 0};
+    EXPECT_EQ(ParseScene(SceneText(scene), "text").capture->distortion,
+              scene.capture->distortion);
+  }
+}
+
 TEST(SceneFile, IsWrittenWholeAndReadBackFromDisk) {
   const test_support::TemporaryFolder folder;
   const std::filesystem::path path = folder / "round_trip.yaml";

@@ -104,9 +104,13 @@ TEST(StampJitter, HasTheStatedSdAndKeepsTheOrder) {
 }
 
 TEST(DepthOffset, DelaysDepthAndItsStamp) {
-  for (const Shot& shot : MakeShots(SteadyPath(20), {.depth_offset_s = 0.0117}, 1)) {
-    EXPECT_EQ(shot.depth_stamp_s - shot.colour_stamp_s, shot.DepthDelay_s());
-    EXPECT_NEAR(shot.DepthDelay_s(), 0.0117, 1e-12);
+  const auto late = MakeShots(SteadyPath(20), {.depth_offset_s = 0.0117}, 1);
+  const auto together = MakeShots(SteadyPath(20), {}, 1);
+  ASSERT_EQ(late.size(), together.size());
+  for (std::size_t i = 0; i < late.size(); ++i) {
+    EXPECT_EQ(late[i].colour_stamp_s, together[i].colour_stamp_s);
+    EXPECT_NEAR(late[i].depth_stamp_s, together[i].depth_stamp_s + 0.0117, 1e-12);
+    EXPECT_NEAR(late[i].DepthDelay_s(), 0.0117, 1e-12);
   }
 }
 
