@@ -5,17 +5,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "io/stamp_unit.h"
+
 namespace eval {
-namespace {
-
-// Seconds since 1970 reach 1e11 in the year 5138; milliseconds passed it in 1973.
-constexpr double kMaxStamp_s = 1e11;
-// Nobody records a frame every quarter of an hour; a 1 Hz recording in milliseconds has this
-// gap.
-constexpr double kMaxMedianGap_s = 900;
-
-}  // namespace
-
 std::optional<std::size_t> FindStamp(const std::vector<double>& stamps_s, double stamp_s) {
   const auto from = std::lower_bound(stamps_s.begin(), stamps_s.end(), stamp_s - kSameStamp_s);
   if (from == stamps_s.end() || !(*from <= stamp_s + kSameStamp_s)) return std::nullopt;
@@ -63,14 +55,8 @@ void StampOrder::Next(double stamp_s, int line) {
 
 void StampOrder::Finish() {
   if (stamps_s_.empty()) return;
-  std::vector<double> gaps;
-  for (std::size_t i = 1; i < stamps_s_.size(); ++i) {
-    gaps.push_back(std::abs(stamps_s_[i] - stamps_s_[i - 1]));
-  }
-  std::sort(gaps.begin(), gaps.end());
+  if (io::CanBeSeconds(stamps_s_)) return;
   const double latest = *std::max_element(stamps_s_.begin(), stamps_s_.end());
-  const bool slow = gaps.size() >= 2 && gaps[gaps.size() / 2] > kMaxMedianGap_s;
-  if (!(latest > kMaxStamp_s) && !slow) return;
   folder_.Tell(file_, 0, fmt::format("time stamps like {:.0f} are not seconds", latest),
                "write stamps in seconds (divide nanoseconds by 1e9, milliseconds by 1e3)");
 }

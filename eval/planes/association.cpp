@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <map>
 #include <set>
+#include <tuple>
+#include <utility>
 
 namespace eval {
 namespace {
@@ -48,21 +50,23 @@ void ScorePairs(const Table& by_truth, const Table& by_map, AssociationScore& sc
   }
 }
 
-JudgedDecision Judge(const AssociationRecord& record, const std::map<int, int>& owner,
-                     const std::set<int>& owned) {
+/// @param owner                       of the map plane
+/// @param known_planes, known_truths  map planes, and truths that own one, as of the frame before
+JudgedDecision Judge(const AssociationRecord& record, int owner,
+                     const std::set<int>& known_planes, const std::set<int>& known_truths) {
   JudgedDecision judged;
-  judged.truth_had_owner = owned.count(record.truth) > 0;
-  const auto known = owner.find(record.map_plane);
-  if (known == owner.end()) {
+  judged.truth_had_owner = known_truths.count(record.truth) > 0;
+  const bool known = known_planes.count(record.map_plane) > 0;
+  if (known || owner != record.truth) judged.owner = owner;
+  if (owner != record.truth) {
+    judged.outcome = DecisionOutcome::kWrong;
+  } else if (known) {
+    judged.outcome = record.truth == 0 ? DecisionOutcome::kNoiseAgain : DecisionOutcome::kRight;
+  } else {
     judged.outcome = record.truth == 0        ? DecisionOutcome::kSpurious
                      : judged.truth_had_owner ? DecisionOutcome::kMissed
                                               : DecisionOutcome::kFirst;
-    return judged;
   }
-  judged.owner = known->second;
-  judged.outcome = known->second != record.truth ? DecisionOutcome::kWrong
-                   : record.truth == 0           ? DecisionOutcome::kNoiseAgain
-                                                 : DecisionOutcome::kRight;
   return judged;
 }
 
@@ -104,18 +108,46 @@ std::vector<int> StrongEntries(const std::map<int, int>& row, const EntryRule& r
   return strong;
 }
 
+std::map<int, int> OwnersOf(const std::vector<AssociationRecord>& records) {
+  struct Making {
+    int frame = 0;
+    std::map<int, long long> pixels;  // by truth
+  };
+  std::map<int, Making> made;
+  for (const AssociationRecord& r : records) {
+    Making& making = made.try_emplace(r.map_plane, Making{r.frame, {}}).first->second;
+    if (r.frame == making.frame) making.pixels[r.truth] += r.pixels;
+  }
+  std::map<int, int> owners;
+  for (const auto& [map_plane, making] : made) {
+    const auto rank = [](const std::pair<const int, long long>& entry) {
+      return std::tuple(entry.second, entry.first != 0, -entry.first);
+    };
+    owners[map_plane] =
+        std::max_element(making.pixels.begin(), making.pixels.end(),
+                         [&](const auto& a, const auto& b) { return rank(a) < rank(b); })
+            ->first;
+  }
+  return owners;
+}
+
 std::vector<JudgedDecision> JudgeDecisions(const std::vector<AssociationRecord>& records) {
   std::vector<JudgedDecision> judged;
   judged.reserve(records.size());
-  std::map<int, int> owner;  // of each map plane, as of the frame before
-  std::set<int> owned;       // truth planes that own a map plane
+  const std::map<int, int> owners = OwnersOf(records);
+  std::set<int> known_planes;  // as of the frame before
+  std::set<int> known_truths;  // that own one of them
   for (auto first = records.begin(); first != records.end();) {
     const auto last = std::find_if(first, records.end(), [&](const AssociationRecord& r) {
       return r.frame != first->frame;
     });
-    for (auto r = first; r != last; ++r) judged.push_back(Judge(*r, owner, owned));
     for (auto r = first; r != last; ++r) {
-      if (owner.emplace(r->map_plane, r->truth).second && r->truth != 0) owned.insert(r->truth);
+      judged.push_back(Judge(*r, owners.at(r->map_plane), known_planes, known_truths));
+    }
+    for (auto r = first; r != last; ++r) {
+      known_planes.insert(r->map_plane);
+      const int owner = owners.at(r->map_plane);
+      if (owner != 0) known_truths.insert(owner);
     }
     first = last;
   }

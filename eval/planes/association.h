@@ -13,6 +13,7 @@ struct AssociationRecord {
   int frame = 0;
   int truth = 0;
   int map_plane = 0;
+  int pixels = 0;  ///< of the frame plane
 };
 
 /// What one decision was, given those of earlier frames; see DecisionCounts.
@@ -27,8 +28,13 @@ enum class DecisionOutcome {
 struct JudgedDecision {
   DecisionOutcome outcome = DecisionOutcome::kFirst;
   bool truth_had_owner = false;  ///< its truth had a map plane
-  int owner = 0;  ///< truth of the record that created the map plane; 0: none, noise
+  int owner = 0;                 ///< truth that made the map plane; 0: none, noise
 };
+
+/// The truth that made each map plane, 0 for noise: the one that showed most pixels of it in its
+/// first frame; ties go to the lower id, before 0.
+/// @param records  by rising frame; of one frame in any order
+std::map<int, int> OwnersOf(const std::vector<AssociationRecord>& records);
 
 /// @param records  by rising frame; of one frame in any order
 /// @returns one for each record
@@ -46,10 +52,11 @@ struct PrecisionRecall {
   double precision = 0.0, recall = 0.0, f1 = 0.0;
 };
 
-/// What a gate decided. owner(m) is the truth of the record that created map plane m.
+/// What a gate decided. owner(m) is the truth that made map plane m, see OwnersOf.
 ///   known plane: TP if owner = truth, else FP, and FN as well if that truth has an owner;
 ///   new plane:   TN if its truth had none, FN if it had (a duplicate landmark),
-///                spurious if there is no truth.
+///                spurious if there is no truth; of several truths that make one map plane
+///                in a frame all but its owner are on a known plane.
 /// Decisions of a frame are simultaneous. Noise put again on the plane that noise created is
 /// neither right nor wrong and counts as `spurious`.
 struct DecisionCounts {

@@ -87,6 +87,19 @@ int TruthByOutline(const RunMapPlane& plane, const SceneTruth& scene, const Alig
   return best.id;
 }
 
+/// Do more planes lie on true ones with their normals turned round? Another convention, then.
+bool NormalsAreTurned(const std::vector<RunMapPlane>& map, const SceneTruth& scene,
+                      const Alignment& gauge) {
+  int as_told = 0, turned = 0;
+  for (RunMapPlane plane : map) {
+    if (plane.merged_into) continue;
+    as_told += TruthByOutline(plane, scene, gauge) != 0 ? 1 : 0;
+    plane.pi_w = {-plane.pi_w.n, -plane.pi_w.d};
+    turned += TruthByOutline(plane, scene, gauge) != 0 ? 1 : 0;
+  }
+  return turned > as_told;
+}
+
 struct Errors {
   std::vector<double> normal_deg, offset_mm, vertex_mm, iou;
 
@@ -178,6 +191,7 @@ MapScore ScoreMap(const std::vector<RunMapPlane>& map, const SceneTruth& scene,
   MapScore score;
   score.true_planes_seen = static_cast<int>(seen.size());
   score.merged = CountMerged(counts);
+  score.normals_turned = gauge && NormalsAreTurned(map, scene, *gauge);
   // Most observations first, so that the first of a truth is its match and the rest duplicates.
   std::map<int, std::vector<const RunMapPlane*>> planes_of;
   for (const RunMapPlane& plane : map) {

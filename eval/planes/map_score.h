@@ -28,6 +28,8 @@ struct MapScore {
   /// With >= 2 truths that have n_ij >= max(3, 5 % of n_.j); nothing without decisions.
   std::optional<int> merged;
   int spurious = 0;  ///< whose observations show mostly no scored plane, or that have none
+  /// More planes lie on true ones with their normals turned round than as they stand.
+  bool normals_turned = false;
   std::optional<Spread> normal_deg;  ///< oriented angle; of matched pairs, as all below
   std::optional<Spread> offset_mm;   ///< rms distance of the true vertices to the map plane
   std::optional<Spread> vertex_mm;   ///< corners matched one-to-one within kMaxMapCornerError_m

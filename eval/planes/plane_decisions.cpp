@@ -25,9 +25,8 @@ void DecisionHistory::Add(const FrameEvidence& e) {
   if (!first_s) first_s = e.truth.stamp_s;
   for (const RunFramePlane& plane : e.planes) {
     if (!Decided(plane)) continue;
-    decisions.push_back({{e.number, e.TruthOf(plane), *plane.map_plane},
+    decisions.push_back({{e.number, e.TruthOf(plane), *plane.map_plane, plane.pixels},
                          e.truth.stamp_s,
-                         plane.pixels,
                          plane.by.value_or(""),
                          e.truth.T_gc * plane.centroid_c});
   }
@@ -50,14 +49,13 @@ std::vector<AssociationRecord> RecordsOf(const std::vector<PlaneDecision>& decis
 
 UndecidedSurfaces FindUndecided(const DecisionHistory& history) {
   UndecidedSurfaces found;
-  std::set<int> owned;       // truths that own a map plane, as of the frame before
-  std::set<int> map_planes;  // that exist by then
+  const std::map<int, int> owners = OwnersOf(RecordsOf(history.decisions));
+  std::set<int> owned;  // truths that own a map plane, as of the frame before
   auto decision = history.decisions.begin();
   for (const SeenSurface& surface : history.surfaces) {
     for (; decision != history.decisions.end() && decision->record.frame < surface.frame;
          ++decision) {
-      if (map_planes.insert(decision->record.map_plane).second)
-        owned.insert(decision->record.truth);
+      owned.insert(owners.at(decision->record.map_plane));
     }
     const bool early = !(surface.stamp_s - *history.first_s > kFirstLandmarks_s);
     if (early || !surface.is_large || owned.count(surface.truth) == 0) continue;

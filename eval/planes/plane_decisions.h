@@ -28,7 +28,6 @@ std::string WhyUndecided(const RunFramePlane* plane);
 struct PlaneDecision {
   AssociationRecord record;
   double stamp_s = 0.0;
-  int pixels = 0;
   std::string cue;             ///< what settled it, as the run says; may be empty
   Eigen::Vector3d centroid_g;  ///< of the patch, by the true pose, metres
 };

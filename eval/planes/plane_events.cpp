@@ -23,10 +23,10 @@ std::optional<double> DistanceOf(const PlaneDecision& decision, const EventWorld
 /// The first map plane that each true plane made.
 std::map<int, int> FirstMapPlanes(const DecisionHistory& history) {
   std::map<int, int> first_of;
-  std::set<int> made;
+  const std::map<int, int> owners = OwnersOf(RecordsOf(history.decisions));
   for (const PlaneDecision& decision : history.decisions) {
-    const AssociationRecord& record = decision.record;
-    if (made.insert(record.map_plane).second) first_of.emplace(record.truth, record.map_plane);
+    const int map_plane = decision.record.map_plane;
+    first_of.emplace(owners.at(map_plane), map_plane);
   }
   return first_of;
 }
@@ -40,8 +40,9 @@ class Placement {
     // Decisions come frame by frame; pieces of one surface are several.
     if (decision.record.frame != last_frame_) ++frames_;
     last_frame_ = decision.record.frame;
-    pixels_ += decision.pixels;
-    if (distance_mm) harm_px_mm_ = harm_px_mm_.value_or(0.0) + decision.pixels * *distance_mm;
+    pixels_ += decision.record.pixels;
+    if (distance_mm)
+      harm_px_mm_ = harm_px_mm_.value_or(0.0) + decision.record.pixels * *distance_mm;
     distance_mm_ = distance_mm;
     ++cues_[decision.cue];
   }
@@ -159,9 +160,9 @@ RunEvent EventOf(const PlaneDecision& decision, const JudgedDecision& judged,
     event.right_map_plane = FinalMapPlane(world.map, first_of.at(decision.record.truth));
   }
   event.cue = decision.cue;
-  event.pixels = decision.pixels;
+  event.pixels = decision.record.pixels;
   event.distance_mm = DistanceOf(decision, world);
-  if (event.distance_mm) event.harm_px_mm = decision.pixels * *event.distance_mm;
+  if (event.distance_mm) event.harm_px_mm = decision.record.pixels * *event.distance_mm;
   return event;
 }
 

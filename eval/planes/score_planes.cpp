@@ -89,14 +89,10 @@ class PlaneScorer {
     return labels;
   }
 
-  static TrackingFrame TrackByPixels(const FrameEvidence& e) {
-    const std::map<int, int> labels = LabelsOfMapPlanes(e);
-    const Overlap overlap = OverlapOf(PairsOf(e, [&](const RunFramePlane& plane) {
-      return Decided(plane) ? labels.at(*plane.map_plane) : 0;
-    }));
-    TrackingFrame frame;
+  /// Adds the map planes that hold pixels, with their IoU.
+  static void FillSimilarity(const Overlap& overlap, const std::map<int, int>& labels,
+                             TrackingFrame& frame) {
     std::vector<int> machine;
-    for (const auto& [truth, pixels] : overlap.truth_pixels) frame.truth_ids.push_back(truth);
     for (const auto& [id, label] : labels) {
       if (overlap.machine_pixels.count(label) == 0) continue;
       frame.predicted_ids.push_back(id);
@@ -109,30 +105,34 @@ class PlaneScorer {
             overlap.IoU(frame.truth_ids[i], machine[j]);
       }
     }
+  }
+
+  static TrackingFrame TrackByPixels(const FrameEvidence& e) {
+    const std::map<int, int> labels = LabelsOfMapPlanes(e);
+    const Overlap overlap = OverlapOf(PairsOf(e, [&](const RunFramePlane& plane) {
+      return Decided(plane) ? labels.at(*plane.map_plane) : 0;
+    }));
+    TrackingFrame frame;
+    for (const auto& [truth, pixels] : overlap.truth_pixels) frame.truth_ids.push_back(truth);
+    FillSimilarity(overlap, labels, frame);
     return frame;
   }
 
-  /// Without masks: similarity 1 where a frame plane on the map plane shows the truth, else 0.
+  /// Without masks, the IoU of what frame planes hold of the truth and of the map plane: of two map
+  /// planes on one truth the one that holds most of it is the match, whatever their ids.
   static TrackingFrame TrackByTruth(const FrameEvidence& e) {
     TrackingFrame frame;
     for (const SeenPlane& seen : e.truth.planes) {
       if (seen.counted) frame.truth_ids.push_back(seen.plane->id);
     }
-    std::map<int, std::set<int>> truths_of;  // by map plane
+    const std::map<int, int> labels = LabelsOfMapPlanes(e);
+    LabelPairs pairs;
     for (const RunFramePlane& plane : e.planes) {
       const int truth = e.TruthOf(plane);
-      if (Decided(plane) && !e.Ignored(truth)) truths_of[*plane.map_plane].insert(truth);
+      if (!Decided(plane) || e.Ignored(truth)) continue;
+      pairs[{truth, labels.at(*plane.map_plane)}] += plane.pixels;
     }
-    frame.similarity = Eigen::MatrixXd::Zero(Eigen::Index(frame.truth_ids.size()),
-                                             Eigen::Index(truths_of.size()));
-    for (const auto& [id, truths] : truths_of) {
-      const auto column = Eigen::Index(frame.predicted_ids.size());
-      frame.predicted_ids.push_back(id);
-      for (std::size_t i = 0; i < frame.truth_ids.size(); ++i) {
-        if (truths.count(frame.truth_ids[i]) > 0)
-          frame.similarity(Eigen::Index(i), column) = 1.0;
-      }
-    }
+    FillSimilarity(OverlapOf(pairs), labels, frame);
     return frame;
   }
 

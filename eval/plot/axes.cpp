@@ -13,7 +13,6 @@ namespace {
 
 constexpr const char* kFont = "DejaVu Sans";
 constexpr double kFont_pt = 8.0, kTick_pt = 3.0, kGap_pt = 3.0;
-constexpr double kLabelGap_pt = 30.0;  // from the frame to the label of the y axis: five digits
 constexpr double kLine_pt = 0.6;
 constexpr double kMarker_pt = 2.2;
 constexpr double kGridGrey = 0.88, kBarShade = 0.85;
@@ -144,7 +143,11 @@ void Axes::DrawFrame() {
   const double below = box_.y + box_.height + kTick_pt + 2.0 * kFont_pt + 2.0 * kGap_pt;
   Text(context_, box_.x + 0.5 * box_.width, below, x_.label, Anchor::kMiddle);
   cairo_save(context_);
-  cairo_translate(context_, box_.x - kLabelGap_pt, box_.y + 0.5 * box_.height);
+  double widest = 0.0;  // of the names beside the axis, beyond which its label is
+  for (const double tick : TicksOf(y_))
+    widest = std::max(widest, TextWidth(context_, TickName(y_, tick)));
+  cairo_translate(context_, box_.x - kTick_pt - 3.0 * kGap_pt - widest,
+                  box_.y + 0.5 * box_.height);
   cairo_rotate(context_, -0.5 * std::numbers::pi);
   Text(context_, 0.0, 0.0, y_.label, Anchor::kMiddle);
   cairo_restore(context_);

@@ -8,6 +8,9 @@
 
 namespace eval {
 
+/// Room at the left of a panel: the names of ticks of seven characters, and the label of the axis.
+inline constexpr double kAxisLeft_pt = 56.0;
+
 /// A point of a plot, in the units of its axes.
 struct PlotPoint {
   double x = 0.0, y = 0.0;

@@ -7,7 +7,7 @@ namespace eval {
 namespace {
 
 constexpr double kErrorWidth_pt = 280.0, kShareWidth_pt = 150.0, kErrorHeight_pt = 150.0;
-constexpr double kErrorLeft_pt = 44.0, kErrorBelow_pt = 34.0, kErrorEdge_pt = 10.0;
+constexpr double kErrorBelow_pt = 34.0, kErrorEdge_pt = 10.0;
 constexpr double kHeadroom = 1.05;
 
 /// Times since the first pose, millimetres.
@@ -56,15 +56,15 @@ std::vector<PlotFile> PlotErrors(const std::vector<PlottedRun>& runs) {
   end_mm = end_mm > 0.0 ? kHeadroom * end_mm : 1.0;
   const std::vector<LegendEntry> legend = LegendOf(runs);
   const double width =
-      2.0 * kErrorLeft_pt + kErrorWidth_pt + kShareWidth_pt + 2.0 * kErrorEdge_pt;
-  const double top = LegendHeight(width - kErrorLeft_pt, legend) + kErrorEdge_pt;
+      2.0 * kAxisLeft_pt + kErrorWidth_pt + kShareWidth_pt + 2.0 * kErrorEdge_pt;
+  const double top = LegendHeight(width - kAxisLeft_pt, legend) + kErrorEdge_pt;
   const FigureSize size{width, top + kErrorHeight_pt + kErrorBelow_pt};
   return RenderFigure("position_error", size, [&](cairo_t* context) {
-    DrawLegend(context, kErrorLeft_pt, 0.0, width - kErrorLeft_pt, legend);
-    Axes over_time(context, {kErrorLeft_pt, top, kErrorWidth_pt, kErrorHeight_pt},
+    DrawLegend(context, kAxisLeft_pt, 0.0, width - kAxisLeft_pt, legend);
+    Axes over_time(context, {kAxisLeft_pt, top, kErrorWidth_pt, kErrorHeight_pt},
                    {"time (s)", 0.0, end_s}, {"position error (mm)", 0.0, end_mm});
     for (std::size_t i = 0; i < runs.size(); ++i) over_time.Line(errors[i], StyleOfSeries(i));
-    const double left = 2.0 * kErrorLeft_pt + kErrorWidth_pt + kErrorEdge_pt;
+    const double left = 2.0 * kAxisLeft_pt + kErrorWidth_pt + kErrorEdge_pt;
     Axes shares(context, {left, top, kShareWidth_pt, kErrorHeight_pt},
                 {"position error (mm)", 0.0, end_mm}, {"share of poses", 0.0, 1.0});
     for (std::size_t i = 0; i < runs.size(); ++i) {

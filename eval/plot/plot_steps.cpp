@@ -8,7 +8,7 @@ namespace eval {
 namespace {
 
 constexpr double kStepWidth_pt = 200.0, kStepHeight_pt = 150.0;
-constexpr double kStepLeft_pt = 44.0, kStepBelow_pt = 34.0, kStepEdge_pt = 10.0;
+constexpr double kStepBelow_pt = 34.0, kStepEdge_pt = 10.0;
 
 std::vector<StepScore> StepsOf(const PlottedRun& run) {
   const auto& planes = run.evaluation.planes;
@@ -42,13 +42,13 @@ std::vector<PlotFile> PlotSteps(const std::vector<PlottedRun>& runs) {
   }
   if (!(max_mm > min_mm)) return {};
   const std::vector<LegendEntry> legend = LegendOf(runs);
-  const double width = 2.0 * (kStepLeft_pt + kStepWidth_pt + kStepEdge_pt);
-  const double top = LegendHeight(width - kStepLeft_pt, legend) + kStepEdge_pt;
+  const double width = 2.0 * (kAxisLeft_pt + kStepWidth_pt + kStepEdge_pt);
+  const double top = LegendHeight(width - kAxisLeft_pt, legend) + kStepEdge_pt;
   const FigureSize size{width, top + kStepHeight_pt + kStepBelow_pt};
   return RenderFigure("step_height", size, [&](cairo_t* context) {
-    DrawLegend(context, kStepLeft_pt, 0.0, width - kStepLeft_pt, legend);
+    DrawLegend(context, kAxisLeft_pt, 0.0, width - kAxisLeft_pt, legend);
     for (const bool precision : {true, false}) {
-      const double left = precision ? kStepLeft_pt : 0.5 * width + kStepLeft_pt;
+      const double left = precision ? kAxisLeft_pt : 0.5 * width + kAxisLeft_pt;
       PlotAxis height{"step height (mm)", min_mm, max_mm};
       height.logarithmic = true;
       Axes axes(context, {left, top, kStepWidth_pt, kStepHeight_pt}, height,

@@ -7,7 +7,7 @@ namespace eval {
 namespace {
 
 constexpr double kModule_pt = 44.0, kTimeHeight_pt = 150.0;  // of one module, of the panel
-constexpr double kTimeLeft_pt = 44.0, kTimeBelow_pt = 34.0, kTimeEdge_pt = 10.0;
+constexpr double kTimeBelow_pt = 34.0, kTimeEdge_pt = 10.0;
 constexpr double kGroupShare = 0.8;  // of a module's place, for the bars of all runs
 constexpr double kTimeHeadroom = 1.05;
 
@@ -52,13 +52,13 @@ std::vector<PlotFile> PlotTimes(const std::vector<PlottedRun>& runs) {
   }
   const std::vector<LegendEntry> legend = LegendOf(runs);
   const double panel = kModule_pt * static_cast<double>(modules.size());
-  const double width = kTimeLeft_pt + panel + kTimeEdge_pt;
-  const double top = LegendHeight(width - kTimeLeft_pt, legend) + kTimeEdge_pt;
+  const double width = kAxisLeft_pt + panel + kTimeEdge_pt;
+  const double top = LegendHeight(width - kAxisLeft_pt, legend) + kTimeEdge_pt;
   const FigureSize size{width, top + kTimeHeight_pt + kTimeBelow_pt};
   return RenderFigure("module_times", size, [&](cairo_t* context) {
-    DrawLegend(context, kTimeLeft_pt, 0.0, width - kTimeLeft_pt, legend);
+    DrawLegend(context, kAxisLeft_pt, 0.0, width - kAxisLeft_pt, legend);
     PlotAxis places{"module", -0.5, static_cast<double>(modules.size()) - 0.5, false, modules};
-    Axes axes(context, {kTimeLeft_pt, top, panel, kTimeHeight_pt}, places,
+    Axes axes(context, {kAxisLeft_pt, top, panel, kTimeHeight_pt}, places,
               {"time a frame (ms)", 0.0, kTimeHeadroom * end_ms});
     for (std::size_t i = 0; i < runs.size(); ++i) {
       DrawBars(axes, runs[i], modules, i, runs.size());

@@ -10,7 +10,7 @@ namespace {
 constexpr double kPanel_pt = 230.0;      // longer side of the panel
 constexpr double kMinPanelShare = 0.35;  // of the shorter side, for paths that are nearly lines
 constexpr double kPathMargin = 0.05;     // share of the path's extent around it
-constexpr double kLeft_pt = 46.0, kBelow_pt = 34.0, kEdge_pt = 10.0;
+constexpr double kBelow_pt = 34.0, kEdge_pt = 10.0;
 
 struct Extent {
   double min_x = std::numeric_limits<double>::infinity(), max_x = -min_x;
@@ -72,13 +72,14 @@ std::vector<PlotFile> PlotTrajectories(const std::vector<PlottedRun>& runs) {
   const Panel panel = PanelOf(extent);
   std::vector<LegendEntry> legend = LegendOf(runs);
   legend.insert(legend.begin(), {"truth", StyleOfTruth()});
-  const double width = kLeft_pt + panel.width_pt + kEdge_pt;
+  const double width = kAxisLeft_pt + panel.width_pt + kEdge_pt;
   const double legend_height = LegendHeight(width - 2.0 * kEdge_pt, legend);
   const FigureSize size{width, legend_height + panel.height_pt + kBelow_pt + kEdge_pt};
   return RenderFigure("trajectories", size, [&](cairo_t* context) {
     DrawLegend(context, kEdge_pt, 0.0, width - 2.0 * kEdge_pt, legend);
     const Extent& shown = panel.extent;
-    Axes axes(context, {kLeft_pt, legend_height + kEdge_pt, panel.width_pt, panel.height_pt},
+    Axes axes(context,
+              {kAxisLeft_pt, legend_height + kEdge_pt, panel.width_pt, panel.height_pt},
               {"x (m)", shown.min_x, shown.max_x}, {"y (m)", shown.min_y, shown.max_y});
     for (const PlottedRun& run : runs) axes.Line(TruePath(run), StyleOfTruth());
     for (std::size_t i = 0; i < runs.size(); ++i) {

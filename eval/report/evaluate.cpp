@@ -41,6 +41,12 @@ std::vector<Fault> Caveats(const Run& run, const Sequence& sequence,
                        "parameters, which errs now and then, and precision with it",
                        "write label images (pas slam --save-segmentation) for exact figures"});
   }
+  if (planes && planes->map && planes->map->normals_turned) {
+    caveats.push_back({"map.json", 0, "/planes",
+                       "more planes lie on true ones with their normals turned round than as "
+                       "they stand",
+                       "write normals towards the side that was seen, with n . x + d = 0"});
+  }
   if (!run.has_planes && !run.segmentation_files.empty()) {
     const auto without = std::count_if(
         sequence.frames.begin(), sequence.frames.end(), [&](const SequenceFrame& frame) {

@@ -214,8 +214,8 @@ Json TrajectoryRules() {
       "matched by equal stamps on synthetic data, else by the nearest within 10 ms; a frame is "
       "tracked if the run gives a pose for it; lost_events counts changes from tracked to not";
   rules["ate_complete_rmse_m"] =
-      "over all frames with truth, SE(3)-aligned on the tracked ones; every missing frame is "
-      "charged the diameter of the true path";
+      "over all frames with truth, one pose a frame, aligned as ate_se3; every frame without a "
+      "pose is charged the diameter of the true path";
   rules["rpe"] =
       "all pairs; 1 s by time, kept within half a frame; 1 m by the length of the true path, "
       "kept within 0.1 m";
@@ -245,11 +245,13 @@ void AddAssociationRules(const PlaneScore& s, Json& rules) {
       "count; "
       "planes_with_4 over such top faces of regular objects with four corners in view";
   rules["association"] =
-      "decisions as made at their frame; those of a frame are simultaneous; idf1, hota and "
+      "decisions as made at their frame; those of a frame are simultaneous; a map plane is of "
+      "the truth that showed most pixels of it in its first frame, also after the run split "
+      "it; idf1, hota and "
       "mota "
       "from masks of map planes" +
-      std::string(s.by_pixels ? ""
-                              : ", here with similarity 1 for a plane that shows the truth");
+      std::string(
+          s.by_pixels ? "" : ", here from the pixels of frame planes by the truth they show");
   rules["no_decision"] =
       "of surfaces over 5 % of the image that count and have a map plane since an earlier "
       "frame, "

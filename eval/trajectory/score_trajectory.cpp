@@ -4,8 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "eval/formats/run/run_agreement.h"
 #include "eval/trajectory/pose_errors.h"
-#include "io/input_error.h"
 
 namespace eval {
 namespace {
@@ -73,19 +73,6 @@ std::string WhyNoMatch(const Trajectory& estimate, const Trajectory& truth) {
   return "no pose of the run has a true pose of its time";
 }
 
-/// Charges the frames that the run does not answer for; nothing where the truth itself has no
-/// alignment (a camera on a tripod or on a rail).
-std::optional<double> CompleteRmse(const std::vector<Eigen::Vector3d>& true_positions,
-                                   std::size_t matched, const std::optional<Statistics>& ate) {
-  if (!AlignUmeyama(true_positions, true_positions)) return std::nullopt;
-  const double charge_m = Diameter(true_positions);
-  const double n = static_cast<double>(true_positions.size());
-  if (!ate) return charge_m;
-  const double missing = n - static_cast<double>(std::min(matched, true_positions.size()));
-  return std::sqrt((ate->sse + missing * charge_m * charge_m) /
-                   (static_cast<double>(matched) + missing));
-}
-
 MatchedPoses Collect(const Trajectory& estimate, const Trajectory& truth, bool equal) {
   MatchedPoses poses;
   for (const StampMatch& match : Match(truth, estimate, equal)) {
@@ -120,6 +107,41 @@ std::vector<PoseError> ErrorsOfPoses(const MatchedPoses& poses,
     errors.push_back(error);
   }
   return errors;
+}
+
+/// The error of each frame that a pose answers for: the nearest pose, one for one frame only, so that
+/// a run with more poses than frames (an IMU's) is asked for each frame all the same.
+std::vector<std::optional<double>> ErrorsOfFrames(const std::vector<PoseError>& errors,
+                                                  const std::vector<double>& frame_stamps_s,
+                                                  bool equal) {
+  const double tolerance_s = equal ? kSameStamp_s : kMaxStampDifference_s;
+  const std::vector<double> stamps_s = StampsOf(errors);
+  std::vector<std::optional<double>> of_frames(frame_stamps_s.size());
+  for (std::size_t i = 0; i < frame_stamps_s.size(); ++i) {
+    const auto pose = NearestStamp(stamps_s, frame_stamps_s[i], tolerance_s);
+    if (pose && NearestStamp(frame_stamps_s, stamps_s[*pose], tolerance_s) == i) {
+      of_frames[i] = errors[*pose].position_m;
+    }
+  }
+  return of_frames;
+}
+
+/// Charges the frames that the run does not answer for; nothing where the truth itself has no
+/// alignment (a camera on a tripod or on a rail).
+/// @param errors  of the frames with truth
+std::optional<double> CompleteRmse(const std::vector<Eigen::Vector3d>& true_positions,
+                                   const std::vector<std::optional<double>>& errors) {
+  if (!AlignUmeyama(true_positions, true_positions)) return std::nullopt;
+  const double charge_m = Diameter(true_positions);
+  double sse = 0.0, missing = 0.0;
+  for (const auto& error : errors) {
+    if (error) {
+      sse += *error * *error;
+    } else {
+      missing += 1.0;
+    }
+  }
+  return std::sqrt((sse + missing * charge_m * charge_m) / static_cast<double>(errors.size()));
 }
 
 /// The matched poses of which the run says what they are worth.
@@ -180,16 +202,21 @@ TrajectoryScore ScoreTrajectory(const Trajectory& estimate, const Trajectory& un
   score.gauge = AlignByPoses(poses.estimate, poses.truth);
   score.errors = ErrorsOfPoses(poses, se3, score.gauge);
 
+  const auto true_poses = TruePosesOfFrames(truth, frame_stamps_s, equal_stamps);
+  const auto errors = ErrorsOfFrames(score.errors, frame_stamps_s, equal_stamps);
   std::vector<Eigen::Vector3d> true_positions;
-  for (const auto& pose : TruePosesOfFrames(truth, frame_stamps_s, equal_stamps)) {
-    if (pose) true_positions.push_back(pose->t);
+  std::vector<std::optional<double>> frame_errors;
+  for (std::size_t i = 0; i < true_poses.size(); ++i) {
+    if (!true_poses[i]) continue;
+    true_positions.push_back(true_poses[i]->t);
+    frame_errors.push_back(errors[i]);
   }
   if (const auto reason = WhyNotAligned(true_positions, true_positions)) {
     score.no_ate_complete =
         truth.empty() ? score.no_match
                       : TextOf(*reason, "true positions of frames", true_positions.size());
   }
-  score.ate_complete_rmse_m = CompleteRmse(true_positions, poses.truth.size(), score.ate_se3);
+  score.ate_complete_rmse_m = CompleteRmse(true_positions, frame_errors);
   score.true_positions_g = std::move(true_positions);
   const double half_frame_s = 0.5 * MedianStep(frame_stamps_s);
   score.rpe_1s = ScorePairs(poses, PairsByTime(poses.stamps_s, kRpeTime_s, half_frame_s));
@@ -206,20 +233,7 @@ TrajectoryScore ScoreTrajectory(const Run& run, const Sequence& sequence) {
   std::vector<double> frame_stamps_s;
   for (const SequenceFrame& frame : sequence.frames) frame_stamps_s.push_back(frame.stamp_s);
   const bool equal = sequence.synthetic || sequence.scene.has_value();
-  // Of a recording a pose or two may stand alone; if all do, it is another recording.
-  const auto has_frame = [&](const StampedPose& pose) {
-    return equal
-               ? FindStamp(frame_stamps_s, pose.stamp_s).has_value()
-               : NearestStamp(frame_stamps_s, pose.stamp_s, kMaxStampDifference_s).has_value();
-  };
-  const auto stray = std::find_if_not(run.trajectory.begin(), run.trajectory.end(), has_frame);
-  if (stray != run.trajectory.end() &&
-      (equal || std::none_of(run.trajectory.begin(), run.trajectory.end(), has_frame))) {
-    throw io::InputError(io::Where(run.folder / "trajectory.txt", stray->line),
-                         "the pose at " + std::to_string(stray->stamp_s) +
-                             " s belongs to no frame of " + sequence.folder.string() +
-                             "; score a run against the sequence it was made from");
-  }
+  RequireRunOf(sequence, run);
   return ScoreTrajectory(run.trajectory, sequence.groundtruth.value_or(Trajectory{}),
                          frame_stamps_s, equal, run.covariances ? &*run.covariances : nullptr);
 }

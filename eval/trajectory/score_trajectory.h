@@ -36,8 +36,8 @@ struct TrajectoryScore {
   std::size_t lost_events = 0;        ///< times a tracked frame is followed by one that is not
   std::optional<Statistics> ate_se3;  ///< metres
   std::optional<Statistics> ate_origin;  ///< metres, first matched pose laid on the truth
-  /// Metres. Every frame with truth counts: a missing one is charged the diameter of the true
-  /// path, so that giving up frames cannot improve a run whose errors stay below that.
+  /// Metres. Every frame with truth counts, by one pose: a frame without is charged the diameter of
+  /// the true path, so that giving up frames cannot improve a run whose errors stay below that.
   std::optional<double> ate_complete_rmse_m;
   std::optional<RelativeScore> rpe_1s, rpe_1m;
   std::string no_match;              ///< why no pose has a truth; empty when some have
@@ -52,8 +52,7 @@ struct TrajectoryScore {
   std::optional<ConsistencyScore> consistency;
 };
 
-/// @throws InputError if a pose of the run belongs to no frame of a synthetic sequence, or none to
-///   any frame of a recording.
+/// @throws InputError if the run is of another sequence, as RequireRunOf tells
 TrajectoryScore ScoreTrajectory(const Run& run, const Sequence& sequence);
 
 /// The same from bare lists. `frame_stamps_s` rise.

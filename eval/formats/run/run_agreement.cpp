@@ -2,7 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <set>
+
+#include "io/input_error.h"
 
 namespace eval {
 namespace {
@@ -93,7 +96,31 @@ class DecisionCheck {
   std::string pointer_;
 };
 
+template <typename Records>
+void RequireFramesOf(const Sequence& sequence, const std::filesystem::path& file,
+                     const Records& records, const char* what) {
+  const bool equal = sequence.synthetic || sequence.scene.has_value();
+  // Of a recording a record or two may stand alone; if all do, it is another recording.
+  const auto has_frame = [&, stamps_s = StampsOf(sequence.frames)](const auto& record) {
+    return FindFrame(stamps_s, record.stamp_s, equal).has_value();
+  };
+  const auto stray = std::find_if_not(records.begin(), records.end(), has_frame);
+  if (stray == records.end()) return;
+  if (!equal && std::any_of(records.begin(), records.end(), has_frame)) return;
+  throw io::InputError(
+      io::Where(file, stray->line),
+      fmt::format("{} at {:.6f} s belongs to no frame of {}; score a run against the "
+                  "sequence it was made from",
+                  what, stray->stamp_s, sequence.folder.string()));
+}
+
 }  // namespace
+
+void RequireRunOf(const Sequence& sequence, const Run& run) {
+  RequireFramesOf(sequence, run.folder / "trajectory.txt", run.trajectory, "the pose");
+  RequireFramesOf(sequence, run.folder / "frame_planes.jsonl", run.frames,
+                  "the line of planes");
+}
 
 void TellRunDisagreements(Folder& folder, const Run& run) {
   if (folder.Has("trajectory.txt")) {

@@ -1,5 +1,6 @@
 #include "eval/formats/sequence/camera.h"
 
+#include "eval/formats/sequence/camera_forms.h"
 #include "io/number_text.h"
 #include "io/yaml_value.h"
 
@@ -11,6 +12,7 @@ constexpr const char* kSize = "(0, 100000)";
 constexpr int kMaxSize = 99999;  // the same of whole numbers
 constexpr const char* kPositive = "(0, 1e9)";
 constexpr const char* kAny = "(-1e9, 1e9)";
+constexpr double kUsualRate_Hz = 30.0;  // taken where a file names none, as `pas slam` does
 constexpr const char* kDistortion[] = {"k1", "k2", "p1", "p2", "k3"};
 
 /// Reads the keys one by one, so that each fault is told.
@@ -30,7 +32,9 @@ class CameraKeys {
     Number("fy", positive, "pixels", camera.fy);
     PrincipalPoint("cx", camera.width, camera.cx);
     PrincipalPoint("cy", camera.height, camera.cy);
-    Number("fps", positive, "frames per second", camera.fps);
+    camera.fps = kUsualRate_Hz;
+    Try([&] { camera.fps = map_.At("fps").Number(positive, "frames per second"); },
+        map_.Has("fps") ? Severity::kFatal : Severity::kFlaw);
     Number("depth_factor", positive, "depth units per metre", camera.depth_factor);
     for (std::size_t i = 0; i < camera.distortion.size(); ++i) {
       if (map_.Has(kDistortion[i])) {
@@ -80,7 +84,8 @@ std::optional<Camera> ReadCamera(Folder& folder, const std::string& file,
   std::optional<Camera> camera;
   folder.Try(file, [&] {
     const io::YamlMap map(io::ReadYaml(folder.Open(file), mend));
-    camera = CameraKeys(folder, file, map).Read();
+    camera = CameraOfOtherForm(map);
+    if (!camera) camera = CameraKeys(folder, file, map).Read();
   });
   return camera;
 }

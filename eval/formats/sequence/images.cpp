@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "io/image/as_bgr.h"
 #include "io/image/decode_image.h"
 #include "io/image/image_header.h"
 #include "io/input_error.h"
@@ -109,13 +110,13 @@ cv::Mat ReadColour(const std::filesystem::path& file) {
                     "copy it again",
                     header->width, header->height, kMaxImageSide_px));
   }
-  const cv::Mat image = header->whole ? io::DecodeImage(bytes) : cv::Mat();
+  const cv::Mat image = header->whole ? io::AsBgr(io::DecodeImage(bytes)) : cv::Mat();
   if (image.empty()) {
     throw io::InputError(file.string(), "is damaged and cannot be decoded; copy it again");
   }
   if (image.type() != CV_8UC3) {
-    throw io::InputError(file.string(),
-                         "is " + header->pixels + "; expected 8-bit RGB: convert the image");
+    throw io::InputError(file.string(), "is " + header->pixels +
+                                            "; expected 8-bit RGB or gray: convert the image");
   }
   return image;
 }

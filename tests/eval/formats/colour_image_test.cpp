@@ -46,6 +46,19 @@ TEST_F(ColourImageFile, IsReadAsPngAndAsJpeg) {
   }
 }
 
+TEST_F(ColourImageFile, MayBeGrayOrHaveAlpha) {
+  const auto read = [&](const cv::Mat& image) {
+    std::vector<uchar> png;
+    cv::imencode(".png", image, png);
+    EXPECT_EQ(WhyRefused({png.begin(), png.end()}), "");
+    return ReadColour(folder_.path() / "colour.png");
+  };
+  const cv::Mat gray = read(cv::Mat(24, 32, CV_8UC1, cv::Scalar(90)));
+  EXPECT_EQ(cv::norm(gray, cv::Mat(24, 32, CV_8UC3, cv::Scalar(90, 90, 90)), cv::NORM_INF), 0);
+  const cv::Mat colour = read(cv::Mat(24, 32, CV_8UC4, cv::Scalar(40, 120, 200, 7)));
+  EXPECT_EQ(cv::norm(colour, image_, cv::NORM_INF), 0);
+}
+
 TEST_F(ColourImageFile, MayHaveMoreBehindTheEndOfAJpeg) {
   EXPECT_EQ(WhyRefused(Encoded(".jpg") + "written by the camera"), "");
   const std::string jpeg = Encoded(".jpg");

@@ -57,6 +57,42 @@ int PixelsOfLine(const std::vector<PlotPoint>& points) {
   return count;
 }
 
+/// Columns left of a panel at 100 in which anything is drawn, of an axis up to that number.
+std::set<int> ColumnsBeside(double max) {
+  cairo_surface_t* const surface = cairo_image_surface_create(CAIRO_FORMAT_RGB24, 300, 300);
+  cairo_t* const context = cairo_create(surface);
+  cairo_set_source_rgb(context, 1, 1, 1);
+  cairo_paint(context);
+  Axes(context, {100, 50, 150, 200}, {"x", 0, 2}, {"y", -max, max});
+  cairo_surface_flush(surface);
+  std::set<int> columns;
+  for (int v = 0; v < 300; ++v) {
+    const auto* row = reinterpret_cast<const std::uint32_t*>(
+        cairo_image_surface_get_data(surface) + v * cairo_image_surface_get_stride(surface));
+    for (int u = 0; u < 96; ++u) {
+      if ((row[u] & 0xffffff) != 0xffffff) columns.insert(u);
+    }
+  }
+  cairo_destroy(context);
+  cairo_surface_destroy(surface);
+  return columns;
+}
+
+// A label over the names of ticks hides a sign.
+TEST(Axes, PutTheLabelBesideTheNamesOfTicks) {
+  for (const double max : {2.0, 0.06, 0.0021}) {
+    const std::set<int> columns = ColumnsBeside(max);
+    ASSERT_FALSE(columns.empty());
+    int gaps = 0, last = *columns.begin();
+    for (const int u : columns) {
+      gaps += u - last > 2 ? 1 : 0;
+      last = u;
+    }
+    EXPECT_GE(gaps, 1) << max;  // label, gap, names
+    EXPECT_GE(*columns.begin(), 100 - static_cast<int>(kAxisLeft_pt)) << max;
+  }
+}
+
 TEST(Axes, LeaveAGapWhereALineIsNotKnown) {
   const double unknown = std::nan("");
   const int all = PixelsOfLine({{0, 1}, {0.5, 1}, {1, 1}, {1.5, 1}, {2, 1}});

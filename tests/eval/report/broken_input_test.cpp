@@ -171,6 +171,25 @@ TEST_F(EvaluateBrokenInput, ARunOfAnotherRecordingIsRefused) {
               AllOf(HasSubstr("trajectory.txt:1"), HasSubstr("belongs to no frame")));
 }
 
+TEST_F(EvaluateBrokenInput, LinesOfPlanesAtTimesOfNoFrameAreRefused) {
+  tiny_.segmentation.clear();
+  for (auto& frame : tiny_.frames) frame["timestamp"] = frame["timestamp"].get<double>() + 0.01;
+  EXPECT_THAT(Refusal(),
+              AllOf(HasSubstr("frame_planes.jsonl:1"),
+                    HasSubstr("the line of planes at 0.010000 s belongs to no frame")));
+  // One frame of many is refused too: its planes would count as not found.
+  tiny_ = TinyRun(*world_);
+  tiny_.segmentation.clear();
+  tiny_.frames[7]["timestamp"] = tiny_.frames[7]["timestamp"].get<double>() + 0.01;
+  EXPECT_THAT(Refusal(), HasSubstr("frame_planes.jsonl:8"));
+}
+
+TEST_F(EvaluateBrokenInput, ALineOfPlanesIsMissingWithoutARefusal) {
+  tiny_.segmentation.clear();
+  tiny_.frames.erase(tiny_.frames.begin() + 7);
+  EXPECT_EQ(Refusal(), "");
+}
+
 TEST_F(EvaluateBrokenInput, AFaultlessRunHasNoWarningAndNoReason) {
   const Evaluation evaluation = Score();
   EXPECT_THAT(evaluation.run_warnings, IsEmpty());

@@ -132,6 +132,32 @@ TEST_F(EvaluateTinyWorld, APlaneOnTheToyIsNoiseUnlessTheRunDistrustsIt) {
   EXPECT_EQ(Moved(before, Metrics(run)), Keys{});
 }
 
+TEST_F(EvaluateTinyWorld, WithoutMasksTrackingDoesNotDependOnTheIdsOfMapPlanes) {
+  const auto association_with = [](int piece_id) {
+    TinyRun run(*world_);
+    run.segmentation.clear();
+    // A corner of the desk is a second map plane, in every other frame.
+    bool made = false;
+    for (std::size_t i = 0; i < run.frames.size(); i += 2) {
+      nlohmann::json piece = *FramePlane(run, i, TinyWorld::kDeskTop);
+      piece["index"] = 200;
+      piece["pixels"] = piece["pixels"].get<int>() / 4;
+      piece["map_plane"] = piece_id;
+      piece["decision"] = made ? "matched" : "new";
+      made = true;
+      run.frames[i]["planes"].push_back(piece);
+    }
+    nlohmann::json piece = MapPlane(run, TinyWorld::kDeskTop);
+    piece["id"] = piece_id;
+    run.map["planes"].push_back(piece);
+    return Metrics(run)["association"];
+  };
+  const nlohmann::json low = association_with(3), high = association_with(4711);
+  EXPECT_EQ(low, high);
+  EXPECT_EQ(low["id_switches"], 0);
+  EXPECT_LT(low["mota"].get<double>(), 1.0);
+}
+
 TEST_F(EvaluateTinyWorld, WithoutMasksTheGeometryFindsTheSameTruthAndPixelFiguresAreAbsent) {
   TinyRun run(*world_);
   const nlohmann::json before = Metrics(run);

@@ -111,7 +111,7 @@ TEST_F(EvaluateTinyWorld, ABookPutOnTheDesksMapPlaneMovesAssociationAndMapOnly) 
     if (auto* plane = FramePlane(run, i, TinyWorld::kThinTop)) {
       (*plane)["map_plane"] = TinyRun::MapId(TinyWorld::kDeskTop);
       (*plane)["decision"] = "matched";
-      if (i > 0) ++moved_decisions;
+      ++moved_decisions;  // also in the frame that makes it: the desk shows more pixels of it
     }
   }
   auto& planes = run.map["planes"];

@@ -89,6 +89,19 @@ TEST_F(EvaluateOtherSystems, AMapPlaneFarFromEveryTrueOneIsSpurious) {
   EXPECT_EQ(ours["map"]["matched"], whole_["map"]["matched"].get<int>() - 1);
 }
 
+TEST_F(EvaluateOtherSystems, AMapWithItsNormalsTurnedRoundIsAWarning) {
+  MetricsOf({"trajectory.txt", "map.json"});
+  nlohmann::json map = nlohmann::json::parse(std::ifstream(RunFolder() / "map.json"));
+  for (auto& plane : map["planes"]) {
+    for (auto& component : plane["normal"]) component = -component.get<double>();
+    plane["d"] = -plane["d"].get<double>();
+  }
+  io::WriteFile(RunFolder() / "map.json", map.dump());
+  const nlohmann::json ours = MetricsOf({"trajectory.txt", "map.json"});
+  EXPECT_EQ(ours["map"]["spurious"], ours["map"]["planes"]);
+  EXPECT_THAT(ours["warnings"], ::testing::ElementsAre(HasSubstr("normals turned round")));
+}
+
 TEST_F(EvaluateOtherSystems, AMapPlaneIsOfTheFaceThatItSharesNotOfANearerOneBesideIt) {
   // The thick book's top is mapped 26 mm too low: 4 mm above the thin one's beside it, and 34 mm
   // above the desk's below it.

@@ -123,7 +123,7 @@ TEST_F(EventsOfTinyWorld, AMergeSumsUpWhatItsWrongDecisionsDid) {
 TEST(PlaneEvents, CountFramesNotDecisions) {
   DecisionHistory history;
   for (const auto& [frame, truth] : {std::pair{0, 1}, {1, 1}, {2, 1}, {2, 2}, {2, 2}, {3, 2}}) {
-    history.decisions.push_back({{frame, truth, 7}, 0.0, 10, "", Eigen::Vector3d::Zero()});
+    history.decisions.push_back({{frame, truth, 7, 10}, 0.0, "", Eigen::Vector3d::Zero()});
   }
   const std::vector<RunMapPlane> map;
   const SceneTruth scene;

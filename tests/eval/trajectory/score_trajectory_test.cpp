@@ -86,6 +86,37 @@ TEST(ScoreTrajectory, ChargesAMissingFrameTheDiameterOfTheTruePath) {
   EXPECT_NEAR(*score.ate_complete_rmse_m, diameter_m / std::sqrt(64.0), kExact_m);
 }
 
+TEST(ScoreTrajectory, ChargesTheFramesThatARunWithMorePosesThanFramesHasLost) {
+  // Truth and poses at ten times the rate of the frames, as of an IMU; lost for the second half.
+  const Trajectory truth = Helix(640, 200.0);
+  std::vector<double> frames_s;
+  for (std::size_t i = 0; i < truth.size(); i += 10) frames_s.push_back(truth[i].stamp_s);
+  Trajectory estimate(truth.begin(), truth.begin() + 316);
+  for (const bool equal : {false, true}) {
+    SCOPED_TRACE(equal);
+    const TrajectoryScore score = ScoreTrajectory(estimate, truth, frames_s, equal);
+    EXPECT_EQ(score.tracked, 32u);
+    double diameter_m = 0.0;
+    for (const auto& a : score.true_positions_g) {
+      for (const auto& b : score.true_positions_g) {
+        diameter_m = std::max(diameter_m, (a - b).norm());
+      }
+    }
+    EXPECT_NEAR(*score.ate_complete_rmse_m, diameter_m / std::sqrt(2.0), 1e-9);
+    const TrajectoryScore whole = ScoreTrajectory(truth, truth, frames_s, equal);
+    EXPECT_NEAR(*whole.ate_complete_rmse_m, 0.0, 1e-9);
+  }
+}
+
+TEST(ScoreTrajectory, LetsAPoseAnswerForOneFrameOnly) {
+  // Frames 5 ms apart, within the tolerance of a recording; every second one has a pose.
+  const Trajectory truth = Helix(64, 200.0);
+  Trajectory estimate;
+  for (std::size_t i = 0; i < truth.size(); i += 2) estimate.push_back(truth[i]);
+  const TrajectoryScore score = ScoreTrajectory(estimate, truth, Stamps(truth), false);
+  EXPECT_GT(*score.ate_complete_rmse_m, 1.0);
+}
+
 TEST(ScoreTrajectory, PairsAMetreApartAlongTheTruthWhateverTheRunMakesOfIt) {
   constexpr std::size_t kSteps = 5;  // of 0.2 m each
   Trajectory truth = Helix(60, 30.0);
