@@ -12,6 +12,7 @@
 #include "io/number_text.h"
 #include "io/output_file.h"
 #include "io/output_folder.h"
+#include "io/path_type.h"
 #include "slam/input/camera_reader.h"
 #include "slam/input/sequence_reader.h"
 
@@ -62,6 +63,9 @@ double RateOf(const slam::SequenceReader& reader, double otherwise) {
 }
 
 int RunImport(const ImportArguments& arguments, bool quiet) {
+  if (io::TypeAt(arguments.bag) == std::filesystem::file_type::not_found) {
+    throw io::InputError(arguments.bag, "no such file; expected a bag of ROS 1, RECORDING.bag");
+  }
   io::RequireRecording(arguments.bag);
   if (!io::IsBagFile(arguments.bag)) {
     throw io::InputError(arguments.bag,

@@ -1,9 +1,9 @@
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
-#include <map>
 
 #include "app/app.h"
+#include "app/choice_option.h"
 #include "app/console.h"
 #include "app/detector_figures.h"
 #include "app/recording_options.h"
@@ -133,7 +133,7 @@ int Run(const SimArguments& arguments, bool quiet) {
 void AddMotionOptions(CLI::App& command, SimArguments& a) {
   const std::string motion = "How the camera moves (default: as the scene says)";
   command.add_option("--motion", a.motion, "Preset, instead of the scene's; docs/scenes.md")
-      ->check(CLI::IsMember(sim::kPresetNames))
+      ->check(Choice(sim::kPresetNames))
       ->group(motion);
   command.add_option("--speed", a.speed_m_s, "Mean, m/s at 30 Hz")
       ->check(CLI::Range(0.005, 3.0))
@@ -218,7 +218,7 @@ void AddCaptureOptions(CLI::App& command, SimArguments& a, const std::string& pr
       "Kinect are; kinect1-clean: its noise alone; azure: time of flight; d435: active stereo; "
       "FILE.yaml: one of these as `base:`, with "
       "parameters of your own (docs/sensors.md); left out: as the scene says, else kinect1");
-  const std::map<std::string, sim::DetectorKind> detectors{
+  const std::vector<std::pair<std::string, sim::DetectorKind>> detectors{
       {"perfect", sim::DetectorKind::kPerfect},
       {"noisy", sim::DetectorKind::kNoisy},
       {"poor", sim::DetectorKind::kPoor},
@@ -228,8 +228,7 @@ void AddCaptureOptions(CLI::App& command, SimArguments& a, const std::string& pr
                   "perfect: the visible box of every object; noisy: misses, jitter, wrong "
                   "classes, doubles, in runs of frames; poor: several times as many "
                   "(docs/detector.md); none: no detections.jsonl")
-      ->transform(
-          CLI::CheckedTransformer(detectors).description("perfect, noisy, poor or none"))
+      ->transform(ChoiceOf(detectors))
       ->default_str("noisy");
   command
       .add_option("--" + prefix + "seed", a.seed,

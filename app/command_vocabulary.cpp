@@ -34,6 +34,7 @@ std::vector<std::vector<slam::Descriptor>> Describe(const VocabularyArguments& a
   for (const std::string& sequence : arguments.sequences) {
     const slam::Camera camera = slam::ChooseCamera(arguments.camera, sequence).camera;
     slam::SequenceReader reader(sequence, camera, {.prefetch = false});
+    for (const std::string& warning : reader.warnings()) PrintWarning(warning);
     for (int i = 0; i < reader.size(); i += arguments.every) {
       const slam::RecordedFrame frame = reader.Read(i);
       images.emplace_back();
@@ -80,7 +81,9 @@ int TrainWords(const VocabularyArguments& arguments, bool quiet) {
 void AddVocabularyCommand(CLI::App& pas, const Globals& globals, int& exit_code) {
   CLI::App* command = pas.add_subcommand(
       "vocabulary",
-      "Train the binary words by which a lost camera finds its place; one comes with pas slam");
+      "Train the binary words by which a lost camera finds its place. Some come with pas slam, "
+      "built\ninto the program: no command reads the file. It takes the place of "
+      "slam/places/orb_words.bin\nin the source; build the program anew then.");
   auto arguments = std::make_shared<VocabularyArguments>();
   command->add_option("SEQ", arguments->sequences, "Sequences whose images to learn from")
       ->required();

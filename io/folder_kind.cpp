@@ -195,6 +195,10 @@ void RequireRun(const fs::path& folder) {
 }
 
 void RequireRecording(const fs::path& recording) {
+  if (recording.extension() == ".bag" && TypeAt(recording) == fs::file_type::not_found) {
+    throw InputError(recording.string(),
+                     "no such file; expected a bag of ROS 1, or a sequence folder");
+  }
   if (!IsBagFile(recording)) RequireSequence(recording);
 }
 

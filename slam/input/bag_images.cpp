@@ -144,7 +144,7 @@ void BagImages::PairByTime() {
   }
   for (const auto& [i, j] : made.pairs) {
     index_.entries.push_back({colour.images[i].t, depth.images[j].t, topics_.colour,
-                              topics_.depth, colour.images[i].source});
+                              topics_.depth, colour.images[i].source, depth.images[j].source});
     messages_.emplace_back(colour.messages[i], depth.messages[j]);
   }
   index_.warnings.insert(index_.warnings.end(), made.warnings.begin(), made.warnings.end());

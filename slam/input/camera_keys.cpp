@@ -15,25 +15,32 @@ void ReadIfThere(const io::YamlMap& map, const std::string& key, const io::Inter
   if (map.Has(key)) value = map.At(key).Number(domain);
 }
 
-/// `data` of a matrix as OpenCV writes it.
-std::vector<double> DataOf(const io::YamlValue& matrix, const io::Interval& domain) {
-  std::vector<double> data;
-  for (const io::YamlValue& number : io::YamlMap(matrix).At("data").List()) {
-    data.push_back(number.Number(domain));
-  }
-  return data;
+std::vector<double> NumbersOf(const io::YamlValue& list, const io::Interval& domain) {
+  std::vector<double> numbers;
+  for (const io::YamlValue& number : list.List()) numbers.push_back(number.Number(domain));
+  return numbers;
 }
 
-/// The lens of a list in OpenCV's order; more coefficients than Brown's five must be 0.
-void TakeLens(const io::YamlValue& value, Camera& camera) {
+/// Takes the row-major matrix of fx, fy, cx, cy. @param where  to complain
+void TakeMatrix(const std::vector<double>& k, const io::YamlValue& where, Camera& camera) {
+  if (k.size() != 9 || k[1] != 0 || k[3] != 0 || k[6] != 0 || k[7] != 0 || k[8] != 1 ||
+      !kFocal_px.Contains(k[0]) || !kFocal_px.Contains(k[4]) || !kCentre_px.Contains(k[2]) ||
+      !kCentre_px.Contains(k[5])) {
+    where.Fail("expected data: [fx, 0, cx, 0, fy, cy, 0, 0, 1] in pixels");
+  }
+  camera.fx = k[0], camera.cx = k[2], camera.fy = k[4], camera.cy = k[5];
+}
+
+/// The lens in OpenCV's order; more coefficients than Brown's five must be 0.
+/// @param where  to complain
+void TakeLens(const std::vector<double>& data, const io::YamlValue& where, Camera& camera) {
   const std::array<double*, 5> lens = {&camera.k1, &camera.k2, &camera.p1, &camera.p2,
                                        &camera.k3};
-  const std::vector<double> data = DataOf(value, kLens);
   for (std::size_t i = 0; i < data.size(); ++i) {
     if (i < lens.size()) {
       *lens[i] = data[i];
     } else if (data[i] != 0) {
-      value.Fail(
+      where.Fail(
           "has more than the five coefficients k1 k2 p1 p2 k3; calibrate without the "
           "rational, thin prism and tilted models");
     }
@@ -88,24 +95,25 @@ Camera CameraUnder(const io::YamlMap& map, const CameraKeys& keys) {
 }
 
 Camera CameraOfMatrices(const io::YamlMap& map) {
-  // ROS names the model; of those it has this one is Brown's.
-  if (map.Has("distortion_model")) map.At("distortion_model").OneOf({"plumb_bob"});
-  Camera c;
-  c.width = map.At("image_width").Whole(kSize_px);
-  c.height = map.At("image_height").Whole(kSize_px);
-  const io::YamlValue matrix = map.At("camera_matrix");
-  const std::vector<double> k = DataOf(matrix, io::Interval("(-inf, inf)"));
-  if (k.size() != 9 || k[1] != 0 || k[3] != 0 || k[6] != 0 || k[7] != 0 || k[8] != 1 ||
-      !kFocal_px.Contains(k[0]) || !kFocal_px.Contains(k[4]) || !kCentre_px.Contains(k[2]) ||
-      !kCentre_px.Contains(k[5])) {
-    matrix.Fail("expected data: [fx, 0, cx, 0, fy, cy, 0, 0, 1] in pixels");
+  // Of a message of ROS the values are plain lists; ROS 2 writes their names small.
+  const bool message = map.Has("K") || map.Has("k"), small = map.Has("k");
+  const auto values = [&](const io::YamlValue& value) {
+    return message ? value : io::YamlMap(value).At("data");
+  };
+  // Of the models that ROS names this is Brown's, and one that holds it.
+  if (map.Has("distortion_model")) {
+    map.At("distortion_model").OneOf({"plumb_bob", "rational_polynomial"});
   }
-  c.fx = k[0], c.cx = k[2], c.fy = k[4], c.cy = k[5];
+  Camera c;
+  c.width = map.At(message ? "width" : "image_width").Whole(kSize_px);
+  c.height = map.At(message ? "height" : "image_height").Whole(kSize_px);
+  const io::YamlValue matrix = map.At(!message ? "camera_matrix" : small ? "k" : "K");
+  TakeMatrix(NumbersOf(values(matrix), io::Interval("(-inf, inf)")), matrix, c);
   const std::string depth = map.Has("DepthMapFactor") ? "DepthMapFactor" : "depth_factor";
   c.depth_factor = map.At(depth).Number(kDepthFactor, kDepthUnit);
   ReadIfThere(map, "fps", kRate_Hz, c.fps);
-  const io::YamlValue lens = map.At("distortion_coefficients");
-  TakeLens(lens, c);
+  const io::YamlValue lens = map.At(!message ? "distortion_coefficients" : small ? "d" : "D");
+  TakeLens(NumbersOf(values(lens), kLens), lens, c);
   RequireSound(c, matrix, matrix, lens);
   return c;
 }

@@ -18,7 +18,8 @@ struct CameraKeys {
 /// @throws InputError with file:line
 Camera CameraUnder(const io::YamlMap& map, const CameraKeys& keys);
 
-/// The values of a calibration of OpenCV or ROS, whose matrices are lists.
+/// The values of a calibration of OpenCV or ROS, whose matrices are lists, or of a CameraInfo
+/// message of ROS as text.
 /// @throws InputError with file:line
 Camera CameraOfMatrices(const io::YamlMap& map);
 

@@ -66,7 +66,7 @@ CameraFile ReadCamera(const std::filesystem::path& file) {
                    "Camera.height", "Camera.type", "Camera1.fx", "Camera1.fy"})) {
     return {CameraOfOrbSlam(map), {}};
   }
-  if (HasAny(map, {"camera_matrix", "distortion_coefficients", "image_width"})) {
+  if (HasAny(map, {"camera_matrix", "distortion_coefficients", "image_width", "K", "k"})) {
     return {CameraOfMatrices(map), {}};
   }
   return CameraOfSequence(root, file.filename().string());

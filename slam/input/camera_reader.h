@@ -19,8 +19,9 @@ struct CameraFile {
 ///   and fps, without which there is a warning; Brown's k1 k2 p1 p2 k3, 0 where absent;
 /// - settings of ORB-SLAM2 or 3: Camera.fx or Camera1.fx, Camera.width, DepthMapFactor or
 ///   RGBD.DepthMapFactor ...; what is not about the camera is passed over;
-/// - a calibration of OpenCV or ROS: image_width, camera_matrix, distortion_coefficients ...,
-///   to which depth_factor has to be added.
+/// - a calibration of OpenCV or ROS: image_width, camera_matrix, distortion_coefficients ..., or
+///   a CameraInfo message as `rostopic echo` prints it: width, K, D ... (ROS 2: k, d); to both
+///   depth_factor has to be added.
 /// @throws InputError with file:line for a missing or impossible value, a camera that is no
 ///   pinhole, and an unknown key of a camera.yaml.
 CameraFile ReadCamera(const std::filesystem::path& file);

@@ -19,8 +19,6 @@ class FolderImages : public SequenceImages {
   cv::Mat1f Depth(int i) const override;
 
  private:
-  cv::Mat Image(int i, const std::string& file, ImageType type) const;
-
   std::filesystem::path sequence_;
   Camera camera_;
   SequenceIndex index_;

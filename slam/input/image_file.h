@@ -10,11 +10,11 @@ namespace slam {
 
 /// What a recorded image must be. It is checked in the file's header, before any decoding.
 enum class ImageType {
-  kColour,  ///< PNG or JPEG, 8-bit, three channels
+  kColour,  ///< PNG or JPEG, 8-bit RGB or gray, with alpha or without
   kDepth    ///< PNG, 16-bit, one channel
 };
 
-/// Reads an image of the camera's size: CV_8UC3 in BGR order, or CV_16UC1. Whether it is a PNG or a
+/// Reads an image of the camera's size: CV_8UC3 in BGR order, gray in all three, or CV_16UC1. Whether it is a PNG or a
 /// JPEG is seen from its content, whatever it is called.
 /// @param context  what the file is, for messages: "frame 12"
 /// @throws InputError naming file and context when the file is missing, empty, truncated,

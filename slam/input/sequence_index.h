@@ -11,7 +11,8 @@ struct SequenceEntry {
   double timestamp_s = 0.0;  ///< the colour image's, and so the frame's
   double depth_timestamp_s = 0.0;
   std::string rgb, depth;  ///< file names, relative to the sequence
-  std::string source;      ///< "associations.txt:12", for messages
+  /// Where each image is listed, for messages: "associations.txt:12".
+  std::string rgb_source, depth_source;
 };
 
 struct SequenceIndex {
@@ -22,12 +23,11 @@ struct SequenceIndex {
 
 /// Lists the frames of a sequence folder (formats.md): associations.txt when it is there, else
 /// rgb.txt and depth.txt paired by nearest time, one to one, nearest pairs first, strictly
-/// within 20 ms (the rule of TUM's associate.py). Images without a partner are left out and
-/// counted in a warning. Pairs of associations.txt that are farther apart than that, or that
+/// within 20 ms (the rule of TUM's associate.py). Lines are sorted by time, of those with one time
+/// the first counts, and images without a partner are left out; each is counted in a warning. Pairs of associations.txt that are farther apart than that, or that
 /// rgb.txt and depth.txt do not list, are used and counted in a warning.
-/// @throws InputError with file:line for a line that cannot be understood, stamps that do not
-///   increase or are in units other than seconds, a file name that leads out of the folder, a
-///   list without frames.
+/// @throws InputError with file:line for a line that cannot be understood, stamps in units other
+///   than seconds, a file name that leads out of the folder, a list without frames.
 SequenceIndex IndexSequence(const std::filesystem::path& sequence);
 
 }  // namespace slam

@@ -71,6 +71,12 @@ TEST_F(FolderKinds, ThatAreWrongAreNamedWithTheCommandThatTakesThem) {
   EXPECT_NO_THROW(RequireRun(run));
 }
 
+TEST_F(FolderKinds, OfABagThatIsNotThereSpeakOfBags) {
+  EXPECT_THAT([&] { RequireRecording(folder_ / "none.bag"); },
+              Refused("none.bag: no such file; expected a bag of ROS 1", ""));
+  EXPECT_THAT([&] { RequireRecording(folder_ / "none"); }, Refused("no such folder", ""));
+}
+
 TEST_F(FolderKinds, OfAFileSaySo) {
   const fs::path file = With("a", {"scene.yaml"}) / "scene.yaml";
   EXPECT_THAT([&] { RequireSequence(file); },

@@ -74,6 +74,11 @@ TEST_F(HostileUse, NoCommandReplacesAFileWithoutForce) {
   ExpectRefusal({"sim", "--sensor-report", "ideal", "-o", folder_ / "out"}, "exists already");
 }
 
+TEST_F(HostileUse, ABagThatIsNotThereIsCalledABag) {
+  ExpectRefusal({"import", folder_ / "none.bag", "-o", folder_ / "out"},
+                "none.bag: no such file; expected a bag of ROS 1, RECORDING.bag");
+}
+
 TEST_F(HostileUse, NoCommandReplacesItsInputsEvenWithForce) {
   const auto before = Contents(seq());
   ExpectRefusal({"eval", run(), "--force", "-o", seq() / "camera.yaml"}, "camera.yaml: is in");

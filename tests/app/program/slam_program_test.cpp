@@ -111,6 +111,22 @@ TEST_F(SlamProgram, GivesTheSameBytesWithItsOwnSettingsPrintedAndRead) {
   }
 }
 
+// A file of all settings that named a sensor would overrule what the recording tells.
+TEST_F(SlamProgram, PrintsSettingsThatLeaveTheSensorToTheRecording) {
+  const auto config = [&](const std::string& options) {
+    const std::string file = folder_ / "config.yaml";
+    Run({"/bin/sh", "-c", Pas().string() + " config " + options + " > " + file});
+    return ReadText(file);
+  };
+  const std::string any = config("");
+  for (const char* line : {"\n  # model: kinect1", "\n  # noise:", "\n    # floor_m: 0.0012",
+                           "\n  max_depth_m: 10", "\nsensor:"}) {
+    EXPECT_THAT(any, HasSubstr(line));
+  }
+  EXPECT_THAT(config("--sensor azure"), HasSubstr("\n  model: azure"));
+  EXPECT_THAT(config("--sensor azure"), HasSubstr("\n    floor_m: 0.0022"));
+}
+
 TEST_F(SlamProgram, PrintsTheSettingsWithWhatTheOptionsSay) {
   const auto printed = [&](const std::string& options) {
     const fs::path file = folder_ / "settings.yaml";
@@ -125,7 +141,7 @@ TEST_F(SlamProgram, PrintsTheSettingsWithWhatTheOptionsSay) {
          "plane_extraction: {segmentation: ahc}\n";
   EXPECT_EQ(printed("slam --print-config --loop-closing --detect-every 5 --mapping async "
                     "--depth-warp off --structure manhattan --segmentation ahc"),
-            printed("config --config " + (folder_ / "same.yaml").string()));
+            printed("config --sensor kinect1 --config " + (folder_ / "same.yaml").string()));
 }
 
 TEST_F(SlamProgram, FailsWhenTheCameraEndsLostForMoreThanHalf) {

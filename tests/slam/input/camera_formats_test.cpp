@@ -80,6 +80,24 @@ depth_factor: 5000
 fps: 25
 )";
 
+/// A message of ROS 1 as `rostopic echo` prints it, with the unit of depth added.
+const std::string kMessage = R"(header:
+  seq: 0
+  stamp: {secs: 10, nsecs: 20}
+  frame_id: "camera_color_optical_frame"
+height: 480
+width: 640
+distortion_model: "plumb_bob"
+D: [0.262383, -0.953104, -0.005358, 0.002628, 1.163314]
+K: [517.306408, 0.0, 318.643040, 0.0, 516.469215, 255.313989, 0.0, 0.0, 1.0]
+R: [1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0]
+P: [517.306408, 0.0, 318.643040, 0.0, 0.0, 516.469215, 255.313989, 0.0, 0.0, 0.0, 1.0, 0.0]
+binning_x: 0
+roi: {x_offset: 0, y_offset: 0, height: 0, width: 0, do_rectify: False}
+depth_factor: 5000
+fps: 25
+)";
+
 class CameraFormats : public ::testing::Test {
  protected:
   CameraFile Read(const std::string& text) {
@@ -125,6 +143,26 @@ TEST_F(CameraFormats, AreThoseOfOrbSlam2) { ExpectTum1(Read(kOrbSlam2)); }
 TEST_F(CameraFormats, AreThoseOfOrbSlam3) { ExpectTum1(Read(kOrbSlam3)); }
 
 TEST_F(CameraFormats, AreThoseOfRos) { ExpectTum1(Read(kRos)); }
+
+TEST_F(CameraFormats, AreMessagesOfRos) {
+  ExpectTum1(Read(kMessage));
+  ExpectTum1(Read(With(With(kMessage, "\nK:", "\nk:"), "\nD:", "\nd:")));  // of ROS 2
+}
+
+TEST_F(CameraFormats, AreMessagesOfRosWithoutALens) {
+  const Camera camera =
+      Read(With(kMessage, "[0.262383, -0.953104, -0.005358, 0.002628, 1.163314]", "[]")).camera;
+  EXPECT_EQ(camera.k1, 0);
+  EXPECT_EQ(camera.fx, TumCamera("tum1").fx);
+}
+
+TEST_F(CameraFormats, OfMessagesNeedTheUnitOfDepth) {
+  ExpectError(kMessage, "depth_factor: 5000", "",
+              "key `depth_factor` is missing; expected .*steps of the depth images a metre");
+  ExpectError(kMessage, "K: [517.306408, 0.0,", "K: [517.306408, 3.0,",
+              "yaml:9: K: expected data: .fx, 0");
+  ExpectError(kMessage, "plumb_bob", "equidistant", "distortion_model: expected one of: plumb");
+}
 
 TEST_F(CameraFormats, AreThoseThatOpenCvWrites) {
   const Camera tum = TumCamera("tum1");

@@ -58,7 +58,8 @@ TEST_F(ConfigFile, ListsUnitDomainDefaultAndMeaningOfEachKey) {
 TEST(SettingsExample, OfTheDocumentationIsUpToDate) {
   std::ifstream file(std::string(PAS_SOURCE_DIR) + "/docs/settings.yaml");
   const std::string example{std::istreambuf_iterator<char>(file), {}};
-  EXPECT_EQ(example, ConfigAsYaml(Config{})) << "mend with: pas config > docs/settings.yaml";
+  EXPECT_EQ(example, ConfigAsYaml(Config{}))
+      << "mend with: pas config --sensor kinect1 > docs/settings.yaml";
 }
 
 TEST_F(ConfigFile, ChangesTheKeysItNamesAndNoOthers) {
