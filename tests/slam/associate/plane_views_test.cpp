@@ -1,5 +1,6 @@
 #include <gmock/gmock.h>
 
+#include "slam/associate/association_config.h"
 #include "slam/associate/plane_overlap.h"
 #include "slam/associate/plane_samples.h"
 #include "slam/associate/point_plane.h"
