@@ -3,7 +3,6 @@
 #include "app/app.h"
 #include "app/choice_option.h"
 #include "app/console.h"
-#include "app/export_warning.h"
 #include "eval/export/bop.h"
 #include "eval/export/coco.h"
 #include "io/output_file.h"
@@ -41,11 +40,6 @@ int RunExport(ExportArguments arguments, bool quiet) {
   const std::vector<std::filesystem::path> folders(arguments.sequences.begin(),
                                                    arguments.sequences.end());
   if (arguments.options.force) io::RefuseInputsInside(arguments.output, folders);
-  for (const std::filesystem::path& folder : folders) {
-    if (const std::string warning = RollingWarning(folder); !warning.empty()) {
-      PrintWarning(warning);
-    }
-  }
   const bool coco = arguments.format == Format::kCoco;
   const eval::ExportSummary summary =
       coco ? eval::ExportCoco(folders, arguments.output, arguments.options)

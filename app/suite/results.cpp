@@ -71,6 +71,16 @@ void RequireResults(const std::filesystem::path& folder) {
                                             "; name folders that `pas suite` wrote");
 }
 
+void RequireResultsFolder(const std::filesystem::path& folder) {
+  if (!std::filesystem::exists(folder) || std::filesystem::exists(folder / kResultsFile))
+    return;
+  if (!std::filesystem::is_directory(folder) || !std::filesystem::is_empty(folder)) {
+    throw io::InputError(folder.string(),
+                         "is neither empty nor a folder of results; name "
+                         "another with -o");
+  }
+}
+
 Results::Results(const std::filesystem::path& folder) : database_(folder / kResultsFile) {
   // A write-ahead log outlives the process; a loss of power may cost the last cases, no more.
   database_.Execute("PRAGMA journal_mode = WAL; PRAGMA synchronous = NORMAL");

@@ -13,6 +13,9 @@ namespace app {
 /// The file of all rows in a results folder.
 inline constexpr const char* kResultsFile = "results.sqlite";
 
+/// @throws InputError for a folder that is not to hold results: neither empty, nor with some already
+void RequireResultsFolder(const std::filesystem::path& folder);
+
 /// @throws InputError for a folder without results
 void RequireResults(const std::filesystem::path& folder);
 

@@ -1,5 +1,7 @@
 #include "eval/export/exportable.h"
 
+#include <fmt/format.h>
+
 #include "io/image/image_header.h"
 #include "io/input_error.h"
 #include "io/read_file.h"
@@ -22,6 +24,15 @@ Sequence ReadExportable(const std::filesystem::path& folder, const ExportOptions
   }
   if (options.warn) {
     for (const std::string& line : Summaries(sequence.warnings, folder)) options.warn(line);
+    if (sequence.rolling_s != 0.0) {
+      options.warn(
+          fmt::format("{}: colour was read over {:g} ms (rolling shutter), and masks, boxes "
+                      "and poses are of the "
+                      "middle of it: off by some pixels where the camera moves. To train on "
+                      "it, record with "
+                      "--rolling-ms 0",
+                      folder.string(), 1e3 * sequence.rolling_s));
+    }
   }
   const auto require = [&](bool there, const char* file) {
     if (!there) {

@@ -47,6 +47,13 @@ std::string ReadSensor(const JsonRecord& root) {
   return "";
 }
 
+double ReadRolling(const json& root) {
+  const auto exposure = root.find("exposure");
+  if (exposure == root.end() || !exposure->is_object()) return 0.0;
+  const json rolling = exposure->value("rolling_s", json());
+  return rolling.is_number() ? rolling.get<double>() : 0.0;
+}
+
 Manifest Read(const JsonRecord& root) {
   constexpr const char* kFormat = "pas-sequence/1";
   const JsonRecord expected = root.Expected();
@@ -73,6 +80,7 @@ Manifest Read(const JsonRecord& root) {
   // As recorded, a `kinect1` has errors of its calibration by itself.
   manifest.sensor_as_named = !root.Has("sensor_parameters") &&
                              (!root.Has("calibration_error") || manifest.sensor == "kinect1");
+  manifest.rolling_s = ReadRolling(root.value());
   manifest.sha256 = ReadHashes(root);
   return manifest;
 }

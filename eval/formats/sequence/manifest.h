@@ -10,13 +10,14 @@ namespace eval {
 
 /// manifest.json: who made the sequence, and of what files it consists.
 struct Manifest {
-  bool synthetic = false;          ///< a simulator wrote it: format "pas-sequence/1"
-  bool complete = true;            ///< false: it says that it was not finished
-  bool images = true;              ///< false: of a live run, whose images never were files
-  std::string sensor;              ///< empty when it does not tell
-  bool sensor_as_named = true;     ///< no parameter of it was set to something else
-  std::optional<int> frame_count;  ///< colour images
-  std::string frame_count_key;     ///< the key it stands under
+  bool synthetic = false;       ///< a simulator wrote it: format "pas-sequence/1"
+  bool complete = true;         ///< false: it says that it was not finished
+  bool images = true;           ///< false: of a live run, whose images never were files
+  std::string sensor;           ///< empty when it does not tell
+  bool sensor_as_named = true;  ///< no parameter of it was set to something else
+  double rolling_s = 0.0;  ///< from the first row of a colour image to the last; 0: not told
+  std::optional<int> frame_count;                            ///< colour images
+  std::string frame_count_key;                               ///< the key it stands under
   std::optional<std::map<std::string, std::string>> sha256;  ///< by file
 };
 

@@ -18,6 +18,7 @@ Sequence ReadSequence(const fs::path& path) {
   const Manifest manifest = ReadManifest(folder);
   sequence.synthetic = manifest.synthetic;
   sequence.complete = manifest.complete;
+  sequence.rolling_s = manifest.rolling_s;
   sequence.frames = ReadFrames(folder);
   TellFrameCount(folder, manifest, sequence.frames.size());
   if (folder.Has("camera.yaml")) sequence.camera = ReadCamera(folder);

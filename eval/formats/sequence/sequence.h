@@ -32,7 +32,8 @@ struct Sequence {
   /// A simulator wrote it: manifest.json says "pas-sequence/1". Stamps of truth and frames are
   /// then equal, not merely near.
   bool synthetic = false;
-  bool complete = true;         ///< false: manifest.json says that it was not finished
+  double rolling_s = 0.0;  ///< colour is read row by row over this time; truth is of its middle
+  bool complete = true;    ///< false: manifest.json says that it was not finished
   std::vector<Fault> warnings;  ///< faults that figures and pictures can live with
 };
 

@@ -43,5 +43,27 @@ TEST(ReadCheckedObjectIds, RefusesAnUnknownIdWhereverItStands) {
   }
 }
 
+// Masks, boxes and poses are of one instant; who trains on them has to know where colour is not.
+TEST(ReadExportable, WarnsOfARollingShutter) {
+  const auto warnings = [](const char* exposure) {
+    const TemporaryFolder folder;
+    WriteSequence(folder.path(), MakeWorld());
+    json manifest = json::parse(ReadText(folder.path() / "manifest.json"));
+    manifest["exposure"] = json::parse(exposure);
+    WriteText(folder.path() / "manifest.json", manifest.dump());
+    std::string told;
+    ReadExportable(folder.path(), {.warn = [&](const std::string& line) { told += line; }});
+    return told;
+  };
+  EXPECT_THAT(warnings(R"({"shutter_s": 0.015, "rolling_s": 0.03})"),
+              ::testing::AllOf(::testing::HasSubstr("over 30 ms"),
+                               ::testing::HasSubstr("--rolling-ms 0")));
+  for (const char* exposure :
+       {R"({"shutter_s": 0.015, "rolling_s": 0})", R"({"rolling_s": "0.03"})", "3", "[1]"}) {
+    EXPECT_THAT(warnings(exposure), ::testing::Not(::testing::HasSubstr("rolling")))
+        << exposure;
+  }
+}
+
 }  // namespace
 }  // namespace eval
