@@ -17,8 +17,8 @@ struct Globals {
 /// Exit codes of the program.
 inline constexpr int kDone = 0;     ///< it did what was asked
 inline constexpr int kFailure = 1;  ///< it ran, and the result is a failure
-inline constexpr int kBadInput =
-    2;  ///< bad input or usage; one line on stderr says how to mend it
+/// Bad input or usage; one line on stderr says how to mend it.
+inline constexpr int kBadInput = 2;
 
 /// Adds a subcommand to `pas`; the callback that CLI11 runs stores its exit code in
 /// `exit_code`.

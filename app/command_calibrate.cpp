@@ -4,10 +4,10 @@
 #include <optional>
 
 #include "app/app.h"
-#include "app/console.h"
-#include "app/depth_sensor_option.h"
-#include "app/stop_signal.h"
-#include "app/warp_picture.h"
+#include "app/calibrate/warp_picture.h"
+#include "app/console/console.h"
+#include "app/console/stop_signal.h"
+#include "app/options/depth_sensor_option.h"
 #include "io/image/encode_png.h"
 #include "io/output_file.h"
 #include "slam/calibrate/warp_file.h"
@@ -74,9 +74,8 @@ void AddCalibrateCommand(CLI::App& pas, const Globals& globals, int& exit_code) 
   CLI::App* command = pas.add_subcommand(
       "calibrate",
       "Learns from the planes of a recording how its depth camera bends what is flat, for\n"
-      "`pas slam --depth-warp FILE` (docs/calibration.md). Writes nothing, with exit code 1, "
-      "when\n"
-      "the recording does not show that it does.");
+      "`pas slam --depth-warp FILE` (docs/calibration.md). Writes nothing, with exit code 1,\n"
+      "when the recording does not show that it does.");
   auto arguments = std::make_shared<CalibrateArguments>();
   slam::CalibrateOptions& options = arguments->options;
   command

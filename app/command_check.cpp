@@ -30,11 +30,9 @@ void AddCheckCommand(CLI::App& pas, const Globals& globals, int& exit_code) {
   CLI::App* check = pas.add_subcommand(
       "check",
       "Validates a sequence or a run folder against the format and lists every fault with its\n"
-      "file, line (or JSON pointer), what was expected and how to mend it. A sequence with "
-      "truth\n"
-      "is also checked against itself: counts and boxes against the id images, file hashes, "
-      "and\n"
-      "every depth image against the depth that poses and planes predict.\n"
+      "file, line (or JSON pointer), what was expected and how to mend it. A sequence with\n"
+      "truth is also checked against itself: counts and boxes against the id images, file\n"
+      "hashes, and every depth image against the depth that poses and planes predict.\n"
       "Exit code 0 when there is no fault, 2 when there is one.");
   auto folder = std::make_shared<std::string>();
   check->add_option("FOLDER", *folder, "SEQ or RUN; which of the two is seen from its files")

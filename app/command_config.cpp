@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "app/app.h"
-#include "app/depth_sensor_option.h"
+#include "app/options/depth_sensor_option.h"
 #include "slam/run/config_file.h"
 
 namespace app {
@@ -40,8 +40,8 @@ std::string SettingsOfAnySensor(const std::string& config_file) {
   }
   std::string text =
       "# What is commented out has a default for each sensor, here kinect1; the recording "
-      "tells its sensor. `pas "
-      "config --sensor\n# NAME` prints those of one sensor.\n";
+      "tells its sensor. `pas config --sensor\n"
+      "# NAME` prints those of one sensor.\n";
   for (std::size_t i = 0; i < lines.size(); ++i) {
     const std::size_t indent = depends[i] ? IndentOf(lines[i]) : 0;
     text +=
@@ -53,11 +53,11 @@ std::string SettingsOfAnySensor(const std::string& config_file) {
 }  // namespace
 
 void AddConfigCommand(CLI::App& pas, const Globals&, int& exit_code) {
-  CLI::App* command = pas.add_subcommand("config",
-                                         "Print every setting of `pas slam` with its meaning, "
-                                         "unit, domain and default, as a file\n"
-                                         "that --config takes: pas config > mine.yaml. A file "
-                                         "needs only the keys that it changes.");
+  CLI::App* command = pas.add_subcommand(
+      "config",
+      "Print every setting of `pas slam` with its meaning, unit, domain and default, as a\n"
+      "file that --config takes: pas config > mine.yaml. A file needs only the keys that it\n"
+      "changes.");
   struct Arguments {
     std::string sensor = kAutoSensor, file;
   };

@@ -1,7 +1,7 @@
 #include <cstdio>
 
 #include "app/app.h"
-#include "app/console.h"
+#include "app/console/console.h"
 #include "eval/draw/draw_run.h"
 
 namespace app {
@@ -35,14 +35,11 @@ int RunDraw(const DrawArguments& arguments, bool quiet) {
 void AddDrawCommand(CLI::App& pas, const Globals& globals, int& exit_code) {
   CLI::App* draw = pas.add_subcommand(
       "draw",
-      "Draws a run into pictures: contact_sheet.png (frames with their planes, map ids and "
-      "decisions),\n"
-      "top_view.png (estimated over true map, both camera paths, heights of level planes in "
-      "mm) "
-      "and,\n"
-      "with a true trajectory, error_over_time.png (position in mm, rotation in degrees, lost "
-      "spans).\n"
-      "Run `pas slam --save-segmentation` for tinted segments; without it planes are mere "
+      "Draws a run into pictures: contact_sheet.png (frames with their planes, map ids and\n"
+      "decisions), top_view.png (estimated over true map, both camera paths, heights of level\n"
+      "planes in mm) and, with a true trajectory, error_over_time.png (position in mm,\n"
+      "rotation in degrees, lost spans).\n"
+      "Run `pas slam --save-segmentation` for tinted segments; without it planes are mere\n"
       "outlines.");
   auto arguments = std::make_shared<DrawArguments>();
   draw->add_option("RUN", arguments->run, "Folder written by `pas slam`")

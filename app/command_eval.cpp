@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "app/app.h"
-#include "app/console.h"
+#include "app/console/console.h"
 #include "app/eval/eval_modes.h"
 #include "eval/formats/run/run.h"
 #include "eval/formats/sequence/sequence.h"
@@ -151,11 +151,10 @@ void AddEvalCommand(CLI::App& pas, const Globals& globals, int& exit_code) {
       "planes and vertices of each frame, map (millimetres, degrees), time (milliseconds).\n"
       "A sequence without gt/ gives trajectory and time only; a run without segmentation/\n"
       "images (pas slam --save-segmentation) gives nothing that is counted by pixels.\n"
-      "What cannot be scored is refused; what should be known beside the figures is a "
-      "warning.\n"
-      "With --trajectory, bare files of poses are scored, as evo does it; with "
-      "--segmentation,\n"
-      "label images. A run of another program needs no more than trajectory.txt, and --truth.\n"
+      "What cannot be scored is refused; what should be known beside the figures is a\n"
+      "warning. With --trajectory, bare files of poses are scored, as evo does it; with\n"
+      "--segmentation, label images. A run of another program needs no more than\n"
+      "trajectory.txt, and --truth.\n"
       "Exit code 1 if the run tracked no frame.");
   command->add_option("RUN", options->run, "Run folder, as pas slam writes it");
   command->add_option(

@@ -1,8 +1,8 @@
 #include <cstdio>
 
 #include "app/app.h"
-#include "app/choice_option.h"
-#include "app/console.h"
+#include "app/console/console.h"
+#include "app/options/choice_option.h"
 #include "eval/export/bop.h"
 #include "eval/export/coco.h"
 #include "io/output_file.h"
@@ -12,12 +12,12 @@ namespace app {
 namespace {
 
 constexpr const char* kAboutExport =
-    "Write sequences with truth in a format that detectors and pose estimators are trained "
+    "Write sequences with truth in a format that detectors and pose estimators are trained\n"
     "on.\n"
     "  coco  instances of all objects with exact masks (annotations/instances.json, images/)\n"
     "  bop   poses, silhouettes and visible masks of the boxes, one scene a sequence\n"
     "Several sequences become one data set. docs/export.md says what each file holds.\n"
-    "Masks, boxes and poses are of one instant: record what is to be trained on with "
+    "Masks, boxes and poses are of one instant: record what is to be trained on with\n"
     "--rolling-ms 0.";
 
 enum class Format { kCoco, kBop };

@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "app/app.h"
-#include "app/console.h"
+#include "app/console/console.h"
 #include "io/folder_kind.h"
 #include "io/image/encode_png.h"
 #include "io/input_error.h"
@@ -104,11 +104,9 @@ int RunImport(const ImportArguments& arguments, bool quiet) {
   folder.Commit();
   for (const std::string& warning : reader.warnings()) PrintWarning(warning);
   if (too_far > 0) {
-    PrintWarning(
-        fmt::format("{} pixels of depth are left out: 16 bits at {} a metre end at "
-                    "{:.1f} m",
-                    too_far, camera.depth_factor,
-                    std::numeric_limits<std::uint16_t>::max() / camera.depth_factor));
+    PrintWarning(fmt::format(
+        "{} pixels of depth are left out: 16 bits at {} a metre end at {:.1f} m", too_far,
+        camera.depth_factor, std::numeric_limits<std::uint16_t>::max() / camera.depth_factor));
   }
   if (!quiet) fmt::print("{}: {} frames\n", arguments.output, reader.size());
   return kDone;

@@ -34,20 +34,16 @@ struct PlotKind {
 constexpr PlotKind kPlots[] = {
     {eval::PlotTrajectories, "trajectories",
      "Camera paths from above over the true ones, in the world of the truth, each aligned as "
-     "for "
-     "its ATE.",
+     "for its ATE.",
      "poses with a truth"},
     {eval::PlotErrors, "position_error",
      "Position error after the alignment of the ATE over the time since the first pose, and "
-     "the "
-     "share of poses below each error.",
+     "the share of poses below each error.",
      "poses that can be aligned with the truth"},
     {eval::PlotSteps, "step_height",
      "Association on tops of regular objects over the height of their step: precision, of "
-     "frame "
-     "planes on them that were put on a map plane, the share on one of their own; recall, of "
-     "tops "
-     "in frames where they count, the share with such a frame plane.",
+     "frame planes on them that were put on a map plane, the share on one of their own; "
+     "recall, of tops in frames where they count, the share with such a frame plane.",
      "frame_planes.jsonl, and true planes"},
     {eval::PlotTimes, "module_times",
      "Mean time of each module a frame, with the 95th percentile.", "timing.csv"},
@@ -105,11 +101,9 @@ void AddPlotCommand(CLI::App& pas, const Globals& globals, int& exit_code) {
   const auto options = std::make_shared<PlotOptions>();
   CLI::App* command = pas.add_subcommand(
       "plot",
-      "Plots runs for a paper, as SVG, PDF and PNG: trajectories over the truth, position "
-      "error\n"
-      "over time and its distribution, precision and recall of the association over step "
-      "height,\n"
-      "times per module. Several runs stand in one plot, under their names.\n"
+      "Plots runs for a paper, as SVG, PDF and PNG: trajectories over the truth, position\n"
+      "error over time and its distribution, precision and recall of the association over\n"
+      "step height, times per module. Several runs stand in one plot, under their names.\n"
       "captions.txt says what each plot shows, and which ones there are not, and why.");
   command->add_option("RUN", options->runs, "Run folders")->required()->type_name("DIR...");
   command->add_option("-o,--output", options->output, "Folder for the plots")

@@ -6,12 +6,13 @@
 #include <vector>
 
 #include "app/app.h"
-#include "app/console.h"
-#include "app/depth_sensor_option.h"
-#include "app/live_scene.h"
-#include "app/recording_options.h"
-#include "app/segmentation_option.h"
-#include "app/stop_signal.h"
+#include "app/console/console.h"
+#include "app/console/stop_signal.h"
+#include "app/live/live_scene.h"
+#include "app/options/choice_option.h"
+#include "app/options/depth_sensor_option.h"
+#include "app/options/segmentation_option.h"
+#include "app/sim/recording_options.h"
 #include "io/input_error.h"
 #include "io/output_file.h"
 #include "slam/run/config_file.h"
@@ -25,10 +26,12 @@ struct SlamArguments {
   slam::RunOptions options;
   std::string variant = "full";
   std::string sensor = kAutoSensor;
-  std::string config_file, segmentation;
+  std::string config_file;
+  std::optional<slam::Segmentation> segmentation;
+  std::optional<slam::StructureMode> structure;
   bool print_config = false;
   bool loop_closing = false;
-  std::string mapping, depth_warp, structure;
+  std::string mapping, depth_warp;
   std::optional<int> detect_every;
   std::string live_scene;
   ReadRecording recording;  ///< with live_scene
@@ -86,6 +89,20 @@ void AddLiveOptions(CLI::App& command, SlamArguments& arguments,
   }
 }
 
+/// Settings with an option of their own, which goes over a --config.
+void AddSettingOptions(CLI::App& command, SlamArguments& arguments) {
+  command
+      .add_option(
+          "--structure", arguments.structure,
+          "What is assumed of how planes stand to each other. none | parallel (parallel "
+          "and perpendicular planes) | manhattan (one Manhattan frame) | mixture (many) "
+          "| supposed (planes supposed at straight edges). Default: as --config says, "
+          "else parallel")
+      ->transform(ChoiceByIndex<slam::StructureMode>(slam::StructureModeNames()));
+  command.add_flag("--loop-closing", arguments.loop_closing,
+                   "Recognise known places and draw the map together there");
+}
+
 /// Says on stderr how a run ended that did not go well. @returns the exit code
 int Verdict(const slam::RunOutcome& outcome, const std::string& sequence) {
   if (outcome.stopped) {
@@ -108,17 +125,10 @@ int Verdict(const slam::RunOutcome& outcome, const std::string& sequence) {
   return kDone;
 }
 
-void SetStructure(const std::string& structure, slam::Config& config) {
-  if (structure.empty()) return;
-  const std::vector<std::string>& names = slam::StructureModeNames();
-  const auto position = std::find(names.begin(), names.end(), structure) - names.begin();
-  config.structure.mode = static_cast<slam::StructureMode>(position);
-}
-
 /// Takes into the settings what the options say over them.
 void SetOptions(const SlamArguments& arguments, slam::Config& config) {
-  SetSegmentation(arguments.segmentation, config);
-  SetStructure(arguments.structure, config);
+  if (arguments.segmentation) config.plane_extraction.segmentation = *arguments.segmentation;
+  if (arguments.structure) config.structure.mode = *arguments.structure;
   if (arguments.loop_closing) config.loop_closing.enabled = true;
   if (arguments.detect_every) config.detection.every = *arguments.detect_every;
   if (!arguments.depth_warp.empty()) config.depth_warp.source = arguments.depth_warp;
@@ -184,9 +194,7 @@ int RunSlam(SlamArguments& arguments, bool quiet) {
   const slam::RunOutcome outcome =
       live ? RunOnScene(arguments, options, std::move(*scene)) : slam::RunSequence(options);
   progress.reset();
-  for (const std::string& warning : outcome.warnings) {
-    fmt::print(stderr, "pas: warning: {}\n", warning);
-  }
+  for (const std::string& warning : outcome.warnings) PrintWarning(warning);
   if (!quiet) {
     fmt::print("{}: {} of {} frames tracked, {} keyframes, {} map planes{}, {:.1f} frames/s\n",
                options.run.string(), outcome.tracked, outcome.frames, outcome.keyframes,
@@ -246,27 +254,7 @@ void AddSlamCommand(CLI::App& pas, const Globals& globals, int& exit_code) {
                    "Threads; 0 = one a core. Changes the speed, never a result")
       ->check(CLI::Range(0, 256))
       ->capture_default_str();
-  command
-      ->add_option("--mapping", arguments->mapping,
-                   "sync: between frames; the same input gives the same bytes. async: on a "
-                   "thread of its own; tracking never waits for an adjustment. Default: as "
-                   "--config says, else sync")
-      ->check(CLI::IsMember({"sync", "async"}));
-  command->add_option(
-      "--depth-warp", arguments->depth_warp,
-      "auto: learn from the planes of the run how the depth camera bends what is flat, and "
-      "take that out once it is worth it; off; or a file of pas calibrate. Default: as "
-      "--config says, else auto");
-  command
-      ->add_option(
-          "--structure", arguments->structure,
-          "What is assumed of how planes stand to each other. none | parallel (parallel "
-          "and perpendicular planes) | manhattan (one Manhattan frame) | mixture (many) "
-          "| supposed (planes supposed at straight edges). Default: as --config says, "
-          "else parallel")
-      ->check(CLI::IsMember(slam::StructureModeNames()));
-  command->add_flag("--loop-closing", arguments->loop_closing,
-                    "Recognise known places and draw the map together there");
+  AddSettingOptions(*command, *arguments);
   command->add_flag("--save-segmentation", options.save_segmentation,
                     "Also write the label image of every frame");
   command->add_flag("--force", options.force, "Replace an existing run folder");

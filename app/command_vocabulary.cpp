@@ -3,7 +3,7 @@
 #include <opencv2/core/utility.hpp>
 
 #include "app/app.h"
-#include "app/console.h"
+#include "app/console/console.h"
 #include "io/folder_kind.h"
 #include "io/input_error.h"
 #include "io/output_file.h"
@@ -81,9 +81,9 @@ int TrainWords(const VocabularyArguments& arguments, bool quiet) {
 void AddVocabularyCommand(CLI::App& pas, const Globals& globals, int& exit_code) {
   CLI::App* command = pas.add_subcommand(
       "vocabulary",
-      "Train the binary words by which a lost camera finds its place. Some come with pas slam, "
-      "built\ninto the program: no command reads the file. It takes the place of "
-      "slam/places/orb_words.bin\nin the source; build the program anew then.");
+      "Train the binary words by which a lost camera finds its place. Some come with pas\n"
+      "slam, built into the program: no command reads the file. It takes the place of\n"
+      "slam/places/orb_words.bin in the source; build the program anew then.");
   auto arguments = std::make_shared<VocabularyArguments>();
   command->add_option("SEQ", arguments->sequences, "Sequences whose images to learn from")
       ->required();

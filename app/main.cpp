@@ -6,10 +6,10 @@
 #include <opencv2/core/utils/logger.hpp>
 
 #include "app/app.h"
-#include "app/command_line.h"
-#include "app/failure.h"
-#include "app/number_options.h"
-#include "app/wrapped_help.h"
+#include "app/console/command_line.h"
+#include "app/console/failure.h"
+#include "app/console/wrapped_help.h"
+#include "app/options/number_options.h"
 #include "io/input_error.h"
 #include "version.h"
 

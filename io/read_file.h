@@ -7,9 +7,9 @@
 
 namespace io {
 
-/// Most bytes of a file that is read as a whole, if its reader does not say.
-inline constexpr std::uintmax_t kMaxFile_bytes =
-    std::uintmax_t{1} << 29;  // the largest that are read, models of networks, have half of it
+/// Most bytes of a file that is read as a whole, if its reader does not say: the largest that are
+/// read, models of networks, have half of it.
+inline constexpr std::uintmax_t kMaxFile_bytes = std::uintmax_t{1} << 29;
 
 /// A regular file, open at its beginning. Pipes, sockets and devices are refused unopened.
 /// @param mend  ends the message of an error: what the file should be, or what to do without it

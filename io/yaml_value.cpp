@@ -1,8 +1,6 @@
 #include "io/yaml_value.h"
 
 #include <algorithm>
-#include <charconv>
-#include <optional>
 
 #include "io/input_error.h"
 #include "io/nearest_word.h"
@@ -36,14 +34,6 @@ bool IsPlain(const std::string& text) {
 /// What YAML takes for nothing unless it stands in quotes, which nothing here is written in.
 bool IsNull(const std::string& text) {
   return text == "null" || text == "Null" || text == "NULL";
-}
-
-template <typename Whole>
-std::optional<Whole> ParseWhole(const std::string& text) {
-  Whole number = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-  if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
-  return number;
 }
 
 std::string InUnit(const std::string& unit) { return unit.empty() ? "" : " (" + unit + ")"; }

@@ -6,7 +6,7 @@
 #include <optional>
 
 #include "app/bench/bench_planes_score.h"
-#include "app/surfaces_option.h"
+#include "app/options/surfaces_option.h"
 #include "eval/formats/sequence/sequence.h"
 #include "eval/planes/united_faces.h"
 #include "eval/surfaces/label_surfaces.h"

@@ -8,8 +8,8 @@
 #include <map>
 #include <system_error>
 
-#include "app/depth_sensor_option.h"
-#include "app/sim_arguments.h"
+#include "app/options/depth_sensor_option.h"
+#include "app/sim/sim_arguments.h"
 #include "eval/formats/run/run.h"
 #include "eval/formats/sequence/sequence.h"
 #include "eval/regression/paired_tests.h"
@@ -132,8 +132,7 @@ double PairedRatio::Mean() const {
 }
 
 std::string PairedRatio::Text() const {
-  constexpr std::size_t kResamples =
-      2000;  // the ends of the interval to some parts in a hundred
+  constexpr std::size_t kResamples = 2000;  // the interval's ends to some parts in a hundred
   if (logs.empty()) return "-";
   const eval::ConfidenceInterval interval =
       eval::BootstrapMeanInterval(logs, eval::DrawResamples(logs.size(), kResamples), 0.95);

@@ -153,9 +153,35 @@ std::vector<Comeback> Comebacks(const std::vector<std::optional<eval::Pose>>& es
   return out;
 }
 
-std::vector<std::optional<eval::Pose>> ByFrame(const eval::Trajectory& trajectory,
-                                               const std::vector<double>& stamps_s) {
-  return eval::TruePosesOfFrames(trajectory, stamps_s, true);
+/// What has drifted: the error of the last pose where the first is laid on the truth; 0 without poses.
+double EndError(const std::vector<std::optional<eval::Pose>>& estimate,
+                const std::vector<std::optional<eval::Pose>>& truth) {
+  std::optional<std::size_t> first, last;
+  for (std::size_t i = 0; i < truth.size(); ++i) {
+    if (!truth[i] || !estimate[i]) continue;
+    if (!first) first = i;
+    last = i;
+  }
+  if (!first) return 0.0;
+  const eval::Pose& e0 = *estimate[*first];
+  const eval::Pose& g0 = *truth[*first];
+  const Eigen::Vector3d moved = g0.R * (e0.R.transpose() * (estimate[*last]->t - e0.t)) + g0.t;
+  return (moved - truth[*last]->t).norm();
+}
+
+void Score(const eval::Run& run, const eval::Sequence& sequence, const BenchOptions& bench,
+           BenchRow& row) {
+  row.score = eval::ScoreTrajectory(run, sequence);
+  std::vector<double> stamps_s;
+  for (const eval::SequenceFrame& frame : sequence.frames) stamps_s.push_back(frame.stamp_s);
+  const auto truth =
+      eval::TruePosesOfFrames(*sequence.groundtruth, stamps_s, sequence.synthetic);
+  const auto estimate = eval::TruePosesOfFrames(run.trajectory, stamps_s, true);
+  row.comebacks = Comebacks(estimate, truth, row.score.gauge, [&](int i) {
+    return Covered(i, bench.black_every,
+                   bench.blind_frames > 0 ? bench.blind_frames : bench.black_frames);
+  });
+  row.end_error_m = EndError(estimate, truth);
 }
 
 }  // namespace
@@ -196,32 +222,7 @@ BenchRow MeasureSlam(const std::string& folder, const BenchOptions& bench) {
     }));
   }
   if (result.timing) row.modules_ms = result.timing->rows_ms;
-  if (sequence.groundtruth && bench.laps == 1) {
-    row.score = eval::ScoreTrajectory(result, sequence);
-    std::vector<double> stamps_s;
-    for (const eval::SequenceFrame& frame : sequence.frames) stamps_s.push_back(frame.stamp_s);
-    const auto truth =
-        eval::TruePosesOfFrames(*sequence.groundtruth, stamps_s, sequence.synthetic);
-    const auto estimate = ByFrame(result.trajectory, stamps_s);
-    row.comebacks = Comebacks(estimate, truth, row.score.gauge, [&](int i) {
-      return Covered(i, bench.black_every,
-                     bench.blind_frames > 0 ? bench.blind_frames : bench.black_frames);
-    });
-    std::optional<std::size_t> first, last;
-    for (std::size_t i = 0; i < truth.size(); ++i) {
-      if (!truth[i] || !estimate[i]) continue;
-      if (!first) first = i;
-      last = i;
-    }
-    if (first) {
-      // Laid on the truth at the first pose: what has drifted since.
-      const eval::Pose& e0 = *estimate[*first];
-      const eval::Pose& g0 = *truth[*first];
-      const Eigen::Vector3d moved =
-          g0.R * (e0.R.transpose() * (estimate[*last]->t - e0.t)) + g0.t;
-      row.end_error_m = (moved - truth[*last]->t).norm();
-    }
-  }
+  if (sequence.groundtruth && bench.laps == 1) Score(result, sequence, bench, row);
   return row;
 }
 

@@ -7,16 +7,15 @@
 
 #include "app/app.h"
 #include "app/bench/bench_sequences.h"
-#include "app/depth_sensor_option.h"
+#include "app/options/depth_sensor_option.h"
 
 namespace app {
 namespace {
 
 constexpr const char* kAboutBenchFactors =
     "What each factor of the pose and of the bundle adjustment is worth: errors and processor\n"
-    "time without it, as a ratio of those with it; above 1 it helps. Geometric means with 95 "
-    "%\n"
-    "intervals over sequences, by kind and over all.";
+    "time without it, as a ratio of those with it; above 1 it helps. Geometric means with\n"
+    "95 % intervals over sequences, by kind and over all.";
 
 struct FactorSwitch {
   const char* name;
@@ -104,8 +103,9 @@ int RunFactorBench(const BenchSequenceArguments& arguments) {
   fmt::print(
       "\non, off: by default. Nowhere an error smaller by half a percent: {}\n"
       "The paper's plane-point and plane-vertex terms are those of eq18 and eq17; points in "
-      "the bundle\ncannot be switched off, as its windows are made of them. eq19 and eq20: pas "
-      "bench structure.\n",
+      "the bundle\n"
+      "cannot be switched off, as its windows are made of them. eq19 and eq20: pas bench "
+      "structure.\n",
       no_help.empty() ? "none" : no_help);
   return kDone;
 }

@@ -3,14 +3,15 @@
 #include <algorithm>
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <string>
 
 #include "app/app.h"
 #include "app/bench/bench_planes.h"
 #include "app/bench/quantile.h"
-#include "app/console.h"
-#include "app/depth_sensor_option.h"
-#include "app/segmentation_option.h"
+#include "app/console/console.h"
+#include "app/options/depth_sensor_option.h"
+#include "app/options/segmentation_option.h"
 #include "slam/run/config_file.h"
 
 namespace app {
@@ -18,8 +19,9 @@ namespace {
 
 struct PlaneBenchArguments {
   std::vector<std::string> sequences;
-  std::string camera, config_file, surfaces, segmentation;
+  std::string camera, config_file, surfaces;
   std::string sensor = kAutoSensor;
+  std::optional<slam::Segmentation> segmentation;
   int frames = 0, every = 1;
   bool steps = false, unmeasured = false;
   double depth_delay_ms = 0.0;
@@ -124,7 +126,7 @@ PlaneBench BenchAll(const PlaneBenchArguments& arguments, bool quiet) {
   for (const std::string& sequence : arguments.sequences) {
     slam::Config config = ConfigForRecording(arguments.sensor, arguments.config_file, sequence,
                                              arguments.camera, quiet);
-    SetSegmentation(arguments.segmentation, config);
+    if (arguments.segmentation) config.plane_extraction.segmentation = *arguments.segmentation;
     const PlaneBench bench =
         BenchPlanes(sequence, arguments.camera, config,
                     {arguments.frames, arguments.every, arguments.unmeasured,

@@ -6,7 +6,8 @@
 #include "app/app.h"
 #include "app/bench/bench_slam.h"
 #include "app/bench/quantile.h"
-#include "app/depth_sensor_option.h"
+#include "app/options/choice_option.h"
+#include "app/options/depth_sensor_option.h"
 #include "io/folder_kind.h"
 #include "slam/model/module_times.h"
 #include "slam/run/run_sequence.h"
@@ -97,9 +98,8 @@ void PrintComebacks(const std::vector<BenchRow>& rows) {
     }
   }
   fmt::print(
-      "lost {} times; found within 10 frames of seeing the map again: {}; "
-      "first pose off by {:.1f} mm (median), {:.1f} mm (worst); wrong by more than {:.0f} cm: "
-      "{}\n",
+      "lost {} times; found within 10 frames of seeing the map again: {}; first pose off by "
+      "{:.1f} mm (median), {:.1f} mm (worst); wrong by more than {:.0f} cm: {}\n",
       all, soon, QuantileOrZero(error_mm, 0.5), QuantileOrZero(error_mm, 1.0), 100 * kWrong_m,
       wrong);
   int elsewhere = 0, taken = 0;
@@ -192,7 +192,7 @@ void AddBenchSlam(CLI::App& bench, const Globals& globals, int& exit_code) {
       ->capture_default_str()
       ->excludes(then);
   command->add_option("--mapping", arguments->mapping, "sync | async | both; as of pas slam")
-      ->check(CLI::IsMember({"sync", "async", "both"}))
+      ->check(Choice({"sync", "async", "both"}))
       ->capture_default_str();
   command->add_flag("--loop-closing", arguments->loop_closing, "As of pas slam");
   command->callback([arguments, &globals, &exit_code] {

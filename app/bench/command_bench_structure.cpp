@@ -6,7 +6,7 @@
 
 #include "app/app.h"
 #include "app/bench/bench_sequences.h"
-#include "app/depth_sensor_option.h"
+#include "app/options/depth_sensor_option.h"
 #include "slam/structure/structure.h"
 
 namespace app {

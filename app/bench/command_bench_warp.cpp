@@ -7,7 +7,7 @@
 
 #include "app/app.h"
 #include "app/bench/unevenness.h"
-#include "app/surfaces_option.h"
+#include "app/options/surfaces_option.h"
 #include "io/input_error.h"
 #include "sim/sensor/depth/depth_bend.h"
 #include "sim/sensor/read_sensor.h"

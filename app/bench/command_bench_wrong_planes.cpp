@@ -8,18 +8,16 @@
 #include "app/app.h"
 #include "app/bench/bench_sequences.h"
 #include "app/bench/wrong_planes.h"
-#include "app/depth_sensor_option.h"
+#include "app/options/depth_sensor_option.h"
 
 namespace app {
 namespace {
 
 constexpr const char* kAboutBenchWrongPlanes =
-    "What wrong matches of planes do: a share of a run's matches is put on another plane of "
-    "the\n"
-    "frame, the one most alike. Errors as ratios of those of the run without (geometric "
-    "means,\n"
-    "95 % intervals over sequences), and how many of the wrong matches were taken back before\n"
-    "the map learnt from them.";
+    "What wrong matches of planes do: a share of a run's matches is put on another plane of\n"
+    "the frame, the one most alike. Errors as ratios of those of the run without (geometric\n"
+    "means, 95 % intervals over sequences), and how many of the wrong matches were taken back\n"
+    "before the map learnt from them.";
 
 struct WrongPlanesArguments {
   BenchSequenceArguments on;

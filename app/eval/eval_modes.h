@@ -6,7 +6,7 @@
 
 #include "app/app.h"
 #include "app/eval/trajectory_options.h"
-#include "app/surfaces_option.h"
+#include "app/options/surfaces_option.h"
 #include "eval/formats/folder.h"
 
 namespace app {

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <map>
 
+#include "app/options/choice_option.h"
 #include "io/input_error.h"
 #include "io/number_text.h"
 
@@ -21,8 +22,8 @@ eval::PoseDelta DeltaOf(const std::string& text) {
   constexpr double kMaxDelta = 1e9;  // of any unit; more frames than any file has
   if (!value || !(*value > 0.0 && *value <= kMaxDelta) || unit == units.end()) {
     throw io::InputError("--delta",
-                         "expected a number above 0 with a unit, as 1f, 1m, 1s or "
-                         "10deg, found " +
+                         "expected a number above 0 with a unit, as 1f, 1m, 1s or 10deg, "
+                         "found " +
                              io::Quoted(text));
   }
   if (unit->second == eval::DeltaUnit::kFrames && *value != std::floor(*value)) {
@@ -42,14 +43,17 @@ void AddTrajectoryOptions(CLI::App& command, TrajectoryOptions& options) {
       "poses too. Figures are those of evo (docs/evaluation.md)");
   files->expected(1, 1000)->type_name("FILE...");
   command
-      .add_option("--align", options.align,
+      .add_option("--align", options.rules.align,
                   "With --trajectory: none, origin (first pose on first pose), se3 or sim3 "
                   "(least squares of positions)")
       ->needs(files)
-      ->check(CLI::IsMember({"none", "origin", "se3", "sim3"}))
-      ->capture_default_str();
+      ->transform(ChoiceOf<eval::AlignMode>({{"none", eval::AlignMode::kNone},
+                                             {"origin", eval::AlignMode::kOrigin},
+                                             {"se3", eval::AlignMode::kSe3},
+                                             {"sim3", eval::AlignMode::kSim3}}))
+      ->default_str("se3");
   command
-      .add_option("--max-dt", options.max_difference_s,
+      .add_option("--max-dt", options.rules.max_difference_s,
                   "With --trajectory: seconds that matched stamps may differ by")
       ->needs(files)
       ->check(CLI::Range(0.0, 1e6))
@@ -65,35 +69,24 @@ void AddTrajectoryOptions(CLI::App& command, TrajectoryOptions& options) {
                 "With --trajectory: relative errors of all such pairs, not of consecutive ones")
       ->needs(files);
   command
-      .add_flag("--pairs-from-truth", options.pairs_from_truth,
+      .add_flag("--pairs-from-truth", options.rules.pairs_from_truth,
                 "With --trajectory: metres and degrees of --delta along the truth, so that all "
                 "estimates are scored on the same pairs")
       ->needs(files);
   command
-      .add_option("--plane", options.plane,
+      .add_option("--plane", options.rules.plane,
                   "With --trajectory: project both to this plane after the alignment: xy, xz, "
                   "yz")
       ->needs(files)
-      ->check(CLI::IsMember({"xy", "xz", "yz"}));
+      ->transform(ChoiceOf<eval::ProjectionPlane>({{"xy", eval::ProjectionPlane::kXy},
+                                                   {"xz", eval::ProjectionPlane::kXz},
+                                                   {"yz", eval::ProjectionPlane::kYz}}));
 }
 
 eval::ComparisonRules RulesOf(const TrajectoryOptions& options) {
-  const std::map<std::string, eval::AlignMode> modes = {{"none", eval::AlignMode::kNone},
-                                                        {"origin", eval::AlignMode::kOrigin},
-                                                        {"se3", eval::AlignMode::kSe3},
-                                                        {"sim3", eval::AlignMode::kSim3}};
-  const std::map<std::string, eval::ProjectionPlane> planes = {
-      {"", eval::ProjectionPlane::kNone},
-      {"xy", eval::ProjectionPlane::kXy},
-      {"xz", eval::ProjectionPlane::kXz},
-      {"yz", eval::ProjectionPlane::kYz}};
-  eval::ComparisonRules rules;
-  rules.align = modes.at(options.align);
-  rules.max_difference_s = options.max_difference_s;
+  eval::ComparisonRules rules = options.rules;
   rules.delta = DeltaOf(options.delta);
-  rules.pairs = options.all_pairs ? eval::PairMode::kAll : eval::PairMode::kConsecutive;
-  rules.pairs_from_truth = options.pairs_from_truth;
-  rules.plane = planes.at(options.plane);
+  if (options.all_pairs) rules.pairs = eval::PairMode::kAll;
   return rules;
 }
 

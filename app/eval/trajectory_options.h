@@ -11,9 +11,9 @@ namespace app {
 /// `pas eval --trajectory`: bare files of poses against one of truth.
 struct TrajectoryOptions {
   std::vector<std::string> files;
-  std::string align = "se3", delta = "1f", plane;
-  double max_difference_s = eval::kMaxStampDifference_s;
-  bool all_pairs = false, pairs_from_truth = false;
+  eval::ComparisonRules rules;  ///< what --delta and --all-pairs say comes last, in RulesOf
+  std::string delta = "1f";
+  bool all_pairs = false;
 };
 
 void AddTrajectoryOptions(CLI::App& command, TrajectoryOptions& options);

@@ -1,7 +1,8 @@
 #include "app/suite/repeated_times.h"
 
-#include <algorithm>
+#include <utility>
 
+#include "eval/trajectory/statistics.h"
 #include "io/output_folder.h"
 
 namespace app {
@@ -12,12 +13,6 @@ namespace {
 constexpr int kTimeRuns = 5;
 constexpr const char* kTimesFolder = "times";
 constexpr const char* kRatioGroup = "/time_ratio/";
-
-double Median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 }  // namespace
 
@@ -41,7 +36,7 @@ std::optional<std::map<std::string, ResultRow>> MeasureTimesAgain(
         const auto found = times.find(name);
         if (found != times.end() && found->second) values.push_back(*found->second);
       }
-      value = Median(std::move(values));
+      value = eval::Quantile(std::move(values), 0.5);
     }
   }
   return rows;

@@ -177,8 +177,7 @@ void Results::Merge(const std::filesystem::path& folder) {
   // A case that one folder could not finish and another did is done.
   database_.Execute(
       "CREATE TEMP TABLE mended AS SELECT key FROM main.cases JOIN other.cases USING (key) "
-      "WHERE "
-      "main.cases.status <> 'done' AND other.cases.status = 'done'");
+      "WHERE main.cases.status <> 'done' AND other.cases.status = 'done'");
   for (const std::string table : {"figures", "times", "cases"}) {
     database_.Execute("DELETE FROM main." + table + " WHERE key IN (SELECT key FROM mended)");
   }

@@ -21,7 +21,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kOutOfMemory = "out of memory";  // as app/failure.cpp says it
+constexpr const char* kOutOfMemory = "out of memory";  // as console/failure.cpp says it
 constexpr const char* kTiming = "timing.csv";
 constexpr const char* kTimesGroup = "/timing_ms/";
 

@@ -5,7 +5,7 @@
 #include <mutex>
 #include <thread>
 
-#include "app/console.h"
+#include "app/console/console.h"
 
 namespace app {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
+#include "eval/trajectory/statistics.h"
 
 namespace app {
 namespace {
@@ -15,12 +15,7 @@ struct ArmSummary {
 std::string Median(const ArmSummary& arm, const char* figure, double unit) {
   const auto found = arm.figures.find(figure);
   if (found == arm.figures.end()) return "-";
-  std::vector<double> values = found->second;
-  std::sort(values.begin(), values.end());
-  const std::size_t half = values.size() / 2;
-  const double median =
-      values.size() % 2 == 1 ? values[half] : 0.5 * (values[half - 1] + values[half]);
-  return fmt::format("{:.3f}", unit * median);
+  return fmt::format("{:.3f}", unit * eval::Quantile(found->second, 0.5));
 }
 
 std::string Mean(const ArmSummary& arm, const char* figure) {

@@ -33,10 +33,9 @@ std::vector<Vector3d> RaysOf(const Camera& camera, const std::vector<cv::Point2d
 
 namespace {
 
-constexpr double kMaxTilt_rad = 1.4;  // beyond, sensors measure nothing to rely on
-constexpr double kBend = 0.0033;      // of depth; docs/sensors.md
-constexpr double kMisplaced_rad =
-    0.0035;                               // 0.2 deg, 1.9 px of 525: registration and intrinsics
+constexpr double kMaxTilt_rad = 1.4;       // beyond, sensors measure nothing to rely on
+constexpr double kBend = 0.0033;           // of depth; docs/sensors.md
+constexpr double kMisplaced_rad = 0.0035;  // 1.9 px of 525: registration and intrinsics
 constexpr double kRimShare = 12.0 / 640;  // of the width: a turn of 70 deg/s in 20 ms, and 2 px
 
 }  // namespace

@@ -7,6 +7,7 @@
 
 #include "eval/draw/legend.h"
 #include "eval/draw/paint.h"
+#include "eval/trajectory/statistics.h"
 
 namespace eval {
 namespace {
@@ -99,14 +100,9 @@ void PutPanelAxes(cv::Mat& image, const Panel& panel) {
 
 /// Time between the samples without a gap, most often.
 double UsualStep(const std::vector<ErrorSample>& samples) {
-  std::vector<double> steps;
-  for (std::size_t i = 1; i < samples.size(); ++i) {
-    steps.push_back(samples[i].time_s - samples[i - 1].time_s);
-  }
-  if (steps.empty()) return 0;
-  std::nth_element(steps.begin(), steps.begin() + static_cast<long>(steps.size() / 2),
-                   steps.end());
-  return steps[steps.size() / 2];
+  std::vector<double> times_s;
+  for (const ErrorSample& sample : samples) times_s.push_back(sample.time_s);
+  return MedianStep(times_s);
 }
 
 void PutErrorCurve(cv::Mat& image, const Panel& panel,

@@ -27,10 +27,8 @@ Sequence ReadExportable(const std::filesystem::path& folder, const ExportOptions
     if (sequence.rolling_s != 0.0) {
       options.warn(
           fmt::format("{}: colour was read over {:g} ms (rolling shutter), and masks, boxes "
-                      "and poses are of the "
-                      "middle of it: off by some pixels where the camera moves. To train on "
-                      "it, record with "
-                      "--rolling-ms 0",
+                      "and poses are of the middle of it: off by some pixels where the camera "
+                      "moves. To train on it, record with --rolling-ms 0",
                       folder.string(), 1e3 * sequence.rolling_s));
     }
   }

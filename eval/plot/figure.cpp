@@ -10,8 +10,7 @@
 namespace eval {
 namespace {
 
-constexpr double kPixelsPerPoint =
-    200.0 / 72.0;  // 200 dots an inch: sharp on a screen and in print
+constexpr double kPixelsPerPoint = 200.0 / 72.0;  // dots an inch: sharp on screen and in print
 
 using Surface = std::unique_ptr<cairo_surface_t, decltype(&cairo_surface_destroy)>;
 using Context = std::unique_ptr<cairo_t, decltype(&cairo_destroy)>;

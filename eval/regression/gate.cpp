@@ -14,13 +14,11 @@ namespace eval {
 namespace {
 
 constexpr std::size_t kMaxExactFlips = 15;  // metrics.md 5.3: sign flips up to here, then ranks
-constexpr std::size_t kMaxExactRanks =
-    200;  // beyond, the normal approximation errs by under 1e-4
-constexpr std::size_t kResamples =
-    2000;                             // the ends of the interval vary by some 3 % of its width
-constexpr double kCoverage = 0.95;    // metrics.md 5.3
-constexpr std::size_t kMinPairs = 7;  // metrics.md 5.2: fewer can never reach p < 0.01
-constexpr double kMaxLostShare = 0.01;  // of all frames; as much as a score may lose
+constexpr std::size_t kMaxExactRanks = 200;  // the normal approximation then errs by under 1e-4
+constexpr std::size_t kResamples = 2000;  // the interval's ends vary by some 3 % of its width
+constexpr double kCoverage = 0.95;        // metrics.md 5.3
+constexpr std::size_t kMinPairs = 7;      // metrics.md 5.2: fewer can never reach p < 0.01
+constexpr double kMaxLostShare = 0.01;    // of all frames; as much as a score may lose
 constexpr std::size_t kMaxReplays = 3;
 // A change of a scene's every seed that no other rounding makes: an error twice as large, a score lower by 0.1.
 // Counts are left out, as one more of few doubles them.
@@ -30,8 +28,8 @@ constexpr double kGrossLoss = 0.1;
 
 struct Pair {
   std::string key;
-  double harm =
-      0.0;  ///< infinite for a case that fails now, or whose figure is not defined now
+  /// Infinite for a case that fails now, or whose figure is not defined now.
+  double harm = 0.0;
 };
 
 /// The harm of one figure of one case; nothing when there is nothing to compare.

@@ -10,9 +10,9 @@
 namespace eval {
 namespace {
 
-/// Sums of differences that are equal but for rounding count as equal.
-constexpr double kSumTolerance_ratio =
-    1e-12;  // some thousand ulps, far below any figure's digits
+/// Sums of differences that are equal but for rounding count as equal: some thousand ulps, far below
+/// any figure's digits.
+constexpr double kSumTolerance_ratio = 1e-12;
 
 double MeanOf(std::span<const double> values) {
   return std::accumulate(values.begin(), values.end(), 0.0) /

@@ -12,8 +12,8 @@ namespace eval {
 namespace {
 
 constexpr int kStepBaseline_cells = 2;  // the blur of a depth edge at 1 m is as wide
-constexpr double kRing_cells =
-    10;  // within which two parts meet: wider than the rim of an edge
+// Within which two parts meet: wider than the rim of an edge.
+constexpr double kRing_cells = 10;
 constexpr double kMaxEmpty_cells = 10;  // that a bridge may cross: a gap of 10 cm is a gap
 constexpr int kMinPart_cells = 40;      // smaller parts are judged cell by cell
 constexpr int kMinRing_cells = 5;       // fewer cells tell no height

@@ -30,8 +30,8 @@ struct DepthError {
   /// Over a centimetre or two a bend is smooth and the pose is the same: what is more than that
   /// and the noise of two means over `points` is a step.
   double OfStep_m(double depth_m, int points) const {
-    constexpr double kMinStep_m =
-        0.003;  // balances: blur of a depth edge against a phone's 8 mm
+    // Balances: blur of a depth edge against a phone's 8 mm.
+    constexpr double kMinStep_m = 0.003;
     const double noise_m = noise_per_m * depth_m * depth_m * std::sqrt(2.0 / points);
     return std::hypot(std::max(kMinStep_m, kBend * depth_m), kSigmas * noise_m);
   }

@@ -13,13 +13,12 @@
 namespace eval {
 namespace {
 
-constexpr int kStride = 2;  // of the pixels that are taken, each way
-constexpr std::size_t kMaxViews =
-    300;  // of a long recording, evenly: more tell little that is new
+constexpr int kStride = 2;                  // of the pixels that are taken, each way
+constexpr std::size_t kMaxViews = 300;      // of a long recording, evenly: more tell little new
 constexpr std::size_t kMaxNoiseViews = 15;  // that the noise is measured in
 constexpr double kMinNoise_per_m = 1e-4;    // rounding to a fifth of a millimetre, at 1 m
-constexpr double kMinPatchShare =
-    0.3;  // of the least area, that a patch must have to be joined
+// Of the least area, that a patch must have to be joined.
+constexpr double kMinPatchShare = 0.3;
 
 /// Indices of at most `count` views, evenly.
 std::vector<std::size_t> Evenly(std::size_t views, std::size_t count) {

@@ -14,13 +14,11 @@ namespace {
 const double kMinSurfelCosine = std::cos(25.0 * std::numbers::pi / 180);
 // Two patches of one bent surface: the slope of the bend over a patch of half a metre.
 const double kMinPatchCosine = std::cos(6.0 * std::numbers::pi / 180);
-constexpr std::size_t kMinSeedSurfels =
-    12;  // of the 25 that a flat place has in its 5 x 5 x 5 cells
-constexpr double kRefitGrowth =
-    1.2;                    // a plane is fitted again when its region has grown by a fifth
-constexpr int kRounds = 3;  // of growing from the plane of the round before
-constexpr double kMinSharedOnPlane =
-    0.9;  // of the surfels of two patches, on their common plane
+constexpr std::size_t kMinSeedSurfels = 12;  // of the 25 of a flat place in its 5 x 5 x 5 cells
+constexpr double kRefitGrowth = 1.2;  // a plane is fitted again when its region grew by a fifth
+constexpr int kRounds = 3;            // of growing from the plane of the round before
+// Of the surfels of two patches, on their common plane.
+constexpr double kMinSharedOnPlane = 0.9;
 
 /// Weighted sums of points for a plane by least squares.
 class PlaneSum {

@@ -9,9 +9,8 @@
 namespace eval {
 namespace {
 
-constexpr double kWindowRadius =
-    7.0 / 640;                      // of the width: 7 cm at 2.5 m, over which noise averages
-constexpr double kMinFilled = 0.5;  // share of a window that must have depth
+constexpr double kWindowRadius = 7.0 / 640;  // of the width: 7 cm at 2.5 m; noise averages out
+constexpr double kMinFilled = 0.5;           // share of a window that must have depth
 
 /// Sums over rectangles of the image of what a fit needs, for each pixel with depth.
 enum Moment { kOne, kX, kY, kXX, kXY, kYY, kQ, kXQ, kYQ, kQQ, kMoments };

@@ -24,8 +24,8 @@ double NoiseOf(const LocalNormals& local);
 
 /// Whether the fit at a pixel is of one smooth thing: a window over an edge is not.
 inline bool IsSmooth(const LocalNormals& local, int v, int u, double noise_per_m) {
-  constexpr double kMaxRms =
-      2.5;  // balances: windows over edges have ten times the noise and more
+  // Balances: windows over edges have ten times the noise and more.
+  constexpr double kMaxRms = 2.5;
   return local.normals_c(v, u)[2] != 0 && local.rms_per_m(v, u) <= kMaxRms * noise_per_m;
 }
 

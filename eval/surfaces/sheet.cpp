@@ -11,8 +11,8 @@ namespace eval {
 namespace {
 
 constexpr int kNear_cells = 6;  // two cells of the fused cloud: the gap that growing may cross
-constexpr int kPassStride =
-    2;  // of the pixels that are taken, one in so many each way tells of passes
+// Of the pixels that are taken, one in so many each way tells of passes.
+constexpr int kPassStride = 2;
 
 /// A sheet's plane in the frame of one camera.
 struct PlaneInView {

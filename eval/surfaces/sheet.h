@@ -13,8 +13,8 @@ namespace eval {
 /// What all views saw at the cells of one plane: a map of heights over it, and where they
 /// looked through it.
 struct Sheet {
-  static constexpr double kCell_m =
-      0.01;  ///< a pixel of a first Kinect at 5 m; a phone has 7 x 15
+  /// A pixel of a first Kinect at 5 m; a phone has 7 x 15.
+  static constexpr double kCell_m = 0.01;
 
   Plane pi_g;
   PlaneChart chart_g;           ///< origin at the middle of cell (0, 0)

@@ -10,8 +10,8 @@ namespace eval {
 namespace {
 
 constexpr int kAxes = 6;
-const double kMinFacingCosine =
-    std::cos(35.0 * std::numbers::pi / 180);  // noise makes normals rough
+// Noise makes normals rough.
+const double kMinFacingCosine = std::cos(35.0 * std::numbers::pi / 180);
 constexpr int kBits = 20;  // of a coordinate of a cell, in a key that also holds the axis
 
 int NearestAxis(const Eigen::Vector3d& n) {
@@ -82,8 +82,8 @@ SurfelIndex::SurfelIndex(const std::vector<Surfel>& surfels) {
 
 std::vector<Surfel> DrawnTogether(const std::vector<Surfel>& surfels, double noise_per_m) {
   constexpr int kMaxReach_cells = 6;  // the work; 3 sigmas of a first Kinect at 5 m
-  constexpr double kMaxRatio =
-      1.5;  // balances: halves of a sheet on a border of cells are alike
+  // Balances: halves of a sheet on a border of cells are alike.
+  constexpr double kMaxRatio = 1.5;
   const SurfelIndex index(surfels);
   std::vector<Surfel> together;
   for (const Surfel& own : surfels) {

@@ -13,8 +13,8 @@
 namespace eval {
 namespace {
 
-constexpr double kDeltaTolerance =
-    0.1;  // share of metres and degrees by which a pair may miss (evo)
+// Share of metres and degrees by which a pair may miss (evo).
+constexpr double kDeltaTolerance = 0.1;
 
 struct MatchedFiles {
   std::vector<double> stamps_s;  ///< of the estimate

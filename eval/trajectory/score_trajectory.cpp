@@ -94,7 +94,6 @@ std::vector<PoseError> ErrorsOfPoses(const MatchedPoses& poses,
     const Pose &estimate = poses.estimate[i], &truth = poses.truth[i];
     PoseError error;
     error.stamp_s = poses.stamps_s[i];
-    error.true_position_g = truth.t;
     if (gauge) {
       const Pose T_gc = *gauge * estimate;
       error.rotation_deg = AngleOf(T_gc.R.transpose() * truth.R) * 180.0 / std::numbers::pi;

@@ -24,7 +24,6 @@ struct PoseError {
   double stamp_s = 0.0;                ///< of the estimate
   std::optional<double> position_m;    ///< as in ate_se3
   std::optional<double> rotation_deg;  ///< in the world of the truth by whole poses (gauge)
-  Eigen::Vector3d true_position_g = Eigen::Vector3d::Zero();  ///< metres
   std::optional<Eigen::Vector3d> position_g;  ///< that of position_m, else by whole poses
 };
 

@@ -249,6 +249,7 @@ RC_GTEST_PROP(WholeScene, ExactDepthIsNeverAssociatedWronglyWhenStepsAreTwentyMi
 TEST(WholeScene, ScenesThatWereOnceAssociatedWronglyAreRight) {
   const auto folder =
       std::filesystem::path(PAS_SOURCE_DIR) / "property_tests/end_to_end/once_failed";
+  ASSERT_FALSE(std::filesystem::is_empty(folder));
   for (const auto& entry : std::filesystem::directory_iterator(folder)) {
     const sim::Scene scene = sim::ReadScene(entry.path());
     for (const std::uint64_t seed : {1u, 2u}) {

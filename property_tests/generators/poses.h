@@ -6,9 +6,12 @@
 #include <cstdint>
 #include <vector>
 
+#include "property_tests/generators/numbers.h"
 #include "slam/geometry/pose.h"
 
 namespace slam {
+
+using generators::AnyInt;
 
 /// Draws inside a property. Reals are built from integers at full size, because rapidcheck's
 /// own doubles are useless for geometry and its ranges shrink with the size parameter.
@@ -16,10 +19,6 @@ inline double AnyReal(double low, double high) {
   constexpr std::int64_t kSteps = std::int64_t{1} << 52;
   const std::int64_t k = *rc::gen::resize(100, rc::gen::inRange<std::int64_t>(0, kSteps + 1));
   return low + (high - low) * (static_cast<double>(k) / static_cast<double>(kSteps));
-}
-
-inline int AnyInt(int low, int high) {  ///< inclusive
-  return *rc::gen::resize(100, rc::gen::inRange(low, high + 1));
 }
 
 inline Eigen::Vector3d AnyPoint(double half_m) {

@@ -6,20 +6,18 @@
 #include <map>
 #include <string>
 
+#include "property_tests/generators/numbers.h"
 #include "sim/base/angle.h"
 #include "sim/families/families.h"
 #include "sim/scene/scene.h"
 
 namespace sim {
 
-/// Draws inside a property; ranges at full size, because rapidcheck's shrink with the size
-/// parameter. Each shrinks towards its first value.
-inline int DrawInt(int low, int high) {  ///< inclusive
-  return *rc::gen::resize(100, rc::gen::inRange(low, high + 1));
-}
+using generators::AnyInt;
 
+/// Shrinks towards its first value.
 inline double DrawReal(double low, double high, int steps = 1000) {
-  return low + (high - low) * DrawInt(0, steps) / steps;
+  return low + (high - low) * AnyInt(0, steps) / steps;
 }
 
 /// What a scene was made from, for a message that `pas scene make` can replay.
@@ -42,33 +40,33 @@ struct SceneRecipe {
 /// The recipe of a family, any of its parameters in their ranges (whole numbers where they are)
 /// but for the texture, which is full.
 inline SceneRecipe DrawRecipeOf(const Family& family) {
-  SceneRecipe recipe{family.name, static_cast<std::uint64_t>(DrawInt(0, 100000)), {}};
+  SceneRecipe recipe{family.name, static_cast<std::uint64_t>(AnyInt(0, 100000)), {}};
   for (const FamilyParameter& parameter : family.parameters) {
     // How many things fit depends on the desk.
     if (parameter.name == "objects" || parameter.name == "texture") continue;
     const int low =
         static_cast<int>(parameter.low) + (parameter.low > static_cast<int>(parameter.low));
-    recipe.parameters[parameter.name] = DrawInt(low, static_cast<int>(parameter.high));
+    recipe.parameters[parameter.name] = AnyInt(low, static_cast<int>(parameter.high));
   }
   return recipe;
 }
 
 /// One of the first three families: desk, plates, stack.
 inline SceneRecipe DrawSceneRecipe() {
-  return DrawRecipeOf(Families()[static_cast<std::size_t>(DrawInt(0, 2))]);
+  return DrawRecipeOf(Families()[static_cast<std::size_t>(AnyInt(0, 2))]);
 }
 
 /// Any family, any texture.
 inline SceneRecipe DrawAnyRecipe() {
   const auto last = static_cast<int>(Families().size()) - 1;
-  SceneRecipe recipe = DrawRecipeOf(Families()[static_cast<std::size_t>(DrawInt(0, last))]);
+  SceneRecipe recipe = DrawRecipeOf(Families()[static_cast<std::size_t>(AnyInt(0, last))]);
   recipe.parameters["texture"] = DrawReal(0, 1, 10);
   return recipe;
 }
 
 /// A desk whose motion has any of the presets.
 inline Scene DrawDesk() {
-  Scene scene = MakeScene("desk", static_cast<std::uint64_t>(DrawInt(0, 100000)));
+  Scene scene = MakeScene("desk", static_cast<std::uint64_t>(AnyInt(0, 100000)));
   scene.motion.preset = *rc::gen::element<std::string>("slow", "office", "fast");
   return scene;
 }

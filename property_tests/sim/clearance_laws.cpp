@@ -96,10 +96,10 @@ std::map<int, Skin> SkinsOf(const Scene& scene) {
 /// Any preset; every other time as near to everything as the motion block can ask for.
 Motion AnyMotion(Motion motion) {
   const auto last = static_cast<int>(kPresetNames.size()) - 1;
-  if (DrawInt(0, 1) == 1) {
-    motion.preset = kPresetNames[static_cast<std::size_t>(DrawInt(0, last))];
+  if (AnyInt(0, 1) == 1) {
+    motion.preset = kPresetNames[static_cast<std::size_t>(AnyInt(0, last))];
   }
-  if (DrawInt(0, 1) == 1) {
+  if (AnyInt(0, 1) == 1) {
     motion.distance_min_m = 0.2;
     motion.distance_max_m = DrawReal(0.25, 0.8);
     motion.target_spread_m = DrawReal(0.1, 0.8);
@@ -126,13 +126,13 @@ Object PassingBox(const Motion& motion, int id) {
 RC_GTEST_PROP(MakeTrajectory, StaysOutsideAndClearOfWhatIsDrawnInAnyFamilyWithAnyPreset, ()) {
   constexpr double kClear_m = 0.15, kRoundOff_m = 1e-9;
   const SceneRecipe recipe = DrawAnyRecipe();
-  const auto seed = static_cast<std::uint64_t>(DrawInt(0, 100000));
+  const auto seed = static_cast<std::uint64_t>(AnyInt(0, 100000));
   Scene scene;
   std::vector<TimedPose> trajectory;
   try {
     scene = recipe.Make();
     scene.motion = AnyMotion(scene.motion);
-    if (DrawInt(0, 3) == 0) scene.objects.push_back(PassingBox(scene.motion, 1000));
+    if (AnyInt(0, 3) == 0) scene.objects.push_back(PassingBox(scene.motion, 1000));
     RC_LOG() << recipe.Command() << ", preset " << scene.motion.preset << ", seed " << seed;
     trajectory = MakeTrajectory(scene, 45, 3, seed);
   } catch (const io::InputError&) {

@@ -37,7 +37,7 @@ RC_GTEST_PROP(RenderedFrame, MovesWithSceneAndCameraTogether, ()) {
   const Pose T_wc = AnyView();
   Pose T_nw;
   T_nw.R = AnyRotation().toRotationMatrix();
-  const double far_m = Whole(0, 3) == 0 ? 90 : 5;
+  const double far_m = AnyInt(0, 3) == 0 ? 90 : 5;
   T_nw.t = {Real(-far_m, far_m), Real(-far_m, far_m), Real(-far_m, far_m)};
   const Rendering before = RenderShape(scene, camera, T_wc);
   const Rendering after = RenderShape(Moved(scene, T_nw), camera, T_nw * T_wc);
@@ -55,7 +55,7 @@ RC_GTEST_PROP(RenderedFrame, ScalesBitForBitByPowersOfTwo, ()) {
   const Scene scene = AnyScene();
   const Camera camera = AnyCamera();
   const Pose T_wc = AnyView();
-  const double scale = std::ldexp(1.0, Whole(0, 1) == 0 ? Whole(-4, -1) : Whole(1, 4));
+  const double scale = std::ldexp(1.0, AnyInt(0, 1) == 0 ? AnyInt(-4, -1) : AnyInt(1, 4));
   const Rendering before = RenderShape(scene, camera, T_wc);
   const Rendering after =
       RenderShape(Moved(scene, Pose{}, scale), camera, Pose{T_wc.R, scale * T_wc.t});
@@ -68,7 +68,7 @@ RC_GTEST_PROP(RenderedFrame, OfAShiftedPrincipalPointIsTheSameFrameCropped, ()) 
   const Scene scene = AnyScene();
   const Pose T_wc = AnyView();
   const Camera camera = SmallCamera();
-  const int du = Whole(0, 60), dv = Whole(0, 40);
+  const int du = AnyInt(0, 60), dv = AnyInt(0, 40);
   Camera crop = camera;
   crop.width -= du;
   crop.height -= dv;
@@ -108,7 +108,7 @@ Scene SparselyPrinted() {
 RC_GTEST_PROP(RenderedFrame, DoesNotDependOnTheOrderOfObjects, ()) {
   const Scene scene = SparselyPrinted();
   const std::size_t count = scene.objects.size(),
-                    first = static_cast<std::size_t>(Whole(0, static_cast<int>(count) - 1));
+                    first = static_cast<std::size_t>(AnyInt(0, static_cast<int>(count) - 1));
   Scene turned = scene;
   std::rotate(turned.objects.begin(),
               turned.objects.begin() + static_cast<std::ptrdiff_t>(first),

@@ -113,7 +113,7 @@ DepthModel AnySwitchedOff() {
   d435.fattening_px = 0;
   d435.min_share = d435.min_depth_m = d435.rounding_m = 0;
   d435.max_depth_m = 1e9;
-  switch (Whole(0, 2)) {
+  switch (AnyInt(0, 2)) {
     case 0:
       return kinect;
     case 1:

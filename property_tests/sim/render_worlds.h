@@ -6,22 +6,20 @@
 #include <opencv2/core/mat.hpp>
 #include <optional>
 
+#include "property_tests/generators/numbers.h"
 #include "tests/sim/support/sim_worlds.h"
 
 /// Generated rooms of boxes and cameras in them; all shrink towards fewer, plainer boxes.
 namespace sim {
 
-/// At full size always: the size of a run would keep half its draws below the middle.
-inline int Whole(int low, int high) {  // inclusive
-  return *rc::gen::resize(100, rc::gen::inRange(low, high + 1));
-}
+using generators::AnyInt;
 
 /// One draw in ten is an end of the range.
 inline double Real(double low, double high) {
   constexpr int kSteps = 1 << 20;
-  const int end = Whole(0, 19);
+  const int end = AnyInt(0, 19);
   if (end < 2) return end == 0 ? low : high;
-  return low + (high - low) * Whole(0, kSteps) / kSteps;
+  return low + (high - low) * AnyInt(0, kSteps) / kSteps;
 }
 
 inline Eigen::Quaterniond AnyRotation() {
@@ -48,14 +46,14 @@ inline void AddRoom(Scene& scene) {
 inline Scene AnyScene(int most = 16) {
   Scene scene;
   scene.name = "generated";
-  const int count = Whole(1, most);
+  const int count = AnyInt(1, most);
   for (int id = 1; id <= count; ++id) {
     const Eigen::Vector3d size(Real(0.1, 1), Real(0.1, 1), Real(0.1, 1));
     const Eigen::Vector3d center(Real(-2, 2), Real(2.2, 6), Real(-1.5, 1.5));
     scene.objects.push_back(BoxObject(id, "box", Role::kRegular, center, size));
     scene.objects.back().q_wo = AnyRotation();
   }
-  if (Whole(0, 1) == 1) AddRoom(scene);
+  if (AnyInt(0, 1) == 1) AddRoom(scene);
   return scene;
 }
 

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "property_tests/generators/numbers.h"
 #include "slam/detect/box_tracks.h"
 
 namespace slam {
@@ -13,35 +14,34 @@ namespace {
 const Box kImage{{0, 0}, {639, 479}};
 constexpr double kFrame_s = 1.0 / 30;
 
-/// Whole pixels, the whole range at every size (rapidcheck shrinks ranges with the size).
-int Whole(int low, int high) { return *rc::gen::resize(100, rc::gen::inRange(low, high + 1)); }
+using generators::AnyInt;
 
 /// Any box inside the image with a class out of three.
 Detection AnyDetection() {
-  const int u = Whole(0, 560), v = Whole(0, 400);
+  const int u = AnyInt(0, 560), v = AnyInt(0, 400);
   Detection d;
   d.class_name = *rc::gen::element<std::string>("book", "laptop", "person");
   d.kind = d.class_name == "person" ? ClassKind::kUnstructured : ClassKind::kRegular;
-  d.score = Whole(1, 100) / 100.0;
-  d.box_px = {Eigen::Vector2d(u, v), Eigen::Vector2d(u + Whole(4, 79), v + Whole(4, 79))};
+  d.score = AnyInt(1, 100) / 100.0;
+  d.box_px = {Eigen::Vector2d(u, v), Eigen::Vector2d(u + AnyInt(4, 79), v + AnyInt(4, 79))};
   return d;
 }
 
 std::vector<std::vector<Detection>> AnyFrames() {
-  std::vector<std::vector<Detection>> frames(static_cast<std::size_t>(Whole(1, 12)));
+  std::vector<std::vector<Detection>> frames(static_cast<std::size_t>(AnyInt(1, 12)));
   for (auto& frame : frames) {
     // Half the boxes stay near those of a fixed desk, so that tracks form and are lost.
     for (int i = 0; i < 4; ++i) {
-      if (Whole(0, 3) == 0) continue;
+      if (AnyInt(0, 3) == 0) continue;
       Detection d;
       d.class_name = i % 2 ? "book" : "laptop";
       d.kind = ClassKind::kRegular;
       d.score = 0.8;
-      d.box_px.min = Eigen::Vector2d(20 + 150 * i + Whole(-3, 3), 100 + Whole(-3, 3));
+      d.box_px.min = Eigen::Vector2d(20 + 150 * i + AnyInt(-3, 3), 100 + AnyInt(-3, 3));
       d.box_px.max = d.box_px.min + Eigen::Vector2d(90, 70);
       frame.push_back(d);
     }
-    for (int i = Whole(0, 3); i > 0; --i) frame.push_back(AnyDetection());
+    for (int i = AnyInt(0, 3); i > 0; --i) frame.push_back(AnyDetection());
   }
   return frames;
 }
@@ -70,7 +70,7 @@ RC_GTEST_PROP(BoxTracks, DoNotDependOnTheOrderOfTheDetections, ()) {
     auto shuffled = frame;
     for (std::size_t i = shuffled.size(); i > 1; --i)
       std::swap(shuffled[i - 1],
-                shuffled[static_cast<std::size_t>(Whole(0, static_cast<int>(i) - 1))]);
+                shuffled[static_cast<std::size_t>(AnyInt(0, static_cast<int>(i) - 1))]);
     t += kFrame_s;
     const auto a = Sorted(one.Update(t, frame)), b = Sorted(other.Update(t, shuffled));
     RC_ASSERT(a.size() == b.size());
@@ -80,14 +80,14 @@ RC_GTEST_PROP(BoxTracks, DoNotDependOnTheOrderOfTheDetections, ()) {
 
 RC_GTEST_PROP(BoxTracks, MakeNothingFromNothing, ()) {
   BoxTracks tracks({}, kImage);
-  for (int i = Whole(1, 30); i > 0; --i)
+  for (int i = AnyInt(1, 30); i > 0; --i)
     RC_ASSERT(tracks.Update(1.0 - i * kFrame_s, {}).empty());
 }
 
 RC_GTEST_PROP(BoxTracks, LeavePerfectDetectionsAsTheyAre, ()) {
   // A desk of separate boxes that sways as one; every box is seen in every frame.
   BoxTracks tracks({}, kImage);
-  const int speed_u = Whole(-8, 8), speed_v = Whole(-8, 8), count = Whole(1, 4);
+  const int speed_u = AnyInt(-8, 8), speed_v = AnyInt(-8, 8), count = AnyInt(1, 4);
   for (int frame = 0; frame < 10; ++frame) {
     std::vector<Detection> seen;
     for (int i = 0; i < count; ++i) {

@@ -7,6 +7,7 @@
 #include "property_tests/generators/poses.h"
 #include "slam/base/random.h"
 #include "slam/segment/plane_segments.h"
+#include "tests/support/cameras.h"
 #include "tests/support/closed_form_depth.h"
 #include "tests/support/depth_planes.h"
 
@@ -60,14 +61,6 @@ RC_GTEST_PROP(PlaneExtraction, OnePlaneInViewIsOneSegment, ()) {
   RC_ASSERT(frame.planes[0].pixel_count >= 0.99 * measured);
   RC_ASSERT(Angle(frame.planes[0].pi_c.n, truth.n) < 1.75e-5);  // 1e-3 deg
   RC_ASSERT(std::abs(frame.planes[0].pi_c.d - truth.d) < 2e-5);
-}
-
-/// Half the usual size: the laws hold at any, and a hundred draws are many.
-Camera HalfCamera() {
-  Camera camera;
-  camera.width = 320, camera.height = 240;
-  camera.fx = camera.fy = 262.5, camera.cx = 159.5, camera.cy = 119.5;
-  return camera;
 }
 
 /// Their tops are 10 mm apart at least: two at one height are one surface where nothing is seen

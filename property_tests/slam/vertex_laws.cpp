@@ -7,6 +7,7 @@
 #include "property_tests/generators/poses.h"
 #include "slam/base/random.h"
 #include "slam/faces/vertices.h"
+#include "tests/support/normal_draws.h"
 
 namespace slam {
 namespace {
@@ -119,12 +120,6 @@ RC_GTEST_PROP(VertexExtraction, TurningTheImageTurnsTheVertices, ()) {
   }
 }
 
-/// Standard normal by Box and Muller.
-double Gaussian(Random& random) {
-  const double u = 1.0 - random.Uniform();
-  return std::sqrt(-2.0 * std::log(u)) * std::cos(6.283185307179586 * random.Uniform());
-}
-
 /// Largest corner error of a rectangle whose edge points carry noise; -1 without four corners.
 double NoisyCorner_px(int points_a_side, double sigma_px, std::uint64_t seed) {
   const Camera camera = WideCamera();
@@ -132,7 +127,7 @@ double NoisyCorner_px(int points_a_side, double sigma_px, std::uint64_t seed) {
   FramePlane plane = FaceOf(r, points_a_side, camera);
   Random random{seed, 5};
   for (EdgePoint& e : plane.edge_points) {
-    e.u_px += Eigen::Vector2d(sigma_px * Gaussian(random), sigma_px * Gaussian(random));
+    e.u_px += Eigen::Vector2d(sigma_px * Normal(random), sigma_px * Normal(random));
     e.p_c = camera.Backproject(e.u_px, 1.0);
   }
   EdgeLineConfig config;

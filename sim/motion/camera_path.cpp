@@ -250,8 +250,8 @@ void CameraPath::AddKnot() {
 }
 
 void CameraPath::Measure() {
-  constexpr double kForgetting =
-      0.995;  // a second, so that a long wait is not made up for ever
+  // A second, so that a long wait is not made up for ever.
+  constexpr double kForgetting = 0.995;
   const double known_s = static_cast<double>(knots_.size() - 3) * preset_.knot_s;
   while ((measured_samples_ + 1) * kPresetSample_s < known_s) {
     const Pose T_before = Shaken(measured_samples_ * kPresetSample_s);

@@ -75,8 +75,8 @@ struct Object {
   /// Only of what moves; times grow, it stands at its ends before and after. Then `center_w` is
   /// the first of them.
   std::vector<Waypoint> way;
-  int detection_group =
-      0;  ///< objects of one group are detected as one (laptop base and lid); 0 = alone
+  /// Objects of one group are detected as one (laptop base and lid); 0 = alone.
+  int detection_group = 0;
 };
 
 struct Sun {
@@ -102,8 +102,8 @@ struct Light {
   Eigen::Vector3d half_a_w{0.3, 0, 0}, half_b_w{0, -0.3, 0};
   double intensity = 1;
   std::array<double, 3> colour{1, 1, 1};  ///< linear RGB
-  int samples_per_side =
-      4;  ///< only of a rectangle; its square is the rays to it from each place
+  /// Only of a rectangle; its square is the rays to it from each place.
+  int samples_per_side = 4;
 };
 
 /// A place on the way of the camera, and what it looks at there.

@@ -12,8 +12,8 @@ namespace {
 constexpr double kFocal_px = 525;   // that registration_px is told for
 constexpr double kCorner_px = 400;  // from the middle of 640 x 480 to its corner
 /// Focal lengths of the two axes come from one calibration and err together but for this share.
-constexpr double kOwnShare =
-    0.2;  // our choice: real ones agree to some hundredths of a per cent
+/// Our choice: real ones agree to some hundredths of a per cent.
+constexpr double kOwnShare = 0.2;
 
 /// Keeps these draws apart from others of the device.
 enum Stream : std::uint64_t { kRegistration = 0xCA11, kIntrinsics = 0xCA12 };

@@ -8,8 +8,8 @@ namespace sim {
 namespace {
 
 constexpr double kClosestLook_m = 0.4;  ///< prints are baked for this viewing distance
-constexpr double kTexelsAPixel =
-    3.2;  ///< per pixel of the longer image side, along the longer face side
+/// Per pixel of the longer image side, along the longer face side.
+constexpr double kTexelsAPixel = 3.2;
 
 }  // namespace
 

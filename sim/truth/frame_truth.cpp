@@ -105,6 +105,13 @@ VertexInFrame TruthMaker::DescribeCorner(const Eigen::Vector3d& x_w, const MeshC
 FrameTruth TruthMaker::Describe(const Rendering& rendering, const Pose& T_wc,
                                 double time_s) const {
   FrameTruth truth;
+  DescribeObjects(rendering, T_wc, time_s, truth);
+  DescribePlanes(rendering, T_wc, time_s, truth);
+  return truth;
+}
+
+void TruthMaker::DescribeObjects(const Rendering& rendering, const Pose& T_wc, double time_s,
+                                 FrameTruth& truth) const {
   const std::map<int, Extent> seen = Extents(rendering.object_id);
   const std::vector<Object>& objects = renderer_.scene().objects;
   std::map<int, cv::Mat1b> covered;  // by group, of those that are seen
@@ -146,6 +153,10 @@ FrameTruth TruthMaker::Describe(const Rendering& rendering, const Pose& T_wc,
   }
   std::sort(truth.objects.begin(), truth.objects.end(),
             [](const auto& a, const auto& b) { return a.id < b.id; });
+}
+
+void TruthMaker::DescribePlanes(const Rendering& rendering, const Pose& T_wc, double time_s,
+                                FrameTruth& truth) const {
   // Faces that meet share their corners: each is described once.
   std::vector<std::optional<VertexInFrame>> corners(mesh_corners_.size());
   for (const auto& [id, extent] : Extents(rendering.plane_id)) {
@@ -163,7 +174,6 @@ FrameTruth TruthMaker::Describe(const Rendering& rendering, const Pose& T_wc,
       truth.planes.back().vertices.back().x_w = plane.vertices_w[k];  // to the sign of zero
     }
   }
-  return truth;
 }
 
 }  // namespace sim

@@ -67,10 +67,14 @@ class TruthMaker {
   FrameTruth Describe(const Rendering& rendering, const Pose& T_wc, double time_s = 0) const;
 
  private:
-  const FrameRenderer& renderer_;
+  void DescribeObjects(const Rendering& rendering, const Pose& T_wc, double time_s,
+                       FrameTruth& truth) const;
+  void DescribePlanes(const Rendering& rendering, const Pose& T_wc, double time_s,
+                      FrameTruth& truth) const;
   VertexInFrame DescribeCorner(const Eigen::Vector3d& x_w, const MeshCorner& on_mesh,
                                const Pose& T_wc, double time_s) const;
 
+  const FrameRenderer& renderer_;
   std::vector<std::vector<Triangle>> triangles_;  ///< by object
   const std::vector<ScenePlane>& planes_;         ///< by id - 1
   /// By id - 1 and vertex: the same number where faces meet in the very same point.

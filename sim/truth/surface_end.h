@@ -23,8 +23,8 @@ class SurfaceEnds {
   /// @pre the camera sees the point
   bool At(const Pose& T_wc, const Eigen::Vector3d& x_w) const;
 
-  static constexpr double kBeside =
-      2e-6;  ///< share of the way to the point: a thousandth of a pixel
+  /// Share of the way to the point: a thousandth of a pixel.
+  static constexpr double kBeside = 2e-6;
   static constexpr double kBreak_m = 2e-4;  ///< twice what a scene allows touching bodies
   static constexpr int kDirections = 16;
 

@@ -3,6 +3,9 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
+#include <utility>
+
+#include "slam/base/median.h"
 
 namespace slam {
 namespace {
@@ -50,14 +53,6 @@ void TakeOutPlane(Values& q) {
   q.colwise() -= along_v * at.transpose();
 }
 
-template <typename Of>
-double MedianOfHalf(std::vector<Of>& half, double Of::*figure) {
-  const auto middle = half.begin() + static_cast<std::ptrdiff_t>(half.size() / 2);
-  std::nth_element(half.begin(), middle, half.end(),
-                   [&](const Of& a, const Of& b) { return a.*figure < b.*figure; });
-  return *middle.*figure;
-}
-
 }  // namespace
 
 void DepthScatter::Add(const cv::Mat1f& depth_m) {
@@ -85,8 +80,12 @@ DepthScatter::Figures DepthScatter::Measure() const {
   std::sort(half.begin(), half.end(),
             [](const Window& a, const Window& b) { return a.level < b.level; });
   half.resize((half.size() + 1) / 2);
-  return {MedianOfHalf(half, &Window::level), MedianOfHalf(half, &Window::alike),
-          windows_.size()};
+  std::vector<double> level, alike;
+  for (const Window& window : half) {
+    level.push_back(window.level);
+    alike.push_back(window.alike);
+  }
+  return {UpperMedian(std::move(level)), UpperMedian(std::move(alike)), windows_.size()};
 }
 
 std::optional<DepthSensor> DepthScatter::TellSensor() const {

@@ -6,6 +6,9 @@
 #include <limits>
 #include <numeric>
 #include <opencv2/imgproc.hpp>
+#include <utility>
+
+#include "slam/base/median.h"
 
 namespace slam {
 namespace {
@@ -26,26 +29,73 @@ int Sign(NearSide side) {
   return side == NearSide::kRight || side == NearSide::kBottom ? 1 : -1;
 }
 
-double Median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
 /// Standard deviation of the mean of values, some of which may be far off. As if they scattered
 /// by two steps at least.
 double SigmaOfMean(const std::vector<double>& values) {
-  constexpr double kSigmaByMad = 1.4826;    // of a normal variable
   constexpr double kLossOfMedian = 1.2533;  // its efficiency is 2 / pi
-  const double median = Median(values);
+  const double median = UpperMedian(values);
   std::vector<double> off;
   off.reserve(values.size());
   for (const double value : values) off.push_back(std::abs(value - median));
-  return kLossOfMedian * std::max(kSigmaByMad * Median(off), 2.0 / kSteps) /
+  return kLossOfMedian * std::max(kSigmaOverMad * UpperMedian(std::move(off)), 2.0 / kSteps) /
          std::sqrt(static_cast<double>(values.size()));
 }
 
 }  // namespace
+
+/// How much of the gradients a shift along an axis explains, with a growth.
+class RegistrationLearner::Explained {
+ public:
+  explicit Explained(const Profiles& profiles) {
+    for (std::size_t side = 0; side < around_.size(); ++side) {
+      for (int step = -kMost; step <= kMost; ++step) {
+        double& sum = around_[side][static_cast<std::size_t>(step + kMost)];
+        for (std::size_t k = 0; k < kSamples; ++k) {
+          const double off = (static_cast<double>(k) - kReach_px - step / kSteps) / kBlur_px;
+          sum += profiles[side].sum[k] * std::exp(-0.5 * off * off);
+        }
+        sum /= std::max(profiles[side].edges, 1);
+      }
+    }
+  }
+
+  double By(int axis, int shift, int grown) const {
+    double sum = 0.0;
+    for (const NearSide side : axis == 0 ? std::array{NearSide::kLeft, NearSide::kRight}
+                                         : std::array{NearSide::kTop, NearSide::kBottom})
+      sum += around_[static_cast<std::size_t>(side)]
+                    [static_cast<std::size_t>(shift - Sign(side) * grown + kMost)];
+    return sum;
+  }
+
+  int BestShift(int axis, int grown) const {
+    int best = -kMaxShift;
+    for (int shift = -kMaxShift; shift <= kMaxShift; ++shift)
+      if (By(axis, shift, grown) > By(axis, best, grown)) best = shift;
+    return best;
+  }
+
+  /// How much it leads beside the best of all others, over what all explain on average. Those that
+  /// no such sensor grows by count, too: where they explain as much, edges tell too little.
+  double Lead(int axis, int shift, int grown) const {
+    double mean = 0.0, other = 0.0;
+    int count = 0;
+    for (int g = kMinGrown; g <= kMaxGrown; ++g) {
+      for (int s = -kMaxShift; s <= kMaxShift; ++s, ++count) {
+        mean += By(axis, s, g);
+        if (std::abs(s - shift) >= kBeside || std::abs(g - grown) >= kBeside)
+          other = std::max(other, By(axis, s, g));
+      }
+    }
+    mean /= count;
+    return (By(axis, shift, grown) - mean) / (other - mean);
+  }
+
+ private:
+  static constexpr int kMost = kMaxShift + kMaxGrown;
+  /// Mean gradients around each distance from the edges of a side, in steps.
+  std::array<std::array<double, 2 * kMost + 1>, kNearSides> around_{};
+};
 
 RegistrationLearner::RegistrationLearner(const Camera& camera, double edge_growth_px,
                                          const RegistrationConfig& config)
@@ -95,29 +145,8 @@ void RegistrationLearner::AddEdge(const cv::Mat1f& gray, const DepthEdge& edge, 
 
 /// The shifts along both axes and the growth, one for all sides, that explain the most.
 RegistrationLearner::Peak RegistrationLearner::FindPeak(const Profiles& profiles) const {
-  // Mean gradients around each distance from the edges, in steps.
-  constexpr int kMost = kMaxShift + kMaxGrown;
-  std::array<std::array<double, 2 * kMost + 1>, kNearSides> around{};
-  for (std::size_t side = 0; side < around.size(); ++side) {
-    for (int step = -kMost; step <= kMost; ++step) {
-      double& sum = around[side][static_cast<std::size_t>(step + kMost)];
-      for (std::size_t k = 0; k < kSamples; ++k) {
-        const double off = (static_cast<double>(k) - kReach_px - step / kSteps) / kBlur_px;
-        sum += profiles[side].sum[k] * std::exp(-0.5 * off * off);
-      }
-      sum /= std::max(profiles[side].edges, 1);
-    }
-  }
-  const auto explained = [&](int axis, int shift, int grown) {
-    double sum = 0.0;
-    for (const NearSide side : axis == 0 ? std::array{NearSide::kLeft, NearSide::kRight}
-                                         : std::array{NearSide::kTop, NearSide::kBottom})
-      sum += around[static_cast<std::size_t>(side)]
-                   [static_cast<std::size_t>(shift - Sign(side) * grown + kMost)];
-    return sum;
-  };
-
   // The best growth for the best shifts of both axes, and for each of them alone.
+  const Explained explained(profiles);
   constexpr double kNothing = -std::numeric_limits<double>::infinity();
   std::array<int, 2> best_shift{}, own_grown{};
   int best_grown = 0;
@@ -126,37 +155,23 @@ RegistrationLearner::Peak RegistrationLearner::FindPeak(const Profiles& profiles
   for (int grown = kMinGrown; grown <= max_grown_; ++grown) {
     std::array<int, 2> shift{};
     double sum = 0.0;
-    for (int axis = 0; axis < 2; ++axis) {
-      int& best = shift[static_cast<std::size_t>(axis)];
-      for (int s = best = -kMaxShift; s <= kMaxShift; ++s)
-        if (explained(axis, s, grown) > explained(axis, best, grown)) best = s;
-      const double own = explained(axis, best, grown);
+    for (const int axis : {0, 1}) {
       const auto at = static_cast<std::size_t>(axis);
+      shift[at] = explained.BestShift(axis, grown);
+      const double own = explained.By(axis, shift[at], grown);
       if (own > own_most[at]) own_most[at] = own, own_grown[at] = grown;
       sum += own;
     }
     if (sum > most) most = sum, best_shift = shift, best_grown = grown;
   }
 
-  // What leads beside the best of all others, over what all explain on average. Those that no such
-  // sensor grows by count, too: where they explain as much, edges tell too little.
   Peak peak;
   peak.grown_px = best_grown / kSteps;
   peak.torn_px = (own_grown[0] - own_grown[1]) / kSteps;
-  for (int axis = 0; axis < 2; ++axis) {
-    const int at = best_shift[static_cast<std::size_t>(axis)];
-    double mean = 0.0, other = 0.0;
-    int count = 0;
-    for (int grown = kMinGrown; grown <= kMaxGrown; ++grown) {
-      for (int s = -kMaxShift; s <= kMaxShift; ++s, ++count) {
-        mean += explained(axis, s, grown);
-        if (std::abs(s - at) >= kBeside || std::abs(grown - best_grown) >= kBeside)
-          other = std::max(other, explained(axis, s, grown));
-      }
-    }
-    mean /= count;
-    peak.shift_px[axis] = at / kSteps;
-    peak.lead[axis] = (explained(axis, at, best_grown) - mean) / (other - mean);
+  for (const int axis : {0, 1}) {
+    const int shift = best_shift[static_cast<std::size_t>(axis)];
+    peak.shift_px[axis] = shift / kSteps;
+    peak.lead[axis] = explained.Lead(axis, shift, best_grown);
   }
   return peak;
 }

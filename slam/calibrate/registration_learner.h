@@ -72,6 +72,7 @@ class RegistrationLearner {
     /// How many times more of the gradients it explains than any shift that is not beside it.
     Eigen::Vector2d lead = Eigen::Vector2d::Zero();
   };
+  class Explained;
 
   bool HasMoved(const Frame& frame) const;
   void AddEdge(const cv::Mat1f& gray, const DepthEdge& edge, NearSide side, const Pose& T_cd);

@@ -25,6 +25,27 @@ Eigen::Vector3d RowMotion(const Camera& camera, const Readout& readout,
   return share * (readout.speed.head<3>() + readout.speed.tail<3>().cross(x_c));
 }
 
+/// What the row has done to a point here, less what rows did in the mean of the keyframes that made it.
+struct RowShift {
+  Eigen::Vector3d per_s;      ///< for each second of reading, metres a second
+  Eigen::Vector3d taken_out;  ///< as much of it as was taken out, metres
+};
+RowShift RowShiftOf(const MapPoint& point, const Eigen::Vector3d& x_c, const Frame& frame,
+                    const Map& map, const Camera& camera) {
+  const Eigen::Vector3d here = RowMotion(camera, frame.readout, x_c);
+  Eigen::Vector3d motion = Eigen::Vector3d::Zero(), taken = Eigen::Vector3d::Zero();
+  for (const auto& [id, unused] : point.observations) {
+    const Keyframe& keyframe = map.keyframes[Index(id)];
+    const Eigen::Vector3d x_k = keyframe.T_cw * point.p_w;
+    if (!(x_k.z() > kMinVisibleDepth_m)) continue;
+    const Eigen::Vector3d there =
+        frame.T_cw.R * (keyframe.T_cw.R.transpose() * RowMotion(camera, keyframe.readout, x_k));
+    motion += there, taken += keyframe.readout.taken_out_s * there;
+  }
+  const auto views = static_cast<double>(point.observations.size());
+  return {here - motion / views, frame.readout.taken_out_s * here - taken / views};
+}
+
 }  // namespace
 
 RollingLearner::RollingLearner(const Camera& camera, const FeatureScale& scale,
@@ -55,30 +76,15 @@ std::optional<RollingLearner::Evidence> RollingLearner::EvidenceOf(const Frame& 
     const Eigen::Vector2d off_px = feature.u_px - camera_.Project(x_c);
     if (!(weight * off_px.squaredNorm() < kChi2Of2At95)) continue;
 
-    // What the row has done to the point here, and in the mean of the keyframes that made it:
-    // for each second, and as much of it as was taken out.
-    const Eigen::Vector3d here = RowMotion(camera_, frame.readout, x_c);
-    Eigen::Vector3d motion = Eigen::Vector3d::Zero(), taken = Eigen::Vector3d::Zero();
-    for (const auto& [id, unused] : point.observations) {
-      const Keyframe& keyframe = map.keyframes[Index(id)];
-      const Eigen::Vector3d x_k = keyframe.T_cw * point.p_w;
-      if (!(x_k.z() > kMinVisibleDepth_m)) continue;
-      const Eigen::Vector3d there = frame.T_cw.R * (keyframe.T_cw.R.transpose() *
-                                                    RowMotion(camera_, keyframe.readout, x_k));
-      motion += there, taken += keyframe.readout.taken_out_s * there;
-    }
-    const auto views = static_cast<double>(point.observations.size());
-    motion = here - motion / views;
-    taken = frame.readout.taken_out_s * here - taken / views;
-
+    const RowShift shift = RowShiftOf(point, x_c, frame, map, camera_);
     Eigen::Matrix<double, 2, 3> by_x;
     by_x << camera_.fx, 0, -camera_.fx * x_c.x() / x_c.z(), 0, camera_.fy,
         -camera_.fy * x_c.y() / x_c.z();
     by_x /= x_c.z();
     Eigen::Matrix<double, 2, 7> A;
-    A << by_x, -by_x * Hat(x_c), by_x * motion;
+    A << by_x, -by_x * Hat(x_c), by_x * shift.per_s;
     H += weight * A.transpose() * A;
-    b += weight * A.transpose() * (off_px + by_x * taken);
+    b += weight * A.transpose() * (off_px + by_x * shift.taken_out);
     ++points;
   }
   if (points < kMinPoints) return std::nullopt;

@@ -5,6 +5,7 @@
 #include <numeric>
 #include <tuple>
 
+#include "slam/base/median.h"
 #include "slam/base/require.h"
 #include "slam/detect/box_assignment.h"
 
@@ -27,11 +28,8 @@ auto Key(const Detection& d) {
   return std::make_tuple(-d.score, d.class_name, Sides(d.box_px));
 }
 
-double Median(std::vector<double> x) {
-  const std::size_t half = x.size() / 2;
-  std::sort(x.begin(), x.end());
-  return x.size() % 2 == 1 ? x[half] : 0.5 * (x[half - 1] + x[half]);
-}
+/// Of the two in the middle of an even number, their mean.
+double Median(const std::vector<double>& x) { return 0.5 * (LowerMedian(x) + UpperMedian(x)); }
 
 }  // namespace
 

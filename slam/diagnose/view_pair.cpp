@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "slam/base/median.h"
 #include "slam/geometry/camera.h"
 
 namespace slam {
@@ -23,14 +24,6 @@ constexpr double kHuber_sigmas = 2.0, kLeaveOut_sigmas = 8.0;
 // Sigmas: colour cameras read an image out in up to 33 ms, and depth is taken within 20 ms of
 // it.
 constexpr double kReadOut_s = 0.015, kDepthLate_s = 0.010;
-
-constexpr double kSigmaOfMedian = 1.4826;  // sigma over median absolute value, normal noise
-
-double Median(std::vector<double>& values) {
-  const auto middle = values.begin() + static_cast<long>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 }  // namespace
 
@@ -134,9 +127,11 @@ ViewPair::Spread ViewPair::SpreadOf(const std::vector<Eigen::Vector3d>& residual
   }
   for (const TwiceSeen& point : points_) measured.push_back(1.0 / point.second_z_m);
   Spread spread;
-  spread.position_px = std::max(kSigmaOfMedian * Median(positions), kMinSpread_px);
-  spread.inverse_depth = std::max(kSigmaOfMedian * Median(inverse_depths), kMinSpread_per_m);
-  const double relative = spread.inverse_depth / Median(measured);
+  spread.position_px =
+      std::max(kSigmaOverMad * UpperMedian(std::move(positions)), kMinSpread_px);
+  spread.inverse_depth =
+      std::max(kSigmaOverMad * UpperMedian(std::move(inverse_depths)), kMinSpread_per_m);
+  const double relative = spread.inverse_depth / UpperMedian(std::move(measured));
   spread.effects << relative, relative, relative, spread.position_px, spread.position_px,
       kReadOut_s, kDepthLate_s;
   return spread;

@@ -3,9 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <vector>
-
-#include "slam/geometry/plane_sums.h"
 
 namespace slam {
 namespace {
@@ -18,11 +15,6 @@ constexpr double kMinFilled = 0.8;  // of a cell: one at an edge holds the edge'
 constexpr int kMinCells = 12;
 constexpr double kPriorCells = 48.0;  // what a sensor usually does: a tenth of one frame
 constexpr double kKept = 0.99;  // a frame: some seconds; straightening may begin at any time
-
-/// Residuals of one plane in one cell, as parts of the inverse depth.
-struct Cell {
-  double count = 0.0, sum = 0.0, noise_variance = 0.0;
-};
 
 }  // namespace
 
@@ -47,62 +39,62 @@ BendMeter::BendMeter(const cv::Mat2d& rays, const SensorModel& sensor)
       std::abs((rays(v, u)[0] - rays(v, u - 1)[0]) * (rays(v, u)[1] - rays(v - 1, u)[1]));
 }
 
-void BendMeter::Measure(double left_ratio, Frame& frame) {
-  const cv::Size size = rays_.size();
-  const int cell_px = std::max(4 * kStride_px, kCell_px * size.width / kFullWidth_px);
-  const int columns = size.width / cell_px;
-  // Where there are no planes, labels were not made either.
-  const int rows = frame.planes.empty() ? 0 : size.height / cell_px;
-  // The planes as the rays see them.
-  std::vector<InverseDepthPlane> planes;
-  std::vector<double> grazing, squares(frame.planes.size(), 0.0);
-  std::vector<int> cells(frame.planes.size(), 0);
-  for (const FramePlane& plane : frame.planes) {
-    planes.push_back(SeenAlongRays(plane.pi_c));
-    const Eigen::Vector3d ray = plane.centroid_c / plane.centroid_c.z();
-    grazing.push_back(
-        noise_.GrazingFactor(plane.centroid_c.z(), planes.back().Cosine(ray.x(), ray.y())));
-  }
-
-  // Cell by cell: the mean deviation of the plane that fills it, less what noise makes.
-  const int side = (cell_px + kStride_px - 1) / kStride_px;
-  const double full = kMinFilled * side * side;
-  for (int row = 0; row < rows; ++row) {
-    for (int column = 0; column < columns; ++column) {
-      const std::uint8_t label =
-          frame.plane_labels(row * cell_px + cell_px / 2, column * cell_px + cell_px / 2);
-      if (label == 0 || label > planes.size()) continue;
-      const std::size_t f = label - 1u;
-      Cell cell;
-      for (int v = row * cell_px; v < (row + 1) * cell_px; v += kStride_px) {
-        for (int u = column * cell_px; u < (column + 1) * cell_px; u += kStride_px) {
-          const auto z = static_cast<double>(frame.depth_m(v, u));
-          if (frame.plane_labels(v, u) != label || !(z > 0)) continue;
-          const cv::Vec2d& ray = rays_(v, u);
-          const double sigma = noise_.Sigma(z) / z * grazing[f];
-          cell.count += 1;
-          cell.sum += z * planes[f].InverseDepth(ray[0], ray[1]) - 1.0;
-          cell.noise_variance += sigma * sigma;
-        }
-      }
-      if (!(cell.count >= full)) continue;
-      const double mean = cell.sum / cell.count;
-      const double pixels = cell.count * kStride_px * kStride_px;
-      const double shared = std::max(1.0, pixels / noise_.correlated_px);
-      squares[f] += mean * mean - cell.noise_variance / cell.count / shared;
-      ++cells[f];
+/// The squared mean deviation of a plane over a cell, as a part of the inverse depth, less what noise
+/// makes of it; none where the plane does not fill the cell.
+std::optional<double> BendMeter::SquareIn(const cv::Rect& cell, std::uint8_t label,
+                                          const SeenPlane& seen, const Frame& frame) const {
+  double count = 0.0, sum = 0.0, noise_variance = 0.0;
+  for (int v = cell.y; v < cell.y + cell.height; v += kStride_px) {
+    for (int u = cell.x; u < cell.x + cell.width; u += kStride_px) {
+      const auto z = static_cast<double>(frame.depth_m(v, u));
+      if (frame.plane_labels(v, u) != label || !(z > 0)) continue;
+      const cv::Vec2d& ray = rays_(v, u);
+      const double sigma = noise_.Sigma(z) / z * seen.grazing;
+      count += 1;
+      sum += z * seen.plane.InverseDepth(ray[0], ray[1]) - 1.0;
+      noise_variance += sigma * sigma;
     }
   }
+  const int side = (cell.width + kStride_px - 1) / kStride_px;
+  if (!(count >= kMinFilled * side * side)) return std::nullopt;
+  const double mean = sum / count;
+  const double pixels = count * kStride_px * kStride_px;
+  const double shared = std::max(1.0, pixels / noise_.correlated_px);
+  return mean * mean - noise_variance / count / shared;
+}
 
-  double sum = 0.0;
-  int count = 0;
-  for (std::size_t f = 0; f < planes.size(); ++f) {
-    if (cells[f] < kMinCells) continue;
-    sum += squares[f], count += cells[f];
+/// What the frame shows of each of its planes.
+std::vector<BendMeter::Unevenness> BendMeter::UnevennessIn(const Frame& frame) const {
+  std::vector<Unevenness> uneven(frame.planes.size());
+  if (frame.planes.empty()) return uneven;  // then labels were not made either
+  std::vector<SeenPlane> seen;
+  for (const FramePlane& plane : frame.planes) {
+    const InverseDepthPlane along_rays = SeenAlongRays(plane.pi_c);
+    seen.push_back({along_rays, GrazingFactor(plane.centroid_c, along_rays, noise_)});
   }
-  if (count > 0) {
-    squares_ = kKept * squares_ + sum;
-    cells_ = kKept * cells_ + count;
+  const int cell_px = std::max(4 * kStride_px, kCell_px * rays_.cols / kFullWidth_px);
+  for (int v = 0; v + cell_px <= rays_.rows; v += cell_px) {
+    for (int u = 0; u + cell_px <= rays_.cols; u += cell_px) {
+      const std::uint8_t label = frame.plane_labels(v + cell_px / 2, u + cell_px / 2);
+      if (label == 0 || label > seen.size()) continue;
+      const std::size_t f = label - 1u;
+      const auto square = SquareIn({u, v, cell_px, cell_px}, label, seen[f], frame);
+      if (square) uneven[f].squares += *square, ++uneven[f].cells;
+    }
+  }
+  return uneven;
+}
+
+void BendMeter::Measure(double left_ratio, Frame& frame) {
+  double squares = 0.0;
+  int cells = 0;
+  for (const Unevenness& plane : UnevennessIn(frame)) {
+    if (plane.cells < kMinCells) continue;
+    squares += plane.squares, cells += plane.cells;
+  }
+  if (cells > 0) {
+    squares_ = kKept * squares_ + squares;
+    cells_ = kKept * cells_ + cells;
   }
   const double known_ratio = std::max(left_ratio, ratio());
   frame.bend_ratio = std::max(unseen_, known_ratio);

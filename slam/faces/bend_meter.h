@@ -2,9 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <opencv2/core/mat.hpp>
+#include <optional>
+#include <vector>
 
 #include "slam/geometry/camera.h"
+#include "slam/geometry/plane_sums.h"
 #include "slam/geometry/sensor_model.h"
 #include "slam/model/frame.h"
 
@@ -32,6 +36,21 @@ class BendMeter {
   double ratio() const { return std::sqrt(std::max(0.0, squares_) / cells_); }
 
  private:
+  /// A plane as the rays see it.
+  struct SeenPlane {
+    InverseDepthPlane plane;
+    double grazing = 1.0;  ///< DepthNoise::GrazingFactor
+  };
+  /// How far a plane is from itself, over the cells that it fills.
+  struct Unevenness {
+    double squares = 0.0;  ///< sum over the cells
+    int cells = 0;
+  };
+
+  std::optional<double> SquareIn(const cv::Rect& cell, std::uint8_t label,
+                                 const SeenPlane& seen, const Frame& frame) const;
+  std::vector<Unevenness> UnevennessIn(const Frame& frame) const;
+
   cv::Mat2d rays_;
   DepthNoise noise_;
   double unseen_ = 0.0;      ///< least Frame::bend_ratio: what planes do not show

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <utility>
 
+#include "slam/base/median.h"
 #include "slam/faces/line_support.h"
 #include "slam/geometry/plane_sums.h"
 
@@ -156,9 +157,8 @@ double SharedVariance(const OwnEnds& ends, const ImageLine& line,
   // Where the depth hardly changes, the place of the whole side is doubtful.
   double doubt_px = 0.0;
   if (!steps.empty()) {
-    const auto middle = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
-    std::nth_element(steps.begin(), middle, steps.end());
-    const double steps_doubtful = config.doubtful_step_sigmas / static_cast<double>(*middle);
+    const double steps_doubtful =
+        config.doubtful_step_sigmas / static_cast<double>(UpperMedian(std::move(steps)));
     // Its points do not lie farther off than that.
     doubt_px = std::min(steps_doubtful * steps_doubtful, 2.0 * config.max_distance_px);
   }

@@ -35,8 +35,7 @@ struct Candidate {
 Candidate SeenFrom(const Plane& pi_c, const Eigen::Vector3d& centroid_c,
                    const DepthNoise& noise) {
   const InverseDepthPlane plane = SeenAlongRays(pi_c);
-  const double x = centroid_c.x() / centroid_c.z(), y = centroid_c.y() / centroid_c.z();
-  return {plane, noise.GrazingFactor(centroid_c.z(), plane.Cosine(x, y))};
+  return {plane, GrazingFactor(centroid_c, plane, noise)};
 }
 
 /// Squared errors in sigmas^2, each cut at the inlier bound; what MSAC minimises.

@@ -19,8 +19,8 @@ std::optional<ExpectedView> ExpectView(const MapPoint& point, const Pose& T_cw,
   }
   const double cosine = (T_cw.R * point.view_w).dot(p_c) / distance;
   if (!(cosine >= kMinViewCosine)) return std::nullopt;
-  return ExpectedView{camera.Project(p_c), p_c.z(),
-                      scale.PredictOctave(distance, point.max_distance_m), cosine};
+  return ExpectedView{camera.Project(p_c), scale.PredictOctave(distance, point.max_distance_m),
+                      cosine};
 }
 
 PointQuery QueryOf(const MapPoint& point, const Pose& T_cw, const Camera& camera,

@@ -29,7 +29,6 @@ inline void VisitFields(PointProjectionConfig& c, FieldVisitor& v) {
 /// How a map point should look from a pose.
 struct ExpectedView {
   Eigen::Vector2d u_px;  ///< in the ideal (undistorted) image
-  double depth_m = 0.0;
   int octave = 0;
   double cosine = 1.0;  ///< between its ray and the mean view
 };

@@ -89,6 +89,13 @@ inline double GrazingFactor(const PlaneSums& s, const InverseDepthPlane& p,
   return noise.GrazingFactor(1.0 / q, p.Cosine(x, y));
 }
 
+/// The same of a surface around centroid_c.
+inline double GrazingFactor(const Eigen::Vector3d& centroid_c, const InverseDepthPlane& p,
+                            const DepthNoise& noise) {
+  const double z = centroid_c.z();
+  return noise.GrazingFactor(z, p.Cosine(centroid_c.x() / z, centroid_c.y() / z));
+}
+
 /// Standard deviations of a fitted plane: of its distance at the centroid, metres, and of its
 /// normal about the worse axis, radians. `scale` multiplies the noise; correlation is included.
 struct PlaneSigmas {

@@ -12,6 +12,12 @@ struct UncertainPose {
   Matrix6d covariance = Matrix6d::Zero();
 };
 
+/// Covariance of a pose that is known alike along all axes and about all axes.
+inline Matrix6d IsotropicCovariance(double sigma_m, double sigma_rad) {
+  const double m2 = sigma_m * sigma_m, rad2 = sigma_rad * sigma_rad;
+  return (Vector6d() << m2, m2, m2, rad2, rad2, rad2).finished().asDiagonal();
+}
+
 /// A camera's speed: T_cw <- Exp(dt speed) T_cw in the next dt seconds; m/s and rad/s.
 struct UncertainSpeed {
   Vector6d mean = Vector6d::Zero();

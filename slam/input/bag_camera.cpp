@@ -122,9 +122,7 @@ Camera CameraOfInfo(const BagFile& bag, const std::string& info_topic,
     add(keys[i], lens[static_cast<Eigen::Index>(i)]);
   }
   try {
-    return CameraUnder(io::YamlMap(io::ParseYaml(text, where)),
-                       {"width", "height", "fx", "fy", "cx", "cy", "fps", "depth_factor", "k1",
-                        "k2", "p1", "p2", "k3"});
+    return CameraUnder(io::YamlMap(io::ParseYaml(text, where)));
   } catch (const io::InputError& error) {
     // The line is one of the text above, which nobody has.
     const std::string message = error.what();

@@ -48,8 +48,7 @@ CameraFile CameraOfSequence(const io::YamlValue& root, const std::string& name) 
   } else {
     file.warnings.push_back(name + ": key `model` is missing; `pinhole` is taken for it");
   }
-  file.camera = CameraUnder(map, {"width", "height", "fx", "fy", "cx", "cy", "fps",
-                                  "depth_factor", "k1", "k2", "p1", "p2", "k3"});
+  file.camera = CameraUnder(map);
   if (!map.Has("fps")) {
     file.warnings.push_back(name +
                             ": key `fps` is missing; 30 frames a second are taken for it");

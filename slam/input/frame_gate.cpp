@@ -1,9 +1,10 @@
 #include "slam/input/frame_gate.h"
 
-#include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "io/input_error.h"
+#include "slam/base/median.h"
 
 namespace slam {
 namespace {
@@ -30,9 +31,7 @@ float MedianDepth(const cv::Mat1f& depth_m) {
     }
   }
   if (measured.empty()) return 0.0f;
-  const auto middle = measured.begin() + static_cast<long>(measured.size() / 2);
-  std::nth_element(measured.begin(), middle, measured.end());
-  return *middle;
+  return UpperMedian(std::move(measured));
 }
 
 bool AllCanBe(const cv::Mat1f& depth_m) {

@@ -13,19 +13,6 @@
 namespace slam {
 namespace {
 
-/// Ids of the points that the keyframes see, each once, ascending.
-std::vector<int> PointsOf(const Map& map, const std::vector<int>& keyframes) {
-  std::vector<int> points;
-  for (const int keyframe : keyframes) {
-    for (const int point : map.keyframes[Index(keyframe)].map_points) {
-      if (point != kNone) points.push_back(point);
-    }
-  }
-  std::sort(points.begin(), points.end());
-  points.erase(std::unique(points.begin(), points.end()), points.end());
-  return points;
-}
-
 /// Keyframes outside that see the most of the points, at most `count` of them, ascending.
 std::vector<int> OutsideViewers(const Map& map, const std::vector<int>& points,
                                 const std::set<int>& inside, int count) {
@@ -66,55 +53,6 @@ void FillWindow(const Map& map, const Camera& camera, const FeatureScale& scale,
   window.map_points = map.points.size();
 }
 
-}  // namespace
-
-BundleWindow FullWindow(const Map& map, const Camera& camera, const FeatureScale& scale,
-                        const LocalBundleConfig& config) {
-  BundleWindow window;
-  if (map.keyframes.empty()) return window;
-  std::vector<int> fixed{0};
-  for (const Keyframe& keyframe : map.keyframes) {
-    if (keyframe.culled || keyframe.id == 0) continue;
-    (keyframe.by_points ? window.keyframes : fixed).push_back(keyframe.id);
-  }
-  window.free_count = window.keyframes.size();
-  window.keyframes.insert(window.keyframes.end(), fixed.begin(), fixed.end());
-  window.points = PointsOf(map, window.keyframes);
-  FillWindow(map, camera, scale, config, window);
-  return window;
-}
-
-BundleWindow LocalWindow(const Map& map, int keyframe, const Camera& camera,
-                         const FeatureScale& scale, const LocalBundleConfig& config) {
-  // The keyframes that move, the points that they see, and who else sees these.
-  std::vector<int> inside = BestCovisible(map, keyframe, config.max_keyframes - 1);
-  inside.push_back(keyframe);
-  std::sort(inside.begin(), inside.end());
-
-  // Where planes hold a keyframe, its few points must not move it.
-  inside.erase(std::remove_if(inside.begin(), inside.end(),
-                              [&](int id) { return !map.keyframes[Index(id)].by_points; }),
-               inside.end());
-  BundleWindow window;
-  if (inside.empty()) return window;
-  window.points = PointsOf(map, inside);
-  std::vector<int> fixed = OutsideViewers(map, window.points, {inside.begin(), inside.end()},
-                                          config.max_fixed_keyframes);
-  // The first keyframe is the world; where no other sees the points, the oldest holds the
-  // gauge.
-  if (inside.front() == 0 || fixed.empty()) {
-    fixed.push_back(inside.front());
-    inside.erase(inside.begin());
-  }
-  window.free_count = inside.size();
-  window.keyframes = inside;
-  window.keyframes.insert(window.keyframes.end(), fixed.begin(), fixed.end());
-  FillWindow(map, camera, scale, config, window);
-  return window;
-}
-
-namespace {
-
 /// Keyframes and points that came to the map after the window was taken move as its newest
 /// keyframe does: they were placed by the map as it was.
 void CarryTheNewer(const BundleWindow& window, Map& map) {
@@ -135,6 +73,51 @@ void CarryTheNewer(const BundleWindow& window, Map& map) {
 }
 
 }  // namespace
+
+BundleWindow FullWindow(const Map& map, const Camera& camera, const FeatureScale& scale,
+                        const LocalBundleConfig& config) {
+  BundleWindow window;
+  if (map.keyframes.empty()) return window;
+  std::vector<int> fixed{0};
+  for (const Keyframe& keyframe : map.keyframes) {
+    if (keyframe.culled || keyframe.id == 0) continue;
+    (keyframe.by_points ? window.keyframes : fixed).push_back(keyframe.id);
+  }
+  window.free_count = window.keyframes.size();
+  window.keyframes.insert(window.keyframes.end(), fixed.begin(), fixed.end());
+  window.points = PointsSeenBy(window.keyframes, map);
+  FillWindow(map, camera, scale, config, window);
+  return window;
+}
+
+BundleWindow LocalWindow(const Map& map, int keyframe, const Camera& camera,
+                         const FeatureScale& scale, const LocalBundleConfig& config) {
+  // The keyframes that move, the points that they see, and who else sees these.
+  std::vector<int> inside = BestCovisible(map, keyframe, config.max_keyframes - 1);
+  inside.push_back(keyframe);
+  std::sort(inside.begin(), inside.end());
+
+  // Where planes hold a keyframe, its few points must not move it.
+  inside.erase(std::remove_if(inside.begin(), inside.end(),
+                              [&](int id) { return !map.keyframes[Index(id)].by_points; }),
+               inside.end());
+  BundleWindow window;
+  if (inside.empty()) return window;
+  window.points = PointsSeenBy(inside, map);
+  std::vector<int> fixed = OutsideViewers(map, window.points, {inside.begin(), inside.end()},
+                                          config.max_fixed_keyframes);
+  // The first keyframe is the world; where no other sees the points, the oldest holds the
+  // gauge.
+  if (inside.front() == 0 || fixed.empty()) {
+    fixed.push_back(inside.front());
+    inside.erase(inside.begin());
+  }
+  window.free_count = inside.size();
+  window.keyframes = inside;
+  window.keyframes.insert(window.keyframes.end(), fixed.begin(), fixed.end());
+  FillWindow(map, camera, scale, config, window);
+  return window;
+}
 
 std::set<int> MergeWindow(const BundleWindow& window, const FeatureScale& scale, Map& map) {
   CarryTheNewer(window, map);

@@ -1,9 +1,10 @@
 #include "slam/mapping/map_points.h"
 
-#include <algorithm>
 #include <limits>
+#include <utility>
 #include <vector>
 
+#include "slam/base/median.h"
 #include "slam/base/require.h"
 #include "slam/features/match_features.h"
 
@@ -44,9 +45,8 @@ Descriptor CentralDescriptor(const Map& map, const MapPoint& point) {
     for (const Descriptor* other : seen) {
       distances.push_back(DescriptorDistance(*candidate, *other));
     }
-    const auto middle = distances.begin() + static_cast<long>((distances.size() - 1) / 2);
-    std::nth_element(distances.begin(), middle, distances.end());
-    if (*middle < best_median) best_median = *middle, best = candidate;
+    const int median = LowerMedian(std::move(distances));
+    if (median < best_median) best_median = median, best = candidate;
   }
   return *best;
 }

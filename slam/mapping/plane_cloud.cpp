@@ -13,20 +13,25 @@ constexpr std::int64_t kMaxCells = 1 << 20;  // bounds the grid's memory: 1 MiB
 
 using Cell = std::pair<std::int64_t, std::int64_t>;
 
-Cell CellOf(const Eigen::Vector2d& q, double voxel_m) {
-  return {static_cast<std::int64_t>(std::floor(q.x() / voxel_m)),
-          static_cast<std::int64_t>(std::floor(q.y() / voxel_m))};
+/// The voxel of each point.
+std::vector<Cell> CellsOf(const std::vector<Eigen::Vector3d>& cloud_w,
+                          const Eigen::Matrix<double, 3, 2>& axes,
+                          const Eigen::Vector3d& grid_origin_w, double voxel_m) {
+  std::vector<Cell> cells;
+  cells.reserve(cloud_w.size());
+  for (const Eigen::Vector3d& p_w : cloud_w) {
+    const Eigen::Vector2d q = axes.transpose() * (p_w - grid_origin_w);
+    cells.emplace_back(static_cast<std::int64_t>(std::floor(q.x() / voxel_m)),
+                       static_cast<std::int64_t>(std::floor(q.y() / voxel_m)));
+  }
+  return cells;
 }
 
 /// Keeps the first point of each voxel, in the order of arrival. @returns the voxel's side
 double Thin(std::vector<Eigen::Vector3d>& cloud_w, const Eigen::Matrix<double, 3, 2>& axes,
             const Eigen::Vector3d& grid_origin_w, double voxel_m) {
   if (cloud_w.empty()) return voxel_m;
-  std::vector<Cell> cells;
-  cells.reserve(cloud_w.size());
-  for (const Eigen::Vector3d& p_w : cloud_w) {
-    cells.push_back(CellOf(axes.transpose() * (p_w - grid_origin_w), voxel_m));
-  }
+  const std::vector<Cell> cells = CellsOf(cloud_w, axes, grid_origin_w, voxel_m);
   // The grid's bounds; one too large for memory is made coarser.
   Cell low = cells.front(), high = cells.front();
   for (const auto& [x, y] : cells) {
@@ -51,14 +56,10 @@ double Thin(std::vector<Eigen::Vector3d>& cloud_w, const Eigen::Matrix<double, 3
 }
 
 /// The voxels that hold a point, ascending.
-std::vector<Cell> Cells(const std::vector<Eigen::Vector3d>& cloud_w,
-                        const Eigen::Matrix<double, 3, 2>& axes,
-                        const Eigen::Vector3d& grid_origin_w, double voxel_m) {
-  std::vector<Cell> cells;
-  cells.reserve(cloud_w.size());
-  for (const Eigen::Vector3d& p_w : cloud_w) {
-    cells.push_back(CellOf(axes.transpose() * (p_w - grid_origin_w), voxel_m));
-  }
+std::vector<Cell> FilledCells(const std::vector<Eigen::Vector3d>& cloud_w,
+                              const Eigen::Matrix<double, 3, 2>& axes,
+                              const Eigen::Vector3d& grid_origin_w, double voxel_m) {
+  std::vector<Cell> cells = CellsOf(cloud_w, axes, grid_origin_w, voxel_m);
   std::sort(cells.begin(), cells.end());
   cells.erase(std::unique(cells.begin(), cells.end()), cells.end());
   return cells;
@@ -93,8 +94,8 @@ double CloudOverlap(const std::vector<Eigen::Vector3d>& one_w,
                     double voxel_m, int reach) {
   if (one_w.empty() || other_w.empty()) return 0.0;
   const Eigen::Matrix<double, 3, 2> axes = TangentBasis(pi_w.n);
-  std::vector<Cell> few = Cells(one_w, axes, one_w.front(), voxel_m);
-  std::vector<Cell> many = Cells(other_w, axes, one_w.front(), voxel_m);
+  std::vector<Cell> few = FilledCells(one_w, axes, one_w.front(), voxel_m);
+  std::vector<Cell> many = FilledCells(other_w, axes, one_w.front(), voxel_m);
   if (few.size() > many.size()) std::swap(few, many);
   // A voxel is shared if the other cloud has one there or within reach.
   int shared = 0;

@@ -101,7 +101,7 @@ struct Frame {
   cv::Mat1f depth_m;  ///< planar z, metres; 0 = no measurement, never NaN
   DepthImage measured;
   double depth_late_s = 0.0;  ///< depth was measured so much later; negative: earlier
-  UncertainSpeed speed;       ///< as the frames before say; once tracked, see TellAtSpeed
+  UncertainSpeed speed;       ///< as the frames before say; once tracked, see CompensateMotion
   Readout readout;
 
   /// Turn from the colour camera to the depth camera, beyond what the recording says.
@@ -135,13 +135,23 @@ struct Frame {
   std::optional<UncertainPose> prediction;
   /// From this camera to that of the frame tracked before it; none at the first.
   std::optional<Pose> T_lc;
-  std::vector<MotionAxis> held_by_motion;  ///< directions that nothing in the frame observes
+  std::vector<MotionAxis> degenerate;  ///< directions that nothing in the frame observes
   /// What the frame's own measurements say of T_cw ...
   MotionEvidence evidence;
   /// ... and its covariance by these and the prediction; none where nothing is known of it.
   std::optional<Matrix6d> pose_covariance;
   /// That of the map which is seen, in the world, as if the camera went with it; see MapCovarianceAt.
   Matrix6d map_covariance = Matrix6d::Zero();
+
+  /// Leaves it without a pose and without matches.
+  void ForgetPose() {
+    T_cw = Pose{};
+    evidence = {};
+    pose_covariance.reset();
+    map_points.assign(features.size(), kNone);
+    plane_matches.assign(planes.size(), {});
+    plane_steps.clear();
+  }
 };
 
 }  // namespace slam

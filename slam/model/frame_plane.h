@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cmath>
 #include <optional>
 #include <string>
 #include <vector>
@@ -88,6 +89,10 @@ struct FramePlane {
   std::vector<Vertex> vertices_c;  ///< in order around the face; 4 when complete
 
   std::optional<BadReason> bad;  ///< nothing: the plane is trusted
+
+  /// Standard deviations of offset and normal with what the sensor bends.
+  double OffsetSigma_m() const { return std::hypot(offset_sigma_m, bend_offset_sigma_m); }
+  double AngleSigma_rad() const { return std::hypot(angle_sigma_rad, bend_angle_sigma_rad); }
 };
 
 /// A segment that is evidence enough by itself: for a landmark, while the map has none, and for a map

@@ -1,6 +1,5 @@
 #include "slam/model/local_map.h"
 
-#include <algorithm>
 #include <map>
 #include <set>
 
@@ -42,14 +41,7 @@ LocalMap GatherLocalMap(const Frame& frame, const Map& map, int max_keyframes) {
     if (local.keyframes.size() >= Index(max_keyframes)) break;
     if (seen.insert(keyframe).second) local.keyframes.push_back(keyframe);
   }
-  // The points of all of them, each once.
-  for (const int keyframe : local.keyframes) {
-    for (const int point : map.keyframes[Index(keyframe)].map_points) {
-      if (point != kNone) local.points.push_back(point);
-    }
-  }
-  std::sort(local.points.begin(), local.points.end());
-  local.points.erase(std::unique(local.points.begin(), local.points.end()), local.points.end());
+  local.points = PointsSeenBy(local.keyframes, map);
   return local;
 }
 

@@ -65,6 +65,18 @@ int NearestKeyframe(const Map& map, const Pose& T_cw) {
   return nearest;
 }
 
+std::vector<int> PointsSeenBy(const std::vector<int>& keyframes, const Map& map) {
+  std::vector<int> points;
+  for (const int keyframe : keyframes) {
+    for (const int point : map.keyframes[Index(keyframe)].map_points) {
+      if (point != kNone) points.push_back(point);
+    }
+  }
+  std::sort(points.begin(), points.end());
+  points.erase(std::unique(points.begin(), points.end()), points.end());
+  return points;
+}
+
 int KeyframesAfter(const Map& map, int frame_index) {
   const auto first = std::upper_bound(
       map.keyframes.begin(), map.keyframes.end(), frame_index,

@@ -29,6 +29,9 @@ Pose KeyframePose(const Map& map, int keyframe);
 /// @returns kNone when there is none
 int NearestKeyframe(const Map& map, const Pose& T_cw);
 
+/// Ids of the points that these keyframes see, each once, ascending.
+std::vector<int> PointsSeenBy(const std::vector<int>& keyframes, const Map& map);
+
 /// Number of keyframes, culled ones among them, that were taken after the frame of this index.
 int KeyframesAfter(const Map& map, int frame_index);
 

@@ -91,11 +91,7 @@ std::optional<Loop> DetectLoop(const Map& map, const KeyframeIndex& index, int k
   const Keyframe& now = map.keyframes[Index(keyframe)];
   const double min_likeness =
       config.min_likeness_ratio * MinLikenessToNeighbours(map, index, keyframe);
-  std::vector<int> own;
-  for (const int id : now.map_points) {
-    if (id != kNone) own.push_back(id);
-  }
-  std::sort(own.begin(), own.end());
+  const std::vector<int> own = PointsSeenBy({keyframe}, map);
 
   // The pose of the keyframe from each older place that looks like it.
   std::vector<Loop> found;
@@ -115,19 +111,9 @@ std::optional<Loop> DetectLoop(const Map& map, const KeyframeIndex& index, int k
     if (inliers < config.min_inliers) continue;
     found.push_back({keyframe, candidate.keyframe, frame.T_cw, frame.map_points, inliers});
   }
-  if (found.empty()) return std::nullopt;
-  // The one with most inliers, unless another fits nearly as well or nothing drifts so far.
-  const Loop& best =
-      *std::max_element(found.begin(), found.end(),
-                        [](const Loop& a, const Loop& b) { return a.inliers < b.inliers; });
-  for (const Loop& other : found) {
-    if (other.inliers >= search.place.max_second_best_ratio * best.inliers &&
-        !SamePose(other.T_cw, best.T_cw, search.place)) {
-      return std::nullopt;
-    }
-  }
-  if (!CanHaveDrifted(map, best, config)) return std::nullopt;
-  return best;
+  const Loop* best = ClearlyBest(found, search.place);
+  if (best == nullptr || !CanHaveDrifted(map, *best, config)) return std::nullopt;
+  return *best;
 }
 
 }  // namespace slam

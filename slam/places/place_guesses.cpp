@@ -155,13 +155,6 @@ std::vector<double> Distances(const Eigen::Vector3d& m_w, const Eigen::Matrix3d&
   return out;
 }
 
-UncertainPose Guess(const Pose& T_wc) {
-  UncertainPose guess{Inverse(T_wc), Matrix6d::Zero()};
-  guess.covariance.diagonal() << Eigen::Vector3d::Constant(kGuess_m * kGuess_m),
-      Eigen::Vector3d::Constant(kGuess_rad * kGuess_rad);
-  return guess;
-}
-
 /// By planes that face three ways: the angles between them give rotations, and their distances
 /// along each direction the place.
 void GuessByDistances(const Frame& frame, const std::vector<KnownPlane>& known,
@@ -186,7 +179,8 @@ void GuessByDistances(const Frame& frame, const std::vector<KnownPlane>& known,
       for (const double x : at_m[0]) {
         for (const double y : at_m[1]) {
           for (const double z : at_m[2]) {
-            guesses.push_back(Guess({R_wc, place * Eigen::Vector3d(x, y, z)}));
+            guesses.push_back({Inverse({R_wc, place * Eigen::Vector3d(x, y, z)}),
+                               IsotropicCovariance(kGuess_m, kGuess_rad)});
           }
         }
       }
@@ -275,8 +269,7 @@ const KnownPlane* NearestLike(const FramePlane& plane, const std::vector<KnownPl
   const Pose T_wc = Inverse(T_cw);
   const Eigen::Vector3d n_w = T_wc.R * plane.pi_c.n, centroid_w = T_wc * plane.centroid_c;
   const double min_cosine = std::cos(config.max_angle_rad);
-  double nearest_m =
-      3 * (config.max_offset_m + std::hypot(plane.offset_sigma_m, plane.bend_offset_sigma_m));
+  double nearest_m = 3 * (config.max_offset_m + plane.OffsetSigma_m());
   const KnownPlane* nearest = nullptr;
   for (const KnownPlane& other : known) {
     if (other.pi_w.n.dot(n_w) < min_cosine || !ClassesAllow(plane, other) ||

@@ -166,7 +166,7 @@ std::optional<PlacePose> FindPose(const Keyframe& keyframe, const Frame& frame, 
   for (const int i : agreed->inliers) problem.points.push_back(found.constraints[Index(i)]);
   const PoseSummary summary = OptimisePose(problem, camera, search.pose);
   if (!summary.usable || summary.inlier_count < config.min_ransac_inliers) return std::nullopt;
-  PlacePose out{keyframe.id, summary.T_cw, std::vector<int>(frame.features.size(), kNone),
+  PlacePose out{summary.T_cw, std::vector<int>(frame.features.size(), kNone),
                 summary.inlier_count};
   for (std::size_t i = 0; i < agreed->inliers.size(); ++i) {
     if (!summary.point_inliers[i]) continue;

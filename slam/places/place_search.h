@@ -1,6 +1,8 @@
 #pragma once
 
+#include <algorithm>
 #include <optional>
+#include <vector>
 
 #include "slam/base/field_visitor.h"
 #include "slam/features/match_features.h"
@@ -68,9 +70,23 @@ struct PointSearchConfig {
 /// Whether two poses are the same place.
 bool SamePose(const Pose& a_cw, const Pose& b_cw, const PlaceSearchConfig& config);
 
+/// The pose with most inliers, the first of several. Null: there is none, or another place fits nearly
+/// as well.
+/// @param found  poses of one frame, each with T_cw and inliers
+template <typename Found>
+const Found* ClearlyBest(const std::vector<Found>& found, const PlaceSearchConfig& config) {
+  const auto best =
+      std::max_element(found.begin(), found.end(),
+                       [](const Found& a, const Found& b) { return a.inliers < b.inliers; });
+  const auto rivals = [&](const Found& other) {
+    return other.inliers >= config.max_second_best_ratio * best->inliers &&
+           !SamePose(other.T_cw, best->T_cw, config);
+  };
+  return found.empty() || std::any_of(found.begin(), found.end(), rivals) ? nullptr : &*best;
+}
+
 /// A pose found without any prediction, and the matches that it rests on.
 struct PlacePose {
-  int keyframe = kNone;  ///< the place
   Pose T_cw;
   std::vector<int> map_points;  ///< parallel to the frame's features; inliers alone
   int inliers = 0;

@@ -97,8 +97,7 @@ Fit FitAt(const UncertainPose& pose, const Frame& frame, const std::vector<Known
     for (const FramePlane& plane : frame.planes) {
       const std::size_t at = Index(plane.index);
       if (plane.bad || view.landed[at] == 0 || !ClassesAllow(plane, plane_w)) continue;
-      const double max_m =
-          config.max_offset_m + 3 * std::hypot(plane.offset_sigma_m, plane.bend_offset_sigma_m);
+      const double max_m = config.max_offset_m + 3 * plane.OffsetSigma_m();
       const Plane pi_c = Transform(pose.T_cw, landmark.pi_w);
       if (Angle(pi_c.n, plane.pi_c.n) > config.max_angle_rad ||
           std::abs(SignedDistance(pi_c, plane.centroid_c)) > max_m) {

@@ -16,7 +16,7 @@ Matrix6d Full(const Matrix6d& upper) { return upper.selfadjointView<Eigen::Upper
 }  // namespace
 
 Pose LatePlanes::SeenFrom(const Pose& T_cw) const {
-  return Exp(late_s * (speed.At(T_cw) - told)) * T_cw;
+  return Exp(late_s * (speed.At(T_cw) - compensated_speed)) * T_cw;
 }
 
 NormalEquations LatePlanes::OfPose(const NormalEquations& seen) const {

@@ -10,12 +10,13 @@ namespace slam {
 /// what the planes say. Were they taken as if the speed were known, its error would move the pose,
 /// that the next frame's speed, and that its planes: an error that grows where depth is earlier.
 struct LatePlanes {
-  double late_s = 0.0;               ///< Frame::depth_late_s; negative: earlier
-  Vector6d told = Vector6d::Zero();  ///< the speed for which planes are told as at the pose
-  SpeedByPose speed;                 ///< of the camera
+  double late_s = 0.0;  ///< Frame::depth_late_s; negative: earlier
+  /// The speed for which the motion between the two times was compensated in the planes.
+  Vector6d compensated_speed = Vector6d::Zero();
+  SpeedByPose speed;  ///< of the camera
 
-  /// From where planes are seen as they are told, when the camera is at T_cw and as fast as that
-  /// says.
+  /// From where planes are seen as they are compensated, when the camera is at T_cw and as fast as
+  /// that says.
   Pose SeenFrom(const Pose& T_cw) const;
   /// What equations of that pose say of T_cw, whatever the speed is.
   NormalEquations OfPose(const NormalEquations& seen) const;

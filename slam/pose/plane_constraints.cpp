@@ -110,22 +110,19 @@ void AddPointPlanes(const Frame& frame, const Map& map, const PlaneConstraintCon
 
 PlaneConstraint MakePlaneConstraint(const FramePlane& f, const MapPlane& m, const Pose& T_cw,
                                     double offset_sigma_m, double angle_sigma_rad) {
-  PlaneConstraint c;
-  c.pi_w = m.pi_w;
-  c.pi_c = f.pi_c;
-  c.centroid_c = f.centroid_c;
-  double offset2 = offset_sigma_m * offset_sigma_m, angle2 = angle_sigma_rad * angle_sigma_rad;
-  // The map plane's uncertainty where the patch is.
-  if (!m.estimate.empty()) {
-    const Eigen::Matrix3d covariance = m.estimate.Covariance();
-    const Eigen::Vector3d x_w = T_cw.R.transpose() * (f.centroid_c - T_cw.t);
-    const Eigen::Vector3d lever = m.estimate.Lever(x_w);
-    offset2 += lever.dot(covariance * lever);
-    angle2 += PlaneEstimate::WorstSlopeVariance(covariance);
-  }
-  c.offset_sigma_m = std::sqrt(offset2);
-  c.angle_sigma_rad = std::sqrt(angle2);
+  PlaneConstraint c{m.pi_w, f.pi_c, f.centroid_c, angle_sigma_rad, offset_sigma_m};
+  if (!m.estimate.empty())
+    AddUncertainty(m.estimate, T_cw.R.transpose() * (f.centroid_c - T_cw.t), c);
   return c;
+}
+
+void AddUncertainty(const PlaneEstimate& estimate, const Eigen::Vector3d& x_w,
+                    PlaneConstraint& constraint) {
+  const Eigen::Matrix3d covariance = estimate.Covariance();
+  const Eigen::Vector3d lever = estimate.Lever(x_w);
+  double &offset_m = constraint.offset_sigma_m, &angle_rad = constraint.angle_sigma_rad;
+  offset_m = std::sqrt(offset_m * offset_m + lever.dot(covariance * lever));
+  angle_rad = std::sqrt(angle_rad * angle_rad + PlaneEstimate::WorstSlopeVariance(covariance));
 }
 
 const MapPlane* TrustedMatch(const Frame& frame, const Map& map, std::size_t plane) {

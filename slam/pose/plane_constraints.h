@@ -40,6 +40,12 @@ PlaneConstraint MakePlaneConstraint(const FramePlane& frame_plane, const MapPlan
                                     const Pose& T_cw, double offset_sigma_m,
                                     double angle_sigma_rad);
 
+/// Widens a constraint by what is not known of its map plane.
+/// @param estimate  of the map plane; not empty
+/// @param x_w       where the patch is
+void AddUncertainty(const PlaneEstimate& estimate, const Eigen::Vector3d& x_w,
+                    PlaneConstraint& constraint);
+
 /// Adds to `problem` the constraints that frame.plane_matches and frame.point_planes give:
 /// planes (eq15, eq16), corners (f_v), boxes (eq17) and points on planes (eq18), in the order of
 /// the frame's planes. What is assumed of planes among each other is slam/structure's.

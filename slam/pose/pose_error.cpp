@@ -24,18 +24,14 @@ double MeanDepth_m(const Frame& frame) {
 }  // namespace
 
 Matrix6d BendCovariance(const Frame& frame) {
-  const double lift_m = frame.bend_ratio * MeanDepth_m(frame), tilt_rad = frame.bend_ratio;
-  const double m2 = lift_m * lift_m, rad2 = tilt_rad * tilt_rad;
-  return (Vector6d() << m2, m2, m2, rad2, rad2, rad2).finished().asDiagonal();
+  return IsotropicCovariance(frame.bend_ratio * MeanDepth_m(frame), frame.bend_ratio);
 }
 
 Matrix6d ShutterCovariance(const Frame& frame) {
   // The outermost rows are read half of the time before and after the middle one.
   const double half_s = 0.5 * frame.readout.sigma_s;
-  const double shift_m = half_s * frame.readout.speed.head<3>().norm();
-  const double turn_rad = half_s * frame.readout.speed.tail<3>().norm();
-  const double m2 = shift_m * shift_m, rad2 = turn_rad * turn_rad;
-  return (Vector6d() << m2, m2, m2, rad2, rad2, rad2).finished().asDiagonal();
+  return IsotropicCovariance(half_s * frame.readout.speed.head<3>().norm(),
+                             half_s * frame.readout.speed.tail<3>().norm());
 }
 
 Matrix6d PoseErrorCovariance(const Frame& frame) {

@@ -37,7 +37,7 @@ std::string TrajectoryText(const std::vector<TimedPose>& poses) {
   return text;
 }
 
-std::vector<TimedPose> KeyframePoses(const Map& map) {
+std::vector<TimedPose> KeyframeTrajectory(const Map& map) {
   std::vector<TimedPose> poses;
   for (const Keyframe& keyframe : map.keyframes)
     if (!keyframe.culled) poses.push_back({keyframe.timestamp_s, keyframe.T_cw});
@@ -194,7 +194,7 @@ void RunWriter::Finish(const Map& map, const RunEnd& end,
   timing_.Finish();
   output_.Write("trajectory.txt", TrajectoryText(poses));
   output_.Write("trajectory_covariance.txt", kCovarianceComment + covariances_);
-  output_.Write("keyframes.txt", TrajectoryText(KeyframePoses(map)));
+  output_.Write("keyframes.txt", TrajectoryText(KeyframeTrajectory(map)));
   output_.Write("map.json", MapAsJson(map));
   output_.Write("map.ply", MapAsPly(map));
   output_.Write(

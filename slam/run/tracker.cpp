@@ -12,8 +12,8 @@
 #include "slam/base/index.h"
 #include "slam/faces/carry_to_colour.h"
 #include "slam/faces/process_planes.h"
+#include "slam/features/compensate_motion.h"
 #include "slam/features/read_depths.h"
-#include "slam/features/tell_at_speed.h"
 #include "slam/features/weigh_depths.h"
 #include "slam/mapping/keyframe_planes.h"
 #include "slam/mapping/local_mapping.h"
@@ -39,16 +39,6 @@ Config ForVariant(Config config, Variant variant, std::uint64_t seed) {
   config.association.rule =
       variant == Variant::kFull ? AssociationRule::kIntegrated : AssociationRule::kParameters;
   return config;
-}
-
-/// Leaves the frame without a pose and without matches.
-void ForgetPose(Frame& frame) {
-  frame.T_cw = Pose{};
-  frame.evidence = {};
-  frame.pose_covariance.reset();
-  frame.map_points.assign(frame.features.size(), kNone);
-  frame.plane_matches.assign(frame.planes.size(), {});
-  frame.plane_steps.clear();
 }
 
 /// Keyframes that may wait for mapping beside tracking: balances how many are dropped against
@@ -188,7 +178,7 @@ void Tracker::OptimiseWithPlanes(Frame& frame, TrackReport& report) {
   // Once more without the matches that the pose contradicts: the better-known one, or that by points
   // where planes would have it against them.
   OptimiseByAll(frame);
-  if (TellAtPose(frame)) OptimiseByAll(frame);  // rows, too, were read from elsewhere
+  if (CompensateAtPose(frame)) OptimiseByAll(frame);  // rows, too, were read from elsewhere
   if (TakeBackContradicted(frame, map_, camera_, config_.association) > 0) OptimiseByAll(frame);
 }
 
@@ -220,12 +210,12 @@ void Tracker::OptimiseByAll(Frame& frame) const {
   DropOutliers(frame, points, summary.point_inliers);
 }
 
-/// Tells points and planes as they are where the camera came to the frame's pose.
+/// Compensates the camera's motion in points and planes by the speed at the frame's pose.
 /// @returns whether that moved any
-bool Tracker::TellAtPose(Frame& frame) const {
+bool Tracker::CompensateAtPose(Frame& frame) const {
   const std::optional<Vector6d> speed = points_.SpeedIn(frame);
   const Pose T_dc = frame.T_dc();
-  if (!speed || !TellAtSpeed(camera_, *speed, frame)) return false;
+  if (!speed || !CompensateMotion(camera_, *speed, frame)) return false;
   CarryPlanesAgain(T_dc, camera_, frame);
   return true;
 }
@@ -235,7 +225,7 @@ bool Tracker::PoseByPlanes(Frame& frame) const {
   PoseProblem problem;
   PoseSummary summary;
   bool has_planes = false;
-  // Twice: the second time planes are told for the speed that the first pose said.
+  // Twice: the second time with the motion compensated by the speed that the first pose said.
   for (const bool again : {true, false}) {
     problem = ProblemOf(frame, PointConstraints(frame, map_, scale()));
     has_planes = !problem.planes.empty();
@@ -247,7 +237,7 @@ bool Tracker::PoseByPlanes(Frame& frame) const {
     summary = OptimisePose(problem, camera_, config_.point_search.pose);
     frame.T_cw = summary.T_cw;
     frame.evidence = summary.evidence;
-    if (!summary.usable || !again || !TellAtPose(frame)) break;
+    if (!summary.usable || !again || !CompensateAtPose(frame)) break;
   }
   const std::vector<Eigen::Vector3d> unseen = UnseenSteps(problem.planes, frame.T_cw.R);
   NormalEquations at, late;
@@ -271,7 +261,7 @@ void Tracker::HoldByPlanes(Frame& frame, TrackReport& report) {
   report.tracked = held && IsKnownWell(*frame.pose_covariance, config_.tracking.motion) &&
                    !points_.DeniedByPoints(frame, map_, frame.T_cw);
   if (!report.tracked) {
-    ForgetPose(frame);
+    frame.ForgetPose();
     return;
   }
   if (report.points.by_relocalising) {
@@ -279,15 +269,14 @@ void Tracker::HoldByPlanes(Frame& frame, TrackReport& report) {
     frame.evidence.of_pose = frame.pose_covariance->inverse();
     points_.FoundByPlanes(frame, map_);
   } else {
-    frame.held_by_motion =
-        HeldByPrediction(frame.prediction->covariance, *frame.pose_covariance);
+    frame.degenerate = HeldByPrediction(frame.prediction->covariance, *frame.pose_covariance);
     points_.HoldByPlanes();
   }
   report.points.state = TrackState::kHeldByPlanes;
 }
 
-/// What is known of the frame's pose in the world; nothing need be of the first, which is the world.
-void Tracker::TellWorldCovariance(Frame& frame) const {
+/// By the keyframe that the frame stands by; the first frame, which is the world, has none.
+void Tracker::SetMapCovariance(Frame& frame) const {
   if (!frame.pose_covariance) return;
   const int by_planes =
       points_.state() == TrackState::kHeldByPlanes ? KeyframeByPlanes(frame, map_) : kNone;
@@ -296,7 +285,7 @@ void Tracker::TellWorldCovariance(Frame& frame) const {
 }
 
 void Tracker::UpdateMap(Frame& frame, TrackReport& report) {
-  TellWorldCovariance(frame);
+  SetMapCovariance(frame);
   frame.T_lc = points_.FromLast(frame.T_cw, map_);
   {
     const Stopwatch watch(report.times[Module::kUpm]);

@@ -123,12 +123,12 @@ class Tracker {
   bool FindByPlanes(Frame& frame, TrackReport& report) const;
   void AssociateFramePlanes(Frame& frame, TrackReport& report) const;
   void OptimiseWithPlanes(Frame& frame, TrackReport& report);
-  bool TellAtPose(Frame& frame) const;
+  bool CompensateAtPose(Frame& frame) const;
   bool PoseByPlanes(Frame& frame) const;
   void HoldByPlanes(Frame& frame, TrackReport& report);
   void OptimiseByAll(Frame& frame) const;
   PoseProblem ProblemOf(const Frame& frame, const FramePoints& points) const;
-  void TellWorldCovariance(Frame& frame) const;
+  void SetMapCovariance(Frame& frame) const;
   void UpdateMap(Frame& frame, TrackReport& report);
   void KeepFrame(Frame& frame);
   void MapKeyframe(int keyframe, const MapTurn& turn);

@@ -7,7 +7,6 @@
 
 #include "slam/model/map_queries.h"
 #include "slam/pose/plane_constraints.h"
-#include "slam/structure/direction_sigma.h"
 
 namespace slam {
 namespace {
@@ -50,7 +49,7 @@ ManhattanFrame FrameOf(const std::vector<int>& ids, const SeenLandmarks& seen, i
     const FramePlane& plane = *seen.at(ids[k]);
     made.landmarks[k] = ids[k];
     normals.col(static_cast<int>(k)) = plane.pi_c.n;
-    made.sigma_rad[static_cast<int>(k)] = NormalSigma(plane);
+    made.sigma_rad[static_cast<int>(k)] = plane.AngleSigma_rad();
   }
   if (ids.size() == 2) normals.col(2) = normals.col(0).cross(normals.col(1)).normalized();
   const Eigen::JacobiSVD<Eigen::Matrix3d> svd(normals,
@@ -108,7 +107,7 @@ std::vector<AxisObservation> SeenManhattanFrame(const Frame& frame, const Map& m
   for (std::size_t k = 0; k < best_planes.size(); ++k) {
     const int column = static_cast<int>(k);
     const Eigen::Matrix3d R_wk = KeyframePose(map, best->keyframe).R.transpose();
-    const double now_rad = NormalSigma(*best_planes[k]);
+    const double now_rad = best_planes[k]->AngleSigma_rad();
     axes.push_back({R_wk * best->axes_k.col(column), best_planes[k]->pi_c.n,
                     std::hypot(now_rad, best->sigma_rad[column], config.axis_sigma_rad)});
   }

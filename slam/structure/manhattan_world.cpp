@@ -3,8 +3,6 @@
 #include <array>
 #include <cmath>
 
-#include "slam/structure/direction_sigma.h"
-
 namespace slam {
 namespace {
 
@@ -93,7 +91,7 @@ std::vector<AxisObservation> SeenAxes(const Frame& frame, const Eigen::Matrix3d&
       if (plane.bad || !(plane.area_m2 > config.min_area_m2)) continue;
       const auto n_c = Along(plane.pi_c.n, axis_c, config.max_axis_angle_rad);
       if (!n_c) continue;
-      const double sigma = NormalSigma(plane);
+      const double sigma = plane.AngleSigma_rad();
       sum_c += *n_c / (sigma * sigma);
       weights += 1 / (sigma * sigma);
     }

@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "slam/pose/plane_constraints.h"
-#include "slam/structure/direction_sigma.h"
 
 namespace slam {
 namespace {
@@ -22,7 +21,7 @@ void AddDirections(const FramePlane& plane, const MapPlane& matched, const Map& 
     if (!other.estimate.empty())
       map_variance = PlaneEstimate::WorstSlopeVariance(other.estimate.Covariance());
     const double sigma =
-        std::hypot(NormalSigma(plane), std::sqrt(map_variance), config.pose_sigma_rad);
+        std::hypot(plane.AngleSigma_rad(), std::sqrt(map_variance), config.pose_sigma_rad);
     // Close to the hypothesis, and consistent with it.
     const double angle = Angle(plane.pi_c.n, T_cw.R * other.pi_w.n);
     const double from_parallel = std::min(angle, M_PI - angle);

@@ -27,18 +27,9 @@ std::optional<std::size_t> NearestSupposed(const std::vector<SupposedPlane>& kno
 
 PlaneConstraint ConstraintTo(const SupposedPlane& known, const SeenSupposed& seen,
                              const Eigen::Vector3d& edge_w, const SupposedConfig& config) {
-  PlaneConstraint c;
-  c.pi_w = known.pi_w;
-  c.pi_c = seen.pi_c;
-  c.centroid_c = seen.centroid_c;
-  double offset2 = config.offset_sigma_m * config.offset_sigma_m;
-  double angle2 = config.angle_sigma_rad * config.angle_sigma_rad;
-  const Eigen::Matrix3d covariance = known.estimate.Covariance();
-  const Eigen::Vector3d lever = known.estimate.Lever(edge_w);
-  offset2 += lever.dot(covariance * lever);
-  angle2 += PlaneEstimate::WorstSlopeVariance(covariance);
-  c.offset_sigma_m = std::sqrt(offset2);
-  c.angle_sigma_rad = std::sqrt(angle2);
+  PlaneConstraint c{known.pi_w, seen.pi_c, seen.centroid_c, config.angle_sigma_rad,
+                    config.offset_sigma_m};
+  AddUncertainty(known.estimate, edge_w, c);
   return c;
 }
 

@@ -43,14 +43,6 @@ bool IsKnownWell(const Matrix6d& covariance, const MotionFilterConfig& config) {
          LargestSigma(covariance.bottomRightCorner<3, 3>()) < config.max_sigma_rad;
 }
 
-Vector6d MotionFilter::SpeedVariance() const {
-  const double v2 = config_.speed_mps * config_.speed_mps;
-  const double w2 = config_.turn_rad_per_s * config_.turn_rad_per_s;
-  Vector6d variance;
-  variance << v2, v2, v2, w2, w2, w2;
-  return variance;
-}
-
 MotionFilter::State MotionFilter::At(double timestamp_s) const {
   const double dt_s = timestamp_s - known_->timestamp_s;
   const double tau_s = config_.memory_s;
@@ -71,7 +63,7 @@ MotionFilter::State MotionFilter::At(double timestamp_s) const {
   F.bottomRightCorner<6, 6>() = kept * Matrix6d::Identity();
   now.covariance_w = F * known_->covariance_w * F.transpose();
   // ... and what the hand may have done since: the integrals of the process's noise.
-  const Matrix6d S = SpeedVariance().asDiagonal();
+  const Matrix6d S = SpeedCovariance();
   const double tau2 = tau_s * tau_s;
   now.covariance_w.topLeftCorner<6, 6>() +=
       tau2 * (2 * dt_s / tau_s - 3 + 4 * kept - kept * kept) * S;
@@ -90,7 +82,7 @@ std::optional<UncertainPose> MotionFilter::Predict(double timestamp_s) const {
 UncertainSpeed MotionFilter::Speed(double timestamp_s) const {
   if (!known_ && start_ && start_->timestamp_s == timestamp_s) return start_->speed;
   if (!known_ || !(timestamp_s > known_->timestamp_s)) {
-    return {Vector6d::Zero(), SpeedVariance().asDiagonal()};
+    return {Vector6d::Zero(), SpeedCovariance()};
   }
   const State state = At(timestamp_s);
   return {state.Speed(), state.Covariance().bottomRightCorner<6, 6>()};

@@ -95,7 +95,10 @@ class MotionFilter {
   };
   State At(double timestamp_s) const;
   static SpeedByPose SpeedOf(const State& predicted);
-  Vector6d SpeedVariance() const;
+  /// Of a speed of which nothing is known.
+  Matrix6d SpeedCovariance() const {
+    return IsotropicCovariance(config_.speed_mps, config_.turn_rad_per_s);
+  }
 
   MotionFilterConfig config_;
   std::optional<State> known_;

@@ -4,22 +4,15 @@
 
 #include "slam/base/index.h"
 #include "slam/base/require.h"
-#include "slam/features/tell_at_speed.h"
+#include "slam/features/compensate_motion.h"
 #include "slam/model/map_queries.h"
 
 namespace slam {
 namespace {
 
-void ForgetPose(Frame& frame) {
-  frame.T_cw = Pose{};
-  frame.evidence = {};
-  frame.pose_covariance.reset();
-  frame.map_points.assign(frame.features.size(), kNone);
-}
-
-int CountMatches(const std::vector<int>& map_points) {
-  return static_cast<int>(map_points.size()) -
-         static_cast<int>(std::count(map_points.begin(), map_points.end(), kNone));
+int CountMatches(const std::vector<int>& matches) {
+  return static_cast<int>(matches.size()) -
+         static_cast<int>(std::count(matches.begin(), matches.end(), kNone));
 }
 
 /// A bound meant for `full` features, less in proportion for images that have fewer, but not
@@ -35,6 +28,11 @@ constexpr int kMinStartPoints = 40;  // balances a bare start against none
 constexpr int kManySure = 50;        // balances rooms with little print against walls with none
 constexpr double kWiderSearch = 2.0;       // where few points are found; ORB-SLAM2
 constexpr double kLostRadiusFactor = 2.0;  // a pose without prediction is less exact
+
+/// Inliers that can be asked of a frame. @param bound  for one with many features
+int MinInliers(const Frame& frame, int bound) {
+  return Scaled(bound, static_cast<double>(frame.features.size()), kRichFeatures, kMinInliers);
+}
 
 }  // namespace
 
@@ -64,62 +62,67 @@ PointTracking::PointTracking(const Camera& camera, const FeatureScale& scale,
 
 PointTrackReport PointTracking::TrackPoints(Frame& frame, Map& map) {
   PointTrackReport report;
-  ForgetPose(frame);
+  frame.ForgetPose();
   if (map.keyframes.empty()) {
     if (PointsCanStart(frame)) Start(report);
     report.state = state_;
     return report;
   }
-  if (state_ == TrackState::kLost) {
-    motion_.Forget();
-    motion_filter_.Forget();
-  }
+  if (state_ == TrackState::kLost) ForgetMotion();
   const std::optional<UncertainPose> prediction = motion_filter_.Predict(frame.timestamp_s);
   frame.prediction = prediction;
   const int reference = reference_;
   const FeatureGrid grid(frame.features, camera_);
-  const double features = static_cast<double>(frame.features.size());
-  bool found = false;
-  // From a prediction, by motion or by the reference keyframe; then with the local map.
-  if (state_ != TrackState::kLost) {
-    const int min_inliers = Scaled(config_.min_inliers, features, kRichFeatures, kMinInliers);
-    const Vector6d predicted_speed = frame.speed.mean;
-    found = TrackByMotion(frame, grid, map, report) || TrackByReference(frame, map);
-    // The pose tells the speed, and that where the features are; but a jump is no speed.
-    if (report.by_motion) TellAtPose(frame);
-    found = found && TrackLocalMap(frame, FeatureGrid(frame.features, camera_), map,
-                                   min_inliers, config_.local_radius_factor, report);
-    // The local map's pose tells it better.
-    if (found && report.by_motion && TellAtPose(frame)) {
-      report.inliers = Optimise(frame, map);
-      found = report.inliers >= min_inliers;
-    }
-    if (!found && report.by_motion) TellAtSpeed(camera_, predicted_speed, frame);
-  }
-  // Lost: from the places that look like the frame, unless the map looks so elsewhere too.
+  const bool found = (state_ != TrackState::kLost && TrackOn(frame, grid, map, report)) ||
+                     FindAgain(frame, grid, map, report);
   if (!found) {
-    frame.prediction.reset();  // it did not help: the camera may be anywhere
-    const int min_inliers =
-        Scaled(config_.min_relocalised_inliers, features, kRichFeatures, kMinInliers);
-    found = TrackByRelocalising(frame, map, report) &&
-            TrackLocalMap(frame, grid, map, min_inliers,
-                          kLostRadiusFactor * config_.local_radius_factor, report) &&
-            !FindLookAlike(frame, map, config_.look_alike);
-  }
-  if (!found) {
-    ForgetPose(frame);
+    frame.ForgetPose();
     frame.prediction = prediction;
     report.by_relocalising = false;
     reference_ = reference;
   } else if (!report.by_motion) {
-    // Found elsewhere than motion led: a jump is no speed.
-    motion_.Forget();
-    motion_filter_.Forget();
+    ForgetMotion();  // found elsewhere than it led: a jump is no speed
   }
   state_ = found ? TrackState::kTracking : TrackState::kLost;
   followed_ = report.followed;
   report.state = state_;
   return report;
+}
+
+/// From a prediction, by motion or by the reference keyframe; then with the local map.
+bool PointTracking::TrackOn(Frame& frame, const FeatureGrid& grid, Map& map,
+                            PointTrackReport& report) {
+  const int min_inliers = MinInliers(frame, config_.min_inliers);
+  const Vector6d predicted_speed = frame.speed.mean;
+  bool found = TrackByMotion(frame, grid, map, report) || TrackByReference(frame, map);
+  // The pose tells the speed, and that where the features are; but a jump is no speed.
+  if (report.by_motion) CompensateAtPose(frame);
+  found = found && TrackLocalMap(frame, FeatureGrid(frame.features, camera_), map, min_inliers,
+                                 config_.local_radius_factor, report);
+  // The local map's pose tells it better.
+  if (found && report.by_motion && CompensateAtPose(frame)) {
+    report.inliers = Optimise(frame, map);
+    found = report.inliers >= min_inliers;
+  }
+  if (!found && report.by_motion) CompensateMotion(camera_, predicted_speed, frame);
+  return found;
+}
+
+/// From the places that look like the frame, unless the map looks so elsewhere too.
+/// @param grid  of the features as they are predicted
+bool PointTracking::FindAgain(Frame& frame, const FeatureGrid& grid, Map& map,
+                              PointTrackReport& report) {
+  frame.prediction.reset();  // it did not help: the camera may be anywhere
+  const int min_inliers = MinInliers(frame, config_.min_relocalised_inliers);
+  return TrackByRelocalising(frame, map, report) &&
+         TrackLocalMap(frame, grid, map, min_inliers,
+                       kLostRadiusFactor * config_.local_radius_factor, report) &&
+         !FindLookAlike(frame, map, config_.look_alike);
+}
+
+void PointTracking::ForgetMotion() {
+  motion_.Forget();
+  motion_filter_.Forget();
 }
 
 void PointTracking::Start(PointTrackReport& report) {
@@ -147,8 +150,7 @@ bool PointTracking::TrackByMotion(Frame& frame, const FeatureGrid& grid, const M
     queries = QueriesOf(seen, last_, predicted_T_cw, camera_, scale_,
                         factor * config_.last_radius_px);
     matches = MatchQueries(queries, frame.features, grid, {}, config_.match_last);
-    const auto unmatched = std::count(matches.begin(), matches.end(), kNone);
-    if (static_cast<int>(matches.size()) - unmatched >= config_.min_last_matches) break;
+    if (CountMatches(matches) >= config_.min_last_matches) break;
   }
 
   // Pose from these matches; only inliers that are in the map stay matched.
@@ -165,7 +167,7 @@ bool PointTracking::TrackByMotion(Frame& frame, const FeatureGrid& grid, const M
   const PoseSummary summary = OptimisePose(problem, camera_, search_.pose);
   report.followed = summary.inlier_count;
   if (!summary.usable) return false;
-  ForgetPose(frame);
+  frame.ForgetPose();
   frame.T_cw = summary.T_cw;
   for (std::size_t i = 0; i < feature_and_point.size(); ++i) {
     const auto& [feature, point] = feature_and_point[i];
@@ -176,7 +178,7 @@ bool PointTracking::TrackByMotion(Frame& frame, const FeatureGrid& grid, const M
 }
 
 bool PointTracking::TrackByReference(Frame& frame, const Map& map) const {
-  ForgetPose(frame);
+  frame.ForgetPose();
   const Keyframe& reference = map.keyframes[Index(reference_)];
   std::vector<bool> has_point(reference.features.size());
   for (std::size_t f = 0; f < has_point.size(); ++f) {
@@ -274,11 +276,11 @@ bool PointTracking::TrackLocalMap(Frame& frame, const FeatureGrid& grid, Map& ma
   return true;
 }
 
-/// Tells the features as they are where the camera came to the frame's pose.
+/// Compensates the camera's motion in the features by the speed at the frame's pose.
 /// @returns whether that moved any
-bool PointTracking::TellAtPose(Frame& frame) const {
+bool PointTracking::CompensateAtPose(Frame& frame) const {
   const std::optional<Vector6d> speed = SpeedIn(frame);
-  return speed && TellAtSpeed(camera_, *speed, frame);
+  return speed && CompensateMotion(camera_, *speed, frame);
 }
 
 std::optional<Vector6d> PointTracking::SpeedIn(const Frame& frame) const {

@@ -168,6 +168,9 @@ class PointTracking {
 
  private:
   bool PointsCanStart(const Frame& frame) const;
+  bool TrackOn(Frame& frame, const FeatureGrid& grid, Map& map, PointTrackReport& report);
+  bool FindAgain(Frame& frame, const FeatureGrid& grid, Map& map, PointTrackReport& report);
+  void ForgetMotion();
   bool TrackByMotion(Frame& frame, const FeatureGrid& grid, const Map& map,
                      PointTrackReport& report) const;
   bool TrackByReference(Frame& frame, const Map& map) const;
@@ -176,7 +179,7 @@ class PointTracking {
                      double radius_factor, PointTrackReport& report);
   std::vector<int> SureMatches(const Frame& frame, const FeatureGrid& grid,
                                const Map& map) const;
-  bool TellAtPose(Frame& frame) const;
+  bool CompensateAtPose(Frame& frame) const;
   int Optimise(Frame& frame, const Map& map) const;
 
   Camera camera_;

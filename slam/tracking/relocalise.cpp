@@ -1,6 +1,5 @@
 #include "slam/tracking/relocalise.h"
 
-#include <algorithm>
 #include <utility>
 
 #include "slam/base/index.h"
@@ -38,18 +37,8 @@ std::optional<PlacePose> Relocalise(const Frame& frame, const Map& map,
     auto one = FindPose(map.keyframes[Index(id)], frame, map, camera, scale, search);
     if (one) found.push_back(std::move(*one));
   }
-  if (found.empty()) return std::nullopt;
-  // The one with most inliers, unless another place fits nearly as well.
-  const auto best =
-      std::max_element(found.begin(), found.end(),
-                       [](const auto& a, const auto& b) { return a.inliers < b.inliers; });
-  for (const PlacePose& other : found) {
-    if (other.inliers >= config.max_second_best_ratio * best->inliers &&
-        !SamePose(other.T_cw, best->T_cw, config)) {
-      return std::nullopt;
-    }
-  }
-  return *best;
+  const PlacePose* best = ClearlyBest(found, config);
+  return best != nullptr ? std::optional(*best) : std::nullopt;
 }
 
 }  // namespace slam

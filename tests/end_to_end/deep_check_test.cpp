@@ -9,6 +9,7 @@
 #include "io/sha256.h"
 #include "sim/families/families.h"
 #include "sim/sensor/read_sensor.h"
+#include "tests/support/file_contents.h"
 #include "tests/support/image_files.h"
 #include "tests/support/pipeline.h"
 
@@ -121,14 +122,9 @@ void ShiftIds(const fs::path& folder) {
   }
 }
 
-std::string TextOf(const fs::path& file) {
-  std::ifstream in(file);
-  return {std::istreambuf_iterator<char>(in), {}};
-}
-
 /// The inverse rotation with the same position: a forgotten transpose.
 void TransposePoses(const fs::path& folder) {
-  std::istringstream in(TextOf(folder / "groundtruth.txt"));
+  std::istringstream in(test_support::ReadText(folder / "groundtruth.txt"));
   std::ostringstream out;
   out.precision(17);
   for (std::string line; std::getline(in, line);) {
@@ -146,7 +142,7 @@ void TransposePoses(const fs::path& folder) {
 }
 
 void MovePrincipalPoint(const fs::path& folder) {
-  std::string text = TextOf(folder / "camera.yaml");
+  std::string text = test_support::ReadText(folder / "camera.yaml");
   const std::size_t at = text.find("cx: ");
   const double cx = std::stod(text.substr(at + 4));
   text.replace(at, text.find('\n', at) - at, "cx: " + std::to_string(cx + 1));

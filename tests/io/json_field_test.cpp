@@ -6,6 +6,7 @@
 #include "io/atomic_file.h"
 #include "io/input_error.h"
 #include "tests/support/program.h"
+#include "tests/support/refusal.h"
 
 namespace io {
 namespace {
@@ -18,13 +19,10 @@ using ::testing::ThrowsMessage;
 /// What reading says of a document; empty when it says nothing.
 template <typename Read>
 std::string ErrorOf(const std::string& text, const Read& read) {
-  try {
+  return test_support::RefusalOf([&] {
     const nlohmann::json json = ParseJson(text, "a.json");
     read(JsonField(json, "a.json"));
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "";
+  });
 }
 
 TEST(JsonField, NamesFileAndPlaceOfWhatIsWrong) {

@@ -6,6 +6,7 @@
 #include "io/atomic_file.h"
 #include "io/input_error.h"
 #include "tests/support/program.h"
+#include "tests/support/refusal.h"
 
 namespace io {
 namespace {
@@ -18,12 +19,7 @@ using ::testing::ThrowsMessage;
 /// What reading says of a text; empty when it says nothing.
 template <typename Read>
 std::string ErrorInYaml(const std::string& text, const Read& read) {
-  try {
-    read(ParseYaml(text, "a.yaml"));
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "";
+  return test_support::RefusalOf([&] { read(ParseYaml(text, "a.yaml")); });
 }
 
 /// The same for the value of `key`.

@@ -14,6 +14,7 @@
 #include "slam/geometry/plane.h"
 #include "slam/geometry/pose.h"
 #include "slam/model/frame.h"
+#include "tests/support/normal_draws.h"
 
 /// Depth images that need no renderer: rays against planes and boxes in closed form. World: z
 /// up.
@@ -123,13 +124,6 @@ inline View Render(const World& world, const slam::Camera& camera, const slam::P
   return view;
 }
 
-/// Standard normal by the sum of twelve uniforms: bounded, and exact enough for noise.
-inline double Gaussian(slam::Random& random) {
-  double sum = -6.0;
-  for (int i = 0; i < 12; ++i) sum += random.Uniform();
-  return sum;
-}
-
 /// Adds the errors of a first-generation Kinect: disparity noise that is correlated over 3 x 3
 /// pixels and rounded to 1/8 pixel, so that the total follows Nguyen's curve.
 inline cv::Mat1f AddKinectNoise(const cv::Mat1f& depth_m, std::uint64_t seed) {
@@ -137,7 +131,7 @@ inline cv::Mat1f AddKinectNoise(const cv::Mat1f& depth_m, std::uint64_t seed) {
   slam::Random random({seed, 77});
   const int w = depth_m.cols, h = depth_m.rows;
   cv::Mat1d white(h + 2, w + 2);
-  for (double& value : white) value = Gaussian(random);
+  for (double& value : white) value = slam::BoundedNormal(random);
   cv::Mat1f out(h, w, 0.0f);
   for (int v = 0; v < h; ++v) {
     for (int u = 0; u < w; ++u) {

@@ -1,6 +1,5 @@
 #include "tests/support/pipeline.h"
 
-#include <fstream>
 #include <sstream>
 
 #include "eval/formats/run/run.h"
@@ -56,18 +55,6 @@ std::string Replay(const sim::Scene& scene, const Recording& recording,
        << " --sensor " << recording.sensor.name << " --detector " << detector << " --seed "
        << recording.seed << " && pas slam seq -o run --save-segmentation && pas eval run";
   return text.str();
-}
-
-std::map<std::string, std::string> Contents(const fs::path& folder) {
-  std::map<std::string, std::string> contents;
-  for (const fs::directory_entry& entry : fs::recursive_directory_iterator(folder)) {
-    if (!entry.is_regular_file()) continue;
-    std::ifstream in(entry.path(), std::ios::binary);
-    std::ostringstream bytes;
-    bytes << in.rdbuf();
-    contents[fs::relative(entry.path(), folder).string()] = bytes.str();
-  }
-  return contents;
 }
 
 }  // namespace pipeline

@@ -6,11 +6,13 @@
 
 #include "sim/write/write_sequence.h"
 #include "slam/run/run_sequence.h"
+#include "tests/support/file_contents.h"
 #include "tests/support/temporary_folder.h"
 
 /// The whole way in one process: scene -> sequence -> run -> metrics.
 namespace pipeline {
 
+using test_support::Contents;
 using test_support::TemporaryFolder;
 
 /// What is simulated.
@@ -37,8 +39,5 @@ nlohmann::json Score(const std::filesystem::path& run, const std::filesystem::pa
 /// The commands by which a person repeats a case: the scene is written to `scene_file`.
 std::string Replay(const sim::Scene& scene, const Recording& recording,
                    const std::filesystem::path& scene_file);
-
-/// Every file below `folder`, by relative path, with its bytes.
-std::map<std::string, std::string> Contents(const std::filesystem::path& folder);
 
 }  // namespace pipeline

@@ -7,8 +7,9 @@
 #include <vector>
 
 #include "slam/base/random.h"
-#include "slam/geometry/camera.h"
 #include "slam/model/frame.h"
+#include "tests/support/cameras.h"
+#include "tests/support/normal_draws.h"
 
 namespace slam {
 
@@ -68,14 +69,6 @@ struct SeenWorld {
   std::vector<int> truth;
 };
 
-/// A small camera with the field of view of a Kinect: 160 x 120 pixels.
-inline Camera SmallCamera() {
-  Camera camera;
-  camera.width = 160, camera.height = 120;
-  camera.fx = camera.fy = 131.25, camera.cx = 79.5, camera.cy = 59.5;
-  return camera;
-}
-
 /// Camera at `eye_w` that looks at `target_w`, z up in the world, image upright.
 inline Pose LookAt(const Eigen::Vector3d& eye_w, const Eigen::Vector3d& target_w) {
   const Eigen::Vector3d z = (target_w - eye_w).normalized();
@@ -84,12 +77,6 @@ inline Pose LookAt(const Eigen::Vector3d& eye_w, const Eigen::Vector3d& target_w
   T_cw.R << x.transpose(), z.cross(x).transpose(), z.transpose();
   T_cw.t = -(T_cw.R * eye_w);
   return T_cw;
-}
-
-/// Normal draw.
-inline double Normal(Random& random) {
-  const double u = 1 - random.Uniform(), v = random.Uniform();
-  return std::sqrt(-2 * std::log(u)) * std::cos(2 * M_PI * v);
 }
 
 namespace plane_world_detail {

@@ -9,13 +9,12 @@
 
 #include <cstdlib>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <map>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
+#include "tests/support/file_contents.h"
 #include "tests/support/temporary_folder.h"
 
 /// Runs the project's own program and other executables as processes.
@@ -26,23 +25,9 @@ using Environment = std::map<std::string, std::string>;
 
 inline fs::path Pas() { return fs::path(PAS_BINARY_DIR) / "pas"; }
 
+using test_support::Contents;
+using test_support::ReadText;
 using test_support::TemporaryFolder;
-
-inline std::string ReadText(const fs::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), {}};
-}
-
-/// Every file below a folder with its bytes, by relative path.
-inline std::map<std::string, std::string> Contents(const fs::path& folder) {
-  std::map<std::string, std::string> contents;
-  if (!fs::exists(folder)) return contents;
-  for (const auto& entry : fs::recursive_directory_iterator(folder)) {
-    if (!entry.is_regular_file()) continue;
-    contents[fs::relative(entry.path(), folder).string()] = ReadText(entry.path());
-  }
-  return contents;
-}
 
 struct Outcome {
   int exit_code = -1;  ///< -1 when a signal ended it

@@ -2,8 +2,6 @@
 
 #include <gtest/gtest.h>
 #include <Eigen/Geometry>
-#include <filesystem>
-#include <fstream>
 #include <nlohmann/json.hpp>
 #include <sstream>
 #include <string>
@@ -12,6 +10,7 @@
 
 #include "slam/run/run_sequence.h"
 #include "tests/support/fault_stream.h"
+#include "tests/support/file_contents.h"
 #include "tests/support/temporary_folder.h"
 
 namespace slam {
@@ -31,11 +30,6 @@ struct Ran {
   std::vector<std::string> states;                ///< by line of it
   std::vector<std::pair<double, Pose>> poses_wc;  ///< (time, pose)
 };
-
-inline std::string TextOf(const std::filesystem::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), {}};
-}
 
 /// Poses of a trajectory file; numbers that are not finite fail the test.
 inline std::vector<std::pair<double, Pose>> PosesOf(const std::string& trajectory) {
@@ -67,10 +61,10 @@ inline Ran RunStream(std::vector<RecordedFrame> frames, RunOptions options,
   FaultStream stream(std::move(frames));
   Ran ran;
   ran.outcome = RunLive({stream, camera, nullptr}, options);
-  ran.trajectory = TextOf(options.run / "trajectory.txt");
-  ran.covariance = TextOf(options.run / "trajectory_covariance.txt");
-  ran.map = TextOf(options.run / "map.json");
-  std::istringstream lines(TextOf(options.run / "frame_planes.jsonl"));
+  ran.trajectory = test_support::ReadText(options.run / "trajectory.txt");
+  ran.covariance = test_support::ReadText(options.run / "trajectory_covariance.txt");
+  ran.map = test_support::ReadText(options.run / "map.json");
+  std::istringstream lines(test_support::ReadText(options.run / "frame_planes.jsonl"));
   for (std::string line; std::getline(lines, line);) {
     ran.states.push_back(nlohmann::json::parse(line).at("state"));
     ran.planes.push_back(line);
@@ -96,6 +90,7 @@ inline Ran RunOn(std::vector<RecordedFrame> frames, Variant variant = Variant::k
 
 /// Whether every pose is the one that the hand had at that time.
 inline void ExpectNoWrongPose(const Ran& ran, double tolerance_m = kPosition_m) {
+  EXPECT_FALSE(ran.poses_wc.empty());
   for (const auto& [s, T_wc] : ran.poses_wc) {
     EXPECT_LT((T_wc.t - TruePoseAt(s).t).norm(), tolerance_m) << s << " s";
   }

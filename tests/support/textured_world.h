@@ -5,9 +5,9 @@
 #include <vector>
 
 #include "slam/base/random.h"
-#include "slam/geometry/camera.h"
 #include "slam/geometry/pose.h"
 #include "slam/model/frame.h"
+#include "tests/support/cameras.h"
 
 namespace slam {
 
@@ -96,17 +96,6 @@ class TexturedCorner {
 
   std::vector<cv::Mat1b> patterns_;
 };
-
-/// A camera with about the field of view of a Kinect.
-inline Camera CameraOfSize(int width = 320, int height = 240) {
-  Camera camera;
-  camera.width = width;
-  camera.height = height;
-  camera.fx = camera.fy = 0.82 * width;
-  camera.cx = 0.5 * (width - 1);
-  camera.cy = 0.5 * (height - 1);
-  return camera;
-}
 
 /// T_cw of a hand that swings around the origin; at 30 frames a second at most 0.25 m/s.
 inline Pose SwingingPose(int index) {

@@ -11,9 +11,8 @@ namespace eval {
 namespace {
 
 constexpr std::size_t kKittiFields = 12;
-constexpr std::size_t kEurocFields =
-    8;                                // EuRoC's own truth has velocities and biases behind them
-constexpr double kNanoseconds = 1e9;  // in a second
+constexpr std::size_t kEurocFields = 8;  // its own truth has velocities and biases behind them
+constexpr double kNanoseconds = 1e9;     // in a second
 
 constexpr StampFaults kAsTheyStand{Severity::kFatal, Severity::kWarning};
 

@@ -68,9 +68,10 @@ RunFramePlane ReadFramePlane(const JsonRecord& record) {
   plane.index = record.Integer("index", 0, kMaxIndex).value_or(-1);
   ReadGeometry(record, plane);
   plane.pixels = record.Integer("pixels", 1).value_or(0);
-  plane.inlier_ratio = record.Expected().Number("inlier_ratio", io::Interval("[0, 1]"));
+  // What is read into nothing is in no figure; a wrong one is told.
+  record.Expected().Number("inlier_ratio", io::Interval("[0, 1]"));
   plane.plane_class = optional.Text("class");
-  plane.detection = optional.Integer("detection", 0);
+  optional.Integer("detection", 0);
   plane.bad =
       ReadWord(record.Contains("bad") ? optional : record.Expected(), "bad",
                {"far", "inliers", "border", "structure", "unstructured"}, Severity::kWarning);

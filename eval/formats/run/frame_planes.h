@@ -16,9 +16,7 @@ struct RunFramePlane {
   Plane pi_c;
   Eigen::Vector3d centroid_c = Eigen::Vector3d::Zero();
   int pixels = 0;
-  std::optional<double> inlier_ratio;
   std::optional<std::string> plane_class;
-  std::optional<int> detection;
   std::optional<std::string> bad;  ///< why the run does not trust it; empty if it does
   std::vector<std::array<Eigen::Vector3d, 2>> lines_c;  ///< point and direction
   std::vector<Eigen::Vector3d> vertices_c;

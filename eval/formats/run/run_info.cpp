@@ -39,9 +39,8 @@ RunInfo ReadInfo(const JsonRecord& root) {
   info.sequence = OptionalText(root, "sequence");
   info.sequence_absolute = OptionalText(root.Optional(), "sequence_absolute");
   info.variant = OptionalText(expected, "variant");
-  OptionalText(expected, "association");
-  info.detector = OptionalText(expected, "detector");
-  info.version = OptionalText(expected, "version");
+  // What is read into nothing is in no figure; a wrong one is told.
+  for (const char* key : {"association", "detector", "version"}) expected.Text(key);
   expected.Whole("seed");
   info.camera_name = CameraNameOf(root.value());
   const bool has_numbers = root.Has("camera") && !root.value()["camera"].is_string();
@@ -59,7 +58,7 @@ RunInfo ReadInfo(const JsonRecord& root) {
     root.TellAt("tracked", fmt::format("is {} of {} frames", *info.tracked, *info.frames),
                 kRunAgain, Severity::kWarning);
   }
-  info.wall_time_s = Figure(root, "wall", "the wall time", {"wall_time_s", "wall_s"});
+  Figure(root, "wall", "the wall time", {"wall_time_s", "wall_s"});
   info.peak_memory_mb = Figure(root, "peak", "the peak memory",
                                {"peak_memory_mb", "peak_rss_mb", "peak_memory_mib"});
   return info;

@@ -14,11 +14,11 @@ struct RunInfo {
   std::string sequence_absolute;  ///< where it was when the run was made; may be empty
   std::optional<Camera> camera;   ///< with which the run was made, when it tells its numbers
   std::string camera_name;        ///< a name or a file; empty when the run does not tell
-  std::string variant, detector, version;
+  std::string variant;
   std::optional<int> frames, tracked;
   bool interrupted = false;            ///< it ended before the sequence did
   std::optional<int> sequence_frames;  ///< of the whole sequence, when the run tells
-  std::optional<double> wall_time_s, peak_memory_mb;
+  std::optional<double> peak_memory_mb;
 };
 
 /// How a fault of a run is mended, as a rule.

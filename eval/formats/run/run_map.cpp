@@ -19,15 +19,15 @@ RunMapPlane ReadMapPlane(const JsonRecord& record) {
   plane.area_m2 = expected.Number("area", io::Interval("[0, 1e14)")).value_or(0.0);
   plane.observations = expected.Integer("observations", 1).value_or(0);
   const io::Interval seconds("[0, 1e11)");  // as stamps are
-  plane.first_seen = expected.Number("first_seen", seconds);
-  plane.last_seen = expected.Number("last_seen", seconds);
-  if (plane.first_seen && plane.last_seen && !(*plane.first_seen <= *plane.last_seen)) {
+  const auto first_seen = expected.Number("first_seen", seconds);
+  const auto last_seen = expected.Number("last_seen", seconds);
+  if (first_seen && last_seen && !(*first_seen <= *last_seen)) {
     record.TellAt("first_seen", "is later than last_seen", "write times in seconds, in order",
                   Severity::kFlaw);
   }
   plane.merged_into = optional.Integer("merged_into");
   plane.split_from = optional.Integer("split_from");
-  plane.split_at = optional.Number("split_at", seconds);
+  optional.Number("split_at", seconds);  // in no figure; a wrong one is told
   plane.vertices_w = ReadPointsOnPlane(record, "vertices", pi_w);
   plane.hull_w = ReadPointsOnPlane(record, "hull", pi_w);
   return plane;

@@ -16,10 +16,8 @@ struct RunMapPlane {
   Plane pi_w;
   double area_m2 = 0.0;
   int observations = 0;
-  std::optional<double> first_seen, last_seen;
   std::optional<int> merged_into;  ///< not a plane of the final map any more
   std::optional<int> split_from;   ///< the plane that turned out to hold this one as well
-  std::optional<double> split_at;  ///< time of the frame in which that was found, seconds
   std::vector<Eigen::Vector3d> vertices_w;
   std::vector<Eigen::Vector3d> hull_w;
 };

@@ -15,9 +15,9 @@ VisibleObject ReadVisibleObject(const JsonRecord& record) {
   // What nothing shows of has no box.
   const JsonRecord box_holder = object.pixels > 0 ? record.Expected() : record.Optional();
   object.visible_box_px = ReadBox(box_holder, "visible_box", {}, true);
-  object.amodal_box_px = ReadBox(box_holder, "amodal_box", {}, true);
-  object.visible_fraction =
-      record.Expected().Number("visible_fraction", io::Interval("[0, 1]")).value_or(0.0);
+  // In no figure; wrong ones are told.
+  ReadBox(box_holder, "amodal_box", {}, true);
+  record.Expected().Number("visible_fraction", io::Interval("[0, 1]"));
   return object;
 }
 

@@ -14,8 +14,7 @@ struct VisiblePlane {
   int pixels = 0;
 };
 struct VisibleObject : VisiblePlane {
-  std::optional<Box> visible_box_px, amodal_box_px;
-  double visible_fraction = 0.0;
+  std::optional<Box> visible_box_px;
 };
 struct FrameTruth {
   double stamp_s = 0.0;

@@ -16,8 +16,8 @@ namespace sim {
 /// [C] a choice of ours.
 struct D435Model {
   double focal_baseline_px_m = 21.57;  ///< f B [P]
-  double baseline_m =
-      0.05015;  ///< right imager along camera +x; 0 = no shadow, no blind band [P]
+  /// Right imager along camera +x; 0 = no shadow, no blind band [P].
+  double baseline_m = 0.05015;
   double subpixel_px = 0.08;      ///< sd of disparity; 0 = no noise [I]
   double correlated_share = 0.7;  ///< part of the variance, smooth over the window [C]
   int window_px = 7;              ///< side of the matching window, odd [P]

@@ -1,4 +1,4 @@
-#include "app/choice_option.h"
+#include "app/options/choice_option.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -6,7 +6,7 @@
 #include <algorithm>
 
 #include "app/app.h"
-#include "app/number_options.h"
+#include "app/options/number_options.h"
 
 namespace app {
 namespace {
@@ -60,7 +60,7 @@ TEST_F(Choices, AreNoNumbers) {
               ThrowsMessage<CLI::ValidationError>(HasSubstr("expected small or large")));
 }
 
-// As the program has them: app/command_sim.cpp and app/command_export.cpp.
+// As the program has them: app/sim/recording_options.cpp and app/command_export.cpp.
 TEST(Commands, NameTheChoicesOfAnOptionThatIsMistyped) {
   const auto refusal = [](AddCommand add, std::vector<std::string> arguments) -> std::string {
     CLI::App pas("", "pas");

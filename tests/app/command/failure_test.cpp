@@ -1,5 +1,5 @@
 // What a user is told of exceptions.
-#include "app/failure.h"
+#include "app/console/failure.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 // What every option refuses, whoever adds it.
-#include "app/number_options.h"
+#include "app/options/number_options.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

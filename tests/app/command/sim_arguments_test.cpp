@@ -1,4 +1,4 @@
-#include "app/sim_arguments.h"
+#include "app/sim/sim_arguments.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // Help that can be read in a terminal.
-#include "app/wrapped_help.h"
+#include "app/console/wrapped_help.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

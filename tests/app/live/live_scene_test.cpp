@@ -1,11 +1,10 @@
-#include "app/live_scene.h"
+#include "app/live/live_scene.h"
 
 #include <gtest/gtest.h>
 
 #include <filesystem>
-#include <fstream>
-#include <sstream>
 
+#include "io/read_file.h"
 #include "sim/families/families.h"
 #include "sim/write/write_sequence.h"
 #include "slam/run/run_sequence.h"
@@ -15,12 +14,6 @@ namespace app {
 namespace {
 
 namespace fs = std::filesystem;
-
-std::string Text(const fs::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  EXPECT_TRUE(stream) << file;
-  return {std::istreambuf_iterator<char>(stream), {}};
-}
 
 /// A recording with everything that could differ between memory and files: a lens, blur, lost
 /// frames, wrong stamps, depth that comes late.
@@ -38,7 +31,7 @@ sim::SequenceOptions Awkward() {
   return options;
 }
 
-class LiveSceneTest : public testing::Test {
+class SceneRunLive : public testing::Test {
  protected:
   sim::Recording Plan(const sim::SequenceOptions& o) const {
     return sim::PlanRecording(scene_, o.rig, o.frames);
@@ -56,7 +49,7 @@ class LiveSceneTest : public testing::Test {
   const fs::path root_ = temporary_.path();
 };
 
-TEST_F(LiveSceneTest, GivesTheRunThatTheFilesOfTheSameRecordingGive) {
+TEST_F(SceneRunLive, GivesTheRunThatTheFilesOfTheSameRecordingGive) {
   for (const bool awkward : {false, true}) {
     sim::SequenceOptions options = Awkward();
     if (!awkward) {
@@ -78,13 +71,14 @@ TEST_F(LiveSceneTest, GivesTheRunThatTheFilesOfTheSameRecordingGive) {
     RunLive(options, tag + "_live", 2);
     for (const char* file :
          {"trajectory.txt", "keyframes.txt", "frame_planes.jsonl", "map.json", "map.ply"}) {
-      EXPECT_EQ(Text(root_ / (tag + "_files") / file), Text(root_ / (tag + "_live") / file))
+      EXPECT_EQ(io::ReadFile(root_ / (tag + "_files") / file),
+                io::ReadFile(root_ / (tag + "_live") / file))
           << tag << " " << file;
     }
   }
 }
 
-TEST_F(LiveSceneTest, GivesTheSameFramesHoweverFarItRendersAhead) {
+TEST_F(SceneRunLive, GivesTheSameFramesHoweverFarItRendersAhead) {
   const sim::SequenceOptions options = Awkward();
   LiveScene none(scene_, options.rig, Plan(options), 0);
   LiveScene three(scene_, options.rig, Plan(options), 3);
@@ -106,7 +100,7 @@ TEST_F(LiveSceneTest, GivesTheSameFramesHoweverFarItRendersAhead) {
   EXPECT_LT(none.size(), options.frames);  // some were lost, as asked
 }
 
-TEST_F(LiveSceneTest, RefusesFramesOutOfOrderAndTheDetectionsOfAnother) {
+TEST_F(SceneRunLive, RefusesFramesOutOfOrderAndTheDetectionsOfAnother) {
   const sim::SequenceOptions options = Awkward();
   LiveScene live(scene_, options.rig, Plan(options), 1);
   EXPECT_THROW(live.Read(1), std::logic_error);
@@ -116,7 +110,7 @@ TEST_F(LiveSceneTest, RefusesFramesOutOfOrderAndTheDetectionsOfAnother) {
   EXPECT_THROW(detector->Detect(first.timestamp_s + 1, first.bgr), std::logic_error);
 }
 
-TEST_F(LiveSceneTest, HasNoDetectorWhereTheRigHasNone) {
+TEST_F(SceneRunLive, HasNoDetectorWhereTheRigHasNone) {
   sim::SequenceOptions options = Awkward();
   options.rig.detector = sim::DetectorKind::kNone;
   EXPECT_EQ(

@@ -208,7 +208,7 @@ TEST_F(SlamProgram, TakesTheStructureOfTheOptionElseOfTheFileAndRefusesAnUnknown
   const fs::path sequence = Record(20);
   const Outcome unknown = Run(Command(sequence, "unknown", {"--structure", "atlanta"}));
   EXPECT_EQ(unknown.exit_code, 2);
-  EXPECT_THAT(unknown.errors, HasSubstr("none,parallel,manhattan,mixture,supposed"));
+  EXPECT_THAT(unknown.errors, HasSubstr("none, parallel, manhattan, mixture or supposed"));
   const fs::path file = folder_ / "settings.yaml", wrong = folder_ / "wrong.yaml";
   std::ofstream(wrong) << "structure: {mode: atlanta}\n";
   const Outcome in_file = Run(Command(sequence, "unknown", {"--config", wrong}));

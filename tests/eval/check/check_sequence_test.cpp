@@ -10,6 +10,7 @@
 #include "tests/eval/check/checked_folder.h"
 #include "tests/eval/check/small_world.h"
 #include "tests/support/fault_text.h"
+#include "tests/support/shared_data.h"
 
 namespace eval {
 namespace {
@@ -210,11 +211,9 @@ TEST(CheckFolderKind, TellsAFolderThatIsNeitherSequenceNorRun) {
 }
 
 TEST(CheckFolderKind, FindsNoFaultInARealRecordingAsDownloaded) {
-  const char* shared = std::getenv("PAS_SHARED_DIR");
-  const fs::path data = fs::path(shared != nullptr ? shared : PAS_SOURCE_DIR "/../shared") /
-                        "data/tum_fr1_xyz_first37";
-  if (!fs::is_directory(data)) GTEST_SKIP() << "no recording at " << data;
-  const CheckReport report = CheckFolder(data);
+  const fs::path folder = test_support::TumRecording();
+  SKIP_WITHOUT(folder);
+  const CheckReport report = CheckFolder(folder);
   EXPECT_EQ(report.faults.size(), 0u) << All(report);
   EXPECT_EQ(report.frames, 37);
 }

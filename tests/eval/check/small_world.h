@@ -17,6 +17,7 @@
 #include <string>
 #include <vector>
 
+#include "tests/support/file_contents.h"
 #include "tests/support/image_files.h"
 #include "tests/support/temporary_folder.h"
 
@@ -28,6 +29,7 @@ namespace eval::small_world {
 namespace fs = std::filesystem;
 using Eigen::Vector3d;
 using nlohmann::json;
+using test_support::ReadText;
 
 struct BoxObject {
   int id;
@@ -169,11 +171,6 @@ inline std::string StampText(double stamp_s) {
 inline void WriteText(const fs::path& file, const std::string& text) {
   fs::create_directories(file.parent_path());
   std::ofstream(file, std::ios::binary) << text;
-}
-
-inline std::string ReadText(const fs::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), {}};
 }
 
 inline void WriteImage(const fs::path& file, const cv::Mat& image) {

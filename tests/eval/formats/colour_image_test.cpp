@@ -5,8 +5,8 @@
 
 #include <opencv2/imgcodecs.hpp>
 
-#include "io/input_error.h"
 #include "tests/eval/check/small_world.h"
+#include "tests/support/refusal.h"
 
 namespace eval {
 namespace {
@@ -19,13 +19,11 @@ class ColourImageFile : public ::testing::Test {
   std::string WhyRefused(const std::string& bytes) const {
     const fs::path file = folder_.path() / "colour.png";
     small_world::WriteText(file, bytes);
-    try {
-      ReadColour(file);
-    } catch (const io::InputError& error) {
-      EXPECT_THAT(error.what(), HasSubstr(file.string()));
-      return error.what();
+    const std::string why = test_support::RefusalOf([&] { ReadColour(file); });
+    if (!why.empty()) {
+      EXPECT_THAT(why, HasSubstr(file.string()));
     }
-    return "";
+    return why;
   }
   std::string Encoded(const char* extension) const {
     std::vector<uchar> bytes;

@@ -5,7 +5,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include "io/atomic_file.h"
-#include "io/input_error.h"
+#include "tests/support/refusal.h"
 #include "tests/support/temporary_folder.h"
 
 namespace eval {
@@ -22,12 +22,7 @@ class PoseFiles : public ::testing::Test {
     return ReadPoseFile(path_);
   }
   std::string ErrorOf(const std::string& text) const {
-    try {
-      Read(text);
-    } catch (const io::InputError& error) {
-      return error.what();
-    }
-    return "no error";
+    return test_support::RefusalOf([&] { Read(text); });
   }
   test_support::TemporaryFolder temporary_;
   const std::filesystem::path path_ = temporary_ / "poses.txt";
@@ -104,7 +99,7 @@ TEST_F(PoseFiles, AreRefusedWhereTheirTimesStartAgain) {
   for (const std::string& text : {euroc, tum})
     EXPECT_THAT(ErrorOf(text), HasSubstr("time stamp 1.000000 does not follow 3.000000"));
   // One that stands twice in a row is a repetition, of which the first counts.
-  EXPECT_EQ(ErrorOf("1 1 2 3 0 0 0 1\n2 1 2 3 0 0 0 1\n2 1 2 3 0 0 0 1\n"), "no error");
+  EXPECT_EQ(ErrorOf("1 1 2 3 0 0 0 1\n2 1 2 3 0 0 0 1\n2 1 2 3 0 0 0 1\n"), "");
 }
 
 TEST_F(PoseFiles, OfEurocHaveNoBlanksInsideANumber) {

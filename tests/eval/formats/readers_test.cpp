@@ -9,15 +9,16 @@
 #include "eval/formats/sequence/image_lists.h"
 #include "eval/formats/sequence/sequence.h"
 #include "io/atomic_file.h"
-#include "io/input_error.h"
 #include "io/read_file.h"
-#include "tests/eval/shared_data.h"
 #include "tests/eval/tiny_world.h"
+#include "tests/support/refusal.h"
+#include "tests/support/shared_data.h"
 #include "tests/support/temporary_folder.h"
 
 namespace eval {
 namespace {
 
+using test_support::RefusalOf;
 using ::testing::AllOf;
 using ::testing::HasSubstr;
 namespace fs = std::filesystem;
@@ -28,17 +29,6 @@ class ReadFolders : public ::testing::Test {
     fs::create_directories((folder_ / name).parent_path());
     io::WriteFile(folder_ / name, text);
     return folder_ / name;
-  }
-
-  /// What reading throws; empty if it throws nothing.
-  template <typename Read>
-  static std::string ErrorOf(const Read& read) {
-    try {
-      read();
-    } catch (const io::InputError& error) {
-      return error.what();
-    }
-    return "";
   }
 
   void Replace(const std::string& name, const std::string& what, const std::string& by) const {
@@ -77,7 +67,7 @@ TEST_F(ReadFolders, RefuseWhatIsNoCovariance) {
         "1 1e-8 0 0 0 0 1e-3 1 0 0 0 0 1 0 0 0 1 0 0 1 0 1"})  // small numbers too
   {
     Write("trajectory_covariance.txt", std::string(line) + "\n");
-    EXPECT_THAT(ErrorOf([&] { ReadPoseCovariances(in_); }),
+    EXPECT_THAT(RefusalOf([&] { ReadPoseCovariances(in_); }),
                 HasSubstr("trajectory_covariance.txt:1"))
         << line;
   }
@@ -98,20 +88,21 @@ TEST_F(ReadFolders, TrajectoryNamesTheLineOfEveryFault) {
                            "1 1e200 3 4 0 0 0 1", "1 2 3 x 0 0 0 1", "1 nan 0 0 0 0 0 1",
                            "1 1e999 0 0 0 0 0 1", "1 2 3 4 0 0 0 1 9", "1,5 0 0 0 0 0 0 1"}) {
     Write("t.txt", std::string("1 0 0 0 0 0 0 1\n") + line + "\n");
-    EXPECT_THAT(ErrorOf([&] { ReadTrajectory(in_, "t.txt"); }), HasSubstr("t.txt:2: expected"))
+    EXPECT_THAT(RefusalOf([&] { ReadTrajectory(in_, "t.txt"); }),
+                HasSubstr("t.txt:2: expected"))
         << line;
   }
 }
 
 TEST_F(ReadFolders, AMissingFileIsNamed) {
-  EXPECT_THAT(ErrorOf([&] { ReadSequence(folder_ / "nowhere"); }), HasSubstr("nowhere"));
-  EXPECT_THAT(ErrorOf([&] { ReadSequence(folder_); }), HasSubstr("is an empty folder"));
-  EXPECT_THAT(ErrorOf([&] { ReadRun(folder_); }), HasSubstr("is an empty folder"));
+  EXPECT_THAT(RefusalOf([&] { ReadSequence(folder_ / "nowhere"); }), HasSubstr("nowhere"));
+  EXPECT_THAT(RefusalOf([&] { ReadSequence(folder_); }), HasSubstr("is an empty folder"));
+  EXPECT_THAT(RefusalOf([&] { ReadRun(folder_); }), HasSubstr("is an empty folder"));
   Write("rgb.txt", "1 rgb/1.png\n");
-  EXPECT_THAT(ErrorOf([&] { ReadSequence(folder_); }), HasSubstr("depth.txt"));
-  EXPECT_THAT(ErrorOf([&] { ReadRun(folder_); }), HasSubstr("run folder"));
+  EXPECT_THAT(RefusalOf([&] { ReadSequence(folder_); }), HasSubstr("depth.txt"));
+  EXPECT_THAT(RefusalOf([&] { ReadRun(folder_); }), HasSubstr("run folder"));
   Write("run.json", "{\"format\": \"pas-run/1\", \"sequence\": \"SEQ\"}");
-  EXPECT_THAT(ErrorOf([&] { ReadRun(folder_); }), HasSubstr("trajectory.txt"));
+  EXPECT_THAT(RefusalOf([&] { ReadRun(folder_); }), HasSubstr("trajectory.txt"));
 }
 
 TEST_F(ReadFolders, FramesAreAssociatedByNearestTimeWithinTwentyMilliseconds) {
@@ -153,7 +144,7 @@ TEST_F(ReadFolders, ADepthImageBelongsToOneFrameAlone) {
 
 TEST_F(ReadFolders, AFileOutsideTheFolderIsRefused) {
   Write("associations.txt", "1 ../rgb/a.png 1 depth/a.png\n");
-  EXPECT_THAT(ErrorOf([&] { ReadSequence(folder_); }),
+  EXPECT_THAT(RefusalOf([&] { ReadSequence(folder_); }),
               AllOf(HasSubstr("associations.txt:1"), HasSubstr("outside the folder")));
 }
 
@@ -164,12 +155,12 @@ TEST_F(ReadFolders, CameraFaultsNameKeyAndLine) {
   Write("camera.yaml", good);
   EXPECT_EQ(ReadCamera(in_)->fx, 500.0);
   Write("camera.yaml", "width: 640\n");
-  EXPECT_THAT(ErrorOf([&] { ReadCamera(in_); }), HasSubstr("height"));
+  EXPECT_THAT(RefusalOf([&] { ReadCamera(in_); }), HasSubstr("height"));
   Write("camera.yaml", good);
   Replace("camera.yaml", "fx: 500", "fx: -1");
-  EXPECT_THAT(ErrorOf([&] { ReadCamera(in_); }), AllOf(HasSubstr(":4:"), HasSubstr("fx")));
+  EXPECT_THAT(RefusalOf([&] { ReadCamera(in_); }), AllOf(HasSubstr(":4:"), HasSubstr("fx")));
   Write("camera.yaml", "a: [1\n");
-  EXPECT_THAT(ErrorOf([&] { ReadCamera(in_); }), HasSubstr("not valid YAML"));
+  EXPECT_THAT(RefusalOf([&] { ReadCamera(in_); }), HasSubstr("not valid YAML"));
 }
 
 TEST_F(ReadFolders, SequenceAndRunComeBackAsTheyWereWritten) {
@@ -217,7 +208,7 @@ TEST_F(ReadFolders, JsonFaultsNameFileLineAndKey) {
       plane[key] = value;
     }
     broken.Write(folder_ / "RUN");
-    return ErrorOf([&] { ReadRun(folder_ / "RUN"); });
+    return RefusalOf([&] { ReadRun(folder_ / "RUN"); });
   };
   const nlohmann::json gone(nlohmann::json::value_t::discarded);
   for (const char* key :
@@ -237,10 +228,10 @@ TEST_F(ReadFolders, JsonFaultsNameFileLineAndKey) {
 
 TEST_F(ReadFolders, AFileThatIsCutOffIsAnErrorWithItsLine) {
   Write("frame_planes.jsonl", "{\"timestamp\": 1, \"planes\": []}\n{\"timestamp\": 2, \"pla");
-  EXPECT_THAT(ErrorOf([&] { ReadRunFrames(in_); }),
+  EXPECT_THAT(RefusalOf([&] { ReadRunFrames(in_); }),
               AllOf(HasSubstr("frame_planes.jsonl:2"), HasSubstr("cut off")));
   Write("map.json", "{\n\"planes\": [\n{\"id\": 1,,\n");
-  EXPECT_THAT(ErrorOf([&] { ReadRunMap(in_); }), HasSubstr("map.json:3"));
+  EXPECT_THAT(RefusalOf([&] { ReadRunMap(in_); }), HasSubstr("map.json:3"));
 }
 
 TEST_F(ReadFolders, TimingKeepsTheFramesInWhichAModuleDidNotRun) {
@@ -250,7 +241,7 @@ TEST_F(ReadFolders, TimingKeepsTheFramesInWhichAModuleDidNotRun) {
   EXPECT_TRUE(std::isnan(timing.rows_ms[1][0]));
   EXPECT_EQ(timing.rows_ms[1][1], 3.0);
   Write("t.csv", "timestamp,orb\n1,2,3\n");
-  EXPECT_THAT(ErrorOf([&] { ReadTiming(in_, "t.csv"); }), HasSubstr("t.csv:2"));
+  EXPECT_THAT(RefusalOf([&] { ReadTiming(in_, "t.csv"); }), HasSubstr("t.csv:2"));
 }
 
 TEST_F(ReadFolders, TimingIsByTimeWhateverItsRowsOrder) {
@@ -263,20 +254,20 @@ TEST_F(ReadFolders, TimingIsByTimeWhateverItsRowsOrder) {
 TEST_F(ReadFolders, APoseThatComesAgainIsRefusedAlsoBehindLaterOnes) {
   Write("run.json", "{\"format\": \"pas-run/1\", \"sequence\": \"SEQ\"}");
   Write("trajectory.txt", "1 0 0 0 0 0 0 1\n2 0 0 1 0 0 0 1\n1 0 0 1 0 0 0 1\n");
-  EXPECT_THAT(ErrorOf([&] { ReadRun(folder_); }),
+  EXPECT_THAT(RefusalOf([&] { ReadRun(folder_); }),
               AllOf(HasSubstr("trajectory.txt:3"), HasSubstr("comes a second time")));
 }
 
 TEST_F(ReadFolders, TwoPosesForOneFrameAreRefused) {
   Write("run.json", "{\"format\": \"pas-run/1\", \"sequence\": \"SEQ\"}");
   Write("trajectory.txt", "1 0 0 0 0 0 0 1\n1 0 0 1 0 0 0 1\n");
-  EXPECT_THAT(ErrorOf([&] { ReadRun(folder_); }), HasSubstr("trajectory.txt"));
+  EXPECT_THAT(RefusalOf([&] { ReadRun(folder_); }), HasSubstr("trajectory.txt"));
 }
 
 TEST_F(ReadFolders, TheRunsSequenceThatIsNowhereIsNamedWithBothPlaces) {
   Write("run.json", "{\"format\": \"pas-run/1\", \"sequence\": \"lost\"}");
   Write("trajectory.txt", "1 0 0 0 0 0 0 1\n");
-  EXPECT_THAT(ErrorOf([&] { SequenceOf(ReadRun(folder_)); }),
+  EXPECT_THAT(RefusalOf([&] { SequenceOf(ReadRun(folder_)); }),
               AllOf(HasSubstr("run.json"), HasSubstr("lost"), HasSubstr("--truth")));
 }
 
@@ -300,7 +291,7 @@ TEST_F(ReadFolders, TheRunsSequenceIsFoundWhereverTheTwoWereMoved) {
 }
 
 TEST(ReadRecording, FindsTheFramesAndTheTruthOfARealSequence) {
-  const fs::path folder = testing::SharedFolder() / "data/tum_fr1_xyz_first37";
+  const fs::path folder = test_support::TumRecording();
   SKIP_WITHOUT(folder);
   const Sequence sequence = ReadSequence(folder);
   EXPECT_EQ(sequence.frames.size(), 37u);

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 #include "eval/surfaces/depth_registration.h"
 #include "io/atomic_file.h"
-#include "io/input_error.h"
+#include "tests/support/refusal.h"
 #include "tests/support/temporary_folder.h"
 
 namespace eval {
@@ -65,12 +65,8 @@ TEST(ReadDepthRegistration, ReadsTwoCamerasAndTheWayBetweenThem) {
   EXPECT_EQ(registration.T_colour_depth.t.x(), -0.0313);
 
   io::WriteFile(path, cameras + "translation: [-31.3, 6.5, 0]\n");  // in millimetres
-  try {
-    ReadDepthRegistration(path);
-    FAIL();
-  } catch (const io::InputError& error) {
-    EXPECT_THAT(error.what(), ::testing::HasSubstr(".yaml:3: translation"));
-  }
+  EXPECT_THAT(test_support::RefusalOf([&] { ReadDepthRegistration(path); }),
+              ::testing::HasSubstr(".yaml:3: translation"));
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include "eval/surfaces/report_surfaces.h"
 #include "tests/eval/surfaces/boards.h"
 #include "tests/support/image_files.h"
+#include "tests/support/refusal.h"
 #include "tests/support/temporary_folder.h"
 
 namespace eval {
@@ -14,7 +15,7 @@ namespace {
 using testing::BoardWorld;
 
 /// A run on the boards' recording: every frame has the same segmentation.
-class SurfaceScoreTest : public ::testing::Test {
+class SurfaceScoring : public ::testing::Test {
  protected:
   void SetUp() override {
     BoardWorld world;
@@ -62,7 +63,7 @@ class SurfaceScoreTest : public ::testing::Test {
   eval::Run run_;
 };
 
-TEST_F(SurfaceScoreTest, CountsSegmentsOfASurface) {
+TEST_F(SurfaceScoring, CountsSegmentsOfASurface) {
   // A surface of three quarters; a segment of two of them, one of the third and of no surface.
   Segment(Quarters(1, 1, 2, 2));
   const SurfaceScore score = Score(Quarters(7, 7, 7, 0));
@@ -74,7 +75,7 @@ TEST_F(SurfaceScoreTest, CountsSegmentsOfASurface) {
   EXPECT_EQ(score.frames, BoardWorld::kFrames);
 }
 
-TEST_F(SurfaceScoreTest, CallsASegmentOverTwoSurfacesImpure) {
+TEST_F(SurfaceScoring, CallsASegmentOverTwoSurfacesImpure) {
   Segment(Quarters(1, 1, 1, 0));
   const SurfaceScore score = Score(Quarters(7, 7, 8, 8));
   EXPECT_NEAR(score.total.purity, 2.0 / 3, 1e-9);
@@ -83,7 +84,7 @@ TEST_F(SurfaceScoreTest, CallsASegmentOverTwoSurfacesImpure) {
   EXPECT_EQ(score.surfaces.at(8).segments_per_frame, 0.0);
 }
 
-TEST_F(SurfaceScoreTest, TellsALargeSurfaceThatHasALandmarkAndGetsNoDecision) {
+TEST_F(SurfaceScoring, TellsALargeSurfaceThatHasALandmarkAndGetsNoDecision) {
   const cv::Mat1w surfaces = Quarters(7, 7, 0, 0), segments = Quarters(1, 1, 2, 2);
   const std::map<int, int> landmark = {{1, 10}};
   SurfaceScorer scorer;
@@ -99,7 +100,7 @@ TEST_F(SurfaceScoreTest, TellsALargeSurfaceThatHasALandmarkAndGetsNoDecision) {
   EXPECT_EQ(scorer.Score().known_surfaces, 2);
 }
 
-TEST_F(SurfaceScoreTest, AsksForNoDecisionInTheFirstSecond) {
+TEST_F(SurfaceScoring, AsksForNoDecisionInTheFirstSecond) {
   Segment(Quarters(1, 1, 2, 2));
   SetLandmark(0, 10);
   run_.map.resize(1);
@@ -112,7 +113,7 @@ TEST_F(SurfaceScoreTest, AsksForNoDecisionInTheFirstSecond) {
 }
 
 // Frames are numbered as in the sequence, also where some have no true pose.
-TEST_F(SurfaceScoreTest, NumbersEventsByFramesOfTheSequence) {
+TEST_F(SurfaceScoring, NumbersEventsByFramesOfTheSequence) {
   Segment(Quarters(1, 1, 2, 2));
   SetLandmark(0, 10);
   run_.map.resize(1);
@@ -143,7 +144,7 @@ TEST_F(SurfaceScoreTest, NumbersEventsByFramesOfTheSequence) {
   EXPECT_EQ(score.events[0].cue, "chi2");
 }
 
-TEST_F(SurfaceScoreTest, FollowsMergesOfLandmarks) {
+TEST_F(SurfaceScoring, FollowsMergesOfLandmarks) {
   Segment(Quarters(1, 2, 3, 0));
   SetLandmark(0, 10);
   SetLandmark(1, 11);
@@ -170,7 +171,7 @@ TEST_F(SurfaceScoreTest, FollowsMergesOfLandmarks) {
   EXPECT_NEAR(Score(Quarters(7, 7, 7, 7)).total.coverage, 0.5, 1e-9);
 }
 
-TEST_F(SurfaceScoreTest, WritesNullWithAReasonForAShareOfNothing) {
+TEST_F(SurfaceScoring, WritesNullWithAReasonForAShareOfNothing) {
   Segment(Quarters(0, 0, 0, 1));
   nlohmann::ordered_json metrics;
   AddSurfaces(Score(Quarters(7, 0, 0, 0)), "surfaces.yaml", metrics);
@@ -187,13 +188,9 @@ TEST_F(SurfaceScoreTest, WritesNullWithAReasonForAShareOfNothing) {
   EXPECT_TRUE(metrics["surfaces"]["whole"].is_null());
 }
 
-TEST_F(SurfaceScoreTest, RefusesARunWithoutSegmentation) {
-  try {
-    Score(Quarters(7, 7, 7, 7));
-    FAIL();
-  } catch (const io::InputError& error) {
-    EXPECT_THAT(error.what(), ::testing::HasSubstr("--save-segmentation"));
-  }
+TEST_F(SurfaceScoring, RefusesARunWithoutSegmentation) {
+  EXPECT_THAT(test_support::RefusalOf([&] { Score(Quarters(7, 7, 7, 7)); }),
+              ::testing::HasSubstr("--save-segmentation"));
 }
 
 }  // namespace

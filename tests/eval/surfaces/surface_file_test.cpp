@@ -2,12 +2,13 @@
 #include <gtest/gtest.h>
 #include "eval/surfaces/surface.h"
 #include "io/atomic_file.h"
-#include "io/input_error.h"
+#include "tests/support/refusal.h"
 #include "tests/support/temporary_folder.h"
 
 namespace eval {
 namespace {
 
+using test_support::RefusalOf;
 using ::testing::HasSubstr;
 
 SurfaceFile TwoSurfaces() {
@@ -31,12 +32,7 @@ class SurfaceFileOnDisk : public ::testing::Test {
   /// What reading the text throws; empty when it does not.
   std::string ErrorOf(const std::string& text) {
     io::WriteFile(path_, text);
-    try {
-      ReadSurfaces(path_);
-    } catch (const io::InputError& error) {
-      return error.what();
-    }
-    return "";
+    return RefusalOf([&] { ReadSurfaces(path_); });
   }
   /// The text with one piece of it replaced.
   static std::string Edited(const std::string& from, const std::string& to) {
@@ -75,12 +71,8 @@ TEST_F(SurfaceFileOnDisk, NamesTheLineOfEachMistakeOfAnEditor) {
 }
 
 TEST_F(SurfaceFileOnDisk, SaysHowToMakeOneThatIsMissing) {
-  try {
-    ReadSurfaces("/nowhere/surfaces.yaml");
-    FAIL();
-  } catch (const io::InputError& error) {
-    EXPECT_THAT(error.what(), HasSubstr("pas surfaces"));
-  }
+  EXPECT_THAT(RefusalOf([] { ReadSurfaces("/nowhere/surfaces.yaml"); }),
+              HasSubstr("pas surfaces"));
 }
 
 }  // namespace

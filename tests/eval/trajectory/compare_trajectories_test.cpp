@@ -9,7 +9,7 @@
 #include <numbers>
 #include <random>
 
-#include "io/input_error.h"
+#include "tests/support/refusal.h"
 
 namespace eval {
 namespace {
@@ -220,20 +220,15 @@ TEST(CompareTrajectories, SaysThatNoTwoPosesAreThatFarApart) {
   EXPECT_THAT(score.no_relative, HasSubstr("far apart"));
 }
 
-std::string RefusalOf(const PoseFile& estimate, const PoseFile& truth) {
-  try {
-    CompareTrajectories(estimate, truth, {});
-  } catch (const io::InputError& error) {
-    return error.what();
-  }
-  return "no refusal";
+std::string ErrorOf(const PoseFile& estimate, const PoseFile& truth) {
+  return test_support::RefusalOf([&] { CompareTrajectories(estimate, truth, {}); });
 }
 
 TEST(CompareTrajectories, RefusesFilesThatShareNoTime) {
   PoseFile later = Walk();
   for (StampedPose& pose : later.poses) pose.stamp_s += 1000.0;
   EXPECT_THAT(
-      RefusalOf(later, Walk()),
+      ErrorOf(later, Walk()),
       HasSubstr("none of its 200 poses (1000.000 to 1009.950 s) have a true pose within "
                 "0.01 s in truth.txt (0.000 to 9.950 s)"));
 }
@@ -241,10 +236,10 @@ TEST(CompareTrajectories, RefusesFilesThatShareNoTime) {
 TEST(CompareTrajectories, RefusesAClockBesideNoneAndKittiFilesOfOtherLengths) {
   PoseFile counted = Walk();
   counted.kind = PoseFileKind::kKitti;
-  EXPECT_THAT(RefusalOf(counted, Walk()), HasSubstr("KITTI's have no times"));
+  EXPECT_THAT(ErrorOf(counted, Walk()), HasSubstr("KITTI's have no times"));
   PoseFile shorter = counted;
   shorter.poses.pop_back();
-  EXPECT_THAT(RefusalOf(shorter, counted),
+  EXPECT_THAT(ErrorOf(shorter, counted),
               HasSubstr("has 199 poses, the truth truth.txt has 200"));
 }
 

@@ -11,7 +11,7 @@
 #include "eval/trajectory/compare_trajectories.h"
 #include "eval/trajectory/match_stamps.h"
 #include "io/json_field.h"
-#include "tests/eval/shared_data.h"
+#include "tests/support/shared_data.h"
 
 namespace eval {
 namespace {
@@ -104,7 +104,7 @@ void ExpectPairs(const PoseFile& estimate, const PoseFile& truth, const nlohmann
 class GoldenEvo : public ::testing::TestWithParam<const char*> {};
 
 TEST_P(GoldenEvo, AgreesOnEveryAbsoluteAndRelativeError) {
-  const std::filesystem::path folder = testing::SharedFolder() / "golden" / GetParam();
+  const std::filesystem::path folder = test_support::SharedFolder() / "golden" / GetParam();
   SKIP_WITHOUT(folder);
   const nlohmann::json golden = io::ReadJson(folder / "evo_golden.json");
   std::map<std::string, std::pair<PoseFile, PoseFile>> cases;
@@ -118,6 +118,7 @@ TEST_P(GoldenEvo, AgreesOnEveryAbsoluteAndRelativeError) {
     ExpectPairs(cases[name].first, cases[name].second, files);
   }
   for (const char* metric : {"ape", "rpe"}) {
+    ASSERT_FALSE(golden[metric].empty()) << metric;
     for (const auto& row : golden[metric]) {
       const auto& [estimate, truth] = cases.at(row["case"]);
       const TrajectoryComparison ours = CompareTrajectories(estimate, truth, RulesOf(row));
@@ -130,9 +131,10 @@ INSTANTIATE_TEST_SUITE_P(References, GoldenEvo, ::testing::Values("evo", "evo_sy
                          [](const auto& chosen) { return std::string(chosen.param); });
 
 TEST(GoldenUmeyama, AgreesWhereTheRotationIsDefinedAndRefusesWhereItIsNot) {
-  const std::filesystem::path file = testing::SharedFolder() / "golden/umeyama.json";
+  const std::filesystem::path file = test_support::SharedFolder() / "golden/umeyama.json";
   SKIP_WITHOUT(file);
   const auto golden = io::ReadJson(file);
+  ASSERT_FALSE(golden["cases"].empty());
   for (const auto& example : golden["cases"]) {
     SCOPED_TRACE(example["name"]);
     std::vector<Eigen::Vector3d> x, y;

@@ -9,7 +9,7 @@
 #include "eval/formats/sequence/sequence.h"
 #include "eval/trajectory/pairs.h"
 #include "eval/trajectory/score_trajectory.h"
-#include "tests/eval/shared_data.h"
+#include "tests/support/shared_data.h"
 
 namespace eval {
 namespace {
@@ -219,7 +219,7 @@ TEST(ScoreTrajectory, HoldsAPoseAgainstTheCovarianceOfItsOwnTime) {
 }
 
 TEST(ScoreTrajectory, ScoresARecordingWhoseTruthHasItsOwnClock) {
-  const std::filesystem::path folder = testing::SharedFolder() / "data/tum_fr1_xyz_first37";
+  const std::filesystem::path folder = test_support::TumRecording();
   SKIP_WITHOUT(folder);
   const Sequence sequence = ReadSequence(folder);
   std::vector<double> stamps_s;

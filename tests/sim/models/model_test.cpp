@@ -15,6 +15,7 @@
 #include "sim/shapes/mesh.h"
 #include "sim/shapes/planes.h"
 #include "sim/shapes/steps.h"
+#include "tests/support/refusal.h"
 #include "tests/support/temporary_folder.h"
 
 namespace sim {
@@ -104,12 +105,7 @@ class OwnMesh : public testing::Test {
     return ReadModel(options, folder_);
   }
   std::string ErrorOf(const std::string& text, const ModelOptions& options = {}) const {
-    try {
-      Read(text, options);
-    } catch (const io::InputError& error) {
-      return error.what();
-    }
-    return "no error";
+    return test_support::RefusalOf([&] { Read(text, options); });
   }
   std::string SceneWith(const std::string& lines) const {
     return "format: pas-scene/1\nname: own\nobjects:\n  - {id: 1, name: floor, class: floor, "
@@ -121,12 +117,7 @@ class OwnMesh : public testing::Test {
     return ParseScene(SceneWith(lines), (folder_ / "scene.yaml").string());
   }
   std::string ParseError(const std::string& lines) const {
-    try {
-      Parse(lines);
-    } catch (const io::InputError& error) {
-      return error.what();
-    }
-    return "no error";
+    return test_support::RefusalOf([&] { Parse(lines); });
   }
   test_support::TemporaryFolder temporary_;
   const std::filesystem::path folder_ = temporary_.path();

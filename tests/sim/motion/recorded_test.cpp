@@ -12,30 +12,26 @@
 #include "sim/families/families.h"
 #include "sim/motion/clearance.h"
 #include "sim/motion/trajectory.h"
+#include "tests/support/refusal.h"
 #include "tests/support/temporary_folder.h"
 
 namespace sim {
 namespace {
 
-class ReadTrajectoryTest : public testing::Test {
+class RecordedTrajectory : public testing::Test {
  protected:
   std::vector<TimedPose> Read(const std::string& text) {
     std::ofstream(path_) << text;
     return ReadTrajectory(path_);
   }
   std::string ErrorOf(const std::string& text) {
-    try {
-      Read(text);
-    } catch (const io::InputError& error) {
-      return error.what();
-    }
-    return "";
+    return test_support::RefusalOf([&] { Read(text); });
   }
   test_support::TemporaryFolder temporary_;
   const std::filesystem::path path_ = temporary_ / "trajectory.txt";
 };
 
-TEST_F(ReadTrajectoryTest, StartsTheClockAtTheFirstPose) {
+TEST_F(RecordedTrajectory, StartsTheClockAtTheFirstPose) {
   const auto poses = Read(
       "# a comment\n\n1305031102.5 1 2 3 0 0 0 1\n"
       "1305031103.0\t4 5 6 0 0 0.6 0.8\r\n");
@@ -46,7 +42,7 @@ TEST_F(ReadTrajectoryTest, StartsTheClockAtTheFirstPose) {
   EXPECT_NEAR(poses[1].T_wc.R(1, 0), 2 * 0.6 * 0.8, 1e-12);  // z turn: 2 qz qw
 }
 
-TEST_F(ReadTrajectoryTest, NamesTheLineThatIsWrong) {
+TEST_F(RecordedTrajectory, NamesTheLineThatIsWrong) {
   const std::string good = "0 0 0 0 0 0 0 1\n";
   for (const char* bad :
        {"1 0 0 0 0 0 0", "1 0 0 0 0 0 0 1 7", "1 0 0 0 0 0 x 1", "1 0 0 0 0 0 0 0.5",
@@ -57,7 +53,7 @@ TEST_F(ReadTrajectoryTest, NamesTheLineThatIsWrong) {
   EXPECT_THROW(ReadTrajectory("no/such/file.txt"), io::InputError);
 }
 
-TEST_F(ReadTrajectoryTest, GivesBackAWrittenTrajectory) {
+TEST_F(RecordedTrajectory, GivesBackAWrittenTrajectory) {
   const auto made = MakeTrajectory(MakeScene("desk", 1), 90, 30, 1);
   std::string text;
   for (const TimedPose& pose : made) {

@@ -108,9 +108,9 @@ TEST_P(D435NoiseAt, LeavesOnlyWholeStepsOfDisparity) {
 TEST_P(D435NoiseAt, LeavesOnlyWholeMillimetres) {
   const D435Model model{.baseline_m = 0};
   const Rendering rendering = SensorView(OneBoard(GetParam()), NarrowCamera(), model);
-  for (const double z : MeasureDepth(rendering, model, NarrowCamera(), 3, 0)) {
-    EXPECT_NEAR(z * 1000, std::round(z * 1000), 1e-9);
-  }
+  const cv::Mat1d measured = MeasureDepth(rendering, model, NarrowCamera(), 3, 0);
+  EXPECT_GT(cv::countNonZero(measured), 0);
+  for (const double z : measured) EXPECT_NEAR(z * 1000, std::round(z * 1000), 1e-9);
 }
 
 INSTANTIATE_TEST_SUITE_P(Depths, D435NoiseAt, testing::Values(0.6, 1.0, 1.5, 2.0));

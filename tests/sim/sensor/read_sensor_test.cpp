@@ -8,6 +8,7 @@
 #include <sstream>
 
 #include "io/input_error.h"
+#include "tests/support/refusal.h"
 
 namespace sim {
 namespace {
@@ -15,12 +16,7 @@ namespace {
 using testing::HasSubstr;
 
 std::string ErrorOf(const std::string& text) {
-  try {
-    ParseSensor(text, "mine.yaml");
-  } catch (const io::InputError& error) {
-    return error.what();
-  }
-  return "no error";
+  return test_support::RefusalOf([&] { ParseSensor(text, "mine.yaml"); });
 }
 
 TEST(SensorFile, ChangesWhatItNamesAndKeepsTheRest) {

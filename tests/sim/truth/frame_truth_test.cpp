@@ -91,6 +91,7 @@ TEST(FrameTruth, SumsPixelsOfPlanesToThoseOfTheirObject) {
   for (const PlaneInFrame& plane : truth.planes) {
     of_object[planes.at(static_cast<std::size_t>(plane.id) - 1).object] += plane.pixels;
   }
+  ASSERT_FALSE(truth.objects.empty());
   for (const ObjectInFrame& object : truth.objects) {
     EXPECT_EQ(of_object[object.id], object.id == 7 ? 0 : object.pixels) << object.id;
   }
@@ -121,6 +122,10 @@ TEST(FrameTruth, OutlinesAFaceAsIfNothingHidIt) {
 TEST(FrameTruth, TellsVisibleHiddenAndOutsideCorners) {
   const Scene scene = HalfHidden();
   const FrameTruth truth = TruthOf(scene, Camera{}, LookAlongY());
+  for (const int object : {1, 2}) {
+    ASSERT_NE(FrontOf(truth, scene, object), nullptr);
+    ASSERT_EQ(FrontOf(truth, scene, object)->vertices.size(), 4u);
+  }
   for (const VertexInFrame& vertex : FrontOf(truth, scene, 1)->vertices) {
     EXPECT_EQ(vertex.state,
               vertex.x_w.x() > 0 ? VertexState::kVisible : VertexState::kOccluded);
@@ -179,11 +184,14 @@ TEST(FrameTruth, PutsEveryPixelOfAPlaneInsideItsOutline) {
   const Pose T_wc = SmallArc(1)[0].T_wc;
   const FrameRenderer renderer(scene, SmallCamera());
   const Rendering rendering = renderer.Render(T_wc, {.colour = false});
+  int pixels = 0;
   for (const PlaneInFrame& plane : TruthMaker(renderer).Describe(rendering, T_wc).planes) {
+    ASSERT_GE(plane.outline.size(), 3u);
     const double turn = SignedArea(plane.outline) < 0 ? -1 : 1;
     for (int v = 0; v < 120; ++v) {
       for (int u = 0; u < 160; ++u) {
         if (rendering.plane_id(v, u) != plane.id) continue;
+        ++pixels;
         for (std::size_t i = 0; i < plane.outline.size(); ++i) {
           const Eigen::Vector2d a = plane.outline[i];
           const Eigen::Vector2d ab = plane.outline[(i + 1) % plane.outline.size()] - a;
@@ -194,6 +202,7 @@ TEST(FrameTruth, PutsEveryPixelOfAPlaneInsideItsOutline) {
       }
     }
   }
+  EXPECT_GT(pixels, 1000);
 }
 
 TEST(FrameTruth, WritesOutlineAndCornersOfEachPlane) {

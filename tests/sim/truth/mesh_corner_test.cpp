@@ -126,6 +126,7 @@ TEST(MeshCorner, OfABoxIsThatOfItsFaceAndOwnedByNone) {
   const auto corners = MeshCorners(mesh);
   ASSERT_EQ(corners.size(), mesh.planes.size());
   for (std::size_t i = 0; i < corners.size(); ++i) {
+    ASSERT_EQ(corners[i].size(), 4u);
     for (std::size_t k = 0; k < corners[i].size(); ++k) {
       EXPECT_EQ(corners[i][k].x_w, mesh.planes[i].vertices_w[k]);
       EXPECT_TRUE(corners[i][k].planes.empty());

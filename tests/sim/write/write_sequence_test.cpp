@@ -8,33 +8,33 @@
 
 #include <cstdlib>
 #include <fstream>
+#include <optional>
 #include <set>
 
 #include "io/atomic_file.h"
-#include "io/input_error.h"
 #include "io/number_text.h"
 #include "io/read_file.h"
 #include "io/sha256.h"
 #include "sim/sensor/read_sensor.h"
 #include "sim/write/sequence_text.h"
 #include "tests/sim/support/sim_worlds.h"
+#include "tests/support/file_contents.h"
 #include "tests/support/image_files.h"
+#include "tests/support/refusal.h"
+#include "tests/support/temporary_folder.h"
 
 namespace sim {
 namespace {
 
 namespace fs = std::filesystem;
+using test_support::Contents;
+using test_support::RefusalOf;
 using testing::HasSubstr;
 
 /// A folder of its own for each test, gone afterwards.
 class WrittenSequence : public testing::Test {
  protected:
-  void SetUp() override {
-    std::string name = (fs::temp_directory_path() / "pas_sim_XXXXXX").string();
-    ASSERT_NE(mkdtemp(name.data()), nullptr);
-    root_ = name;
-  }
-  void TearDown() override { fs::remove_all(root_); }
+  void SetUp() override { root_ = temporary_.emplace().path(); }
 
   static SequenceOptions Options(int threads = 1) {
     SequenceOptions options;
@@ -47,24 +47,7 @@ class WrittenSequence : public testing::Test {
   static int Write(const fs::path& folder, const SequenceOptions& options, int frames = 6) {
     return WriteSequence(SmallDesk(), SmallArc(frames), options, folder);
   }
-  /// Path -> content of every file.
-  static std::map<std::string, std::string> Content(const fs::path& folder) {
-    std::map<std::string, std::string> content;
-    for (const auto& entry : fs::recursive_directory_iterator(folder)) {
-      if (entry.is_regular_file()) {
-        content[fs::relative(entry.path(), folder).string()] = io::ReadFile(entry.path());
-      }
-    }
-    return content;
-  }
-  static std::string ErrorOf(const std::function<void()>& call) {
-    try {
-      call();
-    } catch (const io::InputError& error) {
-      return error.what();
-    }
-    return "no error";
-  }
+  std::optional<test_support::TemporaryFolder> temporary_;
   fs::path root_;
 };
 
@@ -79,7 +62,7 @@ TEST_F(WrittenSequence, HoldsEveryFileOfTheFormatAndNothingElse) {
     }
   }
   std::set<std::string> found;
-  for (const auto& [path, bytes] : Content(root_ / "seq")) found.insert(path);
+  for (const auto& [path, bytes] : Contents(root_ / "seq")) found.insert(path);
   EXPECT_EQ(found, expected);
 }
 
@@ -89,7 +72,7 @@ TEST_F(WrittenSequence, ListsTheHashOfEveryOtherFileInItsManifest) {
   EXPECT_EQ(manifest["format"], "pas-sequence/1");
   EXPECT_EQ(manifest["complete"], true);
   EXPECT_EQ(manifest["frame_count"], 3);
-  auto content = Content(root_ / "seq");
+  auto content = Contents(root_ / "seq");
   content.erase("manifest.json");
   EXPECT_EQ(manifest["sha256"].size(), content.size());
   for (const auto& [path, bytes] : content) {
@@ -116,7 +99,7 @@ TEST_F(WrittenSequence, StoresImagesInTheFormatsDepthAndSize) {
 TEST_F(WrittenSequence, HasTheSameBytesWithOneThreadAndTwo) {
   Write(root_ / "one", Options(1));
   Write(root_ / "two", Options(2));
-  EXPECT_EQ(Content(root_ / "one"), Content(root_ / "two"));
+  EXPECT_EQ(Contents(root_ / "one"), Contents(root_ / "two"));
 }
 
 TEST_F(WrittenSequence, ChangesWithTheSeed) {
@@ -147,9 +130,9 @@ TEST_F(WrittenSequence, TellsTheCameraInItsManifestAsInCameraYaml) {
 
 TEST_F(WrittenSequence, IsRefusedWhereAFolderExists) {
   Write(root_ / "seq", Options(), 1);
-  const auto before = Content(root_ / "seq");
-  EXPECT_THAT(ErrorOf([&] { Write(root_ / "seq", Options(), 2); }), HasSubstr("--force"));
-  EXPECT_EQ(Content(root_ / "seq"), before);
+  const auto before = Contents(root_ / "seq");
+  EXPECT_THAT(RefusalOf([&] { Write(root_ / "seq", Options(), 2); }), HasSubstr("--force"));
+  EXPECT_EQ(Contents(root_ / "seq"), before);
 }
 
 TEST_F(WrittenSequence, ReplacesAnOldSequenceWhenForced) {
@@ -158,7 +141,7 @@ TEST_F(WrittenSequence, ReplacesAnOldSequenceWhenForced) {
   options.existing = Existing::kReplace;
   Write(root_ / "seq", options, 2);
   Write(root_ / "fresh", Options(), 2);
-  EXPECT_EQ(Content(root_ / "seq"), Content(root_ / "fresh"));
+  EXPECT_EQ(Contents(root_ / "seq"), Contents(root_ / "fresh"));
 }
 
 TEST_F(WrittenSequence, NeverReplacesAFolderThatIsNotASequence) {
@@ -166,7 +149,7 @@ TEST_F(WrittenSequence, NeverReplacesAFolderThatIsNotASequence) {
   io::WriteFile(root_ / "mine/thesis.tex", "years of work");
   SequenceOptions options = Options();
   options.existing = Existing::kReplace;
-  EXPECT_THAT(ErrorOf([&] { Write(root_ / "mine", options, 1); }), HasSubstr("left alone"));
+  EXPECT_THAT(RefusalOf([&] { Write(root_ / "mine", options, 1); }), HasSubstr("left alone"));
   EXPECT_EQ(io::ReadFile(root_ / "mine/thesis.tex"), "years of work");
 }
 
@@ -180,7 +163,7 @@ TEST_F(WrittenSequence, BeginsWhereARunWasKilledBeforeItsManifest) {
     SequenceOptions options = Options();
     options.existing = existing;
     Write(folder, options, 1);
-    EXPECT_EQ(Content(folder), Content(root_ / "fresh"));
+    EXPECT_EQ(Contents(folder), Contents(root_ / "fresh"));
   }
 }
 
@@ -197,10 +180,7 @@ class InterruptedSequence : public WrittenSequence {
     WrittenSequence::SetUp();
     setenv(kFolderVariable, root_.c_str(), 1);
   }
-  void TearDown() override {
-    unsetenv(kFolderVariable);
-    WrittenSequence::TearDown();
-  }
+  void TearDown() override { unsetenv(kFolderVariable); }
   /// Dies in the middle of a write, after `frames` frames.
   static void WriteAndDie(const fs::path& folder, int frames) {
     SequenceOptions options = Options();
@@ -215,7 +195,7 @@ class InterruptedSequence : public WrittenSequence {
     signal(SIGXFSZ, SIG_IGN);
     const rlimit limit{4000, 4000};
     setrlimit(RLIMIT_FSIZE, &limit);
-    const std::string error = ErrorOf([&] { Write(folder, Options(2)); });
+    const std::string error = RefusalOf([&] { Write(folder, Options(2)); });
     _exit(error.find(": cannot be written: File too large") != std::string::npos ? 0 : 1);
   }
   static constexpr const char* kFolderVariable = "PAS_TEST_INTERRUPTED_FOLDER";
@@ -236,16 +216,16 @@ TEST_F(InterruptedSequence, NeverLooksCompleteAndResumesToTheSameBytes) {
   resume.existing = Existing::kResume;
   EXPECT_EQ(Write(folder, resume), 6 - kDone + 1);
   Write(root_ / "whole", Options());
-  EXPECT_EQ(Content(folder), Content(root_ / "whole"));
+  EXPECT_EQ(Contents(folder), Contents(root_ / "whole"));
 }
 
 TEST_F(WrittenSequence, ResumesACompleteOneByDoingNothing) {
   Write(root_ / "seq", Options());
-  const auto before = Content(root_ / "seq");
+  const auto before = Contents(root_ / "seq");
   SequenceOptions resume = Options();
   resume.existing = Existing::kResume;
   EXPECT_EQ(Write(root_ / "seq", resume), 0);
-  EXPECT_EQ(Content(root_ / "seq"), before);
+  EXPECT_EQ(Contents(root_ / "seq"), before);
 }
 
 TEST_F(WrittenSequence, IsNotResumedWithOtherOptions) {
@@ -253,12 +233,12 @@ TEST_F(WrittenSequence, IsNotResumedWithOtherOptions) {
   SequenceOptions resume = Options();
   resume.existing = Existing::kResume;
   resume.rig.seed = 9;
-  EXPECT_THAT(ErrorOf([&] { Write(root_ / "seq", resume); }),
+  EXPECT_THAT(RefusalOf([&] { Write(root_ / "seq", resume); }),
               HasSubstr("seed was 1, now it is 9"));
   resume = Options();
   resume.existing = Existing::kResume;
   resume.rig.camera = Resize(Camera{}, 320, 240);
-  EXPECT_THAT(ErrorOf([&] { Write(root_ / "seq", resume); }), HasSubstr("camera was"));
+  EXPECT_THAT(RefusalOf([&] { Write(root_ / "seq", resume); }), HasSubstr("camera was"));
 }
 
 TEST_F(WrittenSequence, IsNotResumedWithAnotherSensorOfTheSameName) {
@@ -268,7 +248,7 @@ TEST_F(WrittenSequence, IsNotResumedWithAnotherSensorOfTheSameName) {
   mine.existing = Existing::kResume;
   EXPECT_EQ(Write(root_ / "seq", mine), 0);
   mine.rig.sensor = ParseSensor("base: azure\nname: mine\nrounding_m: 0.002\n", "mine.yaml");
-  EXPECT_THAT(ErrorOf([&] { Write(root_ / "seq", mine); }), HasSubstr("sensor_base was"));
+  EXPECT_THAT(RefusalOf([&] { Write(root_ / "seq", mine); }), HasSubstr("sensor_base was"));
 }
 
 // The manifest names only what is not plain, so a key may be gone instead of changed.
@@ -278,7 +258,7 @@ TEST_F(WrittenSequence, IsNotResumedWithoutAnOptionItWasBegunWith) {
   Write(root_ / "seq", blurred);
   SequenceOptions resume = Options();
   resume.existing = Existing::kResume;
-  EXPECT_THAT(ErrorOf([&] { Write(root_ / "seq", resume); }),
+  EXPECT_THAT(RefusalOf([&] { Write(root_ / "seq", resume); }),
               ::testing::AllOf(HasSubstr("exposure was"), HasSubstr("now it is null")));
   blurred.existing = Existing::kResume;
   EXPECT_EQ(Write(root_ / "seq", blurred), 0);
@@ -293,9 +273,9 @@ TEST_F(InterruptedSequence, SaysWhichFileDoesNotFitOnTheDisk) {
 
 TEST_F(WrittenSequence, SaysWhichFolderCannotBeMade) {
   io::WriteFile(root_ / "file", "");
-  EXPECT_THAT(ErrorOf([&] { Write(root_ / "file/seq", Options()); }),
+  EXPECT_THAT(RefusalOf([&] { Write(root_ / "file/seq", Options()); }),
               HasSubstr("cannot be made"));
-  EXPECT_THAT(ErrorOf([&] { Write(root_ / "file", Options()); }), HasSubstr("is a file"));
+  EXPECT_THAT(RefusalOf([&] { Write(root_ / "file", Options()); }), HasSubstr("is a file"));
 }
 
 TEST(GroundTruthText, ReadsBackAsTheVeryPose) {

@@ -4,14 +4,14 @@
 
 #include <cmath>
 
+#include "tests/support/cameras.h"
+
 namespace slam {
 namespace {
 
 /// A wall at 1.5 m in pieces: the left and the right half have labels of their own.
 struct TwoHalves {
   TwoHalves() {
-    camera.width = 160, camera.height = 120;
-    camera.fx = camera.fy = 131.25, camera.cx = 79.5, camera.cy = 59.5;
     depth_m = cv::Mat1f(120, 160, 1.5F);
     labels = cv::Mat1b(120, 160, std::uint8_t{1});
     labels.colRange(82, 160) = 2;
@@ -22,7 +22,7 @@ struct TwoHalves {
                         Eigen::VectorXd::Zero(cells.count()),
                         Eigen::VectorXd::Constant(cells.count(), 0.0033), BendLaw::kDepth);
   }
-  Camera camera;
+  Camera camera = SmallCamera();
   cv::Mat1f depth_m;
   cv::Mat1b labels;
 };

@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <fstream>
 
-#include "io/input_error.h"
+#include "tests/support/refusal.h"
 #include "tests/support/temporary_folder.h"
 
 namespace slam {
@@ -38,12 +38,7 @@ class WarpFile : public testing::Test {
     return ReadWarp(file_, CameraOfFile());
   }
   std::string FaultOf(const std::string& text) const {
-    try {
-      Read(text);
-    } catch (const io::InputError& error) {
-      return error.what();
-    }
-    return "";
+    return test_support::RefusalOf([&] { Read(text); });
   }
   static std::string With(const std::string& part, const std::string& instead) {
     std::string text = WarpText(SmallWarp(), "made by hand");

@@ -10,19 +10,13 @@
 
 #include "slam/base/random.h"
 #include "slam/calibrate/straightener.h"
+#include "tests/support/cameras.h"
 
 namespace slam {
 namespace {
 
 constexpr int kFrames = 240;
 constexpr double kFps = 30.0;
-
-Camera SmallCamera() {
-  Camera camera;
-  camera.width = 160, camera.height = 120;
-  camera.fx = camera.fy = 131.25, camera.cx = 79.5, camera.cy = 59.5;
-  return camera;
-}
 
 /// p of a device of our own: waves that no prior of ours knows of, 0.33 % rms.
 double WavyPattern(double u, double v) {

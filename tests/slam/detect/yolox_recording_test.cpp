@@ -2,7 +2,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cstdlib>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -10,16 +9,10 @@
 #include "slam/detect/yolox_detector.h"
 #include "slam/input/camera_reader.h"
 #include "slam/input/sequence_reader.h"
+#include "tests/support/shared_data.h"
 
 namespace slam {
 namespace {
-
-std::filesystem::path SharedData() {
-  const char* named = std::getenv("PAS_SHARED_DIR");
-  return (named != nullptr ? std::filesystem::path(named)
-                           : std::filesystem::path(PAS_SOURCE_DIR) / "../shared") /
-         "data";
-}
 
 /// What a person sees in a frame: boxes read off the picture by eye, to some 5 px.
 struct SeenByEye {
@@ -29,13 +22,11 @@ struct SeenByEye {
 };
 
 TEST(YoloxOnARecording, FindsWhatAPersonSees) {
-  const std::filesystem::path recording = SharedData() / "real_kitchen_first300",
-                              model = SharedData() / "models/yolox_nano.onnx";
-  for (const auto& needed : {recording, model}) {
-    if (!std::filesystem::exists(needed)) {
-      GTEST_SKIP() << "no reference data at " << needed << "; set PAS_SHARED_DIR";
-    }
-  }
+  const std::filesystem::path data = test_support::SharedFolder() / "data",
+                              recording = data / "real_kitchen_first300",
+                              model = data / "models/yolox_nano.onnx";
+  SKIP_WITHOUT(recording);
+  SKIP_WITHOUT(model);
   const std::vector<SeenByEye> things = {
       {0, "cup", {{363, 164}, {402, 203}}},     {0, "chair", {{175, 126}, {306, 345}}},
       {0, "chair", {{425, 150}, {548, 230}}},   {0, "dining table", {{222, 158}, {639, 470}}},

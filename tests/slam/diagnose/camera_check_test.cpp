@@ -5,6 +5,7 @@
 #include <functional>
 
 #include "slam/base/random.h"
+#include "tests/support/normal_draws.h"
 
 namespace slam {
 namespace {
@@ -17,13 +18,6 @@ Pose LookingAround(double s) {
       ExpSo3({0.14 * std::sin(1.7 * s), 0.21 * std::sin(2.3 * s), 0.10 * std::sin(1.1 * s)});
   return Inverse(
       Pose{R_wc, {0.15 * std::sin(1.3 * s), 0.1 * std::sin(s), 0.1 * std::sin(0.7 * s)}});
-}
-
-/// Standard normal, near enough: the sum of twelve uniform numbers.
-double Bell(Random& random) {
-  double sum = -6.0;
-  for (int i = 0; i < 12; ++i) sum += random.Uniform();
-  return sum;
 }
 
 struct Defects {
@@ -61,10 +55,11 @@ std::vector<Frame> TrackedFrames(int frames, const Camera& camera, const Way& wa
       PointFeature feature;
       feature.octave = random.Below(4);
       const double sigma_px = defects.position_px * FeatureScale{}.Scale(feature.octave);
-      feature.u_px =
-          camera.Project(p_c) + sigma_px * Eigen::Vector2d(Bell(random), Bell(random));
-      if (random.Uniform() < defects.wrong_share) feature.u_px.x() += 30 * Bell(random);
-      feature.depth_m = p_c.z() + defects.depth * p_c.z() * p_c.z() * Bell(random);
+      feature.u_px = camera.Project(p_c) +
+                     sigma_px * Eigen::Vector2d(BoundedNormal(random), BoundedNormal(random));
+      if (random.Uniform() < defects.wrong_share)
+        feature.u_px.x() += 30 * BoundedNormal(random);
+      feature.depth_m = p_c.z() + defects.depth * p_c.z() * p_c.z() * BoundedNormal(random);
       if (!camera.ImageBox().Contains(feature.u_px)) continue;
       frame.features.push_back(feature);
       frame.map_points.push_back(i);

@@ -12,13 +12,6 @@ namespace {
 
 constexpr double kWall_m = 1.5;
 
-Camera FullCamera() {
-  Camera camera;
-  camera.width = 640, camera.height = 480;
-  camera.fx = camera.fy = 525.0, camera.cx = 319.5, camera.cy = 239.5;
-  return camera;
-}
-
 /// A wall that fills the image. `bend(u, v)` lengthens its depth, as a share of it.
 template <typename Bend>
 Frame Wall(const Camera& camera, const DepthNoise& noise, int index, const Bend& bend) {
@@ -42,7 +35,7 @@ Frame Wall(const Camera& camera, const DepthNoise& noise, int index, const Bend&
 }
 
 TEST(BendMeter, FindsThatAFlatSensorBendsNothing) {
-  const Camera camera = FullCamera();
+  const Camera camera;
   const SensorModel sensor;
   BendMeter meter(PixelRays(camera), sensor);
   EXPECT_DOUBLE_EQ(meter.ratio(), sensor.bend_ratio);
@@ -54,7 +47,7 @@ TEST(BendMeter, FindsThatAFlatSensorBendsNothing) {
 }
 
 TEST(BendMeter, BelievesTheFirstFrameMoreThanWhatSensorsUsuallyDo) {
-  const Camera camera = FullCamera();
+  const Camera camera;
   const SensorModel sensor;
   BendMeter meter(PixelRays(camera), sensor);
   Frame frame = Wall(camera, sensor.noise, 0, [](int, int) { return 0.0; });
@@ -64,7 +57,7 @@ TEST(BendMeter, BelievesTheFirstFrameMoreThanWhatSensorsUsuallyDo) {
 }
 
 TEST(BendMeter, KeepsWhatPlanesDoNotShowOfATimeOfFlight) {
-  const Camera camera = FullCamera();
+  const Camera camera;
   const SensorModel sensor = ModelOf(DepthSensor::kAzure);
   BendMeter meter(PixelRays(camera), sensor);
   for (int k = 0; k < 3; ++k) {
@@ -76,7 +69,7 @@ TEST(BendMeter, KeepsWhatPlanesDoNotShowOfATimeOfFlight) {
 }
 
 TEST(BendMeter, CountsWhatAWarpLeavesThoughPlanesDoNotShowIt) {
-  const Camera camera = FullCamera();
+  const Camera camera;
   const SensorModel sensor;
   BendMeter meter(PixelRays(camera), sensor), without(PixelRays(camera), sensor);
   constexpr double kLeft = 0.002;
@@ -96,7 +89,7 @@ TEST(BendMeter, CountsWhatAWarpLeavesThoughPlanesDoNotShowIt) {
 
 TEST(BendMeter, FindsByHowMuchASensorBends) {
   // Waves of 220 columns, as of a first Kinect, of half and of twice its height.
-  const Camera camera = FullCamera();
+  const Camera camera;
   const SensorModel sensor;
   for (const double rms : {0.5 * kKinectBend, 2.0 * kKinectBend}) {
     BendMeter meter(PixelRays(camera), sensor);
@@ -111,7 +104,7 @@ TEST(BendMeter, FindsByHowMuchASensorBends) {
 }
 
 TEST(BendMeter, StaysWithWhatIsKnownOfTheSensorUntilALargePlaneIsSeen) {
-  const Camera camera = FullCamera();
+  const Camera camera;
   const SensorModel sensor;
   BendMeter meter(PixelRays(camera), sensor);
   Frame frame = Wall(camera, sensor.noise, 0, [](int, int) { return 0.05; });
@@ -125,7 +118,7 @@ TEST(BendMeter, StaysWithWhatIsKnownOfTheSensorUntilALargePlaneIsSeen) {
 }
 
 TEST(BendMeter, StaysWithWhatIsKnownOfTheSensorInFramesWithoutPlanes) {
-  const Camera camera = FullCamera();
+  const Camera camera;
   const SensorModel sensor;
   BendMeter meter(PixelRays(camera), sensor);
   Frame frame;

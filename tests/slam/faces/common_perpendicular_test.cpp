@@ -3,10 +3,10 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
-#include <cstdlib>
 #include <fstream>
 #include <nlohmann/json.hpp>
-#include <string>
+
+#include "tests/support/shared_data.h"
 
 namespace slam {
 namespace {
@@ -66,11 +66,9 @@ Eigen::Vector3d Vector(const nlohmann::json& j) {
 }
 
 TEST(CommonPerpendicularEq5, AgreesWithTheReferenceFigures) {
-  const char* shared = std::getenv("PAS_SHARED_DIR");
-  const std::string root = shared ? shared : std::string(PAS_SOURCE_DIR) + "/../shared";
-  std::ifstream file(root + "/golden/common_perpendicular.json");
-  if (!file) GTEST_SKIP() << "the reference figures common_perpendicular.json are not there";
-  const nlohmann::json cases = nlohmann::json::parse(file)["line_line"];
+  const auto path = test_support::SharedFolder() / "golden/common_perpendicular.json";
+  SKIP_WITHOUT(path);
+  const nlohmann::json cases = nlohmann::json::parse(std::ifstream(path))["line_line"];
   int compared = 0;
   for (const nlohmann::json& c : cases) {
     const double sine = c["sin_angle"];

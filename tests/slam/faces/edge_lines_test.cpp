@@ -79,6 +79,7 @@ TEST(EdgeLines, LieOnThePlaneAndUseOnlyTheSurfacesOwnEdges) {
 
 TEST(EdgeLines, AreDoubtfulWhicheverWayTheyRun) {
   const Camera camera;
+  int found = 0;
   for (double angle_deg = 0; angle_deg < 360; angle_deg += 0.5) {
     const double a = angle_deg * M_PI / 180;
     const Eigen::Vector2d along(std::cos(a), std::sin(a));
@@ -94,8 +95,10 @@ TEST(EdgeLines, AreDoubtfulWhicheverWayTheyRun) {
     for (const EdgeLine& line : FindEdgeLines(plane, camera, {}, Random{1})) {
       const Eigen::Vector2d middle = (line.from_px + line.to_px) / 2;
       EXPECT_GT(std::sqrt(line.error.Variance(middle)), 1) << angle_deg;
+      ++found;
     }
   }
+  EXPECT_GT(found, 0);
 }
 
 TEST(EdgeLines, AreDoubtfulAsAWholeWhereDepthHardlyChangesAcrossThem) {

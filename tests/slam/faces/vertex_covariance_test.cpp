@@ -10,6 +10,7 @@
 #include "slam/segment/plane_segments.h"
 #include "tests/support/closed_form_depth.h"
 #include "tests/support/depth_planes.h"
+#include "tests/support/normal_draws.h"
 
 namespace slam {
 namespace {
@@ -142,7 +143,7 @@ TEST(LineErrors, CountNeighboursThatMoveTogetherOnce) {
   for (int line = 0; line < kLines; ++line) {
     const auto white = [&](int k) {
       Random random({static_cast<std::uint64_t>(k), static_cast<std::uint64_t>(line)});
-      return 0.5 * closed_form::Gaussian(random);
+      return 0.5 * BoundedNormal(random);
     };
     const LineError alone = MeasureLineError(Along(1000, white), {0, 0}, {1, 0});
     const LineError shared =

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "slam/features/match_features.h"
+#include "tests/support/normal_draws.h"
 #include "tests/support/textured_world.h"
 
 namespace slam {
@@ -114,19 +115,12 @@ TEST(PointFeatures, AreFoundAgainAndLookAlikeUnderAKnownHomography) {
   EXPECT_GE(right, 0.9 * static_cast<double>(pairs.size()));
 }
 
-/// Mean 0, deviation 1.
-double Gaussian(Random& random) {
-  double sum = -6;
-  for (int i = 0; i < 12; ++i) sum += random.Uniform();
-  return sum;
-}
-
 /// The image with white noise, from a seed.
 cv::Mat1b Noisy(const cv::Mat1b& image, double sigma, std::uint64_t seed) {
   Random random{seed, 5};
   cv::Mat1b noisy = image.clone();
   for (std::uint8_t& grey : noisy) {
-    grey = cv::saturate_cast<std::uint8_t>(grey + sigma * Gaussian(random));
+    grey = cv::saturate_cast<std::uint8_t>(grey + sigma * BoundedNormal(random));
   }
   return noisy;
 }
@@ -193,6 +187,7 @@ TEST(PointFeatures, ComeFromSmallImagesToo) {
 TEST(PointFeatures, AreTheSameBytesTwice) {
   const cv::Mat1b image = PatternImage(320, 240);
   const auto first = Extract(image), second = Extract(image);
+  ASSERT_FALSE(first.empty());
   ASSERT_EQ(first.size(), second.size());
   for (std::size_t i = 0; i < first.size(); ++i) {
     EXPECT_EQ(first[i].u_px, second[i].u_px);

@@ -4,12 +4,12 @@
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 
-#include <cstdlib>
 #include <fstream>
 #include <opencv2/imgcodecs.hpp>
 #include <sstream>
 
 #include "io/input_error.h"
+#include "tests/support/shared_data.h"
 #include "tests/support/temporary_folder.h"
 
 namespace slam {
@@ -312,16 +312,10 @@ TEST_F(Sequences, NeverOpenTheTruth) {
   EXPECT_EQ(reader.Read(1).timestamp_s, 1.1);
 }
 
-/// The recording that comes with the project's reference data.
-fs::path Recording() {
-  const char* shared = std::getenv("PAS_SHARED_DIR");
-  const fs::path base = shared ? fs::path(shared) : fs::path(PAS_SOURCE_DIR) / "../shared";
-  return base / "data/tum_fr1_xyz_first37";
-}
-
 TEST(RealRecording, IsReadWholeThroughItsAssociations) {
-  if (!fs::exists(Recording())) GTEST_SKIP() << "no reference data; set PAS_SHARED_DIR";
-  SequenceReader reader(Recording(), TumCamera("tum1"));
+  const fs::path folder = test_support::TumRecording();
+  SKIP_WITHOUT(folder);
+  SequenceReader reader(folder, TumCamera("tum1"));
   EXPECT_EQ(reader.size(), 37);
   EXPECT_TRUE(reader.warnings().empty());
   const RecordedFrame frame = reader.Read(36);

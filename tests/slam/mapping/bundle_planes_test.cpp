@@ -231,7 +231,7 @@ TEST(BundlePlanes, MoveWithAllThatTheyHave) {
   const PointWorld truth = WorldWithPlanes(5, 80, ThreePlanes());
   Map map = truth.map;
   DisturbAll(map, 0.005, 0.003);
-  AdjustLocalBundle(map, 4, truth.camera, FeatureScale{}, {});
+  ASSERT_EQ(AdjustLocalBundle(map, 4, truth.camera, FeatureScale{}, {}).planes, 3);
   for (const MapPlane& plane : map.planes) {
     EXPECT_THAT(plane.estimate.Mean(), PlaneNear(plane.pi_w, 1e-9, 1e-9));
     for (const auto* points : {&plane.points_w, &plane.hull_w, &plane.vertices_w}) {
@@ -329,9 +329,11 @@ TEST(BundlePlanes, GiveTheSameBytesTwice) {
   LocalBundleConfig config;
   config.use_point_planes = true;
   const Camera camera;
-  AdjustLocalBundle(first, 4, camera, FeatureScale{}, config);
+  ASSERT_EQ(AdjustLocalBundle(first, 4, camera, FeatureScale{}, config).planes, 3);
+  ASSERT_NE(first.keyframes[4].T_cw.t, second.keyframes[4].T_cw.t) << "nothing has moved";
   AdjustLocalBundle(second, 4, camera, FeatureScale{}, config);
   for (std::size_t k = 0; k < first.keyframes.size(); ++k) {
+    EXPECT_EQ(first.keyframes[k].T_cw.R, second.keyframes[k].T_cw.R);
     EXPECT_EQ(first.keyframes[k].T_cw.t, second.keyframes[k].T_cw.t);
   }
   for (const MapPlane& plane : first.planes) {

@@ -122,6 +122,7 @@ TEST(BundleWindow, TellsItsPointsWhereTheyAreSeenFromAfterwards) {
   for (auto& position : window.positions) position[0] += 0.2;
   MergeWindow(window, {}, world.map);
   Map again = world.map;
+  ASSERT_FALSE(window.points.empty());
   for (const int id : window.points) {
     UpdatePoint(again, id, {});
     EXPECT_EQ(again.points[static_cast<std::size_t>(id)].view_w,

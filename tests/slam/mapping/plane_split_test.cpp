@@ -29,6 +29,7 @@ TEST(PlaneSplit, MakesTwoLandmarksOfTwoSurfacesThatThreeFramesShowedBesideAStep)
   EXPECT_NEAR(SignedDistance(larger.pi_w, {-0.2, 0, 0}), 0.0, 1e-4);
   EXPECT_NEAR(SignedDistance(lesser.pi_w, {0.1, 0, 0.008}), 0.0, 1e-4);
   const double voxel_m = SmallImages().voxel_m;  // as near as clouds tell
+  ASSERT_FALSE(larger.points_w.empty() || lesser.points_w.empty());
   for (const Eigen::Vector3d& p_w : larger.points_w) EXPECT_LT(p_w.x(), voxel_m);
   for (const Eigen::Vector3d& p_w : lesser.points_w) EXPECT_GT(p_w.x(), -voxel_m);
   for (const MapPlane* m : landmarks) {

@@ -199,6 +199,7 @@ TEST(PlaneTrial, CandidatesAreNoLandmarksToTheAssociation) {
   without.planes.EraseCandidates([](const MapPlane&) { return true; });
   const auto matches = AssociatePlanes(seen.frame, show.map, camera, show.association).matches;
   const auto alone = AssociatePlanes(seen.frame, without, camera, show.association).matches;
+  ASSERT_GT(std::count(seen.truth.begin(), seen.truth.end(), 1), 0);
   for (std::size_t f = 0; f < seen.truth.size(); ++f) {
     if (seen.truth[f] == 1) {
       EXPECT_EQ(matches[f].decision, PlaneDecision::kTrial);
@@ -246,6 +247,8 @@ TEST(PlaneTrial, ASurfaceOnTrialIsNotTakenByTheLandmarkBesideIt) {
   }
   const auto matches = AssociatePlanes(seen.frame, show.map, camera, show.association).matches;
   const auto alone = AssociatePlanes(seen.frame, without, camera, show.association).matches;
+  for (const int shown : {1, 2})
+    ASSERT_GT(std::count(seen.truth.begin(), seen.truth.end(), shown), 0) << shown;
   for (std::size_t f = 0; f < seen.truth.size(); ++f) {
     if (seen.truth[f] == 1) {
       EXPECT_EQ(matches[f].map_plane, 1);

@@ -35,14 +35,14 @@ TEST(LatePlanes, SayOfThePoseWhatPoseAndSpeedTogetherDo) {
     Random random{seed};
     LatePlanes late;
     late.late_s = 0.03 * (random.Uniform() - 0.5);
-    late.told = Drawn(random, kSmall);
+    late.compensated_speed = Drawn(random, kSmall);
     late.speed.speed = Drawn(random, kSmall);
     late.speed.gain = 10 * DrawnSquare(random) / 6;
     late.speed.covariance = 1e3 * DrawnSquare(random);
     const Matrix6d prior = DrawnSquare(random), seen = 100 * DrawnSquare(random);
-    const Vector6d measured = Drawn(random, kSmall);  // the pose later, as it is told
+    const Vector6d measured = Drawn(random, kSmall);  // the pose later, as it is compensated
 
-    // The whole: x by its prior, v by x, and x + late (v - told) by the planes.
+    // The whole: x by its prior, v by x, and x + late (v - compensated) by the planes.
     Matrix12d H = Matrix12d::Zero();
     Vector12d g = Vector12d::Zero();
     const auto add = [&](const Matrix6d& by_x, const Matrix6d& by_v, const Vector6d& r,
@@ -55,7 +55,7 @@ TEST(LatePlanes, SayOfThePoseWhatPoseAndSpeedTogetherDo) {
     const Matrix6d I = Matrix6d::Identity(), none = Matrix6d::Zero();
     add(I, none, Vector6d::Zero(), prior);
     add(-late.speed.gain, I, -late.speed.speed, late.speed.covariance.inverse());
-    add(I, late.late_s * I, -late.late_s * late.told - measured, seen);
+    add(I, late.late_s * I, -late.late_s * late.compensated_speed - measured, seen);
     const Vector12d both = -H.fullPivLu().solve(g);
 
     // The same by the pose alone.
@@ -84,13 +84,13 @@ TEST(LatePlanes, SayOfThePoseWhatPoseAndSpeedTogetherDo) {
   }
 }
 
-/// Three planes of a corner, as a camera at T_cw that moves at `speed` tells them when it takes the
-/// speed for `told`.
+/// Three planes of a corner, as a camera at T_cw that moves at `speed` compensates them when it takes the
+/// speed for `compensated`.
 PoseProblem SeenLate(const Pose& T_cw, double late_s, const Vector6d& speed,
-                     const Vector6d& told) {
+                     const Vector6d& compensated) {
   PoseProblem problem;
   problem.T_cw = Exp((Vector6d() << 0.01, -0.02, 0.01, 0.01, 0.02, -0.01).finished()) * T_cw;
-  const Pose seen_from = Exp(-late_s * told) * Exp(late_s * speed) * T_cw;
+  const Pose seen_from = Exp(-late_s * compensated) * Exp(late_s * speed) * T_cw;
   for (int i = 0; i < 3; ++i) {
     PlaneConstraint c;
     c.pi_w = {Eigen::Vector3d::Unit(i), 1.0 + i};
@@ -99,7 +99,7 @@ PoseProblem SeenLate(const Pose& T_cw, double late_s, const Vector6d& speed,
     c.angle_sigma_rad = 0.001, c.offset_sigma_m = 0.001;
     problem.planes.push_back(c);
   }
-  problem.late = LatePlanes{late_s, told, {}};
+  problem.late = LatePlanes{late_s, compensated, {}};
   problem.late->speed.predicted_cw = T_cw;
   problem.late->speed.speed = speed;
   return problem;
@@ -109,10 +109,10 @@ TEST(PoseOptimiserEq13, FindsThePoseByPlanesOfAnotherTime) {
   const Pose T_cw{ExpSo3({0.3, -0.2, 0.1}), {0.4, -0.3, 0.2}};
   const Vector6d speed = (Vector6d() << 0.3, -0.1, 0.2, 0.5, -0.4, 0.3).finished();
   for (const double late_s : {0.015, -0.018}) {
-    for (const double told : {0.0, 1.0, 3.0}) {  // as a part of the speed
-      const PoseProblem problem = SeenLate(T_cw, late_s, speed, told * speed);
+    for (const double compensated : {0.0, 1.0, 3.0}) {  // as a part of the speed
+      const PoseProblem problem = SeenLate(T_cw, late_s, speed, compensated * speed);
       const PoseSummary found = OptimisePose(problem, Camera{}, {});
-      EXPECT_THAT(found.T_cw, PoseNear(T_cw, 1e-6, 1e-6)) << late_s << " " << told;
+      EXPECT_THAT(found.T_cw, PoseNear(T_cw, 1e-6, 1e-6)) << late_s << " " << compensated;
       ASSERT_TRUE(found.evidence.speed);
       EXPECT_LT((*found.evidence.speed - speed).norm(), 1e-4);
       EXPECT_TRUE(found.evidence.of_pose.isZero());  // nothing was measured at its time

@@ -10,6 +10,7 @@
 #include <sstream>
 
 #include "io/input_error.h"
+#include "io/read_file.h"
 #include "slam/run/text_number.h"
 #include "tests/support/image_files.h"
 #include "tests/support/map_surfaces.h"
@@ -19,21 +20,14 @@ namespace slam {
 namespace {
 
 namespace fs = std::filesystem;
+using io::ReadFile;
 using nlohmann::json;
 using ::testing::ContainsRegex;
 using ::testing::ElementsAre;
 using ::testing::ThrowsMessage;
 
-std::string Bytes(const fs::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  EXPECT_TRUE(stream) << file;
-  std::stringstream text;
-  text << stream.rdbuf();
-  return text.str();
-}
-
 std::vector<std::string> Lines(const fs::path& file) {
-  std::istringstream stream(Bytes(file));
+  std::istringstream stream(ReadFile(file));
   std::vector<std::string> lines;
   for (std::string line; std::getline(stream, line);) lines.push_back(line);
   return lines;
@@ -120,12 +114,12 @@ class RunFolder : public ::testing::Test {
 
 TEST_F(RunFolder, NamesTheSequenceRelativeToARunThatIsGivenRelativeToTheCaller) {
   WriteRun(fs::proximate(run_) / "", {});
-  EXPECT_EQ(json::parse(Bytes(run_ / "run.json"))["sequence"], "../seq");
+  EXPECT_EQ(json::parse(ReadFile(run_ / "run.json"))["sequence"], "../seq");
 }
 
 TEST_F(RunFolder, SaysInRunJsonWhatWasRun) {
   WriteRun(run_, {});
-  const json run = json::parse(Bytes(run_ / "run.json"));
+  const json run = json::parse(ReadFile(run_ / "run.json"));
   EXPECT_EQ(run["format"], "pas-run/1");
   EXPECT_EQ(run["sequence"], "../seq");  // they may be moved together ...
   EXPECT_EQ(run["sequence_absolute"], (base_ / "seq").string());  // ... or the run alone
@@ -153,7 +147,7 @@ TEST_F(RunFolder, SaysWhenTheRunWasInterruptedAndWhatItWarnedOf) {
   RunWriter writer(run_, Info(), {});
   writer.WriteFrame({SomeFrame(0), true, {}, "", {}});
   writer.Finish(SomeMap(), {true, {"one", "two"}});
-  const json run = json::parse(Bytes(run_ / "run.json"));
+  const json run = json::parse(ReadFile(run_ / "run.json"));
   EXPECT_EQ(run["interrupted"], true);
   EXPECT_EQ(run["frames"], 1);
   EXPECT_EQ(run["sequence_frames"], 5);
@@ -169,7 +163,7 @@ TEST_F(RunFolder, SaysHowFarDepthLiesBesideItsColour) {
   RunEnd end;
   end.registration = estimate;
   writer.Finish(SomeMap(), end);
-  const json said = json::parse(Bytes(run_ / "run.json"))["depth_registration"];
+  const json said = json::parse(ReadFile(run_ / "run.json"))["depth_registration"];
   EXPECT_EQ(said["applied"], true);
   EXPECT_EQ(said["applied_px"], json({1.4, 0.0}));
   EXPECT_EQ(said["learnt"]["shift_px"], json({1.5, -0.25}));
@@ -179,7 +173,7 @@ TEST_F(RunFolder, SaysHowFarDepthLiesBesideItsColour) {
 TEST_F(RunFolder, SaysThatItSawTooLittleOfDepthAndColour) {
   RunWriter writer(run_, Info(), {});
   writer.Finish(SomeMap(), {});
-  const json said = json::parse(Bytes(run_ / "run.json"))["depth_registration"];
+  const json said = json::parse(ReadFile(run_ / "run.json"))["depth_registration"];
   EXPECT_EQ(said, json({{"applied", false}}));
 }
 
@@ -189,7 +183,7 @@ TEST_F(RunFolder, SaysHowLongTheColourCameraReads) {
   end.rolling_shutter =
       RollingEstimate{.read_s = 0.027, .sigma_s = 0.002, .applied_s = 0.026, .epochs = 9};
   writer.Finish(SomeMap(), end);
-  const json said = json::parse(Bytes(run_ / "run.json"))["rolling_shutter"];
+  const json said = json::parse(ReadFile(run_ / "run.json"))["rolling_shutter"];
   EXPECT_EQ(said, json::parse(R"({"applied_s": 0.026,
       "learnt": {"epochs": 9, "read_s": 0.027, "sigma_s": 0.002}})"));
 }
@@ -199,7 +193,7 @@ TEST_F(RunFolder, NamesASequenceInsideItSoThatItMayBeMoved) {
   info.sequence = run_ / "truth";
   RunWriter writer(run_, info, {});
   writer.Finish(SomeMap(), {});
-  EXPECT_EQ(json::parse(Bytes(run_ / "run.json"))["sequence"], "truth");
+  EXPECT_EQ(json::parse(ReadFile(run_ / "run.json"))["sequence"], "truth");
 }
 
 TEST_F(RunFolder, WritesEveryPlaneOfEveryFrameAsItWasDecided) {
@@ -249,7 +243,7 @@ TEST_F(RunFolder, TakesALaterTrajectoryInPlaceOfTheOneAsTracked) {
 
 TEST_F(RunFolder, HoldsTheMapWithItsMergedPlanesAndItsPoints) {
   WriteRun(run_, {});
-  const json map = json::parse(Bytes(run_ / "map.json"));
+  const json map = json::parse(ReadFile(run_ / "map.json"));
   ASSERT_EQ(map["planes"].size(), 2u);
   EXPECT_EQ(map["planes"][0],
             json::parse(R"({"id": 0, "class": "book", "normal": [0.0, 0.0, 1.0], "d": -0.75,
@@ -287,9 +281,9 @@ TEST_F(RunFolder, HasTheSameBytesEachTimeApartFromTimeAndMemory) {
   WriteRun(base_ / "again", {});
   for (const char* name :
        {"trajectory.txt", "keyframes.txt", "frame_planes.jsonl", "map.json", "map.ply"})
-    EXPECT_EQ(Bytes(run_ / name), Bytes(base_ / "again" / name)) << name;
+    EXPECT_EQ(ReadFile(run_ / name), ReadFile(base_ / "again" / name)) << name;
   const auto without_costs = [](const fs::path& file) {
-    json run = json::parse(Bytes(file));
+    json run = json::parse(ReadFile(file));
     run.erase("wall_time_s");
     run.erase("peak_memory_mb");
     return run.dump();
@@ -320,12 +314,12 @@ TEST_F(RunFolder, SaysWhatEachTrackedPoseIsWorth) {
 
 TEST_F(RunFolder, IsNeverOverwrittenWithoutForce) {
   WriteRun(run_, {});
-  const std::string before = Bytes(run_ / "run.json");
+  const std::string before = ReadFile(run_ / "run.json");
   EXPECT_THAT([&] { RunWriter(run_, Info(), {}); },
               ThrowsMessage<io::InputError>(ContainsRegex("run: exists already; .*--force")));
   EXPECT_THAT([&] { RunWriter(run_.string() + "/", Info(), {}); },
               ThrowsMessage<io::InputError>(ContainsRegex("exists already")));
-  EXPECT_EQ(Bytes(run_ / "run.json"), before);
+  EXPECT_EQ(ReadFile(run_ / "run.json"), before);
 }
 
 TEST_F(RunFolder, IsReplacedWithForceOnlyWhenTheNewOneIsWhole) {
@@ -357,8 +351,8 @@ TEST_F(RunFolder, LooksCompleteAtNoMomentWhenTheProcessIsKilled) {
     if (!fs::exists(run_)) continue;
     ++whole;
     EXPECT_EQ(Lines(run_ / "frame_planes.jsonl").size(), 3u);
-    EXPECT_EQ(json::parse(Bytes(run_ / "run.json"))["frames"], 3);
-    EXPECT_EQ(json::parse(Bytes(run_ / "map.json"))["planes"].size(), 2u);
+    EXPECT_EQ(json::parse(ReadFile(run_ / "run.json"))["frames"], 3);
+    EXPECT_EQ(json::parse(ReadFile(run_ / "map.json"))["planes"].size(), 2u);
   }
   WriteRun(run_, {.force = true});
   EXPECT_THAT(Beside(), ElementsAre("run")) << "what killed runs left is cleaned up";

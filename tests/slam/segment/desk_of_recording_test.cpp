@@ -2,7 +2,6 @@
 
 #include <Eigen/Geometry>
 #include <cmath>
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -14,23 +13,16 @@
 #include "slam/geometry/plane.h"
 #include "slam/segment/plane_segments.h"
 #include "tests/support/image_files.h"
+#include "tests/support/shared_data.h"
 #include "tests/support/slam_matchers.h"
 
 namespace slam {
 namespace {
 
-/// The recording's folder; empty when it is not there.
-std::string Recording() {
-  const char* shared = std::getenv("PAS_SHARED_DIR");
-  const std::string root = shared ? shared : std::string(PAS_SOURCE_DIR) + "/../shared";
-  const std::string folder = root + "/data/tum_fr1_xyz_first37";
-  return std::filesystem::exists(folder + "/associations.txt") ? folder : "";
-}
-
 /// Turns of the camera, from the recording's motion capture.
 class MotionCapture {
  public:
-  explicit MotionCapture(const std::string& file) {
+  explicit MotionCapture(const std::filesystem::path& file) {
     std::ifstream in(file);
     std::string line;
     while (std::getline(in, line)) {
@@ -65,15 +57,15 @@ const FramePlane* DeskOf(const Frame& frame) {
 }
 
 TEST(DeskOfARecording, IsOneSegmentInEveryFrameWithASteadyNormal) {
-  const std::string folder = Recording();
-  if (folder.empty()) GTEST_SKIP() << "the recording tum_fr1_xyz_first37 is not there";
-  const MotionCapture truth(folder + "/groundtruth_full.txt");
+  const std::filesystem::path folder = test_support::TumRecording();
+  SKIP_WITHOUT(folder);
+  const MotionCapture truth(folder / "groundtruth_full.txt");
   // The depth camera's clock is 20 ms behind: at that offset normals of hand-drawn pieces of
   // the desk scatter least.
   constexpr double kClock_s = -0.02;
   const Camera camera = TumCamera("tum1");
   const cv::Mat2d rays = PixelRays(camera);
-  std::ifstream list(folder + "/depth.txt");
+  std::ifstream list(folder / "depth.txt");
   std::string line;
   std::vector<Eigen::Vector3d> normals_w;
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
@@ -83,7 +75,7 @@ TEST(DeskOfARecording, IsOneSegmentInEveryFrameWithASteadyNormal) {
     double stamp = 0;
     std::string file;
     std::istringstream(line) >> stamp >> file;
-    const cv::Mat raw = test_support::ReadImageFile(folder + "/" + file);
+    const cv::Mat raw = test_support::ReadImageFile(folder / file);
     ASSERT_FALSE(raw.empty()) << file;
     Frame frame;
     raw.convertTo(frame.depth_m, CV_32F, 1.0 / camera.depth_factor);

@@ -61,6 +61,7 @@ TEST(OuterContours, PointAwayFromTheirOwnSegment) {
   cv::copyMakeBorder(labels, framed, 2, 2, 2, 2, cv::BORDER_CONSTANT, 0);
   OuterContours contours;
   contours.Trace(labels);
+  ASSERT_FALSE(contours.points().empty());
   for (const cv::Point& at : contours.points()) {
     cv::Point expected(0, 0);
     for (int dv = -2; dv <= 2; ++dv) {

@@ -5,6 +5,7 @@
 
 #include "slam/segment/pixels/pixel_labels.h"
 #include "slam/segment/plane_segments.h"
+#include "tests/support/cameras.h"
 #include "tests/support/closed_form_depth.h"
 #include "tests/support/depth_planes.h"
 
@@ -16,21 +17,13 @@ struct SizedView {
   cv::Mat1f depth_m;
 };
 
-Camera SizedCamera(int width, int height) {
-  Camera camera;
-  camera.width = width, camera.height = height;
-  camera.fx = camera.fy = 0.82 * width;
-  camera.cx = 0.5 * (width - 1), camera.cy = 0.5 * (height - 1);
-  return camera;
-}
-
 /// Books on a desk, more of them the larger `books`.
 SizedView BooksView(int width, int height, int books) {
   closed_form::World world = closed_form::Desk();
   for (int k = 0; k < books; ++k)
     closed_form::PutOnDesk(world, 0.16 * k - 0.2, 0.05 * k, {0.12, 0.17, 0.03 + 0.01 * k},
                            0.3 * k, "book");
-  const Camera camera = SizedCamera(width, height);
+  const Camera camera = CameraOfSize(width, height);
   const Pose T_cw = closed_form::LookAt({0.05, -0.6, 0.6}, {0, 0, 0});
   const closed_form::View view = closed_form::Render(world, camera, T_cw);
   return {camera, closed_form::AddKinectNoise(view.depth_m, 7u + static_cast<unsigned>(books))};
@@ -87,7 +80,7 @@ TEST(PlaneExtractor, FitsItsPlanesToThePixelsThatItDraws) {
 TEST(PlaneExtractor, GivesTheSameWhateverItHasSeenBefore) {
   std::vector<SizedView> views{BooksView(320, 240, 4), BooksView(320, 240, 1),
                                BooksView(320, 240, 2)};
-  views.push_back({SizedCamera(320, 240), cv::Mat1f(240, 320, 0.0f)});
+  views.push_back({CameraOfSize(320, 240), cv::Mat1f(240, 320, 0.0f)});
   views.push_back(views.front());
   PlaneExtractor used(views[0].camera, PixelRays(views[0].camera), {}, {});
   for (std::size_t k = 0; k < views.size(); ++k) {

@@ -307,6 +307,7 @@ TEST(PlaneSegments, GiveTheSameBytesTwice) {
   const StepView step(0.02, 0.8);
   const cv::Mat1f depth_m = closed_form::AddKinectNoise(step.view.depth_m, 9);
   const Frame a = Extract(depth_m, step.camera), b = Extract(depth_m, step.camera);
+  ASSERT_FALSE(a.planes.empty());
   ASSERT_EQ(a.planes.size(), b.planes.size());
   EXPECT_EQ(cv::countNonZero(a.plane_labels != b.plane_labels), 0);
   for (std::size_t k = 0; k < a.planes.size(); ++k) {

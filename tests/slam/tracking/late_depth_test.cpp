@@ -33,7 +33,8 @@ double FarthestOff_m(double late_s) {
     problem.prior = filter.Predict(now_s);
     problem.T_cw = problem.prior->T_cw;
     problem.late = LatePlanes{late_s, filter.Speed(now_s).mean, *by_pose};
-    const Pose seen_from = Exp(-late_s * problem.late->told) * SwayingPose(now_s + late_s);
+    const Pose seen_from =
+        Exp(-late_s * problem.late->compensated_speed) * SwayingPose(now_s + late_s);
     for (int axis = 0; axis < 3; ++axis) {
       PlaneConstraint c;
       c.pi_w = {Eigen::Vector3d::Unit(axis), 1.0};

@@ -3,16 +3,14 @@
 #include <gmock/gmock.h>
 
 #include <cmath>
-#include <cstdlib>
-#include <filesystem>
 #include <fstream>
-#include <iostream>
 #include <sstream>
 #include <string>
 #include <vector>
 
 #include "slam/base/random.h"
 #include "tests/support/plane_world.h"
+#include "tests/support/shared_data.h"
 #include "tests/support/slam_matchers.h"
 
 namespace slam {
@@ -264,13 +262,9 @@ struct TimedTruth {
   Pose T_cw;
 };
 
-/// The truth of a hand-held recording, 100 times a second; empty without the reference data.
+/// The truth of a hand-held recording, 100 times a second.
 std::vector<TimedTruth> RealHand() {
-  const char* shared = std::getenv("PAS_SHARED_DIR");
-  const std::filesystem::path base =
-      shared ? std::filesystem::path(shared)
-             : std::filesystem::path(PAS_SOURCE_DIR) / ".." / "shared";
-  std::ifstream file(base / "data/tum_fr1_xyz_first37/groundtruth_full.txt");
+  std::ifstream file(test_support::TumRecording() / "groundtruth_full.txt");
   std::vector<TimedTruth> truth;
   for (std::string line; std::getline(file, line);) {
     std::istringstream words(line);
@@ -284,11 +278,11 @@ std::vector<TimedTruth> RealHand() {
 }
 
 TEST(MotionFilter, KnowsARealHand) {
+  SKIP_WITHOUT(test_support::TumRecording());
   const std::vector<TimedTruth> truth = RealHand();
-  if (truth.empty()) GTEST_SKIP() << "no reference data; set PAS_SHARED_DIR";
   // Seen every 30 ms. True speeds are those of 20 ms before and after.
   MotionFilter filter{{}};
-  Vector6d speed2 = Vector6d::Zero(), predicted2 = speed2, found2 = speed2, nees = speed2;
+  Vector6d nees = Vector6d::Zero();
   int frames = 0;
   for (std::size_t i = 2; i + 2 < truth.size(); i += 3) {
     const TimedTruth &now = truth[i], &before = truth[i - 2], &after = truth[i + 2];
@@ -296,17 +290,11 @@ TEST(MotionFilter, KnowsARealHand) {
         Log(after.T_cw * Inverse(before.T_cw)) / (after.timestamp_s - before.timestamp_s);
     if (const auto by_pose = filter.SpeedAt(now.timestamp_s); by_pose && i > 30) {
       const Vector6d left = by_pose->At(now.T_cw) - speed;
-      speed2 += speed.cwiseAbs2();
-      predicted2 += (filter.Speed(now.timestamp_s).mean - speed).cwiseAbs2();
-      found2 += left.cwiseAbs2();
       nees += left.cwiseAbs2().cwiseQuotient(by_pose->covariance.diagonal());
       ++frames;
     }
     filter.Observe(now.timestamp_s, now.T_cw, kAll);
   }
-  const auto rms = [&](const Vector6d& sum) -> Vector6d { return (sum / frames).cwiseSqrt(); };
-  std::cout << "speed     " << rms(speed2).transpose() << "\npredicted "
-            << rms(predicted2).transpose() << "\nfound     " << rms(found2).transpose() << '\n';
   // Neither much surer of a hand's speed than it can be, nor much less.
   nees /= frames;
   EXPECT_GT(nees.minCoeff(), 0.1);
@@ -314,23 +302,21 @@ TEST(MotionFilter, KnowsARealHand) {
 }
 
 TEST(MotionFilter, KnowsHowFarARealHandGoesUnseen) {
+  SKIP_WITHOUT(test_support::TumRecording());
   const std::vector<TimedTruth> truth = RealHand();
-  if (truth.empty()) GTEST_SKIP() << "no reference data; set PAS_SHARED_DIR";
   for (const double ahead_s : {0.1, 0.33, 1.0}) {
     const auto ahead = static_cast<std::size_t>(std::lround(100 * ahead_s));
     MotionFilter filter{{}};
-    Vector6d squares = Vector6d::Zero(), nees = squares;
+    Vector6d nees = Vector6d::Zero();
     int frames = 0;
     for (std::size_t i = 0; i + ahead < truth.size(); i += 3) {
       filter.Observe(truth[i].timestamp_s, truth[i].T_cw, kAll);
       if (i <= 30) continue;
       const UncertainPose predicted = *filter.Predict(truth[i + ahead].timestamp_s);
       const Vector6d off = Log(truth[i + ahead].T_cw * Inverse(predicted.T_cw));
-      squares += off.cwiseAbs2();
       nees += off.cwiseAbs2().cwiseQuotient(predicted.covariance.diagonal());
       ++frames;
     }
-    std::cout << ahead_s << " s: off " << (squares / frames).cwiseSqrt().transpose() << '\n';
     nees /= frames;
     EXPECT_GT(nees.minCoeff(), 0.1) << ahead_s;
     EXPECT_LT(nees.maxCoeff(), 4.0) << ahead_s;

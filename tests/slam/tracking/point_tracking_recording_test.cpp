@@ -3,7 +3,6 @@
 #include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -13,17 +12,10 @@
 
 #include "tests/slam/tracking/point_odometer.h"
 #include "tests/support/image_files.h"
+#include "tests/support/shared_data.h"
 
 namespace slam {
 namespace {
-
-std::filesystem::path Recording() {
-  const char* named = std::getenv("PAS_SHARED_DIR");
-  const std::filesystem::path shared =
-      named != nullptr ? std::filesystem::path(named)
-                       : std::filesystem::path(PAS_SOURCE_DIR) / "../shared";
-  return shared / "data" / "tum_fr1_xyz_first37";
-}
 
 std::vector<std::vector<std::string>> Rows(const std::filesystem::path& file) {
   std::vector<std::vector<std::string>> rows;
@@ -65,10 +57,8 @@ double AlignedError(const Eigen::Matrix3Xd& estimate, const Eigen::Matrix3Xd& tr
 }
 
 TEST(PointTrackingOfARecording, StaysWithin7MillimetresOfTheMotionCapture) {
-  const std::filesystem::path folder = Recording();
-  if (!std::filesystem::exists(folder)) {
-    GTEST_SKIP() << "no reference data at " << folder << "; set PAS_SHARED_DIR";
-  }
+  const std::filesystem::path folder = test_support::TumRecording();
+  SKIP_WITHOUT(folder);
   std::vector<Sighting> truth;
   for (const auto& row : Rows(folder / "groundtruth.txt")) {
     truth.push_back(

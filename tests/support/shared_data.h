@@ -1,10 +1,11 @@
 #pragma once
 
+#include <gtest/gtest.h>
+
 #include <cstdlib>
 #include <filesystem>
-#include <string>
 
-namespace eval::testing {
+namespace test_support {
 
 /// The folder with reference figures and recordings: PAS_SHARED_DIR, else beside the sources.
 inline std::filesystem::path SharedFolder() {
@@ -13,7 +14,12 @@ inline std::filesystem::path SharedFolder() {
                           : std::filesystem::path(PAS_SOURCE_DIR) / "../shared";
 }
 
-}  // namespace eval::testing
+/// The first 37 frames of TUM's fr1/xyz, with the truth of the whole recording.
+inline std::filesystem::path TumRecording() {
+  return SharedFolder() / "data/tum_fr1_xyz_first37";
+}
+
+}  // namespace test_support
 
 /// Skips the case, with the reason, where the reference data are not installed.
 #define SKIP_WITHOUT(folder)                                                       \

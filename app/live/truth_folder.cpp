@@ -1,4 +1,4 @@
-#include "app/truth_folder.h"
+#include "app/live/truth_folder.h"
 
 #include <filesystem>
 #include <utility>

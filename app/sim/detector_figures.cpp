@@ -1,10 +1,10 @@
-#include "app/detector_figures.h"
+#include "app/sim/detector_figures.h"
 
 #include <cstdio>
 #include <numeric>
 
 #include "app/app.h"
-#include "app/console.h"
+#include "app/console/console.h"
 #include "io/output_file.h"
 #include "io/output_folder.h"
 #include "sim/detect/detector_score.h"

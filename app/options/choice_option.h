@@ -30,4 +30,14 @@ CLI::Validator ChoiceOf(const std::vector<std::pair<std::string, Enum>>& choices
           description};
 }
 
+/// The same for an enumeration whose values are named in their order.
+template <typename Enum>
+CLI::Validator ChoiceByIndex(const std::vector<std::string>& names) {
+  std::vector<std::pair<std::string, Enum>> choices;
+  for (const std::string& name : names) {
+    choices.emplace_back(name, static_cast<Enum>(choices.size()));
+  }
+  return ChoiceOf(choices);
+}
+
 }  // namespace app

@@ -1,4 +1,4 @@
-#include "slam/features/tell_at_speed.h"
+#include "slam/features/compensate_motion.h"
 
 #include <gtest/gtest.h>
 
@@ -47,12 +47,12 @@ Camera Lens() {
 const Vector6d kPredicted = Speed(0.4, -0.3, 0.2, 0.5, -0.8, 1.0);
 const Vector6d kFound = Speed(0.3, -0.2, 0.3, 0.7, -0.6, 0.8);
 
-TEST(TellAtSpeed, IsWhatExtractionAtThatSpeedWouldHaveTold) {
+TEST(CompensateMotion, GivesWhatExtractionAtThatSpeedWouldHave) {
   const Camera camera = Lens();
   for (const bool has_depth : {true, false}) {
     Frame frame = ReadAt(kPredicted, camera, has_depth);
     const std::vector<PointFeature> before = frame.features;
-    EXPECT_TRUE(TellAtSpeed(camera, kFound, frame));
+    EXPECT_TRUE(CompensateMotion(camera, kFound, frame));
     const std::vector<PointFeature> expected = ReadAt(kFound, camera, has_depth).features;
     ASSERT_EQ(frame.features.size(), expected.size());
     double moved_px = 0.0;
@@ -73,24 +73,26 @@ TEST(TellAtSpeed, IsWhatExtractionAtThatSpeedWouldHaveTold) {
   }
 }
 
-TEST(TellAtSpeed, LeadsBackToWhereItBegan) {
+TEST(CompensateMotion, LeadsBackToWhereItBegan) {
   const Camera camera = Lens();
   Frame frame = ReadAt(kPredicted, camera, true);
   const std::vector<PointFeature> before = frame.features;
-  TellAtSpeed(camera, kFound, frame);
-  TellAtSpeed(camera, kPredicted, frame);
+  CompensateMotion(camera, kFound, frame);
+  CompensateMotion(camera, kPredicted, frame);
+  ASSERT_FALSE(before.empty());
   for (std::size_t i = 0; i < before.size(); ++i) {
     EXPECT_LT((frame.features[i].u_px - before[i].u_px).norm(), 1e-3);
     EXPECT_NEAR(frame.features[i].depth_m, before[i].depth_m, 1e-5);
   }
 }
 
-TEST(TellAtSpeed, LeavesAFrameOfOneMomentAsItIs) {
+TEST(CompensateMotion, LeavesAFrameOfOneMomentAsItIs) {
   const Camera camera = Lens();
   Frame frame = ReadAt(kPredicted, camera, true);
   frame.readout.taken_out_s = 0.0, frame.depth_late_s = 0.0;
   const std::vector<PointFeature> before = frame.features;
-  EXPECT_FALSE(TellAtSpeed(camera, kFound, frame));
+  EXPECT_FALSE(CompensateMotion(camera, kFound, frame));
+  ASSERT_FALSE(before.empty());
   for (std::size_t i = 0; i < before.size(); ++i)
     EXPECT_EQ(frame.features[i].u_px, before[i].u_px);
 }

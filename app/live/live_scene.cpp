@@ -1,4 +1,4 @@
-#include "app/live_scene.h"
+#include "app/live/live_scene.h"
 
 #include <opencv2/imgproc.hpp>
 #include <stdexcept>

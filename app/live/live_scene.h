@@ -5,7 +5,7 @@
 #include <memory>
 #include <string>
 
-#include "app/truth_folder.h"
+#include "app/live/truth_folder.h"
 #include "sim/write/recording.h"
 #include "slam/detect/detections.h"
 #include "slam/geometry/camera.h"

@@ -1,4 +1,4 @@
-#include "app/stop_signal.h"
+#include "app/console/stop_signal.h"
 
 namespace app {
 namespace {

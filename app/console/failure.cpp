@@ -1,4 +1,4 @@
-#include "app/failure.h"
+#include "app/console/failure.h"
 
 #include <fcntl.h>
 #include <unistd.h>

@@ -1,4 +1,4 @@
-#include "app/choice_option.h"
+#include "app/options/choice_option.h"
 
 #include <algorithm>
 

@@ -1,4 +1,4 @@
-#include "app/warp_picture.h"
+#include "app/calibrate/warp_picture.h"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "app/surfaces_option.h"
+#include "app/options/surfaces_option.h"
 
 #include <fmt/format.h>
 
@@ -62,8 +62,7 @@ void AddSurfacesOption(CLI::App& command, SurfacesOption& option) {
       "File of `pas surfaces`: also score segments and landmarks on the large surfaces of a "
       "recording without planes of truth; needs RUN/segmentation/. `true`: on the true planes "
       "of a simulated sequence, as far as they are as large; `true-on-depth`: on those of "
-      "their "
-      "pixels whose depth lies on the plane");
+      "their pixels whose depth lies on the plane");
   command
       .add_option("--surface-pictures", option.pictures,
                   "Folder for pictures of the worst frames: surfaces, and what the run made of "

@@ -1,11 +1,7 @@
-#include "app/sim_arguments.h"
-
-#include <cmath>
-#include <filesystem>
+#include "app/sim/sim_arguments.h"
 
 #include "io/sha256.h"
 #include "sim/motion/recorded.h"
-#include "sim/scene/names.h"
 #include "sim/scene/read_scene.h"
 #include "sim/sensor/read_sensor.h"
 #include "version.h"
@@ -30,6 +26,10 @@ void SetRecordingOf(const SimArguments& arguments, sim::Sensor& sensor) {
 }
 
 }  // namespace
+
+std::vector<std::filesystem::path> InputsOf(const SimArguments& arguments) {
+  return {arguments.scene, arguments.trajectory, arguments.sensor.value_or("")};
+}
 
 sim::Scene SceneOf(const SimArguments& arguments) {
   sim::Scene scene = sim::ReadScene(arguments.scene);

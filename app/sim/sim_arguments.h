@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstdint>
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
@@ -28,6 +30,9 @@ struct SimArguments {
       depth_offset_ms, stamp_jitter_ms, registration_px, intrinsics_error;
   bool resume = false, force = false, detector_report = false;
 };
+
+/// The files that a sequence is made of.
+std::vector<std::filesystem::path> InputsOf(const SimArguments& arguments);
 
 /// The scene that is named, moved as the command line says.
 sim::Scene SceneOf(const SimArguments& arguments);

@@ -1,4 +1,4 @@
-#include "slam/features/tell_at_speed.h"
+#include "slam/features/compensate_motion.h"
 
 namespace slam {
 namespace {
@@ -9,8 +9,9 @@ struct Cameras {
   Pose T_dc;
 };
 
-void TellAgain(const Camera& camera, const Cameras& before, const Cameras& now,
-               PointFeature& feature) {
+/// Moves a feature that was compensated with the one set of cameras to where the other puts it.
+void MoveFeature(const Camera& camera, const Cameras& before, const Cameras& now,
+                 PointFeature& feature) {
   const bool has_depth = feature.depth_m > 0;
   const Eigen::Vector3d x_c =
       camera.Backproject(feature.u_px, has_depth ? feature.depth_m : 1.0);
@@ -27,7 +28,7 @@ void TellAgain(const Camera& camera, const Cameras& before, const Cameras& now,
     if (!(x_r.z() > kMinVisibleDepth_m)) return;
   }
 
-  // The depth image tells the same depth, measured from elsewhere.
+  // The depth image says the same depth, measured from elsewhere.
   const Pose T_cr = Inverse(now.readout.T_rc(share));
   if (has_depth) {
     const double z_d_m = (before.T_dc * x_c).z();
@@ -35,21 +36,21 @@ void TellAgain(const Camera& camera, const Cameras& before, const Cameras& now,
     const Eigen::Vector3d ray = x_r / x_r.z();
     x_r = (z_d_m - T_dr.t.z()) / T_dr.R.row(2).dot(ray) * ray;
   }
-  const Eigen::Vector3d told_c = moved(T_cr, x_r);
-  if (!(told_c.z() > kMinVisibleDepth_m)) return;
-  feature.u_px = camera.Project(told_c);
-  if (has_depth) feature.depth_m = told_c.z();
+  const Eigen::Vector3d moved_c = moved(T_cr, x_r);
+  if (!(moved_c.z() > kMinVisibleDepth_m)) return;
+  feature.u_px = camera.Project(moved_c);
+  if (has_depth) feature.depth_m = moved_c.z();
 }
 
 }  // namespace
 
-bool TellAtSpeed(const Camera& camera, const Vector6d& speed, Frame& frame) {
+bool CompensateMotion(const Camera& camera, const Vector6d& speed, Frame& frame) {
   if (frame.readout.empty() && frame.depth_late_s == 0.0) return false;
   const Cameras before{frame.readout, frame.T_dc()};
   frame.speed.mean = speed;
   frame.readout.speed = speed;
   const Cameras now{frame.readout, frame.T_dc()};
-  for (PointFeature& feature : frame.features) TellAgain(camera, before, now, feature);
+  for (PointFeature& feature : frame.features) MoveFeature(camera, before, now, feature);
   return true;
 }
 

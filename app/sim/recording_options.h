@@ -8,9 +8,15 @@
 #include <string>
 #include <vector>
 
-#include "sim/write/write_sequence.h"
+#include "app/sim/sim_arguments.h"
 
 namespace app {
+
+/// The options of `pas sim` that say how a scene is recorded: frames, sensor, motion, detector,
+/// size ...
+/// @param prefix  before the names `seed`, `sensor` and `detector`, for a command that has taken
+///   them itself
+void AddCaptureOptions(CLI::App& command, SimArguments& arguments, const std::string& prefix);
 
 /// A scene and how it is to be recorded.
 struct SceneRecording {
@@ -20,10 +26,7 @@ struct SceneRecording {
   std::vector<std::filesystem::path> inputs;  ///< the files that this was read from
 };
 
-/// Adds the options of `pas sim` that say how a scene is recorded (frames, sensor, motion,
-/// detector, size, ...) to another command, so that both record the same.
-/// @param prefix  before the names `seed`, `sensor` and `detector`, which the command has taken
-///   itself
+/// The same options for another command, so that both record the same.
 /// @returns reads a scene file and says what the options make of it, once they are parsed;
 ///   `seed` stands in for a --PREFIXseed that is not given
 using ReadRecording = std::function<SceneRecording(const std::string& scene_file,

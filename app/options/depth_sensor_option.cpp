@@ -1,4 +1,4 @@
-#include "app/depth_sensor_option.h"
+#include "app/options/depth_sensor_option.h"
 
 #include <fmt/core.h>
 
@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <optional>
 
+#include "app/options/choice_option.h"
 #include "slam/run/config_file.h"
 #include "slam/run/scatter_of.h"
 
@@ -28,7 +29,7 @@ CLI::Option* AddSensorOption(CLI::App& command, std::string& sensor) {
     help += ". auto: what the noise of the recording is like, kinect1 where it does not tell";
   }
   return command.add_option("--sensor", sensor, help)
-      ->check(CLI::IsMember(names))
+      ->check(Choice(names))
       ->capture_default_str();
 }
 

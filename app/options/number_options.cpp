@@ -1,8 +1,6 @@
-#include "app/number_options.h"
+#include "app/options/number_options.h"
 
-#include <charconv>
 #include <cstdint>
-#include <optional>
 
 #include "io/input_error.h"
 #include "io/number_text.h"
@@ -10,20 +8,10 @@
 namespace app {
 namespace {
 
-template <typename Whole>
-std::optional<Whole> WholeFrom(const std::string& text) {
-  Whole number = 0;
-  const char* const begin = text.data() + (text.starts_with('+') ? 1 : 0);
-  const char* const end = text.data() + text.size();
-  const auto [stop, error] = std::from_chars(begin, end, number);
-  if (error != std::errc() || stop != end) return std::nullopt;
-  return number;
-}
-
 /// Puts the number's plain decimal form in the place of its text. @returns what is wrong
 template <typename Whole>
 std::string ToDecimal(std::string& text, const char* expected) {
-  const auto number = WholeFrom<Whole>(text);
+  const auto number = io::ParseWhole<Whole>(text.starts_with('+') ? text.substr(1) : text);
   if (!number) return std::string("expected ") + expected + ", found " + io::Quoted(text);
   text = std::to_string(*number);
   return "";
