@@ -28,6 +28,7 @@ struct SlamArguments {
   std::string sensor = kAutoSensor;
   std::string config_file;
   std::optional<slam::Segmentation> segmentation;
+  std::optional<slam::AssociationRule> association;
   std::optional<slam::StructureMode> structure;
   bool print_config = false;
   bool loop_closing = false;
@@ -92,6 +93,23 @@ void AddLiveOptions(CLI::App& command, SlamArguments& arguments,
 /// Settings with an option of their own, which goes over a --config.
 void AddSettingOptions(CLI::App& command, SlamArguments& arguments) {
   command
+      .add_option("--mapping", arguments.mapping,
+                  "sync: between frames; the same input gives the same bytes. async: on a "
+                  "thread of its own; tracking never waits for an adjustment. Default: as "
+                  "--config says, else sync")
+      ->check(Choice({"sync", "async"}));
+  command.add_option(
+      "--depth-warp", arguments.depth_warp,
+      "auto: learn from the planes of the run how the depth camera bends what is flat, and "
+      "take that out once it is worth it; off; or a file of pas calibrate. Default: as "
+      "--config says, else auto");
+  command
+      .add_option("--association", arguments.association,
+                  "How planes are associated by --variant full. integrated | parameters | "
+                  "manhattan-slam | planar-slam | sp-slam (as those programs decide, all else "
+                  "being this one's). Default: as --config says, else integrated")
+      ->transform(ChoiceByIndex<slam::AssociationRule>(slam::AssociationRuleNames()));
+  command
       .add_option(
           "--structure", arguments.structure,
           "What is assumed of how planes stand to each other. none | parallel (parallel "
@@ -128,6 +146,13 @@ int Verdict(const slam::RunOutcome& outcome, const std::string& sequence) {
 /// Takes into the settings what the options say over them.
 void SetOptions(const SlamArguments& arguments, slam::Config& config) {
   if (arguments.segmentation) config.plane_extraction.segmentation = *arguments.segmentation;
+  if (arguments.association) {
+    if (arguments.variant != "full") {
+      throw io::InputError("--association", "is of --variant full, found " + arguments.variant +
+                                                "; leave one of the two out");
+    }
+    config.association.rule = *arguments.association;
+  }
   if (arguments.structure) config.structure.mode = *arguments.structure;
   if (arguments.loop_closing) config.loop_closing.enabled = true;
   if (arguments.detect_every) config.detection.every = *arguments.detect_every;

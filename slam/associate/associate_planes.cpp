@@ -9,9 +9,9 @@
 
 #include "slam/associate/correct_prediction.h"
 #include "slam/associate/frame_relations.h"
+#include "slam/associate/nearest_rules.h"
 #include "slam/associate/pair_evidence.h"
 #include "slam/associate/plane_assignment.h"
-#include "slam/associate/plane_gates.h"
 #include "slam/base/index.h"
 #include "slam/model/class_belief.h"
 #include "slam/model/map_queries.h"
@@ -200,32 +200,29 @@ PlaneAssociation IntegratedRule(const Frame& frame, const Map& map, const Camera
   return out;
 }
 
-/// What common systems do: the gates, and of the landmarks that pass the nearest; of the
+/// What common systems do: of the landmarks that pass the rule's bounds the nearest, of the
 /// candidates where there is none.
-PlaneAssociation ParameterRule(const Frame& frame, const Map& map,
-                               const PlaneGateConfig& gates) {
+PlaneAssociation NearestRule(const Frame& frame, const Map& map,
+                             const AssociationConfig& config) {
   PlaneAssociation out;
   out.matches.resize(frame.planes.size());
   for (std::size_t f = 0; f < frame.planes.size(); ++f) {
-    const FramePlane& plane = frame.planes[f];
-    if (plane.bad) continue;
-    std::vector<Eigen::Vector3d> edge_points_c;
-    for (const EdgePoint& edge : plane.edge_points) edge_points_c.push_back(edge.p_c);
+    if (frame.planes[f].bad) continue;
     constexpr double kNone_m = std::numeric_limits<double>::infinity();
     double nearest_m = kNone_m, nearest_on_trial_m = kNone_m;
     PlaneMatch landmark, candidate;
     for (const MapPlane& m : map.planes) {
       if (m.status == LandmarkStatus::kMerged) continue;
-      const auto gate = TestPlaneGates(plane.pi_c, plane.centroid_c, edge_points_c, m.pi_w,
-                                       frame.T_cw, gates);
-      if (!gate) {
-        out.refused.Add(gate.error());
+      const auto distance_m =
+          TestNearness(frame.planes[f], m, frame.T_cw, config.rule, config.gates);
+      if (!distance_m) {
+        out.refused.Add(distance_m.error());
         continue;
       }
       const bool on_trial = m.status == LandmarkStatus::kCandidate;
       double& nearest = on_trial ? nearest_on_trial_m : nearest_m;
-      if (!(gate.value().patch_offset_m < nearest)) continue;
-      nearest = gate.value().patch_offset_m;
+      if (!(distance_m.value() < nearest)) continue;
+      nearest = distance_m.value();
       (on_trial ? candidate : landmark) = {
           on_trial ? PlaneDecision::kTrial : PlaneDecision::kMatched, m.id,
           MatchReason::kParameters};
@@ -239,9 +236,9 @@ PlaneAssociation ParameterRule(const Frame& frame, const Map& map,
 
 PlaneAssociation AssociatePlanes(const Frame& frame, const Map& map, const Camera& camera,
                                  const AssociationConfig& config) {
-  return config.rule == AssociationRule::kParameters
-             ? ParameterRule(frame, map, config.gates)
-             : IntegratedRule(frame, map, camera, config);
+  return config.rule == AssociationRule::kIntegrated
+             ? IntegratedRule(frame, map, camera, config)
+             : NearestRule(frame, map, config);
 }
 
 }  // namespace slam

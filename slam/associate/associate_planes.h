@@ -21,8 +21,7 @@ struct PlaneAssociation {
 /// candidate, or none. Asked once a frame; nothing is changed.
 ///
 /// The integrated rule keeps a pair whose offset and slopes agree within everybody's
-/// uncertainty (chi-square), whose footprints cover each other as seen now (or, between
-/// surfaces without class, go on from one another), whose class the map plane's belief allows
+/// uncertainty (chi-square), whose footprints cover each other as seen now, whose class the map plane's belief allows
 /// and whose projected box meets the detection; it then assigns all planes at once, best first.
 /// The landmarks that fit beyond doubt first correct the predicted pose, because an error of
 /// the pose moves all planes alike: what is left are the millimetres between them. The rank
@@ -30,11 +29,10 @@ struct PlaneAssociation {
 /// nearly equal answers give none. A candidate takes a plane from a landmark only if it is
 /// likelier and not the same surface.
 ///
-/// The parameter rule takes the nearest landmark that passes eq6 and (eq7 or eq8), or else the
+/// The other rules (nearest_rules.h) take the nearest landmark that passes their bounds, or else the
 /// nearest such candidate.
 ///
-/// Planes that are far, badly fitted or on an unstructured object stay kUnmatched; by the parameter
-/// rule so do those that lack a corner. The outcome
+/// Planes that are far, badly fitted or on an unstructured object stay kUnmatched. The outcome
 /// depends neither on the order of frame and map planes nor on where the world lies. Source:
 /// PAS-SLAM eq6 to eq12 and its class rule (corrected as said in the headers of the parts).
 /// Cost: about 2 ms for 20 frame planes and 50 map planes of 1,000 cloud points.

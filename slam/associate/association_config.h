@@ -1,5 +1,8 @@
 #pragma once
 
+#include <string>
+#include <vector>
+
 #include "slam/associate/plane_gates.h"
 #include "slam/base/chi_square.h"
 #include "slam/base/field_visitor.h"
@@ -9,13 +12,23 @@ namespace slam {
 /// How planes are associated.
 enum class AssociationRule {
   kIntegrated,  ///< parameters with their uncertainty, overlap, boxes, class belief, rank test
-  kParameters   ///< eq6 and (eq7 or eq8) alone, nearest offset: what common systems do
+  kParameters,  ///< eq6 and (eq7 or eq8) alone, nearest offset
+  kManhattanSlam,  ///< as ManhattanSLAM's program decides (nearest_rules.h) ...
+  kPlanarSlam,     ///< ... PlanarSLAM's ...
+  kSpSlam          ///< ... and SP-SLAM's
 };
+
+/// Names of the rules, in their order, as settings and run.json have them.
+inline const std::vector<std::string>& AssociationRuleNames() {
+  static const std::vector<std::string> names{"integrated", "parameters", "manhattan-slam",
+                                              "planar-slam", "sp-slam"};
+  return names;
+}
 
 /// Everything that association of planes, points and boxes depends on.
 struct AssociationConfig {
   AssociationRule rule = AssociationRule::kIntegrated;
-  PlaneGateConfig gates;  ///< the parameter rule's; its angle also bounds the integrated rule
+  PlaneGateConfig gates;  ///< of kParameters; its angle also bounds the integrated rule
 
   double offset_floor_m = 0.0012;
   double angle_floor_rad = 0.006;
@@ -35,6 +48,10 @@ struct AssociationConfig {
 };
 
 inline void VisitFields(AssociationConfig& c, FieldVisitor& v) {
+  v.Named(
+      "rule", c.rule, AssociationRuleNames(),
+      "that of this project; bounds on parameters; what peers' programs do. The keys but gates "
+      "are the first one's");
   v.Section("gates", "bounds on the parameters of a pair of planes", c.gates);
   v.Number("offset_floor_m", c.offset_floor_m, "(0, inf)",
            "error of a plane's offset that does not average out (calibration, quantisation)");

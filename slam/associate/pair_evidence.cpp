@@ -76,14 +76,6 @@ PairEvidence Weigh(const Frame& frame, const FramePlane& f, const MapPlane& m,
   return pair;
 }
 
-}  // namespace
-
-double FragmentRatio(const AssociationConfig& config) {
-  return std::exp(0.5 * config.min_margin);  // as likelihoods have that must not be confused
-}
-
-namespace {
-
 /// Of two landmarks that a frame plane could show, it rather shows the one of which more is seen
 /// on it: a desk's segment that took in a book is the desk.
 void WeighShares(std::vector<PairEvidence>& row, const AssociationConfig& config) {
@@ -97,6 +89,10 @@ void WeighShares(std::vector<PairEvidence>& row, const AssociationConfig& config
 }
 
 }  // namespace
+
+double FragmentRatio(const AssociationConfig& config) {
+  return std::exp(0.5 * config.min_margin);  // as likelihoods have that must not be confused
+}
 
 PairTable WeighPairs(const Frame& frame, const Map& map, const UncertainPose& pose,
                      const UncertainPose& predicted, const Camera& camera,

@@ -32,8 +32,7 @@ Covariance3 PatchCovariance(double offset_sigma_m, double angle_sigma_rad,
 
 /// A frame plane's own, with what the sensor bends.
 Covariance3 PatchCovariance(const FramePlane& f, const Eigen::Vector2d& lever) {
-  return PatchCovariance(std::hypot(f.offset_sigma_m, f.bend_offset_sigma_m),
-                         std::hypot(f.angle_sigma_rad, f.bend_angle_sigma_rad), lever);
+  return PatchCovariance(f.OffsetSigma_m(), f.AngleSigma_rad(), lever);
 }
 
 /// Same for a map plane at x_w, slopes along `axes_w`.

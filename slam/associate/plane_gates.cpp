@@ -5,15 +5,14 @@
 
 namespace slam {
 
-Result<GateEvidence, PairRefusal> TestPlaneGates(const Plane& pi_c,
-                                                 const Eigen::Vector3d& centroid_c,
-                                                 std::span<const Eigen::Vector3d> edge_points_c,
-                                                 const Plane& pi_w, const Pose& T_cw,
-                                                 const PlaneGateConfig& config) {
+Result<double, PairRefusal> TestPlaneGates(const Plane& pi_c, const Eigen::Vector3d& centroid_c,
+                                           std::span<const Eigen::Vector3d> edge_points_c,
+                                           const Plane& pi_w, const Pose& T_cw,
+                                           const PlaneGateConfig& config) {
   const Plane map_pi_c = Transform(T_cw, pi_w);  // the map plane, where we now stand
 
-  const double beta = Angle(pi_c.n, map_pi_c.n);  // eq6
-  if (!(beta < config.max_normal_angle_rad)) return PairRefusal::kNormalAngle;
+  if (!(Angle(pi_c.n, map_pi_c.n) < config.max_normal_angle_rad))  // eq6
+    return PairRefusal::kNormalAngle;
   if (edge_points_c.empty()) return PairRefusal::kNoEdgePoints;
 
   const double offset = std::abs(SignedDistance(map_pi_c, centroid_c));  // eq7
@@ -27,7 +26,7 @@ Result<GateEvidence, PairRefusal> TestPlaneGates(const Plane& pi_c,
   const bool accepted =
       offset < config.max_patch_offset_m || ratio > config.min_edge_point_ratio;
   if (!accepted) return PairRefusal::kOffsetAndEdgePoints;
-  return GateEvidence{beta, offset, ratio};
+  return offset;
 }
 
 }  // namespace slam

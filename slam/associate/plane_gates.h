@@ -31,13 +31,6 @@ inline void VisitFields(PlaneGateConfig& c, FieldVisitor& v) {
            "share of the edge points that must be near the map plane; R_T of eq8");
 }
 
-/// What accepted a pair.
-struct GateEvidence {
-  double normal_angle_rad;
-  double patch_offset_m;    ///< absolute
-  double edge_point_ratio;  ///< in [0, 1]
-};
-
 /// Tests whether a plane seen now and a plane of the map can be one surface.
 ///
 ///   accepted  <=>  eq6 and (eq7 or eq8)
@@ -47,15 +40,14 @@ struct GateEvidence {
 /// @param edge_points_c  boundary points B_c of the patch, camera frame, metres
 /// @param pi_w           map plane, world frame
 /// @param T_cw           world to camera
-/// @returns the evidence, or the first gate that refused the pair
+/// @returns the absolute patch offset (eq7), metres, or the first gate that refused the pair
 ///
 /// Source: PAS-SLAM eq6 (corrected: signed cosine, so that the back of a board is not its
 /// front), eq7 (corrected: measured at the patch, so that the result does not depend on the
 /// world origin), eq8 (corrected: absolute distance). Cost: O(edge_points_c.size()).
-Result<GateEvidence, PairRefusal> TestPlaneGates(const Plane& pi_c,
-                                                 const Eigen::Vector3d& centroid_c,
-                                                 std::span<const Eigen::Vector3d> edge_points_c,
-                                                 const Plane& pi_w, const Pose& T_cw,
-                                                 const PlaneGateConfig& config);
+Result<double, PairRefusal> TestPlaneGates(const Plane& pi_c, const Eigen::Vector3d& centroid_c,
+                                           std::span<const Eigen::Vector3d> edge_points_c,
+                                           const Plane& pi_w, const Pose& T_cw,
+                                           const PlaneGateConfig& config);
 
 }  // namespace slam

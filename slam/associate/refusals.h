@@ -13,12 +13,13 @@ enum class PairRefusal {
   kParameters,           ///< chi-square of offset and slopes
   kOverlap,              ///< the footprints do not meet
   kCost,                 ///< all cues together
-  kRankTest              ///< eq9 to eq12
+  kRankTest,             ///< eq9 to eq12
+  kNearestPoint          ///< bounds of the peers' programs
 };
 
-inline constexpr std::array<const char*, 7> kPairRefusalNames = {
+inline constexpr std::array<const char*, 8> kPairRefusalNames = {
     "normal_angle", "no_edge_points", "offset_and_edge_points", "parameters", "overlap",
-    "cost",         "rank_test"};
+    "cost",         "rank_test",      "nearest_point"};
 
 /// How many pairs each cue refused or put in doubt. The sums over a run stand in run.json as
 /// `refused_pairs`, by these names.

@@ -46,9 +46,12 @@ RunInfo Describe(const RunOptions& options, const Camera& camera, const std::str
   info.sequence = options.sequence;
   info.sequence_frames = frames;
   info.variant = VariantName(options.variant);
-  info.association = options.variant == Variant::kPoints ? "none"
-                     : options.variant == Variant::kFull ? "integrated"
-                                                         : "parameters";
+  const AssociationRule rule = options.variant == Variant::kFull
+                                   ? options.config.association.rule
+                                   : AssociationRule::kParameters;
+  info.association = options.variant == Variant::kPoints
+                         ? "none"
+                         : AssociationRuleNames()[static_cast<std::size_t>(rule)];
   info.detector = detector;
   info.camera = camera;
   info.seed = options.seed;

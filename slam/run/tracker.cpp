@@ -36,8 +36,7 @@ namespace {
 /// The settings of the variant, with the run's seed.
 Config ForVariant(Config config, Variant variant, std::uint64_t seed) {
   config.plane_processing.seed += seed;
-  config.association.rule =
-      variant == Variant::kFull ? AssociationRule::kIntegrated : AssociationRule::kParameters;
+  if (variant != Variant::kFull) config.association.rule = AssociationRule::kParameters;
   return config;
 }
 

@@ -4,6 +4,7 @@
 
 #include <chrono>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <thread>
 
 #include "tests/support/image_files.h"
@@ -226,6 +227,32 @@ TEST_F(SlamProgram, TakesTheStructureOfTheOptionElseOfTheFileAndRefusesAnUnknown
   EXPECT_EQ(run("over", {"--config", file, "--structure", "parallel"}), parallel);
   EXPECT_NE(none, parallel);
   EXPECT_EQ(RunJson("option")["options"]["structure"]["mode"], "none");
+}
+
+TEST_F(SlamProgram, TakesTheRuleOfAssociationOfTheOptionElseOfTheFile) {
+  const fs::path sequence = Record(20);
+  const Outcome unknown = Run(Command(sequence, "unknown", {"--association", "orb"}));
+  EXPECT_EQ(unknown.exit_code, 2);
+  EXPECT_THAT(unknown.errors, HasSubstr("planar-slam or sp-slam"));
+  const Outcome of_points =
+      Run(Command(sequence, "points", {"--variant", "points", "--association", "sp-slam"}));
+  EXPECT_EQ(of_points.exit_code, 2);
+  EXPECT_THAT(of_points.errors, HasSubstr("--association"));
+
+  const fs::path file = folder_ / "settings.yaml";
+  std::ofstream(file) << "association: {rule: parameters}\n";
+  const auto run = [&](const char* name, std::vector<std::string> options) {
+    options.insert(options.begin(), "-q");
+    EXPECT_EQ(Run(Command(sequence, name, options)).exit_code, 0) << name;
+    return ReadText(folder_ / name / "frame_planes.jsonl");
+  };
+  EXPECT_EQ(run("file", {"--config", file}), run("variant", {"--variant", "no-association"}));
+  std::set<std::string> decisions;
+  for (const char* rule : {"integrated", "manhattan-slam", "planar-slam", "sp-slam"}) {
+    decisions.insert(run(rule, {"--config", file, "--association", rule}));
+    EXPECT_EQ(RunJson(rule)["association"], rule);
+  }
+  EXPECT_EQ(decisions.size(), 4U);  // each decides otherwise
 }
 
 TEST_F(SlamProgram, AsksTheDetectorAsOftenAsTheOptionElseTheFileSays) {

@@ -66,6 +66,7 @@ int Landmark(const Association& a, std::size_t f) {
 }
 
 void ExpectAllRight(const Association& a) {
+  ASSERT_FALSE(a.second.truth.empty());
   for (std::size_t f = 0; f < a.second.truth.size(); ++f) {
     EXPECT_EQ(Landmark(a, f), a.second.truth[f]) << "frame plane " << f;
   }
@@ -139,6 +140,8 @@ TEST(PlaneAssociation, DoesNotTakeOneTopForAnotherOfTheSameHeight) {
   UpdatePlanes(first.frame, map, camera, {}, SmallImages());
   SeenWorld second = See(both, kSecond, camera, {}, Random{2});
   second.frame.plane_matches = AssociatePlanes(second.frame, map, camera, {}).matches;
+  ASSERT_TRUE(std::any_of(second.truth.begin(), second.truth.end(),
+                          [](int shown) { return shown >= 5; }));
   for (std::size_t f = 0; f < second.truth.size(); ++f) {
     if (second.truth[f] < 5) continue;  // of the first book
     EXPECT_NE(second.frame.plane_matches[f].decision, PlaneDecision::kMatched)
@@ -382,6 +385,7 @@ TEST(PlaneAssociation, NeverMatchesAPlaneOnAnUnstructuredObject) {
   SeenWorld second = See(world, kFirst, camera, {}, Random{2});
   for (FramePlane& plane : second.frame.planes) plane.bad = BadReason::kUnstructured;
   second.frame.plane_matches = AssociatePlanes(second.frame, map, camera, {}).matches;
+  ASSERT_FALSE(second.frame.plane_matches.empty());
   for (const PlaneMatch& match : second.frame.plane_matches) {
     EXPECT_EQ(match.decision, PlaneDecision::kUnmatched);
   }

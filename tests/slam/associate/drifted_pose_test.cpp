@@ -126,9 +126,9 @@ TEST(DriftedPose, IsOfTheMapHoweverWellALandmarkOfNowTellsThePose) {
   MovePlane(desk, {Eigen::Matrix3d::Identity(), {0, 0, 0.045}});
   Frame frame = See(world, LookAt({0.05, -1.1, 1.0}, {0, 0, 0}), camera, {}, Random{2}).frame;
   frame.index = kKeyframes + 1;
-  for (const PlaneMatch& match : AssociatePlanes(frame, map, camera, {}).matches) {
-    EXPECT_EQ(match.decision, PlaneDecision::kMatched);
-  }
+  const std::vector<PlaneMatch> matches = AssociatePlanes(frame, map, camera, {}).matches;
+  EXPECT_EQ(matches.size(), 2u);
+  for (const PlaneMatch& match : matches) EXPECT_EQ(match.decision, PlaneDecision::kMatched);
 }
 
 TEST(DriftedPose, IsCorrectedAsWellAsNoiseAndBendLetAFarPlaneTell) {

@@ -2,28 +2,21 @@
 
 #include <gtest/gtest.h>
 
-#include <cstdlib>
-#include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "slam/base/random.h"
+#include "tests/support/shared_data.h"
 
 namespace slam {
 namespace {
-
-std::filesystem::path SharedDir() {
-  const char* given = std::getenv("PAS_SHARED_DIR");
-  return given != nullptr ? std::filesystem::path(given)
-                          : std::filesystem::path(PAS_SOURCE_DIR) / ".." / "shared";
-}
 
 // The reference prints 15 digits; erfc and the survival function agree to a few ulp.
 constexpr double kReferenceTolerance = 1e-12;
 
 TEST(RankTestEq9, AgreesWithTheReferenceFigures) {
-  const auto path = SharedDir() / "golden" / "mannwhitney.json";
-  if (!std::filesystem::exists(path)) GTEST_SKIP() << "no reference figures at " << path;
+  const auto path = test_support::SharedFolder() / "golden/mannwhitney.json";
+  SKIP_WITHOUT(path);
   const auto cases = nlohmann::json::parse(std::ifstream(path)).at("cases");
   int checked = 0;
   for (const auto& entry : cases) {

@@ -6,17 +6,11 @@
 #include <cmath>
 
 #include "slam/associate/frame_relations.h"
+#include "tests/support/cameras.h"
 #include "tests/support/plane_world.h"
 
 namespace slam {
 namespace {
-
-Camera HalfCamera() {
-  Camera camera;
-  camera.width = 320, camera.height = 240;
-  camera.fx = camera.fy = 262.5, camera.cx = 159.5, camera.cy = 119.5;
-  return camera;
-}
 
 const Pose kOver = LookAt({0.1, -0.9, 0.8}, {0, 0, 0});
 
