@@ -41,6 +41,7 @@ void AddBenchSim(CLI::App& bench, const Globals& globals, int& exit_code);
 void AddBenchSlam(CLI::App& bench, const Globals& globals, int& exit_code);
 void AddBenchWarp(CLI::App& bench, const Globals& globals, int& exit_code);
 void AddBenchFactors(CLI::App& bench, const Globals& globals, int& exit_code);
+void AddBenchEpipolar(CLI::App& bench, const Globals& globals, int& exit_code);
 void AddBenchStructure(CLI::App& bench, const Globals& globals, int& exit_code);
 void AddBenchWrongPlanes(CLI::App& bench, const Globals& globals, int& exit_code);
 void AddSuiteCommand(CLI::App& pas, const Globals& globals, int& exit_code);
