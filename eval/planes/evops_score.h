@@ -12,9 +12,9 @@ struct EvopsScore {
   double panoptic = 0.0;                           ///< mean_iou times f1
   double under_ratio = 0.0;  ///< USR: of the machine's regions, with more than one partner
   double over_ratio = 0.0;   ///< OSR: the same of the truth's
-  double noise_ratio = 0.0;  ///< of the machine's: without a partner, or with a single one ...
-  double missed_ratio =
-      0.0;  ///< ... that is no match and has no other; the same of the truth's
+  /// Of the machine's: without a partner, or with a single one that is no match and has no other.
+  double noise_ratio = 0.0;
+  double missed_ratio = 0.0;  ///< the same of the truth's
 
   EvopsScore& operator+=(const EvopsScore& other);
   EvopsScore& operator/=(double divisor);

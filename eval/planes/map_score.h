@@ -14,8 +14,8 @@ namespace eval {
 
 /// Of map planes without observations. Their normals are those of many frames.
 inline constexpr double kMaxMapNormal_deg = 20.0;
-inline constexpr double kSameOffset_m =
-    0.005;  ///< nearer than this, true planes are told by place
+/// Nearer than this, true planes are told by place.
+inline constexpr double kSameOffset_m = 0.005;
 
 inline constexpr double kMaxMapCornerError_m = 0.10;
 

@@ -1,5 +1,8 @@
 #include "eval/planes/plane_decisions.h"
 
+#include <algorithm>
+#include <iterator>
+
 namespace eval {
 namespace {
 
@@ -13,6 +16,12 @@ const RunFramePlane* LargestPlaneOn(const FrameEvidence& e, int truth) {
   return largest;
 }
 
+/// The surface has a landmark since an earlier frame.
+bool IsInMap(const std::map<int, FirstLandmark>& landmarks, int truth, int frame) {
+  const auto found = landmarks.find(truth);
+  return found != landmarks.end() && found->second.frame < frame;
+}
+
 }  // namespace
 
 std::string WhyUndecided(const RunFramePlane* plane) {
@@ -24,11 +33,17 @@ std::string WhyUndecided(const RunFramePlane* plane) {
 void DecisionHistory::Add(const FrameEvidence& e) {
   if (!first_s) first_s = e.truth.stamp_s;
   for (const RunFramePlane& plane : e.planes) {
-    if (!Decided(plane)) continue;
-    decisions.push_back({{e.number, e.TruthOf(plane), *plane.map_plane, plane.pixels},
-                         e.truth.stamp_s,
-                         plane.by.value_or(""),
-                         e.truth.T_gc * plane.centroid_c});
+    says_by = says_by || plane.by.has_value();
+    const int truth = e.TruthOf(plane);
+    if (Decided(plane)) {
+      decisions.push_back({{e.number, truth, *plane.map_plane, plane.pixels},
+                           e.truth.stamp_s,
+                           plane.by.value_or(""),
+                           e.truth.T_gc * plane.centroid_c});
+    } else if (plane.by == kByAmbiguous && truth != 0) {
+      const bool is_largest = LargestPlaneOn(e, truth) == &plane;
+      ambiguous.push_back({e.number, e.truth.stamp_s, truth, plane.pixels, is_largest});
+    }
   }
   for (const SeenPlane& seen : e.truth.planes) {
     if (!seen.counted) continue;
@@ -47,21 +62,37 @@ std::vector<AssociationRecord> RecordsOf(const std::vector<PlaneDecision>& decis
   return records;
 }
 
+std::map<int, FirstLandmark> FirstLandmarks(const std::vector<PlaneDecision>& decisions) {
+  std::map<int, FirstLandmark> landmarks;
+  const std::map<int, int> owners = OwnersOf(RecordsOf(decisions));
+  for (const PlaneDecision& decision : decisions) {
+    const AssociationRecord& record = decision.record;
+    landmarks.emplace(owners.at(record.map_plane),
+                      FirstLandmark{record.map_plane, record.frame});
+  }
+  return landmarks;
+}
+
 UndecidedSurfaces FindUndecided(const DecisionHistory& history) {
   UndecidedSurfaces found;
-  const std::map<int, int> owners = OwnersOf(RecordsOf(history.decisions));
-  std::set<int> owned;  // truths that own a map plane, as of the frame before
-  auto decision = history.decisions.begin();
+  const std::map<int, FirstLandmark> landmarks = FirstLandmarks(history.decisions);
   for (const SeenSurface& surface : history.surfaces) {
-    for (; decision != history.decisions.end() && decision->record.frame < surface.frame;
-         ++decision) {
-      owned.insert(owners.at(decision->record.map_plane));
-    }
     const bool early = !(surface.stamp_s - *history.first_s > kFirstLandmarks_s);
-    if (early || !surface.is_large || owned.count(surface.truth) == 0) continue;
+    const bool in_map = IsInMap(landmarks, surface.truth, surface.frame);
+    if (early || !surface.is_large || !in_map) continue;
     ++found.large;
     if (!surface.decided) found.undecided.push_back(surface);
   }
+  return found;
+}
+
+std::vector<AmbiguousPlane> FindAmbiguous(const DecisionHistory& history) {
+  const std::map<int, FirstLandmark> landmarks = FirstLandmarks(history.decisions);
+  std::vector<AmbiguousPlane> found;
+  std::copy_if(history.ambiguous.begin(), history.ambiguous.end(), std::back_inserter(found),
+               [&](const AmbiguousPlane& plane) {
+                 return IsInMap(landmarks, plane.truth, plane.frame);
+               });
   return found;
 }
 

@@ -2,7 +2,6 @@
 
 #include <map>
 #include <optional>
-#include <set>
 #include <string>
 #include <vector>
 
@@ -18,6 +17,9 @@ inline constexpr double kFirstLandmarks_s = 1.0;
 
 /// The cue of a surface that no frame plane shows mostly.
 inline constexpr const char* kNoFramePlane = "no frame plane";
+
+/// What a run says of a frame plane to which it gave no answer, as two were too close.
+inline constexpr const char* kByAmbiguous = "ambiguous";
 
 /// Why a surface got no decision, by what the run says of its largest frame plane: what settled it,
 /// or why the plane is not trusted; may be empty.
@@ -44,16 +46,36 @@ struct SeenSurface {
   std::string cue;  ///< why not, as the run says; "no frame plane" when nothing shows it mostly
 };
 
+/// A frame plane of a scored surface that was put on no map plane, as ambiguous.
+struct AmbiguousPlane {
+  int frame = 0;
+  double stamp_s = 0.0;
+  int truth = 0;            ///< that it shows, told as for decisions
+  int pixels = 0;           ///< of the frame plane
+  bool is_largest = false;  ///< of the frame planes that show this surface
+};
+
 /// What a run decided about planes, frame by frame.
 struct DecisionHistory {
-  std::vector<PlaneDecision> decisions;  ///< by rising frame
-  std::vector<SeenSurface> surfaces;     ///< by rising frame
-  std::optional<double> first_s;         ///< time of the first frame
+  std::vector<PlaneDecision> decisions;   ///< by rising frame
+  std::vector<SeenSurface> surfaces;      ///< by rising frame
+  std::vector<AmbiguousPlane> ambiguous;  ///< by rising frame
+  bool says_by = false;                   ///< the run says of some frame plane what settled it
+  std::optional<double> first_s;          ///< time of the first frame
 
   void Add(const FrameEvidence& e);
 };
 
 std::vector<AssociationRecord> RecordsOf(const std::vector<PlaneDecision>& decisions);
+
+/// The first map plane that a surface made, and when.
+struct FirstLandmark {
+  int map_plane = 0;
+  int frame = 0;
+};
+/// By true plane; 0 made those of noise.
+/// @param decisions  by rising frame
+std::map<int, FirstLandmark> FirstLandmarks(const std::vector<PlaneDecision>& decisions);
 
 /// Of large surfaces that have a landmark since an earlier frame, those without a decision.
 struct UndecidedSurfaces {
@@ -61,5 +83,8 @@ struct UndecidedSurfaces {
   std::vector<SeenSurface> undecided;
 };
 UndecidedSurfaces FindUndecided(const DecisionHistory& history);
+
+/// Ambiguous frame planes of surfaces, large or small, that have a landmark since an earlier frame.
+std::vector<AmbiguousPlane> FindAmbiguous(const DecisionHistory& history);
 
 }  // namespace eval

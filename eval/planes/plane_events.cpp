@@ -2,7 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <set>
 #include <tuple>
+#include <utility>
 
 #include "eval/planes/map_score.h"
 
@@ -18,17 +21,6 @@ std::optional<double> DistanceOf(const PlaneDecision& decision, const EventWorld
   const TruthPlane* truth = world.scene.FindPlane(decision.record.truth);
   if (truth == nullptr) return std::abs(SignedDistance(pi_g, decision.centroid_g)) * 1e3;
   return RmsDistance(pi_g, truth->vertices_g) * 1e3;
-}
-
-/// The first map plane that each true plane made.
-std::map<int, int> FirstMapPlanes(const DecisionHistory& history) {
-  std::map<int, int> first_of;
-  const std::map<int, int> owners = OwnersOf(RecordsOf(history.decisions));
-  for (const PlaneDecision& decision : history.decisions) {
-    const int map_plane = decision.record.map_plane;
-    first_of.emplace(owners.at(map_plane), map_plane);
-  }
-  return first_of;
 }
 
 /// Sums up decisions that put one true plane on one map plane.
@@ -147,7 +139,7 @@ void AddSplitOffs(const DecisionHistory& history, const Placements& by_map,
 }
 
 RunEvent EventOf(const PlaneDecision& decision, const JudgedDecision& judged,
-                 const std::map<int, int>& first_of, const EventWorld& world) {
+                 const std::map<int, FirstLandmark>& landmarks, const EventWorld& world) {
   RunEvent event;
   const bool wrong = judged.outcome == DecisionOutcome::kWrong;
   event.kind = wrong ? EventKind::kWrong : EventKind::kMissed;
@@ -157,7 +149,8 @@ RunEvent EventOf(const PlaneDecision& decision, const JudgedDecision& judged,
   if (wrong) event.other_truth = judged.owner;
   event.map_plane = FinalMapPlane(world.map, decision.record.map_plane);
   if (judged.truth_had_owner) {
-    event.right_map_plane = FinalMapPlane(world.map, first_of.at(decision.record.truth));
+    event.right_map_plane =
+        FinalMapPlane(world.map, landmarks.at(decision.record.truth).map_plane);
   }
   event.cue = decision.cue;
   event.pixels = decision.record.pixels;
@@ -166,39 +159,58 @@ RunEvent EventOf(const PlaneDecision& decision, const JudgedDecision& judged,
   return event;
 }
 
-RunEvent EventOf(const SeenSurface& surface, const std::map<int, int>& first_of,
-                 const EventWorld& world) {
+/// @param left  without a decision: a surface or a frame plane
+template <typename Left>
+RunEvent EventOf(EventKind kind, const Left& left, const std::string& cue,
+                 const std::map<int, FirstLandmark>& landmarks, const EventWorld& world) {
   RunEvent event;
-  event.kind = EventKind::kNoDecision;
-  event.frame = surface.frame;
-  event.stamp_s = surface.stamp_s;
-  event.truth = surface.truth;
-  event.right_map_plane = FinalMapPlane(world.map, first_of.at(surface.truth));
-  event.cue = surface.cue;
-  event.pixels = surface.pixels;
+  event.kind = kind;
+  event.frame = left.frame;
+  event.stamp_s = left.stamp_s;
+  event.truth = left.truth;
+  event.right_map_plane = FinalMapPlane(world.map, landmarks.at(left.truth).map_plane);
+  event.cue = cue;
+  event.pixels = left.pixels;
   return event;
+}
+
+void AddUndecided(const UndecidedSurfaces& undecided,
+                  const std::vector<AmbiguousPlane>& ambiguous,
+                  const std::map<int, FirstLandmark>& landmarks, const EventWorld& world,
+                  std::vector<RunEvent>& events) {
+  std::set<std::pair<int, int>> listed;  // frame and surface
+  for (const SeenSurface& surface : undecided.undecided) {
+    listed.emplace(surface.frame, surface.truth);
+    events.push_back(EventOf(EventKind::kNoDecision, surface, surface.cue, landmarks, world));
+  }
+  for (const AmbiguousPlane& plane : ambiguous) {
+    // The surface was judged by its largest plane, which is that event already.
+    if (plane.is_largest && listed.count({plane.frame, plane.truth}) > 0) continue;
+    events.push_back(EventOf(EventKind::kAmbiguous, plane, kByAmbiguous, landmarks, world));
+  }
 }
 
 }  // namespace
 
 const char* NameOf(EventKind kind) {
-  constexpr const char* kNames[] = {"wrong", "missed",    "no decision", "merge",
-                                    "split", "split off", "lost"};
+  constexpr const char* kNames[] = {"wrong", "missed", "no decision", "ambiguous",
+                                    "merge", "split",  "split off",   "lost"};
   return kNames[static_cast<std::size_t>(kind)];
 }
 
 std::vector<RunEvent> FindPlaneEvents(const DecisionHistory& history,
                                       const UndecidedSurfaces& undecided,
+                                      const std::vector<AmbiguousPlane>& ambiguous,
                                       const EventWorld& world) {
   const std::vector<JudgedDecision> judged = JudgeDecisions(RecordsOf(history.decisions));
-  const std::map<int, int> first_of = FirstMapPlanes(history);
+  const std::map<int, FirstLandmark> landmarks = FirstLandmarks(history.decisions);
   std::vector<RunEvent> events;
   Placements by_map, by_truth;
   for (std::size_t i = 0; i < judged.size(); ++i) {
     const PlaneDecision& decision = history.decisions[i];
     const bool at_fault = judged[i].outcome == DecisionOutcome::kWrong ||
                           judged[i].outcome == DecisionOutcome::kMissed;
-    if (at_fault) events.push_back(EventOf(decision, judged[i], first_of, world));
+    if (at_fault) events.push_back(EventOf(decision, judged[i], landmarks, world));
     const int truth = decision.record.truth;
     if (truth == 0) continue;
     const int map_plane = FinalMapPlane(world.map, decision.record.map_plane);
@@ -208,9 +220,7 @@ std::vector<RunEvent> FindPlaneEvents(const DecisionHistory& history,
   }
   AddMixtures(by_map, by_truth, events);
   AddSplitOffs(history, by_map, world, events);
-  for (const SeenSurface& surface : undecided.undecided) {
-    events.push_back(EventOf(surface, first_of, world));
-  }
+  AddUndecided(undecided, ambiguous, landmarks, world, events);
   SortByHarm(events);
   return events;
 }

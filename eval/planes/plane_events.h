@@ -16,6 +16,7 @@ enum class EventKind {
   kWrong,       ///< a frame plane was put on a map plane that another surface made
   kMissed,      ///< it made a new map plane although its surface had one
   kNoDecision,  ///< a large surface that has a map plane got no decision
+  kAmbiguous,   ///< a frame plane of a surface that has one was left as ambiguous
   kMerge,       ///< a map plane holds two surfaces; sums up wrong decisions
   kSplit,       ///< a surface has two map planes; sums up the decisions for the lesser one
   kSplitOff,    ///< the run itself split a map plane; sums up the decisions for the new one
@@ -49,10 +50,11 @@ struct EventWorld {
   const std::optional<Alignment>& gauge;  ///< world of the run to world of the truth
 };
 
-/// Wrong and missed decisions, surfaces without a decision, merges and splits, and the map planes
-/// that the run split.
+/// Wrong and missed decisions, surfaces without a decision, ambiguous frame planes but those that
+/// such a surface is judged by, merges and splits, and the map planes that the run split.
 std::vector<RunEvent> FindPlaneEvents(const DecisionHistory& history,
                                       const UndecidedSurfaces& undecided,
+                                      const std::vector<AmbiguousPlane>& ambiguous,
                                       const EventWorld& world);
 
 /// The most harmful first; those whose harm is not known behind them, by pixels, then by frame.

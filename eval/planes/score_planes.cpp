@@ -40,12 +40,13 @@ class PlaneScorer {
     const std::vector<AssociationRecord> records = RecordsOf(score_.history.decisions);
     score_.association = ScoreAssociation(records);
     score_.undecided = FindUndecided(score_.history);
+    score_.ambiguous = FindAmbiguous(score_.history);
     score_.clear = ScoreClear(tracking_);
     score_.identity = ScoreIdentity(tracking_);
     score_.hota = ScoreHota(tracking_);
     score_.steps = ScoreSteps(score_.history, scene);
-    score_.events =
-        FindPlaneEvents(score_.history, score_.undecided, {run.map, scene, trajectory.gauge});
+    score_.events = FindPlaneEvents(score_.history, score_.undecided, score_.ambiguous,
+                                    {run.map, scene, trajectory.gauge});
     if (!run.has_map) return std::move(score_);
     score_.map = score_.from_frame_planes
                      ? ScoreMap(run.map, scene, trajectory.gauge, records, seen_)

@@ -37,6 +37,7 @@ struct PlaneScore {
   CornerCounts corners;
   AssociationScore association;
   UndecidedSurfaces undecided;
+  std::vector<AmbiguousPlane> ambiguous;  ///< of surfaces in the map; unknown without `by`
   ClearScore clear;
   IdentityScore identity;
   HotaScore hota;

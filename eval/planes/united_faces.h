@@ -5,8 +5,8 @@
 namespace eval {
 
 /// When two faces of one thing count as one plane.
-inline constexpr double kSamePlane_m =
-    1e-4;  ///< distance of every corner from the other's plane
+/// Distance of every corner from the other's plane.
+inline constexpr double kSamePlane_m = 1e-4;
 inline constexpr double kMaxJoint_m = 0.03;  ///< from outline to outline
 /// The sequence as it is scored: faces of one thing (an object, or the objects of one
 /// detection group) that are one plane with a joint between them, like the two doors of a

@@ -129,6 +129,12 @@ Json AssociationGroup(const PlaneScore& s, Json& reasons) {
   group.Put("decision/fn", d.fn);
   group.Put("decision/tn", d.tn);
   group.Put("decision/spurious", d.spurious);
+  if (s.history.says_by) {
+    group.Put("decision/ambiguous", s.ambiguous.size());
+  } else {
+    group.Undefined("decision/ambiguous",
+                    "the run says of no frame plane what settled it (`by`)");
+  }
   const bool any = s.identity.idtp + s.identity.idfp + s.identity.idfn > 0;
   const char* const none = "no frame shows a plane that counts or one of the map";
   group.PutShare("idf1", s.identity.idf1, any, none);
@@ -202,11 +208,11 @@ Json Warnings(const std::vector<Fault>& of_run, const char* place,
 
 constexpr const char* kConsistencyRule =
     "squared errors by the covariance that the run tells of them, whose mean is 3 (position, "
-    "rotation) and 6 (pose) and of which 0.95 are inside where it is honest; absolute: in the "
-    "world of the truth by whole poses, drift and all; relative_1s: of the motion over 1 s, "
-    "the "
-    "covariances of both poses summed; silent: position or rotation is off by more than 5 of "
-    "its own standard deviations in some direction";
+    "rotation) and 6 (pose) and of which 0.95 are inside where it is honest; "
+    "absolute: in the world of the truth by whole poses, drift and all; "
+    "relative_1s: of the motion over 1 s, the covariances of both poses summed; "
+    "silent: position or rotation is off by more than 5 of its own standard deviations in some "
+    "direction";
 
 Json TrajectoryRules() {
   Json rules;
@@ -240,37 +246,33 @@ void AddExtractionRules(const PlaneScore& s, Json& rules) {
 void AddAssociationRules(const PlaneScore& s, Json& rules) {
   rules["vertices"] =
       "corners of trusted frame planes, one to one within 50 mm of the true corners of the "
-      "plane "
-      "they show; recall over true corners inside the image and not hidden, of planes that "
-      "count; "
-      "planes_with_4 over such top faces of regular objects with four corners in view";
+      "plane they show; recall over true corners inside the image and not hidden, of planes "
+      "that count; planes_with_4 over such top faces of regular objects with four corners in "
+      "view";
   rules["association"] =
       "decisions as made at their frame; those of a frame are simultaneous; a map plane is of "
       "the truth that showed most pixels of it in its first frame, also after the run split "
-      "it; idf1, hota and "
-      "mota "
-      "from masks of map planes" +
+      "it; idf1, hota and mota from masks of map planes" +
       std::string(
           s.by_pixels ? "" : ", here from the pixels of frame planes by the truth they show");
   rules["no_decision"] =
       "of surfaces over 5 % of the image that count and have a map plane since an earlier "
-      "frame, "
-      "after the first second: those whose largest frame plane was put on none, or that have "
-      "none";
+      "frame, after the first second: those whose largest frame plane was put on none, or that "
+      "have none";
+  rules["ambiguous"] =
+      "frame planes that were put on no map plane and of which the run says by = ambiguous, of "
+      "a scored true plane that has a map plane since an earlier frame; none of them is in "
+      "precision or recall";
 }
 
 void AddPlaneRules(const PlaneScore& s, Json& rules) {
   rules["truth"] =
-      "planes of structure and regular objects are scored, everything else is noise; a true "
-      "plane "
-      "counts in a frame if at least 1000 of its pixels show (at 640 x 480, scaled with the "
-      "area) "
-      "and it is seen at 75 deg of incidence or less at their middle; planes that show one "
-      "that "
-      "does not count are left out of extraction and tracking scores; faces of one object or "
-      "detection group that are one plane to 0.1 mm, with joints of at most 30 mm, are one "
-      "true "
-      "plane";
+      "planes of structure and regular objects are scored, everything else is noise; "
+      "a true plane counts in a frame if at least 1000 of its pixels show (at 640 x 480, "
+      "scaled with the area) and it is seen at 75 deg of incidence or less at their middle; "
+      "planes that show one that does not count are left out of extraction and tracking "
+      "scores; faces of one object or detection group that are one plane to 0.1 mm, with "
+      "joints of at most 30 mm, are one true plane";
   if (s.from_frame_planes || s.regions) AddExtractionRules(s, rules);
   if (s.from_frame_planes) AddAssociationRules(s, rules);
   if (s.map) {
@@ -282,9 +284,8 @@ void AddPlaneRules(const PlaneScore& s, Json& rules) {
              ? "of most of its observations, that with most of them is the match"
              : "that is nearest to the middle of its outline (within 20 deg and 50 mm, their "
                "outlines in common), by shared area where offsets agree to 5 mm") +
-        "; offset is the rms distance of the true vertices to the map plane; vertices one to "
-        "one "
-        "within 100 mm; normals are oriented";
+        "; offset is the rms distance of the true vertices to the map plane; "
+        "vertices one to one within 100 mm; normals are oriented";
   }
 }
 

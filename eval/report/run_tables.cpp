@@ -80,6 +80,7 @@ class FrameTable {
     for (const SeenSurface& surface : evaluation.planes->undecided.undecided) {
       ++undecided_[surface.frame];
     }
+    for (const AmbiguousPlane& plane : evaluation.planes->ambiguous) ++ambiguous_[plane.frame];
   }
 
   std::vector<OrderedJson> Row(std::size_t i) const {
@@ -98,7 +99,7 @@ class FrameTable {
 
  private:
   void AddPlanes(int frame, std::vector<OrderedJson>& row) const {
-    constexpr std::size_t kPlaneColumns = 13;
+    constexpr std::size_t kPlaneColumns = 14;
     const auto score = frames_.find(frame);
     if (score == frames_.end()) {
       row.resize(row.size() + kPlaneColumns);
@@ -123,8 +124,14 @@ class FrameTable {
     }
     row.emplace_back(counts[static_cast<std::size_t>(DecisionOutcome::kSpurious)] +
                      counts[static_cast<std::size_t>(DecisionOutcome::kNoiseAgain)]);
-    const auto undecided = undecided_.find(frame);
-    row.emplace_back(undecided == undecided_.end() ? 0 : undecided->second);
+    row.emplace_back(CountIn(undecided_, frame));
+    row.push_back(evaluation_.planes->history.says_by ? OrderedJson(CountIn(ambiguous_, frame))
+                                                      : OrderedJson(nullptr));
+  }
+
+  static int CountIn(const std::map<int, int>& counts, int frame) {
+    const auto count = counts.find(frame);
+    return count == counts.end() ? 0 : count->second;
   }
 
   std::optional<double> TimeOf(double stamp_s) const {
@@ -143,7 +150,7 @@ class FrameTable {
   std::map<std::size_t, PoseError> errors_;
   std::map<int, const FrameScore*> frames_;
   std::map<int, Outcomes> outcomes_;
-  std::map<int, int> undecided_;
+  std::map<int, int> undecided_, ambiguous_;
 };
 
 std::vector<RunEvent> LostEvents(const TrajectoryScore& trajectory, const Sequence& sequence) {
@@ -203,7 +210,8 @@ std::string FramesCsv(const Evaluation& evaluation, const Run& run, const Sequen
   const FrameTable table(evaluation, run, sequence);
   std::string text =
       "frame,time_s,tracked,position_error_mm,rotation_error_deg,true_planes,planes,correct,"
-      "over,under,missed_planes,noise,right,wrong,missed,first,spurious,no_decision,mt_ms\n";
+      "over,under,missed_planes,noise,right,wrong,missed,first,spurious,no_decision,ambiguous,"
+      "mt_ms\n";
   for (std::size_t i = 0; i < sequence.frames.size(); ++i) text += Line(table.Row(i));
   return text;
 }

@@ -102,6 +102,11 @@ void AddAssociation(const PlaneScore& s, const MetricTexts& texts, Table& table)
   table.Row("no decision", "%s (%zu of %d large surfaces of frames)",
             texts.Share("association/no_decision/share").c_str(), s.undecided.undecided.size(),
             s.undecided.large);
+  if (s.history.says_by) {
+    table.Row("ambiguous", "%zu frame planes of surfaces in the map", s.ambiguous.size());
+  } else {
+    table.Undefined("ambiguous", texts.WhyNot("association/decision/ambiguous"));
+  }
   table.Row("pair precision, recall", "%s, %s",
             texts.Share("association/pair/precision").c_str(),
             texts.Share("association/pair/recall").c_str());

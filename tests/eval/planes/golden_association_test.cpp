@@ -14,7 +14,7 @@
 #include "eval/planes/segmentation_score.h"
 #include "io/json_field.h"
 #include "io/text_table.h"
-#include "tests/eval/shared_data.h"
+#include "tests/support/shared_data.h"
 
 namespace eval {
 namespace {
@@ -29,9 +29,10 @@ std::vector<io::TextRecord> ReadCells(const std::filesystem::path& file, bool he
 }
 
 TEST(GoldenAssociation, AgreesOnPairsBCubedDecisionsAndMapPlanes) {
-  const std::filesystem::path folder = testing::SharedFolder() / "golden/association";
+  const std::filesystem::path folder = test_support::SharedFolder() / "golden/association";
   SKIP_WITHOUT(folder);
   const nlohmann::json golden = io::ReadJson(folder / "association_golden.json");
+  ASSERT_FALSE(golden["cases"].empty());
   for (const auto& [name, expected] : golden["cases"].items()) {
     SCOPED_TRACE(name);
     const std::filesystem::path file = folder / (name + ".csv");
@@ -155,9 +156,10 @@ void ExpectHota(const HotaFigures& s, const Pick& value) {
 }
 
 TEST(GoldenTrackEval, AgreesOnEveryFigureOfClearIdentityAndHota) {
-  const std::filesystem::path folder = testing::SharedFolder() / "golden/trackeval";
+  const std::filesystem::path folder = test_support::SharedFolder() / "golden/trackeval";
   SKIP_WITHOUT(folder);
   const nlohmann::json golden = io::ReadJson(folder / "trackeval_golden.json");
+  ASSERT_FALSE(golden["cases"].empty());
   for (const auto& [name, expected] : golden["cases"].items()) {
     SCOPED_TRACE(name);
     const std::vector<TrackingFrame> frames =
@@ -247,9 +249,10 @@ void ExpectEvops(const EvopsScore& s, const nlohmann::json& golden) {
 }
 
 TEST(GoldenSegmentation, AgreesOnEveryFigureThatIsAdopted) {
-  const std::filesystem::path folder = testing::SharedFolder() / "golden/segmentation";
+  const std::filesystem::path folder = test_support::SharedFolder() / "golden/segmentation";
   SKIP_WITHOUT(folder);
   const nlohmann::json golden = io::ReadJson(folder / "segmentation_golden.json");
+  ASSERT_FALSE(golden["cases"].empty());
   for (const auto& [name, expected] : golden["cases"].items()) {
     SCOPED_TRACE(name);
     const LabelPairs pairs = CountPairs(ReadLabelTable(folder / (name + "_gt.csv")),

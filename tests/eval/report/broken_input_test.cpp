@@ -11,6 +11,7 @@
 #include "io/read_file.h"
 #include "tests/eval/report/evaluated_world.h"
 #include "tests/support/image_files.h"
+#include "tests/support/refusal.h"
 
 namespace eval {
 namespace {
@@ -50,12 +51,7 @@ class EvaluateBrokenInput : public EvaluateTinyWorld {
     return Evaluate(run, ReadSequence(SequenceOf(run)));
   }
   std::string Refusal(const Spoil& spoil = nullptr) {
-    try {
-      Score(spoil);
-    } catch (const io::InputError& error) {
-      return error.what();
-    }
-    return "";
+    return test_support::RefusalOf([&] { Score(spoil); });
   }
 
   TinyRun tiny_{*world_};

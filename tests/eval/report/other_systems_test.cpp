@@ -4,16 +4,16 @@
 #include <gtest/gtest.h>
 
 #include <fstream>
-#include <functional>
 
 #include "eval/report/table.h"
-#include "io/input_error.h"
 #include "tests/eval/report/evaluated_world.h"
 #include "tests/support/image_files.h"
+#include "tests/support/refusal.h"
 
 namespace eval {
 namespace {
 
+using test_support::RefusalOf;
 using ::testing::HasSubstr;
 namespace fs = std::filesystem;
 
@@ -28,14 +28,6 @@ class EvaluateOtherSystems : public EvaluateTinyWorld {
     }
     return nlohmann::json::parse(
         MetricsText(Evaluate(ReadRun(RunFolder()), ReadSequence(SequenceFolder()))));
-  }
-  static std::string ErrorOf(const std::function<void()>& what) {
-    try {
-      what();
-    } catch (const io::InputError& error) {
-      return error.what();
-    }
-    return "no error";
   }
   /// Every figure of the group but the named ones.
   static void ExpectSameBut(nlohmann::json ours, nlohmann::json whole,
@@ -58,7 +50,7 @@ TEST_F(EvaluateOtherSystems, ATrajectoryAloneIsScoredAsThatOfAWholeRun) {
   }
   EXPECT_FALSE(ours.contains("warnings")) << ours["warnings"];
   EXPECT_THAT(
-      ErrorOf([] { SequenceOf(ReadRun(RunFolder())); }),
+      RefusalOf([] { SequenceOf(ReadRun(RunFolder())); }),
       HasSubstr("has no run.json, which would name the sequence; name it with --truth"));
 }
 
@@ -166,16 +158,16 @@ TEST_F(EvaluateOtherSystems, AFrameWithoutALabelImageFoundNothingAndIsAWarning) 
 TEST_F(EvaluateOtherSystems, LabelImagesThatCannotBeScoredAreRefused) {
   const fs::path labels = RunFolder() / "segmentation";
   Sequence sequence = ReadSequence(SequenceFolder());
-  EXPECT_THAT(ErrorOf([] { RunOfLabels(RunFolder() / "map.json"); }),
+  EXPECT_THAT(RefusalOf([] { RunOfLabels(RunFolder() / "map.json"); }),
               HasSubstr("is no folder"));
-  EXPECT_THAT(ErrorOf([] { RunOfLabels(SequenceFolder() / "gt"); }),
+  EXPECT_THAT(RefusalOf([] { RunOfLabels(SequenceFolder() / "gt"); }),
               HasSubstr("has no label image"));
   Sequence without_truth = sequence;
   without_truth.scene.reset();
-  EXPECT_THAT(ErrorOf([&] { EvaluateLabels(RunOfLabels(labels), without_truth); }),
+  EXPECT_THAT(RefusalOf([&] { EvaluateLabels(RunOfLabels(labels), without_truth); }),
               HasSubstr("does not tell which planes"));
   for (SequenceFrame& frame : sequence.frames) frame.stamp_s += 1000.0;
-  EXPECT_THAT(ErrorOf([&] { EvaluateLabels(RunOfLabels(labels), sequence); }),
+  EXPECT_THAT(RefusalOf([&] { EvaluateLabels(RunOfLabels(labels), sequence); }),
               HasSubstr("has no image of any frame"));
 }
 

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <sstream>
 
+#include "eval/report/table.h"
 #include "tests/eval/report/evaluated_world.h"
 
 namespace eval {
@@ -128,7 +129,7 @@ TEST(PlaneEvents, CountFramesNotDecisions) {
   const std::vector<RunMapPlane> map;
   const SceneTruth scene;
   const std::optional<Alignment> gauge;
-  const std::vector<RunEvent> events = FindPlaneEvents(history, {}, {map, scene, gauge});
+  const std::vector<RunEvent> events = FindPlaneEvents(history, {}, {}, {map, scene, gauge});
   const auto merge = std::find_if(events.begin(), events.end(), [](const RunEvent& event) {
     return event.kind == EventKind::kMerge;
   });
@@ -145,20 +146,68 @@ TEST_F(EventsOfTinyWorld, ALargeSurfaceWithoutADecisionIsListedAndCountedAfterTh
     nlohmann::json* plane = FramePlane(run, i, TinyWorld::kDeskTop);
     (*plane)["map_plane"] = nullptr;
     (*plane)["decision"] = "none";
-    (*plane)["by"] = "ambiguous";
+    (*plane)["by"] = "candidate";
   }
   const std::vector<RunEvent> events = Events(run);
   ASSERT_EQ(events.size(), 1u);
   EXPECT_EQ(events[0].kind, EventKind::kNoDecision);
   EXPECT_EQ(events[0].frame, int(kFrame));
   EXPECT_EQ(events[0].truth, TinyWorld::kDeskTop);
-  EXPECT_EQ(events[0].cue, "ambiguous");
+  EXPECT_EQ(events[0].cue, "candidate");
   EXPECT_EQ(events[0].right_map_plane, TinyRun::MapId(TinyWorld::kDeskTop));
   EXPECT_FALSE(events[0].harm_px_mm);
   const nlohmann::json after = Metrics(run)["association"]["no_decision"];
   EXPECT_EQ(before["association"]["no_decision"]["share"], 0.0);
   EXPECT_EQ(after["events"], 1);
   EXPECT_EQ(after["share"], 1.0 / after["surfaces"].get<double>());
+}
+
+TEST_F(EventsOfTinyWorld, ABookLeftAsAmbiguousIsListedAndWithTheDeskCounted) {
+  TinyRun run(*world_);
+  const nlohmann::json before = Metrics(run)["association"]["decision"];
+  int book_px = 0;
+  for (const int truth : {TinyWorld::kDeskTop, TinyWorld::kThickTop}) {
+    nlohmann::json* plane = FramePlane(run, kFrame, truth);
+    ASSERT_NE(plane, nullptr);
+    (*plane)["map_plane"] = nullptr;
+    (*plane)["decision"] = "none";
+    (*plane)["by"] = "ambiguous";
+    book_px = (*plane)["pixels"];
+  }
+  const std::vector<RunEvent> events = Events(run);
+  ASSERT_EQ(events.size(), 2u);
+  EXPECT_EQ(events[0].kind, EventKind::kNoDecision);  // the desk, which is large
+  EXPECT_EQ(events[1].kind, EventKind::kAmbiguous);
+  EXPECT_EQ(events[1].frame, int(kFrame));
+  EXPECT_EQ(events[1].truth, TinyWorld::kThickTop);
+  EXPECT_EQ(events[1].right_map_plane, TinyRun::MapId(TinyWorld::kThickTop));
+  EXPECT_EQ(events[1].pixels, book_px);
+  EXPECT_FALSE(events[1].harm_px_mm);  // it was put nowhere
+  const nlohmann::json after = Metrics(run)["association"]["decision"];
+  EXPECT_EQ(before["ambiguous"], 0);
+  EXPECT_EQ(after["ambiguous"], 2);
+  EXPECT_EQ(after["tp"], before["tp"].get<int>() - 2);
+  EXPECT_EQ(after["recall"], 1.0);
+  // Five of seven planes right, a large surface undecided, two planes ambiguous; 10 ms.
+  const Evaluation evaluation = EvaluationOf(run);
+  EXPECT_THAT(FramesCsv(evaluation, ReadRun(RunFolder()), ReadSequence(SequenceFolder())),
+              HasSubstr(",5,0,0,0,0,1,2,10\n"));
+}
+
+TEST_F(EventsOfTinyWorld, ARunThatSaysByOfNoPlaneCannotTellWhatIsAmbiguous) {
+  TinyRun run(*world_);
+  for (nlohmann::json& frame : run.frames) {
+    for (nlohmann::json& plane : frame["planes"]) plane.erase("by");
+  }
+  const Evaluation evaluation = EvaluationOf(run);
+  const nlohmann::json metrics = nlohmann::json::parse(MetricsText(evaluation));
+  EXPECT_TRUE(metrics["association"]["decision"].at("ambiguous").is_null());
+  const auto reason =
+      metrics["reasons"].at("association/decision/ambiguous").get<std::string>();
+  EXPECT_THAT(reason, HasSubstr("`by`"));
+  EXPECT_THAT(MetricsTable(evaluation), HasSubstr("-  (" + reason + ")"));
+  EXPECT_THAT(FramesCsv(evaluation, ReadRun(RunFolder()), ReadSequence(SequenceFolder())),
+              ::testing::EndsWith(",0,,10\n"));
 }
 
 TEST_F(EventsOfTinyWorld, OfSurfacesStandAmongTheOthersByTheirHarm) {
@@ -270,8 +319,9 @@ TEST_F(EventsOfTinyWorld, FramesHaveALineEachWithTheirErrorsAndDecisions) {
   };
   for (const std::string& line : lines) EXPECT_EQ(columns(line), columns(lines[0])) << line;
   EXPECT_THAT(lines[kFrame + 1], StartsWith("40,"));
-  // Six of seven planes right, one wrong, none missed, first, spurious or undecided; 10 ms.
-  EXPECT_THAT(lines[kFrame + 1], ::testing::EndsWith(",6,1,0,0,0,0,10"));
+  // Six of seven planes right, one wrong; none missed, first, spurious, undecided or ambiguous;
+  // 10 ms.
+  EXPECT_THAT(lines[kFrame + 1], ::testing::EndsWith(",6,1,0,0,0,0,0,10"));
 }
 
 TEST_F(EventsOfTinyWorld, NoiseIsSpuriousInItsFirstFrameAndInThoseAfterIt) {
@@ -293,8 +343,8 @@ TEST_F(EventsOfTinyWorld, NoiseIsSpuriousInItsFirstFrameAndInThoseAfterIt) {
       FramesCsv(evaluation, ReadRun(RunFolder()), ReadSequence(SequenceFolder())));
   std::vector<std::string> lines;
   for (std::string line; std::getline(stream, line);) lines.push_back(line);
-  EXPECT_THAT(lines.at(kFrame), ::testing::EndsWith(",0,0,0,1,0,10"));
-  EXPECT_THAT(lines.at(kFrame + 1), ::testing::EndsWith(",0,0,0,1,0,10"));
+  EXPECT_THAT(lines.at(kFrame), ::testing::EndsWith(",0,0,0,1,0,0,10"));
+  EXPECT_THAT(lines.at(kFrame + 1), ::testing::EndsWith(",0,0,0,1,0,0,10"));
 }
 
 }  // namespace
