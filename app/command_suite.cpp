@@ -17,9 +17,8 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* kAboutSuite =
-    "Run every scene of a suite with every sensor, motion, seed, variant and config, each "
-    "case\n"
-    "in processes of its own with limits of time and memory, and put the figures into\n"
+    "Run every scene of a suite with every sensor, motion, seed, variant and config, each\n"
+    "case in processes of its own with limits of time and memory, and put the figures into\n"
     "DIR/results.sqlite. A crash, a time-out or want of memory is a row. Called again it runs\n"
     "what is not there yet, or whose inputs or program have changed. With --baseline it says\n"
     "what became worse (docs/suites.md). Exit code 1 if something became worse or cannot be\n"
@@ -41,6 +40,23 @@ int Merge(const std::vector<std::string>& folders, const fs::path& output, bool 
   return kDone;
 }
 
+CLI::App* AddMerge(CLI::App& suite, const Globals& globals, int& exit_code) {
+  struct MergeArguments {
+    std::vector<std::string> folders;
+    std::string output;
+  };
+  const auto arguments = std::make_shared<MergeArguments>();
+  CLI::App* merge = suite.add_subcommand(
+      "merge", "Put the results of several folders, shards of one suite, into one");
+  merge->add_option("DIR", arguments->folders, "Folders of results")->required();
+  merge->add_option("-o,--output", arguments->output, "Folder to write or to add to")
+      ->required();
+  merge->callback([arguments, &globals, &exit_code] {
+    exit_code = Merge(arguments->folders, arguments->output, globals.quiet);
+  });
+  return merge;
+}
+
 }  // namespace
 
 void AddSuiteCommand(CLI::App& pas, const Globals& globals, int& exit_code) {
@@ -51,8 +67,7 @@ void AddSuiteCommand(CLI::App& pas, const Globals& globals, int& exit_code) {
                       "Folder of the results; new, empty, or of an earlier call");
   command
       ->add_option("-j,--jobs", arguments->jobs,
-                   "Cases at a time; 0: one a core. Rows do not "
-                   "depend on it, but for times")
+                   "Cases at a time; 0: one a core. Rows do not depend on it, but for times")
       ->check(CLI::Range(0, 1024))
       ->capture_default_str();
   command->add_flag(
@@ -69,35 +84,26 @@ void AddSuiteCommand(CLI::App& pas, const Globals& globals, int& exit_code) {
       command->add_option("--baseline", arguments->baseline,
                           "File to compare with, seed by seed; more seeds are run up to the "
                           "suite's most while it cannot be told whether something is worse");
-  command
-      ->add_option("--accept", arguments->accept,
-                   "REASON: run all seeds and write --baseline anew, with this reason in it")
-      ->needs(baseline);
+  CLI::Option* accept =
+      command
+          ->add_option("--accept", arguments->accept,
+                       "REASON: run all seeds and write --baseline anew, with this reason in "
+                       "it")
+          ->needs(baseline);
   CLI::Option* replay = command->add_option(
       "--replay", arguments->replay,
       "CASE: run this one again in DIR/replay, without limits, and say how");
-  CLI::Option* shrink = command->add_option("--shrink", arguments->shrink,
-                                            "CASE: look for a smaller case that fails as this "
-                                            "one does, with fewer frames and objects "
-                                            "and smaller images; written to DIR/shrunk");
-  shrink->excludes(baseline)->excludes(shard)->excludes(replay);
+  CLI::Option* shrink = command->add_option(
+      "--shrink", arguments->shrink,
+      "CASE: look for a smaller case that fails as this one does, or is as much worse than in "
+      "--baseline, with fewer frames and objects and smaller images; written to DIR/shrunk");
+  shrink->excludes(accept)->excludes(shard)->excludes(replay);
   shard->excludes(baseline)->excludes(replay);
   replay->excludes(baseline);
 
-  struct MergeArguments {
-    std::vector<std::string> folders;
-    std::string output;
-  };
-  const auto merged = std::make_shared<MergeArguments>();
-  CLI::App* merge = command->add_subcommand(
-      "merge", "Put the results of several folders, shards of one suite, into one");
-  merge->add_option("DIR", merged->folders, "Folders of results")->required();
-  merge->add_option("-o,--output", merged->output, "Folder to write or to add to")->required();
-  command->callback([merge, merged, arguments, &globals, &exit_code] {
-    if (merge->parsed()) {
-      exit_code = Merge(merged->folders, merged->output, globals.quiet);
-      return;
-    }
+  const CLI::App* merge = AddMerge(*command, globals, exit_code);
+  command->callback([merge, arguments, &globals, &exit_code] {
+    if (merge->parsed()) return;
     if (arguments->suite.empty() || arguments->output.empty()) {
       throw io::InputError(
           "pas suite",

@@ -1,6 +1,7 @@
 #include "app/suite/shrink_case.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cctype>
@@ -26,8 +27,15 @@ constexpr const char* kFolder = "shrunk";
 class Shrinker {
  public:
   Shrinker(const SuiteCase& one, const SuiteFile& suite, const SuiteProgram& program,
-           const fs::path& folder, const std::function<bool()>& stop)
-      : one_(one), suite_(suite), program_(program), folder_(folder), stop_(stop) {
+           const fs::path& folder, const eval::Figures* before,
+           const std::function<bool()>& stop)
+      : one_(one),
+        suite_(suite),
+        program_(program),
+        folder_(folder),
+        before_(before),
+        stop_(stop),
+        bounds_(suite.gate.worst) {
     if (one.slam.empty() || one.slam.front() != "--live") {
       throw io::InputError(one.key, "is of a recording; only rendered cases can be shrunk");
     }
@@ -50,12 +58,7 @@ class Shrinker {
 
   /// No suite is written or named when it is stopped before the case has failed once.
   ShrunkCase Shrink() {
-    failure_ = Try(scene_, best_);
-    if (failure_.status == CaseStatus::kStopped) return {};
-    if (failure_.status == CaseStatus::kFinished && failure_.beyond.empty()) {
-      throw io::InputError(one_.key,
-                           "does not fail; bound its figures by `gate: worst:` in the suite");
-    }
+    if (!FindFailure()) return {};
     for (bool smaller = true; smaller && !stop_();) {
       smaller = Halve(&ShrunkCase::frames, 2);
       smaller = HalveImage() || smaller;
@@ -66,6 +69,42 @@ class Shrinker {
   }
 
  private:
+  /// @returns false when it was stopped before the case has failed
+  bool FindFailure() {
+    const CaseResult whole = Try(scene_, best_);
+    failure_ = FailureOf(whole, bounds_);
+    if (failure_.status == CaseStatus::kStopped) return false;
+    if (failure_.status != CaseStatus::kFinished) {
+      best_.failure = NameOf(failure_.status);
+    } else if (!failure_.beyond.empty()) {
+      best_.failure = fmt::format("{} beyond its bound", fmt::join(failure_.beyond, ", "));
+    } else {
+      FailByBaseline(whole);
+    }
+    return true;
+  }
+
+  /// From here on the case fails by the figure that is worse than the baseline's alone.
+  void FailByBaseline(const CaseResult& whole) {
+    if (before_ == nullptr) {
+      throw io::InputError(one_.key,
+                           "does not fail; bound its figures by `gate: worst:` in the suite, "
+                           "or name a --baseline that has figures of it");
+    }
+    const auto worse = FindWorseFigure(*before_, whole.figures);
+    if (!worse) {
+      throw io::InputError(one_.key,
+                           "does not fail, and is not worse than in the baseline by any figure "
+                           "that can be bounded");
+    }
+    const double half_change = (worse->now - worse->before) / 2;
+    bounds_ = {{worse->figure, (worse->before + worse->now) / 2}};
+    other_failure_ = {{worse->figure, worse->now + half_change}};
+    failure_.beyond = {worse->figure};
+    best_.failure = fmt::format("{} is {}, and {} in the baseline", worse->figure, worse->now,
+                                worse->before);
+  }
+
   /// The smaller scene stands in another folder; its meshes are found by their whole paths.
   void NameMeshesFrom(const fs::path& scene_folder) {
     for (sim::Object& object : scene_.objects) {
@@ -76,9 +115,14 @@ class Shrinker {
     }
   }
 
-  int Number(const char* option, int otherwise) const {
+  /// What the case gives for an option.
+  std::string After(const char* option, const std::string& otherwise) const {
     const auto found = std::find(one_.slam.begin(), one_.slam.end(), option);
-    return found == one_.slam.end() ? otherwise : std::stoi(*std::next(found));
+    return found == one_.slam.end() ? otherwise : *std::next(found);
+  }
+
+  int Number(const char* option, int otherwise) const {
+    return std::stoi(After(option, std::to_string(otherwise)));
   }
 
   static void Set(std::vector<std::string>& arguments, const char* option, int value) {
@@ -90,7 +134,7 @@ class Shrinker {
     }
   }
 
-  CaseFailure Try(const sim::Scene& scene, const ShrunkCase& size) {
+  CaseResult Try(const sim::Scene& scene, const ShrunkCase& size) {
     if (sim::FindFault(scene)) return {};
     sim::WriteScene(scene, size.scene);
     SuiteCase smaller = one_;
@@ -99,13 +143,17 @@ class Shrinker {
     Set(smaller.slam, "--width", size.width);
     Set(smaller.slam, "--height", size.height);
     ++best_.runs;
-    return FailureOf(RunCase(smaller, program_, suite_.limits, folder_, stop_),
-                     suite_.gate.worst);
+    return RunCase(smaller, program_, suite_.limits, folder_, stop_);
   }
 
   /// Takes a smaller case over if it fails alike.
   bool Take(sim::Scene scene, ShrunkCase size) {
-    if (stop_() || !FailsAlike(failure_, Try(scene, size))) return false;
+    if (stop_()) return false;
+    const CaseResult result = Try(scene, size);
+    if (!FailsAlike(failure_, FailureOf(result, bounds_)) ||
+        !eval::BeyondBounds(result.figures, other_failure_).empty()) {
+      return false;
+    }
     size.runs = best_.runs;
     best_ = size;
     scene_ = std::move(scene);
@@ -161,47 +209,72 @@ class Shrinker {
   void Write() {
     best_.objects = scene_.objects.size();
     sim::WriteScene(scene_, best_.scene);
-    const auto after = [&](const char* option, const char* otherwise) {
-      const auto found = std::find(one_.slam.begin(), one_.slam.end(), option);
-      return found == one_.slam.end() ? std::string(otherwise) : *std::next(found);
-    };
-    const std::string sensor = after("--sim-sensor", "kinect1");
-    const bool own_sensor = sensor.find('/') != std::string::npos;
-    const std::string config = after("--config", "");
-    std::string text = fmt::format(
+    const std::string text = fmt::format(
         "# What is left of {}: {}\n"
         "format: pas-suite/1\nname: shrunk\nframes: {}\nsize_px: [{}, {}]\n"
         "limits: {{seconds: {}, memory_mb: {}}}\nseeds: {{first: {}}}\n"
         "scenes: [{{file: scene.yaml}}]\nvariants: [{}]\nmotions: [{}]\n",
-        one_.key, NameOf(failure_.status), best_.frames, best_.width, best_.height,
-        suite_.limits.seconds, suite_.limits.memory_mb, one_.seed, one_.variant,
-        after("--motion", kOwnMotion));
-    text += own_sensor ? fmt::format("sensors: [{{name: own, file: {}, estimator: {}}}]\n",
-                                     Beside(sensor), after("--sensor", "kinect1"))
-                       : fmt::format("sensors: [{}]\n", sensor);
-    if (!config.empty()) {
-      text += fmt::format("configs: [{{name: own, file: {}}}]\n", Beside(config));
+        one_.key, best_.failure, best_.frames, best_.width, best_.height, suite_.limits.seconds,
+        suite_.limits.memory_mb, one_.seed, one_.variant, After("--motion", kOwnMotion));
+    io::WriteFile(best_.suite, text + SensorText() + ConfigText() + GateText());
+  }
+
+  std::string SensorText() const {
+    const std::string sensor = After("--sim-sensor", "kinect1");
+    const bool own = sensor.find('/') != std::string::npos;
+    return own ? fmt::format("sensors: [{{name: own, file: {}, estimator: {}}}]\n",
+                             Beside(sensor), After("--sensor", "kinect1"))
+               : fmt::format("sensors: [{}]\n", sensor);
+  }
+
+  std::string ConfigText() const {
+    const std::string config = After("--config", "");
+    if (config.empty()) return "";
+    return fmt::format("configs: [{{name: own, file: {}}}]\n", Beside(config));
+  }
+
+  std::string GateText() const {
+    if (bounds_.empty()) return "";
+    std::string text = "gate:\n  worst:\n";
+    for (const auto& [figure, bound] : bounds_) {
+      text += fmt::format("    {}: {}\n", figure, bound);
     }
-    if (!suite_.gate.worst.empty()) {
-      text += "gate:\n  worst:\n";
-      for (const auto& [figure, bound] : suite_.gate.worst) {
-        text += fmt::format("    {}: {}\n", figure, bound);
-      }
-    }
-    io::WriteFile(best_.suite, text);
+    return text;
   }
 
   const SuiteCase& one_;
   const SuiteFile& suite_;
   const SuiteProgram& program_;
   fs::path folder_;
+  const eval::Figures* before_;
   std::function<bool()> stop_;
+  /// What the failing case is beyond, and what a smaller one that fails alike is not.
+  std::map<std::string, double> bounds_, other_failure_;
   sim::Scene scene_;
   ShrunkCase best_;
   CaseFailure failure_;
 };
 
 }  // namespace
+
+std::optional<WorseFigure> FindWorseFigure(const eval::Figures& before,
+                                           const eval::Figures& now) {
+  const auto value = [](const eval::Figures& figures, const char* name) {
+    const auto found = figures.find(name);
+    return found == figures.end() ? std::nullopt : found->second;
+  };
+  std::optional<WorseFigure> worst;
+  double most = 1.0;  // times what matters
+  for (const auto& [figure, kind] : eval::GatedMetrics()) {
+    const std::optional<double> was = value(before, figure), is = value(now, figure);
+    if (kind == eval::MetricKind::kTime || !was || !is) continue;
+    const double harm = eval::Harm(kind, *was, *is) / eval::MaxHarm(kind);
+    if (harm <= most) continue;
+    most = harm;
+    worst = WorseFigure{figure, *was, *is};
+  }
+  return worst;
+}
 
 CaseFailure FailureOf(const CaseResult& result, const std::map<std::string, double>& worst) {
   CaseFailure failure{result.status, "", {}};
@@ -222,8 +295,9 @@ bool FailsAlike(const CaseFailure& first, const CaseFailure& second) {
 }
 
 ShrunkCase ShrinkCase(const SuiteCase& one, const SuiteFile& suite, const SuiteProgram& program,
-                      const fs::path& folder, const std::function<bool()>& stop) {
-  return Shrinker(one, suite, program, folder, stop).Shrink();
+                      const fs::path& folder, const eval::Figures* before,
+                      const std::function<bool()>& stop) {
+  return Shrinker(one, suite, program, folder, before, stop).Shrink();
 }
 
 }  // namespace app

@@ -11,8 +11,8 @@
 #include <thread>
 
 #include "app/app.h"
-#include "app/console.h"
-#include "app/stop_signal.h"
+#include "app/console/console.h"
+#include "app/console/stop_signal.h"
 #include "app/suite/repeated_times.h"
 #include "app/suite/replay_case.h"
 #include "app/suite/results.h"
@@ -71,7 +71,7 @@ class SuiteCall {
     if (!arguments_.replay.empty()) {
       return ReplayCase(Named(arguments_.replay), program_, folder_, quiet_);
     }
-    if (!arguments_.shrink.empty()) return Shrink();
+    if (!arguments_.shrink.empty()) return Shrink(baseline);
     std::optional<io::OutputFile> accepted;  // refused before the work
     if (accepting) {
       accepted.emplace(arguments_.baseline,
@@ -323,17 +323,25 @@ class SuiteCall {
     return *found;
   }
 
-  int Shrink() const {
+  int Shrink(const std::optional<eval::Baseline>& baseline) const {
     const SuiteCase one = Named(arguments_.shrink);
+    const eval::Figures* before = nullptr;
+    if (baseline) {
+      RequireSameInputs(*baseline, {one});
+      const auto found = baseline->cases.find(one.key);
+      if (found != baseline->cases.end()) before = &found->second.figures;
+    }
     const StopSignal stop;
-    const ShrunkCase small =
-        ShrinkCase(one, suite_, program_, folder_, [] { return StopSignal::Caught() != 0; });
+    const ShrunkCase small = ShrinkCase(one, suite_, program_, folder_, before,
+                                        [] { return StopSignal::Caught() != 0; });
     if (!quiet_ && !small.suite.empty()) {
       fmt::print(
-          "{} frames of {} x {}, {} objects, after {} runs\nscene {}\nrun it with `pas "
-          "suite {} -o DIR`, and copy the files beside it into tests/regressions\n",
-          small.frames, small.width, small.height, small.objects, small.runs,
-          small.scene.string(), small.suite.string());
+          "{}\n{} frames of {} x {}, {} objects, after {} runs\n"
+          "run it with `pas suite {} -o DIR`\n"
+          "copied to tests/regressions/NAME, the folder {} is a test of ci/test, which fails "
+          "until the fault is mended\n",
+          small.failure, small.frames, small.width, small.height, small.objects, small.runs,
+          small.suite.string(), small.suite.parent_path().string());
     }
     if (StopSignal::Caught() != 0) return ExitCodeOf(StopSignal::Caught());
     return kDone;

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <set>
 
-#include "app/depth_sensor_option.h"
+#include "app/options/depth_sensor_option.h"
 #include "eval/regression/gated_metrics.h"
 #include "io/yaml_value.h"
 #include "sim/families/families.h"
@@ -180,6 +180,8 @@ class SuiteReader {
     map.At("recordings").OneOf({"all"});
     scene.of = "recordings";
     if (map.Has("frames")) map.At("frames").Fail("cannot shorten recordings; leave it out");
+    if (map.Has("name"))
+      map.At("name").Fail("is not of recordings, which have names of their own; leave it out");
     scene.camera = {kTumCameras.front(), ""};
     if (map.Has("camera")) scene.camera = Camera(map.At("camera"));
     const std::vector<std::string>& sensors = slam::DepthSensorNames();

@@ -121,4 +121,53 @@ TEST_F(SuiteProgram, ShrinksNothingThatDoesNotFail) {
   EXPECT_THAT(outcome.errors, HasSubstr("does not fail; bound its figures"));
 }
 
+class ShrinkByBaseline : public SuiteProgram {
+ protected:
+  void SetUp() override {
+    WriteSuite("size_px: [320, 240]\nseeds: {first: 1, count: 1}\ngate: {times: false}\n");
+    WriteProgram("");
+    const Outcome outcome =
+        Suite("before", {"--baseline", folder_ / "baseline.json", "--accept", "first"});
+    ASSERT_EQ(outcome.exit_code, 0) << outcome.errors;
+  }
+  Outcome Shrink() const {
+    return Suite("out", {"--baseline", folder_ / "baseline.json", "--shrink",
+                         "plates-1/kinect1/own/full/default"});
+  }
+  int ExitCodeOfWhatIsLeft(const std::string& results) const {
+    return Process({Pas(), "-q", "suite", folder_ / "out/shrunk/suite.yaml", "-o",
+                    folder_ / results, "--program", folder_ / "fake"},
+                   {}, folder_ / "errors")
+        .Wait()
+        .exit_code;
+  }
+};
+
+TEST_F(ShrinkByBaseline, LeavesABoundHalfWayToWhatTheCaseWas) {
+  // Errors are twice as large from four frames on. In small images they are four times as
+  // large, which is not what became worse.
+  WriteProgram(
+      "case \"$*\" in *slam*)\n"
+      "  frames=${*##*--frames }; frames=${frames%% *}\n"
+      "  if [ $frames -ge 4 ]; then factor=2.00; fi\n"
+      "  case \"$*\" in *'--width 160'*) factor=4.00;; esac;;\n"
+      "esac");
+  const Outcome outcome = Shrink();
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.errors;
+  const std::string suite = ReadText(folder_ / "out/shrunk/suite.yaml");
+  EXPECT_THAT(suite, HasSubstr("rmse_m is 0.002, and 0.001 in the baseline\n"));
+  EXPECT_THAT(suite, HasSubstr("frames: 5\nsize_px: [320, 240]\n"));
+  EXPECT_THAT(suite, HasSubstr("gate:\n  worst:\n    /trajectory/ate_se3/rmse_m: 0.0015\n"));
+  EXPECT_EQ(ExitCodeOfWhatIsLeft("worse"), 1);
+  WriteProgram("");
+  EXPECT_EQ(ExitCodeOfWhatIsLeft("mended"), 0);
+}
+
+TEST_F(ShrinkByBaseline, RefusesACaseThatIsWorseByLessThanMatters) {
+  WriteProgram("factor=1.04");
+  const Outcome outcome = Shrink();
+  EXPECT_EQ(outcome.exit_code, 2);
+  EXPECT_THAT(outcome.errors, HasSubstr("is not worse than in the baseline"));
+}
+
 }  // namespace

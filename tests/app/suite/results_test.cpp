@@ -7,6 +7,7 @@
 
 #include "io/input_error.h"
 #include "tests/support/program.h"
+#include "tests/support/refusal.h"
 
 namespace app {
 namespace {
@@ -15,15 +16,15 @@ SuiteCase Case(const std::string& key, const std::string& inputs = "i") {
   return {key, "desk-1", 1, "full", {}, "s", inputs};
 }
 
-class ResultsTest : public testing::Test {
+class SuiteResults : public testing::Test {
  protected:
-  ResultsTest() {
+  SuiteResults() {
     for (const char* name : {"a", "b", "c"}) program::fs::create_directory(folder_ / name);
   }
   program::TemporaryFolder folder_;
 };
 
-TEST_F(ResultsTest, GiveBackWhatWasPut) {
+TEST_F(SuiteResults, GiveBackWhatWasPut) {
   {
     Results results(folder_ / "a");
     results.Put(Case("k"),
@@ -40,7 +41,7 @@ TEST_F(ResultsTest, GiveBackWhatWasPut) {
   EXPECT_FALSE(program::fs::exists(folder_ / "a/results.sqlite-wal"));
 }
 
-TEST_F(ResultsTest, ANewResultReplacesAllOfTheOldOne) {
+TEST_F(SuiteResults, ANewResultReplacesAllOfTheOldOne) {
   Results results(folder_ / "a");
   results.Put(Case("k"), {CaseStatus::kFinished, "", {{"/x", 0.1}}, {}}, "p", "c");
   results.Put(Case("k", "j"), {CaseStatus::kFinished, "", {{"/y", 0.2}}, {}}, "p", "c");
@@ -48,7 +49,7 @@ TEST_F(ResultsTest, ANewResultReplacesAllOfTheOldOne) {
   EXPECT_EQ(results.Rows()["k"].inputs_sha256, "j");
 }
 
-TEST_F(ResultsTest, AreMerged) {
+TEST_F(SuiteResults, OfTwoFoldersAreMergedWithEachCaseOnce) {
   {
     Results a(folder_ / "a"), b(folder_ / "b");
     a.Put(Case("1"), {CaseStatus::kFinished, "", {{"/x", 1.0}}, {}}, "p", "c");
@@ -63,7 +64,7 @@ TEST_F(ResultsTest, AreMerged) {
   EXPECT_EQ(rows["2"].result.figures.at("/x"), 2.0);
 }
 
-TEST_F(ResultsTest, OfOtherInputsAreNotMerged) {
+TEST_F(SuiteResults, OfOtherInputsAreNotMerged) {
   {
     Results a(folder_ / "a"), b(folder_ / "b");
     a.Put(Case("1", "i"), {}, "p", "c");
@@ -71,15 +72,11 @@ TEST_F(ResultsTest, OfOtherInputsAreNotMerged) {
   }
   Results merged(folder_ / "c");
   merged.Merge(folder_ / "a");
-  try {
-    merged.Merge(folder_ / "b");
-    FAIL() << "was merged";
-  } catch (const io::InputError& error) {
-    EXPECT_THAT(error.what(), testing::HasSubstr("has the case 1 of other inputs"));
-  }
+  EXPECT_THAT(test_support::RefusalOf([&] { merged.Merge(folder_ / "b"); }),
+              testing::HasSubstr("has the case 1 of other inputs"));
 }
 
-TEST_F(ResultsTest, ThatAreNoneAreRefused) {
+TEST_F(SuiteResults, ThatAreNoneAreRefused) {
   std::ofstream(folder_ / "a/results.sqlite") << std::string(5000, 'x');
   EXPECT_THROW(Results(folder_ / "a"), io::InputError);
   Results merged(folder_ / "c");

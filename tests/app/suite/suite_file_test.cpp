@@ -5,8 +5,8 @@
 
 #include <fstream>
 
-#include "io/input_error.h"
 #include "tests/support/program.h"
+#include "tests/support/refusal.h"
 
 namespace app {
 namespace {
@@ -14,25 +14,20 @@ namespace {
 using testing::ElementsAre;
 using testing::HasSubstr;
 
-class SuiteFileTest : public testing::Test {
+class SuiteFiles : public testing::Test {
  protected:
   SuiteFile Read(const std::string& text) const {
     std::ofstream(folder_ / "suite.yaml") << "format: pas-suite/1\nname: s\n" << text;
     return ReadSuite(folder_ / "suite.yaml");
   }
   std::string Refusal(const std::string& text) const {
-    try {
-      Read(text);
-    } catch (const io::InputError& error) {
-      return error.what();
-    }
-    return "was taken";
+    return test_support::RefusalOf([&] { Read(text); });
   }
 
   program::TemporaryFolder folder_;
 };
 
-TEST_F(SuiteFileTest, HasDefaults) {
+TEST_F(SuiteFiles, HaveADefaultForAllButTheirScenes) {
   const SuiteFile suite = Read("scenes: [{family: desk}]\n");
   EXPECT_EQ(suite.frames, std::nullopt);
   EXPECT_EQ(suite.sensors.front().name, "kinect1");
@@ -42,12 +37,12 @@ TEST_F(SuiteFileTest, HasDefaults) {
   EXPECT_EQ(suite.seeds.max_count, 1);
 }
 
-TEST_F(SuiteFileTest, LetsRecordingsTellTheirSensorUnlessItSays) {
+TEST_F(SuiteFiles, LetRecordingsTellTheirSensorUnlessTheySay) {
   EXPECT_EQ(Read("scenes: [{recordings: all}]\n").scenes[0].sensor, "auto");
   EXPECT_EQ(Read("scenes: [{recordings: all, sensor: d435}]\n").scenes[0].sensor, "d435");
 }
 
-TEST_F(SuiteFileTest, TakesTheCameraOfRecordingsByNameOrAsAFileBesideIt) {
+TEST_F(SuiteFiles, TakeTheCameraOfRecordingsByNameOrAsAFileBesideThem) {
   EXPECT_EQ(Read("scenes: [{recordings: all}]\n").scenes[0].camera.name, "tum1");
   const SuiteChoice named =
       Read("scenes: [{recordings: all, camera: tum3}]\n").scenes[0].camera;
@@ -61,7 +56,7 @@ TEST_F(SuiteFileTest, TakesTheCameraOfRecordingsByNameOrAsAFileBesideIt) {
               HasSubstr("camera: expected tum1, tum2, tum3 or a file"));
 }
 
-TEST_F(SuiteFileTest, TakesWhatItSays) {
+TEST_F(SuiteFiles, GiveEachKeyItsValue) {
   std::ofstream(folder_ / "noisy.yaml") << "base: azure\n";
   const SuiteFile suite = Read(
       "frames: 30\nsize_px: [160, 120]\nseeds: {first: 7, count: 2, max_count: 5}\n"
@@ -86,7 +81,7 @@ TEST_F(SuiteFileTest, TakesWhatItSays) {
   EXPECT_THAT(suite.gated_variants, ElementsAre("full"));
 }
 
-TEST_F(SuiteFileTest, SaysWhereWhatAndHowToMendIt) {
+TEST_F(SuiteFiles, AreRefusedWithTheLineAndHowToMendIt) {
   EXPECT_THAT(Refusal("scene: []\n"),
               HasSubstr("suite.yaml:3: unknown key `scene`; did you mean `scenes`?"));
   EXPECT_THAT(Refusal("scenes: []\n"), HasSubstr("names no scene"));
