@@ -2,8 +2,9 @@
 #include <filesystem>
 
 #include "app/app.h"
-#include "app/console.h"
-#include "app/surfaces_option.h"
+#include "app/console/console.h"
+#include "app/eval/eval_modes.h"
+#include "app/options/surfaces_option.h"
 #include "eval/surfaces/draw_surfaces.h"
 #include "eval/surfaces/find_surfaces.h"
 #include "io/image/encode_png.h"
@@ -26,6 +27,7 @@ int RunSurfaces(const SurfacesArguments& arguments, bool quiet) {
   std::optional<io::OutputFile> picture;
   if (!arguments.picture.empty()) picture.emplace(arguments.picture, rules);
   const eval::Sequence sequence = eval::ReadSequence(arguments.sequence);
+  PrintWarnings(sequence.warnings, sequence.folder);
   const eval::DepthViews views =
       ViewsOf(sequence, {}, {arguments.camera, arguments.registration});
   Progress progress("reading depth", 2 * int(views.size()), quiet);
@@ -50,10 +52,9 @@ void AddSurfacesCommand(CLI::App& pas, const Globals& globals, int& exit_code) {
   CLI::App* surfaces = pas.add_subcommand(
       "surfaces",
       "Finds the large flat surfaces of a recording: its depth is laid together with its own\n"
-      "camera truth (groundtruth.txt). A file to be looked at and edited by hand, then given "
-      "to\n"
-      "`pas eval RUN --surfaces FILE`, which scores plane extraction and association on any\n"
-      "RGB-D recording with camera truth (docs/surfaces.md).");
+      "camera truth (groundtruth.txt). A file to be looked at and edited by hand, then given\n"
+      "to `pas eval RUN --surfaces FILE`, which scores plane extraction and association on\n"
+      "any RGB-D recording with camera truth (docs/surfaces.md).");
   auto arguments = std::make_shared<SurfacesArguments>();
   surfaces->add_option("SEQ", arguments->sequence, "Sequence folder with groundtruth.txt")
       ->required()

@@ -13,10 +13,20 @@ double Positive(const io::YamlMap& map, const std::string& key) {
   return map.At(key).Number(io::Interval("(0, 1e9)"));
 }
 
+/// Coefficients beyond Brown's five belong to other models.
+void RefuseOtherLens(const io::YamlValue& coefficient) {
+  if (coefficient.Number(io::Interval("(-inf, inf)")) != 0)
+    coefficient.Fail("expected a lens of k1 k2 p1 p2 k3; other models cannot be used");
+}
+
 /// ORB-SLAM2 has all under `Camera.`, ORB-SLAM3 the lens under `Camera1.`.
 Camera CameraOfOrbSlam(const io::YamlMap& map) {
   const io::Interval size("(0, 100000)"), any("(-1e9, 1e9)");
   const std::string lens = map.Has("Camera1.fx") ? "Camera1." : "Camera.";
+  if (map.Has("Camera.type")) map.At("Camera.type").OneOf({"PinHole", "Rectified"});
+  for (const char* key : {"Camera.k4", "Camera1.k4", "Camera.k5", "Camera.k6"}) {
+    if (map.Has(key)) RefuseOtherLens(map.At(key));
+  }
   Camera camera;
   camera.width = map.At("Camera.width").Whole(size);
   camera.height = map.At("Camera.height").Whole(size);
@@ -44,14 +54,17 @@ std::vector<double> NumbersOf(const io::YamlValue& list) {
 Camera CameraOfMatrices(const io::YamlMap& map) {
   const bool small = map.Has("k"), message = small || map.Has("K");
   const io::Interval size("(0, 100000)");
-  const auto numbers = [&](const char* of_file, const char* of_ros, const char* of_ros2) {
+  const auto list = [&](const char* of_file, const char* of_ros, const char* of_ros2) {
     const io::YamlValue value = map.At(!message ? of_file : small ? of_ros2 : of_ros);
-    return NumbersOf(message ? value : io::YamlMap(value).At("data"));
+    return message ? value : io::YamlMap(value).At("data");
   };
+  if (map.Has("distortion_model")) {
+    map.At("distortion_model").OneOf({"plumb_bob", "rational_polynomial"});
+  }
   Camera camera;
   camera.width = map.At(message ? "width" : "image_width").Whole(size);
   camera.height = map.At(message ? "height" : "image_height").Whole(size);
-  const std::vector<double> matrix = numbers("camera_matrix", "K", "k");
+  const std::vector<double> matrix = NumbersOf(list("camera_matrix", "K", "k"));
   if (matrix.size() != 9 || !(matrix[0] > 0) || !(matrix[4] > 0)) {
     map.At(!message ? "camera_matrix"
            : small  ? "k"
@@ -62,9 +75,14 @@ Camera CameraOfMatrices(const io::YamlMap& map) {
   camera.depth_factor =
       Positive(map, map.Has("DepthMapFactor") ? "DepthMapFactor" : "depth_factor");
   camera.fps = map.Has("fps") ? Positive(map, "fps") : kUsualRate_Hz;
-  const std::vector<double> lens = numbers("distortion_coefficients", "D", "d");
-  for (std::size_t i = 0; i < lens.size() && i < camera.distortion.size(); ++i)
-    camera.distortion[i] = lens[i];
+  const std::vector<io::YamlValue> lens = list("distortion_coefficients", "D", "d").List();
+  for (std::size_t i = 0; i < lens.size(); ++i) {
+    if (i < camera.distortion.size()) {
+      camera.distortion[i] = lens[i].Number(io::Interval("(-1e9, 1e9)"));
+    } else {
+      RefuseOtherLens(lens[i]);
+    }
+  }
   return camera;
 }
 

@@ -1,10 +1,11 @@
 // Cameras as other programs write them: what `pas slam` can run must not be refused afterwards.
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <fstream>
 
 #include "eval/formats/sequence/camera.h"
-#include "io/input_error.h"
+#include "tests/support/refusal.h"
 #include "tests/support/temporary_folder.h"
 
 namespace eval {
@@ -67,13 +68,33 @@ TEST_F(CameraForms, WithoutARateAreOfThirtyFramesASecond) {
       30);
 }
 
-TEST_F(CameraForms, ThatLackAValueAreRefusedByItsName) {
-  try {
-    Read("Camera.fx: 500\nCamera.width: 640\n");
-    FAIL();
-  } catch (const io::InputError& error) {
-    EXPECT_NE(std::string(error.what()).find("Camera.height"), std::string::npos);
+TEST_F(CameraForms, OfAnotherLensAreRefusedAsPasSlamDoes) {
+  // Read as Brown's, a fisheye's coefficients would put what is at 45 degrees 140 pixels off.
+  const std::string matrix = "[500, 0, 320, 0, 500, 240, 0, 0, 1]";
+  const auto of_ros = [&](const std::string& model, const std::string& lens) {
+    return "image_width: 640\nimage_height: 480\ncamera_matrix: {data: " + matrix +
+           "}\ndistortion_model: " + model + "\ndistortion_coefficients: {data: " + lens +
+           "}\ndepth_factor: 5000\n";
+  };
+  const std::string of_orb_slam =
+      "Camera.width: 640\nCamera.height: 480\nCamera.fx: 500\nCamera.fy: 500\nCamera.cx: "
+      "320\nCamera.cy: 240\nDepthMapFactor: 5000\n";
+  EXPECT_NO_THROW(Read(of_ros("rational_polynomial", "[0.1, 0, 0, 0, 0, 0, 0, 0]")));
+  EXPECT_NO_THROW(Read(of_orb_slam + "Camera.type: \"PinHole\"\n"));
+  for (const auto& [text, word] :
+       {std::pair(of_ros("equidistant", "[0.1, 0.01, 0, 0]"), "distortion_model"),
+        std::pair(of_ros("rational_polynomial", "[0.1, 0, 0, 0, 0, 0.3, 0, 0]"),
+                  "k1 k2 p1 p2 k3"),
+        std::pair(of_orb_slam + "Camera.type: \"KannalaBrandt8\"\n", "Camera.type"),
+        std::pair(of_orb_slam + "Camera.k4: 0.1\n", "Camera.k4")}) {
+    EXPECT_THAT(test_support::RefusalOf([&, file = text] { Read(file); }),
+                ::testing::HasSubstr(word));
   }
+}
+
+TEST_F(CameraForms, ThatLackAValueAreRefusedByItsName) {
+  EXPECT_THAT(test_support::RefusalOf([&] { Read("Camera.fx: 500\nCamera.width: 640\n"); }),
+              ::testing::HasSubstr("Camera.height"));
 }
 
 }  // namespace
