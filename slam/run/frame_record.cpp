@@ -41,7 +41,7 @@ const char* DecidedBy(const PlaneMatch& match) {
 /// In the world, where they stand still while the camera turns.
 Json AxesJson(const Frame& frame) {
   Json axes = Json::array();
-  for (const MotionAxis& axis : frame.held_by_motion) {
+  for (const MotionAxis& axis : frame.degenerate) {
     axes.push_back(
         {{axis.turn ? "about" : "along", VectorJson(frame.T_cw.R.transpose() * axis.axis_c)}});
   }
@@ -114,7 +114,7 @@ Json FramePlanesRecord(const Frame& frame, bool tracked, const char* state) {
   json["timestamp"] = NumberJson(frame.timestamp_s);
   json["tracked"] = tracked;
   if (*state != 0) json["state"] = state;
-  if (tracked && !frame.held_by_motion.empty()) json["held_by_motion"] = AxesJson(frame);
+  if (tracked && !frame.degenerate.empty()) json["degenerate"] = AxesJson(frame);
   json["planes"] = Json::array();
   for (std::size_t i = 0; i < frame.planes.size(); ++i) {
     const PlaneMatch match =

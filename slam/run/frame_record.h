@@ -13,7 +13,7 @@ const char* BadReasonText(BadReason reason);
 const char* DecisionText(PlaneDecision decision);
 
 /// One line of frame_planes.jsonl: what was seen in a frame, and what was decided in it. `by`
-/// is null where nothing decided. `held_by_motion` stands in frames whose pose planes hold: the
+/// is null where nothing decided. `degenerate` stands in frames whose pose planes hold: the
 /// directions, in the world, that nothing in the frame observes.
 /// @throws std::invalid_argument if the matches are not parallel to the planes, or a number is
 ///         not finite.

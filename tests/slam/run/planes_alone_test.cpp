@@ -74,7 +74,7 @@ TEST(PlanesAlone, OfOneWallSayWhatTheyDoNotHoldAndGiveUp) {
   const Ran ran = RunOn(Changed(Clean(), 20, 40, LeaveTheWallInFront), Variant::kFull);
   ASSERT_EQ(ran.states[20], "planes");
   // Along the wall, in both directions, and about its normal.
-  const auto held = nlohmann::json::parse(ran.planes[20]).at("held_by_motion");
+  const auto held = nlohmann::json::parse(ran.planes[20]).at("degenerate");
   ASSERT_EQ(held.size(), 3u);
   EXPECT_NEAR(held[0].at("along").at(2), 0.0, 0.1);
   EXPECT_NEAR(held[1].at("along").at(2), 0.0, 0.1);
@@ -99,7 +99,7 @@ TEST(PlanesAlone, OfTwoWallsLeaveTheHeightToMotionAndGiveUp) {
             Variant::kFull);
   ASSERT_EQ(ran.states[19], "tracking");
   ASSERT_EQ(ran.states[20], "planes");
-  const auto held = nlohmann::json::parse(ran.planes[22]).at("held_by_motion");
+  const auto held = nlohmann::json::parse(ran.planes[22]).at("degenerate");
   ASSERT_EQ(held.size(), 1u);
   EXPECT_NEAR(std::abs(held[0].at("along").at(1).get<double>()), 1.0, 0.01);
   // 30 cm after two seconds, 60 after four.
