@@ -31,6 +31,7 @@ constexpr std::array kGated = {
     GatedMetric{"/map/area_explained", MetricKind::kScore},
     GatedMetric{"/map/duplicates", MetricKind::kCount},
     GatedMetric{"/map/spurious", MetricKind::kCount},
+    GatedMetric{"/time_ratio/orb", MetricKind::kTime},
     GatedMetric{"/time_ratio/epi", MetricKind::kTime},
     GatedMetric{"/time_ratio/pp", MetricKind::kTime},
     GatedMetric{"/time_ratio/da", MetricKind::kTime},

@@ -167,8 +167,8 @@ def all_cases(corpus, seed):
 def option_cases(pas):
     """Every numeric option of every command with values that no number may have."""
     listed = re.compile(r"^  (?:-\w,)?(--[\w-]+) (INT|UINT|FLOAT)", re.MULTILINE)
-    for command in (COMMANDS[1], COMMANDS[2], COMMANDS[4], COMMANDS[6],
-                    Command("scene make", "scene make -o out", [])):
+    numeric = [next(c for c in COMMANDS if c.name == name) for name in ("sim", "slam --live", "slam", "eval", "draw")]
+    for command in (*numeric, Command("scene make", "scene make -o out", [])):
         helped = subprocess.run([pas, *command.arguments.split()[:2 if command.name == "scene make" else 1], "--help"],
                                 capture_output=True, text=True, check=True).stdout
         for option, kind in sorted(set(listed.findall(helped))):

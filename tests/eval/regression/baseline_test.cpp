@@ -5,7 +5,7 @@
 
 #include <fstream>
 
-#include "io/input_error.h"
+#include "tests/support/refusal.h"
 #include "tests/support/temporary_folder.h"
 
 namespace eval {
@@ -17,12 +17,7 @@ class BaselineFile : public ::testing::Test {
  protected:
   void Write(const std::string& text) const { std::ofstream(file_) << text; }
   std::string Refusal() const {
-    try {
-      ReadBaseline(file_);
-    } catch (const io::InputError& error) {
-      return error.what();
-    }
-    return "";
+    return test_support::RefusalOf([&] { ReadBaseline(file_); });
   }
 
   test_support::TemporaryFolder temporary_;

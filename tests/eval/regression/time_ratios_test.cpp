@@ -15,6 +15,13 @@ TEST(TimeRatios, AreThoseOfTheFastestTenthOfTheFrames) {
   EXPECT_DOUBLE_EQ(*TimeRatios(timing).at("/time_ratio/da"), 18.0 / 6.0);
 }
 
+TEST(TimeRatios, TellTheSearchForFeaturesOverPlaneExtraction) {
+  // Over itself it would be 1 however slow it became.
+  const Timing timing{{"orb", "epi"}, {}, {{6.0, 4.0}}};
+  EXPECT_DOUBLE_EQ(*TimeRatios(timing).at("/time_ratio/orb"), 1.5);
+  EXPECT_DOUBLE_EQ(*TimeRatios(timing).at("/time_ratio/epi"), 4.0 / 6.0);
+}
+
 TEST(TimeRatios, LeaveOutFramesWithoutWork) {
   const Timing timing{{"orb", "da"}, {}, {{0.0, 0.0}, {2.0, kNone}, {2.0, 3.0}, {2.0, 0.0}}};
   EXPECT_DOUBLE_EQ(*TimeRatios(timing).at("/time_ratio/da"), 1.5);
