@@ -74,9 +74,9 @@ struct PoseProblemConfig {
   int iterations = 10;
   double huber_planes = 2.0;
   bool use_points = true;
-  bool use_planes = true, use_point_planes = true;
-  // The one buys nothing, the other pays only where there are next to no prints: docs/back_end.md
-  bool use_boxes = false, use_vertices = false;
+  bool use_planes = true;
+  // The first two buy nothing, the last pays only where there are next to no prints: docs/back_end.md
+  bool use_point_planes = false, use_boxes = false, use_vertices = false;
 };
 
 inline void VisitFields(PoseProblemConfig& c, FieldVisitor& v) {

@@ -31,7 +31,7 @@ TrackReport Tracker::Track(Frame& frame, const ModuleTimes& times) {
   const TrackingHold map_is_ours(gate());  // mapping beside tracking gives it away in between
   if (!TrackByPoints(frame, report)) return report;  // (D) point to point, and a first pose
   AssociateFramePlanes(frame, report);  // (D) plane to plane with boxes, point to plane
-  OptimiseWithPlanes(frame, report);    // (E) all six kinds of factor, and structure
+  OptimiseWithPlanes(frame, report);    // (E) each factor that is on, and structure
   if (!report.tracked) return report;
   // A pose that planes hold says nothing of the sensor that saw them.
   const bool by_points = report.points.state == TrackState::kTracking;

@@ -93,8 +93,10 @@ TEST_F(SuiteFiles, AreRefusedWithTheLineAndHowToMendIt) {
               HasSubstr("expected one of family"));
   EXPECT_THAT(Refusal("scenes: [{family: desk}, {family: desk}]\n"),
               HasSubstr("give this one a name"));
-  EXPECT_THAT(Refusal("scenes: [{recordings: all}, {recordings: all, name: again}]\n"),
+  EXPECT_THAT(Refusal("scenes: [{recordings: all}, {recordings: all}]\n"),
               HasSubstr("the recordings are named already"));
+  EXPECT_THAT(Refusal("scenes: [{recordings: all, name: mine}]\n"),
+              HasSubstr("names of their own"));
   EXPECT_THAT(Refusal("scenes: [{family: desk, set: {stepp: 1}}]\n"),
               HasSubstr("unknown key `stepp`"));
   EXPECT_THAT(Refusal("scenes: [{family: plates, set: {step_mm: 999}}]\n"),
