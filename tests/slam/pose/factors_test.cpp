@@ -1,6 +1,8 @@
 #include <gtest/gtest.h>
+#include <Eigen/QR>
 
 #include <cmath>
+#include <utility>
 
 #include "slam/pose/factors/box.h"
 #include "slam/pose/factors/parallel.h"
@@ -91,6 +93,28 @@ TEST(BoxFactorEq17, LeavesOutTheSidesThatCarryNoInformation) {
   EXPECT_TRUE(factor.J.row(0).isZero() && factor.J.row(3).isZero());
 }
 
+/// The step that a factor alone would take, the shortest that brings its residual to zero.
+Vector6d Step(const Linearised<4>& factor) {
+  return factor.J.completeOrthogonalDecomposition().solve(-factor.r);
+}
+
+TEST(BoxFactorEq17, LeavesTheTruePoseAloneWhereTheImageCutsTheBox) {
+  const Camera camera;
+  BoxConstraint c;
+  c.corners_w = {{-.7, -.1, 1}, {-.1, -.1, 1}, {-.1, .2, 1}, {-.7, .2, 1}};
+  Box seen;
+  for (const Eigen::Vector3d& p_w : c.corners_w) seen.Include(camera.ProjectDistorted(p_w));
+  ASSERT_LT(seen.min.x(), 0.0);  // beyond the left border, at which a detector ends the box
+  seen.min.x() = 0.0;
+  c.box_obs_px = seen;
+  c.use = {false, true, true, true};
+  const Linearised<4> factor = BoxFactor(c, Pose{}, camera);
+  ASSERT_TRUE(factor.valid);
+  EXPECT_LT(Step(factor).norm(), 1e-9);
+  c.use = {true, true, true, true};  // as printed: all four components of eta
+  EXPECT_GT(Step(BoxFactor(c, Pose{}, camera)).head<3>().norm(), 0.01);  // metres
+}
+
 TEST(BoxFactorEq17, IsOfPixelsAsTheLensShowsThem) {
   Camera camera;
   camera.k1 = 0.25, camera.k2 = -0.9, camera.k3 = 1.1, camera.p1 = -0.005, camera.p2 = 0.003;
@@ -125,6 +149,47 @@ TEST(ParallelFactorEq19, AcceptsFacesThatLookAtEachOther) {
   EXPECT_NEAR(facing.r.norm(), std::acos(turned.dot(n)), 1e-6);
   EXPECT_EQ(facing.r, same.r);
   EXPECT_EQ(facing.J, same.J);
+}
+
+/// q_n as printed: azimuth and elevation in the camera's axes.
+Eigen::Vector2d Angles(const Eigen::Vector3d& n) { return Chart({n, 0.0}).head<2>(); }
+
+TEST(ParallelFactorEq19, IsSmallWhereAzimuthAndElevationJump) {
+  // A hundredth of a degree apart: about the optical axis, and on both sides of azimuth pi.
+  constexpr double kError = 1.7e-4;
+  const Eigen::Vector3d axis = -Eigen::Vector3d::UnitZ(), left = -Eigen::Vector3d::UnitX();
+  const std::pair<Eigen::Vector3d, Eigen::Vector3d> pairs[] = {
+      {ExpSo3({0.5 * kError, 0, 0}) * axis, ExpSo3({-0.5 * kError, 0, 0}) * axis},
+      {ExpSo3({0, 0, 0.5 * kError}) * left, ExpSo3({0, 0, -0.5 * kError}) * left}};
+  for (const auto& [n_c, n_w] : pairs) {
+    const Linearised<3> factor = ParallelFactor({n_w, n_c, 0.02}, Pose{});
+    ASSERT_TRUE(factor.valid);
+    EXPECT_NEAR(factor.r.norm(), kError, 1e-9);
+    EXPECT_GT((Angles(n_c) - Angles(n_w)).norm(), 3.0);  // as printed
+  }
+}
+
+TEST(PerpendicularFactorEq20, IsZeroForEveryPlaneAtARightAngle) {
+  // Walls that face anywhere around a floor. Whatever one turn R_perp by a right angle is
+  // printed, it holds for one of them alone.
+  const Eigen::Vector3d n_c = Eigen::Vector3d(0.1, -0.9, -0.3).normalized();
+  const Eigen::Vector3d side = n_c.unitOrthogonal();
+  const Eigen::Vector3d R_perp_n_c = ExpSo3(0.5 * M_PI * n_c.cross(side)) * n_c;
+  ASSERT_LT((R_perp_n_c - side).norm(), 1e-12);
+  constexpr int kWalls = 12;
+  int printed = 0;
+  for (int wall = 0; wall < kWalls; ++wall) {
+    const Eigen::Vector3d n_w = ExpSo3(2 * M_PI * wall / kWalls * n_c) * side;
+    const Linearised<1> factor = PerpendicularFactor({n_w, n_c, 0.02}, Pose{});
+    ASSERT_TRUE(factor.valid);
+    EXPECT_NEAR(factor.r[0], 0.0, 1e-12) << wall;
+    EXPECT_NEAR((factor.J.rightCols<3>() * n_c).norm(), 0.0, 1e-12) << wall;  // one freedom
+    printed += (Angles(R_perp_n_c) - Angles(n_w)).norm() > 0.1 ? 1 : 0;
+    // A wall that leans by so much is off by as much, whichever way it faces.
+    const Eigen::Vector3d leaning_w = ExpSo3(0.02 * n_w.cross(n_c)) * n_w;
+    EXPECT_NEAR(PerpendicularFactor({leaning_w, n_c, 0.02}, Pose{}).r[0], 0.02, 1e-12);
+  }
+  EXPECT_EQ(printed, kWalls - 1);
 }
 
 TEST(PerpendicularFactorEq20, HasNoGradientWhereThePlanesAreParallel) {
