@@ -1,6 +1,10 @@
 #include "eval/formats/pose/pose_file.h"
 
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <cmath>
+#include <string>
 
 #include "eval/formats/pose/pose_record.h"
 #include "eval/formats/pose/trajectory.h"
