@@ -21,8 +21,9 @@ struct PlaneAssociation {
 /// candidate, or none. Asked once a frame; nothing is changed.
 ///
 /// The integrated rule keeps a pair whose offset and slopes agree within everybody's
-/// uncertainty (chi-square), whose footprints cover each other as seen now, whose class the map plane's belief allows
-/// and whose projected box meets the detection; it then assigns all planes at once, best first.
+/// uncertainty (chi-square), whose footprints cover each other as seen now, whose class the map
+/// plane's belief allows and whose projected box meets the detection; it then assigns all planes at
+/// once, best first.
 /// The landmarks that fit beyond doubt first correct the predicted pose, because an error of
 /// the pose moves all planes alike: what is left are the millimetres between them. The rank
 /// test refuses pairs that hardly overlap and whose points are distributed otherwise. Two

@@ -1,5 +1,6 @@
 #include "slam/associate/nearest_rules.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <vector>

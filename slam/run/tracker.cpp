@@ -160,6 +160,7 @@ void Tracker::AssociateFramePlanes(Frame& frame, TrackReport& report) const {
   frame.plane_steps = std::move(association.steps);
   report.refused = association.refused;
   if (hooks_.after_association) hooks_.after_association(frame, map_);
+  if (!config_.point_search.pose.use_point_planes) return;
   frame.point_planes =
       AssociatePointsToPlanes(frame, map_, camera_, config_.association.max_point_plane_m);
 }
