@@ -15,11 +15,12 @@ double SharedBend(const FramePlane& plane, const Frame& frame) {
 }
 
 void AddEvidence(PlaneEstimate& estimate_a, const FramePlane& plane, const Frame& frame,
-                 const Pose& T_ac, double keep) {
+                 const Pose& T_ac, double keep, double world_variance_m2) {
   const double share = estimate_a.empty() ? 1.0 : std::sqrt(SharedBend(plane, frame));
   AddObservation(estimate_a, Transform(T_ac, plane.pi_c), T_ac * plane.centroid_c,
                  std::hypot(plane.angle_sigma_rad, share * plane.bend_angle_sigma_rad),
-                 std::hypot(plane.offset_sigma_m, share * plane.bend_offset_sigma_m), keep);
+                 std::hypot(plane.offset_sigma_m, share * plane.bend_offset_sigma_m), keep,
+                 world_variance_m2);
 }
 
 PlaneEvidence BestKnown(const PlaneEstimate& estimate) {

@@ -16,9 +16,9 @@ double SharedBend(const FramePlane& plane, const Frame& frame);
 
 /// Adds a frame's plane to what is known of a surface, by its fit and what the sensor bends.
 /// @param T_ac  from the frame's camera into the frame of the estimate
-/// @param keep  as of AddObservation
+/// @param keep, world_variance_m2  as of AddObservation
 void AddEvidence(PlaneEstimate& estimate_a, const FramePlane& plane, const Frame& frame,
-                 const Pose& T_ac, double keep);
+                 const Pose& T_ac, double keep, double world_variance_m2 = 0.0);
 
 /// An estimate as one observation, at the place where its height is known best.
 struct PlaneEvidence {

@@ -94,7 +94,7 @@ void FuseEstimate(MapPlane& into, const MapPlane& from) {
   if (from.estimate.empty()) return;
   const PlaneEvidence known = BestKnown(from.estimate);
   AddObservation(into.estimate, known.pi, known.centroid, known.angle_sigma_rad,
-                 known.offset_sigma_m, 1.0);
+                 known.offset_sigma_m, 1.0, from.estimate.world_variance_m2);
   into.pi_w = into.estimate.Mean();
 }
 

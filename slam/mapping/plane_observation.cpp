@@ -7,6 +7,7 @@
 #include "slam/mapping/plane_face.h"
 #include "slam/mapping/plane_vertices.h"
 #include "slam/model/class_belief.h"
+#include "slam/pose/pose_error.h"
 
 namespace slam {
 namespace {
@@ -14,7 +15,8 @@ namespace {
 /// The observation's information.
 void UpdateParameters(MapPlane& m, const FramePlane& plane, const Frame& frame,
                       const PlaneMapConfig& config) {
-  AddEvidence(m.estimate, plane, frame, Inverse(frame.T_cw), config.keep_information);
+  AddEvidence(m.estimate, plane, frame, Inverse(frame.T_cw), config.keep_information,
+              WorldVariance(frame, plane.pi_c.n, plane.centroid_c));
   if (!m.estimate.empty()) m.pi_w = m.estimate.Mean();
 }
 

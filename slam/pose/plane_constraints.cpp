@@ -123,6 +123,7 @@ void AddUncertainty(const PlaneEstimate& estimate, const Eigen::Vector3d& x_w,
   double &offset_m = constraint.offset_sigma_m, &angle_rad = constraint.angle_sigma_rad;
   offset_m = std::sqrt(offset_m * offset_m + lever.dot(covariance * lever));
   angle_rad = std::sqrt(angle_rad * angle_rad + PlaneEstimate::WorstSlopeVariance(covariance));
+  constraint.world_variance_m2 = estimate.world_variance_m2;
 }
 
 const MapPlane* TrustedMatch(const Frame& frame, const Map& map, std::size_t plane) {

@@ -40,7 +40,7 @@ PlaneConstraint MakePlaneConstraint(const FramePlane& frame_plane, const MapPlan
                                     const Pose& T_cw, double offset_sigma_m,
                                     double angle_sigma_rad);
 
-/// Widens a constraint by what is not known of its map plane.
+/// Widens a constraint by what is not known of its map plane, and notes how far off the world that may be.
 /// @param estimate  of the map plane; not empty
 /// @param x_w       where the patch is
 void AddUncertainty(const PlaneEstimate& estimate, const Eigen::Vector3d& x_w,

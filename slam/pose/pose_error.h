@@ -23,6 +23,10 @@ Matrix6d PoseErrorCovariance(const Frame& frame);
 /// blank wall all that is mapped next lies as far off as the camera may have gone.
 Matrix6d CovarianceInWorld(const Frame& frame);
 
+/// Variance by this of how far a surface that the frame sees lies off the world, along its normal at x_c.
+double WorldVariance(const Frame& frame, const Eigen::Vector3d& n_c,
+                     const Eigen::Vector3d& x_c);
+
 /// Likewise, all in all.
 Matrix6d WorldErrorCovariance(const Frame& frame);
 

@@ -29,6 +29,7 @@ struct PlaneConstraint {
   Eigen::Vector3d centroid_c = Eigen::Vector3d::Zero();  ///< where the offset was measured
   double angle_sigma_rad = 0.01;
   double offset_sigma_m = 0.005;
+  double world_variance_m2 = 0.0;  ///< of the map plane, see PlaneEstimate; weighs nothing
 };
 
 /// f_b_pi: the box of a map plane's projected corners against a detection box. A side that

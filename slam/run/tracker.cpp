@@ -247,6 +247,7 @@ bool Tracker::PoseByPlanes(Frame& frame) const {
   const Matrix6d& predicted = frame.prediction->covariance;
   frame.pose_covariance =
       (Matrix6d::Identity() + predicted * at.H).partialPivLu().solve(predicted);
+  frame.map_covariance = MapCovarianceByPlanes(frame, map_, problem.planes);
   return has_planes && summary.usable;
 }
 
@@ -275,17 +276,10 @@ void Tracker::HoldByPlanes(Frame& frame, TrackReport& report) {
   report.points.state = TrackState::kHeldByPlanes;
 }
 
-/// By the keyframe that the frame stands by; the first frame, which is the world, has none.
-void Tracker::SetMapCovariance(Frame& frame) const {
-  if (!frame.pose_covariance) return;
-  const int by_planes =
-      points_.state() == TrackState::kHeldByPlanes ? KeyframeByPlanes(frame, map_) : kNone;
-  frame.map_covariance = MapCovarianceAt(
-      frame.T_cw, map_, by_planes == kNone ? points_.reference_keyframe() : by_planes);
-}
-
 void Tracker::UpdateMap(Frame& frame, TrackReport& report) {
-  SetMapCovariance(frame);
+  // By planes it is known already, and the first frame, which is the world, has none.
+  if (frame.pose_covariance && points_.state() != TrackState::kHeldByPlanes)
+    frame.map_covariance = MapCovarianceAt(frame.T_cw, map_, points_.reference_keyframe());
   frame.T_lc = points_.FromLast(frame.T_cw, map_);
   {
     const Stopwatch watch(report.times[Module::kUpm]);

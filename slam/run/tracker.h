@@ -128,7 +128,6 @@ class Tracker {
   void HoldByPlanes(Frame& frame, TrackReport& report);
   void OptimiseByAll(Frame& frame) const;
   PoseProblem ProblemOf(const Frame& frame, const FramePoints& points) const;
-  void SetMapCovariance(Frame& frame) const;
   void UpdateMap(Frame& frame, TrackReport& report);
   void KeepFrame(Frame& frame);
   void MapKeyframe(int keyframe, const MapTurn& turn);

@@ -5,6 +5,7 @@
 
 #include "slam/model/map_queries.h"
 #include "slam/pose/plane_constraints.h"
+#include "slam/pose/pose_error.h"
 
 namespace slam {
 namespace {
@@ -33,14 +34,16 @@ PlaneConstraint ConstraintTo(const SupposedPlane& known, const SeenSupposed& see
   return c;
 }
 
-void Observe(const Plane& pi_w, const Eigen::Vector3d& edge_w, double keep, int frame,
+void Observe(const SeenSupposed& seen, const Frame& frame, double keep,
              const SupposedConfig& config, SupposedPlane& known) {
-  AddObservation(known.estimate, pi_w, edge_w, config.angle_sigma_rad, config.offset_sigma_m,
-                 keep);
+  const Pose T_wc = Inverse(frame.T_cw);
+  AddObservation(known.estimate, Transform(T_wc, seen.pi_c), T_wc * seen.centroid_c,
+                 config.angle_sigma_rad, config.offset_sigma_m, keep,
+                 WorldVariance(frame, seen.pi_c.n, seen.centroid_c));
   known.pi_w = known.estimate.Mean();
   // Several lines along one edge are one observation.
-  if (known.observations == 0 || known.last_frame != frame) ++known.observations;
-  known.last_frame = frame;
+  if (known.observations == 0 || known.last_frame != frame.index) ++known.observations;
+  known.last_frame = frame.index;
 }
 
 /// The landmark that a trusted plane of the frame shows or has become, or none.
@@ -96,7 +99,7 @@ void LearnSupposedPlanes(const Frame& frame, double keep, const SupposedConfig& 
       const Eigen::Vector3d edge_w = T_wc * seen.centroid_c;
       const auto at = NearestSupposed(known, pi_w, edge_w, config);
       SupposedPlane& supposed = at ? known[*at] : known.emplace_back();
-      Observe(pi_w, edge_w, keep, frame.index, config, supposed);
+      Observe(seen, frame, keep, config, supposed);
       if (map_begins) supposed.observations = config.min_observations;
     }
     std::erase_if(known, [&](const SupposedPlane& supposed) {

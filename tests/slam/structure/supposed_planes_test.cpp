@@ -163,5 +163,17 @@ TEST(SupposedPlanes, MoveWithTheirLandmark) {
   EXPECT_NEAR(after[0].offset_sigma_m, before[0].offset_sigma_m, 1e-9);
 }
 
+TEST(SupposedPlanes, AreNoBetterKnownInTheWorldThanTheCameraThatSawThem) {
+  // The camera may be 0.3 m off along the normal of the edge's plane, whichever way it is turned.
+  SeenBoard board;
+  board.frame.pose_covariance = Matrix6d::Zero();
+  (*board.frame.pose_covariance)(0, 0) = 0.09;
+  board.Learn(20);
+  ASSERT_EQ(board.Constraints().size(), 1u);
+  const PlaneConstraint constraint = board.Constraints()[0];
+  EXPECT_NEAR(constraint.world_variance_m2, 0.09, 1e-9);
+  EXPECT_LT(constraint.offset_sigma_m, 0.03);  // towards the camera it is
+}
+
 }  // namespace
 }  // namespace slam

@@ -77,5 +77,44 @@ TEST(MapCovariance, TurnsWithTheCamera) {
   EXPECT_LT((place - 1e-4 * x_k * x_k.transpose()).cwiseAbs().maxCoeff(), 1e-12) << told;
 }
 
+/// A floor below and a wall ahead, in camera axes, known in the world as well as is said.
+std::vector<PlaneConstraint> FloorAndWall(double floor_m, double wall_m) {
+  PlaneConstraint floor, wall;
+  floor.pi_c = {{0, -1, 0}, 1.2};
+  floor.centroid_c = {0, 1.2, 2};
+  floor.world_variance_m2 = floor_m * floor_m;
+  wall.pi_c = {{0, 0, -1}, 3};
+  wall.centroid_c = {0, 0, 3};
+  wall.world_variance_m2 = wall_m * wall_m;
+  return {floor, wall};
+}
+
+TEST(MapCovarianceByPlanes, IsAlongEachStepThatOfThePlaneWhichTellsIt) {
+  const Map map = MapWith({{0}});
+  const Matrix6d told = MapCovarianceByPlanes(Showing({0}), map, FloorAndWall(0.3, 0.02));
+  Matrix6d expected = Matrix6d::Zero();
+  expected(1, 1) = 0.09, expected(2, 2) = 4e-4;  // nothing tells the step to the side
+  EXPECT_LT((told - expected).cwiseAbs().maxCoeff(), 1e-12) << told;
+}
+
+TEST(MapCovarianceByPlanes, IsTheMeanOfTwoThatTellOneStepByTheirWeights) {
+  std::vector<PlaneConstraint> planes = FloorAndWall(0.3, 0.02);
+  planes.push_back(planes[0]);
+  planes[2].world_variance_m2 = 0.0;
+  planes[2].offset_sigma_m = planes[0].offset_sigma_m / 3;
+  const Matrix6d told = MapCovarianceByPlanes(Showing({0}), MapWith({{0}}), planes);
+  EXPECT_NEAR(told(1, 1), 0.1 * 0.09, 1e-12);
+}
+
+TEST(MapCovarianceByPlanes, HasWhatTheOldestKeyframeKnowsNoBetter) {
+  Map map = MapWith({{0}, {0}});
+  map.keyframes[0].covariance(1, 1) = 0.04;
+  const Matrix6d lower = MapCovarianceByPlanes(Showing({0}), map, FloorAndWall(0.3, 0.02));
+  EXPECT_NEAR(lower(1, 1), 0.09, 1e-12);
+  const Matrix6d as_keyframe =
+      MapCovarianceByPlanes(Showing({0}), map, FloorAndWall(0.1, 0.02));
+  EXPECT_NEAR(as_keyframe(1, 1), 0.04, 1e-12);
+}
+
 }  // namespace
 }  // namespace slam
