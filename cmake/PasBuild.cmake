@@ -17,6 +17,9 @@ add_library(pas_settings INTERFACE)
 target_compile_options(pas_settings INTERFACE
   -Wall -Wextra -Wconversion -Wshadow -ffp-contract=off
   $<$<BOOL:${PAS_WARNINGS_AS_ERRORS}>:-Werror>)
+# The compiler tidies its memory up after every 1.5 GB instead of 0.13: a tenth of its time.
+target_compile_options(pas_settings INTERFACE
+  $<$<CXX_COMPILER_ID:GNU>:--param=ggc-min-heapsize=1500000>)
 target_include_directories(pas_settings INTERFACE ${PROJECT_SOURCE_DIR})
 # A program loads what it uses: OpenCV's image files alone bring a hundred libraries, 0.2 s a start.
 target_link_options(pas_settings INTERFACE -Wl,--as-needed)

@@ -1,6 +1,5 @@
 #include "slam/calibrate/registration_learner.h"
 
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -201,8 +200,7 @@ void RegistrationLearner::CloseEpoch() {
   estimate_ = now;
   const Eigen::Vector3d ray_d(-now.applied_px.x() / camera_.fx,
                               -now.applied_px.y() / camera_.fy, 1.0);
-  R_dc_ =
-      Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), ray_d).toRotationMatrix();
+  R_dc_ = RotationBetween(Eigen::Vector3d::UnitZ(), ray_d);
 }
 
 /// Whether the image moves by so much, at a usual distance, that its edges are new evidence.

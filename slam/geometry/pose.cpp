@@ -58,6 +58,10 @@ Eigen::Vector3d LogSo3(const Eigen::Matrix3d& R) {
   return scale * q.vec();
 }
 
+Eigen::Matrix3d RotationBetween(const Eigen::Vector3d& from, const Eigen::Vector3d& to) {
+  return Eigen::Quaterniond::FromTwoVectors(from, to).toRotationMatrix();
+}
+
 Pose Exp(const Vector6d& xi) {
   const Eigen::Vector3d rho = xi.head<3>(), omega = xi.tail<3>();
   return {ExpSo3(omega), LeftJacobian(omega) * rho};

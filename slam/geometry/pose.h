@@ -33,6 +33,9 @@ Eigen::Matrix3d Hat(const Eigen::Vector3d& a);
 Eigen::Matrix3d ExpSo3(const Eigen::Vector3d& omega_rad);
 Eigen::Vector3d LogSo3(const Eigen::Matrix3d& R);
 
+/// The smallest rotation that turns one direction into the other.
+Eigen::Matrix3d RotationBetween(const Eigen::Vector3d& from, const Eigen::Vector3d& to);
+
 /// xi = (rho, omega): translational part in metres first, then the rotation vector.
 ///   Exp(xi) = (exp(omega^), J_l(omega) rho)
 Pose Exp(const Vector6d& xi);

@@ -1,7 +1,5 @@
 #include "slam/mapping/plane_motion.h"
 
-#include <Eigen/Geometry>
-
 namespace slam {
 namespace {
 
@@ -36,8 +34,7 @@ void MovePlane(MapPlane& plane, const Pose& T_new_old) {
 }
 
 Pose MotionBetween(const Plane& from_w, const Plane& to_w, const Eigen::Vector3d& x_w) {
-  const Eigen::Matrix3d R =
-      Eigen::Quaterniond::FromTwoVectors(from_w.n, to_w.n).toRotationMatrix();
+  const Eigen::Matrix3d R = RotationBetween(from_w.n, to_w.n);
   return {R, ProjectOnto(to_w, x_w) - R * ProjectOnto(from_w, x_w)};
 }
 

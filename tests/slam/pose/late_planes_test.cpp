@@ -56,7 +56,7 @@ TEST(LatePlanes, SayOfThePoseWhatPoseAndSpeedTogetherDo) {
     add(I, none, Vector6d::Zero(), prior);
     add(-late.speed.gain, I, -late.speed.speed, late.speed.covariance.inverse());
     add(I, late.late_s * I, -late.late_s * late.compensated_speed - measured, seen);
-    const Vector12d both = -H.fullPivLu().solve(g);
+    const Vector12d both = -H.inverse() * g;
 
     // The same by the pose alone.
     const auto seen_at = [&](const Pose& T_cw) {
