@@ -23,14 +23,16 @@ void MovePlane(MapPlane& plane, const Pose& T_new_old) {
   MoveAll(plane.points_w, T_new_old);
   MoveAll(plane.vertices_w, T_new_old);
   MoveAll(plane.hull_w, T_new_old);
-  for (SupposedPlane& supposed : plane.supposed) {
-    supposed.pi_w = Transform(T_new_old, supposed.pi_w);
-    MoveEstimate(supposed.estimate, T_new_old);
-  }
+  for (SupposedPlane& supposed : plane.supposed) MoveSupposed(supposed, T_new_old);
   for (PlanePart& part : plane.parts) {
     MovePlane(part.surface, T_new_old);
     MovePlane(part.rest, T_new_old);
   }
+}
+
+void MoveSupposed(SupposedPlane& plane, const Pose& T_new_old) {
+  plane.pi_w = Transform(T_new_old, plane.pi_w);
+  MoveEstimate(plane.estimate, T_new_old);
 }
 
 Pose MotionBetween(const Plane& from_w, const Plane& to_w, const Eigen::Vector3d& x_w) {

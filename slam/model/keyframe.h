@@ -28,7 +28,9 @@ struct Keyframe {
   /// What was known of its pose in the world when it was made (CovarianceInWorld): so far off may lie what
   /// was mapped from here. Of xi in T_cw <- Exp(xi) T_cw.
   Matrix6d covariance = Matrix6d::Zero();
-  bool by_points = true;  ///< points hold its pose; else planes do
+  Eigen::Vector3d off_w =
+      Eigen::Vector3d::Zero();  ///< how far from where motion led it was found
+  bool by_points = true;        ///< points hold its pose; else planes do
   std::vector<PointFeature> features;
   std::vector<int> map_points;  ///< parallel to features: map point id or kNone
   std::vector<KeyframePlane> planes;

@@ -12,7 +12,7 @@ struct SupposedPlane {
   Plane pi_w;  ///< faces away from the landmark's patch
   PlaneEstimate estimate;
   int observations = 0;
-  int last_frame = 0;
+  int first_frame = 0, last_frame = 0;
 };
 
 }  // namespace slam

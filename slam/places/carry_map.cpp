@@ -47,14 +47,22 @@ void CarryPoints(Map& map, const std::vector<Pose>& before) {
   }
 }
 
+Pose CarriageSince(const Map& map, const std::vector<Pose>& before, int first_frame) {
+  return Carriage(map, before, NearestInTime(map, first_frame));
+}
+
 void CarryPlanes(Map& map, const std::vector<Pose>& before, const std::set<int>& placed) {
   if (map.keyframes.empty()) return;
   for (MapPlane& plane : map.planes) {
     if (placed.count(plane.id) != 0) continue;
     const bool candidate = plane.status == LandmarkStatus::kCandidate;
-    MovePlane(plane, Carriage(map, before,
-                              candidate ? map.keyframes.back().id
-                                        : NearestInTime(map, plane.first_frame)));
+    const Pose T_new_old = candidate ? Carriage(map, before, map.keyframes.back().id)
+                                     : CarriageSince(map, before, plane.first_frame);
+    MovePlane(plane, T_new_old);
+    if (candidate) continue;
+    for (SupposedPlane& supposed : plane.supposed)
+      MoveSupposed(supposed,
+                   CarriageSince(map, before, supposed.first_frame) * Inverse(T_new_old));
   }
 }
 

@@ -15,8 +15,11 @@ std::vector<Pose> KeyframePoses(const Map& map);
 ///   present ones
 void CarryPoints(Map& map, const std::vector<Pose>& before);
 
-/// Carries landmarks along with the keyframe nearest in time to their first sighting, and
-/// candidates with the newest one.
+/// T_new_old of what a frame was the first to see: it moved with the keyframe nearest to it in time.
+Pose CarriageSince(const Map& map, const std::vector<Pose>& before, int first_frame);
+
+/// Carries landmarks along with the keyframe nearest in time to their first sighting, the planes supposed
+/// at their edges with that of the edge's, and candidates with the newest one.
 /// @param placed  ids of planes that stay: the adjustment that moved the keyframes has placed them
 void CarryPlanes(Map& map, const std::vector<Pose>& before, const std::set<int>& placed = {});
 

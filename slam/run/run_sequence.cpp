@@ -229,12 +229,12 @@ class SequenceRun {
     outcome_.loops = tracker_.loops();
     outcome_.ended_lost = lost_.ended_lost();
     outcome_.warnings = Warnings();
-    // A closed loop moves the past; without one the poses stay as they were found.
-    writer_.Finish(
-        tracker_.map(),
-        {outcome_.stopped, outcome_.warnings, tracker_.straightening(), tracker_.registration(),
-         tracker_.rolling_shutter()},
-        outcome_.loops > 0 ? FollowKeyframes(tied_, tracker_.map()) : std::vector<TimedPose>{});
+    // A loop or gap that closes moves the past; without one the poses stay as they were found.
+    writer_.Finish(tracker_.map(),
+                   {outcome_.stopped, outcome_.warnings, tracker_.straightening(),
+                    tracker_.registration(), tracker_.rolling_shutter()},
+                   tracker_.moved_the_past() ? FollowKeyframes(tied_, tracker_.map())
+                                             : std::vector<TimedPose>{});
     CountMap(tracker_.map(), outcome_);
   }
 

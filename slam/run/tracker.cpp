@@ -21,6 +21,7 @@
 #include "slam/mapping/plane_fuse.h"
 #include "slam/mapping/plane_update.h"
 #include "slam/model/map_queries.h"
+#include "slam/places/close_gap.h"
 #include "slam/places/plane_place.h"
 #include "slam/pose/held_directions.h"
 #include "slam/pose/plane_constraints.h"
@@ -38,6 +39,15 @@ Config ForVariant(Config config, Variant variant, std::uint64_t seed) {
   config.plane_processing.seed += seed;
   if (variant != Variant::kFull) config.association.rule = AssociationRule::kParameters;
   return config;
+}
+
+/// Where the camera is, and how far from where motion led to.
+FoundPlace PlaceOf(const Frame& frame) {
+  FoundPlace found;
+  if (frame.prediction) found.off_w = Inverse(frame.T_cw).t - Inverse(frame.prediction->T_cw).t;
+  found.covariance_w =
+      frame.T_cw.R.transpose() * CovarianceInWorld(frame).topLeftCorner<3, 3>() * frame.T_cw.R;
+  return found;
 }
 
 /// Keyframes that may wait for mapping beside tracking: balances how many are dropped against
@@ -285,7 +295,8 @@ void Tracker::UpdateMap(Frame& frame, TrackReport& report) {
     const Stopwatch watch(report.times[Module::kUpm]);
     UpdatePlanes(frame, map_, camera_, config_.association, config_.plane_map);
   }
-  report.keyframe = points_.NeedKeyframe(frame, map_);
+  // What is tied to an older keyframe moves with it, which a frame that is found again must not.
+  report.keyframe = points_.NeedKeyframe(frame, map_) || ClosesGap(map_, PlaceOf(frame));
   if (report.keyframe) {
     KeepFrame(frame);
     const Stopwatch watch(report.times[Module::kUpm]);
@@ -306,6 +317,7 @@ void Tracker::UpdateMap(Frame& frame, TrackReport& report) {
 void Tracker::KeepFrame(Frame& frame) {
   const int keyframe = InsertKeyframe(frame, map_, camera_, scale(), config_.mapping.keyframes);
   map_.keyframes.back().covariance = CovarianceInWorld(frame);
+  map_.keyframes.back().off_w = PlaceOf(frame).off_w;
   map_.keyframes.back().by_points = points_.state() != TrackState::kHeldByPlanes;
   KeepPlanes(frame, config_.plane_map, map_.keyframes[Index(keyframe)]);
   if (worker_) {
@@ -324,6 +336,7 @@ void Tracker::LearnSensor(const Frame& frame) {
 
 void Tracker::MapKeyframe(int keyframe, const MapTurn& turn) {
   if (hooks_.before_mapping) hooks_.before_mapping(keyframe);
+  turn([&] { gap_closed_ = CloseGaps(map_, keyframe) || gap_closed_; });
   MapLocally(map_, keyframe, camera_, scale(), config_.mapping, turn);
   if (!config_.loop_closing.enabled) return;
   std::optional<Loop> loop;

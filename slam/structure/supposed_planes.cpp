@@ -41,6 +41,7 @@ void Observe(const SeenSupposed& seen, const Frame& frame, double keep,
                  config.angle_sigma_rad, config.offset_sigma_m, keep,
                  WorldVariance(frame, seen.pi_c.n, seen.centroid_c));
   known.pi_w = known.estimate.Mean();
+  if (known.observations == 0) known.first_frame = frame.index;
   // Several lines along one edge are one observation.
   if (known.observations == 0 || known.last_frame != frame.index) ++known.observations;
   known.last_frame = frame.index;

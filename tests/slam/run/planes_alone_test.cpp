@@ -94,9 +94,11 @@ TEST(PlanesAlone, OfTwoWallsLeaveTheHeightToMotionAndGiveUp) {
   // The hand looks half to the right.
   const Pose T_right_c = Inverse(Pose{ExpSo3({0, 0.6, 0}), Eigen::Vector3d::Zero()});
   const auto T_cw_of = [&](int i) { return T_right_c * SwingingPose(i); };
-  const Ran ran =
-      RunOn(Changed(SeenStream(170, TexturedCorner(), T_cw_of), 20, 150, LeaveTwoWalls),
-            Variant::kFull);
+  const auto stream =
+      Changed(SeenStream(170, TexturedCorner(), T_cw_of), 20, 150, LeaveTwoWalls);
+  RunOptions options;
+  options.config.tracking.motion.max_sigma_m = 0.6;
+  const Ran ran = RunStream(stream, options);
   ASSERT_EQ(ran.states[19], "tracking");
   ASSERT_EQ(ran.states[20], "planes");
   const auto held = nlohmann::json::parse(ran.planes[22]).at("degenerate");
@@ -110,9 +112,34 @@ TEST(PlanesAlone, OfTwoWallsLeaveTheHeightToMotionAndGiveUp) {
     const int i = static_cast<int>(std::lround((s - 100.0) * 30));
     const Eigen::Vector3d error_m = T_wc.t - (T_cw_of(0) * Inverse(T_cw_of(i))).t;
     EXPECT_LT(std::hypot(error_m.x(), error_m.z()), kPosition_m) << s << " s";
-    EXPECT_LT(std::abs(error_m.y()), i < 20 ? kPosition_m : MotionFilterConfig{}.max_sigma_m)
+    EXPECT_LT(std::abs(error_m.y()),
+              i < 20 ? kPosition_m : options.config.tracking.motion.max_sigma_m)
         << s << " s";
   }
+  EXPECT_EQ(RunOn(stream, Variant::kFull).states[160], "planes");  // unless that is too much
+}
+
+TEST(PlanesAlone, ThatSeeTheFloorAgainMendTheWayThere) {
+  const Pose T_right_c = Inverse(Pose{ExpSo3({0, 0.6, 0}), Eigen::Vector3d::Zero()});
+  const auto T_cw_of = [&](int i) { return T_right_c * SwingingPose(i); };
+  constexpr int kFrom = 20, kAgain = 80, kAll = 100;
+  auto stream = Changed(SeenStream(kAll, TexturedCorner(), T_cw_of), kFrom, kAgain - kFrom,
+                        LeaveTwoWalls);
+  stream = Changed(stream, kAgain, kAll - kAgain, Darken);
+  // How far off the height is in the last frames in which nothing tells it.
+  const auto largest_m = [&](const Ran& ran) {
+    double worst_m = 0.0;
+    for (const auto& [s, T_wc] : ran.poses_wc) {
+      const int i = static_cast<int>(std::lround((s - 100.0) * 30));
+      const Eigen::Vector3d error_m = T_wc.t - (T_cw_of(0) * Inverse(T_cw_of(i))).t;
+      if (i >= kAgain - 5 && i < kAgain) worst_m = std::max(worst_m, std::abs(error_m.y()));
+    }
+    return worst_m;
+  };
+  const Ran mended = RunOn(stream, Variant::kFull);
+  EXPECT_EQ(mended.outcome.tracked, kAll);
+  stream.resize(kAgain);  // the floor does not come back
+  EXPECT_LT(largest_m(mended), 0.5 * largest_m(RunOn(stream, Variant::kFull)));
 }
 
 /// Standard deviation of the camera's step down in each frame that has a pose, as it was told.
