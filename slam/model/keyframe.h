@@ -29,7 +29,7 @@ struct Keyframe {
   /// was mapped from here. Of xi in T_cw <- Exp(xi) T_cw.
   Matrix6d covariance = Matrix6d::Zero();
   Eigen::Vector3d off_w =
-      Eigen::Vector3d::Zero();  ///< how far from where motion led it was found
+      Eigen::Vector3d::Zero();  ///< how far off it found those before it to be
   bool by_points = true;        ///< points hold its pose; else planes do
   std::vector<PointFeature> features;
   std::vector<int> map_points;  ///< parallel to features: map point id or kNone

@@ -1,6 +1,7 @@
 #include "slam/places/close_gap.h"
 
 #include <Eigen/Eigenvalues>
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <vector>
@@ -90,6 +91,13 @@ void Close(const Gap& gap, int keyframe, Map& map) {
 }
 
 }  // namespace
+
+FoundPlace FoundOff(const Eigen::Vector3d& off_w, const Eigen::Matrix3d& covariance_w,
+                    const Eigen::Matrix3d& before_w, const Eigen::Matrix3d& motion_w) {
+  const Eigen::Matrix3d led_w = before_w + motion_w;
+  if (!(led_w.determinant() > 0)) return {};
+  return {before_w * led_w.inverse() * off_w, covariance_w + motion_w};
+}
 
 bool ClosesGap(const Map& map, const FoundPlace& found) {
   const Keyframe* older = Before(map, map.keyframes.size());

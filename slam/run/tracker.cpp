@@ -21,7 +21,6 @@
 #include "slam/mapping/plane_fuse.h"
 #include "slam/mapping/plane_update.h"
 #include "slam/model/map_queries.h"
-#include "slam/places/close_gap.h"
 #include "slam/places/plane_place.h"
 #include "slam/pose/held_directions.h"
 #include "slam/pose/plane_constraints.h"
@@ -41,13 +40,9 @@ Config ForVariant(Config config, Variant variant, std::uint64_t seed) {
   return config;
 }
 
-/// Where the camera is, and how far from where motion led to.
-FoundPlace PlaceOf(const Frame& frame) {
-  FoundPlace found;
-  if (frame.prediction) found.off_w = Inverse(frame.T_cw).t - Inverse(frame.prediction->T_cw).t;
-  found.covariance_w =
-      frame.T_cw.R.transpose() * CovarianceInWorld(frame).topLeftCorner<3, 3>() * frame.T_cw.R;
-  return found;
+/// Covariance of the camera's place, in the world's axes.
+Eigen::Matrix3d PlaceCovariance(const Pose& T_cw, const Matrix6d& covariance) {
+  return T_cw.R.transpose() * covariance.topLeftCorner<3, 3>() * T_cw.R;
 }
 
 /// Keyframes that may wait for mapping beside tracking: balances how many are dropped against
@@ -286,6 +281,16 @@ void Tracker::HoldByPlanes(Frame& frame, TrackReport& report) {
   report.points.state = TrackState::kHeldByPlanes;
 }
 
+/// By how much the frame before was off, as this one shows, if that was tracked.
+FoundPlace Tracker::PlaceOf(const Frame& frame) const {
+  if (!last_place_ || !frame.prediction) return {};
+  const double dt_s = frame.timestamp_s - last_place_->timestamp_s;
+  return FoundOff(Inverse(frame.T_cw).t - Inverse(frame.prediction->T_cw).t,
+                  PlaceCovariance(frame.T_cw, CovarianceInWorld(frame)),
+                  last_place_->covariance_w,
+                  dt_s * dt_s * PlaceCovariance(frame.T_cw, frame.speed.covariance));
+}
+
 void Tracker::UpdateMap(Frame& frame, TrackReport& report) {
   // By planes it is known already, and the first frame, which is the world, has none.
   if (frame.pose_covariance && points_.state() != TrackState::kHeldByPlanes)
@@ -295,13 +300,16 @@ void Tracker::UpdateMap(Frame& frame, TrackReport& report) {
     const Stopwatch watch(report.times[Module::kUpm]);
     UpdatePlanes(frame, map_, camera_, config_.association, config_.plane_map);
   }
-  // What is tied to an older keyframe moves with it, which a frame that is found again must not.
-  report.keyframe = points_.NeedKeyframe(frame, map_) || ClosesGap(map_, PlaceOf(frame));
+  // What is tied to an older keyframe moves with it, which a frame that closes a gap must not.
+  const FoundPlace found = PlaceOf(frame);
+  const bool closes = ClosesGap(map_, found);
+  report.keyframe = points_.NeedKeyframe(frame, map_) || closes;
   if (report.keyframe) {
-    KeepFrame(frame);
+    KeepFrame(frame, closes ? found.off_w : Eigen::Vector3d::Zero());
     const Stopwatch watch(report.times[Module::kUpm]);
     FusePlanes(map_, config_.association, config_.plane_map);
   }
+  last_place_ = {frame.timestamp_s, PlaceCovariance(frame.T_cw, CovarianceInWorld(frame))};
   // The pose is tied to a keyframe, which moves on when the map is adjusted.
   points_.Accept(frame, map_);
   report.reference = points_.reference_keyframe();
@@ -314,10 +322,10 @@ void Tracker::UpdateMap(Frame& frame, TrackReport& report) {
 }
 
 /// Makes the frame a keyframe, and maps it now or has it mapped beside tracking.
-void Tracker::KeepFrame(Frame& frame) {
+void Tracker::KeepFrame(Frame& frame, const Eigen::Vector3d& off_w) {
   const int keyframe = InsertKeyframe(frame, map_, camera_, scale(), config_.mapping.keyframes);
   map_.keyframes.back().covariance = CovarianceInWorld(frame);
-  map_.keyframes.back().off_w = PlaceOf(frame).off_w;
+  map_.keyframes.back().off_w = off_w;
   map_.keyframes.back().by_points = points_.state() != TrackState::kHeldByPlanes;
   KeepPlanes(frame, config_.plane_map, map_.keyframes[Index(keyframe)]);
   if (worker_) {

@@ -15,6 +15,7 @@
 #include "slam/model/frame.h"
 #include "slam/model/map.h"
 #include "slam/model/module_times.h"
+#include "slam/places/close_gap.h"
 #include "slam/places/close_loop.h"
 #include "slam/pose/point_constraints.h"
 #include "slam/pose/pose_problem.h"
@@ -130,8 +131,9 @@ class Tracker {
   void HoldByPlanes(Frame& frame, TrackReport& report);
   void OptimiseByAll(Frame& frame) const;
   PoseProblem ProblemOf(const Frame& frame, const FramePoints& points) const;
+  FoundPlace PlaceOf(const Frame& frame) const;
   void UpdateMap(Frame& frame, TrackReport& report);
-  void KeepFrame(Frame& frame);
+  void KeepFrame(Frame& frame, const Eigen::Vector3d& off_w);
   void MapKeyframe(int keyframe, const MapTurn& turn);
   void LearnSensor(const Frame& frame);
   MapGate* gate() { return worker_ ? &gate_ : nullptr; }
@@ -148,6 +150,11 @@ class Tracker {
   Map map_;
   int loops_ = 0;
   bool gap_closed_ = false;
+  struct KnownPlace {
+    double timestamp_s = 0.0;
+    Eigen::Matrix3d covariance_w;  ///< of the camera's place in the world
+  };
+  std::optional<KnownPlace> last_place_;  ///< of the frame before, if it was tracked
 
   TrackerHooks hooks_;
   MapGate gate_;                           ///< to map_, points_, loops_ and gap_closed_

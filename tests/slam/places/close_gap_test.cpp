@@ -1,6 +1,6 @@
 #include "slam/places/close_gap.h"
 
-#include <gtest/gtest.h>
+#include <gmock/gmock.h>
 
 #include <cmath>
 #include <vector>
@@ -130,6 +130,21 @@ TEST(CloseGaps, LeavesAloneWhatIsNoNewsAndWhatIsNotCredible) {
   EXPECT_FALSE(closes(0.1, 2e-3));     // hardly better known than before
   EXPECT_FALSE(closes(0.0025, 1e-6));  // as well where motion led
   EXPECT_FALSE(closes(0.5, 1e-6));     // more than five times what it may be off
+}
+
+TEST(FoundOff, SharesWhatIsFoundBetweenWhereTheCameraWasAndHowItMoved) {
+  // Where it was is known to 30 mm along x and to nothing's width along y; it may have moved by 40 mm, 20 mm.
+  const Eigen::Matrix3d before_w = Eigen::Vector3d(9e-4, 0, 1e-4).asDiagonal();
+  const Eigen::Matrix3d motion_w = Eigen::Vector3d(16e-4, 4e-4, 1e-4).asDiagonal();
+  const FoundPlace found =
+      FoundOff({0.05, 0.05, 0.02}, 1e-6 * Eigen::Matrix3d::Identity(), before_w, motion_w);
+  EXPECT_THAT(found.off_w, VectorNear(Eigen::Vector3d(0.018, 0, 0.01), 1e-12));
+  const Eigen::Vector3d known = found.covariance_w.diagonal();
+  EXPECT_THAT(known, VectorNear(Eigen::Vector3d(1.601e-3, 4.01e-4, 1.01e-4), 1e-12));
+  // Of the frame that is the world, and of one that cannot have moved, nothing is found off.
+  EXPECT_EQ(
+      FoundOff({1, 1, 1}, before_w, Eigen::Matrix3d::Zero(), Eigen::Matrix3d::Zero()).off_w,
+      Eigen::Vector3d::Zero());
 }
 
 TEST(CloseGaps, HasNothingToDoAtTheFirstKeyframe) {
