@@ -16,7 +16,7 @@ namespace {
 void UpdateParameters(MapPlane& m, const FramePlane& plane, const Frame& frame,
                       const PlaneMapConfig& config) {
   AddEvidence(m.estimate, plane, frame, Inverse(frame.T_cw), config.keep_information,
-              WorldVariance(frame, plane.pi_c.n, plane.centroid_c));
+              VarianceAlong(CovarianceInWorld(frame), plane.pi_c.n, plane.centroid_c));
   if (!m.estimate.empty()) m.pi_w = m.estimate.Mean();
 }
 

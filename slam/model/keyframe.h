@@ -3,6 +3,7 @@
 #include <map>
 #include <vector>
 
+#include "slam/model/found_place.h"
 #include "slam/model/frame.h"
 #include "slam/model/plane_estimate.h"
 
@@ -28,9 +29,8 @@ struct Keyframe {
   /// What was known of its pose in the world when it was made (CovarianceInWorld): so far off may lie what
   /// was mapped from here. Of xi in T_cw <- Exp(xi) T_cw.
   Matrix6d covariance = Matrix6d::Zero();
-  Eigen::Vector3d off_w =
-      Eigen::Vector3d::Zero();  ///< how far off it found those before it to be
-  bool by_points = true;        ///< points hold its pose; else planes do
+  FoundPlace found;       ///< what its frame told of the one before
+  bool by_points = true;  ///< points hold its pose; else planes do
   std::vector<PointFeature> features;
   std::vector<int> map_points;  ///< parallel to features: map point id or kNone
   std::vector<KeyframePlane> planes;

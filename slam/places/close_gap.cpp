@@ -8,6 +8,7 @@
 
 #include "slam/base/index.h"
 #include "slam/places/carry_map.h"
+#include "slam/pose/pose_error.h"
 
 namespace slam {
 namespace {
@@ -22,26 +23,14 @@ struct Gap {
 constexpr double kMuchLess = 0.25;  // of the variance: half of the standard deviation
 constexpr double kClear = 3.0, kCredible = 5.0;  // standard deviations after and before
 
-Eigen::Matrix3d PlaceCovariance(const Keyframe& keyframe) {
-  const Eigen::Matrix3d& R_cw = keyframe.T_cw.R;
-  return R_cw.transpose() * keyframe.covariance.topLeftCorner<3, 3>() * R_cw;
-}
-
-/// The newest keyframe older than `id` that counts. Null: none.
-const Keyframe* Before(const Map& map, std::size_t id) {
-  while (id-- > 0)
-    if (!map.keyframes[id].culled) return &map.keyframes[id];
-  return nullptr;
-}
-
-/// Along the axes of what the older keyframe does not know.
-std::vector<Gap> GapsSince(const Keyframe& older, const FoundPlace& found) {
+/// Along the axes of what was not known.
+std::vector<Gap> GapsIn(const FoundPlace& found) {
   std::vector<Gap> gaps;
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(PlaceCovariance(older));
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(found.before_w);
   for (int i = 0; i < 3; ++i) {
     const Eigen::Vector3d axis_w = axes.eigenvectors().col(i);
     const Gap gap{axis_w, axis_w.dot(found.off_w), axes.eigenvalues()[i],
-                  axis_w.dot(found.covariance_w * axis_w)};
+                  axis_w.dot(found.after_w * axis_w)};
     if (gap.after_m2 < kMuchLess * gap.before_m2 &&
         std::abs(gap.off_m) > kClear * std::sqrt(gap.after_m2) &&
         std::abs(gap.off_m) < kCredible * std::sqrt(gap.before_m2))
@@ -77,8 +66,8 @@ void Close(const Gap& gap, int keyframe, Map& map) {
   for (int id = keyframe - 1; id > 0; --id) {
     Keyframe& older = map.keyframes[Index(id)];
     if (older.culled) continue;
-    const double own_m2 = gap.axis_w.dot(PlaceCovariance(older) * gap.axis_w);
-    share = std::min(share, own_m2 / gap.before_m2);
+    const Eigen::Matrix3d place_w = PlaceCovariance(older.T_cw, older.covariance);
+    share = std::min(share, gap.axis_w.dot(place_w * gap.axis_w) / gap.before_m2);
     if (share > 0) Shift(gap, share, older);
   }
   for (MapPlane& plane : map.planes) {
@@ -92,23 +81,17 @@ void Close(const Gap& gap, int keyframe, Map& map) {
 
 }  // namespace
 
-FoundPlace FoundOff(const Eigen::Vector3d& off_w, const Eigen::Matrix3d& covariance_w,
+FoundPlace FoundOff(const Eigen::Vector3d& off_w, const Eigen::Matrix3d& now_w,
                     const Eigen::Matrix3d& before_w, const Eigen::Matrix3d& motion_w) {
   const Eigen::Matrix3d led_w = before_w + motion_w;
   if (!(led_w.determinant() > 0)) return {};
-  return {before_w * led_w.inverse() * off_w, covariance_w + motion_w};
+  return {before_w * led_w.inverse() * off_w, before_w, now_w + motion_w};
 }
 
-bool ClosesGap(const Map& map, const FoundPlace& found) {
-  const Keyframe* older = Before(map, map.keyframes.size());
-  return older != nullptr && !GapsSince(*older, found).empty();
-}
+bool ClosesGap(const FoundPlace& found) { return !GapsIn(found).empty(); }
 
 bool CloseGaps(Map& map, int keyframe) {
-  const Keyframe* older = Before(map, Index(keyframe));
-  if (older == nullptr) return false;
-  const Keyframe& newest = map.keyframes[Index(keyframe)];
-  const std::vector<Gap> gaps = GapsSince(*older, {newest.off_w, PlaceCovariance(newest)});
+  const std::vector<Gap> gaps = GapsIn(map.keyframes[Index(keyframe)].found);
   for (const Gap& gap : gaps) Close(gap, keyframe, map);
   return !gaps.empty();
 }

@@ -6,23 +6,15 @@
 
 namespace slam {
 
-/// What a frame tells of the one before: that it was so far off, which is known so well.
-struct FoundPlace {
-  Eigen::Vector3d off_w = Eigen::Vector3d::Zero();  ///< world axes
-  Eigen::Matrix3d covariance_w =
-      Eigen::Matrix3d::Zero();  ///< of the camera's place in the world
-};
-
-/// Of a frame that was found `off_w` from where motion led.
-/// @param covariance_w  of its place in the world
-/// @param before_w      the same of the frame before
-/// @param motion_w      of what the camera may have moved otherwise than it was led since
-FoundPlace FoundOff(const Eigen::Vector3d& off_w, const Eigen::Matrix3d& covariance_w,
+/// What a frame tells of the one before that was found `off_w` from where motion led: it may have moved
+/// otherwise, or have been elsewhere before.
+/// @param now_w, before_w  covariances of the two frames' places in the world
+/// @param motion_w         of what the camera may have moved otherwise in between
+FoundPlace FoundOff(const Eigen::Vector3d& off_w, const Eigen::Matrix3d& now_w,
                     const Eigen::Matrix3d& before_w, const Eigen::Matrix3d& motion_w);
 
-/// Whether that is a clear way, along a direction that is known much better now than at the newest
-/// keyframe.
-bool ClosesGap(const Map& map, const FoundPlace& found);
+/// Whether that is a clear way, along a direction that is known much better since.
+bool ClosesGap(const FoundPlace& found);
 
 /// Draws the map together where a keyframe closes gaps: what came before it was off in the world as
 /// far as it is found off, each keyframe by the share of that uncertainty that it had itself, back to

@@ -45,15 +45,19 @@ Matrix6d CovarianceInWorld(const Frame& frame) {
   return AtLeast(*frame.pose_covariance, frame.map_covariance);
 }
 
-double WorldVariance(const Frame& frame, const Eigen::Vector3d& n_c,
-                     const Eigen::Vector3d& x_c) {
-  const Vector6d by_pose = (Vector6d() << n_c, x_c.cross(n_c)).finished();
-  return by_pose.dot(CovarianceInWorld(frame) * by_pose);
-}
-
 Matrix6d WorldErrorCovariance(const Frame& frame) {
   if (!frame.pose_covariance) return Matrix6d::Zero();
   return CovarianceInWorld(frame) + BendCovariance(frame) + ShutterCovariance(frame);
+}
+
+Eigen::Matrix3d PlaceCovariance(const Pose& T_cw, const Matrix6d& covariance) {
+  return T_cw.R.transpose() * covariance.topLeftCorner<3, 3>() * T_cw.R;
+}
+
+double VarianceAlong(const Matrix6d& covariance, const Eigen::Vector3d& n_c,
+                     const Eigen::Vector3d& x_c) {
+  const Vector6d by_pose = (Vector6d() << n_c, x_c.cross(n_c)).finished();
+  return by_pose.dot(covariance * by_pose);
 }
 
 Matrix6d AtLeast(const Matrix6d& covariance, const Matrix6d& bound) {

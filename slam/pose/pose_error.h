@@ -23,12 +23,16 @@ Matrix6d PoseErrorCovariance(const Frame& frame);
 /// blank wall all that is mapped next lies as far off as the camera may have gone.
 Matrix6d CovarianceInWorld(const Frame& frame);
 
-/// Variance by this of how far a surface that the frame sees lies off the world, along its normal at x_c.
-double WorldVariance(const Frame& frame, const Eigen::Vector3d& n_c,
-                     const Eigen::Vector3d& x_c);
-
 /// Likewise, all in all.
 Matrix6d WorldErrorCovariance(const Frame& frame);
+
+/// What that says of the camera's place, in the world's axes.
+Eigen::Matrix3d PlaceCovariance(const Pose& T_cw, const Matrix6d& covariance);
+
+/// Variance of how far a surface with this normal at x_c, as a camera sees it, lies off the map.
+/// @param covariance  of the camera's pose
+double VarianceAlong(const Matrix6d& covariance, const Eigen::Vector3d& n_c,
+                     const Eigen::Vector3d& x_c);
 
 /// A covariance that is nowhere smaller than either: where `bound` is larger, along the axes that both
 /// have in common, it is that. Their sum where the first is singular, and so has no such axes.

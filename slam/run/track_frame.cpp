@@ -32,10 +32,7 @@ TrackReport Tracker::Track(Frame& frame, const ModuleTimes& times) {
   if (!TrackByPoints(frame, report)) return report;  // (D) point to point, and a first pose
   AssociateFramePlanes(frame, report);  // (D) plane to plane with boxes, point to plane
   OptimiseWithPlanes(frame, report);    // (E) each factor that is on, and structure
-  if (!report.tracked) {
-    last_place_.reset();
-    return report;
-  }
+  if (!report.tracked) return report;
   // A pose that planes hold says nothing of the sensor that saw them.
   const bool by_points = report.points.state == TrackState::kTracking;
   if (by_points) rolling_.Learn(frame, map_);

@@ -40,11 +40,6 @@ Config ForVariant(Config config, Variant variant, std::uint64_t seed) {
   return config;
 }
 
-/// Covariance of the camera's place, in the world's axes.
-Eigen::Matrix3d PlaceCovariance(const Pose& T_cw, const Matrix6d& covariance) {
-  return T_cw.R.transpose() * covariance.topLeftCorner<3, 3>() * T_cw.R;
-}
-
 /// Keyframes that may wait for mapping beside tracking: balances how many are dropped against
 /// how far the map lags behind.
 constexpr std::size_t kMaxWaiting = 3;
@@ -281,13 +276,13 @@ void Tracker::HoldByPlanes(Frame& frame, TrackReport& report) {
   report.points.state = TrackState::kHeldByPlanes;
 }
 
-/// By how much the frame before was off, as this one shows, if that was tracked.
-FoundPlace Tracker::PlaceOf(const Frame& frame) const {
-  if (!last_place_ || !frame.prediction) return {};
-  const double dt_s = frame.timestamp_s - last_place_->timestamp_s;
+/// How far off the frame before was, as this one shows, if that was tracked.
+FoundPlace Tracker::TellOfTheFrameBefore(const Frame& frame) const {
+  if (last_place_.frame_index != frame.index - 1 || !frame.prediction) return {};
+  const double dt_s = frame.timestamp_s - last_place_.timestamp_s;
   return FoundOff(Inverse(frame.T_cw).t - Inverse(frame.prediction->T_cw).t,
                   PlaceCovariance(frame.T_cw, CovarianceInWorld(frame)),
-                  last_place_->covariance_w,
+                  last_place_.covariance_w,
                   dt_s * dt_s * PlaceCovariance(frame.T_cw, frame.speed.covariance));
 }
 
@@ -301,15 +296,15 @@ void Tracker::UpdateMap(Frame& frame, TrackReport& report) {
     UpdatePlanes(frame, map_, camera_, config_.association, config_.plane_map);
   }
   // What is tied to an older keyframe moves with it, which a frame that closes a gap must not.
-  const FoundPlace found = PlaceOf(frame);
-  const bool closes = ClosesGap(map_, found);
-  report.keyframe = points_.NeedKeyframe(frame, map_) || closes;
+  const FoundPlace found = TellOfTheFrameBefore(frame);
+  report.keyframe = points_.NeedKeyframe(frame, map_) || ClosesGap(found);
   if (report.keyframe) {
-    KeepFrame(frame, closes ? found.off_w : Eigen::Vector3d::Zero());
+    KeepFrame(frame, found);
     const Stopwatch watch(report.times[Module::kUpm]);
     FusePlanes(map_, config_.association, config_.plane_map);
   }
-  last_place_ = {frame.timestamp_s, PlaceCovariance(frame.T_cw, CovarianceInWorld(frame))};
+  last_place_ = {frame.index, frame.timestamp_s,
+                 PlaceCovariance(frame.T_cw, CovarianceInWorld(frame))};
   // The pose is tied to a keyframe, which moves on when the map is adjusted.
   points_.Accept(frame, map_);
   report.reference = points_.reference_keyframe();
@@ -322,10 +317,10 @@ void Tracker::UpdateMap(Frame& frame, TrackReport& report) {
 }
 
 /// Makes the frame a keyframe, and maps it now or has it mapped beside tracking.
-void Tracker::KeepFrame(Frame& frame, const Eigen::Vector3d& off_w) {
+void Tracker::KeepFrame(Frame& frame, const FoundPlace& found) {
   const int keyframe = InsertKeyframe(frame, map_, camera_, scale(), config_.mapping.keyframes);
   map_.keyframes.back().covariance = CovarianceInWorld(frame);
-  map_.keyframes.back().off_w = off_w;
+  map_.keyframes.back().found = found;
   map_.keyframes.back().by_points = points_.state() != TrackState::kHeldByPlanes;
   KeepPlanes(frame, config_.plane_map, map_.keyframes[Index(keyframe)]);
   if (worker_) {

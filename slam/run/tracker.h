@@ -131,9 +131,9 @@ class Tracker {
   void HoldByPlanes(Frame& frame, TrackReport& report);
   void OptimiseByAll(Frame& frame) const;
   PoseProblem ProblemOf(const Frame& frame, const FramePoints& points) const;
-  FoundPlace PlaceOf(const Frame& frame) const;
+  FoundPlace TellOfTheFrameBefore(const Frame& frame) const;
   void UpdateMap(Frame& frame, TrackReport& report);
-  void KeepFrame(Frame& frame, const Eigen::Vector3d& off_w);
+  void KeepFrame(Frame& frame, const FoundPlace& found);
   void MapKeyframe(int keyframe, const MapTurn& turn);
   void LearnSensor(const Frame& frame);
   MapGate* gate() { return worker_ ? &gate_ : nullptr; }
@@ -151,10 +151,11 @@ class Tracker {
   int loops_ = 0;
   bool gap_closed_ = false;
   struct KnownPlace {
+    int frame_index = kNone;
     double timestamp_s = 0.0;
-    Eigen::Matrix3d covariance_w;  ///< of the camera's place in the world
+    Eigen::Matrix3d covariance_w = Eigen::Matrix3d::Zero();  ///< of the place in the world
   };
-  std::optional<KnownPlace> last_place_;  ///< of the frame before, if it was tracked
+  KnownPlace last_place_;  ///< of the frame that was tracked last
 
   TrackerHooks hooks_;
   MapGate gate_;                           ///< to map_, points_, loops_ and gap_closed_

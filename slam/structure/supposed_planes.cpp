@@ -39,7 +39,7 @@ void Observe(const SeenSupposed& seen, const Frame& frame, double keep,
   const Pose T_wc = Inverse(frame.T_cw);
   AddObservation(known.estimate, Transform(T_wc, seen.pi_c), T_wc * seen.centroid_c,
                  config.angle_sigma_rad, config.offset_sigma_m, keep,
-                 WorldVariance(frame, seen.pi_c.n, seen.centroid_c));
+                 VarianceAlong(CovarianceInWorld(frame), seen.pi_c.n, seen.centroid_c));
   known.pi_w = known.estimate.Mean();
   if (known.observations == 0) known.first_frame = frame.index;
   // Several lines along one edge are one observation.

@@ -8,6 +8,7 @@
 #include "slam/base/index.h"
 #include "slam/mapping/keyframe_planes.h"
 #include "slam/model/map_queries.h"
+#include "slam/pose/pose_error.h"
 
 namespace slam {
 
@@ -45,10 +46,9 @@ Matrix6d MapCovarianceByPlanes(const Frame& frame, const Map& map,
   // What the planes may lie off beyond that: along each step of the camera the mean, as they weigh in it.
   Eigen::Matrix3d weight = Eigen::Matrix3d::Zero(), weighted = weight;
   for (const PlaneConstraint& plane : planes) {
-    const Vector6d by_pose =
-        (Vector6d() << plane.pi_c.n, plane.centroid_c.cross(plane.pi_c.n)).finished();
     const double beyond_m2 =
-        std::max(0.0, plane.world_variance_m2 - by_pose.dot(covariance * by_pose));
+        std::max(0.0, plane.world_variance_m2 -
+                          VarianceAlong(covariance, plane.pi_c.n, plane.centroid_c));
     const Eigen::Matrix3d along =
         plane.pi_c.n * plane.pi_c.n.transpose() / (plane.offset_sigma_m * plane.offset_sigma_m);
     weight += along;

@@ -15,7 +15,7 @@ struct MotionFilterConfig {
   double speed_mps = 0.25;
   double turn_rad_per_s = 0.7;  // 40 degrees/s
   double memory_s = 2.0;
-  // 25 seconds of one open step: what else is known of the pose is exact all the while, and once the
+  // 28 seconds of one open step: what else is known of the pose is exact all the while, and once the
   // step is seen again what was mapped meanwhile is moved (slam/places/close_gap).
   double max_sigma_m = 2.5;
   double max_sigma_rad = 0.17;  // 10 degrees

@@ -35,10 +35,19 @@ struct WalkAlongPanels {
         R_cw * variances.asDiagonal() * R_cw.transpose();
     return keyframe;
   }
-  /// The floor comes into view: the newest keyframe is found so much higher.
-  int Find(double off_m, double found_m2 = kSeen_m2) {
-    Add(found_m2).off_w = {0, 0, off_m};
+  /// What a frame tells that sees the floor: the one before, whose height has this variance, was so low.
+  static FoundPlace Higher(double off_m, double before_m2, double after_m2 = kSeen_m2) {
+    return {{0, 0, off_m},
+            Eigen::Vector3d(1e-6, 1e-6, before_m2).asDiagonal(),
+            Eigen::Vector3d(1e-6, 1e-6, after_m2).asDiagonal()};
+  }
+  /// The newest keyframe is that frame.
+  int Find(const FoundPlace& found) {
+    Add(found.after_w(2, 2)).found = found;
     return map.keyframes.back().id;
+  }
+  int Find(double off_m) {
+    return Find(Higher(off_m, HeightVariance(map.keyframes.back().id)));
   }
   Eigen::Vector3d Centre(int keyframe) const { return Inverse(KeyframePose(map, keyframe)).t; }
   double HeightVariance(int keyframe) const {
@@ -65,7 +74,8 @@ TEST(CloseGaps, MovesThePastAsTheJointDistributionOfARandomWalkDoes) {
 
   std::vector<Eigen::Vector3d> before;
   for (int k = 0; k < 2 + kOpen; ++k) before.push_back(walk.Centre(k));
-  ASSERT_TRUE(CloseGaps(walk.map, walk.Find(off_m, after_m2)));
+  ASSERT_TRUE(
+      CloseGaps(walk.map, walk.Find(WalkAlongPanels::Higher(off_m, walked_m2, after_m2))));
   for (int i = 0; i < kOpen; ++i) {
     const double share = joint(i, kOpen - 1) / walked_m2;
     const Eigen::Vector3d moved = walk.Centre(2 + i) - before[static_cast<std::size_t>(2 + i)];
@@ -118,13 +128,22 @@ TEST(CloseGaps, ReachesBackNoFartherThanWhereTheCameraKnewItsPlace) {
   EXPECT_NEAR((walk.Centre(12) - later).z(), -0.1, 1e-12);
 }
 
+TEST(CloseGaps, MovesAKeyframeByItsShareOfWhatTheLastFrameDidNotKnow) {
+  // Frames went on after the newest keyframe of the way, which knew its height four times as well.
+  WalkAlongPanels walk(2, 3);
+  const Eigen::Vector3d before = walk.Centre(4);
+  const int keyframe = walk.Find(WalkAlongPanels::Higher(0.1, 4 * walk.HeightVariance(4)));
+  ASSERT_TRUE(CloseGaps(walk.map, keyframe));
+  EXPECT_NEAR((walk.Centre(4) - before).z(), 0.025, 1e-12);
+}
+
 TEST(CloseGaps, LeavesAloneWhatIsNoNewsAndWhatIsNotCredible) {
-  const auto closes = [](double off_m, double found_m2) {
+  const auto closes = [](double off_m, double after_m2) {
     WalkAlongPanels walk(2, 4);  // known to 80 mm
-    const FoundPlace found{{0, 0, off_m}, Eigen::Vector3d(1e-6, 1e-6, found_m2).asDiagonal()};
-    const bool asked = ClosesGap(walk.map, found);
-    EXPECT_EQ(CloseGaps(walk.map, walk.Find(off_m, found_m2)), asked);
-    return asked;
+    const FoundPlace found = WalkAlongPanels::Higher(off_m, walk.HeightVariance(5), after_m2);
+    const bool told = ClosesGap(found);
+    EXPECT_EQ(CloseGaps(walk.map, walk.Find(found)), told);
+    return told;
   };
   EXPECT_TRUE(closes(0.1, 1e-6));
   EXPECT_FALSE(closes(0.1, 2e-3));     // hardly better known than before
@@ -139,7 +158,8 @@ TEST(FoundOff, SharesWhatIsFoundBetweenWhereTheCameraWasAndHowItMoved) {
   const FoundPlace found =
       FoundOff({0.05, 0.05, 0.02}, 1e-6 * Eigen::Matrix3d::Identity(), before_w, motion_w);
   EXPECT_THAT(found.off_w, VectorNear(Eigen::Vector3d(0.018, 0, 0.01), 1e-12));
-  const Eigen::Vector3d known = found.covariance_w.diagonal();
+  EXPECT_EQ(found.before_w, before_w);
+  const Eigen::Vector3d known = found.after_w.diagonal();
   EXPECT_THAT(known, VectorNear(Eigen::Vector3d(1.601e-3, 4.01e-4, 1.01e-4), 1e-12));
   // Of the frame that is the world, and of one that cannot have moved, nothing is found off.
   EXPECT_EQ(
@@ -147,10 +167,10 @@ TEST(FoundOff, SharesWhatIsFoundBetweenWhereTheCameraWasAndHowItMoved) {
       Eigen::Vector3d::Zero());
 }
 
-TEST(CloseGaps, HasNothingToDoAtTheFirstKeyframe) {
+TEST(CloseGaps, HasNothingToDoWhereNothingIsTold) {
+  EXPECT_FALSE(ClosesGap({}));
   WalkAlongPanels walk(0, 0);
-  EXPECT_FALSE(ClosesGap(walk.map, {}));
-  EXPECT_FALSE(CloseGaps(walk.map, walk.Find(0.1)));
+  EXPECT_FALSE(CloseGaps(walk.map, walk.Find(FoundPlace{})));
 }
 
 }  // namespace

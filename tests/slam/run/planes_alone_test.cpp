@@ -132,7 +132,7 @@ TEST(PlanesAlone, ThatSeeTheFloorAgainMendTheWayThere) {
     for (const auto& [s, T_wc] : ran.poses_wc) {
       const int i = static_cast<int>(std::lround((s - 100.0) * 30));
       const Eigen::Vector3d error_m = T_wc.t - (T_cw_of(0) * Inverse(T_cw_of(i))).t;
-      if (i >= kAgain - 5 && i < kAgain) worst_m = std::max(worst_m, std::abs(error_m.y()));
+      if (i >= kAgain - 3 && i < kAgain) worst_m = std::max(worst_m, std::abs(error_m.y()));
     }
     return worst_m;
   };
