@@ -101,7 +101,7 @@ void BendMeter::Measure(double left_ratio, Frame& frame) {
   for (FramePlane& plane : frame.planes) {
     const BendSigmas sigmas =
         SigmasOfBend(known_ratio, plane.centroid_c.z(), plane.pixel_count * pixel_rad2_);
-    plane.bend_offset_sigma_m = sigmas.offset_m;
+    plane.bend_offset_sigma_m = std::hypot(sigmas.offset_m, unseen_ * plane.centroid_c.z());
     plane.bend_angle_sigma_rad = sigmas.angle_rad;
   }
 }

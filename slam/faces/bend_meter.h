@@ -26,8 +26,8 @@ class BendMeter {
   BendMeter(const cv::Mat2d& rays, const SensorModel& sensor);
 
   /// Takes in a frame with depth, labels and planes, or one without planes, and writes what is
-  /// known of bends (Frame::bend_ratio) and the standard deviations that they give each of its
-  /// planes (FramePlane::bend_...).
+  /// known of bends (Frame::bend_ratio) and the standard deviations that they, and what planes do
+  /// not show (SensorModel::unseen_ratio), give each of its planes (FramePlane::bend_...).
   /// @param left_ratio  Straightening::left_ratio: planes take up, and so do not show, a part of it,
   ///                    and a warp that was learnt from the same planes takes out more of theirs
   void Measure(double left_ratio, Frame& frame);

@@ -64,6 +64,10 @@ TEST(BendMeter, KeepsWhatPlanesDoNotShowOfATimeOfFlight) {
     Frame frame = Wall(camera, sensor.noise, k, [](int, int) { return 0.0; });
     meter.Measure(0.0, frame);
     EXPECT_DOUBLE_EQ(frame.bend_ratio, sensor.bend_ratio);
+    // It lifts a wall as a whole, however large that is.
+    const double offset_m = frame.planes[0].bend_offset_sigma_m;
+    EXPECT_GE(offset_m, sensor.unseen_ratio * kWall_m);
+    EXPECT_LT(offset_m, 1.1 * sensor.unseen_ratio * kWall_m);
   }
   EXPECT_LT(meter.ratio(), 0.5 * sensor.bend_ratio);
 }
