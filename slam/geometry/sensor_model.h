@@ -26,8 +26,8 @@ struct SensorModel {
   DepthSensor sensor = DepthSensor::kKinect1;
   DepthNoise noise;
   double bend_ratio = kKinectBend;  ///< as kKinectBend; 0: bends nothing that is known
-  /// An error that goes with the distance alone, root mean square, as a share of it: a plane that is
-  /// seen frontally does not show it.
+  /// An error that goes with the distance alone, root mean square, as a share of it. It lifts a surface
+  /// as a whole, and a plane that is seen frontally does not show it.
   double unseen_ratio = 0.0;
   /// How well the stamps of a colour and a depth image say how long after each other they were
   /// taken, seconds, standard deviation; 0: the device takes both at once.
@@ -64,6 +64,10 @@ inline void VisitFields(SensorModel& c, FieldVisitor& v) {
   if (c.sensor != before) c = ModelOf(c.sensor);
   v.Section("noise", "standard deviation of a depth as a function of depth and incidence",
             c.noise);
+  v.Number(
+      "unseen_ratio", c.unseen_ratio, "[0, 0.1]",
+      "error that goes with the distance alone, root mean square, as a part of it: planes do "
+      "not show it");
   v.Number("stamp_sigma_s", c.stamp_sigma_s, "[0, 1]",
            "standard deviation of the time between a colour and a depth image, as stamped");
   v.Number("max_depth_m", c.max_depth_m, "(0, inf)",
