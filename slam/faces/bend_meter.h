@@ -53,7 +53,7 @@ class BendMeter {
 
   cv::Mat2d rays_;
   DepthNoise noise_;
-  double unseen_ = 0.0;      ///< least Frame::bend_ratio: what planes do not show
+  double unseen_ = 0.0;      ///< SensorModel::unseen_ratio
   double pixel_rad2_ = 0.0;  ///< solid angle of a pixel in the middle of the image
   double cells_ = 0.0;       ///< cells of large planes that stand behind the estimate
   double squares_ = 0.0;     ///< sum of their squared deviations, noise taken out
