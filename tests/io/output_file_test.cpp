@@ -4,13 +4,18 @@
 #include <fcntl.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <poll.h>
 #include <sys/stat.h>
 #include <unistd.h>
+
+#include <atomic>
+#include <thread>
 
 #include "io/atomic_file.h"
 #include "io/input_error.h"
 #include "io/read_file.h"
 #include "tests/support/program.h"
+#include "tests/support/refusal.h"
 
 namespace io {
 namespace {
@@ -108,6 +113,38 @@ TEST_F(OutputFiles, GoThroughAPipeThatIsRead) {
   EXPECT_EQ(read(reader, bytes.data(), bytes.size()), 7);
   EXPECT_STREQ(bytes.data(), "through");
   close(reader);
+}
+
+// A reader that takes a little whenever the pipe is full, and no sooner.
+TEST_F(OutputFiles, GoThroughAPipeWholeHoweverSlowlyItIsRead) {
+  ASSERT_EQ(mkfifo(place().c_str(), 0600), 0);
+  const int reader = open(place().c_str(), O_RDONLY | O_NONBLOCK);
+  const OutputFile output(place(), {});
+  const int full = open(place().c_str(), O_WRONLY | O_NONBLOCK);  // to ask whether it is
+  std::string bytes(1 << 20, '\0'), received;
+  for (std::size_t i = 0; i < bytes.size(); ++i) bytes[i] = static_cast<char>(i * i % 251);
+  std::string refusal;
+  std::atomic<bool> written = false;
+  std::thread writer([&] {
+    refusal = test_support::RefusalOf([&] { output.Write(bytes); });
+    written = true;
+  });
+  for (std::array<char, 4096> part{};;) {
+    const bool all = written;
+    pollfd has_room{full, POLLOUT, 0};
+    if (!all && poll(&has_room, 1, 0) > 0) {
+      std::this_thread::yield();
+      continue;
+    }
+    const ssize_t count = read(reader, part.data(), part.size());
+    if (count > 0) received.append(part.data(), static_cast<std::size_t>(count));
+    if (count <= 0 && all) break;
+  }
+  writer.join();
+  close(full);
+  close(reader);
+  EXPECT_EQ(refusal, "");
+  EXPECT_TRUE(received == bytes) << received.size();
 }
 
 TEST_F(OutputFiles, GoToADescriptorWhateverItIs) {

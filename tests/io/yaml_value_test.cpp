@@ -104,6 +104,8 @@ TEST(YamlValue, TakesWholeNumbersAndSeeds) {
   for (const char* bad : {"1.5", "1e3", "99999999999", "-1", "'1'"}) {
     EXPECT_NE(ErrorAt("id", std::string("id: ") + bad, whole), "") << bad;
   }
+  const auto seed = [](const YamlValue& value) { value.Seed(); };
+  EXPECT_THAT(ErrorAt("seed", "seed: '5'", seed), EndsWith("found `5` in quotes"));
   const YamlMap map(ParseYaml("seed: 18446744073709551615\nlow: -1\n", "a.yaml"));
   EXPECT_EQ(map.At("seed").Seed(), 18446744073709551615u);
   EXPECT_THROW(map.At("low").Seed(), InputError);

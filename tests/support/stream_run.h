@@ -26,6 +26,7 @@ inline const std::vector<RecordedFrame>& Clean() {
 struct Ran {
   RunOutcome outcome;
   std::string trajectory, covariance, map;        ///< the files' text
+  nlohmann::json run;                             ///< run.json
   std::vector<std::string> planes;                ///< lines of frame_planes.jsonl
   std::vector<std::string> states;                ///< by line of it
   std::vector<std::pair<double, Pose>> poses_wc;  ///< (time, pose)
@@ -64,6 +65,7 @@ inline Ran RunStream(std::vector<RecordedFrame> frames, RunOptions options,
   ran.trajectory = test_support::ReadText(options.run / "trajectory.txt");
   ran.covariance = test_support::ReadText(options.run / "trajectory_covariance.txt");
   ran.map = test_support::ReadText(options.run / "map.json");
+  ran.run = nlohmann::json::parse(test_support::ReadText(options.run / "run.json"));
   std::istringstream lines(test_support::ReadText(options.run / "frame_planes.jsonl"));
   for (std::string line; std::getline(lines, line);) {
     ran.states.push_back(nlohmann::json::parse(line).at("state"));

@@ -17,5 +17,15 @@ TEST(WarpPicture, IsRedWhereDepthIsTooFarAndBlueWhereItIsTooNear) {
   EXPECT_EQ(right, cv::Vec3b(255, 0, 0));
 }
 
+TEST(WarpPicture, HasTheFirstRowOfCellsAtTheTop) {
+  slam::DepthWarp warp;
+  warp.cells = {640, 480, 1, 2};
+  warp.pattern = Eigen::Vector2d(0.004, -0.004);
+  warp.sigma = Eigen::Vector2d(0.001, 0.001);
+  const cv::Mat3b page = DrawWarp(warp);
+  EXPECT_EQ(page(150, 320), cv::Vec3b(0, 0, 255));
+  EXPECT_EQ(page(400, 320), cv::Vec3b(255, 0, 0));
+}
+
 }  // namespace
 }  // namespace app

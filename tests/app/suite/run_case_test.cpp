@@ -4,7 +4,10 @@
 
 #include <array>
 #include <cstdio>
+#include <fstream>
 #include <memory>
+
+#include "tests/support/program.h"
 
 namespace app {
 namespace {
@@ -30,6 +33,22 @@ TEST(CommandLines, AreReadByAShellAsTheWordsTheyAreMadeOf) {
   }
   EXPECT_EQ(OutputOf(CommandLines({command})), expected);
   EXPECT_EQ(CommandLines({{"cd", "a/b"}, {"pas", "--rate=2,5"}}), "cd a/b && pas --rate=2,5");
+}
+
+// The estimator needs most of it, and is not what runs last.
+TEST(RunCase, TellsTheMemoryOfTheCommandThatNeededMost) {
+  const program::TemporaryFolder folder;
+  std::ofstream(folder / "fake") << "#!/bin/sh\nset -e\nif [ \"$2\" = slam ]; then\n"
+                                    "  run=${*##*-o }; mkdir -p ${run%% *}\n"
+                                    "  exec dd if=/dev/zero of=/dev/null bs=200M count=1\nfi\n"
+                                    "echo '{}' > $3/metrics.json\n";
+  program::fs::permissions(folder / "fake", program::fs::perms::owner_all);
+  SuiteCase one;
+  one.key = "desk-1/kinect1/own/full/default";
+  const CaseResult result =
+      RunCase(one, ProgramOf(folder / "fake"), {}, folder.path(), [] { return false; });
+  ASSERT_EQ(result.status, CaseStatus::kFinished) << result.message;
+  EXPECT_GE(result.times.at(kPeakMemory), 200.0);
 }
 
 }  // namespace

@@ -2,6 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <fstream>
+
+#include "tests/support/program.h"
+
 namespace app {
 namespace {
 
@@ -25,6 +29,29 @@ TEST(FindWorseFigure, FindsNothingWhereNoHarmMattersOrAFigureIsUndefined) {
   const eval::Figures before{{kAte, 0.010}, {kPrecision, 1.0}, {kWrong, std::nullopt}};
   const eval::Figures now{{kAte, 0.0104}, {kPrecision, std::nullopt}, {kWrong, 9}};
   EXPECT_FALSE(FindWorseFigure(before, now));
+}
+
+// A sensor file says how depth errs, and the suite what the estimator takes the sensor for.
+TEST(ShrinkCase, LeavesASuiteThatFailsForTheEstimatorOfASensorFile) {
+  const program::TemporaryFolder folder;
+  std::ofstream(folder / "sensor.yaml") << "base: azure\n";
+  std::ofstream(folder / "suite.yaml")
+      << "format: pas-suite/1\nname: s\nscenes: [{family: plates}]\nframes: 2\n"
+         "size_px: [64, 48]\nsensors: [{name: mine, file: sensor.yaml, estimator: azure}]\n";
+  std::ofstream(folder / "fake")
+      << "#!/bin/sh\ncase \"$*\" in *'--sensor azure '*) kill -SEGV $$;; esac\nexit 1\n";
+  program::fs::permissions(folder / "fake", program::fs::perms::owner_all);
+  const SuiteProgram fake = ProgramOf(folder / "fake");
+  const auto go_on = [] { return false; };
+  const SuiteFile suite = ReadSuite(folder / "suite.yaml");
+  const std::vector<SuiteCase> cases = PlanCases(suite, 1, {}, fake, folder / "out");
+  ASSERT_EQ(cases.size(), 1u);
+  const ShrunkCase left = ShrinkCase(cases[0], suite, fake, folder / "out", nullptr, go_on);
+  const SuiteFile smaller = ReadSuite(left.suite);
+  const std::vector<SuiteCase> again = PlanCases(smaller, 1, {}, fake, folder / "again");
+  ASSERT_EQ(again.size(), 1u);
+  EXPECT_EQ(RunCase(again[0], fake, smaller.limits, folder / "again", go_on).status,
+            CaseStatus::kCrashed);
 }
 
 }  // namespace

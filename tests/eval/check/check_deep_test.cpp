@@ -141,5 +141,13 @@ TEST_F(CheckDeep, FindsDepthPairedWithTheFrameBefore) {
   EXPECT_THAT(Faults(), HasSubstr("the frame before better"));
 }
 
+TEST_F(CheckDeep, FindsDepthPairedWithTheFrameAfter) {
+  for (int i = 0; i < 9; ++i) {
+    fs::copy_file(Image("depth", i + 1), Image("depth", i),
+                  fs::copy_options::overwrite_existing);
+  }
+  EXPECT_THAT(Faults(), HasSubstr("the frame after better"));
+}
+
 }  // namespace
 }  // namespace eval

@@ -182,6 +182,14 @@ TEST_F(CheckRunFolder, NamesASegmentationValueWithoutAPlane) {
   ExpectOnly(name, 0, "", "the value 200 in 1 pixels");
 }
 
+TEST_F(CheckRunFolder, NamesAPlaneThatWasLastSeenBeforeItWasFirstSeen) {
+  EditJson("map.json", [](json& map) {
+    map["planes"][1]["first_seen"] = 1.1;
+    map["planes"][1]["last_seen"] = 1.0;
+  });
+  ExpectOnly("map.json", 0, "/planes/1/first_seen", "later than last_seen");
+}
+
 TEST_F(CheckRunFolder, NamesAMergeIntoAPlaneThatIsNotThere) {
   EditJson("map.json", [](json& map) { map["planes"][0]["merged_into"] = 77; });
   ExpectOnly("map.json", 0, "/planes/0/merged_into", "no plane of the map");

@@ -107,5 +107,17 @@ TEST(ChooseMapGauge, LevelsTheDeskAndNotTheLargerWallWithoutATruth) {
   EXPECT_LT((gauge.T_vw.R * world.up_w - Eigen::Vector3d::UnitZ()).norm(), kTurnRoundOff);
 }
 
+// It is no plane of the final map any more; what was wrong with it may be its tilt.
+TEST(ChooseMapGauge, LevelsNoPlaneThatWasMergedIntoAnother) {
+  CameraWorld world = MakeCameraWorld();
+  world.sequence.groundtruth.reset();
+  RunMapPlane merged = world.run.map[1];
+  merged.id = 2, merged.area_m2 = 4, merged.merged_into = 1;
+  merged.pi_w.n = Eigen::AngleAxisd(0.3, Eigen::Vector3d::UnitX()) * merged.pi_w.n;
+  world.run.map.push_back(merged);
+  const MapGauge gauge = ChooseMapGauge(world.run, world.sequence);
+  EXPECT_LT((gauge.T_vw.R * world.up_w - Eigen::Vector3d::UnitZ()).norm(), kTurnRoundOff);
+}
+
 }  // namespace
 }  // namespace eval

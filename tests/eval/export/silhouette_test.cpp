@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <cstdlib>
 #include <utility>
 
@@ -26,6 +27,30 @@ TEST(BoxSilhouette, CountsAsManyPixelsBeyondEachBorder) {
     const bool cut = !inside && std::abs(right_px) <= 80 && std::abs(down_px) <= 60;
     EXPECT_EQ(cv::countNonZero(found.mask), inside ? 256 : cut ? 128 : 0);
   }
+}
+
+// A floor 0.45 m below the camera, from 2 m ahead to 2 m behind it and 1 m to either side: the
+// pixels whose rays come down on it in time, also far below the image.
+TEST(BoxSilhouette, IsWholeThoughTheBoxReachesBehindTheCamera) {
+  Camera camera;
+  camera.width = 160, camera.height = 120;
+  camera.fx = camera.fy = 150, camera.cx = 79.5, camera.cy = 59.5;
+  Pose T_co;
+  T_co.t = {0.0, 0.5, 0.0};
+  const Silhouette found = BoxSilhouette(camera, T_co, {2.0, 0.1, 4.0});
+  int everywhere = 0, in_image = 0;
+  for (int v = -camera.height; v < 2 * camera.height; ++v) {
+    for (int u = -camera.width; u < 2 * camera.width; ++u) {
+      const double down = (v - camera.cy) / camera.fy, right = (u - camera.cx) / camera.fx;
+      const double z_m = 0.45 / down;  // where the ray meets the floor's upper side
+      if (!(down > 0) || z_m > 2.0 || std::abs(right) * z_m > 1.0) continue;
+      ++everywhere;
+      in_image += u >= 0 && u < camera.width && v >= 0 && v < camera.height ? 1 : 0;
+    }
+  }
+  EXPECT_EQ(found.all.count, everywhere);
+  EXPECT_EQ(cv::countNonZero(found.mask), in_image);
+  EXPECT_EQ(found.all.y1, 2 * camera.height - 1);
 }
 
 }  // namespace

@@ -143,9 +143,16 @@ TEST_F(ReadFolders, ADepthImageBelongsToOneFrameAlone) {
 }
 
 TEST_F(ReadFolders, AFileOutsideTheFolderIsRefused) {
-  Write("associations.txt", "1 ../rgb/a.png 1 depth/a.png\n");
-  EXPECT_THAT(RefusalOf([&] { ReadSequence(folder_); }),
-              AllOf(HasSubstr("associations.txt:1"), HasSubstr("outside the folder")));
+  for (const char* outside : {"../rgb/a.png", "/tmp/a.png", "depth/../../a.png"}) {
+    for (const std::string& line : {std::string("1 ") + outside + " 1 depth/a.png",
+                                    std::string("1 rgb/a.png 1 ") + outside}) {
+      Write("associations.txt", line + "\n");
+      EXPECT_THAT(RefusalOf([&] { ReadSequence(folder_); }),
+                  AllOf(HasSubstr("associations.txt:1"), HasSubstr(outside),
+                        HasSubstr("outside the folder")))
+          << line;
+    }
+  }
 }
 
 TEST_F(ReadFolders, CameraFaultsNameKeyAndLine) {

@@ -137,5 +137,28 @@ TEST_F(TrueFrameOfTinyWorld, WithoutImagesIsThatOfItsStampAlsoWhenItIsARoundingO
   }
 }
 
+// The outermost pixels of this lens look 40 degrees aside. Its formula goes on beyond, turns round
+// there, and has a pixel in the middle of the image for what is 61 degrees aside.
+TEST(TrueFrame, HasNoCornerInViewThatTheLensModelFoldsBackIntoTheImage) {
+  Camera camera;
+  camera.width = 160, camera.height = 120;
+  camera.fx = camera.fy = 150, camera.cx = 79.5, camera.cy = 59.5;
+  camera.distortion = {-0.3, 0, 0, 0, 0};
+  TruthPlane wall;
+  wall.id = 4;
+  wall.scored = true;
+  wall.pi_g = {Eigen::Vector3d(0, 0, -1), 1.0};
+  wall.vertices_g = {{-0.2, -0.3, 1}, {1.8, 0, 1}, {-0.2, 0.3, 1}};
+  const Eigen::Vector2d folded = PixelOf(camera, wall.vertices_g[1]);
+  ASSERT_TRUE(folded.x() > 0 && folded.x() < camera.width - 1) << folded.transpose();
+  Sequence sequence;
+  sequence.true_camera = camera;
+  sequence.scene.emplace().planes = {wall};
+  sequence.frame_truth = {{1.0, {}, {{wall.id, 4000}}}};
+  const TrueFrame frame = ReadTrueFrame(sequence, 1.0, {});
+  ASSERT_EQ(frame.planes.size(), 1u);
+  EXPECT_EQ(frame.planes[0].corner_in_view, (std::vector<bool>{true, false, true}));
+}
+
 }  // namespace
 }  // namespace eval

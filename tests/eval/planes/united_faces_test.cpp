@@ -148,5 +148,11 @@ TEST_F(UnitedFaces, GoByOneIdInImagesAndCountsToo) {
   EXPECT_EQ(seen[1].pixels, 5);
 }
 
+TEST_F(UnitedFaces, AreNotThoseOfAGroupAndOfAThingWhoseIdIsItsNumber) {
+  AddFace(2, 0.4, 0.8, 5);
+  AddFace(5, 0, 0.4, 0);
+  EXPECT_THAT(Ids(), ElementsAre(2, 5));
+}
+
 }  // namespace
 }  // namespace eval

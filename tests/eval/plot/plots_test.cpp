@@ -36,6 +36,37 @@ class PlotsOfTinyWorld : public EvaluateTinyWorld {
   }
 };
 
+/// Whether a pixel is of a series: its colour, or that with some white in it, as of a bar.
+bool IsOf(const SeriesStyle& style, const cv::Vec3b& pixel) {
+  const cv::Vec3d ink(255 * (1 - style.blue), 255 * (1 - style.green), 255 * (1 - style.red));
+  const cv::Vec3d seen = cv::Vec3d::all(255) - cv::Vec3d(pixel);
+  const double share = seen.dot(ink) / ink.dot(ink);
+  return share > 0.5 && cv::norm(seen - share * ink) < 12;
+}
+
+/// The most pixels of a series that stand one over the other without a gap.
+int HeightOf(const SeriesStyle& style, const cv::Mat3b& image) {
+  int most = 0;
+  for (int u = 0; u < image.cols; ++u) {
+    for (int v = 0, height = 0; v < image.rows; ++v) {
+      height = IsOf(style, image(v, u)) ? height + 1 : 0;
+      most = std::max(most, height);
+    }
+  }
+  return most;
+}
+
+/// The last row in which a series is; what is in the legend is above.
+int LastRowOf(const SeriesStyle& style, const cv::Mat3b& image) {
+  int last = -1;
+  for (int v = 0; v < image.rows; ++v) {
+    for (const cv::Vec3b& pixel : image.row(v)) {
+      if (IsOf(style, pixel)) last = v;
+    }
+  }
+  return last;
+}
+
 using Plot = std::vector<PlotFile> (*)(const std::vector<PlottedRun>& runs);
 constexpr Plot kAll[] = {PlotTrajectories, PlotErrors, PlotSteps, PlotTimes};
 
@@ -112,6 +143,37 @@ TEST_F(PlotsOfTinyWorld, CountTopsByTheHeightOfTheirStep) {
   EXPECT_EQ(steps[1].min_mm, 60.0);
   EXPECT_EQ(steps[1].wrong_planes, 0);
   EXPECT_EQ(steps[1].right, steps[1].seen);
+}
+
+// Whiskers and scores speak of means; medians of the same times can be anything.
+TEST(PlotTimes, DrawsBarsAsHighAsTheMeansAre) {
+  std::vector<PlottedRun> runs(2);
+  runs[0].evaluation.timing = TimingScore{{{"orb", 8.0, 3.0, 10.0}}, {}, {}};
+  runs[1].evaluation.timing = TimingScore{{{"orb", 4.0, 4.0, 10.0}}, {}, {}};
+  const cv::Mat3b image = io::DecodeImage(PlotTimes(runs)[2].bytes);
+  const double high = HeightOf(StyleOfSeries(0), image),
+               low = HeightOf(StyleOfSeries(1), image);
+  ASSERT_GT(low, 50);
+  EXPECT_NEAR(high / low, 2.0, 0.05);  // two rows of some hundred
+}
+
+TEST(PlotSteps, PutsSharesOfPlanesAtTheLeftAndOfTopsAtTheRightOnAScaleFromNoneToAll) {
+  // Planes: none, all and one of four are right. Tops: all, none and three of four.
+  std::vector<PlottedRun> runs(3);
+  for (PlottedRun& run : runs) run.evaluation.planes.emplace();
+  runs[0].evaluation.planes->steps = {{10, 20, 8, 8, 0, 4}};
+  runs[1].evaluation.planes->steps = {{10, 20, 8, 0, 4, 0}};
+  runs[2].evaluation.planes->steps = {{10, 20, 8, 6, 1, 3}};
+  const cv::Mat3b image = io::DecodeImage(PlotSteps(runs)[2].bytes);
+  const int middle = image.cols / 2;
+  const auto share = [&](const cv::Mat3b& panel, std::size_t none, std::size_t all) {
+    const double bottom = LastRowOf(StyleOfSeries(none), panel);
+    return (bottom - LastRowOf(StyleOfSeries(2), panel)) /
+           (bottom - LastRowOf(StyleOfSeries(all), panel));
+  };
+  constexpr double kPixel = 0.01;  // two of them, of 400 rows, with some to spare
+  EXPECT_NEAR(share(image.colRange(0, middle), 0, 1), 0.25, kPixel);
+  EXPECT_NEAR(share(image.colRange(middle, image.cols), 1, 0), 0.75, kPixel);
 }
 
 }  // namespace

@@ -216,6 +216,22 @@ TEST(Gate, ASceneThatIsMuchWorseInEverySeedIsWorse) {
               }).AnyWorse());
 }
 
+TEST(Gate, ScenesWhoseNamesBeginAlikeAreJudgedEachByItself) {
+  GateCases cases, now;
+  for (const std::string scene : {"board-thin", "board-thick", "board"}) {
+    for (const char* seed : {"-1", "-2", "-3"}) {
+      const std::string key = scene + seed + "/arm";
+      cases[key] = now[key] = Cases(1).begin()->second;
+      if (scene == "board-thin") now[key].figures[kAte] = 3 * *now[key].figures[kAte];
+    }
+  }
+  const GateReport report = CompareWithBaseline(BaselineOf(cases), now, {});
+  ASSERT_EQ(report.scenes.size(), 1u);
+  EXPECT_EQ(report.scenes.front().scene, "board-thin");
+  EXPECT_EQ(report.scenes.front().pairs, 3u);
+  EXPECT_EQ(report.scenes.front().verdict, Verdict::kWorse);
+}
+
 TEST(Gate, TwoSeedsOfASceneAskForMore) {
   const auto doubled = [](double value, int) { return 2.01 * value; };
   const GateReport report = OneSceneChanged(2, kAte, doubled);

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <utility>
+
 namespace eval {
 namespace {
 
@@ -16,6 +18,22 @@ TEST(FigureGroup, HasAnF1OfNothingWhereOneOfItsPartsIsNotDefined) {
   group.PutShares("pair", {0.0, 0.0, 0.0}, "nothing was found", "nothing is there");
   EXPECT_TRUE(group.json()["pair"]["f1"].is_null());
   EXPECT_EQ(reasons["association/pair/f1"], "nothing was found");
+}
+
+TEST(ClaimScoreAsJson, TellsEachKindOfErrorUnderItsOwnName) {
+  ClaimScore claims;
+  claims.position = {1.0, 0.9, 0.95, 0.02};
+  claims.rotation = {4.0, 3.5, 0.60, 0.39};
+  claims.pose = {2.5, 2.2, 0.75, 0.21};
+  const nlohmann::ordered_json json = ToJson(claims);
+  for (const auto& [name, nees] : {std::pair("position_nees", claims.position),
+                                   {"rotation_nees", claims.rotation},
+                                   {"pose_nees", claims.pose}}) {
+    EXPECT_EQ(json.at(name).at("mean"), nees.mean) << name;
+    EXPECT_EQ(json.at(name).at("median"), nees.median) << name;
+    EXPECT_EQ(json.at(name).at("inside"), nees.inside) << name;
+    EXPECT_EQ(json.at(name).at("above"), nees.above) << name;
+  }
 }
 
 }  // namespace

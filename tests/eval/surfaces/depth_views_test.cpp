@@ -69,5 +69,20 @@ TEST(ReadDepthRegistration, ReadsTwoCamerasAndTheWayBetweenThem) {
               ::testing::HasSubstr(".yaml:3: translation"));
 }
 
+TEST(LayOnColour, LeavesNoHolesWhereColourHasMorePixelsThanDepth) {
+  DepthRegistration registration;
+  registration.depth = {160, 120, 140, 140, 79.5, 59.5, 30, 1000, {}};
+  registration.colour = {640, 360, 560, 420, 319.5, 179.5, 30, 1000, {}};
+  registration.T_colour_depth.t = {0.02, 0, 0};  // 5.6 pixels of colour at 2 m
+  const cv::Mat1f laid_m = LayOnColour(cv::Mat1f(120, 160, 2.0F), registration);
+  EXPECT_EQ(cv::countNonZero(laid_m(cv::Rect(10, 2, 620, 356)) == 0), 0);
+  cv::Mat1f one_m(120, 160, 0.0F);
+  one_m(60, 80) = 2.0F;
+  // A pixel of depth is 4 x 3 of colour, or one more each way where it ends between two.
+  const int covered = cv::countNonZero(LayOnColour(one_m, registration));
+  EXPECT_GE(covered, 4 * 3);
+  EXPECT_LE(covered, 5 * 4);
+}
+
 }  // namespace
 }  // namespace eval

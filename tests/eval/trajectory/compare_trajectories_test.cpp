@@ -212,6 +212,23 @@ TEST(CompareTrajectories, SaysWhyAStraightPathHasNoAlignmentAndKeepsItsRelativeE
   EXPECT_THAT(scaled.no_relative, HasSubstr("line"));
 }
 
+// Without an alignment the estimate's world has any attitude, and with it any shadow on the plane.
+TEST(CompareTrajectories, HasNoErrorsInAPlaneWhereAStraightPathHasNoAlignment) {
+  PoseFile truth = Walk();
+  for (StampedPose& pose : truth.poses) pose.T_wc.t = {pose.stamp_s, 0, 0};
+  for (const ProjectionPlane plane :
+       {ProjectionPlane::kXy, ProjectionPlane::kXz, ProjectionPlane::kYz}) {
+    ComparisonRules rules = With(AlignMode::kSe3);
+    rules.plane = plane;
+    for (const PoseFile& estimate : {truth, Moved(kElsewhere, truth)}) {
+      const auto score = CompareTrajectories(estimate, truth, rules);
+      EXPECT_FALSE(score.absolute.translation_m || score.absolute.rotation_deg);
+      EXPECT_FALSE(score.relative.translation_m || score.relative.rotation_deg);
+      EXPECT_THAT(score.no_relative, HasSubstr("line"));
+    }
+  }
+}
+
 TEST(CompareTrajectories, SaysThatNoTwoPosesAreThatFarApart) {
   const auto score =
       CompareTrajectories(Walk(), Walk(), With(AlignMode::kSe3, {500, DeltaUnit::kMetres}));

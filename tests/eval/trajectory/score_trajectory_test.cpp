@@ -143,6 +143,28 @@ TEST(ScoreTrajectory, SaysNotDefinedForACameraOnARail) {
   EXPECT_TRUE(score.rpe_1s.has_value());
 }
 
+// On a line or with two poses the rotations still tell where the run's path lies in the truth.
+TEST(ScoreTrajectory, LaysThePathOnTheTruthWherePositionsAloneAreNotEnough) {
+  const Pose T_wg{Eigen::AngleAxisd(0.7, Eigen::Vector3d(1, 2, 3).normalized()).matrix(),
+                  Eigen::Vector3d(0.4, -1.1, 0.2)};
+  for (const int count : {2, 40}) {
+    Trajectory rail;
+    for (int i = 0; i < count; ++i) {
+      rail.push_back({i / 30.0, {Eigen::Matrix3d::Identity(), {0.1 * i, 0.2 * i, 0.3}}});
+    }
+    Trajectory estimate = rail;
+    for (StampedPose& pose : estimate) pose.T_wc = T_wg * pose.T_wc;
+    const TrajectoryScore score = ScoreTrajectory(estimate, rail, Stamps(rail), true);
+    ASSERT_EQ(score.errors.size(), rail.size());
+    for (std::size_t i = 0; i < rail.size(); ++i) {
+      const PoseError& error = score.errors[i];
+      EXPECT_FALSE(error.position_m.has_value());
+      ASSERT_TRUE(error.position_g.has_value()) << count;
+      EXPECT_NEAR((*error.position_g - rail[i].T_wc.t).norm(), 0.0, kExact_m);
+    }
+  }
+}
+
 /// Position error of a millimetre and rotation error of a tenth of a degree on a path of `count`
 /// poses; the angle between the world of the truth and where the gauge lays it.
 double GaugeErrorDeg(Trajectory truth, std::uint32_t seed) {

@@ -40,6 +40,23 @@ TEST(DetectorScore, TellsFoundDoubledInventedAndMisnamedApart) {
   EXPECT_NEAR(score.all().MeanIou(), (0.95 + 20.0 / 21.0) / 2, 1e-12);
 }
 
+// COCO's limits, 32 and 96 pixels squared, are those of a 640 x 480 image of the same view.
+TEST(DetectorScore, SortsTargetsBySizeAsInAnImageOf640By480) {
+  for (const double scale : {0.25, 0.5, 1.0, 2.0, 3.0}) {
+    SCOPED_TRACE(scale);
+    DetectorScore score(scale);
+    std::vector<DetectionTarget> targets;
+    for (const int side : {20, 28, 36, 60, 92, 100}) {
+      targets.push_back(
+          Thing(targets.size() + 1, kHere, static_cast<int>(side * scale * (side * scale))));
+    }
+    score.Add(targets, {});
+    EXPECT_EQ(score.by_size()[0].targets, 2);
+    EXPECT_EQ(score.by_size()[1].targets, 3);
+    EXPECT_EQ(score.by_size()[2].targets, 1);
+  }
+}
+
 TEST(DetectorScore, CountsARunOfMissesOnceAndNotAcrossRecordings) {
   DetectorScore score;
   const std::vector<DetectionTarget> there{Thing(1, kHere)};

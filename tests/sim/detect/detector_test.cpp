@@ -212,6 +212,39 @@ TEST(NoisyDetector, PlacesADoubleByItselfAndThreeTimesAsBadly) {
   EXPECT_NEAR(both / std::sqrt(first2 * second2), 0.0, 0.2);  // 750 independent draws
 }
 
+// A quarter of the pixels in an image of half the size is the same view of the same thing.
+TEST(NoisyDetector, IsAsSureOfAThingInAnImageOfAnotherSize) {
+  for (const DetectorKind kind : {DetectorKind::kNoisy, DetectorKind::kPoor}) {
+    DetectorModel model = ModelOf(kind);
+    model.phantom = model.duplicate = 0;
+    const auto seen_at = [&](int percent) {
+      const Camera camera = Resize(Camera{}, 640 * percent / 100, 480 * percent / 100);
+      const Detector detector(LaptopOnDesk(), camera, kind, 3, model);
+      const auto part = [&](int pixels) { return pixels * percent * percent / 10000; };
+      const double side = percent / 100.0;
+      FrameTruth truth;
+      truth.objects = {
+          Seen(4, part(3600), part(4800), {200 * side, 100 * side, 270 * side, 160 * side})};
+      std::vector<std::vector<Detection>> frames;
+      for (int frame = 0; frame < 200; ++frame) frames.push_back(detector.Detect(frame, truth));
+      return frames;
+    };
+    const auto usual = seen_at(100);
+    for (const int percent : {25, 50, 200}) {
+      SCOPED_TRACE(percent);
+      const auto other = seen_at(percent);
+      int detections = 0;
+      for (std::size_t i = 0; i < usual.size(); ++i) {
+        ASSERT_EQ(other[i].size(), usual[i].size()) << i;
+        for (std::size_t k = 0; k < usual[i].size(); ++k, ++detections) {
+          ASSERT_NEAR(other[i][k].score, usual[i][k].score, 0.0011) << i;  // told to 0.001
+        }
+      }
+      EXPECT_GT(detections, 20);
+    }
+  }
+}
+
 TEST(NoisyDetector, GivesAFrameTheSameAnswerInAnyOrder) {
   const Detector a(LaptopOnDesk(), Camera{}, DetectorKind::kNoisy, 4);
   const Detector b(LaptopOnDesk(), Camera{}, DetectorKind::kNoisy, 4);

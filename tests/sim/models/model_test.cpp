@@ -94,6 +94,18 @@ std::string Drum(int corners) {
   return text + sides + top + "\n" + bottom + "\n";
 }
 
+/// Every triangle has a plane, in which all its corners lie.
+void ExpectTrianglesInTheirPlanes(const Model& model, double within_m) {
+  for (std::size_t t = 0; t < model.triangles.size(); ++t) {
+    ASSERT_GE(model.plane_of[t], 0) << t;
+    const ModelPlane& plane = model.planes.at(static_cast<std::size_t>(model.plane_of[t]));
+    for (const int i : model.triangles[t]) {
+      const Vector3d& x = model.vertices_o[static_cast<std::size_t>(i)];
+      EXPECT_LE(std::abs(plane.n_o.dot(x) + plane.d), within_m) << t;
+    }
+  }
+}
+
 class OwnMesh : public testing::Test {
  protected:
   void Write(const std::string& text, const std::string& name = "it.obj") const {
@@ -214,12 +226,8 @@ TEST_F(OwnMesh, TakesANearlyFlatQuadForOnePlaneUpToTheTolerance) {
   options.flatness_m = 2e-4;
   const Model flat = Read(pulled(1.5e-4), options);
   EXPECT_EQ(flat.planes.size(), 6u);
-  for (std::size_t t = 0; t < flat.triangles.size(); ++t) {
-    const ModelPlane& plane = flat.planes.at(static_cast<std::size_t>(flat.plane_of[t]));
-    for (const int i : flat.triangles[t]) {
-      const Vector3d& x = flat.vertices_o[static_cast<std::size_t>(i)];
-      EXPECT_LE(std::abs(plane.n_o.dot(x) + plane.d), options.flatness_m);
-    }
+  ExpectTrianglesInTheirPlanes(flat, options.flatness_m);
+  for (const ModelPlane& plane : flat.planes) {
     for (const Vector3d& x : plane.outline_o) EXPECT_NEAR(plane.n_o.dot(x) + plane.d, 0, 1e-15);
   }
   // 5 mm over 0.1 m: the two halves of the top are planes of their own.
@@ -246,6 +254,16 @@ TEST_F(OwnMesh, TakesDeclaredPlanesOnly) {
   EXPECT_EQ(std::count(cube.plane_of.begin(), cube.plane_of.end(), 0), 2);
   options.declared[0] = {{0, 0, .3}, {0, .1, .3}, {.1, .1, .3}};
   EXPECT_THAT(ErrorOf(kCube, options), HasSubstr("no triangle in plane 1"));
+}
+
+TEST_F(OwnMesh, TakesCornersOfDeclaredPlanesInTheUnitsOfTheFile) {
+  ModelOptions options;
+  options.scale = 3;
+  options.declared = {{{0, 0, .1}, {.1, 0, .1}, {.1, .1, .1}, {0, .1, .1}}};
+  const ModelPlane top = Read(kCube, options).planes.at(0);
+  EXPECT_LT((top.n_o - Vector3d::UnitZ()).norm(), 1e-9);
+  EXPECT_NEAR(top.d, -0.15, 3 * kSingle_m);
+  EXPECT_NEAR(top.area_m2, 0.09, 3 * kSingle_m);
 }
 
 TEST_F(OwnMesh, SaysWhatIsWrongWithAFile) {
@@ -341,7 +359,7 @@ TEST_F(OwnMesh, LeavesOutATriangleThatRepeatsACorner) {
   EXPECT_EQ(Read(kCube + "f 1 2 2\n").triangles.size(), Read(kCube).triangles.size());
 }
 
-TEST_F(OwnMesh, LeavesEachTriangleItsColourWhereOneWithoutAreaIsLeftOut) {
+TEST_F(OwnMesh, LeavesEachTriangleItsColourAndPlaneWhereOneWithoutAreaIsLeftOut) {
   Write("newmtl red\nKd 0.8 0.1 0.05\nnewmtl blue\nKd 0.05 0.1 0.8\n", "it.mtl");
   // A ninth corner in an edge of two faces, of which one knows it: between them no area is left.
   std::string blue = kCube + "v 0.05 0 0\n";
@@ -351,6 +369,8 @@ TEST_F(OwnMesh, LeavesEachTriangleItsColourWhereOneWithoutAreaIsLeftOut) {
   ASSERT_EQ(cube.triangles.size(), 13u);
   for (const int colour : cube.colour_of)
     EXPECT_NEAR(cube.colours[static_cast<std::size_t>(colour)][2], 0.8, 1e-6);
+  EXPECT_EQ(cube.planes.size(), 6u);
+  ExpectTrianglesInTheirPlanes(cube, kSingle_m);
 }
 
 TEST_F(OwnMesh, WaitsForNoPipeThatItNames) {

@@ -134,6 +134,27 @@ TEST(PatternMotion, OfAnOrbitLeavesAMarginToItsLimitsForTheHand) {
   }
 }
 
+TEST(PatternMotion, LooksAwayToEitherSideInTurn) {
+  Motion motion;
+  motion.preset = "lookaway";
+  motion.target_spread_m = 0;
+  for (std::uint64_t seed = 1; seed <= 5; ++seed) {
+    Random random({seed});
+    const auto pattern = MakePattern(motion, 1.0, random);
+    double last_deg = 0;
+    for (int round = 0; round < 6; ++round) {
+      const View view = pattern->At(0.13 * round, round + 0.75);  // amid the second half
+      const Eigen::Vector3d ahead = view.gaze_w - view.camera_w;
+      const Eigen::Vector3d to_target = motion.target_w - view.camera_w;
+      const double off_deg = RadToDeg(
+          std::atan2(to_target.cross(ahead).z(), to_target.head<2>().dot(ahead.head<2>())));
+      EXPECT_GT(std::abs(off_deg), 100) << seed << " " << round;
+      EXPECT_LE(off_deg * last_deg, 0) << seed << ": twice to one side, in round " << round;
+      last_deg = off_deg;
+    }
+  }
+}
+
 TEST(PatternMotion, ShakesByTheSeedOfTheRecordingAlone) {
   for (const char* preset : {"xyz", "orbit", "office"}) {
     Scene scene = DeskWith(preset, 1);

@@ -2,6 +2,9 @@
 
 #include <gmock/gmock.h>
 
+#include <memory>
+#include <utility>
+
 #include "tests/sim/support/sim_worlds.h"
 
 namespace sim {
@@ -33,6 +36,39 @@ TEST(FindFault, SeesAThingThatPassesThroughACornerOfAnother) {
   const auto fault = FindFault(scene);
   ASSERT_TRUE(fault.has_value());
   EXPECT_THAT(fault->what, HasSubstr("inside 'book_1'"));
+}
+
+/// A square frame of one's own, 0.1 high: 0.2 wide outside, 0.1 inside.
+Object HollowFrame(int id, const Eigen::Vector3d& center_w) {
+  auto model = std::make_shared<Model>();
+  model->size = {0.2, 0.2, 0.1};
+  for (const double z : {-0.05, 0.05}) {
+    for (const double half : {0.05, 0.1}) {
+      for (const double x : {-half, half}) {
+        for (const double y : {-half, half}) model->vertices_o.emplace_back(x, y, z);
+      }
+    }
+  }
+  Object frame = BoxObject(id, "frame", Role::kRegular, center_w, model->size);
+  frame.shape = ShapeKind::kMesh;
+  frame.model = model;
+  return frame;
+}
+
+TEST(FindFault, LetsAThingStandInAHollowMeshInWhicheverOrderTheyAreListed) {
+  Scene scene;
+  scene.objects = {HollowFrame(1, {0, 0, 0.5}),
+                   BoxObject(2, "box", Role::kRegular, {0, 0, 0.5}, {0.08, 0.08, 0.2})};
+  Scene beside = scene;
+  beside.objects[1].center_w = {0.13, 0.13, 0.5};  // it holds a corner of the frame
+  for (int order = 0; order < 2; ++order) {
+    EXPECT_FALSE(FindFault(scene).has_value()) << order;
+    const auto fault = FindFault(beside);
+    ASSERT_TRUE(fault.has_value()) << order;
+    EXPECT_THAT(fault->what, HasSubstr("10 mm inside each other"));
+    std::swap(scene.objects[0], scene.objects[1]);
+    std::swap(beside.objects[0], beside.objects[1]);
+  }
 }
 
 }  // namespace

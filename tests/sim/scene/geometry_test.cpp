@@ -61,5 +61,24 @@ TEST(ObjectAt, TurnsAboutTheWorldsUprightWhateverTheObjectsOwnRotation) {
   EXPECT_LT((up_w - Eigen::Vector3d(0.5, 0, std::cos(DegToRad(30)))).norm(), kRoundOff_m);
 }
 
+TEST(MomentsOf, AreNoFurtherApartThanAStepHoweverTheObjectTurns) {
+  constexpr double kStep_m = 0.02;
+  Object bar = UnitBox({0, 0, 1}, {0, 20, 0});
+  bar.size = {1, 0.2, 0.1};
+  // It turns on the spot, turns back as it goes, and goes straight.
+  bar.way = {
+      {0, {0, 0, 1}, 0}, {1, {0, 0, 1}, 180}, {2, {0.1, 0, 1}, 90}, {5, {0.4, 0, 1}, 90}};
+  const std::vector<double> moments = MomentsOf(bar, kStep_m);
+  EXPECT_EQ(moments.front(), 0);
+  EXPECT_EQ(moments.back(), 5);
+  for (std::size_t i = 1; i < moments.size(); ++i) {
+    const auto before = Corners(ObjectAt(bar, moments[i - 1]));
+    const auto after = Corners(ObjectAt(bar, moments[i]));
+    for (std::size_t k = 0; k < 8; ++k) {
+      ASSERT_LE((after[k] - before[k]).norm(), kStep_m + kRoundOff_m) << moments[i] << " s";
+    }
+  }
+}
+
 }  // namespace
 }  // namespace sim

@@ -4,6 +4,7 @@
 
 #include <opencv2/core.hpp>
 
+#include "sim/base/angle.h"
 #include "sim/sensor/depth/corner_glow.h"
 #include "tests/sim/sensor/sensor_measurements.h"
 
@@ -206,6 +207,38 @@ TEST(CornerOfTwoWalls, LosesTheStatedShareOfItsPixels) {
     EXPECT_NEAR(lost / near, expected, 5 * std::sqrt(expected * (1 - expected) / near));
   }
   EXPECT_EQ(cv::countNonZero((glow == 0) & (z == 0) & (rendering.depth_m > 0)), 0);
+}
+
+/// The same, its wall leaning back from upright, or over the floor where that is negative.
+Scene FloorAndLeaningWall(double back_deg) {
+  Scene scene = FloorAndWall();
+  Object& wall = scene.objects[1];
+  wall.q_wo = QuaternionFromRpyDeg({-back_deg, 0, 0});
+  wall.center_w = Eigen::Vector3d(0, 1, 0) + wall.q_wo * Eigen::Vector3d(0, 0.05, 1);
+  return scene;
+}
+
+// The normals of floor and wall are 90 degrees less the lean apart.
+TEST(CornerOfTwoWalls, GlowsTheLessTheFlatterItIs) {
+  constexpr double kReach_m = 0.05;
+  const Camera camera;
+  const Pose T_wc = LookAt({0, 0.2, 0.6}, {0, 1, 0});
+  for (const double back_deg : {-30.0, 0.0, 30.0, 60.0}) {
+    const Rendering rendering =
+        SensorView(FloorAndLeaningWall(back_deg), camera, AzureAllOff(), T_wc);
+    const cv::Mat1f glow = CornerGlow(rendering, camera, kReach_m);
+    const double strongest = std::min(1.0, 1 - std::sin(DegToRad(back_deg)));
+    int lit = 0;
+    for (int v = 0; v < glow.rows; ++v) {
+      const Eigen::Vector3d p_w = T_wc * (rendering.depth_m(v, 320) * camera.Ray(320, v));
+      const double share = std::max(0.0, 1 - std::hypot(p_w.y() - 1, p_w.z()) / kReach_m);
+      // Two pixels aslant at 1 m are a fifth of the reach.
+      EXPECT_NEAR(static_cast<double>(glow(v, 320)), strongest * share, 0.2 * strongest)
+          << back_deg << " degrees, row " << v;
+      lit += share > 0.2;
+    }
+    EXPECT_GT(lit, 20) << back_deg;
+  }
 }
 
 TEST(ConvexEdge, DoesNotGlow) {

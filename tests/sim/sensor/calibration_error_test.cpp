@@ -3,6 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <string>
+
+#include "sim/sensor/read_sensor.h"
 
 namespace sim {
 namespace {
@@ -58,6 +61,33 @@ TEST(ToldCamera, IsTheDevicesInAllItsRecordings) {
   EXPECT_EQ(ToldCamera({}, error, 3).fx, ToldCamera({}, error, 3).fx);
   EXPECT_NE(ToldCamera({}, error, 3).fx, ToldCamera({}, error, 4).fx);
   EXPECT_EQ(ToldCamera({}, {}, 3).fx, Camera{}.fx);
+}
+
+TEST(ToldCamera, PutsTheCentreOffToAllSidesAlike) {
+  const Camera camera;
+  Eigen::Matrix2d spread = Eigen::Matrix2d::Zero();
+  for (std::uint64_t device = 1; device <= kUnits; ++device) {
+    const Camera told = ToldCamera(camera, {.intrinsics = 0.003}, device);
+    const Eigen::Vector2d off((told.cx - camera.cx) / camera.fx,
+                              (told.cy - camera.cy) / camera.fy);
+    spread += off * off.transpose() / (0.003 * 0.003 * kUnits);
+  }
+  EXPECT_NEAR(std::sqrt(spread(0, 0)), 1, 0.1);
+  EXPECT_NEAR(std::sqrt(spread(1, 1)), 1, 0.1);
+  EXPECT_NEAR(spread(0, 1), 0, 0.15);  // three sds of what 400 draws leave of none
+}
+
+TEST(ToldCamera, OfADeviceThatTheFileNamesIsTheSameWhateverTheSeed) {
+  for (const std::string base : {"kinect1", "azure", "d435"}) {
+    const auto told_fx = [&](const std::string& line, std::uint64_t seed) {
+      const Sensor sensor =
+          ParseSensor("base: " + base + "\nintrinsics_error: 0.003\n" + line, "mine.yaml");
+      return ToldCamera({}, sensor.calibration, DeviceOf(sensor.depth, seed)).fx;
+    };
+    EXPECT_EQ(told_fx("device: 7\n", 1), told_fx("device: 7\n", 2)) << base;
+    EXPECT_NE(told_fx("device: 7\n", 1), told_fx("device: 8\n", 1)) << base;
+    EXPECT_NE(told_fx("", 1), told_fx("", 2)) << base << ": each seed is a device";
+  }
 }
 
 }  // namespace

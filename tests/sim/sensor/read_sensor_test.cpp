@@ -36,6 +36,15 @@ TEST(SensorFile, TakesAnglesInDegrees) {
   EXPECT_NEAR(std::get<KinectModel>(sensor.depth).max_incidence_rad, 70 * M_PI / 180, 1e-15);
 }
 
+TEST(SensorFile, TellsTheTwoTangentialTermsOfALensApart) {
+  const auto bent = [](const std::string& line) {
+    return ParseSensor("base: ideal\n" + line, "mine.yaml").lens.Distort({0, 0.5});
+  };
+  // At x = 0, r^2 is y^2: p1 shifts by 3 p1 y^2 along y, p2 by p2 y^2 along x.
+  EXPECT_LT((bent("lens_p1: 0.04\n") - Eigen::Vector2d(0, 0.5 + 0.03)).norm(), 1e-15);
+  EXPECT_LT((bent("lens_p2: 0.04\n") - Eigen::Vector2d(0.01, 0.5)).norm(), 1e-15);
+}
+
 TEST(SensorFile, RefusesAnUnknownKeyAndSaysWhere) {
   const std::string error = ErrorOf("base: d435\nsubpixel_px: 0.1\nbaselin_m: 0.1\n");
   EXPECT_THAT(error, HasSubstr("mine.yaml:3"));

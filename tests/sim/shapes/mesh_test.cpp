@@ -7,11 +7,13 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <memory>
 #include <utility>
 
 #include "sim/families/families.h"
 #include "sim/shapes/faces.h"
 #include "sim/shapes/planes.h"
+#include "sim/shapes/toy.h"
 #include "tests/support/place.h"
 
 namespace sim {
@@ -105,6 +107,43 @@ TEST(BuildMesh, FillsTheBoxOfAToyWithACurvedBody) {
     return;
   }
   FAIL() << "the desk has no toy";
+}
+
+/// A lump as a mesh of one's own, without a flat part.
+Object OwnLump() {
+  const ClosedSurface lump = ToySurface({0.2, 0.1, 0.15}, 3);
+  auto model = std::make_shared<Model>();
+  model->size = {0.2, 0.1, 0.15};
+  model->vertices_o = lump.vertices_o;
+  model->triangles = lump.triangles;
+  model->plane_of.assign(lump.triangles.size(), -1);
+  model->colour_of.assign(lump.triangles.size(), 0);
+  model->colours = {{0.5, 0.4, 0.3}};
+  Object object;
+  object.id = 1;
+  object.shape = ShapeKind::kMesh;
+  object.size = model->size;
+  object.model = model;
+  return object;
+}
+
+TEST(BuildMesh, TurnsTheShadingOfARoundMeshWithIt) {
+  Scene scene;
+  scene.objects = {OwnLump()};
+  const SceneMesh upright = BuildMesh(scene);
+  const Eigen::Quaterniond turn(Eigen::AngleAxisd(2.0, Eigen::Vector3d(1, -2, 3).normalized()));
+  scene.objects[0].q_wo = turn;
+  const SceneMesh turned = BuildMesh(scene);
+  ASSERT_EQ(turned.triangles.size(), upright.triangles.size());
+  for (std::size_t k = 0; k < turned.triangles.size(); ++k) {
+    const Triangle& t = turned.triangles[k];
+    const Eigen::Vector3d face =
+        (t.corners_w[1] - t.corners_w[0]).cross(t.corners_w[2] - t.corners_w[0]);
+    for (std::size_t i = 0; i < 3; ++i) {
+      EXPECT_GT(t.normals_w[i].dot(face), 0) << "lit from within";
+      EXPECT_LT((t.normals_w[i] - turn * upright.triangles[k].normals_w[i]).norm(), 1e-12);
+    }
+  }
 }
 
 TEST(ScenePlanes, LieOutsideTheirOwnerAndTurnTheirVerticesLeft) {

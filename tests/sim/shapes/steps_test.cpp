@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "sim/base/angle.h"
 #include "sim/families/families.h"
 
@@ -78,6 +80,20 @@ TEST(TopSteps, DoNotDependOnHowABookIsTurned) {
   ASSERT_EQ(steps.size(), 1u);
   EXPECT_EQ(steps[0].plane, 11);
   EXPECT_NEAR(steps[0].step_mm, 20, 1e-9);
+}
+
+// Along the normal of a tilted top the table is nearest under its low edge, 20 mm cos(tilt) up.
+TEST(TopSteps, OfATiltedBookAreThoseOfItsLowEdge) {
+  const double tilt = DegToRad(5);
+  for (const double sign : {1.0, -1.0}) {
+    Object book = Box(2, {0.2, 0.2, 0.02}, 0.1, 0.1, 0.73);
+    book.q_wo = QuaternionFromRpyDeg({sign * 5, 0, 0});
+    book.center_w.z() = 0.73 + 0.1 * std::sin(tilt) + 0.01 * std::cos(tilt);
+    const auto steps = StepsOf(TableAnd({book}));
+    ASSERT_EQ(steps.size(), 1u);
+    EXPECT_EQ(steps[0].below_object, 1);
+    EXPECT_NEAR(steps[0].step_mm, 20 * std::cos(tilt) * std::cos(tilt), 1e-9);
+  }
 }
 
 TEST(TopSteps, AreThoseThePlatesWereAskedFor) {

@@ -92,5 +92,22 @@ TEST(PlanePairs, AreListedInTheSceneTruth) {
   EXPECT_EQ(json["pairs"][0]["a"], PlanePairs(scene, ScenePlanes(scene))[0].a);
 }
 
+TEST(PlanePairs, AreListedWithTheSignOfTheirStep) {
+  for (const double step_mm : {5.0, -5.0}) {
+    const Scene scene = TwoBoards(0.03, step_mm / 1000, 0);
+    const auto tops = Tops(scene, 1, 2);
+    ASSERT_TRUE(tops.has_value());
+    int listed = 0;
+    const auto json = nlohmann::json::parse(SceneTruthJson(scene, ScenePlanes(scene)));
+    for (const auto& pair : json["pairs"]) {
+      if (pair["a"] != tops->a || pair["b"] != tops->b) continue;
+      ++listed;
+      EXPECT_NEAR(pair["step_mm"].get<double>(), step_mm, kRoundOff);
+      EXPECT_NEAR(pair["step_sigmas"].get<double>(), 5 / 1.884, kRoundOff);  // has no sign
+    }
+    EXPECT_EQ(listed, 1);
+  }
+}
+
 }  // namespace
 }  // namespace sim

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <tuple>
 
 #include "tests/sim/support/sim_worlds.h"
 
@@ -99,6 +100,25 @@ TEST(Closest, OfSquaresApartIsTheGapBetweenTheirCornersAndNothingWhereTheyOverla
   EXPECT_NEAR(back.on_a.x(), 12.0, 1e-12);
   EXPECT_NEAR(back.on_b.x(), 10.0, 1e-12);
   EXPECT_EQ(Closest(Square(0, 0, 10), Square(5, 5, 10)).distance, 0.0);
+}
+
+TEST(Closest, OfWhatOverlapsIsTheMiddleOfThatWhateverItsNumberOfCorners) {
+  const Polygon square = Square(0, 0, 10);
+  const Polygon across{{13, 1}, {13, 13}, {1, 13}};           // beyond x + y = 14
+  const Polygon diamond{{5, -2}, {12, 5}, {5, 12}, {-2, 5}};  // cuts off all four corners
+  const Polygon round_all{{-20, -20}, {50, -20}, {-20, 50}};  // the whole square is in it
+  for (const auto& [a, b, corners, middle] :
+       {std::tuple(square, across, 3, Eigen::Vector2d(8, 8)),  // (4, 10), (10, 4), (10, 10)
+        {square, diamond, 8, {5, 5}},
+        {round_all, square, 4, {5, 5}},
+        {square, round_all, 4, {5, 5}}}) {
+    SCOPED_TRACE(corners);
+    ASSERT_EQ(static_cast<int>(Overlap(a, b).size()), corners);
+    const ClosestPoints closest = Closest(a, b);
+    EXPECT_EQ(closest.distance, 0.0);
+    EXPECT_NEAR((closest.on_a - middle).norm(), 0.0, 1e-12);
+    EXPECT_NEAR((closest.on_b - middle).norm(), 0.0, 1e-12);
+  }
 }
 
 TEST(SignedArea, IsPositiveWhereVIsToTheLeftOfU) {

@@ -78,5 +78,27 @@ TEST(PlanRecording, LeavesAFrameItsBytesWhenMoreFollow) {
   }
 }
 
+// The device hands out the same image twice: its noise, too, is there again.
+TEST(Record, ShowsTheVeryImagesAgainWhereAFrameIsRepeated) {
+  RigOptions rig = RecordedRig(30);
+  rig.sensor.timing.drop_ratio = 0;
+  rig.sensor.timing.repeat_ratio = 0.4;
+  const Scene scene = SmallDesk();
+  const Simulator simulator(scene, rig);
+  const Recording recording = PlanRecording(scene, rig, 12);
+  int repeated = 0;
+  SimulatedFrame before = Record(simulator, recording, 0);
+  for (int i = 1; i < recording.frames(); ++i) {
+    const SimulatedFrame now = Record(simulator, recording, i);
+    const bool again = recording.shots[static_cast<std::size_t>(i)].exposed != i;
+    EXPECT_EQ(cv::norm(now.colour, before.colour, cv::NORM_INF) == 0.0, again) << i;
+    EXPECT_EQ(cv::norm(now.depth, before.depth, cv::NORM_INF) == 0.0, again) << i;
+    repeated += again ? 1 : 0;
+    before = now;
+  }
+  EXPECT_GT(repeated, 1);
+  EXPECT_LT(repeated, recording.frames() - 2);
+}
+
 }  // namespace
 }  // namespace sim

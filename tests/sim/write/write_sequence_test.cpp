@@ -251,6 +251,19 @@ TEST_F(WrittenSequence, IsNotResumedWithAnotherSensorOfTheSameName) {
   EXPECT_THAT(RefusalOf([&] { Write(root_ / "seq", mine); }), HasSubstr("sensor_base was"));
 }
 
+// Its options are the same: only the files that are written before the first frame tell.
+TEST_F(WrittenSequence, IsNotResumedAlongAnotherTrajectoryOfAsManyFrames) {
+  Write(root_ / "seq", Options(), 2);
+  const auto before = Contents(root_ / "seq");
+  std::vector<TimedPose> higher = SmallArc(2);
+  for (TimedPose& pose : higher) pose.T_wc.t.z() += 0.05;
+  SequenceOptions resume = Options();
+  resume.existing = Existing::kResume;
+  EXPECT_THAT(RefusalOf([&] { WriteSequence(SmallDesk(), higher, resume, root_ / "seq"); }),
+              HasSubstr("cannot resume: the content of groundtruth.txt was"));
+  EXPECT_EQ(Contents(root_ / "seq"), before);
+}
+
 // The manifest names only what is not plain, so a key may be gone instead of changed.
 TEST_F(WrittenSequence, IsNotResumedWithoutAnOptionItWasBegunWith) {
   SequenceOptions blurred = Options();
@@ -276,6 +289,20 @@ TEST_F(WrittenSequence, SaysWhichFolderCannotBeMade) {
   EXPECT_THAT(RefusalOf([&] { Write(root_ / "file/seq", Options()); }),
               HasSubstr("cannot be made"));
   EXPECT_THAT(RefusalOf([&] { Write(root_ / "file", Options()); }), HasSubstr("is a file"));
+}
+
+TEST(PlannedManifest, TellsEveryDefectOfTime) {
+  SequenceOptions options;
+  options.rig.sensor.timing = {.drop_ratio = 0.04,
+                               .repeat_ratio = 0.1,
+                               .depth_offset_s = 0.012,
+                               .stamp_jitter_s = 0.003};
+  const Recording recording = PlanRecording(SmallArc(5), {}, options.rig);
+  const auto timing = PlannedManifest(SmallDesk(), recording, options, {}).at("timing");
+  EXPECT_EQ(timing.at("drop_ratio"), 0.04);
+  EXPECT_EQ(timing.at("repeat_ratio"), 0.1);
+  EXPECT_EQ(timing.at("depth_offset_s"), 0.012);
+  EXPECT_EQ(timing.at("stamp_jitter_s"), 0.003);
 }
 
 TEST(GroundTruthText, ReadsBackAsTheVeryPose) {

@@ -172,5 +172,31 @@ TEST(BoxesOfMapPlanes, AreThoseOfTheRecordedImage) {
   EXPECT_GT((box_px.min - ideal.min).norm(), 1.0);  // the lens tells
 }
 
+TEST(BoxesOfMapPlanes, AreThoseOfTheCloudWhereAPartIsOutOfReach) {
+  // A corner to the left of the picture comes first: where others cannot be projected it is not
+  // counted, or the box would reach the picture's border.
+  const Camera camera;
+  const auto at = [&](const Eigen::Vector2d& u_px, double z_m) {
+    return Eigen::Vector3d(Inverse(kView_cw) * camera.Backproject(u_px, z_m));
+  };
+  for (const bool has_corners : {true, false}) {  // else a hull
+    for (const double z_m : {-0.5, 2.0}) {        // behind the camera, or far to the right
+      MapPlane m;
+      m.points_w = {at({120, 90}, 2.0), at({400, 310}, 1.5), at({250, 200}, 1.8)};
+      m.points_w.push_back(at({2000, 200}, 1.5));
+      m.points_w.push_back(at({200, 200}, -1.0));
+      auto& outline_w = has_corners ? m.vertices_w : m.hull_w;
+      outline_w = {at({-150, 40}, 2.0), at({300, 460}, 2.0), at({600, 400}, 2.0),
+                   at({2000, 200}, z_m)};
+      const Box box_px = ProjectedBox(m, kView_cw, camera);
+      EXPECT_THAT(box_px.min, VectorNear(Eigen::Vector2d(120, 90), 1e-9)) << z_m;
+      EXPECT_THAT(box_px.max, VectorNear(Eigen::Vector2d(400, 310), 1e-9)) << z_m;
+      // None of the cloud in the picture: nothing of it is there.
+      m.points_w.erase(m.points_w.begin(), m.points_w.begin() + 3);
+      EXPECT_TRUE(ProjectedBox(m, kView_cw, camera).empty()) << z_m;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace slam

@@ -50,6 +50,29 @@ TEST(DepthEdges, AreWhereTheNearThingEndsThoughAShadowLiesBesideIt) {
   EXPECT_TRUE(Of(edges, NearSide::kRight).empty());
 }
 
+TEST(DepthEdges, AreWhereTheNearThingEndsOnWhicheverSideItsShadowLies) {
+  const cv::Mat1f plain_m = BoardBeforeAWall({40, 30, 50, 60});
+  const DepthEdges expected = FindDepthEdges(plain_m);
+  constexpr int kWidest = 10;
+  const cv::Rect shadows[] = {{40 - kWidest, 30, kWidest, 60},
+                              {90, 30, kWidest, 60},
+                              {40, 30 - kWidest, 50, kWidest},
+                              {40, 90, 50, kWidest}};
+  for (const NearSide side :
+       {NearSide::kLeft, NearSide::kRight, NearSide::kTop, NearSide::kBottom}) {
+    cv::Mat1f depth_m = plain_m.clone();
+    depth_m(shadows[static_cast<int>(side)]) = 0.0f;
+    const DepthEdges edges = FindDepthEdges(depth_m);
+    const std::vector<DepthEdge>&found = Of(edges, side), &sharp = Of(expected, side);
+    ASSERT_EQ(found.size(), sharp.size());
+    for (std::size_t i = 0; i < found.size(); ++i) {
+      EXPECT_EQ(found[i].u_px, sharp[i].u_px);
+      EXPECT_EQ(found[i].v_px, sharp[i].v_px);
+      EXPECT_EQ(found[i].z_m, 1.0f);
+    }
+  }
+}
+
 TEST(DepthEdges, AreNoneOnSlantsSmallStepsSpecksAndDiagonals) {
   cv::Mat1f depth_m(120, 160);
   for (int v = 0; v < 120; ++v) {

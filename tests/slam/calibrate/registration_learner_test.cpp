@@ -27,7 +27,8 @@ struct Recording {
   int frames = 40;
   double late_s = 0.0;
   Vector6d speed = Vector6d::Zero();
-  bool moves = true;
+  bool moves = true;     ///< turns from frame to frame
+  double slide_m = 0.0;  ///< aside, from frame to frame
 };
 
 /// Fills the part of each pixel that a rectangle covers.
@@ -82,7 +83,8 @@ void LearnMore(const Recording& recording, RegistrationLearner& learner) {
     gray.convertTo(frame.gray, CV_8U);
     frame.measured.depth_m = depth_m;
     frame.depth_late_s = recording.late_s, frame.speed.mean = recording.speed;
-    if (recording.moves) frame.T_cw = {ExpSo3({0, 0.03 * i, 0}), {0, 0, 0}};
+    const double turn_rad = recording.moves ? 0.03 : 0.0;
+    frame.T_cw = {ExpSo3({0, turn_rad * i, 0}), {recording.slide_m * i, 0, 0}};
     learner.Learn(frame);
   }
 }
@@ -171,6 +173,18 @@ TEST(RegistrationLearner, TakesNoRimOfOneSideForAShift) {
 
 TEST(RegistrationLearner, LearnsNothingWhileTheCameraStands) {
   EXPECT_FALSE(Learn({.shift_px = {3.0, 0.0}, .moves = false}).estimate());
+}
+
+TEST(RegistrationLearner, LearnsAsMuchFromACameraThatSlidesAsFromOneThatTurns) {
+  // At 1 m 3 cm aside move the image by as much as 0.03 radians do: 16 pixels.
+  const RegistrationLearner turning = Learn({.shift_px = {2.0, -1.5}, .frames = 10});
+  const RegistrationLearner sliding =
+      Learn({.shift_px = {2.0, -1.5}, .frames = 10, .moves = false, .slide_m = 0.03});
+  ASSERT_TRUE(turning.estimate() && sliding.estimate());
+  EXPECT_EQ(sliding.estimate()->epochs, turning.estimate()->epochs);
+  EXPECT_TRUE(sliding.estimate()->clear);
+  EXPECT_NEAR(sliding.estimate()->shift_px.x(), 2.0, 0.2);
+  EXPECT_NEAR(sliding.estimate()->shift_px.y(), -1.5, 0.2);
 }
 
 TEST(RegistrationLearner, LearnsNothingFromAFrameOrTwo) {

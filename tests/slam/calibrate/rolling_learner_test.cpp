@@ -21,6 +21,7 @@ struct Shutter {
   bool same_way = false;  ///< each frame moves as the keyframe did that made the points
   bool keyframe_moves = false;
   Pose T_wk = {};  ///< of that keyframe
+  double keyframe_taken_out_s = 0.0;
 };
 
 Vector6d SpeedOf(Random& random) {
@@ -53,14 +54,15 @@ PlacedPoints Place(const Camera& camera, const Shutter& shutter, const Vector6d&
   keyframe.id = 0;
   keyframe.T_cw = Inverse(shutter.T_wk);
   keyframe.readout.speed = speed;
+  keyframe.readout.taken_out_s = shutter.keyframe_taken_out_s;
+  const double left_s = shutter.read_s - shutter.keyframe_taken_out_s;
   Random random{3};
   for (int i = 0; i < kPoints; ++i) {
     const double z_m = 1.0 + 2.0 * random.Uniform();
     const Eigen::Vector3d x_c =
         camera.Backproject({40 + 560 * random.Uniform(), 40 + 400 * random.Uniform()}, z_m);
     MapPoint point;
-    point.p_w =
-        shutter.T_wk * camera.Backproject(Seen(camera, shutter.read_s, speed, x_c), z_m);
+    point.p_w = shutter.T_wk * camera.Backproject(Seen(camera, left_s, speed, x_c), z_m);
     point.observations[0] = i;
     map.points.push_back(point);
     points.true_c.push_back(x_c);
@@ -121,6 +123,18 @@ TEST(RollingLearner, TellsItHoweverTheWorldIsTurned) {
   for (const Eigen::Vector3d& turn :
        {Eigen::Vector3d(0.5, 1.2, -0.4), Eigen::Vector3d(0, 3, 0)})
     EXPECT_NEAR(read_s(turn), at_home_s, 1e-6) << turn.transpose();
+}
+
+TEST(RollingLearner, TellsItHoweverMuchOfItWasTakenOutOfTheMap) {
+  // None, half, all, and too much.
+  for (const double taken_out_s : {0.0, 0.013, 0.026, 0.04}) {
+    const auto estimate =
+        LearnShutter(
+            {.read_s = 0.026, .keyframe_moves = true, .keyframe_taken_out_s = taken_out_s})
+            .estimate();
+    ASSERT_TRUE(estimate) << taken_out_s;
+    EXPECT_NEAR(estimate->read_s, 0.026, 0.002) << taken_out_s;
+  }
 }
 
 TEST(RollingLearner, LeavesAGlobalShutterAlone) {

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "tests/support/cameras.h"
@@ -46,6 +48,21 @@ TEST(SurfaceViews, PiecesThatTouchWithoutAStepAreOneSurface) {
   ASSERT_EQ(views.size(), 1U);
   EXPECT_EQ(views[0].cells.size(), 32U * 24U);
   EXPECT_NEAR(1 / views[0].plane.InverseDepth(0, 0), 1.5, 1e-6);
+}
+
+TEST(SurfaceViews, PiecesOfAChainAreOneSurfaceInWhateverOrderTheyAreLabelled) {
+  constexpr int kPieces = 5, kWidth_px = 32;
+  TwoHalves wall;
+  std::array<std::uint8_t, kPieces> order{1, 2, 3, 4, 5};
+  do {
+    for (std::size_t k = 0; k < kPieces; ++k) {
+      const int left = static_cast<int>(k) * kWidth_px;
+      wall.labels.colRange(left, left + kWidth_px) = order[k];
+    }
+    const std::vector<SurfaceView> views = wall.Views();
+    ASSERT_EQ(views.size(), 1U) << testing::PrintToString(order);
+    EXPECT_EQ(views[0].cells.size(), 32U * 24U);
+  } while (std::next_permutation(order.begin(), order.end()));
 }
 
 TEST(SurfaceViews, AStepOfEightMillimetresKeepsPiecesApart) {

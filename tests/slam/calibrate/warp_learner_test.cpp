@@ -135,6 +135,22 @@ TEST(WarpLearner, CountsNoFrameTwice) {
   EXPECT_EQ(learner.Warp().pattern, pattern);
 }
 
+// What a step aside moves the image by goes with the inverse of the distance.
+TEST(WarpLearner, WantsAFrameOnceItsImageHasMovedHoweverFarTheSceneIs) {
+  const Camera camera = SmallCamera();
+  const cv::Mat1b labels(camera.height, camera.width, std::uint8_t{1});
+  for (const double depth_m : {0.5, 1.0, 2.0, 4.0}) {
+    WarpLearner learner(camera, DepthNoise{}, DepthWarpConfig{});
+    const cv::Mat1f wall_m(camera.height, camera.width, static_cast<float>(depth_m));
+    learner.Observe(0, wall_m, labels, Pose{});
+    const auto wants = [&](double shift_rad) {
+      return learner.Wants(1 / kFps, Inverse({ExpSo3({0, 0, 0}), {shift_rad * depth_m, 0, 0}}));
+    };
+    EXPECT_FALSE(wants(0.02)) << depth_m;
+    EXPECT_TRUE(wants(0.03)) << depth_m;
+  }
+}
+
 TEST(WarpLearner, WantsNoMoreFramesOfOneEpochThanItUses) {
   constexpr int kMaxViews = 16;
   const Camera camera = SmallCamera();

@@ -202,6 +202,22 @@ TEST(CameraCheck, SaysNothingOfAWrongCameraThatHardlyTurns) {
   EXPECT_EQ(noticed, 1);
 }
 
+TEST(CameraCheck, KeepsTheViewsThatAreMostApartHoweverManyComeLater) {
+  // Two seconds of wide looks, and then many that turn half as far.
+  const auto way = [](double s) {
+    const Pose T_wc = Inverse(LookingAround(s));
+    return s < 2.0 ? Inverse(T_wc) : Inverse(Pose{ExpSo3(0.5 * LogSo3(T_wc.R)), T_wc.t});
+  };
+  CameraCheck check(Camera{}, FeatureScale{});
+  double wide_rad = 0.0;
+  for (const Frame& frame : TrackedFrames(300, Camera{}, way, kNoise, 12)) {
+    check.See(frame);
+    if (frame.index == 59) wide_rad = check.Estimate()->turn_rad;
+  }
+  EXPECT_GT(wide_rad, 0.3);
+  EXPECT_GE(check.Estimate()->turn_rad, wide_rad);
+}
+
 TEST(CameraCheck, KeepsItsViewsOverADarkFrame) {
   std::size_t pairs[2];
   for (const bool dark : {false, true}) {

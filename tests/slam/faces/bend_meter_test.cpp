@@ -5,6 +5,7 @@
 #include <cmath>
 #include <vector>
 
+#include "tests/support/cameras.h"
 #include "tests/support/plane_world.h"
 
 namespace slam {
@@ -105,6 +106,24 @@ TEST(BendMeter, FindsByHowMuchASensorBends) {
     }
     EXPECT_NEAR(meter.ratio(), rms, 0.15 * rms);
   }
+}
+
+TEST(BendMeter, FindsTheSameBendInAnImageOfAnyWidth) {
+  SensorModel sensor;
+  sensor.noise = {.floor_m = 1e-6, .quadratic_per_m = 0.0, .grazing_m = 0.0};
+  // Waves a tenth of the image long: what a cell averages depends on how much it sees of one.
+  const auto measured = [&](int width) {
+    const Camera camera = CameraOfSize(width, 3 * width / 4);
+    Frame frame = Wall(camera, sensor.noise, 0, [&](int u, int v) {
+      return 0.01 * std::cos(2 * M_PI * 10 * (u + 0.5 + 0.2 * (v + 0.5)) / width);
+    });
+    BendMeter meter(PixelRays(camera), sensor);
+    meter.Measure(0.0, frame);
+    return meter.ratio();
+  };
+  const double usual = measured(640);
+  for (const int width : {320, 1280})
+    EXPECT_NEAR(measured(width), usual, 0.03 * usual) << width;
 }
 
 TEST(BendMeter, StaysWithWhatIsKnownOfTheSensorUntilALargePlaneIsSeen) {

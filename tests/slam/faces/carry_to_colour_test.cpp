@@ -213,5 +213,40 @@ TEST(CarryToColour, LeavesAPlaneThatTheColourCameraWouldSeeFromBehind) {
   EXPECT_EQ(frame.planes[0].centroid_c, plane.centroid_c);
 }
 
+TEST(CarryToColour, RecordsEdgePointsWhereALensThatDistortsShowsThem) {
+  const Camera camera = TumCamera("tum1");
+  const cv::Mat2d rays = PixelRays(camera);
+  const Pose T_dc{ExpSo3({0.004, -0.009, 0.01}), {0.006, -0.004, 0.01}};
+  const Vector3d n = Vector3d(0.2, -0.3, -0.9).normalized();
+  // Points of a wall in pixels of the colour image, up to its rim, found by the depth camera.
+  const std::vector<cv::Point> pixels = {
+      {20, 25}, {610, 30}, {330, 240}, {40, 450}, {600, 460}};
+  FramePlane plane;
+  plane.pi_c = Transform(T_dc, {n, 1.2});
+  for (const cv::Point& at : pixels) {
+    const Vector3d ray(rays(at)[0], rays(at)[1], 1.0);
+    const Vector3d x_d = T_dc * (ray * (-1.2 / n.dot(ray)));
+    plane.edge_points.push_back({x_d, camera.ProjectDistorted(x_d)});
+  }
+  for (const bool again : {false, true}) {
+    Frame frame;
+    frame.depth_m = cv::Mat1f(480, 640, 1.2f);
+    frame.planes = {plane};
+    TakeDepthFrom(T_dc, frame);
+    if (again) {
+      CarryPlanesAgain({}, camera, frame);
+    } else {
+      CarryToColour(camera, rays, frame);
+    }
+    const FramePlane& there = frame.planes[0];
+    for (std::size_t k = 0; k < pixels.size(); ++k) {
+      const Eigen::Vector2d seen(pixels[k].x, pixels[k].y);
+      EXPECT_LT((there.edge_points[k].u_px - seen).norm(), 0.01) << pixels[k];
+    }
+    EXPECT_LT((there.box_px.min - Eigen::Vector2d(20, 25)).norm(), 0.01);
+    EXPECT_LT((there.box_px.max - Eigen::Vector2d(610, 460)).norm(), 0.01);
+  }
+}
+
 }  // namespace
 }  // namespace slam

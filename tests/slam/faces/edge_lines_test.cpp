@@ -121,5 +121,39 @@ TEST(EdgeLines, AreDoubtfulAsAWholeWhereDepthHardlyChangesAcrossThem) {
   EXPECT_LT(sigma_px(20), thin_px);
 }
 
+TEST(EdgeLines, AreNotAsDoubtfulAsAnotherPieceOfTheSameSide) {
+  const Camera camera;
+  constexpr float kClear = 1000, kThin = 4;
+  // A side in two pieces, 280 to 339 and 380 to 439; a step of 0: not there.
+  const auto find = [&](float step_left, float step_right) {
+    FramePlane plane;
+    plane.pi_c = {Eigen::Vector3d(0, 0, -1), 1.0};
+    plane.centroid_c = {0, 0, 1};
+    for (int k = 0; k < 120; ++k) {
+      const Eigen::Vector2d u(k < 60 ? 280 + k : 320 + k, 200);
+      const float step = k < 60 ? step_left : step_right;
+      if (step > 0)
+        plane.edge_points.push_back({camera.Backproject(u, 1.0), u, EdgeKind::kSurface, step});
+    }
+    auto lines = FindEdgeLines(plane, camera, {}, Random{1});
+    std::sort(lines.begin(), lines.end(), [](const EdgeLine& a, const EdgeLine& b) {
+      return a.from_px.x() + a.to_px.x() < b.from_px.x() + b.to_px.x();
+    });
+    return lines;
+  };
+  const auto variance = [](const EdgeLine& line) { return line.error.Variance(line.from_px); };
+  for (const bool left_is_thin : {true, false}) {
+    const float left = left_is_thin ? kThin : kClear, right = left_is_thin ? kClear : kThin;
+    const auto both = find(left, right), left_alone = find(left, 0),
+               right_alone = find(0, right);
+    ASSERT_EQ(both.size(), 2u);
+    ASSERT_EQ(left_alone.size(), 1u);
+    ASSERT_EQ(right_alone.size(), 1u);
+    EXPECT_NEAR(variance(both[0]), variance(left_alone[0]), 1e-9) << left_is_thin;
+    EXPECT_NEAR(variance(both[1]), variance(right_alone[0]), 1e-9) << left_is_thin;
+    EXPECT_GT(std::abs(variance(both[0]) - variance(both[1])), 0.9);  // that of a pixel
+  }
+}
+
 }  // namespace
 }  // namespace slam

@@ -134,5 +134,43 @@ TEST(ProcessPlanes, AcceptAFrameWithoutPlanes) {
   EXPECT_TRUE(frame.planes.empty());
 }
 
+/// Corners of a sheet in front of a wall, both seen frontally, that leans sideways in its plane.
+std::size_t CornersOfSheet(double lean_rad, bool detected) {
+  const Camera camera;
+  Frame frame = closed_form::MakeFrame(cv::Mat1f(camera.height, camera.width, 1.2f));
+  Detection sheet;
+  sheet.class_name = "book", sheet.kind = ClassKind::kRegular, sheet.score = 0.9;
+  for (int v = 170; v < 310; ++v) {
+    const double middle = 320 + std::tan(lean_rad) * (v - 240);
+    for (int u = 0; u < camera.width; ++u) {
+      if (std::abs(u - middle) > 100) continue;
+      frame.depth_m(v, u) = 1.0f;
+      sheet.box_px.Include({u, v});
+    }
+  }
+  if (detected) frame.detections = {sheet};
+  ExtractPlanes(frame, camera, PixelRays(camera), {});
+  ProcessPlanes(frame, camera, {}, {});
+  std::size_t sheets = 0, corners = 0;
+  for (const FramePlane& plane : frame.planes) {
+    if (std::abs(plane.centroid_c.z() - 1.0) > 0.05) continue;
+    EXPECT_EQ(plane.detection.has_value(), detected);
+    ++sheets, corners += plane.vertices_c.size();
+  }
+  EXPECT_EQ(sheets, 1u);
+  return corners;
+}
+
+TEST(ProcessPlanes, TakeCornersOffTheSquareOnlyWhereADetectionSpeaksForThem) {
+  const UnlinkedConfig unlinked;
+  const double nearly_square_rad = 0.5 * unlinked.max_square_error_rad;
+  const double oblique_rad =
+      0.5 * (unlinked.max_square_error_rad + VertexConfig{}.max_square_error_rad);
+  EXPECT_EQ(CornersOfSheet(nearly_square_rad, false), 4u);
+  EXPECT_EQ(CornersOfSheet(nearly_square_rad, true), 4u);
+  EXPECT_EQ(CornersOfSheet(oblique_rad, true), 4u);
+  EXPECT_EQ(CornersOfSheet(oblique_rad, false), 0u) << "its shape alone is no rectangle's";
+}
+
 }  // namespace
 }  // namespace slam

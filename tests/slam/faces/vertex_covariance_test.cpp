@@ -119,6 +119,23 @@ TEST(VertexCovariance, ExplainsTheErrorsOfCornersNearAndFarSeenAndHidden) {
   }
 }
 
+TEST(VertexCovariance, IsThatOfTheLinesInMetresWherePixelsAreNotSquare) {
+  Camera camera;
+  camera.fx = 400, camera.fy = 600;
+  constexpr double kWall_z_m = 2.0;  // seen frontally, and known exactly
+  FramePlane plane;
+  plane.pi_c = {-Eigen::Vector3d::UnitZ(), kWall_z_m};
+  const Eigen::Vector2d u(500, 100);
+  const LineError row{u, Eigen::Vector2d::UnitX(), 0.25},
+      column{u, Eigen::Vector2d::UnitY(), 0.09};
+  // 0.3 px across a column are 1.5 mm, 0.5 px across a row 1.67 mm.
+  const Eigen::Vector3d sigma_m(0.3 * kWall_z_m / 400, 0.5 * kWall_z_m / 600, 0.0);
+  const Eigen::Matrix3d expected = sigma_m.cwiseAbs2().asDiagonal();
+  const Eigen::Vector3d corner_c = camera.Backproject(u, kWall_z_m);
+  const Eigen::Matrix3d covariance = VertexCovariance(plane, row, column, corner_c, camera);
+  EXPECT_LT((covariance - expected).norm(), 1e-12) << covariance;
+}
+
 /// Points two pixels apart along x, `across` of the k-th by the function.
 template <typename Across>
 std::vector<Eigen::Vector2d> Along(int n, Across across) {
@@ -154,6 +171,34 @@ TEST(LineErrors, CountNeighboursThatMoveTogetherOnce) {
   }
   EXPECT_NEAR(of_white * 1000 / 0.25, 1.0, 0.2);
   EXPECT_NEAR(of_shared * 200 / 0.25, 1.0, 0.2);
+}
+
+TEST(LineErrors, OfTheShortestLinesAreThoseThatTheirFitsMake) {
+  // The mean over all signs of an error is that over an error that is drawn. 10 px, so that
+  // rounding does not count, in lines so long that they hardly turn.
+  constexpr double kError_px = 10.0, kStep_px = 1000.0;
+  for (const int n : {4, 5}) {
+    double told_middle = 0.0, told_end = 0.0, made_middle = 0.0, made_end = 0.0;
+    for (int signs = 0; signs < 1 << n; ++signs) {
+      std::vector<Eigen::Vector2d> points;
+      for (int k = 0; k < n; ++k) {
+        const double across = (signs >> k) % 2 == 0 ? kError_px : -kError_px;
+        points.emplace_back(kStep_px * (k - 0.5 * (n - 1)), across);
+      }
+      double height = 0.0, moment = 0.0, inertia = 0.0;
+      for (const Eigen::Vector2d& u : points)
+        height += u.y() / n, moment += u.x() * u.y(), inertia += u.x() * u.x();
+      const double slope = moment / inertia, end_px = points.back().x();
+      const LineError error =
+          MeasureLineError(points, {0, height}, Eigen::Vector2d(1, slope).normalized());
+      told_middle += error.Variance({0, height});
+      told_end += error.Variance({end_px, height + slope * end_px});
+      made_middle += std::pow(height, 2);
+      made_end += std::pow(height + slope * end_px, 2);
+    }
+    EXPECT_NEAR(told_middle / made_middle, 1.0, 0.01) << n << " points";
+    EXPECT_NEAR(told_end / made_end, 1.0, 0.01) << n << " points";
+  }
 }
 
 }  // namespace

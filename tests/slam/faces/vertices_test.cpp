@@ -10,27 +10,33 @@ namespace {
 const Plane kFacing{-Eigen::Vector3d::UnitZ(), 1.0};  // z = 1
 const Camera kCamera;
 
-EdgeLine Side(const Eigen::Vector3d& a, const Eigen::Vector3d& b, int support = 30) {
-  return {{a, (b - a).normalized()}, kCamera.Project(a), kCamera.Project(b), support};
+EdgeLine Side(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Camera& camera) {
+  return {{a, (b - a).normalized()}, camera.Project(a), camera.Project(b), 30};
 }
 
 /// A rectangle 0.2 x 0.1 m at z = 1, edge points every 5 mm, its four sides as lines.
 struct Face {
-  Face() {
-    plane.pi_c = kFacing, plane.centroid_c = {0, 0, 1}, plane.area_m2 = 0.02;
+  /// @param off_axis_m  of its middle
+  explicit Face(const Camera& seen_by = kCamera,
+                const Eigen::Vector3d& off_axis_m = Eigen::Vector3d::Zero())
+      : camera(seen_by) {
+    plane.pi_c = kFacing, plane.area_m2 = 0.02;
+    plane.centroid_c = Eigen::Vector3d(0, 0, 1) + off_axis_m;
+    for (Eigen::Vector3d& p : corner) p += off_axis_m;
     for (int k = 0; k < 4; ++k) {
       const Eigen::Vector3d a = corner[k], b = corner[(k + 1) % 4];
-      lines.push_back(Side(a, b));
+      lines.push_back(Side(a, b, camera));
       for (int s = 0; s < 20; ++s) {
         const Eigen::Vector3d p = a + (b - a) * s / 20.0;
-        plane.edge_points.push_back({p, kCamera.Project(p), EdgeKind::kSurface});
+        plane.edge_points.push_back({p, camera.ProjectDistorted(p), EdgeKind::kSurface});
       }
     }
   }
   std::vector<Vertex> Find(const std::optional<Box>& box = std::nullopt) const {
-    return FindVertices(plane, lines, kCamera, box, {});
+    return FindVertices(plane, lines, camera, box, {});
   }
-  const Eigen::Vector3d corner[4] = {
+  Camera camera;
+  Eigen::Vector3d corner[4] = {
       {-0.1, -0.05, 1}, {0.1, -0.05, 1}, {0.1, 0.05, 1}, {-0.1, 0.05, 1}};
   FramePlane plane;
   std::vector<EdgeLine> lines;
@@ -60,6 +66,22 @@ TEST(Vertices, AreMarkedWhereNoEdgePointIsNear) {
   for (const Vertex& v : vertices) {
     EXPECT_EQ(v.extrapolated, (v.p_c - face.corner[2]).norm() < 1e-9);
   }
+}
+
+TEST(Vertices, AreSeenWhereALensThatDistortsShowsThem) {
+  Camera camera;
+  camera.k1 = -0.2;
+  Face face(camera, {0.45, 0.35, 0.0});  // off its ideal pixels by 10 to 33
+  auto vertices = face.Find();
+  ASSERT_EQ(vertices.size(), 4u);
+  for (const Vertex& v : vertices) EXPECT_FALSE(v.extrapolated) << v.p_c.transpose();
+
+  std::erase_if(face.plane.edge_points,
+                [&](const EdgePoint& e) { return (e.p_c - face.corner[2]).norm() < 0.03; });
+  vertices = face.Find();
+  ASSERT_EQ(vertices.size(), 4u);
+  for (const Vertex& v : vertices)
+    EXPECT_EQ(v.extrapolated, (v.p_c - face.corner[2]).norm() < 1e-9) << v.p_c.transpose();
 }
 
 TEST(Vertices, AreTwoWhereOneSideIsHidden) {

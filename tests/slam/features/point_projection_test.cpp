@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <optional>
+
 namespace slam {
 namespace {
 
@@ -77,6 +80,37 @@ TEST(QueryOfAPoint, IsThereForAllThatTheRecordedImageShows) {
   EXPECT_TRUE(found(655));
   EXPECT_FALSE(found(690));
   EXPECT_FALSE(found(2000));
+}
+
+// Its errors are two, or three with that of the depth: bounds that chance passes once in twenty.
+TEST(AFeature, AgreesWithAPointByTheErrorsThatItHas) {
+  const double by_pixel = -2 * std::log(0.05), by_depth_too = 7.815;
+  const Camera camera;
+  const FeatureScale scale;
+  const Eigen::Vector3d p_c(0.3, -0.2, 2.0);
+  for (const int octave : {0, 3}) {
+    SCOPED_TRACE(octave);
+    /// @param off2, disparity2  squared errors in the image and of the disparity, in variances
+    const auto agrees = [&](double off2, std::optional<double> disparity2) {
+      const double sigma_px = std::pow(scale.factor, octave);
+      PointFeature feature;
+      feature.octave = octave;
+      feature.u_px =
+          camera.Project(p_c) + std::sqrt(off2) * sigma_px * Eigen::Vector2d(0.6, -0.8);
+      feature.depth_m = 0.0;
+      if (disparity2) {
+        const double there_px = scale.bf_px_m / p_c.z();
+        feature.depth_m = scale.bf_px_m / (there_px + std::sqrt(*disparity2) * sigma_px);
+      }
+      return AgreesWith(feature, p_c, camera, scale);
+    };
+    EXPECT_TRUE(agrees(0.98 * by_pixel, std::nullopt));
+    EXPECT_FALSE(agrees(1.02 * by_pixel, std::nullopt));
+    EXPECT_TRUE(agrees(0.98 * by_depth_too, 0.0));
+    EXPECT_FALSE(agrees(1.02 * by_depth_too, 0.0));
+    EXPECT_TRUE(agrees(0.5 * by_depth_too, 0.48 * by_depth_too));
+    EXPECT_FALSE(agrees(0.5 * by_depth_too, 0.52 * by_depth_too));
+  }
 }
 
 }  // namespace

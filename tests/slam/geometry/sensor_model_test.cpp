@@ -31,5 +31,13 @@ TEST(SensorModel, IsNamedInTheOrderOfItsEnumeration) {
   }
 }
 
+// What the stamps do not tell, the points of a moving camera are weighed down by.
+TEST(SensorModel, DoubtsTheStampsOnlyOfCamerasThatKnowNothingOfEachOther) {
+  EXPECT_GT(ModelOf(DepthSensor::kKinect1).stamp_sigma_s, 0.0);
+  for (const DepthSensor together : {DepthSensor::kAzure, DepthSensor::kD435})
+    EXPECT_EQ(ModelOf(together).stamp_sigma_s, 0.0)
+        << DepthSensorNames().at(static_cast<std::size_t>(together));
+}
+
 }  // namespace
 }  // namespace slam

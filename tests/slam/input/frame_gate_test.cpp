@@ -11,6 +11,7 @@ namespace slam {
 namespace {
 
 using ::testing::ElementsAre;
+using ::testing::IsEmpty;
 using ::testing::StartsWith;
 
 Camera GateCamera() {
@@ -57,6 +58,31 @@ TEST(FrameGate, CountsTheFramesThatAreNotLaterThanAllBefore) {
   }
   EXPECT_THAT(taken, ElementsAre(true, true, false, false, true));
   EXPECT_THAT(gate.Warnings(), ElementsAre(StartsWith("2 frames were left out")));
+}
+
+/// What is said of frames that show one depth, after a third of as many at 1 m.
+std::vector<std::string> WarningsOfDepth(float depth_m) {
+  FrameGate gate(GateCamera());
+  for (int i = 0; i < 12; ++i) {
+    RecordedFrame frame = FrameAt(i);
+    if (i >= 3) frame.depth_m = depth_m;
+    EXPECT_TRUE(gate.Takes(frame));
+  }
+  return gate.Warnings();
+}
+
+TEST(FrameGate, DoubtsTheDepthFactorWhenMostFramesAreTooNearOrTooFar) {
+  EXPECT_THAT(WarningsOfDepth(0.2f),
+              ElementsAre(StartsWith("in 9 of 12 frames most of the depth is nearer")));
+  EXPECT_THAT(WarningsOfDepth(9.0f),
+              ElementsAre(StartsWith("in 9 of 12 frames most of the depth is beyond")));
+  EXPECT_THAT(WarningsOfDepth(1.5f), IsEmpty());
+}
+
+// A covered sensor measures nothing, which says nothing of the unit.
+TEST(FrameGate, DoesNotDoubtTheDepthFactorWhenMostFramesHaveNoDepth) {
+  EXPECT_THAT(WarningsOfDepth(0.0f), IsEmpty());
+  EXPECT_THAT(WarningsOfDepth(std::nanf("")), IsEmpty());
 }
 
 // A recorder or a window may hold the same image.

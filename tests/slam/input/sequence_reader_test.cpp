@@ -176,6 +176,19 @@ TEST_F(Sequences, WarnOfPairsThatTheListsDoNotHave) {
       ElementsAre(ContainsRegex("depth.txt has not the time and file of 2 of 2 lines")));
 }
 
+TEST_F(Sequences, WarnOfPairsWhoseColourTheListHasUnderAnotherTimeOrFile) {
+  WriteFrames({"1.0", "1.1", "1.2"});
+  WriteText("depth.txt", "1.0 depth/0.png\n1.1 depth/1.png\n1.2 depth/2.png\n");
+  for (const std::string line : {"1.1 rgb/0.png", "1.15 rgb/1.png", ""}) {
+    WriteText("rgb.txt", "1.0 rgb/0.png\n" + line + "\n1.2 rgb/2.png\n");
+    EXPECT_THAT(
+        IndexSequence(folder_).warnings,
+        ElementsAre(ContainsRegex("rgb.txt .* has not the time and file of 1 of 3 lines "
+                                  ".*first associations.txt:2")))
+        << line;
+  }
+}
+
 TEST_F(Sequences, WarnWhenTheManifestSaysThatTheyAreNotWhole) {
   WriteFrames({"1.0", "1.1"});
   const auto warnings = [&](const std::string& manifest) {
@@ -192,6 +205,15 @@ TEST_F(Sequences, WarnWhenTheManifestSaysThatTheyAreNotWhole) {
   WriteText("manifest.json", R"({"complete": false})");
   fs::remove(folder_ / "depth/1.png");
   ExpectReadError("depth/1.png .*no such file; the sequence is not complete; finish it with");
+}
+
+TEST_F(Sequences, WarnOfStampsThatDoNotFitTheCamerasRate) {
+  camera_.fps = 30;
+  WriteFrames({"1.000", "1.033", "1.067", "1.100"});
+  EXPECT_THAT(SequenceReader(folder_, camera_).warnings(), IsEmpty());
+  WriteFrames({"1", "2", "3", "4"});
+  EXPECT_THAT(SequenceReader(folder_, camera_).warnings(),
+              ElementsAre(ContainsRegex("every 1 s .* look like numbers of frames")));
 }
 
 TEST_F(Sequences, NameFileAndLineOfAListThatCannotBeUnderstood) {

@@ -79,6 +79,22 @@ TEST(MapPoints, AreCulledWhenYoungAndSeldomFound) {
   EXPECT_FALSE(PointOf(map, b).culled);
 }
 
+TEST(MapPoints, AreFoundAsOftenAfterFusionAsTheTwoTogetherWere) {
+  for (const int found : {1, 4}) {  // of ten frames, besides one of ten by the other
+    Map map = MakePointWorld(3, 40, 4).map;
+    const int a = PointAt(map, 0, 0), b = PointAt(map, 0, 1);
+    PointOf(map, a).visible_count = PointOf(map, b).visible_count = 10;
+    PointOf(map, a).found_count = 1;
+    PointOf(map, b).found_count = found;
+    ReplacePoint(map, a, b);
+    EXPECT_EQ(PointOf(map, b).visible_count, 20);
+    EXPECT_EQ(PointOf(map, b).found_count, 1 + found);
+    // A quarter is asked for.
+    CullYoungPoints(map, 2, {});
+    EXPECT_EQ(PointOf(map, b).culled, found == 1);
+  }
+}
+
 TEST(MapPoints, AreYoungUpToTheLastKeyframeOfTheirTrial) {
   const PointCullingConfig config;
   for (const int late : {0, 1}) {

@@ -278,6 +278,23 @@ TEST(PlaneMap, KnowsWhereAFusedSurfaceLiesAndWhatWasSupposedAtItsEdges) {
   EXPECT_TRUE(gone.supposed.empty());
 }
 
+// Whichever is the older one.
+TEST(PlaneMap, KnowsWhereAFusedSurfaceLiesInTheWorldAsItsFramesTogetherKnewTheirPlace) {
+  for (const bool better_known_first : {true, false}) {
+    SCOPED_TRACE(better_known_first);
+    MapPlane here = BoardAt(0.0), far_off = here;
+    here.estimate.world_variance_m2 = 1e-6;
+    far_off.estimate.world_variance_m2 = 9e-6;
+    // Three times as many frames saw it from there.
+    far_off.estimate.information *= 3, far_off.estimate.weighted *= 3;
+    Map map;
+    AddLandmark(map, better_known_first ? here : far_off);
+    AddLandmark(map, better_known_first ? far_off : here);
+    ASSERT_EQ(FusePlanes(map, {}, SmallImages()), 1);
+    EXPECT_NEAR(map.planes.At(0).estimate.world_variance_m2, (1e-6 + 3 * 9e-6) / 4, 1e-9);
+  }
+}
+
 TEST(PlaneMap, NotesTheStepsThatAFrameShowsBetweenItsLandmarks) {
   // A desk and a board on it that touch in the image: their parameters alone could be one.
   const Camera camera = SmallCamera();

@@ -56,6 +56,33 @@ TEST(PlaneSplit, LeavesEachSideItsOwnShapeAndParameters) {
   }
 }
 
+TEST(PlaneSplit, LaysKnownCornersOntoThePlaneOfTheSideThatKeepsThem) {
+  TwoPatches show;
+  show.height_m = 0.02;
+  for (int k = 0; k < 3; ++k) show.Next();
+  ASSERT_EQ(Landmarks(show.map).size(), 1u);
+  MapPlane& whole = *Landmarks(show.map)[0];
+  // On the plane that both patches made together, which cuts the step.
+  const std::vector<Eigen::Vector3d> corners_w{
+      {-0.4, -0.3, 0}, {0, -0.3, 0}, {0, 0.3, 0}, {-0.4, 0.3, 0}};
+  whole.vertices_w.clear();
+  double off_m = 0.0;
+  for (const Eigen::Vector3d& corner_w : corners_w) {
+    whole.vertices_w.push_back(ProjectOnto(whole.pi_w, corner_w));
+    off_m = std::max(off_m, (whole.vertices_w.back() - corner_w).norm());
+  }
+  ASSERT_GT(off_m, 0.002);
+  whole.vertex_weights.assign(4, 5.0);
+  show.Next();
+  ASSERT_EQ(Landmarks(show.map).size(), 2u);
+  const MapPlane& larger = *Landmarks(show.map)[0];
+  ASSERT_EQ(larger.vertices_w.size(), 4u);
+  for (const Eigen::Vector3d& corner_w : larger.vertices_w) {
+    EXPECT_NEAR(SignedDistance(larger.pi_w, corner_w), 0.0, 1e-9);
+    EXPECT_NEAR(corner_w.z(), 0.0, 1e-3);
+  }
+}
+
 TEST(PlaneSplit, SharesTheMapPointsOutByWhereTheyLie) {
   TwoPatches show;
   for (int k = 0; k < 3; ++k) show.Next();

@@ -17,6 +17,13 @@ TEST(ClassLikelihood, IsThePriorsWhenNothingIsKnown) {
   EXPECT_NEAR(ClassLikelihood({{"book", 1.0}}, ""), book * 0.35 + (1 - book) * 0.94, 1e-12);
 }
 
+// One particular other class is given in 0.03 of the frames.
+TEST(ClassLikelihood, SharesThePriorOfObjectsAmongTheClassesInQuestion) {
+  // None 0.6, book and cup 0.2 each; once seen as a cup: posterior 0.036 : 0.006 : 0.13.
+  EXPECT_NEAR(ClassLikelihood({{"cup", 1.0}}, "book"),
+              (0.036 * 0.06 + 0.006 * 0.65 + 0.13 * 0.03) / 0.172, 1e-12);
+}
+
 TEST(ClassLikelihood, KnowsNoMoreFromEvidenceBeyondTwentyFrames) {
   const double twenty = ClassLikelihood({{"book", 6.0}, {"", 14.0}}, "book");
   EXPECT_NEAR(ClassLikelihood({{"book", 60.0}, {"", 140.0}}, "book"), twenty, 1e-12);
@@ -47,6 +54,17 @@ TEST(ClassBelief, SurvivesMissesButNotAMajorityOfThem) {
   for (int i = 0; i < 12; ++i) UpdateClassBelief(desk, "", 1);
   UpdateClassBelief(desk, "book", 0.9);
   EXPECT_EQ(desk.class_name, "");
+}
+
+TEST(ClassBelief, IsLostSoonerWhereDetectionsContradictEachOther) {
+  // By hand: none 0.6 * 0.06^2 * 0.94 = 0.00203, either object 0.2 * 0.65 * 0.03 * 0.35 = 0.00137.
+  MapPlane desk;
+  for (const char* name : {"book", "cup", ""}) UpdateClassBelief(desk, name, 1.0);
+  EXPECT_EQ(desk.class_name, "");
+  // Two alike and a miss: 0.4 * 0.65^2 * 0.35 = 0.059.
+  MapPlane book;
+  for (const char* name : {"book", "book", ""}) UpdateClassBelief(book, name, 1.0);
+  EXPECT_EQ(book.class_name, "book");
 }
 
 TEST(ClassBelief, CountsADetectionByItsScoreAndAMissAsAFullFrame) {

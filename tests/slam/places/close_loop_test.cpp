@@ -150,6 +150,22 @@ TEST(LoopDetection, AllowsForDriftByTheLengthOfTheWay) {
   EXPECT_FALSE(Detect(world, kLast, config));
 }
 
+TEST(LoopDetection, AllowsForATurnByTheLengthOfTheWay) {
+  const RingWorld world = MakeRingWorld();
+  LoopDetectionConfig config;
+  config.base_drift_m = 1.0;
+  const auto loop = Detect(world, kLast, config);
+  ASSERT_TRUE(loop);
+  const Pose& before_cw = world.map.keyframes[kLast].T_cw;
+  const double turned_rad = LogSo3(loop->T_cw.R * before_cw.R.transpose()).norm();
+  const double way_m = (kLast - loop->place) * 2 * std::sin(M_PI / (kLast + 1));
+  config.base_drift_rad = 0.0;
+  config.drift_rad_per_m = 1.1 * turned_rad / way_m;
+  EXPECT_TRUE(Detect(world, kLast, config));
+  config.drift_rad_per_m = 0.9 * turned_rad / way_m;
+  EXPECT_FALSE(Detect(world, kLast, config));
+}
+
 TEST(LoopDetection, FindsPointsThatTheNeighboursOfThePlaceKnowAndItDoesNot) {
   RingWorld world = MakeRingWorld();
   const auto first = Detect(world, kLast);

@@ -121,5 +121,24 @@ TEST(PoseOptimiserEq13, FindsThePoseByPlanesOfAnotherTime) {
   }
 }
 
+TEST(PoseOptimiserEq13, KnowsAsMuchByPlanesOfAnotherTimeThatAgreeAsIfTheyWereOfItsOwn) {
+  const Pose T_cw{ExpSo3({0.3, -0.2, 0.1}), {0.4, -0.3, 0.2}};
+  const Vector6d speed = (Vector6d() << 0.3, -0.1, 0.2, 0.5, -0.4, 0.3).finished();
+  for (const double late_s : {0.015, -0.018}) {
+    for (const double compensated : {0.0, 1.0, 3.0}) {  // as a part of the speed
+      const PoseProblem late = SeenLate(T_cw, late_s, speed, compensated * speed);
+      // The same planes, looked at from where they are seen.
+      PoseProblem in_time;
+      in_time.T_cw = late.late->SeenFrom(T_cw);
+      in_time.planes = late.planes;
+      const Matrix6d expected = OptimisePose(in_time, Camera{}, {}).evidence.of_pose;
+      ASSERT_GT(expected.norm(), 1e6);
+      const MotionEvidence found = OptimisePose(late, Camera{}, {}).evidence;
+      EXPECT_LT((found.of_late_pose - expected).norm(), 1e-4 * expected.norm())
+          << late_s << " " << compensated;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace slam

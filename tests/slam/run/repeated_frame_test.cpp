@@ -62,6 +62,15 @@ TEST(FaultStreamF3, ALastImageThatComesTwiceAgainLeavesTheMapAsItWas) {
   EXPECT_EQ(ran.outcome.keyframes, once.outcome.keyframes);
 }
 
+TEST(RepeatedFrame, RefusesNoPairOfPlanesOnceMore) {
+  const Ran once = RunStuck(0), ran = RunStuck(kMaxRepeats);
+  long refused = 0;
+  for (const auto& [cue, pairs] : once.run.at("refused_pairs").items())
+    refused += pairs.get<long>();
+  ASSERT_GT(refused, 0);
+  EXPECT_EQ(ran.run.at("refused_pairs"), once.run.at("refused_pairs"));
+}
+
 TEST(RepeatedFrame, OfAWorldThatStandsStillBeforeAPerfectCameraIsLearnedFrom) {
   const Ran ran = RunStuck(30);
   EXPECT_EQ(ran.outcome.tracked, 32);

@@ -147,5 +147,15 @@ TEST(SegmentParts, JoinTheLargerOneThatFitsThemBest) {
   }
 }
 
+// The second fits the third best, 2 mm nearer than the largest, whose part it is itself by then.
+TEST(SegmentParts, OfOnePlaneUnderThreeLabelsAreOneSegment) {
+  Picture picture;
+  picture.Paint({0, 0, 160, 120}, kInFront_m);
+  for (const int u : {5, 125}) picture.Paint({u, 10, 30, 100}, 1.002f, 0);
+  for (const int v : {10, 80}) picture.Paint({45, v, 70, 30}, kTop_m, 1);
+  picture.Paint({45, 50, 70, 20}, kTop_m, 2);
+  EXPECT_EQ(Segment(picture).count, 1);
+}
+
 }  // namespace
 }  // namespace slam

@@ -89,6 +89,43 @@ TEST(ParallelPlanes, ManyWeighTogetherAsMuchAsOne) {
   EXPECT_NEAR(information(many.perpendiculars), before, 1e-9 * before);
 }
 
+// Another plane of the frame has a normal of its own, so it changes nothing.
+TEST(ParallelPlanes, OfEachPlaneWeighAsIfTheFrameHadNoOther) {
+  SeenPlaneWithOthers seen;
+  for (const Eigen::Vector3d& n_c : {Eigen::Vector3d(0, 1, 0), Eigen::Vector3d(0, -1, 0),
+                                     Eigen::Vector3d(0, 0, 1), Eigen::Vector3d(1, 0, 0)}) {
+    seen.Add(n_c);
+  }
+  FramePlane side = seen.frame.planes[0];
+  side.pi_c.n = {1, 0, 0};
+  const PlaneMatch as_side{PlaneDecision::kMatched, seen.Add(side.pi_c.n),
+                           MatchReason::kParameters};
+  const PoseProblem first = seen.Problem();
+  SeenPlaneWithOthers other = seen;
+  other.frame.planes = {side};
+  other.frame.plane_matches = {as_side};
+  const PoseProblem second = other.Problem();
+  seen.frame.planes.push_back(side);
+  seen.frame.plane_matches.push_back(as_side);
+  const PoseProblem both = seen.Problem();
+
+  const auto expect_joined = [](const std::vector<DirectionConstraint>& whole,
+                                std::vector<DirectionConstraint> parts,
+                                const std::vector<DirectionConstraint>& more) {
+    ASSERT_FALSE(parts.empty());
+    ASSERT_FALSE(more.empty());
+    parts.insert(parts.end(), more.begin(), more.end());
+    ASSERT_EQ(whole.size(), parts.size());
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+      EXPECT_THAT(whole[i].n_w, VectorNear(parts[i].n_w, 1e-12));
+      EXPECT_THAT(whole[i].n_c, VectorNear(parts[i].n_c, 1e-12));
+      EXPECT_NEAR(whole[i].sigma_rad, parts[i].sigma_rad, 1e-12) << i;
+    }
+  };
+  expect_joined(both.parallels, first.parallels, second.parallels);
+  expect_joined(both.perpendiculars, first.perpendiculars, second.perpendiculars);
+}
+
 TEST(ParallelPlanes, LeaveOutSmallOnesAndOnesThatWereRarelySeen) {
   SeenPlaneWithOthers seen;
   const int other = seen.Add({0, 0, -1});

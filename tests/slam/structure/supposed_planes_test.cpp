@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "slam/mapping/plane_motion.h"
+#include "slam/places/carry_map.h"
 #include "slam/structure/structure.h"
 #include "tests/support/map_surfaces.h"
 #include "tests/support/slam_matchers.h"
@@ -161,6 +162,35 @@ TEST(SupposedPlanes, MoveWithTheirLandmark) {
   ASSERT_EQ(after.size(), 1u);
   EXPECT_THAT(after[0].pi_w, PlaneNear(Transform(T_new_old, before[0].pi_w), 1e-9, 1e-9));
   EXPECT_NEAR(after[0].offset_sigma_m, before[0].offset_sigma_m, 1e-9);
+}
+
+TEST(SupposedPlanes, AreCarriedWithTheKeyframeThatFirstSawTheirEdge) {
+  // The landmark is older than the edge, and other keyframes have seen both since.
+  SeenBoard board;
+  for (const int frame : {0, 10, 20, 30}) {
+    Keyframe keyframe;
+    keyframe.id = static_cast<int>(board.map.keyframes.size());
+    keyframe.frame_index = frame;
+    keyframe.T_cw = board.T_cw;
+    board.map.keyframes.push_back(keyframe);
+  }
+  for (const int frame : {10, 20, 30}) {
+    board.frame.index = frame;
+    board.Learn(1);
+  }
+  ASSERT_EQ(board.Supposed().size(), 1u);
+  const Plane before = board.Supposed()[0].pi_w;
+  // A closed loop moves the later ones, each differently.
+  const std::vector<Pose> poses = KeyframePoses(board.map);
+  const Pose T_new_old{ExpSo3({0.02, -0.05, 0.03}), {0.1, -0.2, 0.3}};
+  Pose moved;
+  for (std::size_t k = 1; k < board.map.keyframes.size(); ++k) {
+    moved = T_new_old * moved;
+    board.map.keyframes[k].T_cw = board.T_cw * Inverse(moved);
+  }
+  CarryPlanes(board.map, poses);
+  ASSERT_EQ(board.Supposed().size(), 1u);
+  EXPECT_THAT(board.Supposed()[0].pi_w, PlaneNear(Transform(T_new_old, before), 1e-9, 1e-9));
 }
 
 TEST(SupposedPlanes, AreNoBetterKnownInTheWorldThanTheCameraThatSawThem) {

@@ -100,5 +100,29 @@ TEST(LookAlike, MayEndWithTheMapButNeedsSomeLikeness) {
   EXPECT_FALSE(FindLookAlike(RepeatingWall(0, 0).frame, RepeatingWall(0, 0).map, config));
 }
 
+TEST(LookAlike, IsNotThePlaceItselfFromWhichTwinsOfItsPointsStandALittleOff) {
+  // The twins vote for a shift, but within the reach of it are the points themselves, and they look
+  // more alike: what is found is the place itself. Farther away the twins are another place.
+  const LookAlikeConfig config;
+  for (const double off_m : {1.1 * config.min_shift_m, 3.0 * config.min_shift_m}) {
+    RepeatingWall wall(0, 0);
+    for (int i = 0; i < RepeatingWall::kLooks; ++i) {
+      MapPoint twin = wall.map.points[static_cast<std::size_t>(i)];
+      twin.id = static_cast<int>(wall.map.points.size());
+      twin.p_w.y() += off_m;
+      twin.descriptor[0] ^= 0x0F;  // another view of the same print
+      twin.observations = {{0, twin.id}};
+      wall.map.points.push_back(twin);
+      wall.map.keyframes[0].map_points.push_back(twin.id);
+      wall.map.keyframes[0].features.emplace_back();
+    }
+    const auto found = FindLookAlike(wall.frame, wall.map, config);
+    EXPECT_EQ(found.has_value(), off_m > 2 * config.min_shift_m) << off_m;
+    if (found.has_value()) {
+      EXPECT_NEAR(found->shift_w.y(), off_m, 1e-9);
+    }
+  }
+}
+
 }  // namespace
 }  // namespace slam

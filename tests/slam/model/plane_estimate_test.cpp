@@ -1,0 +1,48 @@
+#include "slam/model/plane_estimate.h"
+
+#include <gtest/gtest.h>
+
+#include <array>
+
+namespace slam {
+namespace {
+
+/// A desk's patch as one frame sees it.
+struct SeenPatch {
+  Eigen::Vector3d centroid_w;
+  double offset_sigma_m, world_variance_m2;
+};
+
+PlaneEstimate EstimateOf(const std::array<SeenPatch, 3>& patches, double keep) {
+  PlaneEstimate estimate;
+  for (const SeenPatch& seen : patches) {
+    AddObservation(estimate, {Eigen::Vector3d::UnitZ(), -0.7}, seen.centroid_w, 0.02,
+                   seen.offset_sigma_m, keep, seen.world_variance_m2);
+  }
+  return estimate;
+}
+
+// The last frame's camera knows its place worst, and a closer look before it counts for more.
+const std::array<SeenPatch, 3> kPatches{{{{0.3, -0.2, 0.7}, 0.010, 0.0004},
+                                         {{1.1, 0.4, 0.7}, 0.005, 0.0009},
+                                         {{-0.6, 0.9, 0.7}, 0.020, 0.0100}}};
+
+TEST(PlaneEstimate, IsOffTheWorldAsTheCamerasThatSawItAreOnTheMeanByTheirWeights) {
+  // By hand: heights weigh 10^4 / m^2 times 1, 4 and 1/4.
+  EXPECT_NEAR(EstimateOf(kPatches, 1.0).world_variance_m2,
+              (0.0004 + 4 * 0.0009 + 0.25 * 0.0100) / 5.25, 1e-12);
+  // Old ones fade: 1/4, 2 and 1/4.
+  EXPECT_NEAR(EstimateOf(kPatches, 0.5).world_variance_m2,
+              (0.25 * 0.0004 + 2 * 0.0009 + 0.25 * 0.0100) / 2.5, 1e-12);
+}
+
+TEST(PlaneEstimate, IsKnownBetterByMoreFramesButNotInTheWorld) {
+  std::array<SeenPatch, 3> alike = kPatches;
+  for (SeenPatch& seen : alike) seen = kPatches[0];
+  const PlaneEstimate many = EstimateOf(alike, 1.0);
+  EXPECT_NEAR(many.world_variance_m2, 0.0004, 1e-12);
+  EXPECT_NEAR(many.Covariance()(0, 0), 1e-4 / 3, 1e-9);
+}
+
+}  // namespace
+}  // namespace slam
