@@ -141,6 +141,15 @@ TEST_F(OutputFolders, ReplaceNothingThatAppearedWhileTheyWereWritten) {
   EXPECT_EQ(Contents(place()).at("thesis.tex"), "years of work");
 }
 
+// Of two commands that write to one place at once, the later must not spoil the earlier one's.
+TEST_F(OutputFolders, LeaveTheUnfinishedOneOfAProcessThatStillRunsAlone) {
+  const fs::path theirs = place().string() + ".partial-" + std::to_string(::getppid());
+  fs::create_directory(theirs);
+  WriteFile(theirs / "a.txt", "a");
+  Make();
+  EXPECT_EQ(Contents(theirs), (std::map<std::string, std::string>{{"a.txt", "a"}}));
+}
+
 TEST_F(OutputFolders, RefuseAPlaceThatCannotBeWrittenTo) {
   EXPECT_THAT([] { OutputFolder("/proc/out", "marker.json", false); },
               ThrowsMessage<InputError>(HasSubstr("/proc/out: cannot be written: ")));

@@ -12,5 +12,16 @@ TEST(SuiteGateProcessor, IsTheSameByItsNameUnlessThatIsUnknown) {
   EXPECT_FALSE(IsSameProcessor("unknown", "unknown"));
 }
 
+// Each look is a chance of a false alarm, so they share what the gate may have of it.
+TEST(SuiteGateLooks, AreOneForTheFirstSeedsAndOneForEachTimeThatTheyAreDoubled) {
+  const auto looks = [](int count, int max_count) { return LooksOf({1, count, max_count}); };
+  EXPECT_EQ(looks(5, 5), 1);
+  EXPECT_EQ(looks(5, 1), 1);
+  EXPECT_EQ(looks(5, 6), 2);   // 5, 6
+  EXPECT_EQ(looks(5, 10), 2);  // 5, 10
+  EXPECT_EQ(looks(3, 30), 5);  // 3, 6, 12, 24, 30
+  EXPECT_EQ(looks(1, 64), 7);  // 1, 2, 4, ... 64
+}
+
 }  // namespace
 }  // namespace app

@@ -63,6 +63,24 @@ TEST_F(CheckSequenceFolder, NamesAListedImageThatIsMissing) {
   ExpectOnly("rgb.txt", 4, "", "does not exist");
 }
 
+TEST_F(CheckSequenceFolder, NamesColourAndDepthThatAreTooFarApartWhicheverComesFirst) {
+  const std::string pairs = ReadText(seq() / "associations.txt"),
+                    depth = ReadText(seq() / "depth.txt");
+  for (const double later_s : {-0.025, -0.015, 0.015, 0.025}) {
+    const std::string stamp = StampText(std::stod(Stamp(1)) + later_s);
+    const std::string was = Stamp(1) + " depth/", is = stamp + " depth/";
+    WriteText(seq() / "associations.txt", pairs);
+    WriteText(seq() / "depth.txt", depth);
+    Edit(seq() / "associations.txt", was, is);
+    EditSequence("depth.txt", was, is);
+    if (std::abs(later_s) > 0.02) {
+      ExpectOnly("associations.txt", 2, "", "25.0 ms apart");
+    } else {
+      EXPECT_TRUE(CheckFolder(seq()).faults.empty()) << All(CheckFolder(seq()));
+    }
+  }
+}
+
 TEST_F(CheckSequenceFolder, NamesStampsThatDoNotIncrease) {
   fs::remove(seq() / "associations.txt");
   fs::remove_all(seq() / "gt");
@@ -185,6 +203,19 @@ TEST_F(CheckSequenceFolder, NamesALineThatIsNoJson) {
 TEST_F(CheckSequenceFolder, NamesAFileThatHasChangedSinceItWasWritten) {
   Edit(seq() / "detections.jsonl", "0.9", "0.8");
   ExpectOnly("detections.jsonl", 0, "", "sha256 differs");
+}
+
+// What an earlier sequence left there: a reader that lists the folder would take it for a frame.
+TEST_F(CheckSequenceFolder, NamesAnImageThatTheManifestDoesNotListAndNoFileOfOthers) {
+  WriteText(seq() / "notes.txt", "mine");
+  WriteText(seq() / "rgb/thumbs.db", "some program's");
+  EXPECT_TRUE(CheckFolder(seq()).faults.empty()) << All(CheckFolder(seq()));
+  for (const std::string folder : {"rgb/", "depth/", "gt/plane_id/", "gt/object_id/"}) {
+    const std::string stale = folder + "0.500000.png";
+    fs::copy_file(seq() / (folder + Stamp(0) + ".png"), seq() / stale);
+    ExpectOnly(stale, 0, "", "is not in manifest.json");
+    fs::remove(seq() / stale);
+  }
 }
 
 TEST_F(CheckSequenceFolder, NamesAManifestThatIsNotComplete) {

@@ -58,6 +58,23 @@ TEST_F(CheckSequenceFolder, NamesCornersThatAreNotInOrder) {
   ExpectOnly("gt/scene.json", 0, "/planes/4/vertices", "no rectangle");
 }
 
+// Its sides are parallel and its area is that of its corners, which lie in the object's box.
+TEST_F(CheckSequenceFolder, NamesAFaceWhoseSidesAreNotSquareToEachOther) {
+  constexpr double kSheared_m = 0.1;
+  EditJson("gt/scene.json", [](json& scene) {
+    json& plane = scene["planes"][4];  // the table's hidden underside, 0.8 m wide
+    ASSERT_EQ(plane["normal"][2].get<double>(), -1.0);
+    json& corners = plane["vertices"];
+    const int along = corners[0][0] == corners[1][0] ? 1 : 0;
+    const double side_m = corners[1][along].get<double>() - corners[0][along].get<double>();
+    const double step_m = std::copysign(kSheared_m, side_m);
+    corners[0][along] = corners[0][along].get<double>() + step_m;
+    corners[2][along] = corners[2][along].get<double>() - step_m;
+    plane["area"] = plane["area"].get<double>() * (1 - kSheared_m / std::abs(side_m));
+  });
+  ExpectOnly("gt/scene.json", 0, "/planes/4/vertices", "no rectangle");
+}
+
 TEST_F(CheckSequenceFolder, NamesAnAreaThatTheCornersDoNotEnclose) {
   EditJson("gt/scene.json", [](json& scene) { scene["planes"][4]["area"] = 0.5; });
   ExpectOnly("gt/scene.json", 0, "/planes/4/area", "enclose 1.12");
@@ -198,6 +215,21 @@ TEST_F(CheckDepthAgainstTruth, NamesAWrongDepthFactor) {
 TEST_F(CheckDepthAgainstTruth, NamesAFocalLengthThatIsTenPercentOff) {
   Edit(seq() / "camera.yaml", "fy: 57.6", "fy: 63.4");
   ExpectExplained("check the poses");
+}
+
+// An ideal sensor is off by its rounding alone, but not where it is told a wrong calibration.
+TEST_F(CheckDepthAgainstTruth, AllowsMoreWhereTheCalibrationWasGivenAnError) {
+  for (int i = 0; i < 4; ++i) {
+    const fs::path file = seq() / ("depth/" + Stamp(i) + ".png");
+    cv::Mat depth = test_support::ReadImageFile(file);
+    depth.convertTo(depth, CV_16U, 1.003);
+    WriteImage(file, depth);
+  }
+  Renew();
+  ExpectOnly("depth.txt", 0, "", "in 4 of 4 frames");
+  Edit(seq() / "manifest.json", "\"sensor\"",
+       "\"calibration_error\": {\"registration_px\": 1.5}, \"sensor\"");
+  EXPECT_TRUE(CheckFolder(seq()).faults.empty()) << All(CheckFolder(seq()));
 }
 
 TEST_F(CheckDepthAgainstTruth, NamesTheOneImageThatWasSwapped) {

@@ -170,6 +170,32 @@ TEST_F(DrawRunFolder, OutlinesPlanesByTheirVerticesWithoutASegmentation) {
   EXPECT_EQ(DrawRun(folder, {}).pictures.size(), 3u);
 }
 
+TEST_F(DrawRunFolder, OutlinesAPlaneWithoutVerticesByTheHullThatTheMapHasOfIt) {
+  const ::eval::Run run = ReadRun(MakeRun("run", Moved(), false));
+  FrameScene scene = SceneOf(run, 1);
+  const Face& top = world_.faces[11];  // of the book
+  RunFrame frame = *scene.frame;
+  std::erase_if(frame.planes, [&](const auto& p) { return p.map_plane != MapId(top.id); });
+  ASSERT_EQ(frame.planes.size(), 1u);
+  frame.planes[0].vertices_c.clear();
+  scene.frame = &frame;
+  cv::Mat difference;
+  cv::absdiff(DrawFrame(scene, world_.width), scene.rgb, difference);
+  cv::dilate(difference, difference, cv::Mat());  // a pixel's width
+  int drawn = 0, all = 0;
+  for (std::size_t k = 0; k < 4; ++k) {
+    for (double s = 0; s < 1; s += 0.05, ++all) {
+      const Vector3d x_g = (1 - s) * top.vertices[k] + s * top.vertices[(k + 1) % 4];
+      const Vector3d x_c = world_.views[1].T_wc.inverse() * x_g;
+      const cv::Point at(cvRound(world_.focal_px * x_c.x() / x_c.z() + world_.cx()),
+                         cvRound(world_.focal_px * x_c.y() / x_c.z() + world_.cy()));
+      ASSERT_TRUE(cv::Rect({}, difference.size()).contains(at));
+      drawn += cv::norm(difference.at<cv::Vec3b>(at)) > 30 ? 1 : 0;
+    }
+  }
+  EXPECT_GT(drawn, 0.9 * all);
+}
+
 TEST_F(DrawRunFolder, AsksForACameraWhenNothingElseCanPlaceThePlanes) {
   const fs::path run = MakeRun("run", Moved(), false);
   const fs::path camera = folder_.path() / "camera.yaml";

@@ -108,6 +108,25 @@ TEST(ErrorsOverTime, ShadeSpansInWhichTheRunIsLost) {
   EXPECT_GT(DrawErrors(*curve, {}).rows, whole.rows) << "the legend says what the shade means";
 }
 
+// What the error was before a gap is seen there alone: no line leads from it over the gap.
+TEST(ErrorPicture, LeadsNoLineOverASpanWithoutErrors) {
+  Path path = MakePath();
+  Lose(path.run, 6, 15);
+  const auto page = [&](std::size_t peak) {
+    auto curve = ErrorsOverTime(path.run, path.sequence);
+    for (ErrorSample& sample : curve->samples) sample.position_mm = sample.rotation_deg = 1;
+    curve->samples[peak].position_mm = curve->samples[peak].rotation_deg = 3;
+    return DrawErrors(*curve, {});
+  };
+  const cv::Mat last = page(5), last_but_one = page(4);  // frames before the gap
+  ASSERT_EQ(last.size(), last_but_one.size());
+  cv::Mat changed;
+  cv::cvtColor(cv::Mat(last != last_but_one), changed, cv::COLOR_BGR2GRAY);
+  const cv::Rect where = cv::boundingRect(changed);
+  EXPECT_GT(where.width, 0);
+  EXPECT_LT(where.width, 3 * last.cols / 19) << "two of 19 steps, and the width of a dot";
+}
+
 TEST(ErrorsOverTime, CountFromTheFirstFrameAlsoOfARunThatWasLostThen) {
   Path path = MakePath();
   Lose(path.run, 0, 4);

@@ -74,6 +74,21 @@ TEST(CollectMap, DrawsThePathOfTheTruthTurnedAsTheRunIs) {
     EXPECT_LT((scene.truth_path_v[i] - scene.run_path_v[i]).norm(), 1e-9) << i;
 }
 
+// Motion capture is switched on before the camera, and off after it.
+TEST(CollectMap, DrawsThePathOfTheTruthFromTheFirstFrameToTheLastAlone) {
+  CameraWorld world = MakeCameraWorld();
+  const MapScene during = CollectMap(world.run, world.sequence);
+  Trajectory& truth = *world.sequence.groundtruth;
+  Pose far;
+  far.t = {7, 8, 9};
+  truth.insert(truth.begin(), {truth.front().stamp_s - 1, far});
+  truth.push_back({truth.back().stamp_s + 1, far});
+  const MapScene scene = CollectMap(world.run, world.sequence);
+  ASSERT_EQ(scene.truth_path_v.size(), during.truth_path_v.size());
+  for (std::size_t i = 0; i < scene.truth_path_v.size(); ++i)
+    EXPECT_LT((scene.truth_path_v[i] - during.truth_path_v[i]).norm(), 1e-9) << i;
+}
+
 TEST(ChooseMapGauge, TurnsRunAndTruthAlikeWhereTheRunBeginsElsewhere) {
   CameraWorld world = MakeCameraWorld();
   const Pose T_gw{Eigen::AngleAxisd(0.4, Eigen::Vector3d(1, 2, -1).normalized()).matrix(),

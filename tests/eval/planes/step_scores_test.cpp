@@ -59,5 +59,36 @@ TEST(StepOf, IsThatToWhatLiesBelowAndNotAbove) {
   EXPECT_NEAR(StepOf(Level(3, 0.73, Square(0.4, 0.4, 0.1)), scene), 0.03, 1e-12);
 }
 
+TEST(ScoreSteps, CountsTopsOfRegularObjectsAndNotTheDeskOverTheFloor) {
+  SceneTruth scene = CornerDesk();
+  scene.planes.push_back(Level(3, 0.725, Square(0.4, 0.4, 0.1)));  // a book
+  for (const int id : {1, 2, 3}) {
+    TruthObject object;
+    object.id = id;
+    object.role = id == 3 ? Role::kRegular : Role::kStructure;
+    object.regular = id == 3;
+    scene.objects.push_back(object);
+    TruthPlane& top = scene.planes[std::size_t(id - 1)];
+    top.object = id;
+    top.scored = true;
+  }
+  DecisionHistory history;
+  for (const int frame : {0, 1}) {
+    for (const int truth : {1, 2, 3}) {
+      history.surfaces.push_back({frame, 0.1 * frame, truth, 2000, true, true, ""});
+      history.decisions.push_back(
+          {{frame, truth, 10 + truth, 2000}, 0.1 * frame, "", Vector3d::Zero()});
+    }
+  }
+  const std::vector<StepScore> steps = ScoreSteps(history, scene);
+  ASSERT_EQ(steps.size(), 1u);
+  EXPECT_LE(steps[0].min_mm, 25);
+  EXPECT_GT(steps[0].max_mm, 25);
+  EXPECT_EQ(steps[0].seen, 2);
+  EXPECT_EQ(steps[0].right, 2);
+  EXPECT_EQ(steps[0].right_planes, 2);
+  EXPECT_EQ(steps[0].wrong_planes, 0);
+}
+
 }  // namespace
 }  // namespace eval

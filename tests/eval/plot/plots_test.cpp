@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 
 #include "eval/plot/plotted_run.h"
@@ -143,6 +144,28 @@ TEST_F(PlotsOfTinyWorld, CountTopsByTheHeightOfTheirStep) {
   EXPECT_EQ(steps[1].min_mm, 60.0);
   EXPECT_EQ(steps[1].wrong_planes, 0);
   EXPECT_EQ(steps[1].right, steps[1].seen);
+}
+
+// Else a right angle is none, and a circle is not round.
+TEST(PlotTrajectories, HasOneScaleOnBothAxesWhateverTheShapeOfThePath) {
+  for (const double y_m : {2.0, 4.0, 8.0}) {
+    std::vector<PlottedRun> runs(1);
+    const std::array<Eigen::Vector3d, 4> corners{
+        {{0, 0, 0}, {4, 0, 0}, {4, y_m, 0}, {0, y_m, 0}}};
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+      PoseError pose;
+      pose.stamp_s = 0.1 * static_cast<double>(i);
+      pose.position_g = corners[i];
+      runs[0].evaluation.trajectory.errors.push_back(pose);
+    }
+    const cv::Mat3b image = io::DecodeImage(PlotTrajectories(runs)[2].bytes);
+    cv::Mat3b on_its_side;
+    cv::transpose(image, on_its_side);
+    const double width = HeightOf(StyleOfSeries(0), on_its_side),
+                 height = HeightOf(StyleOfSeries(0), image);
+    ASSERT_GT(std::min(width, height), 100);               // more than a sample in the legend
+    EXPECT_NEAR(height / width, y_m / 4, 0.02 * y_m / 4);  // two pixels of a hundred
+  }
 }
 
 // Whiskers and scores speak of means; medians of the same times can be anything.

@@ -178,5 +178,24 @@ TEST_F(EvaluateTinyWorld, WithoutMasksTheGeometryFindsTheSameTruthAndPixelFigure
   EXPECT_THAT(after.at("warnings"), ElementsAre(HasSubstr("pas slam --save-segmentation")));
 }
 
+TEST_F(EvaluateTinyWorld, AFramePlaneThatTheRunDistrustsHasNoSayInTheParameters) {
+  TinyRun honest(*world_), wild(*world_);
+  for (std::size_t i = 0; i < honest.frames.size(); ++i) {
+    for (TinyRun* run : {&honest, &wild}) {
+      nlohmann::json* book = FramePlane(*run, i, TinyWorld::kThickTop);
+      ASSERT_NE(book, nullptr);
+      (*book)["bad"] = "far";
+      (*book)["map_plane"] = nullptr;
+      (*book)["decision"] = "none";
+      if (run == &honest) continue;
+      for (auto& component : (*book)["normal"]) component = -component.get<double>();
+      (*book)["d"] = 0.5 - (*book)["d"].get<double>();
+    }
+  }
+  const nlohmann::json before = Metrics(honest), after = Metrics(wild);
+  EXPECT_NEAR(after["extraction"]["normal_deg"]["p95"].get<double>(), 0.0, 1e-6);
+  EXPECT_EQ(Moved(before, after), Keys{});
+}
+
 }  // namespace
 }  // namespace eval

@@ -99,6 +99,17 @@ TEST_F(EvaluateTinyWorld, FramesASecondAreThoseOfTheWholeRunSlowFramesToo) {
   EXPECT_NEAR(times["fps"].get<double>(), 45 / (44 * 0.010 + 0.100), kExact);
 }
 
+// Five in a hundred of 45 frames are 2.25.
+TEST_F(EvaluateTinyWorld, TheLimitOf95PercentPassesOverTwoSlowFramesAndNotOverFour) {
+  for (const int slow_frames : {2, 4}) {
+    TinyRun run(*world_);
+    const std::string usual = ",10\n";
+    for (int i = 0; i < slow_frames; ++i)
+      run.timing.replace(run.timing.find(usual), usual.size(), ",100\n");
+    EXPECT_EQ(Metrics(run)["timing_ms"]["mt"]["p95"], slow_frames == 2 ? 10.0 : 100.0);
+  }
+}
+
 TEST_F(EvaluateTinyWorld, TheSameFilesGiveTheSameBytes) {
   const TinyRun run(*world_);
   EXPECT_EQ(MetricsText(EvaluationOf(run)), MetricsText(EvaluationOf(run)));

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <numbers>
 #include <sstream>
 
@@ -73,6 +74,24 @@ TEST(TrajectoriesJson, SaysWhyThereIsNoRelativeErrorWhereThereIsAnAbsoluteOne) {
   EXPECT_TRUE(json["rpe"]["trans_m"].is_null());
   EXPECT_EQ(json["reasons"]["rpe/trans_m"], one.score.no_relative);
   EXPECT_NE(one.score.no_relative, "");
+}
+
+TEST(TrajectoriesJson, TellsTheLengthsOfBothPathsAsTheyAreInTheFiles) {
+  PoseFile truth, estimate;
+  for (int i = 0; i <= 20; ++i) {  // a metre ahead, then one to the side
+    Pose T_wc;
+    T_wc.t = {0.1 * std::min(i, 10), 0.1 * std::max(i - 10, 0), 0};
+    truth.poses.push_back({static_cast<double>(i), T_wc});
+    T_wc.t *= 1.25;
+    estimate.poses.push_back({static_cast<double>(i), T_wc});
+  }
+  ComparisonRules rules;
+  rules.align = AlignMode::kSim3;
+  ComparedTrajectory one{"a.txt", PoseFileKind::kTum, {}};
+  one.score = CompareTrajectories(estimate, truth, rules);
+  const auto json = TrajectoriesJson({one}, "truth.txt", rules)["trajectories"][0];
+  EXPECT_NEAR(json["path_m"].get<double>(), 2.5, 1e-9);
+  EXPECT_NEAR(json["true_path_m"].get<double>(), 2.0, 1e-9);
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 #include "eval/surfaces/depth_registration.h"
 #include "io/atomic_file.h"
+#include "tests/support/image_files.h"
 #include "tests/support/refusal.h"
 #include "tests/support/temporary_folder.h"
 
@@ -29,6 +30,26 @@ TEST(DepthViews, AreSeenFromWhereTheCameraWasWhenDepthWasTaken) {
   EXPECT_NEAR(views.PoseOf(0).t.x(), 0.15, 1e-9);
   EXPECT_NEAR(views.PoseOf(1).t.x(), 0.4, 1e-9);
   EXPECT_EQ(views.StampOf(0), 1.0);
+}
+
+// The file of the registration tells no unit: TUM has 5000 a metre.
+TEST(DepthViews, OfARegisteredCameraAreInTheUnitOfTheRecording) {
+  const test_support::TemporaryFolder folder;
+  std::filesystem::create_directories(folder / "depth");
+  test_support::WriteImageFile(folder / "depth/1.png", cv::Mat1w(60, 80, std::uint16_t(7500)));
+  Sequence sequence;
+  sequence.folder = folder.path();
+  sequence.groundtruth.emplace(1);
+  sequence.groundtruth->front().stamp_s = 1.0;
+  sequence.frames = {{1.0, "", 1.0, "depth/1.png", 0}};
+  const Camera recorded{80, 60, 70, 70, 39.5, 29.5, 30, 5000, {}};
+  DepthRegistration registration;
+  registration.depth = registration.colour = {80, 60, 70, 70, 39.5, 29.5, 30, 1000, {}};
+  for (const bool registered : {false, true}) {
+    const DepthViews views(sequence, recorded,
+                           registered ? std::optional(registration) : std::nullopt);
+    EXPECT_FLOAT_EQ(views.Read(0).depth_m(30, 40), 1.5F) << registered;
+  }
 }
 
 TEST(LayOnColour, PutsADepthWhereTheColourCameraSeesItWithoutHoles) {

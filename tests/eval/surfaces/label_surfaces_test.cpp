@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "eval/surfaces/sheet.h"
 
 namespace eval {
@@ -54,6 +56,33 @@ TEST(SurfaceLabeller, TakesTheNearestOfThePlanesThatReachThere) {
     EXPECT_EQ(labels(kHeight / 2, 40), 1) << other_first;
     EXPECT_EQ(labels(kHeight / 2, 120), 2) << other_first;
   }
+}
+
+/// A wall through (0, 0, z) that is turned about the vertical.
+DepthView TurnedWall(double z_m, double angle_rad, const cv::Mat2d& rays) {
+  DepthView view = WallAt(z_m);
+  for (int v = 0; v < kHeight; ++v) {
+    for (int u = 0; u < kWidth; ++u) {
+      view.depth_m(v, u) = float(z_m / (1 - std::tan(angle_rad) * rays(v, u)[0]));
+    }
+  }
+  return view;
+}
+
+// A thing's side crosses a surface: near the line in common its points lie on both.
+TEST(SurfaceLabeller, LeavesOutEveryPixelOfAFaceThatCrossesTheSurfaceAtASteepAngle) {
+  const cv::Mat2d rays = Rays();
+  SurfaceFile file;
+  file.noise_per_m = 0.002;
+  file.surfaces = {PartOfAWall(1, 1.0, -0.4, 0.4)};
+  const SurfaceLabeller labeller(file);
+  const auto pixels_at = [&](double angle_deg) {
+    const DepthView view = TurnedWall(1.0, angle_deg * M_PI / 180, rays);
+    return cv::countNonZero(labeller.Label(view, rays));
+  };
+  EXPECT_GT(pixels_at(10), kHeight) << "as little as a bend turns it";
+  EXPECT_EQ(pixels_at(45), 0);
+  EXPECT_EQ(pixels_at(-45), 0);
 }
 
 // Near views weigh more, and a surfel is as far away as what it is the mean of.

@@ -34,5 +34,26 @@ TEST(OutlinedSurface, RunsAroundItsCellsInBothDirectionsAlike) {
   EXPECT_FALSE(area.Holds({1.175, 2.325, 3})) << "in the hole";
 }
 
+TEST(OutlinedSurface, IsAsFlatAsItsCellsAreAboutItsOwnPlane) {
+  Sheet sheet;
+  sheet.pi_g = {Eigen::Vector3d::UnitZ(), -3.0};
+  sheet.chart_g = {{1, 2, 3}, Eigen::Vector3d::UnitX(), Eigen::Vector3d::UnitY()};
+  const CellMask mask(40, 60, std::uint8_t(255));
+  sheet.hits = cv::Mat1i(mask.size(), 1);
+  const auto height_m = [](double u, double v) { return 0.010 + 0.02 * u - 0.01 * v; };
+  for (const double ripple_m : {0.0, 0.001}) {
+    sheet.height_m = cv::Mat1d(mask.size());
+    for (int v = 0; v < mask.rows; ++v) {
+      for (int u = 0; u < mask.cols; ++u) {  // up and down by turns, so that no plane follows
+        sheet.height_m(v, u) = height_m(u * Sheet::kCell_m, v * Sheet::kCell_m) +
+                               ((u + v) % 2 == 0 ? ripple_m : -ripple_m);
+      }
+    }
+    const Surface surface = OutlinedSurface(sheet, mask);
+    EXPECT_NEAR(surface.flatness_m, ripple_m, 1e-6);
+    EXPECT_NEAR(SignedDistance(surface.pi_g, {1.3, 2.2, 3 + height_m(0.3, 0.2)}), 0, 1e-9);
+  }
+}
+
 }  // namespace
 }  // namespace eval

@@ -144,6 +144,18 @@ TEST_F(SurfaceScoring, NumbersEventsByFramesOfTheSequence) {
   EXPECT_EQ(score.events[0].cue, "chi2");
 }
 
+TEST_F(SurfaceScoring, CountsLandmarksFromTwoPercentOfASurfaceOn) {
+  const cv::Mat1w surface(100, 100, std::uint16_t(7));
+  for (const auto& [pixels, landmarks] : {std::pair(190, 1), {210, 2}}) {
+    cv::Mat1w segments(100, 100, std::uint16_t(1));
+    for (int i = 0; i < pixels; ++i) segments(i / 100, i % 100) = 2;
+    SurfaceScorer scorer;
+    scorer.Add(0, surface, segments, {{1, 10}, {2, 11}});
+    EXPECT_EQ(scorer.Score().surfaces.at(7).landmarks, landmarks) << pixels;
+    EXPECT_EQ(scorer.Score().total.landmarks, landmarks) << pixels;
+  }
+}
+
 TEST_F(SurfaceScoring, FollowsMergesOfLandmarks) {
   Segment(Quarters(1, 2, 3, 0));
   SetLandmark(0, 10);

@@ -56,6 +56,16 @@ TEST_F(SurfaceFileOnDisk, GivesBackWhatWasWritten) {
   EXPECT_LT((read.surfaces[0].chart_g.axis_v + Eigen::Vector3d::UnitY()).norm(), 1e-9);
 }
 
+// It sets the tolerances by which pixels are told apart.
+TEST_F(SurfaceFileOnDisk, KeepsTheNoiseOfAGoodSensorToAPercent) {
+  for (const double noise_per_m : {0.0016, 0.00034, 0.00012}) {
+    SurfaceFile written = TwoSurfaces();
+    written.noise_per_m = noise_per_m;
+    io::WriteFile(path_, SurfacesText(written));
+    EXPECT_NEAR(ReadSurfaces(path_).noise_per_m, noise_per_m, 0.01 * noise_per_m);
+  }
+}
+
 TEST_F(SurfaceFileOnDisk, NamesTheLineOfEachMistakeOfAnEditor) {
   EXPECT_THAT(ErrorOf(Edited("normal: [0, 0, -1]", "normal: [0, 0, -2]")),
               HasSubstr(".yaml:10: "));

@@ -56,5 +56,27 @@ TEST(DrawPlan, IsSeenFromAboveAndNotFromBelow) {
   EXPECT_NEAR(x.norm() / y.norm(), 2 / 1.5, 0.05);
 }
 
+TEST(DrawPlan, HoldsARowOfSurfacesWhicheverWayItRuns) {
+  BoardWorld world;
+  world.T_wg = {Eigen::AngleAxisd(-M_PI / 2, Eigen::Vector3d::UnitX()).toRotationMatrix(),
+                Eigen::Vector3d::Zero()};
+  const test_support::TemporaryFolder folder;
+  const Sequence sequence = world.Write(folder.path());
+  const DepthViews views(sequence, *sequence.camera, std::nullopt);
+  for (const bool along_x : {true, false}) {
+    SurfaceFile file;
+    for (int id = 1; id <= 3; ++id) {
+      const double at_m = 2.0 * (id - 2);
+      file.surfaces.push_back(along_x ? Tile(id, at_m, 0) : Tile(id, 0, at_m));
+    }
+    const cv::Mat plan = DrawPlan(file, views, {500, 500});
+    const Eigen::Vector2d second = MiddleOf(plan, 2);
+    const double to_first_px = (MiddleOf(plan, 1) - second).norm();
+    const double to_third_px = (MiddleOf(plan, 3) - second).norm();
+    EXPECT_GT(to_first_px, 100) << along_x;
+    EXPECT_NEAR(to_third_px / to_first_px, 1, 0.05) << along_x;
+  }
+}
+
 }  // namespace
 }  // namespace eval

@@ -279,6 +279,23 @@ TEST(SlowNoise, IsStandardNormalAndRemembersItsRun) {
   EXPECT_GT(next / kCount, 0.8);
 }
 
+// Between its knots a stream bends, so its steps are unequal; of many streams they are alike at
+// every frame, as each has its knots elsewhere.
+TEST(SlowNoise, OfManyStreamsMovesAsMuchAtOneFrameAsAtAnother) {
+  constexpr int kRun = 8, kStreams = 3000;
+  double moved[kRun] = {}, mean = 0;
+  for (int key = 0; key < kStreams; ++key) {
+    const SlowNoise noise(static_cast<std::uint64_t>(key), kRun);
+    for (int frame = 0; frame < kRun; ++frame) {
+      const double step = noise.Normal(frame + 1) - noise.Normal(frame);
+      moved[frame] += step * step / kStreams;
+      mean += step * step / kStreams / kRun;
+    }
+  }
+  // A squared normal has a relative sd of sqrt 2, a mixture of narrow and wide ones somewhat more.
+  for (const double one : moved) EXPECT_NEAR(one, mean, 5 * 2 * mean / std::sqrt(kStreams));
+}
+
 TEST(DetectionsJson, HoldsTheFormatsKeys) {
   const auto json =
       nlohmann::json::parse(DetectionsJson(0.033333, {{"book", 0.91, {1, 2, 3, 4.5}}}));

@@ -206,6 +206,62 @@ TEST(PasserFamily, WritesTheLongestWayAsAFileThatCanBeRead) {
   }
 }
 
+TEST(MakeScene, HangsThePanelsOfALampElsewhereForAnotherSeed) {
+  for (const char* family : {"desk", "office"}) {
+    std::set<std::pair<double, double>> places;
+    constexpr std::uint64_t kScenes = 5;
+    for (std::uint64_t seed = 1; seed <= kScenes; ++seed) {
+      const Scene scene = MakeScene(family, seed, {{"lamps", 4}});
+      ASSERT_EQ(scene.lights.back().kind, LightKind::kArea);
+      const Eigen::Vector3d over = scene.lights.back().center_w - scene.motion.target_w;
+      places.insert({std::round(1000 * over.x()), std::round(1000 * over.y())});
+    }
+    EXPECT_EQ(places.size(), kScenes) << family;
+  }
+}
+
+/// Mean speed across the view, of the whiles in which something moves.
+double SpeedAcross(const Object& moving) {
+  double way_m = 0, time_s = 0;
+  for (std::size_t i = 1; i < moving.way.size(); ++i) {
+    const Waypoint &a = moving.way[i - 1], &b = moving.way[i];
+    const double step_m = std::abs(b.center_w.x() - a.center_w.x());
+    if (step_m < 1e-5) continue;  // rests
+    way_m += step_m;
+    time_s += b.time_s - a.time_s;
+  }
+  return way_m / time_s;
+}
+
+TEST(PasserFamily, MovesAsFastAsAsked) {
+  for (const int kind : {1, 2, 3}) {
+    for (const double speed_m_s : {0.3, 1.5}) {
+      const Scene scene = MakeScene("passer", 3, {{"kind", kind}, {"speed_m_s", speed_m_s}});
+      int moving = 0;
+      for (const Object& object : scene.objects) {
+        if (object.way.empty()) continue;
+        ++moving;
+        EXPECT_NEAR(SpeedAcross(object), speed_m_s, 0.01 * speed_m_s) << kind;
+      }
+      EXPECT_EQ(moving, kind == 3 ? 2 : 1);
+    }
+  }
+}
+
+TEST(BoardFamily, MakesTheBoardsAsThickAsAsked) {
+  for (const double thickness_mm : {3.0, 20.0}) {
+    const Scene scene = MakeScene("board", 2, {{"count", 4}, {"thickness_mm", thickness_mm}});
+    int boards = 0;
+    for (const Object& object : scene.objects) {
+      // Beside the screen and the tablet; the blocks that hold a board are low.
+      if (object.class_name != "book" || object.size.z() < 0.1) continue;
+      ++boards;
+      EXPECT_NEAR(1000 * object.size.minCoeff(), thickness_mm, 0.002);
+    }
+    EXPECT_EQ(boards, 2) << thickness_mm;
+  }
+}
+
 TEST(MakeScene, TiltsThePlateAsAsked) {
   const Scene scene =
       MakeScene("plates", 1, {{"tilt_deg", 10}, {"step_mm", 5}, {"gap_mm", 30}});

@@ -237,6 +237,24 @@ TEST(MakeTrajectory, NamesTheWayThatIsNotFree) {
   EXPECT_THROW(MakeTrajectory(scene, 10, kPatternFps, 1), io::InputError);
 }
 
+TEST(MakeTrajectory, NamesTheWayThatIsBlockedAtAnyOneOfItsPlaces) {
+  Scene scene;
+  scene.motion.preset = "loop";
+  for (int i = 0; i < 8; ++i) {
+    const SinCos turn = SinCosDeg(45 * i);
+    scene.motion.stations.push_back({{3 * turn.cos, 3 * turn.sin, 1.4}, {0, 0, 0.7}});
+  }
+  EXPECT_NO_THROW(MakeTrajectory(scene, 10, kPatternFps, 1));
+  Random random({1});
+  const auto way = MakePattern(scene.motion, 1.0, random);
+  scene.objects.emplace_back();
+  scene.objects[0].size = {0.1, 0.1, 0.1};
+  for (double place = 0; place < 1; place += 0.03) {
+    scene.objects[0].center_w = way->At(place, 0).camera_w;
+    EXPECT_THROW(MakeTrajectory(scene, 10, kPatternFps, 1), io::InputError) << place;
+  }
+}
+
 // Recorded baselines stand on these very bits.
 TEST(MakeTrajectory, StillGivesTheFirstPresetsBitForBit) {
   struct Golden {

@@ -213,6 +213,22 @@ TEST(SceneFile, IsWrittenWholeAndReadBackFromDisk) {
   EXPECT_THROW(WriteScene(made, "/nonexistent/folder/scene.yaml"), io::InputError);
 }
 
+TEST(SceneFile, TakesTheColoursOfAMaterialThatItLeavesOut) {
+  const auto material = [](const std::string& colours) {
+    const std::string faces = "    faces: {all: {print: text" + colours + "}}\n";
+    return ParseScene(kHead + Box(1, "a", kPlaced + faces), "s").objects[0].faces[0];
+  };
+  const std::array light{0.7, 0.7, 0.7}, dark{0.1, 0.1, 0.1};  // so that a print shows
+  const Material neither = material(""), paper = material(", colour: [0.9, 0.8, 0.2]"),
+                 ink = material(", ink: [0.2, 0, 0.5]");
+  EXPECT_EQ(neither.colour, light);
+  EXPECT_EQ(neither.ink, dark);
+  EXPECT_EQ(paper.colour, (std::array{0.9, 0.8, 0.2}));
+  EXPECT_EQ(paper.ink, dark);
+  EXPECT_EQ(ink.colour, light);
+  EXPECT_EQ(ink.ink, (std::array{0.2, 0.0, 0.5}));
+}
+
 TEST(SceneFile, KeepsWhatAMaterialIsToDepthSensors) {
   Scene scene = MakeScene("plates", 1);
   scene.objects[0].faces[2].infrared = 0.25;

@@ -268,5 +268,39 @@ TEST(SessionOffset, IsOneNumberForAllFramesOfASeed) {
   EXPECT_GT(highest - lowest, 0.009);
 }
 
+// Each pixel is a surface of its own, which its depth names: so depth tells where a pixel looked.
+TEST(AzureJitter, MovesAcrossAndDownByTheStatedSdAndEachByItself) {
+  const cv::Size size(160, 120);
+  Rendering rendering;
+  rendering.depth_m.create(size);
+  rendering.plane_id.create(size);
+  rendering.object_id = cv::Mat1w(size, ushort{1});
+  constexpr double kApart_m = 1e-4;
+  for (int v = 0; v < size.height; ++v) {
+    for (int u = 0; u < size.width; ++u) {
+      const int index = v * size.width + u;
+      rendering.depth_m(v, u) = 1 + kApart_m * index;
+      rendering.plane_id(v, u) = static_cast<ushort>(index + 1);
+    }
+  }
+  AzureModel azure = AzureAllOff();
+  azure.lateral_px = 2;
+  const cv::Mat1d z = MeasureDepth(rendering, azure, SmallCamera(), 1, 0);
+  constexpr int kReach_px = 10;  // five sd
+  double count = 0, across2 = 0, down2 = 0, both = 0;
+  for (int v = kReach_px; v < size.height - kReach_px; ++v) {
+    for (int u = kReach_px; u < size.width - kReach_px; ++u) {
+      const int index = static_cast<int>(std::lround((z(v, u) - 1) / kApart_m));
+      const double across = index % size.width - u, down = index / size.width - v;
+      ++count;
+      across2 += across * across, down2 += down * down, both += across * down;
+    }
+  }
+  const double sd = std::sqrt(4 + 1 / 12.0);  // rounded to whole pixels
+  EXPECT_NEAR(std::sqrt(across2 / count), sd, 5 * sd / std::sqrt(2 * count));
+  EXPECT_NEAR(std::sqrt(down2 / count), sd, 5 * sd / std::sqrt(2 * count));
+  EXPECT_NEAR(both / std::sqrt(across2 * down2), 0, 5 / std::sqrt(count));
+}
+
 }  // namespace
 }  // namespace sim

@@ -139,6 +139,24 @@ TEST(DepthBend, IsTheSameOfADeviceWhateverTheSeedAndTheSizeOfTheImage) {
   }
 }
 
+// The pattern goes with the ray, so with an image of oblong pixels it is drawn out as that is.
+TEST(DepthBend, IsTheSameOfADeviceInAnImageWithOblongPixels) {
+  const DepthBend bend{.rms = kRms, .device = 7};
+  const Camera square;
+  const cv::Mat1f p = DevicePattern(bend, square, 1);
+  for (const auto& [across, down] : {std::pair{2, 1}, {1, 2}}) {
+    const Camera oblong = Resize(square, square.width / across, square.height / down);
+    const cv::Mat1f q = DevicePattern(bend, oblong, 1);
+    for (int v = 0; v < oblong.height; v += 40) {
+      for (int u = 0; u < oblong.width; u += 40) {
+        const cv::Rect seen(across * u, down * v, across, down);
+        EXPECT_NEAR(cv::mean(p(seen))[0], static_cast<double>(q(v, u)), 0.01 * kRms)
+            << across << " " << down;
+      }
+    }
+  }
+}
+
 TEST(DepthBend, OfSeedsAreDifferentDevices) {
   const DepthBend bend{.rms = kRms};
   const cv::Mat1f p = DevicePattern(bend, Camera{}, 1), q = DevicePattern(bend, Camera{}, 2);

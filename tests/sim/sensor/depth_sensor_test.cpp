@@ -196,6 +196,37 @@ TEST(LateralNoise, MovesEdgesButNeverTheDepthInsideASurface) {
   EXPECT_GT(moved, 20);
 }
 
+// A frontal board on the left of one that is too flat to be measured: whoever looks at the second,
+// from whichever side of the edge, has nothing, and whoever looks at the first has its depth.
+TEST(LateralNoise, TakesTheAngleOfTheSurfaceThatIsSeenWithItsDepth) {
+  constexpr int kEdge = 80;
+  const cv::Size size(160, 120);
+  Rendering rendering;
+  rendering.depth_m = cv::Mat1d(size, 1.0);
+  rendering.incidence_cos = cv::Mat1f(size, 1.0F);
+  rendering.plane_id = cv::Mat1w(size, ushort{1});
+  rendering.object_id = cv::Mat1w(size, ushort{1});
+  const cv::Rect right(kEdge, 0, size.width - kEdge, size.height);
+  rendering.depth_m(right).setTo(1.3);
+  rendering.incidence_cos(right).setTo(std::cos(85 * M_PI / 180));
+  rendering.plane_id(right).setTo(2);
+  const cv::Mat1d z =
+      MeasureDepth(rendering, {.noise_scale = 0, .quantise = false}, PixelNoise(1, 0));
+  int lost = 0, gained = 0;
+  for (int v = 0; v < z.rows; ++v) {
+    for (int u = 0; u < z.cols; ++u) {
+      if (z(v, u) == 0) {
+        lost += u < kEdge;
+        continue;
+      }
+      EXPECT_NEAR(z(v, u), 1.0, 1e-9) << u << " " << v;
+      gained += u >= kEdge;
+    }
+  }
+  EXPECT_GT(lost, 10);
+  EXPECT_GT(gained, 10);
+}
+
 TEST(EncodedDepth, RoundsToNearestAndDropsWhatDoesNotFit) {
   const cv::Mat1d z = (cv::Mat1d(1, 5) << 0.0, 1.00009, 1.00011, 13.107, 13.2);
   const cv::Mat1w units = EncodeDepth(z, 5000);

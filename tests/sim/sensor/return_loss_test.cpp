@@ -151,6 +151,22 @@ TEST(MirrorSpot, IsWhereTheFaceThrowsTheProjectorsLightAtTheCamera) {
   EXPECT_NEAR(std::sqrt(m.m00 / M_PI), 0.05 * camera.fx, 4);
 }
 
+TEST(MirrorSpot, IsSmallerInProportionToTheGloss) {
+  const KinectModel model = LossyKinect(kSpot);
+  const Camera camera;
+  for (const double gloss : {0.3, 0.6}) {
+    const Rendering rendering = SensorView(Board(1, 0, 0.7, gloss), camera, model);
+    double pixels = 0;
+    constexpr int kFrames = 10;
+    for (std::uint64_t frame = 0; frame < kFrames; ++frame) {
+      pixels += cv::countNonZero(Missing(rendering, model, 3, frame)) / double(kFrames);
+    }
+    // The rim is ragged by a quarter of the radius, about its mean.
+    const double radius_px = gloss * 0.05 * camera.fx * std::sqrt(1 + 0.25 * 0.25);
+    EXPECT_NEAR(std::sqrt(pixels / M_PI), radius_px, 0.12 * radius_px) << gloss;
+  }
+}
+
 TEST(MirrorSpot, IsNotOnMattNorOnTurnedFaces) {
   const KinectModel model = LossyKinect(kSpot);
   const Camera camera;
@@ -205,6 +221,28 @@ TEST(MatchWindow, LosesAsManyAsDotsAtRandomDo) {
     const double share = (5 + k) / 9.0, sd = std::sqrt(share * (1 - share) / 9);
     EXPECT_NEAR(lost, Phi((0.45 - share) / sd), 0.05) << k;
   }
+}
+
+// Two rows that meet at an edge share their window but for a line of it: the dots that one
+// surface has too few of are the other's, so only one of the two is lost at a place.
+TEST(MatchWindow, LosesOneSideOfAnEdgeWhereItSparesTheOther) {
+  const Camera camera;
+  const KinectModel model = LossyKinect({}, kRecordedWindow);
+  const Rendering rendering = SensorView(BoardBeforeWall(1, 2), camera, model);
+  int top = 0;  // the board's first row
+  while (rendering.object_id(top, camera.width / 2) != 2) ++top;
+  int near = 0, far = 0, both = 0;
+  for (std::uint64_t frame = 0; frame < 20; ++frame) {
+    const cv::Mat1b missing = Missing(rendering, model, 3, frame);
+    for (int u = camera.width / 2 - 40; u < camera.width / 2 + 40; ++u) {
+      near += missing(top, u) != 0;
+      far += missing(top - 1, u) != 0;
+      both += missing(top, u) != 0 && missing(top - 1, u) != 0;
+    }
+  }
+  EXPECT_GT(near, 160);  // a tenth
+  EXPECT_GT(far, 160);
+  EXPECT_EQ(both, 0);
 }
 
 TEST(MatchWindow, LosesAsMuchOfAnEdgeAtTheImagesBorderAsWithin) {

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <sstream>
 #include <string>
+#include <vector>
 
 #include "sim/families/families.h"
 
@@ -28,16 +29,26 @@ TEST(SceneSvg, DrawsEveryThingTwiceAndNamesTheSteps) {
   EXPECT_EQ(svg, SceneSvg(scene));
 }
 
-/// The first outline of a thing in the drawing, which is that in the plan: its extent, pixels.
-Eigen::Vector2d ExtentInPlan(const std::string& svg, const std::string& name) {
-  const std::size_t title = svg.find("<title>" + name);
+/// Corners of the polygon that has the title at this place of the drawing, pixels.
+std::vector<Eigen::Vector2d> CornersBefore(const std::string& svg, std::size_t title) {
   const std::size_t at = svg.rfind("points=\"", title) + 8;
   std::string points = svg.substr(at, svg.find('"', at) - at);
   std::replace(points.begin(), points.end(), ',', ' ');
   std::istringstream numbers(points);
+  std::vector<Eigen::Vector2d> corners;
+  for (double x, y; numbers >> x >> y;) corners.emplace_back(x, y);
+  return corners;
+}
+
+/// The first outline of a thing in the drawing, which is that in the plan: its extent, pixels.
+Eigen::AlignedBox2d BoxInPlan(const std::string& svg, const std::string& name) {
   Eigen::AlignedBox2d box;
-  for (double x, y; numbers >> x >> y;) box.extend(Eigen::Vector2d(x, y));
-  return box.sizes();
+  for (const Eigen::Vector2d& corner : CornersBefore(svg, svg.find("<title>" + name)))
+    box.extend(corner);
+  return box;
+}
+Eigen::Vector2d ExtentInPlan(const std::string& svg, const std::string& name) {
+  return BoxInPlan(svg, name).sizes();
 }
 
 TEST(SceneSvg, DrawsALyingCylinderAsLongAsItIs) {
@@ -74,6 +85,34 @@ TEST(SceneSvg, DrawsWhatIsNearInTheElevationOverWhatIsFar) {
     scene.objects = {near_first ? near : far, near_first ? far : near};
     const std::string svg = SceneSvg(scene);  // the last outline of each is in the elevation
     EXPECT_GT(svg.rfind("<title>near"), svg.rfind("<title>far")) << near_first;
+  }
+}
+
+TEST(SceneSvg, DrawsTheStationsWhereTheCameraIs) {
+  Scene scene = MakeScene("stack", 1);
+  Object mark = scene.objects.back();
+  mark.name = "mark", mark.q_wo.setIdentity();
+  scene.objects.push_back(mark);
+  for (int i = 0; i < 5; ++i) {
+    scene.motion.stations.push_back(
+        {{std::cos(i), std::sin(2.0 * i), 1 + 0.1 * i}, {0.1 * i, 0.2, 0.5}});
+  }
+  const std::string svg = SceneSvg(scene), title = "<title>stations of the camera";
+  const auto plan = CornersBefore(svg, svg.find(title));
+  const auto elevation = CornersBefore(svg, svg.rfind(title));
+  ASSERT_EQ(plan.size(), 5u);
+  ASSERT_EQ(elevation.size(), 5u);
+  const Eigen::Vector2d mark_px = BoxInPlan(svg, "mark").center();
+  const Eigen::Vector3d first_w = scene.motion.stations[0].camera_w;
+  for (std::size_t i = 0; i < 5; ++i) {
+    const Eigen::Vector3d camera_w = scene.motion.stations[i].camera_w;
+    // 500 px a metre, written to a tenth; y of the page goes down.
+    const Eigen::Vector3d from_mark = 500 * (camera_w - mark.center_w);
+    const Eigen::Vector2d in_plan(from_mark.x(), -from_mark.y());
+    EXPECT_LT((plan[i] - mark_px - in_plan).norm(), 0.3) << i;
+    const Eigen::Vector3d from_first = 500 * (camera_w - first_w);
+    const Eigen::Vector2d in_elevation(from_first.x(), -from_first.z());
+    EXPECT_LT((elevation[i] - elevation[0] - in_elevation).norm(), 0.3) << i;
   }
 }
 

@@ -111,6 +111,58 @@ TEST(MirrorLight, OfTheSunNeedsIt) {
   EXPECT_GT(MirrorLight(scene, to_sun, spot)[0], 1.0F);
 }
 
+// What a mirror shows is no brighter than the thing: a panel that sends I / r^2 to a face square
+// to it, from a part A / r^2 of all directions, is pi I / A as bright as that face.
+TEST(MirrorLight, OfAPanelIsNeverBrighterThanThePanelNorThanALampAsStrong) {
+  const double s = std::sqrt(0.5), glass = 0.04 + 0.96 * std::pow(1 - s, 5);
+  const MirrorSpot spot{
+      .x_w = {0, 0, 0}, .look_w = {0, s, -s}, .n_w = {0, 0, 1}, .lights_seen = 1};
+  const auto seen = [&](const Light& light) {
+    Scene scene;
+    scene.sun.ambient = 0;
+    scene.lights = {light};
+    return static_cast<double>(MirrorLight(scene, Eigen::Vector3d::UnitZ(), spot)[1]);
+  };
+  Light lamp;
+  lamp.center_w = {0, 1, 1};
+  lamp.intensity = 0.5;
+  double last = seen(lamp);
+  for (const double half_m : {0.001, 0.1, 0.2, 0.4, 0.8}) {
+    Light panel = lamp;
+    panel.kind = LightKind::kArea;
+    panel.half_a_w = {half_m, 0, 0};
+    panel.half_b_w = half_m * Eigen::Vector3d(0, -s, s);  // it looks at the spot
+    const double one = seen(panel);
+    EXPECT_LT(one, glass * M_PI * lamp.intensity / (4 * half_m * half_m)) << half_m;
+    EXPECT_LT(one, last) << half_m << ": the larger the dimmer";
+    EXPECT_GT(one, half_m < 0.01 ? 0.99 * last : 0.0) << half_m;  // the tiny one is a lamp
+    last = one;
+  }
+}
+
+// A joint in the middle of the highlight, between two halves that look as the whole does.
+TEST(MirrorLight, OfTheSunGoesOnOverTheEdgeBetweenTwoThings) {
+  Scene whole = Floor({0, 1, 1}, 1);
+  whole.lights.clear();
+  whole.sun.intensity = 0.8;
+  whole.sun.direction_w = {0, -1, -1};
+  Scene halves = whole;
+  constexpr double kJoint_m = 0.003;
+  halves.objects.push_back(halves.objects[0]);
+  halves.objects[1].id = 2;
+  halves.objects[1].name = "other_half";
+  for (const int side : {0, 1}) {
+    Object& half = halves.objects[static_cast<std::size_t>(side)];
+    half.size.x() = 4;
+    half.center_w.x() = kJoint_m + (side == 0 ? -2 : 2);
+  }
+  const cv::Mat1f expected = Added(whole, kAbove), added = Added(halves, kAbove);
+  double most = 0;
+  cv::minMaxLoc(expected, nullptr, &most);
+  ASSERT_GT(most, 0.1);
+  EXPECT_LT(cv::norm(added, expected, cv::NORM_INF), 0.02 * most);
+}
+
 TEST(MirrorLight, OfALampIsNothingWhereSomethingStandsBeforeIt) {
   Scene scene = Floor({0, 1, 1}, 1);
   scene.lights.push_back(scene.lights[0]);

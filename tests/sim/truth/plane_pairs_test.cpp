@@ -85,6 +85,49 @@ TEST(PlanePairs, LeaveOutWhatIsFarSteepOrNotScored) {
   EXPECT_FALSE(Tops(unscored, 1, 2).has_value());
 }
 
+/// A square frame in z = 0, 0.4 m wide with a hole of 0.2 m, in four pieces.
+ScenePlane FrameInPieces() {
+  ScenePlane frame;
+  frame.id = frame.object = 1;
+  const double corners[4][2] = {{-1, -1}, {1, -1}, {1, 1}, {-1, 1}};
+  const auto corner = [&](int i, double half_m) {
+    return Eigen::Vector3d(half_m * corners[i % 4][0], half_m * corners[i % 4][1], 0);
+  };
+  frame.holes_w.emplace_back();
+  for (int i = 0; i < 4; ++i) {
+    frame.vertices_w.push_back(corner(i, 0.2));
+    frame.holes_w[0].push_back(corner(4 - i, 0.1));
+    frame.pieces_w.push_back(
+        {corner(i, 0.2), corner(i + 1, 0.2), corner(i + 1, 0.1), corner(i, 0.1)});
+  }
+  return frame;
+}
+
+TEST(PlanePairs, MeasureTheGapToTheNearestOfAFacesPieces) {
+  Scene scene;
+  scene.objects = {BoxObject(1, "box", Role::kRegular, {0, 0, 0}, {0.4, 0.4, 0.02}),
+                   BoxObject(2, "box", Role::kRegular, {0, 0, 0}, {0.1, 0.1, 0.02})};
+  const ScenePlane frame = FrameInPieces();
+  // A plate of 0.1 m in the hole, 10 mm from one side after the other and tilted about that side.
+  for (int side = 0; side < 4; ++side) {
+    const Eigen::Quaterniond turn(Eigen::AngleAxisd(side * M_PI / 2, Eigen::Vector3d::UnitZ()));
+    const double tilt = 5 * M_PI / 180;
+    const Eigen::Vector3d along = turn * Eigen::Vector3d(0, 1, 0);
+    const Eigen::Vector3d inward = turn * Eigen::Vector3d(-std::cos(tilt), 0, std::sin(tilt));
+    const Eigen::Vector3d rim = turn * Eigen::Vector3d(0.09, 0, 0.003);
+    ScenePlane plate;
+    plate.id = plate.object = 2;
+    plate.vertices_w = {rim - 0.05 * along, rim + 0.05 * along,
+                        rim + 0.05 * along + 0.1 * inward, rim - 0.05 * along + 0.1 * inward};
+    plate.n_w = along.cross(inward);
+    plate.d = -plate.n_w.dot(rim);
+    const auto pairs = PlanePairs(scene, {frame, plate});
+    ASSERT_EQ(pairs.size(), 1u) << side;
+    EXPECT_NEAR(pairs[0].lateral_gap_mm, 10, kRoundOff) << side;
+    EXPECT_NEAR(pairs[0].step_mm, 3, kRoundOff) << side;
+  }
+}
+
 TEST(PlanePairs, AreListedInTheSceneTruth) {
   const Scene scene = TwoBoards(0.03, 0.005, 0);
   const auto json = nlohmann::json::parse(SceneTruthJson(scene, ScenePlanes(scene)));

@@ -131,6 +131,26 @@ TEST(DriftedPose, IsOfTheMapHoweverWellALandmarkOfNowTellsThePose) {
   for (const PlaneMatch& match : matches) EXPECT_EQ(match.decision, PlaneDecision::kMatched);
 }
 
+// The camera knows its place among landmarks of now to a tenth of a millimetre. One of long ago has
+// drifted beyond what can be hidden, and is looked for from where it meets what is seen.
+TEST(DriftedPose, JudgesTheOverlapWithALandmarkOfLongAgoWhereTheTwoMeet) {
+  const auto weighed = [](double off_m) {
+    const Return r = ReturnTo(kKeyframes, off_m);
+    const UncertainPose pose{r.frame.T_cw, IsotropicCovariance(1e-4, 1e-4)};
+    const UncertainPose predicted{r.frame.T_cw, IsotropicCovariance(0.02, 0.001)};
+    PairRefusals refused;
+    return WeighPairs(r.frame, r.map, pose, predicted, SmallCamera(), {}, refused).at(0).at(0);
+  };
+  const PairEvidence without_drift = weighed(0.0);
+  ASSERT_GT(without_drift.overlap, 0.9);
+  for (const double off_m : {-0.1, 0.1}) {
+    const PairEvidence pair = weighed(off_m);
+    EXPECT_EQ(pair.verdict, PairVerdict::kPossible) << off_m;
+    EXPECT_NEAR(pair.overlap, without_drift.overlap, 0.05) << off_m;
+    EXPECT_NEAR(pair.landed, without_drift.landed, 0.05 * without_drift.landed) << off_m;
+  }
+}
+
 TEST(DriftedPose, IsCorrectedAsWellAsNoiseAndBendLetAFarPlaneTell) {
   FramePlane wall;
   wall.pi_c = {Eigen::Vector3d(0, 0, -1), 4.0};

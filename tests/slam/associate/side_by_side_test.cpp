@@ -40,6 +40,26 @@ void Bend(Frame& frame, float most_m) {
   }
 }
 
+/// Two boards that face the camera, left and right of a gap in the middle of the picture; the right
+/// one is 10 mm nearer.
+Frame FacingBoards(const Camera& camera, int gap_px) {
+  Frame frame;
+  frame.depth_m = cv::Mat1f(camera.height, camera.width, 0.0f);
+  frame.plane_labels = cv::Mat1b(camera.height, camera.width, static_cast<unsigned char>(0));
+  const int width_px = (camera.width - gap_px) / 2;
+  for (const int f : {0, 1}) {
+    const double z_m = f == 0 ? 1.0 : 0.99;
+    const cv::Rect board(f * (camera.width - width_px), 0, width_px, camera.height);
+    frame.depth_m(board).setTo(z_m);
+    frame.plane_labels(board).setTo(f + 1);
+    FramePlane plane;
+    plane.index = f;
+    plane.pi_c = {-Eigen::Vector3d::UnitZ(), z_m};
+    frame.planes.push_back(plane);
+  }
+  return frame;
+}
+
 TEST(StepBetweenPlanes, IsExactOnExactDepth) {
   // A camera that is rolled sees depth change along a row, too.
   for (const double roll_rad : {0.0, 0.4, -0.9}) {
@@ -80,6 +100,30 @@ TEST(StepBetweenPlanes, LiesWithinItsSigmaUnderNoise) {
   EXPECT_LT(sum_chi2 / kDraws, 1.9);
 }
 
+TEST(StepBetweenPlanes, HasTheSigmaOfItsErrorsHoweverFewTilesTellIt) {
+  // Six tiles each, whose heights err independently by 1 mm.
+  const Camera camera = CameraOfSize(32, 24);
+  const Frame exact = FacingBoards(camera, 0);
+  Random random{5};
+  double errors_m2 = 0.0, variances_m2 = 0.0;
+  constexpr int kDraws = 600;
+  for (int draw = 0; draw < kDraws; ++draw) {
+    Frame frame = exact;
+    frame.depth_m = exact.depth_m.clone();
+    for (int v = 0; v < camera.height; v += 8) {
+      for (int u = 0; u < camera.width; u += 8) {
+        frame.depth_m(cv::Rect(u, v, 8, 8)) += 0.001 * Normal(random);
+      }
+    }
+    const auto step = SideBySide(frame, camera).Between(1, 0);
+    ASSERT_TRUE(step);
+    errors_m2 += std::pow(step->step_m - 0.01, 2);
+    variances_m2 += std::pow(step->sigma_m, 2);
+  }
+  // The ratio is known to 6 %: the errors' by 600 draws, the variances' by 600 of 8 tiles each.
+  EXPECT_NEAR(errors_m2 / variances_m2, 1.0, 0.25);
+}
+
 TEST(StepBetweenPlanes, IsHardlyMovedByWhatTheSensorDoesToBoth) {
   SeenWorld level = TwoBoards(0.0, 0.0), stepped = TwoBoards(0.006, 0.0);
   Bend(level.frame, 0.02f);
@@ -91,6 +135,20 @@ TEST(StepBetweenPlanes, IsHardlyMovedByWhatTheSensorDoesToBoth) {
 TEST(StepBetweenPlanes, IsNotKnownOfPlanesThatAreFarApart) {
   EXPECT_TRUE(Measured(TwoBoards(0.01, 0.0, 0.02)));
   EXPECT_FALSE(Measured(TwoBoards(0.01, 0.0, 0.4)));
+}
+
+TEST(StepBetweenPlanes, IsKnownAcrossTheSameGapAtAnyResolution) {
+  for (const int width : {320, 640, 1280}) {
+    SCOPED_TRACE(width);
+    const Camera camera = CameraOfSize(width, width * 3 / 4);
+    // 24 and 48 pixels at a width of 640.
+    const Frame near = FacingBoards(camera, width * 24 / 640);
+    const Frame apart = FacingBoards(camera, width * 48 / 640);
+    const auto step = SideBySide(near, camera).Between(1, 0);
+    ASSERT_TRUE(step);
+    EXPECT_NEAR(step->step_m, 0.01, 1e-6);
+    EXPECT_FALSE(SideBySide(apart, camera).Between(1, 0));
+  }
 }
 
 TEST(StepBetweenPlanes, IsNotKnownWithoutDepthOrLabels) {
@@ -114,6 +172,23 @@ TEST(PiecesOfOneSurface, HaveNoStepWhereTheyMeet) {
   EXPECT_EQ(pieces(TwoBoards(0.2, 1.0)), Pieces::kOfTwo);
   // Six millimetres that only planes extended to each other could tell.
   EXPECT_EQ(pieces(TwoBoards(0.006, 1.0, 0.6)), Pieces::kOfOne);
+}
+
+TEST(PiecesOfOneSurface, MayDifferByWhatNeighboursHaveInCommonHoweverLittleNoiseThereIs) {
+  AssociationConfig config;
+  const auto steps = [&](double step_m) {
+    const SeenWorld seen = TwoBoards(step_m, 0.0);
+    const FrameRelations related = RelateFramePlanes(seen.frame, HalfCamera(), config);
+    EXPECT_EQ(related.pieces[0][1], related.steps.empty() ? Pieces::kOfOne : Pieces::kUnsure);
+    return related.steps.size();
+  };
+  // Half of the floor is in common to neighbours: 0.6 mm, of which four are certain.
+  config.offset_floor_m = 0.0012;
+  EXPECT_EQ(steps(0.0005), 0u);
+  EXPECT_EQ(steps(0.002), 0u);
+  EXPECT_EQ(steps(0.003), 1u);
+  config.offset_floor_m = 0.0008;
+  EXPECT_EQ(steps(0.002), 1u);
 }
 
 /// Two planes, each linked to its own box.

@@ -126,5 +126,17 @@ TEST(DepthScatter, LeavesOutWhatIsNotMeasured) {
   EXPECT_EQ(Told(depth_m), DepthSensor::kAzure);
 }
 
+// Beyond 4 m a device may smooth, or scatter as no model says.
+TEST(DepthScatter, TellsTheSensorByWhatIsNearWhateverItMakesOfAHallBehind) {
+  const auto with_hall = [](cv::Mat1f depth_m) {
+    depth_m.colRange(depth_m.cols / 2, depth_m.cols) = 6.0f;
+    return depth_m;
+  };
+  EXPECT_EQ(Told(with_hall(ByTimeOfFlight(Wall(), 1))), DepthSensor::kAzure);
+  EXPECT_EQ(Told(with_hall(ByStructuredLight(Wall(), 2))), DepthSensor::kKinect1);
+  EXPECT_EQ(Told(with_hall(ByStereo(Wall(), 3))), DepthSensor::kD435);
+  EXPECT_EQ(Told(ByStereo(cv::Mat1f(4.0 * Wall()), 1)), std::nullopt);  // nothing is near
+}
+
 }  // namespace
 }  // namespace slam

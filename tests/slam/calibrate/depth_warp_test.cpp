@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 namespace slam {
 namespace {
 
@@ -43,6 +45,26 @@ TEST(DepthWarp, ADisparityThatIsOffIsPutRightAtEveryDistance) {
     const float off = 0.004F / static_cast<float>(kBendDistance_m);
     const cv::Mat1f measured(20, 40, 1.0F / (1.0F / z_m - off));
     EXPECT_NEAR(Straightened(measured, straightening)(7, 11), z_m, 1e-6 * z_m);
+  }
+}
+
+// Between the outermost centres bilinear values of what is linear are that itself.
+TEST(DepthWarp, StraighteningGoesEvenlyFromCellToCellAcrossAndDown) {
+  DepthWarp warp;
+  warp.cells = {40, 30, 4, 3};
+  const auto linear = [](double u, double v) { return 0.01 + 2e-4 * u - 3e-4 * v; };
+  warp.pattern.resize(warp.cells.count());
+  for (int cell = 0; cell < warp.cells.count(); ++cell) {
+    warp.pattern[cell] = linear(warp.cells.CentreU(cell % 4), warp.cells.CentreV(cell / 4));
+  }
+  const cv::Mat1f pattern = StraighteningBy(warp).pattern;
+  ASSERT_EQ(pattern.size(), cv::Size(40, 30));
+  for (int v = 0; v < 30; ++v) {
+    for (int u = 0; u < 40; ++u) {
+      const double expected =
+          linear(std::clamp(u + 0.0, 4.5, 34.5), std::clamp(v + 0.0, 4.5, 24.5));
+      EXPECT_NEAR(static_cast<double>(pattern(v, u)), expected, 1e-6) << u << " " << v;
+    }
   }
 }
 

@@ -149,5 +149,31 @@ TEST(WarpEstimate, IsTheLeastSquaresEstimateOfAPatternAndOfAPlaneForEachView) {
   EXPECT_LT((estimate.pattern() - dense.mean).norm(), 0.1 * dense.mean.norm());
 }
 
+// Twice as many rows for the same view are the same cells with the same rays.
+TEST(WarpEstimate, IsTheSameForAnImageWhosePixelsAreHalfAsHigh) {
+  const Camera square = FewCells();
+  Camera low = square;
+  low.height *= 2, low.fy *= 2, low.cy = 2 * square.cy + 0.5;
+  const WarpCells cells = CellsOf(square);
+  ASSERT_EQ(CellsOf(low).count(), cells.count());
+  WarpEstimate of_square(cells, square, Smooth(), BendLaw::kDepth);
+  WarpEstimate of_low(CellsOf(low), low, Smooth(), BendLaw::kDepth);
+  std::mt19937 random(6);
+  std::normal_distribution<double> normal(0.0, 0.003);
+  for (int epoch = 0; epoch < 2; ++epoch) {
+    SurfaceView view;
+    for (int cell = 0; cell < cells.count(); ++cell) {
+      const double x = (cells.CentreU(cell % cells.cols) - square.cx) / square.fx;
+      const double y = (cells.CentreV(cell / cells.cols) - square.cy) / square.fy;
+      view.cells.push_back({cell, x, y, SlantedQ(x, y, epoch) / (1 + normal(random)), 0.002});
+    }
+    of_square.Add(view), of_low.Add(view);
+    EXPECT_NEAR(of_low.CloseEpoch(), of_square.CloseEpoch(), 1e-6);
+  }
+  ASSERT_GT(of_square.pattern().norm(), 0.0);
+  EXPECT_LT((of_low.pattern() - of_square.pattern()).norm(), 1e-6 * of_square.pattern().norm());
+  EXPECT_LT((of_low.sigma() - of_square.sigma()).norm(), 1e-6 * of_square.sigma().norm());
+}
+
 }  // namespace
 }  // namespace slam

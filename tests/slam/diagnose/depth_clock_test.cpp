@@ -107,5 +107,25 @@ TEST(DepthClock, GoesOnAfterTheCameraWasLost) {
   EXPECT_NEAR(*clock.Late_s(), 0.1, 0.005);
 }
 
+// An arm, 32 columns of the image at 0.8 m, sweeps through it again and again. What it uncovers is
+// another surface, not the same one that moved.
+TEST(DepthClock, IsNotMisledByWhatPassesInFront) {
+  for (const double late_s : {-0.1, 0.1}) {
+    DepthClock clock(ClockCamera());
+    for (int i = 0; i < 90; ++i) {
+      const double s = i / 30.0;
+      Frame frame;
+      frame.timestamp_s = 100.0 + s;
+      frame.measured.depth_m = DepthSeen(HandAt(s + late_s), i);
+      const cv::Rect arm(i * 11 % 192 - 32, 0, 32, 120);
+      frame.measured.depth_m(arm & cv::Rect(0, 0, 160, 120)) = 0.8f;
+      frame.T_cw_by_pixels = HandAt(s);
+      clock.Observe(frame);
+    }
+    ASSERT_TRUE(clock.Late_s()) << late_s;
+    EXPECT_NEAR(*clock.Late_s(), late_s, 0.01);
+  }
+}
+
 }  // namespace
 }  // namespace slam

@@ -96,5 +96,40 @@ TEST(BoxLink, ForgetsTheLinkOfAnEarlierCall) {
   EXPECT_EQ(planes[0].class_name, "");
 }
 
+TEST(BoxLink, TiesNothingToADetectionThatIsTooDoubtful) {
+  std::vector<FramePlane> planes{PlaneOver(MakeBox(100, 100, 200, 180))};
+  for (const double min_score : {BoxLinkConfig{}.min_score, 0.7}) {
+    for (const double above : {-0.01, 0.0, 0.01}) {
+      Detection book = Detected("book", MakeBox(98, 99, 203, 190));
+      book.score = min_score + above;
+      LinkBoxes(planes, {book}, {.min_score = min_score});
+      EXPECT_EQ(planes[0].detection.has_value(), above > 0) << book.score;
+    }
+  }
+}
+
+TEST(BoxLink, PrefersABoxThatHoldsAllOfThePlaneToACloserOneThatCutsItOff) {
+  FramePlane diamond;  // its tips have few of the edge points
+  const Eigen::Vector2d tips[4] = {{150, 100}, {200, 150}, {150, 200}, {100, 150}};
+  for (int k = 0; k < 40; ++k) {
+    const double s = (k % 10) / 10.0;
+    const Eigen::Vector2d u = (1 - s) * tips[k / 10] + s * tips[(k / 10 + 1) % 4];
+    diamond.edge_points.push_back({Eigen::Vector3d(0, 0, 1), u, EdgeKind::kSurface});
+    diamond.box_px.Include(u);
+  }
+  const Detection cuts = Detected("cup", MakeBox(100, 100, 200, 185)),
+                  holds = Detected("book", MakeBox(95, 95, 208, 205));
+  ASSERT_GT(Iou(diamond.box_px, cuts.box_px), Iou(diamond.box_px, holds.box_px));
+  for (const auto& detections : {std::vector{cuts, holds}, {holds, cuts}}) {
+    std::vector<FramePlane> planes{diamond};
+    LinkBoxes(planes, detections, {});
+    EXPECT_EQ(planes[0].class_name, "book");
+  }
+  // Without the other it is good enough.
+  std::vector<FramePlane> planes{diamond};
+  LinkBoxes(planes, {cuts}, {});
+  EXPECT_EQ(planes[0].class_name, "cup");
+}
+
 }  // namespace
 }  // namespace slam

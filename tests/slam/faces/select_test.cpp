@@ -59,6 +59,15 @@ TEST(Select, RefusesAPlaneBeyondTheDistanceAndKeepsOneWithin) {
   EXPECT_EQ(book.Fault(), BadReason::kFar);
 }
 
+TEST(Select, MeasuresTheDistanceFromTheCameraAsWellOffItsAxis) {
+  GoodBook book;
+  const Eigen::Vector3d aside = Eigen::Vector3d(0.5, -0.4, 0.9).normalized();
+  book.plane.centroid_c = (book.config.max_distance_m + 0.01) * aside;
+  EXPECT_EQ(book.Fault(), BadReason::kFar);
+  book.plane.centroid_c = (book.config.max_distance_m - 0.01) * aside;
+  EXPECT_EQ(book.Fault(), std::nullopt);
+}
+
 TEST(Select, RefusesAPlaneThatNoPointLiesOn) {
   GoodBook book;
   book.plane.inlier_ratio = 0;

@@ -28,6 +28,22 @@ TEST(PointDepth, FollowsASlantedSurface) {
   EXPECT_NEAR(DepthAt(depth_m, {2, 2}, {}), 2.01, 1e-6);
 }
 
+TEST(PointDepth, AllowsForNoiseThatDoesNotShrinkWithTheDepth) {
+  const auto across_m = [](float near_m, float step_m, const PointDepthConfig& config = {}) {
+    cv::Mat1f depth_m(5, 5, near_m);
+    depth_m.col(3).setTo(near_m + step_m);
+    return DepthAt(depth_m, {2, 2}, config);
+  };
+  // A hand's breadth away 2 % are 5 mm, but 10 mm are allowed; far away 2 % are more.
+  EXPECT_FLOAT_EQ(static_cast<float>(across_m(0.25f, 0.009f)), 0.25f);
+  EXPECT_EQ(across_m(0.25f, 0.011f), 0.0);
+  EXPECT_FLOAT_EQ(static_cast<float>(across_m(2.0f, 0.035f)), 2.0f);
+  PointDepthConfig noisy;
+  noisy.max_step_m = 0.06;
+  EXPECT_FLOAT_EQ(static_cast<float>(across_m(1.0f, 0.05f, noisy)), 1.0f);
+  EXPECT_EQ(across_m(1.0f, 0.07f, noisy), 0.0);
+}
+
 TEST(PointDepth, IsNoneWhereNothingWasMeasured) {
   cv::Mat1f depth_m(5, 5, 1.0f);
   depth_m(2, 2) = 0.0f;

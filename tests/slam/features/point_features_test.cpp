@@ -174,6 +174,33 @@ TEST(PointFeatures, TurnTheirAngleWithTheImage) {
   EXPECT_EQ(agree, found);
 }
 
+// The sides of an octave are whole pixels: columns and rows are not scaled alike.
+TEST(PointFeatures, LieInTheMirrorWhereTheImageHasThemInEveryOctave) {
+  constexpr int kWidth = 203, kHeight = 149;
+  const cv::Mat1b image = PatternImage(kWidth, kHeight);
+  const auto first = Extract(image);
+  for (const bool upside_down : {false, true}) {
+    cv::Mat1b mirrored;
+    cv::flip(image, mirrored, upside_down ? 0 : 1);
+    const auto second = Extract(mirrored);
+    std::vector<int> all(8), found(8);
+    for (const PointFeature& f : first) {
+      Eigen::Vector2d expected = f.u_px;
+      if (upside_down) expected.y() = kHeight - 1 - expected.y();
+      if (!upside_down) expected.x() = kWidth - 1 - expected.x();
+      ++all[Index(f.octave)];
+      found[Index(f.octave)] +=
+          std::any_of(second.begin(), second.end(), [&](const PointFeature& g) {
+            return g.octave == f.octave && (g.u_px - expected).norm() < 0.01;
+          });
+    }
+    for (std::size_t o = 0; o < all.size(); ++o) {
+      EXPECT_GE(all[o], 10) << o;
+      EXPECT_GE(found[o], 0.6 * all[o]) << o;
+    }
+  }
+}
+
 TEST(PointFeatures, AreNoneInABlackImage) {
   EXPECT_TRUE(Extract(cv::Mat1b(480, 640, std::uint8_t{0})).empty());
 }

@@ -176,6 +176,48 @@ TEST(Keyframes, AreKeptWhileATenthOfTheirClosePointsIsTheirs) {
   }
 }
 
+/// How many points a keyframe sees, near and beyond what its depth is trusted to, alone and with
+/// five others.
+struct PointCounts {
+  int close_alone = 0, close_shared = 0, far_alone = 0, far_shared = 0;
+};
+
+/// Whether such a keyframe is culled.
+bool IsCulled(const PointCounts& seen) {
+  const Camera camera;
+  const double close_m = FeatureScale{}.CloseDepth_m(camera.fx);
+  constexpr int kViews = 6, kId = 1;
+  Map map;
+  map.keyframes.resize(kViews);
+  for (int k = 0; k < kViews; ++k) map.keyframes[static_cast<std::size_t>(k)].id = k;
+  const auto add = [&](int points, double depth_m, bool shared) {
+    for (int i = 0; i < points; ++i) {
+      const int f = static_cast<int>(map.keyframes[kId].features.size());
+      for (Keyframe& keyframe : map.keyframes) {
+        keyframe.features.emplace_back();
+        keyframe.features.back().u_px = {2.0 * f, 100.0};
+        keyframe.features.back().depth_m = depth_m;
+        keyframe.map_points.push_back(kNone);
+      }
+      const Eigen::Vector3d p_w = camera.Backproject({2.0 * f, 100.0}, depth_m);
+      const int point = AddPoint(map, p_w, kId, f, {});
+      for (int k = 0; shared && k < kViews; ++k) AddObservation(map, point, k, f);
+    }
+  };
+  add(seen.close_alone, 0.9 * close_m, false), add(seen.close_shared, 0.9 * close_m, true);
+  add(seen.far_alone, 1.1 * close_m, false), add(seen.far_shared, 1.1 * close_m, true);
+  for (int k = 0; k < kViews; ++k) UpdateCovisibility(map, k, {});
+  CullKeyframes(map, kViews - 1, camera, FeatureScale{}, {});
+  return map.keyframes[kId].culled;
+}
+
+TEST(Keyframes, AreKeptForTheirCloseDepthsAlone) {
+  EXPECT_TRUE(IsCulled({.close_shared = 20}));
+  EXPECT_FALSE(IsCulled({.close_alone = 20, .close_shared = 20}));
+  EXPECT_TRUE(IsCulled({.close_shared = 20, .far_alone = 100}));
+  EXPECT_FALSE(IsCulled({.close_alone = 20, .close_shared = 20, .far_shared = 200}));
+}
+
 TEST(Keyframes, AreTiedBothWaysToTheOneThatSharesMostWhereNoneSharesEnough) {
   Map map;
   map.keyframes.resize(3);

@@ -165,6 +165,30 @@ TEST(PlaneMap, StartsNoLandmarkFromAnUndecidedOrFarOrBadPlane) {
   EXPECT_TRUE(map.planes.empty());
 }
 
+TEST(PlaneMap, NotesTheMapPointsThatLieOnASurfaceAndNoneBeforeOrBehindIt) {
+  // All were matched on the board's pixels, wherever the map has them.
+  const Camera camera = SmallCamera();
+  PlaneWorld world;
+  world.Add({0, 0, 0}, {0.4, 0, 0}, {0, 0.3, 0}, "");
+  Frame frame = See(world, Walk(0), camera, {}, Random{1}).frame;
+  const Eigen::Vector3d on_board_w(0.05, 0.02, 0);
+  const double most_m = PlaneMapConfig{}.max_point_distance_m;
+  Map map;
+  for (const double height_m :
+       {0.0, 0.9 * most_m, -0.9 * most_m, 1.1 * most_m, -1.1 * most_m, 0.3, -0.3}) {
+    MapPoint point;
+    point.id = static_cast<int>(map.points.size());
+    point.p_w = on_board_w + height_m * Eigen::Vector3d::UnitZ();
+    map.points.push_back(point);
+    frame.map_points.push_back(point.id);
+    frame.features.emplace_back();
+    frame.features.back().u_px = camera.Project(frame.T_cw * on_board_w);
+  }
+  UpdatePlanes(frame, map, camera, {}, SmallImages());
+  ASSERT_EQ(Landmarks(map).size(), 1u);
+  EXPECT_EQ(Landmarks(map)[0]->map_points, (std::set<int>{0, 1, 2}));
+}
+
 /// The landmark that eight frames make of a board at a height.
 MapPlane BoardAt(double height_m) {
   const Camera camera = SmallCamera();

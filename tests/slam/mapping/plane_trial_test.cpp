@@ -121,6 +121,21 @@ TEST(PlaneTrial, TwoMissesAreForgiven) {
   EXPECT_EQ(show.Next(DeskWithSheet(kLarge_m)).decision, PlaneDecision::kNew);
 }
 
+// Fails when a surface that needs many frames may be missed no more often than one that needs few.
+TEST(PlaneTrial, ASurfaceMayBeMissedHalfAsOftenAsItIsSeen) {
+  for (const int seen_for_each_miss : {1, 2}) {
+    SCOPED_TRACE(seen_for_each_miss);
+    Show show;
+    show.Next(DeskWithSheet(0));
+    show.config.trial_frames = 12;
+    for (int seen = 1; seen <= show.config.trial_frames; ++seen) {
+      show.Next(DeskWithSheet(kLarge_m));
+      if (seen % seen_for_each_miss == 0) show.Next(DeskWithSheet(0));
+    }
+    EXPECT_EQ(Landmarks(show.map).size(), seen_for_each_miss == 2 ? 2u : 1u);
+  }
+}
+
 // Fails when frames alone count: slivers that noise makes live as long as that.
 TEST(PlaneTrial, ASmallSurfaceMustBeSeenMoreOften) {
   Show show;

@@ -109,6 +109,22 @@ TEST(PointFusion, GivesAPointTheFeatureThatMatchingHadMissed) {
   EXPECT_TRUE(world.map.points[static_cast<std::size_t>(point)].observations.count(2));
 }
 
+TEST(PointFusion, GivesAPointOfTwoFeaturesThatItIsLikeTheOneThatItIsMoreLike) {
+  for (const bool likest_first : {false, true}) {
+    NearMiss miss(0, false);
+    Keyframe& second = miss.map.keyframes[1];
+    PointFeature rival = second.features[0];
+    rival.descriptor[3] ^= 0x3F;  // six bits
+    second.features.insert(likest_first ? second.features.end() : second.features.begin(),
+                           rival);
+    second.map_points = {kNone, kNone};
+    FusePoints(miss.map, 0, miss.camera, FeatureScale{}, {});
+    const std::vector<int> expected =
+        likest_first ? std::vector<int>{0, kNone} : std::vector<int>{kNone, 0};
+    EXPECT_EQ(miss.map.keyframes[1].map_points, expected);
+  }
+}
+
 TEST(PointFusion, LeavesPointsApartThatLookDifferent) {
   PointWorld world = MakePointWorld(3, 100, 3);
   const int original = PointAt(world.map, 2, 0);

@@ -108,20 +108,23 @@ TEST(TriangulatePoints, RefuseAFeatureWithARivalOfTheSameLookOnItsLine) {
   }
 }
 
-TEST(TriangulatePoints, RefuseADepthThatIsNotThatOfTheRays) {
-  for (const int octave : {0, 4}) {
-    const double bound_px = std::sqrt(kChi2Of3At95) * std::pow(1.2, octave);
-    TwoViews views;
-    views.Feature(0).octave = octave;
-    // As far off in disparity as the bound, from the true b f / 2 m.
-    const auto with_error = [&](double px) {
-      views.Feature(0).depth_m =
-          FeatureScale{}.bf_px_m / (FeatureScale{}.Disparity_px(2.0) + px);
-      return views.Made();
-    };
-    EXPECT_EQ(with_error(0.98 * bound_px), 1) << octave;
-    EXPECT_EQ(with_error(1.02 * bound_px), 0) << octave;
-    EXPECT_EQ(with_error(-0.98 * bound_px), 1) << octave;
+TEST(TriangulatePoints, RefuseADepthOfEitherViewThatIsNotThatOfTheRays) {
+  for (const int view : {0, 1}) {
+    for (const int octave : {0, 4}) {
+      SCOPED_TRACE(testing::Message() << view << " " << octave);
+      const double bound_px = std::sqrt(kChi2Of3At95) * std::pow(1.2, octave);
+      TwoViews views;
+      views.Feature(view).octave = octave;
+      // As far off in disparity as the bound, from the true b f / 2 m.
+      const auto with_error = [&](double px) {
+        views.Feature(view).depth_m =
+            FeatureScale{}.bf_px_m / (FeatureScale{}.Disparity_px(2.0) + px);
+        return views.Made();
+      };
+      EXPECT_EQ(with_error(0.98 * bound_px), 1);
+      EXPECT_EQ(with_error(1.02 * bound_px), 0);
+      EXPECT_EQ(with_error(-0.98 * bound_px), 1);
+    }
   }
 }
 

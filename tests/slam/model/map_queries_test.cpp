@@ -41,5 +41,22 @@ TEST(KeyframePose, FollowsAChainOfCulledKeyframes) {
   EXPECT_THAT(KeyframePose(map, 2) * x_w, VectorNear(T_21 * (T_10 * (T_0w * x_w)), 1e-12));
 }
 
+TEST(NearestKeyframe, GoesByPlaceAndDirectionARadianBeingAMetre) {
+  const Pose T_cw{ExpSo3({0.3, -0.2, 0.5}), {0.4, 0.1, -0.3}};
+  Map map;
+  EXPECT_EQ(NearestKeyframe(map, T_cw), kNone);
+  map.keyframes.resize(2);
+  Keyframe &beside = map.keyframes[0], &turned = map.keyframes[1];
+  beside.id = 0, turned.id = 1;
+  // The one looks the same way from so far aside, the other 0.5 rad away from the same place.
+  turned.T_cw = Pose{ExpSo3({0.0, 0.5, 0.0}), Eigen::Vector3d::Zero()} * T_cw;
+  for (const double aside_m : {0.1, 0.4, 0.6, 2.0}) {
+    beside.T_cw = Pose{Eigen::Matrix3d::Identity(), {aside_m, 0, 0}} * T_cw;
+    EXPECT_EQ(NearestKeyframe(map, T_cw), aside_m < 0.5 ? 0 : 1) << aside_m;
+  }
+  turned.culled = true;
+  EXPECT_EQ(NearestKeyframe(map, T_cw), 0);
+}
+
 }  // namespace
 }  // namespace slam

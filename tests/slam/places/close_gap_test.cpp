@@ -118,6 +118,31 @@ TEST(CloseGaps, CarriesWhatWasFirstSeenOnTheWayAndNothingElse) {
   EXPECT_NEAR(walk.map.points[1].p_w.z(), 0.1, 1e-12);
 }
 
+TEST(CloseGaps, TeachASupposedPlaneByTheWayThatItFacesItself) {
+  // What the height tells is news of an edge that faces up, whatever its landmark faces; one that
+  // faces aside is known as before.
+  WalkAlongPanels walk(3, 5);
+  const double before_m2 = WalkAlongPanels::kSeen_m2 + 5 * WalkAlongPanels::kStep_m2;
+  const auto with_edge = [&](const Eigen::Vector3d& n_w, const Eigen::Vector3d& edge_n_w) {
+    MapPlane plane;
+    plane.pi_w = {n_w, -1.0};
+    SupposedPlane edge;
+    edge.pi_w = {edge_n_w, -0.5};
+    edge.first_frame = 70;
+    edge.estimate.world_variance_m2 = before_m2;
+    plane.supposed = {edge};
+    return AddLandmark(walk.map, plane);
+  };
+  const Eigen::Vector3d aside = Eigen::Vector3d::UnitX(), up = Eigen::Vector3d::UnitZ();
+  const int wall = with_edge(aside, up), floor = with_edge(up, aside);
+  ASSERT_TRUE(CloseGaps(walk.map, walk.Find(0.1)));
+  const auto variance_m2 = [&](int plane) {
+    return walk.map.planes.At(plane).supposed[0].estimate.world_variance_m2;
+  };
+  EXPECT_NEAR(variance_m2(wall), WalkAlongPanels::kSeen_m2, 1e-8);
+  EXPECT_NEAR(variance_m2(floor), before_m2, 1e-12);
+}
+
 TEST(CloseGaps, ReachesBackNoFartherThanWhereTheCameraKnewItsPlace) {
   WalkAlongPanels walk(2, 5);
   walk.Add(WalkAlongPanels::kSeen_m2);  // the floor was in view in between

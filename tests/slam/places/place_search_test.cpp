@@ -79,6 +79,25 @@ TEST(PlaceSearch, FindsNothingWhereEveryMatchIsWrong) {
   }
 }
 
+// A blurred or a near view shows the place in coarse octaves, whose pixels are larger.
+TEST(PlaceSearch, AsksOfCoarseFeaturesNoMoreThanTheirOctaveTells) {
+  constexpr double kOff_px = 1.5;  // of the octave's own
+  for (const int octave : {0, 4, 7}) {
+    const PointWorld world = MakePointWorld(1, 90, 5);
+    const int all = static_cast<int>(world.map.keyframes[0].features.size());
+    Frame frame = Mistaken(world, all, 5);
+    Random random{9};
+    for (PointFeature& feature : frame.features) {
+      feature.octave = octave;
+      feature.u_px += FeatureScale{}.Scale(octave) * 2 * kOff_px *
+                      Eigen::Vector2d(random.Uniform() - 0.5, random.Uniform() - 0.5);
+    }
+    const auto found = Find(world, frame);
+    ASSERT_TRUE(found) << octave;
+    EXPECT_GE(found->inliers, 0.9 * all) << octave;
+  }
+}
+
 // Two answers are one place by where the camera is and looks, wherever the world begins.
 TEST(SamePose, GoesByTheCamerasPlaceFarFromTheWorldsOrigin) {
   const PlaceSearchConfig config;

@@ -5,6 +5,7 @@
 #include "slam/mapping/plane_cloud.h"
 #include "tests/support/furnished_room.h"
 #include "tests/support/map_surfaces.h"
+#include "tests/support/normal_draws.h"
 #include "tests/support/slam_matchers.h"
 
 namespace slam {
@@ -122,6 +123,48 @@ TEST(GuessedPlaces, HoldTheTrueOneBetweenWallsThatAreNotSquare) {
     if (Log(off).tail<3>().norm() < 0.01) nearest_m = std::min(nearest_m, off.t.norm());
   }
   EXPECT_LT(nearest_m, 0.01);
+}
+
+/// The square of how far a guess is off, in its own standard deviations: six on average.
+TEST(GuessedPlaces, ByCornersScatterAsTheySayWhereFrameAndMapErrAlike) {
+  constexpr int kDraws = 600;
+  constexpr double kCorner_m = 0.001;
+  PlanePlaceConfig config;
+  config.max_offset_m = 1e-4, config.max_side_share = 0.2;  // the corners' own errors alone
+  const std::vector<Eigen::Vector3d> face_w{
+      {-0.15, -0.08, 0}, {0.15, -0.08, 0}, {0.15, 0.08, 0}, {-0.15, 0.08, 0}};
+  const Pose T_cw = LookAt({-0.1, -0.5, 0.6}, {0, 0, 0});
+  Random random{12};
+  const auto off = [&]() -> Eigen::Vector3d {
+    return kCorner_m * Eigen::Vector3d(Normal(random), Normal(random), Normal(random));
+  };
+  double sum = 0.0;
+  for (int draw = 0; draw < kDraws; ++draw) {
+    FramePlane plane;
+    plane.pi_c = Transform(T_cw, Plane{Eigen::Vector3d::UnitZ(), 0.0});
+    plane.centroid_c = T_cw.t;
+    plane.pixel_count = 1000;
+    MapPlane landmark;
+    landmark.pi_w = {Eigen::Vector3d::UnitZ(), 0.0};
+    for (const Eigen::Vector3d& p_w : face_w) {
+      plane.vertices_c.push_back(
+          {T_cw * p_w + off(), false, kCorner_m * kCorner_m * Eigen::Matrix3d::Identity()});
+      landmark.vertices_w.push_back(p_w + off());
+    }
+    Map map;
+    AddLandmark(map, landmark);
+    Frame frame;
+    frame.planes = {plane};
+    const auto guesses = GuessPlaces(frame, KnownPlanes(map), config);
+    ASSERT_EQ(guesses.size(), 2u) << "a face looks the same half a turn about";
+    double square = INFINITY;
+    for (const UncertainPose& guess : guesses) {
+      const Vector6d xi = Log(T_cw * Inverse(guess.T_cw));
+      square = std::min(square, xi.dot(guess.covariance.inverse() * xi));
+    }
+    sum += square;
+  }
+  EXPECT_NEAR(sum / kDraws, 6.0, 4 * std::sqrt(2 * 6.0 / kDraws));
 }
 
 TEST(PlanePlace, OfABareCornerIsNotFound) {

@@ -88,6 +88,23 @@ TEST(Vocabulary, WordsThatAllImagesHaveSayNothing) {
   EXPECT_DOUBLE_EQ(rare[0].second, 1.0);
 }
 
+TEST(Vocabulary, AWordWeighsAsOftenAsItIsSeen) {
+  std::vector<VocabularyNode> nodes(3);
+  nodes[0].first_child = 1;
+  nodes[0].children = 2;
+  nodes[2].centre.fill(0xff);
+  const Vocabulary words(nodes, {1.0f, 3.0f});
+  const PointFeature print = FeatureWith(nodes[1].centre), other = FeatureWith(nodes[2].centre);
+  // Five of the one weigh five, one of the other three.
+  const WordBag bag = words.Bag({print, print, other, print, print, print});
+  ASSERT_EQ(bag.size(), 2u);
+  EXPECT_EQ(bag[0].first, 0);
+  EXPECT_DOUBLE_EQ(bag[0].second, 5.0 / 8);
+  EXPECT_DOUBLE_EQ(bag[1].second, 3.0 / 8);
+  // A wall full of one print is not like a single copy of it beside other things.
+  EXPECT_DOUBLE_EQ(Likeness(bag, words.Bag({print, other})), 1.0 / 4 + 3.0 / 8);
+}
+
 TEST(Vocabulary, IsTheSameFromTheSameDescriptors) {
   EXPECT_EQ(Small().Bytes(), Small().Bytes());
   const auto images = Around(Centres(40), 6, 3, 20);

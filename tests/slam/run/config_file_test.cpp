@@ -140,6 +140,9 @@ TEST_F(ConfigFile, RefusesSettingsThatContradictEachOther) {
   ExpectError("point_features: {fast_threshold: 5}\n", "min_fast_threshold must not be above");
   ExpectError("point_depth: {min_depth_m: 0.2, max_depth_m: 0.2}\n",
               "must be below max_depth_m");
+  ExpectError("association: {max_chi2: 20, new_chi2: 19.9}\n",
+              "max_chi2 must not be above new_chi2");
+  EXPECT_EQ(Read("association: {max_chi2: 20, new_chi2: 20}\n").association.max_chi2, 20.0);
 }
 
 }  // namespace

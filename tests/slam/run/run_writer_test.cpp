@@ -143,6 +143,18 @@ TEST_F(RunFolder, SaysInRunJsonWhatWasRun) {
   EXPECT_GT(run["peak_memory_mb"].get<double>(), 1);
 }
 
+TEST_F(RunFolder, SaysInRunJsonEachNumberOfTheCamera) {
+  RunInfo info = Info();
+  info.camera = TumCamera("tum1");
+  RunWriter(run_, info, {}).Finish(SomeMap(), {});
+  // As the benchmark has published them.
+  EXPECT_EQ(json::parse(ReadFile(run_ / "run.json"))["camera"],
+            json::parse(R"({"width": 640, "height": 480, "fx": 517.306408, "fy": 516.469215,
+                "cx": 318.643040, "cy": 255.313989, "k1": 0.262383, "k2": -0.953104,
+                "p1": -0.005358, "p2": 0.002628, "k3": 1.163314, "fps": 30.0,
+                "depth_factor": 5000.0})"));
+}
+
 TEST_F(RunFolder, SaysWhenTheRunWasInterruptedAndWhatItWarnedOf) {
   RunWriter writer(run_, Info(), {});
   writer.WriteFrame({SomeFrame(0), true, {}, "", {}});

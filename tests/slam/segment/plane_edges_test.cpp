@@ -61,6 +61,23 @@ TEST(PlaneEdges, AreMissingWhereNothingIsMeasured) {
   EXPECT_NEAR(kinds.at(EdgeKind::kMissing), 157 / 2, 6);
 }
 
+// The projector does not reach what lies just behind the edge of a near thing.
+TEST(PlaneEdges, AreOccludedWhereAShadowWithoutDepthLiesBeforeTheNearerThing) {
+  PlateView plate({{{{0.15, 0.0, 0.3}, {0.1, 0.6, 0.02}, 0.0, ""}}});
+  cv::Mat1f depth_m = plate.view.depth_m.clone();
+  const double edge_u = plate.camera.cx + plate.camera.fx * 0.1 / 0.7;
+  for (int v = 0; v < depth_m.rows; ++v) {
+    for (int u = 0; u < depth_m.cols; ++u) {
+      const bool on_plate = plate.view.face(v, u) == closed_form::FaceId(0, closed_form::kTop);
+      if (on_plate && u > edge_u - 16.0) depth_m(v, u) = 0.0f;
+    }
+  }
+  const auto kinds = plate.Kinds(depth_m);
+  EXPECT_EQ(kinds.count(EdgeKind::kMissing), 0u);
+  ASSERT_EQ(kinds.count(EdgeKind::kOccluded), 1u);
+  EXPECT_NEAR(kinds.at(EdgeKind::kOccluded), 157 / 2, 6);  // one short side
+}
+
 TEST(PlaneEdges, AreTheBorderWhereTheImageEnds) {
   PlateView plate;
   Frame frame;

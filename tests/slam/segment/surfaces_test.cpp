@@ -6,6 +6,8 @@
 #include <functional>
 #include <random>
 
+#include "slam/segment/pixels/block_pixels.h"
+
 namespace slam {
 namespace {
 
@@ -193,6 +195,51 @@ TEST(SeenBend, IsTheSensorsWhereNothingIsLarge) {
   const PlaneSums small = Square(0.0, 0.0, 30, Slanted, 0.002, random);
   EXPECT_EQ(SeenBend({small}, {}, {}), JoinConfig{}.bend_ratio);
   EXPECT_EQ(SeenBend({}, {}, {}), JoinConfig{}.bend_ratio);
+}
+
+/// Its normal is 75 degrees off the ray in the middle, where it is 1 m away.
+double Steep(double x, double) { return 1.0 + std::tan(75.0 * M_PI / 180.0) * x; }
+
+/// How many times the noise model's noise there is on Steep for the slant.
+double SteepNoise() { return DepthNoise{}.GrazingFactor(1.0, std::cos(75.0 * M_PI / 180.0)); }
+
+// Noise grows with the slant, and with it what counts as a sigma; what the sensor bends does not.
+TEST(BendSigmas, HoldWhatIsTwoAndAHalfBendsOffTheSurfaceHoweverItIsSlanted) {
+  std::mt19937 random(11);
+  const DepthNoise noise;
+  const JoinConfig config;
+  ASSERT_GT(SteepNoise(), 2.0);
+  for (const InverseDepthOf& q_of :
+       {InverseDepthOf([](double, double) { return 1.0; }), InverseDepthOf(Steep)}) {
+    Surface surface;
+    surface.sums = Square(0.0, 0.0, 40, q_of, noise.Sigma(1.0), random);
+    surface.plane = *FitLabelPlane(surface.sums, noise);
+    surface.bent = true;
+    for (const double bends : {2.5, 4.0}) {
+      DepthGrid pixel;  // in the middle, behind the surface
+      const double z_m = 1.0 + bends * config.bend_ratio;
+      pixel.width = pixel.height = 1;
+      pixel.x = pixel.y = {0.0f};
+      pixel.q = {static_cast<float>(1.0 / z_m)};
+      pixel.g = {static_cast<float>(z_m * z_m / noise.Sigma(z_m))};
+      const float off = std::abs(ResidualSigmas(pixel, 0, PixelPlane(surface.plane)));
+      EXPECT_EQ(static_cast<double>(off) < BendSigmas(surface, config), bends < 3.0) << bends;
+    }
+  }
+}
+
+TEST(SeenBend, TakesTheNoiseOfASlantedSurfaceForNoBend) {
+  std::mt19937 random(12);
+  std::normal_distribution<double> noise;
+  const double sigma = DepthNoise{}.Sigma(1.0);
+  for (const double ratio : {0.001, 0.003}) {
+    const InverseDepthOf noisy = [&](double x, double y) {
+      return Steep(x, y) * (1.0 + ratio * std::sqrt(2.0) * std::sin(20.0 * M_PI * x)) +
+             sigma * std::sqrt(SteepNoise() * SteepNoise() - 1.0) * noise(random);
+    };
+    const PlaneSums desk = Square(0.0, 0.0, 200, noisy, sigma, random);
+    EXPECT_NEAR(SeenBend({desk}, {}, {}), ratio, 0.0003) << ratio;
+  }
 }
 
 }  // namespace

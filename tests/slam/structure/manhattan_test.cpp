@@ -164,6 +164,28 @@ TEST(ManhattanWorld, IgnoresTiltedPlanes) {
   EXPECT_EQ(after.rotations.at(0).R_cw, before.rotations.at(0).R_cw);
 }
 
+TEST(ManhattanWorld, DoesNotAskPlanesThatAreNotTrusted) {
+  SeenWorld world(Room());
+  world.Learn(StructureMode::kManhattan);
+  const PoseProblem before = world.Problem(StructureMode::kManhattan);
+  // Near an axis, large and sharp: what it said would count for more than all the others.
+  FramePlane bad = world.frame.planes[0];
+  bad.pi_c.n = kT_cw.R * ExpSo3(2 * kDegree * kAxes_w.col(1)) * kAxes_w.col(0);
+  bad.angle_sigma_rad = 1e-4, bad.area_m2 = 5.0;
+  world.frame.planes.push_back(bad);
+  world.frame.plane_matches.emplace_back();
+  for (const BadReason why : {BadReason::kFar, BadReason::kInliers, BadReason::kBorder,
+                              BadReason::kStructure, BadReason::kUnstructured}) {
+    world.frame.planes.back().bad = why;
+    const PoseProblem after = world.Problem(StructureMode::kManhattan);
+    EXPECT_EQ(after.rotations.at(0).R_cw, before.rotations.at(0).R_cw);
+    EXPECT_EQ(after.rotations.at(0).sqrt_information, before.rotations.at(0).sqrt_information);
+  }
+  world.frame.planes.back().bad.reset();
+  const Eigen::Matrix3d R_cw = world.Problem(StructureMode::kManhattan).rotations.at(0).R_cw;
+  EXPECT_GT(AngleOf(R_cw * kT_cw.R.transpose()), 0.2 * kDegree) << "it says nothing anyway";
+}
+
 TEST(ManhattanWorld, TurnsWithTheKeyframeThatHoldsIt) {
   SeenWorld world(Room());
   world.Learn(StructureMode::kManhattan);

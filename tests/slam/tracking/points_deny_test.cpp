@@ -34,6 +34,16 @@ TEST(PointsDeny, APlaceWhosePrintsAreOthers) {
   EXPECT_FALSE(Deny(other, map.map));
 }
 
+TEST(PointsDeny, APlaceThatOneKeyframeAloneKnows) {
+  const PointWorld map = MakePointWorld(1, 200, 1);
+  ASSERT_TRUE(map.map.keyframes[0].covisible.empty());
+  Frame other = FrameOf(map);
+  EXPECT_FALSE(Deny(other, map.map));
+  Random random{3};
+  for (PointFeature& feature : other.features) feature.descriptor = AnyDescriptor(random);
+  EXPECT_TRUE(Deny(other, map.map));
+}
+
 TEST(PointsDeny, NothingInTheDarkNorWhereTheMapHasNoPoints) {
   const PointWorld map = MakePointWorld(2, 200, 1);
   Frame dark = FrameOf(map);
