@@ -45,7 +45,7 @@ struct Model {
   std::vector<int> plane_of;                   ///< by triangle: index into planes, -1 = none
   std::vector<int> colour_of;                  ///< by triangle: index into colours
   std::vector<std::array<double, 3>> colours;  ///< diffuse, linear RGB
-  std::vector<ModelPlane> planes;              ///< largest first, or as declared
+  std::vector<ModelPlane> planes;  ///< by their largest triangle, largest first; or as declared
 };
 
 /// Reads a mesh (OBJ, PLY, STL, glTF ... by Assimp) and finds its planes.

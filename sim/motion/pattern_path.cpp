@@ -10,7 +10,9 @@
 namespace sim {
 namespace {
 
-constexpr double kCorners_m = 0.05;  // more than the spline cuts corners, and the tests miss
+constexpr double kCorners_m = 0.05;  // more than the spline cuts corners at the pace of hands
+constexpr double kCheckEvery_m = 0.02;
+constexpr int kMaxHalves = 8;
 constexpr std::size_t kPatternKnotsPerPace = 4;
 constexpr double kSpread = 0.7, kLittleSpread = 0.1;
 constexpr double kMaxStride = 1.1;  // along the way, against the mean
@@ -27,33 +29,33 @@ bool PatternPath::Has(const std::string& preset) {
 }
 
 PatternPath::PatternPath(const Scene& scene, std::uint64_t seed)
-    : preset_(PresetOf(scene.motion)), tremor_(preset_, seed), seed_(seed) {
+    : preset_(PresetOf(scene.motion)), space_(scene), tremor_(preset_, seed), seed_(seed) {
   FindWay(scene);
 }
 
-bool PatternPath::IsFree(const Pattern& pattern, const FreeSpace& space) const {
+bool PatternPath::IsFree(const Pattern& pattern) const {
   const double clearance = kCameraClearance_m + tremor_.MaxOffset_m() + kCorners_m;
   for (int i = 0; i < kSamples; ++i) {
     const View view = pattern.At(static_cast<double>(i) / kSamples, 0);
-    if (!space.Clear(view.camera_w, clearance)) return false;
+    if (!space_.Clear(view.camera_w, clearance)) return false;
   }
   return true;
 }
 
 void PatternPath::FindWay(const Scene& scene) {
-  const FreeSpace space(scene);
   Random random({0x70617474, seed_});
   for (int i = 0; i < kTries; ++i) {
     // Full size as long as there is hope, then smaller and smaller.
     const double scale = 1 - 0.7 * std::max(0.0, 2.0 * i / kTries - 1);
     const std::shared_ptr<const Pattern> pattern = MakePattern(scene.motion, scale, random);
     const double start = random.Uniform();
-    if (!IsFree(*pattern, space)) {
-      if (!scene.motion.stations.empty()) break;  // there is but one way
+    if (!IsFree(*pattern)) {
+      // There is but one way.
+      if (scene.motion.preset == "loop" && !scene.motion.stations.empty()) break;
       continue;
     }
     const View view = pattern->At(start, 0);
-    if (pattern->FacesTarget() && !space.InSight(view.camera_w, scene.motion.target_w))
+    if (pattern->FacesTarget() && !space_.InSight(view.camera_w, scene.motion.target_w))
       continue;
     pattern_ = pattern;
     place_ = start;
@@ -110,13 +112,13 @@ void PatternPath::AddKnot() {
   const double turn_deg = turn_pace * wanted(preset_.turn_deg_s, turn_behind_deg_);
   const View last = knots_.empty() ? pattern_->At(place_, look_) : knots_.back();
 
-  // The first place that is far enough; where the way turns back, slower, as a hand does.
-  constexpr int kSteps = 48;
-  const double stride = kMaxStride * step_m / round_m_ / kSteps;
-  for (int i = 0; i < kSteps; ++i) {
-    place_ += stride;
-    if ((pattern_->At(place_, look_).camera_w - last.camera_w).norm() >= step_m) break;
+  // Slower where the spline would cut a corner too near to something; else it waits.
+  double place = PlaceAfter(last, step_m);
+  for (int halves = 1; !KeepsClear(pattern_->At(place, look_)); ++halves) {
+    if (halves > kMaxHalves) return knots_.push_back(last);
+    place = PlaceAfter(last, std::ldexp(step_m, -halves));
   }
+  place_ = place;
   // The first look that turns by what is wanted, else the one that turns most.
   constexpr int kLooks = 120;
   constexpr double kMaxLook = 0.30;
@@ -131,6 +133,41 @@ void PatternPath::AddKnot() {
   }
   look_ = best;
   knots_.push_back(pattern_->At(place_, look_));
+}
+
+/// The first place that is far enough; where the way turns back, slower, as a hand does.
+double PatternPath::PlaceAfter(const View& last, double step_m) const {
+  constexpr int kSteps = 48;
+  const double stride = kMaxStride * step_m / round_m_ / kSteps;
+  double place = place_;
+  for (int i = 0; i < kSteps; ++i) {
+    place += stride;
+    if ((pattern_->At(place, look_).camera_w - last.camera_w).norm() >= step_m) break;
+  }
+  return place;
+}
+
+/// The spline up to this knot, and as it would be if the camera came to rest there.
+bool PatternPath::KeepsClear(const View& next) const {
+  if (knots_.empty()) return true;
+  const std::size_t n = knots_.size();
+  const auto before = [&](std::size_t i) { return knots_[n - std::min(i, n)]; };
+  const std::array<View, 6> knots{before(3), before(2), before(1), next, next, next};
+  double longest_m = 0;
+  for (std::size_t i = 1; i < 4; ++i) {
+    longest_m = std::max(longest_m, (knots[i].camera_w - knots[i - 1].camera_w).norm());
+  }
+  const double checks = 1 + std::ceil(longest_m / kCheckEvery_m);
+  for (std::size_t i = 0; i < 3; ++i) {
+    const double first = static_cast<double>(n + i) - 3;  // this part of the spline, in knots
+    for (double k = 0; k <= checks; ++k) {
+      const View view = Blend({knots[i], knots[i + 1], knots[i + 2], knots[i + 3]}, k / checks);
+      const double time_s = std::max(0.0, first + k / checks) * preset_.knot_s;
+      if (!space_.Clear(view.camera_w + tremor_.Offset_m(time_s), kCameraClearance_m))
+        return false;
+    }
+  }
+  return true;
 }
 
 void PatternPath::Measure() {

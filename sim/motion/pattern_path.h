@@ -14,7 +14,7 @@ namespace sim {
 
 /// An endless path along a pattern (xyz, rpy, 360, orbit, loop, lookaway), paced so that the
 /// mean speed and turn at 30 Hz are the preset's: cubic B-splines through views of the pattern,
-/// tremor on top. Every part of the way keeps 15 cm from every object.
+/// tremor on top. Every part of the way keeps 15 cm from every object, slower where it must.
 class PatternPath {
  public:
   static bool Has(const std::string& preset);
@@ -25,12 +25,15 @@ class PatternPath {
 
  private:
   void FindWay(const Scene& scene);
-  bool IsFree(const Pattern& pattern, const FreeSpace& space) const;
+  bool IsFree(const Pattern& pattern) const;
   void AddKnot();
+  double PlaceAfter(const View& last, double step_m) const;
+  bool KeepsClear(const View& next) const;
   void Measure();
   Pose Shaken(double time_s) const;
 
   MotionPreset preset_;
+  FreeSpace space_;
   Tremor tremor_;
   std::uint64_t seed_;
   std::shared_ptr<const Pattern> pattern_;

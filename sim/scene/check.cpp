@@ -17,22 +17,24 @@ std::string Millimetres(double length_m) {
   return io::NumberText(std::round(length_m * 1e4) / 10) + " mm";
 }
 
-double Lowest(const Object& object) {
-  double z = object.center_w.z();
-  if (object.shape == ShapeKind::kMesh) {
-    for (const Eigen::Vector3d& x_o : object.model->vertices_o) {
-      z = std::min(z, (ObjectPose(object) * x_o).z());
-    }
-    return z;
-  }
-  for (const Eigen::Vector3d& corner : Corners(object)) z = std::min(z, corner.z());
-  return z;
-}
+/// Heights that it reaches: of a mesh its own, for those of a turned box may be far beyond.
+struct Reach {
+  double low = std::numeric_limits<double>::infinity(), high = -low;
+};
 
-double Highest(const Object& object) {
-  double z = object.center_w.z();
-  for (const Eigen::Vector3d& corner : Corners(object)) z = std::max(z, corner.z());
-  return z;
+Reach ReachOf(const Object& object) {
+  Reach reach;
+  const auto take = [&reach](const Eigen::Vector3d& x_w) {
+    reach.low = std::min(x_w.z(), reach.low);
+    reach.high = std::max(x_w.z(), reach.high);
+  };
+  if (object.shape == ShapeKind::kMesh) {
+    const Pose T_wo = ObjectPose(object);
+    for (const Eigen::Vector3d& x_o : object.model->vertices_o) take(T_wo * x_o);
+  } else {
+    for (const Eigen::Vector3d& corner : Corners(object)) take(corner);
+  }
+  return reach;
 }
 
 /// How deep the corners of a mesh are in the other's box. Its own box says little: a mesh may
@@ -77,7 +79,7 @@ std::optional<std::string> FaultOfWay(const Scene& scene, std::size_t i, double 
   for (const double time_s : MomentsOf(moving, kStep_m)) {
     const Object there = ObjectAt(moving, time_s);
     const std::string when = " at " + io::NumberText(std::round(time_s * 100) / 100) + " s";
-    if (!(floor_z - Lowest(there) <= kTouch_m)) {
+    if (!(floor_z - ReachOf(there).low <= kTouch_m)) {
       return "'" + moving.name + "' is below the floor" + when + "; raise its way";
     }
     for (const Object& other : scene.objects) {
@@ -99,7 +101,8 @@ std::optional<SceneFault> FindFault(const Scene& scene) {
   std::optional<double> lowest_floor;
   for (const Object& object : scene.objects) {
     if (object.class_name != "floor") continue;
-    lowest_floor = std::min(Highest(object), lowest_floor.value_or(Highest(object)));
+    const double top_z = ReachOf(object).high;
+    lowest_floor = std::min(top_z, lowest_floor.value_or(top_z));
   }
   const double floor_z = lowest_floor.value_or(0);
   for (std::size_t i = 0; i < scene.objects.size(); ++i) {
@@ -107,7 +110,7 @@ std::optional<SceneFault> FindFault(const Scene& scene) {
     if (const auto repeated = RepeatedName(scene, i)) return SceneFault{i, *repeated};
     if (const auto fault = FaultOfWay(scene, i, floor_z)) return SceneFault{i, *fault};
     if (!object.way.empty()) continue;
-    const double below = floor_z - Lowest(object);
+    const double below = floor_z - ReachOf(object).low;
     if (object.class_name != "floor" && !(below <= kTouch_m)) {
       return SceneFault{i, "'" + object.name + "' reaches " + Millimetres(below) +
                                " below the floor; raise center_m"};

@@ -107,14 +107,15 @@ std::string Label(const Eigen::Vector2d& at, const std::string& text) {
          "\" text-anchor=\"middle\">" + Escaped(text) + "</text>\n";
 }
 
-/// "book_2 +24.5": the step in mm to what is under the object's top.
+/// "book_2 +24.5 mm": the step to what is under the object's top, one after another for several.
 std::map<int, std::string> StepLabels(const Scene& scene) {
   std::map<int, std::string> labels;
   for (const TopStep& step : TopSteps(scene, ScenePlanes(scene))) {
     for (const Object& object : scene.objects) {
       if (object.id != step.object) continue;
-      labels[object.id] =
-          object.name + " +" + io::NumberText(std::round(step.step_mm * 10) / 10) + " mm";
+      std::string& label = labels[object.id];
+      label += (label.empty() ? object.name : ",") + " +" +
+               io::NumberText(std::round(step.step_mm * 10) / 10) + " mm";
     }
   }
   return labels;

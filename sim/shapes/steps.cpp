@@ -1,5 +1,6 @@
 #include "sim/shapes/steps.h"
 
+#include <algorithm>
 #include <optional>
 
 #include "sim/scene/geometry.h"
@@ -8,6 +9,7 @@ namespace sim {
 namespace {
 
 constexpr double kMinUpward = 0.984807753012208;  // cos 10 degrees
+constexpr double kRounding_m = 1e-9;  // a sheet over the top may be thinner than kTouch_m
 
 using Polygon = std::vector<Eigen::Vector2d>;
 
@@ -73,9 +75,10 @@ std::optional<double> StepOver(const ScenePlane& top, const ScenePlane& below) {
   for (const Eigen::Vector2d& at : corners) {
     const double z = -(below.d + below.n_w.head<2>().dot(at)) / below.n_w.z();
     const double step = top.n_w.dot(Eigen::Vector3d(at.x(), at.y(), z)) + top.d;
-    if (step > kTouch_m) return std::nullopt;  // it stands over the top, not under it
-    if (!least || -step < *least) least = -step;
+    if (step > kRounding_m) return std::nullopt;  // it stands over the top, not under it
+    least = std::min(least.value_or(-step), -step);
   }
+  if (least) least = std::max(*least, 0.0);
   return least;
 }
 

@@ -4,6 +4,7 @@
 #include <atomic>
 #include <exception>
 #include <mutex>
+#include <system_error>
 #include <thread>
 
 namespace sim {
@@ -35,7 +36,10 @@ void ForEachFrame(const std::vector<int>& frames, int threads,
   const int count = std::clamp(threads > 0 ? threads : cores, 1,
                                std::max(1, static_cast<int>(frames.size())));
   std::vector<std::thread> workers;
-  for (int i = 1; i < count; ++i) workers.emplace_back(loop);
+  try {
+    for (int i = 1; i < count; ++i) workers.emplace_back(loop);
+  } catch (const std::system_error&) {  // the system allows no more: fewer do the same work
+  }
   loop();
   for (std::thread& worker : workers) worker.join();
   if (error) std::rethrow_exception(error);

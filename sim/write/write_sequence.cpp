@@ -128,7 +128,9 @@ class FrameStore {
   bool Made(int frame) const {
     if (!fs::exists(RecordPath(frame))) return false;
     const Json record = Json::parse(io::ReadFile(RecordPath(frame)), nullptr, false);
-    if (!record.is_object()) return false;
+    for (const char* key : {"truth", "detections", "sha256"}) {
+      if (!record.contains(key)) return false;
+    }
     for (const auto& [file, sum] : record.at("sha256").items()) {
       if (!fs::exists(folder_ / file) || io::Sha256OfFile(folder_ / file) != sum) return false;
     }

@@ -82,7 +82,8 @@ class AzureSensor {
     return static_cast<double>(rendering_.incidence_cos(at)) / (z * z);
   }
 
-  /// Mean depth of the surfaces in the footprint, weighted by light; 0 when it is refused.
+  /// Mean depth of the surfaces in the footprint, weighted by light; 0 when it is refused: by the
+  /// light of its own surface against that of all others together.
   double Mixed(cv::Point at) const {
     static constexpr double kFootprint[2] = {0.5, 0.25};
     const double own_z = rendering_.depth_m(at);

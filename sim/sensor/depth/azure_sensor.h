@@ -20,10 +20,10 @@ struct AzureModel {
   double noise_scale = 1.0;                      ///< times AzureSigma; 0 = no axial noise
   double reflectivity = 0.9;                     ///< all surfaces' in the infrared, (0, 1] [C]
   double lateral_px = 0.25;                      ///< sd of edge jitter [T]
-  bool flying_pixels = true;        ///< a pixel averages the light of its 3x3 footprint
-  double max_mixed_m = 0.10;        ///< a mix of surfaces further apart is refused ... [C]
-  double min_mixed_share = 0.2;     ///< ... when each gives more than this share of light [C]
-  double multipath_m = 0.0075;      ///< added in the very corner of two surfaces at 90 deg [C]
+  bool flying_pixels = true;     ///< a pixel averages the light of its 3x3 footprint
+  double max_mixed_m = 0.10;     ///< a mix whose ends are further apart is refused ... [C]
+  double min_mixed_share = 0.2;  ///< ... when its own and all others give more light each [C]
+  double multipath_m = 0.0075;   ///< added in the very corner of two surfaces at 90 deg [C]
   double multipath_reach_m = 0.05;  ///< falls to 0 this far from the corner [C]
   double multipath_loss = 0.2;      ///< share of pixels lost in the very corner [C]
   double wiggle_m = 0.002;          ///< amplitude of the cyclic error [C]

@@ -109,7 +109,7 @@ class D435Sensor {
     return right.x() >= -0.5 && right.x() <= camera_.width - 0.5;
   }
 
-  /// The matching window sees two surfaces and neither prevails.
+  /// The matching window sees more than its own surface, and neither that nor all else prevails.
   bool IsMixed(int u, int v) const {
     const int reach = model_.window_px / 2;
     const double own = Disparity(rendering_.depth_m(seen_(v, u)));

@@ -25,7 +25,7 @@ struct D435Model {
   double ripple_px = 0.03;        ///< sub-pixel error ripple_px sin(2 pi d) [I]
   int fattening_px = 3;           ///< near things grow by this at borders [C]
   double max_mixed_px = 1.0;  ///< window that sees disparities further apart is refused ... [C]
-  double min_share = 0.6;     ///< ... unless one surface has more than this; 0 = never [C]
+  double min_share = 0.6;  ///< ... unless its own surface, or all else, has more; 0 = never [C]
   double min_depth_m = 0.28, max_depth_m = 10.0;  ///< [D]
   double rounding_m = 0.001;                      ///< step of the sensor's output [D]
   DepthBend bend = {};  ///< none unless asked for: no published figure

@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 
+#include <cmath>
 #include <memory>
 #include <utility>
 
@@ -69,6 +70,39 @@ TEST(FindFault, LetsAThingStandInAHollowMeshInWhicheverOrderTheyAreListed) {
     std::swap(scene.objects[0], scene.objects[1]);
     std::swap(beside.objects[0], beside.objects[1]);
   }
+}
+
+/// A corner of a cube of one's own, whose slanted face is square to z and below or above the rest.
+Object TurnedTetrahedron(int id, double face_z, bool face_below) {
+  auto model = std::make_shared<Model>();
+  model->size = Eigen::Vector3d::Constant(0.3);
+  model->vertices_o.assign(4, Eigen::Vector3d::Constant(-0.15));
+  for (int axis = 0; axis < 3; ++axis) {
+    model->vertices_o[static_cast<std::size_t>(axis)][axis] = 0.15;
+  }
+  const double to_middle = (face_below ? -1 : 1) * 0.15 / std::sqrt(3.0);
+  Object object =
+      BoxObject(id, "tetrahedron", Role::kRegular, {0, 0, face_z + to_middle}, model->size);
+  object.q_wo.setFromTwoVectors(Eigen::Vector3d::Ones(),
+                                Eigen::Vector3d(0, 0, face_below ? -1 : 1));
+  object.shape = ShapeKind::kMesh;
+  object.model = model;
+  return object;
+}
+
+TEST(FindFault, TakesATurnedMeshByItsCornersAndNotByItsBox) {
+  Scene scene;
+  scene.objects = {TurnedTetrahedron(1, 0, true)};
+  EXPECT_FALSE(FindFault(scene).has_value());
+  scene.objects = {TurnedTetrahedron(1, -0.01, true)};
+  const auto fault = FindFault(scene);
+  ASSERT_TRUE(fault.has_value());
+  EXPECT_THAT(fault->what, HasSubstr("10 mm below the floor"));
+
+  Object floor = TurnedTetrahedron(1, 0, false);
+  floor.class_name = "floor";
+  scene.objects = {floor, BoxObject(2, "book", Role::kRegular, {0, 0, 0.01}, {0.2, 0.2, 0.02})};
+  EXPECT_FALSE(FindFault(scene).has_value());
 }
 
 }  // namespace

@@ -5,11 +5,14 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <sstream>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "sim/families/families.h"
+#include "tests/sim/support/sim_worlds.h"
 
 namespace sim {
 namespace {
@@ -27,6 +30,29 @@ TEST(SceneSvg, DrawsEveryThingTwiceAndNamesTheSteps) {
   EXPECT_EQ(svg.find("title>floor"), std::string::npos);
   EXPECT_EQ(svg.rfind("</svg>\n"), svg.size() - 7);
   EXPECT_EQ(svg, SceneSvg(scene));
+}
+
+TEST(SceneSvg, TellsTheStepOfEveryTopOfAMesh) {
+  auto stair = std::make_shared<Model>();
+  stair->size = {0.2, 0.1, 0.1};
+  for (const auto& [x, z] : {std::pair{-0.1, 0.05}, std::pair{0.0, 0.0}}) {
+    const int first = static_cast<int>(stair->vertices_o.size());
+    ModelPlane top;
+    top.d = -z;
+    top.outline_o = {{x, -0.05, z}, {x + 0.1, -0.05, z}, {x + 0.1, 0.05, z}, {x, 0.05, z}};
+    stair->vertices_o.insert(stair->vertices_o.end(), top.outline_o.begin(),
+                             top.outline_o.end());
+    stair->triangles.push_back({first, first + 1, first + 2});
+    stair->triangles.push_back({first, first + 2, first + 3});
+    stair->plane_of.insert(stair->plane_of.end(), 2, static_cast<int>(stair->planes.size()));
+    stair->planes.push_back(top);
+  }
+  Scene scene;
+  scene.objects = {BoxObject(1, "floor", Role::kStructure, {0, 0, -0.05}, {2, 2, 0.1}),
+                   BoxObject(2, "stair", Role::kRegular, {0, 0, 0.05}, stair->size)};
+  scene.objects[1].shape = ShapeKind::kMesh;
+  scene.objects[1].model = stair;
+  EXPECT_NE(SceneSvg(scene).find("stair_2 +100 mm, +50 mm<"), std::string::npos);
 }
 
 /// Corners of the polygon that has the title at this place of the drawing, pixels.

@@ -71,6 +71,17 @@ TEST(TopSteps, IgnoreNeighboursThatOnlyTouch) {
   EXPECT_NEAR(steps[1].step_mm, 50, 1e-9);
 }
 
+// Thinner than what counts as touching, it still lies over the book and not under it.
+TEST(TopSteps, OfABookUnderAThinSheetAreOverTheTable) {
+  const auto steps = StepsOf(TableAnd(
+      {Box(2, {0.15, 0.2, 0.02}, 0, 0, 0.73), Box(3, {0.1, 0.1, 0.00008}, 0, 0, 0.75)}));
+  ASSERT_EQ(steps.size(), 2u);
+  EXPECT_EQ(steps[0].below_object, 1);
+  EXPECT_NEAR(steps[0].step_mm, 20, 1e-9);
+  EXPECT_EQ(steps[1].below_object, 2);
+  EXPECT_NEAR(steps[1].step_mm, 0.08, 1e-9);
+}
+
 TEST(TopSteps, DoNotDependOnHowABookIsTurned) {
   Object book = Box(2, {0.15, 0.2, 0.02}, 0.1, 0.1, 0.73);
   book.q_wo = QuaternionFromRpyDeg({0, 0, 33});

@@ -1,6 +1,8 @@
 #include "sim/write/parallel_frames.h"
 
 #include <gtest/gtest.h>
+#include <sys/resource.h>
+#include <unistd.h>
 
 #include <map>
 #include <mutex>
@@ -49,6 +51,21 @@ TEST(ForEachFrame, ThrowsWhatTheFirstFrameThatFailedThrewAndBeginsNoMore) {
     }
     EXPECT_LE(done, 2);
   }
+}
+
+/// As a user who may begin no thread beside the first; ends the process.
+void WorkAlone() {
+  constexpr uid_t kNobody = 65534;  // root may always
+  const rlimit limit{1, 1};
+  if ((getuid() == 0 && setuid(kNobody) != 0) || setrlimit(RLIMIT_NPROC, &limit) != 0) _exit(2);
+  int worked = 0;
+  ForEachFrame(
+      {0, 1, 2, 3}, 4, [&](int) { ++worked; }, nullptr);
+  _exit(worked == 4 ? 0 : 1);
+}
+
+TEST(ForEachFrame, DoesWithTheThreadsThatTheSystemAllows) {
+  EXPECT_EXIT(WorkAlone(), testing::ExitedWithCode(0), "");
 }
 
 TEST(ForEachFrame, HasNothingToDoForNoFrames) {

@@ -219,6 +219,20 @@ TEST_F(InterruptedSequence, NeverLooksCompleteAndResumesToTheSameBytes) {
   EXPECT_EQ(Contents(folder), Contents(root_ / "whole"));
 }
 
+TEST_F(InterruptedSequence, MakesFramesAgainWhoseRecordsAreNotWhole) {
+  constexpr int kDone = 3;
+  const fs::path folder = root_ / "killed";
+  EXPECT_EXIT(WriteAndDie(folder, kDone), testing::KilledBySignal(SIGKILL), "");
+  ASSERT_TRUE(fs::exists(folder / ".frames/000001.json"));
+  std::ofstream(folder / ".frames/000000.json") << "{}";
+  std::ofstream(folder / ".frames/000001.json") << R"({"sha256": {}})";
+  SequenceOptions resume = Options();
+  resume.existing = Existing::kResume;
+  EXPECT_EQ(Write(folder, resume), 6 - kDone + 2);
+  Write(root_ / "whole", Options());
+  EXPECT_EQ(Contents(folder), Contents(root_ / "whole"));
+}
+
 TEST_F(WrittenSequence, ResumesACompleteOneByDoingNothing) {
   Write(root_ / "seq", Options());
   const auto before = Contents(root_ / "seq");
