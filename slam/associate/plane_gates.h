@@ -33,7 +33,7 @@ inline void VisitFields(PlaneGateConfig& c, FieldVisitor& v) {
 
 /// Tests whether a plane seen now and a plane of the map can be one surface.
 ///
-///   accepted  <=>  eq6 and (eq7 or eq8)
+///   accepted  <=>  eq6 and (eq7 or eq8), of a patch that has edge points
 ///
 /// @param pi_c           measured plane, camera frame, facing the camera
 /// @param centroid_c     centroid of the measured patch, camera frame, metres

@@ -238,6 +238,23 @@ std::vector<int> BoxTracks::Assign(const std::vector<Detection>& detections) {
   return detection_of;
 }
 
+/// Mean shift of a box's sides along an axis (0: u, 1: v) that the image's border does not cut off: those
+/// that it does stay where they are. Nothing where it cuts off both.
+std::optional<double> BoxTracks::ShiftOf(const Box& expected, const Box& seen, int axis) const {
+  constexpr double kAtBorder_px = 1.0;
+  const double low = image_px_.min[axis] + kAtBorder_px,
+               high = image_px_.max[axis] - kAtBorder_px;
+  double sum = 0.0;
+  int sides = 0;
+  for (const auto& [from, to] : {std::pair(expected.min[axis], seen.min[axis]),
+                                 std::pair(expected.max[axis], seen.max[axis])}) {
+    if (std::min(from, to) < low || std::max(from, to) > high) continue;
+    sum += to - from;
+    ++sides;
+  }
+  return sides > 0 ? std::optional(sum / sides) : std::nullopt;
+}
+
 /// How far the paired boxes are from where they were expected: when the hand jerks, all of them
 /// by the same. The missed ones moved with them.
 void BoxTracks::MoveWithTheOthers(const std::vector<Detection>& detections,
@@ -248,10 +265,10 @@ void BoxTracks::MoveWithTheOthers(const std::vector<Detection>& detections,
     if (detection_of[t] < 0) continue;
     const Box expected = Intersection(tracks_[t].box(), image_px_);
     const Box& seen = detections[static_cast<std::size_t>(detection_of[t])].box_px;
-    shift_u.push_back(seen.center().x() - expected.center().x());
-    shift_v.push_back(seen.center().y() - expected.center().y());
+    if (const auto du = ShiftOf(expected, seen, 0)) shift_u.push_back(*du);
+    if (const auto dv = ShiftOf(expected, seen, 1)) shift_v.push_back(*dv);
   }
-  if (shift_u.size() < kMinCommonShift) return;
+  if (std::min(shift_u.size(), shift_v.size()) < kMinCommonShift) return;
   const double du = Median(shift_u), dv = Median(shift_v);
   for (const std::size_t t : missed) {
     auto& sides = tracks_[t].sides;
@@ -341,7 +358,8 @@ bool BoxTracks::IsBelieved(const Track& track) const {
 /// The box of an object that was not seen in this frame, if it is in view.
 std::optional<Detection> BoxTracks::Predicted(const Track& track) const {
   const Box whole = track.box(), seen = Intersection(whole, image_px_);
-  if (!(seen.area() > config_.min_visible_fraction * whole.area())) return std::nullopt;
+  if (!(seen.area() > 0.0) || seen.area() < config_.min_visible_fraction * whole.area())
+    return std::nullopt;
   Detection filled;
   filled.class_name = track.class_name();
   filled.kind = track.classes.at(filled.class_name).kind;

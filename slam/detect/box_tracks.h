@@ -131,6 +131,7 @@ class BoxTracks {
   void Advance(double timestamp_s);
   void Predict(double dt_s);
   std::vector<int> Assign(const std::vector<Detection>& detections);
+  std::optional<double> ShiftOf(const Box& expected, const Box& seen, int axis) const;
   void MoveWithTheOthers(const std::vector<Detection>& detections,
                          const std::vector<int>& detection_of,
                          const std::vector<std::size_t>& missed);

@@ -45,7 +45,8 @@ void ProcessPlanes(Frame& frame, const Camera& camera, const SensorModel& sensor
   LinkBoxes(frame.planes, frame.detections, config.box_link);
   for (FramePlane& plane : frame.planes) {
     OutlineFace(plane, frame, camera, config);
-    plane.bad = FindFault(plane, frame.detections, usual, camera, config.select);
+    plane.bad = FindFault(plane, frame.detections, config.box_link.min_score, usual, camera,
+                          config.select);
   }
 }
 

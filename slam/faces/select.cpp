@@ -62,7 +62,7 @@ UsualRoughness FindUsualRoughness(const std::vector<FramePlane>& planes) {
 }
 
 std::optional<BadReason> FindFault(const FramePlane& plane,
-                                   const std::vector<Detection>& detections,
+                                   const std::vector<Detection>& detections, double min_score,
                                    const UsualRoughness& usual, const Camera& camera,
                                    const SelectConfig& config) {
   // Too far away, or no plane.
@@ -82,7 +82,7 @@ std::optional<BadReason> FindFault(const FramePlane& plane,
 
   // Nothing is taken from an unstructured object, unless a regular one's box fits better.
   for (const Detection& d : detections) {
-    if (d.kind != ClassKind::kUnstructured) continue;
+    if (d.kind != ClassKind::kUnstructured || !(d.score > min_score)) continue;
     if (Iou(plane.box_px, d.box_px) < regular_fit) continue;
     if (!(EdgeShare(plane, d.box_px, 0.0) < config.max_unstructured_share)) {
       return BadReason::kUnstructured;

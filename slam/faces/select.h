@@ -61,9 +61,10 @@ UsualRoughness FindUsualRoughness(const std::vector<FramePlane>& planes);
 ///   4. most edge points in the box of an unstructured object, unless a
 ///      regular object's box holds it too and fits it better             kUnstructured
 ///
+/// @param min_score  of a detection that counts, as in BoxLinkConfig
 /// Source: PAS-SLAM, Plane Selection.
 std::optional<BadReason> FindFault(const FramePlane& plane,
-                                   const std::vector<Detection>& detections,
+                                   const std::vector<Detection>& detections, double min_score,
                                    const UsualRoughness& usual, const Camera& camera,
                                    const SelectConfig& config);
 

@@ -9,6 +9,7 @@
 #include "slam/input/camera_reader.h"
 #include "slam/input/frame_gate.h"
 #include "slam/input/frame_of.h"
+#include "slam/input/repeated_images.h"
 #include "slam/input/sequence_reader.h"
 #include "slam/run/tracker.h"
 #include "slam/segment/plane_segments.h"
@@ -33,9 +34,10 @@ struct PassOverFrames {
   template <typename Take>
   void Run(const Take& take) {
     FrameGate gate(camera);
+    RepeatedImages repeated;
     for (int i = 0; i < total && !stopped; ++i) {
       RecordedFrame recorded = reader.Read(i);
-      if (gate.Takes(recorded)) take(recorded);
+      if (gate.Takes(recorded) && !repeated.Repeats(recorded)) take(recorded);
       if (options.progress) options.progress(++before, kPasses * total);
       stopped = options.stop && options.stop();
     }
@@ -43,7 +45,7 @@ struct PassOverFrames {
   }
 };
 
-/// The camera by points alone: poses of the frames that are tracked.
+/// By points alone: poses T_dw of the depth camera in the frames that are tracked.
 PosesByTime TrackAll(PassOverFrames& pass, const Config& config) {
   Config points = config;
   points.depth_warp.source = "off";
@@ -53,7 +55,8 @@ PosesByTime TrackAll(PassOverFrames& pass, const Config& config) {
   int index = 0;
   pass.Run([&](const RecordedFrame& recorded) {
     Frame frame = FrameOf(recorded, index++);
-    if (tracker.TrackFrame(frame, recorded.bgr).tracked) poses[frame.timestamp_s] = frame.T_cw;
+    if (!tracker.TrackFrame(frame, recorded.bgr).tracked) return;
+    poses[frame.timestamp_s] = frame.T_dc() * frame.T_cw;
   });
   return poses;
 }

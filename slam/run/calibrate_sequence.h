@@ -31,7 +31,7 @@ struct Calibration {
 
 /// Learns the warp of a device from a recording, in three passes: the camera is tracked by
 /// points; planes are found and learnt from; and once more, on depth that is straightened by
-/// what was learnt, which leaves large surfaces whole. Deterministic.
+/// what was learnt, which leaves large surfaces whole. Repeated images are left out. Deterministic.
 /// @throws InputError for bad input
 Calibration CalibrateSequence(const CalibrateOptions& options);
 

@@ -214,7 +214,9 @@ class SequenceRun {
   void StandForRepeat(const Frame& repeat) {
     frame_.timestamp_s = repeat.timestamp_s;
     for (PlaneMatch& match : frame_.plane_matches) {
-      if (match.decision == PlaneDecision::kNew) match.decision = PlaneDecision::kMatched;
+      if (match.decision != PlaneDecision::kNew) continue;
+      match.decision = PlaneDecision::kMatched;
+      match.reason = MatchReason::kParameters;  // it lies where it is known to lie
     }
     report_.times = {};
     report_.refused = {};

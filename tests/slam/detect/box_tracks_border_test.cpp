@@ -49,5 +49,28 @@ TEST(BoxTracks, FillsAMissWhereItIsThoughTheBorderCutsTheOthers) {
   }
 }
 
+// The side at the border cannot move; the others tell by how much the hand jerked.
+TEST(BoxTracks, MovesAMissedBoxByTheWholeJerkThoughTheBorderCutsTheOthers) {
+  constexpr double kJerk_px = -50;
+  const Box image_px{{0, 0}, {639, 479}};
+  const auto others = [&](double shift_px) {
+    return std::vector<Detection>{
+        PannedBox("tv", {{-40, 20}, {160, 130}}, shift_px, image_px),
+        PannedBox("laptop", {{-60, 170}, {180, 290}}, shift_px, image_px),
+        PannedBox("keyboard", {{-20, 320}, {200, 420}}, shift_px, image_px)};
+  };
+  const Box phone_px{{300, 200}, {340, 230}};
+  BoxTracks tracks({}, image_px);
+  for (int i = 0; i < 10; ++i) {
+    std::vector<Detection> all = others(0);
+    all.push_back(PannedBox("cell phone", phone_px, 0, image_px));
+    tracks.Update(i / 30.0, all);
+  }
+  const auto answer = tracks.Update(10 / 30.0, others(kJerk_px));
+  ASSERT_EQ(answer.size(), 4u);
+  EXPECT_TRUE(answer[3].compensated);
+  EXPECT_NEAR(answer[3].box_px.center().x(), phone_px.center().x() + kJerk_px, 4.0);
+}
+
 }  // namespace
 }  // namespace slam

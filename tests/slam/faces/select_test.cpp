@@ -33,7 +33,7 @@ struct GoodBook {
     plane.box_px.Include({110, 190});
   }
   std::optional<BadReason> Fault() const {
-    return FindFault(plane, detections, usual, camera, config);
+    return FindFault(plane, detections, 0.3, usual, camera, config);
   }
   FramePlane plane;
   UsualRoughness usual{.coarse = 0.9, .growth = 2.0};
@@ -176,12 +176,28 @@ TEST(Select, RefusesAPlaneInThePersonsBox) {
   EXPECT_EQ(book.Fault(), std::nullopt);
 }
 
+// Detectors that write all they have tell a person of .06 in any box.
+TEST(Select, LeavesAPlaneToADetectionThatIsHardlyBelieved) {
+  GoodBook book;
+  book.plane.detection.reset();
+  Detection person;
+  person.class_name = "person", person.kind = ClassKind::kUnstructured;
+  person.box_px = book.plane.box_px;
+  for (const double score : {0.06, 0.3, 0.31}) {
+    person.score = score;
+    book.detections = {person};
+    EXPECT_EQ(book.Fault().has_value(), score > 0.3) << score;
+  }
+}
+
 TEST(Select, RefusesAPlaneOfAThingThatFitsBetterWhateverOtherThingsFitWorse) {
   GoodBook book;
   Detection person, plant;
   person.class_name = "person", person.kind = ClassKind::kUnstructured;
+  person.score = 0.9;
   person.box_px = {Eigen::Vector2d(0, 0), Eigen::Vector2d(400, 479)};
   plant.class_name = "potted plant", plant.kind = ClassKind::kUnstructured;
+  plant.score = 0.9;
   plant.box_px = book.plane.box_px;
   const Detection own = book.detections[0];
   book.detections = {own, person, plant};
@@ -194,6 +210,7 @@ TEST(Select, KeepsABookInFrontOfAPersonWhenItsOwnBoxFitsBetter) {
   GoodBook book;
   Detection person;
   person.class_name = "person", person.kind = ClassKind::kUnstructured;
+  person.score = 0.9;
   person.box_px = {Eigen::Vector2d(0, 0), Eigen::Vector2d(400, 479)};
   book.detections.push_back(person);
   EXPECT_EQ(book.Fault(), std::nullopt);
