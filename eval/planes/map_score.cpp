@@ -100,8 +100,32 @@ bool NormalsAreTurned(const std::vector<RunMapPlane>& map, const SceneTruth& sce
   return turned > as_told;
 }
 
+/// NEES of the plane's height at the middle of its outline and of its slopes there; nothing without a
+/// regular covariance.
+std::optional<double> NeesOfPlane(const RunMapPlane& plane, const TruthPlane& truth,
+                                  const Alignment& gauge) {
+  const auto& outline_w = plane.hull_w.size() >= 3 ? plane.hull_w : plane.vertices_w;
+  if (!plane.covariance || outline_w.empty()) return std::nullopt;
+  Eigen::Vector3d middle_w = Eigen::Vector3d::Zero();
+  for (const Eigen::Vector3d& p : outline_w) middle_w += p;
+  middle_w /= static_cast<double>(outline_w.size());
+  // The truth as the run's world has it, its normal scaled so that it is as high as the estimate's.
+  const Plane pi_g = InTruthWorld(gauge, plane.pi_w);
+  const Eigen::Vector3d u_w = plane.pi_w.n.unitOrthogonal(), v_w = plane.pi_w.n.cross(u_w);
+  Eigen::Matrix<double, 3, 4> levers;
+  levers << middle_w.transpose(), 1.0, u_w.transpose(), 0.0, v_w.transpose(), 0.0;
+  const double cosine = truth.pi_g.n.dot(pi_g.n);
+  const Eigen::Vector3d middle_g = gauge.T_gw * (gauge.scale * middle_w);
+  const Eigen::Vector3d error(
+      (SignedDistance(pi_g, middle_g) - SignedDistance(truth.pi_g, middle_g) / cosine) /
+          gauge.scale,
+      -truth.pi_g.n.dot(gauge.T_gw.R * u_w) / cosine,
+      -truth.pi_g.n.dot(gauge.T_gw.R * v_w) / cosine);
+  return NeesOf<3>(error, levers * *plane.covariance * levers.transpose());
+}
+
 struct Errors {
-  std::vector<double> normal_deg, offset_mm, vertex_mm, iou;
+  std::vector<double> normal_deg, offset_mm, vertex_mm, iou, nees;
 
   void Add(const RunMapPlane& plane, const TruthPlane& truth, const Alignment& gauge) {
     const Plane pi_g = InTruthWorld(gauge, plane.pi_w);
@@ -115,6 +139,7 @@ struct Errors {
       vertex_mm.push_back((corners_g[i] - truth.vertices_g[std::size_t(match[i])]).norm() *
                           1e3);
     }
+    if (const auto squared = NeesOfPlane(plane, truth, gauge)) nees.push_back(*squared);
     const Outline outline = OutlinesOf(plane, truth, gauge);
     if (outline.map.size() < 3) return;
     const double both = IntersectionArea(outline.map, outline.truth);
@@ -218,6 +243,13 @@ MapScore ScoreMap(const std::vector<RunMapPlane>& map, const SceneTruth& scene,
   score.normal_deg = SpreadOf(errors.normal_deg);
   score.offset_mm = SpreadOf(errors.offset_mm);
   score.vertex_mm = SpreadOf(errors.vertex_mm);
+  if (!errors.nees.empty()) {
+    const auto silent =
+        std::count_if(errors.nees.begin(), errors.nees.end(),
+                      [](double squared) { return squared > kSilentSigmas * kSilentSigmas; });
+    score.claims = {errors.nees.size(), NeesOver(errors.nees, kBandOf3),
+                    static_cast<std::size_t>(silent)};
+  }
   if (!errors.iou.empty()) score.polygon_iou_median = Quantile(errors.iou, 0.5);
   if (gauge) score.area_explained = AreaExplained(planes_of, scene, *gauge, seen);
   return score;

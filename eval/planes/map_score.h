@@ -8,6 +8,7 @@
 #include "eval/formats/sequence/scene_truth.h"
 #include "eval/planes/association.h"
 #include "eval/trajectory/alignment.h"
+#include "eval/trajectory/nees.h"
 #include "eval/trajectory/statistics.h"
 
 namespace eval {
@@ -18,6 +19,13 @@ inline constexpr double kMaxMapNormal_deg = 20.0;
 inline constexpr double kSameOffset_m = 0.005;
 
 inline constexpr double kMaxMapCornerError_m = 0.10;
+
+/// Errors of map planes against their own covariances.
+struct PlaneClaims {
+  std::size_t count = 0;   ///< matched planes with a regular covariance
+  Nees nees;               ///< of height and two slopes: three degrees of freedom
+  std::size_t silent = 0;  ///< beyond kSilentSigmas in some direction
+};
 
 /// The final map against the truth. Planes that were merged into others stand for these.
 struct MapScore {
@@ -33,9 +41,11 @@ struct MapScore {
   std::optional<Spread> normal_deg;  ///< oriented angle; of matched pairs, as all below
   std::optional<Spread> offset_mm;   ///< rms distance of the true vertices to the map plane
   std::optional<Spread> vertex_mm;   ///< corners matched one-to-one within kMaxMapCornerError_m
+  std::optional<PlaneClaims> claims;         ///< in the world of the truth, as all of these
   std::optional<double> polygon_iou_median;  ///< in the true plane, of the map plane's hull
-  std::optional<double> area_explained;  ///< share of the area of the true planes seen that the
-                                         ///< hulls of their map planes cover
+  /// Share of the area of the true planes seen that is covered: of each by the best hull of its map
+  /// planes, not by all of them together.
+  std::optional<double> area_explained;
 };
 
 /// The plane of the final map that `id` became; a broken chain ends where it breaks.

@@ -43,6 +43,10 @@ OrderedJson ToJson(const ClaimScore& claims) {
           {"silent", claims.silent}};
 }
 
+OrderedJson ToJson(const PlaneClaims& claims) {
+  return {{"count", claims.count}, {"nees", NeesJson(claims.nees)}, {"silent", claims.silent}};
+}
+
 void FigureGroup::Undefined(const std::string& key, const std::string& reason) {
   Put(key, nullptr);
   reasons_[name_ + "/" + key] = reason;

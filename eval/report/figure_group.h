@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "eval/planes/association.h"
+#include "eval/planes/map_score.h"
 #include "eval/trajectory/score_trajectory.h"
 
 namespace eval {
@@ -15,6 +16,7 @@ nlohmann::ordered_json ToJson(const Spread& spread);
 nlohmann::ordered_json ToJson(const Statistics& errors_m);
 nlohmann::ordered_json ToJson(const RelativeScore& errors);
 nlohmann::ordered_json ToJson(const ClaimScore& claims);
+nlohmann::ordered_json ToJson(const PlaneClaims& claims);
 
 /// One group of figures. A figure that is not defined is null, and the reason stands in `reasons`
 /// under "group/figure".

@@ -176,6 +176,8 @@ Json MapGroup(const MapScore& m, const TrajectoryScore& trajectory, Json& reason
   group.Put("normal_deg", m.normal_deg, why(none));
   group.Put("offset_mm", m.offset_mm, why(none));
   group.Put("vertex_mm", m.vertex_mm, why("no vertex of the map is near a true corner"));
+  group.Put("consistency", m.claims,
+            why("map.json tells no covariance of a plane that shows a true one"));
   if (m.polygon_iou_median) {
     group.Put("polygon_iou", Json{{"median", *m.polygon_iou_median}});
   } else {
@@ -285,7 +287,11 @@ void AddPlaneRules(const PlaneScore& s, Json& rules) {
              : "that is nearest to the middle of its outline (within 20 deg and 50 mm, their "
                "outlines in common), by shared area where offsets agree to 5 mm") +
         "; offset is the rms distance of the true vertices to the map plane; "
-        "vertices one to one within 100 mm; normals are oriented";
+        "vertices one to one within 100 mm; normals are oriented; "
+        "consistency: squared errors of height and slopes at the middle of the outline by the "
+        "covariance that the run tells of the plane, whose mean is 3 and of which 0.95 are "
+        "inside "
+        "where it is honest; silent: beyond 5 of its own standard deviations in some direction";
   }
 }
 

@@ -8,6 +8,7 @@
 
 #include "eval/formats/run/pose_covariance.h"
 #include "eval/trajectory/alignment.h"
+#include "eval/trajectory/nees.h"
 
 namespace eval {
 
@@ -18,14 +19,6 @@ struct ClaimedPose {
   Matrix6d covariance = Matrix6d::Zero();
 };
 
-/// Squared errors by their own covariance (NEES, Bar-Shalom): e^T C^-1 e, which is chi-square
-/// distributed where the covariance is honest, with as many degrees of freedom as e has numbers.
-struct Nees {
-  double mean = 0.0, median = 0.0;
-  double inside = 0.0;  ///< share in the middle 95 % of that distribution
-  double above = 0.0;   ///< share above them
-};
-
 /// Errors of one kind against their covariances: of the position (3 numbers), of the rotation
 /// (3) and of both together (6).
 struct ClaimScore {
@@ -34,9 +27,6 @@ struct ClaimScore {
   /// Errors of position or rotation that are in some direction beyond kSilentSigmas of the claim.
   std::size_t silent = 0;
 };
-
-/// A system that errs by more than so many of its own standard deviations does not know it.
-inline constexpr double kSilentSigmas = 5.0;
 
 /// The group `consistency` of metrics.json; what is not defined is empty, and the text beside it
 /// says why.

@@ -95,6 +95,7 @@ void FuseEstimate(MapPlane& into, const MapPlane& from) {
   const PlaneEvidence known = BestKnown(from.estimate);
   AddObservation(into.estimate, known.pi, known.centroid, known.angle_sigma_rad,
                  known.offset_sigma_m, 1.0, from.estimate.world_variance_m2);
+  into.estimate.frames += from.estimate.frames - 1.0;  // it came as one
   into.pi_w = into.estimate.Mean();
 }
 

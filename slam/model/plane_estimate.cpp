@@ -8,6 +8,17 @@ Eigen::Matrix3d PlaneEstimate::Covariance() const {
   return information.ldlt().solve(Eigen::Matrix3d::Identity());
 }
 
+Eigen::Matrix4d PlaneEstimate::WorldCovariance() const {
+  // The mean of `frames` frames knows what one does, divided by their number, and the shared part.
+  Eigen::Matrix3d covariance = (1.0 + kSharedError * kSharedError * frames) * Covariance();
+  covariance(0, 0) += world_variance_m2;
+  // n = normal_w - axes (b, c) and d = -n . (origin_w + a normal_w), to first order.
+  Eigen::Matrix<double, 4, 3> jacobian;
+  jacobian << Eigen::Vector3d::Zero(), -axes, Eigen::Matrix<double, 1, 1>(-1.0),
+      origin_w.transpose() * axes;
+  return jacobian * covariance * jacobian.transpose();
+}
+
 Plane PlaneEstimate::Mean() const {
   const Eigen::Vector3d abc = information.ldlt().solve(weighted);
   const Eigen::Vector3d n = (normal_w - axes * abc.tail<2>()).normalized();
@@ -35,6 +46,7 @@ void AddObservation(PlaneEstimate& estimate, const Plane& pi_w,
   // The old information fades, the new one is added in the form of normal equations.
   estimate.information *= keep;
   estimate.weighted *= keep;
+  estimate.frames = keep * estimate.frames + 1.0;
   estimate.information += w_z * lever * lever.transpose();
   estimate.information(1, 1) += w_s;
   estimate.information(2, 2) += w_s;

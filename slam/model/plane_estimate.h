@@ -7,6 +7,10 @@
 
 namespace slam {
 
+/// Share of what a frame says that it errs by that comes again in every frame and does not average out:
+/// at the borders of a surface, in depth that is smoothed. By simulation (docs/evaluation.md).
+inline constexpr double kSharedError = 0.5;
+
 /// What is known of a landmark plane's parameters, as information: heights over a reference
 /// plane,
 ///   z(u, v) = a + b u + c v,   (u, v) metres from `origin_w` along `axes`, z along `normal_w`.
@@ -18,6 +22,7 @@ struct PlaneEstimate {
   Eigen::Matrix<double, 3, 2> axes = Eigen::Matrix<double, 3, 2>::Identity();
   Eigen::Matrix3d information = Eigen::Matrix3d::Zero();  ///< inverse covariance of (a, b, c)
   Eigen::Vector3d weighted = Eigen::Vector3d::Zero();     ///< information times (a, b, c)
+  double frames = 0.0;  ///< how many frames' worth that is, older ones faded
   /// Variance of where the cameras stood that saw it, along its normal, m^2: mean of the heights'
   /// own, as they weigh. Frames in a row are off the world together, so that many know it no better.
   double world_variance_m2 = 0.0;
@@ -30,6 +35,10 @@ struct PlaneEstimate {
     return {1.0, q.x(), q.y()};
   }
   Eigen::Matrix3d Covariance() const;
+  /// That of (n, d) in the world: with what all frames err by alike (kSharedError), and
+  /// `world_variance_m2`. n . x + d at a point x_w has the variance (x_w, 1)^T C (x_w, 1). Of rank
+  /// three, as n is unit. @pre not empty.
+  Eigen::Matrix4d WorldCovariance() const;
   /// Variance of the slope in the direction in which it is known least, radians^2: the larger
   /// eigenvalue, which does not depend on how the axes lie.
   static double WorstSlopeVariance(const Eigen::Matrix3d& covariance) {

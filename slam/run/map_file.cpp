@@ -24,12 +24,23 @@ double Finite(double x) {
   return x;
 }
 
+/// Upper triangle, row by row.
+Json CovarianceJson(const Eigen::Matrix4d& C) {
+  Json json = Json::array();
+  for (int i = 0; i < 4; ++i) {
+    for (int j = i; j < 4; ++j) json.push_back(Finite(C(i, j)));
+  }
+  return json;
+}
+
 Json PlaneJson(const MapPlane& plane) {
   Json json;
   json["id"] = plane.id;
   json["class"] = plane.class_name.empty() ? Json(nullptr) : Json(plane.class_name);
   json["normal"] = VectorJson(plane.pi_w.n);
   json["d"] = Finite(plane.pi_w.d);
+  if (!plane.estimate.empty())
+    json["covariance"] = CovarianceJson(plane.estimate.WorldCovariance());
   json["area"] = Finite(plane.area_m2);
   json["observations"] = plane.observations;
   json["first_seen"] = Finite(plane.first_seen_s);

@@ -1,10 +1,9 @@
 #include "eval/formats/run/pose_covariance.h"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
-#include <cmath>
 #include <optional>
 
+#include "eval/formats/covariance.h"
 #include "eval/formats/pose/pose_record.h"
 #include "eval/formats/stamps.h"
 #include "eval/formats/text_records.h"
@@ -13,21 +12,6 @@ namespace eval {
 namespace {
 
 constexpr std::size_t kFields = 1 + 21;
-
-/// Whether every direction has a variance that is not negative. Metres against radians must not
-/// decide, so it is asked of the correlations; those of a file are off by its last digits.
-bool IsCovariance(const Matrix6d& C) {
-  constexpr double kRoundOff = 1e-6;
-  Eigen::Matrix<double, 6, 1> inverse_sigma;
-  for (int i = 0; i < 6; ++i) {
-    if (C(i, i) < 0.0) return false;
-    if (C(i, i) == 0.0 && !C.row(i).isZero(0.0)) return false;
-    inverse_sigma[i] = C(i, i) > 0.0 ? 1.0 / std::sqrt(C(i, i)) : 0.0;
-  }
-  const Matrix6d correlations = inverse_sigma.asDiagonal() * C * inverse_sigma.asDiagonal();
-  const Eigen::SelfAdjointEigenSolver<Matrix6d> axes(correlations, Eigen::EigenvaluesOnly);
-  return axes.eigenvalues()[0] >= -kRoundOff;  // not so either where a number is too large
-}
 
 /// Nothing when the line is at fault, which is told.
 std::optional<PoseCovariance> ReadLine(Folder& folder, const std::string& file,

@@ -5,10 +5,27 @@
 #include <algorithm>
 #include <map>
 
+#include "eval/formats/covariance.h"
 #include "eval/formats/plane_record.h"
 
 namespace eval {
 namespace {
+
+/// Rank is not asked: three of the four directions have a variance, none a negative one.
+std::optional<Eigen::Matrix4d> ReadCovariance(const JsonRecord& record) {
+  if (!record.Has("covariance")) return std::nullopt;
+  const auto v = record.Numbers("covariance", 10);
+  if (!v) return std::nullopt;
+  Eigen::Matrix4d C;
+  std::size_t next = 0;
+  for (int i = 0; i < 4; ++i) {
+    for (int j = i; j < 4; ++j) C(i, j) = C(j, i) = (*v)[next++];
+  }
+  if (IsCovariance(C)) return C;
+  record.TellAt("covariance", "is none: some direction has a negative variance",
+                "write the upper triangle of that of (n, d) row by row");
+  return std::nullopt;
+}
 
 RunMapPlane ReadMapPlane(const JsonRecord& record) {
   const JsonRecord expected = record.Expected(), optional = record.Optional();
@@ -16,6 +33,7 @@ RunMapPlane ReadMapPlane(const JsonRecord& record) {
   plane.plane_class = optional.Text("class");
   const auto pi_w = ReadPlane(record, kRunUnit);
   if (pi_w) plane.pi_w = *pi_w;
+  plane.covariance = ReadCovariance(optional);
   plane.area_m2 = expected.Number("area", io::Interval("[0, 1e14)")).value_or(0.0);
   plane.observations = expected.Integer("observations", 1).value_or(0);
   const io::Interval seconds("[0, 1e11)");  // as stamps are

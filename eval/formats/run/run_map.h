@@ -14,6 +14,9 @@ struct RunMapPlane {
   int id = 0;
   std::optional<std::string> plane_class;
   Plane pi_w;
+  /// Of (n, d), upper triangle row by row in the file: n . x + d at a point x of the plane has the
+  /// variance (x, 1)^T C (x, 1), m^2.
+  std::optional<Eigen::Matrix4d> covariance;
   double area_m2 = 0.0;
   int observations = 0;
   std::optional<int> merged_into;  ///< not a plane of the final map any more

@@ -12,7 +12,6 @@ constexpr const char* kSize = "(0, 100000)";
 constexpr int kMaxSize = 99999;  // the same of whole numbers
 constexpr const char* kPositive = "(0, 1e9)";
 constexpr const char* kAny = "(-1e9, 1e9)";
-constexpr double kUsualRate_Hz = 30.0;  // taken where a file names none, as `pas slam` does
 constexpr const char* kDistortion[] = {"k1", "k2", "p1", "p2", "k3"};
 
 /// Reads the keys one by one, so that each fault is told.

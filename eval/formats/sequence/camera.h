@@ -26,6 +26,9 @@ struct Camera {
 /// outside the image the model may fold back.
 Eigen::Vector2d PixelOf(const Camera& camera, const Eigen::Vector3d& x_c);
 
+/// Taken where a file names none, as `pas slam` does.
+inline constexpr double kUsualRate_Hz = 30.0;
+
 /// The camera that truth is of, where camera.yaml is told with a calibration's error.
 inline constexpr const char* kTrueCamera = "gt/camera.yaml";
 

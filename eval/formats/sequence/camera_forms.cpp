@@ -7,8 +7,6 @@
 namespace eval {
 namespace {
 
-constexpr double kUsualRate_Hz = 30.0;
-
 double Positive(const io::YamlMap& map, const std::string& key) {
   return map.At(key).Number(io::Interval("(0, 1e9)"));
 }

@@ -310,5 +310,18 @@ TEST_F(CheckRunFolder, NamesPointsOfAPlaneThatTheMapDoesNotHave) {
   ExpectOnly("map.ply", 0, "", "plane 123");
 }
 
+TEST_F(CheckRunFolder, RefusesACovarianceOfAPlaneThatIsNone) {
+  const auto tell = [&](std::vector<double> upper) {
+    EditJson("map.json", [&](json& map) { map["planes"][0]["covariance"] = upper; });
+  };
+  tell(
+      {1e-4, 0, 0, -2e-4, 1e-4, 0, -1e-4, 0, 0, 6e-4});  // n . x + d is known at (2, 1) to 1e-4
+  EXPECT_EQ(CheckFolder(run()).faults.size(), 0u) << All(CheckFolder(run()));
+  tell({1e-4, 0, 0, -2e-4, 1e-4, 0, -1e-4, 0, 0, 4e-4});
+  ExpectOnly("map.json", 0, "/planes/0/covariance", "negative variance");
+  tell({1e-4, 0, 0});
+  ExpectOnly("map.json", 0, "/planes/0/covariance", "10");
+}
+
 }  // namespace
 }  // namespace eval

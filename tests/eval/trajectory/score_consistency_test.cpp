@@ -148,5 +148,14 @@ TEST(ScoreConsistency, SaysWhyNothingIsDefined) {
   EXPECT_EQ(none.no_relative, "no two matched poses with a covariance are 1 s apart");
 }
 
+TEST(ScoreConsistency, TellsCovarianceThatIsNoneFromPosesThatAreNotASecondApart) {
+  std::vector<ClaimedPose> poses = Drawn(11, 1.0);
+  for (ClaimedPose& pose : poses) pose.covariance.setZero();
+  const ConsistencyScore score = ScoreConsistency(poses, kGauge, kHalfFrame_s);
+  EXPECT_FALSE(score.absolute || score.relative);
+  EXPECT_EQ(score.no_absolute, "no covariance is regular");
+  EXPECT_EQ(score.no_relative, "no covariance of two poses 1 s apart is regular");
+}
+
 }  // namespace
 }  // namespace eval

@@ -44,5 +44,27 @@ TEST(PlaneEstimate, IsKnownBetterByMoreFramesButNotInTheWorld) {
   EXPECT_NEAR(many.Covariance()(0, 0), 1e-4 / 3, 1e-9);
 }
 
+// Of a tilted plane far from the origin, where d hangs on the slopes.
+TEST(PlaneEstimate, TellsTheHeightOfAnyOfItsPointsInTheWorld) {
+  const Plane pi_w{Eigen::Vector3d(0.1, -0.2, 0.97).normalized(), -4.0};
+  PlaneEstimate estimate;
+  for (const SeenPatch& seen : kPatches) {
+    AddObservation(estimate, pi_w, ProjectOnto(pi_w, seen.centroid_w), 0.02,
+                   seen.offset_sigma_m, 1.0, seen.world_variance_m2);
+  }
+  EXPECT_EQ(estimate.frames, 3.0);
+  const Eigen::Matrix4d told = estimate.WorldCovariance();
+  for (const Eigen::Vector3d& seen_w :
+       {Eigen::Vector3d(0.3, -0.2, 0.7), Eigen::Vector3d(8, 5, -3)}) {
+    const Eigen::Vector3d x_w = ProjectOnto(pi_w, seen_w), lever = estimate.Lever(x_w);
+    const double of_frames = lever.dot(estimate.Covariance() * lever);
+    // Half of the error of one frame, three of which make a third of its variance.
+    const double of_all = of_frames * (1.0 + 0.25 * 3.0) + estimate.world_variance_m2;
+    EXPECT_NEAR(x_w.homogeneous().dot(told * x_w.homogeneous()), of_all, 1e-9 * of_all);
+  }
+  // The normal stays a unit vector.
+  EXPECT_NEAR((told.topRows<3>().transpose() * pi_w.n).norm(), 0.0, 1e-12);
+}
+
 }  // namespace
 }  // namespace slam

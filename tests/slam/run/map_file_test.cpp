@@ -32,5 +32,20 @@ TEST(PlaneColour, TellsNeighbouringIdsApart) {
   }
 }
 
+TEST(MapAsJson, TellsTheCovarianceOfAPlaneThatFramesHaveSeen) {
+  MapPlane seen;
+  AddObservation(seen.estimate, {Eigen::Vector3d::UnitZ(), -0.7}, {0.3, -0.2, 0.7}, 0.02, 0.01,
+                 1.0, 1e-4);
+  Map map;
+  AddLandmark(map, seen);
+  AddLandmark(map, MapPlane{});
+  const auto planes = nlohmann::json::parse(MapAsJson(map)).at("planes");
+  EXPECT_FALSE(planes[1].contains("covariance"));
+  const Eigen::Matrix4d C = seen.estimate.WorldCovariance();
+  const std::vector<double> upper{C(0, 0), C(0, 1), C(0, 2), C(0, 3), C(1, 1),
+                                  C(1, 2), C(1, 3), C(2, 2), C(2, 3), C(3, 3)};
+  EXPECT_EQ(planes[0]["covariance"].get<std::vector<double>>(), upper);
+}
+
 }  // namespace
 }  // namespace slam
