@@ -29,6 +29,7 @@ int RunCalibrate(CalibrateArguments& arguments, bool quiet) {
   const io::OutputRules rules{
       .force = arguments.force,
       .inputs = {options.sequence, options.camera, arguments.config_file}};
+  io::RefuseSameFile({arguments.output, arguments.picture});
   const io::OutputFile output(arguments.output, rules);
   std::optional<io::OutputFile> picture;
   if (!arguments.picture.empty()) picture.emplace(arguments.picture, rules);

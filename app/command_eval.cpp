@@ -57,6 +57,7 @@ int EvalRun(const EvalOptions& options, const Globals& globals) {
   const bool by_default = options.output.empty();
   const std::filesystem::path output =
       by_default ? run.folder / kMetrics : std::filesystem::path(options.output);
+  io::RefuseSameFile({output, options.frames, options.events});
   const io::OutputFile file(output,
                             {options.force || by_default, {run.folder, truth}, kMetrics});
   const RunTables tables(options, {run.folder, truth});

@@ -7,6 +7,7 @@
 #include <cerrno>
 #include <cstdio>
 #include <optional>
+#include <set>
 #include <utility>
 
 #include "io/atomic_file.h"
@@ -30,6 +31,10 @@ std::optional<int> DescriptorOf(const fs::path& path) {
   return static_cast<int>(*number);
 }
 
+bool IsStream(const fs::path& path, fs::file_type type) {
+  return type == fs::file_type::character || type == fs::file_type::fifo || DescriptorOf(path);
+}
+
 /// Whether `path` is `folder` or lies in it, links resolved.
 bool LiesIn(const fs::path& path, const fs::path& folder) {
   std::error_code error;
@@ -50,8 +55,7 @@ OutputFile::OutputFile(fs::path path, OutputRules rules)
     throw InputError("output file `" + path_.string() + "`", "expected the name of a file");
   }
   const fs::file_type type = TypeAt(path_);
-  const bool stream = type == fs::file_type::character || type == fs::file_type::fifo;
-  if (stream || DescriptorOf(path_)) {
+  if (IsStream(path_, type)) {
     OpenStream(type);
   } else {
     RequirePlace();
@@ -124,6 +128,18 @@ void OutputFile::Write(std::string_view bytes) const {
   }
   std::fflush(stdout);  // what was printed before comes before
   WriteAll(stream_, bytes, path_);
+}
+
+void RefuseSameFile(const std::vector<fs::path>& outputs) {
+  std::set<fs::path> places;
+  for (const fs::path& output : outputs) {
+    if (output.empty() || IsStream(output, TypeAt(output))) continue;
+    std::error_code error;
+    const fs::path place = fs::weakly_canonical(fs::absolute(output), error);
+    if (error || places.insert(place).second) continue;
+    throw InputError(output.string(),
+                     "would hold two outputs of this command; choose another name for one");
+  }
 }
 
 void RefuseInputsInside(const fs::path& folder, const std::vector<fs::path>& inputs) {

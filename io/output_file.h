@@ -41,6 +41,11 @@ class OutputFile {
   int stream_ = -1;  ///< descriptor of what is no regular file
 };
 
+/// Refuses two outputs of one command that are one file, of which the later would replace the
+/// earlier. Empty paths are none; a device, a pipe or a descriptor takes both.
+/// @throws InputError
+void RefuseSameFile(const std::vector<std::filesystem::path>& outputs);
+
 /// Refuses a folder that is to be replaced although it holds one of the inputs.
 /// @throws InputError naming both
 void RefuseInputsInside(const std::filesystem::path& folder,

@@ -250,12 +250,20 @@ class SuiteCall {
     return all_done ? kDone : kFailure;
   }
 
-  /// Prints each figure that is beyond its bound of the suite, whatever a baseline says.
+  /// Prints each figure that is beyond its bound of the suite, or not defined in a case that is
+  /// done, whatever a baseline says.
   bool WithinBounds(const std::vector<SuiteCase>& cases, Results& results) const {
     bool within = true;
     for (const auto& [key, found] : GatedCases(suite_, cases, results.Rows())) {
       for (const std::string& figure : eval::BeyondBounds(found.figures, suite_.gate.worst)) {
         fmt::print("BEYOND    {}: {}, bound {}  {}\n", figure, *found.figures.at(figure),
+                   suite_.gate.worst.at(figure), key);
+        within = false;
+      }
+      if (!found.done) continue;
+      for (const std::string& figure :
+           eval::UndefinedOfBounded(found.figures, suite_.gate.worst)) {
+        fmt::print("BEYOND    {}: not defined, bound {}  {}\n", figure,
                    suite_.gate.worst.at(figure), key);
         within = false;
       }

@@ -240,7 +240,8 @@ class Planner {
     if (!fs::exists(source.recording / "camera.yaml")) {
       const Input camera = InputOf("camera", source.scene->camera);
       frames.slam.insert(frames.slam.end(), {"--camera", camera.argument});
-      if (!camera.sha256.empty()) frames.sha256 = io::Sha256Hex(frames.sha256 + camera.sha256);
+      frames.sha256 =
+          io::Sha256Hex(frames.sha256 + (camera.sha256.empty() ? camera.name : camera.sha256));
     }
     frames.setup = frames.sha256 + " " + source.scene->sensor;
     return frames;

@@ -23,7 +23,10 @@ std::vector<Vector3d> RaysOf(const Camera& camera, const std::vector<cv::Point2d
   const auto& k = camera.distortion;
   std::vector<cv::Point2d> points;
   if (!pixels.empty()) {
-    cv::undistortPoints(pixels, points, K, cv::Vec<double, 5>(k[0], k[1], k[2], k[3], k[4]));
+    // Five iterations, as by default, are too few for the corners of a lens that bends much.
+    const cv::TermCriteria until(cv::TermCriteria::COUNT | cv::TermCriteria::EPS, 200, 1e-6);
+    cv::undistortPoints(pixels, points, K, cv::Vec<double, 5>(k[0], k[1], k[2], k[3], k[4]),
+                        cv::noArray(), cv::noArray(), until);
   }
   std::vector<Vector3d> rays;
   rays.reserve(points.size());
@@ -194,10 +197,14 @@ void TruthDepthCheck::Finish() {
     }
     return;
   }
+  // Without its numbers, which noise changes from frame to frame.
+  const auto kind = [](const Verdict& verdict) {
+    return verdict.explanation.substr(0, verdict.explanation.find_first_of("0123456789"));
+  };
   std::map<std::string, int> votes;
   std::vector<double> errors;
   for (const Verdict& verdict : bad) {
-    ++votes[verdict.explanation.substr(0, 20)];
+    ++votes[kind(verdict)];
     errors.push_back(verdict.error_m);
   }
   const auto most =
@@ -205,7 +212,7 @@ void TruthDepthCheck::Finish() {
                        [](const auto& a, const auto& b) { return a.second < b.second; });
   std::string mend = unexplained;
   for (const Verdict& verdict : bad) {
-    if (!verdict.explanation.empty() && verdict.explanation.substr(0, 20) == most->first) {
+    if (!verdict.explanation.empty() && kind(verdict) == most->first) {
       mend = verdict.explanation;
       break;
     }

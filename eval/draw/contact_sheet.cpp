@@ -97,7 +97,11 @@ std::vector<std::size_t> SpreadEvenly(std::size_t total, std::size_t count) {
 }
 
 std::size_t FramesSeen(const Run& run, const Sequence& sequence) {
-  if (!run.info.interrupted || run.frames.empty()) return sequence.frames.size();
+  const std::size_t all = sequence.frames.size();
+  if (!run.info.interrupted) return all;
+  if (run.frames.empty()) {  // a run without planes counts its frames at least
+    return run.info.frames ? std::min(all, static_cast<std::size_t>(*run.info.frames)) : all;
+  }
   const double last_s = run.frames.back().stamp_s + kSameStamp_s;
   return static_cast<std::size_t>(
       std::count_if(sequence.frames.begin(), sequence.frames.end(),

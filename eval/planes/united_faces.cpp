@@ -95,6 +95,7 @@ void Unite(TruthPlane& plane, const TruthPlane& other) {
     plane.vertices_g.push_back(chart.origin + corner.x() * chart.axis_u +
                                corner.y() * chart.axis_v);
   }
+  plane.holes_g.insert(plane.holes_g.end(), other.holes_g.begin(), other.holes_g.end());
   plane.area_m2 += other.area_m2;
 }
 

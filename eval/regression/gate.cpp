@@ -217,6 +217,12 @@ class Comparison {
       report.counts.push_back({key, figure + " beyond its bound", rules_.worst.at(figure),
                                now.figures.at(figure).value_or(0.0), true});
     }
+    if (!now.done) return;  // a failure is counted as such
+    for (const std::string& figure : UndefinedOfBounded(now.figures, rules_.worst)) {
+      report.counts.push_back({key, figure + " is bounded, but not defined",
+                               rules_.worst.at(figure),
+                               std::numeric_limits<double>::quiet_NaN(), true});
+    }
   }
 
   const Baseline& baseline_;
@@ -309,6 +315,16 @@ std::vector<std::string> BeyondBounds(const Figures& figures,
     if (sign * *value->second > sign * bound->second) beyond.emplace_back(metric.figure);
   }
   return beyond;
+}
+
+std::vector<std::string> UndefinedOfBounded(const Figures& figures,
+                                            const std::map<std::string, double>& worst) {
+  std::vector<std::string> undefined;
+  for (const auto& [figure, bound] : worst) {
+    const auto value = figures.find(figure);
+    if (value == figures.end() || !value->second) undefined.push_back(figure);
+  }
+  return undefined;
 }
 
 std::string GateTable(const GateReport& report) {

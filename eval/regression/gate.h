@@ -85,6 +85,10 @@ GateReport CompareWithBaseline(const Baseline& baseline, const GateCases& candid
 std::vector<std::string> BeyondBounds(const Figures& figures,
                                       const std::map<std::string, double>& worst);
 
+/// The figures with a bound that one case has not: a case that is done must not pass by them.
+std::vector<std::string> UndefinedOfBounded(const Figures& figures,
+                                            const std::map<std::string, double>& worst);
+
 /// A table of plain lines: what became worse, by how much, which cases to replay; then what is
 /// undecided, and how many figures are the same. Ends in a newline.
 std::string GateTable(const GateReport& report);

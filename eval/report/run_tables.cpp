@@ -72,7 +72,12 @@ class FrameTable {
       : evaluation_(evaluation), run_(run), stamps_s_(StampsOf(sequence.frames)) {
     for (const PoseError& error : evaluation.trajectory.errors) {
       const auto frame = NearestStamp(stamps_s_, error.stamp_s, kMaxStampDifference_s);
-      if (frame) errors_[*frame] = error;
+      if (!frame) continue;
+      const auto off_s = [&](const PoseError& e) {
+        return std::abs(e.stamp_s - stamps_s_[*frame]);
+      };
+      const auto there = errors_.try_emplace(*frame, error).first;
+      if (off_s(error) < off_s(there->second)) there->second = error;  // the nearest counts
     }
     if (!evaluation.planes) return;
     for (const FrameScore& frame : evaluation.planes->by_frame) frames_[frame.frame] = &frame;

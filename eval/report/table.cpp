@@ -2,8 +2,8 @@
 
 #include <fmt/format.h>
 
-#include <cstdarg>
-#include <cstdio>
+#include <string>
+#include <utility>
 
 #include "eval/report/metrics_json.h"
 
@@ -12,25 +12,17 @@ namespace {
 
 class Table {
  public:
-  /// printf of one line; the C locale's point is not assumed elsewhere, this is for reading.
-  __attribute__((format(printf, 3, 4))) void Row(const char* name, const char* format, ...) {
-    char value[160];
-    va_list arguments;
-    va_start(arguments, format);
-    std::vsnprintf(value, sizeof value, format, arguments);
-    va_end(arguments);
-    char line[240];
-    std::snprintf(line, sizeof line, "  %-26s %s\n", name, value);
-    text_ += line;
+  template <typename... Values>
+  void Row(const std::string& name, fmt::format_string<Values...> format, Values&&... values) {
+    text_ += fmt::format("  {:<26} {}\n", name,
+                         fmt::format(format, std::forward<Values>(values)...));
   }
   void Heading(const char* heading) { text_ += std::string(heading) + "\n"; }
-  void Undefined(const char* name, const std::string& reason) {
-    Row(name, "-  (%s)", reason.c_str());
-  }
+  void Undefined(const char* name, const std::string& reason) { Row(name, "-  ({})", reason); }
   void Spread(const char* name, const std::optional<eval::Spread>& spread, const char* unit,
               const std::string& no_spread) {
     if (!spread) return Undefined(name, no_spread);
-    Row(name, "median %.2f %s, 95 %% below %.2f", spread->median, unit, spread->p95);
+    Row(name, "median {:.2f} {}, 95 % below {:.2f}", spread->median, unit, spread->p95);
   }
   const std::string& text() const { return text_; }
 
@@ -41,7 +33,7 @@ class Table {
 void AddClaims(const char* name, const std::optional<ClaimScore>& claims,
                const std::string& no_claims, Table& table) {
   if (!claims) return table.Undefined(name, no_claims);
-  table.Row(name, "NEES %.1f, %.1f of 3 (inside %.2f, %.2f), silent %zu of %zu",
+  table.Row(name, "NEES {:.1f}, {:.1f} of 3 (inside {:.2f}, {:.2f}), silent {} of {}",
             claims->position.mean, claims->rotation.mean, claims->position.inside,
             claims->rotation.inside, claims->silent, claims->count);
 }
@@ -67,20 +59,20 @@ void AddTrajectory(const Evaluation& e, const MetricTexts& texts, Table& table) 
   table.Heading("Trajectory");
   const TrajectoryScore& t = e.trajectory;
   const double percent = t.frames > 0 ? 100.0 * double(t.tracked) / double(t.frames) : 0.0;
-  table.Row("tracked", "%zu of %zu frames (%.1f %%)", t.tracked, t.frames, percent);
+  table.Row("tracked", "{} of {} frames ({:.1f} %)", t.tracked, t.frames, percent);
   if (t.ate_se3) {
-    table.Row("ATE rmse (SE3)", "%.2f mm (median %.2f, max %.2f)", 1e3 * t.ate_se3->rmse,
+    table.Row("ATE rmse (SE3)", "{:.2f} mm (median {:.2f}, max {:.2f})", 1e3 * t.ate_se3->rmse,
               1e3 * t.ate_se3->median, 1e3 * t.ate_se3->max);
   } else {
     table.Undefined("ATE rmse (SE3)", t.no_ate_se3);
   }
   if (t.ate_complete_rmse_m) {
-    table.Row("ATE, missing charged", "%.2f mm", 1e3 * *t.ate_complete_rmse_m);
+    table.Row("ATE, missing charged", "{:.2f} mm", 1e3 * *t.ate_complete_rmse_m);
   } else {
     table.Undefined("ATE, missing charged", t.no_ate_complete);
   }
   if (t.rpe_1s) {
-    table.Row("RPE over 1 s", "%.2f mm, %.3f deg (%zu pairs)", 1e3 * t.rpe_1s->trans_rmse_m,
+    table.Row("RPE over 1 s", "{:.2f} mm, {:.3f} deg ({} pairs)", 1e3 * t.rpe_1s->trans_rmse_m,
               t.rpe_1s->rot_rmse_deg, t.rpe_1s->pairs);
   } else {
     table.Undefined("RPE over 1 s", texts.WhyNot("trajectory/rpe_1s"));
@@ -95,57 +87,63 @@ void AddTrajectory(const Evaluation& e, const MetricTexts& texts, Table& table) 
 void AddAssociation(const PlaneScore& s, const MetricTexts& texts, Table& table) {
   table.Heading("Association");
   const DecisionCounts& d = s.association.decision;
-  table.Row("decision precision", "%s (%d right, %d wrong)",
-            texts.Share("association/decision/precision").c_str(), d.tp, d.fp);
-  table.Row("decision recall", "%s (%d missed)",
-            texts.Share("association/decision/recall").c_str(), d.fn);
-  table.Row("no decision", "%s (%zu of %d large surfaces of frames)",
-            texts.Share("association/no_decision/share").c_str(), s.undecided.undecided.size(),
+  table.Row("decision precision", "{} ({} right, {} wrong)",
+            texts.Share("association/decision/precision"), d.tp, d.fp);
+  table.Row("decision recall", "{} ({} missed)", texts.Share("association/decision/recall"),
+            d.fn);
+  table.Row("no decision", "{} ({} of {} large surfaces of frames)",
+            texts.Share("association/no_decision/share"), s.undecided.undecided.size(),
             s.undecided.large);
   if (s.history.says_by) {
-    table.Row("ambiguous", "%zu frame planes of surfaces in the map", s.ambiguous.size());
+    table.Row("ambiguous", "{} frame planes of surfaces in the map", s.ambiguous.size());
   } else {
     table.Undefined("ambiguous", texts.WhyNot("association/decision/ambiguous"));
   }
-  table.Row("pair precision, recall", "%s, %s",
-            texts.Share("association/pair/precision").c_str(),
-            texts.Share("association/pair/recall").c_str());
-  table.Row("IDF1, HOTA", "%s, %s", texts.Share("association/idf1").c_str(),
-            texts.Share("association/hota").c_str());
-  table.Row("merged map planes", "%d", s.association.merged_map_planes);
+  table.Row("pair precision, recall", "{}, {}", texts.Share("association/pair/precision"),
+            texts.Share("association/pair/recall"));
+  table.Row("IDF1, HOTA", "{}, {}", texts.Share("association/idf1"),
+            texts.Share("association/hota"));
+  table.Row("merged map planes", "{}", s.association.merged_map_planes);
 }
 
 void AddExtraction(const PlaneScore& s, const MetricTexts& texts, Table& table) {
   table.Heading("Planes of a frame");
   if (s.regions) {
-    table.Row("correct, of truth", "%.2f of %.2f a frame (over %.2f, under %.2f, noise %.2f)",
+    table.Row("correct, of truth",
+              "{:.2f} of {:.2f} a frame (over {:.2f}, under {:.2f}, noise {:.2f})",
               s.regions->correct, s.regions->truth, s.regions->over, s.regions->under,
               s.regions->noise);
   }
   if (!s.from_frame_planes) {
-    table.Row("panoptic quality", "%s (segments %s, recognition %s)",
-              texts.Share("extraction/pq").c_str(), texts.Share("extraction/sq").c_str(),
-              texts.Share("extraction/rq").c_str());
-    table.Row("pixel precision, recall", "%s, %s",
-              texts.Share("extraction/pixel_precision").c_str(),
-              texts.Share("extraction/pixel_recall").c_str());
+    table.Row("panoptic quality", "{} (segments {}, recognition {})",
+              texts.Share("extraction/pq"), texts.Share("extraction/sq"),
+              texts.Share("extraction/rq"));
+    table.Row("pixel precision, recall", "{}, {}", texts.Share("extraction/pixel_precision"),
+              texts.Share("extraction/pixel_recall"));
     return;
   }
   table.Spread("normal error", s.normal_deg, "deg", texts.WhyNot("extraction/normal_deg"));
   table.Spread("offset error", s.offset_mm, "mm", texts.WhyNot("extraction/offset_mm"));
   table.Spread("vertex error", SpreadOf(s.corners.errors_mm), "mm",
                texts.WhyNot("vertices/error_mm"));
-  table.Row("vertex precision, recall", "%s, %s", texts.Share("vertices/precision").c_str(),
-            texts.Share("vertices/recall").c_str());
+  table.Row("vertex precision, recall", "{}, {}", texts.Share("vertices/precision"),
+            texts.Share("vertices/recall"));
 }
 
 void AddMap(const MapScore& map, const MetricTexts& texts, Table& table) {
   table.Heading("Map");
-  table.Row("planes", "%d for %d true ones seen (%d matched, %d duplicates, %d spurious)",
+  table.Row("planes", "{} for {} true ones seen ({} matched, {} duplicates, {} spurious)",
             map.planes, map.true_planes_seen, map.matched, map.duplicates, map.spurious);
   table.Spread("normal error", map.normal_deg, "deg", texts.WhyNot("map/normal_deg"));
   table.Spread("offset error", map.offset_mm, "mm", texts.WhyNot("map/offset_mm"));
   table.Spread("vertex error", map.vertex_mm, "mm", texts.WhyNot("map/vertex_mm"));
+  if (map.claims) {
+    table.Row("told error", "NEES {:.1f} of 3 (inside {:.2f}), silent {} of {}",
+              map.claims->nees.mean, map.claims->nees.inside, map.claims->silent,
+              map.claims->count);
+  } else {
+    table.Undefined("told error", texts.WhyNot("map/consistency"));
+  }
 }
 
 void AddPlanes(const PlaneScore& s, const MetricTexts& texts, Table& table) {
@@ -157,11 +155,11 @@ void AddPlanes(const PlaneScore& s, const MetricTexts& texts, Table& table) {
 void AddTiming(const TimingScore& t, Table& table) {
   table.Heading("Time per module, ms a frame");
   for (const ModuleTime& m : t.modules) {
-    table.Row(m.module.c_str(), "mean %8.2f   median %8.2f   95 %% below %8.2f", m.mean,
-              m.median, m.p95);
+    table.Row(m.module, "mean {:8.2f}   median {:8.2f}   95 % below {:8.2f}", m.mean, m.median,
+              m.p95);
   }
-  if (t.fps) table.Row("frames a second", "%.1f", *t.fps);
-  if (t.peak_rss_mb) table.Row("peak memory", "%.0f MB", *t.peak_rss_mb);
+  if (t.fps) table.Row("frames a second", "{:.1f}", *t.fps);
+  if (t.peak_rss_mb) table.Row("peak memory", "{:.0f} MB", *t.peak_rss_mb);
 }
 
 }  // namespace

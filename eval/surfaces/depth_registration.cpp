@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "io/yaml_value.h"
 
@@ -27,6 +28,18 @@ Camera ReadIntrinsics(const io::YamlValue& value, bool with_lens) {
     if (map.Has(lens[i])) camera.distortion[i] = map.At(lens[i]).Number(any, "as OpenCV's");
   }
   return camera;
+}
+
+/// The distance from the axis, at depth 1, from which on the lens's model goes back inwards.
+double FoldOf(const Camera& camera) {
+  const auto& k = camera.distortion;
+  constexpr double kStep = 1e-3;
+  constexpr int kSteps = 10000;  // 84 degrees from the axis
+  for (int i = 0; i < kSteps; ++i) {
+    const double r2 = std::pow(kStep * i, 2);
+    if (!(1 + r2 * (3 * k[0] + r2 * (5 * k[1] + r2 * 7 * k[4])) > 0)) return kStep * i;
+  }
+  return std::numeric_limits<double>::infinity();
 }
 
 /// Writes a depth to the pixels that its own pixel covers in the colour image.
@@ -74,6 +87,7 @@ cv::Mat1f LayOnColour(const cv::Mat1f& depth_m, const DepthRegistration& registr
   constexpr double kHalfPixel = 0.51;
   const Eigen::Vector2d half_px(kHalfPixel * std::max(1.0, to.fx / from.fx),
                                 kHalfPixel * std::max(1.0, to.fy / from.fy));
+  const double fold = FoldOf(to);
   for (int v = 0; v < depth_m.rows; ++v) {
     for (int u = 0; u < depth_m.cols; ++u) {
       const double z = depth_m(v, u);
@@ -81,7 +95,7 @@ cv::Mat1f LayOnColour(const cv::Mat1f& depth_m, const DepthRegistration& registr
       const Eigen::Vector3d x_depth(z * (u - from.cx) / from.fx, z * (v - from.cy) / from.fy,
                                     z);
       const Eigen::Vector3d x_colour = registration.T_colour_depth * x_depth;
-      if (!(x_colour.z() > 0)) continue;
+      if (!(x_colour.z() > 0) || !(x_colour.head<2>().norm() < fold * x_colour.z())) continue;
       Splat(laid_m, PixelOf(to, x_colour), half_px, float(x_colour.z()));
     }
   }

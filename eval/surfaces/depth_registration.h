@@ -20,7 +20,8 @@ struct DepthRegistration {
 DepthRegistration ReadDepthRegistration(const std::filesystem::path& file);
 
 /// The depth image as the colour camera sees it; where two depths meet in a pixel the nearer
-/// one stays, where none does there is 0.
+/// one stays, where none does there is 0. What lies so far aside that the lens's model would fold
+/// it back into the image is left out.
 /// @param depth_m  metres, of the size of registration.depth
 cv::Mat1f LayOnColour(const cv::Mat1f& depth_m, const DepthRegistration& registration);
 

@@ -8,6 +8,7 @@
 
 #include "eval/draw/paint.h"
 #include "eval/formats/sequence/images.h"
+#include "eval/planes/frame_evidence.h"
 #include "eval/surfaces/surface_plan.h"
 
 namespace eval {
@@ -128,6 +129,7 @@ cv::Mat DrawCutSurfaces(const cv::Mat1w& surfaces, const Run& run, const DepthVi
   std::map<int, int> landmarks;
   if (const auto at = FindStamp(StampsOf(run.frames), stamp_s)) {
     for (const RunFramePlane& plane : run.frames[*at].planes) {
+      if (!Decided(plane)) continue;
       if (const auto id = final_landmarks.Of(plane.map_plane)) landmarks[plane.index + 1] = *id;
     }
   }

@@ -74,8 +74,9 @@ LocalNormals FitLocalNormals(const cv::Mat1f& depth_m, const cv::Mat2d& rays, in
       const Moments m = sums(v1, u1) - sums(v0, u1) - sums(v1, u0) + sums(v0, u0);
       InverseDepthFit fit;
       if (m[kOne] < min_pixels || !Fit(m, fit)) continue;
+      const Eigen::Vector3d ray(rays(v, u)[0], rays(v, u)[1], 1.0);
+      if (!(fit.abc.dot(ray) > 0)) continue;  // a fit that is no surface seen from the front
       const Eigen::Vector3d n_c = -fit.abc.normalized();
-      if (!(n_c.z() < 0)) continue;  // a fit that is no surface seen from the front
       local.normals_c(v, u) = {float(n_c.x()), float(n_c.y()), float(n_c.z())};
       local.rms_per_m(v, u) = float(fit.rms_per_m);
     }
@@ -87,7 +88,7 @@ double NoiseOf(const LocalNormals& local) {
   std::vector<float> rms;
   for (int v = 0; v < local.rms_per_m.rows; ++v) {
     for (int u = 0; u < local.rms_per_m.cols; ++u) {
-      if (local.normals_c(v, u)[2] != 0) rms.push_back(local.rms_per_m(v, u));
+      if (HasNormal(local, v, u)) rms.push_back(local.rms_per_m(v, u));
     }
   }
   if (rms.empty()) return 0.0;

@@ -18,6 +18,10 @@ struct LocalNormals {
 /// @param stride  only pixels whose row and column are multiples of it are fitted
 LocalNormals FitLocalNormals(const cv::Mat1f& depth_m, const cv::Mat2d& rays, int stride);
 
+inline bool HasNormal(const LocalNormals& local, int v, int u) {
+  return local.normals_c(v, u) != cv::Vec3f(0, 0, 0);
+}
+
 /// The noise of one pixel's inverse depth, 1/m: the median of the fits' residuals, since most
 /// windows of most images lie on something smooth. Nothing (0) without any fit.
 double NoiseOf(const LocalNormals& local);
@@ -26,7 +30,7 @@ double NoiseOf(const LocalNormals& local);
 inline bool IsSmooth(const LocalNormals& local, int v, int u, double noise_per_m) {
   // Balances: windows over edges have ten times the noise and more.
   constexpr double kMaxRms = 2.5;
-  return local.normals_c(v, u)[2] != 0 && local.rms_per_m(v, u) <= kMaxRms * noise_per_m;
+  return HasNormal(local, v, u) && local.rms_per_m(v, u) <= kMaxRms * noise_per_m;
 }
 
 /// Whether the fit at a pixel speaks against a plane: its place is smooth and faces another way.

@@ -1,9 +1,12 @@
 #include "eval/surfaces/outline.h"
 
 #include <Eigen/Dense>
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <opencv2/imgproc.hpp>
+#include <utility>
+#include <vector>
 
 namespace eval {
 namespace {
@@ -103,8 +106,14 @@ SurfaceArea::SurfaceArea(const Surface& surface) : chart_g_(surface.chart_g) {
     cv::fillPoly(raster_, std::vector<std::vector<cv::Point>>{corners}, cv::Scalar(value),
                  cv::LINE_8, kShift);
   };
-  for (const Polygon2& outline : surface.outlines) fill(outline, 255);
-  for (const Polygon2& hole : surface.holes) fill(hole, 0);
+  std::vector<std::pair<const Polygon2*, int>> loops;
+  for (const Polygon2& outline : surface.outlines) loops.emplace_back(&outline, 255);
+  for (const Polygon2& hole : surface.holes) loops.emplace_back(&hole, 0);
+  // The largest first: an outline may lie in a hole, and has holes of its own.
+  std::stable_sort(loops.begin(), loops.end(), [](const auto& a, const auto& b) {
+    return Area(*a.first) > Area(*b.first);
+  });
+  for (const auto& [polygon, value] : loops) fill(*polygon, value);
 }
 
 }  // namespace eval

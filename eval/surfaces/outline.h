@@ -13,7 +13,8 @@ Surface OutlinedSurface(const Sheet& sheet, const CellMask& mask);
 class SurfaceArea {
  public:
   explicit SurfaceArea(const Surface& surface);
-  /// Whether the foot of the point lies in an outline and in no hole.
+  /// Whether the foot of the point lies in an outline and in no hole of it: of the outlines and
+  /// holes that go round it the smallest is an outline.
   bool Holds(const Eigen::Vector3d& x_g) const {
     const Eigen::Vector2d uv = (chart_g_(x_g) - corner_m_) / kRaster_m;
     const double u = uv.x() + 0.5, v = uv.y() + 0.5;

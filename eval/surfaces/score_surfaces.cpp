@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "eval/planes/frame_evidence.h"
 #include "eval/surfaces/surface_scorer.h"
 
 namespace eval {
@@ -13,6 +14,7 @@ namespace {
 std::map<int, int> LandmarksOf(const RunFrame& frame, const FinalLandmarks& final_landmarks) {
   std::map<int, int> landmarks;
   for (const RunFramePlane& plane : frame.planes) {
+    if (!Decided(plane)) continue;
     if (const auto id = final_landmarks.Of(plane.map_plane)) landmarks[plane.index + 1] = *id;
   }
   return landmarks;

@@ -14,7 +14,7 @@ namespace {
 
 constexpr const char* kFormat = "pas-surfaces/1";
 constexpr double kUnit = 1e-3;        // as four written decimals may be off
-constexpr double kMaxCorner_m = 50;   // from the origin: a hall; more is a slip of the pen
+constexpr double kMaxCorner_m = 200;  // from an edge on: a corridor; more is a slip of the pen
 constexpr int kMaxSurfaceId = 65000;  // labels of pixels have 16 bits
 
 const io::Interval kAnyNumber("(-inf, inf)"), kNotNegative("[0, inf)"), kPositive("(0, inf)");

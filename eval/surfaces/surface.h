@@ -15,7 +15,7 @@ struct Surface {
   Plane pi_g;             ///< normal towards the cameras
   PlaneChart chart_g;     ///< in which the outlines stand
   double flatness_m = 0;  ///< root mean square of the fused heights over the plane
-  std::vector<Polygon2> outlines, holes;  ///< what lies in an outline and in no hole
+  std::vector<Polygon2> outlines, holes;  ///< an outline may lie in a hole
 };
 
 /// The file that `pas surfaces` writes.

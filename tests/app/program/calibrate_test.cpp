@@ -130,6 +130,14 @@ TEST_F(CalibrateProgram, SaysThatNothingWasTrackedAndWhy) {
               AllOf(HasSubstr("depth_factor"), HasSubstr("no frame was tracked")));
 }
 
+TEST_F(CalibrateProgram, RefusesAPictureInTheFileOfTheWarpBeforeTheWork) {
+  const fs::path one = folder_ / "one";
+  const Outcome outcome =
+      Run({"calibrate", folder_ / "none", "-o", one, "--picture", one, "--force"});
+  EXPECT_EQ(outcome.exit_code, 2);
+  EXPECT_THAT(outcome.errors, HasSubstr("would hold two outputs"));
+}
+
 TEST_F(CalibrateProgram, AFileThatIsNoWarpOfThisCameraIsRefusedByName) {
   std::ofstream(folder_ / "warp.yaml")
       << "format: pas-depth-warp/1\nimage: {width: 640, height: 480}\n"

@@ -37,6 +37,15 @@ TEST_F(EvalRunProgram, ReplacesNoTableWithoutForceAndWritesNothingThen) {
   EXPECT_FALSE(fs::exists(folder_ / "run/metrics.json"));
 }
 
+TEST_F(EvalRunProgram, RefusesTwoOutputsInOneFileBeforeTheWork) {
+  const Outcome outcome = Eval(
+      {folder_ / "run", "-o", folder_ / "one", "--events", folder_ / "seq/../one", "--force"});
+  EXPECT_EQ(outcome.exit_code, 2);
+  EXPECT_THAT(outcome.errors, HasSubstr("would hold two outputs"));
+  EXPECT_FALSE(fs::exists(folder_ / "one"));
+  EXPECT_EQ(Eval({folder_ / "run", "-o", "/dev/null", "--events", "/dev/null"}).exit_code, 0);
+}
+
 TEST_F(EvalRunProgram, ScoresATrajectoryOfAnotherProgramByTheSequenceThatIsNamed) {
   fs::create_directory(folder_ / "other");
   fs::copy(folder_ / "run/trajectory.txt", folder_ / "other/trajectory.txt");

@@ -3,6 +3,7 @@
 
 #include <opencv2/imgproc.hpp>
 
+#include "eval/check/check_truth_depth.h"
 #include "tests/eval/check/checked_folder.h"
 #include "tests/eval/check/small_world.h"
 #include "tests/support/fault_text.h"
@@ -238,6 +239,32 @@ TEST_F(CheckDepthAgainstTruth, NamesTheOneImageThatWasSwapped) {
                 fs::copy_options::overwrite_existing);
   Renew();
   ExpectOnly(name, 0, "", "off the depth that the truth predicts");
+}
+
+// As noise makes it: each frame has another scale, and two have a fault of another kind.
+TEST_F(CheckDepthAgainstTruth, NamesAWrongDepthFactorWhoseSizeDiffersFromFrameToFrame) {
+  world_ = MakeWorld(64, 48, 5);
+  WriteSequence(seq(), world_);
+  const std::array<double, 5> scales{5.0, 4.9, 5.1, 1.0, 1.0};
+  for (std::size_t i = 0; i < scales.size(); ++i) {
+    cv::Mat depth = Render(world_, world_.views[i]).depth;
+    depth.convertTo(depth, CV_16U, scales[i]);
+    for (int x = 0; x < depth.cols && scales[i] == 1.0; ++x) {
+      cv::Mat column = depth.col(x);
+      column.convertTo(column, CV_16U, 1.0 + double(x) / depth.cols);
+    }
+    WriteImage(seq() / ("depth/" + Stamp(static_cast<int>(i)) + ".png"), depth);
+  }
+  Renew();
+  ExpectOnly("depth.txt", 0, "", "in 5 of 5 frames");
+  EXPECT_THAT(CheckFolder(seq()).faults.at(0).mend, HasSubstr("mend depth_factor"));
+}
+
+TEST(RaysOf, GivesBackTheRayAtTheRimOfALensThatBendsMuch) {
+  const Camera camera{640, 480, 525, 525, 319.5, 239.5, 30, 1000, {-0.25, 0, 0, 0, 0}};
+  const Vector3d ray_c(0.84, 0.63, 1);  // the model folds back at 1.15
+  const Eigen::Vector2d pixel = PixelOf(camera, ray_c);
+  EXPECT_LT((RaysOf(camera, {{pixel.x(), pixel.y()}}).at(0) - ray_c).norm(), 1e-3);
 }
 
 }  // namespace

@@ -298,6 +298,19 @@ TEST_F(DrawRunFolder, SpreadsTheFramesOfAnInterruptedRunOverWhatItSaw) {
   EXPECT_EQ(FramesSeen(run, sequence), 2u);
 }
 
+TEST_F(DrawRunFolder, CountsTheFramesOfAnInterruptedRunWithoutPlanesAsRunJsonDoes) {
+  ::eval::Run run = ReadRun(MakeRun("run", Moved()));
+  const Sequence sequence = ReadSequence(seq());
+  run.frames.clear();
+  run.info.interrupted = true;
+  run.info.frames = 3;
+  EXPECT_EQ(FramesSeen(run, sequence), 3u);
+  run.info.frames = 300;
+  EXPECT_EQ(FramesSeen(run, sequence), sequence.frames.size());
+  run.info.frames.reset();
+  EXPECT_EQ(FramesSeen(run, sequence), sequence.frames.size());
+}
+
 TEST_F(DrawRunFolder, FillsAnEmptyFolder) {
   const fs::path out = folder_.path() / "pictures";
   fs::create_directory(out);

@@ -154,5 +154,19 @@ TEST_F(UnitedFaces, AreNotThoseOfAGroupAndOfAThingWhoseIdIsItsNumber) {
   EXPECT_THAT(Ids(), ElementsAre(2, 5));
 }
 
+TEST_F(UnitedFaces, HaveTheHolesOfAll) {
+  for (const double x_m : {0.0, 0.4, 0.8}) {
+    AddFace(static_cast<int>(scene_.planes.size()) + 1, x_m, x_m + 0.4, 7);
+    scene_.planes.back().holes_g = {
+        {{x_m + 0.1, 0, 0.1}, {x_m + 0.2, 0, 0.1}, {x_m + 0.2, 0, 0.2}}};
+  }
+  const Sequence united = WithUnitedFaces(AsRead());
+  ASSERT_EQ(united.scene->planes.size(), 1u);
+  const auto& holes_g = united.scene->planes[0].holes_g;
+  ASSERT_EQ(holes_g.size(), 3u);
+  for (std::size_t i = 0; i < holes_g.size(); ++i)
+    EXPECT_TRUE(holes_g[i] == scene_.planes[i].holes_g[0]) << i;
+}
+
 }  // namespace
 }  // namespace eval

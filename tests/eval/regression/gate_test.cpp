@@ -334,5 +334,27 @@ TEST(Gate, CasesThatTheBaselineLacksAreTold) {
   EXPECT_THAT(GateTable(known), ::testing::Not(::testing::HasSubstr("not in the baseline")));
 }
 
+TEST(Gate, AFigureThatIsNotDefinedIsNotWithinItsBound) {
+  const Baseline nothing = BaselineOf({});
+  GateCases cases = Cases(3);
+  GateRules rules;
+  rules.worst[kAte] = 1.0;
+  EXPECT_FALSE(CompareWithBaseline(nothing, cases, rules).AnyWorse());
+  cases.begin()->second.figures[kAte] = std::nullopt;
+  const GateReport report = CompareWithBaseline(nothing, cases, rules);
+  EXPECT_THAT(Worse(report),
+              ::testing::ElementsAre(std::string(kAte) + " is bounded, but not defined"));
+  EXPECT_THAT(GateTable(report), ::testing::HasSubstr("desk-100/arm"));
+}
+
+TEST(Gate, AFailureIsNotToldAgainForEachOfItsBounds) {
+  GateCases cases = Cases(1);
+  cases.begin()->second = {};
+  GateRules rules;
+  rules.worst[kAte] = 1.0;
+  EXPECT_THAT(Worse(CompareWithBaseline(BaselineOf({}), cases, rules)),
+              ::testing::ElementsAre("failed, and not in the baseline"));
+}
+
 }  // namespace
 }  // namespace eval

@@ -367,5 +367,20 @@ TEST_F(EventsOfTinyWorld, ErrorsOfPositionAreInMillimetres) {
   for (std::size_t i = 0; i < kFrame; ++i) EXPECT_LT(errors_mm[i], 5.0) << i;
 }
 
+TEST(FramesCsv, HasTheErrorOfThePoseNearestToTheFrame) {
+  Sequence sequence;
+  sequence.frames.resize(1);
+  sequence.frames[0].stamp_s = 1.0;
+  Evaluation evaluation;
+  evaluation.trajectory.tracked_frames = {true};
+  for (const auto& [stamp_s, error_m] : {std::pair{0.995, 0.5}, {1.0, 0.25}, {1.005, 0.75}}) {
+    PoseError error;
+    error.stamp_s = stamp_s;
+    error.position_m = error_m;
+    evaluation.trajectory.errors.push_back(error);
+  }
+  EXPECT_THAT(FramesCsv(evaluation, {}, sequence), HasSubstr("\n0,1,1,250,"));
+}
+
 }  // namespace
 }  // namespace eval

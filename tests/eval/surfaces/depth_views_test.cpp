@@ -105,5 +105,17 @@ TEST(LayOnColour, LeavesNoHolesWhereColourHasMorePixelsThanDepth) {
   EXPECT_LE(covered, 5 * 4);
 }
 
+TEST(LayOnColour, LeavesOutWhatTheLensWouldFoldBackIntoTheImage) {
+  DepthRegistration registration;
+  registration.depth = {640, 480, 180, 180, 320, 240, 30, 1000, {}};
+  registration.colour = {640, 480, 525, 525, 319.5, 239.5, 30, 1000, {-0.25, 0, 0, 0, 0}};
+  // By the model, x / z of 1.7 comes to lie at 0.47, 248 px from the middle.
+  cv::Mat1f aside_m(480, 640, 0.0F), ahead_m = aside_m.clone();
+  aside_m(240, 320 + 306) = 2.0F;
+  ahead_m(240, 320 + 90) = 2.0F;
+  EXPECT_EQ(cv::countNonZero(LayOnColour(aside_m, registration)), 0);
+  EXPECT_GT(cv::countNonZero(LayOnColour(ahead_m, registration)), 0);
+}
+
 }  // namespace
 }  // namespace eval

@@ -55,5 +55,23 @@ TEST(OutlinedSurface, IsAsFlatAsItsCellsAreAboutItsOwnPlane) {
   }
 }
 
+/// A rectangle in the chart, from its lower corner to its upper one.
+Polygon2 RectangleOf(double u0, double v0, double u1, double v1) {
+  return {{u0, v0}, {u1, v0}, {u1, v1}, {u0, v1}};
+}
+
+TEST(SurfaceArea, HoldsAnOutlineThatLiesInAHoleAndNotItsOwnHole) {
+  Surface surface;
+  surface.chart_g = {{0, 0, 0}, Eigen::Vector3d::UnitX(), Eigen::Vector3d::UnitY()};
+  // A picture in its frame on a wall, with a hole: the smaller outline comes first in the file.
+  surface.outlines = {RectangleOf(0.3, 0.3, 0.7, 0.7), RectangleOf(0, 0, 1, 1)};
+  surface.holes = {RectangleOf(0.45, 0.45, 0.55, 0.55), RectangleOf(0.2, 0.2, 0.8, 0.8)};
+  const SurfaceArea area(surface);
+  EXPECT_TRUE(area.Holds({0.1, 0.1, 0}));
+  EXPECT_FALSE(area.Holds({0.25, 0.25, 0})) << "between wall and picture";
+  EXPECT_TRUE(area.Holds({0.4, 0.4, 0})) << "the picture";
+  EXPECT_FALSE(area.Holds({0.5, 0.5, 0})) << "the hole in the picture";
+}
+
 }  // namespace
 }  // namespace eval

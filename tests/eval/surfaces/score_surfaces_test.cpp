@@ -205,5 +205,17 @@ TEST_F(SurfaceScoring, RefusesARunWithoutSegmentation) {
               ::testing::HasSubstr("--save-segmentation"));
 }
 
+// Another program may write the candidate that it did not take.
+TEST_F(SurfaceScoring, CountsNoLandmarkOfAPlaneThatWasNotDecided) {
+  Segment(Quarters(1, 1, 1, 1));
+  SetLandmark(0, 10);
+  EXPECT_EQ(Score(Quarters(7, 7, 7, 7)).total.coverage, 1.0);
+  for (RunFrame& frame : run_.frames) frame.planes[0].decision = "none";
+  const SurfaceScore score = Score(Quarters(7, 7, 7, 7));
+  EXPECT_EQ(score.total.coverage, 0.0);
+  EXPECT_EQ(score.total.landmarks, 0.0);
+  EXPECT_EQ(score.total.no_decision, 1.0);
+}
+
 }  // namespace
 }  // namespace eval

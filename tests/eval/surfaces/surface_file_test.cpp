@@ -1,5 +1,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include "eval/surfaces/outline.h"
 #include "eval/surfaces/surface.h"
 #include "io/atomic_file.h"
 #include "tests/support/refusal.h"
@@ -83,6 +84,19 @@ TEST_F(SurfaceFileOnDisk, NamesTheLineOfEachMistakeOfAnEditor) {
 TEST_F(SurfaceFileOnDisk, SaysHowToMakeOneThatIsMissing) {
   EXPECT_THAT(RefusalOf([] { ReadSurfaces("/nowhere/surfaces.yaml"); }),
               HasSubstr("pas surfaces"));
+}
+
+TEST_F(SurfaceFileOnDisk, ReadsBackTheWallOfALongCorridorAsItWasOutlined) {
+  Sheet sheet;
+  sheet.pi_g = {Eigen::Vector3d::UnitZ(), 0.0};
+  sheet.chart_g = {{0, 0, 0}, Eigen::Vector3d::UnitX(), Eigen::Vector3d::UnitY()};
+  const CellMask mask(20, 12000, std::uint8_t(255));  // 120 m
+  sheet.height_m = cv::Mat1d(mask.size(), 0.0);
+  sheet.hits = cv::Mat1i(mask.size(), 1);
+  SurfaceFile file{"", 0.15, 0.0016, {OutlinedSurface(sheet, mask)}};
+  file.surfaces[0].id = 1;
+  io::WriteFile(path_, SurfacesText(file));
+  EXPECT_NEAR(AreaOf(ReadSurfaces(path_).surfaces.at(0)), 120 * 0.2, 0.5);
 }
 
 }  // namespace
