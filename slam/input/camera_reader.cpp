@@ -31,7 +31,8 @@ CameraKeys KeysOfOrbSlam(const io::YamlMap& map) {
 
 Camera CameraOfOrbSlam(const io::YamlMap& map) {
   if (map.Has("Camera.type")) map.At("Camera.type").OneOf({"PinHole", "Rectified"});
-  for (const char* key : {"Camera.k4", "Camera1.k4", "Camera.k5", "Camera.k6"}) {
+  for (const char* key :
+       {"Camera.k4", "Camera.k5", "Camera.k6", "Camera1.k4", "Camera1.k5", "Camera1.k6"}) {
     if (map.Has(key) && map.At(key).Number(io::Interval("(-inf, inf)")) != 0) {
       map.At(key).Fail("expected a lens of k1 k2 p1 p2 k3; other models cannot be used");
     }

@@ -22,7 +22,8 @@ Camera CameraOfOrbSlam(const io::YamlMap& map) {
   const io::Interval size("(0, 100000)"), any("(-1e9, 1e9)");
   const std::string lens = map.Has("Camera1.fx") ? "Camera1." : "Camera.";
   if (map.Has("Camera.type")) map.At("Camera.type").OneOf({"PinHole", "Rectified"});
-  for (const char* key : {"Camera.k4", "Camera1.k4", "Camera.k5", "Camera.k6"}) {
+  for (const char* key :
+       {"Camera.k4", "Camera.k5", "Camera.k6", "Camera1.k4", "Camera1.k5", "Camera1.k6"}) {
     if (map.Has(key)) RefuseOtherLens(map.At(key));
   }
   Camera camera;
