@@ -286,6 +286,7 @@ struct TinyRun {
                                {"class", nullptr},
                                {"normal", ToJson(pi_w.n)},
                                {"d", pi_w.d},
+                               {"covariance", {1e-6, 0, 0, 0, 1e-6, 0, 0, 1e-6, 0, 1e-6}},
                                {"area", 0.1},
                                {"observations", 3},
                                {"merged_into", nullptr},

@@ -78,6 +78,7 @@ class MapReader {
                 "name the plane that this one was split from, and keep it in the map",
                 "name the plane that held both");
     }
+    TellMissingCovariances();
     std::sort(planes_.begin(), planes_.end(),
               [](const RunMapPlane& a, const RunMapPlane& b) { return a.id < b.id; });
     return std::move(planes_);
@@ -97,6 +98,17 @@ class MapReader {
     if (plane.merged_into) merged_into_[*id] = *plane.merged_into;
     if (plane.split_from) split_from_[*id] = *plane.split_from;
     planes_.push_back(std::move(plane));
+  }
+
+  // Planes without one are left out of what is said of the others.
+  void TellMissingCovariances() const {
+    const auto has = [](const auto& plane) { return plane.second.Has("covariance"); };
+    if (std::none_of(records_.begin(), records_.end(), has)) return;
+    for (const auto& plane : records_) {
+      if (has(plane)) continue;
+      plane.second.TellAt("covariance", "is missing, and other planes have one",
+                          "tell that of every plane, or of none", Severity::kWarning);
+    }
   }
 
   // A link names a plane of the map; a circle of links has no first.

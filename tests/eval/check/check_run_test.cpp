@@ -314,6 +314,9 @@ TEST_F(CheckRunFolder, RefusesACovarianceOfAPlaneThatIsNone) {
   const auto tell = [&](std::vector<double> upper) {
     EditJson("map.json", [&](json& map) { map["planes"][0]["covariance"] = upper; });
   };
+  EditJson("map.json", [](json& map) {
+    for (json& plane : map["planes"]) plane["covariance"] = std::vector<double>(10, 0.0);
+  });
   tell(
       {1e-4, 0, 0, -2e-4, 1e-4, 0, -1e-4, 0, 0, 6e-4});  // n . x + d is known at (2, 1) to 1e-4
   EXPECT_EQ(CheckFolder(run()).faults.size(), 0u) << All(CheckFolder(run()));
@@ -321,6 +324,14 @@ TEST_F(CheckRunFolder, RefusesACovarianceOfAPlaneThatIsNone) {
   ExpectOnly("map.json", 0, "/planes/0/covariance", "negative variance");
   tell({1e-4, 0, 0});
   ExpectOnly("map.json", 0, "/planes/0/covariance", "10");
+}
+
+TEST_F(CheckRunFolder, NamesAPlaneWithoutCovarianceAmongOthersThatHaveOne) {
+  EditJson("map.json", [](json& map) {
+    for (json& plane : map["planes"]) plane["covariance"] = std::vector<double>(10, 0.0);
+    map["planes"][1]["covariance"] = nullptr;
+  });
+  ExpectOnly("map.json", 0, "/planes/1/covariance", "other planes have one");
 }
 
 }  // namespace

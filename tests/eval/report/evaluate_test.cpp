@@ -136,7 +136,7 @@ TEST_F(EvaluateTinyWorld, ABookPutOnTheDesksMapPlaneMovesAssociationAndMapOnly) 
                   "association/idf1", "association/hota", "association/ass_a",
                   "association/mota", "association/purity", "association/voi_bits",
                   "association/no_decision", "association/merged_map_planes", "map/planes",
-                  "map/matched", "map/merged", "map/area_explained"}));
+                  "map/matched", "map/merged", "map/consistency", "map/area_explained"}));
   EXPECT_EQ(after["association"]["merged_map_planes"], 1);
   EXPECT_EQ(after["map"]["merged"], 1);
   EXPECT_EQ(after["association"]["decision"]["fp"], moved_decisions);
@@ -250,10 +250,11 @@ TEST_F(EvaluateTinyWorld, ATrajectoryShiftedHalfWayMovesItsErrorsAndTheMapsGauge
     run.trajectory[i].second.t += Eigen::Vector3d(0.02, 0.01, 0.0);
   }
   const nlohmann::json after = Metrics(run);
-  EXPECT_EQ(Moved(before, after),
-            (Keys{"trajectory/ate_se3", "trajectory/ate_origin",
-                  "trajectory/ate_complete_rmse_m", "trajectory/rpe_1s", "trajectory/rpe_1m",
-                  "map/offset_mm", "map/vertex_mm", "map/polygon_iou", "map/area_explained"}));
+  EXPECT_EQ(
+      Moved(before, after),
+      (Keys{"trajectory/ate_se3", "trajectory/ate_origin", "trajectory/ate_complete_rmse_m",
+            "trajectory/rpe_1s", "trajectory/rpe_1m", "map/offset_mm", "map/vertex_mm",
+            "map/consistency", "map/polygon_iou", "map/area_explained"}));
   EXPECT_NEAR(after["trajectory"]["ate_origin"]["max_m"].get<double>(), std::hypot(0.02, 0.01),
               kExact);
 }

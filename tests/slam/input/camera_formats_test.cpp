@@ -210,6 +210,8 @@ TEST_F(CameraFormats, RefuseACameraThatIsNoPinhole) {
   ExpectError(kOrbSlam2, "Camera.RGB: 1", "Camera.k4: 0.1", "Camera.k4: expected a lens of k1");
   ExpectError(kOrbSlam3, "Camera.RGB: 1", "Camera1.k4: 0.1",
               "Camera1.k4: expected a lens of k1");
+  ExpectError(kOrbSlam3, "Camera.RGB: 1", "Camera1.k6: 0.1",
+              "Camera1.k6: expected a lens of k1");
   ExpectError(kOrbSlam2, "Camera.RGB: 1", "Camera.k5: -0.1",
               "Camera.k5: expected a lens of k1");
   ExpectError(kRos, "plumb_bob", "equidistant", "distortion_model: expected one of: plumb_bob");
