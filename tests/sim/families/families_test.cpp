@@ -10,6 +10,7 @@
 #include "io/input_error.h"
 #include "sim/scene/check.h"
 #include "sim/scene/geometry.h"
+#include "sim/scene/read_scene.h"
 #include "sim/scene/write_scene.h"
 #include "sim/shapes/planes.h"
 #include "tests/support/refusal.h"
