@@ -43,13 +43,25 @@ std::vector<Eigen::Vector3d> PointsInTruthWorld(const Alignment& gauge,
   return points_g;
 }
 
+/// Its hull, or its corners where it has none.
+const std::vector<Eigen::Vector3d>& OutlineOf(const RunMapPlane& plane) {
+  return plane.hull_w.size() >= 3 ? plane.hull_w : plane.vertices_w;
+}
+
+/// @pre not empty.
+Eigen::Vector3d MiddleOf(const std::vector<Eigen::Vector3d>& points) {
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  for (const Eigen::Vector3d& p : points) sum += p;
+  return sum / static_cast<double>(points.size());
+}
+
 struct Outline {
   Polygon2 map, truth;
 };
 
 Outline OutlinesOf(const RunMapPlane& plane, const TruthPlane& truth, const Alignment& gauge) {
   const PlaneChart chart = ChartOf(truth.pi_g, truth.vertices_g.front());
-  const auto& outline_w = plane.hull_w.size() >= 3 ? plane.hull_w : plane.vertices_w;
+  const auto& outline_w = OutlineOf(plane);
   return {ConvexHull(Project(chart, PointsInTruthWorld(gauge, outline_w))),
           ConvexHull(Project(chart, truth.vertices_g))};
 }
@@ -61,11 +73,9 @@ int TruthByOutline(const RunMapPlane& plane, const SceneTruth& scene, const Alig
     int id;
     double offset_m, shared_m2;
   };
-  const auto& outline_w = plane.hull_w.size() >= 3 ? plane.hull_w : plane.vertices_w;
+  const auto& outline_w = OutlineOf(plane);
   if (outline_w.size() < 3) return 0;
-  Eigen::Vector3d middle_g = Eigen::Vector3d::Zero();
-  for (const Eigen::Vector3d& p : PointsInTruthWorld(gauge, outline_w)) middle_g += p;
-  middle_g /= static_cast<double>(outline_w.size());
+  const Eigen::Vector3d middle_g = MiddleOf(PointsInTruthWorld(gauge, outline_w));
   const Plane pi_g = InTruthWorld(gauge, plane.pi_w);
   std::vector<Candidate> candidates;
   double min_offset_m = kMaxTruthOffset_m;
@@ -104,11 +114,9 @@ bool NormalsAreTurned(const std::vector<RunMapPlane>& map, const SceneTruth& sce
 /// regular covariance.
 std::optional<double> NeesOfPlane(const RunMapPlane& plane, const TruthPlane& truth,
                                   const Alignment& gauge) {
-  const auto& outline_w = plane.hull_w.size() >= 3 ? plane.hull_w : plane.vertices_w;
+  const auto& outline_w = OutlineOf(plane);
   if (!plane.covariance || outline_w.empty()) return std::nullopt;
-  Eigen::Vector3d middle_w = Eigen::Vector3d::Zero();
-  for (const Eigen::Vector3d& p : outline_w) middle_w += p;
-  middle_w /= static_cast<double>(outline_w.size());
+  const Eigen::Vector3d middle_w = MiddleOf(outline_w);
   // The truth as the run's world has it, its normal scaled so that it is as high as the estimate's.
   const Plane pi_g = InTruthWorld(gauge, plane.pi_w);
   const Eigen::Vector3d u_w = plane.pi_w.n.unitOrthogonal(), v_w = plane.pi_w.n.cross(u_w);

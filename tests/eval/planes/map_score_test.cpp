@@ -17,6 +17,16 @@ std::vector<Eigen::Vector3d> SquareOfHalf(double half_m) {
       {-half_m, -half_m, 0}, {half_m, -half_m, 0}, {half_m, half_m, 0}, {-half_m, half_m, 0}};
 }
 
+SceneTruth SceneOfTabletop() {
+  SceneTruth scene;
+  TruthPlane& top = scene.planes.emplace_back();
+  top.id = kTabletop;
+  top.scored = true;
+  top.area_m2 = 1.0;
+  top.vertices_g = SquareOfHalf(0.5);
+  return scene;
+}
+
 RunMapPlane SquareOnTheTabletop(int id, double half_m) {
   RunMapPlane plane;
   plane.id = id;
@@ -26,12 +36,7 @@ RunMapPlane SquareOnTheTabletop(int id, double half_m) {
 
 // The small one lies inside the large one, so that the large one is all that both cover.
 TEST(ScoreMap, ExplainsByTheLargerOfTwoDuplicatesWhicheverWasSeenMore) {
-  SceneTruth scene;
-  TruthPlane& top = scene.planes.emplace_back();
-  top.id = kTabletop;
-  top.scored = true;
-  top.area_m2 = 1.0;
-  top.vertices_g = SquareOfHalf(0.5);
+  const SceneTruth scene = SceneOfTabletop();
   const std::optional<Alignment> gauge = Alignment{};
   for (const int large : {1, 2}) {
     const std::vector<RunMapPlane> map = {SquareOnTheTabletop(1, large == 1 ? 0.4 : 0.1),
@@ -68,14 +73,9 @@ TEST(ScoreMap, HoldsHeightAndSlopesOfAPlaneToWhatTheRunTellsOfThem) {
   for (const Pose& T_gw : {Pose{}, Pose{R, {-5, 1, 4}}}) {
     Alignment gauge;
     gauge.T_gw = T_gw;
-    SceneTruth scene;
-    TruthPlane& top = scene.planes.emplace_back();
-    top.id = kTabletop;
-    top.scored = true;
-    top.area_m2 = 1.0;
-    for (const Eigen::Vector3d& p : SquareOfHalf(0.5))
-      top.vertices_g.push_back(T_gw * (middle + p));
-    top.pi_g = Transform(T_gw, {Eigen::Vector3d::UnitZ(), -middle.z()});
+    SceneTruth scene = SceneOfTabletop();
+    for (Eigen::Vector3d& p : scene.planes[0].vertices_g) p = T_gw * (middle + p);
+    scene.planes[0].pi_g = Transform(T_gw, {Eigen::Vector3d::UnitZ(), -middle.z()});
     const MapScore score = ScoreMap({plane}, scene, gauge, {{0, kTabletop, 1}}, {kTabletop});
     ASSERT_TRUE(score.claims.has_value());
     EXPECT_EQ(score.claims->count, 1u);
@@ -86,12 +86,7 @@ TEST(ScoreMap, HoldsHeightAndSlopesOfAPlaneToWhatTheRunTellsOfThem) {
 }
 
 TEST(ScoreMap, SaysNothingOfWhatIsToldWhereTheRunTellsNothing) {
-  SceneTruth scene;
-  TruthPlane& top = scene.planes.emplace_back();
-  top.id = kTabletop;
-  top.scored = true;
-  top.area_m2 = 1.0;
-  top.vertices_g = SquareOfHalf(0.5);
+  const SceneTruth scene = SceneOfTabletop();
   const MapScore score = ScoreMap({SquareOnTheTabletop(1, 0.4)}, scene, Alignment{},
                                   {{0, kTabletop, 1}}, {kTabletop});
   EXPECT_EQ(score.matched, 1);

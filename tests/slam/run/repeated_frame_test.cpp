@@ -32,6 +32,7 @@ TEST(FaultStreamF3, AnImageThatCameTwiceIsTheSamePlaceAndTeachesNothing) {
       EXPECT_LT(LogSo3(T.R).norm(), 1e-6);
       EXPECT_EQ(ran.states[at], "tracking");
       EXPECT_THAT(ran.planes[at], testing::Not(testing::HasSubstr("\"new\"")));
+      EXPECT_THAT(ran.planes[at], testing::Not(testing::HasSubstr("\"matched\",\"by\":null")));
       EXPECT_EQ(Measured(ran.planes[at]), Measured(ran.planes[at - 1]));
     }
     ExpectNoWrongPose(ran);
