@@ -143,11 +143,15 @@ cv::Mat DrawCutSurfaces(const cv::Mat1w& surfaces, const Run& run, const DepthVi
       });
   cv::Mat both;
   cv::hconcat(left, right, both);
+  // Small images are drawn larger: what stands below each half is as long as 640 pixels hold.
+  constexpr int kCaption_px = 640;
+  const int zoom = (kCaption_px + left.cols - 1) / left.cols;
+  cv::resize(both, both, {}, zoom, zoom, cv::INTER_NEAREST);
   PutText(both,
           fmt::format("{:.6f} s: surfaces; {:.0f} % in their largest segments", stamp_s,
                       100.0 * double(frame.in_largest) / double(frame.pixels)),
           {8, both.rows - 10.0}, {10, kWhite, true, Align::kLeft});
-  PutText(both, "segments, by landmark (- none)", {left.cols + 8.0, both.rows - 10.0},
+  PutText(both, "segments, by landmark (- none)", {zoom * left.cols + 8.0, both.rows - 10.0},
           {10, kWhite, true, Align::kLeft});
   return both;
 }

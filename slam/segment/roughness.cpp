@@ -1,5 +1,6 @@
 #include "slam/segment/roughness.h"
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstring>
@@ -7,12 +8,15 @@
 #include "slam/base/index.h"
 #include "slam/base/lane_math.h"
 #include "slam/base/require.h"
+#include "slam/geometry/sensor_model.h"
 #include "slam/segment/pixels/block_pixels.h"
 
 namespace slam {
 namespace {
 
-constexpr int kApart_px = 8;
+constexpr int kMaxApart_px = 8;
+constexpr double kApartBends =
+    1.0 / 3.0;                 // across so much of a bend's length depth varies little
 constexpr int kMinPairs = 30;  // the mean square is then known to about a quarter: sqrt(2 / 30)
 constexpr int kMaxStep_px = 64;  // pixels; bounds the table of columns
 
@@ -55,17 +59,28 @@ struct RowPairs {
   }
 };
 
+/// How far apart two pixels are compared: nearer in small images, where bends are shorter.
+int ApartPx(const DepthGrid& grid) {
+  if (grid.width < 2) return kMaxApart_px;
+  const auto i = static_cast<std::size_t>(grid.Index(grid.width / 2, grid.height / 2));
+  const auto pixel_rad = static_cast<double>(grid.x[i] - grid.x[i - 1]);
+  return std::clamp(static_cast<int>(kApartBends * kBendLength_rad / pixel_rad), 2,
+                    kMaxApart_px);
+}
+
 /// Where the segment is and which of its pixels are looked at.
 struct Looked {
   const cv::Mat1b& labels;
   const cv::Rect& bounds;
   std::uint8_t label;
   int step_px;
+  int apart_px;
   /// -1 for every step-th column, beginning with one.
   std::array<signed char, kMaxStep_px + kLanes> columns{};
 
-  Looked(const cv::Mat1b& labels_in, const cv::Rect& bounds_in, std::uint8_t label_in, int step)
-      : labels(labels_in), bounds(bounds_in), label(label_in), step_px(step) {
+  Looked(const cv::Mat1b& labels_in, const cv::Rect& bounds_in, std::uint8_t label_in, int step,
+         int apart)
+      : labels(labels_in), bounds(bounds_in), label(label_in), step_px(step), apart_px(apart) {
     for (int k = 0; k < step + kLanes; k += step) columns[Index(k)] = -1;
   }
 };
@@ -107,8 +122,8 @@ SLAM_LANES static int AddRow(const DepthGrid& grid, const PixelPlane& of, const 
         Residuals(grid, static_cast<std::size_t>(grid.Index(u, v)), plane);
     AddEight(grid, plane, looked, residuals, here, u + 1, v, row_fine);
     AddEight(grid, plane, looked, residuals, here, u, v + 1, row_fine);
-    AddEight(grid, plane, looked, residuals, here, u + kApart_px, v, row_coarse);
-    AddEight(grid, plane, looked, residuals, here, u, v + kApart_px, row_coarse);
+    AddEight(grid, plane, looked, residuals, here, u + looked.apart_px, v, row_coarse);
+    AddEight(grid, plane, looked, residuals, here, u, v + looked.apart_px, row_coarse);
   }
   row_fine.AddTo(fine);
   row_coarse.AddTo(coarse);
@@ -121,7 +136,7 @@ Roughness MeasureRoughness(const DepthGrid& grid, const cv::Mat1b& labels,
                            int step_px) {
   Require(step_px >= 1 && step_px <= kMaxStep_px, "MeasureRoughness: step_px outside [1, 64]");
   const PixelPlane unslanted(LabelPlane{plane, 1.0});
-  const Looked looked(labels, bounds, label, step_px);
+  const Looked looked(labels, bounds, label, step_px, ApartPx(grid));
   Pairs fine, coarse;
 
   // Adds the difference from a pixel's residual to that of another, if the segment has it.
@@ -141,8 +156,8 @@ Roughness MeasureRoughness(const DepthGrid& grid, const cv::Mat1b& labels,
       const float here = ResidualSigmas(grid, i, unslanted);
       add(fine, here, u + 1, v);
       add(fine, here, u, v + 1);
-      add(coarse, here, u + kApart_px, v);
-      add(coarse, here, u, v + kApart_px);
+      add(coarse, here, u + looked.apart_px, v);
+      add(coarse, here, u, v + looked.apart_px);
     }
   }
 

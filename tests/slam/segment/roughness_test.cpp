@@ -65,6 +65,33 @@ TEST(Roughness, OfStairsIsMoreWhicheverWayTheyRun) {
   }
 }
 
+// A sensor bends by the angle. A small image shows the same bend in fewer pixels, and is no
+// rougher for it; compared 8 pixels apart it would be twice as rough.
+TEST(Roughness, OfABentPlaneDoesNotDependOnTheSizeOfTheImage) {
+  const auto coarse = [](double scale) {
+    Camera camera;
+    camera.width = static_cast<int>(scale * camera.width);
+    camera.height = static_cast<int>(scale * camera.height);
+    camera.fx *= scale, camera.fy *= scale, camera.cx *= scale, camera.cy *= scale;
+    cv::Mat1f depth_m(camera.height, camera.width);
+    for (int v = 0; v < camera.height; ++v) {
+      for (int u = 0; u < camera.width; ++u) {
+        const Eigen::Vector3d ray = camera.Backproject({u, v}, 1.0);
+        const double bend_m = 0.004 * std::sin(ray.x() / 0.02) * std::sin(ray.y() / 0.02);
+        depth_m(v, u) =
+            static_cast<float>(1.0 / kSlant.InverseDepth(ray.x(), ray.y()) + bend_m);
+      }
+    }
+    const DepthGrid grid = MakeDepthGrid(depth_m, PixelRays(camera), {}, 10.0);
+    const cv::Rect whole(0, 0, camera.width, camera.height);
+    return MeasureRoughness(grid, cv::Mat1b(whole.size(), 3), whole, 3, kSlant, {}, 1).coarse;
+  };
+  const double full = coarse(1.0);
+  EXPECT_GT(full, 0.1);  // there is something to be seen
+  EXPECT_NEAR(coarse(0.5), full, 0.05 * full);
+  EXPECT_NEAR(coarse(0.75), full, 0.1 * full);  // 6 pixels
+}
+
 /// The same pair by pair.
 double PairByPair(const DepthGrid& grid, const cv::Mat1b& labels, const cv::Rect& bounds,
                   int step_px, int apart_px) {
