@@ -57,7 +57,7 @@ bool AgreeAndMeet(const MapPlane& one, const MapPlane& other, double max_chi2,
 /// are seen in turn.
 bool IsFoundAgain(const MapPlane& one, const MapPlane& other, const AssociationConfig& a,
                   const PlaneMapConfig& config) {
-  constexpr double kMostOfIt = 0.8;  // of the smaller cloud's voxels
+  constexpr double kMostOfIt = 0.5;  // of the smaller cloud's voxels
   constexpr int kNoReach = 0;        // strips one above the other come within a voxel
   if (!SeenInTurn(one, other)) return false;
   for (const double offset_m :

@@ -1,5 +1,7 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "slam/associate/associate_planes.h"
 #include "slam/mapping/plane_fuse.h"
 #include "slam/mapping/plane_update.h"
@@ -233,6 +235,21 @@ TEST(PlaneMap, FusesWhatAJumpOfThePoseFoundAgainElsewhere) {
     for (const double height_m : {0.0, c.height_m}) AddLandmark(map, BoardAt(height_m));
     map.planes.At(0).covisible[1] = map.planes.At(1).covisible[0] = c.together;
     EXPECT_EQ(FusePlanes(map, {}, SmallImages()), c.fused ? 1 : 0);
+  }
+}
+
+TEST(PlaneMap, FusesWhatWasFoundAgainIfMostOfTheSmallerOneLiesWhereTheLargerOneDoes) {
+  // Never seen both. Two thirds of the second one's points lie where the first one is, or one third.
+  for (const double shared : {0.67, 0.33}) {
+    SCOPED_TRACE(shared);
+    Map map;
+    for (const double height_m : {0.0, 0.018}) AddLandmark(map, BoardAt(height_m));
+    std::vector<double> x_m;
+    for (const Eigen::Vector3d& p_w : map.planes.At(1).points_w) x_m.push_back(p_w.x());
+    std::sort(x_m.begin(), x_m.end());
+    const double end_m = x_m[static_cast<std::size_t>(shared * double(x_m.size()))];
+    for (Eigen::Vector3d& p_w : map.planes.At(0).points_w) p_w.x() -= x_m.back() - end_m;
+    EXPECT_EQ(FusePlanes(map, {}, SmallImages()), shared > 0.5 ? 1 : 0);
   }
 }
 
