@@ -33,7 +33,8 @@ inline void VisitFields(SelectConfig& c, FieldVisitor& v) {
   v.Number("max_distance_m", c.max_distance_m, "(0, inf)",
            "largest distance of a plane's centroid from the camera");
   v.Number("max_roughness", c.max_roughness, "[1, inf)",
-           "largest roughness over 8 pixels, as a multiple of what noise makes it");
+           "largest roughness over 8 pixels, in small images fewer, as a multiple of "
+           "what noise makes it");
   v.Number("max_unstructured_share", c.max_unstructured_share, "(0, 1]",
            "largest share of edge points in the box of an unstructured object");
   v.Named("structure", c.structure, {"ignored", "complete"},

@@ -57,7 +57,7 @@ struct Vertex {
 /// mean square, in variances of the noise; 0 where too few pixels are there to say.
 struct Roughness {
   double fine = 0.0;    ///< neighbours: what noise does here
-  double coarse = 0.0;  ///< 8 px apart: noise and shape
+  double coarse = 0.0;  ///< 8 px apart, in small images less: noise and shape
 };
 
 /// A plane seen in one frame: a segment of the depth image and all that is known of it.

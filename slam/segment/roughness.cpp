@@ -15,8 +15,8 @@ namespace slam {
 namespace {
 
 constexpr int kMaxApart_px = 8;
-constexpr double kApartBends =
-    1.0 / 3.0;                 // across so much of a bend's length depth varies little
+constexpr double kApartBends = 1.0 / 3.0;  // of a bend's length: depth varies little across it
+static_assert(kMaxApart_px <= kLanes, "AddRow looks one lane further");
 constexpr int kMinPairs = 30;  // the mean square is then known to about a quarter: sqrt(2 / 30)
 constexpr int kMaxStep_px = 64;  // pixels; bounds the table of columns
 

@@ -66,7 +66,7 @@ TEST(Roughness, OfStairsIsMoreWhicheverWayTheyRun) {
 }
 
 // A sensor bends by the angle. A small image shows the same bend in fewer pixels, and is no
-// rougher for it; compared 8 pixels apart it would be twice as rough.
+// rougher for it; compared 8 pixels apart it would be three times as rough.
 TEST(Roughness, OfABentPlaneDoesNotDependOnTheSizeOfTheImage) {
   const auto coarse = [](double scale) {
     Camera camera;
