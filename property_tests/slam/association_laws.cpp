@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <vector>
 
 #include "property_tests/generators/planes.h"
 #include "slam/associate/associate_planes.h"
@@ -107,6 +108,43 @@ RC_GTEST_PROP(PlaneAssignment, TwoLandmarksThatFitAlikeGiveNoDecision, ()) {
   RC_ASSERT(a.map_plane[0] == PlaneAssignment::kAmbiguous);
   p.relations.duplicates = {{0, 1}};
   RC_ASSERT(AssignPlanes(1, p.pairs, p.relations, kMargin).map_plane[0] >= 0);
+}
+
+/// A problem in which no landmark takes two planes of a frame.
+Problem AnyProblemOfSingles() {
+  Problem p = AnyProblem();
+  for (auto& row : p.relations.pieces) std::fill(row.begin(), row.end(), Pieces::kOfTwo);
+  return p;
+}
+
+RC_GTEST_PROP(PlaneAssignment, WithoutPiecesEveryLandmarkHasOnePlaneAtMost, ()) {
+  const Problem p = AnyProblemOfSingles();
+  const auto a = AssignPlanes(p.frames, p.pairs, p.relations, AnyReal(0, 6));
+  std::vector<int> taken;
+  for (std::size_t f = 0; f < a.map_plane.size(); ++f) {
+    const int m = a.map_plane[f];
+    if (m < 0) continue;
+    // A match is one of the pairs, and of a landmark that no other plane has.
+    RC_ASSERT(std::any_of(p.pairs.begin(), p.pairs.end(), [&](const AdmissiblePair& pair) {
+      return pair.frame_plane == static_cast<int>(f) && pair.map_plane == m;
+    }));
+    RC_ASSERT(std::find(taken.begin(), taken.end(), m) == taken.end());
+    taken.push_back(m);
+  }
+}
+
+/// Twins that fit one plane alike and fit it best, in any company: what the others are matched
+/// with must not decide between them.
+RC_GTEST_PROP(PlaneAssignment, TwinsThatNoOtherPlaneFitsAreInDoubtInAnyCompany, ()) {
+  Problem p = AnyProblem();
+  const int f = AnyInt(0, p.frames - 1), one = 100, other = 101;
+  std::erase_if(p.pairs, [&](const AdmissiblePair& pair) { return pair.frame_plane == f; });
+  const double cost = AnyReal(0, 10);
+  p.pairs.push_back({f, one, cost});
+  p.pairs.push_back({f, other, cost + AnyReal(0, 0.99) * kMargin});
+  if (AnyInt(0, 1)) std::swap(p.pairs.back(), p.pairs.front());
+  const auto a = AssignPlanes(p.frames, p.pairs, p.relations, kMargin);
+  RC_ASSERT(a.map_plane[static_cast<std::size_t>(f)] == PlaneAssignment::kAmbiguous);
 }
 
 RC_GTEST_PROP(PlaneAssignment, WhereNothingCompetesEveryPlaneGetsItsBest, ()) {
