@@ -2,6 +2,7 @@
 #include <rapidcheck/gtest.h>
 
 #include <algorithm>
+#include <map>
 #include <numeric>
 #include <vector>
 
@@ -147,6 +148,59 @@ RC_GTEST_PROP(PlaneAssignment, TwinsThatNoOtherPlaneFitsAreInDoubtInAnyCompany, 
   RC_ASSERT(a.map_plane[static_cast<std::size_t>(f)] == PlaneAssignment::kAmbiguous);
 }
 
+/// Calls visit(match) for all ways to give each plane of a frame one of its landmarks or none
+/// (-1), no landmark twice. `match` is empty at first.
+template <typename Visit>
+void ForEachMatching(const Problem& p, std::vector<int>& match, const Visit& visit) {
+  const auto f = static_cast<int>(match.size());
+  if (f == p.frames) return visit(match);
+  match.push_back(-1);
+  ForEachMatching(p, match, visit);
+  for (const AdmissiblePair& pair : p.pairs) {
+    if (pair.frame_plane != f) continue;
+    if (std::find(match.begin(), match.end() - 1, pair.map_plane) != match.end() - 1) continue;
+    match.back() = pair.map_plane;
+    ForEachMatching(p, match, visit);
+  }
+  match.pop_back();
+}
+
+/// Costs of the pairs, [plane of the frame][landmark]; what is no pair costs more than any.
+using PairCosts = std::vector<std::vector<double>>;
+
+/// Whether some plane and some landmark would both rather have each other.
+bool IsLeftBySomePair(const Problem& p, const PairCosts& cost, const std::vector<int>& match) {
+  std::vector<double> of_landmark(static_cast<std::size_t>(p.maps), 1e9);
+  for (std::size_t f = 0; f < match.size(); ++f) {
+    if (match[f] < 0) continue;
+    const auto m = static_cast<std::size_t>(match[f]);
+    of_landmark[m] = cost[f][m];
+  }
+  return std::any_of(p.pairs.begin(), p.pairs.end(), [&](const AdmissiblePair& pair) {
+    const auto f = static_cast<std::size_t>(pair.frame_plane);
+    const double now = match[f] < 0 ? 1e9 : cost[f][static_cast<std::size_t>(match[f])];
+    return pair.cost < now && pair.cost < of_landmark[static_cast<std::size_t>(pair.map_plane)];
+  });
+}
+
+// Without a margin and without pieces nothing is in doubt, and best first is the one matching of
+// all that no plane and landmark would leave for each other (costs differ, so there is but one).
+RC_GTEST_PROP(PlaneAssignment, WithoutAMarginIsTheOnlyMatchingThatNoPairWouldLeave, ()) {
+  const Problem p = AnyProblemOfSingles();
+  PairCosts cost(static_cast<std::size_t>(p.frames),
+                 std::vector<double>(static_cast<std::size_t>(p.maps), 1e9));
+  for (const AdmissiblePair& pair : p.pairs)
+    cost[static_cast<std::size_t>(pair.frame_plane)][static_cast<std::size_t>(pair.map_plane)] =
+        pair.cost;
+  std::vector<std::vector<int>> stable;
+  std::vector<int> match;
+  ForEachMatching(p, match, [&](const std::vector<int>& all) {
+    if (!IsLeftBySomePair(p, cost, all)) stable.push_back(all);
+  });
+  RC_ASSERT(stable.size() == 1u);
+  RC_ASSERT(AssignPlanes(p.frames, p.pairs, p.relations, 0.0).map_plane == stable.front());
+}
+
 RC_GTEST_PROP(PlaneAssignment, WhereNothingCompetesEveryPlaneGetsItsBest, ()) {
   Problem p;
   p.frames = AnyInt(1, 7);
@@ -256,6 +310,45 @@ RC_GTEST_PROP(PlaneAssociation, ALandmarkFarAwayChangesNothing, ()) {
   again.plane_matches = AssociatePlanes(again, v.map, v.camera, {}).matches;
   for (std::size_t f = 0; f < again.planes.size(); ++f) {
     RC_ASSERT(SameDecision(v.second.plane_matches[f], again.plane_matches[f]));
+  }
+}
+
+/// The same map with its planes in another order, and so under other ids.
+Map WithPlanesInOrder(const Map& map, const std::vector<int>& order,
+                      std::map<int, int>& new_ids) {
+  std::vector<MapPlane> planes(map.planes.begin(), map.planes.end());
+  Map other = map;
+  other.planes = {};
+  for (const int k : order) {
+    const MapPlane& plane = planes[static_cast<std::size_t>(k)];
+    new_ids[plane.id] = other.planes.Add(plane).id;
+  }
+  const auto renamed = [&](const std::map<int, int>& frames) {
+    std::map<int, int> out;
+    for (const auto& [id, count] : frames) {
+      if (new_ids.contains(id)) out[new_ids.at(id)] = count;
+    }
+    return out;
+  };
+  for (MapPlane& plane : other.planes) {
+    plane.covisible = renamed(plane.covisible);
+    plane.stepped = renamed(plane.stepped);
+  }
+  return other;
+}
+
+RC_GTEST_PROP(PlaneAssociation, DoesNotDependOnTheOrderOfTheMapsPlanes, ()) {
+  const Views v = AnyViews();
+  std::map<int, int> new_ids;
+  const Map other =
+      WithPlanesInOrder(v.map, AnyPermutation(static_cast<int>(v.map.planes.size())), new_ids);
+  const auto here = AssociatePlanes(v.second, v.map, v.camera, {}).matches;
+  const auto there = AssociatePlanes(v.second, other, v.camera, {}).matches;
+  RC_ASSERT(here.size() == there.size());
+  for (std::size_t f = 0; f < here.size(); ++f) {
+    PlaneMatch expected = here[f];
+    if (expected.map_plane != kNone) expected.map_plane = new_ids.at(expected.map_plane);
+    RC_ASSERT(SameDecision(expected, there[f]));
   }
 }
 
