@@ -18,13 +18,17 @@ constexpr double kKept = 0.99;  // a frame: some seconds; straightening may begi
 
 }  // namespace
 
-BendSigmas SigmasOfBend(double ratio, double distance_m, double solid_angle_rad2) {
+BendSigmas SigmasOfBend(double ratio, const Plane& pi_c, const Eigen::Vector3d& centroid_c,
+                        double solid_angle_rad2) {
   constexpr double kVarianceOfLine = 12.0;  // a uniform line of width w has variance w^2 / 12
   constexpr double kLength2 = kBendLength_rad * kBendLength_rad;
   // A Gaussian correlation of length L makes 2 pi L^2 one independent piece.
   const double pieces = 1.0 + solid_angle_rad2 / (2.0 * std::numbers::pi * kLength2);
   const double slope2 = kLength2 + solid_angle_rad2 * pieces / kVarianceOfLine;
-  return {ratio * distance_m / std::sqrt(pieces), ratio / std::sqrt(slope2)};
+  // A radian of view is z of the plane's own length across the slant, more along it.
+  const double distance_m = std::abs(pi_c.d);
+  return {ratio * distance_m / std::sqrt(pieces),
+          ratio * distance_m / centroid_c.z() / std::sqrt(slope2)};
 }
 
 BendMeter::BendMeter(const cv::Mat2d& rays, const SensorModel& sensor)
@@ -99,9 +103,9 @@ void BendMeter::Measure(double left_ratio, Frame& frame) {
   const double known_ratio = std::max(left_ratio, ratio());
   frame.bend_ratio = std::max(unseen_, known_ratio);
   for (FramePlane& plane : frame.planes) {
-    const BendSigmas sigmas =
-        SigmasOfBend(known_ratio, plane.centroid_c.z(), plane.pixel_count * pixel_rad2_);
-    plane.bend_offset_sigma_m = std::hypot(sigmas.offset_m, unseen_ * plane.centroid_c.z());
+    const BendSigmas sigmas = SigmasOfBend(known_ratio, plane.pi_c, plane.centroid_c,
+                                           plane.pixel_count * pixel_rad2_);
+    plane.bend_offset_sigma_m = std::hypot(sigmas.offset_m, unseen_ * std::abs(plane.pi_c.d));
     plane.bend_angle_sigma_rad = sigmas.angle_rad;
   }
 }

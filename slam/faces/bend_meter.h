@@ -1,5 +1,6 @@
 #pragma once
 
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -8,6 +9,7 @@
 #include <vector>
 
 #include "slam/geometry/camera.h"
+#include "slam/geometry/plane.h"
 #include "slam/geometry/plane_sums.h"
 #include "slam/geometry/sensor_model.h"
 #include "slam/model/frame.h"
@@ -67,8 +69,12 @@ struct BendSigmas {
 
 /// The bend is a smooth random field of which a patch shows a part: one much wider than
 /// kBendLength_rad averages over many bends, one much smaller is lifted and tilted as a whole.
+/// Depth that is too long moves each point along its ray, so a plane moves by that share of its own
+/// distance from the camera, and the more slantingly it is seen, the less it tilts.
 /// @param ratio  root mean square of the bend, as a part of the depth
 /// @param solid_angle_rad2  of the patch
-BendSigmas SigmasOfBend(double ratio, double distance_m, double solid_angle_rad2);
+/// @return  angle_rad is that about the axis about which it tilts most
+BendSigmas SigmasOfBend(double ratio, const Plane& pi_c, const Eigen::Vector3d& centroid_c,
+                        double solid_angle_rad2);
 
 }  // namespace slam

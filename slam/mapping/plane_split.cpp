@@ -164,7 +164,7 @@ void Learn(const PartSighting& sighting, const Frame& frame, const PlaneMapConfi
   ObservePlane(part.rest, rest, frame, config);
   // Frames from one place see the step through the same bends.
   const double share = part.apart == 0 ? 1.0 : std::sqrt(SharedBend(plane, frame));
-  const double bend_m = share * frame.bend_ratio * plane.centroid_c.z();
+  const double bend_m = share * frame.bend_ratio * std::abs(plane.pi_c.d);
   const double sigma_m = std::hypot(sighting.sigma_m, bend_m);
   const double information = 1.0 / (sigma_m * sigma_m);
   part.step_information = config.keep_information * part.step_information + information;

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
@@ -149,19 +150,29 @@ TEST(BendMeter, StaysWithWhatIsKnownOfTheSensorInFramesWithoutPlanes) {
   EXPECT_DOUBLE_EQ(frame.bend_ratio, sensor.bend_ratio);
 }
 
-/// What a plane takes up of random bends: standard deviations of its height and one slope, over
-/// many draws of a Gaussian field with correlation exp(-r^2 / 2 L^2), by least squares.
-BendSigmas Drawn(double width_rad, double ratio) {
+/// A plane through (0, 0, z), seen at this incidence there.
+Plane SlantedPlane(double z_m, double incidence_rad) {
+  const Eigen::Vector3d n(std::sin(incidence_rad), 0.0, -std::cos(incidence_rad));
+  return {n, n.z() * -z_m};
+}
+
+/// What a plane through (0, 0, 1 m) takes up of random bends: standard deviations of its height and of
+/// the larger of its two slopes, over many draws of a Gaussian field with correlation
+/// exp(-r^2 / 2 L^2), by least squares over the points that were measured.
+BendSigmas Drawn(double width_rad, double ratio, double incidence_rad) {
   constexpr int kDraws = 400, kWaves = 60, kSide = 24;
+  const Plane pi_c = SlantedPlane(1.0, incidence_rad);
+  const Eigen::Matrix<double, 3, 2> axes = TangentBasis(pi_c.n);
   Random random{3};
-  double height2 = 0.0, slope2 = 0.0;
+  Eigen::Vector3d squares = Eigen::Vector3d::Zero();  // of the height and both slopes
   for (int draw = 0; draw < kDraws; ++draw) {
     std::vector<Eigen::Vector3d> waves;  // wave vector and phase
     for (int k = 0; k < kWaves; ++k) {
       waves.emplace_back(Normal(random) / kBendLength_rad, Normal(random) / kBendLength_rad,
                          2 * M_PI * random.Uniform());
     }
-    double sum = 0.0, moment = 0.0, spread = 0.0;
+    Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
+    Eigen::Vector3d moments = Eigen::Vector3d::Zero();
     for (int i = 0; i < kSide; ++i) {
       for (int k = 0; k < kSide; ++k) {
         const double x = width_rad * ((i + 0.5) / kSide - 0.5);
@@ -169,29 +180,39 @@ BendSigmas Drawn(double width_rad, double ratio) {
         double bend = 0.0;
         for (const auto& wave : waves) bend += std::cos(wave.x() * x + wave.y() * y + wave.z());
         bend *= ratio * std::sqrt(2.0 / kWaves);
-        sum += bend, moment += bend * x, spread += x * x;
+        const Eigen::Vector3d ray(x, y, 1.0), on_plane = -pi_c.d / pi_c.n.dot(ray) * ray;
+        const Eigen::Vector2d at = axes.transpose() * (on_plane - Eigen::Vector3d::UnitZ());
+        const Eigen::Vector3d row(1.0, at.x(), at.y());
+        normal += row * row.transpose();
+        moments += row * SignedDistance(pi_c, (1.0 + bend) * on_plane);
       }
     }
-    height2 += std::pow(sum / (kSide * kSide), 2);
-    slope2 += std::pow(moment / spread, 2);
+    squares += (normal.inverse() * moments).cwiseAbs2();
   }
-  return {std::sqrt(height2 / kDraws), std::sqrt(slope2 / kDraws)};
+  squares /= kDraws;
+  return {std::sqrt(squares[0]), std::sqrt(std::max(squares[1], squares[2]))};
 }
 
 TEST(SigmasOfBend, AreThoseOfPlanesFittedToRandomBends) {
-  for (const double lengths : {0.3, 1.0, 3.0, 8.0}) {
-    SCOPED_TRACE(lengths);
-    const double width_rad = lengths * kBendLength_rad;
-    const BendSigmas drawn = Drawn(width_rad, 0.01);
-    const BendSigmas ours = SigmasOfBend(0.01, 1.0, width_rad * width_rad);
-    EXPECT_NEAR(ours.offset_m / drawn.offset_m, 1.0, 0.35);
-    EXPECT_NEAR(ours.angle_rad / drawn.angle_rad, 1.0, 0.35);
+  for (const double incidence_deg : {0.0, 45.0, 65.0}) {
+    for (const double lengths : {0.3, 1.0, 3.0, 8.0}) {
+      SCOPED_TRACE(::testing::Message() << incidence_deg << " degrees, " << lengths);
+      const double width_rad = lengths * kBendLength_rad,
+                   incidence = incidence_deg * M_PI / 180;
+      const BendSigmas drawn = Drawn(width_rad, 0.01, incidence);
+      const BendSigmas ours = SigmasOfBend(0.01, SlantedPlane(1.0, incidence),
+                                           Eigen::Vector3d::UnitZ(), width_rad * width_rad);
+      EXPECT_NEAR(ours.offset_m / drawn.offset_m, 1.0, 0.35);
+      EXPECT_NEAR(ours.angle_rad / drawn.angle_rad, 1.0, 0.35);
+    }
   }
 }
 
 TEST(SigmasOfBend, GrowWithTheBendAndTheOffsetWithTheDistance) {
-  const BendSigmas one = SigmasOfBend(0.003, 1.0, 0.02), far = SigmasOfBend(0.003, 2.0, 0.02);
-  const BendSigmas twice = SigmasOfBend(0.006, 1.0, 0.02);
+  const auto at = [](double ratio, double z_m) {
+    return SigmasOfBend(ratio, SlantedPlane(z_m, 0.3), {0.0, 0.0, z_m}, 0.02);
+  };
+  const BendSigmas one = at(0.003, 1.0), far = at(0.003, 2.0), twice = at(0.006, 1.0);
   EXPECT_DOUBLE_EQ(far.offset_m, 2 * one.offset_m);
   EXPECT_DOUBLE_EQ(far.angle_rad, one.angle_rad);
   EXPECT_DOUBLE_EQ(twice.offset_m, 2 * one.offset_m);
