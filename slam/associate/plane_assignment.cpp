@@ -64,17 +64,17 @@ class Assigner {
     });
   }
 
-  /// Another frame plane, not of this surface, explains the landmark nearly as well.
+  /// Another frame plane, not of this surface, explains the landmark nearly as well, or is in doubt and
+  /// explains it better.
   bool HasCloseCompetitor(const AdmissiblePair& pair) const {
     return std::any_of(pairs_.begin(), pairs_.end(), [&](const auto& other) {
       if (other.map_plane != pair.map_plane || other.frame_plane == pair.frame_plane)
         return false;
       if (OneSurface(pair, other)) return false;
-      if (other.cost - pair.cost >= min_margin_ || pair.cost - other.cost >= min_margin_)
-        return false;
+      if (other.cost - pair.cost >= min_margin_) return false;
+      if (!settled_[Index(other.frame_plane)]) return pair.cost - other.cost < min_margin_;
       // One that is at home elsewhere does not compete.
-      return !settled_[Index(other.frame_plane)] ||
-             out_.map_plane[Index(other.frame_plane)] == PlaneAssignment::kAmbiguous;
+      return out_.map_plane[Index(other.frame_plane)] == PlaneAssignment::kAmbiguous;
     });
   }
 

@@ -51,9 +51,10 @@ struct PlaneAssignment {
 /// frame planes only if all of them may share it (MayShare). A frame plane is ambiguous
 /// when its best remaining candidate leads the next by less than `min_margin` and the two are
 /// not duplicates of one landmark, or when it and a frame plane that cannot share the landmark
-/// compete for it that closely. A candidate makes no landmark ambiguous, nor a landmark a
-/// candidate. The outcome does not depend on the order of `pairs`. Cost: O(c log c + c f) for c
-/// pairs and f frame planes.
+/// compete for it that closely, or the other fits better and is ambiguous itself: so a larger margin
+/// never adds a match where no landmark is shared. A candidate makes no landmark ambiguous, nor a
+/// landmark a candidate. The outcome does not depend on the order of `pairs`. Cost: O(c log c + c f)
+/// for c pairs and f frame planes.
 PlaneAssignment AssignPlanes(int frame_planes, std::vector<AdmissiblePair> pairs,
                              const PlaneRelations& relations, double min_margin);
 

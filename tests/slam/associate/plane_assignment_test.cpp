@@ -37,6 +37,15 @@ TEST(PlaneAssignment, GivesEachItsLikeliestAndNothingWhereThereIsNoPair) {
               ElementsAre(10, 11, kNothing));
 }
 
+// Which landmark the first shows is open, so that the second's is, too, though the first fits far better.
+TEST(PlaneAssignment, LeavesNoLandmarkToAWorseFitWhileABetterOneIsInDoubt) {
+  EXPECT_THAT(Assigned({{0, 10, 0.0}, {0, 11, 0.5}, {1, 10, 2 * kMargin}}, Apart(2)),
+              ElementsAre(kAmbiguous, kAmbiguous));
+  // At home elsewhere the first leaves it.
+  EXPECT_THAT(Assigned({{0, 10, 1.0}, {0, 11, -kMargin}, {1, 10, 2 * kMargin}}, Apart(2)),
+              ElementsAre(11, 10));
+}
+
 TEST(PlaneAssignment, IsInDoubtBetweenTwoLandmarksThatFitAlike) {
   EXPECT_THAT(Assigned({{0, 10, 1.0}, {0, 11, 1.0 + kMargin - 0.1}}, Apart(1)),
               ElementsAre(kAmbiguous));
