@@ -214,29 +214,32 @@ void AhcSegmentation::AddBlocks() {
   }
 }
 
-/// Connects a block with those on both sides of it if their normals agree.
+/// Connects a block with those on both sides of it if their normals agree. @param b  may be middle
 void AhcSegmentation::ConnectLine(int a, int middle, int b) {
   if (a < 0 || middle < 0 || b < 0) return;
   const double min_cosine = MinBlockCosine(graph_.At(middle).center.z());
   if (graph_.At(a).Cosine(graph_.At(b)) < min_cosine) return;
-  graph_.Connect(a, middle), graph_.Connect(middle, b);
+  graph_.Connect(a, middle);
+  if (b != middle) graph_.Connect(middle, b);
 }
 
 void AhcSegmentation::ConnectBlocks() {
+  // The last of a row or column has none beyond it: its own normal is asked.
   for (int r = 0; r < rows_; ++r)
-    for (int c = 1; c + 1 < cols_; ++c)
-      ConnectLine(NodeAt(c - 1, r), NodeAt(c, r), NodeAt(c + 1, r));
-  for (int r = 1; r + 1 < rows_; ++r)
+    for (int c = 1; c < cols_; ++c)
+      ConnectLine(NodeAt(c - 1, r), NodeAt(c, r), NodeAt(std::min(c + 1, cols_ - 1), r));
+  for (int r = 1; r < rows_; ++r)
     for (int c = 0; c < cols_; ++c)
-      ConnectLine(NodeAt(c, r - 1), NodeAt(c, r), NodeAt(c, r + 1));
+      ConnectLine(NodeAt(c, r - 1), NodeAt(c, r), NodeAt(c, std::min(r + 1, rows_ - 1)));
 }
 
-/// Labels the blocks all of whose neighbours are of one large plane; those of its border, which
-/// may lie across an edge, are left to the pixels that grow from here.
+/// Labels the blocks all of whose neighbours in the image are of one large plane; those of its border,
+/// which may lie across an edge, are left to the pixels that grow from here.
 void AhcSegmentation::KeepInteriors() {
   std::vector<int> label_of(static_cast<std::size_t>(graph_.size()), -1);
   const auto label_at = [&](int c, int r) {
-    if (c < 0 || r < 0 || c >= cols_ || r >= rows_ || NodeAt(c, r) < 0) return -1;
+    c = std::clamp(c, 0, cols_ - 1), r = std::clamp(r, 0, rows_ - 1);
+    if (NodeAt(c, r) < 0) return -1;
     const int root = graph_.Root(NodeAt(c, r));
     int& label = label_of[Index(root)];
     if (label < 0 && graph_.At(root).n >= kMinSupport_px) {

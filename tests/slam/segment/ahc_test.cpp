@@ -67,6 +67,19 @@ TEST(Ahc, LabelsAPlaneWithoutNoiseToItsLastMeasuredPixel) {
   EXPECT_EQ(std::count(labels.begin(), labels.end(), kNoLabel), 9);
 }
 
+// Neighbours outside of the image take nothing off a plane: the program of its authors has it so.
+TEST(Ahc, LabelsAStripTwoBlocksWideAlongTheBorder) {
+  const Camera camera;
+  for (const cv::Rect& strip :
+       {cv::Rect(0, 0, 20, camera.height), cv::Rect(camera.width - 20, 0, 20, camera.height),
+        cv::Rect(0, 0, camera.width, 20), cv::Rect(0, camera.height - 20, camera.width, 20)}) {
+    cv::Mat1f depth_m(camera.height, camera.width, 0.0f);
+    depth_m(strip) = 1.0f;
+    const LabelImage labels = SegmentDepth(depth_m);
+    EXPECT_EQ(std::count(labels.begin(), labels.end(), 0), strip.area()) << strip;
+  }
+}
+
 TEST(Ahc, LeavesOutWhatHasFewerThanThreeThousandPixels) {
   const Camera camera;
   for (const auto& [side, label] : std::vector<std::pair<int, int>>{{50, kNoLabel}, {80, 0}}) {
