@@ -34,7 +34,7 @@ std::vector<Eigen::Vector3d> VisibleMapPoints(const MapPlane& map_plane, const M
     if (u.x() < 0) continue;
     const double depth =
         frame.depth_m.empty() ? x_c.z() : static_cast<double>(frame.depth_m(u.y(), u.x()));
-    if (depth > 0 && IsHidden(depth, x_c.z())) continue;
+    if (!(depth > 0) || IsHidden(depth, x_c.z())) continue;  // as M_c, which needs depth
     visible.push_back(point.p_w);
   }
   return visible;

@@ -12,8 +12,8 @@ namespace slam {
 std::vector<std::vector<Eigen::Vector3d>> FeaturesOnPlanes(const Frame& frame, const Pose& T_cw,
                                                            const Camera& camera);
 
-/// M_w: the points of a map plane that the camera at T_cw would see: in the picture and not
-/// hidden by the measured depth. Comparing with everything ever seen would fail a match seen by
+/// M_w: the points of a map plane that the camera at T_cw would see: in the picture, where depth is
+/// measured, and not hidden by it. Comparing with everything ever seen would fail a match seen by
 /// half.
 std::vector<Eigen::Vector3d> VisibleMapPoints(const MapPlane& map_plane, const Map& map,
                                               const Frame& frame, const Pose& T_cw,

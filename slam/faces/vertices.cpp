@@ -195,6 +195,7 @@ std::optional<Eigen::Vector3d> MeetingPoint(const Line& L_i, const Line& L_j, co
   const auto& [P_pi, P_pj] = *feet;
   if (!((P_pi - P_pj).norm() < config.max_feet_distance_m)) return std::nullopt;
   for (const Eigen::Vector3d& foot : {P_pi, P_pj}) {
+    if (!(foot.z() > kMinVisibleDepth_m)) return std::nullopt;  // lines go on behind the camera
     if (!(std::abs(SignedDistance(pi_c, foot)) < config.max_plane_distance_m)) {
       return std::nullopt;
     }

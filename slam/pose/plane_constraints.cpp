@@ -111,6 +111,8 @@ void AddPointPlanes(const Frame& frame, const Map& map, const PlaneConstraintCon
 PlaneConstraint MakePlaneConstraint(const FramePlane& f, const MapPlane& m, const Pose& T_cw,
                                     double offset_sigma_m, double angle_sigma_rad) {
   PlaneConstraint c{m.pi_w, f.pi_c, f.centroid_c, angle_sigma_rad, offset_sigma_m};
+  // Some peers' rules match a surface with what was seen of it from behind.
+  if (f.pi_c.n.dot(T_cw.R * c.pi_w.n) < 0) c.pi_w = {-c.pi_w.n, -c.pi_w.d};
   if (!m.estimate.empty())
     AddUncertainty(m.estimate, T_cw.R.transpose() * (f.centroid_c - T_cw.t), c);
   return c;

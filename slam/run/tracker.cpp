@@ -174,7 +174,8 @@ void Tracker::OptimiseWithPlanes(Frame& frame, TrackReport& report) {
   }
   const PoseProblem by_planes = ProblemOf(frame, {});
   // The points alone were optimised before.
-  if (by_planes.planes.empty() && by_planes.rotations.empty()) return;
+  if (by_planes.planes.empty() && by_planes.rotations.empty() && by_planes.point_planes.empty())
+    return;
   // Once more without the matches that the pose contradicts: the better-known one, or that by points
   // where planes would have it against them.
   OptimiseByAll(frame);

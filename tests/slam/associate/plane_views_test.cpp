@@ -84,17 +84,19 @@ TEST(FeaturesOnPlanes, AreThoseOnItsPixelsAndLieInTheWorld) {
   EXPECT_THAT(on_plane[0][0], VectorNear(PointSeenAt(0, camera, {100, 200}, 2.0).p_w, 1e-12));
 }
 
-TEST(VisibleMapPoints, AreThoseThatNothingNearerHidesAndThatWereNotCulled) {
+TEST(VisibleMapPoints, AreThoseMeasuredThatNothingNearerHidesAndThatWereNotCulled) {
   const Camera camera;
   Frame frame = HalfAPlane(camera);
+  frame.depth_m(cv::Rect(250, 0, 20, camera.height)).setTo(0.0f);  // nothing measured
   Map map;
   map.points = {
       PointSeenAt(0, camera, {100, 200}, 2.0), PointSeenAt(1, camera, {200, 200}, 2.05),
       PointSeenAt(2, camera, {300, 200}, 2.2), PointSeenAt(3, camera, {400, 200}, 1.5),
-      PointSeenAt(4, camera, {450, 200}, 2.0), PointSeenAt(5, camera, {-90, 200}, 2.0)};
+      PointSeenAt(4, camera, {450, 200}, 2.0), PointSeenAt(5, camera, {-90, 200}, 2.0),
+      PointSeenAt(6, camera, {260, 200}, 2.0)};
   map.points[4].culled = true;
   MapPlane m;
-  m.map_points = {0, 1, 2, 3, 4, 5};
+  m.map_points = {0, 1, 2, 3, 4, 5, 6};
   const auto visible = VisibleMapPoints(m, map, frame, kView_cw, camera);
   EXPECT_THAT(visible, ElementsAre(map.points[0].p_w, map.points[1].p_w, map.points[3].p_w));
 }

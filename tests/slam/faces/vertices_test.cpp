@@ -172,5 +172,15 @@ TEST(VerticesConditionThree, RefusesAPointOutsideTheBox) {
   EXPECT_FALSE(with_box_right_of(config.box_margin_px + 1).has_value());
 }
 
+TEST(MeetingPoint, LiesBeforeTheCamera) {
+  const Plane floor{-Eigen::Vector3d::UnitY(), 0.1};
+  const auto meet = [&](double z) {
+    return MeetingPoint({{0.3, 0.1, z}, {1, 0, 0}}, {{0, 0.1, 0.7}, {0, 0, 1}}, floor, kCamera,
+                        {}, {});
+  };
+  EXPECT_TRUE(meet(0.5).has_value());
+  EXPECT_FALSE(meet(-0.2).has_value());
+}
+
 }  // namespace
 }  // namespace slam

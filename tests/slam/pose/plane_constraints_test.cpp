@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "slam/pose/factors/plane.h"
 #include "tests/support/map_surfaces.h"
 #include "tests/support/slam_matchers.h"
 
@@ -63,6 +64,21 @@ struct SeenBook {
     return problem.boxes.empty() ? std::array<bool, 4>{} : problem.boxes[0].use;
   }
 };
+
+// planar-slam and sp-slam ask no side: the pose must not turn about to see the front.
+TEST(PlaneConstraint, OfALandmarkSeenFromBehindIsMetAtTheTruePose) {
+  SeenBook book;
+  const Plane front_w = Transform(Inverse(book.T_cw), book.frame.planes[0].pi_c);
+  for (const double side : {1.0, -1.0}) {
+    MapPlane m;
+    m.pi_w = {side * front_w.n, side * front_w.d};
+    const PlaneConstraint c =
+        MakePlaneConstraint(book.frame.planes[0], m, book.T_cw, 0.001, 0.002);
+    const Linearised<4> at_truth = PlaneFactor(c, book.T_cw);
+    EXPECT_TRUE(at_truth.valid) << side;
+    EXPECT_LT(at_truth.r.norm(), 1e-12) << side;
+  }
+}
 
 TEST(BoxConstraints, TakeEverySideThatTheFaceReachesInsideTheImage) {
   SeenBook book;

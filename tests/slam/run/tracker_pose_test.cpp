@@ -56,6 +56,28 @@ TEST(Tracker, TellsItsFirstFrameAtTheSpeedThatAnotherFound) {
   EXPECT_LT((track(second, 0).speed.mean - speed).norm(), 0.1 * speed.norm());
 }
 
+// A point needs no landmark to lie on a plane of the frame (eq18).
+TEST(Tracker, HoldsPointsToPlanesOfWhichNoneIsMatched) {
+  const Camera camera = CameraOfSize();
+  const TexturedCorner corner;
+  const auto last_place = [&](bool use_point_planes) -> Eigen::Vector3d {
+    Config config;
+    config.point_search.pose.use_point_planes = use_point_planes;
+    TrackerHooks hooks;
+    hooks.after_association = [](Frame& frame, const Map&) {
+      for (PlaneMatch& match : frame.plane_matches) match = {};
+    };
+    Tracker tracker(camera, config, Variant::kFull, nullptr, 0, 1, hooks);
+    Frame frame;
+    for (int i = 0; i < 3; ++i) {
+      frame = corner.See(camera, SwingingPose(4 * i), i);
+      EXPECT_TRUE(tracker.TrackFrame(frame, cv::Mat3b(camera.height, camera.width)).tracked);
+    }
+    return frame.T_cw.t;
+  };
+  EXPECT_NE(last_place(true), last_place(false));
+}
+
 // Points see the same bent depth, whatever finds no planes to measure it by.
 TEST(Tracker, TellsOfWhatASensorBendsWhereThereAreNoPlanes) {
   const Camera camera = CameraOfSize();
