@@ -272,51 +272,5 @@ RC_GTEST_PROP(PlaneExtraction, HolesInAnySceneAddNoPlaneAndNoNumberIsAHole, ()) 
   }
 }
 
-RC_GTEST_PROP(PlaneExtraction, AMirroredImageHasMirroredPlanes, ()) {
-  const Camera camera = HalfCamera();
-  const closed_form::View view = ViewOf(AnyBoxes(), camera);
-  Camera mirrored = camera;
-  mirrored.cx = camera.width - 1 - camera.cx;
-  cv::Mat1f flipped;
-  cv::flip(view.depth_m, flipped, 1);
-  const Frame a = Extract(view.depth_m, camera), b = Extract(flipped, mirrored);
-  cv::Mat1b back;
-  cv::flip(b.plane_labels, back, 1);
-  const auto labelled = cv::countNonZero((a.plane_labels > 0) | (back > 0));
-  RC_ASSERT(cv::countNonZero((a.plane_labels > 0) & (back > 0)) >= 0.98 * labelled);
-  for (const FramePlane& plane : a.planes) {
-    if (plane.pixel_count < 600) continue;  // twice the least size: cannot come and go
-    const cv::Mat mask = a.plane_labels == plane.index + 1;
-    int most = 0;
-    for (const FramePlane& other : b.planes) {
-      most = std::max(most, cv::countNonZero(mask & (back == other.index + 1)));
-    }
-    RC_ASSERT(most >= 0.97 * plane.pixel_count);
-  }
-  const Eigen::Vector3d n = b.planes[0].pi_c.n;
-  RC_ASSERT(Angle(a.planes[0].pi_c.n, {-n.x(), n.y(), n.z()}) < 1.75e-5);
-}
-
-RC_GTEST_PROP(PlaneExtraction, ScalingDepthAndNoiseByAPowerOfTwoChangesNoLabel, ()) {
-  const Camera camera = HalfCamera();
-  const closed_form::View view = ViewOf(AnyBoxes(), camera);
-  const float s = AnyInt(0, 1) == 0 ? 0.5f : 2.0f;
-  SensorModel scaled;
-  // sigma'(s z) = s sigma(z), with the length that the incidence term holds to the 3/2.
-  scaled.noise.floor_m *= static_cast<double>(s);
-  scaled.noise.quadratic_per_m /= static_cast<double>(s);
-  scaled.noise.nearest_m *= static_cast<double>(s);
-  scaled.noise.grazing_m = 0.0;
-  SensorModel plain;
-  plain.noise.grazing_m = 0.0;
-  const Frame a = Extract(view.depth_m, camera, plain);
-  const Frame b = Extract(cv::Mat1f(cv::Mat(view.depth_m * s)), camera, scaled);
-  RC_ASSERT(cv::countNonZero(a.plane_labels != b.plane_labels) == 0);
-  for (std::size_t k = 0; k < a.planes.size(); ++k) {
-    RC_ASSERT(a.planes[k].pi_c.n == b.planes[k].pi_c.n);
-    RC_ASSERT(a.planes[k].pi_c.d * static_cast<double>(s) == b.planes[k].pi_c.d);
-  }
-}
-
 }  // namespace
 }  // namespace slam
