@@ -34,7 +34,7 @@ std::optional<std::size_t> FindFrame(const std::vector<double>& stamps_s, double
                    : NearestStamp(stamps_s, frame_s, kMaxStampDifference_s);
 }
 
-void StampOrder::Next(double stamp_s, int line) {
+bool StampOrder::Next(double stamp_s, int line) {
   const auto from = seen_s_.lower_bound(stamp_s - kSameStamp_s);
   // A time that came before others is out of order, whether it is a new one or not.
   const bool goes_back = !stamps_s_.empty() && stamp_s < stamps_s_.back() - kSameStamp_s;
@@ -51,6 +51,7 @@ void StampOrder::Next(double stamp_s, int line) {
   }
   stamps_s_.push_back(stamp_s);
   seen_s_.insert(stamp_s);
+  return !seen;
 }
 
 void StampOrder::Finish() {

@@ -52,7 +52,8 @@ class StampOrder {
              Severity repetition = Severity::kFatal)
       : folder_(folder), file_(std::move(file)), disorder_(disorder), repetition_(repetition) {}
   /// @param line   0 when the file has no lines of its own
-  void Next(double stamp_s, int line);
+  /// @returns whether no record before has this stamp
+  bool Next(double stamp_s, int line);
   /// Tells stamps that cannot be seconds, once for the file.
   void Finish();
 

@@ -75,7 +75,8 @@ Timing ReadTiming(Folder& folder, const std::string& file) {
   for (auto record = records.begin() + 1; record != records.end(); ++record) {
     const auto row = ReadRow(folder, file, *record, columns);
     if (!row) continue;
-    order.Next(row->front(), record->line);
+    // The first row of a frame counts, as the first of any records of one time.
+    if (!order.Next(row->front(), record->line)) continue;
     timing.stamps_s.push_back(row->front());
     timing.rows_ms.emplace_back(row->begin() + 1, row->end());
   }

@@ -258,6 +258,14 @@ TEST_F(ReadFolders, TimingIsByTimeWhateverItsRowsOrder) {
   EXPECT_EQ(timing.rows_ms, (std::vector<std::vector<double>>{{4.5}, {3}}));
 }
 
+TEST_F(ReadFolders, TimingKeepsTheFirstRowOfAFrame) {
+  Write("timing.csv", "timestamp,orb\n1.0,3\n2.0,4\n2.000001,9\n1.0,9\n3.0,5\n");
+  const Timing timing = ReadTiming(in_);
+  EXPECT_EQ(timing.stamps_s, (std::vector<double>{1, 2, 3}));
+  EXPECT_EQ(timing.rows_ms, (std::vector<std::vector<double>>{{3}, {4}, {5}}));
+  EXPECT_EQ(in_.faults().size(), 2u);
+}
+
 TEST_F(ReadFolders, APoseThatComesAgainIsRefusedAlsoBehindLaterOnes) {
   Write("run.json", "{\"format\": \"pas-run/1\", \"sequence\": \"SEQ\"}");
   Write("trajectory.txt", "1 0 0 0 0 0 0 1\n2 0 0 1 0 0 0 1\n1 0 0 1 0 0 0 1\n");
