@@ -44,13 +44,14 @@ std::vector<std::array<Eigen::Vector3d, 2>> ReadLines(const JsonRecord& plane) {
 
 void ReadGeometry(const JsonRecord& record, RunFramePlane& plane) {
   auto pi_c = ReadPlane(record, kRunUnit);
-  if (pi_c) plane.pi_c = *pi_c;
   if (pi_c && !(pi_c->d > 0)) {
     record.TellAt("d", fmt::format("is {}; a plane that the camera sees has d > 0", pi_c->d),
                   "turn the normal and d around, so that the normal faces the camera",
                   Severity::kWarning);
-    pi_c.reset();
+    // The camera is the origin, so which side it sees is known.
+    if (pi_c->d < 0) *pi_c = {-pi_c->n, -pi_c->d};
   }
+  if (pi_c) plane.pi_c = *pi_c;
   if (const auto centroid_c = record.Vector3("centroid")) {
     plane.centroid_c = *centroid_c;
     if (!(centroid_c->z() > 0)) {
