@@ -15,7 +15,7 @@ namespace {
 
 // Exact truth has a pose for every frame; a motion capture system has its own times.
 void CheckPoses(Folder& folder, const SequenceTruth& truth) {
-  const bool exact = folder.Has("gt/frames.jsonl") || folder.Has("gt/scene.json");
+  const bool exact = HasTruthOfFrames(folder);
   const std::string file = "groundtruth.txt";
   if (exact ? !folder.Require(file, "write the pose of every frame") : !folder.Has(file))
     return;

@@ -68,10 +68,9 @@ MapGauge ChooseMapGauge(const Run& run, const Sequence& sequence) {
     const auto T_gw = AlignByPoses(run.trajectory, *sequence.groundtruth, sequence.synthetic);
     if (T_gw) gauge = {*T_gw, Pose{}, true, false};
   }
-  const bool z_is_up = sequence.synthetic || sequence.scene.has_value();
   const Eigen::Vector3d up_w = MeanUp(run.trajectory);
   const RunMapPlane* floor = MainLevelPlane(run.map, up_w);
-  if (gauge.on_truth && (z_is_up || StandsUpright(gauge.T_vw, floor, up_w))) {
+  if (gauge.on_truth && (sequence.synthetic || StandsUpright(gauge.T_vw, floor, up_w))) {
     return gauge;
   }
   Pose T_turn;

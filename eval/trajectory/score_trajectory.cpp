@@ -231,10 +231,10 @@ TrajectoryScore ScoreTrajectory(const Trajectory& estimate, const Trajectory& un
 TrajectoryScore ScoreTrajectory(const Run& run, const Sequence& sequence) {
   std::vector<double> frame_stamps_s;
   for (const SequenceFrame& frame : sequence.frames) frame_stamps_s.push_back(frame.stamp_s);
-  const bool equal = sequence.synthetic || sequence.scene.has_value();
   RequireRunOf(sequence, run);
   return ScoreTrajectory(run.trajectory, sequence.groundtruth.value_or(Trajectory{}),
-                         frame_stamps_s, equal, run.covariances ? &*run.covariances : nullptr);
+                         frame_stamps_s, sequence.synthetic,
+                         run.covariances ? &*run.covariances : nullptr);
 }
 
 }  // namespace eval

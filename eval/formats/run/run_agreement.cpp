@@ -99,7 +99,7 @@ class DecisionCheck {
 template <typename Records>
 void RequireFramesOf(const Sequence& sequence, const std::filesystem::path& file,
                      const Records& records, const char* what) {
-  const bool equal = sequence.synthetic || sequence.scene.has_value();
+  const bool equal = sequence.synthetic;
   // Of a recording a record or two may stand alone; if all do, it is another recording.
   const auto has_frame = [&, stamps_s = StampsOf(sequence.frames)](const auto& record) {
     return FindFrame(stamps_s, record.stamp_s, equal).has_value();

@@ -59,14 +59,14 @@ Manifest Read(const JsonRecord& root) {
   const JsonRecord expected = root.Expected();
   Manifest manifest;
   const auto format = expected.Text("format");
-  manifest.synthetic = format == kFormat;
-  if (format && !manifest.synthetic) {
+  manifest.known_format = format == kFormat;
+  if (format && !manifest.known_format) {
     root.TellAt("format", "is " + *format + "; expected " + kFormat,
                 "convert the sequence to this version of the format", Severity::kWarning);
   }
   expected.Text("generator");
   expected.Text("version");
-  if (manifest.synthetic) expected.Text("scene_hash");
+  if (manifest.known_format) expected.Text("scene_hash");
   expected.Whole("seed");
   manifest.complete = expected.Flag("complete").value_or(true);
   if (!manifest.complete) {

@@ -10,7 +10,7 @@ namespace eval {
 
 /// manifest.json: who made the sequence, and of what files it consists.
 struct Manifest {
-  bool synthetic = false;       ///< a simulator wrote it: format "pas-sequence/1"
+  bool known_format = false;    ///< "pas-sequence/1"
   bool complete = true;         ///< false: it says that it was not finished
   bool images = true;           ///< false: of a live run, whose images never were files
   std::string sensor;           ///< empty when it does not tell

@@ -16,7 +16,7 @@ Sequence ReadSequence(const fs::path& path) {
   Sequence sequence;
   sequence.folder = path;
   const Manifest manifest = ReadManifest(folder);
-  sequence.synthetic = manifest.synthetic;
+  sequence.synthetic = HasTruthOfFrames(folder);
   sequence.complete = manifest.complete;
   sequence.rolling_s = manifest.rolling_s;
   sequence.frames = ReadFrames(folder);

@@ -29,8 +29,8 @@ struct Sequence {
   StampedFiles plane_id_files, object_id_files;
   /// Ids of planes that go by another id, in the images too; empty as a sequence is read.
   std::map<int, int> scored_as;
-  /// A simulator wrote it: manifest.json says "pas-sequence/1". Stamps of truth and frames are
-  /// then equal, not merely near.
+  /// It has the truth of every frame, as only a simulator knows it (HasTruthOfFrames). Stamps of
+  /// truth, run and frames are then equal, not merely near.
   bool synthetic = false;
   double rolling_s = 0.0;  ///< colour is read row by row over this time; truth is of its middle
   bool complete = true;    ///< false: manifest.json says that it was not finished

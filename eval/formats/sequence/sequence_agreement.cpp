@@ -35,6 +35,10 @@ void TellUnknownIds(Folder& folder, const FrameTruth& frame, const SceneTruth& s
 
 }  // namespace
 
+bool HasTruthOfFrames(const Folder& folder) {
+  return folder.Has("gt/scene.json") || folder.Has(kFrameTruth);
+}
+
 void TellFramesWithoutPose(Folder& folder, const std::vector<double>& frames_s,
                            const Trajectory& truth, bool exact) {
   const std::vector<double> poses_s = StampsOf(truth);
@@ -78,10 +82,9 @@ void TellFrameTruth(Folder& folder, const std::vector<double>& frames_s,
 
 void TellSequenceDisagreements(Folder& folder, const Sequence& sequence) {
   const std::vector<double> frames_s = StampsOf(sequence.frames);
-  const bool exact = sequence.scene || folder.Has(kFrameTruth);
   if (sequence.groundtruth) {
-    TellFramesWithoutPose(folder, frames_s, *sequence.groundtruth, exact);
-  } else if (exact) {
+    TellFramesWithoutPose(folder, frames_s, *sequence.groundtruth, sequence.synthetic);
+  } else if (sequence.synthetic) {
     folder.Require(kPoses, "write the pose of every frame", Severity::kWarning);
   }
   if (folder.Has(kFrameTruth)) {

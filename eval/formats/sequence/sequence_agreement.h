@@ -8,6 +8,10 @@
 
 namespace eval {
 
+/// Whether gt/ tells what the frames show: poses are then those of the frames, and matched by equal
+/// stamps. Any recording may have a manifest.json, so that is no sign of it.
+bool HasTruthOfFrames(const Folder& folder);
+
 /// Tells frames that have no pose in groundtruth.txt.
 /// @param exact  every frame has its pose (a simulator's); else one frame with a pose will do
 void TellFramesWithoutPose(Folder& folder, const std::vector<double>& frames_s,

@@ -58,8 +58,8 @@ TEST(FolderFaults, ThatAreFlawsArePassedOverByAScore) {
   const TemporaryFolder place;
   WriteText(place.path() / "manifest.json", "{\"format\": \"pas-sequence/1\"}");
   Folder scored(place.path()), checked(place.path(), OnFault::kCollect);
-  EXPECT_TRUE(ReadManifest(scored).synthetic);
-  EXPECT_TRUE(ReadManifest(checked).synthetic);
+  EXPECT_TRUE(ReadManifest(scored).known_format);
+  EXPECT_TRUE(ReadManifest(checked).known_format);
   EXPECT_EQ(scored.faults().size(), 0u);
   EXPECT_GT(checked.faults().size(), 0u);
 }

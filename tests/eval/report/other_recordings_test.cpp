@@ -1,0 +1,44 @@
+// Sequences of other programs: what they have is scored, and what they lack costs no other figure.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/eval/report/evaluated_world.h"
+
+namespace eval {
+namespace {
+
+namespace fs = std::filesystem;
+
+class EvaluateOtherRecordings : public EvaluateTinyWorld {
+ protected:
+  EvaluateOtherRecordings() {
+    fs::remove_all(seq());
+    fs::copy(SequenceFolder(), seq(), fs::copy_options::recursive);
+    tiny_.info["sequence"] = "../OTHER_SEQ";
+  }
+  static fs::path seq() { return *folder_ / "OTHER_SEQ"; }
+
+  TinyRun tiny_{*world_};
+};
+
+TEST_F(EvaluateOtherRecordings, PosesWithAClockOfTheirOwnAreMatchedWhateverTheManifestSays) {
+  fs::remove_all(seq() / "gt");
+  io::WriteFile(seq() / "manifest.json",
+                R"({"format": "pas-sequence/1", "generator": "a recorder", "complete": true})");
+  std::string later;
+  for (const testing::TinyFrame& frame : world_->frames) {
+    later += testing::TumLine(frame.stamp_s + 0.004, frame.T_gc);
+  }
+  io::WriteFile(seq() / "groundtruth.txt", later);
+  for (auto& [stamp_s, T_wc] : tiny_.trajectory) stamp_s += 0.002;
+  for (auto& frame : tiny_.frames) frame["timestamp"] = frame["timestamp"].get<double>() + 2e-3;
+  const TrajectoryScore score = EvaluationOf(tiny_).trajectory;
+  EXPECT_EQ(score.tracked, world_->frames.size());
+  ASSERT_TRUE(score.ate_se3.has_value()) << score.no_ate_se3;
+  EXPECT_EQ(score.ate_se3->count, world_->frames.size());
+  EXPECT_NEAR(score.ate_se3->rmse, 0.0, kExact);
+  EXPECT_TRUE(score.ate_complete_rmse_m.has_value()) << score.no_ate_complete;
+}
+
+}  // namespace
+}  // namespace eval
