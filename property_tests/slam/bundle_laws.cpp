@@ -91,6 +91,62 @@ RC_GTEST_PROP(LocalBundleLaws, MovesTheMapTheSameWayWhereverTheWorldOriginLies, 
   AssertPlanesNear(there, here, 1e-4, 3e-4);
 }
 
+/// Every keyframe takes part; hardly an iteration, only the cost is asked for.
+LocalBundleConfig CostOfAll() {
+  LocalBundleConfig config;
+  config.max_keyframes = 30;
+  config.first_iterations = config.last_iterations = 1;
+  return config;
+}
+
+double InitialCost(Map map, const Camera& camera) {
+  const int newest = static_cast<int>(map.keyframes.size()) - 1;
+  const auto report = AdjustLocalBundle(map, newest, camera, FeatureScale{}, CostOfAll());
+  RC_ASSERT(report.usable);
+  return report.initial_cost;
+}
+
+/// Two to twenty keyframes, without planes or with up to four.
+PointWorld AnyLongWorld() {
+  PointWorld world =
+      MakePointWorld(AnyInt(2, 20), AnyInt(80, 160),
+                     static_cast<std::uint64_t>(AnyInt(0, 1 << 20)), AnyInt(1, 3));
+  for (int i = AnyInt(0, 4); i > 0; --i) {
+    const Eigen::Vector3d n = AnyUnit(), x_w(AnyReal(-1, 1), AnyReal(-1, 1), AnyReal(1, 3));
+    AddSeenLandmark(world.map, {n, -n.dot(x_w)}, x_w);
+  }
+  return world;
+}
+
+double ResidualsOf(const Map& map) {
+  double residuals = 0;
+  for (const MapPoint& point : map.points)
+    residuals += 3 * static_cast<double>(point.observations.size());
+  for (const Keyframe& keyframe : map.keyframes)
+    residuals += 4 * static_cast<double>(keyframe.planes.size());
+  return residuals;
+}
+
+// Pixels of 1e-13, and metres of 1e-15 in sigmas of some millimetres.
+RC_GTEST_PROP(LocalBundleLaws, CostsNothingAtTheTruth, ()) {
+  const PointWorld truth = AnyLongWorld();
+  RC_ASSERT(InitialCost(truth.map, truth.camera) <= 1e-20 * ResidualsOf(truth.map));
+}
+
+RC_GTEST_PROP(LocalBundleLaws, CostsTheSameWhereverTheWorldOriginLies, ()) {
+  const PointWorld truth = AnyWorld();
+  Map here = truth.map;
+  Disturb(here, 0.01, 0.005);
+  Map there = here;
+  const Pose T_vw = AnyPose(2), T_wv = Inverse(T_vw);
+  for (Keyframe& keyframe : there.keyframes) keyframe.T_cw = keyframe.T_cw * T_wv;
+  for (MapPoint& point : there.points) point.p_w = T_vw * point.p_w;
+  for (MapPlane& plane : there.planes) MovePlane(plane, T_vw);
+  const double cost = InitialCost(here, truth.camera);
+  RC_ASSERT(cost > 1.0);
+  RC_ASSERT(std::abs(InitialCost(there, truth.camera) - cost) < 1e-10 * cost);
+}
+
 /// Five-point derivative along the three steps of the plane's manifold.
 template <int kRows, typename Residual>
 Eigen::Matrix<double, kRows, 3> ByPlaneStep(const PlaneBlock& block, const Residual& residual) {
