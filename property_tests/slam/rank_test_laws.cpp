@@ -4,12 +4,15 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <numeric>
 #include <utility>
 #include <vector>
 
 #include "property_tests/generators/poses.h"
 #include "slam/associate/rank_test.h"
+#include "slam/base/random.h"
+#include "tests/support/normal_draws.h"
 
 namespace slam {
 namespace {
@@ -175,6 +178,65 @@ TEST(RankTestEq12, IsNearTheExactDistributionForEveryUOfLargerSamples) {
     }
     EXPECT_LT(worst, bound) << size;
   }
+}
+
+constexpr int kRankTrials = 20000;
+constexpr double kRankAlpha = 0.05;
+/// Five standard deviations of a binomial: 0.0077.
+double RankBand(double rate) { return 5 * std::sqrt(rate * (1 - rate) / kRankTrials); }
+
+/// Stationary, each value `rho` of the one before and as much of its own as keeps the variance.
+std::vector<double> DrawChain(int count, double rho, Random& random) {
+  std::vector<double> chain{Normal(random)};
+  while (static_cast<int>(chain.size()) < count)
+    chain.push_back(rho * chain.back() + std::sqrt(1 - rho * rho) * Normal(random));
+  return chain;
+}
+
+/// Share of trials that reject two samples of one distribution, every `step`-th value of a chain.
+double RejectionRate(double rho, int step) {
+  constexpr int kSize = 30;
+  int rejected = 0;
+  for (int trial = 0; trial < kRankTrials; ++trial) {
+    Random random{31, static_cast<std::uint64_t>(trial)};
+    std::array<std::vector<double>, 2> samples;
+    for (auto& sample : samples) {
+      const auto chain = DrawChain(kSize * step, rho, random);
+      for (std::size_t i = 0; i < chain.size(); i += static_cast<std::size_t>(step))
+        sample.push_back(chain[i]);
+    }
+    rejected += TestRanks(samples[0], samples[1]).p < kRankAlpha ? 1 : 0;
+  }
+  return static_cast<double>(rejected) / kRankTrials;
+}
+
+TEST(RankTestEq12, RejectsOneDistributionAsOftenAsItSaysIfValuesAreIndependent) {
+  EXPECT_NEAR(RejectionRate(0.0, 1), kRankAlpha, RankBand(kRankAlpha));
+  // Values that go on from each other it rejects at six times the rate; a tenth of them not.
+  EXPECT_NEAR(RejectionRate(0.6, 1), 0.316, RankBand(0.316));
+  EXPECT_NEAR(RejectionRate(0.6, 10), kRankAlpha, RankBand(kRankAlpha));
+}
+
+// The three tests of two clouds together: 1 - (1 - alpha / 3)^3 = 0.0492.
+TEST(PlaneRankTest, RejectsPointsOfOneSurfaceAsOftenAsItSays) {
+  constexpr int kPoints = 30;
+  const Plane pi{Eigen::Vector3d(0.3, -0.5, 0.8).normalized(), 0.4};
+  const Eigen::Matrix<double, 3, 2> E = TangentBasis(pi.n);
+  int rejected = 0;
+  for (int trial = 0; trial < kRankTrials; ++trial) {
+    Random random{32, static_cast<std::uint64_t>(trial)};
+    std::array<std::vector<Eigen::Vector3d>, 2> clouds;
+    for (auto& cloud : clouds) {
+      for (int i = 0; i < kPoints; ++i) {
+        const double a = random.Uniform(), b = random.Uniform(), off = 0.002 * Normal(random);
+        cloud.emplace_back(0.6 * a * E.col(0) + 0.2 * b * E.col(1) + (off - pi.d) * pi.n);
+      }
+    }
+    const auto p = TestPlaneRanks(clouds[0], clouds[1], PlaneAxes(pi, clouds[1]), 6);
+    rejected += p.value() < kRankAlpha ? 1 : 0;
+  }
+  const double rate = 1 - std::pow(1 - kRankAlpha / 3, 3);
+  EXPECT_NEAR(static_cast<double>(rejected) / kRankTrials, rate, RankBand(rate));
 }
 
 }  // namespace
