@@ -16,6 +16,9 @@ class FolderLock {
   FolderLock(const FolderLock&) = delete;
   FolderLock& operator=(const FolderLock&) = delete;
 
+  /// Whether some process has the right; false of what is no folder.
+  static bool IsHeld(const std::filesystem::path& folder);
+
  private:
   int folder_;
 };

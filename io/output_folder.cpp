@@ -3,6 +3,7 @@
 #include <fcntl.h>
 #include <signal.h>
 #include <stdio.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -33,8 +34,9 @@ std::string Suffixed(const fs::path& folder, const char* word) {
   return folder.string() + word + std::to_string(::getpid());
 }
 
-/// Removes what killed processes left: FOLDER.partial-PID with no such process.
-void RemoveLeftovers(const fs::path& folder) {
+/// Calls `use` with each FOLDER.partial-PID that is there, and its PID.
+template <typename Use>
+void ForEachPartial(const fs::path& folder, const Use& use) {
   const std::string prefix = folder.filename().string() + ".partial-";
   std::error_code error;
   for (const auto& entry : fs::directory_iterator(folder.parent_path(), error)) {
@@ -44,10 +46,77 @@ void RemoveLeftovers(const fs::path& folder) {
     const bool number =
         !digits.empty() && digits.size() < 10 &&
         std::all_of(digits.begin(), digits.end(), [](char c) { return c >= '0' && c <= '9'; });
-    if (!number) continue;
-    const auto pid = static_cast<pid_t>(std::strtol(digits.c_str(), nullptr, 10));
+    if (number) use(entry.path(), static_cast<pid_t>(std::strtol(digits.c_str(), nullptr, 10)));
+  }
+}
+
+/// Removes what killed processes left: partial folders with no such process.
+void RemoveLeftovers(const fs::path& folder) {
+  ForEachPartial(folder, [](const fs::path& partial, pid_t pid) {
+    std::error_code ignored;
     const bool gone = ::kill(pid, 0) != 0 && errno == ESRCH;
-    if (gone || pid == ::getpid()) fs::remove_all(entry.path(), error);
+    if (gone || pid == ::getpid()) fs::remove_all(partial, ignored);
+  });
+}
+
+[[noreturn]] void FailAsBeingWritten(const fs::path& folder) {
+  throw InputError(folder.string(),
+                   "is being written by another process; wait for its end or name another "
+                   "folder");
+}
+
+/// @param own  the partial folder of this process
+void RefuseOtherWriters(const fs::path& folder, const fs::path& own = {}) {
+  ForEachPartial(folder, [&](const fs::path& partial, pid_t) {
+    if (partial != own && FolderLock::IsHeld(partial)) FailAsBeingWritten(folder);
+  });
+}
+
+/// Whether a file system begins there: nothing can be renamed to such a place.
+bool IsMountPoint(const fs::path& folder) {
+  struct statx found {};
+  return ::statx(AT_FDCWD, folder.c_str(), AT_SYMLINK_NOFOLLOW, 0, &found) == 0 &&
+         (found.stx_attributes & STATX_ATTR_MOUNT_ROOT) != 0;
+}
+
+/// Refuses a folder that is there and cannot be renamed, whatever is in it.
+void RequireMovable(const fs::path& folder) {
+  const auto refuse = [&](const std::string& why) {
+    throw InputError(folder.string(),
+                     why + ", so it cannot be replaced; name a folder in it, such as " +
+                         (folder / "out").string());
+  };
+  std::error_code ignored;
+  if (fs::equivalent(folder, fs::current_path(ignored), ignored)) {
+    refuse("is the folder you are in");
+  }
+  if (IsMountPoint(folder)) refuse("is a mount point");
+  const fs::path above = folder.parent_path();
+  if (::euidaccess(above.c_str(), W_OK | X_OK) != 0) {
+    refuse("is in " + above.string() + ", which you may not write to");
+  }
+}
+
+void RefuseWhatIsThere(const fs::path& folder, const std::string& marker, bool force) {
+  std::error_code ignored;
+  const fs::file_type type = fs::symlink_status(folder, ignored).type();
+  if (type == fs::file_type::not_found) return;
+  const bool is_folder = type == fs::file_type::directory;
+  if (is_folder) RequireMovable(folder);
+  if (is_folder && fs::is_empty(folder, ignored)) return;  // nobody's work
+  if (!force) {
+    throw InputError(folder.string(), "exists already; choose another name or pass --force");
+  }
+  if (!is_folder) {
+    throw InputError(folder.string(), std::string("is ") + NameOf(type) +
+                                          ", which even --force does not replace; choose "
+                                          "another name or remove it yourself");
+  }
+  if (!fs::exists(folder / marker, ignored)) {
+    throw InputError(folder.string(),
+                     "exists and holds no " + marker +
+                         ", so even --force does not replace it; choose another name or "
+                         "remove it yourself");
   }
 }
 
@@ -72,22 +141,39 @@ void Replace(const fs::path& partial, const fs::path& place, std::error_code& er
 
 }  // namespace
 
+void OutputFolder::RequirePlace(const fs::path& folder, const std::string& marker, bool force) {
+  const fs::path place = PlaceOf(folder);
+  RefuseWhatIsThere(place, marker, force);
+  fs::path above = place.parent_path();
+  while (!Exists(above)) above = above.parent_path();
+  if (const fs::file_type type = TypeAt(above); type != fs::file_type::directory) {
+    throw InputError(place.string(), "cannot be made: " + above.string() + " is " +
+                                         NameOf(type) + ", no folder; choose another place");
+  }
+  RefuseOtherWriters(place);
+}
+
 OutputFolder::OutputFolder(const fs::path& folder, std::string marker, bool force)
     : final_(PlaceOf(folder)),
       partial_(Suffixed(final_, ".partial-")),
       marker_(std::move(marker)),
       force_(force) {
-  RefuseWhatIsThere();
+  RequirePlace(final_, marker_, force_);
   for (fs::path above = final_.parent_path(); !Exists(above); above = above.parent_path()) {
     made_.push_back(above);
   }
   std::error_code error;
   fs::create_directories(final_.parent_path(), error);
   RemoveLeftovers(final_);
-  if (!error) fs::create_directory(partial_, error);
-  if (!error) return;
-  GiveUp();
-  FailToWrite(final_, error);
+  if (!error && !fs::create_directory(partial_, error) && !error) FailAsBeingWritten(final_);
+  try {
+    if (error) FailToWrite(final_, error);
+    lock_.emplace(partial_);
+    RefuseOtherWriters(final_, partial_);  // one may have begun meanwhile
+  } catch (const InputError&) {
+    GiveUp();
+    throw;
+  }
 }
 
 OutputFolder::~OutputFolder() {
@@ -98,32 +184,6 @@ void OutputFolder::GiveUp() const {
   std::error_code ignored;
   fs::remove_all(partial_, ignored);
   for (const fs::path& above : made_) fs::remove(above, ignored);  // if it is empty
-}
-
-void OutputFolder::RefuseWhatIsThere() const {
-  std::error_code ignored;
-  const fs::file_type type = fs::symlink_status(final_, ignored).type();
-  if (type == fs::file_type::not_found) return;
-  const bool folder = type == fs::file_type::directory;
-  if (folder && fs::equivalent(final_, fs::current_path(ignored), ignored)) {
-    throw InputError(final_.string(),
-                     "is the folder you are in, which cannot be replaced; name a folder in it");
-  }
-  if (folder && fs::is_empty(final_, ignored)) return;  // nobody's work
-  if (!force_) {
-    throw InputError(final_.string(), "exists already; choose another name or pass --force");
-  }
-  if (!folder) {
-    throw InputError(final_.string(), std::string("is ") + NameOf(type) +
-                                          ", which even --force does not replace; choose "
-                                          "another name or remove it yourself");
-  }
-  if (!fs::exists(final_ / marker_, ignored)) {
-    throw InputError(final_.string(),
-                     "exists and holds no " + marker_ +
-                         ", so even --force does not replace it; choose another name or "
-                         "remove it yourself");
-  }
 }
 
 fs::path OutputFolder::Path(const fs::path& relative) const {
@@ -140,7 +200,7 @@ void OutputFolder::Write(const fs::path& relative, std::string_view bytes) const
 }
 
 void OutputFolder::Commit() {
-  RefuseWhatIsThere();  // it may have appeared meanwhile
+  RefuseWhatIsThere(final_, marker_, force_);  // it may have appeared meanwhile
   std::error_code error;
   if (fs::exists(final_, error)) {
     Replace(partial_, final_, error);

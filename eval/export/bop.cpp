@@ -188,14 +188,14 @@ void WriteCamera(const io::OutputFolder& folder, const Camera& camera) {
 
 ExportSummary ExportBop(const std::vector<fs::path>& folders, const fs::path& output,
                         const ExportOptions& options) {
+  io::OutputFolder folder(output, kExportMarker, options.force);  // refused before the work
   std::vector<Sequence> sequences;
   std::size_t total = 0;
-  for (const fs::path& folder : folders) {
-    sequences.push_back(ReadExportable(folder, options));
+  for (const fs::path& sequence : folders) {
+    sequences.push_back(ReadExportable(sequence, options));
     RefuseLens(sequences.back());
     total += sequences.back().frames.size();
   }
-  io::OutputFolder folder(output, kExportMarker, options.force);
   if (!sequences.empty()) WriteCamera(folder, *sequences.front().true_camera);
   ExportSummary summary;
   Models models;

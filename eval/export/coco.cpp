@@ -143,13 +143,13 @@ class CocoWriter {
 
 ExportSummary ExportCoco(const std::vector<fs::path>& folders, const fs::path& output,
                          const ExportOptions& options) {
+  io::OutputFolder folder(output, kExportMarker, options.force);  // refused before the work
   std::vector<Sequence> sequences;
   std::size_t total = 0;
-  for (const fs::path& folder : folders) {
-    sequences.push_back(ReadExportable(folder, options));
+  for (const fs::path& sequence : folders) {
+    sequences.push_back(ReadExportable(sequence, options));
     total += sequences.back().frames.size();
   }
-  io::OutputFolder folder(output, kExportMarker, options.force);
   CocoWriter writer(folder, Categories(sequences, options));
   int done = 0;
   for (std::size_t i = 0; i < sequences.size(); ++i) {

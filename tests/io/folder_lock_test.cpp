@@ -33,6 +33,16 @@ TEST_F(FolderLocks, AreHeldByOneAtATime) {
   EXPECT_TRUE(program::Contents(folder_ / "seq").empty());
 }
 
+TEST_F(FolderLocks, TellWhetherTheyAreHeld) {
+  const std::filesystem::path folder = folder_ / "seq";
+  EXPECT_FALSE(FolderLock::IsHeld(folder)) << "there is no such folder";
+  {
+    const FolderLock lock(folder);
+    EXPECT_TRUE(FolderLock::IsHeld(folder));
+  }
+  EXPECT_FALSE(FolderLock::IsHeld(folder));
+}
+
 TEST_F(FolderLocks, EndWithTheProcessThatHasThem) {
   const pid_t child = fork();
   if (child == 0) {

@@ -5,10 +5,14 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <unistd.h>
+
 #include <cerrno>
+#include <optional>
 #include <set>
 
 #include "io/atomic_file.h"
+#include "io/folder_lock.h"
 #include "io/input_error.h"
 #include "tests/support/program.h"
 
@@ -148,6 +152,59 @@ TEST_F(OutputFolders, LeaveTheUnfinishedOneOfAProcessThatStillRunsAlone) {
   WriteFile(theirs / "a.txt", "a");
   Make();
   EXPECT_EQ(Contents(theirs), (std::map<std::string, std::string>{{"a.txt", "a"}}));
+}
+
+TEST_F(OutputFolders, AreWrittenByOneProcessAtATime) {
+  const fs::path theirs = place().string() + ".partial-" + std::to_string(::getppid());
+  std::optional<FolderLock> lock(std::in_place, theirs);
+  WriteFile(theirs / "a.txt", "a");
+  const auto refused =
+      ThrowsMessage<InputError>(HasSubstr("out: is being written by another process"));
+  EXPECT_THAT(Making(true), refused);
+  EXPECT_THAT([this] { OutputFolder::RequirePlace(place(), "marker.json", false); }, refused);
+  EXPECT_THAT(Beside(), ElementsAre(theirs.filename().string())) << "nothing of ours is left";
+  lock.reset();
+  EXPECT_NO_THROW(Make());
+  EXPECT_EQ(Contents(theirs).at("a.txt"), "a");
+}
+
+TEST_F(OutputFolders, AreWrittenOnceAtATimeByOneProcess) {
+  OutputFolder first(place(), "marker.json", false);
+  first.Write("marker.json", "first");
+  EXPECT_THAT(Making(true), ThrowsMessage<InputError>(HasSubstr("is being written")));
+  first.Commit();
+  EXPECT_EQ(Contents(place()).at("marker.json"), "first");
+}
+
+TEST_F(OutputFolders, ReplaceNoMountPoint) {
+  EXPECT_THAT([] { OutputFolder::RequirePlace("/proc", "marker.json", true); },
+              ThrowsMessage<InputError>(HasSubstr("/proc: is a mount point, so it cannot be "
+                                                  "replaced; name a folder in it")));
+}
+
+TEST_F(OutputFolders, ReplaceNoFolderWhoseNeighboursTheyMayNotBe) {
+  const uid_t user = ::geteuid();
+  fs::create_directory(place());
+  fs::permissions(place().parent_path(), fs::perms(0555));
+  if (user == 0) {
+    ASSERT_EQ(::seteuid(65534), 0);  // root may write anywhere
+  }
+  std::string why;
+  try {
+    Make();
+  } catch (const InputError& error) {
+    why = error.what();
+  }
+  ASSERT_EQ(::seteuid(user), 0);
+  fs::permissions(place().parent_path(), fs::perms(0755));
+  EXPECT_THAT(why, HasSubstr("which you may not write to, so it cannot be replaced; name a "
+                             "folder in it"));
+}
+
+TEST_F(OutputFolders, AreInNoFile) {
+  WriteFile(place(), "a file");
+  EXPECT_THAT([this] { OutputFolder(place() / "deep/run", "marker.json", false); },
+              ThrowsMessage<InputError>(HasSubstr("out is a file, no folder")));
 }
 
 TEST_F(OutputFolders, RefuseAPlaceThatCannotBeWrittenTo) {

@@ -184,6 +184,31 @@ TEST_F(HostileUse, TwoCannotSimulateIntoOneFolder) {
   EXPECT_EQ(Do({"sim", scene(), "-o", folder_ / "s", "--frames", "2", "--force"}).exit_code, 0);
 }
 
+TEST_F(HostileUse, TwoCannotTrackIntoOneRun) {
+  const std::vector<std::string> command{Pas(), "-q",          "slam",     "--live", scene(),
+                                         "-o",  folder_ / "r", "--frames", "5000"};
+  const Process first(command, {}, folder_ / "first");
+  // The folder that it writes into until it is done.
+  const auto begun = [this] {
+    for (const auto& entry : fs::directory_iterator(folder_ / "")) {
+      if (fs::exists(entry.path() / "timing.csv.part")) return true;
+    }
+    return false;
+  };
+  for (int i = 0; i < 2000 && !begun(); ++i) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  }
+  const std::string why = "r: is being written by another process";
+  ExpectRefusal({"slam", seq(), "-o", folder_ / "r"}, why);
+  ExpectRefusal({"plot", run(), "-o", folder_ / "r"}, why);
+  ExpectRefusal({"export", seq(), "--format", "coco", "-o", folder_ / "r"}, why);
+  EXPECT_TRUE(begun()) << "nothing of the first is lost";
+  first.Kill();
+  first.Wait();
+  EXPECT_EQ(Do({"slam", seq(), "-o", folder_ / "r"}).exit_code, 0);
+  EXPECT_FALSE(begun()) << "what the first left is removed";
+}
+
 TEST_F(HostileUse, WhatCannotBePrintedIsAnError) {
   for (const std::string& line :
        {std::string("pas --help"), std::string("pas --version"), std::string("pas scene list"),
