@@ -37,13 +37,12 @@ int RunCalibrate(CalibrateArguments& arguments, bool quiet) {
                                       options.camera, quiet);
   const StopSignal stop;
   options.stop = [] { return StopSignal::Caught() != 0; };
-  std::optional<Progress> progress;
-  options.progress = [&](int done, int total) {
-    if (!progress) progress.emplace("calibrate", total, quiet);
-    progress->Update(done);
+  PassProgress progress(quiet);
+  options.progress = [&](const char* pass, int done, int total) {
+    progress.Update(pass, done, total);
   };
   const slam::Calibration calibration = slam::CalibrateSequence(options);
-  progress.reset();
+  progress.End();
   if (calibration.stopped) {
     fmt::print(stderr, "pas: interrupted; nothing is written\n");
     return ExitCodeOf(StopSignal::Caught());

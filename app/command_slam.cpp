@@ -207,10 +207,9 @@ int RunSlam(SlamArguments& arguments, bool quiet) {
   options.version = PAS_VERSION;
   const StopSignal stop;
   options.stop = [] { return StopSignal::Caught() != 0; };
-  std::unique_ptr<Progress> progress;
-  options.progress = [&](int done, int total) {
-    if (!progress) progress = std::make_unique<Progress>("slam", total, quiet);
-    progress->Update(done);
+  PassProgress progress(quiet);
+  options.progress = [&](const char* pass, int done, int total) {
+    progress.Update(pass, done, total);
   };
   options.warn = [quiet](const std::string& warning) {
     fmt::print(stderr, "{}pas: warning, while it runs: {}\n", quiet ? "" : "\n", warning);
@@ -218,7 +217,7 @@ int RunSlam(SlamArguments& arguments, bool quiet) {
 
   const slam::RunOutcome outcome =
       live ? RunOnScene(arguments, options, std::move(*scene)) : slam::RunSequence(options);
-  progress.reset();
+  progress.End();
   for (const std::string& warning : outcome.warnings) PrintWarning(warning);
   if (!quiet) {
     fmt::print("{}: {} of {} frames tracked, {} keyframes, {} map planes{}, {:.1f} frames/s\n",

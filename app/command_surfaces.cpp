@@ -30,10 +30,11 @@ int RunSurfaces(const SurfacesArguments& arguments, bool quiet) {
   PrintWarnings(sequence.warnings, sequence.folder);
   const eval::DepthViews views =
       ViewsOf(sequence, {}, {arguments.camera, arguments.registration});
-  Progress progress("reading depth", 2 * int(views.size()), quiet);
+  PassProgress progress(quiet);
   eval::SurfaceFile file = eval::FindSurfaces(
       views, arguments.min_area_m2,
-      [&](int done, int total) { progress.Update(2 * int(views.size()) * done / total); });
+      [&](const char* pass, int done, int total) { progress.Update(pass, done, total); });
+  progress.End();
   file.sequence = arguments.sequence;
   output.Write(eval::SurfacesText(file));
   if (picture) picture->Write(io::EncodePng(eval::DrawSurfaces(file, views)));

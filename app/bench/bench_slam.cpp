@@ -199,7 +199,7 @@ BenchRow MeasureSlam(const std::string& folder, const BenchOptions& bench) {
   options.force = true;
   double half_kib = 0, end_kib = 0;
   int half = 0, frames = 0;
-  options.progress = [&](int done, int total) {
+  options.progress = [&](const char*, int done, int total) {
     if (done == (total + 1) / 2) half_kib = ResidentKib(), half = done;
     if (done == total) end_kib = ResidentKib(), frames = total;
   };

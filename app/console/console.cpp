@@ -53,6 +53,15 @@ void Progress::Update(int done) {
   std::fflush(stderr);
 }
 
+void PassProgress::Update(const std::string& pass, int done, int total) {
+  if (!progress_ || pass != pass_) {
+    progress_.reset();  // ends its line before the next begins
+    progress_.emplace(pass, total, quiet_);
+    pass_ = pass;
+  }
+  progress_->Update(done);
+}
+
 void PrintWarning(const std::string& warning) {
   std::fprintf(stderr, "pas: warning: %s\n", warning.c_str());
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <chrono>
+#include <optional>
 #include <string>
 
 namespace app {
@@ -25,6 +26,20 @@ class Progress {
   bool terminal_;
   int last_shown_ = -1;
   std::chrono::steady_clock::time_point start_;
+};
+
+/// Progress of a job in passes, each with its own name and count.
+class PassProgress {
+ public:
+  explicit PassProgress(bool quiet) : quiet_(quiet) {}
+  void Update(const std::string& pass, int done, int total);
+  /// Ends the line of the pass that is shown.
+  void End() { progress_.reset(); }
+
+ private:
+  bool quiet_;
+  std::string pass_;
+  std::optional<Progress> progress_;
 };
 
 /// Says on stderr what should be known beside a result, in a line of its own.

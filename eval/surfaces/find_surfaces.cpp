@@ -47,19 +47,18 @@ SurfaceFile FindSurfaces(const DepthViews& views, double min_area_m2,
   file.min_area_m2 = min_area_m2;
   file.noise_per_m = MeasureNoise(views);
   const std::vector<std::size_t> chosen = Evenly(views.size(), kMaxViews);
-  const int total = 2 * int(chosen.size());
-  int done = 0;
-  const auto for_each_view = [&](const auto& use) {
+  const auto for_each_view = [&](const char* pass, const auto& use) {
+    int done = 0;
     for (const std::size_t i : chosen) {
       const DepthView view = views.Read(i);
       use(view, FitLocalNormals(view.depth_m, views.rays(), kStride));
-      if (tell) tell(++done, total);
+      if (tell) tell(pass, ++done, int(chosen.size()));
     }
   };
 
   // Planes, from what all views saw together.
   SurfelCloud cloud;
-  for_each_view([&](const DepthView& view, const LocalNormals& local) {
+  for_each_view("finding planes", [&](const DepthView& view, const LocalNormals& local) {
     cloud.Add(view, views.rays(), local, file.noise_per_m);
   });
   const std::vector<PlanePatch> patches = GrowPlanes(
@@ -69,7 +68,7 @@ SurfaceFile FindSurfaces(const DepthViews& views, double min_area_m2,
   std::vector<Sheet> sheets;
   sheets.reserve(patches.size());
   for (const PlanePatch& patch : patches) sheets.push_back(SheetOver(patch));
-  for_each_view([&](const DepthView& view, const LocalNormals& local) {
+  for_each_view("outlining them", [&](const DepthView& view, const LocalNormals& local) {
     AddToSheets(view, views.rays(), local, kStride, file.noise_per_m, sheets);
   });
   for (Sheet& sheet : sheets) {

@@ -7,8 +7,8 @@
 
 namespace eval {
 
-/// What is told while the views are read: done, of total.
-using TellProgress = std::function<void(int done, int total)>;
+/// What is told while the views are read, in two passes: which one, and done of total.
+using TellProgress = std::function<void(const char* pass, int done, int total)>;
 
 /// The noise of one pixel's inverse depth, 1/m, as the recording shows it on smooth places.
 double MeasureNoise(const DepthViews& views);

@@ -17,8 +17,6 @@
 namespace slam {
 namespace {
 
-constexpr int kPasses = 3;  // one for the poses, two for the planes
-
 using PosesByTime = std::map<double, Pose>;
 
 /// What the passes over a recording share.
@@ -26,19 +24,18 @@ struct PassOverFrames {
   const CalibrateOptions& options;
   const Camera& camera;
   SequenceReader& reader;
-  int total = 0;   ///< frames
-  int before = 0;  ///< frames of the passes before
+  int total = 0;  ///< frames
   bool stopped = false;
   std::vector<std::string> warnings{};  ///< of the last pass's images
 
   template <typename Take>
-  void Run(const Take& take) {
+  void Run(const char* name, const Take& take) {
     FrameGate gate(camera);
     RepeatedImages repeated;
     for (int i = 0; i < total && !stopped; ++i) {
       RecordedFrame recorded = reader.Read(i);
       if (gate.Takes(recorded) && !repeated.Repeats(recorded)) take(recorded);
-      if (options.progress) options.progress(++before, kPasses * total);
+      if (options.progress) options.progress(name, i + 1, total);
       stopped = options.stop && options.stop();
     }
     warnings = gate.Warnings();
@@ -53,7 +50,7 @@ PosesByTime TrackAll(PassOverFrames& pass, const Config& config) {
   Tracker tracker(pass.camera, points, Variant::kPoints, nullptr, 0, 1);
   PosesByTime poses;
   int index = 0;
-  pass.Run([&](const RecordedFrame& recorded) {
+  pass.Run("tracking", [&](const RecordedFrame& recorded) {
     Frame frame = FrameOf(recorded, index++);
     if (!tracker.TrackFrame(frame, recorded.bgr).tracked) return;
     poses[frame.timestamp_s] = frame.T_dc() * frame.T_cw;
@@ -62,13 +59,13 @@ PosesByTime TrackAll(PassOverFrames& pass, const Config& config) {
 }
 
 /// Learns from the planes of all frames with a pose.
-WarpLearner LearnFrom(PassOverFrames& pass, const PosesByTime& poses, const Config& config,
-                      const std::optional<DepthWarp>& known) {
+WarpLearner LearnFrom(PassOverFrames& pass, const char* name, const PosesByTime& poses,
+                      const Config& config, const std::optional<DepthWarp>& known) {
   WarpLearner learner(pass.camera, config.sensor.noise, config.depth_warp);
   PlaneExtractor extractor(pass.camera, PixelRays(pass.camera), config.sensor,
                            config.plane_extraction);
   const Straightening straightening = known ? StraighteningBy(*known) : Straightening{};
-  pass.Run([&](const RecordedFrame& recorded) {
+  pass.Run(name, [&](const RecordedFrame& recorded) {
     const auto pose = poses.find(recorded.timestamp_s);
     if (pose == poses.end() || !learner.Wants(recorded.timestamp_s, pose->second)) return;
     Frame frame = FrameOf(recorded, 0);
@@ -93,8 +90,9 @@ Calibration CalibrateSequence(const CalibrateOptions& options) {
 
   Calibration calibration;
   const PosesByTime poses = TrackAll(pass, options.config);
-  const WarpLearner first = LearnFrom(pass, poses, options.config, std::nullopt);
-  const WarpLearner second = LearnFrom(pass, poses, options.config, first.Warp());
+  const WarpLearner first = LearnFrom(pass, "planes", poses, options.config, std::nullopt);
+  const WarpLearner second =
+      LearnFrom(pass, "planes again", poses, options.config, first.Warp());
   calibration.warp = second.Warp();
   calibration.evidence = second.evidence();
   calibration.tracked = static_cast<int>(poses.size());

@@ -7,6 +7,7 @@
 
 #include "slam/calibrate/warp_learner.h"
 #include "slam/run/config.h"
+#include "slam/run/run_sequence.h"
 
 namespace slam {
 
@@ -15,8 +16,8 @@ struct CalibrateOptions {
   std::filesystem::path sequence;
   std::string camera;  ///< tum1, tum2, tum3, a file; empty: the sequence's camera.yaml
   Config config;
-  int frames = 0;                                     ///< at most so many; 0 = all
-  std::function<void(int done, int total)> progress;  ///< may be empty
+  int frames = 0;              ///< at most so many; 0 = all
+  TellPass progress;           ///< of "tracking", "planes" and "planes again"; may be empty
   std::function<bool()> stop;  ///< asked after each frame; when true it ends. May be empty
 };
 

@@ -115,7 +115,7 @@ class SequenceRun {
   RunOutcome Run() {
     const int total = frames_.size();
     outcome_.sequence_frames = total;
-    const int looked_at = LearnDevice();
+    LearnDevice();
     if (truth_ != nullptr) {
       truth_->Begin(writer_.Path(options_.sequence.lexically_relative(options_.run)));
     }
@@ -128,7 +128,7 @@ class SequenceRun {
       const bool more = i + 1 < total && !outcome_.stopped;
       if (more) ahead = Begin(i + 1);
       if (now.taken) Take(std::move(now));
-      if (options_.progress) options_.progress(looked_at + i + 1, looked_at + total);
+      if (options_.progress) options_.progress("slam", i + 1, total);
       if (more && i + 2 < total && options_.stop) outcome_.stopped = options_.stop();
     }
     Finish();
@@ -144,22 +144,21 @@ class SequenceRun {
     ModuleTimes times;
   };
 
-  /// Learns of the device before the run. @returns how many frames were looked at, or were to be
-  int LearnDevice() {
+  /// Learns of the device before the run.
+  void LearnDevice() {
     const Config& config = options_.config;
     const bool with_planes = options_.variant != Variant::kPoints;
     const bool wanted = config.depth_registration.learn || config.rolling_shutter.learn ||
                         (with_planes && config.depth_warp.Learns());
     const int count =
         wanted && comes_again_ ? std::min(config.first_look.frames, frames_.size()) : 0;
-    if (count == 0) return 0;
+    if (count == 0) return;
     FirstLook look =
         LookFirst(frames_, count, camera_, config, with_planes, threads_, [&](int done) {
-          if (options_.progress) options_.progress(done, count + frames_.size());
+          if (options_.progress) options_.progress("first look", done, count);
           return !options_.stop || !options_.stop();
         });
     tracker_.StartFrom(*look.tracker, std::move(look.bend));
-    return count;
   }
 
   /// Begins a frame, before the one before it is tracked. On one thread it is done when it is

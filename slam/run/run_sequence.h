@@ -13,6 +13,10 @@
 
 namespace slam {
 
+/// Told after each frame: which pass over the frames it is ("first look"), and how many of its
+/// frames are done.
+using TellPass = std::function<void(const char* pass, int done, int total)>;
+
 /// One run of the system over a recorded sequence.
 struct RunOptions {
   std::filesystem::path sequence;
@@ -24,9 +28,9 @@ struct RunOptions {
   std::uint64_t seed = 0;  ///< of RANSAC for the edge lines of planes
   int threads = 0;         ///< 0: one a core; never changes a byte of the result
   bool save_segmentation = false;
-  bool force = false;                                 ///< replace an older run
-  std::string version;                                ///< the program's, for run.json
-  std::function<void(int done, int total)> progress;  ///< may be empty
+  bool force = false;   ///< replace an older run
+  std::string version;  ///< the program's, for run.json
+  TellPass progress;    ///< of "first look", where there is one, and "slam"; may be empty
   /// Told at once what makes it useless to go on: the camera is not what the file says. The
   /// outcome's warnings say it again with the latest figures. May be empty.
   std::function<void(const std::string&)> warn;

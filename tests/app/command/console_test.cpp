@@ -1,5 +1,6 @@
 #include "app/console/console.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 namespace app {
@@ -15,6 +16,19 @@ TEST(Progress, SaysHowLongItStillTakes) {
 TEST(Progress, SaysNothingOfTheRateTooSoon) {
   EXPECT_EQ(RateText(1, 100, 0.1), "");
   EXPECT_EQ(RateText(0, 100, 5.0), "");
+}
+
+TEST(PassProgress, CountsEachPassByItself) {
+  testing::internal::CaptureStderr();
+  PassProgress progress(false);
+  for (const char* pass : {"first look", "slam"}) {
+    for (int done = 1; done <= 3; ++done) progress.Update(pass, done, 3);
+  }
+  progress.End();
+  const std::string told = testing::internal::GetCapturedStderr();
+  EXPECT_THAT(told, testing::HasSubstr("first look 3/3"));
+  EXPECT_THAT(told, testing::HasSubstr("slam 1/3"));
+  EXPECT_THAT(told, testing::HasSubstr("slam 3/3"));
 }
 
 }  // namespace

@@ -138,6 +138,16 @@ TEST_F(CalibrateProgram, RefusesAPictureInTheFileOfTheWarpBeforeTheWork) {
   EXPECT_THAT(outcome.errors, HasSubstr("would hold two outputs"));
 }
 
+TEST_F(CalibrateProgram, CountsTheFramesOfEachPass) {
+  const fs::path sequence = Recorded(folder_, "passes", "base: kinect1\n", 3);
+  const Outcome outcome = Process({Pas(), "calibrate", sequence, "-o", folder_ / "warp.yaml"},
+                                  {}, folder_ / "errors")
+                              .Wait();
+  for (const char* pass : {"tracking 3/3", "planes 3/3", "planes again 3/3"}) {
+    EXPECT_THAT(outcome.errors, HasSubstr(pass));
+  }
+}
+
 TEST_F(CalibrateProgram, AFileThatIsNoWarpOfThisCameraIsRefusedByName) {
   std::ofstream(folder_ / "warp.yaml")
       << "format: pas-depth-warp/1\nimage: {width: 640, height: 480}\n"

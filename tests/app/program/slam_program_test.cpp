@@ -88,6 +88,12 @@ TEST_F(SlamProgram, KeepsTheRunThatASignalStops) {
   }
 }
 
+TEST_F(SlamProgram, CountsTheFramesOfTheFirstLookByThemselves) {
+  const Outcome outcome = Run(Command(Record(12), "run"));
+  EXPECT_THAT(outcome.errors, AllOf(HasSubstr("first look 12/12"), HasSubstr("slam 12/12"),
+                                    Not(HasSubstr("/24"))));
+}
+
 TEST_F(SlamProgram, LeavesASignalAloneThatIsIgnored) {
   std::vector<std::string> command = Command(Record(kFrames), "run");
   command.insert(command.begin(), "/usr/bin/nohup");

@@ -55,7 +55,7 @@ TEST(AsyncMapping, CarriesWhatMappingThrowsToTheCaller) {
 TEST(AsyncMapping, WritesAWholeRunWhenItIsStoppedInTheMiddle) {
   RunOptions options = Options(true);
   int done = 0;
-  options.progress = [&](int frames, int) { done = frames; };
+  options.progress = [&](const char*, int frames, int) { done = frames; };
   options.stop = [&] { return done >= 23; };
   const Ran ran = RunStream(Clean(), options);
   EXPECT_TRUE(ran.outcome.stopped);
@@ -70,7 +70,7 @@ TEST(AsyncMapping, TrackingGoesOnWhileMappingStands) {
   std::promise<void> tracked;
   const auto all = tracked.get_future().share();
   bool in_time = true;
-  options.progress = [&](int done, int total) {
+  options.progress = [&](const char*, int done, int total) {
     if (done == total) tracked.set_value();
   };
   options.hooks.before_mapping = [&](int) {

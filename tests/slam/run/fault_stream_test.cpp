@@ -241,7 +241,7 @@ TEST(FaultStreamF15, AnImageOfAnotherSizeIsRefusedByItsFrame) {
 TEST(RunLive, StopsWhereItIsAskedToAndKeepsWhatItHas) {
   RunOptions options;
   int done = 0;
-  options.progress = [&](int frames, int) { done = frames; };
+  options.progress = [&](const char*, int frames, int) { done = frames; };
   options.stop = [&] { return done >= 7; };
   const Ran ran = RunStream(CleanStream(20), options);
   EXPECT_TRUE(ran.outcome.stopped);
@@ -274,7 +274,7 @@ TEST(RunLive, RunsEveryFrameThatItReadsWhereverItStops) {
       options.threads = threads;
       options.variant = Variant::kPoints;
       int done = 0;
-      options.progress = [&](int frames, int) { done = frames; };
+      options.progress = [&](const char*, int frames, int) { done = frames; };
       options.stop = [&] { return done >= stop_at; };
       CountedStream stream(CleanStream(10));
       const RunOutcome outcome = RunLive({stream, CameraOfSize(320, 240), nullptr}, options);
