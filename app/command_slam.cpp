@@ -17,6 +17,7 @@
 #include "io/output_file.h"
 #include "slam/run/config_file.h"
 #include "slam/run/run_sequence.h"
+#include "slam/run/run_writer.h"
 #include "version.h"
 
 namespace app {
@@ -143,16 +144,16 @@ int Verdict(const slam::RunOutcome& outcome, const std::string& sequence) {
   return kDone;
 }
 
+void RequireFullForAssociation(const SlamArguments& arguments) {
+  if (!arguments.association || arguments.variant == "full") return;
+  throw io::InputError("--association", "is of --variant full, found " + arguments.variant +
+                                            "; leave one of the two out");
+}
+
 /// Takes into the settings what the options say over them.
 void SetOptions(const SlamArguments& arguments, slam::Config& config) {
   if (arguments.segmentation) config.plane_extraction.segmentation = *arguments.segmentation;
-  if (arguments.association) {
-    if (arguments.variant != "full") {
-      throw io::InputError("--association", "is of --variant full, found " + arguments.variant +
-                                                "; leave one of the two out");
-    }
-    config.association.rule = *arguments.association;
-  }
+  if (arguments.association) config.association.rule = *arguments.association;
   if (arguments.structure) config.structure.mode = *arguments.structure;
   if (arguments.loop_closing) config.loop_closing.enabled = true;
   if (arguments.detect_every) config.detection.every = *arguments.detect_every;
@@ -179,6 +180,7 @@ std::vector<std::filesystem::path> InputsOf(const SlamArguments& arguments,
 }
 
 int RunSlam(SlamArguments& arguments, bool quiet) {
+  RequireFullForAssociation(arguments);
   if (arguments.print_config) {
     slam::Config config = ConfigFrom(arguments.sensor, arguments.config_file);
     SetOptions(arguments, config);
@@ -193,6 +195,9 @@ int RunSlam(SlamArguments& arguments, bool quiet) {
                          "see pas slam --help");
   }
   options.variant = slam::VariantOf(arguments.variant);
+  // What needs no look at the recording to be refused.
+  if (!options.detector.empty()) slam::RequireDetectorChoice(options.detector);
+  slam::RunWriter::RequirePlace(options.run, options.force);
   std::optional<SceneRecording> scene;
   if (live) scene = ReadScene(arguments);
   options.config =

@@ -126,20 +126,25 @@ std::string ModelFile(const std::string& choice) {
   return choice.starts_with(kYolox) ? choice.substr(kYolox.size()) : "";
 }
 
+void RequireDetectorChoice(const std::string& choice) {
+  if (choice.starts_with(kYolox)) {
+    if (!ModelFile(choice).empty()) return;
+    throw io::InputError("--detector yolox:", "names no file; expected yolox:FILE.onnx");
+  }
+  if (choice == "none" || choice == "replay") return;
+  throw io::InputError("--detector " + choice,
+                       "unknown detector; expected replay, yolox:FILE.onnx or none");
+}
+
 std::unique_ptr<Detector> MakeDetector(const std::string& choice,
                                        const std::filesystem::path& sequence,
                                        const Camera& camera, const ClassTable& classes,
                                        const YoloxConfig& yolox) {
+  RequireDetectorChoice(choice);
   if (choice == "none") return std::make_unique<NoDetector>();
-  if (choice.starts_with(kYolox)) {
-    const std::string model = ModelFile(choice);
-    if (model.empty())
-      throw io::InputError("--detector yolox:", "names no file; expected yolox:FILE.onnx");
+  if (const std::string model = ModelFile(choice); !model.empty()) {
     return std::make_unique<YoloxDetector>(model, camera, classes, yolox);
   }
-  if (choice != "replay")
-    throw io::InputError("--detector " + choice,
-                         "unknown detector; expected replay, yolox:FILE.onnx or none");
   return std::make_unique<ReplayDetector>(sequence / "detections.jsonl", camera, classes);
 }
 

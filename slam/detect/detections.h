@@ -82,6 +82,9 @@ class ReplayDetector : public Detector {
 /// FILE of the choice "yolox:FILE"; empty for another.
 std::string ModelFile(const std::string& choice);
 
+/// @throws InputError when `choice` is none that MakeDetector knows
+void RequireDetectorChoice(const std::string& choice);
+
 /// `choice` is "replay" (SEQUENCE/detections.jsonl), "yolox:FILE" (yolox_detector.h) or "none".
 /// @throws InputError for another choice, or when the file to replay or the model is absent or
 ///   bad.

@@ -17,7 +17,8 @@
 namespace slam {
 namespace {
 
-constexpr int kMaxLabel = 255;  // an 8-bit segmentation holds no more
+constexpr const char* kMarker = "run.json";  // which every run folder has
+constexpr int kMaxLabel = 255;               // an 8-bit segmentation holds no more
 
 /// Greatest memory that the process has held, MiB.
 double PeakMemory_mb() {
@@ -107,9 +108,13 @@ nlohmann::ordered_json RollingJson(const std::optional<RollingEstimate>& estimat
 
 }  // namespace
 
+void RunWriter::RequirePlace(const std::filesystem::path& folder, bool force) {
+  io::OutputFolder::RequirePlace(folder, kMarker, force);
+}
+
 RunWriter::RunWriter(const std::filesystem::path& folder, RunInfo info, Options options)
     : folder_(std::filesystem::absolute(folder)),
-      output_(folder, "run.json", options.force),
+      output_(folder, kMarker, options.force),
       info_(std::move(info)),
       options_(options),
       frame_planes_(output_.Path("frame_planes.jsonl")),

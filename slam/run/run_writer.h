@@ -72,6 +72,8 @@ class RunWriter {
     bool save_segmentation = false;  ///< segmentation/T.png
   };
 
+  /// The refusals of a place that need no work, see io::OutputFolder. @throws InputError
+  static void RequirePlace(const std::filesystem::path& folder, bool force);
   /// @throws InputError when the folder exists and force is off, or cannot be made.
   RunWriter(const std::filesystem::path& folder, RunInfo info, Options options);
 
