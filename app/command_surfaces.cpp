@@ -23,6 +23,7 @@ int RunSurfaces(const SurfacesArguments& arguments, bool quiet) {
   const io::OutputRules rules{
       .force = arguments.force,
       .inputs = {arguments.sequence, arguments.camera, arguments.registration}};
+  io::RefuseSameFile({arguments.output, arguments.picture});
   const io::OutputFile output(arguments.output, rules);
   std::optional<io::OutputFile> picture;
   if (!arguments.picture.empty()) picture.emplace(arguments.picture, rules);
