@@ -36,6 +36,14 @@ int RunSurfaces(const SurfacesArguments& arguments, bool quiet) {
       views, arguments.min_area_m2,
       [&](const char* pass, int done, int total) { progress.Update(pass, done, total); });
   progress.End();
+  if (file.surfaces.empty()) {
+    std::fprintf(
+        stderr,
+        "pas: nothing is written, because no surface of %g m2 or more was found in %zu "
+        "frames; does their depth measure anything, and is --min-area too large?\n",
+        arguments.min_area_m2, views.size());
+    return kFailure;
+  }
   file.sequence = arguments.sequence;
   output.Write(eval::SurfacesText(file));
   if (picture) picture->Write(io::EncodePng(eval::DrawSurfaces(file, views)));
@@ -56,7 +64,8 @@ void AddSurfacesCommand(CLI::App& pas, const Globals& globals, int& exit_code) {
       "Finds the large flat surfaces of a recording: its depth is laid together with its own\n"
       "camera truth (groundtruth.txt). A file to be looked at and edited by hand, then given\n"
       "to `pas eval RUN --surfaces FILE`, which scores plane extraction and association on\n"
-      "any RGB-D recording with camera truth (docs/surfaces.md).");
+      "any RGB-D recording with camera truth (docs/surfaces.md). Writes\n"
+      "nothing, with exit code 1, when there is no such surface.");
   auto arguments = std::make_shared<SurfacesArguments>();
   surfaces->add_option("SEQ", arguments->sequence, "Sequence folder with groundtruth.txt")
       ->required()
