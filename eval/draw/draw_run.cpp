@@ -9,6 +9,7 @@
 #include "eval/draw/error_picture.h"
 #include "eval/draw/map_picture.h"
 #include "eval/draw/sheet_header.h"
+#include "eval/formats/run/run_agreement.h"
 #include "io/atomic_file.h"
 #include "io/image/encode_png.h"
 #include "io/input_error.h"
@@ -71,6 +72,7 @@ Drawing DrawRun(const fs::path& folder, const DrawOptions& options) {
   const Run run = ReadRun(folder);
   const fs::path sequence_folder = options.truth ? *options.truth : SequenceOf(run);
   const Sequence sequence = ReadSequence(sequence_folder);
+  RequireRunOf(sequence, run);
   if (options.warn) {
     for (const std::string& line : Summaries(run.warnings, folder)) options.warn(line);
     for (const std::string& line : Summaries(sequence.warnings, sequence_folder)) {
