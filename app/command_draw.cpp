@@ -18,8 +18,9 @@ int RunDraw(const DrawArguments& arguments, bool quiet) {
   options.frames = arguments.frames;
   options.camera = arguments.camera;
   options.warn = PrintWarning;
+  options.output = arguments.output;
+  options.force = arguments.force;
   if (!arguments.truth.empty()) options.truth = arguments.truth;
-  eval::RefuseOutput(arguments.output, arguments.force);  // before the work is done
   const eval::Drawing drawing = eval::DrawRun(arguments.run, options);
   eval::WritePictures(drawing.pictures, arguments.output, arguments.force);
   if (quiet) return kDone;

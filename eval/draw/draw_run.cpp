@@ -13,6 +13,7 @@
 #include "io/atomic_file.h"
 #include "io/image/encode_png.h"
 #include "io/input_error.h"
+#include "io/output_file.h"
 #include "io/output_folder.h"
 
 namespace eval {
@@ -66,11 +67,33 @@ void ReplacePictures(const std::vector<Picture>& pictures,
   }
 }
 
+/// Refuses an output that exists and is not to be replaced; an empty folder may be filled.
+void RefuseOutput(const fs::path& folder, bool force) {
+  if (!Exists(folder) || IsEmptyFolder(folder)) return;
+  std::error_code error;
+  if (!fs::is_directory(folder, error)) {
+    throw io::InputError(folder.string(),
+                         "is no folder; choose another name for the folder of the pictures");
+  }
+  if (!force) {
+    throw io::InputError(folder.string(),
+                         "exists already; choose another name or pass --force");
+  }
+  if (!Exists(folder / kContactSheet)) {
+    throw io::InputError(folder.string(),
+                         fmt::format("exists and holds no {}, so even --force does not write "
+                                     "into it; choose another name",
+                                     kContactSheet));
+  }
+}
+
 }  // namespace
 
 Drawing DrawRun(const fs::path& folder, const DrawOptions& options) {
   const Run run = ReadRun(folder);
   const fs::path sequence_folder = options.truth ? *options.truth : SequenceOf(run);
+  RefuseOutput(options.output, options.force);
+  if (options.force) io::RefuseInputsInside(options.output, {folder, sequence_folder});
   const Sequence sequence = ReadSequence(sequence_folder);
   RequireRunOf(sequence, run);
   if (options.warn) {
@@ -106,19 +129,6 @@ Drawing DrawRun(const fs::path& folder, const DrawOptions& options) {
     drawing.notes.push_back(fmt::format("{}: {}", kErrorPicture, Explain(errors->alignment)));
   }
   return drawing;
-}
-
-void RefuseOutput(const fs::path& folder, bool force) {
-  if (!Exists(folder) || IsEmptyFolder(folder)) return;
-  std::error_code error;
-  if (!fs::is_directory(folder, error)) {
-    throw io::InputError(folder.string(),
-                         "is no folder; choose another name for the folder of the pictures");
-  }
-  if (!force) {
-    throw io::InputError(folder.string(),
-                         "exists already; choose another name or pass --force");
-  }
 }
 
 void WritePictures(const std::vector<Picture>& pictures, const fs::path& folder, bool force) {

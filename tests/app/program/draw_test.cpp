@@ -64,5 +64,28 @@ TEST_F(DrawProgram, NamesARunThatIsBrokenAndLeavesNothing) {
   ExpectRefusedWith("map.json");
 }
 
+TEST_F(DrawProgram, RefusesARunOfAnotherSequence) {
+  const std::string poses = ReadText(folder_ / "run/trajectory.txt");
+  eval::small_world::WriteText(folder_ / "run/trajectory.txt", poses + "99.5 0 0 0 0 0 0 1\n");
+  ExpectRefusedWith("belongs to no frame of " + (folder_ / "seq").string());
+}
+
+TEST_F(DrawProgram, WritesIntoNoFolderButThatOfAnEarlierDrawing) {
+  fs::create_directory(folder_ / "notes");
+  std::ofstream(folder_ / "notes/thesis.tex") << "years of work";
+  for (const char* place : {"seq", "run", "notes"}) {
+    const auto before = Contents(folder_ / place);
+    const Outcome outcome = Do({"draw", folder_ / "run", "-o", folder_ / place, "--force"});
+    EXPECT_EQ(outcome.exit_code, 2) << place;
+    EXPECT_THAT(outcome.errors, HasSubstr("even --force does not write into it")) << place;
+    EXPECT_EQ(Contents(folder_ / place), before) << place;
+  }
+  ASSERT_EQ(Draw().exit_code, 0);
+  fs::rename(folder_ / "seq", folder_ / "pictures/seq");
+  const Outcome outcome = Do({"draw", folder_ / "run", "-o", folder_ / "pictures", "--force",
+                              "--truth", folder_ / "pictures/seq"});
+  EXPECT_THAT(outcome.errors, HasSubstr("seq is in it, which is read by this command"));
+}
+
 }  // namespace
 }  // namespace program
