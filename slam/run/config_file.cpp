@@ -249,7 +249,11 @@ void CheckTogether(const Config& c, const std::string& file) {
 }  // namespace
 
 Config ReadConfig(const std::filesystem::path& file, Config config) {
-  Reader reader(io::ReadYaml(file, "expected settings (pas config)"));
+  const io::YamlValue settings = io::ReadYaml(file, "expected settings (pas config)");
+  if (settings.IsNothing()) {
+    settings.Fail("the file is empty; expected settings, such as `pas config` prints");
+  }
+  Reader reader(settings);
   VisitFields(config, reader);
   reader.Finish();
   CheckTogether(config, file.string());
