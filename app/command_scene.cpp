@@ -5,6 +5,7 @@
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "app/app.h"
@@ -153,6 +154,31 @@ void Show(const std::string& path) {
   }
 }
 
+/// What a parameter means, its bounds and its default, with the families of each meaning.
+std::string MeaningOf(const std::string& parameter) {
+  std::vector<std::pair<std::string, std::string>> meanings;  // and their families
+  for (const sim::Family& family : sim::Families()) {
+    for (const sim::FamilyParameter& one : family.parameters) {
+      if (one.name != parameter) continue;
+      const std::string meaning =
+          fmt::format("{}{}[{}, {}], default {}", one.meaning, one.meaning.empty() ? "" : " ",
+                      one.low, one.high, one.value);
+      const auto known = std::find_if(meanings.begin(), meanings.end(),
+                                      [&](const auto& m) { return m.first == meaning; });
+      if (known == meanings.end()) {
+        meanings.emplace_back(meaning, family.name);
+      } else {
+        known->second += ", " + family.name;
+      }
+    }
+  }
+  std::string text;
+  for (const auto& [meaning, families] : meanings) {
+    text += fmt::format("{}{}: {}", text.empty() ? "" : "; ", families, meaning);
+  }
+  return text;
+}
+
 void AddMake(CLI::App& scene, const Globals& globals, int& exit_code) {
   auto* make =
       scene.add_subcommand("make", "Make a scene of a family, reproducible by its seed");
@@ -174,7 +200,7 @@ void AddMake(CLI::App& scene, const Globals& globals, int& exit_code) {
       if (!fresh) continue;
       std::string name = "--" + parameter.name;
       std::replace(name.begin(), name.end(), '_', '-');
-      make->add_option(name, at->second, "The same for this parameter; see `pas scene list`")
+      make->add_option(name, at->second, MeaningOf(parameter.name))
           ->group("Parameters of families");
     }
   }
