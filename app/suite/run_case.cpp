@@ -213,7 +213,13 @@ CaseResult RunCase(const SuiteCase& one, const SuiteProgram& program, const Suit
     if (result.status != CaseStatus::kFinished) break;
   }
   if (result.status == CaseStatus::kFinished) {
-    ReadMetrics(work.whole() / "run" / "metrics.json", result);
+    const fs::path metrics = work.whole() / "run" / "metrics.json";
+    if (!fs::exists(metrics)) {
+      throw io::InputError(program.file.string(),
+                           "ended without an error, but wrote no metrics.json of a case; is "
+                           "this --program a build of pas?");
+    }
+    ReadMetrics(metrics, result);
     result.times.merge(TimeRatiosOf(work.whole() / "run"));
     result.times[kSlamTime] = SlamSeconds(result);
     result.times[kRenderingTime] = std::max(0.0, seconds.front() - SlamSeconds(result));

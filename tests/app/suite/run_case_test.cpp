@@ -1,5 +1,6 @@
 #include "app/suite/run_case.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <array>
@@ -7,6 +8,7 @@
 #include <fstream>
 #include <memory>
 
+#include "io/input_error.h"
 #include "tests/support/program.h"
 
 namespace app {
@@ -49,6 +51,19 @@ TEST(RunCase, TellsTheMemoryOfTheCommandThatNeededMost) {
       RunCase(one, ProgramOf(folder / "fake"), {}, folder.path(), [] { return false; });
   ASSERT_EQ(result.status, CaseStatus::kFinished) << result.message;
   EXPECT_GE(result.times.at(kPeakMemory), 200.0);
+}
+
+TEST(RunCase, NamesAProgramThatIsNoPas) {
+  const program::TemporaryFolder folder;
+  SuiteCase one;
+  one.key = "desk-1/kinect1/own/full/default";
+  try {
+    RunCase(one, ProgramOf("/bin/true"), {}, folder.path(), [] { return false; });
+    FAIL() << "it wrote no figures";
+  } catch (const io::InputError& error) {
+    EXPECT_THAT(error.what(), testing::HasSubstr("true: ended without an error, but wrote no "
+                                                 "metrics.json of a case"));
+  }
 }
 
 }  // namespace
