@@ -37,6 +37,18 @@ bool TakesArguments(const CLI::App& app) {
                      [](const CLI::Option* option) { return option->get_positional(); });
 }
 
+/// Otherwise it would be said that a command is missing, which is not what is wrong.
+void RequireKnownOption(const CLI::App& app, const std::string& word) {
+  if (!word.starts_with("--") || word == "--") return;
+  const std::string name = word.substr(0, word.find('='));
+  std::string command;  // as it is called
+  for (const CLI::App* at = &app; at != nullptr; at = at->get_parent()) {
+    if (at->get_option_no_throw(name) != nullptr) return;
+    command = at->get_name() + " " + command;
+  }
+  throw io::InputError("unknown option " + io::Quoted(word) + "; see " + command + "--help");
+}
+
 }  // namespace
 
 std::vector<std::string> ArgumentsOf(int argc, const char* const* argv) {
@@ -66,7 +78,10 @@ void RequireKnownCommands(const CLI::App& app, const std::vector<std::string>& a
   for (const std::string& word : arguments) {
     const std::vector<const CLI::App*> commands = CommandsOf(*at);
     if (commands.empty()) return;
-    if (word.starts_with('-')) continue;  // flags; none of them has a value
+    if (word.starts_with('-')) {  // flags; none of them has a value
+      if (!TakesArguments(*at)) RequireKnownOption(*at, word);
+      continue;
+    }
     const CLI::App* command = Find(commands, word);
     if (command != nullptr) {
       at = command;

@@ -13,7 +13,7 @@ namespace app {
 std::vector<std::string> ArgumentsOf(int argc, const char* const* argv);
 
 /// Tells of a word that stands where a subcommand is expected and is none, and of the one that
-/// was perhaps meant.
+/// was perhaps meant; of an option there that is none, too.
 /// @throws InputError
 void RequireKnownCommands(const CLI::App& app, const std::vector<std::string>& arguments);
 

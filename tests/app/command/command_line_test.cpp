@@ -69,6 +69,19 @@ TEST_F(KnownCommands, AreNotAskedOfOneThatTakesArguments) {
   EXPECT_NO_THROW(Requiring({"suite", "merged.yaml"})());
 }
 
+TEST_F(KnownCommands, AreNotSaidToBeMissingWhereAnOptionIsNone) {
+  pas_.add_flag("-q,--quiet");
+  for (const std::vector<std::string>& arguments :
+       std::vector<std::vector<std::string>>{{"--nosuch"}, {"--nosuch", "slam"}}) {
+    EXPECT_THAT(
+        Requiring(arguments),
+        ThrowsMessage<io::InputError>(HasSubstr("unknown option `--nosuch`; see pas --help")));
+  }
+  EXPECT_THAT(Requiring({"scene", "--nosuch"}),
+              ThrowsMessage<io::InputError>(HasSubstr("see pas scene --help")));
+  EXPECT_NO_THROW(Requiring({"--quiet", "scene", "--quiet", "--help", "make", "--any"})());
+}
+
 TEST_F(KnownCommands, TakeWhateverFollowsThem) {
   EXPECT_NO_THROW(Requiring({"slam", "slams"})());
   EXPECT_NO_THROW(Requiring({"-q", "scene", "make", "x"})());
