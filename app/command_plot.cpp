@@ -3,6 +3,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <memory>
+#include <set>
 
 #include "app/app.h"
 #include "app/eval/eval_modes.h"
@@ -78,6 +79,12 @@ int RunPlot(const PlotOptions& options, const Globals& globals) {
                          fmt::format("is given {} times for {} runs; name all of them, "
                                      "in their order, or none",
                                      options.names.size(), options.runs.size()));
+  }
+  const std::set<std::string> names(options.names.begin(), options.names.end());
+  if (names.size() != options.names.size()) {
+    throw io::InputError("--name",
+                         "gives two runs one name, by which their curves could not be told "
+                         "apart; choose another for one");
   }
   io::RefuseInputsInside(options.output, {options.runs.begin(), options.runs.end()});
   io::OutputFolder folder(options.output, kCaptions, options.force);

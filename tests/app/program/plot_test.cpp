@@ -40,6 +40,13 @@ TEST_F(PlotProgram, WantsANameForEachRunOrNone) {
   EXPECT_FALSE(fs::exists(folder_ / "plots"));
 }
 
+TEST_F(PlotProgram, GivesNoTwoRunsOneName) {
+  const Outcome outcome = Plot({"-o", folder_ / "plots", "--name", "x", "--name", "x"});
+  EXPECT_EQ(outcome.exit_code, 2);
+  EXPECT_THAT(outcome.errors, HasSubstr("--name: gives two runs one name"));
+  EXPECT_FALSE(fs::exists(folder_ / "plots"));
+}
+
 TEST_F(PlotProgram, ReplacesOnlyPlotsAndNeverARun) {
   ASSERT_EQ(Plot({"-o", folder_ / "plots"}).exit_code, 0);
   EXPECT_EQ(Plot({"-o", folder_ / "plots"}).exit_code, 2);
