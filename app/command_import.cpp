@@ -66,6 +66,10 @@ int RunImport(const ImportArguments& arguments, bool quiet) {
   if (io::TypeAt(arguments.bag) == std::filesystem::file_type::not_found) {
     throw io::InputError(arguments.bag, "no such file; expected a bag of ROS 1, RECORDING.bag");
   }
+  if (io::TypeAt(arguments.bag) == std::filesystem::file_type::regular &&
+      !io::IsBagFile(arguments.bag)) {
+    throw io::InputError(arguments.bag, "is no bag of ROS 1; expected RECORDING.bag");
+  }
   io::RequireRecording(arguments.bag);
   if (!io::IsBagFile(arguments.bag)) {
     throw io::InputError(arguments.bag,

@@ -11,6 +11,7 @@
 #include "eval/planes/united_faces.h"
 #include "eval/surfaces/label_surfaces.h"
 #include "eval/trajectory/score_trajectory.h"
+#include "io/folder_kind.h"
 #include "slam/detect/box_tracks.h"
 #include "slam/detect/detections.h"
 #include "slam/faces/process_planes.h"
@@ -151,6 +152,7 @@ void PlaneBench::Add(const PlaneBench& o) {
 
 PlaneBench BenchPlanes(const std::filesystem::path& sequence, const std::string& camera_choice,
                        const slam::Config& config, const BenchChoice& choice) {
+  io::RequireSequence(sequence);
   const slam::Camera camera = slam::ChooseCamera(camera_choice, sequence).camera;
   const eval::Sequence truth = eval::WithUnitedFaces(eval::ReadSequence(sequence));
   slam::SequenceReader reader(sequence, camera);

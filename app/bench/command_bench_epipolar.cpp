@@ -9,6 +9,7 @@
 #include "app/bench/epipolar.h"
 #include "app/bench/quantile.h"
 #include "eval/formats/pose/pose_file.h"
+#include "io/folder_kind.h"
 #include "io/input_error.h"
 #include "slam/input/camera_reader.h"
 #include "slam/input/sequence_reader.h"
@@ -29,6 +30,7 @@ struct EpipolarArguments {
 };
 
 int RunEpipolarBench(const EpipolarArguments& arguments) {
+  io::RequireRecording(arguments.sequence);
   const slam::CameraFile camera = slam::ChooseCamera(arguments.camera, arguments.sequence);
   slam::SequenceReader frames(arguments.sequence, camera.camera);
   std::vector<eval::Trajectory> trajectories;

@@ -131,6 +131,7 @@ PlaneBench BenchAll(const PlaneBenchArguments& arguments, bool quiet) {
         BenchPlanes(sequence, arguments.camera, config,
                     {arguments.frames, arguments.every, arguments.unmeasured,
                      arguments.depth_delay_ms, arguments.surfaces});
+    if (done == 0) PrintHeader();  // a table that nothing stands in is no answer
     const std::string name = std::filesystem::path(sequence).lexically_normal().filename();
     if (bench.scored_frames > 0) PrintScores(name, bench);
     if (!bench.level_normals_w.empty()) PrintLevelPlane(name, bench);
@@ -142,7 +143,6 @@ PlaneBench BenchAll(const PlaneBenchArguments& arguments, bool quiet) {
 }
 
 int RunBench(const PlaneBenchArguments& arguments, bool quiet) {
-  PrintHeader();
   const PlaneBench sum = BenchAll(arguments, quiet);
   if (sum.scored_frames > 0) PrintScores("all", sum);
   PrintTimes(sum.times);

@@ -8,6 +8,7 @@
 #include "app/app.h"
 #include "app/bench/unevenness.h"
 #include "app/options/surfaces_option.h"
+#include "io/folder_kind.h"
 #include "io/input_error.h"
 #include "sim/sensor/depth/depth_bend.h"
 #include "sim/sensor/read_sensor.h"
@@ -89,6 +90,7 @@ double PatternLeft(const slam::DepthWarp& warp, const slam::Camera& camera,
 }
 
 int RunWarpBench(const WarpBenchArguments& arguments) {
+  io::RequireSequence(arguments.sequence);
   const std::string name =
       std::filesystem::path(arguments.sequence).lexically_normal().filename();
   const slam::Camera camera =

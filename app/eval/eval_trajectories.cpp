@@ -4,13 +4,20 @@
 
 #include "app/eval/eval_modes.h"
 #include "eval/report/trajectory_report.h"
+#include "io/folder_kind.h"
 #include "io/input_error.h"
 #include "io/output_file.h"
+#include "io/path_type.h"
 
 namespace app {
 namespace {
 
 eval::PoseFile ReadWithWarnings(const std::string& file) {
+  if (io::TypeAt(file) == std::filesystem::file_type::directory &&
+      io::KindOf(file) == io::FolderKind::kSequence) {
+    throw io::InputError(file, "is a sequence, expected a file of poses; name its " +
+                                   (std::filesystem::path(file) / "groundtruth.txt").string());
+  }
   eval::PoseFile poses = eval::ReadPoseFile(file);
   PrintWarnings(poses.warnings, poses.path.parent_path());
   return poses;

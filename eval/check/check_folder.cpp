@@ -11,7 +11,7 @@ CheckReport CheckFolder(const std::filesystem::path& folder, bool deep) {
   if (kind == io::FolderKind::kRun) return CheckRun(folder);
   if (kind == io::FolderKind::kSequence) return CheckSequence(folder, deep);
   const io::WrongFolder wrong = io::Unexpected(folder, kind, io::FolderKind::kOther);
-  return {"folder", {{".", 0, "", wrong.what, wrong.mend}}, 0, 0};
+  return {"folder", {{folder.string(), 0, "", wrong.what, wrong.mend}}, 0, 0};
 }
 
 }  // namespace eval
