@@ -15,7 +15,8 @@ namespace slam {
 ///
 /// with b = max(z - nearest_m, 0).
 ///
-/// The defaults are those of the first Kinect. Source: Nguyen, Izadi, Lovell, 3DIMPVT 2012.
+/// The defaults are those of the first Kinect. Source: Nguyen, Izadi, Lovell, 3DIMPVT 2012, who add the
+/// last term beyond 60 degrees alone; from 0 on it has no jump (5 % more at 45 degrees and 1 m).
 /// Those of other sensors: sensor_model.h.
 struct DepthNoise {
   double floor_m = 0.0012;

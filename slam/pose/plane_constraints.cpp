@@ -11,7 +11,7 @@ namespace slam {
 namespace {
 
 /// A side tells where the top face ends only if the face's own pixels reach it, the image goes
-/// on behind it, and no other detected object meets it there.
+/// on behind it, and most boundary points there are ends of the surface.
 std::array<bool, 4> InformativeSides(const Frame& frame, const FramePlane& plane,
                                      std::size_t detection, const Camera& camera,
                                      double max_gap_px) {

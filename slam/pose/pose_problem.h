@@ -127,7 +127,7 @@ struct PoseSummary {
 
 /// Minimises eq13 over the camera pose by Levenberg-Marquardt with Huber weights, in rounds:
 /// after each, points are classified by chi-square (95 %) and outliers left out of the next;
-/// the last round is plain least squares over the inlying points. A constraint that is not
+/// the last of several rounds is plain least squares over the inlying points. A constraint that is not
 /// finite is left out. When `usable` is false, T_cw is the best pose found, finite if the first
 /// guess was. Deterministic: sums run in the order of the vectors. Cost: about 1 ms for 500
 /// points.
