@@ -125,6 +125,61 @@ RC_GTEST_PROP(VertexExtraction, TurningTheImageTurnsTheVertices, ()) {
   }
 }
 
+/// A rectangular face as a camera sees it at up to 57 degrees, its edge points exact.
+struct SlantedFace {
+  FramePlane plane;
+  std::array<Eigen::Vector3d, 4> corners_c;
+};
+
+SlantedFace AnySlantedFace(const Camera& camera) {
+  const Eigen::Vector3d middle_c =
+      camera.Backproject({AnyReal(250, 390), AnyReal(190, 290)}, AnyReal(1.0, 2.0));
+  const Eigen::Vector3d ray = middle_c.normalized();
+  const double lean = AnyReal(-M_PI, M_PI), turn = AnyReal(-M_PI, M_PI);
+  const Eigen::Vector3d about =
+      TangentBasis(ray) * Eigen::Vector2d(std::cos(lean), std::sin(lean));
+  const Eigen::Vector3d n = (ExpSo3(AnyReal(0, 1.0) * about) * -ray).normalized();
+  const Eigen::Matrix<double, 3, 2> E = TangentBasis(n);
+  const Eigen::Vector3d e = E * Eigen::Vector2d(std::cos(turn), std::sin(turn)), f = n.cross(e);
+  const double a = AnyReal(0.08, 0.3), b = AnyReal(0.08, 0.3);
+  SlantedFace face;
+  face.corners_c = {middle_c - a * e - b * f, middle_c + a * e - b * f,
+                    middle_c + a * e + b * f, middle_c - a * e + b * f};
+  face.plane.pi_c = {n, -n.dot(middle_c)};
+  face.plane.centroid_c = middle_c;
+  face.plane.area_m2 = 4 * a * b;
+  const int count = AnyInt(60, 400);
+  for (std::size_t k = 0; k < 4; ++k) {
+    const Eigen::Vector3d& from = face.corners_c[k];
+    const Eigen::Vector3d side = face.corners_c[(k + 1) % 4] - from;
+    for (int s = 0; s < count; ++s) {
+      const Eigen::Vector3d p_c = from + side * s / count;
+      face.plane.edge_points.push_back({p_c, camera.Project(p_c), EdgeKind::kSurface});
+    }
+  }
+  return face;
+}
+
+RC_GTEST_PROP(VertexExtraction, FacesSeenAtASlantGiveTheirFourCornersInOrder, ()) {
+  const Camera camera = WideCamera();
+  const SlantedFace face = AnySlantedFace(camera);
+  const auto found = VerticesOf(face.plane, camera, ExactEdges());
+  RC_ASSERT(found.size() == 4u);
+  // The corners go counter-clockwise seen from the front, as vertices do: one place to begin at.
+  std::size_t first = 0;
+  for (std::size_t k = 1; k < 4; ++k) {
+    if ((face.corners_c[k] - found[0].p_c).norm() <
+        (face.corners_c[first] - found[0].p_c).norm())
+      first = k;
+  }
+  for (std::size_t k = 0; k < 4; ++k) {
+    const Eigen::Vector3d& corner = face.corners_c[(first + k) % 4];
+    RC_ASSERT((camera.Project(found[k].p_c) - camera.Project(corner)).norm() < 1e-6);
+    RC_ASSERT((found[k].p_c - corner).norm() < 1e-8);
+    RC_ASSERT(!found[k].extrapolated);
+  }
+}
+
 /// Largest corner error of a rectangle whose edge points carry noise; -1 without four corners.
 double NoisyCorner_px(int points_a_side, double sigma_px, std::uint64_t seed) {
   const Camera camera = WideCamera();
