@@ -180,6 +180,52 @@ RC_GTEST_PROP(VertexExtraction, FacesSeenAtASlantGiveTheirFourCornersInOrder, ()
   }
 }
 
+/// Noise, points that are on no side, sides of which something is hidden, and depth steps.
+void Spoil(FramePlane& plane, const Camera& camera, Random& random) {
+  const std::size_t sound = plane.edge_points.size();
+  for (std::size_t k = 0; k < sound; ++k) {
+    EdgePoint e = plane.edge_points[k];
+    const double du = Normal(random), dv = Normal(random);
+    const double far = k % 10 < 2 ? 20.0 : 0.5;
+    e.u_px += far * Eigen::Vector2d(du, dv);
+    e.step_sigmas = static_cast<float>(random.Below(30));
+    if (k % 7 == 0) e.kind = static_cast<EdgeKind>(random.Below(4));
+    const Eigen::Vector3d ray = camera.Backproject(e.u_px, 1.0);
+    e.p_c = -plane.pi_c.d / plane.pi_c.n.dot(ray) * ray;
+    plane.edge_points[k] = e;
+  }
+}
+
+RC_GTEST_PROP(VertexExtraction, TheOrderOfNoisyEdgePointsChangesNoBit, ()) {
+  const Camera camera = WideCamera();
+  FramePlane plane = AnySlantedFace(camera).plane;
+  Random random{static_cast<std::uint64_t>(AnyInt(0, 1000000)), 16};
+  Spoil(plane, camera, random);
+  const EdgeLineConfig config;  // as the product has it
+  const auto lines = FindEdgeLines(plane, camera, config, Random{7});
+  const auto before = VerticesOf(plane, camera, config);
+  for (std::size_t k = plane.edge_points.size(); k > 1; --k) {
+    std::swap(plane.edge_points[k - 1],
+              plane.edge_points[static_cast<std::size_t>(random.Below(static_cast<int>(k)))]);
+  }
+  const auto lines_after = FindEdgeLines(plane, camera, config, Random{7});
+  RC_ASSERT(lines.size() == lines_after.size());
+  for (std::size_t k = 0; k < lines.size(); ++k) {
+    RC_ASSERT(lines[k].line_c.P == lines_after[k].line_c.P);
+    RC_ASSERT(lines[k].line_c.V == lines_after[k].line_c.V);
+    RC_ASSERT(lines[k].support == lines_after[k].support);
+    RC_ASSERT(lines[k].error.offset_px2 == lines_after[k].error.offset_px2);
+    RC_ASSERT(lines[k].error.angle_rad2 == lines_after[k].error.angle_rad2);
+  }
+  const auto after = VerticesOf(plane, camera, config);
+  RC_ASSERT(before.size() == after.size());
+  for (std::size_t k = 0; k < before.size(); ++k) {
+    RC_ASSERT(before[k].p_c == after[k].p_c);
+    RC_ASSERT(before[k].extrapolated == after[k].extrapolated);
+    RC_ASSERT(before[k].covariance_c == after[k].covariance_c);
+  }
+}
+
 /// Largest corner error of a rectangle whose edge points carry noise; -1 without four corners.
 double NoisyCorner_px(int points_a_side, double sigma_px, std::uint64_t seed) {
   const Camera camera = WideCamera();
