@@ -65,5 +65,20 @@ RC_GTEST_PROP(PlaneResidualEq16, OppositeNormalsAreRefusedNotWrong, ()) {
   RC_ASSERT(TurnBetween(n, -n).r.allFinite());
 }
 
+RC_GTEST_PROP(PlaneResidualEq16, TurnsOfNearlyHalfACircleAreRightOrRefused, ()) {
+  const Eigen::Vector3d n_1 = AnyUnit();
+  const double a = AnyReal(-M_PI, M_PI), short_of_pi = std::pow(10.0, AnyReal(-9, -3));
+  const Eigen::Vector3d axis = TangentBasis(n_1) * Eigen::Vector2d(std::cos(a), std::sin(a));
+  const Eigen::Vector3d n_2 = (ExpSo3((M_PI - short_of_pi) * axis) * n_1).normalized();
+  const NormalDifference turn = TurnBetween(n_1, n_2);
+  RC_ASSERT(turn.r.allFinite() && turn.dr_dn2.allFinite());
+  if (short_of_pi > 1.001e-6) RC_ASSERT(turn.valid);
+  if (short_of_pi < 0.999e-6) RC_ASSERT(!turn.valid);
+  if (!turn.valid) return;
+  RC_ASSERT(std::abs(turn.r.norm() - (M_PI - short_of_pi)) < 1e-13);
+  // The axis is known as the sine of the turn is to round-off.
+  RC_ASSERT((turn.r.normalized() - axis).norm() < 1e-14 / short_of_pi);
+}
+
 }  // namespace
 }  // namespace slam
