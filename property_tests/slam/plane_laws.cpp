@@ -80,5 +80,20 @@ RC_GTEST_PROP(PlaneResidualEq16, TurnsOfNearlyHalfACircleAreRightOrRefused, ()) 
   RC_ASSERT((turn.r.normalized() - axis).norm() < 1e-14 / short_of_pi);
 }
 
+RC_GTEST_PROP(PlaneTransformEq15, TransformIsTheInverseTransposeOfThePose, ()) {
+  const Pose T_cw = AnyPose(10);
+  const Plane pi_w = AnyPlane(10);
+  Eigen::Matrix4d M = Eigen::Matrix4d::Identity();
+  M.topLeftCorner<3, 3>() = T_cw.R;
+  M.topRightCorner<3, 1>() = T_cw.t;
+  Eigen::Vector4d as_vector;
+  as_vector << pi_w.n, pi_w.d;
+  const Plane pi_c = Transform(T_cw, pi_w);
+  Eigen::Vector4d found;
+  found << pi_c.n, pi_c.d;
+  // M^T pi_c = pi_w, without an inverse.
+  RC_ASSERT((M.transpose() * found - as_vector).norm() < 1e-12 * (1 + T_cw.t.norm()));
+}
+
 }  // namespace
 }  // namespace slam
