@@ -3,6 +3,10 @@
 #include <ceres/manifold_test_utils.h>
 #include <gmock/gmock.h>
 
+#include <cmath>
+
+#include "slam/base/random.h"
+#include "tests/support/normal_draws.h"
 #include "tests/support/seen_landmark.h"
 #include "tests/support/slam_matchers.h"
 
@@ -232,6 +236,40 @@ TEST(PlaneManifold, HoldsCeresInvariantsAtThePolesToo) {
     y << ExpSo3({0.4, -0.8, 0.3}) * n, -0.2;
     delta << 0.5, -0.9, 0.3;
     EXPECT_THAT_MANIFOLD_INVARIANTS_HOLD(manifold, x, delta, y, 1e-9);
+  }
+}
+
+/// Anywhere, on an axis, or tilted from one by 1e-12 to 1e-3.
+Eigen::Vector3d DrawNormal(Random& random) {
+  Eigen::Vector3d n;
+  for (double& x : n) x = Normal(random);
+  const int kind = random.Below(10);
+  if (kind < 8) return n.normalized();
+  const double tilt = kind == 8 ? 0.0 : std::pow(10.0, -12 + 9 * random.Uniform());
+  const double side = random.Below(2) == 0 ? 1.0 : -1.0;
+  return (side * Eigen::Vector3d::Unit(random.Below(3)) + tilt * n).normalized();
+}
+
+TEST(PlaneManifold, HoldsCeresInvariantsEverywhere) {
+  using namespace ceres;  // the macro takes its names from there
+  const PlaneManifold manifold;
+  slam::Random random{10};
+  for (int k = 0; k < 1000; ++k) {
+    SCOPED_TRACE(k);
+    const Eigen::Vector3d n = DrawNormal(random);
+    const double a = 2 * M_PI * random.Uniform();
+    const auto turned = [&](double turn) {
+      const Eigen::Vector2d along(std::cos(a), std::sin(a));
+      const Eigen::Vector3d step = TangentBasis(n) * along;
+      return Eigen::Vector3d((std::cos(turn) * n + std::sin(turn) * step).normalized());
+    };
+    const double far = 3.0 * random.Uniform(), d = random.Below(4) == 0 ? 0.0 : Normal(random);
+    Vector x(4), y(4), delta(3);
+    x << n, d;
+    y << turned(3.0 * random.Uniform()), Normal(random);
+    delta << far * std::cos(a), far * std::sin(a), Normal(random);
+    EXPECT_THAT_MANIFOLD_INVARIANTS_HOLD(manifold, x, delta, y, 1e-9);
+    if (HasFailure()) return;
   }
 }
 
