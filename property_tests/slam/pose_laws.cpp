@@ -54,6 +54,23 @@ RC_GTEST_PROP(PoseExponential, ExpUndoesLog, ()) {
   RC_ASSERT(Difference(Exp(Log(T)), T) < 1e-12 * (1 + T.t.norm()));
 }
 
+// At pi either axis is right, but the rotation must be the same.
+RC_GTEST_PROP(PoseExponential, HalfATurnIsFoundAboutEitherEndOfItsAxis, ()) {
+  const Eigen::Vector3d axis = AnyUnit();
+  const double short_of_pi = AnyInt(0, 2) == 0 ? 0.0 : std::pow(10.0, AnyReal(-16, -5));
+  const Eigen::Matrix3d R = ExpSo3((M_PI - short_of_pi) * axis);
+  const Eigen::Vector3d omega = LogSo3(R);
+  RC_ASSERT(omega.norm() <= M_PI + 1e-14);
+  RC_ASSERT(std::abs(omega.norm() - (M_PI - short_of_pi)) < 1e-14);
+  RC_ASSERT(std::min((omega - M_PI * axis).norm(), (omega + M_PI * axis).norm()) <
+            2 * short_of_pi + 1e-13);
+  RC_ASSERT((ExpSo3(omega) - R).cwiseAbs().maxCoeff() < 1e-13);
+  // By its matrix alone: 2 a a^T - I, exactly symmetric, about any axis.
+  const Eigen::Matrix3d half = 2 * axis * axis.transpose() - Eigen::Matrix3d::Identity();
+  RC_ASSERT(std::abs(LogSo3(half).norm() - M_PI) < 1e-13);
+  RC_ASSERT((ExpSo3(LogSo3(half)) - half).cwiseAbs().maxCoeff() < 1e-13);
+}
+
 RC_GTEST_PROP(PoseExponential, AdjointCarriesAStepToTheOtherSide, ()) {
   const Pose T = AnyPose(3);
   Vector6d xi;
