@@ -211,6 +211,108 @@ RC_GTEST_PROP(PolygonOverlap, IsSymmetricAndBoundedByEitherArea, ()) {
   RC_ASSERT(std::abs(IntersectionArea(a, a) - Area(a)) < 1e-12);
 }
 
+/// Three to eight corners on an ellipse as thin as a millionth, turned and shifted.
+Polygon2 AnyConvex(Random& random) {
+  const double thin = std::pow(10.0, -6 * Uniform(random)), turn = 6.28 * Uniform(random);
+  const double x_0 = 2 * Uniform(random) - 1, y_0 = 2 * Uniform(random) - 1;
+  const Eigen::Matrix2d R = Eigen::Rotation2Dd(turn).toRotationMatrix();
+  Polygon2 points;
+  const int corners = 3 + Below(random, 6);
+  for (int k = 0; k < corners; ++k) {
+    const double a = 6.28 * (k + 0.9 * Uniform(random)) / corners;  // never two alike
+    points.emplace_back(R * Eigen::Vector2d(std::cos(a), thin * std::sin(a)) +
+                        Eigen::Vector2d(x_0, y_0));
+  }
+  return ConvexHull(points);
+}
+
+/// Image under x -> R x + t, or mirrored in between; its corners again counter-clockwise.
+Polygon2 Placed(const Polygon2& polygon, const Eigen::Matrix2d& A, const Eigen::Vector2d& t) {
+  Polygon2 placed;
+  for (const Eigen::Vector2d& p : polygon) placed.emplace_back(A * p + t);
+  if (A.determinant() < 0) std::reverse(placed.begin(), placed.end());
+  return placed;
+}
+
+RC_GTEST_PROP(PolygonOverlap, IsNothingOfWhatOnlyTouchesAndAllOfWhatIsInside, ()) {
+  Random random = AnyRandom();
+  const Polygon2 a = AnyConvex(random);
+  RC_ASSERT(a.size() >= 3u);
+  // Mirrored in one of its sides it touches all along that.
+  const auto k = std::size_t(Below(random, int(a.size())));
+  const Eigen::Vector2d& p = a[k];
+  const Eigen::Vector2d along = (a[(k + 1) % a.size()] - p).normalized();
+  const Eigen::Matrix2d M = 2 * along * along.transpose() - Eigen::Matrix2d::Identity();
+  const Polygon2 beyond = Placed(a, M, p - M * p);
+  RC_ASSERT(IntersectionArea(a, beyond) < 1e-12);
+  RC_ASSERT(IntersectionArea(beyond, a) < 1e-12);
+  RC_ASSERT(std::abs(Area(beyond) - Area(a)) < 1e-12);
+  // Through a corner it touches in a point.
+  const Eigen::Matrix2d turned = -Eigen::Matrix2d::Identity();
+  RC_ASSERT(IntersectionArea(a, Placed(a, turned, 2 * p)) < 1e-12);
+  // Far away nothing is left.
+  RC_ASSERT(IntersectionArea(a, Placed(a, Eigen::Matrix2d::Identity(), {9, 0})) == 0.0);
+  // Shrunk towards a point inside it, it is inside.
+  Eigen::Vector2d middle = Eigen::Vector2d::Zero();
+  for (const Eigen::Vector2d& corner : a) middle += corner / double(a.size());
+  const double s = Uniform(random);
+  const Polygon2 inside = Placed(a, s * Eigen::Matrix2d::Identity(), (1 - s) * middle);
+  RC_ASSERT(std::abs(IntersectionArea(a, inside) - s * s * Area(a)) < 1e-12);
+  RC_ASSERT(std::abs(IntersectionArea(inside, a) - s * s * Area(a)) < 1e-12);
+}
+
+RC_GTEST_PROP(PolygonOverlap, OfSliversIsSymmetricBoundedAndMovesWithBoth, ()) {
+  Random random = AnyRandom();
+  const Polygon2 a = AnyConvex(random), b = AnyConvex(random);
+  const double both = IntersectionArea(a, b);
+  RC_ASSERT(both >= 0 && both <= std::min(Area(a), Area(b)) + 1e-12);
+  RC_ASSERT(std::abs(both - IntersectionArea(b, a)) < 1e-12);
+  const Eigen::Matrix2d R = Eigen::Rotation2Dd(6.28 * Uniform(random)).toRotationMatrix();
+  const double x = 20 * Uniform(random) - 10, y = 20 * Uniform(random) - 10;
+  const Eigen::Vector2d t(x, y);
+  RC_ASSERT(std::abs(IntersectionArea(Placed(a, R, t), Placed(b, R, t)) - both) < 1e-9);
+  // Mirrored, and so clipped the other way round.
+  const Eigen::Matrix2d M = Eigen::Vector2d(-1, 1).asDiagonal();
+  RC_ASSERT(std::abs(IntersectionArea(Placed(a, M, t), Placed(b, M, t)) - both) < 1e-9);
+}
+
+bool IsInside(const Polygon2& polygon, const Eigen::Vector2d& x) {
+  for (std::size_t i = 0; i < polygon.size(); ++i) {
+    const Eigen::Vector2d edge = polygon[(i + 1) % polygon.size()] - polygon[i];
+    const Eigen::Vector2d to_x = x - polygon[i];
+    if (edge.x() * to_x.y() - edge.y() * to_x.x() < 0) return false;
+  }
+  return true;
+}
+
+// 2e5 points over one of the two: five standard errors of the share are 0.0056 at most.
+TEST(PolygonOverlap, IsTheShareOfPointsThatLieInBoth) {
+  constexpr int kPoints = 200000;
+  Random random(32);
+  int partly = 0;
+  for (int pair = 0; pair < 20; ++pair) {
+    const auto any_hull = [&] {
+      Polygon2 points;
+      for (int i = 0; i < 6; ++i) {
+        const double x = Uniform(random), y = Uniform(random);
+        points.emplace_back(x, y);
+      }
+      return ConvexHull(points);
+    };
+    const Polygon2 a = any_hull(), b = any_hull();
+    int in_both = 0;
+    for (int i = 0; i < kPoints; ++i) {
+      const double x = Uniform(random), y = Uniform(random);
+      const Eigen::Vector2d point(x, y);
+      in_both += IsInside(a, point) && IsInside(b, point) ? 1 : 0;
+    }
+    const double expected = double(in_both) / kPoints;
+    EXPECT_NEAR(IntersectionArea(a, b), expected, 0.0056) << pair;
+    partly += expected > 0.02 ? 1 : 0;
+  }
+  EXPECT_GT(partly, 10);  // or it was only asked of polygons that are apart
+}
+
 RC_GTEST_PROP(TrackingP39, StaysWithinItsBoundsAndIsPerfectForTheTruth, ()) {
   Random random = AnyRandom();
   std::vector<TrackingFrame> frames, perfect;

@@ -7,6 +7,7 @@
 
 #include "property_tests/generators/numbers.h"
 #include "slam/detect/box_tracks.h"
+#include "slam/geometry/box.h"
 
 namespace slam {
 namespace {
@@ -25,6 +26,36 @@ Detection AnyDetection() {
   d.score = AnyInt(1, 100) / 100.0;
   d.box_px = {Eigen::Vector2d(u, v), Eigen::Vector2d(u + AnyInt(4, 79), v + AnyInt(4, 79))};
   return d;
+}
+
+/// A box with corners in whole pixels, so that areas are exact; every eighth has no area.
+Box AnyPixelBox() {
+  const int u = AnyInt(-50, 640), v = AnyInt(-50, 480);
+  const int width = AnyInt(0, 7) == 0 ? 0 : AnyInt(1, 300), height = AnyInt(1, 300);
+  return {Eigen::Vector2d(u, v), Eigen::Vector2d(u + width, v + height)};
+}
+
+RC_GTEST_PROP(BoxIou, IsSymmetricToTheBitAndTheShareOfUnitSquares, ()) {
+  const Box a = AnyPixelBox(), b = AnyPixelBox();
+  const double iou = Iou(a, b);
+  RC_ASSERT(iou == Iou(b, a));
+  RC_ASSERT(iou >= 0 && iou <= 1);
+  RC_ASSERT(Iou(a, a) == (a.area() > 0 ? 1.0 : 0.0));
+  // By counting rows and columns of unit squares that lie in both.
+  const auto common = [](double low_1, double high_1, double low_2, double high_2) {
+    int count = 0;
+    for (int i = -50; i < 1000; ++i)
+      count += i >= low_1 && i + 1 <= high_1 && i >= low_2 && i + 1 <= high_2 ? 1 : 0;
+    return count;
+  };
+  const double both = common(a.min.x(), a.max.x(), b.min.x(), b.max.x()) *
+                      common(a.min.y(), a.max.y(), b.min.y(), b.max.y());
+  const double either = a.area() + b.area() - both;
+  RC_ASSERT(iou == (either > 0 ? both / either : 0.0));
+  // Side by side they touch; moved together nothing changes.
+  const Eigen::Vector2d beside(a.width(), 0), step(AnyInt(-99, 99), AnyInt(-99, 99));
+  RC_ASSERT(Iou(a, {a.min + beside, a.max + beside}) == 0.0);
+  RC_ASSERT(Iou({a.min + step, a.max + step}, {b.min + step, b.max + step}) == iou);
 }
 
 std::vector<std::vector<Detection>> AnyFrames() {
