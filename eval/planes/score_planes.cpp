@@ -146,10 +146,20 @@ class PlaneScorer {
 
 }  // namespace
 
+std::string WhyNoPlaneScore(const Sequence& sequence) {
+  if (!sequence.scene || !sequence.plane_id_files.empty() || !sequence.frame_truth.empty()) {
+    return "";
+  }
+  return "the sequence has neither gt/plane_id/ nor gt/frames.jsonl, which tell the planes of "
+         "a "
+         "frame";
+}
+
 std::optional<PlaneScore> ScorePlanes(const Run& run, const Sequence& as_read,
                                       const TrajectoryScore& trajectory) {
   const Sequence sequence = WithUnitedFaces(as_read);
   if (!sequence.scene || !sequence.groundtruth) return std::nullopt;
+  if (!WhyNoPlaneScore(sequence).empty()) return std::nullopt;
   const bool by_pixels = DecidedByPixels(run, sequence);
   if (!run.has_planes && !run.has_map && !by_pixels) return std::nullopt;
   PlaneScorer scorer(run.has_planes);

@@ -2,6 +2,7 @@
 
 #include <optional>
 #include <set>
+#include <string>
 
 #include "eval/formats/run/run.h"
 #include "eval/planes/association.h"
@@ -48,10 +49,14 @@ struct PlaneScore {
   std::vector<FrameScore> by_frame;  ///< frames with a true pose
 };
 
+/// Why no plane of any run can be scored though the sequence has gt/scene.json: it does not tell
+/// which planes its frames show. Empty where it does, and without gt/scene.json.
+std::string WhyNoPlaneScore(const Sequence& sequence);
+
 /// Scores the planes of a run. Every frame of the sequence with a true pose counts; one that
 /// the run says nothing about shows no planes.
-/// @returns nothing if the sequence has no gt/scene.json, or the run neither frame_planes.jsonl nor
-///   map.json nor label images
+/// @returns nothing if the sequence has no gt/scene.json or does not tell what its frames show, or
+///   the run neither frame_planes.jsonl nor map.json nor label images
 /// @throws InputError for images that cannot be read or differ in size
 std::optional<PlaneScore> ScorePlanes(const Run& run, const Sequence& sequence,
                                       const TrajectoryScore& trajectory);

@@ -29,6 +29,14 @@ std::optional<TimingScore> ScoreTiming(const Run& run) {
   return score;
 }
 
+/// The groups that a run's planes would be scored in.
+std::vector<std::string> PlaneGroupsOf(const Run& run) {
+  std::vector<std::string> groups;
+  if (run.has_planes) groups = {"extraction", "vertices", "association"};
+  if (run.has_map) groups.emplace_back("map");
+  return groups;
+}
+
 /// What is no fault of the run, but has to be known beside its figures.
 std::vector<Fault> Caveats(const Run& run, const Sequence& sequence,
                            const std::optional<PlaneScore>& planes) {
@@ -96,6 +104,15 @@ Evaluation Evaluate(const Run& run, const Sequence& sequence) {
     evaluation.run_warnings.push_back(std::move(caveat));
   }
   evaluation.sequence_warnings = sequence.warnings;
+  evaluation.no_planes = WhyNoPlaneScore(sequence);
+  if (!evaluation.no_planes.empty()) {
+    evaluation.groups_without_truth = PlaneGroupsOf(run);
+    evaluation.sequence_warnings.push_back({"gt", 0, "",
+                                            "has neither plane_id/ images nor frames.jsonl: no "
+                                            "planes are scored, as nothing tells "
+                                            "which ones a frame shows",
+                                            "write one of them, or remove scene.json"});
+  }
   return evaluation;
 }
 

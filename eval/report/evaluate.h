@@ -27,6 +27,9 @@ struct TimingScore {
 struct Evaluation {
   TrajectoryScore trajectory;  ///< without groundtruth.txt there are counts and no errors
   std::optional<PlaneScore> planes;
+  /// Groups of metrics.json of which the run has planes and the truth tells none, and why.
+  std::vector<std::string> groups_without_truth;
+  std::string no_planes;
   std::optional<TimingScore> timing;
   bool interrupted = false;              ///< the run ended before the sequence did
   std::vector<Fault> run_warnings;       ///< what to know of the run beside its figures

@@ -316,6 +316,10 @@ Json MetricsJson(const Evaluation& e) {
     }
     if (e.planes->map) json["map"] = MapGroup(*e.planes->map, e.trajectory, reasons);
   }
+  for (const std::string& group : e.groups_without_truth) {
+    json[group] = nullptr;
+    reasons[group] = e.no_planes;
+  }
   if (e.timing) json["timing_ms"] = TimingGroup(*e.timing, reasons);
   if (!reasons.empty()) json["reasons"] = std::move(reasons);
   json["rules"] = TrajectoryRules();

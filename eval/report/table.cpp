@@ -169,6 +169,10 @@ std::string MetricsTable(const Evaluation& e) {
   const MetricTexts texts(MetricsJson(e));
   AddTrajectory(e, texts, table);
   if (e.planes) AddPlanes(*e.planes, texts, table);
+  if (!e.groups_without_truth.empty()) {
+    table.Heading("Planes");
+    table.Undefined("all figures", e.no_planes);
+  }
   if (e.timing) AddTiming(*e.timing, table);
   return table.text();
 }

@@ -2,11 +2,13 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "eval/report/table.h"
 #include "tests/eval/report/evaluated_world.h"
 
 namespace eval {
 namespace {
 
+using ::testing::HasSubstr;
 namespace fs = std::filesystem;
 
 class EvaluateOtherRecordings : public EvaluateTinyWorld {
@@ -38,6 +40,22 @@ TEST_F(EvaluateOtherRecordings, PosesWithAClockOfTheirOwnAreMatchedWhateverTheMa
   EXPECT_EQ(score.ate_se3->count, world_->frames.size());
   EXPECT_NEAR(score.ate_se3->rmse, 0.0, kExact);
   EXPECT_TRUE(score.ate_complete_rmse_m.has_value()) << score.no_ate_complete;
+}
+
+TEST_F(EvaluateOtherRecordings, ASceneWithoutWhatFramesShowCostsTheFiguresOfPlanesAlone) {
+  const nlohmann::json whole = nlohmann::json::parse(MetricsText(EvaluationOf(tiny_)));
+  fs::remove_all(seq() / "gt/plane_id");
+  fs::remove(seq() / "gt/frames.jsonl");
+  const Evaluation evaluation = EvaluationOf(tiny_);
+  const nlohmann::json m = nlohmann::json::parse(MetricsText(evaluation));
+  EXPECT_EQ(m["trajectory"], whole["trajectory"]);
+  EXPECT_EQ(m["timing_ms"], whole["timing_ms"]);
+  for (const char* group : {"extraction", "vertices", "association", "map"}) {
+    EXPECT_TRUE(m.at(group).is_null()) << group;
+    EXPECT_THAT(m["reasons"].at(group).get<std::string>(), HasSubstr("neither gt/plane_id/"));
+  }
+  EXPECT_THAT(m["warnings"], ::testing::ElementsAre(HasSubstr("SEQ/gt: has neither")));
+  EXPECT_THAT(MetricsTable(evaluation), HasSubstr("-  (the sequence has neither"));
 }
 
 }  // namespace
