@@ -30,7 +30,14 @@ std::optional<Plane> ReadPlane(const JsonRecord& record, double unit_tolerance) 
 
 std::vector<Eigen::Vector3d> ReadPointsOnPlane(const JsonRecord& record, const std::string& key,
                                                const std::optional<Plane>& pi) {
-  std::vector<Eigen::Vector3d> points = record.Expected().Points(key);
+  if (!record.Has(key)) {
+    record.TellAt(
+        key, "is missing; expected a list of points",
+        fmt::format("write the {} of each plane, an empty list where it has none", key),
+        Severity::kWarning);
+    return {};
+  }
+  std::vector<Eigen::Vector3d> points = record.Points(key);
   for (std::size_t i = 0; pi && i < points.size(); ++i) {
     const double off_m = SignedDistance(*pi, points[i]);
     if (std::abs(off_m) <= kOffRunPlane_m) continue;

@@ -16,7 +16,8 @@ inline constexpr double kTruthUnit = 1e-6;  // the truth round-trips, or has six
 /// Reads the normal and offset of a plane. Nothing is returned when they are at fault.
 std::optional<Plane> ReadPlane(const JsonRecord& record, double unit_tolerance);
 
-/// Reads a list of points that lie on the plane; that one does not is a flaw.
+/// Reads a list of points that lie on the plane. That there is no list, or a point beside the plane,
+/// is a warning: corners and outlines are in figures.
 /// @param pi  nothing when it is at fault
 std::vector<Eigen::Vector3d> ReadPointsOnPlane(const JsonRecord& record, const std::string& key,
                                                const std::optional<Plane>& pi);

@@ -206,6 +206,7 @@ double RmsDistance(const Plane& pi_g, const std::vector<Eigen::Vector3d>& points
 
 MapScore ScoreMap(const std::vector<RunMapPlane>& map, const SceneTruth& scene,
                   const std::optional<Alignment>& gauge, const std::set<int>& seen) {
+  // Without decisions place alone tells what a plane shows.
   std::vector<AssociationRecord> records;
   for (const RunMapPlane& plane : map) {
     if (plane.merged_into || !gauge) continue;
@@ -213,6 +214,7 @@ MapScore ScoreMap(const std::vector<RunMapPlane>& map, const SceneTruth& scene,
   }
   MapScore score = ScoreMap(map, scene, gauge, records, seen);
   score.merged.reset();
+  score.comparable = score.planes == 0 || (gauge && score.has_outlines);
   return score;
 }
 
@@ -227,9 +229,11 @@ MapScore ScoreMap(const std::vector<RunMapPlane>& map, const SceneTruth& scene,
   score.normals_turned = gauge && NormalsAreTurned(map, scene, *gauge);
   // Most observations first, so that the first of a truth is its match and the rest duplicates.
   std::map<int, std::vector<const RunMapPlane*>> planes_of;
+  int outlines = 0;
   for (const RunMapPlane& plane : map) {
     if (plane.merged_into) continue;
     ++score.planes;
+    outlines += OutlineOf(plane).size() >= 3 ? 1 : 0;
     const int truth = counts.count(plane.id) > 0 ? Majority(counts.at(plane.id)) : 0;
     if (truth == 0) {
       ++score.spurious;
@@ -237,6 +241,7 @@ MapScore ScoreMap(const std::vector<RunMapPlane>& map, const SceneTruth& scene,
       planes_of[truth].push_back(&plane);
     }
   }
+  score.has_outlines = score.planes == 0 || outlines > 0;
   Errors errors;
   for (auto& [truth, planes] : planes_of) {
     std::stable_sort(planes.begin(), planes.end(),
@@ -259,7 +264,8 @@ MapScore ScoreMap(const std::vector<RunMapPlane>& map, const SceneTruth& scene,
                     static_cast<std::size_t>(silent)};
   }
   if (!errors.iou.empty()) score.polygon_iou_median = Quantile(errors.iou, 0.5);
-  if (gauge) score.area_explained = AreaExplained(planes_of, scene, *gauge, seen);
+  if (gauge && score.has_outlines)
+    score.area_explained = AreaExplained(planes_of, scene, *gauge, seen);
   return score;
 }
 

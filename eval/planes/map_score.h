@@ -31,6 +31,10 @@ struct PlaneClaims {
 struct MapScore {
   int planes = 0;            ///< planes of the final map
   int true_planes_seen = 0;  ///< that counted in at least one frame
+  /// Whether its planes can be held to true ones: by decisions, or by outlines in the world of the
+  /// truth. Where not, `matched`, `duplicates` and `spurious` say nothing.
+  bool comparable = true;
+  bool has_outlines = true;  ///< of a plane at least, where there are planes
   int matched = 0;           ///< those of them that are the majority of at least one map plane
   int duplicates = 0;        ///< map planes beyond the first with the same majority
   /// With >= 2 truths that have n_ij >= max(3, 5 % of n_.j); nothing without decisions.

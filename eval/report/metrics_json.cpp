@@ -162,17 +162,22 @@ Json MapGroup(const MapScore& m, const TrajectoryScore& trajectory, Json& reason
                : trajectory.no_match;
   };
   const char* const none = "no map plane shows a true plane that counts";
+  const char* const no_outline = "no map plane has an outline: a hull or three vertices";
   FigureGroup group("map", reasons);
+  const auto put_count = [&](const char* key, int count) {
+    if (m.comparable) return group.Put(key, count);
+    group.Undefined(key, why(no_outline));
+  };
   group.Put("planes", m.planes);
   group.Put("true_planes_seen", m.true_planes_seen);
-  group.Put("matched", m.matched);
-  group.Put("duplicates", m.duplicates);
+  put_count("matched", m.matched);
+  put_count("duplicates", m.duplicates);
   if (m.merged) {
     group.Put("merged", *m.merged);
   } else {
     group.Undefined("merged", "the run has no frame_planes.jsonl, which tells its decisions");
   }
-  group.Put("spurious", m.spurious);
+  put_count("spurious", m.spurious);
   group.Put("normal_deg", m.normal_deg, why(none));
   group.Put("offset_mm", m.offset_mm, why(none));
   group.Put("vertex_mm", m.vertex_mm, why("no vertex of the map is near a true corner"));
@@ -183,7 +188,8 @@ Json MapGroup(const MapScore& m, const TrajectoryScore& trajectory, Json& reason
   } else {
     group.Undefined("polygon_iou", why("no matched map plane has an outline"));
   }
-  group.Put("area_explained", m.area_explained, why("no true plane counts"));
+  group.Put("area_explained", m.area_explained,
+            why(m.has_outlines ? "no true plane counts" : no_outline));
   return group.json();
 }
 

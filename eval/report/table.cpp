@@ -132,8 +132,13 @@ void AddExtraction(const PlaneScore& s, const MetricTexts& texts, Table& table) 
 
 void AddMap(const MapScore& map, const MetricTexts& texts, Table& table) {
   table.Heading("Map");
-  table.Row("planes", "{} for {} true ones seen ({} matched, {} duplicates, {} spurious)",
-            map.planes, map.true_planes_seen, map.matched, map.duplicates, map.spurious);
+  if (map.comparable) {
+    table.Row("planes", "{} for {} true ones seen ({} matched, {} duplicates, {} spurious)",
+              map.planes, map.true_planes_seen, map.matched, map.duplicates, map.spurious);
+  } else {
+    table.Row("planes", "{} for {} true ones seen", map.planes, map.true_planes_seen);
+    table.Undefined("matched", texts.WhyNot("map/matched"));
+  }
   table.Spread("normal error", map.normal_deg, "deg", texts.WhyNot("map/normal_deg"));
   table.Spread("offset error", map.offset_mm, "mm", texts.WhyNot("map/offset_mm"));
   table.Spread("vertex error", map.vertex_mm, "mm", texts.WhyNot("map/vertex_mm"));

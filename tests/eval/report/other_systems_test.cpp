@@ -94,6 +94,49 @@ TEST_F(EvaluateOtherSystems, AMapWithItsNormalsTurnedRoundIsAWarning) {
   EXPECT_THAT(ours["warnings"], ::testing::ElementsAre(HasSubstr("normals turned round")));
 }
 
+TEST_F(EvaluateOtherSystems, OfAMapWithoutOutlinesOnlyDecisionsTellWhatItShows) {
+  TinyRun tiny(*world_);
+  for (auto& plane : tiny.map["planes"]) {
+    plane.erase("hull");
+    plane["vertices"] = nlohmann::json::array();
+  }
+  const nlohmann::json decided = Metrics(tiny);
+  for (const char* figure : {"matched", "duplicates", "spurious"}) {
+    EXPECT_EQ(decided["map"][figure], whole_["map"][figure]) << figure;
+  }
+  EXPECT_TRUE(decided["map"]["area_explained"].is_null());
+  EXPECT_THAT(decided["warnings"],
+              ::testing::ElementsAre(HasSubstr("/planes/0/hull: is missing")));
+  const nlohmann::json ours = MetricsOf({"trajectory.txt", "map.json"});
+  for (const char* figure : {"matched", "duplicates", "spurious", "area_explained"}) {
+    EXPECT_TRUE(ours["map"].at(figure).is_null()) << figure;
+    EXPECT_THAT(ours["reasons"].at(std::string("map/") + figure).get<std::string>(),
+                HasSubstr("no map plane has an outline"));
+  }
+  EXPECT_EQ(ours["map"]["planes"], whole_["map"]["planes"]);
+}
+
+TEST_F(EvaluateOtherSystems, AMapWithoutAnyPoseIsNotSpurious) {
+  io::WriteFile(RunFolder() / "trajectory.txt", "");
+  const nlohmann::json ours = MetricsOf({"trajectory.txt", "map.json"});
+  for (const char* figure : {"matched", "duplicates", "spurious", "area_explained"}) {
+    EXPECT_TRUE(ours["map"].at(figure).is_null()) << figure;
+    EXPECT_EQ(ours["reasons"].at(std::string("map/") + figure), "the run has no pose");
+  }
+  // Of a map without planes it is known that none is spurious.
+  io::WriteFile(RunFolder() / "map.json", R"({"planes": []})");
+  EXPECT_EQ(MetricsOf({"trajectory.txt", "map.json"})["map"]["spurious"], 0);
+}
+
+TEST_F(EvaluateOtherSystems, FramePlanesWithoutVerticesAreAWarning) {
+  TinyRun tiny(*world_);
+  for (auto& frame : tiny.frames) {
+    for (auto& plane : frame["planes"]) plane.erase("vertices");
+  }
+  EXPECT_THAT(Metrics(tiny)["warnings"],
+              ::testing::ElementsAre(HasSubstr("/planes/0/vertices: is missing")));
+}
+
 TEST_F(EvaluateOtherSystems, AMapPlaneIsOfTheFaceThatItSharesNotOfANearerOneBesideIt) {
   // The thick book's top is mapped 26 mm too low: 4 mm above the thin one's beside it, and 34 mm
   // above the desk's below it.
