@@ -43,6 +43,18 @@ JsonRecord JsonRecord::WithNeed(Need need) const {
   return record;
 }
 
+JsonRecord JsonRecord::Extra() const {
+  JsonRecord record = WithNeed(Need::kOptional);
+  record.wrong_ = Severity::kWarning;
+  return record;
+}
+
+JsonRecord JsonRecord::Inner(const json& value, const std::string& key) const {
+  JsonRecord inner(*folder_, file_, line_, value, pointer_ + "/" + key);
+  inner.wrong_ = wrong_;
+  return inner;
+}
+
 void JsonRecord::Tell(std::string what, std::string mend, Severity severity) const {
   folder_->Tell({file_, line_, pointer_, std::move(what), std::move(mend)}, severity);
 }
@@ -56,7 +68,8 @@ void JsonRecord::TellAt(const std::string& key, std::string what, std::string me
 void JsonRecord::TellExpected(const std::string& expected) const {
   constexpr std::size_t kMaxShown = 60;  // characters
   const std::string found = value_->dump(-1, ' ', false, json::error_handler_t::replace);
-  Tell(fmt::format("is {}; expected {}", found.substr(0, kMaxShown), expected), kSeeFormat);
+  Tell(fmt::format("is {}; expected {}", found.substr(0, kMaxShown), expected), kSeeFormat,
+       wrong_);
 }
 
 bool JsonRecord::Contains(const std::string& key) const {
@@ -69,15 +82,15 @@ bool JsonRecord::Has(const std::string& key) const {
 
 std::optional<JsonRecord> JsonRecord::Find(const std::string& key, const char* expected) const {
   if (!value_->is_object()) {
-    Tell("is not an object", kSeeFormat);
+    Tell("is not an object", kSeeFormat, wrong_);
     return std::nullopt;
   }
   if (need_ == Need::kRequired ? Contains(key) : Has(key)) {
-    return JsonRecord(*folder_, file_, line_, value_->at(key), pointer_ + "/" + key);
+    return Inner(value_->at(key), key);
   }
   if (need_ == Need::kOptional) return std::nullopt;
   TellAt(key, fmt::format("is missing; expected {}", expected), kSeeFormat,
-         need_ == Need::kRequired ? Severity::kFatal : Severity::kFlaw);
+         need_ == Need::kRequired ? wrong_ : Severity::kFlaw);
   return std::nullopt;
 }
 
@@ -93,8 +106,8 @@ std::optional<double> JsonRecord::Number(const std::string& key,
                                          const io::Interval& domain) const {
   const auto number = Number(key);
   if (!number || domain.Contains(*number)) return number;
-  TellAt(key, fmt::format("is {}; expected a number in {}", *number, domain.text()),
-         kSeeFormat);
+  TellAt(key, fmt::format("is {}; expected a number in {}", *number, domain.text()), kSeeFormat,
+         wrong_);
   return std::nullopt;
 }
 
@@ -116,7 +129,7 @@ std::optional<int> JsonRecord::Integer(const std::string& key, int min, int max)
          fmt::format(
              "is {}; expected a whole number {}", *number,
              open ? fmt::format("of {} or more", min) : fmt::format("from {} to {}", min, max)),
-         kSeeFormat);
+         kSeeFormat, wrong_);
   return std::nullopt;
 }
 
@@ -198,18 +211,20 @@ std::vector<Eigen::Vector3d> JsonRecord::Points(const std::string& key) const {
 std::vector<JsonRecord> JsonRecord::AsItems() const {
   std::vector<JsonRecord> items;
   if (!value_->is_array()) {
-    Tell("is not a list", kSeeFormat);
+    Tell("is not a list", kSeeFormat, wrong_);
     return items;
   }
   for (std::size_t i = 0; i < value_->size(); ++i) {
-    items.emplace_back(*folder_, file_, line_, (*value_)[i],
-                       pointer_ + "/" + std::to_string(i));
+    items.push_back(Inner((*value_)[i], std::to_string(i)));
   }
   return items;
 }
 
 std::optional<JsonRecord> JsonRecord::Object(const std::string& key) const {
-  return Find(key, "an object");
+  const auto found = Find(key, "an object");
+  if (!found || found->value_->is_object()) return found;
+  found->TellExpected("an object");
+  return std::nullopt;
 }
 
 std::vector<JsonRecord> JsonRecord::Items(const std::string& key) const {

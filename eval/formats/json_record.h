@@ -25,6 +25,9 @@ class JsonRecord {
   /// The same value, members of which should be there, but nobody needs them: that one is
   /// missing or null is a flaw.
   JsonRecord Expected() const { return WithNeed(Need::kExpected); }
+  /// The same value, members of which the format does not ask for: they may be missing or null, and
+  /// what another program means by them is passed over with a warning.
+  JsonRecord Extra() const;
 
   /// Tells a fault at this value, or at a member of it.
   void Tell(std::string what, std::string mend, Severity severity = Severity::kFatal) const;
@@ -68,6 +71,8 @@ class JsonRecord {
   /// The member; nothing when it is missing, which is a fault if it is needed.
   std::optional<JsonRecord> Find(const std::string& key, const char* expected) const;
   void TellExpected(const std::string& expected) const;
+  /// Something within this value.
+  JsonRecord Inner(const nlohmann::json& value, const std::string& key) const;
 
   Folder* folder_;
   std::string file_;
@@ -75,6 +80,7 @@ class JsonRecord {
   const nlohmann::json* value_;
   std::string pointer_;
   Need need_ = Need::kRequired;
+  Severity wrong_ = Severity::kFatal;  ///< that a member is of another kind than expected
 };
 
 /// Parses a JSON document and hands its root, an object, to `visit`.

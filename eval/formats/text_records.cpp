@@ -5,9 +5,11 @@
 
 namespace eval {
 
-std::vector<io::TextRecord> ReadTextRecords(Folder& folder, const std::string& file) {
+std::vector<io::TextRecord> ReadTextRecords(Folder& folder, const std::string& file,
+                                            Severity severity) {
   std::vector<io::TextRecord> records;
-  folder.Try(file, [&] { records = io::ReadRecords(folder.Open(file)); });
+  folder.Try(
+      file, [&] { records = io::ReadRecords(folder.Open(file)); }, severity);
   return records;
 }
 

@@ -20,7 +20,8 @@ std::optional<PoseCovariance> ReadLine(Folder& folder, const std::string& file,
   if (!v || v->size() != kFields) {
     folder.Tell(file, record.line,
                 "expected a stamp and 21 finite numbers, found " + TextOf(record),
-                "write the upper triangle of the covariance row by row, or drop the line");
+                "write the upper triangle of the covariance row by row, or drop the line",
+                Severity::kWarning);
     return std::nullopt;
   }
   PoseCovariance read{v->front(), Matrix6d::Zero(), record.line};
@@ -38,16 +39,19 @@ std::optional<PoseCovariance> ReadLine(Folder& folder, const std::string& file,
 
 }  // namespace
 
-std::vector<PoseCovariance> ReadPoseCovariances(Folder& folder, const std::string& file) {
+std::optional<std::vector<PoseCovariance>> ReadPoseCovariances(Folder& folder,
+                                                               const std::string& file) {
   std::vector<PoseCovariance> covariances;
   StampOrder order(folder, file);
-  for (const io::TextRecord& record : ReadTextRecords(folder, file)) {
+  const auto records = ReadTextRecords(folder, file, Severity::kWarning);
+  for (const io::TextRecord& record : records) {
     const auto read = ReadLine(folder, file, record);
     if (!read) continue;
     order.Next(read->stamp_s, read->line);
     covariances.push_back(*read);
   }
   order.Finish();
+  if (covariances.empty() && !records.empty()) return std::nullopt;
   std::stable_sort(
       covariances.begin(), covariances.end(),
       [](const PoseCovariance& a, const PoseCovariance& b) { return a.stamp_s < b.stamp_s; });

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -21,8 +22,10 @@ struct PoseCovariance {
 
 /// Reads trajectory_covariance.txt, lines of a stamp and the 21 numbers of the upper triangle, row
 /// by row; by rising stamp. A pose that is known exactly, as that which defines the world, has
-/// zeros.
-std::vector<PoseCovariance> ReadPoseCovariances(
+/// zeros. Lines of another form are passed over with a warning, for the format does not ask for the
+/// file.
+/// @returns nothing when all lines are so: another program's file of that name
+std::optional<std::vector<PoseCovariance>> ReadPoseCovariances(
     Folder& folder, const std::string& file = "trajectory_covariance.txt");
 
 }  // namespace eval

@@ -34,25 +34,26 @@ std::string CameraNameOf(const nlohmann::json& root) {
 
 RunInfo ReadInfo(const JsonRecord& root) {
   root.Format("pas-run/1");
-  const JsonRecord expected = root.Expected();
+  const JsonRecord expected = root.Expected(), extra = root.Extra();
   RunInfo info;
   info.sequence = OptionalText(root, "sequence");
-  info.sequence_absolute = OptionalText(root.Optional(), "sequence_absolute");
+  info.sequence_absolute = OptionalText(extra, "sequence_absolute");
   info.variant = OptionalText(expected, "variant");
   // What is read into nothing is in no figure; a wrong one is told.
   for (const char* key : {"association", "detector", "version"}) expected.Text(key);
   expected.Whole("seed");
   info.camera_name = CameraNameOf(root.value());
   const bool has_numbers = root.Has("camera") && !root.value()["camera"].is_string();
-  if (has_numbers) info.camera = ReadCamera(root.Object("camera")->Optional());
+  const auto camera = has_numbers ? extra.Object("camera") : std::nullopt;
+  if (camera) info.camera = ReadCamera(camera->Optional());
   if (!root.Has("options")) {
     root.TellAt("options", "is missing; expected the options of the run", kRunAgain,
                 Severity::kFlaw);
   }
   info.frames = expected.Integer("frames", 0);
   info.tracked = expected.Integer("tracked");
-  info.interrupted = root.Optional().Flag("interrupted").value_or(false);
-  info.sequence_frames = root.Optional().Integer("sequence_frames", 0);
+  info.interrupted = extra.Flag("interrupted").value_or(false);
+  info.sequence_frames = extra.Integer("sequence_frames", 0);
   expected.Integer("lost", 0);
   if (info.frames && info.tracked && !(*info.tracked >= 0 && *info.tracked <= *info.frames)) {
     root.TellAt("tracked", fmt::format("is {} of {} frames", *info.tracked, *info.frames),

@@ -29,11 +29,12 @@ std::optional<Eigen::Matrix4d> ReadCovariance(const JsonRecord& record) {
 
 RunMapPlane ReadMapPlane(const JsonRecord& record) {
   const JsonRecord expected = record.Expected(), optional = record.Optional();
+  const JsonRecord extra = record.Extra();
   RunMapPlane plane;
   plane.plane_class = optional.Text("class");
   const auto pi_w = ReadPlane(record, kRunUnit);
   if (pi_w) plane.pi_w = *pi_w;
-  plane.covariance = ReadCovariance(optional);
+  plane.covariance = ReadCovariance(extra);
   plane.area_m2 = expected.Number("area", io::Interval("[0, 1e14)")).value_or(0.0);
   plane.observations = expected.Integer("observations", 1).value_or(0);
   const io::Interval seconds("[0, 1e11)");  // as stamps are
@@ -44,8 +45,8 @@ RunMapPlane ReadMapPlane(const JsonRecord& record) {
                   Severity::kFlaw);
   }
   plane.merged_into = optional.Integer("merged_into");
-  plane.split_from = optional.Integer("split_from");
-  optional.Number("split_at", seconds);  // in no figure; a wrong one is told
+  plane.split_from = extra.Integer("split_from");
+  extra.Number("split_at", seconds);  // in no figure; a wrong one is told
   plane.vertices_w = ReadPointsOnPlane(record, "vertices", pi_w);
   plane.hull_w = ReadPointsOnPlane(record, "hull", pi_w);
   return plane;
@@ -69,14 +70,17 @@ class MapReader {
  public:
   std::vector<RunMapPlane> Read(const JsonRecord& root) {
     for (const JsonRecord& record : root.Items("planes")) Add(record);
-    for (const auto& [id, record] : records_) {
-      // Merges lead to a plane that is left, splits to one that was there before.
-      CheckLink(id, record, "merged_into", merged_into_,
-                "name the plane that took this one in, and keep it in the map",
-                "merge into a plane that is left");
-      CheckLink(id, record, "split_from", split_from_,
-                "name the plane that this one was split from, and keep it in the map",
-                "name the plane that held both");
+    // Merges lead to a plane that is left, splits to one that was there before.
+    for (RunMapPlane& plane : planes_) {
+      Leads(plane.id, "merged_into", merged_into_,
+            "name the plane that took this one in, and keep it in the map",
+            "merge into a plane that is left", Severity::kFatal);
+      // The format does not know of splits: to another program the key may be anything.
+      if (!Leads(plane.id, "split_from", split_from_,
+                 "name the plane that this one was split from, and keep it in the map",
+                 "name the plane that held both", Severity::kWarning)) {
+        plane.split_from.reset();
+      }
     }
     TellMissingCovariances();
     std::sort(planes_.begin(), planes_.end(),
@@ -112,16 +116,20 @@ class MapReader {
   }
 
   // A link names a plane of the map; a circle of links has no first.
-  void CheckLink(int id, const JsonRecord& record, const char* key, const Links& links,
-                 const char* how_to_name, const char* how_to_lead) const {
+  bool Leads(int id, const char* key, const Links& links, const char* how_to_name,
+             const char* how_to_lead, Severity severity) const {
     const auto target = links.find(id);
-    if (target == links.end()) return;
+    if (target == links.end()) return true;
+    const JsonRecord& record = records_.at(id);
     if (records_.count(target->second) == 0) {
       record.TellAt(key, fmt::format("is {}, which is no plane of the map", target->second),
-                    how_to_name);
+                    how_to_name, severity);
     } else if (LeadsBack(id, links)) {
-      record.TellAt(key, "leads back to the plane itself", how_to_lead);
+      record.TellAt(key, "leads back to the plane itself", how_to_lead, severity);
+    } else {
+      return true;
     }
+    return false;
   }
 
   std::vector<RunMapPlane> planes_;

@@ -89,6 +89,20 @@ std::optional<Camera> ReadCamera(Folder& folder, const std::string& file,
   return camera;
 }
 
+std::optional<Camera> ReadTrueCamera(Folder& folder) {
+  const bool is_camera = folder.Try(
+      kTrueCamera,
+      [&] {
+        const io::YamlMap map(io::ReadYaml(folder.Open(kTrueCamera)));
+        if (CameraOfOtherForm(map)) return;
+        for (const char* key : {"width", "height", "fx", "fy", "cx", "cy", "depth_factor"}) {
+          if (!map.Has(key)) map.At(key).Number(io::Interval(kAny));  // throws what is missing
+        }
+      },
+      Severity::kWarning);
+  return is_camera ? ReadCamera(folder, kTrueCamera) : std::nullopt;
+}
+
 std::optional<Camera> ReadCamera(const JsonRecord& record) {
   const io::Interval positive(kPositive), any(kAny);
   const auto width = record.Integer("width", 1, kMaxSize);

@@ -37,8 +37,12 @@ inline constexpr const char* kTrueCamera = "gt/camera.yaml";
 std::optional<Camera> ReadCamera(Folder& folder, const std::string& file = "camera.yaml",
                                  const std::string& mend = "");
 
+/// Reads gt/camera.yaml, which the format does not ask for: one without the keys of a camera is
+/// passed over with a warning, and nothing is returned.
+std::optional<Camera> ReadTrueCamera(Folder& folder);
+
 /// The same keys in an object of JSON, as run.json has them; nothing when one is missing.
-/// @param record  Optional(), for what another system writes there is its own
+/// @param record  Optional(), within an Extra() of the run: what another system writes is its own
 std::optional<Camera> ReadCamera(const JsonRecord& record);
 
 }  // namespace eval

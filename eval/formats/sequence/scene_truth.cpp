@@ -79,19 +79,20 @@ void ReadObjectBox(const JsonRecord& record, TruthObject& object) {
 
 TruthObject ReadObject(const JsonRecord& record) {
   TruthObject object;
-  object.name = record.Optional().Text("name").value_or("");
-  object.detection_group = record.Optional().Integer("detection_group").value_or(0);
+  const JsonRecord extra = record.Extra();
+  object.name = extra.Text("name").value_or("");
+  object.detection_group = extra.Integer("detection_group").value_or(0);
   object.object_class = record.Text("class").value_or("");
   object.role = ReadRole(record);
   object.regular = record.Flag("regular").value_or(false);
   ReadObjectBox(record, object);
-  object.is_mesh = record.Optional().Text("shape") == "mesh";
+  object.is_mesh = extra.Text("shape") == "mesh";
   return object;
 }
 
 std::vector<std::vector<Eigen::Vector3d>> ReadHoles(const JsonRecord& plane) {
   std::vector<std::vector<Eigen::Vector3d>> holes;
-  for (const JsonRecord& hole : plane.Optional().Items("holes")) {
+  for (const JsonRecord& hole : plane.Extra().Items("holes")) {
     holes.push_back(hole.AsPoints());
     if (holes.back().size() >= 3) continue;
     hole.Tell("has not 3 corners", "give the outline of each hole", Severity::kWarning);

@@ -22,8 +22,8 @@ Sequence ReadSequence(const fs::path& path) {
   sequence.frames = ReadFrames(folder);
   TellFrameCount(folder, manifest, sequence.frames.size());
   if (folder.Has("camera.yaml")) sequence.camera = ReadCamera(folder);
-  sequence.true_camera =
-      folder.Has(kTrueCamera) ? ReadCamera(folder, kTrueCamera) : sequence.camera;
+  if (folder.Has(kTrueCamera)) sequence.true_camera = ReadTrueCamera(folder);
+  if (!sequence.true_camera) sequence.true_camera = sequence.camera;
   if (folder.Has("groundtruth.txt")) sequence.groundtruth = ReadGroundtruth(folder);
   if (folder.Has("gt/scene.json")) sequence.scene = ReadSceneTruth(folder);
   if (folder.Has("gt/frames.jsonl")) sequence.frame_truth = ReadFrameTruth(folder);
