@@ -146,8 +146,8 @@ std::array<std::vector<double>, 2> SamplesOf(int n, int m, int u) {
   return samples;
 }
 
-TEST(RankTestEq12, EqualsTheExactDistributionForEveryUWhereOneSampleIsBelowEight) {
-  for (int n = 1; n < 8; ++n) {
+TEST(RankTestEq12, EqualsTheExactDistributionForEveryUAndAllSizesToEight) {
+  for (int n = 1; n <= 8; ++n) {
     for (int m = 1; m <= 8; ++m) {
       const auto orders = OrdersByU(n, m);
       for (int u = 0; u <= n * m; ++u) {

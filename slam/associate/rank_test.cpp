@@ -10,7 +10,7 @@
 namespace slam {
 namespace {
 
-constexpr std::size_t kMinNormal = 8;  // smallest sample for which the normal form holds
+constexpr std::size_t kMinNormal = 9;  // of both samples; from here on the normal form holds
 constexpr std::size_t kMaxExact = 60;  // larger partners of a small sample are thinned: memory
 
 /// Both samples in one order.

@@ -23,7 +23,7 @@ struct RankTest {
 ///   D(W) = I J / 12 * ( I + J + 1 - sum (tau_k^3 - tau_k) / ((I + J)(I + J - 1)) )  eq11
 ///   z = ( W - E(W) + 1/2 ) / sqrt(D(W)),  p = 2 Phi(z), at most 1                 eq12
 ///
-/// Ties share their mean rank. When either sample has fewer than 8 values the p-value is exact:
+/// Ties share their mean rank. When either sample has at most 8 values the p-value is exact:
 /// the share of all divisions of the pooled values that are at least as far from E(W); ties
 /// included. Larger samples use the normal form with continuity correction.
 /// @returns p = 1 when a sample is empty or all values are equal.
