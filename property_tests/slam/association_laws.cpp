@@ -118,6 +118,19 @@ Problem AnyProblemOfSingles() {
   return p;
 }
 
+// A loss needs two planes that compete for one landmark with others near: many problems a case.
+RC_GTEST_PROP(PlaneAssignment, ALargerMarginNeverAddsAMatch, ()) {
+  for (int problems = 0; problems < 20; ++problems) {
+    const Problem p = AnyProblemOfSingles();
+    const double small = AnyReal(0, 3), large = small + AnyReal(0, 6);
+    const auto bold = AssignPlanes(p.frames, p.pairs, p.relations, small);
+    const auto careful = AssignPlanes(p.frames, p.pairs, p.relations, large);
+    for (std::size_t f = 0; f < bold.map_plane.size(); ++f) {
+      if (careful.map_plane[f] >= 0) RC_ASSERT(bold.map_plane[f] == careful.map_plane[f]);
+    }
+  }
+}
+
 RC_GTEST_PROP(PlaneAssignment, WithoutPiecesEveryLandmarkHasOnePlaneAtMost, ()) {
   const Problem p = AnyProblemOfSingles();
   const auto a = AssignPlanes(p.frames, p.pairs, p.relations, AnyReal(0, 6));
