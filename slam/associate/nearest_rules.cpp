@@ -35,6 +35,16 @@ double LeastDistance(const Plane& pi_w, const std::vector<Eigen::Vector3d>& poin
   return least_m;
 }
 
+/// Of the outline's corners and all between them.
+double LeastDistanceOfOutline(const Plane& pi_w, const std::vector<Eigen::Vector3d>& hull_w) {
+  const auto in_front = [&](const Eigen::Vector3d& p_w) {
+    return SignedDistance(pi_w, p_w) > 0;
+  };
+  const auto front = std::count_if(hull_w.begin(), hull_w.end(), in_front);
+  const bool crosses = front > 0 && front < std::ssize(hull_w);
+  return crosses ? 0.0 : LeastDistance(pi_w, hull_w);
+}
+
 Result<double, PairRefusal> TestPeerBounds(const FramePlane& plane, const MapPlane& m,
                                            const Pose& T_cw, AssociationRule rule) {
   const PeerBounds bounds = BoundsOf(rule);
@@ -42,8 +52,9 @@ Result<double, PairRefusal> TestPeerBounds(const FramePlane& plane, const MapPla
   const double cosine = pi_w.n.dot(m.pi_w.n);
   if (!((bounds.is_signed ? cosine : std::abs(cosine)) > bounds.min_cosine))
     return PairRefusal::kNormalAngle;
-  const double distance_m =
-      LeastDistance(pi_w, rule == AssociationRule::kSpSlam ? m.hull_w : m.points_w);
+  const double distance_m = rule == AssociationRule::kSpSlam
+                                ? LeastDistanceOfOutline(pi_w, m.hull_w)
+                                : LeastDistance(pi_w, m.points_w);
   if (!(distance_m < bounds.max_distance_m)) return PairRefusal::kNearestPoint;
   return distance_m;
 }

@@ -89,6 +89,19 @@ TEST(NearestRules, SpSlamAsksTheOutlineAlone) {
   EXPECT_FALSE(Ask(Landmark({0, 0, 0.899}, 0), AssociationRule::kSpSlam));
 }
 
+// The sides of a wide outline are nearer than its corners where the plane crosses it.
+TEST(NearestRules, SpSlamMeasuresTheOutlineBetweenItsCorners) {
+  MapPlane m = Landmark({0, 0, 1}, 30 * kDegree);
+  const Eigen::Matrix3d turn = ExpSo3({0, 30 * kDegree, 0});
+  m.hull_w.clear();
+  for (const auto& [x, y] :
+       {std::pair(-1, -1), std::pair(1, -1), std::pair(1, 1), std::pair(-1, 1)})
+    m.hull_w.push_back(Eigen::Vector3d(0, 0, 1) + turn * Eigen::Vector3d(x, y, 0));
+  const auto distance_m = Ask(m, AssociationRule::kSpSlam);
+  ASSERT_TRUE(distance_m);
+  EXPECT_EQ(distance_m.value(), 0.0);
+}
+
 TEST(NearestRules, ALandmarkWithoutPointsIsNearNothing) {
   MapPlane m = Landmark({0, 0, 1}, 0);
   m.points_w.clear();
