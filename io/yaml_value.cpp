@@ -133,8 +133,6 @@ Eigen::VectorXd YamlValue::Numbers(int count, const Interval& domain,
   return numbers;
 }
 
-bool YamlValue::IsNothing() const { return node_->kind == Kind::kNothing; }
-
 bool YamlValue::IsScalar() const { return node_->kind == Kind::kScalar; }
 
 std::vector<YamlValue> YamlValue::List(std::size_t max_count) const {

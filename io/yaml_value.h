@@ -40,8 +40,6 @@ class YamlValue {
   /// A list of exactly `count` numbers.
   Eigen::VectorXd Numbers(int count, const Interval& domain,
                           const std::string& unit = "") const;
-  /// An empty file or value.
-  bool IsNothing() const;
   /// Neither a list nor a mapping, for keys that allow a word or more.
   bool IsScalar() const;
   /// A list with at most `max_count` entries.

@@ -31,8 +31,12 @@ class ConfigFile : public ::testing::Test {
 };
 
 TEST_F(ConfigFile, OfNothingGivesTheDefaults) {
-  EXPECT_EQ(ConfigAsJson(Read("")), ConfigAsJson(Config{}));
+  EXPECT_EQ(ConfigAsJson(Read("{}")), ConfigAsJson(Config{}));
   EXPECT_EQ(ConfigAsJson(Read("# only a comment\n")), ConfigAsJson(Config{}));
+}
+
+TEST_F(ConfigFile, IsNotAnEmptyFile) {
+  ExpectError("", "settings.yaml:1: the file is empty; expected settings");
 }
 
 TEST_F(ConfigFile, ReadsBackWhatItListsToTheSameValues) {
