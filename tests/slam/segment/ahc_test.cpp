@@ -67,12 +67,12 @@ TEST(Ahc, LabelsAPlaneWithoutNoiseToItsLastMeasuredPixel) {
   EXPECT_EQ(std::count(labels.begin(), labels.end(), kNoLabel), 9);
 }
 
-// Neighbours outside of the image take nothing off a plane: the program of its authors has it so.
-TEST(Ahc, LabelsAStripTwoBlocksWideAlongTheBorder) {
+// As the program of its authors has it: neighbours outside of the image take nothing off a plane, and
+// the last block of a row or column is joined by its own normal. At the other end there is no such rule.
+TEST(Ahc, LabelsAStripTwoBlocksWideAlongTheRightAndTheLowerBorder) {
   const Camera camera;
-  for (const cv::Rect& strip :
-       {cv::Rect(0, 0, 20, camera.height), cv::Rect(camera.width - 20, 0, 20, camera.height),
-        cv::Rect(0, 0, camera.width, 20), cv::Rect(0, camera.height - 20, camera.width, 20)}) {
+  for (const cv::Rect& strip : {cv::Rect(camera.width - 20, 0, 20, camera.height),
+                                cv::Rect(0, camera.height - 20, camera.width, 20)}) {
     cv::Mat1f depth_m(camera.height, camera.width, 0.0f);
     depth_m(strip) = 1.0f;
     const LabelImage labels = SegmentDepth(depth_m);
