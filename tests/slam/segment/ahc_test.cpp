@@ -76,7 +76,8 @@ TEST(Ahc, LabelsAStripTwoBlocksWideAlongTheRightAndTheLowerBorder) {
     cv::Mat1f depth_m(camera.height, camera.width, 0.0f);
     depth_m(strip) = 1.0f;
     const LabelImage labels = SegmentDepth(depth_m);
-    EXPECT_EQ(std::count(labels.begin(), labels.end(), 0), strip.area()) << strip;
+    EXPECT_EQ(std::count(labels.begin(), labels.end(), 0), strip.area())
+        << strip.width << " wide";
   }
 }
 
