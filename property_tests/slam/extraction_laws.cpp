@@ -24,21 +24,25 @@ Camera AnyCamera() {
   return camera;
 }
 
-/// A plane that fills the view, at 0.5 to 2.5 m, incidence up to 60 degrees on the axis.
-cv::Mat1f OnePlane(const Camera& camera, Plane& pi_c) {
-  const double tilt = AnyReal(0.0, 1.0), turn = AnyReal(0.0, 6.28);
+/// A plane at this distance on the axis, tilted any way.
+Plane AnyPlaneAhead(double most_tilt_rad, double distance_m) {
+  const double tilt = AnyReal(0.0, most_tilt_rad), turn = AnyReal(0.0, 6.28);
   const Eigen::Vector3d n(std::sin(tilt) * std::cos(turn), std::sin(tilt) * std::sin(turn),
                           -std::cos(tilt));
-  pi_c = {n, std::cos(tilt) * AnyReal(0.5, 2.5)};
+  return {n, std::cos(tilt) * distance_m};
+}
+
+/// What is steeper than 75 degrees, nearer, beyond 8 m or behind the camera is not measured.
+cv::Mat1f DepthOf(const Plane& pi_c, const Camera& camera, double nearest_m = 0.0) {
   const cv::Mat2d rays = PixelRays(camera);
   cv::Mat1f depth_m(rays.size(), 0.0f);
   for (int v = 0; v < rays.rows; ++v) {
     for (int u = 0; u < rays.cols; ++u) {
       const Eigen::Vector3d ray(rays(v, u)[0], rays(v, u)[1], 1.0);
-      const double z = -pi_c.d / n.dot(ray);
-      // Up to 75 degrees; what is steeper or behind the camera is not measured.
-      const bool seen = z > 0 && -n.dot(ray) / ray.norm() > 0.2588 && z < 8.0;
-      depth_m(v, u) = seen ? static_cast<float>(z) : 0.0f;
+      const double z = -pi_c.d / pi_c.n.dot(ray);
+      const bool seen =
+          z > 0 && z >= nearest_m && z < 8.0 && -pi_c.n.dot(ray) / ray.norm() > 0.2588;
+      if (seen) depth_m(v, u) = static_cast<float>(z);
     }
   }
   return depth_m;
@@ -46,8 +50,8 @@ cv::Mat1f OnePlane(const Camera& camera, Plane& pi_c) {
 
 RC_GTEST_PROP(PlaneExtraction, OnePlaneInViewIsOneSegment, ()) {
   const Camera camera = AnyCamera();
-  Plane truth;
-  const cv::Mat1f depth_m = OnePlane(camera, truth);
+  const Plane truth = AnyPlaneAhead(1.0, AnyReal(0.5, 2.5));
+  const cv::Mat1f depth_m = DepthOf(truth, camera);
   const int measured = cv::countNonZero(depth_m);
   const Frame frame = Extract(depth_m, camera);
   RC_ASSERT(measured > 2000);
@@ -68,23 +72,9 @@ Camera AnySizeAndLens() {
   return camera;
 }
 
-/// One plane, 0.5 to 8 m away on the axis, measured from 0.5 to 8 m at up to 75 degrees.
-cv::Mat1f OnePlaneAtAnyDistance(const Camera& camera, Plane& pi_c) {
-  const double tilt = AnyReal(0.0, 1.22), turn = AnyReal(0.0, 6.28);
-  const Eigen::Vector3d n(std::sin(tilt) * std::cos(turn), std::sin(tilt) * std::sin(turn),
-                          -std::cos(tilt));
-  pi_c = {n, std::cos(tilt) * 0.5 * std::pow(16.0, AnyReal(0, 1))};
-  const cv::Mat2d rays = PixelRays(camera);
-  cv::Mat1f depth_m(rays.size(), 0.0f);
-  for (int v = 0; v < rays.rows; ++v) {
-    for (int u = 0; u < rays.cols; ++u) {
-      const Eigen::Vector3d ray(rays(v, u)[0], rays(v, u)[1], 1.0);
-      const double z = -pi_c.d / n.dot(ray);
-      const bool seen = z >= 0.5 && z < 8.0 && -n.dot(ray) / ray.norm() > 0.2588;
-      if (seen) depth_m(v, u) = static_cast<float>(z);
-    }
-  }
-  return depth_m;
+/// 0.5 to 8 m away on the axis, at up to 70 degrees there.
+Plane AnyPlaneAtAnyDistance() {
+  return AnyPlaneAhead(1.22, 0.5 * std::pow(16.0, AnyReal(0, 1)));
 }
 
 /// Where the segments cover what is measured, a block away from where that ends.
@@ -99,8 +89,8 @@ double CoveredShare(const Frame& frame, const cv::Mat1f& depth_m) {
 
 RC_GTEST_PROP(PlaneExtraction, OnePlaneIsOneSegmentAtAnyDistanceThroughAnyLens, ()) {
   const Camera camera = AnySizeAndLens();
-  Plane truth;
-  const cv::Mat1f depth_m = OnePlaneAtAnyDistance(camera, truth);
+  const Plane truth = AnyPlaneAtAnyDistance();
+  const cv::Mat1f depth_m = DepthOf(truth, camera, 0.5);
   if (cv::countNonZero(depth_m) < 2000) RC_DISCARD("hardly seen");
   const Frame frame = Extract(depth_m, camera);
   RC_ASSERT(frame.planes.size() == 1u);
@@ -115,8 +105,8 @@ RC_GTEST_PROP(PlaneExtraction, OnePlaneIsOneSegmentAtAnyDistanceThroughAnyLens, 
 RC_GTEST_PROP(PlaneExtraction, OnePlaneIsOneSegmentInFilesOfSixteenBits, ()) {
   constexpr double kStep_m = 1.0 / 5000;
   const Camera camera = AnySizeAndLens();
-  Plane truth;
-  const cv::Mat1f exact_m = OnePlaneAtAnyDistance(camera, truth);
+  const Plane truth = AnyPlaneAtAnyDistance();
+  const cv::Mat1f exact_m = DepthOf(truth, camera, 0.5);
   const cv::Mat1f depth_m = closed_form::Quantise16(exact_m);
   const int measured = cv::countNonZero(depth_m);
   if (measured < 2000) RC_DISCARD("hardly seen");
@@ -184,8 +174,8 @@ RC_GTEST_PROP(PlaneExtraction, OnlyWhatIsBehindAWallDividesIt, ()) {
 
 RC_GTEST_PROP(PlaneExtraction, HolesAddNoPlaneAndNanIsZero, ()) {
   const Camera camera = AnyCamera();
-  Plane truth;
-  const cv::Mat1f whole = OnePlane(camera, truth);
+  const Plane truth = AnyPlaneAhead(1.0, AnyReal(0.5, 2.5));
+  const cv::Mat1f whole = DepthOf(truth, camera);
   cv::Mat1f zeros = whole.clone();
   Random random{static_cast<std::uint64_t>(AnyInt(0, 1000000))};
   const double ratio = AnyInt(0, 10) == 0 ? 1.0 : AnyReal(0.0, 0.5);

@@ -11,16 +11,26 @@
 namespace slam {
 namespace {
 
-RC_GTEST_PROP(PlaneExtraction, AMirroredImageHasMirroredPlanes, ()) {
+/// A scene and its mirror image.
+struct MirroredPair {
+  Frame a, b;
+  cv::Mat1b back;  ///< labels of b, mirrored again
+};
+
+MirroredPair AnyMirroredPair() {
   const Camera camera = HalfCamera();
   const closed_form::View view = ViewOf(AnyBoxes(), camera);
   Camera mirrored = camera;
   mirrored.cx = camera.width - 1 - camera.cx;
   cv::Mat1f flipped;
   cv::flip(view.depth_m, flipped, 1);
-  const Frame a = Extract(view.depth_m, camera), b = Extract(flipped, mirrored);
-  cv::Mat1b back;
-  cv::flip(b.plane_labels, back, 1);
+  MirroredPair pair{Extract(view.depth_m, camera), Extract(flipped, mirrored), {}};
+  cv::flip(pair.b.plane_labels, pair.back, 1);
+  return pair;
+}
+
+RC_GTEST_PROP(PlaneExtraction, AMirroredImageHasMirroredPlanes, ()) {
+  const auto [a, b, back] = AnyMirroredPair();
   const auto labelled = cv::countNonZero((a.plane_labels > 0) | (back > 0));
   RC_ASSERT(cv::countNonZero((a.plane_labels > 0) & (back > 0)) >= 0.98 * labelled);
   for (const FramePlane& plane : a.planes) {
@@ -34,27 +44,6 @@ RC_GTEST_PROP(PlaneExtraction, AMirroredImageHasMirroredPlanes, ()) {
   }
   const Eigen::Vector3d n = b.planes[0].pi_c.n;
   RC_ASSERT(Angle(a.planes[0].pi_c.n, {-n.x(), n.y(), n.z()}) < 1.75e-5);
-}
-
-RC_GTEST_PROP(PlaneExtraction, ScalingDepthAndNoiseByAPowerOfTwoChangesNoLabel, ()) {
-  const Camera camera = HalfCamera();
-  const closed_form::View view = ViewOf(AnyBoxes(), camera);
-  const float s = AnyInt(0, 1) == 0 ? 0.5f : 2.0f;
-  SensorModel scaled;
-  // sigma'(s z) = s sigma(z), with the length that the incidence term holds to the 3/2.
-  scaled.noise.floor_m *= static_cast<double>(s);
-  scaled.noise.quadratic_per_m /= static_cast<double>(s);
-  scaled.noise.nearest_m *= static_cast<double>(s);
-  scaled.noise.grazing_m = 0.0;
-  SensorModel plain;
-  plain.noise.grazing_m = 0.0;
-  const Frame a = Extract(view.depth_m, camera, plain);
-  const Frame b = Extract(cv::Mat1f(cv::Mat(view.depth_m * s)), camera, scaled);
-  RC_ASSERT(cv::countNonZero(a.plane_labels != b.plane_labels) == 0);
-  for (std::size_t k = 0; k < a.planes.size(); ++k) {
-    RC_ASSERT(a.planes[k].pi_c.n == b.planes[k].pi_c.n);
-    RC_ASSERT(a.planes[k].pi_c.d * static_cast<double>(s) == b.planes[k].pi_c.d);
-  }
 }
 
 /// Pixels that two label images share, [label of a][label of b].
@@ -103,15 +92,7 @@ void AssertTwins(const Frame& a, const Frame& b, const cv::Mat1b& labels_b_in_a,
 }
 
 RC_GTEST_PROP(PlaneExtraction, EveryPlaneOfEitherImageIsInTheMirrorOfTheOther, ()) {
-  const Camera camera = HalfCamera();
-  const closed_form::View view = ViewOf(AnyBoxes(), camera);
-  Camera mirrored = camera;
-  mirrored.cx = camera.width - 1 - camera.cx;
-  cv::Mat1f flipped;
-  cv::flip(view.depth_m, flipped, 1);
-  const Frame a = Extract(view.depth_m, camera), b = Extract(flipped, mirrored);
-  cv::Mat1b back;
-  cv::flip(b.plane_labels, back, 1);
+  const auto [a, b, back] = AnyMirroredPair();
   const auto mirror = [](const Eigen::Vector3d& n) {
     return Eigen::Vector3d(-n.x(), n.y(), n.z());
   };
