@@ -128,7 +128,8 @@ void Fuse(MapPlane& into, MapPlane& from, const PlaneMapConfig& config) {
   for (Eigen::Vector3d& vertex_w : into.vertices_w) vertex_w = ProjectOnto(into.pi_w, vertex_w);
   into.supposed.insert(into.supposed.end(), from.supposed.begin(), from.supposed.end());
   into.map_points.insert(from.map_points.begin(), from.map_points.end());
-  into.observations += from.observations;
+  into.observations += from.observations - CovisibleFrames(into, from);
+  into.seen_px += from.seen_px;
   into.first_frame = std::min(into.first_frame, from.first_frame);
   into.first_seen_s = std::min(into.first_seen_s, from.first_seen_s);
   into.last_frame = std::max(into.last_frame, from.last_frame);

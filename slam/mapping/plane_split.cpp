@@ -210,7 +210,16 @@ MapPlane RestOf(const MapPlane& m, const PlanePart& part, const Map& map) {
   Outline outline = ConvexOutline(rest.points_w, rest.pi_w);
   rest.hull_w = std::move(outline.hull_w);
   rest.area_m2 = outline.area_m2;
-  for (Eigen::Vector3d& corner_w : rest.vertices_w) corner_w = ProjectOnto(rest.pi_w, corner_w);
+  // Its corners, on its own plane.
+  std::vector<Eigen::Vector3d> corners_w;
+  std::vector<double> weights;
+  for (std::size_t i = 0; i < m.vertices_w.size(); ++i) {
+    if (is_of_part(m.vertices_w[i])) continue;
+    corners_w.push_back(ProjectOnto(rest.pi_w, m.vertices_w[i]));
+    weights.push_back(m.vertex_weights[i]);
+  }
+  rest.vertices_w = std::move(corners_w);
+  rest.vertex_weights = std::move(weights);
   if (!rest.points_w.empty()) rest.centroid_w = CloudCentroid(rest.points_w, rest.pi_w);
   return rest;
 }

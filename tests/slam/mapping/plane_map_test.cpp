@@ -285,8 +285,10 @@ TEST(PlaneMap, CountsForAFusedSurfaceWhatWasCountedOfBoth) {
   Map map;
   for (const double height_m : {0.0, 0.0, 0.1}) AddLandmark(map, BoardAt(height_m));
   MapPlane &first = map.planes.At(0), &second = map.planes.At(1), &board = map.planes.At(2);
-  first.covisible = {{2, 3}}, first.stepped = {{2, 1}};
-  second.covisible = {{2, 4}}, second.stepped = {{2, 2}};
+  first.covisible = {{1, 2}, {2, 3}}, first.stepped = {{2, 1}};
+  second.covisible = {{0, 2}, {2, 4}}, second.stepped = {{2, 2}};
+  first.observations = 10, second.observations = 6;
+  first.seen_px = 1000, second.seen_px = 600;
   board.covisible = {{0, 3}, {1, 4}}, board.stepped = {{0, 1}, {1, 2}};
   first.class_belief = {{"", 1.0}, {"book", 2.0}}, second.class_belief = {{"book", 3.0}};
   ASSERT_EQ(FusePlanes(map, {}, SmallImages()), 1);
@@ -298,6 +300,8 @@ TEST(PlaneMap, CountsForAFusedSurfaceWhatWasCountedOfBoth) {
   EXPECT_EQ(first.stepped, (std::map<int, int>{{2, 3}}));
   EXPECT_EQ(board.covisible, (std::map<int, int>{{0, 7}}));
   EXPECT_EQ(board.stepped, (std::map<int, int>{{0, 3}}));
+  EXPECT_EQ(first.observations, 14);  // frames: two showed both
+  EXPECT_EQ(first.seen_px, 1600);
 }
 
 TEST(PlaneMap, KnowsWhereAFusedSurfaceLiesAndWhatWasSupposedAtItsEdges) {

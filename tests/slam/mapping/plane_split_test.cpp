@@ -83,6 +83,22 @@ TEST(PlaneSplit, LaysKnownCornersOntoThePlaneOfTheSideThatKeepsThem) {
   }
 }
 
+TEST(PlaneSplit, LeavesEachCornerToTheSideOnWhichItLies) {
+  TwoPatches show;
+  for (int k = 0; k < 3; ++k) show.Next();
+  ASSERT_EQ(Landmarks(show.map).size(), 1u);
+  MapPlane& whole = *Landmarks(show.map)[0];
+  whole.vertices_w = {{-0.4, -0.3, 0}, {0.2, -0.3, 0}, {0.2, 0.3, 0}, {-0.4, 0.3, 0}};
+  whole.vertex_weights = {5.0, 6.0, 7.0, 8.0};
+  show.Next();
+  ASSERT_EQ(Landmarks(show.map).size(), 2u);
+  const MapPlane& larger = *Landmarks(show.map)[0];
+  ASSERT_EQ(larger.vertices_w.size(), 2u);  // those of the other side are corners of a part of it
+  EXPECT_THAT(larger.vertices_w[0], VectorNear(Eigen::Vector3d(-0.4, -0.3, 0), 1e-3));
+  EXPECT_THAT(larger.vertices_w[1], VectorNear(Eigen::Vector3d(-0.4, 0.3, 0), 1e-3));
+  EXPECT_EQ(larger.vertex_weights, (std::vector<double>{5.0, 8.0}));
+}
+
 TEST(PlaneSplit, SharesTheMapPointsOutByWhereTheyLie) {
   TwoPatches show;
   for (int k = 0; k < 3; ++k) show.Next();
