@@ -20,6 +20,7 @@
 #include "app/suite/shrink_case.h"
 #include "app/suite/suite_gate.h"
 #include "app/suite/summary.h"
+#include "eval/regression/history.h"
 #include "io/folder_lock.h"
 #include "io/input_error.h"
 #include "io/number_text.h"
@@ -62,10 +63,10 @@ class SuiteCall {
   int Run() {
     RequireResultsFolder(folder_);
     std::optional<eval::Baseline> baseline;
-    if (!arguments_.baseline.empty() && arguments_.accept.empty()) baseline = ReadTheBaseline();
+    const bool accepting = !arguments_.accept.empty();
+    if (!arguments_.baseline.empty()) baseline = accepting ? Replaced() : ReadTheBaseline();
     const io::FolderLock lock(folder_);
     Results results(folder_);
-    const bool accepting = !arguments_.accept.empty();
     int seeds = accepting ? suite_.seeds.max_count : suite_.seeds.count;
     std::vector<SuiteCase> cases = Plan(seeds, shard_);
     if (!arguments_.replay.empty()) {
@@ -77,10 +78,10 @@ class SuiteCall {
       accepted.emplace(arguments_.baseline,
                        io::OutputRules{.force = true, .inputs = {arguments_.suite}});
     }
-    if (baseline) RequireSameInputs(*baseline, cases);
+    if (baseline && !accepting) RequireSameInputs(*baseline, cases);
     if (!RunAll(cases, results, arguments_.retry_failed)) return Interrupted();
 
-    if (accepting) return Accept(cases, results, *accepted);
+    if (accepting) return Accept(cases, results, baseline, *accepted);
     if (!baseline) {
       const int done = Summarise(cases, results);
       return WithinBounds(cases, results) ? done : kFailure;
@@ -166,6 +167,17 @@ class SuiteCall {
     return baseline;
   }
 
+  /// The baseline whose place a new one is to take, for its history. Nothing where there is none, or where it is of other
+  /// cases: the history begins anew then.
+  std::optional<eval::Baseline> Replaced() const {
+    if (!fs::exists(arguments_.baseline)) return std::nullopt;
+    eval::Baseline before = eval::ReadBaseline(arguments_.baseline);
+    if (before.suite == suite_.name && before.plan == PlanText(suite_)) return before;
+    PrintWarning(arguments_.baseline + " is of the suite " + before.suite + " with " +
+                 before.plan + ": the history of the new one begins with it");
+    return std::nullopt;
+  }
+
   /// What was accepted is compared with cases of the same scenes, sensors and settings alone; cases that
   /// the suite has lost are told.
   void RequireSameInputs(const eval::Baseline& baseline,
@@ -196,13 +208,27 @@ class SuiteCall {
         lost.front()));
   }
 
+  /// Cases that are others now, though named alike, say nothing of the step.
+  std::vector<eval::PastBaseline> HistoryAfter(eval::Baseline before,
+                                               const eval::GateCases& now) const {
+    std::erase_if(before.cases, [&](const auto& one) {
+      const auto found = now.find(one.first);
+      return found != now.end() && found->second.inputs != one.second.inputs;
+    });
+    eval::GateRules rules = suite_.gate;
+    rules.looks = LooksOf(suite_.seeds);
+    rules.times = false;
+    return eval::HistoryAfter(before, eval::CompareWithBaseline(before, now, rules));
+  }
+
   int Accept(const std::vector<SuiteCase>& cases, Results& results,
-             const io::OutputFile& file) const {
+             const std::optional<eval::Baseline>& before, const io::OutputFile& file) const {
     const auto rows = suite_.gate.times ? TimedAgain(cases, results) : results.Rows();
     if (!rows) return Interrupted();
-    const eval::Baseline baseline{suite_.name,       PlanText(suite_),
-                                  PAS_VERSION,       ProcessorName(),
-                                  arguments_.accept, GatedCases(suite_, cases, *rows)};
+    eval::Baseline baseline{suite_.name,       PlanText(suite_),
+                            PAS_VERSION,       ProcessorName(),
+                            arguments_.accept, GatedCases(suite_, cases, *rows)};
+    if (before) baseline.history = HistoryAfter(*before, baseline.cases);
     file.Write(eval::BaselineText(baseline));
     const int done = Summarise(cases, results);
     if (!quiet_) fmt::print("wrote {}\n", arguments_.baseline);

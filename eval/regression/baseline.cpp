@@ -23,6 +23,43 @@ GateCase CaseOf(const nlohmann::json& record, const std::string& where) {
   return one;
 }
 
+/// By how much each figure of an arm became worse, of one earlier baseline.
+std::map<std::string, std::map<std::string, double>> HarmOf(const nlohmann::json& arms,
+                                                            const io::JsonField& field) {
+  std::map<std::string, std::map<std::string, double>> harm;
+  if (!arms.is_object()) field.Fail("an object, a member an arm");
+  for (const auto& [arm, figures] : arms.items()) {
+    if (!figures.is_object()) field[arm].Fail("an object, a member a figure");
+    for (const auto& [figure, step] : figures.items())
+      harm[arm][figure] = field[arm][figure].Number();
+  }
+  return harm;
+}
+
+/// A file without a history is the first of its suite, or an earlier program's.
+std::vector<PastBaseline> HistoryOf(const nlohmann::json& document, const io::JsonField& root) {
+  std::vector<PastBaseline> history;
+  const auto field = root.Find("history");
+  if (!field) return history;
+  const std::vector<io::JsonField> entries = field->Elements();
+  for (std::size_t i = 0; i < entries.size(); ++i) {
+    const io::JsonField harm = entries[i]["harm"];
+    history.push_back({entries[i]["program"].Text(), entries[i]["reason"].Text(),
+                       HarmOf(document.at("history")[i].at("harm"), harm)});
+  }
+  return history;
+}
+
+std::string HistoryText(const std::vector<PastBaseline>& history) {
+  std::string lines;
+  for (const PastBaseline& past : history) {
+    const nlohmann::json entry{
+        {"program", past.program}, {"reason", past.reason}, {"harm", past.harm}};
+    lines += (lines.empty() ? "\n  " : ",\n  ") + entry.dump();
+  }
+  return lines + (lines.empty() ? "" : "\n ");
+}
+
 }  // namespace
 
 std::string ArmOfKey(const std::string& key) {
@@ -50,7 +87,8 @@ Baseline ReadBaseline(const std::filesystem::path& file) {
     root["format"].Fail(std::string("a baseline of `pas suite`, ") + kFormat);
   }
   Baseline baseline{root["suite"].Text(),     root["plan"].Text(),   root["program"].Text(),
-                    root["processor"].Text(), root["reason"].Text(), {}};
+                    root["processor"].Text(), root["reason"].Text(), {},
+                    HistoryOf(document, root)};
   const nlohmann::json& cases = document.value("cases", nlohmann::json());
   if (!cases.is_object()) root["cases"].Fail("an object, a member a case");
   for (const auto& [key, record] : cases.items()) {
@@ -77,9 +115,10 @@ std::string BaselineText(const Baseline& baseline) {
   }
   return fmt::format(
       "{{\n \"format\": {},\n \"suite\": {},\n \"plan\": {},\n \"program\": {},\n"
-      " \"processor\": {},\n \"reason\": {},\n \"cases\": {{{}\n }}\n}}\n",
+      " \"processor\": {},\n \"reason\": {},\n \"history\": [{}],\n \"cases\": {{{}\n }}\n}}\n",
       quoted(kFormat), quoted(baseline.suite), quoted(baseline.plan), quoted(baseline.program),
-      quoted(baseline.processor), quoted(baseline.reason), cases);
+      quoted(baseline.processor), quoted(baseline.reason), HistoryText(baseline.history),
+      cases);
 }
 
 }  // namespace eval

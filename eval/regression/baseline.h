@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <map>
 #include <string>
+#include <vector>
 
 #include "eval/regression/gated_metrics.h"
 
@@ -25,6 +26,14 @@ std::string ArmOfKey(const std::string& key);
 /// Figures that the gate looks at, out of all of a case.
 Figures FiguresForGate(const Figures& all);
 
+/// A baseline that another one took the place of.
+struct PastBaseline {
+  std::string program;  ///< version that made it
+  std::string reason;   ///< why it was accepted
+  /// By arm and figure: by how much the next baseline is worse, the shift of the gate; left out: 0.
+  std::map<std::string, std::map<std::string, double>> harm;
+};
+
 /// Cases that later ones are compared with, as a file that can be read and reviewed.
 struct Baseline {
   std::string suite;
@@ -33,6 +42,7 @@ struct Baseline {
   std::string processor;  ///< times are compared on the same one only
   std::string reason;     ///< why it was accepted
   GateCases cases;
+  std::vector<PastBaseline> history = {};  ///< the oldest first
 };
 
 /// @throws InputError for what is no baseline

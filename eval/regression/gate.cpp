@@ -8,6 +8,7 @@
 #include <limits>
 #include <set>
 
+#include "eval/regression/history.h"
 #include "eval/regression/paired_tests.h"
 
 namespace eval {
@@ -17,7 +18,6 @@ constexpr std::size_t kMaxExactFlips = 15;  // metrics.md 5.3: sign flips up to 
 constexpr std::size_t kMaxExactRanks = 200;  // the normal approximation then errs by under 1e-4
 constexpr std::size_t kResamples = 2000;  // the interval's ends vary by some 3 % of its width
 constexpr double kCoverage = 0.95;        // metrics.md 5.3
-constexpr std::size_t kMinPairs = 7;      // metrics.md 5.2: fewer can never reach p < 0.01
 constexpr double kMaxLostShare = 0.01;    // of all frames; as much as a score may lose
 constexpr std::size_t kMaxReplays = 3;
 // A change of a scene's every seed that no other rounding makes: an error twice as large, a score lower by 0.1.
@@ -151,7 +151,12 @@ class Comparison {
     for (std::size_t i = 0; i < adjusted.size(); ++i) {
       report.metrics[i].p = adjusted[i];
       // Each look at the same gate may spend an equal part of the false alarms.
-      report.metrics[i].verdict = Judge(report.metrics[i], rules_.alpha / rules_.looks);
+      MetricVerdict& found = report.metrics[i];
+      found.verdict = Judge(found, rules_.alpha / rules_.looks);
+      if (found.verdict != Verdict::kWorse && found.pairs >= kMinPairs &&
+          found.metric.kind != MetricKind::kTime) {
+        found.drift = DriftOf(baseline_.history, found.arm, found.metric, found.shift);
+      }
     }
     for (const auto& [key, one] : candidate_) {
       if (baseline_.cases.count(key) == 0) {
@@ -239,6 +244,16 @@ void AddReplays(const std::vector<std::string>& replays, std::string& table) {
   for (const std::string& key : replays) table += fmt::format("{:>16} {}\n", "replay", key);
 }
 
+void AddDrifts(const GateReport& report, std::string& table) {
+  for (const MetricVerdict& found : report.metrics) {
+    if (!found.drift) continue;
+    table += fmt::format(
+        "DRIFT     {:<34} {:>10} {:>10} {:>8} {:>5}  {}, over the median of {} baselines\n",
+        found.metric.figure, HarmText(found.metric.kind, found.drift->harm), "", "",
+        found.pairs, found.arm, found.drift->baselines);
+  }
+}
+
 void AddMetricLines(const GateReport& report, Verdict verdict, std::string& table) {
   for (const MetricVerdict& found : report.metrics) {
     if (found.verdict != verdict) continue;
@@ -269,8 +284,8 @@ bool GateReport::AnyWorse() const {
 bool GateReport::AnyWorseButTimes() const {
   return std::any_of(metrics.begin(), metrics.end(),
                      [](const MetricVerdict& m) {
-                       return m.verdict == Verdict::kWorse &&
-                              m.metric.kind != MetricKind::kTime;
+                       return m.drift || (m.verdict == Verdict::kWorse &&
+                                          m.metric.kind != MetricKind::kTime);
                      }) ||
          std::any_of(scenes.begin(), scenes.end(),
                      [](const SceneVerdict& s) { return s.verdict == Verdict::kWorse; }) ||
@@ -335,6 +350,7 @@ std::string GateTable(const GateReport& report) {
                          count.candidate, count.baseline, count.where);
   }
   AddMetricLines(report, Verdict::kWorse, lines);
+  AddDrifts(report, lines);
   AddMetricLines(report, Verdict::kUndecided, lines);
   std::string table;
   if (!lines.empty()) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <map>
+#include <optional>
 #include <set>
 #include <string>
 #include <vector>
@@ -24,6 +25,15 @@ enum class Verdict {
   kWorse,      ///< surely worse, by more than matters
 };
 
+/// Pairs of cases from which on a figure can be judged: of fewer no test can ever say p < 0.01 (metrics.md 5.2).
+inline constexpr std::size_t kMinPairs = 7;
+
+/// How far a figure has come by steps that were each too small to be worse (history.h).
+struct Drift {
+  double harm = 0.0;          ///< of the candidate over the median of the baselines
+  std::size_t baselines = 0;  ///< that were accepted so far
+};
+
 /// One figure of one arm.
 struct MetricVerdict {
   std::string arm;
@@ -33,6 +43,7 @@ struct MetricVerdict {
   bool equal = false;                ///< no pair differs at all
   double shift = 0.0;                ///< Hodges-Lehmann, a harm
   double p = 1.0;                    ///< after Holm, over all figures and arms
+  std::optional<Drift> drift;        ///< of a figure that is not worse by itself
   double upper = 0.0;                ///< end of the interval of the mean harm
   std::vector<std::string> replays;  ///< keys of the cases with most harm, at most three
 };
@@ -64,6 +75,7 @@ struct GateReport {
   std::set<std::string>
       unknown_figures;  ///< that no case of the baseline has: an older program's
 
+  /// Whether something is worse than the baseline, or has drifted.
   bool AnyWorse() const;
   /// Whether something is worse that measuring times again cannot mend.
   bool AnyWorseButTimes() const;

@@ -48,6 +48,27 @@ TEST_F(SuiteGate, WhatIsAcceptedIsGreen) {
   EXPECT_EQ(Gate("now").exit_code, 0);
 }
 
+TEST_F(SuiteGate, StepsThatAreEachTooSmallAreToldTogether) {
+  for (const std::string factor : {"1.03", "1.061"}) {
+    WriteProgram("factor=" + factor);
+    EXPECT_EQ(Gate("at" + factor).exit_code, 0);
+    EXPECT_EQ(Gate("at" + factor, {"--accept", "another reason"}).exit_code, 0);
+  }
+  WriteProgram("factor=1.093");
+  EXPECT_EQ(Gate("now").exit_code, 1);  // by 3 % more than the last, 6 % more than most
+  // Whoever accepts it was told.
+  EXPECT_EQ(Gate("now", {"--accept", "worth it"}).exit_code, 0);
+  EXPECT_EQ(Gate("now").exit_code, 0);
+}
+
+TEST_F(SuiteGate, WhatIsNoBaselineIsNotReplacedByOne) {
+  std::ofstream(folder_ / "baseline.json") << "{\"my\": \"own file\"}";
+  const Outcome outcome = Gate("now", {"--accept", "why"});
+  EXPECT_EQ(outcome.exit_code, 2);
+  EXPECT_THAT(outcome.errors, HasSubstr("baseline.json"));
+  EXPECT_EQ(ReadText(folder_ / "baseline.json"), "{\"my\": \"own file\"}");
+}
+
 /// A module that takes `da_ms`, a word of the shell, beside one millisecond of ORB features.
 std::string WithTimes(const std::string& da_ms) {
   return "if [ \"$2\" = slam ]; then\n"
