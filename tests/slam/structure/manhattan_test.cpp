@@ -186,6 +186,46 @@ TEST(ManhattanWorld, DoesNotAskPlanesThatAreNotTrusted) {
   EXPECT_GT(AngleOf(R_cw * kT_cw.R.transpose()), 0.2 * kDegree) << "it says nothing anyway";
 }
 
+// The mean that is most likely: of a sharp plane and one three times less certain, 1 : 9.
+TEST(ManhattanWorld, GoesByPlanesOfAnAxisAsWellAsTheyKnowTheirNormals) {
+  SeenWorld world({kAxes_w.col(0), kAxes_w.col(0)});
+  const double off = 1 * kDegree;
+  world.frame.planes[0].angle_sigma_rad = 0.002, world.frame.planes[1].angle_sigma_rad = 0.006;
+  world.frame.planes[1].pi_c.n = kT_cw.R * ExpSo3(off * kAxes_w.col(1)) * kAxes_w.col(0);
+  const auto axes = SeenAxes(world.frame, kAxes_w, world.config);
+  ASSERT_EQ(axes.size(), 1u);
+  const Eigen::Vector3d n_c = kT_cw.R * ExpSo3(0.1 * off * kAxes_w.col(1)) * kAxes_w.col(0);
+  EXPECT_THAT(axes[0].n_c, VectorNear(n_c, 1e-5));
+  const double mean_rad = 0.002 * 0.006 / std::hypot(0.002, 0.006);
+  EXPECT_NEAR(axes[0].sigma_rad, std::hypot(mean_rad, world.config.axis_sigma_rad), 1e-9);
+}
+
+TEST(ManhattanWorld, IsTheOneThatWasFoundFirst) {
+  SeenWorld world(Room());
+  world.Learn(StructureMode::kManhattan);
+  ASSERT_EQ(world.map.manhattan.size(), 1u);
+  const Eigen::Matrix3d found = world.map.manhattan[0].axes_k;
+  for (MapPlane& plane : world.map.planes)
+    plane.pi_w.n = ExpSo3(2 * kDegree * kAxes_w.col(2)) * plane.pi_w.n;
+  world.Learn(StructureMode::kManhattan);
+  ASSERT_EQ(world.map.manhattan.size(), 1u);
+  EXPECT_EQ(world.map.manhattan[0].axes_k, found);
+}
+
+TEST(RotationFromAxes, IsNoneWhereAxesAreSoFarOffThatTheyMayBeConfused) {
+  for (const double off_rad : {0.4, 0.6}) {
+    std::vector<AxisObservation> axes;
+    for (int k = 0; k < 3; ++k)
+      axes.push_back({kAxes_w.col(k), kT_cw.R * kAxes_w.col(k), 0.01});
+    const Eigen::Vector3d about = Eigen::Vector3d(1, 2, -1).normalized();
+    // Each axis is off by less than the turn: it is not at a right angle to it.
+    const auto found = RotationFromAxes(axes, ExpSo3(1.1 * off_rad * about) * kT_cw.R);
+    ASSERT_EQ(found.has_value(), off_rad < 0.5) << off_rad;
+    if (!found) continue;
+    EXPECT_LT(AngleOf(found->R_cw * kT_cw.R.transpose()), 1e-8);
+  }
+}
+
 TEST(ManhattanWorld, TurnsWithTheKeyframeThatHoldsIt) {
   SeenWorld world(Room());
   world.Learn(StructureMode::kManhattan);

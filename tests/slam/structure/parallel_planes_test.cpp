@@ -63,6 +63,11 @@ TEST(ParallelPlanes, LeaveOutWhatIsFarFromParallelOrMoreThanItsErrorsExplain) {
   seen.frame.planes[0].angle_sigma_rad = 0.002;
   seen.frame.planes[0].bend_angle_sigma_rad = 0.02;  // as the sensor may have bent it
   EXPECT_EQ(seen.Problem().parallels.size(), 1u);
+  seen.frame.planes[0].bend_angle_sigma_rad = 0.0;
+  EXPECT_TRUE(seen.Problem().parallels.empty());
+  MapPlane& other = seen.map.planes.At(1);  // as the map may know it
+  AddObservation(other.estimate, other.pi_w, Eigen::Vector3d::Zero(), 0.02, 0.01, 1.0);
+  EXPECT_EQ(seen.Problem().parallels.size(), 1u);
   seen.Add({0.1, 0, -1});  // too far, however little is known
   seen.frame.planes[0].angle_sigma_rad = 0.2;
   EXPECT_EQ(seen.Problem().parallels.size(), 1u);

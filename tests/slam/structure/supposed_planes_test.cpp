@@ -141,6 +141,32 @@ TEST(SupposedPlanes, AreLearntWhereTheyHoldThePoseAlwaysOrWhenPointsFail) {
   }
 }
 
+TEST(SupposedPlanes, AreNotLearntFromPlanesThatAreNotTrusted) {
+  SeenBoard board;
+  board.frame.planes[0].bad = BadReason::kBorder;
+  board.Learn(5);
+  EXPECT_TRUE(board.Supposed().empty());
+}
+
+TEST(SupposedPlanes, HoldThePoseOnceInWhateverMode) {
+  for (const StructureMode mode :
+       {StructureMode::kFree, StructureMode::kParallel, StructureMode::kManhattan,
+        StructureMode::kMixture, StructureMode::kSupposed}) {
+    for (const bool edges_alone : {true, false}) {
+      SeenBoard board;
+      board.Learn(5);
+      StructureConfig structure;
+      structure.mode = mode;
+      structure.edges_alone = edges_alone;
+      PoseProblem problem;
+      AddStructure(board.frame, board.map, structure, problem);
+      AddEdgesAlone(board.frame, board.map, structure, problem);
+      const bool held = edges_alone || mode == StructureMode::kSupposed;
+      EXPECT_EQ(problem.planes.size(), held ? 1u : 0u) << static_cast<int>(mode);
+    }
+  }
+}
+
 TEST(SupposedPlanes, KnowTheirDirectionNoBetterThanAnEdgeTellsIt) {
   SeenBoard board;
   board.config.angle_sigma_rad = 0.05;
