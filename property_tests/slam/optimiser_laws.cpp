@@ -56,9 +56,14 @@ RC_GTEST_PROP(PoseOptimiserEq13, FollowsTheWorldWhenItIsMoved, ()) {
   PoseProblem here = ExactProblem(AnyPose(3), 20, 2);
   here.T_cw = AnyMotion(0.05, 0.03) * here.T_cw;
   for (PointConstraint& c : here.points) c.u_px += Eigen::Vector2d(AnyNormal(), AnyNormal());
+  // Known before as well as the points tell it, differently along each axis of the camera.
+  Vector6d variances;
+  for (int i = 0; i < 6; ++i) variances[i] = std::pow(10.0, AnyReal(-7, -5));
+  here.prior = UncertainPose{AnyMotion(0.05, 0.03) * here.T_cw, variances.asDiagonal()};
   const Pose T_vw = AnyPose(5), T_wv = Inverse(T_vw);
   PoseProblem there = here;
   there.T_cw = here.T_cw * T_wv;
+  there.prior->T_cw = here.prior->T_cw * T_wv;
   for (PointConstraint& c : there.points) c.p_w = T_vw * c.p_w;
   for (PlaneConstraint& c : there.planes) c.pi_w = Transform(T_vw, c.pi_w);
   const PoseSummary a = OptimisePose(here, Camera{}, {}), b = OptimisePose(there, Camera{}, {});

@@ -37,6 +37,19 @@ TEST(BendCovariance, LiftsAFrameWithoutPlanesByWhereItsPointsLie) {
   EXPECT_NEAR(BendCovariance(frame)(2, 2), 0.005 * 0.005, 1e-12) << "planes go before points";
 }
 
+TEST(ShutterCovariance, OfATurnIsATurnAndOfAStepAStep) {
+  for (const int axis : {0, 1, 2, 3, 4, 5}) {
+    Frame frame;
+    frame.readout.sigma_s = 0.02;
+    frame.readout.speed = 0.5 * Vector6d::Unit(axis);
+    // Half of the reading time away from the middle row: 5 mm, or 5 mrad.
+    const Vector6d expected = axis < 3 ? (Vector6d() << 1, 1, 1, 0, 0, 0).finished()
+                                       : (Vector6d() << 0, 0, 0, 1, 1, 1).finished();
+    const Matrix6d C = ShutterCovariance(frame);
+    EXPECT_TRUE(C.isApprox(Matrix6d(0.005 * 0.005 * expected.asDiagonal()), 1e-12)) << axis;
+  }
+}
+
 /// A camera that moves so sees points row by row; the pose that fits them, as if it had not.
 Pose FitWhileRead(const Readout& readout, Random& random) {
   const Camera camera;

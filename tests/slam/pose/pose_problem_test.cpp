@@ -310,6 +310,60 @@ TEST(PoseOptimiserEq13, WeighsEveryFactorThatIsOnAndNoneThatIsOffOrNoMeasurement
   }
 }
 
+// Of n walls one says D more than the others. By Huber's loss it pulls with its threshold, however large
+// D is: the camera moves by threshold * sigma / (n - 1).
+TEST(PoseOptimiserEq13, IsPulledByAPlaneThatContradictsOthersNoMoreThanHuberAllows) {
+  constexpr int kOthers = 8;
+  constexpr double kSigma_m = 0.002;
+  for (const double threshold : {1.0, 2.0, 4.0}) {
+    for (const double more_m : {0.05, 0.2}) {
+      PoseProblem problem = WallNearerThanPredicted(kSigma_m);
+      problem.prior->covariance *= 1e4;  // says nothing of the distance
+      for (PlaneConstraint& c : problem.planes) c.pi_w.d = 1.0 + more_m;
+      problem.planes.resize(1 + kOthers, problem.planes.front());
+      for (std::size_t i = 1; i < problem.planes.size(); ++i) problem.planes[i].pi_w.d = 1.0;
+      PoseProblemConfig config;
+      config.huber_planes = threshold;
+      config.iterations = 50;
+      EXPECT_NEAR(OptimisePose(problem, Camera{}, config).T_cw.t.z(),
+                  -threshold * kSigma_m / kOthers, 1e-6)
+          << threshold << " " << more_m;
+    }
+  }
+}
+
+// From too far away a step by the slope overshoots, to where all points are behind the camera.
+TEST(PoseOptimiserEq13, DoesNotPassThePointsToBeRidOfThem) {
+  PoseProblem problem;
+  for (int i = 0; i < 40; ++i) {
+    const double around = 2 * M_PI * i / 40;
+    PointConstraint c;
+    c.p_w = {0.1 * std::cos(around), 0.08 * std::sin(around), 0.5};
+    c.u_px = Camera{}.Project(c.p_w);
+    problem.points.push_back(c);
+  }
+  problem.T_cw.t.z() = 0.9;
+  PoseProblemConfig config;
+  config.iterations = 40;
+  const PoseSummary summary = OptimisePose(problem, Camera{}, config);
+  EXPECT_EQ(summary.inlier_count, 40);
+  EXPECT_THAT(summary.T_cw, PoseNear(Pose{}, 1e-6, 1e-6));
+}
+
+// A tenth of the points are 60 pixels off: their mean would be 6 pixels, Huber's is a third of one.
+TEST(PoseOptimiserEq13, IsRobustInItsOnlyRound) {
+  PoseProblem problem = Seen(400, 0.0, 0.0, 8);
+  for (std::size_t i = 0; i < problem.points.size(); ++i)
+    if (i % 10 == 0) problem.points[i].u_px.x() += 60;
+  PoseProblemConfig config;
+  config.rounds = 1;
+  const Pose T_cw = OptimisePose(problem, Camera{}, config).T_cw;
+  for (std::size_t i = 1; i < 10; ++i) {
+    const PointConstraint& c = problem.points[i];
+    EXPECT_LT((Camera{}.Project(T_cw * c.p_w) - c.u_px).norm(), 2.0) << i;
+  }
+}
+
 TEST(PoseOptimiserEq13, RefusesAFirstGuessThatIsNotFinite) {
   PoseProblem problem = Seen(50, 0.0, 0.0, 4);
   problem.T_cw.t.x() = std::nan("");
