@@ -19,6 +19,22 @@ Frame FrameOf(const Keyframe& keyframe) {
   return frame;
 }
 
+TEST(Keyframes, KeepWhenAndWhereTheirFrameWasTakenAndHowItWasRead) {
+  PointWorld world = MakePointWorld(2, 80, 1);
+  Frame frame = FrameOf(world.map.keyframes[1]);
+  frame.index = 37, frame.timestamp_s = 12.5;
+  frame.readout.taken_out_s = 0.02, frame.readout.sigma_s = 0.003;
+  frame.readout.speed << 1, 2, 3, 4, 5, 6;
+  InsertKeyframe(frame, world.map, world.camera, FeatureScale{}, {});
+  const Keyframe& kept = world.map.keyframes.back();
+  EXPECT_EQ(kept.frame_index, 37);
+  EXPECT_EQ(kept.timestamp_s, 12.5);
+  EXPECT_THAT(kept.T_cw, PoseNear(frame.T_cw, 0, 0));
+  EXPECT_EQ(kept.readout.taken_out_s, 0.02);
+  EXPECT_EQ(kept.readout.sigma_s, 0.003);
+  EXPECT_EQ(kept.readout.speed, frame.readout.speed);
+}
+
 TEST(Keyframes, AddAnObservationForEachMatchAndAPointForEachUnmatchedDepth) {
   PointWorld world = MakePointWorld(2, 80, 1);
   Frame frame = FrameOf(world.map.keyframes[1]);

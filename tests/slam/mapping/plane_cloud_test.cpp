@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 namespace slam {
 namespace {
 
@@ -34,6 +36,20 @@ TEST(PlaneCloud, OutlineOfASquareHasItsArea) {
   EXPECT_NEAR(outline.area_m2, 1.0, 1e-12);
   EXPECT_TRUE(ConvexOutline({{0, 0, 0}, {1, 1, 0}, {2, 2, 0}}, {Eigen::Vector3d::UnitZ(), 0})
                   .hull_w.empty());
+}
+
+// A pose that went astray puts points far off; a grid of voxels up to there would fill any memory.
+TEST(PlaneCloud, BecomesCoarserWherePointsLieFarApartAndKeepsThem) {
+  const Plane pi_w{Eigen::Vector3d::UnitZ(), 0.0};
+  for (const double far_m : {1e3, 1e6}) {
+    std::vector<Eigen::Vector3d> cloud_w;
+    const double voxel_m = MergeIntoCloud(cloud_w, {{0, 0, 0}, {far_m, -far_m, 0}}, pi_w,
+                                          Eigen::Vector3d::Zero(), 0.02, 1000);
+    EXPECT_EQ(cloud_w.size(), 2u);
+    const double cells = std::pow(far_m / voxel_m, 2);
+    EXPECT_GT(cells, 1e5) << "no coarser than it must be";
+    EXPECT_LT(cells, 2e6);
+  }
 }
 
 TEST(PlaneCloud, SaysHowCoarseItBecameAndIsAsDenseAllOver) {

@@ -38,5 +38,46 @@ TEST(PlaneObservation, AddsToACoarseCloudPointsAsFarApartAsItsOwn) {
   EXPECT_NEAR(wall.centroid_w.x(), 0.4, 0.02);
 }
 
+/// What a landmark believes of its class after one frame in which a box of this score said "book".
+double BeliefInBook(double score, bool compensated, bool asked = true) {
+  Frame frame;
+  frame.detector_asked = asked;
+  frame.detections.resize(1);
+  frame.detections[0].score = score;
+  frame.detections[0].compensated = compensated;
+  FramePlane part = PartOfWall(0.0, 0.2);
+  part.detection = 0;
+  part.class_name = "book";
+  MapPlane wall = StartPlane(part, frame);
+  ObservePlane(wall, part, frame, {});
+  return wall.class_belief["book"];
+}
+
+TEST(PlaneObservation, CountsABoxThatItsTrackPredictedHalf) {
+  for (const double score : {0.3, 0.8}) {
+    EXPECT_GT(BeliefInBook(score, false), 0.0);
+    EXPECT_NEAR(BeliefInBook(score, true), BeliefInBook(0.5 * score, false), 1e-12);
+    EXPECT_EQ(BeliefInBook(score, false, false), 0.0) << "it was counted where it was found";
+  }
+}
+
+TEST(PlaneObservation, TakesCornersFromTrustedPlanesOfObjectsAlone) {
+  for (const bool of_object : {true, false}) {
+    for (const bool bad : {true, false}) {
+      Frame frame;
+      FramePlane part = PartOfWall(0.0, 0.2);
+      part.class_name = of_object ? "book" : "";
+      if (bad) part.bad = BadReason::kBorder;
+      for (const Eigen::Vector3d& p_c :
+           {Eigen::Vector3d(0, -0.5, 2), Eigen::Vector3d(0.2, -0.5, 2),
+            Eigen::Vector3d(0.2, 0.5, 2), Eigen::Vector3d(0, 0.5, 2)})
+        part.vertices_c.push_back({p_c});
+      MapPlane wall = StartPlane(part, frame);
+      ObservePlane(wall, part, frame, {});
+      EXPECT_EQ(wall.vertices_w.size(), of_object && !bad ? 4u : 0u) << of_object << bad;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace slam
