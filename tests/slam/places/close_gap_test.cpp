@@ -162,6 +162,44 @@ TEST(CloseGaps, MovesAKeyframeByItsShareOfWhatTheLastFrameDidNotKnow) {
   EXPECT_NEAR((walk.Centre(4) - before).z(), 0.025, 1e-12);
 }
 
+// Nobody keeps up what a culled keyframe knew: it must not stand between the others and the gap.
+TEST(CloseGaps, MovesTheOthersAsIfACulledKeyframeWereNotThere) {
+  WalkAlongPanels whole(2, 6), without(2, 6);
+  Keyframe& culled = without.map.keyframes[5];
+  culled.culled = true;
+  culled.parent = 4;
+  culled.T_cp = culled.T_cw * Inverse(without.map.keyframes[4].T_cw);
+  culled.covariance *= 0.01;
+  const Eigen::Vector3d before = without.Centre(5) - without.Centre(4);
+  ASSERT_TRUE(CloseGaps(whole.map, whole.Find(0.1)));
+  ASSERT_TRUE(CloseGaps(without.map, without.Find(0.1)));
+  for (const int k : {2, 3, 4, 6, 7}) {
+    EXPECT_THAT(without.Centre(k), VectorNear(whole.Centre(k), 1e-12)) << k;
+    EXPECT_NEAR(without.HeightVariance(k), whole.HeightVariance(k), 1e-12) << k;
+  }
+  // It goes where its parent does.
+  EXPECT_THAT(without.Centre(5) - without.Centre(4), VectorNear(before, 1e-12));
+}
+
+// Of a slanted surface a height tells its share of the normal, squared.
+TEST(CloseGaps, TeachASlantedPlaneByHowMuchItFacesUp) {
+  WalkAlongPanels walk(3, 5);
+  constexpr double kBefore_m2 = 0.02;
+  const double told_m2 = 5 * WalkAlongPanels::kStep_m2;
+  for (const double slant_rad : {0.0, 0.5, 1.0, 1.5}) {
+    MapPlane plane;
+    plane.pi_w = {{std::sin(slant_rad), 0, std::cos(slant_rad)}, -1.0};
+    plane.first_frame = 70;
+    plane.estimate.world_variance_m2 = kBefore_m2;
+    AddLandmark(walk.map, plane);
+  }
+  ASSERT_TRUE(CloseGaps(walk.map, walk.Find(0.1)));
+  for (const MapPlane& plane : walk.map.planes) {
+    const double up = plane.pi_w.n.z();
+    EXPECT_NEAR(plane.estimate.world_variance_m2, kBefore_m2 - up * up * told_m2, 1e-8) << up;
+  }
+}
+
 TEST(CloseGaps, LeavesAloneWhatIsNoNewsAndWhatIsNotCredible) {
   const auto closes = [](double off_m, double after_m2) {
     WalkAlongPanels walk(2, 4);  // known to 80 mm

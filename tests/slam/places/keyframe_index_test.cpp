@@ -134,6 +134,75 @@ TEST(KeyframeIndex, GrowsWithTheMapAsIfMadeAtOnce) {
   }
 }
 
+/// An image of which a third shows another place.
+std::vector<PointFeature> ImageOfTwo(int place, int other) {
+  std::vector<PointFeature> features = ImageOf(place, 999);
+  const std::vector<PointFeature> more = ImageOf(other, 998);
+  features.insert(features.end(), more.begin(), more.begin() + kFeatures / 3);
+  return features;
+}
+
+TEST(KeyframeIndex, AsksKeyframesThatShareAsManyWordsAsSaid) {
+  const Map map = MapOfPlaces();
+  KeyframeIndex index(Words());
+  index.Update(map);
+  const WordBag bag = Words().Bag(ImageOfTwo(1, 4));
+  const auto common = [&](int keyframe) {
+    const WordBag& other = index.Bag(keyframe);
+    return std::count_if(bag.begin(), bag.end(), [&](const auto& word) {
+      return std::any_of(other.begin(), other.end(),
+                         [&](const auto& own) { return own.first == word.first; });
+    });
+  };
+  std::ptrdiff_t most = 0;
+  for (const Keyframe& keyframe : map.keyframes) most = std::max(most, common(keyframe.id));
+  for (const double least : {0.1, 0.3, 0.5, 0.7, 0.9}) {
+    // Each for itself, however alike.
+    const auto like = index.Like(bag, map, {}, {least, 0.0, 0});
+    for (const Keyframe& keyframe : map.keyframes) {
+      const bool named = std::any_of(like.begin(), like.end(), [&](const LikeKeyframe& k) {
+        return k.keyframe == keyframe.id;
+      });
+      EXPECT_EQ(named,
+                static_cast<double>(common(keyframe.id)) >= least * static_cast<double>(most))
+          << keyframe.id << " " << least;
+    }
+  }
+}
+
+TEST(KeyframeIndex, NamesPlacesWithAsMuchSupportAsSaid) {
+  const Map map = MapOfPlaces();
+  KeyframeIndex index(Words());
+  index.Update(map);
+  const WordBag bag = Words().Bag(ImageOfTwo(1, 4));
+  const auto all = index.Like(bag, map, {}, {0.0, 0.0, 10});
+  ASSERT_GT(all.size(), 2u);
+  const double best = all.front().support;
+  for (const double share : {0.05, 0.2, 0.5, 0.9}) {
+    const auto supported = std::count_if(all.begin(), all.end(), [&](const LikeKeyframe& k) {
+      return k.support >= share * best;
+    });
+    EXPECT_EQ(static_cast<std::ptrdiff_t>(index.Like(bag, map, {}, {0.0, share, 10}).size()),
+              supported)
+        << share;
+  }
+}
+
+// Each neighbour of keyframe 11 knows that one alone, and comes before it.
+TEST(KeyframeIndex, CountsForAPlaceTheMostThatSpeakForIt) {
+  Map map = MapOfPlaces();
+  for (const std::size_t k : {8u, 9u, 10u}) map.keyframes[k].covisible = {{11, 50}};
+  KeyframeIndex index(Words());
+  index.Update(map);
+  const WordBag bag = index.Bag(11);  // as like it as can be
+  double sum = 0.0;
+  for (const int k : {8, 9, 10, 11}) sum += Likeness(bag, index.Bag(k));
+  const auto like = index.Like(bag, map, {}, {0.0, 0.0, 10});
+  ASSERT_FALSE(like.empty());
+  EXPECT_EQ(like.front().keyframe, 11);
+  EXPECT_NEAR(like.front().support, sum, 1e-12);
+}
+
 TEST(KeyframeIndex, AnImageWithoutFeaturesIsLikeNothing) {
   const Map map = MapOfPlaces();
   KeyframeIndex index(Words());
