@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 
+#include "slam/base/index.h"
 #include "tests/support/slam_matchers.h"
 
 namespace slam {
@@ -15,6 +16,8 @@ PointFeature FeatureAtDepth(double u_px, double depth_m, int octave = 0) {
   feature.u_px = {u_px, 150.0};
   feature.depth_m = depth_m;
   feature.octave = octave;
+  feature.angle_deg = 77.0f;
+  feature.descriptor[3] = 0x5A;
   return feature;
 }
 
@@ -79,6 +82,9 @@ TEST(LastFrame, LooksForItsPointsAroundWhereAPredictionPutsThem) {
   EXPECT_NEAR(queries[0].radius_px, 7.0 * 1.2 * 1.2 * 1.2, 1e-9);
   EXPECT_EQ(queries[0].min_octave, 2);
   EXPECT_EQ(queries[0].max_octave, 4);
+  const PointFeature& feature = r.last.features[Index(seen[0].feature)];
+  EXPECT_EQ(queries[0].angle_deg, feature.angle_deg);
+  EXPECT_EQ(queries[0].descriptor, feature.descriptor);
 }
 
 TEST(LastFrame, LooksForWhatTheRecordedImageShowsThroughABarrelLens) {

@@ -58,6 +58,11 @@ TEST(PointTracking, SaysLostOnABlackFrameAndFindsItselfAgainLater) {
     if (black) {
       EXPECT_EQ(report.state, TrackState::kLost) << "frame " << i;
       EXPECT_THAT(frame.T_cw, PoseNear(Pose{}, 0, 0));
+      // The first one knows where motion leads, for whoever else may hold the pose.
+      ASSERT_EQ(frame.prediction.has_value(), i == 20) << "frame " << i;
+      if (frame.prediction) {
+        EXPECT_THAT(frame.prediction->T_cw, PoseNear(TruthOf(i), 0.02, 0.02));
+      }
     } else {
       ASSERT_EQ(report.state, TrackState::kTracking) << "frame " << i;
       EXPECT_EQ(report.by_relocalising, i == 28) << "frame " << i;
