@@ -146,6 +146,9 @@ TEST_F(ConfigFile, RefusesSettingsThatContradictEachOther) {
               "must be below max_depth_m");
   ExpectError("association: {max_chi2: 20, new_chi2: 19.9}\n",
               "max_chi2 must not be above new_chi2");
+  ExpectError("yolox: {classes: []}\n", "yolox: classes must name at least one class");
+  ExpectError("plane_processing: {vertices: {min_fill: 0.9, max_fill: 0.8}}\n",
+              "vertices: min_fill must not be above max_fill");
   EXPECT_EQ(Read("association: {max_chi2: 20, new_chi2: 20}\n").association.max_chi2, 20.0);
 }
 

@@ -166,40 +166,6 @@ TEST_F(RunFolder, SaysWhenTheRunWasInterruptedAndWhatItWarnedOf) {
   EXPECT_EQ(run["warnings"], json({"one", "two"}));
 }
 
-TEST_F(RunFolder, SaysHowFarDepthLiesBesideItsColour) {
-  RegistrationEstimate estimate;
-  estimate.shift_px = {1.5, -0.25}, estimate.sigma_px = {0.2, 0.1},
-  estimate.applied_px = {1.4, 0};
-  estimate.clear = true, estimate.epochs = 7;
-  RunWriter writer(run_, Info(), {});
-  RunEnd end;
-  end.registration = estimate;
-  writer.Finish(SomeMap(), end);
-  const json said = json::parse(ReadFile(run_ / "run.json"))["depth_registration"];
-  EXPECT_EQ(said["applied"], true);
-  EXPECT_EQ(said["applied_px"], json({1.4, 0.0}));
-  EXPECT_EQ(said["learnt"]["shift_px"], json({1.5, -0.25}));
-  EXPECT_EQ(said["learnt"]["epochs"], 7);
-}
-
-TEST_F(RunFolder, SaysThatItSawTooLittleOfDepthAndColour) {
-  RunWriter writer(run_, Info(), {});
-  writer.Finish(SomeMap(), {});
-  const json said = json::parse(ReadFile(run_ / "run.json"))["depth_registration"];
-  EXPECT_EQ(said, json({{"applied", false}}));
-}
-
-TEST_F(RunFolder, SaysHowLongTheColourCameraReads) {
-  RunWriter writer(run_, Info(), {});
-  RunEnd end;
-  end.rolling_shutter =
-      RollingEstimate{.read_s = 0.027, .sigma_s = 0.002, .applied_s = 0.026, .epochs = 9};
-  writer.Finish(SomeMap(), end);
-  const json said = json::parse(ReadFile(run_ / "run.json"))["rolling_shutter"];
-  EXPECT_EQ(said, json::parse(R"({"applied_s": 0.026,
-      "learnt": {"epochs": 9, "read_s": 0.027, "sigma_s": 0.002}})"));
-}
-
 TEST_F(RunFolder, NamesASequenceInsideItSoThatItMayBeMoved) {
   RunInfo info = Info();
   info.sequence = run_ / "truth";
