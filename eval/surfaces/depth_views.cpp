@@ -1,6 +1,8 @@
 #include "eval/surfaces/depth_views.h"
 
 #include <algorithm>
+#include <cstdint>
+#include <limits>
 #include <opencv2/calib3d.hpp>
 
 #include "eval/trajectory/true_pose.h"
@@ -60,6 +62,8 @@ DepthView DepthViews::Read(std::size_t i) const {
       ReadImage(folder, posed.frame.depth, {CV_16U, 1, {taken_by.width, taken_by.height}});
   cv::Mat1f depth_m;
   stored.convertTo(depth_m, CV_32F, 1.0 / camera_.depth_factor);
+  // The largest number says, as 0 does, that nothing was measured: 7-Scenes and others write it.
+  depth_m.setTo(0, stored == std::numeric_limits<std::uint16_t>::max());
   if (registration_) depth_m = LayOnColour(depth_m, *registration_);
   return {posed.frame.stamp_s, posed.T_gc, depth_m};
 }

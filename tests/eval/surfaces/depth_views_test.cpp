@@ -52,6 +52,24 @@ TEST(DepthViews, OfARegisteredCameraAreInTheUnitOfTheRecording) {
   }
 }
 
+// 7-Scenes and others write it where nothing was measured; no sensor sees 65 m.
+TEST(DepthViews, HoldNothingWhereDepthIsTheLargestNumber) {
+  const test_support::TemporaryFolder folder;
+  std::filesystem::create_directories(folder / "depth");
+  cv::Mat1w stored(60, 80, std::uint16_t(7500));
+  stored(30, 40) = 65535, stored(30, 41) = 65534;
+  test_support::WriteImageFile(folder / "depth/1.png", stored);
+  Sequence sequence;
+  sequence.folder = folder.path();
+  sequence.groundtruth.emplace(1);
+  sequence.groundtruth->front().stamp_s = 1.0;
+  sequence.frames = {{1.0, "", 1.0, "depth/1.png", 0}};
+  const Camera camera{80, 60, 70, 70, 39.5, 29.5, 30, 5000, {}};
+  const cv::Mat1f depth_m = DepthViews(sequence, camera, std::nullopt).Read(0).depth_m;
+  EXPECT_EQ(depth_m(30, 40), 0.0F);
+  EXPECT_FLOAT_EQ(depth_m(30, 41), 65534 / 5000.0F);
+}
+
 TEST(LayOnColour, PutsADepthWhereTheColourCameraSeesItWithoutHoles) {
   const DepthRegistration registration = Kitchen();
   cv::Mat1f depth_m(480, 640, 2.0F);
