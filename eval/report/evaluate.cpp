@@ -37,11 +37,36 @@ std::vector<std::string> PlaneGroupsOf(const Run& run) {
   return groups;
 }
 
+/// What is known of data whose poses agree but for a unit or a mirror. The errors are of that, then,
+/// and say nothing of the run.
+Fault Misfit(const BetterFit& fit) {
+  const bool scaled = fit.scale != 1.0;
+  const std::string how =
+      scaled ? fmt::format("{}times {:.4g}", fit.mirrored ? "mirrored and " : "", fit.scale)
+             : "mirrored";
+  std::string mend;
+  if (scaled) {
+    mend = fmt::format("is depth_factor of the camera right ({:.4g} times as large would fit)",
+                       1.0 / fit.scale);
+  }
+  if (fit.mirrored) {
+    mend += scaled ? ", and" : "";
+    mend += std::string(scaled ? " " : "") +
+            "is the truth of a left-handed world (docs/cameras.md: ICL-NUIM)";
+  }
+  return {"trajectory.txt", 0, "",
+          fmt::format("lies {:.3g} m rms off the truth, but {:.3g} m when it is {}",
+                      fit.rigid_rmse_m, fit.rmse_m, how),
+          mend + "?"};
+}
+
 /// What is no fault of the run, but has to be known beside its figures.
 std::vector<Fault> Caveats(const Run& run, const Sequence& sequence,
-                           const std::optional<PlaneScore>& planes) {
+                           const Evaluation& evaluation) {
   const std::size_t frames = sequence.frames.size();
+  const std::optional<PlaneScore>& planes = evaluation.planes;
   std::vector<Fault> caveats;
+  if (const auto& fit = evaluation.trajectory.better_fit) caveats.push_back(Misfit(*fit));
   if (planes && planes->from_frame_planes && run.segmentation_files.empty() &&
       !sequence.plane_id_files.empty()) {
     caveats.push_back({"segmentation", 0, "",
@@ -100,7 +125,7 @@ Evaluation Evaluate(const Run& run, const Sequence& sequence) {
   evaluation.timing = ScoreTiming(run);
   evaluation.interrupted = run.info.interrupted;
   evaluation.run_warnings = run.warnings;
-  for (Fault& caveat : Caveats(run, sequence, evaluation.planes)) {
+  for (Fault& caveat : Caveats(run, sequence, evaluation)) {
     evaluation.run_warnings.push_back(std::move(caveat));
   }
   evaluation.sequence_warnings = sequence.warnings;

@@ -2,8 +2,10 @@
 
 #include <Eigen/LU>
 #include <Eigen/SVD>
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
+#include <utility>
 #include <variant>
 
 namespace eval {
@@ -53,6 +55,24 @@ std::variant<Alignment, NoAlignment> Align(const std::vector<Eigen::Vector3d>& x
   return alignment;
 }
 
+// A drifting estimate fits somewhat better with a scale, and a nearly flat path with a mirror. A
+// wrong unit or a mirror explains nearly all that is wrong.
+constexpr double kMinGain = 4.0;
+// A depth factor that is wrong is wrong by more: 5000 for 6553.5, 1000 for 5000.
+constexpr double kMinScaleChange = 1.1;
+// Below this share of the path's extent nothing of the kind is wrong.
+constexpr double kMinErrorShare = 0.01;
+
+double RmseOf(const Alignment& alignment, const std::vector<Eigen::Vector3d>& x_w,
+              const std::vector<Eigen::Vector3d>& y_g) {
+  double sse = 0.0;
+  for (std::size_t i = 0; i < x_w.size(); ++i) {
+    const Pose T_wc{Eigen::Matrix3d::Identity(), x_w[i]};
+    sse += ((alignment * T_wc).t - y_g[i]).squaredNorm();
+  }
+  return std::sqrt(sse / static_cast<double>(x_w.size()));
+}
+
 }  // namespace
 
 std::optional<Alignment> AlignUmeyama(const std::vector<Eigen::Vector3d>& x_w,
@@ -80,6 +100,33 @@ std::string TextOf(NoAlignment reason, const std::string& what, std::size_t coun
       break;
   }
   return "the " + what + " lie on a line to working precision, about which any turn fits";
+}
+
+std::optional<BetterFit> FindBetterFit(const std::vector<Eigen::Vector3d>& x_w,
+                                       const std::vector<Eigen::Vector3d>& y_g) {
+  const auto rigid = AlignUmeyama(x_w, y_g);
+  if (!rigid) return std::nullopt;
+  const double rigid_rmse_m = RmseOf(*rigid, x_w, y_g);
+  double variance_m2 = 0.0;
+  const Eigen::Vector3d mean = MeanOf(y_g);
+  for (const Eigen::Vector3d& y : y_g) variance_m2 += (y - mean).squaredNorm();
+  const double extent_m = std::sqrt(variance_m2 / static_cast<double>(y_g.size()));
+  if (!(rigid_rmse_m > kMinErrorShare * extent_m)) return std::nullopt;
+  std::vector<Eigen::Vector3d> mirrored = x_w;
+  for (Eigen::Vector3d& x : mirrored) x.x() = -x.x();
+  // The simplest explanation that does first.
+  for (const auto& [mirror, scaled] : {std::pair(false, true), {true, false}, {true, true}}) {
+    const std::vector<Eigen::Vector3d>& positions = mirror ? mirrored : x_w;
+    const auto fit = AlignUmeyama(positions, y_g, scaled);
+    if (!fit) continue;
+    const double rmse_m = RmseOf(*fit, positions, y_g);
+    const double change = std::max(fit->scale, 1.0 / fit->scale);
+    if (scaled && !(change > kMinScaleChange)) continue;
+    if (kMinGain * rmse_m < rigid_rmse_m) {
+      return BetterFit{fit->scale, mirror, rigid_rmse_m, rmse_m};
+    }
+  }
+  return std::nullopt;
 }
 
 std::vector<Eigen::Vector3d> PositionsOf(const std::vector<Pose>& poses) {

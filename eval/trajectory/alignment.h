@@ -51,6 +51,18 @@ std::string TextOf(NoAlignment reason, const std::string& what, std::size_t coun
 std::optional<Alignment> AlignByPoses(const std::vector<Pose>& T_wc,
                                       const std::vector<Pose>& T_gc);
 
+/// What would lay the positions on the truth where a rigid motion does not: another unit, or a
+/// mirror, as between a left-handed world and a right-handed one.
+struct BetterFit {
+  double scale = 1.0;  ///< of the estimate, about; 1 where the unit is right
+  bool mirrored = false;
+  double rigid_rmse_m = 0.0, rmse_m = 0.0;  ///< as they are, and so
+};
+/// @returns nothing where there is no alignment, where a rigid motion fits as well as can be
+///          expected, and where neither is far better
+std::optional<BetterFit> FindBetterFit(const std::vector<Eigen::Vector3d>& x_w,
+                                       const std::vector<Eigen::Vector3d>& y_g);
+
 std::vector<Eigen::Vector3d> PositionsOf(const std::vector<Pose>& poses);
 std::vector<Pose> Apply(const Alignment& alignment, const std::vector<Pose>& poses);
 

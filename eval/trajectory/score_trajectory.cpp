@@ -198,6 +198,7 @@ TrajectoryScore ScoreTrajectory(const Trajectory& estimate, const Trajectory& un
                            : TextOf(*reason, "matched positions", poses.truth.size());
   }
 
+  score.better_fit = FindBetterFit(PositionsOf(poses.estimate), PositionsOf(poses.truth));
   score.gauge = AlignByPoses(poses.estimate, poses.truth);
   score.errors = ErrorsOfPoses(poses, se3, score.gauge);
 

@@ -45,6 +45,7 @@ struct TrajectoryScore {
   std::vector<bool> tracked_frames;  ///< by frame of the sequence
   std::vector<PoseError> errors;     ///< of the matched poses
   std::vector<Eigen::Vector3d> true_positions_g;  ///< of the frames that have a truth, metres
+  std::optional<BetterFit> better_fit;  ///< of the matched positions: another unit, a mirror
   /// World of the run to world of the truth, by whole poses: what the map is scored in.
   std::optional<Alignment> gauge;
   /// What the run says of its own errors; nothing where it does not.

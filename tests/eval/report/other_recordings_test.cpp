@@ -8,6 +8,7 @@
 namespace eval {
 namespace {
 
+using ::testing::AllOf;
 using ::testing::HasSubstr;
 namespace fs = std::filesystem;
 
@@ -40,6 +41,22 @@ TEST_F(EvaluateOtherRecordings, PosesWithAClockOfTheirOwnAreMatchedWhateverTheMa
   EXPECT_EQ(score.ate_se3->count, world_->frames.size());
   EXPECT_NEAR(score.ate_se3->rmse, 0.0, kExact);
   EXPECT_TRUE(score.ate_complete_rmse_m.has_value()) << score.no_ate_complete;
+}
+
+TEST_F(EvaluateOtherRecordings, AWrongUnitOfDepthAndALeftHandedTruthAreNamed) {
+  for (auto& [stamp_s, T_wc] : tiny_.trajectory) T_wc.t *= 5.0;
+  const nlohmann::json scaled = nlohmann::json::parse(MetricsText(EvaluationOf(tiny_)));
+  EXPECT_THAT(scaled["warnings"].dump(),
+              AllOf(HasSubstr("m when it is times 0.2; is depth_factor of the camera right (5 "
+                              "times as large would fit)?"),
+                    HasSubstr("RUN/trajectory.txt: lies ")));
+  for (auto& [stamp_s, T_wc] : tiny_.trajectory) {
+    T_wc.t /= 5.0;
+    T_wc.t.y() = -T_wc.t.y();
+  }
+  const nlohmann::json mirrored = nlohmann::json::parse(MetricsText(EvaluationOf(tiny_)));
+  EXPECT_THAT(mirrored["warnings"].dump(),
+              HasSubstr("m when it is mirrored; is the truth of a left-handed world"));
 }
 
 TEST_F(EvaluateOtherRecordings, ASceneWithoutWhatFramesShowCostsTheFiguresOfPlanesAlone) {
