@@ -1,5 +1,6 @@
 #include "slam/input/frame_gate.h"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -21,8 +22,17 @@ bool CanBe(float z_m) { return (z_m >= 0) & (z_m < kMaxDepth_m); }  // false for
 // it is blind, farther its depth is mostly noise.
 constexpr float kNear_m = 0.4f, kFar_m = 6.0f;
 
-/// Median depth of every 16th pixel of every 16th row, metres; 0 when nothing was measured.
-float MedianDepth(const cv::Mat1f& depth_m) {
+// Something of a scene is nearer than this, the floor if nothing else. A desk at 0.8 m that is
+// told in fifths of a millimetre and read in millimetres begins at 3.5 m.
+constexpr float kFarBeginning_m = 3.0f;
+constexpr std::size_t kOneIn = 20;  // of the pixels may be wrong, and nearer than all there is
+
+struct DepthRange {
+  float begin_m = 0.0f, median_m = 0.0f;  ///< 0 when nothing was measured
+};
+
+/// Of every 16th pixel of every 16th row: what all but one in twenty are beyond, and the median.
+DepthRange RangeOf(const cv::Mat1f& depth_m) {
   constexpr int kStep_px = 16;
   std::vector<float> measured;
   for (int v = 0; v < depth_m.rows; v += kStep_px) {
@@ -30,8 +40,11 @@ float MedianDepth(const cv::Mat1f& depth_m) {
       if (std::isfinite(depth_m(v, u)) && depth_m(v, u) > 0) measured.push_back(depth_m(v, u));
     }
   }
-  if (measured.empty()) return 0.0f;
-  return UpperMedian(std::move(measured));
+  if (measured.empty()) return {};
+  const auto begin = measured.begin() + static_cast<std::ptrdiff_t>(measured.size() / kOneIn);
+  std::nth_element(measured.begin(), begin, measured.end());
+  const float begin_m = *begin;
+  return {begin_m, UpperMedian(std::move(measured))};
 }
 
 bool AllCanBe(const cv::Mat1f& depth_m) {
@@ -85,9 +98,10 @@ bool FrameGate::Takes(RecordedFrame& frame) {
   first_ = false;
   last_s_ = frame.timestamp_s;
   ++taken_;
-  const float median_m = MedianDepth(frame.depth_m);
-  too_near_ += median_m > 0 && median_m < kNear_m;
-  too_far_ += median_m > kFar_m;
+  const DepthRange range = RangeOf(frame.depth_m);
+  too_near_ += range.median_m > 0 && range.median_m < kNear_m;
+  too_far_ += range.median_m > kFar_m;
+  begins_far_ += range.begin_m > kFarBeginning_m;
   // The source may still hold the image: mend a copy.
   if (!AllCanBe(frame.depth_m)) {
     frame.depth_m = frame.depth_m.clone();
@@ -111,6 +125,9 @@ std::vector<std::string> FrameGate::Warnings() const {
   if (2 * too_far_ > taken_) {
     warnings.push_back("in " + OfFrames(too_far_, taken_) + " most of the depth is beyond 6 m" +
                        advice);
+  } else if (2 * begins_far_ > taken_) {
+    warnings.push_back("in " + OfFrames(begins_far_, taken_) +
+                       " nearly all of the depth is beyond 3 m" + advice);
   }
   return warnings;
 }

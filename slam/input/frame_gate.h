@@ -29,6 +29,7 @@ class FrameGate {
   bool first_ = true;
   int not_later_ = 0, taken_ = 0;
   int too_near_ = 0, too_far_ = 0;  ///< frames in which most of the depth is so
+  int begins_far_ = 0;              ///< frames that show nothing near
 };
 
 }  // namespace slam

@@ -79,6 +79,21 @@ TEST(FrameGate, DoubtsTheDepthFactorWhenMostFramesAreTooNearOrTooFar) {
   EXPECT_THAT(WarningsOfDepth(1.5f), IsEmpty());
 }
 
+// A desk 0.9 m away, told in fifths of a millimetre and read in millimetres.
+TEST(FrameGate, DoubtsTheDepthFactorWhenNothingIsNear) {
+  EXPECT_THAT(WarningsOfDepth(4.5f),
+              ElementsAre("in 9 of 12 frames nearly all of the depth is beyond 3 m; is "
+                          "depth_factor of the camera right?"));
+  FrameGate hall(GateCamera());
+  for (int i = 0; i < 12; ++i) {
+    RecordedFrame frame = FrameAt(i);
+    frame.depth_m = 4.5f;
+    frame.depth_m.row(16) = 1.5f;  // the floor before the camera, in half of the samples
+    EXPECT_TRUE(hall.Takes(frame));
+  }
+  EXPECT_THAT(hall.Warnings(), IsEmpty());
+}
+
 // A covered sensor measures nothing, which says nothing of the unit.
 TEST(FrameGate, DoesNotDoubtTheDepthFactorWhenMostFramesHaveNoDepth) {
   EXPECT_THAT(WarningsOfDepth(0.0f), IsEmpty());
