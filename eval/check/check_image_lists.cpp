@@ -50,17 +50,31 @@ void CheckListedFiles(Folder& folder, const std::string& list,
 cv::Size CheckListedImages(Folder& folder, const std::vector<ListedImage>& rgb,
                            const std::vector<ListedImage>& depth, cv::Size size) {
   std::set<std::string> done;
-  const auto check_all = [&](const std::vector<ListedImage>& images, int type, int channels) {
+  const auto check_all = [&](const std::vector<ListedImage>& images, const ImageKind& kind) {
     for (const ListedImage& listed : images) {
       // A missing one is the list's fault, told there.
       if (!folder.Has(listed.file) || !done.insert(listed.file).second) continue;
-      const cv::Mat image = ReadImage(folder, listed.file, {type, channels, size});
+      ImageKind wanted = kind;
+      wanted.size = size;
+      const cv::Mat image = ReadImage(folder, listed.file, wanted);
       if (size.empty()) size = image.size();
     }
   };
-  check_all(rgb, CV_8U, 3);
-  check_all(depth, CV_16U, 1);
+  check_all(rgb, {CV_8U, kAnyColour, {}});
+  check_all(depth, {CV_16U, 1, {}});
   return size;
+}
+
+std::vector<ListedImage> ReadListOrPairs(Folder& folder, const std::string& list) {
+  if (folder.Has(list) || !folder.Has("associations.txt")) return ReadImageList(folder, list);
+  Folder apart(folder.root(), OnFault::kCollect);  // what is wrong with it is told elsewhere
+  std::vector<ListedImage> images;
+  for (const SequenceFrame& frame : ReadAssociations(apart)) {
+    images.push_back(list == "rgb.txt"
+                         ? ListedImage{frame.stamp_s, frame.rgb, frame.line}
+                         : ListedImage{frame.depth_stamp_s, frame.depth, frame.line});
+  }
+  return images;
 }
 
 std::vector<SequenceFrame> CheckAssociations(Folder& folder,

@@ -8,6 +8,10 @@
 
 namespace eval {
 
+/// Reads rgb.txt or depth.txt; where there is none, what associations.txt pairs: no reader needs a
+/// list beside it.
+std::vector<ListedImage> ReadListOrPairs(Folder& folder, const std::string& list);
+
 /// Checks rgb.txt or depth.txt: every image exists, inside the folder.
 void CheckListedFiles(Folder& folder, const std::string& list,
                       const std::vector<ListedImage>& images);

@@ -29,8 +29,9 @@ bool HasImages(const std::filesystem::path& path) {
 }
 
 std::vector<ListedImage> ReadListedImages(Folder& folder, const std::string& list) {
-  std::vector<ListedImage> images = ReadImageList(folder, list);
-  if (HasImages(folder.root())) CheckListedFiles(folder, list, images);
+  std::vector<ListedImage> images = ReadListOrPairs(folder, list);
+  const std::string names_them = folder.Has(list) ? list : "associations.txt";
+  if (HasImages(folder.root())) CheckListedFiles(folder, names_them, images);
   return images;
 }
 

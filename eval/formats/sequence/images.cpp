@@ -20,6 +20,7 @@ std::string TypeName(int depth, int channels) {
                      : depth == CV_16U    ? "16-bit"
                      : depth == kAnyDepth ? "8-bit or 16-bit"
                                           : "other";
+  if (channels == kAnyColour) return fmt::format("{} RGB or gray", bits);
   return fmt::format("{} with {} channel{}", bits, channels, channels == 1 ? "" : "s");
 }
 
@@ -55,12 +56,13 @@ cv::Mat Decode(Folder& folder, const std::string& file, bool is_colour) {
 }  // namespace
 
 cv::Mat ReadImage(Folder& folder, const std::string& file, const ImageKind& kind) {
-  cv::Mat image = Decode(folder, file, kind.depth == CV_8U && kind.channels == 3);
+  cv::Mat image = Decode(folder, file, kind.depth == CV_8U && kind.channels == kAnyColour);
   if (image.empty()) return image;
   const bool right_depth = kind.depth == kAnyDepth
                                ? image.depth() == CV_8U || image.depth() == CV_16U
                                : image.depth() == kind.depth;
-  if (!right_depth || image.channels() != kind.channels) {
+  const bool right_channels = kind.channels == kAnyColour || image.channels() == kind.channels;
+  if (!right_depth || !right_channels) {
     folder.Tell(file, 0,
                 fmt::format("is {}; expected {}", TypeName(image.depth(), image.channels()),
                             TypeName(kind.depth, kind.channels)),

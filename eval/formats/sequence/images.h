@@ -11,15 +11,17 @@ namespace eval {
 
 /// Either of 8 and 16 bits.
 inline constexpr int kAnyDepth = -1;
+/// Colour or gray, with alpha or without.
+inline constexpr int kAnyColour = -1;
 
 /// What an image of a folder must be.
 struct ImageKind {
   int depth = CV_8U;  ///< CV_8U, CV_16U or kAnyDepth
-  int channels = 1;
-  cv::Size size;  ///< any when it is empty
+  int channels = 1;   ///< or kAnyColour
+  cv::Size size;      ///< any when it is empty
 };
 
-/// Decodes a PNG as it is stored; colour (8 bits, 3 channels) may be JPEG. One that is cut off or
+/// Decodes a PNG as it is stored; colour (8 bits, kAnyColour) may be JPEG. One that is cut off or
 /// broken, or of another kind, is a fault, and the image is then empty.
 cv::Mat ReadImage(Folder& folder, const std::string& file, const ImageKind& kind);
 

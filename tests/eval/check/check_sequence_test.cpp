@@ -102,12 +102,39 @@ TEST_F(CheckSequenceFolder, NamesStampsInNanoseconds) {
 }
 
 TEST_F(CheckSequenceFolder, NamesAnImageOfTheWrongType) {
-  const fs::path file = seq() / ("rgb/" + Stamp(1) + ".png");
-  cv::Mat grey;
-  cv::cvtColor(cv::imread(file.string()), grey, cv::COLOR_BGR2GRAY);
-  WriteImage(file, grey);
+  const std::string colour = "rgb/" + Stamp(1) + ".png", depth = "depth/" + Stamp(1) + ".png";
+  const cv::Mat was = cv::imread((seq() / colour).string());
+  cv::Mat deep;
+  was.convertTo(deep, CV_16U, 257);
+  cv::imwrite((seq() / colour).string(), deep);
   Renew();
-  ExpectOnly("rgb/" + Stamp(1) + ".png", 0, "", "expected 8-bit with 3 channels");
+  ExpectOnly(colour, 0, "", "is 16-bit with 3 channels; expected 8-bit RGB or gray");
+  cv::imwrite((seq() / colour).string(), was);
+  cv::imwrite((seq() / depth).string(), was);
+  Renew();
+  ExpectOnly(depth, 0, "", "is 8-bit with 3 channels; expected 16-bit with 1 channel");
+}
+
+TEST_F(CheckSequenceFolder, TakesColourThatIsGrayOrHasAlpha) {
+  for (const int code : {cv::COLOR_BGR2GRAY, cv::COLOR_BGR2BGRA}) {
+    const fs::path file = seq() / ("rgb/" + Stamp(code == cv::COLOR_BGR2GRAY ? 1 : 2) + ".png");
+    cv::Mat other;
+    cv::cvtColor(cv::imread(file.string()), other, code);
+    cv::imwrite(file.string(), other);
+  }
+  Renew();
+  EXPECT_EQ(CheckFolder(seq()).faults.size(), 0u) << All(CheckFolder(seq()));
+}
+
+// ICL-NUIM has associations.txt alone.
+TEST_F(CheckSequenceFolder, NeedsNoListsBesideAssociations) {
+  for (const char* file : {"gt", "manifest.json", "rgb.txt", "depth.txt"})
+    fs::remove_all(seq() / file);
+  const CheckReport report = CheckFolder(seq());
+  EXPECT_EQ(report.faults.size(), 0u) << All(report);
+  EXPECT_EQ(report.frames, 4);
+  fs::remove(seq() / ("depth/" + Stamp(2) + ".png"));
+  ExpectOnly("associations.txt", 3, "", "does not exist");
 }
 
 TEST_F(CheckSequenceFolder, NamesAnImageThatWasCutOff) {
