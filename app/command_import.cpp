@@ -68,7 +68,10 @@ int RunImport(const ImportArguments& arguments, bool quiet) {
   }
   if (io::TypeAt(arguments.bag) == std::filesystem::file_type::regular &&
       !io::IsBagFile(arguments.bag)) {
-    throw io::InputError(arguments.bag, "is no bag of ROS 1; expected RECORDING.bag");
+    throw io::InputError(
+        arguments.bag,
+        "is no bag of ROS 1; expected RECORDING.bag (docs/cameras.md says how to "
+        "convert other recordings)");
   }
   io::RequireRecording(arguments.bag);
   if (!io::IsBagFile(arguments.bag)) {

@@ -28,6 +28,7 @@ std::set<std::string> NamesIn(const fs::path& folder) {
 
 FolderKind KindOfFile(const fs::path& file) {
   if (file.extension() == ".bag") return FolderKind::kRosBag;
+  if (file.extension() == ".db3" || file.extension() == ".mcap") return FolderKind::kRosBag;
   return file.extension() == ".sens" ? FolderKind::kScanNet : FolderKind::kFile;
 }
 
@@ -54,8 +55,10 @@ FolderKind KindByNames(const std::set<std::string>& names) {
   if (any({"contact_sheet.png"})) return FolderKind::kPictures;
   if (ends(".bag") || ends(".db3") || ends(".mcap")) return FolderKind::kRosBag;
   if (ends(".sens")) return FolderKind::kScanNet;
-  if (ends(".color.png")) return FolderKind::kSevenScenes;
+  if (ends(".color.png") || ends(".color.jpg")) return FolderKind::kSevenScenes;
   if (ends(".depth")) return FolderKind::kIclNuim;
+  if (any({"traj.txt"}) && any({"results"})) return FolderKind::kReplica;
+  if (ends(".png") || ends(".jpg")) return FolderKind::kImages;
   return FolderKind::kOther;
 }
 
@@ -81,9 +84,13 @@ std::string Said(FolderKind kind) {
     case FolderKind::kScanNet:
       return "is a recording of ScanNet";
     case FolderKind::kSevenScenes:
-      return "is a recording of 7-Scenes";
+      return "is a recording in the layout of 7-Scenes";
     case FolderKind::kIclNuim:
       return "is a recording of ICL-NUIM as it was rendered";
+    case FolderKind::kReplica:
+      return "is a recording of Replica as NICE-SLAM renders it";
+    case FolderKind::kImages:
+      return "holds images without a list of them";
     case FolderKind::kOther:
       break;
   }
@@ -92,6 +99,7 @@ std::string Said(FolderKind kind) {
 
 /// The first bag of ROS 1 in a folder; empty when there is none, as beside bags of ROS 2.
 std::string BagInside(const fs::path& folder) {
+  if (TypeAt(folder) != fs::file_type::directory) return "";
   for (const std::string& name : NamesIn(folder)) {
     if (IsBagFile(folder / name)) return (folder / name).string();
   }
@@ -121,14 +129,16 @@ std::string Mend(const fs::path& folder, FolderKind found, FolderKind expected) 
     case FolderKind::kScanNet:
     case FolderKind::kSevenScenes:
     case FolderKind::kIclNuim:
+    case FolderKind::kReplica:
+    case FolderKind::kImages:
       return "convert it to TUM's format: rgb.txt and depth.txt with lines `timestamp file`, "
-             "and PNG images";
+             "and PNG images (docs/cameras.md says how)";
     default:
       break;
   }
   return expected == FolderKind::kRun ? "name a folder that `pas slam` wrote"
                                       : "name a folder that `pas sim` wrote, or one in the "
-                                        "format of TUM RGB-D";
+                                        "format of TUM RGB-D (docs/cameras.md)";
 }
 
 /// A folder in this one that is what was expected; empty when there is none.
@@ -175,7 +185,8 @@ WrongFolder Unexpected(const fs::path& folder, FolderKind found, FolderKind expe
       : expected == FolderKind::kRun    ? ", expected a run folder (run.json)"
                                         : ", neither a sequence (rgb.txt) nor a run (run.json)";
   WrongFolder wrong{Said(found) + wanted, Mend(folder, found, expected)};
-  if (found == FolderKind::kOther && expected != FolderKind::kOther) {
+  const bool vague = found == FolderKind::kOther || found == FolderKind::kImages;
+  if (vague && expected != FolderKind::kOther) {
     const std::string inside = Inside(folder, expected);
     if (!inside.empty()) wrong.mend = "did you mean " + inside + "?";
   }

@@ -16,8 +16,10 @@ enum class FolderKind {
   kExport,       ///< of `pas export`
   kRosBag,       ///< of ROS: FILE.bag, or metadata.yaml beside *.db3 or *.mcap
   kScanNet,      ///< FILE.sens, or color/, depth/ and pose/
-  kSevenScenes,  ///< frame-000000.color.png and so on
+  kSevenScenes,  ///< frame-000000.color.png (BundleFusion: .jpg) and so on
   kIclNuim,      ///< scene_00_0000.png and scene_00_0000.depth
+  kReplica,      ///< results/frame000000.jpg, results/depth000000.png and traj.txt
+  kImages,       ///< images without a list of them
   kOther         ///< none of these
 };
 

@@ -2,6 +2,8 @@
 
 #include <array>
 
+#include "io/number_text.h"
+
 namespace slam {
 namespace {
 
@@ -13,6 +15,17 @@ constexpr const char* kDepthUnit =
 void ReadIfThere(const io::YamlMap& map, const std::string& key, const io::Interval& domain,
                  double& value) {
   if (map.Has(key)) value = map.At(key).Number(domain);
+}
+
+/// ICL-NUIM gives fy = -480, of a world that is left-handed; its images are upright all the same.
+double FocalLengthDown(const io::YamlMap& map, const std::string& key) {
+  const io::YamlValue fy = map.At(key);
+  if (map.Has(key) && fy.IsScalar() && io::ParseNumber(fy.Text()).value_or(1) < 0) {
+    fy.Fail("expected a number in " + kFocal_px.text() + ", found `" + fy.Text() +
+            "`; write it without the sign, and mirror groundtruth.txt (docs/cameras.md: "
+            "ICL-NUIM)");
+  }
+  return fy.Number(kFocal_px);
 }
 
 std::vector<double> NumbersOf(const io::YamlValue& list, const io::Interval& domain) {
@@ -80,7 +93,7 @@ Camera CameraUnder(const io::YamlMap& map, const CameraKeys& keys) {
   c.width = map.At(keys.width).Whole(kSize_px);
   c.height = map.At(keys.height).Whole(kSize_px);
   c.fx = map.At(keys.fx).Number(kFocal_px);
-  c.fy = map.At(keys.fy).Number(kFocal_px);
+  c.fy = FocalLengthDown(map, keys.fy);
   c.cx = map.At(keys.cx).Number(kCentre_px);
   c.cy = map.At(keys.cy).Number(kCentre_px);
   c.depth_factor = map.At(keys.depth_factor).Number(kDepthFactor, kDepthUnit);

@@ -63,6 +63,18 @@ std::string MendPixels(const io::ImageHeader& header, bool colour) {
   return "convert it, without scaling";
 }
 
+/// How to mend an image of another size than the camera's.
+std::string MendSize(const io::ImageHeader& header, const Camera& camera, bool colour) {
+  if (header.width == camera.height && header.height == camera.width) {
+    return "; one of the two is turned: turn the images, or swap width and height, fx and fy, "
+           "cx "
+           "and cy of the camera";
+  }
+  return colour ? "; mend the camera file or the image"
+                : "; depth must lie on colour, pixel on pixel, and the camera is that of both "
+                  "(docs/cameras.md)";
+}
+
 /// Refuses a file that is no whole image of the camera's size and the type wanted.
 void CheckHeader(std::string_view bytes, ImageType type, const Camera& camera,
                  const std::string& where) {
@@ -79,7 +91,7 @@ void CheckHeader(std::string_view bytes, ImageType type, const Camera& camera,
                                     std::to_string(header->height) + ", the camera says " +
                                     std::to_string(camera.width) + " x " +
                                     std::to_string(camera.height) +
-                                    "; mend the camera file or the image");
+                                    MendSize(*header, camera, colour));
   const std::string& pixels = header->pixels;
   const bool wanted = colour ? pixels == "8-bit RGB" || pixels == "8-bit gray" ||
                                    pixels == "8-bit RGB with alpha" ||

@@ -23,8 +23,9 @@ constexpr double kSameStamp_s = 1e-5;
 
 std::vector<io::TextRecord> ReadImages(const std::filesystem::path& file,
                                        const std::string& form) {
-  auto records =
-      io::ReadRecords(file, form, "a sequence has associations.txt, or rgb.txt and depth.txt");
+  auto records = io::ReadRecords(file, form,
+                                 "a sequence has associations.txt, or rgb.txt and depth.txt "
+                                 "(docs/cameras.md says how to list images)");
   if (records.empty())
     throw io::InputError(file.string(), "names no image; expected lines `" + form + "`");
   return records;

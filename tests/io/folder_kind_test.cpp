@@ -45,7 +45,12 @@ TEST_F(FolderKinds, AreSeenFromTheNamesInThem) {
   EXPECT_EQ(KindOf(With("scan", {"color/0.jpg", "depth/0.png", "pose/0.txt"})),
             FolderKind::kScanNet);
   EXPECT_EQ(KindOf(With("seven", {"frame-000000.color.png"})), FolderKind::kSevenScenes);
+  EXPECT_EQ(KindOf(With("fusion", {"frame-000000.color.jpg"})), FolderKind::kSevenScenes);
   EXPECT_EQ(KindOf(With("icl", {"scene_00_0000.depth"})), FolderKind::kIclNuim);
+  EXPECT_EQ(KindOf(With("replica", {"traj.txt", "results/frame000000.jpg"})),
+            FolderKind::kReplica);
+  EXPECT_EQ(KindOf(With("replica", {}) / "results"), FolderKind::kImages);
+  EXPECT_EQ(KindOf(With("ros", {}) / "a_0.db3"), FolderKind::kRosBag);
 }
 
 TEST_F(FolderKinds, ThatAreWrongAreNamedWithTheCommandThatTakesThem) {
@@ -59,6 +64,14 @@ TEST_F(FolderKinds, ThatAreWrongAreNamedWithTheCommandThatTakesThem) {
         RequireSequence(With("ros2", {"a_0.db3", "metadata.yaml"}));
       },
       Refused("is a ROS bag", "convert it to TUM's format"));
+  EXPECT_THAT([&] { RequireRecording(folder_ / "ros2/a_0.db3"); },
+              Refused("a_0.db3: is a ROS bag", "convert it to TUM's format"));
+  EXPECT_THAT(
+      [&] {
+        RequireSequence(With("room0", {"traj.txt", "results/depth000000.png"}));
+      },
+      Refused("room0: is a recording of Replica as NICE-SLAM renders it",
+              "docs/cameras.md says how"));
   const fs::path bags = With("ros", {"a.bag"});
   EXPECT_THAT([&] { RequireRecording(bags); },
               Refused("ros: is a ROS bag", "did you mean " + (bags / "a.bag").string()));
@@ -88,6 +101,8 @@ TEST_F(FolderKinds, OneLevelTooHighPointToTheFolderWithin) {
   With("demo/run", {"run.json"});
   EXPECT_THAT([&] { RequireSequence(folder_ / "demo"); },
               Refused("is a folder of another kind", "did you mean " + seq.string()));
+  EXPECT_THAT([&] { RequireSequence(With("demo", {"a.png"})); },
+              Refused("holds images without a list of them", "did you mean " + seq.string()));
 }
 
 TEST_F(FolderKinds, MayBeTwoAtOnce) {

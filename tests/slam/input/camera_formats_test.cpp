@@ -223,6 +223,12 @@ TEST_F(CameraFormats, RefuseACameraThatIsNoPinhole) {
 TEST_F(CameraFormats, RefuseNumbersThatNoCameraHas) {
   ExpectError(kOrbSlam2, "Camera.fx: 517.306408", "Camera.fx: -517",
               "yaml:7: Camera.fx: expected a number in .1, 100000., found `-517`");
+  ExpectError(
+      kOrbSlam2, "Camera.fy: 516.469215", "Camera.fy: -480.0",
+      "Camera.fy: expected a number in .1, 100000., found `-480.0`; write it without the "
+      "sign, and mirror groundtruth.txt");
+  ExpectError(kOrbSlam2, "Camera.fy: 516.469215", "Camera.fy: 0.5",
+              "Camera.fy: expected a number in .1, 100000., found `0.5`$");
   ExpectError(kOrbSlam2, "Camera.cx: 318", "Camera.cx: 918", "Camera.cx: the principal point");
 }
 

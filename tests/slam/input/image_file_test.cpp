@@ -56,6 +56,17 @@ TEST_F(ImageFiles, WithAlphaAreReadAsIfItWereNotThere) {
   EXPECT_EQ(Colour()(5, 6), cv::Vec3b(1, 2, 3));
 }
 
+TEST_F(ImageFiles, OfAnotherSizeAreRefusedWithWhatToDo) {
+  Write(cv::Mat3b(24, 30));
+  ExpectRefusal(ImageType::kColour, "the image is 30 x 24, the camera says 32 x 24; mend the");
+  Write(cv::Mat1w(12, 16));
+  ExpectRefusal(ImageType::kDepth,
+                "the image is 16 x 12, the camera says 32 x 24; depth must lie on colour");
+  Write(cv::Mat3b(32, 24));
+  ExpectRefusal(ImageType::kColour,
+                "the image is 24 x 32, the camera says 32 x 24; one of the two is turned");
+}
+
 TEST_F(ImageFiles, OfColourWithSixteenBitsAreRefusedWithWhatToDo) {
   Write(cv::Mat(24, 32, CV_16UC3, cv::Scalar(1, 2, 3)));
   ExpectRefusal(ImageType::kColour,
