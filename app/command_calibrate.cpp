@@ -62,8 +62,10 @@ int RunCalibrate(CalibrateArguments& arguments, bool quiet) {
       "what came later (Student's t {:.1f} of {} epochs)",
       1e3 * calibration.warp.Rms(), calibration.tracked, 100 * evidence.gain,
       evidence.student_t, evidence.epochs);
-  output.Write(slam::WarpText(calibration.warp, summary));
-  if (picture) picture->Write(io::EncodePng(DrawWarp(calibration.warp)));
+  std::vector<io::OutputFile::Content> contents{
+      {&output, slam::WarpText(calibration.warp, summary)}};
+  if (picture) contents.push_back({&*picture, io::EncodePng(DrawWarp(calibration.warp))});
+  io::OutputFile::WriteTogether(contents);
   if (!quiet) fmt::print("{}: {}\n", arguments.output, summary);
   return kDone;
 }

@@ -33,14 +33,15 @@ class RunTables {
       events_.emplace(options.events, io::OutputRules{options.force, inputs});
     }
   }
-  void Write(const eval::Evaluation& evaluation, const eval::Run& run,
-             const eval::Sequence& sequence,
+  void AddTo(std::vector<io::OutputFile::Content>& contents, const eval::Evaluation& evaluation,
+             const eval::Run& run, const eval::Sequence& sequence,
              const std::optional<eval::SurfaceScore>& surfaces) const {
-    if (frames_) frames_->Write(eval::FramesCsv(evaluation, run, sequence));
+    if (frames_) contents.push_back({&*frames_, eval::FramesCsv(evaluation, run, sequence)});
     if (!events_) return;
     const std::vector<eval::RunEvent> events = eval::EventsOf(
         evaluation, sequence, surfaces ? surfaces->events : std::vector<eval::RunEvent>());
-    events_->Write(as_json_lines_ ? eval::EventsJsonLines(events) : eval::EventsCsv(events));
+    contents.push_back(
+        {&*events_, as_json_lines_ ? eval::EventsJsonLines(events) : eval::EventsCsv(events)});
   }
 
  private:
@@ -69,8 +70,9 @@ int EvalRun(const EvalOptions& options, const Globals& globals) {
   const auto surfaces = ScoreOnSurfaces(run, sequence, options.surfaces, options.force);
   nlohmann::ordered_json metrics = eval::MetricsJson(evaluation);
   if (surfaces) eval::AddSurfaces(*surfaces, options.surfaces.file, metrics);
-  file.Write(metrics.dump(2) + "\n");
-  tables.Write(evaluation, run, sequence, surfaces);
+  std::vector<io::OutputFile::Content> contents{{&file, metrics.dump(2) + "\n"}};
+  tables.AddTo(contents, evaluation, run, sequence, surfaces);
+  io::OutputFile::WriteTogether(contents);
   if (!globals.quiet) {
     std::fputs(eval::MetricsTable(evaluation).c_str(), stdout);
     if (surfaces) std::fputs(eval::SurfacesTable(*surfaces).c_str(), stdout);

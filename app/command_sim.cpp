@@ -41,8 +41,8 @@ int Report(const SimArguments& arguments, bool quiet) {
   const io::OutputFile figure(folder / (name + ".png"), rules);
   const sim::SensorReport report = sim::MeasureWalls(sensor);
   const std::string table = sim::ReportTable(report) + sim::BendTable(sim::MeasureBend(sensor));
-  text.Write(table);
-  figure.Write(io::EncodePng(sim::DrawReport(sensor, report)));
+  io::OutputFile::WriteTogether(
+      {{&text, table}, {&figure, io::EncodePng(sim::DrawReport(sensor, report))}});
   if (!quiet) std::printf("%s\n%s", sensor.name.c_str(), table.c_str());
   return kDone;
 }

@@ -45,8 +45,11 @@ int RunSurfaces(const SurfacesArguments& arguments, bool quiet) {
     return kFailure;
   }
   file.sequence = arguments.sequence;
-  output.Write(eval::SurfacesText(file));
-  if (picture) picture->Write(io::EncodePng(eval::DrawSurfaces(file, views)));
+  std::vector<io::OutputFile::Content> contents{{&output, eval::SurfacesText(file)}};
+  if (picture) {
+    contents.push_back({&*picture, io::EncodePng(eval::DrawSurfaces(file, views))});
+  }
+  io::OutputFile::WriteTogether(contents);
   if (quiet) return kDone;
   double area_m2 = 0.0;
   for (const eval::Surface& surface : file.surfaces) area_m2 += eval::AreaOf(surface);

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstdio>
+#include <memory>
 #include <optional>
 #include <set>
 #include <utility>
@@ -94,7 +95,7 @@ void OutputFile::RefuseInput() const {
   }
 }
 
-void OutputFile::RequirePlace() const {
+void OutputFile::RefuseWhatIsThere() const {
   std::error_code error;
   const fs::file_type type = fs::symlink_status(path_, error).type();
   if (type == fs::file_type::regular) {
@@ -106,6 +107,10 @@ void OutputFile::RequirePlace() const {
     throw InputError(path_.string(), std::string("is ") + NameOf(type) +
                                          ", which is never replaced; name a file itself");
   }
+}
+
+void OutputFile::RequirePlace() const {
+  RefuseWhatIsThere();
   const fs::path folder = path_.has_parent_path() ? path_.parent_path() : fs::path(".");
   if (TypeAt(folder) != fs::file_type::directory) {
     throw InputError(path_.string(), "cannot be written: there is no folder " +
@@ -114,20 +119,27 @@ void OutputFile::RequirePlace() const {
   if (::access(folder.c_str(), W_OK | X_OK) != 0) {
     FailToWrite(path_, {errno, std::generic_category()});
   }
+  std::error_code error;
   const fs::path unfinished = path_.string() + kUnfinishedSuffix;
   if (!rules_.force && fs::exists(fs::symlink_status(unfinished, error))) {
     throw InputError(unfinished.string(), "is in the way; remove it or add --force");
   }
 }
 
-void OutputFile::Write(std::string_view bytes) const {
-  if (stream_ < 0) {
-    RequirePlace();  // something may have appeared meanwhile
-    WriteFile(path_, bytes);
-    return;
+void OutputFile::WriteTogether(const std::vector<Content>& contents) {
+  std::vector<std::unique_ptr<AtomicFile>> files;  // each is locked until all are in place
+  for (const auto& [output, bytes] : contents) {
+    if (output->stream_ >= 0) continue;
+    output->RequirePlace();  // something may have appeared meanwhile
+    files.push_back(std::make_unique<AtomicFile>(output->path_));
+    output->RefuseWhatIsThere();  // nobody else can put a file there now
+    files.back()->Add(bytes);
   }
+  for (const auto& file : files) file->Finish();
   std::fflush(stdout);  // what was printed before comes before
-  WriteAll(stream_, bytes, path_);
+  for (const auto& [output, bytes] : contents) {
+    if (output->stream_ >= 0) WriteAll(output->stream_, bytes, output->path_);
+  }
 }
 
 void RefuseSameFile(const std::vector<fs::path>& outputs) {

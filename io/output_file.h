@@ -29,10 +29,20 @@ class OutputFile {
   OutputFile& operator=(const OutputFile&) = delete;
 
   /// @throws InputError, also when something has appeared there since
-  void Write(std::string_view bytes) const;
+  void Write(std::string_view bytes) const { WriteTogether({{this, std::string(bytes)}}); }
+
+  struct Content {
+    const OutputFile* file;
+    std::string bytes;
+  };
+  /// Several outputs of one command: none comes to its place before all of them can, and of two
+  /// commands that write the same files at once the later one replaces or leaves all of them.
+  /// @throws InputError as Write
+  static void WriteTogether(const std::vector<Content>& contents);
 
  private:
   void RequirePlace() const;
+  void RefuseWhatIsThere() const;
   void RefuseInput() const;
   void OpenStream(std::filesystem::file_type type);
 

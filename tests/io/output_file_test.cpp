@@ -64,6 +64,46 @@ TEST_F(OutputFiles, ReplaceNothingThatAppearedMeanwhile) {
   EXPECT_EQ(ReadFile(place()), "old");
 }
 
+TEST_F(OutputFiles, ComeToTheirPlacesTogetherOrNotAtAll) {
+  Put("out.json");
+  const OutputFile first(place(), {.force = true, .inputs = {}, .own_name = {}});
+  const OutputFile second(folder_ / "out.png", {});
+  const auto write = [&] { OutputFile::WriteTogether({{&first, "new"}, {&second, "new"}}); };
+  {
+    const AtomicFile of_another(folder_ / "out.png");
+    EXPECT_THROW(write(), InputError);
+  }
+  Put("out.png", "of another");
+  EXPECT_THAT(write, Refused("out.png: exists already"));
+  EXPECT_EQ(
+      program::Contents(folder_.path()),
+      (std::map<std::string, std::string>{{"out.json", "old"}, {"out.png", "of another"}}));
+  fs::remove(folder_ / "out.png");
+  write();
+  EXPECT_EQ(program::Contents(folder_.path()),
+            (std::map<std::string, std::string>{{"out.json", "new"}, {"out.png", "new"}}));
+}
+
+TEST_F(OutputFiles, OfTwoWritersAtOnceOneIsRefused) {
+  for (int round = 0; round < 300; ++round) {
+    fs::remove(place());
+    const OutputFile output(place(), {});
+    std::atomic<int> ready = 0, written = 0;
+    const auto write = [&] {
+      for (++ready; ready < 2;) std::this_thread::yield();
+      try {
+        output.Write("new");
+        ++written;
+      } catch (const InputError&) {
+      }
+    };
+    std::thread other(write);
+    write();
+    other.join();
+    ASSERT_LE(written, 1);
+  }
+}
+
 TEST_F(OutputFiles, NeverReplaceAnInputOfTheCommand) {
   Put("out.json");
   EXPECT_THAT(Making(place(), true, {place()}), Refused("is read by this command"));
