@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
@@ -50,15 +51,39 @@ constexpr PlotKind kPlots[] = {
      "Mean time of each module a frame, with the 95th percentile.", "timing.csv"},
 };
 
-/// The name of the folder, unless one was given.
-std::string NameOf(const PlotOptions& options, std::size_t i) {
-  if (!options.names.empty()) return options.names[i];
-  const fs::path folder = fs::absolute(options.runs[i]).lexically_normal();
-  return folder.has_filename() ? folder.filename().string()
-                               : folder.parent_path().filename().string();
+/// The last names of a path, `count` of them or all.
+std::string LastNames(const fs::path& folder, int count) {
+  fs::path names, above = folder;
+  for (; count > 0 && above.has_filename(); --count, above = above.parent_path()) {
+    names = names.empty() ? above.filename() : above.filename() / names;
+  }
+  return names.string();
 }
 
-std::vector<eval::PlottedRun> Evaluated(const PlotOptions& options) {
+/// The runs by the names of their folders, with as much of each path as tells it from the others.
+std::vector<std::string> NamesOfFolders(const std::vector<std::string>& runs) {
+  std::vector<fs::path> folders;
+  for (const std::string& run : runs) {
+    folders.push_back(fs::absolute(fs::path(run) / "").lexically_normal().parent_path());
+    if (std::count(folders.begin(), folders.end(), folders.back()) == 1) continue;
+    throw io::InputError(run,
+                         "is given twice, and its curves could not be told apart; leave "
+                         "one out, or name each run with --name");
+  }
+  std::vector<std::string> names;
+  for (const fs::path& folder : folders) {
+    int count = 1;
+    const auto is_another = [&](const fs::path& other) {
+      return other != folder && LastNames(other, count) == LastNames(folder, count);
+    };
+    while (std::any_of(folders.begin(), folders.end(), is_another)) ++count;
+    names.push_back(LastNames(folder, count));
+  }
+  return names;
+}
+
+std::vector<eval::PlottedRun> Evaluated(const PlotOptions& options,
+                                        const std::vector<std::string>& names) {
   std::vector<eval::PlottedRun> runs;
   for (std::size_t i = 0; i < options.runs.size(); ++i) {
     const eval::Run run = eval::ReadRun(options.runs[i]);
@@ -66,7 +91,7 @@ std::vector<eval::PlottedRun> Evaluated(const PlotOptions& options) {
         options.truth.empty() ? eval::SequenceOf(run) : fs::path(options.truth);
     io::RefuseInputsInside(options.output, {truth});
     const eval::Sequence sequence = eval::ReadSequence(truth);
-    runs.push_back({NameOf(options, i), eval::Evaluate(run, sequence)});
+    runs.push_back({names[i], eval::Evaluate(run, sequence)});
     PrintWarnings(runs.back().evaluation.run_warnings, run.folder);
     PrintWarnings(runs.back().evaluation.sequence_warnings, sequence.folder);
   }
@@ -86,9 +111,11 @@ int RunPlot(const PlotOptions& options, const Globals& globals) {
                          "gives two runs one name, by which their curves could not be told "
                          "apart; choose another for one");
   }
+  const std::vector<std::string> run_names =
+      options.names.empty() ? NamesOfFolders(options.runs) : options.names;
   io::RefuseInputsInside(options.output, {options.runs.begin(), options.runs.end()});
   io::OutputFolder folder(options.output, kCaptions, options.force);
-  const std::vector<eval::PlottedRun> runs = Evaluated(options);
+  const std::vector<eval::PlottedRun> runs = Evaluated(options, run_names);
   std::string captions;
   for (const PlotKind& plot : kPlots) {
     const std::vector<eval::PlotFile> files = plot.draw(runs);
@@ -119,7 +146,8 @@ void AddPlotCommand(CLI::App& pas, const Globals& globals, int& exit_code) {
   command
       ->add_option(
           "--name", options->names,
-          "Name of a run, once for each in their order (default: names of the folders)")
+          "Name of a run, once for each in their order (default: names of the folders, with as "
+          "much of the paths before them as tells them apart)")
       ->expected(1)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
       ->type_name("TEXT");

@@ -11,8 +11,14 @@ using ::testing::HasSubstr;
 
 class PlotProgram : public SmallRunTest {
  protected:
+  PlotProgram() {
+    for (const char* place : {"other", "a/run", "b/run"}) {
+      fs::create_directories(folder_ / place);
+      fs::copy(folder_ / "run", folder_ / place, fs::copy_options::recursive);
+    }
+  }
   Outcome Plot(std::vector<std::string> more) const {
-    std::vector<std::string> arguments = {"plot", folder_ / "run", folder_ / "run"};
+    std::vector<std::string> arguments = {"plot", folder_ / "run", folder_ / "other"};
     arguments.insert(arguments.end(), more.begin(), more.end());
     return Do(arguments);
   }
@@ -44,6 +50,29 @@ TEST_F(PlotProgram, GivesNoTwoRunsOneName) {
   const Outcome outcome = Plot({"-o", folder_ / "plots", "--name", "x", "--name", "x"});
   EXPECT_EQ(outcome.exit_code, 2);
   EXPECT_THAT(outcome.errors, HasSubstr("--name: gives two runs one name"));
+  EXPECT_FALSE(fs::exists(folder_ / "plots"));
+}
+
+TEST_F(PlotProgram, CallsRunsInFoldersOfOneNameByAsMuchOfTheirPathsAsTellsThemApart) {
+  const std::vector<std::string> runs{"plot", folder_ / "a/run/", folder_ / "b/run",
+                                      folder_ / "other"};
+  const auto plots = [&](const std::string& place, std::vector<std::string> more) {
+    more.insert(more.begin(), runs.begin(), runs.end());
+    more.insert(more.end(), {"-o", folder_ / place});
+    EXPECT_EQ(Do(more).exit_code, 0);
+    return Contents(folder_ / place);
+  };
+  // Text is in outlines: equal bytes are equal names.
+  const auto named = plots("named", {"--name", "a/run", "--name", "b/run", "--name", "other"});
+  EXPECT_EQ(plots("unnamed", {}), named);
+  EXPECT_NE(plots("same", {"--name", "run", "--name", "x", "--name", "other"}), named);
+}
+
+TEST_F(PlotProgram, RefusesARunThatIsGivenTwiceWithoutNames) {
+  const Outcome outcome =
+      Do({"plot", folder_ / "run", folder_ / "a/../run/", "-o", folder_ / "plots"});
+  EXPECT_EQ(outcome.exit_code, 2);
+  EXPECT_THAT(outcome.errors, HasSubstr("run/: is given twice"));
   EXPECT_FALSE(fs::exists(folder_ / "plots"));
 }
 
