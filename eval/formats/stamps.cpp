@@ -56,6 +56,12 @@ bool StampOrder::Next(double stamp_s, int line) {
 
 void StampOrder::Finish() {
   if (stamps_s_.empty()) return;
+  const double first = *std::min_element(stamps_s_.begin(), stamps_s_.end());
+  if (first < 0) {
+    folder_.Tell(file_, 0, fmt::format("has negative time stamps, such as {:.6f}", first),
+                 "add one number of seconds to all times, as pas slam takes none below 0",
+                 Severity::kFlaw);
+  }
   if (io::CanBeSeconds(stamps_s_)) return;
   const double latest = *std::max_element(stamps_s_.begin(), stamps_s_.end());
   folder_.Tell(file_, 0, fmt::format("time stamps like {:.0f} are not seconds", latest),

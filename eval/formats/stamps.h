@@ -54,7 +54,7 @@ class StampOrder {
   /// @param line   0 when the file has no lines of its own
   /// @returns whether no record before has this stamp
   bool Next(double stamp_s, int line);
-  /// Tells stamps that cannot be seconds, once for the file.
+  /// Tells stamps that cannot be seconds or are negative, once for the file.
   void Finish();
 
  private:

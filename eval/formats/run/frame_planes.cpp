@@ -71,7 +71,7 @@ RunFramePlane ReadFramePlane(const JsonRecord& record) {
   plane.pixels = record.Integer("pixels", 1).value_or(0);
   // What is read into nothing is in no figure; a wrong one is told.
   record.Expected().Number("inlier_ratio", io::Interval("[0, 1]"));
-  plane.plane_class = optional.Text("class");
+  plane.plane_class = (record.Contains("class") ? optional : record.Expected()).Text("class");
   optional.Integer("detection", 0);
   plane.bad =
       ReadWord(record.Contains("bad") ? optional : record.Expected(), "bad",
@@ -82,7 +82,7 @@ RunFramePlane ReadFramePlane(const JsonRecord& record) {
   plane.map_plane = optional.Integer("map_plane");
   plane.decision =
       ReadWord(record, "decision", {"matched", "new", "none"}, Severity::kFatal).value_or("");
-  plane.by = optional.Text("by");
+  plane.by = (record.Contains("by") ? optional : record.Expected()).Text("by");
   return plane;
 }
 

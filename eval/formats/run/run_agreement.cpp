@@ -62,6 +62,9 @@ class DecisionCheck {
     if (plane.map_plane && map_is_read_ && ids_.count(*plane.map_plane) == 0) {
       Tell("map_plane", fmt::format("is {}, which is no plane of map.json", *plane.map_plane),
            "keep merged planes in the map, with merged_into");
+    } else if (plane.decision == "none" && plane.map_plane) {
+      Tell("map_plane", fmt::format("is {}, but the decision is none", *plane.map_plane),
+           "write null, or the decision that was made", Severity::kWarning);
     } else if (plane.decision == "none" || plane.decision.empty()) {
       return;
     } else if (!plane.map_plane) {

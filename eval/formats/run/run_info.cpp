@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+
 #include "eval/formats/json_record.h"
 
 namespace eval {
@@ -32,6 +34,23 @@ std::string CameraNameOf(const nlohmann::json& root) {
   return "";
 }
 
+/// What is read into nothing is in no figure; a wrong one is told.
+void CheckWhatNobodyReads(const JsonRecord& root) {
+  const JsonRecord expected = root.Expected(), extra = root.Extra();
+  for (const char* key : {"association", "detector", "version"}) expected.Text(key);
+  constexpr double kSeeds = 0x1p64;
+  const auto seed = expected.Whole("seed");
+  if (seed && !(std::abs(*seed) < kSeeds)) {
+    root.TellAt("seed", fmt::format("is {}; expected a whole number of 64 bits", *seed),
+                kRunAgain, Severity::kFlaw);
+  }
+  const auto refused = extra.Object("refused_pairs");
+  if (!refused) return;
+  for (const auto& entry : refused->value().items()) {
+    if (refused->Whole(entry.key())) refused->Number(entry.key(), io::Interval("[0, 1e18)"));
+  }
+}
+
 RunInfo ReadInfo(const JsonRecord& root) {
   root.Format("pas-run/1");
   const JsonRecord expected = root.Expected(), extra = root.Extra();
@@ -39,13 +58,11 @@ RunInfo ReadInfo(const JsonRecord& root) {
   info.sequence = OptionalText(root, "sequence");
   info.sequence_absolute = OptionalText(extra, "sequence_absolute");
   info.variant = OptionalText(expected, "variant");
-  // What is read into nothing is in no figure; a wrong one is told.
-  for (const char* key : {"association", "detector", "version"}) expected.Text(key);
-  expected.Whole("seed");
+  CheckWhatNobodyReads(root);
   info.camera_name = CameraNameOf(root.value());
   const bool has_numbers = root.Has("camera") && !root.value()["camera"].is_string();
   const auto camera = has_numbers ? extra.Object("camera") : std::nullopt;
-  if (camera) info.camera = ReadCamera(camera->Optional());
+  if (camera) info.camera = ReadCamera(camera->Expected());
   if (!root.Has("options")) {
     root.TellAt("options", "is missing; expected the options of the run", kRunAgain,
                 Severity::kFlaw);
@@ -54,6 +71,12 @@ RunInfo ReadInfo(const JsonRecord& root) {
   info.tracked = expected.Integer("tracked");
   info.interrupted = extra.Flag("interrupted").value_or(false);
   info.sequence_frames = extra.Integer("sequence_frames", 0);
+  if (info.frames && info.sequence_frames && *info.sequence_frames < *info.frames) {
+    root.TellAt("sequence_frames",
+                fmt::format("is {}, but the run has {} frames of them", *info.sequence_frames,
+                            *info.frames),
+                kRunAgain, Severity::kWarning);
+  }
   expected.Integer("lost", 0);
   if (info.frames && info.tracked && !(*info.tracked >= 0 && *info.tracked <= *info.frames)) {
     root.TellAt("tracked", fmt::format("is {} of {} frames", *info.tracked, *info.frames),

@@ -1,5 +1,8 @@
 #include "eval/formats/sequence/camera.h"
 
+#include <algorithm>
+#include <iterator>
+
 #include "eval/formats/sequence/camera_forms.h"
 #include "io/number_text.h"
 #include "io/yaml_value.h"
@@ -113,7 +116,10 @@ std::optional<Camera> ReadCamera(const JsonRecord& record) {
   const auto depth_factor = record.Number("depth_factor", positive);
   if (!width || !height || !fx || !fy || !cx || !cy || !fps || !depth_factor) return {};
   Camera camera{*width, *height, *fx, *fy, *cx, *cy, *fps, *depth_factor};
-  for (std::size_t i = 0; i < camera.distortion.size(); ++i) {
+  // One of them that is not there may have been lost; a camera without a lens has none.
+  const bool has_lens = std::any_of(std::begin(kDistortion), std::end(kDistortion),
+                                    [&](const char* key) { return record.Has(key); });
+  for (std::size_t i = 0; has_lens && i < camera.distortion.size(); ++i) {
     camera.distortion[i] = record.Number(kDistortion[i], any).value_or(0);
   }
   return camera;

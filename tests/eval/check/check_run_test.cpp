@@ -303,6 +303,62 @@ TEST_F(CheckRunFolder, NamesACameraOfHalfAPixel) {
   EXPECT_THAT(report.faults[0].what, HasSubstr("whole number"));
 }
 
+TEST_F(CheckRunFolder, NamesANumberOfTheCameraThatIsMissingAmongOthers) {
+  const json camera{{"width", 640}, {"height", 480}, {"fx", 525}, {"fy", 525},
+                    {"cx", 319.5},  {"cy", 239.5},   {"fps", 30}, {"depth_factor", 5000}};
+  EditJson("run.json", [&](json& document) { document["camera"] = camera; });
+  EXPECT_EQ(CheckFolder(run()).faults.size(), 0u) << "a camera needs no lens";
+  const auto lens = [](json& document) {
+    for (const char* key : {"k1", "k2", "p1", "p2", "k3"}) document["camera"][key] = 0.0;
+  };
+  for (const char* key : {"width", "p2"}) {
+    EditJson("run.json",
+             [&](json& document) { lens(document), document["camera"].erase(key); });
+    ExpectOnly("run.json", 0, std::string("/camera/") + key, "is missing");
+    EditJson("run.json", [&](json& document) { document["camera"] = camera; });
+  }
+}
+
+TEST_F(CheckRunFolder, NamesACountOfRefusedPairsThatIsNone) {
+  for (const json& value : {json("text"), json(nullptr), json(1e200), json(-1), json(0.5)}) {
+    EditJson("run.json", [&](json& document) { document["refused_pairs"] = {{"iou", value}}; });
+    ExpectOnly("run.json", 0, "/refused_pairs/iou", "is ");
+  }
+  EditJson("run.json", [](json& document) { document["refused_pairs"] = {{"iou", 7}}; });
+  EXPECT_EQ(CheckFolder(run()).faults.size(), 0u) << All(CheckFolder(run()));
+}
+
+TEST_F(CheckRunFolder, NamesASeedThatNoSeedIs) {
+  EditJson("run.json", [](json& document) { document["seed"] = 1e200; });
+  ExpectOnly("run.json", 0, "/seed", "expected a whole number of 64 bits");
+  EditJson("run.json", [](json& document) { document["seed"] = 18446744073709549568u; });
+  EXPECT_EQ(CheckFolder(run()).faults.size(), 0u);
+}
+
+TEST_F(CheckRunFolder, NamesARunOfMoreFramesThanItsSequenceHas) {
+  EditJson("run.json", [](json& document) { document["sequence_frames"] = 3; });
+  ExpectOnly("run.json", 0, "/sequence_frames", "is 3, but the run has 4 frames");
+}
+
+TEST_F(CheckRunFolder, NamesAMapPlaneOfADecisionThatIsNone) {
+  std::size_t plane = 0;
+  EditLine(2, [&](json& frame) {
+    while (frame["planes"][plane]["decision"] != "matched") ++plane;
+    frame["planes"][plane]["decision"] = "none";
+  });
+  ExpectOnly("frame_planes.jsonl", 2, "/planes/" + std::to_string(plane) + "/map_plane",
+             "but the decision is none");
+}
+
+TEST_F(CheckRunFolder, NamesAPlaneThatLacksAKeyWhichMayBeNull) {
+  for (const char* key : {"class", "by"}) {
+    const std::string lines = ReadText(run() / "frame_planes.jsonl");
+    EditLine(2, [&](json& frame) { frame["planes"][0].erase(key); });
+    ExpectOnly("frame_planes.jsonl", 2, std::string("/planes/0/") + key, "is missing");
+    WriteText(run() / "frame_planes.jsonl", lines);
+  }
+}
+
 TEST_F(CheckRunFolder, NamesPointsOfAPlaneThatTheMapDoesNotHave) {
   std::string text = ReadText(run() / "map.ply");
   const auto last = text.rfind(' ');

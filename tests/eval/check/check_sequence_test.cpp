@@ -63,6 +63,26 @@ TEST_F(CheckSequenceFolder, NamesAListedImageThatIsMissing) {
   ExpectOnly("rgb.txt", 4, "", "does not exist");
 }
 
+TEST_F(CheckSequenceFolder, NamesNegativeTimesOnceForAFile) {
+  fs::remove_all(seq() / "gt");
+  for (const char* file : {"associations.txt", "detections.jsonl", "manifest.json"}) {
+    fs::remove(seq() / file);
+  }
+  for (const char* file : {"rgb.txt", "depth.txt", "groundtruth.txt"}) {
+    std::istringstream in(ReadText(seq() / file));
+    std::string out, stamp, rest;
+    while (in >> stamp && std::getline(in, rest)) {
+      out += stamp == "#" ? "" : StampText(std::stod(stamp) - 1000) + rest + "\n";
+    }
+    WriteText(seq() / file, out);
+  }
+  const CheckReport report = CheckFolder(seq());
+  ASSERT_EQ(report.faults.size(), 3u) << All(report);
+  for (const Fault& fault : report.faults) {
+    EXPECT_THAT(fault.what, HasSubstr("has negative time stamps, such as -"));
+  }
+}
+
 TEST_F(CheckSequenceFolder, NamesColourAndDepthThatAreTooFarApartWhicheverComesFirst) {
   const std::string pairs = ReadText(seq() / "associations.txt"),
                     depth = ReadText(seq() / "depth.txt");
