@@ -44,17 +44,17 @@ int RunCalibrate(CalibrateArguments& arguments, bool quiet) {
   const slam::Calibration calibration = slam::CalibrateSequence(options);
   progress.End();
   if (calibration.stopped) {
-    fmt::print(stderr, "pas: interrupted; nothing is written\n");
+    PrintAside("pas: interrupted; nothing is written\n");
     return ExitCodeOf(StopSignal::Caught());
   }
   for (const std::string& warning : calibration.warnings) PrintWarning(warning);
   if (calibration.tracked == 0) {
-    fmt::print(stderr, "pas: no warp is written, because no frame was tracked\n");
+    PrintAside("pas: no warp is written, because no frame was tracked\n");
     return kFailure;
   }
   const slam::WarpEvidence& evidence = calibration.evidence;
   if (!evidence.worth_it) {
-    fmt::print(stderr, "pas: no warp is written, because {}\n", evidence.Doubt());
+    PrintAside(fmt::format("pas: no warp is written, because {}\n", evidence.Doubt()));
     return kFailure;
   }
   const std::string summary = fmt::format(

@@ -125,20 +125,20 @@ void AddSettingOptions(CLI::App& command, SlamArguments& arguments) {
 /// Says on stderr how a run ended that did not go well. @returns the exit code
 int Verdict(const slam::RunOutcome& outcome, const std::string& sequence) {
   if (outcome.stopped) {
-    fmt::print(stderr,
-               "pas: interrupted after {} of {} frames; the run up to there is written\n",
-               outcome.frames, outcome.sequence_frames);
+    PrintAside(
+        fmt::format("pas: interrupted after {} of {} frames; the run up to there is written\n",
+                    outcome.frames, outcome.sequence_frames));
     return ExitCodeOf(StopSignal::Caught());
   }
   if (outcome.tracked == 0) {
-    fmt::print(stderr,
-               "pas: tracking never started: no frame of {} has enough features with depth, "
-               "nor planes or edges that could hold the camera\n",
-               sequence);
+    PrintAside(fmt::format(
+        "pas: tracking never started: no frame of {} has enough features with depth, "
+        "nor planes or edges that could hold the camera\n",
+        sequence));
     return kFailure;
   }
   if (outcome.ended_lost && 2 * outcome.tracked < outcome.frames) {
-    fmt::print(stderr, "pas: the camera was lost for more than half of {}\n", sequence);
+    PrintAside(fmt::format("pas: the camera was lost for more than half of {}\n", sequence));
     return kFailure;
   }
   return kDone;
@@ -217,7 +217,7 @@ int RunSlam(SlamArguments& arguments, bool quiet) {
     progress.Update(pass, done, total);
   };
   options.warn = [quiet](const std::string& warning) {
-    fmt::print(stderr, "{}pas: warning, while it runs: {}\n", quiet ? "" : "\n", warning);
+    PrintAside(fmt::format("{}pas: warning, while it runs: {}\n", quiet ? "" : "\n", warning));
   };
 
   const slam::RunOutcome outcome =

@@ -62,8 +62,8 @@ void PassProgress::Update(const std::string& pass, int done, int total) {
   progress_->Update(done);
 }
 
-void PrintWarning(const std::string& warning) {
-  std::fprintf(stderr, "pas: warning: %s\n", warning.c_str());
-}
+void PrintAside(const std::string& text) { std::fputs(text.c_str(), stderr); }
+
+void PrintWarning(const std::string& warning) { PrintAside("pas: warning: " + warning + "\n"); }
 
 }  // namespace app

@@ -42,6 +42,10 @@ class PassProgress {
   std::optional<Progress> progress_;
 };
 
+/// Prints on stderr. That nobody can read it, as on a full disk, fails no command: its result is
+/// elsewhere.
+void PrintAside(const std::string& text);
+
 /// Says on stderr what should be known beside a result, in a line of its own.
 void PrintWarning(const std::string& warning);
 

@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <optional>
 
+#include "app/console/console.h"
 #include "app/options/choice_option.h"
 #include "slam/run/config_file.h"
 #include "slam/run/scatter_of.h"
@@ -52,13 +53,13 @@ slam::Config ConfigForRecording(const std::string& sensor, const std::string& co
   if (!quiet) {
     const slam::DepthSensor used = config.sensor.sensor;
     const slam::DepthScatter::Figures seen = scatter.Measure();
-    fmt::print(stderr,
-               "{}: taken for {}{} ({:.2f} of kinect1's, {:.2f} shared by neighbours)\n",
-               sequence.string(), NameOf(used),
-               !told           ? "; its noise tells no sensor"
-               : *told == used ? ", as its noise tells"
-                               : "; its noise is that of " + NameOf(*told),
-               seen.level, seen.alike);
+    PrintAside(
+        fmt::format("{}: taken for {}{} ({:.2f} of kinect1's, {:.2f} shared by neighbours)\n",
+                    sequence.string(), NameOf(used),
+                    !told           ? "; its noise tells no sensor"
+                    : *told == used ? ", as its noise tells"
+                                    : "; its noise is that of " + NameOf(*told),
+                    seen.level, seen.alike));
   }
   return config;
 }

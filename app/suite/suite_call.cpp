@@ -151,8 +151,9 @@ class SuiteCall {
   static int Caught() { return StopSignal::Caught() != 0 ? StopSignal::Caught() : SIGTERM; }
 
   int Interrupted() const {
-    fmt::print(stderr, "pas: interrupted; {} keeps what was done, and the same call goes on\n",
-               folder_.string());
+    PrintAside(
+        fmt::format("pas: interrupted; {} keeps what was done, and the same call goes on\n",
+                    folder_.string()));
     return ExitCodeOf(caught_);
   }
 

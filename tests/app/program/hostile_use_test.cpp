@@ -220,6 +220,15 @@ TEST_F(HostileUse, WhatCannotBePrintedIsAnError) {
   EXPECT_EQ(Shell("pas -q eval " + run().string() + " >&-").exit_code, 0);
 }
 
+// As where a log is sent to a full disk: the result is elsewhere.
+TEST_F(HostileUse, WordsThatCannotBeWrittenLoseNoResult) {
+  const std::string run = (folder_ / "run").string(), slam = "pas slam " + seq().string();
+  EXPECT_EQ(Shell(slam + " -o " + run + " 2>/dev/full").exit_code, 0);
+  EXPECT_EQ(Do({"check", run}).exit_code, 0);
+  EXPECT_EQ(Shell(slam + " -o " + run + "2 2>&-").exit_code, 0);
+  EXPECT_EQ(Do({"check", run + "2"}).exit_code, 0);
+}
+
 TEST_F(HostileUse, AFullDiskLeavesNoTemporaryFolder) {
   fs::create_directory(folder_ / "in");
   const Outcome outcome = Shell("ulimit -f 1; pas draw " + run().string() + " -o '" +
