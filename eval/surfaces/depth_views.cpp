@@ -49,8 +49,10 @@ DepthViews::DepthViews(const Sequence& sequence, const Camera& camera,
     ++number;
   }
   if (frames_.empty()) {
-    throw io::InputError((folder_ / "groundtruth.txt").string(),
-                         "has no pose at the time of any depth image; are both of one clock?");
+    throw io::InputError(
+        (folder_ / "groundtruth.txt").string(),
+        "has no pose at the time of any depth image, nor one before and one after "
+        "it; are both of one clock?");
   }
 }
 

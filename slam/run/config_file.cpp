@@ -7,6 +7,7 @@
 
 #include "io/input_error.h"
 #include "io/number_text.h"
+#include "io/read_file.h"
 #include "io/yaml_value.h"
 #include "slam/base/field_visitor.h"
 
@@ -250,7 +251,8 @@ void CheckTogether(const Config& c, const std::string& file) {
 
 Config ReadConfig(const std::filesystem::path& file, Config config) {
   const io::YamlValue settings = io::ReadYaml(file, "expected settings (pas config)");
-  if (std::filesystem::is_empty(file)) {  // as one whose writing failed
+  // As one whose writing failed; comments alone are all defaults.
+  if (io::ReadFile(file).find_first_not_of(" \t\r\n") == std::string::npos) {
     settings.Fail("the file is empty; expected settings, such as `pas config` prints");
   }
   Reader reader(settings);

@@ -37,6 +37,7 @@ TEST_F(ConfigFile, OfNothingGivesTheDefaults) {
 
 TEST_F(ConfigFile, IsNotAnEmptyFile) {
   ExpectError("", "settings.yaml:1: the file is empty; expected settings");
+  ExpectError(" \n\t\r\n", "settings.yaml:1: the file is empty; expected settings");
 }
 
 TEST_F(ConfigFile, ReadsBackWhatItListsToTheSameValues) {
