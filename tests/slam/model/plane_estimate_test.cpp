@@ -66,5 +66,60 @@ TEST(PlaneEstimate, TellsTheHeightOfAnyOfItsPointsInTheWorld) {
   EXPECT_NEAR((told.topRows<3>().transpose() * pi_w.n).norm(), 0.0, 1e-12);
 }
 
+Plane PlaneAt(const Eigen::Vector3d& n, const Eigen::Vector3d& x_w) {
+  return {n.normalized(), -n.normalized().dot(x_w)};
+}
+
+// The first observation sets the reference, and tells next to nothing of the plane.
+TEST(PlaneEstimate, IsThePlaneOfWhatSawItWellHoweverFarOffItsReferenceLies) {
+  const Plane truth = PlaneAt({0.2, -0.3, 0.9}, {0.4, 0.1, 1.3});
+  for (const Eigen::Vector3d& poor_n :
+       {Eigen::Vector3d(0.5, -0.3, 0.8), Eigen::Vector3d(0.0, -0.7, 0.9)}) {
+    PlaneEstimate estimate;
+    const Eigen::Vector3d first_w(0.3, 0.2, 1.2);
+    AddObservation(estimate, PlaneAt(poor_n, first_w), first_w, 1e3, 1e3, 1.0);
+    // Patches whose centroids do not lie on them to the last digit.
+    for (const Eigen::Vector3d& seen_w :
+         {Eigen::Vector3d(1.0, 0.3, 1.2), Eigen::Vector3d(-0.6, 0.8, 1.6),
+          Eigen::Vector3d(0.1, -0.9, 1.0)})
+      AddObservation(estimate, truth, seen_w, 0.01, 0.005, 1.0);
+    EXPECT_LT(Angle(estimate.Mean().n, truth.n), 1e-6);
+    EXPECT_NEAR(estimate.Mean().d, truth.d, 1e-6);
+  }
+}
+
+TEST(PlaneEstimate, IsTheMeanOfHeightsAndOfSlopesByTheirWeightsOfWhichOldOnesFade) {
+  constexpr double kApart_m = 0.01, kApart_rad = 0.001;
+  for (const double keep : {1.0, 0.5}) {
+    PlaneEstimate height, slope;
+    const Eigen::Vector3d x_w(0, 0, 0.7);
+    AddObservation(height, PlaneAt({0, 0, 1}, x_w), x_w, 0.02, 0.004, keep);
+    AddObservation(slope, PlaneAt({0, 0, 1}, x_w), x_w, 0.02, 0.004, keep);
+    // The second one is half as sure.
+    AddObservation(height, PlaneAt({0, 0, 1}, {0, 0, 0.7 + kApart_m}), x_w, 0.04, 0.008, keep);
+    AddObservation(slope, PlaneAt({kApart_rad, 0, 1}, x_w), x_w, 0.04, 0.008, keep);
+    const double share = 1.0 / (1.0 + 4.0 * keep);
+    EXPECT_NEAR(height.Mean().d, -(0.7 + share * kApart_m), 1e-9) << keep;
+    EXPECT_NEAR(slope.Mean().n.x(), share * kApart_rad, 1e-8) << keep;
+    EXPECT_NEAR(SignedDistance(slope.Mean(), x_w), 0.0, 1e-12) << keep;
+    EXPECT_DOUBLE_EQ(height.frames, 1.0 + keep);
+  }
+}
+
+TEST(PlaneEstimate, TakesNoSteepSlopeAndNoBackForTheSamePlane) {
+  PlaneEstimate estimate;
+  const Eigen::Vector3d x_w(0.1, 0.2, 0.7);
+  AddObservation(estimate, PlaneAt({0, 0, 1}, x_w), x_w, 0.02, 0.005, 0.9);
+  const Eigen::Matrix3d information = estimate.information;
+  for (const Eigen::Vector3d& n :
+       {Eigen::Vector3d(0, 0, -1), Eigen::Vector3d(1, 0, 0.5), Eigen::Vector3d(0, -1, 0)}) {
+    AddObservation(estimate, PlaneAt(n, x_w), x_w, 0.02, 0.005, 0.9);
+    EXPECT_EQ(estimate.information, information) << n.transpose();
+    EXPECT_EQ(estimate.frames, 1.0);
+  }
+  AddObservation(estimate, PlaneAt({0.9, 0, 1}, x_w), x_w, 0.02, 0.005, 0.9);  // 42 degrees
+  EXPECT_EQ(estimate.frames, 1.9);
+}
+
 }  // namespace
 }  // namespace slam
