@@ -131,6 +131,7 @@ TEST(BoxTracks, FillsASingleMissWhereTheBoxHasMovedTo) {
   ASSERT_EQ(answer.size(), 1u);
   EXPECT_TRUE(answer[0].compensated);
   EXPECT_EQ(answer[0].class_name, "book");
+  EXPECT_EQ(answer[0].kind, ClassKind::kRegular);
   EXPECT_LT(answer[0].score, 0.9);
   EXPECT_GT(Iou(answer[0].box_px, Seen("book", 160, 200).box_px), 0.9);
 }
