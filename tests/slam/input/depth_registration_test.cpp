@@ -52,6 +52,29 @@ TEST(DepthRegistration, OfAWallIsThatWallWithoutHolesInAFinerImage) {
   }
 }
 
+TEST(DepthRegistration, TakesTheLensOfTheDepthCameraOut) {
+  // A slanted wall through a lens that moves the corners by five pixels; colour has none.
+  Camera depth = SmallView(64, 48, 60);
+  const Camera colour = depth;
+  depth.k1 = -0.3;
+  const Eigen::Vector3d n(0.3, -0.1, 0.8);  // n . x = 1
+  cv::Mat1f depth_m(depth.height, depth.width);
+  for (int v = 0; v < depth.height; ++v) {
+    for (int u = 0; u < depth.width; ++u) {
+      const Eigen::Vector3d ray =
+          depth.Backproject(depth.Undistort(Eigen::Vector2d(u, v)), 1.0);
+      depth_m(v, u) = static_cast<float>(1 / n.dot(ray));
+    }
+  }
+  const cv::Mat1f laid = DepthRegistration(depth, colour, {}).Register(depth_m);
+  for (int v = 0; v < colour.height; ++v) {
+    for (int u = 0; u < colour.width; ++u) {
+      const double z_m = 1 / n.dot(colour.Backproject(Eigen::Vector2d(u, v), 1));
+      EXPECT_NEAR(laid(v, u), z_m, 0.02 * z_m) << u << ' ' << v;  // two pixels' steps
+    }
+  }
+}
+
 TEST(DepthRegistration, TellsTheDepthThatTheColourCameraSees) {
   // The colour camera stands a quarter of a metre behind the depth camera.
   const Camera camera = SmallView(64, 48, 60);

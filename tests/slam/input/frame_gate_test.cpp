@@ -60,12 +60,12 @@ TEST(FrameGate, CountsTheFramesThatAreNotLaterThanAllBefore) {
   EXPECT_THAT(gate.Warnings(), ElementsAre(StartsWith("2 frames were left out")));
 }
 
-/// What is said of frames that show one depth, after a third of as many at 1 m.
-std::vector<std::string> WarningsOfDepth(float depth_m) {
+/// What is said of twelve frames that show one depth but for the first ones, which show 1 m.
+std::vector<std::string> WarningsOfDepth(float depth_m, int usual = 3) {
   FrameGate gate(GateCamera());
   for (int i = 0; i < 12; ++i) {
     RecordedFrame frame = FrameAt(i);
-    if (i >= 3) frame.depth_m = depth_m;
+    if (i >= usual) frame.depth_m = depth_m;
     EXPECT_TRUE(gate.Takes(frame));
   }
   return gate.Warnings();
@@ -77,6 +77,8 @@ TEST(FrameGate, DoubtsTheDepthFactorWhenMostFramesAreTooNearOrTooFar) {
   EXPECT_THAT(WarningsOfDepth(9.0f),
               ElementsAre(StartsWith("in 9 of 12 frames most of the depth is beyond")));
   EXPECT_THAT(WarningsOfDepth(1.5f), IsEmpty());
+  // Half of the frames are not most of them.
+  for (const float odd_m : {0.2f, 9.0f}) EXPECT_THAT(WarningsOfDepth(odd_m, 6), IsEmpty());
 }
 
 // A desk 0.9 m away, told in fifths of a millimetre and read in millimetres.

@@ -157,8 +157,8 @@ TEST_F(Sequences, WarnOfPairsThatAreFarApartInTime) {
   WriteFrames({"1.0", "1.1", "1.2"});
   EXPECT_THAT(IndexSequence(folder_).warnings, IsEmpty());
   WriteText("associations.txt",
-            "1.0 rgb/0.png 1.02 depth/0.png\n1.1 rgb/1.png 1.47 depth/1.png\n"
-            "1.2 rgb/2.png 0.81 depth/2.png\n");
+            "1.0 rgb/0.png 1.02 depth/0.png\n1.1 rgb/1.png 0.71 depth/1.png\n"
+            "1.2 rgb/2.png 1.57 depth/2.png\n");
   EXPECT_THAT(
       IndexSequence(folder_).warnings,
       ElementsAre(ContainsRegex("more than 20 ms apart, up to 390 ms, in 2 of 3 lines .*"
