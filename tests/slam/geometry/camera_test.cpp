@@ -24,6 +24,25 @@ TEST(Camera, UndistortUndoesTheDistortionOverTheWholePicture) {
   }
 }
 
+// Of pixels that are not square, so that neither focal length stands for the other.
+TEST(PixelRays, LeadBackToTheirPixelsThroughTheLens) {
+  Camera lens = TumCamera("tum1");
+  lens.width = 48, lens.height = 36, lens.cx = 25.3, lens.cy = 16.8;
+  lens.fx = 45.0, lens.fy = 38.0;
+  Camera pinhole = lens;
+  pinhole.k1 = pinhole.k2 = pinhole.p1 = pinhole.p2 = pinhole.k3 = 0.0;
+  for (const Camera& camera : {lens, pinhole}) {
+    const cv::Mat2d rays = PixelRays(camera);
+    ASSERT_EQ(rays.size(), cv::Size(camera.width, camera.height));
+    for (int v = 0; v < camera.height; v += 5) {
+      for (int u = 0; u < camera.width; u += 5) {
+        const Eigen::Vector3d x_c = 1.7 * Eigen::Vector3d(rays(v, u)[0], rays(v, u)[1], 1.0);
+        EXPECT_THAT(camera.ProjectDistorted(x_c), VectorNear(Eigen::Vector2d(u, v), 1e-8));
+      }
+    }
+  }
+}
+
 TEST(Camera, HasTheDerivativeOfItsProjection) {
   // With tangential terms as large as the radial ones, which no published calibration has.
   Camera strong = TumCamera("tum1");
