@@ -73,6 +73,30 @@ TEST(CompensateMotion, GivesWhatExtractionAtThatSpeedWouldHave) {
   }
 }
 
+// A shutter that reads all rows at once may have depth that is late, and the other way round.
+TEST(CompensateMotion, MovesAFrameInWhichOneOfTheTwoTakesItsTime) {
+  const Camera camera = Lens();
+  for (const bool late : {true, false}) {
+    Frame frame = ReadAt(kPredicted, camera, true);
+    if (late) {
+      frame.readout.taken_out_s = 0.0;
+    } else {
+      frame.depth_late_s = 0.0;
+    }
+    const std::vector<PointFeature> before = frame.features;
+    ASSERT_TRUE(CompensateMotion(camera, kFound, frame));
+    double moved_px = 0.0, moved_m = 0.0;
+    for (std::size_t i = 0; i < before.size(); ++i) {
+      moved_px = std::max(moved_px, (frame.features[i].u_px - before[i].u_px).norm());
+      moved_m = std::max(moved_m, std::abs(frame.features[i].depth_m - before[i].depth_m));
+    }
+    // Depth that is late is that of another time, rows only show it elsewhere.
+    EXPECT_EQ(moved_m > 1e-3, late) << moved_m;
+    EXPECT_EQ(moved_px < 1e-9, late) << moved_px;
+    EXPECT_EQ(moved_px > 1.0, !late) << moved_px;
+  }
+}
+
 TEST(CompensateMotion, LeadsBackToWhereItBegan) {
   const Camera camera = Lens();
   Frame frame = ReadAt(kPredicted, camera, true);

@@ -3,8 +3,10 @@
 #include <gmock/gmock.h>
 
 #include <bitset>
+#include <cmath>
 #include <limits>
 
+#include "slam/base/index.h"
 #include "slam/base/random.h"
 #include "tests/support/point_world.h"
 
@@ -141,6 +143,49 @@ TEST(MatchQueries, RefusesAnAmbiguousPairWhateverItsOrderButOnlyInOneOctave) {
               testing::ElementsAre(kNone, 0));
 }
 
+/// Features that look like the queries or features before them, turned by so much; one is turned
+/// elsewhere.
+struct Turned {
+  static constexpr int kCount = 20, kOdd = 7;
+  std::vector<PointFeature> before, now;
+  std::vector<PointQuery> queries;
+
+  Turned() {
+    Random random{11};
+    for (int i = 0; i < kCount; ++i) {
+      const Descriptor d = AnyDescriptor(random);
+      const double u = 30.0 + 25 * i, angle = 360 * random.Uniform();
+      const double turned = angle + (i == kOdd ? 200 : 40);
+      before.push_back(FeatureAt(u, 90, d, 0, static_cast<float>(angle)));
+      now.push_back(FeatureAt(u, 90, Flip(d, 5), 0,
+                              static_cast<float>(turned - 360 * std::floor(turned / 360))));
+      queries.push_back(QueryAt(u, 90, d, i));
+      queries.back().angle_deg = before.back().angle_deg;
+    }
+  }
+};
+
+TEST(MatchQueries, DropsTheOneThatTurnsOtherwiseThanTheImageUnlessItsTurnIsNotKnown) {
+  Turned turned;
+  const FeatureGrid grid(turned.now, Camera{});
+  for (const bool known : {true, false}) {
+    if (!known) turned.queries[Turned::kOdd].angle_deg = -1.0f;
+    const auto matches = MatchQueries(turned.queries, turned.now, grid, {}, {});
+    for (int i = 0; i < Turned::kCount; ++i)
+      EXPECT_EQ(matches[Index(i)], i == Turned::kOdd && known ? kNone : i) << known;
+  }
+}
+
+TEST(MatchDescriptors, DropsTheOneThatTurnsOtherwiseThanTheImage) {
+  const Turned turned;
+  const auto pairs = MatchDescriptors(turned.before, turned.now, {}, {});
+  EXPECT_EQ(pairs.size(), static_cast<std::size_t>(Turned::kCount - 1));
+  for (const FeaturePair& pair : pairs) {
+    EXPECT_EQ(pair.first, pair.second);
+    EXPECT_NE(pair.first, Turned::kOdd);
+  }
+}
+
 TEST(MatchQueries, IsNotUpsetByAPositionThatIsNotFinite) {
   const std::vector<PointFeature> features{FeatureAt(100, 100, {})};
   const FeatureGrid grid(features, Camera{});
@@ -160,6 +205,18 @@ TEST(MatchDescriptors, PairsEachFeatureWithItsMutualNearest) {
   const auto pairs = MatchDescriptors(first, second, {}, {50, 0.8});
   ASSERT_EQ(pairs.size(), 40u);
   for (const FeaturePair& pair : pairs) EXPECT_EQ(pair.second, 39 - pair.first);
+}
+
+TEST(MatchDescriptors, GivesAFeatureToTheOneOfTwoThatItIsNearestTo) {
+  Random random{9};
+  const Descriptor d = AnyDescriptor(random);
+  const std::vector<PointFeature> far_first{FeatureAt(0, 0, Flip(d, 20)),
+                                            FeatureAt(9, 0, Flip(d, 5))};
+  const std::vector<PointFeature> one{FeatureAt(0, 9, d)};
+  const auto pairs = MatchDescriptors(far_first, one, {}, {50, 0.8});
+  ASSERT_EQ(pairs.size(), 1u);
+  EXPECT_EQ(pairs[0].first, 1);
+  EXPECT_EQ(pairs[0].second, 0);
 }
 
 TEST(MatchDescriptors, LeavesOutThoseThatTakeNoPart) {

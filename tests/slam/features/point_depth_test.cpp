@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "slam/geometry/plane.h"
 
 namespace slam {
@@ -18,6 +20,17 @@ TEST(PointDepth, IsNoneAcrossAStepBetweenSurfaces) {
   depth_m.col(3).setTo(1.05f);
   EXPECT_EQ(DepthAt(depth_m, {2, 2}, {}), 0.0);
   EXPECT_GT(DepthAt(depth_m, {1, 2}, {}), 0.0);  // the step is out of its square
+}
+
+TEST(PointDepth, IsNoneWhereAnyPixelOfTheSquareIsOfAnotherSurface) {
+  for (int v = 0; v < 5; ++v) {
+    for (int u = 0; u < 5; ++u) {
+      cv::Mat1f depth_m(5, 5, 1.0f);
+      depth_m(v, u) = 1.05f;
+      const bool in_square = std::abs(u - 2) <= 1 && std::abs(v - 2) <= 1;
+      EXPECT_EQ(DepthAt(depth_m, {2, 2}, {}) == 0.0, in_square) << u << " " << v;
+    }
+  }
 }
 
 TEST(PointDepth, FollowsASlantedSurface) {
@@ -38,6 +51,7 @@ TEST(PointDepth, AllowsForNoiseThatDoesNotShrinkWithTheDepth) {
   EXPECT_FLOAT_EQ(static_cast<float>(across_m(0.25f, 0.009f)), 0.25f);
   EXPECT_EQ(across_m(0.25f, 0.011f), 0.0);
   EXPECT_FLOAT_EQ(static_cast<float>(across_m(2.0f, 0.035f)), 2.0f);
+  EXPECT_EQ(across_m(2.0f, 0.045f), 0.0);
   PointDepthConfig noisy;
   noisy.max_step_m = 0.06;
   EXPECT_FLOAT_EQ(static_cast<float>(across_m(1.0f, 0.05f, noisy)), 1.0f);
@@ -95,6 +109,20 @@ TEST(DepthFrom, IsThatOfThePixelWhereTheCameraStands) {
   Camera camera = TumCamera("tum1");  // with a lens
   const cv::Mat1f depth_m = DepthOf({-Eigen::Vector3d::UnitZ(), 1.5}, camera);
   EXPECT_NEAR(DepthFrom({}, depth_m, camera, {200, 300}, {}), 1.5, 1e-6);
+}
+
+// Depth lies on the image as recorded: at the ideal pixel it is another thing's, or none.
+TEST(DepthFrom, IsReadWhereTheLensShowsThePoint) {
+  const Camera camera = TumCamera("tum1");
+  const Eigen::Vector2d ideal(60, 50);
+  const Eigen::Vector2d shown = camera.ProjectDistorted(camera.Backproject(ideal, 1.0));
+  ASSERT_GT((shown - ideal).cwiseAbs().maxCoeff(), 2.0);
+  cv::Mat1f depth_m(camera.height, camera.width, 0.0f);
+  const cv::Point at(static_cast<int>(std::lround(shown.x())),
+                     static_cast<int>(std::lround(shown.y())));
+  depth_m(cv::Rect(at.x - 1, at.y - 1, 3, 3)).setTo(1.5f);
+  EXPECT_NEAR(DepthFrom({}, depth_m, camera, ideal, {}), 1.5, 1e-6);
+  EXPECT_EQ(DepthFrom({}, depth_m, camera, shown, {}), 0.0);
 }
 
 TEST(DepthFrom, IsNoneOutsideOfTheDepthImage) {

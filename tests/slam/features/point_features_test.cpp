@@ -68,9 +68,18 @@ TEST(PointFeatures, ComeInTheNumberAskedFor) {
   for (const int count : {200, 1000}) {
     PointFeatureConfig config;
     config.count = count;
-    const int found = static_cast<int>(Extract(image, config).size());
+    const auto features = Extract(image, config);
+    const int found = static_cast<int>(features.size());
     EXPECT_GE(found, count - 20);
     EXPECT_LE(found, count + 24);  // two more in each of eight octaves, and rounding
+    // Of each octave as many as its image is wide.
+    const auto of_octave = [&](int octave) {
+      return std::count_if(features.begin(), features.end(),
+                           [&](const PointFeature& f) { return f.octave == octave; });
+    };
+    for (int octave = 1; octave < config.scale.octaves; ++octave)
+      EXPECT_NEAR(static_cast<double>(of_octave(octave)),
+                  static_cast<double>(of_octave(0)) / config.scale.Scale(octave), 4.0);
   }
 }
 
