@@ -53,7 +53,10 @@ TEST(PairEvidence, ABoxCostsWhatItDoesNotShareWithThatOfTheLandmark) {
   box_px.max.x() = 0.5 * (box_px.min.x() + box_px.max.x());  // half of it: so is what is shared
   EXPECT_NEAR(top.Weigh().at(0).at(0).box_cost, 0.5 * top.config.iou_weight,
               0.1 * top.config.iou_weight);
-  // It says nothing of what either side has no class of.
+  // A box that is not there says nothing, nor does one of what either side has no class of.
+  top.seen.frame.planes[0].detection = 7;
+  EXPECT_EQ(top.Weigh().at(0).at(0).box_cost, 0);
+  top.seen.frame.planes[0].detection = 0;
   const std::string known = top.landmark().class_name;
   top.landmark().class_name.clear();
   EXPECT_EQ(top.Weigh().at(0).at(0).box_cost, 0);
@@ -84,6 +87,43 @@ TEST(PairEvidence, WeighsPlaceAndParametersTogether) {
   }
   EXPECT_GT(between, 0);
   EXPECT_GT(beyond, 0);
+}
+
+TEST(PairsBeyondDoubt, AreOfASoundPlaneAndOfTheOnlyLandmarkThatItCanShow) {
+  using Pairs = std::vector<std::pair<int, int>>;
+  const Pairs none, certain{{0, 7}};
+  PairEvidence pair, rival;
+  pair.map_plane = 7, rival.map_plane = 8;
+  pair.verdict = rival.verdict = PairVerdict::kPossible;
+  pair.overlap = rival.overlap = 0.51;
+  Frame frame;
+  frame.planes.resize(1);
+  const auto beyond_doubt = [&](const std::vector<PairEvidence>& row) {
+    return PairsBeyondDoubt(frame, {row});
+  };
+  EXPECT_EQ(beyond_doubt({pair}), certain);
+  EXPECT_EQ(beyond_doubt({}), none);
+
+  // Another landmark in question is a rival, a candidate or one that was refused is none.
+  for (const PairVerdict verdict : {PairVerdict::kPossible, PairVerdict::kDoubtful}) {
+    rival.verdict = verdict;
+    rival.on_trial = false;
+    EXPECT_EQ(beyond_doubt({pair, rival}), none);
+    EXPECT_EQ(beyond_doubt({rival, pair}), none);
+    rival.on_trial = true;
+    EXPECT_EQ(beyond_doubt({pair, rival}), certain);
+    EXPECT_EQ(beyond_doubt({rival, pair}), certain);
+    EXPECT_EQ(beyond_doubt({rival}), none);
+  }
+  rival.on_trial = false, rival.verdict = PairVerdict::kRefused;
+  EXPECT_EQ(beyond_doubt({rival, pair}), certain);
+
+  PairEvidence half = pair, doubtful = pair;
+  half.overlap = 0.5, doubtful.verdict = PairVerdict::kDoubtful;
+  EXPECT_EQ(beyond_doubt({half}), none) << "less than most of it";
+  EXPECT_EQ(beyond_doubt({doubtful}), none);
+  frame.planes[0].bad = BadReason::kBorder;
+  EXPECT_EQ(beyond_doubt({pair}), none);
 }
 
 }  // namespace

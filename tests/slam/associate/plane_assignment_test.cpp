@@ -94,6 +94,24 @@ TEST(PlaneAssignment, DoesNotCountACompetitorThatIsAtHomeElsewhere) {
               ElementsAre(10, 11));
 }
 
+TEST(PlaneAssignment, IsNotInDoubtForALandmarkThatIsAnotherPlanes) {
+  // Plane 1 fits 10 better than 11, but 10 clearly is plane 0, and nobody else wants 11.
+  EXPECT_THAT(Assigned({{0, 10, 0.0}, {1, 10, kMargin + 0.5}, {1, 11, kMargin + 2}}, Apart(2)),
+              ElementsAre(10, 11));
+}
+
+TEST(PlaneAssignment,
+     APlaneThatMayNotHaveTheLandmarkDisputesItOnlyWithThoseThatFitNearlyAsWell) {
+  // Planes 0 and 2 are pieces of one surface, plane 1 is another one that fits 10 in between.
+  PlaneRelations relations = Apart(3);
+  Relate(relations, 0, 2, Pieces::kOfOne);
+  const auto third = [&](double cost) {
+    return Assigned({{0, 10, 0.0}, {1, 10, kMargin + 1}, {2, 10, cost}}, relations);
+  };
+  EXPECT_THAT(third(2 * kMargin + 0.9), ElementsAre(10, kNothing, kAmbiguous));
+  EXPECT_THAT(third(2 * kMargin + 1.1), ElementsAre(10, kNothing, 10));
+}
+
 TEST(PlaneAssignment, IsInDoubtBetweenTwoPlanesOfWhichOneHasLostABetterPlace) {
   // Plane 1 fits 10 clearly better than 11, but 10 is plane 0: it has as much claim on 11 as plane 2.
   EXPECT_THAT(Assigned({{0, 10, 0.0}, {1, 10, 4.5}, {1, 11, 9.0}, {2, 11, 8.0}}, Apart(3)),

@@ -148,6 +148,48 @@ TEST(PointsOnPlanes, LieOnTheNearestOfThoseInWhoseBoxesAHoleOfTheSegmentsIs) {
   EXPECT_EQ(matches[0].frame_plane, 1);
 }
 
+TEST(PointsOnPlanes, GoByThePixelOfTheFeatureAndLieOnNoPlaneThatIsBad) {
+  const Camera camera;
+  Frame frame = HalfAPlane(camera);
+  const double border_px = camera.width / 2;
+  Map map;
+  // Each feature is on the other side of the plane's border than its point is expected.
+  for (const double side : {-2.0, 2.0}) {
+    map.points.push_back(PointSeenAt(0, camera, {border_px - side, 200}, 2.0));
+    frame.features.push_back(FeatureWithDepth({border_px + side, 200}, 2.0));
+  }
+  frame.map_points = {0, 1};
+  auto matches = AssociatePointsToPlanes(frame, map, camera, 0.02);
+  ASSERT_EQ(matches.size(), 1u);
+  EXPECT_EQ(matches[0].feature, 0);
+  frame.planes[0].bad = BadReason::kInliers;
+  EXPECT_TRUE(AssociatePointsToPlanes(frame, map, camera, 0.02).empty());
+}
+
+TEST(PointsOnPlanes, LieInAHoleOnlyWhereBothBoxesHoldIt) {
+  const Camera camera;
+  Frame frame = HalfAPlane(camera);
+  frame.plane_labels.setTo(0);
+  Map map;
+  map.points = {PointSeenAt(0, camera, {100, 200}, 2.0)};
+  frame.features = {FeatureWithDepth({100, 200}, 2.0)};
+  frame.map_points = {0};
+  const Box holds{{0, 0}, {300, 300}}, beside{{150, 0}, {300, 300}};
+  frame.detections.resize(1);
+  FramePlane& plane = frame.planes[0];
+  for (const bool of_plane : {false, true}) {
+    for (const bool of_detection : {false, true}) {
+      plane.detection = 0;
+      plane.box_px = of_plane ? holds : beside;
+      frame.detections[0].box_px = of_detection ? holds : beside;
+      const auto matches = AssociatePointsToPlanes(frame, map, camera, 0.02);
+      EXPECT_EQ(matches.size(), of_plane && of_detection ? 1u : 0u);
+      plane.detection.reset();
+      EXPECT_TRUE(AssociatePointsToPlanes(frame, map, camera, 0.02).empty());
+    }
+  }
+}
+
 /// A book's corners that fall on these ideal pixels from kView_cw, two metres away.
 MapPlane BookAt(const Camera& camera, const Box& box_px) {
   MapPlane m;
@@ -172,6 +214,14 @@ TEST(BoxesOfMapPlanes, AreThoseOfTheRecordedImage) {
   EXPECT_THAT(box_px.min, VectorNear(expected.min, 1e-9));
   EXPECT_THAT(box_px.max, VectorNear(expected.max, 1e-9));
   EXPECT_GT((box_px.min - ideal.min).norm(), 1.0);  // the lens tells
+}
+
+TEST(BoxesOfMapPlanes, EndWhereTheImageDoes) {
+  const Camera camera;
+  const Box whole{{-60, 50}, {700, 500}};
+  const Box box_px = ProjectedBox(BookAt(camera, whole), kView_cw, camera);
+  EXPECT_THAT(box_px.min, VectorNear(Eigen::Vector2d(0, 50), 1e-9));
+  EXPECT_EQ(box_px.max, camera.ImageBox().max);
 }
 
 TEST(BoxesOfMapPlanes, AreThoseOfTheCloudWhereAPartIsOutOfReach) {

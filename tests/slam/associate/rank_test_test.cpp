@@ -106,6 +106,35 @@ TEST(PlaneRankTest, PassesOneSurfaceAndRefusesOneBesideOrAbove) {
   EXPECT_LT(TestPlaneRanks(Cloud(0, 0.01, 4), here, axes, 6).value(), 1e-6);
 }
 
+// Of three directions one is likelier to differ by chance than of one (Bonferroni).
+TEST(PlaneRankTest, TakesThreeTimesTheLeastOfTheDirectionsChances) {
+  const auto here = Cloud(0, 0, 1), beside = Cloud(0.1, 0.0003, 2);
+  const Eigen::Matrix3d axes = ExpSo3({0.1, 0.2, 0.3});
+  double least = 1.0;
+  for (int k = 0; k < 3; ++k) {
+    std::vector<double> c, w;
+    for (const Eigen::Vector3d& p : beside) c.push_back(axes.col(k).dot(p));
+    for (const Eigen::Vector3d& p : here) w.push_back(axes.col(k).dot(p));
+    least = std::min(least, TestRanks(c, w).p);
+  }
+  ASSERT_LT(3 * least, 1.0);
+  EXPECT_DOUBLE_EQ(TestPlaneRanks(beside, here, axes, 6).value(), 3 * least);
+}
+
+// A large partner of a small sample is thinned, which must not lean to either end.
+TEST(PlaneRankTest, SaysTheSameOfAMirroredSample) {
+  Random random{9};
+  for (int draw = 0; draw < 20; ++draw) {
+    std::vector<double> few, many, few_mirrored, many_mirrored;
+    for (int i = 0; i < 7; ++i) few.push_back(0.3 + random.Uniform());
+    for (int i = 0; i < 201; ++i) many.push_back(std::pow(random.Uniform(), 2));
+    for (const double v : few) few_mirrored.push_back(-v);
+    for (const double v : many) many_mirrored.push_back(-v);
+    EXPECT_DOUBLE_EQ(TestRanks(few, many).p, TestRanks(few_mirrored, many_mirrored).p);
+    EXPECT_DOUBLE_EQ(TestRanks(many, few).p, TestRanks(many_mirrored, few_mirrored).p);
+  }
+}
+
 TEST(PlaneAxes, GoAlongTheLongSideTheShortSideAndTheNormal) {
   const Eigen::Matrix3d R = ExpSo3({0.4, -0.2, 0.7});
   std::vector<Eigen::Vector3d> grid;  // 0.6 by 0.2 m, two metres off the origin

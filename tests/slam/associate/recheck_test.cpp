@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
+#include "slam/associate/plane_comparison.h"
 #include "tests/support/map_surfaces.h"
 
 namespace slam {
@@ -114,6 +117,22 @@ TEST(Recheck, LeavesWhatThePoseOrTheBendMayExplain) {
     }
     EXPECT_EQ(desk.TakeBack(), 0) << by_bend;
   }
+}
+
+TEST(Recheck, TakesBackWhatOneSurfaceDoesNotExplainThoughItNeedNotBeTwo) {
+  int in_between = 0;
+  for (double step_m = 0.0; step_m < 0.03; step_m += 0.0005) {
+    DeskInSight desk({0.0, step_m});
+    desk.GrowFirst(1);
+    desk.frame.plane_matches[1].map_plane = 0;
+    const UncertainPose pose{desk.frame.T_cw, *desk.frame.pose_covariance};
+    const double chi2 =
+        ComparePlanes(desk.frame.planes[1], desk.map.planes.At(0), pose, desk.config).chi2;
+    if (std::abs(chi2 - desk.config.max_chi2) < 1.0) continue;  // the pose's own errors differ
+    in_between += chi2 > desk.config.max_chi2 && chi2 < desk.config.new_chi2;
+    EXPECT_EQ(desk.TakeBack(), chi2 > desk.config.max_chi2 ? 1 : 0) << step_m;
+  }
+  EXPECT_GT(in_between, 0);
 }
 
 TEST(Recheck, AsksForMatchesWithLandmarksAlone) {

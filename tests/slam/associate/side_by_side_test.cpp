@@ -72,6 +72,27 @@ TEST(StepBetweenPlanes, IsExactOnExactDepth) {
   }
 }
 
+// The last tile of a row is cut off: what lies beyond it is the next row's other end.
+TEST(StepBetweenPlanes, IsExactWhereTheImageEndsWithinATile) {
+  Camera camera = HalfCamera();
+  camera.width = 316, camera.cx = 157.5;
+  const Plane wall{Eigen::Vector3d(0.5, 0.1, -0.8).normalized(), 1.0};
+  Frame frame;
+  frame.depth_m = cv::Mat1f(camera.height, camera.width);
+  for (int v = 0; v < camera.height; ++v) {
+    for (int u = 0; u < camera.width; ++u)
+      frame.depth_m(v, u) =
+          static_cast<float>(-wall.d / wall.n.dot(camera.Backproject({u, v}, 1.0)));
+  }
+  frame.plane_labels = cv::Mat1b(camera.height, camera.width, std::uint8_t{1});
+  frame.plane_labels(cv::Rect(100, 0, 200, camera.height)).setTo(2);
+  frame.planes.resize(2);
+  frame.planes[0].pi_c = frame.planes[1].pi_c = wall;
+  const auto step = SideBySide(frame, camera).Between(0, 1);
+  ASSERT_TRUE(step);
+  EXPECT_NEAR(step->step_m, 0.0, 1e-5);
+}
+
 TEST(StepBetweenPlanes, IsAsExactWherePixelsAreNotMeasured) {
   SeenWorld seen = TwoBoards(0.004, 0.0);
   for (int v = 0; v < seen.frame.depth_m.rows; ++v)
