@@ -77,6 +77,31 @@ TEST(EdgeLines, LieOnThePlaneAndUseOnlyTheSurfacesOwnEdges) {
   EXPECT_NEAR(lines[0].from_px.y(), 199.5, 1e-9);
 }
 
+// Straight things are recorded as curves.
+TEST(EdgeLines, AreStraightHoweverTheLensBendsThem) {
+  Camera camera;
+  camera.k1 = -0.25;
+  FramePlane plane;
+  plane.pi_c = {Eigen::Vector3d(0, -0.6, -0.8), 0.8};
+  plane.centroid_c = {0, 0, 1};
+  // A side near the image's upper border, 10 px off its chord in the recorded image.
+  const auto on_plane = [&](const Eigen::Vector2d& u_px) {
+    const Eigen::Vector3d ray = camera.Backproject(u_px, 1.0);
+    return Eigen::Vector3d(ray * (-plane.pi_c.d / plane.pi_c.n.dot(ray)));
+  };
+  for (int k = 0; k <= 120; ++k) {
+    const Eigen::Vector3d p_c = on_plane({20.0 + 5 * k, 25.0});
+    plane.edge_points.push_back({p_c, camera.ProjectDistorted(p_c), EdgeKind::kSurface});
+  }
+  const auto lines = FindEdgeLines(plane, camera, {}, Random{1});
+  ASSERT_EQ(lines.size(), 1u);
+  EXPECT_EQ(lines[0].support, 121);
+  EXPECT_LT((lines[0].to_px - lines[0].from_px).cwiseAbs().y(), 1e-6);
+  EXPECT_NEAR(lines[0].from_px.y(), 24.5, 1e-6);  // half a pixel outwards
+  const Eigen::Vector3d along = (on_plane({620, 24.5}) - on_plane({20, 24.5})).normalized();
+  EXPECT_NEAR(std::abs(lines[0].line_c.V.dot(along)), 1.0, 1e-9);
+}
+
 TEST(EdgeLines, AreDoubtfulWhicheverWayTheyRun) {
   const Camera camera;
   int found = 0;

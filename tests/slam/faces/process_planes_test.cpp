@@ -110,6 +110,23 @@ TEST(ProcessPlanes, DrawNoLinesOnAnUnstructuredObject) {
   EXPECT_GE(bad, 1);
 }
 
+// A detector that names everything now and then sees a person in all of the picture.
+TEST(ProcessPlanes, BelieveOfUnstructuredThingsWhatTheyBelieveOfOthers) {
+  BookOnDesk scene(false);
+  const PlaneProcessingConfig config;
+  Detection person;
+  person.class_name = "person", person.kind = ClassKind::kUnstructured;
+  person.box_px = scene.camera.ImageBox();
+  scene.frame.detections = {person};
+  for (const double beside : {-0.01, 0.01}) {
+    scene.frame.detections[0].score = config.box_link.min_score + beside;
+    ProcessPlanes(scene.frame, scene.camera, {}, config);
+    ASSERT_FALSE(scene.frame.planes.empty());
+    for (const FramePlane& plane : scene.frame.planes)
+      EXPECT_EQ(plane.bad == BadReason::kUnstructured, beside > 0);
+  }
+}
+
 TEST(ProcessPlanes, FindTheFourCornersOfABookThatNoDetectionSpeaksFor) {
   BookOnDesk scene(true);
   scene.frame.detections.clear();
@@ -135,11 +152,12 @@ TEST(ProcessPlanes, AcceptAFrameWithoutPlanes) {
 }
 
 /// Corners of a sheet in front of a wall, both seen frontally, that leans sideways in its plane.
-std::size_t CornersOfSheet(double lean_rad, bool detected) {
+std::size_t CornersOfSheet(double lean_rad, bool detected,
+                           ClassKind kind = ClassKind::kRegular) {
   const Camera camera;
   Frame frame = closed_form::MakeFrame(cv::Mat1f(camera.height, camera.width, 1.2f));
   Detection sheet;
-  sheet.class_name = "book", sheet.kind = ClassKind::kRegular, sheet.score = 0.9;
+  sheet.class_name = "book", sheet.kind = kind, sheet.score = 0.9;
   for (int v = 170; v < 310; ++v) {
     const double middle = 320 + std::tan(lean_rad) * (v - 240);
     for (int u = 0; u < camera.width; ++u) {
@@ -170,6 +188,8 @@ TEST(ProcessPlanes, TakeCornersOffTheSquareOnlyWhereADetectionSpeaksForThem) {
   EXPECT_EQ(CornersOfSheet(nearly_square_rad, true), 4u);
   EXPECT_EQ(CornersOfSheet(oblique_rad, true), 4u);
   EXPECT_EQ(CornersOfSheet(oblique_rad, false), 0u) << "its shape alone is no rectangle's";
+  EXPECT_EQ(CornersOfSheet(oblique_rad, true, ClassKind::kOther), 0u)
+      << "nor does a thing's name say so that may be of any shape";
 }
 
 }  // namespace

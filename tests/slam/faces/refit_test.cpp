@@ -49,6 +49,7 @@ TEST(Refit, IsNotPulledByOutliersAndCountsThem) {
   EXPECT_THAT(plane.pi_c, PlaneNear(kTruth, 1e-5, 1e-5));
   EXPECT_NEAR(plane.inlier_ratio, 0.75, 1e-12);
   EXPECT_EQ(plane.points_c.size(), 270u);
+  EXPECT_NEAR(SignedDistance(plane.pi_c, plane.centroid_c), 0.0, 1e-12) << "moved onto it";
 }
 
 // A wave of the bend's size is what a flat thing looks like; to a sensor that does not bend it is not

@@ -68,6 +68,19 @@ TEST(Vertices, AreMarkedWhereNoEdgePointIsNear) {
   }
 }
 
+// Where something nearer hides the rest of the side, the corner itself was not seen.
+TEST(Vertices, AreMarkedWhereOnlyEdgesOfOtherThingsAreNear) {
+  for (const EdgeKind kind : {EdgeKind::kOccluded, EdgeKind::kBorder, EdgeKind::kMissing}) {
+    Face face;
+    for (EdgePoint& e : face.plane.edge_points)
+      if ((e.p_c - face.corner[2]).norm() < 0.03) e.kind = kind;
+    const auto vertices = face.Find();
+    ASSERT_EQ(vertices.size(), 4u);
+    for (const Vertex& v : vertices)
+      EXPECT_EQ(v.extrapolated, (v.p_c - face.corner[2]).norm() < 1e-9);
+  }
+}
+
 TEST(Vertices, AreSeenWhereALensThatDistortsShowsThem) {
   Camera camera;
   camera.k1 = -0.2;
@@ -170,6 +183,24 @@ TEST(VerticesConditionThree, RefusesAPointOutsideTheBox) {
   };
   EXPECT_TRUE(with_box_right_of(config.box_margin_px - 1).has_value());
   EXPECT_FALSE(with_box_right_of(config.box_margin_px + 1).has_value());
+}
+
+// A box is one of the recorded image.
+TEST(VerticesConditionThree, GoesByWhereTheLensShowsThePoint) {
+  Camera camera;
+  camera.k1 = -0.2;
+  const VertexConfig config;
+  const Eigen::Vector3d corner(0.5, 0.4, 1);
+  const Eigen::Vector2d shown = camera.ProjectDistorted(corner), ideal = camera.Project(corner);
+  ASSERT_GT((shown - ideal).norm(), 2 * config.box_margin_px);
+  const auto in_box_around = [&](const Eigen::Vector2d& u_px) {
+    const Eigen::Vector2d half(1, 1);
+    return MeetingPoint({corner, {1, 0, 0}}, {corner, {0, 1, 0}}, kFacing, camera,
+                        Box{u_px - half, u_px + half}, config)
+        .has_value();
+  };
+  EXPECT_TRUE(in_box_around(shown));
+  EXPECT_FALSE(in_box_around(ideal));
 }
 
 TEST(MeetingPoint, LiesBeforeTheCamera) {
