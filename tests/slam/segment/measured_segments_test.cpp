@@ -10,10 +10,17 @@
 namespace slam {
 namespace {
 
+PlaneExtractionConfig AtAnyAngle() {
+  PlaneExtractionConfig config;
+  config.max_angle_sigma_rad = 1.0;
+  return config;
+}
+
 /// The segments of a wall of which parts have labels 0, 1, ...
 /// @param scatter_sigmas  of the wall's pixels, alternately before and behind it
 std::vector<Segment> KeepParts(const std::vector<cv::Rect>& parts, const SensorModel& sensor,
-                               const Camera& camera = {}, double scatter_sigmas = 0.0) {
+                               const Camera& camera = {}, double scatter_sigmas = 0.0,
+                               const PlaneExtractionConfig& config = AtAnyAngle()) {
   cv::Mat1f depth_m(camera.height, camera.width, 1.0f);
   const double off_m = scatter_sigmas * sensor.noise.Sigma(1.0);
   for (int v = 0; v < depth_m.rows; ++v)
@@ -28,8 +35,6 @@ std::vector<Segment> KeepParts(const std::vector<cv::Rect>& parts, const SensorM
   }
   PartSegments segments{{}, SumLabels(grid, labels, static_cast<int>(parts.size()))};
   FindRuns(labels, grid.width, grid.height, segments.runs);
-  PlaneExtractionConfig config;
-  config.max_angle_sigma_rad = 1.0;
   return KeepMeasured(segments, sensor, config);
 }
 
@@ -66,6 +71,28 @@ TEST(MeasuredSegments, AreLessSureByTheFactorByWhichTheyScatterMoreThanNoise) {
   const PlaneSigmas usual = sigmas(0.5), rough = sigmas(3.0);
   EXPECT_NEAR(rough.offset_m / usual.offset_m, 3.0, 0.05);
   EXPECT_NEAR(rough.angle_rad / usual.angle_rad, 3.0, 0.05);
+}
+
+TEST(MeasuredSegments, TellWellEnoughHowTheyAreTurned) {
+  const std::vector<cv::Rect> square{{200, 200, 60, 60}};
+  const double sigma_rad = KeepParts(square, {}).at(0).sigmas.angle_rad;
+  PlaneExtractionConfig config;
+  for (const double times : {0.99, 1.01}) {
+    config.max_angle_sigma_rad = times * sigma_rad;
+    EXPECT_EQ(KeepParts(square, {}, {}, 0.0, config).size(), times > 1 ? 1u : 0u);
+  }
+}
+
+// Their numbers are written as single bytes, of which 0 is none.
+TEST(MeasuredSegments, AreNoMoreThanALabelImageHasRoomForAndTheSmallestAreLeftOut) {
+  std::vector<cv::Rect> parts;
+  for (int k = 0; k < 300; ++k)
+    parts.push_back({25 * (k % 25), 40 * (k / 25), 20, k % 50 < 8 ? 30 : 35});
+  PlaneExtractionConfig config = AtAnyAngle();
+  config.min_share = 0.0;
+  const std::vector<Segment> kept = KeepParts(parts, {}, {}, 0.0, config);
+  ASSERT_EQ(kept.size(), 254u);
+  for (std::size_t k = 0; k < kept.size(); ++k) EXPECT_EQ(kept[k].sums.n, k < 252 ? 700 : 600);
 }
 
 TEST(MeasuredSegments, AreTheSameShareOfASmallImage) {
