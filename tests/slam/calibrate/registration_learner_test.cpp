@@ -90,15 +90,17 @@ void LearnMore(const Recording& recording, RegistrationLearner& learner) {
 }
 
 RegistrationLearner Learn(const Recording& recording, double edge_growth_px = 4.0,
-                          const RegistrationConfig& config = {}) {
-  RegistrationLearner learner(Camera{}, edge_growth_px, config);
+                          const RegistrationConfig& config = {}, const Camera& camera = {}) {
+  RegistrationLearner learner(camera, edge_growth_px, config);
   LearnMore(recording, learner);
   return learner;
 }
 
 TEST(RegistrationLearner, FindsHowFarColourLiesBesideDepth) {
   for (const cv::Point2d shift : {cv::Point2d(2.0, -1.5), {-3.3, 1.0}, {1.2, 3.5}}) {
-    const RegistrationLearner learner = Learn({.shift_px = shift});
+    Camera camera;
+    camera.fy = 0.7 * camera.fx;  // neither stands for the other
+    const RegistrationLearner learner = Learn({.shift_px = shift}, 4.0, {}, camera);
     ASSERT_TRUE(learner.estimate());
     const RegistrationEstimate& found = *learner.estimate();
     EXPECT_TRUE(found.clear);
@@ -106,7 +108,6 @@ TEST(RegistrationLearner, FindsHowFarColourLiesBesideDepth) {
     EXPECT_NEAR(found.shift_px.y(), shift.y, 0.2);
     EXPECT_LT(found.sigma_px.maxCoeff(), 0.2);
     // What the camera of colour sees at u the other sees at u - shift.
-    const Camera camera;
     const Eigen::Vector2d u(camera.cx, camera.cy);
     const Eigen::Vector2d there = camera.Project(learner.R_dc() * camera.Backproject(u, 1.0));
     EXPECT_LT((u - there - Eigen::Vector2d(shift.x, shift.y)).norm(), 0.3);

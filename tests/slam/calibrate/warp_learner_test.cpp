@@ -250,6 +250,22 @@ TEST(DepthStraightener, GoesOnFromWhatIsKnownBefore) {
   EXPECT_GT(straightener.report().evidence->epochs, known.evidence().epochs);
 }
 
+// What counts is whether the depth camera stood elsewhere when it measured.
+TEST(DepthStraightener, LearnsNothingOfADepthCameraThatRestsThoughColourIsTakenOnTheWay) {
+  const Camera camera = SmallCamera();
+  const cv::Mat2d rays = PixelRays(camera);
+  DepthStraightener straightener(camera, DepthNoise{}, {.source = "auto"});
+  for (int i = 0; i < kFrames; ++i) {
+    Frame frame = FrameOfRoom({}, i, rays);
+    frame.measured = {frame.depth_m, frame.plane_labels};
+    frame.depth_late_s = 0.02;
+    frame.speed.mean = Log(Inverse(frame.T_cw)) / frame.depth_late_s;
+    straightener.Learn(frame);
+  }
+  EXPECT_TRUE(straightener.straightening().pattern.empty());
+  EXPECT_FALSE(straightener.report().evidence && straightener.report().evidence->epochs > 0);
+}
+
 TEST(DepthStraightener, KnowsAtLeastWhatItLeaves) {
   const Camera camera = SmallCamera();
   const WarpLearner known = LearntFrom({});
