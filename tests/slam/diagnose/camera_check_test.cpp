@@ -97,6 +97,18 @@ TEST(CameraCheck, FindsTheTrueIntrinsicsFromWrongOnes) {
                      testing::HasSubstr("not 228"), testing::HasSubstr("camera.yaml")));
 }
 
+// A hundredth or two of the focal length is seen, and harms nobody.
+TEST(CameraCheck, CallsNothingWrongThatHardlyMattersHoweverSureItIs) {
+  CameraCheck check(Wrong({8.0, -8.0, 5.0, -5.0}), FeatureScale{});
+  for (const Frame& frame : TrackedFrames(40, Camera{}, LookingAround, {}, 3))
+    EXPECT_FALSE(check.See(frame));
+  const CameraEstimate estimate = *check.Estimate();
+  EXPECT_LT(5 * estimate.sigma.maxCoeff(), 5.0);
+  EXPECT_LT((estimate.found - Intrinsics(525, 525, 319.5, 239.5)).norm(), 0.5);
+  EXPECT_FALSE(estimate.AnyWrong());
+  EXPECT_EQ(check.Warning(), "");
+}
+
 TEST(CameraCheck, NamesOnlyWhatIsWrong) {
   CameraCheck check(Wrong({0.0, 0.0, 20.0, 0.0}), FeatureScale{});
   for (const Frame& frame : TrackedFrames(60, Camera{}, LookingAround, kNoise, 2))

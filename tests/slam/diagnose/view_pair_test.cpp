@@ -115,6 +115,25 @@ TEST(ViewPair, FindsTheMotionFromAPoorGuess) {
   EXPECT_LT(pair.Evidence(kTrue).gradient.norm(), 1e-6);
 }
 
+// Points of coarse octaves err by more, and count by as much less.
+TEST(ViewPair, HardlyHearsPointsThatAreKnownPoorly) {
+  for (const double scale : {1.0, 100.0}) {
+    std::vector<TwiceSeen> points = SeenExactly(180, kT21);
+    for (std::size_t i = 0; i < points.size(); i += 3) {
+      if (points[i].second_u_px.x() > kTrue[2]) points[i].second_u_px.x() += 1.0;
+      points[i].scale = scale;
+    }
+    const IntrinsicsEvidence evidence = ViewPair(points, kT21, {}).Evidence(kTrue);
+    ASSERT_TRUE(evidence.usable);
+    const Intrinsics step = -evidence.information.ldlt().solve(evidence.gradient);
+    if (scale > 1) {
+      EXPECT_LT(step.norm(), 0.05);
+    } else {
+      EXPECT_GT(step.norm(), 0.5);
+    }
+  }
+}
+
 TEST(ViewPair, TranslationAloneSaysNothingOfFocalLengthOrCentre) {
   const Pose T_21{Eigen::Matrix3d::Identity(), {0.2, -0.1, 0.1}};
   ViewPair moved(SeenExactly(120, T_21), T_21, {}), turned(SeenExactly(120, kT21), kT21, {});
