@@ -229,6 +229,56 @@ TEST(CompareTrajectories, HasNoErrorsInAPlaneWhereAStraightPathHasNoAlignment) {
   }
 }
 
+/// Ten poses a second that each go 0.1 m and turn by a degree, `times` as far.
+PoseFile Steady(double times) {
+  PoseFile file{"steady.txt", PoseFileKind::kTum, {}, {}};
+  for (int i = 0; i < 60; ++i) {
+    const double turn_rad = times * i * std::numbers::pi / 180.0;
+    file.poses.push_back(
+        {0.1 * i,
+         {Eigen::AngleAxisd(turn_rad, Eigen::Vector3d::UnitZ()).toRotationMatrix(),
+          {0, 0, 0.1 * times * i}},
+         i + 1});
+  }
+  return file;
+}
+
+// Where the estimate goes and turns twice as far, a metre of it is half a metre of the truth: its
+// error over pairs of n poses is 0.1 n metres and n degrees.
+TEST(CompareTrajectories, TakesPairsAlongTheEstimateOrAlongTheTruthAsItIsAsked) {
+  for (const PairMode mode : {PairMode::kConsecutive, PairMode::kAll}) {
+    for (const bool from_truth : {false, true}) {
+      for (const PoseDelta delta :
+           {PoseDelta{1.04, DeltaUnit::kMetres}, PoseDelta{10.5, DeltaUnit::kDegrees}}) {
+        SCOPED_TRACE(::testing::Message()
+                     << (mode == PairMode::kAll ? "all" : "in turn")
+                     << (from_truth ? ", truth " : ", estimate ") << delta.value);
+        ComparisonRules rules = With(AlignMode::kNone, delta);
+        rules.pairs = mode;
+        rules.pairs_from_truth = from_truth;
+        const auto score = CompareTrajectories(Steady(2), Steady(1), rules);
+        ASSERT_TRUE(score.relative.translation_m);
+        // In turn the first that is far enough ends a pair, of all those the nearest.
+        const bool in_turn = mode == PairMode::kConsecutive;
+        const double poses = in_turn ? (from_truth ? 11 : 6) : (from_truth ? 10.5 : 5);
+        const double slack = in_turn ? 1e-9 : 0.51;  // 10 and 11 degrees are as near
+        EXPECT_NEAR(score.relative.translation_m->mean / 0.1, poses, slack);
+        EXPECT_NEAR(score.relative.rotation_deg->mean, poses, slack);
+      }
+    }
+  }
+}
+
+TEST(CompareTrajectories, TakesPairsOfSecondsThatMissByLessThanHalfAFrame) {
+  PoseFile truth = Steady(1);
+  // One pair of 0.5 s began with the pose that is gone, and one ended with it.
+  truth.poses.erase(truth.poses.begin() + 30);
+  ComparisonRules rules = With(AlignMode::kNone, {0.5, DeltaUnit::kSeconds});
+  EXPECT_EQ(CompareTrajectories(truth, truth, rules).pairs, 60u - 5u - 2u);
+  rules.delta.value = 0.54;
+  EXPECT_EQ(CompareTrajectories(truth, truth, rules).pairs, 60u - 5u - 2u);
+}
+
 TEST(CompareTrajectories, SaysThatNoTwoPosesAreThatFarApart) {
   const auto score =
       CompareTrajectories(Walk(), Walk(), With(AlignMode::kSe3, {500, DeltaUnit::kMetres}));

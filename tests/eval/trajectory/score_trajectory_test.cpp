@@ -165,6 +165,19 @@ TEST(ScoreTrajectory, LaysThePathOnTheTruthWherePositionsAloneAreNotEnough) {
   }
 }
 
+// Positions that are off on one side of the path tilt what is laid on positions alone.
+TEST(ScoreTrajectory, HoldsRotationsToTheTruthByWholePoses) {
+  const Trajectory truth = Helix(60, 30.0);
+  Trajectory estimate = truth;
+  for (StampedPose& pose : estimate) pose.T_wc.t.z() += 0.3 * pose.T_wc.t.x();
+  const TrajectoryScore score = ScoreTrajectory(estimate, truth, Stamps(truth), true);
+  ASSERT_EQ(score.errors.size(), truth.size());
+  for (const PoseError& error : score.errors) {
+    EXPECT_NEAR(error.rotation_deg.value(), 0.0, 1e-6);
+    EXPECT_GT(error.position_m.value(), 0.0);
+  }
+}
+
 /// Position error of a millimetre and rotation error of a tenth of a degree on a path of `count`
 /// poses; the angle between the world of the truth and where the gauge lays it.
 double GaugeErrorDeg(Trajectory truth, std::uint32_t seed) {
