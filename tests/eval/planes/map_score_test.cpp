@@ -50,38 +50,86 @@ TEST(ScoreMap, ExplainsByTheLargerOfTwoDuplicatesWhicheverWasSeenMore) {
   }
 }
 
-// A covariance of (n, d) speaks of the world's origin, and the error is asked at the surface.
+TEST(ScoreMap, TakesTheErrorsOfTheDuplicateThatWasSeenMost) {
+  const SceneTruth scene = SceneOfTabletop();
+  for (const int good : {1, 2}) {
+    std::vector<RunMapPlane> map = {SquareOnTheTabletop(1, 0.4), SquareOnTheTabletop(2, 0.4)};
+    map[good == 1 ? 1 : 0].pi_w.n = Eigen::Vector3d(0, 0.1, 1).normalized();
+    const int bad = 3 - good;
+    const MapScore score = ScoreMap(
+        map, scene, Alignment{},
+        {{0, kTabletop, bad}, {1, kTabletop, good}, {2, kTabletop, good}}, {kTabletop});
+    EXPECT_EQ(score.matched, 1);
+    ASSERT_TRUE(score.normal_deg.has_value());
+    EXPECT_NEAR(score.normal_deg->p95, 0.0, 1e-9) << good;
+    EXPECT_NEAR(score.offset_mm->p95, 0.0, 1e-9) << good;
+  }
+}
+
+TEST(ScoreMap, GivesAMapPlaneToWhatMostOfItsObservationsShowAndOfTiesToTheLowerTruth) {
+  SceneTruth scene = SceneOfTabletop();
+  constexpr int kSheet = kTabletop + 2, kNothing = 0;
+  scene.planes.push_back(scene.planes[0]);
+  scene.planes[1].id = kSheet;
+  scene.planes[1].pi_g.n = -scene.planes[0].pi_g.n;
+  const auto matched = [&](const std::vector<int>& truths) {
+    std::vector<AssociationRecord> records;
+    for (const int truth : truths) records.push_back({0, truth, 1});
+    const MapScore score = ScoreMap({SquareOnTheTabletop(1, 0.4)}, scene, Alignment{}, records,
+                                    {kTabletop, kSheet});
+    EXPECT_EQ(score.matched + score.spurious, 1);
+    return score.spurious == 1                   ? kNothing
+           : score.normal_deg.value().median < 1 ? kTabletop
+                                                 : kSheet;
+  };
+  EXPECT_EQ(matched({kTabletop, kSheet, kSheet}), kSheet);
+  EXPECT_EQ(matched({kSheet, kTabletop}), kTabletop);
+  EXPECT_EQ(matched({kNothing, kSheet}), kSheet);
+  EXPECT_EQ(matched({kNothing, kNothing, kSheet}), kNothing);
+  EXPECT_EQ(matched({}), kNothing);
+}
+
+// A covariance of (n, d) speaks of the world's origin, and the error is asked at the surface: of a
+// plane that is `x` too high and too steep where x has the covariance C, x^T C^-1 x comes back,
+// wherever the run's world lies, however large it is, and whatever goes together with what.
 TEST(ScoreMap, HoldsHeightAndSlopesOfAPlaneToWhatTheRunTellsOfThem) {
-  constexpr double kSigma_m = 0.001, kSigma_rad = 0.01;
-  constexpr double kHigh_m = 0.003, kTilt_rad = 0.02;  // three and two standard deviations
-  const Eigen::Vector3d middle(3.0, -2.0, 0.7);
-  RunMapPlane plane = SquareOnTheTabletop(1, 0.4);
-  for (auto* points : {&plane.vertices_w, &plane.hull_w}) {
-    for (Eigen::Vector3d& p : *points) p += middle + kHigh_m * Eigen::Vector3d::UnitZ();
-  }
-  plane.pi_w.n = Eigen::Vector3d(0.0, kTilt_rad, 1.0).normalized();
-  plane.pi_w.d = -plane.pi_w.n.dot(middle + kHigh_m * Eigen::Vector3d::UnitZ());
-  // A step along the normal, and turns about two axes through the middle.
+  const Eigen::Vector3d middle(3.0, -2.0, 0.7), n = Eigen::Vector3d(1, -2, 5).normalized();
+  const Eigen::Vector3d p = n.cross(Eigen::Vector3d::UnitX()).normalized(), q = n.cross(p);
+  Eigen::Matrix3d root;
+  root << 2e-4, 0, 0, 1e-3, 1.5e-3, 0, -5e-4, 8e-4, 1e-3;
+  const Eigen::Matrix3d C = root * root.transpose();
+  // The step along the normal, and the slopes along p and q, as parts of (n, d).
   Eigen::Matrix<double, 4, 3> parts = Eigen::Matrix<double, 4, 3>::Zero();
-  parts(3, 0) = kSigma_m;
-  for (int axis = 0; axis < 2; ++axis) {
-    parts(axis, axis + 1) = kSigma_rad;
-    parts(3, axis + 1) = -kSigma_rad * middle[axis];
-  }
-  plane.covariance = parts * parts.transpose();
+  parts(3, 0) = -1.0;
+  parts.col(1) << -p, p.dot(middle);
+  parts.col(2) << -q, q.dot(middle);
   const Eigen::Matrix3d R(Eigen::AngleAxisd(2.1, Eigen::Vector3d(1, 2, 2) / 3));
-  for (const Pose& T_gw : {Pose{}, Pose{R, {-5, 1, 4}}}) {
-    Alignment gauge;
-    gauge.T_gw = T_gw;
-    SceneTruth scene = SceneOfTabletop();
-    for (Eigen::Vector3d& p : scene.planes[0].vertices_g) p = T_gw * (middle + p);
-    scene.planes[0].pi_g = Transform(T_gw, {Eigen::Vector3d::UnitZ(), -middle.z()});
-    const MapScore score = ScoreMap({plane}, scene, gauge, {{0, kTabletop, 1}}, {kTabletop});
-    ASSERT_TRUE(score.claims.has_value());
-    EXPECT_EQ(score.claims->count, 1u);
-    EXPECT_NEAR(score.claims->nees.mean, 9.0 + 4.0, 0.02);
-    EXPECT_EQ(score.claims->nees.above, 1.0);
-    EXPECT_EQ(score.claims->silent, 0u);
+  for (const Eigen::Vector3d& x :
+       {Eigen::Vector3d(4e-4, 2e-3, -3e-3), Eigen::Vector3d(1e-4, 1e-3, 1e-3),
+        Eigen::Vector3d(0, -2e-3, 0), Eigen::Vector3d(-1e-3, 0, 0)}) {
+    RunMapPlane plane = SquareOnTheTabletop(1, 0.0);
+    plane.pi_w.n = (n - x[1] * p - x[2] * q).normalized();
+    plane.pi_w.d = -plane.pi_w.n.dot(middle + x[0] * n);
+    for (auto* points : {&plane.vertices_w, &plane.hull_w}) {
+      *points = {middle + x[0] * n - 0.4 * p, middle + x[0] * n - 0.4 * q,
+                 middle + x[0] * n + 0.4 * p, middle + x[0] * n + 0.4 * q};
+    }
+    plane.covariance = parts * C * parts.transpose();
+    const double nees = x.dot(C.inverse() * x);
+    for (const Alignment& gauge :
+         {Alignment{}, Alignment{1.0, {R, {-5, 1, 4}}}, Alignment{2.5, {R, {-5, 1, 4}}}}) {
+      SceneTruth scene = SceneOfTabletop();
+      for (Eigen::Vector3d& v : scene.planes[0].vertices_g) {
+        v = gauge.T_gw * (gauge.scale * (middle + v.x() * p + v.y() * q));
+      }
+      scene.planes[0].pi_g = Transform(gauge.T_gw, {n, -gauge.scale * n.dot(middle)});
+      const MapScore score = ScoreMap({plane}, scene, gauge, {{0, kTabletop, 1}}, {kTabletop});
+      ASSERT_TRUE(score.claims.has_value());
+      EXPECT_EQ(score.claims->count, 1u);
+      EXPECT_NEAR(score.claims->nees.mean, nees, 0.01 * nees) << x.transpose();
+      EXPECT_EQ(score.claims->nees.above, nees > 9.348 ? 1.0 : 0.0);
+      EXPECT_EQ(score.claims->silent, nees > 25.0 ? 1u : 0u);
+    }
   }
 }
 

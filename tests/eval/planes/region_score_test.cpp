@@ -38,6 +38,12 @@ TEST(RegionScorer, CountsFramesOfNoiseAloneForEvops) {
   EXPECT_DOUBLE_EQ(right.Score()->evops.precision, 1.0);
   EXPECT_DOUBLE_EQ(half.Score()->evops.precision, 0.5);
   EXPECT_DOUBLE_EQ(half.Score()->evops.noise_ratio, 0.5);
+  // One of nothing, in which nothing was found, does not; it does for the counts a frame.
+  FrameEvidence nothing;
+  nothing.pairs = LabelPairs{{{0, 0}, 4000}};
+  half.Add(nothing);
+  EXPECT_DOUBLE_EQ(half.Score()->evops.precision, 0.5);
+  EXPECT_DOUBLE_EQ(half.Score()->machine, 2.0 / 3);
 }
 
 }  // namespace

@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <iterator>
+#include <map>
+
 namespace eval {
 namespace {
 
@@ -88,6 +91,41 @@ TEST(ScoreSteps, CountsTopsOfRegularObjectsAndNotTheDeskOverTheFloor) {
   EXPECT_EQ(steps[0].right, 2);
   EXPECT_EQ(steps[0].right_planes, 2);
   EXPECT_EQ(steps[0].wrong_planes, 0);
+
+  // A frame that takes the book for the desk decides, but is not right.
+  history.surfaces.push_back({2, 0.2, 3, 2000, true, true, ""});
+  history.decisions.push_back({{2, 3, 12, 2000}, 0.2, "", Vector3d::Zero()});
+  const std::vector<StepScore> wrong = ScoreSteps(history, scene);
+  ASSERT_EQ(wrong.size(), 1u);
+  EXPECT_EQ(wrong[0].seen, 3);
+  EXPECT_EQ(wrong[0].right, 2);
+  EXPECT_EQ(wrong[0].right_planes, 2);
+  EXPECT_EQ(wrong[0].wrong_planes, 1);
+}
+
+TEST(ScoreSteps, PutATopIntoTheOneClassThatHoldsItsStep) {
+  std::map<double, double> classes;  // from, to
+  for (double step_mm = 0.51; step_mm < 190; step_mm *= 1.013) {
+    SceneTruth scene = CornerDesk();
+    TruthPlane& top =
+        scene.planes.emplace_back(Level(3, 0.7 + 1e-3 * step_mm, Square(0.4, 0.4, 0.1)));
+    top.object = 3;
+    top.scored = true;
+    TruthObject& book = scene.objects.emplace_back();
+    book.id = 3;
+    book.regular = true;
+    DecisionHistory history;
+    history.surfaces.push_back({0, 0.0, 3, 2000, true, true, ""});
+    const std::vector<StepScore> steps = ScoreSteps(history, scene);
+    ASSERT_EQ(steps.size(), 1u) << step_mm;
+    EXPECT_LE(steps[0].min_mm, step_mm);
+    EXPECT_GT(steps[0].max_mm, step_mm);
+    classes[steps[0].min_mm] = steps[0].max_mm;
+  }
+  EXPECT_GT(classes.size(), 5u);
+  for (auto next = std::next(classes.begin()); next != classes.end(); ++next) {
+    EXPECT_EQ(std::prev(next)->second, next->first);
+  }
 }
 
 }  // namespace

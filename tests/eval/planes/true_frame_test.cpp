@@ -120,6 +120,25 @@ TEST_F(TrueFrameOfTinyWorld, SeesCornersThroughTheLens) {
   EXPECT_GT(beside_the_pinhole, 0);
 }
 
+// Where no image tells which part of a face is seen, it is looked at in its middle.
+TEST_F(TrueFrameOfTinyWorld, HasTheIncidenceAtTheMiddleOfAFaceWithoutImages) {
+  sequence_.plane_id_files = {};
+  int compared = 0;
+  for (const int i : {0, 20, 44}) {
+    const TinyFrame& frame = world_.frames[static_cast<std::size_t>(i)];
+    const TrueFrame truth = Read(frame);
+    for (const testing::TinyPlane& plane : world_.planes) {
+      const SeenPlane* seen = truth.Find(plane.id);
+      if (seen == nullptr) continue;
+      const Eigen::Vector3d middle_g = (plane.corners_g[0] + plane.corners_g[2]) / 2;
+      const double cosine = plane.pi_g.n.dot((frame.T_gc.t - middle_g).normalized());
+      EXPECT_NEAR(seen->incidence_deg, std::acos(cosine) * 180.0 / std::numbers::pi, 1e-6);
+      ++compared;
+    }
+  }
+  EXPECT_GT(compared, 5);
+}
+
 TEST_F(TrueFrameOfTinyWorld, NeedsTheCameraOfTheSequence) {
   std::filesystem::remove(folder_ / "camera.yaml");
   sequence_ = ReadSequence(folder_);

@@ -97,6 +97,20 @@ TEST_F(UnitedFaces, AreNotApartByMoreThanAJoint) {
   EXPECT_THAT(Ids(), ElementsAre(1));
 }
 
+// Corners of the small one are beside the middle of the large one's side, whose own are far off.
+TEST_F(UnitedFaces, MeetAlsoWhereOnlyTheCornersOfTheLatterAreNear) {
+  for (const int small : {1, 2}) {
+    for (const double gap_m : {0.029, 0.031}) {
+      scene_ = {};
+      for (const int id : {1, 2}) {
+        if (id == small) AddFace(id, 0.4 + gap_m, 0.8, 7, 0, 0.3, 0.5);
+        if (id != small) AddFace(id, 0, 0.4, 7);
+      }
+      EXPECT_EQ(Ids().size(), gap_m < 0.03 ? 1u : 2u) << small << ", " << gap_m;
+    }
+  }
+}
+
 TEST_F(UnitedFaces, HaveNoStepBetweenThem) {
   AddFace(1, 0, 0.4, 7);
   AddFace(2, 0.4, 0.8, 7, 0.0005);
