@@ -55,6 +55,15 @@ TEST_F(ReadFolders, ReadTheUpperTriangleOfACovarianceRowByRow) {
       (Eigen::Matrix<double, 6, 1>() << 1, 2, 3, 4, 5, 6).finished());
   expected(0, 5) = expected(5, 0) = 0.5;
   EXPECT_EQ(covariances[1].of_xi, expected);
+
+  Write("map.json",
+        R"({"planes": [{"id": 3, "normal": [0, 0, 1], "d": 0, "vertices": [], "hull": [],
+            "covariance": [1, 0, 0, 0.5, 2, 0, 0, 3, 0, 4]}]})");
+  const auto map = ReadRunMap(in_).value();
+  Eigen::Matrix4d of_plane = Eigen::Vector4d(1, 2, 3, 4).asDiagonal();
+  of_plane(0, 3) = of_plane(3, 0) = 0.5;
+  ASSERT_TRUE(map.at(0).covariance.has_value());
+  EXPECT_EQ(*map[0].covariance, of_plane);
 }
 
 TEST_F(ReadFolders, RefuseWhatIsNoCovariance) {
@@ -301,6 +310,15 @@ TEST_F(ReadFolders, TheRunsSequenceIsFoundWhereverTheTwoWereMoved) {
   EXPECT_EQ(found(seq.string(), ""), seq);
   EXPECT_EQ(found("../moved/away", seq.string()), seq);
   EXPECT_EQ(found("truth", seq.string()), fs::weakly_canonical(folder_ / "a/run/truth"));
+
+  // From the run, and only then from where the program was called: another one may lie there.
+  fs::create_directories(folder_ / "b/seq");
+  fs::create_directories(folder_ / "b/other");
+  const fs::path called_from = fs::current_path();
+  fs::current_path(folder_ / "b");
+  EXPECT_EQ(found("seq", ""), seq);
+  EXPECT_EQ(found("other", ""), fs::weakly_canonical(folder_ / "b/other"));
+  fs::current_path(called_from);
 }
 
 TEST(ReadRecording, FindsTheFramesAndTheTruthOfARealSequence) {

@@ -267,6 +267,18 @@ TEST(Gate, LostFramesAreCounted) {
   });
   EXPECT_THAT(Worse(CompareWithBaseline(BaselineOf(cases), lost, {})),
               ::testing::ElementsAre("frames without a pose"));
+  // A hundredth of all frames is let pass, whatever was lost before and in whichever case.
+  for (const double lost_before : {0.0, 40.0}) {
+    const auto with = [&](double more) {
+      return Changed(cases, [&](GateCase& one, int i) {
+        if (i == 3) *one.figures[kTrackedFigure] -= lost_before;
+        if (i == 7) *one.figures[kTrackedFigure] -= more;
+      });
+    };
+    const Baseline before = BaselineOf(with(0));
+    EXPECT_FALSE(CompareWithBaseline(before, with(12), {}).AnyWorse()) << lost_before;
+    EXPECT_TRUE(CompareWithBaseline(before, with(13), {}).AnyWorse()) << lost_before;
+  }
 }
 
 TEST(Gate, AFigureThatIsGoneIsWorse) {
@@ -286,6 +298,14 @@ TEST(Gate, BoundsHoldForEachCaseByItself) {
   EXPECT_THAT(Worse(report),
               ::testing::ElementsAre(std::string(kPrecision) + " beyond its bound"));
   EXPECT_THAT(GateTable(report), ::testing::HasSubstr("desk-100/arm"));
+}
+
+TEST(Gate, WhatIsAtItsBoundIsNotBeyondIt) {
+  for (const double less : {-1e-9, 0.0, 1e-9}) {
+    const Figures figures = {{kAte, 0.02 - less}, {kPrecision, 0.9 - less}};
+    EXPECT_EQ(BeyondBounds(figures, {{kAte, 0.02}}).size(), less < 0 ? 1u : 0u);
+    EXPECT_EQ(BeyondBounds(figures, {{kPrecision, 0.9}}).size(), less > 0 ? 1u : 0u);
+  }
 }
 
 TEST(Gate, MoreLooksAskForMoreEvidence) {
