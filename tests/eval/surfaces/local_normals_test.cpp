@@ -32,5 +32,31 @@ TEST(FitLocalNormals, SeesAWallThatFacesAwayFromTheAxisAndNotFromTheRay) {
   }
 }
 
+// Two means of a window's halves are off by noise that grows with the square of the distance, over a
+// length that grows with the distance: far away a normal tells the less.
+TEST(SpeaksAgainst, ANormalOnlyAsFarAsNoiseLeavesOneThere) {
+  constexpr int kCols = 320, kRows = 240, kRadius = 4;  // 7 px of 640
+  constexpr double kFocal_px = 280, kNoise_per_m = 0.0016;
+  cv::Mat2d rays(kRows, kCols);
+  for (int v = 0; v < kRows; ++v) {
+    for (int u = 0; u < kCols; ++u)
+      rays(v, u) = {(u - 159.5) / kFocal_px, (v - 119.5) / kFocal_px};
+  }
+  for (const double z_m : {1.0, 2.0, 4.0, 8.0}) {
+    const LocalNormals local = FitLocalNormals(cv::Mat1f(kRows, kCols, float(z_m)), rays, 1);
+    const double slope = kNoise_per_m * z_m * z_m / (z_m * kRadius / kFocal_px);
+    const double limit_rad = std::max(0.52, 3 * slope / 2);  // of four parts of a window
+    for (const double share : {0.97, 1.03}) {
+      for (const double way : {0.0, 1.0, 2.5}) {
+        const double tilt = share * limit_rad;
+        const Eigen::Vector3d n_c(std::sin(tilt) * std::cos(way),
+                                  std::sin(tilt) * std::sin(way), -std::cos(tilt));
+        EXPECT_EQ(SpeaksAgainst(local, 120, 160, z_m, n_c, kNoise_per_m), share > 1)
+            << z_m << " m, " << tilt << " rad, " << way;
+      }
+    }
+  }
+}
+
 }  // namespace
 }  // namespace eval

@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <tuple>
+
 #include "eval/surfaces/report_surfaces.h"
 #include "tests/eval/surfaces/boards.h"
 #include "tests/support/image_files.h"
@@ -71,6 +73,7 @@ TEST_F(SurfaceScoring, CountsSegmentsOfASurface) {
   EXPECT_NEAR(score.total.covered, 1.0, 1e-9);
   EXPECT_NEAR(score.total.purity, 1.0, 1e-9) << "pixels on no surface do not count";
   EXPECT_EQ(score.surfaces.at(7).segments_per_frame, 2.0);
+  EXPECT_EQ(score.total.segments_per_frame, 2.0);
   EXPECT_EQ(score.surfaces.at(7).no_decision, 1.0);
   EXPECT_EQ(score.frames, BoardWorld::kFrames);
 }
@@ -179,6 +182,13 @@ TEST_F(SurfaceScoring, FollowsMergesOfLandmarks) {
   EXPECT_NEAR(merged.total.identity, 2.0 / 3, 1e-9);
   EXPECT_EQ(merged.total.landmarks, 2.0);
 
+  run_.map[0].merged_into = 12;  // and with it what it had taken in
+  const SurfaceScore in_turn = Score(Quarters(7, 7, 7, 7));
+  EXPECT_NEAR(in_turn.total.coverage, 0.75, 1e-9);
+  EXPECT_NEAR(in_turn.total.identity, 1.0, 1e-9);
+  EXPECT_EQ(in_turn.total.landmarks, 1.0);
+
+  run_.map[0].merged_into.reset();
   run_.map.pop_back();  // a candidate that never became a landmark
   EXPECT_NEAR(Score(Quarters(7, 7, 7, 7)).total.coverage, 0.5, 1e-9);
 }
@@ -198,6 +208,31 @@ TEST_F(SurfaceScoring, WritesNullWithAReasonForAShareOfNothing) {
   EXPECT_TRUE(metrics["surfaces"]["no_decision_in_map"]["share"].is_null());
   AddSurfaces(Score(Quarters(0, 0, 0, 0)), "surfaces.yaml", metrics);
   EXPECT_TRUE(metrics["surfaces"]["whole"].is_null());
+}
+
+TEST(SurfaceReport, TellsEachFigureUnderItsOwnName) {
+  SurfaceFigures f{0.11, 0.12, 0.13, 1.4, 0.15, 0.16, 1.7, 0.18, 19, 20, 21, 22, 23};
+  SurfaceScore score;
+  score.surfaces[5] = f;
+  f.whole = 0.31, f.coverage = 0.32;
+  score.total = f;
+  nlohmann::ordered_json metrics{{"reasons", nlohmann::ordered_json::object()}};
+  AddSurfaces(score, "a file", metrics);
+  for (const auto& [json, whole, coverage] :
+       {std::tuple(metrics["surfaces"], 0.31, 0.32),
+        std::tuple(metrics["surfaces"]["each"][0], 0.11, 0.15)}) {
+    EXPECT_EQ(json["whole"], whole);
+    EXPECT_EQ(json["covered"], 0.12);
+    EXPECT_EQ(json["purity"], 0.13);
+    EXPECT_EQ(json["segments_per_frame"], 1.4);
+    EXPECT_EQ(json["coverage"], coverage);
+    EXPECT_EQ(json["identity"], 0.16);
+    EXPECT_EQ(json["landmarks"], 1.7);
+    EXPECT_EQ(json["no_decision"], 0.18);
+    EXPECT_EQ(json["frames"], 19);
+    EXPECT_EQ(json["pixels"], 20);
+  }
+  EXPECT_EQ(metrics["surfaces"]["each"][0]["id"], 5);
 }
 
 TEST_F(SurfaceScoring, RefusesARunWithoutSegmentation) {
