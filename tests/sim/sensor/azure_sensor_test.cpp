@@ -241,6 +241,21 @@ TEST(CornerOfTwoWalls, GlowsTheLessTheFlatterItIs) {
   }
 }
 
+// A bar over the floor and before the wall, 2 cm wide: in the image the corner is beside it.
+TEST(CornerOfTwoWalls, DoesNotGlowOnWhatIsBeforeIt) {
+  Scene scene = FloorAndWall();
+  scene.objects.push_back(
+      BoxObject(3, "bar", Role::kRegular, {0, 0.975, 0.025}, {0.02, 0.01, 0.02}));
+  const Camera camera;
+  const Rendering rendering =
+      SensorView(scene, camera, AzureAllOff(), LookAt({0, 0.2, 0.6}, {0, 1, 0}));
+  const cv::Mat1f glow = CornerGlow(rendering, camera, 0.05);
+  const cv::Mat on_bar = rendering.object_id == 3;
+  EXPECT_GT(cv::countNonZero(on_bar), 50);
+  EXPECT_EQ(cv::countNonZero((glow > 0) & on_bar), 0);
+  EXPECT_GT(cv::countNonZero(glow > 0), 1000);
+}
+
 TEST(ConvexEdge, DoesNotGlow) {
   Scene scene;
   scene.objects = {BoxObject(1, "box", Role::kRegular, {0, 1, 0}, {0.3, 0.3, 0.3})};

@@ -9,6 +9,7 @@
 
 #include "sim/sensor/report/bend_report.h"
 #include "sim/sensor/sensor.h"
+#include "tests/sim/sensor/sensor_measurements.h"
 
 namespace sim {
 namespace {
@@ -123,6 +124,35 @@ TEST(DepthBend, BendsWhatTheOthersMeasureToo) {
     EXPECT_NEAR(std::sqrt(std::pow(report.walls[0].blocks, 2) - flat * flat), 0.83, 0.25)
         << sensor.name;
     EXPECT_GT(report.fixed_share, 0.55) << sensor.name;
+  }
+}
+
+// Without noise only the drifting part differs between two frames far apart: twice its power.
+TEST(DepthBend, DriftsWithTheFramesWhateverMeasures) {
+  constexpr double kDrift = 0.4;
+  AzureModel azure{.noise_scale = 0,
+                   .lateral_px = 0,
+                   .flying_pixels = false,
+                   .multipath_m = 0,
+                   .multipath_loss = 0,
+                   .wiggle_m = 0,
+                   .session_offset_m = 0,
+                   .hexagon = false,
+                   .rounding_m = 0};
+  D435Model d435{
+      .baseline_m = 0, .subpixel_px = 0, .grid_px = 0, .ripple_px = 0, .rounding_m = 0};
+  KinectModel kinect{.projector_offset_m = 0, .noise_scale = 0, .quantise = false};
+  kinect.bend = azure.bend = d435.bend = {.rms = kRms, .drift_share = kDrift};
+  const Camera camera = Resize(Camera{}, 320, 240);
+  for (const DepthModel& model : {DepthModel(kinect), DepthModel(azure), DepthModel(d435)}) {
+    const Rendering wall = SensorView(OneBoard(1.5), camera, model);
+    const auto share = [&](std::uint64_t frame) {
+      return cv::Mat1d(MeasureDepth(wall, model, camera, 3, frame) / 1.5 - 1);
+    };
+    const double pixels = camera.width * camera.height;
+    const double moved = cv::norm(share(2) - share(1002)) / std::sqrt(pixels);
+    EXPECT_NEAR(moved / kRms, std::sqrt(2 * kDrift), 0.3) << model.index();
+    EXPECT_LT(cv::norm(share(2) - share(3)) / std::sqrt(pixels), 0.2 * kRms) << model.index();
   }
 }
 

@@ -32,8 +32,11 @@ TEST(SensorFile, ChangesWhatItNamesAndKeepsTheRest) {
 }
 
 TEST(SensorFile, TakesAnglesInDegrees) {
-  const Sensor sensor = ParseSensor("base: kinect1\nmax_incidence_deg: 70\n", "mine.yaml");
-  EXPECT_NEAR(std::get<KinectModel>(sensor.depth).max_incidence_rad, 70 * M_PI / 180, 1e-15);
+  const Sensor sensor =
+      ParseSensor("base: kinect1\nmax_incidence_deg: 70\nmirror_spot_deg: 4\n", "mine.yaml");
+  const auto& kinect = std::get<KinectModel>(sensor.depth);
+  EXPECT_NEAR(kinect.max_incidence_rad, 70 * M_PI / 180, 1e-15);
+  EXPECT_NEAR(kinect.loss.mirror_spot_rad, 4 * M_PI / 180, 1e-15);
 }
 
 TEST(SensorFile, TellsTheTwoTangentialTermsOfALensApart) {
@@ -77,6 +80,27 @@ TEST(SensorFile, RefusesFractionsOfWhatIsCountedOrSwitched) {
     EXPECT_THAT(ErrorOf(line),
                 testing::AllOf(HasSubstr("mine.yaml:2"), HasSubstr("whole number")));
   }
+}
+
+TEST(SensorFile, RefusesAWindowWithoutACentreButNotNone) {
+  for (const std::string base : {"kinect1", "d435"}) {
+    for (const int side_px : {2, 4, 30}) {
+      EXPECT_THAT(ErrorOf("base: " + base + "\nwindow_px: " + std::to_string(side_px) + "\n"),
+                  testing::AllOf(HasSubstr("mine.yaml:2"), HasSubstr("odd")));
+    }
+  }
+  const Sensor none = ParseSensor("base: kinect1\nwindow_px: 0\n", "mine.yaml");
+  EXPECT_EQ(std::get<KinectModel>(none.depth).window.side_px, 0);
+}
+
+TEST(SensorFile, TakesTimesInMilliseconds) {
+  const Sensor sensor = ParseSensor(
+      "base: ideal\nshutter_ms: 12\nrolling_ms: 25\ndepth_offset_ms: 8\nstamp_jitter_ms: 3\n",
+      "mine.yaml");
+  EXPECT_NEAR(sensor.exposure.shutter_s, 0.012, 1e-15);
+  EXPECT_NEAR(sensor.exposure.rolling_s, 0.025, 1e-15);
+  EXPECT_NEAR(sensor.timing.depth_offset_s, 0.008, 1e-15);
+  EXPECT_NEAR(sensor.timing.stamp_jitter_s, 0.003, 1e-15);
 }
 
 TEST(SensorFile, RefusesAMissingOrUnknownBase) {

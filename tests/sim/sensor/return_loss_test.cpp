@@ -181,6 +181,9 @@ TEST(Gloss, ComesFromThePrintUnlessTheMaterialSaysIt) {
   EXPECT_EQ(GlossOf({.print = Print::kScreen, .gloss = 0.2}), 0.2);
   EXPECT_EQ(InfraredOf({.print = Print::kText, .infrared = 0.2}), 0.2);
   EXPECT_NEAR(InfraredOf({.colour = {0.3, 0.3, 0.3}}), 0.3, 1e-12);
+  // Luminance: green counts most, blue least, to the four digits of BT.709.
+  EXPECT_NEAR(InfraredOf({.colour = {1, 0, 0}}), 0.2126, 1e-12);
+  EXPECT_NEAR(InfraredOf({.colour = {0, 1, 0}}), 0.7152, 1e-12);
 }
 
 /// By area instead of by dots.

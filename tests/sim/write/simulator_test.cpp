@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <opencv2/core.hpp>
 
 #include "sim/sensor/calibration_error.h"
@@ -42,9 +43,39 @@ TEST(Simulator, TakesDepthOfWhatMovesWhenItIsTaken) {
   shot.time_s = shot.colour_stamp_s = 0.5;
   for (const double delay_s : {-0.02, 0.0, 0.015}) {
     shot.depth_stamp_s = shot.colour_stamp_s + delay_s;
-    const cv::Mat1w depth =
-        Simulator(scene, exact).Simulate(0, shot, [&](double) { return shot.T_wc; }).depth;
-    EXPECT_NEAR(depth(60, 80) / exact.camera.depth_factor, 1.5 - delay_s, 0.0002) << delay_s;
+    const SimulatedFrame frame =
+        Simulator(scene, exact).Simulate(0, shot, [&](double) { return shot.T_wc; });
+    EXPECT_NEAR(frame.depth(60, 80) / exact.camera.depth_factor, 1.5 - delay_s, 0.0002)
+        << delay_s;
+    // The truth is that of colour.
+    ASSERT_TRUE(frame.truth.objects.at(0).T_wo.has_value());
+    EXPECT_NEAR(frame.truth.objects[0].T_wo->t.y(), board.center_w.y() - 0.5, 1e-12);
+  }
+}
+
+// A photograph of one evenly lit board is as bright as its gain says.
+TEST(Simulator, DriftsInExposureAsTheSeedAndTheTimeSay) {
+  Scene scene = OneBoard(1.0, 20.0, Print::kPlain);
+  for (Material& face : scene.objects[0].faces) face.colour = {0.15, 0.15, 0.15};
+  RigOptions rig;
+  rig.camera = Resize(Camera{}, 32, 24);
+  rig.sensor = SensorKind::kIdeal;
+  rig.sensor.exposure.drift_stops = 1.0;
+  const auto light = [&](std::uint64_t seed, double time_s) {
+    rig.seed = seed;
+    Shot shot;
+    shot.T_wc = LookAlongY();
+    shot.time_s = shot.colour_stamp_s = shot.depth_stamp_s = time_s;
+    const cv::Mat3b colour =
+        Simulator(scene, rig).Simulate(0, shot, [&](double) { return shot.T_wc; }).colour;
+    return std::pow(cv::mean(colour)[1] / 255, 2.2);
+  };
+  const double usual = light(3, 1.0) / ExposureGain(rig.sensor.exposure, 3, 1.0);
+  for (const std::uint64_t seed : {3, 4, 5}) {
+    for (const double time_s : {0.0, 2.2}) {
+      const double gain = ExposureGain(rig.sensor.exposure, seed, time_s);
+      EXPECT_NEAR(light(seed, time_s) / usual, gain, 0.04 * gain) << seed << ", " << time_s;
+    }
   }
 }
 
