@@ -163,15 +163,54 @@ TEST(NoisyDetector, JittersInProportionToTheBox) {
   const Detector detector(LaptopOnDesk(), Camera{}, DetectorKind::kNoisy, 3, model);
   FrameTruth truth;
   truth.objects = {Seen(4, 20000, 20000, {200, 100, 400, 200})};
-  double sum_x = 0, sum_y = 0;
+  double x0 = 0, y0 = 0, x1 = 0, y1 = 0;
   for (int frame = 0; frame < kFrames; ++frame) {
     const PixelBox box = detector.Detect(frame, truth).at(0).box;
-    sum_x += (box.x0 - 200) * (box.x0 - 200);
-    sum_y += (box.y1 - 200) * (box.y1 - 200);
+    x0 += (box.x0 - 200) * (box.x0 - 200), y0 += (box.y0 - 100) * (box.y0 - 100);
+    x1 += (box.x1 - 400) * (box.x1 - 400), y1 += (box.y1 - 200) * (box.y1 - 200);
   }
   // sd 0.02 * 200 + 0.5 and 0.02 * 100 + 0.5; half the variance has 750 independent draws.
-  EXPECT_NEAR(std::sqrt(sum_x / kFrames), 4.5, 0.4);
-  EXPECT_NEAR(std::sqrt(sum_y / kFrames), 2.5, 0.25);
+  for (const double x : {x0, x1}) EXPECT_NEAR(std::sqrt(x / kFrames), 4.5, 0.4);
+  for (const double y : {y0, y1}) EXPECT_NEAR(std::sqrt(y / kFrames), 2.5, 0.25);
+}
+
+TEST(NoisyDetector, IsLessSureOfWhatIsHiddenByTheShareThatIs) {
+  DetectorModel model;
+  model.phantom = model.duplicate = model.confused = 0;
+  const Detector detector(LaptopOnDesk(), Camera{}, DetectorKind::kNoisy, 3, model);
+  const auto mean_score = [&](int unoccluded) {
+    FrameTruth truth;
+    truth.objects = {Seen(4, 3600, unoccluded, {300, 200, 360, 260})};
+    double sum = 0, count = 0;
+    for (int frame = 0; frame < kFrames; ++frame) {
+      for (const Detection& d : detector.Detect(frame, truth)) sum += d.score, count += 1;
+    }
+    return sum / count;
+  };
+  // 0.4 of a thing of 60 px, which is 20 px for half of it.
+  EXPECT_NEAR(mean_score(3600), 0.55 + 0.4 * 0.75, 0.005);
+  EXPECT_NEAR(mean_score(7200), 0.55 + 0.4 * 0.75 / 2, 0.005);
+}
+
+// What is not there is seen for four frames in the same place, more or less, and is one thing.
+TEST(NoisyDetector, SeesWhatIsNotThereForSomeFramesOnEnd) {
+  const Detector detector(LaptopOnDesk(), Camera{}, DetectorKind::kPoor, 4, PoorDetector());
+  int phantoms = 0;
+  for (int window = 0; window < 500; ++window) {
+    const auto first = detector.Detect(4 * window, {});
+    ASSERT_LE(first.size(), 1u);
+    for (int frame = 4 * window + 1; frame < 4 * window + 4; ++frame) {
+      const auto next = detector.Detect(frame, {});
+      ASSERT_EQ(next.size(), first.size()) << frame;
+      if (first.empty()) continue;
+      EXPECT_EQ(next[0].class_name, first[0].class_name);
+      EXPECT_NEAR(next[0].box.x0, first[0].box.x0, 60);
+      EXPECT_NEAR(next[0].box.y1, first[0].box.y1, 60);
+    }
+    phantoms += first.empty() ? 0 : 1;
+  }
+  // The stated 12 % of 500, to five standard deviations.
+  EXPECT_NEAR(phantoms, 60, 5 * std::sqrt(500 * 0.12 * 0.88));
 }
 
 TEST(NoisyDetector, DoublesConfusesAndInventsAtTheStatedRates) {

@@ -275,20 +275,22 @@ TEST_F(OwnMesh, SaysWhatIsWrongWithAFile) {
   std::string text = kCube;
   text.replace(text.find("v 0.1 0 0\n"), 10, "v nan 0 0\n");
   EXPECT_THAT(ErrorOf(text), HasSubstr("not finite"));
-  text = kCube.substr(0, kCube.rfind("f "));  // one side is missing
+  (text = kCube).erase(kCube.find("f 2 3 7 6\n"), 10);  // one side is missing
   EXPECT_THAT(ErrorOf(text), HasSubstr("4 have one triangle"));
-  ModelOptions tolerant;
-  tolerant.open_edges = 0.3;
-  EXPECT_EQ(Read(text, tolerant).planes.size(), 5u);
-  text = kCube;
-  text.replace(text.find("f 5 6 7 8"), 9, "f 8 7 6 5");
+  ModelOptions options;
+  options.scale = 3;
+  EXPECT_THAT(ErrorOf(text, options), HasSubstr("the first is at (0.1, 0.1, 0)"))
+      << "of the file";
+  options.open_edges = 0.3;
+  EXPECT_EQ(Read(text, options).planes.size(), 5u);
+  options.flip = true;
+  EXPECT_THAT(ErrorOf(text, options), HasSubstr("inside out"));
+  (text = kCube).replace(kCube.find("f 5 6 7 8"), 9, "f 8 7 6 5");
   EXPECT_THAT(ErrorOf(text), HasSubstr("4 two that disagree"));
-  ModelOptions flipped;
-  flipped.flip = true;
-  EXPECT_THAT(ErrorOf(kCube, flipped), HasSubstr("inside out"));
-  ModelOptions huge;
-  huge.scale = 1000;
-  EXPECT_THAT(ErrorOf(kCube, huge), HasSubstr("100 m large"));
+  options.open_edges = 0;
+  EXPECT_THAT(ErrorOf(kCube, options), HasSubstr("inside out"));
+  options.scale = 1000;
+  EXPECT_THAT(ErrorOf(kCube, options), HasSubstr("100 m large"));
 }
 
 TEST_F(OwnMesh, StandsInASceneAsItSays) {
@@ -313,6 +315,7 @@ TEST_F(OwnMesh, StandsInASceneAsItSays) {
     for (const Vector3d& x_w : t.corners_w) {
       EXPECT_NEAR(plane.n_w.dot(x_w) + plane.d, 0, kSingle_m);
     }
+    for (const Vector3d& n_w : t.normals_w) EXPECT_LT((n_w - plane.n_w).norm(), kSingle_m);
   }
   const auto steps = TopSteps(scene, ScenePlanes(scene));
   ASSERT_EQ(steps.size(), 1u);

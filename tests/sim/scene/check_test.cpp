@@ -39,6 +39,35 @@ TEST(FindFault, SeesAThingThatPassesThroughACornerOfAnother) {
   EXPECT_THAT(fault->what, HasSubstr("inside 'book_1'"));
 }
 
+TEST(FindFault, SeesAThingThatPassesThroughAWall) {
+  Scene scene = TwoBoxes(1);
+  scene.objects[0] = BoxObject(1, "wall", Role::kStructure, {0.5, 0, 0.5}, {0.1, 2, 1});
+  Object& mover = scene.objects[1];
+  mover.way = {{0, {1, 0, 0.5}, 0}, {1, {0, 0, 0.5}, 0}};
+  mover.center_w = mover.way[0].center_w;
+  const auto fault = FindFault(scene);
+  ASSERT_TRUE(fault.has_value());
+  EXPECT_EQ(fault->object, 1u);
+  EXPECT_THAT(fault->what, HasSubstr("inside 'wall_1'"));
+}
+
+TEST(FindFault, AsksThingsToBeOverTheLowestOfSeveralFloors) {
+  Scene scene;
+  const auto floor_to = [](int id, double x, double top_z) {
+    return BoxObject(id, "floor", Role::kStructure, {x, 0, top_z - 0.05}, {2, 2, 0.1});
+  };
+  for (const double first_z : {0.0, -0.2}) {
+    const double low_x = first_z < 0 ? 0 : 3;
+    scene.objects = {floor_to(1, 0, first_z), floor_to(2, 3, -0.2 - first_z),
+                     BoxObject(3, "book", Role::kRegular, {low_x, 0, -0.19}, {0.2, 0.2, 0.02})};
+    EXPECT_FALSE(FindFault(scene).has_value()) << first_z;
+    scene.objects[2].center_w = {1.5, 1.5, -0.22};
+    const auto fault = FindFault(scene);
+    ASSERT_TRUE(fault.has_value());
+    EXPECT_THAT(fault->what, HasSubstr("30 mm below the floor"));
+  }
+}
+
 /// A square frame of one's own, 0.1 high: 0.2 wide outside, 0.1 inside.
 Object HollowFrame(int id, const Eigen::Vector3d& center_w) {
   auto model = std::make_shared<Model>();

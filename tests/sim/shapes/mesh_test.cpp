@@ -8,6 +8,7 @@
 #include <cmath>
 #include <map>
 #include <memory>
+#include <set>
 #include <utility>
 
 #include "sim/families/families.h"
@@ -143,6 +144,28 @@ TEST(BuildMesh, TurnsTheShadingOfARoundMeshWithIt) {
       EXPECT_GT(t.normals_w[i].dot(face), 0) << "lit from within";
       EXPECT_LT((t.normals_w[i] - turn * upright.triangles[k].normals_w[i]).norm(), 1e-12);
     }
+  }
+}
+
+// Where what moves stands among the others, theirs are the planes that the scene has of them.
+TEST(BuildMesh, NumbersItsPlanesAsTheSceneDoesWhateverMoves) {
+  const Scene desk = MakeScene("desk", 3);
+  for (const std::size_t mover : {std::size_t{0}, desk.objects.size() / 2}) {
+    Scene scene = desk;
+    Object& moves = scene.objects[mover];
+    moves.way = {{0, moves.center_w, 0}, {1, moves.center_w + Eigen::Vector3d::UnitX(), 0}};
+    const std::vector<ScenePlane> planes = ScenePlanes(scene);
+    std::set<int> shown;
+    for (const Triangle& t : BuildMesh(scene).triangles) {
+      ASSERT_TRUE(t.plane == 0 || t.object != moves.id);
+      if (t.plane == 0) continue;
+      const ScenePlane& plane = planes.at(static_cast<std::size_t>(t.plane) - 1);
+      ASSERT_EQ(plane.object, t.object);
+      for (const Eigen::Vector3d& x_w : t.corners_w)
+        EXPECT_NEAR(plane.n_w.dot(x_w) + plane.d, 0, 1e-12);
+      shown.insert(t.plane);
+    }
+    EXPECT_EQ(shown.size(), planes.size());
   }
 }
 

@@ -56,6 +56,16 @@ TEST(FrameTruth, CountsWhatAGroupWouldShowTogetherAndAlone) {
   }
 }
 
+TEST(FrameTruth, LeavesStructureOutOfTheGroupsThatAreDetected) {
+  Scene scene = HalfHidden();
+  for (Object& object : scene.objects) object.detection_group = 7;
+  scene.objects[0].role = Role::kStructure;
+  const FrameTruth truth = TruthOf(scene, SmallCamera(), LookAlongY());
+  ASSERT_EQ(truth.objects.size(), 2u);
+  ASSERT_EQ(truth.unoccluded_pixels_of_group.size(), 1u);
+  EXPECT_EQ(truth.unoccluded_pixels_of_group.at(7), truth.objects[1].pixels);
+}
+
 TEST(FrameTruth, BoxesTheVisiblePartAndTheWhole) {
   const Camera camera;
   const ObjectInFrame far = TruthOf(HalfHidden(), camera, LookAlongY()).objects[0];
