@@ -22,7 +22,7 @@ constexpr const char* kFlow =
     "\n"
     "  pas scene  make, list or show a tabletop scene with known planes\n"
     "  pas sim    render it: RGB-D frames, detections, exact truth        -> SEQ\n"
-    "  pas import a bag of ROS 1 as a folder                              -> SEQ\n"
+    "  pas import a bag of ROS 1, or depth that does not lie on colour    -> SEQ\n"
     "  pas slam   track the camera and map the planes; never reads truth  -> RUN\n"
     "  pas config print every setting of pas slam, as a file for --config\n"
     "  pas calibrate  how a SEQ's depth camera bends what is flat         -> YAML\n"

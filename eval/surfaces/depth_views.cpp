@@ -56,18 +56,24 @@ DepthViews::DepthViews(const Sequence& sequence, const Camera& camera,
   }
 }
 
+cv::Mat1f ReadDepthOnColour(const std::filesystem::path& folder, const SequenceFrame& frame,
+                            double depth_factor, const Camera& taken_by,
+                            const std::optional<DepthRegistration>& registration) {
+  Folder files(folder);
+  const cv::Mat stored =
+      ReadImage(files, frame.depth, {CV_16U, 1, {taken_by.width, taken_by.height}});
+  cv::Mat1f depth_m;
+  stored.convertTo(depth_m, CV_32F, 1.0 / depth_factor);
+  depth_m.setTo(0, stored == std::numeric_limits<std::uint16_t>::max());
+  return registration ? LayOnColour(depth_m, *registration) : depth_m;
+}
+
 DepthView DepthViews::Read(std::size_t i) const {
   const PosedFrame& posed = frames_.at(i);
-  Folder folder(folder_);
   const Camera& taken_by = registration_ ? registration_->depth : camera_;
-  const cv::Mat stored =
-      ReadImage(folder, posed.frame.depth, {CV_16U, 1, {taken_by.width, taken_by.height}});
-  cv::Mat1f depth_m;
-  stored.convertTo(depth_m, CV_32F, 1.0 / camera_.depth_factor);
-  // The largest number says, as 0 does, that nothing was measured: 7-Scenes and others write it.
-  depth_m.setTo(0, stored == std::numeric_limits<std::uint16_t>::max());
-  if (registration_) depth_m = LayOnColour(depth_m, *registration_);
-  return {posed.frame.stamp_s, posed.T_gc, depth_m};
+  return {
+      posed.frame.stamp_s, posed.T_gc,
+      ReadDepthOnColour(folder_, posed.frame, camera_.depth_factor, taken_by, registration_)};
 }
 
 }  // namespace eval

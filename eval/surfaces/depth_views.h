@@ -16,6 +16,15 @@ struct DepthView {
   cv::Mat1f depth_m;     ///< along the optical axis, on the colour image's pixels; 0 = none
 };
 
+/// The depth image of a frame, metres on the colour image's pixels; 0 = none.
+/// @param depth_factor  units a metre; 65535, which 7-Scenes and others write where nothing was
+///   measured, is none
+/// @param taken_by      the camera of the depth image, for its size
+/// @throws InputError when it cannot be read or has another size
+cv::Mat1f ReadDepthOnColour(const std::filesystem::path& folder, const SequenceFrame& frame,
+                            double depth_factor, const Camera& taken_by,
+                            const std::optional<DepthRegistration>& registration);
+
 /// The depth images of a recording, each with the recording's own camera truth.
 class DepthViews {
  public:

@@ -93,7 +93,8 @@ TEST(PlaneSplit, LeavesEachCornerToTheSideOnWhichItLies) {
   show.Next();
   ASSERT_EQ(Landmarks(show.map).size(), 2u);
   const MapPlane& larger = *Landmarks(show.map)[0];
-  ASSERT_EQ(larger.vertices_w.size(), 2u);  // those of the other side are corners of a part of it
+  ASSERT_EQ(larger.vertices_w.size(),
+            2u);  // those of the other side are corners of a part of it
   EXPECT_THAT(larger.vertices_w[0], VectorNear(Eigen::Vector3d(-0.4, -0.3, 0), 1e-3));
   EXPECT_THAT(larger.vertices_w[1], VectorNear(Eigen::Vector3d(-0.4, 0.3, 0), 1e-3));
   EXPECT_EQ(larger.vertex_weights, (std::vector<double>{5.0, 8.0}));
