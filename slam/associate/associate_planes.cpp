@@ -24,8 +24,7 @@ bool AreDuplicates(const MapPlane& one, const MapPlane& other,
                    const AssociationConfig& config) {
   return !StepLiesBetween(one, other) &&
          SameClassOdds(one.class_belief, other.class_belief) > config.min_class_odds &&
-         ComparePlanes(one, other).chi2 < config.max_chi2 &&
-         ComparePlanes(other, one).chi2 < config.max_chi2;
+         ComparePlanes(one, other).chi2 < config.max_chi2;
 }
 
 /// Ids of map planes that one frame plane could show both of, and that can be duplicates.

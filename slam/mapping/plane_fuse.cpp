@@ -43,11 +43,10 @@ double FilledVoxel_m(const MapPlane& one, const MapPlane& other, double voxel_m)
   return voxel_m;
 }
 
-/// Parameters agree from both sides, and clouds meet.
+/// Parameters agree, and clouds meet.
 bool AgreeAndMeet(const MapPlane& one, const MapPlane& other, double max_chi2,
                   const PlaneMapConfig& config) {
   if (!(ComparePlanes(one, other).chi2 < max_chi2)) return false;
-  if (!(ComparePlanes(other, one).chi2 < max_chi2)) return false;
   return CloudOverlap(one.points_w, other.points_w, one.pi_w,
                       FilledVoxel_m(one, other, config.voxel_m)) > config.min_fused_overlap;
 }

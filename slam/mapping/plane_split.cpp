@@ -180,8 +180,7 @@ bool IsOfItsOwn(const PlanePart& part, const PlaneMapConfig& config) {
   if (!(std::abs(step_m) * std::sqrt(part.step_information) > kCertainStep_sigmas))
     return false;
   const double height_m = SignedDistance(part.rest.pi_w, part.surface.centroid_w);
-  return height_m * step_m > 0 && ComparePlanes(part.surface, part.rest).chi2 > kChi2Of3At95 &&
-         ComparePlanes(part.rest, part.surface).chi2 > kChi2Of3At95;
+  return height_m * step_m > 0 && ComparePlanes(part.surface, part.rest).chi2 > kChi2Of3At95;
 }
 
 /// Squared distance within the plane to the nearest point of a cloud.

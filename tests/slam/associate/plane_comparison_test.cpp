@@ -177,6 +177,26 @@ TEST(PlaneEvidence, ComparesMapPlanesAlikeHoweverTheWorldIsTurned) {
   }
 }
 
+TEST(PlaneEvidence, OfTwoMapPlanesIsTheSameFromBothSides) {
+  const auto seen_at = [](const Eigen::Vector3d& n, const Eigen::Vector3d& middle,
+                          double sigma_m) {
+    MapPlane m;
+    const Plane pi{n.normalized(), -n.normalized().dot(middle)};
+    for (const double x : {-0.3, 0.4}) {
+      AddObservation(m.estimate, pi, ProjectOnto(pi, middle + Eigen::Vector3d(x, 0.5 * x, 0)),
+                     0.02, sigma_m, 1.0);
+    }
+    m.pi_w = m.estimate.Mean();
+    m.centroid_w = ProjectOnto(m.pi_w, middle);
+    return m;
+  };
+  const MapPlane one = seen_at({0.004, -0.003, 1}, {0.2, 0.1, 0.003}, 0.002);
+  const MapPlane other = seen_at({0, 0, 1}, {1.1, -0.7, 0}, 0.006);
+  const double chi2 = ComparePlanes(one, other).chi2;
+  EXPECT_GT(chi2, 0.1);
+  EXPECT_NEAR(ComparePlanes(other, one).chi2, chi2, 1e-3 * chi2);
+}
+
 TEST(PlaneEvidence, OfAFramePlaneIsAlikeHoweverTheWorldIsTurned) {
   // Seen at two places in a row: known well along the row, badly across.
   const FramePlane f = PatchAt({0.3, 0.2, 1.5}, {0.05, 0.02, -1}, 1e-3, 1e-3);
