@@ -71,10 +71,7 @@ Pose CameraPath::At(double time_s) {
 }
 
 View CameraPath::Smooth(double path_time_s) const {
-  const double at = path_time_s / preset_.knot_s;
-  const auto first = static_cast<std::size_t>(at);
-  return Blend({knots_[first], knots_[first + 1], knots_[first + 2], knots_[first + 3]},
-               at - static_cast<double>(first));
+  return Along(knots_, path_time_s / preset_.knot_s);
 }
 
 Pose CameraPath::Shaken(double path_time_s) const {

@@ -86,11 +86,7 @@ Pose PatternPath::At(double time_s) {
 }
 
 Pose PatternPath::Shaken(double time_s) const {
-  const double at = time_s / preset_.knot_s;
-  const auto i = static_cast<std::size_t>(at);
-  const View view = Blend({knots_[i], knots_[i + 1], knots_[i + 2], knots_[i + 3]},
-                          at - static_cast<double>(i));
-  Pose T_wc = PoseOf(view);
+  Pose T_wc = PoseOf(Along(knots_, time_s / preset_.knot_s));
   const Eigen::Vector3d half = tremor_.Turn_rad(time_s) / 2;
   T_wc.R *= Eigen::Quaterniond(1, half.x(), half.y(), half.z()).normalized().toRotationMatrix();
   T_wc.t += tremor_.Offset_m(time_s);

@@ -1,5 +1,6 @@
 #include "sim/motion/view.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "sim/base/angle.h"
@@ -23,6 +24,14 @@ View Blend(const std::array<View, 4>& knots, double u) {
     view.roll_deg += weight[i] * knots[i].roll_deg;
   }
   return view;
+}
+
+View Along(const std::vector<View>& knots, double at) {
+  const auto first = static_cast<std::size_t>(at);
+  // Where a stretch begins its fourth view has no weight: at the last place it is not there.
+  const std::size_t fourth = std::min(first + 3, knots.size() - 1);
+  return Blend({knots[first], knots[first + 1], knots[first + 2], knots[fourth]},
+               at - static_cast<double>(first));
 }
 
 Pose PoseOf(const View& view) {

@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <vector>
 
 #include "sim/base/pose.h"
 
@@ -22,6 +23,10 @@ Pose PoseOf(const View& view);
 /// Uniform cubic B-spline between the middle two of four views, `u` in [0, 1]; C2 from one to
 /// the next.
 View Blend(const std::array<View, 4>& knots, double u);
+
+/// The same spline through many views, `at` knots from its beginning: whole numbers are knots, and
+/// the last place is `knots.size() - 3`.
+View Along(const std::vector<View>& knots, double at);
 
 /// Angle of the rotation between two poses, degrees.
 double TurnBetween_deg(const Pose& a, const Pose& b);
