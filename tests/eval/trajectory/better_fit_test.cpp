@@ -1,6 +1,7 @@
 // What explains a trajectory that is far off: another unit, a mirror, or nothing of the kind.
 #include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
 #include <cmath>
 #include <random>
 

@@ -71,7 +71,7 @@ TEST(Simulator, DriftsInExposureAsTheSeedAndTheTimeSay) {
     return std::pow(cv::mean(colour)[1] / 255, 2.2);
   };
   const double usual = light(3, 1.0) / ExposureGain(rig.sensor.exposure, 3, 1.0);
-  for (const std::uint64_t seed : {3, 4, 5}) {
+  for (const std::uint64_t seed : {3U, 4U, 5U}) {
     for (const double time_s : {0.0, 2.2}) {
       const double gain = ExposureGain(rig.sensor.exposure, seed, time_s);
       EXPECT_NEAR(light(seed, time_s) / usual, gain, 0.04 * gain) << seed << ", " << time_s;

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <opencv2/core.hpp>
 
 #include "slam/associate/frame_relations.h"
 #include "tests/support/cameras.h"

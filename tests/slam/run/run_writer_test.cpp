@@ -7,6 +7,7 @@
 #include <unistd.h>
 
 #include <fstream>
+#include <opencv2/core.hpp>
 #include <sstream>
 
 #include "io/input_error.h"
