@@ -95,6 +95,9 @@ struct Recorded {
   bool lens;
 };
 
+/// The name of a test must not hold an address.
+void PrintTo(const Recorded& recorded, std::ostream* out) { *out << recorded.family; }
+
 sim::Camera CameraOf(const Recorded& recorded) {
   return sim::WithLens(sim::Resize(sim::Camera{}, kWidth, kHeight),
                        recorded.lens ? kBarrel : sim::Lens{});
