@@ -24,12 +24,6 @@ double RateOf(const slam::SequenceReader& reader, double otherwise) {
 }
 
 int ImportBag(const ImportArguments& arguments, bool quiet) {
-  if (arguments.force) {
-    std::error_code ignored;  // tum1 is a word, and a folder may be called so
-    const bool file = std::filesystem::is_regular_file(arguments.camera, ignored);
-    io::RefuseInputsInside(arguments.output,
-                           {arguments.recording, file ? arguments.camera : ""});
-  }
   io::OutputFolder folder(arguments.output, kImportedFrom, arguments.force);
   slam::Camera camera = slam::ChooseCamera(arguments.camera, arguments.recording).camera;
   slam::SequenceReader reader(arguments.recording, camera);
@@ -78,6 +72,12 @@ int RunImport(const ImportArguments& arguments, bool quiet) {
                          "is a bag, and --depth-registration is for folders; import the bag "
                          "first, then its folder with --depth-registration");
   }
+  if (arguments.force) {
+    std::error_code ignored;  // tum1 is a word, and a folder may be called so
+    const bool file = std::filesystem::is_regular_file(arguments.camera, ignored);
+    io::RefuseInputsInside(arguments.output,
+                           {recording, arguments.registration, file ? arguments.camera : ""});
+  }
   return bag ? ImportBag(arguments, quiet) : ImportFolder(arguments, quiet);
 }
 
@@ -86,11 +86,11 @@ int RunImport(const ImportArguments& arguments, bool quiet) {
 void AddImportCommand(CLI::App& pas, const Globals& globals, int& exit_code) {
   CLI::App* command = pas.add_subcommand(
       "import",
-      "Make a sequence folder of what is none yet: of a bag of ROS 1, for the commands that "
-      "read\n"
-      "files (pas draw, pas surfaces, pas check; `pas slam` and `pas calibrate` read a bag as "
-      "it\n"
-      "is), or of a folder whose depth does not lie on colour, with --depth-registration.");
+      "Make a sequence folder of what is none yet: of a bag of ROS 1, for the commands that\n"
+      "read files (pas draw, pas surfaces, pas check; `pas slam` and `pas calibrate` read a "
+      "bag\n"
+      "as it is), or of a folder whose depth does not lie on colour, with "
+      "--depth-registration.");
   auto arguments = std::make_shared<ImportArguments>();
   command->add_option("RECORDING", arguments->recording, "RECORDING.bag, or a sequence folder")
       ->required();

@@ -10,7 +10,6 @@
 #include "eval/formats/sequence/sequence.h"
 #include "eval/surfaces/depth_views.h"
 #include "io/input_error.h"
-#include "io/output_file.h"
 #include "io/read_file.h"
 #include "slam/input/camera_reader.h"
 
@@ -48,9 +47,6 @@ int ImportFolder(const ImportArguments& arguments, bool quiet) {
   const slam::Camera camera = ColourCamera(
       registration.colour, slam::ChooseCamera(arguments.camera, arguments.recording).camera);
   const eval::Sequence sequence = eval::ReadSequence(arguments.recording);
-  if (arguments.force) {
-    io::RefuseInputsInside(arguments.output, {arguments.recording, arguments.registration});
-  }
   io::OutputFolder folder(arguments.output, kImportedFrom, arguments.force);
   ImportedFiles files(folder, camera);
   const int count = static_cast<int>(sequence.frames.size());

@@ -168,8 +168,8 @@ class SuiteCall {
     return baseline;
   }
 
-  /// The baseline whose place a new one is to take, for its history. Nothing where there is none, or where it is of other
-  /// cases: the history begins anew then.
+  /// The baseline whose place a new one is to take, for its history, which begins anew where there
+  /// is none, or one of another plan.
   std::optional<eval::Baseline> Replaced() const {
     if (!fs::exists(arguments_.baseline)) return std::nullopt;
     eval::Baseline before = eval::ReadBaseline(arguments_.baseline);

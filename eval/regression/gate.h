@@ -25,7 +25,8 @@ enum class Verdict {
   kWorse,      ///< surely worse, by more than matters
 };
 
-/// Pairs of cases from which on a figure can be judged: of fewer no test can ever say p < 0.01 (metrics.md 5.2).
+/// Pairs of cases from which on a figure can be judged: of fewer no test can ever say p < 0.01
+/// (metrics.md 5.2).
 inline constexpr std::size_t kMinPairs = 7;
 
 /// How far a figure has come by steps that were each too small to be worse (history.h).

@@ -34,7 +34,8 @@ std::optional<Drift> DriftOf(const std::vector<PastBaseline>& history, const std
   }
   if (levels.size() < kMinBaselines) return std::nullopt;
   const double harm = levels.back() + shift - Median(levels);
-  // The spread is that of the steps, which add up by chance as their root: a steady drift spreads levels itself.
+  // Steps add up by chance as the root of their number. Their own spread counts, as a steady drift
+  // spreads the levels itself.
   steps.push_back(shift);
   const double middle = Median(steps);
   std::vector<double> deviations;

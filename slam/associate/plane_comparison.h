@@ -30,8 +30,8 @@ PlaneComparison ComparePlanes(const FramePlane& frame_plane, const MapPlane& map
 PlaneComparison ComparePlanes(const FramePlane& one, const FramePlane& other,
                               const AssociationConfig& config);
 
-/// Two planes of the map, compared where `one` lies, by their estimates alone. Their chi-square is the
-/// same from the other side, to first order in the angle between them.
+/// Two planes of the map, compared where `one` lies, by their estimates alone. Their chi-square is
+/// the same from the other side, to first order in the angle between them.
 PlaneComparison ComparePlanes(const MapPlane& one, const MapPlane& other);
 
 }  // namespace slam

@@ -13,8 +13,8 @@ using namespace program;
 using testing::AllOf;
 using testing::HasSubstr;
 
-/// Two frames of a wall at 1 m, on the right at 2 m. The depth camera is 40 mm to the left of the colour camera and
-/// has half of its focal length and of its size.
+/// Two frames of a wall at 1 m, on the right at 2 m. What the depth camera sees lies 40 mm farther to
+/// the left for the colour camera, which has twice its focal length and size.
 class FolderWithTwoCameras : public testing::Test {
  protected:
   void SetUp() override {

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <random>
 
 namespace eval {
 namespace {
@@ -119,6 +120,33 @@ TEST(History, FewPairsAddNothing) {
   while (few.cases.size() > kMinPairs - 1) few.cases.erase(few.cases.begin());
   const Baseline after = Accepted(few, CasesWith(0.0021, 0.99));
   EXPECT_TRUE(after.history.at(0).harm.empty());
+}
+
+/// How often one look at a figure says that it drifted, when each step is drawn: of 1,000 histories of up to
+/// 20 baselines, which begin anew where it does.
+double ShareOfLooks(double mean_step, double sigma_step) {
+  std::mt19937 random(11);
+  std::normal_distribution<double> step(mean_step, sigma_step);
+  const GatedMetric ate{kAteFigure, MetricKind::kError};
+  int looks = 0, drifts = 0;
+  for (int history_number = 0; history_number < 1000; ++history_number) {
+    std::vector<PastBaseline> history;
+    for (int accepted = 0; accepted < 20; ++accepted) {
+      const double shift = step(random);
+      const bool drifted = DriftOf(history, kTestedArm, ate, shift).has_value();
+      ++looks, drifts += drifted ? 1 : 0;
+      if (drifted) history.clear();
+      history.emplace_back().harm[kTestedArm][kAteFigure] = drifted ? 0.0 : shift;
+    }
+  }
+  return static_cast<double>(drifts) / looks;
+}
+
+TEST(History, StepsByChanceAreHardlyEverDriftAndSteadyOnesAlwaysAre) {
+  EXPECT_LT(ShareOfLooks(0.0, 0.01), 0.002);
+  EXPECT_LT(ShareOfLooks(0.0, 0.02), 0.01);  // the rule's alpha
+  // Two per cent each time are found at the fifth look: four of 20 looks.
+  EXPECT_GT(ShareOfLooks(0.02, 0.005), 0.15);
 }
 
 TEST(History, SpreadOfTheBaselinesIsNoDrift) {

@@ -18,20 +18,6 @@ AzureModel WithoutSystematicErrors() {
   return {.multipath_m = 0, .multipath_loss = 0, .wiggle_m = 0, .session_offset_m = 0};
 }
 
-AzureModel AzureAllOff() {
-  return {.min_depth_m = 0,
-          .max_depth_m = 1e9,
-          .noise_scale = 0,
-          .lateral_px = 0,
-          .flying_pixels = false,
-          .multipath_m = 0,
-          .multipath_loss = 0,
-          .wiggle_m = 0,
-          .session_offset_m = 0,
-          .hexagon = false,
-          .rounding_m = 0};
-}
-
 class AzureNoiseAt : public testing::TestWithParam<double> {};
 
 TEST_P(AzureNoiseAt, HasTheStandardDeviationOfThePublishedCurve) {

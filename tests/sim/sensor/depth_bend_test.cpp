@@ -130,15 +130,7 @@ TEST(DepthBend, BendsWhatTheOthersMeasureToo) {
 // Without noise only the drifting part differs between two frames far apart: twice its power.
 TEST(DepthBend, DriftsWithTheFramesWhateverMeasures) {
   constexpr double kDrift = 0.4;
-  AzureModel azure{.noise_scale = 0,
-                   .lateral_px = 0,
-                   .flying_pixels = false,
-                   .multipath_m = 0,
-                   .multipath_loss = 0,
-                   .wiggle_m = 0,
-                   .session_offset_m = 0,
-                   .hexagon = false,
-                   .rounding_m = 0};
+  AzureModel azure = AzureAllOff();
   D435Model d435{
       .baseline_m = 0, .subpixel_px = 0, .grid_px = 0, .ripple_px = 0, .rounding_m = 0};
   KinectModel kinect{.projector_offset_m = 0, .noise_scale = 0, .quantise = false};

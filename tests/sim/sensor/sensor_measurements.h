@@ -2,10 +2,26 @@
 
 #include <cmath>
 
+#include "sim/sensor/depth/azure_sensor.h"
 #include "sim/sensor/sensor.h"
 #include "tests/sim/support/sim_worlds.h"
 
 namespace sim {
+
+/// An Azure Kinect that measures exactly, at any distance.
+inline AzureModel AzureAllOff() {
+  return {.min_depth_m = 0,
+          .max_depth_m = 1e9,
+          .noise_scale = 0,
+          .lateral_px = 0,
+          .flying_pixels = false,
+          .multipath_m = 0,
+          .multipath_loss = 0,
+          .wiggle_m = 0,
+          .session_offset_m = 0,
+          .hexagon = false,
+          .rounding_m = 0};
+}
 
 /// A narrow view: rays within 2.2 deg of the axis, so that a wall is frontal all over.
 inline Camera NarrowCamera() {
