@@ -133,7 +133,7 @@ std::optional<double> NeesOfPlane(const RunMapPlane& plane, const TruthPlane& tr
 }
 
 struct Errors {
-  std::vector<double> normal_deg, offset_mm, vertex_mm, iou, nees;
+  std::vector<double> normal_deg, offset_mm, vertex_mm, iou, hausdorff_mm, nees;
 
   void Add(const RunMapPlane& plane, const TruthPlane& truth, const Alignment& gauge) {
     const Plane pi_g = InTruthWorld(gauge, plane.pi_w);
@@ -152,6 +152,7 @@ struct Errors {
     if (outline.map.size() < 3) return;
     const double both = IntersectionArea(outline.map, outline.truth);
     iou.push_back(both / (Area(outline.map) + Area(outline.truth) - both));
+    hausdorff_mm.push_back(HausdorffDistance(outline.map, outline.truth) * 1e3);
   }
 };
 
@@ -264,6 +265,7 @@ MapScore ScoreMap(const std::vector<RunMapPlane>& map, const SceneTruth& scene,
                     static_cast<std::size_t>(silent)};
   }
   if (!errors.iou.empty()) score.polygon_iou_median = Quantile(errors.iou, 0.5);
+  score.polygon_hausdorff_mm = SpreadOf(errors.hausdorff_mm);
   if (gauge && score.has_outlines)
     score.area_explained = AreaExplained(planes_of, scene, *gauge, seen);
   return score;

@@ -45,8 +45,9 @@ struct MapScore {
   std::optional<Spread> normal_deg;  ///< oriented angle; of matched pairs, as all below
   std::optional<Spread> offset_mm;   ///< rms distance of the true vertices to the map plane
   std::optional<Spread> vertex_mm;   ///< corners matched one-to-one within kMaxMapCornerError_m
-  std::optional<PlaneClaims> claims;         ///< in the world of the truth, as all of these
-  std::optional<double> polygon_iou_median;  ///< in the true plane, of the map plane's hull
+  std::optional<PlaneClaims> claims;           ///< in the world of the truth, as all of these
+  std::optional<double> polygon_iou_median;    ///< in the true plane, of the map plane's hull
+  std::optional<Spread> polygon_hausdorff_mm;  ///< of the same two outlines
   /// Share of the area of the true planes seen that is covered: of each by the best hull of its map
   /// planes, not by all of them together.
   std::optional<double> area_explained;

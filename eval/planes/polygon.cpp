@@ -113,4 +113,12 @@ double Distance(const Eigen::Vector2d& point, const Polygon2& polygon) {
   return inside ? 0.0 : nearest;
 }
 
+double HausdorffDistance(const Polygon2& a, const Polygon2& b) {
+  // The distance from a convex set has its largest value over another one at a corner of that.
+  double farthest = 0.0;
+  for (const Eigen::Vector2d& corner : a) farthest = std::max(farthest, Distance(corner, b));
+  for (const Eigen::Vector2d& corner : b) farthest = std::max(farthest, Distance(corner, a));
+  return farthest;
+}
+
 }  // namespace eval

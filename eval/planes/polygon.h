@@ -39,4 +39,8 @@ double IntersectionArea(const Polygon2& a, const Polygon2& b);
 /// Distance from a point to a convex counter-clockwise polygon, 0 inside.
 double Distance(const Eigen::Vector2d& point, const Polygon2& polygon);
 
+/// Symmetric Hausdorff distance of two convex counter-clockwise polygons, each with what it encloses:
+/// how far the farthest point of either is from the other.
+double HausdorffDistance(const Polygon2& a, const Polygon2& b);
+
 }  // namespace eval

@@ -183,11 +183,13 @@ Json MapGroup(const MapScore& m, const TrajectoryScore& trajectory, Json& reason
   group.Put("vertex_mm", m.vertex_mm, why("no vertex of the map is near a true corner"));
   group.Put("consistency", m.claims,
             why("map.json tells no covariance of a plane that shows a true one"));
+  const char* const no_outlines = "no matched map plane has an outline";
   if (m.polygon_iou_median) {
     group.Put("polygon_iou", Json{{"median", *m.polygon_iou_median}});
   } else {
-    group.Undefined("polygon_iou", why("no matched map plane has an outline"));
+    group.Undefined("polygon_iou", why(no_outlines));
   }
+  group.Put("polygon_hausdorff_mm", m.polygon_hausdorff_mm, why(no_outlines));
   group.Put("area_explained", m.area_explained,
             why(m.has_outlines ? "no true plane counts" : no_outline));
   return group.json();
@@ -294,6 +296,9 @@ void AddPlaneRules(const PlaneScore& s, Json& rules) {
                "outlines in common), by shared area where offsets agree to 5 mm") +
         "; offset is the rms distance of the true vertices to the map plane; "
         "vertices one to one within 100 mm; normals are oriented; "
+        "polygon_iou and polygon_hausdorff_mm: of the map plane's hull in the true plane and "
+        "the "
+        "true outline's hull; "
         "consistency: squared errors of height and slopes at the middle of the outline by the "
         "covariance that the run tells of the plane, whose mean is 3 and of which 0.95 are "
         "inside "

@@ -3,6 +3,8 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <limits>
+#include <numbers>
 #include <random>
 
 #include "eval/planes/association.h"
@@ -259,6 +261,31 @@ RC_GTEST_PROP(PolygonOverlap, IsNothingOfWhatOnlyTouchesAndAllOfWhatIsInside, ()
   const Polygon2 inside = Placed(a, s * Eigen::Matrix2d::Identity(), (1 - s) * middle);
   RC_ASSERT(std::abs(IntersectionArea(a, inside) - s * s * Area(a)) < 1e-12);
   RC_ASSERT(std::abs(IntersectionArea(inside, a) - s * s * Area(a)) < 1e-12);
+}
+
+/// By support functions: h(u) = max u . x says how far a convex set reaches towards u, and the distance
+/// of two such sets is the largest difference of their h over all directions.
+RC_GTEST_PROP(PolygonHausdorff, IsTheLargestDifferenceOfSupportFunctions, ()) {
+  Random random = AnyRandom();
+  const Polygon2 a = AnyConvex(random), b = AnyConvex(random);
+  const auto reach = [](const Polygon2& polygon, const Eigen::Vector2d& u) {
+    double farthest = -std::numeric_limits<double>::infinity();
+    for (const Eigen::Vector2d& corner : polygon) farthest = std::max(farthest, u.dot(corner));
+    return farthest;
+  };
+  constexpr int kDirections = 2000;
+  double largest = 0.0;
+  for (int i = 0; i < kDirections; ++i) {
+    const double turn = 2 * std::numbers::pi * i / kDirections;
+    const Eigen::Vector2d u(std::cos(turn), std::sin(turn));
+    largest = std::max(largest, std::abs(reach(a, u) - reach(b, u)));
+  }
+  // A step of direction changes h by less than 4 m, which the polygons reach to at most, times it.
+  const double distance = HausdorffDistance(a, b);
+  RC_ASSERT(distance >= largest - 1e-12);
+  RC_ASSERT(distance <= largest + 4 * 2 * std::numbers::pi / kDirections);
+  RC_ASSERT(distance == HausdorffDistance(b, a));
+  RC_ASSERT(HausdorffDistance(a, a) < 1e-12);
 }
 
 RC_GTEST_PROP(PolygonOverlap, OfSliversIsSymmetricBoundedAndMovesWithBoth, ()) {

@@ -84,6 +84,7 @@ TEST_F(EvaluateTinyWorld, ARunThatIsTheTruthScoresPerfectly) {
   EXPECT_NEAR(map["offset_mm"]["p95"].get<double>(), 0.0, kExact_mm);
   EXPECT_NEAR(map["vertex_mm"]["p95"].get<double>(), 0.0, kExact_mm);
   EXPECT_NEAR(map["polygon_iou"]["median"].get<double>(), 1.0, kExact);
+  EXPECT_NEAR(map["polygon_hausdorff_mm"]["p95"].get<double>(), 0.0, kExact_mm);
   EXPECT_NEAR(map["area_explained"].get<double>(), 1.0, kExact);
   EXPECT_EQ(m["timing_ms"]["mt"]["mean"], 10.0);
   EXPECT_EQ(m["timing_ms"]["fps"], 100.0);
@@ -250,11 +251,11 @@ TEST_F(EvaluateTinyWorld, ATrajectoryShiftedHalfWayMovesItsErrorsAndTheMapsGauge
     run.trajectory[i].second.t += Eigen::Vector3d(0.02, 0.01, 0.0);
   }
   const nlohmann::json after = Metrics(run);
-  EXPECT_EQ(
-      Moved(before, after),
-      (Keys{"trajectory/ate_se3", "trajectory/ate_origin", "trajectory/ate_complete_rmse_m",
-            "trajectory/rpe_1s", "trajectory/rpe_1m", "map/offset_mm", "map/vertex_mm",
-            "map/consistency", "map/polygon_iou", "map/area_explained"}));
+  EXPECT_EQ(Moved(before, after),
+            (Keys{"trajectory/ate_se3", "trajectory/ate_origin",
+                  "trajectory/ate_complete_rmse_m", "trajectory/rpe_1s", "trajectory/rpe_1m",
+                  "map/offset_mm", "map/vertex_mm", "map/consistency", "map/polygon_iou",
+                  "map/polygon_hausdorff_mm", "map/area_explained"}));
   EXPECT_NEAR(after["trajectory"]["ate_origin"]["max_m"].get<double>(), std::hypot(0.02, 0.01),
               kExact);
 }
@@ -307,7 +308,8 @@ TEST_F(EvaluateTinyWorld, ARunWithoutPosesHasNoErrorOfZero) {
   const nlohmann::json m = nlohmann::json::parse(MetricsText(evaluation));
   EXPECT_TRUE(m["trajectory"].at("ate_se3").is_null());
   EXPECT_TRUE(m["trajectory"].at("ate_origin").is_null());
-  for (const char* key : {"normal_deg", "offset_mm", "vertex_mm", "polygon_iou"}) {
+  for (const char* key :
+       {"normal_deg", "offset_mm", "vertex_mm", "polygon_iou", "polygon_hausdorff_mm"}) {
     EXPECT_TRUE(m["map"].at(key).is_null()) << key;
     EXPECT_EQ(m["reasons"].at(std::string("map/") + key), "the run has no pose");
   }

@@ -55,7 +55,8 @@ PlaneScore PlanesOfDistinctFigures() {
   m.planes = 71, m.true_planes_seen = 72, m.matched = 73, m.duplicates = 74, m.merged = 75;
   m.spurious = 76;
   m.normal_deg = {1.75, 2.75}, m.offset_mm = {3.75, 4.75}, m.vertex_mm = {5.75, 6.75};
-  m.polygon_iou_median = 0.55, m.area_explained = 0.56;
+  m.polygon_iou_median = 0.55, m.polygon_hausdorff_mm = {7.75, 8.75};
+  m.area_explained = 0.56;
   return planes;
 }
 
@@ -136,6 +137,8 @@ const std::vector<Told> kTold = {
     {"/map/vertex_mm/median", 5.75},
     {"/map/vertex_mm/p95", 6.75},
     {"/map/polygon_iou/median", 0.55},
+    {"/map/polygon_hausdorff_mm/median", 7.75},
+    {"/map/polygon_hausdorff_mm/p95", 8.75},
     {"/map/area_explained", 0.56},
     {"/trajectory/frames", 81},
     {"/trajectory/tracked", 27},
