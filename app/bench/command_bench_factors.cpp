@@ -22,7 +22,7 @@ struct FactorSwitch {
   bool& (*in)(slam::Config& config);
 };
 
-constexpr std::array<FactorSwitch, 7> kFactors = {{
+constexpr std::array<FactorSwitch, 10> kFactors = {{
     {"pose: point (eq14)",
      [](slam::Config& c) -> bool& { return c.point_search.pose.use_points; }},
     {"pose: plane-plane (eq15, eq16)",
@@ -36,6 +36,11 @@ constexpr std::array<FactorSwitch, 7> kFactors = {{
      [](slam::Config& c) -> bool& { return c.mapping.bundle.use_planes; }},
     {"bundle: point-plane (eq18)",
      [](slam::Config& c) -> bool& { return c.mapping.bundle.use_point_planes; }},
+    {"bundle: points told in planes",
+     [](slam::Config& c) -> bool& { return c.mapping.bundle.use_coplanar_points; }},
+    {"bundle: edges (eq16)",
+     [](slam::Config& c) -> bool& { return c.mapping.bundle.use_edges; }},
+    {"bundle: vertex", [](slam::Config& c) -> bool& { return c.mapping.bundle.use_vertices; }},
 }};
 
 /// A factor buys something where it makes an error smaller by half a percent.

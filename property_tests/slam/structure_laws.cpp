@@ -120,7 +120,7 @@ RC_GTEST_PROP(SupposedPlanes, HoldTheirEdgeAtARightAngleAndFaceAway, ()) {
   const Eigen::Vector3d along = tangents * Eigen::Vector2d(std::cos(a), std::sin(a));
   const Eigen::Vector3d outward = seen.pi_c.n.cross(along);
   plane.lines_c = {{seen.point_c + 0.2 * outward + AnyReal(-1, 1) * along, along}};
-  const auto supposed = SupposePlanes(plane);
+  const auto supposed = SupposePlanes(plane, SupposedConfig{});
   RC_ASSERT(supposed.size() == 1u);
   const Plane& pi_c = supposed[0].pi_c;
   RC_ASSERT(std::abs(pi_c.n.dot(plane.pi_c.n)) < 1e-12);

@@ -44,7 +44,8 @@ void FillWindow(const Map& map, const Camera& camera, const FeatureScale& scale,
       const PointFeature& seen_as = map.keyframes[Index(seen_by)].features[Index(feature)];
       window.observations.push_back(
           {seen_by, id, at->second, window.positions.size(), seen_as.depth_m > 0, true,
-           std::make_unique<BundleTerm>(ConstraintOf(seen_as, point.p_w, scale), camera)});
+           std::make_unique<BundleTerm>(ConstraintOf(seen_as, point.p_w, scale), camera),
+           nullptr});
     }
     window.positions.push_back({point.p_w.x(), point.p_w.y(), point.p_w.z()});
   }

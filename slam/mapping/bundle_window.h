@@ -2,21 +2,24 @@
 
 #include <array>
 #include <cstddef>
+#include <map>
 #include <memory>
 #include <set>
 #include <vector>
 
 #include "slam/geometry/camera.h"
 #include "slam/mapping/bundle_terms.h"
+#include "slam/mapping/in_plane_terms.h"
 #include "slam/mapping/local_bundle.h"
 #include "slam/mapping/plane_terms.h"
 #include "slam/model/map.h"
 
 namespace slam {
 
-/// A landmark that is adjusted.
+/// A landmark that is adjusted, or a plane supposed at an edge of it.
 struct WindowPlane {
-  int id = kNone;
+  int id = kNone;                         ///< the landmark's
+  bool supposed = false;                  ///< helps to find poses, and is not taken over itself
   Plane start_w;                          ///< where it was when the window was taken
   Eigen::Vector3d reference_w;            ///< of its block
   PlaneEstimate outside;                  ///< what keyframes outside say; may be empty
@@ -39,6 +42,7 @@ struct BundleWindow {
     bool stereo = false;               ///< the feature has depth
     bool inlier = true;                ///< takes part
     std::unique_ptr<BundleTerm> term;
+    std::unique_ptr<InPlaneTerm<3>> in_plane;  ///< the same, of a coplanar point
   };
   std::vector<Observation> observations;
 
@@ -59,6 +63,32 @@ struct BundleWindow {
     std::unique_ptr<PointOnPlaneTerm> term;
   };
   std::vector<PointOnPlane> points_on_planes;
+
+  /// A point of a plane.
+  struct CoplanarPoint {
+    std::size_t plane_at;
+    PlaneAxes axes;
+    bool held = true;  ///< false: it turned out to lie off the plane
+  };
+  std::map<std::size_t, CoplanarPoint> coplanar;  ///< by the place among the positions
+  bool IsHeld(std::size_t position_at) const {
+    const auto at = coplanar.find(position_at);
+    return at != coplanar.end() && at->second.held;
+  }
+
+  struct Corner {
+    std::size_t plane_at;
+    PlaneAxes axes;
+  };
+  std::vector<Corner> corners;
+  std::vector<InPlaneBlock> corner_blocks;  ///< parallel to corners
+  struct CornerObservation {
+    std::size_t pose_at, corner_at;
+    bool inlier = true;
+    std::unique_ptr<VertexTerm> term;
+    std::unique_ptr<InPlaneTerm<2>> in_plane;
+  };
+  std::vector<CornerObservation> corner_observations;
 
   std::size_t map_keyframes = 0, map_points = 0;  ///< sizes of the map when it was copied
 };

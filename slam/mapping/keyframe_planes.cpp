@@ -19,9 +19,18 @@ KeyframePlane& PlaneShowing(int map_plane, Keyframe& keyframe) {
   return keyframe.planes.back();
 }
 
+/// Adds the straight edges and the corners of a plane: two planes may show one landmark.
+void KeepOutline(const FramePlane& plane, const SupposedConfig& supposed, KeyframePlane& kept) {
+  for (SeenPlane& edge : SupposePlanes(plane, supposed)) kept.edges.push_back(edge);
+  for (const Vertex& vertex : plane.vertices_c) {
+    if (!vertex.extrapolated && vertex.p_c.allFinite()) kept.vertices_c.push_back(vertex);
+  }
+}
+
 }  // namespace
 
-void KeepPlanes(const Frame& frame, const PlaneMapConfig& config, Keyframe& keyframe) {
+void KeepPlanes(const Frame& frame, const PlaneMapConfig& config,
+                const SupposedConfig& supposed, Keyframe& keyframe) {
   if (keyframe.culled) return;
   const bool own = frame.index == keyframe.frame_index;
   const Pose T_kc = keyframe.T_cw * Inverse(frame.T_cw);
@@ -37,6 +46,7 @@ void KeepPlanes(const Frame& frame, const PlaneMapConfig& config, Keyframe& keyf
     kept.centroid_c = known.centroid;
     kept.angle_sigma_rad = known.angle_sigma_rad;
     kept.offset_sigma_m = known.offset_sigma_m;
+    if (own) KeepOutline(frame.planes[f], supposed, kept);
   }
 }
 

@@ -8,6 +8,7 @@
 
 #include "slam/base/chi_square.h"
 #include "slam/mapping/bundle_window.h"
+#include "slam/mapping/coplanar_points.h"
 
 namespace slam {
 namespace {
@@ -30,6 +31,7 @@ class Solver {
     AddUnknowns(problem, *options.linear_solver_ordering);
     AddPointTerms(problem, robust);
     AddPlaneTerms(problem, robust);
+    AddCornerTerms(problem, robust);
     constexpr std::size_t kMaxDense = 50;  // poses; with more, most pairs share no point
     options.linear_solver_type =
         window_.free_count > kMaxDense ? ceres::SPARSE_SCHUR : ceres::DENSE_SCHUR;
@@ -37,7 +39,9 @@ class Solver {
     options.max_num_iterations = iterations;
     options.logging_type = ceres::SILENT;
     ceres::Solver::Summary summary;
+    PlaceInPlanes(window_);
     ceres::Solve(options, &problem, &summary);
+    PlaceInWorld(window_);
     return summary;
   }
 
@@ -63,6 +67,9 @@ class Solver {
     for (auto& o : window_.points_on_planes) {
       o.inlier = Residual(o).squaredNorm() <= kChi2Of1At95;
     }
+    for (auto& o : window_.corner_observations) {
+      o.inlier = Residual(o).squaredNorm() <= kChi2Of2At999;
+    }
   }
 
  private:
@@ -73,23 +80,44 @@ class Solver {
       if (i >= window_.free_count) problem.SetParameterBlockConstant(window_.poses[i].data());
       order.AddElementToGroup(window_.poses[i].data(), 1);
     }
-    for (auto& position : window_.positions) {
-      problem.AddParameterBlock(position.data(), 3);
-      order.AddElementToGroup(position.data(), 0);
+    for (std::size_t i = 0; i < window_.positions.size(); ++i) {
+      double* position = window_.positions[i].data();
+      problem.AddParameterBlock(position, window_.IsHeld(i) ? 2 : 3);
+      order.AddElementToGroup(position, 0);
     }
     for (PlaneBlock& plane : window_.plane_blocks) {
       problem.AddParameterBlock(plane.data(), 4, &plane_manifold_);
       order.AddElementToGroup(plane.data(), 2);  // never sorted with poses by address
+    }
+    for (InPlaneBlock& corner : window_.corner_blocks) {
+      problem.AddParameterBlock(corner.data(), 2);
+      order.AddElementToGroup(corner.data(), 3);
     }
   }
 
   void AddPointTerms(ceres::Problem& problem, bool robust) {
     for (const BundleWindow::Observation& o : window_.observations) {
       if (!o.inlier) continue;
-      ceres::LossFunction* loss = o.stereo ? &three_ : &two_;
-      problem.AddResidualBlock(o.term.get(), robust ? loss : nullptr,
-                               window_.poses[o.pose_at].data(),
-                               window_.positions[o.position_at].data());
+      ceres::LossFunction* loss = !robust ? nullptr : o.stereo ? &three_ : &two_;
+      double* pose = window_.poses[o.pose_at].data();
+      double* position = window_.positions[o.position_at].data();
+      if (window_.IsHeld(o.position_at)) {
+        double* plane =
+            window_.plane_blocks[window_.coplanar.at(o.position_at).plane_at].data();
+        problem.AddResidualBlock(o.in_plane.get(), loss, pose, plane, position);
+      } else {
+        problem.AddResidualBlock(o.term.get(), loss, pose, position);
+      }
+    }
+  }
+
+  void AddCornerTerms(ceres::Problem& problem, bool robust) {
+    for (const BundleWindow::CornerObservation& o : window_.corner_observations) {
+      if (!o.inlier) continue;
+      problem.AddResidualBlock(
+          o.in_plane.get(), robust ? &two_ : nullptr, window_.poses[o.pose_at].data(),
+          window_.plane_blocks[window_.corners[o.corner_at].plane_at].data(),
+          window_.corner_blocks[o.corner_at].data());
     }
   }
 
@@ -128,6 +156,13 @@ class Solver {
     return Evaluated<1>(*o.term, window_.positions[o.position_at].data(),
                         window_.plane_blocks[o.plane_at].data());
   }
+  Eigen::Vector2d Residual(const BundleWindow::CornerObservation& o) const {
+    const BundleWindow::Corner& corner = window_.corners[o.corner_at];
+    const InPlanePoint place =
+        PointOf(corner.axes, window_.plane_blocks[corner.plane_at].data(),
+                window_.corner_blocks[o.corner_at].data());
+    return Evaluated<2>(*o.term, window_.poses[o.pose_at].data(), place.p_w.data());
+  }
   template <int kRows>
   static Eigen::Matrix<double, kRows, 1> Evaluated(const ceres::CostFunction& term,
                                                    const double* one, const double* other) {
@@ -151,13 +186,8 @@ bool AllFinite(const BundleWindow& window) {
   };
   return std::all_of(window.poses.begin(), window.poses.end(), finite) &&
          std::all_of(window.positions.begin(), window.positions.end(), finite) &&
-         std::all_of(window.plane_blocks.begin(), window.plane_blocks.end(), finite);
-}
-
-template <typename Observations>
-int CountOutliers(const Observations& observations) {
-  return static_cast<int>(std::count_if(observations.begin(), observations.end(),
-                                        [](const auto& o) { return !o.inlier; }));
+         std::all_of(window.plane_blocks.begin(), window.plane_blocks.end(), finite) &&
+         std::all_of(window.corner_blocks.begin(), window.corner_blocks.end(), finite);
 }
 
 }  // namespace
@@ -166,21 +196,30 @@ LocalBundleReport SolveWindow(BundleWindow& window, const LocalBundleConfig& con
   LocalBundleReport report;
   report.keyframes = static_cast<int>(window.free_count);
   report.fixed_keyframes = static_cast<int>(window.keyframes.size() - window.free_count);
-  report.planes = static_cast<int>(window.planes.size());
+  report.planes =
+      static_cast<int>(std::count_if(window.planes.begin(), window.planes.end(),
+                                     [](const WindowPlane& plane) { return !plane.supposed; }));
   if (window.free_count == 0) return report;
   if (window.observations.empty() && window.plane_observations.empty()) return report;
 
   Solver solver(window);
   solver.LeaveOutThoseBehind();
   const ceres::Solver::Summary first = solver.Solve(true, config.first_iterations);
+  LetGoOfThoseOff(config.point_plane_sigma_m, window);
   solver.Classify();
   const ceres::Solver::Summary last = solver.Solve(false, config.last_iterations);
   solver.Classify();
   report.initial_cost = first.initial_cost;
   report.usable = first.IsSolutionUsable() && last.IsSolutionUsable() && AllFinite(window);
   if (!report.usable) return report;
-  report.outliers = CountOutliers(window.observations);
-  report.plane_outliers = CountOutliers(window.plane_observations);
+  report.outliers = static_cast<int>(
+      std::count_if(window.observations.begin(), window.observations.end(),
+                    [](const BundleWindow::Observation& o) { return !o.inlier; }));
+  report.plane_outliers = static_cast<int>(
+      std::count_if(window.plane_observations.begin(), window.plane_observations.end(),
+                    [&](const BundleWindow::PlaneObservation& o) {
+                      return !o.inlier && !window.planes[o.plane_at].supposed;
+                    }));
   return report;
 }
 

@@ -17,6 +17,9 @@ struct LocalBundleConfig {
   bool use_planes = true;
   bool use_point_planes = false;
   double point_plane_sigma_m = 0.005;
+  bool use_coplanar_points = false;
+  bool use_edges = false;
+  bool use_vertices = false;
 };
 
 inline void VisitFields(LocalBundleConfig& c, FieldVisitor& v) {
@@ -34,6 +37,12 @@ inline void VisitFields(LocalBundleConfig& c, FieldVisitor& v) {
          "adjusted landmarks and the points that lie on them hold each other (eq18)");
   v.Number("point_plane_sigma_m", c.point_plane_sigma_m, "(0, inf)",
            "standard deviation of such a point's distance from its plane");
+  v.Flag("use_coplanar_points", c.use_coplanar_points,
+         "points that lie on an adjusted landmark are told by two numbers in its plane");
+  v.Flag("use_edges", c.use_edges,
+         "planes supposed at straight edges of landmarks are adjusted too (eq16)");
+  v.Flag("use_vertices", c.use_vertices,
+         "corners of adjusted landmarks are adjusted too, each by two numbers in its plane");
 }
 
 /// Size and outcome of one adjustment.

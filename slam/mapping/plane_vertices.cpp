@@ -11,7 +11,6 @@ namespace {
 
 // An extrapolated corner has twice the standard deviation of one that was seen.
 constexpr double kSeenWeight = 1.0, kExtrapolatedWeight = 0.25;
-constexpr double kOtherVariance_m2 = kOtherVertexSigma_m * kOtherVertexSigma_m;
 constexpr double kMaxWeight = 40.0;  // so that a wrong start can still be left
 
 /// The order around the face that moves the corners least: observed[order[i]] belongs to
@@ -47,8 +46,8 @@ double VarianceOnPlane(const Eigen::Vector3d& n, const Eigen::Matrix3d& covarian
 
 /// Weight of an observed corner: 1 for one that was seen and is known exactly.
 double Weight(const Vertex& vertex, const Eigen::Vector3d& n_c) {
-  return (vertex.extrapolated ? kExtrapolatedWeight : kSeenWeight) * kOtherVariance_m2 /
-         (kOtherVariance_m2 + VarianceOnPlane(n_c, vertex.covariance_c));
+  return (vertex.extrapolated ? kExtrapolatedWeight : kSeenWeight) * kOtherVertexVariance_m2 /
+         (kOtherVertexVariance_m2 + VarianceOnPlane(n_c, vertex.covariance_c));
 }
 
 /// Averages an observation of one corner into the known one.

@@ -44,6 +44,7 @@ inline constexpr std::size_t kFaceCorners = 4;
 /// or lies beside its colour, bends. Measured by axis: 1.3 mm for noise alone, 4 mm for a first Kinect as
 /// recorded (docs/planes.md, corners).
 inline constexpr double kOtherVertexSigma_m = 0.003;
+inline constexpr double kOtherVertexVariance_m2 = kOtherVertexSigma_m * kOtherVertexSigma_m;
 
 /// A corner of a rectangular face.
 struct Vertex {

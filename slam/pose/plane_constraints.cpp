@@ -69,19 +69,15 @@ void AddBox(const Frame& frame, const FramePlane& plane, const MapPlane& map_pla
 void AddVertices(const Pose& T_cw, const FramePlane& plane, const MapPlane& map_plane,
                  PoseProblem& problem) {
   const Pose T_wc = Inverse(T_cw);
-  const Eigen::Matrix<double, 2, 3> along = TangentBasis(plane.pi_c.n).transpose();
-  constexpr double kOther_m2 = kOtherVertexSigma_m * kOtherVertexSigma_m;
   for (const Vertex& vertex : plane.vertices_c) {
     if (vertex.extrapolated || !vertex.p_c.allFinite()) continue;
     const auto at = NearestVertex(map_plane, T_wc * vertex.p_c, kMaxVertexJump_m);
     if (!at || *at >= map_plane.vertex_weights.size()) continue;
     const double weight = map_plane.vertex_weights[*at];  // 1: one view, exact but for the rest
     if (!(weight > 0)) continue;
-    const Eigen::Matrix2d covariance =
-        along * vertex.covariance_c * along.transpose() +
-        kOther_m2 * (1 + 1 / weight) * Eigen::Matrix2d::Identity();
     problem.vertices.push_back(
-        {map_plane.vertices_w[*at], vertex.p_c, covariance.llt().matrixL().solve(along)});
+        MakeVertexConstraint(vertex, plane.pi_c, kOtherVertexVariance_m2 / weight));
+    problem.vertices.back().p_w = map_plane.vertices_w[*at];
   }
 }
 
@@ -107,6 +103,18 @@ void AddPointPlanes(const Frame& frame, const Map& map, const PlaneConstraintCon
 }
 
 }  // namespace
+
+VertexConstraint MakeVertexConstraint(const Vertex& seen, const Plane& pi_c,
+                                      double known_variance_m2) {
+  const Eigen::Matrix<double, 2, 3> along = TangentBasis(pi_c.n).transpose();
+  const Eigen::Matrix2d covariance =
+      along * seen.covariance_c * along.transpose() +
+      (kOtherVertexVariance_m2 + known_variance_m2) * Eigen::Matrix2d::Identity();
+  VertexConstraint c;
+  c.p_c = seen.p_c;
+  c.sqrt_information = covariance.llt().matrixL().solve(along);
+  return c;
+}
 
 PlaneConstraint MakePlaneConstraint(const FramePlane& f, const MapPlane& m, const Pose& T_cw,
                                     double offset_sigma_m, double angle_sigma_rad) {

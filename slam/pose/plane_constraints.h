@@ -46,6 +46,11 @@ PlaneConstraint MakePlaneConstraint(const FramePlane& frame_plane, const MapPlan
 void AddUncertainty(const PlaneEstimate& estimate, const Eigen::Vector3d& x_w,
                     PlaneConstraint& constraint);
 
+/// A corner as the frame plane's camera saw it, against one that is known to `known_variance_m2` in
+/// each direction of the plane; p_w is the caller's.
+VertexConstraint MakeVertexConstraint(const Vertex& seen, const Plane& pi_c,
+                                      double known_variance_m2);
+
 /// Adds to `problem` the constraints that frame.plane_matches and frame.point_planes give:
 /// planes (eq15, eq16), corners (f_v), boxes (eq17) and points on planes (eq18), in the order of
 /// the frame's planes. What is assumed of planes among each other is slam/structure's.

@@ -311,7 +311,8 @@ void Tracker::UpdateMap(Frame& frame, TrackReport& report) {
   report.reference = points_.reference_keyframe();
   report.T_cr = frame.T_cw * Inverse(KeyframePose(map_, report.reference));
   if (!report.keyframe) {
-    KeepPlanes(frame, config_.plane_map, map_.keyframes[Index(report.reference)]);
+    KeepPlanes(frame, config_.plane_map, config_.structure.supposed,
+               map_.keyframes[Index(report.reference)]);
   }
   LearnStructure(frame, report.keyframe ? std::optional(report.reference) : std::nullopt,
                  config_.plane_map.keep_information, config_.structure, map_);
@@ -323,7 +324,8 @@ void Tracker::KeepFrame(Frame& frame, const FoundPlace& found) {
   map_.keyframes.back().covariance = CovarianceInWorld(frame);
   map_.keyframes.back().found = found;
   map_.keyframes.back().by_points = points_.state() != TrackState::kHeldByPlanes;
-  KeepPlanes(frame, config_.plane_map, map_.keyframes[Index(keyframe)]);
+  KeepPlanes(frame, config_.plane_map, config_.structure.supposed,
+             map_.keyframes[Index(keyframe)]);
   if (worker_) {
     worker_->Submit(keyframe);
     return;

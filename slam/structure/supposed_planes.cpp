@@ -26,19 +26,18 @@ std::optional<std::size_t> NearestSupposed(const std::vector<SupposedPlane>& kno
   return nearest;
 }
 
-PlaneConstraint ConstraintTo(const SupposedPlane& known, const SeenSupposed& seen,
-                             const Eigen::Vector3d& edge_w, const SupposedConfig& config) {
-  PlaneConstraint c{known.pi_w, seen.pi_c, seen.centroid_c, config.angle_sigma_rad,
-                    config.offset_sigma_m};
+PlaneConstraint ConstraintTo(const SupposedPlane& known, const SeenPlane& seen,
+                             const Eigen::Vector3d& edge_w) {
+  PlaneConstraint c{known.pi_w, seen.pi_c, seen.centroid_c, seen.angle_sigma_rad,
+                    seen.offset_sigma_m};
   AddUncertainty(known.estimate, edge_w, c);
   return c;
 }
 
-void Observe(const SeenSupposed& seen, const Frame& frame, double keep,
-             const SupposedConfig& config, SupposedPlane& known) {
+void Observe(const SeenPlane& seen, const Frame& frame, double keep, SupposedPlane& known) {
   const Pose T_wc = Inverse(frame.T_cw);
   AddObservation(known.estimate, Transform(T_wc, seen.pi_c), T_wc * seen.centroid_c,
-                 config.angle_sigma_rad, config.offset_sigma_m, keep,
+                 seen.angle_sigma_rad, seen.offset_sigma_m, keep,
                  VarianceAlong(CovarianceInWorld(frame), seen.pi_c.n, seen.centroid_c));
   known.pi_w = known.estimate.Mean();
   if (known.observations == 0) known.first_frame = frame.index;
@@ -56,15 +55,16 @@ MapPlane* LandmarkOf(const Frame& frame, Map& map, std::size_t plane) {
 
 }  // namespace
 
-std::vector<SeenSupposed> SupposePlanes(const FramePlane& plane) {
-  std::vector<SeenSupposed> out;
+std::vector<SeenPlane> SupposePlanes(const FramePlane& plane, const SupposedConfig& config) {
+  std::vector<SeenPlane> out;
   for (const Line& line : plane.lines_c) {
     const Eigen::Vector3d edge_c = line.P + line.V.dot(plane.centroid_c - line.P) * line.V;
     Eigen::Vector3d n_c = line.V.cross(plane.pi_c.n);
     if (!(n_c.norm() > 0)) continue;
     n_c.normalize();
     if (n_c.dot(plane.centroid_c - edge_c) > 0) n_c = -n_c;
-    out.push_back({{n_c, -n_c.dot(edge_c)}, edge_c});
+    out.push_back(
+        {{n_c, -n_c.dot(edge_c)}, edge_c, config.angle_sigma_rad, config.offset_sigma_m});
   }
   return out;
 }
@@ -75,12 +75,12 @@ void AddSupposedPlanes(const Frame& frame, const Map& map, const SupposedConfig&
   for (std::size_t i = 0; i < frame.planes.size(); ++i) {
     const MapPlane* matched = TrustedMatch(frame, map, i);
     if (matched == nullptr) continue;
-    for (const SeenSupposed& seen : SupposePlanes(frame.planes[i])) {
+    for (const SeenPlane& seen : SupposePlanes(frame.planes[i], config)) {
       const Plane pi_w = Transform(T_wc, seen.pi_c);
       const Eigen::Vector3d edge_w = T_wc * seen.centroid_c;
       const auto at = NearestSupposed(matched->supposed, pi_w, edge_w, config);
       if (!at || matched->supposed[*at].observations < config.min_observations) continue;
-      problem.planes.push_back(ConstraintTo(matched->supposed[*at], seen, edge_w, config));
+      problem.planes.push_back(ConstraintTo(matched->supposed[*at], seen, edge_w));
     }
   }
 }
@@ -95,12 +95,12 @@ void LearnSupposedPlanes(const Frame& frame, double keep, const SupposedConfig& 
     MapPlane* landmark = LandmarkOf(frame, map, i);
     if (landmark == nullptr) continue;
     std::vector<SupposedPlane>& known = landmark->supposed;
-    for (const SeenSupposed& seen : SupposePlanes(frame.planes[i])) {
+    for (const SeenPlane& seen : SupposePlanes(frame.planes[i], config)) {
       const Plane pi_w = Transform(T_wc, seen.pi_c);
       const Eigen::Vector3d edge_w = T_wc * seen.centroid_c;
       const auto at = NearestSupposed(known, pi_w, edge_w, config);
       SupposedPlane& supposed = at ? known[*at] : known.emplace_back();
-      Observe(seen, frame, keep, config, supposed);
+      Observe(seen, frame, keep, supposed);
       if (map_begins) supposed.observations = config.min_observations;
     }
     std::erase_if(known, [&](const SupposedPlane& supposed) {

@@ -5,6 +5,7 @@
 #include "slam/base/field_visitor.h"
 #include "slam/model/frame.h"
 #include "slam/model/map.h"
+#include "slam/model/seen_plane.h"
 #include "slam/pose/pose_problem.h"
 
 namespace slam {
@@ -36,15 +37,11 @@ inline void VisitFields(SupposedConfig& c, FieldVisitor& v) {
             "frames after which a supposed plane of fewer observations is dropped");
 }
 
-/// A plane at a right angle to a measured one, through one of its straight edges.
-struct SeenSupposed {
-  Plane pi_c;                  ///< faces away from the patch
-  Eigen::Vector3d centroid_c;  ///< on the edge, nearest to the patch's middle
-};
-
-/// One for each edge line of the plane: lines are only found where the surface itself ends, not
-/// where something hides it or the image ends. Source: SP-SLAM (Zhang, Wang, Qi, Liao, Wei 2019).
-std::vector<SeenSupposed> SupposePlanes(const FramePlane& plane);
+/// A plane at a right angle to the measured one through each of its edge lines: they are only found
+/// where the surface itself ends, not where something hides it or the image ends. It faces away from
+/// the patch; its centroid is on the edge, nearest to the patch's middle.
+/// Source: SP-SLAM (Zhang, Wang, Qi, Liao, Wei 2019).
+std::vector<SeenPlane> SupposePlanes(const FramePlane& plane, const SupposedConfig& config);
 
 /// Adds to `problem` the supposed planes of the frame's trusted, matched planes that the map knows
 /// as supposed planes of the same landmark. Plane factors, eq16. Not matched, as in SP-SLAM, are

@@ -2,6 +2,8 @@
 
 #include <gmock/gmock.h>
 
+#include <cmath>
+
 #include "tests/support/map_surfaces.h"
 #include "tests/support/slam_matchers.h"
 
@@ -28,7 +30,7 @@ Frame FrameOf(const std::vector<PlaneDecision>& decisions) {
 }
 
 void Keep(const Frame& frame, Keyframe& keyframe) {
-  KeepPlanes(frame, PlaneMapConfig{}, keyframe);
+  KeepPlanes(frame, PlaneMapConfig{}, SupposedConfig{}, keyframe);
 }
 
 std::vector<int> MapPlanesOf(const Keyframe& keyframe) {
@@ -73,6 +75,33 @@ TEST(KeyframePlanes, AreWhatItsFramesHaveSeenFromTheirPlacesAndBetterKnownForIt)
     EXPECT_LT(kept.angle_sigma_rad, before_rad);
     before_m = kept.offset_sigma_m, before_rad = kept.angle_sigma_rad;
   }
+}
+
+/// Two planes of a frame may show one landmark; a later frame's outline errs like the first one's.
+TEST(KeyframePlanes, KeepEdgesAndCornersThatTheirOwnFrameSaw) {
+  Frame frame = FrameOf({PlaneDecision::kMatched, PlaneDecision::kMatched});
+  frame.plane_matches[1].map_plane = 0;
+  for (FramePlane& plane : frame.planes) {
+    plane.lines_c = {{{0.3, 0.2, 1.5}, Eigen::Vector3d::UnitY()}};
+    const Eigen::Matrix3d covariance = 1e-6 * Eigen::Matrix3d::Identity();
+    const Eigen::Vector3d unknown = Eigen::Vector3d::Constant(std::nan(""));
+    plane.vertices_c = {{{0.3, 0.1, 1.5}, false, covariance},
+                        {{0.3, 0.5, 1.5}, true, covariance},
+                        {unknown, false, covariance}};
+  }
+  Keyframe keyframe;
+  Keep(frame, keyframe);
+  frame.index = 1;
+  Keep(frame, keyframe);
+  ASSERT_EQ(keyframe.planes.size(), 1u);
+  const KeyframePlane& kept = keyframe.planes.front();
+  ASSERT_EQ(kept.vertices_c.size(), 2u);
+  EXPECT_EQ(kept.vertices_c[1].p_c, Eigen::Vector3d(0.3, 0.1, 1.5));
+  ASSERT_EQ(kept.edges.size(), 2u);
+  EXPECT_THAT(kept.edges[1].pi_c,
+              PlaneNear(Plane{Eigen::Vector3d::UnitX(), -0.3}, 1e-12, 1e-12));
+  EXPECT_EQ(kept.edges[1].offset_sigma_m, SupposedConfig{}.offset_sigma_m);
+  EXPECT_EQ(kept.edges[1].angle_sigma_rad, SupposedConfig{}.angle_sigma_rad);
 }
 
 TEST(KeyframePlanes, ShowTheLandmarkThatTheirMapPlaneHasBecome) {

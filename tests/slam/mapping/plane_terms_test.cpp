@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "slam/base/random.h"
+#include "tests/support/block_derivatives.h"
 #include "tests/support/normal_draws.h"
 #include "tests/support/seen_landmark.h"
 #include "tests/support/slam_matchers.h"
@@ -16,8 +17,6 @@ namespace {
 const Pose kT_cw{ExpSo3({0.1, 0.2, -0.1}), {0.1, 0, 0.2}};
 const Eigen::Vector3d kReference_w(0.3, -0.2, 1.9);
 const Plane kPlane_w{Eigen::Vector3d(0.2, 0.3, -0.9).normalized(), 1.9};
-constexpr double kDifferenceStep = 1e-6;
-constexpr double kDerivativeTolerance = 1e-4;  // of derivatives up to 1e3
 
 /// A measurement that is off by a turn and an offset.
 KeyframePlane Measured() {
@@ -38,26 +37,6 @@ PlaneEstimate KnownBesides() {
                    1.0);
   }
   return estimate;
-}
-
-/// Compares the derivatives by one block with difference quotients along its manifold's steps.
-template <int kRows, int kAmbient, int kTangent, typename Residual>
-void ExpectDerivatives(const double* block, const ceres::Manifold& manifold,
-                       const Eigen::Matrix<double, kRows, kAmbient, Eigen::RowMajor>& analytic,
-                       const Residual& residual) {
-  using Tangent = Eigen::Matrix<double, kTangent, 1>;
-  Eigen::Matrix<double, kAmbient, kTangent, Eigen::RowMajor> by_step;
-  manifold.PlusJacobian(block, by_step.data());
-  for (int i = 0; i < kTangent; ++i) {
-    Eigen::Matrix<double, kAmbient, 1> forth, back;
-    const Tangent plus = kDifferenceStep * Tangent::Unit(i), minus = -plus;
-    manifold.Plus(block, plus.data(), forth.data());
-    manifold.Plus(block, minus.data(), back.data());
-    const Eigen::Matrix<double, kRows, 1> slope =
-        (residual(forth.data()) - residual(back.data())) / (2 * kDifferenceStep);
-    EXPECT_LT((analytic * by_step.col(i) - slope).norm(), kDerivativeTolerance)
-        << "direction " << i;
-  }
 }
 
 TEST(PlaneTerm, IsZeroAtTheTruthAndCountsSigmas) {
