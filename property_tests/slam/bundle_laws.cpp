@@ -6,8 +6,7 @@
 #include "slam/mapping/plane_motion.h"
 #include "slam/mapping/plane_terms.h"
 #include "tests/support/numeric_jacobian.h"
-#include "tests/support/point_world.h"
-#include "tests/support/seen_landmark.h"
+#include "tests/support/seen_outline.h"
 
 namespace slam {
 namespace {
@@ -25,7 +24,8 @@ void Disturb(Map& map, double max_m, double max_rad) {
   PlaceAsSeen(map);
 }
 
-/// Without planes, with one, with parallel ones, with any.
+/// Without planes, with one, with parallel ones, with any; faces on which up to a half of the points
+/// lie.
 PointWorld AnyWorld() {
   PointWorld world =
       MakePointWorld(AnyInt(2, 5), AnyInt(80, 160),
@@ -35,10 +35,22 @@ PointWorld AnyWorld() {
   Eigen::Vector3d n = AnyUnit();
   for (int i = 0; i < planes; ++i) {
     const Eigen::Vector3d x_w(AnyReal(-1, 1), AnyReal(-1, 1), AnyReal(1, 3));
-    AddSeenLandmark(world.map, {n, -n.dot(x_w)}, x_w);
+    AddSeenOutline(world.map, AddSeenLandmark(world.map, {n, -n.dot(x_w)}, x_w));
     if (!parallel) n = AnyUnit();
   }
+  if (planes > 0) LayPointsOn(0, AnyInt(0, 40), world);
   return world;
+}
+
+/// Many iterations, and any of what may take part.
+LocalBundleConfig AnyFactors() {
+  LocalBundleConfig config;
+  config.last_iterations = 30;
+  config.use_point_planes = AnyInt(0, 1) == 1;
+  config.use_coplanar_points = AnyInt(0, 1) == 1;
+  config.use_edges = AnyInt(0, 1) == 1;
+  config.use_vertices = AnyInt(0, 1) == 1;
+  return config;
 }
 
 /// The planes are those of the other map, within these, where they were seen.
@@ -54,8 +66,7 @@ RC_GTEST_PROP(LocalBundleLaws, FindsTheTrueMapAgainFromADisturbedOne, ()) {
   const PointWorld truth = AnyWorld();
   Map map = truth.map;
   Disturb(map, 0.004, 0.003);
-  LocalBundleConfig config;
-  config.last_iterations = 30;
+  const LocalBundleConfig config = AnyFactors();
   const int newest = static_cast<int>(map.keyframes.size()) - 1;
   RC_ASSERT(AdjustLocalBundle(map, newest, truth.camera, FeatureScale{}, config).usable);
   for (const Keyframe& keyframe : map.keyframes) {
@@ -78,8 +89,7 @@ RC_GTEST_PROP(LocalBundleLaws, MovesTheMapTheSameWayWhereverTheWorldOriginLies, 
   for (MapPoint& point : there.points) point.p_w = T_vw * point.p_w;
   for (MapPlane& plane : there.planes) MovePlane(plane, T_vw);
   const int newest = static_cast<int>(here.keyframes.size()) - 1;
-  LocalBundleConfig config;
-  config.last_iterations = 30;
+  const LocalBundleConfig config = AnyFactors();
   AdjustLocalBundle(here, newest, truth.camera, FeatureScale{}, config);
   AdjustLocalBundle(there, newest, truth.camera, FeatureScale{}, config);
   for (std::size_t k = 0; k < here.keyframes.size(); ++k) {

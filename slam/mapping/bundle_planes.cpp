@@ -16,9 +16,9 @@ namespace {
 
 /// A keyframe's plane that shows a landmark.
 struct Sighting {
-  int keyframe;           ///< id
-  std::size_t seen_at;    ///< into its planes
-  const SeenPlane* seen;  ///< that plane, or one supposed at an edge of it
+  int keyframe;               ///< id
+  std::size_t seen_at;        ///< into its planes
+  const MeasuredPlane* seen;  ///< that plane, or one supposed at an edge of it
 };
 
 /// Who has seen which landmark, by its id.
@@ -35,7 +35,7 @@ std::map<int, std::vector<Sighting>> SightingsOfLandmarks(const Map& map) {
 }
 
 /// How far what a keyframe has seen is from a plane, in squared sigmas.
-double SquaredResidual(const SeenPlane& seen, const Keyframe& keyframe, const Plane& pi_w,
+double SquaredResidual(const MeasuredPlane& seen, const Keyframe& keyframe, const Plane& pi_w,
                        const Eigen::Vector3d& reference_w) {
   const PoseBlock pose = BlockOf(keyframe.T_cw);
   const PlaneBlock block = BlockOf(pi_w, reference_w);
@@ -47,7 +47,7 @@ double SquaredResidual(const SeenPlane& seen, const Keyframe& keyframe, const Pl
 
 /// Adds what a keyframe outside has seen, unless it contradicts the landmark as it is.
 /// @returns whether it was added
-bool AddOutside(const Keyframe& keyframe, const SeenPlane& seen, WindowPlane& plane) {
+bool AddOutside(const Keyframe& keyframe, const MeasuredPlane& seen, WindowPlane& plane) {
   if (!(SquaredResidual(seen, keyframe, plane.start_w, plane.reference_w) < kChi2Of3At999))
     return false;
   const Pose T_wc = Inverse(keyframe.T_cw);
@@ -87,7 +87,7 @@ bool AddPlane(const Map& map, WindowPlane plane, const std::vector<Sighting>& si
 
 /// Which of the landmark's supposed planes shows at an edge of a keyframe: the one that contradicts
 /// it least, or none.
-std::optional<std::size_t> SupposedAt(const SeenPlane& edge, const Keyframe& keyframe,
+std::optional<std::size_t> SupposedAt(const MeasuredPlane& edge, const Keyframe& keyframe,
                                       const std::vector<SupposedPlane>& known) {
   std::optional<std::size_t> nearest;
   double least = kChi2Of3At999;
@@ -107,7 +107,7 @@ void AddEdges(const Map& map, const MapPlane& landmark, const std::vector<Sighti
   std::vector<std::vector<Sighting>> at_edges(landmark.supposed.size());
   for (const Sighting& s : sightings) {
     const Keyframe& keyframe = map.keyframes[Index(s.keyframe)];
-    for (const SeenPlane& edge : keyframe.planes[s.seen_at].edges) {
+    for (const MeasuredPlane& edge : keyframe.planes[s.seen_at].edges) {
       const auto at = SupposedAt(edge, keyframe, landmark.supposed);
       if (at) at_edges[*at].push_back({s.keyframe, s.seen_at, &edge});
     }

@@ -52,7 +52,7 @@ bool PlaneManifold::MinusJacobian(const double* x, double* jacobian) const {
   return true;
 }
 
-PlaneTerm::PlaneTerm(const SeenPlane& seen, const Eigen::Vector3d& reference_w)
+PlaneTerm::PlaneTerm(const MeasuredPlane& seen, const Eigen::Vector3d& reference_w)
     : reference_w_(reference_w) {
   measured_.pi_c = seen.pi_c;
   measured_.centroid_c = seen.centroid_c;

@@ -6,8 +6,8 @@
 #include <array>
 
 #include "slam/mapping/bundle_terms.h"
+#include "slam/model/measured_plane.h"
 #include "slam/model/plane_estimate.h"
-#include "slam/model/seen_plane.h"
 #include "slam/pose/pose_problem.h"
 
 namespace slam {
@@ -42,7 +42,7 @@ class PlaneTerm : public ceres::SizedCostFunction<4, 7, 4> {
  public:
   static constexpr double kRefused = BundleTerm::kBehind;  ///< sigmas; far beyond any gate
 
-  PlaneTerm(const SeenPlane& seen, const Eigen::Vector3d& reference_w);
+  PlaneTerm(const MeasuredPlane& seen, const Eigen::Vector3d& reference_w);
   /// parameters: PoseBlock, PlaneBlock. Jacobians: by xi (see PoseManifold) and by (n, e).
   bool Evaluate(double const* const* parameters, double* residuals,
                 double** jacobians) const override;

@@ -5,19 +5,19 @@
 
 #include "slam/model/found_place.h"
 #include "slam/model/frame.h"
+#include "slam/model/measured_plane.h"
 #include "slam/model/plane_estimate.h"
-#include "slam/model/seen_plane.h"
 
 namespace slam {
 
 /// What a keyframe knows of a map plane: it has seen it, or frames that are tied to it have. The
 /// plane is what seen_c comes to, all errors included.
-struct KeyframePlane : SeenPlane {
+struct KeyframePlane : MeasuredPlane {
   int map_plane = kNone;  ///< id, as it was associated; kNone: taken back as wrong
   PlaneEstimate seen_c;   ///< in the keyframe's camera
   // What its own frame alone saw: errors of edges stay from frame to frame.
-  std::vector<SeenPlane> edges;    ///< planes supposed at the surface's straight edges
-  std::vector<Vertex> vertices_c;  ///< corners that were seen, not extrapolated
+  std::vector<MeasuredPlane> edges;  ///< planes supposed at the surface's straight edges
+  std::vector<Vertex> vertices_c;    ///< corners that were seen, not extrapolated
 };
 
 /// A frame kept in the map. `id` is its index in Map::keyframes and is never reused.

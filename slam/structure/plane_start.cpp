@@ -27,7 +27,7 @@ bool PlanesCanStart(const std::vector<FramePlane>& planes, double image_px,
     if (plane.bad || !IsProofAlone(plane, image_px)) continue;
     faces.push_back(plane.pi_c.n);
     if (!config.edges_alone) continue;
-    for (const SeenPlane& edge : SupposePlanes(plane, config.supposed))
+    for (const MeasuredPlane& edge : SupposePlanes(plane, config.supposed))
       edges.push_back(edge.pi_c.n);
   }
   return SomeTwoStandApart(faces) || SomeTwoStandApart(edges);

@@ -26,7 +26,7 @@ std::optional<std::size_t> NearestSupposed(const std::vector<SupposedPlane>& kno
   return nearest;
 }
 
-PlaneConstraint ConstraintTo(const SupposedPlane& known, const SeenPlane& seen,
+PlaneConstraint ConstraintTo(const SupposedPlane& known, const MeasuredPlane& seen,
                              const Eigen::Vector3d& edge_w) {
   PlaneConstraint c{known.pi_w, seen.pi_c, seen.centroid_c, seen.angle_sigma_rad,
                     seen.offset_sigma_m};
@@ -34,7 +34,7 @@ PlaneConstraint ConstraintTo(const SupposedPlane& known, const SeenPlane& seen,
   return c;
 }
 
-void Observe(const SeenPlane& seen, const Frame& frame, double keep, SupposedPlane& known) {
+void Observe(const MeasuredPlane& seen, const Frame& frame, double keep, SupposedPlane& known) {
   const Pose T_wc = Inverse(frame.T_cw);
   AddObservation(known.estimate, Transform(T_wc, seen.pi_c), T_wc * seen.centroid_c,
                  seen.angle_sigma_rad, seen.offset_sigma_m, keep,
@@ -55,8 +55,9 @@ MapPlane* LandmarkOf(const Frame& frame, Map& map, std::size_t plane) {
 
 }  // namespace
 
-std::vector<SeenPlane> SupposePlanes(const FramePlane& plane, const SupposedConfig& config) {
-  std::vector<SeenPlane> out;
+std::vector<MeasuredPlane> SupposePlanes(const FramePlane& plane,
+                                         const SupposedConfig& config) {
+  std::vector<MeasuredPlane> out;
   for (const Line& line : plane.lines_c) {
     const Eigen::Vector3d edge_c = line.P + line.V.dot(plane.centroid_c - line.P) * line.V;
     Eigen::Vector3d n_c = line.V.cross(plane.pi_c.n);
@@ -75,7 +76,7 @@ void AddSupposedPlanes(const Frame& frame, const Map& map, const SupposedConfig&
   for (std::size_t i = 0; i < frame.planes.size(); ++i) {
     const MapPlane* matched = TrustedMatch(frame, map, i);
     if (matched == nullptr) continue;
-    for (const SeenPlane& seen : SupposePlanes(frame.planes[i], config)) {
+    for (const MeasuredPlane& seen : SupposePlanes(frame.planes[i], config)) {
       const Plane pi_w = Transform(T_wc, seen.pi_c);
       const Eigen::Vector3d edge_w = T_wc * seen.centroid_c;
       const auto at = NearestSupposed(matched->supposed, pi_w, edge_w, config);
@@ -95,7 +96,7 @@ void LearnSupposedPlanes(const Frame& frame, double keep, const SupposedConfig& 
     MapPlane* landmark = LandmarkOf(frame, map, i);
     if (landmark == nullptr) continue;
     std::vector<SupposedPlane>& known = landmark->supposed;
-    for (const SeenPlane& seen : SupposePlanes(frame.planes[i], config)) {
+    for (const MeasuredPlane& seen : SupposePlanes(frame.planes[i], config)) {
       const Plane pi_w = Transform(T_wc, seen.pi_c);
       const Eigen::Vector3d edge_w = T_wc * seen.centroid_c;
       const auto at = NearestSupposed(known, pi_w, edge_w, config);

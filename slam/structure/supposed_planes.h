@@ -5,7 +5,7 @@
 #include "slam/base/field_visitor.h"
 #include "slam/model/frame.h"
 #include "slam/model/map.h"
-#include "slam/model/seen_plane.h"
+#include "slam/model/measured_plane.h"
 #include "slam/pose/pose_problem.h"
 
 namespace slam {
@@ -41,7 +41,7 @@ inline void VisitFields(SupposedConfig& c, FieldVisitor& v) {
 /// where the surface itself ends, not where something hides it or the image ends. It faces away from
 /// the patch; its centroid is on the edge, nearest to the patch's middle.
 /// Source: SP-SLAM (Zhang, Wang, Qi, Liao, Wei 2019).
-std::vector<SeenPlane> SupposePlanes(const FramePlane& plane, const SupposedConfig& config);
+std::vector<MeasuredPlane> SupposePlanes(const FramePlane& plane, const SupposedConfig& config);
 
 /// Adds to `problem` the supposed planes of the frame's trusted, matched planes that the map knows
 /// as supposed planes of the same landmark. Plane factors, eq16. Not matched, as in SP-SLAM, are

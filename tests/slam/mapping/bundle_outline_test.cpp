@@ -2,57 +2,25 @@
 
 #include "slam/base/index.h"
 #include "slam/mapping/bundle_window.h"
-#include "tests/support/point_world.h"
-#include "tests/support/seen_landmark.h"
+#include "tests/support/seen_outline.h"
 #include "tests/support/slam_matchers.h"
 
 namespace slam {
 namespace {
 
 const Camera kCamera;
-constexpr double kEdgeSigma_rad = 0.01, kEdgeSigma_m = 0.004;
 
 /// A box's top, 0.4 m by 0.3 m, 2 m before keyframes.
 struct SeenBox {
   const Plane top_w{Eigen::Vector3d(0.1, -0.3, -1).normalized(), 2.0};
-  std::vector<Eigen::Vector3d> corners_w;
   Map map;
+  std::vector<Eigen::Vector3d> corners_w;
 
   explicit SeenBox(int points = 0) : map(MakePointWorld(4, points, 1).map) {
-    const Eigen::Vector3d middle_w = ProjectOnto(top_w, {0, 0, 2});
-    const Eigen::Matrix<double, 3, 2> along = TangentBasis(top_w.n);
-    for (const Eigen::Vector2d& at : {Eigen::Vector2d(-0.2, -0.15), Eigen::Vector2d(0.2, -0.15),
-                                      Eigen::Vector2d(0.2, 0.15), Eigen::Vector2d(-0.2, 0.15)})
-      corners_w.push_back(middle_w + along * at);
-    AddSeenLandmark(map, top_w, middle_w);
-    MapPlane& top = map.planes.At(0);
-    top.vertices_w = corners_w;
-    for (std::size_t i = 0; i < kFaceCorners; ++i) {
-      SupposedPlane& supposed = top.supposed.emplace_back();
-      supposed.pi_w = SideAt(i);
-      AddObservation(supposed.estimate, supposed.pi_w, MiddleOf(i), kEdgeSigma_rad,
-                     kEdgeSigma_m, 1.0);
-    }
-    for (Keyframe& keyframe : map.keyframes) {
-      KeyframePlane& seen = keyframe.planes.at(0);
-      seen.angle_sigma_rad = 0.001;
-      for (std::size_t i = 0; i < kFaceCorners; ++i) {
-        seen.vertices_c.push_back(
-            {keyframe.T_cw * corners_w[i], false, Eigen::Matrix3d::Zero()});
-        seen.edges.push_back({Transform(keyframe.T_cw, SideAt(i)), keyframe.T_cw * MiddleOf(i),
-                              kEdgeSigma_rad, kEdgeSigma_m});
-      }
-    }
-  }
-
-  Eigen::Vector3d MiddleOf(std::size_t edge) const {
-    return (corners_w[edge] + corners_w[(edge + 1) % kFaceCorners]) / 2;
-  }
-  /// The plane at a right angle to the top through an edge, facing outwards.
-  Plane SideAt(std::size_t edge) const {
-    const Eigen::Vector3d middle_w = (corners_w[0] + corners_w[2]) / 2;
-    const Eigen::Vector3d n = (MiddleOf(edge) - middle_w).normalized();
-    return {n, -n.dot(MiddleOf(edge))};
+    const int id = AddSeenLandmark(map, top_w, {0, 0, 2});
+    AddSeenOutline(map, id);
+    corners_w = map.planes.At(id).vertices_w;
+    for (Keyframe& keyframe : map.keyframes) keyframe.planes.at(0).angle_sigma_rad = 0.001;
   }
 };
 
@@ -126,7 +94,7 @@ TEST(BundleOutline, ThatContradictsTheOthersDoesNotMoveThem) {
   for (const HeldBy holder : {HeldBy::kEdges, HeldBy::kVertices}) {
     SeenBox box(80);
     Keyframe& keyframe = box.map.keyframes[2];
-    const Eigen::Vector3d outwards_w = box.SideAt(1).n;
+    const Eigen::Vector3d outwards_w = SideAt(box.map.planes.At(0), 1).n;
     KeyframePlane& seen = keyframe.planes[0];
     seen.edges[1].pi_c.d -= 0.024;
     seen.edges[1].centroid_c += 0.024 * seen.edges[1].pi_c.n;
@@ -149,7 +117,7 @@ TEST(BundleOutline, ThatContradictsTheOthersDoesNotMoveThem) {
 
 TEST(BundleOutline, AnEdgeFarFromEachSupposedPlaneIsNone) {
   SeenBox box;
-  SeenPlane& edge = box.map.keyframes[2].planes[0].edges[1];
+  MeasuredPlane& edge = box.map.keyframes[2].planes[0].edges[1];
   edge.pi_c.d += 5 * kEdgeSigma_m;  // the bound is 4 sigmas
   const BundleWindow window =
       FullWindow(box.map, kCamera, FeatureScale{}, With(HeldBy::kEdges));

@@ -3,8 +3,7 @@
 #include <gmock/gmock.h>
 
 #include "slam/base/index.h"
-#include "tests/support/point_world.h"
-#include "tests/support/seen_landmark.h"
+#include "tests/support/seen_outline.h"
 #include "tests/support/slam_matchers.h"
 
 namespace slam {
@@ -17,16 +16,7 @@ PointWorld WorldOnADesk(std::uint64_t seed = 3) {
   const Plane desk_w{Eigen::Vector3d(0.05, -0.4, -0.9).normalized(), 1.9};
   PointWorld world = MakePointWorld(5, 80, seed);
   const int id = AddSeenLandmark(world.map, desk_w, {0, 0, 2});
-  for (MapPoint& point : world.map.points) {
-    if (point.id >= kOnTop) break;
-    point.p_w = ProjectOnto(desk_w, point.p_w);
-    world.map.planes.At(id).map_points.insert(point.id);
-    for (const auto& [seen_by, feature] : point.observations) {
-      Keyframe& keyframe = world.map.keyframes[Index(seen_by)];
-      PointFeature& seen = keyframe.features[Index(feature)];
-      seen = FeatureOfPoint(point.p_w, keyframe.T_cw, world.camera, seen.descriptor, true);
-    }
-  }
+  EXPECT_EQ(LayPointsOn(id, kOnTop, world), kOnTop);
   return world;
 }
 

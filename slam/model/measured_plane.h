@@ -7,7 +7,7 @@
 namespace slam {
 
 /// A plane as a camera saw it.
-struct SeenPlane {
+struct MeasuredPlane {
   Plane pi_c;
   Eigen::Vector3d centroid_c = Eigen::Vector3d::Zero();  ///< where the offset is known best
   double angle_sigma_rad = 0.01;  ///< standard deviation of the normal ...
