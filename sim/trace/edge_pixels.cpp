@@ -101,17 +101,35 @@ void Walk(const ImageEdge& edge, const Camera& camera, double margin_px,
   }
 }
 
+void MarkBlocks(const ImageEdge& edge, EdgeBlocks& blocks) {
+  const double span = edge.along[1] - edge.along[0];
+  const double steps = std::ceil(span / EdgeBlocks::kStep_px);
+  for (double i = 0; i <= steps; ++i) {
+    const double share = steps > 0 ? i / steps : 0;
+    const double along = edge.along[0] + share * span;
+    const double across = edge.across[0] + share * (edge.across[1] - edge.across[0]);
+    if (edge.steep) {
+      blocks.Mark(across, along);
+    } else {
+      blocks.Mark(along, across);
+    }
+  }
+}
+
 /// A lens bends edges: so short that what is between two points of one may be joined straight.
 constexpr double kStraight_px = 4.0;
 
 void WalkPieces(const Piece& whole, const Camera& camera, double margin_px,
-                std::vector<EdgePixel>& pixels) {
+                std::vector<EdgePixel>& pixels, EdgeBlocks* blocks) {
+  const auto walk = [&](const ImageEdge& edge) {
+    Walk(edge, camera, margin_px, pixels);
+    if (blocks != nullptr) MarkBlocks(edge, *blocks);
+  };
   const auto seen = [&](const Eigen::Vector2d& ray, double inverse_depth) -> ImagePoint {
     return {camera.Project({ray.x(), ray.y(), 1.0}), inverse_depth};
   };
   if (camera.lens.IsNone()) {
-    return Walk(EdgeBetween(seen(whole.p, whole.wp), seen(whole.q, whole.wq)), camera,
-                margin_px, pixels);
+    return walk(EdgeBetween(seen(whole.p, whole.wp), seen(whole.q, whole.wq)));
   }
   const double focal = std::max(camera.fx, camera.fy);
   const double count = std::ceil((whole.q - whole.p).norm() * focal / kStraight_px) + 1;
@@ -122,7 +140,7 @@ void WalkPieces(const Piece& whole, const Camera& camera, double margin_px,
   ImagePoint begin = at(0);
   for (double i = 0; i < count; ++i) {
     const ImagePoint end = at(i + 1);
-    Walk(EdgeBetween(begin, end), camera, margin_px, pixels);
+    walk(EdgeBetween(begin, end));
     begin = end;
   }
 }
@@ -190,7 +208,8 @@ void SceneEdges::MakeBundles() {
 }
 
 void SceneEdges::Near(const Pose& T_wc, const Camera& camera, const RayWindow& window,
-                      double margin_px, std::vector<EdgePixel>& pixels) const {
+                      double margin_px, std::vector<EdgePixel>& pixels,
+                      EdgeBlocks* blocks) const {
   const Pose T_cw = Inverse(T_wc);
   for (const Bundle& bundle : bundles_) {
     if (!MayBeSeen(T_cw * bundle.center_w, bundle.radius_m, window)) continue;
@@ -199,7 +218,7 @@ void SceneEdges::Near(const Pose& T_wc, const Camera& camera, const RayWindow& w
       Piece piece;
       if (!Clip(T_cw * edge.ends_w[0], T_cw * edge.ends_w[1], window, piece)) continue;
       const double margin = edge.inside_a_face ? kInsideAFaceShare * margin_px : margin_px;
-      WalkPieces(piece, camera, margin, pixels);
+      WalkPieces(piece, camera, margin, pixels, blocks);
     }
   }
 }

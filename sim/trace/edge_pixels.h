@@ -9,6 +9,7 @@
 #include "sim/base/pose.h"
 #include "sim/camera/camera.h"
 #include "sim/shapes/mesh.h"
+#include "sim/trace/edge_blocks.h"
 #include "sim/trace/image_rays.h"
 
 namespace sim {
@@ -31,8 +32,9 @@ class SceneEdges {
   /// pixel may come more than once. Edges inside a face get a fifth of the margin. Nothing of a
   /// pixel further than two margins from every edge.
   /// @param window  of the camera's rays
+  /// @param blocks  if given, every edge in the image is marked there
   void Near(const Pose& T_wc, const Camera& camera, const RayWindow& window, double margin_px,
-            std::vector<EdgePixel>& pixels) const;
+            std::vector<EdgePixel>& pixels, EdgeBlocks* blocks = nullptr) const;
 
  private:
   struct Edge {

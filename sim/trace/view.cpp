@@ -55,7 +55,7 @@ void View::Render(const RenderWorld& world, const Pose& T_wc, const RenderOption
   log_ = log;
   // First which triangle each pixel shows; its neighbours decide where edges are.
   Prepare();
-  for (int v = rows_.start; v < rows_.end; ++v) TraceRow(v);
+  Trace();
   if (options_.exact_edges) DecideEdges();
   // Then depth, ids and light, row by row; a row's edges are smoothed once the next row is
   // known.
@@ -110,15 +110,32 @@ void View::Prepare() {
   surfaces_.resize(stride_ * Index(camera.height));
 }
 
-void View::LoadRow(int v) {
-  world_->image_rays.Row(v, row_.x.data(), row_.y.data());
-  TurnRays(T_wc_.R, row_.x.data(), row_.y.data(), static_cast<int>(stride_), row_.dx.data(),
-           row_.dy.data(), row_.dz.data());
+/// The rays of a row's pixels, camera frame.
+void View::LoadRow(int v) { world_->image_rays.Row(v, row_.x.data(), row_.y.data()); }
+
+void View::Trace() {
+  if (options_.exact_edges) {
+    edges_.clear();
+    blocks_.Start(world_->camera);
+    world_->edges.Near(T_wc_, world_->camera, world_->image_rays.Window(), kEdgeMargin_px,
+                       edges_, CanFill() ? &blocks_ : nullptr);
+  }
+  if (CanFill()) {
+    TraceFilling();
+  } else {
+    for (int v = rows_.start; v < rows_.end; ++v) TraceRow(v, row_.view_far);
+  }
 }
 
-void View::TraceRow(int v) {
+void View::TraceRow(int v, const std::vector<float>& far) {
   LoadRow(v);
-  const int length = static_cast<int>(stride_);
+  TraceLoaded(static_cast<int>(stride_), far, Triangles(v));
+}
+
+/// What the rays that row_ holds show.
+void View::TraceLoaded(int length, const std::vector<float>& far, int* triangles) {
+  TurnRays(T_wc_.R, row_.x.data(), row_.y.data(), length, row_.dx.data(), row_.dy.data(),
+           row_.dz.data());
   // The arrays of second rays are free still.
   std::vector<float>&dx = row_.start_x, &dy = row_.start_y, &dz = row_.start_z;
   ToSingle(row_.dx.data(), length, dx.data());
@@ -131,16 +148,13 @@ void View::TraceRow(int v) {
                     dy.data(),
                     dz.data(),
                     row_.view_near.data(),
-                    row_.view_far.data()};
+                    far.data()};
   if (log_ != nullptr) RayLog::Add(rays, length, log_->nearest);
-  world_->rays.Nearest(rays, length, Triangles(v));
+  world_->rays.Nearest(rays, length, triangles);
 }
 
 /// Casts again in double where an edge is near that may be seen.
 void View::DecideEdges() {
-  edges_.clear();
-  world_->edges.Near(T_wc_, world_->camera, world_->image_rays.Window(), kEdgeMargin_px,
-                     edges_);
   decided_.resize(Index(world_->camera.width) * Index(world_->camera.height), 0);
   for (const EdgePixel& edge : edges_) DecidePixel(edge);
   for (const EdgePixel& edge : edges_) decided_[edge.pixel] = 0;
@@ -163,6 +177,8 @@ void View::DecidePixel(const EdgePixel& edge) {
 
 void View::RecordRow(int v) {
   LoadRow(v);
+  TurnRays(T_wc_.R, row_.x.data(), row_.y.data(), static_cast<int>(stride_), row_.dx.data(),
+           row_.dy.data(), row_.dz.data());
   const int* triangles = Triangles(v);
   const int width = world_->camera.width;
   // Neighbours that show one triangle are worked out together.

@@ -77,13 +77,20 @@ class View {
   /// Bits of surfaces_ from here on are those of the lights; below are surface and sun.
   static constexpr int kLightBit = 18;
   static constexpr std::uint32_t kSurfaceBits = (1u << kLightBit) - 2;
+  static constexpr int kCast = PacketHits::kNothing - 1;  ///< its pixels need rays
 
   void Prepare();
   /// Whether anything, of this world or another, is between near and far: as RayScene's.
   void Block(const RayRow& rays, int count, std::uint8_t* blocked) const;
   std::array<bool, RayPacket::kLanes> Blocked(const RayPacket& packet) const;
   void LoadRow(int v);
-  void TraceRow(int v);
+  void Trace();
+  void TraceRow(int v, const std::vector<float>& far);
+  void TraceLoaded(int length, const std::vector<float>& far, int* triangles);
+  bool CanFill() const;
+  void TraceFilling();
+  void TraceCorners(int v);
+  void FindFill();
   void DecideEdges();
   void DecidePixel(const EdgePixel& edge);
   void RecordRow(int v);
@@ -140,6 +147,9 @@ class View {
   LightPoints lights_;
   std::vector<cv::Vec3f> lights_row_;  ///< light of the lights on a row; empty without lights
   std::vector<EdgePixel> edges_;
+  EdgeBlocks blocks_;
+  std::vector<int> fill_;     ///< by block: the triangle that all its pixels show, or kCast
+  std::vector<int> corners_;  ///< what a row shows at the blocks' corners
   std::vector<std::uint8_t> decided_;  ///< by pixel, while edges are decided
   std::vector<int> on_edge_;           ///< columns of a row
   std::vector<Look> looks_;            ///< four for each of these
