@@ -4,7 +4,7 @@
 // ends at its edges. So where no edge passes, hidden ones included, each triangle covers all of a
 // convex piece of the image or nothing; and one that is in front of all others at the corners of
 // the piece is so everywhere in it. The corners are those of the pixels round the block: what a
-// lens bends stays inside.
+// lens bends stays inside. Edges are told from kNear_m in front of the camera on: nothing is nearer.
 #include <algorithm>
 
 #include "sim/trace/view.h"
