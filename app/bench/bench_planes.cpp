@@ -75,7 +75,7 @@ class PlaneFrontEnd {
                 const slam::Config& config)
       : camera_(camera),
         config_(config),
-        extractor_(camera, slam::PixelRays(camera), config.sensor, config.plane_extraction),
+        extractor_(slam::PixelRays(camera), config.sensor, config.plane_extraction),
         boxes_(config.box_tracks, camera.ImageBox()),
         detector_(DetectorOf(sequence, camera, config)) {}
 

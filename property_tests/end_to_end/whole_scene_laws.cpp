@@ -125,7 +125,7 @@ RC_GTEST_PROP(WholeScene, CornersOfUnoccludedRegularTopsAreWhereTheyAre, ()) {
     const sim::SimulatedFrame simulated = simulator.Simulate(f, T_wc);
     slam::Frame frame = live::FrameOf(simulated, f, f / 30.0, camera.depth_factor);
     frame.detections = live::DetectionsOf(simulated);
-    slam::ExtractPlanes(frame, camera, rays, {});
+    slam::ExtractPlanes(frame, rays, {});
     slam::ProcessPlanes(frame, camera, {}, {});
     const std::vector<int> truth = live::TruthOf(frame, simulated, scene);
 
@@ -220,7 +220,7 @@ eval::DecisionCounts AssociateAtTruePoses(const sim::Scene& scene,
     const sim::SimulatedFrame simulated = simulator.Simulate(f, at.T_wc);
     slam::Frame frame = live::FrameOf(simulated, f, at.timestamp_s, camera.depth_factor);
     frame.detections = box_tracks.Update(at.timestamp_s, live::DetectionsOf(simulated));
-    slam::ExtractPlanes(frame, camera, rays, {});
+    slam::ExtractPlanes(frame, rays, {});
     slam::ProcessPlanes(frame, camera, {}, {});
     frame.T_cw = live::PoseOf(at.T_wc);
     frame.map_points.assign(frame.features.size(), slam::kNone);

@@ -11,7 +11,7 @@ namespace slam {
 inline Frame Extract(const cv::Mat1f& depth_m, const Camera& camera,
                      const SensorModel& sensor = {}) {
   Frame frame = closed_form::MakeFrame(depth_m);
-  ExtractPlanes(frame, camera, PixelRays(camera), {}, sensor);
+  ExtractPlanes(frame, PixelRays(camera), {}, sensor);
   return frame;
 }
 

@@ -62,8 +62,7 @@ PosesByTime TrackAll(PassOverFrames& pass, const Config& config) {
 WarpLearner LearnFrom(PassOverFrames& pass, const char* name, const PosesByTime& poses,
                       const Config& config, const std::optional<DepthWarp>& known) {
   WarpLearner learner(pass.camera, config.sensor.noise, config.depth_warp);
-  PlaneExtractor extractor(pass.camera, PixelRays(pass.camera), config.sensor,
-                           config.plane_extraction);
+  PlaneExtractor extractor(PixelRays(pass.camera), config.sensor, config.plane_extraction);
   const Straightening straightening = known ? StraighteningBy(*known) : Straightening{};
   pass.Run(name, [&](const RecordedFrame& recorded) {
     const auto pose = poses.find(recorded.timestamp_s);

@@ -14,7 +14,7 @@ namespace {
 class BendLook {
  public:
   BendLook(const Camera& camera, const Config& config)
-      : extractor_(camera, PixelRays(camera), config.sensor, config.plane_extraction),
+      : extractor_(PixelRays(camera), config.sensor, config.plane_extraction),
         learner_(camera, config.sensor.noise, config.depth_warp) {}
 
   void See(Frame& frame) {

@@ -19,7 +19,7 @@ FrameExtractor::FrameExtractor(const Camera& camera, const cv::Mat2d& rays,
       threads_(threads),
       bend_meter_(rays, config.sensor),
       box_tracks_(config.box_tracks, camera.ImageBox()) {
-  if (with_planes) planes_.emplace(camera, rays, config.sensor, config.plane_extraction);
+  if (with_planes) planes_.emplace(rays, config.sensor, config.plane_extraction);
 }
 
 void FrameExtractor::Extract(const Straightening& straightening, const cv::Mat3b& bgr,

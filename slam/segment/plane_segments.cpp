@@ -49,12 +49,11 @@ JoinedLabels Apart(const std::vector<PlaneSums>& sums) {
 
 }  // namespace
 
-PlaneExtractor::PlaneExtractor(const Camera& camera, const cv::Mat2d& rays,
-                               const SensorModel& sensor, const PlaneExtractionConfig& config)
+PlaneExtractor::PlaneExtractor(const cv::Mat2d& rays, const SensorModel& sensor,
+                               const PlaneExtractionConfig& config)
     : work_(std::make_unique<Workspace>()) {
   work_->sensor = sensor;
   work_->config = config;
-  work_->camera = camera;
   SetRays(rays, work_->grid);
 }
 PlaneExtractor::PlaneExtractor(PlaneExtractor&&) noexcept = default;

@@ -2,7 +2,6 @@
 
 #include <memory>
 
-#include "slam/geometry/camera.h"
 #include "slam/model/frame.h"
 #include "slam/segment/extraction_config.h"
 
@@ -22,8 +21,8 @@ namespace slam {
 /// (block_clusters.h).
 class PlaneExtractor {
  public:
-  /// @param rays  PixelRays(camera)
-  PlaneExtractor(const Camera& camera, const cv::Mat2d& rays, const SensorModel& sensor,
+  /// @param rays  PixelRays of the camera
+  PlaneExtractor(const cv::Mat2d& rays, const SensorModel& sensor,
                  const PlaneExtractionConfig& config);
   PlaneExtractor(PlaneExtractor&&) noexcept;
   PlaneExtractor& operator=(PlaneExtractor&&) noexcept;

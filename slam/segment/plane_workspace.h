@@ -19,7 +19,6 @@ namespace slam {
 
 /// What the extractor works with from frame to frame.
 struct PlaneExtractor::Workspace {
-  Camera camera;
   SensorModel sensor;
   PlaneExtractionConfig config;
   PlaneExtractionConfig here;  ///< the same, with what the sensor is seen to bend in the frame

@@ -42,9 +42,9 @@ inline std::vector<PlaneSums> SumLabels(const DepthGrid& grid, const LabelImage&
 }
 
 /// PlaneExtractor::Extract of a frame that comes alone.
-inline void ExtractPlanes(Frame& frame, const Camera& camera, const cv::Mat2d& rays,
+inline void ExtractPlanes(Frame& frame, const cv::Mat2d& rays,
                           const PlaneExtractionConfig& config, const SensorModel& sensor = {}) {
-  PlaneExtractor(camera, rays, sensor, config).Extract(frame);
+  PlaneExtractor(rays, sensor, config).Extract(frame);
 }
 
 }  // namespace slam

@@ -26,7 +26,7 @@ struct BookOnDesk {
       }
     }
     frame.detections = {book};
-    ExtractPlanes(frame, camera, PixelRays(camera), {});
+    ExtractPlanes(frame, PixelRays(camera), {});
     ProcessPlanes(frame, camera, {}, {});
   }
   /// Largest distance of a found vertex from the nearest true corner; -1 unless there are four.
@@ -167,7 +167,7 @@ std::size_t CornersOfSheet(double lean_rad, bool detected,
     }
   }
   if (detected) frame.detections = {sheet};
-  ExtractPlanes(frame, camera, PixelRays(camera), {});
+  ExtractPlanes(frame, PixelRays(camera), {});
   ProcessPlanes(frame, camera, {}, {});
   std::size_t sheets = 0, corners = 0;
   for (const FramePlane& plane : frame.planes) {

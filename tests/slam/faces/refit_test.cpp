@@ -112,7 +112,7 @@ TEST(Refit, UnderNoiseTheDefaultIsAtLeastAsGoodAsPclAlone) {
   double pcl = 0, weighted = 0, best = 0;
   for (std::uint64_t seed = 0; seed < 30; ++seed) {
     Frame frame = closed_form::MakeFrame(closed_form::AddKinectNoise(exact, seed));
-    ExtractPlanes(frame, camera, rays, {});
+    ExtractPlanes(frame, rays, {});
     const auto error2 = [&](RefitMethod method) {
       FramePlane plane = frame.planes.at(0);
       RefitPlane(plane, {}, {.method = method});

@@ -69,7 +69,7 @@ struct HalfHiddenBook {
       book.box_px.Include(camera.Project(T_cw * (corner_w - Eigen::Vector3d(0, 0, 0.05))));
     }
     frame.detections = {book};
-    ExtractPlanes(frame, camera, PixelRays(camera), {});
+    ExtractPlanes(frame, PixelRays(camera), {});
     ProcessPlanes(frame, camera, {}, {});
   }
   /// Adds the corners of the book's top that were found, seen and extrapolated.

@@ -79,7 +79,7 @@ TEST(DeskOfARecording, IsOneSegmentInEveryFrameWithASteadyNormal) {
     ASSERT_FALSE(raw.empty()) << file;
     Frame frame;
     raw.convertTo(frame.depth_m, CV_32F, 1.0 / camera.depth_factor);
-    ExtractPlanes(frame, camera, rays, {});
+    ExtractPlanes(frame, rays, {});
     const FramePlane* desk = DeskOf(frame);
     ASSERT_NE(desk, nullptr) << file;
     min_pixels = std::min<double>(min_pixels, desk->pixel_count);

@@ -38,7 +38,7 @@ TEST(ExtractionConfig, KeepsADeskWholeAndABookApartInStereoDepth) {
   const closed_form::View view = closed_form::Render(world, camera, T_cw);
   const auto planes = [&](DepthSensor sensor) {
     Frame frame = closed_form::MakeFrame(AddStereoNoise(view.depth_m, 5));
-    ExtractPlanes(frame, camera, PixelRays(camera), ExtractionFor(sensor), ModelOf(sensor));
+    ExtractPlanes(frame, PixelRays(camera), ExtractionFor(sensor), ModelOf(sensor));
     return frame.planes.size();
   };
   EXPECT_EQ(planes(DepthSensor::kD435), 2u);
@@ -55,7 +55,7 @@ TEST(ExtractionConfig, ReunitesTheHalvesOfAWallThatTheWaveOfTimeOfFlightSetsApar
   depth_m.colRange(middle - 16, middle + 16) = 0.8f;  // a post in front
   const auto planes = [&](DepthSensor sensor) {
     Frame frame = closed_form::MakeFrame(depth_m);
-    ExtractPlanes(frame, camera, PixelRays(camera), ExtractionFor(sensor), ModelOf(sensor));
+    ExtractPlanes(frame, PixelRays(camera), ExtractionFor(sensor), ModelOf(sensor));
     return frame.planes.size();
   };
   EXPECT_EQ(planes(DepthSensor::kAzure), 2u);

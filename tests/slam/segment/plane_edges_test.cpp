@@ -22,7 +22,7 @@ struct PlateView {
   /// Edge points of the plate by kind.
   std::map<EdgeKind, int> Kinds(const cv::Mat1f& depth_m) {
     frame = closed_form::MakeFrame(depth_m);
-    ExtractPlanes(frame, camera, PixelRays(camera), {});
+    ExtractPlanes(frame, PixelRays(camera), {});
     std::map<EdgeKind, int> kinds;
     for (const FramePlane& plane : frame.planes) {
       if (std::abs(plane.pi_c.d - 1.0) > 0.01) continue;
@@ -84,7 +84,7 @@ TEST(PlaneEdges, AreTheBorderWhereTheImageEnds) {
   Camera camera = plate.camera;
   camera.width = 320;  // the left half of the image
   frame = closed_form::MakeFrame(plate.view.depth_m.colRange(0, 320).clone());
-  ExtractPlanes(frame, camera, PixelRays(camera), {});
+  ExtractPlanes(frame, PixelRays(camera), {});
   int border = 0;
   for (const FramePlane& plane : frame.planes) {
     if (std::abs(plane.pi_c.d - 1.0) > 0.01) continue;
@@ -101,7 +101,7 @@ TEST(PlaneEdges, AreTheSurfacesOwnAtAConcaveCrease) {
   const closed_form::View view =
       closed_form::Render(world, camera, closed_form::LookAt({0, -0.6, 0.6}, {0, 0.1, 0}));
   Frame frame = closed_form::MakeFrame(view.depth_m);
-  ExtractPlanes(frame, camera, PixelRays(camera), {});
+  ExtractPlanes(frame, PixelRays(camera), {});
   int occluded = 0, surface = 0;
   for (const EdgePoint& e : frame.planes.at(0).edge_points) {
     occluded += e.kind == EdgeKind::kOccluded ? 1 : 0;
@@ -120,7 +120,7 @@ TEST(PlaneEdges, AreNotTheSurfacesOwnWhereASmallThingStandsOnItAcrossItsWidth) {
   const Pose T_cw = closed_form::LookAt({0, -0.6, 0.7}, {0, 0, 0});
   const closed_form::View view = closed_form::Render(world, camera, T_cw);
   Frame frame = closed_form::MakeFrame(view.depth_m);
-  ExtractPlanes(frame, camera, PixelRays(camera), {});
+  ExtractPlanes(frame, PixelRays(camera), {});
   int of_plate = 0, occluded = 0, wrong = 0;
   for (const FramePlane& plane : frame.planes) {
     for (const EdgePoint& e : plane.edge_points) {

@@ -59,7 +59,7 @@ TEST(PlaneExtractor, FitsItsPlanesToThePixelsThatItDraws) {
     view.depth_m(cv::Rect(150, 0, 6, 200)).setTo(0.3f);
     for (int u = 30; u < 60; u += 5) view.depth_m(cv::Rect(u, 120, 2, 100)).setTo(0.0f);
     const cv::Mat2d rays = PixelRays(view.camera);
-    ExtractPlanes(frame, view.camera, rays, {});
+    ExtractPlanes(frame, rays, {});
     const DepthGrid grid =
         MakeDepthGrid(view.depth_m, rays, DepthNoise{}, SensorModel{}.max_depth_m);
     LabelImage drawn;
@@ -82,13 +82,13 @@ TEST(PlaneExtractor, GivesTheSameWhateverItHasSeenBefore) {
                                BooksView(320, 240, 2)};
   views.push_back({CameraOfSize(320, 240), cv::Mat1f(240, 320, 0.0f)});
   views.push_back(views.front());
-  PlaneExtractor used(views[0].camera, PixelRays(views[0].camera), {}, {});
+  PlaneExtractor used(PixelRays(views[0].camera), {}, {});
   for (std::size_t k = 0; k < views.size(); ++k) {
     SCOPED_TRACE(k);
     Frame by_used = closed_form::MakeFrame(views[k].depth_m);
     Frame by_fresh = closed_form::MakeFrame(views[k].depth_m);
     used.Extract(by_used);
-    ExtractPlanes(by_fresh, views[k].camera, PixelRays(views[k].camera), {});
+    ExtractPlanes(by_fresh, PixelRays(views[k].camera), {});
     if (k == 0) {
       EXPECT_GT(by_fresh.planes.size(), 4u);
     }

@@ -20,7 +20,7 @@ using closed_form::kTop;
 Frame Extract(const cv::Mat1f& depth_m, const Camera& camera,
               const PlaneExtractionConfig& config = {}) {
   Frame frame = closed_form::MakeFrame(depth_m);
-  ExtractPlanes(frame, camera, PixelRays(camera), config);
+  ExtractPlanes(frame, PixelRays(camera), config);
   return frame;
 }
 
@@ -300,7 +300,7 @@ TEST(PlaneSegments, AcceptImagesOfAnySize) {
 
 TEST(PlaneSegments, RefuseRaysOfAnotherImageSize) {
   Frame frame = closed_form::MakeFrame(cv::Mat1f(10, 10, 1.0f));
-  EXPECT_THROW(ExtractPlanes(frame, Camera{}, cv::Mat2d(11, 10), {}), std::invalid_argument);
+  EXPECT_THROW(ExtractPlanes(frame, cv::Mat2d(11, 10), {}), std::invalid_argument);
 }
 
 TEST(PlaneSegments, GiveTheSameBytesTwice) {
