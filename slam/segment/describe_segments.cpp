@@ -87,7 +87,7 @@ void PlaneExtractor::Workspace::Describe(Frame& frame) {
 
   // Where each of them ends depends on the areas of the others (min_rising_area).
   SamplePoints(frame.plane_labels, frame.planes);
-  areas_m2.clear();
+  std::vector<double> areas_m2;
   for (const FramePlane& plane : frame.planes) areas_m2.push_back(plane.area_m2);
   for (FramePlane& plane : frame.planes) {
     FindEdgePoints(grid, contours, plane.index + 1, kept[Index(plane.index)].plane, areas_m2,

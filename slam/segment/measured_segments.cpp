@@ -5,7 +5,6 @@
 #include <cstddef>
 #include <optional>
 
-#include "slam/segment/pixels/label_contacts.h"
 
 namespace slam {
 namespace {

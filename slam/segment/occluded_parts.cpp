@@ -7,7 +7,6 @@
 
 #include "slam/base/index.h"
 #include "slam/segment/pixels/label_components.h"
-#include "slam/segment/pixels/label_contacts.h"
 #include "slam/segment/sight_lines.h"
 
 namespace slam {
@@ -44,24 +43,20 @@ class PartSegmentation {
   const PlaneExtractionConfig& config_;
   LabelComponents components_;
   LabelContacts contacts_;
-  std::vector<LabelPlane> planes_;     ///< one a label
-  std::vector<double> unsure_sigmas_;  ///< the same: what is as near is on no side of it
-  std::vector<int> into_;              ///< label that each label is part of
-  std::vector<int> main_;              ///< largest component of each label; -1 = it has none
-  std::vector<int> segment_;           ///< the segment of each component; -1 = none
+  std::vector<int> into_;     ///< label that each label is part of
+  std::vector<int> main_;     ///< largest component of each label; -1 = it has none
+  std::vector<int> segment_;  ///< the segment of each component; -1 = none
   int segment_count_ = 0;
 };
 
 PartSegmentation::PartSegmentation(const DepthGrid& grid, const std::vector<Surface>& surfaces,
                                    const LabelRuns& labels, const PlaneExtractionConfig& config)
-    : grid_(grid), surfaces_(surfaces), config_(config) {
-  for (const Surface& surface : surfaces) {
-    planes_.push_back(surface.plane);
-    unsure_sigmas_.push_back(BendSigmas(surface, config.joining));
-  }
+    : grid_(grid),
+      surfaces_(surfaces),
+      config_(config),
+      contacts_(CountContacts(labels, surfaces.size())) {
   components_.runs = labels;
   ConnectRuns(components_);
-  contacts_ = CountContacts(components_.runs, surfaces.size());
 }
 
 /// Labels with pixels, largest first.
@@ -82,10 +77,10 @@ void PartSegmentation::JoinHiddenLabels(const DepthNoise& noise) {
   std::vector<int> label_of_run;
   for (const LabelRun& run : components_.runs.runs) label_of_run.push_back(run.label);
   const SightLines lines(grid_, components_.runs, std::move(label_of_run),
-                         static_cast<int>(planes_.size()));
+                         static_cast<int>(surfaces_.size()));
 
   // Each label, the larger first, joins the larger one that fits its pixels best.
-  into_.resize(planes_.size());
+  into_.resize(surfaces_.size());
   std::iota(into_.begin(), into_.end(), 0);
   for (std::size_t k = 1; k < by_size.size(); ++k) {
     const auto small = static_cast<std::size_t>(by_size[k]);
@@ -106,11 +101,12 @@ void PartSegmentation::JoinHiddenLabels(const DepthNoise& noise) {
 
 /// Whether the lines from one part to another pass something behind the surface of a label.
 bool PartSegmentation::PassBehind(const SightLines& lines, int a, int b, int label) const {
-  return lines.PassBehind(a, b, planes_[Index(label)], unsure_sigmas_[Index(label)]);
+  const Surface& surface = surfaces_[Index(label)];
+  return lines.PassBehind(a, b, surface.plane, BendSigmas(surface, config_.joining));
 }
 
 void PartSegmentation::FindMainComponents() {
-  main_.assign(planes_.size(), -1);
+  main_.assign(surfaces_.size(), -1);
   for (std::size_t k = 0; k < components_.list.size(); ++k) {
     int& largest = main_[Index(components_.list[k].label)];
     if (largest < 0 || components_.list[k].pixels > components_.list[Index(largest)].pixels) {

@@ -10,17 +10,14 @@
 #include "slam/segment/ahc.h"
 #include "slam/segment/joining/local_planes.h"
 #include "slam/segment/joining/surface_joining.h"
-#include "slam/segment/pixels/label_contacts.h"
 #include "slam/segment/plane_workspace.h"
 
 namespace slam {
 namespace {
 
 /// Writes the label image (position in `kept` + 1) and the bounds of each segment.
-/// @param value  scratch
-void DrawLabels(const LabelRuns& segments, int count, std::vector<Segment>& kept,
-                std::vector<std::uint8_t>& value, cv::Mat1b& out) {
-  value.assign(static_cast<std::size_t>(count), 0);
+void DrawLabels(const PartSegments& segments, std::vector<Segment>& kept, cv::Mat1b& out) {
+  std::vector<std::uint8_t> value(segments.sums.size());
   const int none = std::numeric_limits<int>::max();
   for (std::size_t k = 0; k < kept.size(); ++k) {
     value[Index(kept[k].id)] = static_cast<std::uint8_t>(k + 1);
@@ -28,8 +25,8 @@ void DrawLabels(const LabelRuns& segments, int count, std::vector<Segment>& kept
   }
   for (int v = 0; v < out.rows; ++v) {
     const auto row = static_cast<std::size_t>(v);
-    for (std::size_t k = segments.rows[row]; k < segments.rows[row + 1]; ++k) {
-      const auto [begin, end, label] = segments.runs[k];
+    for (std::size_t k = segments.runs.rows[row]; k < segments.runs.rows[row + 1]; ++k) {
+      const auto [begin, end, label] = segments.runs.runs[k];
       const std::uint8_t drawn = label == kNoLabel ? std::uint8_t{0} : value[Index(label)];
       std::fill(out[v] + begin, out[v] + end, drawn);
       if (drawn == 0) continue;
@@ -60,7 +57,7 @@ PlaneExtractor::PlaneExtractor(PlaneExtractor&&) noexcept = default;
 PlaneExtractor& PlaneExtractor::operator=(PlaneExtractor&&) noexcept = default;
 PlaneExtractor::~PlaneExtractor() = default;
 
-/// Grows the planes of clusters from the middles of their blocks, and drops the useless ones.
+/// Grows the planes of clusters from their blocks, and drops the useless ones.
 /// @param joined  which of them are one surface, by block_parts
 void PlaneExtractor::Workspace::AddClusters(const BlockClusters& clusters,
                                             const JoinedLabels& joined) {
@@ -77,13 +74,12 @@ void PlaneExtractor::Workspace::AddClusters(const BlockClusters& clusters,
     growth.AddPlane(plane, local);
   }
 
-  const int half = clusters.block_px / 2;
+  const int split = kBlock_px / clusters.block_px;
   for (int block = 0; block < clusters.cols * clusters.rows; ++block) {
     const int region = clusters.region[Index(block)];
     if (region < 0) continue;
-    const int u = std::min(block % clusters.cols * clusters.block_px + half, grid.width - 1);
-    const int v = std::min(block / clusters.cols * clusters.block_px + half, grid.height - 1);
-    growth.Seed(growth.BlockAt(u, v), first + joined.into[Index(region)]);
+    const int c = block % clusters.cols / split, r = block / clusters.cols / split;
+    growth.Seed(r * blocks.cols + c, first + joined.into[Index(region)]);
   }
   growth.Grow();
   growth.DropUseless();
@@ -190,8 +186,7 @@ void PlaneExtractor::Extract(Frame& frame) {
   // Segments that can be measured become planes of the frame.
   work.kept = KeepMeasured(segments, work.sensor, work.config);
   frame.plane_labels.create(work.grid.height, work.grid.width);
-  DrawLabels(segments.runs, static_cast<int>(segments.sums.size()), work.kept, work.drawn_value,
-             frame.plane_labels);
+  DrawLabels(segments, work.kept, frame.plane_labels);
   work.Describe(frame);
 }
 

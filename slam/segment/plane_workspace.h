@@ -32,9 +32,7 @@ struct PlaneExtractor::Workspace {
   LabelRuns runs;
   std::vector<Surface> surfaces;  ///< one a label
   std::vector<Segment> kept;
-  std::vector<std::uint8_t> drawn_value;
   OuterContours contours;
-  std::vector<double> areas_m2;  ///< visible area of each of the frame's planes
 
   void AddClusters(const BlockClusters& clusters, const JoinedLabels& joined);
   JoinedLabels JoinClusters(const BlockClusters& clusters);

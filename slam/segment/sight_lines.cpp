@@ -41,10 +41,10 @@ int SightLines::PartAt(std::size_t i) const {
   return part_[runs_.At(pixel % grid_.width, pixel / grid_.width)];
 }
 
-bool SightLines::PassesBehind(const Pixel& from, const Pixel& to, int a, int b,
+bool SightLines::PassesBehind(const cv::Point& from, const cv::Point& to, int a, int b,
                               const PixelPlane& plane, float clear) const {
   // Pixel s of the line: along the longer side s on, along the other what is rounded towards `from`.
-  const int du = to.u - from.u, dv = to.v - from.v;
+  const int du = to.x - from.x, dv = to.y - from.y;
   const int across = du < 0 ? -1 : 1, down = dv < 0 ? -grid_.width : grid_.width;
   const bool is_level = std::abs(du) >= std::abs(dv);
   const int steps = std::max({std::abs(du), std::abs(dv), 1});
@@ -52,7 +52,7 @@ bool SightLines::PassesBehind(const Pixel& from, const Pixel& to, int a, int b,
   const int always = is_level ? across : down, sometimes = is_level ? down : across;
   constexpr int kFraction = 22;  // bits
   const std::int64_t slope = ((std::int64_t{shorter} << kFraction) + steps - 1) / steps;
-  const int first = grid_.Index(from.u, from.v);
+  const int first = grid_.Index(from.x, from.y);
   const auto is_behind = [&](int s) {
     const auto i = static_cast<std::size_t>(
         first + s * always + static_cast<int>(s * slope >> kFraction) * sometimes);
@@ -73,11 +73,12 @@ bool SightLines::PassesBehind(const Pixel& from, const Pixel& to, int a, int b,
 }
 
 bool SightLines::PassBehind(int a, int b, const LabelPlane& plane, double unsure_sigmas) const {
-  const std::vector<Pixel>&all_a = samples_[Index(a)], &all_b = samples_[Index(b)];
+  const std::vector<cv::Point>&all_a = samples_[Index(a)], &all_b = samples_[Index(b)];
   if (all_a.empty() || all_b.empty()) return true;
   const float clear = std::max(kClear_sigmas, static_cast<float>(unsure_sigmas));
   const PixelPlane in_float(plane);
-  const auto end = [](const std::vector<Pixel>& all, std::size_t k) {  // kEnds in equal steps
+  const auto end = [](const std::vector<cv::Point>& all,
+                      std::size_t k) {  // kEnds in equal steps
     return all[all.size() * (2 * k + 1) / (2 * kEnds)];
   };
   // Until what is left cannot change the answer.

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <opencv2/core/types.hpp>
 #include <vector>
 
 #include "slam/segment/pixels/block_pixels.h"
@@ -25,18 +26,14 @@ class SightLines {
   bool PassBehind(int a, int b, const LabelPlane& plane, double unsure_sigmas = 0.0) const;
 
  private:
-  struct Pixel {
-    int u = 0, v = 0;
-  };
-
   int PartAt(std::size_t i) const;
-  bool PassesBehind(const Pixel& from, const Pixel& to, int a, int b, const PixelPlane& plane,
-                    float clear) const;
+  bool PassesBehind(const cv::Point& from, const cv::Point& to, int a, int b,
+                    const PixelPlane& plane, float clear) const;
 
   const DepthGrid& grid_;
   const LabelRuns& runs_;
   std::vector<int> part_;
-  std::vector<std::vector<Pixel>> samples_;  ///< of each part, row by row
+  std::vector<std::vector<cv::Point>> samples_;  ///< of each part, row by row
 };
 
 }  // namespace slam

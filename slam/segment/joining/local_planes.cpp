@@ -48,12 +48,6 @@ cv::Rect TilesOf(const PartsOnBlocks& on, const std::vector<int>& into, int labe
 
 }  // namespace
 
-std::vector<PlaneSums> SumParts(const PartsOnBlocks& on, std::size_t label_count) {
-  std::vector<PlaneSums> sums(label_count);
-  for (const BlockPart& part : on.parts) sums[Index(part.label)] += part.sums;
-  return sums;
-}
-
 std::vector<LabelPlane> FitLocally(const PartsOnBlocks& on, const std::vector<int>& into,
                                    int label, const LabelPlane& plane, const DepthNoise& noise,
                                    const JoinConfig& config) {

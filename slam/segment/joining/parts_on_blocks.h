@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "slam/base/index.h"
 #include "slam/geometry/plane_sums.h"
 
 namespace slam {
@@ -39,6 +40,10 @@ struct PartsOnBlocks {
 };
 
 /// Sums of all parts of each label.
-std::vector<PlaneSums> SumParts(const PartsOnBlocks& on, std::size_t label_count);
+inline std::vector<PlaneSums> SumParts(const PartsOnBlocks& on, std::size_t label_count) {
+  std::vector<PlaneSums> sums(label_count);
+  for (const BlockPart& part : on.parts) sums[Index(part.label)] += part.sums;
+  return sums;
+}
 
 }  // namespace slam

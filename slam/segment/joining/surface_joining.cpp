@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <limits>
 #include <numeric>
 #include <utility>
 
@@ -108,7 +107,11 @@ class SurfaceJoining {
  public:
   SurfaceJoining(const PartsOnBlocks& on, std::vector<std::uint8_t> bent,
                  const DepthNoise& noise, const JoinConfig& config)
-      : on_(on), noise_(noise), config_(config), bent_(std::move(bent)) {
+      : on_(on),
+        noise_(noise),
+        config_(config),
+        candidates_(bent.size()),
+        bent_(std::move(bent)) {
     sums_ = SumParts(on, bent_.size());
     into_.resize(bent_.size());
     std::iota(into_.begin(), into_.end(), 0);
@@ -132,7 +135,7 @@ class SurfaceJoining {
   void Look(const BlockPart& a, const BlockPart& b, int block, LabelPairs<int>* contacts);
   bool MayBeOne(int a, int b) const;
   bool IsSmooth(const Border& border) const;
-  void Join(std::size_t pair);
+  void Join(int a, int b);
 
   const PartsOnBlocks& on_;
   const DepthNoise& noise_;
@@ -170,7 +173,6 @@ void SurfaceJoining::Look(const BlockPart& a, const BlockPart& b, int block,
 }
 
 void SurfaceJoining::MeasureBorders(LabelPairs<int>* contacts) {
-  candidates_.Clear(static_cast<int>(into_.size()));
   for (int block = 0; block < on_.cols * on_.rows; ++block) {
     const auto first = on_.first[Index(block)],
                end = on_.first[static_cast<std::size_t>(block) + 1];
@@ -183,10 +185,9 @@ void SurfaceJoining::MeasureBorders(LabelPairs<int>* contacts) {
       if (r + 1 < on_.rows) on_.VisitWindow(c, r + 1, c, r + 1, look);
     }
   }
-  for (const auto& [labels, candidate] : candidates_.Sorted()) {
-    if (candidate.border.step.weight > 0)
-      pairs_.push_back({labels.first, labels.second, candidate.border, true});
-  }
+  candidates_.VisitSorted([&](int low, int high, const Candidate& candidate) {
+    if (candidate.border.step.weight > 0) pairs_.push_back({low, high, candidate.border, true});
+  });
 }
 
 /// Whether two labels as one plane keep within the bend.
@@ -201,53 +202,42 @@ bool SurfaceJoining::IsSmooth(const Border& border) const {
           border.turn.Mean() - border.turn.Sigma() < square(config_.max_turn_bends));
 }
 
-/// Joins the labels of a pair; their borders with a third become one.
-void SurfaceJoining::Join(std::size_t pair) {
-  const int a = pairs_[pair].a, b = pairs_[pair].b;
-  PlaneSums& other_sums = sums_[Index(b)];
-  sums_[Index(a)] += other_sums;
-  other_sums = {};
+/// Joins two labels; their borders with a third become one.
+void SurfaceJoining::Join(int a, int b) {
+  sums_[Index(a)] += std::exchange(sums_[Index(b)], {});
   bent_[Index(a)] = config_.bend_ratio > 0.0 ? 1 : 0;
   for (int& target : into_) target = target == b ? a : target;
-  pairs_.erase(pairs_.begin() + static_cast<std::ptrdiff_t>(pair));
-  for (Pair& other : pairs_) {
-    if (other.a == b) other.a = a;
-    if (other.b == b) other.b = a;
-    if (other.a > other.b) std::swap(other.a, other.b);
-  }
-  std::stable_sort(pairs_.begin(), pairs_.end(), [](const Pair& p, const Pair& o) {
-    return std::pair(p.a, p.b) < std::pair(o.a, o.b);
-  });
-  std::size_t kept = 0;
-  for (const Pair& other : pairs_) {
-    const bool same =
-        kept > 0 && pairs_[kept - 1].a == other.a && pairs_[kept - 1].b == other.b;
-    if (same) {
-      pairs_[kept - 1].border += other.border;
-    } else {
-      pairs_[kept++] = other;
+  std::vector<Pair> kept;
+  for (Pair pair : pairs_) {
+    if (pair.a == b) pair.a = a;
+    if (pair.b == b) pair.b = a;
+    if (pair.a == pair.b) continue;
+    if (pair.a > pair.b) std::swap(pair.a, pair.b);
+    if (pair.a == a || pair.b == a) {
+      const auto same = std::find_if(kept.begin(), kept.end(), [&](const Pair& other) {
+        return other.a == pair.a && other.b == pair.b;
+      });
+      if (same != kept.end()) {
+        same->border += pair.border;
+        continue;
+      }
+      pair.may_be_one = MayBeOne(pair.a, pair.b);
     }
+    kept.push_back(pair);
   }
-  pairs_.resize(kept);
-  for (Pair& other : pairs_)
-    if (other.a == a || other.b == a) other.may_be_one = MayBeOne(other.a, other.b);
+  pairs_ = std::move(kept);
 }
 
 /// The pair that meets best joins, as long as there is one.
 void SurfaceJoining::JoinBest() {
   while (true) {
-    double min_step = std::numeric_limits<double>::infinity();
-    std::size_t best = 0;
-    for (std::size_t k = 0; k < pairs_.size(); ++k) {
-      const Pair& pair = pairs_[k];
-      if (!pair.may_be_one || !IsSmooth(pair.border) || pair.border.step.Mean() >= min_step)
-        continue;
-      min_step = pair.border.step.Mean(), best = k;
+    const Pair* best = nullptr;
+    for (const Pair& pair : pairs_) {
+      if (!pair.may_be_one || !IsSmooth(pair.border)) continue;
+      if (best == nullptr || pair.border.step.Mean() < best->border.step.Mean()) best = &pair;
     }
-    if (min_step == std::numeric_limits<double>::infinity()) {
-      return;
-    }
-    Join(best);
+    if (best == nullptr) return;
+    Join(best->a, best->b);
   }
 }
 

@@ -9,48 +9,34 @@
 
 namespace slam {
 
-/// A value for each pair of labels that touch. Its memory serves again.
+/// A value for each pair of labels that touch.
 template <typename Value>
 class LabelPairs {
  public:
-  struct Entry {
-    std::pair<int, int> labels;  ///< lower, higher
-    Value value;
-  };
-
-  /// Forgets everything. @param label_count  labels are below it
-  void Clear(int label_count) {
-    entries_.clear(), next_.clear();
-    first_.assign(static_cast<std::size_t>(label_count), kNone);
-  }
+  explicit LabelPairs(std::size_t label_count) : of_lower_(label_count) {}
 
   /// The value of a pair; a new one is Value{}. Another pair may move it.
   Value& Of(int a, int b) {
-    const std::pair<int, int> labels = std::minmax(a, b);
-    int& first = first_[Index(labels.first)];
-    for (int k = first; k != kNone; k = next_[Index(k)]) {
-      Entry& entry = entries_[Index(k)];
-      if (entry.labels.second == labels.second) return entry.value;
-    }
-    next_.push_back(first);
-    first = static_cast<int>(entries_.size());
-    return entries_.emplace_back(Entry{labels, Value{}}).value;
+    const auto [low, high] = std::minmax(a, b);
+    auto& values = of_lower_[Index(low)];
+    for (auto& [other, value] : values)
+      if (other == high) return value;
+    return values.emplace_back(high, Value{}).second;
   }
 
-  /// In order of their labels from now on; Of() needs a Clear() first.
-  std::vector<Entry>& Sorted() {
-    std::sort(entries_.begin(), entries_.end(),
-              [](const Entry& a, const Entry& b) { return a.labels < b.labels; });
-    first_.clear(), next_.clear();
-    return entries_;
+  /// Calls visit(low, high, value) for every pair that was asked for, in order of the labels.
+  template <typename Visit>
+  void VisitSorted(const Visit& visit) {
+    for (std::size_t low = 0; low < of_lower_.size(); ++low) {
+      auto& values = of_lower_[low];
+      std::sort(values.begin(), values.end(),
+                [](const auto& a, const auto& b) { return a.first < b.first; });
+      for (auto& [high, value] : values) visit(static_cast<int>(low), high, value);
+    }
   }
 
  private:
-  static constexpr int kNone = -1;
-
-  std::vector<Entry> entries_;
-  std::vector<int> first_;  ///< entry of each lower label
-  std::vector<int> next_;   ///< entry of the same lower label, of each
+  std::vector<std::vector<std::pair<int, Value>>> of_lower_;  ///< by the higher label
 };
 
 }  // namespace slam

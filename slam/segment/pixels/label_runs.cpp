@@ -4,6 +4,7 @@
 #include "slam/segment/pixels/label_changes.h"
 
 namespace slam {
+
 std::size_t LabelRuns::At(int u, int v) const {
   const auto first = runs.begin() + static_cast<std::ptrdiff_t>(rows[Index(v)]);
   const auto last =
@@ -30,6 +31,23 @@ void FindRuns(const LabelImage& labels, int width, int height, LabelRuns& out) {
     out.runs.push_back({begin, width, row[begin]});
   }
   out.rows.push_back(out.runs.size());
+}
+
+LabelContacts CountContacts(const LabelRuns& runs, std::size_t label_count) {
+  LabelContacts contacts{LabelPairs<int>(label_count), std::vector<int>(label_count)};
+  const auto add = [&](int a, int b, int sides) {
+    if (a == b) return;
+    if (a != kNoLabel) contacts.around[Index(a)] += sides;
+    if (b != kNoLabel) contacts.around[Index(b)] += sides;
+    if (a != kNoLabel && b != kNoLabel) contacts.shared.Of(a, b) += sides;
+  };
+  for (std::size_t row = 0; row + 1 < runs.rows.size(); ++row)
+    for (std::size_t k = runs.rows[row]; k + 1 < runs.rows[row + 1]; ++k)
+      add(runs.runs[k].label, runs.runs[k + 1].label, 1);
+  VisitRunsBelow(runs, [&](std::size_t a, std::size_t b, int begin, int end) {
+    add(runs.runs[a].label, runs.runs[b].label, end - begin);
+  });
+  return contacts;
 }
 
 }  // namespace slam

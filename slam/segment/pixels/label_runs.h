@@ -5,6 +5,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "slam/segment/pixels/label_pairs.h"
+
 namespace slam {
 
 inline constexpr std::int16_t kNoLabel = -1;
@@ -46,5 +48,13 @@ void VisitRunsBelow(const LabelRuns& runs, const Visit& visit) {
     }
   }
 }
+
+/// How long the borders between labels are, in sides of pixels.
+struct LabelContacts {
+  LabelPairs<int> shared;   ///< of two labels
+  std::vector<int> around;  ///< of each label with all that is beside it in the image
+};
+
+LabelContacts CountContacts(const LabelRuns& runs, std::size_t label_count);
 
 }  // namespace slam

@@ -9,7 +9,6 @@
 
 #include "slam/segment/pixels/label_changes.h"
 #include "slam/segment/pixels/label_components.h"
-#include "slam/segment/pixels/label_contacts.h"
 
 namespace slam {
 namespace {
@@ -129,7 +128,7 @@ TEST(LabelContacts, CountEverySideOfAPixelOnce) {
     if (i % w + 1 < w) meet(labels[i], labels[i + 1]);
     if (i + w < labels.size()) meet(labels[i], labels[i + w]);
   }
-  for (const auto& [pair, sides] : found.shared.Sorted()) shared[pair] = sides;
+  found.shared.VisitSorted([&](int a, int b, int sides) { shared[{a, b}] = sides; });
   EXPECT_EQ(shared, expected);
   EXPECT_EQ(found.around, around);
 }

@@ -120,8 +120,7 @@ TEST(JoinSurfaces, AsksAgainWhatIsOneWithASurfaceThatHasGrown) {
 TEST(JoinSurfaces, AsksForFourSidesThatTouch) {
   const PartsOnBlocks wall = Halves([](int, int) { return 1.0; });
   for (const int sides : {0, 3, 4}) {
-    LabelPairs<int> contacts;
-    contacts.Clear(2);
+    LabelPairs<int> contacts(2);
     contacts.Of(0, 1) = sides;
     const JoinedLabels joined = JoinSurfaces(wall, 2, &contacts, {}, {}, {});
     EXPECT_EQ(joined.into[1] == 0, sides == 4) << sides;
