@@ -1,12 +1,12 @@
 #include "slam/segment/clusters/block_clusters.h"
 
 #include <algorithm>
+#include <bit>
 #include <numeric>
 #include <optional>
 
 #include "slam/base/index.h"
 #include "slam/base/require.h"
-#include "slam/segment/pixels/block_sums.h"
 
 namespace slam {
 
@@ -34,26 +34,27 @@ void BlockClustering::AddBlocks(const ImageBlocks& blocks, const std::vector<Pix
   for (int r = 0; r < rows_; ++r) {
     for (int c = 0; c < cols_; ++c) {
       const auto whole = static_cast<std::size_t>(r / split * blocks.cols + c / split);
-      const BlockWindow window{c % split * out.block_px, r % split * out.block_px,
-                               out.block_px};
-      AddBlock(blocks.pixels[whole], free[whole] & window.Pixels(), window, r * cols_ + c, out);
+      const PixelSet own = split == 1
+                               ? kWholeBlock
+                               : QuarterAt(c % split * kQuarter_px, r % split * kQuarter_px);
+      AddBlock(blocks.pixels[whole], free[whole], own, r * cols_ + c, out);
     }
   }
   parent_.resize(regions_.size());
   std::iota(parent_.begin(), parent_.end(), 0);
 }
 
-void BlockClustering::AddBlock(const BlockPixels& pixels, PixelSet free,
-                               const BlockWindow& window, int block, BlockClusters& out) {
-  if (free == 0) return;
-  const PlaneSums& sums = out.block_sums[Index(block)] = SumOfSet(pixels, free, window);
+void BlockClustering::AddBlock(const BlockPixels& pixels, PixelSet free, PixelSet own,
+                               int block, BlockClusters& out) {
+  if ((free & own) == 0) return;
+  const PlaneSums& sums = out.block_sums[Index(block)] = SumOfSet(pixels, free & own);
 
   // A block is planar if enough of it is measured, nothing in it jumps, and noise explains how
   // it scatters about its plane.
-  if (!(sums.n >= config_->min_measured * window.side * window.side)) return;
+  if (!(sums.n >= config_->min_measured * std::popcount(own))) return;
   const std::optional<PlaneFit> fit = Fit(sums);
   if (!fit) return;
-  if (HasJump(pixels, static_cast<float>(config_->max_jump_sigmas), window)) return;
+  if (HasJump(pixels, static_cast<float>(config_->max_jump_sigmas), own)) return;
   const double grazing = GrazingFactor(sums, fit->plane, *noise_);
   if (!(fit->error < config_->max_block_error * grazing * grazing * sums.n)) return;
   const int region = static_cast<int>(regions_.size());
@@ -62,19 +63,20 @@ void BlockClustering::AddBlock(const BlockPixels& pixels, PixelSet free,
 }
 
 void BlockClustering::ProposeFirst() {
-  pairs_.clear(), first_costs_.clear();
+  pairs_.clear();
+  std::vector<double> costs;
   for (int k = 0; k < static_cast<int>(regions_.size()); ++k) {
     const int block = At(k).block;
     const auto beside = [&](int other) {
       const int j = region_at_[Index(other)];
       if (j < 0) return;
       pairs_.push_back({k, j, k, j});
-      first_costs_.push_back(Evaluate(At(k), At(j)));
+      costs.push_back(Evaluate(At(k), At(j)));
     };
     if (block % cols_ + 1 < cols_) beside(block + 1);
     if (block / cols_ + 1 < rows_) beside(block + cols_);
   }
-  merges_.Begin(first_costs_);
+  merges_.Begin(costs);
 }
 
 void BlockClustering::Merge() {
@@ -143,11 +145,11 @@ void BlockClustering::Join(int a, int b) {
 /// Numbers the regions that are large enough, in order of their first block.
 void BlockClustering::Number(BlockClusters& out) {
   out.region.assign(region_at_.size(), -1);
-  number_.assign(regions_.size(), -1);
+  std::vector<int> number(regions_.size(), -1);
   for (int k = 0; k < static_cast<int>(regions_.size()); ++k) {
     const int root = Root(k);
     if (At(root).blocks < std::max(config_->min_blocks, 1)) continue;
-    int& id = number_[Index(root)];
+    int& id = number[Index(root)];
     if (id < 0) {
       id = static_cast<int>(out.sums.size());
       out.sums.push_back(At(root).sums);

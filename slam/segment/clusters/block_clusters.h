@@ -60,7 +60,7 @@ class BlockClustering {
   Region& At(int i) { return regions_[Index(i)]; }
   void AddBlocks(const ImageBlocks& blocks, const std::vector<PixelSet>& free,
                  BlockClusters& out);
-  void AddBlock(const BlockPixels& pixels, PixelSet free, const BlockWindow& window, int block,
+  void AddBlock(const BlockPixels& pixels, PixelSet free, PixelSet own, int block,
                 BlockClusters& out);
   void Merge();
   int Root(int i);
@@ -73,14 +73,12 @@ class BlockClustering {
   const DepthNoise* noise_ = nullptr;
   const ClusterConfig* config_ = nullptr;
   int cols_ = 0, rows_ = 0;
-  std::vector<Region> regions_;      ///< first the blocks that are planar, in their order
-  std::vector<int> region_at_;       ///< one a block; -1 = none
-  std::vector<int> parent_;          ///< one a region; its own number: it is part of no other
-  std::vector<Pair> pairs_;          ///< in order of i, then j
-  std::vector<double> first_costs_;  ///< one a pair
-  MinTree merges_;                   ///< what each pair costs: error added or mean error
+  std::vector<Region> regions_;  ///< first the blocks that are planar, in their order
+  std::vector<int> region_at_;   ///< one a block; -1 = none
+  std::vector<int> parent_;      ///< one a region; its own number: it is part of no other
+  std::vector<Pair> pairs_;      ///< in order of i, then j
+  MinTree merges_;               ///< what each pair costs: error added or mean error
   int next_version_ = 0;
-  std::vector<int> number_;
 };
 
 }  // namespace slam

@@ -5,7 +5,6 @@
 #include <cmath>
 
 #include "slam/base/index.h"
-#include "slam/segment/pixels/block_sums.h"
 
 namespace slam {
 namespace {

@@ -1,5 +1,7 @@
 #include "slam/segment/pixels/block_pixels.h"
 
+#include <bit>
+#include <cstddef>
 #include <limits>
 
 #include "slam/base/lane_math.h"
@@ -39,12 +41,97 @@ class RowErrors {
   FloatLanes a_, b_, c_;
 };
 
+using FourFloats = float __attribute__((vector_size(16)));
+using FourInts = int __attribute__((vector_size(16)));
+constexpr int kFour = 4;
+
+SLAM_INLINE DoubleLanes InDouble(FourFloats v) {
+  return DoubleLanes{static_cast<double>(v[0]), static_cast<double>(v[1]),
+                     static_cast<double>(v[2]), static_cast<double>(v[3])};
+}
+SLAM_INLINE DoubleLanes Load4(const float* p) { return InDouble(Load<FourFloats>(p)); }
+
 /// Adds eight floats to four sums.
 SLAM_INLINE void AddTo(DoubleLanes& sum, FloatLanes v) {
-  sum += DoubleLanes{static_cast<double>(v[0]), static_cast<double>(v[1]),
-                     static_cast<double>(v[2]), static_cast<double>(v[3])};
-  sum += DoubleLanes{static_cast<double>(v[4]), static_cast<double>(v[5]),
-                     static_cast<double>(v[6]), static_cast<double>(v[7])};
+  sum += InDouble(FourFloats{v[0], v[1], v[2], v[3]});
+  sum += InDouble(FourFloats{v[4], v[5], v[6], v[7]});
+}
+
+/// PlaneSums of four columns of pixels, without their number.
+struct FourSums {
+  DoubleLanes w{}, wx{}, wy{}, wxx{}, wxy{}, wyy{}, wq{}, wqx{}, wqy{}, wqq{};
+
+  SLAM_INLINE void Add(DoubleLanes x, DoubleLanes y, DoubleLanes q, DoubleLanes g) {
+    const DoubleLanes vx = g * g * x;
+    AddColumn(y, q, g);
+    wx += vx, wxx += vx * x, wxy += vx * y, wqx += vx * q;
+  }
+  /// All but the sums with x.
+  SLAM_INLINE void AddColumn(DoubleLanes y, DoubleLanes q, DoubleLanes g) {
+    const DoubleLanes weight = g * g, vy = weight * y, vq = weight * q;
+    w += weight, wy += vy, wyy += vy * y, wq += vq, wqy += vq * y, wqq += vq * q;
+  }
+  /// Those with x, of whole columns.
+  SLAM_INLINE void SetX(DoubleLanes x) { wx = w * x, wxx = wx * x, wxy = wy * x, wqx = wq * x; }
+  SLAM_INLINE void operator+=(const FourSums& o) {
+    w += o.w, wx += o.wx, wy += o.wy, wxx += o.wxx, wxy += o.wxy, wyy += o.wyy;
+    wq += o.wq, wqx += o.wqx, wqy += o.wqy, wqq += o.wqq;
+  }
+  SLAM_INLINE PlaneSums Sum(int n) const {
+    return {static_cast<double>(n),
+            SumOf(w),
+            SumOf(wx),
+            SumOf(wy),
+            SumOf(wxx),
+            SumOf(wxy),
+            SumOf(wyy),
+            SumOf(wq),
+            SumOf(wqx),
+            SumOf(wqy),
+            SumOf(wqq)};
+  }
+};
+
+/// The four columns of a block from u on, of pixels in a set.
+/// @tparam kOneX  columns have one x
+template <bool kOneX>
+SLAM_INLINE FourSums SumFour(const BlockPixels& block, int u, FourInts columns) {
+  FourSums four;
+  const float *x = block.x + u, *y = block.y + u, *q = block.q + u, *g = block.g + u;
+#pragma GCC unroll 1  // sums stay in registers
+  for (int v = 0; v < kBlock_px; ++v) {
+    const FourInts used = columns << 31 >> 31;
+    const DoubleLanes g_used = InDouble((FourFloats)((FourInts)Load<FourFloats>(g) & used));
+    if (kOneX) {
+      four.AddColumn(Load4(y), Load4(q), g_used);
+    } else {
+      four.Add(Load4(x), Load4(y), Load4(q), g_used);
+      x += block.x_stride;
+    }
+    columns >>= 1;
+    y += block.stride, q += block.stride, g += block.stride;
+  }
+  if (kOneX) four.SetX(Load4(block.x + u));
+  return four;
+}
+
+template <bool kOneX>
+SLAM_INLINE PlaneSums SumBlock(const BlockPixels& block, PixelSet set) {
+  constexpr PixelSet kLeft = 0xffffffff;
+  const IntLanes columns = ColumnsOf(set);
+  const FourInts left = {columns[0], columns[1], columns[2], columns[3]},
+                 right = {columns[4], columns[5], columns[6], columns[7]};
+  FourSums sums;
+  if ((set & kLeft) != 0) sums = SumFour<kOneX>(block, 0, left);
+  if ((set & ~kLeft) != 0) sums += SumFour<kOneX>(block, kFour, right);
+  return sums.Sum(std::popcount(set));
+}
+
+/// Where eight pixels from one place on differ from those from another place on.
+SLAM_INLINE IntLanes Jumps(const BlockPixels& block, std::ptrdiff_t i, std::ptrdiff_t j,
+                           float max_sigmas) {
+  const FloatLanes by = Abs(Lanes(block.q + i) - Lanes(block.q + j)) * Lanes(block.g + i);
+  return (by > max_sigmas) & (Lanes(block.g + j) > 0.0f);
 }
 
 }  // namespace
@@ -139,6 +226,22 @@ SLAM_LANES void FindCosts(const BlockPixels& block, const PixelPlane& plane, flo
         (((Lanes(s) + Lanes(s + 8)) + Lanes(s + 16)) + Lanes(s + 24)) + Lanes(s + 32);
     Store(RowOf(columns, v) ? sum * scale : AllLanes(kNotNear), costs + kLanes * v);
   }
+}
+
+SLAM_LANES PlaneSums SumOfSet(const BlockPixels& block, PixelSet set) {
+  return block.x_stride == 0 ? SumBlock<true>(block, set) : SumBlock<false>(block, set);
+}
+
+SLAM_LANES bool HasJump(const BlockPixels& block, float max_sigmas, PixelSet within) {
+  const IntLanes has_right = ColumnsOf(within & within >> kBlock_px);
+  const IntLanes has_below = ColumnsOf(within & within >> 1 & ~kLastRow);
+  IntLanes jumps{};
+  for (int v = 0; v < kBlock_px; ++v) {
+    const std::ptrdiff_t i = static_cast<std::ptrdiff_t>(v) * block.stride;
+    jumps |= RowOf(has_right, v) & Jumps(block, i, i + 1, max_sigmas);
+    jumps |= RowOf(has_below, v) & Jumps(block, i, i + block.stride, max_sigmas);
+  }
+  return AnyOf(jumps);
 }
 
 }  // namespace slam

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 
+#include "slam/geometry/plane_sums.h"
 #include "slam/segment/pixels/depth_grid.h"
 #include "slam/segment/pixels/pixel_labels.h"
 #include "slam/segment/pixels/pixel_set.h"
@@ -60,5 +61,11 @@ double SumGains(const BlockPixels& block, const PixelPlane& plane, PixelSet set,
 /// sigmas^2; infinity for the other pixels.
 void FindCosts(const BlockPixels& block, const PixelPlane& plane, float max_sigmas,
                PixelSet near, float* costs);
+
+/// Sums of the pixels of a set, all of them measured.
+PlaneSums SumOfSet(const BlockPixels& block, PixelSet set);
+
+/// Whether two neighbouring measured pixels of a set differ by more than `max_sigmas`.
+bool HasJump(const BlockPixels& block, float max_sigmas, PixelSet within);
 
 }  // namespace slam

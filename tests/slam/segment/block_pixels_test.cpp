@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "slam/geometry/camera.h"
-#include "slam/segment/pixels/block_sums.h"
 #include "tests/slam/segment/pixel_sets.h"
 #include "tests/support/depth_planes.h"
 
@@ -137,21 +136,20 @@ TEST(BlockPixels, SumTheirSetAloneWithALensAndWithout) {
   for (const double k1 : {0.0, 0.2}) {
     const DepthGrid grid = RoughGrid(29, 27, k1);
     ASSERT_EQ(grid.column_x.empty(), k1 != 0.0);
-    for (const BlockWindow& window : {BlockWindow{}, BlockWindow{0, 0, 4}, BlockWindow{4, 0, 4},
-                                      BlockWindow{0, 4, 4}, BlockWindow{4, 4, 4}}) {
+    for (const PixelSet own :
+         {kWholeBlock, QuarterAt(0, 0), QuarterAt(4, 0), QuarterAt(0, 4), QuarterAt(4, 4)}) {
       VisitBlocks(grid, [&](const BlockPixels& block, int u0, int v0) {
         PixelSet set = 0;
         PlaneSums plain;
         for (int v = 0; v < block.height; ++v) {
           for (int u = 0; u < block.width; ++u) {
             const auto i = static_cast<std::size_t>(grid.Index(u0 + u, v0 + v));
-            if (!(grid.g[i] > 0) || (u * 5 + v) % 3 == 0 || !IsInSet(window.Pixels(), u, v))
-              continue;
+            if (!(grid.g[i] > 0) || (u * 5 + v) % 3 == 0 || !IsInSet(own, u, v)) continue;
             set |= PixelOf(u, v);
             AddPixel(grid, i, plain);
           }
         }
-        const PlaneSums sums = SumOfSet(block, set, window);
+        const PlaneSums sums = SumOfSet(block, set);
         EXPECT_EQ(sums.n, plain.n);
         const std::vector<double> got = Numbers(sums), expected = Numbers(plain);
         for (std::size_t m = 0; m < got.size(); ++m)
@@ -164,11 +162,11 @@ TEST(BlockPixels, SumTheirSetAloneWithALensAndWithout) {
 TEST(BlockPixels, SeeAJumpOnlyBetweenMeasuredPixelsOfTheBlock) {
   Camera camera;
   camera.width = 17, camera.height = 16;
-  const auto jumps = [&](int u, int v, float depth_m, const BlockWindow& window = {}) {
+  const auto jumps = [&](int u, int v, float depth_m, PixelSet within = kWholeBlock) {
     cv::Mat1f depth(16, 17, 1.0f);
     depth(v, u) = depth_m;
     const DepthGrid grid = MakeDepthGrid(depth, PixelRays(camera), DepthNoise{}, 10.0);
-    return HasJump(MakeBlocks(grid).pixels.front(), 12.0f, window);
+    return HasJump(MakeBlocks(grid).pixels.front(), 12.0f, within);
   };
   for (const auto& [u, v] :
        std::vector<std::pair<int, int>>{{0, 0}, {7, 0}, {0, 7}, {7, 7}, {3, 4}}) {
@@ -179,10 +177,10 @@ TEST(BlockPixels, SeeAJumpOnlyBetweenMeasuredPixelsOfTheBlock) {
   EXPECT_FALSE(jumps(8, 3, 1.2f));
   EXPECT_FALSE(jumps(3, 8, 1.2f));
   // In a quarter alone.
-  EXPECT_TRUE(jumps(4, 3, 1.2f, {4, 0, 4}));
-  EXPECT_TRUE(jumps(7, 0, 1.2f, {4, 0, 4}));
-  EXPECT_FALSE(jumps(3, 3, 1.2f, {4, 0, 4}));
-  EXPECT_FALSE(jumps(4, 4, 1.2f, {4, 0, 4}));
+  EXPECT_TRUE(jumps(4, 3, 1.2f, QuarterAt(4, 0)));
+  EXPECT_TRUE(jumps(7, 0, 1.2f, QuarterAt(4, 0)));
+  EXPECT_FALSE(jumps(3, 3, 1.2f, QuarterAt(4, 0)));
+  EXPECT_FALSE(jumps(4, 4, 1.2f, QuarterAt(4, 0)));
 }
 
 }  // namespace
