@@ -10,6 +10,7 @@ namespace slam {
 struct CompetingPlane {
   const float* costs = nullptr;  ///< FindCosts
   PixelSet owned = 0;            ///< set to the pixels that it gets
+  int hypothesis = 0;            ///< its place in BlockHypotheses
 };
 
 /// Gives each pixel to the plane of least cost of those near it, to the first of equal ones.

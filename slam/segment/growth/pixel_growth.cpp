@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <utility>
 
 #include "slam/base/index.h"
+#include "slam/segment/growth/plane_gains.h"
 
 namespace slam {
 namespace {
@@ -18,9 +20,8 @@ constexpr int kMinPixelsToSpread = 4;
 void PixelGrowth::Begin(const ImageBlocks& blocks, const GrowthConfig& config) {
   on_.blocks = &blocks, config_ = config;
   const auto count = static_cast<std::size_t>(blocks.count());
-  on_.planes.clear(), on_.pixel_planes.clear(), on_.planes_of.clear();
+  on_.planes.clear(), on_.pixel_planes.clear(), on_.planes_of.clear(), is_reached_.clear();
   on_.hypotheses.Begin(count);
-  on_.reached.Begin(blocks.cols, blocks.rows);
   active_.clear(), next_active_.clear(), is_active_.assign(count, 0);
   is_stale_.assign(count, 0);
   cost_count_ = 0;
@@ -31,14 +32,17 @@ int PixelGrowth::AddPlane(const LabelPlane& plane, const std::vector<LabelPlane>
   on_.planes.push_back(plane);
   if (local.empty()) on_.pixel_planes.emplace_back(plane);
   for (const LabelPlane& tile : local) on_.pixel_planes.emplace_back(tile);
-  on_.reached.AddLabel();
+  is_reached_.resize(is_reached_.size() + is_active_.size());
   return static_cast<int>(on_.planes.size()) - 1;
 }
 
-bool PixelGrowth::Reach(int block, int label) {
-  if (!on_.reached.Add(label, PlaceOf(block))) return false;
+void PixelGrowth::Seed(int block, int label) {
+  const std::size_t blocks = is_active_.size();
+  std::uint8_t& is_reached = is_reached_[Index(label) * blocks + Index(block)];
+  if (is_reached != 0) return;
+  is_reached = 1;
   on_.hypotheses.Add(block, label, on_.PlaneIndex(block, label));
-  return true;
+  Activate(block);
 }
 
 void PixelGrowth::Activate(int block) {
@@ -70,20 +74,17 @@ void PixelGrowth::Assign(int block) {
   const PixelSet shared = all.FindShared(block, &Hypothesis::near);
 
   // What only one plane is near is that plane's; the others have costs to be compared.
-  competing_hypotheses_.clear();
+  competing_.clear();
   for (int k = all.First(block); k != kNoHypothesis; k = all.At(k).next) {
     all.At(k).owned = all.At(k).near;
     if ((all.At(k).near & shared) == 0) continue;
     if (all.At(k).costs < 0) FindCostsOf(block, k);
-    competing_hypotheses_.push_back(k);
+    competing_.push_back({.hypothesis = k});
   }
   if (shared == 0) return;
-
-  competing_.clear();
-  for (const int k : competing_hypotheses_) competing_.push_back({CostsOf(k), 0});
+  for (CompetingPlane& plane : competing_) plane.costs = CostsOf(plane.hypothesis);
   AssignPixels(competing_.data(), static_cast<int>(competing_.size()));
-  for (std::size_t c = 0; c < competing_.size(); ++c)
-    all.At(competing_hypotheses_[c]).owned = competing_[c].owned;
+  for (const CompetingPlane& plane : competing_) all.At(plane.hypothesis).owned = plane.owned;
 }
 
 /// @returns whether anything has changed.
@@ -101,16 +102,15 @@ bool PixelGrowth::LabelBlock(int block) {
 }
 
 void PixelGrowth::SpreadFrom(int block) {
-  const cv::Point place = PlaceOf(block);
+  const int cols = on_.blocks->cols, c = block % cols, r = block / cols;
   BlockHypotheses& all = on_.hypotheses;
   for (int k = all.First(block); k != kNoHypothesis; k = all.At(k).next) {
     if (all.At(k).spread || std::popcount(all.At(k).owned) < kMinPixelsToSpread) continue;
     all.At(k).spread = true;
     const int label = all.At(k).label;
-    for (unsigned bits = on_.reached.MissingAround(label, place); bits != 0; bits &= bits - 1) {
-      const int neighbour = std::countr_zero(bits);
-      Seed(block + (neighbour / 3 - 1) * on_.blocks->cols + neighbour % 3 - 1, label);
-    }
+    for (int row = std::max(r - 1, 0); row < std::min(r + 2, on_.blocks->rows); ++row)
+      for (int col = std::max(c - 1, 0); col < std::min(c + 2, cols); ++col)
+        Seed(row * cols + col, label);
   }
 }
 
@@ -130,16 +130,11 @@ void PixelGrowth::Grow() {
 }
 
 void PixelGrowth::DropUseless() {
-  gains_.FindUseless(on_, config_, useless_);
-  for (int label = 0; label < static_cast<int>(useless_.size()); ++label) {
-    if (useless_[Index(label)] == 0) continue;
-    on_.reached.VisitBlocks(label, [&](int block) {
-      on_.hypotheses.Remove(block, label);
-      Activate(block);
-      is_stale_[Index(block)] = 1;
-      return false;
-    });
-    on_.reached.Forget(label);
+  const std::vector<std::uint8_t> useless = FindUseless(on_, config_);
+  for (int block = 0; block < on_.blocks->count(); ++block) {
+    if (!on_.hypotheses.Remove(block, useless)) continue;
+    Activate(block);
+    is_stale_[Index(block)] = 1;
   }
   Grow();
 }
@@ -148,19 +143,19 @@ void PixelGrowth::Replace(const std::vector<LabelPlane>& planes, const std::vect
                           const std::vector<std::vector<LabelPlane>>& local) {
   // Where the planes are now is where the new ones begin.
   BlockHypotheses& all = on_.hypotheses;
-  seeds_.clear();
+  std::vector<std::pair<int, int>> seeds;  // (block, label)
   for (int block = 0; block < on_.blocks->count(); ++block) {
     for (int k = all.First(block); k != kNoHypothesis; k = all.At(k).next) {
-      if (all.At(k).owned != 0) seeds_.emplace_back(block, into[Index(all.At(k).label)]);
+      if (all.At(k).owned != 0) seeds.emplace_back(block, into[Index(all.At(k).label)]);
     }
   }
 
-  on_.planes.clear(), on_.pixel_planes.clear(), on_.planes_of.clear();
-  all.Begin(static_cast<std::size_t>(on_.blocks->count())), on_.reached.Clear();
+  on_.planes.clear(), on_.pixel_planes.clear(), on_.planes_of.clear(), is_reached_.clear();
+  all.Begin(static_cast<std::size_t>(on_.blocks->count()));
   for (std::size_t k = 0; k < planes.size(); ++k) AddPlane(planes[k], local[k]);
   cost_count_ = 0;
   std::fill(is_stale_.begin(), is_stale_.end(), 1);
-  for (const auto& [block, label] : seeds_) Seed(block, label);
+  for (const auto& [block, label] : seeds) Seed(block, label);
   Grow();
 }
 

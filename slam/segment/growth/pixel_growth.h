@@ -3,14 +3,12 @@
 #include <cstddef>
 #include <cstdint>
 #include <opencv2/core/types.hpp>
-#include <utility>
 #include <vector>
 
 #include "slam/base/index.h"
 #include "slam/geometry/plane_sums.h"
 #include "slam/segment/growth/block_assignment.h"
 #include "slam/segment/growth/growth_config.h"
-#include "slam/segment/growth/plane_gains.h"
 #include "slam/segment/growth/planes_on_blocks.h"
 #include "slam/segment/pixels/pixel_labels.h"
 
@@ -31,10 +29,7 @@ class PixelGrowth {
   /// @param local  its planes by tiles (FitLocally); empty: the plane itself everywhere
   int AddPlane(const LabelPlane& plane, const std::vector<LabelPlane>& local);
   /// Lets a plane begin in a block.
-  void Seed(int block, int label) {
-    if (Reach(block, label)) Activate(block);
-  }
-  int BlockAt(int u, int v) const { return v / kBlock_px * on_.blocks->cols + u / kBlock_px; }
+  void Seed(int block, int label);
   /// Spreads the planes added or changed since the last call.
   void Grow();
   /// Takes out the planes that gain less than min_gain, smallest first, and gives their pixels
@@ -62,7 +57,6 @@ class PixelGrowth {
   const std::vector<LabelPlane>& planes() const { return on_.planes; }
 
  private:
-  bool Reach(int block, int label);
   void Activate(int block);
   bool Measure(int block, int hypothesis);
   void FindCostsOf(int block, int hypothesis);
@@ -82,16 +76,13 @@ class PixelGrowth {
   PlanesOnBlocks on_;
   std::vector<int> active_, next_active_;  ///< blocks that planes have reached
   std::vector<std::uint8_t> is_active_;
+  std::vector<std::uint8_t> is_reached_;  ///< label by label, whether it has reached each block
   /// Blocks whose pixels are not assigned to their hypotheses yet.
   std::vector<std::uint8_t> is_stale_;
   std::vector<float> costs_;  ///< FindCosts of the hypotheses that compete
   std::size_t cost_count_ = 0;
-  PlaneGains gains_;
-  std::vector<std::uint8_t> useless_;       ///< one a label
-  std::vector<std::pair<int, int>> seeds_;  ///< (block, label)
   // Scratch of one block.
   std::vector<CompetingPlane> competing_;
-  std::vector<int> competing_hypotheses_;
   std::vector<BlockOwner> owners_;
 };
 

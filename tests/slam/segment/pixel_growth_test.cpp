@@ -86,8 +86,8 @@ TEST(PixelGrowth, SumsLabelsAsIfTheirPixelsWereCountedOneByOne) {
   const ImageBlocks blocks = MakeBlocks(grid);
   PixelGrowth growth;
   growth.Begin(blocks, {});
-  growth.Seed(growth.BlockAt(0, 0), growth.AddPlane({{0.0, 0.0, 1.0}, 1.0}, {}));
-  growth.Seed(growth.BlockAt(30, 20), growth.AddPlane({{0.0, 0.0, 1.0 / 0.9}, 1.0}, {}));
+  growth.Seed(0, growth.AddPlane({{0.0, 0.0, 1.0}, 1.0}, {}));
+  growth.Seed(2 * blocks.cols + 3, growth.AddPlane({{0.0, 0.0, 1.0 / 0.9}, 1.0}, {}));
   growth.Grow();
   const std::vector<PlaneSums> plain = SumLabels(grid, LabelsOf(growth, grid), 2);
   const BlockClusters clusters =

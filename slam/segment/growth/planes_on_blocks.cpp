@@ -1,29 +1,28 @@
-#include "slam/segment/growth/block_hypotheses.h"
+#include "slam/segment/growth/planes_on_blocks.h"
 
 #include "slam/base/index.h"
 
 namespace slam {
 
 void BlockHypotheses::Add(int block, int label, int plane) {
-  const int added = static_cast<int>(list_.size());
-  list_.push_back({});
   int* link = &first_[Index(block)];
   while (*link != kNoHypothesis && At(*link).label < label) link = &At(*link).next;
-  At(added).label = label, At(added).plane = plane;
-  At(added).next = *link;
-  *link = added;
+  const int next = *link;
+  *link = static_cast<int>(list_.size());
+  list_.push_back({.label = label, .plane = plane, .next = next});
 }
 
-void BlockHypotheses::Remove(int block, int label) {
-  int* link = &first_[Index(block)];
-  while (At(*link).label != label) link = &At(*link).next;
-  *link = At(*link).next;
-}
-
-int BlockHypotheses::Find(int block, int label) const {
-  int k = First(block);
-  while (At(k).label != label) k = At(k).next;
-  return k;
+bool BlockHypotheses::Remove(int block, const std::vector<std::uint8_t>& labels) {
+  bool any = false;
+  for (int* link = &first_[Index(block)]; *link != kNoHypothesis;) {
+    Hypothesis& at = At(*link);
+    if (labels[Index(at.label)] != 0) {
+      *link = at.next, any = true;
+    } else {
+      link = &at.next;
+    }
+  }
+  return any;
 }
 
 PixelSet BlockHypotheses::FindShared(int block, PixelSet Hypothesis::*set) const {
