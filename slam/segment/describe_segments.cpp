@@ -1,10 +1,11 @@
+#include "slam/segment/describe_segments.h"
+
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
 #include "slam/base/index.h"
 #include "slam/segment/edges/plane_edges.h"
-#include "slam/segment/plane_workspace.h"
 #include "slam/segment/roughness.h"
 
 namespace slam {
@@ -44,22 +45,20 @@ double RayArea(const DepthGrid& grid, int u, int v) {
   return std::abs(along.x() * down.y() - along.y() * down.x());
 }
 
-}  // namespace
-
 /// Thinned points and the visible area of each plane. A pixel of dx dy on the ray plane covers
 /// |(a, b, c)| / q^3 dx dy of the surface.
-void PlaneExtractor::Workspace::SamplePoints(const cv::Mat1b& drawn,
-                                             std::vector<FramePlane>& planes) {
-  for (int v = 0; v < drawn.rows; v += config.point_grid_px) {
-    const std::uint8_t* row = drawn[v];
-    for (int u = 0; u < drawn.cols; u += config.point_grid_px) {
+void SamplePoints(const DepthGrid& grid, const cv::Mat1b& labels, int point_grid_px,
+                  const std::vector<Segment>& segments, std::vector<FramePlane>& planes) {
+  for (int v = 0; v < labels.rows; v += point_grid_px) {
+    const std::uint8_t* row = labels[v];
+    for (int u = 0; u < labels.cols; u += point_grid_px) {
       if (row[u] == 0) continue;
       const auto k = static_cast<std::size_t>(row[u] - 1);
       const auto i = static_cast<std::size_t>(grid.Index(u, v));
       const double x = static_cast<double>(grid.x[i]), y = static_cast<double>(grid.y[i]);
       const double z = 1.0 / static_cast<double>(grid.q[i]);
       planes[k].points_c.emplace_back(x * z, y * z, z);
-      const InverseDepthPlane& p = kept[k].plane.plane;
+      const InverseDepthPlane& p = segments[k].plane.plane;
       const double q = p.InverseDepth(x, y),
                    norm = std::sqrt(p.a * p.a + p.b * p.b + p.c * p.c);
       planes[k].area_m2 += norm / (q * q * q) * RayArea(grid, u, v);
@@ -71,29 +70,33 @@ void PlaneExtractor::Workspace::SamplePoints(const cv::Mat1b& drawn,
   }
 }
 
-/// Fills the frame's planes from the segments that are kept and its label image.
-void PlaneExtractor::Workspace::Describe(Frame& frame) {
+}  // namespace
+
+std::vector<FramePlane> DescribeSegments(const DepthGrid& grid, const cv::Mat1b& labels,
+                                         const std::vector<Segment>& segments,
+                                         const DepthNoise& noise,
+                                         const PlaneExtractionConfig& config) {
   // Parameters, precision and roughness of each segment.
-  contours.Trace(frame.plane_labels);
-  frame.planes.clear();
-  for (std::size_t k = 0; k < kept.size(); ++k) {
-    FramePlane plane = MakeFramePlane(kept[k], static_cast<int>(k));
+  std::vector<FramePlane> planes;
+  for (const Segment& segment : segments) {
+    FramePlane plane = MakeFramePlane(segment, static_cast<int>(planes.size()));
     plane.roughness = MeasureRoughness(
-        grid, frame.plane_labels, cv::Rect(kept[k].low, kept[k].high + cv::Point(1, 1)),
-        static_cast<std::uint8_t>(plane.index + 1), kept[k].plane.plane, sensor.noise,
-        RoughnessStep(plane.pixel_count));
-    frame.planes.push_back(std::move(plane));
+        grid, labels, segment.bounds, static_cast<std::uint8_t>(plane.index + 1),
+        segment.plane.plane, noise, RoughnessStep(plane.pixel_count));
+    planes.push_back(std::move(plane));
   }
 
   // Where each of them ends depends on the areas of the others (min_rising_area).
-  SamplePoints(frame.plane_labels, frame.planes);
+  SamplePoints(grid, labels, config.point_grid_px, segments, planes);
   std::vector<double> areas_m2;
-  for (const FramePlane& plane : frame.planes) areas_m2.push_back(plane.area_m2);
-  for (FramePlane& plane : frame.planes) {
-    FindEdgePoints(grid, contours, plane.index + 1, kept[Index(plane.index)].plane, areas_m2,
-                   config.edges, plane.edge_points);
+  for (const FramePlane& plane : planes) areas_m2.push_back(plane.area_m2);
+  for (FramePlane& plane : planes) {
+    const Segment& segment = segments[Index(plane.index)];
+    plane.edge_points = FindEdgePoints(grid, labels, segment.bounds, plane.index + 1,
+                                       segment.plane, areas_m2, config.edges);
     for (const EdgePoint& point : plane.edge_points) plane.box_px.Include(point.u_px);
   }
+  return planes;
 }
 
 }  // namespace slam

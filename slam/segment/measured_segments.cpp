@@ -5,7 +5,6 @@
 #include <cstddef>
 #include <optional>
 
-
 namespace slam {
 namespace {
 
@@ -20,7 +19,7 @@ std::optional<Segment> Measure(const PlaneSums& sums, int id, const DepthNoise& 
   const double scale = std::max(grazing, std::sqrt(fit->error / dof));
   const PlaneSigmas sigmas = Sigmas(sums, fit->plane, noise, scale);
   if (!(sigmas.angle_rad < config.max_angle_sigma_rad)) return std::nullopt;
-  return Segment{id, sums, {fit->plane, grazing}, sigmas, {}, {}};
+  return Segment{id, sums, {fit->plane, grazing}, sigmas, {}};
 }
 
 /// Side of the square of pixels that share an error because the sensor measures them together.

@@ -19,7 +19,7 @@ struct Segment {
   PlaneSums sums;
   LabelPlane plane;
   PlaneSigmas sigmas;
-  cv::Point low, high;  ///< first and last row and column
+  cv::Rect bounds;
 };
 
 /// The segments that are enough of the image (min_share), tell well enough where their plane is

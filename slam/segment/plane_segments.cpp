@@ -2,15 +2,18 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numeric>
 #include <utility>
 
 #include "slam/base/index.h"
 #include "slam/segment/ahc.h"
+#include "slam/segment/clusters/block_clusters.h"
+#include "slam/segment/describe_segments.h"
+#include "slam/segment/growth/pixel_growth.h"
 #include "slam/segment/joining/local_planes.h"
 #include "slam/segment/joining/surface_joining.h"
-#include "slam/segment/plane_workspace.h"
+#include "slam/segment/measured_segments.h"
+#include "slam/segment/occluded_parts.h"
 
 namespace slam {
 namespace {
@@ -18,21 +21,15 @@ namespace {
 /// Writes the label image (position in `kept` + 1) and the bounds of each segment.
 void DrawLabels(const PartSegments& segments, std::vector<Segment>& kept, cv::Mat1b& out) {
   std::vector<std::uint8_t> value(segments.sums.size());
-  const int none = std::numeric_limits<int>::max();
-  for (std::size_t k = 0; k < kept.size(); ++k) {
+  for (std::size_t k = 0; k < kept.size(); ++k)
     value[Index(kept[k].id)] = static_cast<std::uint8_t>(k + 1);
-    kept[k].low = {none, none}, kept[k].high = {-1, -1};
-  }
   for (int v = 0; v < out.rows; ++v) {
     const auto row = static_cast<std::size_t>(v);
     for (std::size_t k = segments.runs.rows[row]; k < segments.runs.rows[row + 1]; ++k) {
       const auto [begin, end, label] = segments.runs.runs[k];
       const std::uint8_t drawn = label == kNoLabel ? std::uint8_t{0} : value[Index(label)];
       std::fill(out[v] + begin, out[v] + end, drawn);
-      if (drawn == 0) continue;
-      Segment& segment = kept[Index(drawn - 1)];
-      segment.low = {std::min(segment.low.x, begin), std::min(segment.low.y, v)};
-      segment.high = {std::max(segment.high.x, end - 1), v};
+      if (drawn != 0) kept[Index(drawn - 1)].bounds |= cv::Rect(begin, v, end - begin, 1);
     }
   }
 }
@@ -45,6 +42,28 @@ JoinedLabels Apart(const std::vector<PlaneSums>& sums) {
 }
 
 }  // namespace
+
+/// What the extractor works with from frame to frame.
+struct PlaneExtractor::Workspace {
+  SensorModel sensor;
+  PlaneExtractionConfig config;
+  PlaneExtractionConfig here;  ///< the same, with what the sensor is seen to bend in the frame
+  DepthGrid grid;
+  BlockClustering clustering;
+  ImageBlocks blocks;
+  PixelGrowth growth;
+  std::vector<PlaneSums> block_sums;  ///< sums of the measured pixels of each block
+  PartsOnBlocks block_parts;
+  LabelImage labels;
+  LabelRuns runs;
+  std::vector<Surface> surfaces;  ///< one a label
+
+  void AddClusters(const BlockClusters& clusters, const JoinedLabels& joined);
+  JoinedLabels JoinClusters(const BlockClusters& clusters);
+  void JoinTouching();
+  PartSegments SegmentBySteps();
+  PartSegments SegmentAsPeac() const;
+};
 
 PlaneExtractor::PlaneExtractor(const cv::Mat2d& rays, const SensorModel& sensor,
                                const PlaneExtractionConfig& config)
@@ -184,10 +203,11 @@ void PlaneExtractor::Extract(Frame& frame) {
                                     : work.SegmentBySteps();
 
   // Segments that can be measured become planes of the frame.
-  work.kept = KeepMeasured(segments, work.sensor, work.config);
+  std::vector<Segment> kept = KeepMeasured(segments, work.sensor, work.config);
   frame.plane_labels.create(work.grid.height, work.grid.width);
-  DrawLabels(segments, work.kept, frame.plane_labels);
-  work.Describe(frame);
+  DrawLabels(segments, kept, frame.plane_labels);
+  frame.planes =
+      DescribeSegments(work.grid, frame.plane_labels, kept, work.sensor.noise, work.config);
 }
 
 }  // namespace slam

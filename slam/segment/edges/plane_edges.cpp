@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <opencv2/imgproc.hpp>
 
 #include "slam/base/index.h"
 #include "slam/segment/pixels/block_pixels.h"
@@ -12,6 +13,7 @@ namespace slam {
 namespace {
 
 constexpr std::size_t kMinContour_px = 8;  // shorter ones bound specks
+constexpr int kFrame_px = 2;               // around a segment, for Outward
 
 /// To the nearest integer, halves away from zero.
 int Rounded(double x) {
@@ -23,8 +25,8 @@ int Rounded(double x) {
 /// The side of one segment on which its boundary is looked beyond.
 struct Outside {
   const DepthGrid& grid;
-  const OuterContours& contours;
-  int value;  ///< the segment's
+  const cv::Mat1b& labels;
+  int value;  ///< the segment's in them
   PixelPlane plane;
   std::span<const double> areas_m2;
   const EdgeConfig& config;
@@ -46,7 +48,7 @@ bool EndsAtCrease(const Outside& outside, const cv::Point& at, const Eigen::Vect
   for (int k = outside.config.reach_px; k >= 1; --k) {
     const cv::Point beyond = Along(at, step, k);
     if (!outside.Contains(beyond)) continue;
-    const int label = outside.contours.LabelAt(beyond);
+    const int label = outside.labels(beyond);
     if (label == 0 || label == outside.value) continue;
     const auto area_m2 = [&](int value) { return outside.areas_m2[Index(value - 1)]; };
     return area_m2(label) >= outside.config.min_rising_area * area_m2(outside.value);
@@ -105,23 +107,37 @@ EdgeKind KindBeyond(const Outside& outside, const cv::Point& at, const Eigen::Ve
   return crease && EndsAtCrease(outside, at, step) ? EdgeKind::kSurface : EdgeKind::kOccluded;
 }
 
+/// Direction from a pixel to the outside of its segment: the sum of its outside neighbours, two
+/// to each side.
+cv::Point Outward(const cv::Mat1b& inside, const cv::Point& at) {
+  cv::Point sum;
+  for (int v = -kFrame_px; v <= kFrame_px; ++v)
+    for (int u = -kFrame_px; u <= kFrame_px; ++u)
+      if (inside(at.y + v, at.x + u) == 0) sum += cv::Point(u, v);
+  return sum;
+}
+
 }  // namespace
 
-void FindEdgePoints(const DepthGrid& grid, const OuterContours& contours, int value,
-                    const LabelPlane& plane, std::span<const double> areas_m2,
-                    const EdgeConfig& config, std::vector<EdgePoint>& edge) {
-  edge.clear();
-  const Outside outside{grid, contours, value, PixelPlane(plane), areas_m2, config};
-  const auto& list = contours.contours();
-  auto contour = std::lower_bound(list.begin(), list.end(), value,
-                                  [](const auto& c, int label) { return c.label < label; });
-  for (; contour != list.end() && contour->label == value; ++contour) {
-    if (contour->end - contour->begin < kMinContour_px) break;
-    for (std::size_t k = contour->begin; k < contour->end;
-         k += static_cast<std::size_t>(config.step_px)) {
-      const cv::Point& at = contours.points()[k];
-      const cv::Point sum = contours.Outward(at);
+std::vector<EdgePoint> FindEdgePoints(const DepthGrid& grid, const cv::Mat1b& labels,
+                                      const cv::Rect& bounds, int value,
+                                      const LabelPlane& plane, std::span<const double> areas_m2,
+                                      const EdgeConfig& config) {
+  const Outside outside{grid, labels, value, PixelPlane(plane), areas_m2, config};
+  cv::Mat1b inside;
+  cv::copyMakeBorder(labels(bounds) == value, inside, kFrame_px, kFrame_px, kFrame_px,
+                     kFrame_px, cv::BORDER_CONSTANT, 0);
+  std::vector<std::vector<cv::Point>> contours;
+  cv::findContours(inside, contours, cv::RETR_EXTERNAL, cv::CHAIN_APPROX_NONE);
+  std::stable_sort(contours.begin(), contours.end(),
+                   [](const auto& a, const auto& b) { return a.size() > b.size(); });
+  std::vector<EdgePoint> edge;
+  for (const std::vector<cv::Point>& contour : contours) {
+    if (contour.size() < kMinContour_px) break;
+    for (std::size_t k = 0; k < contour.size(); k += static_cast<std::size_t>(config.step_px)) {
+      const cv::Point sum = Outward(inside, contour[k]);
       if (sum.x == 0 && sum.y == 0) continue;
+      const cv::Point at = contour[k] + bounds.tl() - cv::Point(kFrame_px, kFrame_px);
       const auto i = static_cast<std::size_t>(grid.Index(at.x, at.y));
       const double z = 1.0 / static_cast<double>(grid.q[i]);
       EdgePoint point;
@@ -131,6 +147,7 @@ void FindEdgePoints(const DepthGrid& grid, const OuterContours& contours, int va
       edge.push_back(point);
     }
   }
+  return edge;
 }
 
 }  // namespace slam

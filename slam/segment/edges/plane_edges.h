@@ -1,11 +1,11 @@
 #pragma once
 
+#include <opencv2/core/mat.hpp>
 #include <span>
 #include <vector>
 
 #include "slam/model/frame_plane.h"
 #include "slam/segment/edges/edge_config.h"
-#include "slam/segment/edges/outer_contours.h"
 #include "slam/segment/pixels/depth_grid.h"
 #include "slam/segment/pixels/pixel_labels.h"
 
@@ -21,13 +21,14 @@ namespace slam {
 ///                                           small thing stands on the surface
 /// p_c is the measured point of the boundary pixel.
 ///
-/// @param contours  those of the label image, index + 1 of the segment at each pixel
-/// @param value     the segment's value in it
+/// @param labels    index + 1 of the segment at each pixel, 0 = none
+/// @param bounds    the segment has no pixel outside
+/// @param value     the segment's in the labels
 /// @param plane     its plane
 /// @param areas_m2  visible areas of all segments, by value - 1
-/// @param edge      what is found; what was in it is forgotten
-void FindEdgePoints(const DepthGrid& grid, const OuterContours& contours, int value,
-                    const LabelPlane& plane, std::span<const double> areas_m2,
-                    const EdgeConfig& config, std::vector<EdgePoint>& edge);
+std::vector<EdgePoint> FindEdgePoints(const DepthGrid& grid, const cv::Mat1b& labels,
+                                      const cv::Rect& bounds, int value,
+                                      const LabelPlane& plane, std::span<const double> areas_m2,
+                                      const EdgeConfig& config);
 
 }  // namespace slam

@@ -1,7 +1,6 @@
 #include "slam/segment/pixels/label_runs.h"
 
 #include "slam/base/index.h"
-#include "slam/segment/pixels/label_changes.h"
 
 namespace slam {
 
@@ -19,16 +18,16 @@ void FindRuns(const LabelImage& labels, int width, int height, LabelRuns& out) {
   out.runs.clear(), out.rows.clear();
   for (int v = 0; v < height; ++v) {
     out.rows.push_back(out.runs.size());
-    if (width == 0) continue;
     const std::int16_t* row =
         labels.data() + static_cast<std::size_t>(v) * static_cast<std::size_t>(width);
-    int begin = 0;
-    const auto end_run = [&](int u) {
-      out.runs.push_back({begin, u, row[begin]});
-      begin = u;
-    };
-    VisitChanges(row, 1, width, end_run);
-    out.runs.push_back({begin, width, row[begin]});
+    for (int begin = 0; begin < width;) {
+      const std::int16_t label = row[begin];
+      const auto* next = std::find_if(row + begin, row + width,
+                                      [label](std::int16_t other) { return other != label; });
+      const int end = static_cast<int>(next - row);
+      out.runs.push_back({begin, end, label});
+      begin = end;
+    }
   }
   out.rows.push_back(out.runs.size());
 }

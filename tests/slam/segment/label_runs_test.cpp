@@ -7,7 +7,6 @@
 #include <utility>
 #include <vector>
 
-#include "slam/segment/pixels/label_changes.h"
 #include "slam/segment/pixels/label_components.h"
 
 namespace slam {
@@ -62,30 +61,6 @@ std::vector<int> Flood(const LabelImage& labels, int width) {
     ++count;
   }
   return component;
-}
-
-/// Places that differ from the one before, whatever surrounds [first, end).
-template <typename Label>
-void ExpectChangesFound(int first, int end) {
-  std::vector<Label> labels;
-  for (int k = 0; k < 80; ++k)  // long stretches, short ones, negative labels, high bits
-    labels.push_back(static_cast<Label>(k % 37 < 20 ? -1 : (k * k / 5) % 3 * 64));
-  std::vector<int> found, expected;
-  VisitChanges(labels.data(), first, end, [&](int k) { found.push_back(k); });
-  for (int k = first; k < end; ++k) {
-    if (labels[static_cast<std::size_t>(k)] != labels[static_cast<std::size_t>(k - 1)])
-      expected.push_back(k);
-  }
-  EXPECT_EQ(found, expected) << first << " to " << end;
-}
-
-TEST(LabelRuns, BeginWhereALabelChangesWhereverAWordBegins) {
-  for (int first = 1; first < 20; ++first) {
-    for (int end = first; end <= 80; ++end) {
-      ExpectChangesFound<std::int16_t>(first, end);
-      ExpectChangesFound<std::uint8_t>(first, end);
-    }
-  }
 }
 
 TEST(LabelRuns, MakeTheComponentsThatFloodingMakes) {
