@@ -124,9 +124,9 @@ std::vector<EdgePoint> FindEdgePoints(const DepthGrid& grid, const cv::Mat1b& la
                                       const LabelPlane& plane, std::span<const double> areas_m2,
                                       const EdgeConfig& config) {
   const Outside outside{grid, labels, value, PixelPlane(plane), areas_m2, config};
-  cv::Mat1b inside;
-  cv::copyMakeBorder(labels(bounds) == value, inside, kFrame_px, kFrame_px, kFrame_px,
-                     kFrame_px, cv::BORDER_CONSTANT, 0);
+  const cv::Point frame(kFrame_px, kFrame_px);
+  cv::Mat1b inside(bounds.size() + cv::Size(2 * frame), 0);
+  cv::compare(labels(bounds), value, inside(cv::Rect(frame, bounds.size())), cv::CMP_EQ);
   std::vector<std::vector<cv::Point>> contours;
   cv::findContours(inside, contours, cv::RETR_EXTERNAL, cv::CHAIN_APPROX_NONE);
   std::stable_sort(contours.begin(), contours.end(),
@@ -137,7 +137,7 @@ std::vector<EdgePoint> FindEdgePoints(const DepthGrid& grid, const cv::Mat1b& la
     for (std::size_t k = 0; k < contour.size(); k += static_cast<std::size_t>(config.step_px)) {
       const cv::Point sum = Outward(inside, contour[k]);
       if (sum.x == 0 && sum.y == 0) continue;
-      const cv::Point at = contour[k] + bounds.tl() - cv::Point(kFrame_px, kFrame_px);
+      const cv::Point at = contour[k] + bounds.tl() - frame;
       const auto i = static_cast<std::size_t>(grid.Index(at.x, at.y));
       const double z = 1.0 / static_cast<double>(grid.q[i]);
       EdgePoint point;
