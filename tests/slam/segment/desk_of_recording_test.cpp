@@ -12,6 +12,7 @@
 
 #include "slam/geometry/plane.h"
 #include "slam/segment/plane_segments.h"
+#include "tests/support/depth_planes.h"
 #include "tests/support/image_files.h"
 #include "tests/support/shared_data.h"
 #include "tests/support/slam_matchers.h"
