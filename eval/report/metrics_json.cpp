@@ -296,9 +296,8 @@ void AddPlaneRules(const PlaneScore& s, Json& rules) {
                "outlines in common), by shared area where offsets agree to 5 mm") +
         "; offset is the rms distance of the true vertices to the map plane; "
         "vertices one to one within 100 mm; normals are oriented; "
-        "polygon_iou and polygon_hausdorff_mm: of the map plane's hull in the true plane and "
-        "the "
-        "true outline's hull; "
+        "polygon_iou and polygon_hausdorff_mm: of the hulls of both outlines in the true "
+        "plane; "
         "consistency: squared errors of height and slopes at the middle of the outline by the "
         "covariance that the run tells of the plane, whose mean is 3 and of which 0.95 are "
         "inside "

@@ -21,7 +21,7 @@ std::map<std::size_t, PointAlone> HeldPointsAlone(const BundleWindow& window) {
     const double* blocks[] = {window.poses[o.pose_at].data(),
                               window.positions[o.position_at].data()};
     Eigen::Vector3d r;
-    Eigen::Matrix3d J_transposed;  // as rows of what the term fills in
+    Eigen::Matrix3d J_transposed;  // the term fills rows in, which are columns here
     double* jacobians[] = {nullptr, J_transposed.data()};
     o.term->Evaluate(blocks, r.data(), jacobians);
     PointAlone& sum = alone[o.position_at];

@@ -21,7 +21,7 @@ KeyframePlane& PlaneShowing(int map_plane, Keyframe& keyframe) {
 
 /// Adds the straight edges and the corners of a plane: two planes may show one landmark.
 void KeepOutline(const FramePlane& plane, const SupposedConfig& supposed, KeyframePlane& kept) {
-  for (MeasuredPlane& edge : SupposePlanes(plane, supposed)) kept.edges.push_back(edge);
+  for (const MeasuredPlane& edge : SupposePlanes(plane, supposed)) kept.edges.push_back(edge);
   for (const Vertex& vertex : plane.vertices_c) {
     if (!vertex.extrapolated && vertex.p_c.allFinite()) kept.vertices_c.push_back(vertex);
   }
