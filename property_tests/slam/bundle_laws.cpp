@@ -2,9 +2,9 @@
 #include <rapidcheck/gtest.h>
 
 #include "property_tests/generators/poses.h"
-#include "slam/mapping/local_bundle.h"
+#include "slam/mapping/bundle/local_bundle.h"
+#include "slam/mapping/bundle/plane_terms.h"
 #include "slam/mapping/plane_motion.h"
-#include "slam/mapping/plane_terms.h"
 #include "tests/support/numeric_jacobian.h"
 #include "tests/support/seen_outline.h"
 

@@ -4,7 +4,7 @@
 #include <opencv2/core.hpp>
 
 #include "property_tests/generators/poses.h"
-#include "slam/mapping/bundle_terms.h"
+#include "slam/mapping/bundle/bundle_terms.h"
 #include "slam/pose/factors/plane.h"
 #include "slam/pose/factors/point_plane.h"
 #include "slam/pose/point_constraints.h"

@@ -7,7 +7,7 @@
 #include "sim/trace/box_outline.h"
 #include "sim/trace/render_world.h"
 #include "sim/trace/rendered_scene.h"
-#include "sim/trace/view.h"
+#include "sim/trace/view/view.h"
 
 namespace sim {
 namespace {

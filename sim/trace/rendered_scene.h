@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "sim/trace/render_world.h"
-#include "sim/trace/view.h"
+#include "sim/trace/view/view.h"
 
 namespace sim {
 

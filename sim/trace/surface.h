@@ -7,7 +7,7 @@
 #include "sim/base/pose.h"
 #include "sim/camera/camera.h"
 #include "sim/shapes/mesh.h"
-#include "sim/trace/baked_print.h"
+#include "sim/trace/prints/baked_print.h"
 
 namespace sim {
 

@@ -1,7 +1,7 @@
 #pragma once
 
+#include "slam/mapping/bundle/local_bundle.h"
 #include "slam/mapping/keyframes.h"
-#include "slam/mapping/local_bundle.h"
 #include "slam/mapping/map_points.h"
 #include "slam/mapping/point_fusion.h"
 #include "slam/mapping/point_triangulation.h"

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "slam/base/index.h"
-#include "slam/mapping/bundle_window.h"
+#include "slam/mapping/bundle/bundle_window.h"
 #include "slam/model/map_queries.h"
 #include "slam/places/carry_map.h"
 #include "slam/places/pose_graph.h"

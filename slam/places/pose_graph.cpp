@@ -7,7 +7,7 @@
 #include <memory>
 
 #include "slam/base/require.h"
-#include "slam/mapping/bundle_terms.h"
+#include "slam/mapping/bundle/bundle_terms.h"
 
 namespace slam {
 namespace {

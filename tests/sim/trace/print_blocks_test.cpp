@@ -1,4 +1,4 @@
-#include "sim/trace/print_blocks.h"
+#include "sim/trace/prints/print_blocks.h"
 
 #include <gtest/gtest.h>
 

@@ -5,7 +5,7 @@
 
 #include "sim/sensor/colour_sensor.h"
 #include "sim/trace/frame_renderer.h"
-#include "sim/trace/print.h"
+#include "sim/trace/prints/print.h"
 #include "tests/sim/support/sim_worlds.h"
 
 namespace sim {

@@ -1,7 +1,7 @@
 #include <gmock/gmock.h>
 
 #include "slam/base/index.h"
-#include "slam/mapping/bundle_window.h"
+#include "slam/mapping/bundle/bundle_window.h"
 #include "tests/support/seen_outline.h"
 #include "tests/support/slam_matchers.h"
 

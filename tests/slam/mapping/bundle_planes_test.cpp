@@ -1,4 +1,4 @@
-#include "slam/mapping/bundle_planes.h"
+#include "slam/mapping/bundle/bundle_planes.h"
 
 #include <gmock/gmock.h>
 

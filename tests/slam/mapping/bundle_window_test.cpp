@@ -1,4 +1,4 @@
-#include "slam/mapping/bundle_window.h"
+#include "slam/mapping/bundle/bundle_window.h"
 
 #include <gmock/gmock.h>
 

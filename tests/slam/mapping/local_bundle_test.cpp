@@ -1,8 +1,8 @@
-#include "slam/mapping/local_bundle.h"
+#include "slam/mapping/bundle/local_bundle.h"
 
 #include <gmock/gmock.h>
 
-#include "slam/mapping/bundle_terms.h"
+#include "slam/mapping/bundle/bundle_terms.h"
 #include "tests/support/numeric_jacobian.h"
 #include "tests/support/point_world.h"
 #include "tests/support/slam_matchers.h"

@@ -1,4 +1,4 @@
-#include "slam/mapping/plane_terms.h"
+#include "slam/mapping/bundle/plane_terms.h"
 
 #include <ceres/manifold_test_utils.h>
 #include <gmock/gmock.h>

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "slam/mapping/plane_terms.h"
+#include "slam/mapping/bundle/plane_terms.h"
 #include "slam/model/map_queries.h"
 #include "slam/places/carry_map.h"
 #include "tests/support/map_surfaces.h"

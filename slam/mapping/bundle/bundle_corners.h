@@ -1,6 +1,6 @@
 #pragma once
 
-#include "slam/mapping/bundle_window.h"
+#include "slam/mapping/bundle/bundle_window.h"
 
 namespace slam {
 

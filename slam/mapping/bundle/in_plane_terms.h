@@ -4,7 +4,7 @@
 
 #include <array>
 
-#include "slam/mapping/plane_terms.h"
+#include "slam/mapping/bundle/plane_terms.h"
 #include "slam/pose/pose_problem.h"
 
 namespace slam {

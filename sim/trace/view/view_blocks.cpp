@@ -7,7 +7,7 @@
 // lens bends stays inside. Edges are told from kNear_m in front of the camera on: nothing is nearer.
 #include <algorithm>
 
-#include "sim/trace/view.h"
+#include "sim/trace/view/view.h"
 
 namespace sim {
 namespace {

@@ -1,4 +1,4 @@
-#include "sim/trace/view_facets.h"
+#include "sim/trace/view/view_facets.h"
 
 #include <algorithm>
 

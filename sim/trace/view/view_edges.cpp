@@ -1,7 +1,7 @@
 // The colour of pixels on edges, of surfaces and of shadows: the mean of four looks.
 #include <algorithm>
 
-#include "sim/trace/view.h"
+#include "sim/trace/view/view.h"
 
 namespace sim {
 namespace {

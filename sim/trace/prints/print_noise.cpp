@@ -1,4 +1,4 @@
-#include "sim/trace/print_noise.h"
+#include "sim/trace/prints/print_noise.h"
 
 #include <algorithm>
 #include <cmath>

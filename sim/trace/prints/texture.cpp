@@ -1,11 +1,11 @@
-#include "sim/trace/texture.h"
+#include "sim/trace/prints/texture.h"
 
 #include <algorithm>
 #include <bit>
 #include <cmath>
 
 #include "sim/trace/pixel_rows.h"
-#include "sim/trace/print.h"
+#include "sim/trace/prints/print.h"
 
 namespace sim {
 namespace {

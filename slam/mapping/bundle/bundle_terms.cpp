@@ -1,4 +1,4 @@
-#include "slam/mapping/bundle_terms.h"
+#include "slam/mapping/bundle/bundle_terms.h"
 
 #include <Eigen/Geometry>
 #include <algorithm>

@@ -5,7 +5,7 @@
 
 #include <array>
 
-#include "slam/mapping/bundle_terms.h"
+#include "slam/mapping/bundle/bundle_terms.h"
 #include "slam/model/measured_plane.h"
 #include "slam/model/plane_estimate.h"
 #include "slam/pose/pose_problem.h"

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "sim/scene/scene.h"
-#include "sim/trace/print_noise.h"
+#include "sim/trace/prints/print_noise.h"
 
 namespace sim {
 

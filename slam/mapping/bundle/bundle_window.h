@@ -8,10 +8,10 @@
 #include <vector>
 
 #include "slam/geometry/camera.h"
-#include "slam/mapping/bundle_terms.h"
-#include "slam/mapping/in_plane_terms.h"
-#include "slam/mapping/local_bundle.h"
-#include "slam/mapping/plane_terms.h"
+#include "slam/mapping/bundle/bundle_terms.h"
+#include "slam/mapping/bundle/in_plane_terms.h"
+#include "slam/mapping/bundle/local_bundle.h"
+#include "slam/mapping/bundle/plane_terms.h"
 #include "slam/model/map.h"
 
 namespace slam {

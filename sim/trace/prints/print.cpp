@@ -1,10 +1,10 @@
-#include "sim/trace/print.h"
+#include "sim/trace/prints/print.h"
 
 #include <algorithm>
 #include <array>
 #include <cstdint>
 
-#include "sim/trace/print_blocks.h"
+#include "sim/trace/prints/print_blocks.h"
 
 namespace sim {
 namespace {

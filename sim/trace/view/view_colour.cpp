@@ -4,7 +4,7 @@
 
 #include "sim/trace/mirror_light.h"
 #include "sim/trace/pixel_rows.h"
-#include "sim/trace/view.h"
+#include "sim/trace/view/view.h"
 
 namespace sim {
 /// Unit normal to shade by at the spot that the ray (x, y, 1) meets.

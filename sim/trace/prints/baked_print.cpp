@@ -1,4 +1,4 @@
-#include "sim/trace/baked_print.h"
+#include "sim/trace/prints/baked_print.h"
 
 #include <algorithm>
 

@@ -1,4 +1,4 @@
-#include "slam/mapping/local_bundle.h"
+#include "slam/mapping/bundle/local_bundle.h"
 
 #include <ceres/ceres.h>
 
@@ -7,8 +7,8 @@
 #include <memory>
 
 #include "slam/base/chi_square.h"
-#include "slam/mapping/bundle_window.h"
-#include "slam/mapping/coplanar_points.h"
+#include "slam/mapping/bundle/bundle_window.h"
+#include "slam/mapping/bundle/coplanar_points.h"
 
 namespace slam {
 namespace {

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "sim/trace/print_noise.h"
+#include "sim/trace/prints/print_noise.h"
 
 namespace sim {
 

@@ -2,7 +2,7 @@
 #include <emmintrin.h>
 
 #include "sim/trace/lanes.h"
-#include "sim/trace/texture.h"
+#include "sim/trace/prints/texture.h"
 
 namespace sim {
 namespace {

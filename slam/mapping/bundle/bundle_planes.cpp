@@ -1,4 +1,4 @@
-#include "slam/mapping/bundle_planes.h"
+#include "slam/mapping/bundle/bundle_planes.h"
 
 #include <algorithm>
 #include <optional>
@@ -6,8 +6,8 @@
 
 #include "slam/base/chi_square.h"
 #include "slam/base/index.h"
-#include "slam/mapping/bundle_corners.h"
-#include "slam/mapping/coplanar_points.h"
+#include "slam/mapping/bundle/bundle_corners.h"
+#include "slam/mapping/bundle/coplanar_points.h"
 #include "slam/mapping/keyframe_planes.h"
 #include "slam/mapping/plane_motion.h"
 

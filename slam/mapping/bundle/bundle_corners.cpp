@@ -1,4 +1,4 @@
-#include "slam/mapping/bundle_corners.h"
+#include "slam/mapping/bundle/bundle_corners.h"
 
 #include <algorithm>
 #include <array>

@@ -1,4 +1,4 @@
-#include "slam/mapping/in_plane_terms.h"
+#include "slam/mapping/bundle/in_plane_terms.h"
 
 #include "slam/pose/factors/vertex.h"
 

@@ -5,7 +5,7 @@
 #include <mutex>
 #include <optional>
 
-#include "sim/trace/texture.h"
+#include "sim/trace/prints/texture.h"
 
 namespace sim {
 

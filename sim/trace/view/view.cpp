@@ -1,4 +1,4 @@
-#include "sim/trace/view.h"
+#include "sim/trace/view/view.h"
 
 #include <algorithm>
 #include <cmath>

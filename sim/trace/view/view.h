@@ -8,7 +8,7 @@
 #include "sim/trace/frame_renderer.h"
 #include "sim/trace/lights.h"
 #include "sim/trace/render_world.h"
-#include "sim/trace/view_facets.h"
+#include "sim/trace/view/view_facets.h"
 
 namespace sim {
 

@@ -1,4 +1,4 @@
-#include "slam/mapping/coplanar_points.h"
+#include "slam/mapping/bundle/coplanar_points.h"
 
 #include <Eigen/Cholesky>
 #include <algorithm>

@@ -1,10 +1,10 @@
-#include "slam/mapping/bundle_window.h"
+#include "slam/mapping/bundle/bundle_window.h"
 
 #include <algorithm>
 #include <set>
 
 #include "slam/base/index.h"
-#include "slam/mapping/bundle_planes.h"
+#include "slam/mapping/bundle/bundle_planes.h"
 #include "slam/mapping/keyframes.h"
 #include "slam/mapping/map_points.h"
 #include "slam/model/map_queries.h"

@@ -1,7 +1,7 @@
 // The light of lamps and areas on a view's pixels.
 #include <algorithm>
 
-#include "sim/trace/view.h"
+#include "sim/trace/view/view.h"
 
 namespace sim {
 void View::SetSpot(int lane, const SeenFacet& facet, double x, double y, double z,

@@ -3,7 +3,7 @@
 #include <map>
 #include <set>
 
-#include "slam/mapping/bundle_window.h"
+#include "slam/mapping/bundle/bundle_window.h"
 
 namespace slam {
 

@@ -1,4 +1,4 @@
-#include "slam/mapping/plane_terms.h"
+#include "slam/mapping/bundle/plane_terms.h"
 
 #include <Eigen/Cholesky>
 #include <cmath>
