@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <chrono>
-#include <future>
 #include <opencv2/core/utility.hpp>
+#include <optional>
 #include <thread>
 #include <utility>
 
@@ -15,13 +15,11 @@
 #include "slam/diagnose/camera_check.h"
 #include "slam/diagnose/depth_clock.h"
 #include "slam/input/camera_reader.h"
-#include "slam/input/frame_gate.h"
-#include "slam/input/frame_of.h"
-#include "slam/input/repeated_images.h"
 #include "slam/input/sequence_reader.h"
 #include "slam/model/map_queries.h"
 #include "slam/run/config_file.h"
 #include "slam/run/first_look.h"
+#include "slam/run/frames_ahead.h"
 #include "slam/run/lost_frames.h"
 #include "slam/run/run_writer.h"
 
@@ -108,7 +106,7 @@ class SequenceRun {
                  options.seed, threads_, options.hooks),
         writer_(options.run, Describe(options, input.camera, detector, input.frames.size()),
                 {.force = options.force, .save_segmentation = options.save_segmentation}),
-        gate_(input.camera),
+        ahead_(input.frames, input.frames.size(), input.camera, tracker_, threads_),
         camera_check_(input.camera, options.config.point_features.scale),
         depth_clock_(input.camera) {}
 
@@ -120,30 +118,19 @@ class SequenceRun {
       truth_->Begin(writer_.Path(options_.sequence.lexically_relative(options_.run)));
     }
     tied_.reserve(static_cast<std::size_t>(total));
-    // While a frame is tracked the next is read and extracted.
-    std::future<FrameAhead> ahead;
-    if (total > 0) ahead = Begin(0);
-    for (int i = 0; ahead.valid(); ++i) {
-      FrameAhead now = ahead.get();
-      const bool more = i + 1 < total && !outcome_.stopped;
-      if (more) ahead = Begin(i + 1);
-      if (now.taken) Take(std::move(now));
-      if (options_.progress) options_.progress("slam", i + 1, total);
-      if (more && i + 2 < total && options_.stop) outcome_.stopped = options_.stop();
+    while (std::optional<FrameAhead> now = ahead_.Next()) {
+      if (now->taken) Take(std::move(*now));
+      if (options_.progress) options_.progress("slam", ahead_.given(), total);
+      if (ahead_.MayGoOn() && options_.stop && options_.stop()) {
+        outcome_.stopped = true;
+        ahead_.Stop();
+      }
     }
     Finish();
     return std::move(outcome_);
   }
 
  private:
-  /// A frame before it is tracked.
-  struct FrameAhead {
-    bool taken = false;    ///< by the gate
-    bool repeats = false;  ///< the images of the one before; then nothing is extracted
-    Frame frame;
-    ModuleTimes times;
-  };
-
   /// Learns of the device before the run.
   void LearnDevice() {
     const Config& config = options_.config;
@@ -159,28 +146,6 @@ class SequenceRun {
           return !options_.stop || !options_.stop();
         });
     tracker_.StartFrom(*look.tracker, std::move(look.bend));
-  }
-
-  /// Begins a frame, before the one before it is tracked. On one thread it is done when it is
-  /// asked for, with what was known here, so that the number of threads changes nothing.
-  std::future<FrameAhead> Begin(int i) {
-    const auto where = threads_ > 1 ? std::launch::async : std::launch::deferred;
-    return std::async(where, [this, i, straightening = tracker_.HowToStraighten()] {
-      return ReadAndExtract(i, straightening);
-    });
-  }
-
-  FrameAhead ReadAndExtract(int i, const Straightening& straightening) {
-    FrameAhead ahead;
-    RecordedFrame recorded = frames_.Read(i);
-    ahead.taken = gate_.Takes(recorded);
-    if (!ahead.taken) return ahead;
-    ahead.frame = FrameOf(recorded, tracked_);
-    ahead.repeats = repeated_.Repeats(recorded);
-    if (ahead.repeats) return ahead;
-    ++tracked_;
-    tracker_.Extract(straightening, recorded.bgr, ahead.frame, ahead.times);
-    return ahead;
   }
 
   void Take(FrameAhead ahead) {
@@ -241,8 +206,8 @@ class SequenceRun {
 
   std::vector<std::string> Warnings() {
     std::vector<std::string> warnings = doubts_;
-    for (std::string& left_out : gate_.Warnings()) warnings.push_back(std::move(left_out));
-    if (const int repeats = repeated_.count(); repeats > 0) {
+    for (std::string& left_out : ahead_.Warnings()) warnings.push_back(std::move(left_out));
+    if (const int repeats = ahead_.repeats(); repeats > 0) {
       warnings.push_back(std::to_string(repeats) +
                          (repeats == 1 ? " frame repeats" : " frames repeat") +
                          " the images of the one before: taken for the same place, nothing "
@@ -271,12 +236,7 @@ class SequenceRun {
   std::vector<std::string> doubts_;
   Tracker tracker_;
   RunWriter writer_;
-
-  // What frames pass before they are tracked, one after the other.
-  FrameGate gate_;
-  RepeatedImages repeated_;
-  int tracked_ = 0;  ///< frames that the tracker is given: taken by the gate, and no repeats
-
+  FramesAhead ahead_;
   LostFrames lost_;
   CameraCheck camera_check_;
   DepthClock depth_clock_;
