@@ -25,10 +25,11 @@ BendSigmas SigmasOfBend(double ratio, const Plane& pi_c, const Eigen::Vector3d& 
   // A Gaussian correlation of length L makes 2 pi L^2 one independent piece.
   const double pieces = 1.0 + solid_angle_rad2 / (2.0 * std::numbers::pi * kLength2);
   const double slope2 = kLength2 + solid_angle_rad2 * pieces / kVarianceOfLine;
-  // A radian of view is z of the plane's own length across the slant, more along it.
-  const double distance_m = std::abs(pi_c.d);
-  return {ratio * distance_m / std::sqrt(pieces),
-          ratio * distance_m / centroid_c.z() / std::sqrt(slope2)};
+  // A radian of view is z of the plane's own length across the slant, more along it. The second
+  // derivative of such a field has variance 3 / L^4; what a wide patch averages is not taken off.
+  const double bend_m = ratio * std::abs(pi_c.d), z = centroid_c.z();
+  return {bend_m / std::sqrt(pieces), bend_m / z / std::sqrt(slope2),
+          std::sqrt(3.0) * bend_m / (kLength2 * z * z)};
 }
 
 BendMeter::BendMeter(const cv::Mat2d& rays, const SensorModel& sensor)
@@ -107,6 +108,7 @@ void BendMeter::Measure(double left_ratio, Frame& frame) {
                                            plane.pixel_count * pixel_rad2_);
     plane.bend_offset_sigma_m = std::hypot(sigmas.offset_m, unseen_ * std::abs(plane.pi_c.d));
     plane.bend_angle_sigma_rad = sigmas.angle_rad;
+    plane.bend_curvature_per_m = sigmas.curvature_per_m;
   }
 }
 

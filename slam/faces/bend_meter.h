@@ -63,8 +63,9 @@ class BendMeter {
 
 /// Standard deviations of a plane that is fitted to a patch of a bent depth image.
 struct BendSigmas {
-  double offset_m = 0.0;   ///< at its centroid
-  double angle_rad = 0.0;  ///< of its normal
+  double offset_m = 0.0;         ///< at its centroid
+  double angle_rad = 0.0;        ///< of its normal
+  double curvature_per_m = 0.0;  ///< in any one direction
 };
 
 /// The bend is a smooth random field of which a patch shows a part: one much wider than

@@ -1,6 +1,7 @@
 #include "slam/faces/select.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "slam/faces/box_link.h"
@@ -28,6 +29,14 @@ bool IsStairs(const Roughness& roughness, const UsualRoughness& usual,
   const double expected =
       std::max({usual.coarse, kMinUsualRoughness, usual.growth * roughness.fine});
   return !(roughness.coarse < config.max_roughness * expected);
+}
+
+/// Rounder than a flat thing can seem by noise and by what the sensor bends: a piece of a cup or a
+/// bottle, or of two faces across an edge.
+bool IsRound(const FramePlane& plane, const SelectConfig& config) {
+  const SurfaceCurvature seen{plane.curvature.per_m, std::hypot(plane.curvature.sigma_per_m,
+                                                                plane.bend_curvature_per_m)};
+  return seen.Surely_per_m() > 0 && seen.per_m > config.max_curvature_per_m;
 }
 
 std::optional<BadReason> StructureFault(const FramePlane& plane, const Camera& camera,
@@ -69,6 +78,7 @@ std::optional<BadReason> FindFault(const FramePlane& plane,
   if (!(plane.centroid_c.norm() < config.max_distance_m)) return BadReason::kFar;
   if (plane.inlier_ratio == 0) return BadReason::kInliers;
   if (IsStairs(plane.roughness, usual, config)) return BadReason::kInliers;
+  if (IsRound(plane, config)) return BadReason::kInliers;
 
   // The face of a regular object must show its structure.
   double regular_fit = 0.0;

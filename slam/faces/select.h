@@ -22,7 +22,8 @@ enum class StructureRule {
 /// A `max_` bound is passed strictly below it, a `min_` bound strictly above it.
 struct SelectConfig {
   double max_distance_m = 5.0;
-  double max_roughness = 1.3;  // more are stairs
+  double max_roughness = 1.3;        // more are stairs
+  double max_curvature_per_m = 5.0;  // cups and bottles are rounder: a radius of 20 cm
   double max_unstructured_share = 0.5;
   StructureRule structure = StructureRule::kIgnored;
   double border_px = 3.0;
@@ -35,6 +36,8 @@ inline void VisitFields(SelectConfig& c, FieldVisitor& v) {
   v.Number("max_roughness", c.max_roughness, "[1, inf)",
            "largest roughness over 8 pixels, in small images fewer, as a multiple of "
            "what noise makes it");
+  v.Number("max_curvature_per_m", c.max_curvature_per_m, "(0, inf)",
+           "largest curvature, 1 / radius, of a surface that is surely curved");
   v.Number("max_unstructured_share", c.max_unstructured_share, "(0, 1]",
            "largest share of edge points in the box of an unstructured object");
   v.Named("structure", c.structure, {"ignored", "complete"},
@@ -55,8 +58,8 @@ UsualRoughness FindUsualRoughness(const std::vector<FramePlane>& planes);
 
 /// The first reason why a plane is not to be trusted, or nothing. In the paper's order:
 ///   1. too far from the camera                                          kFar
-///   2. no point on it after the re-fit, or stairs: rougher than the
-///      frame's other surfaces and than its own noise makes it           kInliers
+///   2. no point on it after the re-fit; stairs: rougher than the frame's
+///      other surfaces and than its own noise makes it; or round         kInliers
 ///   3. tied to a regular object's box, but at the border, or without
 ///      the structure of a rectangle (StructureRule)                     kBorder, kStructure
 ///   4. most edge points in the box of an unstructured object, unless a

@@ -15,7 +15,7 @@ namespace slam {
 /// Why a plane is not to be trusted (PAS-SLAM, Plane Selection). Written as in formats.md.
 enum class BadReason {
   kFar,        ///< "far": too far from the camera
-  kInliers,    ///< "inliers": no point on it after the re-fit, or stairs
+  kInliers,    ///< "inliers": no point on it after the re-fit, stairs, or round
   kBorder,     ///< "border": tied to a regular object's box, but at the image border
   kStructure,  ///< "structure": same, but without two pairs of parallel lines or four vertices
   kUnstructured  ///< "unstructured": most edge points in an unstructured object's box
@@ -61,6 +61,16 @@ struct Roughness {
   double coarse = 0.0;  ///< 8 px apart, in small images less: noise and shape
 };
 
+/// How much a surface curves along itself, 1 / radius, in the direction in which that is surest.
+/// Zero: too narrow to say.
+struct SurfaceCurvature {
+  double per_m = 0.0;
+  double sigma_per_m = 0.0;  ///< by noise
+
+  /// What it is at least, to 1 in 700.
+  double Surely_per_m() const { return per_m - 3.0 * sigma_per_m; }
+};
+
 /// A plane seen in one frame: a segment of the depth image and all that is known of it.
 /// Everything is in the camera frame, metres.
 struct FramePlane {
@@ -71,10 +81,11 @@ struct FramePlane {
   double area_m2 = 0.0;          ///< the visible patch's
   double inlier_ratio = 1.0;     ///< after the re-fit, [0, 1]; 1 before
   Roughness roughness;           ///< off the plane
+  SurfaceCurvature curvature;    ///< of the segment
   double offset_sigma_m = 0.0;   ///< standard deviation of the offset at the centroid
   double angle_sigma_rad = 0.0;  ///< standard deviation of the normal, worse of two directions
-  /// What the sensor bends adds to these two; frames from one place share it.
-  double bend_offset_sigma_m = 0.0, bend_angle_sigma_rad = 0.0;
+  /// What the sensor bends adds to these two and to the curvature; frames from one place share it.
+  double bend_offset_sigma_m = 0.0, bend_angle_sigma_rad = 0.0, bend_curvature_per_m = 0.0;
   /// Covariance of g = -n / d, 1/m^2; the inverse depth of the plane along the ray (x, y, 1) is
   /// g . (x, y, 1). Like the two above that of the segment's fit. Zero: not known.
   Eigen::Matrix3d inverse_depth_covariance = Eigen::Matrix3d::Zero();

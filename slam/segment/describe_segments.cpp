@@ -7,6 +7,7 @@
 #include "slam/base/index.h"
 #include "slam/segment/edges/plane_edges.h"
 #include "slam/segment/roughness.h"
+#include "slam/segment/surface_curvature.h"
 
 namespace slam {
 namespace {
@@ -92,6 +93,7 @@ std::vector<FramePlane> DescribeSegments(const DepthGrid& grid, const cv::Mat1b&
   for (const FramePlane& plane : planes) areas_m2.push_back(plane.area_m2);
   for (FramePlane& plane : planes) {
     const Segment& segment = segments[Index(plane.index)];
+    plane.curvature = MeasureCurvature(grid, labels, segment.bounds, plane, noise);
     plane.edge_points = FindEdgePoints(grid, labels, segment.bounds, plane.index + 1,
                                        segment.plane, areas_m2, config.edges);
     for (const EdgePoint& point : plane.edge_points) plane.box_px.Include(point.u_px);

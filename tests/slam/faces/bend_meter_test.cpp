@@ -208,6 +208,50 @@ TEST(SigmasOfBend, AreThoseOfPlanesFittedToRandomBends) {
   }
 }
 
+/// How much random bends curve a plane through (0, 0, z) along the image's rows and, where it slants,
+/// its columns: root mean square of the second difference of its height, over many draws.
+Eigen::Vector2d CurvatureDrawn(double z_m, double ratio, double incidence_rad) {
+  constexpr int kDraws = 4000;
+  constexpr double kStep = 0.1 * kBendLength_rad;
+  const Plane pi_c = SlantedPlane(z_m, incidence_rad);
+  Random random{5};
+  Eigen::Vector2d squares = Eigen::Vector2d::Zero();
+  for (int draw = 0; draw < kDraws; ++draw) {
+    const Eigen::Vector2d wave(Normal(random) / kBendLength_rad,
+                               Normal(random) / kBendLength_rad);
+    const double phase = 2 * M_PI * random.Uniform();
+    for (int axis = 0; axis < 2; ++axis) {
+      double second = 0.0, step_m = 0.0;
+      for (const int k : {-1, 0, 1}) {
+        Eigen::Vector3d ray = Eigen::Vector3d::UnitZ();
+        ray[axis] = k * kStep;
+        const Eigen::Vector3d on_plane = -pi_c.d / pi_c.n.dot(ray) * ray;
+        const double bend = ratio * std::sqrt(2.0) * std::cos(wave.dot(ray.head<2>()) + phase);
+        second += (k == 0 ? -2 : 1) * SignedDistance(pi_c, (1.0 + bend) * on_plane);
+        if (k == 1) step_m = (on_plane - z_m * Eigen::Vector3d::UnitZ()).norm();
+      }
+      squares[axis] += std::pow(second / (step_m * step_m), 2) / kDraws;
+    }
+  }
+  return squares.cwiseSqrt();
+}
+
+TEST(SigmasOfBend, CurveAsRandomBendsDo) {
+  for (const double z_m : {0.6, 1.5}) {
+    const auto ours = [&](double incidence) {
+      return SigmasOfBend(0.01, SlantedPlane(z_m, incidence), {0.0, 0.0, z_m}, 0.001)
+          .curvature_per_m;
+    };
+    const Eigen::Vector2d frontal = CurvatureDrawn(z_m, 0.01, 0.0);
+    EXPECT_NEAR(ours(0.0) / frontal.x(), 1.0, 0.1);
+    EXPECT_NEAR(ours(0.0) / frontal.y(), 1.0, 0.1);
+    // Along the slant a radian of view is more of the plane.
+    const Eigen::Vector2d slanted = CurvatureDrawn(z_m, 0.01, 0.8);
+    EXPECT_NEAR(ours(0.8) / slanted.y(), 1.0, 0.1);
+    EXPECT_LT(slanted.x(), ours(0.8));
+  }
+}
+
 TEST(SigmasOfBend, GrowWithTheBendAndTheOffsetWithTheDistance) {
   const auto at = [](double ratio, double z_m) {
     return SigmasOfBend(ratio, SlantedPlane(z_m, 0.3), {0.0, 0.0, z_m}, 0.02);
@@ -217,6 +261,7 @@ TEST(SigmasOfBend, GrowWithTheBendAndTheOffsetWithTheDistance) {
   EXPECT_DOUBLE_EQ(far.angle_rad, one.angle_rad);
   EXPECT_DOUBLE_EQ(twice.offset_m, 2 * one.offset_m);
   EXPECT_DOUBLE_EQ(twice.angle_rad, 2 * one.angle_rad);
+  EXPECT_DOUBLE_EQ(twice.curvature_per_m, 2 * one.curvature_per_m);
 }
 
 }  // namespace

@@ -192,5 +192,54 @@ TEST(ProcessPlanes, TakeCornersOffTheSquareOnlyWhereADetectionSpeaksForThem) {
       << "nor does a thing's name say so that may be of any shape";
 }
 
+/// Puts a cylinder that stands upright on the desk into a view of it. @returns where it is seen
+cv::Mat1b PutCup(const Camera& camera, const Pose& T_cw, double radius_m, double height_m,
+                 cv::Mat1f& depth_m) {
+  const Pose T_wc = Inverse(T_cw);
+  cv::Mat1b seen(depth_m.size(), std::uint8_t{0});
+  for (int v = 0; v < camera.height; ++v) {
+    for (int u = 0; u < camera.width; ++u) {
+      const Eigen::Vector3d ray = T_wc.R * camera.Backproject({u, v}, 1.0);
+      const Eigen::Vector2d r = ray.head<2>(), m = T_wc.t.head<2>();
+      const double a = r.dot(r), b = r.dot(m), c = m.dot(m) - radius_m * radius_m;
+      const double root = b * b - a * c;
+      if (root < 0) continue;
+      const double z = (-b - std::sqrt(root)) / a, up_m = T_wc.t.z() + z * ray.z();
+      if (up_m < 0 || up_m > height_m || z > static_cast<double>(depth_m(v, u))) continue;
+      depth_m(v, u) = static_cast<float>(z);
+      seen(v, u) = 255;
+    }
+  }
+  return seen;
+}
+
+// Noise hides how round the narrowest are.
+TEST(ProcessPlanes, TrustFewPiecesOfACup) {
+  const Camera camera;
+  const closed_form::World desk = closed_form::Desk();
+  int pieces = 0, trusted = 0;
+  for (const double radius_m : {0.03, 0.04, 0.06}) {
+    for (const double away_m : {0.5, 0.7, 0.9}) {
+      SCOPED_TRACE(testing::Message() << radius_m << " m, from " << away_m << " m");
+      const Pose T_cw = closed_form::LookAt({0.05, -away_m, 0.5 * away_m}, {0, 0, 0.05});
+      cv::Mat1f depth_m = closed_form::Render(desk, camera, T_cw).depth_m;
+      const cv::Mat1b cup = PutCup(camera, T_cw, radius_m, 0.12, depth_m);
+      Frame frame = closed_form::MakeFrame(closed_form::AddKinectNoise(depth_m, 7));
+      ExtractPlanes(frame, PixelRays(camera), {});
+      ProcessPlanes(frame, camera, {}, {});
+      for (const FramePlane& plane : frame.planes) {
+        const int on_cup = cv::countNonZero((frame.plane_labels == plane.index + 1) & cup);
+        if (2 * on_cup < plane.pixel_count) {
+          EXPECT_FALSE(plane.bad) << "the desk";
+          continue;
+        }
+        ++pieces, trusted += plane.bad ? 0 : 1;
+      }
+    }
+  }
+  EXPECT_GE(pieces, 12);
+  EXPECT_LE(4 * trusted, pieces) << trusted;
+}
+
 }  // namespace
 }  // namespace slam

@@ -92,6 +92,26 @@ TEST(Select, TrustsASurfaceAsNoisyOverEightPixelsAsItsNeighboursAre) {
   EXPECT_EQ(book.Fault(), BadReason::kInliers);
 }
 
+TEST(Select, RefusesWhatIsRoundBeyondNoiseAndBend) {
+  GoodBook book;
+  const double round_per_m = book.config.max_curvature_per_m + 0.01;
+  book.plane.curvature = {round_per_m, round_per_m / 3.01};
+  EXPECT_EQ(book.Fault(), BadReason::kInliers);
+  book.plane.curvature.sigma_per_m = round_per_m / 2.99;
+  EXPECT_EQ(book.Fault(), std::nullopt);
+  book.plane.curvature.sigma_per_m = book.plane.bend_curvature_per_m = round_per_m / 4.25;
+  EXPECT_EQ(book.Fault(), BadReason::kInliers);  // 1 / 3.005 together
+  book.plane.bend_curvature_per_m = round_per_m / 4.2;
+  book.plane.curvature.sigma_per_m = round_per_m / 4.2;
+  EXPECT_EQ(book.Fault(), std::nullopt);
+}
+
+TEST(Select, TrustsWhatIsSurelyCurvedButHardly) {
+  GoodBook book;  // a desk that hangs through
+  book.plane.curvature = {book.config.max_curvature_per_m - 0.01, 0.001};
+  EXPECT_EQ(book.Fault(), std::nullopt);
+}
+
 TEST(Select, CallsNothingRoughThatIsCleanerThanTheModel) {
   GoodBook book;
   book.usual = {.coarse = 1e-6, .growth = 1.0};
