@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <opencv2/core.hpp>
+
 #include "slam/segment/plane_segments.h"
 #include "tests/support/closed_form_depth.h"
 #include "tests/support/depth_planes.h"
