@@ -195,12 +195,11 @@ class SequenceRun {
     outcome_.loops = tracker_.loops();
     outcome_.ended_lost = lost_.ended_lost();
     outcome_.warnings = Warnings();
-    // A loop or gap that closes moves the past; without one the poses stay as they were found.
+    // Where the map holds the frames in the end: mapping moves what was found.
     writer_.Finish(tracker_.map(),
                    {outcome_.stopped, outcome_.warnings, tracker_.straightening(),
                     tracker_.registration(), tracker_.rolling_shutter()},
-                   tracker_.moved_the_past() ? FollowKeyframes(tied_, tracker_.map())
-                                             : std::vector<TimedPose>{});
+                   FollowKeyframes(tied_, tracker_.map()));
     CountMap(tracker_.map(), outcome_);
   }
 

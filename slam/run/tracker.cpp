@@ -342,7 +342,7 @@ void Tracker::LearnSensor(const Frame& frame) {
 
 void Tracker::MapKeyframe(int keyframe, const MapTurn& turn) {
   if (hooks_.before_mapping) hooks_.before_mapping(keyframe);
-  turn([&] { gap_closed_ = CloseGaps(map_, keyframe) || gap_closed_; });
+  turn([&] { CloseGaps(map_, keyframe); });
   MapLocally(map_, keyframe, camera_, scale(), config_.mapping, turn);
   if (!config_.loop_closing.enabled) return;
   std::optional<Loop> loop;

@@ -109,8 +109,6 @@ class Tracker {
   const std::optional<RollingEstimate>& rolling_shutter() const { return rolling_.estimate(); }
   /// Number of loops closed.
   int loops() const { return loops_; }
-  /// Whether a loop or a gap was closed.
-  bool moved_the_past() const { return loops_ > 0 || gap_closed_; }
   /// Keyframes that mapping beside tracking had no time for.
   int unmapped_keyframes() const { return worker_ ? worker_->dropped() : 0; }
 
@@ -149,7 +147,6 @@ class Tracker {
   PointTracking points_;
   Map map_;
   int loops_ = 0;
-  bool gap_closed_ = false;
   struct KnownPlace {
     int frame_index = kNone;
     double timestamp_s = 0.0;
@@ -158,7 +155,7 @@ class Tracker {
   KnownPlace last_place_;  ///< of the frame that was tracked last
 
   TrackerHooks hooks_;
-  MapGate gate_;                           ///< to map_, points_, loops_ and gap_closed_
+  MapGate gate_;                           ///< to map_, points_ and loops_
   std::unique_ptr<MappingWorker> worker_;  ///< last: its thread uses the rest
 };
 
