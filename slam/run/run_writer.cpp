@@ -119,7 +119,6 @@ RunWriter::RunWriter(const std::filesystem::path& folder, RunInfo info, Options 
       options_(options),
       frame_planes_(output_.Path("frame_planes.jsonl")),
       timing_(output_.Path("timing.csv")) {
-  trajectory_.reserve(static_cast<std::size_t>(info_.sequence_frames));
   std::string header = "timestamp";
   for (const char* name : kModuleNames) header.append(",").append(name);
   timing_.Add(header + '\n');
@@ -134,7 +133,7 @@ void RunWriter::WriteFrame(const FrameRecord& record) {
   if (record.tracked) {
     Require(frame.T_cw.R.allFinite() && frame.T_cw.t.allFinite(),
             "RunWriter::WriteFrame: a tracked pose is not finite");
-    trajectory_.push_back({frame.timestamp_s, frame.T_cw});
+    ++tracked_;
     covariances_ += CovarianceLine(frame.timestamp_s, WorldErrorCovariance(frame));
   }
   frame_planes_.Add(line + '\n');
@@ -156,7 +155,7 @@ void RunWriter::WriteSegmentation(const Frame& frame) const {
   output_.Write("segmentation/" + StampText(frame.timestamp_s) + ".png", io::EncodePng(labels));
 }
 
-nlohmann::ordered_json RunWriter::RunJson(std::size_t poses, const RunEnd& end) const {
+nlohmann::ordered_json RunWriter::RunJson(const RunEnd& end) const {
   const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - start_;
   nlohmann::ordered_json json;
   json["format"] = "pas-run/1";
@@ -177,8 +176,8 @@ nlohmann::ordered_json RunWriter::RunJson(std::size_t poses, const RunEnd& end) 
   json["sequence_frames"] = info_.sequence_frames;
   json["interrupted"] = end.interrupted;
   json["frames"] = frames_;
-  json["tracked"] = poses;
-  json["lost"] = frames_ - static_cast<int>(poses);
+  json["tracked"] = tracked_;
+  json["lost"] = frames_ - tracked_;
   for (std::size_t k = 0; k < kPairRefusalNames.size(); ++k)
     json["refused_pairs"][kPairRefusalNames[k]] = refused_.count[k];
   json["depth_warp"] = StraighteningJson(end.straightening);
@@ -192,20 +191,18 @@ nlohmann::ordered_json RunWriter::RunJson(std::size_t poses, const RunEnd& end) 
 
 void RunWriter::Finish(const Map& map, const RunEnd& end,
                        const std::vector<TimedPose>& trajectory) {
-  const std::vector<TimedPose>& poses = trajectory.empty() ? trajectory_ : trajectory;
-  Require(poses.size() <= static_cast<std::size_t>(frames_),
-          "RunWriter::Finish: more poses than frames");
+  Require(trajectory.size() == static_cast<std::size_t>(tracked_),
+          "RunWriter::Finish: a pose for each tracked frame");
   frame_planes_.Finish();
   timing_.Finish();
-  output_.Write("trajectory.txt", TrajectoryText(poses));
+  output_.Write("trajectory.txt", TrajectoryText(trajectory));
   output_.Write("trajectory_covariance.txt", kCovarianceComment + covariances_);
   output_.Write("keyframes.txt", TrajectoryText(KeyframeTrajectory(map)));
   output_.Write("map.json", MapAsJson(map));
   output_.Write("map.ply", MapAsPly(map));
   output_.Write(
       "run.json",
-      RunJson(poses.size(), end).dump(2, ' ', false, nlohmann::json::error_handler_t::replace) +
-          "\n");
+      RunJson(end).dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
   output_.Commit();
 }
 

@@ -84,9 +84,9 @@ class RunWriter {
 
   /// Writes what remains and puts the folder in its place. Keyframes that were culled are left
   /// out.
-  /// @param trajectory  replaces the poses of the tracked frames as they were at their time,
-  ///                    e.g. by poses that followed the optimised keyframes; empty keeps those
-  void Finish(const Map& map, const RunEnd& end, const std::vector<TimedPose>& trajectory = {});
+  /// @param trajectory  where the map holds each tracked frame, in their order
+  /// @throws std::invalid_argument unless there is one pose for each of them
+  void Finish(const Map& map, const RunEnd& end, const std::vector<TimedPose>& trajectory);
 
   /// The place in the unfinished run of a file or folder that somebody else writes into it,
   /// before Finish.
@@ -96,17 +96,16 @@ class RunWriter {
 
  private:
   void WriteSegmentation(const Frame& frame) const;
-  nlohmann::ordered_json RunJson(std::size_t poses, const RunEnd& end) const;
+  nlohmann::ordered_json RunJson(const RunEnd& end) const;
 
   std::filesystem::path folder_;  ///< where the run will be, absolute
   io::OutputFolder output_;
   RunInfo info_;
   Options options_;
   io::AtomicFile frame_planes_, timing_;
-  std::vector<TimedPose> trajectory_;  ///< as given to WriteFrame, tracked frames alone
-  std::string covariances_;            ///< lines, of the same frames
+  std::string covariances_;  ///< lines, of the same frames
   PairRefusals refused_;
-  int frames_ = 0;
+  int frames_ = 0, tracked_ = 0;
   double last_s_ = 0.0;
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };

@@ -8,6 +8,7 @@
 
 namespace slam {
 
+/// The curvature of a quadric over a segment's plane, least squares by the noise of its pixels.
 /// @param labels  `plane.index + 1` where the segment is
 /// @param bounds  the segment has no pixel outside
 /// @param plane   its parameters, centroid, area and number of pixels are read

@@ -16,7 +16,7 @@ json SaidOf(const RunEnd& end) {
   const test_support::TemporaryFolder folder;
   RunInfo info;
   info.sequence = folder / "seq";
-  RunWriter(folder / "run", info, {}).Finish(Map{}, end);
+  RunWriter(folder / "run", info, {}).Finish(Map{}, end, {});
   return json::parse(io::ReadFile(folder / "run" / "run.json"));
 }
 

@@ -90,6 +90,7 @@ class RunFolder : public ::testing::Test {
   }
   void WriteRun(const fs::path& folder, RunWriter::Options options) {
     RunWriter writer(folder, Info(), options);
+    std::vector<TimedPose> trajectory;
     for (int i = 0; i < 3; ++i) {
       const Frame frame = SomeFrame(i);
       ModuleTimes times;
@@ -99,8 +100,9 @@ class RunFolder : public ::testing::Test {
       for (int k = 0; k <= i; ++k) refused.Add(PairRefusal::kOverlap);
       if (i == 1) refused.Add(PairRefusal::kRankTest);
       writer.WriteFrame({frame, i != 1, times, "", refused});
+      if (i != 1) trajectory.push_back({frame.timestamp_s, frame.T_cw});
     }
-    writer.Finish(SomeMap(), {});
+    writer.Finish(SomeMap(), {}, trajectory);
   }
   std::vector<std::string> Beside() {
     std::vector<std::string> names;
@@ -147,7 +149,7 @@ TEST_F(RunFolder, SaysInRunJsonWhatWasRun) {
 TEST_F(RunFolder, SaysInRunJsonEachNumberOfTheCamera) {
   RunInfo info = Info();
   info.camera = TumCamera("tum1");
-  RunWriter(run_, info, {}).Finish(SomeMap(), {});
+  RunWriter(run_, info, {}).Finish(SomeMap(), {}, {});
   // As the benchmark has published them.
   EXPECT_EQ(json::parse(ReadFile(run_ / "run.json"))["camera"],
             json::parse(R"({"width": 640, "height": 480, "fx": 517.306408, "fy": 516.469215,
@@ -159,7 +161,7 @@ TEST_F(RunFolder, SaysInRunJsonEachNumberOfTheCamera) {
 TEST_F(RunFolder, SaysWhenTheRunWasInterruptedAndWhatItWarnedOf) {
   RunWriter writer(run_, Info(), {});
   writer.WriteFrame({SomeFrame(0), true, {}, "", {}});
-  writer.Finish(SomeMap(), {true, {"one", "two"}});
+  writer.Finish(SomeMap(), {true, {"one", "two"}}, {{SomeFrame(0).timestamp_s, Pose{}}});
   const json run = json::parse(ReadFile(run_ / "run.json"));
   EXPECT_EQ(run["interrupted"], true);
   EXPECT_EQ(run["frames"], 1);
@@ -171,7 +173,7 @@ TEST_F(RunFolder, NamesASequenceInsideItSoThatItMayBeMoved) {
   RunInfo info = Info();
   info.sequence = run_ / "truth";
   RunWriter writer(run_, info, {});
-  writer.Finish(SomeMap(), {});
+  writer.Finish(SomeMap(), {}, {});
   EXPECT_EQ(json::parse(ReadFile(run_ / "run.json"))["sequence"], "truth");
 }
 
@@ -213,11 +215,12 @@ TEST_F(RunFolder, WritesTrackedPosesFromCameraToWorldToTheLastBit) {
   EXPECT_EQ(lines[1], "1.500000 0 0 0 0 0 0 1");
 }
 
-TEST_F(RunFolder, TakesALaterTrajectoryInPlaceOfTheOneAsTracked) {
+TEST_F(RunFolder, WantsAPoseForEachTrackedFrame) {
   RunWriter writer(run_, Info(), {});
   writer.WriteFrame({SomeFrame(0), true, {}, "", {}});
-  writer.Finish(SomeMap(), {}, {{SomeFrame(0).timestamp_s, Pose{}}});
-  EXPECT_EQ(Lines(run_ / "trajectory.txt")[1], "1305031102.175304 0 0 0 0 0 0 1");
+  EXPECT_THROW(writer.Finish(SomeMap(), {}, {}), std::invalid_argument);
+  const TimedPose pose{SomeFrame(0).timestamp_s, Pose{}};
+  EXPECT_THROW(writer.Finish(SomeMap(), {}, {pose, pose}), std::invalid_argument);
 }
 
 TEST_F(RunFolder, HoldsTheMapWithItsMergedPlanesAndItsPoints) {
@@ -281,7 +284,8 @@ TEST_F(RunFolder, SaysWhatEachTrackedPoseIsWorth) {
       (*frame.pose_covariance)(i, j) = 10 * std::min(i, j) + std::max(i, j);
   }
   writer.WriteFrame({frame, true, {}, "", {}});
-  writer.Finish(SomeMap(), {});
+  writer.Finish(SomeMap(), {},
+                {{SomeFrame(0).timestamp_s, Pose{}}, {frame.timestamp_s, frame.T_cw}});
   std::vector<std::string> lines = Lines(run_ / "trajectory_covariance.txt");
   while (!lines.empty() && lines.front()[0] == '#') lines.erase(lines.begin());
   ASSERT_EQ(lines.size(), 2u);
