@@ -51,6 +51,22 @@ TEST(EdgeLines, DoNotBridgeAGap) {
   EXPECT_NEAR((lines[1].to - lines[1].from).norm(), 38.0, 2.0);
 }
 
+// The longest are found first, so a cap leaves out the short ones; what is found comes by its support.
+TEST(EdgeLines, AreTheLongestAsManyAsAreAskedFor) {
+  std::vector<Eigen::Vector2d> points;
+  for (int k = 0; k < 8; ++k) AddSegment(points, {0, 40.0 * k}, {40.0 + 20.0 * k, 40.0 * k});
+  for (const int cap : {3, 6}) {
+    EdgeLineConfig config;
+    config.max_lines = cap;
+    const auto lines = FindImageLines(points, 8, config, Random{1});
+    ASSERT_EQ(static_cast<int>(lines.size()), cap);
+    for (int k = 0; k < cap; ++k) {
+      const ImageLine& line = lines[static_cast<std::size_t>(k)];
+      EXPECT_NEAR(line.p.y(), 40.0 * (7 - k), 1e-9) << k;
+    }
+  }
+}
+
 TEST(EdgeLines, FindNoneInTooFewPoints) {
   EXPECT_TRUE(FindImageLines({}, 4, {}, Random{1}).empty());
   EXPECT_TRUE(FindImageLines({{1, 1}}, 4, {}, Random{1}).empty());

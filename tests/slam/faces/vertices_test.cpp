@@ -136,6 +136,24 @@ TEST(Vertices, LieBeyondABoxOnlyWhereTheImageCutsIt) {
   EXPECT_LT(face.Find(box).size(), 4u);
 }
 
+// Each pair of opposite sides is parallel within its bound, and the first corner square. Turned alike
+// the two other sides meet at a right angle as well, turned against each other at 73 degrees.
+TEST(Vertices, AreFourOnlyWhereOppositeCornersAreSquare) {
+  constexpr double kTurn_rad = 0.15;
+  for (const double against : {-1.0, 1.0}) {
+    Face face;
+    const auto turn = [&](std::size_t side, double angle_rad) {
+      const Eigen::Vector3d a = face.corner[side], b = face.corner[(side + 1) % 4];
+      const Eigen::Vector3d middle = 0.5 * (a + b);
+      const Eigen::AngleAxisd R(angle_rad, Eigen::Vector3d::UnitZ());
+      face.lines[side] = Side(middle + R * (a - middle), middle + R * (b - middle), kCamera);
+    };
+    turn(2, kTurn_rad);
+    turn(3, -against * kTurn_rad);
+    EXPECT_EQ(face.Find().size() == 4, against < 0) << against;
+  }
+}
+
 TEST(Vertices, AreNoneOfParallelLinesAlone) {
   Face face;
   face.lines = {face.lines[0], face.lines[2]};

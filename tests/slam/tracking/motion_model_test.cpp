@@ -49,6 +49,8 @@ TEST(MotionModel, ForgetsItsSpeed) {
   model.Observe(1, kStep * kStart);
   model.Forget();
   EXPECT_FALSE(model.Predict(2));
+  model.Observe(2, kStart);  // and where it was: from there to here is no speed
+  EXPECT_FALSE(model.Predict(3));
 }
 
 TEST(MotionModel, RefusesFramesOutOfOrder) {

@@ -17,8 +17,8 @@ struct PointOdometer {
   Map map{};
   LocalMappingConfig mapping{};
 
-  explicit PointOdometer(const Camera& c)
-      : camera(c), tracking(c, FeatureScale{}, PointSearchConfig{}, PointTrackingConfig{}) {}
+  explicit PointOdometer(const Camera& c, const PointTrackingConfig& config = {})
+      : camera(c), tracking(c, FeatureScale{}, PointSearchConfig{}, config) {}
 
   /// @param frame with gray and depth_m; gets features
   void Extract(Frame& frame) const {

@@ -151,6 +151,36 @@ TEST(PointTracking, TakesNoMoveOfTheMapForASpeed) {
   EXPECT_LT((speed[1] - speed[0]).norm(), 1e-6);
 }
 
+TEST(PointTracking, AsksFewerInliersOfAFrameWithFewFeatures) {
+  const TexturedCorner world;
+  for (const int bound : {120, 400}) {  // of 300 features and more; of 100 a third
+    PointTrackingConfig config;
+    config.min_inliers = bound, config.min_relocalised_inliers = bound;
+    PointOdometer odometer(CameraOfSize(), config);
+    Frame first = SeeSwinging(world, odometer.camera, 0);
+    ASSERT_EQ(odometer.Step(first).state, TrackState::kTracking);
+    Frame frame = SeeSwinging(world, odometer.camera, 1);
+    odometer.Extract(frame);
+    ASSERT_GT(frame.features.size(), 100u);
+    frame.features.resize(100);
+    const PointTrackReport report = odometer.tracking.TrackPoints(frame, odometer.map);
+    EXPECT_EQ(report.state, bound == 120 ? TrackState::kTracking : TrackState::kLost)
+        << bound << ": " << report.inliers;
+  }
+}
+
+TEST(PointTracking, AsksMoreInliersOfACameraThatWasLost) {
+  const TexturedCorner world;
+  PointTrackingConfig config;
+  config.min_relocalised_inliers = 100000;
+  PointOdometer odometer(CameraOfSize(), config);
+  for (int i = 0; i < 8; ++i) {
+    Frame frame = SeeSwinging(world, odometer.camera, i);
+    if (i == 5) frame.gray.setTo(0);
+    EXPECT_EQ(odometer.Step(frame).state, i < 5 ? TrackState::kTracking : TrackState::kLost);
+  }
+}
+
 TEST(PointTracking, StaysLostInAWorldItHasNeverSeen) {
   const TexturedCorner world(1), other(99);
   PointOdometer odometer(CameraOfSize());

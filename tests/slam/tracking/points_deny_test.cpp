@@ -34,6 +34,19 @@ TEST(PointsDeny, APlaceWhosePrintsAreOthers) {
   EXPECT_FALSE(Deny(other, map.map));
 }
 
+TEST(PointsDeny, APlaceWhereFewerThanTwoInAHundredLookAlike) {
+  const PointWorld map = MakePointWorld(2, 200, 1);
+  for (const std::size_t alike : {2u, 8u}) {
+    Frame other = FrameOf(map);
+    Random random{3};
+    for (std::size_t f = alike; f < other.features.size(); ++f)
+      other.features[f].descriptor = AnyDescriptor(random);
+    ASSERT_GT(other.features.size(), 150u);  // of which two in a hundred are between the two
+    ASSERT_LT(other.features.size(), 300u);
+    EXPECT_EQ(Deny(other, map.map), alike == 2) << alike;
+  }
+}
+
 TEST(PointsDeny, APlaceThatOneKeyframeAloneKnows) {
   const PointWorld map = MakePointWorld(1, 200, 1);
   ASSERT_TRUE(map.map.keyframes[0].covisible.empty());

@@ -35,12 +35,25 @@ PointWorld TwoLikePlaces(int lacking, bool double_is_newest) {
 }
 
 /// Where a camera at the place is found.
-std::optional<PlacePose> Found(const PointWorld& world, const Keyframe& seen) {
+std::optional<PlacePose> Found(const PointWorld& world, const Keyframe& seen,
+                               const PointSearchConfig& search = {}) {
   Frame frame;
   frame.features = seen.features;
   KeyframeIndex index(Vocabulary::Shipped());
   index.Update(world.map);
-  return Relocalise(frame, world.map, index, world.camera, FeatureScale{}, {});
+  return Relocalise(frame, world.map, index, world.camera, FeatureScale{}, search);
+}
+
+TEST(Relocalise, LooksAtNoMoreKeyframesThanItMayTheNewestFirst) {
+  const PointWorld unlike = TwoLikePlaces(60, true);
+  for (const int keyframes : {1, 2}) {
+    PointSearchConfig search;
+    search.place.max_keyframes = keyframes;
+    const auto found = Found(unlike, unlike.map.keyframes[0], search);
+    ASSERT_TRUE(found);
+    const Keyframe& place = unlike.map.keyframes[keyframes == 1 ? 1 : 0];
+    EXPECT_THAT(found->T_cw, PoseNear(place.T_cw, 1e-3, 1e-3)) << keyframes;
+  }
 }
 
 TEST(Relocalise, TakesThePlaceThatFitsBestUnlessAnotherFitsNearlyAsWell) {
